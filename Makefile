@@ -1,0 +1,81 @@
+# Jostle. Sources are found, never listed; everything is built in build/MODE.
+# `make run` and `make test` install what is missing (scripts/setup.sh); plain `make` only builds.
+VERSION := 0.1.0
+MODE    ?= release
+BULLET  ?= 1
+PREFIX  ?= /usr/local
+B       ?= build/$(MODE)$(if $(filter 0,$(BULLET)),-nobullet)
+# ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
+ONLY    ?=
+
+FOLDERS := $(if $(ONLY),$(ONLY),base task geom agents nav force body machine world scene lua record host)
+SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))
+SRC_CC  := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.cc)))
+ifeq ($(BULLET),0)
+SRC_CC  :=
+else
+SRC_C   := $(filter-out core/body/none.c,$(SRC_C))
+endif
+SRC_CLI := $(sort $(wildcard core/cli/*.c))
+TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api),$(wildcard tests/unit/$(d)_*.c)))
+BENCHES := $(sort $(wildcard tests/bench/*.c))
+PKGS    := lua5.4 yaml-0.1 sqlite3 libpng $(if $(filter 0,$(BULLET)),,bullet)
+
+OPT.release := -O2 -DNDEBUG
+OPT.debug   := -O0 -g
+OPT.asan    := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+OPT.ubsan   := -O1 -g -fsanitize=undefined -fno-sanitize-recover=all
+OPT.tsan    := -O1 -g -fsanitize=thread
+OPT     := $(OPT.$(MODE))
+$(if $(OPT),,$(error MODE=$(MODE) is not one of release, debug, asan, ubsan, tsan))
+WARN    := -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes -Wvla
+# No contraction, no fast-math: every build must compute the same bits.
+FP      := -ffp-contract=off
+CFLAGS  ?=
+CPPFLAGS_ALL := -Icore -Icore/include -DJOX_VERSION='"$(VERSION)"' -DJOX_BULLET=$(BULLET) \
+           -DJOX_DATADIR='"$(PREFIX)/share/jostle"' -D_GNU_SOURCE
+CFLAGS_ALL  = -std=c17 $(OPT) $(WARN) $(FP) -fPIC -fvisibility=hidden -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
+CXXFLAGS_ALL = -std=c++17 $(OPT) -Wall -Wextra $(FP) -fPIC -fvisibility=hidden -fno-exceptions -fno-rtti \
+           -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
+PKG_CFLAGS := $(shell pkg-config --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isystem /g')
+PKG_LIBS   := $(shell pkg-config --libs $(PKGS) 2>/dev/null)
+LIBS       := $(PKG_LIBS) -lm -pthread
+LINK       := $(if $(filter 0,$(BULLET)),$(CC),$(CXX)) $(OPT) -pthread
+
+OBJ     := $(SRC_C:%.c=$(B)/%.o) $(SRC_CC:%.cc=$(B)/%.o)
+OBJ_CLI := $(SRC_CLI:%.c=$(B)/%.o)
+UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
+BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
+
+.PHONY: all run test unit check bench install uninstall clean setup-run setup-test test-all format
+all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so
+
+$(B)/%.o: %.c
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -c $< -o $@
+$(B)/%.o: %.cc
+	@mkdir -p $(@D)
+	$(CXX) $(CPPFLAGS_ALL) $(CXXFLAGS_ALL) -c $< -o $@
+$(B)/internal.a: $(OBJ)
+	@rm -f $@
+	ar rcs $@ $^
+$(B)/jostle: $(OBJ_CLI) $(B)/internal.a
+	$(LINK) $^ -o $@ $(LIBS)
+$(B)/unit/%: tests/unit/%.c $(B)/internal.a
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
+	$(LINK) $@.o $(B)/internal.a -o $@ -lcmocka $(LIBS)
+$(B)/bench/%: tests/bench/%.c $(B)/internal.a
+	@mkdir -p $(@D)
+	$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
+	$(LINK) $@.o $(B)/internal.a -o $@ $(LIBS)
+
+# Unit tests alone: `make unit`, or `make unit ONLY="base geom"` for some folders.
+unit: $(UNIT)
+	@set -e; for t in $(UNIT); do echo "== $$t"; $$t; done
+clean:
+	rm -rf build
+format:
+	clang-format -i $$(git ls-files 'core/*.[ch]' 'core/*.cc' 'tests/*.[ch]')
+
+-include $(shell find $(B) -name '*.d' 2>/dev/null)

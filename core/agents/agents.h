@@ -1,0 +1,103 @@
+/* The agents' columns (structure of arrays). Index = place in memory, which follows space: agents
+   are re-sorted every few steps, so an index holds within a step only. `id` is for ever. */
+#ifndef JOX_AGENTS_AGENTS_H
+#define JOX_AGENTS_AGENTS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "agents/parameters.h"
+
+#define JOX_NO_INDEX UINT32_MAX
+
+/* X(type, name): what it is. Units: m, m/s, N, s. */
+#define JOX_AGENT_COLUMNS(X)                                                                       \
+    X(uint32_t, id)      /* counts up from 0, never reused */                                      \
+    X(uint32_t, slot)    /* row of the handle table */                                             \
+    X(uint16_t, group)   /* index of the scene's group */                                          \
+    X(uint16_t, machine) /* index of the machine; JOX_NO_MACHINE has none */                       \
+    X(uint16_t, state)   /* index of the state in the machine */                                   \
+    X(uint16_t, team)    /* 0 none; agents of other teams are opponents */                         \
+    X(uint64_t, tags)    /* bit per tag of the world */                                            \
+    X(float, x)                                                                                    \
+    X(float, y)                                                                                    \
+    X(float, vx)                                                                                   \
+    X(float, vy)                                                                                   \
+    X(float, prev_x) /* position before the last move */                                           \
+    X(float, prev_y)                                                                               \
+    X(float, face_x) /* unit vector the agent looks along */                                       \
+    X(float, face_y)                                                                               \
+    X(float, pref_x) /* preferred velocity, written by `prefer` */                                 \
+    X(float, pref_y)                                                                               \
+    X(float, next_x) /* new velocity, written by `solve` */                                        \
+    X(float, next_y)                                                                               \
+    X(float, ext_x) /* external force given by the host this step, N */                            \
+    X(float, ext_y)                                                                                \
+    X(float, push_x) /* sum of pushes received, N */                                               \
+    X(float, push_y)                                                                               \
+    X(float, contact_x) /* sum of contact forces received, N */                                    \
+    X(float, contact_y)                                                                            \
+    X(float, inferred_x) /* filtered deceleration and resistance, for the next step, N */          \
+    X(float, inferred_y)                                                                           \
+    X(float, force_x) /* net force of this step, equation 10, N */                                 \
+    X(float, force_y)                                                                              \
+    X(float, compression) /* sum of |f.n| of contacts over girth, N/m */                           \
+    X(float, plane_x)     /* force half-plane: unit normal; (0, 0) means none */                   \
+    X(float, plane_y)                                                                              \
+    X(float, plane_offset) /* (v . normal) >= offset, m/s */                                       \
+    X(float, disc)         /* radius of the speed disc of this step, m/s */                        \
+    X(float, density)      /* from the distance of the farthest neighbour kept, 1/m2 */            \
+    X(float, search)       /* radius that held the neighbours last time; 0 unknown */              \
+    X(uint8_t, failed)     /* 1 where the 2-D program was infeasible this step */                  \
+    X(uint8_t, contacts)   /* agents and bodies touched this step */                               \
+    X(uint8_t, removed)    /* 1: leaves the world at the end of the step */                        \
+    X(uint32_t, entered)   /* tick at which the state was entered */                               \
+    X(float, lasts)        /* drawn duration of the state, s; INFINITY if none */                  \
+    X(uint32_t, was_true)  /* bit per transition: its `when` held last step */                     \
+    X(int32_t, goal)       /* place index aimed at, or -1 */                                       \
+    X(float, still)        /* seconds since it last moved 0.25 m */                                \
+    X(float, still_x)      /* where that was */                                                    \
+    X(float, still_y)                                                                              \
+    X(int32_t, kicked)     /* body kicked last step, or -1 */                                      \
+    X(uint64_t, ignore)    /* tags of agents and bodies that are not avoided */                    \
+    X(uint64_t, push_only) /* tags that are pushed; 0 means all */                                 \
+    X(int32_t, approach)   /* body index that is approached, not anticipated; -1 none */
+
+#define JOX_NO_MACHINE UINT16_MAX
+
+typedef struct JoxAgents {
+    uint32_t count, capacity;
+#define X(type, name) type *name;
+    JOX_AGENT_COLUMNS(X)
+#undef X
+    /* One column a parameter, e.g. agents->param[JOX_PARAM_speed][i]; angles hold the cosine. */
+    float *param[JOX_PARAM_COUNT];
+    /* Values drawn once per agent and memory: rows of `*_stride` doubles. */
+    double *own, *memory;
+    uint32_t own_stride, memory_stride;
+    uint32_t next_id;
+    /* Handles: slot -> index (JOX_NO_INDEX when free) and generation. */
+    uint32_t *slot_index, *slot_generation, *free_slots;
+    uint32_t slot_count, slot_capacity, free_count, free_capacity;
+    /* id -> index, JOX_NO_INDEX when gone. */
+    uint32_t *id_index;
+    uint32_t id_capacity;
+    void *scratch; /* one column wide, for permuting */
+    uint32_t *order;
+} JoxAgents;
+
+/* Zero-initialised agents are empty. Strides may only grow (rows are widened, new cells zero). */
+void jox_agents_reserve(JoxAgents *agents, uint32_t capacity);
+void jox_agents_widen(JoxAgents *agents, uint32_t own_stride, uint32_t memory_stride);
+/* Adds one agent: all columns zero, parameters at their defaults, face +x, lasts infinite, goal,
+   kicked and approach -1, machine JOX_NO_MACHINE. Returns its index (valid until the next sort). */
+uint32_t jox_agents_add(JoxAgents *agents);
+/* Takes out all agents with `removed` set, keeping the order of the rest. Returns how many. */
+uint32_t jox_agents_compact(JoxAgents *agents);
+/* Puts the agents in the order given: new index i is what was at order[i]; a permutation. */
+void jox_agents_permute(JoxAgents *agents, const uint32_t *order);
+/* Writes the indices of all agents in ascending id into `out` (count entries). */
+void jox_agents_by_id(const JoxAgents *agents, uint32_t *out);
+void jox_agents_free(JoxAgents *agents);
+
+#endif

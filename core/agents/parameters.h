@@ -1,0 +1,45 @@
+/* The parameters of an agent: the one list that drives the columns, the language and its pages. */
+#ifndef JOX_AGENTS_PARAMETERS_H
+#define JOX_AGENTS_PARAMETERS_H
+
+/* X(name, unit, least, greatest, default, meaning). Angles are given in degrees and stored as
+   their cosine. Defaults are those of people in a dense crowd. */
+#define JOX_PARAMETERS(X)                                                                          \
+    X(speed, "m/s", 0, 20, 1.3, "wanted speed")                                                    \
+    X(max_speed, "m/s", 0, 30, 1.8, "hard cap on speed; only a contact impulse exceeds it")        \
+    X(perception, "m", 0, 100, 3, "radius within which neighbours and bodies are seen")            \
+    X(neighbours, "", 0, 16, 10, "greatest number of neighbours that are considered")              \
+    X(horizon, "s", 0.01, 30, 0.5, "time ahead for which other agents are avoided")                \
+    X(wall_horizon, "s", 0.01, 30, 0.3, "time ahead for which walls are avoided")                  \
+    X(push, "N", 0, 5000, 0, "force with which an agent pushes those in its way")                  \
+    X(push_reach, "m", 0, 2, 0.1, "greatest gap over which an agent pushes")                       \
+    X(push_angle, "degree", 0, 180, 60, "half-angle of the cone in which an agent pushes")         \
+    X(absorb, "", 0, 1, 0.8, "share of a force that is passed on (k of equations 8 and 9)")        \
+    X(brace_angle, "degree", 0, 180, 60, "half-angle of the cone that takes a passed-on force")    \
+    X(yield, "", 0, 1, 0.5, "share of the avoidance between agents taken; 0.5 is reciprocal")      \
+    X(radius, "m", 0.02, 5, 0.2, "radius of the agent's disc")                                     \
+    X(mass, "kg", 1, 10000, 70, "mass")                                                            \
+    X(restitution, "", 0, 1, 0, "restitution of contacts between agents")                          \
+    X(damping, "1/s", 0, 50, 2.5, "how fast the feet stop a velocity given by force")
+
+typedef enum JoxParameter {
+#define X(name, unit, least, greatest, value, meaning) JOX_PARAM_##name,
+    JOX_PARAMETERS(X)
+#undef X
+        JOX_PARAM_COUNT
+} JoxParameter;
+
+typedef struct JoxParameterInfo {
+    const char *name, *unit, *meaning;
+    double least, greatest, value;
+} JoxParameterInfo;
+
+extern const JoxParameterInfo jox_parameters[JOX_PARAM_COUNT];
+
+/* Index of a parameter by name, or -1. */
+int jox_parameter_find(const char *name);
+/* What the column holds for a value in the parameter's unit: the value, an angle's cosine. The
+   value is first kept within [least, greatest]; NaN becomes the default. */
+float jox_parameter_store(JoxParameter parameter, double value);
+
+#endif

@@ -1,0 +1,29 @@
+/* Assertions for our own mistakes and for misuse of the C API; users' files get diagnostics. */
+#ifndef JOX_BASE_ASSERT_H
+#define JOX_BASE_ASSERT_H
+
+/* Reports a broken expectation through the handler (default: print; abort in debug builds). */
+void jox_assert_failed(const char *condition, const char *file, int line);
+
+/* Replaces the handler; NULL restores the default. The handler may return. */
+typedef void JoxAssertHandler(const char *condition, const char *file, int line);
+void jox_assert_set_handler(JoxAssertHandler *handler);
+
+/* Internal invariants: compiled out of release builds. */
+#ifdef NDEBUG
+#define JOX_ASSERT(condition) ((void)0)
+#else
+#define JOX_ASSERT(condition)                                                                      \
+    ((condition) ? (void)0 : jox_assert_failed(#condition, __FILE__, __LINE__))
+#endif
+
+/* Misuse of the public API: reported in every build, then the function returns `result`. */
+#define JOX_REQUIRE(condition, result)                                                             \
+    do {                                                                                           \
+        if (!(condition)) {                                                                        \
+            jox_assert_failed(#condition, __FILE__, __LINE__);                                     \
+            return result;                                                                         \
+        }                                                                                          \
+    } while (0)
+
+#endif

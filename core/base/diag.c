@@ -1,0 +1,143 @@
+#include "base/diag.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+enum { KEPT = 20, SOURCE_SHOWN = 200 };
+
+static bool has_room(const JoxDiagnostics *d, JoxSeverity severity) {
+    return severity == JOX_SEVERITY_ERROR ? d->errors < KEPT
+                                          : d->count - (d->errors < KEPT ? d->errors : KEPT) < KEPT;
+}
+
+void jox_diag_add(JoxDiagnostics *d, JoxSeverity severity, JoxPosition position, const char *code,
+                  const char *hint, const char *context, const char *source, const char *format,
+                  ...) {
+    if (has_room(d, severity)) {
+        JoxText message = {0};
+        char text[2048];
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(text, sizeof text, format, arguments);
+        va_end(arguments);
+        jox_text_add(&message, text);
+        JOX_RESERVE(d->items, d->capacity, d->count + 1);
+        d->items[d->count++] = (JoxDiagnostic){.severity = severity,
+                                               .file = jox_strdup(position.file),
+                                               .line = position.line,
+                                               .column = position.column,
+                                               .end_column = position.end_column,
+                                               .code = code,
+                                               .message = message.data,
+                                               .hint = jox_strdup(hint),
+                                               .context = jox_strdup(context),
+                                               .source = jox_strdup(source)};
+    }
+    d->errors += severity == JOX_SEVERITY_ERROR;
+    d->warnings += severity == JOX_SEVERITY_WARNING;
+}
+
+void jox_diag_attach_source(JoxDiagnostics *d, const char *file, const char *text, size_t length) {
+    for (size_t i = 0; i < d->count; i++) {
+        JoxDiagnostic *item = &d->items[i];
+        if (item->source || item->line < 1 || !item->file || strcmp(item->file, file) != 0)
+            continue;
+        const char *at = text, *end = text + length;
+        for (int line = 1; line < item->line && at < end; line++) {
+            const char *newline = memchr(at, '\n', (size_t)(end - at));
+            at = newline ? newline + 1 : end;
+        }
+        const char *stop = at < end ? memchr(at, '\n', (size_t)(end - at)) : NULL;
+        size_t n = (size_t)((stop ? stop : end) - at);
+        item->source = jox_strndup(at, n < SOURCE_SHOWN ? n : SOURCE_SHOWN);
+        for (char *c = item->source; *c; c++) /* control bytes must not reach a terminal */
+            if ((unsigned char)*c < 0x20 || *c == 0x7f)
+                *c = *c == '\t' ? ' ' : '?';
+    }
+}
+
+static void print_source(const JoxDiagnostic *item, JoxText *out) {
+    jox_text_printf(out, "%5d | %s\n", item->line, item->source);
+    if (item->column < 1 || item->column > SOURCE_SHOWN)
+        return;
+    int width = item->end_column > item->column ? item->end_column - item->column : 1;
+    int room = (int)strlen(item->source) - item->column + 2;
+    width = width > room && room > 0 ? room : width;
+    jox_text_printf(out, "      | %*s", item->column - 1, "");
+    for (int i = 0; i < width && i < 80; i++)
+        jox_text_append(out, "^", 1);
+    jox_text_append(out, "\n", 1);
+}
+
+void jox_diag_print(const JoxDiagnostics *d, JoxText *out) {
+    for (size_t i = 0; i < d->count; i++) {
+        const JoxDiagnostic *item = &d->items[i];
+        if (item->file)
+            jox_text_printf(out, "%s:", item->file);
+        if (item->line > 0)
+            jox_text_printf(out, "%d:", item->line);
+        if (item->line > 0 && item->column > 0)
+            jox_text_printf(out, "%d:", item->column);
+        const char *label[] = {"", "warning: ", "note: "};
+        jox_text_printf(out, "%s%s%s", item->file ? " " : "", label[item->severity], item->message);
+        if (item->hint)
+            jox_text_printf(out, ". %s", item->hint);
+        jox_text_append(out, "\n", 1);
+        if (item->source && item->line > 0)
+            print_source(item, out);
+        if (item->context)
+            jox_text_printf(out, " %s\n", item->context);
+    }
+    size_t shown_errors = 0;
+    for (size_t i = 0; i < d->count; i++)
+        shown_errors += d->items[i].severity == JOX_SEVERITY_ERROR;
+    if (d->errors > shown_errors)
+        jox_text_printf(out, "... and %zu more errors\n", d->errors - shown_errors);
+}
+
+void jox_diag_json(const JoxDiagnostics *d, JoxText *out) {
+    const char *severity[] = {"error", "warning", "note"};
+    jox_text_add(out, "[");
+    for (size_t i = 0; i < d->count; i++) {
+        const JoxDiagnostic *item = &d->items[i];
+        jox_text_add(out, i ? ",\n {\"file\":" : "\n {\"file\":");
+        jox_text_json(out, item->file ? item->file : "");
+        jox_text_printf(out, ",\"line\":%d,\"column\":%d,\"end\":%d,\"severity\":\"%s\",\"code\":",
+                        item->line, item->column, item->end_column, severity[item->severity]);
+        jox_text_json(out, item->code);
+        jox_text_add(out, ",\"message\":");
+        jox_text_json(out, item->message);
+        jox_text_add(out, ",\"hint\":");
+        jox_text_json(out, item->hint ? item->hint : "");
+        jox_text_add(out, "}");
+    }
+    jox_text_add(out, d->count ? "\n]\n" : "]\n");
+}
+
+void jox_diag_move(JoxDiagnostics *to, JoxDiagnostics *from) {
+    for (size_t i = 0; i < from->count; i++) {
+        JoxDiagnostic *item = &from->items[i];
+        jox_diag_add(to, item->severity,
+                     (JoxPosition){item->file, item->line, item->column, item->end_column},
+                     item->code, item->hint, item->context, item->source, "%s", item->message);
+    }
+    size_t kept = from->count;
+    size_t all = from->errors + from->warnings;
+    to->errors += all > kept ? all - kept : 0;
+    jox_diag_free(from);
+}
+
+void jox_diag_free(JoxDiagnostics *d) {
+    for (size_t i = 0; i < d->count; i++) {
+        jox_free(d->items[i].file);
+        jox_free(d->items[i].message);
+        jox_free(d->items[i].hint);
+        jox_free(d->items[i].context);
+        jox_free(d->items[i].source);
+    }
+    jox_free(d->items);
+    *d = (JoxDiagnostics){0};
+}

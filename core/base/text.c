@@ -1,0 +1,145 @@
+#include "base/text.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/mem.h"
+
+void jox_text_append(JoxText *text, const char *data, size_t length) {
+    JOX_RESERVE(text->data, text->capacity, text->length + length + 1);
+    if (length)
+        memcpy(text->data + text->length, data, length);
+    text->length += length;
+    text->data[text->length] = 0;
+}
+
+void jox_text_add(JoxText *text, const char *string) {
+    jox_text_append(text, string, strlen(string));
+}
+
+void jox_text_printf(JoxText *text, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    int need = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
+    if (need < 0)
+        return;
+    JOX_RESERVE(text->data, text->capacity, text->length + (size_t)need + 1);
+    va_start(arguments, format);
+    vsnprintf(text->data + text->length, (size_t)need + 1, format, arguments);
+    va_end(arguments);
+    text->length += (size_t)need;
+}
+
+/* Length of the valid UTF-8 sequence at `s`, or 0. */
+static size_t utf8_length(const unsigned char *s) {
+    if (s[0] < 0x80)
+        return 1;
+    size_t n = s[0] >= 0xF0 && s[0] < 0xF5   ? 4
+               : s[0] >= 0xE0 && s[0] < 0xF0 ? 3
+               : s[0] >= 0xC2 && s[0] < 0xE0 ? 2
+                                             : 0;
+    for (size_t i = 1; i < n; i++)
+        if ((s[i] & 0xC0) != 0x80)
+            return 0;
+    return n;
+}
+
+void jox_text_json(JoxText *text, const char *string) {
+    jox_text_append(text, "\"", 1);
+    for (const unsigned char *s = (const unsigned char *)string; *s;) {
+        size_t n = utf8_length(s);
+        if (n == 0) {
+            jox_text_add(text, "\\ufffd");
+            n = 1;
+        } else if (*s == '"' || *s == '\\') {
+            jox_text_printf(text, "\\%c", *s);
+        } else if (*s < 0x20) {
+            jox_text_printf(text, "\\u%04x", *s);
+        } else {
+            jox_text_append(text, (const char *)s, n);
+        }
+        s += n;
+    }
+    jox_text_append(text, "\"", 1);
+}
+
+void jox_text_json_number(JoxText *text, double number) {
+    if (isfinite(number))
+        jox_text_printf(text, "%.9g", number);
+    else
+        jox_text_add(text, "null");
+}
+
+void jox_text_free(JoxText *text) {
+    jox_free(text->data);
+    *text = (JoxText){0};
+}
+
+/* Edit distance with transpositions (optimal string alignment), of names up to 63 bytes. */
+static int edit_distance(const char *a, const char *b) {
+    size_t n = strlen(a), m = strlen(b);
+    if (n > 63 || m > 63)
+        return 99;
+    int row[3][64];
+    for (size_t j = 0; j <= m; j++)
+        row[0][j] = (int)j;
+    for (size_t i = 1; i <= n; i++) {
+        int *now = row[i % 3], *up = row[(i + 2) % 3], *up2 = row[(i + 1) % 3];
+        now[0] = (int)i;
+        for (size_t j = 1; j <= m; j++) {
+            int best = up[j - 1] + (a[i - 1] != b[j - 1]);
+            best = up[j] + 1 < best ? up[j] + 1 : best;
+            best = now[j - 1] + 1 < best ? now[j - 1] + 1 : best;
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                best = up2[j - 2] + 1 < best ? up2[j - 2] + 1 : best;
+            now[j] = best;
+        }
+    }
+    return row[n % 3][m];
+}
+
+const char *jox_suggest(const char *word, const char *const *names, size_t count) {
+    const char *nearest = NULL;
+    int limit = (int)strlen(word) / 3 + 1, best = limit < 3 ? limit + 1 : 4;
+    for (size_t i = 0; i < count; i++) {
+        int d = names[i] ? edit_distance(word, names[i]) : 99;
+        if (d < best) {
+            best = d;
+            nearest = names[i];
+        }
+    }
+    return nearest;
+}
+
+char *jox_read_file(const char *path, size_t limit, size_t *length) {
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return NULL;
+    struct stat info;
+    if (fstat(fileno(file), &info) == 0 && !S_ISREG(info.st_mode)) {
+        fclose(file);
+        errno = S_ISDIR(info.st_mode) ? EISDIR : EINVAL;
+        return NULL;
+    }
+    JoxText text = {0};
+    char block[65536];
+    size_t got;
+    while ((got = fread(block, 1, sizeof block, file)) > 0 && text.length <= limit)
+        jox_text_append(&text, block, got);
+    int failed = ferror(file) ? EIO : text.length > limit ? EFBIG : 0;
+    fclose(file);
+    if (failed) {
+        jox_text_free(&text);
+        errno = failed;
+        return NULL;
+    }
+    jox_text_append(&text, "", 0);
+    if (length)
+        *length = text.length;
+    return text.data;
+}

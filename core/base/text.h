@@ -1,0 +1,29 @@
+/* Growing text, JSON escapes, and suggestions for misspelt names. */
+#ifndef JOX_BASE_TEXT_H
+#define JOX_BASE_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Zero-initialise, append, free. `data` is NULL while nothing was appended. */
+typedef struct JoxText {
+    char *data;
+    size_t length, capacity;
+} JoxText;
+
+void jox_text_append(JoxText *text, const char *data, size_t length);
+void jox_text_add(JoxText *text, const char *string);
+void jox_text_printf(JoxText *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* Appends `string` as a JSON string with its quotes; bytes that are not UTF-8 become U+FFFD. */
+void jox_text_json(JoxText *text, const char *string);
+/* Appends a number as JSON: %.9g, or null where it is not finite. */
+void jox_text_json_number(JoxText *text, double number);
+void jox_text_free(JoxText *text);
+
+/* The nearest of `names` to `word` by edit distance, or NULL if none is near enough. */
+const char *jox_suggest(const char *word, const char *const *names, size_t count);
+
+/* Reads a whole file; NULL with errno set (EFBIG when over `limit` bytes). Ends with a NUL. */
+char *jox_read_file(const char *path, size_t limit, size_t *length);
+
+#endif

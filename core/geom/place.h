@@ -1,0 +1,45 @@
+/* Places: what behaviours name in the plane. */
+#ifndef JOX_GEOM_PLACE_H
+#define JOX_GEOM_PLACE_H
+
+#include "geom/polygon.h"
+
+typedef enum JoxPlaceKind {
+    JOX_PLACE_POINT,   /* points[0]; inside means within `radius` */
+    JOX_PLACE_LINE,    /* points[0] -> points[1]; crossing counts from its right to its left */
+    JOX_PLACE_POLYGON, /* a closed ring, counter-clockwise */
+    JOX_PLACE_QUEUE,   /* a polyline, points[0] is the head; `spacing` metres a person */
+    JOX_PLACE_SET      /* several places, one_of picks among `members` */
+} JoxPlaceKind;
+
+typedef struct JoxPlace {
+    char *name;
+    JoxPlaceKind kind;
+    JoxV2 *points;
+    uint32_t count;
+    float radius;     /* m; points only */
+    float spacing;    /* m; queues only */
+    int32_t start;    /* polygon: index of the line from which circuits count, or -1 */
+    int32_t *members; /* set: indices of places */
+    uint32_t member_count;
+    JoxV2 centre; /* centroid, midpoint or head */
+    /* Orbits keep to the border of a stadium about a polygon: its axis, and its half width. */
+    JoxV2 axis_a, axis_b;
+    float axis_radius;
+} JoxPlace;
+
+/* Fills centre, axis_a, axis_b and axis_radius from kind and points. The axis is the polygon's
+   principal direction through its centroid, shortened at both ends by half its width. */
+void jox_place_finish(JoxPlace *place);
+/* Inside a polygon, within a point's radius, within half a spacing of a queue's head, within 0.5 m
+   of a line; a set: inside any member. `places` is the table that members index. */
+bool jox_place_contains(const JoxPlace *places, uint32_t place, JoxV2 point);
+/* Distance in metres to the place: 0 inside; a set: to its nearest member; a queue: its head. */
+float jox_place_distance(const JoxPlace *places, uint32_t place, JoxV2 point);
+/* Nearest point of the place (the point itself when inside a polygon). */
+JoxV2 jox_place_nearest(const JoxPlace *places, uint32_t place, JoxV2 point);
+/* Point of a queue's polyline `distance` metres behind its head (extended straight at its end). */
+JoxV2 jox_place_queue_point(const JoxPlace *place, float distance);
+int jox_place_find(const JoxPlace *places, uint32_t count, const char *name);
+
+#endif

@@ -1,0 +1,27 @@
+/* Polygons and segments in the plane; metres. */
+#ifndef JOX_GEOM_POLYGON_H
+#define JOX_GEOM_POLYGON_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/vec.h"
+
+/* Twice the signed area is positive for counter-clockwise rings. */
+double jox_polygon_area(const JoxV2 *ring, uint32_t count);
+/* Even-odd rule; a point on the border may be either. */
+bool jox_polygon_contains(const JoxV2 *ring, uint32_t count, JoxV2 point);
+/* Distance to the ring's border, 0 inside when `solid`. */
+float jox_polygon_distance(const JoxV2 *ring, uint32_t count, JoxV2 point, bool solid);
+/* True, with the indices of two edges that cross or touch, if the ring crosses itself. */
+bool jox_polygon_self_crosses(const JoxV2 *ring, uint32_t count, uint32_t *edge_a,
+                              uint32_t *edge_b);
+JoxV2 jox_polygon_centroid(const JoxV2 *ring, uint32_t count);
+void jox_bounds(const JoxV2 *points, uint32_t count, JoxV2 *low, JoxV2 *high);
+
+JoxV2 jox_segment_nearest(JoxV2 a, JoxV2 b, JoxV2 point);
+/* +1 if the way from p to q crosses a-b from its right to its left, -1 for left to right, else 0.
+   Half-open, so that a way split at any point counts once. */
+int jox_segment_crossing(JoxV2 a, JoxV2 b, JoxV2 p, JoxV2 q);
+
+#endif

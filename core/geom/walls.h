@@ -1,0 +1,39 @@
+/* Static walls as linked vertices (van den Berg et al. 2011): solid polygons and thin polylines. */
+#ifndef JOX_GEOM_WALLS_H
+#define JOX_GEOM_WALLS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/vec.h"
+
+/* Vertex i starts the edge i -> next. Solid matter lies to the LEFT of each edge (solids are rings
+   counter-clockwise); a polyline is a ring there and back, so both sides are walls. */
+typedef struct JoxWallVertex {
+    JoxV2 point;
+    JoxV2 direction; /* unit vector to next */
+    uint32_t next, previous;
+    bool convex; /* the ring turns left here (ends of polylines count as convex) */
+} JoxWallVertex;
+
+typedef struct JoxWalls {
+    JoxWallVertex *vertices;
+    uint32_t count, capacity;
+    /* Rings as given, for output: first vertex and length; solid or polyline. */
+    struct JoxWallRing {
+        uint32_t first, count;
+        bool solid;
+        float height; /* m; INFINITY unless given */
+    } * rings;
+    uint32_t ring_count, ring_capacity;
+} JoxWalls;
+
+/* Adds a solid polygon (turned counter-clockwise if it is not) of at least 3 points. */
+void jox_walls_add_solid(JoxWalls *walls, const JoxV2 *ring, uint32_t count, float height);
+/* Adds a thin wall along a polyline of at least 2 points; `closed` joins the last to the first and
+   gives a thin closed wall, whose inside can be walked. */
+void jox_walls_add_polyline(JoxWalls *walls, const JoxV2 *points, uint32_t count, bool closed,
+                            float height);
+void jox_walls_free(JoxWalls *walls);
+
+#endif

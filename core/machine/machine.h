@@ -1,0 +1,227 @@
+/* A state machine as data: states, their parameters, their ordered transitions, and the programs
+   that their conditions and numeric expressions are compiled to. Immutable once built; lua/ builds
+   it, think and prefer run it. Knows no Lua. */
+#ifndef JOX_MACHINE_MACHINE_H
+#define JOX_MACHINE_MACHINE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "agents/parameters.h"
+#include "base/random.h"
+
+enum { JOX_MOST_TRANSITIONS = 32, JOX_MOST_REGISTERS = 32, JOX_MOST_TERMS = 8 };
+
+/* What a word measures of the agent itself. */
+#define JOX_NOW(X)                                                                                 \
+    X(speed, "m/s", "present speed")                                                               \
+    X(x, "m", "position east")                                                                     \
+    X(y, "m", "position north")                                                                    \
+    X(density, "1/m2", "people per square metre, from the distance of the farthest neighbour")     \
+    X(headway, "m", "free distance ahead, to the neighbour in the way; perception if none")        \
+    X(pushed, "N", "magnitude of the net force on the agent")                                      \
+    X(compression, "N/m", "sum of contact force magnitudes over girth")                            \
+    X(contacts, "", "agents and bodies touched")                                                   \
+    X(neighbours, "", "neighbours seen")                                                           \
+    X(time_in_state, "s", "time since the state was entered")                                      \
+    X(time, "s", "simulated time")
+
+typedef enum JoxNow {
+#define X(name, unit, meaning) JOX_NOW_##name,
+    JOX_NOW(X)
+#undef X
+        JOX_NOW_COUNT
+} JoxNow;
+
+/* X(op): registers a, b, c are inputs; numbers are doubles; conditions are 0 or 1. */
+#define JOX_OPS(X)                                                                                 \
+    X(CONST)  /* number */                                                                         \
+    X(NOW)    /* arg: JoxNow */                                                                    \
+    X(OWN)    /* arg: own slot */                                                                  \
+    X(MEMORY) /* arg: memory slot */                                                               \
+    X(ADD)                                                                                         \
+    X(SUB) X(MUL) X(DIV)                             /* x / 0 is 0 */                              \
+        X(MIN) X(MAX) X(NEG) X(ABS) X(SQRT) X(CLAMP) /* a within [b, c] */                         \
+        X(GT) X(GE) X(LT) X(LE) X(EQ) X(AND) X(OR) X(NOT)                                          \
+            X(DISTANCE)  /* metres from the agent's centre to target; infinite when absent */      \
+        X(PLACE_DENSITY) /* people per m2 in place (a polygon, or a disc of 2 m about it) */       \
+        X(PLACE_COUNT)   /* people in place */                                                     \
+        X(INSIDE)        /* target (or the agent, target -1) is inside place */                    \
+        X(NEAR)          /* target is nearer than a metres */                                      \
+        X(CROSSES)       /* the last move crossed line `place` from its right to its left */       \
+        X(FIRST_IN)      /* the agent is the head of queue `place` */                              \
+        X(AFTER)         /* time in state is at least a */                                         \
+        X(LASTED)        /* time in state has reached the drawn duration */                        \
+        X(STUCK)         /* has not moved 0.25 m for a seconds */                                  \
+        X(TOUCHES)       /* gap to target is below 0.05 m */                                       \
+        X(GROUNDED)      /* the target, a body, touches the ground */                              \
+        X(KICKED)        /* the agent kicked target in the last step */                            \
+        X(HIT_BY)        /* target, a body that moves faster than 1 m/s, touches the agent */      \
+        X(INCOMING)      /* target, as it moves, will come within a metres during the next 2 s */  \
+        X(SEES)          /* target exists within perception */
+
+typedef enum JoxOp {
+#define X(name) JOX_OP_##name,
+    JOX_OPS(X)
+#undef X
+        JOX_OP_COUNT
+} JoxOp;
+
+typedef struct JoxInstruction {
+    uint8_t op, to, a, b, c;
+    int16_t target, place; /* indices into the machine's targets; -1 none (or: the agent itself) */
+    int32_t arg;
+    double number;
+} JoxInstruction;
+
+/* Straight-line code; the result is in register 0. */
+typedef struct JoxProgram {
+    JoxInstruction *code;
+    uint32_t count;
+} JoxProgram;
+
+typedef enum JoxTargetKind {
+    JOX_TARGET_PLACE,     /* arg: place index of the world, -1 while unresolved */
+    JOX_TARGET_OWN_PLACE, /* arg: own slot that holds a place index */
+    JOX_TARGET_GOAL,      /* the place in the agent's `goal` column */
+    JOX_TARGET_ONE_OF,    /* arg: place index of a set; on entering the state, goal := a member */
+    JOX_TARGET_NEAREST,   /* arg: tag bit; nearest seen body or agent that bears it */
+    JOX_TARGET_OPPONENT,  /* nearest seen agent of another team */
+    JOX_TARGET_TEAMMATE   /* nearest seen agent of the same team */
+} JoxTargetKind;
+
+typedef struct JoxTarget {
+    JoxTargetKind kind;
+    int32_t arg;
+    char *name; /* as written: place, own, or tag name */
+} JoxTarget;
+
+typedef enum JoxValueKind {
+    JOX_VALUE_UNSET,
+    JOX_VALUE_CONST,
+    JOX_VALUE_OWN,
+    JOX_VALUE_PROGRAM
+} JoxValueKind;
+typedef struct JoxValue {
+    JoxValueKind kind;
+    double number; /* CONST */
+    int32_t index; /* own slot, or program */
+    int32_t line;  /* where it was set, for `why`; 0 default */
+} JoxValue;
+
+typedef enum JoxSteerKind {
+    JOX_STEER_HOLD, /* stand still */
+    JOX_STEER_SEEK, /* to the nearest point of target (a line, gate: to a point drawn per agent) */
+    JOX_STEER_AWAY_FROM, /* straight away from target */
+    JOX_STEER_ORBIT,     /* round a place counter-clockwise; args: see JoxOrbitArg */
+    JOX_STEER_QUEUE,     /* to the agent's place in the queue */
+    JOX_STEER_FOLLOW,    /* behind target, args[0] metres */
+    JOX_STEER_DRIFT,     /* along the vector (args[0], args[1]) */
+    JOX_STEER_SPREAD,    /* away from the neighbours' centroid */
+    JOX_STEER_ALONG,     /* along a line's direction or a queue's polyline towards its head */
+    JOX_STEER_PLAYER,    /* as the input log says; holds while it says nothing */
+    JOX_STEER_FUNCTION   /* hook: a Lua function returns the velocity */
+} JoxSteerKind;
+
+/* Guidance round a solid (see prefer.h): inward weight and the density profile it follows. */
+typedef enum {
+    JOX_ORBIT_INWARD,
+    JOX_ORBIT_DENSITY_NEAR,
+    JOX_ORBIT_DENSITY_FAR,
+    JOX_ORBIT_FAR,
+    JOX_ORBIT_RETURN
+} JoxOrbitArg;
+
+typedef struct JoxSteerTerm {
+    JoxSteerKind kind;
+    int16_t target; /* -1 none */
+    int32_t hook;   /* FUNCTION; -1 none */
+    JoxValue weight;
+    double args[6];
+} JoxSteerTerm;
+
+typedef struct JoxTransition {
+    char *id;
+    uint16_t to;
+    int32_t when;      /* program; -1: always (unless when_hook) */
+    int32_t when_hook; /* a plain function; -1 none */
+    JoxValue chance;   /* UNSET: certain */
+    int32_t on_take;   /* hook or -1 */
+    int32_t line;
+} JoxTransition;
+
+typedef struct JoxState {
+    char *name;
+    JoxValue param[JOX_PARAM_COUNT]; /* UNSET: inherits the machine's default, then the engine's */
+    JoxSteerTerm steer[JOX_MOST_TERMS];
+    uint32_t steer_count;
+    JoxTransition *transitions;
+    uint32_t transition_count;
+    bool has_lasts;
+    JoxDist lasts;          /* s, drawn on entry */
+    int32_t lasts_program;  /* or an expression evaluated on entry; -1 none */
+    bool removes;           /* the agent leaves the world on entering */
+    int32_t push_when;      /* program; -1 always */
+    int16_t push_toward;    /* target; -1: along the preferred velocity */
+    bool push_nearest;      /* push_weight "nearest" instead of "equal" */
+    int16_t face, approach; /* targets; -1 none */
+    uint64_t ignore, push_only;
+    int16_t kick, kick_at;     /* targets; -1 none */
+    JoxValue kick_impulse;     /* N s per kg of the body: the velocity change, m/s */
+    int32_t on_enter, on_exit; /* hooks; -1 none */
+    int32_t line;
+} JoxState;
+
+typedef struct JoxOwnSlot {
+    char *name;   /* "speed", "court"; "" for a distribution written in a state */
+    JoxDist dist; /* drawn once per agent; groups may override it by name */
+    bool is_place;
+} JoxOwnSlot;
+
+typedef enum { JOX_MEMORY_NUMBER, JOX_MEMORY_BOOLEAN } JoxMemoryKind;
+typedef struct JoxMemorySlot {
+    char *name; /* "" for hidden slots */
+    JoxMemoryKind kind;
+    double initial;
+} JoxMemorySlot;
+
+/* circuits: net counter-clockwise turns about `target` since its start line was first crossed (or
+   since spawn, without one). Uses memory slots value, turned angle (rad) and begun (0/1). */
+typedef struct JoxCounter {
+    int16_t target;
+    int32_t value, angle, begun;
+    int32_t state; /* counts in this state only; -1 in all */
+} JoxCounter;
+
+typedef struct JoxMachine {
+    char *name, *path;
+    uint32_t version;
+    uint16_t start;
+    JoxValue defaults[JOX_PARAM_COUNT];
+    JoxState *states;
+    uint32_t state_count;
+    JoxProgram *programs;
+    uint32_t program_count;
+    JoxTarget *targets;
+    uint32_t target_count;
+    JoxOwnSlot *own;
+    uint32_t own_count;
+    JoxMemorySlot *memory;
+    uint32_t memory_count;
+    JoxCounter *counters;
+    uint32_t counter_count;
+    struct JoxRenamed {
+        char *from, *to;
+    } * renamed; /* states of an older version */
+    uint32_t renamed_count;
+    uint32_t hook_base; /* the Lua side's first hook number of this machine */
+    uint32_t hook_count;
+    int32_t vm; /* which Lua state owns the hooks; -1 none */
+} JoxMachine;
+
+/* Index of a state by name, or -1. */
+int jox_machine_state(const JoxMachine *machine, const char *name);
+/* Frees the machine with all it owns (everything was made by jox_alloc / jox_strdup). */
+void jox_machine_free(JoxMachine *machine);
+
+#endif

@@ -1,0 +1,20 @@
+/* A pool of threads for loops whose iterations are independent. */
+#ifndef JOX_TASK_POOL_H
+#define JOX_TASK_POOL_H
+
+#include <stdint.h>
+
+typedef struct JoxPool JoxPool;
+
+/* `threads` in all, the caller included, 1..64. Never NULL. */
+JoxPool *jox_pool_create(uint32_t threads);
+void jox_pool_free(JoxPool *pool);
+uint32_t jox_pool_threads(const JoxPool *pool);
+
+/* Work on [begin, end); `worker` in [0, threads) names scratch space, never influences results. */
+typedef void JoxTask(void *context, uint32_t begin, uint32_t end, uint32_t worker);
+/* Splits [0, count) into chunks of `grain` (the last may be shorter), the same for any number of
+   threads, runs them all and returns. `pool` NULL runs here. Not reentrant. */
+void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *task, void *context);
+
+#endif
