@@ -1,0 +1,209 @@
+#include "agents/agents.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+
+enum { PADDING = 16 }; /* whole packets may be read past the last agent */
+
+/* Every column with the size of its entries, so that growth and sorting are one loop. */
+typedef void ColumnVisitor(void *context, void **column, size_t size);
+
+static void visit_columns(JoxAgents *a, ColumnVisitor *visit, void *context) {
+#define X(type, name) visit(context, (void **)&a->name, sizeof(type));
+    JOX_AGENT_COLUMNS(X)
+#undef X
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        visit(context, (void **)&a->param[p], sizeof(float));
+    if (a->own_stride)
+        visit(context, (void **)&a->own, a->own_stride * sizeof(double));
+    if (a->memory_stride)
+        visit(context, (void **)&a->memory, a->memory_stride * sizeof(double));
+}
+
+typedef struct Growth {
+    size_t old, new;
+} Growth;
+
+static void grow_column(void *context, void **column, size_t size) {
+    const Growth *growth = context;
+    void *wider = jox_alloc_aligned(growth->new + PADDING, size);
+    if (*column)
+        memcpy(wider, *column, growth->old * size);
+    jox_free(*column);
+    *column = wider;
+}
+
+static size_t widest(const JoxAgents *a) {
+    size_t own = a->own_stride * sizeof(double), memory = a->memory_stride * sizeof(double);
+    size_t size = own > memory ? own : memory;
+    return size > sizeof(uint64_t) ? size : sizeof(uint64_t);
+}
+
+static void grow_scratch(JoxAgents *a) {
+    jox_free(a->scratch);
+    a->scratch = jox_alloc_aligned((size_t)a->capacity + PADDING, widest(a));
+}
+
+void jox_agents_reserve(JoxAgents *a, uint32_t capacity) {
+    if (capacity <= a->capacity)
+        return;
+    Growth growth = {a->count, capacity};
+    visit_columns(a, grow_column, &growth);
+    a->capacity = capacity;
+    grow_scratch(a);
+    jox_free(a->order);
+    a->order = jox_alloc(capacity, sizeof *a->order);
+}
+
+/* Rows of `old` doubles become rows of `wider`. */
+static double *widen_rows(double *rows, const JoxAgents *a, uint32_t old, uint32_t wider) {
+    double *result = jox_alloc_aligned(((size_t)a->capacity + PADDING) * wider, sizeof *result);
+    for (size_t i = 0; i < a->count && old; i++)
+        memcpy(result + i * wider, rows + i * old, old * sizeof *rows);
+    jox_free(rows);
+    return result;
+}
+
+void jox_agents_widen(JoxAgents *a, uint32_t own_stride, uint32_t memory_stride) {
+    if (own_stride > a->own_stride) {
+        a->own = widen_rows(a->own, a, a->own_stride, own_stride);
+        a->own_stride = own_stride;
+    }
+    if (memory_stride > a->memory_stride) {
+        a->memory = widen_rows(a->memory, a, a->memory_stride, memory_stride);
+        a->memory_stride = memory_stride;
+    }
+    grow_scratch(a);
+}
+
+static void clear_row(void *context, void **column, size_t size) {
+    memset((char *)*column + *(uint32_t *)context * size, 0, size);
+}
+
+static uint32_t take_slot(JoxAgents *a, uint32_t index) {
+    uint32_t slot;
+    if (a->free_count) {
+        slot = a->free_slots[--a->free_count];
+    } else {
+        if (a->slot_count == a->slot_capacity) {
+            uint32_t capacity = a->slot_capacity ? 2 * a->slot_capacity : 64;
+            a->slot_index = jox_realloc(a->slot_index, capacity, sizeof *a->slot_index);
+            a->slot_generation =
+                jox_realloc(a->slot_generation, capacity, sizeof *a->slot_generation);
+            a->free_slots = jox_realloc(a->free_slots, capacity, sizeof *a->free_slots);
+            a->slot_capacity = capacity;
+        }
+        slot = a->slot_count++;
+        a->slot_generation[slot] = 1;
+    }
+    a->slot_index[slot] = index;
+    return slot;
+}
+
+uint32_t jox_agents_add(JoxAgents *a) {
+    if (a->count == a->capacity)
+        jox_agents_reserve(a, a->capacity ? 2 * a->capacity : 64);
+    uint32_t i = a->count++;
+    visit_columns(a, clear_row, &i);
+    a->id[i] = a->next_id++;
+    if (a->next_id > a->id_capacity) {
+        a->id_capacity = a->id_capacity ? 2 * a->id_capacity : 64;
+        a->id_index = jox_realloc(a->id_index, a->id_capacity, sizeof *a->id_index);
+    }
+    a->id_index[a->id[i]] = i;
+    a->slot[i] = take_slot(a, i);
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        a->param[p][i] = jox_parameter_store((JoxParameter)p, jox_parameters[p].value);
+    a->face_x[i] = 1.0f;
+    a->lasts[i] = INFINITY;
+    a->goal[i] = a->kicked[i] = a->approach[i] = -1;
+    a->machine[i] = JOX_NO_MACHINE;
+    a->disc[i] = a->param[JOX_PARAM_max_speed][i];
+    return i;
+}
+
+typedef struct Gather {
+    const uint32_t *order;
+    uint32_t count;
+    char *scratch;
+} Gather;
+
+static void gather_column(void *context, void **column, size_t size) {
+    const Gather *gather = context;
+    const char *from = *column;
+    char *to = gather->scratch;
+    const uint32_t *order = gather->order;
+    if (size == 4) { /* nearly all columns */
+        for (uint32_t i = 0; i < gather->count; i++)
+            ((uint32_t *)to)[i] = ((const uint32_t *)from)[order[i]];
+    } else {
+        for (uint32_t i = 0; i < gather->count; i++)
+            memcpy(to + i * size, from + order[i] * size, size);
+    }
+    memcpy(*column, to, gather->count * size);
+}
+
+static void reindex(JoxAgents *a) {
+    for (uint32_t i = 0; i < a->count; i++) {
+        a->slot_index[a->slot[i]] = i;
+        a->id_index[a->id[i]] = i;
+    }
+}
+
+void jox_agents_permute(JoxAgents *a, const uint32_t *order) {
+    Gather gather = {order, a->count, a->scratch};
+    visit_columns(a, gather_column, &gather);
+    reindex(a);
+}
+
+uint32_t jox_agents_compact(JoxAgents *a) {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (!a->removed[i]) {
+            a->order[kept++] = i;
+            continue;
+        }
+        uint32_t slot = a->slot[i];
+        a->slot_index[slot] = JOX_NO_INDEX;
+        a->slot_generation[slot]++;
+        a->free_slots[a->free_count++] = slot;
+        a->id_index[a->id[i]] = JOX_NO_INDEX;
+    }
+    uint32_t gone = a->count - kept;
+    if (gone) {
+        Gather gather = {a->order, kept, a->scratch};
+        visit_columns(a, gather_column, &gather);
+        a->count = kept;
+        reindex(a);
+    }
+    return gone;
+}
+
+void jox_agents_by_id(const JoxAgents *a, uint32_t *out) {
+    uint32_t n = 0;
+    for (uint32_t id = 0; id < a->next_id; id++)
+        if (a->id_index[id] != JOX_NO_INDEX)
+            out[n++] = a->id_index[id];
+    JOX_ASSERT(n == a->count);
+}
+
+static void free_column(void *context, void **column, size_t size) {
+    (void)context;
+    (void)size;
+    jox_free(*column);
+    *column = NULL;
+}
+
+void jox_agents_free(JoxAgents *a) {
+    visit_columns(a, free_column, NULL);
+    jox_free(a->slot_index);
+    jox_free(a->slot_generation);
+    jox_free(a->free_slots);
+    jox_free(a->id_index);
+    jox_free(a->scratch);
+    jox_free(a->order);
+    *a = (JoxAgents){0};
+}

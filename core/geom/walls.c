@@ -1,0 +1,62 @@
+#include "geom/walls.h"
+
+#include "base/mem.h"
+#include "geom/polygon.h"
+
+static void add_ring(JoxWalls *walls, const JoxV2 *points, uint32_t count, bool solid,
+                     float height) {
+    uint32_t first = walls->count;
+    JOX_RESERVE(walls->vertices, walls->capacity, first + count);
+    for (uint32_t i = 0; i < count; i++) {
+        JoxV2 here = points[i], after = points[(i + 1) % count];
+        JoxV2 before = points[(i + count - 1) % count];
+        JoxV2 in = jox_sub(here, before), out = jox_sub(after, here);
+        /* A polyline's end turns by half a circle: convex, though its determinant is zero. */
+        float bend = jox_det(in, out);
+        bool convex = bend > 0.0f || (bend == 0.0f && (count == 2 || jox_dot(in, out) < 0.0f));
+        walls->vertices[first + i] = (JoxWallVertex){.point = here,
+                                                     .direction = jox_unit(out),
+                                                     .next = first + (i + 1) % count,
+                                                     .previous = first + (i + count - 1) % count,
+                                                     .convex = convex || bend == 0.0f};
+    }
+    walls->count += count;
+    JOX_RESERVE(walls->rings, walls->ring_capacity, walls->ring_count + 1);
+    walls->rings[walls->ring_count++] = (struct JoxWallRing){first, count, solid, height};
+}
+
+void jox_walls_add_solid(JoxWalls *walls, const JoxV2 *ring, uint32_t count, float height) {
+    JoxV2 *turned = jox_alloc(count, sizeof *turned);
+    bool clockwise = jox_polygon_area(ring, count) < 0.0;
+    for (uint32_t i = 0; i < count; i++)
+        turned[i] = ring[clockwise ? count - 1 - i : i];
+    add_ring(walls, turned, count, true, height);
+    jox_free(turned);
+}
+
+void jox_walls_add_polyline(JoxWalls *walls, const JoxV2 *points, uint32_t count, bool closed,
+                            float height) {
+    if (closed) { /* two one-sided rings, back to back: the outer left-hand, the inner right-hand */
+        JoxV2 *ring = jox_alloc(count, sizeof *ring);
+        bool clockwise = jox_polygon_area(points, count) < 0.0;
+        for (int side = 0; side < 2; side++) {
+            for (uint32_t i = 0; i < count; i++)
+                ring[i] = points[(clockwise != (side == 1)) ? count - 1 - i : i];
+            add_ring(walls, ring, count, false, height);
+        }
+        jox_free(ring);
+        return;
+    }
+    uint32_t length = 2 * count - 2; /* there and back */
+    JoxV2 *ring = jox_alloc(length, sizeof *ring);
+    for (uint32_t i = 0; i < length; i++)
+        ring[i] = points[i < count ? i : length - i];
+    add_ring(walls, ring, length, false, height);
+    jox_free(ring);
+}
+
+void jox_walls_free(JoxWalls *walls) {
+    jox_free(walls->vertices);
+    jox_free(walls->rings);
+    *walls = (JoxWalls){0};
+}
