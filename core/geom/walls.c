@@ -11,14 +11,13 @@ static void add_ring(JoxWalls *walls, const JoxV2 *points, uint32_t count, bool 
         JoxV2 here = points[i], after = points[(i + 1) % count];
         JoxV2 before = points[(i + count - 1) % count];
         JoxV2 in = jox_sub(here, before), out = jox_sub(after, here);
-        /* A polyline's end turns by half a circle: convex, though its determinant is zero. */
+        /* A polyline's end turns by half a circle: its determinant is zero, and it is convex. */
         float bend = jox_det(in, out);
-        bool convex = bend > 0.0f || (bend == 0.0f && (count == 2 || jox_dot(in, out) < 0.0f));
         walls->vertices[first + i] = (JoxWallVertex){.point = here,
                                                      .direction = jox_unit(out),
                                                      .next = first + (i + 1) % count,
                                                      .previous = first + (i + count - 1) % count,
-                                                     .convex = convex || bend == 0.0f};
+                                                     .convex = bend >= 0.0f};
     }
     walls->count += count;
     JOX_RESERVE(walls->rings, walls->ring_capacity, walls->ring_count + 1);
