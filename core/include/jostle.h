@@ -1,0 +1,211 @@
+/* Jostle: dense crowds that push, with bodies and behaviours. The only installed header.
+ *
+ * Units are SI throughout: metres, seconds, kilograms, newtons, radians; x east, y north, z up.
+ * Plain C17, clean in C++. One world must not be used from two threads at once; different worlds
+ * may. Misuse (a null or stale handle, a field out of range in a Def made by hand) is reported
+ * through the assertion handler and answered with a null handle, zero or false; bad files and
+ * values give a JoError. The library never exits.
+ */
+#ifndef JOSTLE_H
+#define JOSTLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define JO_API __attribute__((visibility("default")))
+#else
+#define JO_API
+#endif
+
+/* "0.1.0" */
+JO_API const char *jo_version(void);
+
+/* ---- errors ------------------------------------------------------------------------------ */
+
+typedef enum JoCode {
+    JO_OK = 0,
+    JO_FAILED = 1, /* the run failed: a file could not be written, the disk is full */
+    JO_USAGE = 2,  /* the caller's arguments make no sense */
+    JO_INPUT = 3   /* a scene, behaviour or value is wrong */
+} JoCode;
+
+typedef struct JoError {
+    JoCode code;
+    int line, column; /* from 1; 0 unknown */
+    char file[256];
+    char text[1024];
+} JoError;
+
+/* Called with each broken precondition; may return. NULL restores the default, which prints (and
+   aborts in debug builds). Process-wide. */
+typedef void JoAssertHandler(const char *condition, const char *file, int line);
+JO_API void jo_set_assert_handler(JoAssertHandler *handler);
+
+/* Frees text that the library returned. NULL is fine. */
+JO_API void jo_free(void *text);
+
+/* ---- worlds built by hand ---------------------------------------------------------------- */
+
+typedef struct JoWorld JoWorld;
+
+/* Handles by value; generation 0 is null. A handle of something removed is stale: every function
+   then answers as for null. */
+typedef struct JoAgent {
+    uint32_t slot, generation;
+} JoAgent;
+typedef struct JoBody {
+    uint32_t slot, generation;
+} JoBody;
+
+typedef struct JoWorldDef {
+    double dt;        /* s, 0.001 to 0.2; default 0.05 */
+    uint64_t seed;    /* of all random numbers */
+    uint32_t threads; /* 1 to 64; never changes a result */
+    bool forces;      /* false: collision avoidance alone, no pushing, contact or inferred force */
+    bool literal;     /* the paper's equations as printed, in place of the physical reading */
+    double gravity;   /* m/s2 downwards, for bodies; default 9.81 */
+    uint32_t cookie;  /* set by jo_default_world_def */
+} JoWorldDef;
+JO_API JoWorldDef jo_default_world_def(void);
+
+/* NULL, with `error` filled (it may be NULL), if a field is out of range. */
+JO_API JoWorld *jo_world_create(const JoWorldDef *def, JoError *error);
+JO_API void jo_world_free(JoWorld *world);
+
+/* Adds a static wall: `count` points x0, y0, x1, y1, ... of a solid polygon (no self-crossing,
+   either direction) or of a thin polyline. Only before the first step. */
+JO_API bool jo_world_add_solid(JoWorld *world, const double *xy, size_t count, JoError *error);
+JO_API bool jo_world_add_line(JoWorld *world, const double *xy, size_t count, JoError *error);
+
+typedef struct JoAgentDef {
+    double x, y;             /* m, within 10 km of the origin */
+    double radius;           /* m, 0.02 to 5; default 0.2 */
+    double mass;             /* kg, 1 to 10,000; default 70 */
+    double speed, max_speed; /* m/s; defaults 1.3 and 1.8 */
+    double perception;       /* m; default 3 */
+    double horizon;          /* s; default 0.5 */
+    double push;             /* N; default 0 */
+    uint32_t cookie;
+} JoAgentDef;
+JO_API JoAgentDef jo_default_agent_def(void);
+/* A null handle, with `error` filled, if a field is out of range. An agent born in a wall or in
+   another agent is moved to the nearest free spot before its first step. */
+JO_API JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error);
+JO_API void jo_world_remove_agent(JoWorld *world, JoAgent agent);
+JO_API bool jo_agent_is_live(const JoWorld *world, JoAgent agent);
+
+typedef struct JoAgentState {
+    uint32_t id;        /* counts up from 0, never reused */
+    double x, y;        /* m */
+    double vx, vy;      /* m/s */
+    double fx, fy;      /* net force of the last step, N */
+    double compression; /* N per metre of girth */
+    double radius;      /* m */
+    const char *state;  /* of its machine; "" without one; valid until the next call on the world */
+} JoAgentState;
+/* All zero for a null or stale handle. */
+JO_API JoAgentState jo_agent_state(const JoWorld *world, JoAgent agent);
+/* Wanted velocity, m/s, for agents without a machine; holds until set again. */
+JO_API void jo_agent_set_preferred(JoWorld *world, JoAgent agent, double vx, double vy);
+/* An external force in newtons that acts during the next step. */
+JO_API void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy);
+/* Sets a parameter of behaviours ("push", "perception", ...) by name; false if there is none. */
+JO_API bool jo_agent_set_parameter(JoWorld *world, JoAgent agent, const char *name, double value);
+
+typedef enum JoShape { JO_SPHERE, JO_BOX, JO_CYLINDER } JoShape;
+typedef struct JoBodyDef {
+    JoShape shape;
+    double size[3];    /* m: sphere radius; box lengths x, y, z; cylinder radius, height */
+    double mass;       /* kg; 0 is static */
+    double x, y, z;    /* of the centre, m */
+    double turn;       /* about z, rad */
+    double vx, vy, vz; /* m/s */
+    double friction, restitution;
+    uint32_t cookie;
+} JoBodyDef;
+JO_API JoBodyDef jo_default_body_def(void);
+/* Needs a build with Bullet; `error` says so otherwise. */
+JO_API JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error);
+typedef struct JoBodyState {
+    double x, y, z;        /* centre of mass, m */
+    double qx, qy, qz, qw; /* orientation */
+    double vx, vy, vz;     /* m/s */
+} JoBodyState;
+JO_API JoBodyState jo_body_state(const JoWorld *world, JoBody body);
+
+/* Advances by `steps` steps of dt. */
+JO_API void jo_world_step(JoWorld *world, uint32_t steps);
+JO_API double jo_world_time(const JoWorld *world);   /* s */
+JO_API uint64_t jo_world_tick(const JoWorld *world); /* steps done */
+JO_API uint32_t jo_world_agent_count(const JoWorld *world);
+JO_API uint32_t jo_world_body_count(const JoWorld *world);
+/* The i-th agent in ascending id, i < jo_world_agent_count. */
+JO_API JoAgent jo_world_agent_at(const JoWorld *world, uint32_t i);
+/* 64-bit hash of the whole state: equal for equal input at any thread count and build. */
+JO_API uint64_t jo_world_hash(const JoWorld *world);
+
+/* ---- scenes ------------------------------------------------------------------------------ */
+
+typedef struct JoScene JoScene;
+
+/* Receives text for people: diagnostics with their source line, warnings, reload notices. */
+typedef void JoMessage(void *context, const char *text);
+
+typedef struct JoSceneDef {
+    const char *path;             /* of the YAML file */
+    const char *const *overrides; /* "PATH=VALUE", as of `jostle run --set` */
+    size_t override_count;
+    bool has_seed, has_dt; /* whether the two below replace the scene's */
+    uint64_t seed;
+    double dt; /* s */
+    uint32_t threads;
+    const char *input_log; /* recorded input to play, or NULL */
+    JoMessage *message;    /* NULL: to stderr */
+    void *message_context;
+    uint32_t cookie;
+} JoSceneDef;
+JO_API JoSceneDef jo_default_scene_def(void);
+
+/* NULL if anything is wrong: every error went to `message`, the first is in `error`. */
+JO_API JoScene *jo_scene_load(const JoSceneDef *def, JoError *error);
+JO_API void jo_scene_free(JoScene *scene);
+/* The world, owned by the scene; agents and bodies may be read and pushed. */
+JO_API JoWorld *jo_scene_world(JoScene *scene);
+JO_API double jo_scene_duration(const JoScene *scene); /* s, as the scene says */
+/* One step: sources, the world's step, sinks, and whatever is recorded. False if recording or
+   reporting failed; `error` says why. */
+JO_API bool jo_scene_step(JoScene *scene, JoError *error);
+
+/* Writes trajectories to an SQLite file from here on (JuPedSim format, version 2). */
+JO_API bool jo_scene_record(JoScene *scene, const char *path, JoError *error);
+/* Collects density and regional speeds from here on; jo_scene_finish draws them into `directory`
+   (made if it is missing). */
+JO_API bool jo_scene_report(JoScene *scene, const char *directory, JoError *error);
+/* Reloads behaviours between steps when their files change. */
+JO_API bool jo_scene_watch(JoScene *scene, JoError *error);
+/* Sends every transition of the agent with this id, and why it fired, to `message`. */
+JO_API void jo_scene_trace(JoScene *scene, uint32_t agent_id);
+/* Ends recording and reporting and draws the pictures. False with `error` if something failed. */
+JO_API bool jo_scene_finish(JoScene *scene, JoError *error);
+/* One JSON object with the figures of the run so far; free with jo_free. */
+JO_API char *jo_scene_summary(const JoScene *scene);
+/* From several summaries: mean and 5-95 % range of each numeric figure; free with jo_free. */
+JO_API char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error);
+
+/* Checks scenes and behaviours (or folders of them) without running; everything wrong goes to
+   `message`, as text or as one JSON array. Returns the number of errors. */
+JO_API size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
+                       void *context);
+/* The reference of the scene format, as text; free with jo_free. */
+JO_API char *jo_scene_reference(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
