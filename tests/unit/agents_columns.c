@@ -1,0 +1,116 @@
+/* Agents' columns, handles, sorting; the pool of threads. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "agents/agents.h"
+#include "base/mem.h"
+#include "task/pool.h"
+
+static void columns_follow_their_agent(void **state) {
+    (void)state;
+    JoxAgents a = {0};
+    jox_agents_widen(&a, 2, 3);
+    for (uint32_t i = 0; i < 300; i++) {
+        uint32_t at = jox_agents_add(&a);
+        a.x[at] = (float)i;
+        a.tags[at] = (uint64_t)i << 40;
+        a.own[at * a.own_stride + 1] = i;
+        a.memory[at * a.memory_stride + 2] = 2.0 * i;
+    }
+    uint32_t order[300];
+    for (uint32_t i = 0; i < 300; i++)
+        order[i] = i * 7 % 300;
+    jox_agents_permute(&a, order);
+    jox_agents_widen(&a, 5, 4);
+    for (uint32_t i = 0; i < 300; i++) {
+        uint32_t id = a.id[i];
+        assert_int_equal(id, order[i]);
+        assert_int_equal(a.id_index[id], i);
+        assert_int_equal(a.slot_index[a.slot[i]], i);
+        assert_true(a.x[i] == (float)id && a.tags[i] == (uint64_t)id << 40);
+        assert_true(a.own[i * 5 + 1] == id && a.own[i * 5 + 4] == 0);
+        assert_true(a.memory[i * 4 + 2] == 2.0 * id);
+    }
+    jox_agents_free(&a);
+}
+
+static void removing_keeps_order_and_retires_handles(void **state) {
+    (void)state;
+    JoxAgents a = {0};
+    for (uint32_t i = 0; i < 10; i++)
+        jox_agents_add(&a);
+    uint32_t slot = a.slot[3], generation = a.slot_generation[slot];
+    a.removed[3] = a.removed[7] = 1;
+    assert_int_equal(jox_agents_compact(&a), 2);
+    assert_int_equal(a.count, 8);
+    assert_int_equal(a.id[3], 4);
+    assert_int_equal(a.id_index[3], JOX_NO_INDEX);
+    assert_int_equal(a.slot_index[slot], JOX_NO_INDEX);
+    assert_int_equal(a.slot_generation[slot], generation + 1);
+    uint32_t at = jox_agents_add(&a);
+    assert_int_equal(a.id[at], 10); /* slots are used again, ids never */
+    uint32_t by_id[9];
+    jox_agents_by_id(&a, by_id);
+    for (int i = 1; i < 9; i++)
+        assert_true(a.id[by_id[i - 1]] < a.id[by_id[i]]);
+    jox_agents_free(&a);
+}
+
+static void a_new_agent_has_the_defaults(void **state) {
+    (void)state;
+    JoxAgents a = {0};
+    uint32_t i = jox_agents_add(&a);
+    assert_true(a.param[JOX_PARAM_radius][i] == 0.2f && a.param[JOX_PARAM_mass][i] == 70.0f);
+    assert_true(fabsf(a.param[JOX_PARAM_push_angle][i] - 0.5f) < 1e-6f);
+    assert_true(isinf(a.lasts[i]) && a.goal[i] == -1);
+    assert_true(jox_parameter_store(JOX_PARAM_mass, NAN) == 70.0f);
+    assert_true(jox_parameter_store(JOX_PARAM_mass, -1e300) == 1.0f);
+    assert_int_equal(jox_parameter_find("horizon"), JOX_PARAM_horizon);
+    assert_int_equal(jox_parameter_find("horizont"), -1);
+    jox_agents_free(&a);
+}
+
+typedef struct Count {
+    uint32_t hits[1000];
+    uint32_t chunk_begins[1000];
+} Count;
+
+static void hit(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    Count *count = context;
+    count->chunk_begins[begin] = end;
+    for (uint32_t i = begin; i < end; i++)
+        count->hits[i]++;
+}
+
+static void every_index_runs_once_in_the_same_chunks(void **state) {
+    (void)state;
+    Count one = {0};
+    jox_parallel_for(NULL, 1000, 64, hit, &one);
+    for (uint32_t threads = 1; threads <= 4; threads++) {
+        JoxPool *pool = jox_pool_create(threads);
+        for (int round = 0; round < 200; round++) {
+            Count many = {0};
+            jox_parallel_for(pool, 1000, 64, hit, &many);
+            assert_memory_equal(&many, &one, sizeof one);
+        }
+        jox_parallel_for(pool, 0, 64, hit, &one);
+        jox_pool_free(pool);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(columns_follow_their_agent),
+        cmocka_unit_test(removing_keeps_order_and_retires_handles),
+        cmocka_unit_test(a_new_agent_has_the_defaults),
+        cmocka_unit_test(every_index_runs_once_in_the_same_chunks),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

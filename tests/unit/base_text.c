@@ -1,0 +1,75 @@
+/* Text, JSON escapes, suggestions, diagnostics. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/diag.h"
+#include "base/text.h"
+
+static void json_escapes_whatever_comes(void **state) {
+    (void)state;
+    JoxText text = {0};
+    jox_text_json(&text, "a\"b\\c\n\x01\xff\xc3\xa9");
+    assert_string_equal(text.data, "\"a\\\"b\\\\c\\u000a\\u0001\\ufffd\xc3\xa9\"");
+    jox_text_free(&text);
+    jox_text_json_number(&text, NAN);
+    assert_string_equal(text.data, "null");
+    jox_text_free(&text);
+}
+
+static void suggestions_are_near_or_absent(void **state) {
+    (void)state;
+    const char *names[] = {"stuck", "after", "inside", "crosses"};
+    assert_string_equal(jox_suggest("stuk", names, 4), "stuck");
+    assert_string_equal(jox_suggest("isnide", names, 4), "inside");
+    assert_null(jox_suggest("elephant", names, 4));
+}
+
+static void a_diagnostic_prints_its_place(void **state) {
+    (void)state;
+    JoxDiagnostics d = {0};
+    jox_diag_add(&d, JOX_SEVERITY_ERROR, (JoxPosition){"x.lua", 2, 3, 6}, "unknown-word",
+                 "Did you mean 'abc'?", "machine m > state S", NULL, "unknown word '%s'", "abd");
+    const char *source = "first\n  abd()\n";
+    jox_diag_attach_source(&d, "x.lua", source, strlen(source));
+    JoxText text = {0};
+    jox_diag_print(&d, &text);
+    assert_string_equal(text.data, "x.lua:2:3: unknown word 'abd'. Did you mean 'abc'?\n"
+                                   "    2 |   abd()\n"
+                                   "      |   ^^^\n"
+                                   " machine m > state S\n");
+    jox_text_free(&text);
+    jox_diag_json(&d, &text);
+    assert_non_null(strstr(text.data, "\"line\":2,\"column\":3,\"end\":6"));
+    jox_text_free(&text);
+    jox_diag_free(&d);
+}
+
+static void a_flood_is_counted_and_cut(void **state) {
+    (void)state;
+    JoxDiagnostics d = {0};
+    for (int i = 0; i < 100; i++)
+        jox_diag_error(&d, ((JoxPosition){"f", i + 1, 1, 2}), "flood", NULL, "error %d", i);
+    assert_int_equal(d.errors, 100);
+    assert_int_equal(d.count, 20);
+    JoxText text = {0};
+    jox_diag_print(&d, &text);
+    assert_non_null(strstr(text.data, "80 more errors"));
+    jox_text_free(&text);
+    jox_diag_free(&d);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(json_escapes_whatever_comes),
+        cmocka_unit_test(suggestions_are_near_or_absent),
+        cmocka_unit_test(a_diagnostic_prints_its_place),
+        cmocka_unit_test(a_flood_is_counted_and_cut),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
