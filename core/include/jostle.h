@@ -193,6 +193,20 @@ JO_API bool jo_scene_watch(JoScene *scene, JoError *error);
 JO_API void jo_scene_trace(JoScene *scene, uint32_t agent_id);
 /* Ends recording and reporting and draws the pictures. False with `error` if something failed. */
 JO_API bool jo_scene_finish(JoScene *scene, JoError *error);
+/* Shows progress on stderr while stepping: a line that is rewritten on a terminal, else one line
+   each tenth. `until` in simulated seconds. */
+JO_API void jo_scene_show_progress(JoScene *scene, double until);
+/* Times by stage, in the order of a step. */
+enum { JO_STAGE_COUNT = 9 };
+typedef struct JoStats {
+    uint64_t steps, agent_steps;           /* since loading */
+    uint32_t agents, bodies;               /* now */
+    double dt, simulated_s, wall_s, cpu_s; /* stepping alone; CPU of the stepping thread */
+    double stage_ns[JO_STAGE_COUNT];       /* wall time per agent-step, ns */
+} JoStats;
+JO_API JoStats jo_scene_stats(const JoScene *scene);
+/* "perceive", "think", "prefer", "push", "solve", "move", "bodies", "infer", "observe". */
+JO_API const char *jo_stage_name(int stage);
 /* One JSON object with the figures of the run so far; free with jo_free. */
 JO_API char *jo_scene_summary(const JoScene *scene);
 /* From several summaries: mean and 5-95 % range of each numeric figure; free with jo_free. */

@@ -1,0 +1,222 @@
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/cli.h"
+
+static const char HELP[] =
+    "usage: jostle run SCENE [options]\n\n"
+    "  --for S            simulate S seconds (default: the scene's duration)\n"
+    "  --steps N          or N steps\n"
+    "  --dt S             time step, s (0.001 to 0.2)\n"
+    "  --seed N           seed of all random numbers\n"
+    "  --seeds N          run with N seeds; the summary gives mean and 5-95 % of each figure\n"
+    "  --threads N        threads; never changes a result (default 1)\n"
+    "  --isa NAME         instruction set of the kernels: scalar\n"
+    "  --set PATH=VALUE   replace a value of the scene, e.g. groups.pilgrims.count=5000\n"
+    "  --input FILE       play recorded input: lines of TICK player AGENT VX VY\n"
+    "  --record FILE      write trajectories (SQLite, JuPedSim format 2)\n"
+    "  --report DIR       draw density and regional speeds into DIR\n"
+    "  --summary FILE     write the run's figures as JSON; '-' is standard output\n"
+    "  --watch            reload behaviours when their files change\n"
+    "  --trace AGENT      print each transition of the agent with this id, and why\n"
+    "  --quiet            no progress\n\n"
+    "exit status: 0 done, 1 the run failed, 2 wrong usage, 3 bad input\n";
+
+typedef struct Run {
+    JoSceneDef def;
+    const char *record, *report, *summary;
+    double seconds;
+    uint64_t steps, seeds, trace;
+    bool has_seconds, has_steps, watch, has_trace, quiet;
+} Run;
+
+static volatile sig_atomic_t interrupted;
+
+static void interrupt(int number) {
+    (void)number;
+    interrupted = 1;
+}
+
+/* Reads one option into `run`; false if there is no such option. */
+static bool read_option(Run *run, CliArgs *args, const char *option, const char **overrides) {
+    if (!strcmp(option, "for")) {
+        run->seconds = cli_number(args, option, 0, 1e7);
+        run->has_seconds = true;
+    } else if (!strcmp(option, "steps")) {
+        run->steps = cli_whole(args, option, 0, 1000000000);
+        run->has_steps = true;
+    } else if (!strcmp(option, "dt")) {
+        run->def.dt = cli_number(args, option, 0.001, 0.2);
+        run->def.has_dt = true;
+    } else if (!strcmp(option, "seed")) {
+        run->def.seed = cli_whole(args, option, 0, UINT64_MAX);
+        run->def.has_seed = true;
+    } else if (!strcmp(option, "seeds")) {
+        run->seeds = cli_whole(args, option, 1, 1000);
+    } else if (!strcmp(option, "threads")) {
+        run->def.threads = (uint32_t)cli_whole(args, option, 1, 64);
+    } else if (!strcmp(option, "isa")) {
+        const char *name = cli_value(args, option);
+        if (name && strcmp(name, "scalar")) {
+            fprintf(stderr, "jostle run: no kernels for '%s'; this build has: scalar\n", name);
+            args->failed = true;
+        }
+    } else if (!strcmp(option, "set")) {
+        overrides[run->def.override_count++] = cli_value(args, option);
+    } else if (!strcmp(option, "input")) {
+        run->def.input_log = cli_value(args, option);
+    } else if (!strcmp(option, "record")) {
+        run->record = cli_value(args, option);
+    } else if (!strcmp(option, "report")) {
+        run->report = cli_value(args, option);
+    } else if (!strcmp(option, "summary")) {
+        run->summary = cli_value(args, option);
+    } else if (!strcmp(option, "watch")) {
+        run->watch = true;
+    } else if (!strcmp(option, "trace")) {
+        run->trace = cli_whole(args, option, 0, UINT32_MAX);
+        run->has_trace = true;
+    } else if (!strcmp(option, "quiet")) {
+        run->quiet = true;
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/* Prints what went wrong unless the library has already sent it as a message. */
+static int complain(const JoError *error, bool already) {
+    if (!already)
+        fprintf(stderr, "jostle run: %s\n", error->text);
+    return error->code ? (int)error->code : JO_FAILED;
+}
+
+/* Loads and simulates once; *summary receives JSON when asked for. */
+static int simulate(const Run *run, char **summary) {
+    JoError error = {0};
+    JoScene *scene = jo_scene_load(&run->def, &error);
+    if (!scene)
+        return complain(&error, true);
+    double dt = jo_scene_stats(scene).dt;
+    double seconds = run->has_seconds ? run->seconds : jo_scene_duration(scene);
+    uint64_t steps = run->has_steps ? run->steps : (uint64_t)(seconds / dt + 0.5);
+    bool ok = (!run->record || jo_scene_record(scene, run->record, &error)) &&
+              (!run->report || jo_scene_report(scene, run->report, &error)) &&
+              (!run->watch || jo_scene_watch(scene, &error));
+    if (run->has_trace)
+        jo_scene_trace(scene, (uint32_t)run->trace);
+    if (!run->quiet)
+        jo_scene_show_progress(scene, (double)steps * dt);
+    for (uint64_t i = 0; ok && i < steps && !interrupted; i++)
+        ok = jo_scene_step(scene, &error);
+    /* What was recorded until a failure is kept: finish in any case, report the first error. */
+    JoError ending = {0};
+    bool ended = jo_scene_finish(scene, &ending);
+    if (ok && !ended)
+        error = ending;
+    int status = ok && ended ? JO_OK : complain(&error, false);
+    if (run->summary || run->seeds)
+        *summary = jo_scene_summary(scene);
+    jo_scene_free(scene);
+    return status;
+}
+
+static int write_text(const char *path, const char *text) {
+    if (!strcmp(path, "-")) {
+        fputs(text, stdout);
+        return JO_OK;
+    }
+    FILE *file = fopen(path, "w");
+    bool good = file && fputs(text, file) >= 0;
+    if (file && fclose(file) != 0)
+        good = false;
+    if (!good)
+        fprintf(stderr, "jostle run: cannot write '%s'\n", path);
+    return good ? JO_OK : JO_FAILED;
+}
+
+static int simulate_seeds(Run *run) {
+    char **summaries = calloc(run->seeds, sizeof *summaries);
+    uint64_t first = run->def.has_seed ? run->def.seed : 1;
+    int status = JO_OK;
+    size_t done = 0;
+    for (uint64_t i = 0; i < run->seeds && status == JO_OK && !interrupted; i++) {
+        run->def.seed = first + i;
+        run->def.has_seed = true;
+        if (!run->quiet)
+            fprintf(stderr, "seed %llu\n", (unsigned long long)run->def.seed);
+        status = simulate(run, &summaries[i]);
+        done += summaries[i] != NULL;
+    }
+    if (status == JO_OK) {
+        JoError error = {0};
+        char *all = jo_summaries_aggregate((const char *const *)summaries, done, &error);
+        status = all ? write_text(run->summary ? run->summary : "-", all) : complain(&error, false);
+        jo_free(all);
+    }
+    for (size_t i = 0; i < run->seeds; i++)
+        jo_free(summaries[i]);
+    free(summaries);
+    return status;
+}
+
+static int usage_error(const Run *run, const CliArgs *args) {
+    if (args->failed)
+        return JO_USAGE;
+    const char *why = !run->def.path                       ? "no scene given"
+                      : run->has_seconds && run->has_steps ? "--for and --steps exclude each other"
+                      : run->seeds && (run->record || run->report || run->watch)
+                          ? "--seeds cannot be combined with --record, --report or --watch"
+                          : NULL;
+    if (why)
+        fprintf(stderr, "jostle run: %s\n", why);
+    return why ? JO_USAGE : JO_OK;
+}
+
+int cli_run(int argc, char **argv) {
+    static const char *const known[] = {"for",   "steps", "dt",    "seed",   "seeds",  "threads",
+                                        "isa",   "set",   "input", "record", "report", "summary",
+                                        "watch", "trace", "quiet", "help",   NULL};
+    CliArgs args = {.argc = argc, .argv = argv, .next = 1, .command = "run"};
+    const char **overrides = calloc((size_t)argc, sizeof *overrides);
+    Run run = {.def = jo_default_scene_def()};
+    run.def.overrides = overrides;
+    const char *option, *plain;
+    int status = -1;
+    while (status < 0 && ((option = cli_next(&args, &plain)) || plain)) {
+        if (plain && run.def.path) {
+            fprintf(stderr, "jostle run: one scene at a time; what is '%s'?\n", plain);
+            status = JO_USAGE;
+        } else if (plain) {
+            run.def.path = plain;
+        } else if (!strcmp(option, "help") || !strcmp(option, "h")) {
+            fputs(HELP, stdout);
+            status = JO_OK;
+        } else if (!read_option(&run, &args, option, overrides)) {
+            status = cli_unknown(&args, option, known);
+        }
+    }
+    if (status < 0) {
+        status = usage_error(&run, &args);
+        if (status != JO_OK)
+            fprintf(stderr, "Try 'jostle run --help'.\n");
+        else
+            status = -1;
+    }
+    if (status < 0) {
+        signal(SIGINT, interrupt);
+        signal(SIGTERM, interrupt);
+        char *summary = NULL;
+        status = run.seeds ? simulate_seeds(&run) : simulate(&run, &summary);
+        if (summary && run.summary) {
+            int written = write_text(run.summary, summary);
+            status = status ? status : written;
+        }
+        jo_free(summary);
+    }
+    free(overrides);
+    return status;
+}
