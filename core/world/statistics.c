@@ -1,0 +1,65 @@
+#include "world/statistics.h"
+
+#include <math.h>
+#include <time.h>
+
+static double read_clock(clockid_t clock) {
+    struct timespec t;
+    clock_gettime(clock, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+double jox_clock_wall(void) {
+    return read_clock(CLOCK_MONOTONIC);
+}
+
+double jox_clock_cpu(void) {
+    return read_clock(CLOCK_THREAD_CPUTIME_ID);
+}
+
+/* Bins every agent by how deep it overlaps the neighbour it overlaps most. */
+static void sample_overlaps(JoxStatistics *s, const JoxAgents *a, const JoxNeighbours *n) {
+    const float *radius = a->param[JOX_PARAM_radius];
+    for (uint32_t i = 0; i < a->count; i++) {
+        float deepest = 0.0f;
+        for (uint32_t k = 0; k < n->count[i]; k++) {
+            uint32_t j = n->index[jox_neighbour_at(n, i, k)]; /* they have moved since: measure */
+            float dx = a->x[j] - a->x[i], dy = a->y[j] - a->y[i];
+            float gap = sqrtf(dx * dx + dy * dy) - radius[i] - radius[j];
+            deepest = -gap > deepest ? -gap : deepest;
+        }
+        int bin = (int)(deepest / (2.0f * radius[i]) * JOX_OVERLAP_BINS);
+        s->overlap[bin < JOX_OVERLAP_BINS ? bin : JOX_OVERLAP_BINS - 1]++;
+    }
+    s->overlap_samples += a->count;
+}
+
+void jox_statistics_observe(JoxStatistics *s, const JoxAgents *a, const JoxNeighbours *n,
+                            uint64_t tick, double dt) {
+    uint64_t failed = 0;
+    for (uint32_t i = 0; i < a->count; i++)
+        failed += a->failed[i];
+    s->steps++;
+    s->agent_steps += a->count;
+    s->failures += failed;
+    s->second_failures += failed;
+    s->second_agent_steps += a->count;
+    uint64_t per_second = (uint64_t)(1.0 / dt + 0.5);
+    if ((tick + 1) % per_second != 0)
+        return;
+    sample_overlaps(s, a, n);
+    double share =
+        s->second_agent_steps ? (double)s->second_failures / (double)s->second_agent_steps : 0.0;
+    s->failure_peak = share > s->failure_peak ? share : s->failure_peak;
+    s->second_failures = s->second_agent_steps = 0;
+}
+
+double jox_statistics_overlap_p99(const JoxStatistics *s) {
+    uint64_t above = s->overlap_samples / 100, sum = 0;
+    for (int bin = JOX_OVERLAP_BINS - 1; bin >= 0; bin--) {
+        sum += s->overlap[bin];
+        if (sum > above)
+            return (double)bin / JOX_OVERLAP_BINS;
+    }
+    return 0.0;
+}

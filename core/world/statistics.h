@@ -1,0 +1,48 @@
+/* Figures gathered while a world steps: counts are exact, so they do not depend on threads. */
+#ifndef JOX_WORLD_STATISTICS_H
+#define JOX_WORLD_STATISTICS_H
+
+#include "agents/agents.h"
+#include "agents/neighbours.h"
+#include "jostle.h"
+
+enum { JOX_OVERLAP_BINS = 1000 };
+
+typedef enum JoxStage {
+    JOX_STAGE_PERCEIVE,
+    JOX_STAGE_THINK,
+    JOX_STAGE_PREFER,
+    JOX_STAGE_PUSH,
+    JOX_STAGE_SOLVE,
+    JOX_STAGE_MOVE,
+    JOX_STAGE_BODIES,
+    JOX_STAGE_INFER,
+    JOX_STAGE_OBSERVE
+} JoxStage;
+
+typedef struct JoxStatistics {
+    uint64_t steps, agent_steps;
+    double stage_s[JO_STAGE_COUNT]; /* wall time */
+    double wall_s, cpu_s;           /* of stepping; CPU time of the stepping thread */
+    uint64_t failures;              /* agent-steps whose 2-D program was infeasible */
+    double failure_peak;            /* greatest share of a second's agent-steps */
+    uint64_t second_failures, second_agent_steps;
+    uint64_t walls_relaxed; /* agent-steps in which a wall had to give */
+    uint64_t transitions, kicks, spawned, removed, moved_out, bodies_lost;
+    /* Agents by their deepest overlap, as a share of their diameter, in bins of 0.1 %; sampled once
+       a simulated second. */
+    uint64_t overlap[JOX_OVERLAP_BINS];
+    uint64_t overlap_samples;
+    double momentum_x, momentum_y; /* given to agents by bodies less that given to bodies, N s */
+} JoxStatistics;
+
+/* Wall clock and CPU clock of this thread, s. */
+double jox_clock_wall(void);
+double jox_clock_cpu(void);
+/* Counts this step's failures and, once a second, overlaps. `tick` counts from 0. */
+void jox_statistics_observe(JoxStatistics *statistics, const JoxAgents *agents,
+                            const JoxNeighbours *neighbours, uint64_t tick, double dt);
+/* The overlap that 99 % of the sampled agents stay below, as a share of their diameter. */
+double jox_statistics_overlap_p99(const JoxStatistics *statistics);
+
+#endif
