@@ -145,8 +145,8 @@ JO_API double jo_world_time(const JoWorld *world);   /* s */
 JO_API uint64_t jo_world_tick(const JoWorld *world); /* steps done */
 JO_API uint32_t jo_world_agent_count(const JoWorld *world);
 JO_API uint32_t jo_world_body_count(const JoWorld *world);
-/* The i-th agent in ascending id, i < jo_world_agent_count. */
-JO_API JoAgent jo_world_agent_at(const JoWorld *world, uint32_t i);
+/* Writes up to `capacity` handles of the live agents, in ascending id; returns how many. */
+JO_API uint32_t jo_world_agents(const JoWorld *world, JoAgent *out, uint32_t capacity);
 /* 64-bit hash of the whole state: equal for equal input at any thread count and build. */
 JO_API uint64_t jo_world_hash(const JoWorld *world);
 

@@ -1,0 +1,119 @@
+#include "host/watch.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/inotify.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/hash.h"
+#include "base/mem.h"
+#include "base/text.h"
+
+enum { LARGEST_FILE = 16 << 20 };
+static const double QUIET = 0.030; /* s */
+
+typedef struct WatchedFile {
+    char *path, *name; /* name: the last part of path */
+    int folder;        /* inotify's number of its folder */
+    char digest[65];   /* of the content last reported; "" when it could not be read */
+    bool moved;        /* something happened to it since */
+} WatchedFile;
+
+struct JoxWatch {
+    int inotify;
+    double last_event; /* s */
+    WatchedFile *files;
+    size_t count, capacity;
+};
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+static void digest_file(const char *path, char digest[65]) {
+    size_t length;
+    char *text = jox_read_file(path, LARGEST_FILE, &length);
+    digest[0] = 0;
+    if (text)
+        jox_sha256_hex(text, length, digest);
+    jox_free(text);
+}
+
+JoxWatch *jox_watch_create(void) {
+    int inotify = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    if (inotify < 0)
+        return NULL;
+    JoxWatch *watch = jox_alloc(1, sizeof *watch);
+    watch->inotify = inotify;
+    return watch;
+}
+
+bool jox_watch_add(JoxWatch *watch, const char *path) {
+    for (size_t i = 0; i < watch->count; i++)
+        if (strcmp(watch->files[i].path, path) == 0)
+            return true;
+    const char *slash = strrchr(path, '/');
+    char *folder =
+        slash ? jox_strndup(path, slash == path ? 1 : (size_t)(slash - path)) : jox_strdup(".");
+    int number = inotify_add_watch(watch->inotify, folder,
+                                   IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE);
+    jox_free(folder);
+    if (number < 0)
+        return false;
+    JOX_RESERVE(watch->files, watch->capacity, watch->count + 1);
+    WatchedFile *file = &watch->files[watch->count++];
+    *file = (WatchedFile){.path = jox_strdup(path), .folder = number};
+    file->name = slash ? file->path + (slash - path) + 1 : file->path;
+    digest_file(path, file->digest);
+    return true;
+}
+
+/* Marks the files that events speak of; a lost event marks them all. */
+static void read_events(JoxWatch *watch) {
+    _Alignas(struct inotify_event) char block[4096];
+    ssize_t got;
+    while ((got = read(watch->inotify, block, sizeof block)) > 0) {
+        for (char *at = block; at < block + got;) {
+            const struct inotify_event *event = (const void *)at;
+            for (size_t i = 0; i < watch->count; i++) {
+                WatchedFile *file = &watch->files[i];
+                if (event->mask & IN_Q_OVERFLOW ||
+                    (event->wd == file->folder && event->len && !strcmp(event->name, file->name)))
+                    file->moved = true;
+            }
+            at += sizeof *event + event->len;
+        }
+        watch->last_event = now();
+    }
+}
+
+void jox_watch_poll(JoxWatch *watch, JoxChanged *changed, void *context) {
+    read_events(watch);
+    if (now() - watch->last_event < QUIET)
+        return;
+    for (size_t i = 0; i < watch->count; i++) {
+        WatchedFile *file = &watch->files[i];
+        if (!file->moved)
+            continue;
+        file->moved = false;
+        char digest[65];
+        digest_file(file->path, digest);
+        if (digest[0] && strcmp(digest, file->digest) != 0) {
+            strcpy(file->digest, digest);
+            changed(context, file->path);
+        }
+    }
+}
+
+void jox_watch_free(JoxWatch *watch) {
+    if (!watch)
+        return;
+    close(watch->inotify);
+    for (size_t i = 0; i < watch->count; i++)
+        jox_free(watch->files[i].path);
+    jox_free(watch->files);
+    jox_free(watch);
+}

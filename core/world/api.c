@@ -1,0 +1,265 @@
+/* The public jo_world_*: checks what comes in, then calls the world. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "geom/polygon.h"
+#include "world/world.h"
+
+enum { WORLD_COOKIE = 0x4a4f5744, AGENT_COOKIE = 0x4a4f4147, BODY_COOKIE = 0x4a4f424f };
+static const double FARTHEST = 10000.0; /* m: floats still resolve a millimetre there */
+
+const char *jo_version(void) {
+    return JOX_VERSION;
+}
+
+void jo_set_assert_handler(JoAssertHandler *handler) {
+    jox_assert_set_handler(handler);
+}
+
+void jo_free(void *text) {
+    jox_free(text);
+}
+
+__attribute__((format(printf, 2, 3))) static void refuse(JoError *error, const char *format, ...) {
+    if (!error)
+        return;
+    *error = (JoError){.code = JO_INPUT};
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error->text, sizeof error->text, format, arguments);
+    va_end(arguments);
+}
+
+/* False, with an error that names the field and its range, if `value` is outside it or NaN. */
+static bool within(const char *field, const char *unit, double value, double least, double greatest,
+                   JoError *error) {
+    if (value >= least && value <= greatest)
+        return true;
+    refuse(error, "%s must be from %g to %g %s, not %g", field, least, greatest, unit, value);
+    return false;
+}
+
+JoWorldDef jo_default_world_def(void) {
+    return (JoWorldDef){.dt = 0.05,
+                        .seed = 1,
+                        .threads = 1,
+                        .forces = true,
+                        .gravity = 9.81,
+                        .cookie = WORLD_COOKIE};
+}
+
+JoWorld *jo_world_create(const JoWorldDef *def, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == WORLD_COOKIE, NULL);
+    if (!within("dt", "s", def->dt, 0.001, 0.2, error) ||
+        !within("threads", "threads", def->threads, 1, 64, error) ||
+        !within("gravity", "m/s2", def->gravity, -100, 100, error))
+        return NULL;
+    return jox_world_create(def);
+}
+
+/* Checks and converts points; NULL with `error` if something is wrong. The caller frees. */
+static JoxV2 *read_points(const JoWorld *world, const double *xy, size_t count, size_t least,
+                          JoError *error) {
+    if (world->tick > 0 || count < least || count > 100000) {
+        refuse(error,
+               world->tick > 0 ? "walls cannot be added after the first step"
+                               : "a wall needs at least %zu points",
+               least);
+        return NULL;
+    }
+    JoxV2 *points = jox_alloc(count, sizeof *points);
+    for (size_t i = 0; i < count; i++) {
+        if (!(fabs(xy[2 * i]) <= FARTHEST && fabs(xy[2 * i + 1]) <= FARTHEST)) {
+            refuse(error, "point %zu of a wall must be within 10 km of the origin", i);
+            jox_free(points);
+            return NULL;
+        }
+        points[i] = (JoxV2){(float)xy[2 * i], (float)xy[2 * i + 1]};
+    }
+    return points;
+}
+
+bool jo_world_add_solid(JoWorld *world, const double *xy, size_t count, JoError *error) {
+    JOX_REQUIRE(world && xy, false);
+    JoxV2 *points = read_points(world, xy, count, 3, error);
+    if (!points)
+        return false;
+    uint32_t a, b;
+    bool good = !jox_polygon_self_crosses(points, (uint32_t)count, &a, &b) &&
+                jox_polygon_area(points, (uint32_t)count) != 0.0;
+    if (good)
+        jox_walls_add_solid(&world->walls, points, (uint32_t)count, INFINITY);
+    else
+        refuse(error, "a solid must enclose an area and not cross itself");
+    jox_free(points);
+    return good;
+}
+
+bool jo_world_add_line(JoWorld *world, const double *xy, size_t count, JoError *error) {
+    JOX_REQUIRE(world && xy, false);
+    JoxV2 *points = read_points(world, xy, count, 2, error);
+    if (!points)
+        return false;
+    jox_walls_add_polyline(&world->walls, points, (uint32_t)count, false, INFINITY);
+    jox_free(points);
+    return true;
+}
+
+JoAgentDef jo_default_agent_def(void) {
+    return (JoAgentDef){.radius = jox_parameters[JOX_PARAM_radius].value,
+                        .mass = jox_parameters[JOX_PARAM_mass].value,
+                        .speed = jox_parameters[JOX_PARAM_speed].value,
+                        .max_speed = jox_parameters[JOX_PARAM_max_speed].value,
+                        .perception = jox_parameters[JOX_PARAM_perception].value,
+                        .horizon = jox_parameters[JOX_PARAM_horizon].value,
+                        .cookie = AGENT_COOKIE};
+}
+
+/* The parameters that a JoAgentDef holds, by the table's names and ranges. */
+static bool agent_parameters(const JoAgentDef *def, double values[JOX_PARAM_COUNT],
+                             JoError *error) {
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        values[p] = jox_parameters[p].value;
+    values[JOX_PARAM_radius] = def->radius;
+    values[JOX_PARAM_mass] = def->mass;
+    values[JOX_PARAM_speed] = def->speed;
+    values[JOX_PARAM_max_speed] = def->max_speed;
+    values[JOX_PARAM_perception] = def->perception;
+    values[JOX_PARAM_horizon] = def->horizon;
+    values[JOX_PARAM_push] = def->push;
+    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+        const JoxParameterInfo *info = &jox_parameters[p];
+        if (!within(info->name, info->unit, values[p], info->least, info->greatest, error))
+            return false;
+    }
+    return within("x", "m", def->x, -FARTHEST, FARTHEST, error) &&
+           within("y", "m", def->y, -FARTHEST, FARTHEST, error);
+}
+
+static JoAgent handle_of(const JoWorld *world, uint32_t index) {
+    uint32_t slot = world->agents.slot[index];
+    return (JoAgent){slot, world->agents.slot_generation[slot]};
+}
+
+JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error) {
+    JOX_REQUIRE(world && def && def->cookie == AGENT_COOKIE, (JoAgent){0});
+    double values[JOX_PARAM_COUNT];
+    if (!agent_parameters(def, values, error))
+        return (JoAgent){0};
+    uint32_t i = jox_world_add_agent(world, (float)def->x, (float)def->y);
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        world->agents.param[p][i] = jox_parameter_store((JoxParameter)p, values[p]);
+    return handle_of(world, i);
+}
+
+uint32_t jox_world_find(const JoWorld *world, JoAgent agent) {
+    const JoxAgents *a = &world->agents;
+    if (agent.generation == 0 || agent.slot >= a->slot_count ||
+        a->slot_generation[agent.slot] != agent.generation)
+        return JOX_NO_INDEX;
+    return a->slot_index[agent.slot];
+}
+
+void jo_world_remove_agent(JoWorld *world, JoAgent agent) {
+    JOX_REQUIRE(world, );
+    uint32_t i = jox_world_find(world, agent);
+    if (i == JOX_NO_INDEX)
+        return;
+    world->agents.removed[i] = 1;
+    jox_agents_compact(&world->agents);
+}
+
+bool jo_agent_is_live(const JoWorld *world, JoAgent agent) {
+    JOX_REQUIRE(world, false);
+    return jox_world_find(world, agent) != JOX_NO_INDEX;
+}
+
+JoAgentState jo_agent_state(const JoWorld *world, JoAgent agent) {
+    JOX_REQUIRE(world, (JoAgentState){.state = ""});
+    uint32_t i = jox_world_find(world, agent);
+    if (i == JOX_NO_INDEX)
+        return (JoAgentState){.state = ""};
+    const JoxAgents *a = &world->agents;
+    const char *state = a->machine[i] == JOX_NO_MACHINE
+                            ? ""
+                            : world->mind.machines[a->machine[i]]->states[a->state[i]].name;
+    return (JoAgentState){.id = a->id[i],
+                          .x = a->x[i],
+                          .y = a->y[i],
+                          .vx = a->vx[i],
+                          .vy = a->vy[i],
+                          .fx = a->force_x[i],
+                          .fy = a->force_y[i],
+                          .compression = a->compression[i],
+                          .radius = a->param[JOX_PARAM_radius][i],
+                          .state = state};
+}
+
+void jo_agent_set_preferred(JoWorld *world, JoAgent agent, double vx, double vy) {
+    JOX_REQUIRE(world && isfinite(vx) && isfinite(vy), );
+    uint32_t i = jox_world_find(world, agent);
+    if (i == JOX_NO_INDEX)
+        return;
+    world->agents.pref_x[i] = (float)vx;
+    world->agents.pref_y[i] = (float)vy;
+}
+
+void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy) {
+    JOX_REQUIRE(world && fabs(fx) <= 1e6 && fabs(fy) <= 1e6, );
+    uint32_t i = jox_world_find(world, agent);
+    if (i == JOX_NO_INDEX)
+        return;
+    world->agents.ext_x[i] += (float)fx;
+    world->agents.ext_y[i] += (float)fy;
+}
+
+bool jo_agent_set_parameter(JoWorld *world, JoAgent agent, const char *name, double value) {
+    JOX_REQUIRE(world && name, false);
+    uint32_t i = jox_world_find(world, agent);
+    int p = jox_parameter_find(name);
+    if (i == JOX_NO_INDEX || p < 0 ||
+        !(value >= jox_parameters[p].least && value <= jox_parameters[p].greatest))
+        return false;
+    world->agents.param[p][i] = jox_parameter_store((JoxParameter)p, value);
+    return true;
+}
+
+void jo_world_step(JoWorld *world, uint32_t steps) {
+    JOX_REQUIRE(world, );
+    for (uint32_t i = 0; i < steps; i++)
+        jox_world_step(world);
+}
+
+double jo_world_time(const JoWorld *world) {
+    JOX_REQUIRE(world, 0.0);
+    return (double)world->tick * world->def.dt;
+}
+
+uint64_t jo_world_tick(const JoWorld *world) {
+    JOX_REQUIRE(world, 0);
+    return world->tick;
+}
+
+uint32_t jo_world_agent_count(const JoWorld *world) {
+    JOX_REQUIRE(world, 0);
+    return world->agents.count;
+}
+
+uint32_t jo_world_agents(const JoWorld *world, JoAgent *out, uint32_t capacity) {
+    JOX_REQUIRE(world && (out || capacity == 0), 0);
+    const JoxAgents *a = &world->agents;
+    uint32_t n = 0;
+    for (uint32_t id = 0; id < a->next_id && n < capacity; id++)
+        if (a->id_index[id] != JOX_NO_INDEX)
+            out[n++] = handle_of(world, a->id_index[id]);
+    return n;
+}
+
+uint64_t jo_world_hash(const JoWorld *world) {
+    JOX_REQUIRE(world, 0);
+    return jox_world_hash(world);
+}

@@ -1,0 +1,62 @@
+/* One simulation. The floors above fill it (walls, places, tags, machines, agents, bodies), step it
+   and read it; between steps every column may be read. */
+#ifndef JOX_WORLD_WORLD_H
+#define JOX_WORLD_WORLD_H
+
+#include "agents/agents.h"
+#include "agents/neighbours.h"
+#include "base/hash.h"
+#include "body/body.h"
+#include "force/force.h"
+#include "geom/objects.h"
+#include "geom/place.h"
+#include "geom/walls.h"
+#include "jostle.h"
+#include "machine/mind.h"
+#include "nav/nav.h"
+#include "world/input.h"
+#include "world/statistics.h"
+
+enum { JOX_MOST_TAGS = 64 };
+
+struct JoWorld {
+    JoWorldDef def;
+    uint64_t tick; /* steps done */
+    JoxPool *pool;
+
+    JoxAgents agents;
+    JoxNeighbours neighbours;
+    JoxWalls walls;
+    JoxPlace *places; /* owned; their indices never change */
+    uint32_t place_count;
+    char *tags[JOX_MOST_TAGS]; /* bit number -> name */
+    uint32_t tag_count;
+    JoxMind mind;
+    JoxInputLog input;
+    JoxNav *nav;
+    JoxForces *forces;
+    JoxBodies *bodies;
+    JoxObjects objects; /* what agents see of the bodies */
+
+    bool settled; /* agents added since the last step have been moved out of walls and each other */
+    JoxStatistics statistics;
+};
+
+/* As jo_world_create, without checking the def. */
+JoWorld *jox_world_create(const JoWorldDef *def);
+/* Bit number of a tag, added if new; -1 when all 64 are taken. */
+int jox_world_tag(JoWorld *world, const char *name);
+/* Takes the places over, once, before agents are spawned. */
+void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count);
+/* Adds an agent at (x, y), m, with the parameters' defaults; it is settled before the next step.
+   Returns its index, valid until then. */
+uint32_t jox_world_add_agent(JoWorld *world, float x, float y);
+/* Moves agents that were born in walls or each other. Runs by itself before a step. */
+void jox_world_settle(JoWorld *world);
+/* One step. */
+void jox_world_step(JoWorld *world);
+/* Index of a live agent, or JOX_NO_INDEX. */
+uint32_t jox_world_find(const JoWorld *world, JoAgent agent);
+uint64_t jox_world_hash(const JoWorld *world);
+
+#endif
