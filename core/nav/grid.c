@@ -1,0 +1,258 @@
+/* Sorted grid: rows of fixed height, agents sorted along x within a row, the rows one after the
+   other in memory. Between sorts agents drift, so ranges are widened by the greatest drift. */
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "nav/internal.h"
+
+static const float ROW_HEIGHT = 1.6f; /* m: about twice the distance of the tenth neighbour */
+static const float SLACK = 0.03f;     /* m: growth of the last search radius that is tried first */
+enum { SORT_EVERY = 4, MOST_ROWS = 1 << 15 };
+
+JoxNav *jox_nav_create(void) {
+    return jox_alloc(1, sizeof(JoxNav));
+}
+
+void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
+    jox_wall_grid_free(&nav->grid);
+    nav->grid.walls = walls;
+}
+
+void jox_nav_free(JoxNav *nav) {
+    if (!nav)
+        return;
+    jox_wall_grid_free(&nav->grid);
+    jox_free(nav->row_first);
+    jox_free(nav->sorted_x);
+    jox_free(nav->chunk_drift);
+    jox_free(nav->chunk_relaxed);
+    for (int i = 0; i < 2; i++) {
+        jox_free(nav->keys[i]);
+        jox_free(nav->order[i]);
+        jox_free(nav->position[i]);
+    }
+    jox_free(nav);
+}
+
+static void reserve(JoxNav *nav, uint32_t count) {
+    if (count <= nav->capacity)
+        return;
+    uint32_t n = nav->capacity = count + count / 4 + 64;
+    nav->sorted_x = jox_realloc(nav->sorted_x, n, sizeof(float));
+    nav->chunk_drift = jox_realloc(nav->chunk_drift, n / JOX_NAV_GRAIN + 1, sizeof(float));
+    nav->chunk_relaxed = jox_realloc(nav->chunk_relaxed, n / JOX_NAV_GRAIN + 1, sizeof(uint32_t));
+    for (int i = 0; i < 2; i++) {
+        nav->keys[i] = jox_realloc(nav->keys[i], n, sizeof(uint64_t));
+        nav->order[i] = jox_realloc(nav->order[i], n, sizeof(uint32_t));
+        nav->position[i] = jox_realloc(nav->position[i], n, sizeof(JoxV2));
+    }
+}
+
+/* Bits of a float in an order that unsigned comparison understands. */
+static uint32_t ordered_bits(float x) {
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+}
+
+/* Stable radix sort of keys[0] / order[0] by the low 48 bits; six passes end where they began. */
+static void radix_sort(JoxNav *nav, uint32_t count) {
+    for (int pass = 0; pass < 6; pass++) {
+        uint64_t *from = nav->keys[pass & 1], *to = nav->keys[~pass & 1];
+        uint32_t *order = nav->order[pass & 1], *sorted = nav->order[~pass & 1];
+        uint32_t start[256] = {0};
+        for (uint32_t i = 0; i < count; i++)
+            start[from[i] >> (8 * pass) & 255]++;
+        for (uint32_t digit = 0, sum = 0; digit < 256; digit++) {
+            uint32_t here = start[digit];
+            start[digit] = sum;
+            sum += here;
+        }
+        for (uint32_t i = 0; i < count; i++) {
+            uint32_t at = start[from[i] >> (8 * pass) & 255]++;
+            to[at] = from[i];
+            sorted[at] = order[i];
+        }
+    }
+}
+
+static uint32_t row_of(const JoxNav *nav, float y) {
+    float row = floorf((y - nav->low.y) / nav->height);
+    return row <= 0.0f ? 0 : row >= (float)(nav->rows - 1) ? nav->rows - 1 : (uint32_t)row;
+}
+
+static void fit_rows(JoxNav *nav, const JoxAgents *a) {
+    JoxV2 high = {-INFINITY, -INFINITY};
+    nav->low = (JoxV2){INFINITY, INFINITY};
+    for (uint32_t i = 0; i < a->count; i++) {
+        nav->low.x = jox_minf(nav->low.x, a->x[i]);
+        nav->low.y = jox_minf(nav->low.y, a->y[i]);
+        high.y = jox_maxf(high.y, a->y[i]);
+    }
+    nav->height = jox_maxf(ROW_HEIGHT, (high.y - nav->low.y) / (MOST_ROWS - 1));
+    nav->rows = (uint32_t)((high.y - nav->low.y) / nav->height) + 1;
+    if (nav->rows + 1 > nav->row_capacity) {
+        nav->row_capacity = nav->rows + nav->rows / 4 + 64;
+        nav->row_first = jox_realloc(nav->row_first, nav->row_capacity, sizeof(uint32_t));
+    }
+}
+
+void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
+    bool same = nav->sorted_count == a->count && nav->sorted_next_id == a->next_id;
+    if ((same && tick % SORT_EVERY != 0) || a->count == 0) {
+        nav->sorted_count = a->count;
+        return;
+    }
+    reserve(nav, a->count);
+    fit_rows(nav, a);
+    jox_agents_by_id(a, nav->order[0]); /* a stable sort from here breaks ties by id */
+    for (uint32_t i = 0; i < a->count; i++) {
+        uint32_t at = nav->order[0][i];
+        nav->keys[0][i] = (uint64_t)row_of(nav, a->y[at]) << 32 | ordered_bits(a->x[at]);
+    }
+    radix_sort(nav, a->count);
+    uint32_t row = 0;
+    for (uint32_t i = 0; i < a->count; i++)
+        for (uint32_t here = (uint32_t)(nav->keys[0][i] >> 32); row <= here; row++)
+            nav->row_first[row] = i;
+    for (; row <= nav->rows; row++)
+        nav->row_first[row] = a->count;
+    jox_agents_permute(a, nav->order[0]);
+    memcpy(nav->sorted_x, a->x, a->count * sizeof(float));
+    nav->sorted_count = a->count;
+    nav->sorted_next_id = a->next_id;
+    nav->drift = 0.0f;
+}
+
+/* The k nearest found so far, ascending by distance, then id. */
+typedef struct Nearest {
+    float distance2[JOX_MOST_NEIGHBOURS + 1];
+    uint32_t index[JOX_MOST_NEIGHBOURS + 1];
+    uint32_t count, most;
+} Nearest;
+
+static inline void keep(Nearest *n, const uint32_t *id, uint32_t index, float d2) {
+    uint32_t at = n->count;
+    if (at == n->most) {
+        at--;
+        if (d2 > n->distance2[at] || (d2 == n->distance2[at] && id[index] > id[n->index[at]]))
+            return;
+    } else {
+        n->count++;
+    }
+    while (at > 0 && (d2 < n->distance2[at - 1] ||
+                      (d2 == n->distance2[at - 1] && id[index] < id[n->index[at - 1]]))) {
+        n->distance2[at] = n->distance2[at - 1];
+        n->index[at] = n->index[at - 1];
+        at--;
+    }
+    n->distance2[at] = d2;
+    n->index[at] = index;
+}
+
+/* First agent of a row whose x when sorted is at least `x`. Walks from a hint: neighbours in memory
+   ask for nearly the same place, and the answer does not depend on the hint. */
+static inline uint32_t row_from(const JoxNav *nav, uint32_t row, float x, uint32_t hint) {
+    uint32_t first = nav->row_first[row], end = nav->row_first[row + 1];
+    const float *sx = nav->sorted_x;
+    if (hint < first || hint > end || (hint > first + 32 && sx[hint - 32] >= x) ||
+        (hint + 32 < end && sx[hint + 32] < x)) {
+        uint32_t low = first, high = end;
+        while (low < high) {
+            uint32_t middle = (low + high) / 2;
+            if (sx[middle] < x)
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        return low;
+    }
+    while (hint > first && sx[hint - 1] >= x)
+        hint--;
+    while (hint < end && sx[hint] < x)
+        hint++;
+    return hint;
+}
+
+typedef struct Perceive {
+    JoxNav *nav;
+    JoxAgents *agents;
+    JoxNeighbours *out;
+} Perceive;
+
+enum { HINTS = 16 };
+
+/* All agents within `radius` of agent i are offered to `found`. */
+static void search(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radius, Nearest *found,
+                   uint32_t hints[HINTS]) {
+    const float x = a->x[i], y = a->y[i], r2 = radius * radius;
+    const float *ax = a->x, *ay = a->y;
+    float wide = radius + nav->drift;
+    uint32_t low = row_of(nav, y - wide), high = row_of(nav, y + wide);
+    for (uint32_t row = low; row <= high; row++) {
+        uint32_t end = nav->row_first[row + 1], *hint = &hints[row % HINTS];
+        uint32_t j = *hint = row_from(nav, row, x - wide, *hint);
+        for (float stop = x + wide; j < end && nav->sorted_x[j] <= stop; j++) {
+            float dx = ax[j] - x, dy = ay[j] - y, d2 = dx * dx + dy * dy;
+            if (d2 <= r2 && j != i)
+                keep(found, a->id, j, d2);
+        }
+    }
+}
+
+static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    Perceive *p = context;
+    JoxAgents *a = p->agents;
+    uint32_t hints[HINTS] = {0};
+    for (uint32_t i = begin; i < end; i++) {
+        float perception = a->param[JOX_PARAM_perception][i];
+        Nearest found = {.most = (uint32_t)a->param[JOX_PARAM_neighbours][i]};
+        float radius = a->search[i] > 0.0f ? a->search[i] + SLACK : perception * 0.5f;
+        for (bool again = found.most > 0; again;) {
+            radius = jox_minf(radius, perception);
+            found.count = 0;
+            search(p->nav, a, i, radius, &found, hints);
+            again = found.count < found.most && radius < perception;
+            radius *= 1.5f;
+        }
+        bool full = found.most > 0 && found.count == found.most;
+        float reach = full ? sqrtf(found.distance2[found.count - 1]) : perception;
+        a->search[i] = jox_maxf(reach, 0.01f);
+        /* people per square metre of the disc that holds the neighbours kept */
+        float area = 3.14159265f * jox_maxf(reach * reach, 0.0025f);
+        a->density[i] = (float)found.count / area;
+        p->out->count[i] = (uint8_t)found.count;
+        for (uint32_t k = 0; k < found.count; k++) {
+            size_t at = jox_neighbour_at(p->out, i, k);
+            p->out->index[at] = found.index[k];
+            p->out->distance2[at] = found.distance2[k];
+        }
+    }
+}
+
+static void reserve_neighbours(JoxNeighbours *out, const JoxAgents *a) {
+    uint32_t stride = 1;
+    for (uint32_t i = 0; i < a->count; i++)
+        if ((uint32_t)a->param[JOX_PARAM_neighbours][i] > stride)
+            stride = (uint32_t)a->param[JOX_PARAM_neighbours][i];
+    if (a->count <= out->agents && stride <= out->stride)
+        return;
+    uint32_t agents = (a->count + a->count / 8 + JOX_LANES) / JOX_LANES * JOX_LANES;
+    out->agents = agents > out->agents ? agents : out->agents;
+    out->stride = stride > out->stride ? stride : out->stride;
+    size_t entries = (size_t)out->agents * out->stride;
+    jox_free(out->index);
+    jox_free(out->distance2);
+    jox_free(out->count);
+    out->index = jox_alloc_aligned(entries, sizeof *out->index);
+    out->distance2 = jox_alloc_aligned(entries, sizeof *out->distance2);
+    out->count = jox_alloc_aligned(out->agents, sizeof *out->count);
+}
+
+void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool) {
+    reserve_neighbours(out, agents);
+    Perceive perceive = {nav, agents, out};
+    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, perceive_range, &perceive);
+}

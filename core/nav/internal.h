@@ -1,0 +1,68 @@
+/* What the files of nav share. */
+#ifndef JOX_NAV_INTERNAL_H
+#define JOX_NAV_INTERNAL_H
+
+#include "nav/nav.h"
+
+/* n . v >= offset, n a unit vector: the velocities that a constraint allows, m/s. */
+typedef struct JoxPlane {
+    JoxV2 normal;
+    float offset;
+} JoxPlane;
+
+/* Edges of walls by cell: each cell lists all edges within `reach` of any of its points. */
+typedef struct JoxWallGrid {
+    const JoxWalls *walls;
+    float reach, cell; /* m */
+    JoxV2 low;
+    uint32_t columns, rows;
+    uint32_t *first; /* columns * rows + 1 */
+    uint32_t *edges;
+} JoxWallGrid;
+
+/* Makes the grid serve queries up to `reach` metres; does nothing if it already does. */
+void jox_wall_grid_fit(JoxWallGrid *grid, float reach);
+/* Edges that may be within the grid's reach of a point. */
+const uint32_t *jox_wall_grid_at(const JoxWallGrid *grid, JoxV2 point, uint32_t *count);
+void jox_wall_grid_free(JoxWallGrid *grid);
+/* Point inside a solid (crossing number over the solid rings). */
+bool jox_walls_contain(const JoxWalls *walls, JoxV2 point);
+
+struct JoxNav {
+    /* Grid of agents: rows of `height` metres, sorted along x within each. */
+    JoxV2 low;
+    float height;
+    uint32_t rows, row_capacity;
+    uint32_t *row_first; /* rows + 1 */
+    float *sorted_x;     /* x when last sorted */
+    uint32_t sorted_count, sorted_next_id;
+    float drift; /* m, the farthest that any agent moved since, m */
+    uint64_t *keys[2];
+    uint32_t *order[2];
+    uint32_t capacity;
+    float *chunk_drift; /* per chunk of move */
+    JoxV2 *position[2]; /* for projection */
+    uint32_t *chunk_relaxed;
+    JoxWallGrid grid;
+};
+
+/* Grain of every loop over agents: fixed, so that chunks are the same for any number of threads. */
+enum { JOX_NAV_GRAIN = 256 };
+
+/* ORCA (van den Berg et al. 2011): the half-plane for an agent at relative position p (m) of the
+   other, relative velocity v = own - other (m/s), summed radii R (m), horizon tau (s), own velocity
+   and the share of the correction taken. Overlapping discs are to part within dt. `away` is the
+   direction taken where the centres coincide. */
+JoxPlane jox_orca_plane(JoxV2 p, JoxV2 v, float radius, float tau, float dt, JoxV2 own, float share,
+                        JoxV2 away);
+/* Half-planes of the wall edges near an agent; returns how many, at most `most`. */
+uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity, float radius,
+                        float tau, float range, JoxPlane *out, uint32_t most);
+
+/* The velocity within the disc nearest to `wanted` that meets all planes. The first `hard` planes
+   are walls. Returns true if there is one; otherwise *velocity minimises the greatest violation of
+   the others with the walls kept, and *relaxed tells if even the walls had to give. */
+bool jox_program_solve(const JoxPlane *planes, uint32_t count, uint32_t hard, float disc,
+                       JoxV2 wanted, JoxV2 *velocity, bool *relaxed);
+
+#endif

@@ -1,0 +1,160 @@
+/* The stage move: integration, weak projection of overlaps, and walls that nobody passes. */
+#include <math.h>
+
+#include "geom/polygon.h"
+#include "nav/internal.h"
+
+static const float STIFFNESS = 0.2f;    /* share of an overlap removed by one sweep */
+static const float STILL_REACH = 0.25f; /* m: less than this counts as not having moved */
+static const float SKIN = 0.001f;       /* m: kept from a wall that was about to be passed */
+enum { SWEEPS = 2 };
+
+typedef struct Move {
+    JoxNav *nav;
+    JoxAgents *agents;
+    const JoxNeighbours *neighbours;
+    float dt;
+    int from; /* which position buffer a sweep reads */
+} Move;
+
+static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    Move *m = context;
+    JoxAgents *a = m->agents;
+    for (uint32_t i = begin; i < end; i++) {
+        a->prev_x[i] = a->x[i];
+        a->prev_y[i] = a->y[i];
+        a->vx[i] = a->next_x[i];
+        a->vy[i] = a->next_y[i];
+        m->nav->position[0][i] = (JoxV2){a->x[i] + a->vx[i] * m->dt, a->y[i] + a->vy[i] * m->dt};
+    }
+}
+
+/* Each agent takes its own part of every overlap with its neighbours, all read from the old
+   positions, so that no order matters. */
+static void sweep(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    Move *m = context;
+    const JoxAgents *a = m->agents;
+    const float *radius = a->param[JOX_PARAM_radius], *mass = a->param[JOX_PARAM_mass];
+    const JoxV2 *from = m->nav->position[m->from];
+    JoxV2 *to = m->nav->position[!m->from];
+    for (uint32_t i = begin; i < end; i++) {
+        JoxV2 shift = {0.0f, 0.0f};
+        for (uint32_t k = 0; k < m->neighbours->count[i]; k++) {
+            size_t at = jox_neighbour_at(m->neighbours, i, k);
+            uint32_t j = m->neighbours->index[at];
+            JoxV2 d = jox_sub(from[i], from[j]);
+            float sum = radius[i] + radius[j], d2 = jox_length2(d);
+            if (d2 >= sum * sum || d2 == 0.0f)
+                continue;
+            float distance = sqrtf(d2);
+            float part = STIFFNESS * (sum - distance) * mass[j] / (mass[i] + mass[j]);
+            shift = jox_add(shift, jox_scale(d, part / distance));
+        }
+        to[i] = jox_add(from[i], shift);
+    }
+}
+
+/* First edge that the way p -> q passes from its outer side; t in [0, 1] along the way. */
+static bool first_passed(const JoxWallGrid *grid, JoxV2 p, JoxV2 q, uint32_t *edge, float *t) {
+    uint32_t count;
+    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
+    float best = 2.0f;
+    JoxV2 way = jox_sub(q, p);
+    for (uint32_t i = 0; i < count; i++) {
+        const JoxWallVertex *v = &grid->walls->vertices[edges[i]];
+        JoxV2 a = v->point, b = grid->walls->vertices[v->next].point;
+        float before = jox_det(v->direction, jox_sub(p, a));
+        float after = jox_det(v->direction, jox_sub(q, a));
+        if (before >= 0.0f || after < 0.0f) /* outside is to the right: negative */
+            continue;
+        float at = before / (before - after);
+        float along = jox_dot(jox_sub(jox_add(p, jox_scale(way, at)), a), v->direction);
+        if (along < -SKIN || along > jox_length(jox_sub(b, a)) + SKIN || at >= best)
+            continue;
+        best = at;
+        *edge = edges[i];
+        *t = at;
+    }
+    return best <= 1.0f;
+}
+
+/* Stops a way at the wall that it would pass and lets it slide along it. */
+static JoxV2 stop_at_walls(const JoxWallGrid *grid, JoxV2 p, JoxV2 q) {
+    for (int round = 0; round < 3; round++) {
+        uint32_t edge = 0;
+        float t;
+        if (!first_passed(grid, p, q, &edge, &t))
+            return q;
+        JoxV2 normal = jox_scale(jox_left(grid->walls->vertices[edge].direction), -1.0f);
+        JoxV2 a = grid->walls->vertices[edge].point;
+        float outside = jox_dot(jox_sub(q, a), normal);
+        q = jox_add(q, jox_scale(normal, SKIN - outside));
+    }
+    return p; /* a corner narrower than the step: stay */
+}
+
+/* Out of walls that are nearer than the radius. */
+static JoxV2 keep_clear(const JoxWallGrid *grid, JoxV2 p, float radius) {
+    uint32_t count;
+    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        const JoxWallVertex *v = &grid->walls->vertices[edges[i]];
+        JoxV2 a = v->point, b = grid->walls->vertices[v->next].point;
+        if (jox_det(v->direction, jox_sub(p, a)) >= 0.0f)
+            continue;
+        JoxV2 out = jox_sub(p, jox_segment_nearest(a, b, p));
+        float d2 = jox_length2(out);
+        if (d2 >= radius * radius || d2 == 0.0f)
+            continue;
+        float distance = sqrtf(d2);
+        p = jox_add(p, jox_scale(out, (radius - distance) / distance));
+    }
+    return p;
+}
+
+static void settle_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    Move *m = context;
+    JoxAgents *a = m->agents;
+    const JoxWallGrid *grid = &m->nav->grid;
+    float farthest2 = 0.0f;
+    for (uint32_t i = begin; i < end; i++) {
+        JoxV2 p = {a->prev_x[i], a->prev_y[i]}, q = m->nav->position[0][i];
+        uint32_t near = 0;
+        if (grid->first)
+            jox_wall_grid_at(grid, p, &near);
+        if (near > 0) {
+            JoxV2 clear =
+                keep_clear(grid, stop_at_walls(grid, p, q), a->param[JOX_PARAM_radius][i]);
+            q = stop_at_walls(grid, p, clear);
+        }
+        a->x[i] = q.x;
+        a->y[i] = q.y;
+        farthest2 = jox_maxf(farthest2, jox_length2(jox_sub(q, p)));
+        JoxV2 rest = {q.x - a->still_x[i], q.y - a->still_y[i]};
+        a->still[i] += m->dt;
+        if (jox_length2(rest) > STILL_REACH * STILL_REACH) {
+            a->still[i] = 0.0f;
+            a->still_x[i] = q.x;
+            a->still_y[i] = q.y;
+        }
+    }
+    m->nav->chunk_drift[begin / JOX_NAV_GRAIN] = farthest2;
+}
+
+void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, double dt,
+                  JoxPool *pool) {
+    Move move = {nav, agents, neighbours, (float)dt, 0};
+    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate, &move);
+    for (int i = 0; i < SWEEPS; i++) {
+        jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, sweep, &move);
+        move.from = !move.from;
+    }
+    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, settle_range, &move);
+    float farthest2 = 0.0f;
+    for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)
+        farthest2 = jox_maxf(farthest2, nav->chunk_drift[chunk]);
+    nav->drift += sqrtf(farthest2) * 1.0001f;
+}

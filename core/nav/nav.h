@@ -1,0 +1,41 @@
+/* Navigation's state between steps, and its stages in the order of a step. */
+#ifndef JOX_NAV_NAV_H
+#define JOX_NAV_NAV_H
+
+#include "agents/agents.h"
+#include "agents/neighbours.h"
+#include "geom/objects.h"
+#include "geom/walls.h"
+#include "task/pool.h"
+
+typedef struct JoxNav JoxNav;
+
+JoxNav *jox_nav_create(void);
+void jox_nav_free(JoxNav *nav);
+/* The walls, not copied; call again when they change. NULL: none. */
+void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls);
+
+/* Every fourth tick, or when agents came or went: puts the agents in the order of the grid, which
+   depends on positions and ids alone. All indices change. */
+void jox_nav_sort(JoxNav *nav, JoxAgents *agents, uint64_t tick);
+/* perceive: exactly the `neighbours` nearest within each agent's own `perception`, nearest first,
+   ties by id; also writes `search` and `density`. Grows `out` as needed. */
+void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool);
+/* solve: next_x, next_y, failed. Returns how many agents had a wall relaxed. */
+uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
+                       const JoxObjects *objects, double dt, JoxPool *pool);
+/* move: velocity := next, position += velocity dt, weak projection of overlaps, never through a
+   wall; prev_x, prev_y keep the old position; updates still, still_x, still_y. */
+void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, double dt,
+                  JoxPool *pool);
+
+typedef struct JoxSettled {
+    uint32_t moved; /* agents put elsewhere */
+    uint32_t stuck; /* agents for which no free spot was found within 25 m */
+    float farthest; /* m, the longest way an agent was moved */
+} JoxSettled;
+/* Moves agents with id >= first_id out of walls and out of agents that they overlap by more than a
+   quarter of the smaller diameter, in ascending id, to the nearest free spot of a spiral. */
+JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *agents, uint32_t first_id);
+
+#endif

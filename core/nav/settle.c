@@ -1,0 +1,113 @@
+/* Frees agents that were born inside a wall or deep inside another agent. */
+#include <math.h>
+#include <string.h>
+
+#include "base/elementary.h"
+#include "base/mem.h"
+#include "geom/polygon.h"
+#include "nav/internal.h"
+
+static const float DEEP = 0.25f;     /* share of the smaller diameter that may overlap */
+static const float FARTHEST = 25.0f; /* m: how far a free spot is looked for */
+
+/* A hash of cells to the agents that already have their spot. */
+typedef struct Taken {
+    const JoxAgents *agents;
+    float cell;
+    uint32_t mask;
+    uint32_t *head, *next; /* by bucket; by agent index */
+} Taken;
+
+static uint32_t bucket_of(const Taken *t, int32_t x, int32_t y) {
+    uint32_t h = (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u;
+    return (h ^ h >> 15) & t->mask;
+}
+
+static int32_t cell_of(const Taken *t, float at) {
+    return (int32_t)floorf(at / t->cell);
+}
+
+static void take(Taken *t, uint32_t i) {
+    uint32_t b = bucket_of(t, cell_of(t, t->agents->x[i]), cell_of(t, t->agents->y[i]));
+    t->next[i] = t->head[b];
+    t->head[b] = i;
+}
+
+static bool is_free(const Taken *t, const JoxWallGrid *grid, JoxV2 p, float radius) {
+    const JoxAgents *a = t->agents;
+    int32_t cx = cell_of(t, p.x), cy = cell_of(t, p.y);
+    for (int32_t y = cy - 1; y <= cy + 1; y++)
+        for (int32_t x = cx - 1; x <= cx + 1; x++)
+            for (uint32_t j = t->head[bucket_of(t, x, y)]; j != JOX_NO_INDEX; j = t->next[j]) {
+                float other = a->param[JOX_PARAM_radius][j];
+                float least = radius + other - DEEP * 2.0f * jox_minf(radius, other);
+                if (jox_length2((JoxV2){a->x[j] - p.x, a->y[j] - p.y}) < least * least)
+                    return false;
+            }
+    if (!grid->walls || grid->walls->count == 0)
+        return true;
+    uint32_t count;
+    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        const JoxWallVertex *v = &grid->walls->vertices[edges[i]];
+        JoxV2 q = jox_segment_nearest(v->point, grid->walls->vertices[v->next].point, p);
+        if (jox_length2(jox_sub(p, q)) < radius * radius * 0.98f)
+            return false;
+    }
+    return !jox_walls_contain(grid->walls, p);
+}
+
+/* Spots on a spiral about p, half a radius apart, the first free one. */
+static bool find_spot(const Taken *t, const JoxWallGrid *grid, JoxV2 p, float radius, JoxV2 *spot) {
+    float step = jox_maxf(radius * 0.5f, 0.05f);
+    float angle = 0.0f, distance = step;
+    while (distance < FARTHEST) {
+        *spot =
+            (JoxV2){p.x + distance * (float)jox_cos(angle), p.y + distance * (float)jox_sin(angle)};
+        if (is_free(t, grid, *spot, radius))
+            return true;
+        angle += step / distance;
+        distance += step * step / (6.2831853f * distance);
+    }
+    return false;
+}
+
+JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *a, uint32_t first_id) {
+    JoxSettled result = {0};
+    float widest = 0.0f;
+    for (uint32_t i = 0; i < a->count; i++)
+        widest = jox_maxf(widest, a->param[JOX_PARAM_radius][i]);
+    if (nav->grid.walls)
+        jox_wall_grid_fit(&nav->grid, jox_maxf(widest, 1.0f));
+    Taken t = {.agents = a, .cell = 2.0f * jox_maxf(widest, 0.1f), .mask = 1023};
+    while (t.mask < a->count)
+        t.mask = t.mask * 2 + 1;
+    t.head = jox_alloc((size_t)t.mask + 1, sizeof *t.head);
+    t.next = jox_alloc((size_t)a->count + 1, sizeof *t.next);
+    memset(t.head, 0xff, ((size_t)t.mask + 1) * sizeof *t.head);
+    for (uint32_t id = 0; id < a->next_id; id++) {
+        uint32_t i = a->id_index[id];
+        if (i == JOX_NO_INDEX)
+            continue;
+        JoxV2 p = {a->x[i], a->y[i]}, spot;
+        float radius = a->param[JOX_PARAM_radius][i];
+        if (id >= first_id && !is_free(&t, &nav->grid, p, radius)) {
+            if (find_spot(&t, &nav->grid, p, radius, &spot)) {
+                a->x[i] = spot.x;
+                a->y[i] = spot.y;
+                result.farthest = jox_maxf(result.farthest, jox_length(jox_sub(spot, p)));
+                result.moved++;
+            } else {
+                result.stuck++;
+            }
+        }
+        if (id >= first_id) {
+            a->prev_x[i] = a->still_x[i] = a->x[i];
+            a->prev_y[i] = a->still_y[i] = a->y[i];
+        }
+        take(&t, i);
+    }
+    jox_free(t.head);
+    jox_free(t.next);
+    return result;
+}

@@ -1,0 +1,155 @@
+/* The stage solve: every agent's half-planes, and the best velocity that they leave. */
+#include "base/random.h"
+#include "geom/polygon.h"
+#include "nav/internal.h"
+
+enum {
+    MOST_WALLS = 16,
+    MOST_OBJECTS = 24,
+    MOST = MOST_WALLS + JOX_MOST_NEIGHBOURS + MOST_OBJECTS + 1
+};
+
+typedef struct Solve {
+    JoxNav *nav;
+    JoxAgents *agents;
+    const JoxNeighbours *neighbours;
+    const JoxObjects *objects;
+    float dt;
+} Solve;
+
+/* Where two centres coincide they part in opposite directions that depend on their ids alone. */
+static JoxV2 parting(uint32_t id, uint32_t other) {
+    uint32_t low = id < other ? id : other, high = id < other ? other : id;
+    uint64_t bits = jox_random_bits(0, low, high, JOX_DRAW_AIM, 0);
+    JoxV2 d = {(float)(bits & 0xffff) - 32767.5f, (float)(bits >> 16 & 0xffff) - 32767.5f};
+    return jox_unit(id < other ? d : jox_scale(d, -1.0f));
+}
+
+static uint32_t agent_planes(const Solve *s, uint32_t i, JoxPlane *out) {
+    const JoxAgents *a = s->agents;
+    const float *radius = a->param[JOX_PARAM_radius];
+    JoxV2 at = {a->x[i], a->y[i]}, velocity = {a->vx[i], a->vy[i]};
+    float tau = a->param[JOX_PARAM_horizon][i], share = a->param[JOX_PARAM_yield][i];
+    uint32_t made = 0;
+    for (uint32_t k = 0; k < s->neighbours->count[i]; k++) {
+        uint32_t j = s->neighbours->index[jox_neighbour_at(s->neighbours, i, k)];
+        if (a->tags[j] & a->ignore[i])
+            continue;
+        JoxV2 p = {a->x[j] - at.x, a->y[j] - at.y};
+        JoxV2 v = {velocity.x - a->vx[j], velocity.y - a->vy[j]};
+        JoxV2 away = {1.0f, 0.0f};
+        if (p.x == 0.0f && p.y == 0.0f)
+            away = parting(a->id[i], a->id[j]);
+        out[made++] =
+            jox_orca_plane(p, v, radius[i] + radius[j], tau, s->dt, velocity, share, away);
+    }
+    return made;
+}
+
+/* Nearest point of an object's footprint, and whether `at` is inside it. */
+static JoxV2 footprint_nearest(const JoxObject *o, JoxV2 at, bool *inside) {
+    *inside = o->footprint_count > 0 && jox_polygon_contains(o->footprint, o->footprint_count, at);
+    JoxV2 best = {o->position.x, o->position.y};
+    float least = INFINITY;
+    for (uint32_t i = 0; i < o->footprint_count; i++) {
+        JoxV2 q =
+            jox_segment_nearest(o->footprint[i], o->footprint[(i + 1) % o->footprint_count], at);
+        float d = jox_length2(jox_sub(at, q));
+        if (d < least) {
+            least = d;
+            best = q;
+        }
+    }
+    return best;
+}
+
+/* An object: its bounding disc from outside; within that disc, the nearest side of its true
+   footprint, so that one can walk along a long wall. Objects never reciprocate: share 1. */
+static bool object_plane(const Solve *s, uint32_t i, const JoxObject *o, bool approached,
+                         JoxPlane *out) {
+    const JoxAgents *a = s->agents;
+    JoxV2 at = {a->x[i], a->y[i]}, own = {a->vx[i], a->vy[i]};
+    JoxV2 p = {o->position.x - at.x, o->position.y - at.y};
+    JoxV2 moving = {o->velocity.x, o->velocity.y}, v = jox_sub(own, moving);
+    float radius = a->param[JOX_PARAM_radius][i], reach = a->param[JOX_PARAM_perception][i];
+    float d2 = jox_length2(p), sum = radius + o->disc;
+    if (d2 > (reach + o->disc) * (reach + o->disc))
+        return false;
+    float tau = approached ? s->dt : a->param[JOX_PARAM_horizon][i];
+    if (d2 > sum * sum || o->footprint_count == 0) {
+        float disc = o->footprint_count == 0 ? o->round : o->disc;
+        *out = jox_orca_plane(p, v, radius + disc, tau, s->dt, own, 1.0f, (JoxV2){1.0f, 0.0f});
+        return true;
+    }
+    bool inside;
+    JoxV2 side = footprint_nearest(o, at, &inside), out_way = jox_sub(at, side);
+    float distance = jox_length(out_way);
+    JoxV2 normal = distance > 1e-6f ? jox_scale(out_way, (inside ? -1.0f : 1.0f) / distance)
+                                    : jox_unit(jox_scale(p, -1.0f));
+    float gap = (inside ? -distance : distance) - radius;
+    float time = gap < 0.0f ? s->dt : tau;
+    *out = (JoxPlane){normal, jox_dot(moving, normal) - gap / time};
+    return jox_length2(normal) > 0.0f;
+}
+
+static uint32_t object_planes(const Solve *s, uint32_t i, JoxPlane *out) {
+    const JoxAgents *a = s->agents;
+    uint32_t made = 0;
+    for (uint32_t o = 0; o < s->objects->count && made < MOST_OBJECTS; o++) {
+        const JoxObject *object = &s->objects->rows[o];
+        if (object->live && object->in_band && !(object->tags & a->ignore[i]))
+            made += object_plane(s, i, object, a->approach[i] == (int32_t)o, &out[made]);
+    }
+    return made;
+}
+
+static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    Solve *s = context;
+    JoxAgents *a = s->agents;
+    uint32_t relaxations = 0;
+    for (uint32_t i = begin; i < end; i++) {
+        JoxPlane planes[MOST];
+        float tau = a->param[JOX_PARAM_wall_horizon][i], radius = a->param[JOX_PARAM_radius][i];
+        uint32_t hard = 0;
+        if (s->nav->grid.first)
+            hard = jox_orca_walls(
+                &s->nav->grid, (JoxV2){a->x[i], a->y[i]}, (JoxV2){a->vx[i], a->vy[i]}, radius, tau,
+                tau * a->param[JOX_PARAM_max_speed][i] + radius, planes, MOST_WALLS);
+        uint32_t count = hard + agent_planes(s, i, planes + hard);
+        if (s->objects && s->objects->count)
+            count += object_planes(s, i, planes + count);
+        if (a->plane_x[i] != 0.0f || a->plane_y[i] != 0.0f)
+            planes[count++] = (JoxPlane){{a->plane_x[i], a->plane_y[i]}, a->plane_offset[i]};
+        JoxV2 velocity;
+        bool relaxed;
+        a->failed[i] = !jox_program_solve(planes, count, hard, a->disc[i],
+                                          (JoxV2){a->pref_x[i], a->pref_y[i]}, &velocity, &relaxed);
+        relaxations += relaxed;
+        a->next_x[i] = velocity.x;
+        a->next_y[i] = velocity.y;
+    }
+    s->nav->chunk_relaxed[begin / JOX_NAV_GRAIN] = relaxations;
+}
+
+/* The farthest that any agent may have to look for walls, m. */
+static float wall_reach(const JoxAgents *a) {
+    float reach = 0.0f;
+    for (uint32_t i = 0; i < a->count; i++)
+        reach =
+            jox_maxf(reach, a->param[JOX_PARAM_wall_horizon][i] * a->param[JOX_PARAM_max_speed][i] +
+                                a->param[JOX_PARAM_radius][i]);
+    return reach;
+}
+
+uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
+                       const JoxObjects *objects, double dt, JoxPool *pool) {
+    Solve solve = {nav, agents, neighbours, objects, (float)dt};
+    if (nav->grid.walls)
+        jox_wall_grid_fit(&nav->grid, wall_reach(agents));
+    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);
+    uint32_t relaxed = 0;
+    for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)
+        relaxed += nav->chunk_relaxed[chunk];
+    return relaxed;
+}

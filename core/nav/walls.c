@@ -1,0 +1,306 @@
+/* Walls: a grid of edges for queries, and their half-planes (van den Berg et al. 2011). */
+#include <math.h>
+
+#include "base/mem.h"
+#include "geom/polygon.h"
+#include "nav/internal.h"
+
+enum { MOST_CELLS = 1 << 20 };
+
+static const JoxWallVertex *end_of(const JoxWalls *walls, uint32_t edge) {
+    return &walls->vertices[walls->vertices[edge].next];
+}
+
+void jox_wall_grid_free(JoxWallGrid *grid) {
+    jox_free(grid->first);
+    jox_free(grid->edges);
+    *grid = (JoxWallGrid){0};
+}
+
+typedef struct CellRange {
+    uint32_t x0, x1, y0, y1;
+} CellRange;
+
+static uint32_t clamp_cell(float at, uint32_t count) {
+    return at <= 0.0f ? 0 : at >= (float)(count - 1) ? count - 1 : (uint32_t)at;
+}
+
+static CellRange cells_near_edge(const JoxWallGrid *g, uint32_t edge) {
+    JoxV2 a = g->walls->vertices[edge].point, b = end_of(g->walls, edge)->point;
+    return (CellRange){
+        clamp_cell(floorf((jox_minf(a.x, b.x) - g->reach - g->low.x) / g->cell), g->columns),
+        clamp_cell(floorf((jox_maxf(a.x, b.x) + g->reach - g->low.x) / g->cell), g->columns),
+        clamp_cell(floorf((jox_minf(a.y, b.y) - g->reach - g->low.y) / g->cell), g->rows),
+        clamp_cell(floorf((jox_maxf(a.y, b.y) + g->reach - g->low.y) / g->cell), g->rows)};
+}
+
+static bool cell_is_near(const JoxWallGrid *g, uint32_t x, uint32_t y, uint32_t edge) {
+    JoxV2 centre = {g->low.x + ((float)x + 0.5f) * g->cell, g->low.y + ((float)y + 0.5f) * g->cell};
+    JoxV2 near =
+        jox_segment_nearest(g->walls->vertices[edge].point, end_of(g->walls, edge)->point, centre);
+    float limit = g->reach + 0.7072f * g->cell;
+    return jox_length2(jox_sub(near, centre)) <= limit * limit;
+}
+
+static void size_grid(JoxWallGrid *g) {
+    JoxV2 high = {-INFINITY, -INFINITY};
+    g->low = (JoxV2){INFINITY, INFINITY};
+    for (uint32_t i = 0; i < g->walls->count; i++) {
+        JoxV2 p = g->walls->vertices[i].point;
+        g->low = (JoxV2){jox_minf(g->low.x, p.x), jox_minf(g->low.y, p.y)};
+        high = (JoxV2){jox_maxf(high.x, p.x), jox_maxf(high.y, p.y)};
+    }
+    g->low = jox_sub(g->low, (JoxV2){g->reach, g->reach});
+    high = jox_add(high, (JoxV2){g->reach, g->reach});
+    g->cell = jox_maxf(1.0f, sqrtf((high.x - g->low.x) * (high.y - g->low.y) / MOST_CELLS));
+    g->cell = jox_maxf(g->cell, jox_maxf(high.x - g->low.x, high.y - g->low.y) / 32768.0f);
+    g->columns = (uint32_t)((high.x - g->low.x) / g->cell) + 1;
+    g->rows = (uint32_t)((high.y - g->low.y) / g->cell) + 1;
+}
+
+void jox_wall_grid_fit(JoxWallGrid *g, float reach) {
+    if (!g->walls || g->walls->count == 0 || reach <= g->reach)
+        return;
+    const JoxWalls *walls = g->walls;
+    jox_wall_grid_free(g);
+    g->walls = walls;
+    g->reach = reach * 1.25f; /* room, so that growing demands do not rebuild it each step */
+    size_grid(g);
+    size_t cells = (size_t)g->columns * g->rows;
+    g->first = jox_alloc(cells + 1, sizeof *g->first);
+    /* First pass counts, second pass fills. */
+    for (int pass = 0; pass < 2; pass++) {
+        for (uint32_t e = walls->count; e-- > 0;) {
+            CellRange r = cells_near_edge(g, e);
+            for (uint32_t y = r.y0; y <= r.y1; y++)
+                for (uint32_t x = r.x0; x <= r.x1; x++) {
+                    size_t c = (size_t)y * g->columns + x;
+                    if (!cell_is_near(g, x, y, e))
+                        continue;
+                    if (pass == 0)
+                        g->first[c]++;
+                    else
+                        g->edges[--g->first[c]] = e;
+                }
+        }
+        if (pass == 0) {
+            for (size_t c = 1; c <= cells; c++)
+                g->first[c] += g->first[c - 1];
+            g->edges = jox_alloc(g->first[cells] + 1, sizeof *g->edges);
+        }
+    }
+}
+
+const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point, uint32_t *count) {
+    *count = 0;
+    if (!g->first)
+        return NULL;
+    float x = (point.x - g->low.x) / g->cell, y = (point.y - g->low.y) / g->cell;
+    if (!(x >= 0.0f && y >= 0.0f && x < (float)g->columns && y < (float)g->rows))
+        return NULL;
+    size_t c = (size_t)(uint32_t)y * g->columns + (uint32_t)x;
+    *count = g->first[c + 1] - g->first[c];
+    return g->edges + g->first[c];
+}
+
+bool jox_walls_contain(const JoxWalls *walls, JoxV2 p) {
+    bool inside = false;
+    for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
+        if (!walls->rings[r].solid)
+            continue;
+        bool in_ring = false;
+        for (uint32_t i = 0; i < walls->rings[r].count; i++) {
+            JoxV2 a = walls->vertices[walls->rings[r].first + i].point;
+            JoxV2 b = end_of(walls, walls->rings[r].first + i)->point;
+            if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
+                in_ring = !in_ring;
+        }
+        inside |= in_ring;
+    }
+    return inside;
+}
+
+/* Tangent directions from the origin to the disc of `radius` about p, at distance^2 d2 > radius^2:
+   the leg that leaves the disc on its left, or on its right. */
+static JoxV2 left_leg(JoxV2 p, float radius, float d2) {
+    float leg = sqrtf(d2 - radius * radius);
+    return jox_scale((JoxV2){p.x * leg - p.y * radius, p.x * radius + p.y * leg}, 1.0f / d2);
+}
+
+static JoxV2 right_leg(JoxV2 p, float radius, float d2) {
+    float leg = sqrtf(d2 - radius * radius);
+    return jox_scale((JoxV2){p.x * leg + p.y * radius, -p.x * radius + p.y * leg}, 1.0f / d2);
+}
+
+/* Out of the disc of `radius` about `centre`, through the point nearest to v. */
+static JoxPlane round_plane(JoxV2 v, JoxV2 centre, float radius) {
+    JoxV2 normal = jox_unit(jox_sub(v, centre));
+    return (JoxPlane){normal, jox_dot(normal, centre) + radius};
+}
+
+/* Beyond the line through `point` along `direction`, `radius` to its left. */
+static JoxPlane straight_plane(JoxV2 point, JoxV2 direction, float radius) {
+    JoxV2 normal = jox_left(direction);
+    return (JoxPlane){normal, jox_dot(normal, point) + radius};
+}
+
+/* The edge seen from the agent: its two ends, which coincide where it is seen along its length. */
+typedef struct View {
+    const JoxWallVertex *left, *right; /* the edge runs from left to right */
+    JoxV2 left_point, right_point;     /* relative to the agent */
+    JoxV2 left_leg, right_leg;
+} View;
+
+/* Planes of touching walls pass through zero velocity; true if the edge is settled by that. */
+static bool touching_plane(const JoxWallVertex *a, const JoxWallVertex *b, JoxV2 p1, JoxV2 p2,
+                           float s, float line2, float r2, JoxPlane *plane, bool *made) {
+    *made = false;
+    if (s < 0.0f && jox_length2(p1) <= r2) {
+        *made = a->convex;
+        *plane = (JoxPlane){jox_unit(jox_scale(p1, -1.0f)), 0.0f};
+        return true;
+    }
+    if (s > 1.0f && jox_length2(p2) <= r2) {
+        /* The next edge takes care unless the agent is past its start. */
+        *made = b->convex && jox_det(p2, b->direction) >= 0.0f;
+        *plane = (JoxPlane){jox_unit(jox_scale(p2, -1.0f)), 0.0f};
+        return true;
+    }
+    if (s >= 0.0f && s <= 1.0f && line2 <= r2) {
+        *made = true;
+        *plane = (JoxPlane){jox_left(jox_scale(a->direction, -1.0f)), 0.0f};
+        return true;
+    }
+    return false;
+}
+
+/* Fills the legs; false if a concave corner leaves it to the neighbouring edge. */
+static bool make_view(const JoxWallVertex *a, const JoxWallVertex *b, JoxV2 p1, JoxV2 p2, float s,
+                      float line2, float radius, View *view) {
+    float r2 = radius * radius, d1 = jox_length2(p1), d2 = jox_length2(p2);
+    *view = (View){.left = a, .right = b, .left_point = p1, .right_point = p2};
+    if (s < 0.0f && line2 <= r2) { /* seen along the edge: its near end stands for it */
+        view->right = a;
+        view->right_point = p1;
+        view->left_leg = left_leg(p1, radius, d1);
+        view->right_leg = right_leg(p1, radius, d1);
+        return a->convex;
+    }
+    if (s > 1.0f && line2 <= r2) {
+        view->left = b;
+        view->left_point = p2;
+        view->left_leg = left_leg(p2, radius, d2);
+        view->right_leg = right_leg(p2, radius, d2);
+        return b->convex;
+    }
+    view->left_leg = a->convex ? left_leg(p1, radius, d1) : jox_scale(a->direction, -1.0f);
+    view->right_leg = b->convex ? right_leg(p2, radius, d2) : a->direction;
+    return true;
+}
+
+/* The plane of the part of the velocity obstacle nearest to v; false if it is another edge's. */
+static bool view_plane(const JoxWalls *walls, View *w, JoxV2 v, float inverse, float radius,
+                       JoxPlane *plane) {
+    /* A leg that points into a neighbouring edge is cut by that edge, whose own plane counts. */
+    JoxV2 before = jox_scale(walls->vertices[w->left->previous].direction, -1.0f);
+    bool foreign_left = w->left->convex && jox_det(w->left_leg, before) >= 0.0f;
+    bool foreign_right = w->right->convex && jox_det(w->right_leg, w->right->direction) <= 0.0f;
+    if (foreign_left)
+        w->left_leg = before;
+    if (foreign_right)
+        w->right_leg = w->right->direction;
+    bool point = w->left == w->right;
+    JoxV2 left = jox_scale(w->left_point, inverse), right = jox_scale(w->right_point, inverse);
+    JoxV2 span = jox_sub(right, left), from_left = jox_sub(v, left), from_right = jox_sub(v, right);
+    float t = point ? 0.5f : jox_dot(from_left, span) / jox_length2(span);
+    float t_left = jox_dot(from_left, w->left_leg), t_right = jox_dot(from_right, w->right_leg);
+    if ((t < 0.0f && t_left < 0.0f) || (point && t_left < 0.0f && t_right < 0.0f)) {
+        *plane = round_plane(v, left, radius * inverse);
+        return true;
+    }
+    if (t > 1.0f && t_right < 0.0f) {
+        *plane = round_plane(v, right, radius * inverse);
+        return true;
+    }
+    JoxV2 on_cut = jox_add(left, jox_scale(span, t));
+    JoxV2 on_left = jox_add(left, jox_scale(w->left_leg, t_left));
+    JoxV2 on_right = jox_add(right, jox_scale(w->right_leg, t_right));
+    float to_cut = t < 0.0f || t > 1.0f || point ? INFINITY : jox_length2(jox_sub(v, on_cut));
+    float to_left = t_left < 0.0f ? INFINITY : jox_length2(jox_sub(v, on_left));
+    float to_right = t_right < 0.0f ? INFINITY : jox_length2(jox_sub(v, on_right));
+    if (to_cut <= to_left && to_cut <= to_right) {
+        *plane = straight_plane(left, jox_scale(w->left->direction, -1.0f), radius * inverse);
+        return true;
+    }
+    bool use_left = to_left <= to_right;
+    *plane = use_left ? straight_plane(left, w->left_leg, radius * inverse)
+                      : straight_plane(right, jox_scale(w->right_leg, -1.0f), radius * inverse);
+    return use_left ? !foreign_left : !foreign_right;
+}
+
+/* True if planes made for nearer edges already keep clear of this whole edge. */
+static bool is_covered(const JoxPlane *planes, uint32_t count, JoxV2 p1, JoxV2 p2, float inverse,
+                       float radius) {
+    for (uint32_t i = 0; i < count; i++) {
+        float need = planes[i].offset - radius * inverse + 1e-5f;
+        if (jox_dot(planes[i].normal, p1) * inverse <= need &&
+            jox_dot(planes[i].normal, p2) * inverse <= need)
+            return true;
+    }
+    return false;
+}
+
+typedef struct NearEdge {
+    float distance2;
+    uint32_t edge;
+} NearEdge;
+
+/* Edges within range whose outer side the agent is on, nearest first, ties by number. */
+static uint32_t near_edges(const JoxWallGrid *grid, JoxV2 position, float range, NearEdge *out,
+                           uint32_t most) {
+    uint32_t count, n = 0;
+    const uint32_t *edges = jox_wall_grid_at(grid, position, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        const JoxWallVertex *a = &grid->walls->vertices[edges[i]];
+        JoxV2 b = end_of(grid->walls, edges[i])->point;
+        if (jox_det(a->direction, jox_sub(position, a->point)) >= 0.0f)
+            continue;
+        float d2 = jox_length2(jox_sub(position, jox_segment_nearest(a->point, b, position)));
+        if (d2 > range * range)
+            continue;
+        uint32_t at = n < most ? n++ : n;
+        if (at == most) {
+            if (d2 >= out[most - 1].distance2)
+                continue;
+            at--;
+        }
+        for (; at > 0 && out[at - 1].distance2 > d2; at--)
+            out[at] = out[at - 1];
+        out[at] = (NearEdge){d2, edges[i]};
+    }
+    return n;
+}
+
+uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity, float radius,
+                        float tau, float range, JoxPlane *out, uint32_t most) {
+    NearEdge near[16];
+    uint32_t edges = near_edges(grid, position, range, near, 16), made = 0;
+    float inverse = 1.0f / tau, r2 = radius * radius;
+    for (uint32_t i = 0; i < edges && made < most; i++) {
+        const JoxWallVertex *a = &grid->walls->vertices[near[i].edge];
+        const JoxWallVertex *b = end_of(grid->walls, near[i].edge);
+        JoxV2 p1 = jox_sub(a->point, position), p2 = jox_sub(b->point, position);
+        if (is_covered(out, made, p1, p2, inverse, radius))
+            continue;
+        JoxV2 edge = jox_sub(p2, p1);
+        float s = -jox_dot(p1, edge) / jox_maxf(jox_length2(edge), 1e-12f);
+        float line2 = jox_length2(jox_add(p1, jox_scale(edge, s)));
+        bool add;
+        View view;
+        if (touching_plane(a, b, p1, p2, s, line2, r2, &out[made], &add))
+            made += add;
+        else if (make_view(a, b, p1, p2, s, line2, radius, &view))
+            made += view_plane(grid->walls, &view, velocity, inverse, radius, &out[made]);
+    }
+    return made;
+}
