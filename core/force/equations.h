@@ -1,0 +1,105 @@
+/* The equations of forces on plain values; numbers are those of the paper. N, m, s, kg. */
+#ifndef JOX_FORCE_EQUATIONS_H
+#define JOX_FORCE_EQUATIONS_H
+
+#include <stdbool.h>
+
+#include "base/elementary.h"
+#include "base/vec.h"
+#include "geom/objects.h"
+
+/* Whether `offset` lies within the cone about the unit vector `axis` whose half-angle has this
+   cosine. A zero offset has no direction and counts as inside. */
+static inline bool jox_cone_holds(JoxV2 offset, JoxV2 axis, float cosine) {
+    return jox_dot(offset, axis) >= cosine * jox_length(offset);
+}
+
+/* (5) Share of one among `n` in a push of `newtons` along `offset`, from the pusher. */
+static inline JoxV2 jox_push_share(JoxV2 offset, float newtons, uint32_t n) {
+    return jox_scale(jox_unit(offset), newtons / (float)n);
+}
+
+/* (6) Impulse along the normal that points to the first of two bodies, from the normal part of its
+   velocity relative to the second; zero unless they approach. N s. */
+static inline float jox_contact_impulse(float normal_velocity, float restitution,
+                                        float inverse_mass) {
+    if (!(normal_velocity < 0.0f) || !(inverse_mass > 0.0f))
+        return 0.0f;
+    return -(1.0f + restitution) * normal_velocity / inverse_mass;
+}
+
+static inline JoxV3 jox_cross3(JoxV3 a, JoxV3 b) {
+    return (JoxV3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+static inline float jox_dot3(JoxV3 a, JoxV3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static inline JoxV3 jox_turn3(const float m[9], JoxV3 v) {
+    return (JoxV3){m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
+                   m[6] * v.x + m[7] * v.y + m[8] * v.z};
+}
+
+/* (7) Inverse of the mass that a body opposes to an impulse along the level unit vector `normal`
+   at `point`. Printed, it is the body's alone; it is the rotation that keeps energy from growing
+   off the centre. */
+static inline float jox_body_inverse_mass(const JoxObject *body, JoxV3 point, JoxV2 normal,
+                                          bool literal) {
+    if (literal || !(body->inverse_mass > 0.0f))
+        return body->inverse_mass;
+    JoxV3 arm = {point.x - body->position.x, point.y - body->position.y,
+                 point.z - body->position.z};
+    JoxV3 turn = jox_cross3(arm, (JoxV3){normal.x, normal.y, 0.0f});
+    return body->inverse_mass + jox_dot3(turn, jox_turn3(body->inverse_inertia, turn));
+}
+
+/* (11) Velocity that the force alone would give; `decay` is exp(-damping dt). */
+static inline JoxV2 jox_forced_velocity(JoxV2 velocity, JoxV2 force, float mass, float decay,
+                                        float dt) {
+    return jox_add(jox_scale(velocity, decay), jox_scale(force, dt / mass));
+}
+
+/* (9) How far the new velocity fell short of the forced one along the force, m/s. */
+static inline float jox_shortfall(JoxV2 velocity, JoxV2 force_unit, float offset) {
+    return jox_maxf(0.0f, offset - jox_dot(velocity, force_unit));
+}
+
+/* (9) What each of n people ahead gets of a force that did not move its receiver. */
+static inline JoxV2 jox_resistance(JoxV2 force_unit, float shortfall, float absorb, float mass,
+                                   uint32_t n, float dt) {
+    return jox_scale(force_unit, absorb * mass * shortfall / ((float)n * dt));
+}
+
+/* (8) Change of a velocity, no longer than the old velocity: else a turn would count as a stop
+   harder than a full one. */
+static inline JoxV2 jox_slowing(JoxV2 before, JoxV2 after, bool literal) {
+    JoxV2 change = jox_sub(after, before);
+    float size = jox_length(change), most = jox_length(before);
+    if (literal || !(size > most))
+        return change;
+    return jox_scale(change, most / size);
+}
+
+/* (8) What each of n people ahead gets from someone who slowed by `change`: forward, as their
+   momentum goes. The printed sign pulls them back. */
+static inline JoxV2 jox_deceleration(JoxV2 change, float absorb, float mass, uint32_t n, float dt,
+                                     bool literal) {
+    float size = absorb * mass / ((float)n * dt);
+    return jox_scale(change, literal ? size : -size);
+}
+
+/* (8) The same upon oneself, with nobody ahead: kept from reversing the motion. */
+static inline JoxV2 jox_keep_from_reversing(JoxV2 force, JoxV2 velocity, float mass, float dt) {
+    float against = -jox_dot(force, velocity), speed2 = jox_length2(velocity);
+    if (!(against * dt > speed2 * mass) || !(speed2 > 0.0f))
+        return force;
+    /* Only the part along the motion is cut back, to what stops it. */
+    float surplus = (against - speed2 * mass / dt) / speed2;
+    return jox_add(force, jox_scale(velocity, surplus));
+}
+
+/* Share of a new passed-on force that arrives within a step; 1 without a filter. */
+static inline float jox_filter_share(double dt, double filter) {
+    return filter > 0.0 ? (float)(1.0 - jox_exp(-dt / filter)) : 1.0f;
+}
+
+#endif

@@ -1,0 +1,76 @@
+/* Forces between people, and between people and bodies: equations 5 to 12 of the paper. Every stage
+   reads the agents as they stand and writes its own columns; what one agent gives another is
+   collected and then summed by the receiver in ascending id of the giver, so that neither threads
+   nor the order in memory change a bit. In a step the calls are, in this order: begin, push,
+   contact, sum, (solve, move), infer. */
+#ifndef JOX_FORCE_FORCE_H
+#define JOX_FORCE_FORCE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "agents/agents.h"
+#include "agents/neighbours.h"
+#include "geom/objects.h"
+#include "task/pool.h"
+
+typedef struct JoxForces JoxForces;
+
+typedef struct JoxForceOptions {
+    bool literal; /* as printed in the paper, in place of the physical reading */
+    bool react;   /* pushers feel the reaction of their pushes; otherwise the ground takes it */
+    uint32_t iterations; /* passes over the contacts of a step, physical mode */
+    float reach;         /* gap over which a braced person passes a force on, m; physical mode */
+    float filter;        /* time over which passed-on forces arrive, s; 0 at once; physical mode */
+    float least;         /* |f|/m below which no half-plane is made, m/s2 */
+} JoxForceOptions;
+
+/* What a step works on. Everything but `agents`, `neighbours` and `dt` may be left zero. It must
+   stay valid, and the order of the agents the same, from begin to infer. */
+typedef struct JoxForceStep {
+    JoxAgents *agents;
+    const JoxNeighbours *neighbours;
+    const JoxObjects *objects;
+    JoxPool *pool;
+    double dt;              /* s, above 0 */
+    const uint8_t *push_on; /* per agent, 0: does not push now; NULL: all push */
+    const uint8_t
+        *push_nearest; /* per agent, 1: the whole push goes to the nearest; NULL: shared */
+    /* Direction of the push per agent, of any length; (0, 0) or NULL: the preferred velocity. */
+    const float *push_toward_x, *push_toward_y;
+} JoxForceStep;
+
+typedef struct JoxForceTotals {
+    uint32_t pushers; /* agents that pushed something this step */
+    uint32_t pairs;   /* overlapping pairs of agents */
+    uint32_t touches; /* contacts of agents with bodies */
+    uint32_t passed;  /* forces passed on by the last infer */
+    /* Momentum of the step's pushes that came from the ground, N s: zero with `react`. */
+    double ground_x, ground_y;
+} JoxForceTotals;
+
+JoxForceOptions jox_force_default_options(void);
+JoxForces *jox_forces_create(const JoxForceOptions *options);
+void jox_forces_free(JoxForces *forces);
+void jox_forces_set_options(JoxForces *forces, const JoxForceOptions *options);
+
+/* Starts a step: push, contact, compression and contacts become zero, the impulses empty. */
+void jox_force_begin(JoxForces *forces, const JoxForceStep *step);
+/* Equation 5: push_x, push_y of those that are pushed; impulses on bodies. */
+void jox_force_push(JoxForces *forces);
+/* Equations 6 and 7: contact_x, contact_y, contacts, compression (received pushes count in it, for
+   they squeeze as well); impulses on bodies. */
+void jox_force_contact(JoxForces *forces);
+/* Equations 10 to 12: force_x, force_y, plane_x, plane_y, plane_offset, disc. The disc is
+   `max_speed`; only a contact impulse widens it, to the speed that it gives. Keeps the velocities
+   for infer. Begin and sum alone give a step without forces. */
+void jox_force_sum(JoxForces *forces);
+/* Equations 8 and 9, once vx, vy hold the new velocities: inferred_x, inferred_y. */
+void jox_force_infer(JoxForces *forces);
+
+/* The step's impulses on bodies, sorted by agent id, then by row; pushes before contacts. Valid
+   until the next begin. */
+const JoxImpulse *jox_force_impulses(JoxForces *forces, uint32_t *count);
+JoxForceTotals jox_force_totals(const JoxForces *forces);
+
+#endif
