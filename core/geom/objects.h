@@ -16,6 +16,7 @@ typedef struct JoxObject {
     bool in_band;  /* some of it is within the agents' height band: can be touched */
     bool moves;    /* false: mass 0, static */
     bool grounded; /* touches the ground or rests upon something static */
+    bool swept;    /* fast: body/ itself sweeps it against people; forces leave it out */
     uint64_t tags;
     JoxV3 position;           /* centre of mass, m */
     JoxV3 velocity;           /* m/s */

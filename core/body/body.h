@@ -1,0 +1,159 @@
+/* Rigid bodies: a C face over Bullet. Metres, kilograms, seconds, radians; z up, ground at z = 0.
+   Agents stay outside: they read JoxObjects, give impulses, and meet fast bodies as discs. In a
+   build without Bullet adding a body fails with a text that says so, and all else does nothing.
+   Single-threaded; the same calls in the same order give the same bits. */
+#ifndef JOX_BODY_BODY_H
+#define JOX_BODY_BODY_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/hash.h"
+#include "base/text.h"
+#include "geom/objects.h"
+#include "geom/walls.h"
+
+#define JOX_NO_BODY UINT32_MAX
+
+typedef struct JoxBodies JoxBodies;
+typedef struct JoxBodyPart JoxBodyPart;
+
+typedef enum JoxShapeKind {
+    JOX_SHAPE_BOX,      /* size: lengths along x, y, z */
+    JOX_SHAPE_SPHERE,   /* size[0]: radius */
+    JOX_SHAPE_CYLINDER, /* size[0]: radius, size[1]: height; the axis is z */
+    JOX_SHAPE_HULL,     /* convex hull of 4 to 256 points: x0, y0, z0, x1, ... */
+    JOX_SHAPE_COMPOUND  /* 1 to 4096 parts, none of them a compound */
+} JoxShapeKind;
+
+typedef struct JoxShape {
+    JoxShapeKind kind;
+    double size[3]; /* m */
+    const double *points;
+    uint32_t point_count;
+    const JoxBodyPart *parts;
+    uint32_t part_count;
+} JoxShape;
+
+struct JoxBodyPart {
+    JoxShape shape;
+    double position[3];   /* of the part's frame in the body's, m */
+    double turn[4];       /* quaternion x, y, z, w; all zero is no turn */
+    double mass, density; /* kg, or kg/m3 where mass is 0; in a static body neither is read */
+};
+
+/* Everything is copied. Start from jox_body_def. */
+typedef struct JoxBodyDef {
+    JoxShape shape;
+    double position[3];           /* of the shape's own frame (not the centre of mass), m */
+    double turn[4];               /* quaternion x, y, z, w; all zero is no turn */
+    double velocity[3], spin[3];  /* of the centre of mass, m/s; rad/s */
+    double mass;                  /* kg; with density 0 too, the body is static */
+    double density;               /* kg/m3; read where mass is 0 */
+    bool still;                   /* static whatever the mass */
+    double friction, restitution; /* multiplied with those of the other; ground and walls have 1 */
+    double damping, spin_damping; /* share of velocity lost in a second, 0 to 1 */
+    uint64_t tags;
+    const char *name; /* or NULL */
+} JoxBodyDef;
+/* A box of 1 m, 10 kg, friction 0.6, restitution 0, no damping. */
+JoxBodyDef jox_body_def(void);
+
+typedef struct JoxBodiesDef {
+    double gravity;         /* m/s2, downwards */
+    bool ground;            /* a plane at z = 0 */
+    double kill_height;     /* m; a body whose centre is below is taken out */
+    double most_change;     /* m/s; an impulse is clamped to change a velocity by no more */
+    double person_height;   /* m, of the discs of jox_bodies_step */
+    double person_hardness; /* a body's restitution is multiplied by it when it hits a person */
+} JoxBodiesDef;
+/* 9.81, ground, -50 m, 500 m/s, 1.75 m, 0.5. */
+JoxBodiesDef jox_bodies_def(void);
+
+/* Never NULL. Bullet's own world is made with the first body. */
+JoxBodies *jox_bodies_create(const JoxBodiesDef *def);
+void jox_bodies_free(JoxBodies *bodies);
+/* Static walls from the ground to their height, or to `height` where theirs is not finite. Thin
+   ones are 4 cm thick. May be called once, before the first body or after. */
+void jox_bodies_set_walls(JoxBodies *bodies, const JoxWalls *walls, float height);
+
+/* Returns the body's row, or JOX_NO_BODY with a sentence in `error` (which may be NULL). Rows of
+   dead bodies are used again; ids are not. */
+uint32_t jox_bodies_add(JoxBodies *bodies, const JoxBodyDef *def, JoxText *error);
+/* False where there is no such body. */
+bool jox_bodies_remove(JoxBodies *bodies, uint32_t row);
+uint32_t jox_bodies_count(const JoxBodies *bodies);
+/* Row of the live body with this id or name, or JOX_NO_BODY. */
+uint32_t jox_bodies_find(const JoxBodies *bodies, uint32_t id);
+uint32_t jox_bodies_find_name(const JoxBodies *bodies, const char *name);
+/* "" where it has none. Valid while the body lives. */
+const char *jox_bodies_name(const JoxBodies *bodies, uint32_t row);
+
+typedef struct JoxPose {
+    JoxV3 position; /* of the shape's own frame, m */
+    float turn[4];  /* quaternion x, y, z, w */
+    JoxV3 centre;   /* of mass, m */
+    JoxV3 velocity; /* of the centre of mass, m/s */
+    JoxV3 spin;     /* rad/s */
+    float mass;     /* kg; 0 static */
+    JoxV3 inertia;  /* principal moments, kg m2; 0 static */
+} JoxPose;
+/* False, and `pose` zero, where there is no such body. */
+bool jox_bodies_pose(const JoxBodies *bodies, uint32_t row, JoxPose *pose);
+/* False, and nothing done, for a static body or a number that is not finite. */
+bool jox_bodies_set_velocity(JoxBodies *bodies, uint32_t row, JoxV3 velocity, JoxV3 spin);
+/* Acts at the centre of mass throughout the next step, N; adds to what was given before. */
+bool jox_bodies_force(JoxBodies *bodies, uint32_t row, JoxV3 force);
+/* Applied in the order given. Rows that are dead or static and impulses that are not finite are
+   passed over. Returns how many were passed over or clamped. */
+uint32_t jox_bodies_impulses(JoxBodies *bodies, const JoxImpulse *impulses, uint32_t count);
+
+/* A person as a fast body meets it: an upright cylinder that moves evenly during the step. */
+typedef struct JoxDisc {
+    uint32_t id;          /* ties go to the lower */
+    float x, y;           /* at the step's start, m */
+    float move_x, move_y; /* way during the step, m */
+    float radius, mass;   /* m, kg */
+    float vx, vy;         /* m/s; changed by what hits it */
+} JoxDisc;
+
+/* A fast body hit a disc: impulse on the disc, N s; the opposite was given to the body. */
+typedef struct JoxDiscHit {
+    uint32_t disc;   /* index in the array given */
+    uint32_t object; /* row */
+    JoxV3 point;     /* m */
+    JoxV2 impulse;
+} JoxDiscHit;
+
+typedef enum { JOX_BODY_FELL, JOX_BODY_NOT_FINITE } JoxBodyEnd;
+typedef struct JoxBodyGone {
+    uint32_t row, id;
+    JoxBodyEnd why;
+} JoxBodyGone;
+
+/* What a step did; the arrays are valid until the next call on `bodies`. */
+typedef struct JoxBodiesReport {
+    const JoxDiscHit *hits; /* in order of time, then body id */
+    uint32_t hit_count;
+    const JoxBodyGone *gone; /* bodies that were taken out */
+    uint32_t gone_count;
+    uint32_t substeps;
+} JoxBodiesReport;
+
+/* Advances by dt seconds in equal substeps of at most 1/60 s, shorter (to 1/480 s) while a ball
+   would move by more than its radius. Small bodies (bounding radius up to 0.75 m) that move more
+   than 0.1 m in the step are swept against the discs, as spheres; those carry JoxObject.swept, and
+   forces must leave them out. `discs` may be NULL. */
+JoxBodiesReport jox_bodies_step(JoxBodies *bodies, float dt, JoxDisc *discs, uint32_t disc_count);
+/* True if the next step would sweep any body: only then are discs needed. */
+bool jox_bodies_any_fast(const JoxBodies *bodies, float dt);
+
+/* Writes what agents see. Rows keep their index; `objects->rows` is owned by `bodies`. A compound
+   shows the hull of all its parts as its footprint. */
+void jox_bodies_objects(JoxBodies *bodies, JoxObjects *objects);
+/* Adds ids, poses and velocities in order of id. */
+void jox_bodies_hash(const JoxBodies *bodies, JoxHash *hash);
+/* Whether this build has Bullet. */
+bool jox_bodies_available(void);
+
+#endif
