@@ -1,0 +1,130 @@
+#include "body/footprint.h"
+
+#include <stdlib.h>
+
+#include "base/elementary.h"
+#include "base/mem.h"
+
+void jox_footprint_begin(JoxFootprint *footprint) {
+    footprint->count = 0;
+    footprint->low = INFINITY;
+    footprint->high = -INFINITY;
+}
+
+static void put(JoxFootprint *f, float x, float y) {
+    JOX_RESERVE(f->points, f->capacity, f->count + 1);
+    f->points[f->count++] = jox_v2(x, y);
+}
+
+/* Where the edge a-b passes a height. */
+static void cut(JoxFootprint *f, JoxV3 a, JoxV3 b, float height) {
+    if ((a.z < height) == (b.z < height))
+        return;
+    float t = (height - a.z) / (b.z - a.z);
+    put(f, a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t);
+}
+
+void jox_footprint_add(JoxFootprint *footprint, const JoxV3 *corners, uint32_t corner_count,
+                       const uint32_t *edges, uint32_t edge_count) {
+    for (uint32_t i = 0; i < corner_count; i++) {
+        JoxV3 p = corners[i];
+        footprint->low = jox_minf(footprint->low, p.z);
+        footprint->high = jox_maxf(footprint->high, p.z);
+        if (p.z >= JOX_BAND_LOW && p.z <= JOX_BAND_HIGH)
+            put(footprint, p.x, p.y);
+    }
+    for (uint32_t e = 0; e < edge_count; e++) {
+        JoxV3 a = corners[edges[2 * e]], b = corners[edges[2 * e + 1]];
+        cut(footprint, a, b, JOX_BAND_LOW);
+        cut(footprint, a, b, JOX_BAND_HIGH);
+    }
+}
+
+float jox_footprint_sphere(float z, float radius) {
+    float away = jox_maxf(JOX_BAND_LOW - z, z - JOX_BAND_HIGH);
+    if (away <= 0.0f)
+        return radius;
+    return away < radius ? sqrtf(radius * radius - away * away) : 0.0f;
+}
+
+void jox_footprint_add_sphere(JoxFootprint *footprint, JoxV3 centre, float radius) {
+    footprint->low = jox_minf(footprint->low, centre.z - radius);
+    footprint->high = jox_maxf(footprint->high, centre.z + radius);
+    float round = jox_footprint_sphere(centre.z, radius);
+    if (round <= 0.0f)
+        return;
+    for (int i = 0; i < JOX_FOOTPRINT_POINTS; i++) {
+        double angle = i * (6.283185307179586 / JOX_FOOTPRINT_POINTS);
+        put(footprint, centre.x + round * (float)jox_cos(angle),
+            centre.y + round * (float)jox_sin(angle));
+    }
+}
+
+static int by_x(const void *a, const void *b) {
+    const JoxV2 *p = a, *q = b;
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    return p->y < q->y ? -1 : p->y > q->y;
+}
+
+static float turn(JoxV2 a, JoxV2 b, JoxV2 c) {
+    return jox_det(jox_sub(b, a), jox_sub(c, a));
+}
+
+/* Monotone chains. `ring` has room for count + 1 points. */
+static uint32_t hull(const JoxV2 *points, uint32_t count, JoxV2 *ring) {
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        while (n >= 2 && turn(ring[n - 2], ring[n - 1], points[i]) <= 1e-9f)
+            n--;
+        ring[n++] = points[i];
+    }
+    for (uint32_t i = count - 1, least = n + 1; i-- > 0;) {
+        while (n >= least && turn(ring[n - 2], ring[n - 1], points[i]) <= 1e-9f)
+            n--;
+        ring[n++] = points[i];
+    }
+    return n > 1 ? n - 1 : n;
+}
+
+static uint32_t thin(JoxV2 *ring, uint32_t n) {
+    while (n > JOX_FOOTPRINT_POINTS) {
+        uint32_t least = 0;
+        float least_area = INFINITY;
+        for (uint32_t i = 0; i < n; i++) {
+            float area = turn(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]);
+            if (area < least_area) {
+                least_area = area;
+                least = i;
+            }
+        }
+        for (uint32_t i = least; i + 1 < n; i++)
+            ring[i] = ring[i + 1];
+        n--;
+    }
+    return n;
+}
+
+void jox_footprint_end(JoxFootprint *footprint, JoxObject *object) {
+    uint32_t n = footprint->count;
+    object->low = jox_maxf(footprint->low, JOX_BAND_LOW);
+    object->high = jox_minf(footprint->high, JOX_BAND_HIGH);
+    object->footprint_count = 0;
+    object->in_band = object->high > object->low && n > 0;
+    if (!object->in_band)
+        return;
+    JOX_RESERVE(footprint->points, footprint->capacity, 2 * n + 2);
+    qsort(footprint->points, n, sizeof *footprint->points, by_x);
+    JoxV2 *ring = footprint->points + n;
+    uint32_t corners = thin(ring, hull(footprint->points, n, ring));
+    /* A sliver without area cannot be touched. */
+    object->in_band = corners >= 3;
+    object->footprint_count = corners >= 3 ? corners : 0;
+    for (uint32_t i = 0; i < object->footprint_count; i++)
+        object->footprint[i] = ring[i];
+}
+
+void jox_footprint_free(JoxFootprint *footprint) {
+    jox_free(footprint->points);
+    *footprint = (JoxFootprint){0};
+}
