@@ -59,6 +59,10 @@ typedef struct JoxMind {
     JoxImpulse *kicks; /* impulses on bodies, by agent id */
     uint32_t kick_count, kick_capacity;
 
+    /* What states say of pushing, per agent index, for the force stage; valid until the next think. */
+    uint8_t *push_on, *push_nearest;
+    float *push_toward_x, *push_toward_y; /* unit direction; (0, 0): the preferred velocity's */
+
     struct JoxMindScratch *scratch; /* made on first use */
 } JoxMind;
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/elementary.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
 #include "world/world.h"
@@ -226,6 +227,66 @@ bool jo_agent_set_parameter(JoWorld *world, JoAgent agent, const char *name, dou
         return false;
     world->agents.param[p][i] = jox_parameter_store((JoxParameter)p, value);
     return true;
+}
+
+JoBodyDef jo_default_body_def(void) {
+    return (JoBodyDef){.shape = JO_BOX,
+                       .size = {1.0, 1.0, 1.0},
+                       .mass = 10.0,
+                       .z = 0.5,
+                       .friction = 0.6,
+                       .cookie = BODY_COOKIE};
+}
+
+JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
+    JOX_REQUIRE(world && def && def->cookie == BODY_COOKIE, (JoBody){0});
+    static const JoxShapeKind KINDS[] = {[JO_SPHERE] = JOX_SHAPE_SPHERE,
+                                         [JO_BOX] = JOX_SHAPE_BOX,
+                                         [JO_CYLINDER] = JOX_SHAPE_CYLINDER};
+    JOX_REQUIRE(def->shape <= JO_CYLINDER, (JoBody){0});
+    JoxBodyDef body = jox_body_def();
+    body.shape.kind = KINDS[def->shape];
+    memcpy(body.shape.size, def->size, sizeof def->size);
+    body.mass = def->mass;
+    body.still = def->mass == 0.0;
+    memcpy(body.position, (double[]){def->x, def->y, def->z}, sizeof body.position);
+    body.turn[2] = jox_sin(def->turn / 2.0);
+    body.turn[3] = jox_cos(def->turn / 2.0);
+    memcpy(body.velocity, (double[]){def->vx, def->vy, def->vz}, sizeof body.velocity);
+    body.friction = def->friction;
+    body.restitution = def->restitution;
+    JoxText why = {0};
+    uint32_t row = jox_bodies_add(world->bodies, &body, &why);
+    if (row == JOX_NO_BODY) {
+        refuse(error, "%s", why.data ? why.data : "the body was refused");
+        jox_text_free(&why);
+        return (JoBody){0};
+    }
+    jox_bodies_objects(world->bodies, &world->objects);
+    /* Ids of bodies are never reused, so that the id serves as the generation. */
+    return (JoBody){row, world->objects.rows[row].id + 1};
+}
+
+JoBodyState jo_body_state(const JoWorld *world, JoBody body) {
+    JOX_REQUIRE(world, (JoBodyState){0});
+    JoxPose pose;
+    if (body.generation == 0 || jox_bodies_find(world->bodies, body.generation - 1) != body.slot ||
+        !jox_bodies_pose(world->bodies, body.slot, &pose))
+        return (JoBodyState){0};
+    return (JoBodyState){pose.centre.x,   pose.centre.y,  pose.centre.z, pose.turn[0],
+                         pose.turn[1],    pose.turn[2],   pose.turn[3],  pose.velocity.x,
+                         pose.velocity.y, pose.velocity.z};
+}
+
+uint32_t jo_world_body_count(const JoWorld *world) {
+    JOX_REQUIRE(world, 0);
+    return jox_bodies_count(world->bodies);
+}
+
+const char *jo_stage_name(int stage) {
+    static const char *const NAMES[JO_STAGE_COUNT] = {
+        "perceive", "think", "prefer", "push", "solve", "move", "bodies", "infer", "observe"};
+    return stage >= 0 && stage < JO_STAGE_COUNT ? NAMES[stage] : "";
 }
 
 void jo_world_step(JoWorld *world, uint32_t steps) {

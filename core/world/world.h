@@ -18,6 +18,8 @@
 #include "world/statistics.h"
 
 enum { JOX_MOST_TAGS = 64 };
+/* m: height of walls that are given none, for bodies */
+#define JOX_WALL_HEIGHT 3.0f
 
 struct JoWorld {
     JoWorldDef def;
@@ -38,7 +40,12 @@ struct JoWorld {
     JoxBodies *bodies;
     JoxObjects objects; /* what agents see of the bodies */
 
-    bool settled; /* agents added since the last step have been moved out of walls and each other */
+    bool walls_set;           /* nav and bodies know the walls */
+    bool settled;             /* no agent has been added since the last settling */
+    uint32_t first_unsettled; /* else: id of the first of those */
+    JoxDisc *discs;           /* people as fast bodies meet them, and their indices */
+    uint32_t *disc_agents, disc_capacity;
+
     JoxStatistics statistics;
 };
 
@@ -51,8 +58,9 @@ void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count);
 /* Adds an agent at (x, y), m, with the parameters' defaults; it is settled before the next step.
    Returns its index, valid until then. */
 uint32_t jox_world_add_agent(JoWorld *world, float x, float y);
-/* Moves agents that were born in walls or each other. Runs by itself before a step. */
-void jox_world_settle(JoWorld *world);
+/* Moves agents that were born in walls or each other, and says how many. Runs by itself before a
+   step. */
+JoxSettled jox_world_settle(JoWorld *world);
 /* One step. */
 void jox_world_step(JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX. */

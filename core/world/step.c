@@ -1,0 +1,142 @@
+/* The step: nine stages, each one function of a lower floor. */
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "world/world.h"
+
+static void perceive(JoWorld *w) {
+    jox_nav_sort(w->nav, &w->agents, w->tick);
+    jox_nav_perceive(w->nav, &w->agents, &w->neighbours, w->pool);
+    jox_bodies_objects(w->bodies, &w->objects);
+    jox_input_advance(&w->input, (uint32_t)w->tick);
+}
+
+static void think(JoWorld *w) {
+    JoxMind *mind = &w->mind;
+    mind->neighbours = &w->neighbours;
+    mind->objects = &w->objects;
+    mind->places = w->places;
+    mind->place_count = w->place_count;
+    mind->tick = (uint32_t)w->tick;
+    mind->inputs = w->input.present;
+    mind->input_count = w->input.present_count;
+    jox_mind_think(mind, w->pool);
+    w->statistics.transitions += mind->taken_count;
+    w->statistics.kicks += mind->kick_count;
+}
+
+static void prefer(JoWorld *w) {
+    jox_mind_prefer(&w->mind, w->pool);
+}
+
+static void push(JoWorld *w) {
+    const JoxMind *mind = &w->mind;
+    JoxForceStep step = {.agents = &w->agents,
+                         .neighbours = &w->neighbours,
+                         .objects = &w->objects,
+                         .pool = w->pool,
+                         .dt = w->def.dt,
+                         .push_on = mind->push_on,
+                         .push_nearest = mind->push_nearest,
+                         .push_toward_x = mind->push_toward_x,
+                         .push_toward_y = mind->push_toward_y};
+    jox_force_begin(w->forces, &step);
+    if (w->def.forces) {
+        jox_force_push(w->forces);
+        jox_force_contact(w->forces);
+    }
+    jox_force_sum(w->forces);
+}
+
+static void solve(JoWorld *w) {
+    w->statistics.walls_relaxed +=
+        jox_nav_solve(w->nav, &w->agents, &w->neighbours, &w->objects, w->def.dt, w->pool);
+}
+
+static void move(JoWorld *w) {
+    jox_nav_move(w->nav, &w->agents, &w->neighbours, w->def.dt, w->pool);
+}
+
+/* People as fast bodies meet them, in ascending id: where they were and how they moved. */
+static uint32_t list_discs(JoWorld *w) {
+    const JoxAgents *a = &w->agents;
+    if (a->count > w->disc_capacity) {
+        w->disc_capacity = a->count + a->count / 4 + 16;
+        w->discs = jox_realloc(w->discs, w->disc_capacity, sizeof *w->discs);
+        w->disc_agents = jox_realloc(w->disc_agents, w->disc_capacity, sizeof *w->disc_agents);
+    }
+    jox_agents_by_id(a, w->disc_agents);
+    for (uint32_t n = 0; n < a->count; n++) {
+        uint32_t i = w->disc_agents[n];
+        w->discs[n] = (JoxDisc){.id = a->id[i],
+                                .x = a->prev_x[i],
+                                .y = a->prev_y[i],
+                                .move_x = a->x[i] - a->prev_x[i],
+                                .move_y = a->y[i] - a->prev_y[i],
+                                .radius = a->param[JOX_PARAM_radius][i],
+                                .mass = a->param[JOX_PARAM_mass][i],
+                                .vx = a->vx[i],
+                                .vy = a->vy[i]};
+    }
+    return a->count;
+}
+
+/* What fast bodies did to people: a change of velocity now, a contact force in the columns. */
+static void take_hits(JoWorld *w, const JoxBodiesReport *report) {
+    JoxAgents *a = &w->agents;
+    for (uint32_t h = 0; h < report->hit_count; h++) {
+        const JoxDiscHit *hit = &report->hits[h];
+        uint32_t i = w->disc_agents[hit->disc];
+        float mass = a->param[JOX_PARAM_mass][i], dt = (float)w->def.dt;
+        a->vx[i] += hit->impulse.x / mass;
+        a->vy[i] += hit->impulse.y / mass;
+        a->force_x[i] += hit->impulse.x / dt;
+        a->force_y[i] += hit->impulse.y / dt;
+        a->compression[i] +=
+            jox_length(hit->impulse) / dt / (6.2831853f * a->param[JOX_PARAM_radius][i]);
+        a->contacts[i] += a->contacts[i] < 255;
+    }
+    w->statistics.hits += report->hit_count;
+}
+
+static void bodies(JoWorld *w) {
+    if (jox_bodies_count(w->bodies) == 0)
+        return;
+    uint32_t count;
+    const JoxImpulse *impulses = jox_force_impulses(w->forces, &count);
+    jox_bodies_impulses(w->bodies, impulses, count);
+    jox_bodies_impulses(w->bodies, w->mind.kicks, w->mind.kick_count);
+    bool fast = w->def.forces && jox_bodies_any_fast(w->bodies, (float)w->def.dt);
+    uint32_t discs = fast ? list_discs(w) : 0;
+    JoxBodiesReport report =
+        jox_bodies_step(w->bodies, (float)w->def.dt, fast ? w->discs : NULL, discs);
+    take_hits(w, &report);
+    w->statistics.bodies_lost += report.gone_count;
+}
+
+static void infer(JoWorld *w) {
+    if (w->def.forces)
+        jox_force_infer(w->forces);
+}
+
+static void observe(JoWorld *w) {
+    jox_statistics_observe(&w->statistics, &w->agents, &w->neighbours, w->tick, w->def.dt);
+    w->statistics.removed += jox_agents_compact(&w->agents);
+}
+
+void jox_world_step(JoWorld *w) {
+    static void (*const STAGES[JO_STAGE_COUNT])(JoWorld *) = {
+        perceive, think, prefer, push, solve, move, bodies, infer, observe};
+    double begin = jox_clock_wall(), cpu = jox_clock_cpu(), last = begin;
+    jox_world_settle(w);
+    for (int stage = 0; stage < JO_STAGE_COUNT; stage++) {
+        STAGES[stage](w);
+        double now = jox_clock_wall();
+        w->statistics.stage_s[stage] += now - last;
+        last = now;
+    }
+    w->tick++;
+    w->statistics.wall_s += last - begin;
+    w->statistics.cpu_s += jox_clock_cpu() - cpu;
+}

@@ -1,0 +1,138 @@
+#include "world/world.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+JoWorld *jox_world_create(const JoWorldDef *def) {
+    JoWorld *world = jox_alloc(1, sizeof *world);
+    world->def = *def;
+    world->pool = jox_pool_create(def->threads);
+    world->nav = jox_nav_create();
+    JoxForceOptions options = jox_force_default_options();
+    options.literal = def->literal;
+    world->forces = jox_forces_create(&options);
+    JoxBodiesDef bodies = jox_bodies_def();
+    bodies.gravity = def->gravity;
+    world->bodies = jox_bodies_create(&bodies);
+    world->mind.agents = &world->agents;
+    world->mind.seed = def->seed;
+    world->mind.dt = def->dt;
+    world->settled = true;
+    return world;
+}
+
+static void free_places(JoWorld *world) {
+    for (uint32_t i = 0; i < world->place_count; i++) {
+        jox_free(world->places[i].name);
+        jox_free(world->places[i].points);
+        jox_free(world->places[i].members);
+    }
+    jox_free(world->places);
+}
+
+void jo_world_free(JoWorld *world) {
+    if (!world)
+        return;
+    jox_mind_free(&world->mind);
+    jox_nav_free(world->nav);
+    jox_forces_free(world->forces);
+    jox_bodies_free(world->bodies);
+    jox_agents_free(&world->agents);
+    jox_walls_free(&world->walls);
+    jox_input_free(&world->input);
+    jox_free(world->neighbours.index);
+    jox_free(world->neighbours.distance2);
+    jox_free(world->neighbours.count);
+    jox_free(world->discs);
+    jox_free(world->disc_agents);
+    free_places(world);
+    for (uint32_t i = 0; i < world->tag_count; i++)
+        jox_free(world->tags[i]);
+    jox_pool_free(world->pool);
+    jox_free(world);
+}
+
+int jox_world_tag(JoWorld *world, const char *name) {
+    for (uint32_t i = 0; i < world->tag_count; i++)
+        if (strcmp(world->tags[i], name) == 0)
+            return (int)i;
+    if (world->tag_count == JOX_MOST_TAGS)
+        return -1;
+    world->tags[world->tag_count] = jox_strdup(name);
+    return (int)world->tag_count++;
+}
+
+void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count) {
+    free_places(world);
+    world->places = places;
+    world->place_count = count;
+}
+
+uint32_t jox_world_add_agent(JoWorld *world, float x, float y) {
+    if (world->settled)
+        world->first_unsettled = world->agents.next_id;
+    world->settled = false;
+    uint32_t i = jox_agents_add(&world->agents);
+    JoxAgents *a = &world->agents;
+    a->x[i] = a->prev_x[i] = a->still_x[i] = x;
+    a->y[i] = a->prev_y[i] = a->still_y[i] = y;
+    world->statistics.spawned++;
+    return i;
+}
+
+static void set_walls(JoWorld *world) {
+    if (world->walls_set || world->walls.count == 0)
+        return;
+    world->walls_set = true;
+    jox_nav_set_walls(world->nav, &world->walls);
+    jox_bodies_set_walls(world->bodies, &world->walls, JOX_WALL_HEIGHT);
+}
+
+JoxSettled jox_world_settle(JoWorld *world) {
+    JoxSettled settled = {0};
+    set_walls(world);
+    if (world->settled)
+        return settled;
+    settled = jox_nav_settle(world->nav, &world->agents, world->first_unsettled);
+    world->statistics.moved_out += settled.moved;
+    world->settled = true;
+    return settled;
+}
+
+/* Columns that carry state from one step to the next; the rest follows from them. */
+static void hash_agent(JoxHash *hash, const JoxAgents *a, uint32_t i) {
+    struct {
+        uint32_t id, machine_state, entered, was_true;
+        int32_t goal, kicked;
+        float numbers[13];
+    } row = {a->id[i],
+             (uint32_t)a->machine[i] << 16 | a->state[i],
+             a->entered[i],
+             a->was_true[i],
+             a->goal[i],
+             a->kicked[i],
+             {a->x[i], a->y[i], a->vx[i], a->vy[i], a->prev_x[i], a->prev_y[i], a->face_x[i],
+              a->face_y[i], a->inferred_x[i], a->inferred_y[i], a->lasts[i], a->still[i],
+              a->compression[i]}};
+    jox_hash_add(hash, &row, sizeof row);
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        jox_hash_add(hash, &a->param[p][i], sizeof(float));
+    if (a->own_stride)
+        jox_hash_add(hash, a->own + (size_t)i * a->own_stride, a->own_stride * sizeof(double));
+    if (a->memory_stride)
+        jox_hash_add(hash, a->memory + (size_t)i * a->memory_stride,
+                     a->memory_stride * sizeof(double));
+}
+
+uint64_t jox_world_hash(const JoWorld *world) {
+    JoxHash hash = jox_hash_begin();
+    jox_hash_add(&hash, &world->tick, sizeof world->tick);
+    const JoxAgents *a = &world->agents;
+    for (uint32_t id = 0; id < a->next_id; id++)
+        if (a->id_index[id] != JOX_NO_INDEX)
+            hash_agent(&hash, a, a->id_index[id]);
+    jox_bodies_hash(world->bodies, &hash);
+    return jox_hash_end(&hash);
+}
