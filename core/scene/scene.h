@@ -1,0 +1,146 @@
+/* Scenes: a YAML file becomes a plain description, from which the host builds a world.
+   Metres, seconds, kilograms; angles in radians. The format itself is the table in schema.c. */
+#ifndef JOX_SCENE_SCENE_H
+#define JOX_SCENE_SCENE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/diag.h"
+#include "base/random.h"
+#include "body/body.h"
+#include "geom/place.h"
+#include "geom/walls.h"
+
+typedef enum {
+    JOX_FILL_HEX,
+    JOX_FILL_GRID,
+    JOX_FILL_RANDOM,
+    JOX_FILL_CIRCLE,
+    JOX_FILL_AT
+} JoxFillMode;
+
+/* A parameter or own name that a group sets: a distribution of numbers, a place, or a rule. */
+typedef struct JoxSceneSet {
+    char *name;
+    enum { JOX_SET_NUMBER, JOX_SET_PLACE, JOX_SET_ANTIPODE } kind;
+    JoxDist dist;
+    int32_t place; /* index of places; JOX_SET_PLACE only */
+    JoxPosition position;
+} JoxSceneSet;
+
+typedef struct JoxSceneMix {
+    char *behaviour; /* the path as found on disk */
+    double weight;   /* share; the weights of a group sum to 1 */
+    JoxPosition position;
+} JoxSceneMix;
+
+/* Agents made alike: at the start (positions), or by a source. */
+typedef struct JoxSceneGroup {
+    char *name;
+    JoxPosition position;
+    JoxSceneMix *mix;
+    uint32_t mix_count;
+    JoxFillMode fill;
+    JoxV2 *positions; /* filled, from the scene's seed; none in a source */
+    uint32_t count;
+    float facing; /* rad, anti-clockwise from +x; NAN: not given */
+    JoxV2 centre; /* of a circle fill, and the mirror of `antipode` */
+    char *team;   /* or NULL */
+    char **tags;
+    uint32_t tag_count;
+    JoxSceneSet *set;
+    uint32_t set_count;
+    JoxSceneSet *memory; /* initial memory; numbers only */
+    uint32_t memory_count;
+} JoxSceneGroup;
+
+typedef struct JoxSceneSource {
+    uint32_t place;
+    double rate;         /* agents a second; 0: none by rate */
+    uint32_t keep;       /* top up to so many agents of `keep_group`; 0: no */
+    int32_t like;        /* index of the group whose agents are counted and copied, or -1 */
+    JoxSceneGroup group; /* used where `like` is -1 */
+    double from, until;  /* s; until INFINITY unless given */
+    JoxPosition position;
+} JoxSceneSource;
+
+typedef struct JoxSceneSink {
+    uint32_t place;
+    int32_t group; /* -1: everyone */
+} JoxSceneSink;
+
+typedef struct JoxSceneRegion {
+    char *name;
+    JoxV2 *points;
+    uint32_t count;
+} JoxSceneRegion;
+
+typedef struct JoxSceneBody {
+    JoxBodyDef def; /* tags are left 0: see `tags` */
+    char **tags;
+    uint32_t tag_count;
+    JoxPosition position;
+} JoxSceneBody;
+
+typedef struct JoxSceneFile {
+    char *path;
+    char sha256[65];
+} JoxSceneFile;
+
+typedef struct JoxScene {
+    char *path, *title;
+    uint64_t seed;
+    double step, duration, gravity; /* s, s, m/s2 */
+    bool bounded;
+    JoxV2 low, high; /* bounds */
+    JoxPlace *places;
+    uint32_t place_count;
+    JoxSceneRegion *regions;
+    uint32_t region_count;
+    JoxWalls walls;
+    JoxSceneBody *bodies;
+    uint32_t body_count;
+    JoxSceneGroup *groups;
+    uint32_t group_count;
+    JoxSceneSource *sources;
+    uint32_t source_count;
+    JoxSceneSink *sinks;
+    uint32_t sink_count;
+    int32_t player_group;  /* -1: none */
+    uint32_t player_agent; /* index within that group */
+    bool forces, literal;
+    struct {
+        double position[3], target[3];
+        bool given;
+    } camera;
+    struct {
+        uint32_t instructions; /* of Lua a step; 0: the host's default */
+        double memory;         /* MB; 0: the host's default */
+    } limits;
+    bool heatmap; /* the area was given */
+    JoxV2 heatmap_low, heatmap_high;
+    double heatmap_from; /* s; averages begin there */
+    JoxSceneFile *files; /* scene and included files */
+    uint32_t file_count;
+    void *memory; /* owns every text and array above but `walls` */
+} JoxScene;
+
+/* `sets` are "PATH=VALUE", as "groups.pilgrims.count=5000". */
+typedef struct JoxSceneOptions {
+    const char *const *sets;
+    uint32_t set_count;
+    const char *datadir; /* where installed behaviours/ lie; NULL: as built */
+} JoxSceneOptions;
+
+/* NULL when there are errors, all of them in `diagnostics`. `options` may be NULL. */
+JoxScene *jox_scene_load(const char *path, const JoxSceneOptions *options,
+                         JoxDiagnostics *diagnostics);
+/* The same from memory; `name` stands for the path, its folder is where files are looked for. */
+JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
+                              const JoxSceneOptions *options, JoxDiagnostics *diagnostics);
+void jox_scene_free(JoxScene *scene);
+/* Every key with type, unit, range, default and meaning, as plain text. */
+void jox_scene_print_reference(JoxText *out);
+
+#endif
