@@ -1,0 +1,165 @@
+/* What the stages of force share: scratch that grows to its peak and stays. */
+#ifndef JOX_FORCE_INTERNAL_H
+#define JOX_FORCE_INTERNAL_H
+
+#include "force/force.h"
+
+enum {
+    JOX_FORCE_GRAIN = 256,     /* agents of a chunk; each chunk writes lists of its own */
+    JOX_FORCE_MOST_TOUCHES = 4 /* bodies that one agent pushes or touches at a time */
+};
+
+/* A force that one agent gives another. */
+typedef struct JoxTransfer {
+    uint32_t to, from_id;
+    float x, y;
+} JoxTransfer;
+
+/* Two overlapping agents, the one of lesser id first; the normal points to it. */
+typedef struct JoxPair {
+    uint32_t first, second;
+    float nx, ny;
+    float bounce;  /* normal velocity wanted at the end, m/s, at least 0 */
+    float give;    /* inverse of the split mass of both, 1/kg */
+    float impulse; /* accumulated, N s */
+} JoxPair;
+
+/* An agent on a body; the normal points to the agent. A push on a body uses the normal's place
+   for its force. */
+typedef struct JoxTouch {
+    uint32_t agent, object;
+    JoxV2 normal;
+    JoxV3 point;
+    float bounce, give, impulse;
+} JoxTouch;
+
+/* An agent's end of a pair. */
+typedef struct JoxEnd {
+    uint32_t other_id;
+    uint32_t pair;
+} JoxEnd;
+
+/* An impulse on a body with the key that sorts it: agent id, then row, then when it was given. */
+typedef struct JoxOwed {
+    uint64_t key;
+    uint32_t turn;
+    JoxImpulse impulse;
+} JoxOwed;
+
+/* Lists written chunk by chunk: chunk c owns the items from c * room on. The memory is touched
+   only as far as it is used. */
+typedef struct JoxChunkList {
+    void *items;
+    uint32_t *counts;
+    uint32_t room; /* items of a chunk */
+    size_t capacity, chunk_capacity;
+} JoxChunkList;
+
+/* Coarse grid of the bodies that agents can touch. */
+typedef struct JoxBodyGrid {
+    JoxV2 low;
+    float cell;
+    uint32_t columns, rows; /* 0: no bodies */
+    uint32_t *starts;       /* per cell, and one more */
+    uint32_t *members;      /* rows of objects, ascending within a cell */
+    size_t start_capacity, member_capacity;
+} JoxBodyGrid;
+
+/* Velocity and spin of a body while contacts are solved. */
+typedef struct JoxBodyMotion {
+    JoxV3 velocity, spin;
+    uint32_t touches;
+} JoxBodyMotion;
+
+struct JoxForces {
+    JoxForceOptions options;
+    JoxForceStep step;
+    JoxForceTotals totals;
+    uint32_t chunks;
+
+    JoxChunkList transfers;
+    uint32_t *starts; /* per receiver, and one more */
+    size_t start_capacity;
+    JoxTransfer *sorted;
+    size_t sorted_capacity;
+
+    JoxChunkList pairs, touches;
+    JoxEnd *ends;
+    size_t end_capacity;
+    JoxTouch *touch; /* all touches, sorted by agent id, then row */
+    size_t touch_capacity;
+    uint32_t touch_count;
+    uint32_t *first_touch; /* per agent, valid where touch_number is not 0 */
+    uint8_t *touch_number;
+    size_t first_touch_capacity, touch_number_capacity;
+    JoxBodyMotion *motions; /* per row of objects */
+    size_t motion_capacity;
+    float *work_x, *work_y; /* velocities while contacts are solved */
+    size_t work_x_capacity, work_y_capacity;
+
+    JoxBodyGrid grid;
+    JoxOwed *owed;
+    size_t owed_capacity;
+    uint32_t owed_count, owed_sorted;
+    JoxImpulse *impulses;
+    size_t impulse_capacity;
+
+    float *old_x, *old_y; /* velocities that sum saw */
+    size_t old_x_capacity, old_y_capacity;
+
+    struct JoxForceChunk { /* totals of a chunk; momentum in 2^-20 N s, so that order is free */
+        uint32_t pushers, approaching;
+        int64_t ground_x, ground_y;
+    } * chunk;
+    size_t chunk_capacity;
+};
+
+/* Makes room for `room` items of `size` bytes in every chunk and empties the list. */
+void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t size);
+/* Sorts the transfers by receiver: those of agent i are sorted[starts[i]] to sorted[starts[i + 1]].
+   Returns how many there are; with none, nothing is written. */
+uint32_t jox_transfers_sort(JoxForces *forces);
+/* Adds the transfers of all agents, in ascending id of the giver, into two columns, and their
+   magnitudes, over the girth, into a third unless it is NULL. */
+void jox_transfers_sum(JoxForces *forces, float *x, float *y, float *squeeze);
+void jox_force_owe(JoxForces *forces, uint32_t agent_id, uint32_t object, JoxV3 impulse,
+                   JoxV3 point);
+
+/* Length of the agent's outline, over which forces are spread, m. */
+static inline float jox_girth(float radius) {
+    return 6.28318531f * radius;
+}
+
+void jox_body_grid_fill(JoxBodyGrid *grid, const JoxObjects *objects, float margin);
+/* Rows of the bodies whose bounding box is within the margin of a point: at least those. */
+static inline uint32_t jox_body_grid_near(const JoxBodyGrid *grid, float x, float y,
+                                          const uint32_t **members) {
+    if (!grid->columns)
+        return 0;
+    float u = (x - grid->low.x) / grid->cell, v = (y - grid->low.y) / grid->cell;
+    if (!(u >= 0.0f && v >= 0.0f && u < (float)grid->columns && v < (float)grid->rows))
+        return 0;
+    uint32_t at = (uint32_t)v * grid->columns + (uint32_t)u;
+    *members = grid->members + grid->starts[at];
+    return grid->starts[at + 1] - grid->starts[at];
+}
+
+typedef struct JoxFootprintPoint {
+    JoxV2 normal; /* unit, from the footprint to the point asked for */
+    JoxV2 point;  /* on the border */
+    float gap;    /* negative inside, m */
+} JoxFootprintPoint;
+
+/* Nearest point of a body's footprint. A point inside is led out by the nearest edge. */
+JoxFootprintPoint jox_footprint_nearest(const JoxObject *body, JoxV2 point);
+/* Height at which an agent meets a body: the chest's, kept within what the body covers. */
+float jox_touch_height(const JoxObject *body);
+
+/* Contacts with bodies, for the passes of jox_force_contact. */
+void jox_touches_find(JoxForces *forces, uint32_t begin, uint32_t end);
+void jox_touches_collect(JoxForces *forces);
+void jox_touches_settle(JoxForces *forces, bool literal);
+void jox_touches_pass(JoxForces *forces);
+void jox_touches_finish(JoxForces *forces);
+
+#endif

@@ -1,0 +1,170 @@
+/* Equation 5: deliberate pushes. */
+#include <math.h>
+
+#include "force/equations.h"
+#include "force/internal.h"
+
+typedef struct Target {
+    bool is_body;
+    uint32_t index;
+    JoxV2 offset; /* from the pusher */
+    JoxV3 point;  /* where a body is pushed */
+    float gap;
+} Target;
+
+enum { MOST_TARGETS = JOX_MOST_NEIGHBOURS + JOX_FORCE_MOST_TOUCHES };
+
+static JoxV2 aim_of(const JoxForceStep *step, uint32_t i) {
+    const JoxAgents *a = step->agents;
+    if (step->push_toward_x && step->push_toward_y) {
+        JoxV2 toward = jox_unit(jox_v2(step->push_toward_x[i], step->push_toward_y[i]));
+        if (toward.x != 0.0f || toward.y != 0.0f)
+            return toward;
+    }
+    return jox_unit(jox_v2(a->pref_x[i], a->pref_y[i]));
+}
+
+static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
+    const JoxAgents *a = f->step.agents;
+    const JoxNeighbours *near = f->step.neighbours;
+    const float *radius = a->param[JOX_PARAM_radius];
+    float cosine = a->param[JOX_PARAM_push_angle][i], reach = a->param[JOX_PARAM_push_reach][i];
+    uint64_t only = a->push_only[i];
+    uint32_t n = 0;
+    for (uint32_t k = 0; k < near->count[i]; k++) {
+        uint32_t other = near->index[jox_neighbour_at(near, i, k)];
+        JoxV2 offset = jox_v2(a->x[other] - a->x[i], a->y[other] - a->y[i]);
+        float most = reach + radius[i] + radius[other], d2 = jox_length2(offset);
+        if (!(d2 < most * most) || !jox_cone_holds(offset, aim, cosine))
+            continue;
+        if (only && !(a->tags[other] & only))
+            continue;
+        targets[n++] = (Target){
+            .index = other, .offset = offset, .gap = sqrtf(d2) - radius[i] - radius[other]};
+    }
+    return n;
+}
+
+static uint32_t bodies_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *targets) {
+    const JoxAgents *a = f->step.agents;
+    float radius = a->param[JOX_PARAM_radius][i], reach = a->param[JOX_PARAM_push_reach][i];
+    float cosine = a->param[JOX_PARAM_push_angle][i];
+    uint64_t only = a->push_only[i];
+    const uint32_t *members = NULL;
+    uint32_t count = jox_body_grid_near(&f->grid, a->x[i], a->y[i], &members), n = 0;
+    for (uint32_t m = 0; m < count && n < JOX_FORCE_MOST_TOUCHES; m++) {
+        const JoxObject *body = &f->step.objects->rows[members[m]];
+        if (only && !(body->tags & only))
+            continue;
+        JoxFootprintPoint at = jox_footprint_nearest(body, jox_v2(a->x[i], a->y[i]));
+        JoxV2 into = jox_scale(at.normal, -1.0f);
+        if (!(at.gap - radius < reach) || !jox_cone_holds(into, aim, cosine))
+            continue;
+        JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};
+        targets[n++] = (Target){true, members[m], into, point, at.gap - radius};
+    }
+    return n;
+}
+
+/* Only the nearest is left: of equals the first found, which is the one of least id. */
+static uint32_t keep_nearest(Target *targets, uint32_t n) {
+    uint32_t best = 0;
+    for (uint32_t k = 1; k < n; k++)
+        if (targets[k].gap < targets[best].gap)
+            best = k;
+    targets[0] = targets[best];
+    return 1;
+}
+
+static JoxV2 push_on(const JoxForces *f, uint32_t i, JoxV2 aim, const Target *target, uint32_t n) {
+    const JoxAgents *a = f->step.agents;
+    float newtons = a->param[JOX_PARAM_push][i];
+    JoxV2 offset = target->offset;
+    /* Printed, the push starts where the pusher will be, which may be beyond the one pushed. */
+    if (f->options.literal && !target->is_body)
+        offset = jox_sub(offset, jox_scale(jox_v2(a->vx[i], a->vy[i]), (float)f->step.dt));
+    if (offset.x == 0.0f && offset.y == 0.0f)
+        offset = aim; /* in the same place */
+    return jox_push_share(offset, newtons, n);
+}
+
+/* Pushes on bodies wait in the list of touches, which contacts use later in the step. */
+static void wait_for_body(JoxForces *f, uint32_t chunk, uint32_t i, const Target *target,
+                          JoxV2 force) {
+    JoxTouch *list = (JoxTouch *)f->touches.items + (size_t)chunk * f->touches.room;
+    list[f->touches.counts[chunk]++] =
+        (JoxTouch){.agent = i, .object = target->index, .normal = force, .point = target->point};
+}
+
+static int64_t to_fixed(double momentum) {
+    double scaled = momentum * 1048576.0;
+    return scaled > 1e14 ? (int64_t)1e14 : scaled > -1e14 ? (int64_t)scaled : (int64_t)-1e14;
+}
+
+static void push_by(JoxForces *f, uint32_t chunk, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    JoxV2 aim = aim_of(&f->step, i);
+    if (aim.x == 0.0f && aim.y == 0.0f)
+        return;
+    Target targets[MOST_TARGETS];
+    uint32_t n = people_ahead(f, i, aim, targets);
+    if (f->grid.columns)
+        n += bodies_ahead(f, i, aim, targets + n);
+    if (!n)
+        return;
+    if (f->step.push_nearest && f->step.push_nearest[i])
+        n = keep_nearest(targets, n);
+    JoxTransfer *list = (JoxTransfer *)f->transfers.items + (size_t)chunk * f->transfers.room;
+    JoxV2 sum = {0.0f, 0.0f};
+    for (uint32_t k = 0; k < n; k++) {
+        JoxV2 force = push_on(f, i, aim, &targets[k], n);
+        sum = jox_add(sum, force);
+        if (targets[k].is_body)
+            wait_for_body(f, chunk, i, &targets[k], force);
+        else
+            list[f->transfers.counts[chunk]++] =
+                (JoxTransfer){targets[k].index, a->id[i], force.x, force.y};
+    }
+    struct JoxForceChunk *totals = &f->chunk[chunk];
+    totals->pushers++;
+    if (f->options.react) {
+        list[f->transfers.counts[chunk]++] = (JoxTransfer){i, a->id[i], -sum.x, -sum.y};
+    } else {
+        totals->ground_x += to_fixed(sum.x * f->step.dt);
+        totals->ground_y += to_fixed(sum.y * f->step.dt);
+    }
+}
+
+static void push_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    const float *push = f->step.agents->param[JOX_PARAM_push];
+    const uint8_t *on = f->step.push_on;
+    for (uint32_t i = begin; i < end; i++)
+        if (push[i] > 0.0f && (!on || on[i]))
+            push_by(f, begin / JOX_FORCE_GRAIN, i);
+}
+
+void jox_force_push(JoxForces *f) {
+    JoxAgents *a = f->step.agents;
+    float dt = (float)f->step.dt;
+    uint32_t room = JOX_FORCE_GRAIN * (f->step.neighbours->stride + 1);
+    jox_chunks_begin(&f->transfers, f->chunks, room, sizeof(JoxTransfer));
+    jox_chunks_begin(&f->touches, f->chunks, JOX_FORCE_GRAIN * JOX_FORCE_MOST_TOUCHES,
+                     sizeof(JoxTouch));
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, push_chunk, f);
+    int64_t ground_x = 0, ground_y = 0;
+    for (uint32_t c = 0; c < f->chunks; c++) {
+        f->totals.pushers += f->chunk[c].pushers;
+        ground_x += f->chunk[c].ground_x;
+        ground_y += f->chunk[c].ground_y;
+        const JoxTouch *t = (const JoxTouch *)f->touches.items + (size_t)c * f->touches.room;
+        for (uint32_t k = 0; k < f->touches.counts[c]; k++)
+            jox_force_owe(f, a->id[t[k].agent], t[k].object,
+                          (JoxV3){t[k].normal.x * dt, t[k].normal.y * dt, 0.0f}, t[k].point);
+    }
+    f->totals.ground_x = (double)ground_x / 1048576.0;
+    f->totals.ground_y = (double)ground_y / 1048576.0;
+    if (jox_transfers_sort(f))
+        jox_transfers_sum(f, a->push_x, a->push_y, a->compression);
+}

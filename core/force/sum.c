@@ -1,0 +1,179 @@
+/* Equations 10 to 12, and what braced and slowing people pass on: equations 8 and 9. */
+#include <math.h>
+
+#include "force/equations.h"
+#include "force/internal.h"
+
+/* exp(-damping dt), computed once as long as the damping stays the same. */
+typedef struct Decay {
+    float damping, value;
+} Decay;
+
+static float decay_of(Decay *decay, float damping, double dt) {
+    if (damping != decay->damping)
+        *decay = (Decay){damping, (float)jox_exp(-(double)damping * dt)};
+    return decay->value;
+}
+
+/* The half-plane of the force and the disc it is solved in. */
+static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, float decay,
+                           float dt) {
+    float mass = a->param[JOX_PARAM_mass][i], most = a->param[JOX_PARAM_max_speed][i];
+    JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
+    JoxV2 forced = jox_forced_velocity(velocity, force, mass, decay, dt);
+    JoxV2 normal = jox_scale(force, 1.0f / size);
+    a->plane_x[i] = normal.x;
+    a->plane_y[i] = normal.y;
+    a->plane_offset[i] = jox_dot(forced, normal);
+    if (contact.x == 0.0f && contact.y == 0.0f)
+        return;
+    /* Being hit may carry someone faster than they can go; nothing else may. */
+    float hit = jox_length(jox_forced_velocity(velocity, contact, mass, decay, dt));
+    a->disc[i] = jox_maxf(most, jox_minf(hit, jox_length(forced)));
+}
+
+static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    JoxAgents *a = f->step.agents;
+    const float *mass = a->param[JOX_PARAM_mass], *damping = a->param[JOX_PARAM_damping];
+    Decay decay = {-1.0f, 0.0f};
+    for (uint32_t i = begin; i < end; i++) {
+        f->old_x[i] = a->vx[i];
+        f->old_y[i] = a->vy[i];
+        a->disc[i] = a->param[JOX_PARAM_max_speed][i];
+        a->plane_x[i] = a->plane_y[i] = a->plane_offset[i] = 0.0f;
+        JoxV2 force = {a->ext_x[i] + a->inferred_x[i] + a->push_x[i] + a->contact_x[i],
+                       a->ext_y[i] + a->inferred_y[i] + a->push_y[i] + a->contact_y[i]};
+        a->force_x[i] = force.x;
+        a->force_y[i] = force.y;
+        if (force.x == 0.0f && force.y == 0.0f)
+            continue;
+        float size = jox_length(force);
+        if (size >= f->options.least * mass[i] && isfinite(size))
+            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], f->step.dt),
+                           (float)f->step.dt);
+    }
+}
+
+void jox_force_sum(JoxForces *f) {
+    jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, sum_chunk, f);
+}
+
+/* Those in reach within the cone about `axis`: their indices, in the order of nearness. */
+static uint32_t in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t *found) {
+    const JoxAgents *a = f->step.agents;
+    const JoxNeighbours *near = f->step.neighbours;
+    const float *radius = a->param[JOX_PARAM_radius];
+    float cosine = a->param[JOX_PARAM_brace_angle][i];
+    uint32_t n = 0;
+    for (uint32_t k = 0; k < near->count[i]; k++) {
+        uint32_t other = near->index[jox_neighbour_at(near, i, k)];
+        JoxV2 offset = jox_v2(a->x[other] - a->x[i], a->y[other] - a->y[i]);
+        float most = radius[i] + radius[other] + f->options.reach;
+        if (!f->options.literal && jox_length2(offset) > most * most)
+            continue;
+        if (jox_cone_holds(offset, axis, cosine))
+            found[n++] = other;
+    }
+    return n;
+}
+
+static void give(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force) {
+    JoxTransfer *list = (JoxTransfer *)f->transfers.items + (size_t)chunk * f->transfers.room;
+    list[f->transfers.counts[chunk]++] = (JoxTransfer){to, f->step.agents->id[i], force.x, force.y};
+}
+
+/* (9) Someone under force who did not get as far as it would have taken them. */
+static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    JoxV2 unit = {a->plane_x[i], a->plane_y[i]};
+    float shortfall = jox_shortfall(jox_v2(a->vx[i], a->vy[i]), unit, a->plane_offset[i]);
+    float absorb = a->param[JOX_PARAM_absorb][i];
+    if (!(shortfall > 0.0f) || !(absorb > 0.0f))
+        return;
+    uint32_t found[JOX_MOST_NEIGHBOURS], n = in_cone(f, i, unit, found);
+    for (uint32_t k = 0; k < n; k++)
+        give(f, chunk, i, found[k],
+             jox_resistance(unit, shortfall, absorb, a->param[JOX_PARAM_mass][i], n,
+                            (float)f->step.dt));
+}
+
+/* (8) Someone under no force who slowed down. */
+static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    bool literal = f->options.literal;
+    float dt = (float)f->step.dt, mass = a->param[JOX_PARAM_mass][i];
+    float absorb = a->param[JOX_PARAM_absorb][i];
+    JoxV2 before = {f->old_x[i], f->old_y[i]}, after = {a->vx[i], a->vy[i]};
+    if (!(jox_length2(after) < jox_length2(before)) || !(absorb > 0.0f))
+        return;
+    JoxV2 change = jox_slowing(before, after, literal);
+    if (!(jox_length(change) * absorb >= f->options.least * dt))
+        return; /* no one would feel it */
+    /* Printed, the cone is about the new velocity, which a full stop leaves without direction. */
+    JoxV2 axis = jox_unit(literal ? after : before);
+    uint32_t found[JOX_MOST_NEIGHBOURS], n = 0;
+    if (axis.x != 0.0f || axis.y != 0.0f)
+        n = in_cone(f, i, axis, found);
+    for (uint32_t k = 0; k < n; k++)
+        give(f, chunk, i, found[k], jox_deceleration(change, absorb, mass, n, dt, literal));
+    if (n)
+        return;
+    JoxV2 own = jox_deceleration(change, absorb, mass, 1, dt, literal);
+    give(f, chunk, i, i, jox_keep_from_reversing(own, after, mass, dt));
+}
+
+static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    const JoxAgents *a = f->step.agents;
+    uint32_t chunk = begin / JOX_FORCE_GRAIN;
+    for (uint32_t i = begin; i < end; i++) {
+        if (a->plane_x[i] != 0.0f || a->plane_y[i] != 0.0f)
+            pass_resistance(f, chunk, i);
+        else if (f->old_x[i] != 0.0f || f->old_y[i] != 0.0f)
+            pass_deceleration(f, chunk, i);
+    }
+}
+
+static void fade_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    JoxAgents *a = f->step.agents;
+    float kept =
+        1.0f - (f->options.literal ? 1.0f : jox_filter_share(f->step.dt, f->options.filter));
+    for (uint32_t i = begin; i < end; i++) {
+        if (a->inferred_x[i] == 0.0f && a->inferred_y[i] == 0.0f)
+            continue;
+        a->inferred_x[i] *= kept;
+        a->inferred_y[i] *= kept;
+        /* What is left of a force after seconds is nothing, and slow to compute with. */
+        if (fabsf(a->inferred_x[i]) + fabsf(a->inferred_y[i]) < 1e-6f)
+            a->inferred_x[i] = a->inferred_y[i] = 0.0f;
+    }
+}
+
+static void scale_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    float share = f->options.literal ? 1.0f : jox_filter_share(f->step.dt, f->options.filter);
+    JoxTransfer *sorted = f->sorted;
+    for (uint32_t i = f->starts[begin]; i < f->starts[end]; i++) {
+        sorted[i].x *= share;
+        sorted[i].y *= share;
+    }
+}
+
+void jox_force_infer(JoxForces *f) {
+    JoxAgents *a = f->step.agents;
+    uint32_t room = JOX_FORCE_GRAIN * (f->step.neighbours->stride + 1);
+    jox_chunks_begin(&f->transfers, f->chunks, room, sizeof(JoxTransfer));
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, infer_chunk, f);
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, fade_chunk, f);
+    f->totals.passed = jox_transfers_sort(f);
+    if (!f->totals.passed)
+        return;
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, scale_chunk, f);
+    jox_transfers_sum(f, a->inferred_x, a->inferred_y, NULL);
+}
