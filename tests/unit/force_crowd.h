@@ -1,0 +1,113 @@
+/* A crowd with brute-force neighbours, for the tests of forces. */
+#ifndef TESTS_UNIT_FORCE_CROWD_H
+#define TESTS_UNIT_FORCE_CROWD_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "agents/agents.h"
+#include "agents/neighbours.h"
+#include "base/mem.h"
+#include "base/random.h"
+#include "force/equations.h"
+#include "force/force.h"
+
+typedef struct Crowd {
+    JoxAgents agents;
+    JoxNeighbours near;
+    JoxForces *forces;
+    JoxForceStep step;
+} Crowd;
+
+static inline uint32_t add_agent(Crowd *c, float x, float y, float vx, float vy) {
+    JoxAgents *a = &c->agents;
+    uint32_t i = jox_agents_add(a);
+    a->x[i] = x;
+    a->y[i] = y;
+    a->vx[i] = vx;
+    a->vy[i] = vy;
+    return i;
+}
+
+/* The k nearest within perception, nearest first, ties by id. */
+static inline void see(Crowd *c) {
+    JoxAgents *a = &c->agents;
+    JoxNeighbours *n = &c->near;
+    uint32_t room = (a->count + JOX_LANES - 1) / JOX_LANES * JOX_LANES;
+    if (room > n->agents) {
+        n->agents = room;
+        n->stride = JOX_MOST_NEIGHBOURS;
+        n->index = jox_realloc(n->index, (size_t)room * n->stride, sizeof *n->index);
+        n->distance2 = jox_realloc(n->distance2, (size_t)room * n->stride, sizeof(float));
+        n->count = jox_realloc(n->count, room, 1);
+    }
+    for (uint32_t i = 0; i < a->count; i++) {
+        uint32_t most = (uint32_t)a->param[JOX_PARAM_neighbours][i], count = 0;
+        float sight = a->param[JOX_PARAM_perception][i];
+        for (uint32_t k = 0; k < a->count; k++) {
+            float dx = a->x[k] - a->x[i], dy = a->y[k] - a->y[i], d2 = dx * dx + dy * dy;
+            if (k == i || d2 > sight * sight)
+                continue;
+            uint32_t at = count;
+            for (; at > 0; at--) {
+                size_t before = jox_neighbour_at(n, i, at - 1);
+                float e2 = n->distance2[before];
+                if (e2 < d2 || (e2 == d2 && a->id[n->index[before]] < a->id[k]))
+                    break;
+                if (at < most) {
+                    size_t here = jox_neighbour_at(n, i, at);
+                    n->index[here] = n->index[before];
+                    n->distance2[here] = e2;
+                }
+            }
+            if (at < most) {
+                n->index[jox_neighbour_at(n, i, at)] = k;
+                n->distance2[jox_neighbour_at(n, i, at)] = d2;
+            }
+            count += count < most;
+        }
+        n->count[i] = (uint8_t)count;
+    }
+}
+
+static inline void open_crowd(Crowd *c, double dt) {
+    *c = (Crowd){0};
+    c->forces = jox_forces_create(NULL);
+    c->step = (JoxForceStep){.agents = &c->agents, .neighbours = &c->near, .dt = dt};
+}
+
+static inline void set_literal(Crowd *c) {
+    JoxForceOptions options = jox_force_default_options();
+    options.literal = true;
+    jox_forces_set_options(c->forces, &options);
+}
+
+static inline void begin(Crowd *c) {
+    see(c);
+    jox_force_begin(c->forces, &c->step);
+}
+
+static inline void close_crowd(Crowd *c) {
+    jox_forces_free(c->forces);
+    jox_agents_free(&c->agents);
+    jox_free(c->near.index);
+    jox_free(c->near.distance2);
+    jox_free(c->near.count);
+}
+
+static inline void set_param(Crowd *c, uint32_t i, JoxParameter p, double value) {
+    c->agents.param[p][i] = jox_parameter_store(p, value);
+}
+
+static inline void assert_near(double value, double wanted, double within) {
+    if (!(fabs(value - wanted) <= within))
+        fail_msg("%.9g is not %.9g within %.3g", value, wanted, within);
+}
+
+#endif
