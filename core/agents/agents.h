@@ -58,10 +58,11 @@
     X(float, still)        /* seconds since it last moved 0.25 m */                                \
     X(float, still_x)      /* where that was */                                                    \
     X(float, still_y)                                                                              \
-    X(int32_t, kicked)     /* body kicked last step, or -1 */                                      \
-    X(uint64_t, ignore)    /* tags of agents and bodies that are not avoided */                    \
-    X(uint64_t, push_only) /* tags that are pushed; 0 means all */                                 \
-    X(int32_t, approach)   /* body index that is approached, not anticipated; -1 none */
+    X(int32_t, kicked)      /* body kicked last step, or -1 */                                     \
+    X(uint32_t, kick_ready) /* tick from which it may kick again */                                \
+    X(uint64_t, ignore)     /* tags of agents and bodies that are not avoided */                   \
+    X(uint64_t, push_only)  /* tags that are pushed; 0 means all */                                \
+    X(int32_t, approach)    /* body index that is approached, not anticipated; -1 none */
 
 #define JOX_NO_MACHINE UINT16_MAX
 

@@ -40,7 +40,8 @@ typedef enum JoxNow {
     X(OWN)    /* arg: own slot */                                                                  \
     X(MEMORY) /* arg: memory slot */                                                               \
     X(ADD)                                                                                         \
-    X(SUB) X(MUL) X(DIV)                             /* x / 0 is 0 */                              \
+    X(SUB)                                                                                         \
+    X(MUL) X(DIV)                                    /* x / 0 is 0 */                              \
         X(MIN) X(MAX) X(NEG) X(ABS) X(SQRT) X(CLAMP) /* a within [b, c] */                         \
         X(GT) X(GE) X(LT) X(LE) X(EQ) X(AND) X(OR) X(NOT)                                          \
             X(DISTANCE)  /* metres from the agent's centre to target; infinite when absent */      \

@@ -4,6 +4,7 @@
 
 #include "agents/agents.h"
 #include "agents/neighbours.h"
+#include "base/text.h"
 #include "geom/objects.h"
 #include "geom/place.h"
 #include "machine/machine.h"
@@ -59,7 +60,8 @@ typedef struct JoxMind {
     JoxImpulse *kicks; /* impulses on bodies, by agent id */
     uint32_t kick_count, kick_capacity;
 
-    /* What states say of pushing, per agent index, for the force stage; valid until the next think. */
+    /* What states say of pushing, per agent index, for the force stage; valid until the next think.
+     */
     uint8_t *push_on, *push_nearest;
     float *push_toward_x, *push_toward_y; /* unit direction; (0, 0): the preferred velocity's */
 
@@ -86,6 +88,8 @@ const char *jox_mind_refuses(const JoxMind *mind, uint32_t index, const JoxMachi
 /* Swaps machine `index` for `next` (taken over; the old one is returned, caller frees) and carries
    states by name (or `renamed`), memory and own values by name. Enter and exit hooks do not run. */
 JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, JoxMachine *next);
+/* Appends who went where by which transition, with the values of its condition at present. */
+void jox_mind_explain(const JoxMind *mind, const JoxTaken *taken, JoxText *out);
 void jox_mind_free(JoxMind *mind);
 
 #endif

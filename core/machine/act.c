@@ -1,0 +1,122 @@
+/* What states ask for besides a preferred velocity: parameters that are expressions, pushing,
+   approaching, kicking. */
+#include <string.h>
+
+#include "base/mem.h"
+#include "machine/internal.h"
+
+static const double KICK_PAUSE = 0.3; /* s between two kicks of one agent */
+
+static void write_programs(const JoxMind *mind, const JoxBatchRange *batch,
+                           JoxRegisters registers) {
+    const JoxMachine *machine = mind->machines[batch->machine];
+    const JoxState *state = &machine->states[batch->state];
+    const uint32_t *agents = mind->scratch->grouped + batch->begin;
+    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+        const JoxValue *value = jox_state_parameter(machine, state, p);
+        if (value->kind != JOX_VALUE_PROGRAM)
+            continue;
+        jox_eval(mind, machine, &machine->programs[value->index], agents, batch->count, registers);
+        for (uint32_t n = 0; n < batch->count; n++)
+            mind->agents->param[p][agents[n]] =
+                jox_parameter_store((JoxParameter)p, registers[0][n]);
+    }
+}
+
+static void write_pushing(const JoxMind *mind, const JoxBatchRange *batch, JoxRegisters registers) {
+    const JoxMachine *machine = mind->machines[batch->machine];
+    const JoxState *state = &machine->states[batch->state];
+    const uint32_t *agents = mind->scratch->grouped + batch->begin;
+    if (state->push_when >= 0)
+        jox_eval(mind, machine, &machine->programs[state->push_when], agents, batch->count,
+                 registers);
+    for (uint32_t n = 0; n < batch->count; n++) {
+        uint32_t i = agents[n];
+        mind->push_on[i] = state->push_when < 0 || registers[0][n] != 0.0;
+        mind->push_nearest[i] = state->push_nearest;
+        if (state->push_toward >= 0) {
+            JoxSpot spot = jox_target_find(mind, i, state->push_toward);
+            JoxV2 way = {spot.x - mind->agents->x[i], spot.y - mind->agents->y[i]};
+            way = spot.found ? jox_unit(way) : (JoxV2){0.0f, 0.0f};
+            mind->push_toward_x[i] = way.x;
+            mind->push_toward_y[i] = way.y;
+        }
+        mind->agents->approach[i] =
+            state->approach >= 0 ? jox_target_find(mind, i, state->approach).object : -1;
+    }
+}
+
+static void act_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    const JoxMind *mind = context;
+    for (uint32_t b = begin; b < end; b++) {
+        write_programs(mind, &mind->scratch->batches[b], mind->scratch->registers[worker]);
+        write_pushing(mind, &mind->scratch->batches[b], mind->scratch->registers[worker]);
+    }
+}
+
+/* The impulse of a kick: through the body's centre, level, towards kick_at or straight ahead. */
+static bool kick(JoxMind *mind, const JoxMachine *machine, const JoxState *state, uint32_t i) {
+    JoxAgents *a = mind->agents;
+    JoxSpot ball = jox_target_find(mind, i, state->kick);
+    if (ball.object < 0 || mind->tick < a->kick_ready[i] || jox_spot_gap(mind, i, &ball) >= 0.05f)
+        return false;
+    const JoxObject *object = &mind->objects->rows[ball.object];
+    if (!object->moves || !object->in_band)
+        return false;
+    JoxV2 way = {ball.x - a->x[i], ball.y - a->y[i]};
+    if (state->kick_at >= 0) {
+        JoxSpot at = jox_target_find(mind, i, state->kick_at);
+        if (!at.found)
+            return false;
+        way = (JoxV2){at.x - ball.x, at.y - ball.y};
+    }
+    way = jox_unit(way);
+    double change = jox_value(mind, machine, &state->kick_impulse, i);
+    if (!(change > 0.0) || jox_length2(way) == 0.0f)
+        return false;
+    float impulse = (float)(change < 50.0 ? change : 50.0) / object->inverse_mass;
+    JOX_RESERVE(mind->kicks, mind->kick_capacity, mind->kick_count + 1);
+    mind->kicks[mind->kick_count++] = (JoxImpulse){
+        (uint32_t)ball.object, {way.x * impulse, way.y * impulse, 0.0f}, object->position};
+    a->kicked[i] = ball.object;
+    a->kick_ready[i] = mind->tick + (uint32_t)(KICK_PAUSE / mind->dt + 0.5);
+    return true;
+}
+
+/* All kicks, by id of the kicker. */
+static void kick_all(JoxMind *mind) {
+    JoxAgents *a = mind->agents;
+    const JoxMindScratch *s = mind->scratch;
+    uint32_t last = 0;
+    for (;;) { /* few agents can kick: pick the next id among them */
+        uint32_t next = JOX_NO_INDEX;
+        for (uint32_t b = 0; b < s->batch_count; b++) {
+            const JoxBatchRange *batch = &s->batches[b];
+            if (mind->machines[batch->machine]->states[batch->state].kick < 0)
+                continue;
+            for (uint32_t n = 0; n < batch->count; n++) {
+                uint32_t id = a->id[s->grouped[batch->begin + n]];
+                next = id >= last && id < next ? id : next;
+            }
+        }
+        if (next == JOX_NO_INDEX)
+            return;
+        uint32_t i = a->id_index[next];
+        const JoxMachine *machine = jox_machine_of(mind, i);
+        kick(mind, machine, &machine->states[a->state[i]], i);
+        last = next + 1;
+    }
+}
+
+void jox_mind_act(JoxMind *mind, JoxPool *pool) {
+    JoxAgents *a = mind->agents;
+    memset(mind->push_on, 1, a->count);
+    memset(mind->push_nearest, 0, a->count);
+    memset(mind->push_toward_x, 0, a->count * sizeof(float));
+    memset(mind->push_toward_y, 0, a->count * sizeof(float));
+    for (uint32_t i = 0; i < a->count; i++)
+        a->kicked[i] = -1;
+    jox_parallel_for(pool, mind->scratch->batch_count, 1, act_range, mind);
+    if (mind->objects && mind->objects->count)
+        kick_all(mind);
+}

@@ -1,0 +1,212 @@
+/* Programs over batches: one dispatch per instruction for up to 256 agents. */
+#include <math.h>
+
+#include "machine/internal.h"
+
+static double now_of(const JoxMind *mind, uint32_t i, JoxNow what) {
+    const JoxAgents *a = mind->agents;
+    switch (what) {
+    case JOX_NOW_speed:
+        return jox_length((JoxV2){a->vx[i], a->vy[i]});
+    case JOX_NOW_x:
+        return a->x[i];
+    case JOX_NOW_y:
+        return a->y[i];
+    case JOX_NOW_density:
+        return a->density[i];
+    case JOX_NOW_headway:
+        return jox_headway(mind, i);
+    case JOX_NOW_pushed:
+        return jox_length((JoxV2){a->force_x[i], a->force_y[i]});
+    case JOX_NOW_compression:
+        return a->compression[i];
+    case JOX_NOW_contacts:
+        return a->contacts[i];
+    case JOX_NOW_neighbours:
+        return mind->neighbours->count[i];
+    case JOX_NOW_time_in_state:
+        return jox_time_in_state(mind, i);
+    case JOX_NOW_time:
+        return mind->tick * mind->dt;
+    case JOX_NOW_COUNT:
+        break;
+    }
+    return 0.0;
+}
+
+static double people_in(const JoxMind *mind, int32_t place) {
+    uint32_t people = mind->scratch->place_people[place];
+    return people == UINT32_MAX ? 0.0 : people;
+}
+
+/* Area over which a place's people are counted: the polygon's, else a disc of 2 m. */
+static double counted_area(const JoxPlace *place) {
+    return place->kind == JOX_PLACE_POLYGON ? jox_polygon_area(place->points, place->count)
+                                            : 4.0 * 3.14159265358979;
+}
+
+static bool is_inside(const JoxMind *mind, uint32_t i, const JoxInstruction *in) {
+    int32_t place = jox_target_place(mind, i, in->place);
+    JoxSpot spot = jox_target_find(mind, i, in->target);
+    return place >= 0 && spot.found &&
+           jox_place_contains(mind->places, (uint32_t)place, (JoxV2){spot.x, spot.y});
+}
+
+static bool crosses(const JoxMind *mind, uint32_t i, const JoxInstruction *in) {
+    const JoxAgents *a = mind->agents;
+    int32_t index = jox_target_place(mind, i, in->place);
+    if (index < 0 || mind->places[index].kind != JOX_PLACE_LINE)
+        return false;
+    const JoxPlace *line = &mind->places[index];
+    return jox_segment_crossing(line->points[0], line->points[1],
+                                (JoxV2){a->prev_x[i], a->prev_y[i]},
+                                (JoxV2){a->x[i], a->y[i]}) == 1;
+}
+
+/* Whether the spot, moving on evenly, comes within `reach` during the next 2 s. */
+static bool is_incoming(const JoxMind *mind, uint32_t i, const JoxSpot *spot, double reach) {
+    const JoxAgents *a = mind->agents;
+    if (!spot->found)
+        return false;
+    JoxV2 d = {spot->x - a->x[i], spot->y - a->y[i]};
+    JoxV2 v = {spot->vx - a->vx[i], spot->vy - a->vy[i]};
+    float speed2 = jox_length2(v);
+    if (speed2 < 0.01f || jox_dot(d, v) >= 0.0f)
+        return false;
+    float when = jox_clampf(-jox_dot(d, v) / speed2, 0.0f, 2.0f);
+    return jox_length(jox_add(d, jox_scale(v, when))) < (float)reach;
+}
+
+/* Words about something outside the agent; `a` is the first input. */
+static double sense(const JoxMind *mind, uint32_t i, const JoxInstruction *in, double a) {
+    int32_t place;
+    JoxSpot spot;
+    switch ((JoxOp)in->op) {
+    case JOX_OP_DISTANCE:
+        return jox_target_distance(mind, i, in->target);
+    case JOX_OP_PLACE_DENSITY:
+        place = jox_target_place(mind, i, in->place);
+        return place < 0 ? 0.0 : people_in(mind, place) / counted_area(&mind->places[place]);
+    case JOX_OP_PLACE_COUNT:
+        place = jox_target_place(mind, i, in->place);
+        return place < 0 ? 0.0 : people_in(mind, place);
+    case JOX_OP_INSIDE:
+        return is_inside(mind, i, in);
+    case JOX_OP_NEAR:
+        return jox_target_distance(mind, i, in->target) < a;
+    case JOX_OP_CROSSES:
+        return crosses(mind, i, in);
+    case JOX_OP_FIRST_IN:
+        return mind->scratch->rank[i] == 0;
+    case JOX_OP_TOUCHES:
+        spot = jox_target_find(mind, i, in->target);
+        return jox_spot_gap(mind, i, &spot) < 0.05f;
+    case JOX_OP_GROUNDED:
+        spot = jox_target_find(mind, i, in->target);
+        return spot.object >= 0 && mind->objects->rows[spot.object].grounded;
+    case JOX_OP_KICKED:
+        spot = jox_target_find(mind, i, in->target);
+        return spot.object >= 0 && mind->agents->kicked[i] == spot.object;
+    case JOX_OP_HIT_BY:
+        spot = jox_target_find(mind, i, in->target);
+        return jox_spot_gap(mind, i, &spot) < 0.1f && spot.vx * spot.vx + spot.vy * spot.vy > 1.0f;
+    case JOX_OP_INCOMING:
+        spot = jox_target_find(mind, i, in->target);
+        return is_incoming(mind, i, &spot, a);
+    case JOX_OP_SEES:
+        return jox_target_find(mind, i, in->target).found;
+    default:
+        return 0.0;
+    }
+}
+
+#define EACH(expression)                                                                           \
+    for (uint32_t n = 0; n < count; n++)                                                           \
+        to[n] = (expression);                                                                      \
+    break
+
+static void run(const JoxMind *mind, const JoxInstruction *in, const uint32_t *agents,
+                uint32_t count, JoxRegisters r) {
+    const JoxAgents *g = mind->agents;
+    double *to = r[in->to];
+    const double *a = r[in->a], *b = r[in->b], *c = r[in->c];
+    switch ((JoxOp)in->op) {
+    case JOX_OP_CONST:
+        EACH(in->number);
+    case JOX_OP_NOW:
+        EACH(now_of(mind, agents[n], (JoxNow)in->arg));
+    case JOX_OP_OWN:
+        EACH(g->own[(size_t)agents[n] * g->own_stride + (uint32_t)in->arg]);
+    case JOX_OP_MEMORY:
+        EACH(g->memory[(size_t)agents[n] * g->memory_stride + (uint32_t)in->arg]);
+    case JOX_OP_ADD:
+        EACH(a[n] + b[n]);
+    case JOX_OP_SUB:
+        EACH(a[n] - b[n]);
+    case JOX_OP_MUL:
+        EACH(a[n] * b[n]);
+    case JOX_OP_DIV:
+        EACH(b[n] == 0.0 ? 0.0 : a[n] / b[n]);
+    case JOX_OP_MIN:
+        EACH(a[n] < b[n] ? a[n] : b[n]);
+    case JOX_OP_MAX:
+        EACH(a[n] > b[n] ? a[n] : b[n]);
+    case JOX_OP_NEG:
+        EACH(-a[n]);
+    case JOX_OP_ABS:
+        EACH(fabs(a[n]));
+    case JOX_OP_SQRT:
+        EACH(a[n] > 0.0 ? sqrt(a[n]) : 0.0);
+    case JOX_OP_CLAMP:
+        EACH(a[n] < b[n] ? b[n] : a[n] > c[n] ? c[n] : a[n]);
+    case JOX_OP_GT:
+        EACH(a[n] > b[n]);
+    case JOX_OP_GE:
+        EACH(a[n] >= b[n]);
+    case JOX_OP_LT:
+        EACH(a[n] < b[n]);
+    case JOX_OP_LE:
+        EACH(a[n] <= b[n]);
+    case JOX_OP_EQ:
+        EACH(a[n] == b[n]);
+    case JOX_OP_AND:
+        EACH(a[n] != 0.0 && b[n] != 0.0);
+    case JOX_OP_OR:
+        EACH(a[n] != 0.0 || b[n] != 0.0);
+    case JOX_OP_NOT:
+        EACH(a[n] == 0.0);
+    case JOX_OP_AFTER:
+        EACH(jox_time_in_state(mind, agents[n]) >= a[n] - 1e-9);
+    case JOX_OP_LASTED:
+        EACH(jox_time_in_state(mind, agents[n]) >= g->lasts[agents[n]] - 1e-6);
+    case JOX_OP_STUCK:
+        EACH(g->still[agents[n]] >= a[n]);
+    default:
+        EACH(sense(mind, agents[n], in, a[n]));
+    }
+}
+
+void jox_eval(const JoxMind *mind, const JoxMachine *machine, const JoxProgram *program,
+              const uint32_t *agents, uint32_t count, JoxRegisters registers) {
+    (void)machine;
+    for (uint32_t i = 0; i < program->count; i++)
+        run(mind, &program->code[i], agents, count, registers);
+}
+
+double jox_value(const JoxMind *mind, const JoxMachine *machine, const JoxValue *value,
+                 uint32_t agent) {
+    switch (value->kind) {
+    case JOX_VALUE_CONST:
+        return value->number;
+    case JOX_VALUE_OWN:
+        return mind->agents->own[(size_t)agent * mind->agents->own_stride + (uint32_t)value->index];
+    case JOX_VALUE_PROGRAM: {
+        static _Thread_local JoxRegisters registers;
+        jox_eval(mind, machine, &machine->programs[value->index], &agent, 1, registers);
+        return registers[0][0];
+    }
+    case JOX_VALUE_UNSET:
+        break;
+    }
+    return 0.0;
+}

@@ -1,0 +1,50 @@
+/* Why a transition was taken, in words. */
+#include "machine/internal.h"
+
+static const char *const OPS[] = {
+#define X(name) #name,
+    JOX_OPS(X)
+#undef X
+};
+static const char *const NOWS[] = {
+#define X(name, unit, meaning) #name,
+    JOX_NOW(X)
+#undef X
+};
+
+/* One line per instruction: what it is, of what, and its value for the agent at present. */
+static void print_program(const JoxMind *mind, const JoxMachine *machine, const JoxProgram *program,
+                          uint32_t agent, JoxText *out) {
+    static _Thread_local JoxRegisters registers;
+    for (uint32_t k = 0; k < program->count; k++) {
+        const JoxInstruction *in = &program->code[k];
+        JoxProgram one = {(JoxInstruction *)in, 1};
+        jox_eval(mind, machine, &one, &agent, 1, registers);
+        jox_text_printf(out, "      r%u = %s", in->to, OPS[in->op]);
+        if (in->op == JOX_OP_NOW)
+            jox_text_printf(out, " %s", NOWS[in->arg]);
+        if (in->op == JOX_OP_OWN)
+            jox_text_printf(out, " %s", machine->own[in->arg].name);
+        if (in->op == JOX_OP_MEMORY)
+            jox_text_printf(out, " %s", machine->memory[in->arg].name);
+        if (in->target >= 0)
+            jox_text_printf(out, " %s", machine->targets[in->target].name);
+        if (in->place >= 0)
+            jox_text_printf(out, " in %s", machine->targets[in->place].name);
+        jox_text_printf(out, " -> %.6g\n", registers[in->to][0]);
+    }
+}
+
+void jox_mind_explain(const JoxMind *mind, const JoxTaken *taken, JoxText *out) {
+    const JoxMachine *machine = mind->machines[taken->machine];
+    const JoxTransition *t = &machine->states[taken->from].transitions[taken->transition];
+    jox_text_printf(out, "t=%.2f agent %u %s: %s -> %s (transition %u '%s', %s:%d)\n",
+                    mind->tick * mind->dt, taken->agent_id, machine->name,
+                    machine->states[taken->from].name, machine->states[taken->to].name,
+                    taken->transition + 1u, t->id, machine->path, t->line);
+    uint32_t agent = mind->agents->id_index[taken->agent_id];
+    if (t->when < 0 || agent == JOX_NO_INDEX)
+        return;
+    jox_text_add(out, "    its condition, as it stands now:\n");
+    print_program(mind, machine, &machine->programs[t->when], agent, out);
+}

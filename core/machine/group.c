@@ -1,0 +1,174 @@
+/* Scratch of the mind: agents grouped by state, ranks in queues, people counted in places. */
+#include <string.h>
+
+#include "base/mem.h"
+#include "machine/internal.h"
+
+static JoxMindScratch *scratch_of(JoxMind *mind) {
+    if (!mind->scratch)
+        mind->scratch = jox_alloc(1, sizeof *mind->scratch);
+    return mind->scratch;
+}
+
+static void reserve(JoxMind *mind, JoxPool *pool) {
+    JoxMindScratch *s = scratch_of(mind);
+    uint32_t workers = jox_pool_threads(pool);
+    if (workers > s->workers) {
+        s->registers = jox_realloc(s->registers, workers, sizeof *s->registers);
+        s->workers = workers;
+    }
+    if (mind->agents->count <= s->capacity)
+        return;
+    uint32_t n = s->capacity = mind->agents->count + mind->agents->count / 4 + 64;
+    s->grouped = jox_realloc(s->grouped, n, sizeof *s->grouped);
+    s->fired = jox_realloc(s->fired, n, sizeof *s->fired);
+    s->rank = jox_realloc(s->rank, n, sizeof *s->rank);
+    s->list = jox_realloc(s->list, n, sizeof *s->list);
+    mind->push_on = jox_realloc(mind->push_on, n, 1);
+    mind->push_nearest = jox_realloc(mind->push_nearest, n, 1);
+    mind->push_toward_x = jox_realloc(mind->push_toward_x, n, sizeof(float));
+    mind->push_toward_y = jox_realloc(mind->push_toward_y, n, sizeof(float));
+}
+
+void jox_mind_scratch_free(JoxMind *mind) {
+    JoxMindScratch *s = mind->scratch;
+    if (!s)
+        return;
+    jox_free(s->grouped);
+    jox_free(s->batches);
+    jox_free(s->state_first);
+    jox_free(s->fired);
+    jox_free(s->rank);
+    jox_free(s->list);
+    jox_free(s->pending);
+    jox_free(s->place_people);
+    jox_free(s->registers);
+    jox_free(s);
+    mind->scratch = NULL;
+}
+
+/* Number of a machine's first state in the list of all states. */
+static uint32_t first_state(const JoxMind *mind, uint32_t machine) {
+    uint32_t first = 0;
+    for (uint32_t m = 0; m < machine; m++)
+        first += mind->machines[m]->state_count;
+    return first;
+}
+
+static void add_batches(JoxMindScratch *s, uint16_t machine, uint16_t state, uint32_t begin,
+                        uint32_t end) {
+    for (; begin < end; begin += JOX_BATCH) {
+        JOX_RESERVE(s->batches, s->batch_capacity, s->batch_count + 1);
+        uint32_t left = end - begin;
+        s->batches[s->batch_count++] =
+            (JoxBatchRange){machine, state, begin, left < JOX_BATCH ? left : JOX_BATCH};
+    }
+}
+
+/* The queue a state stands in, or -1. */
+static int16_t queue_target(const JoxState *state) {
+    for (uint32_t t = 0; t < state->steer_count; t++)
+        if (state->steer[t].kind == JOX_STEER_QUEUE)
+            return state->steer[t].target;
+    return -1;
+}
+
+static bool stands_before(const JoxAgents *a, uint32_t i, uint32_t j) {
+    return a->entered[i] < a->entered[j] || (a->entered[i] == a->entered[j] && a->id[i] < a->id[j]);
+}
+
+/* Ranks those who queue, first come first served. Queues are short, so each of their agents counts
+   those of the same queue who stand before it. */
+static void rank_queues(JoxMind *mind) {
+    JoxMindScratch *s = mind->scratch;
+    const JoxAgents *a = mind->agents;
+    s->list_count = 0;
+    for (uint32_t b = 0; b < s->batch_count; b++) {
+        const JoxBatchRange *batch = &s->batches[b];
+        if (queue_target(&mind->machines[batch->machine]->states[batch->state]) < 0)
+            continue;
+        for (uint32_t n = 0; n < batch->count; n++)
+            s->list[s->list_count++] = s->grouped[batch->begin + n];
+    }
+    for (uint32_t n = 0; n < s->list_count; n++) {
+        uint32_t i = s->list[n], rank = 0;
+        int16_t target = queue_target(&jox_machine_of(mind, i)->states[a->state[i]]);
+        int32_t place = jox_target_place(mind, i, target);
+        for (uint32_t m = 0; m < s->list_count; m++) {
+            uint32_t j = s->list[m];
+            int16_t other = queue_target(&jox_machine_of(mind, j)->states[a->state[j]]);
+            rank += j != i && jox_target_place(mind, j, other) == place && stands_before(a, j, i);
+        }
+        s->rank[i] = rank;
+    }
+}
+
+void jox_mind_group(JoxMind *mind, JoxPool *pool) {
+    reserve(mind, pool);
+    JoxMindScratch *s = mind->scratch;
+    const JoxAgents *a = mind->agents;
+    uint32_t states = first_state(mind, mind->machine_count);
+    if (states + 1 > s->state_capacity) {
+        s->state_capacity = states + 65;
+        s->state_first = jox_realloc(s->state_first, s->state_capacity, sizeof *s->state_first);
+    }
+    memset(s->state_first, 0, (states + 1) * sizeof *s->state_first);
+    memset(s->rank, 0xff, a->count * sizeof *s->rank);
+    uint32_t *first = s->state_first, bases[64];
+    for (uint32_t m = 0; m < mind->machine_count && m < 64; m++)
+        bases[m] = first_state(mind, m);
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->machine[i] != JOX_NO_MACHINE)
+            first[bases[a->machine[i]] + a->state[i] + 1]++;
+    for (uint32_t k = 0; k < states; k++)
+        first[k + 1] += first[k];
+    s->batch_count = 0;
+    for (uint32_t m = 0; m < mind->machine_count; m++)
+        for (uint32_t k = 0; k < mind->machines[m]->state_count; k++)
+            add_batches(s, (uint16_t)m, (uint16_t)k, first[bases[m] + k], first[bases[m] + k + 1]);
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->machine[i] != JOX_NO_MACHINE)
+            s->grouped[first[bases[a->machine[i]] + a->state[i]]++] = i;
+    rank_queues(mind);
+}
+
+/* Marks the places whose people some program asks for. */
+static void mark_asked(JoxMind *mind) {
+    JoxMindScratch *s = mind->scratch;
+    if (mind->place_count > s->place_capacity) {
+        s->place_capacity = mind->place_count + 16;
+        s->place_people = jox_realloc(s->place_people, s->place_capacity, sizeof(uint32_t));
+    }
+    for (uint32_t p = 0; p < mind->place_count; p++)
+        s->place_people[p] = UINT32_MAX;
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        const JoxMachine *machine = mind->machines[m];
+        for (uint32_t p = 0; p < machine->program_count; p++)
+            for (uint32_t i = 0; i < machine->programs[p].count; i++) {
+                const JoxInstruction *in = &machine->programs[p].code[i];
+                if (in->op != JOX_OP_PLACE_DENSITY && in->op != JOX_OP_PLACE_COUNT)
+                    continue;
+                const JoxTarget *target = &machine->targets[in->place];
+                for (uint32_t q = 0; q < mind->place_count;
+                     q++) /* a place of an agent's own may be any */
+                    if (target->kind != JOX_TARGET_PLACE || target->arg == (int32_t)q)
+                        s->place_people[q] = 0;
+            }
+    }
+}
+
+void jox_mind_count_places(JoxMind *mind) {
+    mark_asked(mind);
+    const JoxAgents *a = mind->agents;
+    for (uint32_t p = 0; p < mind->place_count; p++) {
+        uint32_t *people = &mind->scratch->place_people[p];
+        const JoxPlace *place = &mind->places[p];
+        for (uint32_t i = 0; *people != UINT32_MAX && i < a->count; i++) {
+            JoxV2 at = {a->x[i], a->y[i]};
+            if (place->kind == JOX_PLACE_POLYGON)
+                *people += jox_polygon_contains(place->points, place->count, at);
+            else
+                *people += jox_place_distance(mind->places, p, at) <= 2.0f;
+        }
+    }
+}

@@ -1,0 +1,83 @@
+/* What the files of machine share. */
+#ifndef JOX_MACHINE_INTERNAL_H
+#define JOX_MACHINE_INTERNAL_H
+
+#include "machine/mind.h"
+
+enum { JOX_BATCH = 256 };
+
+/* Agents of one state of one machine, at most a batch, in ascending index. */
+typedef struct JoxBatchRange {
+    uint16_t machine, state;
+    uint32_t begin, count; /* in grouped */
+} JoxBatchRange;
+
+typedef double JoxRegisters[JOX_MOST_REGISTERS][JOX_BATCH];
+
+typedef struct JoxMindScratch {
+    uint32_t capacity;
+    uint32_t *grouped; /* indices of agents by machine and state */
+    JoxBatchRange *batches;
+    uint32_t batch_count, batch_capacity;
+    uint32_t *state_first; /* per state of all machines */
+    uint32_t state_capacity;
+    int16_t *fired; /* per agent: transition to take, -1 none */
+    uint32_t *rank; /* per agent: place in the queue it stands in */
+    uint32_t *list; /* agents that take something, by id */
+    uint32_t list_count;
+    uint32_t *pending; /* ids whose on_enter has yet to run, ascending */
+    uint32_t pending_count, pending_capacity;
+    uint32_t *place_people; /* per place; UINT32_MAX: nobody asked */
+    uint32_t place_capacity;
+    JoxRegisters *registers; /* one set per worker */
+    uint32_t workers;
+} JoxMindScratch;
+
+/* Something a target resolves to. */
+typedef struct JoxSpot {
+    bool found;
+    float x, y, z, vx, vy, radius;
+    int32_t place, object; /* index of what it is, or -1 */
+    uint32_t agent;        /* JOX_NO_INDEX if none */
+} JoxSpot;
+
+static inline const JoxMachine *jox_machine_of(const JoxMind *mind, uint32_t agent) {
+    return mind->machines[mind->agents->machine[agent]];
+}
+static inline double jox_time_in_state(const JoxMind *mind, uint32_t agent) {
+    return (double)(mind->tick - mind->agents->entered[agent]) * mind->dt;
+}
+
+/* Resolves target `index` of the agent's machine; index -1 is the agent itself. */
+JoxSpot jox_target_find(const JoxMind *mind, uint32_t agent, int32_t index);
+/* The place a target names for this agent, or -1. */
+int32_t jox_target_place(const JoxMind *mind, uint32_t agent, int32_t index);
+/* Gap between the agent's disc and a spot, m. */
+float jox_spot_gap(const JoxMind *mind, uint32_t agent, const JoxSpot *spot);
+/* Distance from the agent's centre to a target, INFINITY if absent. */
+float jox_target_distance(const JoxMind *mind, uint32_t agent, int32_t index);
+/* Free distance ahead, m. */
+float jox_headway(const JoxMind *mind, uint32_t agent);
+
+/* Runs a program over `count` agents of one machine; results in registers[0]. */
+void jox_eval(const JoxMind *mind, const JoxMachine *machine, const JoxProgram *program,
+              const uint32_t *agents, uint32_t count, JoxRegisters registers);
+/* One agent's value: a constant, its own, or a program. */
+double jox_value(const JoxMind *mind, const JoxMachine *machine, const JoxValue *value,
+                 uint32_t agent);
+
+/* Grows the scratch and groups agents by state; ranks the queues. */
+void jox_mind_group(JoxMind *mind, JoxPool *pool);
+void jox_mind_count_places(JoxMind *mind);
+void jox_mind_scratch_free(JoxMind *mind);
+/* Enters a state: clock, duration, goal, constant parameters. Hooks are the caller's. */
+void jox_mind_enter(JoxMind *mind, uint32_t agent, uint16_t state);
+/* Writes the parameters that are constant or own values in the agent's present state. */
+void jox_mind_write_parameters(JoxMind *mind, uint32_t agent);
+/* The parameter as the state, else the machine, sets it; UNSET if neither does. */
+const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *state,
+                                    int parameter);
+/* Parameters that are programs, pushing, approach and kicks, after the transitions. */
+void jox_mind_act(JoxMind *mind, JoxPool *pool);
+
+#endif

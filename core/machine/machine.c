@@ -1,0 +1,48 @@
+#include "machine/machine.h"
+
+#include <string.h>
+
+#include "base/mem.h"
+
+int jox_machine_state(const JoxMachine *machine, const char *name) {
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        if (strcmp(machine->states[s].name, name) == 0)
+            return (int)s;
+    return -1;
+}
+
+static void free_state(JoxState *state) {
+    jox_free(state->name);
+    for (uint32_t t = 0; t < state->transition_count; t++)
+        jox_free(state->transitions[t].id);
+    jox_free(state->transitions);
+}
+
+void jox_machine_free(JoxMachine *m) {
+    if (!m)
+        return;
+    for (uint32_t s = 0; s < m->state_count; s++)
+        free_state(&m->states[s]);
+    for (uint32_t p = 0; p < m->program_count; p++)
+        jox_free(m->programs[p].code);
+    for (uint32_t t = 0; t < m->target_count; t++)
+        jox_free(m->targets[t].name);
+    for (uint32_t o = 0; o < m->own_count; o++)
+        jox_free(m->own[o].name);
+    for (uint32_t n = 0; n < m->memory_count; n++)
+        jox_free(m->memory[n].name);
+    for (uint32_t r = 0; r < m->renamed_count; r++) {
+        jox_free(m->renamed[r].from);
+        jox_free(m->renamed[r].to);
+    }
+    jox_free(m->states);
+    jox_free(m->programs);
+    jox_free(m->targets);
+    jox_free(m->own);
+    jox_free(m->memory);
+    jox_free(m->counters);
+    jox_free(m->renamed);
+    jox_free(m->name);
+    jox_free(m->path);
+    jox_free(m);
+}

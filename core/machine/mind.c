@@ -1,0 +1,154 @@
+/* Adding, spawning and replacing machines. */
+#include "machine/mind.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "machine/internal.h"
+
+uint32_t jox_mind_add(JoxMind *mind, JoxMachine *machine) {
+    JOX_RESERVE(mind->machines, mind->machine_capacity, mind->machine_count + 1);
+    mind->machines[mind->machine_count] = machine;
+    jox_agents_widen(mind->agents, machine->own_count, machine->memory_count);
+    return mind->machine_count++;
+}
+
+static void draw_own(const JoxMind *mind, uint32_t i, uint32_t slot, const JoxDist *dist) {
+    const JoxAgents *a = mind->agents;
+    a->own[(size_t)i * a->own_stride + slot] =
+        jox_dist_draw(dist, mind->seed, a->id[i], 0, JOX_DRAW_OWN, slot);
+}
+
+void jox_mind_spawn(JoxMind *mind, uint32_t i, uint32_t index, const JoxDist *const *own,
+                    const JoxDist *const *memory) {
+    JoxAgents *a = mind->agents;
+    const JoxMachine *machine = mind->machines[index];
+    a->machine[i] = (uint16_t)index;
+    for (uint32_t s = 0; s < machine->own_count; s++)
+        draw_own(mind, i, s, own && own[s] ? own[s] : &machine->own[s].dist);
+    for (uint32_t s = 0; s < machine->memory_count; s++) {
+        double value = machine->memory[s].initial;
+        if (memory && memory[s])
+            value = jox_dist_draw(memory[s], mind->seed, a->id[i], 0, JOX_DRAW_MEMORY, s);
+        a->memory[(size_t)i * a->memory_stride + s] = value;
+    }
+    jox_mind_enter(mind, i, machine->start);
+    if (machine->states[machine->start].on_enter < 0)
+        return;
+    if (!mind->scratch)
+        mind->scratch = jox_alloc(1, sizeof *mind->scratch);
+    JoxMindScratch *s = mind->scratch;
+    JOX_RESERVE(s->pending, s->pending_capacity, s->pending_count + 1);
+    s->pending[s->pending_count++] = a->id[i];
+}
+
+/* The state of `next` that continues `name`, or -1. */
+static int continued(const JoxMachine *next, const char *name) {
+    int state = jox_machine_state(next, name);
+    for (uint32_t r = 0; state < 0 && r < next->renamed_count; r++)
+        if (strcmp(next->renamed[r].from, name) == 0)
+            state = jox_machine_state(next, next->renamed[r].to);
+    return state;
+}
+
+const char *jox_mind_refuses(const JoxMind *mind, uint32_t index, const JoxMachine *next, char *why,
+                             uint32_t size) {
+    const JoxMachine *old = mind->machines[index];
+    const JoxAgents *a = mind->agents;
+    for (uint32_t s = 0; s < old->state_count; s++) {
+        if (continued(next, old->states[s].name) >= 0)
+            continue;
+        uint32_t people = 0;
+        for (uint32_t i = 0; i < a->count; i++)
+            people += a->machine[i] == index && a->state[i] == s;
+        if (people == 0)
+            continue;
+        snprintf(why, size, "%u agent%s in '%s', which this version lacks (see `renamed`)", people,
+                 people == 1 ? " is" : "s are", old->states[s].name);
+        return why;
+    }
+    return NULL;
+}
+
+/* The n-th slot called `name` of a row of names, or -1. */
+static int nth_named(const char *name, uint32_t nth, uint32_t count, const JoxOwnSlot *own,
+                     const JoxMemorySlot *memory) {
+    for (uint32_t s = 0; s < count; s++)
+        if (strcmp(own ? own[s].name : memory[s].name, name) == 0 && nth-- == 0)
+            return (int)s;
+    return -1;
+}
+
+static uint32_t how_manyth(uint32_t slot, const JoxOwnSlot *own, const JoxMemorySlot *memory) {
+    uint32_t nth = 0;
+    for (uint32_t s = 0; s < slot; s++)
+        nth += strcmp(own ? own[s].name : memory[s].name,
+                      own ? own[slot].name : memory[slot].name) == 0;
+    return nth;
+}
+
+static void carry_values(JoxMind *mind, const JoxMachine *old, const JoxMachine *next, uint32_t i) {
+    JoxAgents *a = mind->agents;
+    double *own = a->own + (size_t)i * a->own_stride, before[256];
+    double *memory = a->memory + (size_t)i * a->memory_stride;
+    memcpy(before, own, (old->own_count < 256 ? old->own_count : 256) * sizeof *before);
+    for (uint32_t s = 0; s < next->own_count; s++) {
+        int from = nth_named(next->own[s].name, how_manyth(s, next->own, NULL), old->own_count,
+                             old->own, NULL);
+        if (from >= 0 && from < 256)
+            own[s] = before[from];
+        else
+            draw_own(mind, i, s, &next->own[s].dist);
+    }
+    memcpy(before, memory, (old->memory_count < 256 ? old->memory_count : 256) * sizeof *before);
+    for (uint32_t s = 0; s < next->memory_count; s++) {
+        int from = nth_named(next->memory[s].name, how_manyth(s, NULL, next->memory),
+                             old->memory_count, NULL, old->memory);
+        bool same = from >= 0 && from < 256 && old->memory[from].kind == next->memory[s].kind;
+        memory[s] = same ? before[from] : next->memory[s].initial;
+    }
+}
+
+/* Which of the new state's conditions held last step: by the transitions' ids. */
+static uint32_t carry_truth(const JoxState *old, const JoxState *next, uint32_t was) {
+    uint32_t result = 0;
+    for (uint32_t k = 0; k < next->transition_count; k++)
+        for (uint32_t o = 0; o < old->transition_count; o++)
+            if (strcmp(old->transitions[o].id, next->transitions[k].id) == 0)
+                result |= (was >> o & 1) << k;
+    return result;
+}
+
+JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, JoxMachine *next) {
+    JoxMachine *old = mind->machines[index];
+    JoxAgents *a = mind->agents;
+    jox_agents_widen(a, next->own_count, next->memory_count);
+    mind->machines[index] = next;
+    next->version = old->version + 1;
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (a->machine[i] != index)
+            continue;
+        const JoxState *was = &old->states[a->state[i]];
+        int state = continued(next, was->name);
+        a->state[i] = state >= 0 ? (uint16_t)state : next->start;
+        a->was_true[i] = carry_truth(was, &next->states[a->state[i]], a->was_true[i]);
+        carry_values(mind, old, next, i);
+        jox_mind_write_parameters(mind, i);
+    }
+    return old;
+}
+
+void jox_mind_free(JoxMind *mind) {
+    for (uint32_t m = 0; m < mind->machine_count; m++)
+        jox_machine_free(mind->machines[m]);
+    jox_free(mind->machines);
+    jox_free(mind->taken);
+    jox_free(mind->kicks);
+    jox_free(mind->push_on);
+    jox_free(mind->push_nearest);
+    jox_free(mind->push_toward_x);
+    jox_free(mind->push_toward_y);
+    jox_mind_scratch_free(mind);
+}

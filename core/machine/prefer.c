@@ -1,0 +1,242 @@
+/* The stage prefer: the velocity that the state's steering asks for, and where the agent looks. */
+#include <math.h>
+
+#include "machine/internal.h"
+
+static const float SLOWING = 0.5f; /* s: who arrives slows to stop within this time */
+
+/* Full speed towards a point, less when it is near. */
+static JoxV2 arrive(JoxV2 from, JoxV2 to, float speed) {
+    JoxV2 way = jox_sub(to, from);
+    float distance = jox_length(way);
+    if (distance < 1e-4f)
+        return (JoxV2){0.0f, 0.0f};
+    float share = speed > 0.0f ? jox_minf(1.0f, distance / (speed * SLOWING)) : 1.0f;
+    return jox_scale(way, share / distance);
+}
+
+/* Where on a place an agent aims: across a line at a point of its own, else the nearest point. */
+static JoxV2 aim(const JoxMind *mind, uint32_t i, const JoxSpot *spot) {
+    const JoxPlace *place = &mind->places[spot->place];
+    if (place->kind != JOX_PLACE_LINE)
+        return (JoxV2){spot->x, spot->y};
+    double u =
+        jox_random_unit(mind->seed, mind->agents->id[i], (uint64_t)spot->place, JOX_DRAW_AIM, 0);
+    float t = 0.1f + 0.8f * (float)u;
+    return jox_add(place->points[0], jox_scale(jox_sub(place->points[1], place->points[0]), t));
+}
+
+static JoxV2 seek(const JoxMind *mind, uint32_t i, int32_t target) {
+    const JoxAgents *a = mind->agents;
+    JoxV2 from = {a->x[i], a->y[i]};
+    JoxSpot spot = jox_target_find(mind, i, target);
+    if (!spot.found)
+        return (JoxV2){0.0f, 0.0f};
+    if (spot.place < 0) /* something that moves is run at, not arrived at */
+        return jox_unit(jox_sub((JoxV2){spot.x, spot.y}, from));
+    const JoxPlace *place = &mind->places[spot.place];
+    JoxV2 to = aim(mind, i, &spot);
+    if (place->kind == JOX_PLACE_LINE) /* lines are passed, not stopped at */
+        return jox_unit(jox_sub(to, from));
+    if (jox_place_contains(mind->places, (uint32_t)spot.place, from))
+        return place->kind == JOX_PLACE_POINT
+                   ? arrive(from, place->centre, a->param[JOX_PARAM_speed][i])
+                   : (JoxV2){0.0f, 0.0f};
+    return place->kind == JOX_PLACE_POLYGON ? jox_unit(jox_sub(to, from))
+                                            : arrive(from, to, a->param[JOX_PARAM_speed][i]);
+}
+
+/* Round a solid, counter-clockwise: T - w N with N outward from the stadium about it. The inward
+   weight w makes the density follow a profile that falls from the wall outwards. */
+static JoxV2 orbit(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = mind->agents;
+    int32_t index = jox_target_place(mind, i, term->target);
+    if (index < 0)
+        return (JoxV2){0.0f, 0.0f};
+    const JoxPlace *place = &mind->places[index];
+    JoxV2 p = {a->x[i], a->y[i]};
+    JoxV2 out = jox_sub(p, jox_segment_nearest(place->axis_a, place->axis_b, p));
+    float distance = jox_length(out) - place->axis_radius;
+    JoxV2 normal = jox_unit(out);
+    const double *o = term->args;
+    float share = jox_clampf(distance / (float)o[JOX_ORBIT_FAR], 0.0f, 1.0f);
+    float wanted = (float)(o[JOX_ORBIT_DENSITY_NEAR] +
+                           (o[JOX_ORBIT_DENSITY_FAR] - o[JOX_ORBIT_DENSITY_NEAR]) * share);
+    float inward = (float)o[JOX_ORBIT_INWARD] * jox_clampf(wanted - a->density[i], -0.1f, 1.0f);
+    if (distance > (float)o[JOX_ORBIT_RETURN])
+        inward = 0.6f;
+    return jox_unit(jox_sub(jox_left(normal), jox_scale(normal, inward)));
+}
+
+static JoxV2 queue(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = mind->agents;
+    int32_t index = jox_target_place(mind, i, term->target);
+    uint32_t rank = mind->scratch->rank[i];
+    if (index < 0 || rank == UINT32_MAX || mind->places[index].kind != JOX_PLACE_QUEUE)
+        return seek(mind, i, term->target);
+    const JoxPlace *place = &mind->places[index];
+    JoxV2 spot = jox_place_queue_point(place, (float)rank * place->spacing);
+    return arrive((JoxV2){a->x[i], a->y[i]}, spot, a->param[JOX_PARAM_speed][i]);
+}
+
+static JoxV2 along(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
+    int32_t index = jox_target_place(mind, i, term->target);
+    if (index < 0 || mind->places[index].count < 2)
+        return (JoxV2){0.0f, 0.0f};
+    const JoxPlace *place = &mind->places[index];
+    JoxV2 p = {mind->agents->x[i], mind->agents->y[i]}, best = {0.0f, 0.0f};
+    float least = INFINITY;
+    for (uint32_t k = 0; k + 1 < place->count; k++) {
+        JoxV2 a = place->points[k], b = place->points[k + 1];
+        float d2 = jox_length2(jox_sub(p, jox_segment_nearest(a, b, p)));
+        if (d2 < least) {
+            least = d2;
+            best = jox_unit(place->kind == JOX_PLACE_QUEUE ? jox_sub(a, b) : jox_sub(b, a));
+        }
+    }
+    return best;
+}
+
+static JoxV2 spread(const JoxMind *mind, uint32_t i) {
+    const JoxAgents *a = mind->agents;
+    JoxV2 sum = {0.0f, 0.0f};
+    uint32_t count = mind->neighbours->count[i];
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t j = mind->neighbours->index[jox_neighbour_at(mind->neighbours, i, k)];
+        sum = jox_add(sum, (JoxV2){a->x[i] - a->x[j], a->y[i] - a->y[j]});
+    }
+    return jox_unit(sum);
+}
+
+static JoxV2 follow(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = mind->agents;
+    JoxSpot spot = jox_target_find(mind, i, term->target);
+    JoxV2 from = {a->x[i], a->y[i]}, to = {spot.x, spot.y};
+    if (!spot.found)
+        return (JoxV2){0.0f, 0.0f};
+    JoxV2 behind = jox_scale(jox_unit(jox_sub(from, to)), (float)term->args[0]);
+    return arrive(from, jox_add(to, behind), a->param[JOX_PARAM_speed][i]);
+}
+
+static JoxV2 player(const JoxMind *mind, uint32_t i) {
+    float speed = jox_maxf(mind->agents->param[JOX_PARAM_speed][i], 1e-3f);
+    for (uint32_t k = 0; k < mind->input_count; k++)
+        if (mind->inputs[k].agent_id == mind->agents->id[i])
+            return jox_scale((JoxV2){mind->inputs[k].vx, mind->inputs[k].vy}, 1.0f / speed);
+    return (JoxV2){0.0f, 0.0f};
+}
+
+/* Direction of one term, of length at most 1: a share of the wanted speed. */
+static JoxV2 term_direction(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = mind->agents;
+    switch (term->kind) {
+    case JOX_STEER_SEEK:
+        return seek(mind, i, term->target);
+    case JOX_STEER_AWAY_FROM: {
+        JoxSpot spot = jox_target_find(mind, i, term->target);
+        return spot.found ? jox_unit((JoxV2){a->x[i] - spot.x, a->y[i] - spot.y})
+                          : (JoxV2){0.0f, 0.0f};
+    }
+    case JOX_STEER_ORBIT:
+        return orbit(mind, i, term);
+    case JOX_STEER_QUEUE:
+        return queue(mind, i, term);
+    case JOX_STEER_FOLLOW:
+        return follow(mind, i, term);
+    case JOX_STEER_DRIFT:
+        return (JoxV2){(float)term->args[0], (float)term->args[1]};
+    case JOX_STEER_SPREAD:
+        return spread(mind, i);
+    case JOX_STEER_ALONG:
+        return along(mind, i, term);
+    case JOX_STEER_PLAYER:
+        return player(mind, i);
+    case JOX_STEER_HOLD:
+    case JOX_STEER_FUNCTION:
+        break;
+    }
+    return (JoxV2){0.0f, 0.0f};
+}
+
+static void face(const JoxMind *mind, const JoxState *state, uint32_t i) {
+    JoxAgents *a = mind->agents;
+    JoxV2 way = {a->vx[i], a->vy[i]};
+    bool turns = jox_length2(way) > 0.0025f;
+    if (state->face >= 0) {
+        JoxSpot spot = jox_target_find(mind, i, state->face);
+        way = (JoxV2){spot.x - a->x[i], spot.y - a->y[i]};
+        turns = spot.found && jox_length2(way) > 0.0f;
+    }
+    if (!turns)
+        return;
+    way = jox_unit(way);
+    a->face_x[i] = way.x;
+    a->face_y[i] = way.y;
+}
+
+static bool is_function(const JoxState *state) {
+    return state->steer_count == 1 && state->steer[0].kind == JOX_STEER_FUNCTION;
+}
+
+static void prefer_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const JoxMind *mind = context;
+    JoxAgents *a = mind->agents;
+    for (uint32_t b = begin; b < end; b++) {
+        const JoxBatchRange *batch = &mind->scratch->batches[b];
+        const JoxMachine *machine = mind->machines[batch->machine];
+        const JoxState *state = &machine->states[batch->state];
+        for (uint32_t n = 0; n < batch->count; n++) {
+            uint32_t i = mind->scratch->grouped[batch->begin + n];
+            face(mind, state, i);
+            if (is_function(state))
+                continue;
+            JoxV2 sum = {0.0f, 0.0f};
+            for (uint32_t t = 0; t < state->steer_count; t++) {
+                const JoxValue *weight = &state->steer[t].weight;
+                float by = weight->kind == JOX_VALUE_UNSET
+                               ? 1.0f
+                               : (float)jox_value(mind, machine, weight, i);
+                if (by != 0.0f)
+                    sum = jox_add(sum, jox_scale(term_direction(mind, i, &state->steer[t]), by));
+            }
+            if (jox_length2(sum) > 1.0f)
+                sum = jox_unit(sum);
+            float speed = jox_minf(a->param[JOX_PARAM_speed][i], a->param[JOX_PARAM_max_speed][i]);
+            a->pref_x[i] = sum.x * speed;
+            a->pref_y[i] = sum.y * speed;
+        }
+    }
+}
+
+/* Steering by plain Lua functions, by id. */
+static void ask_functions(JoxMind *mind) {
+    JoxAgents *a = mind->agents;
+    bool any = false;
+    for (uint32_t b = 0; b < mind->scratch->batch_count; b++) {
+        const JoxBatchRange *batch = &mind->scratch->batches[b];
+        any |= is_function(&mind->machines[batch->machine]->states[batch->state]);
+    }
+    for (uint32_t id = 0; any && id < a->next_id; id++) {
+        uint32_t i = a->id_index[id];
+        if (i == JOX_NO_INDEX || a->machine[i] == JOX_NO_MACHINE)
+            continue;
+        const JoxMachine *machine = jox_machine_of(mind, i);
+        const JoxState *state = &machine->states[a->state[i]];
+        if (!is_function(state))
+            continue;
+        double v[2] = {0.0, 0.0};
+        bool good = mind->call && mind->call(mind->call_context, machine, state->steer[0].hook,
+                                             JOX_HOOK_STEER, i, v);
+        good = good && fabs(v[0]) <= 100.0 && fabs(v[1]) <= 100.0;
+        a->pref_x[i] = good ? (float)v[0] : 0.0f;
+        a->pref_y[i] = good ? (float)v[1] : 0.0f;
+    }
+}
+
+void jox_mind_prefer(JoxMind *mind, JoxPool *pool) {
+    if (mind->machine_count == 0)
+        return;
+    jox_parallel_for(pool, mind->scratch->batch_count, 1, prefer_range, mind);
+    ask_functions(mind);
+}

@@ -1,0 +1,168 @@
+/* What a target is for one agent, now. */
+#include <math.h>
+
+#include "machine/internal.h"
+
+int32_t jox_target_place(const JoxMind *mind, uint32_t agent, int32_t index) {
+    const JoxMachine *machine = jox_machine_of(mind, agent);
+    int32_t place = -1;
+    if (index < 0)
+        return -1;
+    const JoxTarget *target = &machine->targets[index];
+    if (target->kind == JOX_TARGET_PLACE)
+        place = target->arg;
+    else if (target->kind == JOX_TARGET_OWN_PLACE)
+        place =
+            (int32_t)
+                mind->agents->own[(size_t)agent * mind->agents->own_stride + (uint32_t)target->arg];
+    else if (target->kind == JOX_TARGET_GOAL || target->kind == JOX_TARGET_ONE_OF)
+        place = mind->agents->goal[agent];
+    return place >= 0 && (uint32_t)place < mind->place_count ? place : -1;
+}
+
+static JoxSpot agent_spot(const JoxMind *mind, uint32_t i) {
+    const JoxAgents *a = mind->agents;
+    return (JoxSpot){.found = true,
+                     .x = a->x[i],
+                     .y = a->y[i],
+                     .vx = a->vx[i],
+                     .vy = a->vy[i],
+                     .radius = a->param[JOX_PARAM_radius][i],
+                     .place = -1,
+                     .object = -1,
+                     .agent = i};
+}
+
+static JoxSpot object_spot(const JoxObject *o, int32_t row) {
+    return (JoxSpot){.found = true,
+                     .x = o->position.x,
+                     .y = o->position.y,
+                     .z = o->position.z,
+                     .vx = o->velocity.x,
+                     .vy = o->velocity.y,
+                     .radius = o->footprint_count ? o->disc : o->round,
+                     .place = -1,
+                     .object = row,
+                     .agent = JOX_NO_INDEX};
+}
+
+/* Whether agent j is what the target asks for, as seen by agent i. */
+static bool is_wanted(const JoxAgents *a, const JoxTarget *target, uint32_t i, uint32_t j) {
+    switch (target->kind) {
+    case JOX_TARGET_NEAREST:
+        return (a->tags[j] >> target->arg & 1) != 0;
+    case JOX_TARGET_OPPONENT:
+        return a->team[i] != a->team[j];
+    case JOX_TARGET_TEAMMATE:
+        return a->team[i] == a->team[j];
+    default:
+        return false;
+    }
+}
+
+/* Neighbours come nearest first. Few neighbours are kept, so beyond them all agents are looked at
+   where the crowd is small enough for that to be cheap: a game's opponents, not a pilgrimage. */
+enum { SMALL_CROWD = 64 };
+
+static uint32_t nearest_agent(const JoxMind *mind, const JoxTarget *target, uint32_t i) {
+    const JoxAgents *a = mind->agents;
+    const JoxNeighbours *n = mind->neighbours;
+    for (uint32_t k = 0; k < n->count[i]; k++) {
+        uint32_t j = n->index[jox_neighbour_at(n, i, k)];
+        if (is_wanted(a, target, i, j))
+            return j;
+    }
+    uint32_t best = JOX_NO_INDEX;
+    float reach = a->param[JOX_PARAM_perception][i], least = reach * reach;
+    for (uint32_t j = 0; a->count <= SMALL_CROWD && j < a->count; j++) {
+        float dx = a->x[j] - a->x[i], dy = a->y[j] - a->y[i], d2 = dx * dx + dy * dy;
+        if (j == i || !is_wanted(a, target, i, j) || d2 > least)
+            continue;
+        if (d2 < least || best == JOX_NO_INDEX || a->id[j] < a->id[best]) {
+            least = d2;
+            best = j;
+        }
+    }
+    return best;
+}
+
+static int32_t nearest_object(const JoxMind *mind, const JoxTarget *target, uint32_t i,
+                              float *distance2) {
+    const JoxAgents *a = mind->agents;
+    float reach = a->param[JOX_PARAM_perception][i];
+    int32_t best = -1;
+    *distance2 = reach * reach;
+    for (uint32_t o = 0; mind->objects && o < mind->objects->count; o++) {
+        const JoxObject *object = &mind->objects->rows[o];
+        if (!object->live || !(object->tags >> target->arg & 1))
+            continue;
+        float dx = object->position.x - a->x[i], dy = object->position.y - a->y[i];
+        float d2 = dx * dx + dy * dy;
+        if (d2 < *distance2) {
+            *distance2 = d2;
+            best = (int32_t)o;
+        }
+    }
+    return best;
+}
+
+JoxSpot jox_target_find(const JoxMind *mind, uint32_t i, int32_t index) {
+    JoxSpot none = {.place = -1, .object = -1, .agent = JOX_NO_INDEX};
+    const JoxAgents *a = mind->agents;
+    if (index < 0)
+        return agent_spot(mind, i);
+    const JoxTarget *target = &jox_machine_of(mind, i)->targets[index];
+    if (target->kind < JOX_TARGET_NEAREST) {
+        int32_t place = jox_target_place(mind, i, index);
+        if (place < 0)
+            return none;
+        JoxV2 p = jox_place_nearest(mind->places, (uint32_t)place, (JoxV2){a->x[i], a->y[i]});
+        return (JoxSpot){true, p.x, p.y, 0, 0, 0, 0, place, -1, JOX_NO_INDEX};
+    }
+    float object_d2 = INFINITY;
+    int32_t object =
+        target->kind == JOX_TARGET_NEAREST ? nearest_object(mind, target, i, &object_d2) : -1;
+    uint32_t other = nearest_agent(mind, target, i);
+    if (other != JOX_NO_INDEX) {
+        float dx = a->x[other] - a->x[i], dy = a->y[other] - a->y[i];
+        if (object < 0 || dx * dx + dy * dy < object_d2)
+            return agent_spot(mind, other);
+    }
+    return object >= 0 ? object_spot(&mind->objects->rows[object], object) : none;
+}
+
+float jox_target_distance(const JoxMind *mind, uint32_t i, int32_t index) {
+    JoxV2 p = {mind->agents->x[i], mind->agents->y[i]};
+    int32_t place = jox_target_place(mind, i, index);
+    if (place >= 0)
+        return jox_place_distance(mind->places, (uint32_t)place, p);
+    JoxSpot spot = jox_target_find(mind, i, index);
+    return spot.found ? jox_length((JoxV2){spot.x - p.x, spot.y - p.y}) : INFINITY;
+}
+
+float jox_spot_gap(const JoxMind *mind, uint32_t i, const JoxSpot *spot) {
+    if (!spot->found)
+        return INFINITY;
+    const JoxAgents *a = mind->agents;
+    float distance = jox_length((JoxV2){spot->x - a->x[i], spot->y - a->y[i]});
+    return distance - spot->radius - a->param[JOX_PARAM_radius][i];
+}
+
+float jox_headway(const JoxMind *mind, uint32_t i) {
+    const JoxAgents *a = mind->agents;
+    const JoxNeighbours *n = mind->neighbours;
+    const float *radius = a->param[JOX_PARAM_radius];
+    JoxV2 ahead = jox_unit((JoxV2){a->pref_x[i], a->pref_y[i]});
+    if (jox_length2(ahead) == 0.0f)
+        ahead = (JoxV2){a->face_x[i], a->face_y[i]};
+    float best = a->param[JOX_PARAM_perception][i];
+    for (uint32_t k = 0; k < n->count[i]; k++) {
+        uint32_t j = n->index[jox_neighbour_at(n, i, k)];
+        JoxV2 d = {a->x[j] - a->x[i], a->y[j] - a->y[i]};
+        float along = jox_dot(d, ahead), aside = fabsf(jox_det(d, ahead));
+        float sum = radius[i] + radius[j];
+        if (along > 0.0f && aside < sum / 2.0f)
+            best = jox_minf(best, jox_maxf(along - sum, 0.0f));
+    }
+    return best;
+}

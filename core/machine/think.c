@@ -1,0 +1,268 @@
+/* The stage think: counters, transitions, hooks, then what the new states ask for. */
+#include <math.h>
+#include <string.h>
+
+#include "base/elementary.h"
+#include "base/mem.h"
+#include "machine/internal.h"
+
+static const double TURN = 6.283185307179586;
+
+/* Angle from a to b; a step turns little, where the series is exact to 1e-10. */
+static double turned(JoxV2 a, JoxV2 b) {
+    double sine = (double)a.x * b.y - (double)a.y * b.x,
+           cosine = (double)a.x * b.x + (double)a.y * b.y;
+    if (!(cosine > 0.0) || fabs(sine) > 0.1 * cosine)
+        return jox_atan2(sine, cosine);
+    double t = sine / cosine, t2 = t * t;
+    return t * (1.0 - t2 * (1.0 / 3 - t2 * (1.0 / 5 - t2 * (1.0 / 7 - t2 / 9))));
+}
+
+static void count_circuits(const JoxMind *mind, const JoxCounter *counter, uint32_t i) {
+    const JoxAgents *a = mind->agents;
+    double *memory = a->memory + (size_t)i * a->memory_stride;
+    int32_t index = jox_target_place(mind, i, counter->target);
+    if (index < 0)
+        return;
+    const JoxPlace *place = &mind->places[index];
+    JoxV2 from = {a->prev_x[i], a->prev_y[i]}, to = {a->x[i], a->y[i]};
+    if (memory[counter->begun] == 0.0) {
+        const JoxPlace *line = place->start >= 0 ? &mind->places[place->start] : NULL;
+        if (line && jox_segment_crossing(line->points[0], line->points[1], from, to) != 1)
+            return;
+        memory[counter->begun] = 1.0;
+        if (line)
+            return; /* turns count from here on */
+    }
+    double angle =
+        memory[counter->angle] + turned(jox_sub(from, place->centre), jox_sub(to, place->centre));
+    memory[counter->angle] = angle;
+    memory[counter->value] = floor(angle / TURN + 1e-9);
+}
+
+/* Whether a transition whose condition has just turned true is taken. */
+static bool roll(const JoxMind *mind, const JoxMachine *machine, const JoxTransition *t, uint32_t k,
+                 uint32_t i) {
+    if (t->chance.kind == JOX_VALUE_UNSET)
+        return true;
+    double chance = jox_value(mind, machine, &t->chance, i);
+    return jox_random_unit(mind->seed, mind->agents->id[i], mind->tick, JOX_DRAW_CHANCE, k) <
+           chance;
+}
+
+typedef struct Think {
+    JoxMind *mind;
+} Think;
+
+/* Counters and compiled conditions of one batch; fills `fired`. */
+static void think_batch(const JoxMind *mind, const JoxBatchRange *batch, JoxRegisters registers) {
+    JoxAgents *a = mind->agents;
+    const JoxMachine *machine = mind->machines[batch->machine];
+    const JoxState *state = &machine->states[batch->state];
+    const uint32_t *agents = mind->scratch->grouped + batch->begin;
+    for (uint32_t c = 0; c < machine->counter_count; c++)
+        if (machine->counters[c].state < 0 || machine->counters[c].state == batch->state)
+            for (uint32_t n = 0; n < batch->count; n++)
+                count_circuits(mind, &machine->counters[c], agents[n]);
+    for (uint32_t n = 0; n < batch->count; n++)
+        mind->scratch->fired[agents[n]] = -1;
+    for (uint32_t k = 0; k < state->transition_count; k++) {
+        const JoxTransition *t = &state->transitions[k];
+        if (t->when_hook >= 0)
+            continue;
+        if (t->when >= 0)
+            jox_eval(mind, machine, &machine->programs[t->when], agents, batch->count, registers);
+        uint32_t bit = 1u << k;
+        for (uint32_t n = 0; n < batch->count; n++) {
+            uint32_t i = agents[n];
+            bool holds = t->when < 0 || registers[0][n] != 0.0;
+            bool rises = holds && !(a->was_true[i] & bit);
+            /* A certain transition is taken whenever it holds; a chance is rolled once a rise. */
+            if (mind->scratch->fired[i] < 0 && holds &&
+                (t->chance.kind == JOX_VALUE_UNSET || rises) && roll(mind, machine, t, k, i))
+                mind->scratch->fired[i] = (int16_t)k;
+            a->was_true[i] = holds ? a->was_true[i] | bit : a->was_true[i] & ~bit;
+        }
+    }
+}
+
+static void think_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    const JoxMind *mind = ((Think *)context)->mind;
+    for (uint32_t b = begin; b < end; b++)
+        think_batch(mind, &mind->scratch->batches[b], mind->scratch->registers[worker]);
+}
+
+/* Sorts indices by id (Shell): short lists mostly. */
+static void sort_by_id(const JoxAgents *a, uint32_t *list, uint32_t count) {
+    for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
+        for (uint32_t k = gap; k < count; k++) {
+            uint32_t moving = list[k], at = k;
+            for (; at >= gap && a->id[list[at - gap]] > a->id[moving]; at -= gap)
+                list[at] = list[at - gap];
+            list[at] = moving;
+        }
+}
+
+static bool has_function_whens(const JoxState *state) {
+    for (uint32_t k = 0; k < state->transition_count; k++)
+        if (state->transitions[k].when_hook >= 0)
+            return true;
+    return false;
+}
+
+/* Plain Lua conditions, for agents that no compiled transition takes, by id. */
+static void ask_functions(JoxMind *mind) {
+    JoxMindScratch *s = mind->scratch;
+    JoxAgents *a = mind->agents;
+    s->list_count = 0;
+    for (uint32_t b = 0; b < s->batch_count && mind->call; b++) {
+        const JoxBatchRange *batch = &s->batches[b];
+        if (!has_function_whens(&mind->machines[batch->machine]->states[batch->state]))
+            continue;
+        for (uint32_t n = 0; n < batch->count; n++)
+            if (s->fired[s->grouped[batch->begin + n]] < 0)
+                s->list[s->list_count++] = s->grouped[batch->begin + n];
+    }
+    sort_by_id(a, s->list, s->list_count);
+    for (uint32_t n = 0; n < s->list_count; n++) {
+        uint32_t i = s->list[n];
+        const JoxMachine *machine = jox_machine_of(mind, i);
+        const JoxState *state = &machine->states[a->state[i]];
+        for (uint32_t k = 0; k < state->transition_count && s->fired[i] < 0; k++) {
+            const JoxTransition *t = &state->transitions[k];
+            if (t->when_hook < 0)
+                continue;
+            double result[2] = {0.0, 0.0};
+            bool holds =
+                mind->call(mind->call_context, machine, t->when_hook, JOX_HOOK_WHEN, i, result) &&
+                result[0] != 0.0;
+            bool rises = holds && !(a->was_true[i] >> k & 1);
+            if (holds && (t->chance.kind == JOX_VALUE_UNSET || rises) &&
+                roll(mind, machine, t, k, i))
+                s->fired[i] = (int16_t)k;
+            a->was_true[i] = holds ? a->was_true[i] | 1u << k : a->was_true[i] & ~(1u << k);
+        }
+    }
+}
+
+static void call_hook(JoxMind *mind, int32_t hook, JoxHookKind kind, uint32_t agent) {
+    double unused[2] = {0.0, 0.0};
+    if (hook >= 0 && mind->call)
+        mind->call(mind->call_context, jox_machine_of(mind, agent), hook, kind, agent, unused);
+}
+
+/* A set's member for this entry, for targets of the state that ask for one. */
+static void pick_goal(JoxMind *mind, const JoxMachine *machine, const JoxState *state, uint32_t i) {
+    JoxAgents *a = mind->agents;
+    int16_t asked[JOX_MOST_TERMS + 3];
+    uint32_t count = 0;
+    for (uint32_t t = 0; t < state->steer_count; t++)
+        asked[count++] = state->steer[t].target;
+    asked[count++] = state->face;
+    asked[count++] = state->kick_at;
+    asked[count++] = state->push_toward;
+    for (uint32_t k = 0; k < count; k++) {
+        if (asked[k] < 0 || machine->targets[asked[k]].kind != JOX_TARGET_ONE_OF)
+            continue;
+        int32_t set = machine->targets[asked[k]].arg;
+        if (set < 0 || (uint32_t)set >= mind->place_count || !mind->places[set].member_count)
+            continue;
+        double u = jox_random_unit(mind->seed, a->id[i], mind->tick, JOX_DRAW_ONE_OF, 0);
+        a->goal[i] = mind->places[set].members[(uint32_t)(u * mind->places[set].member_count)];
+        return;
+    }
+}
+
+const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *state, int p) {
+    return state->param[p].kind != JOX_VALUE_UNSET ? &state->param[p] : &machine->defaults[p];
+}
+
+void jox_mind_write_parameters(JoxMind *mind, uint32_t i) {
+    JoxAgents *a = mind->agents;
+    const JoxMachine *machine = jox_machine_of(mind, i);
+    const JoxState *state = &machine->states[a->state[i]];
+    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+        const JoxValue *value = jox_state_parameter(machine, state, p);
+        if (value->kind == JOX_VALUE_PROGRAM)
+            continue;
+        double number = value->kind == JOX_VALUE_UNSET ? jox_parameters[p].value
+                                                       : jox_value(mind, machine, value, i);
+        a->param[p][i] = jox_parameter_store((JoxParameter)p, number);
+    }
+    a->ignore[i] = state->ignore;
+    a->push_only[i] = state->push_only;
+}
+
+void jox_mind_enter(JoxMind *mind, uint32_t i, uint16_t to) {
+    JoxAgents *a = mind->agents;
+    const JoxMachine *machine = jox_machine_of(mind, i);
+    const JoxState *state = &machine->states[to];
+    a->state[i] = to;
+    a->entered[i] = mind->tick;
+    a->was_true[i] = 0;
+    a->lasts[i] = INFINITY;
+    if (state->has_lasts)
+        a->lasts[i] = (float)jox_dist_draw(&state->lasts, mind->seed, a->id[i], mind->tick,
+                                           JOX_DRAW_LASTS, 0);
+    else if (state->lasts_program >= 0)
+        a->lasts[i] = (float)jox_value(
+            mind, machine, &(JoxValue){.kind = JOX_VALUE_PROGRAM, .index = state->lasts_program},
+            i);
+    pick_goal(mind, machine, state, i);
+    jox_mind_write_parameters(mind, i);
+    if (state->removes)
+        a->removed[i] = 1;
+}
+
+/* Takes the fired transitions, by id; hooks of leaving, taking and entering in that order. */
+static void take_transitions(JoxMind *mind) {
+    JoxMindScratch *s = mind->scratch;
+    JoxAgents *a = mind->agents;
+    s->list_count = 0;
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->machine[i] != JOX_NO_MACHINE && s->fired[i] >= 0)
+            s->list[s->list_count++] = i;
+    sort_by_id(a, s->list, s->list_count);
+    JOX_RESERVE(mind->taken, mind->taken_capacity, s->list_count);
+    for (uint32_t n = 0; n < s->list_count; n++) {
+        uint32_t i = s->list[n];
+        const JoxMachine *machine = jox_machine_of(mind, i);
+        const JoxState *from = &machine->states[a->state[i]];
+        const JoxTransition *t = &from->transitions[s->fired[i]];
+        mind->taken[mind->taken_count++] =
+            (JoxTaken){a->id[i], a->machine[i], a->state[i], t->to, (uint16_t)s->fired[i]};
+        call_hook(mind, from->on_exit, JOX_HOOK_EXIT, i);
+        call_hook(mind, t->on_take, JOX_HOOK_TAKE, i);
+        jox_mind_enter(mind, i, t->to);
+        call_hook(mind, machine->states[t->to].on_enter, JOX_HOOK_ENTER, i);
+    }
+}
+
+/* on_enter of agents that were spawned since the last step. */
+static void greet_spawned(JoxMind *mind) {
+    JoxMindScratch *s = mind->scratch;
+    JoxAgents *a = mind->agents;
+    for (uint32_t n = 0; n < s->pending_count; n++) {
+        uint32_t i = s->pending[n] < a->next_id ? a->id_index[s->pending[n]] : JOX_NO_INDEX;
+        if (i != JOX_NO_INDEX)
+            call_hook(mind, jox_machine_of(mind, i)->states[a->state[i]].on_enter, JOX_HOOK_ENTER,
+                      i);
+    }
+    s->pending_count = 0;
+}
+
+void jox_mind_think(JoxMind *mind, JoxPool *pool) {
+    mind->taken_count = mind->kick_count = 0;
+    jox_mind_group(mind, pool);
+    if (mind->machine_count > 0) {
+        jox_mind_count_places(mind);
+        greet_spawned(mind);
+        Think think = {mind};
+        jox_parallel_for(pool, mind->scratch->batch_count, 1, think_range, &think);
+        ask_functions(mind);
+        take_transitions(mind);
+        if (mind->taken_count > 0)
+            jox_mind_group(mind, pool);
+    }
+    jox_mind_act(mind, pool);
+}
