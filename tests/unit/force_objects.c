@@ -1,0 +1,271 @@
+/* Agents against bodies: footprints, momentum, angular momentum, energy. */
+#include "geom/objects.h"
+#include "unit/force_crowd.h"
+
+/* A box at rest about the origin, 2 by 1 m and 2 m high, its inertia scaled by `thin`. */
+static JoxObject make_box(float mass, float thin) {
+    JoxObject box = {.live = true, .in_band = true, .moves = true};
+    box.position.z = 1.0f;
+    box.disc = 1.2f;
+    box.inverse_mass = 1.0f / mass;
+    box.inverse_inertia[0] = 12.0f / (mass * 5.0f * thin);
+    box.inverse_inertia[4] = 12.0f / (mass * 8.0f * thin);
+    box.inverse_inertia[8] = 12.0f / (mass * 5.0f * thin);
+    const JoxV2 ring[] = {{-1, -0.5f}, {1, -0.5f}, {1, 0.5f}, {-1, 0.5f}};
+    memcpy(box.footprint, ring, sizeof ring);
+    box.footprint_count = 4;
+    box.high = 2.0f;
+    return box;
+}
+
+static void put_bodies(Crowd *c, JoxObjects *objects, JoxObject *rows, uint32_t count) {
+    *objects = (JoxObjects){rows, count, count};
+    c->step.objects = objects;
+}
+
+static JoxV3 spun(const JoxObject *box, const JoxImpulse *impulse) {
+    JoxV3 arm = {impulse->point.x - box->position.x, impulse->point.y - box->position.y,
+                 impulse->point.z - box->position.z};
+    return jox_turn3(box->inverse_inertia, jox_cross3(arm, impulse->impulse));
+}
+
+/* Energy after a contact over energy before; the box is at rest. */
+static double energy_share(bool literal, float mass, float thin, float restitution) {
+    Crowd c;
+    open_crowd(&c, 0.05);
+    if (literal)
+        set_literal(&c);
+    JoxObject box = make_box(mass, thin);
+    box.restitution = restitution;
+    JoxObjects objects;
+    put_bodies(&c, &objects, &box, 1);
+    add_agent(&c, 0.8f, 0.65f, 0.3f, -2);
+    set_param(&c, 0, JOX_PARAM_restitution, restitution);
+    begin(&c);
+    jox_force_contact(c.forces);
+    uint32_t count;
+    const JoxImpulse *owed = jox_force_impulses(c.forces, &count);
+    assert_int_equal(count, 1);
+    double j = -owed[0].impulse.y;
+    assert_true(j > 0 && owed[0].impulse.x == 0 && owed[0].impulse.z == 0);
+    /* Equal and opposite, at the point of contact. */
+    assert_near(c.agents.contact_y[0] * 0.05, j, 1e-5 * j);
+    assert_near(owed[0].point.x, 0.8, 1e-6);
+    assert_near(owed[0].point.y, 0.5, 1e-6);
+    assert_near(owed[0].point.z, 1.1, 1e-6);
+    assert_int_equal(c.agents.contacts[0], 1);
+    JoxV3 spin = spun(&box, &owed[0]);
+    double vy = -2 + j / 70, by = -j / mass;
+    /* Angular momentum about the vertical through the origin, where the box is. */
+    double before = 70 * 0.8 * -2, after = 70 * 0.8 * vy + spin.z / box.inverse_inertia[8];
+    assert_near(after, before, 1e-3 * fabs(before));
+    double rotation = 0;
+    const float w[3] = {spin.x, spin.y, spin.z};
+    for (int k = 0; k < 3; k++)
+        rotation += w[k] * w[k] / box.inverse_inertia[4 * k];
+    if (!literal) { /* the relative velocity at the point is turned round by restitution */
+        double point = by + spin.z * 0.8 - spin.x * 0.1;
+        assert_near(vy - point, 2 * restitution, 1e-4);
+    }
+    close_crowd(&c);
+    return (70 * vy * vy + mass * by * by + rotation) / (70 * 4);
+}
+
+static void energy_never_grows_off_centre(void **state) {
+    (void)state;
+    const float masses[] = {5, 40, 400}, thins[] = {1, 0.1f}, bounces[] = {0, 0.5f, 1};
+    for (int m = 0; m < 3; m++)
+        for (int t = 0; t < 2; t++)
+            for (int b = 0; b < 3; b++)
+                assert_true(energy_share(false, masses[m], thins[t], bounces[b]) < 1.0001);
+    assert_near(energy_share(false, 40, 1, 1), 1.0, 1e-4);
+}
+
+static void as_printed_energy_grows(void **state) {
+    (void)state;
+    assert_true(energy_share(true, 40, 0.1f, 0) > 1.1);
+    assert_true(energy_share(true, 40, 1, 1) > 1.1);
+}
+
+static void footprints_have_sides_corners_and_insides(void **state) {
+    (void)state;
+    const struct {
+        JoxV2 at;
+        bool hit;
+        JoxV2 normal;
+    } cases[] = {
+        {{0, 0.65f}, true, {0, 1}},   {{0, -0.65f}, true, {0, -1}},
+        {{1.15f, 0}, true, {1, 0}},   {{0, 0.71f}, false, {0, 0}},
+        {{1.1f, 0.6f}, true, {1, 1}}, {{1.15f, 0.65f}, false, {0, 0}},
+        {{0.9f, 0}, true, {1, 0}},    {{0.2f, -0.4f}, true, {0, -1}},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Crowd c;
+        open_crowd(&c, 0.05);
+        JoxObject box = make_box(40, 1);
+        JoxObjects objects;
+        put_bodies(&c, &objects, &box, 1);
+        add_agent(&c, cases[k].at.x, cases[k].at.y, -cases[k].normal.x, -cases[k].normal.y);
+        begin(&c);
+        jox_force_contact(c.forces);
+        JoxV2 f = jox_unit(jox_v2(c.agents.contact_x[0], c.agents.contact_y[0]));
+        JoxV2 wanted = jox_unit(cases[k].normal);
+        assert_int_equal(c.agents.contacts[0], cases[k].hit);
+        assert_near(f.x, wanted.x, 1e-5);
+        assert_near(f.y, wanted.y, 1e-5);
+        close_crowd(&c);
+    }
+}
+
+static void a_ball_and_the_height_of_contact(void **state) {
+    (void)state;
+    Crowd c;
+    open_crowd(&c, 0.05);
+    JoxObject balls[3] = {make_box(1, 1), make_box(1, 1), make_box(1, 1)};
+    JoxObjects objects;
+    put_bodies(&c, &objects, balls, 3);
+    for (int k = 0; k < 3; k++) {
+        balls[k].footprint_count = 0;
+        balls[k].round = 0.3f;
+        balls[k].position = (JoxV3){4.0f * (float)k, 0, 0.3f};
+        balls[k].velocity.x = 10;
+        balls[k].low = 0;
+        balls[k].high = 0.6f;
+        add_agent(&c, 4.0f * (float)k + 0.45f, 0, 0, 0);
+    }
+    balls[1].in_band = false;
+    balls[2].live = false;
+    begin(&c);
+    jox_force_contact(c.forces);
+    uint32_t count;
+    const JoxImpulse *owed = jox_force_impulses(c.forces, &count);
+    assert_int_equal(count, 1);
+    assert_true(owed[0].impulse.x < 0 && c.agents.contact_x[0] > 0);
+    assert_near(owed[0].point.z, 0.6, 1e-6);
+    assert_near(owed[0].point.x, 0.3, 1e-6);
+    assert_true(c.agents.contact_x[1] == 0 && c.agents.contact_x[2] == 0);
+    close_crowd(&c);
+}
+
+static void many_on_one_body_share_it(void **state) {
+    (void)state;
+    /* Four walk into a light box together: solved as one, none is thrown back, and momentum is
+       kept. Independent impulses would send the box off at several times their speed. */
+    Crowd c;
+    open_crowd(&c, 0.05);
+    JoxForceOptions options = jox_force_default_options();
+    options.iterations = 200;
+    jox_forces_set_options(c.forces, &options);
+    JoxObject box = make_box(10, 1);
+    JoxObjects objects;
+    put_bodies(&c, &objects, &box, 1);
+    for (int k = 0; k < 4; k++)
+        add_agent(&c, -0.75f + 0.5f * (float)k, -0.65f, 0, 1);
+    begin(&c);
+    jox_force_contact(c.forces);
+    uint32_t count;
+    const JoxImpulse *owed = jox_force_impulses(c.forces, &count);
+    assert_int_equal(count, 4);
+    double sum = 0, given = 0;
+    for (uint32_t k = 0; k < 4; k++) {
+        sum += owed[k].impulse.y;
+        given += c.agents.contact_y[k] * 0.05;
+        assert_near(owed[k].point.x, -0.75 + 0.5 * k, 1e-6); /* in ascending id */
+        assert_true(1 + c.agents.contact_y[k] * 0.05 / 70 > 0.5);
+    }
+    assert_near(sum, -given, 1e-5 * sum);
+    assert_true(sum / 10 > 0.5 && sum / 10 < 1.001);
+    close_crowd(&c);
+}
+
+static void static_bodies_stop_people_and_are_owed_nothing(void **state) {
+    (void)state;
+    Crowd c;
+    open_crowd(&c, 0.05);
+    JoxObject box = make_box(40, 1);
+    box.inverse_mass = 0;
+    memset(box.inverse_inertia, 0, sizeof box.inverse_inertia);
+    JoxObjects objects;
+    put_bodies(&c, &objects, &box, 1);
+    add_agent(&c, 0.8f, 0.65f, 0, -2);
+    begin(&c);
+    jox_force_contact(c.forces);
+    uint32_t count;
+    jox_force_impulses(c.forces, &count);
+    assert_int_equal(count, 0);
+    assert_near(c.agents.contact_y[0] * 0.05, 140, 1e-3);
+    close_crowd(&c);
+}
+
+static void bodies_are_pushed_where_they_are_touched(void **state) {
+    (void)state;
+    Crowd c;
+    open_crowd(&c, 0.05);
+    JoxObject box = make_box(40, 1);
+    box.tags = 2;
+    JoxObjects objects;
+    put_bodies(&c, &objects, &box, 1);
+    add_agent(&c, 0.8f, -0.75f, 0, 0); /* a gap of 5 cm */
+    add_agent(&c, 0.0f, -0.85f, 0, 0); /* of 15 cm */
+    for (uint32_t i = 0; i < 2; i++) {
+        set_param(&c, i, JOX_PARAM_push, 200);
+        c.agents.pref_y[i] = 1;
+    }
+    begin(&c);
+    jox_force_push(c.forces);
+    jox_force_contact(c.forces);
+    uint32_t count;
+    const JoxImpulse *owed = jox_force_impulses(c.forces, &count);
+    assert_int_equal(count, 1);
+    assert_near(owed[0].impulse.y, 10, 1e-5);
+    assert_near(owed[0].impulse.x, 0, 1e-5);
+    assert_near(owed[0].point.x, 0.8, 1e-6);
+    assert_true(c.agents.contact_y[0] == 0);
+    c.agents.push_only[0] = 1; /* the box has another tag */
+    begin(&c);
+    jox_force_push(c.forces);
+    jox_force_impulses(c.forces, &count);
+    assert_int_equal(count, 0);
+    close_crowd(&c);
+}
+
+static void far_and_broken_bodies_are_passed_over(void **state) {
+    (void)state;
+    Crowd c;
+    open_crowd(&c, 0.05);
+    JoxObject boxes[4] = {make_box(40, 1), make_box(40, 1), make_box(40, 1), make_box(40, 1)};
+    for (int k = 0; k < 4; k++)
+        boxes[0].footprint[k].x = NAN;
+    for (int k = 0; k < 4; k++)
+        boxes[1].footprint[k].y += 1e30f;
+    for (int k = 0; k < 4; k++)
+        boxes[2].footprint[k].x += 9e5f; /* far, yet within the grid */
+    JoxObjects objects;
+    put_bodies(&c, &objects, boxes, 4);
+    add_agent(&c, 0.8f, 0.65f, 0, -2);
+    add_agent(&c, -1e9f, NAN, 0, -2);
+    begin(&c);
+    jox_force_push(c.forces);
+    jox_force_contact(c.forces);
+    jox_force_sum(c.forces);
+    jox_force_infer(c.forces);
+    uint32_t count;
+    const JoxImpulse *owed = jox_force_impulses(c.forces, &count);
+    assert_int_equal(count, 1);
+    assert_int_equal(owed[0].object, 3);
+    close_crowd(&c);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(energy_never_grows_off_centre),
+        cmocka_unit_test(as_printed_energy_grows),
+        cmocka_unit_test(footprints_have_sides_corners_and_insides),
+        cmocka_unit_test(a_ball_and_the_height_of_contact),
+        cmocka_unit_test(many_on_one_body_share_it),
+        cmocka_unit_test(static_bodies_stop_people_and_are_owed_nothing),
+        cmocka_unit_test(bodies_are_pushed_where_they_are_touched),
+        cmocka_unit_test(far_and_broken_bodies_are_passed_over),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
