@@ -6,9 +6,13 @@
 #include "force/equations.h"
 #include "force/internal.h"
 
-/* Whether `other` sees agent i: pairs are entered once, by the one of lesser id if both see. */
-static bool sees(const JoxNeighbours *near, uint32_t other, uint32_t i) {
-    for (uint32_t k = 0; k < near->count[other]; k++)
+/* Whether `other` sees agent i, `distance2` away: pairs are entered once, by the one of lesser id
+   if both see. Whoever is nearer than the farthest one seen is seen. */
+static bool sees(const JoxNeighbours *near, uint32_t other, uint32_t i, float distance2) {
+    uint32_t count = near->count[other];
+    if (count && distance2 < near->distance2[jox_neighbour_at(near, other, count - 1)])
+        return true;
+    for (uint32_t k = count; k-- > 0;)
         if (near->index[jox_neighbour_at(near, other, k)] == i)
             return true;
     return false;
@@ -36,13 +40,16 @@ static void find_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     uint32_t chunk = begin / JOX_FORCE_GRAIN, count = 0, approaching = 0;
     JoxPair *list = (JoxPair *)f->pairs.items + (size_t)chunk * f->pairs.room;
     for (uint32_t i = begin; i < end; i++) {
-        float x = a->x[i], y = a->y[i];
+        float widest = radius[i] + f->widest;
         for (uint32_t k = 0; k < near->count[i]; k++) {
-            uint32_t other = near->index[jox_neighbour_at(near, i, k)];
-            float dx = a->x[other] - x, dy = a->y[other] - y, touch = radius[i] + radius[other];
-            if (!(dx * dx + dy * dy < touch * touch))
-                continue;
-            if (a->id[i] > a->id[other] && sees(near, other, i))
+            size_t at = jox_neighbour_at(near, i, k);
+            float distance2 = near->distance2[at];
+            if (!(distance2 < widest * widest))
+                break; /* nearest first: no one further on can touch */
+            uint32_t other = near->index[at];
+            float touch = radius[i] + radius[other];
+            if (!(distance2 < touch * touch) ||
+                (a->id[i] > a->id[other] && sees(near, other, i, distance2)))
                 continue;
             list[count] = make_pair(a, i, other);
             approaching += pair_speed(&list[count], a->vx, a->vy) < 0.0f;
@@ -114,8 +121,8 @@ static void settle_chunk(void *context, uint32_t begin, uint32_t end, uint32_t w
             float inverse_mass = 1.0f / mass[p->first] + 1.0f / mass[p->second];
             p->impulse = jox_contact_impulse(speed, restitution, inverse_mass);
         } else {
-            p->give = (float)a->contacts[p->first] / mass[p->first] +
-                      (float)a->contacts[p->second] / mass[p->second];
+            p->stiff = 1.0f / ((float)a->contacts[p->first] / mass[p->first] +
+                               (float)a->contacts[p->second] / mass[p->second]);
             p->bounce = speed < 0.0f ? -restitution * speed : 0.0f;
         }
     }
@@ -151,7 +158,7 @@ static void pass_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     JoxPair *list = (JoxPair *)f->pairs.items + (size_t)chunk * f->pairs.room;
     for (uint32_t k = 0; k < f->pairs.counts[chunk]; k++) {
         JoxPair *p = &list[k];
-        float change = (p->bounce - pair_speed(p, f->work_x, f->work_y)) / p->give;
+        float change = (p->bounce - pair_speed(p, f->work_x, f->work_y)) * p->stiff;
         p->impulse = jox_maxf(0.0f, p->impulse + change);
     }
 }

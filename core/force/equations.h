@@ -11,7 +11,10 @@
 /* Whether `offset` lies within the cone about the unit vector `axis` whose half-angle has this
    cosine. A zero offset has no direction and counts as inside. */
 static inline bool jox_cone_holds(JoxV2 offset, JoxV2 axis, float cosine) {
-    return jox_dot(offset, axis) >= cosine * jox_length(offset);
+    float along = jox_dot(offset, axis), edge2 = cosine * cosine * jox_length2(offset);
+    if (cosine < 0.0f)
+        return along >= 0.0f || along * along <= edge2;
+    return along >= 0.0f && along * along >= edge2;
 }
 
 /* (5) Share of one among `n` in a push of `newtons` along `offset`, from the pusher. */

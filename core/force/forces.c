@@ -64,11 +64,15 @@ void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t
         memset(list->counts, 0, chunks * sizeof *list->counts);
 }
 
-static float widest_reach(const JoxAgents *a) {
+/* How far from a body someone may act on it; also keeps the greatest radius. */
+static float widest_reach(JoxForces *f) {
+    const JoxAgents *a = f->step.agents;
     float reach = 0.0f;
+    f->widest = 0.0f;
     for (uint32_t i = 0; i < a->count; i++) {
         float own = a->param[JOX_PARAM_radius][i] + a->param[JOX_PARAM_push_reach][i];
         reach = jox_maxf(reach, own);
+        f->widest = jox_maxf(f->widest, a->param[JOX_PARAM_radius][i]);
     }
     return reach;
 }
@@ -94,8 +98,9 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     if (n)
         memset(a->contacts, 0, n);
     f->grid.columns = 0;
+    float reach = widest_reach(f);
     if (n && step->objects && step->objects->count)
-        jox_body_grid_fill(&f->grid, step->objects, widest_reach(a));
+        jox_body_grid_fill(&f->grid, step->objects, reach);
 }
 
 uint32_t jox_transfers_sort(JoxForces *f) {

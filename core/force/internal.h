@@ -20,7 +20,7 @@ typedef struct JoxPair {
     uint32_t first, second;
     float nx, ny;
     float bounce;  /* normal velocity wanted at the end, m/s, at least 0 */
-    float give;    /* inverse of the split mass of both, 1/kg */
+    float stiff;   /* the split masses of both, as one, kg */
     float impulse; /* accumulated, N s */
 } JoxPair;
 
@@ -97,6 +97,7 @@ struct JoxForces {
     float *work_x, *work_y; /* velocities while contacts are solved */
     size_t work_x_capacity, work_y_capacity;
 
+    float widest; /* greatest radius, m */
     JoxBodyGrid grid;
     JoxOwed *owed;
     size_t owed_capacity;

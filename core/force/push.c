@@ -29,10 +29,14 @@ static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
     const JoxNeighbours *near = f->step.neighbours;
     const float *radius = a->param[JOX_PARAM_radius];
     float cosine = a->param[JOX_PARAM_push_angle][i], reach = a->param[JOX_PARAM_push_reach][i];
+    float widest = reach + radius[i] + f->widest;
     uint64_t only = a->push_only[i];
     uint32_t n = 0;
     for (uint32_t k = 0; k < near->count[i]; k++) {
-        uint32_t other = near->index[jox_neighbour_at(near, i, k)];
+        size_t at = jox_neighbour_at(near, i, k);
+        if (near->distance2[at] > widest * widest)
+            break; /* nearest first */
+        uint32_t other = near->index[at];
         JoxV2 offset = jox_v2(a->x[other] - a->x[i], a->y[other] - a->y[i]);
         float most = reach + radius[i] + radius[other], d2 = jox_length2(offset);
         if (!(d2 < most * most) || !jox_cone_holds(offset, aim, cosine))
