@@ -12,7 +12,7 @@ static JoxV2 halfway(const JoxDisc *d) {
 
 static uint32_t cell_of(float value, float low, float cell, uint32_t cells) {
     float at = (value - low) / cell;
-    return at <= 0.0f ? 0 : at >= (float)cells ? cells - 1 : (uint32_t)at;
+    return !(at > 0.0f) ? 0 : at >= (float)cells ? cells - 1 : (uint32_t)at;
 }
 
 static uint32_t cell_at(const JoxDiscGrid *g, JoxV2 p) {

@@ -1,0 +1,319 @@
+/* Bullet's world: bodies come and go, are pushed, and are read. */
+#include "body/bullet.h"
+
+#include <string.h>
+
+static const float REACH = 10000.0f;
+
+JoxBodies *jox_bodies_create(const JoxBodiesDef *def) {
+    JoxBodies *b = static_cast<JoxBodies *>(jox_alloc(1, sizeof(JoxBodies)));
+    b->def = *def;
+    b->last_dt = 0.05f;
+    return b;
+}
+
+static btRigidBody *add_static(JoxBodies *b, btCollisionShape *shape, const btTransform &at) {
+    btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape);
+    info.m_startWorldTransform = at;
+    info.m_friction = info.m_restitution = 1;
+    btRigidBody *body = new btRigidBody(info);
+    body->setUserIndex(-1);
+    b->world->addRigidBody(body);
+    return body;
+}
+
+void jox_bodies_ensure(JoxBodies *b) {
+    if (b->world)
+        return;
+    btDefaultCollisionConstructionInfo info;
+    info.m_defaultMaxPersistentManifoldPoolSize = 512;
+    info.m_defaultMaxCollisionAlgorithmPoolSize = 512;
+    b->configuration = new btDefaultCollisionConfiguration(info);
+    b->dispatcher = new btCollisionDispatcher(b->configuration);
+    b->broadphase = new btDbvtBroadphase();
+    b->solver = new btSequentialImpulseConstraintSolver();
+    b->world =
+        new btDiscreteDynamicsWorld(b->dispatcher, b->broadphase, b->solver, b->configuration);
+    b->world->getDispatchInfo().m_deterministicOverlappingPairs = true;
+    b->world->setGravity(btVector3(0, 0, float(-b->def.gravity)));
+    if (!b->def.ground)
+        return;
+    b->ground_shape = new btStaticPlaneShape(btVector3(0, 0, 1), 0);
+    b->ground = add_static(b, b->ground_shape, btTransform::getIdentity());
+}
+
+static void drop_static(JoxBodies *b, btRigidBody *body) {
+    b->world->removeRigidBody(body);
+    delete body;
+}
+
+void jox_bodies_drop_walls(JoxBodies *b) {
+    for (uint32_t i = 0; i < b->wall_count; i++) {
+        btCollisionShape *shape = b->walls[i]->getCollisionShape();
+        drop_static(b, b->walls[i]);
+        delete shape;
+    }
+    b->wall_count = 0;
+}
+
+/* Each edge is a box 4 cm thick about it; the way back along a thin wall adds no second one. */
+void jox_bodies_set_walls(JoxBodies *b, const JoxWalls *walls, float height) {
+    if (!(height > 0))
+        return;
+    jox_bodies_ensure(b);
+    jox_bodies_drop_walls(b);
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        uint32_t first = walls->rings[r].first, n = walls->rings[r].count;
+        float tall = std::isfinite(walls->rings[r].height) ? walls->rings[r].height : height;
+        for (uint32_t i = first; i < first + n; i++) {
+            JoxV2 p = walls->vertices[i].point, d = walls->vertices[i].direction;
+            JoxV2 q = walls->vertices[walls->vertices[i].next].point;
+            if (!walls->rings[r].solid && (p.x > q.x || (p.x == q.x && p.y > q.y)))
+                continue;
+            float half = 0.5f * jox_length(jox_sub(q, p));
+            if (!(half > 0))
+                continue;
+            btTransform at(btMatrix3x3(d.x, -d.y, 0, d.y, d.x, 0, 0, 0, 1),
+                           btVector3((p.x + q.x) / 2, (p.y + q.y) / 2, tall / 2));
+            jox_reserve(b->walls, b->wall_capacity, b->wall_count + 1);
+            b->walls[b->wall_count++] =
+                add_static(b, new btBoxShape(btVector3(half, 0.02f, tall / 2)), at);
+        }
+    }
+}
+
+void jox_bodies_drop(JoxBodies *b, uint32_t row) {
+    JoxRow *r = &b->rows[row];
+    b->world->removeRigidBody(r->body);
+    delete r->body;
+    jox_built_free(&r->built);
+    jox_free(r->name);
+    r->live = false;
+    r->name = nullptr;
+    r->body = nullptr;
+    uint32_t k = 0;
+    while (b->order[k] != row)
+        k++;
+    for (b->live--; k < b->live; k++)
+        b->order[k] = b->order[k + 1];
+}
+
+void jox_bodies_free(JoxBodies *b) {
+    if (!b)
+        return;
+    while (b->live)
+        jox_bodies_drop(b, b->order[b->live - 1]);
+    if (b->world) {
+        jox_bodies_drop_walls(b);
+        if (b->ground)
+            drop_static(b, b->ground);
+        delete b->ground_shape;
+        delete b->world;
+        delete b->solver;
+        delete b->broadphase;
+        delete b->dispatcher;
+        delete b->configuration;
+    }
+    void *owned[] = {b->walls, b->rows, b->order, b->objects, b->hits, b->gone, b->corners};
+    for (void *memory : owned)
+        jox_free(memory);
+    jox_disc_grid_free(&b->grid);
+    jox_footprint_free(&b->footprint);
+    jox_free(b);
+}
+
+static bool within(const double *values, int n, double most) {
+    for (int i = 0; i < n; i++)
+        if (!(fabs(values[i]) <= most))
+            return false;
+    return true;
+}
+
+static const char *wrong(const JoxBodyDef *d) {
+    if (!within(d->position, 3, REACH))
+        return "a body must lie within 10 km of the origin";
+    if (!within(d->turn, 4, 1e6))
+        return "a body's turn must be a finite quaternion";
+    if (!within(d->velocity, 3, 500) || !within(d->spin, 3, 500))
+        return "a body's velocity must be below 500 m/s and its spin below 500 rad/s";
+    if (!(d->mass >= 0 && d->mass <= 1e9) || !(d->density >= 0 && d->density <= 1e6))
+        return "a body's mass must lie between 0 and 1e9 kg, its density below 1e6 kg/m3";
+    if (!(d->friction >= 0 && d->friction <= 10))
+        return "a body's friction must lie between 0 and 10";
+    double shares[3] = {d->restitution, d->damping, d->spin_damping};
+    for (double share : shares)
+        if (!(share >= 0 && share <= 1))
+            return "a body's restitution and dampings must lie between 0 and 1";
+    return nullptr;
+}
+
+static uint32_t free_row(JoxBodies *b) {
+    for (uint32_t i = 0; i < b->count; i++)
+        if (!b->rows[i].live)
+            return i;
+    jox_reserve(b->rows, b->capacity, b->count + 1);
+    return b->count++;
+}
+
+static btVector3 vector(const double v[3]) {
+    return btVector3(float(v[0]), float(v[1]), float(v[2]));
+}
+
+uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
+    const char *problem = wrong(def);
+    if (problem) {
+        if (error)
+            jox_text_add(error, problem);
+        return JOX_NO_BODY;
+    }
+    bool still = def->still ||
+                 (def->shape.kind != JOX_SHAPE_COMPOUND && def->mass <= 0 && def->density <= 0);
+    JoxBuilt built;
+    if (!jox_built_make(def, still, &built, error))
+        return JOX_NO_BODY;
+    jox_bodies_ensure(b);
+    btQuaternion turn(float(def->turn[0]), float(def->turn[1]), float(def->turn[2]),
+                      float(def->turn[3]));
+    turn = turn.length2() > 1e-12f ? turn.normalized() : btQuaternion::getIdentity();
+    btRigidBody::btRigidBodyConstructionInfo info(built.mass, nullptr, built.shape, built.inertia);
+    info.m_startWorldTransform = btTransform(turn, vector(def->position)) * built.frame;
+    info.m_friction = float(def->friction);
+    info.m_restitution = float(def->restitution);
+    info.m_linearDamping = float(def->damping);
+    info.m_angularDamping = float(def->spin_damping);
+    info.m_linearSleepingThreshold = 0.1f;
+    info.m_angularSleepingThreshold = 0.2f;
+    uint32_t at = free_row(b);
+    JoxRow *r = &b->rows[at];
+    *r = JoxRow();
+    r->live = true;
+    r->id = b->next_id++;
+    r->name = def->name ? jox_strdup(def->name) : nullptr;
+    r->tags = def->tags;
+    r->built = built;
+    r->body = new btRigidBody(info);
+    r->body->setUserIndex(int(at));
+    if (!still) {
+        r->body->setLinearVelocity(vector(def->velocity));
+        r->body->setAngularVelocity(vector(def->spin));
+        r->body->setCcdMotionThreshold(built.inner);
+        r->body->setCcdSweptSphereRadius(0.8f * built.inner);
+    }
+    b->world->addRigidBody(r->body);
+    jox_reserve(b->order, b->order_capacity, b->live + 1);
+    b->order[b->live++] = at;
+    return at;
+}
+
+static JoxRow *row_of(const JoxBodies *b, uint32_t row) {
+    return row < b->count && b->rows[row].live ? &b->rows[row] : nullptr;
+}
+
+bool jox_bodies_remove(JoxBodies *b, uint32_t row) {
+    if (!row_of(b, row))
+        return false;
+    jox_bodies_drop(b, row);
+    return true;
+}
+
+uint32_t jox_bodies_count(const JoxBodies *b) {
+    return b->live;
+}
+
+uint32_t jox_bodies_find(const JoxBodies *b, uint32_t id) {
+    for (uint32_t k = 0; k < b->live; k++)
+        if (b->rows[b->order[k]].id == id)
+            return b->order[k];
+    return JOX_NO_BODY;
+}
+
+uint32_t jox_bodies_find_name(const JoxBodies *b, const char *name) {
+    for (uint32_t k = 0; k < b->live; k++)
+        if (strcmp(jox_bodies_name(b, b->order[k]), name) == 0)
+            return b->order[k];
+    return JOX_NO_BODY;
+}
+
+const char *jox_bodies_name(const JoxBodies *b, uint32_t row) {
+    const JoxRow *r = row_of(b, row);
+    return r && r->name ? r->name : "";
+}
+
+bool jox_bodies_pose(const JoxBodies *b, uint32_t row, JoxPose *pose) {
+    *pose = JoxPose();
+    const JoxRow *r = row_of(b, row);
+    if (!r)
+        return false;
+    btTransform at = r->body->getWorldTransform() * r->built.frame.inverse();
+    btQuaternion q = at.getRotation();
+    pose->position = jox_v3(at.getOrigin());
+    for (int i = 0; i < 4; i++)
+        pose->turn[i] = q[i];
+    pose->centre = jox_v3(r->body->getWorldTransform().getOrigin());
+    pose->velocity = jox_v3(r->body->getLinearVelocity());
+    pose->spin = jox_v3(r->body->getAngularVelocity());
+    pose->mass = r->built.mass;
+    pose->inertia = jox_v3(r->built.inertia);
+    return true;
+}
+
+bool jox_bodies_set_velocity(JoxBodies *b, uint32_t row, JoxV3 velocity, JoxV3 spin) {
+    JoxRow *r = row_of(b, row);
+    if (!r || r->built.mass <= 0 || !jox_finite(jox_bt(velocity)) || !jox_finite(jox_bt(spin)))
+        return false;
+    r->body->activate(true);
+    r->body->setLinearVelocity(jox_bt(velocity));
+    r->body->setAngularVelocity(jox_bt(spin));
+    return true;
+}
+
+bool jox_bodies_force(JoxBodies *b, uint32_t row, JoxV3 force) {
+    JoxRow *r = row_of(b, row);
+    if (!r || r->built.mass <= 0 || !jox_finite(jox_bt(force)))
+        return false;
+    r->force = jox_v3(jox_bt(r->force) + jox_bt(force));
+    return true;
+}
+
+uint32_t jox_bodies_impulses(JoxBodies *b, const JoxImpulse *impulses, uint32_t count) {
+    uint32_t odd = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        btVector3 p = jox_bt(impulses[i].impulse), at = jox_bt(impulses[i].point);
+        JoxRow *r = row_of(b, impulses[i].object);
+        if (!r || r->built.mass <= 0 || !jox_finite(p) || !jox_finite(at)) {
+            odd++;
+            continue;
+        }
+        float change = p.length() / r->built.mass, most = float(b->def.most_change);
+        if (!(change <= most)) {
+            odd++;
+            /* Scaled twice, so that a square that overflows is still clamped. */
+            p /= p.absolute()[p.absolute().maxAxis()];
+            p *= most * r->built.mass / p.length();
+        }
+        r->body->activate(true);
+        r->body->applyImpulse(p, at - r->body->getWorldTransform().getOrigin());
+    }
+    return odd;
+}
+
+void jox_bodies_hash(const JoxBodies *b, JoxHash *hash) {
+    for (uint32_t k = 0; k < b->live; k++) {
+        const JoxRow *r = &b->rows[b->order[k]];
+        const btTransform &at = r->body->getWorldTransform();
+        float state[18];
+        for (int i = 0; i < 3; i++) {
+            state[i] = at.getOrigin()[i];
+            state[3 + i] = r->body->getLinearVelocity()[i];
+            state[6 + i] = r->body->getAngularVelocity()[i];
+            for (int j = 0; j < 3; j++)
+                state[9 + 3 * i + j] = at.getBasis()[i][j];
+        }
+        jox_hash_add(hash, &r->id, sizeof r->id);
+        jox_hash_add(hash, state, sizeof state);
+    }
+}
+
+bool jox_bodies_available(void) {
+    return true;
+}

@@ -1,0 +1,117 @@
+/* Shared by bullet*.cc alone. */
+#ifndef JOX_BODY_BULLET_H
+#define JOX_BODY_BULLET_H
+
+#include <cmath>
+#include <math.h>
+#include <stdint.h>
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#include <btBulletDynamicsCommon.h>
+#pragma GCC diagnostic pop
+
+extern "C" {
+#include "base/mem.h"
+#include "body/body.h"
+#include "body/footprint.h"
+#include "body/sweep.h"
+}
+
+static_assert(sizeof(btScalar) == sizeof(float), "Bullet of single precision");
+
+/* One convex part in the frame of the body's centre of mass and principal axes. */
+struct JoxPart {
+    JoxShapeKind kind;
+    float radius; /* sphere, cylinder */
+    btTransform frame;
+    JoxV3 *corners; /* of a polytope; a cylinder as a prism; none for a sphere */
+    uint32_t corner_count;
+    uint32_t *edges;
+    uint32_t edge_count;
+};
+
+/* What a definition comes to: the shape for Bullet, the parts for footprints, and the mass. */
+struct JoxBuilt {
+    btCollisionShape *shape; /* a compound owns nothing: `children` are freed one by one */
+    btCollisionShape **children;
+    uint32_t child_count;
+    JoxPart *parts;
+    uint32_t part_count;
+    btTransform frame = btTransform::getIdentity(); /* of the centre of mass and principal axes in
+                                                       the shape's own frame */
+    float mass;
+    btVector3 inertia = btVector3(0, 0, 0); /* principal moments */
+    float inner, bound; /* smallest half extent; bounding radius about the centre of mass */
+};
+
+/* False, with a sentence in `error`, where the definition makes no sense. */
+bool jox_built_make(const JoxBodyDef *def, bool still, JoxBuilt *out, JoxText *error);
+void jox_built_free(JoxBuilt *built);
+
+struct JoxRow {
+    bool live;
+    uint32_t id;
+    char *name;
+    uint64_t tags;
+    JoxBuilt built;
+    btRigidBody *body;
+    JoxV3 force; /* over the next step, N */
+    bool grounded, swept, written;
+};
+
+struct JoxBodies {
+    JoxBodiesDef def;
+    btDefaultCollisionConfiguration *configuration;
+    btCollisionDispatcher *dispatcher;
+    btDbvtBroadphase *broadphase;
+    btSequentialImpulseConstraintSolver *solver;
+    btDiscreteDynamicsWorld *world; /* NULL until the first body or wall */
+    btCollisionShape *ground_shape;
+    btRigidBody *ground;
+    btRigidBody **walls;
+    uint32_t wall_count, wall_capacity;
+    JoxRow *rows;
+    uint32_t count, capacity;
+    uint32_t *order; /* live rows in order of id */
+    uint32_t live, order_capacity;
+    uint32_t next_id;
+    float last_dt;
+    JoxObject *objects;
+    uint32_t object_capacity;
+    JoxDiscHit *hits;
+    uint32_t hit_count, hit_capacity;
+    JoxBodyGone *gone;
+    uint32_t gone_count, gone_capacity;
+    JoxDiscGrid grid;
+    JoxFootprint footprint;
+    JoxV3 *corners; /* scratch: a part's corners in world coordinates */
+    uint32_t corner_capacity;
+};
+
+template <class T> static inline void jox_reserve(T *&array, uint32_t &capacity, uint32_t need) {
+    if (need <= capacity)
+        return;
+    uint32_t c = capacity ? 2 * capacity : 8;
+    capacity = c < need ? need : c;
+    array = static_cast<T *>(jox_realloc(array, capacity, sizeof(T)));
+}
+
+static inline btVector3 jox_bt(JoxV3 v) {
+    return btVector3(v.x, v.y, v.z);
+}
+static inline JoxV3 jox_v3(const btVector3 &v) {
+    return JoxV3{v.x(), v.y(), v.z()};
+}
+static inline bool jox_finite(const btVector3 &v) {
+    return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
+}
+
+/* Makes Bullet's world if it is not there yet. */
+void jox_bodies_ensure(JoxBodies *bodies);
+void jox_bodies_drop(JoxBodies *bodies, uint32_t row);
+void jox_bodies_drop_walls(JoxBodies *bodies);
+/* Whether a body at this speed is to be swept in a step of dt. */
+bool jox_row_fast(const JoxRow *row, float dt);
+
+#endif

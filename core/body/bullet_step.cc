@@ -1,0 +1,222 @@
+/* A step in substeps, with the sweep of fast bodies against people; and what agents see. */
+#include "body/bullet.h"
+
+bool jox_row_fast(const JoxRow *r, float dt) {
+    return r->built.mass > 0 && r->built.bound <= 0.75f &&
+           r->body->getLinearVelocity().length() * dt > 0.1f;
+}
+
+bool jox_bodies_any_fast(const JoxBodies *b, float dt) {
+    for (uint32_t k = 0; k < b->live; k++) {
+        const JoxRow *r = &b->rows[b->order[k]];
+        if (r->swept || jox_row_fast(r, dt))
+            return true;
+    }
+    return false;
+}
+
+static uint32_t substeps(const JoxBodies *b, float dt) {
+    float need = ceilf(dt * 60.0f - 1e-4f), most = ceilf(dt * 480.0f - 1e-4f);
+    for (uint32_t k = 0; k < b->live; k++) {
+        const JoxRow *r = &b->rows[b->order[k]];
+        if (!jox_row_fast(r, dt))
+            continue;
+        float n = ceilf(r->body->getLinearVelocity().length() * dt / r->built.inner);
+        need = n > need ? n : need;
+    }
+    need = need < most ? need : most;
+    return need < 1 ? 1 : uint32_t(need);
+}
+
+static void hit_person(JoxBodies *b, uint32_t row, JoxDisc *discs, const JoxSweep *sweep,
+                       const JoxSweepHit *hit) {
+    JoxRow *r = &b->rows[row];
+    JoxDisc *d = &discs[hit->disc];
+    btVector3 n = jox_bt(hit->normal), arm = n * -sweep->radius;
+    float inverse[9];
+    for (int i = 0; i < 9; i++)
+        inverse[i] = r->body->getInvInertiaTensorWorld()[i / 3][i % 3];
+    float e = float(r->body->getRestitution() * b->def.person_hardness);
+    float j = jox_sweep_impulse(jox_v3(r->body->getLinearVelocity()),
+                                jox_v3(r->body->getAngularVelocity()), 1.0f / r->built.mass,
+                                inverse, jox_v3(arm), hit->normal, d, e);
+    if (!(j > 0))
+        return;
+    btTransform at = r->body->getWorldTransform();
+    at.setOrigin(at.getOrigin() + r->body->getLinearVelocity() * hit->time);
+    r->body->setWorldTransform(at);
+    r->body->setInterpolationWorldTransform(at);
+    r->body->applyImpulse(n * j, arm);
+    d->vx -= j * n.x() / d->mass;
+    d->vy -= j * n.y() / d->mass;
+    jox_reserve(b->hits, b->hit_capacity, b->hit_count + 1);
+    b->hits[b->hit_count++] =
+        JoxDiscHit{hit->disc, row, jox_v3(at.getOrigin() + arm), JoxV2{-j * n.x(), -j * n.y()}};
+}
+
+static void sweep_all(JoxBodies *b, JoxDisc *discs, float begin, float span, float dt) {
+    for (uint32_t k = 0; k < b->live; k++) {
+        JoxRow *r = &b->rows[b->order[k]];
+        if (!r->swept && !jox_row_fast(r, dt))
+            continue;
+        float radius = r->built.parts[0].kind == JOX_SHAPE_SPHERE && r->built.part_count == 1
+                           ? r->built.parts[0].radius
+                           : 0.5f * (r->built.inner + r->built.bound);
+        JoxSweep sweep = {jox_v3(r->body->getWorldTransform().getOrigin()),
+                          jox_v3(r->body->getLinearVelocity()),
+                          radius,
+                          begin,
+                          span,
+                          dt,
+                          float(b->def.person_height)};
+        JoxSweepHit hit;
+        if (jox_sweep(&b->grid, discs, &sweep, &hit))
+            hit_person(b, b->order[k], discs, &sweep, &hit);
+    }
+}
+
+static void mark_grounded(JoxBodies *b) {
+    for (int m = 0; m < b->dispatcher->getNumManifolds(); m++) {
+        const btPersistentManifold *manifold = b->dispatcher->getManifoldByIndexInternal(m);
+        const btCollisionObject *one = manifold->getBody0(), *two = manifold->getBody1();
+        if (one->isStaticObject() == two->isStaticObject())
+            continue;
+        const btCollisionObject *mover = one->isStaticObject() ? two : one;
+        float sign = mover == one ? 1.0f : -1.0f;
+        for (int c = 0; c < manifold->getNumContacts(); c++) {
+            const btManifoldPoint &p = manifold->getContactPoint(c);
+            if (p.getDistance() < 0.01f && sign * p.m_normalWorldOnB.z() > 0.5f &&
+                mover->getUserIndex() >= 0)
+                b->rows[mover->getUserIndex()].grounded = true;
+        }
+    }
+}
+
+/* Takes out what fell or is no longer a number, before Bullet meets it again. */
+static void weed(JoxBodies *b) {
+    for (uint32_t k = 0; k < b->live;) {
+        uint32_t row = b->order[k];
+        JoxRow *r = &b->rows[row];
+        const btVector3 &at = r->body->getWorldTransform().getOrigin();
+        bool sound = jox_finite(at) && jox_finite(r->body->getLinearVelocity()) &&
+                     jox_finite(r->body->getAngularVelocity());
+        bool fell = sound && r->built.mass > 0 && at.z() < b->def.kill_height;
+        if (sound && !fell) {
+            k++;
+            continue;
+        }
+        jox_reserve(b->gone, b->gone_capacity, b->gone_count + 1);
+        b->gone[b->gone_count++] =
+            JoxBodyGone{row, r->id, fell ? JOX_BODY_FELL : JOX_BODY_NOT_FINITE};
+        jox_bodies_drop(b, row);
+    }
+}
+
+static void push_on(JoxBodies *b, bool last) {
+    for (uint32_t k = 0; k < b->live; k++) {
+        JoxRow *r = &b->rows[b->order[k]];
+        if (jox_bt(r->force).length2() > 0) {
+            r->body->activate(true);
+            r->body->applyCentralForce(jox_bt(r->force));
+        }
+        if (last)
+            r->force = JoxV3{0, 0, 0};
+    }
+}
+
+JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t disc_count) {
+    JoxBodiesReport report = {};
+    b->hit_count = b->gone_count = 0;
+    if (!b->world || !b->live || !(dt > 0 && dt <= 1))
+        return report;
+    b->last_dt = dt;
+    bool people = discs && disc_count && jox_bodies_any_fast(b, dt);
+    if (people)
+        jox_disc_grid_build(&b->grid, discs, disc_count);
+    for (uint32_t k = 0; k < b->live; k++)
+        if (b->rows[b->order[k]].body->isActive())
+            b->rows[b->order[k]].grounded = false;
+    uint32_t n = substeps(b, dt);
+    float h = dt / float(n);
+    for (uint32_t s = 0; s < n; s++) {
+        if (people)
+            sweep_all(b, discs, h * float(s), h, dt);
+        push_on(b, s + 1 == n);
+        b->world->stepSimulation(h, 0);
+        weed(b);
+        mark_grounded(b);
+    }
+    report.hits = b->hits;
+    report.hit_count = b->hit_count;
+    report.gone = b->gone;
+    report.gone_count = b->gone_count;
+    report.substeps = n;
+    return report;
+}
+
+static void write_footprint(JoxBodies *b, const JoxRow *r, JoxObject *o) {
+    const btTransform &at = r->body->getWorldTransform();
+    const JoxPart *first = &r->built.parts[0];
+    float reach2 = 0;
+    jox_footprint_begin(&b->footprint);
+    for (uint32_t p = 0; p < r->built.part_count; p++) {
+        const JoxPart *part = &r->built.parts[p];
+        if (part->kind == JOX_SHAPE_SPHERE) {
+            btVector3 c = at * part->frame.getOrigin();
+            float away = jox_length(jox_v2(c.x() - o->position.x, c.y() - o->position.y));
+            reach2 = jox_maxf(reach2, (away + part->radius) * (away + part->radius));
+            jox_footprint_add_sphere(&b->footprint, jox_v3(c), part->radius);
+            continue;
+        }
+        jox_reserve(b->corners, b->corner_capacity, part->corner_count);
+        for (uint32_t i = 0; i < part->corner_count; i++) {
+            b->corners[i] = jox_v3(at * jox_bt(part->corners[i]));
+            JoxV2 away = jox_v2(b->corners[i].x - o->position.x, b->corners[i].y - o->position.y);
+            reach2 = jox_maxf(reach2, jox_length2(away));
+        }
+        jox_footprint_add(&b->footprint, b->corners, part->corner_count, part->edges,
+                          part->edge_count);
+    }
+    o->disc = sqrtf(reach2);
+    jox_footprint_end(&b->footprint, o);
+    bool upright = first->kind == JOX_SHAPE_CYLINDER &&
+                   fabsf((at.getBasis() * first->frame.getBasis())[2][2]) > 0.9999f;
+    o->round = o->disc;
+    if (r->built.part_count > 1 || (first->kind != JOX_SHAPE_SPHERE && !upright))
+        return;
+    o->footprint_count = 0;
+    o->round = upright ? first->radius : jox_footprint_sphere(o->position.z, first->radius);
+}
+
+static void write_object(JoxBodies *b, JoxRow *r, JoxObject *o) {
+    *o = JoxObject();
+    o->id = r->id;
+    o->live = true;
+    o->moves = r->built.mass > 0;
+    o->grounded = r->grounded;
+    r->swept = jox_row_fast(r, b->last_dt);
+    o->swept = r->swept;
+    o->tags = r->tags;
+    o->position = jox_v3(r->body->getWorldTransform().getOrigin());
+    o->velocity = jox_v3(r->body->getLinearVelocity());
+    o->spin = jox_v3(r->body->getAngularVelocity());
+    o->inverse_mass = r->body->getInvMass();
+    for (int i = 0; i < 9; i++)
+        o->inverse_inertia[i] = r->body->getInvInertiaTensorWorld()[i / 3][i % 3];
+    o->restitution = r->body->getRestitution();
+    o->friction = r->body->getFriction();
+    write_footprint(b, r, o);
+}
+
+void jox_bodies_objects(JoxBodies *b, JoxObjects *objects) {
+    jox_reserve(b->objects, b->object_capacity, b->count);
+    for (uint32_t i = 0; i < b->count; i++) {
+        if (b->rows[i].live)
+            write_object(b, &b->rows[i], &b->objects[i]);
+        else
+            b->objects[i] = JoxObject();
+    }
+    objects->rows = b->objects;
+    objects->count = b->count;
+    objects->capacity = b->object_capacity;
+}

@@ -1,0 +1,70 @@
+/* A build without Bullet: bodies cannot be made, and there is nothing to do with none. */
+#include "base/mem.h"
+#include "body/body.h"
+
+struct JoxBodies {
+    uint32_t nothing;
+};
+
+JoxBodies *jox_bodies_create(const JoxBodiesDef *def) {
+    (void)def;
+    return jox_alloc(1, sizeof(JoxBodies));
+}
+void jox_bodies_free(JoxBodies *bodies) {
+    jox_free(bodies);
+}
+void jox_bodies_set_walls(JoxBodies *bodies, const JoxWalls *walls, float height) {
+    (void)bodies, (void)walls, (void)height;
+}
+uint32_t jox_bodies_add(JoxBodies *bodies, const JoxBodyDef *def, JoxText *error) {
+    (void)bodies, (void)def;
+    if (error)
+        jox_text_add(error, "this build has no Bullet, so it cannot simulate bodies");
+    return JOX_NO_BODY;
+}
+bool jox_bodies_remove(JoxBodies *bodies, uint32_t row) {
+    return (void)bodies, (void)row, false;
+}
+uint32_t jox_bodies_count(const JoxBodies *bodies) {
+    return (void)bodies, 0;
+}
+uint32_t jox_bodies_find(const JoxBodies *bodies, uint32_t id) {
+    return (void)bodies, (void)id, JOX_NO_BODY;
+}
+uint32_t jox_bodies_find_name(const JoxBodies *bodies, const char *name) {
+    return (void)bodies, (void)name, JOX_NO_BODY;
+}
+const char *jox_bodies_name(const JoxBodies *bodies, uint32_t row) {
+    return (void)bodies, (void)row, "";
+}
+bool jox_bodies_pose(const JoxBodies *bodies, uint32_t row, JoxPose *pose) {
+    (void)bodies, (void)row;
+    *pose = (JoxPose){0};
+    return false;
+}
+bool jox_bodies_set_velocity(JoxBodies *bodies, uint32_t row, JoxV3 velocity, JoxV3 spin) {
+    return (void)bodies, (void)row, (void)velocity, (void)spin, false;
+}
+bool jox_bodies_force(JoxBodies *bodies, uint32_t row, JoxV3 force) {
+    return (void)bodies, (void)row, (void)force, false;
+}
+uint32_t jox_bodies_impulses(JoxBodies *bodies, const JoxImpulse *impulses, uint32_t count) {
+    return (void)bodies, (void)impulses, count;
+}
+JoxBodiesReport jox_bodies_step(JoxBodies *bodies, float dt, JoxDisc *discs, uint32_t disc_count) {
+    (void)bodies, (void)dt, (void)discs, (void)disc_count;
+    return (JoxBodiesReport){0};
+}
+bool jox_bodies_any_fast(const JoxBodies *bodies, float dt) {
+    return (void)bodies, (void)dt, false;
+}
+void jox_bodies_objects(JoxBodies *bodies, JoxObjects *objects) {
+    (void)bodies;
+    *objects = (JoxObjects){0};
+}
+void jox_bodies_hash(const JoxBodies *bodies, JoxHash *hash) {
+    (void)bodies, (void)hash;
+}
+bool jox_bodies_available(void) {
+    return false;
+}
