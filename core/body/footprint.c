@@ -75,12 +75,12 @@ static float turn(JoxV2 a, JoxV2 b, JoxV2 c) {
 static uint32_t hull(const JoxV2 *points, uint32_t count, JoxV2 *ring) {
     uint32_t n = 0;
     for (uint32_t i = 0; i < count; i++) {
-        while (n >= 2 && turn(ring[n - 2], ring[n - 1], points[i]) <= 1e-9f)
+        while (n >= 2 && turn(ring[n - 2], ring[n - 1], points[i]) <= 1e-6f)
             n--;
         ring[n++] = points[i];
     }
     for (uint32_t i = count - 1, least = n + 1; i-- > 0;) {
-        while (n >= least && turn(ring[n - 2], ring[n - 1], points[i]) <= 1e-9f)
+        while (n >= least && turn(ring[n - 2], ring[n - 1], points[i]) <= 1e-6f)
             n--;
         ring[n++] = points[i];
     }

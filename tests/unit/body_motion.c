@@ -1,0 +1,103 @@
+#include <cmocka.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "body/body.h"
+
+static JoxBodyDef ball(void) {
+    JoxBodyDef d = jox_body_def();
+    d.shape.kind = JOX_SHAPE_SPHERE;
+    d.shape.size[0] = 0.11;
+    d.mass = 0.4;
+    d.position[2] = 1.2;
+    return d;
+}
+
+static void falls(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoxBodiesDef def = jox_bodies_def();
+    JoxBodies *b = jox_bodies_create(&def);
+    JoxBodyDef d = ball();
+    d.position[2] = 100;
+    uint32_t row = jox_bodies_add(b, &d, NULL);
+    for (int i = 0; i < 20; i++)
+        jox_bodies_step(b, 0.05f, NULL, 0);
+    JoxPose p;
+    assert_true(jox_bodies_pose(b, row, &p));
+    assert_float_equal(p.velocity.z, -9.81, 1e-2);
+    assert_float_equal(p.position.z, 100 - 4.905, 0.1);
+    jox_bodies_free(b);
+}
+
+static void stack_stands(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoxBodiesDef def = jox_bodies_def();
+    JoxBodies *b = jox_bodies_create(&def);
+    JoxBodyDef d = jox_body_def();
+    for (int i = 0; i < 4; i++) {
+        d.position[2] = 0.5 + i;
+        jox_bodies_add(b, &d, NULL);
+    }
+    for (int i = 0; i < 200; i++)
+        jox_bodies_step(b, 0.05f, NULL, 0);
+    JoxObjects o = {0};
+    jox_bodies_objects(b, &o);
+    for (uint32_t i = 0; i < 4; i++)
+        assert_float_equal(o.rows[i].position.z, 0.5f + (float)i, 0.03);
+    assert_true(o.rows[0].grounded);
+    assert_int_equal(o.rows[0].footprint_count, 4);
+    jox_bodies_free(b);
+}
+
+static void ball_hits_person(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoxBodiesDef def = jox_bodies_def();
+    def.gravity = 0;
+    JoxBodies *b = jox_bodies_create(&def);
+    JoxBodyDef d = ball();
+    d.velocity[0] = 30;
+    uint32_t row = jox_bodies_add(b, &d, NULL);
+    JoxDisc disc = {.x = 0.8f, .radius = 0.2f, .mass = 70};
+    JoxBodiesReport r = jox_bodies_step(b, 0.05f, &disc, 1);
+    JoxPose p;
+    jox_bodies_pose(b, row, &p);
+    assert_int_equal(r.hit_count, 1);
+    assert_true(p.centre.x < 0.8f);
+    assert_float_equal(0.4 * p.velocity.x + 70 * disc.vx, 12, 1e-4);
+    jox_bodies_free(b);
+}
+
+static void refuses(void **state) {
+    (void)state;
+    JoxBodiesDef def = jox_bodies_def();
+    JoxBodies *b = jox_bodies_create(&def);
+    JoxText error = {0};
+    JoxBodyDef d = ball();
+    d.mass = -1;
+    assert_int_equal(jox_bodies_add(b, &d, &error), JOX_NO_BODY);
+    assert_non_null(error.data);
+    d = ball();
+    d.position[0] = 1e300;
+    assert_int_equal(jox_bodies_add(b, &d, &error), JOX_NO_BODY);
+    d = ball();
+    d.shape.size[0] = NAN;
+    assert_int_equal(jox_bodies_add(b, &d, &error), JOX_NO_BODY);
+    assert_int_equal(jox_bodies_count(b), 0);
+    jox_text_free(&error);
+    jox_bodies_free(b);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(falls), cmocka_unit_test(stack_stands),
+                                       cmocka_unit_test(ball_hits_person),
+                                       cmocka_unit_test(refuses)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
