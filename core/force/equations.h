@@ -11,10 +11,10 @@
 /* Whether `offset` lies within the cone about the unit vector `axis` whose half-angle has this
    cosine. A zero offset has no direction and counts as inside. */
 static inline bool jox_cone_holds(JoxV2 offset, JoxV2 axis, float cosine) {
-    float along = jox_dot(offset, axis), edge2 = cosine * cosine * jox_length2(offset);
-    if (cosine < 0.0f)
-        return along >= 0.0f || along * along <= edge2;
-    return along >= 0.0f && along * along >= edge2;
+    float along = jox_dot(offset, axis);
+    /* Squares that keep their sign: no root, and no branch to guess wrong. */
+    bool within = along * fabsf(along) >= cosine * fabsf(cosine) * jox_length2(offset);
+    return within | (cosine <= -1.0f);
 }
 
 /* (5) Share of one among `n` in a push of `newtons` along `offset`, from the pusher. */

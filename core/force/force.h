@@ -26,7 +26,8 @@ typedef struct JoxForceOptions {
 } JoxForceOptions;
 
 /* What a step works on. Everything but `agents`, `neighbours` and `dt` may be left zero. It must
-   stay valid, and the order of the agents the same, from begin to infer. */
+   stay valid, and the order of the agents the same, from begin to infer. The neighbours' distances
+   are those of the agents' positions until the move. */
 typedef struct JoxForceStep {
     JoxAgents *agents;
     const JoxNeighbours *neighbours;

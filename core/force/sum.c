@@ -71,10 +71,9 @@ static uint32_t in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t *fo
         uint32_t other = near->index[jox_neighbour_at(near, i, k)];
         JoxV2 offset = jox_v2(a->x[other] - a->x[i], a->y[other] - a->y[i]);
         float most = radius[i] + radius[other] + f->options.reach;
-        if (!f->options.literal && jox_length2(offset) > most * most)
-            continue;
-        if (jox_cone_holds(offset, axis, cosine))
-            found[n++] = other;
+        bool near_enough = f->options.literal | (jox_length2(offset) <= most * most);
+        found[n] = other; /* kept only if it counts; no branch that would be guessed wrong */
+        n += near_enough & jox_cone_holds(offset, axis, cosine);
     }
     return n;
 }
