@@ -87,8 +87,9 @@ static uint32_t hull(const JoxV2 *points, uint32_t count, JoxV2 *ring) {
     return n > 1 ? n - 1 : n;
 }
 
+/* Takes out the corners that span least: those over the limit, and those that rounding made. */
 static uint32_t thin(JoxV2 *ring, uint32_t n) {
-    while (n > JOX_FOOTPRINT_POINTS) {
+    while (n > 3) {
         uint32_t least = 0;
         float least_area = INFINITY;
         for (uint32_t i = 0; i < n; i++) {
@@ -98,6 +99,8 @@ static uint32_t thin(JoxV2 *ring, uint32_t n) {
                 least = i;
             }
         }
+        if (n <= JOX_FOOTPRINT_POINTS && least_area > 1e-6f)
+            break;
         for (uint32_t i = least; i + 1 < n; i++)
             ring[i] = ring[i + 1];
         n--;
