@@ -1,0 +1,742 @@
+/* The returned table becomes a JoxMachine. Everything wrong is reported, not only the first. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "lua/internal.h"
+
+static const char *const MACHINE_KEYS[] = {"name",   "version", "start", "defaults",
+                                           "counts", "renamed", "states"};
+static const char *const STATE_KEYS[] = {
+    "steer",    "lasts",  "removes",   "push_when", "push_toward", "push_weight", "face",
+    "approach", "ignore", "push_only", "kick",      "on_enter",    "on_exit"};
+static const char *const TRANSITION_KEYS[] = {"to", "when", "chance", "on_take", "id"};
+enum { KEYS_MOST = 64 };
+
+static JoxPosition at(const JoxBuild *b, const char *path) {
+    return jox_source_path(b->source, path);
+}
+
+/* Position of a key itself: of the key written out, or of the table around it. */
+static void unknown_key(JoxBuild *b, const char *path, const char *key, const char *const *known,
+                        size_t count) {
+    char full[256], hint[160];
+    snprintf(full, sizeof full, "%s%s%s", path, *path ? "." : "", key);
+    const char *near = jox_suggest(key, known, count);
+    if (near)
+        snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
+    jox_build_error(b, at(b, full), "unknown-key", near ? hint : NULL, "unknown key '%s'", key);
+}
+
+/* Reports string keys of the table at `index` that are not known, in ascending order. */
+static void check_keys(JoxBuild *b, int index, const char *path, const char *const *known,
+                       size_t count, bool items) {
+    lua_State *L = b->vm->L;
+    const char *wrong[KEYS_MOST];
+    size_t n = 0;
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        lua_pop(L, 1);
+        if (lua_type(L, -1) != LUA_TSTRING) {
+            if (!items || !lua_isinteger(L, -1))
+                jox_build_error(b, at(b, path), "bad-key", NULL, "this table takes names as keys");
+            continue;
+        }
+        const char *key = lua_tostring(L, -1);
+        bool found = false;
+        for (size_t k = 0; k < count; k++)
+            found |= strcmp(known[k], key) == 0;
+        if (found || n == KEYS_MOST)
+            continue;
+        size_t place = n++;
+        for (; place > 0 && strcmp(wrong[place - 1], key) > 0; place--)
+            wrong[place] = wrong[place - 1];
+        wrong[place] = key;
+    }
+    for (size_t k = 0; k < n; k++)
+        unknown_key(b, path, wrong[k], known, count);
+}
+
+/* Pushes table[key] by raw access; its type. */
+static int field(lua_State *L, int index, const char *key) {
+    lua_pushstring(L, key);
+    return lua_rawget(L, index);
+}
+
+static void join(char path[256], const char *prefix, const char *key) {
+    snprintf(path, 256, "%.190s%s%.60s", prefix, *prefix ? "." : "", key);
+}
+
+static int32_t add_hook(JoxBuild *b) { /* takes the function from the stack */
+    JoxVm *vm = b->vm;
+    JOX_RESERVE(vm->hooks, vm->hook_capacity, vm->hook_count + 1);
+    vm->hooks[vm->hook_count] = luaL_ref(vm->L, LUA_REGISTRYINDEX);
+    b->machine->hook_count = vm->hook_count + 1;
+    return (int32_t)vm->hook_count++;
+}
+
+static int32_t read_hook(JoxBuild *b, int index, const char *path, const char *key) {
+    lua_State *L = b->vm->L;
+    char full[256];
+    join(full, path, key);
+    int type = field(L, index, key);
+    if (type == LUA_TFUNCTION)
+        return add_hook(b);
+    if (type != LUA_TNIL && !jox_node_get(L, -1))
+        jox_build_error(b, at(b, full), "bad-value", "Write: function(me) ... end",
+                        "'%s' must be a function, not %s", key, lua_typename(L, type));
+    lua_pop(L, 1);
+    return -1;
+}
+
+/* A number, distribution or expression for a parameter; pops it. */
+static JoxValue read_value(JoxBuild *b, const char *path, const JoxParameterInfo *info,
+                           bool *is_dist, JoxDist *dist) {
+    lua_State *L = b->vm->L;
+    JoxPosition position = at(b, path);
+    JoxValue value = {.kind = JOX_VALUE_UNSET, .line = position.line};
+    JoxNode *node = jox_node_get(L, -1);
+    *is_dist = false;
+    if (lua_type(L, -1) == LUA_TNUMBER) {
+        value.kind = JOX_VALUE_CONST;
+        value.number = lua_tonumber(L, -1);
+        if (!(value.number >= info->least && value.number <= info->greatest))
+            jox_build_error(b, position, "out-of-range", NULL,
+                            "%s must be from %g to %g %s, not %g", info->name, info->least,
+                            info->greatest, info->unit, value.number);
+    } else if (node && node->kind == JOX_NODE_DIST) {
+        *is_dist = true;
+        *dist = node->dist;
+    } else if (node && node->kind == JOX_NODE_OWN) {
+        value.kind = JOX_VALUE_OWN;
+        value.index = jox_build_own(b, node->name);
+    } else if (node && node->kind == JOX_NODE_NUMBER) {
+        value.kind = JOX_VALUE_PROGRAM;
+        value.index = jox_build_program(b, node, position);
+        if (value.index < 0)
+            value.kind = JOX_VALUE_UNSET;
+    } else if (!node || node->kind != JOX_NODE_POISON) {
+        jox_build_error(b, position, "bad-value", "Give a number, a distribution or an expression",
+                        "%s must be a number, not %s", info->name,
+                        node ? "this value" : luaL_typename(L, -1));
+    }
+    lua_pop(L, 1);
+    return value;
+}
+
+static JoxValue read_parameter(JoxBuild *b, const char *path, const JoxParameterInfo *info) {
+    bool is_dist;
+    JoxDist dist;
+    JoxValue value = read_value(b, path, info, &is_dist, &dist);
+    if (is_dist) { /* drawn once per agent, into a slot of its own */
+        value.kind = JOX_VALUE_OWN;
+        value.index = jox_build_own(b, "");
+        b->machine->own[value.index].dist = dist;
+    }
+    return value;
+}
+
+/* Every parameter has a slot of its own name, so that a scene's group can set any of them. */
+static void read_defaults(JoxBuild *b, int index) {
+    lua_State *L = b->vm->L;
+    const char *known[JOX_PARAM_COUNT];
+    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+        const JoxParameterInfo *info = &jox_parameters[p];
+        known[p] = info->name;
+        int32_t slot = jox_build_own(b, info->name);
+        b->machine->own[slot].dist = jox_dist_constant(info->value);
+        b->machine->defaults[p] = (JoxValue){JOX_VALUE_OWN, 0.0, slot, 0};
+    }
+    if (field(L, index, "defaults") == LUA_TTABLE) {
+        int table = lua_gettop(L);
+        check_keys(b, table, "defaults", known, JOX_PARAM_COUNT, false);
+        for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+            char path[256];
+            bool is_dist;
+            JoxDist dist;
+            join(path, "defaults", known[p]);
+            if (field(L, table, known[p]) == LUA_TNIL) {
+                lua_pop(L, 1);
+                continue;
+            }
+            JoxValue value = read_value(b, path, &jox_parameters[p], &is_dist, &dist);
+            b->machine->defaults[p].line = value.line;
+            if (is_dist)
+                b->machine->own[p].dist = dist;
+            else if (value.kind == JOX_VALUE_CONST)
+                b->machine->own[p].dist = jox_dist_constant(value.number);
+            else if (value.kind != JOX_VALUE_UNSET)
+                b->machine->defaults[p] = value;
+        }
+    } else if (!lua_isnil(L, -1)) {
+        jox_build_error(b, at(b, "defaults"), "bad-value", NULL, "defaults must be a table");
+    }
+    lua_pop(L, 1);
+}
+
+/* Operators that Lua takes for its own between conditions, in the tokens of a value. */
+static bool scan_operators(JoxBuild *b, uint32_t first, uint32_t last) {
+    static const struct {
+        const char *sign, *instead;
+    } TRAPS[] = {{"and", "Use & between conditions"},
+                 {"or", "Use | between conditions"},
+                 {"not", "Use ~ before a condition"},
+                 {"==", "Write :is(n)"},
+                 {"~=", "Write ~x:is(n)"}};
+    bool found = false;
+    int body = 0;
+    for (uint32_t i = first; i < last && i < b->source->token_count; i++) {
+        const JoxToken *t = &b->source->tokens[i];
+        if (jox_token_is(t, "function") ||
+            (body > 0 && (jox_token_is(t, "if") || jox_token_is(t, "do"))))
+            body++;
+        else if (body > 0 && jox_token_is(t, "end"))
+            body--;
+        for (size_t k = 0; body == 0 && k < sizeof TRAPS / sizeof *TRAPS; k++)
+            if (jox_token_is(t, TRAPS[k].sign)) {
+                jox_build_error(
+                    b, (JoxPosition){b->source->path, t->line, t->column, t->end_column},
+                    "lua-operator", TRAPS[k].instead,
+                    "'%s' decides while the file loads, not while the crowd runs", TRAPS[k].sign);
+                found = true;
+            }
+    }
+    return found;
+}
+
+/* The same in the definitions of the locals that a condition uses. */
+static bool scan_condition(JoxBuild *b, const char *path) {
+    const JoxPath *span = jox_source_path_find(b->source, path);
+    if (!span)
+        return false;
+    bool found = scan_operators(b, span->first, span->last);
+    const JoxToken *t = b->source->tokens;
+    for (uint32_t use = span->first; use < span->last; use++) {
+        if (t[use].kind != JOX_TOKEN_NAME)
+            continue;
+        for (uint32_t i = 0; i + 2 < span->first; i++) {
+            bool defines = jox_token_is(&t[i], "local") && jox_token_is(&t[i + 2], "=") &&
+                           t[i + 1].length == t[use].length &&
+                           memcmp(t[i + 1].text, t[use].text, t[use].length) == 0;
+            if (!defines || t[i].used)
+                continue;
+            uint32_t end = i + 3;
+            while (end < span->first && !jox_token_is(&t[end], "local") &&
+                   !jox_token_is(&t[end], "return"))
+                end++;
+            b->source->tokens[i].used = true; /* once per local */
+            found |= scan_operators(b, i + 3, end);
+        }
+    }
+    return found;
+}
+
+/* A condition's program; -1 for none. Pops the value. A function becomes *hook where allowed. */
+static int32_t read_condition(JoxBuild *b, const char *path, int32_t *hook) {
+    lua_State *L = b->vm->L;
+    JoxNode *node = jox_node_get(L, -1);
+    int type = lua_type(L, -1);
+    int32_t program = -1;
+    if (hook && type == LUA_TFUNCTION) {
+        *hook = add_hook(b);
+        return -1;
+    }
+    bool trapped = type != LUA_TNIL && scan_condition(b, path);
+    if (node && node->kind == JOX_NODE_CONDITION) {
+        program = jox_build_program(b, node, at(b, path));
+    } else if (type != LUA_TNIL && !trapped && !(node && node->kind == JOX_NODE_POISON)) {
+        const char *hint = type == LUA_TBOOLEAN ? "Leave `when` out for always; compare with :is, "
+                                                  ":above, ... and join with & | ~"
+                           : node ? "A number becomes a condition by :above, :below, :at_least, "
+                                    ":at_most or :is"
+                                  : NULL;
+        jox_build_error(b, at(b, path), "bad-condition", hint, "this must be a condition, not %s",
+                        node ? "a number" : lua_typename(L, type));
+    }
+    lua_pop(L, 1);
+    return program;
+}
+
+/* A target named by a key (a place's name or a target value), or -1. */
+static int16_t read_target(JoxBuild *b, int index, const char *path, const char *key) {
+    lua_State *L = b->vm->L;
+    char full[256];
+    join(full, path, key);
+    int type = field(L, index, key);
+    JoxNode *node = jox_node_get(L, -1), named = {.kind = JOX_NODE_TARGET};
+    int16_t target = -1;
+    if (type == LUA_TSTRING) {
+        named.name = lua_tostring(L, -1);
+        named.target_kind = JOX_TARGET_PLACE;
+        named.target_arg = -1;
+        const JoxScope *scope = b->vm->scope;
+        if (scope->places)
+            named.target_arg = jox_place_find(scope->places, scope->place_count, named.name);
+        if (named.target_arg < 0 && scope->complete)
+            jox_build_error(b, at(b, full), "unknown-place", NULL, "the scene has no place '%s'",
+                            named.name);
+        target = jox_build_target(b, &named, false);
+    } else if (node && (node->kind == JOX_NODE_TARGET || node->kind == JOX_NODE_OWN)) {
+        target = jox_build_target(b, node, false);
+    } else if (type != LUA_TNIL && !(node && node->kind == JOX_NODE_POISON)) {
+        jox_build_error(b, at(b, full), "bad-value", "Example: face = \"black_stone\"",
+                        "'%s' must be a target or the name of a place", key);
+    }
+    lua_pop(L, 1);
+    return target;
+}
+
+/* Adds the bit of the tag on the stack. */
+static void add_tag(JoxBuild *b, const char *path, uint64_t *mask) {
+    lua_State *L = b->vm->L;
+    const JoxScope *scope = b->vm->scope;
+    const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+    for (uint32_t i = 0; name && i < scope->tag_count; i++)
+        if (strcmp(scope->tags[i], name) == 0) {
+            *mask |= (uint64_t)1 << i;
+            return;
+        }
+    if (!name || scope->complete) {
+        const char *near = name ? jox_suggest(name, scope->tags, scope->tag_count) : NULL;
+        char hint[96];
+        if (near)
+            snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
+        jox_build_error(b, at(b, path), "unknown-tag", near ? hint : NULL,
+                        name ? "nothing in the scene bears the tag '%s'" : "tags are names%s",
+                        name ? name : "");
+    }
+}
+
+static uint64_t read_tags(JoxBuild *b, int index, const char *path, const char *key) {
+    lua_State *L = b->vm->L;
+    char full[256];
+    uint64_t mask = 0;
+    join(full, path, key);
+    int type = field(L, index, key);
+    if (type == LUA_TTABLE) {
+        for (lua_Integer i = 1; lua_rawgeti(L, -1, i) != LUA_TNIL; i++) {
+            add_tag(b, full, &mask);
+            lua_pop(L, 1);
+        }
+        lua_pop(L, 1);
+    } else if (type != LUA_TNIL) {
+        add_tag(b, full, &mask);
+    }
+    lua_pop(L, 1);
+    return mask;
+}
+
+static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state) {
+    lua_State *L = b->vm->L;
+    char full[256];
+    join(full, path, "steer");
+    int type = field(L, index, "steer");
+    JoxNode *node = jox_node_get(L, -1);
+    if (type == LUA_TFUNCTION) {
+        state->steer[0] =
+            (JoxSteerTerm){.kind = JOX_STEER_FUNCTION, .target = -1, .hook = add_hook(b)};
+        state->steer_count = 1;
+        return;
+    }
+    for (JoxNode *t = node; t && t->kind == JOX_NODE_STEER; t = t->next) {
+        if (state->steer_count == JOX_MOST_TERMS) {
+            jox_build_error(b, at(b, full), "too-complex", NULL, "a steering has at most %d terms",
+                            JOX_MOST_TERMS);
+            break;
+        }
+        JoxSteerTerm *term = &state->steer[state->steer_count++];
+        *term = t->term;
+        term->target = t->target ? jox_build_target(b, t->target, false) : -1;
+        if (t->weight && t->weight->kind == JOX_NODE_NUMBER && t->weight->op == JOX_OP_CONST)
+            term->weight = (JoxValue){JOX_VALUE_CONST, t->weight->number, 0, 0};
+        else if (t->weight)
+            term->weight =
+                (JoxValue){JOX_VALUE_PROGRAM, 0.0, jox_build_program(b, t->weight, at(b, full)), 0};
+        if (term->weight.kind == JOX_VALUE_PROGRAM && term->weight.index < 0)
+            term->weight = (JoxValue){.kind = JOX_VALUE_UNSET};
+    }
+    if (type != LUA_TNIL &&
+        !(node && (node->kind == JOX_NODE_STEER || node->kind == JOX_NODE_POISON)))
+        jox_build_error(b, at(b, full), "bad-value", "Example: steer = seek(goal)",
+                        "steer must be a steering or a function, not %s",
+                        node ? "this value" : lua_typename(L, type));
+    lua_pop(L, 1);
+}
+
+/* kick = { ball, at = target, impulse = 0.5 * now.speed }; the impulse is per kg of the ball. */
+static void read_kick(JoxBuild *b, int index, const char *path, JoxState *state) {
+    static const char *const KEYS[] = {"at", "impulse"};
+    static const JoxParameterInfo IMPULSE = {"impulse", "m/s", "", 0, 50, 0};
+    lua_State *L = b->vm->L;
+    char full[256], part[256];
+    join(full, path, "kick");
+    int type = field(L, index, "kick"), table = lua_gettop(L);
+    if (type == LUA_TTABLE) {
+        check_keys(b, table, full, KEYS, 2, true);
+        lua_rawgeti(L, table, 1);
+        JoxNode *ball = jox_node_get(L, -1);
+        if (ball && ball->kind == JOX_NODE_TARGET)
+            state->kick = jox_build_target(b, ball, false);
+        else if (!ball || ball->kind != JOX_NODE_POISON)
+            jox_build_error(b, at(b, full), "bad-value",
+                            "Example: kick = { nearest \"ball\", at = goal, impulse = 4 }",
+                            "kick needs the body to kick as its first item");
+        lua_pop(L, 1);
+        state->kick_at = read_target(b, table, full, "at");
+        join(part, full, "impulse");
+        if (field(L, table, "impulse") == LUA_TNIL) {
+            lua_pop(L, 1);
+            jox_build_error(b, at(b, full), "missing-key", "Example: impulse = 0.5 * now.speed",
+                            "kick needs an impulse");
+        } else {
+            state->kick_impulse = read_parameter(b, part, &IMPULSE);
+        }
+    } else if (type != LUA_TNIL) {
+        jox_build_error(b, at(b, full), "bad-value", NULL, "kick must be a table");
+    }
+    lua_settop(L, table - 1);
+}
+
+static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state) {
+    static const JoxParameterInfo LASTS = {"lasts", "s", "", 0, 1e6, 0};
+    lua_State *L = b->vm->L;
+    char full[256];
+    join(full, path, "lasts");
+    if (field(L, index, "lasts") == LUA_TNIL) {
+        lua_pop(L, 1);
+        return;
+    }
+    JoxNode *node = jox_node_get(L, -1);
+    if (node && node->kind == JOX_NODE_OWN) {
+        state->lasts_program = jox_build_program(b, node, at(b, full));
+        lua_pop(L, 1);
+        return;
+    }
+    bool is_dist;
+    JoxDist dist;
+    JoxValue value = read_value(b, full, &LASTS, &is_dist, &dist);
+    state->has_lasts = is_dist || value.kind == JOX_VALUE_CONST;
+    state->lasts = is_dist ? dist : jox_dist_constant(value.number);
+    state->lasts_program = value.kind == JOX_VALUE_PROGRAM ? value.index : -1;
+}
+
+static void read_flags(JoxBuild *b, int index, const char *path, JoxState *state) {
+    lua_State *L = b->vm->L;
+    char full[256];
+    int type = field(L, index, "removes");
+    join(full, path, "removes");
+    if (type != LUA_TNIL && type != LUA_TBOOLEAN)
+        jox_build_error(b, at(b, full), "bad-value", NULL, "removes must be true or false");
+    state->removes = lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    type = field(L, index, "push_weight");
+    join(full, path, "push_weight");
+    const char *weight = type == LUA_TSTRING ? lua_tostring(L, -1) : "";
+    state->push_nearest = strcmp(weight, "nearest") == 0;
+    if (type != LUA_TNIL && !state->push_nearest && strcmp(weight, "equal") != 0)
+        jox_build_error(b, at(b, full), "bad-value", NULL,
+                        "push_weight must be \"equal\" or \"nearest\"");
+    lua_pop(L, 1);
+}
+
+static void read_transition(JoxBuild *b, int index, const char *path, const JoxMachine *m,
+                            JoxState *state, JoxTransition *t) {
+    static const JoxParameterInfo CHANCE = {"chance", "", "", 0, 1, 1};
+    lua_State *L = b->vm->L;
+    char full[256];
+    *t = (JoxTransition){.when = -1, .when_hook = -1, .on_take = -1, .line = at(b, path).line};
+    check_keys(b, index, path, TRANSITION_KEYS, 5, false);
+    join(full, path, "to");
+    int type = field(L, index, "to");
+    const char *to = type == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+    int target = to ? jox_machine_state(m, to) : -1;
+    if (!to) {
+        jox_build_error(b, at(b, full), "missing-key",
+                        "Example: { to = \"Exit\", when = after(5) }",
+                        "a transition needs `to`, the name of a state");
+    } else if (target < 0) {
+        const char *names[256];
+        size_t count = m->state_count < 256 ? m->state_count : 256;
+        for (size_t s = 0; s < count; s++)
+            names[s] = m->states[s].name;
+        const char *near = jox_suggest(to, names, count);
+        char hint[96];
+        if (near)
+            snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
+        jox_build_error(b, at(b, full), "unknown-state", near ? hint : NULL,
+                        "there is no state '%s'", to);
+    }
+    t->to = target < 0 ? 0 : (uint16_t)target;
+    char id[128];
+    snprintf(id, sizeof id, "%s", to ? to : "?");
+    lua_pop(L, 1);
+    if (field(L, index, "id") == LUA_TSTRING)
+        snprintf(id, sizeof id, "%s", lua_tostring(L, -1));
+    lua_pop(L, 1);
+    int repeats = 1;
+    for (const JoxTransition *o = state->transitions; o < t; o++)
+        repeats += strcmp(o->id, id) == 0 ||
+                   (strncmp(o->id, id, strlen(id)) == 0 && o->id[strlen(id)] == '#');
+    if (repeats > 1)
+        snprintf(id + strlen(id), sizeof id - strlen(id), "#%d", repeats);
+    t->id = jox_strdup(id);
+    join(full, path, "when");
+    field(L, index, "when");
+    t->when = read_condition(b, full, &t->when_hook);
+    join(full, path, "chance");
+    if (field(L, index, "chance") == LUA_TNIL)
+        lua_pop(L, 1);
+    else
+        t->chance = read_parameter(b, full, &CHANCE);
+    t->on_take = read_hook(b, index, path, "on_take");
+}
+
+static void read_transitions(JoxBuild *b, int index, const char *path, JoxState *state) {
+    lua_State *L = b->vm->L;
+    uint32_t count = (uint32_t)lua_rawlen(L, index);
+    if (count > JOX_MOST_TRANSITIONS) {
+        jox_build_error(b, at(b, path), "too-many", "Split the state",
+                        "a state has at most %d transitions", JOX_MOST_TRANSITIONS);
+        count = JOX_MOST_TRANSITIONS;
+    }
+    state->transitions = jox_alloc(count + 1, sizeof *state->transitions);
+    for (uint32_t i = 0; i < count; i++) {
+        char full[256], item[16];
+        snprintf(item, sizeof item, "%u", i + 1);
+        join(full, path, item);
+        if (lua_rawgeti(L, index, i + 1) != LUA_TTABLE) {
+            jox_build_error(b, at(b, full), "bad-value",
+                            "Example: { to = \"Exit\", when = after(5) }",
+                            "a transition must be a table, not %s", luaL_typename(L, -1));
+        } else {
+            read_transition(b, lua_gettop(L), full, b->machine, state,
+                            &state->transitions[state->transition_count]);
+            state->transition_count++;
+        }
+        lua_pop(L, 1);
+    }
+}
+
+static void read_state(JoxBuild *b, int index, JoxState *state) {
+    static const char *known[JOX_PARAM_COUNT + sizeof STATE_KEYS / sizeof *STATE_KEYS];
+    const size_t keys = sizeof STATE_KEYS / sizeof *STATE_KEYS;
+    lua_State *L = b->vm->L;
+    char path[256], full[256];
+    snprintf(path, sizeof path, "states.%.200s", state->name);
+    for (size_t k = 0; k < keys; k++)
+        known[k] = STATE_KEYS[k];
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        known[keys + (size_t)p] = jox_parameters[p].name;
+    check_keys(b, index, path, known, keys + JOX_PARAM_COUNT, true);
+    state->line = at(b, path).line;
+    state->push_when = state->lasts_program = -1;
+    state->kick = state->kick_at = -1;
+    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+        join(full, path, jox_parameters[p].name);
+        if (field(L, index, jox_parameters[p].name) == LUA_TNIL)
+            lua_pop(L, 1);
+        else
+            state->param[p] = read_parameter(b, full, &jox_parameters[p]);
+    }
+    read_steer(b, index, path, state);
+    read_lasts(b, index, path, state);
+    read_flags(b, index, path, state);
+    read_kick(b, index, path, state);
+    join(full, path, "push_when");
+    field(L, index, "push_when");
+    state->push_when = read_condition(b, full, NULL);
+    state->push_toward = read_target(b, index, path, "push_toward");
+    state->face = read_target(b, index, path, "face");
+    state->approach = read_target(b, index, path, "approach");
+    state->ignore = read_tags(b, index, path, "ignore");
+    state->push_only = read_tags(b, index, path, "push_only");
+    state->on_enter = read_hook(b, index, path, "on_enter");
+    state->on_exit = read_hook(b, index, path, "on_exit");
+    read_transitions(b, index, path, state);
+}
+
+/* The states' names, ascending: tables have no order of their own. */
+static void name_states(JoxBuild *b, int table) {
+    lua_State *L = b->vm->L;
+    JoxMachine *m = b->machine;
+    lua_pushnil(L);
+    while (lua_next(L, table)) {
+        bool good = lua_type(L, -2) == LUA_TSTRING && lua_type(L, -1) == LUA_TTABLE;
+        const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "?";
+        char path[256];
+        join(path, "states", name);
+        if (!good || m->state_count >= 1000)
+            jox_build_error(b, at(b, path), "bad-value", "Example: Walk = { steer = seek(goal) }",
+                            "states must be tables with names");
+        lua_pop(L, 1);
+        if (!good || m->state_count >= 1000)
+            continue;
+        JOX_RESERVE(m->states, b->state_capacity, m->state_count + 1);
+        uint32_t place = m->state_count++;
+        for (; place > 0 && strcmp(m->states[place - 1].name, name) > 0; place--)
+            m->states[place] = m->states[place - 1];
+        m->states[place] = (JoxState){.name = jox_strdup(name)};
+    }
+}
+
+static void read_states(JoxBuild *b, int index) {
+    lua_State *L = b->vm->L;
+    JoxMachine *m = b->machine;
+    if (field(L, index, "states") != LUA_TTABLE) {
+        jox_build_error(b, at(b, "states"), "missing-key", "states = { Walk = { ... } }",
+                        "a machine needs `states`, a table");
+        lua_pop(L, 1);
+        return;
+    }
+    int table = lua_gettop(L);
+    name_states(b, table);
+    for (uint32_t s = 0; s < m->state_count; s++) {
+        field(L, table, m->states[s].name);
+        read_state(b, lua_gettop(L), &m->states[s]);
+        lua_settop(L, table);
+    }
+    if (m->state_count == 0)
+        jox_build_error(b, at(b, "states"), "no-states", NULL,
+                        "a machine needs at least one state");
+    lua_pop(L, 1);
+}
+
+static void read_start(JoxBuild *b, int index) {
+    lua_State *L = b->vm->L;
+    JoxMachine *m = b->machine;
+    const char *start = field(L, index, "start") == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+    int state = start ? jox_machine_state(m, start) : -1;
+    if (state < 0 && m->state_count > 0)
+        jox_build_error(b, at(b, "start"), start ? "unknown-state" : "missing-key", NULL,
+                        start ? "there is no state '%s' to start in"
+                              : "a machine needs `start`, the name of a state%s",
+                        start ? start : "");
+    m->start = state < 0 ? 0 : (uint16_t)state;
+    lua_pop(L, 1);
+}
+
+static void read_counts(JoxBuild *b, int index) {
+    lua_State *L = b->vm->L;
+    JoxMachine *m = b->machine;
+    if (field(L, index, "counts") == LUA_TTABLE) {
+        int table = lua_gettop(L);
+        for (uint32_t slot = 0; slot < m->memory_count; slot++) { /* in the order of the memory */
+            if (!*m->memory[slot].name || field(L, table, m->memory[slot].name) == LUA_TNIL) {
+                lua_settop(L, table);
+                continue;
+            }
+            JoxNode *node = jox_node_get(L, -1);
+            char path[256];
+            join(path, "counts", m->memory[slot].name);
+            if (node && node->kind == JOX_NODE_CIRCUITS) {
+                JOX_RESERVE(m->counters, b->counter_capacity, m->counter_count + 1);
+                JoxCounter counter = {.target = jox_build_target(b, node->target, true),
+                                      .value = (int32_t)slot,
+                                      .state = -1};
+                counter.angle = jox_build_memory(b, "");
+                counter.begun = jox_build_memory(b, "");
+                m->counters[m->counter_count++] = counter;
+            } else if (!node || node->kind != JOX_NODE_POISON) {
+                jox_build_error(b, at(b, path), "bad-value", "Example: laps = circuits \"kaaba\"",
+                                "this must be something that can be counted");
+            }
+            lua_settop(L, table);
+        }
+        lua_pushnil(L);
+        while (lua_next(L, table)) {
+            lua_pop(L, 1);
+            const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "?";
+            bool known = false;
+            for (uint32_t s = 0; s < b->vm->memory_count; s++)
+                known |= strcmp(b->vm->memory[s].name, name) == 0;
+            if (!known)
+                jox_build_error(b, at(b, "counts"), "unknown-memory",
+                                "Declare it: local mine = memory { laps = 0 }",
+                                "'%s' is counted but not remembered", name);
+        }
+    } else if (!lua_isnil(L, -1)) {
+        jox_build_error(b, at(b, "counts"), "bad-value", NULL, "counts must be a table");
+    }
+    lua_pop(L, 1);
+}
+
+static void read_renamed(JoxBuild *b, int index) {
+    lua_State *L = b->vm->L;
+    JoxMachine *m = b->machine;
+    size_t capacity = 0;
+    if (field(L, index, "renamed") == LUA_TTABLE) {
+        lua_pushnil(L);
+        while (lua_next(L, -2)) {
+            if (lua_type(L, -1) == LUA_TSTRING && lua_type(L, -2) == LUA_TSTRING) {
+                JOX_RESERVE(m->renamed, capacity, m->renamed_count + 1);
+                m->renamed[m->renamed_count++] = (struct JoxRenamed){
+                    jox_strdup(lua_tostring(L, -2)), jox_strdup(lua_tostring(L, -1))};
+            } else {
+                jox_build_error(b, at(b, "renamed"), "bad-value", "renamed = { Old = \"New\" }",
+                                "renamed maps old names of states to new ones");
+            }
+            lua_pop(L, 1);
+        }
+    }
+    lua_pop(L, 1);
+}
+
+/* States that nothing leads to. */
+static void warn_unreachable(JoxBuild *b) {
+    const JoxMachine *m = b->machine;
+    for (uint32_t s = 0; s < m->state_count; s++) {
+        bool reached = s == m->start;
+        for (uint32_t o = 0; o < m->state_count; o++)
+            for (uint32_t t = 0; t < m->states[o].transition_count; t++)
+                reached |= o != s && m->states[o].transitions[t].to == s;
+        char path[256];
+        join(path, "states", m->states[s].name);
+        if (!reached)
+            jox_diag_add(b->vm->diagnostics, JOX_SEVERITY_WARNING, at(b, path), "unreachable-state",
+                         NULL, NULL, NULL, "nothing leads to state '%s'", m->states[s].name);
+    }
+}
+
+JoxMachine *jox_build(JoxVm *vm, JoxSource *source) {
+    lua_State *L = vm->L;
+    JoxBuild build = {.vm = vm, .source = source};
+    JoxNode *node = jox_node_get(L, -1);
+    if (!node || node->kind != JOX_NODE_MACHINE) {
+        if (!node || node->kind != JOX_NODE_POISON)
+            jox_diag_error(vm->diagnostics, ((JoxPosition){source->path, 0, 0, 0}), "no-machine",
+                           "End the file with: return machine { ... }",
+                           "a behaviour must return one machine, not %s",
+                           node ? "a value" : lua_typename(L, lua_type(L, -1)));
+        return NULL;
+    }
+    size_t errors = vm->diagnostics->errors;
+    JoxMachine *m = build.machine = jox_alloc(1, sizeof *m);
+    m->version = 1;
+    m->vm = -1;
+    m->path = jox_strdup(source->path);
+    lua_rawgeti(L, LUA_REGISTRYINDEX, node->hook);
+    int table = lua_gettop(L);
+    for (uint32_t i = 0; i < vm->memory_count; i++) {
+        int32_t slot = jox_build_memory(&build, vm->memory[i].name);
+        m->memory[slot].kind = vm->memory[i].kind;
+        m->memory[slot].initial = vm->memory[i].initial;
+    }
+    check_keys(&build, table, "", MACHINE_KEYS, sizeof MACHINE_KEYS / sizeof *MACHINE_KEYS, false);
+    m->name = jox_strdup(field(L, table, "name") == LUA_TSTRING ? lua_tostring(L, -1) : "machine");
+    if (lua_type(L, -1) != LUA_TSTRING)
+        jox_build_error(&build, at(&build, "name"), "missing-key", "name = \"walker\"",
+                        "a machine needs a name");
+    lua_pop(L, 1);
+    read_defaults(&build, table);
+    read_states(&build, table);
+    read_start(&build, table);
+    read_counts(&build, table);
+    read_renamed(&build, table);
+    if (vm->diagnostics->errors > errors) {
+        jox_machine_free(m);
+        return NULL;
+    }
+    warn_unreachable(&build);
+    return m;
+}

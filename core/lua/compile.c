@@ -1,0 +1,116 @@
+/* Expression values become programs: a register per level of the expression. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "lua/internal.h"
+
+void jox_build_error(JoxBuild *build, JoxPosition position, const char *code, const char *hint,
+                     const char *format, ...) {
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    jox_diag_error(build->vm->diagnostics, position, code, hint, "%s", text);
+}
+
+int32_t jox_build_own(JoxBuild *build, const char *name) {
+    JoxMachine *m = build->machine;
+    for (uint32_t i = 0; i < m->own_count; i++)
+        if (*name && strcmp(m->own[i].name, name) == 0)
+            return (int32_t)i;
+    JOX_RESERVE(m->own, build->own_capacity, m->own_count + 1);
+    m->own[m->own_count] = (JoxOwnSlot){jox_strdup(name), jox_dist_constant(0.0), false};
+    return (int32_t)m->own_count++;
+}
+
+int32_t jox_build_memory(JoxBuild *build, const char *name) {
+    JoxMachine *m = build->machine;
+    for (uint32_t i = 0; i < m->memory_count; i++)
+        if (*name && strcmp(m->memory[i].name, name) == 0)
+            return (int32_t)i;
+    JOX_RESERVE(m->memory, build->memory_capacity, m->memory_count + 1);
+    m->memory[m->memory_count] = (JoxMemorySlot){jox_strdup(name), JOX_MEMORY_NUMBER, 0.0};
+    return (int32_t)m->memory_count++;
+}
+
+int16_t jox_build_target(JoxBuild *build, const JoxNode *node, bool wants_place) {
+    JoxMachine *m = build->machine;
+    if (!node || node->kind == JOX_NODE_POISON)
+        return -1;
+    JoxTarget target = {node->target_kind, node->target_arg, NULL};
+    if (node->kind == JOX_NODE_OWN) {
+        int32_t slot = jox_build_own(build, node->name);
+        m->own[slot].is_place = true;
+        m->own[slot].dist = jox_dist_constant(-1.0); /* none until the scene's group names one */
+        target = (JoxTarget){JOX_TARGET_OWN_PLACE, slot, NULL};
+    }
+    (void)wants_place;
+    for (uint32_t i = 0; i < m->target_count; i++)
+        if (m->targets[i].kind == target.kind && m->targets[i].arg == target.arg &&
+            strcmp(m->targets[i].name, node->name) == 0)
+            return (int16_t)i;
+    JOX_RESERVE(m->targets, build->target_capacity, m->target_count + 1);
+    target.name = jox_strdup(node->name);
+    m->targets[m->target_count] = target;
+    return (int16_t)m->target_count++;
+}
+
+typedef struct Code {
+    JoxBuild *build;
+    JoxInstruction *items;
+    size_t count, capacity;
+    bool too_deep;
+} Code;
+
+enum { LONGEST = 1000 };
+
+static void emit(Code *code, const JoxNode *node, uint32_t to) {
+    if (to + 3 >= JOX_MOST_REGISTERS || code->count >= LONGEST) {
+        code->too_deep = true;
+        return;
+    }
+    const JoxNode *inputs[3] = {node->a, node->b, node->c};
+    uint32_t used = 0;
+    for (; used < 3 && inputs[used] && !code->too_deep; used++)
+        emit(code, inputs[used], to + used);
+    JoxInstruction in = {.op = (uint8_t)(node->kind == JOX_NODE_OWN ? JOX_OP_OWN : node->op),
+                         .to = (uint8_t)to,
+                         .a = (uint8_t)to,
+                         .b = (uint8_t)(to + 1),
+                         .c = (uint8_t)(to + 2),
+                         .target = -1,
+                         .place = -1,
+                         .arg = node->arg,
+                         .number = node->number};
+    if (node->kind == JOX_NODE_OWN)
+        in.arg = jox_build_own(code->build, node->name);
+    else if (node->op == JOX_OP_MEMORY)
+        in.arg = jox_build_memory(code->build, node->name);
+    if (node->target)
+        in.target = jox_build_target(code->build, node->target, false);
+    if (node->place)
+        in.place = jox_build_target(code->build, node->place, true);
+    JOX_RESERVE(code->items, code->capacity, code->count + 1);
+    code->items[code->count++] = in;
+}
+
+int32_t jox_build_program(JoxBuild *build, const JoxNode *node, JoxPosition position) {
+    JoxMachine *m = build->machine;
+    if (node->kind == JOX_NODE_POISON)
+        return -1;
+    Code code = {.build = build};
+    emit(&code, node, 0);
+    if (code.too_deep) {
+        jox_build_error(build, position, "too-complex", "Split it over several states",
+                        "this expression is too deep or too long");
+        jox_free(code.items);
+        return -1;
+    }
+    JOX_RESERVE(m->programs, build->program_capacity, m->program_count + 1);
+    m->programs[m->program_count] = (JoxProgram){code.items, (uint32_t)code.count};
+    return (int32_t)m->program_count++;
+}

@@ -1,0 +1,182 @@
+/* What the files of lua share. */
+#ifndef JOX_LUA_INTERNAL_H
+#define JOX_LUA_INTERNAL_H
+
+#include <lauxlib.h>
+#include <lua.h>
+
+#include "lua/loader.h"
+
+/* ---- tokens ---- */
+
+typedef enum { JOX_TOKEN_NAME, JOX_TOKEN_STRING, JOX_TOKEN_NUMBER, JOX_TOKEN_SYMBOL } JoxTokenKind;
+typedef struct JoxToken {
+    JoxTokenKind kind;
+    const char *text; /* in the source; a string's without its quotes */
+    uint32_t length;
+    int line, column, end_column;
+    bool used; /* a word of this name was already read here */
+} JoxToken;
+
+/* A key or item of the machine's table: "states.Circle.2.when", and where it stands. */
+typedef struct JoxPath {
+    char *path;
+    uint32_t key, first, last; /* tokens: of the key (or the value), of the value */
+} JoxPath;
+
+typedef struct JoxSource {
+    const char *path; /* as the user named it */
+    char *text;
+    size_t length;
+    JoxToken *tokens;
+    size_t token_count, token_capacity;
+    JoxPath *paths;
+    size_t path_count, path_capacity;
+} JoxSource;
+
+/* Splits Lua source into tokens; never fails, for Lua's own parser reports what is malformed. */
+void jox_source_scan(JoxSource *source);
+void jox_source_free(JoxSource *source);
+/* The first unused token of this name on a line, marked used; else any of them; else NULL. */
+JoxToken *jox_source_find(JoxSource *source, int line, const char *name);
+/* Position of a path's key, or of the nearest enclosing one that is written out. */
+JoxPosition jox_source_path(const JoxSource *source, const char *path);
+const JoxPath *jox_source_path_find(const JoxSource *source, const char *path);
+static inline bool jox_token_is(const JoxToken *token, const char *text) {
+    size_t n = token->length;
+    return token->kind != JOX_TOKEN_STRING && __builtin_strlen(text) == n &&
+           __builtin_memcmp(token->text, text, n) == 0;
+}
+
+/* ---- expression values ---- */
+
+typedef enum {
+    JOX_NODE_NUMBER = 1,
+    JOX_NODE_CONDITION,
+    JOX_NODE_TARGET,
+    JOX_NODE_OWN, /* own.NAME: a number or, where a place is wanted, a place */
+    JOX_NODE_STEER,
+    JOX_NODE_DIST,
+    JOX_NODE_CIRCUITS,
+    JOX_NODE_MACHINE,
+    JOX_NODE_POISON /* stands for something already reported */
+} JoxNodeKind;
+
+typedef struct JoxNode JoxNode;
+struct JoxNode {
+    JoxNodeKind kind;
+    int op;  /* JoxOp of numbers and conditions */
+    int arg; /* JoxNow */
+    double number;
+    const char *name; /* own, memory or target name; interned with the VM */
+    JoxTargetKind target_kind;
+    int32_t target_arg;
+    JoxNode *a, *b, *c; /* inputs */
+    JoxNode *target, *place;
+    JoxDist dist;
+    JoxSteerTerm term; /* one term; its target and weight are nodes here */
+    JoxNode *weight;
+    JoxNode *next; /* further terms of a sum */
+    int hook;      /* registry reference of a function, or LUA_NOREF */
+    JoxPosition position;
+};
+
+/* ---- one Lua state with its load ---- */
+
+typedef struct JoxVm {
+    JoxLua *owner;
+    lua_State *L;
+    size_t used, node_bytes; /* bytes */
+    uint64_t left;           /* instructions until it is stopped */
+    bool over;               /* sticky: every further instruction fails */
+    bool loading;
+    bool out_of_memory;
+    JoxNode **nodes;
+    size_t node_count, node_capacity;
+    char **names; /* interned */
+    size_t name_count, name_capacity;
+    JoxSource *sources; /* the behaviour, then what it required */
+    size_t source_count, source_capacity;
+    JoxLuaFile *files;
+    uint32_t file_count;
+    size_t file_capacity;
+    const JoxScope *scope;
+    JoxDiagnostics *diagnostics;
+    int *hooks; /* registry references by hook number */
+    uint32_t hook_count;
+    size_t hook_capacity;
+    JoxMemorySlot *memory; /* declared by memory{} */
+    uint32_t memory_count;
+    size_t memory_capacity;
+    const JoxMachine *machine;
+    uint32_t failures; /* of hooks, in the present second */
+    uint32_t failures_tick;
+    bool suspended;
+    char *last_complaint;
+    uint64_t repeated;
+    uint32_t draws; /* math.random calls of the present hook */
+    uint32_t agent; /* whose hook runs */
+    uint32_t run;   /* numbers the calls, so that `me` cannot be kept */
+} JoxVm;
+
+struct JoxLua {
+    JoxLuaLimits limits;
+    JoxVm **vms;
+    uint32_t vm_count;
+    size_t vm_capacity;
+    JoxMind *mind;
+    JoxLuaComplain *complain;
+    void *complain_context;
+    uint64_t failures;
+};
+
+JoxVm *jox_vm_create(JoxLua *lua);
+void jox_vm_free(JoxVm *vm);
+JoxVm *jox_vm_of(lua_State *L);
+/* The only way in: runs what is on the stack within `instructions`. False on any failure; *why is
+   then a sentence that holds until the next call, with the line in *line (0 unknown). */
+bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, const char **why,
+                 int *line);
+/* Keeps a copy of a name as long as the VM. */
+const char *jox_vm_intern(JoxVm *vm, const char *name);
+
+void jox_sandbox_open(JoxVm *vm);
+/* Reads, checks and scans a file; NULL with a diagnostic at `from`. */
+JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *text, size_t length,
+                       JoxPosition from);
+
+/* Reports an error at a word's place in the running chunk and pushes a poison value; returns 1. */
+int jox_word_error(lua_State *L, const char *word, const char *code, const char *hint,
+                   const char *format, ...) __attribute__((format(printf, 5, 6)));
+JoxPosition jox_word_position(lua_State *L, const char *word);
+
+JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind); /* new, also on the stack */
+JoxNode *jox_node_get(lua_State *L, int index);         /* NULL if it is no node */
+/* A number, a number node or own value as a node of numbers; NULL if it is something else. */
+JoxNode *jox_node_number(lua_State *L, int index);
+void jox_nodes_open(JoxVm *vm);
+void jox_words_open(JoxVm *vm);
+/* All names of the vocabulary. */
+const char *const *jox_words_names(size_t *count);
+bool jox_word_lookup(lua_State *L, const char *name); /* pushes it */
+
+/* Makes the machine of the table on top of the stack; NULL with diagnostics. */
+JoxMachine *jox_build(JoxVm *vm, JoxSource *source);
+void jox_hooks_open(JoxVm *vm);
+
+/* The machine under construction. */
+typedef struct JoxBuild {
+    JoxVm *vm;
+    JoxSource *source;
+    JoxMachine *machine;
+    size_t program_capacity, target_capacity, own_capacity, memory_capacity, counter_capacity,
+        state_capacity;
+} JoxBuild;
+int16_t jox_build_target(JoxBuild *build, const JoxNode *node, bool wants_place);
+int32_t jox_build_own(JoxBuild *build, const char *name);
+int32_t jox_build_memory(JoxBuild *build, const char *name);
+int32_t jox_build_program(JoxBuild *build, const JoxNode *node, JoxPosition position);
+void jox_build_error(JoxBuild *build, JoxPosition position, const char *code, const char *hint,
+                     const char *format, ...) __attribute__((format(printf, 5, 6)));
+
+#endif

@@ -1,0 +1,100 @@
+/* Loading: a fresh Lua state per behaviour, kept as long as its hooks may be called. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "lua/internal.h"
+
+/* Where Lua's parser stopped: it names the line and, mostly, the token "near" it. */
+static void report_failure(JoxVm *vm, const char *why, int line) {
+    JoxSource *source = &vm->sources[0];
+    JoxPosition position = {source->path, line, 0, 0};
+    const char *near = strstr(why, " near '");
+    if (near) {
+        char name[64];
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(near + 7, "'"), near + 7);
+        const JoxToken *t = jox_source_find(source, line, name);
+        if (t)
+            position = (JoxPosition){source->path, line, t->column, t->end_column};
+    }
+    jox_diag_error(vm->diagnostics, position, "lua-error", NULL, "%s", why);
+}
+
+static JoxMachine *run(JoxVm *vm, JoxSource *source) {
+    const char *why = NULL;
+    int line = 0;
+    lua_State *L = vm->L;
+    const size_t errors = vm->diagnostics->errors;
+    int status = luaL_loadbufferx(L, source->text, source->length, "=b0", "t");
+    if (status != LUA_OK) { /* let the protected call raise it, so that there is one way in */
+        int used = 0, number;
+        const char *text = lua_tostring(L, -1);
+        if (text && sscanf(text, "b%d:%d: %n", &number, &line, &used) == 2)
+            text += used;
+        report_failure(vm, text ? text : "not enough memory", line);
+        return NULL;
+    }
+    if (!jox_vm_call(vm, 0, 1, vm->owner->limits.load_instructions, &why, &line)) {
+        /* What follows an error already reported is only its echo. */
+        if (vm->diagnostics->errors == errors)
+            report_failure(vm, why, line);
+        return NULL;
+    }
+    vm->loading = true;
+    JoxMachine *machine = jox_build(vm, &vm->sources[0]);
+    lua_settop(L, 0);
+    if (vm->diagnostics->errors > errors) {
+        jox_machine_free(machine);
+        return NULL;
+    }
+    return machine;
+}
+
+static int32_t keep(JoxLua *lua, JoxVm *vm) {
+    for (uint32_t i = 0; i < lua->vm_count; i++)
+        if (!lua->vms[i]) {
+            lua->vms[i] = vm;
+            return (int32_t)i;
+        }
+    JOX_RESERVE(lua->vms, lua->vm_capacity, lua->vm_count + 1);
+    lua->vms[lua->vm_count] = vm;
+    return (int32_t)lua->vm_count++;
+}
+
+static JoxMachine *load(JoxLua *lua, const char *path, const char *text, size_t length,
+                        const JoxScope *scope, JoxDiagnostics *diagnostics) {
+    static const JoxScope OPEN = {0};
+    JoxVm *vm = jox_vm_create(lua);
+    if (!vm) {
+        jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "lua-error", NULL,
+                       "no memory for a Lua state");
+        return NULL;
+    }
+    vm->scope = scope ? scope : &OPEN;
+    vm->diagnostics = diagnostics;
+    vm->loading = true;
+    JoxSource *source = jox_vm_read(vm, path, text, length, (JoxPosition){0});
+    JoxMachine *machine = source ? run(vm, source) : NULL;
+    for (size_t i = 0; i < vm->source_count; i++)
+        jox_diag_attach_source(diagnostics, vm->sources[i].path, vm->sources[i].text,
+                               vm->sources[i].length);
+    vm->loading = false;
+    vm->scope = NULL;
+    vm->diagnostics = NULL;
+    if (!machine) {
+        jox_vm_free(vm);
+        return NULL;
+    }
+    machine->vm = keep(lua, vm);
+    return machine;
+}
+
+JoxMachine *jox_lua_load(JoxLua *lua, const char *path, const JoxScope *scope,
+                         JoxDiagnostics *diagnostics) {
+    return load(lua, path, NULL, 0, scope, diagnostics);
+}
+
+JoxMachine *jox_lua_load_text(JoxLua *lua, const char *path, const char *text, size_t length,
+                              const JoxScope *scope, JoxDiagnostics *diagnostics) {
+    return load(lua, path, text, length, scope, diagnostics);
+}

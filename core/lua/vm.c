@@ -1,0 +1,174 @@
+/* Lua states: the cap on memory, the budget of instructions, the one protected call. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "lua/internal.h"
+
+enum { CHECK_EVERY = 1000 };
+
+JoxLuaLimits jox_lua_default_limits(void) {
+    return (JoxLuaLimits){20000000, 100000, 32u << 20, 2u << 20, 256u << 10};
+}
+
+static void *allocate(void *context, void *memory, size_t old, size_t size) {
+    JoxVm *vm = context;
+    if (!memory)
+        old = 0; /* Lua then passes a type here */
+    if (size == 0) {
+        vm->used -= old;
+        free(memory);
+        return NULL;
+    }
+    const JoxLuaLimits *limits = &vm->owner->limits;
+    if (size > old && (size > limits->block || vm->used - old + size > limits->memory)) {
+        vm->out_of_memory = true;
+        return NULL;
+    }
+    void *result = realloc(memory, size);
+    if (result)
+        vm->used += size - old;
+    return result;
+}
+
+/* Counts instructions. Once over, every instruction trips, so that nothing can swallow it. */
+static void count_hook(lua_State *L, lua_Debug *debug) {
+    (void)debug;
+    JoxVm *vm = jox_vm_of(L);
+    if (!vm->over && vm->left > CHECK_EVERY) {
+        vm->left -= CHECK_EVERY;
+        return;
+    }
+    if (!vm->over) {
+        vm->over = true;
+        lua_sethook(L, count_hook, LUA_MASKCOUNT, 1);
+    }
+    luaL_error(L, "it ran for too long (over its budget of instructions) and was stopped");
+}
+
+JoxVm *jox_vm_of(lua_State *L) {
+    return *(JoxVm **)lua_getextraspace(L);
+}
+
+static int open_all(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    jox_nodes_open(vm);
+    jox_words_open(vm);
+    jox_hooks_open(vm);
+    jox_sandbox_open(vm);
+    return 0;
+}
+
+JoxVm *jox_vm_create(JoxLua *lua) {
+    JoxVm *vm = jox_alloc(1, sizeof *vm);
+    vm->owner = lua;
+    vm->L = lua_newstate(allocate, vm);
+    if (!vm->L) {
+        jox_free(vm);
+        return NULL;
+    }
+    *(JoxVm **)lua_getextraspace(vm->L) = vm;
+    lua_pushcfunction(vm->L, open_all);
+    if (lua_pcall(vm->L, 0, 0, 0) != LUA_OK) {
+        jox_vm_free(vm);
+        return NULL;
+    }
+    return vm;
+}
+
+void jox_vm_free(JoxVm *vm) {
+    if (!vm)
+        return;
+    lua_close(vm->L);
+    for (size_t i = 0; i < vm->node_count; i++)
+        jox_free(vm->nodes[i]);
+    for (size_t i = 0; i < vm->name_count; i++)
+        jox_free(vm->names[i]);
+    for (size_t i = 0; i < vm->source_count; i++)
+        jox_source_free(&vm->sources[i]);
+    for (uint32_t i = 0; i < vm->file_count; i++)
+        jox_free(vm->files[i].path);
+    for (uint32_t i = 0; i < vm->memory_count; i++)
+        jox_free(vm->memory[i].name);
+    jox_free(vm->nodes);
+    jox_free(vm->names);
+    jox_free(vm->sources);
+    jox_free(vm->files);
+    jox_free(vm->memory);
+    jox_free(vm->hooks);
+    jox_free(vm->last_complaint);
+    jox_free(vm);
+}
+
+const char *jox_vm_intern(JoxVm *vm, const char *name) {
+    for (size_t i = 0; i < vm->name_count; i++)
+        if (strcmp(vm->names[i], name) == 0)
+            return vm->names[i];
+    JOX_RESERVE(vm->names, vm->name_capacity, vm->name_count + 1);
+    return vm->names[vm->name_count++] = jox_strdup(name);
+}
+
+/* Splits "b12:34: message" into line and message; the number is that of the source. */
+static const char *split_message(const char *message, int *line) {
+    int source, used = 0;
+    *line = 0;
+    if (sscanf(message, "b%d:%d: %n", &source, line, &used) == 2 && used > 0)
+        return message + used;
+    *line = 0;
+    return message;
+}
+
+bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, const char **why,
+                 int *line) {
+    vm->left = instructions;
+    vm->over = vm->out_of_memory = false;
+    lua_sethook(vm->L, count_hook, LUA_MASKCOUNT, CHECK_EVERY);
+    int status = lua_pcall(vm->L, arguments, results, 0);
+    lua_sethook(vm->L, NULL, 0, 0);
+    if (status == LUA_OK)
+        return true;
+    static _Thread_local char text[512];
+    *line = 0;
+    *why = text;
+    /* A foreign error object is never asked for its text: that would run foreign code. */
+    if (status == LUA_ERRMEM || vm->out_of_memory)
+        snprintf(text, sizeof text, "it asked for too much memory and was stopped");
+    else if (lua_type(vm->L, -1) == LUA_TSTRING)
+        snprintf(text, sizeof text, "%s", split_message(lua_tostring(vm->L, -1), line));
+    else
+        snprintf(text, sizeof text, "it raised an error that is a %s, not a text",
+                 lua_typename(vm->L, lua_type(vm->L, -1)));
+    lua_settop(vm->L, 0);
+    return false;
+}
+
+JoxLua *jox_lua_create(const JoxLuaLimits *limits) {
+    JoxLua *lua = jox_alloc(1, sizeof *lua);
+    lua->limits = limits ? *limits : jox_lua_default_limits();
+    return lua;
+}
+
+void jox_lua_free(JoxLua *lua) {
+    if (!lua)
+        return;
+    for (uint32_t i = 0; i < lua->vm_count; i++)
+        jox_vm_free(lua->vms[i]);
+    jox_free(lua->vms);
+    jox_free(lua);
+}
+
+void jox_lua_release(JoxLua *lua, const JoxMachine *machine) {
+    if (!machine || machine->vm < 0 || (uint32_t)machine->vm >= lua->vm_count)
+        return;
+    jox_vm_free(lua->vms[machine->vm]);
+    lua->vms[machine->vm] = NULL;
+}
+
+const JoxLuaFile *jox_lua_files(const JoxLua *lua, const JoxMachine *machine, uint32_t *count) {
+    *count = 0;
+    if (machine->vm < 0 || !lua->vms[machine->vm])
+        return NULL;
+    *count = lua->vms[machine->vm]->file_count;
+    return lua->vms[machine->vm]->files;
+}
