@@ -31,6 +31,7 @@ static void count_circuits(const JoxMind *mind, const JoxCounter *counter, uint3
         if (line && jox_segment_crossing(line->points[0], line->points[1], from, to) != 1)
             return;
         memory[counter->begun] = 1.0;
+        memory[counter->angle] = memory[counter->value] * TURN; /* laps given at birth count */
         if (line)
             return; /* turns count from here on */
     }

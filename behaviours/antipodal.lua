@@ -1,0 +1,13 @@
+-- Walks to a goal of its own and stops there.
+return machine {
+  name = "antipodal", version = 1, start = "Walk",
+  defaults = { speed = 1.3, perception = 5, horizon = 2 },
+
+  states = {
+    Walk = { steer = seek(own.goal),
+      { to = "Rest", when = inside(own.goal) } },
+
+    Rest = { steer = hold,
+      { to = "Walk", when = ~inside(own.goal) } },
+  },
+}

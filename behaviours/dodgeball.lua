@@ -1,0 +1,18 @@
+-- Dodge-ball: run from a ball that flies or lies in the other court; kick one that lies in one's own.
+local ball = nearest "ball"
+local mine_to_kick = grounded(ball) & inside(ball, own.court)
+
+return machine {
+  name = "dodgeball", version = 1, start = "Defense",
+  defaults = { speed = 2.5, max_speed = 4, perception = 20, horizon = 2, mass = 70 },
+
+  states = {
+    Defense = { steer = away_from(ball),
+      { to = "Attack",  when = mine_to_kick } },
+
+    -- Approached, the ball is not avoided; the kick grows with the runner's speed.
+    Attack = { steer = seek(ball), approach = ball, speed = 3,
+      kick = { ball, at = nearest "opponents", impulse = 2 + 2 * now.speed },
+      { to = "Defense", when = kicked(ball) | grounded(ball) & ~inside(ball, own.court) } },
+  },
+}

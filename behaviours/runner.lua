@@ -1,0 +1,12 @@
+-- Runs to a goal through whoever stands in the way: looks a short way ahead and pushes hard.
+return machine {
+  name = "runner", version = 1, start = "Run",
+  defaults = { speed = 2, max_speed = 2.2, perception = 1.5, horizon = 0.2 },
+
+  states = {
+    Run = { steer = seek(own.goal), push = 250 * max(now.speed, own.speed),
+      { to = "Arrived", when = inside(own.goal) } },
+
+    Arrived = { steer = hold },
+  },
+}

@@ -1,0 +1,14 @@
+-- Walks to a goal, as fast as the free way ahead allows, and leaves there.
+local crowd = require "crowd"
+
+return machine {
+  name = "walker", version = 1, start = "Walk",
+  defaults = { speed = normal(1.34, 0.26, 0.6, 2.2), perception = 3 },
+
+  states = {
+    Walk = { steer = seek(own.goal), speed = crowd.by_headway,
+      { to = "Gone", when = inside(own.goal) } },
+
+    Gone = { removes = true },
+  },
+}
