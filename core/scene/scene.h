@@ -35,14 +35,14 @@ typedef struct JoxSceneMix {
     JoxPosition position;
 } JoxSceneMix;
 
-/* Agents made alike: at the start (positions), or by a source. */
+/* Agents made alike. */
 typedef struct JoxSceneGroup {
     char *name;
     JoxPosition position;
     JoxSceneMix *mix;
     uint32_t mix_count;
     JoxFillMode fill;
-    JoxV2 *positions; /* filled, from the scene's seed; none in a source */
+    JoxV2 *positions; /* filled, from the scene's seed */
     uint32_t count;
     float facing; /* rad, anti-clockwise from +x; NAN: not given */
     JoxV2 centre; /* of a circle fill, and the mirror of `antipode` */
@@ -58,10 +58,11 @@ typedef struct JoxSceneGroup {
 typedef struct JoxSceneSource {
     uint32_t place;
     double rate;         /* agents a second; 0: none by rate */
-    uint32_t keep;       /* top up to so many agents of `keep_group`; 0: no */
-    int32_t like;        /* index of the group whose agents are counted and copied, or -1 */
-    JoxSceneGroup group; /* used where `like` is -1 */
-    double from, until;  /* s; until INFINITY unless given */
+    uint32_t keep;       /* tops the group up to so many; 0: no */
+    uint32_t like;       /* index of the group that they belong to */
+    JoxSceneSet *memory; /* in place of the group's, where given */
+    uint32_t memory_count;
+    double from, until; /* s; until INFINITY unless given */
     JoxPosition position;
 } JoxSceneSource;
 
@@ -90,6 +91,7 @@ typedef struct JoxSceneFile {
 
 typedef struct JoxScene {
     char *path, *title;
+    char *input; /* path of the input log, or NULL */
     uint64_t seed;
     double step, duration, gravity; /* s, s, m/s2 */
     bool bounded;

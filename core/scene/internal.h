@@ -1,0 +1,27 @@
+/* What the files of scene share while one is loaded. */
+#ifndef JOX_SCENE_INTERNAL_H
+#define JOX_SCENE_INTERNAL_H
+
+#include "agents/parameters.h"
+#include "scene/scene.h"
+#include "scene/schema.h"
+
+typedef struct JoxLoad {
+    JoxReader reader;
+    JoxScene *scene;
+    const char *datadir;
+} JoxLoad;
+
+/* Index by name, or -1 with an error that suggests one. */
+int32_t jox_load_place(const JoxLoad *load, const JoxYaml *name);
+int32_t jox_load_group(const JoxLoad *load, const JoxYaml *name);
+JoxSceneSet *jox_load_sets(const JoxLoad *load, const JoxYaml *map, bool numbers_only,
+                           uint32_t *count);
+char **jox_load_tags(const JoxLoad *load, const JoxYaml *node, uint32_t *count);
+/* populate.c: where a group's agents stand. */
+void jox_load_positions(const JoxLoad *load, const JoxYaml *map, JoxSceneGroup *group,
+                        uint32_t number);
+/* shapes.c */
+void jox_load_bodies(JoxLoad *load, const JoxYaml *list);
+
+#endif

@@ -1,0 +1,531 @@
+/* From a tree of YAML to a JoxScene. Everything wrong is reported, not only the first. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/elementary.h"
+#include "base/mem.h"
+#include "scene/internal.h"
+
+static const double DEGREE = 3.14159265358979323846 / 180.0;
+
+int32_t jox_load_place(const JoxLoad *l, const JoxYaml *name) {
+    const char *names[512];
+    uint32_t count = l->scene->place_count;
+    int place = jox_place_find(l->scene->places, count, name->text);
+    if (place >= 0)
+        return place;
+    for (uint32_t i = 0; i < count && i < 512; i++)
+        names[i] = l->scene->places[i].name;
+    jox_scene_error(&l->reader, name, "unknown-place",
+                    jox_scene_suggest(&l->reader, name->text, names, count < 512 ? count : 512),
+                    "there is no place '%.60s'", name->text);
+    return -1;
+}
+
+int32_t jox_load_group(const JoxLoad *l, const JoxYaml *name) {
+    const char *names[256];
+    uint32_t count = l->scene->group_count;
+    for (uint32_t i = 0; i < count && i < 256; i++) {
+        names[i] = l->scene->groups[i].name;
+        if (strcmp(names[i], name->text) == 0)
+            return (int32_t)i;
+    }
+    jox_scene_error(&l->reader, name, "unknown-group",
+                    jox_scene_suggest(&l->reader, name->text, names, count < 256 ? count : 256),
+                    "there is no group '%.60s'", name->text);
+    return -1;
+}
+
+/* A map's value for a key that must be a name, or NULL. */
+static const JoxYaml *name_at(const JoxYaml *map, const char *key) {
+    const JoxYaml *node = jox_yaml_get(map, key);
+    return node && node->kind == JOX_YAML_SCALAR ? node : NULL;
+}
+
+/* ---- places ---- */
+
+static JoxV2 *read_ring(const JoxLoad *l, const JoxYaml *node, uint32_t *count) {
+    JoxV2 *ring = jox_read_points(&l->reader, node, 3, count);
+    uint32_t a, b;
+    if (!ring)
+        return NULL;
+    if (*count <= 2000 && jox_polygon_self_crosses(ring, *count, &a, &b)) {
+        jox_scene_error(&l->reader, node->items[b], "self-crossing", "Put the corners in order",
+                        "this polygon crosses itself: the edges from corner %u and corner %u meet",
+                        a + 1, b + 1);
+        return NULL;
+    }
+    double area = jox_polygon_area(ring, *count);
+    if (fabs(area) < 1e-6) {
+        jox_scene_error(&l->reader, node, "no-area", NULL, "this polygon encloses no area");
+        return NULL;
+    }
+    for (uint32_t i = 0; area < 0 && i < *count / 2; i++) { /* counter-clockwise from here on */
+        JoxV2 swap = ring[i];
+        ring[i] = ring[*count - 1 - i];
+        ring[*count - 1 - i] = swap;
+    }
+    return ring;
+}
+
+static void read_place(const JoxLoad *l, const JoxYaml *map, JoxPlace *place) {
+    static const char *const KINDS[] = {"point", "line", "polygon", "queue", "set"};
+    const JoxYaml *found = NULL;
+    int kinds = 0;
+    if (!jox_keys_check(&l->reader, map, "place"))
+        return;
+    for (int k = 0; k < 5; k++) {
+        const JoxYaml *node = jox_yaml_get(map, KINDS[k]);
+        if (!node)
+            continue;
+        kinds++;
+        found = node;
+        place->kind = (JoxPlaceKind)k;
+    }
+    if (kinds != 1) {
+        jox_scene_error(&l->reader, map, "bad-place", NULL,
+                        "a place has one of point, line, polygon, queue and set");
+        return;
+    }
+    place->start = -1;
+    place->radius = (float)jox_key_number(&l->reader, map, "place", "radius");
+    place->spacing = (float)jox_key_number(&l->reader, map, "place", "spacing");
+    double v[2];
+    if (place->kind == JOX_PLACE_POINT) {
+        if (jox_key_vector(&l->reader, map, "place", "point", v, 2)) {
+            place->points = jox_hoard_take(l->reader.hoard, 1, sizeof *place->points);
+            place->points[0] = (JoxV2){(float)v[0], (float)v[1]};
+            place->count = 1;
+        }
+    } else if (place->kind == JOX_PLACE_POLYGON) {
+        place->points = read_ring(l, found, &place->count);
+    } else if (place->kind != JOX_PLACE_SET) {
+        place->points = jox_read_points(&l->reader, found, 2, &place->count);
+        if (place->points && place->kind == JOX_PLACE_LINE && place->count != 2)
+            jox_scene_error(&l->reader, found, "bad-place", "A polyline is a queue or a wall",
+                            "a line has two points");
+    }
+    if (place->points && place->count)
+        jox_place_finish(place);
+}
+
+static void link_places(const JoxLoad *l, const JoxYaml *map) {
+    for (uint32_t i = 0; i < l->scene->place_count; i++) {
+        JoxPlace *place = &l->scene->places[i];
+        const JoxYaml *start = name_at(map->items[i], "start"), *const * names;
+        if (start)
+            place->start = jox_load_place(l, start);
+        if (place->start >= 0 && l->scene->places[place->start].kind != JOX_PLACE_LINE)
+            jox_scene_error(&l->reader, start, "bad-place", NULL, "circuits start at a line");
+        if (place->kind != JOX_PLACE_SET)
+            continue;
+        uint32_t count = jox_read_names(&l->reader, jox_yaml_get(map->items[i], "set"), &names);
+        place->members = jox_hoard_take(l->reader.hoard, count, sizeof *place->members);
+        for (uint32_t n = 0; n < count; n++) {
+            int32_t member = jox_load_place(l, names[n]);
+            if (member >= 0 && l->scene->places[member].kind == JOX_PLACE_SET)
+                jox_scene_error(&l->reader, names[n], "bad-place", NULL,
+                                "a set cannot hold another set");
+            else if (member >= 0)
+                place->members[place->member_count++] = member;
+        }
+    }
+}
+
+static void read_places(JoxLoad *l, const JoxYaml *map) {
+    if (!map || map->kind != JOX_YAML_MAP) {
+        if (map)
+            jox_scene_error(&l->reader, map, "bad-type", NULL, "places maps names to places");
+        return;
+    }
+    l->scene->places = jox_hoard_take(l->reader.hoard, map->count, sizeof *l->scene->places);
+    l->scene->place_count = map->count;
+    for (uint32_t i = 0; i < map->count; i++) {
+        JoxPlace *place = &l->scene->places[i];
+        place->name = jox_hoard_text(l->reader.hoard, map->keys[i]);
+        place->start = -1;
+        read_place(l, map->items[i], place);
+    }
+    link_places(l, map);
+}
+
+static void read_regions(JoxLoad *l, const JoxYaml *map) {
+    if (!map || map->kind != JOX_YAML_MAP)
+        return;
+    l->scene->regions = jox_hoard_take(l->reader.hoard, map->count, sizeof *l->scene->regions);
+    for (uint32_t i = 0; i < map->count; i++) {
+        JoxSceneRegion *region = &l->scene->regions[l->scene->region_count];
+        region->name = jox_hoard_text(l->reader.hoard, map->keys[i]);
+        region->points = read_ring(l, map->items[i], &region->count);
+        l->scene->region_count += region->points != NULL;
+    }
+}
+
+static void read_walls(JoxLoad *l, const JoxYaml *list) {
+    for (uint32_t i = 0; list && list->kind == JOX_YAML_LIST && i < list->count; i++) {
+        const JoxYaml *map = list->items[i], *solid, *line;
+        uint32_t count;
+        if (!jox_keys_check(&l->reader, map, "wall"))
+            continue;
+        solid = jox_yaml_get(map, "solid");
+        line = jox_yaml_get(map, "line");
+        float height = (float)jox_key_number(&l->reader, map, "wall", "height");
+        bool closed = jox_key_bool(&l->reader, map, "wall", "closed");
+        if (!solid == !line) {
+            jox_scene_error(&l->reader, map, "bad-wall", NULL, "a wall is a solid or a line");
+            continue;
+        }
+        JoxV2 *points = solid    ? read_ring(l, solid, &count)
+                        : closed ? read_ring(l, line, &count)
+                                 : jox_read_points(&l->reader, line, 2, &count);
+        if (points && solid)
+            jox_walls_add_solid(&l->scene->walls, points, count, height);
+        else if (points)
+            jox_walls_add_polyline(&l->scene->walls, points, count, closed, height);
+    }
+    if (list && list->kind != JOX_YAML_LIST)
+        jox_scene_error(&l->reader, list, "bad-type", NULL, "walls is a list");
+}
+
+/* ---- groups ---- */
+
+static bool exists(const char *path) {
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISREG(info.st_mode);
+}
+
+/* The behaviour's file: beside the scene, in ../behaviours, or installed; NULL with an error. */
+static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition position) {
+    JoxHoard *hoard = l->reader.hoard;
+    char relative[512];
+    const char *lua = strlen(name) > 4 && !strcmp(name + strlen(name) - 4, ".lua") ? "" : ".lua";
+    const char *forms[] = {"%.400s%s", "../behaviours/%.400s%s", "%s/behaviours/%.300s%s"};
+    for (int i = 0; i < 3; i++) {
+        if (i < 2)
+            snprintf(relative, sizeof relative, forms[i], name, lua);
+        else
+            snprintf(relative, sizeof relative, "%s/behaviours/%.300s%s",
+                     l->datadir ? l->datadir : JOX_DATADIR, name, lua);
+        char *path = jox_path_beside(hoard, position.file, relative);
+        if (exists(path))
+            return path;
+    }
+    jox_diag_error(l->reader.diagnostics, position, "missing-file",
+                   "Looked beside the scene, in ../behaviours and in the installed ones",
+                   "there is no behaviour '%.200s'", name);
+    return NULL;
+}
+
+static void read_mix(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group) {
+    const JoxYaml *one = name_at(map, "behaviour"), *mix = jox_yaml_get(map, "mix");
+    if (!one == !mix) {
+        jox_scene_error(&l->reader, map, "missing-key", "behaviour: walker.lua",
+                        "a group needs a behaviour or a mix of them");
+        return;
+    }
+    uint32_t count = one ? 1 : mix->kind == JOX_YAML_MAP ? mix->count : 0;
+    double sum = 0;
+    group->mix = jox_hoard_take(l->reader.hoard, count, sizeof *group->mix);
+    for (uint32_t i = 0; i < count; i++) {
+        JoxSceneMix *entry = &group->mix[group->mix_count];
+        entry->weight = 1;
+        entry->position = one ? one->position : mix->key_positions[i];
+        if (!one && !jox_read_number(&l->reader, mix->items[i], "", &entry->weight))
+            continue;
+        if (!(entry->weight > 0 && entry->weight <= 1e6)) {
+            jox_scene_error(&l->reader, mix->items[i], "out-of-range", NULL,
+                            "a weight must be above 0");
+            continue;
+        }
+        entry->behaviour = find_behaviour(l, one ? one->text : mix->keys[i], entry->position);
+        sum += entry->weight;
+        group->mix_count += entry->behaviour != NULL;
+    }
+    for (uint32_t i = 0; i < group->mix_count; i++)
+        group->mix[i].weight /= sum;
+}
+
+JoxSceneSet *jox_load_sets(const JoxLoad *l, const JoxYaml *map, bool numbers_only,
+                           uint32_t *count) {
+    *count = 0;
+    if (!map)
+        return NULL;
+    if (map->kind != JOX_YAML_MAP) {
+        jox_scene_error(&l->reader, map, "bad-type", NULL, "this maps names to values");
+        return NULL;
+    }
+    JoxSceneSet *sets = jox_hoard_take(l->reader.hoard, map->count, sizeof *sets);
+    for (uint32_t i = 0; i < map->count; i++) {
+        const JoxYaml *value = map->items[i];
+        JoxSceneSet *set = &sets[*count];
+        *set = (JoxSceneSet){.name = jox_hoard_text(l->reader.hoard, map->keys[i]),
+                             .position = map->key_positions[i]};
+        bool flag = value->kind == JOX_YAML_SCALAR &&
+                    (!strcmp(value->text, "true") || !strcmp(value->text, "false"));
+        if (flag) {
+            set->dist = jox_dist_constant(!strcmp(value->text, "true"));
+        } else if (!jox_read_dist(&l->reader, value, &set->dist)) {
+            if (numbers_only || value->kind != JOX_YAML_SCALAR) {
+                jox_scene_error(&l->reader, value, "bad-type", "uniform(0, 6)",
+                                "this must be a number or a distribution");
+                continue;
+            }
+            set->kind = strcmp(value->text, "antipode") ? JOX_SET_PLACE : JOX_SET_ANTIPODE;
+            if (set->kind == JOX_SET_PLACE && (set->place = jox_load_place(l, value)) < 0)
+                continue;
+        }
+        int parameter = jox_parameter_find(set->name);
+        double a = set->dist.a;
+        if (parameter >= 0 && set->kind == JOX_SET_NUMBER && set->dist.kind != JOX_DIST_CHOOSE &&
+            !(a >= jox_parameters[parameter].least && a <= jox_parameters[parameter].greatest)) {
+            jox_scene_error(&l->reader, value, "out-of-range", NULL,
+                            "%s must be from %g to %g %s, not %g", set->name,
+                            jox_parameters[parameter].least, jox_parameters[parameter].greatest,
+                            jox_parameters[parameter].unit, a);
+            continue;
+        }
+        (*count)++;
+    }
+    return sets;
+}
+
+char **jox_load_tags(const JoxLoad *l, const JoxYaml *node, uint32_t *count) {
+    const JoxYaml *const *names;
+    *count = jox_read_names(&l->reader, node, &names);
+    char **tags = jox_hoard_take(l->reader.hoard, *count, sizeof *tags);
+    for (uint32_t i = 0; i < *count; i++)
+        tags[i] = jox_hoard_text(l->reader.hoard, names[i]->text);
+    return tags;
+}
+
+static void read_group(JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group, uint32_t number) {
+    group->fill = JOX_FILL_AT;
+    group->facing = NAN;
+    if (!jox_keys_check(&l->reader, map, "group"))
+        return;
+    read_mix(l, map, group);
+    double facing = jox_key_number(&l->reader, map, "group", "facing");
+    group->facing = (float)(facing * DEGREE);
+    group->team = jox_hoard_text(l->reader.hoard, jox_key_text(&l->reader, map, "group", "team"));
+    group->tags = jox_load_tags(l, jox_yaml_get(map, "tags"), &group->tag_count);
+    group->set = jox_load_sets(l, jox_yaml_get(map, "set"), false, &group->set_count);
+    group->memory = jox_load_sets(l, jox_yaml_get(map, "memory"), true, &group->memory_count);
+    jox_load_positions(l, map, group, number);
+}
+
+static void read_groups(JoxLoad *l, const JoxYaml *map) {
+    if (!map || map->kind != JOX_YAML_MAP) {
+        if (map)
+            jox_scene_error(&l->reader, map, "bad-type", NULL, "groups maps names to groups");
+        return;
+    }
+    l->scene->groups = jox_hoard_take(l->reader.hoard, map->count, sizeof *l->scene->groups);
+    l->scene->group_count = map->count;
+    for (uint32_t i = 0; i < map->count; i++) {
+        l->scene->groups[i].name = jox_hoard_text(l->reader.hoard, map->keys[i]);
+        l->scene->groups[i].position = map->key_positions[i];
+        read_group(l, map->items[i], &l->scene->groups[i], i);
+    }
+}
+
+/* ---- sources and sinks ---- */
+
+static void read_sources(JoxLoad *l, const JoxYaml *list) {
+    uint32_t count = list && list->kind == JOX_YAML_LIST ? list->count : 0;
+    l->scene->sources = jox_hoard_take(l->reader.hoard, count, sizeof *l->scene->sources);
+    for (uint32_t i = 0; i < count; i++) {
+        const JoxYaml *map = list->items[i];
+        if (!jox_keys_check(&l->reader, map, "source"))
+            continue;
+        JoxSceneSource *source = &l->scene->sources[l->scene->source_count];
+        const JoxYaml *place = name_at(map, "at"), *like = name_at(map, "like");
+        int32_t at = place ? jox_load_place(l, place) : -1;
+        int32_t group = like ? jox_load_group(l, like) : -1;
+        source->rate = jox_key_number(&l->reader, map, "source", "rate");
+        source->keep = (uint32_t)jox_key_number(&l->reader, map, "source", "keep");
+        source->from = jox_key_number(&l->reader, map, "source", "from");
+        source->until = jox_key_number(&l->reader, map, "source", "until");
+        source->memory = jox_load_sets(l, jox_yaml_get(map, "memory"), true, &source->memory_count);
+        source->position = map->position;
+        if (source->rate == 0 && source->keep == 0)
+            jox_scene_error(&l->reader, map, "missing-key", "rate: 2, or keep: 1000",
+                            "a source needs a rate or a number to keep");
+        if (at < 0 || group < 0)
+            continue;
+        if (l->scene->places[at].kind == JOX_PLACE_SET)
+            jox_scene_error(&l->reader, place, "bad-place", NULL, "a source cannot be at a set");
+        source->place = (uint32_t)at;
+        source->like = (uint32_t)group;
+        l->scene->source_count++;
+    }
+}
+
+static void read_sinks(JoxLoad *l, const JoxYaml *list) {
+    uint32_t count = list && list->kind == JOX_YAML_LIST ? list->count : 0;
+    l->scene->sinks = jox_hoard_take(l->reader.hoard, count, sizeof *l->scene->sinks);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!jox_keys_check(&l->reader, list->items[i], "sink"))
+            continue;
+        const JoxYaml *place = name_at(list->items[i], "at"),
+                      *group = name_at(list->items[i], "group");
+        int32_t at = place ? jox_load_place(l, place) : -1;
+        if (at >= 0)
+            l->scene->sinks[l->scene->sink_count++] =
+                (JoxSceneSink){(uint32_t)at, group ? jox_load_group(l, group) : -1};
+    }
+}
+
+/* ---- the whole ---- */
+
+static bool read_box(const JoxLoad *l, const JoxYaml *node, JoxV2 *low, JoxV2 *high) {
+    uint32_t count;
+    JoxV2 *points = node ? jox_read_points(&l->reader, node, 2, &count) : NULL;
+    if (points)
+        jox_bounds(points, count, low, high);
+    if (points && !(low->x < high->x && low->y < high->y))
+        jox_scene_error(&l->reader, node, "no-area", NULL, "this area is empty");
+    return points != NULL;
+}
+
+static void read_settings(JoxLoad *l, const JoxYaml *root) {
+    const JoxReader *r = &l->reader;
+    JoxScene *s = l->scene;
+    s->title = jox_hoard_text(r->hoard, jox_key_text(r, root, "scene", "title"));
+    s->seed = (uint64_t)jox_key_number(r, root, "scene", "seed");
+    s->step = jox_key_number(r, root, "scene", "step");
+    s->duration = jox_key_number(r, root, "scene", "duration");
+    s->gravity = jox_key_number(r, root, "scene", "gravity");
+    jox_key_number(r, root, "scene", "jostle"); /* the version: its range is its check */
+    s->bounded = read_box(l, jox_yaml_get(root, "bounds"), &s->low, &s->high);
+    const char *input = jox_key_text(r, root, "scene", "input");
+    if (input)
+        s->input = jox_path_beside(r->hoard, jox_yaml_get(root, "input")->position.file, input);
+    const JoxYaml *map = jox_yaml_get(root, "forces");
+    s->forces = true;
+    if (map && jox_keys_check(r, map, "forces")) {
+        const char *mode = jox_key_text(r, map, "forces", "mode");
+        s->forces = jox_key_bool(r, map, "forces", "enabled");
+        s->literal = mode && !strcmp(mode, "literal");
+        if (mode && !s->literal && strcmp(mode, "physical"))
+            jox_scene_error(r, jox_yaml_get(map, "mode"), "bad-value", NULL,
+                            "mode is physical or literal");
+    }
+    if ((map = jox_yaml_get(root, "limits")) && jox_keys_check(r, map, "limits")) {
+        s->limits.instructions = (uint32_t)jox_key_number(r, map, "limits", "instructions");
+        s->limits.memory = jox_key_number(r, map, "limits", "memory");
+    }
+    if ((map = jox_yaml_get(root, "heatmap")) && jox_keys_check(r, map, "heatmap")) {
+        s->heatmap = read_box(l, jox_yaml_get(map, "area"), &s->heatmap_low, &s->heatmap_high);
+        s->heatmap_from = jox_key_number(r, map, "heatmap", "from");
+    }
+    if ((map = jox_yaml_get(root, "camera")) && jox_keys_check(r, map, "camera"))
+        s->camera.given = jox_key_vector(r, map, "camera", "position", s->camera.position, 3) &&
+                          jox_key_vector(r, map, "camera", "target", s->camera.target, 3);
+}
+
+static void read_scene(JoxLoad *l, const JoxYaml *root) {
+    const JoxReader *r = &l->reader;
+    jox_keys_check(r, root, "scene");
+    read_settings(l, root);
+    read_places(l, jox_yaml_get(root, "places"));
+    read_regions(l, jox_yaml_get(root, "regions"));
+    read_walls(l, jox_yaml_get(root, "walls"));
+    jox_load_bodies(l, jox_yaml_get(root, "bodies"));
+    read_groups(l, jox_yaml_get(root, "groups"));
+    read_sources(l, jox_yaml_get(root, "sources"));
+    read_sinks(l, jox_yaml_get(root, "sinks"));
+    const JoxYaml *player = name_at(root, "player");
+    l->scene->player_group = player ? jox_load_group(l, player) : -1;
+    if (l->scene->group_count == 0 && l->scene->body_count == 0)
+        jox_scene_error(r, root, "empty-scene", "See scenes/circle.yaml",
+                        "a scene needs a group or a body");
+}
+
+/* Sets PATH=VALUE in the tree; the path must exist or be a key of the format. */
+static void override(JoxLoad *l, JoxYaml *root, const char *set) {
+    JoxPosition at = {"--set", 1, 1, (int)strlen(set) + 1};
+    const char *equals = strchr(set, '=');
+    JoxYaml *map = root;
+    if (!equals || equals == set) {
+        jox_diag_error(l->reader.diagnostics, at, "bad-override",
+                       "Example: groups.pilgrims.count=500", "'%.100s' is not PATH=VALUE", set);
+        return;
+    }
+    const char *part = set;
+    for (;;) {
+        size_t n = strcspn(part, ".=");
+        char *key = jox_hoard_take(l->reader.hoard, n + 1, 1);
+        memcpy(key, part, n);
+        part += n;
+        if (*part == '=') {
+            JoxYaml *value = jox_hoard_take(l->reader.hoard, 1, sizeof *value);
+            *value = (JoxYaml){.kind = JOX_YAML_SCALAR,
+                               .text = jox_hoard_text(l->reader.hoard, equals + 1),
+                               .position = at};
+            jox_yaml_set(l->reader.hoard, map, key, value);
+            return;
+        }
+        JoxYaml *next = jox_yaml_get(map, key);
+        if (map->kind == JOX_YAML_LIST) {
+            char *end;
+            unsigned long i = strtoul(key, &end, 10);
+            next = *end == 0 && i < map->count ? map->items[i] : NULL;
+        }
+        if (!next || next->kind == JOX_YAML_SCALAR) {
+            jox_diag_error(l->reader.diagnostics, at, "bad-override",
+                           map->kind == JOX_YAML_MAP
+                               ? jox_scene_suggest(&l->reader, key, map->keys, map->count)
+                               : NULL,
+                           "the scene has no '%.*s'", (int)(part - set), set);
+            return;
+        }
+        map = next;
+        part++;
+    }
+}
+
+JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
+                              const JoxSceneOptions *options, JoxDiagnostics *diagnostics) {
+    JoxHoard *hoard = jox_hoard_create();
+    JoxYamlFiles *files = jox_hoard_take(hoard, 1, sizeof *files);
+    JoxLoad load = {{hoard, diagnostics}, jox_alloc(1, sizeof(JoxScene)), NULL};
+    const size_t errors = diagnostics->errors;
+    load.scene->memory = hoard;
+    load.datadir = options ? options->datadir : NULL;
+    load.scene->path = jox_hoard_text(hoard, name);
+    JoxYaml *root = jox_yaml_load(hoard, load.scene->path, text, length, files, diagnostics);
+    for (uint32_t i = 0; root && options && i < options->set_count; i++)
+        override(&load, root, options->sets[i]);
+    if (root)
+        read_scene(&load, root);
+    for (uint32_t i = 0; i < files->count; i++)
+        jox_diag_attach_source(diagnostics, files->items[i].path, files->items[i].text,
+                               files->items[i].length);
+    if (diagnostics->errors > errors) {
+        jox_scene_free(load.scene);
+        return NULL;
+    }
+    load.scene->files = jox_hoard_take(hoard, files->count, sizeof *load.scene->files);
+    load.scene->file_count = files->count;
+    for (uint32_t i = 0; i < files->count; i++) {
+        load.scene->files[i].path = files->items[i].path;
+        memcpy(load.scene->files[i].sha256, files->items[i].sha256, 65);
+    }
+    return load.scene;
+}
+
+JoxScene *jox_scene_load(const char *path, const JoxSceneOptions *options,
+                         JoxDiagnostics *diagnostics) {
+    return jox_scene_load_text(path, NULL, 0, options, diagnostics);
+}
+
+void jox_scene_free(JoxScene *scene) {
+    if (!scene)
+        return;
+    jox_walls_free(&scene->walls);
+    jox_hoard_free(scene->memory);
+    jox_free(scene);
+}

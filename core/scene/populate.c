@@ -1,0 +1,119 @@
+/* Where the agents of a group stand at the start. */
+#include <math.h>
+#include <string.h>
+
+#include "base/elementary.h"
+#include "base/mem.h"
+#include "scene/fill.h"
+#include "scene/internal.h"
+
+enum { MOST_AGENTS = 1000000 };
+
+static uint32_t read_places(const JoxLoad *l, const JoxYaml *node, uint32_t **out) {
+    const JoxYaml *const *names;
+    uint32_t count = jox_read_names(&l->reader, node, &names), n = 0;
+    *out = jox_hoard_take(l->reader.hoard, count, sizeof **out);
+    for (uint32_t i = 0; i < count; i++) {
+        int32_t place = jox_load_place(l, names[i]);
+        if (place >= 0)
+            (*out)[n++] = (uint32_t)place;
+    }
+    return n;
+}
+
+static void circle(const JoxLoad *l, const JoxYaml *map, const uint32_t *in, uint32_t in_count,
+                   JoxSceneGroup *group) {
+    const JoxPlace *place = in_count == 1 ? &l->scene->places[in[0]] : NULL;
+    if (!place || place->kind != JOX_PLACE_POINT) {
+        jox_scene_error(&l->reader, map, "bad-fill", "in: a place with point and radius",
+                        "a circle is filled about one point");
+        return;
+    }
+    group->centre = place->centre;
+    group->positions = jox_hoard_take(l->reader.hoard, group->count, sizeof *group->positions);
+    for (uint32_t i = 0; i < group->count; i++) {
+        double angle = 6.283185307179586 * i / group->count;
+        group->positions[i] = (JoxV2){place->centre.x + place->radius * (float)jox_cos(angle),
+                                      place->centre.y + place->radius * (float)jox_sin(angle)};
+    }
+}
+
+static void area(const JoxLoad *l, const JoxYaml *map, const JoxArea *a, JoxSpread spread,
+                 float spacing, uint32_t number, JoxSceneGroup *group) {
+    JoxV2 *positions = NULL;
+    uint32_t fit = jox_fill(a, spread, group->count, spacing, l->scene->seed, number, &positions);
+    if (fit < group->count)
+        jox_scene_error(&l->reader, map, "too-many", "Lower count or spacing, or widen the area",
+                        "%u agents do not fit: %u do", group->count, fit);
+    group->count = fit < group->count ? fit : group->count;
+    group->positions = jox_hoard_take(l->reader.hoard, group->count, sizeof *group->positions);
+    if (positions)
+        memcpy(group->positions, positions, group->count * sizeof *positions);
+    jox_free(positions);
+}
+
+static void check_bounds(const JoxLoad *l, const JoxYaml *map, const JoxSceneGroup *group) {
+    const JoxScene *s = l->scene;
+    for (uint32_t i = 0; s->bounded && group->positions && i < group->count; i++) {
+        JoxV2 p = group->positions[i];
+        if (p.x >= s->low.x && p.x <= s->high.x && p.y >= s->low.y && p.y <= s->high.y)
+            continue;
+        jox_scene_error(&l->reader, map, "out-of-bounds", NULL,
+                        "agent %u at (%g, %g) is outside the scene's bounds", i + 1, p.x, p.y);
+        return;
+    }
+}
+
+void jox_load_positions(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group,
+                        uint32_t number) {
+    static const char *const FILLS[] = {"hex", "grid", "random", "circle"};
+    const JoxYaml *at = jox_yaml_get(map, "at"), *count = jox_yaml_get(map, "count");
+    const JoxYaml *density = jox_yaml_get(map, "density");
+    if (at) {
+        group->positions = jox_read_points(&l->reader, at, 1, &group->count);
+        check_bounds(l, map, group);
+        return;
+    }
+    if (!count == !density) {
+        jox_scene_error(&l->reader, map, "missing-key", "count: 100, density: 2, or at: [[0, 0]]",
+                        "a group needs one of count, density and at");
+        return;
+    }
+    uint32_t *in, *out;
+    uint32_t in_count = read_places(l, jox_yaml_get(map, "in"), &in);
+    uint32_t out_count = read_places(l, jox_yaml_get(map, "outside"), &out);
+    if (in_count == 0) {
+        if (!jox_yaml_get(map, "in"))
+            jox_scene_error(&l->reader, map, "missing-key", "in: NAME",
+                            "a group needs `in`, places");
+        return;
+    }
+    JoxArea a = {l->scene->places, in, out, in_count, out_count, &l->scene->walls, 0.2f};
+    double number_of = jox_key_number(&l->reader, map, "group", count ? "count" : "density");
+    if (!isfinite(number_of))
+        return;
+    if (density)
+        number_of = floor(number_of * jox_area_size(&a) + 0.5);
+    if (!(number_of >= 1 && number_of <= MOST_AGENTS)) {
+        jox_scene_error(&l->reader, density ? density : count, "out-of-range", NULL,
+                        "this makes %g agents; 1 to 1,000,000 are possible", number_of);
+        return;
+    }
+    group->count = (uint32_t)number_of;
+    const char *fill = jox_key_text(&l->reader, map, "group", "fill");
+    group->fill = JOX_FILL_AT;
+    for (int f = 0; f < 4; f++)
+        if (fill && !strcmp(FILLS[f], fill))
+            group->fill = (JoxFillMode)f;
+    double spacing = jox_key_number(&l->reader, map, "group", "spacing");
+    if (group->fill == JOX_FILL_AT)
+        jox_scene_error(&l->reader, jox_yaml_get(map, "fill"), "bad-value",
+                        jox_scene_suggest(&l->reader, fill ? fill : "", FILLS, 4),
+                        "fill is grid, hex, random or circle");
+    else if (group->fill == JOX_FILL_CIRCLE)
+        circle(l, map, in, in_count, group);
+    else
+        area(l, map, &a, (JoxSpread)group->fill, isfinite(spacing) ? (float)spacing : 0.0f, number,
+             group);
+    check_bounds(l, map, group);
+}

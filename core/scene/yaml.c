@@ -1,0 +1,342 @@
+#include "scene/yaml.h"
+
+#include <errno.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <yaml.h>
+
+#include "base/hash.h"
+#include "base/mem.h"
+
+enum { LARGEST = 10 << 20, DEEPEST = 64, MOST_NODES = 500000, MOST_INCLUDES = 16 };
+
+/* ---- memory ---- */
+
+struct JoxHoard {
+    void **blocks;
+    size_t count, capacity;
+};
+
+JoxHoard *jox_hoard_create(void) {
+    return jox_alloc(1, sizeof(JoxHoard));
+}
+void *jox_hoard_take(JoxHoard *h, size_t count, size_t size) {
+    JOX_RESERVE(h->blocks, h->capacity, h->count + 1);
+    return h->blocks[h->count++] = jox_alloc(count ? count : 1, size);
+}
+char *jox_hoard_text(JoxHoard *h, const char *text) {
+    return text ? strcpy(jox_hoard_take(h, strlen(text) + 1, 1), text) : NULL;
+}
+void jox_hoard_free(JoxHoard *h) {
+    for (size_t i = 0; h && i < h->count; i++)
+        jox_free(h->blocks[i]);
+    if (h)
+        jox_free(h->blocks);
+    jox_free(h);
+}
+
+char *jox_path_beside(JoxHoard *hoard, const char *file, const char *name) {
+    const char *slash = strrchr(file, '/');
+    size_t folder = slash && *name != '/' ? (size_t)(slash - file) + 1 : 0;
+    char *path = jox_hoard_take(hoard, folder + strlen(name) + 1, 1);
+    memcpy(path, file, folder);
+    strcpy(path + folder, name);
+    return path;
+}
+
+/* ---- trees ---- */
+
+JoxYaml *jox_yaml_get(const JoxYaml *map, const char *key) {
+    for (uint32_t i = 0; map && map->kind == JOX_YAML_MAP && i < map->count; i++)
+        if (strcmp(map->keys[i], key) == 0)
+            return map->items[i];
+    return NULL;
+}
+
+static void add_item(JoxHoard *hoard, JoxYaml *node, const char *key, JoxPosition at,
+                     JoxYaml *value) {
+    if (node->count == node->capacity) { /* the hoard cannot grow a block: old ones stay in it */
+        uint32_t wider = node->capacity ? 2 * node->capacity : 4;
+        JoxYaml **items = jox_hoard_take(hoard, wider, sizeof *items);
+        memcpy(items, node->items, node->count * sizeof *items);
+        node->items = items;
+        if (node->kind == JOX_YAML_MAP) {
+            const char **keys = jox_hoard_take(hoard, wider, sizeof *keys);
+            JoxPosition *positions = jox_hoard_take(hoard, wider, sizeof *positions);
+            memcpy(keys, node->keys, node->count * sizeof *keys);
+            memcpy(positions, node->key_positions, node->count * sizeof *positions);
+            node->keys = keys;
+            node->key_positions = positions;
+        }
+        node->capacity = wider;
+    }
+    node->items[node->count] = value;
+    if (node->kind == JOX_YAML_MAP) {
+        node->keys[node->count] = key;
+        node->key_positions[node->count] = at;
+    }
+    node->count++;
+}
+
+void jox_yaml_set(JoxHoard *hoard, JoxYaml *map, const char *key, JoxYaml *value) {
+    for (uint32_t i = 0; i < map->count; i++)
+        if (strcmp(map->keys[i], key) == 0) {
+            map->items[i] = value;
+            return;
+        }
+    add_item(hoard, map, jox_hoard_text(hoard, key), value->position, value);
+}
+
+/* What the map lacks comes from `base`; where both are maps, deeply. */
+static void merge(JoxHoard *hoard, JoxYaml *map, const JoxYaml *base, int depth) {
+    for (uint32_t i = 0; i < base->count && depth < DEEPEST; i++) {
+        JoxYaml *own = jox_yaml_get(map, base->keys[i]);
+        if (!own)
+            add_item(hoard, map, base->keys[i], base->key_positions[i], base->items[i]);
+        else if (own->kind == JOX_YAML_MAP && base->items[i]->kind == JOX_YAML_MAP &&
+                 own != base->items[i])
+            merge(hoard, own, base->items[i], depth + 1);
+    }
+}
+
+/* ---- parsing ---- */
+
+typedef struct Anchor {
+    char *name;
+    JoxYaml *node;
+} Anchor;
+
+typedef struct Parse {
+    JoxHoard *hoard;
+    JoxDiagnostics *diagnostics;
+    yaml_parser_t parser;
+    const char *path;
+    Anchor anchors[256];
+    uint32_t anchor_count;
+    uint64_t nodes; /* as if every alias were written out */
+    bool failed;
+} Parse;
+
+static JoxPosition mark(const Parse *p, yaml_mark_t from, yaml_mark_t to) {
+    int end = to.line == from.line ? (int)to.column + 1 : (int)from.column + 2;
+    return (JoxPosition){p->path, (int)from.line + 1, (int)from.column + 1, end};
+}
+
+static void fail(Parse *p, JoxPosition at, const char *code, const char *text, const char *hint) {
+    if (!p->failed)
+        jox_diag_error(p->diagnostics, at, code, hint, "%s", text);
+    p->failed = true;
+}
+
+static bool next_event(Parse *p, yaml_event_t *event) {
+    if (yaml_parser_parse(&p->parser, event))
+        return true;
+    yaml_mark_t at = p->parser.problem_mark;
+    JoxPosition position = {p->path, (int)at.line + 1, (int)at.column + 1, (int)at.column + 2};
+    fail(p, position, "bad-yaml", p->parser.problem ? p->parser.problem : "this is not YAML",
+         "Check indentation and quotes");
+    return false;
+}
+
+static uint64_t tree_size(const JoxYaml *node, int depth) {
+    uint64_t size = 1;
+    for (uint32_t i = 0; i < node->count && depth < DEEPEST && size < MOST_NODES; i++)
+        size += tree_size(node->items[i], depth + 1);
+    return size;
+}
+
+static void remember(Parse *p, const yaml_char_t *name, JoxYaml *node) {
+    if (name && p->anchor_count < 256)
+        p->anchors[p->anchor_count++] =
+            (Anchor){jox_hoard_text(p->hoard, (const char *)name), node};
+}
+
+static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth);
+
+static JoxYaml *resolve_alias(Parse *p, const char *name, JoxPosition at) {
+    for (uint32_t i = p->anchor_count; i-- > 0;) {
+        if (strcmp(p->anchors[i].name, name) != 0)
+            continue;
+        p->nodes += tree_size(p->anchors[i].node, 0);
+        if (p->nodes > MOST_NODES)
+            fail(p, at, "too-large", "aliases make this scene too large", NULL);
+        return p->anchors[i].node;
+    }
+    fail(p, at, "unknown-anchor", "there is no anchor of this name before", NULL);
+    return NULL;
+}
+
+static void parse_map_items(Parse *p, JoxYaml *map, int depth) {
+    yaml_event_t event;
+    JoxYaml *bases[8];
+    uint32_t base_count = 0;
+    while (!p->failed && next_event(p, &event)) {
+        if (event.type == YAML_MAPPING_END_EVENT) {
+            yaml_event_delete(&event);
+            break;
+        }
+        JoxPosition at = mark(p, event.start_mark, event.end_mark);
+        if (event.type != YAML_SCALAR_EVENT) {
+            fail(p, at, "bad-key", "keys must be plain names", NULL);
+            yaml_event_delete(&event);
+            break;
+        }
+        char *key = jox_hoard_text(p->hoard, (const char *)event.data.scalar.value);
+        yaml_event_delete(&event);
+        if (!next_event(p, &event))
+            break;
+        JoxYaml *value = parse_node(p, &event, depth + 1);
+        if (!value)
+            break;
+        if (strcmp(key, "<<") == 0 && value->kind == JOX_YAML_MAP && base_count < 8)
+            bases[base_count++] = value;
+        else if (jox_yaml_get(map, key))
+            jox_diag_error(p->diagnostics, at, "duplicate-key", "Keep one of them",
+                           "the key '%s' stands here twice", key);
+        else
+            add_item(p->hoard, map, key, at, value);
+    }
+    for (uint32_t i = 0; i < base_count && !p->failed; i++)
+        merge(p->hoard, map, bases[i], 0);
+}
+
+/* Makes the node that begins with `event`, which it deletes. */
+static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth) {
+    JoxPosition at = mark(p, event->start_mark, event->end_mark);
+    JoxYaml *node = NULL;
+    if (depth > DEEPEST || ++p->nodes > MOST_NODES) {
+        fail(p, at, "too-large",
+             depth > DEEPEST ? "this is nested too deeply" : "this scene is too large", NULL);
+    } else if (event->type == YAML_ALIAS_EVENT) {
+        node = resolve_alias(p, (const char *)event->data.alias.anchor, at);
+    } else {
+        node = jox_hoard_take(p->hoard, 1, sizeof *node);
+        node->position = at;
+        if (event->type == YAML_SCALAR_EVENT) {
+            node->kind = JOX_YAML_SCALAR;
+            node->text = jox_hoard_text(p->hoard, (const char *)event->data.scalar.value);
+            node->quoted = event->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
+            remember(p, event->data.scalar.anchor, node);
+        } else if (event->type == YAML_SEQUENCE_START_EVENT) {
+            node->kind = JOX_YAML_LIST;
+            yaml_event_t item;
+            while (!p->failed && next_event(p, &item)) {
+                if (item.type == YAML_SEQUENCE_END_EVENT) {
+                    yaml_event_delete(&item);
+                    break;
+                }
+                JoxYaml *child = parse_node(p, &item, depth + 1);
+                if (child)
+                    add_item(p->hoard, node, NULL, at, child);
+            }
+            remember(p, event->data.sequence_start.anchor, node); /* after: no cycles */
+        } else if (event->type == YAML_MAPPING_START_EVENT) {
+            node->kind = JOX_YAML_MAP;
+            parse_map_items(p, node, depth);
+            remember(p, event->data.mapping_start.anchor, node);
+        }
+    }
+    yaml_event_delete(event);
+    return p->failed ? NULL : node;
+}
+
+static JoxYaml *parse_text(Parse *p, const char *text, size_t length) {
+    yaml_parser_initialize(&p->parser);
+    yaml_parser_set_input_string(&p->parser, (const unsigned char *)text, length);
+    yaml_event_t event;
+    JoxYaml *root = NULL;
+    while (!p->failed && next_event(p, &event)) {
+        bool end = event.type == YAML_STREAM_END_EVENT;
+        bool starts = event.type == YAML_MAPPING_START_EVENT ||
+                      event.type == YAML_SEQUENCE_START_EVENT || event.type == YAML_SCALAR_EVENT;
+        if (starts && root)
+            fail(p, mark(p, event.start_mark, event.end_mark), "bad-yaml",
+                 "a scene is one document; this is a second", NULL);
+        if (starts && !p->failed)
+            root = parse_node(p, &event, 0);
+        else
+            yaml_event_delete(&event);
+        if (end)
+            break;
+    }
+    yaml_parser_delete(&p->parser);
+    if (!p->failed && (!root || root->kind != JOX_YAML_MAP)) {
+        fail(p, (JoxPosition){p->path, 1, 1, 2}, "bad-yaml",
+             root ? "a scene must be a map of keys" : "the scene is empty",
+             "See scenes/circle.yaml");
+    }
+    return p->failed ? NULL : root;
+}
+
+/* ---- files ---- */
+
+static JoxYaml *load(JoxHoard *hoard, const char *path, const char *text, size_t length,
+                     JoxYamlFiles *files, JoxDiagnostics *diagnostics, JoxPosition from);
+
+/* Files that this one includes, merged under it in their order. */
+static void include(JoxHoard *hoard, JoxYaml *root, const char *path, JoxYamlFiles *files,
+                    JoxDiagnostics *diagnostics) {
+    JoxYaml *names = jox_yaml_get(root, "include");
+    uint32_t count = !names ? 0 : names->kind == JOX_YAML_LIST ? names->count : 1;
+    for (uint32_t i = 0; i < count; i++) {
+        JoxYaml *name = names->kind == JOX_YAML_LIST ? names->items[i] : names;
+        if (name->kind != JOX_YAML_SCALAR) {
+            jox_diag_error(diagnostics, name->position, "bad-type", "include: other.yaml",
+                           "include names files");
+            continue;
+        }
+        char *beside = jox_path_beside(hoard, path, name->text);
+        bool again = false;
+        for (uint32_t f = 0; f < files->count; f++)
+            again |= strcmp(files->items[f].path, beside) == 0;
+        if (again || files->count >= MOST_INCLUDES) {
+            jox_diag_error(diagnostics, name->position, "include-cycle", NULL,
+                           again ? "'%s' includes itself or is included twice"
+                                 : "too many files are included, at '%s'",
+                           name->text);
+            continue;
+        }
+        JoxYaml *base = load(hoard, beside, NULL, 0, files, diagnostics, name->position);
+        if (base)
+            merge(hoard, root, base, 0);
+    }
+}
+
+static JoxYaml *load(JoxHoard *hoard, const char *path, const char *text, size_t length,
+                     JoxYamlFiles *files, JoxDiagnostics *diagnostics, JoxPosition from) {
+    char *own = NULL;
+    const char *wrong = NULL;
+    if (!text)
+        text = own = jox_read_file(path, LARGEST, &length);
+    if (!text)
+        wrong = errno == EFBIG ? "it is over 10 MB" : strerror(errno);
+    else if (length > LARGEST)
+        wrong = "it is over 10 MB";
+    if (wrong) {
+        jox_diag_error(diagnostics, from.line ? from : ((JoxPosition){path, 0, 0, 0}),
+                       "unreadable-file", NULL, "cannot read '%s': %s", path, wrong);
+        jox_free(own);
+        return NULL;
+    }
+    JoxYamlFile *file = &files->items[files->count++];
+    file->path = jox_hoard_text(hoard, path);
+    file->text = memcpy(jox_hoard_take(hoard, length + 1, 1), text, length);
+    file->length = length;
+    jox_sha256_hex(text, length, file->sha256);
+    jox_free(own);
+    Parse *parse = jox_alloc(1, sizeof *parse);
+    parse->hoard = hoard;
+    parse->diagnostics = diagnostics;
+    parse->path = file->path;
+    JoxYaml *root = parse_text(parse, file->text, length);
+    jox_free(parse);
+    if (root)
+        include(hoard, root, file->path, files, diagnostics);
+    return root;
+}
+
+JoxYaml *jox_yaml_load(JoxHoard *hoard, const char *path, const char *text, size_t length,
+                       JoxYamlFiles *files, JoxDiagnostics *diagnostics) {
+    return load(hoard, path, text, length, files, diagnostics, (JoxPosition){0});
+}

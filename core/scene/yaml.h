@@ -1,0 +1,49 @@
+/* A YAML file as a tree with places: included files merged, aliases resolved, sizes capped. */
+#ifndef JOX_SCENE_YAML_H
+#define JOX_SCENE_YAML_H
+
+#include <stdint.h>
+
+#include "base/diag.h"
+
+/* Memory that lives and dies with a scene. */
+typedef struct JoxHoard JoxHoard;
+JoxHoard *jox_hoard_create(void);
+void *jox_hoard_take(JoxHoard *hoard, size_t count, size_t size); /* zeroed */
+char *jox_hoard_text(JoxHoard *hoard, const char *text);
+void jox_hoard_free(JoxHoard *hoard);
+
+typedef enum { JOX_YAML_SCALAR, JOX_YAML_LIST, JOX_YAML_MAP } JoxYamlKind;
+typedef struct JoxYaml JoxYaml;
+struct JoxYaml {
+    JoxYamlKind kind;
+    const char *text; /* scalars */
+    bool quoted;
+    JoxYaml **items;   /* of lists; values of maps */
+    const char **keys; /* of maps */
+    JoxPosition *key_positions;
+    uint32_t count, capacity;
+    JoxPosition position;
+};
+
+typedef struct JoxYamlFile {
+    char *path;
+    char sha256[65];
+    char *text;
+    size_t length;
+} JoxYamlFile;
+typedef struct JoxYamlFiles {
+    JoxYamlFile items[64];
+    uint32_t count;
+} JoxYamlFiles;
+
+/* Reads a file, or `text` under the name `path`; NULL with diagnostics. Files read are listed. */
+JoxYaml *jox_yaml_load(JoxHoard *hoard, const char *path, const char *text, size_t length,
+                       JoxYamlFiles *files, JoxDiagnostics *diagnostics);
+JoxYaml *jox_yaml_get(const JoxYaml *map, const char *key);
+/* Sets `map[key]`, new or not. */
+void jox_yaml_set(JoxHoard *hoard, JoxYaml *map, const char *key, JoxYaml *value);
+/* A path beside another file: absolute paths stay as they are. */
+char *jox_path_beside(JoxHoard *hoard, const char *file, const char *name);
+
+#endif
