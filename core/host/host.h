@@ -1,0 +1,61 @@
+/* What the files of host share: a running scene. */
+#ifndef JOX_HOST_HOST_H
+#define JOX_HOST_HOST_H
+
+#include "base/diag.h"
+#include "host/watch.h"
+#include "jostle.h"
+#include "lua/loader.h"
+#include "record/density.h"
+#include "record/recorder.h"
+#include "record/regions.h"
+#include "scene/scene.h"
+#include "world/world.h"
+
+struct JoScene {
+    JoxScene *plan;
+    JoWorld *world;
+    JoxLua *lua;
+    JoxScope scope;
+    uint32_t first_antipode; /* places from here on belong to single agents */
+    double spawned[256];     /* per source: agents so far by rate */
+    JoMessage *message;
+    void *message_context;
+
+    JoxWatch *watch;
+    JoxRecorder *recorder;
+    uint32_t record_every; /* ticks */
+    char *report;          /* directory, or NULL */
+    JoxDensity *density;
+    JoxRegions *regions;
+    bool traces;
+    uint32_t trace_id;
+    double progress_until, progress_begun, progress_shown; /* s */
+    int progress_tenth;
+    bool finished;
+    float density_most; /* of the frames that a report sampled, 1/m2 */
+    char *input_path;   /* of the input log, or NULL */
+    char input_sha256[65];
+};
+
+/* Sends formatted text to the scene's message function. */
+void jox_host_say(const JoScene *scene, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+/* Sends diagnostics as text, fills `error` from the first error, and frees them. */
+void jox_host_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
+                     JoError *error);
+void jox_host_fail(JoError *error, JoCode code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* As jo_scene_load, but what is wrong goes to `diagnostics`. NULL if there are errors. */
+JoScene *jox_host_load(const JoSceneDef *def, JoxDiagnostics *diagnostics);
+/* populate.c: groups at the start; sources and sinks as time goes on. */
+bool jox_host_populate(JoScene *scene, JoxDiagnostics *diagnostics);
+void jox_host_sources(JoScene *scene);
+void jox_host_sinks(JoScene *scene);
+/* reload.c: swaps behaviours whose files have changed. */
+void jox_host_reload(JoScene *scene);
+/* results.c: what is collected each step, and how it ends. */
+bool jox_host_collect(JoScene *scene, JoError *error);
+
+#endif

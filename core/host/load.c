@@ -1,0 +1,273 @@
+/* From a scene's file to a running world. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "host/host.h"
+
+enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 64 << 20 };
+
+static void to_stderr(void *context, const char *text) {
+    (void)context;
+    fputs(text, stderr);
+}
+
+void jox_host_say(const JoScene *scene, const char *format, ...) {
+    char text[2048];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    scene->message(scene->message_context, text);
+}
+
+void jox_host_fail(JoError *error, JoCode code, const char *format, ...) {
+    if (!error)
+        return;
+    *error = (JoError){.code = code};
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error->text, sizeof error->text, format, arguments);
+    va_end(arguments);
+}
+
+void jox_host_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
+                     JoError *error) {
+    JoxText text = {0};
+    jox_diag_print(diagnostics, &text);
+    if (text.length)
+        message(context, text.data);
+    jox_text_free(&text);
+    for (size_t i = 0; error && i < diagnostics->count; i++) {
+        const JoxDiagnostic *d = &diagnostics->items[i];
+        if (d->severity != JOX_SEVERITY_ERROR)
+            continue;
+        jox_host_fail(error, JO_INPUT, "%s", d->message);
+        error->line = d->line;
+        error->column = d->column;
+        snprintf(error->file, sizeof error->file, "%s", d->file ? d->file : "");
+        break;
+    }
+    jox_diag_free(diagnostics);
+}
+
+JoSceneDef jo_default_scene_def(void) {
+    return (JoSceneDef){.threads = 1, .cookie = SCENE_COOKIE};
+}
+
+/* The def's overrides, with seed and step as two more. */
+static JoxScene *load_plan(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
+    char seed[32], step[48];
+    const char **sets = jox_alloc(def->override_count + 2, sizeof *sets);
+    uint32_t count = 0;
+    for (size_t i = 0; i < def->override_count; i++)
+        sets[count++] = def->overrides[i];
+    if (def->has_seed) {
+        snprintf(seed, sizeof seed, "seed=%llu", (unsigned long long)def->seed);
+        sets[count++] = seed;
+    }
+    if (def->has_dt) {
+        snprintf(step, sizeof step, "step=%.9g", def->dt);
+        sets[count++] = step;
+    }
+    JoxSceneOptions options = {.sets = sets, .set_count = count};
+    JoxScene *plan = jox_scene_load(def->path, &options, diagnostics);
+    jox_free(sets);
+    return plan;
+}
+
+static uint64_t tag_mask(JoWorld *world, char *const *tags, uint32_t count, JoxPosition position,
+                         JoxDiagnostics *diagnostics) {
+    uint64_t mask = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        int bit = jox_world_tag(world, tags[i]);
+        if (bit < 0)
+            jox_diag_error(diagnostics, position, "too-many-tags", NULL,
+                           "a scene has at most 64 different tags");
+        else
+            mask |= (uint64_t)1 << bit;
+    }
+    return mask;
+}
+
+static void add_bodies(JoScene *scene, JoxDiagnostics *diagnostics) {
+    JoxScene *plan = scene->plan;
+    for (uint32_t i = 0; i < plan->body_count; i++) {
+        JoxSceneBody *body = &plan->bodies[i];
+        JoxText why = {0};
+        body->def.tags =
+            tag_mask(scene->world, body->tags, body->tag_count, body->position, diagnostics);
+        if (jox_bodies_add(scene->world->bodies, &body->def, &why) == JOX_NO_BODY)
+            jox_diag_error(diagnostics, body->position, "bad-body", NULL, "%s",
+                           why.data ? why.data : "this body was refused");
+        jox_text_free(&why);
+    }
+    for (uint32_t g = 0; g < plan->group_count; g++)
+        tag_mask(scene->world, plan->groups[g].tags, plan->groups[g].tag_count,
+                 plan->groups[g].position, diagnostics);
+}
+
+/* Places are copied to the world, which owns them, with one more for each agent that is bound for
+   the opposite side of its circle. */
+static void add_places(JoScene *scene) {
+    const JoxScene *plan = scene->plan;
+    uint32_t extra = 0;
+    for (uint32_t g = 0; g < plan->group_count; g++)
+        for (uint32_t s = 0; s < plan->groups[g].set_count; s++)
+            if (plan->groups[g].set[s].kind == JOX_SET_ANTIPODE)
+                extra += plan->groups[g].count;
+    JoxPlace *places = jox_alloc(plan->place_count + extra + 1, sizeof *places);
+    for (uint32_t i = 0; i < plan->place_count; i++) {
+        const JoxPlace *from = &plan->places[i];
+        places[i] = *from;
+        places[i].name = jox_strdup(from->name);
+        places[i].points = jox_alloc(from->count + 1, sizeof *from->points);
+        if (from->count)
+            memcpy(places[i].points, from->points, from->count * sizeof *from->points);
+        places[i].members = jox_alloc(from->member_count + 1, sizeof *from->members);
+        if (from->member_count)
+            memcpy(places[i].members, from->members, from->member_count * sizeof *from->members);
+    }
+    scene->first_antipode = plan->place_count;
+    jox_world_set_places(scene->world, places, plan->place_count);
+    scene->scope = (JoxScope){.places = places,
+                              .place_count = plan->place_count,
+                              .tags = (const char *const *)scene->world->tags,
+                              .tag_count = scene->world->tag_count,
+                              .complete = true};
+}
+
+/* Index of the machine made of a file, loaded on first use; -1 with diagnostics. */
+static void load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
+    const JoxScene *plan = scene->plan;
+    JoxMind *mind = &scene->world->mind;
+    for (uint32_t g = 0; g < plan->group_count; g++)
+        for (uint32_t m = 0; m < plan->groups[g].mix_count; m++) {
+            const char *path = plan->groups[g].mix[m].behaviour;
+            bool known = false;
+            for (uint32_t k = 0; k < mind->machine_count; k++)
+                known |= strcmp(mind->machines[k]->path, path) == 0;
+            if (known || mind->machine_count >= 64)
+                continue;
+            JoxMachine *machine = jox_lua_load(scene->lua, path, &scene->scope, diagnostics);
+            if (machine)
+                jox_mind_add(mind, machine);
+        }
+}
+
+static void load_input(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
+    size_t length;
+    char *text = path ? jox_read_file(path, LARGEST_INPUT, &length) : NULL;
+    if (path && !text)
+        jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "unreadable-file", NULL,
+                       "cannot read the input log '%s'", path);
+    if (text)
+        jox_input_parse(&scene->world->input, path, text, length, diagnostics);
+    if (text) {
+        jox_diag_attach_source(diagnostics, path, text, length);
+        scene->input_path = jox_strdup(path);
+        jox_sha256_hex(text, length, scene->input_sha256);
+    }
+    jox_free(text);
+}
+
+static void complain(void *context, const char *text) {
+    const JoScene *scene = context;
+    scene->message(scene->message_context, text);
+}
+
+static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnostics) {
+    JoxScene *plan = scene->plan;
+    JoWorldDef world = jo_default_world_def();
+    world.dt = plan->step;
+    world.seed = plan->seed;
+    world.threads = def->threads;
+    world.gravity = plan->gravity;
+    world.forces = plan->forces;
+    world.literal = plan->literal;
+    scene->world = jox_world_create(&world);
+    scene->world->walls = plan->walls; /* taken over */
+    plan->walls = (JoxWalls){0};
+    JoxLuaLimits limits = jox_lua_default_limits();
+    if (plan->limits.instructions)
+        limits.hook_instructions = plan->limits.instructions;
+    if (plan->limits.memory > 0)
+        limits.memory = (size_t)(plan->limits.memory * (1 << 20));
+    scene->lua = jox_lua_create(&limits);
+    add_bodies(scene, diagnostics);
+    add_places(scene);
+    load_machines(scene, diagnostics);
+    JoxMind *mind = &scene->world->mind;
+    mind->call = jox_lua_call;
+    mind->call_context = scene->lua;
+    jox_lua_attach(scene->lua, mind, complain, scene);
+    load_input(scene, def->input_log ? def->input_log : plan->input, diagnostics);
+    if (diagnostics->errors == 0)
+        jox_host_populate(scene, diagnostics);
+}
+
+JoScene *jox_host_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
+    JoScene *scene = jox_alloc(1, sizeof *scene);
+    scene->message = def->message ? def->message : to_stderr;
+    scene->message_context = def->message_context;
+    if (def->threads < 1 || def->threads > 64)
+        jox_diag_error(diagnostics, ((JoxPosition){0}), "out-of-range", NULL,
+                       "threads must be from 1 to 64");
+    else
+        scene->plan = load_plan(def, diagnostics);
+    if (scene->plan)
+        build(scene, def, diagnostics);
+    if (diagnostics->errors == 0)
+        return scene;
+    jo_scene_free(scene);
+    return NULL;
+}
+
+JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && def->path, NULL);
+    JoxDiagnostics diagnostics = {0};
+    JoScene *scene = jox_host_load(def, &diagnostics);
+    jox_host_report(def->message ? def->message : to_stderr, def->message_context, &diagnostics,
+                    error);
+    if (!scene)
+        return NULL;
+    JoxSettled settled = jox_world_settle(scene->world);
+    if (settled.moved || settled.stuck)
+        jox_host_say(scene,
+                     "%s: %u agents were born in a wall or in another and moved by up to "
+                     "%.2f m%s\n",
+                     def->path, settled.moved, settled.farthest,
+                     settled.stuck ? "; some found no free spot" : "");
+    return scene;
+}
+
+void jo_scene_free(JoScene *scene) {
+    if (!scene)
+        return;
+    jo_scene_finish(scene, NULL);
+    jox_watch_free(scene->watch);
+    jo_world_free(scene->world); /* before Lua, whose machines it holds */
+    jox_lua_free(scene->lua);
+    jox_scene_free(scene->plan);
+    jox_free(scene->report);
+    jox_free(scene->input_path);
+    jox_free(scene);
+}
+
+JoWorld *jo_scene_world(JoScene *scene) {
+    JOX_REQUIRE(scene, NULL);
+    return scene->world;
+}
+
+double jo_scene_duration(const JoScene *scene) {
+    JOX_REQUIRE(scene, 0.0);
+    return scene->plan->duration;
+}
+
+char *jo_scene_reference(void) {
+    JoxText text = {0};
+    jox_scene_print_reference(&text);
+    return text.data;
+}

@@ -1,0 +1,237 @@
+/* What a run leaves behind: recording, report, progress, trace. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "host/host.h"
+#include "record/plot.h"
+
+static const double FRAME = 0.1;  /* s between recorded frames, or a step where that is longer */
+static const double SAMPLE = 2.0; /* s between density samples */
+static const float MARGIN = 2.0f; /* m about the walls and people of a scene without bounds */
+
+static bool fail(JoError *error, JoxText *why) {
+    jox_host_fail(error, JO_FAILED, "%s", why->data ? why->data : "writing failed");
+    jox_text_free(why);
+    return false;
+}
+
+/* The area that pictures and recordings show. */
+static void area_of(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
+    const JoxScene *plan = scene->plan;
+    const JoWorld *world = scene->world;
+    if (plan->heatmap || plan->bounded) {
+        *low = plan->heatmap ? plan->heatmap_low : plan->low;
+        *high = plan->heatmap ? plan->heatmap_high : plan->high;
+        return;
+    }
+    *low = (JoxV2){INFINITY, INFINITY};
+    *high = (JoxV2){-INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < world->walls.count + world->agents.count; i++) {
+        JoxV2 p = i < world->walls.count ? world->walls.vertices[i].point
+                                         : (JoxV2){world->agents.x[i - world->walls.count],
+                                                   world->agents.y[i - world->walls.count]};
+        *low = (JoxV2){jox_minf(low->x, p.x), jox_minf(low->y, p.y)};
+        *high = (JoxV2){jox_maxf(high->x, p.x), jox_maxf(high->y, p.y)};
+    }
+    if (low->x > high->x)
+        *low = *high = (JoxV2){0.0f, 0.0f};
+    *low = jox_sub(*low, (JoxV2){MARGIN, MARGIN});
+    *high = jox_add(*high, (JoxV2){MARGIN, MARGIN});
+}
+
+/* ---- recording ---- */
+
+/* Number of a state in jostle_state: machine * 1000 + state. */
+static uint32_t state_number(const JoxAgents *a, uint32_t i) {
+    return a->machine[i] == JOX_NO_MACHINE ? 999999u : a->machine[i] * 1000u + a->state[i];
+}
+
+bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
+    JOX_REQUIRE(scene && path && !scene->recorder, false);
+    JoxV2 low, high;
+    JoxText wkt = {0}, why = {0};
+    area_of(scene, &low, &high);
+    jox_wkt(&scene->world->walls, low, high, &wkt);
+    double dt = scene->world->def.dt;
+    scene->record_every = dt >= FRAME ? 1 : (uint32_t)(FRAME / dt + 0.5);
+    scene->recorder = jox_recorder_open(path, 1.0 / (dt * scene->record_every), wkt.data, &why);
+    jox_text_free(&wkt);
+    if (!scene->recorder)
+        return fail(error, &why);
+    const JoxMind *mind = &scene->world->mind;
+    for (uint32_t m = 0; m < mind->machine_count; m++)
+        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++)
+            jox_recorder_state(scene->recorder, m * 1000 + s, mind->machines[m]->name,
+                               mind->machines[m]->states[s].name);
+    return true;
+}
+
+static bool record_frame(JoScene *scene, JoError *error) {
+    const JoxAgents *a = &scene->world->agents;
+    const JoxObjects *objects = &scene->world->objects;
+    JoxRecordBody *bodies;
+    uint32_t count = jox_bodies_count(scene->world->bodies), n = 0;
+    JoxRecordRow *rows = jox_recorder_take(scene->recorder, a->count, count, &bodies);
+    for (uint32_t id = 0; id < a->next_id; id++) { /* by id, whatever the order in memory */
+        uint32_t i = a->id_index[id];
+        if (i == JOX_NO_INDEX)
+            continue;
+        float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
+        rows[n++] = (JoxRecordRow){id,           a->x[i],          a->y[i],
+                                   a->face_x[i], a->face_y[i],     state_number(a, i),
+                                   force,        a->compression[i]};
+    }
+    n = 0;
+    for (uint32_t o = 0; o < objects->count && n < count; o++) {
+        JoxPose pose;
+        if (objects->rows[o].live && jox_bodies_pose(scene->world->bodies, o, &pose))
+            bodies[n++] = (JoxRecordBody){objects->rows[o].id, pose.position.x, pose.position.y,
+                                          pose.position.z,     pose.turn[0],    pose.turn[1],
+                                          pose.turn[2],        pose.turn[3]};
+    }
+    JoxText why = {0};
+    uint32_t frame = (uint32_t)(scene->world->tick / scene->record_every);
+    return jox_recorder_put(scene->recorder, frame, &why) || fail(error, &why);
+}
+
+/* ---- report ---- */
+
+bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
+    JOX_REQUIRE(scene && directory && !scene->report, false);
+    JoxText why = {0};
+    if (!jox_plot_folder(directory, &why))
+        return fail(error, &why);
+    JoxV2 low, high;
+    area_of(scene, &low, &high);
+    scene->report = jox_strdup(directory);
+    scene->density = jox_density_create(low, high);
+    scene->regions = jox_regions_create();
+    for (uint32_t r = 0; r < scene->plan->region_count; r++)
+        jox_regions_add(scene->regions, scene->plan->regions[r].name,
+                        scene->plan->regions[r].points, scene->plan->regions[r].count);
+    return true;
+}
+
+static void sample(JoScene *scene) {
+    const JoWorld *world = scene->world;
+    const JoxAgents *a = &world->agents;
+    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(SAMPLE / world->def.dt + 0.5));
+    double time = (double)world->tick * world->def.dt;
+    if (world->tick % every != 0 || time < scene->plan->heatmap_from)
+        return;
+    jox_density_add(scene->density, a->x, a->y, a->count, time);
+    jox_regions_frame(scene->regions, a->x, a->y, a->prev_x, a->prev_y, a->count, world->def.dt);
+}
+
+static bool draw(JoScene *scene, JoError *error) {
+    JoxText why = {0};
+    char title[256];
+    const char *name = scene->plan->title ? scene->plan->title : scene->plan->path;
+    double until = jo_world_time(scene->world);
+    snprintf(title, sizeof title, "%.120s: density, t = %.0f to %.0f s, %u agents", name,
+             scene->plan->heatmap_from, until, scene->world->agents.count);
+    if (scene->density->frames == 0) /* a run shorter than the first sample */
+        jox_density_add(scene->density, scene->world->agents.x, scene->world->agents.y,
+                        scene->world->agents.count, until);
+    bool good = jox_plot_density(scene->report, scene->density, &scene->world->walls, title, &why);
+    if (good && scene->regions->count) {
+        snprintf(title, sizeof title, "%.120s: mean speed per region, t = %.0f to %.0f s", name,
+                 scene->plan->heatmap_from, until);
+        good = jox_plot_regions(scene->report, scene->regions, title, &why);
+    }
+    if (!good)
+        return fail(error, &why);
+    jox_host_say(scene, "pictures: %s/density.png%s%s%s\n", scene->report,
+                 scene->regions->count ? " and " : "", scene->regions->count ? scene->report : "",
+                 scene->regions->count ? "/regions.png" : "");
+    return true;
+}
+
+/* ---- progress ---- */
+
+void jo_scene_show_progress(JoScene *scene, double until) {
+    JOX_REQUIRE(scene, );
+    scene->progress_until = until;
+    scene->progress_begun = jox_clock_wall();
+}
+
+static void show_progress(JoScene *scene) {
+    double time = jo_world_time(scene->world), wall = jox_clock_wall() - scene->progress_begun;
+    double share = time / scene->progress_until, left = wall / share - wall;
+    bool terminal = isatty(2);
+    int tenth = (int)(share * 10.0 + 1e-9);
+    bool last = share >= 1.0 - 1e-9;
+    if (terminal ? jox_clock_wall() - scene->progress_shown < 0.2 && !last
+                 : tenth == scene->progress_tenth)
+        return;
+    scene->progress_shown = jox_clock_wall();
+    scene->progress_tenth = tenth;
+    fprintf(stderr, "%s%6.1f of %.1f s simulated, %.2f x real time, %.0f s left, %u agents%s",
+            terminal ? "\r" : "", time, scene->progress_until, time / wall, last ? 0.0 : left,
+            scene->world->agents.count, !terminal || last ? "\n" : "   ");
+}
+
+/* ---- the step's ends ---- */
+
+void jo_scene_trace(JoScene *scene, uint32_t agent_id) {
+    JOX_REQUIRE(scene, );
+    scene->traces = true;
+    scene->trace_id = agent_id;
+}
+
+static void trace(JoScene *scene) {
+    const JoxMind *mind = &scene->world->mind;
+    for (uint32_t t = 0; t < mind->taken_count; t++) {
+        if (mind->taken[t].agent_id != scene->trace_id)
+            continue;
+        JoxText text = {0};
+        jox_mind_explain(mind, &mind->taken[t], &text);
+        scene->message(scene->message_context, text.data);
+        jox_text_free(&text);
+    }
+}
+
+bool jox_host_collect(JoScene *scene, JoError *error) {
+    if (scene->traces)
+        trace(scene);
+    if (scene->density)
+        sample(scene);
+    if (scene->progress_until > 0.0)
+        show_progress(scene);
+    return !scene->recorder || scene->world->tick % scene->record_every != 0 ||
+           record_frame(scene, error);
+}
+
+bool jo_scene_step(JoScene *scene, JoError *error) {
+    JOX_REQUIRE(scene && !scene->finished, false);
+    jox_host_reload(scene);
+    jox_host_sources(scene);
+    jox_world_step(scene->world);
+    jox_host_sinks(scene);
+    return jox_host_collect(scene, error);
+}
+
+bool jo_scene_finish(JoScene *scene, JoError *error) {
+    JOX_REQUIRE(scene, false);
+    bool good = true;
+    JoxText why = {0};
+    scene->finished = true;
+    if (scene->recorder)
+        good = jox_recorder_close(scene->recorder, &why) || fail(error, &why);
+    scene->recorder = NULL;
+    if (scene->report) {
+        good = draw(scene, error) && good;
+        scene->density_most = scene->density->most;
+    }
+    jox_density_free(scene->density);
+    jox_regions_free(scene->regions);
+    jox_free(scene->report);
+    scene->density = NULL;
+    scene->regions = NULL;
+    scene->report = NULL;
+    return good;
+}

@@ -1,0 +1,158 @@
+/* A run's figures as one JSON object. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "host/host.h"
+#include "record/aggregate.h"
+
+JoStats jo_scene_stats(const JoScene *scene) {
+    JOX_REQUIRE(scene, (JoStats){0});
+    const JoWorld *world = scene->world;
+    const JoxStatistics *s = &world->statistics;
+    JoStats stats = {.steps = s->steps,
+                     .agent_steps = s->agent_steps,
+                     .agents = world->agents.count,
+                     .bodies = jox_bodies_count(world->bodies),
+                     .dt = world->def.dt,
+                     .simulated_s = (double)s->steps * world->def.dt,
+                     .wall_s = s->wall_s,
+                     .cpu_s = s->cpu_s};
+    for (int k = 0; k < JO_STAGE_COUNT && s->agent_steps; k++)
+        stats.stage_ns[k] = s->stage_s[k] * 1e9 / (double)s->agent_steps;
+    return stats;
+}
+
+static void add_number(JoxText *out, const char *name, double value) {
+    jox_text_printf(out, ",\n \"%s\": ", name);
+    jox_text_json_number(out, value);
+}
+
+static void add_states(JoxText *out, const JoWorld *world) {
+    const JoxMind *mind = &world->mind;
+    jox_text_add(out, ",\n \"states\": {");
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        jox_text_add(out, m ? ", " : "");
+        jox_text_json(out, mind->machines[m]->name);
+        jox_text_add(out, ": {");
+        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++) {
+            uint32_t people = 0;
+            for (uint32_t i = 0; i < world->agents.count; i++)
+                people += world->agents.machine[i] == m && world->agents.state[i] == s;
+            jox_text_add(out, s ? ", " : "");
+            jox_text_json(out, mind->machines[m]->states[s].name);
+            jox_text_printf(out, ": %u", people);
+        }
+        jox_text_add(out, "}");
+    }
+    jox_text_add(out, "}");
+}
+
+static void add_events(JoxText *out, const JoScene *scene) {
+    const JoxStatistics *s = &scene->world->statistics;
+    const struct {
+        const char *name;
+        uint64_t count;
+    } events[] = {{"transitions", s->transitions},
+                  {"kicks", s->kicks},
+                  {"hits", s->hits},
+                  {"spawned", s->spawned},
+                  {"removed", s->removed},
+                  {"moved_out", s->moved_out},
+                  {"bodies_lost", s->bodies_lost},
+                  {"walls_relaxed", s->walls_relaxed},
+                  {"script_failures", jox_lua_failures(scene->lua)}};
+    jox_text_add(out, ",\n \"events\": {");
+    for (size_t e = 0; e < sizeof events / sizeof *events; e++)
+        jox_text_printf(out, "%s\"%s\": %llu", e ? ", " : "", events[e].name,
+                        (unsigned long long)events[e].count);
+    jox_text_add(out, "}");
+}
+
+static void add_file(JoxText *out, const char *path, const char *sha256, bool first) {
+    jox_text_add(out, first ? "\n  {\"path\": " : ",\n  {\"path\": ");
+    jox_text_json(out, path);
+    jox_text_printf(out, ", \"sha256\": \"%s\"}", sha256);
+}
+
+static void add_inputs(JoxText *out, const JoScene *scene) {
+    jox_text_add(out, ",\n \"inputs\": [");
+    for (uint32_t f = 0; f < scene->plan->file_count; f++)
+        add_file(out, scene->plan->files[f].path, scene->plan->files[f].sha256, f == 0);
+    for (uint32_t m = 0; m < scene->world->mind.machine_count; m++) {
+        uint32_t count;
+        const JoxLuaFile *files = jox_lua_files(scene->lua, scene->world->mind.machines[m], &count);
+        for (uint32_t f = 0; f < count; f++)
+            add_file(out, files[f].path, files[f].sha256, false);
+    }
+    if (scene->input_path)
+        add_file(out, scene->input_path, scene->input_sha256, false);
+    jox_text_add(out, "\n ]");
+}
+
+/* Greatest density of the frames sampled, or of the present one where none were. */
+static double density_max(const JoScene *scene) {
+    const JoxAgents *a = &scene->world->agents;
+    if (scene->density_most > 0.0f || a->count == 0)
+        return scene->density_most;
+    JoxV2 low, high;
+    jox_bounds((JoxV2[]){{a->x[0], a->y[0]}}, 1, &low, &high);
+    for (uint32_t i = 0; i < a->count; i++) {
+        low = (JoxV2){jox_minf(low.x, a->x[i]), jox_minf(low.y, a->y[i])};
+        high = (JoxV2){jox_maxf(high.x, a->x[i]), jox_maxf(high.y, a->y[i])};
+    }
+    JoxDensity *density = jox_density_create(low, high);
+    jox_density_add(density, a->x, a->y, a->count, 0.0);
+    double most = density->most;
+    jox_density_free(density);
+    return most;
+}
+
+char *jo_scene_summary(const JoScene *scene) {
+    JOX_REQUIRE(scene, NULL);
+    const JoWorld *world = scene->world;
+    const JoxStatistics *s = &world->statistics;
+    JoStats stats = jo_scene_stats(scene);
+    JoxText out = {0};
+    jox_text_add(&out, "{\n \"scene\": ");
+    jox_text_json(&out, scene->plan->path);
+    jox_text_printf(&out, ",\n \"version\": \"%s\",\n \"seed\": %llu", jo_version(),
+                    (unsigned long long)world->def.seed);
+    add_number(&out, "agents", stats.agents);
+    add_number(&out, "bodies", stats.bodies);
+    add_number(&out, "dt", stats.dt);
+    add_number(&out, "steps", (double)stats.steps);
+    add_number(&out, "simulated_s", stats.simulated_s);
+    add_number(&out, "wall_s", stats.wall_s);
+    add_number(&out, "cpu_s", stats.cpu_s);
+    add_number(&out, "steps_per_s", stats.wall_s > 0 ? (double)stats.steps / stats.wall_s : 0);
+    add_number(&out, "ns_per_agent_step",
+               stats.agent_steps ? stats.wall_s * 1e9 / (double)stats.agent_steps : 0);
+    jox_text_add(&out, ",\n \"stage_ns\": {");
+    for (int k = 0; k < JO_STAGE_COUNT; k++)
+        jox_text_printf(&out, "%s\"%s\": %.2f", k ? ", " : "", jo_stage_name(k), stats.stage_ns[k]);
+    jox_text_add(&out, "}");
+    add_number(&out, "lp_failure_share",
+               stats.agent_steps ? (double)s->failures / (double)stats.agent_steps : 0);
+    add_number(&out, "lp_failure_peak", s->failure_peak);
+    add_number(&out, "density_max", density_max(scene));
+    add_number(&out, "overlap_p99", jox_statistics_overlap_p99(s));
+    add_states(&out, world);
+    add_events(&out, scene);
+    jox_text_printf(&out, ",\n \"hash\": \"%016llx\",\n \"isa\": \"scalar\",\n \"threads\": %u",
+                    (unsigned long long)jox_world_hash(world), jox_pool_threads(world->pool));
+    add_inputs(&out, scene);
+    jox_text_add(&out, "\n}\n");
+    return out.data;
+}
+
+char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error) {
+    JOX_REQUIRE(summaries || count == 0, NULL);
+    JoxText out = {0};
+    if (jox_aggregate(summaries, count, &out))
+        return out.data;
+    jox_text_free(&out);
+    jox_host_fail(error, JO_INPUT, "a summary is not JSON");
+    return NULL;
+}

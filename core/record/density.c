@@ -1,0 +1,95 @@
+#include "record/density.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/elementary.h"
+#include "base/mem.h"
+
+static const float KERNEL = 1.5f; /* m, the R of Curtis et al.'s study of the Mataf */
+enum { MOST_CELLS = 4000000, WIDEST = 64, SHIFTS = 16 };
+
+/* The kernel along one axis, for SHIFTS positions within a cell; the two-dimensional kernel is the
+   product of two of these. Each row sums to one over its cells. */
+static void tabulate(JoxDensity *d) {
+    d->reach = (int)(3.0f * KERNEL / d->cell) < WIDEST ? (int)(3.0f * KERNEL / d->cell) : WIDEST;
+    int wide = 2 * d->reach + 1;
+    d->kernel = jox_alloc((size_t)SHIFTS * (size_t)wide, sizeof *d->kernel);
+    for (int shift = 0; shift < SHIFTS; shift++) {
+        float *row = d->kernel + shift * wide, inside = ((float)shift + 0.5f) / SHIFTS;
+        double sum = 0.0;
+        for (int k = 0; k < wide; k++) {
+            double away = ((double)(k - d->reach) + 0.5 - inside) * d->cell;
+            row[k] = (float)jox_exp(-away * away / (2.0 * KERNEL * KERNEL));
+            sum += row[k];
+        }
+        for (int k = 0; k < wide; k++)
+            row[k] /= (float)(sum * d->cell);
+    }
+}
+
+/* The row of the table for a coordinate, and the first cell that it speaks of. */
+static const float *factors(const JoxDensity *d, float at, int *first) {
+    float cell = floorf(at / d->cell);
+    int shift = (int)((at / d->cell - cell) * SHIFTS);
+    *first = (int)cell - d->reach;
+    return d->kernel + (shift < SHIFTS ? shift : SHIFTS - 1) * (2 * d->reach + 1);
+}
+
+static void add_person(JoxDensity *d, float x, float y) {
+    int column, row, wide = 2 * d->reach + 1, high = wide;
+    const float *across = factors(d, x - d->low.x, &column), *up = factors(d, y - d->low.y, &row);
+    int from = column < 0 ? -column : 0;
+    int to = column + wide > (int)d->columns ? (int)d->columns - column : wide;
+    for (int r = 0; r < high; r++) {
+        if (row + r < 0 || row + r >= (int)d->rows)
+            continue;
+        float *line = d->now + (size_t)(row + r) * d->columns;
+        for (int c = from; c < to; c++)
+            line[column + c] += up[r] * across[c];
+    }
+}
+
+JoxDensity *jox_density_create(JoxV2 low, JoxV2 high) {
+    JoxDensity *d = jox_alloc(1, sizeof *d);
+    float width = jox_maxf(high.x - low.x, 1.0f), height = jox_maxf(high.y - low.y, 1.0f);
+    d->low = low;
+    d->cell = jox_maxf(0.2f, sqrtf(width * height / MOST_CELLS));
+    d->columns = (uint32_t)ceilf(width / d->cell);
+    d->rows = (uint32_t)ceilf(height / d->cell);
+    d->now = jox_alloc((size_t)d->columns * d->rows, sizeof *d->now);
+    d->sum = jox_alloc((size_t)d->columns * d->rows, sizeof *d->sum);
+    tabulate(d);
+    return d;
+}
+
+void jox_density_add(JoxDensity *d, const float *x, const float *y, uint32_t count, double t) {
+    size_t cells = (size_t)d->columns * d->rows;
+    memset(d->now, 0, cells * sizeof *d->now);
+    for (uint32_t i = 0; i < count; i++)
+        if (fabsf(x[i]) < 1e6f && fabsf(y[i]) < 1e6f)
+            add_person(d, x[i], y[i]);
+    for (size_t c = 0; c < cells; c++) {
+        d->sum[c] += d->now[c];
+        if (d->now[c] > d->most) {
+            d->most = d->now[c];
+            d->most_time = t;
+            d->most_at = (JoxV2){d->low.x + ((float)(c % d->columns) + 0.5f) * d->cell,
+                                 d->low.y + ((float)(c / d->columns) + 0.5f) * d->cell};
+        }
+    }
+    d->frames++;
+}
+
+double jox_density_mean(const JoxDensity *d, uint32_t column, uint32_t row) {
+    return d->frames ? d->sum[(size_t)row * d->columns + column] / d->frames : 0.0;
+}
+
+void jox_density_free(JoxDensity *d) {
+    if (!d)
+        return;
+    jox_free(d->now);
+    jox_free(d->sum);
+    jox_free(d->kernel);
+    jox_free(d);
+}

@@ -1,0 +1,32 @@
+/* People per square metre on a grid, by a Gaussian kernel: sum of exp(-d2 / 2R2) / (2 pi R2) with
+   R = 1.5 m on cells of 0.2 m, cut off at 3 R and normalised there. Averaged over frames. */
+#ifndef JOX_RECORD_DENSITY_H
+#define JOX_RECORD_DENSITY_H
+
+#include <stdint.h>
+
+#include "base/vec.h"
+
+typedef struct JoxDensity {
+    JoxV2 low;
+    float cell; /* m */
+    uint32_t columns, rows;
+    float *now;  /* of the last frame, 1/m2, row by row from the lowest y */
+    double *sum; /* over frames */
+    uint32_t frames;
+    float *kernel;         /* along one axis, by position within a cell */
+    int reach;             /* cells */
+    float most, most_mean; /* greatest value of any frame */
+    JoxV2 most_at;
+    double most_time; /* s */
+} JoxDensity;
+
+/* Cells are widened where the area would take more than four million. */
+JoxDensity *jox_density_create(JoxV2 low, JoxV2 high);
+/* Adds a frame of `count` positions at time t, s. */
+void jox_density_add(JoxDensity *density, const float *x, const float *y, uint32_t count, double t);
+/* Mean of all frames at a cell; 0 before the first. */
+double jox_density_mean(const JoxDensity *density, uint32_t column, uint32_t row);
+void jox_density_free(JoxDensity *density);
+
+#endif

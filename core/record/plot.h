@@ -1,0 +1,21 @@
+/* Pictures through gnuplot: a script and its data in a folder, and the PNG that comes of them. */
+#ifndef JOX_RECORD_PLOT_H
+#define JOX_RECORD_PLOT_H
+
+#include <stdbool.h>
+
+#include "base/text.h"
+#include "geom/walls.h"
+#include "record/density.h"
+#include "record/regions.h"
+
+/* Makes the folder, and those above it. False with a sentence in `error`. */
+bool jox_plot_folder(const char *folder, JoxText *error);
+/* density.png: mean density over the frames, walls drawn, the greatest value named. */
+bool jox_plot_density(const char *folder, const JoxDensity *density, const JoxWalls *walls,
+                      const char *title, JoxText *error);
+/* regions.png: mean speed of each region as bars. */
+bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char *title,
+                      JoxText *error);
+
+#endif

@@ -1,0 +1,326 @@
+#include "record/recorder.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <sqlite3.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/mem.h"
+
+enum { FRAMES = 4 };
+
+typedef struct Frame {
+    uint32_t number;
+    JoxRecordRow *rows;
+    JoxRecordBody *bodies;
+    uint32_t row_count, body_count;
+    size_t row_capacity, body_capacity;
+} Frame;
+
+struct JoxRecorder {
+    sqlite3 *db;
+    sqlite3_stmt *row, *agent, *body, *frame;
+    pthread_t thread;
+    pthread_mutex_t lock;
+    pthread_cond_t filled, emptied;
+    Frame frames[FRAMES]; /* a ring: `first` is the oldest, `count` are filled */
+    uint32_t first, count;
+    bool ending, failed;
+    char why[256];
+    double low_x, high_x, low_y, high_y, committed;
+    uint64_t geometry;
+};
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+static bool run(JoxRecorder *r, const char *sql) {
+    char *why = NULL;
+    if (sqlite3_exec(r->db, sql, NULL, NULL, &why) == SQLITE_OK)
+        return true;
+    snprintf(r->why, sizeof r->why, "%s", why ? why : sqlite3_errmsg(r->db));
+    sqlite3_free(why);
+    return false;
+}
+
+static bool prepare(JoxRecorder *r, sqlite3_stmt **statement, const char *sql) {
+    if (sqlite3_prepare_v2(r->db, sql, -1, statement, NULL) == SQLITE_OK)
+        return true;
+    snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
+    return false;
+}
+
+/* Steps a statement that returns nothing and readies it for the next row. */
+static bool put(JoxRecorder *r, sqlite3_stmt *statement) {
+    bool good = sqlite3_step(statement) == SQLITE_DONE;
+    if (!good)
+        snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
+    sqlite3_reset(statement);
+    return good;
+}
+
+static bool set_metadata(JoxRecorder *r, const char *key, const char *value) {
+    sqlite3_stmt *statement;
+    if (!prepare(r, &statement, "INSERT OR REPLACE INTO metadata(key, value) VALUES(?, ?)"))
+        return false;
+    sqlite3_bind_text(statement, 1, key, -1, SQLITE_STATIC);
+    sqlite3_bind_text(statement, 2, value, -1, SQLITE_STATIC);
+    bool good = put(r, statement);
+    sqlite3_finalize(statement);
+    return good;
+}
+
+static bool set_number(JoxRecorder *r, const char *key, double value) {
+    char text[32];
+    snprintf(text, sizeof text, "%.9g", isfinite(value) ? value : 0.0);
+    return set_metadata(r, key, text);
+}
+
+static bool write_bounds(JoxRecorder *r) {
+    return set_number(r, "xmin", r->low_x) && set_number(r, "xmax", r->high_x) &&
+           set_number(r, "ymin", r->low_y) && set_number(r, "ymax", r->high_y);
+}
+
+static bool write_rows(JoxRecorder *r, const Frame *f) {
+    for (uint32_t i = 0; i < f->row_count; i++) {
+        const JoxRecordRow *row = &f->rows[i];
+        sqlite3_bind_int64(r->row, 1, f->number);
+        sqlite3_bind_int64(r->row, 2, row->id);
+        const float numbers[] = {row->x, row->y, row->ori_x, row->ori_y};
+        for (int k = 0; k < 4; k++)
+            sqlite3_bind_double(r->row, 3 + k, numbers[k]);
+        sqlite3_bind_int64(r->agent, 1, f->number);
+        sqlite3_bind_int64(r->agent, 2, row->id);
+        sqlite3_bind_int64(r->agent, 3, row->state);
+        sqlite3_bind_double(r->agent, 4, row->force);
+        sqlite3_bind_double(r->agent, 5, row->compression);
+        if (!put(r, r->row) || !put(r, r->agent))
+            return false;
+        r->low_x = fmin(r->low_x, row->x), r->high_x = fmax(r->high_x, row->x);
+        r->low_y = fmin(r->low_y, row->y), r->high_y = fmax(r->high_y, row->y);
+    }
+    return true;
+}
+
+static bool write_frame(JoxRecorder *r, const Frame *f) {
+    if (sqlite3_get_autocommit(r->db) && !run(r, "BEGIN"))
+        return false;
+    sqlite3_bind_int64(r->frame, 1, f->number);
+    sqlite3_bind_int64(r->frame, 2, (sqlite3_int64)r->geometry);
+    if (!put(r, r->frame) || !write_rows(r, f))
+        return false;
+    for (uint32_t i = 0; i < f->body_count; i++) {
+        const JoxRecordBody *b = &f->bodies[i];
+        const float numbers[] = {b->x, b->y, b->z, b->qx, b->qy, b->qz, b->qw};
+        sqlite3_bind_int64(r->body, 1, f->number);
+        sqlite3_bind_int64(r->body, 2, b->id);
+        for (int k = 0; k < 7; k++)
+            sqlite3_bind_double(r->body, 3 + k, numbers[k]);
+        if (!put(r, r->body))
+            return false;
+    }
+    if (now() - r->committed < 1.0)
+        return true;
+    r->committed = now();
+    return write_bounds(r) && run(r, "COMMIT");
+}
+
+static void *writer(void *argument) {
+    JoxRecorder *r = argument;
+    pthread_mutex_lock(&r->lock);
+    for (;;) {
+        while (r->count == 0 && !r->ending)
+            pthread_cond_wait(&r->filled, &r->lock);
+        if (r->count == 0)
+            break;
+        const Frame *frame = &r->frames[r->first];
+        bool skip = r->failed;
+        pthread_mutex_unlock(&r->lock);
+        bool good = skip || write_frame(r, frame);
+        pthread_mutex_lock(&r->lock);
+        r->failed |= !good;
+        r->first = (r->first + 1) % FRAMES;
+        r->count--;
+        pthread_cond_signal(&r->emptied);
+    }
+    pthread_mutex_unlock(&r->lock);
+    return NULL;
+}
+
+/* Whether an existing file is a recording, which may be replaced. */
+static bool is_recording(const char *path) {
+    sqlite3 *db = NULL;
+    sqlite3_stmt *statement = NULL;
+    bool found = sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK &&
+                 sqlite3_prepare_v2(db, "SELECT frame FROM trajectory_data LIMIT 1", -1, &statement,
+                                    NULL) == SQLITE_OK;
+    sqlite3_finalize(statement);
+    sqlite3_close(db);
+    return found;
+}
+
+static const char SCHEMA[] =
+    "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN;"
+    "CREATE TABLE trajectory_data(frame INTEGER NOT NULL, id INTEGER NOT NULL, pos_x REAL NOT NULL,"
+    " pos_y REAL NOT NULL, ori_x REAL NOT NULL, ori_y REAL NOT NULL);"
+    "CREATE TABLE metadata(key TEXT NOT NULL UNIQUE PRIMARY KEY, value TEXT NOT NULL);"
+    "CREATE TABLE geometry(hash INTEGER NOT NULL UNIQUE, wkt TEXT NOT NULL);"
+    "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"
+    "CREATE INDEX frame_id_idx ON trajectory_data(frame, id);"
+    "CREATE TABLE jostle_agent(frame INTEGER, id INTEGER, state INTEGER, force REAL,"
+    " compression REAL);"
+    "CREATE TABLE jostle_state(number INTEGER PRIMARY KEY, machine TEXT, state TEXT);"
+    "CREATE TABLE jostle_body(frame INTEGER, id INTEGER, x REAL, y REAL, z REAL, qx REAL, qy REAL,"
+    " qz REAL, qw REAL);";
+
+static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
+    sqlite3_stmt *geometry = NULL;
+    bool good = run(r, SCHEMA) && set_metadata(r, "version", "2") && set_number(r, "fps", fps) &&
+                write_bounds(r) &&
+                prepare(r, &geometry, "INSERT INTO geometry(hash, wkt) VALUES(?, ?)");
+    if (good) {
+        sqlite3_bind_int64(geometry, 1, (sqlite3_int64)r->geometry);
+        sqlite3_bind_text(geometry, 2, wkt, -1, SQLITE_STATIC);
+        good = put(r, geometry);
+    }
+    sqlite3_finalize(geometry);
+    return good && run(r, "COMMIT") &&
+           prepare(r, &r->row, "INSERT INTO trajectory_data VALUES(?, ?, ?, ?, ?, ?)") &&
+           prepare(r, &r->agent, "INSERT INTO jostle_agent VALUES(?, ?, ?, ?, ?)") &&
+           prepare(r, &r->body, "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
+           prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
+}
+
+static void release(JoxRecorder *r) {
+    sqlite3_finalize(r->row);
+    sqlite3_finalize(r->agent);
+    sqlite3_finalize(r->body);
+    sqlite3_finalize(r->frame);
+    sqlite3_close(r->db);
+    for (int i = 0; i < FRAMES; i++) {
+        jox_free(r->frames[i].rows);
+        jox_free(r->frames[i].bodies);
+    }
+    pthread_mutex_destroy(&r->lock);
+    pthread_cond_destroy(&r->filled);
+    pthread_cond_destroy(&r->emptied);
+    jox_free(r);
+}
+
+JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, JoxText *error) {
+    struct stat info;
+    if (lstat(path, &info) == 0) {
+        if (!S_ISREG(info.st_mode) || (info.st_size > 0 && !is_recording(path))) {
+            jox_text_printf(error, "'%s' is not a recording and is not replaced", path);
+            return NULL;
+        }
+        char side[1100];
+        for (int i = 0; i < 2; i++) { /* what a run that was killed left beside it */
+            snprintf(side, sizeof side, "%s-%s", path, i ? "shm" : "wal");
+            unlink(side);
+        }
+        unlink(path);
+    }
+    JoxRecorder *r = jox_alloc(1, sizeof *r);
+    pthread_mutex_init(&r->lock, NULL);
+    pthread_cond_init(&r->filled, NULL);
+    pthread_cond_init(&r->emptied, NULL);
+    r->low_x = r->low_y = INFINITY;
+    r->high_x = r->high_y = -INFINITY;
+    r->geometry = 1;
+    r->committed = now();
+    bool good = sqlite3_open(path, &r->db) == SQLITE_OK;
+    if (!good)
+        snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
+    good = good && start_file(r, fps, wkt);
+    if (good && pthread_create(&r->thread, NULL, writer, r) != 0) {
+        good = false;
+        snprintf(r->why, sizeof r->why, "no thread can be started");
+    }
+    if (good)
+        return r;
+    jox_text_printf(error, "cannot record to '%s': %s", path, r->why);
+    release(r);
+    return NULL;
+}
+
+void jox_recorder_state(JoxRecorder *r, uint32_t number, const char *machine, const char *state) {
+    sqlite3_stmt *statement;
+    pthread_mutex_lock(&r->lock);
+    while (r->count > 0) /* the writer owns the file while there are frames */
+        pthread_cond_wait(&r->emptied, &r->lock);
+    if (prepare(r, &statement, "INSERT OR REPLACE INTO jostle_state VALUES(?, ?, ?)")) {
+        sqlite3_bind_int64(statement, 1, number);
+        sqlite3_bind_text(statement, 2, machine, -1, SQLITE_STATIC);
+        sqlite3_bind_text(statement, 3, state, -1, SQLITE_STATIC);
+        put(r, statement);
+        sqlite3_finalize(statement);
+    }
+    pthread_mutex_unlock(&r->lock);
+}
+
+JoxRecordRow *jox_recorder_take(JoxRecorder *r, uint32_t rows, uint32_t bodies,
+                                JoxRecordBody **body_rows) {
+    pthread_mutex_lock(&r->lock);
+    while (r->count == FRAMES)
+        pthread_cond_wait(&r->emptied, &r->lock);
+    Frame *f = &r->frames[(r->first + r->count) % FRAMES];
+    pthread_mutex_unlock(&r->lock);
+    JOX_RESERVE(f->rows, f->row_capacity, rows + 1);
+    JOX_RESERVE(f->bodies, f->body_capacity, bodies + 1);
+    f->row_count = rows;
+    f->body_count = bodies;
+    *body_rows = f->bodies;
+    return f->rows;
+}
+
+bool jox_recorder_put(JoxRecorder *r, uint32_t frame, JoxText *error) {
+    pthread_mutex_lock(&r->lock);
+    r->frames[(r->first + r->count) % FRAMES].number = frame;
+    r->count++;
+    bool good = !r->failed;
+    if (!good)
+        jox_text_printf(error, "recording failed: %s", r->why);
+    pthread_cond_signal(&r->filled);
+    pthread_mutex_unlock(&r->lock);
+    return good;
+}
+
+bool jox_recorder_close(JoxRecorder *r, JoxText *error) {
+    pthread_mutex_lock(&r->lock);
+    r->ending = true;
+    pthread_cond_signal(&r->filled);
+    pthread_mutex_unlock(&r->lock);
+    pthread_join(r->thread, NULL);
+    bool good = !r->failed && write_bounds(r);
+    if (good && !sqlite3_get_autocommit(r->db))
+        good = run(r, "COMMIT");
+    good = good && run(r, "PRAGMA journal_mode=DELETE"); /* one file, nothing beside it */
+    if (!good)
+        jox_text_printf(error, "recording failed: %s", r->why);
+    release(r);
+    return good;
+}
+
+void jox_wkt(const JoxWalls *walls, JoxV2 low, JoxV2 high, JoxText *out) {
+    jox_text_printf(out, "POLYGON ((%g %g, %g %g, %g %g, %g %g, %g %g)", low.x, low.y, high.x,
+                    low.y, high.x, high.y, low.x, high.y, low.x, low.y);
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        if (!walls->rings[r].solid)
+            continue;
+        jox_text_add(out, ", (");
+        for (uint32_t i = 0; i <= walls->rings[r].count; i++) {
+            JoxV2 p = walls->vertices[walls->rings[r].first + i % walls->rings[r].count].point;
+            jox_text_printf(out, "%s%.7g %.7g", i ? ", " : "", p.x, p.y);
+        }
+        jox_text_add(out, ")");
+    }
+    jox_text_add(out, ")");
+}

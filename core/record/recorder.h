@@ -1,0 +1,46 @@
+/* Trajectories as an SQLite file in the JuPedSim format, version 2, which PedPy reads; with tables
+   of our own for states, forces and bodies. Written by a thread of its own in transactions (one a
+   second at the latest), so that the file is whole after a crash up to the last of them. */
+#ifndef JOX_RECORD_RECORDER_H
+#define JOX_RECORD_RECORDER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/text.h"
+#include "geom/walls.h"
+
+typedef struct JoxRecorder JoxRecorder;
+
+typedef struct JoxRecordRow {
+    uint32_t id;
+    float x, y;         /* m */
+    float ori_x, ori_y; /* unit vector the agent looks along */
+    uint32_t state;     /* number in jostle_state */
+    float force;        /* N */
+    float compression;  /* N/m */
+} JoxRecordRow;
+typedef struct JoxRecordBody {
+    uint32_t id;
+    float x, y, z, qx, qy, qz, qw;
+} JoxRecordBody;
+
+/* Replaces an earlier recording; refuses any other file. `wkt`: the walkable area. NULL with a
+   sentence in `error`. */
+JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, JoxText *error);
+/* Names a state number; once per number, before frames that use it. */
+void jox_recorder_state(JoxRecorder *recorder, uint32_t number, const char *machine,
+                        const char *state);
+/* Room for a frame of so many rows, to be filled and given back by jox_recorder_put. Waits while
+   the writer is more than a few frames behind: nothing is dropped. */
+JoxRecordRow *jox_recorder_take(JoxRecorder *recorder, uint32_t rows, uint32_t bodies,
+                                JoxRecordBody **body_rows);
+/* False, with a sentence in `error`, once writing has failed. */
+bool jox_recorder_put(JoxRecorder *recorder, uint32_t frame, JoxText *error);
+/* Writes what is left and closes. False with `error` if anything was lost. */
+bool jox_recorder_close(JoxRecorder *recorder, JoxText *error);
+
+/* One POLYGON: the box about everything (or `low`, `high`), with a hole for each solid. */
+void jox_wkt(const JoxWalls *walls, JoxV2 low, JoxV2 high, JoxText *out);
+
+#endif
