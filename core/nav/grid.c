@@ -6,7 +6,7 @@
 #include "base/mem.h"
 #include "nav/internal.h"
 
-static const float ROW_HEIGHT = 1.6f; /* m: about twice the distance of the tenth neighbour */
+static const float ROW_HEIGHT = 0.8f; /* m: about the distance of the tenth neighbour */
 static const float SLACK = 0.03f;     /* m: growth of the last search radius that is tried first */
 enum { SORT_EVERY = 4, MOST_ROWS = 1 << 15 };
 
@@ -125,30 +125,42 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
     nav->drift = 0.0f;
 }
 
-/* The k nearest found so far, ascending by distance, then id. */
+/* A candidate as one number that sorts by distance, then id: bits of the squared distance (which is
+   not negative) above the id. */
+static inline uint64_t key_of(float d2, uint32_t id) {
+    uint32_t bits;
+    memcpy(&bits, &d2, sizeof bits);
+    return (uint64_t)bits << 32 | id;
+}
+
+static inline float distance2_of(uint64_t key) {
+    uint32_t bits = (uint32_t)(key >> 32);
+    float d2;
+    memcpy(&d2, &bits, sizeof d2);
+    return d2;
+}
+
+enum { BUFFER = 64 };
+
+/* The `most` nearest so far, ascending, the rest UINT64_MAX; and candidates not yet sorted in. */
 typedef struct Nearest {
-    float distance2[JOX_MOST_NEIGHBOURS + 1];
-    uint32_t index[JOX_MOST_NEIGHBOURS + 1];
-    uint32_t count, most;
+    uint64_t keys[JOX_MOST_NEIGHBOURS];
+    uint64_t waiting[BUFFER];
+    uint32_t count, most, waits;
 } Nearest;
 
-static inline void keep(Nearest *n, const uint32_t *id, uint32_t index, float d2) {
-    uint32_t at = n->count;
-    if (at == n->most) {
-        at--;
-        if (d2 > n->distance2[at] || (d2 == n->distance2[at] && id[index] > id[n->index[at]]))
-            return;
-    } else {
-        n->count++;
+/* Sorts the waiting in. Without branches: each key sinks through all slots, the greater goes on. */
+static void sort_in(Nearest *n) {
+    for (uint32_t w = 0; w < n->waits; w++) {
+        uint64_t key = n->waiting[w];
+        for (uint32_t k = 0; k < n->most; k++) {
+            uint64_t here = n->keys[k];
+            n->keys[k] = key < here ? key : here;
+            key = key < here ? here : key;
+        }
     }
-    while (at > 0 && (d2 < n->distance2[at - 1] ||
-                      (d2 == n->distance2[at - 1] && id[index] < id[n->index[at - 1]]))) {
-        n->distance2[at] = n->distance2[at - 1];
-        n->index[at] = n->index[at - 1];
-        at--;
-    }
-    n->distance2[at] = d2;
-    n->index[at] = index;
+    n->count += n->waits;
+    n->waits = 0;
 }
 
 /* First agent of a row whose x when sorted is at least `x`. Walks from a hint: neighbours in memory
@@ -183,22 +195,30 @@ typedef struct Perceive {
 
 enum { HINTS = 16 };
 
-/* All agents within `radius` of agent i are offered to `found`. */
+/* Finds the nearest agents within `radius` of agent i. */
 static void search(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radius, Nearest *found,
                    uint32_t hints[HINTS]) {
     const float x = a->x[i], y = a->y[i], r2 = radius * radius;
     const float *ax = a->x, *ay = a->y;
+    const uint32_t *id = a->id;
     float wide = radius + nav->drift;
     uint32_t low = row_of(nav, y - wide), high = row_of(nav, y + wide);
+    found->count = found->waits = 0;
+    for (uint32_t k = 0; k < found->most; k++)
+        found->keys[k] = UINT64_MAX;
     for (uint32_t row = low; row <= high; row++) {
         uint32_t end = nav->row_first[row + 1], *hint = &hints[row % HINTS];
         uint32_t j = *hint = row_from(nav, row, x - wide, *hint);
         for (float stop = x + wide; j < end && nav->sorted_x[j] <= stop; j++) {
             float dx = ax[j] - x, dy = ay[j] - y, d2 = dx * dx + dy * dy;
-            if (d2 <= r2 && j != i)
-                keep(found, a->id, j, d2);
+            found->waiting[found->waits] = key_of(d2, id[j]);
+            found->waits += (d2 <= r2) & (j != i); /* kept or written over, without a branch */
+            if (found->waits == BUFFER)
+                sort_in(found);
         }
     }
+    sort_in(found);
+    found->count = found->count < found->most ? found->count : found->most;
 }
 
 static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -212,13 +232,12 @@ static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t
         float radius = a->search[i] > 0.0f ? a->search[i] + SLACK : perception * 0.5f;
         for (bool again = found.most > 0; again;) {
             radius = jox_minf(radius, perception);
-            found.count = 0;
             search(p->nav, a, i, radius, &found, hints);
             again = found.count < found.most && radius < perception;
             radius *= 1.5f;
         }
         bool full = found.most > 0 && found.count == found.most;
-        float reach = full ? sqrtf(found.distance2[found.count - 1]) : perception;
+        float reach = full ? sqrtf(distance2_of(found.keys[found.count - 1])) : perception;
         a->search[i] = jox_maxf(reach, 0.01f);
         /* people per square metre of the disc that holds the neighbours kept */
         float area = 3.14159265f * jox_maxf(reach * reach, 0.0025f);
@@ -226,8 +245,8 @@ static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t
         p->out->count[i] = (uint8_t)found.count;
         for (uint32_t k = 0; k < found.count; k++) {
             size_t at = jox_neighbour_at(p->out, i, k);
-            p->out->index[at] = found.index[k];
-            p->out->distance2[at] = found.distance2[k];
+            p->out->index[at] = a->id_index[(uint32_t)found.keys[k]];
+            p->out->distance2[at] = distance2_of(found.keys[k]);
         }
     }
 }
