@@ -34,8 +34,10 @@ FP      := -ffp-contract=off
 CFLAGS  ?=
 CPPFLAGS_ALL := -Icore -Icore/include -DJOX_VERSION='"$(VERSION)"' -DJOX_BULLET=$(BULLET) \
            -DJOX_DATADIR='"$(PREFIX)/share/jostle"' -D_GNU_SOURCE
+# Statics of inline functions must not become process-wide symbols.
+UNIQUE  := $(shell echo | $(CXX) -fno-gnu-unique -x c++ -E - >/dev/null 2>&1 && echo -fno-gnu-unique)
 CFLAGS_ALL  = -std=c17 $(OPT) $(WARN) $(FP) -fPIC -fvisibility=hidden -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
-CXXFLAGS_ALL = -std=c++17 $(OPT) -Wall -Wextra $(FP) -fPIC -fvisibility=hidden -fno-exceptions -fno-rtti \
+CXXFLAGS_ALL = -std=c++17 $(OPT) -Wall -Wextra $(FP) -fPIC -fvisibility=hidden -fno-exceptions -fno-rtti $(UNIQUE) \
            -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
 PKG_CFLAGS := $(shell pkg-config --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isystem /g')
 PKG_LIBS   := $(shell pkg-config --libs $(PKGS) 2>/dev/null)
@@ -47,8 +49,33 @@ OBJ_CLI := $(SRC_CLI:%.c=$(B)/%.o)
 UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 
-.PHONY: all run test unit check bench install uninstall clean setup-run setup-test test-all format
-all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so
+.PHONY: all run test unit tests-built check bench install uninstall clean test-all format
+all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so.$(VERSION)
+
+# The two commands of the README. Both first install what is missing.
+run:
+	@.ci/setup run
+	@$(MAKE) --no-print-directory all
+	$(B)/jostle run scenes/tawaf.yaml --for $(SECONDS) --report build/out/tawaf --summary build/out/tawaf.json
+SECONDS ?= 60
+test:
+	@.ci/setup test
+	@$(MAKE) --no-print-directory all tests-built
+	@B=$(B) .ci/suite check units scenes install
+test-all:
+	@.ci/setup test
+	@.ci/sanitizers
+	@$(MAKE) --no-print-directory test
+bench:
+	@.ci/setup bench
+	@$(MAKE) --no-print-directory all $(BENCH)
+	@for b in $(BENCH); do echo "== $$b"; $$b; done
+	$(B)/jostle bench
+check:
+	@.ci/setup test
+	@$(MAKE) --no-print-directory all
+	@B=$(B) .ci/suite check
+tests-built: $(UNIT)
 
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
@@ -61,6 +88,15 @@ $(B)/internal.a: $(OBJ)
 	ar rcs $@ $^
 $(B)/jostle: $(OBJ_CLI) $(B)/internal.a
 	$(LINK) $^ -o $@ $(LIBS)
+# What leaves the libraries: the public calls alone. Hidden symbols become local.
+$(B)/jostle.o: $(OBJ)
+	ld -r $^ -o $@
+	objcopy --localize-hidden $@
+$(B)/libjostle.a: $(B)/jostle.o
+	@rm -f $@
+	ar rcs $@ $^
+$(B)/libjostle.so.$(VERSION): $(B)/jostle.o
+	$(LINK) -shared -Wl,-soname,libjostle.so.0 $^ -o $@ $(LIBS)
 $(B)/unit/%: tests/unit/%.c $(B)/internal.a
 	@mkdir -p $(@D)
 	$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
@@ -73,6 +109,25 @@ $(B)/bench/%: tests/bench/%.c $(B)/internal.a
 # Unit tests alone: `make unit`, or `make unit ONLY="base geom"` for some folders.
 unit: $(UNIT)
 	@set -e; for t in $(UNIT); do echo "== $$t"; $$t; done
+# Installed files know where the library's Lua lies, so that each PREFIX is built apart.
+INSTALL_B := build/install$(subst /,-,$(PREFIX))
+D          = $(DESTDIR)$(PREFIX)
+install:
+	@$(MAKE) --no-print-directory B=$(INSTALL_B) all
+	install -d $(D)/bin $(D)/lib/pkgconfig $(D)/include $(D)/share/man/man1
+	install -m 755 $(INSTALL_B)/jostle $(D)/bin/jostle
+	install -m 644 $(INSTALL_B)/libjostle.a $(D)/lib/
+	install -m 755 $(INSTALL_B)/libjostle.so.$(VERSION) $(D)/lib/
+	ln -sf libjostle.so.$(VERSION) $(D)/lib/libjostle.so.0
+	ln -sf libjostle.so.0 $(D)/lib/libjostle.so
+	install -m 644 core/include/jostle.h $(D)/include/
+	install -m 644 core/cli/jostle.1 $(D)/share/man/man1/
+	printf 'prefix=%s\nName: jostle\nDescription: Dense crowds that push, scripted in Lua\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -ljostle\nRequires.private: %s\nLibs.private: -lstdc++ -lm -pthread\n' '$(PREFIX)' '$(VERSION)' '$(PKGS)' > $(D)/lib/pkgconfig/jostle.pc
+	for d in scripts behaviours scenes; do install -d $(D)/share/jostle/$$d; cp -R $$d/. $(D)/share/jostle/$$d; done
+uninstall:
+	rm -rf $(D)/share/jostle
+	rm -f $(D)/bin/jostle $(D)/lib/libjostle.a $(D)/lib/libjostle.so* $(D)/include/jostle.h
+	rm -f $(D)/lib/pkgconfig/jostle.pc $(D)/share/man/man1/jostle.1
 clean:
 	rm -rf build
 format:

@@ -12,6 +12,7 @@ return machine {
 
   states = {
     Enter = { steer = orbit "kaaba", speed = pace,
+      { to = "Istilam", when = at_line, chance = 0.38 },
       { to = "Circle",  when = at_line } },
 
     Circle = { steer = orbit "kaaba", speed = pace,

@@ -28,8 +28,6 @@ struct JoScene {
     char *report;          /* directory, or NULL */
     JoxDensity *density;
     JoxRegions *regions;
-    bool traces;
-    uint32_t trace_id;
     double progress_until, progress_begun, progress_shown; /* s */
     int progress_tenth;
     bool finished;

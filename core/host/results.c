@@ -179,25 +179,13 @@ static void show_progress(JoScene *scene) {
 
 void jo_scene_trace(JoScene *scene, uint32_t agent_id) {
     JOX_REQUIRE(scene, );
-    scene->traces = true;
-    scene->trace_id = agent_id;
-}
-
-static void trace(JoScene *scene) {
-    const JoxMind *mind = &scene->world->mind;
-    for (uint32_t t = 0; t < mind->taken_count; t++) {
-        if (mind->taken[t].agent_id != scene->trace_id)
-            continue;
-        JoxText text = {0};
-        jox_mind_explain(mind, &mind->taken[t], &text);
-        scene->message(scene->message_context, text.data);
-        jox_text_free(&text);
-    }
+    scene->world->mind.traces = true;
+    scene->world->mind.trace_id = agent_id;
 }
 
 bool jox_host_collect(JoScene *scene, JoError *error) {
-    if (scene->traces)
-        trace(scene);
+    if (scene->world->mind.trace.length)
+        scene->message(scene->message_context, scene->world->mind.trace.data);
     if (scene->density)
         sample(scene);
     if (scene->progress_until > 0.0)

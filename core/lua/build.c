@@ -4,17 +4,13 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "lua/internal.h"
+#include "lua/read.h"
 
 static const char *const MACHINE_KEYS[] = {"name",   "version", "start", "defaults",
                                            "counts", "renamed", "states"};
-static const char *const STATE_KEYS[] = {
-    "steer",    "lasts",  "removes",   "push_when", "push_toward", "push_weight", "face",
-    "approach", "ignore", "push_only", "kick",      "on_enter",    "on_exit"};
-static const char *const TRANSITION_KEYS[] = {"to", "when", "chance", "on_take", "id"};
 enum { KEYS_MOST = 64 };
 
-static JoxPosition at(const JoxBuild *b, const char *path) {
+JoxPosition jox_read_at(const JoxBuild *b, const char *path) {
     return jox_source_path(b->source, path);
 }
 
@@ -26,12 +22,13 @@ static void unknown_key(JoxBuild *b, const char *path, const char *key, const ch
     const char *near = jox_suggest(key, known, count);
     if (near)
         snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
-    jox_build_error(b, at(b, full), "unknown-key", near ? hint : NULL, "unknown key '%s'", key);
+    jox_build_error(b, jox_read_at(b, full), "unknown-key", near ? hint : NULL, "unknown key '%s'",
+                    key);
 }
 
 /* Reports string keys of the table at `index` that are not known, in ascending order. */
-static void check_keys(JoxBuild *b, int index, const char *path, const char *const *known,
-                       size_t count, bool items) {
+void jox_read_check(JoxBuild *b, int index, const char *path, const char *const *known,
+                    size_t count, bool items) {
     lua_State *L = b->vm->L;
     const char *wrong[KEYS_MOST];
     size_t n = 0;
@@ -40,7 +37,8 @@ static void check_keys(JoxBuild *b, int index, const char *path, const char *con
         lua_pop(L, 1);
         if (lua_type(L, -1) != LUA_TSTRING) {
             if (!items || !lua_isinteger(L, -1))
-                jox_build_error(b, at(b, path), "bad-key", NULL, "this table takes names as keys");
+                jox_build_error(b, jox_read_at(b, path), "bad-key", NULL,
+                                "this table takes names as keys");
             continue;
         }
         const char *key = lua_tostring(L, -1);
@@ -59,16 +57,16 @@ static void check_keys(JoxBuild *b, int index, const char *path, const char *con
 }
 
 /* Pushes table[key] by raw access; its type. */
-static int field(lua_State *L, int index, const char *key) {
+int jox_read_field(lua_State *L, int index, const char *key) {
     lua_pushstring(L, key);
     return lua_rawget(L, index);
 }
 
-static void join(char path[256], const char *prefix, const char *key) {
+void jox_read_join(char path[256], const char *prefix, const char *key) {
     snprintf(path, 256, "%.190s%s%.60s", prefix, *prefix ? "." : "", key);
 }
 
-static int32_t add_hook(JoxBuild *b) { /* takes the function from the stack */
+int32_t jox_read_add_hook(JoxBuild *b) { /* takes the function from the stack */
     JoxVm *vm = b->vm;
     JOX_RESERVE(vm->hooks, vm->hook_capacity, vm->hook_count + 1);
     vm->hooks[vm->hook_count] = luaL_ref(vm->L, LUA_REGISTRYINDEX);
@@ -76,25 +74,25 @@ static int32_t add_hook(JoxBuild *b) { /* takes the function from the stack */
     return (int32_t)vm->hook_count++;
 }
 
-static int32_t read_hook(JoxBuild *b, int index, const char *path, const char *key) {
+int32_t jox_read_hook(JoxBuild *b, int index, const char *path, const char *key) {
     lua_State *L = b->vm->L;
     char full[256];
-    join(full, path, key);
-    int type = field(L, index, key);
+    jox_read_join(full, path, key);
+    int type = jox_read_field(L, index, key);
     if (type == LUA_TFUNCTION)
-        return add_hook(b);
+        return jox_read_add_hook(b);
     if (type != LUA_TNIL && !jox_node_get(L, -1))
-        jox_build_error(b, at(b, full), "bad-value", "Write: function(me) ... end",
+        jox_build_error(b, jox_read_at(b, full), "bad-value", "Write: function(me) ... end",
                         "'%s' must be a function, not %s", key, lua_typename(L, type));
     lua_pop(L, 1);
     return -1;
 }
 
 /* A number, distribution or expression for a parameter; pops it. */
-static JoxValue read_value(JoxBuild *b, const char *path, const JoxParameterInfo *info,
-                           bool *is_dist, JoxDist *dist) {
+JoxValue jox_read_value(JoxBuild *b, const char *path, const JoxParameterInfo *info, bool *is_dist,
+                        JoxDist *dist) {
     lua_State *L = b->vm->L;
-    JoxPosition position = at(b, path);
+    JoxPosition position = jox_read_at(b, path);
     JoxValue value = {.kind = JOX_VALUE_UNSET, .line = position.line};
     JoxNode *node = jox_node_get(L, -1);
     *is_dist = false;
@@ -125,10 +123,10 @@ static JoxValue read_value(JoxBuild *b, const char *path, const JoxParameterInfo
     return value;
 }
 
-static JoxValue read_parameter(JoxBuild *b, const char *path, const JoxParameterInfo *info) {
+JoxValue jox_read_parameter(JoxBuild *b, const char *path, const JoxParameterInfo *info) {
     bool is_dist;
     JoxDist dist;
-    JoxValue value = read_value(b, path, info, &is_dist, &dist);
+    JoxValue value = jox_read_value(b, path, info, &is_dist, &dist);
     if (is_dist) { /* drawn once per agent, into a slot of its own */
         value.kind = JOX_VALUE_OWN;
         value.index = jox_build_own(b, "");
@@ -148,19 +146,19 @@ static void read_defaults(JoxBuild *b, int index) {
         b->machine->own[slot].dist = jox_dist_constant(info->value);
         b->machine->defaults[p] = (JoxValue){JOX_VALUE_OWN, 0.0, slot, 0};
     }
-    if (field(L, index, "defaults") == LUA_TTABLE) {
+    if (jox_read_field(L, index, "defaults") == LUA_TTABLE) {
         int table = lua_gettop(L);
-        check_keys(b, table, "defaults", known, JOX_PARAM_COUNT, false);
+        jox_read_check(b, table, "defaults", known, JOX_PARAM_COUNT, false);
         for (int p = 0; p < JOX_PARAM_COUNT; p++) {
             char path[256];
             bool is_dist;
             JoxDist dist;
-            join(path, "defaults", known[p]);
-            if (field(L, table, known[p]) == LUA_TNIL) {
+            jox_read_join(path, "defaults", known[p]);
+            if (jox_read_field(L, table, known[p]) == LUA_TNIL) {
                 lua_pop(L, 1);
                 continue;
             }
-            JoxValue value = read_value(b, path, &jox_parameters[p], &is_dist, &dist);
+            JoxValue value = jox_read_value(b, path, &jox_parameters[p], &is_dist, &dist);
             b->machine->defaults[p].line = value.line;
             if (is_dist)
                 b->machine->own[p].dist = dist;
@@ -170,7 +168,8 @@ static void read_defaults(JoxBuild *b, int index) {
                 b->machine->defaults[p] = value;
         }
     } else if (!lua_isnil(L, -1)) {
-        jox_build_error(b, at(b, "defaults"), "bad-value", NULL, "defaults must be a table");
+        jox_build_error(b, jox_read_at(b, "defaults"), "bad-value", NULL,
+                        "defaults must be a table");
     }
     lua_pop(L, 1);
 }
@@ -233,25 +232,26 @@ static bool scan_condition(JoxBuild *b, const char *path) {
 }
 
 /* A condition's program; -1 for none. Pops the value. A function becomes *hook where allowed. */
-static int32_t read_condition(JoxBuild *b, const char *path, int32_t *hook) {
+int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
     lua_State *L = b->vm->L;
     JoxNode *node = jox_node_get(L, -1);
     int type = lua_type(L, -1);
     int32_t program = -1;
     if (hook && type == LUA_TFUNCTION) {
-        *hook = add_hook(b);
+        *hook = jox_read_add_hook(b);
         return -1;
     }
     bool trapped = type != LUA_TNIL && scan_condition(b, path);
     if (node && node->kind == JOX_NODE_CONDITION) {
-        program = jox_build_program(b, node, at(b, path));
+        program = jox_build_program(b, node, jox_read_at(b, path));
     } else if (type != LUA_TNIL && !trapped && !(node && node->kind == JOX_NODE_POISON)) {
         const char *hint = type == LUA_TBOOLEAN ? "Leave `when` out for always; compare with :is, "
                                                   ":above, ... and join with & | ~"
                            : node ? "A number becomes a condition by :above, :below, :at_least, "
                                     ":at_most or :is"
                                   : NULL;
-        jox_build_error(b, at(b, path), "bad-condition", hint, "this must be a condition, not %s",
+        jox_build_error(b, jox_read_at(b, path), "bad-condition", hint,
+                        "this must be a condition, not %s",
                         node ? "a number" : lua_typename(L, type));
     }
     lua_pop(L, 1);
@@ -259,11 +259,11 @@ static int32_t read_condition(JoxBuild *b, const char *path, int32_t *hook) {
 }
 
 /* A target named by a key (a place's name or a target value), or -1. */
-static int16_t read_target(JoxBuild *b, int index, const char *path, const char *key) {
+int16_t jox_read_target(JoxBuild *b, int index, const char *path, const char *key) {
     lua_State *L = b->vm->L;
     char full[256];
-    join(full, path, key);
-    int type = field(L, index, key);
+    jox_read_join(full, path, key);
+    int type = jox_read_field(L, index, key);
     JoxNode *node = jox_node_get(L, -1), named = {.kind = JOX_NODE_TARGET};
     int16_t target = -1;
     if (type == LUA_TSTRING) {
@@ -274,13 +274,13 @@ static int16_t read_target(JoxBuild *b, int index, const char *path, const char 
         if (scope->places)
             named.target_arg = jox_place_find(scope->places, scope->place_count, named.name);
         if (named.target_arg < 0 && scope->complete)
-            jox_build_error(b, at(b, full), "unknown-place", NULL, "the scene has no place '%s'",
-                            named.name);
+            jox_build_error(b, jox_read_at(b, full), "unknown-place", NULL,
+                            "the scene has no place '%s'", named.name);
         target = jox_build_target(b, &named, false);
     } else if (node && (node->kind == JOX_NODE_TARGET || node->kind == JOX_NODE_OWN)) {
         target = jox_build_target(b, node, false);
     } else if (type != LUA_TNIL && !(node && node->kind == JOX_NODE_POISON)) {
-        jox_build_error(b, at(b, full), "bad-value", "Example: face = \"black_stone\"",
+        jox_build_error(b, jox_read_at(b, full), "bad-value", "Example: face = \"black_stone\"",
                         "'%s' must be a target or the name of a place", key);
     }
     lua_pop(L, 1);
@@ -302,18 +302,18 @@ static void add_tag(JoxBuild *b, const char *path, uint64_t *mask) {
         char hint[96];
         if (near)
             snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
-        jox_build_error(b, at(b, path), "unknown-tag", near ? hint : NULL,
+        jox_build_error(b, jox_read_at(b, path), "unknown-tag", near ? hint : NULL,
                         name ? "nothing in the scene bears the tag '%s'" : "tags are names%s",
                         name ? name : "");
     }
 }
 
-static uint64_t read_tags(JoxBuild *b, int index, const char *path, const char *key) {
+uint64_t jox_read_tags(JoxBuild *b, int index, const char *path, const char *key) {
     lua_State *L = b->vm->L;
     char full[256];
     uint64_t mask = 0;
-    join(full, path, key);
-    int type = field(L, index, key);
+    jox_read_join(full, path, key);
+    int type = jox_read_field(L, index, key);
     if (type == LUA_TTABLE) {
         for (lua_Integer i = 1; lua_rawgeti(L, -1, i) != LUA_TNIL; i++) {
             add_tag(b, full, &mask);
@@ -327,235 +327,6 @@ static uint64_t read_tags(JoxBuild *b, int index, const char *path, const char *
     return mask;
 }
 
-static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state) {
-    lua_State *L = b->vm->L;
-    char full[256];
-    join(full, path, "steer");
-    int type = field(L, index, "steer");
-    JoxNode *node = jox_node_get(L, -1);
-    if (type == LUA_TFUNCTION) {
-        state->steer[0] =
-            (JoxSteerTerm){.kind = JOX_STEER_FUNCTION, .target = -1, .hook = add_hook(b)};
-        state->steer_count = 1;
-        return;
-    }
-    for (JoxNode *t = node; t && t->kind == JOX_NODE_STEER; t = t->next) {
-        if (state->steer_count == JOX_MOST_TERMS) {
-            jox_build_error(b, at(b, full), "too-complex", NULL, "a steering has at most %d terms",
-                            JOX_MOST_TERMS);
-            break;
-        }
-        JoxSteerTerm *term = &state->steer[state->steer_count++];
-        *term = t->term;
-        term->target = t->target ? jox_build_target(b, t->target, false) : -1;
-        if (t->weight && t->weight->kind == JOX_NODE_NUMBER && t->weight->op == JOX_OP_CONST)
-            term->weight = (JoxValue){JOX_VALUE_CONST, t->weight->number, 0, 0};
-        else if (t->weight)
-            term->weight =
-                (JoxValue){JOX_VALUE_PROGRAM, 0.0, jox_build_program(b, t->weight, at(b, full)), 0};
-        if (term->weight.kind == JOX_VALUE_PROGRAM && term->weight.index < 0)
-            term->weight = (JoxValue){.kind = JOX_VALUE_UNSET};
-    }
-    if (type != LUA_TNIL &&
-        !(node && (node->kind == JOX_NODE_STEER || node->kind == JOX_NODE_POISON)))
-        jox_build_error(b, at(b, full), "bad-value", "Example: steer = seek(goal)",
-                        "steer must be a steering or a function, not %s",
-                        node ? "this value" : lua_typename(L, type));
-    lua_pop(L, 1);
-}
-
-/* kick = { ball, at = target, impulse = 0.5 * now.speed }; the impulse is per kg of the ball. */
-static void read_kick(JoxBuild *b, int index, const char *path, JoxState *state) {
-    static const char *const KEYS[] = {"at", "impulse"};
-    static const JoxParameterInfo IMPULSE = {"impulse", "m/s", "", 0, 50, 0};
-    lua_State *L = b->vm->L;
-    char full[256], part[256];
-    join(full, path, "kick");
-    int type = field(L, index, "kick"), table = lua_gettop(L);
-    if (type == LUA_TTABLE) {
-        check_keys(b, table, full, KEYS, 2, true);
-        lua_rawgeti(L, table, 1);
-        JoxNode *ball = jox_node_get(L, -1);
-        if (ball && ball->kind == JOX_NODE_TARGET)
-            state->kick = jox_build_target(b, ball, false);
-        else if (!ball || ball->kind != JOX_NODE_POISON)
-            jox_build_error(b, at(b, full), "bad-value",
-                            "Example: kick = { nearest \"ball\", at = goal, impulse = 4 }",
-                            "kick needs the body to kick as its first item");
-        lua_pop(L, 1);
-        state->kick_at = read_target(b, table, full, "at");
-        join(part, full, "impulse");
-        if (field(L, table, "impulse") == LUA_TNIL) {
-            lua_pop(L, 1);
-            jox_build_error(b, at(b, full), "missing-key", "Example: impulse = 0.5 * now.speed",
-                            "kick needs an impulse");
-        } else {
-            state->kick_impulse = read_parameter(b, part, &IMPULSE);
-        }
-    } else if (type != LUA_TNIL) {
-        jox_build_error(b, at(b, full), "bad-value", NULL, "kick must be a table");
-    }
-    lua_settop(L, table - 1);
-}
-
-static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state) {
-    static const JoxParameterInfo LASTS = {"lasts", "s", "", 0, 1e6, 0};
-    lua_State *L = b->vm->L;
-    char full[256];
-    join(full, path, "lasts");
-    if (field(L, index, "lasts") == LUA_TNIL) {
-        lua_pop(L, 1);
-        return;
-    }
-    JoxNode *node = jox_node_get(L, -1);
-    if (node && node->kind == JOX_NODE_OWN) {
-        state->lasts_program = jox_build_program(b, node, at(b, full));
-        lua_pop(L, 1);
-        return;
-    }
-    bool is_dist;
-    JoxDist dist;
-    JoxValue value = read_value(b, full, &LASTS, &is_dist, &dist);
-    state->has_lasts = is_dist || value.kind == JOX_VALUE_CONST;
-    state->lasts = is_dist ? dist : jox_dist_constant(value.number);
-    state->lasts_program = value.kind == JOX_VALUE_PROGRAM ? value.index : -1;
-}
-
-static void read_flags(JoxBuild *b, int index, const char *path, JoxState *state) {
-    lua_State *L = b->vm->L;
-    char full[256];
-    int type = field(L, index, "removes");
-    join(full, path, "removes");
-    if (type != LUA_TNIL && type != LUA_TBOOLEAN)
-        jox_build_error(b, at(b, full), "bad-value", NULL, "removes must be true or false");
-    state->removes = lua_toboolean(L, -1);
-    lua_pop(L, 1);
-    type = field(L, index, "push_weight");
-    join(full, path, "push_weight");
-    const char *weight = type == LUA_TSTRING ? lua_tostring(L, -1) : "";
-    state->push_nearest = strcmp(weight, "nearest") == 0;
-    if (type != LUA_TNIL && !state->push_nearest && strcmp(weight, "equal") != 0)
-        jox_build_error(b, at(b, full), "bad-value", NULL,
-                        "push_weight must be \"equal\" or \"nearest\"");
-    lua_pop(L, 1);
-}
-
-static void read_transition(JoxBuild *b, int index, const char *path, const JoxMachine *m,
-                            JoxState *state, JoxTransition *t) {
-    static const JoxParameterInfo CHANCE = {"chance", "", "", 0, 1, 1};
-    lua_State *L = b->vm->L;
-    char full[256];
-    *t = (JoxTransition){.when = -1, .when_hook = -1, .on_take = -1, .line = at(b, path).line};
-    check_keys(b, index, path, TRANSITION_KEYS, 5, false);
-    join(full, path, "to");
-    int type = field(L, index, "to");
-    const char *to = type == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
-    int target = to ? jox_machine_state(m, to) : -1;
-    if (!to) {
-        jox_build_error(b, at(b, full), "missing-key",
-                        "Example: { to = \"Exit\", when = after(5) }",
-                        "a transition needs `to`, the name of a state");
-    } else if (target < 0) {
-        const char *names[256];
-        size_t count = m->state_count < 256 ? m->state_count : 256;
-        for (size_t s = 0; s < count; s++)
-            names[s] = m->states[s].name;
-        const char *near = jox_suggest(to, names, count);
-        char hint[96];
-        if (near)
-            snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
-        jox_build_error(b, at(b, full), "unknown-state", near ? hint : NULL,
-                        "there is no state '%s'", to);
-    }
-    t->to = target < 0 ? 0 : (uint16_t)target;
-    char id[128];
-    snprintf(id, sizeof id, "%s", to ? to : "?");
-    lua_pop(L, 1);
-    if (field(L, index, "id") == LUA_TSTRING)
-        snprintf(id, sizeof id, "%s", lua_tostring(L, -1));
-    lua_pop(L, 1);
-    int repeats = 1;
-    for (const JoxTransition *o = state->transitions; o < t; o++)
-        repeats += strcmp(o->id, id) == 0 ||
-                   (strncmp(o->id, id, strlen(id)) == 0 && o->id[strlen(id)] == '#');
-    if (repeats > 1)
-        snprintf(id + strlen(id), sizeof id - strlen(id), "#%d", repeats);
-    t->id = jox_strdup(id);
-    join(full, path, "when");
-    field(L, index, "when");
-    t->when = read_condition(b, full, &t->when_hook);
-    join(full, path, "chance");
-    if (field(L, index, "chance") == LUA_TNIL)
-        lua_pop(L, 1);
-    else
-        t->chance = read_parameter(b, full, &CHANCE);
-    t->on_take = read_hook(b, index, path, "on_take");
-}
-
-static void read_transitions(JoxBuild *b, int index, const char *path, JoxState *state) {
-    lua_State *L = b->vm->L;
-    uint32_t count = (uint32_t)lua_rawlen(L, index);
-    if (count > JOX_MOST_TRANSITIONS) {
-        jox_build_error(b, at(b, path), "too-many", "Split the state",
-                        "a state has at most %d transitions", JOX_MOST_TRANSITIONS);
-        count = JOX_MOST_TRANSITIONS;
-    }
-    state->transitions = jox_alloc(count + 1, sizeof *state->transitions);
-    for (uint32_t i = 0; i < count; i++) {
-        char full[256], item[16];
-        snprintf(item, sizeof item, "%u", i + 1);
-        join(full, path, item);
-        if (lua_rawgeti(L, index, i + 1) != LUA_TTABLE) {
-            jox_build_error(b, at(b, full), "bad-value",
-                            "Example: { to = \"Exit\", when = after(5) }",
-                            "a transition must be a table, not %s", luaL_typename(L, -1));
-        } else {
-            read_transition(b, lua_gettop(L), full, b->machine, state,
-                            &state->transitions[state->transition_count]);
-            state->transition_count++;
-        }
-        lua_pop(L, 1);
-    }
-}
-
-static void read_state(JoxBuild *b, int index, JoxState *state) {
-    static const char *known[JOX_PARAM_COUNT + sizeof STATE_KEYS / sizeof *STATE_KEYS];
-    const size_t keys = sizeof STATE_KEYS / sizeof *STATE_KEYS;
-    lua_State *L = b->vm->L;
-    char path[256], full[256];
-    snprintf(path, sizeof path, "states.%.200s", state->name);
-    for (size_t k = 0; k < keys; k++)
-        known[k] = STATE_KEYS[k];
-    for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        known[keys + (size_t)p] = jox_parameters[p].name;
-    check_keys(b, index, path, known, keys + JOX_PARAM_COUNT, true);
-    state->line = at(b, path).line;
-    state->push_when = state->lasts_program = -1;
-    state->kick = state->kick_at = -1;
-    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
-        join(full, path, jox_parameters[p].name);
-        if (field(L, index, jox_parameters[p].name) == LUA_TNIL)
-            lua_pop(L, 1);
-        else
-            state->param[p] = read_parameter(b, full, &jox_parameters[p]);
-    }
-    read_steer(b, index, path, state);
-    read_lasts(b, index, path, state);
-    read_flags(b, index, path, state);
-    read_kick(b, index, path, state);
-    join(full, path, "push_when");
-    field(L, index, "push_when");
-    state->push_when = read_condition(b, full, NULL);
-    state->push_toward = read_target(b, index, path, "push_toward");
-    state->face = read_target(b, index, path, "face");
-    state->approach = read_target(b, index, path, "approach");
-    state->ignore = read_tags(b, index, path, "ignore");
-    state->push_only = read_tags(b, index, path, "push_only");
-    state->on_enter = read_hook(b, index, path, "on_enter");
-    state->on_exit = read_hook(b, index, path, "on_exit");
-    read_transitions(b, index, path, state);
-}
-
 /* The states' names, ascending: tables have no order of their own. */
 static void name_states(JoxBuild *b, int table) {
     lua_State *L = b->vm->L;
@@ -565,9 +336,10 @@ static void name_states(JoxBuild *b, int table) {
         bool good = lua_type(L, -2) == LUA_TSTRING && lua_type(L, -1) == LUA_TTABLE;
         const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "?";
         char path[256];
-        join(path, "states", name);
+        jox_read_join(path, "states", name);
         if (!good || m->state_count >= 1000)
-            jox_build_error(b, at(b, path), "bad-value", "Example: Walk = { steer = seek(goal) }",
+            jox_build_error(b, jox_read_at(b, path), "bad-value",
+                            "Example: Walk = { steer = seek(goal) }",
                             "states must be tables with names");
         lua_pop(L, 1);
         if (!good || m->state_count >= 1000)
@@ -583,8 +355,8 @@ static void name_states(JoxBuild *b, int table) {
 static void read_states(JoxBuild *b, int index) {
     lua_State *L = b->vm->L;
     JoxMachine *m = b->machine;
-    if (field(L, index, "states") != LUA_TTABLE) {
-        jox_build_error(b, at(b, "states"), "missing-key", "states = { Walk = { ... } }",
+    if (jox_read_field(L, index, "states") != LUA_TTABLE) {
+        jox_build_error(b, jox_read_at(b, "states"), "missing-key", "states = { Walk = { ... } }",
                         "a machine needs `states`, a table");
         lua_pop(L, 1);
         return;
@@ -592,12 +364,12 @@ static void read_states(JoxBuild *b, int index) {
     int table = lua_gettop(L);
     name_states(b, table);
     for (uint32_t s = 0; s < m->state_count; s++) {
-        field(L, table, m->states[s].name);
-        read_state(b, lua_gettop(L), &m->states[s]);
+        jox_read_field(L, table, m->states[s].name);
+        jox_read_state(b, lua_gettop(L), &m->states[s]);
         lua_settop(L, table);
     }
     if (m->state_count == 0)
-        jox_build_error(b, at(b, "states"), "no-states", NULL,
+        jox_build_error(b, jox_read_at(b, "states"), "no-states", NULL,
                         "a machine needs at least one state");
     lua_pop(L, 1);
 }
@@ -605,10 +377,11 @@ static void read_states(JoxBuild *b, int index) {
 static void read_start(JoxBuild *b, int index) {
     lua_State *L = b->vm->L;
     JoxMachine *m = b->machine;
-    const char *start = field(L, index, "start") == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+    const char *start =
+        jox_read_field(L, index, "start") == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
     int state = start ? jox_machine_state(m, start) : -1;
     if (state < 0 && m->state_count > 0)
-        jox_build_error(b, at(b, "start"), start ? "unknown-state" : "missing-key", NULL,
+        jox_build_error(b, jox_read_at(b, "start"), start ? "unknown-state" : "missing-key", NULL,
                         start ? "there is no state '%s' to start in"
                               : "a machine needs `start`, the name of a state%s",
                         start ? start : "");
@@ -619,16 +392,17 @@ static void read_start(JoxBuild *b, int index) {
 static void read_counts(JoxBuild *b, int index) {
     lua_State *L = b->vm->L;
     JoxMachine *m = b->machine;
-    if (field(L, index, "counts") == LUA_TTABLE) {
+    if (jox_read_field(L, index, "counts") == LUA_TTABLE) {
         int table = lua_gettop(L);
         for (uint32_t slot = 0; slot < m->memory_count; slot++) { /* in the order of the memory */
-            if (!*m->memory[slot].name || field(L, table, m->memory[slot].name) == LUA_TNIL) {
+            if (!*m->memory[slot].name ||
+                jox_read_field(L, table, m->memory[slot].name) == LUA_TNIL) {
                 lua_settop(L, table);
                 continue;
             }
             JoxNode *node = jox_node_get(L, -1);
             char path[256];
-            join(path, "counts", m->memory[slot].name);
+            jox_read_join(path, "counts", m->memory[slot].name);
             if (node && node->kind == JOX_NODE_CIRCUITS) {
                 JOX_RESERVE(m->counters, b->counter_capacity, m->counter_count + 1);
                 JoxCounter counter = {.target = jox_build_target(b, node->target, true),
@@ -638,7 +412,8 @@ static void read_counts(JoxBuild *b, int index) {
                 counter.begun = jox_build_memory(b, "");
                 m->counters[m->counter_count++] = counter;
             } else if (!node || node->kind != JOX_NODE_POISON) {
-                jox_build_error(b, at(b, path), "bad-value", "Example: laps = circuits \"kaaba\"",
+                jox_build_error(b, jox_read_at(b, path), "bad-value",
+                                "Example: laps = circuits \"kaaba\"",
                                 "this must be something that can be counted");
             }
             lua_settop(L, table);
@@ -651,12 +426,12 @@ static void read_counts(JoxBuild *b, int index) {
             for (uint32_t s = 0; s < b->vm->memory_count; s++)
                 known |= strcmp(b->vm->memory[s].name, name) == 0;
             if (!known)
-                jox_build_error(b, at(b, "counts"), "unknown-memory",
+                jox_build_error(b, jox_read_at(b, "counts"), "unknown-memory",
                                 "Declare it: local mine = memory { laps = 0 }",
                                 "'%s' is counted but not remembered", name);
         }
     } else if (!lua_isnil(L, -1)) {
-        jox_build_error(b, at(b, "counts"), "bad-value", NULL, "counts must be a table");
+        jox_build_error(b, jox_read_at(b, "counts"), "bad-value", NULL, "counts must be a table");
     }
     lua_pop(L, 1);
 }
@@ -665,7 +440,7 @@ static void read_renamed(JoxBuild *b, int index) {
     lua_State *L = b->vm->L;
     JoxMachine *m = b->machine;
     size_t capacity = 0;
-    if (field(L, index, "renamed") == LUA_TTABLE) {
+    if (jox_read_field(L, index, "renamed") == LUA_TTABLE) {
         lua_pushnil(L);
         while (lua_next(L, -2)) {
             if (lua_type(L, -1) == LUA_TSTRING && lua_type(L, -2) == LUA_TSTRING) {
@@ -673,7 +448,8 @@ static void read_renamed(JoxBuild *b, int index) {
                 m->renamed[m->renamed_count++] = (struct JoxRenamed){
                     jox_strdup(lua_tostring(L, -2)), jox_strdup(lua_tostring(L, -1))};
             } else {
-                jox_build_error(b, at(b, "renamed"), "bad-value", "renamed = { Old = \"New\" }",
+                jox_build_error(b, jox_read_at(b, "renamed"), "bad-value",
+                                "renamed = { Old = \"New\" }",
                                 "renamed maps old names of states to new ones");
             }
             lua_pop(L, 1);
@@ -691,10 +467,11 @@ static void warn_unreachable(JoxBuild *b) {
             for (uint32_t t = 0; t < m->states[o].transition_count; t++)
                 reached |= o != s && m->states[o].transitions[t].to == s;
         char path[256];
-        join(path, "states", m->states[s].name);
+        jox_read_join(path, "states", m->states[s].name);
         if (!reached)
-            jox_diag_add(b->vm->diagnostics, JOX_SEVERITY_WARNING, at(b, path), "unreachable-state",
-                         NULL, NULL, NULL, "nothing leads to state '%s'", m->states[s].name);
+            jox_diag_add(b->vm->diagnostics, JOX_SEVERITY_WARNING, jox_read_at(b, path),
+                         "unreachable-state", NULL, NULL, NULL, "nothing leads to state '%s'",
+                         m->states[s].name);
     }
 }
 
@@ -722,10 +499,12 @@ JoxMachine *jox_build(JoxVm *vm, JoxSource *source) {
         m->memory[slot].kind = vm->memory[i].kind;
         m->memory[slot].initial = vm->memory[i].initial;
     }
-    check_keys(&build, table, "", MACHINE_KEYS, sizeof MACHINE_KEYS / sizeof *MACHINE_KEYS, false);
-    m->name = jox_strdup(field(L, table, "name") == LUA_TSTRING ? lua_tostring(L, -1) : "machine");
+    jox_read_check(&build, table, "", MACHINE_KEYS, sizeof MACHINE_KEYS / sizeof *MACHINE_KEYS,
+                   false);
+    m->name = jox_strdup(jox_read_field(L, table, "name") == LUA_TSTRING ? lua_tostring(L, -1)
+                                                                         : "machine");
     if (lua_type(L, -1) != LUA_TSTRING)
-        jox_build_error(&build, at(&build, "name"), "missing-key", "name = \"walker\"",
+        jox_build_error(&build, jox_read_at(&build, "name"), "missing-key", "name = \"walker\"",
                         "a machine needs a name");
     lua_pop(L, 1);
     read_defaults(&build, table);

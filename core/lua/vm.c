@@ -34,7 +34,6 @@ static void *allocate(void *context, void *memory, size_t old, size_t size) {
 
 /* Counts instructions. Once over, every instruction trips, so that nothing can swallow it. */
 static void count_hook(lua_State *L, lua_Debug *debug) {
-    (void)debug;
     JoxVm *vm = jox_vm_of(L);
     if (!vm->over && vm->left > CHECK_EVERY) {
         vm->left -= CHECK_EVERY;
@@ -44,7 +43,11 @@ static void count_hook(lua_State *L, lua_Debug *debug) {
         vm->over = true;
         lua_sethook(L, count_hook, LUA_MASKCOUNT, 1);
     }
-    luaL_error(L, "it ran for too long (over its budget of instructions) and was stopped");
+    lua_getinfo(L, "Sl", debug);
+    lua_pushfstring(L,
+                    "%s:%d: it ran for too long (over its budget of instructions) and was stopped",
+                    debug->short_src, debug->currentline);
+    lua_error(L);
 }
 
 JoxVm *jox_vm_of(lua_State *L) {

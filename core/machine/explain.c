@@ -45,6 +45,6 @@ void jox_mind_explain(const JoxMind *mind, const JoxTaken *taken, JoxText *out) 
     uint32_t agent = mind->agents->id_index[taken->agent_id];
     if (t->when < 0 || agent == JOX_NO_INDEX)
         return;
-    jox_text_add(out, "    its condition, as it stands now:\n");
+    jox_text_add(out, "    its condition:\n");
     print_program(mind, machine, &machine->programs[t->when], agent, out);
 }

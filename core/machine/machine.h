@@ -33,33 +33,26 @@ typedef enum JoxNow {
         JOX_NOW_COUNT
 } JoxNow;
 
-/* X(op): registers a, b, c are inputs; numbers are doubles; conditions are 0 or 1. */
-#define JOX_OPS(X)                                                                                 \
-    X(CONST)  /* number */                                                                         \
-    X(NOW)    /* arg: JoxNow */                                                                    \
-    X(OWN)    /* arg: own slot */                                                                  \
-    X(MEMORY) /* arg: memory slot */                                                               \
-    X(ADD)                                                                                         \
-    X(SUB)                                                                                         \
-    X(MUL) X(DIV)                                    /* x / 0 is 0 */                              \
-        X(MIN) X(MAX) X(NEG) X(ABS) X(SQRT) X(CLAMP) /* a within [b, c] */                         \
-        X(GT) X(GE) X(LT) X(LE) X(EQ) X(AND) X(OR) X(NOT)                                          \
-            X(DISTANCE)  /* metres from the agent's centre to target; infinite when absent */      \
-        X(PLACE_DENSITY) /* people per m2 in place (a polygon, or a disc of 2 m about it) */       \
-        X(PLACE_COUNT)   /* people in place */                                                     \
-        X(INSIDE)        /* target (or the agent, target -1) is inside place */                    \
-        X(NEAR)          /* target is nearer than a metres */                                      \
-        X(CROSSES)       /* the last move crossed line `place` from its right to its left */       \
-        X(FIRST_IN)      /* the agent is the head of queue `place` */                              \
-        X(AFTER)         /* time in state is at least a */                                         \
-        X(LASTED)        /* time in state has reached the drawn duration */                        \
-        X(STUCK)         /* has not moved 0.25 m for a seconds */                                  \
-        X(TOUCHES)       /* gap to target is below 0.05 m */                                       \
-        X(GROUNDED)      /* the target, a body, touches the ground */                              \
-        X(KICKED)        /* the agent kicked target in the last step */                            \
-        X(HIT_BY)        /* target, a body that moves faster than 1 m/s, touches the agent */      \
-        X(INCOMING)      /* target, as it moves, will come within a metres during the next 2 s */  \
-        X(SEES)          /* target exists within perception */
+/* X(op): registers a, b, c are inputs; numbers are doubles; conditions are 0 or 1. Target -1 is the
+   agent itself. x / 0 is 0.
+   CLAMP: a within [b, c]. DISTANCE: metres from the agent's centre to the target, infinite when
+   absent. PLACE_DENSITY, PLACE_COUNT: people in place (a polygon, else a disc of 2 m about it).
+   INSIDE: target is in place. NEAR: target is nearer than a metres. CROSSES: the last move crossed
+   line `place` from its right to its left. FIRST_IN: the agent heads its queue. AFTER: time in
+   state is at least a. LASTED: it has reached the drawn duration. STUCK: has not moved 0.25 m for a
+   seconds. TOUCHES: the gap to target is below 0.05 m. GROUNDED: target, a body, touches the
+   ground. KICKED: the agent kicked target in the last step. HIT_BY: target, faster than 1 m/s,
+   touches the agent. INCOMING: target, as it moves, comes within a metres during the next 2 s.
+   SEES: target exists within perception. */
+/* clang-format off */
+#define JOX_OPS(X)                                                              \
+    X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \
+    X(ADD) X(SUB) X(MUL) X(DIV) X(MIN) X(MAX) X(NEG) X(ABS) X(SQRT) X(CLAMP)    \
+    X(GT) X(GE) X(LT) X(LE) X(EQ) X(AND) X(OR) X(NOT)                           \
+    X(DISTANCE) X(PLACE_DENSITY) X(PLACE_COUNT)                                 \
+    X(INSIDE) X(NEAR) X(CROSSES) X(FIRST_IN) X(AFTER) X(LASTED) X(STUCK)        \
+    X(TOUCHES) X(GROUNDED) X(KICKED) X(HIT_BY) X(INCOMING) X(SEES)
+/* clang-format on */
 
 typedef enum JoxOp {
 #define X(name) JOX_OP_##name,

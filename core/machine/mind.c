@@ -21,27 +21,27 @@ static void draw_own(const JoxMind *mind, uint32_t i, uint32_t slot, const JoxDi
         jox_dist_draw(dist, mind->seed, a->id[i], 0, JOX_DRAW_OWN, slot);
 }
 
-void jox_mind_spawn(JoxMind *mind, uint32_t i, uint32_t index, const JoxDist *const *own,
+void jox_mind_spawn(JoxMind *mind, uint32_t agent, uint32_t machine, const JoxDist *const *own,
                     const JoxDist *const *memory) {
     JoxAgents *a = mind->agents;
-    const JoxMachine *machine = mind->machines[index];
-    a->machine[i] = (uint16_t)index;
-    for (uint32_t s = 0; s < machine->own_count; s++)
-        draw_own(mind, i, s, own && own[s] ? own[s] : &machine->own[s].dist);
-    for (uint32_t s = 0; s < machine->memory_count; s++) {
-        double value = machine->memory[s].initial;
+    const JoxMachine *kind = mind->machines[machine];
+    a->machine[agent] = (uint16_t)machine;
+    for (uint32_t s = 0; s < kind->own_count; s++)
+        draw_own(mind, agent, s, own && own[s] ? own[s] : &kind->own[s].dist);
+    for (uint32_t s = 0; s < kind->memory_count; s++) {
+        double value = kind->memory[s].initial;
         if (memory && memory[s])
-            value = jox_dist_draw(memory[s], mind->seed, a->id[i], 0, JOX_DRAW_MEMORY, s);
-        a->memory[(size_t)i * a->memory_stride + s] = value;
+            value = jox_dist_draw(memory[s], mind->seed, a->id[agent], 0, JOX_DRAW_MEMORY, s);
+        a->memory[(size_t)agent * a->memory_stride + s] = value;
     }
-    jox_mind_enter(mind, i, machine->start);
-    if (machine->states[machine->start].on_enter < 0)
+    jox_mind_enter(mind, agent, kind->start);
+    if (kind->states[kind->start].on_enter < 0)
         return;
     if (!mind->scratch)
         mind->scratch = jox_alloc(1, sizeof *mind->scratch);
     JoxMindScratch *s = mind->scratch;
     JOX_RESERVE(s->pending, s->pending_capacity, s->pending_count + 1);
-    s->pending[s->pending_count++] = a->id[i];
+    s->pending[s->pending_count++] = a->id[agent];
 }
 
 /* The state of `next` that continues `name`, or -1. */
@@ -72,21 +72,26 @@ const char *jox_mind_refuses(const JoxMind *mind, uint32_t index, const JoxMachi
     return NULL;
 }
 
-/* The n-th slot called `name` of a row of names, or -1. */
-static int nth_named(const char *name, uint32_t nth, uint32_t count, const JoxOwnSlot *own,
-                     const JoxMemorySlot *memory) {
-    for (uint32_t s = 0; s < count; s++)
-        if (strcmp(own ? own[s].name : memory[s].name, name) == 0 && nth-- == 0)
+/* Which slot of the old version goes on in slot `slot` of the new one: the n-th of the same name
+   for the n-th of that name, since slots without a name are several. -1 if there is none. */
+static int own_before(const JoxMachine *old, const JoxMachine *next, uint32_t slot) {
+    uint32_t nth = 0;
+    for (uint32_t s = 0; s < slot; s++)
+        nth += strcmp(next->own[s].name, next->own[slot].name) == 0;
+    for (uint32_t s = 0; s < old->own_count; s++)
+        if (strcmp(old->own[s].name, next->own[slot].name) == 0 && nth-- == 0)
             return (int)s;
     return -1;
 }
 
-static uint32_t how_manyth(uint32_t slot, const JoxOwnSlot *own, const JoxMemorySlot *memory) {
+static int memory_before(const JoxMachine *old, const JoxMachine *next, uint32_t slot) {
     uint32_t nth = 0;
     for (uint32_t s = 0; s < slot; s++)
-        nth += strcmp(own ? own[s].name : memory[s].name,
-                      own ? own[slot].name : memory[slot].name) == 0;
-    return nth;
+        nth += strcmp(next->memory[s].name, next->memory[slot].name) == 0;
+    for (uint32_t s = 0; s < old->memory_count; s++)
+        if (strcmp(old->memory[s].name, next->memory[slot].name) == 0 && nth-- == 0)
+            return (int)s;
+    return -1;
 }
 
 static void carry_values(JoxMind *mind, const JoxMachine *old, const JoxMachine *next, uint32_t i) {
@@ -95,8 +100,7 @@ static void carry_values(JoxMind *mind, const JoxMachine *old, const JoxMachine 
     double *memory = a->memory + (size_t)i * a->memory_stride;
     memcpy(before, own, (old->own_count < 256 ? old->own_count : 256) * sizeof *before);
     for (uint32_t s = 0; s < next->own_count; s++) {
-        int from = nth_named(next->own[s].name, how_manyth(s, next->own, NULL), old->own_count,
-                             old->own, NULL);
+        int from = own_before(old, next, s);
         if (from >= 0 && from < 256)
             own[s] = before[from];
         else
@@ -104,8 +108,7 @@ static void carry_values(JoxMind *mind, const JoxMachine *old, const JoxMachine 
     }
     memcpy(before, memory, (old->memory_count < 256 ? old->memory_count : 256) * sizeof *before);
     for (uint32_t s = 0; s < next->memory_count; s++) {
-        int from = nth_named(next->memory[s].name, how_manyth(s, NULL, next->memory),
-                             old->memory_count, NULL, old->memory);
+        int from = memory_before(old, next, s);
         bool same = from >= 0 && from < 256 && old->memory[from].kind == next->memory[s].kind;
         memory[s] = same ? before[from] : next->memory[s].initial;
     }
@@ -150,5 +153,6 @@ void jox_mind_free(JoxMind *mind) {
     jox_free(mind->push_nearest);
     jox_free(mind->push_toward_x);
     jox_free(mind->push_toward_y);
+    jox_text_free(&mind->trace);
     jox_mind_scratch_free(mind);
 }

@@ -60,6 +60,11 @@ typedef struct JoxMind {
     JoxImpulse *kicks; /* impulses on bodies, by agent id */
     uint32_t kick_count, kick_capacity;
 
+    /* Transitions of the agent with this id are explained in `trace` as they are taken. */
+    bool traces;
+    uint32_t trace_id;
+    JoxText trace;
+
     /* What states say of pushing, per agent index, for the force stage; valid until the next think.
      */
     uint8_t *push_on, *push_nearest;
@@ -70,11 +75,11 @@ typedef struct JoxMind {
 
 /* Takes the machine over and returns its index. Widens the agents' rows as needed. */
 uint32_t jox_mind_add(JoxMind *mind, JoxMachine *machine);
-/* Makes agent `index` a fresh instance of `machine`: draws its own values (overrides: per own slot,
-   NULL or an array of own_count pointers, NULL where the machine's own distribution stands),
-   memory (likewise), enters the start state (its parameters are written; on_enter is queued and
-   runs in the next think). */
-void jox_mind_spawn(JoxMind *mind, uint32_t index, uint32_t machine, const JoxDist *const *own,
+/* Makes the agent at index `agent` a fresh instance of `machine`: draws its own values (overrides:
+   per own slot, NULL or an array of own_count pointers, NULL where the machine's own distribution
+   stands), memory (likewise), enters the start state (its parameters are written; on_enter is
+   queued and runs in the next think). */
+void jox_mind_spawn(JoxMind *mind, uint32_t agent, uint32_t machine, const JoxDist *const *own,
                     const JoxDist *const *memory);
 /* Evaluates counters, transitions, parameters, kicks. Agents with `removes` states get `removed`.
  */

@@ -232,6 +232,8 @@ static void take_transitions(JoxMind *mind) {
         const JoxTransition *t = &from->transitions[s->fired[i]];
         mind->taken[mind->taken_count++] =
             (JoxTaken){a->id[i], a->machine[i], a->state[i], t->to, (uint16_t)s->fired[i]};
+        if (mind->traces && a->id[i] == mind->trace_id)
+            jox_mind_explain(mind, &mind->taken[n], &mind->trace);
         call_hook(mind, from->on_exit, JOX_HOOK_EXIT, i);
         call_hook(mind, t->on_take, JOX_HOOK_TAKE, i);
         jox_mind_enter(mind, i, t->to);
@@ -254,6 +256,7 @@ static void greet_spawned(JoxMind *mind) {
 
 void jox_mind_think(JoxMind *mind, JoxPool *pool) {
     mind->taken_count = mind->kick_count = 0;
+    mind->trace.length = 0;
     jox_mind_group(mind, pool);
     if (mind->machine_count > 0) {
         jox_mind_count_places(mind);

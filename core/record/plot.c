@@ -77,7 +77,7 @@ static void write_walls(FILE *data, const JoxWalls *walls) {
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         for (uint32_t i = 0; i <= walls->rings[r].count; i++) {
             JoxV2 p = walls->vertices[walls->rings[r].first + i % walls->rings[r].count].point;
-            fprintf(data, "%g %g 0\n", p.x, p.y);
+            fprintf(data, "%g,%g\n", p.x, p.y);
         }
         fputs("\n", data);
     }
@@ -119,7 +119,7 @@ bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *w
         "set yrange [%g:%g]\nunset key\n"
         "set label 1 sprintf('greatest at any time: %%.1f per m^2 at (%%.0f, %%.0f) m, t = %%.0f "
         "s',"
-        " %g, %g, %g, %g) at graph 0.01, 0.02 front tc '#404040'\n"
+        " %g, %g, %g, %g) at graph 0.01, 0.02 front tc '#c00000'\n"
         "plot 'density.csv' skip 1 using 1:2:3 with image, 'walls.dat' using 1:2 with lines lw 1.5 "
         "lc 'black'\n",
         most > 0.0 ? most : 1.0, d->low.x, d->low.x + width, d->low.y, d->low.y + height, d->most,

@@ -1,0 +1,33 @@
+/* What build.c (the machine) and state.c (its states) share. */
+#ifndef JOX_LUA_READ_H
+#define JOX_LUA_READ_H
+
+#include "lua/internal.h"
+
+/* Position of a path in the source: "states.Circle.2.when". */
+JoxPosition jox_read_at(const JoxBuild *build, const char *path);
+/* Joins a path and a key. */
+void jox_read_join(char path[256], const char *prefix, const char *key);
+/* Pushes table[key] by raw access; its type. */
+int jox_read_field(lua_State *L, int index, const char *key);
+/* Reports string keys of a table that are not known; with `items`, numbers are fine. */
+void jox_read_check(JoxBuild *build, int index, const char *path, const char *const *known,
+                    size_t count, bool items);
+/* Hook number of a function, taken from the stack. */
+int32_t jox_read_add_hook(JoxBuild *build);
+int32_t jox_read_hook(JoxBuild *build, int index, const char *path, const char *key);
+/* A number, distribution or expression, popped; a distribution goes to *dist. */
+JoxValue jox_read_value(JoxBuild *build, const char *path, const JoxParameterInfo *info,
+                        bool *is_dist, JoxDist *dist);
+/* The same where a distribution is drawn once per agent, into a slot of its own. */
+JoxValue jox_read_parameter(JoxBuild *build, const char *path, const JoxParameterInfo *info);
+/* A condition's program, -1 for none; a function becomes *hook where `hook` is given. Popped. */
+int32_t jox_read_condition(JoxBuild *build, const char *path, int32_t *hook);
+/* A target named by a key, or -1. */
+int16_t jox_read_target(JoxBuild *build, int index, const char *path, const char *key);
+/* The bits of a tag or a list of tags. */
+uint64_t jox_read_tags(JoxBuild *build, int index, const char *path, const char *key);
+/* Fills a state, whose name is set, from the table at `index`. */
+void jox_read_state(JoxBuild *build, int index, JoxState *state);
+
+#endif

@@ -1,0 +1,241 @@
+/* One state of a machine: steering, parameters, actions, transitions. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "lua/read.h"
+
+static const char *const STATE_KEYS[] = {
+    "steer",    "lasts",  "removes",   "push_when", "push_toward", "push_weight", "face",
+    "approach", "ignore", "push_only", "kick",      "on_enter",    "on_exit"};
+static const char *const TRANSITION_KEYS[] = {"to", "when", "chance", "on_take", "id"};
+static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state) {
+    lua_State *L = b->vm->L;
+    char full[256];
+    jox_read_join(full, path, "steer");
+    int type = jox_read_field(L, index, "steer");
+    JoxNode *node = jox_node_get(L, -1);
+    if (type == LUA_TFUNCTION) {
+        state->steer[0] =
+            (JoxSteerTerm){.kind = JOX_STEER_FUNCTION, .target = -1, .hook = jox_read_add_hook(b)};
+        state->steer_count = 1;
+        return;
+    }
+    for (JoxNode *t = node; t && t->kind == JOX_NODE_STEER; t = t->next) {
+        if (state->steer_count == JOX_MOST_TERMS) {
+            jox_build_error(b, jox_read_at(b, full), "too-complex", NULL,
+                            "a steering has at most %d terms", JOX_MOST_TERMS);
+            break;
+        }
+        JoxSteerTerm *term = &state->steer[state->steer_count++];
+        *term = t->term;
+        term->target = t->target ? jox_build_target(b, t->target, false) : -1;
+        if (t->weight && t->weight->kind == JOX_NODE_NUMBER && t->weight->op == JOX_OP_CONST)
+            term->weight = (JoxValue){JOX_VALUE_CONST, t->weight->number, 0, 0};
+        else if (t->weight)
+            term->weight = (JoxValue){JOX_VALUE_PROGRAM, 0.0,
+                                      jox_build_program(b, t->weight, jox_read_at(b, full)), 0};
+        if (term->weight.kind == JOX_VALUE_PROGRAM && term->weight.index < 0)
+            term->weight = (JoxValue){.kind = JOX_VALUE_UNSET};
+    }
+    if (type != LUA_TNIL &&
+        !(node && (node->kind == JOX_NODE_STEER || node->kind == JOX_NODE_POISON)))
+        jox_build_error(b, jox_read_at(b, full), "bad-value", "Example: steer = seek(goal)",
+                        "steer must be a steering or a function, not %s",
+                        node ? "this value" : lua_typename(L, type));
+    lua_pop(L, 1);
+}
+
+/* kick = { ball, at = target, impulse = 0.5 * now.speed }; the impulse is per kg of the ball. */
+static void read_kick(JoxBuild *b, int index, const char *path, JoxState *state) {
+    static const char *const KEYS[] = {"at", "impulse"};
+    static const JoxParameterInfo IMPULSE = {"impulse", "m/s", "", 0, 50, 0};
+    lua_State *L = b->vm->L;
+    char full[256], part[256];
+    jox_read_join(full, path, "kick");
+    int type = jox_read_field(L, index, "kick"), table = lua_gettop(L);
+    if (type == LUA_TTABLE) {
+        jox_read_check(b, table, full, KEYS, 2, true);
+        lua_rawgeti(L, table, 1);
+        JoxNode *ball = jox_node_get(L, -1);
+        if (ball && ball->kind == JOX_NODE_TARGET)
+            state->kick = jox_build_target(b, ball, false);
+        else if (!ball || ball->kind != JOX_NODE_POISON)
+            jox_build_error(b, jox_read_at(b, full), "bad-value",
+                            "Example: kick = { nearest \"ball\", at = goal, impulse = 4 }",
+                            "kick needs the body to kick as its first item");
+        lua_pop(L, 1);
+        state->kick_at = jox_read_target(b, table, full, "at");
+        jox_read_join(part, full, "impulse");
+        if (jox_read_field(L, table, "impulse") == LUA_TNIL) {
+            lua_pop(L, 1);
+            jox_build_error(b, jox_read_at(b, full), "missing-key",
+                            "Example: impulse = 0.5 * now.speed", "kick needs an impulse");
+        } else {
+            state->kick_impulse = jox_read_parameter(b, part, &IMPULSE);
+        }
+    } else if (type != LUA_TNIL) {
+        jox_build_error(b, jox_read_at(b, full), "bad-value", NULL, "kick must be a table");
+    }
+    lua_settop(L, table - 1);
+}
+
+static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state) {
+    static const JoxParameterInfo LASTS = {"lasts", "s", "", 0, 1e6, 0};
+    lua_State *L = b->vm->L;
+    char full[256];
+    jox_read_join(full, path, "lasts");
+    if (jox_read_field(L, index, "lasts") == LUA_TNIL) {
+        lua_pop(L, 1);
+        return;
+    }
+    JoxNode *node = jox_node_get(L, -1);
+    if (node && node->kind == JOX_NODE_OWN) {
+        state->lasts_program = jox_build_program(b, node, jox_read_at(b, full));
+        lua_pop(L, 1);
+        return;
+    }
+    bool is_dist;
+    JoxDist dist;
+    JoxValue value = jox_read_value(b, full, &LASTS, &is_dist, &dist);
+    state->has_lasts = is_dist || value.kind == JOX_VALUE_CONST;
+    state->lasts = is_dist ? dist : jox_dist_constant(value.number);
+    state->lasts_program = value.kind == JOX_VALUE_PROGRAM ? value.index : -1;
+}
+
+static void read_flags(JoxBuild *b, int index, const char *path, JoxState *state) {
+    lua_State *L = b->vm->L;
+    char full[256];
+    int type = jox_read_field(L, index, "removes");
+    jox_read_join(full, path, "removes");
+    if (type != LUA_TNIL && type != LUA_TBOOLEAN)
+        jox_build_error(b, jox_read_at(b, full), "bad-value", NULL,
+                        "removes must be true or false");
+    state->removes = lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    type = jox_read_field(L, index, "push_weight");
+    jox_read_join(full, path, "push_weight");
+    const char *weight = type == LUA_TSTRING ? lua_tostring(L, -1) : "";
+    state->push_nearest = strcmp(weight, "nearest") == 0;
+    if (type != LUA_TNIL && !state->push_nearest && strcmp(weight, "equal") != 0)
+        jox_build_error(b, jox_read_at(b, full), "bad-value", NULL,
+                        "push_weight must be \"equal\" or \"nearest\"");
+    lua_pop(L, 1);
+}
+
+static void read_transition(JoxBuild *b, int index, const char *path, const JoxMachine *m,
+                            JoxState *state, JoxTransition *t) {
+    static const JoxParameterInfo CHANCE = {"chance", "", "", 0, 1, 1};
+    lua_State *L = b->vm->L;
+    char full[256];
+    *t = (JoxTransition){
+        .when = -1, .when_hook = -1, .on_take = -1, .line = jox_read_at(b, path).line};
+    jox_read_check(b, index, path, TRANSITION_KEYS, 5, false);
+    jox_read_join(full, path, "to");
+    int type = jox_read_field(L, index, "to");
+    const char *to = type == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+    int target = to ? jox_machine_state(m, to) : -1;
+    if (!to) {
+        jox_build_error(b, jox_read_at(b, full), "missing-key",
+                        "Example: { to = \"Exit\", when = after(5) }",
+                        "a transition needs `to`, the name of a state");
+    } else if (target < 0) {
+        const char *names[256];
+        size_t count = m->state_count < 256 ? m->state_count : 256;
+        for (size_t s = 0; s < count; s++)
+            names[s] = m->states[s].name;
+        const char *near = jox_suggest(to, names, count);
+        char hint[96];
+        if (near)
+            snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
+        jox_build_error(b, jox_read_at(b, full), "unknown-state", near ? hint : NULL,
+                        "there is no state '%s'", to);
+    }
+    t->to = target < 0 ? 0 : (uint16_t)target;
+    char id[128];
+    snprintf(id, sizeof id, "%s", to ? to : "?");
+    lua_pop(L, 1);
+    if (jox_read_field(L, index, "id") == LUA_TSTRING)
+        snprintf(id, sizeof id, "%s", lua_tostring(L, -1));
+    lua_pop(L, 1);
+    int repeats = 1;
+    for (const JoxTransition *o = state->transitions; o < t; o++)
+        repeats += strcmp(o->id, id) == 0 ||
+                   (strncmp(o->id, id, strlen(id)) == 0 && o->id[strlen(id)] == '#');
+    if (repeats > 1)
+        snprintf(id + strlen(id), sizeof id - strlen(id), "#%d", repeats);
+    t->id = jox_strdup(id);
+    jox_read_join(full, path, "when");
+    jox_read_field(L, index, "when");
+    t->when = jox_read_condition(b, full, &t->when_hook);
+    jox_read_join(full, path, "chance");
+    if (jox_read_field(L, index, "chance") == LUA_TNIL)
+        lua_pop(L, 1);
+    else
+        t->chance = jox_read_parameter(b, full, &CHANCE);
+    t->on_take = jox_read_hook(b, index, path, "on_take");
+}
+
+static void read_transitions(JoxBuild *b, int index, const char *path, JoxState *state) {
+    lua_State *L = b->vm->L;
+    uint32_t count = (uint32_t)lua_rawlen(L, index);
+    if (count > JOX_MOST_TRANSITIONS) {
+        jox_build_error(b, jox_read_at(b, path), "too-many", "Split the state",
+                        "a state has at most %d transitions", JOX_MOST_TRANSITIONS);
+        count = JOX_MOST_TRANSITIONS;
+    }
+    state->transitions = jox_alloc(count + 1, sizeof *state->transitions);
+    for (uint32_t i = 0; i < count; i++) {
+        char full[256], item[16];
+        snprintf(item, sizeof item, "%u", i + 1);
+        jox_read_join(full, path, item);
+        if (lua_rawgeti(L, index, i + 1) != LUA_TTABLE) {
+            jox_build_error(b, jox_read_at(b, full), "bad-value",
+                            "Example: { to = \"Exit\", when = after(5) }",
+                            "a transition must be a table, not %s", luaL_typename(L, -1));
+        } else {
+            read_transition(b, lua_gettop(L), full, b->machine, state,
+                            &state->transitions[state->transition_count]);
+            state->transition_count++;
+        }
+        lua_pop(L, 1);
+    }
+}
+
+void jox_read_state(JoxBuild *b, int index, JoxState *state) {
+    static const char *known[JOX_PARAM_COUNT + sizeof STATE_KEYS / sizeof *STATE_KEYS];
+    const size_t keys = sizeof STATE_KEYS / sizeof *STATE_KEYS;
+    lua_State *L = b->vm->L;
+    char path[256], full[256];
+    snprintf(path, sizeof path, "states.%.200s", state->name);
+    for (size_t k = 0; k < keys; k++)
+        known[k] = STATE_KEYS[k];
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        known[keys + (size_t)p] = jox_parameters[p].name;
+    jox_read_check(b, index, path, known, keys + JOX_PARAM_COUNT, true);
+    state->line = jox_read_at(b, path).line;
+    state->push_when = state->lasts_program = -1;
+    state->kick = state->kick_at = -1;
+    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+        jox_read_join(full, path, jox_parameters[p].name);
+        if (jox_read_field(L, index, jox_parameters[p].name) == LUA_TNIL)
+            lua_pop(L, 1);
+        else
+            state->param[p] = jox_read_parameter(b, full, &jox_parameters[p]);
+    }
+    read_steer(b, index, path, state);
+    read_lasts(b, index, path, state);
+    read_flags(b, index, path, state);
+    read_kick(b, index, path, state);
+    jox_read_join(full, path, "push_when");
+    jox_read_field(L, index, "push_when");
+    state->push_when = jox_read_condition(b, full, NULL);
+    state->push_toward = jox_read_target(b, index, path, "push_toward");
+    state->face = jox_read_target(b, index, path, "face");
+    state->approach = jox_read_target(b, index, path, "approach");
+    state->ignore = jox_read_tags(b, index, path, "ignore");
+    state->push_only = jox_read_tags(b, index, path, "push_only");
+    state->on_enter = jox_read_hook(b, index, path, "on_enter");
+    state->on_exit = jox_read_hook(b, index, path, "on_exit");
+    read_transitions(b, index, path, state);
+}

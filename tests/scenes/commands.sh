@@ -1,0 +1,63 @@
+# The commands as a user calls them: exit statuses, errors, reload, seeds, limits of scripts.
+. tests/scenes/lib.sh
+expect() { # NAME STATUS TEXT COMMAND...: the exit status, and a text in the output
+    local name=$1 status=$2 text=$3; shift 3
+    timeout 60 "$@" >"$work/out" 2>&1 </dev/null
+    local got=$?
+    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
+        echo "not ok $name: status $got, wanted $status and '$text'"; head -5 "$work/out"; fi
+}
+expect "help" 0 "usage: jostle" "$JOSTLE" --help
+expect "run --help" 0 "--threads" "$JOSTLE" run --help
+expect "version" 0 "jostle 0." "$JOSTLE" --version
+expect "unknown command" 2 "unknown command 'fly'" "$JOSTLE" fly
+expect "unknown option" 2 "Did you mean --seed" "$JOSTLE" run scenes/circle.yaml --sed 3
+expect "no scene" 2 "no scene given" "$JOSTLE" run
+expect "bad number" 2 "takes a number" "$JOSTLE" run scenes/circle.yaml --dt fast
+expect "zero step" 2 "0.001" "$JOSTLE" run scenes/circle.yaml --dt 0
+expect "missing scene" 3 "no-such.yaml" "$JOSTLE" run no-such.yaml
+expect "bad override" 3 "Did you mean 'crossing'" "$JOSTLE" run scenes/circle.yaml --set groups.crosing.count=3
+expect "negative mass" 3 "mass must be" "$JOSTLE" run scenes/running-through.yaml --set groups.runner.set.mass=-5
+expect "0 agents" 3 "count must be" "$JOSTLE" run scenes/circle.yaml --set groups.crossing.count=0
+expect "unwritable recording" 1 "cannot record" "$JOSTLE" run scenes/running-through.yaml --quiet --record /proc/x/y
+expect "unwritable report" 1 "cannot make" "$JOSTLE" run scenes/running-through.yaml --quiet --report /proc/x/y
+expect "check finds nothing" 0 "nothing wrong" "$JOSTLE" check scenes behaviours
+expect "trace" 0 "Run -> Arrived" "$JOSTLE" run scenes/running-through.yaml --quiet --trace 25
+expect "bench" 0 "running-through" "$JOSTLE" bench scenes/running-through.yaml --steps 10 --warm-up 5
+"$JOSTLE" run scenes/running-through.yaml --quiet --seeds 3 --for 2 --summary "$work/seeds.json"
+grep -q '"runs": 3' "$work/seeds.json" && grep -q '"lp_failure_share": {"mean"' "$work/seeds.json"; verdict "several seeds" $?
+"$JOSTLE" run scenes/running-through.yaml --quiet --steps 5 --summary - | grep -q "$(sha256sum scenes/running-through.yaml | cut -d' ' -f1)"
+verdict "the summary lists its inputs" $?
+
+# Hostile machines: none hangs or kills a run, each is named.
+mkdir -p "$work/s"
+scene() { printf 'jostle: 1\nplaces: {yard: {polygon: [[0, 0], [5, 0], [5, 5], [0, 5]]}}\ngroups: {g: {behaviour: %s, count: 3, fill: grid, in: yard}}\n' "$1" >"$work/s/scene.yaml"; }
+hostile() { # NAME STATUS TEXT LUA
+    printf '%s\n' "$4" >"$work/s/bad.lua"; scene bad.lua
+    expect "$1" "$2" "$3" timeout 20 "$JOSTLE" run "$work/s/scene.yaml" --steps 20 --quiet
+}
+sheet() { printf 'return machine { name = "m", start = "A", states = { A = { steer = hold, on_enter = function(me) end, { to = "A", when = function(me) %s end } } } }' "$1"; }
+hostile "loops for ever while loading" 3 "too long" 'while true do end'
+hostile "eats memory while loading" 3 "memory" 'local t = {} for i = 1, 1e9 do t[i] = {i} end'
+hostile "throws while loading" 3 "boom" 'error("boom")'
+hostile "returns nothing" 3 "must return one machine" 'local x = 1'
+hostile "compiled code" 3 "compiled Lua" "$(printf '\033Lua')"
+hostile "loops for ever in a hook" 0 "too long" "$(sheet 'while true do end')"
+hostile "eats memory in a hook" 0 "memory" "$(sheet 'local s = "x" for i = 1, 40 do s = s .. s end')"
+hostile "throws a table in a hook" 0 "error needs a text" "$(sheet 'error({})')"
+hostile "returns nonsense" 0 "must return true or false" "$(sheet 'return 7')"
+hostile "recurses without end" 0 "m > state A" "$(sheet 'local function f() return 1 + f() end return f() > 0')"
+hostile "reads files" 3 "unknown word 'io'" 'local f = io.open("/etc/passwd") return machine {}'
+hostile "leaves its folder" 3 "not a plain name" 'require "../../secret"'
+hostile "NaN for mass" 3 "mass must be" 'return machine { name = "m", start = "A", defaults = { mass = 0/0 }, states = { A = {} } }'
+hostile "a misspelt word" 3 "Did you mean 'stuck'" 'return machine { name = "m", start = "A", states = { A = { { to = "A", when = stuk(3) } } } }'
+
+# Reload while running: a valid change goes live, an invalid one leaves the old running.
+cp behaviours/stander.lua "$work/s/live.lua"; scene live.lua
+"$JOSTLE" run "$work/s/scene.yaml" --steps 900000000 --watch --quiet >"$work/watch" 2>&1 &
+pid=$!
+sleep 0.7; sed -i 's/perception = 1.5/perception = 2.5/' "$work/s/live.lua"
+sleep 0.7; echo 'return machine {' >"$work/s/live.lua"
+sleep 0.7; kill -INT $pid 2>/dev/null; wait $pid
+grep -q 'version 2 is live' "$work/watch"; verdict "a valid change goes live" $?
+grep -q 'Version 2 keeps running' "$work/watch"; verdict "an invalid one leaves the old running" $?

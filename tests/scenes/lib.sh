@@ -1,0 +1,29 @@
+# What the scene tests share. Prints "ok NAME" or "not ok NAME".
+B=${B:-build/release}
+JOSTLE=${JOSTLE:-$B/jostle}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+verdict() { # NAME STATUS
+    if [ "$2" = 0 ]; then echo "ok $1"; else echo "not ok $1"; fi
+}
+# figure NAME < summary: a top-level number or string of a summary
+figure() { sed -n "s/^ \"$1\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}$/\1/p"; }
+# hash_of PROGRAM SCENE ARGS...: the state's hash at the end of a run
+hash_of() {
+    local program=$1 scene=$2; shift 2
+    "$program" run "$scene" --quiet --summary - "$@" 2>/dev/null | figure hash
+}
+# same_hash NAME HASH...: all equal and not empty. The one helper that compares runs.
+same_hash() {
+    local name=$1 first=$2 h; shift
+    for h in "$@"; do
+        if [ -z "$h" ] || [ "$h" != "$first" ]; then echo "not ok $name: $*"; return; fi
+    done
+    echo "ok $name"
+}
+# between NAME VALUE LOW HIGH
+between() {
+    awk -v v="$2" -v a="$3" -v b="$4" 'BEGIN {exit !(v != "" && v >= a && v <= b)}'
+    if [ $? = 0 ]; then echo "ok $1 ($2)"; else echo "not ok $1: $2 is not within $3 to $4"; fi
+}

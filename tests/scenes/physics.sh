@@ -1,0 +1,43 @@
+# What must come out of the shipped scenes: figures of their summaries and recordings.
+. tests/scenes/lib.sh
+sql() { sqlite3 "$1" "$2"; }
+
+"$JOSTLE" run scenes/tawaf.yaml --quiet --set groups.pilgrims.count=6000 --set sources.0.keep=6000 \
+    --set "places.mataf.polygon=$(: )" --for 1 >/dev/null 2>&1
+[ $? = 3 ]; verdict "a polygon of text is bad input" $?
+
+"$JOSTLE" run scenes/tawaf.yaml --quiet --for 20 --set groups.pilgrims.count=6000 --set sources.0.keep=6000 \
+    --record "$work/t.sqlite" --summary "$work/t.json" 2>/dev/null
+verdict "the Tawaf records" $?
+between "agents stay" "$(figure agents <"$work/t.json")" 6000 6000
+between "nobody in the Kaaba" "$(sql "$work/t.sqlite" "SELECT count(*) FROM trajectory_data WHERE pos_x BETWEEN -5.4 AND 5.2 AND pos_y BETWEEN -6.2 AND 6.1")" 0 0
+between "nobody in the Maqam" "$(sql "$work/t.sqlite" "SELECT count(*) FROM trajectory_data WHERE pos_x BETWEEN 15.85 AND 16.75 AND pos_y BETWEEN -1.45 AND -0.55")" 0 0
+# Angular momentum about the Kaaba: counter-clockwise for nearly all who move.
+between "circuits run counter-clockwise" "$(sql "$work/t.sqlite" "
+    SELECT avg((a.pos_x * (b.pos_y - a.pos_y) - a.pos_y * (b.pos_x - a.pos_x)) > 0)
+    FROM trajectory_data a JOIN trajectory_data b ON a.id = b.id AND b.frame = 200 WHERE a.frame = 100")" 0.95 1
+between "speed limit" "$(sql "$work/t.sqlite" "
+    SELECT max((a.pos_x - b.pos_x) * (a.pos_x - b.pos_x) + (a.pos_y - b.pos_y) * (a.pos_y - b.pos_y)) * 100
+    FROM trajectory_data a JOIN trajectory_data b ON a.id = b.id AND b.frame = a.frame + 1
+    WHERE a.frame BETWEEN 50 AND 60")" 0.1 9
+between "overlaps are slight" "$(figure overlap_p99 <"$work/t.json")" 0 0.05
+between "frames" "$(sql "$work/t.sqlite" "SELECT count(DISTINCT frame) FROM trajectory_data")" 200 200
+[ "$(sql "$work/t.sqlite" "SELECT value FROM metadata WHERE key = 'version'")" = 2 ]; verdict "format version 2" $?
+
+"$JOSTLE" run scenes/circle.yaml --quiet --record "$work/c.sqlite" --summary "$work/c.json"
+between "all thousand arrive" "$(grep -o '"Rest": [0-9]*' "$work/c.json" | grep -o '[0-9]*')" 900 1000
+
+for forces in true false; do
+    "$JOSTLE" run scenes/running-through.yaml --quiet --set forces.enabled=$forces --record "$work/r-$forces.sqlite" ||
+        "$JOSTLE" run scenes/running-through.yaml --quiet --record "$work/r-$forces.sqlite"
+    moved[$([ $forces = true ] && echo 1 || echo 0)]=$(sql "$work/r-$forces.sqlite" "
+        SELECT avg(abs(a.pos_x - b.pos_x) + abs(a.pos_y - b.pos_y)) FROM trajectory_data a
+        JOIN trajectory_data b ON a.id = b.id WHERE a.frame = 1 AND b.frame = 100 AND a.id < 25")
+done
+between "pushed people are displaced" "${moved[1]}" 0.05 2
+awk -v a="${moved[1]}" -v b="${moved[0]}" 'BEGIN {exit !(a > b)}'; verdict "farther than without forces (${moved[1]} against ${moved[0]})" $?
+
+"$JOSTLE" run scenes/dodgeball.yaml --for 30 --quiet --summary "$work/d.json" --record "$work/d.sqlite"
+between "balls are kicked" "$(grep -o '"kicks": [0-9]*' "$work/d.json" | grep -o '[0-9]*')" 1 100
+between "the ball stays above ground" "$(sql "$work/d.sqlite" "SELECT min(z) FROM jostle_body")" 0.05 0.2
+between "the player moves as the input log says" "$(sql "$work/d.sqlite" "SELECT max(pos_x) - min(pos_x) FROM trajectory_data WHERE id = 0")" 1 16
