@@ -11,7 +11,7 @@ enum { MOST_CELLS = 1 << 16 };
 
 /* Bounds of what a body covers in the plane; false where agents cannot touch it. */
 static bool body_bounds(const JoxObject *body, float margin, JoxV2 *low, JoxV2 *high) {
-    if (!body->live || !body->in_band)
+    if (!body->live || !body->in_band || body->swept)
         return false;
     JoxV2 centre = {body->position.x, body->position.y};
     *low = jox_v2(centre.x - body->round, centre.y - body->round);

@@ -120,10 +120,10 @@ bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *w
         "set label 1 sprintf('greatest at any time: %%.1f per m^2 at (%%.0f, %%.0f) m, t = %%.0f "
         "s',"
         " %g, %g, %g, %g) at graph 0.01, 0.02 front tc '#c00000'\n"
-        "plot 'density.csv' skip 1 using 1:2:3 with image, 'walls.dat' using 1:2 with lines lw 1.5 "
-        "lc 'black'\n",
+        "plot 'density.csv' skip 1 using 1:2:3 with image%s\n",
         most > 0.0 ? most : 1.0, d->low.x, d->low.x + width, d->low.y, d->low.y + height, d->most,
-        d->most_at.x, d->most_at.y, d->most_time);
+        d->most_at.x, d->most_at.y, d->most_time,
+        walls->ring_count ? ", 'walls.dat' using 1:2 with lines lw 1.5 lc 'black'" : "");
     return close_file(data, "density.plt", error) && draw(folder, "density.plt", error);
 }
 

@@ -474,6 +474,12 @@ static void override(JoxLoad *l, JoxYaml *root, const char *set) {
             unsigned long i = strtoul(key, &end, 10);
             next = *end == 0 && i < map->count ? map->items[i] : NULL;
         }
+        if (!next && map == root && jox_key_is_table("scene", key)) {
+            next =
+                jox_hoard_take(l->reader.hoard, 1, sizeof *next); /* a table left at its defaults */
+            *next = (JoxYaml){.kind = JOX_YAML_MAP, .position = at};
+            jox_yaml_set(l->reader.hoard, map, key, next);
+        }
         if (!next || next->kind == JOX_YAML_SCALAR) {
             jox_diag_error(l->reader.diagnostics, at, "bad-override",
                            map->kind == JOX_YAML_MAP

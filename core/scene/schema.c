@@ -143,6 +143,11 @@ static const JoxKey *find_key(const char *owner, const char *name) {
     return NULL;
 }
 
+bool jox_key_is_table(const char *owner, const char *name) {
+    const JoxKey *key = find_key(owner, name);
+    return key && key->type == JOX_TYPE_TABLE;
+}
+
 bool jox_keys_check(const JoxReader *reader, const JoxYaml *map, const char *owner) {
     if (!map || map->kind != JOX_YAML_MAP) {
         if (map)

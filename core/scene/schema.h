@@ -41,6 +41,8 @@ typedef struct JoxReader {
 /* Reports keys of the map that the owner lacks, and required keys that are missing; false if
    `map` is no map. */
 bool jox_keys_check(const JoxReader *reader, const JoxYaml *map, const char *owner);
+/* Whether the key holds a map of further keys. */
+bool jox_key_is_table(const char *owner, const char *name);
 /* Values by owner and key, checked against the table; the default where the key is missing. */
 double jox_key_number(const JoxReader *reader, const JoxYaml *map, const char *owner,
                       const char *name);
