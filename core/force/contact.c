@@ -100,7 +100,9 @@ static void join_ends(JoxForces *f) {
         sum += ends;
         f->starts[i] = sum;
     }
-    JOX_RESERVE(f->ends, f->end_capacity, sum);
+    uint32_t room =
+        8 * f->step.agents->count; /* a dense crowd's, so that no steady step grows it */
+    JOX_RESERVE(f->ends, f->end_capacity, sum > room ? sum : room);
     visit_pairs(f, enter_ends);
 }
 

@@ -109,7 +109,9 @@ uint32_t jox_transfers_sort(JoxForces *f) {
         total += f->transfers.counts[c];
     if (!total)
         return 0;
-    JOX_RESERVE(f->sorted, f->sorted_capacity, total);
+    /* Room for a dense crowd from the start, so that a steady step never grows it. */
+    uint32_t room = 6 * f->step.agents->count;
+    JOX_RESERVE(f->sorted, f->sorted_capacity, total > room ? total : room);
     memset(f->starts, 0, ((size_t)n + 1) * sizeof *f->starts);
     const JoxTransfer *items = f->transfers.items;
     for (uint32_t c = 0; c < f->chunks; c++) {

@@ -24,6 +24,7 @@ static void reserve(JoxMind *mind, JoxPool *pool) {
     s->fired = jox_realloc(s->fired, n, sizeof *s->fired);
     s->rank = jox_realloc(s->rank, n, sizeof *s->rank);
     s->list = jox_realloc(s->list, n, sizeof *s->list);
+    JOX_RESERVE(mind->taken, mind->taken_capacity, n);
     mind->push_on = jox_realloc(mind->push_on, n, 1);
     mind->push_nearest = jox_realloc(mind->push_nearest, n, 1);
     mind->push_toward_x = jox_realloc(mind->push_toward_x, n, sizeof(float));
