@@ -8,7 +8,7 @@
 
 static const char *const MACHINE_KEYS[] = {"name",   "version", "start", "defaults",
                                            "counts", "renamed", "states"};
-enum { KEYS_MOST = 64 };
+enum { KEYS_MOST = 64, MOST_LOOKS = 20000000 };
 
 JoxPosition jox_read_at(const JoxBuild *b, const char *path) {
     return jox_source_path(b->source, path);
@@ -214,7 +214,8 @@ static bool scan_condition(JoxBuild *b, const char *path) {
     for (uint32_t use = span->first; use < span->last; use++) {
         if (t[use].kind != JOX_TOKEN_NAME)
             continue;
-        for (uint32_t i = 0; i + 2 < span->first; i++) {
+        for (uint32_t i = 0; i + 2 < span->first && b->source->looks < MOST_LOOKS; i++) {
+            b->source->looks++;
             bool defines = jox_token_is(&t[i], "local") && jox_token_is(&t[i + 2], "=") &&
                            t[i + 1].length == t[use].length &&
                            memcmp(t[i + 1].text, t[use].text, t[use].length) == 0;
@@ -475,7 +476,7 @@ static void warn_unreachable(JoxBuild *b) {
     }
 }
 
-JoxMachine *jox_build(JoxVm *vm, JoxSource *source) {
+void jox_build(JoxVm *vm, JoxSource *source) {
     lua_State *L = vm->L;
     JoxBuild build = {.vm = vm, .source = source};
     JoxNode *node = jox_node_get(L, -1);
@@ -485,10 +486,10 @@ JoxMachine *jox_build(JoxVm *vm, JoxSource *source) {
                            "End the file with: return machine { ... }",
                            "a behaviour must return one machine, not %s",
                            node ? "a value" : lua_typename(L, lua_type(L, -1)));
-        return NULL;
+        return;
     }
     size_t errors = vm->diagnostics->errors;
-    JoxMachine *m = build.machine = jox_alloc(1, sizeof *m);
+    JoxMachine *m = build.machine = vm->built = jox_alloc(1, sizeof *m);
     m->version = 1;
     m->vm = -1;
     m->path = jox_strdup(source->path);
@@ -512,10 +513,6 @@ JoxMachine *jox_build(JoxVm *vm, JoxSource *source) {
     read_start(&build, table);
     read_counts(&build, table);
     read_renamed(&build, table);
-    if (vm->diagnostics->errors > errors) {
-        jox_machine_free(m);
-        return NULL;
-    }
-    warn_unreachable(&build);
-    return m;
+    if (vm->diagnostics->errors == errors)
+        warn_unreachable(&build);
 }

@@ -66,17 +66,17 @@ typedef struct Code {
     bool too_deep;
 } Code;
 
-enum { LONGEST = 1000 };
+enum { LONGEST = 1000, DEEPEST = 200 };
 
-static void emit(Code *code, const JoxNode *node, uint32_t to) {
-    if (to + 3 >= JOX_MOST_REGISTERS || code->count >= LONGEST) {
+static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
+    if (to + 3 >= JOX_MOST_REGISTERS || code->count >= LONGEST || depth > DEEPEST) {
         code->too_deep = true;
         return;
     }
     const JoxNode *inputs[3] = {node->a, node->b, node->c};
     uint32_t used = 0;
     for (; used < 3 && inputs[used] && !code->too_deep; used++)
-        emit(code, inputs[used], to + used);
+        emit(code, inputs[used], to + used, depth + 1);
     JoxInstruction in = {.op = (uint8_t)(node->kind == JOX_NODE_OWN ? JOX_OP_OWN : node->op),
                          .to = (uint8_t)to,
                          .a = (uint8_t)to,
@@ -103,7 +103,7 @@ int32_t jox_build_program(JoxBuild *build, const JoxNode *node, JoxPosition posi
     if (node->kind == JOX_NODE_POISON)
         return -1;
     Code code = {.build = build};
-    emit(&code, node, 0);
+    emit(&code, node, 0, 0);
     if (code.too_deep) {
         jox_build_error(build, position, "too-complex", "Split it over several states",
                         "this expression is too deep or too long");

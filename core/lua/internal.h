@@ -32,6 +32,7 @@ typedef struct JoxSource {
     size_t token_count, token_capacity;
     JoxPath *paths;
     size_t path_count, path_capacity;
+    uint32_t looks; /* tokens looked at for conditions; bounded */
 } JoxSource;
 
 /* Splits Lua source into tokens; never fails, for Lua's own parser reports what is malformed. */
@@ -108,6 +109,8 @@ typedef struct JoxVm {
     JoxMemorySlot *memory; /* declared by memory{} */
     uint32_t memory_count;
     size_t memory_capacity;
+    JoxMachine *built;    /* under construction, so that a failure can free it */
+    size_t failed_source; /* in which file the last failure was */
     const JoxMachine *machine;
     uint32_t failures; /* of hooks, in the present second */
     uint32_t failures_tick;
@@ -160,8 +163,8 @@ void jox_words_open(JoxVm *vm);
 const char *const *jox_words_names(size_t *count);
 bool jox_word_lookup(lua_State *L, const char *name); /* pushes it */
 
-/* Makes the machine of the table on top of the stack; NULL with diagnostics. */
-JoxMachine *jox_build(JoxVm *vm, JoxSource *source);
+/* Makes vm->built of the machine on top of the stack; what is wrong goes to the diagnostics. */
+void jox_build(JoxVm *vm, JoxSource *source);
 void jox_hooks_open(JoxVm *vm);
 
 /* The machine under construction. */

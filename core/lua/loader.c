@@ -7,7 +7,7 @@
 
 /* Where Lua's parser stopped: it names the line and, mostly, the token "near" it. */
 static void report_failure(JoxVm *vm, const char *why, int line) {
-    JoxSource *source = &vm->sources[0];
+    JoxSource *source = &vm->sources[vm->failed_source];
     JoxPosition position = {source->path, line, 0, 0};
     const char *near = strstr(why, " near '");
     if (near) {
@@ -18,6 +18,12 @@ static void report_failure(JoxVm *vm, const char *why, int line) {
             position = (JoxPosition){source->path, line, t->column, t->end_column};
     }
     jox_diag_error(vm->diagnostics, position, "lua-error", NULL, "%s", why);
+}
+
+static int build_protected(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    jox_build(vm, &vm->sources[0]);
+    return 0;
 }
 
 static JoxMachine *run(JoxVm *vm, JoxSource *source) {
@@ -40,9 +46,15 @@ static JoxMachine *run(JoxVm *vm, JoxSource *source) {
             report_failure(vm, why, line);
         return NULL;
     }
-    vm->loading = true;
-    JoxMachine *machine = jox_build(vm, &vm->sources[0]);
+    /* Building reads and pushes, which may fail for want of memory: it too runs protected. */
+    lua_pushcfunction(L, build_protected);
+    lua_insert(L, 1);
+    if (!jox_vm_call(vm, 1, 0, vm->owner->limits.load_instructions, &why, &line) &&
+        vm->diagnostics->errors == errors)
+        report_failure(vm, why, line);
     lua_settop(L, 0);
+    JoxMachine *machine = vm->built;
+    vm->built = NULL;
     if (vm->diagnostics->errors > errors) {
         jox_machine_free(machine);
         return NULL;

@@ -77,6 +77,15 @@ static JoxNode *binary(lua_State *L, JoxNodeKind kind, int op, JoxNode *a, JoxNo
     return node;
 }
 
+enum { MOST_SUMMANDS = 64 };
+
+static int summands(const JoxNode *steer) {
+    int n = 0;
+    for (; steer && n <= MOST_SUMMANDS; steer = steer->next)
+        n++;
+    return n;
+}
+
 /* A copy of a steering sum with every weight multiplied. */
 static JoxNode *scaled(lua_State *L, JoxNode *steer, JoxNode *by) {
     JoxNode *node = jox_node_push(L, JOX_NODE_STEER);
@@ -105,6 +114,11 @@ static int arithmetic(lua_State *L, int op, const char *sign) {
         return 1;
     }
     JoxNode *left = jox_node_get(L, 1), *right = jox_node_get(L, 2);
+    int terms = (left && left->kind == JOX_NODE_STEER ? summands(left) : 0) +
+                (right && right->kind == JOX_NODE_STEER ? summands(right) : 0);
+    if (terms > MOST_SUMMANDS)
+        return luaL_error(L, "a steering of so many terms");
+    luaL_checkstack(L, 3 * MOST_SUMMANDS, NULL);
     if (op == JOX_OP_MUL && a && right && right->kind == JOX_NODE_STEER) {
         scaled(L, right, a);
         return 1;

@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -332,19 +333,31 @@ static bool plain_name(const char *name) {
     return true;
 }
 
+/* Whether a file, with every link on its way followed, still lies below the folder. */
+static bool lies_below(const char *path, const char *folder) {
+    char *real = realpath(path, NULL), *root = realpath(folder, NULL);
+    size_t n = root ? strlen(root) : 0;
+    bool below = real && root && strncmp(real, root, n) == 0 && real[n] == '/';
+    free(real); /* made by the C library */
+    free(root);
+    return below;
+}
+
 static bool find_module(const JoxVm *vm, const char *name, char path[1024]) {
     const char *own = vm->sources[0].path, *slash = strrchr(own, '/');
-    int folder = slash ? (int)(slash - own) : 1;
-    const char *base = slash ? own : ".";
+    char folders[3][512];
     struct stat info;
-    const char *const forms[] = {"%.*s/%s.lua", "%.*s/../scripts/%s.lua"};
-    for (int i = 0; i < 2; i++) {
-        snprintf(path, 1024, forms[i], folder, base, name);
+    snprintf(folders[0], sizeof folders[0], "%.*s", slash ? (int)(slash - own) : 1,
+             slash ? own : ".");
+    snprintf(folders[1], sizeof folders[1], "%.490s/../scripts", folders[0]);
+    snprintf(folders[2], sizeof folders[2], "%s/scripts", JOX_DATADIR);
+    for (int i = 0; i < 3; i++) {
+        snprintf(path, 1024, "%.511s/%.400s.lua", folders[i], name);
         if (lstat(path, &info) == 0)
-            return true;
+            return S_ISLNK(info.st_mode) ||
+                   lies_below(path, folders[i]); /* links are refused later */
     }
-    snprintf(path, 1024, JOX_DATADIR "/scripts/%s.lua", name);
-    return lstat(path, &info) == 0;
+    return false;
 }
 
 static int sandbox_require(lua_State *L) {

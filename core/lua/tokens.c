@@ -176,10 +176,12 @@ void jox_source_scan(JoxSource *source) {
             scan_one(&s);
         }
     }
-    for (size_t i = 0; i + 2 < source->token_count; i++)
-        if (jox_token_is(&source->tokens[i], "machine") &&
-            jox_token_is(&source->tokens[i + 1], "{"))
+    for (size_t i = source->token_count; i-- > 0;) /* the one that the file ends with */
+        if (i + 2 < source->token_count && jox_token_is(&source->tokens[i], "machine") &&
+            jox_token_is(&source->tokens[i + 1], "{")) {
             read_table(source, i + 1, "", 0);
+            break;
+        }
 }
 
 void jox_source_free(JoxSource *source) {
@@ -205,7 +207,8 @@ JoxToken *jox_source_find(JoxSource *source, int line, const char *name) {
         JoxToken *t = &source->tokens[low];
         if (t->length != length || memcmp(t->text, name, length) != 0)
             continue;
-        if (!t->used) {
+        bool key = low + 1 < source->token_count && jox_token_is(t + 1, "="); /* not a use */
+        if (!t->used && !key) {
             t->used = true;
             return t;
         }

@@ -29,6 +29,10 @@ static void *allocate(void *context, void *memory, size_t old, size_t size) {
     void *result = realloc(memory, size);
     if (result)
         vm->used += size - old;
+    if (size > old) { /* bytes cost too: a few instructions can copy megabytes */
+        uint64_t cost = (size - old) >> 4;
+        vm->left = vm->left > cost ? vm->left - cost : 0;
+    }
     return result;
 }
 
@@ -113,11 +117,14 @@ const char *jox_vm_intern(JoxVm *vm, const char *name) {
 }
 
 /* Splits "b12:34: message" into line and message; the number is that of the source. */
-static const char *split_message(const char *message, int *line) {
+static const char *split_message(JoxVm *vm, const char *message, int *line) {
     int source, used = 0;
     *line = 0;
-    if (sscanf(message, "b%d:%d: %n", &source, line, &used) == 2 && used > 0)
+    vm->failed_source = 0;
+    if (sscanf(message, "b%d:%d: %n", &source, line, &used) == 2 && used > 0) {
+        vm->failed_source = source > 0 && (size_t)source < vm->source_count ? (size_t)source : 0;
         return message + used;
+    }
     *line = 0;
     return message;
 }
@@ -126,6 +133,7 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
                  int *line) {
     vm->left = instructions;
     vm->over = vm->out_of_memory = false;
+    vm->failed_source = 0;
     lua_sethook(vm->L, count_hook, LUA_MASKCOUNT, CHECK_EVERY);
     int status = lua_pcall(vm->L, arguments, results, 0);
     lua_sethook(vm->L, NULL, 0, 0);
@@ -138,7 +146,7 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     if (status == LUA_ERRMEM || vm->out_of_memory)
         snprintf(text, sizeof text, "it asked for too much memory and was stopped");
     else if (lua_type(vm->L, -1) == LUA_TSTRING)
-        snprintf(text, sizeof text, "%s", split_message(lua_tostring(vm->L, -1), line));
+        snprintf(text, sizeof text, "%s", split_message(vm, lua_tostring(vm->L, -1), line));
     else
         snprintf(text, sizeof text, "it raised an error that is a %s, not a text",
                  lua_typename(vm->L, lua_type(vm->L, -1)));

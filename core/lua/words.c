@@ -103,6 +103,8 @@ JoxPosition jox_word_position(lua_State *L, const char *word) {
             continue;
         JoxSource *source = &vm->sources[number];
         const JoxToken *t = jox_source_find(source, debug.currentline, word);
+        if (!t && word[0] == '<') /* Lua turns a > b into b < a */
+            t = jox_source_find(source, debug.currentline, word[1] ? ">=" : ">");
         return t ? (JoxPosition){source->path, t->line, t->column, t->end_column}
                  : (JoxPosition){source->path, debug.currentline, 0, 0};
     }
@@ -266,6 +268,9 @@ static int make_word(lua_State *L) {
     node->op = word->op;
     switch (word->makes) {
     case JOX_NODE_TARGET: /* one_of */
+        if (arguments[0]->kind != JOX_NODE_TARGET || arguments[0]->target_kind != JOX_TARGET_PLACE)
+            return jox_word_error(L, "one_of", "bad-argument", "Example: one_of \"gates\"",
+                                  "one_of takes the name of a set of places");
         node->target_kind = JOX_TARGET_ONE_OF;
         node->target_arg = arguments[0]->target_arg;
         node->name = arguments[0]->name;

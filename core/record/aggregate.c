@@ -1,6 +1,7 @@
 #include "record/aggregate.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +21,7 @@ typedef struct Figure {
 typedef struct Reader {
     const char *at;
     Figure *figures;
-    size_t count, capacity, texts;
+    size_t count, capacity, texts, text; /* `text`: the one being read */
     char path[LONGEST_PATH];
     bool bad;
 } Reader;
@@ -60,12 +61,13 @@ static void add_number(Reader *r, double value) {
     size_t f = 0;
     while (f < r->count && strcmp(r->figures[f].path, r->path) != 0)
         f++;
-    if (f == r->count) {
+    if (f == r->count && r->text == 0) {
         JOX_RESERVE(r->figures, r->capacity, r->count + 1);
         r->figures[r->count++] =
             (Figure){jox_strdup(r->path), jox_alloc(r->texts, sizeof(double)), 0};
     }
-    if (r->figures[f].count < r->texts)
+    /* Those that an earlier text lacks, or that this one repeats, are left out. */
+    if (f < r->count && r->figures[f].count == r->text)
         r->figures[f].values[r->figures[f].count++] = value;
 }
 
@@ -94,12 +96,20 @@ static void read_value(Reader *r, int depth) {
     } else if (*r->at == '"') {
         read_string(r, NULL, 0);
     } else if (isalpha((unsigned char)*r->at)) { /* true, false, null */
-        while (isalpha((unsigned char)*r->at))
-            r->at++;
+        static const char *const WORDS[] = {"true", "false", "null"};
+        size_t length_of = 0;
+        while (isalpha((unsigned char)r->at[length_of]))
+            length_of++;
+        bool known = false;
+        for (int w = 0; w < 3; w++)
+            known |= strlen(WORDS[w]) == length_of && !strncmp(r->at, WORDS[w], length_of);
+        r->bad |= !known;
+        r->at += length_of;
     } else {
         char *end;
         double value = strtod(r->at, &end);
-        r->bad |= end == r->at;
+        r->bad |=
+            end == r->at || end > r->at + strspn(r->at, "+-.0123456789eE") || !isfinite(value);
         r->at = end;
         if (!r->bad)
             add_number(r, value);
@@ -122,7 +132,10 @@ bool jox_aggregate(const char *const *texts, size_t count, JoxText *out) {
     Reader r = {.texts = count};
     for (size_t t = 0; t < count && !r.bad; t++) {
         r.at = texts[t];
+        r.text = t;
         r.path[0] = 0;
+        skip_space(&r);
+        r.bad |= *r.at != '{';
         read_value(&r, 0);
         skip_space(&r);
         r.bad |= *r.at != 0;

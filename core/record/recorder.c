@@ -221,10 +221,11 @@ JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, Jo
             jox_text_printf(error, "'%s' is not a recording and is not replaced", path);
             return NULL;
         }
-        char side[1100];
         for (int i = 0; i < 2; i++) { /* what a run that was killed left beside it */
-            snprintf(side, sizeof side, "%s-%s", path, i ? "shm" : "wal");
-            unlink(side);
+            JoxText side = {0};
+            jox_text_printf(&side, "%s-%s", path, i ? "shm" : "wal");
+            unlink(side.data);
+            jox_text_free(&side);
         }
         unlink(path);
     }

@@ -9,6 +9,7 @@
 #include "base/mem.h"
 #include "scene/internal.h"
 
+static const char OVERRIDE[] = "--set"; /* stands for the file of an override */
 static const double DEGREE = 3.14159265358979323846 / 180.0;
 
 int32_t jox_load_place(const JoxLoad *l, const JoxYaml *name) {
@@ -39,9 +40,11 @@ int32_t jox_load_group(const JoxLoad *l, const JoxYaml *name) {
     return -1;
 }
 
-/* A map's value for a key that must be a name, or NULL. */
-static const JoxYaml *name_at(const JoxYaml *map, const char *key) {
+/* A map's value for a key that must be a name, or NULL (with an error if it is something else). */
+static const JoxYaml *name_at(const JoxLoad *l, const JoxYaml *map, const char *key) {
     const JoxYaml *node = jox_yaml_get(map, key);
+    if (node && node->kind != JOX_YAML_SCALAR)
+        jox_scene_error(&l->reader, node, "bad-type", NULL, "%s must be a name", key);
     return node && node->kind == JOX_YAML_SCALAR ? node : NULL;
 }
 
@@ -115,7 +118,7 @@ static void read_place(const JoxLoad *l, const JoxYaml *map, JoxPlace *place) {
 static void link_places(const JoxLoad *l, const JoxYaml *map) {
     for (uint32_t i = 0; i < l->scene->place_count; i++) {
         JoxPlace *place = &l->scene->places[i];
-        const JoxYaml *start = name_at(map->items[i], "start"), *const * names;
+        const JoxYaml *start = name_at(l, map->items[i], "start"), *const * names;
         if (start)
             place->start = jox_load_place(l, start);
         if (place->start >= 0 && l->scene->places[place->start].kind != JOX_PLACE_LINE)
@@ -129,9 +132,12 @@ static void link_places(const JoxLoad *l, const JoxYaml *map) {
             if (member >= 0 && l->scene->places[member].kind == JOX_PLACE_SET)
                 jox_scene_error(&l->reader, names[n], "bad-place", NULL,
                                 "a set cannot hold another set");
-            else if (member >= 0)
+            else if (member >= 0 && l->scene->places[member].count > 0)
                 place->members[place->member_count++] = member;
         }
+        if (count == 0)
+            jox_scene_error(&l->reader, map->items[i], "bad-place", "set: [NAME, NAME]",
+                            "a set names at least one place");
     }
 }
 
@@ -153,8 +159,11 @@ static void read_places(JoxLoad *l, const JoxYaml *map) {
 }
 
 static void read_regions(JoxLoad *l, const JoxYaml *map) {
-    if (!map || map->kind != JOX_YAML_MAP)
+    if (!map || map->kind != JOX_YAML_MAP) {
+        if (map)
+            jox_scene_error(&l->reader, map, "bad-type", NULL, "regions maps names to polygons");
         return;
+    }
     l->scene->regions = jox_hoard_take(l->reader.hoard, map->count, sizeof *l->scene->regions);
     for (uint32_t i = 0; i < map->count; i++) {
         JoxSceneRegion *region = &l->scene->regions[l->scene->region_count];
@@ -200,6 +209,8 @@ static bool exists(const char *path) {
 /* The behaviour's file: beside the scene, in ../behaviours, or installed; NULL with an error. */
 static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition position) {
     JoxHoard *hoard = l->reader.hoard;
+    /* Overrides are of no file: the scene's folder is meant. */
+    const char *from = strcmp(position.file, OVERRIDE) ? position.file : l->scene->path;
     char relative[512];
     const char *lua = strlen(name) > 4 && !strcmp(name + strlen(name) - 4, ".lua") ? "" : ".lua";
     const char *forms[] = {"%.400s%s", "../behaviours/%.400s%s", "%s/behaviours/%.300s%s"};
@@ -209,7 +220,7 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
         else
             snprintf(relative, sizeof relative, "%s/behaviours/%.300s%s",
                      l->datadir ? l->datadir : JOX_DATADIR, name, lua);
-        char *path = jox_path_beside(hoard, position.file, relative);
+        char *path = jox_path_beside(hoard, from, relative);
         if (exists(path))
             return path;
     }
@@ -220,13 +231,20 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
 }
 
 static void read_mix(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group) {
-    const JoxYaml *one = name_at(map, "behaviour"), *mix = jox_yaml_get(map, "mix");
-    if (!one == !mix) {
+    const JoxYaml *one = name_at(l, map, "behaviour"), *mix = jox_yaml_get(map, "mix");
+    if (mix && mix->kind != JOX_YAML_MAP) {
+        jox_scene_error(&l->reader, mix, "bad-type", "mix: {walker.lua: 3, runner.lua: 1}",
+                        "a mix maps behaviours to weights");
+        return;
+    }
+    if (jox_yaml_get(map, "behaviour") && !one)
+        return;
+    if (!one == !mix || (mix && mix->count == 0)) {
         jox_scene_error(&l->reader, map, "missing-key", "behaviour: walker.lua",
                         "a group needs a behaviour or a mix of them");
         return;
     }
-    uint32_t count = one ? 1 : mix->kind == JOX_YAML_MAP ? mix->count : 0;
+    uint32_t count = one ? 1 : mix->count;
     double sum = 0;
     group->mix = jox_hoard_take(l->reader.hoard, count, sizeof *group->mix);
     for (uint32_t i = 0; i < count; i++) {
@@ -246,6 +264,34 @@ static void read_mix(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group)
     }
     for (uint32_t i = 0; i < group->mix_count; i++)
         group->mix[i].weight /= sum;
+}
+
+/* Whether all that a distribution gives lies in its parameter's range (a normal one: its mean). */
+static bool parameter_fits(const JoxLoad *l, const JoxSceneSet *set, const JoxYaml *value) {
+    int parameter = jox_parameter_find(set->name);
+    const JoxDist *dist = &set->dist;
+    if (parameter < 0 || set->kind != JOX_SET_NUMBER)
+        return true;
+    const JoxParameterInfo *info = &jox_parameters[parameter];
+    bool choose = dist->kind == JOX_DIST_CHOOSE;
+    int count = choose ? dist->choices : dist->kind == JOX_DIST_UNIFORM ? 2 : 1;
+    for (int i = 0; i < count; i++) {
+        double v = choose ? dist->values[i] : i ? dist->b : dist->a;
+        if (v >= info->least && v <= info->greatest)
+            continue;
+        jox_scene_error(&l->reader, value, "out-of-range", NULL,
+                        "%s must be from %g to %g %s, not %g", set->name, info->least,
+                        info->greatest, info->unit, v);
+        return false;
+    }
+    return true;
+}
+
+/* Whether a text was meant as a number: it begins as one, or is all of "nan" or "inf". */
+static bool looks_numeric(const char *text) {
+    char *end;
+    strtod(text, &end);
+    return end != text && (*end == 0 || text[strcspn(text, "0123456789")] != 0);
 }
 
 JoxSceneSet *jox_load_sets(const JoxLoad *l, const JoxYaml *map, bool numbers_only,
@@ -268,26 +314,18 @@ JoxSceneSet *jox_load_sets(const JoxLoad *l, const JoxYaml *map, bool numbers_on
         if (flag) {
             set->dist = jox_dist_constant(!strcmp(value->text, "true"));
         } else if (!jox_read_dist(&l->reader, value, &set->dist)) {
-            if (numbers_only || value->kind != JOX_YAML_SCALAR) {
+            if (numbers_only || value->kind != JOX_YAML_SCALAR ||
+                (looks_numeric(value->text) &&
+                 jox_place_find(l->scene->places, l->scene->place_count, value->text) < 0)) {
                 jox_scene_error(&l->reader, value, "bad-type", "uniform(0, 6)",
-                                "this must be a number or a distribution");
+                                "this must be a finite number without a unit, or a distribution");
                 continue;
             }
             set->kind = strcmp(value->text, "antipode") ? JOX_SET_PLACE : JOX_SET_ANTIPODE;
             if (set->kind == JOX_SET_PLACE && (set->place = jox_load_place(l, value)) < 0)
                 continue;
         }
-        int parameter = jox_parameter_find(set->name);
-        double a = set->dist.a;
-        if (parameter >= 0 && set->kind == JOX_SET_NUMBER && set->dist.kind != JOX_DIST_CHOOSE &&
-            !(a >= jox_parameters[parameter].least && a <= jox_parameters[parameter].greatest)) {
-            jox_scene_error(&l->reader, value, "out-of-range", NULL,
-                            "%s must be from %g to %g %s, not %g", set->name,
-                            jox_parameters[parameter].least, jox_parameters[parameter].greatest,
-                            jox_parameters[parameter].unit, a);
-            continue;
-        }
-        (*count)++;
+        *count += parameter_fits(l, set, value);
     }
     return sets;
 }
@@ -334,6 +372,8 @@ static void read_groups(JoxLoad *l, const JoxYaml *map) {
 /* ---- sources and sinks ---- */
 
 static void read_sources(JoxLoad *l, const JoxYaml *list) {
+    if (list && list->kind != JOX_YAML_LIST)
+        jox_scene_error(&l->reader, list, "bad-type", NULL, "sources is a list");
     uint32_t count = list && list->kind == JOX_YAML_LIST ? list->count : 0;
     l->scene->sources = jox_hoard_take(l->reader.hoard, count, sizeof *l->scene->sources);
     for (uint32_t i = 0; i < count; i++) {
@@ -341,7 +381,7 @@ static void read_sources(JoxLoad *l, const JoxYaml *list) {
         if (!jox_keys_check(&l->reader, map, "source"))
             continue;
         JoxSceneSource *source = &l->scene->sources[l->scene->source_count];
-        const JoxYaml *place = name_at(map, "at"), *like = name_at(map, "like");
+        const JoxYaml *place = name_at(l, map, "at"), *like = name_at(l, map, "like");
         int32_t at = place ? jox_load_place(l, place) : -1;
         int32_t group = like ? jox_load_group(l, like) : -1;
         source->rate = jox_key_number(&l->reader, map, "source", "rate");
@@ -364,13 +404,15 @@ static void read_sources(JoxLoad *l, const JoxYaml *list) {
 }
 
 static void read_sinks(JoxLoad *l, const JoxYaml *list) {
+    if (list && list->kind != JOX_YAML_LIST)
+        jox_scene_error(&l->reader, list, "bad-type", NULL, "sinks is a list");
     uint32_t count = list && list->kind == JOX_YAML_LIST ? list->count : 0;
     l->scene->sinks = jox_hoard_take(l->reader.hoard, count, sizeof *l->scene->sinks);
     for (uint32_t i = 0; i < count; i++) {
         if (!jox_keys_check(&l->reader, list->items[i], "sink"))
             continue;
-        const JoxYaml *place = name_at(list->items[i], "at"),
-                      *group = name_at(list->items[i], "group");
+        const JoxYaml *place = name_at(l, list->items[i], "at"),
+                      *group = name_at(l, list->items[i], "group");
         int32_t at = place ? jox_load_place(l, place) : -1;
         if (at >= 0)
             l->scene->sinks[l->scene->sink_count++] =
@@ -437,16 +479,29 @@ static void read_scene(JoxLoad *l, const JoxYaml *root) {
     read_groups(l, jox_yaml_get(root, "groups"));
     read_sources(l, jox_yaml_get(root, "sources"));
     read_sinks(l, jox_yaml_get(root, "sinks"));
-    const JoxYaml *player = name_at(root, "player");
+    const JoxYaml *player = name_at(l, root, "player");
     l->scene->player_group = player ? jox_load_group(l, player) : -1;
     if (l->scene->group_count == 0 && l->scene->body_count == 0)
         jox_scene_error(r, root, "empty-scene", "See scenes/circle.yaml",
                         "a scene needs a group or a body");
 }
 
+/* Where a map holds a key's value, or a list the item of a number; NULL if it does not. */
+static JoxYaml **find_slot(const JoxYaml *node, const char *key) {
+    if (node->kind == JOX_YAML_LIST) {
+        bool digits = *key && strlen(key) < 9 && key[strspn(key, "0123456789")] == 0;
+        unsigned long i = digits ? strtoul(key, NULL, 10) : node->count;
+        return i < node->count ? &node->items[i] : NULL;
+    }
+    for (uint32_t i = 0; i < node->count; i++)
+        if (!strcmp(node->keys[i], key))
+            return &node->items[i];
+    return NULL;
+}
+
 /* Sets PATH=VALUE in the tree; the path must exist or be a key of the format. */
 static void override(JoxLoad *l, JoxYaml *root, const char *set) {
-    JoxPosition at = {"--set", 1, 1, (int)strlen(set) + 1};
+    JoxPosition at = {OVERRIDE, 1, 1, (int)strlen(set) + 1};
     const char *equals = strchr(set, '=');
     JoxYaml *map = root;
     if (!equals || equals == set) {
@@ -455,7 +510,7 @@ static void override(JoxLoad *l, JoxYaml *root, const char *set) {
         return;
     }
     const char *part = set;
-    for (;;) {
+    for (JoxYaml **slot;;) {
         size_t n = strcspn(part, ".=");
         char *key = jox_hoard_take(l->reader.hoard, n + 1, 1);
         memcpy(key, part, n);
@@ -465,15 +520,17 @@ static void override(JoxLoad *l, JoxYaml *root, const char *set) {
             *value = (JoxYaml){.kind = JOX_YAML_SCALAR,
                                .text = jox_hoard_text(l->reader.hoard, equals + 1),
                                .position = at};
-            jox_yaml_set(l->reader.hoard, map, key, value);
+            if (map->kind == JOX_YAML_MAP)
+                jox_yaml_set(l->reader.hoard, map, key, value);
+            else if ((slot = find_slot(map, key)))
+                *slot = value;
+            else
+                jox_diag_error(l->reader.diagnostics, at, "bad-override", NULL,
+                               "the scene has no '%.*s'", (int)(part - set), set);
             return;
         }
-        JoxYaml *next = jox_yaml_get(map, key);
-        if (map->kind == JOX_YAML_LIST) {
-            char *end;
-            unsigned long i = strtoul(key, &end, 10);
-            next = *end == 0 && i < map->count ? map->items[i] : NULL;
-        }
+        slot = find_slot(map, key);
+        JoxYaml *next = slot ? *slot : NULL;
         if (!next && map == root && jox_key_is_table("scene", key)) {
             next =
                 jox_hoard_take(l->reader.hoard, 1, sizeof *next); /* a table left at its defaults */
@@ -488,7 +545,7 @@ static void override(JoxLoad *l, JoxYaml *root, const char *set) {
                            "the scene has no '%.*s'", (int)(part - set), set);
             return;
         }
-        map = next;
+        map = *slot = jox_yaml_copy(l->reader.hoard, next); /* aliases of it stay as they are */
         part++;
     }
 }

@@ -15,7 +15,8 @@ static uint32_t read_places(const JoxLoad *l, const JoxYaml *node, uint32_t **ou
     *out = jox_hoard_take(l->reader.hoard, count, sizeof **out);
     for (uint32_t i = 0; i < count; i++) {
         int32_t place = jox_load_place(l, names[i]);
-        if (place >= 0)
+        /* One that was wrong has no points; that is reported already. */
+        if (place >= 0 && (l->scene->places[place].count || l->scene->places[place].member_count))
             (*out)[n++] = (uint32_t)place;
     }
     return n;
@@ -52,13 +53,16 @@ static void area(const JoxLoad *l, const JoxYaml *map, const JoxArea *a, JoxSpre
     jox_free(positions);
 }
 
-static void check_bounds(const JoxLoad *l, const JoxYaml *map, const JoxSceneGroup *group) {
+/* `node`: the group, or the list of its agents' points. */
+static void check_bounds(const JoxLoad *l, const JoxYaml *node, const JoxSceneGroup *group) {
     const JoxScene *s = l->scene;
     for (uint32_t i = 0; s->bounded && group->positions && i < group->count; i++) {
         JoxV2 p = group->positions[i];
         if (p.x >= s->low.x && p.x <= s->high.x && p.y >= s->low.y && p.y <= s->high.y)
             continue;
-        jox_scene_error(&l->reader, map, "out-of-bounds", NULL,
+        if (node->kind == JOX_YAML_LIST)
+            node = node->items[i];
+        jox_scene_error(&l->reader, node, "out-of-bounds", NULL,
                         "agent %u at (%g, %g) is outside the scene's bounds", i + 1, p.x, p.y);
         return;
     }
@@ -71,7 +75,7 @@ void jox_load_positions(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *gro
     const JoxYaml *density = jox_yaml_get(map, "density");
     if (at) {
         group->positions = jox_read_points(&l->reader, at, 1, &group->count);
-        check_bounds(l, map, group);
+        check_bounds(l, at, group);
         return;
     }
     if (!count == !density) {
@@ -99,6 +103,16 @@ void jox_load_positions(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *gro
                         "this makes %g agents; 1 to 1,000,000 are possible", number_of);
         return;
     }
+    for (uint32_t g = 0; g < number; g++)
+        number_of += l->scene->groups[g].count;
+    if (number_of > MOST_AGENTS) {
+        jox_scene_error(&l->reader, density ? density : count, "too-many", NULL,
+                        "with this group the scene has %g agents; 1,000,000 are possible",
+                        number_of);
+        return;
+    }
+    for (uint32_t g = 0; g < number; g++)
+        number_of -= l->scene->groups[g].count;
     group->count = (uint32_t)number_of;
     const char *fill = jox_key_text(&l->reader, map, "group", "fill");
     group->fill = JOX_FILL_AT;

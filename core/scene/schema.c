@@ -128,6 +128,8 @@ void jox_scene_error(const JoxReader *reader, const JoxYaml *node, const char *c
 
 const char *jox_scene_suggest(const JoxReader *reader, const char *word, const char *const *names,
                               size_t count) {
+    if (reader->diagnostics->errors >= 20)
+        return NULL; /* no more are shown */
     const char *near = jox_suggest(word, names, count);
     if (!near)
         return NULL;

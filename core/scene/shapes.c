@@ -27,6 +27,11 @@ static void read_hull(const JoxLoad *l, const JoxYaml *map, JoxShape *shape) {
             }
             if (!jox_read_number(&l->reader, p->items[k], "m", &points[3 * i + k]))
                 return;
+            if (!(fabs(points[3 * i + k]) <= 1000)) {
+                jox_scene_error(&l->reader, p->items[k], "out-of-range", NULL,
+                                "corners of a hull lie within 1 km of its origin");
+                return;
+            }
         }
     shape->points = points;
     shape->point_count = list->count;

@@ -9,7 +9,13 @@
 #include "base/hash.h"
 #include "base/mem.h"
 
-enum { LARGEST = 10 << 20, DEEPEST = 64, MOST_NODES = 500000, MOST_INCLUDES = 16 };
+enum {
+    LARGEST = 10 << 20,
+    DEEPEST = 64,
+    MOST_NODES = 500000,
+    MOST_INCLUDES = 16,
+    MOST_KEYS = 4096
+};
 
 /* ---- memory ---- */
 
@@ -59,13 +65,16 @@ static void add_item(JoxHoard *hoard, JoxYaml *node, const char *key, JoxPositio
     if (node->count == node->capacity) { /* the hoard cannot grow a block: old ones stay in it */
         uint32_t wider = node->capacity ? 2 * node->capacity : 4;
         JoxYaml **items = jox_hoard_take(hoard, wider, sizeof *items);
-        memcpy(items, node->items, node->count * sizeof *items);
+        if (node->count)
+            memcpy(items, node->items, node->count * sizeof *items);
         node->items = items;
         if (node->kind == JOX_YAML_MAP) {
             const char **keys = jox_hoard_take(hoard, wider, sizeof *keys);
             JoxPosition *positions = jox_hoard_take(hoard, wider, sizeof *positions);
-            memcpy(keys, node->keys, node->count * sizeof *keys);
-            memcpy(positions, node->key_positions, node->count * sizeof *positions);
+            if (node->count) {
+                memcpy(keys, node->keys, node->count * sizeof *keys);
+                memcpy(positions, node->key_positions, node->count * sizeof *positions);
+            }
             node->keys = keys;
             node->key_positions = positions;
         }
@@ -88,15 +97,31 @@ void jox_yaml_set(JoxHoard *hoard, JoxYaml *map, const char *key, JoxYaml *value
     add_item(hoard, map, jox_hoard_text(hoard, key), value->position, value);
 }
 
+JoxYaml *jox_yaml_copy(JoxHoard *hoard, const JoxYaml *node) {
+    JoxYaml *copy = jox_hoard_take(hoard, 1, sizeof *copy);
+    *copy = *node;
+    copy->items = NULL, copy->keys = NULL, copy->key_positions = NULL;
+    copy->count = copy->capacity = 0;
+    for (uint32_t i = 0; i < node->count; i++) {
+        bool map = node->kind == JOX_YAML_MAP;
+        add_item(hoard, copy, map ? node->keys[i] : NULL,
+                 map ? node->key_positions[i] : node->position, node->items[i]);
+    }
+    return copy;
+}
+
 /* What the map lacks comes from `base`; where both are maps, deeply. */
 static void merge(JoxHoard *hoard, JoxYaml *map, const JoxYaml *base, int depth) {
     for (uint32_t i = 0; i < base->count && depth < DEEPEST; i++) {
         JoxYaml *own = jox_yaml_get(map, base->keys[i]);
-        if (!own)
+        if (!own) {
             add_item(hoard, map, base->keys[i], base->key_positions[i], base->items[i]);
-        else if (own->kind == JOX_YAML_MAP && base->items[i]->kind == JOX_YAML_MAP &&
-                 own != base->items[i])
+        } else if (own->kind == JOX_YAML_MAP && base->items[i]->kind == JOX_YAML_MAP &&
+                   own != base->items[i]) {
+            own = jox_yaml_copy(hoard, own); /* it may be another's too, by an alias */
             merge(hoard, own, base->items[i], depth + 1);
+            jox_yaml_set(hoard, map, base->keys[i], own);
+        }
     }
 }
 
@@ -189,9 +214,19 @@ static void parse_map_items(Parse *p, JoxYaml *map, int depth) {
         JoxYaml *value = parse_node(p, &event, depth + 1);
         if (!value)
             break;
-        if (strcmp(key, "<<") == 0 && value->kind == JOX_YAML_MAP && base_count < 8)
-            bases[base_count++] = value;
-        else if (jox_yaml_get(map, key))
+        if (map->count >= MOST_KEYS) {
+            fail(p, at, "too-large", "this map has too many keys", NULL);
+        } else if (strcmp(key, "<<") == 0) {
+            bool list = value->kind == JOX_YAML_LIST;
+            for (uint32_t i = 0; i < (list ? value->count : 1); i++) {
+                JoxYaml *base = list ? value->items[i] : value;
+                if (base->kind == JOX_YAML_MAP && base_count < 8)
+                    bases[base_count++] = base;
+                else
+                    jox_diag_error(p->diagnostics, value->position, "bad-merge", "<<: *name",
+                                   "`<<` takes up to eight maps");
+            }
+        } else if (jox_yaml_get(map, key))
             jox_diag_error(p->diagnostics, at, "duplicate-key", "Keep one of them",
                            "the key '%s' stands here twice", key);
         else

@@ -43,6 +43,9 @@ JoxYaml *jox_yaml_load(JoxHoard *hoard, const char *path, const char *text, size
 JoxYaml *jox_yaml_get(const JoxYaml *map, const char *key);
 /* Sets `map[key]`, new or not. */
 void jox_yaml_set(JoxHoard *hoard, JoxYaml *map, const char *key, JoxYaml *value);
+/* A copy whose own items can be changed; the items themselves are shared. An aliased node stands at
+   several places of a tree, so copy before changing one of them. */
+JoxYaml *jox_yaml_copy(JoxHoard *hoard, const JoxYaml *node);
 /* A path beside another file: absolute paths stay as they are. */
 char *jox_path_beside(JoxHoard *hoard, const char *file, const char *name);
 

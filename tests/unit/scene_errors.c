@@ -1,0 +1,319 @@
+/* Errors of scenes: the kind, the exact place, the way out; all of them at once. And what composes
+   scenes: overrides, included files, anchors and merge keys. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "scene/scene.h"
+
+#define GROUP "groups: {g: {behaviour: stander, at: [[0, 0]]}}\n"
+#define SQUARE "places: {box: {polygon: [[0, 0], [2, 0], [2, 2], [0, 2]]}}\n"
+#define WITH(x) "groups: {g: {behaviour: stander, " x "}}\n"
+
+/* An `@` marks where the error must be reported; it is no part of the scene. */
+static const struct Case {
+    const char *text, *code, *hint;
+} CASES[] = {
+    {"@seeed: 3\n" GROUP, "unknown-key", "Did you mean 'seed'?"},
+    {"forces: {enabled: true, @mood: literal}\n" GROUP, "unknown-key", "Did you mean 'mode'?"},
+    {"step: @fast\n" GROUP, "bad-type", "Numbers are in SI units"},
+    {"step: @[1]\n" GROUP, "bad-type", NULL},
+    {"step: @0x1\n" GROUP, "bad-type", "Numbers are in SI units"},
+    {"step: @3 kg\n" GROUP, "bad-unit", "Units here: s, ms, min, h"},
+    {"step: @0.05 furlong\n" GROUP, "bad-unit", "Units here: s, ms, min, h"},
+    {"step: @0\n" GROUP, "out-of-range", NULL},
+    {"step: @nan\n" GROUP, "out-of-range", NULL},
+    {"gravity: @1e300\n" GROUP, "out-of-range", NULL},
+    {"gravity: @1e999\n" GROUP, "out-of-range", NULL},
+    {"seed: @1.5\n" GROUP, "bad-type", NULL},
+    {"forces: {enabled: @maybe}\n" GROUP, "bad-type", NULL},
+    {"forces: {mode: @soft}\n" GROUP, "bad-value", NULL},
+    {"places:\n  a: {polygon: [[0, 0], [1, 1], @[1, 0], [0, 1]]}\n" GROUP, "self-crossing",
+     "Put the corners in order"},
+    {"places:\n  a: {polygon: @[[0, 0], [1, 1]]}\n" GROUP, "bad-type", "[[0, 0], [1, 0], ...]"},
+    {"places:\n  a: {point: [@1e300, 0]}\n" GROUP, "out-of-range", NULL},
+    {"places:\n  a: {line: [[@nan, 0], [1, 1]]}\n" GROUP, "out-of-range", NULL},
+    {"places: {a: {point: @5}, b: {point: [0, 0], radius: 9}, s: {set: [a, b]}}\n" WITH(
+         "count: 3, in: [b, s], outside: a"),
+     "bad-type", "[x, y]"},
+    {"places: {a: @{set: []}}\n" GROUP, "bad-place", "set: [NAME, NAME]"},
+    {"places: @[a, b]\n" GROUP, "bad-type", NULL},
+    {"regions: @7\n" GROUP, "bad-type", NULL},
+    {"sinks: @5\n" GROUP, "bad-type", NULL},
+    {"sources: @{rate: 3}\n" GROUP, "bad-type", NULL},
+    {SQUARE "sources: [{at: @[box], like: g, rate: 1}]\n" GROUP, "bad-type", NULL},
+    {SQUARE "sources: [{at: box, like: @gg, rate: 1}]\n" GROUP, "unknown-group",
+     "Did you mean 'g'?"},
+    {"player: @[g]\n" GROUP, "bad-type", NULL},
+    {"groups: {g: {behaviour: @nobody.lua, at: [[0, 0]]}}\n", "missing-file", "Looked beside"},
+    {"groups: {g: {mix: @5, at: [[0, 0]]}}\n", "bad-type", "mix: {"},
+    {"groups: {g: {mix: {stander: @-1}, at: [[0, 0]]}}\n", "out-of-range", NULL},
+    {"places: {mataf: {point: [0, 0]}}\n" WITH("count: 3, in: @matafs"), "unknown-place",
+     "Did you mean 'mataf'?"},
+    {"seed: 1\n@seed: 2\n" GROUP, "duplicate-key", "Keep one of them"},
+    {"title: @*nothing\n" GROUP, "unknown-anchor", NULL},
+    {"bodies:\n  - {shape: {sphere: {radius: 1}}, mass: @-4, at: [0, 0, 1]}\n", "out-of-range",
+     NULL},
+    {"bodies:\n  - {shape: @{}, mass: 4, at: [0, 0, 1]}\n", "bad-shape", "sphere"},
+    {"bodies:\n  - @{mass: 4, at: [0, 0, 1]}\n", "missing-key", "one of box"},
+    {"bodies:\n  - {shape: {hull: {points: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, @1e300]]}}, "
+     "mass: 1, at: [0, 0, 1]}\n",
+     "out-of-range", NULL},
+    {WITH("at: [[0, 0]], set: {mass: @-5}"), "out-of-range", NULL},
+    {WITH("at: [[0, 0]], set: {mass: @'uniform(60, -5)'}"), "bad-distribution", "normal("},
+    {WITH("at: [[0, 0]], set: {mass: @'uniform(-5, 60)'}"), "out-of-range", NULL},
+    {WITH("at: [[0, 0]], set: {mass: @'choose(70, -5)'}"), "out-of-range", NULL},
+    {WITH("at: [[0, 0]], set: {speed: @'normal(1)'}"), "bad-distribution", "normal("},
+    {WITH("at: [[0, 0]], set: {speed: @nan}"), "bad-type", "uniform("},
+    {WITH("at: [[0, 0]], set: {speed: @3 kg}"), "bad-type", "uniform("},
+    {WITH("at: [[0, 0]], set: {speed: @[1]}"), "bad-type", "uniform("},
+    {WITH("at: [[0, 0]], set: {goal: @nowhere}"), "unknown-place", NULL},
+    {SQUARE WITH("count: @0, in: box"), "out-of-range", NULL},
+    {SQUARE WITH("count: 3, in: box, fill: @hexx"), "bad-value", "Did you mean 'hex'?"},
+    {SQUARE "groups:\n  g: @{behaviour: stander, count: 100, in: box, spacing: 1}\n", "too-many",
+     "Lower count"},
+    {"places: {a: {point: [0, 0], radius: 900}}\ngroups:\n  a: &a {behaviour: stander, count: "
+     "600000, fill: circle, in: a}\n  b: {<<: *a, count: @400001}\n",
+     "too-many", NULL},
+    {"bounds: [[0, 0], [5, 5]]\n" WITH("at: [[1, 1], @[9, 9]]"), "out-of-bounds", NULL},
+    {"bounds: @[[0, 0], [0, 5]]\n" GROUP, "no-area", NULL},
+    {"<<: @5\n" GROUP, "bad-merge", NULL},
+};
+
+static JoxScene *load(const char *text, const char *const *sets, uint32_t count,
+                      JoxDiagnostics *diagnostics) {
+    JoxSceneOptions options = {.sets = sets, .set_count = count};
+    return jox_scene_load_text("scenes/test.yaml", text, strlen(text), &options, diagnostics);
+}
+
+static void show(const JoxDiagnostics *d, const char *what) {
+    JoxText text = {0};
+    jox_diag_print(d, &text);
+    print_message("%s\n%s", what, text.data ? text.data : "(none)\n");
+    jox_text_free(&text);
+}
+
+static bool matches(const JoxDiagnostic *d, const char *code, int line, int column,
+                    const char *hint) {
+    return !strcmp(d->code, code) && d->line == line && d->column == column &&
+           (!hint || (d->hint && strstr(d->hint, hint)));
+}
+
+static void every_error_has_its_place_and_its_way_out(void **state) {
+    (void)state;
+    int wrong = 0;
+    for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
+        char text[1024];
+        snprintf(text, sizeof text, "jostle: 1\n%s", CASES[c].text);
+        char *at = strchr(text, '@');
+        int line = 1, column = 1;
+        for (char *k = text; k < at; k++) {
+            column = *k == '\n' ? 1 : column + 1;
+            line += *k == '\n';
+        }
+        memmove(at, at + 1, strlen(at));
+        JoxDiagnostics d = {0};
+        JoxScene *scene = load(text, NULL, 0, &d);
+        if (scene || d.errors != 1 ||
+            !matches(&d.items[0], CASES[c].code, line, column, CASES[c].hint) ||
+            strcmp(d.items[0].file, "scenes/test.yaml") != 0) {
+            print_message("wanted one %s at %d:%d\n", CASES[c].code, line, column);
+            show(&d, text);
+            wrong++;
+        }
+        jox_scene_free(scene);
+        jox_diag_free(&d);
+    }
+    assert_int_equal(wrong, 0);
+}
+
+static void errors_are_reported_together(void **state) {
+    (void)state;
+    const char *text = "jostle: 1\n"
+                       "sead: 4\n"
+                       "step: 9 m\n"
+                       "places: {a: {point: [0, 0]}}\n"
+                       "groups:\n"
+                       "  g: {behaviour: gone.lua, count: 0, in: a}\n"
+                       "  h: {behaviour: stander, count: 5, in: b, team: [1]}\n"
+                       "sinks: [{at: c}]\n";
+    static const struct {
+        const char *code;
+        int line, column;
+    } WANTED[] = {{"unknown-key", 2, 1},   {"bad-unit", 3, 7},       {"missing-file", 6, 18},
+                  {"out-of-range", 6, 35}, {"unknown-place", 7, 41}, {"bad-type", 7, 50},
+                  {"unknown-place", 8, 14}};
+    JoxDiagnostics d = {0};
+    assert_null(load(text, NULL, 0, &d));
+    if (d.errors != 7)
+        show(&d, text);
+    assert_int_equal(d.errors, 7);
+    for (int w = 0; w < 7; w++) {
+        int found = 0;
+        for (size_t i = 0; i < d.count; i++)
+            found += matches(&d.items[i], WANTED[w].code, WANTED[w].line, WANTED[w].column, NULL);
+        if (found != 1)
+            show(&d, WANTED[w].code);
+        assert_int_equal(found, 1);
+    }
+    JoxText out = {0};
+    jox_diag_print(&d, &out);
+    assert_non_null(strstr(out.data, "scenes/test.yaml:2:1: unknown key 'sead' of a scene. "
+                                     "Did you mean 'seed'?\n    2 | sead: 4\n      | ^^^^\n"));
+    jox_text_free(&out);
+    jox_diag_free(&d);
+}
+
+static const JoxSceneSet *find_set(const JoxSceneGroup *group, const char *name) {
+    for (uint32_t i = 0; i < group->set_count; i++)
+        if (!strcmp(group->set[i].name, name))
+            return &group->set[i];
+    return NULL;
+}
+
+static void overrides_change_what_they_name_alone(void **state) {
+    (void)state;
+    const char *text = "jostle: 1\n"
+                       "places: {a: {point: [0, 0], radius: 50}}\n"
+                       "walls: [{line: [[90, 0], [91, 0]], height: 1}]\n"
+                       "groups:\n"
+                       "  g: {behaviour: stander, count: 5, in: a, set: &s {mass: 60}}\n"
+                       "  h: {behaviour: stander, count: 5, in: a, set: *s}\n";
+    const char *good[] = {"groups.g.count=7", "groups.g.set.mass=80", "walls.0.height=2",
+                          "groups.h.behaviour=walker.lua", "seed=12"};
+    JoxDiagnostics d = {0};
+    JoxScene *scene = load(text, good, 5, &d);
+    if (!scene)
+        show(&d, text);
+    assert_non_null(scene);
+    assert_int_equal(scene->groups[0].count, 7);
+    assert_int_equal(scene->groups[1].count, 5);
+    assert_true(find_set(&scene->groups[0], "mass")->dist.a == 80);
+    assert_true(find_set(&scene->groups[1], "mass")->dist.a == 60);
+    assert_non_null(strstr(scene->groups[1].mix[0].behaviour, "walker.lua"));
+    assert_true(scene->walls.rings[0].height == 2);
+    assert_int_equal(scene->seed, 12);
+    jox_scene_free(scene);
+    static const struct {
+        const char *set, *code, *hint;
+    } BAD[] = {{"groups.gs.count=3", "bad-override", "Did you mean 'g'?"},
+               {"nonsense", "bad-override", "Example"},
+               {"=3", "bad-override", "Example"},
+               {"walls.7.height=2", "bad-override", NULL},
+               {"walls..height=2", "bad-override", NULL},
+               {"walls.x=2", "bad-override", NULL},
+               {"walls.0=5", "bad-type", NULL},
+               {"seed.deep=1", "bad-override", NULL},
+               {"groups.g.cuont=3", "unknown-key", "Did you mean 'count'?"},
+               {"step=0", "out-of-range", NULL},
+               {"groups.g.behaviour=gone", "missing-file", NULL}};
+    for (size_t b = 0; b < sizeof BAD / sizeof *BAD; b++) {
+        assert_null(load(text, &BAD[b].set, 1, &d));
+        if (d.errors != 1 || !matches(&d.items[0], BAD[b].code, 1, 1, BAD[b].hint))
+            show(&d, BAD[b].set);
+        assert_int_equal(d.errors, 1);
+        assert_true(matches(&d.items[0], BAD[b].code, 1, 1, BAD[b].hint));
+        assert_string_equal(d.items[0].file, "--set");
+        jox_diag_free(&d);
+    }
+}
+
+static void anchors_and_merge_keys(void **state) {
+    (void)state;
+    const char *text =
+        "jostle: 1\n"
+        "groups:\n"
+        "  a: &a {behaviour: stander, at: [[0, 0]], set: &s {mass: 60, speed: 1}}\n"
+        "  b: &b {<<: *a, at: [[3, 0]], team: red, set: {mass: 90}}\n"
+        "  c: {<<: [{team: blue}, *b], at: [[6, 0], [7, 0]]}\n"
+        "  d: {<<: {set: {radius: 0.3}}, behaviour: stander, at: [[9, 0]], set: *s}\n";
+    JoxDiagnostics d = {0};
+    JoxScene *scene = load(text, NULL, 0, &d);
+    if (!scene)
+        show(&d, text);
+    assert_non_null(scene);
+    const JoxSceneGroup *g = scene->groups;
+    assert_int_equal(scene->group_count, 4);
+    assert_int_equal(g[0].set_count, 2); /* untouched by what d merges into the same map */
+    assert_true(find_set(&g[0], "mass")->dist.a == 60);
+    assert_true(find_set(&g[1], "mass")->dist.a == 90 && find_set(&g[1], "speed")->dist.a == 1);
+    assert_true(g[1].positions[0].x == 3);
+    assert_string_equal(g[2].team, "blue"); /* the first of the list wins */
+    assert_int_equal(g[2].count, 2);
+    assert_true(find_set(&g[2], "mass")->dist.a == 90);
+    assert_int_equal(g[3].set_count, 3);
+    jox_scene_free(scene);
+}
+
+static char folder[] = "/tmp/jostle-errors-XXXXXX";
+
+static char *write_file(const char *name, const char *text) {
+    static char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    return path;
+}
+
+static void included_files_give_what_is_lacking(void **state) {
+    (void)state;
+    char text[4400], *stander = realpath("behaviours/stander.lua", NULL);
+    assert_non_null(stander);
+    assert_non_null(mkdtemp(folder));
+    write_file("base.yaml", "title: Base\nseed: 9\nstep: 7\nplaces: {a: {point: [1, 2]}}\n");
+    snprintf(text, sizeof text,
+             "jostle: 1\ninclude: base.yaml\nseed: 2\nplaces: {b: {point: [3, 4]}}\n"
+             "groups: {g: {behaviour: '%s', at: [[0, 0]]}}\n",
+             stander);
+    JoxDiagnostics d = {0};
+    assert_null(jox_scene_load(write_file("main.yaml", text), NULL, &d));
+    assert_int_equal(d.errors, 1); /* in the included file, where it stands */
+    assert_true(matches(&d.items[0], "out-of-range", 3, 7, NULL));
+    assert_non_null(strstr(d.items[0].file, "/base.yaml"));
+    assert_string_equal(d.items[0].source, "step: 7");
+    jox_diag_free(&d);
+    write_file("base.yaml", "title: Base\nseed: 9\nplaces: {a: {point: [1, 2]}}\n");
+    JoxScene *scene = jox_scene_load(write_file("main.yaml", text), NULL, &d);
+    if (!scene)
+        show(&d, text);
+    assert_non_null(scene);
+    assert_string_equal(scene->title, "Base");
+    assert_int_equal(scene->seed, 2);
+    assert_int_equal(scene->place_count, 2);
+    assert_int_equal(scene->file_count, 2);
+    jox_scene_free(scene);
+    write_file("base.yaml", "title: Base\ninclude: [main.yaml]\n");
+    assert_null(jox_scene_load(write_file("main.yaml", text), NULL, &d));
+    assert_int_equal(d.errors, 1);
+    assert_true(matches(&d.items[0], "include-cycle", 2, 11, NULL));
+    jox_diag_free(&d);
+    unlink(write_file("base.yaml", ""));
+    assert_null(jox_scene_load(write_file("main.yaml", text), NULL, &d));
+    assert_true(matches(&d.items[0], "unreadable-file", 2, 10, NULL));
+    jox_diag_free(&d);
+    unlink(write_file("main.yaml", ""));
+    rmdir(folder);
+    free(stander);
+    assert_null(jox_scene_load("/nowhere/at/all.yaml", NULL, &d));
+    assert_string_equal(d.items[0].code, "unreadable-file");
+    jox_diag_free(&d);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_error_has_its_place_and_its_way_out),
+                                       cmocka_unit_test(errors_are_reported_together),
+                                       cmocka_unit_test(overrides_change_what_they_name_alone),
+                                       cmocka_unit_test(anchors_and_merge_keys),
+                                       cmocka_unit_test(included_files_give_what_is_lacking)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
