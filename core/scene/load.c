@@ -306,6 +306,7 @@ JoxSceneSet *jox_load_sets(const JoxLoad *l, const JoxYaml *map, bool numbers_on
     JoxSceneSet *sets = jox_hoard_take(l->reader.hoard, map->count, sizeof *sets);
     for (uint32_t i = 0; i < map->count; i++) {
         const JoxYaml *value = map->items[i];
+        const size_t errors = l->reader.diagnostics->errors;
         JoxSceneSet *set = &sets[*count];
         *set = (JoxSceneSet){.name = jox_hoard_text(l->reader.hoard, map->keys[i]),
                              .position = map->key_positions[i]};
@@ -313,7 +314,10 @@ JoxSceneSet *jox_load_sets(const JoxLoad *l, const JoxYaml *map, bool numbers_on
                     (!strcmp(value->text, "true") || !strcmp(value->text, "false"));
         if (flag) {
             set->dist = jox_dist_constant(!strcmp(value->text, "true"));
-        } else if (!jox_read_dist(&l->reader, value, &set->dist)) {
+        } else if (jox_read_dist(&l->reader, value, &set->dist)) {
+            if (l->reader.diagnostics->errors > errors)
+                continue; /* a malformed distribution */
+        } else {
             if (numbers_only || value->kind != JOX_YAML_SCALAR ||
                 (looks_numeric(value->text) &&
                  jox_place_find(l->scene->places, l->scene->place_count, value->text) < 0)) {
