@@ -1,0 +1,405 @@
+/* Machines built by hand: conditions, chance, order of hooks, counters, queues, kicks, reload. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/mem.h"
+#include "machine/mind.h"
+
+/* A small world about a mind: agents without neighbours, places that a test gives. */
+typedef struct Fixture {
+    JoxAgents agents;
+    JoxNeighbours neighbours;
+    JoxObjects objects;
+    JoxMind mind;
+} Fixture;
+
+static JoxMachine *new_machine(uint32_t states) {
+    JoxMachine *m = jox_alloc(1, sizeof *m);
+    m->name = jox_strdup("m");
+    m->path = jox_strdup("m.lua");
+    m->version = 1;
+    m->vm = -1;
+    m->state_count = states;
+    m->states = jox_alloc(states, sizeof *m->states);
+    for (uint32_t s = 0; s < states; s++) {
+        JoxState *state = &m->states[s];
+        char name[2] = {(char)('A' + s), 0};
+        state->name = jox_strdup(name);
+        state->push_when = state->lasts_program = -1;
+        state->push_toward = state->face = state->approach = state->kick = state->kick_at = -1;
+        state->on_enter = state->on_exit = -1;
+    }
+    return m;
+}
+
+static int32_t add_program(JoxMachine *m, const JoxInstruction *code, uint32_t count) {
+    m->programs = jox_realloc(m->programs, m->program_count + 1, sizeof *m->programs);
+    JoxProgram *p = &m->programs[m->program_count];
+    p->code = jox_alloc(count, sizeof *code);
+    memcpy(p->code, code, count * sizeof *code);
+    p->count = count;
+    return (int32_t)m->program_count++;
+}
+
+static JoxTransition *add_transition(JoxMachine *m, uint16_t from, uint16_t to, int32_t when) {
+    JoxState *s = &m->states[from];
+    s->transitions = jox_realloc(s->transitions, s->transition_count + 1, sizeof *s->transitions);
+    JoxTransition *t = &s->transitions[s->transition_count++];
+    *t = (JoxTransition){.id = jox_strdup(m->states[to].name),
+                         .to = to,
+                         .when = when,
+                         .when_hook = -1,
+                         .on_take = -1};
+    return t;
+}
+
+static int16_t add_place_target(JoxMachine *m, int32_t place) {
+    m->targets = jox_realloc(m->targets, m->target_count + 1, sizeof *m->targets);
+    m->targets[m->target_count] = (JoxTarget){JOX_TARGET_PLACE, place, jox_strdup("place")};
+    return (int16_t)m->target_count++;
+}
+
+static void begin(Fixture *f, JoxMachine *machine, uint32_t agents) {
+    *f = (Fixture){0};
+    f->mind = (JoxMind){.agents = &f->agents,
+                        .neighbours = &f->neighbours,
+                        .objects = &f->objects,
+                        .seed = 7,
+                        .dt = 0.1};
+    f->neighbours = (JoxNeighbours){.agents = 4096,
+                                    .stride = 1,
+                                    .index = jox_alloc(4096, 4),
+                                    .distance2 = jox_alloc(4096, 4),
+                                    .count = jox_alloc(4096, 1)};
+    jox_mind_add(&f->mind, machine);
+    for (uint32_t i = 0; i < agents; i++) {
+        jox_agents_add(&f->agents);
+        jox_mind_spawn(&f->mind, i, 0, NULL, NULL);
+    }
+}
+
+static void think(Fixture *f) {
+    jox_mind_think(&f->mind, NULL);
+    jox_mind_prefer(&f->mind, NULL);
+    f->mind.tick++;
+}
+
+static void end(Fixture *f) {
+    jox_mind_free(&f->mind);
+    jox_agents_free(&f->agents);
+    jox_free(f->neighbours.index);
+    jox_free(f->neighbours.distance2);
+    jox_free(f->neighbours.count);
+}
+
+/* A condition that holds from `seconds` in the state on. */
+static int32_t after(JoxMachine *m, double seconds) {
+    const JoxInstruction code[] = {
+        {.op = JOX_OP_CONST, .number = seconds, .target = -1, .place = -1},
+        {.op = JOX_OP_AFTER, .target = -1, .place = -1}};
+    return add_program(m, code, 2);
+}
+
+static void operators_compute(void **state) {
+    (void)state;
+    static const struct {
+        JoxOp op;
+        double a, b, c, result;
+    } CASES[] = {
+        {JOX_OP_ADD, 2, 3, 0, 5},    {JOX_OP_SUB, 2, 3, 0, -1},  {JOX_OP_MUL, 2, 3, 0, 6},
+        {JOX_OP_DIV, 3, 2, 0, 1.5},  {JOX_OP_DIV, 3, 0, 0, 0},   {JOX_OP_MIN, 2, 3, 0, 2},
+        {JOX_OP_MAX, 2, 3, 0, 3},    {JOX_OP_NEG, 2, 0, 0, -2},  {JOX_OP_ABS, -2, 0, 0, 2},
+        {JOX_OP_SQRT, 9, 0, 0, 3},   {JOX_OP_SQRT, -9, 0, 0, 0}, {JOX_OP_CLAMP, 5, 1, 3, 3},
+        {JOX_OP_CLAMP, -5, 1, 3, 1}, {JOX_OP_GT, 2, 2, 0, 0},    {JOX_OP_GE, 2, 2, 0, 1},
+        {JOX_OP_LT, 1, 2, 0, 1},     {JOX_OP_LE, 3, 2, 0, 0},    {JOX_OP_EQ, 2, 2, 0, 1},
+        {JOX_OP_AND, 1, 0, 0, 0},    {JOX_OP_OR, 1, 0, 0, 1},    {JOX_OP_NOT, 0, 0, 0, 1}};
+    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
+        JoxMachine *m = new_machine(1);
+        const JoxInstruction code[] = {
+            {.op = JOX_OP_CONST, .to = 0, .number = CASES[i].a, .target = -1, .place = -1},
+            {.op = JOX_OP_CONST, .to = 1, .number = CASES[i].b, .target = -1, .place = -1},
+            {.op = JOX_OP_CONST, .to = 2, .number = CASES[i].c, .target = -1, .place = -1},
+            {.op = CASES[i].op, .a = 0, .b = 1, .c = 2, .target = -1, .place = -1},
+            /* kept above zero, so that a parameter can show it */
+            {.op = JOX_OP_CONST, .to = 1, .number = 10, .target = -1, .place = -1},
+            {.op = JOX_OP_ADD, .a = 0, .b = 1, .target = -1, .place = -1}};
+        m->states[0].param[JOX_PARAM_push] =
+            (JoxValue){JOX_VALUE_PROGRAM, 0, add_program(m, code, 6), 0};
+        Fixture f;
+        begin(&f, m, 1);
+        think(&f);
+        assert_true(fabsf(f.agents.param[JOX_PARAM_push][0] - (float)(CASES[i].result + 10)) <
+                    1e-5f);
+        end(&f);
+    }
+}
+
+static void the_first_transition_that_holds_wins(void **state) {
+    (void)state;
+    JoxMachine *m = new_machine(3);
+    add_transition(m, 0, 1, after(m, 0.3));
+    add_transition(m, 0, 2, after(m, 0.2));
+    Fixture f;
+    begin(&f, m, 300); /* more than a batch */
+    think(&f);
+    think(&f);
+    assert_int_equal(f.agents.state[299], 0);
+    think(&f); /* 0.2 s in the state */
+    for (uint32_t i = 0; i < 300; i++)
+        assert_int_equal(f.agents.state[i], 2);
+    assert_int_equal(f.mind.taken_count, 300);
+    end(&f);
+}
+
+static void chance_is_rolled_once_each_time_the_condition_turns_true(void **state) {
+    (void)state;
+    JoxMachine *m = new_machine(2);
+    add_transition(m, 0, 1, after(m, 0.1))->chance = (JoxValue){JOX_VALUE_CONST, 0.3, 0, 0};
+    Fixture f;
+    begin(&f, m, 2000);
+    for (int i = 0; i < 50; i++)
+        think(&f);
+    uint32_t gone = 0;
+    for (uint32_t i = 0; i < 2000; i++)
+        gone += f.agents.state[i] == 1;
+    assert_true(gone > 500 && gone < 700); /* 600 +- 5 sigma; rolled each step, nearly all */
+    end(&f);
+}
+
+static void a_drawn_duration_ends_the_state(void **state) {
+    (void)state;
+    JoxMachine *m = new_machine(2);
+    m->states[0].has_lasts = true;
+    m->states[0].lasts = (JoxDist){.kind = JOX_DIST_UNIFORM, .a = 1.0, .b = 2.0};
+    const JoxInstruction lasted[] = {{.op = JOX_OP_LASTED, .target = -1, .place = -1}};
+    add_transition(m, 0, 1, add_program(m, lasted, 1));
+    Fixture f;
+    begin(&f, m, 200);
+    for (int step = 0; step < 30; step++) {
+        think(&f);
+        for (uint32_t i = 0; i < 200; i++) {
+            if (step < 9)
+                assert_int_equal(f.agents.state[i], 0);
+            if (step > 21)
+                assert_int_equal(f.agents.state[i], 1);
+        }
+    }
+    end(&f);
+}
+
+static uint32_t calls[64];
+static uint32_t call_count;
+
+static bool note_call(void *context, const JoxMachine *machine, int32_t hook, JoxHookKind kind,
+                      uint32_t agent, double result[2]) {
+    (void)machine;
+    (void)kind;
+    (void)result;
+    const JoxAgents *a = context;
+    if (call_count < 64)
+        calls[call_count++] = a->id[agent] * 10 + (uint32_t)hook;
+    return true;
+}
+
+static void hooks_run_by_id_whatever_the_order_in_memory(void **state) {
+    (void)state;
+    JoxMachine *m = new_machine(2);
+    add_transition(m, 0, 1, after(m, 0.1))->on_take = 2;
+    m->states[0].on_exit = 1;
+    m->states[1].on_enter = 3;
+    Fixture f;
+    begin(&f, m, 4);
+    f.mind.call = note_call;
+    f.mind.call_context = &f.agents;
+    const uint32_t order[] = {2, 0, 3, 1};
+    jox_agents_permute(&f.agents, order);
+    call_count = 0;
+    think(&f);
+    think(&f);
+    const uint32_t expected[] = {1, 2, 3, 11, 12, 13, 21, 22, 23, 31, 32, 33};
+    assert_int_equal(call_count, 12);
+    assert_memory_equal(calls, expected, sizeof expected);
+    end(&f);
+}
+
+/* Walks agent 0 round the origin by `turns`, in steps of 9 degrees. */
+static void walk(Fixture *f, double *angle, double turns) {
+    int steps = (int)(fabs(turns) * 40 + 0.5);
+    for (int i = 0; i < steps; i++) {
+        f->agents.prev_x[0] = f->agents.x[0];
+        f->agents.prev_y[0] = f->agents.y[0];
+        *angle += turns > 0 ? 6.283185307179586 / 40 : -6.283185307179586 / 40;
+        f->agents.x[0] = (float)(5.0 * cos(*angle));
+        f->agents.y[0] = (float)(5.0 * sin(*angle));
+        think(f);
+    }
+}
+
+static void circuits_count_from_the_line_and_take_back(void **state) {
+    (void)state;
+    JoxV2 ring[] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, line[] = {{1, 0}, {9, 0}};
+    JoxPlace places[] = {
+        {.name = "k", .kind = JOX_PLACE_POLYGON, .points = ring, .count = 4, .start = 1},
+        {.name = "l", .kind = JOX_PLACE_LINE, .points = line, .count = 2, .start = -1}};
+    jox_place_finish(&places[0]);
+    jox_place_finish(&places[1]);
+    JoxMachine *m = new_machine(1);
+    m->memory = jox_alloc(3, sizeof *m->memory);
+    for (int i = 0; i < 3; i++)
+        m->memory[i].name = jox_strdup(i ? "" : "laps");
+    m->memory_count = 3;
+    m->counters = jox_alloc(1, sizeof *m->counters);
+    m->counters[0] = (JoxCounter){add_place_target(m, 0), 0, 1, 2, -1};
+    m->counter_count = 1;
+    Fixture f;
+    begin(&f, m, 1);
+    f.mind.places = places;
+    f.mind.place_count = 2;
+    double angle = -1.0;
+    f.agents.x[0] = (float)(5.0 * cos(angle));
+    f.agents.y[0] = (float)(5.0 * sin(angle));
+    walk(&f, &angle, 0.125); /* not yet at the line */
+    assert_true(f.agents.memory[0] == 0.0 && f.agents.memory[2] == 0.0);
+    walk(&f, &angle, 7.2); /* over it, and seven times round */
+    assert_true(f.agents.memory[0] == 7.0);
+    walk(&f, &angle, -3.0);
+    assert_true(f.agents.memory[0] == 4.0);
+    walk(&f, &angle, 3.0);
+    assert_true(f.agents.memory[0] == 7.0);
+    end(&f);
+}
+
+static void a_queue_keeps_its_order(void **state) {
+    (void)state;
+    JoxV2 tail[] = {{0, 0}, {10, 0}};
+    JoxPlace place = {.name = "q",
+                      .kind = JOX_PLACE_QUEUE,
+                      .points = tail,
+                      .count = 2,
+                      .spacing = 0.5f,
+                      .start = -1};
+    jox_place_finish(&place);
+    JoxMachine *m = new_machine(2);
+    int16_t target = add_place_target(m, 0);
+    m->states[1].steer[0] = (JoxSteerTerm){.kind = JOX_STEER_QUEUE, .target = target, .hook = -1};
+    m->states[1].steer_count = 1;
+    /* Whoever is nearer than x metres joins; x grows with time, so that they join one by one. */
+    const JoxInstruction near[] = {
+        {.op = JOX_OP_NOW, .arg = JOX_NOW_time, .target = -1, .place = -1},
+        {.op = JOX_OP_NEAR, .target = target, .place = -1}};
+    add_transition(m, 0, 1, add_program(m, near, 2));
+    Fixture f;
+    begin(&f, m, 3);
+    f.mind.places = &place;
+    f.mind.place_count = 1;
+    const float away[] = {0.55f, 0.25f, 0.85f}; /* joins second, first, third */
+    for (int i = 0; i < 3; i++)
+        f.agents.y[i] = away[i];
+    for (int i = 0; i < 11; i++)
+        think(&f);
+    /* The first aims at the head, the second at 0.5 m, the third at 1 m along the tail. */
+    assert_true(fabsf(f.agents.pref_x[1]) < 1e-3f);
+    assert_true(f.agents.pref_x[0] > 0.1f && f.agents.pref_x[2] > f.agents.pref_x[0]);
+    end(&f);
+}
+
+static void a_reload_keeps_states_and_memory_by_name(void **state) {
+    (void)state;
+    JoxMachine *old = new_machine(2);
+    old->memory = jox_alloc(1, sizeof *old->memory);
+    old->memory[0].name = jox_strdup("laps");
+    old->memory_count = 1;
+    add_transition(old, 0, 1, after(old, 0.1));
+    Fixture f;
+    begin(&f, old, 5);
+    think(&f);
+    think(&f);
+    f.agents.memory[3 * f.agents.memory_stride] = 6.0;
+    uint32_t entered = f.agents.entered[3];
+
+    JoxMachine *lacking = new_machine(1);
+    char why[128];
+    assert_non_null(jox_mind_refuses(&f.mind, 0, lacking, why, sizeof why));
+    assert_non_null(strstr(why, "5 agents are in 'B'"));
+    lacking->renamed = jox_alloc(1, sizeof *lacking->renamed);
+    lacking->renamed[0] = (struct JoxRenamed){jox_strdup("B"), jox_strdup("A")};
+    lacking->renamed_count = 1;
+    assert_null(jox_mind_refuses(&f.mind, 0, lacking, why, sizeof why));
+    jox_machine_free(lacking);
+
+    JoxMachine *next = new_machine(3);
+    next->memory = jox_alloc(2, sizeof *next->memory);
+    next->memory[0].name = jox_strdup("added");
+    next->memory[0].initial = 2.0;
+    next->memory[1].name = jox_strdup("laps");
+    next->memory_count = 2;
+    jox_machine_free(jox_mind_replace(&f.mind, 0, next));
+    const double *memory = f.agents.memory + 3 * f.agents.memory_stride;
+    assert_true(memory[0] == 2.0 && memory[1] == 6.0);
+    assert_int_equal(f.agents.state[3], 1);
+    assert_int_equal(f.agents.entered[3], entered);
+    assert_int_equal(f.mind.machines[0]->version, 2);
+    end(&f);
+}
+
+static void a_kick_sends_the_ball_where_it_should(void **state) {
+    (void)state;
+    JoxV2 spot = {10, 0};
+    JoxPlace place = {.name = "p",
+                      .kind = JOX_PLACE_POINT,
+                      .points = &spot,
+                      .count = 1,
+                      .radius = 1,
+                      .start = -1};
+    jox_place_finish(&place);
+    JoxMachine *m = new_machine(1);
+    m->states[0].kick_at = add_place_target(m, 0);
+    m->targets = jox_realloc(m->targets, 2, sizeof *m->targets);
+    m->targets[1] = (JoxTarget){JOX_TARGET_NEAREST, 4, jox_strdup("ball")};
+    m->target_count = 2;
+    m->states[0].kick = 1;
+    m->states[0].kick_impulse = (JoxValue){JOX_VALUE_CONST, 3.0, 0, 0};
+    Fixture f;
+    begin(&f, m, 1);
+    f.mind.places = &place;
+    f.mind.place_count = 1;
+    JoxObject ball = {.live = true,
+                      .in_band = true,
+                      .moves = true,
+                      .tags = 1 << 4,
+                      .position = {0.3f, 0.0f, 0.1f},
+                      .inverse_mass = 2.5f,
+                      .round = 0.1f,
+                      .disc = 0.1f};
+    f.objects = (JoxObjects){&ball, 1, 1};
+    think(&f);
+    assert_int_equal(f.mind.kick_count, 1);
+    assert_true(fabsf(f.mind.kicks[0].impulse.x - 3.0f / 2.5f) < 1e-4f); /* 3 m/s on 0.4 kg */
+    assert_true(fabsf(f.mind.kicks[0].impulse.y) < 1e-4f);
+    assert_int_equal(f.agents.kicked[0], 0);
+    think(&f); /* not again at once */
+    assert_int_equal(f.mind.kick_count, 0);
+    assert_int_equal(f.agents.kicked[0], -1);
+    end(&f);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(operators_compute),
+        cmocka_unit_test(the_first_transition_that_holds_wins),
+        cmocka_unit_test(chance_is_rolled_once_each_time_the_condition_turns_true),
+        cmocka_unit_test(a_drawn_duration_ends_the_state),
+        cmocka_unit_test(hooks_run_by_id_whatever_the_order_in_memory),
+        cmocka_unit_test(circuits_count_from_the_line_and_take_back),
+        cmocka_unit_test(a_queue_keeps_its_order),
+        cmocka_unit_test(a_reload_keeps_states_and_memory_by_name),
+        cmocka_unit_test(a_kick_sends_the_ball_where_it_should),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
