@@ -21,6 +21,10 @@ char **jox_load_tags(const JoxLoad *load, const JoxYaml *node, uint32_t *count);
 /* populate.c: where a group's agents stand. */
 void jox_load_positions(const JoxLoad *load, const JoxYaml *map, JoxSceneGroup *group,
                         uint32_t number);
+/* override.c: sets PATH=VALUE; what is wrong with it is reported at this name in place of a file.
+ */
+#define JOX_LOAD_OVERRIDE "--set"
+void jox_load_override(const JoxLoad *load, JoxYaml *root, const char *set);
 /* shapes.c */
 void jox_load_bodies(JoxLoad *load, const JoxYaml *list);
 

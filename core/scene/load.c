@@ -9,7 +9,6 @@
 #include "base/mem.h"
 #include "scene/internal.h"
 
-static const char OVERRIDE[] = "--set"; /* stands for the file of an override */
 static const double DEGREE = 3.14159265358979323846 / 180.0;
 
 int32_t jox_load_place(const JoxLoad *l, const JoxYaml *name) {
@@ -50,6 +49,7 @@ static const JoxYaml *name_at(const JoxLoad *l, const JoxYaml *map, const char *
 
 /* ---- places ---- */
 
+/* Counter-clockwise; NULL, and no points, with an error. */
 static JoxV2 *read_ring(const JoxLoad *l, const JoxYaml *node, uint32_t *count) {
     JoxV2 *ring = jox_read_points(&l->reader, node, 3, count);
     uint32_t a, b;
@@ -59,11 +59,13 @@ static JoxV2 *read_ring(const JoxLoad *l, const JoxYaml *node, uint32_t *count) 
         jox_scene_error(&l->reader, node->items[b], "self-crossing", "Put the corners in order",
                         "this polygon crosses itself: the edges from corner %u and corner %u meet",
                         a + 1, b + 1);
+        *count = 0;
         return NULL;
     }
     double area = jox_polygon_area(ring, *count);
     if (fabs(area) < 1e-6) {
         jox_scene_error(&l->reader, node, "no-area", NULL, "this polygon encloses no area");
+        *count = 0;
         return NULL;
     }
     for (uint32_t i = 0; area < 0 && i < *count / 2; i++) { /* counter-clockwise from here on */
@@ -210,7 +212,7 @@ static bool exists(const char *path) {
 static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition position) {
     JoxHoard *hoard = l->reader.hoard;
     /* Overrides are of no file: the scene's folder is meant. */
-    const char *from = strcmp(position.file, OVERRIDE) ? position.file : l->scene->path;
+    const char *from = strcmp(position.file, JOX_LOAD_OVERRIDE) ? position.file : l->scene->path;
     char relative[512];
     const char *lua = strlen(name) > 4 && !strcmp(name + strlen(name) - 4, ".lua") ? "" : ".lua";
     const char *forms[] = {"%.400s%s", "../behaviours/%.400s%s", "%s/behaviours/%.300s%s"};
@@ -490,70 +492,6 @@ static void read_scene(JoxLoad *l, const JoxYaml *root) {
                         "a scene needs a group or a body");
 }
 
-/* Where a map holds a key's value, or a list the item of a number; NULL if it does not. */
-static JoxYaml **find_slot(const JoxYaml *node, const char *key) {
-    if (node->kind == JOX_YAML_LIST) {
-        bool digits = *key && strlen(key) < 9 && key[strspn(key, "0123456789")] == 0;
-        unsigned long i = digits ? strtoul(key, NULL, 10) : node->count;
-        return i < node->count ? &node->items[i] : NULL;
-    }
-    for (uint32_t i = 0; i < node->count; i++)
-        if (!strcmp(node->keys[i], key))
-            return &node->items[i];
-    return NULL;
-}
-
-/* Sets PATH=VALUE in the tree; the path must exist or be a key of the format. */
-static void override(JoxLoad *l, JoxYaml *root, const char *set) {
-    JoxPosition at = {OVERRIDE, 1, 1, (int)strlen(set) + 1};
-    const char *equals = strchr(set, '=');
-    JoxYaml *map = root;
-    if (!equals || equals == set) {
-        jox_diag_error(l->reader.diagnostics, at, "bad-override",
-                       "Example: groups.pilgrims.count=500", "'%.100s' is not PATH=VALUE", set);
-        return;
-    }
-    const char *part = set;
-    for (JoxYaml **slot;;) {
-        size_t n = strcspn(part, ".=");
-        char *key = jox_hoard_take(l->reader.hoard, n + 1, 1);
-        memcpy(key, part, n);
-        part += n;
-        if (*part == '=') {
-            JoxYaml *value = jox_hoard_take(l->reader.hoard, 1, sizeof *value);
-            *value = (JoxYaml){.kind = JOX_YAML_SCALAR,
-                               .text = jox_hoard_text(l->reader.hoard, equals + 1),
-                               .position = at};
-            if (map->kind == JOX_YAML_MAP)
-                jox_yaml_set(l->reader.hoard, map, key, value);
-            else if ((slot = find_slot(map, key)))
-                *slot = value;
-            else
-                jox_diag_error(l->reader.diagnostics, at, "bad-override", NULL,
-                               "the scene has no '%.*s'", (int)(part - set), set);
-            return;
-        }
-        slot = find_slot(map, key);
-        JoxYaml *next = slot ? *slot : NULL;
-        if (!next && map == root && jox_key_is_table("scene", key)) {
-            next =
-                jox_hoard_take(l->reader.hoard, 1, sizeof *next); /* a table left at its defaults */
-            *next = (JoxYaml){.kind = JOX_YAML_MAP, .position = at};
-            jox_yaml_set(l->reader.hoard, map, key, next);
-        }
-        if (!next || next->kind == JOX_YAML_SCALAR) {
-            jox_diag_error(l->reader.diagnostics, at, "bad-override",
-                           map->kind == JOX_YAML_MAP
-                               ? jox_scene_suggest(&l->reader, key, map->keys, map->count)
-                               : NULL,
-                           "the scene has no '%.*s'", (int)(part - set), set);
-            return;
-        }
-        map = *slot = jox_yaml_copy(l->reader.hoard, next); /* aliases of it stay as they are */
-        part++;
-    }
-}
-
 JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
                               const JoxSceneOptions *options, JoxDiagnostics *diagnostics) {
     JoxHoard *hoard = jox_hoard_create();
@@ -565,7 +503,7 @@ JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
     load.scene->path = jox_hoard_text(hoard, name);
     JoxYaml *root = jox_yaml_load(hoard, load.scene->path, text, length, files, diagnostics);
     for (uint32_t i = 0; root && options && i < options->set_count; i++)
-        override(&load, root, options->sets[i]);
+        jox_load_override(&load, root, options->sets[i]);
     if (root)
         read_scene(&load, root);
     for (uint32_t i = 0; i < files->count; i++)

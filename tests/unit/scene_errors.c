@@ -38,6 +38,8 @@ static const struct Case {
     {"forces: {mode: @soft}\n" GROUP, "bad-value", NULL},
     {"places:\n  a: {polygon: [[0, 0], [1, 1], @[1, 0], [0, 1]]}\n" GROUP, "self-crossing",
      "Put the corners in order"},
+    {"places: {a: {polygon: [[0, 0], [1, 1], @[1, 0], [0, 1]]}}\n" WITH("count: 3, in: a"),
+     "self-crossing", NULL},
     {"places:\n  a: {polygon: @[[0, 0], [1, 1]]}\n" GROUP, "bad-type", "[[0, 0], [1, 0], ...]"},
     {"places:\n  a: {point: [@1e300, 0]}\n" GROUP, "out-of-range", NULL},
     {"places:\n  a: {line: [[@nan, 0], [1, 1]]}\n" GROUP, "out-of-range", NULL},
@@ -187,10 +189,11 @@ static void overrides_change_what_they_name_alone(void **state) {
                        "groups:\n"
                        "  g: {behaviour: stander, count: 5, in: a, set: &s {mass: 60}}\n"
                        "  h: {behaviour: stander, count: 5, in: a, set: *s}\n";
-    const char *good[] = {"groups.g.count=7", "groups.g.set.mass=80", "walls.0.height=2",
-                          "groups.h.behaviour=walker.lua", "seed=12"};
+    const char *good[] = {"groups.g.count=7", "groups.g.set.mass=80",
+                          "walls.0.height=2", "groups.h.behaviour=walker.lua",
+                          "seed=12",          "forces.enabled=false"};
     JoxDiagnostics d = {0};
-    JoxScene *scene = load(text, good, 5, &d);
+    JoxScene *scene = load(text, good, 6, &d);
     if (!scene)
         show(&d, text);
     assert_non_null(scene);
@@ -201,6 +204,7 @@ static void overrides_change_what_they_name_alone(void **state) {
     assert_non_null(strstr(scene->groups[1].mix[0].behaviour, "walker.lua"));
     assert_true(scene->walls.rings[0].height == 2);
     assert_int_equal(scene->seed, 12);
+    assert_false(scene->forces); /* a table that the scene lacks */
     jox_scene_free(scene);
     static const struct {
         const char *set, *code, *hint;

@@ -1,0 +1,70 @@
+/* Values set from the command line, in the tree before it is read. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/internal.h"
+
+/* Where a map holds a key's value, or a list the item of a number; NULL if it does not. */
+static JoxYaml **find_slot(const JoxYaml *node, const char *key) {
+    if (node->kind == JOX_YAML_LIST) {
+        bool digits = *key && strlen(key) < 9 && key[strspn(key, "0123456789")] == 0;
+        unsigned long i = digits ? strtoul(key, NULL, 10) : node->count;
+        return i < node->count ? &node->items[i] : NULL;
+    }
+    for (uint32_t i = 0; i < node->count; i++)
+        if (!strcmp(node->keys[i], key))
+            return &node->items[i];
+    return NULL;
+}
+
+/* Sets PATH=VALUE in the tree; the path must exist or be a key of the format. */
+void jox_load_override(const JoxLoad *l, JoxYaml *root, const char *set) {
+    JoxPosition at = {JOX_LOAD_OVERRIDE, 1, 1, (int)strlen(set) + 1};
+    const char *equals = strchr(set, '=');
+    JoxYaml *map = root;
+    if (!equals || equals == set) {
+        jox_diag_error(l->reader.diagnostics, at, "bad-override",
+                       "Example: groups.pilgrims.count=500", "'%.100s' is not PATH=VALUE", set);
+        return;
+    }
+    const char *part = set;
+    for (JoxYaml **slot;;) {
+        size_t n = strcspn(part, ".=");
+        char *key = jox_hoard_take(l->reader.hoard, n + 1, 1);
+        memcpy(key, part, n);
+        part += n;
+        if (*part == '=') {
+            JoxYaml *value = jox_hoard_take(l->reader.hoard, 1, sizeof *value);
+            *value = (JoxYaml){.kind = JOX_YAML_SCALAR,
+                               .text = jox_hoard_text(l->reader.hoard, equals + 1),
+                               .position = at};
+            if (map->kind == JOX_YAML_MAP)
+                jox_yaml_set(l->reader.hoard, map, key, value);
+            else if ((slot = find_slot(map, key)))
+                *slot = value;
+            else
+                jox_diag_error(l->reader.diagnostics, at, "bad-override", NULL,
+                               "the scene has no '%.*s'", (int)(part - set), set);
+            return;
+        }
+        slot = find_slot(map, key);
+        JoxYaml *next = slot ? *slot : NULL;
+        if (!next && map == root && jox_key_is_table("scene", key)) {
+            /* A table left at its defaults. */
+            next = jox_hoard_take(l->reader.hoard, 1, sizeof *next);
+            *next = (JoxYaml){.kind = JOX_YAML_MAP, .position = at};
+            jox_yaml_set(l->reader.hoard, map, key, next);
+            slot = find_slot(map, key);
+        }
+        if (!next || next->kind == JOX_YAML_SCALAR) {
+            jox_diag_error(l->reader.diagnostics, at, "bad-override",
+                           map->kind == JOX_YAML_MAP
+                               ? jox_scene_suggest(&l->reader, key, map->keys, map->count)
+                               : NULL,
+                           "the scene has no '%.*s'", (int)(part - set), set);
+            return;
+        }
+        map = *slot = jox_yaml_copy(l->reader.hoard, next); /* aliases of it stay as they are */
+        part++;
+    }
+}
