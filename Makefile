@@ -1,5 +1,5 @@
 # Jostle. Sources are found, never listed; everything is built in build/MODE.
-# `make run` and `make test` install what is missing (scripts/setup.sh); plain `make` only builds.
+# `make run` and `make test` install what is missing (.ci/setup); plain `make` only builds.
 VERSION := 0.1.0
 MODE    ?= release
 BULLET  ?= 1
@@ -62,10 +62,8 @@ test:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory all tests-built
 	@B=$(B) .ci/suite check units scenes install
-test-all:
-	@.ci/setup test
+test-all: test
 	@.ci/sanitizers
-	@$(MAKE) --no-print-directory test
 bench:
 	@.ci/setup bench
 	@$(MAKE) --no-print-directory all $(BENCH)
@@ -110,7 +108,7 @@ $(B)/bench/%: tests/bench/%.c $(B)/internal.a
 unit: $(UNIT)
 	@set -e; for t in $(UNIT); do echo "== $$t"; $$t; done
 # Installed files know where the library's Lua lies, so that each PREFIX is built apart.
-INSTALL_B := build/install$(subst /,-,$(PREFIX))
+INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(if $(filter 0,$(BULLET)),-nobullet)
 D          = $(DESTDIR)$(PREFIX)
 install:
 	@$(MAKE) --no-print-directory B=$(INSTALL_B) all

@@ -149,8 +149,13 @@ static void load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
             bool known = false;
             for (uint32_t k = 0; k < mind->machine_count; k++)
                 known |= strcmp(mind->machines[k]->path, path) == 0;
-            if (known || mind->machine_count >= 64)
+            if (known)
                 continue;
+            if (mind->machine_count == JOX_MOST_MACHINES) {
+                jox_diag_error(diagnostics, plan->groups[g].mix[m].position, "too-many", NULL,
+                               "a scene has at most %d behaviours", JOX_MOST_MACHINES);
+                return;
+            }
             JoxMachine *machine = jox_lua_load(scene->lua, path, &scene->scope, diagnostics);
             if (machine)
                 jox_mind_add(mind, machine);

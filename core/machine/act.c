@@ -55,61 +55,56 @@ static void act_range(void *context, uint32_t begin, uint32_t end, uint32_t work
 }
 
 /* The impulse of a kick: through the body's centre, level, towards kick_at or straight ahead. */
-static bool kick(JoxMind *mind, const JoxMachine *machine, const JoxState *state, uint32_t i) {
+static void kick(JoxMind *mind, const JoxMachine *machine, const JoxState *state, uint32_t i) {
     JoxAgents *a = mind->agents;
     JoxSpot ball = jox_target_find(mind, i, state->kick);
     if (ball.object < 0 || mind->tick < a->kick_ready[i] || jox_spot_gap(mind, i, &ball) >= 0.05f)
-        return false;
+        return;
     const JoxObject *object = &mind->objects->rows[ball.object];
     if (!object->moves || !object->in_band)
-        return false;
+        return;
     JoxV2 way = {ball.x - a->x[i], ball.y - a->y[i]};
     if (state->kick_at >= 0) {
         JoxSpot at = jox_target_find(mind, i, state->kick_at);
         if (!at.found)
-            return false;
+            return;
         way = (JoxV2){at.x - ball.x, at.y - ball.y};
     }
     way = jox_unit(way);
     double change = jox_value(mind, machine, &state->kick_impulse, i);
     if (!(change > 0.0) || jox_length2(way) == 0.0f)
-        return false;
+        return;
     float impulse = (float)(change < 50.0 ? change : 50.0) / object->inverse_mass;
     JOX_RESERVE(mind->kicks, mind->kick_capacity, mind->kick_count + 1);
     mind->kicks[mind->kick_count++] = (JoxImpulse){
         (uint32_t)ball.object, {way.x * impulse, way.y * impulse, 0.0f}, object->position};
     a->kicked[i] = ball.object;
     a->kick_ready[i] = mind->tick + (uint32_t)(KICK_PAUSE / mind->dt + 0.5);
-    return true;
 }
 
 /* All kicks, by id of the kicker. */
 static void kick_all(JoxMind *mind) {
-    JoxAgents *a = mind->agents;
-    const JoxMindScratch *s = mind->scratch;
-    uint32_t last = 0;
-    for (;;) { /* few agents can kick: pick the next id among them */
-        uint32_t next = JOX_NO_INDEX;
-        for (uint32_t b = 0; b < s->batch_count; b++) {
-            const JoxBatchRange *batch = &s->batches[b];
-            if (mind->machines[batch->machine]->states[batch->state].kick < 0)
-                continue;
-            for (uint32_t n = 0; n < batch->count; n++) {
-                uint32_t id = a->id[s->grouped[batch->begin + n]];
-                next = id >= last && id < next ? id : next;
-            }
-        }
-        if (next == JOX_NO_INDEX)
-            return;
-        uint32_t i = a->id_index[next];
+    const JoxAgents *a = mind->agents;
+    JoxMindScratch *s = mind->scratch;
+    s->list_count = 0;
+    for (uint32_t b = 0; b < s->batch_count; b++) {
+        const JoxBatchRange *batch = &s->batches[b];
+        bool kicks = mind->machines[batch->machine]->states[batch->state].kick >= 0;
+        for (uint32_t n = 0; kicks && n < batch->count; n++)
+            s->list[s->list_count++] = s->grouped[batch->begin + n];
+    }
+    jox_sort_by_id(a, s->list, s->list_count);
+    for (uint32_t n = 0; n < s->list_count; n++) {
+        uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(mind, i);
         kick(mind, machine, &machine->states[a->state[i]], i);
-        last = next + 1;
     }
 }
 
 void jox_mind_act(JoxMind *mind, JoxPool *pool) {
     JoxAgents *a = mind->agents;
+    if (a->count == 0)
+        return;
     memset(mind->push_on, 1, a->count);
     memset(mind->push_nearest, 0, a->count);
     memset(mind->push_toward_x, 0, a->count * sizeof(float));

@@ -24,6 +24,7 @@ static void reserve(JoxMind *mind, JoxPool *pool) {
     s->fired = jox_realloc(s->fired, n, sizeof *s->fired);
     s->rank = jox_realloc(s->rank, n, sizeof *s->rank);
     s->list = jox_realloc(s->list, n, sizeof *s->list);
+    s->queue = jox_realloc(s->queue, n, sizeof *s->queue);
     JOX_RESERVE(mind->taken, mind->taken_capacity, n);
     mind->push_on = jox_realloc(mind->push_on, n, 1);
     mind->push_nearest = jox_realloc(mind->push_nearest, n, 1);
@@ -40,6 +41,7 @@ void jox_mind_scratch_free(JoxMind *mind) {
     jox_free(s->state_first);
     jox_free(s->fired);
     jox_free(s->rank);
+    jox_free(s->queue);
     jox_free(s->list);
     jox_free(s->pending);
     jox_free(s->place_people);
@@ -74,34 +76,39 @@ static int16_t queue_target(const JoxState *state) {
     return -1;
 }
 
-static bool stands_before(const JoxAgents *a, uint32_t i, uint32_t j) {
-    return a->entered[i] < a->entered[j] || (a->entered[i] == a->entered[j] && a->id[i] < a->id[j]);
+/* Whether i comes before j: by queue, then who came first, then by id. */
+static bool stands_before(const JoxMindScratch *s, const JoxAgents *a, uint32_t i, uint32_t j) {
+    if (s->queue[i] != s->queue[j])
+        return s->queue[i] < s->queue[j];
+    if (a->entered[i] != a->entered[j])
+        return a->entered[i] < a->entered[j];
+    return a->id[i] < a->id[j];
 }
 
-/* Ranks those who queue, first come first served. Queues are short, so each of their agents counts
-   those of the same queue who stand before it. */
+/* Ranks those who queue: sorted (Shell) by queue and order of arrival, then numbered. */
 static void rank_queues(JoxMind *mind) {
     JoxMindScratch *s = mind->scratch;
     const JoxAgents *a = mind->agents;
-    s->list_count = 0;
+    uint32_t count = 0, *list = s->list;
     for (uint32_t b = 0; b < s->batch_count; b++) {
         const JoxBatchRange *batch = &s->batches[b];
-        if (queue_target(&mind->machines[batch->machine]->states[batch->state]) < 0)
-            continue;
-        for (uint32_t n = 0; n < batch->count; n++)
-            s->list[s->list_count++] = s->grouped[batch->begin + n];
-    }
-    for (uint32_t n = 0; n < s->list_count; n++) {
-        uint32_t i = s->list[n], rank = 0;
-        int16_t target = queue_target(&jox_machine_of(mind, i)->states[a->state[i]]);
-        int32_t place = jox_target_place(mind, i, target);
-        for (uint32_t m = 0; m < s->list_count; m++) {
-            uint32_t j = s->list[m];
-            int16_t other = queue_target(&jox_machine_of(mind, j)->states[a->state[j]]);
-            rank += j != i && jox_target_place(mind, j, other) == place && stands_before(a, j, i);
+        int16_t target = queue_target(&mind->machines[batch->machine]->states[batch->state]);
+        for (uint32_t n = 0; target >= 0 && n < batch->count; n++) {
+            uint32_t i = s->grouped[batch->begin + n];
+            s->queue[i] = jox_target_place(mind, i, target);
+            list[count++] = i;
         }
-        s->rank[i] = rank;
     }
+    for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
+        for (uint32_t k = gap; k < count; k++) {
+            uint32_t moving = list[k], at = k;
+            for (; at >= gap && stands_before(s, a, moving, list[at - gap]); at -= gap)
+                list[at] = list[at - gap];
+            list[at] = moving;
+        }
+    for (uint32_t k = 0; k < count; k++)
+        s->rank[list[k]] =
+            k > 0 && s->queue[list[k]] == s->queue[list[k - 1]] ? s->rank[list[k - 1]] + 1 : 0;
 }
 
 void jox_mind_group(JoxMind *mind, JoxPool *pool) {
@@ -114,9 +121,10 @@ void jox_mind_group(JoxMind *mind, JoxPool *pool) {
         s->state_first = jox_realloc(s->state_first, s->state_capacity, sizeof *s->state_first);
     }
     memset(s->state_first, 0, (states + 1) * sizeof *s->state_first);
-    memset(s->rank, 0xff, a->count * sizeof *s->rank);
-    uint32_t *first = s->state_first, bases[64];
-    for (uint32_t m = 0; m < mind->machine_count && m < 64; m++)
+    if (a->count)
+        memset(s->rank, 0xff, a->count * sizeof *s->rank);
+    uint32_t *first = s->state_first, bases[JOX_MOST_MACHINES] = {0};
+    for (uint32_t m = 0; m < mind->machine_count; m++)
         bases[m] = first_state(mind, m);
     for (uint32_t i = 0; i < a->count; i++)
         if (a->machine[i] != JOX_NO_MACHINE)

@@ -23,6 +23,7 @@ typedef struct JoxMindScratch {
     uint32_t state_capacity;
     int16_t *fired; /* per agent: transition to take, -1 none */
     uint32_t *rank; /* per agent: place in the queue it stands in */
+    int32_t *queue; /* per agent that queues: where */
     uint32_t *list; /* agents that take something, by id */
     uint32_t list_count;
     uint32_t *pending; /* ids whose on_enter has yet to run, ascending */
@@ -66,6 +67,8 @@ void jox_eval(const JoxMind *mind, const JoxMachine *machine, const JoxProgram *
 double jox_value(const JoxMind *mind, const JoxMachine *machine, const JoxValue *value,
                  uint32_t agent);
 
+/* Sorts indices of agents by id. */
+void jox_sort_by_id(const JoxAgents *agents, uint32_t *list, uint32_t count);
 /* Grows the scratch and groups agents by state; ranks the queues. */
 void jox_mind_group(JoxMind *mind, JoxPool *pool);
 void jox_mind_count_places(JoxMind *mind);

@@ -34,8 +34,11 @@ void jox_mind_spawn(JoxMind *mind, uint32_t agent, uint32_t machine, const JoxDi
             value = jox_dist_draw(memory[s], mind->seed, a->id[agent], 0, JOX_DRAW_MEMORY, s);
         a->memory[(size_t)agent * a->memory_stride + s] = value;
     }
+    mind->spawning = true; /* it has no neighbours yet */
     jox_mind_enter(mind, agent, kind->start);
-    if (kind->states[kind->start].on_enter < 0)
+    mind->spawning = false;
+    const JoxState *start = &kind->states[kind->start];
+    if (start->on_enter < 0 && start->lasts_program < 0)
         return;
     if (!mind->scratch)
         mind->scratch = jox_alloc(1, sizeof *mind->scratch);

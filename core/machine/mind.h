@@ -30,6 +30,8 @@ typedef struct JoxTaken {
     uint16_t machine, from, to, transition;
 } JoxTaken;
 
+enum { JOX_MOST_MACHINES = 64 };
+
 typedef struct JoxMind {
     /* Given by the world before each stage. */
     JoxAgents *agents;
@@ -60,6 +62,7 @@ typedef struct JoxMind {
     JoxImpulse *kicks; /* impulses on bodies, by agent id */
     uint32_t kick_count, kick_capacity;
 
+    bool spawning; /* within jox_mind_spawn: nothing can be sensed */
     /* Transitions of the agent with this id are explained in `trace` as they are taken. */
     bool traces;
     uint32_t trace_id;

@@ -197,7 +197,8 @@ static void prefer_range(void *context, uint32_t begin, uint32_t end, uint32_t w
                 float by = weight->kind == JOX_VALUE_UNSET
                                ? 1.0f
                                : (float)jox_value(mind, machine, weight, i);
-                if (by != 0.0f)
+                /* A weight may come from a target that is not there: infinitely far. */
+                if (by != 0.0f && fabsf(by) <= 1e6f)
                     sum = jox_add(sum, jox_scale(term_direction(mind, i, &state->steer[t]), by));
             }
             if (jox_length2(sum) > 1.0f)

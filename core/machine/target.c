@@ -48,13 +48,13 @@ static JoxSpot object_spot(const JoxObject *o, int32_t row) {
 
 /* Whether agent j is what the target asks for, as seen by agent i. */
 static bool is_wanted(const JoxAgents *a, const JoxTarget *target, uint32_t i, uint32_t j) {
-    switch (target->kind) {
+    switch (target->kind) { /* team 0 is none: neither mate nor opponent */
     case JOX_TARGET_NEAREST:
         return (a->tags[j] >> target->arg & 1) != 0;
     case JOX_TARGET_OPPONENT:
-        return a->team[i] != a->team[j];
+        return a->team[i] != a->team[j] && a->team[i] && a->team[j];
     case JOX_TARGET_TEAMMATE:
-        return a->team[i] == a->team[j];
+        return a->team[i] == a->team[j] && a->team[i];
     default:
         return false;
     }

@@ -94,7 +94,7 @@ static void think_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
 }
 
 /* Sorts indices by id (Shell): short lists mostly. */
-static void sort_by_id(const JoxAgents *a, uint32_t *list, uint32_t count) {
+void jox_sort_by_id(const JoxAgents *a, uint32_t *list, uint32_t count) {
     for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
         for (uint32_t k = gap; k < count; k++) {
             uint32_t moving = list[k], at = k;
@@ -124,7 +124,7 @@ static void ask_functions(JoxMind *mind) {
             if (s->fired[s->grouped[batch->begin + n]] < 0)
                 s->list[s->list_count++] = s->grouped[batch->begin + n];
     }
-    sort_by_id(a, s->list, s->list_count);
+    jox_sort_by_id(a, s->list, s->list_count);
     for (uint32_t n = 0; n < s->list_count; n++) {
         uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(mind, i);
@@ -205,7 +205,7 @@ void jox_mind_enter(JoxMind *mind, uint32_t i, uint16_t to) {
     if (state->has_lasts)
         a->lasts[i] = (float)jox_dist_draw(&state->lasts, mind->seed, a->id[i], mind->tick,
                                            JOX_DRAW_LASTS, 0);
-    else if (state->lasts_program >= 0)
+    else if (state->lasts_program >= 0 && !mind->spawning)
         a->lasts[i] = (float)jox_value(
             mind, machine, &(JoxValue){.kind = JOX_VALUE_PROGRAM, .index = state->lasts_program},
             i);
@@ -223,7 +223,7 @@ static void take_transitions(JoxMind *mind) {
     for (uint32_t i = 0; i < a->count; i++)
         if (a->machine[i] != JOX_NO_MACHINE && s->fired[i] >= 0)
             s->list[s->list_count++] = i;
-    sort_by_id(a, s->list, s->list_count);
+    jox_sort_by_id(a, s->list, s->list_count);
     JOX_RESERVE(mind->taken, mind->taken_capacity, s->list_count);
     for (uint32_t n = 0; n < s->list_count; n++) {
         uint32_t i = s->list[n];
@@ -241,15 +241,22 @@ static void take_transitions(JoxMind *mind) {
     }
 }
 
-/* on_enter of agents that were spawned since the last step. */
+/* What agents that were spawned since the last step could not do yet: draw a duration that is an
+   expression of what they sense, and run on_enter. */
 static void greet_spawned(JoxMind *mind) {
     JoxMindScratch *s = mind->scratch;
     JoxAgents *a = mind->agents;
     for (uint32_t n = 0; n < s->pending_count; n++) {
         uint32_t i = s->pending[n] < a->next_id ? a->id_index[s->pending[n]] : JOX_NO_INDEX;
-        if (i != JOX_NO_INDEX)
-            call_hook(mind, jox_machine_of(mind, i)->states[a->state[i]].on_enter, JOX_HOOK_ENTER,
-                      i);
+        if (i == JOX_NO_INDEX)
+            continue;
+        const JoxMachine *machine = jox_machine_of(mind, i);
+        const JoxState *state = &machine->states[a->state[i]];
+        if (state->lasts_program >= 0)
+            a->lasts[i] = (float)jox_value(
+                mind, machine,
+                &(JoxValue){.kind = JOX_VALUE_PROGRAM, .index = state->lasts_program}, i);
+        call_hook(mind, state->on_enter, JOX_HOOK_ENTER, i);
     }
     s->pending_count = 0;
 }

@@ -1,8 +1,10 @@
 # Equal hashes for 1, 2 and 4 threads, two processes, -O0 and -O2, gcc and clang.
 . tests/scenes/lib.sh
 export MAKEFLAGS=
-make -s -j2 MODE=debug B=build/debug build/debug/jostle >/dev/null 2>&1 || echo "not ok the debug build"
-make -s -j2 CC=clang CXX=clang++ B=build/clang build/clang/jostle >/dev/null 2>&1 || echo "not ok the clang build"
+make -s -j2 MODE=debug B=build/debug CFLAGS=-Werror build/debug/jostle
+verdict "gcc -O0 builds without a warning" $?
+make -s -j2 CC=clang CXX=clang++ B=build/clang CFLAGS=-Werror build/clang/jostle
+verdict "clang builds without a warning" $?
 compare() { # SCENE ARGS...
     local scene=scenes/$1.yaml one; shift
     one=$(hash_of "$JOSTLE" "$scene" "$@")
@@ -10,9 +12,12 @@ compare() { # SCENE ARGS...
     same_hash "$scene processes" "$one" "$(hash_of "$JOSTLE" "$scene" "$@")"
     same_hash "$scene -O0" "$one" "$(hash_of build/debug/jostle "$scene" "$@")"
     same_hash "$scene clang" "$one" "$(hash_of build/clang/jostle "$scene" "$@")"
-    [ "$one" != "$(hash_of "$JOSTLE" "$scene" "$@" --seed 99)" ]
-    [ "$scene" = scenes/tawaf.yaml ] && verdict "$scene another seed differs" $?
+    if [ "$scene" = scenes/tawaf.yaml ]; then
+        [ "$one" != "$(hash_of "$JOSTLE" "$scene" "$@" --seed 99)" ]
+        verdict "$scene another seed differs" $?
+    fi
 }
 compare tawaf --set groups.pilgrims.count=5000 --set sources.0.keep=5000 --steps 60
 compare dodgeball --for 20
 compare running-through --for 10
+exit 0
