@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 
 #define FAR 10000 /* m: floats still resolve a millimetre */
+enum { MOST_POINTS = 5000 };
 #define N JOX_TYPE_NUMBER
 const JoxKey jox_scene_keys[] = {
     {"scene", "jostle", JOX_TYPE_WHOLE, "", 1, 1, "!", "version of the format"},
@@ -301,6 +302,11 @@ JoxV2 *jox_read_points(const JoxReader *reader, const JoxYaml *list, uint32_t le
     if (list->kind != JOX_YAML_LIST || list->count < least) {
         jox_scene_error(reader, list, "bad-type", "[[0, 0], [1, 0], ...]",
                         "this must be a list of at least %u points", least);
+        return NULL;
+    }
+    if (list->count > MOST_POINTS) {
+        jox_scene_error(reader, list, "too-many", "Simplify the outline",
+                        "a list of points has at most %d, not %u", MOST_POINTS, list->count);
         return NULL;
     }
     JoxV2 *points = jox_hoard_take(reader->hoard, list->count, sizeof *points);

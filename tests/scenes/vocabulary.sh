@@ -1,0 +1,23 @@
+# The tests of tests/lua: every agent of each must end in the state Pass.
+. tests/scenes/lib.sh
+for file in tests/lua/*.lua; do
+    name=$(basename "$file" .lua)
+    cp "$file" "$work/"
+    cat >"$work/scene.yaml" <<END
+jostle: 1
+places:
+  yard: {polygon: [[0, 0], [20, 0], [20, 20], [0, 20]]}
+  mid: {line: [[10, 0], [10, 20]]}
+  post: {point: [5, 10]}
+  far: {point: [18, 18], radius: 1}
+  ends: {set: [post, far]}
+  row: {queue: [[15, 10], [15, 5]], spacing: 0.6}
+bodies:
+  - {shape: {sphere: {radius: 0.11}}, mass: 0.4, at: [3, 3, 0.11], tags: [ball]}
+groups:
+  people: {behaviour: $name.lua, at: [[12, 8], [12, 10], [12, 12]], tags: [people]}
+END
+    "$JOSTLE" run "$work/scene.yaml" --for 25 --quiet --summary "$work/$name.json" >"$work/log" 2>&1
+    if grep -q '"Pass": 3' "$work/$name.json" 2>/dev/null; then echo "ok $name"; else
+        echo "not ok $name"; cat "$work/log"; grep states "$work/$name.json"; fi
+done
