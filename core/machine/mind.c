@@ -101,7 +101,8 @@ static void carry_values(JoxMind *mind, const JoxMachine *old, const JoxMachine 
     JoxAgents *a = mind->agents;
     double *own = a->own + (size_t)i * a->own_stride, before[256];
     double *memory = a->memory + (size_t)i * a->memory_stride;
-    memcpy(before, own, (old->own_count < 256 ? old->own_count : 256) * sizeof *before);
+    for (uint32_t s = 0; s < old->own_count && s < 256; s++)
+        before[s] = own[s];
     for (uint32_t s = 0; s < next->own_count; s++) {
         int from = own_before(old, next, s);
         if (from >= 0 && from < 256)
@@ -109,7 +110,8 @@ static void carry_values(JoxMind *mind, const JoxMachine *old, const JoxMachine 
         else
             draw_own(mind, i, s, &next->own[s].dist);
     }
-    memcpy(before, memory, (old->memory_count < 256 ? old->memory_count : 256) * sizeof *before);
+    for (uint32_t s = 0; s < old->memory_count && s < 256; s++)
+        before[s] = memory[s];
     for (uint32_t s = 0; s < next->memory_count; s++) {
         int from = memory_before(old, next, s);
         bool same = from >= 0 && from < 256 && old->memory[from].kind == next->memory[s].kind;

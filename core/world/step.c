@@ -47,8 +47,8 @@ static void push(JoWorld *w) {
         jox_force_contact(w->forces);
     }
     jox_force_sum(w->forces);
-    memset(w->agents.ext_x, 0, w->agents.count * sizeof(float)); /* given for this step alone */
-    memset(w->agents.ext_y, 0, w->agents.count * sizeof(float));
+    for (uint32_t i = 0; i < w->agents.count; i++) /* given for this step alone */
+        w->agents.ext_x[i] = w->agents.ext_y[i] = 0.0f;
 }
 
 static void solve(JoWorld *w) {
