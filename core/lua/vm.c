@@ -30,7 +30,7 @@ static void *allocate(void *context, void *memory, size_t old, size_t size) {
     if (result)
         vm->used += size - old;
     if (size > old) { /* bytes cost too: a few instructions can copy megabytes */
-        uint64_t cost = (size - old) >> 4;
+        uint64_t cost = (size - old) >> 2;
         vm->left = vm->left > cost ? vm->left - cost : 0;
     }
     return result;

@@ -67,7 +67,8 @@ static bool first_passed(const JoxWallGrid *grid, JoxV2 p, JoxV2 q, uint32_t *ed
         JoxV2 a = v->point, b = grid->walls->vertices[v->next].point;
         float before = jox_det(v->direction, jox_sub(p, a));
         float after = jox_det(v->direction, jox_sub(q, a));
-        if (before >= 0.0f || after < 0.0f) /* outside is to the right: negative */
+        /* Outside is to the right: negative. Who stands on the line itself counts as outside. */
+        if (before > 0.0f || after < 0.0f || before == after)
             continue;
         float at = before / (before - after);
         float along = jox_dot(jox_sub(jox_add(p, jox_scale(way, at)), a), v->direction);

@@ -132,13 +132,15 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
     s->nav->chunk_relaxed[begin / JOX_NAV_GRAIN] = relaxations;
 }
 
-/* The farthest that any agent may have to look for walls, m. */
-static float wall_reach(const JoxAgents *a) {
+/* The farthest that any agent may have to look for walls, m: as far as it plans ahead, and as far
+   as it can get in a step, thrown or shifted. */
+static float wall_reach(const JoxAgents *a, float dt) {
     float reach = 0.0f;
-    for (uint32_t i = 0; i < a->count; i++)
-        reach =
-            jox_maxf(reach, a->param[JOX_PARAM_wall_horizon][i] * a->param[JOX_PARAM_max_speed][i] +
-                                a->param[JOX_PARAM_radius][i]);
+    for (uint32_t i = 0; i < a->count; i++) {
+        float radius = a->param[JOX_PARAM_radius][i];
+        float planned = a->param[JOX_PARAM_wall_horizon][i] * a->param[JOX_PARAM_max_speed][i];
+        reach = jox_maxf(reach, radius + jox_maxf(planned, a->disc[i] * dt + 0.5f));
+    }
     return reach;
 }
 
@@ -146,7 +148,7 @@ uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neig
                        const JoxObjects *objects, double dt, JoxPool *pool) {
     Solve solve = {nav, agents, neighbours, objects, (float)dt};
     if (nav->grid.walls)
-        jox_wall_grid_fit(&nav->grid, wall_reach(agents));
+        jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)dt));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);
     uint32_t relaxed = 0;
     for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)
