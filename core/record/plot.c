@@ -46,13 +46,10 @@ static bool close_file(FILE *file, const char *what, JoxText *error) {
 
 /* Runs gnuplot on a script of the folder, inside it. */
 static bool draw(const char *folder, const char *script, JoxText *error) {
-    char path[1100], command[64] = "gnuplot", change[1200];
-    snprintf(path, sizeof path, "%s", script);
-    snprintf(change, sizeof change, "cd '%s'", folder);
-    char *arguments[] = {command, "-e", change, path, NULL};
-    char full[1200];
-    snprintf(full, sizeof full, "%s/%s", folder, script);
-    arguments[3] = full;
+    char command[] = "gnuplot", execute[] = "-e", change[1200], name[64];
+    snprintf(change, sizeof change, "cd '%.1023s'", folder);
+    snprintf(name, sizeof name, "%s", script);
+    char *arguments[] = {command, execute, change, name, NULL};
     pid_t child;
     int status = 0;
     if (strchr(folder, '\'') ||

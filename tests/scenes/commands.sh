@@ -25,6 +25,8 @@ expect "check finds nothing" 0 "nothing wrong" "$JOSTLE" check scenes behaviours
 expect "trace" 0 "Run -> Arrived" "$JOSTLE" run scenes/running-through.yaml --quiet --trace 25
 expect "bench" 0 "running-through" "$JOSTLE" bench scenes/running-through.yaml --steps 10 --warm-up 5
 "$JOSTLE" run scenes/running-through.yaml --quiet --seeds 3 --for 2 --summary "$work/seeds.json"
+(root=$PWD; cd "$work" && "$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$root/$JOSTLE" ;; esac)" run "$root/scenes/running-through.yaml" --quiet --for 2 --report some/where >/dev/null 2>&1)
+[ -s "$work/some/where/density.png" ]; verdict "a report into a folder that is new and relative" $?
 grep -q '"runs": 3' "$work/seeds.json" && grep -q '"lp_failure_share": {"mean"' "$work/seeds.json"; verdict "several seeds" $?
 "$JOSTLE" run scenes/running-through.yaml --quiet --steps 5 --summary - | grep -q "$(sha256sum scenes/running-through.yaml | cut -d' ' -f1)"
 verdict "the summary lists its inputs" $?
