@@ -56,8 +56,8 @@ all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so.$(VERSION)
 run:
 	@.ci/setup run
 	@$(MAKE) --no-print-directory all
-	$(B)/jostle run scenes/tawaf.yaml --for $(SECONDS) --report build/out/tawaf --summary build/out/tawaf.json
-SECONDS ?= 60
+	$(B)/jostle run scenes/tawaf.yaml --for $(DURATION) --report build/out/tawaf --summary build/out/tawaf.json
+DURATION ?= 60
 test:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory all tests-built
