@@ -90,6 +90,7 @@ typedef struct JoxVm {
     size_t used, node_bytes; /* bytes */
     uint64_t left;           /* instructions until it is stopped */
     bool over;               /* sticky: every further instruction fails */
+    bool running;            /* within jox_vm_call */
     bool loading;
     bool out_of_memory;
     JoxNode **nodes;

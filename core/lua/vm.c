@@ -12,6 +12,8 @@ JoxLuaLimits jox_lua_default_limits(void) {
     return (JoxLuaLimits){20000000, 100000, 32u << 20, 2u << 20, 256u << 10};
 }
 
+static void count_hook(lua_State *L, lua_Debug *debug);
+
 static void *allocate(void *context, void *memory, size_t old, size_t size) {
     JoxVm *vm = context;
     if (!memory)
@@ -32,6 +34,8 @@ static void *allocate(void *context, void *memory, size_t old, size_t size) {
     if (size > old) { /* bytes cost too: a few instructions can copy megabytes */
         uint64_t cost = (size - old) >> 2;
         vm->left = vm->left > cost ? vm->left - cost : 0;
+        if (vm->left == 0 && vm->running) /* do not wait for the next thousand instructions */
+            lua_sethook(vm->L, count_hook, LUA_MASKCOUNT, 1);
     }
     return result;
 }
@@ -135,7 +139,9 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     vm->over = vm->out_of_memory = false;
     vm->failed_source = 0;
     lua_sethook(vm->L, count_hook, LUA_MASKCOUNT, CHECK_EVERY);
+    vm->running = true;
     int status = lua_pcall(vm->L, arguments, results, 0);
+    vm->running = false;
     lua_sethook(vm->L, NULL, 0, 0);
     if (status == LUA_OK)
         return true;
