@@ -18,6 +18,7 @@
     X(uint16_t, machine) /* index of the machine; JOX_NO_MACHINE has none */                       \
     X(uint16_t, state)   /* index of the state in the machine */                                   \
     X(uint16_t, team)    /* 0 none; agents of other teams are opponents */                         \
+    X(uint64_t, given)   /* bit per own slot (the first 64) that the scene or a function set */    \
     X(uint64_t, tags)    /* bit per tag of the world */                                            \
     X(float, x)                                                                                    \
     X(float, y)                                                                                    \

@@ -102,6 +102,12 @@ typedef struct JoxPose {
 bool jox_bodies_pose(const JoxBodies *bodies, uint32_t row, JoxPose *pose);
 /* False, and nothing done, for a static body or a number that is not finite. */
 bool jox_bodies_set_velocity(JoxBodies *bodies, uint32_t row, JoxV3 velocity, JoxV3 spin);
+/* From here on an agent carries the body: it touches nothing until it is let go. False for a static
+   body. */
+bool jox_bodies_hold(JoxBodies *bodies, uint32_t row, uint32_t agent_id);
+/* Where the carried body is, centre of mass, and how it moves. */
+void jox_bodies_carry(JoxBodies *bodies, uint32_t row, JoxV3 centre, JoxV3 velocity);
+void jox_bodies_let_go(JoxBodies *bodies, uint32_t row, JoxV3 velocity);
 /* Acts at the centre of mass throughout the next step, N; adds to what was given before. */
 bool jox_bodies_force(JoxBodies *bodies, uint32_t row, JoxV3 force);
 /* Applied in the order given. Rows that are dead or static and impulses that are not finite are

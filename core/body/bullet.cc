@@ -267,6 +267,40 @@ bool jox_bodies_set_velocity(JoxBodies *b, uint32_t row, JoxV3 velocity, JoxV3 s
     return true;
 }
 
+bool jox_bodies_hold(JoxBodies *b, uint32_t row, uint32_t agent_id) {
+    JoxRow *r = row_of(b, row);
+    if (!r || r->built.mass <= 0)
+        return false;
+    r->held = true;
+    r->holder = agent_id;
+    r->body->setCollisionFlags(r->body->getCollisionFlags() |
+                               btCollisionObject::CF_NO_CONTACT_RESPONSE);
+    return true;
+}
+
+void jox_bodies_carry(JoxBodies *b, uint32_t row, JoxV3 centre, JoxV3 velocity) {
+    JoxRow *r = row_of(b, row);
+    if (!r || !r->held || !jox_finite(jox_bt(centre)) || !jox_finite(jox_bt(velocity)))
+        return;
+    btTransform at = r->body->getWorldTransform();
+    at.setOrigin(jox_bt(centre));
+    r->body->setWorldTransform(at);
+    r->body->setInterpolationWorldTransform(at);
+    r->body->activate(true);
+    r->body->setLinearVelocity(jox_bt(velocity));
+    r->body->setAngularVelocity(btVector3(0, 0, 0));
+}
+
+void jox_bodies_let_go(JoxBodies *b, uint32_t row, JoxV3 velocity) {
+    JoxRow *r = row_of(b, row);
+    if (!r || !r->held)
+        return;
+    r->held = false;
+    r->body->setCollisionFlags(r->body->getCollisionFlags() &
+                               ~btCollisionObject::CF_NO_CONTACT_RESPONSE);
+    jox_bodies_set_velocity(b, row, velocity, JoxV3{0, 0, 0});
+}
+
 bool jox_bodies_force(JoxBodies *b, uint32_t row, JoxV3 force) {
     JoxRow *r = row_of(b, row);
     if (!r || r->built.mass <= 0 || !jox_finite(jox_bt(force)))
@@ -309,7 +343,8 @@ void jox_bodies_hash(const JoxBodies *b, JoxHash *hash) {
             for (int j = 0; j < 3; j++)
                 state[9 + 3 * i + j] = at.getBasis()[i][j];
         }
-        jox_hash_add(hash, &r->id, sizeof r->id);
+        uint32_t who[2] = {r->id, r->held ? r->holder : UINT32_MAX};
+        jox_hash_add(hash, who, sizeof who);
         jox_hash_add(hash, state, sizeof state);
     }
 }

@@ -58,6 +58,8 @@ struct JoxRow {
     btRigidBody *body;
     JoxV3 force; /* over the next step, N */
     bool grounded, swept, written;
+    bool held; /* by an agent */
+    uint32_t holder;
 };
 
 struct JoxBodies {

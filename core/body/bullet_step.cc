@@ -2,7 +2,7 @@
 #include "body/bullet.h"
 
 bool jox_row_fast(const JoxRow *r, float dt) {
-    return r->built.mass > 0 && r->built.bound <= 0.75f &&
+    return !r->held && r->built.mass > 0 && r->built.bound <= 0.75f &&
            r->body->getLinearVelocity().length() * dt > 0.1f;
 }
 
@@ -206,6 +206,9 @@ static void write_object(JoxBodies *b, JoxRow *r, JoxObject *o) {
     o->restitution = r->body->getRestitution();
     o->friction = r->body->getFriction();
     write_footprint(b, r, o);
+    o->held = r->held;
+    o->holder = r->holder;
+    o->in_band = o->in_band && !r->held; /* who carries it is not pushed by it */
 }
 
 void jox_bodies_objects(JoxBodies *b, JoxObjects *objects) {

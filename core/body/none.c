@@ -45,6 +45,15 @@ bool jox_bodies_pose(const JoxBodies *bodies, uint32_t row, JoxPose *pose) {
 bool jox_bodies_set_velocity(JoxBodies *bodies, uint32_t row, JoxV3 velocity, JoxV3 spin) {
     return (void)bodies, (void)row, (void)velocity, (void)spin, false;
 }
+bool jox_bodies_hold(JoxBodies *bodies, uint32_t row, uint32_t agent_id) {
+    return (void)bodies, (void)row, (void)agent_id, false;
+}
+void jox_bodies_carry(JoxBodies *bodies, uint32_t row, JoxV3 centre, JoxV3 velocity) {
+    (void)bodies, (void)row, (void)centre, (void)velocity;
+}
+void jox_bodies_let_go(JoxBodies *bodies, uint32_t row, JoxV3 velocity) {
+    (void)bodies, (void)row, (void)velocity;
+}
 bool jox_bodies_force(JoxBodies *bodies, uint32_t row, JoxV3 force) {
     return (void)bodies, (void)row, (void)force, false;
 }

@@ -11,12 +11,14 @@
 enum { JOX_FOOTPRINT_POINTS = 16 };
 
 typedef struct JoxObject {
-    uint32_t id;   /* of the body, never reused */
-    bool live;     /* false: the row is free */
-    bool in_band;  /* some of it is within the agents' height band: can be touched */
-    bool moves;    /* false: mass 0, static */
-    bool grounded; /* touches the ground or rests upon something static */
-    bool swept;    /* fast: body/ itself sweeps it against people; forces leave it out */
+    uint32_t id;     /* of the body, never reused */
+    bool live;       /* false: the row is free */
+    bool in_band;    /* some of it is within the agents' height band: can be touched */
+    bool moves;      /* false: mass 0, static */
+    bool grounded;   /* touches the ground or rests upon something static */
+    bool held;       /* carried by an agent: touches nothing */
+    uint32_t holder; /* its id */
+    bool swept;      /* fast: body/ itself sweeps it against people; forces leave it out */
     uint64_t tags;
     JoxV3 position;           /* centre of mass, m */
     JoxV3 velocity;           /* m/s */

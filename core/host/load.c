@@ -206,6 +206,7 @@ static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnos
     load_machines(scene, diagnostics);
     JoxMind *mind = &scene->world->mind;
     mind->call = jox_lua_call;
+    mind->bracket = jox_lua_bracket;
     mind->call_context = scene->lua;
     jox_lua_attach(scene->lua, mind, complain, scene);
     load_input(scene, def->input_log ? def->input_log : plan->input, diagnostics);

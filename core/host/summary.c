@@ -56,6 +56,7 @@ static void add_events(JoxText *out, const JoScene *scene) {
         uint64_t count;
     } events[] = {{"transitions", s->transitions},
                   {"kicks", s->kicks},
+                  {"throws", s->throws},
                   {"hits", s->hits},
                   {"spawned", s->spawned},
                   {"removed", s->removed},

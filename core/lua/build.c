@@ -5,13 +5,50 @@
 
 #include "base/mem.h"
 #include "lua/read.h"
+#include "lua/vocabulary.h"
 
-static const char *const MACHINE_KEYS[] = {"name",   "version", "start", "defaults",
-                                           "counts", "renamed", "states"};
-enum { KEYS_MOST = 64, MOST_LOOKS = 20000000 };
+enum { KEYS_MOST = 64 };
+
+/* The origin whose path is the longest that leads to `path`, the last set of equal ones. */
+static const JoxOrigin *origin_of(const JoxVm *vm, const char *path) {
+    const JoxOrigin *best = NULL;
+    size_t longest = 0;
+    for (size_t o = 0; o < vm->origin_count; o++) {
+        const JoxOrigin *origin = &vm->origins[o];
+        size_t n = strlen(origin->path);
+        bool leads =
+            n == 0 || (strncmp(origin->path, path, n) == 0 && (!path[n] || path[n] == '.'));
+        if (leads && (!best || n >= longest)) {
+            best = origin;
+            longest = n;
+        }
+    }
+    return best;
+}
+
+/* The source that a path of the machine was written in, and its path there. */
+static JoxSource *locate(const JoxBuild *b, const char *path, char there[512]) {
+    const JoxOrigin *origin = origin_of(b->vm, path);
+    if (!origin) {
+        snprintf(there, 512, "%s", path);
+        return b->source;
+    }
+    size_t n = strlen(origin->path);
+    const char *rest = path + n + (n && path[n] == '.');
+    snprintf(there, 512, "%.250s%s%.250s", origin->from, *rest && *origin->from ? "." : "", rest);
+    return &b->vm->sources[origin->source];
+}
 
 JoxPosition jox_read_at(const JoxBuild *b, const char *path) {
-    return jox_source_path(b->source, path);
+    char there[512];
+    const JoxSource *source = locate(b, path, there);
+    return jox_source_path(source, there);
+}
+
+const JoxPath *jox_read_span(const JoxBuild *b, const char *path, JoxSource **source) {
+    char there[512];
+    *source = locate(b, path, there);
+    return jox_source_path_find(*source, there);
 }
 
 /* Position of a key itself: of the key written out, or of the table around it. */
@@ -66,10 +103,30 @@ void jox_read_join(char path[256], const char *prefix, const char *key) {
     snprintf(path, 256, "%.190s%s%.60s", prefix, *prefix ? "." : "", key);
 }
 
-int32_t jox_read_add_hook(JoxBuild *b) { /* takes the function from the stack */
+/* "states.Circle.2.on_take" in words: "state Circle > transition 2 > on_take". */
+static void describe(const char *path, JoxText *out) {
+    char part[128];
+    for (int depth = 0; *path; depth++) {
+        size_t n = strcspn(path, ".");
+        snprintf(part, sizeof part, "%.*s", (int)n, path);
+        bool number = part[strspn(part, "0123456789")] == 0;
+        if (depth > 0)
+            jox_text_printf(out, "%s%s%s", depth > 1 ? " > " : "",
+                            depth == 1                               ? "state "
+                            : number || (depth == 2 && *part == '@') ? "transition "
+                                                                     : "",
+                            *part == '@' ? part + 1 : part);
+        path += n + (path[n] == '.');
+    }
+}
+
+int32_t jox_read_add_hook(JoxBuild *b, const char *path) { /* takes the function from the stack */
     JoxVm *vm = b->vm;
+    JoxText where = {0};
+    describe(path, &where);
     JOX_RESERVE(vm->hooks, vm->hook_capacity, vm->hook_count + 1);
-    vm->hooks[vm->hook_count] = luaL_ref(vm->L, LUA_REGISTRYINDEX);
+    vm->hooks[vm->hook_count] =
+        (JoxHook){.ref = luaL_ref(vm->L, LUA_REGISTRYINDEX), .where = where.data};
     b->machine->hook_count = vm->hook_count + 1;
     return (int32_t)vm->hook_count++;
 }
@@ -80,7 +137,7 @@ int32_t jox_read_hook(JoxBuild *b, int index, const char *path, const char *key)
     jox_read_join(full, path, key);
     int type = jox_read_field(L, index, key);
     if (type == LUA_TFUNCTION)
-        return jox_read_add_hook(b);
+        return jox_read_add_hook(b, full);
     if (type != LUA_TNIL && !jox_node_get(L, -1))
         jox_build_error(b, jox_read_at(b, full), "bad-value", "Write: function(me) ... end",
                         "'%s' must be a function, not %s", key, lua_typename(L, type));
@@ -108,7 +165,7 @@ JoxValue jox_read_value(JoxBuild *b, const char *path, const JoxParameterInfo *i
         *dist = node->dist;
     } else if (node && node->kind == JOX_NODE_OWN) {
         value.kind = JOX_VALUE_OWN;
-        value.index = jox_build_own(b, node->name);
+        value.index = jox_build_own_at(b, node);
     } else if (node && node->kind == JOX_NODE_NUMBER) {
         value.kind = JOX_VALUE_PROGRAM;
         value.index = jox_build_program(b, node, position);
@@ -174,64 +231,6 @@ static void read_defaults(JoxBuild *b, int index) {
     lua_pop(L, 1);
 }
 
-/* Operators that Lua takes for its own between conditions, in the tokens of a value. */
-static bool scan_operators(JoxBuild *b, uint32_t first, uint32_t last) {
-    static const struct {
-        const char *sign, *instead;
-    } TRAPS[] = {{"and", "Use & between conditions"},
-                 {"or", "Use | between conditions"},
-                 {"not", "Use ~ before a condition"},
-                 {"==", "Write :is(n)"},
-                 {"~=", "Write ~x:is(n)"}};
-    bool found = false;
-    int body = 0;
-    for (uint32_t i = first; i < last && i < b->source->token_count; i++) {
-        const JoxToken *t = &b->source->tokens[i];
-        if (jox_token_is(t, "function") ||
-            (body > 0 && (jox_token_is(t, "if") || jox_token_is(t, "do"))))
-            body++;
-        else if (body > 0 && jox_token_is(t, "end"))
-            body--;
-        for (size_t k = 0; body == 0 && k < sizeof TRAPS / sizeof *TRAPS; k++)
-            if (jox_token_is(t, TRAPS[k].sign)) {
-                jox_build_error(
-                    b, (JoxPosition){b->source->path, t->line, t->column, t->end_column},
-                    "lua-operator", TRAPS[k].instead,
-                    "'%s' decides while the file loads, not while the crowd runs", TRAPS[k].sign);
-                found = true;
-            }
-    }
-    return found;
-}
-
-/* The same in the definitions of the locals that a condition uses. */
-static bool scan_condition(JoxBuild *b, const char *path) {
-    const JoxPath *span = jox_source_path_find(b->source, path);
-    if (!span)
-        return false;
-    bool found = scan_operators(b, span->first, span->last);
-    const JoxToken *t = b->source->tokens;
-    for (uint32_t use = span->first; use < span->last; use++) {
-        if (t[use].kind != JOX_TOKEN_NAME)
-            continue;
-        for (uint32_t i = 0; i + 2 < span->first && b->source->looks < MOST_LOOKS; i++) {
-            b->source->looks++;
-            bool defines = jox_token_is(&t[i], "local") && jox_token_is(&t[i + 2], "=") &&
-                           t[i + 1].length == t[use].length &&
-                           memcmp(t[i + 1].text, t[use].text, t[use].length) == 0;
-            if (!defines || t[i].used)
-                continue;
-            uint32_t end = i + 3;
-            while (end < span->first && !jox_token_is(&t[end], "local") &&
-                   !jox_token_is(&t[end], "return"))
-                end++;
-            b->source->tokens[i].used = true; /* once per local */
-            found |= scan_operators(b, i + 3, end);
-        }
-    }
-    return found;
-}
-
 /* A condition's program; -1 for none. Pops the value. A function becomes *hook where allowed. */
 int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
     lua_State *L = b->vm->L;
@@ -239,10 +238,10 @@ int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
     int type = lua_type(L, -1);
     int32_t program = -1;
     if (hook && type == LUA_TFUNCTION) {
-        *hook = jox_read_add_hook(b);
+        *hook = jox_read_add_hook(b, path);
         return -1;
     }
-    bool trapped = type != LUA_TNIL && scan_condition(b, path);
+    bool trapped = type != LUA_TNIL && jox_read_traps(b, path);
     if (node && node->kind == JOX_NODE_CONDITION) {
         program = jox_build_program(b, node, jox_read_at(b, path));
     } else if (type != LUA_TNIL && !trapped && !(node && node->kind == JOX_NODE_POISON)) {
@@ -277,9 +276,9 @@ int16_t jox_read_target(JoxBuild *b, int index, const char *path, const char *ke
         if (named.target_arg < 0 && scope->complete)
             jox_build_error(b, jox_read_at(b, full), "unknown-place", NULL,
                             "the scene has no place '%s'", named.name);
-        target = jox_build_target(b, &named, false);
+        target = jox_build_target(b, &named);
     } else if (node && (node->kind == JOX_NODE_TARGET || node->kind == JOX_NODE_OWN)) {
-        target = jox_build_target(b, node, false);
+        target = jox_build_target(b, node);
     } else if (type != LUA_TNIL && !(node && node->kind == JOX_NODE_POISON)) {
         jox_build_error(b, jox_read_at(b, full), "bad-value", "Example: face = \"black_stone\"",
                         "'%s' must be a target or the name of a place", key);
@@ -328,6 +327,13 @@ uint64_t jox_read_tags(JoxBuild *b, int index, const char *path, const char *key
     return mask;
 }
 
+int32_t jox_read_memory(const JoxBuild *b, const char *name) {
+    for (uint32_t s = 0; s < b->machine->memory_count; s++)
+        if (*name && strcmp(b->machine->memory[s].name, name) == 0)
+            return (int32_t)s;
+    return -1;
+}
+
 /* The states' names, ascending: tables have no order of their own. */
 static void name_states(JoxBuild *b, int table) {
     lua_State *L = b->vm->L;
@@ -349,7 +355,7 @@ static void name_states(JoxBuild *b, int table) {
         uint32_t place = m->state_count++;
         for (; place > 0 && strcmp(m->states[place - 1].name, name) > 0; place--)
             m->states[place] = m->states[place - 1];
-        m->states[place] = (JoxState){.name = jox_strdup(name)};
+        m->states[place] = jox_state_blank(jox_strdup(name));
     }
 }
 
@@ -366,7 +372,7 @@ static void read_states(JoxBuild *b, int index) {
     name_states(b, table);
     for (uint32_t s = 0; s < m->state_count; s++) {
         jox_read_field(L, table, m->states[s].name);
-        jox_read_state(b, lua_gettop(L), &m->states[s]);
+        jox_read_state(b, lua_gettop(L), &m->states[s], (int32_t)s);
         lua_settop(L, table);
     }
     if (m->state_count == 0)
@@ -390,51 +396,54 @@ static void read_start(JoxBuild *b, int index) {
     lua_pop(L, 1);
 }
 
-static void read_counts(JoxBuild *b, int index) {
+/* One thing that counts by itself. */
+static void read_counter(JoxBuild *b, const char *path, uint32_t slot, int32_t state) {
+    JoxMachine *m = b->machine;
+    JoxNode *node = jox_node_get(b->vm->L, -1);
+    if (node && node->kind == JOX_NODE_CIRCUITS) {
+        JOX_RESERVE(m->counters, b->counter_capacity, m->counter_count + 1);
+        JoxCounter counter = {
+            .target = jox_build_target(b, node->target), .value = (int32_t)slot, .state = state};
+        counter.angle = jox_build_memory(b, "");
+        counter.begun = jox_build_memory(b, "");
+        m->counters[m->counter_count++] = counter;
+    } else if (!node || node->kind != JOX_NODE_POISON) {
+        jox_build_error(b, jox_read_at(b, path), "bad-value", "Example: laps = circuits \"kaaba\"",
+                        "this must be something that can be counted");
+    }
+}
+
+void jox_read_counts(JoxBuild *b, int index, const char *prefix, int32_t state) {
     lua_State *L = b->vm->L;
     JoxMachine *m = b->machine;
-    if (jox_read_field(L, index, "counts") == LUA_TTABLE) {
-        int table = lua_gettop(L);
-        for (uint32_t slot = 0; slot < m->memory_count; slot++) { /* in the order of the memory */
-            if (!*m->memory[slot].name ||
-                jox_read_field(L, table, m->memory[slot].name) == LUA_TNIL) {
-                lua_settop(L, table);
-                continue;
-            }
-            JoxNode *node = jox_node_get(L, -1);
-            char path[256];
-            jox_read_join(path, "counts", m->memory[slot].name);
-            if (node && node->kind == JOX_NODE_CIRCUITS) {
-                JOX_RESERVE(m->counters, b->counter_capacity, m->counter_count + 1);
-                JoxCounter counter = {.target = jox_build_target(b, node->target, true),
-                                      .value = (int32_t)slot,
-                                      .state = -1};
-                counter.angle = jox_build_memory(b, "");
-                counter.begun = jox_build_memory(b, "");
-                m->counters[m->counter_count++] = counter;
-            } else if (!node || node->kind != JOX_NODE_POISON) {
-                jox_build_error(b, jox_read_at(b, path), "bad-value",
-                                "Example: laps = circuits \"kaaba\"",
-                                "this must be something that can be counted");
-            }
-            lua_settop(L, table);
-        }
-        lua_pushnil(L);
-        while (lua_next(L, table)) {
-            lua_pop(L, 1);
-            const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "?";
-            bool known = false;
-            for (uint32_t s = 0; s < b->vm->memory_count; s++)
-                known |= strcmp(b->vm->memory[s].name, name) == 0;
-            if (!known)
-                jox_build_error(b, jox_read_at(b, "counts"), "unknown-memory",
-                                "Declare it: local mine = memory { laps = 0 }",
-                                "'%s' is counted but not remembered", name);
-        }
-    } else if (!lua_isnil(L, -1)) {
-        jox_build_error(b, jox_read_at(b, "counts"), "bad-value", NULL, "counts must be a table");
+    char path[256], full[256];
+    int type = jox_read_field(L, index, "counts"), table = lua_gettop(L);
+    jox_read_join(path, prefix, "counts");
+    if (type != LUA_TTABLE) {
+        if (type != LUA_TNIL)
+            jox_build_error(b, jox_read_at(b, path), "bad-value", NULL, "counts must be a table");
+        lua_pop(L, 1);
+        return;
     }
-    lua_pop(L, 1);
+    for (uint32_t slot = 0; slot < b->vm->memory_count; slot++) { /* in the order of the memory */
+        if (jox_read_field(L, table, m->memory[slot].name) != LUA_TNIL) {
+            jox_read_join(full, path, m->memory[slot].name);
+            read_counter(b, full, slot, state);
+        }
+        lua_settop(L, table);
+    }
+    lua_pushnil(L);
+    while (lua_next(L, table)) {
+        lua_pop(L, 1);
+        const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "?";
+        if (jox_read_memory(b, name) >= 0)
+            continue;
+        jox_read_join(full, path, name);
+        jox_build_error(b, jox_read_at(b, full), "unknown-memory",
+                        "Declare it: local mine = memory { laps = 0 }",
+                        "'%s' is counted but not remembered", name);
+    }
+    lua_settop(L, table - 1);
 }
 
 static void read_renamed(JoxBuild *b, int index) {
@@ -459,20 +468,46 @@ static void read_renamed(JoxBuild *b, int index) {
     lua_pop(L, 1);
 }
 
-/* States that nothing leads to. */
-static void warn_unreachable(JoxBuild *b) {
+/* States that nothing leads to: a warning, in a patch an error, for there it is a misspelt name. */
+static void judge_states(JoxBuild *b) {
     const JoxMachine *m = b->machine;
     for (uint32_t s = 0; s < m->state_count; s++) {
         bool reached = s == m->start;
         for (uint32_t o = 0; o < m->state_count; o++)
             for (uint32_t t = 0; t < m->states[o].transition_count; t++)
                 reached |= o != s && m->states[o].transitions[t].to == s;
-        char path[256];
+        if (reached)
+            continue;
+        char path[256], hint[96];
+        const char *names[64], *near = NULL;
+        size_t count = 0;
         jox_read_join(path, "states", m->states[s].name);
-        if (!reached)
-            jox_diag_add(b->vm->diagnostics, JOX_SEVERITY_WARNING, jox_read_at(b, path),
-                         "unreachable-state", NULL, NULL, NULL, "nothing leads to state '%s'",
-                         m->states[s].name);
+        const JoxOrigin *origin = origin_of(b->vm, path);
+        bool added = origin && origin->mod >= 0 && strcmp(origin->path, path) == 0;
+        for (uint32_t o = 0; added && o < m->state_count && count < 64; o++)
+            if (o != s)
+                names[count++] = m->states[o].name;
+        near = jox_did_you_mean(m->states[s].name, names, count, hint);
+        jox_diag_add(b->vm->diagnostics, near ? JOX_SEVERITY_ERROR : JOX_SEVERITY_WARNING,
+                     jox_read_at(b, path), "unreachable-state", near, NULL, NULL,
+                     "nothing leads to state '%s'", m->states[s].name);
+    }
+}
+
+/* States without a way out, where others have one: agents stay there for ever. */
+static void warn_dead_ends(JoxBuild *b) {
+    const JoxMachine *m = b->machine;
+    for (uint32_t s = 0; s < m->state_count && m->state_count > 1; s++) {
+        const JoxState *state = &m->states[s];
+        bool stands = state->steer_count == 1 && state->steer[0].kind == JOX_STEER_HOLD;
+        char path[256];
+        jox_read_join(path, "states", state->name);
+        if (state->transition_count == 0 && !state->removes && !state->become && !stands)
+            jox_diag_add(
+                b->vm->diagnostics, JOX_SEVERITY_WARNING, jox_read_at(b, path), "no-way-out",
+                "Add a transition, or `removes = true`; a state with `steer = hold` may be "
+                "the end",
+                NULL, NULL, "no transition leads out of state '%s'", state->name);
     }
 }
 
@@ -500,8 +535,8 @@ void jox_build(JoxVm *vm, JoxSource *source) {
         m->memory[slot].kind = vm->memory[i].kind;
         m->memory[slot].initial = vm->memory[i].initial;
     }
-    jox_read_check(&build, table, "", MACHINE_KEYS, sizeof MACHINE_KEYS / sizeof *MACHINE_KEYS,
-                   false);
+    const char *known[16];
+    jox_read_check(&build, table, "", known, jox_sheet_names("machine", false, known, 16), false);
     m->name = jox_strdup(jox_read_field(L, table, "name") == LUA_TSTRING ? lua_tostring(L, -1)
                                                                          : "machine");
     if (lua_type(L, -1) != LUA_TSTRING)
@@ -511,8 +546,10 @@ void jox_build(JoxVm *vm, JoxSource *source) {
     read_defaults(&build, table);
     read_states(&build, table);
     read_start(&build, table);
-    read_counts(&build, table);
+    jox_read_counts(&build, table, "", -1);
     read_renamed(&build, table);
-    if (vm->diagnostics->errors == errors)
-        warn_unreachable(&build);
+    if (vm->diagnostics->errors == errors) {
+        judge_states(&build);
+        warn_dead_ends(&build);
+    }
 }

@@ -23,8 +23,20 @@ int32_t jox_build_own(JoxBuild *build, const char *name) {
         if (*name && strcmp(m->own[i].name, name) == 0)
             return (int32_t)i;
     JOX_RESERVE(m->own, build->own_capacity, m->own_count + 1);
-    m->own[m->own_count] = (JoxOwnSlot){jox_strdup(name), jox_dist_constant(0.0), false};
+    m->own[m->own_count] = (JoxOwnSlot){.name = jox_strdup(name), .dist = jox_dist_constant(0.0)};
     return (int32_t)m->own_count++;
+}
+
+int32_t jox_build_own_at(JoxBuild *build, const JoxNode *node) {
+    int32_t slot = jox_build_own(build, node->name);
+    JoxOwnSlot *own = &build->machine->own[slot];
+    if (own->line == 0) { /* where it was first asked for */
+        own->line = node->position.line;
+        own->column = node->position.column;
+        own->end_column = node->position.end_column;
+        own->source = node->source;
+    }
+    return slot;
 }
 
 int32_t jox_build_memory(JoxBuild *build, const char *name) {
@@ -37,18 +49,29 @@ int32_t jox_build_memory(JoxBuild *build, const char *name) {
     return (int32_t)m->memory_count++;
 }
 
-int16_t jox_build_target(JoxBuild *build, const JoxNode *node, bool wants_place) {
+int16_t jox_build_name(JoxBuild *build, const char *name, JoxNameUse use) {
+    JoxMachine *m = build->machine;
+    for (uint32_t n = 0; n < m->name_count; n++)
+        if (strcmp(m->names[n].text, name) == 0) {
+            m->names[n].uses |= use;
+            return (int16_t)n;
+        }
+    JOX_RESERVE(m->names, build->name_capacity, m->name_count + 1);
+    m->names[m->name_count] = (JoxName){.text = jox_strdup(name), .uses = use};
+    return (int16_t)m->name_count++;
+}
+
+int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     JoxMachine *m = build->machine;
     if (!node || node->kind == JOX_NODE_POISON)
         return -1;
     JoxTarget target = {node->target_kind, node->target_arg, NULL};
     if (node->kind == JOX_NODE_OWN) {
-        int32_t slot = jox_build_own(build, node->name);
+        int32_t slot = jox_build_own_at(build, node);
         m->own[slot].is_place = true;
         m->own[slot].dist = jox_dist_constant(-1.0); /* none until the scene's group names one */
         target = (JoxTarget){JOX_TARGET_OWN_PLACE, slot, NULL};
     }
-    (void)wants_place;
     for (uint32_t i = 0; i < m->target_count; i++)
         if (m->targets[i].kind == target.kind && m->targets[i].arg == target.arg &&
             strcmp(m->targets[i].name, node->name) == 0)
@@ -84,16 +107,20 @@ static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
                          .c = (uint8_t)(to + 2),
                          .target = -1,
                          .place = -1,
+                         .name = -1,
                          .arg = node->arg,
                          .number = node->number};
     if (node->kind == JOX_NODE_OWN)
-        in.arg = jox_build_own(code->build, node->name);
+        in.arg = jox_build_own_at(code->build, node);
     else if (node->op == JOX_OP_MEMORY)
         in.arg = jox_build_memory(code->build, node->name);
+    else if (node->op == JOX_OP_HEARD || node->op == JOX_OP_IN_STATE)
+        in.name = jox_build_name(code->build, node->name,
+                                 node->op == JOX_OP_HEARD ? JOX_NAME_HEARD : JOX_NAME_STATE);
     if (node->target)
-        in.target = jox_build_target(code->build, node->target, false);
+        in.target = jox_build_target(code->build, node->target);
     if (node->place)
-        in.place = jox_build_target(code->build, node->place, true);
+        in.place = jox_build_target(code->build, node->place);
     JOX_RESERVE(code->items, code->capacity, code->count + 1);
     code->items[code->count++] = in;
 }

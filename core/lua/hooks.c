@@ -1,14 +1,15 @@
-/* Plain functions of behaviours, called for one agent at a time on the stepping thread. `me` reads
-   the agent and writes its memory; it is worth nothing once the call is over. */
+/* Plain functions of behaviours, called for one agent at a time on the stepping thread: the call,
+   what it costs, and what is said where it fails. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/mem.h"
 #include "lua/internal.h"
 
-static const char ME[] = "jostle me";
-enum { MOST_FAILURES = 100 }; /* in a second, before a behaviour's functions are suspended */
+enum { MOST_FAILURES = 100 }; /* in a simulated second, before a function is suspended */
+enum { TIMED = 16 };          /* one call in so many is timed */
 
 void jox_lua_attach(JoxLua *lua, JoxMind *mind, JoxLuaComplain *complain, void *context) {
     lua->mind = mind;
@@ -20,146 +21,53 @@ uint64_t jox_lua_failures(const JoxLua *lua) {
     return lua->failures;
 }
 
-/* The agent that `me` stands for; raises an error where it was kept from an earlier call. */
-static uint32_t check_me(lua_State *L, JoxVm *vm) {
-    const uint32_t *run = luaL_checkudata(L, 1, ME);
-    if (vm->loading || *run != vm->run)
-        luaL_error(L, "`me` was kept from an earlier call; it is valid during its own only");
-    return vm->agent;
-}
-
-static int32_t memory_slot(const JoxMachine *m, const char *name) {
-    for (uint32_t s = 0; s < m->memory_count; s++)
-        if (*name && strcmp(m->memory[s].name, name) == 0)
-            return (int32_t)s;
-    return -1;
-}
-
-static int me_index(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
-    uint32_t i = check_me(L, vm);
-    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
-    const JoxMind *mind = vm->owner->mind;
-    const JoxAgents *a = mind->agents;
-    const JoxMachine *m = vm->machine;
-    int32_t slot = memory_slot(m, name);
-    int parameter = jox_parameter_find(name);
-    const struct {
-        const char *name;
-        double value;
-    } numbers[] = {{"id", a->id[i]},
-                   {"x", a->x[i]},
-                   {"y", a->y[i]},
-                   {"vx", a->vx[i]},
-                   {"vy", a->vy[i]},
-                   {"time", mind->tick * mind->dt},
-                   {"time_in_state", (mind->tick - a->entered[i]) * mind->dt},
-                   {"density", a->density[i]},
-                   {"pushed", sqrt((double)a->force_x[i] * a->force_x[i] +
-                                   (double)a->force_y[i] * a->force_y[i])},
-                   {"compression", a->compression[i]},
-                   {"team", a->team[i]}};
-    if (slot >= 0) {
-        double value = a->memory[(size_t)i * a->memory_stride + (uint32_t)slot];
-        if (m->memory[slot].kind == JOX_MEMORY_BOOLEAN)
-            lua_pushboolean(L, value != 0.0);
-        else
-            lua_pushnumber(L, value);
-        return 1;
-    }
-    for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++)
-        if (strcmp(numbers[n].name, name) == 0) {
-            lua_pushnumber(L, numbers[n].value);
-            return 1;
-        }
-    if (strcmp(name, "state") == 0)
-        lua_pushstring(L, m->states[a->state[i]].name);
-    else if (parameter >= 0)
-        lua_pushnumber(L, a->param[parameter][i]);
-    else
-        return luaL_error(L, "me has no '%s'", name);
-    return 1;
-}
-
-static int me_newindex(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
-    uint32_t i = check_me(L, vm);
-    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
-    int32_t slot = memory_slot(vm->machine, name);
-    if (slot < 0)
-        return luaL_error(L, "'%s' is not in memory; only what memory { ... } declares can be set",
-                          name);
-    double value;
-    if (vm->machine->memory[slot].kind == JOX_MEMORY_BOOLEAN) {
-        if (lua_type(L, 3) != LUA_TBOOLEAN)
-            return luaL_error(L, "memory '%s' is true or false", name);
-        value = lua_toboolean(L, 3);
-    } else {
-        if (lua_type(L, 3) != LUA_TNUMBER || !isfinite(lua_tonumber(L, 3)))
-            return luaL_error(L, "memory '%s' is a finite number", name);
-        value = lua_tonumber(L, 3);
-    }
-    const JoxAgents *a = vm->owner->mind->agents;
-    a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = value;
-    return 0;
-}
-
-void jox_hooks_open(JoxVm *vm) {
-    static const luaL_Reg META[] = {
-        {"__index", me_index}, {"__newindex", me_newindex}, {NULL, NULL}};
-    luaL_newmetatable(vm->L, ME);
-    luaL_setfuncs(vm->L, META, 0);
-    lua_pushboolean(vm->L, 0);
-    lua_setfield(vm->L, -2, "__metatable");
-    lua_pop(vm->L, 1);
-    uint32_t *run = lua_newuserdatauv(vm->L, sizeof *run, 0);
-    *run = 0;
-    luaL_setmetatable(vm->L, ME);
-    lua_setfield(vm->L, LUA_REGISTRYINDEX, "me"); /* the one object that is handed out */
-}
-
 static void say(JoxLua *lua, const char *text) {
     if (lua->complain)
         lua->complain(lua->complain_context, text);
 }
 
-/* Says each new failure in full; the same again is counted and said once a second. */
-static void report(JoxLua *lua, JoxVm *vm, JoxHookKind kind, const char *why, int line) {
-    static const char *const KINDS[] = {"on_enter", "on_exit", "on_take", "when", "steer"};
-    const JoxMind *mind = lua->mind;
+/* A new second begins for a hook: what was not said of the last is summed up. */
+static void new_second(JoxLua *lua, const JoxVm *vm, JoxHook *hook, uint32_t second) {
     char text[1024];
-    uint32_t second = (uint32_t)(mind->tick * mind->dt);
-    if (second != vm->failures_tick) {
-        if (vm->repeated > 0) {
-            snprintf(text, sizeof text, "%s: ... and %llu times more\n", vm->machine->path,
-                     (unsigned long long)vm->repeated);
-            say(lua, text);
-        }
-        vm->failures = 0;
-        vm->repeated = 0;
-        vm->failures_tick = second;
+    if (hook->repeated > 0) {
+        snprintf(text, sizeof text, "%.200s: %.200s: the same %llu times more in a second\n",
+                 vm->machine->path, hook->where, (unsigned long long)hook->repeated);
+        say(lua, text);
     }
+    hook->second = second;
+    hook->second_failures = 0;
+    hook->repeated = 0;
+}
+
+/* Says each new failure in full; the same again is counted and said once a second. */
+static void report(JoxLua *lua, JoxVm *vm, JoxHook *hook, const char *why, int line) {
+    const JoxMind *mind = lua->mind;
+    char text[2600];
+    uint32_t second = (uint32_t)(mind->tick * mind->dt);
+    if (second != hook->second)
+        new_second(lua, vm, hook, second);
     lua->failures++;
-    if (++vm->failures == MOST_FAILURES) {
-        vm->suspended = true;
-        snprintf(text, sizeof text,
-                 "%s: its functions failed %d times within a second and are suspended until the "
-                 "file is reloaded; agents stay in their states\n",
-                 vm->machine->path, MOST_FAILURES);
+    hook->failures++;
+    if (++hook->second_failures == MOST_FAILURES) {
+        hook->suspended = true;
+        snprintf(
+            text, sizeof text,
+            "%.200s: %.200s: it failed %d times within a second and is suspended until the file "
+            "is reloaded; agents stay in their states\n",
+            vm->machine->path, hook->where, MOST_FAILURES);
         say(lua, text);
         return;
     }
-    if (vm->last_complaint && strcmp(vm->last_complaint, why) == 0) {
-        vm->repeated++;
+    if (hook->complaint && strcmp(hook->complaint, why) == 0) {
+        hook->repeated++;
         return;
     }
-    jox_free(vm->last_complaint);
-    vm->last_complaint = jox_strdup(why);
+    jox_free(hook->complaint);
+    hook->complaint = jox_strdup(why);
     snprintf(text, sizeof text,
-             "%s:%d: %s\n machine %s > state %s > %s; agent %u, step %u, seed %llu\n",
-             vm->machine->path, line, why, vm->machine->name,
-             vm->machine->states[mind->agents->state[vm->agent]].name, KINDS[kind],
-             mind->agents->id[vm->agent], mind->tick, (unsigned long long)mind->seed);
+             "%.200s:%d: %.400s\n%s machine %.60s > %.200s; agent %u, step %u, seed %llu\n",
+             vm->sources[vm->failed_source].path, line, why, vm->traceback, vm->machine->name,
+             hook->where, mind->agents->id[vm->agent], mind->tick, (unsigned long long)mind->seed);
     say(lua, text);
 }
 
@@ -180,19 +88,28 @@ static const char *read_result(lua_State *L, JoxHookKind kind, double result[2])
     return NULL;
 }
 
-bool jox_lua_call(void *context, const JoxMachine *machine, int32_t hook, JoxHookKind kind,
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxHookKind kind,
                   uint32_t agent, double result[2]) {
     JoxLua *lua = context;
     JoxVm *vm = machine->vm >= 0 ? lua->vms[machine->vm] : NULL;
-    if (!vm || vm->suspended || (uint32_t)hook >= vm->hook_count)
+    if (!vm || (uint32_t)number >= vm->hook_count || vm->hooks[number].suspended)
         return false;
+    JoxHook *hook = &vm->hooks[number];
     lua_State *L = vm->L;
+    bool timed = hook->calls++ % TIMED == 0;
+    double begun = timed ? now() : 0.0;
     vm->machine = machine;
     vm->agent = agent;
     vm->draws = 0;
     vm->run++;
-    lua_rawgeti(L, LUA_REGISTRYINDEX, vm->hooks[hook]);
-    lua_getfield(L, LUA_REGISTRYINDEX, "me");
+    lua_rawgeti(L, LUA_REGISTRYINDEX, hook->ref);
+    lua_rawgeti(L, LUA_REGISTRYINDEX, vm->me);
     *(uint32_t *)lua_touserdata(L, -1) = vm->run;
     const char *why = NULL;
     int line = 0;
@@ -200,9 +117,44 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t hook, JoxHoo
     if (good) {
         why = read_result(L, kind, result);
         good = !why;
+        vm->traceback[0] = 0;
         lua_settop(L, 0);
     }
+    if (timed) {
+        hook->seconds += now() - begun;
+        hook->timed++;
+    }
     if (!good)
-        report(lua, vm, kind, why, line);
+        report(lua, vm, hook, why, line);
     return good;
+}
+
+/* ---- costs ---- */
+
+double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls) {
+    const JoxVm *vm = machine->vm >= 0 ? lua->vms[machine->vm] : NULL;
+    double seconds = 0.0;
+    *calls = 0;
+    for (uint32_t h = 0; vm && h < vm->hook_count; h++) {
+        const JoxHook *hook = &vm->hooks[h];
+        *calls += hook->calls;
+        if (hook->timed)
+            seconds += hook->seconds / (double)hook->timed * (double)hook->calls;
+    }
+    return seconds;
+}
+
+void jox_lua_profile(const JoxLua *lua, const JoxMachine *machine, double wall, JoxText *out) {
+    const JoxVm *vm = machine->vm >= 0 ? lua->vms[machine->vm] : NULL;
+    for (uint32_t h = 0; vm && h < vm->hook_count; h++) {
+        const JoxHook *hook = &vm->hooks[h];
+        double each = hook->timed ? hook->seconds / (double)hook->timed : 0.0;
+        double all = each * (double)hook->calls;
+        jox_text_printf(out, "  %-52.100s %10llu calls %8.0f ns each %9.2f ms %6.2f %%%s\n",
+                        hook->where, (unsigned long long)hook->calls, each * 1e9, all * 1e3,
+                        wall > 0.0 ? 100.0 * all / wall : 0.0,
+                        hook->suspended  ? "  suspended"
+                        : hook->failures ? "  failed at times"
+                                         : "");
+    }
 }

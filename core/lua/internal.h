@@ -51,6 +51,8 @@ static inline bool jox_token_is(const JoxToken *token, const char *text) {
 
 /* ---- expression values ---- */
 
+enum { JOX_UNKNOWN_TAG = 63 }; /* bit of tags of a scene that is not known */
+
 typedef enum {
     JOX_NODE_NUMBER = 1,
     JOX_NODE_CONDITION,
@@ -60,7 +62,10 @@ typedef enum {
     JOX_NODE_DIST,
     JOX_NODE_CIRCUITS,
     JOX_NODE_MACHINE,
-    JOX_NODE_POISON /* stands for something already reported */
+    JOX_NODE_PATCH,   /* of a mod: a table that changes another file's machine */
+    JOX_NODE_REPLACE, /* of a mod: a table that takes its place */
+    JOX_NODE_NONE,    /* in a patch: takes a key away */
+    JOX_NODE_POISON   /* stands for something already reported */
 } JoxNodeKind;
 
 typedef struct JoxNode JoxNode;
@@ -78,11 +83,35 @@ struct JoxNode {
     JoxSteerTerm term; /* one term; its target and weight are nodes here */
     JoxNode *weight;
     JoxNode *next; /* further terms of a sum */
-    int hook;      /* registry reference of a function, or LUA_NOREF */
+    int hook;      /* registry reference of a function or table, or LUA_NOREF */
     JoxPosition position;
+    uint32_t source; /* number of the source that position is in */
 };
 
 /* ---- one Lua state with its load ---- */
+
+/* Where a part of the machine was written, in place of the behaviour's own file: everything at and
+   below `path` stands at `from` in a source. In the order in which it was set. */
+typedef struct JoxOrigin {
+    char *path; /* "states.Circle.push"; a transition by its id: "states.Circle.@Exit.chance" */
+    uint32_t source;
+    char *from;
+    int32_t mod; /* index, or -1: the behaviour itself */
+    bool removes;
+} JoxOrigin;
+
+/* A plain function of the behaviour. */
+typedef struct JoxHook {
+    int ref;     /* in the registry */
+    char *where; /* "state Circle > transition 2 (to Exit) > on_take" */
+    uint64_t calls, failures, timed;
+    double seconds;           /* of the calls that were timed */
+    uint32_t second;          /* simulated, of the failures that follow */
+    uint32_t second_failures; /* in that second */
+    uint64_t repeated;        /* failures like the last that were not said */
+    char *complaint;          /* the last one that was said in full */
+    bool suspended;
+} JoxHook;
 
 typedef struct JoxVm {
     JoxLua *owner;
@@ -104,7 +133,10 @@ typedef struct JoxVm {
     size_t file_capacity;
     const JoxScope *scope;
     JoxDiagnostics *diagnostics;
-    int *hooks; /* registry references by hook number */
+    const JoxMod *mod; /* whose file is running; NULL: the behaviour's own */
+    JoxOrigin *origins;
+    size_t origin_count, origin_capacity;
+    JoxHook *hooks;
     uint32_t hook_count;
     size_t hook_capacity;
     JoxMemorySlot *memory; /* declared by memory{} */
@@ -113,15 +145,18 @@ typedef struct JoxVm {
     JoxMachine *built;    /* under construction, so that a failure can free it */
     size_t failed_source; /* in which file the last failure was */
     const JoxMachine *machine;
-    uint32_t failures; /* of hooks, in the present second */
-    uint32_t failures_tick;
-    bool suspended;
-    char *last_complaint;
-    uint64_t repeated;
-    uint32_t draws; /* math.random calls of the present hook */
-    uint32_t agent; /* whose hook runs */
-    uint32_t run;   /* numbers the calls, so that `me` cannot be kept */
+    int me;               /* registry reference of the object that hooks are given */
+    char traceback[1024]; /* of the last failure: frames of the behaviour alone */
+    uint32_t draws;       /* math.random calls of the present hook */
+    uint32_t agent;       /* whose hook runs */
+    uint32_t run;         /* numbers the calls, so that `me` cannot be kept */
 } JoxVm;
+
+/* What a hook wrote into another agent's memory. */
+typedef struct JoxWrite {
+    uint32_t agent_id, slot;
+    double value;
+} JoxWrite;
 
 struct JoxLua {
     JoxLuaLimits limits;
@@ -132,6 +167,13 @@ struct JoxLua {
     JoxLuaComplain *complain;
     void *complain_context;
     uint64_t failures;
+    /* Agents as they were before the step, for hooks that look at others. */
+    uint16_t *before_state;
+    double *before_memory;
+    size_t before_capacity, before_memory_capacity;
+    JoxWrite *writes;
+    uint32_t write_count;
+    size_t write_capacity;
 };
 
 JoxVm *jox_vm_create(JoxLua *lua);
@@ -158,15 +200,32 @@ JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind); /* new, also on the stac
 JoxNode *jox_node_get(lua_State *L, int index);         /* NULL if it is no node */
 /* A number, a number node or own value as a node of numbers; NULL if it is something else. */
 JoxNode *jox_node_number(lua_State *L, int index);
+/* Pushes the value of a node once more. */
+void jox_node_repush(lua_State *L, JoxNode *node);
+JoxNode *jox_node_constant(lua_State *L, double value);
 void jox_nodes_open(JoxVm *vm);
 void jox_words_open(JoxVm *vm);
-/* All names of the vocabulary. */
-const char *const *jox_words_names(size_t *count);
+/* Adds the words of values.c to the table on top of the stack. */
+void jox_values_open(lua_State *L);
+/* Names of the vocabulary, up to `capacity`; returns how many. */
+size_t jox_word_names(const char **names, size_t capacity);
+/* Reads argument `index` of a word as its letter of the vocabulary asks; NULL with an error, or a
+   poison value, pushed. */
+JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char letter);
+/* "Did you mean 'x'?" or NULL. */
+const char *jox_did_you_mean(const char *word, const char *const *names, size_t count,
+                             char hint[96]);
 bool jox_word_lookup(lua_State *L, const char *name); /* pushes it */
+
+/* Runs the patches that the scope's mods have for the machine on top of the stack, and puts the
+   changed one in its place. False with diagnostics. */
+bool jox_patch_apply(JoxVm *vm);
+/* Compiles source `number` as a chunk, and pushes it; false with an error message pushed. */
+bool jox_source_compile(JoxVm *vm, size_t number);
 
 /* Makes vm->built of the machine on top of the stack; what is wrong goes to the diagnostics. */
 void jox_build(JoxVm *vm, JoxSource *source);
-void jox_hooks_open(JoxVm *vm);
+void jox_me_open(JoxVm *vm);
 
 /* The machine under construction. */
 typedef struct JoxBuild {
@@ -174,10 +233,14 @@ typedef struct JoxBuild {
     JoxSource *source;
     JoxMachine *machine;
     size_t program_capacity, target_capacity, own_capacity, memory_capacity, counter_capacity,
-        state_capacity;
+        state_capacity, name_capacity;
 } JoxBuild;
-int16_t jox_build_target(JoxBuild *build, const JoxNode *node, bool wants_place);
+int16_t jox_build_target(JoxBuild *build, const JoxNode *node);
+/* Index of a name that machines share. */
+int16_t jox_build_name(JoxBuild *build, const char *name, JoxNameUse use);
 int32_t jox_build_own(JoxBuild *build, const char *name);
+/* The same for an own value that was written out: keeps where. */
+int32_t jox_build_own_at(JoxBuild *build, const JoxNode *node);
 int32_t jox_build_memory(JoxBuild *build, const char *name);
 int32_t jox_build_program(JoxBuild *build, const JoxNode *node, JoxPosition position);
 void jox_build_error(JoxBuild *build, JoxPosition position, const char *code, const char *hint,

@@ -20,19 +20,27 @@ static void report_failure(JoxVm *vm, const char *why, int line) {
     jox_diag_error(vm->diagnostics, position, "lua-error", NULL, "%s", why);
 }
 
+bool jox_source_compile(JoxVm *vm, size_t number) {
+    char chunk[24];
+    snprintf(chunk, sizeof chunk, "=b%zu", number);
+    return luaL_loadbufferx(vm->L, vm->sources[number].text, vm->sources[number].length, chunk,
+                            "t") == LUA_OK;
+}
+
 static int build_protected(lua_State *L) {
     JoxVm *vm = jox_vm_of(L);
-    jox_build(vm, &vm->sources[0]);
+    if (jox_patch_apply(vm))
+        jox_build(vm, &vm->sources[0]);
     return 0;
 }
 
-static JoxMachine *run(JoxVm *vm, JoxSource *source) {
+static JoxMachine *run(JoxVm *vm) {
     const char *why = NULL;
     int line = 0;
     lua_State *L = vm->L;
     const size_t errors = vm->diagnostics->errors;
-    int status = luaL_loadbufferx(L, source->text, source->length, "=b0", "t");
-    if (status != LUA_OK) { /* let the protected call raise it, so that there is one way in */
+    if (!jox_source_compile(vm,
+                            0)) { /* let the protected call raise it, so that there is one way in */
         int used = 0, number;
         const char *text = lua_tostring(L, -1);
         if (text && sscanf(text, "b%d:%d: %n", &number, &line, &used) == 2)
@@ -86,7 +94,7 @@ static JoxMachine *load(JoxLua *lua, const char *path, const char *text, size_t 
     vm->diagnostics = diagnostics;
     vm->loading = true;
     JoxSource *source = jox_vm_read(vm, path, text, length, (JoxPosition){0});
-    JoxMachine *machine = source ? run(vm, source) : NULL;
+    JoxMachine *machine = source ? run(vm) : NULL;
     for (size_t i = 0; i < vm->source_count; i++)
         jox_diag_attach_source(diagnostics, vm->sources[i].path, vm->sources[i].text,
                                vm->sources[i].length);
@@ -97,6 +105,8 @@ static JoxMachine *load(JoxLua *lua, const char *path, const char *text, size_t 
         jox_vm_free(vm);
         return NULL;
     }
+    for (size_t s = 0; s < vm->source_count; s++) /* some function may look at others */
+        machine->views |= vm->hook_count && strstr(vm->sources[s].text, "neighbours");
     machine->vm = keep(lua, vm);
     return machine;
 }
@@ -109,4 +119,19 @@ JoxMachine *jox_lua_load(JoxLua *lua, const char *path, const JoxScope *scope,
 JoxMachine *jox_lua_load_text(JoxLua *lua, const char *path, const char *text, size_t length,
                               const JoxScope *scope, JoxDiagnostics *diagnostics) {
     return load(lua, path, text, length, scope, diagnostics);
+}
+
+int32_t jox_lua_blame(JoxLua *lua, const char *path, const JoxScope *scope) {
+    for (uint32_t count = 0; count <= scope->mod_count; count++) {
+        JoxScope some = *scope;
+        JoxDiagnostics diagnostics = {0};
+        some.mod_count = count;
+        JoxMachine *machine = jox_lua_load(lua, path, &some, &diagnostics);
+        jox_diag_free(&diagnostics);
+        if (!machine)
+            return (int32_t)count - 1;
+        jox_lua_release(lua, machine);
+        jox_machine_free(machine);
+    }
+    return -1;
 }

@@ -3,6 +3,8 @@
 #define JOX_LUA_LOADER_H
 
 #include "base/diag.h"
+#include "base/mod.h"
+#include "base/text.h"
 #include "geom/place.h"
 #include "machine/mind.h"
 
@@ -26,6 +28,8 @@ typedef struct JoxScope {
     const char *const *tags; /* the index is the bit */
     uint32_t tag_count;
     bool complete;
+    const JoxMod *mods; /* in order; their patches of a behaviour are applied to it */
+    uint32_t mod_count;
 } JoxScope;
 
 JoxLua *jox_lua_create(const JoxLuaLimits *limits);
@@ -35,6 +39,17 @@ void jox_lua_free(JoxLua *lua);
    The machine is the caller's; its hooks live until jox_lua_release or the end of `lua`. */
 JoxMachine *jox_lua_load(JoxLua *lua, const char *path, const JoxScope *scope,
                          JoxDiagnostics *diagnostics);
+/* After a load with mods failed: index of the mod without which, and without those after it, it
+   would have succeeded; -1 if it fails without mods too. */
+int32_t jox_lua_blame(JoxLua *lua, const char *path, const JoxScope *scope);
+/* Who set a path of the machine ("Circle.push", "defaults.speed", "Circle.Exit.chance"), the first
+   first, a line each: value, file and line, and the mod; false if nobody did. */
+bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
+                 const JoxScope *scope, JoxText *out);
+/* Name of the behaviour that a mod's Lua file changes, and whether it replaces it: copied into
+   target; false where it names none. */
+bool jox_lua_patch_target(const char *text, size_t length, char target[128], bool *replaces,
+                          int *line, int *column);
 /* The same from memory; `path` names it and is where `require` starts. */
 JoxMachine *jox_lua_load_text(JoxLua *lua, const char *path, const char *text, size_t length,
                               const JoxScope *scope, JoxDiagnostics *diagnostics);
@@ -54,6 +69,13 @@ typedef void JoxLuaComplain(void *context, const char *text);
 void jox_lua_attach(JoxLua *lua, JoxMind *mind, JoxLuaComplain *complain, void *context);
 bool jox_lua_call(void *lua, const JoxMachine *machine, int32_t hook, JoxHookKind kind,
                   uint32_t agent, double result[2]);
+/* Ready for JoxMind.bracket. */
+void jox_lua_bracket(void *lua, bool begins);
+/* Time that a machine's functions took, s, estimated from one call in 16, and how many there were.
+ */
+double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls);
+/* A line per function: where it stands, calls, time each and in all, and its share of `wall` s. */
+void jox_lua_profile(const JoxLua *lua, const JoxMachine *machine, double wall, JoxText *out);
 /* Calls of hooks that failed so far. */
 uint64_t jox_lua_failures(const JoxLua *lua);
 

@@ -33,7 +33,13 @@ JoxNode *jox_node_get(lua_State *L, int index) {
     return slot ? *slot : NULL;
 }
 
-static JoxNode *constant(lua_State *L, double value) {
+void jox_node_repush(lua_State *L, JoxNode *node) {
+    JoxNode **slot = lua_newuserdatauv(L, sizeof *slot, 0);
+    luaL_setmetatable(L, TYPE);
+    *slot = node;
+}
+
+JoxNode *jox_node_constant(lua_State *L, double value) {
     JoxNode *node = jox_node_push(L, JOX_NODE_NUMBER);
     node->op = JOX_OP_CONST;
     node->number = value;
@@ -43,7 +49,7 @@ static JoxNode *constant(lua_State *L, double value) {
 
 JoxNode *jox_node_number(lua_State *L, int index) {
     if (lua_type(L, index) == LUA_TNUMBER)
-        return constant(L, lua_tonumber(L, index));
+        return jox_node_constant(L, lua_tonumber(L, index));
     JoxNode *node = jox_node_get(L, index);
     return node && (node->kind == JOX_NODE_NUMBER || node->kind == JOX_NODE_OWN ||
                     node->kind == JOX_NODE_POISON)
@@ -64,7 +70,8 @@ static int push_poison(lua_State *L) {
 static const char *kind_name(lua_State *L, int index) {
     static const char *const NAMES[] = {"",          "a number",   "a condition",    "a target",
                                         "a value",   "a steering", "a distribution", "circuits",
-                                        "a machine", "an error"};
+                                        "a machine", "a patch",    "a replacement",  "`none`",
+                                        "an error"};
     JoxNode *node = jox_node_get(L, index);
     return node ? NAMES[node->kind] : luaL_typename(L, index);
 }
@@ -288,9 +295,32 @@ static int method_is(lua_State *L) {
     return compare(L, JOX_OP_EQ, "is");
 }
 
-static const luaL_Reg METHODS[] = {
-    {"above", method_above},     {"below", method_below}, {"at_least", method_at_least},
-    {"at_most", method_at_most}, {"is", method_is},       {NULL, NULL}};
+/* neighbours(TAG):in_state(NAME) */
+static int method_in_state(lua_State *L) {
+    if (is_poison(L, 1))
+        return push_poison(L);
+    JoxNode *tagged = jox_node_get(L, 1);
+    if (!tagged || tagged->kind != JOX_NODE_NUMBER || tagged->op != JOX_OP_TAGGED)
+        return jox_word_error(L, "in_state", "bad-operand",
+                              "Example: neighbours(\"people\"):in_state(\"Exit\")",
+                              ":in_state counts neighbours, it is nothing of %s", kind_name(L, 1));
+    if (lua_type(L, 2) != LUA_TSTRING || lua_rawlen(L, 2) > 60)
+        return jox_word_error(L, "in_state", "bad-argument", NULL,
+                              ":in_state takes the name of a state");
+    JoxNode *node = jox_node_push(L, JOX_NODE_NUMBER);
+    node->op = JOX_OP_IN_STATE;
+    node->arg = tagged->arg;
+    node->name = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
+    return 1;
+}
+
+static const luaL_Reg METHODS[] = {{"above", method_above},
+                                   {"below", method_below},
+                                   {"at_least", method_at_least},
+                                   {"at_most", method_at_most},
+                                   {"is", method_is},
+                                   {"in_state", method_in_state},
+                                   {NULL, NULL}};
 
 static int meta_index(lua_State *L) {
     if (is_poison(L, 1))

@@ -6,6 +6,21 @@
 
 /* Position of a path in the source: "states.Circle.2.when". */
 JoxPosition jox_read_at(const JoxBuild *build, const char *path);
+/* The tokens of a path's value, and the source they are in; NULL where it is not written out. */
+const JoxPath *jox_read_span(const JoxBuild *build, const char *path, JoxSource **source);
+/* Reports Lua's own operators between conditions at a path; whether there were any. */
+bool jox_read_traps(JoxBuild *build, const char *path);
+/* Slot of a name in memory, or -1. */
+int32_t jox_read_memory(const JoxBuild *build, const char *name);
+/* Reads the `counts` of the table at `index`, for one state or, with -1, for all. */
+void jox_read_counts(JoxBuild *build, int index, const char *prefix, int32_t state);
+/* Reads `set` and `signal` of the table at `index`. */
+void jox_read_actions(JoxBuild *build, int index, const char *path, JoxActions *actions,
+                      double *every);
+/* kick, take, throw and become of a state. */
+void jox_read_deeds(JoxBuild *build, int index, const char *path, JoxState *state);
+/* Id of the transition table at `index`, number `nth` of its id: "Exit", "Exit#2". */
+void jox_read_id(lua_State *L, int index, int nth, char id[128]);
 /* Joins a path and a key. */
 void jox_read_join(char path[256], const char *prefix, const char *key);
 /* Pushes table[key] by raw access; its type. */
@@ -13,8 +28,8 @@ int jox_read_field(lua_State *L, int index, const char *key);
 /* Reports string keys of a table that are not known; with `items`, numbers are fine. */
 void jox_read_check(JoxBuild *build, int index, const char *path, const char *const *known,
                     size_t count, bool items);
-/* Hook number of a function, taken from the stack. */
-int32_t jox_read_add_hook(JoxBuild *build);
+/* Hook number of a function, taken from the stack; `path` says what it is. */
+int32_t jox_read_add_hook(JoxBuild *build, const char *path);
 int32_t jox_read_hook(JoxBuild *build, int index, const char *path, const char *key);
 /* A number, distribution or expression, popped; a distribution goes to *dist. */
 JoxValue jox_read_value(JoxBuild *build, const char *path, const JoxParameterInfo *info,
@@ -28,6 +43,6 @@ int16_t jox_read_target(JoxBuild *build, int index, const char *path, const char
 /* The bits of a tag or a list of tags. */
 uint64_t jox_read_tags(JoxBuild *build, int index, const char *path, const char *key);
 /* Fills a state, whose name is set, from the table at `index`. */
-void jox_read_state(JoxBuild *build, int index, JoxState *state);
+void jox_read_state(JoxBuild *build, int index, JoxState *state, int32_t number);
 
 #endif

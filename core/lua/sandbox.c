@@ -409,8 +409,8 @@ static int env_index(lua_State *L) {
     }
     if (!vm->loading)
         return luaL_error(L, "unknown name '%s'", name);
-    size_t count;
-    const char *const *names = jox_words_names(&count);
+    const char *names[128];
+    size_t count = jox_word_names(names, 128);
     char hint[128];
     const char *near = jox_suggest(name, names, count);
     if (jox_parameter_find(name) >= 0)

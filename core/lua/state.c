@@ -4,11 +4,8 @@
 
 #include "base/mem.h"
 #include "lua/read.h"
+#include "lua/vocabulary.h"
 
-static const char *const STATE_KEYS[] = {
-    "steer",    "lasts",  "removes",   "push_when", "push_toward", "push_weight", "face",
-    "approach", "ignore", "push_only", "kick",      "on_enter",    "on_exit"};
-static const char *const TRANSITION_KEYS[] = {"to", "when", "chance", "on_take", "id"};
 static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->vm->L;
     char full[256];
@@ -16,8 +13,8 @@ static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state
     int type = jox_read_field(L, index, "steer");
     JoxNode *node = jox_node_get(L, -1);
     if (type == LUA_TFUNCTION) {
-        state->steer[0] =
-            (JoxSteerTerm){.kind = JOX_STEER_FUNCTION, .target = -1, .hook = jox_read_add_hook(b)};
+        state->steer[0] = (JoxSteerTerm){
+            .kind = JOX_STEER_FUNCTION, .target = -1, .hook = jox_read_add_hook(b, full)};
         state->steer_count = 1;
         return;
     }
@@ -29,7 +26,7 @@ static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state
         }
         JoxSteerTerm *term = &state->steer[state->steer_count++];
         *term = t->term;
-        term->target = t->target ? jox_build_target(b, t->target, false) : -1;
+        term->target = t->target ? jox_build_target(b, t->target) : -1;
         if (t->weight && t->weight->kind == JOX_NODE_NUMBER && t->weight->op == JOX_OP_CONST)
             term->weight = (JoxValue){JOX_VALUE_CONST, t->weight->number, 0, 0};
         else if (t->weight)
@@ -44,40 +41,6 @@ static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state
                         "steer must be a steering or a function, not %s",
                         node ? "this value" : lua_typename(L, type));
     lua_pop(L, 1);
-}
-
-/* kick = { ball, at = target, impulse = 0.5 * now.speed }; the impulse is per kg of the ball. */
-static void read_kick(JoxBuild *b, int index, const char *path, JoxState *state) {
-    static const char *const KEYS[] = {"at", "impulse"};
-    static const JoxParameterInfo IMPULSE = {"impulse", "m/s", "", 0, 50, 0};
-    lua_State *L = b->vm->L;
-    char full[256], part[256];
-    jox_read_join(full, path, "kick");
-    int type = jox_read_field(L, index, "kick"), table = lua_gettop(L);
-    if (type == LUA_TTABLE) {
-        jox_read_check(b, table, full, KEYS, 2, true);
-        lua_rawgeti(L, table, 1);
-        JoxNode *ball = jox_node_get(L, -1);
-        if (ball && ball->kind == JOX_NODE_TARGET)
-            state->kick = jox_build_target(b, ball, false);
-        else if (!ball || ball->kind != JOX_NODE_POISON)
-            jox_build_error(b, jox_read_at(b, full), "bad-value",
-                            "Example: kick = { nearest \"ball\", at = goal, impulse = 4 }",
-                            "kick needs the body to kick as its first item");
-        lua_pop(L, 1);
-        state->kick_at = jox_read_target(b, table, full, "at");
-        jox_read_join(part, full, "impulse");
-        if (jox_read_field(L, table, "impulse") == LUA_TNIL) {
-            lua_pop(L, 1);
-            jox_build_error(b, jox_read_at(b, full), "missing-key",
-                            "Example: impulse = 0.5 * now.speed", "kick needs an impulse");
-        } else {
-            state->kick_impulse = jox_read_parameter(b, part, &IMPULSE);
-        }
-    } else if (type != LUA_TNIL) {
-        jox_build_error(b, jox_read_at(b, full), "bad-value", NULL, "kick must be a table");
-    }
-    lua_settop(L, table - 1);
 }
 
 static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state) {
@@ -123,17 +86,33 @@ static void read_flags(JoxBuild *b, int index, const char *path, JoxState *state
     lua_pop(L, 1);
 }
 
-static void read_transition(JoxBuild *b, int index, const char *path, const JoxMachine *m,
-                            JoxState *state, JoxTransition *t) {
-    static const JoxParameterInfo CHANCE = {"chance", "", "", 0, 1, 1};
+void jox_read_id(lua_State *L, int index, int nth, char id[128]) {
+    if (jox_read_field(L, index, "id") != LUA_TSTRING) {
+        lua_pop(L, 1);
+        jox_read_field(L, index, "to");
+    }
+    snprintf(id, 100, "%s", lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "?");
+    lua_pop(L, 1);
+    if (nth > 1)
+        snprintf(id + strlen(id), 28, "#%d", nth);
+}
+
+/* How many transitions before `t` have this id, with or without a number. */
+static int repeats(const JoxState *state, const JoxTransition *t, const char *id) {
+    int count = 0;
+    size_t n = strlen(id);
+    for (const JoxTransition *o = state->transitions; o < t; o++)
+        count += strncmp(o->id, id, n) == 0 && (!o->id[n] || o->id[n] == '#');
+    return count;
+}
+
+/* The state that a transition leads to. */
+static uint16_t read_to(JoxBuild *b, int index, const char *path) {
     lua_State *L = b->vm->L;
-    char full[256];
-    *t = (JoxTransition){
-        .when = -1, .when_hook = -1, .on_take = -1, .line = jox_read_at(b, path).line};
-    jox_read_check(b, index, path, TRANSITION_KEYS, 5, false);
+    const JoxMachine *m = b->machine;
+    char full[256], hint[96];
     jox_read_join(full, path, "to");
-    int type = jox_read_field(L, index, "to");
-    const char *to = type == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+    const char *to = jox_read_field(L, index, "to") == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
     int target = to ? jox_machine_state(m, to) : -1;
     if (!to) {
         jox_build_error(b, jox_read_at(b, full), "missing-key",
@@ -144,27 +123,23 @@ static void read_transition(JoxBuild *b, int index, const char *path, const JoxM
         size_t count = m->state_count < 256 ? m->state_count : 256;
         for (size_t s = 0; s < count; s++)
             names[s] = m->states[s].name;
-        const char *near = jox_suggest(to, names, count);
-        char hint[96];
-        if (near)
-            snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
-        jox_build_error(b, jox_read_at(b, full), "unknown-state", near ? hint : NULL,
-                        "there is no state '%s'", to);
+        jox_build_error(b, jox_read_at(b, full), "unknown-state",
+                        jox_did_you_mean(to, names, count, hint), "there is no state '%s'", to);
     }
-    t->to = target < 0 ? 0 : (uint16_t)target;
-    char id[128];
-    snprintf(id, sizeof id, "%s", to ? to : "?");
     lua_pop(L, 1);
-    if (jox_read_field(L, index, "id") == LUA_TSTRING)
-        snprintf(id, sizeof id, "%s", lua_tostring(L, -1));
-    lua_pop(L, 1);
-    int repeats = 1;
-    for (const JoxTransition *o = state->transitions; o < t; o++)
-        repeats += strcmp(o->id, id) == 0 ||
-                   (strncmp(o->id, id, strlen(id)) == 0 && o->id[strlen(id)] == '#');
-    if (repeats > 1)
-        snprintf(id + strlen(id), sizeof id - strlen(id), "#%d", repeats);
-    t->id = jox_strdup(id);
+    return target < 0 ? 0 : (uint16_t)target;
+}
+
+static void read_transition(JoxBuild *b, int index, const char *path, const char *id,
+                            JoxTransition *t) {
+    static const JoxParameterInfo CHANCE = {"chance", "", "", 0, 1, 1};
+    lua_State *L = b->vm->L;
+    const char *known[16];
+    char full[256];
+    *t = jox_transition_blank(jox_strdup(id));
+    t->line = jox_read_at(b, path).line;
+    jox_read_check(b, index, path, known, jox_sheet_names("transition", false, known, 16), false);
+    t->to = read_to(b, index, path);
     jox_read_join(full, path, "when");
     jox_read_field(L, index, "when");
     t->when = jox_read_condition(b, full, &t->when_hook);
@@ -173,6 +148,7 @@ static void read_transition(JoxBuild *b, int index, const char *path, const JoxM
         lua_pop(L, 1);
     else
         t->chance = jox_read_parameter(b, full, &CHANCE);
+    jox_read_actions(b, index, path, &t->does, NULL);
     t->on_take = jox_read_hook(b, index, path, "on_take");
 }
 
@@ -186,36 +162,40 @@ static void read_transitions(JoxBuild *b, int index, const char *path, JoxState 
     }
     state->transitions = jox_alloc(count + 1, sizeof *state->transitions);
     for (uint32_t i = 0; i < count; i++) {
-        char full[256], item[16];
+        char full[256], item[160], id[128];
         snprintf(item, sizeof item, "%u", i + 1);
         jox_read_join(full, path, item);
         if (lua_rawgeti(L, index, i + 1) != LUA_TTABLE) {
             jox_build_error(b, jox_read_at(b, full), "bad-value",
                             "Example: { to = \"Exit\", when = after(5) }",
                             "a transition must be a table, not %s", luaL_typename(L, -1));
-        } else {
-            read_transition(b, lua_gettop(L), full, b->machine, state,
-                            &state->transitions[state->transition_count]);
-            state->transition_count++;
+            lua_pop(L, 1);
+            continue;
         }
+        JoxTransition *t = &state->transitions[state->transition_count];
+        jox_read_id(L, lua_gettop(L), 1, id);
+        jox_read_id(L, lua_gettop(L), repeats(state, t, id) + 1, id);
+        snprintf(item, sizeof item, "@%.60s", id); /* how patches know it */
+        if (b->vm->origin_count > 0) {
+            char canonical[256];
+            jox_read_join(canonical, path, item);
+            for (size_t o = 0; o < b->vm->origin_count; o++)
+                if (strcmp(b->vm->origins[o].path, canonical) == 0)
+                    memcpy(full, canonical, sizeof full);
+        }
+        read_transition(b, lua_gettop(L), full, id, t);
+        state->transition_count++;
         lua_pop(L, 1);
     }
 }
 
-void jox_read_state(JoxBuild *b, int index, JoxState *state) {
-    static const char *known[JOX_PARAM_COUNT + sizeof STATE_KEYS / sizeof *STATE_KEYS];
-    const size_t keys = sizeof STATE_KEYS / sizeof *STATE_KEYS;
+void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
+    const char *known[96];
     lua_State *L = b->vm->L;
     char path[256], full[256];
     snprintf(path, sizeof path, "states.%.200s", state->name);
-    for (size_t k = 0; k < keys; k++)
-        known[k] = STATE_KEYS[k];
-    for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        known[keys + (size_t)p] = jox_parameters[p].name;
-    jox_read_check(b, index, path, known, keys + JOX_PARAM_COUNT, true);
+    jox_read_check(b, index, path, known, jox_sheet_names("state", true, known, 96), true);
     state->line = jox_read_at(b, path).line;
-    state->push_when = state->lasts_program = -1;
-    state->kick = state->kick_at = -1;
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         jox_read_join(full, path, jox_parameters[p].name);
         if (jox_read_field(L, index, jox_parameters[p].name) == LUA_TNIL)
@@ -226,7 +206,9 @@ void jox_read_state(JoxBuild *b, int index, JoxState *state) {
     read_steer(b, index, path, state);
     read_lasts(b, index, path, state);
     read_flags(b, index, path, state);
-    read_kick(b, index, path, state);
+    jox_read_deeds(b, index, path, state);
+    jox_read_actions(b, index, path, &state->enters, &state->signal_every);
+    jox_read_counts(b, index, path, number);
     jox_read_join(full, path, "push_when");
     jox_read_field(L, index, "push_when");
     state->push_when = jox_read_condition(b, full, NULL);

@@ -66,7 +66,7 @@ static int open_all(lua_State *L) {
     JoxVm *vm = jox_vm_of(L);
     jox_nodes_open(vm);
     jox_words_open(vm);
-    jox_hooks_open(vm);
+    jox_me_open(vm);
     jox_sandbox_open(vm);
     return 0;
 }
@@ -102,13 +102,21 @@ void jox_vm_free(JoxVm *vm) {
         jox_free(vm->files[i].path);
     for (uint32_t i = 0; i < vm->memory_count; i++)
         jox_free(vm->memory[i].name);
+    for (size_t o = 0; o < vm->origin_count; o++) {
+        jox_free(vm->origins[o].path);
+        jox_free(vm->origins[o].from);
+    }
+    jox_free(vm->origins);
     jox_free(vm->nodes);
     jox_free(vm->names);
     jox_free(vm->sources);
     jox_free(vm->files);
     jox_free(vm->memory);
+    for (uint32_t h = 0; h < vm->hook_count; h++) {
+        jox_free(vm->hooks[h].where);
+        jox_free(vm->hooks[h].complaint);
+    }
     jox_free(vm->hooks);
-    jox_free(vm->last_complaint);
     jox_free(vm);
 }
 
@@ -133,18 +141,49 @@ static const char *split_message(JoxVm *vm, const char *message, int *line) {
     return message;
 }
 
+/* Where a failure came from, in the behaviour's own files: the innermost first. */
+static int keep_traceback(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    size_t used = 0;
+    int shown = 0;
+    vm->traceback[0] = 0;
+    lua_Debug debug;
+    for (int level = 1; shown < 10 && lua_getstack(L, level, &debug); level++) {
+        int number;
+        lua_getinfo(L, "Sln", &debug);
+        if (debug.currentline < 1 || sscanf(debug.short_src, "b%d", &number) != 1 ||
+            (size_t)number >= vm->source_count)
+            continue;
+        used += (size_t)snprintf(vm->traceback + used, sizeof vm->traceback - used,
+                                 "   at %.200s:%d%s%.40s%s\n", vm->sources[number].path,
+                                 debug.currentline, debug.name ? " in '" : "",
+                                 debug.name ? debug.name : "", debug.name ? "'" : "");
+        shown++;
+        if (used >= sizeof vm->traceback)
+            break;
+    }
+    if (shown < 2) /* the message names the only place */
+        vm->traceback[0] = 0;
+    return 1;
+}
+
 bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, const char **why,
                  int *line) {
     vm->left = instructions;
     vm->over = vm->out_of_memory = false;
     vm->failed_source = 0;
     lua_sethook(vm->L, count_hook, LUA_MASKCOUNT, CHECK_EVERY);
+    int handler = lua_gettop(vm->L) - arguments;
+    lua_pushcfunction(vm->L, keep_traceback);
+    lua_insert(vm->L, handler);
     vm->running = true;
-    int status = lua_pcall(vm->L, arguments, results, 0);
+    int status = lua_pcall(vm->L, arguments, results, handler);
     vm->running = false;
     lua_sethook(vm->L, NULL, 0, 0);
-    if (status == LUA_OK)
+    if (status == LUA_OK) {
+        lua_remove(vm->L, handler);
         return true;
+    }
     static _Thread_local char text[512];
     *line = 0;
     *why = text;
@@ -172,6 +211,9 @@ void jox_lua_free(JoxLua *lua) {
     for (uint32_t i = 0; i < lua->vm_count; i++)
         jox_vm_free(lua->vms[i]);
     jox_free(lua->vms);
+    jox_free(lua->before_state);
+    jox_free(lua->before_memory);
+    jox_free(lua->writes);
     jox_free(lua);
 }
 

@@ -61,7 +61,7 @@ static void kick(JoxMind *mind, const JoxMachine *machine, const JoxState *state
     if (ball.object < 0 || mind->tick < a->kick_ready[i] || jox_spot_gap(mind, i, &ball) >= 0.05f)
         return;
     const JoxObject *object = &mind->objects->rows[ball.object];
-    if (!object->moves || !object->in_band)
+    if (!object->moves || !object->in_band || object->held)
         return;
     JoxV2 way = {ball.x - a->x[i], ball.y - a->y[i]};
     if (state->kick_at >= 0) {
@@ -82,14 +82,74 @@ static void kick(JoxMind *mind, const JoxMachine *machine, const JoxState *state
     a->kick_ready[i] = mind->tick + (uint32_t)(KICK_PAUSE / mind->dt + 0.5);
 }
 
-/* All kicks, by id of the kicker. */
+static const float REACH = 0.6f;       /* m: the gap over which a body is picked up */
+static const float CATCHABLE = 8.0f;   /* m/s: what is faster is not caught */
+static const float HAND_HEIGHT = 1.2f; /* m: where thrown bodies leave, and arrive */
+
+int32_t jox_holding(const JoxMind *mind, uint32_t i, int32_t target) {
+    const JoxTarget *t = &jox_machine_of(mind, i)->targets[target];
+    for (uint32_t o = 0; mind->objects && o < mind->objects->count; o++) {
+        const JoxObject *object = &mind->objects->rows[o];
+        if (object->live && object->held && object->holder == mind->agents->id[i] &&
+            (t->kind != JOX_TARGET_NEAREST || (object->tags >> t->arg & 1)))
+            return (int32_t)o;
+    }
+    return -1;
+}
+
+static void add_grip(JoxMind *mind, JoxGrip grip) {
+    for (uint32_t g = 0; g < mind->grip_count; g++)
+        if (mind->grips[g].object == grip.object)
+            return; /* who has the lower id was first */
+    JOX_RESERVE(mind->grips, mind->grip_capacity, mind->grip_count + 1);
+    mind->grips[mind->grip_count++] = grip;
+}
+
+static void take(JoxMind *mind, const JoxState *state, uint32_t i) {
+    const JoxAgents *a = mind->agents;
+    JoxSpot spot = jox_target_find(mind, i, state->take);
+    if (spot.object < 0 || jox_holding(mind, i, state->take) >= 0)
+        return;
+    const JoxObject *object = &mind->objects->rows[spot.object];
+    JoxV2 relative = {spot.vx - a->vx[i], spot.vy - a->vy[i]};
+    if (object->moves && !object->held && jox_spot_gap(mind, i, &spot) < REACH && spot.z < 2.0f &&
+        jox_length(relative) < CATCHABLE)
+        add_grip(mind,
+                 (JoxGrip){.object = (uint32_t)spot.object, .agent_id = a->id[i], .takes = true});
+}
+
+/* Thrown at the target with a level speed, so high that it arrives at the height it left. */
+static void toss(JoxMind *mind, const JoxMachine *machine, const JoxState *state, uint32_t i) {
+    JoxAgents *a = mind->agents;
+    int32_t row = jox_holding(mind, i, state->toss);
+    JoxSpot at = jox_target_find(mind, i, state->toss_at);
+    double speed = jox_value(mind, machine, &state->toss_speed, i);
+    if (row < 0 || !at.found || state->toss_at < 0 || !(speed > 0.1))
+        return;
+    JoxV2 way = {at.x - a->x[i], at.y - a->y[i]};
+    float distance = jox_length(way), level = jox_minf((float)speed, 40.0f);
+    if (distance < 1e-3f)
+        return;
+    float flight = distance / level;
+    /* A place lies on the ground, somebody is hit at the height of the hand. */
+    float drop = at.place >= 0 ? HAND_HEIGHT : 0.0f;
+    float rise = 0.5f * (float)mind->gravity * flight - drop / flight;
+    way = jox_scale(way, level / distance);
+    add_grip(mind, (JoxGrip){.object = (uint32_t)row,
+                             .agent_id = a->id[i],
+                             .velocity = {way.x, way.y, jox_clampf(rise, -20.0f, 20.0f)}});
+    a->kicked[i] = row;
+}
+
+/* All that is done to bodies, by id of who does it. */
 static void kick_all(JoxMind *mind) {
     const JoxAgents *a = mind->agents;
     JoxMindScratch *s = mind->scratch;
     s->list_count = 0;
     for (uint32_t b = 0; b < s->batch_count; b++) {
         const JoxBatchRange *batch = &s->batches[b];
-        bool kicks = mind->machines[batch->machine]->states[batch->state].kick >= 0;
+        const JoxState *state = &mind->machines[batch->machine]->states[batch->state];
+        bool kicks = state->kick >= 0 || state->take >= 0 || state->toss >= 0;
         for (uint32_t n = 0; kicks && n < batch->count; n++)
             s->list[s->list_count++] = s->grouped[batch->begin + n];
     }
@@ -97,7 +157,13 @@ static void kick_all(JoxMind *mind) {
     for (uint32_t n = 0; n < s->list_count; n++) {
         uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(mind, i);
-        kick(mind, machine, &machine->states[a->state[i]], i);
+        const JoxState *state = &machine->states[a->state[i]];
+        if (state->kick >= 0)
+            kick(mind, machine, state, i);
+        if (state->toss >= 0)
+            toss(mind, machine, state, i);
+        if (state->take >= 0)
+            take(mind, state, i);
     }
 }
 

@@ -78,7 +78,8 @@ static bool is_incoming(const JoxMind *mind, uint32_t i, const JoxSpot *spot, do
 }
 
 /* Words about something outside the agent; `a` is the first input. */
-static double sense(const JoxMind *mind, uint32_t i, const JoxInstruction *in, double a) {
+static double sense(const JoxMind *mind, const JoxMachine *machine, uint32_t i,
+                    const JoxInstruction *in, double a) {
     int32_t place;
     JoxSpot spot;
     switch ((JoxOp)in->op) {
@@ -115,6 +116,14 @@ static double sense(const JoxMind *mind, uint32_t i, const JoxInstruction *in, d
         return is_incoming(mind, i, &spot, a);
     case JOX_OP_SEES:
         return jox_target_find(mind, i, in->target).found;
+    case JOX_OP_HAS:
+        return jox_holding(mind, i, in->target) >= 0;
+    case JOX_OP_HEARD:
+        return jox_heard(mind, i, machine->names[in->name].number, a);
+    case JOX_OP_TAGGED:
+        return jox_neighbours_of(mind, i, in->arg, -1);
+    case JOX_OP_IN_STATE:
+        return jox_neighbours_of(mind, i, in->arg, (int32_t)machine->names[in->name].number);
     default:
         return 0.0;
     }
@@ -125,8 +134,8 @@ static double sense(const JoxMind *mind, uint32_t i, const JoxInstruction *in, d
         to[n] = (expression);                                                                      \
     break
 
-static void run(const JoxMind *mind, const JoxInstruction *in, const uint32_t *agents,
-                uint32_t count, JoxRegisters r) {
+static void run(const JoxMind *mind, const JoxMachine *machine, const JoxInstruction *in,
+                const uint32_t *agents, uint32_t count, JoxRegisters r) {
     const JoxAgents *g = mind->agents;
     double *to = r[in->to];
     const double *a = r[in->a], *b = r[in->b], *c = r[in->c];
@@ -182,15 +191,14 @@ static void run(const JoxMind *mind, const JoxInstruction *in, const uint32_t *a
     case JOX_OP_STUCK:
         EACH(g->still[agents[n]] >= a[n]);
     default:
-        EACH(sense(mind, agents[n], in, a[n]));
+        EACH(sense(mind, machine, agents[n], in, a[n]));
     }
 }
 
 void jox_eval(const JoxMind *mind, const JoxMachine *machine, const JoxProgram *program,
               const uint32_t *agents, uint32_t count, JoxRegisters registers) {
-    (void)machine;
     for (uint32_t i = 0; i < program->count; i++)
-        run(mind, &program->code[i], agents, count, registers);
+        run(mind, machine, &program->code[i], agents, count, registers);
 }
 
 double jox_value(const JoxMind *mind, const JoxMachine *machine, const JoxValue *value,

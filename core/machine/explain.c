@@ -31,6 +31,8 @@ static void print_program(const JoxMind *mind, const JoxMachine *machine, const 
             jox_text_printf(out, " %s", machine->targets[in->target].name);
         if (in->place >= 0)
             jox_text_printf(out, " in %s", machine->targets[in->place].name);
+        if (in->name >= 0)
+            jox_text_printf(out, " '%s'", machine->names[in->name].text);
         jox_text_printf(out, " -> %.6g\n", registers[in->to][0]);
     }
 }

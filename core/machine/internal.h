@@ -67,6 +67,22 @@ void jox_eval(const JoxMind *mind, const JoxMachine *machine, const JoxProgram *
 double jox_value(const JoxMind *mind, const JoxMachine *machine, const JoxValue *value,
                  uint32_t agent);
 
+/* Makes what was called in the last step audible. */
+void jox_mind_listen(JoxMind *mind);
+/* Whether another agent within `reach` metres called the name. */
+bool jox_heard(const JoxMind *mind, uint32_t agent, uint32_t name, double reach);
+/* Neighbours of a kind (a tag's bit or JoxKin), and, with a name, in states of that name. */
+uint32_t jox_neighbours_of(const JoxMind *mind, uint32_t agent, int32_t kind, int32_t name);
+/* Row of the body that the agent holds and the target means, or -1. */
+int32_t jox_holding(const JoxMind *mind, uint32_t agent, int32_t target);
+/* Memory that is set and signals that are given on entering or taking something. */
+void jox_actions_do(JoxMind *mind, const JoxMachine *machine, const JoxActions *actions,
+                    uint32_t agent);
+/* Signals that go on while a state lasts. */
+void jox_mind_repeat_signals(JoxMind *mind);
+/* Gives a machine's names their numbers. */
+void jox_mind_number_names(JoxMind *mind, JoxMachine *machine);
+
 /* Sorts indices of agents by id. */
 void jox_sort_by_id(const JoxAgents *agents, uint32_t *list, uint32_t count);
 /* Grows the scratch and groups agents by state; ranks the queues. */

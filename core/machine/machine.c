@@ -11,10 +11,37 @@ int jox_machine_state(const JoxMachine *machine, const char *name) {
     return -1;
 }
 
+JoxState jox_state_blank(char *name) {
+    return (JoxState){.name = name,
+                      .lasts_program = -1,
+                      .push_when = -1,
+                      .push_toward = -1,
+                      .face = -1,
+                      .approach = -1,
+                      .kick = -1,
+                      .kick_at = -1,
+                      .take = -1,
+                      .toss = -1,
+                      .toss_at = -1,
+                      .enters = {.signal = -1},
+                      .become_machine = -1,
+                      .on_enter = -1,
+                      .on_exit = -1};
+}
+
+JoxTransition jox_transition_blank(char *id) {
+    return (JoxTransition){
+        .id = id, .when = -1, .when_hook = -1, .on_take = -1, .does = {.signal = -1}};
+}
+
 static void free_state(JoxState *state) {
     jox_free(state->name);
-    for (uint32_t t = 0; t < state->transition_count; t++)
+    jox_free(state->become);
+    jox_free(state->enters.set);
+    for (uint32_t t = 0; t < state->transition_count; t++) {
         jox_free(state->transitions[t].id);
+        jox_free(state->transitions[t].does.set);
+    }
     jox_free(state->transitions);
 }
 
@@ -35,6 +62,9 @@ void jox_machine_free(JoxMachine *m) {
         jox_free(m->renamed[r].from);
         jox_free(m->renamed[r].to);
     }
+    for (uint32_t n = 0; n < m->name_count; n++)
+        jox_free(m->names[n].text);
+    jox_free(m->names);
     jox_free(m->states);
     jox_free(m->programs);
     jox_free(m->targets);

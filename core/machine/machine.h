@@ -43,7 +43,9 @@ typedef enum JoxNow {
    seconds. TOUCHES: the gap to target is below 0.05 m. GROUNDED: target, a body, touches the
    ground. KICKED: the agent kicked target in the last step. HIT_BY: target, faster than 1 m/s,
    touches the agent. INCOMING: target, as it moves, comes within a metres during the next 2 s.
-   SEES: target exists within perception. */
+   SEES: target exists within perception. HAS: the agent holds target, a body. HEARD: another agent
+   within perception, and within a metres, gave the signal `name` in the last step. TAGGED:
+   neighbours of the kind arg (a tag's bit or JoxKin). IN_STATE: those of them in a state `name`. */
 /* clang-format off */
 #define JOX_OPS(X)                                                              \
     X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \
@@ -51,7 +53,8 @@ typedef enum JoxNow {
     X(GT) X(GE) X(LT) X(LE) X(EQ) X(AND) X(OR) X(NOT)                           \
     X(DISTANCE) X(PLACE_DENSITY) X(PLACE_COUNT)                                 \
     X(INSIDE) X(NEAR) X(CROSSES) X(FIRST_IN) X(AFTER) X(LASTED) X(STUCK)        \
-    X(TOUCHES) X(GROUNDED) X(KICKED) X(HIT_BY) X(INCOMING) X(SEES)
+    X(TOUCHES) X(GROUNDED) X(KICKED) X(HIT_BY) X(INCOMING) X(SEES)              \
+    X(HAS) X(HEARD) X(TAGGED) X(IN_STATE)
 /* clang-format on */
 
 typedef enum JoxOp {
@@ -61,9 +64,13 @@ typedef enum JoxOp {
         JOX_OP_COUNT
 } JoxOp;
 
+/* Kinds of neighbours that are no tag. */
+typedef enum { JOX_KIN_ALL = -1, JOX_KIN_TEAMMATES = -2, JOX_KIN_OPPONENTS = -3 } JoxKin;
+
 typedef struct JoxInstruction {
     uint8_t op, to, a, b, c;
     int16_t target, place; /* indices into the machine's targets; -1 none (or: the agent itself) */
+    int16_t name;          /* index into the machine's names; -1 none */
     int32_t arg;
     double number;
 } JoxInstruction;
@@ -81,7 +88,8 @@ typedef enum JoxTargetKind {
     JOX_TARGET_ONE_OF,    /* arg: place index of a set; on entering the state, goal := a member */
     JOX_TARGET_NEAREST,   /* arg: tag bit; nearest seen body or agent that bears it */
     JOX_TARGET_OPPONENT,  /* nearest seen agent of another team */
-    JOX_TARGET_TEAMMATE   /* nearest seen agent of the same team */
+    JOX_TARGET_TEAMMATE,  /* nearest seen agent of the same team */
+    JOX_TARGET_ANYONE     /* nearest seen agent */
 } JoxTargetKind;
 
 typedef struct JoxTarget {
@@ -113,6 +121,8 @@ typedef enum JoxSteerKind {
     JOX_STEER_DRIFT,     /* along the vector (args[0], args[1]) */
     JOX_STEER_SPREAD,    /* away from the neighbours' centroid */
     JOX_STEER_ALONG,     /* along a line's direction or a queue's polyline towards its head */
+    JOX_STEER_FIELD,     /* the shortest way to a place round walls */
+    JOX_STEER_TOGETHER,  /* towards the mates that are seen, once they are farther than args[0] m */
     JOX_STEER_PLAYER,    /* as the input log says; holds while it says nothing */
     JOX_STEER_FUNCTION   /* hook: a Lua function returns the velocity */
 } JoxSteerKind;
@@ -134,9 +144,20 @@ typedef struct JoxSteerTerm {
     double args[6];
 } JoxSteerTerm;
 
+/* What entering a state or taking a transition does besides. */
+typedef struct JoxActions {
+    struct JoxAssign {
+        int32_t slot; /* of memory */
+        JoxValue value;
+    } * set;
+    uint32_t set_count;
+    int16_t signal; /* name that is called out; -1 none */
+} JoxActions;
+
 typedef struct JoxTransition {
     char *id;
     uint16_t to;
+    JoxActions does;
     int32_t when;      /* program; -1: always (unless when_hook) */
     int32_t when_hook; /* a plain function; -1 none */
     JoxValue chance;   /* UNSET: certain */
@@ -146,6 +167,7 @@ typedef struct JoxTransition {
 
 typedef struct JoxState {
     char *name;
+    uint32_t name_number; /* of the names that machines share; set when it is added to a mind */
     JoxValue param[JOX_PARAM_COUNT]; /* UNSET: inherits the machine's default, then the engine's */
     JoxSteerTerm steer[JOX_MOST_TERMS];
     uint32_t steer_count;
@@ -160,8 +182,16 @@ typedef struct JoxState {
     bool push_nearest;      /* push_weight "nearest" instead of "equal" */
     int16_t face, approach; /* targets; -1 none */
     uint64_t ignore, push_only;
-    int16_t kick, kick_at;     /* targets; -1 none */
-    JoxValue kick_impulse;     /* N s per kg of the body: the velocity change, m/s */
+    int16_t kick, kick_at; /* targets; -1 none */
+    JoxValue kick_impulse; /* N s per kg of the body: the velocity change, m/s */
+    int16_t take;          /* body that is picked up where it is in reach; -1 none */
+    int16_t toss, toss_at; /* body that is thrown, and whereto; -1 none */
+    JoxValue toss_speed;   /* level speed of the throw, m/s */
+    JoxActions enters;
+    double signal_every;    /* s between two calls of enters.signal while in the state; 0: one */
+    char *become;           /* behaviour whose machine the agent goes on with; NULL none */
+    int32_t become_machine; /* its index, once known; -1 */
+    int32_t become_line, become_column;
     int32_t on_enter, on_exit; /* hooks; -1 none */
     int32_t line;
 } JoxState;
@@ -170,6 +200,8 @@ typedef struct JoxOwnSlot {
     char *name;   /* "speed", "court"; "" for a distribution written in a state */
     JoxDist dist; /* drawn once per agent; groups may override it by name */
     bool is_place;
+    int32_t line, column, end_column; /* where own.NAME was first written; 0 unknown */
+    uint32_t source;                  /* number of its file among the machine's files */
 } JoxOwnSlot;
 
 typedef enum { JOX_MEMORY_NUMBER, JOX_MEMORY_BOOLEAN } JoxMemoryKind;
@@ -186,6 +218,14 @@ typedef struct JoxCounter {
     int32_t value, angle, begun;
     int32_t state; /* counts in this state only; -1 in all */
 } JoxCounter;
+
+/* Names that machines share: states asked for by others, signals. */
+typedef enum { JOX_NAME_STATE = 1, JOX_NAME_SIGNALLED = 2, JOX_NAME_HEARD = 4 } JoxNameUse;
+typedef struct JoxName {
+    char *text;
+    uint32_t uses;   /* of JoxNameUse */
+    uint32_t number; /* equal for equal texts in all machines of a mind; set when it is added */
+} JoxName;
 
 typedef struct JoxMachine {
     char *name, *path;
@@ -204,15 +244,20 @@ typedef struct JoxMachine {
     uint32_t memory_count;
     JoxCounter *counters;
     uint32_t counter_count;
+    JoxName *names;
+    uint32_t name_count;
     struct JoxRenamed {
         char *from, *to;
     } * renamed; /* states of an older version */
     uint32_t renamed_count;
-    uint32_t hook_base; /* the Lua side's first hook number of this machine */
     uint32_t hook_count;
+    bool views; /* hooks look at other agents: as they were before the step */
     int32_t vm; /* which Lua state owns the hooks; -1 none */
 } JoxMachine;
 
+/* A state, and a transition, that do nothing yet: every index is -1. The names are taken over. */
+JoxState jox_state_blank(char *name);
+JoxTransition jox_transition_blank(char *id);
 /* Index of a state by name, or -1. */
 int jox_machine_state(const JoxMachine *machine, const char *name);
 /* Frees the machine with all it owns (everything was made by jox_alloc / jox_strdup). */

@@ -11,6 +11,7 @@
 uint32_t jox_mind_add(JoxMind *mind, JoxMachine *machine) {
     JOX_RESERVE(mind->machines, mind->machine_capacity, mind->machine_count + 1);
     mind->machines[mind->machine_count] = machine;
+    jox_mind_number_names(mind, machine);
     jox_agents_widen(mind->agents, machine->own_count, machine->memory_count);
     return mind->machine_count++;
 }
@@ -21,11 +22,9 @@ static void draw_own(const JoxMind *mind, uint32_t i, uint32_t slot, const JoxDi
         jox_dist_draw(dist, mind->seed, a->id[i], 0, JOX_DRAW_OWN, slot);
 }
 
-void jox_mind_spawn(JoxMind *mind, uint32_t agent, uint32_t machine, const JoxDist *const *own,
-                    const JoxDist *const *memory) {
+static void draw_values(JoxMind *mind, uint32_t agent, const JoxMachine *kind,
+                        const JoxDist *const *own, const JoxDist *const *memory) {
     JoxAgents *a = mind->agents;
-    const JoxMachine *kind = mind->machines[machine];
-    a->machine[agent] = (uint16_t)machine;
     for (uint32_t s = 0; s < kind->own_count; s++)
         draw_own(mind, agent, s, own && own[s] ? own[s] : &kind->own[s].dist);
     for (uint32_t s = 0; s < kind->memory_count; s++) {
@@ -34,17 +33,72 @@ void jox_mind_spawn(JoxMind *mind, uint32_t agent, uint32_t machine, const JoxDi
             value = jox_dist_draw(memory[s], mind->seed, a->id[agent], 0, JOX_DRAW_MEMORY, s);
         a->memory[(size_t)agent * a->memory_stride + s] = value;
     }
+}
+
+void jox_mind_spawn(JoxMind *mind, uint32_t agent, uint32_t machine, const JoxDist *const *own,
+                    const JoxDist *const *memory) {
+    JoxAgents *a = mind->agents;
+    const JoxMachine *kind = mind->machines[machine];
+    a->machine[agent] = (uint16_t)machine;
+    draw_values(mind, agent, kind, own, memory);
+    for (uint32_t s = 0; own && s < kind->own_count && s < 64; s++)
+        a->given[agent] |= own[s] ? (uint64_t)1 << s : 0;
     mind->spawning = true; /* it has no neighbours yet */
     jox_mind_enter(mind, agent, kind->start);
     mind->spawning = false;
     const JoxState *start = &kind->states[kind->start];
-    if (start->on_enter < 0 && start->lasts_program < 0)
+    const JoxActions *does = &start->enters;
+    if (start->on_enter < 0 && start->lasts_program < 0 && !does->set_count && does->signal < 0)
         return;
     if (!mind->scratch)
         mind->scratch = jox_alloc(1, sizeof *mind->scratch);
     JoxMindScratch *s = mind->scratch;
     JOX_RESERVE(s->pending, s->pending_capacity, s->pending_count + 1);
     s->pending[s->pending_count++] = a->id[agent];
+}
+
+/* Whether an own value goes along when an agent becomes another machine: its body and what is no
+   parameter (a goal, a court), and whatever the scene gave it. */
+static bool goes_along(const JoxAgents *a, uint32_t i, const JoxOwnSlot *slot, uint32_t number) {
+    int parameter = jox_parameter_find(slot->name);
+    bool given = number < 64 && (a->given[i] >> number & 1);
+    return *slot->name &&
+           (given || parameter < 0 || parameter == JOX_PARAM_radius || parameter == JOX_PARAM_mass);
+}
+
+void jox_mind_set_own(JoxMind *mind, uint32_t i, uint32_t slot, double value) {
+    JoxAgents *a = mind->agents;
+    a->own[(size_t)i * a->own_stride + slot] = value;
+    a->given[i] |= slot < 64 ? (uint64_t)1 << slot : 0;
+    jox_mind_write_parameters(mind, i);
+}
+
+void jox_mind_become(JoxMind *mind, uint32_t i, uint32_t machine) {
+    enum { MOST = 256 };
+    JoxAgents *a = mind->agents;
+    const JoxMachine *old = mind->machines[a->machine[i]], *next = mind->machines[machine];
+    JoxDist kept[MOST], remembered[MOST];
+    const JoxDist *own[MOST] = {0}, *memory[MOST] = {0};
+    uint64_t given = 0;
+    for (uint32_t n = 0; n < next->own_count && n < MOST; n++)
+        for (uint32_t o = 0; o < old->own_count; o++)
+            if (strcmp(old->own[o].name, next->own[n].name) == 0 &&
+                goes_along(a, i, &old->own[o], o)) {
+                kept[n] = jox_dist_constant(a->own[(size_t)i * a->own_stride + o]);
+                own[n] = &kept[n];
+                given |= n < 64 ? (uint64_t)1 << n : 0;
+            }
+    for (uint32_t n = 0; n < next->memory_count && n < MOST; n++)
+        for (uint32_t o = 0; o < old->memory_count; o++)
+            if (*next->memory[n].name && !strcmp(old->memory[o].name, next->memory[n].name) &&
+                old->memory[o].kind == next->memory[n].kind) {
+                remembered[n] = jox_dist_constant(a->memory[(size_t)i * a->memory_stride + o]);
+                memory[n] = &remembered[n];
+            }
+    a->machine[i] = (uint16_t)machine;
+    draw_values(mind, i, next, own, memory);
+    a->given[i] = given;
+    jox_mind_enter(mind, i, next->start);
 }
 
 /* The state of `next` that continues `name`, or -1. */
@@ -158,6 +212,12 @@ void jox_mind_free(JoxMind *mind) {
     jox_free(mind->push_nearest);
     jox_free(mind->push_toward_x);
     jox_free(mind->push_toward_y);
+    jox_free(mind->grips);
+    jox_free(mind->called);
+    jox_free(mind->heard);
+    for (uint32_t n = 0; n < mind->name_count; n++)
+        jox_free(mind->names[n]);
+    jox_free(mind->names);
     jox_text_free(&mind->trace);
     jox_mind_scratch_free(mind);
 }

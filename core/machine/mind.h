@@ -5,6 +5,7 @@
 #include "agents/agents.h"
 #include "agents/neighbours.h"
 #include "base/text.h"
+#include "geom/field.h"
 #include "geom/objects.h"
 #include "geom/place.h"
 #include "machine/machine.h"
@@ -15,7 +16,8 @@ typedef enum JoxHookKind {
     JOX_HOOK_EXIT,
     JOX_HOOK_TAKE,
     JOX_HOOK_WHEN,
-    JOX_HOOK_STEER
+    JOX_HOOK_STEER,
+    JOX_HOOK_KINDS
 } JoxHookKind;
 
 /* Runs one Lua function for one agent, on the stepping thread, agents in ascending id. WHEN
@@ -23,6 +25,9 @@ typedef enum JoxHookKind {
    then counts as false, STEER as standing still). NULL where there is no Lua. */
 typedef bool JoxHookCall(void *context, const JoxMachine *machine, int32_t hook, JoxHookKind kind,
                          uint32_t agent, double result[2]);
+/* Before the first hook of a step, for machines whose hooks look at other agents, and after the
+   last, when what they wrote to others is carried out. May be NULL. */
+typedef void JoxHookBracket(void *context, bool begins);
 
 /* One transition taken; kept for the step, in ascending agent id. */
 typedef struct JoxTaken {
@@ -31,6 +36,20 @@ typedef struct JoxTaken {
 } JoxTaken;
 
 enum { JOX_MOST_MACHINES = 64 };
+
+/* What an agent called out, for others to hear in the next step. */
+typedef struct JoxSignal {
+    uint32_t name; /* number of the name */
+    uint32_t agent_id;
+    float x, y; /* m */
+} JoxSignal;
+
+/* A body that an agent picks up or throws. */
+typedef struct JoxGrip {
+    uint32_t object, agent_id;
+    bool takes;     /* else it lets go with the velocity */
+    JoxV3 velocity; /* m/s */
+} JoxGrip;
 
 typedef struct JoxMind {
     /* Given by the world before each stage. */
@@ -43,6 +62,7 @@ typedef struct JoxMind {
     uint32_t tick; /* this step's number, from 0 */
     double dt;
     JoxHookCall *call;
+    JoxHookBracket *bracket;
     void *call_context;
     /* Velocity that the player (or the input log) wants for the agent with this id; (0,0) default.
      */
@@ -61,6 +81,20 @@ typedef struct JoxMind {
     uint32_t taken_count, taken_capacity;
     JoxImpulse *kicks; /* impulses on bodies, by agent id */
     uint32_t kick_count, kick_capacity;
+    JoxGrip *grips; /* by agent id */
+    uint32_t grip_count, grip_capacity;
+    JoxSignal *called; /* in this step, in the order of calling; state that is carried on */
+    uint32_t called_count, called_capacity;
+    JoxSignal *heard; /* called in the last step, by name and x */
+    uint32_t heard_count, heard_capacity;
+    char **names; /* number -> name, shared by all machines */
+    uint32_t name_count, name_capacity;
+
+    /* Ways round walls by place; NULL where there is none yet. What is asked for and missing is
+       marked in `wanted`, by place, for the world to make. */
+    JoxField *const *fields;
+    uint8_t *wanted;
+    double gravity; /* m/s2, for throws */
 
     bool spawning; /* within jox_mind_spawn: nothing can be sensed */
     /* Transitions of the agent with this id are explained in `trace` as they are taken. */
@@ -96,6 +130,15 @@ const char *jox_mind_refuses(const JoxMind *mind, uint32_t index, const JoxMachi
 /* Swaps machine `index` for `next` (taken over; the old one is returned, caller frees) and carries
    states by name (or `renamed`), memory and own values by name. Enter and exit hooks do not run. */
 JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, JoxMachine *next);
+/* Makes the agent go on with another machine, from its start state: it keeps its body, what the
+   scene gave it and its memory, by name; the rest is drawn anew. */
+void jox_mind_become(JoxMind *mind, uint32_t agent, uint32_t machine);
+/* Gives the agent an own value, as the scene's group might have done. */
+void jox_mind_set_own(JoxMind *mind, uint32_t agent, uint32_t slot, double value);
+/* Number of a name that machines share; new names are added. */
+uint32_t jox_mind_name(JoxMind *mind, const char *name);
+/* The agent calls out a name (by number). */
+void jox_mind_call(JoxMind *mind, uint32_t agent, uint32_t name);
 /* Appends who went where by which transition, with the values of its condition at present. */
 void jox_mind_explain(const JoxMind *mind, const JoxTaken *taken, JoxText *out);
 void jox_mind_free(JoxMind *mind);

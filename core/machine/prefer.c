@@ -108,6 +108,41 @@ static JoxV2 spread(const JoxMind *mind, uint32_t i) {
     return jox_unit(sum);
 }
 
+/* The way round walls; where none is known yet, straight on, and it is asked for. */
+static JoxV2 field(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = mind->agents;
+    int32_t place = jox_target_place(mind, i, term->target);
+    if (place < 0)
+        return (JoxV2){0.0f, 0.0f};
+    JoxV2 p = {a->x[i], a->y[i]};
+    const JoxField *way = mind->fields ? mind->fields[place] : NULL;
+    if (!way && mind->wanted) /* every thread writes the same value */
+        __atomic_store_n(&mind->wanted[place], 1, __ATOMIC_RELAXED);
+    if (!way || jox_place_contains(mind->places, (uint32_t)place, p))
+        return seek(mind, i, term->target);
+    JoxV2 direction = jox_field_direction(way, p);
+    return jox_length2(direction) > 0.0f ? direction : seek(mind, i, term->target);
+}
+
+static JoxV2 together(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = mind->agents;
+    const JoxNeighbours *n = mind->neighbours;
+    JoxV2 sum = {0.0f, 0.0f};
+    uint32_t mates = 0;
+    for (uint32_t k = 0; a->team[i] && k < n->count[i]; k++) {
+        uint32_t j = n->index[jox_neighbour_at(n, i, k)];
+        if (a->team[j] != a->team[i])
+            continue;
+        sum = jox_add(sum, (JoxV2){a->x[j], a->y[j]});
+        mates++;
+    }
+    JoxV2 p = {a->x[i], a->y[i]}, to = jox_scale(sum, mates ? 1.0f / (float)mates : 0.0f);
+    float distance = mates ? jox_length(jox_sub(to, p)) : 0.0f, ease = (float)term->args[0];
+    if (distance <= ease)
+        return (JoxV2){0.0f, 0.0f};
+    return jox_scale(jox_sub(to, p), jox_minf(1.0f, distance - ease) / distance);
+}
+
 static JoxV2 follow(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = mind->agents;
     JoxSpot spot = jox_target_find(mind, i, term->target);
@@ -149,6 +184,10 @@ static JoxV2 term_direction(const JoxMind *mind, uint32_t i, const JoxSteerTerm 
         return spread(mind, i);
     case JOX_STEER_ALONG:
         return along(mind, i, term);
+    case JOX_STEER_FIELD:
+        return field(mind, i, term);
+    case JOX_STEER_TOGETHER:
+        return together(mind, i, term);
     case JOX_STEER_PLAYER:
         return player(mind, i);
     case JOX_STEER_HOLD:
@@ -240,4 +279,6 @@ void jox_mind_prefer(JoxMind *mind, JoxPool *pool) {
         return;
     jox_parallel_for(pool, mind->scratch->batch_count, 1, prefer_range, mind);
     ask_functions(mind);
+    if (mind->bracket)
+        mind->bracket(mind->call_context, false);
 }

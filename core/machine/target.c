@@ -53,6 +53,8 @@ static bool is_wanted(const JoxAgents *a, const JoxTarget *target, uint32_t i, u
         return (a->tags[j] >> target->arg & 1) != 0;
     case JOX_TARGET_OPPONENT:
         return a->team[i] != a->team[j] && a->team[i] && a->team[j];
+    case JOX_TARGET_ANYONE:
+        return true;
     case JOX_TARGET_TEAMMATE:
         return a->team[i] == a->team[j] && a->team[i];
     default:

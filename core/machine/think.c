@@ -155,12 +155,13 @@ static void call_hook(JoxMind *mind, int32_t hook, JoxHookKind kind, uint32_t ag
 /* A set's member for this entry, for targets of the state that ask for one. */
 static void pick_goal(JoxMind *mind, const JoxMachine *machine, const JoxState *state, uint32_t i) {
     JoxAgents *a = mind->agents;
-    int16_t asked[JOX_MOST_TERMS + 3];
+    int16_t asked[JOX_MOST_TERMS + 4];
     uint32_t count = 0;
     for (uint32_t t = 0; t < state->steer_count; t++)
         asked[count++] = state->steer[t].target;
     asked[count++] = state->face;
     asked[count++] = state->kick_at;
+    asked[count++] = state->toss_at;
     asked[count++] = state->push_toward;
     for (uint32_t k = 0; k < count; k++) {
         if (asked[k] < 0 || machine->targets[asked[k]].kind != JOX_TARGET_ONE_OF)
@@ -215,6 +216,21 @@ void jox_mind_enter(JoxMind *mind, uint32_t i, uint16_t to) {
         a->removed[i] = 1;
 }
 
+/* Enters a state with what it does and calls, and goes on with another machine where it says so. */
+static void enter(JoxMind *mind, uint32_t i, uint16_t to) {
+    const JoxMachine *machine = jox_machine_of(mind, i);
+    const JoxState *state = &machine->states[to];
+    jox_mind_enter(mind, i, to);
+    jox_actions_do(mind, machine, &state->enters, i);
+    call_hook(mind, state->on_enter, JOX_HOOK_ENTER, i);
+    if (state->become_machine < 0)
+        return;
+    jox_mind_become(mind, i, (uint32_t)state->become_machine);
+    machine = jox_machine_of(mind, i); /* a start state cannot become anything at once */
+    jox_actions_do(mind, machine, &machine->states[machine->start].enters, i);
+    call_hook(mind, machine->states[machine->start].on_enter, JOX_HOOK_ENTER, i);
+}
+
 /* Takes the fired transitions, by id; hooks of leaving, taking and entering in that order. */
 static void take_transitions(JoxMind *mind) {
     JoxMindScratch *s = mind->scratch;
@@ -235,9 +251,9 @@ static void take_transitions(JoxMind *mind) {
         if (mind->traces && a->id[i] == mind->trace_id)
             jox_mind_explain(mind, &mind->taken[n], &mind->trace);
         call_hook(mind, from->on_exit, JOX_HOOK_EXIT, i);
+        jox_actions_do(mind, machine, &t->does, i);
         call_hook(mind, t->on_take, JOX_HOOK_TAKE, i);
-        jox_mind_enter(mind, i, t->to);
-        call_hook(mind, machine->states[t->to].on_enter, JOX_HOOK_ENTER, i);
+        enter(mind, i, t->to);
     }
 }
 
@@ -256,24 +272,39 @@ static void greet_spawned(JoxMind *mind) {
             a->lasts[i] = (float)jox_value(
                 mind, machine,
                 &(JoxValue){.kind = JOX_VALUE_PROGRAM, .index = state->lasts_program}, i);
+        jox_actions_do(mind, machine, &state->enters, i);
         call_hook(mind, state->on_enter, JOX_HOOK_ENTER, i);
     }
     s->pending_count = 0;
 }
 
+static bool any_views(const JoxMind *mind) {
+    for (uint32_t m = 0; m < mind->machine_count; m++)
+        if (mind->machines[m]->views)
+            return true;
+    return false;
+}
+
 void jox_mind_think(JoxMind *mind, JoxPool *pool) {
-    mind->taken_count = mind->kick_count = 0;
+    mind->taken_count = mind->kick_count = mind->grip_count = 0;
     mind->trace.length = 0;
+    jox_mind_listen(mind);
     jox_mind_group(mind, pool);
     if (mind->machine_count > 0) {
+        bool views = mind->bracket && any_views(mind);
+        if (views)
+            mind->bracket(mind->call_context, true);
         jox_mind_count_places(mind);
         greet_spawned(mind);
         Think think = {mind};
         jox_parallel_for(pool, mind->scratch->batch_count, 1, think_range, &think);
         ask_functions(mind);
         take_transitions(mind);
+        if (views)
+            mind->bracket(mind->call_context, false);
         if (mind->taken_count > 0)
             jox_mind_group(mind, pool);
+        jox_mind_repeat_signals(mind);
     }
     jox_mind_act(mind, pool);
 }

@@ -14,6 +14,7 @@ static void perceive(JoWorld *w) {
 
 static void think(JoWorld *w) {
     JoxMind *mind = &w->mind;
+    jox_world_make_ways(w);
     mind->neighbours = &w->neighbours;
     mind->objects = &w->objects;
     mind->places = w->places;
@@ -105,6 +106,7 @@ static void take_hits(JoWorld *w, const JoxBodiesReport *report) {
 static void bodies(JoWorld *w) {
     if (jox_bodies_count(w->bodies) == 0)
         return;
+    jox_world_grip(w);
     uint32_t count;
     const JoxImpulse *impulses = jox_force_impulses(w->forces, &count);
     jox_bodies_impulses(w->bodies, impulses, count);

@@ -19,6 +19,7 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     world->mind.agents = &world->agents;
     world->mind.seed = def->seed;
     world->mind.dt = def->dt;
+    world->mind.gravity = def->gravity;
     world->settled = true;
     return world;
 }
@@ -35,6 +36,7 @@ static void free_places(JoWorld *world) {
 void jo_world_free(JoWorld *world) {
     if (!world)
         return;
+    jox_world_drop_ways(world);
     jox_mind_free(&world->mind);
     jox_nav_free(world->nav);
     jox_forces_free(world->forces);
@@ -134,5 +136,8 @@ uint64_t jox_world_hash(const JoWorld *world) {
         if (a->id_index[id] != JOX_NO_INDEX)
             hash_agent(&hash, a, a->id_index[id]);
     jox_bodies_hash(world->bodies, &hash);
+    if (world->mind.called_count) /* what will be heard in the next step */
+        jox_hash_add(&hash, world->mind.called,
+                     world->mind.called_count * sizeof *world->mind.called);
     return jox_hash_end(&hash);
 }

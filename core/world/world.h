@@ -40,6 +40,10 @@ struct JoWorld {
     JoxBodies *bodies;
     JoxObjects objects; /* what agents see of the bodies */
 
+    JoxField **fields; /* by place; NULL until somebody asks the way there */
+    uint8_t *wanted;
+    uint32_t field_count, field_capacity;
+
     bool walls_set;           /* nav and bodies know the walls */
     bool settled;             /* no agent has been added since the last settling */
     uint32_t first_unsettled; /* else: id of the first of those */
@@ -61,6 +65,12 @@ uint32_t jox_world_add_agent(JoWorld *world, float x, float y);
 /* Moves agents that were born in walls or each other, and says how many. Runs by itself before a
    step. */
 JoxSettled jox_world_settle(JoWorld *world);
+/* Before a step: makes the distance fields that were asked for in the last. */
+void jox_world_make_ways(JoWorld *world);
+/* After walls or places have moved. */
+void jox_world_drop_ways(JoWorld *world);
+/* Bodies that are picked up, carried and thrown in this step. */
+void jox_world_grip(JoWorld *world);
 /* One step. */
 void jox_world_step(JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX. */

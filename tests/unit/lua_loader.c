@@ -87,7 +87,8 @@ static void names_are_checked_against_the_scene(void **state) {
     JoxPlace places[] = {{.name = "start_line", .kind = JOX_PLACE_LINE, .start = -1},
                          {.name = "kaaba", .kind = JOX_PLACE_POLYGON, .start = 0}};
     const char *tags[] = {"ball"};
-    JoxScope scope = {places, 2, tags, 1, true};
+    JoxScope scope = {
+        .places = places, .place_count = 2, .tags = tags, .tag_count = 1, .complete = true};
     JoxLua *lua = jox_lua_create(NULL);
     assert_null(load_in(lua, &scope, SHEET("steer = orbit \"kaba\"")));
     assert_string_equal(diagnostics.items[0].code, "unknown-place");

@@ -28,12 +28,8 @@ static JoxMachine *new_machine(uint32_t states) {
     m->state_count = states;
     m->states = jox_alloc(states, sizeof *m->states);
     for (uint32_t s = 0; s < states; s++) {
-        JoxState *state = &m->states[s];
         char name[2] = {(char)('A' + s), 0};
-        state->name = jox_strdup(name);
-        state->push_when = state->lasts_program = -1;
-        state->push_toward = state->face = state->approach = state->kick = state->kick_at = -1;
-        state->on_enter = state->on_exit = -1;
+        m->states[s] = jox_state_blank(jox_strdup(name));
     }
     return m;
 }
@@ -51,11 +47,9 @@ static JoxTransition *add_transition(JoxMachine *m, uint16_t from, uint16_t to, 
     JoxState *s = &m->states[from];
     s->transitions = jox_realloc(s->transitions, s->transition_count + 1, sizeof *s->transitions);
     JoxTransition *t = &s->transitions[s->transition_count++];
-    *t = (JoxTransition){.id = jox_strdup(m->states[to].name),
-                         .to = to,
-                         .when = when,
-                         .when_hook = -1,
-                         .on_take = -1};
+    *t = jox_transition_blank(jox_strdup(m->states[to].name));
+    t->to = to;
+    t->when = when;
     return t;
 }
 

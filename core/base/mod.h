@@ -1,0 +1,38 @@
+/* A mod as data: found and ordered by scene/, applied by scene/ (scenes) and lua/ (behaviours). */
+#ifndef JOX_BASE_MOD_H
+#define JOX_BASE_MOD_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/diag.h"
+
+enum { JOX_MOST_MODS = 64 };
+
+typedef struct JoxModSetting {
+    char *name, *unit, *meaning;
+    double value, least, greatest;
+    JoxPosition position;
+} JoxModSetting;
+
+/* A file that changes a behaviour (.lua) or a scene (.yaml). */
+typedef struct JoxModPatch {
+    char *path;
+    char *target; /* name of what it changes; NULL where it names nothing */
+    bool lua, replaces;
+    JoxPosition position; /* of the target's name */
+} JoxModPatch;
+
+typedef struct JoxMod {
+    char *name, *title, *version;
+    char *folder; /* where its mod.yaml lies */
+    bool enabled; /* taken because it lies in a folder of mods */
+    uint64_t
+        after; /* bits of the mods (by index in the order) that it depends on, through others too */
+    JoxModSetting *settings;
+    uint32_t setting_count;
+    JoxModPatch *patches;
+    uint32_t patch_count;
+} JoxMod;
+
+#endif

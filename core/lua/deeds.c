@@ -1,0 +1,171 @@
+/* What agents do besides walking: set memory, call out, kick, take and throw bodies, become another
+   machine. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "lua/read.h"
+#include "lua/vocabulary.h"
+
+/* What a name of memory is set to. */
+static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxAssign *assign) {
+    static const JoxParameterInfo ANY = {"this", "", "", -1e12, 1e12, 0};
+    lua_State *L = b->vm->L;
+    JoxNode *node = jox_node_get(L, -1);
+    *assign = (struct JoxAssign){.slot = slot};
+    if (b->machine->memory[slot].kind == JOX_MEMORY_NUMBER) {
+        bool is_dist;
+        JoxDist dist;
+        assign->value = jox_read_value(b, path, &ANY, &is_dist, &dist);
+        if (is_dist)
+            jox_build_error(b, jox_read_at(b, path), "bad-value",
+                            "Use `lasts` or an own value for what is drawn",
+                            "memory is set to a number or an expression");
+        return;
+    }
+    if (lua_type(L, -1) == LUA_TBOOLEAN) {
+        assign->value = (JoxValue){JOX_VALUE_CONST, lua_toboolean(L, -1), 0, 0};
+        lua_pop(L, 1);
+    } else if (node && node->kind == JOX_NODE_CONDITION) {
+        assign->value = (JoxValue){JOX_VALUE_PROGRAM, 0.0, jox_read_condition(b, path, NULL), 0};
+        if (assign->value.index < 0)
+            assign->value.kind = JOX_VALUE_UNSET;
+    } else {
+        if (!node || node->kind != JOX_NODE_POISON)
+            jox_build_error(b, jox_read_at(b, path), "bad-value", NULL,
+                            "this memory is true or false, or set to a condition");
+        lua_pop(L, 1);
+    }
+}
+
+static void read_set(JoxBuild *b, int index, const char *path, JoxActions *actions) {
+    lua_State *L = b->vm->L;
+    char full[256], part[256];
+    jox_read_join(full, path, "set");
+    int type = jox_read_field(L, index, "set"), table = lua_gettop(L);
+    if (type != LUA_TTABLE) {
+        if (type != LUA_TNIL)
+            jox_build_error(b, jox_read_at(b, full), "bad-value",
+                            "Example: set = { touched = true }", "set must be a table");
+        lua_pop(L, 1);
+        return;
+    }
+    const JoxVm *vm = b->vm;
+    const char *names[64];
+    actions->set = jox_alloc(vm->memory_count + 1, sizeof *actions->set);
+    for (uint32_t m = 0; m < vm->memory_count; m++) {
+        names[m] = vm->memory[m].name;
+        if (jox_read_field(L, table, names[m]) == LUA_TNIL) {
+            lua_pop(L, 1);
+            continue;
+        }
+        jox_read_join(part, full, names[m]);
+        read_assign(b, part, jox_read_memory(b, names[m]), &actions->set[actions->set_count++]);
+    }
+    jox_read_check(b, table, full, names, vm->memory_count, false);
+    lua_settop(L, table - 1);
+}
+
+/* signal = "name", or { "name", every = seconds } where `every` is wanted. */
+static void read_signal(JoxBuild *b, int index, const char *path, JoxActions *actions,
+                        double *every) {
+    static const char *const KEYS[] = {"every"};
+    lua_State *L = b->vm->L;
+    char full[256];
+    jox_read_join(full, path, "signal");
+    int type = jox_read_field(L, index, "signal"), top = lua_gettop(L);
+    actions->signal = -1;
+    if (type == LUA_TTABLE && every) {
+        jox_read_check(b, top, full, KEYS, 1, true);
+        if (jox_read_field(L, top, "every") == LUA_TNUMBER)
+            *every = lua_tonumber(L, -1);
+        if (!lua_isnil(L, -1) && !(*every >= 0.01 && *every <= 1e6))
+            jox_build_error(b, jox_read_at(b, full), "out-of-range", NULL,
+                            "every must be a plain number from 0.01 to 1e6 s");
+        lua_rawgeti(L, top, 1);
+        type = lua_type(L, -1);
+    }
+    if (type == LUA_TSTRING && lua_rawlen(L, -1) <= 60)
+        actions->signal = jox_build_name(b, lua_tostring(L, -1), JOX_NAME_SIGNALLED);
+    else if (type != LUA_TNIL || lua_gettop(L) > top)
+        jox_build_error(b, jox_read_at(b, full), "bad-value", "Example: signal = \"alarm\"",
+                        "a signal is a name");
+    lua_settop(L, top - 1);
+}
+
+void jox_read_actions(JoxBuild *b, int index, const char *path, JoxActions *actions,
+                      double *every) {
+    read_set(b, index, path, actions);
+    read_signal(b, index, path, actions, every);
+}
+
+/* { body, at = target, VALUE = number }: kick and throw. */
+static int16_t read_deed(JoxBuild *b, int index, const char *path, const char *deed,
+                         const JoxParameterInfo *info, int16_t *at, JoxValue *value) {
+    lua_State *L = b->vm->L;
+    const char *keys[] = {"at", info->name};
+    char full[256], part[256], hint[96];
+    int16_t what = -1;
+    jox_read_join(full, path, deed);
+    *at = -1;
+    int type = jox_read_field(L, index, deed), table = lua_gettop(L);
+    snprintf(hint, sizeof hint, "Example: %s = { nearest \"ball\", at = goal, %s = 4 }", deed,
+             info->name);
+    if (type == LUA_TTABLE) {
+        jox_read_check(b, table, full, keys, 2, true);
+        lua_rawgeti(L, table, 1);
+        JoxNode *body = jox_node_get(L, -1);
+        if (body && body->kind == JOX_NODE_TARGET)
+            what = jox_build_target(b, body);
+        else if (!body || body->kind != JOX_NODE_POISON)
+            jox_build_error(b, jox_read_at(b, full), "bad-value", hint,
+                            "%s needs the body as its first item", deed);
+        lua_pop(L, 1);
+        *at = jox_read_target(b, table, full, "at");
+        jox_read_join(part, full, info->name);
+        if (jox_read_field(L, table, info->name) == LUA_TNIL) {
+            lua_pop(L, 1);
+            jox_build_error(b, jox_read_at(b, full), "missing-key", hint, "%s needs `%s`", deed,
+                            info->name);
+        } else {
+            *value = jox_read_parameter(b, part, info);
+        }
+    } else if (type != LUA_TNIL) {
+        jox_build_error(b, jox_read_at(b, full), "bad-value", hint, "%s must be a table", deed);
+    }
+    lua_settop(L, table - 1);
+    return what;
+}
+
+static void read_become(JoxBuild *b, int index, const char *path, JoxState *state) {
+    lua_State *L = b->vm->L;
+    char full[256];
+    jox_read_join(full, path, "become");
+    int type = jox_read_field(L, index, "become");
+    state->become_machine = -1;
+    if (type == LUA_TSTRING && lua_rawlen(L, -1) <= 100) {
+        state->become = jox_strdup(lua_tostring(L, -1));
+        state->become_line = jox_read_at(b, full).line;
+        state->become_column = jox_read_at(b, full).column;
+    } else if (type != LUA_TNIL) {
+        jox_build_error(b, jox_read_at(b, full), "bad-value", "Example: become = \"walker\"",
+                        "become is the name of a behaviour");
+    }
+    lua_pop(L, 1);
+}
+
+void jox_read_deeds(JoxBuild *b, int index, const char *path, JoxState *state) {
+    static const JoxParameterInfo IMPULSE = {"impulse", "m/s", "", 0, 50, 0},
+                                  SPEED = {"speed", "m/s", "", 0.1, 40, 5};
+    char full[256];
+    state->kick =
+        read_deed(b, index, path, "kick", &IMPULSE, &state->kick_at, &state->kick_impulse);
+    state->toss = read_deed(b, index, path, "throw", &SPEED, &state->toss_at, &state->toss_speed);
+    jox_read_join(full, path, "throw");
+    if (state->toss >= 0 && state->toss_at < 0)
+        jox_build_error(b, jox_read_at(b, full), "missing-key",
+                        "Example: throw = { nearest \"ball\", at = goal, speed = 6 }",
+                        "throw needs `at`, a target");
+    state->take = jox_read_target(b, index, path, "take");
+    read_become(b, index, path, state);
+}

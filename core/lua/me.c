@@ -1,0 +1,286 @@
+/* `me`, the agent whose function runs, and views of its neighbours. `me` reads the agent and writes
+   its memory, own values and goal; a view shows another as it was before the step, and what is
+   written to its memory arrives after it. Both are worth nothing once the call is over. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "lua/vocabulary.h"
+
+static const char ME[] = "jostle me", VIEW[] = "jostle view";
+
+typedef struct View {
+    uint32_t run, index;
+} View;
+
+static int32_t memory_slot(const JoxMachine *m, const char *name) {
+    for (uint32_t s = 0; s < m->memory_count; s++)
+        if (*name && strcmp(m->memory[s].name, name) == 0)
+            return (int32_t)s;
+    return -1;
+}
+
+static double length(float x, float y) {
+    return sqrt((double)x * x + (double)y * y);
+}
+
+/* Pushes a number of the agent by name; false where it has none of that name. */
+static bool push_number(lua_State *L, const JoxMind *mind, uint32_t i, const char *name) {
+    const JoxAgents *a = mind->agents;
+    const struct {
+        const char *name;
+        double value;
+    } numbers[] = {{"x", a->x[i]},
+                   {"y", a->y[i]},
+                   {"vx", a->vx[i]},
+                   {"vy", a->vy[i]},
+                   {"time", mind->tick * mind->dt},
+                   {"time_in_state", (mind->tick - a->entered[i]) * mind->dt},
+                   {"density", a->density[i]},
+                   {"pushed", length(a->force_x[i], a->force_y[i])},
+                   {"compression", a->compression[i]}};
+    for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++)
+        if (strcmp(numbers[n].name, name) == 0)
+            return lua_pushnumber(L, numbers[n].value), true;
+    if (strcmp(name, "id") == 0)
+        return lua_pushinteger(L, a->id[i]), true;
+    if (strcmp(name, "team") == 0)
+        return lua_pushinteger(L, a->team[i]), true;
+    int parameter = jox_parameter_find(name);
+    if (parameter >= 0)
+        return lua_pushnumber(L, a->param[parameter][i]), true;
+    if (strcmp(name, "goal") != 0)
+        return false;
+    if (a->goal[i] >= 0 && (uint32_t)a->goal[i] < mind->place_count)
+        lua_pushstring(L, mind->places[a->goal[i]].name);
+    else
+        lua_pushnil(L);
+    return true;
+}
+
+/* Pushes a value of memory. */
+static void push_memory(lua_State *L, const JoxMemorySlot *slot, double value) {
+    if (slot->kind == JOX_MEMORY_BOOLEAN)
+        lua_pushboolean(L, value != 0.0);
+    else
+        lua_pushnumber(L, value);
+}
+
+/* The value at the stack's `index` as memory of that kind; raises an error where it is not. */
+static double check_memory(lua_State *L, const JoxMemorySlot *slot, int index) {
+    if (slot->kind == JOX_MEMORY_BOOLEAN) {
+        if (lua_type(L, index) != LUA_TBOOLEAN)
+            luaL_error(L, "memory '%s' is true or false", slot->name);
+        return lua_toboolean(L, index);
+    }
+    if (lua_type(L, index) != LUA_TNUMBER || !isfinite(lua_tonumber(L, index)))
+        luaL_error(L, "memory '%s' is a finite number", slot->name);
+    return lua_tonumber(L, index);
+}
+
+/* ---- others ---- */
+
+static uint32_t check_view(lua_State *L, JoxVm *vm) {
+    const View *view = luaL_checkudata(L, 1, VIEW);
+    if (vm->loading || view->run != vm->run)
+        luaL_error(L, "a neighbour was kept from an earlier call; it is valid during its own only");
+    return view->index;
+}
+
+static int view_index(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    JoxLua *lua = vm->owner;
+    uint32_t i = check_view(L, vm);
+    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+    const JoxAgents *a = lua->mind->agents;
+    if (a->machine[i] != JOX_NO_MACHINE) {
+        const JoxMachine *m = lua->mind->machines[a->machine[i]];
+        int32_t slot = memory_slot(m, name);
+        uint16_t state = lua->before_state[i] < m->state_count ? lua->before_state[i] : m->start;
+        if (strcmp(name, "state") == 0)
+            return lua_pushstring(L, m->states[state].name), 1;
+        if (strcmp(name, "machine") == 0)
+            return lua_pushstring(L, m->name), 1;
+        if (slot >= 0)
+            return push_memory(L, &m->memory[slot],
+                               lua->before_memory[(size_t)i * a->memory_stride + (uint32_t)slot]),
+                   1;
+    }
+    if (push_number(L, lua->mind, i, name))
+        return 1;
+    return luaL_error(L, "a neighbour has no '%s'", name);
+}
+
+static int view_newindex(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    JoxLua *lua = vm->owner;
+    uint32_t i = check_view(L, vm);
+    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+    const JoxAgents *a = lua->mind->agents;
+    const JoxMachine *m =
+        a->machine[i] == JOX_NO_MACHINE ? NULL : lua->mind->machines[a->machine[i]];
+    int32_t slot = m ? memory_slot(m, name) : -1;
+    if (slot < 0)
+        return luaL_error(L, "only the memory of a neighbour can be set, and '%s' is not in it",
+                          name);
+    if (lua->write_count >= 100000)
+        return luaL_error(L, "too much is written to neighbours in one step");
+    double value = check_memory(L, &m->memory[slot], 3);
+    JOX_RESERVE(lua->writes, lua->write_capacity, lua->write_count + 1);
+    lua->writes[lua->write_count++] = (JoxWrite){a->id[i], (uint32_t)slot, value};
+    return 0;
+}
+
+static int push_neighbours(lua_State *L, JoxVm *vm, uint32_t i) {
+    const JoxNeighbours *n = vm->owner->mind->neighbours;
+    if (!vm->machine->views) /* nothing was kept of the others before the step */
+        return luaL_error(L, "write me.neighbours as such, not by a name that is put together");
+    lua_createtable(L, n->count[i], 0);
+    for (uint32_t k = 0; k < n->count[i]; k++) {
+        View *view = lua_newuserdatauv(L, sizeof *view, 0);
+        *view = (View){vm->run, n->index[jox_neighbour_at(n, i, k)]};
+        luaL_setmetatable(L, VIEW);
+        lua_rawseti(L, -2, k + 1);
+    }
+    return 1;
+}
+
+void jox_lua_bracket(void *context, bool begins) {
+    JoxLua *lua = context;
+    JoxAgents *a = lua->mind->agents;
+    if (begins) {
+        JOX_RESERVE(lua->before_state, lua->before_capacity, a->count);
+        JOX_RESERVE(lua->before_memory, lua->before_memory_capacity,
+                    (size_t)a->count * a->memory_stride);
+        if (a->count)
+            memcpy(lua->before_state, a->state, a->count * sizeof *a->state);
+        if (a->count && a->memory_stride)
+            memcpy(lua->before_memory, a->memory,
+                   (size_t)a->count * a->memory_stride * sizeof *a->memory);
+        return;
+    }
+    for (uint32_t w = 0; w < lua->write_count; w++) {
+        const JoxWrite *write = &lua->writes[w];
+        uint32_t i = a->id_index[write->agent_id];
+        if (i != JOX_NO_INDEX)
+            a->memory[(size_t)i * a->memory_stride + write->slot] = write->value;
+    }
+    lua->write_count = 0;
+}
+
+/* ---- me ---- */
+
+/* The agent that `me` stands for; raises an error where it was kept from an earlier call. */
+static uint32_t check_me(lua_State *L, JoxVm *vm) {
+    const uint32_t *run = luaL_checkudata(L, 1, ME);
+    if (vm->loading || *run != vm->run)
+        luaL_error(L, "`me` was kept from an earlier call; it is valid during its own only");
+    return vm->agent;
+}
+
+/* me.signal("name"), and me:signal("name") */
+static int me_signal(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    int at = lua_type(L, 1) == LUA_TUSERDATA ? 2 : 1;
+    if (vm->loading)
+        return luaL_error(L, "signals are given while the crowd runs");
+    if (lua_type(L, at) != LUA_TSTRING)
+        return luaL_error(L, "a signal is a name");
+    const char *name = lua_tostring(L, at);
+    for (uint32_t n = 0; n < vm->machine->name_count; n++)
+        if (strcmp(vm->machine->names[n].text, name) == 0) {
+            jox_mind_call(vm->owner->mind, vm->agent, vm->machine->names[n].number);
+            return 0;
+        }
+    if (lua_rawlen(L, at) > 60 || vm->owner->mind->name_count > 10000)
+        return luaL_error(L, "a signal's name has at most 60 bytes, and there are not so many");
+    jox_mind_call(vm->owner->mind, vm->agent, jox_mind_name(vm->owner->mind, name));
+    return 0;
+}
+
+static int me_index(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    uint32_t i = check_me(L, vm);
+    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+    const JoxMind *mind = vm->owner->mind;
+    const JoxAgents *a = mind->agents;
+    const JoxMachine *m = vm->machine;
+    int32_t slot = memory_slot(m, name);
+    if (slot >= 0)
+        return push_memory(L, &m->memory[slot],
+                           a->memory[(size_t)i * a->memory_stride + (uint32_t)slot]),
+               1;
+    if (strcmp(name, "state") == 0)
+        return lua_pushstring(L, m->states[a->state[i]].name), 1;
+    if (strcmp(name, "machine") == 0)
+        return lua_pushstring(L, m->name), 1;
+    if (strcmp(name, "neighbours") == 0)
+        return push_neighbours(L, vm, i);
+    if (strcmp(name, "signal") == 0)
+        return lua_pushcfunction(L, me_signal), 1;
+    if (push_number(L, mind, i, name))
+        return 1;
+    const char *names[96];
+    size_t count = 0;
+    for (size_t k = 0; k < jox_me_key_count; k++)
+        names[count++] = jox_me_keys[k].name;
+    for (uint32_t s = 0; s < m->memory_count && count < 96; s++)
+        names[count++] = m->memory[s].name;
+    const char *near = jox_suggest(name, names, count);
+    return near ? luaL_error(L, "me has no '%s'. Did you mean '%s'?", name, near)
+                : luaL_error(L, "me has no '%s'", name);
+}
+
+static int me_newindex(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    uint32_t i = check_me(L, vm);
+    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+    JoxMind *mind = vm->owner->mind;
+    int32_t slot = memory_slot(vm->machine, name);
+    int parameter = jox_parameter_find(name);
+    if (slot >= 0) {
+        const JoxAgents *a = mind->agents;
+        double value = check_memory(L, &vm->machine->memory[slot], 3);
+        a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = value;
+    } else if (parameter >= 0) { /* the own slots begin with the parameters */
+        const JoxParameterInfo *info = &jox_parameters[parameter];
+        double value = lua_type(L, 3) == LUA_TNUMBER ? lua_tonumber(L, 3) : NAN;
+        if (!(value >= info->least && value <= info->greatest))
+            return luaL_error(L, "%s must be a number from %f to %f %s", name, info->least,
+                              info->greatest, info->unit);
+        jox_mind_set_own(mind, i, (uint32_t)parameter, value);
+    } else if (strcmp(name, "goal") == 0) {
+        int32_t place = lua_type(L, 3) == LUA_TSTRING
+                            ? jox_place_find(mind->places, mind->place_count, lua_tostring(L, 3))
+                            : -1;
+        if (place < 0)
+            return luaL_error(L, "goal must be the name of a place of the scene");
+        mind->agents->goal[i] = place;
+    } else {
+        return luaL_error(
+            L, "'%s' cannot be set; what an agent remembers is declared by memory { ... }", name);
+    }
+    return 0;
+}
+
+static void add_type(lua_State *L, const char *type, lua_CFunction index, lua_CFunction newindex) {
+    luaL_newmetatable(L, type);
+    lua_pushcfunction(L, index);
+    lua_setfield(L, -2, "__index");
+    lua_pushcfunction(L, newindex);
+    lua_setfield(L, -2, "__newindex");
+    lua_pushboolean(L, 0);
+    lua_setfield(L, -2, "__metatable");
+    lua_pop(L, 1);
+}
+
+void jox_me_open(JoxVm *vm) {
+    lua_State *L = vm->L;
+    add_type(L, ME, me_index, me_newindex);
+    add_type(L, VIEW, view_index, view_newindex);
+    uint32_t *run = lua_newuserdatauv(L, sizeof *run, 0);
+    *run = 0;
+    luaL_setmetatable(L, ME);
+    vm->me = luaL_ref(L, LUA_REGISTRYINDEX); /* the one object that is handed out */
+}

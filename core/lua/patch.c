@@ -1,0 +1,535 @@
+/* Mods change a behaviour's table before it is read: key by key, transitions by their ids. Tables
+   are copied where they change, for a file may use one table in several places. Every path that is
+   set is kept with where it was set. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "lua/read.h"
+#include "lua/vocabulary.h"
+
+enum { DEEPEST = 8 };
+
+typedef struct Patch {
+    JoxVm *vm;
+    uint32_t source; /* number of the patch's file */
+    int32_t mod;
+} Patch;
+
+static JoxPosition position_of(const JoxVm *vm, const JoxOrigin *origin) {
+    return jox_source_path(&vm->sources[origin->source], origin->from);
+}
+
+/* Whether one path is the other, or leads to it. */
+static bool overlaps(const char *a, const char *b) {
+    size_t n = strlen(a), m = strlen(b), least = n < m ? n : m;
+    const char *longer = n < m ? b : a;
+    return strncmp(a, b, least) == 0 && (n == m || longer[least] == '.' || least == 0);
+}
+
+/* Two mods that set one path, neither knowing the other: both places, and who wins. */
+static void report_conflict(const Patch *p, const JoxOrigin *mine) {
+    const JoxVm *vm = p->vm;
+    const JoxMod *mods = vm->scope->mods;
+    for (size_t o = 0; o + 1 < vm->origin_count; o++) {
+        const JoxOrigin *other = &vm->origins[o];
+        if (other->mod < 0 || other->mod == p->mod || !overlaps(other->path, mine->path) ||
+            (mods[p->mod].after >> other->mod & 1))
+            continue;
+        JoxPosition at = position_of(vm, mine), before = position_of(vm, other);
+        char context[512];
+        snprintf(context, sizeof context,
+                 "set before by mod %s at %s:%d; mod %s comes later and wins",
+                 mods[other->mod].name, before.file, before.line, mods[p->mod].name);
+        jox_diag_add(vm->diagnostics, JOX_SEVERITY_WARNING, at, "mod-conflict",
+                     "Say which comes first with `load_after` or `depends` in mod.yaml", context,
+                     NULL, "mods %s and %s both set %s", mods[other->mod].name, mods[p->mod].name,
+                     *mine->path ? mine->path : "the whole machine");
+        return;
+    }
+}
+
+/* Keeps that `path` of the machine now stands at `from` in the patch. */
+static void set_origin(const Patch *p, const char *path, const char *from, bool removes) {
+    JoxVm *vm = p->vm;
+    JOX_RESERVE(vm->origins, vm->origin_capacity, vm->origin_count + 1);
+    JoxOrigin *origin = &vm->origins[vm->origin_count++];
+    *origin = (JoxOrigin){jox_strdup(path), p->source, jox_strdup(from), p->mod, removes};
+    if (p->mod >= 0)
+        report_conflict(p, origin);
+}
+
+static void fail(const Patch *p, const char *from, const char *code, const char *hint,
+                 const char *message, const char *name) {
+    jox_diag_error(p->vm->diagnostics, jox_source_path(&p->vm->sources[p->source], from), code,
+                   hint, message, name);
+}
+
+/* Pushes a copy of the table at `index`, its items shared. */
+static void push_copy(lua_State *L, int index) {
+    lua_newtable(L);
+    int copy = lua_gettop(L);
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        lua_pushvalue(L, -2);
+        lua_insert(L, -2);
+        lua_rawset(L, copy);
+    }
+}
+
+static bool is_none(lua_State *L, int index) {
+    JoxNode *node = jox_node_get(L, index);
+    return node && node->kind == JOX_NODE_NONE;
+}
+
+/* Pushes the string keys of the table at `index`, sorted, as a list; returns how many. */
+static lua_Integer push_keys(lua_State *L, int index) {
+    lua_newtable(L);
+    int list = lua_gettop(L);
+    lua_Integer count = 0;
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        lua_pop(L, 1);
+        if (lua_type(L, -1) != LUA_TSTRING)
+            continue;
+        lua_pushvalue(L, -1);
+        lua_Integer at = ++count; /* insertion: sheets are small */
+        for (; at > 1; at--) {
+            lua_rawgeti(L, list, at - 1);
+            bool later = strcmp(lua_tostring(L, -1), lua_tostring(L, -2)) > 0;
+            if (!later) {
+                lua_pop(L, 1);
+                break;
+            }
+            lua_rawseti(L, list, at);
+        }
+        lua_rawseti(L, list, at);
+    }
+    return count;
+}
+
+typedef void Merge(const Patch *p, int base, int change, const char *path, const char *from,
+                   int depth);
+
+/* Sets base[key] to the value on top of the stack, popped; tables are merged by `inner` where both
+   sides have one. */
+static void merge_key(const Patch *p, int base, const char *key, const char *path, const char *from,
+                      Merge *inner, int depth) {
+    lua_State *L = p->vm->L;
+    int value = lua_gettop(L);
+    char whole[256], there[256];
+    jox_read_join(whole, path, key);
+    jox_read_join(there, from, key);
+    luaL_checkstack(L, 12, NULL);
+    int had = jox_read_field(L, base, key);
+    if (is_none(L, value)) {
+        if (had == LUA_TNIL)
+            fail(p, there, "unknown-key", NULL, "there is no '%s' to take away", key);
+        lua_pushnil(L);
+        lua_setfield(L, base, key);
+        set_origin(p, whole, there, true);
+    } else if (had == LUA_TTABLE && lua_type(L, value) == LUA_TTABLE && inner && depth < DEEPEST) {
+        push_copy(L, value + 1);
+        inner(p, lua_gettop(L), value, whole, there, depth + 1);
+        lua_setfield(L, base, key);
+    } else {
+        lua_pushvalue(L, value);
+        lua_setfield(L, base, key);
+        set_origin(p, whole, there, false);
+    }
+    lua_settop(L, value - 1);
+}
+
+/* Plain tables: defaults, counts, renamed, kick, throw, set. */
+static void merge_plain(const Patch *p, int base, int change, const char *path, const char *from,
+                        int depth) {
+    lua_State *L = p->vm->L;
+    lua_Integer count = push_keys(L, change);
+    int keys = lua_gettop(L);
+    for (lua_Integer k = 1; k <= count; k++) {
+        lua_rawgeti(L, keys, k);
+        const char *key = lua_tostring(L, -1);
+        jox_read_field(L, change, key);
+        merge_key(p, base, key, path, from, merge_plain, depth);
+        lua_settop(L, keys);
+    }
+    lua_Integer items = (lua_Integer)lua_rawlen(L, change);
+    for (lua_Integer i = 1; i <= items; i++) { /* the body of a kick */
+        lua_rawgeti(L, change, i);
+        lua_rawseti(L, base, i);
+    }
+    lua_settop(L, keys - 1);
+}
+
+/* ---- transitions ---- */
+
+/* Gives every transition of the state its id, as a copy of its own, and keeps where it stands. Once
+   a state. */
+static void name_transitions(const Patch *p, int state, const char *path) {
+    lua_State *L = p->vm->L;
+    lua_Integer count = (lua_Integer)lua_rawlen(L, state);
+    char ids[JOX_MOST_TRANSITIONS][128];
+    for (lua_Integer i = 1; i <= count && i <= JOX_MOST_TRANSITIONS; i++) {
+        if (lua_rawgeti(L, state, i) == LUA_TTABLE) {
+            int nth = 1;
+            jox_read_id(L, lua_gettop(L), 1, ids[i - 1]);
+            for (lua_Integer o = 1; o < i; o++) {
+                size_t n = strlen(ids[i - 1]);
+                nth += strncmp(ids[o - 1], ids[i - 1], n) == 0 &&
+                       (!ids[o - 1][n] || ids[o - 1][n] == '#');
+            }
+            jox_read_id(L, lua_gettop(L), nth, ids[i - 1]);
+            push_copy(L, lua_gettop(L));
+            lua_pushstring(L, ids[i - 1]);
+            lua_setfield(L, -2, "id");
+            lua_rawseti(L, state, i);
+            char item[160], canonical[256], from[256], number[16];
+            snprintf(item, sizeof item, "@%.60s", ids[i - 1]);
+            snprintf(number, sizeof number, "%lld", (long long)i);
+            jox_read_join(canonical, path, item);
+            jox_read_join(from, path, number);
+            bool known = false;
+            for (size_t o = 0; o < p->vm->origin_count; o++)
+                known |= strcmp(p->vm->origins[o].path, canonical) == 0;
+            if (!known) {
+                const Patch own = {p->vm, 0, -1};
+                set_origin(&own, canonical, from, false);
+            }
+        } else {
+            ids[i - 1][0] = 0;
+        }
+        lua_pop(L, 1);
+    }
+}
+
+/* Place of the transition with this id in a state, or 0 with an error. */
+static lua_Integer find_transition(const Patch *p, int state, const char *id, const char *from) {
+    lua_State *L = p->vm->L;
+    const char *names[JOX_MOST_TRANSITIONS];
+    char hint[96];
+    size_t count = 0;
+    lua_Integer length = (lua_Integer)lua_rawlen(L, state), found = 0;
+    int top = lua_gettop(L);
+    for (lua_Integer i = 1; i <= length; i++, lua_settop(L, top)) {
+        if (lua_rawgeti(L, state, i) != LUA_TTABLE ||
+            jox_read_field(L, top + 1, "id") != LUA_TSTRING)
+            continue;
+        const char *name = jox_vm_intern(p->vm, lua_tostring(L, -1));
+        if (count < JOX_MOST_TRANSITIONS)
+            names[count++] = name;
+        found = strcmp(name, id) == 0 ? i : found;
+    }
+    if (!found)
+        fail(p, from, "unknown-transition", jox_did_you_mean(id, names, count, hint),
+             "this state has no transition '%s'", id);
+    return found;
+}
+
+/* Puts the transition on top of the stack at place `at`, and keeps where it stands. */
+static void insert_transition(const Patch *p, int state, lua_Integer at, const char *path,
+                              const char *from) {
+    lua_State *L = p->vm->L;
+    char id[128], item[160], canonical[256];
+    if (lua_type(L, -1) != LUA_TTABLE) {
+        fail(p, from, "bad-value", "Example: { to = \"Exit\", when = after(5) }",
+             "a transition must be a table, not %s", luaL_typename(L, -1));
+        lua_pop(L, 1);
+        return;
+    }
+    push_copy(L, lua_gettop(L));
+    lua_remove(L, -2);
+    int item_at = lua_gettop(L), nth = 1;
+    lua_Integer length = (lua_Integer)lua_rawlen(L, state);
+    jox_read_id(L, item_at, 1, id);
+    for (lua_Integer i = 1; i <= length; i++) { /* an id of its own */
+        lua_rawgeti(L, state, i);
+        jox_read_field(L, item_at + 1, "id");
+        const char *other = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "";
+        size_t n = strlen(id);
+        nth += strncmp(other, id, n) == 0 && (!other[n] || other[n] == '#');
+        lua_settop(L, item_at);
+    }
+    jox_read_id(L, item_at, nth, id);
+    lua_pushstring(L, id);
+    lua_setfield(L, item_at, "id");
+    for (lua_Integer i = length; i >= at; i--) {
+        lua_rawgeti(L, state, i);
+        lua_rawseti(L, state, i + 1);
+    }
+    lua_rawseti(L, state, at);
+    snprintf(item, sizeof item, "@%.60s", id);
+    jox_read_join(canonical, path, item);
+    set_origin(p, canonical, from, false);
+}
+
+/* One transition, or a list of them, on top of the stack, popped: put in from place `at` on. */
+static void insert_all(const Patch *p, int state, lua_Integer at, const char *path,
+                       const char *from) {
+    lua_State *L = p->vm->L;
+    int value = lua_gettop(L);
+    bool list = lua_type(L, value) == LUA_TTABLE && lua_rawlen(L, value) > 0;
+    lua_Integer count = list ? (lua_Integer)lua_rawlen(L, value) : 1;
+    for (lua_Integer i = 1; i <= count; i++) {
+        char there[256], number[24];
+        snprintf(number, sizeof number, "%lld", (long long)i);
+        jox_read_join(there, from, number);
+        if (list)
+            lua_rawgeti(L, value, i);
+        else
+            lua_pushvalue(L, value);
+        insert_transition(p, state, at + i - 1, path, list ? there : from);
+    }
+    lua_settop(L, value - 1);
+}
+
+static void remove_transition(const Patch *p, int state, lua_Integer at, const char *id,
+                              const char *path, const char *from) {
+    lua_State *L = p->vm->L;
+    char item[160], canonical[256];
+    lua_Integer length = (lua_Integer)lua_rawlen(L, state);
+    for (lua_Integer i = at; i <= length; i++) {
+        lua_rawgeti(L, state, i + 1);
+        lua_rawseti(L, state, i);
+    }
+    snprintf(item, sizeof item, "@%.60s", id);
+    jox_read_join(canonical, path, item);
+    set_origin(p, canonical, from, true);
+}
+
+typedef enum { CHANGE, REPLACE, INSERT_BEFORE, INSERT_AFTER, REMOVE, APPEND, VERBS } Verb;
+static const char *const VERB_NAMES[VERBS] = {"change",       "replace", "insert_before",
+                                              "insert_after", "remove",  "append"};
+
+/* change, replace, insert_before, insert_after: a table of id = transition. */
+static void merge_by_id(const Patch *p, Verb verb, int state, int table, const char *path,
+                        const char *from) {
+    lua_State *L = p->vm->L;
+    lua_Integer count = push_keys(L, table);
+    int keys = lua_gettop(L);
+    for (lua_Integer k = 1; k <= count; k++) {
+        char there[256], item[160], canonical[256];
+        lua_rawgeti(L, keys, k);
+        const char *id = lua_tostring(L, -1);
+        jox_read_join(there, from, id);
+        lua_Integer at = find_transition(p, state, id, there);
+        jox_read_field(L, table, id);
+        int value = lua_gettop(L);
+        if (!at)
+            ;
+        else if (verb == CHANGE && lua_type(L, value) == LUA_TTABLE) {
+            snprintf(item, sizeof item, "@%.60s", id);
+            jox_read_join(canonical, path, item);
+            lua_rawgeti(L, state, at);
+            push_copy(L, lua_gettop(L));
+            merge_plain(p, lua_gettop(L), value, canonical, there, 2);
+            lua_rawseti(L, state, at);
+        } else if (verb == CHANGE) {
+            fail(p, there, "bad-value", "Example: change = { Exit = { chance = 0.5 } }",
+                 "the change of '%s' must be a table", id);
+        } else if (verb == REPLACE) {
+            char kept[128];
+            snprintf(kept, sizeof kept, "%s", id);
+            remove_transition(p, state, at, kept, path, there);
+            if (lua_type(L, value) == LUA_TTABLE) { /* it keeps its id */
+                push_copy(L, value);
+                lua_pushstring(L, kept);
+                lua_setfield(L, -2, "id");
+                lua_replace(L, value);
+            }
+            insert_all(p, state, at, path, there);
+        } else {
+            insert_all(p, state, verb == INSERT_BEFORE ? at : at + 1, path, there);
+        }
+        lua_settop(L, keys);
+    }
+    lua_settop(L, keys - 1);
+}
+
+static void merge_remove(const Patch *p, int state, int table, const char *path, const char *from) {
+    lua_State *L = p->vm->L;
+    lua_Integer count = (lua_Integer)lua_rawlen(L, table);
+    for (lua_Integer i = 1; i <= count; i++) {
+        char id[128];
+        lua_rawgeti(L, table, i);
+        snprintf(id, sizeof id, "%s", lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "?");
+        lua_pop(L, 1);
+        lua_Integer at = find_transition(p, state, id, from);
+        if (at)
+            remove_transition(p, state, at, id, path, from);
+    }
+}
+
+static void merge_verb(const Patch *p, Verb verb, int state, const char *path, const char *from) {
+    lua_State *L = p->vm->L;
+    int table = lua_gettop(L);
+    char there[256];
+    jox_read_join(there, from, VERB_NAMES[verb]);
+    if (lua_type(L, table) != LUA_TTABLE)
+        fail(p, there, "bad-value", "Example: remove = { \"Exit\" }, change = { Exit = { ... } }",
+             "'%s' must be a table", VERB_NAMES[verb]);
+    else if (verb == REMOVE)
+        merge_remove(p, state, table, path, there);
+    else if (verb == APPEND)
+        insert_all(p, state, (lua_Integer)lua_rawlen(L, state) + 1, path, there);
+    else
+        merge_by_id(p, verb, state, table, path, there);
+    lua_settop(L, table - 1);
+}
+
+static void merge_state(const Patch *p, int base, int change, const char *path, const char *from,
+                        int depth) {
+    lua_State *L = p->vm->L;
+    lua_Integer count = push_keys(L, change);
+    int keys = lua_gettop(L);
+    if (lua_rawlen(L, change) > 0)
+        fail(p, from, "bad-patch",
+             "Say where: insert_before = { ID = {...} }, insert_after, replace, change, append, "
+             "or remove = { \"ID\" }",
+             "%s: transitions of a patch need a place", path);
+    name_transitions(p, base, path);
+    for (lua_Integer k = 1; k <= count; k++) {
+        lua_rawgeti(L, keys, k);
+        const char *key = lua_tostring(L, -1);
+        int verb = 0;
+        while (verb < VERBS && strcmp(VERB_NAMES[verb], key) != 0)
+            verb++;
+        jox_read_field(L, change, key);
+        if (verb < VERBS)
+            merge_verb(p, (Verb)verb, base, path, from);
+        else
+            merge_key(p, base, key, path, from, merge_plain, depth);
+        lua_settop(L, keys);
+    }
+    lua_settop(L, keys - 1);
+}
+
+static void merge_states(const Patch *p, int base, int change, const char *path, const char *from,
+                         int depth) {
+    lua_State *L = p->vm->L;
+    lua_Integer count = push_keys(L, change);
+    int keys = lua_gettop(L);
+    for (lua_Integer k = 1; k <= count; k++) {
+        lua_rawgeti(L, keys, k);
+        const char *key = lua_tostring(L, -1);
+        jox_read_field(L, change, key);
+        merge_key(p, base, key, path, from, merge_state, depth);
+        lua_settop(L, keys);
+    }
+    lua_settop(L, keys - 1);
+}
+
+static void merge_machine(const Patch *p, int base, int change) {
+    lua_State *L = p->vm->L;
+    lua_Integer count = push_keys(L, change);
+    int keys = lua_gettop(L);
+    for (lua_Integer k = 1; k <= count; k++) {
+        lua_rawgeti(L, keys, k);
+        const char *key = lua_tostring(L, -1);
+        jox_read_field(L, change, key);
+        merge_key(p, base, key, "", "", strcmp(key, "states") ? merge_plain : merge_states, 0);
+        lua_settop(L, keys);
+    }
+    lua_settop(L, keys - 1);
+}
+
+/* ---- a mod's file ---- */
+
+bool jox_lua_patch_target(const char *text, size_t length, char target[128], bool *replaces,
+                          int *line, int *column) {
+    JoxSource source = {.text = jox_strndup(text, length), .length = length};
+    bool found = false;
+    jox_source_scan(&source);
+    for (size_t i = 0; i + 1 < source.token_count && !found; i++) {
+        const JoxToken *t = &source.tokens[i];
+        bool patch = jox_token_is(t, "patch"), replace = jox_token_is(t, "replace");
+        size_t at = i + 1 + jox_token_is(t + 1, "(");
+        if ((!patch && !replace) || at >= source.token_count ||
+            source.tokens[at].kind != JOX_TOKEN_STRING)
+            continue;
+        snprintf(target, 128, "%.*s", (int)source.tokens[at].length, source.tokens[at].text);
+        *replaces = replace;
+        *line = source.tokens[at].line;
+        *column = source.tokens[at].column;
+        found = true;
+    }
+    jox_source_free(&source);
+    return found;
+}
+
+/* Whether a patch's target is the machine whose table is at `index`: by its name, by its file's, or
+   by "mod:file" for one of a mod. */
+static bool is_target(JoxVm *vm, int index, const char *target) {
+    lua_State *L = vm->L;
+    const char *path = vm->sources[0].path, *slash = strrchr(path, '/');
+    const char *stem = slash ? slash + 1 : path;
+    size_t n = strcspn(stem, ".");
+    bool is =
+        jox_read_field(L, index, "name") == LUA_TSTRING && !strcmp(lua_tostring(L, -1), target);
+    lua_pop(L, 1);
+    for (uint32_t m = 0; m < vm->scope->mod_count; m++) {
+        const JoxMod *mod = &vm->scope->mods[m];
+        size_t folder = strlen(mod->folder), name = strlen(mod->name);
+        if (strncmp(path, mod->folder, folder) == 0 && path[folder] == '/') /* "mod:file" alone */
+            return strncmp(target, mod->name, name) == 0 && target[name] == ':' &&
+                   strncmp(target + name + 1, stem, n) == 0 && !target[name + 1 + n];
+    }
+    return is || (strncmp(target, stem, n) == 0 && !target[n]);
+}
+
+/* Runs one file of a mod; its patch is left on the stack. NULL with diagnostics. */
+static JoxNode *run_file(JoxVm *vm, int32_t mod, const JoxModPatch *patch, uint32_t *number) {
+    lua_State *L = vm->L;
+    *number = (uint32_t)vm->source_count;
+    if (!jox_vm_read(vm, patch->path, NULL, 0, (JoxPosition){0}))
+        return NULL;
+    vm->mod = &vm->scope->mods[mod];
+    if (!jox_source_compile(vm, *number))
+        lua_error(L);
+    lua_call(L, 0, 1);
+    vm->mod = NULL;
+    JoxNode *node = jox_node_get(L, -1);
+    if (node && (node->kind == JOX_NODE_PATCH || node->kind == JOX_NODE_REPLACE))
+        return node;
+    if (!node || node->kind != JOX_NODE_POISON)
+        jox_diag_error(vm->diagnostics, ((JoxPosition){patch->path, 0, 0, 0}), "no-patch",
+                       "End the file with: return patch \"NAME\" { ... }",
+                       "this file must return one patch or replacement");
+    return NULL;
+}
+
+bool jox_patch_apply(JoxVm *vm) {
+    lua_State *L = vm->L;
+    JoxNode *machine = jox_node_get(L, -1);
+    const JoxScope *scope = vm->scope;
+    if (!machine || machine->kind != JOX_NODE_MACHINE || scope->mod_count == 0)
+        return true;
+    size_t errors = vm->diagnostics->errors;
+    int top = lua_gettop(L);
+    lua_rawgeti(L, LUA_REGISTRYINDEX, machine->hook);
+    int table = lua_gettop(L);
+    for (uint32_t m = 0; m < scope->mod_count; m++)
+        for (uint32_t f = 0; f < scope->mods[m].patch_count; f++) {
+            const JoxModPatch *patch = &scope->mods[m].patches[f];
+            Patch p = {vm, 0, (int32_t)m};
+            if (!patch->lua || !patch->target || !is_target(vm, table, patch->target))
+                continue;
+            JoxNode *node = run_file(vm, (int32_t)m, patch, &p.source);
+            if (node) {
+                lua_rawgeti(L, LUA_REGISTRYINDEX, node->hook);
+                if (node->kind == JOX_NODE_REPLACE) {
+                    set_origin(&p, "", "", false);
+                    lua_replace(L, table);
+                } else {
+                    push_copy(L, table);
+                    lua_insert(L, -2);
+                    merge_machine(&p, lua_gettop(L) - 1, lua_gettop(L));
+                    lua_pop(L, 1);
+                    lua_replace(L, table);
+                }
+            }
+            lua_settop(L, table);
+        }
+    lua_rawseti(L, LUA_REGISTRYINDEX, machine->hook);
+    lua_settop(L, top);
+    return vm->diagnostics->errors == errors;
+}

@@ -1,0 +1,253 @@
+/* Words with a syntax of their own: distributions, orbits, memory, now, own, and the sheet itself.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "lua/vocabulary.h"
+
+/* orbit(place [, { inward, density_near, density_far, far, beyond }]) */
+static int make_orbit(lua_State *L) {
+    static const char *const KEYS[] = {"inward", "density_near", "density_far", "far", "beyond"};
+    JoxNode *place = jox_word_argument(L, "orbit", 1, 'p');
+    if (!place)
+        return 1;
+    JoxNode *node = jox_node_push(L, JOX_NODE_STEER);
+    node->term.kind = JOX_STEER_ORBIT;
+    node->target = place;
+    memcpy(node->term.args, (double[]){0.5, 5.6, 4.6, 40.0, 50.0}, 5 * sizeof(double));
+    if (lua_isnoneornil(L, 2) || lua_type(L, 2) != LUA_TTABLE)
+        return 1;
+    lua_pushnil(L);
+    while (lua_next(L, 2)) {
+        const char *key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "?";
+        int found = -1;
+        for (int k = 0; k < 5; k++)
+            found = strcmp(KEYS[k], key) == 0 ? k : found;
+        if (found < 0 || lua_type(L, -1) != LUA_TNUMBER || !(fabs(lua_tonumber(L, -1)) < 1e6))
+            return jox_word_error(L, key, "bad-argument",
+                                  "orbit takes inward, density_near, density_far, far and beyond",
+                                  "bad option '%s' of orbit", key);
+        node->term.args[found] = lua_tonumber(L, -1);
+        lua_pop(L, 1);
+    }
+    lua_pushvalue(L, -1);
+    return 1;
+}
+
+/* normal(mean, deviation [, least, greatest]), uniform(a, b), choose(a, b, ...) */
+static int make_dist(lua_State *L) {
+    static const char *const NAMES[] = {"normal", "uniform", "choose"};
+    int which = (int)lua_tointeger(L, lua_upvalueindex(1)), count = lua_gettop(L);
+    double v[JOX_DIST_CHOICES];
+    for (int i = 0; i < count && i < JOX_DIST_CHOICES; i++) {
+        if (lua_type(L, i + 1) != LUA_TNUMBER || !(fabs(lua_tonumber(L, i + 1)) < 1e9))
+            return jox_word_error(L, NAMES[which], "bad-argument", NULL,
+                                  "argument %d of %s must be a plain number", i + 1, NAMES[which]);
+        v[i] = lua_tonumber(L, i + 1);
+    }
+    bool good = which == 0   ? (count == 2 || count == 4) && v[1] >= 0 && (count < 4 || v[2] < v[3])
+                : which == 1 ? count == 2 && v[0] <= v[1]
+                             : count >= 1 && count <= JOX_DIST_CHOICES;
+    if (!good)
+        return jox_word_error(L, NAMES[which], "bad-argument",
+                              "normal(mean, deviation [, least, greatest]), uniform(least, "
+                              "greatest), choose(a, b, ...) with at most 8",
+                              "wrong arguments of %s", NAMES[which]);
+    JoxNode *node = jox_node_push(L, JOX_NODE_DIST);
+    node->dist = (JoxDist){.kind = (JoxDistKind)(JOX_DIST_NORMAL), .lo = -INFINITY, .hi = INFINITY};
+    node->dist.kind = which == 0   ? JOX_DIST_NORMAL
+                      : which == 1 ? JOX_DIST_UNIFORM
+                                   : JOX_DIST_CHOOSE;
+    node->dist.a = v[0];
+    node->dist.b = count > 1 ? v[1] : 0.0;
+    if (which == 0 && count == 4) {
+        node->dist.lo = v[2];
+        node->dist.hi = v[3];
+    }
+    node->dist.choices = count;
+    memcpy(node->dist.values, v, (size_t)count * sizeof *v);
+    return 1;
+}
+
+static int make_machine(lua_State *L) {
+    if (lua_type(L, 1) != LUA_TTABLE)
+        return jox_word_error(L, "machine", "bad-argument",
+                              "machine { name = ..., states = { ... } }", "machine takes a table");
+    JoxNode *node = jox_node_push(L, JOX_NODE_MACHINE);
+    lua_pushvalue(L, 1);
+    node->hook = luaL_ref(L, LUA_REGISTRYINDEX);
+    return 1;
+}
+
+/* memory { laps = 0, touched = false }: what each agent remembers. */
+static int make_memory(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    if (!vm->loading || lua_type(L, 1) != LUA_TTABLE)
+        return jox_word_error(L, "memory", "bad-argument", "memory { laps = 0, touched = false }",
+                              "memory takes a table");
+    lua_pushnil(L);
+    while (lua_next(L, 1)) {
+        int type = lua_type(L, -1);
+        const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "?";
+        if (lua_type(L, -2) != LUA_TSTRING || (type != LUA_TNUMBER && type != LUA_TBOOLEAN) ||
+            vm->memory_count >= 64)
+            return jox_word_error(L, name, "bad-memory", "Numbers and booleans can be remembered",
+                                  "memory '%s' cannot be a %s", name, luaL_typename(L, -1));
+        JOX_RESERVE(vm->memory, vm->memory_capacity, vm->memory_count + 1);
+        double value = type == LUA_TNUMBER ? lua_tonumber(L, -1) : lua_toboolean(L, -1);
+        JoxMemorySlot slot = {jox_strdup(name),
+                              type == LUA_TNUMBER ? JOX_MEMORY_NUMBER : JOX_MEMORY_BOOLEAN, value};
+        uint32_t at = vm->memory_count++; /* sorted, for tables have no order */
+        for (; at > 0 && strcmp(vm->memory[at - 1].name, name) > 0; at--)
+            vm->memory[at] = vm->memory[at - 1];
+        vm->memory[at] = slot;
+        lua_pop(L, 1);
+    }
+    luaL_getmetatable(L, "jostle memory");
+    lua_newuserdatauv(L, 1, 0);
+    lua_insert(L, -2);
+    lua_setmetatable(L, -2);
+    return 1;
+}
+
+static int memory_index(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+    const char *names[64];
+    for (uint32_t i = 0; i < vm->memory_count; i++) {
+        names[i] = vm->memory[i].name;
+        if (strcmp(vm->memory[i].name, name) == 0) {
+            bool flag = vm->memory[i].kind == JOX_MEMORY_BOOLEAN;
+            JoxNode *node = jox_node_push(L, flag ? JOX_NODE_CONDITION : JOX_NODE_NUMBER);
+            node->op = JOX_OP_MEMORY;
+            node->name = jox_vm_intern(vm, name);
+            return 1;
+        }
+    }
+    char hint[96];
+    return jox_word_error(L, name, "unknown-memory",
+                          jox_did_you_mean(name, names, vm->memory_count, hint),
+                          "memory has no '%s'", name);
+}
+
+static int now_index(lua_State *L) {
+    static const char *const NAMES[] = {
+#define X(name, unit, meaning) #name,
+        JOX_NOW(X)
+#undef X
+    };
+    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+    for (int i = 0; i < JOX_NOW_COUNT; i++)
+        if (strcmp(NAMES[i], name) == 0) {
+            JoxNode *node = jox_node_push(L, JOX_NODE_NUMBER);
+            node->op = JOX_OP_NOW;
+            node->arg = i;
+            return 1;
+        }
+    char hint[96];
+    return jox_word_error(L, name, "unknown-word",
+                          jox_did_you_mean(name, NAMES, JOX_NOW_COUNT, hint),
+                          "nothing called '%s' is measured now", name);
+}
+
+static int own_index(lua_State *L) {
+    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+    JoxNode *node = jox_node_push(L, JOX_NODE_OWN);
+    node->op = JOX_OP_OWN;
+    node->name = jox_vm_intern(jox_vm_of(L), name);
+    node->position = jox_word_position(L, name);
+    for (uint32_t s = 0; s < jox_vm_of(L)->source_count; s++)
+        if (jox_vm_of(L)->sources[s].path == node->position.file)
+            node->source = s;
+    return 1;
+}
+
+/* machine { ... }, and the verbs of mods: patch "name" { ... }, replace "name" { ... }. */
+static int make_change(lua_State *L) {
+    JoxNodeKind kind = (JoxNodeKind)lua_tointeger(L, lua_upvalueindex(1));
+    const char *verb = kind == JOX_NODE_PATCH ? "patch" : "replace";
+    if (lua_type(L, 1) != LUA_TTABLE)
+        return jox_word_error(L, verb, "bad-argument",
+                              "Example: patch \"tawaf\" { states = { ... } }",
+                              "%s takes a name and a table", verb);
+    JoxNode *node = jox_node_push(L, kind);
+    node->name = jox_vm_intern(jox_vm_of(L), lua_tostring(L, lua_upvalueindex(2)));
+    lua_pushvalue(L, 1);
+    node->hook = luaL_ref(L, LUA_REGISTRYINDEX);
+    return 1;
+}
+
+static int make_verb(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    JoxNodeKind kind = (JoxNodeKind)lua_tointeger(L, lua_upvalueindex(1));
+    const char *verb = kind == JOX_NODE_PATCH ? "patch" : "replace";
+    if (!vm->mod)
+        return jox_word_error(L, verb, "not-a-mod", "Put it into the patches/ of a mod",
+                              "'%s' works in mods only", verb);
+    if (lua_type(L, 1) != LUA_TSTRING)
+        return jox_word_error(L, verb, "bad-argument",
+                              "Example: patch \"tawaf\" { states = { ... } }",
+                              "%s takes the name of a behaviour first", verb);
+    lua_pushinteger(L, kind);
+    lua_pushvalue(L, 1);
+    lua_pushcclosure(L, make_change, 2);
+    return 1;
+}
+
+static int settings_index(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?", *names[64];
+    size_t count = 0;
+    if (!vm->mod)
+        return jox_word_error(L, name, "not-a-mod", NULL, "only mods have settings");
+    for (uint32_t s = 0; s < vm->mod->setting_count && count < 64; s++) {
+        names[count++] = vm->mod->settings[s].name;
+        if (strcmp(vm->mod->settings[s].name, name) == 0) {
+            lua_pushnumber(L, vm->mod->settings[s].value);
+            return 1;
+        }
+    }
+    char hint[96];
+    return jox_word_error(L, name, "unknown-setting", jox_did_you_mean(name, names, count, hint),
+                          "mod %s has no setting '%s'", vm->mod->name, name);
+}
+
+static void add_object(lua_State *L, const char *name, const char *type, lua_CFunction index) {
+    luaL_newmetatable(L, type);
+    lua_pushcfunction(L, index);
+    lua_setfield(L, -2, "__index");
+    lua_pushboolean(L, 0);
+    lua_setfield(L, -2, "__metatable");
+    lua_pop(L, 1);
+    if (!name)
+        return;
+    lua_newuserdatauv(L, 1, 0);
+    luaL_setmetatable(L, type);
+    lua_setfield(L, -2, name);
+}
+
+void jox_values_open(lua_State *L) {
+    static const char *const DISTS[] = {"normal", "uniform", "choose"};
+    static const luaL_Reg MAKERS[] = {
+        {"orbit", make_orbit}, {"machine", make_machine}, {"memory", make_memory}, {NULL, NULL}};
+    luaL_setfuncs(L, MAKERS, 0);
+    for (int i = 0; i < 3; i++) {
+        lua_pushinteger(L, i);
+        lua_pushcclosure(L, make_dist, 1);
+        lua_setfield(L, -2, DISTS[i]);
+    }
+    lua_pushinteger(L, JOX_NODE_PATCH);
+    lua_pushcclosure(L, make_verb, 1);
+    lua_setfield(L, -2, "patch");
+    lua_pushinteger(L, JOX_NODE_REPLACE);
+    lua_pushcclosure(L, make_verb, 1);
+    lua_setfield(L, -2, "replace");
+    jox_node_push(L, JOX_NODE_NONE);
+    lua_setfield(L, -2, "none");
+    add_object(L, NULL, "jostle memory", memory_index);
+    add_object(L, "now", "jostle now", now_index);
+    add_object(L, "own", "jostle own", own_index);
+    add_object(L, "settings", "jostle settings", settings_index);
+}

@@ -1,0 +1,227 @@
+#include "lua/vocabulary.h"
+
+#include <string.h>
+
+#define CONDITION JOX_NODE_CONDITION
+#define NUMBER JOX_NODE_NUMBER
+#define TARGET JOX_NODE_TARGET
+#define STEER JOX_NODE_STEER
+#define NOW JOX_OP_NOW
+/* clang-format off */
+const JoxWord jox_words[] = {
+    /* conditions */
+    {"inside", "t?p", CONDITION, JOX_OP_INSIDE, 0, "inside(place) or inside(target, place)", "",
+     "the agent, or a target, is in a place", "inside \"yard\""},
+    {"crosses", "p", CONDITION, JOX_OP_CROSSES, 0, "crosses(line)", "",
+     "the last step crossed a line, from its right to its left", "crosses \"mid\""},
+    {"near", "tn", CONDITION, JOX_OP_NEAR, 0, "near(target, metres)", "",
+     "the target is nearer than so many metres", "near(\"post\", 2)"},
+    {"touches", "t", CONDITION, JOX_OP_TOUCHES, 0, "touches(target)", "",
+     "the gap to the target is below 5 cm", "touches(nearest \"ball\")"},
+    {"first_in", "p", CONDITION, JOX_OP_FIRST_IN, 0, "first_in(queue)", "",
+     "the agent heads the queue that it steers in", "first_in \"row\""},
+    {"after", "n", CONDITION, JOX_OP_AFTER, 0, "after(seconds)", "",
+     "so long in this state", "after(5)"},
+    {"lasted", NULL, CONDITION, JOX_OP_LASTED, 0, "lasted", "",
+     "the duration that `lasts` drew has passed", "lasted"},
+    {"stuck", "n", CONDITION, JOX_OP_STUCK, 0, "stuck(seconds)", "",
+     "has not moved by 0.25 m for so long", "stuck(3)"},
+    {"hit_by", "t", CONDITION, JOX_OP_HIT_BY, 0, "hit_by(target)", "",
+     "a target faster than 1 m/s touches the agent", "hit_by(nearest \"ball\")"},
+    {"grounded", "t", CONDITION, JOX_OP_GROUNDED, 0, "grounded(target)", "",
+     "the body touches the ground", "grounded(nearest \"ball\")"},
+    {"incoming", "tn", CONDITION, JOX_OP_INCOMING, 0, "incoming(target, metres)", "",
+     "the target, going on as it moves, passes within so many metres in the next 2 s",
+     "incoming(nearest \"ball\", 0.5)"},
+    {"kicked", "t", CONDITION, JOX_OP_KICKED, 0, "kicked(target)", "",
+     "the agent kicked or threw the body in the last step", "kicked(nearest \"ball\")"},
+    {"has", "t", CONDITION, JOX_OP_HAS, 0, "has(target)", "",
+     "the agent carries the body (see `take`)", "has(nearest \"ball\")"},
+    {"sees", "t", CONDITION, JOX_OP_SEES, 0, "sees(target)", "",
+     "the target is there, within perception", "sees(nearest \"people\")"},
+    {"heard", "s?n", CONDITION, JOX_OP_HEARD, 0, "heard(name [, metres])", "",
+     "somebody within perception (and so many metres) gave the signal in the last step",
+     "heard(\"alarm\", 10)"},
+    /* numbers */
+    {"density", "p", NUMBER, JOX_OP_PLACE_DENSITY, 0, "density(place)", "1/m2",
+     "people per square metre in a place; of a point, line or queue: within 2 m", "density \"yard\""},
+    {"count", "p", NUMBER, JOX_OP_PLACE_COUNT, 0, "count(place)", "", "people in a place",
+     "count \"yard\""},
+    {"distance", "t", NUMBER, JOX_OP_DISTANCE, 0, "distance(target)", "m",
+     "to the target, 0 in a place; infinite where there is none", "distance \"post\""},
+    {"neighbours", "g", NUMBER, JOX_OP_TAGGED, 0, "neighbours(tag)", "",
+     "neighbours seen that bear a tag, or are \"anyone\", \"teammates\", \"opponents\"; "
+     "neighbours(tag):in_state(name) counts those of them in a state",
+     "neighbours(\"people\"):in_state(\"Start\")"},
+    {"density_here", NULL, NUMBER, NOW, JOX_NOW_density, "density_here", "1/m2",
+     "people per square metre about the agent, from its neighbours' distances", "density_here"},
+    {"headway", NULL, NUMBER, NOW, JOX_NOW_headway, "headway", "m",
+     "free way ahead to the neighbour in it; perception where nobody is", "headway"},
+    {"pushed", NULL, NUMBER, NOW, JOX_NOW_pushed, "pushed", "N",
+     "magnitude of the net force on the agent", "pushed"},
+    {"compression", NULL, NUMBER, NOW, JOX_NOW_compression, "compression", "N/m",
+     "sum of contact force magnitudes over girth", "compression"},
+    {"contacts", NULL, NUMBER, NOW, JOX_NOW_contacts, "contacts", "",
+     "agents and bodies touched", "contacts"},
+    {"time_in_state", NULL, NUMBER, NOW, JOX_NOW_time_in_state, "time_in_state", "s",
+     "since the state was entered", "time_in_state"},
+    {"min", "nn", NUMBER, JOX_OP_MIN, 0, "min(a, b)", "", "the lesser", "min(1.2, 2 - density_here)"},
+    {"max", "nn", NUMBER, JOX_OP_MAX, 0, "max(a, b)", "", "the greater", "max(now.speed, own.speed)"},
+    {"abs", "n", NUMBER, JOX_OP_ABS, 0, "abs(a)", "", "without its sign", "abs(now.x)"},
+    {"sqrt", "n", NUMBER, JOX_OP_SQRT, 0, "sqrt(a)", "", "square root; 0 of what is negative",
+     "sqrt(density_here)"},
+    {"clamp", "nnn", NUMBER, JOX_OP_CLAMP, 0, "clamp(a, least, greatest)", "",
+     "kept between two bounds", "clamp(headway / 0.95, 0.2, own.speed)"},
+    {"now", NULL, 0, 0, 0, "now.NAME", "",
+     "what is measured of the agent now: speed, x, y, density, headway, pushed, compression, "
+     "contacts, neighbours, time_in_state, time", "now.speed"},
+    {"own", NULL, 0, 0, 0, "own.NAME", "",
+     "the agent's own value: drawn from `defaults`, or given by the scene's group, which may be a "
+     "place too", "own.speed"},
+    /* targets */
+    {"nearest", "g", TARGET, JOX_TARGET_NEAREST, 0, "nearest(tag)", "",
+     "the nearest body or agent seen that bears a tag, or of \"opponents\" or \"teammates\"",
+     "nearest \"ball\""},
+    {"one_of", "p", TARGET, JOX_TARGET_ONE_OF, 0, "one_of(set)", "",
+     "a member of a set of places, drawn on entering the state; `goal` from then on",
+     "one_of \"ends\""},
+    {"goal", NULL, TARGET, JOX_TARGET_GOAL, 0, "goal", "",
+     "the place that one_of drew last, or that a function set", "goal"},
+    /* steering */
+    {"seek", "t", STEER, JOX_STEER_SEEK, 0, "seek(target)", "",
+     "straight to the target: a line is passed, at a point one stops", "seek \"post\""},
+    {"field", "p", STEER, JOX_STEER_FIELD, 0, "field(place)", "",
+     "the shortest way to the place round walls; of a set, to the nearest member", "field \"post\""},
+    {"away_from", "t", STEER, JOX_STEER_AWAY_FROM, 0, "away_from(target)", "",
+     "straight away from the target", "away_from(nearest \"ball\")"},
+    {"orbit", "*", STEER, JOX_STEER_ORBIT, 0, "orbit(place [, options])", "",
+     "round a place, counter-clockwise; options inward, density_near, density_far, far, beyond shape "
+     "the density about it", "orbit(\"yard\", { far = 20 })"},
+    {"queue", "p", STEER, JOX_STEER_QUEUE, 0, "queue(place)", "",
+     "to one's place in a queue, in order of arrival", "queue \"row\""},
+    {"along", "p", STEER, JOX_STEER_ALONG, 0, "along(place)", "",
+     "in a line's direction, or along a queue to its head", "along \"row\""},
+    {"follow", "t?d", STEER, JOX_STEER_FOLLOW, 0, "follow(target [, metres])", "",
+     "behind the target, at a distance", "follow(nearest \"people\", 1)"},
+    {"together", "?d", STEER, JOX_STEER_TOGETHER, 0, "together([metres])", "",
+     "towards the teammates seen, once they are farther than that", "seek(\"post\") + 0.5 * together(1)"},
+    {"drift", "dd", STEER, JOX_STEER_DRIFT, 0, "drift(x, y)", "",
+     "in a fixed direction; a length of 1 is the wanted speed", "drift(1, 0)"},
+    {"spread", NULL, STEER, JOX_STEER_SPREAD, 0, "spread", "",
+     "away from the neighbours", "0.3 * spread + seek \"post\""},
+    {"hold", NULL, STEER, JOX_STEER_HOLD, 0, "hold", "", "stands", "hold"},
+    {"player", NULL, STEER, JOX_STEER_PLAYER, 0, "player", "",
+     "a person, or the input log, drives this agent", "player"},
+    /* drawn values */
+    {"normal", "*", JOX_NODE_DIST, JOX_DIST_NORMAL, 0, "normal(mean, deviation [, least, greatest])",
+     "", "a normal distribution, drawn once per agent", "normal(1, 0.1, 0.5, 1.5)"},
+    {"uniform", "*", JOX_NODE_DIST, JOX_DIST_UNIFORM, 0, "uniform(least, greatest)", "",
+     "even between two bounds", "uniform(0.8, 1.2)"},
+    {"choose", "*", JOX_NODE_DIST, JOX_DIST_CHOOSE, 0, "choose(a, b, ...)", "",
+     "one of up to 8 values, all alike", "choose(0.8, 1, 1.2)"},
+    /* the sheet */
+    {"circuits", "p", JOX_NODE_CIRCUITS, 0, 0, "circuits(place)", "",
+     "for `counts`: net counter-clockwise turns about a place since its start line was first "
+     "crossed; what is walked back is taken back", "circuits \"yard\""},
+    {"memory", "*", 0, 0, 0, "memory { name = value, ... }", "",
+     "what each agent remembers: numbers and booleans, kept through reloads; the result gives the "
+     "values as expressions", "memory { laps = 0, touched = false }"},
+    {"machine", "*", 0, 0, 0, "machine { ... }", "", "the sheet that a behaviour returns",
+     "machine { name = \"m\", start = \"A\", states = { A = {} } }"},
+    {"patch", "*", 0, 0, 0, "patch \"behaviour\" { ... }", "",
+     "in a mod: changes a behaviour's sheet, key by key; returned by the file",
+     "patch \"stander\" { defaults = { perception = 2 } }"},
+    {"replace", "*", 0, 0, 0, "replace \"behaviour\" { ... }", "",
+     "in a mod: takes the place of a behaviour's whole sheet; returned by the file",
+     "replace \"stander\" { name = \"stander\", start = \"Stand\", states = { Stand = {} } }"},
+    {"none", NULL, 0, 0, 0, "none", "", "in a patch: takes a key or a state away",
+     "patch \"stander\" { defaults = { perception = none } }"},
+    {"settings", NULL, 0, 0, 0, "settings.NAME", "",
+     "in a mod: the values of its settings, plain numbers", "patch \"stander\" { defaults = { perception = settings.reach } }"},
+    {"require", "*", 0, 0, 0, "require \"name\"", "",
+     "what another file returns: beside this one, or of the library; in a mod \"mod:name\" too",
+     "require \"crowd\""},
+    {"print", "*", 0, 0, 0, "print(...)", "", "writes a line to the output, a limited number a second",
+     "print(\"loaded\")"},
+};
+const size_t jox_word_count = sizeof jox_words / sizeof *jox_words;
+
+const JoxSheetKey jox_sheet_keys[] = {
+    {"machine", "name", "text", "", "how messages and mods call it", "name = \"walker\""},
+    {"machine", "version", "number", "", "the author's; informs people", "version = 1"},
+    {"machine", "start", "name of a state", "", "where agents begin", "start = \"Start\""},
+    {"machine", "defaults", "table of parameters", "", "values for all states, drawn once per agent",
+     "defaults = { speed = normal(1.3, 0.2), radius = 0.2 }"},
+    {"machine", "counts", "table", "", "memory that counts by itself, in all states",
+     "counts = { laps = circuits \"yard\" }"},
+    {"machine", "renamed", "table of names", "", "old state = new state, for agents alive at a reload",
+     "renamed = { Old = \"Start\" }"},
+    {"machine", "states", "table of states", "", "name = state", "states = { Start = { steer = hold } }"},
+    {"state", "steer", "steering or function", "", "where the agent wants to go: a value, a weighted sum, or function(me) that returns vx, vy in m/s",
+     "steer = 0.8 * seek(\"post\") + 0.2 * spread"},
+    {"state", "lasts", "number, distribution", "s", "drawn on entering; see `lasted`", "lasts = uniform(1, 3)"},
+    {"state", "removes", "true or false", "", "the agent leaves the world on entering", "removes = false"},
+    {"state", "become", "name of a behaviour", "", "on entering, goes on with another machine, from its start; keeps its body, what the scene gave it, and memory by name",
+     "become = \"stander\""},
+    {"state", "push_when", "condition", "", "pushes only while this holds", "push_when = stuck(2)"},
+    {"state", "push_toward", "target", "", "pushes that way; else the way it wants to go", "push_toward = \"post\""},
+    {"state", "push_weight", "\"equal\" or \"nearest\"", "", "shares the push among all in the way, or gives it to the nearest",
+     "push_weight = \"nearest\""},
+    {"state", "push_only", "tag or list of tags", "", "pushes those alone", "push_only = \"people\""},
+    {"state", "ignore", "tag or list of tags", "", "does not avoid those", "ignore = { \"people\" }"},
+    {"state", "face", "target", "", "looks at; else where it walks", "face = \"post\""},
+    {"state", "approach", "target", "", "a body that is not anticipated, only not overlapped", "approach = nearest \"ball\""},
+    {"state", "kick", "table", "", "kicks a body that it touches", "kick = { nearest \"ball\", at = \"post\", impulse = 4 }"},
+    {"state", "take", "target", "", "picks up a body within 0.6 m that is slower than 8 m/s", "take = nearest \"ball\""},
+    {"state", "throw", "table", "", "throws the body that it carries", "throw = { nearest \"ball\", at = \"post\", speed = 6 }"},
+    {"state", "signal", "name, or table", "", "calls out on entering, and every so often with { name, every = seconds }",
+     "signal = { \"alarm\", every = 1 }"},
+    {"state", "set", "table", "", "on entering, memory = number, condition or true/false", "set = { laps = mine.laps + 1 }"},
+    {"state", "counts", "table", "", "memory that counts while in this state", "counts = { laps = circuits \"yard\" }"},
+    {"state", "on_enter", "function(me)", "", "called on entering", "on_enter = function(me) me.laps = 1 end"},
+    {"state", "on_exit", "function(me)", "", "called on leaving", "on_exit = function(me) me.laps = 2 end"},
+    {"transition", "to", "name of a state", "", "where it leads", "to = \"Next\""},
+    {"transition", "when", "condition or function(me)", "", "absent: always; the first that holds wins", "when = after(1)"},
+    {"transition", "chance", "number", "", "rolled each time `when` turns true", "chance = 0.5"},
+    {"transition", "set", "table", "", "memory = number, condition or true/false", "set = { touched = true }"},
+    {"transition", "signal", "name", "", "calls out", "signal = \"alarm\""},
+    {"transition", "on_take", "function(me)", "", "called when it is taken", "on_take = function(me) me.touched = true end"},
+    {"transition", "id", "text", "", "how mods name it; else its target, with #2, #3 for repeats", "id = \"leave\""},
+    {"kick", "at", "target", "", "whereto; else straight ahead", "at = \"post\""},
+    {"kick", "impulse", "number", "m/s", "N s per kg of the body: the change of its velocity", "impulse = 2 + 2 * now.speed"},
+    {"throw", "at", "target", "", "whereto", "at = nearest \"people\""},
+    {"throw", "speed", "number", "m/s", "level speed", "speed = 6"},
+    {"signal", "every", "plain number", "s", "between two calls", "every = 0.5"},
+};
+const size_t jox_sheet_key_count = sizeof jox_sheet_keys / sizeof *jox_sheet_keys;
+
+const JoxMeKey jox_me_keys[] = {
+    {"id", "number", "", "the agent's number, never used again"},
+    {"x", "number", "m", "position east"},
+    {"y", "number", "m", "position north"},
+    {"vx", "number", "m/s", "velocity east"},
+    {"vy", "number", "m/s", "velocity north"},
+    {"time", "number", "s", "simulated time"},
+    {"time_in_state", "number", "s", "since the state was entered"},
+    {"density", "number", "1/m2", "people per square metre about it"},
+    {"pushed", "number", "N", "magnitude of the net force"},
+    {"compression", "number", "N/m", "sum of contact force magnitudes over girth"},
+    {"team", "number", "", "0 is none"},
+    {"state", "text", "", "name of its state"},
+    {"machine", "text", "", "name of its machine"},
+    {"goal", "name of a place", "", "can be set"},
+    {"neighbours", "list", "", "views of the neighbours, nearest first, as they were before the step; memory set in them arrives after it"},
+    {"signal", "function(name)", "", "calls out: me.signal(\"alarm\")"},
+};
+const size_t jox_me_key_count = sizeof jox_me_keys / sizeof *jox_me_keys;
+/* clang-format on */
+
+size_t jox_sheet_names(const char *owner, bool parameters, const char **names, size_t capacity) {
+    size_t n = 0;
+    for (size_t k = 0; k < jox_sheet_key_count && n < capacity; k++)
+        if (strcmp(jox_sheet_keys[k].owner, owner) == 0)
+            names[n++] = jox_sheet_keys[k].name;
+    for (int p = 0; parameters && p < JOX_PARAM_COUNT && n < capacity; p++)
+        names[n++] = jox_parameters[p].name;
+    return n;
+}

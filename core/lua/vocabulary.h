@@ -1,0 +1,44 @@
+/* The language of behaviours, once: every word and every key of a sheet, with what it takes, makes
+   and means, and an example. Drives the loader, the suggestions, the reference page and the
+   definitions for editors. */
+#ifndef JOX_LUA_VOCABULARY_H
+#define JOX_LUA_VOCABULARY_H
+
+#include "lua/internal.h"
+
+/* What a word's arguments are, a letter each: p place, t target (a place by name, or a target
+   value), n number (expression), d plain number, g tag, s name. '?' before a letter: may be left
+   out. NULL: a word that is no call; "*": reads its arguments itself. */
+typedef struct JoxWord {
+    const char *name, *takes;
+    JoxNodeKind makes; /* 0: something of the sheet itself */
+    int op;            /* JoxOp, JoxSteerKind or JoxTargetKind */
+    int arg;           /* JoxNow */
+    const char *signature, *unit, *meaning;
+    const char *example; /* an expression of what it makes */
+} JoxWord;
+
+extern const JoxWord jox_words[];
+extern const size_t jox_word_count;
+
+/* A key of a table of the sheet; parameters are further keys of states and of `defaults`. */
+typedef struct JoxSheetKey {
+    const char *owner; /* "machine", "state", "transition", "kick", "throw", "signal" */
+    const char *name, *type, *unit, *meaning;
+    const char *example; /* as it stands in its table */
+} JoxSheetKey;
+
+extern const JoxSheetKey jox_sheet_keys[];
+extern const size_t jox_sheet_key_count;
+
+/* Names of an owner's keys, written to `names`; with `parameters` those too. Returns how many. */
+size_t jox_sheet_names(const char *owner, bool parameters, const char **names, size_t capacity);
+
+/* What `me` knows besides memory and parameters, and what it can be asked to do. */
+typedef struct JoxMeKey {
+    const char *name, *type, *unit, *meaning;
+} JoxMeKey;
+extern const JoxMeKey jox_me_keys[];
+extern const size_t jox_me_key_count;
+
+#endif

@@ -1,0 +1,49 @@
+/* Bodies that agents carry: picked up, carried along, thrown. */
+#include <math.h>
+
+#include "world/world.h"
+
+static const float CARRY_HEIGHT = 1.2f; /* m: of the hand */
+
+/* In front of the agent, clear of its disc. */
+static JoxV3 before(const JoxAgents *a, uint32_t i, const JoxObject *object, JoxV2 way) {
+    float gap = a->param[JOX_PARAM_radius][i] + object->disc + 0.02f;
+    return (JoxV3){a->x[i] + way.x * gap, a->y[i] + way.y * gap, CARRY_HEIGHT};
+}
+
+static void carry_along(JoWorld *w) {
+    const JoxAgents *a = &w->agents;
+    for (uint32_t o = 0; o < w->objects.count; o++) {
+        const JoxObject *object = &w->objects.rows[o];
+        if (!object->live || !object->held)
+            continue;
+        uint32_t i = object->holder < a->next_id ? a->id_index[object->holder] : JOX_NO_INDEX;
+        if (i == JOX_NO_INDEX || a->removed[i]) { /* who left lets it fall */
+            jox_bodies_let_go(w->bodies, o, (JoxV3){0.0f, 0.0f, 0.0f});
+            continue;
+        }
+        JoxV2 face = {a->face_x[i], a->face_y[i]};
+        jox_bodies_carry(w->bodies, o, before(a, i, object, face),
+                         (JoxV3){a->vx[i], a->vy[i], 0.0f});
+    }
+}
+
+void jox_world_grip(JoWorld *w) {
+    const JoxAgents *a = &w->agents;
+    carry_along(w);
+    for (uint32_t g = 0; g < w->mind.grip_count; g++) {
+        const JoxGrip *grip = &w->mind.grips[g];
+        uint32_t i = a->id_index[grip->agent_id];
+        if (i == JOX_NO_INDEX)
+            continue;
+        const JoxObject *object = &w->objects.rows[grip->object];
+        if (grip->takes) {
+            jox_bodies_hold(w->bodies, grip->object, grip->agent_id);
+            continue;
+        }
+        JoxV2 way = jox_unit((JoxV2){grip->velocity.x, grip->velocity.y});
+        jox_bodies_carry(w->bodies, grip->object, before(a, i, object, way), grip->velocity);
+        jox_bodies_let_go(w->bodies, grip->object, grip->velocity);
+    }
+    w->statistics.throws += w->mind.grip_count;
+}
