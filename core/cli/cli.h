@@ -11,6 +11,9 @@
 int cli_run(int argc, char **argv);
 int cli_check(int argc, char **argv);
 int cli_bench(int argc, char **argv);
+int cli_mod(int argc, char **argv);
+int cli_new(int argc, char **argv);
+int cli_reference(int argc, char **argv);
 
 /* Walks over arguments: `--name value`, `--name=value`, and what is no option. */
 typedef struct CliArgs {

@@ -9,6 +9,9 @@ static const struct Command {
 } COMMANDS[] = {
     {"run", "simulate a scene", cli_run},
     {"check", "find every error in scenes and behaviours, without running", cli_check},
+    {"new", "write a commented start of a behaviour, scene or mod", cli_new},
+    {"mod", "list mods, and tell who set a value", cli_mod},
+    {"reference", "print every word and key, for people and for editors", cli_reference},
     {"bench", "time scenes and stages", cli_bench},
 };
 
@@ -18,7 +21,7 @@ static void print_help(FILE *out) {
             "usage: jostle COMMAND ...\n\n",
             jo_version());
     for (size_t i = 0; i < sizeof COMMANDS / sizeof *COMMANDS; i++)
-        fprintf(out, "  %-8s %s\n", COMMANDS[i].name, COMMANDS[i].what);
+        fprintf(out, "  %-10s %s\n", COMMANDS[i].name, COMMANDS[i].what);
     fprintf(out, "\n'jostle COMMAND --help' lists a command's options.\n");
 }
 

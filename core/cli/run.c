@@ -20,6 +20,11 @@ static const char HELP[] =
     "  --record FILE      write trajectories (SQLite, JuPedSim format 2)\n"
     "  --report DIR       draw density and regional speeds into DIR\n"
     "  --summary FILE     write the run's figures as JSON; '-' is standard output\n"
+    "  --mod DIR          take a mod: a folder, or the name of one that lies in scenes' mods/ or "
+    "in the\n"
+    "                     user's data directory; may be given several times\n"
+    "  --no-mods          take no mods but those given by --mod or named by the scene\n"
+    "  --profile-lua      list what each plain Lua function costs, by state\n"
     "  --watch            reload behaviours when their files change\n"
     "  --trace AGENT      print each transition of the agent with this id, and why\n"
     "  --quiet            no progress\n\n"
@@ -30,7 +35,8 @@ typedef struct Run {
     const char *record, *report, *summary;
     double seconds;
     uint64_t steps, seeds, trace;
-    bool has_seconds, has_steps, watch, has_trace, quiet;
+    const char **mods;
+    bool has_seconds, has_steps, watch, has_trace, quiet, profile;
 } Run;
 
 static volatile sig_atomic_t interrupted;
@@ -74,6 +80,12 @@ static bool read_option(Run *run, CliArgs *args, const char *option, const char 
         run->report = cli_value(args, option);
     } else if (!strcmp(option, "summary")) {
         run->summary = cli_value(args, option);
+    } else if (!strcmp(option, "mod")) {
+        run->mods[run->def.mod_count++] = cli_value(args, option);
+    } else if (!strcmp(option, "no-mods")) {
+        run->def.named_mods_only = true;
+    } else if (!strcmp(option, "profile-lua")) {
+        run->profile = true;
     } else if (!strcmp(option, "watch")) {
         run->watch = true;
     } else if (!strcmp(option, "trace")) {
@@ -120,6 +132,11 @@ static int simulate(const Run *run, char **summary) {
     int status = ok && ended ? JO_OK : complain(&error, false);
     if (run->summary || run->seeds)
         *summary = jo_scene_summary(scene);
+    if (run->profile) {
+        char *profile = jo_scene_lua_profile(scene);
+        fputs(profile ? profile : "", stderr);
+        jo_free(profile);
+    }
     jo_scene_free(scene);
     return status;
 }
@@ -177,13 +194,16 @@ static int usage_error(const Run *run, const CliArgs *args) {
 }
 
 int cli_run(int argc, char **argv) {
-    static const char *const known[] = {"for",   "steps", "dt",    "seed",   "seeds",  "threads",
-                                        "isa",   "set",   "input", "record", "report", "summary",
-                                        "watch", "trace", "quiet", "help",   NULL};
+    static const char *const known[] = {"for",     "steps",   "dt",      "seed",        "seeds",
+                                        "threads", "isa",     "set",     "input",       "record",
+                                        "report",  "summary", "watch",   "trace",       "quiet",
+                                        "help",    "mod",     "no-mods", "profile-lua", NULL};
     CliArgs args = {.argc = argc, .argv = argv, .next = 1, .command = "run"};
     const char **overrides = calloc((size_t)argc, sizeof *overrides);
     Run run = {.def = jo_default_scene_def()};
     run.def.overrides = overrides;
+    run.mods = calloc((size_t)argc, sizeof *run.mods);
+    run.def.mods = run.mods;
     const char *option, *plain;
     int status = -1;
     while (status < 0 && ((option = cli_next(&args, &plain)) || plain)) {
@@ -218,5 +238,6 @@ int cli_run(int argc, char **argv) {
         jo_free(summary);
     }
     free(overrides);
+    free(run.mods);
     return status;
 }

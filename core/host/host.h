@@ -9,11 +9,17 @@
 #include "record/density.h"
 #include "record/recorder.h"
 #include "record/regions.h"
+#include "scene/mods.h"
 #include "scene/scene.h"
 #include "world/world.h"
 
 struct JoScene {
     JoxScene *plan;
+    JoxMods *mods;
+    JoxDiagnostics mod_problems; /* of mods that were left out, and conflicts */
+    uint32_t *party_left;        /* per group: places left in the party that fills up */
+    uint16_t *party_team;        /* and its team */
+    uint32_t next_party;
     JoWorld *world;
     JoxLua *lua;
     JoxScope scope;
@@ -47,6 +53,23 @@ void jox_host_fail(JoError *error, JoCode code, const char *format, ...)
 
 /* As jo_scene_load, but what is wrong goes to `diagnostics`. NULL if there are errors. */
 JoScene *jox_host_load(const JoSceneDef *def, JoxDiagnostics *diagnostics);
+/* mods.c: finds the mods of a scene and what their files change; `without` are bits of those found
+   that are left out. */
+JoxMods *jox_host_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnostics *diagnostics);
+/* Index of the mod without which, and without those after it, the scene's plan would load; -1: it
+   fails without mods too. */
+int32_t jox_host_blame_plan(const JoSceneDef *def, const JoxMods *mods);
+JoxScene *jox_host_load_plan(const JoSceneDef *def, const JoxMods *mods, uint32_t mod_count,
+                             JoxDiagnostics *diagnostics);
+/* link.c: machines of the scene's groups, and of those that they may become; false with *culprit
+   (index of a mod, or -1) if one does not load. */
+bool jox_host_load_machines(JoScene *scene, int32_t *culprit, JoxDiagnostics *diagnostics);
+/* What machines expect of each other and of the scene: signals, states, own values. */
+void jox_host_check_names(const JoScene *scene, JoxDiagnostics *diagnostics);
+/* Index of the machine of a file, loaded where it is not there yet; -1 with diagnostics. */
+int32_t jox_host_machine(JoScene *scene, const char *path, JoxDiagnostics *diagnostics);
+/* Finds the machines that states of machine become; false with diagnostics. */
+bool jox_host_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics);
 /* populate.c: groups at the start; sources and sinks as time goes on. */
 bool jox_host_populate(JoScene *scene, JoxDiagnostics *diagnostics);
 void jox_host_sources(JoScene *scene);

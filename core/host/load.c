@@ -58,7 +58,8 @@ JoSceneDef jo_default_scene_def(void) {
 }
 
 /* The def's overrides, with seed and step as two more. */
-static JoxScene *load_plan(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
+JoxScene *jox_host_load_plan(const JoSceneDef *def, const JoxMods *mods, uint32_t mod_count,
+                             JoxDiagnostics *diagnostics) {
     char seed[32], step[48];
     const char **sets = jox_alloc(def->override_count + 2, sizeof *sets);
     uint32_t count = 0;
@@ -72,7 +73,8 @@ static JoxScene *load_plan(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
         snprintf(step, sizeof step, "step=%.9g", def->dt);
         sets[count++] = step;
     }
-    JoxSceneOptions options = {.sets = sets, .set_count = count};
+    JoxSceneOptions options = {
+        .sets = sets, .set_count = count, .mods = mods->items, .mod_count = mod_count};
     JoxScene *plan = jox_scene_load(def->path, &options, diagnostics);
     jox_free(sets);
     return plan;
@@ -136,30 +138,9 @@ static void add_places(JoScene *scene) {
                               .place_count = plan->place_count,
                               .tags = (const char *const *)scene->world->tags,
                               .tag_count = scene->world->tag_count,
-                              .complete = true};
-}
-
-/* Index of the machine made of a file, loaded on first use; -1 with diagnostics. */
-static void load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
-    const JoxScene *plan = scene->plan;
-    JoxMind *mind = &scene->world->mind;
-    for (uint32_t g = 0; g < plan->group_count; g++)
-        for (uint32_t m = 0; m < plan->groups[g].mix_count; m++) {
-            const char *path = plan->groups[g].mix[m].behaviour;
-            bool known = false;
-            for (uint32_t k = 0; k < mind->machine_count; k++)
-                known |= strcmp(mind->machines[k]->path, path) == 0;
-            if (known)
-                continue;
-            if (mind->machine_count == JOX_MOST_MACHINES) {
-                jox_diag_error(diagnostics, plan->groups[g].mix[m].position, "too-many", NULL,
-                               "a scene has at most %d behaviours", JOX_MOST_MACHINES);
-                return;
-            }
-            JoxMachine *machine = jox_lua_load(scene->lua, path, &scene->scope, diagnostics);
-            if (machine)
-                jox_mind_add(mind, machine);
-        }
+                              .complete = true,
+                              .mods = scene->mods->items,
+                              .mod_count = scene->mods->count};
 }
 
 static void load_input(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
@@ -183,7 +164,9 @@ static void complain(void *context, const char *text) {
     scene->message(scene->message_context, text);
 }
 
-static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnostics) {
+/* False with the index of the mod to blame, or -1, where a behaviour does not load. */
+static bool build(JoScene *scene, const JoSceneDef *def, int32_t *culprit,
+                  JoxDiagnostics *diagnostics) {
     JoxScene *plan = scene->plan;
     JoWorldDef world = jo_default_world_def();
     world.dt = plan->step;
@@ -203,7 +186,8 @@ static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnos
     scene->lua = jox_lua_create(&limits);
     add_bodies(scene, diagnostics);
     add_places(scene);
-    load_machines(scene, diagnostics);
+    if (!jox_host_load_machines(scene, culprit, diagnostics))
+        return false;
     JoxMind *mind = &scene->world->mind;
     mind->call = jox_lua_call;
     mind->bracket = jox_lua_bracket;
@@ -211,24 +195,87 @@ static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnos
     jox_lua_attach(scene->lua, mind, complain, scene);
     load_input(scene, def->input_log ? def->input_log : plan->input, diagnostics);
     if (diagnostics->errors == 0)
+        jox_host_check_names(scene, diagnostics);
+    if (diagnostics->errors == 0)
         jox_host_populate(scene, diagnostics);
+    return true;
 }
 
-JoScene *jox_host_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
+/* Loads the scene with the mods found but for those in `without`. NULL: with *culprit among the
+   taken mods, or -1 and the errors in `diagnostics`. */
+static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culprit,
+                        JoxDiagnostics *mod_problems, JoxDiagnostics *diagnostics) {
     JoScene *scene = jox_alloc(1, sizeof *scene);
     scene->message = def->message ? def->message : to_stderr;
     scene->message_context = def->message_context;
-    if (def->threads < 1 || def->threads > 64)
-        jox_diag_error(diagnostics, ((JoxPosition){0}), "out-of-range", NULL,
-                       "threads must be from 1 to 64");
-    else
-        scene->plan = load_plan(def, diagnostics);
+    scene->mods = jox_host_find_mods(def, without, mod_problems);
+    *culprit = -1;
+    scene->plan = jox_host_load_plan(def, scene->mods, scene->mods->count, diagnostics);
+    if (!scene->plan && scene->mods->count)
+        *culprit = jox_host_blame_plan(def, scene->mods);
     if (scene->plan)
-        build(scene, def, diagnostics);
+        build(scene, def, culprit, diagnostics);
+    for (uint32_t f = 0; scene->plan && f < scene->plan->file_count; f++)
+        jox_diag_attach_source(diagnostics, scene->plan->files[f].path, scene->plan->files[f].text,
+                               scene->plan->files[f].length);
     if (diagnostics->errors == 0)
         return scene;
+    if (*culprit >= 0)
+        *culprit = (int32_t)scene->mods->number[*culprit];
     jo_scene_free(scene);
     return NULL;
+}
+
+/* What `attempt` found wrong with a mod, and that it is left out. */
+static void leave_out(const JoSceneDef *def, uint64_t without, int32_t culprit,
+                      JoxDiagnostics *problems, JoxDiagnostics *diagnostics) {
+    JoxDiagnostics ignored = {0};
+    JoxMods *before = jox_host_find_mods(def, without, &ignored);
+    JoxMods *after = jox_host_find_mods(def, without | (uint64_t)1 << culprit, &ignored);
+    const JoxMod *mod = &before->found[culprit];
+    char others[256] = "";
+    for (uint32_t b = 0; b < before->count; b++) { /* those that go with it */
+        bool stays = before->number[b] == (uint32_t)culprit;
+        for (uint32_t a = 0; a < after->count; a++)
+            stays |= after->number[a] == before->number[b];
+        if (!stays && strlen(others) < 180)
+            snprintf(others + strlen(others), 64, ", and %s, which needs it",
+                     before->items[b].name);
+    }
+    jox_diag_move(problems, diagnostics);
+    jox_diag_add(problems, JOX_SEVERITY_NOTE, (JoxPosition){mod->folder, 0, 0, 0}, "mod-left-out",
+                 NULL, NULL, NULL, "mod %s is left out%s; the run goes on without", mod->name,
+                 others);
+    jox_mods_free(before);
+    jox_mods_free(after);
+    jox_diag_free(&ignored);
+}
+
+JoScene *jox_host_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
+    uint64_t without = 0;
+    if (def->threads < 1 || def->threads > 64) {
+        jox_diag_error(diagnostics, ((JoxPosition){0}), "out-of-range", NULL,
+                       "threads must be from 1 to 64");
+        return NULL;
+    }
+    JoxDiagnostics problems = {0}; /* of mods */
+    for (;;) {
+        JoxDiagnostics found = {0}, now = {0};
+        int32_t culprit;
+        JoScene *scene = attempt(def, without, &culprit, &found, &now);
+        if (scene || culprit < 0 || (without >> culprit & 1)) {
+            jox_diag_move(&problems, &found);
+            jox_diag_move(diagnostics, &now);
+            if (scene)
+                scene->mod_problems = problems;
+            else
+                jox_diag_move(diagnostics, &problems);
+            return scene;
+        }
+        jox_diag_free(&found);
+        leave_out(def, without, culprit, &problems, &now);
+        without |= (uint64_t)1 << culprit;
+    }
 }
 
 JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
@@ -239,6 +286,10 @@ JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
                     error);
     if (!scene)
         return NULL;
+    jox_host_report(scene->message, scene->message_context, &scene->mod_problems, NULL);
+    for (uint32_t m = 0; m < scene->mods->count; m++)
+        jox_host_say(scene, "%s %s %s (%s)\n", m ? "     " : "mods:", scene->mods->items[m].name,
+                     scene->mods->items[m].version, scene->mods->items[m].folder);
     JoxSettled settled = jox_world_settle(scene->world);
     if (settled.moved || settled.stuck)
         jox_host_say(scene,
@@ -257,6 +308,10 @@ void jo_scene_free(JoScene *scene) {
     jo_world_free(scene->world); /* before Lua, whose machines it holds */
     jox_lua_free(scene->lua);
     jox_scene_free(scene->plan);
+    jox_mods_free(scene->mods);
+    jox_diag_free(&scene->mod_problems);
+    jox_free(scene->party_left);
+    jox_free(scene->party_team);
     jox_free(scene->report);
     jox_free(scene->input_path);
     jox_free(scene);

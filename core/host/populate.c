@@ -82,6 +82,25 @@ static uint16_t team_number(const JoScene *scene, const char *team) {
     return 0;
 }
 
+/* The team of a group's next agent: the group's, or its party's own. */
+static uint16_t next_team(JoScene *scene, uint32_t number) {
+    const JoxScene *plan = scene->plan;
+    const JoxSceneGroup *group = &plan->groups[number];
+    if (group->party < 2)
+        return team_number(scene, group->team);
+    if (!scene->party_left) {
+        scene->party_left = jox_alloc(plan->group_count, sizeof *scene->party_left);
+        scene->party_team = jox_alloc(plan->group_count, sizeof *scene->party_team);
+    }
+    if (scene->party_left[number] == 0) {
+        uint32_t first = plan->group_count + 1; /* teams of groups come before */
+        scene->party_team[number] = (uint16_t)(first + scene->next_party++ % (65535 - first));
+        scene->party_left[number] = group->party;
+    }
+    scene->party_left[number]--;
+    return scene->party_team[number];
+}
+
 static void spawn(JoScene *scene, uint32_t number, JoxV2 at, const JoxSceneSet *memory,
                   uint32_t memory_count) {
     const JoxSceneGroup *group = &scene->plan->groups[number];
@@ -89,7 +108,7 @@ static void spawn(JoScene *scene, uint32_t number, JoxV2 at, const JoxSceneSet *
     uint32_t i = jox_world_add_agent(world, at.x, at.y);
     JoxAgents *a = &world->agents;
     a->group[i] = (uint16_t)number;
-    a->team[i] = team_number(scene, group->team);
+    a->team[i] = next_team(scene, number);
     for (uint32_t t = 0; t < group->tag_count; t++)
         a->tags[i] |= (uint64_t)1 << jox_world_tag(world, group->tags[t]);
     if (isfinite(group->facing)) {

@@ -71,6 +71,39 @@ static void add_events(JoxText *out, const JoScene *scene) {
     jox_text_add(out, "}");
 }
 
+/* What plain functions cost: share of the stepping, calls, and what failed. */
+static void add_lua(JoxText *out, const JoScene *scene) {
+    const JoWorld *world = scene->world;
+    double seconds = 0.0;
+    uint64_t calls = 0;
+    for (uint32_t m = 0; m < world->mind.machine_count; m++) {
+        uint64_t own;
+        seconds += jox_lua_seconds(scene->lua, world->mind.machines[m], &own);
+        calls += own;
+    }
+    double wall = world->statistics.wall_s;
+    jox_text_printf(out, ",\n \"lua\": {\"calls\": %llu, \"seconds\": %.6f, \"share\": %.6f}",
+                    (unsigned long long)calls, seconds, wall > 0.0 ? seconds / wall : 0.0);
+}
+
+char *jo_scene_lua_profile(const JoScene *scene) {
+    JOX_REQUIRE(scene, NULL);
+    const JoWorld *world = scene->world;
+    JoxText out = {0};
+    for (uint32_t m = 0; m < world->mind.machine_count; m++) {
+        const JoxMachine *machine = world->mind.machines[m];
+        uint64_t calls;
+        double seconds = jox_lua_seconds(scene->lua, machine, &calls);
+        jox_text_printf(
+            &out, "%s (%s): %u plain functions, %llu calls, %.2f ms, %.2f %% of the steps\n",
+            machine->name, machine->path, machine->hook_count, (unsigned long long)calls,
+            seconds * 1e3,
+            world->statistics.wall_s > 0 ? 100.0 * seconds / world->statistics.wall_s : 0.0);
+        jox_lua_profile(scene->lua, machine, world->statistics.wall_s, &out);
+    }
+    return out.data;
+}
+
 static void add_file(JoxText *out, const char *path, const char *sha256, bool first) {
     jox_text_add(out, first ? "\n  {\"path\": " : ",\n  {\"path\": ");
     jox_text_json(out, path);
@@ -89,7 +122,13 @@ static void add_inputs(JoxText *out, const JoScene *scene) {
     }
     if (scene->input_path)
         add_file(out, scene->input_path, scene->input_sha256, false);
-    jox_text_add(out, "\n ]");
+    jox_text_add(out, "\n ],\n \"mods\": [");
+    for (uint32_t m = 0; m < scene->mods->count; m++) {
+        jox_text_add(out, m ? ", " : "");
+        jox_text_printf(out, "\"%s %s\"", scene->mods->items[m].name,
+                        scene->mods->items[m].version);
+    }
+    jox_text_add(out, "]");
 }
 
 /* Greatest density of the frames sampled, or of the present one where none were. */
@@ -141,6 +180,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_number(&out, "overlap_p99", jox_statistics_overlap_p99(s));
     add_states(&out, world);
     add_events(&out, scene);
+    add_lua(&out, scene);
     jox_text_printf(&out, ",\n \"hash\": \"%016llx\",\n \"isa\": \"scalar\",\n \"threads\": %u",
                     (unsigned long long)jox_world_hash(world), jox_pool_threads(world->pool));
     add_inputs(&out, scene);

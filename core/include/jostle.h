@@ -168,6 +168,10 @@ typedef struct JoSceneDef {
     const char *input_log; /* recorded input to play, or NULL */
     JoMessage *message;    /* NULL: to stderr */
     void *message_context;
+    const char *const *mods; /* folders of mods, or names of mods that lie beside the scene or in
+                                the user's data directory */
+    size_t mod_count;
+    bool named_mods_only; /* mods are not taken because they lie in one of those folders */
     uint32_t cookie;
 } JoSceneDef;
 JO_API JoSceneDef jo_default_scene_def(void);
@@ -212,10 +216,22 @@ JO_API char *jo_scene_summary(const JoScene *scene);
 /* From several summaries: mean and 5-95 % range of each numeric figure; free with jo_free. */
 JO_API char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error);
 
+/* The mods that a run of the scene would take (path NULL: of the user's data directory alone), in
+   order, and the others that were found, as text; free with jo_free. */
+JO_API char *jo_mods_list(const JoSceneDef *def);
+/* Who set a value: "tawaf.Circle.push" of a behaviour, or, with def->path, "groups.red.count" of
+   the scene: every place in order, the last one wins. NULL with `error` where there is no such
+   path. */
+JO_API char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error);
+/* What plain Lua functions cost so far: a line for each, by behaviour; free with jo_free. */
+JO_API char *jo_scene_lua_profile(const JoScene *scene);
 /* Checks scenes and behaviours (or folders of them) without running; everything wrong goes to
    `message`, as text or as one JSON array. Returns the number of errors. */
 JO_API size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
                        void *context);
+/* A generated page or file by name, as `jostle reference` lists them: "behaviours", "scenes",
+   "lua-ls", "luacheck", "scene-schema", "mod-schema". NULL if there is none; free with jo_free. */
+JO_API char *jo_reference(const char *what);
 /* The reference of the scene format, as text; free with jo_free. */
 JO_API char *jo_scene_reference(void);
 

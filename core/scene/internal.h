@@ -9,7 +9,9 @@
 typedef struct JoxLoad {
     JoxReader reader;
     JoxScene *scene;
+    const JoxSceneOptions *options; /* or NULL */
     const char *datadir;
+    uint32_t change_capacity;
 } JoxLoad;
 
 /* Index by name, or -1 with an error that suggests one. */
@@ -25,6 +27,8 @@ void jox_load_positions(const JoxLoad *load, const JoxYaml *map, JoxSceneGroup *
  */
 #define JOX_LOAD_OVERRIDE "--set"
 void jox_load_override(const JoxLoad *load, JoxYaml *root, const char *set);
+/* patch.c: merges what mods change into the tree; the result may be another tree. */
+JoxYaml *jox_load_patches(JoxLoad *load, JoxYaml *root, JoxYamlFiles *files);
 /* shapes.c */
 void jox_load_bodies(JoxLoad *load, const JoxYaml *list);
 

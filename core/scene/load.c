@@ -214,7 +214,17 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
     /* Overrides are of no file: the scene's folder is meant. */
     const char *from = strcmp(position.file, JOX_LOAD_OVERRIDE) ? position.file : l->scene->path;
     char relative[512];
+    const char *colon = strchr(name, ':');
     const char *lua = strlen(name) > 4 && !strcmp(name + strlen(name) - 4, ".lua") ? "" : ".lua";
+    for (uint32_t m = 0; colon && l->options && m < l->options->mod_count; m++) {
+        const JoxMod *mod = &l->options->mods[m]; /* "mod:name" */
+        if (strncmp(mod->name, name, (size_t)(colon - name)) || mod->name[colon - name])
+            continue;
+        snprintf(relative, sizeof relative, "%.300s/behaviours/%.150s%s", mod->folder, colon + 1,
+                 lua);
+        if (!strstr(colon, "..") && exists(relative))
+            return jox_hoard_text(hoard, relative);
+    }
     const char *forms[] = {"%.400s%s", "../behaviours/%.400s%s", "%s/behaviours/%.300s%s"};
     for (int i = 0; i < 3; i++) {
         if (i < 2)
@@ -354,6 +364,7 @@ static void read_group(JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group, uin
     double facing = jox_key_number(&l->reader, map, "group", "facing");
     group->facing = (float)(facing * DEGREE);
     group->team = jox_hoard_text(l->reader.hoard, jox_key_text(&l->reader, map, "group", "team"));
+    group->party = (uint32_t)jox_key_number(&l->reader, map, "group", "party");
     group->tags = jox_load_tags(l, jox_yaml_get(map, "tags"), &group->tag_count);
     group->set = jox_load_sets(l, jox_yaml_get(map, "set"), false, &group->set_count);
     group->memory = jox_load_sets(l, jox_yaml_get(map, "memory"), true, &group->memory_count);
@@ -496,14 +507,19 @@ JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
                               const JoxSceneOptions *options, JoxDiagnostics *diagnostics) {
     JoxHoard *hoard = jox_hoard_create();
     JoxYamlFiles *files = jox_hoard_take(hoard, 1, sizeof *files);
-    JoxLoad load = {{hoard, diagnostics}, jox_alloc(1, sizeof(JoxScene)), NULL};
+    JoxLoad load = {.reader = {hoard, diagnostics},
+                    .scene = jox_alloc(1, sizeof(JoxScene)),
+                    .options = options};
     const size_t errors = diagnostics->errors;
     load.scene->memory = hoard;
     load.datadir = options ? options->datadir : NULL;
     load.scene->path = jox_hoard_text(hoard, name);
     JoxYaml *root = jox_yaml_load(hoard, load.scene->path, text, length, files, diagnostics);
+    if (root && options)
+        root = jox_load_patches(&load, root, files);
     for (uint32_t i = 0; root && options && i < options->set_count; i++)
-        jox_load_override(&load, root, options->sets[i]);
+        if (strncmp(options->sets[i], "mods.", 5) != 0) /* settings of mods, read before */
+            jox_load_override(&load, root, options->sets[i]);
     if (root)
         read_scene(&load, root);
     for (uint32_t i = 0; i < files->count; i++)
@@ -518,6 +534,8 @@ JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
     for (uint32_t i = 0; i < files->count; i++) {
         load.scene->files[i].path = files->items[i].path;
         memcpy(load.scene->files[i].sha256, files->items[i].sha256, 65);
+        load.scene->files[i].text = files->items[i].text;
+        load.scene->files[i].length = files->items[i].length;
     }
     return load.scene;
 }

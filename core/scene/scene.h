@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "base/diag.h"
+#include "base/mod.h"
 #include "base/random.h"
 #include "body/body.h"
 #include "geom/place.h"
@@ -44,9 +45,10 @@ typedef struct JoxSceneGroup {
     JoxFillMode fill;
     JoxV2 *positions; /* filled, from the scene's seed */
     uint32_t count;
-    float facing; /* rad, anti-clockwise from +x; NAN: not given */
-    JoxV2 centre; /* of a circle fill, and the mirror of `antipode` */
-    char *team;   /* or NULL */
+    float facing;   /* rad, anti-clockwise from +x; NAN: not given */
+    JoxV2 centre;   /* of a circle fill, and the mirror of `antipode` */
+    char *team;     /* or NULL */
+    uint32_t party; /* agents in a row that are a team of their own; 1: none */
     char **tags;
     uint32_t tag_count;
     JoxSceneSet *set;
@@ -84,9 +86,19 @@ typedef struct JoxSceneBody {
     JoxPosition position;
 } JoxSceneBody;
 
+/* A path of the scene that a mod set. */
+typedef struct JoxSceneChange {
+    char *path; /* "groups.red.count" */
+    JoxPosition position;
+    uint32_t mod;
+    bool removes;
+} JoxSceneChange;
+
 typedef struct JoxSceneFile {
     char *path;
     char sha256[65];
+    const char *text;
+    size_t length;
 } JoxSceneFile;
 
 typedef struct JoxScene {
@@ -125,6 +137,8 @@ typedef struct JoxScene {
     double heatmap_from; /* s; averages begin there */
     JoxSceneFile *files; /* scene and included files */
     uint32_t file_count;
+    JoxSceneChange *changes; /* in the order in which they were made */
+    uint32_t change_count;
     void *memory; /* owns every text and array above but `walls` */
 } JoxScene;
 
@@ -133,6 +147,9 @@ typedef struct JoxSceneOptions {
     const char *const *sets;
     uint32_t set_count;
     const char *datadir; /* where installed behaviours/ lie; NULL: as built */
+    const JoxMod
+        *mods; /* in order; their patches of the scene are applied, and their behaviours found */
+    uint32_t mod_count;
 } JoxSceneOptions;
 
 /* NULL when there are errors, all of them in `diagnostics`. `options` may be NULL. */

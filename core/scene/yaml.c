@@ -97,6 +97,29 @@ void jox_yaml_set(JoxHoard *hoard, JoxYaml *map, const char *key, JoxYaml *value
     add_item(hoard, map, jox_hoard_text(hoard, key), value->position, value);
 }
 
+void jox_yaml_put(JoxHoard *hoard, JoxYaml *map, const char *key, JoxPosition at, JoxYaml *value) {
+    jox_yaml_set(hoard, map, key, value);
+    for (uint32_t i = 0; i < map->count; i++)
+        if (strcmp(map->keys[i], key) == 0)
+            map->key_positions[i] = at;
+}
+
+void jox_yaml_remove(JoxYaml *map, const char *key) {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < map->count; i++) {
+        if (strcmp(map->keys[i], key) == 0)
+            continue;
+        map->keys[kept] = map->keys[i];
+        map->key_positions[kept] = map->key_positions[i];
+        map->items[kept++] = map->items[i];
+    }
+    map->count = kept;
+}
+
+void jox_yaml_append(JoxHoard *hoard, JoxYaml *list, JoxYaml *item) {
+    add_item(hoard, list, NULL, item->position, item);
+}
+
 JoxYaml *jox_yaml_copy(JoxHoard *hoard, const JoxYaml *node) {
     JoxYaml *copy = jox_hoard_take(hoard, 1, sizeof *copy);
     *copy = *node;

@@ -43,6 +43,10 @@ JoxYaml *jox_yaml_load(JoxHoard *hoard, const char *path, const char *text, size
 JoxYaml *jox_yaml_get(const JoxYaml *map, const char *key);
 /* Sets `map[key]`, new or not. */
 void jox_yaml_set(JoxHoard *hoard, JoxYaml *map, const char *key, JoxYaml *value);
+/* The same with the key's position; takes the key away; adds an item to a list. */
+void jox_yaml_put(JoxHoard *hoard, JoxYaml *map, const char *key, JoxPosition at, JoxYaml *value);
+void jox_yaml_remove(JoxYaml *map, const char *key);
+void jox_yaml_append(JoxHoard *hoard, JoxYaml *list, JoxYaml *item);
 /* A copy whose own items can be changed; the items themselves are shared. An aliased node stands at
    several places of a tree, so copy before changing one of them. */
 JoxYaml *jox_yaml_copy(JoxHoard *hoard, const JoxYaml *node);

@@ -1,0 +1,212 @@
+/* jostle new: a commented start of a behaviour, a scene or a mod, that passes jostle check and
+ * runs. */
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "cli/cli.h"
+
+static const char HELP[] =
+    "usage: jostle new behaviour|scene|mod NAME\n\n"
+    "  behaviour   writes NAME.lua (in behaviours/, where there is such a folder)\n"
+    "  scene       writes NAME.yaml (in scenes/), and NAME.lua for it where there is none\n"
+    "  mod         writes mods/NAME/ (in scenes/mods/) with a behaviour, a scene and mod.yaml\n\n"
+    "What exists is never overwritten. NAME has lower-case letters, digits, - and _.\n"
+    "exit status: 0 done, 1 cannot write, 2 wrong usage\n";
+
+static const char BEHAVIOUR[] =
+    "-- NAME: walks to and fro between two ends. Save this file while a scene runs with --watch, "
+    "and\n"
+    "-- the crowd changes at once. Every word: jostle reference\n"
+    "local mine = memory { rounds = 0 }            -- what each agent remembers; survives reloads\n"
+    "local crowded = density_here:above(3)         -- a condition: people per square metre about "
+    "it\n"
+    "\n"
+    "return machine {\n"
+    "  name = \"NAME\", version = 1, start = \"Go\",\n"
+    "  defaults = { speed = normal(1.3, 0.2, 0.6, 2), radius = 0.2 },  -- drawn once per agent\n"
+    "\n"
+    "  states = {\n"
+    "    -- Named keys are parameters; the list below them are transitions, the first that holds "
+    "wins.\n"
+    "    Go = { steer = seek(own.goal) + 0.2 * spread,\n"
+    "      { to = \"Wait\", when = crowded, chance = 0.02 },\n"
+    "      { to = \"Back\", when = inside(own.goal), set = { rounds = mine.rounds + 1 } } },\n"
+    "\n"
+    "    Back = { steer = seek(own.home),\n"
+    "      { to = \"Go\", when = inside(own.home) } },\n"
+    "\n"
+    "    Wait = { steer = hold, lasts = uniform(1, 3),\n"
+    "      { to = \"Go\", when = lasted } },\n"
+    "  },\n"
+    "}\n";
+
+static const char SCENE[] =
+    "# NAME: forty people walk to and fro between two ends of a hall.\n"
+    "# Run it:   jostle run FILE --report out\n"
+    "# Check it: jostle check FILE          Every key: jostle reference scene\n"
+    "jostle: 1\n"
+    "title: NAME\n"
+    "seed: 1\n"
+    "duration: 60\n"
+    "places:                      # what behaviours name, in metres\n"
+    "  hall: {polygon: [[0, 0], [20, 0], [20, 8], [0, 8]]}\n"
+    "  west: {polygon: [[0, 0], [2, 0], [2, 8], [0, 8]]}\n"
+    "  east: {polygon: [[18, 0], [20, 0], [20, 8], [18, 8]]}\n"
+    "walls:\n"
+    "  - {line: [[0, 0], [20, 0], [20, 8], [0, 8]], closed: true}\n"
+    "groups:\n"
+    "  eastward:\n"
+    "    behaviour: BEHAVIOUR\n"
+    "    count: 20\n"
+    "    fill: random\n"
+    "    in: west\n"
+    "    set: {goal: east, home: west}   # values of the behaviour's own: own.goal, own.home\n"
+    "  westward:\n"
+    "    behaviour: BEHAVIOUR\n"
+    "    count: 20\n"
+    "    in: east\n"
+    "    set: {goal: west, home: east}\n";
+
+static const char MOD[] =
+    "# NAME: a mod. It is taken by scenes that lie beside its folder `mods/`, or by --mod.\n"
+    "name: NAME\n"
+    "title: What it does, in a line\n"
+    "version: 1.0.0\n"
+    "api: 1\n"
+    "enabled: false          # true: taken because it lies in a folder of mods; false: only when "
+    "named\n"
+    "# depends: [other-mod, \"third >= 1.2\"]     # must be there, and come before\n"
+    "# load_after: [other-mod]                  # comes after it where both are taken\n"
+    "# conflicts: [another]\n"
+    "settings:               # --set mods.NAME.reach=4, or in a scene: mods: {NAME: {reach: 4}}\n"
+    "  reach: {value: 3, unit: m, least: 1, greatest: 20, meaning: how far people see}\n";
+
+static const char PATCH[] =
+    "-- Changes the behaviour NAME:NAME of this mod; for one of the library write patch "
+    "\"tawaf\".\n"
+    "-- Other verbs in a state: change, replace, insert_before, insert_after, append, remove.\n"
+    "return patch \"NAME:NAME\" {\n"
+    "  defaults = { perception = settings.reach },\n"
+    "  states = {\n"
+    "    Wait = { face = own.goal, change = { Go = { when = lasted | pushed:above(150) } } },\n"
+    "  },\n"
+    "}\n";
+
+/* Writes text with every NAME (and BEHAVIOUR, FILE) put in; says so. */
+static int write_file(const char *path, const char *text, const char *name, const char *behaviour) {
+    struct stat info;
+    if (stat(path, &info) == 0) {
+        fprintf(stderr, "jostle new: '%s' is there already\n", path);
+        return JO_FAILED;
+    }
+    FILE *file = fopen(path, "w");
+    if (!file) {
+        fprintf(stderr, "jostle new: cannot write '%s': %s\n", path, strerror(errno));
+        return JO_FAILED;
+    }
+    const struct {
+        const char *word, *by;
+    } WORDS[] = {{"NAME", name}, {"BEHAVIOUR", behaviour}, {"FILE", path}};
+    while (*text) {
+        size_t used = 0;
+        for (size_t w = 0; w < sizeof WORDS / sizeof *WORDS && !used; w++)
+            if (strncmp(text, WORDS[w].word, strlen(WORDS[w].word)) == 0) {
+                fputs(WORDS[w].by, file);
+                used = strlen(WORDS[w].word);
+            }
+        if (!used)
+            fputc(*text++, file);
+        text += used;
+    }
+    if (fclose(file) != 0)
+        return JO_FAILED;
+    printf("wrote %s\n", path);
+    return JO_OK;
+}
+
+static bool is_folder(const char *path) {
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+static int new_behaviour(const char *folder, const char *name) {
+    char path[512];
+    snprintf(path, sizeof path, "%s%.200s.lua", folder, name);
+    int status = write_file(path, BEHAVIOUR, name, "");
+    if (!status)
+        printf("Check it:     jostle check %s\nA scene of it: jostle new scene %s\n", path, name);
+    return status;
+}
+
+static int new_scene(const char *folder, const char *behaviours, const char *name) {
+    char path[512], lua[512];
+    struct stat info;
+    snprintf(path, sizeof path, "%s%.200s.yaml", folder, name);
+    snprintf(lua, sizeof lua, "%s%.200s.lua", behaviours, name);
+    int status = stat(lua, &info) == 0 ? JO_OK : write_file(lua, BEHAVIOUR, name, "");
+    snprintf(lua, sizeof lua, "%.200s.lua", name); /* found beside, or in ../behaviours */
+    status = status ? status : write_file(path, SCENE, name, lua);
+    if (!status)
+        printf("Run it: jostle run %s\n", path);
+    return status;
+}
+
+static int new_mod(const char *parent, const char *name) {
+    static const char *const FOLDERS[] = {"", "/behaviours", "/scenes", "/patches"};
+    char folder[512], path[700];
+    if (mkdir(parent, 0777) != 0 && errno != EEXIST) {
+        fprintf(stderr, "jostle new: cannot make '%s': %s\n", parent, strerror(errno));
+        return JO_FAILED;
+    }
+    snprintf(folder, sizeof folder, "%s/%.200s", parent, name);
+    for (int f = 0; f < 4; f++) {
+        snprintf(path, sizeof path, "%s%s", folder, FOLDERS[f]);
+        if (mkdir(path, 0777) != 0) {
+            fprintf(stderr, "jostle new: cannot make '%s': %s\n", path, strerror(errno));
+            return JO_FAILED;
+        }
+    }
+    const struct {
+        const char *form, *text;
+    } FILES[] = {{"%s/mod.yaml", MOD},
+                 {"%s/behaviours/%s.lua", BEHAVIOUR},
+                 {"%s/scenes/%s.yaml", SCENE},
+                 {"%s/patches/%s.lua", PATCH}};
+    char behaviour[300];
+    snprintf(behaviour, sizeof behaviour, "%.200s.lua", name);
+    int status = JO_OK;
+    for (int f = 0; f < 4 && !status; f++) {
+        snprintf(path, sizeof path, FILES[f].form, folder, name);
+        status = write_file(path, FILES[f].text, name, behaviour);
+    }
+    if (!status)
+        printf("Run it: jostle run %s/scenes/%s.yaml --mod %s\n", folder, name, folder);
+    return status;
+}
+
+int cli_new(int argc, char **argv) {
+    const char *kind = argc > 1 ? argv[1] : "", *name = argc > 2 ? argv[2] : "";
+    if (!strcmp(kind, "--help") || !strcmp(kind, "-h")) {
+        fputs(HELP, stdout);
+        return JO_OK;
+    }
+    size_t n = strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_");
+    if (argc == 3 && n > 0 && n <= 60 && !name[n]) {
+        const char *behaviours = is_folder("behaviours") ? "behaviours/" : "";
+        const char *scenes = is_folder("scenes") ? "scenes/" : "";
+        if (!strcmp(kind, "behaviour"))
+            return new_behaviour(behaviours, name);
+        if (!strcmp(kind, "scene")) /* what a scene of scenes/ needs lies in ../behaviours */
+            return new_scene(scenes, *scenes ? behaviours : "", name);
+        if (!strcmp(kind, "mod"))
+            return new_mod(*scenes ? "scenes/mods" : "mods", name);
+    }
+    fprintf(stderr, "jostle new: %s\n\n%s",
+            argc != 3       ? "say what, and its name"
+            : name[n] || !n ? "a name has lower-case letters, digits, - and _"
+                            : "a behaviour, a scene or a mod can be made",
+            HELP);
+    return JO_USAGE;
+}

@@ -1,0 +1,194 @@
+/* Machines of a scene: loaded, linked to those that they become, and held against each other. */
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/mem.h"
+#include "host/host.h"
+
+static int32_t find_machine(const JoxMind *mind, const char *path) {
+    for (uint32_t m = 0; m < mind->machine_count; m++)
+        if (strcmp(mind->machines[m]->path, path) == 0)
+            return (int32_t)m;
+    return -1;
+}
+
+int32_t jox_host_machine(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
+    JoxMind *mind = &scene->world->mind;
+    int32_t known = find_machine(mind, path);
+    if (known >= 0)
+        return known;
+    if (mind->machine_count == JOX_MOST_MACHINES) {
+        jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "too-many", NULL,
+                       "a scene has at most %d behaviours", JOX_MOST_MACHINES);
+        return -1;
+    }
+    JoxMachine *machine = jox_lua_load(scene->lua, path, &scene->scope, diagnostics);
+    return machine ? (int32_t)jox_mind_add(mind, machine) : -1;
+}
+
+static bool is_file(const char *path) {
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISREG(info.st_mode);
+}
+
+/* The file of a behaviour that another one names: beside it, of the library, or of a mod. */
+static bool find_behaviour(const JoScene *scene, const char *from, const char *name,
+                           char path[1024]) {
+    const char *slash = strrchr(from, '/'), *colon = strchr(name, ':');
+    size_t n = strlen(name);
+    const char *lua = n > 4 && !strcmp(name + n - 4, ".lua") ? "" : ".lua";
+    if (strstr(name, "..") &&
+        !scene->plan) /* plain names alone, but where a scene stands for them */
+        return false;
+    for (uint32_t m = 0; colon && m < scene->mods->count; m++) {
+        const JoxMod *mod = &scene->mods->items[m];
+        if (strncmp(mod->name, name, (size_t)(colon - name)) || mod->name[colon - name])
+            continue;
+        snprintf(path, 1024, "%.500s/behaviours/%.200s%s", mod->folder, colon + 1, lua);
+        return is_file(path);
+    }
+    snprintf(path, 1024, "%.*s%.200s%s", slash ? (int)(slash - from) + 1 : 0, from, name, lua);
+    if (is_file(path))
+        return true;
+    snprintf(path, 1024, "%s/behaviours/%.200s%s", JOX_DATADIR, name, lua);
+    return is_file(path);
+}
+
+bool jox_host_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics) {
+    bool good = true;
+    for (uint32_t s = 0; s < machine->state_count; s++) {
+        JoxState *state = &machine->states[s];
+        char path[1024];
+        if (!state->become)
+            continue;
+        JoxPosition at = {machine->path, state->become_line, state->become_column, 0};
+        if (s == machine->start) {
+            jox_diag_error(diagnostics, at, "bad-value", "Begin in another state",
+                           "the state that agents start in cannot become another machine at once");
+            good = false;
+        } else if (strstr(state->become, "..") || *state->become == '/' ||
+                   !find_behaviour(scene, machine->path, state->become, path)) {
+            jox_diag_error(diagnostics, at, "missing-file",
+                           "A plain name: of a file beside this one, or of the library",
+                           "there is no behaviour '%.100s' to become", state->become);
+            good = false;
+        } else {
+            state->become_machine = jox_host_machine(scene, path, diagnostics);
+            good = good && state->become_machine >= 0;
+        }
+    }
+    return good;
+}
+
+bool jox_host_load_machines(JoScene *scene, int32_t *culprit, JoxDiagnostics *diagnostics) {
+    const JoxScene *plan = scene->plan;
+    JoxMind *mind = &scene->world->mind;
+    bool good = true;
+    for (uint32_t g = 0; g < plan->group_count; g++)
+        for (uint32_t m = 0; m < plan->groups[g].mix_count; m++) {
+            const char *path = plan->groups[g].mix[m].behaviour;
+            bool failed_before = false;
+            for (uint32_t h = 0; h <= g; h++)
+                for (uint32_t k = 0; k < (h == g ? m : plan->groups[h].mix_count); k++)
+                    failed_before |= !strcmp(plan->groups[h].mix[k].behaviour, path);
+            if (failed_before || jox_host_machine(scene, path, diagnostics) >= 0)
+                continue;
+            good = false;
+            if (*culprit < 0 && scene->mods->count)
+                *culprit = jox_lua_blame(scene->lua, path, &scene->scope);
+        }
+    for (uint32_t m = 0; m < mind->machine_count; m++) /* grows while it goes on */
+        good &= jox_host_link(scene, mind->machines[m], diagnostics);
+    return good;
+}
+
+/* Whether some machine has a name in that use, or a state of that name. */
+static bool used(const JoxMind *mind, const char *text, uint32_t use) {
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        const JoxMachine *machine = mind->machines[m];
+        for (uint32_t n = 0; n < machine->name_count; n++)
+            if ((machine->names[n].uses & use) && strcmp(machine->names[n].text, text) == 0)
+                return true;
+        if (use == JOX_NAME_STATE && jox_machine_state(machine, text) >= 0)
+            return true;
+    }
+    return false;
+}
+
+/* Whether a group whose agents may run the machine sets the own value. */
+static bool given(const JoScene *scene, const JoxMachine *machine, const char *name) {
+    const JoxScene *plan = scene->plan;
+    bool runs = false;
+    for (uint32_t g = 0; g < plan->group_count; g++)
+        for (uint32_t m = 0; m < plan->groups[g].mix_count; m++) {
+            if (strcmp(plan->groups[g].mix[m].behaviour, machine->path) != 0)
+                continue;
+            runs = true;
+            for (uint32_t s = 0; s < plan->groups[g].set_count; s++)
+                if (strcmp(plan->groups[g].set[s].name, name) == 0)
+                    return true;
+        }
+    return !runs; /* something else becomes it, and brings its own values */
+}
+
+static void check_own(const JoScene *scene, const JoxMachine *machine,
+                      JoxDiagnostics *diagnostics) {
+    for (uint32_t o = 0; o < machine->own_count; o++) {
+        const JoxOwnSlot *slot = &machine->own[o];
+        if (!*slot->name || jox_parameter_find(slot->name) >= 0 ||
+            given(scene, machine, slot->name))
+            continue;
+        const char *names[JOX_PARAM_COUNT], *near;
+        char hint[160];
+        for (int p = 0; p < JOX_PARAM_COUNT; p++)
+            names[p] = jox_parameters[p].name;
+        near = jox_suggest(slot->name, names, JOX_PARAM_COUNT);
+        uint32_t count;
+        const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
+        const char *file = slot->source < count ? files[slot->source].path : machine->path;
+        snprintf(hint, sizeof hint,
+                 near ? "Did you mean 'own.%.60s'?" : "In the scene's group: set: {%.60s: ...}",
+                 near ? near : slot->name);
+        jox_diag_error(
+            diagnostics, ((JoxPosition){file, slot->line, slot->column, slot->end_column}),
+            "unknown-value", hint, "'%.60s' is no parameter, and no group that runs %s sets it",
+            slot->name, machine->name);
+    }
+}
+
+/* Shows the line of an error that is in a behaviour's file. */
+static void attach(const JoScene *scene, const JoxMachine *machine, JoxDiagnostics *diagnostics) {
+    uint32_t count;
+    const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
+    for (uint32_t f = 0; f < count; f++) {
+        size_t length;
+        char *text = jox_read_file(files[f].path, 1 << 20, &length);
+        if (text)
+            jox_diag_attach_source(diagnostics, files[f].path, text, length);
+        jox_free(text);
+    }
+}
+
+void jox_host_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
+    const JoxMind *mind = &scene->world->mind;
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        const JoxMachine *machine = mind->machines[m];
+        size_t before = diagnostics->count;
+        check_own(scene, machine, diagnostics);
+        for (uint32_t n = 0; n < machine->name_count; n++) {
+            const JoxName *name = &machine->names[n];
+            bool heard = name->uses & JOX_NAME_HEARD, state = name->uses & JOX_NAME_STATE;
+            if (heard && !used(mind, name->text, JOX_NAME_SIGNALLED) && !machine->hook_count)
+                jox_diag_add(diagnostics, JOX_SEVERITY_WARNING,
+                             (JoxPosition){machine->path, 0, 0, 0}, "unheard-signal", NULL, NULL,
+                             NULL, "no machine of the scene gives the signal '%s'", name->text);
+            if (state && !used(mind, name->text, JOX_NAME_STATE))
+                jox_diag_add(diagnostics, JOX_SEVERITY_WARNING,
+                             (JoxPosition){machine->path, 0, 0, 0}, "unknown-state", NULL, NULL,
+                             NULL, "no machine of the scene has a state '%s'", name->text);
+        }
+        if (diagnostics->count > before)
+            attach(scene, machine, diagnostics);
+    }
+}

@@ -1,0 +1,21 @@
+/* Generated pages and files, by name. */
+#include <string.h>
+
+#include "base/assert.h"
+#include "host/host.h"
+#include "lua/reference.h"
+
+char *jo_reference(const char *what) {
+    JOX_REQUIRE(what, NULL);
+    static const struct {
+        const char *name;
+        void (*print)(JoxText *out);
+    } PAGES[] = {{"behaviours", jox_lua_reference},
+                 {"lua-ls", jox_lua_definitions},
+                 {"luacheck", jox_lua_luacheck}};
+    JoxText out = {0};
+    for (size_t p = 0; p < sizeof PAGES / sizeof *PAGES; p++)
+        if (!strcmp(PAGES[p].name, what))
+            PAGES[p].print(&out);
+    return out.data;
+}

@@ -1,0 +1,372 @@
+#include "lua/reference.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "lua/vocabulary.h"
+
+static const struct Section {
+    const char *title, *intro;
+    JoxNodeKind makes;
+} SECTIONS[] = {
+    {"Conditions", "Joined by `&`, `|` and `~`; method calls bind before `~`, then `&`, then `|`.",
+     JOX_NODE_CONDITION},
+    {"Numbers",
+     "Joined by `+ - * /`; made conditions by `:above(n)`, `:below(n)`, `:at_least(n)`, "
+     "`:at_most(n)` and `:is(n)`.",
+     JOX_NODE_NUMBER},
+    {"Targets", "Where a target is asked for, the name of a place does as well.", JOX_NODE_TARGET},
+    {"Steering", "Weighted sums: `0.8 * seek(goal) + 0.2 * spread`.", JOX_NODE_STEER},
+    {"Drawn values", "For `defaults`, parameters and `lasts`.", JOX_NODE_DIST},
+    {"Counting", "", JOX_NODE_CIRCUITS},
+    {"The sheet, and others", "", 0},
+};
+
+/* Text in a cell of a table: | would end it. */
+static void cell(JoxText *out, const char *text) {
+    for (const char *c = text; *c; c++) {
+        if (*c == '|')
+            jox_text_add(out, "\\");
+        jox_text_append(out, c, 1);
+    }
+}
+
+static void print_words(JoxText *out, const struct Section *section) {
+    jox_text_printf(out, "\n### %s\n\n%s%s| word | unit | meaning | example |\n|---|---|---|---|\n",
+                    section->title, section->intro, *section->intro ? "\n\n" : "");
+    for (size_t w = 0; w < jox_word_count; w++) {
+        const JoxWord *word = &jox_words[w];
+        if (word->makes != section->makes)
+            continue;
+        jox_text_add(out, "| `");
+        cell(out, word->signature);
+        jox_text_printf(out, "` | %s | ", word->unit);
+        cell(out, word->meaning);
+        jox_text_add(out, " | `");
+        cell(out, word->example);
+        jox_text_add(out, "` |\n");
+    }
+}
+
+static void print_keys(JoxText *out, const char *owner, const char *title, const char *intro) {
+    jox_text_printf(
+        out, "\n### %s\n\n%s%s| key | what | unit | meaning | example |\n|---|---|---|---|---|\n",
+        title, intro, *intro ? "\n\n" : "");
+    for (size_t k = 0; k < jox_sheet_key_count; k++) {
+        const JoxSheetKey *key = &jox_sheet_keys[k];
+        if (strcmp(key->owner, owner) != 0)
+            continue;
+        jox_text_printf(out, "| `%s` | ", key->name);
+        cell(out, key->type);
+        jox_text_printf(out, " | %s | ", key->unit);
+        cell(out, key->meaning);
+        jox_text_add(out, " | `");
+        cell(out, key->example);
+        jox_text_add(out, "` |\n");
+    }
+}
+
+/* A value in a parameter's range that is not its default. */
+static double sample(const JoxParameterInfo *p) {
+    double value = p->value + 0.25 * ((p->value < 1.0 ? 1.0 : p->value));
+    return value > p->greatest ? p->greatest : value;
+}
+
+void jox_lua_reference(JoxText *out) {
+    jox_text_add(
+        out,
+        "# Every word of behaviours\n\n"
+        "Made by `jostle reference behaviours`; every example is run by the tests. SI units\n"
+        "throughout. A behaviour is a file that returns one `machine`; README.md of this folder\n"
+        "begins with an empty one.\n\n## Words\n");
+    for (size_t s = 0; s < sizeof SECTIONS / sizeof *SECTIONS; s++)
+        print_words(out, &SECTIONS[s]);
+    jox_text_add(
+        out,
+        "\n## Parameters\n\nKeys of `defaults` and of every state. A value is a number, a drawn "
+        "value (once per agent), or an\nexpression that is computed each step.\n\n"
+        "| parameter | unit | range | default | meaning | example |\n|---|---|---|---|---|---|\n");
+    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+        const JoxParameterInfo *info = &jox_parameters[p];
+        jox_text_printf(out, "| `%s` | %s | %g to %g | %g | %s | `%s = %g` |\n", info->name,
+                        info->unit, info->least, info->greatest, info->value, info->meaning,
+                        info->name, sample(info));
+    }
+    jox_text_add(out, "\n## Tables\n");
+    print_keys(out, "machine", "machine { ... }", "");
+    print_keys(out, "state", "A state", "And every parameter; the items are its transitions.");
+    print_keys(out, "kick", "kick = { body, ... }", "");
+    print_keys(out, "throw", "throw = { body, ... }", "");
+    print_keys(out, "signal", "signal = { name, ... }", "");
+    print_keys(out, "transition", "A transition", "");
+    jox_text_add(
+        out,
+        "\n## Functions\n\n`on_enter`, `on_exit`, `on_take`, `when` and `steer` may be plain "
+        "functions of `me`. They run for the agents\nconcerned, in order of id, after the compiled "
+        "transitions. `me` also has every parameter and whatever `memory`\ndeclares; parameters, "
+        "memory and `goal` can be set.\n\n| of me | what | unit | meaning |\n|---|---|---|---|\n");
+    for (size_t k = 0; k < jox_me_key_count; k++)
+        jox_text_printf(out, "| `%s` | %s | %s | %s |\n", jox_me_keys[k].name, jox_me_keys[k].type,
+                        jox_me_keys[k].unit, jox_me_keys[k].meaning);
+}
+
+/* ---- editors ---- */
+
+static const char *class_of(const JoxWord *word) {
+    switch (word->makes) {
+    case JOX_NODE_CONDITION:
+        return "jostle.Condition";
+    case JOX_NODE_NUMBER:
+        return "jostle.Number";
+    case JOX_NODE_TARGET:
+        return "jostle.Target";
+    case JOX_NODE_STEER:
+        return "jostle.Steering";
+    case JOX_NODE_DIST:
+        return "jostle.Drawn";
+    default:
+        return "any";
+    }
+}
+
+static const char *argument_type(char letter) {
+    return letter == 'p'   ? "string|jostle.Target|jostle.Number"
+           : letter == 't' ? "string|jostle.Target|jostle.Number"
+           : letter == 'n' ? "number|jostle.Number"
+           : letter == 'd' ? "number"
+                           : "string";
+}
+
+static void define_word(JoxText *out, const JoxWord *word) {
+    static const char *const KEYWORDLESS[] = {"require", "print", "machine"};
+    for (size_t k = 0; k < 2; k++)
+        if (!strcmp(word->name, KEYWORDLESS[k]))
+            return; /* Lua's own */
+    jox_text_printf(out, "\n--- `%s`%s%s: %s\n", word->signature, *word->unit ? " in " : "",
+                    word->unit, word->meaning);
+    if (word->takes && *word->takes != '*') {
+        char list[64] = "";
+        int n = 0;
+        for (const char *t = word->takes; *t; t++) {
+            bool optional = *t == '?';
+            t += optional;
+            n++;
+            jox_text_printf(out, "---@param a%d%s %s\n", n, optional ? "?" : "", argument_type(*t));
+            snprintf(list + strlen(list), sizeof list - strlen(list), "%sa%d", n > 1 ? ", " : "",
+                     n);
+        }
+        jox_text_printf(out, "---@return %s\nfunction %s(%s) end\n", class_of(word), word->name,
+                        list);
+    } else if (!strcmp(word->name, "machine")) {
+        jox_text_add(
+            out, "---@param sheet jostle.Machine\n---@return any\nfunction machine(sheet) end\n");
+    } else if (!strcmp(word->name, "patch") || !strcmp(word->name, "replace")) {
+        jox_text_printf(out,
+                        "---@param behaviour string\n---@return fun(sheet: table): any\nfunction "
+                        "%s(behaviour) end\n",
+                        word->name);
+    } else if (word->takes) {
+        jox_text_printf(out, "---@return %s\nfunction %s(...) end\n", class_of(word), word->name);
+    } else if (!strcmp(word->name, "now") || !strcmp(word->name, "own") ||
+               !strcmp(word->name, "settings")) {
+        jox_text_printf(out, "---@type table<string, jostle.Number>\n%s = {}\n", word->name);
+    } else {
+        jox_text_printf(out, "---@type %s\n%s = nil\n", class_of(word), word->name);
+    }
+}
+
+static void define_table(JoxText *out, const char *class, const char *owner, bool parameters) {
+    jox_text_printf(out, "\n---@class %s\n", class);
+    for (size_t k = 0; k < jox_sheet_key_count; k++)
+        if (!strcmp(jox_sheet_keys[k].owner, owner))
+            jox_text_printf(out, "---@field %s? any %s. %s%s%s\n", jox_sheet_keys[k].name,
+                            jox_sheet_keys[k].type, jox_sheet_keys[k].meaning,
+                            *jox_sheet_keys[k].unit ? ", " : "", jox_sheet_keys[k].unit);
+    for (int p = 0; parameters && p < JOX_PARAM_COUNT; p++) {
+        const JoxParameterInfo *info = &jox_parameters[p];
+        jox_text_printf(
+            out, "---@field %s? number|jostle.Number|jostle.Drawn %s%s%s; %g to %g, default %g\n",
+            info->name, info->meaning, *info->unit ? ", " : "", info->unit, info->least,
+            info->greatest, info->value);
+    }
+}
+
+void jox_lua_definitions(JoxText *out) {
+    jox_text_add(
+        out,
+        "---@meta\n"
+        "-- Definitions of the words of behaviours for lua-language-server.\n"
+        "-- Made by `jostle reference lua-ls`. In .luarc.json: \"workspace.library\": "
+        "[\"scripts/editor\"]\n"
+        "\n---@class jostle.Condition\n---@operator band(jostle.Condition): jostle.Condition\n"
+        "---@operator bor(jostle.Condition): jostle.Condition\n---@operator bnot: "
+        "jostle.Condition\n"
+        "\n---@class jostle.Number\n---@operator add(number|jostle.Number): jostle.Number\n"
+        "---@operator sub(number|jostle.Number): jostle.Number\n"
+        "---@operator mul(number|jostle.Number): jostle.Number\n"
+        "---@operator div(number|jostle.Number): jostle.Number\n---@operator unm: jostle.Number\n"
+        "local Number = {}\n");
+    static const char *const METHODS[] = {"above", "below", "at_least", "at_most", "is"};
+    for (size_t m = 0; m < 5; m++)
+        jox_text_printf(out,
+                        "---@param n number|jostle.Number\n---@return jostle.Condition\nfunction "
+                        "Number:%s(n) end\n",
+                        METHODS[m]);
+    jox_text_add(
+        out,
+        "---@param state string\n---@return jostle.Number\nfunction Number:in_state(state) end\n"
+        "\n---@class jostle.Target\n---@class jostle.Drawn\n"
+        "\n---@class jostle.Steering\n---@operator add(jostle.Steering): jostle.Steering\n"
+        "---@operator mul(number|jostle.Number): jostle.Steering\n");
+    define_table(out, "jostle.Machine", "machine", false);
+    define_table(out, "jostle.State", "state", true);
+    define_table(out, "jostle.Transition", "transition", false);
+    jox_text_add(out, "\n---@class jostle.Me\n");
+    for (size_t k = 0; k < jox_me_key_count; k++)
+        jox_text_printf(out, "---@field %s any %s%s%s. %s\n", jox_me_keys[k].name,
+                        jox_me_keys[k].type, *jox_me_keys[k].unit ? " in " : "",
+                        jox_me_keys[k].unit, jox_me_keys[k].meaning);
+    for (size_t w = 0; w < jox_word_count; w++)
+        define_word(out, &jox_words[w]);
+}
+
+void jox_lua_luacheck(JoxText *out) {
+    static const char *const PLAIN[] = {"pairs",    "ipairs", "next",   "type",   "tostring",
+                                        "tonumber", "error",  "assert", "select", "pcall",
+                                        "math",     "string", "table"};
+    jox_text_add(out,
+                 "-- The words of behaviours, for luacheck. Made by `jostle reference luacheck`.\n"
+                 "std = {\n  read_globals = {\n");
+    for (size_t w = 0; w < jox_word_count; w++)
+        jox_text_printf(out, "    \"%s\",\n", jox_words[w].name);
+    for (size_t p = 0; p < sizeof PLAIN / sizeof *PLAIN; p++)
+        jox_text_printf(out, "    \"%s\",\n", PLAIN[p]);
+    jox_text_add(
+        out,
+        "  },\n}\nmax_line_length = 120\n"
+        "files[\"**/*_test.lua\"] = { read_globals = { \"test\", \"scene\", \"equal\", \"near\", "
+        "\"truthy\", \"fails\", \"expect_error\" } }\n");
+}
+
+/* ---- examples ---- */
+
+static const char MEMORY[] = "local mine = memory { laps = 0, touched = false }\n";
+
+static void sheet(JoxText *out, const char *top, const char *state, const char *transition) {
+    jox_text_printf(
+        out,
+        "%sreturn machine {\n  name = \"example\", version = 1, start = \"Start\",%s\n"
+        "  states = {\n    Start = { { to = \"Trial\", when = after(0.2) } },\n"
+        "    Trial = { %s\n      { to = \"Next\"%s } },\n"
+        "    Next = { steer = hold, set = { laps = mine.laps, touched = false } },\n  },\n}\n",
+        MEMORY, top, state, transition);
+}
+
+static void word_example(const JoxWord *word, JoxText *out, bool *of_mod) {
+    char part[512];
+    const char *e = word->example;
+    *of_mod = false;
+    switch (word->makes) {
+    case JOX_NODE_CONDITION:
+        snprintf(part, sizeof part, ", when = %s | after(1)", e);
+        sheet(out, "", "", part);
+        return;
+    case JOX_NODE_NUMBER:
+        snprintf(part, sizeof part, "speed = clamp(%s, 0, 2), steer = drift(1, 0),", e);
+        sheet(out, "", part, ", when = after(1)");
+        return;
+    case JOX_NODE_TARGET:
+        snprintf(part, sizeof part, "steer = seek(%s), face = %s,", e, e);
+        sheet(out, "", part, ", when = after(1)");
+        return;
+    case JOX_NODE_STEER:
+        snprintf(part, sizeof part, "steer = %s,", e);
+        sheet(out, "", part, ", when = after(1)");
+        return;
+    case JOX_NODE_DIST:
+        snprintf(part, sizeof part, " defaults = { speed = %s },", e);
+        sheet(out, part, "", ", when = after(1)");
+        return;
+    case JOX_NODE_CIRCUITS:
+        snprintf(part, sizeof part, " counts = { laps = %s },", e);
+        sheet(out, part, "", ", when = after(1)");
+        return;
+    default:
+        break;
+    }
+    if (strstr(e, "patch") || strstr(e, "replace")) {
+        jox_text_printf(out, "return %s\n", e);
+        *of_mod = true;
+    } else if (!strncmp(e, "machine", 7)) {
+        jox_text_printf(out, "return %s\n", e);
+    } else if (!strncmp(e, "memory", 6)) {
+        sheet(out, "", "", ", when = mine.laps:is(0)");
+    } else if (!strncmp(e, "require", 7) || !strncmp(e, "print", 5)) {
+        jox_text_printf(out, "%s%s\n", strncmp(e, "require", 7) ? "" : "local library = ", e);
+        sheet(out, "", "", ", when = after(1)");
+    } else {
+        snprintf(part, sizeof part, "push = 10 * %s,", e);
+        sheet(out, "", part, ", when = after(1)");
+    }
+}
+
+static void key_example(const JoxSheetKey *key, JoxText *out) {
+    char part[512];
+    bool become = !strcmp(key->name, "become");
+    if (!strcmp(key->owner, "machine")) {
+        bool whole = !strcmp(key->name, "states"), own = !strcmp(key->name, "name") ||
+                                                         !strcmp(key->name, "start") ||
+                                                         !strcmp(key->name, "version");
+        if (whole)
+            jox_text_printf(out, "return machine { name = \"example\", start = \"Start\", %s }\n",
+                            key->example);
+        else if (own)
+            jox_text_printf(out, "return machine { %s%s%s, states = { Start = {} } }\n",
+                            key->example, strcmp(key->name, "name") ? ", name = \"example\"" : "",
+                            strcmp(key->name, "start") ? ", start = \"Start\"" : "");
+        else {
+            snprintf(part, sizeof part, " %s,", key->example);
+            sheet(out, part, "", ", when = after(1)");
+        }
+    } else if (!strcmp(key->owner, "state")) {
+        snprintf(part, sizeof part, "%s,", key->example);
+        sheet(out, "", part, become ? ", when = after(1)" : ", when = after(1) | lasted");
+    } else if (!strcmp(key->owner, "transition")) {
+        bool to = !strcmp(key->name, "to");
+        snprintf(part, sizeof part, "%s%s", to ? "" : ", ", to ? "" : key->example);
+        sheet(out, "", "", part);
+    } else if (!strcmp(key->owner, "signal")) {
+        snprintf(part, sizeof part, "signal = { \"alarm\", %s },", key->example);
+        sheet(out, "", part, ", when = after(1)");
+    } else {
+        bool kick = !strcmp(key->owner, "kick"), at = !strcmp(key->name, "at");
+        snprintf(part, sizeof part, "%s = { nearest \"ball\", %s%s },", key->owner, key->example,
+                 at     ? (kick ? ", impulse = 3" : ", speed = 5")
+                 : kick ? ""
+                        : ", at = \"post\"");
+        sheet(out, "", part, ", when = after(1)");
+    }
+}
+
+bool jox_lua_example(size_t n, JoxText *name, JoxText *out, bool *of_mod) {
+    *of_mod = false;
+    if (n < jox_word_count) {
+        jox_text_add(name, jox_words[n].name);
+        word_example(&jox_words[n], out, of_mod);
+        return true;
+    }
+    n -= jox_word_count;
+    if (n < jox_sheet_key_count) {
+        jox_text_printf(name, "%s.%s", jox_sheet_keys[n].owner, jox_sheet_keys[n].name);
+        key_example(&jox_sheet_keys[n], out);
+        return true;
+    }
+    n -= jox_sheet_key_count;
+    if (n >= JOX_PARAM_COUNT)
+        return false;
+    char part[128];
+    jox_text_add(name, jox_parameters[n].name);
+    snprintf(part, sizeof part, "%s = %g,", jox_parameters[n].name, sample(&jox_parameters[n]));
+    sheet(out, "", part, ", when = after(1)");
+    return true;
+}

@@ -1,0 +1,538 @@
+#include "scene/mods.h"
+
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/mem.h"
+#include "scene/schema.h"
+
+enum { MOST_FILES = 256, LARGEST_FILE = 1 << 20, API = 1 };
+
+/* What a mod.yaml says of others, until the order is known. */
+typedef struct Needs {
+    const JoxYaml *root;
+    const JoxYaml *const *depends, *const *optional, *const *conflicts, *const *load_after;
+    uint32_t depend_count, optional_count, conflict_count, after_count;
+    bool wanted, broken;
+    int depth;
+    uint64_t before; /* bits of `found` that come before it */
+} Needs;
+
+typedef struct Find {
+    const JoxModsDef *def;
+    JoxMods *mods;
+    Needs needs[JOX_MOST_MODS];
+    JoxReader reader;
+} Find;
+
+int32_t jox_mods_index(const JoxMods *mods, const char *name) {
+    for (uint32_t m = 0; m < mods->found_count; m++)
+        if (strcmp(mods->found[m].name, name) == 0)
+            return (int32_t)m;
+    return -1;
+}
+
+static bool is_folder(const char *path) {
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+static char *join(JoxHoard *hoard, const char *folder, const char *name) {
+    char *path = jox_hoard_take(hoard, strlen(folder) + strlen(name) + 2, 1);
+    sprintf(path, "%s/%s", folder, name);
+    return path;
+}
+
+/* ---- reading one ---- */
+
+static bool plain_name(const char *name) {
+    size_t n = strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_");
+    return n > 0 && n <= 60 && !name[n];
+}
+
+static void read_settings(Find *f, JoxMod *mod, const JoxYaml *map) {
+    const JoxReader *r = &f->reader;
+    if (map->kind != JOX_YAML_MAP || map->count > 64) {
+        jox_scene_error(r, map, "bad-type", "settings: {weight: {value: 80}}",
+                        "settings maps at most 64 names to settings");
+        return;
+    }
+    mod->settings = jox_hoard_take(r->hoard, map->count, sizeof *mod->settings);
+    for (uint32_t s = 0; s < map->count; s++) {
+        if (!jox_keys_check(r, map->items[s], "setting"))
+            continue;
+        JoxModSetting *setting = &mod->settings[mod->setting_count++];
+        const char *unit = jox_key_text(r, map->items[s], "setting", "unit");
+        const char *meaning = jox_key_text(r, map->items[s], "setting", "meaning");
+        *setting = (JoxModSetting){
+            .name = jox_hoard_text(r->hoard, map->keys[s]),
+            .unit = jox_hoard_text(r->hoard, unit ? unit : ""),
+            .meaning = jox_hoard_text(r->hoard, meaning ? meaning : ""),
+            .value = jox_key_number(r, map->items[s], "setting", "value"),
+            .least = jox_key_number(r, map->items[s], "setting", "least"),
+            .greatest = jox_key_number(r, map->items[s], "setting", "greatest"),
+            .position = map->key_positions[s],
+        };
+        if (!(setting->value >= setting->least && setting->value <= setting->greatest))
+            jox_scene_error(r, map->items[s], "out-of-range", NULL,
+                            "setting '%s' must be from %g to %g", setting->name, setting->least,
+                            setting->greatest);
+    }
+}
+
+static int by_name(const struct dirent **a, const struct dirent **b) {
+    return strcmp((*a)->d_name, (*b)->d_name);
+}
+
+static bool ends_with(const char *path, const char *ending) {
+    size_t n = strlen(path), m = strlen(ending);
+    return n >= m && strcmp(path + n - m, ending) == 0;
+}
+
+/* The target of a scene's patch: the top-level key `patch` or `replace`. */
+static void read_target(Find *f, JoxModPatch *patch) {
+    JoxYamlFiles *files = jox_hoard_take(f->reader.hoard, 1, sizeof *files);
+    JoxYaml *root =
+        jox_yaml_load(f->reader.hoard, patch->path, NULL, 0, files, f->reader.diagnostics);
+    const JoxYaml *target = jox_yaml_get(root, "patch");
+    patch->replaces = !target;
+    target = target ? target : jox_yaml_get(root, "replace");
+    if (root && (!target || target->kind != JOX_YAML_SCALAR)) {
+        jox_diag_error(f->reader.diagnostics, root->position, "no-patch", "patch: NAME",
+                       "this file must say which scene it changes");
+        return;
+    }
+    if (target) {
+        patch->target = jox_hoard_text(f->reader.hoard, target->text);
+        patch->position = target->position;
+    }
+}
+
+/* Files of a mod are plain files of its own, and not too large. */
+static bool is_sound(Find *f, const char *path, JoxPosition from) {
+    struct stat info;
+    const char *wrong = lstat(path, &info) != 0       ? "it cannot be read"
+                        : S_ISLNK(info.st_mode)       ? "symbolic links are not followed"
+                        : S_ISDIR(info.st_mode)       ? "" /* looked into elsewhere */
+                        : !S_ISREG(info.st_mode)      ? "it is no plain file"
+                        : info.st_size > LARGEST_FILE ? "it is over 1 MB"
+                                                      : NULL;
+    if (wrong && *wrong)
+        jox_diag_error(f->reader.diagnostics, from, "bad-mod", NULL, "cannot use '%s': %s", path,
+                       wrong);
+    return !wrong;
+}
+
+/* Looks at all files of one of a mod's folders; those of patches/ become patches. */
+static void read_folder(Find *f, JoxMod *mod, const char *name, JoxPosition from) {
+    char *folder = join(f->reader.hoard, mod->folder, name);
+    bool patches = strcmp(name, "patches") == 0;
+    struct dirent **entries;
+    struct stat info;
+    if (lstat(folder, &info) == 0 && S_ISLNK(info.st_mode)) {
+        is_sound(f, folder, from);
+        return;
+    }
+    int count = is_folder(folder) ? scandir(folder, &entries, NULL, by_name) : -1;
+    if (count > MOST_FILES)
+        jox_diag_error(f->reader.diagnostics, from, "bad-mod", NULL, "'%s' has more than %d files",
+                       folder, MOST_FILES);
+    if (patches && count > 0)
+        mod->patches = jox_hoard_take(f->reader.hoard, (size_t)count, sizeof *mod->patches);
+    for (int e = 0; e < count; e++) {
+        char *path = join(f->reader.hoard, folder, entries[e]->d_name);
+        bool lua = ends_with(path, ".lua"), yaml = ends_with(path, ".yaml");
+        if (entries[e]->d_name[0] != '.' && is_sound(f, path, from) && patches && (lua || yaml)) {
+            JoxModPatch *patch = &mod->patches[mod->patch_count++];
+            *patch = (JoxModPatch){.path = path, .lua = lua};
+            if (yaml)
+                read_target(f, patch);
+        }
+        free(entries[e]);
+    }
+    if (count >= 0)
+        free(entries);
+}
+
+static void read_mod(Find *f, const char *folder, bool wanted) {
+    JoxMods *mods = f->mods;
+    const JoxReader *r = &f->reader;
+    for (uint32_t m = 0; m < mods->found_count; m++)
+        if (strcmp(mods->found[m].folder, folder) == 0) {
+            f->needs[m].wanted |= wanted;
+            return;
+        }
+    char *path = join(r->hoard, folder, "mod.yaml");
+    JoxYamlFiles *files = jox_hoard_take(r->hoard, 1, sizeof *files);
+    size_t errors = r->diagnostics->errors;
+    JoxYaml *root = is_sound(f, path, (JoxPosition){path, 0, 0, 0})
+                        ? jox_yaml_load(r->hoard, path, NULL, 0, files, r->diagnostics)
+                        : NULL;
+    if (!root || !jox_keys_check(r, root, "mod") || mods->found_count == JOX_MOST_MODS)
+        return;
+    const char *name = jox_key_text(r, root, "mod", "name");
+    const char *title = jox_key_text(r, root, "mod", "title");
+    const char *version = jox_key_text(r, root, "mod", "version");
+    JoxPosition at = name ? jox_yaml_get(root, "name")->position : root->position;
+    if (name && !plain_name(name))
+        jox_diag_error(r->diagnostics, at, "bad-mod", "Example: gentle-queue",
+                       "a mod's name has lower-case letters, digits, - and _ only");
+    int32_t same = name ? jox_mods_index(mods, name) : -1;
+    if (same >= 0) {
+        jox_diag_error(r->diagnostics, at, "bad-mod", NULL,
+                       "there is another mod '%s' in %s, which is taken", name,
+                       mods->found[same].folder);
+        return;
+    }
+    JoxMod *mod = &mods->found[mods->found_count];
+    *mod = (JoxMod){.name = jox_hoard_text(r->hoard, name ? name : folder),
+                    .title = jox_hoard_text(r->hoard, title ? title : ""),
+                    .version = jox_hoard_text(r->hoard, version ? version : "0"),
+                    .folder = jox_hoard_text(r->hoard, folder),
+                    .enabled = jox_key_bool(r, root, "mod", "enabled")};
+    jox_key_number(r, root, "mod", "api"); /* its range is its check */
+    Needs *needs = &f->needs[mods->found_count++];
+    *needs = (Needs){.root = root, .wanted = wanted};
+    needs->depend_count = jox_read_names(r, jox_yaml_get(root, "depends"), &needs->depends);
+    needs->optional_count = jox_read_names(r, jox_yaml_get(root, "optional"), &needs->optional);
+    needs->conflict_count = jox_read_names(r, jox_yaml_get(root, "conflicts"), &needs->conflicts);
+    needs->after_count = jox_read_names(r, jox_yaml_get(root, "load_after"), &needs->load_after);
+    if (jox_yaml_get(root, "settings"))
+        read_settings(f, mod, jox_yaml_get(root, "settings"));
+    read_folder(f, mod, "behaviours", at);
+    read_folder(f, mod, "scenes", at);
+    read_folder(f, mod, "patches", at);
+    needs->broken = r->diagnostics->errors > errors;
+    for (uint32_t i = 0; i < files->count; i++)
+        jox_diag_attach_source(r->diagnostics, files->items[i].path, files->items[i].text,
+                               files->items[i].length);
+}
+
+/* ---- which ---- */
+
+static void look_into(Find *f, const char *folder) {
+    struct dirent **entries;
+    int count = is_folder(folder) ? scandir(folder, &entries, NULL, by_name) : -1;
+    for (int e = 0; e < count; e++) {
+        char *path = join(f->reader.hoard, folder, entries[e]->d_name);
+        struct stat info;
+        char *sheet = join(f->reader.hoard, path, "mod.yaml");
+        bool link = lstat(path, &info) == 0 && S_ISLNK(info.st_mode);
+        if (entries[e]->d_name[0] != '.' && !link && stat(sheet, &info) == 0)
+            read_mod(f, path, false);
+        free(entries[e]);
+    }
+    if (count >= 0)
+        free(entries);
+}
+
+static void look_everywhere(Find *f) {
+    const char *scene = f->def->scene, *slash = scene ? strrchr(scene, '/') : NULL;
+    const char *home = getenv("XDG_DATA_HOME"), *user = getenv("HOME");
+    char folder[1024];
+    for (uint32_t n = 0; n < f->def->named_count; n++) /* first, so that they win */
+        if (is_folder(f->def->named[n])) {
+            snprintf(folder, sizeof folder, "%s", f->def->named[n]);
+            for (size_t k = strlen(folder); k > 1 && folder[k - 1] == '/'; k--)
+                folder[k - 1] = 0;
+            read_mod(f, folder, true);
+        }
+    if (scene) {
+        snprintf(folder, sizeof folder, "%.*s/mods", slash ? (int)(slash - scene) : 1,
+                 slash ? scene : ".");
+        look_into(f, folder);
+    }
+    if (home && *home)
+        snprintf(folder, sizeof folder, "%.900s/jostle/mods", home);
+    else
+        snprintf(folder, sizeof folder, "%.900s/.local/share/jostle/mods", user ? user : "");
+    if ((home && *home) || user)
+        look_into(f, folder);
+}
+
+static void missing(Find *f, JoxPosition at, const char *name, const char *whose) {
+    const char *names[JOX_MOST_MODS];
+    for (uint32_t m = 0; m < f->mods->found_count; m++)
+        names[m] = f->mods->found[m].name;
+    jox_diag_error(f->reader.diagnostics, at, "missing-mod",
+                   jox_scene_suggest(&f->reader, name, names, f->mods->found_count),
+                   "there is no mod '%.60s'%s%s", name, *whose ? ", which is needed by " : "",
+                   whose);
+}
+
+/* Mods that are named, by the command line or the scene, and those that lie ready. */
+static void choose(Find *f) {
+    JoxMods *mods = f->mods;
+    for (uint32_t n = 0; n < f->def->named_count; n++) {
+        int32_t m = is_folder(f->def->named[n]) ? -2 : jox_mods_index(mods, f->def->named[n]);
+        if (m >= 0)
+            f->needs[m].wanted = true;
+        else if (m == -1)
+            missing(f, (JoxPosition){"--mod", 0, 0, 0}, f->def->named[n], "");
+    }
+    for (uint32_t m = 0; m < mods->found_count; m++)
+        f->needs[m].wanted |= mods->found[m].enabled && !f->def->named_only;
+    if (!f->def->scene)
+        return;
+    JoxYamlFiles *files = jox_hoard_take(f->reader.hoard, 1, sizeof *files);
+    JoxDiagnostics later = {0}; /* the scene's own errors are for its loader */
+    JoxYaml *root = jox_yaml_load(f->reader.hoard, f->def->scene, NULL, 0, files, &later);
+    const JoxYaml *map = jox_yaml_get(root, "mods");
+    jox_diag_free(&later);
+    for (uint32_t k = 0; map && map->kind == JOX_YAML_MAP && k < map->count; k++) {
+        int32_t m = jox_mods_index(mods, map->keys[k]);
+        if (m < 0) {
+            missing(f, map->key_positions[k], map->keys[k], "the scene");
+            continue;
+        }
+        f->needs[m].wanted = true;
+        const JoxYaml *values = map->items[k];
+        for (uint32_t v = 0; values->kind == JOX_YAML_MAP && v < values->count; v++) {
+            double number;
+            JoxModSetting *found = NULL;
+            for (uint32_t s = 0; s < mods->found[m].setting_count; s++)
+                if (strcmp(mods->found[m].settings[s].name, values->keys[v]) == 0)
+                    found = &mods->found[m].settings[s];
+            if (!found)
+                jox_diag_error(f->reader.diagnostics, values->key_positions[v], "unknown-setting",
+                               NULL, "mod %s has no setting '%.60s'", mods->found[m].name,
+                               values->keys[v]);
+            else if (jox_read_number(&f->reader, values->items[v], found->unit, &number))
+                found->value = number;
+        }
+    }
+    for (uint32_t i = 0; i < files->count; i++)
+        jox_diag_attach_source(f->reader.diagnostics, files->items[i].path, files->items[i].text,
+                               files->items[i].length);
+}
+
+/* "mods.NAME.SETTING=VALUE" of the command line; values are checked against their ranges. */
+static void set_settings(Find *f) {
+    for (uint32_t s = 0; s < f->def->set_count; s++) {
+        const char *set = f->def->sets[s], *equals = strchr(set, '=');
+        if (strncmp(set, "mods.", 5) != 0 || !equals)
+            continue;
+        JoxPosition at = {"--set", 1, 1, (int)strlen(set) + 1};
+        bool found = false;
+        char *end;
+        double value = strtod(equals + 1, &end);
+        for (uint32_t m = 0; m < f->mods->found_count; m++) {
+            JoxMod *mod = &f->mods->found[m];
+            size_t n = strlen(mod->name);
+            for (uint32_t k = 0; k < mod->setting_count; k++) {
+                const char *name = mod->settings[k].name;
+                if (strncmp(set + 5, mod->name, n) != 0 || set[5 + n] != '.' ||
+                    strlen(name) != (size_t)(equals - set) - 6 - n ||
+                    strncmp(set + 6 + n, name, strlen(name)) != 0)
+                    continue;
+                found = true;
+                mod->settings[k].value = value;
+            }
+        }
+        if (!found || end == equals + 1 || *end)
+            jox_diag_error(f->reader.diagnostics, at, "bad-override",
+                           "Example: mods.gentle-queue.weight=80",
+                           "'%.100s' names no setting of a mod, or gives it no number", set);
+    }
+    for (uint32_t m = 0; m < f->mods->found_count; m++)
+        for (uint32_t k = 0; k < f->mods->found[m].setting_count; k++) {
+            const JoxModSetting *s = &f->mods->found[m].settings[k];
+            if (s->value >= s->least && s->value <= s->greatest)
+                continue;
+            jox_diag_error(f->reader.diagnostics, s->position, "out-of-range", NULL,
+                           "setting '%s' of mod %s must be from %g to %g, not %g", s->name,
+                           f->mods->found[m].name, s->least, s->greatest, s->value);
+            f->needs[m].broken = true;
+        }
+}
+
+/* ---- order ---- */
+
+/* "NAME" or "NAME >= 1.2": the name, and the version that is asked for. */
+static void split(const char *text, char name[64], const char **version) {
+    size_t n = strcspn(text, " >=");
+    const char *at = strstr(text, ">=");
+    snprintf(name, 64, "%.*s", (int)(n < 63 ? n : 63), text);
+    *version = at ? at + 2 + strspn(at + 2, " ") : NULL;
+}
+
+static int compare_versions(const char *a, const char *b) {
+    for (int part = 0; part < 8 && (*a || *b); part++) {
+        long x = strtol(a, (char **)&a, 10), y = strtol(b, (char **)&b, 10);
+        if (x != y)
+            return x < y ? -1 : 1;
+        a += *a == '.';
+        b += *b == '.';
+        if ((*a && (*a < '0' || *a > '9')) || (*b && (*b < '0' || *b > '9')))
+            break;
+    }
+    return 0;
+}
+
+/* Follows what a mod depends on; false with an error if that is missing, too old, or a circle. */
+static bool link_mod(Find *f, uint32_t m, int depth) {
+    JoxMods *mods = f->mods;
+    Needs *n = &f->needs[m];
+    bool good = !n->broken;
+    for (uint32_t d = 0; d < n->depend_count && good; d++) {
+        char name[64];
+        const char *version;
+        split(n->depends[d]->text, name, &version);
+        int32_t other = jox_mods_index(mods, name);
+        if (other < 0) {
+            missing(f, n->depends[d]->position, name, mods->found[m].name);
+            good = false;
+        } else if (version && compare_versions(mods->found[other].version, version) < 0) {
+            jox_diag_error(f->reader.diagnostics, n->depends[d]->position, "old-mod", NULL,
+                           "mod %s needs %s %s or later; %s is there", mods->found[m].name, name,
+                           version, mods->found[other].version);
+            good = false;
+        } else if (depth > JOX_MOST_MODS) {
+            jox_diag_error(f->reader.diagnostics, n->depends[d]->position, "mod-circle", NULL,
+                           "mods %s and %s depend on each other", mods->found[m].name, name);
+            good = false;
+        } else {
+            good = link_mod(f, (uint32_t)other, depth + 1);
+            n->before |= (uint64_t)1 << other;
+        }
+    }
+    n->broken |= !good;
+    return good;
+}
+
+/* Optional ones and load_after count where the other is taken too. */
+static void link_wishes(Find *f, uint32_t m) {
+    Needs *n = &f->needs[m];
+    for (uint32_t k = 0; k < n->optional_count + n->after_count; k++) {
+        const JoxYaml *name =
+            k < n->optional_count ? n->optional[k] : n->load_after[k - n->optional_count];
+        char plain[64];
+        const char *version;
+        split(name->text, plain, &version);
+        int32_t other = jox_mods_index(f->mods, plain);
+        if (other >= 0 && f->needs[other].wanted && !f->needs[other].broken)
+            n->before |= (uint64_t)1 << other;
+    }
+}
+
+static void want_all(Find *f) {
+    for (bool more = true; more;) {
+        more = false;
+        for (uint32_t m = 0; m < f->mods->found_count; m++)
+            for (uint32_t d = 0;
+                 f->needs[m].wanted && !f->needs[m].broken && d < f->needs[m].depend_count; d++) {
+                char name[64];
+                const char *version;
+                split(f->needs[m].depends[d]->text, name, &version);
+                int32_t other = jox_mods_index(f->mods, name);
+                if (other >= 0 && !f->needs[other].wanted)
+                    f->needs[other].wanted = more = true;
+            }
+    }
+}
+
+static void exclude(Find *f) {
+    JoxMods *mods = f->mods;
+    for (uint32_t m = 0; m < mods->found_count; m++) {
+        if (f->def->without >> m & 1)
+            f->needs[m].broken = true;
+        for (uint32_t c = 0; f->needs[m].wanted && c < f->needs[m].conflict_count; c++) {
+            const JoxYaml *name = f->needs[m].conflicts[c];
+            int32_t other = jox_mods_index(mods, name->text);
+            if (other < 0 || !f->needs[other].wanted || f->needs[other].broken ||
+                f->needs[m].broken)
+                continue;
+            jox_diag_error(f->reader.diagnostics, name->position, "mods-exclude",
+                           "Take one of them away", "mod %s does not go together with %s",
+                           mods->found[m].name, name->text);
+            f->needs[m].broken = true;
+        }
+    }
+    for (bool more = true; more;) { /* who needs what is left out is left out too */
+        more = false;
+        for (uint32_t m = 0; m < mods->found_count; m++)
+            for (uint32_t d = 0; !f->needs[m].broken && d < f->needs[m].depend_count; d++) {
+                char name[64];
+                const char *version;
+                split(f->needs[m].depends[d]->text, name, &version);
+                int32_t other = jox_mods_index(mods, name);
+                if (other < 0 || f->needs[other].broken)
+                    f->needs[m].broken = more = true;
+            }
+    }
+}
+
+/* Longest chain of mods that come before each; a circle of wishes is cut at the number of mods. */
+static void measure_depths(Find *f) {
+    uint32_t count = f->mods->found_count;
+    for (uint32_t round = 0; round < count; round++)
+        for (uint32_t m = 0; m < count; m++)
+            for (uint32_t o = 0; o < count; o++)
+                if (o != m && (f->needs[m].before >> o & 1) &&
+                    f->needs[m].depth <= f->needs[o].depth && f->needs[o].depth < (int)count)
+                    f->needs[m].depth = f->needs[o].depth + 1;
+}
+
+static bool comes_before(const Find *f, uint32_t a, uint32_t b) {
+    if (f->needs[a].depth != f->needs[b].depth)
+        return f->needs[a].depth < f->needs[b].depth;
+    return strcmp(f->mods->found[a].name, f->mods->found[b].name) < 0;
+}
+
+static void order(Find *f) {
+    JoxMods *mods = f->mods;
+    uint32_t list[JOX_MOST_MODS], count = 0;
+    measure_depths(f);
+    for (uint32_t m = 0; m < mods->found_count; m++) {
+        if (!f->needs[m].wanted || f->needs[m].broken)
+            continue;
+        uint32_t at = count++;
+        for (; at > 0 && comes_before(f, m, list[at - 1]); at--)
+            list[at] = list[at - 1];
+        list[at] = m;
+    }
+    mods->items = jox_hoard_take(f->reader.hoard, count + 1, sizeof *mods->items);
+    mods->number = jox_hoard_take(f->reader.hoard, count + 1, sizeof *mods->number);
+    mods->count = count;
+    for (uint32_t k = 0; k < count; k++) {
+        mods->number[k] = list[k];
+        mods->items[k] = mods->found[list[k]];
+        for (uint32_t o = 0; o < k; o++)
+            if (f->needs[list[k]].before >> list[o] & 1)
+                mods->items[k].after |= (uint64_t)1 << o | mods->items[o].after;
+    }
+}
+
+JoxMods *jox_mods_find(const JoxModsDef *def, JoxDiagnostics *diagnostics) {
+    JoxMods *mods = jox_alloc(1, sizeof *mods);
+    Find *f = jox_alloc(1, sizeof *f);
+    mods->memory = jox_hoard_create();
+    mods->found = jox_hoard_take(mods->memory, JOX_MOST_MODS, sizeof *mods->found);
+    f->def = def;
+    f->mods = mods;
+    f->reader = (JoxReader){mods->memory, diagnostics};
+    look_everywhere(f);
+    choose(f);
+    set_settings(f);
+    for (uint32_t m = 0; m < mods->found_count; m++)
+        if (f->needs[m].wanted)
+            link_mod(f, m, 0);
+    want_all(f);
+    exclude(f);
+    for (uint32_t m = 0; m < mods->found_count; m++)
+        link_wishes(f, m);
+    order(f);
+    jox_free(f);
+    return mods;
+}
+
+void jox_mods_free(JoxMods *mods) {
+    if (!mods)
+        return;
+    jox_hoard_free(mods->memory);
+    jox_free(mods);
+}
