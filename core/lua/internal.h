@@ -194,8 +194,6 @@ void jox_vm_charge(lua_State *L, uint64_t steps);
 int jox_vm_stop(lua_State *L);
 /* The innermost place in a script that is running; its path is NULL where there is none. */
 JoxPosition jox_vm_place(lua_State *L);
-/* Makes text fit for a terminal and one line: control characters become '?'. */
-void jox_vm_clean(char *text);
 
 void jox_sandbox_open(JoxVm *vm);
 /* Reads, checks and scans a file; NULL with a diagnostic at `from`. */

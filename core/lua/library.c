@@ -537,7 +537,7 @@ static int base_print(lua_State *L) {
         lua_pop(L, 1);
     }
     line[at] = 0;
-    jox_vm_clean(line);
+    jox_text_clean(line);
     memcpy(line + at, "\n", 2);
     vm->owner->complain(vm->owner->complain_context, line);
     return 0;

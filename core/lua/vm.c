@@ -184,12 +184,6 @@ JoxPosition jox_vm_place(lua_State *L) {
     return (JoxPosition){0};
 }
 
-void jox_text_clean(char *text) {
-    for (; *text; text++)
-        if ((unsigned char)*text < 32 || *text == 127)
-            *text = *text == '\n' || *text == '\t' ? ' ' : '?';
-}
-
 /* Splits "b12:34: message" into line and message; the number is that of the source. */
 static const char *split_message(JoxVm *vm, const char *message, int *line) {
     int source, used = 0;
