@@ -23,6 +23,7 @@ void jox_diag_add(JoxDiagnostics *d, JoxSeverity severity, JoxPosition position,
         va_start(arguments, format);
         vsnprintf(text, sizeof text, format, arguments);
         va_end(arguments);
+        jox_text_clean(text); /* whoever wrote it must not command the terminal */
         jox_text_add(&message, text);
         JOX_RESERVE(d->items, d->capacity, d->count + 1);
         d->items[d->count++] = (JoxDiagnostic){.severity = severity,
@@ -53,9 +54,7 @@ void jox_diag_attach_source(JoxDiagnostics *d, const char *file, const char *tex
         const char *stop = at < end ? memchr(at, '\n', (size_t)(end - at)) : NULL;
         size_t n = (size_t)((stop ? stop : end) - at);
         item->source = jox_strndup(at, n < SOURCE_SHOWN ? n : SOURCE_SHOWN);
-        for (char *c = item->source; *c; c++) /* control bytes must not reach a terminal */
-            if ((unsigned char)*c < 0x20 || *c == 0x7f)
-                *c = *c == '\t' ? ' ' : '?';
+        jox_text_clean(item->source);
     }
 }
 

@@ -49,6 +49,21 @@ static size_t utf8_length(const unsigned char *s) {
     return n;
 }
 
+void jox_text_clean(char *text) {
+    for (unsigned char *s = (unsigned char *)text; *s;) {
+        size_t n = utf8_length(s);
+        bool control = *s < 32 || *s == 127 || (n == 2 && s[0] == 0xC2 && s[1] < 0xA0);
+        if (*s == '\n' || *s == '\t') {
+            *s++ = ' ';
+        } else if (control || n == 0) { /* those of two bytes as two */
+            for (size_t end = n ? n : 1; end > 0; end--)
+                *s++ = '?';
+        } else {
+            s += n;
+        }
+    }
+}
+
 void jox_text_json(JoxText *text, const char *string) {
     jox_text_append(text, "\"", 1);
     for (const unsigned char *s = (const unsigned char *)string; *s;) {

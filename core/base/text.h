@@ -19,6 +19,9 @@ void jox_text_json(JoxText *text, const char *string);
 /* Appends a number as JSON: %.9g, or null where it is not finite. */
 void jox_text_json_number(JoxText *text, double number);
 void jox_text_free(JoxText *text);
+/* Makes text fit for a terminal and for one line, in place: control characters and bytes that are
+   not UTF-8 become '?', ends of lines blanks. */
+void jox_text_clean(char *text);
 
 /* The nearest of `names` to `word` by edit distance, or NULL if none is near enough. */
 const char *jox_suggest(const char *word, const char *const *names, size_t count);

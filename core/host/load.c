@@ -164,6 +164,19 @@ static void complain(void *context, const char *text) {
     scene->message(scene->message_context, text);
 }
 
+static JoxLuaLimits script_limits(const JoxScene *plan) {
+    JoxLuaLimits limits = jox_lua_default_limits();
+    if (!plan->limits.given)
+        return limits;
+    limits.hook_instructions = (uint64_t)plan->limits.instructions;
+    limits.load_instructions = (uint64_t)plan->limits.load_instructions;
+    limits.memory = (size_t)(plan->limits.memory * (1 << 20));
+    limits.block = (size_t)(plan->limits.block * (1 << 20));
+    limits.source = (size_t)(plan->limits.source * (1 << 10));
+    limits.print_lines = (uint32_t)plan->limits.print;
+    return limits;
+}
+
 /* False with the index of the mod to blame, or -1, where a behaviour does not load. */
 static bool build(JoScene *scene, const JoSceneDef *def, int32_t *culprit,
                   JoxDiagnostics *diagnostics) {
@@ -178,12 +191,9 @@ static bool build(JoScene *scene, const JoSceneDef *def, int32_t *culprit,
     scene->world = jox_world_create(&world);
     scene->world->walls = plan->walls; /* taken over */
     plan->walls = (JoxWalls){0};
-    JoxLuaLimits limits = jox_lua_default_limits();
-    if (plan->limits.instructions)
-        limits.hook_instructions = plan->limits.instructions;
-    if (plan->limits.memory > 0)
-        limits.memory = (size_t)(plan->limits.memory * (1 << 20));
+    const JoxLuaLimits limits = script_limits(plan);
     scene->lua = jox_lua_create(&limits);
+    jox_lua_attach(scene->lua, &scene->world->mind, complain, scene); /* loading may print */
     add_bodies(scene, diagnostics);
     add_places(scene);
     if (!jox_host_load_machines(scene, culprit, diagnostics))
@@ -192,7 +202,6 @@ static bool build(JoScene *scene, const JoSceneDef *def, int32_t *culprit,
     mind->call = jox_lua_call;
     mind->bracket = jox_lua_bracket;
     mind->call_context = scene->lua;
-    jox_lua_attach(scene->lua, mind, complain, scene);
     load_input(scene, def->input_log ? def->input_log : plan->input, diagnostics);
     if (diagnostics->errors == 0)
         jox_host_check_names(scene, diagnostics);

@@ -121,7 +121,8 @@ typedef struct JoxVm {
     bool over;               /* sticky: every further instruction fails */
     bool running;            /* within jox_vm_call */
     bool loading;
-    bool out_of_memory;
+    bool starved;    /* it is over for want of memory; sticky too */
+    double deadline; /* of a load, seconds of this thread's processor time; 0 is unset */
     JoxNode **nodes;
     size_t node_count, node_capacity;
     char **names; /* interned */
@@ -145,11 +146,12 @@ typedef struct JoxVm {
     JoxMachine *built;    /* under construction, so that a failure can free it */
     size_t failed_source; /* in which file the last failure was */
     const JoxMachine *machine;
-    int me;               /* registry reference of the object that hooks are given */
-    char traceback[1024]; /* of the last failure: frames of the behaviour alone */
-    uint32_t draws;       /* math.random calls of the present hook */
-    uint32_t agent;       /* whose hook runs */
-    uint32_t run;         /* numbers the calls, so that `me` cannot be kept */
+    int me;                         /* registry reference of the object that hooks are given */
+    char traceback[1024];           /* of the last failure: frames of the behaviour alone */
+    uint32_t draws;                 /* math.random calls of the present hook */
+    uint32_t agent;                 /* whose hook runs */
+    uint32_t run;                   /* numbers the calls, so that `me` cannot be kept */
+    uint32_t printed, print_second; /* lines of `print` in that second */
 } JoxVm;
 
 /* What a hook wrote into another agent's memory. */
@@ -183,13 +185,60 @@ JoxVm *jox_vm_of(lua_State *L);
    then a sentence that holds until the next call, with the line in *line (0 unknown). */
 bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, const char **why,
                  int *line);
-/* Keeps a copy of a name as long as the VM. */
+/* Keeps a copy of a name as long as the VM. Within a call only: too many raise an error. */
 const char *jox_vm_intern(JoxVm *vm, const char *name);
+/* What C code does for a script counts too: takes steps, of about 10 ns, from the budget. Raises
+   an error when it is spent. */
+void jox_vm_charge(lua_State *L, uint64_t steps);
+/* Ends the script for good: every further instruction fails. Pops and raises the message. */
+int jox_vm_stop(lua_State *L);
+/* The innermost place in a script that is running; its path is NULL where there is none. */
+JoxPosition jox_vm_place(lua_State *L);
 
 void jox_sandbox_open(JoxVm *vm);
 /* Reads, checks and scans a file; NULL with a diagnostic at `from`. */
 JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *text, size_t length,
                        JoxPosition from);
+
+/* ---- the library: each list ends with a NULL name ---- */
+
+extern const luaL_Reg jox_library_base[], jox_library_math[], jox_library_string[],
+    jox_library_table[];
+/* Text that grows in Lua's memory, so that an error leaks nothing. Keeps one stack slot. */
+typedef struct JoxScratch {
+    lua_State *L;
+    char *data;
+    size_t length, capacity;
+    int slot;
+} JoxScratch;
+void jox_scratch_open(JoxScratch *scratch, lua_State *L, size_t capacity);
+void jox_scratch_add(JoxScratch *scratch, const char *text, size_t length);
+void jox_scratch_push(JoxScratch *scratch); /* the text as a Lua string */
+/* Pushes the text of any value; never an address. */
+const char *jox_library_text(lua_State *L, int index, size_t *length);
+/* Order of strings byte by byte, whatever the locale. */
+int jox_library_compare(const char *a, size_t a_length, const char *b, size_t b_length);
+
+/* ---- frozen tables and what functions remember ---- */
+
+/* The metatable of a frozen table holds its contents under this key's address. */
+extern const char jox_frozen_key;
+typedef void JoxFreezeFunction(lua_State *L, int index, void *context);
+/* Freezes the table at `index`, or what the function there reaches, and everything reachable from
+   it through tables and upvalues: reading goes on as before, writing raises an error that names
+   memory. Tables with metatables are the engine's and left alone. `function`, which may be NULL, is
+   called for each Lua function met for the first time. Raises errors: call it protected. */
+void jox_freeze(lua_State *L, int index, JoxFreezeFunction *function, void *context);
+/* Pushes the table that holds the contents of the table at `index`: itself, or what was frozen. */
+void jox_frozen_contents(lua_State *L, int index);
+/* Raises an error where the table at `index` is frozen or belongs to the library. */
+void jox_frozen_check_writable(lua_State *L, int index);
+
+/* Whether the Lua function at `index`, or one nested in it, assigns a variable from outside it.
+   Then its name and the line of the first such assignment, and the number of its source. */
+bool jox_upvalue_assigned(lua_State *L, int index, char name[64], int *line, int *source);
+/* Raises an error where this Lua's compiled form is not the one that is understood. */
+void jox_upvalue_self_check(lua_State *L);
 
 /* Reports an error at a word's place in the running chunk and pushes a poison value; returns 1. */
 int jox_word_error(lua_State *L, const char *word, const char *code, const char *hint,

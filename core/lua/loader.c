@@ -27,10 +27,31 @@ bool jox_source_compile(JoxVm *vm, size_t number) {
                             "t") == LUA_OK;
 }
 
+/* What a function remembers outside memory would be lost at a reload, and run apart at a resume. */
+static void check_upvalues(lua_State *L, int index, void *context) {
+    JoxVm *vm = context;
+    char name[64];
+    int line = 0, number = 0;
+    if (!jox_upvalue_assigned(L, index, name, &line, &number))
+        return;
+    JoxSource *source = &vm->sources[number >= 0 && (size_t)number < vm->source_count ? number : 0];
+    const JoxToken *t = jox_source_find(source, line, name);
+    jox_diag_error(vm->diagnostics,
+                   ((JoxPosition){source->path, line, t ? t->column : 0, t ? t->end_column : 0}),
+                   "assigned-upvalue", "Declare it: local mine = memory { ... }, and write me.NAME",
+                   "a function cannot change '%s': what an agent remembers belongs in memory", name);
+}
+
 static int build_protected(lua_State *L) {
     JoxVm *vm = jox_vm_of(L);
-    if (jox_patch_apply(vm))
-        jox_build(vm, &vm->sources[0]);
+    if (!jox_patch_apply(vm))
+        return 0;
+    jox_build(vm, &vm->sources[0]);
+    for (uint32_t h = 0; h < vm->hook_count; h++) { /* and nothing it reaches changes any more */
+        lua_rawgeti(L, LUA_REGISTRYINDEX, vm->hooks[h].ref);
+        jox_freeze(L, lua_gettop(L), check_upvalues, vm);
+        lua_pop(L, 1);
+    }
     return 0;
 }
 

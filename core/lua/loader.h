@@ -17,6 +17,7 @@ typedef struct JoxLuaLimits {
     size_t memory;              /* bytes of one Lua state; default 32 MB */
     size_t block;               /* bytes of one allocation; default 2 MB */
     size_t source;              /* bytes of one file; default 256 KB */
+    uint32_t print_lines;       /* of `print` in a simulated second; default 20; at load 5 times */
 } JoxLuaLimits;
 JoxLuaLimits jox_lua_default_limits(void);
 

@@ -1,5 +1,5 @@
-/* What a behaviour may use: a whitelist, nothing of Lua's libraries is opened. No files, clocks,
-   addresses, coroutines, metatables, code from strings, or patterns. */
+/* What a behaviour can reach: its environment, a whitelist, and `require`. Nothing of Lua's own
+   libraries is opened: no files, clocks, addresses, coroutines, metatables, code from strings. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -7,298 +7,48 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/elementary.h"
 #include "base/hash.h"
 #include "base/mem.h"
 #include "lua/internal.h"
 
-enum { LONGEST_STRING = 1 << 20, MOST_FILES = 64 };
-
-/* ---- mathematics: the same bits everywhere ---- */
-
-static int call_1(lua_State *L, double (*f)(double)) {
-    lua_pushnumber(L, f(luaL_checknumber(L, 1)));
-    return 1;
-}
-static int math_sin(lua_State *L) {
-    return call_1(L, jox_sin);
-}
-static int math_cos(lua_State *L) {
-    return call_1(L, jox_cos);
-}
-static int math_exp(lua_State *L) {
-    return call_1(L, jox_exp);
-}
-static int math_log(lua_State *L) {
-    return call_1(L, jox_log);
-}
-static int math_sqrt(lua_State *L) {
-    return call_1(L, sqrt);
-}
-static int math_abs(lua_State *L) {
-    return call_1(L, fabs);
-}
-static int math_floor(lua_State *L) {
-    return call_1(L, floor);
-}
-static int math_ceil(lua_State *L) {
-    return call_1(L, ceil);
-}
-static int math_atan(lua_State *L) {
-    lua_pushnumber(L, jox_atan2(luaL_checknumber(L, 1), luaL_optnumber(L, 2, 1.0)));
-    return 1;
-}
-static int math_fmod(lua_State *L) {
-    lua_pushnumber(L, fmod(luaL_checknumber(L, 1), luaL_checknumber(L, 2)));
-    return 1;
-}
-static int extreme(lua_State *L, double sign) {
-    double best = luaL_checknumber(L, 1);
-    for (int i = 2; i <= lua_gettop(L); i++) {
-        double v = luaL_checknumber(L, i);
-        best = sign * v > sign * best ? v : best;
-    }
-    lua_pushnumber(L, best);
-    return 1;
-}
-static int math_max(lua_State *L) {
-    return extreme(L, 1.0);
-}
-static int math_min(lua_State *L) {
-    return extreme(L, -1.0);
-}
-
-/* From the agent's own stream: a function of seed, agent and tick. */
-static int math_random(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
-    if (vm->loading || !vm->owner->mind)
-        return luaL_error(L, "math.random works in functions of agents only; at load use normal, "
-                             "uniform or choose");
-    const JoxMind *mind = vm->owner->mind;
-    double u = jox_random_unit(mind->seed, mind->agents->id[vm->agent], mind->tick, JOX_DRAW_LUA,
-                               vm->draws++);
-    if (lua_gettop(L) == 0) {
-        lua_pushnumber(L, u);
-        return 1;
-    }
-    double low = lua_gettop(L) > 1 ? luaL_checknumber(L, 1) : 1.0;
-    double high = luaL_checknumber(L, lua_gettop(L) > 1 ? 2 : 1);
-    luaL_argcheck(L, high >= low && high - low < 1e15, 1, "the interval is empty");
-    lua_pushinteger(L, (lua_Integer)(low + floor(u * (high - low + 1.0))));
-    return 1;
-}
-
-static const luaL_Reg MATH[] = {{"sin", math_sin},       {"cos", math_cos},   {"exp", math_exp},
-                                {"log", math_log},       {"sqrt", math_sqrt}, {"abs", math_abs},
-                                {"floor", math_floor},   {"ceil", math_ceil}, {"atan", math_atan},
-                                {"fmod", math_fmod},     {"max", math_max},   {"min", math_min},
-                                {"random", math_random}, {NULL, NULL}};
-
-/* ---- strings and tables ---- */
-
-static int string_len(lua_State *L) {
-    size_t n;
-    luaL_checklstring(L, 1, &n);
-    lua_pushinteger(L, (lua_Integer)n);
-    return 1;
-}
-static int string_sub(lua_State *L) {
-    size_t n;
-    const char *s = luaL_checklstring(L, 1, &n);
-    lua_Integer length = (lua_Integer)n, i = luaL_checkinteger(L, 2), j = luaL_optinteger(L, 3, -1);
-    i = i < 0 ? (length + i + 1 < 1 ? 1 : length + i + 1) : i == 0 ? 1 : i;
-    j = j < 0 ? length + j + 1 : j > length ? length : j;
-    lua_pushlstring(L, i <= j ? s + i - 1 : "", i <= j ? (size_t)(j - i + 1) : 0);
-    return 1;
-}
-static int string_rep(lua_State *L) {
-    size_t n;
-    const char *s = luaL_checklstring(L, 1, &n);
-    lua_Integer times = luaL_checkinteger(L, 2);
-    luaL_argcheck(L, times <= 0 || n == 0 || times <= LONGEST_STRING / (lua_Integer)n, 2,
-                  "the result would be over 1 MB");
-    luaL_Buffer buffer;
-    luaL_buffinit(L, &buffer);
-    for (lua_Integer i = 0; i < times && n > 0; i++)
-        luaL_addlstring(&buffer, s, n);
-    luaL_pushresult(&buffer);
-    return 1;
-}
-static int fold(lua_State *L, char low, char high, int by) {
-    size_t n;
-    const char *s = luaL_checklstring(L, 1, &n);
-    luaL_Buffer buffer;
-    char *p = luaL_buffinitsize(L, &buffer, n);
-    for (size_t i = 0; i < n; i++)
-        p[i] = s[i] >= low && s[i] <= high ? (char)(s[i] + by) : s[i];
-    luaL_pushresultsize(&buffer, n);
-    return 1;
-}
-static int string_upper(lua_State *L) {
-    return fold(L, 'a', 'z', 'A' - 'a');
-}
-static int string_lower(lua_State *L) {
-    return fold(L, 'A', 'Z', 'a' - 'A');
-}
-static const luaL_Reg STRING[] = {{"len", string_len},     {"sub", string_sub},
-                                  {"rep", string_rep},     {"upper", string_upper},
-                                  {"lower", string_lower}, {NULL, NULL}};
-
-static int table_insert(lua_State *L) {
-    luaL_checktype(L, 1, LUA_TTABLE);
-    luaL_checkany(L, 2);
-    lua_settop(L, 2);
-    lua_rawseti(L, 1, (lua_Integer)lua_rawlen(L, 1) + 1);
-    return 0;
-}
-static int table_remove(lua_State *L) {
-    luaL_checktype(L, 1, LUA_TTABLE);
-    lua_Integer n = (lua_Integer)lua_rawlen(L, 1);
-    lua_rawgeti(L, 1, n);
-    if (n > 0) {
-        lua_pushnil(L);
-        lua_rawseti(L, 1, n);
-    }
-    return 1;
-}
-static int table_concat(lua_State *L) {
-    luaL_checktype(L, 1, LUA_TTABLE);
-    const char *separator = luaL_optstring(L, 2, "");
-    luaL_Buffer buffer;
-    luaL_buffinit(L, &buffer);
-    lua_Integer n = (lua_Integer)lua_rawlen(L, 1);
-    for (lua_Integer i = 1; i <= n; i++) {
-        lua_rawgeti(L, 1, i);
-        if (lua_type(L, -1) != LUA_TSTRING && lua_type(L, -1) != LUA_TNUMBER)
-            return luaL_error(L, "item %I is neither text nor number", i);
-        luaL_addvalue(&buffer);
-        if (i < n)
-            luaL_addstring(&buffer, separator);
-    }
-    luaL_pushresult(&buffer);
-    return 1;
-}
-static const luaL_Reg TABLE[] = {
-    {"insert", table_insert}, {"remove", table_remove}, {"concat", table_concat}, {NULL, NULL}};
-
-/* ---- pairs in a fixed order: numbers, then strings ---- */
-
-/* Whether the key at `a` comes before the key at `b`. */
-static bool key_before(lua_State *L, int a, int b) {
-    int type_a = lua_type(L, a), type_b = lua_type(L, b);
-    if (type_a != type_b)
-        return type_a == LUA_TNUMBER || (type_a == LUA_TSTRING && type_b != LUA_TNUMBER);
-    if (type_a == LUA_TNUMBER || type_a == LUA_TSTRING)
-        return lua_compare(L, a, b, LUA_OPLT);
-    return false;
-}
-
-/* The key that follows `key` (index 2) in the order; nil at the end. Quadratic, for small tables.
- */
-static int next_key(lua_State *L) {
-    luaL_checktype(L, 1, LUA_TTABLE);
-    lua_settop(L, 2);
-    lua_pushnil(L); /* 3: best so far */
-    lua_pushnil(L);
-    while (lua_next(L, 1)) {
-        lua_pop(L, 1);
-        int type = lua_type(L, -1);
-        if (type != LUA_TNUMBER && type != LUA_TSTRING)
-            return luaL_error(L, "pairs visits tables with number and string keys only");
-        bool later = lua_isnil(L, 2) || key_before(L, 2, 4);
-        if (later && (lua_isnil(L, 3) || key_before(L, 4, 3))) {
-            lua_pushvalue(L, 4);
-            lua_replace(L, 3);
-        }
-        JoxVm *vm = jox_vm_of(L); /* C code counts too */
-        if (vm->left < 8)
-            return luaL_error(L, "it ran for too long (over its budget of instructions)");
-        vm->left -= 4;
-    }
-    if (lua_isnil(L, 3))
-        return 1;
-    lua_settop(L, 3);
-    lua_pushvalue(L, 3);
-    lua_rawget(L, 1);
-    return 2;
-}
-
-static int sandbox_pairs(lua_State *L) {
-    luaL_checktype(L, 1, LUA_TTABLE);
-    lua_pushcfunction(L, next_key);
-    lua_pushvalue(L, 1);
-    lua_pushnil(L);
-    return 3;
-}
-static int next_item(lua_State *L) {
-    lua_Integer i = luaL_checkinteger(L, 2) + 1;
-    luaL_checktype(L, 1, LUA_TTABLE);
-    lua_pushinteger(L, i);
-    return lua_rawgeti(L, 1, i) == LUA_TNIL ? 1 : 2;
-}
-static int sandbox_ipairs(lua_State *L) {
-    luaL_checktype(L, 1, LUA_TTABLE);
-    lua_pushcfunction(L, next_item);
-    lua_pushvalue(L, 1);
-    lua_pushinteger(L, 0);
-    return 3;
-}
-static int sandbox_type(lua_State *L) {
-    luaL_checkany(L, 1);
-    lua_pushstring(L, jox_node_get(L, 1) ? "value" : luaL_typename(L, 1));
-    return 1;
-}
-static int sandbox_tostring(lua_State *L) {
-    luaL_checkany(L, 1);
-    if (lua_type(L, 1) == LUA_TNUMBER || lua_type(L, 1) == LUA_TSTRING)
-        lua_tostring(L, 1);
-    else if (lua_type(L, 1) == LUA_TBOOLEAN)
-        lua_pushstring(L, lua_toboolean(L, 1) ? "true" : "false");
-    else
-        lua_pushstring(L, luaL_typename(L, 1)); /* no addresses */
-    return 1;
-}
-static int sandbox_tonumber(lua_State *L) {
-    int good;
-    lua_Number n = lua_tonumberx(L, 1, &good);
-    if (good)
-        lua_pushnumber(L, n);
-    else
-        lua_pushnil(L);
-    return 1;
-}
-static int sandbox_error(lua_State *L) {
-    luaL_where(L, 1);
-    if (lua_type(L, 1) != LUA_TSTRING)
-        return luaL_error(L, "error needs a text");
-    lua_pushvalue(L, 1);
-    lua_concat(L, 2);
-    return lua_error(L);
-}
-static int sandbox_assert(lua_State *L) {
-    if (lua_toboolean(L, 1))
-        return lua_gettop(L);
-    return luaL_error(L, "%s",
-                      lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "assertion failed");
-}
+enum { MOST_FILES = 64 };
 
 /* ---- require ---- */
+
+/* What names mean in a file is not to be changed, neither for the reader nor for the checks. */
+static bool refuse_env(JoxVm *vm, const JoxSource *source) {
+    for (size_t i = 0; i < source->token_count; i++) {
+        const JoxToken *t = &source->tokens[i];
+        if (t->kind != JOX_TOKEN_NAME || !jox_token_is(t, "_ENV"))
+            continue;
+        jox_diag_error(vm->diagnostics,
+                       ((JoxPosition){source->path, t->line, t->column, t->end_column}),
+                       "unknown-word", "Words and locals are all that a behaviour can use",
+                       "'_ENV' cannot be used");
+        return true;
+    }
+    return false;
+}
 
 JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *given, size_t length,
                        JoxPosition from) {
     const size_t limit = vm->owner->limits.source;
+    char large[64];
     const char *wrong = NULL;
+    snprintf(large, sizeof large, "the file is over %zu KB", limit >> 10);
     struct stat info;
     char *text = NULL;
     if (given) {
         text = jox_strndup(given, length);
     } else if (lstat(path, &info) == 0 && S_ISLNK(info.st_mode)) {
         wrong = "symbolic links are not followed";
+    } else if (stat(path, &info) == 0 && !S_ISREG(info.st_mode)) {
+        wrong = "it is no regular file"; /* opening a pipe would wait */
     } else if (!(text = jox_read_file(path, limit, &length))) {
-        wrong = errno == EFBIG ? "the file is over 256 KB" : strerror(errno);
+        wrong = errno == EFBIG ? large : strerror(errno);
     }
     if (text && length > limit)
-        wrong = "the file is over 256 KB";
+        wrong = large;
     else if (text && length > 0 && text[0] == '\x1b')
         wrong = "this is compiled Lua; only source is loaded";
     else if (text && memchr(text, 0, length))
@@ -319,7 +69,7 @@ JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *given, size_t le
     JoxSource *source = &vm->sources[vm->source_count++];
     *source = (JoxSource){.path = jox_strdup(path), .text = text, .length = length};
     jox_source_scan(source);
-    return source;
+    return refuse_env(vm, source) ? NULL : source;
 }
 
 /* Only plain names below the behaviour's folder or the library's: no "..", no absolute paths. */
@@ -396,6 +146,37 @@ static int sandbox_require(lua_State *L) {
 
 /* ---- the environment ---- */
 
+/* Why a name of Lua's own libraries is missing; NULL for any other. */
+static const char *absent(const char *name) {
+    static const struct {
+        const char *name, *why;
+    } ABSENT[] = {
+        {"io", "Behaviours have no files"},
+        {"os", "Behaviours have no clock and no files; me.time is the simulated time"},
+        {"debug", "Behaviours cannot look into the engine"},
+        {"package", "require \"name\" loads a file beside this one"},
+        {"coroutine", "A state of the machine is what a coroutine would remember"},
+        {"load", "Code is not made from texts; require \"name\" loads a file beside this one"},
+        {"loadstring", "Code is not made from texts"},
+        {"loadfile", "require \"name\" loads a file beside this one"},
+        {"dofile", "require \"name\" loads a file beside this one"},
+        {"setmetatable", "Tables have no metatables here"},
+        {"getmetatable", "Tables have no metatables here"},
+        {"rawget", "Tables have no metatables here: t[key] is raw"},
+        {"rawset", "Tables have no metatables here: t[key] = value is raw"},
+        {"rawequal", "Tables have no metatables here: == is raw"},
+        {"rawlen", "Tables have no metatables here: # is raw"},
+        {"collectgarbage", "Memory is looked after by the engine"},
+        {"xpcall", "pcall catches errors"},
+        {"_G", "There are no globals; what an agent remembers belongs in memory"},
+        {"utf8", "string.byte and string.char work on bytes"},
+    };
+    for (size_t i = 0; i < sizeof ABSENT / sizeof *ABSENT; i++)
+        if (strcmp(ABSENT[i].name, name) == 0)
+            return ABSENT[i].why;
+    return NULL;
+}
+
 static int env_index(lua_State *L) {
     JoxVm *vm = jox_vm_of(L);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
@@ -409,6 +190,7 @@ static int env_index(lua_State *L) {
     }
     if (!vm->loading)
         return luaL_error(L, "unknown name '%s'", name);
+    jox_vm_charge(L, 2000); /* a suggestion compares with every word */
     const char *names[128];
     size_t count = jox_word_names(names, 128);
     char hint[128];
@@ -418,6 +200,8 @@ static int env_index(lua_State *L) {
                  "As a value write own.%s (what was drawn) or now.NAME (what is "
                  "measured)",
                  name);
+    else if (absent(name))
+        snprintf(hint, sizeof hint, "%s", absent(name));
     else if (near)
         snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
     else
@@ -442,13 +226,17 @@ static void set_library(lua_State *L, const char *name, const luaL_Reg *function
     lua_newtable(L);
     lua_newtable(L);
     luaL_setfuncs(L, functions, 0);
-    if (functions == MATH) {
+    if (functions == jox_library_math) {
         lua_pushnumber(L, 3.14159265358979323846);
         lua_setfield(L, -2, "pi");
-        lua_pushnumber(L, INFINITY);
+        lua_pushnumber(L, (lua_Number)HUGE_VAL);
         lua_setfield(L, -2, "huge");
+        lua_pushinteger(L, LUA_MAXINTEGER);
+        lua_setfield(L, -2, "maxinteger");
+        lua_pushinteger(L, LUA_MININTEGER);
+        lua_setfield(L, -2, "mininteger");
     }
-    if (functions == STRING) { /* ("x"):upper() */
+    if (functions == jox_library_string) { /* ("x"):upper() */
         lua_pushliteral(L, "");
         lua_newtable(L);
         lua_pushvalue(L, -3);
@@ -468,26 +256,18 @@ static void set_library(lua_State *L, const char *name, const luaL_Reg *function
 }
 
 void jox_sandbox_open(JoxVm *vm) {
-    static const luaL_Reg BASE[] = {{"pairs", sandbox_pairs},
-                                    {"ipairs", sandbox_ipairs},
-                                    {"next", next_key},
-                                    {"type", sandbox_type},
-                                    {"tostring", sandbox_tostring},
-                                    {"error", sandbox_error},
-                                    {"tonumber", sandbox_tonumber},
-                                    {"assert", sandbox_assert},
-                                    {"require", sandbox_require},
-                                    {NULL, NULL}};
     lua_State *L = vm->L;
     lua_newtable(L);
     lua_setfield(L, LUA_REGISTRYINDEX, "jostle loaded");
     lua_newtable(L); /* the environment, empty: every access goes through env_index */
     lua_newtable(L);
     lua_newtable(L); /* what is known besides the words */
-    luaL_setfuncs(L, BASE, 0);
-    set_library(L, "math", MATH);
-    set_library(L, "string", STRING);
-    set_library(L, "table", TABLE);
+    luaL_setfuncs(L, jox_library_base, 0);
+    lua_pushcfunction(L, sandbox_require);
+    lua_setfield(L, -2, "require");
+    set_library(L, "math", jox_library_math);
+    set_library(L, "string", jox_library_string);
+    set_library(L, "table", jox_library_table);
     lua_pushcclosure(L, env_index, 1);
     lua_setfield(L, -2, "__index");
     lua_pushcfunction(L, env_newindex);

@@ -1,18 +1,28 @@
 /* Lua states: the cap on memory, the budget of instructions, the one protected call. */
+#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/mem.h"
 #include "lua/internal.h"
 
-enum { CHECK_EVERY = 1000 };
+enum { CHECK_EVERY = 1000, MOST_NAMES = 4096 };
+static const double LOAD_SECONDS = 0.7; /* of a load with the default budget */
 
 JoxLuaLimits jox_lua_default_limits(void) {
-    return (JoxLuaLimits){20000000, 100000, 32u << 20, 2u << 20, 256u << 10};
+    return (JoxLuaLimits){20000000, 100000, 32u << 20, 2u << 20, 256u << 10, 20};
 }
 
 static void count_hook(lua_State *L, lua_Debug *debug);
+
+/* Has the very next instruction stopped, not one of the next thousand. */
+static void stop_soon(JoxVm *vm) {
+    vm->left = 0;
+    if (vm->running)
+        lua_sethook(vm->L, count_hook, LUA_MASKCOUNT, 1);
+}
 
 static void *allocate(void *context, void *memory, size_t old, size_t size) {
     JoxVm *vm = context;
@@ -24,38 +34,69 @@ static void *allocate(void *context, void *memory, size_t old, size_t size) {
         return NULL;
     }
     const JoxLuaLimits *limits = &vm->owner->limits;
-    if (size > old && (size > limits->block || vm->used - old + size > limits->memory)) {
-        vm->out_of_memory = true;
-        return NULL;
-    }
-    void *result = realloc(memory, size);
+    uint64_t cost = size > old ? (size - old) >> 2 : 0; /* a few instructions can copy megabytes */
+    void *result = NULL;
+    if (size <= old || (size <= limits->block && vm->used - old + size <= limits->memory))
+        result = realloc(memory, size);
     if (result)
-        vm->used += size - old;
-    if (size > old) { /* bytes cost too: a few instructions can copy megabytes */
-        uint64_t cost = (size - old) >> 2;
-        vm->left = vm->left > cost ? vm->left - cost : 0;
-        if (vm->left == 0 && vm->running) /* do not wait for the next thousand instructions */
-            lua_sethook(vm->L, count_hook, LUA_MASKCOUNT, 1);
-    }
+        vm->used = vm->used - old + size;
+    else
+        cost += vm->used >> 4; /* Lua now looks through all of it for what can be freed */
+    if (vm->left > cost)
+        vm->left -= cost;
+    else if (cost > 0)
+        stop_soon(vm);
     return result;
+}
+
+/* Seconds that this thread has computed: a busy machine must not make a load fail. */
+static double thread_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static double load_seconds(const JoxVm *vm) {
+    double share = (double)vm->owner->limits.load_instructions / 20e6;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
+    share *= 10.0;
+#endif
+    return LOAD_SECONDS * (share > 1.0 ? share : 1.0);
+}
+
+int jox_vm_stop(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    vm->over = true;
+    stop_soon(vm);
+    return lua_error(L);
+}
+
+static int stop_long(lua_State *L, int level) {
+    luaL_where(L, level);
+    lua_pushliteral(L, "it ran for too long (over its budget of instructions) and was stopped");
+    lua_concat(L, 2);
+    return jox_vm_stop(L);
 }
 
 /* Counts instructions. Once over, every instruction trips, so that nothing can swallow it. */
 static void count_hook(lua_State *L, lua_Debug *debug) {
+    (void)debug;
     JoxVm *vm = jox_vm_of(L);
-    if (!vm->over && vm->left > CHECK_EVERY) {
+    bool late = vm->loading && thread_seconds() > vm->deadline;
+    if (!vm->over && !vm->starved && !late && vm->left > CHECK_EVERY) {
         vm->left -= CHECK_EVERY;
         return;
     }
-    if (!vm->over) {
-        vm->over = true;
-        lua_sethook(L, count_hook, LUA_MASKCOUNT, 1);
-    }
-    lua_getinfo(L, "Sl", debug);
-    lua_pushfstring(L,
-                    "%s:%d: it ran for too long (over its budget of instructions) and was stopped",
-                    debug->short_src, debug->currentline);
-    lua_error(L);
+    stop_long(L, 0);
+}
+
+void jox_vm_charge(lua_State *L, uint64_t steps) {
+    JoxVm *vm = jox_vm_of(L);
+    if (!vm->running)
+        return; /* the engine's own */
+    if (vm->over || vm->starved || vm->left <= steps)
+        stop_long(L, 1);
+    vm->left -= steps;
 }
 
 JoxVm *jox_vm_of(lua_State *L) {
@@ -68,6 +109,7 @@ static int open_all(lua_State *L) {
     jox_words_open(vm);
     jox_me_open(vm);
     jox_sandbox_open(vm);
+    jox_upvalue_self_check(L);
     return 0;
 }
 
@@ -121,11 +163,25 @@ void jox_vm_free(JoxVm *vm) {
 }
 
 const char *jox_vm_intern(JoxVm *vm, const char *name) {
+    jox_vm_charge(vm->L, vm->name_count / 8 + 1);
     for (size_t i = 0; i < vm->name_count; i++)
         if (strcmp(vm->names[i], name) == 0)
             return vm->names[i];
+    if (vm->name_count >= MOST_NAMES)
+        luaL_error(vm->L, "it uses over %d names", MOST_NAMES);
     JOX_RESERVE(vm->names, vm->name_capacity, vm->name_count + 1);
     return vm->names[vm->name_count++] = jox_strdup(name);
+}
+
+JoxPosition jox_vm_place(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    lua_Debug debug;
+    for (int level = 1, number; lua_getstack(L, level, &debug); level++)
+        if (lua_getinfo(L, "Sl", &debug) && debug.currentline > 0 &&
+            sscanf(debug.short_src, "b%d", &number) == 1 && number >= 0 &&
+            (size_t)number < vm->source_count)
+            return (JoxPosition){vm->sources[number].path, debug.currentline, 0, 0};
+    return (JoxPosition){0};
 }
 
 /* Splits "b12:34: message" into line and message; the number is that of the source. */
@@ -154,10 +210,13 @@ static int keep_traceback(lua_State *L) {
         if (debug.currentline < 1 || sscanf(debug.short_src, "b%d", &number) != 1 ||
             (size_t)number >= vm->source_count)
             continue;
-        used += (size_t)snprintf(vm->traceback + used, sizeof vm->traceback - used,
-                                 "   at %.200s:%d%s%.40s%s\n", vm->sources[number].path,
-                                 debug.currentline, debug.name ? " in '" : "",
-                                 debug.name ? debug.name : "", debug.name ? "'" : "");
+        char name[48]; /* it may be any text: t["..."]() */
+        snprintf(name, sizeof name, "%.40s", debug.name ? debug.name : "");
+        jox_text_clean(name);
+        used +=
+            (size_t)snprintf(vm->traceback + used, sizeof vm->traceback - used,
+                             "   at %.200s:%d%s%s%s\n", vm->sources[number].path, debug.currentline,
+                             debug.name ? " in '" : "", name, debug.name ? "'" : "");
         shown++;
         if (used >= sizeof vm->traceback)
             break;
@@ -167,11 +226,30 @@ static int keep_traceback(lua_State *L) {
     return 1;
 }
 
+/* Numbers as text and back must not depend on where the program runs. */
+static locale_t plain_locale(void) {
+    static locale_t plain;
+    locale_t seen = __atomic_load_n(&plain, __ATOMIC_ACQUIRE);
+    if (!seen) {
+        locale_t made = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+        if (__atomic_compare_exchange_n(&plain, &seen, made, false, __ATOMIC_ACQ_REL,
+                                        __ATOMIC_ACQUIRE))
+            seen = made;
+        else
+            freelocale(made);
+    }
+    return seen;
+}
+
 bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, const char **why,
                  int *line) {
     vm->left = instructions;
-    vm->over = vm->out_of_memory = false;
+    vm->over = vm->starved = false;
     vm->failed_source = 0;
+    vm->traceback[0] = 0;
+    if (vm->loading && vm->deadline <= 0.0)
+        vm->deadline = thread_seconds() + load_seconds(vm);
+    locale_t before = plain_locale() ? uselocale(plain_locale()) : (locale_t)0;
     lua_sethook(vm->L, count_hook, LUA_MASKCOUNT, CHECK_EVERY);
     int handler = lua_gettop(vm->L) - arguments;
     lua_pushcfunction(vm->L, keep_traceback);
@@ -180,6 +258,8 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     int status = lua_pcall(vm->L, arguments, results, handler);
     vm->running = false;
     lua_sethook(vm->L, NULL, 0, 0);
+    if (before)
+        uselocale(before);
     if (status == LUA_OK) {
         lua_remove(vm->L, handler);
         return true;
@@ -188,13 +268,14 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     *line = 0;
     *why = text;
     /* A foreign error object is never asked for its text: that would run foreign code. */
-    if (status == LUA_ERRMEM || vm->out_of_memory)
+    if (status == LUA_ERRMEM || vm->starved)
         snprintf(text, sizeof text, "it asked for too much memory and was stopped");
     else if (lua_type(vm->L, -1) == LUA_TSTRING)
         snprintf(text, sizeof text, "%s", split_message(vm, lua_tostring(vm->L, -1), line));
     else
         snprintf(text, sizeof text, "it raised an error that is a %s, not a text",
                  lua_typename(vm->L, lua_type(vm->L, -1)));
+    jox_text_clean(text);
     lua_settop(vm->L, 0);
     return false;
 }

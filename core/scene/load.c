@@ -473,8 +473,13 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
                             "mode is physical or literal");
     }
     if ((map = jox_yaml_get(root, "limits")) && jox_keys_check(r, map, "limits")) {
-        s->limits.instructions = (uint32_t)jox_key_number(r, map, "limits", "instructions");
+        s->limits.given = true;
+        s->limits.instructions = jox_key_number(r, map, "limits", "instructions");
+        s->limits.load_instructions = jox_key_number(r, map, "limits", "load_instructions");
         s->limits.memory = jox_key_number(r, map, "limits", "memory");
+        s->limits.block = jox_key_number(r, map, "limits", "block");
+        s->limits.source = jox_key_number(r, map, "limits", "source");
+        s->limits.print = jox_key_number(r, map, "limits", "print");
     }
     if ((map = jox_yaml_get(root, "heatmap")) && jox_keys_check(r, map, "heatmap")) {
         s->heatmap = read_box(l, jox_yaml_get(map, "area"), &s->heatmap_low, &s->heatmap_high);

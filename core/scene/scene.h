@@ -129,8 +129,11 @@ typedef struct JoxScene {
         bool given;
     } camera;
     struct {
-        uint32_t instructions; /* of Lua a step; 0: the host's default */
-        double memory;         /* MB; 0: the host's default */
+        bool given;                             /* else the host's defaults hold */
+        double instructions, load_instructions; /* of a Lua function's call, of a load */
+        double memory, block;                   /* MB: of a behaviour, of one allocation */
+        double source;                          /* KB of a file */
+        double print;                           /* lines in a second */
     } limits;
     bool heatmap; /* the area was given */
     JoxV2 heatmap_low, heatmap_high;

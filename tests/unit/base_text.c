@@ -64,8 +64,16 @@ static void a_flood_is_counted_and_cut(void **state) {
     jox_diag_free(&d);
 }
 
+static void text_is_made_fit_for_a_terminal(void **state) {
+    (void)state;
+    char text[] = "a\033[2J\n\tb\x7f \xc3\xa4 \xc2\x9b \xff\xc3";
+    jox_text_clean(text);
+    assert_string_equal(text, "a?[2J  b? \xc3\xa4 ?? ??");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(text_is_made_fit_for_a_terminal),
         cmocka_unit_test(json_escapes_whatever_comes),
         cmocka_unit_test(suggestions_are_near_or_absent),
         cmocka_unit_test(a_diagnostic_prints_its_place),

@@ -1,0 +1,550 @@
+/* The base functions of behaviours and their mathematics. Everything that loops in C is charged. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/elementary.h"
+#include "lua/internal.h"
+
+enum { MOST_KEYS = 65536, LONGEST_LINE = 400, LOAD_LINES = 5 /* times the limit of a second */ };
+
+/* ---- mathematics: the same bits everywhere ---- */
+
+static int call_1(lua_State *L, double (*f)(double)) {
+    lua_pushnumber(L, f(luaL_checknumber(L, 1)));
+    return 1;
+}
+static int math_sin(lua_State *L) {
+    return call_1(L, jox_sin);
+}
+static int math_cos(lua_State *L) {
+    return call_1(L, jox_cos);
+}
+static int math_tan(lua_State *L) {
+    double x = luaL_checknumber(L, 1);
+    lua_pushnumber(L, jox_sin(x) / jox_cos(x));
+    return 1;
+}
+static int math_asin(lua_State *L) {
+    double x = luaL_checknumber(L, 1);
+    lua_pushnumber(L, jox_atan2(x, sqrt((1.0 - x) * (1.0 + x))));
+    return 1;
+}
+static int math_acos(lua_State *L) {
+    double x = luaL_checknumber(L, 1);
+    lua_pushnumber(L, jox_atan2(sqrt((1.0 - x) * (1.0 + x)), x));
+    return 1;
+}
+static int math_atan(lua_State *L) {
+    lua_pushnumber(L, jox_atan2(luaL_checknumber(L, 1), luaL_optnumber(L, 2, 1.0)));
+    return 1;
+}
+static int math_exp(lua_State *L) {
+    return call_1(L, jox_exp);
+}
+static int math_log(lua_State *L) {
+    double x = jox_log(luaL_checknumber(L, 1));
+    lua_pushnumber(L, lua_isnoneornil(L, 2) ? x : x / jox_log(luaL_checknumber(L, 2)));
+    return 1;
+}
+static int math_sqrt(lua_State *L) {
+    return call_1(L, sqrt);
+}
+static int math_deg(lua_State *L) {
+    lua_pushnumber(L, luaL_checknumber(L, 1) * (180.0 / 3.14159265358979323846));
+    return 1;
+}
+static int math_rad(lua_State *L) {
+    lua_pushnumber(L, luaL_checknumber(L, 1) * (3.14159265358979323846 / 180.0));
+    return 1;
+}
+static int math_abs(lua_State *L) {
+    if (lua_isinteger(L, 1)) {
+        lua_Unsigned n = (lua_Unsigned)lua_tointeger(L, 1);
+        lua_pushinteger(L, lua_tointeger(L, 1) < 0 ? (lua_Integer)(0u - n) : (lua_Integer)n);
+        return 1;
+    }
+    return call_1(L, fabs);
+}
+
+/* A whole number as an integer where it fits, else as it is. */
+static int push_whole(lua_State *L, double x) {
+    if (x >= -0x1p63 && x < 0x1p63)
+        lua_pushinteger(L, (lua_Integer)x);
+    else
+        lua_pushnumber(L, x);
+    return 1;
+}
+static int math_floor(lua_State *L) {
+    if (lua_isinteger(L, 1))
+        return lua_settop(L, 1), 1;
+    return push_whole(L, floor(luaL_checknumber(L, 1)));
+}
+static int math_ceil(lua_State *L) {
+    if (lua_isinteger(L, 1))
+        return lua_settop(L, 1), 1;
+    return push_whole(L, ceil(luaL_checknumber(L, 1)));
+}
+static int math_modf(lua_State *L) {
+    double x = luaL_checknumber(L, 1), whole = x < 0 ? ceil(x) : floor(x);
+    lua_pushnumber(L, whole);
+    lua_pushnumber(L, x == whole ? 0.0 : x - whole);
+    return 2;
+}
+static int math_fmod(lua_State *L) {
+    if (lua_isinteger(L, 1) && lua_isinteger(L, 2)) {
+        lua_Integer a = lua_tointeger(L, 1), b = lua_tointeger(L, 2);
+        luaL_argcheck(L, b != 0, 2, "zero");
+        lua_pushinteger(L, b == -1 ? 0 : a % b);
+        return 1;
+    }
+    lua_pushnumber(L, fmod(luaL_checknumber(L, 1), luaL_checknumber(L, 2)));
+    return 1;
+}
+static int extreme(lua_State *L, bool greatest) {
+    int best = 1, count = lua_gettop(L);
+    luaL_checknumber(L, 1);
+    for (int i = 1; i <= count; i++)
+        if (lua_type(L, i) != LUA_TNUMBER)
+            return luaL_typeerror(L, i, "number");
+    for (int i = 2; i <= count; i++)
+        if (lua_compare(L, greatest ? best : i, greatest ? i : best, LUA_OPLT))
+            best = i;
+    lua_pushvalue(L, best);
+    return 1;
+}
+static int math_max(lua_State *L) {
+    return extreme(L, true);
+}
+static int math_min(lua_State *L) {
+    return extreme(L, false);
+}
+static int math_tointeger(lua_State *L) {
+    int good = 0;
+    luaL_checkany(L, 1);
+    lua_Integer n = lua_type(L, 1) == LUA_TNUMBER ? lua_tointegerx(L, 1, &good) : 0;
+    if (good)
+        lua_pushinteger(L, n);
+    else
+        lua_pushnil(L);
+    return 1;
+}
+static int math_type(lua_State *L) {
+    luaL_checkany(L, 1);
+    if (lua_type(L, 1) == LUA_TNUMBER)
+        lua_pushstring(L, lua_isinteger(L, 1) ? "integer" : "float");
+    else
+        lua_pushnil(L);
+    return 1;
+}
+
+/* From the agent's own stream: a function of seed, agent and tick. */
+static int math_random(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    if (vm->loading || !vm->owner->mind)
+        return luaL_error(L, "math.random works in functions of agents only; at load use normal, "
+                             "uniform or choose");
+    const JoxMind *mind = vm->owner->mind;
+    double u = jox_random_unit(mind->seed, mind->agents->id[vm->agent], mind->tick, JOX_DRAW_LUA,
+                               vm->draws++);
+    if (lua_gettop(L) == 0) {
+        lua_pushnumber(L, u);
+        return 1;
+    }
+    double low = lua_gettop(L) > 1 ? floor(luaL_checknumber(L, 1)) : 1.0;
+    double high = floor(luaL_checknumber(L, lua_gettop(L) > 1 ? 2 : 1));
+    luaL_argcheck(L, fabs(low) <= 0x1p53 && fabs(high) <= 0x1p53 && high - low < 1e15, 1,
+                  "the interval is too large");
+    luaL_argcheck(L, high >= low, 1, "the interval is empty");
+    lua_pushinteger(L, (lua_Integer)(low + floor(u * (high - low + 1.0))));
+    return 1;
+}
+
+const luaL_Reg jox_library_math[] = {{"sin", math_sin},       {"cos", math_cos},
+                                     {"tan", math_tan},       {"asin", math_asin},
+                                     {"acos", math_acos},     {"atan", math_atan},
+                                     {"exp", math_exp},       {"log", math_log},
+                                     {"sqrt", math_sqrt},     {"deg", math_deg},
+                                     {"rad", math_rad},       {"abs", math_abs},
+                                     {"ceil", math_ceil},     {"floor", math_floor},
+                                     {"modf", math_modf},     {"fmod", math_fmod},
+                                     {"max", math_max},       {"min", math_min},
+                                     {"type", math_type},     {"tointeger", math_tointeger},
+                                     {"random", math_random}, {NULL, NULL}};
+
+/* ---- pairs in a fixed order: numbers, then strings ---- */
+
+/* A key of a table that is being put in order; text stays alive as the table of keys holds it. */
+typedef struct Key {
+    union {
+        lua_Integer integer;
+        double number;
+        const char *text;
+    } as;
+    uint32_t length;
+    enum { KEY_INTEGER, KEY_FLOAT, KEY_TEXT } kind;
+} Key;
+
+/* Whether integer i < a number that is none: exact, where a cast of i would round. */
+static bool integer_before(lua_Integer i, double f) {
+    if (f >= 0x1p63)
+        return true;
+    return f > -0x1p63 && i <= (lua_Integer)floor(f);
+}
+
+static bool key_before(const Key *a, const Key *b) {
+    if ((a->kind == KEY_TEXT) != (b->kind == KEY_TEXT))
+        return b->kind == KEY_TEXT;
+    if (a->kind == KEY_TEXT)
+        return jox_library_compare(a->as.text, a->length, b->as.text, b->length) < 0;
+    if (a->kind == KEY_INTEGER && b->kind == KEY_INTEGER)
+        return a->as.integer < b->as.integer;
+    if (a->kind == KEY_FLOAT && b->kind == KEY_FLOAT)
+        return a->as.number < b->as.number;
+    return a->kind == KEY_INTEGER ? integer_before(a->as.integer, b->as.number)
+                                  : !integer_before(b->as.integer, a->as.number);
+}
+
+static Key read_key(lua_State *L, int index) {
+    Key key = {0};
+    if (lua_isinteger(L, index)) {
+        key.as.integer = lua_tointeger(L, index);
+        key.kind = KEY_INTEGER;
+    } else if (lua_type(L, index) == LUA_TNUMBER) {
+        key.as.number = lua_tonumber(L, index);
+        key.kind = KEY_FLOAT;
+    } else if (lua_type(L, index) == LUA_TSTRING) {
+        size_t length;
+        key.as.text = lua_tolstring(L, index, &length);
+        key.length = (uint32_t)length; /* under a block */
+        key.kind = KEY_TEXT;
+    } else {
+        luaL_error(L, "pairs and next visit tables whose keys are numbers and texts");
+    }
+    return key;
+}
+
+static void push_key(lua_State *L, const Key *key) {
+    if (key->kind == KEY_INTEGER)
+        lua_pushinteger(L, key->as.integer);
+    else if (key->kind == KEY_FLOAT)
+        lua_pushnumber(L, key->as.number);
+    else
+        lua_pushlstring(L, key->as.text, key->length);
+}
+
+/* Merges runs, so that no order of the input is slow. `spare` has room for as many. */
+static void sort_keys(Key *keys, Key *spare, size_t count) {
+    Key *from = keys, *to = spare;
+    for (size_t width = 1; width < count; width *= 2) {
+        for (size_t low = 0; low < count; low += 2 * width) {
+            size_t middle = low + width < count ? low + width : count;
+            size_t high = low + 2 * width < count ? low + 2 * width : count;
+            size_t a = low, b = middle;
+            for (size_t k = low; k < high; k++)
+                to[k] = b >= high || (a < middle && !key_before(&from[b], &from[a])) ? from[a++]
+                                                                                     : from[b++];
+        }
+        Key *swap = from;
+        from = to;
+        to = swap;
+    }
+    if (from != keys)
+        memcpy(keys, from, count * sizeof *keys);
+}
+
+/* Pushes a table with the keys of the table on top of the stack, in order. */
+static void push_sorted(lua_State *L) {
+    size_t count = 0, bytes = 0, at = 0;
+    const int table = lua_gettop(L);
+    for (lua_pushnil(L); lua_next(L, table); lua_pop(L, 1))
+        if (++count > MOST_KEYS)
+            luaL_error(L, "pairs visits tables of at most %d keys", MOST_KEYS);
+    jox_vm_charge(L, count / 2 + 4);
+    Key *keys = lua_newuserdatauv(L, (count + 1) * sizeof *keys, 0);
+    Key *spare = lua_newuserdatauv(L, (count + 1) * sizeof *spare, 0);
+    lua_createtable(L, (int)count, 0); /* nothing below lets the script run, so none vanishes */
+    for (lua_pushnil(L); at < count && lua_next(L, table); lua_pop(L, 1)) {
+        keys[at] = read_key(L, lua_gettop(L) - 1);
+        bytes += keys[at].kind == KEY_TEXT ? keys[at].length : 0;
+        at++;
+    }
+    unsigned rounds = 1;
+    while ((1ull << rounds) < count)
+        rounds++;
+    jox_vm_charge(L, (count + bytes / 16) * rounds / 8);
+    sort_keys(keys, spare, count);
+    for (size_t i = 0; i < count; i++) {
+        push_key(L, &keys[i]);
+        lua_rawseti(L, table + 3, (lua_Integer)i + 1);
+    }
+    lua_settop(L, table + 3);
+    lua_replace(L, table + 1);
+    lua_settop(L, table + 1);
+}
+
+/* Upvalues: the table, its keys in order, how many were visited, the call that it belongs to. */
+static int next_pair(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    if (lua_tointeger(L, lua_upvalueindex(4)) != (lua_Integer)vm->run)
+        return luaL_error(L, "what pairs returned was kept from an earlier call");
+    lua_Integer at = lua_tointeger(L, lua_upvalueindex(3));
+    lua_settop(L, 0);
+    jox_frozen_contents(L, lua_upvalueindex(1));
+    for (;;) {
+        jox_vm_charge(L, 1);
+        if (lua_rawgeti(L, lua_upvalueindex(2), ++at) == LUA_TNIL)
+            return 1;
+        lua_pushvalue(L, -1);
+        if (lua_rawget(L, 1) != LUA_TNIL) /* else removed meanwhile */
+            break;
+        lua_settop(L, 1);
+    }
+    lua_pushinteger(L, at);
+    lua_replace(L, lua_upvalueindex(3));
+    return 2;
+}
+
+static int base_pairs(lua_State *L) {
+    luaL_checktype(L, 1, LUA_TTABLE);
+    lua_settop(L, 1);
+    jox_frozen_contents(L, 1);
+    push_sorted(L);
+    lua_pushvalue(L, 1);
+    lua_insert(L, -2);
+    lua_pushinteger(L, 0);
+    lua_pushinteger(L, (lua_Integer)jox_vm_of(L)->run);
+    lua_pushcclosure(L, next_pair, 4);
+    lua_pushvalue(L, 1);
+    lua_pushnil(L);
+    return 3;
+}
+
+/* The key that follows another in the order; each call looks at all keys. */
+static int base_next(lua_State *L) {
+    luaL_checktype(L, 1, LUA_TTABLE);
+    lua_settop(L, 2);
+    bool first = lua_isnil(L, 2), found = false;
+    Key after = {0}, best = {0};
+    if (!first)
+        after = read_key(L, 2);
+    jox_frozen_contents(L, 1);
+    uint64_t seen = 0;
+    for (lua_pushnil(L); lua_next(L, 3); lua_pop(L, 1)) {
+        Key key = read_key(L, lua_gettop(L) - 1);
+        bool later = first || key_before(&after, &key);
+        if (later && (!found || key_before(&key, &best))) {
+            best = key;
+            found = true;
+        }
+        if ((++seen & 63) == 0)
+            jox_vm_charge(L, 64);
+    }
+    if (!found)
+        return lua_pushnil(L), 1;
+    push_key(L, &best);
+    lua_pushvalue(L, -1);
+    lua_rawget(L, 3);
+    return 2;
+}
+
+static int next_item(lua_State *L) {
+    lua_Integer i = luaL_checkinteger(L, 2);
+    luaL_checktype(L, 1, LUA_TTABLE);
+    luaL_argcheck(L, i < LUA_MAXINTEGER, 2, "too large");
+    jox_frozen_contents(L, 1);
+    lua_pushinteger(L, i + 1);
+    return lua_rawgeti(L, -2, i + 1) == LUA_TNIL ? 1 : 2;
+}
+static int base_ipairs(lua_State *L) {
+    luaL_checktype(L, 1, LUA_TTABLE);
+    lua_pushcfunction(L, next_item);
+    lua_pushvalue(L, 1);
+    lua_pushinteger(L, 0);
+    return 3;
+}
+
+/* ---- kinds and text of values ---- */
+
+static const char *kind_of(lua_State *L, int index) {
+    return jox_node_get(L, index) ? "value" : luaL_typename(L, index);
+}
+static int base_type(lua_State *L) {
+    luaL_checkany(L, 1);
+    lua_pushstring(L, kind_of(L, 1));
+    return 1;
+}
+const char *jox_library_text(lua_State *L, int index, size_t *length) {
+    int type = lua_type(L, index);
+    if (type == LUA_TNUMBER && lua_tonumber(L, index) != lua_tonumber(L, index))
+        lua_pushliteral(L, "nan"); /* its sign means nothing */
+    else if (type == LUA_TNUMBER || type == LUA_TSTRING)
+        lua_pushvalue(L, index);
+    else if (type == LUA_TBOOLEAN)
+        lua_pushstring(L, lua_toboolean(L, index) ? "true" : "false");
+    else
+        lua_pushstring(L, kind_of(L, index)); /* no addresses */
+    return lua_tolstring(L, -1, length);
+}
+static int base_tostring(lua_State *L) {
+    luaL_checkany(L, 1);
+    jox_library_text(L, 1, NULL);
+    return 1;
+}
+
+static int digit_of(char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'z' ? c - 'a' + 10
+           : c >= 'A' && c <= 'Z' ? c - 'A' + 10
+                                  : 99;
+}
+static int base_tonumber(lua_State *L) {
+    size_t length;
+    if (lua_isnoneornil(L, 2)) {
+        luaL_checkany(L, 1);
+        const char *text = lua_type(L, 1) == LUA_TSTRING ? lua_tolstring(L, 1, &length) : NULL;
+        if (text && (length > 200 || lua_stringtonumber(L, text) != length + 1))
+            lua_pushnil(L);
+        else if (!text && lua_type(L, 1) == LUA_TNUMBER)
+            lua_pushvalue(L, 1);
+        else if (!text)
+            lua_pushnil(L);
+        return 1;
+    }
+    lua_Integer base = luaL_checkinteger(L, 2);
+    luaL_argcheck(L, base >= 2 && base <= 36, 2, "a base is from 2 to 36");
+    luaL_checktype(L, 1, LUA_TSTRING);
+    const char *c = lua_tolstring(L, 1, &length), *end = c + length;
+    jox_vm_charge(L, length / 8);
+    while (c < end && (*c == ' ' || *c == '\t'))
+        c++;
+    while (end > c && (end[-1] == ' ' || end[-1] == '\t'))
+        end--;
+    bool minus = c < end && *c == '-', good;
+    c += minus;
+    good = c < end;
+    lua_Unsigned n = 0;
+    for (; c < end && good; c++) {
+        good = digit_of(*c) < base;
+        n = n * (lua_Unsigned)base + (lua_Unsigned)digit_of(*c);
+    }
+    if (good)
+        lua_pushinteger(L, (lua_Integer)(minus ? 0u - n : n));
+    else
+        lua_pushnil(L);
+    return 1;
+}
+
+static int base_select(lua_State *L) {
+    int count = lua_gettop(L);
+    if (lua_type(L, 1) == LUA_TSTRING && strcmp(lua_tostring(L, 1), "#") == 0) {
+        lua_pushinteger(L, count - 1);
+        return 1;
+    }
+    lua_Integer n = luaL_checkinteger(L, 1);
+    n = n < 0 ? count + n : n > count ? count : n;
+    luaL_argcheck(L, n >= 1, 1, "there are not so many");
+    jox_vm_charge(L, (uint64_t)count / 8);
+    return count - (int)n;
+}
+
+/* ---- errors ---- */
+
+static int base_error(lua_State *L) {
+    lua_Integer level = luaL_optinteger(L, 2, 1);
+    if (lua_type(L, 1) != LUA_TSTRING)
+        return luaL_error(L, "error needs a text");
+    lua_settop(L, 1);
+    luaL_where(L, level == 0 ? 0 : level == 2 ? 2 : 1); /* of level 0, a C function: none */
+    lua_insert(L, 1);
+    lua_concat(L, 2);
+    return lua_error(L);
+}
+static int base_assert(lua_State *L) {
+    if (lua_toboolean(L, 1))
+        return lua_gettop(L);
+    luaL_checkany(L, 1);
+    if (lua_type(L, 2) != LUA_TSTRING)
+        return luaL_error(L, "assertion failed");
+    luaL_where(L, 1);
+    lua_pushvalue(L, 2);
+    lua_concat(L, 2);
+    return lua_error(L);
+}
+
+/* What stops a script for good passes through: neither its budget nor its memory comes back. */
+static int base_pcall(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    luaL_checkany(L, 1);
+    jox_vm_charge(L, 10);
+    lua_pushboolean(L, 1);
+    lua_insert(L, 1);
+    int status = lua_pcall(L, lua_gettop(L) - 2, LUA_MULTRET, 0);
+    vm->starved |= status == LUA_ERRMEM;
+    if (status != LUA_OK && (vm->over || vm->starved))
+        return jox_vm_stop(L);
+    if (status == LUA_OK)
+        return lua_gettop(L);
+    lua_pushboolean(L, 0);
+    lua_insert(L, -2);
+    return 2;
+}
+
+/* ---- print ---- */
+
+/* Whether one more line may be said; the last one says that no more follow. */
+static bool may_print(JoxVm *vm, bool *last) {
+    const JoxMind *mind = vm->owner->mind;
+    uint32_t most = vm->owner->limits.print_lines;
+    uint32_t second = vm->loading || !mind ? 0 : (uint32_t)(mind->tick * mind->dt) + 1;
+    if (second != vm->print_second) {
+        vm->print_second = second;
+        vm->printed = 0;
+    }
+    if (second == 0)
+        most *= LOAD_LINES;
+    *last = vm->printed == most;
+    if (vm->printed <= most)
+        vm->printed++;
+    return vm->printed <= most || *last;
+}
+
+static int base_print(lua_State *L) {
+    JoxVm *vm = jox_vm_of(L);
+    int count = lua_gettop(L);
+    bool last;
+    jox_vm_charge(L, 50);
+    if (!may_print(vm, &last) || !vm->owner->complain)
+        return 0;
+    JoxPosition place = jox_vm_place(L);
+    char line[LONGEST_LINE + 600];
+    int used = snprintf(line, 512, "%s:%d: ", place.file ? place.file : "?", place.line);
+    size_t at = used < 511 ? (size_t)used : 511;
+    const size_t end = at + LONGEST_LINE;
+    if (last)
+        at += (size_t)sprintf(line + at, "... print is limited");
+    for (int i = 1; i <= count && !last && at < end; i++) {
+        size_t length;
+        const char *text = jox_library_text(L, i, &length);
+        if (i > 1)
+            line[at++] = ' ';
+        bool fits = length <= end - at;
+        length = fits ? length : end - at;
+        memcpy(line + at, text, length);
+        at += length;
+        if (!fits)
+            at += (size_t)sprintf(line + at, " ...");
+        lua_pop(L, 1);
+    }
+    line[at] = 0;
+    jox_text_clean(line);
+    memcpy(line + at, "\n", 2);
+    vm->owner->complain(vm->owner->complain_context, line);
+    return 0;
+}
+
+const luaL_Reg jox_library_base[] = {
+    {"pairs", base_pairs},   {"ipairs", base_ipairs},     {"next", base_next},
+    {"type", base_type},     {"tostring", base_tostring}, {"tonumber", base_tonumber},
+    {"select", base_select}, {"error", base_error},       {"assert", base_assert},
+    {"pcall", base_pcall},   {"print", base_print},       {NULL, NULL}};

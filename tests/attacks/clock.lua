@@ -1,0 +1,2 @@
+-- expects: load-error unknown word 'os'
+local t = os.clock()

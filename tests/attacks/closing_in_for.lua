@@ -1,0 +1,2 @@
+-- expects: load-error
+for _ in pairs({ 1 }), nil, nil, {} do end

@@ -1,0 +1,2 @@
+-- expects: load-error
+local x <close> = {}

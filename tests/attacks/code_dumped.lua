@@ -1,0 +1,2 @@
+-- expects: load-error
+local s = string.dump(function() end)

@@ -1,0 +1,2 @@
+-- expects: load-error unknown word 'load'
+load("while true do end")()

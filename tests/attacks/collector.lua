@@ -1,0 +1,2 @@
+-- expects: load-error unknown word 'collectgarbage'
+collectgarbage("stop")

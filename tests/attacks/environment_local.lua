@@ -1,0 +1,3 @@
+-- expects: load-error '_ENV' cannot be used
+local _ENV <const> = 11
+print(x)

@@ -1,0 +1,2 @@
+-- expects: load-error '_ENV' cannot be used
+_ENV = {}

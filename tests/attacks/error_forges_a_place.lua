@@ -1,0 +1,2 @@
+-- expects: load-error forged
+error("b99:12: forged", 0)

@@ -1,0 +1,2 @@
+-- expects: load-error boom
+error("boom" .. ("!"):rep(2 ^ 19))

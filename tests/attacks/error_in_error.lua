@@ -1,0 +1,3 @@
+-- expects: load-error
+local function f() error(f()) end
+f()

@@ -1,0 +1,2 @@
+-- expects: load-error needs a text
+error({ code = 1 })

@@ -1,0 +1,2 @@
+-- expects: load-error unknown word 'dofile'
+dofile("/etc/passwd")

@@ -1,0 +1,2 @@
+-- expects: load-error unknown word 'loadfile'
+local f = loadfile("/etc/passwd")

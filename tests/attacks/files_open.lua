@@ -1,0 +1,2 @@
+-- expects: load-error unknown word 'io'
+local f = io.open("/etc/passwd")

@@ -1,0 +1,2 @@
+-- expects: load-error unknown word 'setmetatable'
+setmetatable({}, { __gc = function() while true do end end })

@@ -1,0 +1,2 @@
+-- expects: load-error does not know '%n'
+local s = string.format("%n", 1)

@@ -1,0 +1,2 @@
+-- expects: load-error unknown word '_G'
+_G.x = 1

@@ -1,0 +1,2 @@
+-- expects: load-error unknown word 'xpcall'
+xpcall(error, function() while true do end end)

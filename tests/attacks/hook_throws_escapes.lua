@@ -1,0 +1,3 @@
+-- expects: run ?[2J
+return machine { name = "m", start = "A", states = { A = { steer = hold,
+  { to = "A", when = function() error("\27[2J\7") end } } } }

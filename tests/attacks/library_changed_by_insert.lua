@@ -1,0 +1,2 @@
+-- expects: load-error library
+table.insert(math, function() end)

@@ -1,0 +1,2 @@
+-- expects: load-error library
+table.move({ 1 }, 1, 1, 1, string)

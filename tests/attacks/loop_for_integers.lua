@@ -1,0 +1,2 @@
+-- expects: load-error too long
+for i = math.mininteger, math.maxinteger do end

@@ -1,0 +1,3 @@
+-- expects: load-error too long
+goto a
+::a:: goto a

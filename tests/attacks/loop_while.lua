@@ -1,0 +1,2 @@
+-- expects: load-error too long
+while true do end

@@ -1,0 +1,2 @@
+-- expects: load-error
+return machine { name = "m", start = "A", states = { A = { steer = hold, speed = me.speed } } }

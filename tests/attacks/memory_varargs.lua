@@ -1,0 +1,3 @@
+-- expects: load-error
+local function grow(...) return grow(1, ...) end
+grow()

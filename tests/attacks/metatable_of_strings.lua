@@ -1,0 +1,2 @@
+-- expects: load-error unknown word 'getmetatable'
+getmetatable("").__index = nil

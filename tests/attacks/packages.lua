@@ -1,0 +1,2 @@
+-- expects: load-error unknown word 'package'
+package.path = "/tmp/?.lua"

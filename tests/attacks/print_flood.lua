@@ -1,0 +1,2 @@
+-- expects: load-error print is limited
+while true do print("flood") end

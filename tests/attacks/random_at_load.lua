@@ -1,0 +1,2 @@
+-- expects: load-error at load use
+local x = math.random()

@@ -1,0 +1,2 @@
+-- expects: load-error unknown word 'rawset'
+rawset(math, "pi", 3)

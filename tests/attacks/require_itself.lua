@@ -1,0 +1,3 @@
+-- expects: load-error
+local again = require "require_itself"
+return again

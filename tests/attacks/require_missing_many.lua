@@ -1,0 +1,2 @@
+-- expects: load-error
+for i = 1, 1e6 do require("missing" .. i) end

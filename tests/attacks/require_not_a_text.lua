@@ -1,0 +1,2 @@
+-- expects: load-error
+require {}

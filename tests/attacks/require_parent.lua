@@ -1,0 +1,2 @@
+-- expects: load-error not a plain name
+require "../../../../etc/passwd"

@@ -1,0 +1,2 @@
+-- expects: load-error
+require "honest\0/../../etc/passwd"
