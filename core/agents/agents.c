@@ -68,6 +68,8 @@ static double *widen_rows(double *rows, const JoxAgents *a, uint32_t old, uint32
 }
 
 void jox_agents_widen(JoxAgents *a, uint32_t own_stride, uint32_t memory_stride) {
+    if (own_stride <= a->own_stride && memory_stride <= a->memory_stride)
+        return;
     if (own_stride > a->own_stride) {
         a->own = widen_rows(a->own, a, a->own_stride, own_stride);
         a->own_stride = own_stride;

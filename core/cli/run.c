@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/cli.h"
 
@@ -25,7 +26,10 @@ static const char HELP[] =
     "                     user's data directory; may be given several times\n"
     "  --no-mods          take no mods but those given by --mod or named by the scene\n"
     "  --profile-lua      list what each plain Lua function costs, by state\n"
-    "  --watch            reload behaviours when their files change\n"
+    "  --watch            reload behaviours and the scene when their files change; the default "
+    "where\n"
+    "                     the output is a terminal\n"
+    "  --no-watch         do not\n"
     "  --trace AGENT      print each transition of the agent with this id, and why\n"
     "  --quiet            no progress\n\n"
     "exit status: 0 done, 1 the run failed, 2 wrong usage, 3 bad input\n";
@@ -36,7 +40,7 @@ typedef struct Run {
     double seconds;
     uint64_t steps, seeds, trace;
     const char **mods;
-    bool has_seconds, has_steps, watch, has_trace, quiet, profile;
+    bool has_seconds, has_steps, watch, no_watch, has_trace, quiet, profile;
 } Run;
 
 static volatile sig_atomic_t interrupted;
@@ -88,6 +92,8 @@ static bool read_option(Run *run, CliArgs *args, const char *option, const char 
         run->profile = true;
     } else if (!strcmp(option, "watch")) {
         run->watch = true;
+    } else if (!strcmp(option, "no-watch")) {
+        run->no_watch = true;
     } else if (!strcmp(option, "trace")) {
         run->trace = cli_whole(args, option, 0, UINT32_MAX);
         run->has_trace = true;
@@ -194,10 +200,10 @@ static int usage_error(const Run *run, const CliArgs *args) {
 }
 
 int cli_run(int argc, char **argv) {
-    static const char *const known[] = {"for",     "steps",   "dt",      "seed",        "seeds",
-                                        "threads", "isa",     "set",     "input",       "record",
-                                        "report",  "summary", "watch",   "trace",       "quiet",
-                                        "help",    "mod",     "no-mods", "profile-lua", NULL};
+    static const char *const known[] = {
+        "for",   "steps", "dt",     "seed",    "seeds",       "threads",  "isa",
+        "set",   "input", "record", "report",  "summary",     "watch",    "trace",
+        "quiet", "help",  "mod",    "no-mods", "profile-lua", "no-watch", NULL};
     CliArgs args = {.argc = argc, .argv = argv, .next = 1, .command = "run"};
     const char **overrides = calloc((size_t)argc, sizeof *overrides);
     Run run = {.def = jo_default_scene_def()};
@@ -227,6 +233,7 @@ int cli_run(int argc, char **argv) {
             status = -1;
     }
     if (status < 0) {
+        run.watch |= isatty(2) && !run.no_watch && !run.seeds;
         signal(SIGINT, interrupt);
         signal(SIGTERM, interrupt);
         char *summary = NULL;

@@ -28,7 +28,11 @@ struct JoScene {
     JoMessage *message;
     void *message_context;
 
-    JoxWatch *watch;
+    struct JoxReload *reload; /* NULL: files are not watched */
+    double swap_seconds;      /* the longest that a swap has held a step up */
+    JoSceneDef def;           /* as it was loaded, with copies of its texts */
+    char **plan_files;        /* the scene's file and what it includes */
+    uint32_t plan_file_count;
     JoxRecorder *recorder;
     uint32_t record_every; /* ticks */
     char *report;          /* directory, or NULL */
@@ -74,8 +78,16 @@ bool jox_host_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnost
 bool jox_host_populate(JoScene *scene, JoxDiagnostics *diagnostics);
 void jox_host_sources(JoScene *scene);
 void jox_host_sinks(JoScene *scene);
-/* reload.c: swaps behaviours whose files have changed. */
+/* The file of the machine that a state becomes; false with diagnostics. */
+bool jox_host_find_become(const JoScene *scene, const JoxMachine *machine, uint32_t state,
+                          char path[1024], JoxDiagnostics *diagnostics);
+/* reload.c: swaps what has been loaded anew since the last step; ends the thread that loads. */
+typedef struct JoxReload JoxReload;
 void jox_host_reload(JoScene *scene);
+void jox_host_unwatch(JoScene *scene);
+/* rescene.c: takes over from a new plan of the scene what can change while it runs, and says what
+   cannot. *plan is then the old one. */
+void jox_host_rescene(JoScene *scene, JoxScene **plan, double written);
 /* results.c: what is collected each step, and how it ends. */
 bool jox_host_collect(JoScene *scene, JoError *error);
 

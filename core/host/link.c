@@ -55,28 +55,35 @@ static bool find_behaviour(const JoScene *scene, const char *from, const char *n
     return is_file(path);
 }
 
+bool jox_host_find_become(const JoScene *scene, const JoxMachine *machine, uint32_t number,
+                          char path[1024], JoxDiagnostics *diagnostics) {
+    const JoxState *state = &machine->states[number];
+    JoxPosition at = {machine->path, state->become_line, state->become_column, 0};
+    if (number == machine->start) {
+        jox_diag_error(diagnostics, at, "bad-value", "Begin in another state",
+                       "the state that agents start in cannot become another machine at once");
+        return false;
+    }
+    if (!strstr(state->become, "..") && *state->become != '/' &&
+        find_behaviour(scene, machine->path, state->become, path))
+        return true;
+    jox_diag_error(diagnostics, at, "missing-file",
+                   "A plain name: of a file beside this one, or of the library",
+                   "there is no behaviour '%.100s' to become", state->become);
+    return false;
+}
+
 bool jox_host_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics) {
     bool good = true;
     for (uint32_t s = 0; s < machine->state_count; s++) {
-        JoxState *state = &machine->states[s];
         char path[1024];
-        if (!state->become)
+        if (!machine->states[s].become)
             continue;
-        JoxPosition at = {machine->path, state->become_line, state->become_column, 0};
-        if (s == machine->start) {
-            jox_diag_error(diagnostics, at, "bad-value", "Begin in another state",
-                           "the state that agents start in cannot become another machine at once");
-            good = false;
-        } else if (strstr(state->become, "..") || *state->become == '/' ||
-                   !find_behaviour(scene, machine->path, state->become, path)) {
-            jox_diag_error(diagnostics, at, "missing-file",
-                           "A plain name: of a file beside this one, or of the library",
-                           "there is no behaviour '%.100s' to become", state->become);
-            good = false;
-        } else {
-            state->become_machine = jox_host_machine(scene, path, diagnostics);
-            good = good && state->become_machine >= 0;
-        }
+        int32_t index = jox_host_find_become(scene, machine, s, path, diagnostics)
+                            ? jox_host_machine(scene, path, diagnostics)
+                            : -1;
+        machine->states[s].become_machine = index;
+        good = good && index >= 0;
     }
     return good;
 }

@@ -210,6 +210,35 @@ static bool build(JoScene *scene, const JoSceneDef *def, int32_t *culprit,
     return true;
 }
 
+/* The def outlives the caller's texts: a reload reads the scene as it was read first. */
+static void keep_def(JoScene *scene, const JoSceneDef *def) {
+    JoSceneDef *own = &scene->def;
+    *own = *def;
+    own->path = jox_strdup(def->path);
+    own->input_log = jox_strdup(def->input_log);
+    const char **overrides = jox_alloc(def->override_count + 1, sizeof *overrides);
+    for (size_t i = 0; i < def->override_count; i++)
+        overrides[i] = jox_strdup(def->overrides[i]);
+    own->overrides = overrides;
+    own->mods = NULL; /* found already */
+    own->mod_count = 0;
+    scene->plan_file_count = scene->plan->file_count;
+    scene->plan_files = jox_alloc(scene->plan_file_count + 1, sizeof *scene->plan_files);
+    for (uint32_t f = 0; f < scene->plan_file_count; f++)
+        scene->plan_files[f] = jox_strdup(scene->plan->files[f].path);
+}
+
+static void free_def(JoScene *scene) {
+    jox_free((char *)scene->def.path);
+    jox_free((char *)scene->def.input_log);
+    for (size_t i = 0; scene->def.overrides && i < scene->def.override_count; i++)
+        jox_free((char *)scene->def.overrides[i]);
+    jox_free((char **)scene->def.overrides);
+    for (uint32_t f = 0; f < scene->plan_file_count; f++)
+        jox_free(scene->plan_files[f]);
+    jox_free(scene->plan_files);
+}
+
 /* Loads the scene with the mods found but for those in `without`. NULL: with *culprit among the
    taken mods, or -1 and the errors in `diagnostics`. */
 static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culprit,
@@ -227,8 +256,10 @@ static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culpri
     for (uint32_t f = 0; scene->plan && f < scene->plan->file_count; f++)
         jox_diag_attach_source(diagnostics, scene->plan->files[f].path, scene->plan->files[f].text,
                                scene->plan->files[f].length);
-    if (diagnostics->errors == 0)
+    if (diagnostics->errors == 0) {
+        keep_def(scene, def);
         return scene;
+    }
     if (*culprit >= 0)
         *culprit = (int32_t)scene->mods->number[*culprit];
     jo_scene_free(scene);
@@ -313,7 +344,8 @@ void jo_scene_free(JoScene *scene) {
     if (!scene)
         return;
     jo_scene_finish(scene, NULL);
-    jox_watch_free(scene->watch);
+    jox_host_unwatch(scene);
+    free_def(scene);
     jo_world_free(scene->world); /* before Lua, whose machines it holds */
     jox_lua_free(scene->lua);
     jox_scene_free(scene->plan);

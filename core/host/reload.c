@@ -1,92 +1,420 @@
-/* Behaviours whose files changed are loaded afresh and swapped between two steps. */
+/* Files that are edited while the crowd runs. A thread of its own waits for them, loads everything
+   that is made of them into fresh Lua states, and works out what it takes to put the new machines
+   in the place of the old. The stepping thread finds it ready between two steps, and swaps all of
+   it or nothing. */
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
 #include <string.h>
+#include <sys/eventfd.h>
+#include <time.h>
+#include <unistd.h>
 
 #include "base/mem.h"
 #include "host/host.h"
 
-static void watch_files(JoScene *scene, const JoxMachine *machine) {
-    uint32_t count;
-    const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
-    for (uint32_t f = 0; f < count; f++)
-        jox_watch_add(scene->watch, files[f].path);
-}
+enum {
+    OWN_ROOM = 12,
+    MEMORY_ROOM = 8
+}; /* slots that a new version may add without a copy of all */
 
-bool jo_scene_watch(JoScene *scene, JoError *error) {
-    if (!scene->watch && !(scene->watch = jox_watch_create())) {
-        jox_host_fail(error, JO_FAILED, "the system does not let files be watched");
-        return false;
+/* One machine of a batch. */
+typedef struct Change {
+    uint32_t index; /* in the mind; for a new machine, once it is added */
+    bool added;     /* another one becomes it */
+    char *path;
+    JoxLoaded *loaded;
+    JoxReplacement *replacement;
+} Change;
+
+/* What the loading thread hands over: machines, a new plan of the scene, or only what is wrong. */
+typedef struct Batch {
+    Change *changes;
+    uint32_t count;
+    size_t capacity;
+    JoxScene *plan; /* of the scene's own files; NULL: they did not change */
+    JoxDiagnostics diagnostics;
+    JoxText said;
+    double written; /* seconds since 1970 */
+    bool failed;
+} Batch;
+
+struct JoxReload {
+    JoScene *scene;
+    JoxWatch *watch;
+    pthread_t thread;
+    int stop;                 /* eventfd */
+    atomic_uintptr_t ready;   /* Batch *, to the stepping thread */
+    atomic_uintptr_t retired; /* Retired *, back */
+    atomic_uint next_id, machine_count;
+    /* Files that machines are made of, by index; the loading thread's own. */
+    char ***files;
+    uint32_t *file_counts;
+    uint32_t known;
+    char *pending[64]; /* changed since the last batch */
+    uint32_t pending_count;
+    double written;
+};
+
+/* What was swapped out, freed off the stepping thread. */
+typedef struct Retired {
+    struct Retired *next;
+    Batch *batch;
+    JoxLoaded **machines;
+    uint32_t count;
+} Retired;
+
+static void free_batch(Batch *batch) {
+    for (uint32_t c = 0; c < batch->count; c++) {
+        jox_free(batch->changes[c].path);
+        jox_replacement_free(batch->changes[c].replacement);
+        jox_loaded_free(batch->changes[c].loaded);
     }
-    for (uint32_t m = 0; m < scene->world->mind.machine_count; m++)
-        watch_files(scene, scene->world->mind.machines[m]);
-    return true;
+    jox_free(batch->changes);
+    jox_scene_free(batch->plan);
+    jox_diag_free(&batch->diagnostics);
+    jox_text_free(&batch->said);
+    jox_free(batch);
 }
 
-static bool is_made_of(const JoScene *scene, const JoxMachine *machine, const char *path) {
-    uint32_t count;
-    const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
-    for (uint32_t f = 0; f < count; f++)
-        if (strcmp(files[f].path, path) == 0)
+static void free_retired(JoxReload *r) {
+    Retired *retired = (Retired *)atomic_exchange(&r->retired, 0);
+    while (retired) {
+        Retired *next = retired->next;
+        free_batch(retired->batch);
+        for (uint32_t m = 0; m < retired->count; m++)
+            jox_loaded_free(retired->machines[m]);
+        jox_free(retired->machines);
+        jox_free(retired);
+        retired = next;
+    }
+}
+
+/* ---- the loading thread ---- */
+
+static void set_files(JoxReload *r, uint32_t index, char *const *paths, uint32_t count) {
+    if (index >= r->known) {
+        r->files = jox_realloc(r->files, index + 1, sizeof *r->files);
+        r->file_counts = jox_realloc(r->file_counts, index + 1, sizeof *r->file_counts);
+        for (; r->known <= index; r->known++) {
+            r->files[r->known] = NULL;
+            r->file_counts[r->known] = 0;
+        }
+    }
+    for (uint32_t f = 0; f < r->file_counts[index]; f++)
+        jox_free(r->files[index][f]);
+    jox_free(r->files[index]);
+    r->files[index] = jox_alloc(count + 1, sizeof **r->files);
+    r->file_counts[index] = count;
+    for (uint32_t f = 0; f < count; f++) {
+        r->files[index][f] = jox_strdup(paths[f]);
+        jox_watch_add(r->watch, paths[f]);
+    }
+}
+
+static bool is_made_of(const JoxReload *r, uint32_t index, const char *path) {
+    for (uint32_t f = 0; index < r->known && f < r->file_counts[index]; f++)
+        if (strcmp(r->files[index][f], path) == 0)
             return true;
     return false;
 }
 
-/* "Circle 31,204  Exit 310": agents per state. */
-static void print_census(const JoScene *scene, uint32_t index, JoxText *out) {
+static Change *add_change(Batch *batch, uint32_t index, const char *path) {
+    JOX_RESERVE(batch->changes, batch->capacity, batch->count + 1);
+    Change *change = &batch->changes[batch->count++];
+    *change = (Change){.index = index, .path = jox_strdup(path)};
+    return change;
+}
+
+/* Loads one machine of a batch, and watches what it is made of, whether that went well or not. */
+static void load_change(JoxReload *r, Batch *batch, uint32_t c) {
+    JoScene *scene = r->scene;
+    Change *change = &batch->changes[c];
+    change->loaded =
+        jox_lua_prepare(scene->lua, change->path, NULL, 0, &scene->scope, &batch->diagnostics);
+    uint32_t count;
+    char *const *tried = jox_loaded_tried(change->loaded, &count);
+    JoxMachine *next = jox_loaded_machine(change->loaded);
+    for (uint32_t f = 0; f < count; f++)
+        jox_watch_add(r->watch, tried[f]);
+    if (!change->added)
+        set_files(r, change->index, tried, count);
+    jox_text_add(&batch->said, jox_loaded_said(change->loaded));
+    if (!next)
+        batch->failed = true;
+    for (uint32_t s = 0; next && s < next->state_count; s++) {
+        char path[1024];
+        if (!next->states[s].become ||
+            !jox_host_find_become(scene, next, s, path, &batch->diagnostics))
+            continue;
+        const JoxMind *mind = &scene->world->mind;
+        bool known = false;
+        for (uint32_t m = 0; m < atomic_load(&r->machine_count); m++)
+            known |= strcmp(mind->machines[m]->path, path) == 0;
+        for (uint32_t o = 0; o < batch->count; o++)
+            known |= strcmp(batch->changes[o].path, path) == 0;
+        if (!known)
+            add_change(batch, 0, path)->added = true;
+    }
+}
+
+/* Everything that is made of the files that changed. */
+static Batch *prepare(JoxReload *r) {
+    JoScene *scene = r->scene;
     const JoxMind *mind = &scene->world->mind;
-    const JoxMachine *machine = mind->machines[index];
-    for (uint32_t s = 0; s < machine->state_count; s++) {
-        uint32_t people = 0;
-        for (uint32_t i = 0; i < mind->agents->count; i++)
-            people += mind->agents->machine[i] == index && mind->agents->state[i] == s;
-        if (people)
-            jox_text_printf(out, "  %s %u", machine->states[s].name, people);
+    Batch *batch = jox_alloc(1, sizeof *batch);
+    batch->written = r->written;
+    bool scene_changed = false;
+    for (uint32_t m = 0; m < atomic_load(&r->machine_count); m++)
+        for (uint32_t p = 0; p < r->pending_count; p++)
+            if (is_made_of(r, m, r->pending[p])) {
+                add_change(batch, m, mind->machines[m]->path);
+                break;
+            }
+    for (uint32_t f = 0; f < scene->plan_file_count; f++)
+        for (uint32_t p = 0; p < r->pending_count; p++)
+            scene_changed |= strcmp(scene->plan_files[f], r->pending[p]) == 0;
+    for (uint32_t c = 0; c < batch->count; c++) /* grows by what others become */
+        load_change(r, batch, c);
+    if (batch->diagnostics.errors)
+        batch->failed = true;
+    if (scene_changed) {
+        batch->plan =
+            jox_host_load_plan(&scene->def, scene->mods, scene->mods->count, &batch->diagnostics);
+        batch->failed |= !batch->plan;
     }
+    for (uint32_t c = 0; c < batch->count && !batch->failed; c++)
+        if (!batch->changes[c].added)
+            batch->changes[c].replacement =
+                jox_replacement_prepare(mind->machines[batch->changes[c].index],
+                                        jox_loaded_machine(batch->changes[c].loaded),
+                                        scene->world->def.seed, atomic_load(&r->next_id));
+    if (batch->count == 0 && !scene_changed) {
+        free_batch(batch);
+        return NULL;
+    }
+    return batch;
 }
 
-/* What a group sets must still exist, else the next source would have nothing to fill. */
-static void reload(JoScene *scene, uint32_t index) {
+static void changed(void *context, const char *path, double written) {
+    JoxReload *r = context;
+    if (r->pending_count < 64)
+        r->pending[r->pending_count++] = jox_strdup(path);
+    r->written = written > r->written ? written : r->written;
+}
+
+static void *load_for_ever(void *context) {
+    JoxReload *r = context;
+    uint64_t signal;
+    while (read(r->stop, &signal, sizeof signal) != (ssize_t)sizeof signal) {
+        jox_watch_wait(r->watch, r->stop, r->pending_count ? 0.002 : 1.0, changed, r);
+        free_retired(r);
+        if (r->pending_count == 0 || atomic_load(&r->ready))
+            continue; /* one batch at a time: it compares with what runs */
+        Batch *batch = prepare(r);
+        for (uint32_t p = 0; p < r->pending_count; p++)
+            jox_free(r->pending[p]);
+        r->pending_count = 0;
+        r->written = 0.0;
+        atomic_store(&r->ready, (uintptr_t)batch);
+    }
+    return NULL;
+}
+
+/* ---- the stepping thread ---- */
+
+/* "35,000" */
+static const char *grouped(uint32_t number, char out[16]) {
+    char plain[16];
+    int n = snprintf(plain, sizeof plain, "%u", number), at = 0;
+    for (int i = 0; i < n; i++) {
+        out[at++] = plain[i];
+        if ((n - 1 - i) % 3 == 0 && i + 1 < n)
+            out[at++] = ',';
+    }
+    out[at] = 0;
+    return out;
+}
+
+/* "  Circle 31204  Exit 310": agents per state. */
+static void print_census(const JoxMachine *machine, const uint32_t *people, JoxText *out) {
+    char number[16];
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        if (people[s])
+            jox_text_printf(out, "  %s %s", machine->states[s].name, grouped(people[s], number));
+}
+
+static double real_time(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_REALTIME, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+/* Says why a batch is not taken, and which versions go on. */
+static void refuse(JoScene *scene, Batch *batch, const char *path, const char *why) {
+    const JoxMind *mind = &scene->world->mind;
+    char number[16];
+    if (why)
+        jox_host_say(scene, "%s: %s\n", path, why);
+    jox_host_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
+    for (uint32_t c = 0; c < batch->count; c++) {
+        if (batch->changes[c].added)
+            continue;
+        const JoxMachine *machine = mind->machines[batch->changes[c].index];
+        jox_host_say(scene, " Version %u%s%s keeps running; %s agents unaffected.\n",
+                     machine->version, batch->count > 1 ? " of " : "",
+                     batch->count > 1 ? machine->name : "", grouped(mind->agents->count, number));
+    }
+    if (batch->count == 0)
+        jox_host_say(scene, " The scene goes on as it was.\n");
+}
+
+/* Machines that others become, and links to them. */
+static void link_batch(JoScene *scene, Batch *batch) {
     JoxMind *mind = &scene->world->mind;
-    const JoxMachine *now = mind->machines[index];
-    JoxDiagnostics diagnostics = {0};
-    JoxMachine *next = jox_lua_load(scene->lua, now->path, &scene->scope, &diagnostics);
-    char why[256];
-    const char *refused = next ? jox_mind_refuses(mind, index, next, why, sizeof why) : NULL;
-    bool loaded = next != NULL;
-    jox_host_report(scene->message, scene->message_context, &diagnostics, NULL);
-    if (!loaded || refused) {
-        jox_host_say(scene, "%s%s%s Version %u keeps running; %u agents unaffected.\n",
-                     refused ? now->path : "", refused ? ": " : "", refused ? refused : "",
-                     now->version, mind->agents->count);
-        jox_lua_release(scene->lua, next);
-        jox_machine_free(next);
-        return;
+    for (uint32_t c = 0; c < batch->count; c++) {
+        Change *change = &batch->changes[c];
+        if (!change->added)
+            continue;
+        JoxMachine *machine = jox_loaded_machine(change->loaded);
+        jox_lua_adopt(scene->lua, change->loaded);
+        change->index = jox_mind_add(mind, machine);
     }
-    JoxText before = {0}, after = {0};
-    print_census(scene, index, &before);
-    double begun = jox_clock_wall();
-    JoxMachine *old = jox_mind_replace(mind, index, next);
-    double took = jox_clock_wall() - begun;
-    print_census(scene, index, &after);
-    jox_host_say(scene,
-                 "%s: version %u is live from t = %.2f s (swapped in %.2f ms)\n before:%s\n"
-                 " after: %s\n",
-                 next->path, next->version, jo_world_time(scene->world), took * 1e3,
-                 before.data ? before.data : "", after.data ? after.data : "");
-    jox_text_free(&before);
-    jox_text_free(&after);
-    jox_lua_release(scene->lua, old);
-    jox_machine_free(old);
-    watch_files(scene, next);
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        JoxDiagnostics none = {0};
+        jox_host_link(scene, mind->machines[m], &none);
+        jox_diag_free(&none);
+    }
 }
 
-static void changed(void *context, const char *path) {
-    JoScene *scene = context;
-    for (uint32_t m = 0; m < scene->world->mind.machine_count; m++)
-        if (is_made_of(scene, scene->world->mind.machines[m], path))
-            reload(scene, m);
+/* Swaps the machines of a batch; the old ones go to `retired`. */
+static void swap(JoScene *scene, Batch *batch, Retired *retired) {
+    JoxMind *mind = &scene->world->mind;
+    JoxText text = {0};
+    uint32_t before[1000], after[1000];
+    retired->machines = jox_alloc(batch->count + 1, sizeof *retired->machines);
+    for (uint32_t c = 0; c < batch->count; c++) {
+        Change *change = &batch->changes[c];
+        if (change->added)
+            continue;
+        double begun = jox_clock_wall();
+        jox_mind_census(mind, change->index, before);
+        JoxMachine *next = jox_loaded_machine(change->loaded);
+        JoxMachine *old = jox_mind_replace(mind, change->index, change->replacement);
+        retired->machines[retired->count++] = jox_lua_retire(scene->lua, old);
+        jox_lua_adopt(scene->lua, change->loaded);
+        jox_mind_census(mind, change->index, after);
+        double took = jox_clock_wall() - begun;
+        scene->swap_seconds = took > scene->swap_seconds ? took : scene->swap_seconds;
+        jox_text_printf(&text, "%s: version %u is live from t = %.2f s", next->path, next->version,
+                        jo_world_time(scene->world));
+        if (batch->written > 0.0)
+            jox_text_printf(&text, " (saved %.0f ms ago, swapped in %.2f ms)",
+                            (real_time() - batch->written) * 1e3, took * 1e3);
+        jox_text_add(&text, "\n before:");
+        print_census(old, before, &text);
+        jox_text_add(&text, "\n after: ");
+        print_census(next, after, &text);
+        jox_text_add(&text, "\n");
+    }
+    link_batch(scene, batch);
+    if (text.data)
+        scene->message(scene->message_context, text.data);
+    jox_text_free(&text);
+}
+
+static void take(JoScene *scene, Batch *batch) {
+    JoxReload *r = scene->reload;
+    char why[256];
+    const char *refused = NULL, *path = "";
+    if (batch->said.length)
+        scene->message(scene->message_context, batch->said.data);
+    for (uint32_t c = 0; c < batch->count && !batch->failed && !refused; c++)
+        if (!batch->changes[c].added) {
+            path = batch->changes[c].path;
+            refused = jox_mind_refuses(&scene->world->mind, batch->changes[c].index,
+                                       batch->changes[c].replacement, why, sizeof why);
+        }
+    Retired *retired = jox_alloc(1, sizeof *retired);
+    retired->batch = batch;
+    if (batch->failed || refused) {
+        refuse(scene, batch, path, refused);
+    } else {
+        jox_host_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
+        swap(scene, batch, retired);
+        if (batch->plan)
+            jox_host_rescene(scene, &batch->plan, batch->written);
+    }
+    atomic_store(&r->machine_count, scene->world->mind.machine_count);
+    retired->next = (Retired *)atomic_load(&r->retired);
+    while (
+        !atomic_compare_exchange_weak(&r->retired, (uintptr_t *)&retired->next, (uintptr_t)retired))
+        ;
 }
 
 void jox_host_reload(JoScene *scene) {
-    if (scene->watch)
-        jox_watch_poll(scene->watch, changed, scene);
+    JoxReload *r = scene->reload;
+    if (!r)
+        return;
+    atomic_store(&r->next_id, scene->world->agents.next_id);
+    Batch *batch = (Batch *)atomic_load(&r->ready);
+    if (!batch)
+        return;
+    take(scene, batch);
+    atomic_store(&r->ready, 0); /* the loading thread may compare again */
+}
+
+bool jo_scene_watch(JoScene *scene, JoError *error) {
+    if (scene->reload)
+        return true;
+    JoxWatch *watch = jox_watch_create();
+    int stop = watch ? eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK) : -1;
+    JoxReload *r = jox_alloc(1, sizeof *r);
+    *r = (JoxReload){.scene = scene, .watch = watch, .stop = stop};
+    const JoxMind *mind = &scene->world->mind;
+    JoxAgents *a = &scene->world->agents;
+    jox_agents_widen(a, a->own_stride + OWN_ROOM, a->memory_stride + MEMORY_ROOM);
+    atomic_store(&r->next_id, a->next_id);
+    atomic_store(&r->machine_count, mind->machine_count);
+    for (uint32_t m = 0; watch && m < mind->machine_count; m++) {
+        uint32_t count;
+        char *const *tried = jox_lua_tried(scene->lua, mind->machines[m], &count);
+        set_files(r, m, tried, count);
+    }
+    for (uint32_t f = 0; watch && f < scene->plan_file_count; f++)
+        jox_watch_add(watch, scene->plan_files[f]);
+    scene->reload = r;
+    if (stop >= 0 && pthread_create(&r->thread, NULL, load_for_ever, r) == 0)
+        return true;
+    if (stop >= 0)
+        close(stop);
+    r->stop = -1;
+    jox_host_unwatch(scene);
+    jox_host_fail(error, JO_FAILED, "the system does not let files be watched");
+    return false;
+}
+
+void jox_host_unwatch(JoScene *scene) {
+    JoxReload *r = scene->reload;
+    if (!r)
+        return;
+    if (r->stop >= 0) {
+        uint64_t one = 1;
+        if (write(r->stop, &one, sizeof one) == (ssize_t)sizeof one)
+            pthread_join(r->thread, NULL);
+        close(r->stop);
+    }
+    Batch *batch = (Batch *)atomic_load(&r->ready);
+    if (batch)
+        free_batch(batch);
+    free_retired(r);
+    for (uint32_t m = 0; m < r->known; m++)
+        set_files(r, m, NULL, 0), jox_free(r->files[m]);
+    jox_free(r->files);
+    jox_free(r->file_counts);
+    for (uint32_t p = 0; p < r->pending_count; p++)
+        jox_free(r->pending[p]);
+    jox_watch_free(r->watch);
+    jox_free(r);
+    scene->reload = NULL;
 }

@@ -1,8 +1,10 @@
 #include "host/watch.h"
 
 #include <errno.h>
+#include <poll.h>
 #include <string.h>
 #include <sys/inotify.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -90,10 +92,34 @@ static void read_events(JoxWatch *watch) {
     }
 }
 
-void jox_watch_poll(JoxWatch *watch, JoxChanged *changed, void *context) {
+static bool any_moved(const JoxWatch *watch) {
+    for (size_t i = 0; i < watch->count; i++)
+        if (watch->files[i].moved)
+            return true;
+    return false;
+}
+
+/* When a file was last written, or, put in place of another, changed. */
+static double written_at(const char *path) {
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return 0.0;
+    double modified = (double)info.st_mtim.tv_sec + (double)info.st_mtim.tv_nsec * 1e-9;
+    double placed = (double)info.st_ctim.tv_sec + (double)info.st_ctim.tv_nsec * 1e-9;
+    return placed > modified ? placed : modified;
+}
+
+void jox_watch_wait(JoxWatch *watch, int other, double seconds, JoxChanged *changed,
+                    void *context) {
+    struct pollfd fds[2] = {{.fd = watch->inotify, .events = POLLIN},
+                            {.fd = other, .events = POLLIN}};
+    poll(fds, other >= 0 ? 2 : 1, (int)(seconds * 1e3));
     read_events(watch);
-    if (now() - watch->last_event < QUIET)
-        return;
+    while (any_moved(watch) && now() - watch->last_event < QUIET) {
+        double left = QUIET - (now() - watch->last_event);
+        poll(fds, 1, (int)(left * 1e3) + 1);
+        read_events(watch);
+    }
     for (size_t i = 0; i < watch->count; i++) {
         WatchedFile *file = &watch->files[i];
         if (!file->moved)
@@ -103,7 +129,7 @@ void jox_watch_poll(JoxWatch *watch, JoxChanged *changed, void *context) {
         digest_file(file->path, digest);
         if (digest[0] && strcmp(digest, file->digest) != 0) {
             strcpy(file->digest, digest);
-            changed(context, file->path);
+            changed(context, file->path, written_at(file->path));
         }
     }
 }

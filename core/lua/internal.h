@@ -132,6 +132,10 @@ typedef struct JoxVm {
     JoxLuaFile *files;
     uint32_t file_count;
     size_t file_capacity;
+    char **tried; /* files that were looked for, found or not */
+    uint32_t tried_count;
+    size_t tried_capacity;
+    JoxText said; /* what was printed while loading */
     const JoxScope *scope;
     JoxDiagnostics *diagnostics;
     const JoxMod *mod; /* whose file is running; NULL: the behaviour's own */
@@ -180,6 +184,8 @@ struct JoxLua {
 
 JoxVm *jox_vm_create(JoxLua *lua);
 void jox_vm_free(JoxVm *vm);
+/* Takes the VM of a machine out of its owner. */
+JoxVm *jox_vm_detach(JoxLua *lua, const JoxMachine *machine);
 JoxVm *jox_vm_of(lua_State *L);
 /* The only way in: runs what is on the stack within `instructions`. False on any failure; *why is
    then a sentence that holds until the next call, with the line in *line (0 unknown). */
@@ -196,6 +202,8 @@ int jox_vm_stop(lua_State *L);
 JoxPosition jox_vm_place(lua_State *L);
 
 void jox_sandbox_open(JoxVm *vm);
+/* Keeps that a file was looked for. */
+void jox_vm_tried(JoxVm *vm, const char *path);
 /* Reads, checks and scans a file; NULL with a diagnostic at `from`. */
 JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *text, size_t length,
                        JoxPosition from);

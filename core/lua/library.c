@@ -514,7 +514,7 @@ static int base_print(lua_State *L) {
     int count = lua_gettop(L);
     bool last;
     jox_vm_charge(L, 50);
-    if (!may_print(vm, &last) || !vm->owner->complain)
+    if (!may_print(vm, &last) || (!vm->loading && !vm->owner->complain))
         return 0;
     JoxPosition place = jox_vm_place(L);
     char line[LONGEST_LINE + 600];
@@ -539,7 +539,10 @@ static int base_print(lua_State *L) {
     line[at] = 0;
     jox_text_clean(line);
     memcpy(line + at, "\n", 2);
-    vm->owner->complain(vm->owner->complain_context, line);
+    if (vm->loading) /* perhaps on a thread of its own: said when the file is adopted */
+        jox_text_add(&vm->said, line);
+    else
+        vm->owner->complain(vm->owner->complain_context, line);
     return 0;
 }
 

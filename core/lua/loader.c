@@ -39,7 +39,8 @@ static void check_upvalues(lua_State *L, int index, void *context) {
     jox_diag_error(vm->diagnostics,
                    ((JoxPosition){source->path, line, t ? t->column : 0, t ? t->end_column : 0}),
                    "assigned-upvalue", "Declare it: local mine = memory { ... }, and write me.NAME",
-                   "a function cannot change '%s': what an agent remembers belongs in memory", name);
+                   "a function cannot change '%s': what an agent remembers belongs in memory",
+                   name);
 }
 
 static int build_protected(lua_State *L) {
@@ -91,55 +92,104 @@ static JoxMachine *run(JoxVm *vm) {
     return machine;
 }
 
-static int32_t keep(JoxLua *lua, JoxVm *vm) {
-    for (uint32_t i = 0; i < lua->vm_count; i++)
-        if (!lua->vms[i]) {
-            lua->vms[i] = vm;
-            return (int32_t)i;
-        }
-    JOX_RESERVE(lua->vms, lua->vm_capacity, lua->vm_count + 1);
-    lua->vms[lua->vm_count] = vm;
-    return (int32_t)lua->vm_count++;
-}
+struct JoxLoaded {
+    JoxMachine *machine; /* NULL where it failed */
+    JoxVm *vm;           /* kept in either case: it knows which files were tried */
+};
 
-static JoxMachine *load(JoxLua *lua, const char *path, const char *text, size_t length,
-                        const JoxScope *scope, JoxDiagnostics *diagnostics) {
+JoxLoaded *jox_lua_prepare(JoxLua *lua, const char *path, const char *text, size_t length,
+                           const JoxScope *scope, JoxDiagnostics *diagnostics) {
     static const JoxScope OPEN = {0};
-    JoxVm *vm = jox_vm_create(lua);
+    JoxLoaded *loaded = jox_alloc(1, sizeof *loaded);
+    JoxVm *vm = loaded->vm = jox_vm_create(lua);
     if (!vm) {
         jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "lua-error", NULL,
                        "no memory for a Lua state");
-        return NULL;
+        return loaded;
     }
     vm->scope = scope ? scope : &OPEN;
     vm->diagnostics = diagnostics;
     vm->loading = true;
+    jox_vm_tried(vm, path);
     JoxSource *source = jox_vm_read(vm, path, text, length, (JoxPosition){0});
-    JoxMachine *machine = source ? run(vm) : NULL;
+    JoxMachine *machine = loaded->machine = source ? run(vm) : NULL;
     for (size_t i = 0; i < vm->source_count; i++)
         jox_diag_attach_source(diagnostics, vm->sources[i].path, vm->sources[i].text,
                                vm->sources[i].length);
     vm->loading = false;
     vm->scope = NULL;
     vm->diagnostics = NULL;
-    if (!machine) {
-        jox_vm_free(vm);
-        return NULL;
-    }
-    for (size_t s = 0; s < vm->source_count; s++) /* some function may look at others */
+    for (size_t s = 0; machine && s < vm->source_count; s++) /* some function may look at others */
         machine->views |= vm->hook_count && strstr(vm->sources[s].text, "neighbours");
-    machine->vm = keep(lua, vm);
+    return loaded;
+}
+
+JoxMachine *jox_loaded_machine(const JoxLoaded *loaded) {
+    return loaded->machine;
+}
+
+char *const *jox_loaded_tried(const JoxLoaded *loaded, uint32_t *count) {
+    *count = loaded->vm ? loaded->vm->tried_count : 0;
+    return loaded->vm ? loaded->vm->tried : NULL;
+}
+
+char *const *jox_lua_tried(const JoxLua *lua, const JoxMachine *machine, uint32_t *count) {
+    const JoxVm *vm = machine->vm >= 0 ? lua->vms[machine->vm] : NULL;
+    *count = vm ? vm->tried_count : 0;
+    return vm ? vm->tried : NULL;
+}
+
+const char *jox_loaded_said(const JoxLoaded *loaded) {
+    return loaded->vm && loaded->vm->said.data ? loaded->vm->said.data : "";
+}
+
+void jox_lua_adopt(JoxLua *lua, JoxLoaded *loaded) {
+    JoxVm *vm = loaded->vm;
+    int32_t place = -1;
+    loaded->vm = NULL;
+    for (uint32_t i = 0; i < lua->vm_count && place < 0; i++)
+        if (!lua->vms[i])
+            place = (int32_t)i;
+    if (place < 0) {
+        JOX_RESERVE(lua->vms, lua->vm_capacity, lua->vm_count + 1);
+        place = (int32_t)lua->vm_count++;
+    }
+    lua->vms[place] = vm;
+    loaded->machine->vm = place;
+    loaded->machine = NULL;
+}
+
+JoxLoaded *jox_lua_retire(JoxLua *lua, JoxMachine *machine) {
+    JoxLoaded *loaded = jox_alloc(1, sizeof *loaded);
+    loaded->machine = machine;
+    loaded->vm = jox_vm_detach(lua, machine);
+    return loaded;
+}
+
+void jox_loaded_free(JoxLoaded *loaded) {
+    if (!loaded)
+        return;
+    jox_machine_free(loaded->machine);
+    jox_vm_free(loaded->vm);
+    jox_free(loaded);
+}
+
+JoxMachine *jox_lua_load_text(JoxLua *lua, const char *path, const char *text, size_t length,
+                              const JoxScope *scope, JoxDiagnostics *diagnostics) {
+    JoxLoaded *loaded = jox_lua_prepare(lua, path, text, length, scope, diagnostics);
+    JoxMachine *machine = loaded->machine;
+    const char *said = jox_loaded_said(loaded);
+    if (*said && lua->complain)
+        lua->complain(lua->complain_context, said);
+    if (machine)
+        jox_lua_adopt(lua, loaded);
+    jox_loaded_free(loaded);
     return machine;
 }
 
 JoxMachine *jox_lua_load(JoxLua *lua, const char *path, const JoxScope *scope,
                          JoxDiagnostics *diagnostics) {
-    return load(lua, path, NULL, 0, scope, diagnostics);
-}
-
-JoxMachine *jox_lua_load_text(JoxLua *lua, const char *path, const char *text, size_t length,
-                              const JoxScope *scope, JoxDiagnostics *diagnostics) {
-    return load(lua, path, text, length, scope, diagnostics);
+    return jox_lua_load_text(lua, path, NULL, 0, scope, diagnostics);
 }
 
 int32_t jox_lua_blame(JoxLua *lua, const char *path, const JoxScope *scope) {

@@ -57,12 +57,32 @@ JoxMachine *jox_lua_load_text(JoxLua *lua, const char *path, const char *text, s
 /* Closes the Lua state behind a machine that is no longer used. */
 void jox_lua_release(JoxLua *lua, const JoxMachine *machine);
 
+/* Loading in two halves, for a thread that reloads: jox_lua_prepare (text NULL: read the file) may
+   run beside the stepping thread, as long as the scope's names stay; jox_lua_adopt belongs to the
+   stepping thread. The machine is NULL where it failed; files that were looked for are known in any
+   case. */
+typedef struct JoxLoaded JoxLoaded;
+JoxLoaded *jox_lua_prepare(JoxLua *lua, const char *path, const char *text, size_t length,
+                           const JoxScope *scope, JoxDiagnostics *diagnostics);
+JoxMachine *jox_loaded_machine(const JoxLoaded *loaded);
+char *const *jox_loaded_tried(const JoxLoaded *loaded, uint32_t *count);
+/* What was printed while loading; "" for nothing. */
+const char *jox_loaded_said(const JoxLoaded *loaded);
+/* The machine's functions can be called from here on; the machine is the caller's. */
+void jox_lua_adopt(JoxLua *lua, JoxLoaded *loaded);
+/* The reverse: machine and Lua state, in one piece, to be freed on any thread. */
+JoxLoaded *jox_lua_retire(JoxLua *lua, JoxMachine *machine);
+void jox_loaded_free(JoxLoaded *loaded);
+
 /* Files that a machine was made of, its own first. */
 typedef struct JoxLuaFile {
     char *path;
     char sha256[65];
 } JoxLuaFile;
 const JoxLuaFile *jox_lua_files(const JoxLua *lua, const JoxMachine *machine, uint32_t *count);
+
+/* All files that were looked for when a machine was loaded. */
+char *const *jox_lua_tried(const JoxLua *lua, const JoxMachine *machine, uint32_t *count);
 
 /* Ready for JoxMind.call, with the JoxLua as context. `jox_lua_attach` says whose columns hooks
    read and write, and where their errors go: each place and message in full once, then counted. */

@@ -78,7 +78,7 @@ static bool plain_name(const char *name) {
         return false;
     for (const char *c = name; *c; c++)
         if (!((*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') || (*c >= '0' && *c <= '9') ||
-              *c == '_' || *c == '-' || *c == '/' || *c == '.'))
+              *c == '_' || *c == '-' || *c == '/' || *c == '.' || *c == ':'))
             return false;
     return true;
 }
@@ -93,21 +93,53 @@ static bool lies_below(const char *path, const char *folder) {
     return below;
 }
 
-static bool find_module(const JoxVm *vm, const char *name, char path[1024]) {
-    const char *own = vm->sources[0].path, *slash = strrchr(own, '/');
-    char folders[3][512];
+void jox_vm_tried(JoxVm *vm, const char *path) {
+    for (uint32_t i = 0; i < vm->tried_count; i++)
+        if (strcmp(vm->tried[i], path) == 0)
+            return;
+    JOX_RESERVE(vm->tried, vm->tried_capacity, vm->tried_count + 1);
+    vm->tried[vm->tried_count++] = jox_strdup(path);
+}
+
+/* Whether a module's file is there, in a folder that it may be in. Links are refused later. */
+static bool is_module(JoxVm *vm, const char *folder, const char *name, char path[1024]) {
     struct stat info;
-    snprintf(folders[0], sizeof folders[0], "%.*s", slash ? (int)(slash - own) : 1,
-             slash ? own : ".");
-    snprintf(folders[1], sizeof folders[1], "%.490s/../scripts", folders[0]);
-    snprintf(folders[2], sizeof folders[2], "%s/scripts", JOX_DATADIR);
-    for (int i = 0; i < 3; i++) {
-        snprintf(path, 1024, "%.511s/%.400s.lua", folders[i], name);
-        if (lstat(path, &info) == 0)
-            return S_ISLNK(info.st_mode) ||
-                   lies_below(path, folders[i]); /* links are refused later */
+    snprintf(path, 1024, "%.511s/%.400s.lua", folder, name);
+    jox_vm_tried(vm, path);
+    return lstat(path, &info) == 0 && (S_ISLNK(info.st_mode) || lies_below(path, folder));
+}
+
+/* The file of a module: "mod:name" of a mod; else beside the file that requires it, beside the
+   behaviour, or of the library. */
+static bool find_module(lua_State *L, const char *name, char path[1024]) {
+    JoxVm *vm = jox_vm_of(L);
+    JoxPosition from = jox_vm_place(L);
+    const char *colon = strchr(name, ':');
+    const char *asking = from.file ? from.file : vm->sources[0].path, *own = vm->sources[0].path;
+    char folder[512];
+    for (uint32_t m = 0; colon && m < vm->scope->mod_count; m++) {
+        const JoxMod *mod = &vm->scope->mods[m];
+        snprintf(folder, sizeof folder, "%.480s/behaviours", mod->folder);
+        if (!strncmp(mod->name, name, (size_t)(colon - name)) && !mod->name[colon - name])
+            return is_module(vm, folder, colon + 1, path);
     }
-    return false;
+    if (colon)
+        return false;
+    const char *const files[] = {asking, own};
+    for (int i = 0; i < 2; i++) {
+        const char *slash = strrchr(files[i], '/');
+        snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - files[i]) : 1,
+                 slash ? files[i] : ".");
+        if (is_module(vm, folder, name, path))
+            return true;
+    }
+    const char *slash = strrchr(own, '/');
+    snprintf(folder, sizeof folder, "%.*s/../scripts", slash ? (int)(slash - own) : 1,
+             slash ? own : ".");
+    if (is_module(vm, folder, name, path))
+        return true;
+    snprintf(folder, sizeof folder, "%s/scripts", JOX_DATADIR);
+    return is_module(vm, folder, name, path);
 }
 
 static int sandbox_require(lua_State *L) {
@@ -119,7 +151,7 @@ static int sandbox_require(lua_State *L) {
     if (!plain_name(name))
         return jox_word_error(L, name, "bad-require", "Names are relative to this file's folder",
                               "cannot require '%s': not a plain name", name);
-    if (!find_module(vm, name, path) || vm->source_count >= MOST_FILES)
+    if (!find_module(L, name, path) || vm->source_count >= MOST_FILES)
         return jox_word_error(
             L, name, "missing-file", NULL,
             "cannot require '%s': there is no such file beside this one or in the "

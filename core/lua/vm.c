@@ -142,6 +142,10 @@ void jox_vm_free(JoxVm *vm) {
         jox_source_free(&vm->sources[i]);
     for (uint32_t i = 0; i < vm->file_count; i++)
         jox_free(vm->files[i].path);
+    for (uint32_t i = 0; i < vm->tried_count; i++)
+        jox_free(vm->tried[i]);
+    jox_free(vm->tried);
+    jox_text_free(&vm->said);
     for (uint32_t i = 0; i < vm->memory_count; i++)
         jox_free(vm->memory[i].name);
     for (size_t o = 0; o < vm->origin_count; o++) {
@@ -298,11 +302,16 @@ void jox_lua_free(JoxLua *lua) {
     jox_free(lua);
 }
 
-void jox_lua_release(JoxLua *lua, const JoxMachine *machine) {
+JoxVm *jox_vm_detach(JoxLua *lua, const JoxMachine *machine) {
     if (!machine || machine->vm < 0 || (uint32_t)machine->vm >= lua->vm_count)
-        return;
-    jox_vm_free(lua->vms[machine->vm]);
+        return NULL;
+    JoxVm *vm = lua->vms[machine->vm];
     lua->vms[machine->vm] = NULL;
+    return vm;
+}
+
+void jox_lua_release(JoxLua *lua, const JoxMachine *machine) {
+    jox_vm_free(jox_vm_detach(lua, machine));
 }
 
 const JoxLuaFile *jox_lua_files(const JoxLua *lua, const JoxMachine *machine, uint32_t *count) {

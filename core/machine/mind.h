@@ -123,13 +123,25 @@ void jox_mind_spawn(JoxMind *mind, uint32_t agent, uint32_t machine, const JoxDi
 void jox_mind_think(JoxMind *mind, JoxPool *pool);
 /* Writes pref_x, pref_y and face_x, face_y of every agent. */
 void jox_mind_prefer(JoxMind *mind, JoxPool *pool);
-/* Whether `next` may take the place of machine `index`: NULL, or why not ("312 agents are in
-   'Greet', which this version lacks"), written into `why`. */
-const char *jox_mind_refuses(const JoxMind *mind, uint32_t index, const JoxMachine *next, char *why,
-                             uint32_t size);
-/* Swaps machine `index` for `next` (taken over; the old one is returned, caller frees) and carries
-   states by name (or `renamed`), memory and own values by name. Enter and exit hooks do not run. */
-JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, JoxMachine *next);
+/* What it takes to put `next` in the place of `old`, worked out beforehand, on any thread: which
+   state, own value, memory and condition goes on as which, which parameters differ, and what is
+   drawn anew for all agents with ids below `next_id`. Own values whose distribution has changed are
+   drawn afresh from the agent's same random numbers, but for those that the scene or a function
+   gave. Both machines must outlive it. */
+typedef struct JoxReplacement JoxReplacement;
+JoxReplacement *jox_replacement_prepare(const JoxMachine *old, JoxMachine *next, uint64_t seed,
+                                        uint32_t next_id);
+void jox_replacement_free(JoxReplacement *replacement);
+/* Whether it may be done now: NULL, or why not ("312 agents are in 'Greet', which this version
+   lacks"), written into `why`. */
+const char *jox_mind_refuses(const JoxMind *mind, uint32_t index, const JoxReplacement *replacement,
+                             char *why, uint32_t size);
+/* Swaps machine `index` for the next (taken over; the old one is returned, caller frees). Agents
+   keep state (by name or `renamed`), time, memory and own values; enter and exit hooks do not run.
+ */
+JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, const JoxReplacement *replacement);
+/* Agents per state of machine `index`, written to people (as many as it has states). */
+void jox_mind_census(const JoxMind *mind, uint32_t index, uint32_t *people);
 /* Makes the agent go on with another machine, from its start state: it keeps its body, what the
    scene gave it and its memory, by name; the rest is drawn anew. */
 void jox_mind_become(JoxMind *mind, uint32_t agent, uint32_t machine);

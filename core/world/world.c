@@ -104,7 +104,8 @@ JoxSettled jox_world_settle(JoWorld *world) {
 }
 
 /* Columns that carry state from one step to the next; the rest follows from them. */
-static void hash_agent(JoxHash *hash, const JoxAgents *a, uint32_t i) {
+static void hash_agent(JoxHash *hash, const JoxMind *mind, uint32_t i) {
+    const JoxAgents *a = mind->agents;
     struct {
         uint32_t id, machine_state, entered, was_true;
         int32_t goal, kicked;
@@ -121,11 +122,14 @@ static void hash_agent(JoxHash *hash, const JoxAgents *a, uint32_t i) {
     jox_hash_add(hash, &row, sizeof row);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         jox_hash_add(hash, &a->param[p][i], sizeof(float));
-    if (a->own_stride)
-        jox_hash_add(hash, a->own + (size_t)i * a->own_stride, a->own_stride * sizeof(double));
-    if (a->memory_stride)
+    if (a->machine[i] == JOX_NO_MACHINE)
+        return;
+    const JoxMachine *machine = mind->machines[a->machine[i]]; /* rows may be wider than it needs */
+    if (machine->own_count)
+        jox_hash_add(hash, a->own + (size_t)i * a->own_stride, machine->own_count * sizeof(double));
+    if (machine->memory_count)
         jox_hash_add(hash, a->memory + (size_t)i * a->memory_stride,
-                     a->memory_stride * sizeof(double));
+                     machine->memory_count * sizeof(double));
 }
 
 uint64_t jox_world_hash(const JoWorld *world) {
@@ -134,7 +138,7 @@ uint64_t jox_world_hash(const JoWorld *world) {
     const JoxAgents *a = &world->agents;
     for (uint32_t id = 0; id < a->next_id; id++)
         if (a->id_index[id] != JOX_NO_INDEX)
-            hash_agent(&hash, a, a->id_index[id]);
+            hash_agent(&hash, &world->mind, a->id_index[id]);
     jox_bodies_hash(world->bodies, &hash);
     if (world->mind.called_count) /* what will be heard in the next step */
         jox_hash_add(&hash, world->mind.called,

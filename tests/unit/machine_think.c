@@ -319,12 +319,16 @@ static void a_reload_keeps_states_and_memory_by_name(void **state) {
 
     JoxMachine *lacking = new_machine(1);
     char why[128];
-    assert_non_null(jox_mind_refuses(&f.mind, 0, lacking, why, sizeof why));
+    JoxReplacement *replacement = jox_replacement_prepare(old, lacking, 7, f.agents.next_id);
+    assert_non_null(jox_mind_refuses(&f.mind, 0, replacement, why, sizeof why));
+    jox_replacement_free(replacement);
     assert_non_null(strstr(why, "5 agents are in 'B'"));
     lacking->renamed = jox_alloc(1, sizeof *lacking->renamed);
     lacking->renamed[0] = (struct JoxRenamed){jox_strdup("B"), jox_strdup("A")};
     lacking->renamed_count = 1;
-    assert_null(jox_mind_refuses(&f.mind, 0, lacking, why, sizeof why));
+    replacement = jox_replacement_prepare(old, lacking, 7, f.agents.next_id);
+    assert_null(jox_mind_refuses(&f.mind, 0, replacement, why, sizeof why));
+    jox_replacement_free(replacement);
     jox_machine_free(lacking);
 
     JoxMachine *next = new_machine(3);
@@ -333,7 +337,9 @@ static void a_reload_keeps_states_and_memory_by_name(void **state) {
     next->memory[0].initial = 2.0;
     next->memory[1].name = jox_strdup("laps");
     next->memory_count = 2;
-    jox_machine_free(jox_mind_replace(&f.mind, 0, next));
+    replacement = jox_replacement_prepare(old, next, 7, f.agents.next_id);
+    jox_machine_free(jox_mind_replace(&f.mind, 0, replacement));
+    jox_replacement_free(replacement);
     const double *memory = f.agents.memory + 3 * f.agents.memory_stride;
     assert_true(memory[0] == 2.0 && memory[1] == 6.0);
     assert_int_equal(f.agents.state[3], 1);
