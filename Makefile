@@ -4,6 +4,8 @@ VERSION := 0.1.0
 MODE    ?= release
 BULLET  ?= 1
 PREFIX  ?= /usr/local
+# Where the program finds its library of Lua, behaviours and scenes: this tree, until it is installed.
+DATADIR ?= $(CURDIR)
 B       ?= build/$(MODE)$(if $(filter 0,$(BULLET)),-nobullet)
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
@@ -33,7 +35,7 @@ WARN    := -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-
 FP      := -ffp-contract=off
 CFLAGS  ?=
 CPPFLAGS_ALL := -Icore -Icore/include -DJOX_VERSION='"$(VERSION)"' -DJOX_BULLET=$(BULLET) \
-           -DJOX_DATADIR='"$(PREFIX)/share/jostle"' -D_GNU_SOURCE
+           -DJOX_DATADIR='"$(DATADIR)"' -D_GNU_SOURCE
 # Statics of inline functions must not become process-wide symbols.
 UNIQUE  := $(shell echo | $(CXX) -fno-gnu-unique -x c++ -E - >/dev/null 2>&1 && echo -fno-gnu-unique)
 CFLAGS_ALL  = -std=c17 $(OPT) $(WARN) $(FP) -fPIC -fvisibility=hidden -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
@@ -111,7 +113,7 @@ unit: $(UNIT)
 INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(if $(filter 0,$(BULLET)),-nobullet)
 D          = $(DESTDIR)$(PREFIX)
 install:
-	@$(MAKE) --no-print-directory B=$(INSTALL_B) all
+	@$(MAKE) --no-print-directory B=$(INSTALL_B) DATADIR=$(PREFIX)/share/jostle all
 	install -d $(D)/bin $(D)/lib/pkgconfig $(D)/include $(D)/share/man/man1
 	install -m 755 $(INSTALL_B)/jostle $(D)/bin/jostle
 	install -m 644 $(INSTALL_B)/libjostle.a $(D)/lib/

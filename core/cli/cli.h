@@ -12,6 +12,7 @@ int cli_run(int argc, char **argv);
 int cli_check(int argc, char **argv);
 int cli_bench(int argc, char **argv);
 int cli_mod(int argc, char **argv);
+int cli_test(int argc, char **argv);
 int cli_new(int argc, char **argv);
 int cli_reference(int argc, char **argv);
 

@@ -9,6 +9,7 @@ static const struct Command {
 } COMMANDS[] = {
     {"run", "simulate a scene", cli_run},
     {"check", "find every error in scenes and behaviours, without running", cli_check},
+    {"test", "run tests of behaviours, written in Lua", cli_test},
     {"new", "write a commented start of a behaviour, scene or mod", cli_new},
     {"mod", "list mods, and tell who set a value", cli_mod},
     {"reference", "print every word and key, for people and for editors", cli_reference},

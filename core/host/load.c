@@ -75,7 +75,8 @@ JoxScene *jox_host_load_plan(const JoSceneDef *def, const JoxMods *mods, uint32_
     }
     JoxSceneOptions options = {
         .sets = sets, .set_count = count, .mods = mods->items, .mod_count = mod_count};
-    JoxScene *plan = jox_scene_load(def->path, &options, diagnostics);
+    JoxScene *plan =
+        jox_scene_load_text(def->path, def->text, def->text_length, &options, diagnostics);
     jox_free(sets);
     return plan;
 }
@@ -203,10 +204,10 @@ static bool build(JoScene *scene, const JoSceneDef *def, int32_t *culprit,
     mind->bracket = jox_lua_bracket;
     mind->call_context = scene->lua;
     load_input(scene, def->input_log ? def->input_log : plan->input, diagnostics);
-    if (diagnostics->errors == 0)
-        jox_host_check_names(scene, diagnostics);
-    if (diagnostics->errors == 0)
+    if (diagnostics->errors == 0) {
         jox_host_populate(scene, diagnostics);
+        jox_host_check_names(scene, diagnostics);
+    }
     return true;
 }
 
@@ -220,6 +221,7 @@ static void keep_def(JoScene *scene, const JoSceneDef *def) {
     for (size_t i = 0; i < def->override_count; i++)
         overrides[i] = jox_strdup(def->overrides[i]);
     own->overrides = overrides;
+    own->text = NULL; /* what stands in memory is not edited */
     own->mods = NULL; /* found already */
     own->mod_count = 0;
     scene->plan_file_count = scene->plan->file_count;

@@ -172,6 +172,8 @@ typedef struct JoSceneDef {
                                 the user's data directory */
     size_t mod_count;
     bool named_mods_only; /* mods are not taken because they lie in one of those folders */
+    const char *text; /* of the scene, or NULL: it is read from `path`, which else only names it */
+    size_t text_length;
     uint32_t cookie;
 } JoSceneDef;
 JO_API JoSceneDef jo_default_scene_def(void);
@@ -229,6 +231,12 @@ JO_API char *jo_scene_lua_profile(const JoScene *scene);
    `message`, as text or as one JSON array. Returns the number of errors. */
 JO_API size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
                        void *context);
+/* Runs tests of behaviours: files, or folders with files that end with _test.lua. `only`, if not
+   NULL, is part of a test's name. Each result goes to `message`, as text or, at the end, as one
+   JSON array. Counts what passed and failed; false with what is wrong sent to `message` if a file
+   cannot be run. */
+JO_API bool jo_test(const char *const *paths, size_t count, const char *only, bool json,
+                    JoMessage *message, void *context, size_t *passed, size_t *failed);
 /* A generated page or file by name, as `jostle reference` lists them: "behaviours", "scenes",
    "lua-ls", "luacheck", "scene-schema", "mod-schema". NULL if there is none; free with jo_free. */
 JO_API char *jo_reference(const char *what);

@@ -1,0 +1,37 @@
+/* What testing.c (running tests) and trial.c (what a test says) share. */
+#ifndef JOX_LUA_TRIAL_H
+#define JOX_LUA_TRIAL_H
+
+#include "lua/internal.h"
+#include "lua/testing.h"
+
+typedef struct JoxTest {
+    char *name;
+    int line, function; /* registry reference */
+} JoxTest;
+
+/* One test file while it runs. */
+typedef struct JoxTrial {
+    const JoxTestDriver *driver;
+    const char *path;
+    JoxTest *tests;
+    uint32_t test_count;
+    size_t test_capacity;
+    bool running;
+    uint64_t assertions;
+    double simulated, stepping; /* s, of the present test; stepping: processor time */
+    JoxText output;             /* messages of its scenes */
+    JoxText yaml;               /* of the scene that is being made */
+} JoxTrial;
+
+JoxTrial *jox_trial_of(lua_State *L);
+/* Processor time of this thread, s. */
+double jox_trial_clock(void);
+/* equal, near, truthy, fails */
+extern const luaL_Reg jox_trial_assertions[];
+/* Adds the words of a test to the table on top of the stack. */
+void jox_trial_open(lua_State *L);
+/* Appends the table at `index` as a YAML scene (JSON is YAML). Raises errors. */
+void jox_trial_scene(lua_State *L, JoxTrial *trial, int index, JoxText *out);
+
+#endif
