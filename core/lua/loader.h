@@ -97,6 +97,9 @@ void jox_lua_bracket(void *lua, bool begins);
 double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls);
 /* A line per function: where it stands, calls, time each and in all, and its share of `wall` s. */
 void jox_lua_profile(const JoxLua *lua, const JoxMachine *machine, double wall, JoxText *out);
+/* Path of the behaviour whose functions take so much longer than their instructions explain that
+   the run should end, or NULL. No count finds them, and a clock must not decide within a run. */
+const char *jox_lua_stalled(const JoxLua *lua);
 /* Calls of hooks that failed so far. */
 uint64_t jox_lua_failures(const JoxLua *lua);
 

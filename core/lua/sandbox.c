@@ -222,7 +222,6 @@ static int env_index(lua_State *L) {
     }
     if (!vm->loading)
         return luaL_error(L, "unknown name '%s'", name);
-    jox_vm_charge(L, 2000); /* a suggestion compares with every word */
     const char *names[128];
     size_t count = jox_word_names(names, 128);
     char hint[128];

@@ -1,4 +1,4 @@
--- expects: run
+-- expects: acts
 -- The table is frozen by then, or `me` is worth nothing.
 local kept = {}
 return machine { name = "m", start = "A", states = { A = { steer = hold,
