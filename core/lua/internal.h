@@ -125,6 +125,7 @@ typedef struct JoxVm {
     double deadline;   /* of a load, seconds of this thread's processor time; 0 is unset */
     uint32_t interval; /* instructions from one check to the next */
     uint64_t calls;    /* of hooks */
+    uint32_t charges;  /* of C code while loading */
     double watch_from; /* seconds of this thread's processor time, when `left` was this: */
     uint64_t watch_left;
     double beyond; /* seconds that hooks took beyond what their instructions explain */

@@ -8,7 +8,14 @@
 #include "base/mem.h"
 #include "lua/internal.h"
 
-enum { FIRST_CHECK = 100, CHECK_EVERY = 1000, MOST_NAMES = 4096, SAMPLED = 64, SAID = 20 };
+enum {
+    FIRST_CHECK = 100,
+    CHECK_EVERY = 1000,
+    MOST_NAMES = 4096,
+    SAMPLED = 64,
+    CHARGES_TIMED = 32,
+    SAID = 20
+};
 /* Seconds of processor time: of a load with the default budget; of functions beyond what their
    instructions account for; what an instruction may take, ten times the usual. */
 static const double LOAD_SECONDS = 0.35, STALL_SECONDS = 0.5, STEP_SECONDS = 150e-9;
@@ -138,7 +145,9 @@ void jox_vm_charge(lua_State *L, uint64_t steps) {
     JoxVm *vm = jox_vm_of(L);
     if (!vm->running)
         return; /* the engine's own */
-    if (vm->over || vm->starved || vm->left <= steps)
+    bool late = vm->loading && vm->charges++ % CHARGES_TIMED == 0 &&
+                thread_seconds() > vm->deadline; /* counts do not see keys that collide */
+    if (vm->over || vm->starved || late || vm->left <= steps)
         stop_long(L, 1);
     vm->left -= steps;
 }
