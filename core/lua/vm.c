@@ -20,7 +20,7 @@ enum {
    instructions account for; what an instruction may take, ten times the usual. */
 static const double LOAD_SECONDS = 0.35, STALL_SECONDS = 0.5, STEP_SECONDS = 150e-9;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
-static const double SLOWER = 10.0;
+static const double SLOWER = 4.0;
 #else
 static const double SLOWER = 1.0;
 #endif
