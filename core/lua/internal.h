@@ -121,11 +121,13 @@ typedef struct JoxVm {
     bool over;               /* sticky: every further instruction fails */
     bool running;            /* within jox_vm_call */
     bool loading;
-    bool starved;      /* it is over for want of memory; sticky too */
-    double deadline;   /* of a load, seconds of this thread's processor time; 0 is unset */
-    uint32_t interval; /* instructions from one check to the next */
-    uint64_t calls;    /* of hooks */
-    uint32_t charges;  /* of C code while loading */
+    bool starved;       /* it is over for want of memory; sticky too */
+    double deadline;    /* of a load, seconds of this thread's processor time; 0 is unset */
+    uint32_t interval;  /* instructions from one check to the next */
+    uint64_t calls;     /* of hooks */
+    uint32_t charges;   /* of C code while loading */
+    uint64_t step_left; /* instructions that hooks may still use in this step */
+    uint32_t step;
     double watch_from; /* seconds of this thread's processor time, when `left` was this: */
     uint64_t watch_left;
     double beyond; /* seconds that hooks took beyond what their instructions explain */
@@ -287,7 +289,8 @@ bool jox_word_lookup(lua_State *L, const char *name); /* pushes it */
 /* Runs the patches that the scope's mods have for the machine on top of the stack, and puts the
    changed one in its place. False with diagnostics. */
 bool jox_patch_apply(JoxVm *vm);
-/* Compiles source `number` as a chunk, and pushes it; false with an error message pushed. */
+/* Compiles source `number` as a chunk, and pushes it; false with an error message pushed. Within
+   the time of a load. */
 bool jox_source_compile(JoxVm *vm, size_t number);
 
 /* Makes vm->built of the machine on top of the stack; what is wrong goes to the diagnostics. */

@@ -14,6 +14,8 @@ typedef struct JoxLua JoxLua;
 typedef struct JoxLuaLimits {
     uint64_t load_instructions; /* of one load; default 20 million */
     uint64_t hook_instructions; /* of one call of a hook; default 100,000 */
+    uint64_t step_instructions; /* of all of a behaviour's hooks in one step; default 20 million;
+                                   then each hook has 1,000 */
     size_t memory;              /* bytes of one Lua state; default 32 MB */
     size_t block;               /* bytes of one allocation; default 2 MB */
     size_t source;              /* bytes of one file; default 256 KB */

@@ -14,6 +14,7 @@ enum {
     MOST_NAMES = 4096,
     SAMPLED = 64,
     CHARGES_TIMED = 32,
+    LEAST_BUDGET = 1000,
     SAID = 20
 };
 /* Seconds of processor time: of a load with the default budget; of functions beyond what their
@@ -26,7 +27,7 @@ static const double SLOWER = 1.0;
 #endif
 
 JoxLuaLimits jox_lua_default_limits(void) {
-    return (JoxLuaLimits){20000000, 100000, 32u << 20, 2u << 20, 256u << 10, 20};
+    return (JoxLuaLimits){20000000, 100000, 20000000, 32u << 20, 2u << 20, 256u << 10, 20};
 }
 
 static void count_hook(lua_State *L, lua_Debug *debug);
@@ -97,6 +98,39 @@ static void watch(JoxVm *vm, double weight, double most) {
     vm->watch_left = vm->left;
     if (vm->beyond > STALL_SECONDS * SLOWER && !vm->owner->stalled[0])
         snprintf(vm->owner->stalled, sizeof vm->owner->stalled, "%s", vm->sources[0].path);
+}
+
+static void begin_load(JoxVm *vm) {
+    if (vm->deadline <= 0.0)
+        vm->deadline = thread_seconds() + load_seconds(vm);
+}
+
+/* What is left of a source to be compiled. */
+typedef struct Piece {
+    JoxVm *vm;
+    const char *text;
+    size_t length;
+} Piece;
+
+/* Gives the compiler a little at a time: names in deeply nested functions take it long. */
+static const char *next_piece(lua_State *L, void *context, size_t *size) {
+    enum { PIECE = 512 };
+    Piece *p = context;
+    const char *text = p->text;
+    if (thread_seconds() > p->vm->deadline)
+        luaL_error(L, "it took too long to compile");
+    *size = p->length < PIECE ? p->length : PIECE;
+    p->text += *size;
+    p->length -= *size;
+    return *size > 0 ? text : NULL;
+}
+
+bool jox_source_compile(JoxVm *vm, size_t number) {
+    char chunk[24];
+    snprintf(chunk, sizeof chunk, "=b%zu", number);
+    begin_load(vm);
+    Piece piece = {vm, vm->sources[number].text, vm->sources[number].length};
+    return lua_load(vm->L, next_piece, &piece, chunk, "t") == LUA_OK;
 }
 
 const char *jox_lua_stalled(const JoxLua *lua) {
@@ -307,14 +341,27 @@ static locale_t plain_locale(void) {
     return seen;
 }
 
+/* What a hook may use: less where those before it in this step have used up what all may. */
+static uint64_t step_budget(JoxVm *vm, uint64_t instructions) {
+    const JoxMind *mind = vm->owner->mind;
+    if (mind && (vm->calls == 0 || vm->step != mind->tick)) {
+        vm->step = mind->tick;
+        vm->step_left = vm->owner->limits.step_instructions;
+    }
+    uint64_t left = vm->step_left > LEAST_BUDGET ? vm->step_left : LEAST_BUDGET;
+    return instructions < left ? instructions : left;
+}
+
 bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, const char **why,
                  int *line) {
-    vm->left = instructions;
     vm->over = vm->starved = false;
     vm->failed_source = 0;
     vm->traceback[0] = 0;
-    if (vm->loading && vm->deadline <= 0.0)
-        vm->deadline = thread_seconds() + load_seconds(vm);
+    if (vm->loading)
+        begin_load(vm);
+    else
+        instructions = step_budget(vm, instructions);
+    vm->left = instructions;
     locale_t before = plain_locale() ? uselocale(plain_locale()) : (locale_t)0;
     bool sampled = !vm->loading && vm->calls++ % SAMPLED == 0;
     if (sampled) {
@@ -330,6 +377,9 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     int status = lua_pcall(vm->L, arguments, results, handler);
     vm->running = false;
     lua_sethook(vm->L, NULL, 0, 0);
+    if (!vm->loading)
+        vm->step_left -=
+            instructions - vm->left < vm->step_left ? instructions - vm->left : vm->step_left;
     if (!vm->loading && vm->interval == CHECK_EVERY)
         watch(vm, 1.0, 1e9);
     else if (sampled) /* a short one stands for others */
