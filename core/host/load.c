@@ -170,6 +170,7 @@ static JoxLuaLimits script_limits(const JoxScene *plan) {
     if (!plan->limits.given)
         return limits;
     limits.hook_instructions = (uint64_t)plan->limits.instructions;
+    limits.step_instructions = (uint64_t)plan->limits.step_instructions;
     limits.load_instructions = (uint64_t)plan->limits.load_instructions;
     limits.memory = (size_t)(plan->limits.memory * (1 << 20));
     limits.block = (size_t)(plan->limits.block * (1 << 20));

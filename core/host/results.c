@@ -200,6 +200,14 @@ bool jo_scene_step(JoScene *scene, JoError *error) {
     jox_host_sources(scene);
     jox_world_step(scene->world);
     jox_host_sinks(scene);
+    const char *stalled = jox_lua_stalled(scene->lua);
+    if (stalled) {
+        jox_host_fail(error, JO_FAILED,
+                      "%s: its functions take far longer than their instructions explain (look-ups "
+                      "among keys that collide, comparisons of long texts); the run was stopped",
+                      stalled);
+        return false;
+    }
     return jox_host_collect(scene, error);
 }
 

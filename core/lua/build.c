@@ -334,13 +334,25 @@ int32_t jox_read_memory(const JoxBuild *b, const char *name) {
     return -1;
 }
 
+/* Whether the text at a stack index can be a name: nothing in it ends or commands anything. */
+static bool is_name(lua_State *L, int index) {
+    if (lua_type(L, index) != LUA_TSTRING)
+        return false;
+    const char *text = lua_tostring(L, index);
+    size_t length = lua_rawlen(L, index);
+    for (size_t i = 0; i < length; i++)
+        if ((unsigned char)text[i] < 32 || text[i] == 127)
+            return false;
+    return length > 0;
+}
+
 /* The states' names, ascending: tables have no order of their own. */
 static void name_states(JoxBuild *b, int table) {
     lua_State *L = b->vm->L;
     JoxMachine *m = b->machine;
     lua_pushnil(L);
     while (lua_next(L, table)) {
-        bool good = lua_type(L, -2) == LUA_TSTRING && lua_type(L, -1) == LUA_TTABLE;
+        bool good = is_name(L, -2) && lua_type(L, -1) == LUA_TTABLE;
         const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "?";
         char path[256];
         jox_read_join(path, "states", name);
@@ -537,9 +549,9 @@ void jox_build(JoxVm *vm, JoxSource *source) {
     }
     const char *known[16];
     jox_read_check(&build, table, "", known, jox_sheet_names("machine", false, known, 16), false);
-    m->name = jox_strdup(jox_read_field(L, table, "name") == LUA_TSTRING ? lua_tostring(L, -1)
-                                                                         : "machine");
-    if (lua_type(L, -1) != LUA_TSTRING)
+    jox_read_field(L, table, "name");
+    m->name = jox_strdup(is_name(L, -1) ? lua_tostring(L, -1) : "machine");
+    if (!is_name(L, -1))
         jox_build_error(&build, jox_read_at(&build, "name"), "missing-key", "name = \"walker\"",
                         "a machine needs a name");
     lua_pop(L, 1);

@@ -21,7 +21,18 @@ uint64_t jox_lua_failures(const JoxLua *lua) {
     return lua->failures;
 }
 
-static void say(JoxLua *lua, const char *text) {
+/* Names and messages are a script's: none may command a terminal. */
+static void say(JoxLua *lua, char *text) {
+    for (char *line = text; *line;) {
+        char *end = strchr(line, '\n');
+        if (end)
+            *end = 0;
+        jox_text_clean(line);
+        if (!end)
+            break;
+        *end = '\n';
+        line = end + 1;
+    }
     if (lua->complain)
         lua->complain(lua->complain_context, text);
 }
@@ -30,7 +41,7 @@ static void say(JoxLua *lua, const char *text) {
 static void new_second(JoxLua *lua, const JoxVm *vm, JoxHook *hook, uint32_t second) {
     char text[1024];
     if (hook->repeated > 0) {
-        snprintf(text, sizeof text, "%.200s: %.200s: the same %llu times more in a second\n",
+        snprintf(text, sizeof text, "%.200s: %.200s: %llu times more in a second\n",
                  vm->machine->path, hook->where, (unsigned long long)hook->repeated);
         say(lua, text);
     }
@@ -58,7 +69,7 @@ static void report(JoxLua *lua, JoxVm *vm, JoxHook *hook, const char *why, int l
         say(lua, text);
         return;
     }
-    if (hook->complaint && strcmp(hook->complaint, why) == 0) {
+    if ((hook->complaint && strcmp(hook->complaint, why) == 0) || !jox_vm_may_say(vm, second)) {
         hook->repeated++;
         return;
     }

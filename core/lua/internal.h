@@ -121,8 +121,16 @@ typedef struct JoxVm {
     bool over;               /* sticky: every further instruction fails */
     bool running;            /* within jox_vm_call */
     bool loading;
-    bool starved;    /* it is over for want of memory; sticky too */
-    double deadline; /* of a load, seconds of this thread's processor time; 0 is unset */
+    bool starved;       /* it is over for want of memory; sticky too */
+    double deadline;    /* of a load, seconds of this thread's processor time; 0 is unset */
+    uint32_t interval;  /* instructions from one check to the next */
+    uint64_t calls;     /* of hooks */
+    uint32_t charges;   /* of C code while loading */
+    uint64_t step_left; /* instructions that hooks may still use in this step */
+    uint32_t step;
+    double watch_from; /* seconds of this thread's processor time, when `left` was this: */
+    uint64_t watch_left;
+    double beyond; /* seconds that hooks took beyond what their instructions explain */
     JoxNode **nodes;
     size_t node_count, node_capacity;
     char **names; /* interned */
@@ -156,6 +164,7 @@ typedef struct JoxVm {
     uint32_t agent;                 /* whose hook runs */
     uint32_t run;                   /* numbers the calls, so that `me` cannot be kept */
     uint32_t printed, print_second; /* lines of `print` in that second */
+    uint32_t said, said_second;     /* complaints in full in that second */
 } JoxVm;
 
 /* What a hook wrote into another agent's memory. */
@@ -166,6 +175,7 @@ typedef struct JoxWrite {
 
 struct JoxLua {
     JoxLuaLimits limits;
+    char stalled[256]; /* the behaviour for which the run must end, or nothing */
     JoxVm **vms;
     uint32_t vm_count;
     size_t vm_capacity;
@@ -198,6 +208,8 @@ const char *jox_vm_intern(JoxVm *vm, const char *name);
 void jox_vm_charge(lua_State *L, uint64_t steps);
 /* Ends the script for good: every further instruction fails. Pops and raises the message. */
 int jox_vm_stop(lua_State *L);
+/* Whether one more failure may be said in full in a simulated second. */
+bool jox_vm_may_say(JoxVm *vm, uint32_t second);
 /* The innermost place in a script that is running; its path is NULL where there is none. */
 JoxPosition jox_vm_place(lua_State *L);
 
@@ -277,7 +289,8 @@ bool jox_word_lookup(lua_State *L, const char *name); /* pushes it */
 /* Runs the patches that the scope's mods have for the machine on top of the stack, and puts the
    changed one in its place. False with diagnostics. */
 bool jox_patch_apply(JoxVm *vm);
-/* Compiles source `number` as a chunk, and pushes it; false with an error message pushed. */
+/* Compiles source `number` as a chunk, and pushes it; false with an error message pushed. Within
+   the time of a load. */
 bool jox_source_compile(JoxVm *vm, size_t number);
 
 /* Makes vm->built of the machine on top of the stack; what is wrong goes to the diagnostics. */

@@ -69,7 +69,7 @@ static int math_abs(lua_State *L) {
 
 /* A whole number as an integer where it fits, else as it is. */
 static int push_whole(lua_State *L, double x) {
-    if (x >= -0x1p63 && x < 0x1p63)
+    if (x >= -9223372036854775808.0 && x < 9223372036854775808.0)
         lua_pushinteger(L, (lua_Integer)x);
     else
         lua_pushnumber(L, x);
@@ -153,8 +153,9 @@ static int math_random(lua_State *L) {
     }
     double low = lua_gettop(L) > 1 ? floor(luaL_checknumber(L, 1)) : 1.0;
     double high = floor(luaL_checknumber(L, lua_gettop(L) > 1 ? 2 : 1));
-    luaL_argcheck(L, fabs(low) <= 0x1p53 && fabs(high) <= 0x1p53 && high - low < 1e15, 1,
-                  "the interval is too large");
+    luaL_argcheck(
+        L, fabs(low) <= 9007199254740992.0 && fabs(high) <= 9007199254740992.0 && high - low < 1e15,
+        1, "the interval is too large");
     luaL_argcheck(L, high >= low, 1, "the interval is empty");
     lua_pushinteger(L, (lua_Integer)(low + floor(u * (high - low + 1.0))));
     return 1;
@@ -187,9 +188,9 @@ typedef struct Key {
 
 /* Whether integer i < a number that is none: exact, where a cast of i would round. */
 static bool integer_before(lua_Integer i, double f) {
-    if (f >= 0x1p63)
+    if (f >= 9223372036854775808.0)
         return true;
-    return f > -0x1p63 && i <= (lua_Integer)floor(f);
+    return f > -9223372036854775808.0 && i <= (lua_Integer)floor(f);
 }
 
 static bool key_before(const Key *a, const Key *b) {

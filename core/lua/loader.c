@@ -20,13 +20,6 @@ static void report_failure(JoxVm *vm, const char *why, int line) {
     jox_diag_error(vm->diagnostics, position, "lua-error", NULL, "%s", why);
 }
 
-bool jox_source_compile(JoxVm *vm, size_t number) {
-    char chunk[24];
-    snprintf(chunk, sizeof chunk, "=b%zu", number);
-    return luaL_loadbufferx(vm->L, vm->sources[number].text, vm->sources[number].length, chunk,
-                            "t") == LUA_OK;
-}
-
 /* What a function remembers outside memory would be lost at a reload, and run apart at a resume. */
 static void check_upvalues(lua_State *L, int index, void *context) {
     JoxVm *vm = context;
@@ -61,8 +54,7 @@ static JoxMachine *run(JoxVm *vm) {
     int line = 0;
     lua_State *L = vm->L;
     const size_t errors = vm->diagnostics->errors;
-    if (!jox_source_compile(vm,
-                            0)) { /* let the protected call raise it, so that there is one way in */
+    if (!jox_source_compile(vm, 0)) {
         int used = 0, number;
         const char *text = lua_tostring(L, -1);
         if (text && sscanf(text, "b%d:%d: %n", &number, &line, &used) == 2)

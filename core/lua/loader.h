@@ -14,6 +14,8 @@ typedef struct JoxLua JoxLua;
 typedef struct JoxLuaLimits {
     uint64_t load_instructions; /* of one load; default 20 million */
     uint64_t hook_instructions; /* of one call of a hook; default 100,000 */
+    uint64_t step_instructions; /* of all of a behaviour's hooks in one step; default 20 million;
+                                   then each hook has 1,000 */
     size_t memory;              /* bytes of one Lua state; default 32 MB */
     size_t block;               /* bytes of one allocation; default 2 MB */
     size_t source;              /* bytes of one file; default 256 KB */
@@ -97,6 +99,9 @@ void jox_lua_bracket(void *lua, bool begins);
 double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls);
 /* A line per function: where it stands, calls, time each and in all, and its share of `wall` s. */
 void jox_lua_profile(const JoxLua *lua, const JoxMachine *machine, double wall, JoxText *out);
+/* Path of the behaviour whose functions take so much longer than their instructions explain that
+   the run should end, or NULL. No count finds them, and a clock must not decide within a run. */
+const char *jox_lua_stalled(const JoxLua *lua);
 /* Calls of hooks that failed so far. */
 uint64_t jox_lua_failures(const JoxLua *lua);
 

@@ -188,6 +188,9 @@ static int me_signal(lua_State *L) {
     if (lua_type(L, at) != LUA_TSTRING)
         return luaL_error(L, "a signal is a name");
     const char *name = lua_tostring(L, at);
+    jox_vm_charge(L, 20 + (vm->machine->name_count + vm->owner->mind->name_count) / 8);
+    if (vm->owner->mind->called_count > 1000000)
+        return luaL_error(L, "too many signals are given in one step");
     for (uint32_t n = 0; n < vm->machine->name_count; n++)
         if (strcmp(vm->machine->names[n].text, name) == 0) {
             jox_mind_call(vm->owner->mind, vm->agent, vm->machine->names[n].number);
@@ -223,6 +226,7 @@ static int me_index(lua_State *L) {
         return 1;
     const char *names[96];
     size_t count = 0;
+    jox_vm_charge(L, 2000); /* a suggestion compares with all of them */
     for (size_t k = 0; k < jox_me_key_count; k++)
         names[count++] = jox_me_keys[k].name;
     for (uint32_t s = 0; s < m->memory_count && count < 96; s++)

@@ -9,6 +9,9 @@ static const char TYPE[] = "jostle value";
 
 JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind) {
     JoxVm *vm = jox_vm_of(L);
+    if (vm->running && !vm->loading)
+        luaL_error(L, "values of the sheet are made while the file loads, not in functions");
+    jox_vm_charge(L, 8);
     vm->node_bytes += sizeof(JoxNode);
     if (vm->node_bytes > vm->owner->limits.memory)
         luaL_error(L, "it makes too many expressions");

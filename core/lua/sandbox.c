@@ -145,7 +145,8 @@ static bool find_module(lua_State *L, const char *name, char path[1024]) {
 static int sandbox_require(lua_State *L) {
     JoxVm *vm = jox_vm_of(L);
     const char *name = luaL_checkstring(L, 1);
-    char path[1024], chunk[16];
+    char path[1024];
+    jox_vm_charge(L, 500); /* the system is asked for files */
     if (!vm->loading)
         return luaL_error(L, "require works at the top of a file, not in functions");
     if (!plain_name(name))
@@ -165,10 +166,10 @@ static int sandbox_require(lua_State *L) {
     JoxSource *source = jox_vm_read(vm, path, NULL, 0, from);
     if (!source)
         return jox_node_push(L, JOX_NODE_POISON), 1;
+    jox_vm_charge(L, source->length / 4);
     lua_pushboolean(L, 1); /* a circle of requires sees this */
     lua_setfield(L, 2, path);
-    snprintf(chunk, sizeof chunk, "=b%zu", number);
-    if (luaL_loadbufferx(L, source->text, source->length, chunk, "t") != LUA_OK)
+    if (!jox_source_compile(vm, number))
         return lua_error(L);
     lua_call(L, 0, 1);
     lua_pushvalue(L, -1);
@@ -222,7 +223,6 @@ static int env_index(lua_State *L) {
     }
     if (!vm->loading)
         return luaL_error(L, "unknown name '%s'", name);
-    jox_vm_charge(L, 2000); /* a suggestion compares with every word */
     const char *names[128];
     size_t count = jox_word_names(names, 128);
     char hint[128];

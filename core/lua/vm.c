@@ -8,11 +8,26 @@
 #include "base/mem.h"
 #include "lua/internal.h"
 
-enum { CHECK_EVERY = 1000, MOST_NAMES = 4096 };
-static const double LOAD_SECONDS = 0.7; /* of a load with the default budget */
+enum {
+    FIRST_CHECK = 100,
+    CHECK_EVERY = 1000,
+    MOST_NAMES = 4096,
+    SAMPLED = 64,
+    CHARGES_TIMED = 32,
+    LEAST_BUDGET = 1000,
+    SAID = 20
+};
+/* Seconds of processor time: of a load with the default budget; of functions beyond what their
+   instructions account for; what an instruction may take, ten times the usual. */
+static const double LOAD_SECONDS = 0.35, STALL_SECONDS = 0.5, STEP_SECONDS = 150e-9;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
+static const double SLOWER = 4.0;
+#else
+static const double SLOWER = 1.0;
+#endif
 
 JoxLuaLimits jox_lua_default_limits(void) {
-    return (JoxLuaLimits){20000000, 100000, 32u << 20, 2u << 20, 256u << 10, 20};
+    return (JoxLuaLimits){20000000, 100000, 20000000, 32u << 20, 2u << 20, 256u << 10, 20};
 }
 
 static void count_hook(lua_State *L, lua_Debug *debug);
@@ -22,6 +37,14 @@ static void stop_soon(JoxVm *vm) {
     vm->left = 0;
     if (vm->running)
         lua_sethook(vm->L, count_hook, LUA_MASKCOUNT, 1);
+}
+
+/* Whether a block is that of a table's keys: so many slots, a power of two. Where keys collide, its
+   growth is one instruction that takes the square of their number, so fewer are allowed. */
+static bool is_hash_part(size_t old, size_t size) {
+    enum { SLOT = 24 };
+    size_t count = size / SLOT;
+    return old == 0 && size % SLOT == 0 && (count & (count - 1)) == 0;
 }
 
 static void *allocate(void *context, void *memory, size_t old, size_t size) {
@@ -34,9 +57,10 @@ static void *allocate(void *context, void *memory, size_t old, size_t size) {
         return NULL;
     }
     const JoxLuaLimits *limits = &vm->owner->limits;
+    const size_t most = is_hash_part(old, size) ? limits->block / 2 : limits->block;
     uint64_t cost = size > old ? (size - old) >> 2 : 0; /* a few instructions can copy megabytes */
     void *result = NULL;
-    if (size <= old || (size <= limits->block && vm->used - old + size <= limits->memory))
+    if (size <= old || (size <= most && vm->used - old + size <= limits->memory))
         result = realloc(memory, size);
     if (result)
         vm->used = vm->used - old + size;
@@ -58,10 +82,59 @@ static double thread_seconds(void) {
 
 static double load_seconds(const JoxVm *vm) {
     double share = (double)vm->owner->limits.load_instructions / 20e6;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
-    share *= 10.0;
-#endif
-    return LOAD_SECONDS * (share > 1.0 ? share : 1.0);
+    return LOAD_SECONDS * SLOWER * (share > 1.0 ? share : 1.0);
+}
+
+/* Some instructions have no bound on their time: a look-up among keys that collide, the comparison
+   of long texts. Counts decide what a function may do, so that runs are equal; but where functions
+   together take a second more than their counts explain, the run has to end. */
+static void watch(JoxVm *vm, double weight, double most) {
+    double now = thread_seconds();
+    double beyond =
+        now - vm->watch_from - (double)(vm->watch_left - vm->left) * STEP_SECONDS * SLOWER;
+    beyond = beyond * weight < most ? beyond * weight : most;
+    vm->beyond = vm->beyond + beyond > 0.0 ? vm->beyond + beyond : 0.0;
+    vm->watch_from = now;
+    vm->watch_left = vm->left;
+    if (vm->beyond > STALL_SECONDS * SLOWER && !vm->owner->stalled[0])
+        snprintf(vm->owner->stalled, sizeof vm->owner->stalled, "%s", vm->sources[0].path);
+}
+
+static void begin_load(JoxVm *vm) {
+    if (vm->deadline <= 0.0)
+        vm->deadline = thread_seconds() + load_seconds(vm);
+}
+
+/* What is left of a source to be compiled. */
+typedef struct Piece {
+    JoxVm *vm;
+    const char *text;
+    size_t length;
+} Piece;
+
+/* Gives the compiler a little at a time: names in deeply nested functions take it long. */
+static const char *next_piece(lua_State *L, void *context, size_t *size) {
+    enum { PIECE = 512 };
+    Piece *p = context;
+    const char *text = p->text;
+    if (thread_seconds() > p->vm->deadline)
+        luaL_error(L, "it took too long to compile");
+    *size = p->length < PIECE ? p->length : PIECE;
+    p->text += *size;
+    p->length -= *size;
+    return *size > 0 ? text : NULL;
+}
+
+bool jox_source_compile(JoxVm *vm, size_t number) {
+    char chunk[24];
+    snprintf(chunk, sizeof chunk, "=b%zu", number);
+    begin_load(vm);
+    Piece piece = {vm, vm->sources[number].text, vm->sources[number].length};
+    return lua_load(vm->L, next_piece, &piece, chunk, "t") == LUA_OK;
+}
+
+const char *jox_lua_stalled(const JoxLua *lua) {
+    return lua->stalled[0] ? lua->stalled : NULL;
 }
 
 int jox_vm_stop(lua_State *L) {
@@ -82,19 +155,33 @@ static int stop_long(lua_State *L, int level) {
 static void count_hook(lua_State *L, lua_Debug *debug) {
     (void)debug;
     JoxVm *vm = jox_vm_of(L);
-    bool late = vm->loading && thread_seconds() > vm->deadline;
-    if (!vm->over && !vm->starved && !late && vm->left > CHECK_EVERY) {
-        vm->left -= CHECK_EVERY;
-        return;
+    bool good = !vm->over && !vm->starved && vm->left > vm->interval;
+    if (good)
+        vm->left -= vm->interval;
+    if (vm->loading) {
+        good = good && thread_seconds() < vm->deadline;
+    } else if (vm->interval == CHECK_EVERY) {
+        watch(vm, 1.0, 1e9);
+        good = good && !vm->owner->stalled[0];
+    } else if (good) {
+        vm->watch_from = thread_seconds();
+        vm->watch_left = vm->left;
     }
-    stop_long(L, 0);
+    if (!good)
+        stop_long(L, 0);
+    if (vm->interval != CHECK_EVERY) {
+        vm->interval = CHECK_EVERY;
+        lua_sethook(L, count_hook, LUA_MASKCOUNT, CHECK_EVERY);
+    }
 }
 
 void jox_vm_charge(lua_State *L, uint64_t steps) {
     JoxVm *vm = jox_vm_of(L);
     if (!vm->running)
         return; /* the engine's own */
-    if (vm->over || vm->starved || vm->left <= steps)
+    bool late = vm->loading && vm->charges++ % CHARGES_TIMED == 0 &&
+                thread_seconds() > vm->deadline; /* counts do not see keys that collide */
+    if (vm->over || vm->starved || late || vm->left <= steps)
         stop_long(L, 1);
     vm->left -= steps;
 }
@@ -230,6 +317,15 @@ static int keep_traceback(lua_State *L) {
     return 1;
 }
 
+bool jox_vm_may_say(JoxVm *vm, uint32_t second) {
+    if (vm->said_second != second) {
+        vm->said_second = second;
+        vm->said = 0;
+    }
+    vm->said += vm->said < SAID + 1;
+    return vm->said <= SAID;
+}
+
 /* Numbers as text and back must not depend on where the program runs. */
 static locale_t plain_locale(void) {
     static locale_t plain;
@@ -245,16 +341,35 @@ static locale_t plain_locale(void) {
     return seen;
 }
 
+/* What a hook may use: less where those before it in this step have used up what all may. */
+static uint64_t step_budget(JoxVm *vm, uint64_t instructions) {
+    const JoxMind *mind = vm->owner->mind;
+    if (mind && (vm->calls == 0 || vm->step != mind->tick)) {
+        vm->step = mind->tick;
+        vm->step_left = vm->owner->limits.step_instructions;
+    }
+    uint64_t left = vm->step_left > LEAST_BUDGET ? vm->step_left : LEAST_BUDGET;
+    return instructions < left ? instructions : left;
+}
+
 bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, const char **why,
                  int *line) {
-    vm->left = instructions;
     vm->over = vm->starved = false;
     vm->failed_source = 0;
     vm->traceback[0] = 0;
-    if (vm->loading && vm->deadline <= 0.0)
-        vm->deadline = thread_seconds() + load_seconds(vm);
+    if (vm->loading)
+        begin_load(vm);
+    else
+        instructions = step_budget(vm, instructions);
+    vm->left = instructions;
     locale_t before = plain_locale() ? uselocale(plain_locale()) : (locale_t)0;
-    lua_sethook(vm->L, count_hook, LUA_MASKCOUNT, CHECK_EVERY);
+    bool sampled = !vm->loading && vm->calls++ % SAMPLED == 0;
+    if (sampled) {
+        vm->watch_from = thread_seconds();
+        vm->watch_left = vm->left;
+    }
+    vm->interval = vm->loading ? CHECK_EVERY : FIRST_CHECK;
+    lua_sethook(vm->L, count_hook, LUA_MASKCOUNT, (int)vm->interval);
     int handler = lua_gettop(vm->L) - arguments;
     lua_pushcfunction(vm->L, keep_traceback);
     lua_insert(vm->L, handler);
@@ -262,6 +377,13 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     int status = lua_pcall(vm->L, arguments, results, handler);
     vm->running = false;
     lua_sethook(vm->L, NULL, 0, 0);
+    if (!vm->loading)
+        vm->step_left -=
+            instructions - vm->left < vm->step_left ? instructions - vm->left : vm->step_left;
+    if (!vm->loading && vm->interval == CHECK_EVERY)
+        watch(vm, 1.0, 1e9);
+    else if (sampled) /* a short one stands for others */
+        watch(vm, SAMPLED, 0.1);
     if (before)
         uselocale(before);
     if (status == LUA_OK) {

@@ -43,6 +43,7 @@ int jox_word_error(lua_State *L, const char *word, const char *code, const char 
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     JoxVm *vm = jox_vm_of(L);
+    jox_vm_charge(L, 2000); /* a suggestion compares with every word */
     if (!vm->loading)
         return luaL_error(L, "%s", text); /* inside a hook: words make nothing there */
     JoxPosition position = jox_word_position(L, word);

@@ -475,6 +475,7 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
     if ((map = jox_yaml_get(root, "limits")) && jox_keys_check(r, map, "limits")) {
         s->limits.given = true;
         s->limits.instructions = jox_key_number(r, map, "limits", "instructions");
+        s->limits.step_instructions = jox_key_number(r, map, "limits", "step_instructions");
         s->limits.load_instructions = jox_key_number(r, map, "limits", "load_instructions");
         s->limits.memory = jox_key_number(r, map, "limits", "memory");
         s->limits.block = jox_key_number(r, map, "limits", "block");

@@ -130,10 +130,11 @@ typedef struct JoxScene {
     } camera;
     struct {
         bool given;                             /* else the host's defaults hold */
-        double instructions, load_instructions; /* of a Lua function's call, of a load */
-        double memory, block;                   /* MB: of a behaviour, of one allocation */
-        double source;                          /* KB of a file */
-        double print;                           /* lines in a second */
+        double instructions, step_instructions; /* of a call, of all calls in a step */
+        double load_instructions;
+        double memory, block; /* MB: of a behaviour, of one allocation */
+        double source;        /* KB of a file */
+        double print;         /* lines in a second */
     } limits;
     bool heatmap; /* the area was given */
     JoxV2 heatmap_low, heatmap_high;

@@ -44,6 +44,8 @@ const JoxKey jox_scene_keys[] = {
     {"forces", "mode", JOX_TYPE_TEXT, "", 0, 0, "physical", "physical, or literal: as printed"},
     {"limits", "instructions", JOX_TYPE_WHOLE, "", 1000, 1e9, "100000",
      "of one Lua function's call"},
+    {"limits", "step_instructions", JOX_TYPE_WHOLE, "", 10000, 1e12, "20000000",
+     "of all functions of a behaviour in a step"},
     {"limits", "load_instructions", JOX_TYPE_WHOLE, "", 10000, 1e9, "20000000",
      "of loading one behaviour"},
     {"limits", "memory", N, "MB", 1, 1024, "32", "of one behaviour"},

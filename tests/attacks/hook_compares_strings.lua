@@ -1,4 +1,4 @@
--- expects: run too long
+-- expects: stop far longer
 local a, b = ("x"):rep(2 ^ 19) .. "a", ("x"):rep(2 ^ 19) .. "b"
 return machine { name = "m", start = "A", states = { A = { steer = hold,
   { to = "A", when = function()

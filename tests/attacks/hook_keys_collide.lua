@@ -1,7 +1,8 @@
--- expects: run too long
-local t = {}
-for i = 1, 40000 do t[i * 65535] = i end
+-- expects: stop far longer
+-- Each look-up walks through thousands of keys.
+local step, t = 8191 * 16383 * 32767, {}
+for i = 1, 6000 do t[i * step] = i end
 return machine { name = "m", start = "A", states = { A = { steer = hold,
   { to = "A", when = function()
-    while true do local _ = t[65535], t[20000 * 65535], t[40000 * 65535] end
+    while true do local _ = t[step], t[3000 * step], t[6000 * step] end
   end } } } }

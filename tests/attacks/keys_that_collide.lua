@@ -1,4 +1,4 @@
--- expects: load-error too long
+-- expects: load-error
 -- Integers that fall upon one another in a hash table: each look-up walks through them all.
 local t = {}
 for i = 1, 40000 do t[i * 65535] = i end

@@ -1,2 +1,2 @@
--- expects: load-error
-return machine { name = "m", start = "A", states = { A = {} } }, machine {}
+-- expects: harmless
+return machine { name = "m", start = "A", states = { A = { steer = hold } } }, machine {}

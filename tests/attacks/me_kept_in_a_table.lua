@@ -1,5 +1,5 @@
--- expects: run
--- The table is frozen by then, or `me` is worth nothing.
+-- expects: run frozen
+-- The table is frozen by then: nothing is kept from one call to the next.
 local kept = {}
 return machine { name = "m", start = "A", states = { A = { steer = hold,
   { to = "A", when = function(me)

@@ -1,0 +1,5 @@
+-- expects: run too long
+return machine { name = "m", start = "A", states = { A = { steer = hold,
+  { to = "A", when = function(me)
+    while true do local _ = me.neighbours end
+  end } } } }
