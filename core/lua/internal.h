@@ -143,7 +143,7 @@ typedef struct JoxVm {
     char **tried; /* files that were looked for, found or not */
     uint32_t tried_count;
     size_t tried_capacity;
-    JoxText said; /* what was printed while loading */
+    JoxText printed_text; /* what was printed while loading */
     const JoxScope *scope;
     JoxDiagnostics *diagnostics;
     const JoxMod *mod; /* whose file is running; NULL: the behaviour's own */

@@ -541,7 +541,7 @@ static int base_print(lua_State *L) {
     jox_text_clean(line);
     memcpy(line + at, "\n", 2);
     if (vm->loading) /* perhaps on a thread of its own: said when the file is adopted */
-        jox_text_add(&vm->said, line);
+        jox_text_add(&vm->printed_text, line);
     else
         vm->owner->complain(vm->owner->complain_context, line);
     return 0;

@@ -132,7 +132,7 @@ char *const *jox_lua_tried(const JoxLua *lua, const JoxMachine *machine, uint32_
 }
 
 const char *jox_loaded_said(const JoxLoaded *loaded) {
-    return loaded->vm && loaded->vm->said.data ? loaded->vm->said.data : "";
+    return loaded->vm && loaded->vm->printed_text.data ? loaded->vm->printed_text.data : "";
 }
 
 void jox_lua_adopt(JoxLua *lua, JoxLoaded *loaded) {

@@ -232,7 +232,7 @@ void jox_vm_free(JoxVm *vm) {
     for (uint32_t i = 0; i < vm->tried_count; i++)
         jox_free(vm->tried[i]);
     jox_free(vm->tried);
-    jox_text_free(&vm->said);
+    jox_text_free(&vm->printed_text);
     for (uint32_t i = 0; i < vm->memory_count; i++)
         jox_free(vm->memory[i].name);
     for (size_t o = 0; o < vm->origin_count; o++) {
