@@ -126,6 +126,7 @@ typedef struct JoxVm {
     uint32_t interval;  /* instructions from one check to the next */
     uint64_t calls;     /* of hooks */
     uint32_t charges;   /* of C code while loading */
+    bool untimed;       /* it runs tests, whose scenes take their time */
     uint64_t step_left; /* instructions that hooks may still use in this step */
     uint32_t step;
     double watch_from; /* seconds of this thread's processor time, when `left` was this: */

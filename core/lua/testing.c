@@ -95,6 +95,7 @@ static bool run_file(JoxVm *vm, const char *path, JoxTrial *trial, const char *o
                      JoxTestReport *report, void *context, JoxDiagnostics *diagnostics) {
     const char *why = NULL;
     int line = 0;
+    vm->untimed = true;
     vm->diagnostics = diagnostics;
     if (!jox_vm_read(vm, path, NULL, 0, (JoxPosition){0}))
         return false;

@@ -89,6 +89,8 @@ static double load_seconds(const JoxVm *vm) {
    of long texts. Counts decide what a function may do, so that runs are equal; but where functions
    together take a second more than their counts explain, the run has to end. */
 static void watch(JoxVm *vm, double weight, double most) {
+    if (vm->untimed)
+        return;
     double now = thread_seconds();
     double beyond =
         now - vm->watch_from - (double)(vm->watch_left - vm->left) * STEP_SECONDS * SLOWER;
@@ -359,7 +361,7 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     vm->traceback[0] = 0;
     if (vm->loading)
         begin_load(vm);
-    else
+    else if (!vm->untimed)
         instructions = step_budget(vm, instructions);
     vm->left = instructions;
     locale_t before = plain_locale() ? uselocale(plain_locale()) : (locale_t)0;

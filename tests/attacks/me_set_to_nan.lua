@@ -1,4 +1,4 @@
--- expects: run finite number
+-- expects: acts finite number
 local mine = memory { n = 0 }
 return machine { name = "m", start = "A", states = { A = { steer = hold,
   { to = "A", when = function(me) me.n = 0 / 0 return false end } } } }
