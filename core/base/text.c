@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -157,4 +158,13 @@ char *jox_read_file(const char *path, size_t limit, size_t *length) {
     if (length)
         *length = text.length;
     return text.data;
+}
+
+bool jox_path_below(const char *path, const char *folder) {
+    char *real = realpath(path, NULL), *root = realpath(folder, NULL);
+    size_t n = root ? strlen(root) : 0;
+    bool below = real && root && strncmp(real, root, n) == 0 && real[n] == '/';
+    free(real); /* made by the C library */
+    free(root);
+    return below;
 }

@@ -29,4 +29,7 @@ const char *jox_suggest(const char *word, const char *const *names, size_t count
 /* Reads a whole file; NULL with errno set (EFBIG when over `limit` bytes). Ends with a NUL. */
 char *jox_read_file(const char *path, size_t limit, size_t *length);
 
+/* Whether a file, with every link on its way followed, lies below a folder; both must be there. */
+bool jox_path_below(const char *path, const char *folder);
+
 #endif

@@ -42,6 +42,8 @@ void jox_source_free(JoxSource *source);
 JoxToken *jox_source_find(JoxSource *source, int line, const char *name);
 /* Position of a path's key, or of the nearest enclosing one that is written out. */
 JoxPosition jox_source_path(const JoxSource *source, const char *path);
+/* Says of each diagnostic in the source which part of the sheet it is in. */
+void jox_source_contexts(const JoxSource *source, JoxDiagnostics *diagnostics);
 const JoxPath *jox_source_path_find(const JoxSource *source, const char *path);
 static inline bool jox_token_is(const JoxToken *token, const char *text) {
     size_t n = token->length;

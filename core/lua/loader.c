@@ -106,6 +106,8 @@ JoxLoaded *jox_lua_prepare(JoxLua *lua, const char *path, const char *text, size
     JoxSource *source = jox_vm_read(vm, path, text, length, (JoxPosition){0});
     JoxMachine *machine = loaded->machine = source ? run(vm) : NULL;
     for (size_t i = 0; i < vm->source_count; i++)
+        jox_source_contexts(&vm->sources[i], diagnostics);
+    for (size_t i = 0; i < vm->source_count; i++)
         jox_diag_attach_source(diagnostics, vm->sources[i].path, vm->sources[i].text,
                                vm->sources[i].length);
     vm->loading = false;

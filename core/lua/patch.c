@@ -468,8 +468,8 @@ static bool is_target(JoxVm *vm, int index, const char *target) {
     lua_pop(L, 1);
     for (uint32_t m = 0; m < vm->scope->mod_count; m++) {
         const JoxMod *mod = &vm->scope->mods[m];
-        size_t folder = strlen(mod->folder), name = strlen(mod->name);
-        if (strncmp(path, mod->folder, folder) == 0 && path[folder] == '/') /* "mod:file" alone */
+        size_t name = strlen(mod->name);
+        if (jox_path_below(path, mod->folder)) /* "mod:file" alone */
             return strncmp(target, mod->name, name) == 0 && target[name] == ':' &&
                    strncmp(target + name + 1, stem, n) == 0 && !target[name + 1 + n];
     }

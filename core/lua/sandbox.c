@@ -83,16 +83,6 @@ static bool plain_name(const char *name) {
     return true;
 }
 
-/* Whether a file, with every link on its way followed, still lies below the folder. */
-static bool lies_below(const char *path, const char *folder) {
-    char *real = realpath(path, NULL), *root = realpath(folder, NULL);
-    size_t n = root ? strlen(root) : 0;
-    bool below = real && root && strncmp(real, root, n) == 0 && real[n] == '/';
-    free(real); /* made by the C library */
-    free(root);
-    return below;
-}
-
 void jox_vm_tried(JoxVm *vm, const char *path) {
     for (uint32_t i = 0; i < vm->tried_count; i++)
         if (strcmp(vm->tried[i], path) == 0)
@@ -106,7 +96,7 @@ static bool is_module(JoxVm *vm, const char *folder, const char *name, char path
     struct stat info;
     snprintf(path, 1024, "%.511s/%.400s.lua", folder, name);
     jox_vm_tried(vm, path);
-    return lstat(path, &info) == 0 && (S_ISLNK(info.st_mode) || lies_below(path, folder));
+    return lstat(path, &info) == 0 && (S_ISLNK(info.st_mode) || jox_path_below(path, folder));
 }
 
 /* The file of a module: "mod:name" of a mod; else beside the file that requires it, beside the

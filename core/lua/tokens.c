@@ -162,6 +162,14 @@ static size_t read_table(JoxSource *source, size_t at, const char *prefix, int l
     return at + 1;
 }
 
+/* patch "NAME" { or replace "NAME" { */
+static bool begins_patch(const JoxSource *source, size_t i) {
+    const JoxToken *t = &source->tokens[i];
+    return i + 3 < source->token_count &&
+           (jox_token_is(t, "patch") || jox_token_is(t, "replace")) &&
+           t[1].kind == JOX_TOKEN_STRING && jox_token_is(&t[2], "{");
+}
+
 void jox_source_scan(JoxSource *source) {
     Scan s = {source, source->text, source->text + source->length, source->text, 1};
     while (s.at < s.end) {
@@ -177,9 +185,10 @@ void jox_source_scan(JoxSource *source) {
         }
     }
     for (size_t i = source->token_count; i-- > 0;) /* the one that the file ends with */
-        if (i + 2 < source->token_count && jox_token_is(&source->tokens[i], "machine") &&
-            jox_token_is(&source->tokens[i + 1], "{")) {
-            read_table(source, i + 1, "", 0);
+        if (i + 2 < source->token_count && ((jox_token_is(&source->tokens[i], "machine") &&
+                                             jox_token_is(&source->tokens[i + 1], "{")) ||
+                                            begins_patch(source, i))) {
+            read_table(source, i + (begins_patch(source, i) ? 2 : 1), "", 0);
             break;
         }
 }

@@ -41,6 +41,11 @@ static bool is_folder(const char *path) {
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
+static bool same_folder(const char *a, const char *b) {
+    struct stat x, y;
+    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
 static char *join(JoxHoard *hoard, const char *folder, const char *name) {
     char *path = jox_hoard_take(hoard, strlen(folder) + strlen(name) + 2, 1);
     sprintf(path, "%s/%s", folder, name);
@@ -162,7 +167,7 @@ static void read_mod(Find *f, const char *folder, bool wanted) {
     JoxMods *mods = f->mods;
     const JoxReader *r = &f->reader;
     for (uint32_t m = 0; m < mods->found_count; m++)
-        if (strcmp(mods->found[m].folder, folder) == 0) {
+        if (same_folder(mods->found[m].folder, folder)) {
             f->needs[m].wanted |= wanted;
             return;
         }

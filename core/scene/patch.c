@@ -178,8 +178,8 @@ static bool is_target(const JoxLoad *l, const char *target) {
     size_t n = dot ? (size_t)(dot - stem) : strlen(stem);
     for (uint32_t m = 0; m < l->options->mod_count; m++) {
         const JoxMod *mod = &l->options->mods[m];
-        size_t folder = strlen(mod->folder), name = strlen(mod->name);
-        if (strncmp(path, mod->folder, folder) == 0 && path[folder] == '/')
+        size_t name = strlen(mod->name);
+        if (jox_path_below(path, mod->folder))
             return strncmp(target, mod->name, name) == 0 && target[name] == ':' &&
                    strncmp(target + name + 1, stem, n) == 0 && !target[name + 1 + n];
     }

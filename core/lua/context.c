@@ -1,0 +1,69 @@
+/* Which part of the sheet an error is in: "machine tawaf > state ToStone > transition 2 (to
+ * Circle)". */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "lua/internal.h"
+
+/* The text of a string value at a path, or "?". */
+static void value_at(const JoxSource *source, const char *path, char out[64]) {
+    const JoxPath *found = jox_source_path_find(source, path);
+    const JoxToken *t =
+        found && found->first < source->token_count ? &source->tokens[found->first] : NULL;
+    bool text = t && t->kind == JOX_TOKEN_STRING;
+    snprintf(out, 64, "%.*s", text ? (int)(t->length < 60 ? t->length : 60) : 1,
+             text ? t->text : "?");
+}
+
+static bool is_before(const JoxToken *t, int line, int column) {
+    return t->line < line || (t->line == line && t->column <= column);
+}
+
+/* The longest path whose value stands about a place. */
+static const JoxPath *path_about(const JoxSource *source, int line, int column) {
+    const JoxPath *best = NULL;
+    for (size_t p = 0; p < source->path_count; p++) {
+        const JoxPath *path = &source->paths[p];
+        if (path->key >= source->token_count ||
+            !is_before(&source->tokens[path->key], line, column))
+            continue;
+        if (path->last < source->token_count &&
+            is_before(&source->tokens[path->last], line, column))
+            continue;
+        if (!best || strlen(path->path) > strlen(best->path))
+            best = path;
+    }
+    return best;
+}
+
+static char *describe(const JoxSource *source, const JoxPath *path) {
+    char name[64], state[64], to[64], full[256];
+    JoxText out = {0};
+    value_at(source, "name", name);
+    jox_text_printf(&out, "machine %s", name);
+    if (strncmp(path->path, "states.", 7) != 0)
+        return out.data;
+    size_t n = strcspn(path->path + 7, ".");
+    snprintf(state, sizeof state, "%.*s", (int)(n < 60 ? n : 60), path->path + 7);
+    jox_text_printf(&out, " > state %s", state);
+    const char *rest = path->path + 7 + n;
+    unsigned number;
+    if (sscanf(rest, ".%u", &number) == 1) {
+        snprintf(full, sizeof full, "states.%s.%u.to", state, number);
+        value_at(source, full, to);
+        jox_text_printf(&out, " > transition %u (to %s)", number, to);
+    }
+    return out.data;
+}
+
+void jox_source_contexts(const JoxSource *source, JoxDiagnostics *diagnostics) {
+    for (size_t d = 0; d < diagnostics->count; d++) {
+        JoxDiagnostic *item = &diagnostics->items[d];
+        if (item->context || item->line < 1 || !item->file || strcmp(item->file, source->path) != 0)
+            continue;
+        const JoxPath *path = path_about(source, item->line, item->column > 0 ? item->column : 1);
+        if (path)
+            item->context = describe(source, path);
+    }
+}
