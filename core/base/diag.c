@@ -13,6 +13,19 @@ static bool has_room(const JoxDiagnostics *d, JoxSeverity severity) {
                                           : d->count - (d->errors < KEPT ? d->errors : KEPT) < KEPT;
 }
 
+/* Whether the same was said already: a file that is loaded for several reasons. */
+static bool is_known(const JoxDiagnostics *d, JoxPosition position, const char *code,
+                     const char *message) {
+    for (size_t i = 0; i < d->count; i++) {
+        const JoxDiagnostic *item = &d->items[i];
+        if (item->line == position.line && item->column == position.column &&
+            !strcmp(item->code, code) && !strcmp(item->message, message) &&
+            !strcmp(item->file ? item->file : "", position.file ? position.file : ""))
+            return true;
+    }
+    return false;
+}
+
 void jox_diag_add(JoxDiagnostics *d, JoxSeverity severity, JoxPosition position, const char *code,
                   const char *hint, const char *context, const char *source, const char *format,
                   ...) {
@@ -117,14 +130,14 @@ void jox_diag_json(const JoxDiagnostics *d, JoxText *out) {
 }
 
 void jox_diag_move(JoxDiagnostics *to, JoxDiagnostics *from) {
+    size_t kept = from->count, all = from->errors + from->warnings;
     for (size_t i = 0; i < from->count; i++) {
         JoxDiagnostic *item = &from->items[i];
-        jox_diag_add(to, item->severity,
-                     (JoxPosition){item->file, item->line, item->column, item->end_column},
-                     item->code, item->hint, item->context, item->source, "%s", item->message);
+        JoxPosition position = {item->file, item->line, item->column, item->end_column};
+        if (!is_known(to, position, item->code, item->message))
+            jox_diag_add(to, item->severity, position, item->code, item->hint, item->context,
+                         item->source, "%s", item->message);
     }
-    size_t kept = from->count;
-    size_t all = from->errors + from->warnings;
     to->errors += all > kept ? all - kept : 0;
     jox_diag_free(from);
 }

@@ -38,7 +38,9 @@ static void check_scene(const char *path, const char *mod, JoxDiagnostics *all) 
 
 static void check_behaviour(const char *path, const JoxScope *scope, JoxDiagnostics *all) {
     JoxLua *lua = jox_lua_create(NULL);
-    jox_machine_free(jox_lua_load(lua, path, scope, all));
+    JoxDiagnostics own = {0};
+    jox_machine_free(jox_lua_load(lua, path, scope, &own));
+    jox_diag_move(all, &own);
     jox_lua_free(lua);
 }
 

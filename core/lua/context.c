@@ -41,7 +41,10 @@ static char *describe(const JoxSource *source, const JoxPath *path) {
     char name[64], state[64], to[64], full[256];
     JoxText out = {0};
     value_at(source, "name", name);
-    jox_text_printf(&out, "machine %s", name);
+    if (source->patches)
+        jox_text_printf(&out, "patch of %.*s", (int)source->patches->length, source->patches->text);
+    else
+        jox_text_printf(&out, "machine %s", name);
     if (strncmp(path->path, "states.", 7) != 0)
         return out.data;
     size_t n = strcspn(path->path + 7, ".");

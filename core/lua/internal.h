@@ -32,7 +32,8 @@ typedef struct JoxSource {
     size_t token_count, token_capacity;
     JoxPath *paths;
     size_t path_count, path_capacity;
-    uint32_t looks; /* tokens looked at for conditions; bounded */
+    const JoxToken *patches; /* of a mod's file: the name of what it changes */
+    uint32_t looks;          /* tokens looked at for conditions; bounded */
 } JoxSource;
 
 /* Splits Lua source into tokens; never fails, for Lua's own parser reports what is malformed. */

@@ -403,6 +403,35 @@ static void merge_state(const Patch *p, int base, int change, const char *path, 
     lua_settop(L, keys - 1);
 }
 
+/* Reports a patch of a state that is not there, where it is one and not a new state: it has verbs.
+   The value is on top of the stack. */
+static bool changes_nothing(const Patch *p, int base, const char *key, const char *from) {
+    lua_State *L = p->vm->L;
+    int value = lua_gettop(L);
+    bool verbs = false;
+    for (int v = 0; lua_type(L, value) == LUA_TTABLE && v < VERBS; v++) {
+        verbs |= jox_read_field(L, value, VERB_NAMES[v]) != LUA_TNIL;
+        lua_pop(L, 1);
+    }
+    bool there = jox_read_field(L, base, key) != LUA_TNIL;
+    lua_pop(L, 1);
+    if (there || !verbs)
+        return false;
+    const char *names[64];
+    char whole[256], hint[96];
+    size_t count = 0;
+    lua_pushnil(L);
+    while (lua_next(L, base)) {
+        lua_pop(L, 1);
+        if (lua_type(L, -1) == LUA_TSTRING && count < 64)
+            names[count++] = jox_vm_intern(p->vm, lua_tostring(L, -1));
+    }
+    jox_read_join(whole, from, key);
+    fail(p, whole, "unknown-state", jox_did_you_mean(key, names, count, hint),
+         "there is no state '%s' to change", key);
+    return true;
+}
+
 static void merge_states(const Patch *p, int base, int change, const char *path, const char *from,
                          int depth) {
     lua_State *L = p->vm->L;
@@ -412,7 +441,8 @@ static void merge_states(const Patch *p, int base, int change, const char *path,
         lua_rawgeti(L, keys, k);
         const char *key = lua_tostring(L, -1);
         jox_read_field(L, change, key);
-        merge_key(p, base, key, path, from, merge_state, depth);
+        if (!changes_nothing(p, base, key, from))
+            merge_key(p, base, key, path, from, merge_state, depth);
         lua_settop(L, keys);
     }
     lua_settop(L, keys - 1);

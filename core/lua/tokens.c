@@ -188,7 +188,8 @@ void jox_source_scan(JoxSource *source) {
         if (i + 2 < source->token_count && ((jox_token_is(&source->tokens[i], "machine") &&
                                              jox_token_is(&source->tokens[i + 1], "{")) ||
                                             begins_patch(source, i))) {
-            read_table(source, i + (begins_patch(source, i) ? 2 : 1), "", 0);
+            source->patches = begins_patch(source, i) ? &source->tokens[i + 1] : NULL;
+            read_table(source, i + (source->patches ? 2 : 1), "", 0);
             break;
         }
 }
