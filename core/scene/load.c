@@ -465,12 +465,8 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
     const JoxYaml *map = jox_yaml_get(root, "forces");
     s->forces = true;
     if (map && jox_keys_check(r, map, "forces")) {
-        const char *mode = jox_key_text(r, map, "forces", "mode");
         s->forces = jox_key_bool(r, map, "forces", "enabled");
-        s->literal = mode && !strcmp(mode, "literal");
-        if (mode && !s->literal && strcmp(mode, "physical"))
-            jox_scene_error(r, jox_yaml_get(map, "mode"), "bad-value", NULL,
-                            "mode is physical or literal");
+        s->literal = jox_key_choice(r, map, "forces", "mode") == 1;
     }
     if ((map = jox_yaml_get(root, "limits")) && jox_keys_check(r, map, "limits")) {
         s->limits.given = true;
@@ -539,6 +535,8 @@ JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
     load.scene->file_count = files->count;
     for (uint32_t i = 0; i < files->count; i++) {
         load.scene->files[i].path = files->items[i].path;
+        load.scene->files[i].text = files->items[i].text;
+        load.scene->files[i].length = files->items[i].length;
         memcpy(load.scene->files[i].sha256, files->items[i].sha256, 65);
         load.scene->files[i].text = files->items[i].text;
         load.scene->files[i].length = files->items[i].length;
