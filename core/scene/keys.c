@@ -91,7 +91,7 @@ const JoxKey jox_scene_keys[] = {
     {"body", "name", TEXT, "", 0, 0, "", .meaning = "for people and messages"},
     {"body", "shape", TABLE, "", 0, 0, "!", .of = "shape",
      .meaning = "one of box, sphere, cylinder, hull, compound"},
-    {"body", "mass", NUMBER, "kg", 0, 1e7, "", .meaning = "0 never moves"},
+    {"body", "mass", NUMBER, "kg", 0, 1e7, "", .meaning = "0 never moves; 10 kg where no density is given either"},
     {"body", "density", NUMBER, "kg/m3", 0.1, 30000, "", .meaning = "in place of mass"},
     {"body", "at", POINT3, "m", -FAR, FAR, "!", .meaning = "middle of the shape"},
     {"body", "turn", NUMBER, "deg", -1e4, 1e4, "0",
@@ -140,7 +140,7 @@ const JoxKey jox_scene_keys[] = {
     {"group", "team", TEXT, "", 0, 0, "", .meaning = "agents of other teams are opponents"},
     {"group", "tags", NAMES, "", 0, 0, "", .meaning = "what behaviours know them by"},
     {"group", "set", VALUES, "", 0, 0, "", .of = "value*",
-     .meaning = "values for names in the behaviour's `defaults`"},
+     .meaning = "values for names in the behaviour's `defaults`; `antipode`: the point opposite on a circle"},
     {"group", "memory", VALUES, "", 0, 0, "", .of = "draw*",
      .meaning = "what they remember at the start"},
 
@@ -193,13 +193,13 @@ const JoxOwner jox_scene_owners[] = {
     {"sphere", "sphere", ""},
     {"cylinder", "cylinder", ""},
     {"hull", "hull", ""},
-    {"part", "Parts of a compound", "Each part stands at its own place of the body's frame."},
+    {"part", "part", "Each part stands at its own place of the body's frame."},
     {"group", "Groups", "`groups` maps names to groups: agents that are made alike, so many (`count`, `density`) in "
      "some places (`in`), or `at` given points."},
     {"source", "Sources", "Each source of the list `sources` brings agents in as time goes on."},
     {"sink", "Sinks", "Each sink of the list `sinks` takes agents out."},
     {"mod", "Mods", "A mod is a folder; its file `mod.yaml` has these keys. A scene takes mods by its key `mods`."},
-    {"setting", "Settings of a mod", "`settings` maps names to settings."},
+    {"setting", "setting", "`settings` maps names to settings: numbers that behaviours of the mod read."},
 };
 const size_t jox_scene_owner_count = sizeof jox_scene_owners / sizeof *jox_scene_owners;
 

@@ -487,6 +487,11 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
                           jox_key_vector(r, map, "camera", "target", s->camera.target, 3);
 }
 
+/* Whether a key holds something, right or wrong: what is wrong is reported where it is read. */
+static bool is_filled(const JoxYaml *node) {
+    return node && (node->kind == JOX_YAML_SCALAR || node->count > 0);
+}
+
 static void read_scene(JoxLoad *l, const JoxYaml *root) {
     const JoxReader *r = &l->reader;
     jox_keys_check(r, root, "scene");
@@ -500,7 +505,7 @@ static void read_scene(JoxLoad *l, const JoxYaml *root) {
     read_sinks(l, jox_yaml_get(root, "sinks"));
     const JoxYaml *player = name_at(l, root, "player");
     l->scene->player_group = player ? jox_load_group(l, player) : -1;
-    if (l->scene->group_count == 0 && l->scene->body_count == 0)
+    if (!is_filled(jox_yaml_get(root, "groups")) && !is_filled(jox_yaml_get(root, "bodies")))
         jox_scene_error(r, root, "empty-scene", "See scenes/circle.yaml",
                         "a scene needs a group or a body");
 }
