@@ -198,7 +198,8 @@ const JoxOwner jox_scene_owners[] = {
      "some places (`in`), or `at` given points."},
     {"source", "Sources", "Each source of the list `sources` brings agents in as time goes on."},
     {"sink", "Sinks", "Each sink of the list `sinks` takes agents out."},
-    {"mod", "Mods", "A mod is a folder; its file `mod.yaml` has these keys. A scene takes mods by its key `mods`."},
+    {"mod", "Mods", "A mod is a folder; its file `mod.yaml` has these keys. A scene takes it, and chooses "
+     "its settings, by `mods: {calm: {patience: 60}}`."},
     {"setting", "setting", "`settings` maps names to settings: numbers that behaviours of the mod read."},
 };
 const size_t jox_scene_owner_count = sizeof jox_scene_owners / sizeof *jox_scene_owners;

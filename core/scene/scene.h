@@ -1,5 +1,5 @@
 /* Scenes: a YAML file becomes a plain description, from which the host builds a world.
-   Metres, seconds, kilograms; angles in radians. The format itself is the table in schema.c. */
+   Metres, seconds, kilograms; angles in radians. The format itself is the table in keys.c. */
 #ifndef JOX_SCENE_SCENE_H
 #define JOX_SCENE_SCENE_H
 

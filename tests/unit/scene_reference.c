@@ -136,7 +136,15 @@ static void the_table_is_whole(void **state) {
             known |= !strcmp(jox_scene_units[u].kind, key->unit);
         assert_true(known);
     }
-    char name[64];
+    char name[64]; /* choices that are enumerations stand in their order */
+    const char *fills = jox_key_find("group", "fill")->choices;
+    assert_true(jox_choice_name(fills, JOX_FILL_HEX, name, sizeof name) && !strcmp(name, "hex"));
+    assert_true(jox_choice_name(fills, JOX_FILL_GRID, name, sizeof name) && !strcmp(name, "grid"));
+    assert_true(jox_choice_name(fills, JOX_FILL_RANDOM, name, sizeof name) &&
+                !strcmp(name, "random"));
+    assert_true(jox_choice_name(fills, JOX_FILL_CIRCLE, name, sizeof name) &&
+                !strcmp(name, "circle"));
+    assert_false(jox_choice_name(fills, JOX_FILL_AT, name, sizeof name));
     for (size_t a = 0; a < jox_scene_alternative_count; a++)
         for (int i = 0; jox_choice_name(jox_scene_alternatives[a].keys, i, name, sizeof name); i++)
             assert_non_null(jox_key_find(jox_scene_alternatives[a].owner, name));
