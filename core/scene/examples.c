@@ -30,7 +30,8 @@ const JoxExample jox_scene_examples[] = {
      "forces: {enabled: true, mode: literal}\n"
      STANDER},
     {"limits", OPENING
-     "limits: {instructions: 50000, memory: 8 MB}\n"
+     "limits: {instructions: 50000, step_instructions: 5000000, load_instructions: 5000000,\n"
+     "         memory: 8 MB, block: 1 MB, source: 64 KB, print: 5}\n"
      STANDER},
     {"heatmap", OPENING
      "heatmap: {area: [[-5, -5], [5, 5]], from: 30 s}\n"

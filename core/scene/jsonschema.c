@@ -81,7 +81,8 @@ static void parameters(JoxText *out) {
 static void contents(const JoxKey *key, size_t length, JoxText *out) {
     const char *of = key->of;
     if (length && of[length - 1] == '*') {
-        jox_text_add(out, "\"type\": \"object\"");
+        bool inner = length < strlen(of); /* "mod:" alone takes a mod as it is */
+        jox_text_add(out, inner ? "\"type\": [\"object\", \"null\"]" : "\"type\": \"object\"");
         if (!strcmp(of, "value*"))
             parameters(out);
         jox_text_add(out, ", \"additionalProperties\": {");
