@@ -8,9 +8,9 @@
 
 enum { KEPT = 20, SOURCE_SHOWN = 200 };
 
-static bool has_room(const JoxDiagnostics *d, JoxSeverity severity) {
-    return severity == JOX_SEVERITY_ERROR ? d->errors < KEPT
-                                          : d->count - (d->errors < KEPT ? d->errors : KEPT) < KEPT;
+bool jox_diag_has_room(const JoxDiagnostics *d, JoxSeverity severity) {
+    bool error = severity == JOX_SEVERITY_ERROR;
+    return (error ? d->kept_errors : d->count - d->kept_errors) < (d->limit ? d->limit : KEPT);
 }
 
 /* Whether the same was said already: a file that is loaded for several reasons. */
@@ -29,7 +29,7 @@ static bool is_known(const JoxDiagnostics *d, JoxPosition position, const char *
 void jox_diag_add(JoxDiagnostics *d, JoxSeverity severity, JoxPosition position, const char *code,
                   const char *hint, const char *context, const char *source, const char *format,
                   ...) {
-    if (has_room(d, severity)) {
+    if (jox_diag_has_room(d, severity)) {
         JoxText message = {0};
         char text[2048];
         va_list arguments;
@@ -39,6 +39,7 @@ void jox_diag_add(JoxDiagnostics *d, JoxSeverity severity, JoxPosition position,
         jox_text_clean(text); /* whoever wrote it must not command the terminal */
         jox_text_add(&message, text);
         JOX_RESERVE(d->items, d->capacity, d->count + 1);
+        d->kept_errors += severity == JOX_SEVERITY_ERROR;
         d->items[d->count++] = (JoxDiagnostic){.severity = severity,
                                                .file = jox_strdup(position.file),
                                                .line = position.line,
@@ -103,11 +104,8 @@ void jox_diag_print(const JoxDiagnostics *d, JoxText *out) {
         if (item->context)
             jox_text_printf(out, " %s\n", item->context);
     }
-    size_t shown_errors = 0;
-    for (size_t i = 0; i < d->count; i++)
-        shown_errors += d->items[i].severity == JOX_SEVERITY_ERROR;
-    if (d->errors > shown_errors)
-        jox_text_printf(out, "... and %zu more errors\n", d->errors - shown_errors);
+    if (d->errors > d->kept_errors)
+        jox_text_printf(out, "... and %zu more errors\n", d->errors - d->kept_errors);
 }
 
 void jox_diag_json(const JoxDiagnostics *d, JoxText *out) {
@@ -130,7 +128,6 @@ void jox_diag_json(const JoxDiagnostics *d, JoxText *out) {
 }
 
 void jox_diag_move(JoxDiagnostics *to, JoxDiagnostics *from) {
-    size_t kept = from->count, all = from->errors + from->warnings;
     for (size_t i = 0; i < from->count; i++) {
         JoxDiagnostic *item = &from->items[i];
         JoxPosition position = {item->file, item->line, item->column, item->end_column};
@@ -138,7 +135,12 @@ void jox_diag_move(JoxDiagnostics *to, JoxDiagnostics *from) {
             jox_diag_add(to, item->severity, position, item->code, item->hint, item->context,
                          item->source, "%s", item->message);
     }
-    to->errors += all > kept ? all - kept : 0;
+    for (size_t i = 0; i < from->count; i++) { /* what `from` did not keep remains */
+        from->errors -= from->items[i].severity == JOX_SEVERITY_ERROR;
+        from->warnings -= from->items[i].severity == JOX_SEVERITY_WARNING;
+    }
+    to->errors += from->errors;
+    to->warnings += from->warnings;
     jox_diag_free(from);
 }
 

@@ -26,12 +26,17 @@ typedef struct JoxDiagnostic {
     char *source;     /* the line of source, or NULL */
 } JoxDiagnostic;
 
-/* Zero-initialise. Keeps the first 20 errors and 20 others; counts all. */
+/* Zero-initialise. Keeps the first `limit` errors and as many others; counts all. */
 typedef struct JoxDiagnostics {
     JoxDiagnostic *items;
     size_t count, capacity;
     size_t errors, warnings;
+    size_t kept_errors;
+    size_t limit; /* 0: 20 */
 } JoxDiagnostics;
+
+/* Whether one more would be kept; if not, nobody need look for its hint. */
+bool jox_diag_has_room(const JoxDiagnostics *diagnostics, JoxSeverity severity);
 
 /* Appends one. `hint`, `context` and `source` may be NULL; all text is copied (`code` is not). */
 void jox_diag_add(JoxDiagnostics *diagnostics, JoxSeverity severity, JoxPosition position,
@@ -48,7 +53,7 @@ void jox_diag_attach_source(JoxDiagnostics *diagnostics, const char *file, const
 void jox_diag_print(const JoxDiagnostics *diagnostics, JoxText *out);
 /* A JSON array of objects: file, line, column, end, severity, code, message, hint. */
 void jox_diag_json(const JoxDiagnostics *diagnostics, JoxText *out);
-/* Moves all of `from` behind `to`. */
+/* Moves all of `from` behind `to`, with its counts. */
 void jox_diag_move(JoxDiagnostics *to, JoxDiagnostics *from);
 void jox_diag_free(JoxDiagnostics *diagnostics);
 

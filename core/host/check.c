@@ -9,7 +9,7 @@
 #include "base/mem.h"
 #include "host/host.h"
 
-enum { DEEPEST = 8 };
+enum { DEEPEST = 8, MOST_ERRORS = 10000 };
 
 static bool ends_with(const char *path, const char *ending) {
     size_t n = strlen(path), m = strlen(ending);
@@ -164,7 +164,7 @@ static void check_path(const char *path, bool named, int depth, const char *mod,
 size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
                 void *context) {
     JOX_REQUIRE(paths && message, 0);
-    JoxDiagnostics all = {0};
+    JoxDiagnostics all = {.limit = MOST_ERRORS}; /* each file keeps 20 of its own */
     for (size_t p = 0; p < count; p++)
         check_path(paths[p], true, 0, NULL, &all);
     JoxText text = {0};

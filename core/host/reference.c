@@ -5,14 +5,21 @@
 #include "host/host.h"
 #include "lua/reference.h"
 
+static void scene_schema(JoxText *out) {
+    jox_scene_json_schema("scene", out);
+}
+static void mod_schema(JoxText *out) {
+    jox_scene_json_schema("mod", out);
+}
+
 char *jo_reference(const char *what) {
     JOX_REQUIRE(what, NULL);
     static const struct {
         const char *name;
         void (*print)(JoxText *out);
-    } PAGES[] = {{"behaviours", jox_lua_reference},
-                 {"lua-ls", jox_lua_definitions},
-                 {"luacheck", jox_lua_luacheck}};
+    } PAGES[] = {{"behaviours", jox_lua_reference}, {"lua-ls", jox_lua_definitions},
+                 {"luacheck", jox_lua_luacheck},    {"scenes", jox_scene_reference_markdown},
+                 {"scene-schema", scene_schema},    {"mod-schema", mod_schema}};
     JoxText out = {0};
     for (size_t p = 0; p < sizeof PAGES / sizeof *PAGES; p++)
         if (!strcmp(PAGES[p].name, what))

@@ -465,12 +465,8 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
     const JoxYaml *map = jox_yaml_get(root, "forces");
     s->forces = true;
     if (map && jox_keys_check(r, map, "forces")) {
-        const char *mode = jox_key_text(r, map, "forces", "mode");
         s->forces = jox_key_bool(r, map, "forces", "enabled");
-        s->literal = mode && !strcmp(mode, "literal");
-        if (mode && !s->literal && strcmp(mode, "physical"))
-            jox_scene_error(r, jox_yaml_get(map, "mode"), "bad-value", NULL,
-                            "mode is physical or literal");
+        s->literal = jox_key_choice(r, map, "forces", "mode") == 1;
     }
     if ((map = jox_yaml_get(root, "limits")) && jox_keys_check(r, map, "limits")) {
         s->limits.given = true;
@@ -491,6 +487,11 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
                           jox_key_vector(r, map, "camera", "target", s->camera.target, 3);
 }
 
+/* Whether a key holds something, right or wrong: what is wrong is reported where it is read. */
+static bool is_filled(const JoxYaml *node) {
+    return node && (node->kind == JOX_YAML_SCALAR || node->count > 0);
+}
+
 static void read_scene(JoxLoad *l, const JoxYaml *root) {
     const JoxReader *r = &l->reader;
     jox_keys_check(r, root, "scene");
@@ -504,7 +505,7 @@ static void read_scene(JoxLoad *l, const JoxYaml *root) {
     read_sinks(l, jox_yaml_get(root, "sinks"));
     const JoxYaml *player = name_at(l, root, "player");
     l->scene->player_group = player ? jox_load_group(l, player) : -1;
-    if (l->scene->group_count == 0 && l->scene->body_count == 0)
+    if (!is_filled(jox_yaml_get(root, "groups")) && !is_filled(jox_yaml_get(root, "bodies")))
         jox_scene_error(r, root, "empty-scene", "See scenes/circle.yaml",
                         "a scene needs a group or a body");
 }
@@ -539,6 +540,8 @@ JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
     load.scene->file_count = files->count;
     for (uint32_t i = 0; i < files->count; i++) {
         load.scene->files[i].path = files->items[i].path;
+        load.scene->files[i].text = files->items[i].text;
+        load.scene->files[i].length = files->items[i].length;
         memcpy(load.scene->files[i].sha256, files->items[i].sha256, 65);
         load.scene->files[i].text = files->items[i].text;
         load.scene->files[i].length = files->items[i].length;

@@ -70,7 +70,6 @@ static void check_bounds(const JoxLoad *l, const JoxYaml *node, const JoxSceneGr
 
 void jox_load_positions(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group,
                         uint32_t number) {
-    static const char *const FILLS[] = {"hex", "grid", "random", "circle"};
     const JoxYaml *at = jox_yaml_get(map, "at"), *count = jox_yaml_get(map, "count");
     const JoxYaml *density = jox_yaml_get(map, "density");
     if (at) {
@@ -114,19 +113,12 @@ void jox_load_positions(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *gro
     for (uint32_t g = 0; g < number; g++)
         number_of -= l->scene->groups[g].count;
     group->count = (uint32_t)number_of;
-    const char *fill = jox_key_text(&l->reader, map, "group", "fill");
-    group->fill = JOX_FILL_AT;
-    for (int f = 0; f < 4; f++)
-        if (fill && !strcmp(FILLS[f], fill))
-            group->fill = (JoxFillMode)f;
+    int fill = jox_key_choice(&l->reader, map, "group", "fill"); /* in the order of JoxFillMode */
+    group->fill = fill < 0 ? JOX_FILL_AT : (JoxFillMode)fill;
     double spacing = jox_key_number(&l->reader, map, "group", "spacing");
-    if (group->fill == JOX_FILL_AT)
-        jox_scene_error(&l->reader, jox_yaml_get(map, "fill"), "bad-value",
-                        jox_scene_suggest(&l->reader, fill ? fill : "", FILLS, 4),
-                        "fill is grid, hex, random or circle");
-    else if (group->fill == JOX_FILL_CIRCLE)
+    if (group->fill == JOX_FILL_CIRCLE)
         circle(l, map, in, in_count, group);
-    else
+    else if (fill >= 0)
         area(l, map, &a, (JoxSpread)group->fill, isfinite(spacing) ? (float)spacing : 0.0f, number,
              group);
     check_bounds(l, map, group);

@@ -1,5 +1,5 @@
 /* Scenes: a YAML file becomes a plain description, from which the host builds a world.
-   Metres, seconds, kilograms; angles in radians. The format itself is the table in schema.c. */
+   Metres, seconds, kilograms; angles in radians. The format itself is the table in keys.c. */
 #ifndef JOX_SCENE_SCENE_H
 #define JOX_SCENE_SCENE_H
 
@@ -97,7 +97,7 @@ typedef struct JoxSceneChange {
 typedef struct JoxSceneFile {
     char *path;
     char sha256[65];
-    const char *text;
+    const char *text; /* as it was read */
     size_t length;
 } JoxSceneFile;
 
@@ -165,5 +165,16 @@ JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
 void jox_scene_free(JoxScene *scene);
 /* Every key with type, unit, range, default and meaning, as plain text. */
 void jox_scene_print_reference(JoxText *out);
+/* The same as a page of Markdown, with examples. */
+void jox_scene_reference_markdown(JoxText *out);
+/* A JSON Schema (draft-07) of scenes ("scene") or of a mod's file ("mod"), for editors. */
+void jox_scene_json_schema(const char *root_owner, JoxText *out);
+
+/* A file that shows every key of an owner; scenes among them load and run in the folder scenes/. */
+typedef struct JoxExample {
+    const char *owner, *yaml;
+} JoxExample;
+extern const JoxExample jox_scene_examples[];
+extern const size_t jox_scene_example_count;
 
 #endif

@@ -88,6 +88,56 @@ static const struct Case {
     {"bounds: [[0, 0], [5, 5]]\n" WITH("at: [[1, 1], @[9, 9]]"), "out-of-bounds", NULL},
     {"bounds: @[[0, 0], [0, 5]]\n" GROUP, "no-area", NULL},
     {"<<: @5\n" GROUP, "bad-merge", NULL},
+    {"title: @]\n" GROUP, "bad-yaml", "Check indentation"},
+    {"title: a\n---\n@title: b\n", "bad-yaml", NULL},
+    {"@[a, b]: 3\n" GROUP, "bad-key", NULL},
+    {"include: @{a: b}\n" GROUP, "bad-type", "include: other.yaml"},
+    {"include: @gone.yaml\n" GROUP, "unreadable-file", NULL},
+    {"forces: @soft\n" GROUP, "bad-type", NULL},
+    {"title: @[a]\n" GROUP, "bad-type", NULL},
+    {"places: {a: @{radius: 3}}\n" GROUP, "bad-place", NULL},
+    {"places: {a: @{point: [0, 0], line: [[0, 0], [1, 1]]}}\n" GROUP, "bad-place", NULL},
+    {"places: {a: {line: @[[0, 0], [1, 1], [2, 0]]}}\n" GROUP, "bad-place", "A polyline"},
+    {"places: {a: {line: [[0, 0], @[1]]}}\n" GROUP, "bad-type", "[x, y]"},
+    {"places:\n  b: {point: [0, 0]}\n  a: {polygon: [[0, 0], [2, 0], [0, 2]], start: @b}\n" GROUP,
+     "bad-place", NULL},
+    {"places: {a: {point: [0, 0]}, b: {set: [a]}, c: {set: [a, @b]}}\n" GROUP, "bad-place", NULL},
+    {"places: {a: {polygon: @[[0, 0], [1e-4, 0], [0, 1e-4]]}}\n" GROUP, "no-area", NULL},
+    {"places: {a: {point: [0, 0]}, b: {set: [a, @[a]]}}\n" GROUP, "bad-type", NULL},
+    {"walls: @{line: [[0, 0], [1, 1]]}\n" GROUP, "bad-type", NULL},
+    {"walls:\n  - @{height: 2}\n" GROUP, "bad-wall", NULL},
+    {"walls:\n  - @{line: [[0, 0], [1, 1]], solid: [[0, 0], [2, 0], [0, 2]]}\n" GROUP, "bad-wall",
+     NULL},
+    {"walls: [@5]\n" GROUP, "bad-type", NULL},
+    {"bodies: @{mass: 4}\n" GROUP, "bad-type", NULL},
+    {"bodies:\n  - @{shape: {sphere: {radius: 1}}, mass: 4, density: 9, at: [0, 0, 1]}\n",
+     "bad-body", NULL},
+    {"bodies:\n  - {shape: @{sphere: {radius: 1}, box: {size: [1, 1, 1]}}, at: [0, 0, 1]}\n",
+     "bad-shape", "{sphere: {radius: 0.1}}"},
+    {"bodies:\n  - {shape: {compound: [{shape: @{compound: []}}]}, at: [0, 0, 1]}\n", "bad-shape",
+     NULL},
+    {"bodies:\n  - {shape: {compound: @[]}, at: [0, 0, 1]}\n", "bad-type", NULL},
+    {"bodies:\n  - {shape: {hull: {points: @[[0, 0, 0]]}}, at: [0, 0, 1]}\n", "bad-type",
+     "[[0, 0, 0], ...]"},
+    {"bodies:\n  - {shape: {sphere: {@radios: 1, radius: 1}}, at: [0, 0, 1]}\n", "unknown-key",
+     "Did you mean 'radius'?"},
+    {"bodies:\n  - {shape: {sphere: {radius: 1}}, at: @[0, 1]}\n", "bad-type", "[x, y, z]"},
+    {"groups: @[a]\n", "bad-type", NULL},
+    {"groups: @none\n", "bad-type", NULL},
+    {"groups: {g: @{at: [[0, 0]]}}\n", "missing-key", "behaviour: walker.lua"},
+    {"groups: {g: @{behaviour: stander}}\n", "missing-key", "count: 100"},
+    {"groups: {g: @{behaviour: stander, count: 3}}\n", "missing-key", "in: NAME"},
+    {SQUARE "groups: {g: @{behaviour: stander, count: 3, fill: circle, in: box}}\n", "bad-fill",
+     "point and radius"},
+    {WITH("at: [[0, 0]], set: @[a]"), "bad-type", NULL},
+    {WITH("at: [[0, 0]], memory: {laps: @many}"), "bad-type", NULL},
+    {SQUARE WITH("count: 3, in: box, @parti: 2"), "unknown-key", "Did you mean 'party'?"},
+    {SQUARE "sources: [@{at: box, like: g}]\n" GROUP, "missing-key", "rate: 2"},
+    {"places: {a: {point: [0, 0]}, s: {set: [a]}}\nsources: [{at: @s, like: g, rate: 1}]\n" GROUP,
+     "bad-place", NULL},
+    {SQUARE "sinks: [{at: box, group: @gg}]\n" GROUP, "unknown-group", "Did you mean 'g'?"},
+    {"heatmap: {area: [[0, 0], @[1]]}\n" GROUP, "bad-type", "[x, y]"},
+    {"camera: {position: @far}\n" GROUP, "bad-type", "[x, y, z]"},
 };
 
 static JoxScene *load(const char *text, const char *const *sets, uint32_t count,
@@ -135,6 +185,29 @@ static void every_error_has_its_place_and_its_way_out(void **state) {
         jox_diag_free(&d);
     }
     assert_int_equal(wrong, 0);
+}
+
+/* Errors of the whole scene stand at its first key. */
+static void scenes_that_lack_everything(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *code;
+        int line, column;
+    } WHOLE[] = {{"", "bad-yaml", 1, 1},
+                 {"# nothing\n", "bad-yaml", 1, 1},
+                 {"[a, b]\n", "bad-yaml", 1, 1},
+                 {GROUP, "missing-key", 1, 1},
+                 {"# none\n\njostle: 1\ntitle: Empty\n", "empty-scene", 3, 1}};
+    for (size_t w = 0; w < sizeof WHOLE / sizeof *WHOLE; w++) {
+        JoxDiagnostics d = {0};
+        assert_null(load(WHOLE[w].text, NULL, 0, &d));
+        if (d.errors != 1 ||
+            !matches(&d.items[0], WHOLE[w].code, WHOLE[w].line, WHOLE[w].column, NULL))
+            show(&d, WHOLE[w].code);
+        assert_int_equal(d.errors, 1);
+        assert_true(matches(&d.items[0], WHOLE[w].code, WHOLE[w].line, WHOLE[w].column, NULL));
+        jox_diag_free(&d);
+    }
 }
 
 static void errors_are_reported_together(void **state) {
@@ -315,6 +388,7 @@ static void included_files_give_what_is_lacking(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_error_has_its_place_and_its_way_out),
+                                       cmocka_unit_test(scenes_that_lack_everything),
                                        cmocka_unit_test(errors_are_reported_together),
                                        cmocka_unit_test(overrides_change_what_they_name_alone),
                                        cmocka_unit_test(anchors_and_merge_keys),

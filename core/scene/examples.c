@@ -1,0 +1,142 @@
+/* Examples of the scene format, one for each owner of keys; between them they show every key. */
+#include "scene/scene.h"
+
+#define OPENING "jostle: 1\n"
+#define STANDER "groups: {people: {behaviour: stander.lua, at: [[2, 2]]}}\n"
+/* clang-format off */
+const JoxExample jox_scene_examples[] = {
+    {"scene", OPENING
+     "include: running-through.yaml      # gives the groups `standing` and `runner`, and the place `goal`\n"
+     "title: Running through, once more\n"
+     "seed: 7\n"
+     "step: 50 ms\n"
+     "duration: 1 min\n"
+     "gravity: 9.81\n"
+     "bounds: [[-20, -20], [20, 20]]\n"
+     "player: runner\n"
+     "input: dodgeball.input\n"
+     "forces: {mode: physical}\n"
+     "limits: {memory: 16 MB}\n"
+     "heatmap: {from: 5}\n"
+     "camera: {position: [0, -15, 12], target: [0, 0, 0]}\n"
+     "places: {door: {line: [[10, -1], [10, 1]]}}\n"
+     "regions: {middle: [[-2, -2], [2, -2], [2, 2], [-2, 2]]}\n"
+     "walls: [{line: [[-10, -5], [10, -5]]}]\n"
+     "bodies: [{shape: {sphere: {radius: 0.2}}, mass: 2, at: [0, 3, 0.2]}]\n"
+     "groups: {standing: {tags: [crowd]}} # one more key for a group of the included scene\n"
+     "sources: [{at: door, like: standing, rate: 0.5}]\n"
+     "sinks: [{at: goal}]\n"},
+    {"forces", OPENING
+     "forces: {enabled: true, mode: literal}\n"
+     STANDER},
+    {"limits", OPENING
+     "limits: {instructions: 50000, step_instructions: 5000000, load_instructions: 5000000,\n"
+     "         memory: 8 MB, block: 1 MB, source: 64 KB, print: 5}\n"
+     STANDER},
+    {"heatmap", OPENING
+     "heatmap: {area: [[-5, -5], [5, 5]], from: 30 s}\n"
+     STANDER},
+    {"camera", OPENING
+     "camera: {position: [0, -20, 15], target: [0, 0, 1]}\n"
+     STANDER},
+    {"place", OPENING
+     "places:\n"
+     "  tree:    {point: [12, 5], radius: 1}\n"
+     "  gate:    {line: [[0, 0], [0, 4]]}\n"
+     "  island:  {polygon: [[4, 2], [6, 2], [6, 4], [4, 4]], start: mark}\n"
+     "  mark:    {line: [[6, 3], [9, 3]]}\n"
+     "  counter: {queue: [[9, 8], [9, 6], [7, 6]], spacing: 60 cm}\n"
+     "  sights:  {set: [tree, island]}\n"
+     "groups:\n"
+     "  walkers: {behaviour: walker.lua, at: [[2, 2], [2, 3]], set: {goal: tree}}\n"},
+    {"wall", OPENING
+     "walls:\n"
+     "  - {line: [[0, 0], [20, 0], [20, 10], [0, 10]], closed: true, height: 2.5}\n"
+     "  - {solid: [[9, 4], [11, 4], [11, 6], [9, 6]]}\n"
+     STANDER},
+    {"body", OPENING
+     "bodies:\n"
+     "  - name: ball\n"
+     "    shape: {sphere: {radius: 11 cm}}\n"
+     "    mass: 400 g\n"
+     "    at: [0, 0, 1]\n"
+     "    velocity: [3, 0, 2]\n"
+     "    friction: 0.5\n"
+     "    restitution: 0.7\n"
+     "    damping: 0.1\n"
+     "    tags: [ball]\n"
+     "  - {name: crate, shape: {box: {size: [1, 1, 1]}}, density: 300 kg/m3, at: [5, 0, 0.5], turn: 30}\n"
+     STANDER},
+    {"shape", OPENING
+     "bodies:\n"
+     "  - {shape: {box: {size: [2, 1, 1]}}, mass: 40, at: [0, 0, 0.5]}\n"
+     "  - {shape: {sphere: {radius: 0.3}}, mass: 5, at: [3, 0, 0.3]}\n"
+     "  - {shape: {cylinder: {radius: 0.2, height: 1}}, mass: 20, at: [6, 0, 0.5]}\n"
+     "  - {shape: {hull: {points: [[-1, -1, 0], [1, -1, 0], [0, 1, 0], [0, 0, 1]]}}, mass: 30, at: [9, 0, 0.5]}\n"
+     "  - shape: {compound: [{shape: {sphere: {radius: 0.3}}}, {shape: {sphere: {radius: 0.2}}, at: [0, 0, 0.4]}]}\n"
+     "    density: 200\n"
+     "    at: [12, 0, 0.5]\n"},
+    {"box", OPENING
+     "bodies: [{shape: {box: {size: [1.2, 0.8, 1.5]}}, mass: 60, at: [0, 0, 0.75]}]\n"},
+    {"sphere", OPENING
+     "bodies: [{shape: {sphere: {radius: 0.5}}, mass: 10, at: [0, 0, 0.5]}]\n"},
+    {"cylinder", OPENING
+     "bodies: [{shape: {cylinder: {radius: 0.3, height: 0.9}}, mass: 15, at: [0, 0, 0.45]}]\n"},
+    {"hull", OPENING
+     "bodies:\n"
+     "  - shape: {hull: {points: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, 1.5]]}}\n"
+     "    mass: 80\n"
+     "    at: [0, 0, 0.1]\n"},
+    {"part", OPENING
+     "bodies:\n"
+     "  - shape:\n"
+     "      compound:\n"
+     "        - {shape: {box: {size: [1.5, 0.8, 0.1]}}, mass: 12}\n"
+     "        - {shape: {cylinder: {radius: 0.05, height: 0.7}}, at: [0, 0, -0.4], mass: 6}\n"
+     "    mass: 18\n"
+     "    at: [0, 0, 0.75]\n"},
+    {"group", OPENING
+     "places:\n"
+     "  hall: {polygon: [[0, 0], [20, 0], [20, 10], [0, 10]]}\n"
+     "  stage: {polygon: [[0, 4], [3, 4], [3, 6], [0, 6]]}\n"
+     "  exit: {point: [25, 5], radius: 1}\n"
+     "groups:\n"
+     "  audience: {mix: {walker.lua: 3, runner.lua: 1}, density: 1, in: hall, outside: [stage],\n"
+     "             party: 4, tags: [guest], set: {goal: exit, speed: 'normal(1.3, 0.2, 0.5, 2)'}}\n"
+     "  staff: {behaviour: stander.lua, count: 12, fill: grid, in: stage, spacing: 60 cm, facing: 90 deg, team: house}\n"
+     "  guards: {behaviour: stander.lua, at: [[22, 5], [23, 5]]}\n"},
+    {"group", OPENING
+     "include: tawaf.yaml\n"
+     "groups: {pilgrims: {count: 300, memory: {laps: 'choose(0, 3, 6)', touched: true}}}\n"},
+    {"source", OPENING
+     "include: tawaf.yaml\n"
+     "groups: {pilgrims: {count: 300}}\n"
+     "sources:\n"
+     "  - {at: arrivals, like: pilgrims, keep: 300, memory: {laps: 0}}\n"
+     "  - {at: gate_1, like: pilgrims, rate: 2, from: 10, until: 5 min}\n"},
+    {"sink", OPENING
+     "places: {exit: {point: [12, 2], radius: 1}}\n"
+     "groups: {guests: {behaviour: stander.lua, at: [[6, 2], [12, 2]]}}\n"
+     "sinks: [{at: exit, group: guests}]\n"},
+    {"mod",
+     "name: calm\n"
+     "title: Calm crowds\n"
+     "version: 1.2.0\n"
+     "api: 1\n"
+     "depends: [\"base >= 1.0\"]\n"
+     "optional: [signs]\n"
+     "conflicts: [panic]\n"
+     "load_after: [weather]\n"
+     "enabled: false\n"
+     "settings:\n"
+     "  patience: {value: 30, unit: s, least: 0, greatest: 600, meaning: waiting before people leave}\n"},
+    {"setting",
+     "name: calm\n"
+     "version: 1.2.0\n"
+     "api: 1\n"
+     "settings:\n"
+     "  patience: {value: 30, unit: s, least: 0, greatest: 600, meaning: waiting before people leave}\n"
+     "  pace: {value: 0.8, meaning: share of the usual speed}\n"},
+};
+/* clang-format on */
+const size_t jox_scene_example_count = sizeof jox_scene_examples / sizeof *jox_scene_examples;

@@ -1,0 +1,168 @@
+/* The reference of the scene format: for a terminal, and as a page of Markdown. */
+#include <string.h>
+
+#include "scene/scene.h"
+#include "scene/schema.h"
+
+static bool has_range(const JoxKey *key) {
+    return key->least != key->greatest || key->least != 0;
+}
+
+void jox_scene_print_reference(JoxText *out) {
+    static const char *const TYPES[] = {"number", "whole number", "true/false",    "text",
+                                        "[x, y]", "[x, y, z]",    "[[x, y], ...]", "name or names",
+                                        "map",    "list",         "map of values"};
+    const char *owner = "";
+    for (size_t i = 0; i < jox_scene_key_count; i++) {
+        const JoxKey *k = &jox_scene_keys[i];
+        if (strcmp(owner, k->owner) != 0)
+            jox_text_printf(out, "%s%s\n", i ? "\n" : "", k->owner);
+        owner = k->owner;
+        jox_text_printf(out, "  %-12s %-14s %-6s ", k->name, TYPES[k->type], k->unit);
+        if (has_range(k) && k->type <= JOX_TYPE_WHOLE)
+            jox_text_printf(out, "%.9g to %.9g; ", k->least, k->greatest);
+        if (*k->standard == '!')
+            jox_text_add(out, "required; ");
+        else if (*k->standard)
+            jox_text_printf(out, "default %s; ", k->standard);
+        if (k->choices) {
+            jox_choices_text(k->choices, out);
+            jox_text_add(out, "; ");
+        }
+        jox_text_printf(out, "%s\n", k->meaning);
+    }
+}
+
+/* ---- Markdown ---- */
+
+/* The kinds of places, one by one; the first word is the key. */
+static const char *const PLACES[][2] = {
+    {"point", "a spot with a `radius`. Agents are inside while they are nearer than that."},
+    {"line", "two points. `crosses` is true in the step in which an agent passes from the right of "
+             "the line to its left, looking from the first point to the second."},
+    {"polygon", "an area. Agents go about it (`orbit`), and with a `start` line their circuits are "
+                "counted, anti-clockwise."},
+    {"queue", "a line with bends in which people stand one behind the other, `spacing` apart; its "
+              "first point is the head."},
+    {"set", "several places under one name: to be in one of them is to be in the set."},
+};
+
+static void type_name(const JoxKey *key, JoxText *out) {
+    static const char *const TYPES[] = {"number", "whole number", "true or false",  "text",
+                                        "[x, y]", "[x, y, z]",    "list of [x, y]", "name or names",
+                                        "map",    "list",         "map of values"};
+    static const char *const CONTENTS[][2] = {
+        {"value*", "map: name to number, distribution or place"},
+        {"draw*", "map: name to number or distribution"},
+        {"weight*", "map: Lua file to weight"},
+        {"xy[3]*", "map: name to list of [x, y]"},
+        {"xyz[4]", "list of [x, y, z]"},
+        {"quantity**", "map: mod to map of values"}};
+    const char *of = key->of ? key->of : "";
+    char name[32];
+    for (size_t i = 0; i < sizeof CONTENTS / sizeof *CONTENTS; i++)
+        if (!strcmp(CONTENTS[i][0], of)) {
+            jox_text_add(out, CONTENTS[i][1]);
+            return;
+        }
+    if (key->choices) {
+        for (int i = 0; jox_choice_name(key->choices, i, name, sizeof name); i++)
+            jox_text_printf(out, "%s`%s`", i ? ", " : "", name);
+        return;
+    }
+    size_t base = strcspn(of, "*[");
+    for (size_t i = 0; i < jox_scene_owner_count; i++) {
+        const JoxOwner *owner = &jox_scene_owners[i];
+        if (strlen(owner->name) != base || strncmp(of, owner->name, base) != 0)
+            continue;
+        jox_text_add(out, of[base] == '*' ? "map: name to [" : of[base] ? "list of [" : "[");
+        jox_text_printf(out, "%s](#", owner->name);
+        for (const char *c = owner->heading; *c; c++) /* the anchor that pages make of a heading */
+            jox_text_printf(out, "%c", *c == ' ' ? '-' : *c >= 'A' && *c <= 'Z' ? *c + 32 : *c);
+        jox_text_add(out, ")");
+        return;
+    }
+    jox_text_add(out, TYPES[key->type]);
+}
+
+static void table(const char *owner, JoxText *out) {
+    jox_text_add(out, "| key | type | unit | range | default | meaning |\n"
+                      "|---|---|---|---|---|---|\n");
+    for (size_t i = 0; i < jox_scene_key_count; i++) {
+        const JoxKey *key = &jox_scene_keys[i];
+        if (strcmp(key->owner, owner) != 0)
+            continue;
+        jox_text_printf(out, "| `%s` | ", key->name);
+        type_name(key, out);
+        jox_text_printf(out, " | %s | ", key->unit);
+        if (has_range(key))
+            jox_text_printf(out, "%.9g to %.9g", key->least, key->greatest);
+        if (*key->standard == '!')
+            jox_text_add(out, " | required");
+        else if (*key->standard)
+            jox_text_printf(out, " | `%s`", key->standard);
+        else
+            jox_text_add(out, " | ");
+        jox_text_printf(out, " | %s |\n", key->meaning);
+    }
+}
+
+static void alternatives(const char *owner, JoxText *out) {
+    static const char *const RULES[] = {"Exactly one of ", "At most one of ", "At least one of "};
+    char name[64], next[64];
+    bool any = false;
+    for (size_t a = 0; a < jox_scene_alternative_count; a++) {
+        const JoxAlternative *rule = &jox_scene_alternatives[a];
+        if (strcmp(rule->owner, owner) != 0)
+            continue;
+        jox_text_printf(out, "%s%s", any ? " " : "\n", RULES[rule->rule]);
+        for (int i = 0; jox_choice_name(rule->keys, i, name, sizeof name); i++) {
+            bool last = !jox_choice_name(rule->keys, i + 1, next, sizeof next);
+            jox_text_printf(out, "%s`%s`", i == 0 ? "" : last ? " and " : ", ", name);
+        }
+        jox_text_add(out, " is given.");
+        any = true;
+    }
+    if (any)
+        jox_text_add(out, "\n");
+}
+
+static void units(JoxText *out) {
+    const char *kind = NULL;
+    jox_text_add(out,
+                 "Numbers are in SI units, angles in degrees; a number may also carry its unit "
+                 "(`11 cm`, `5 min`):");
+    for (size_t u = 0; u < jox_scene_unit_count; u++) {
+        bool first = !kind || strcmp(kind, jox_scene_units[u].kind) != 0;
+        kind = jox_scene_units[u].kind;
+        jox_text_printf(out, "%s `%s`", u == 0 ? "" : first ? ";" : ",", jox_scene_units[u].name);
+    }
+    jox_text_add(out,
+                 ".\n\nWhere a distribution is possible, a number is drawn anew for each agent by\n"
+                 "`normal(mean, deviation)`, `normal(mean, deviation, least, greatest)`,\n"
+                 "`uniform(least, greatest)` or `choose(a, b, ...)` with up to 8 choices.\n");
+}
+
+void jox_scene_reference_markdown(JoxText *out) {
+    for (size_t i = 0; i < jox_scene_owner_count; i++) {
+        const JoxOwner *owner = &jox_scene_owners[i];
+        bool inner = owner->heading[0] >= 'a' && owner->heading[0] <= 'z';
+        jox_text_printf(out, "%s %s\n\n", inner ? "###" : "##", owner->heading);
+        if (*owner->text)
+            jox_text_printf(out, "%s\n\n", owner->text);
+        if (!strcmp(owner->name, "scene")) {
+            units(out);
+            jox_text_add(out, "\n");
+        }
+        for (size_t p = 0; !strcmp(owner->name, "place") && p < sizeof PLACES / sizeof *PLACES; p++)
+            jox_text_printf(out, "- `%s`: %s%s", PLACES[p][0], PLACES[p][1],
+                            p + 1 < sizeof PLACES / sizeof *PLACES ? "\n" : "\n\n");
+        table(owner->name, out);
+        alternatives(owner->name, out);
+        for (size_t e = 0; e < jox_scene_example_count; e++)
+            if (!strcmp(jox_scene_examples[e].owner, owner->name))
+                jox_text_printf(out, "\n```yaml\n%s```\n", jox_scene_examples[e].yaml);
+        if (i + 1 < jox_scene_owner_count)
+            jox_text_add(out, "\n");
+    }
+}

@@ -1,0 +1,154 @@
+/* Numbers, points, names and distributions of a scene. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/schema.h"
+
+enum { MOST_POINTS = 5000 };
+
+bool jox_read_number(const JoxReader *reader, const JoxYaml *node, const char *unit, double *out) {
+    char *end;
+    if (node->kind != JOX_YAML_SCALAR) {
+        jox_scene_error(reader, node, "bad-type", NULL, "this must be a number");
+        return false;
+    }
+    double value = strtod(node->text, &end);
+    bool hex = strchr(node->text, 'x') || strchr(node->text, 'X');
+    if (end == node->text || hex) {
+        jox_scene_error(reader, node, "bad-type", *unit ? "Numbers are in SI units" : NULL,
+                        "this must be a number, not '%.60s'", node->text);
+        return false;
+    }
+    if (!isfinite(value)) {
+        jox_scene_error(reader, node, "out-of-range", NULL, "this must be a finite number");
+        return false;
+    }
+    *out = value;
+    end += strspn(end, " ");
+    if (*end == 0)
+        return true;
+    const char *names[32], *other = NULL;
+    size_t count = 0;
+    for (size_t i = 0; i < jox_scene_unit_count; i++) {
+        if (!strcmp(jox_scene_units[i].kind, unit))
+            names[count++] = jox_scene_units[i].name;
+        if (strcmp(jox_scene_units[i].name, end) != 0)
+            continue;
+        other = jox_scene_units[i].kind;
+        if (!strcmp(jox_scene_units[i].kind, unit)) {
+            *out = value * jox_scene_units[i].factor;
+            return true;
+        }
+    }
+    JoxText hint = {0};
+    for (size_t i = 0; i < count; i++)
+        jox_text_printf(&hint, "%s%s", i ? ", " : "Units here: ", names[i]);
+    jox_scene_error(reader, node, "bad-unit", hint.data,
+                    other ? "'%.40s' is a unit of something else" : "unknown unit '%.40s'", end);
+    jox_text_free(&hint);
+    return false;
+}
+
+JoxV2 *jox_read_points(const JoxReader *reader, const JoxYaml *list, uint32_t least,
+                       uint32_t *count) {
+    *count = 0;
+    if (list->kind != JOX_YAML_LIST || list->count < least) {
+        jox_scene_error(reader, list, "bad-type", "[[0, 0], [1, 0], ...]",
+                        "this must be a list of at least %u points", least);
+        return NULL;
+    }
+    if (list->count > MOST_POINTS) {
+        jox_scene_error(reader, list, "too-many", "Simplify the outline",
+                        "a list of points has at most %d, not %u", MOST_POINTS, list->count);
+        return NULL;
+    }
+    JoxV2 *points = jox_hoard_take(reader->hoard, list->count, sizeof *points);
+    for (uint32_t i = 0; i < list->count; i++) {
+        const JoxYaml *p = list->items[i];
+        double v[2] = {0, 0};
+        if (p->kind != JOX_YAML_LIST || p->count != 2) {
+            jox_scene_error(reader, p, "bad-type", "[x, y]", "a point is two numbers");
+            return NULL;
+        }
+        for (int k = 0; k < 2; k++) {
+            if (!jox_read_number(reader, p->items[k], "m", &v[k]))
+                return NULL;
+            if (fabs(v[k]) > JOX_FARTHEST) {
+                jox_scene_error(reader, p->items[k], "out-of-range", NULL,
+                                "points must lie within 10 km of the origin");
+                return NULL;
+            }
+        }
+        points[i] = (JoxV2){(float)v[0], (float)v[1]};
+    }
+    *count = list->count;
+    return points;
+}
+
+uint32_t jox_read_names(const JoxReader *reader, const JoxYaml *node, const JoxYaml *const **out) {
+    if (!node)
+        return 0;
+    uint32_t count = node->kind == JOX_YAML_LIST ? node->count : 1, n = 0;
+    const JoxYaml **names = jox_hoard_take(reader->hoard, count, sizeof *names);
+    for (uint32_t i = 0; i < count; i++) {
+        const JoxYaml *name = node->kind == JOX_YAML_LIST ? node->items[i] : node;
+        if (name->kind == JOX_YAML_SCALAR)
+            names[n++] = name;
+        else
+            jox_scene_error(reader, name, "bad-type", NULL, "this must be a name");
+    }
+    *out = names;
+    return n;
+}
+
+bool jox_read_dist(const JoxReader *reader, const JoxYaml *node, JoxDist *out) {
+    static const char *const NAMES[] = {"normal", "uniform", "choose"};
+    if (node->kind != JOX_YAML_SCALAR)
+        return false;
+    char *end;
+    double number = strtod(node->text, &end);
+    if (end != node->text && *end == 0 && isfinite(number)) {
+        *out = jox_dist_constant(number);
+        return true;
+    }
+    for (int which = 0; which < 3; which++) {
+        size_t n = strlen(NAMES[which]);
+        if (strncmp(node->text, NAMES[which], n) != 0 || node->text[n] != '(')
+            continue;
+        double v[JOX_DIST_CHOICES];
+        int count = 0;
+        const char *at = node->text + n + 1;
+        while (count < JOX_DIST_CHOICES) {
+            v[count] = strtod(at, &end);
+            if (end == at || !isfinite(v[count]))
+                break;
+            count++;
+            at = end + strspn(end, " ,");
+        }
+        bool good =
+            *at == ')' && at[1] == 0 &&
+            (which == 0   ? (count == 2 || count == 4) && v[1] >= 0 && (count < 4 || v[2] < v[3])
+             : which == 1 ? count == 2 && v[0] <= v[1]
+                          : count >= 1);
+        if (!good)
+            jox_scene_error(
+                reader, node, "bad-distribution",
+                "normal(mean, deviation [, least, greatest]), uniform(least, greatest), "
+                "choose(a, b, ...) with at most 8",
+                "this distribution is malformed");
+        *out = (JoxDist){.kind = which == 0   ? JOX_DIST_NORMAL
+                                 : which == 1 ? JOX_DIST_UNIFORM
+                                              : JOX_DIST_CHOOSE,
+                         .a = good ? v[0] : 0,
+                         .b = good && count > 1 ? v[1] : 0,
+                         .lo = good && count == 4 ? v[2] : -INFINITY,
+                         .hi = good && count == 4 ? v[3] : INFINITY,
+                         .choices = good ? count : 1};
+        memcpy(out->values, v, (size_t)count * sizeof *v);
+        return true;
+    }
+    return false;
+}

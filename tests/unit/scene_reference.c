@@ -1,0 +1,282 @@
+/* The reference of the scene format: its examples show every key and load, its pages and schemas
+   say what the table says, and the files of scripts/ are those that the table makes now.
+   `scene_reference --write` writes them. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/mem.h"
+#include "scene/scene.h"
+#include "scene/schema.h"
+
+static void show(const JoxDiagnostics *d, const char *what) {
+    JoxText text = {0};
+    jox_diag_print(d, &text);
+    print_message("%s\n%s", what, text.data ? text.data : "(none)\n");
+    jox_text_free(&text);
+}
+
+static bool is_owner(const char *name, size_t length) {
+    for (size_t i = 0; i < jox_scene_owner_count; i++)
+        if (strlen(jox_scene_owners[i].name) == length &&
+            !strncmp(jox_scene_owners[i].name, name, length))
+            return true;
+    return false;
+}
+
+/* Marks in `seen` the keys of the table that a tree uses; what a key holds is told by its `of`. */
+static void walk(const JoxReader *reader, const JoxYaml *node, const char *of, size_t length,
+                 bool *seen) {
+    if (length && (of[length - 1] == '*' || of[length - 1] == ']')) {
+        size_t inner = length - 1;
+        while (of[length - 1] == ']' && of[inner] != '[')
+            inner--;
+        assert_int_equal(node->kind, of[length - 1] == '*' ? JOX_YAML_MAP : JOX_YAML_LIST);
+        for (uint32_t i = 0; i < node->count; i++)
+            walk(reader, node->items[i], of, inner, seen);
+    } else if (is_owner(of, length)) {
+        char owner[32];
+        snprintf(owner, sizeof owner, "%.*s", (int)length, of);
+        assert_true(jox_keys_check(reader, node, owner));
+        for (uint32_t i = 0; i < node->count; i++) {
+            const JoxKey *key = jox_key_find(owner, node->keys[i]);
+            assert_non_null(key);
+            seen[key - jox_scene_keys] = true;
+            if (key->of)
+                walk(reader, node->items[i], key->of, strlen(key->of), seen);
+        }
+    }
+}
+
+static bool of_mods(const char *owner) {
+    return !strcmp(owner, "mod") || !strcmp(owner, "setting");
+}
+
+static void examples_show_every_key(void **state) {
+    (void)state;
+    int missing = 0;
+    for (size_t o = 0; o < jox_scene_owner_count; o++) {
+        const char *owner = jox_scene_owners[o].name;
+        bool *seen = calloc(jox_scene_key_count, sizeof *seen);
+        for (size_t e = 0; e < jox_scene_example_count; e++) {
+            if (strcmp(jox_scene_examples[e].owner, owner) != 0)
+                continue;
+            JoxHoard *hoard = jox_hoard_create();
+            JoxYamlFiles *files = jox_hoard_take(hoard, 1, sizeof *files);
+            JoxDiagnostics d = {0};
+            const char *yaml = jox_scene_examples[e].yaml;
+            char *own = jox_hoard_text(hoard, yaml); /* what it includes is not its own */
+            char *include = strstr(own, "include:");
+            if (include)
+                memcpy(include, "without:", 8);
+            JoxYaml *root = jox_yaml_load(hoard, "example.yaml", own, strlen(own), files, &d);
+            assert_non_null(root);
+            for (uint32_t k = 0; include && k < root->count; k++)
+                if (!strcmp(root->keys[k], "without"))
+                    root->keys[k] = "include";
+            const char *of = of_mods(owner) ? "mod" : "scene";
+            walk(&(JoxReader){hoard, &d}, root, of, strlen(of), seen);
+            if (d.count)
+                show(&d, yaml);
+            assert_int_equal(d.count, 0);
+            jox_hoard_free(hoard);
+        }
+        for (size_t k = 0; k < jox_scene_key_count; k++) {
+            const JoxKey *key = &jox_scene_keys[k];
+            bool of_mod = !strcmp(key->name, "mods") || !strcmp(key->name, "patch") ||
+                          !strcmp(key->name, "replace");
+            if (strcmp(key->owner, owner) != 0 || seen[k] || (!strcmp(owner, "scene") && of_mod))
+                continue;
+            print_message("no example of %s shows '%s'\n", owner, key->name);
+            missing++;
+        }
+        free(seen);
+    }
+    assert_int_equal(missing, 0);
+}
+
+static void examples_load_without_a_word(void **state) {
+    (void)state;
+    for (size_t e = 0; e < jox_scene_example_count; e++) {
+        const JoxExample *example = &jox_scene_examples[e];
+        if (of_mods(example->owner))
+            continue;
+        JoxDiagnostics d = {0};
+        JoxScene *scene = jox_scene_load_text("scenes/example.yaml", example->yaml,
+                                              strlen(example->yaml), NULL, &d);
+        if (!scene || d.count)
+            show(&d, example->yaml);
+        assert_non_null(scene);
+        assert_int_equal(d.count, 0);
+        jox_scene_free(scene);
+        jox_diag_free(&d);
+    }
+}
+
+static void the_table_is_whole(void **state) {
+    (void)state;
+    for (size_t k = 0; k < jox_scene_key_count; k++) {
+        const JoxKey *key = &jox_scene_keys[k];
+        bool holds = key->type == JOX_TYPE_TABLE || key->type == JOX_TYPE_LIST ||
+                     key->type == JOX_TYPE_VALUES || key->type == JOX_TYPE_POINTS;
+        if (!is_owner(key->owner, strlen(key->owner)) || holds != (key->of != NULL) ||
+            !key->meaning || !*key->meaning || !key->standard || !key->unit)
+            fail_msg("the row %s.%s", key->owner, key->name);
+        for (size_t other = 0; other < k; other++)
+            if (!strcmp(jox_scene_keys[other].owner, key->owner))
+                assert_string_not_equal(jox_scene_keys[other].name, key->name);
+        bool known = !*key->unit;
+        for (size_t u = 0; u < jox_scene_unit_count; u++)
+            known |= !strcmp(jox_scene_units[u].kind, key->unit);
+        assert_true(known);
+    }
+    char name[64]; /* choices that are enumerations stand in their order */
+    const char *fills = jox_key_find("group", "fill")->choices;
+    assert_true(jox_choice_name(fills, JOX_FILL_HEX, name, sizeof name) && !strcmp(name, "hex"));
+    assert_true(jox_choice_name(fills, JOX_FILL_GRID, name, sizeof name) && !strcmp(name, "grid"));
+    assert_true(jox_choice_name(fills, JOX_FILL_RANDOM, name, sizeof name) &&
+                !strcmp(name, "random"));
+    assert_true(jox_choice_name(fills, JOX_FILL_CIRCLE, name, sizeof name) &&
+                !strcmp(name, "circle"));
+    assert_false(jox_choice_name(fills, JOX_FILL_AT, name, sizeof name));
+    for (size_t a = 0; a < jox_scene_alternative_count; a++)
+        for (int i = 0; jox_choice_name(jox_scene_alternatives[a].keys, i, name, sizeof name); i++)
+            assert_non_null(jox_key_find(jox_scene_alternatives[a].owner, name));
+}
+
+/* JSON is YAML: the schema as a tree. */
+static JoxYaml *schema_tree(JoxHoard *hoard, const char *root) {
+    JoxText text = {0};
+    JoxDiagnostics d = {0};
+    JoxYamlFiles *files = jox_hoard_take(hoard, 1, sizeof *files);
+    jox_scene_json_schema(root, &text);
+    JoxYaml *tree = jox_yaml_load(hoard, "schema.json", text.data, text.length, files, &d);
+    if (!tree)
+        show(&d, "schema");
+    assert_non_null(tree);
+    jox_text_free(&text);
+    jox_diag_free(&d);
+    return tree;
+}
+
+static void check_references(const JoxYaml *node, const JoxYaml *definitions) {
+    const JoxYaml *to = jox_yaml_get(node, "$ref");
+    if (to && to->kind == JOX_YAML_SCALAR) {
+        assert_true(!strncmp(to->text, "#/definitions/", 14));
+        if (!jox_yaml_get(definitions, to->text + 14))
+            fail_msg("the schema lacks %s", to->text);
+    }
+    for (uint32_t i = 0; i < node->count; i++)
+        check_references(node->items[i], definitions);
+}
+
+static void schemas_know_every_key(void **state) {
+    (void)state;
+    static const char *const ROOTS[] = {"scene", "mod"};
+    for (int r = 0; r < 2; r++) {
+        JoxHoard *hoard = jox_hoard_create();
+        const JoxYaml *root = schema_tree(hoard, ROOTS[r]);
+        const JoxYaml *definitions = jox_yaml_get(root, "definitions");
+        check_references(root, definitions);
+        for (size_t k = 0; k < jox_scene_key_count; k++) {
+            const JoxKey *key = &jox_scene_keys[k];
+            if (of_mods(key->owner) != (r == 1))
+                continue;
+            const JoxYaml *owner =
+                !strcmp(key->owner, ROOTS[r]) ? root : jox_yaml_get(definitions, key->owner);
+            const JoxYaml *property = jox_yaml_get(jox_yaml_get(owner, "properties"), key->name);
+            if (!property || !jox_yaml_get(property, "description"))
+                fail_msg("the schema of %s lacks %s.%s", ROOTS[r], key->owner, key->name);
+        }
+        jox_hoard_free(hoard);
+    }
+}
+
+/* What the schema says of one key, as text without line breaks. */
+static void expect_property(const char *schema, const char *line) {
+    if (!strstr(schema, line))
+        fail_msg("the schema lacks: %s", line);
+}
+
+static void schemas_say_what_the_table_says(void **state) {
+    (void)state;
+    JoxText text = {0};
+    jox_scene_json_schema("scene", &text);
+    expect_property(text.data, "\"mode\": {\"description\": \"literal: the equations as they were "
+                               "printed; default physical\", \"default\": \"physical\", "
+                               "\"enum\": [\"physical\", \"literal\"]}");
+    expect_property(text.data,
+                    "\"step\": {\"description\": \"time step, in s; 0.001 to 0.2, default 0.05\", "
+                    "\"default\": 0.05, \"anyOf\": [{\"type\": \"number\", \"minimum\": 0.001, "
+                    "\"maximum\": 0.2}, {\"$ref\": \"#/definitions/unit_s\"}]}");
+    expect_property(text.data, "\"unit_m_per_s\": {\"type\": \"string\", \"pattern\": "
+                               "\"^[-+]?([0-9]+\\\\.?[0-9]*|\\\\.[0-9]+)([eE][-+]?[0-9]+)? "
+                               "*(m/s|km/h)?$\"}");
+    expect_property(text.data, "\"required\": [\"shape\", \"at\"]");
+    expect_property(text.data, "{\"oneOf\": [{\"required\": [\"solid\"]}, {\"required\": "
+                               "[\"line\"]}]}");
+    expect_property(text.data,
+                    "\"mass\": {\"description\": \"mass, in kg; 1 to 10000, default 70\"");
+    jox_text_free(&text);
+}
+
+/* ---- files made of the table ---- */
+
+static const char *const MADE[] = {"scripts/scene.schema.json", "scripts/mod.schema.json",
+                                   "scripts/scene.md"};
+
+static void make(int n, JoxText *out) {
+    if (n == 2)
+        jox_scene_reference_markdown(out);
+    else
+        jox_scene_json_schema(n == 0 ? "scene" : "mod", out);
+}
+
+static int write_files(void) {
+    for (int n = 0; n < 3; n++) {
+        JoxText text = {0};
+        make(n, &text);
+        FILE *file = fopen(MADE[n], "wb");
+        bool written = file && fwrite(text.data, 1, text.length, file) == text.length;
+        if (!file || fclose(file) != 0 || !written) {
+            perror(MADE[n]);
+            return 1;
+        }
+        jox_text_free(&text);
+    }
+    return 0;
+}
+
+static void files_are_up_to_date(void **state) {
+    (void)state;
+    for (int n = 0; n < 3; n++) {
+        JoxText text = {0};
+        size_t length = 0;
+        make(n, &text);
+        char *file = jox_read_file(MADE[n], 1 << 20, &length);
+        if (!file || strcmp(file, text.data) != 0)
+            fail_msg("%s is not what the table makes: run unit/scene_reference --write", MADE[n]);
+        jox_free(file);
+        jox_text_free(&text);
+    }
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1 && !strcmp(argv[1], "--write"))
+        return write_files();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_table_is_whole),
+        cmocka_unit_test(examples_show_every_key),
+        cmocka_unit_test(examples_load_without_a_word),
+        cmocka_unit_test(schemas_know_every_key),
+        cmocka_unit_test(schemas_say_what_the_table_says),
+        cmocka_unit_test(files_are_up_to_date),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
