@@ -1,0 +1,197 @@
+# Files edited while the crowd runs, as editors do it: each save goes live, what does not load leaves
+# the old version running, and files that depend on each other change together or not at all.
+. tests/scenes/lib.sh
+SLOWER=${SLOWER:-1} # times that a build is slower: sanitizers
+dir=$work/scenes
+mkdir -p "$dir" "$work/behaviours" "$work/other"
+pid=
+
+begin() { # ARGS...: runs $dir/scene.yaml until `end`; what it says goes to $said
+    said=$work/said
+    : >"$said"
+    nice "$JOSTLE" run "$dir/scene.yaml" --steps 900000000 --watch --quiet --no-mods "$@" >"$said" 2>&1 </dev/null &
+    pid=$!
+    for i in $(seq 200); do # until the thread that watches is there
+        [ "$(ls /proc/$pid/task 2>/dev/null | wc -l)" -lt 2 ] || break
+        sleep 0.05
+    done
+}
+end() { # NAME: interrupts the run, which must end well
+    kill -INT $pid
+    wait $pid; verdict "$1" $?
+    pid=
+}
+trap '[ -z "$pid" ] || kill -KILL $pid; rm -rf "$work"' EXIT
+count() { grep -cF -- "$1" "$said"; }
+# says TEXT [TIMES]: waits for it, a few seconds at most
+says() {
+    local wanted=${2:-1}
+    for i in $(seq $((250 * SLOWER))); do
+        [ "$(count "$1")" -lt "$wanted" ] || return 0
+        sleep 0.02
+    done
+    return 1
+}
+expect() { # NAME TEXT [TIMES]
+    if says "$2" "${3:-1}"; then echo "ok $1"; else
+        echo "not ok $1: did not say '$2'"; tail -12 "$said"; fi
+}
+quiet() { # NAME LINES: nothing more has been said than so many lines
+    sleep 0.3
+    if [ "$(wc -l <"$said")" = "$2" ]; then echo "ok $1"; else
+        echo "not ok $1"; tail -n +$(($2 + 1)) "$said" | head; fi
+}
+sheet() { # SPEED [MORE]: a behaviour of one state
+    printf 'return machine { name = "walker", version = 1, start = "Walk",\n'
+    printf '  defaults = { speed = %s },\n' "$1"
+    printf '  states = { Walk = { steer = drift(0, 1) }%s } }\n' "${2:-}"
+}
+scene() { # GROUPS [MORE]
+    printf 'jostle: 1\nplaces: {yard: {polygon: [[0, 0], [20, 0], [20, 20], [0, 20]]}}\n%s\ngroups:\n' "${2:-}"
+    local name
+    for name in $1; do
+        printf '  %s: {behaviour: ../behaviours/%s.lua, count: 20, fill: grid, in: yard}\n' "$name" "$name"
+    done
+}
+
+# ---- the ways in which editors save; the new text comes on stdin ----
+save_vim() { : >"$(dirname "$1")/4913"; rm "$(dirname "$1")/4913"; mv "$1" "$1~"; cat >"$1"; rm "$1~"; }
+save_code() { cat >"$work/new"; truncate -s 0 "$1"; cat "$work/new" >>"$1"; }
+save_sed() { cat >/dev/null; sed -i "s/speed = [0-9.]*/speed = $2/" "$1"; }
+save_cat() { cat >"$1"; }
+save_mv() { cat >"$work/other/new"; mv "$work/other/new" "$1"; }
+save_emacs() { cat >"$(dirname "$1")/.#new"; cp "$1" "$1~"; mv "$(dirname "$1")/.#new" "$1"; }
+save_pause() { cat >"$work/new"; { head -c 60 "$work/new"; sleep 0.06; tail -c +61 "$work/new"; } >"$1"; }
+save_chunks() { cat >"$work/new"; head -c 60 "$work/new" >"$1"; sleep 0.06; tail -c +61 "$work/new" >>"$1"; }
+
+file=$work/behaviours/walker.lua
+sheet 1 >"$file"; scene walker >"$dir/scene.yaml"
+begin
+version=1 edits=0
+live() { # HOW SPEED: saves a sheet that is good; false if it does not go live
+    sheet "$2" | "save_$1" "$file" "$2"
+    version=$((version + 1)) edits=$((edits + 1))
+    says "version $version is live"
+}
+# 100 edits, every tenth of them broken
+bad=""
+for round in $(seq 11); do
+    for how in vim code sed cat mv emacs pause chunks; do
+        live $how 1.$((round + 10))$((edits % 10)) || { bad="$bad $how:$version"; version=$((version - 1)); }
+    done
+    refused=$(count 'keeps running')
+    how=$(echo vim code cat mv emacs pause | cut -d' ' -f$((round % 6 + 1)))
+    sheet 1.5 | sed 's/steer/stear/' | "save_$how" "$file" 1.5
+    edits=$((edits + 1))
+    says "Did you mean 'steer'?" $round && says "Version $version keeps running" || bad="$bad broken:$how"
+    [ "$(count 'keeps running')" -gt "$refused" ] || bad="$bad silent:$how"
+    live sed 1.0$round >/dev/null # mends nothing: the file is still broken
+    version=$((version - 1)) edits=$((edits - 1))
+done
+[ -z "$bad" ]; verdict "$edits edits as editors make them$bad" $?
+expect "the census before and after" "before:  Walk 20"
+live cat 1.9; verdict "a mended file goes live" $?
+lines=$(wc -l <"$said")
+sheet 1.9 >"$file"; sheet 1.9 | save_vim "$file"; touch "$file"; sheet 1.9 | save_mv "$file"
+quiet "what is saved without a change is left alone" "$lines"
+rm "$file"; sleep 0.1; sheet 1.95 >"$file"; version=$((version + 1))
+expect "a file that was away for a while" "version $version is live"
+: >"$work/behaviours/stop"
+( while [ -e "$work/behaviours/stop" ]; do date >"$work/behaviours/walker.log"; sleep 0.01; done ) &
+noise=$!
+sleep 0.1; live cat 1.7; verdict "a folder in which something is written all the time" $?
+rm "$work/behaviours/stop"; wait $noise
+lines=$(wc -l <"$said")
+sheet 1.3 >"$work/behaviours/.walker.lua.swp"; sheet 1.3 >"$file~"; sheet 1.3 >"$work/behaviours/walker.lua.bak"
+quiet "backups and swap files are not looked at" "$lines"
+rm -f "$file~"
+sheet 1.4 ', Later = { steer = hold }' >"$file"; says "version $((version + 1)) is live"
+sed -i 's/start = "Walk"/start = "Later"/; s/Walk = /Stroll = /' "$file"
+expect "people cannot lose their state" "20 agents are in 'Walk', which this version lacks"
+sed -i 's/start = "Later",/start = "Later", renamed = { Walk = "Stroll" },/' "$file"
+expect "a state is renamed" "after:   Stroll 20"
+end "a run that was edited ends well"
+
+# ---- files that are required ----
+lib=$work/behaviours/pace.lua
+user() { printf 'local pace = require "pace"\n'; sheet "$1"| sed 's/drift(0, 1)/hold, speed = pace.slow/'; }
+pace() { printf 'local pace = {}\npace.slow = own.speed * %s\nreturn pace\n' "$1"; }
+rm -f "$work"/behaviours/*
+pace 0.5 >"$lib"; user 1 >"$work/behaviours/a.lua"; user 1 >"$work/behaviours/b.lua"; sheet 1 >"$work/behaviours/c.lua"
+scene "a b c" >"$dir/scene.yaml"
+begin
+pace 0.6 | save_vim "$lib"
+says "a.lua: version 2 is live" && says "b.lua: version 2 is live"; verdict "all that require a file go live with it" $?
+echo 'local pace = {' >"$lib"
+says "pace.lua:" && says "Version 2 of walker keeps running" 2; verdict "a required file that is broken" $?
+pace 0.7 >"$lib"
+says "a.lua: version 3 is live" && says "b.lua: version 3 is live"; verdict "and mended" $?
+[ "$(count 'c.lua: version')" = 0 ]; verdict "what does not require it is left alone" $?
+
+# One of two cannot go on: neither does, until it is mended.
+user 2 >"$work/behaviours/b.lua"; echo 'return machine {' >"$work/behaviours/a.lua"
+says "Version 3 of walker keeps running" 2 && [ "$(count 'b.lua: version 4')" = 0 ]; verdict "a good file saved together with a broken one" $?
+user 2 >"$work/behaviours/a.lua"
+says "a.lua: version 4 is live" && says "b.lua: version 4 is live"; verdict "goes live with it, mended" $?
+pace 0.8 >"$lib"; sed -i 's/Walk/Run/g' "$work/behaviours/b.lua"
+says "20 agents are in 'Walk'" && [ "$(count 'a.lua: version 5')" = 0 ]; verdict "one of two is refused for its people" $?
+sed -i 's/start = "Run"/start = "Run", renamed = { Walk = "Run" }/' "$work/behaviours/b.lua"
+says "b.lua: version 5 is live" && says "a.lua: version 5 is live"; verdict "both go live when it says what becomes of them" $?
+
+# Requiring what is not there yet.
+sed -i 's/require "pace"/require "gait"/' "$work/behaviours/a.lua"
+expect "a required file that is missing" "cannot require 'gait'"
+pace 0.9 >"$work/behaviours/gait.lua"
+expect "and is written then" "a.lua: version 6 is live"
+pace 0.4 >"$work/behaviours/gait.lua"
+expect "and is watched from then on" "a.lua: version 7 is live"
+sed -i 's/require "gait"/require "gaits\/slow"/' "$work/behaviours/a.lua"
+expect "a required file in a folder that is missing" "cannot require 'gaits/slow'"
+mkdir "$work/behaviours/gaits"; sleep 0.1; pace 0.9 >"$work/behaviours/gaits/slow.lua"
+expect "and is made then" "a.lua: version 8 is live"
+lines=$(wc -l <"$said")
+pace 0.3 >"$work/behaviours/gait.lua"
+quiet "what is no longer required is left alone" "$lines"
+
+# A behaviour that others become, by an edit.
+cp "$work/behaviours/c.lua" "$work/behaviours/d.lua"
+printf 'print("hello from c")\nreturn machine { name = "walker", start = "Walk",\n states = { Walk = { steer = hold, { to = "Leave", when = after(0.2) } },\n  Leave = { become = "d" } } }\n' >"$work/behaviours/c.lua"
+expect "a behaviour begins to become another" "c.lua: version 2 is live"
+grep -q 'hello from c' "$said"; verdict "what it prints while loading is said" $?
+sheet 0.5 >"$work/behaviours/d.lua"
+says "d.lua: version 2 is live" && says "before:  Walk 20" ; verdict "and the other one is watched" $?
+end "a run whose files require each other ends well"
+
+# ---- mods ----
+mkdir -p "$work/slow/behaviours"
+printf 'name: slow\ntitle: Slow\nversion: 1.0.0\napi: 1\n' >"$work/slow/mod.yaml"
+patch() { printf 'return patch "walker" { states = { Walk = { push = %s } } }\n' "$1"; }
+patch 20 >"$work/slow/behaviours/walker.lua"
+sheet 1 >"$file"; scene walker >"$dir/scene.yaml"
+begin --mod "$work/slow"
+patch 30 | save_vim "$work/slow/behaviours/walker.lua"
+expect "a patch of a mod goes live" "walker.lua: version 2 is live"
+patch '"x"' >"$work/slow/behaviours/walker.lua"
+expect "a patch that is wrong does not" "Version 2 keeps running"
+end "a run with a mod ends well"
+
+# ---- the scene's own file ----
+scene walker "include: more.yaml" >"$dir/scene.yaml"
+gate() { printf 'places: {gate: {point: [%s, 5]}}\n' "$1"; }
+gate 3 >"$dir/more.yaml"
+begin
+gate 4 | save_vim "$dir/more.yaml"
+expect "a place that is moved in an included file" "places changed, live from"
+sed -i 's/20, 20\], \[0/22, 20], [0/' "$dir/scene.yaml"
+expect "a place that is moved in the scene" "places changed, live from" 2
+echo 'seed: 5' >>"$dir/scene.yaml"
+expect "what cannot change says so" "seed: takes effect at the next start"
+echo 'seeed: 5' >>"$dir/scene.yaml"
+expect "a scene that is broken" "The scene goes on as it was"
+sed -i '/seeed/d; s/behaviour: /set: {speed: 0.4}, behaviour: /' "$dir/scene.yaml"
+expect "a value that a group sets" "values that groups set changed"
+printf 'walls:\n  - {solid: [[30, 30], [32, 30], [32, 32], [30, 32]]}\n' >>"$dir/scene.yaml"
+expect "a wall that is built" "walls changed, live"
+sheet 1.2 >"$file"
+expect "a behaviour after the scene" "version 2 is live"
+end "a run whose scene was edited ends well"
