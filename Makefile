@@ -51,7 +51,7 @@ OBJ_CLI := $(SRC_CLI:%.c=$(B)/%.o)
 UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 
-.PHONY: all run test unit tests-built check bench install uninstall clean test-all format
+.PHONY: reference all run test unit tests-built check bench install uninstall clean test-all format
 all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so.$(VERSION)
 
 # The two commands of the README. Both first install what is missing.
@@ -106,6 +106,12 @@ $(B)/bench/%: tests/bench/%.c $(B)/internal.a
 	$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
 	$(LINK) $@.o $(B)/internal.a -o $@ $(LIBS)
 
+# Pages and files for editors, made of the tables of words and keys; `make check` compares them.
+reference: all
+	@for page in $(REFERENCE); do $(B)/jostle reference $${page%%:*} > $${page#*:}; done
+REFERENCE := behaviours:scripts/behaviour.md scenes:scripts/scene.md lua-ls:scripts/editor/jostle.lua \
+           luacheck:scripts/editor/luacheckrc luacheck:.luacheckrc \
+           scene-schema:scripts/scene.schema.json mod-schema:scripts/mod.schema.json
 # Unit tests alone: `make unit`, or `make unit ONLY="base geom"` for some folders.
 unit: $(UNIT)
 	@set -e; for t in $(UNIT); do echo "== $$t"; $$t; done

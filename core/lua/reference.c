@@ -245,7 +245,7 @@ void jox_lua_luacheck(JoxText *out) {
         out,
         "  },\n}\nmax_line_length = 120\n"
         "files[\"**/*_test.lua\"] = { read_globals = { \"test\", \"scene\", \"equal\", \"near\", "
-        "\"truthy\", \"fails\", \"expect_error\" } }\n");
+        "\"truthy\", \"fails\", \"refused\" } }\n");
 }
 
 /* ---- examples ---- */

@@ -1,9 +1,14 @@
 -- walker.lua: walks to a goal as fast as the way ahead allows, and leaves there.
 local function lane(count)
   return {
-    places = { lane = { polygon = { { 0, 0 }, { 10, 0 }, { 10, 2 }, { 0, 2 } } }, goal = { point = { 14, 1 }, radius = 1 } },
+    places = {
+      lane = { polygon = { { 0, 0 }, { 10, 0 }, { 10, 2 }, { 0, 2 } } },
+      goal = { point = { 14, 1 }, radius = 1 },
+    },
     walls = { { line = { { -1, 0 }, { 15, 0 } } }, { line = { { -1, 2 }, { 15, 2 } } } },
-    groups = { people = { behaviour = "walker.lua", count = count, fill = "grid", ["in"] = "lane", set = { goal = "goal" } } },
+    groups = {
+      people = { behaviour = "walker.lua", count = count, fill = "grid", ["in"] = "lane", set = { goal = "goal" } },
+    },
   }
 end
 

@@ -1,0 +1,389 @@
+---@meta
+-- Definitions of the words of behaviours for lua-language-server.
+-- Made by `jostle reference lua-ls`. In .luarc.json: "workspace.library": ["scripts/editor"]
+
+---@class jostle.Condition
+---@operator band(jostle.Condition): jostle.Condition
+---@operator bor(jostle.Condition): jostle.Condition
+---@operator bnot: jostle.Condition
+
+---@class jostle.Number
+---@operator add(number|jostle.Number): jostle.Number
+---@operator sub(number|jostle.Number): jostle.Number
+---@operator mul(number|jostle.Number): jostle.Number
+---@operator div(number|jostle.Number): jostle.Number
+---@operator unm: jostle.Number
+local Number = {}
+---@param n number|jostle.Number
+---@return jostle.Condition
+function Number:above(n) end
+---@param n number|jostle.Number
+---@return jostle.Condition
+function Number:below(n) end
+---@param n number|jostle.Number
+---@return jostle.Condition
+function Number:at_least(n) end
+---@param n number|jostle.Number
+---@return jostle.Condition
+function Number:at_most(n) end
+---@param n number|jostle.Number
+---@return jostle.Condition
+function Number:is(n) end
+---@param state string
+---@return jostle.Number
+function Number:in_state(state) end
+
+---@class jostle.Target
+---@class jostle.Drawn
+
+---@class jostle.Steering
+---@operator add(jostle.Steering): jostle.Steering
+---@operator mul(number|jostle.Number): jostle.Steering
+
+---@class jostle.Machine
+---@field name? any text. how messages and mods call it
+---@field version? any number. the author's; informs people
+---@field start? any name of a state. where agents begin
+---@field defaults? any table of parameters. values for all states, drawn once per agent
+---@field counts? any table. memory that counts by itself, in all states
+---@field renamed? any table of names. old state = new state, for agents alive at a reload
+---@field states? any table of states. name = state
+
+---@class jostle.State
+---@field steer? any steering or function. where the agent wants to go: a value, a weighted sum, or function(me) that returns vx, vy in m/s
+---@field lasts? any number, distribution. drawn on entering; see `lasted`, s
+---@field removes? any true or false. the agent leaves the world on entering
+---@field become? any name of a behaviour. on entering, goes on with another machine, from its start; keeps its body, what the scene gave it, and memory by name
+---@field push_when? any condition. pushes only while this holds
+---@field push_toward? any target. pushes that way; else the way it wants to go
+---@field push_weight? any "equal" or "nearest". shares the push among all in the way, or gives it to the nearest
+---@field push_only? any tag or list of tags. pushes those alone
+---@field ignore? any tag or list of tags. does not avoid those
+---@field face? any target. looks at; else where it walks
+---@field approach? any target. a body that is not anticipated, only not overlapped
+---@field kick? any table. kicks a body that it touches
+---@field take? any target. picks up a body within 0.6 m that is slower than 8 m/s
+---@field throw? any table. throws the body that it carries
+---@field signal? any name, or table. calls out on entering, and every so often with { name, every = seconds }
+---@field set? any table. on entering, memory = number, condition or true/false
+---@field counts? any table. memory that counts while in this state
+---@field on_enter? any function(me). called on entering
+---@field on_exit? any function(me). called on leaving
+---@field speed? number|jostle.Number|jostle.Drawn wanted speed, m/s; 0 to 20, default 1.3
+---@field max_speed? number|jostle.Number|jostle.Drawn hard cap on speed; only a contact impulse exceeds it, m/s; 0 to 30, default 1.8
+---@field perception? number|jostle.Number|jostle.Drawn radius within which neighbours and bodies are seen, m; 0 to 100, default 3
+---@field neighbours? number|jostle.Number|jostle.Drawn greatest number of neighbours that are considered; 0 to 16, default 10
+---@field horizon? number|jostle.Number|jostle.Drawn time ahead for which other agents are avoided, s; 0.01 to 30, default 0.5
+---@field wall_horizon? number|jostle.Number|jostle.Drawn time ahead for which walls are avoided, s; 0.01 to 30, default 0.3
+---@field push? number|jostle.Number|jostle.Drawn force with which an agent pushes those in its way, N; 0 to 5000, default 0
+---@field push_reach? number|jostle.Number|jostle.Drawn greatest gap over which an agent pushes, m; 0 to 2, default 0.1
+---@field push_angle? number|jostle.Number|jostle.Drawn half-angle of the cone in which an agent pushes, degree; 0 to 180, default 60
+---@field absorb? number|jostle.Number|jostle.Drawn share of a force that is passed on (k of equations 8 and 9); 0 to 1, default 0.8
+---@field brace_angle? number|jostle.Number|jostle.Drawn half-angle of the cone that takes a passed-on force, degree; 0 to 180, default 60
+---@field yield? number|jostle.Number|jostle.Drawn share of the avoidance between agents taken; 0.5 is reciprocal; 0 to 1, default 0.5
+---@field radius? number|jostle.Number|jostle.Drawn radius of the agent's disc, m; 0.02 to 5, default 0.2
+---@field mass? number|jostle.Number|jostle.Drawn mass, kg; 1 to 10000, default 70
+---@field restitution? number|jostle.Number|jostle.Drawn restitution of contacts between agents; 0 to 1, default 0
+---@field damping? number|jostle.Number|jostle.Drawn how fast the feet stop a velocity given by force, 1/s; 0 to 50, default 2.5
+
+---@class jostle.Transition
+---@field to? any name of a state. where it leads
+---@field when? any condition or function(me). absent: always; the first that holds wins
+---@field chance? any number. rolled each time `when` turns true
+---@field set? any table. memory = number, condition or true/false
+---@field signal? any name. calls out
+---@field on_take? any function(me). called when it is taken
+---@field id? any text. how mods name it; else its target, with #2, #3 for repeats
+
+---@class jostle.Me
+---@field id any number. the agent's number, never used again
+---@field x any number in m. position east
+---@field y any number in m. position north
+---@field vx any number in m/s. velocity east
+---@field vy any number in m/s. velocity north
+---@field time any number in s. simulated time
+---@field time_in_state any number in s. since the state was entered
+---@field density any number in 1/m2. people per square metre about it
+---@field pushed any number in N. magnitude of the net force
+---@field compression any number in N/m. sum of contact force magnitudes over girth
+---@field team any number. 0 is none
+---@field state any text. name of its state
+---@field machine any text. name of its machine
+---@field goal any name of a place. can be set
+---@field neighbours any list. views of the neighbours, nearest first, as they were before the step; memory set in them arrives after it
+---@field signal any function(name). calls out: me.signal("alarm")
+
+--- `inside(place) or inside(target, place)`: the agent, or a target, is in a place
+---@param a1 string|jostle.Target|jostle.Number
+---@param a2? string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function inside(a1, a2) end
+
+--- `crosses(line)`: the last step crossed a line, from its right to its left
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function crosses(a1) end
+
+--- `near(target, metres)`: the target is nearer than so many metres
+---@param a1 string|jostle.Target|jostle.Number
+---@param a2 number|jostle.Number
+---@return jostle.Condition
+function near(a1, a2) end
+
+--- `touches(target)`: the gap to the target is below 5 cm
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function touches(a1) end
+
+--- `first_in(queue)`: the agent heads the queue that it steers in
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function first_in(a1) end
+
+--- `after(seconds)`: so long in this state
+---@param a1 number|jostle.Number
+---@return jostle.Condition
+function after(a1) end
+
+--- `lasted`: the duration that `lasts` drew has passed
+---@type jostle.Condition
+lasted = nil
+
+--- `stuck(seconds)`: has not moved by 0.25 m for so long
+---@param a1 number|jostle.Number
+---@return jostle.Condition
+function stuck(a1) end
+
+--- `hit_by(target)`: a target faster than 1 m/s touches the agent
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function hit_by(a1) end
+
+--- `grounded(target)`: the body touches the ground
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function grounded(a1) end
+
+--- `incoming(target, metres)`: the target, going on as it moves, passes within so many metres in the next 2 s
+---@param a1 string|jostle.Target|jostle.Number
+---@param a2 number|jostle.Number
+---@return jostle.Condition
+function incoming(a1, a2) end
+
+--- `kicked(target)`: the agent kicked or threw the body in the last step
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function kicked(a1) end
+
+--- `has(target)`: the agent carries the body (see `take`)
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function has(a1) end
+
+--- `sees(target)`: the target is there, within perception
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function sees(a1) end
+
+--- `heard(name [, metres])`: somebody within perception (and so many metres) gave the signal in the last step
+---@param a1 string
+---@param a2? number|jostle.Number
+---@return jostle.Condition
+function heard(a1, a2) end
+
+--- `density(place)` in 1/m2: people per square metre in a place; of a point, line or queue: within 2 m
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Number
+function density(a1) end
+
+--- `count(place)`: people in a place
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Number
+function count(a1) end
+
+--- `distance(target)` in m: to the target, 0 in a place; infinite where there is none
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Number
+function distance(a1) end
+
+--- `neighbours(tag)`: neighbours seen that bear a tag, or are "anyone", "teammates", "opponents"; neighbours(tag):in_state(name) counts those of them in a state
+---@param a1 string
+---@return jostle.Number
+function neighbours(a1) end
+
+--- `density_here` in 1/m2: people per square metre about the agent, from its neighbours' distances
+---@type jostle.Number
+density_here = nil
+
+--- `headway` in m: free way ahead to the neighbour in it; perception where nobody is
+---@type jostle.Number
+headway = nil
+
+--- `pushed` in N: magnitude of the net force on the agent
+---@type jostle.Number
+pushed = nil
+
+--- `compression` in N/m: sum of contact force magnitudes over girth
+---@type jostle.Number
+compression = nil
+
+--- `contacts`: agents and bodies touched
+---@type jostle.Number
+contacts = nil
+
+--- `time_in_state` in s: since the state was entered
+---@type jostle.Number
+time_in_state = nil
+
+--- `min(a, b)`: the lesser
+---@param a1 number|jostle.Number
+---@param a2 number|jostle.Number
+---@return jostle.Number
+function min(a1, a2) end
+
+--- `max(a, b)`: the greater
+---@param a1 number|jostle.Number
+---@param a2 number|jostle.Number
+---@return jostle.Number
+function max(a1, a2) end
+
+--- `abs(a)`: without its sign
+---@param a1 number|jostle.Number
+---@return jostle.Number
+function abs(a1) end
+
+--- `sqrt(a)`: square root; 0 of what is negative
+---@param a1 number|jostle.Number
+---@return jostle.Number
+function sqrt(a1) end
+
+--- `clamp(a, least, greatest)`: kept between two bounds
+---@param a1 number|jostle.Number
+---@param a2 number|jostle.Number
+---@param a3 number|jostle.Number
+---@return jostle.Number
+function clamp(a1, a2, a3) end
+
+--- `now.NAME`: what is measured of the agent now: speed, x, y, density, headway, pushed, compression, contacts, neighbours, time_in_state, time
+---@type table<string, jostle.Number>
+now = {}
+
+--- `own.NAME`: the agent's own value: drawn from `defaults`, or given by the scene's group, which may be a place too
+---@type table<string, jostle.Number>
+own = {}
+
+--- `nearest(tag)`: the nearest body or agent seen that bears a tag, or of "opponents" or "teammates"
+---@param a1 string
+---@return jostle.Target
+function nearest(a1) end
+
+--- `one_of(set)`: a member of a set of places, drawn on entering the state; `goal` from then on
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Target
+function one_of(a1) end
+
+--- `goal`: the place that one_of drew last, or that a function set
+---@type jostle.Target
+goal = nil
+
+--- `seek(target)`: straight to the target: a line is passed, at a point one stops
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Steering
+function seek(a1) end
+
+--- `field(place)`: the shortest way to the place round walls; of a set, to the nearest member
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Steering
+function field(a1) end
+
+--- `away_from(target)`: straight away from the target
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Steering
+function away_from(a1) end
+
+--- `orbit(place [, options])`: round a place, counter-clockwise; options inward, density_near, density_far, far, beyond shape the density about it
+---@return jostle.Steering
+function orbit(...) end
+
+--- `queue(place)`: to one's place in a queue, in order of arrival
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Steering
+function queue(a1) end
+
+--- `along(place)`: in a line's direction, or along a queue to its head
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Steering
+function along(a1) end
+
+--- `follow(target [, metres])`: behind the target, at a distance
+---@param a1 string|jostle.Target|jostle.Number
+---@param a2? number
+---@return jostle.Steering
+function follow(a1, a2) end
+
+--- `together([metres])`: towards the teammates seen, once they are farther than that
+---@param a1? number
+---@return jostle.Steering
+function together(a1) end
+
+--- `drift(x, y)`: in a fixed direction; a length of 1 is the wanted speed
+---@param a1 number
+---@param a2 number
+---@return jostle.Steering
+function drift(a1, a2) end
+
+--- `spread`: away from the neighbours
+---@type jostle.Steering
+spread = nil
+
+--- `hold`: stands
+---@type jostle.Steering
+hold = nil
+
+--- `player`: a person, or the input log, drives this agent
+---@type jostle.Steering
+player = nil
+
+--- `normal(mean, deviation [, least, greatest])`: a normal distribution, drawn once per agent
+---@return jostle.Drawn
+function normal(...) end
+
+--- `uniform(least, greatest)`: even between two bounds
+---@return jostle.Drawn
+function uniform(...) end
+
+--- `choose(a, b, ...)`: one of up to 8 values, all alike
+---@return jostle.Drawn
+function choose(...) end
+
+--- `circuits(place)`: for `counts`: net counter-clockwise turns about a place since its start line was first crossed; what is walked back is taken back
+---@param a1 string|jostle.Target|jostle.Number
+---@return any
+function circuits(a1) end
+
+--- `memory { name = value, ... }`: what each agent remembers: numbers and booleans, kept through reloads; the result gives the values as expressions
+---@return any
+function memory(...) end
+
+--- `machine { ... }`: the sheet that a behaviour returns
+---@param sheet jostle.Machine
+---@return any
+function machine(sheet) end
+
+--- `patch "behaviour" { ... }`: in a mod: changes a behaviour's sheet, key by key; returned by the file
+---@param behaviour string
+---@return fun(sheet: table): any
+function patch(behaviour) end
+
+--- `replace "behaviour" { ... }`: in a mod: takes the place of a behaviour's whole sheet; returned by the file
+---@param behaviour string
+---@return fun(sheet: table): any
+function replace(behaviour) end
+
+--- `none`: in a patch: takes a key or a state away
+---@type any
+none = nil
+
+--- `settings.NAME`: in a mod: the values of its settings, plain numbers
+---@type table<string, jostle.Number>
+settings = {}
