@@ -25,26 +25,33 @@ static double length(float x, float y) {
     return sqrt((double)x * x + (double)y * y);
 }
 
+/* Which number of the agent a name of one or two letters is. */
+static const float *short_name(const JoxAgents *a, uint32_t i, const char *name) {
+    bool v = name[0] == 'v';
+    const char letter = v ? name[1] : name[0];
+    if ((letter != 'x' && letter != 'y') || name[v ? 2 : 1])
+        return NULL;
+    return v ? (letter == 'x' ? &a->vx[i] : &a->vy[i]) : letter == 'x' ? &a->x[i] : &a->y[i];
+}
+
 /* Pushes a number of the agent by name; false where it has none of that name. */
 static bool push_number(lua_State *L, const JoxMind *mind, uint32_t i, const char *name) {
     const JoxAgents *a = mind->agents;
-    const struct {
-        const char *name;
-        double value;
-    } numbers[] = {{"x", a->x[i]},
-                   {"y", a->y[i]},
-                   {"vx", a->vx[i]},
-                   {"vy", a->vy[i]},
-                   {"time", mind->tick * mind->dt},
-                   {"time_in_state", (mind->tick - a->entered[i]) * mind->dt},
-                   {"density", a->density[i]},
-                   {"pushed", length(a->force_x[i], a->force_y[i])},
-                   {"compression", a->compression[i]}};
-    for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++)
-        if (strcmp(numbers[n].name, name) == 0)
-            return lua_pushnumber(L, numbers[n].value), true;
+    const float *at = short_name(a, i, name);
+    if (at)
+        return lua_pushnumber(L, *at), true;
     if (strcmp(name, "id") == 0)
         return lua_pushinteger(L, a->id[i]), true;
+    if (strcmp(name, "time") == 0)
+        return lua_pushnumber(L, mind->tick * mind->dt), true;
+    if (strcmp(name, "time_in_state") == 0)
+        return lua_pushnumber(L, (mind->tick - a->entered[i]) * mind->dt), true;
+    if (strcmp(name, "density") == 0)
+        return lua_pushnumber(L, a->density[i]), true;
+    if (strcmp(name, "pushed") == 0)
+        return lua_pushnumber(L, length(a->force_x[i], a->force_y[i])), true;
+    if (strcmp(name, "compression") == 0)
+        return lua_pushnumber(L, a->compression[i]), true;
     if (strcmp(name, "team") == 0)
         return lua_pushinteger(L, a->team[i]), true;
     int parameter = jox_parameter_find(name);

@@ -153,7 +153,7 @@ static void kick_all(JoxMind *mind) {
         for (uint32_t n = 0; kicks && n < batch->count; n++)
             s->list[s->list_count++] = s->grouped[batch->begin + n];
     }
-    jox_sort_by_id(a, s->list, s->list_count);
+    jox_sort_by_id(mind, s->list, s->list_count);
     for (uint32_t n = 0; n < s->list_count; n++) {
         uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(mind, i);

@@ -45,6 +45,7 @@ void jox_mind_scratch_free(JoxMind *mind) {
     jox_free(s->list);
     jox_free(s->pending);
     jox_free(s->place_people);
+    jox_free(s->marks);
     jox_free(s->registers);
     jox_free(s);
     mind->scratch = NULL;

@@ -28,6 +28,8 @@ typedef struct JoxMindScratch {
     uint32_t list_count;
     uint32_t *pending; /* ids whose on_enter has yet to run, ascending */
     uint32_t pending_count, pending_capacity;
+    uint64_t *marks; /* a bit per id */
+    uint32_t mark_capacity;
     uint32_t *place_people; /* per place; UINT32_MAX: nobody asked */
     uint32_t place_capacity;
     JoxRegisters *registers; /* one set per worker */
@@ -84,7 +86,7 @@ void jox_mind_repeat_signals(JoxMind *mind);
 void jox_mind_number_names(JoxMind *mind, JoxMachine *machine);
 
 /* Sorts indices of agents by id. */
-void jox_sort_by_id(const JoxAgents *agents, uint32_t *list, uint32_t count);
+void jox_sort_by_id(JoxMind *mind, uint32_t *list, uint32_t count);
 /* Grows the scratch and groups agents by state; ranks the queues. */
 void jox_mind_group(JoxMind *mind, JoxPool *pool);
 void jox_mind_count_places(JoxMind *mind);

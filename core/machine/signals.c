@@ -90,7 +90,7 @@ void jox_mind_repeat_signals(JoxMind *mind) {
                 s->list[s->list_count++] = i;
         }
     }
-    jox_sort_by_id(a, s->list, s->list_count);
+    jox_sort_by_id(mind, s->list, s->list_count);
     for (uint32_t n = 0; n < s->list_count; n++) {
         uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(mind, i);

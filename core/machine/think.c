@@ -93,8 +93,30 @@ static void think_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
         think_batch(mind, &mind->scratch->batches[b], mind->scratch->registers[worker]);
 }
 
+/* Marks the ids of a long list in a bitmap, and reads it from the front. */
+static void sort_by_marks(JoxMind *mind, uint32_t *list, uint32_t count) {
+    JoxMindScratch *s = mind->scratch;
+    const JoxAgents *a = mind->agents;
+    uint32_t words = a->next_id / 64 + 1, n = 0;
+    if (words > s->mark_capacity) {
+        s->mark_capacity = words + words / 4;
+        s->marks = jox_realloc(s->marks, s->mark_capacity, sizeof *s->marks);
+    }
+    memset(s->marks, 0, words * sizeof *s->marks);
+    for (uint32_t k = 0; k < count; k++)
+        s->marks[a->id[list[k]] / 64] |= (uint64_t)1 << a->id[list[k]] % 64;
+    for (uint32_t w = 0; w < words; w++)
+        for (uint64_t bits = s->marks[w]; bits; bits &= bits - 1)
+            list[n++] = a->id_index[w * 64 + (uint32_t)__builtin_ctzll(bits)];
+}
+
 /* Sorts indices by id (Shell): short lists mostly. */
-void jox_sort_by_id(const JoxAgents *a, uint32_t *list, uint32_t count) {
+void jox_sort_by_id(JoxMind *mind, uint32_t *list, uint32_t count) {
+    const JoxAgents *a = mind->agents;
+    if (count > 256 && count > a->next_id / 256) {
+        sort_by_marks(mind, list, count);
+        return;
+    }
     for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
         for (uint32_t k = gap; k < count; k++) {
             uint32_t moving = list[k], at = k;
@@ -124,7 +146,7 @@ static void ask_functions(JoxMind *mind) {
             if (s->fired[s->grouped[batch->begin + n]] < 0)
                 s->list[s->list_count++] = s->grouped[batch->begin + n];
     }
-    jox_sort_by_id(a, s->list, s->list_count);
+    jox_sort_by_id(mind, s->list, s->list_count);
     for (uint32_t n = 0; n < s->list_count; n++) {
         uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(mind, i);
@@ -239,7 +261,7 @@ static void take_transitions(JoxMind *mind) {
     for (uint32_t i = 0; i < a->count; i++)
         if (a->machine[i] != JOX_NO_MACHINE && s->fired[i] >= 0)
             s->list[s->list_count++] = i;
-    jox_sort_by_id(a, s->list, s->list_count);
+    jox_sort_by_id(mind, s->list, s->list_count);
     JOX_RESERVE(mind->taken, mind->taken_capacity, s->list_count);
     for (uint32_t n = 0; n < s->list_count; n++) {
         uint32_t i = s->list[n];
