@@ -7,6 +7,7 @@
 #include "jostle.h"
 #include "lua/loader.h"
 #include "record/density.h"
+#include "record/paths.h"
 #include "record/recorder.h"
 #include "record/regions.h"
 #include "scene/mods.h"
@@ -38,6 +39,7 @@ struct JoScene {
     char *report;          /* directory, or NULL */
     JoxDensity *density;
     JoxRegions *regions;
+    JoxPaths *paths;
     double progress_until, progress_begun, progress_shown; /* s */
     int progress_tenth;
     bool finished;

@@ -110,21 +110,60 @@ bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
     scene->report = jox_strdup(directory);
     scene->density = jox_density_create(low, high);
     scene->regions = jox_regions_create();
+    scene->paths = jox_paths_create();
     for (uint32_t r = 0; r < scene->plan->region_count; r++)
         jox_regions_add(scene->regions, scene->plan->regions[r].name,
                         scene->plan->regions[r].points, scene->plan->regions[r].count);
     return true;
 }
 
+/* Points of the paths of those who came first, ten a second. */
+static void sample_paths(JoScene *scene) {
+    const JoWorld *world = scene->world;
+    const JoxAgents *a = &world->agents;
+    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(FRAME / world->def.dt + 0.5));
+    float time = (float)((double)world->tick * world->def.dt);
+    for (uint32_t id = 0; world->tick % every == 0 && id < a->next_id && id < JOX_MOST_PATHS;
+         id++) {
+        uint32_t i = a->id_index[id];
+        if (i != JOX_NO_INDEX)
+            jox_paths_add(scene->paths, id, false, a->group[i], time, a->x[i], a->y[i]);
+    }
+    for (uint32_t o = 0; world->tick % every == 0 && o < world->objects.count; o++) {
+        const JoxObject *object = &world->objects.rows[o];
+        if (object->live && object->moves)
+            jox_paths_add(scene->paths, object->id, true, 0, time, object->position.x,
+                          object->position.y);
+    }
+}
+
 static void sample(JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->agents;
+    sample_paths(scene);
     uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(SAMPLE / world->def.dt + 0.5));
     double time = (double)world->tick * world->def.dt;
     if (world->tick % every != 0 || time < scene->plan->heatmap_from)
         return;
     jox_density_add(scene->density, a->x, a->y, a->count, time);
     jox_regions_frame(scene->regions, a->x, a->y, a->prev_x, a->prev_y, a->count, world->def.dt);
+}
+
+static bool draw_paths(JoScene *scene, const char *title, JoxText *why) {
+    const char *names[256];
+    uint32_t count = scene->plan->group_count < 256 ? scene->plan->group_count : 256;
+    JoxV2 low, high;
+    for (uint32_t g = 0; g < count; g++)
+        names[g] = scene->plan->groups[g].name;
+    area_of(scene, &low, &high);
+    for (uint32_t p = 0; p < scene->paths->count; p++) /* nobody's path is cut off */
+        for (uint32_t i = 0; i < scene->paths->items[p].count; i++) {
+            const JoxPathPoint *point = &scene->paths->items[p].points[i];
+            low = (JoxV2){jox_minf(low.x, point->x - 1), jox_minf(low.y, point->y - 1)};
+            high = (JoxV2){jox_maxf(high.x, point->x + 1), jox_maxf(high.y, point->y + 1)};
+        }
+    return jox_plot_paths(scene->report, scene->paths, names, count, &scene->world->walls, low,
+                          high, title, why);
 }
 
 static bool draw(JoScene *scene, JoError *error) {
@@ -143,10 +182,17 @@ static bool draw(JoScene *scene, JoError *error) {
                  scene->plan->heatmap_from, until);
         good = jox_plot_regions(scene->report, scene->regions, title, &why);
     }
+    bool paths = scene->world->agents.next_id <= JOX_MOST_PATHS && scene->paths->count;
+    if (good && paths) {
+        snprintf(title, sizeof title,
+                 "%.120s: paths (a dot is the beginning, a circle the end), %.1f s", name, until);
+        good = draw_paths(scene, title, &why);
+    }
     if (!good)
         return fail(error, &why);
-    jox_host_say(scene, "pictures: %s/density.png%s%s%s\n", scene->report,
-                 scene->regions->count ? " and " : "", scene->regions->count ? scene->report : "",
+    jox_host_say(scene, "pictures: %s%s%s/density.png%s%s%s\n", paths ? scene->report : "",
+                 paths ? "/paths.png, " : "", scene->report, scene->regions->count ? " and " : "",
+                 scene->regions->count ? scene->report : "",
                  scene->regions->count ? "/regions.png" : "");
     return true;
 }
@@ -225,6 +271,8 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
     }
     jox_density_free(scene->density);
     jox_regions_free(scene->regions);
+    jox_paths_free(scene->paths);
+    scene->paths = NULL;
     jox_free(scene->report);
     scene->density = NULL;
     scene->regions = NULL;

@@ -27,7 +27,7 @@ bool jox_plot_folder(const char *folder, JoxText *error) {
     }
 }
 
-static FILE *open_in(const char *folder, const char *name, JoxText *error) {
+FILE *jox_plot_open(const char *folder, const char *name, JoxText *error) {
     char path[1100];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *file = fopen(path, "w");
@@ -36,7 +36,7 @@ static FILE *open_in(const char *folder, const char *name, JoxText *error) {
     return file;
 }
 
-static bool close_file(FILE *file, const char *what, JoxText *error) {
+bool jox_plot_close(FILE *file, const char *what, JoxText *error) {
     bool good = !ferror(file);
     good = fclose(file) == 0 && good;
     if (!good)
@@ -45,7 +45,7 @@ static bool close_file(FILE *file, const char *what, JoxText *error) {
 }
 
 /* Runs gnuplot on a script of the folder, inside it. */
-static bool draw(const char *folder, const char *script, JoxText *error) {
+bool jox_plot_draw(const char *folder, const char *script, JoxText *error) {
     char command[] = "gnuplot", execute[] = "-e", change[1200], name[64];
     snprintf(change, sizeof change, "cd '%.1023s'", folder);
     snprintf(name, sizeof name, "%s", script);
@@ -62,7 +62,7 @@ static bool draw(const char *folder, const char *script, JoxText *error) {
     return true;
 }
 
-static void write_title(FILE *script, const char *title) {
+void jox_plot_title(FILE *script, const char *title) {
     fputs("set title \"", script);
     for (const char *c = title; *c; c++)
         if (*c != '"' && *c != '\\' && *c != '`' && (unsigned char)*c >= ' ')
@@ -70,7 +70,7 @@ static void write_title(FILE *script, const char *title) {
     fputs("\" noenhanced font ',14'\n", script);
 }
 
-static void write_walls(FILE *data, const JoxWalls *walls) {
+void jox_plot_walls(FILE *data, const JoxWalls *walls) {
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         for (uint32_t i = 0; i <= walls->rings[r].count; i++) {
             JoxV2 p = walls->vertices[walls->rings[r].first + i % walls->rings[r].count].point;
@@ -82,7 +82,7 @@ static void write_walls(FILE *data, const JoxWalls *walls) {
 
 bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *walls,
                       const char *title, JoxText *error) {
-    FILE *data = open_in(folder, "density.csv", error);
+    FILE *data = jox_plot_open(folder, "density.csv", error);
     if (!data)
         return false;
     uint32_t skip = d->columns * d->rows > 250000 ? 2 : 1; /* enough for the picture's pixels */
@@ -97,16 +97,18 @@ bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *w
         }
         fputs("\n", data);
     }
-    if (!close_file(data, "density.csv", error) || !(data = open_in(folder, "walls.dat", error)))
+    if (!jox_plot_close(data, "density.csv", error) ||
+        !(data = jox_plot_open(folder, "walls.dat", error)))
         return false;
-    write_walls(data, walls);
-    if (!close_file(data, "walls.dat", error) || !(data = open_in(folder, "density.plt", error)))
+    jox_plot_walls(data, walls);
+    if (!jox_plot_close(data, "walls.dat", error) ||
+        !(data = jox_plot_open(folder, "density.plt", error)))
         return false;
     float width = d->cell * (float)d->columns, height = d->cell * (float)d->rows;
     int tall = (int)(1000.0f * jox_clampf(height / width, 0.3f, 2.0f)) + 120;
     fprintf(data, "set terminal pngcairo size 1200,%d font 'sans,12'\nset output 'density.png'\n",
             tall);
-    write_title(data, title);
+    jox_plot_title(data, title);
     fprintf(
         data,
         "set datafile separator comma\nset view map\nset size ratio -1\n"
@@ -121,27 +123,30 @@ bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *w
         most > 0.0 ? most : 1.0, d->low.x, d->low.x + width, d->low.y, d->low.y + height, d->most,
         d->most_at.x, d->most_at.y, d->most_time,
         walls->ring_count ? ", 'walls.dat' using 1:2 with lines lw 1.5 lc 'black'" : "");
-    return close_file(data, "density.plt", error) && draw(folder, "density.plt", error);
+    return jox_plot_close(data, "density.plt", error) &&
+           jox_plot_draw(folder, "density.plt", error);
 }
 
 bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char *title,
                       JoxText *error) {
-    FILE *data = open_in(folder, "regions.csv", error);
+    FILE *data = jox_plot_open(folder, "regions.csv", error);
     if (!data)
         return false;
     fputs("region,mean_speed_m_per_s,people_frames\n", data);
     for (uint32_t r = 0; r < regions->count; r++)
         fprintf(data, "%s,%.4f,%llu\n", regions->items[r].name,
                 jox_region_speed(&regions->items[r]), (unsigned long long)regions->items[r].people);
-    if (!close_file(data, "regions.csv", error) || !(data = open_in(folder, "regions.plt", error)))
+    if (!jox_plot_close(data, "regions.csv", error) ||
+        !(data = jox_plot_open(folder, "regions.plt", error)))
         return false;
     fputs("set terminal pngcairo size 1200,600 font 'sans,12'\nset output 'regions.png'\n", data);
-    write_title(data, title);
+    jox_plot_title(data, title);
     fputs("set datafile separator comma\nset style fill solid 0.9\nset boxwidth 0.6\nunset key\n"
           "set yrange [0:*]\nset offsets 0.5, 0.5, 0.05, 0\nset grid ytics\n"
           "set xlabel 'region'\nset ylabel 'mean speed (m/s)'\n"
           "plot 'regions.csv' skip 1 using 0:2:xtic(1) with boxes lc '#21918c', "
           "'' skip 1 using 0:2:(sprintf('%.2f', $2)) with labels offset 0,0.7\n",
           data);
-    return close_file(data, "regions.plt", error) && draw(folder, "regions.plt", error);
+    return jox_plot_close(data, "regions.plt", error) &&
+           jox_plot_draw(folder, "regions.plt", error);
 }

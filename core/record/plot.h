@@ -3,6 +3,7 @@
 #define JOX_RECORD_PLOT_H
 
 #include <stdbool.h>
+#include <stdio.h>
 
 #include "base/text.h"
 #include "geom/walls.h"
@@ -17,5 +18,12 @@ bool jox_plot_density(const char *folder, const JoxDensity *density, const JoxWa
 /* regions.png: mean speed of each region as bars. */
 bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char *title,
                       JoxText *error);
+
+/* For further pictures: files of the folder, and gnuplot on a script of it. */
+FILE *jox_plot_open(const char *folder, const char *name, JoxText *error);
+bool jox_plot_close(FILE *file, const char *what, JoxText *error);
+bool jox_plot_draw(const char *folder, const char *script, JoxText *error);
+void jox_plot_title(FILE *script, const char *title);
+void jox_plot_walls(FILE *data, const JoxWalls *walls);
 
 #endif
