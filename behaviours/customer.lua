@@ -1,0 +1,19 @@
+-- Stands in a queue, is served for a while at its head, and leaves. Who comes first is served first.
+return machine {
+  name = "customer", version = 1, start = "Queue",
+  defaults = { speed = normal(1.2, 0.15, 0.7, 1.6), perception = 3, radius = 0.22 },
+
+  states = {
+    Queue = { steer = queue(own.counter), max_speed = 1.2,
+      { to = "Service", when = first_in(own.counter) & near(own.counter, 0.5) } },
+
+    -- The one who is served still heads the queue: the next waits behind.
+    Service = { steer = queue(own.counter), lasts = uniform(4, 8),
+      { to = "Leave",   when = lasted } },
+
+    Leave = { steer = seek(own.exit),
+      { to = "Gone",    when = inside(own.exit) } },
+
+    Gone = { removes = true },
+  },
+}

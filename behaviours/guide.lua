@@ -1,0 +1,19 @@
+-- Leads a tour: walks from stop to stop, tells its story at each, and waits for whoever falls behind.
+local far_behind = neighbours("tourists"):below(4)
+
+return machine {
+  name = "guide", version = 1, start = "Walk",
+  defaults = { speed = 1.1, perception = 6 },
+
+  states = {
+    Walk = { steer = field(one_of(own.stops)),
+      { to = "Tell", when = near(goal, 1) },
+      { to = "Wait", when = far_behind & after(3) } },
+
+    Wait = { steer = hold,
+      { to = "Walk", when = ~far_behind | after(10) } },
+
+    Tell = { steer = hold, lasts = uniform(6, 12), signal = "story",
+      { to = "Walk", when = lasted } },
+  },
+}

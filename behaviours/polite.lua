@@ -1,0 +1,12 @@
+-- Polite: looks far ahead, never pushes, gives way wholly.
+return machine {
+  name = "polite", version = 1, start = "Walk",
+  defaults = { speed = 1.6, max_speed = 2, perception = 5, horizon = 2, yield = 0.9, push = 0 },
+
+  states = {
+    Walk = { steer = seek(own.goal),
+      { to = "Arrived", when = inside(own.goal) } },
+
+    Arrived = { steer = hold },
+  },
+}
