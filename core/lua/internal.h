@@ -168,7 +168,7 @@ typedef struct JoxVm {
     uint32_t agent;                 /* whose hook runs */
     uint32_t run;                   /* numbers the calls, so that `me` cannot be kept */
     uint32_t printed, print_second; /* lines of `print` in that second */
-    uint32_t said, said_second;     /* complaints in full in that second */
+    uint32_t complaints, complaint_second; /* said in full in that second */
 } JoxVm;
 
 /* What a hook wrote into another agent's memory. */

@@ -273,7 +273,7 @@ static void push_sorted(lua_State *L) {
     unsigned rounds = 1;
     while ((1ull << rounds) < count)
         rounds++;
-    jox_vm_charge(L, (count + bytes / 16) * rounds / 8);
+    jox_vm_charge(L, (count + bytes / 16) * rounds / 4);
     sort_keys(keys, spare, count);
     for (size_t i = 0; i < count; i++) {
         push_key(L, &keys[i]);

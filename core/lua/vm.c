@@ -322,12 +322,12 @@ static int keep_traceback(lua_State *L) {
 }
 
 bool jox_vm_may_say(JoxVm *vm, uint32_t second) {
-    if (vm->said_second != second) {
-        vm->said_second = second;
-        vm->said = 0;
+    if (vm->complaint_second != second) {
+        vm->complaint_second = second;
+        vm->complaints = 0;
     }
-    vm->said += vm->said < SAID + 1;
-    return vm->said <= SAID;
+    vm->complaints += vm->complaints < SAID + 1;
+    return vm->complaints <= SAID;
 }
 
 /* Numbers as text and back must not depend on where the program runs. */

@@ -50,6 +50,9 @@ run() { # BEHAVIOUR: status in $status, seconds in $work/time, output in $work/o
 }
 run ""
 alone=$hash
+printf 'local mine = memory { n = 0 }\n%s\n' "$inert" >"$yard/mindful.lua"
+run mindful.lua
+mindful=$hash
 run inert.lua
 quiet=$hash
 honest=$(within 1000 <"$work/time")
@@ -57,9 +60,11 @@ most=$(awk -v h="$honest" -v s="$SLOWER" 'BEGIN {print h + s}')
 [ -n "$alone" ] && [ -n "$quiet" ]; verdict "the honest runs end" $?
 
 attack() { # FILE EXPECTS TEXT
-    local name wanted=0 took slow
+    local name wanted=0 took slow same
     name=$(basename "$1" .lua)
     run "$(basename "$1")"
+    same=$quiet
+    [ ! -f "$yard/$name.lua" ] || ! grep -q "^local mine = memory { n = 0 }" "$yard/$name.lua" || same=$mindful
     took=$(within "$most" <"$work/time"); slow=$?
     case $2 in load-error) wanted=3 ;; stop) wanted=1 ;; esac
     if [ $status != $wanted ]; then
@@ -72,7 +77,7 @@ attack() { # FILE EXPECTS TEXT
     elif ! iconv -f utf-8 "$work/out" >/dev/null 2>&1; then
         echo "not ok $name: said what is not text"
     elif grep -q $'[\001-\010\013-\037\177]' "$work/out"; then echo "not ok $name: commands the terminal"
-    elif [ $status = 0 ] && [ "$2" != acts ] && [ "$hash" != "$quiet" ]; then echo "not ok $name: hash $hash, not $quiet"
+    elif [ $status = 0 ] && [ "$2" != acts ] && [ "$hash" != "$same" ]; then echo "not ok $name: hash $hash, not $same"
     else echo "ok $name ($took s)"; fi
 }
 attack_file() { # FILE: as its first line says
