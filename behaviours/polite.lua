@@ -1,7 +1,7 @@
 -- Polite: looks far ahead, never pushes, gives way wholly.
 return machine {
   name = "polite", version = 1, start = "Walk",
-  defaults = { speed = 1.6, max_speed = 2, perception = 5, horizon = 2, yield = 0.9, push = 0 },
+  defaults = { speed = 1.6, max_speed = 2, perception = 5, horizon = 2, yield = 0.9 },
 
   states = {
     Walk = { steer = seek(own.goal),

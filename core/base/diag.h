@@ -46,6 +46,11 @@ void jox_diag_add(JoxDiagnostics *diagnostics, JoxSeverity severity, JoxPosition
 #define jox_diag_error(diagnostics, position, code, hint, ...)                                     \
     jox_diag_add(diagnostics, JOX_SEVERITY_ERROR, position, code, hint, NULL, NULL, __VA_ARGS__)
 
+#define jox_diag_warn(diagnostics, position, code, hint, ...)                                      \
+    jox_diag_add(diagnostics, JOX_SEVERITY_WARNING, position, code, hint, NULL, NULL, __VA_ARGS__)
+#define jox_diag_note(diagnostics, position, code, ...)                                            \
+    jox_diag_add(diagnostics, JOX_SEVERITY_NOTE, position, code, NULL, NULL, NULL, __VA_ARGS__)
+
 /* Sets `source` of every diagnostic of `file` that lacks it, from the file's text. */
 void jox_diag_attach_source(JoxDiagnostics *diagnostics, const char *file, const char *text,
                             size_t length);

@@ -168,3 +168,38 @@ bool jox_path_below(const char *path, const char *folder) {
     free(root);
     return below;
 }
+
+static bool same_file(const char *a, const char *b) {
+    struct stat x, y;
+    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+void jox_path_clean(char *path) {
+    size_t length = strlen(path), used = *path == '/';
+    char *clean = jox_alloc(length + 2, 1);
+    size_t starts[256], parts = 0;
+    if (used)
+        clean[0] = '/';
+    for (const char *at = path; *at && parts < 255;) {
+        size_t n = strcspn(at, "/");
+        bool up = n == 2 && at[0] == '.' && at[1] == '.';
+        const char *last = parts ? clean + starts[parts - 1] : "";
+        if (up && parts && strcmp(last, "..") != 0) {
+            used = starts[--parts];
+            clean[used] = 0;
+        } else if (n > 0 && !(n == 1 && *at == '.')) {
+            if (used > 0 && clean[used - 1] != '/')
+                clean[used++] = '/';
+            starts[parts++] = used;
+            memcpy(clean + used, at, n);
+            used += n;
+            clean[used] = 0;
+        }
+        at += n + (at[n] == '/');
+    }
+    while (used > 1 && clean[used - 1] == '/')
+        clean[--used] = 0;
+    if (used > 0 && used <= length && same_file(path, clean))
+        memcpy(path, clean, used + 1);
+    jox_free(clean);
+}

@@ -45,7 +45,7 @@ static const char BEHAVIOUR[] =
 static const char SCENE[] =
     "# NAME: forty people walk to and fro between two ends of a hall.\n"
     "# Run it:   jostle run FILE --report out\n"
-    "# Check it: jostle check FILE          Every key: jostle reference scene\n"
+    "# Check it: jostle check FILE          Every key: jostle reference scenes\n"
     "jostle: 1\n"
     "title: NAME\n"
     "seed: 1\n"

@@ -65,8 +65,10 @@ bool jox_host_find_become(const JoScene *scene, const JoxMachine *machine, uint3
         return false;
     }
     if (!strstr(state->become, "..") && *state->become != '/' &&
-        find_behaviour(scene, machine->path, state->become, path))
+        find_behaviour(scene, machine->path, state->become, path)) {
+        jox_path_clean(path);
         return true;
+    }
     jox_diag_error(diagnostics, at, "missing-file",
                    "A plain name: of a file beside this one, or of the library",
                    "there is no behaviour '%.100s' to become", state->become);
@@ -181,19 +183,18 @@ void jox_host_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
     const JoxMind *mind = &scene->world->mind;
     for (uint32_t m = 0; m < mind->machine_count; m++) {
         const JoxMachine *machine = mind->machines[m];
+        const JoxPosition at = {machine->path, 0, 0, 0};
         size_t before = diagnostics->count;
         check_own(scene, machine, diagnostics);
         for (uint32_t n = 0; n < machine->name_count; n++) {
             const JoxName *name = &machine->names[n];
             bool heard = name->uses & JOX_NAME_HEARD, state = name->uses & JOX_NAME_STATE;
             if (heard && !used(mind, name->text, JOX_NAME_SIGNALLED) && !machine->hook_count)
-                jox_diag_add(diagnostics, JOX_SEVERITY_WARNING,
-                             (JoxPosition){machine->path, 0, 0, 0}, "unheard-signal", NULL, NULL,
-                             NULL, "no machine of the scene gives the signal '%s'", name->text);
+                jox_diag_warn(diagnostics, at, "unheard-signal", NULL,
+                              "no machine of the scene gives the signal '%s'", name->text);
             if (state && !used(mind, name->text, JOX_NAME_STATE))
-                jox_diag_add(diagnostics, JOX_SEVERITY_WARNING,
-                             (JoxPosition){machine->path, 0, 0, 0}, "unknown-state", NULL, NULL,
-                             NULL, "no machine of the scene has a state '%s'", name->text);
+                jox_diag_warn(diagnostics, at, "unknown-state", NULL,
+                              "no machine of the scene has a state '%s'", name->text);
         }
         if (diagnostics->count > before)
             attach(scene, machine, diagnostics);

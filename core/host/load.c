@@ -286,9 +286,9 @@ static void leave_out(const JoSceneDef *def, uint64_t without, int32_t culprit,
                      before->items[b].name);
     }
     jox_diag_move(problems, diagnostics);
-    jox_diag_add(problems, JOX_SEVERITY_NOTE, (JoxPosition){mod->folder, 0, 0, 0}, "mod-left-out",
-                 NULL, NULL, NULL, "mod %s is left out%s; the run goes on without", mod->name,
-                 others);
+    const JoxPosition at = {mod->folder, 0, 0, 0};
+    jox_diag_note(problems, at, "mod-left-out", "mod %s is left out%s; the run goes on without",
+                  mod->name, others);
     jox_mods_free(before);
     jox_mods_free(after);
     jox_diag_free(&ignored);

@@ -66,11 +66,12 @@ int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     if (!node || node->kind == JOX_NODE_POISON)
         return -1;
     JoxTarget target = {node->target_kind, node->target_arg, NULL};
-    if (node->kind == JOX_NODE_OWN) {
+    bool own_set = node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_ONE_OF_OWN;
+    if (node->kind == JOX_NODE_OWN || own_set) {
         int32_t slot = jox_build_own_at(build, node);
         m->own[slot].is_place = true;
         m->own[slot].dist = jox_dist_constant(-1.0); /* none until the scene's group names one */
-        target = (JoxTarget){JOX_TARGET_OWN_PLACE, slot, NULL};
+        target = (JoxTarget){own_set ? JOX_TARGET_ONE_OF_OWN : JOX_TARGET_OWN_PLACE, slot, NULL};
     }
     for (uint32_t i = 0; i < m->target_count; i++)
         if (m->targets[i].kind == target.kind && m->targets[i].arg == target.arg &&

@@ -514,7 +514,8 @@ static void *load(lua_State *L, JoxText *why) {
     } else { /* a file beside the test's, or in ../scenes */
         scene.path = luaL_checkstring(L, 1);
     }
-    return trial->driver->load(trial->driver->context, &scene, why);
+    void *loaded = trial->driver->load(trial->driver->context, &scene, why);
+    return loaded; // cppcheck-suppress returnDanglingLifetime
 }
 
 /* scene { ... } or scene("file.yaml" [, options]) */

@@ -227,10 +227,16 @@ static JoxNode *assemble(lua_State *L, const JoxWord *word, JoxNode *const *argu
     node->arg = word->arg;
     switch (word->makes) {
     case JOX_NODE_TARGET: /* nearest, one_of */
-        if (word->op == JOX_TARGET_ONE_OF && (arguments[0]->kind != JOX_NODE_TARGET ||
-                                              arguments[0]->target_kind != JOX_TARGET_PLACE)) {
+        if (word->op == JOX_TARGET_ONE_OF && arguments[0]->kind == JOX_NODE_OWN) {
+            node->target_kind = JOX_TARGET_ONE_OF_OWN; /* a set that the scene's group names */
+            node->name = arguments[0]->name;
+            node->position = arguments[0]->position;
+            node->source = arguments[0]->source;
+            break;
+        }
+        if (word->op == JOX_TARGET_ONE_OF && arguments[0]->target_kind != JOX_TARGET_PLACE) {
             jox_word_error(L, "one_of", "bad-argument", "Example: one_of \"gates\"",
-                           "one_of takes the name of a set of places");
+                           "one_of takes a set of places");
             return NULL;
         }
         node->target_kind =

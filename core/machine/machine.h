@@ -82,14 +82,15 @@ typedef struct JoxProgram {
 } JoxProgram;
 
 typedef enum JoxTargetKind {
-    JOX_TARGET_PLACE,     /* arg: place index of the world, -1 while unresolved */
-    JOX_TARGET_OWN_PLACE, /* arg: own slot that holds a place index */
-    JOX_TARGET_GOAL,      /* the place in the agent's `goal` column */
-    JOX_TARGET_ONE_OF,    /* arg: place index of a set; on entering the state, goal := a member */
-    JOX_TARGET_NEAREST,   /* arg: tag bit; nearest seen body or agent that bears it */
-    JOX_TARGET_OPPONENT,  /* nearest seen agent of another team */
-    JOX_TARGET_TEAMMATE,  /* nearest seen agent of the same team */
-    JOX_TARGET_ANYONE     /* nearest seen agent */
+    JOX_TARGET_PLACE,      /* arg: place index of the world, -1 while unresolved */
+    JOX_TARGET_OWN_PLACE,  /* arg: own slot that holds a place index */
+    JOX_TARGET_GOAL,       /* the place in the agent's `goal` column */
+    JOX_TARGET_ONE_OF,     /* arg: place index of a set; on entering the state, goal := a member */
+    JOX_TARGET_ONE_OF_OWN, /* the same; arg: own slot that holds the set */
+    JOX_TARGET_NEAREST,    /* arg: tag bit; nearest seen body or agent that bears it */
+    JOX_TARGET_OPPONENT,   /* nearest seen agent of another team */
+    JOX_TARGET_TEAMMATE,   /* nearest seen agent of the same team */
+    JOX_TARGET_ANYONE      /* nearest seen agent */
 } JoxTargetKind;
 
 typedef struct JoxTarget {

@@ -226,6 +226,7 @@ static void carry_memory(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
     for (uint32_t s = 0; s < r->old->memory_count && s < MOST; s++)
         before[s] = memory[s];
     for (uint32_t s = 0; s < r->next->memory_count && s < MOST; s++)
+        // cppcheck-suppress uninitvar ; r->memory holds slots of the old machine
         memory[s] = r->memory[s] >= 0 ? before[r->memory[s]] : r->next->memory[s].initial;
 }
 

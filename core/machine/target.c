@@ -15,7 +15,8 @@ int32_t jox_target_place(const JoxMind *mind, uint32_t agent, int32_t index) {
         place =
             (int32_t)
                 mind->agents->own[(size_t)agent * mind->agents->own_stride + (uint32_t)target->arg];
-    else if (target->kind == JOX_TARGET_GOAL || target->kind == JOX_TARGET_ONE_OF)
+    else if (target->kind == JOX_TARGET_GOAL || target->kind == JOX_TARGET_ONE_OF ||
+             target->kind == JOX_TARGET_ONE_OF_OWN)
         place = mind->agents->goal[agent];
     return place >= 0 && (uint32_t)place < mind->place_count ? place : -1;
 }

@@ -186,9 +186,12 @@ static void pick_goal(JoxMind *mind, const JoxMachine *machine, const JoxState *
     asked[count++] = state->toss_at;
     asked[count++] = state->push_toward;
     for (uint32_t k = 0; k < count; k++) {
-        if (asked[k] < 0 || machine->targets[asked[k]].kind != JOX_TARGET_ONE_OF)
+        const JoxTarget *target = asked[k] < 0 ? NULL : &machine->targets[asked[k]];
+        if (!target || (target->kind != JOX_TARGET_ONE_OF && target->kind != JOX_TARGET_ONE_OF_OWN))
             continue;
-        int32_t set = machine->targets[asked[k]].arg;
+        int32_t set = target->kind == JOX_TARGET_ONE_OF
+                          ? target->arg
+                          : (int32_t)a->own[(size_t)i * a->own_stride + (uint32_t)target->arg];
         if (set < 0 || (uint32_t)set >= mind->place_count || !mind->places[set].member_count)
             continue;
         double u = jox_random_unit(mind->seed, a->id[i], mind->tick, JOX_DRAW_ONE_OF, 0);

@@ -233,8 +233,10 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
             snprintf(relative, sizeof relative, "%s/behaviours/%.300s%s",
                      l->datadir ? l->datadir : JOX_DATADIR, name, lua);
         char *path = jox_path_beside(hoard, from, relative);
-        if (exists(path))
+        if (exists(path)) {
+            jox_path_clean(path);
             return path;
+        }
     }
     jox_diag_error(l->reader.diagnostics, position, "missing-file",
                    "Looked beside the scene, in ../behaviours and in the installed ones",

@@ -1,0 +1,11 @@
+-- The machine: with more players, whoever stands nearer to the ball takes it; the others keep away.
+local ball = nearest "ball"
+
+return patch "dodgeball" {
+  defaults = { perception = 12 },
+  states = {
+    Defense = { steer = away_from(ball) + 0.4 * seek(own.court) + 0.3 * spread,
+      change = { Attack = { when = grounded(ball) & inside(ball, own.court) & near(ball, 6) } } },
+    Attack = { append = { { to = "Defense", when = after(6), id = "give_up" } } },
+  },
+}

@@ -1,0 +1,5 @@
+return patch "tawaf" {
+  states = {
+    ToStone = { push = 60 * max(now.speed, own.speed), push_weight = "nearest" },
+  },
+}
