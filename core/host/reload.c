@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/mem.h"
+#include "host/changes.h"
 #include "host/host.h"
 
 enum {
@@ -24,6 +25,7 @@ typedef struct Change {
     bool added;     /* another one becomes it */
     char *path;
     JoxLoaded *loaded;
+    JoxFiles files; /* that were looked for */
     JoxReplacement *replacement;
 } Change;
 
@@ -33,9 +35,11 @@ typedef struct Batch {
     uint32_t count;
     size_t capacity;
     JoxScene *plan; /* of the scene's own files; NULL: they did not change */
+    JoxFiles plan_files;
     JoxDiagnostics diagnostics;
     JoxText said;
-    double written; /* seconds since 1970 */
+    bool parts[JOX_PARTS]; /* machines and plan that it is about */
+    double written;        /* seconds since 1970 */
     bool failed;
 } Batch;
 
@@ -47,13 +51,7 @@ struct JoxReload {
     atomic_uintptr_t ready;   /* Batch *, to the stepping thread */
     atomic_uintptr_t retired; /* Retired *, back */
     atomic_uint next_id, machine_count;
-    /* Files that machines are made of, by index; the loading thread's own. */
-    char ***files;
-    uint32_t *file_counts;
-    uint32_t known;
-    char *pending[64]; /* changed since the last batch */
-    uint32_t pending_count;
-    double written;
+    JoxChanges changes; /* the loading thread's own */
 };
 
 /* What was swapped out, freed off the stepping thread. */
@@ -62,25 +60,49 @@ typedef struct Retired {
     Batch *batch;
     JoxLoaded **machines;
     uint32_t count;
+    bool live; /* the batch was taken */
 } Retired;
 
 static void free_batch(Batch *batch) {
     for (uint32_t c = 0; c < batch->count; c++) {
         jox_free(batch->changes[c].path);
+        jox_files_free(&batch->changes[c].files);
         jox_replacement_free(batch->changes[c].replacement);
         jox_loaded_free(batch->changes[c].loaded);
     }
     jox_free(batch->changes);
     jox_scene_free(batch->plan);
+    jox_files_free(&batch->plan_files);
     jox_diag_free(&batch->diagnostics);
     jox_text_free(&batch->said);
     jox_free(batch);
+}
+
+/* ---- the loading thread ---- */
+
+static void use(JoxReload *r, uint32_t part, const char *path) {
+    jox_changes_uses(&r->changes, part, path);
+    jox_watch_add(r->watch, path);
+}
+
+/* What a batch is made of counts from here on; if it could not go live, that counts too. */
+static void settle(JoxReload *r, const Batch *batch, bool live) {
+    if (live)
+        jox_changes_live(&r->changes, batch->parts);
+    for (uint32_t c = 0; c < batch->count; c++) {
+        const Change *change = &batch->changes[c];
+        for (uint32_t f = 0; f < change->files.count && (live || !change->added); f++)
+            use(r, change->index, change->files.paths[f]);
+    }
+    for (uint32_t f = 0; batch->plan_files.count > f; f++)
+        use(r, JOX_PART_PLAN, batch->plan_files.paths[f]);
 }
 
 static void free_retired(JoxReload *r) {
     Retired *retired = (Retired *)atomic_exchange(&r->retired, 0);
     while (retired) {
         Retired *next = retired->next;
+        settle(r, retired->batch, retired->live);
         free_batch(retired->batch);
         for (uint32_t m = 0; m < retired->count; m++)
             jox_loaded_free(retired->machines[m]);
@@ -90,35 +112,6 @@ static void free_retired(JoxReload *r) {
     }
 }
 
-/* ---- the loading thread ---- */
-
-static void set_files(JoxReload *r, uint32_t index, char *const *paths, uint32_t count) {
-    if (index >= r->known) {
-        r->files = jox_realloc(r->files, index + 1, sizeof *r->files);
-        r->file_counts = jox_realloc(r->file_counts, index + 1, sizeof *r->file_counts);
-        for (; r->known <= index; r->known++) {
-            r->files[r->known] = NULL;
-            r->file_counts[r->known] = 0;
-        }
-    }
-    for (uint32_t f = 0; f < r->file_counts[index]; f++)
-        jox_free(r->files[index][f]);
-    jox_free(r->files[index]);
-    r->files[index] = jox_alloc(count + 1, sizeof **r->files);
-    r->file_counts[index] = count;
-    for (uint32_t f = 0; f < count; f++) {
-        r->files[index][f] = jox_strdup(paths[f]);
-        jox_watch_add(r->watch, paths[f]);
-    }
-}
-
-static bool is_made_of(const JoxReload *r, uint32_t index, const char *path) {
-    for (uint32_t f = 0; index < r->known && f < r->file_counts[index]; f++)
-        if (strcmp(r->files[index][f], path) == 0)
-            return true;
-    return false;
-}
-
 static Change *add_change(Batch *batch, uint32_t index, const char *path) {
     JOX_RESERVE(batch->changes, batch->capacity, batch->count + 1);
     Change *change = &batch->changes[batch->count++];
@@ -126,97 +119,121 @@ static Change *add_change(Batch *batch, uint32_t index, const char *path) {
     return change;
 }
 
-/* Loads one machine of a batch, and watches what it is made of, whether that went well or not. */
-static void load_change(JoxReload *r, Batch *batch, uint32_t c) {
+/* Where a machine that is missing would be: beside the one that becomes it. */
+static void place_beside(const char *from, const char *name, char path[1024]) {
+    const char *slash = strrchr(from, '/');
+    size_t n = strlen(name);
+    if (n > 4 && !strcmp(name + n - 4, ".lua"))
+        n -= 4;
+    snprintf(path, 1024, "%.*s%.*s.lua", slash ? (int)(slash - from) + 1 : 0, from,
+             n < 200 ? (int)n : 200, name);
+}
+
+/* Machines that a new version becomes and that are not there yet join the batch. */
+static void add_becomes(JoxReload *r, Batch *batch, uint32_t c, const JoxMachine *next) {
     JoScene *scene = r->scene;
-    Change *change = &batch->changes[c];
-    change->loaded =
-        jox_lua_prepare(scene->lua, change->path, NULL, 0, &scene->scope, &batch->diagnostics);
-    uint32_t count;
-    char *const *tried = jox_loaded_tried(change->loaded, &count);
-    JoxMachine *next = jox_loaded_machine(change->loaded);
-    for (uint32_t f = 0; f < count; f++)
-        jox_watch_add(r->watch, tried[f]);
-    if (!change->added)
-        set_files(r, change->index, tried, count);
-    jox_text_add(&batch->said, jox_loaded_said(change->loaded));
-    if (!next)
-        batch->failed = true;
-    for (uint32_t s = 0; next && s < next->state_count; s++) {
+    const JoxMind *mind = &scene->world->mind;
+    uint32_t machines = atomic_load(&r->machine_count);
+    for (uint32_t s = 0; s < next->state_count; s++) {
         char path[1024];
-        if (!next->states[s].become ||
-            !jox_host_find_become(scene, next, s, path, &batch->diagnostics))
+        if (!next->states[s].become)
             continue;
-        const JoxMind *mind = &scene->world->mind;
+        if (!jox_host_find_become(scene, next, s, path, &batch->diagnostics)) {
+            place_beside(next->path, next->states[s].become, path);
+            jox_files_add(&batch->changes[c].files, path); /* when it is written, try again */
+            continue;
+        }
         bool known = false;
-        for (uint32_t m = 0; m < atomic_load(&r->machine_count); m++)
+        uint32_t added = 0;
+        for (uint32_t m = 0; m < machines; m++)
             known |= strcmp(mind->machines[m]->path, path) == 0;
-        for (uint32_t o = 0; o < batch->count; o++)
+        for (uint32_t o = 0; o < batch->count; o++) {
             known |= strcmp(batch->changes[o].path, path) == 0;
-        if (!known)
+            added += batch->changes[o].added;
+        }
+        if (!known && machines + added < JOX_MOST_MACHINES)
             add_change(batch, 0, path)->added = true;
+        else if (!known)
+            jox_diag_error(&batch->diagnostics,
+                           ((JoxPosition){next->path, next->states[s].become_line,
+                                          next->states[s].become_column, 0}),
+                           "too-many", NULL, "a scene has at most %d behaviours",
+                           JOX_MOST_MACHINES);
     }
 }
 
-/* Everything that is made of the files that changed. */
+/* Loads one machine of a batch, and watches what it is made of, whether that went well or not. */
+static void load_change(JoxReload *r, Batch *batch, uint32_t c) {
+    JoScene *scene = r->scene;
+    const char *path = batch->changes[c].path;
+    JoxLoaded *loaded =
+        jox_lua_prepare(scene->lua, path, NULL, 0, &scene->scope, &batch->diagnostics);
+    uint32_t count;
+    char *const *tried = jox_loaded_tried(loaded, &count);
+    for (uint32_t f = 0; f < count; f++)
+        jox_files_add(&batch->changes[c].files, tried[f]);
+    batch->changes[c].loaded = loaded;
+    jox_text_add(&batch->said, jox_loaded_said(loaded));
+    if (jox_loaded_machine(loaded))
+        add_becomes(r, batch, c, jox_loaded_machine(loaded));
+    else
+        batch->failed = true;
+    for (uint32_t f = 0; f < batch->changes[c].files.count; f++)
+        jox_watch_add(r->watch, batch->changes[c].files.paths[f]);
+}
+
+static void load_plan(JoxReload *r, Batch *batch) {
+    JoScene *scene = r->scene;
+    batch->plan =
+        jox_host_load_plan(&scene->def, scene->mods, scene->mods->count, &batch->diagnostics);
+    batch->failed |= !batch->plan;
+    for (uint32_t f = 0; batch->plan && f < batch->plan->file_count; f++)
+        jox_files_add(&batch->plan_files, batch->plan->files[f].path);
+}
+
+/* The next parts whose files have changed, loaded; NULL where there are none. */
 static Batch *prepare(JoxReload *r) {
     JoScene *scene = r->scene;
     const JoxMind *mind = &scene->world->mind;
+    bool parts[JOX_PARTS];
+    double written;
+    if (!jox_changes_next(&r->changes, parts, &written))
+        return NULL;
     Batch *batch = jox_alloc(1, sizeof *batch);
-    batch->written = r->written;
-    bool scene_changed = false;
+    memcpy(batch->parts, parts, sizeof parts);
+    batch->written = written;
     for (uint32_t m = 0; m < atomic_load(&r->machine_count); m++)
-        for (uint32_t p = 0; p < r->pending_count; p++)
-            if (is_made_of(r, m, r->pending[p])) {
-                add_change(batch, m, mind->machines[m]->path);
-                break;
-            }
-    for (uint32_t f = 0; f < scene->plan_file_count; f++)
-        for (uint32_t p = 0; p < r->pending_count; p++)
-            scene_changed |= strcmp(scene->plan_files[f], r->pending[p]) == 0;
+        if (parts[m])
+            add_change(batch, m, mind->machines[m]->path);
     for (uint32_t c = 0; c < batch->count; c++) /* grows by what others become */
         load_change(r, batch, c);
+    if (parts[JOX_PART_PLAN])
+        load_plan(r, batch);
     if (batch->diagnostics.errors)
         batch->failed = true;
-    if (scene_changed) {
-        batch->plan =
-            jox_host_load_plan(&scene->def, scene->mods, scene->mods->count, &batch->diagnostics);
-        batch->failed |= !batch->plan;
-    }
     for (uint32_t c = 0; c < batch->count && !batch->failed; c++)
         if (!batch->changes[c].added)
             batch->changes[c].replacement =
                 jox_replacement_prepare(mind->machines[batch->changes[c].index],
                                         jox_loaded_machine(batch->changes[c].loaded),
                                         scene->world->def.seed, atomic_load(&r->next_id));
-    if (batch->count == 0 && !scene_changed) {
-        free_batch(batch);
-        return NULL;
-    }
     return batch;
 }
 
 static void changed(void *context, const char *path, double written) {
     JoxReload *r = context;
-    if (r->pending_count < 64)
-        r->pending[r->pending_count++] = jox_strdup(path);
-    r->written = written > r->written ? written : r->written;
+    jox_changes_file(&r->changes, path, written);
 }
 
 static void *load_for_ever(void *context) {
     JoxReload *r = context;
     uint64_t signal;
     while (read(r->stop, &signal, sizeof signal) != (ssize_t)sizeof signal) {
-        jox_watch_wait(r->watch, r->stop, r->pending_count ? 0.002 : 1.0, changed, r);
+        jox_watch_wait(r->watch, r->stop, jox_changes_fresh(&r->changes) ? 0.002 : 1.0, changed, r);
+        bool busy = atomic_load(&r->ready) != 0; /* one at a time: it is compared with what runs */
         free_retired(r);
-        if (r->pending_count == 0 || atomic_load(&r->ready))
-            continue; /* one batch at a time: it compares with what runs */
-        Batch *batch = prepare(r);
-        for (uint32_t p = 0; p < r->pending_count; p++)
-            jox_free(r->pending[p]);
-        r->pending_count = 0;
-        r->written = 0.0;
-        atomic_store(&r->ready, (uintptr_t)batch);
+        if (!busy)
+            atomic_store(&r->ready, (uintptr_t)prepare(r));
     }
     return NULL;
 }
@@ -341,6 +358,7 @@ static void take(JoScene *scene, Batch *batch) {
         refuse(scene, batch, path, refused);
     } else {
         jox_host_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
+        retired->live = true;
         swap(scene, batch, retired);
         if (batch->plan)
             jox_host_rescene(scene, &batch->plan, batch->written);
@@ -379,10 +397,11 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
     for (uint32_t m = 0; watch && m < mind->machine_count; m++) {
         uint32_t count;
         char *const *tried = jox_lua_tried(scene->lua, mind->machines[m], &count);
-        set_files(r, m, tried, count);
+        for (uint32_t f = 0; f < count; f++)
+            use(r, m, tried[f]);
     }
     for (uint32_t f = 0; watch && f < scene->plan_file_count; f++)
-        jox_watch_add(watch, scene->plan_files[f]);
+        use(r, JOX_PART_PLAN, scene->plan_files[f]);
     scene->reload = r;
     if (stop >= 0 && pthread_create(&r->thread, NULL, load_for_ever, r) == 0)
         return true;
@@ -408,12 +427,7 @@ void jox_host_unwatch(JoScene *scene) {
     if (batch)
         free_batch(batch);
     free_retired(r);
-    for (uint32_t m = 0; m < r->known; m++)
-        set_files(r, m, NULL, 0), jox_free(r->files[m]);
-    jox_free(r->files);
-    jox_free(r->file_counts);
-    for (uint32_t p = 0; p < r->pending_count; p++)
-        jox_free(r->pending[p]);
+    jox_changes_free(&r->changes);
     jox_watch_free(r->watch);
     jox_free(r);
     scene->reload = NULL;

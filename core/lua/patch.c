@@ -510,6 +510,7 @@ static bool is_target(JoxVm *vm, int index, const char *target) {
 static JoxNode *run_file(JoxVm *vm, int32_t mod, const JoxModPatch *patch, uint32_t *number) {
     lua_State *L = vm->L;
     *number = (uint32_t)vm->source_count;
+    jox_vm_tried(vm, patch->path);
     if (!jox_vm_read(vm, patch->path, NULL, 0, (JoxPosition){0}))
         return NULL;
     vm->mod = &vm->scope->mods[mod];

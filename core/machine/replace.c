@@ -21,6 +21,7 @@ struct JoxReplacement {
     double **drawn;    /* next slot: values by id, or NULL where the old one goes on */
     uint32_t drawn_count;
     bool draws;
+    double *before; /* one agent's row as it was */
 };
 
 /* The state of `next` that continues `name`, or -1. */
@@ -134,6 +135,7 @@ JoxReplacement *jox_replacement_prepare(const JoxMachine *old, JoxMachine *next,
     r->own = jox_alloc(next->own_count + 1, sizeof *r->own);
     r->memory = jox_alloc(next->memory_count + 1, sizeof *r->memory);
     r->drawn = jox_alloc(next->own_count + 1, sizeof *r->drawn);
+    r->before = jox_alloc((size_t)old->own_count + old->memory_count + 1, sizeof *r->before);
     map_slots(r, seed);
     for (uint32_t s = 0; s < states; s++)
         map_state(r, s);
@@ -146,6 +148,7 @@ void jox_replacement_free(JoxReplacement *r) {
     for (uint32_t s = 0; s < r->next->own_count; s++)
         jox_free(r->drawn[s]);
     jox_free(r->drawn);
+    jox_free(r->before);
     jox_free(r->state);
     jox_free(r->own);
     jox_free(r->memory);
@@ -186,16 +189,14 @@ const char *jox_mind_refuses(const JoxMind *mind, uint32_t index, const JoxRepla
 
 /* The own values of an agent in their new slots. */
 static void carry_own(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
-    enum { MOST = 256 };
     JoxAgents *a = mind->agents;
-    double *own = a->own + (size_t)i * a->own_stride, before[MOST];
+    double *own = a->own + (size_t)i * a->own_stride;
     uint64_t given = a->given[i], now = 0;
-    for (uint32_t s = 0; s < r->old->own_count && s < MOST; s++)
-        before[s] = own[s];
-    for (uint32_t s = 0; s < r->next->own_count && s < MOST; s++) {
+    memcpy(r->before, own, r->old->own_count * sizeof *own);
+    for (uint32_t s = 0; s < r->next->own_count; s++) {
         int32_t from = r->own[s];
         if (from >= 0)
-            own[s] = before[from];
+            own[s] = r->before[from];
         now |= from >= 0 && from < 64 && s < 64 ? (given >> from & 1) << s : 0;
     }
     a->given[i] = now;
@@ -220,14 +221,11 @@ static void draw_slot(JoxMind *mind, const JoxReplacement *r, uint32_t index, ui
 }
 
 static void carry_memory(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
-    enum { MOST = 256 };
     JoxAgents *a = mind->agents;
-    double *memory = a->memory + (size_t)i * a->memory_stride, before[MOST];
-    for (uint32_t s = 0; s < r->old->memory_count && s < MOST; s++)
-        before[s] = memory[s];
-    for (uint32_t s = 0; s < r->next->memory_count && s < MOST; s++)
-        // cppcheck-suppress uninitvar ; r->memory holds slots of the old machine
-        memory[s] = r->memory[s] >= 0 ? before[r->memory[s]] : r->next->memory[s].initial;
+    double *memory = a->memory + (size_t)i * a->memory_stride;
+    memcpy(r->before, memory, r->old->memory_count * sizeof *memory);
+    for (uint32_t s = 0; s < r->next->memory_count; s++)
+        memory[s] = r->memory[s] >= 0 ? r->before[r->memory[s]] : r->next->memory[s].initial;
 }
 
 static void carry_agent(JoxMind *mind, const JoxReplacement *r, uint32_t i) {

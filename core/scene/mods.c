@@ -538,6 +538,10 @@ JoxMods *jox_mods_find(const JoxModsDef *def, JoxDiagnostics *diagnostics) {
 void jox_mods_free(JoxMods *mods) {
     if (!mods)
         return;
+    for (uint32_t m = 0; m < mods->count; m++)
+        for (uint32_t p = 0; p < mods->items[m].patch_count; p++)
+            if (mods->items[m].patches[p].lua) /* named by who reads Lua, the rest by the hoard */
+                jox_free(mods->items[m].patches[p].target);
     jox_hoard_free(mods->memory);
     jox_free(mods);
 }
