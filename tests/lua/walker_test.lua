@@ -39,3 +39,21 @@ test("a goal that is no place is refused", function()
   bad.groups.people.set = { gaol = "goal" }
   refused(bad, "has no 'gaol'")
 end)
+
+test("behind a slow walker one falls back to its speed, a second's walk behind", function()
+  local s = scene {
+    places = { goal = { point = { 30, 0 }, radius = 1 } },
+    walls = { { line = { { -3, 0.3 }, { 35, 0.3 } } }, { line = { { -3, -0.3 }, { 35, -0.3 } } } },
+    groups = {
+      first = { behaviour = "walker.lua", at = { { 0, 0 } }, set = { goal = "goal", speed = 0.6 } },
+      second = { behaviour = "walker.lua", at = { { -3, 0 } }, set = { goal = "goal", speed = 1.8 } },
+    },
+  }
+  s:run(0.5)
+  near(s:agents("second")[1].now, 1.8, 0.15)
+  s:run(8)
+  local first, second = s:agents("first")[1], s:agents("second")[1]
+  near(first.now, 0.6, 0.03)
+  near(second.now, 0.6, 0.05)
+  near(first.x - second.x, 0.95 * 0.6 + 0.4, 0.2)
+end)
