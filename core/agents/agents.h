@@ -59,6 +59,8 @@
     X(float, still)        /* seconds since it last moved 0.25 m */                                \
     X(float, still_x)      /* where that was */                                                    \
     X(float, still_y)                                                                              \
+    X(int32_t, queue_at)    /* place whose queue it stands in, or -1 */                            \
+    X(uint32_t, queued)     /* tick at which it joined that queue */                               \
     X(int32_t, kicked)      /* body kicked last step, or -1 */                                     \
     X(uint32_t, kick_ready) /* tick from which it may kick again */                                \
     X(uint64_t, ignore)     /* tags of agents and bodies that are not avoided */                   \

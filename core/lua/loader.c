@@ -28,7 +28,10 @@ static void check_upvalues(lua_State *L, int index, void *context) {
     if (!jox_upvalue_assigned(L, index, name, &line, &number))
         return;
     JoxSource *source = &vm->sources[number >= 0 && (size_t)number < vm->source_count ? number : 0];
-    const JoxToken *t = jox_source_find(source, line, name);
+    const JoxToken *t = NULL; /* what is assigned comes first */
+    for (size_t i = 0; i < source->token_count && !t; i++)
+        if (source->tokens[i].line == line && jox_token_is(&source->tokens[i], name))
+            t = &source->tokens[i];
     jox_diag_error(vm->diagnostics,
                    ((JoxPosition){source->path, line, t ? t->column : 0, t ? t->end_column : 0}),
                    "assigned-upvalue", "Declare it: local mine = memory { ... }, and write me.NAME",

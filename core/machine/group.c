@@ -70,7 +70,7 @@ static void add_batches(JoxMindScratch *s, uint16_t machine, uint16_t state, uin
 }
 
 /* The queue a state stands in, or -1. */
-static int16_t queue_target(const JoxState *state) {
+int16_t jox_queue_target(const JoxState *state) {
     for (uint32_t t = 0; t < state->steer_count; t++)
         if (state->steer[t].kind == JOX_STEER_QUEUE)
             return state->steer[t].target;
@@ -81,22 +81,26 @@ static int16_t queue_target(const JoxState *state) {
 static bool stands_before(const JoxMindScratch *s, const JoxAgents *a, uint32_t i, uint32_t j) {
     if (s->queue[i] != s->queue[j])
         return s->queue[i] < s->queue[j];
-    if (a->entered[i] != a->entered[j])
-        return a->entered[i] < a->entered[j];
+    if (a->queued[i] != a->queued[j])
+        return a->queued[i] < a->queued[j];
     return a->id[i] < a->id[j];
 }
 
 /* Ranks those who queue: sorted (Shell) by queue and order of arrival, then numbered. */
 static void rank_queues(JoxMind *mind) {
     JoxMindScratch *s = mind->scratch;
-    const JoxAgents *a = mind->agents;
+    JoxAgents *a = mind->agents;
     uint32_t count = 0, *list = s->list;
     for (uint32_t b = 0; b < s->batch_count; b++) {
         const JoxBatchRange *batch = &s->batches[b];
-        int16_t target = queue_target(&mind->machines[batch->machine]->states[batch->state]);
+        int16_t target = jox_queue_target(&mind->machines[batch->machine]->states[batch->state]);
         for (uint32_t n = 0; target >= 0 && n < batch->count; n++) {
             uint32_t i = s->grouped[batch->begin + n];
             s->queue[i] = jox_target_place(mind, i, target);
+            if (a->queue_at[i] != s->queue[i]) { /* from state to state it keeps its turn */
+                a->queue_at[i] = s->queue[i];
+                a->queued[i] = mind->tick;
+            }
             list[count++] = i;
         }
     }

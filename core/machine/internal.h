@@ -89,6 +89,8 @@ void jox_mind_number_names(JoxMind *mind, JoxMachine *machine);
 void jox_sort_by_id(JoxMind *mind, uint32_t *list, uint32_t count);
 /* Grows the scratch and groups agents by state; ranks the queues. */
 void jox_mind_group(JoxMind *mind, JoxPool *pool);
+/* The target whose queue a state stands in, or -1. */
+int16_t jox_queue_target(const JoxState *state);
 void jox_mind_count_places(JoxMind *mind);
 void jox_mind_scratch_free(JoxMind *mind);
 /* Enters a state: clock, duration, goal, constant parameters. Hooks are the caller's. */

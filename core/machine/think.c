@@ -228,6 +228,8 @@ void jox_mind_enter(JoxMind *mind, uint32_t i, uint16_t to) {
     a->entered[i] = mind->tick;
     a->was_true[i] = 0;
     a->lasts[i] = INFINITY;
+    if (jox_queue_target(state) < 0)
+        a->queue_at[i] = -1;
     if (state->has_lasts)
         a->lasts[i] = (float)jox_dist_draw(&state->lasts, mind->seed, a->id[i], mind->tick,
                                            JOX_DRAW_LASTS, 0);

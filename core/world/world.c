@@ -107,15 +107,17 @@ JoxSettled jox_world_settle(JoWorld *world) {
 static void hash_agent(JoxHash *hash, const JoxMind *mind, uint32_t i) {
     const JoxAgents *a = mind->agents;
     struct {
-        uint32_t id, machine_state, entered, was_true;
-        int32_t goal, kicked;
+        uint32_t id, machine_state, entered, was_true, queued;
+        int32_t goal, kicked, queue_at;
         float numbers[13];
     } row = {a->id[i],
              (uint32_t)a->machine[i] << 16 | a->state[i],
              a->entered[i],
              a->was_true[i],
+             a->queued[i],
              a->goal[i],
              a->kicked[i],
+             a->queue_at[i],
              {a->x[i], a->y[i], a->vx[i], a->vy[i], a->prev_x[i], a->prev_y[i], a->face_x[i],
               a->face_y[i], a->inferred_x[i], a->inferred_y[i], a->lasts[i], a->still[i],
               a->compression[i]}};

@@ -1,0 +1,110 @@
+# Mods: found, ordered, merged; conflicts, blame, settings, and what is refused.
+. tests/scenes/lib.sh
+program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
+says() { # NAME STATUS TEXT COMMAND...
+    local name=$1 status=$2 text=$3; shift 3
+    timeout 60 "$@" >"$work/out" 2>&1 </dev/null
+    local got=$?
+    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
+        echo "not ok $name: status $got, wanted $status and '$text'"; head -8 "$work/out"; fi
+}
+both=(--mod gentle-queue --mod rough)
+says "a mod beside the scenes is found by its name" 0 "1. gentle-queue 1.0.0" "$JOSTLE" mod list scenes/tawaf.yaml --mod gentle-queue
+says "those that must be asked for are not taken" 0 "not taken: rough" "$JOSTLE" mod list scenes/tawaf.yaml --mod gentle-queue
+says "order: by name where none depends on the other" 0 "2. rough" "$JOSTLE" mod list scenes/tawaf.yaml "${both[@]}"
+says "a conflict names the winner and its place" 3 "rough/patches/tawaf.lua:3:17: warning: mods gentle-queue and rough both set states.ToStone.push" bash -c "$JOSTLE run scenes/tawaf.yaml --steps 1 --set groups.pilgrims.count=100 --set sources.0.keep=100 --quiet ${both[*]}; exit 3"
+says "and the other's place" 3 "set before by mod gentle-queue at scenes/mods/gentle-queue/patches/tawaf.lua:13; mod rough comes later and wins" bash -c "$JOSTLE run scenes/tawaf.yaml --steps 1 --set groups.pilgrims.count=100 --set sources.0.keep=100 --quiet ${both[*]}; exit 3"
+says "why: the behaviour's own line" 0 "tawaf.lua:23:87: shove" "$JOSTLE" mod why tawaf.ToStone.push scenes/tawaf.yaml "${both[@]}"
+says "why: the last mod's line" 0 "rough/patches/tawaf.lua:3:17: 60 * max(now.speed, own.speed)   (mod rough 1.0.0)" "$JOSTLE" mod why tawaf.ToStone.push scenes/tawaf.yaml "${both[@]}"
+says "why: of a scene" 0 "doubles/patches/dodgeball.yaml" "$JOSTLE" mod why groups.red.at scenes/dodgeball.yaml --mod doubles
+says "why: nothing sets it" 3 "nothing sets" "$JOSTLE" mod why tawaf.Circle.nonsense scenes/tawaf.yaml
+says "why: the engine's default" 0 "the engine's default: 0.1 m" "$JOSTLE" mod why tawaf.Circle.push_reach scenes/tawaf.yaml
+says "an unknown mod" 0 "there is no mod 'gentle-quue'. Did you mean 'gentle-queue'?" "$JOSTLE" run scenes/tawaf.yaml --steps 1 --quiet --set groups.pilgrims.count=10 --set sources.0.keep=10 --mod gentle-quue
+says "four players and three balls" 0 '"bodies": 3' "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet --summary -
+says "  the four" 0 '"agents": 4' "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet --summary -
+says "without it two" 0 '"agents": 2' "$JOSTLE" run scenes/dodgeball.yaml --steps 5 --quiet --summary -
+# What a mod does: nobody joins the queue where the chance is 0, many where it is 1.
+joined() { "$JOSTLE" run scenes/tawaf.yaml --set groups.pilgrims.count=1500 --set sources.0.keep=1500 --for 200 --quiet --mod gentle-queue \
+    --set mods.gentle-queue.chance=$1 --set mods.gentle-queue.crowding=9 --summary - 2>/dev/null | sed -n 's/.*"ToStone": \([0-9]*\).*/\1/p'; }
+between "a setting of 0: nobody queues" "$(joined 0)" 0 0
+between "a setting of 1: many do" "$(joined 1)" 3 1500
+says "a setting out of its range" 0 "setting 'chance' of mod gentle-queue must be from 0 to 1, not 7" "$JOSTLE" run scenes/tawaf.yaml --steps 1 --quiet --set groups.pilgrims.count=10 --set sources.0.keep=10 --mod gentle-queue --set mods.gentle-queue.chance=7
+says "a setting that is not there" 0 "names no setting of a mod" "$JOSTLE" run scenes/tawaf.yaml --steps 1 --quiet --set groups.pilgrims.count=10 --set sources.0.keep=10 --mod gentle-queue --set mods.gentle-queue.chanse=1
+
+# A tree of our own.
+tree=$work/tree
+mkdir -p "$tree/behaviours" "$tree/scenes"
+cp behaviours/stander.lua behaviours/walker.lua "$tree/behaviours/"; cp -R scripts "$tree/"
+printf 'jostle: 1\nplaces: {goal: {point: [9, 0]}}\ngroups: {g: {behaviour: stander.lua, at: [[0, 0], [2, 0]]}}\n' >"$tree/scenes/yard.yaml"
+mod() { # NAME YAML [PATCH-FILE TEXT]
+    mkdir -p "$tree/scenes/mods/$1/patches"
+    printf 'name: %s\nversion: 1.0\napi: 1\n%s\n' "$1" "$2" >"$tree/scenes/mods/$1/mod.yaml"
+    [ -z "$3" ] || printf '%s\n' "$4" >"$tree/scenes/mods/$1/patches/$3"
+}
+run() { (cd "$tree" && exec "$program" run scenes/yard.yaml --steps 3 --quiet --summary - "$@"); }
+export -f run 2>/dev/null; export tree program
+plain=$(run | figure hash)
+mod alpha "" stander.lua 'return patch "stander" { defaults = { radius = 0.25 } }'
+says "what lies in the folder of mods is taken, and said" 0 "mods: alpha 1.0" bash -c run
+[ "$plain" != "$(run 2>/dev/null | figure hash)" ]; verdict "and changes the run" $?
+same_hash "--no-mods takes none" "$plain" "$(run --no-mods | figure hash)"
+mod beta "depends: [alpha]" stander.lua 'return patch "stander" { states = { Stand = { psh = 3 } } }'
+mod gamma "depends: [beta]" stander.lua 'return patch "stander" { states = { Stand = { push = 3 } } }'
+says "a failing mod is named with its place" 0 "scenes/mods/beta/patches/stander.lua:1:47: unknown key 'psh'. Did you mean 'push'?" bash -c run
+says "and left out with those that need it, while the run goes on" 0 "mod beta is left out, and gamma, which needs it" bash -c run
+grep -q '"mods": \["alpha 1.0"\]' "$work/out"; verdict "the sound ones stay" $?
+rm -r "$tree/scenes/mods/beta"
+says "a dependency that is missing" 0 "gamma/mod.yaml:4:11: there is no mod 'beta', which is needed by gamma" bash -c run
+mod beta "depends: [gamma]"
+says "a circle" 0 "depend on each other" bash -c run
+rm -r "$tree/scenes/mods/beta" "$tree/scenes/mods/gamma"
+mod later "depends: ['alpha >= 2.1']"
+says "a version that is too old" 0 "mod later needs alpha 2.1 or later; 1.0 is there" bash -c run
+mod later "conflicts: alpha"
+says "mods that exclude each other" 0 "mod later does not go together with alpha" bash -c run
+mod later "load_after: [zeta]" stander.lua 'return patch "stander" { defaults = { radius = 0.3 } }'
+mod zeta "" stander.lua 'return patch "stander" { defaults = { mass = 80 } }'
+(cd "$tree" && "$program" mod list scenes/yard.yaml) | grep -q '^3. later'; verdict "load_after comes after" $?
+mod later "apii: 1" ; says "a misspelt key of mod.yaml" 3 "later/mod.yaml:4:1: unknown key 'apii'" bash -c "cd $tree && $program mod check scenes/mods/later"
+printf 'name: later\nversion: 1.0\napi: 2\n' >"$tree/scenes/mods/later/mod.yaml"; says "another api" 3 "later/mod.yaml:3:6: api must be from 1 to 1" bash -c "cd $tree && $program mod check scenes/mods/later"
+rm -r "$tree/scenes/mods/later" "$tree/scenes/mods/zeta"
+mod links ""; ln -s /etc/passwd "$tree/scenes/mods/links/patches/stander.lua"
+says "links are refused" 0 "symbolic links are not followed" bash -c run
+rm -r "$tree/scenes/mods/links"
+mod large ""; head -c 2000000 /dev/zero | tr '\0' ' ' >"$tree/scenes/mods/large/patches/stander.lua"
+says "large files are refused" 0 "it is over 1 MB" bash -c run
+rm -r "$tree/scenes/mods/large"
+mod lost "" nobody.lua 'return patch "nobody" { defaults = { radius = 0.3 } }'
+says "check: a target that is not there" 3 "lost/patches/nobody.lua:1:14: there is no behaviour 'nobody' to change" bash -c "cd $tree && $program check scenes"
+rm -r "$tree/scenes/mods/lost"
+mod states "" stander.lua 'return patch "stander" { states = { Stnd = { change = { x = { chance = 1 } } } } }'
+says "a state that is not there" 0 "states/patches/stander.lua:1:37: there is no state 'Stnd' to change. Did you mean 'Stand'?" bash -c run
+mod states "" stander.lua 'return patch "stander" { states = { Stand = { { to = "Stand" } } } }'
+says "a transition without a place" 0 "need a place. Say where: insert_before" bash -c run
+mod states "" stander.lua 'while true do end return patch "stander" {}'
+says "a patch that never ends" 0 "too long" bash -c run
+mod states "" stander.lua 'return replace "stander" { name = "stander", start = "Go", states = { Go = { steer = drift(1, 0) } } }'
+says "replace" 0 '"stander": {"Go": 2}' bash -c run
+mod states "" yard.yaml 'patch: yard
+groups: {g: ~, h: {behaviour: walker.lua, at: [[5, 5]], set: {goal: goal}}}'
+rm -f "$tree/scenes/mods/states/patches/stander.lua"
+says "a patch of the scene takes a group away and adds one" 0 '"agents": 1' bash -c run
+mkdir -p "$tree/scenes/mods/states/behaviours" "$tree/scenes/mods/states/scenes"; cp "$tree/behaviours/stander.lua" "$tree/scenes/mods/states/behaviours/post.lua"
+printf 'patch: yard\ngroups: {g: {behaviour: "states:post"}}\n' >"$tree/scenes/mods/states/patches/yard.yaml"
+says "a behaviour of the mod, by mod:name" 0 'mods/states/behaviours/post.lua' bash -c run
+printf 'patch: yard\ngroups: {g: {cont: 3}}\n' >"$tree/scenes/mods/states/patches/yard.yaml"
+says "a mistake in a patch of the scene has its place" 0 "states/patches/yard.yaml:2:14: unknown key 'cont' of a group. Did you mean 'count'?" bash -c run
+printf 'jostle: 1\nmods: {states: {}}\ngroups: {g: {behaviour: stander.lua, at: [[0, 0]]}}\n' >"$tree/scenes/named.yaml"
+sed -i 's/api: 1/api: 1\nenabled: false/' "$tree/scenes/mods/states/mod.yaml"
+(cd "$tree" && "$program" mod list scenes/named.yaml) | grep -q '. states 1.0'; verdict "a scene names its mods" $?
+
+# jostle new: what it writes passes the check and runs.
+mkdir "$work/new"
+(cd "$work/new" && "$program" new behaviour shy && "$program" new scene hall && "$program" new mod calm) >"$work/out" 2>&1; verdict "new writes a behaviour, a scene and a mod" $?
+says "they pass the check" 0 "nothing wrong" bash -c "cd $work/new && $program check ."
+says "the scene runs" 0 '"Go"' bash -c "cd $work/new && $program run hall.yaml --for 5 --quiet --summary -"
+says "the mod's scene runs with it" 0 '"calm 1.0.0"' bash -c "cd $work/new && $program run mods/calm/scenes/calm.yaml --mod mods/calm --for 5 --quiet --summary -"
+says "nothing is overwritten" 1 "is there already" bash -c "cd $work/new && $program new behaviour shy"
+says "a bad name" 2 "lower-case letters" "$JOSTLE" new scene ../up
+says "what is new?" 2 "a behaviour, a scene or a mod" "$JOSTLE" new world x
+exit 0

@@ -1,0 +1,151 @@
+/* Kinds of mistakes in behaviours, each with its exact place, its hint and the part of the sheet.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/mem.h"
+#include "lua/loader.h"
+
+typedef struct Mistake {
+    const char *text;
+    JoxSeverity severity;
+    int line, column, end;
+    const char *code, *says; /* says: in the message, the hint or the context */
+} Mistake;
+
+#define ERROR JOX_SEVERITY_ERROR
+#define WARNING JOX_SEVERITY_WARNING
+#define HEAD "return machine { name = \"m\", start = \"A\", states = {\n"
+static const Mistake MISTAKES[] = {
+    {"local n = 0\n" HEAD "A = { on_enter = function(me)\n  n = n + 1\nend } } }", ERROR, 4, 3, 4,
+     "assigned-upvalue", "memory"},
+    {"local n = 0\nlocal function count() n = n + 1 end\n" HEAD
+     "A = { on_enter = function() count() end } } }",
+     ERROR, 2, 24, 25, "assigned-upvalue", "'n'"},
+    {"local a = after(3)(4)\n" HEAD "A = {} } }", ERROR, 1, 16, 17, "bad-call", "cannot be called"},
+    {"local c = require \"../x\"\n" HEAD "A = {} } }", ERROR, 1, 19, 25, "bad-require",
+     "not a plain name"},
+    {"local c = require \"nowhere\"\n" HEAD "A = {} } }", ERROR, 1, 19, 28, "missing-file",
+     "nowhere"},
+    {HEAD "} }", ERROR, 1, 43, 49, "no-states", "at least one"},
+    {"return patch \"tawaf\" {}", ERROR, 1, 8, 13, "not-a-mod", "patches/"},
+    {"local x = settings.weight\n" HEAD "A = {} } }", ERROR, 1, 20, 26, "not-a-mod", "mods"},
+    {"local mine = memory { laps = 0 }\nlocal c = mine.lap:is(3)\n" HEAD "A = {} } }", ERROR, 2, 16,
+     19, "unknown-memory", "'laps'"},
+    {"local mine = memory { laps = 0 }\n" HEAD "A = { set = { lap = 3 } } } }", ERROR, 3, 15, 18,
+     "unknown-key", "'laps'"},
+    {HEAD "A = { counts = { laps = circuits \"k\" } } } }", ERROR, 2, 18, 22, "unknown-memory",
+     "memory { laps"},
+    {"local c = now.speed:abov(3)\n" HEAD "A = {} } }", ERROR, 1, 21, 25, "unknown-method",
+     "'above'"},
+    {"local c = count(\"k\"):in_state(\"A\")\n" HEAD "A = {} } }", ERROR, 1, 22, 30, "bad-operand",
+     "neighbours"},
+    {HEAD "A = { { to = \"B\", when = after(1) } },\nB = { { to = \"A\" } },\nC = { { to = \"A\" } "
+          "} } }",
+     WARNING, 4, 1, 2, "unreachable-state", "'C'"},
+    {HEAD "A = { { to = \"B\", when = after(1) } },\nB = { steer = drift(1, 0) } } }", WARNING, 3,
+     1, 2, "no-way-out", "removes"},
+    {"local x = \n" HEAD "A = {} } }", ERROR, 2, 1, 7, "lua-error", "unexpected symbol"},
+    {HEAD "A = { signal = 3 } } }", ERROR, 2, 7, 13, "bad-value", "a signal is a name"},
+    {HEAD "A = { signal = { \"x\", every = 0 } } } }", ERROR, 2, 7, 13, "out-of-range", "every"},
+    {HEAD "A = { throw = { nearest \"ball\", speed = 4 } } } }", ERROR, 2, 7, 12, "missing-key",
+     "`at`"},
+    {HEAD "A = { throw = { nearest \"ball\", at = \"x\" } } } }", ERROR, 2, 7, 12, "missing-key",
+     "`speed`"},
+    {HEAD "A = { kick = { at = \"x\", impulse = 3 } } } }", ERROR, 2, 7, 11, "bad-value",
+     "first item"},
+    {HEAD "A = { become = 3 } } }", ERROR, 2, 7, 13, "bad-value", "name of a behaviour"},
+    {HEAD "A = { steer = seek(goal) * seek(goal) } } }", ERROR, 2, 26, 27, "bad-operand",
+     "steering"},
+    {HEAD "A = { steer = follow(goal, after(1)) } } }", ERROR, 2, 15, 21, "bad-argument", "plain"},
+    {HEAD "A = { lasts = \"long\" } } }", ERROR, 2, 7, 12, "bad-value", "number"},
+    {HEAD "A = { push_weight = \"most\" } } }", ERROR, 2, 7, 18, "bad-value", "nearest"},
+    {HEAD "A = { { to = \"A\", chance = 2 } } } }", ERROR, 2, 19, 25, "out-of-range",
+     "transition 1 (to A)"},
+    {HEAD "A = { { to = \"A\", when = after(1) | stuk(15) } } } }", ERROR, 2, 37, 41,
+     "unknown-word", "machine m > state A > transition 1 (to A)"},
+    {HEAD "A = {},\n[3] = {} } }", ERROR, 1, 43, 49, "bad-value", "names"},
+    {HEAD "A = 3 } }", ERROR, 2, 1, 2, "bad-value", "tables"},
+    {"return machine { start = \"A\", states = { A = {} } }", ERROR, 0, 0, 0, "missing-key",
+     "name"},
+    {"return machine { name = \"m\", start = \"B\", states = { A = {} } }", ERROR, 1, 30, 35,
+     "unknown-state", "'B'"},
+    {"return machine { name = \"m\", start = \"A\", defaults = 3, states = { A = {} } }", ERROR, 1,
+     42, 50, "bad-value", "table"},
+    {"return machine { name = \"m\", start = \"A\", renamed = { B = 3 }, states = { A = {} } }",
+     ERROR, 1, 43, 50, "bad-value", "old names"},
+    {"local w = heard(3)\n" HEAD "A = {} } }", ERROR, 1, 11, 16, "bad-argument", "a name"},
+    {"local w = neighbours(3)\n" HEAD "A = {} } }", ERROR, 1, 11, 21, "bad-argument", "a tag"},
+    {"local w = after(1, 2)\n" HEAD "A = {} } }", ERROR, 1, 11, 16, "bad-argument", "1 argument"},
+    {"local w = orbit(\"k\", { inwards = 2 })\n" HEAD "A = {} } }", ERROR, 1, 24, 31,
+     "bad-argument", "'inwards'"},
+};
+
+static void each_kind_of_mistake_has_its_place(void **state) {
+    (void)state;
+    int wrong = 0;
+    for (size_t i = 0; i < sizeof MISTAKES / sizeof *MISTAKES; i++) {
+        const Mistake *m = &MISTAKES[i];
+        JoxDiagnostics diagnostics = {0};
+        JoxLua *lua = jox_lua_create(NULL);
+        jox_machine_free(
+            jox_lua_load_text(lua, "t.lua", m->text, strlen(m->text), NULL, &diagnostics));
+        bool found = false;
+        for (size_t d = 0; d < diagnostics.count; d++) {
+            const JoxDiagnostic *item = &diagnostics.items[d];
+            found |=
+                item->severity == m->severity && item->line == m->line &&
+                item->column == m->column && item->end_column == m->end &&
+                !strcmp(item->code, m->code) &&
+                (strstr(item->message, m->says) || (item->hint && strstr(item->hint, m->says)) ||
+                 (item->context && strstr(item->context, m->says)));
+        }
+        if (!found) {
+            JoxText text = {0};
+            jox_diag_json(&diagnostics, &text);
+            printf("wanted %d:%d-%d %s '%s' for\n%s\ngot %s\n", m->line, m->column, m->end, m->code,
+                   m->says, m->text, text.data);
+            jox_text_free(&text);
+            wrong++;
+        }
+        jox_diag_free(&diagnostics);
+        jox_lua_free(lua);
+    }
+    assert_int_equal(wrong, 0);
+}
+
+/* The shape of an error as people see it. */
+static void an_error_is_shown_in_full(void **state) {
+    (void)state;
+    static const char SHEET[] =
+        "return machine { name = \"tawaf\", start = \"ToStone\", states = {\n"
+        "  ToStone = {\n"
+        "    { to = \"ToStone\", when = after(90) | stuk(15) } } } }";
+    static const char SHOWN[] =
+        "behaviours/t.lua:3:42: unknown word 'stuk'. Did you mean 'stuck'?\n"
+        "    3 |     { to = \"ToStone\", when = after(90) | stuk(15) } } } }\n"
+        "      |                                          ^^^^\n"
+        " machine tawaf > state ToStone > transition 1 (to ToStone)\n";
+    JoxDiagnostics diagnostics = {0};
+    JoxText text = {0};
+    JoxLua *lua = jox_lua_create(NULL);
+    assert_null(
+        jox_lua_load_text(lua, "behaviours/t.lua", SHEET, strlen(SHEET), NULL, &diagnostics));
+    jox_diag_print(&diagnostics, &text);
+    assert_string_equal(text.data, SHOWN);
+    jox_text_free(&text);
+    jox_diag_free(&diagnostics);
+    jox_lua_free(lua);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(each_kind_of_mistake_has_its_place),
+                                       cmocka_unit_test(an_error_is_shown_in_full)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
