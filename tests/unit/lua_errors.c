@@ -77,7 +77,7 @@ static const Mistake MISTAKES[] = {
     {"return machine { name = \"m\", start = \"B\", states = { A = {} } }", ERROR, 1, 30, 35,
      "unknown-state", "'B'"},
     {"return machine { name = \"m\", start = \"A\", defaults = 3, states = { A = {} } }", ERROR, 1,
-     42, 50, "bad-value", "table"},
+     43, 51, "bad-value", "table"},
     {"return machine { name = \"m\", start = \"A\", renamed = { B = 3 }, states = { A = {} } }",
      ERROR, 1, 43, 50, "bad-value", "old names"},
     {"local w = heard(3)\n" HEAD "A = {} } }", ERROR, 1, 11, 16, "bad-argument", "a name"},
