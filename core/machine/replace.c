@@ -16,9 +16,11 @@ struct JoxReplacement {
     bool own_moves, memory_moves, states_move;
     int8_t (*truth)[JOX_MOST_TRANSITIONS]; /* old state: next transition -> old, or -1 */
     bool *truth_moves;                     /* per old state */
-    uint32_t *changed; /* old state: bit per parameter that the next one sets otherwise */
-    bool *tags_change; /* old state: ignore or push_only differ */
-    double **drawn;    /* next slot: values by id, or NULL where the old one goes on */
+    uint32_t *changed;      /* old state: bit per parameter that the next one sets otherwise */
+    const JoxValue **value; /* old state, parameter: what the next one writes; NULL where nothing */
+    uint32_t changed_all;   /* bit per parameter that some state changes */
+    bool *tags_change;      /* old state: ignore or push_only differ */
+    double **drawn;         /* next slot: values by id, or NULL where the old one goes on */
     uint32_t drawn_count;
     bool draws;
     double *before; /* one agent's row as it was */
@@ -109,6 +111,12 @@ static void map_state(JoxReplacement *r, uint32_t from) {
         if (!same_value(r, jox_state_parameter(r->old, was, p),
                         jox_state_parameter(r->next, is, p)))
             r->changed[from] |= 1u << p;
+    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+        const JoxValue *value = jox_state_parameter(r->next, is, p);
+        if ((r->changed[from] >> p & 1) && value->kind != JOX_VALUE_PROGRAM)
+            r->value[from * JOX_PARAM_COUNT + (uint32_t)p] = value;
+    }
+    r->changed_all |= r->changed[from];
     r->tags_change[from] = was->ignore != is->ignore || was->push_only != is->push_only;
     r->truth_moves[from] = was->transition_count != is->transition_count;
     for (uint32_t k = 0; k < JOX_MOST_TRANSITIONS; k++) {
@@ -131,6 +139,7 @@ JoxReplacement *jox_replacement_prepare(const JoxMachine *old, JoxMachine *next,
     r->truth = jox_alloc(states + 1, sizeof *r->truth);
     r->truth_moves = jox_alloc(states + 1, sizeof *r->truth_moves);
     r->changed = jox_alloc(states + 1, sizeof *r->changed);
+    r->value = jox_alloc((states + 1) * JOX_PARAM_COUNT, sizeof *r->value);
     r->tags_change = jox_alloc(states + 1, sizeof *r->tags_change);
     r->own = jox_alloc(next->own_count + 1, sizeof *r->own);
     r->memory = jox_alloc(next->memory_count + 1, sizeof *r->memory);
@@ -155,6 +164,7 @@ void jox_replacement_free(JoxReplacement *r) {
     jox_free(r->truth);
     jox_free(r->truth_moves);
     jox_free(r->changed);
+    jox_free(r->value);
     jox_free(r->tags_change);
     jox_free(r);
 }
@@ -202,14 +212,17 @@ static void carry_own(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
     a->given[i] = now;
 }
 
-/* One slot drawn afresh for all whose value came from the machine. */
-static void draw_slot(JoxMind *mind, const JoxReplacement *r, uint32_t index, uint32_t slot) {
+/* One slot drawn afresh for those from `begin` to `end` whose value came from the machine. */
+static void draw_slot(JoxMind *mind, const JoxReplacement *r, uint32_t index, uint32_t slot,
+                      uint32_t begin, uint32_t end) {
+    enum { AHEAD = 12 }; /* agents: their rows lie far apart, and are asked for in time */
     JoxAgents *a = mind->agents;
     const JoxDist *dist = &r->next->own[slot].dist;
     const double *drawn = r->drawn[slot];
     uint64_t bit = slot < 64 ? (uint64_t)1 << slot : 0;
     double *own = a->own + slot;
-    for (uint32_t i = 0; i < a->count; i++) {
+    for (uint32_t i = begin; i < end; i++) {
+        __builtin_prefetch(own + (size_t)(i + AHEAD) * a->own_stride, 1);
         if (a->machine[i] != index || (a->given[i] & bit))
             continue;
         own[(size_t)i * a->own_stride] =
@@ -242,25 +255,36 @@ static void carry_agent(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
     }
     if (r->memory_moves)
         carry_memory(mind, r, i);
-    const JoxState *state = &r->next->states[is];
-    for (uint32_t bits = r->changed[was]; bits; bits &= bits - 1) {
-        int p = __builtin_ctz(bits);
-        const JoxValue *value = jox_state_parameter(r->next, state, p);
-        if (value->kind == JOX_VALUE_PROGRAM)
+    if (r->tags_change[was]) {
+        a->ignore[i] = r->next->states[is].ignore;
+        a->push_only[i] = r->next->states[is].push_only;
+    }
+}
+
+/* One parameter of those from `begin` to `end` whose state sets it otherwise; they are still in
+   their old states. */
+static void write_parameter(JoxMind *mind, const JoxReplacement *r, uint32_t index, int p,
+                            uint32_t begin, uint32_t end) {
+    JoxAgents *a = mind->agents;
+    const JoxParameterInfo *info = &jox_parameters[p];
+    bool angle = p == JOX_PARAM_push_angle || p == JOX_PARAM_brace_angle;
+    for (uint32_t i = begin; i < end; i++) {
+        if (a->machine[i] != index)
+            continue;
+        const JoxValue *value = r->value[a->state[i] * JOX_PARAM_COUNT + (uint32_t)p];
+        if (!value)
             continue;
         double number = value->kind == JOX_VALUE_CONST ? value->number
                         : value->kind == JOX_VALUE_OWN
                             ? a->own[(size_t)i * a->own_stride + (uint32_t)value->index]
-                            : jox_parameters[p].value;
-        a->param[p][i] = jox_parameter_store((JoxParameter)p, number);
-    }
-    if (r->tags_change[was]) {
-        a->ignore[i] = state->ignore;
-        a->push_only[i] = state->push_only;
+                            : info->value;
+        bool plain = !angle && number >= info->least && number <= info->greatest;
+        a->param[p][i] = plain ? (float)number : jox_parameter_store((JoxParameter)p, number);
     }
 }
 
 JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, const JoxReplacement *r) {
+    enum { BLOCK = 256 };
     JoxMachine *old = mind->machines[index], *next = r->next;
     JoxAgents *a = mind->agents;
     jox_agents_widen(a, next->own_count, next->memory_count);
@@ -270,14 +294,21 @@ JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, const JoxReplacement
     for (uint32_t i = 0; r->own_moves && i < a->count; i++)
         if (a->machine[i] == index)
             carry_own(mind, r, i);
-    for (uint32_t s = 0; r->draws && s < next->own_count; s++)
-        if (r->drawn[s])
-            draw_slot(mind, r, index, s);
     bool any = r->memory_moves || r->states_move;
     for (uint32_t s = 0; s < old->state_count; s++)
-        any |= r->changed[s] || r->truth_moves[s] || r->tags_change[s];
-    for (uint32_t i = 0; any && i < a->count; i++)
-        if (a->machine[i] == index)
-            carry_agent(mind, r, i);
+        any |= r->truth_moves[s] || r->tags_change[s];
+    /* A block at a time: what one loop has fetched the next finds near. */
+    for (uint32_t begin = 0; (any || r->draws || r->changed_all) && begin < a->count;
+         begin += BLOCK) {
+        uint32_t end = begin + BLOCK < a->count ? begin + BLOCK : a->count;
+        for (uint32_t s = 0; r->draws && s < next->own_count; s++)
+            if (r->drawn[s])
+                draw_slot(mind, r, index, s, begin, end);
+        for (uint32_t bits = r->changed_all; bits; bits &= bits - 1)
+            write_parameter(mind, r, index, __builtin_ctz(bits), begin, end);
+        for (uint32_t i = begin; any && i < end; i++)
+            if (a->machine[i] == index)
+                carry_agent(mind, r, i);
+    }
     return old;
 }
