@@ -174,8 +174,12 @@ static void load_change(JoxReload *r, Batch *batch, uint32_t c) {
         jox_files_add(&batch->changes[c].files, tried[f]);
     batch->changes[c].loaded = loaded;
     jox_text_add(&batch->said, jox_loaded_said(loaded));
-    if (jox_loaded_machine(loaded))
-        add_becomes(r, batch, c, jox_loaded_machine(loaded));
+    const JoxMachine *next = jox_loaded_machine(loaded);
+    const JoxLuaFile *files = jox_loaded_files(loaded, &count);
+    if (next)
+        jox_host_check_own(scene, next, files, count, &batch->diagnostics);
+    if (next)
+        add_becomes(r, batch, c, next);
     else
         batch->failed = true;
     for (uint32_t f = 0; f < batch->changes[c].files.count; f++)
@@ -304,6 +308,22 @@ static void link_batch(JoScene *scene, Batch *batch) {
     }
 }
 
+/* Own values that the old version did not have, as the scene sets them. */
+static void give_new(JoScene *scene, const Change *change, const JoxMachine *old,
+                     const JoxMachine *next) {
+    const JoxScene *plan = scene->plan;
+    for (uint32_t s = 0; s < next->own_count; s++) {
+        bool known = !*next->own[s].name;
+        for (uint32_t o = 0; o < old->own_count && !known; o++)
+            known = strcmp(old->own[o].name, next->own[s].name) == 0;
+        for (uint32_t g = 0; g < plan->group_count && !known; g++)
+            for (uint32_t k = 0; k < plan->groups[g].set_count; k++)
+                if (strcmp(plan->groups[g].set[k].name, next->own[s].name) == 0 &&
+                    plan->groups[g].set[k].kind != JOX_SET_ANTIPODE)
+                    jox_host_give(scene, (int32_t)change->index, g, &plan->groups[g].set[k]);
+    }
+}
+
 /* Swaps the machines of a batch; the old ones go to `retired`. */
 static void swap(JoScene *scene, Batch *batch, Retired *retired) {
     JoxMind *mind = &scene->world->mind;
@@ -318,6 +338,7 @@ static void swap(JoScene *scene, Batch *batch, Retired *retired) {
         jox_mind_census(mind, change->index, before);
         JoxMachine *next = jox_loaded_machine(change->loaded);
         JoxMachine *old = jox_mind_replace(mind, change->index, change->replacement);
+        give_new(scene, change, old, next);
         retired->machines[retired->count++] = jox_lua_retire(scene->lua, old);
         jox_lua_adopt(scene->lua, change->loaded);
         jox_mind_census(mind, change->index, after);

@@ -78,6 +78,22 @@ static bool same_dist(const JoxDist *a, const JoxDist *b) {
     return a->b == b->b && (a->kind == JOX_DIST_UNIFORM || (a->lo == b->lo && a->hi == b->hi));
 }
 
+/* What a scene gave stays with the agents, though this version does not look at it: a line that is
+   taken out and put back changes nothing. */
+static void keep_given(const JoxMachine *old, JoxMachine *next) {
+    for (uint32_t o = 0; o < old->own_count; o++) {
+        const JoxOwnSlot *slot = &old->own[o];
+        bool known = !*slot->name || jox_parameter_find(slot->name) >= 0;
+        for (uint32_t s = 0; s < next->own_count && !known; s++)
+            known = strcmp(next->own[s].name, slot->name) == 0;
+        if (known)
+            continue;
+        next->own = jox_realloc(next->own, next->own_count + 1, sizeof *next->own);
+        next->own[next->own_count] = *slot;
+        next->own[next->own_count++].name = jox_strdup(slot->name);
+    }
+}
+
 static void map_slots(JoxReplacement *r, uint64_t seed) {
     const JoxMachine *old = r->old, *next = r->next;
     r->own_moves = false;
@@ -150,6 +166,7 @@ JoxReplacement *jox_replacement_prepare(const JoxMachine *old, JoxMachine *next,
                                         uint32_t next_id) {
     JoxReplacement *r = jox_alloc(1, sizeof *r);
     uint32_t states = old->state_count;
+    keep_given(old, next);
     r->old = old;
     r->next = next;
     r->drawn_count = next_id;

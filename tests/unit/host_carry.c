@@ -199,6 +199,8 @@ static void values_that_move_are_carried(void **state) {
         step(scene, 1);
         for (uint32_t i = 0; i < 40; i++)
             assert_true((double)a->param[JOX_PARAM_push][i] == push[a->id[i]]);
+        for (uint32_t i = 0; i < 40 && ORDER[k] == 0; i++) /* as given, after it was away */
+            assert_true(a->param[JOX_PARAM_mass][i] == 53.0f);
     }
     assert_true(moved);
     jo_scene_free(scene);
