@@ -2,6 +2,7 @@
    that is made of them into fresh Lua states, and works out what it takes to put the new machines
    in the place of the old. The stepping thread finds it ready between two steps, and swaps all of
    it or nothing. */
+#include <errno.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -80,9 +81,9 @@ static void free_batch(Batch *batch) {
 
 /* ---- the loading thread ---- */
 
-static void use(JoxReload *r, uint32_t part, const char *path) {
+static bool use(JoxReload *r, uint32_t part, const char *path) {
     jox_changes_uses(&r->changes, part, path);
-    jox_watch_add(r->watch, path);
+    return jox_watch_add(r->watch, path);
 }
 
 /* What a batch is made of counts from here on; if it could not go live, that counts too. */
@@ -403,6 +404,11 @@ void jox_host_reload(JoScene *scene) {
     atomic_store(&r->ready, 0); /* the loading thread may compare again */
 }
 
+static void use_first(JoxReload *r, uint32_t part, const char *path) {
+    if (!use(r, part, path))
+        jox_host_say(r->scene, "%s cannot be watched: %s\n", path, strerror(errno));
+}
+
 bool jo_scene_watch(JoScene *scene, JoError *error) {
     if (scene->reload)
         return true;
@@ -419,10 +425,10 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
         uint32_t count;
         char *const *tried = jox_lua_tried(scene->lua, mind->machines[m], &count);
         for (uint32_t f = 0; f < count; f++)
-            use(r, m, tried[f]);
+            use_first(r, m, tried[f]);
     }
     for (uint32_t f = 0; watch && f < scene->plan_file_count; f++)
-        use(r, JOX_PART_PLAN, scene->plan_files[f]);
+        use_first(r, JOX_PART_PLAN, scene->plan_files[f]);
     scene->reload = r;
     if (stop >= 0 && pthread_create(&r->thread, NULL, load_for_ever, r) == 0)
         return true;
