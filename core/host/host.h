@@ -72,6 +72,9 @@ JoxScene *jox_host_load_plan(const JoSceneDef *def, const JoxMods *mods, uint32_
 bool jox_host_load_machines(JoScene *scene, int32_t *culprit, JoxDiagnostics *diagnostics);
 /* What machines expect of each other and of the scene: signals, states, own values. */
 void jox_host_check_names(const JoScene *scene, JoxDiagnostics *diagnostics);
+/* Of that, the own values of one machine that is made of the files. */
+void jox_host_check_own(const JoScene *scene, const JoxMachine *machine, const JoxLuaFile *files,
+                        uint32_t count, JoxDiagnostics *diagnostics);
 /* Index of the machine of a file, loaded where it is not there yet; -1 with diagnostics. */
 int32_t jox_host_machine(JoScene *scene, const char *path, JoxDiagnostics *diagnostics);
 /* Finds the machines that states of machine become; false with diagnostics. */
@@ -87,7 +90,10 @@ bool jox_host_find_become(const JoScene *scene, const JoxMachine *machine, uint3
 typedef struct JoxReload JoxReload;
 void jox_host_reload(JoScene *scene);
 void jox_host_unwatch(JoScene *scene);
-/* rescene.c: takes over from a new plan of the scene what can change while it runs, and says what
+/* rescene.c: gives the living of a group a value that their scene sets, in one machine or (-1) in
+   whichever they are. */
+void jox_host_give(JoScene *scene, int32_t machine, uint32_t group, const JoxSceneSet *set);
+/* Takes over from a new plan of the scene what can change while it runs, and says what
    cannot. *plan is then the old one. */
 void jox_host_rescene(JoScene *scene, JoxScene **plan, double written);
 /* results.c: what is collected each step, and how it ends. */

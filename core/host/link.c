@@ -141,8 +141,20 @@ static bool given(const JoScene *scene, const JoxMachine *machine, const char *n
     return !runs; /* something else becomes it, and brings its own values */
 }
 
-static void check_own(const JoScene *scene, const JoxMachine *machine,
-                      JoxDiagnostics *diagnostics) {
+/* Shows the line of an error that is in a behaviour's file. */
+static void attach(const JoxLuaFile *files, uint32_t count, JoxDiagnostics *diagnostics) {
+    for (uint32_t f = 0; f < count; f++) {
+        size_t length;
+        char *text = jox_read_file(files[f].path, 1 << 20, &length);
+        if (text)
+            jox_diag_attach_source(diagnostics, files[f].path, text, length);
+        jox_free(text);
+    }
+}
+
+void jox_host_check_own(const JoScene *scene, const JoxMachine *machine, const JoxLuaFile *files,
+                        uint32_t count, JoxDiagnostics *diagnostics) {
+    size_t before = diagnostics->count;
     for (uint32_t o = 0; o < machine->own_count; o++) {
         const JoxOwnSlot *slot = &machine->own[o];
         if (!*slot->name || jox_parameter_find(slot->name) >= 0 ||
@@ -153,8 +165,6 @@ static void check_own(const JoScene *scene, const JoxMachine *machine,
         for (int p = 0; p < JOX_PARAM_COUNT; p++)
             names[p] = jox_parameters[p].name;
         near = jox_suggest(slot->name, names, JOX_PARAM_COUNT);
-        uint32_t count;
-        const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
         const char *file = slot->source < count ? files[slot->source].path : machine->path;
         snprintf(hint, sizeof hint,
                  near ? "Did you mean 'own.%.60s'?" : "In the scene's group: set: {%.60s: ...}",
@@ -164,19 +174,8 @@ static void check_own(const JoScene *scene, const JoxMachine *machine,
             "unknown-value", hint, "'%.60s' is no parameter, and no group that runs %s sets it",
             slot->name, machine->name);
     }
-}
-
-/* Shows the line of an error that is in a behaviour's file. */
-static void attach(const JoScene *scene, const JoxMachine *machine, JoxDiagnostics *diagnostics) {
-    uint32_t count;
-    const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
-    for (uint32_t f = 0; f < count; f++) {
-        size_t length;
-        char *text = jox_read_file(files[f].path, 1 << 20, &length);
-        if (text)
-            jox_diag_attach_source(diagnostics, files[f].path, text, length);
-        jox_free(text);
-    }
+    if (diagnostics->count > before)
+        attach(files, count, diagnostics);
 }
 
 void jox_host_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
@@ -184,8 +183,10 @@ void jox_host_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
     for (uint32_t m = 0; m < mind->machine_count; m++) {
         const JoxMachine *machine = mind->machines[m];
         const JoxPosition at = {machine->path, 0, 0, 0};
+        uint32_t count;
+        const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
         size_t before = diagnostics->count;
-        check_own(scene, machine, diagnostics);
+        jox_host_check_own(scene, machine, files, count, diagnostics);
         for (uint32_t n = 0; n < machine->name_count; n++) {
             const JoxName *name = &machine->names[n];
             bool heard = name->uses & JOX_NAME_HEARD, state = name->uses & JOX_NAME_STATE;
@@ -197,6 +198,6 @@ void jox_host_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
                               "no machine of the scene has a state '%s'", name->text);
         }
         if (diagnostics->count > before)
-            attach(scene, machine, diagnostics);
+            attach(files, count, diagnostics);
     }
 }

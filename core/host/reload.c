@@ -2,6 +2,7 @@
    that is made of them into fresh Lua states, and works out what it takes to put the new machines
    in the place of the old. The stepping thread finds it ready between two steps, and swaps all of
    it or nothing. */
+#include <errno.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -80,9 +81,9 @@ static void free_batch(Batch *batch) {
 
 /* ---- the loading thread ---- */
 
-static void use(JoxReload *r, uint32_t part, const char *path) {
+static bool use(JoxReload *r, uint32_t part, const char *path) {
     jox_changes_uses(&r->changes, part, path);
-    jox_watch_add(r->watch, path);
+    return jox_watch_add(r->watch, path);
 }
 
 /* What a batch is made of counts from here on; if it could not go live, that counts too. */
@@ -174,8 +175,12 @@ static void load_change(JoxReload *r, Batch *batch, uint32_t c) {
         jox_files_add(&batch->changes[c].files, tried[f]);
     batch->changes[c].loaded = loaded;
     jox_text_add(&batch->said, jox_loaded_said(loaded));
-    if (jox_loaded_machine(loaded))
-        add_becomes(r, batch, c, jox_loaded_machine(loaded));
+    const JoxMachine *next = jox_loaded_machine(loaded);
+    const JoxLuaFile *files = jox_loaded_files(loaded, &count);
+    if (next)
+        jox_host_check_own(scene, next, files, count, &batch->diagnostics);
+    if (next)
+        add_becomes(r, batch, c, next);
     else
         batch->failed = true;
     for (uint32_t f = 0; f < batch->changes[c].files.count; f++)
@@ -304,6 +309,22 @@ static void link_batch(JoScene *scene, Batch *batch) {
     }
 }
 
+/* Own values that the old version did not have, as the scene sets them. */
+static void give_new(JoScene *scene, const Change *change, const JoxMachine *old,
+                     const JoxMachine *next) {
+    const JoxScene *plan = scene->plan;
+    for (uint32_t s = 0; s < next->own_count; s++) {
+        bool known = !*next->own[s].name;
+        for (uint32_t o = 0; o < old->own_count && !known; o++)
+            known = strcmp(old->own[o].name, next->own[s].name) == 0;
+        for (uint32_t g = 0; g < plan->group_count && !known; g++)
+            for (uint32_t k = 0; k < plan->groups[g].set_count; k++)
+                if (strcmp(plan->groups[g].set[k].name, next->own[s].name) == 0 &&
+                    plan->groups[g].set[k].kind != JOX_SET_ANTIPODE)
+                    jox_host_give(scene, (int32_t)change->index, g, &plan->groups[g].set[k]);
+    }
+}
+
 /* Swaps the machines of a batch; the old ones go to `retired`. */
 static void swap(JoScene *scene, Batch *batch, Retired *retired) {
     JoxMind *mind = &scene->world->mind;
@@ -318,6 +339,7 @@ static void swap(JoScene *scene, Batch *batch, Retired *retired) {
         jox_mind_census(mind, change->index, before);
         JoxMachine *next = jox_loaded_machine(change->loaded);
         JoxMachine *old = jox_mind_replace(mind, change->index, change->replacement);
+        give_new(scene, change, old, next);
         retired->machines[retired->count++] = jox_lua_retire(scene->lua, old);
         jox_lua_adopt(scene->lua, change->loaded);
         jox_mind_census(mind, change->index, after);
@@ -382,6 +404,11 @@ void jox_host_reload(JoScene *scene) {
     atomic_store(&r->ready, 0); /* the loading thread may compare again */
 }
 
+static void use_first(JoxReload *r, uint32_t part, const char *path) {
+    if (!use(r, part, path))
+        jox_host_say(r->scene, "%s cannot be watched: %s\n", path, strerror(errno));
+}
+
 bool jo_scene_watch(JoScene *scene, JoError *error) {
     if (scene->reload)
         return true;
@@ -398,10 +425,10 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
         uint32_t count;
         char *const *tried = jox_lua_tried(scene->lua, mind->machines[m], &count);
         for (uint32_t f = 0; f < count; f++)
-            use(r, m, tried[f]);
+            use_first(r, m, tried[f]);
     }
     for (uint32_t f = 0; watch && f < scene->plan_file_count; f++)
-        use(r, JOX_PART_PLAN, scene->plan_files[f]);
+        use_first(r, JOX_PART_PLAN, scene->plan_files[f]);
     scene->reload = r;
     if (stop >= 0 && pthread_create(&r->thread, NULL, load_for_ever, r) == 0)
         return true;

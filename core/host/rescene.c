@@ -108,12 +108,12 @@ static bool same_dist(const JoxDist *a, const JoxDist *b) {
            !memcmp(a->values, b->values, (size_t)a->choices * sizeof *a->values);
 }
 
-/* Gives the living of a group a value that its scene sets otherwise now. */
-static void set_value(Rescene *r, uint32_t group, const JoxSceneSet *set) {
-    JoxMind *mind = &r->scene->world->mind;
+void jox_host_give(JoScene *scene, int32_t which, uint32_t group, const JoxSceneSet *set) {
+    JoxMind *mind = &scene->world->mind;
     JoxAgents *a = mind->agents;
     for (uint32_t i = 0; i < a->count; i++) {
-        if (a->group[i] != group || a->machine[i] == JOX_NO_MACHINE)
+        if (a->group[i] != group || a->machine[i] == JOX_NO_MACHINE ||
+            (which >= 0 && a->machine[i] != which))
             continue;
         const JoxMachine *machine = mind->machines[a->machine[i]];
         for (uint32_t s = 0; s < machine->own_count; s++) {
@@ -152,7 +152,7 @@ static bool take_groups(Rescene *r) {
                         same_dist(&before->dist, &set->dist);
             if (same || set->kind == JOX_SET_ANTIPODE)
                 continue;
-            set_value(r, g, set);
+            jox_host_give(r->scene, -1, g, set);
             set_any = true;
         }
     }

@@ -98,7 +98,9 @@ bool jox_watch_add(JoxWatch *watch, const char *path) {
     *file = (WatchedFile){.path = jox_strdup(path)};
     file->name = slash ? file->path + (slash - path) + 1 : file->path;
     if (!watch_folder(watch, file)) {
+        int why = errno;
         jox_free(file->path);
+        errno = why;
         return false;
     }
     watch->count++;

@@ -136,6 +136,11 @@ char *const *jox_lua_tried(const JoxLua *lua, const JoxMachine *machine, uint32_
     return vm ? vm->tried : NULL;
 }
 
+const JoxLuaFile *jox_loaded_files(const JoxLoaded *loaded, uint32_t *count) {
+    *count = loaded->vm ? loaded->vm->file_count : 0;
+    return loaded->vm ? loaded->vm->files : NULL;
+}
+
 const char *jox_loaded_said(const JoxLoaded *loaded) {
     return loaded->vm && loaded->vm->printed_text.data ? loaded->vm->printed_text.data : "";
 }

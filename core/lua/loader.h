@@ -70,6 +70,8 @@ JoxMachine *jox_loaded_machine(const JoxLoaded *loaded);
 char *const *jox_loaded_tried(const JoxLoaded *loaded, uint32_t *count);
 /* What was printed while loading; "" for nothing. */
 const char *jox_loaded_said(const JoxLoaded *loaded);
+/* As jox_lua_files, before it is adopted. */
+const struct JoxLuaFile *jox_loaded_files(const JoxLoaded *loaded, uint32_t *count);
 /* The machine's functions can be called from here on; the machine is the caller's. */
 void jox_lua_adopt(JoxLua *lua, JoxLoaded *loaded);
 /* The reverse: machine and Lua state, in one piece, to be freed on any thread. */

@@ -7,22 +7,34 @@
 #include "base/mem.h"
 #include "machine/internal.h"
 
+enum { AHEAD = 12 }; /* agents */
+
+/* A parameter that agents of a state get with the new version. */
+typedef struct Assignment {
+    int parameter;
+    int32_t own; /* slot that holds it; -1: the same for all */
+    float value; /* as it is stored */
+} Assignment;
+
 struct JoxReplacement {
     const JoxMachine *old;
     JoxMachine *next;
     int32_t *state;  /* old state -> next, or -1 */
     int32_t *own;    /* next slot -> old, or -1 */
+    uint32_t *moved; /* next slots that go on from another one */
+    uint32_t moved_count;
     int32_t *memory; /* next slot -> old of the same type, or -1 */
     bool own_moves, memory_moves, states_move;
     int8_t (*truth)[JOX_MOST_TRANSITIONS]; /* old state: next transition -> old, or -1 */
     bool *truth_moves;                     /* per old state */
-    uint32_t *changed;      /* old state: bit per parameter that the next one sets otherwise */
-    const JoxValue **value; /* old state, parameter: what the next one writes; NULL where nothing */
-    uint32_t changed_all;   /* bit per parameter that some state changes */
-    bool *tags_change;      /* old state: ignore or push_only differ */
-    double **drawn;         /* next slot: values by id, or NULL where the old one goes on */
+    Assignment (*assign)[JOX_PARAM_COUNT]; /* old state: what the next one sets otherwise */
+    uint32_t *assign_count;
+    bool *tags_change; /* old state: ignore or push_only differ */
+    uint32_t *redrawn; /* next slots that are drawn afresh */
+    uint32_t redrawn_count;
+    bool *is_redrawn; /* per next slot */
+    double *drawn;    /* id by id, a value for each of those slots */
     uint32_t drawn_count;
-    bool draws;
     double *before; /* one agent's row as it was */
 };
 
@@ -66,19 +78,41 @@ static bool same_dist(const JoxDist *a, const JoxDist *b) {
     return a->b == b->b && (a->kind == JOX_DIST_UNIFORM || (a->lo == b->lo && a->hi == b->hi));
 }
 
+/* What a scene gave stays with the agents, though this version does not look at it: a line that is
+   taken out and put back changes nothing. */
+static void keep_given(const JoxMachine *old, JoxMachine *next) {
+    for (uint32_t o = 0; o < old->own_count; o++) {
+        const JoxOwnSlot *slot = &old->own[o];
+        bool known = !*slot->name || jox_parameter_find(slot->name) >= 0;
+        for (uint32_t s = 0; s < next->own_count && !known; s++)
+            known = strcmp(next->own[s].name, slot->name) == 0;
+        if (known)
+            continue;
+        next->own = jox_realloc(next->own, next->own_count + 1, sizeof *next->own);
+        next->own[next->own_count] = *slot;
+        next->own[next->own_count++].name = jox_strdup(slot->name);
+    }
+}
+
 static void map_slots(JoxReplacement *r, uint64_t seed) {
     const JoxMachine *old = r->old, *next = r->next;
     r->own_moves = false;
     for (uint32_t s = 0; s < next->own_count; s++) {
         r->own[s] = own_before(old, next, s);
         r->own_moves |= r->own[s] != (int32_t)s;
+        if (r->own[s] >= 0 && r->own[s] != (int32_t)s)
+            r->moved[r->moved_count++] = s;
         if (r->own[s] >= 0 && same_dist(&old->own[r->own[s]].dist, &next->own[s].dist))
             continue;
-        r->draws = true;
-        bool constant = next->own[s].dist.kind == JOX_DIST_CONSTANT;
-        r->drawn[s] = jox_alloc(constant ? 1 : r->drawn_count + 1, sizeof **r->drawn);
-        for (uint32_t id = 0; !constant && id < r->drawn_count; id++)
-            r->drawn[s][id] = jox_dist_draw(&next->own[s].dist, seed, id, 0, JOX_DRAW_OWN, s);
+        r->is_redrawn[s] = true;
+        r->redrawn[r->redrawn_count++] = s;
+    }
+    r->drawn = jox_alloc((size_t)r->drawn_count * r->redrawn_count + 1, sizeof *r->drawn);
+    for (uint32_t d = 0; d < r->redrawn_count; d++) {
+        uint32_t s = r->redrawn[d];
+        for (uint32_t id = 0; id < r->drawn_count; id++)
+            r->drawn[(size_t)id * r->redrawn_count + d] =
+                jox_dist_draw(&next->own[s].dist, seed, id, 0, JOX_DRAW_OWN, s);
     }
     for (uint32_t s = 0; s < next->memory_count; s++) {
         int32_t from = memory_before(old, next, s);
@@ -95,7 +129,7 @@ static bool same_value(const JoxReplacement *r, const JoxValue *a, const JoxValu
     if (b->kind == JOX_VALUE_CONST)
         return a->number == b->number;
     if (b->kind == JOX_VALUE_OWN)
-        return r->own[b->index] == a->index && !r->drawn[b->index];
+        return r->own[b->index] == a->index && !r->is_redrawn[b->index];
     return true; /* programs are computed each step */
 }
 
@@ -107,16 +141,16 @@ static void map_state(JoxReplacement *r, uint32_t from) {
     if (to < 0)
         return;
     const JoxState *is = &r->next->states[to];
-    for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        if (!same_value(r, jox_state_parameter(r->old, was, p),
-                        jox_state_parameter(r->next, is, p)))
-            r->changed[from] |= 1u << p;
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxValue *value = jox_state_parameter(r->next, is, p);
-        if ((r->changed[from] >> p & 1) && value->kind != JOX_VALUE_PROGRAM)
-            r->value[from * JOX_PARAM_COUNT + (uint32_t)p] = value;
+        if (same_value(r, jox_state_parameter(r->old, was, p), value) ||
+            value->kind == JOX_VALUE_PROGRAM)
+            continue;
+        Assignment *assign = &r->assign[from][r->assign_count[from]++];
+        double number = value->kind == JOX_VALUE_CONST ? value->number : jox_parameters[p].value;
+        *assign = (Assignment){p, value->kind == JOX_VALUE_OWN ? value->index : -1,
+                               jox_parameter_store((JoxParameter)p, number)};
     }
-    r->changed_all |= r->changed[from];
     r->tags_change[from] = was->ignore != is->ignore || was->push_only != is->push_only;
     r->truth_moves[from] = was->transition_count != is->transition_count;
     for (uint32_t k = 0; k < JOX_MOST_TRANSITIONS; k++) {
@@ -132,18 +166,21 @@ JoxReplacement *jox_replacement_prepare(const JoxMachine *old, JoxMachine *next,
                                         uint32_t next_id) {
     JoxReplacement *r = jox_alloc(1, sizeof *r);
     uint32_t states = old->state_count;
+    keep_given(old, next);
     r->old = old;
     r->next = next;
     r->drawn_count = next_id;
     r->state = jox_alloc(states + 1, sizeof *r->state);
     r->truth = jox_alloc(states + 1, sizeof *r->truth);
     r->truth_moves = jox_alloc(states + 1, sizeof *r->truth_moves);
-    r->changed = jox_alloc(states + 1, sizeof *r->changed);
-    r->value = jox_alloc((states + 1) * JOX_PARAM_COUNT, sizeof *r->value);
+    r->assign = jox_alloc(states + 1, sizeof *r->assign);
+    r->assign_count = jox_alloc(states + 1, sizeof *r->assign_count);
     r->tags_change = jox_alloc(states + 1, sizeof *r->tags_change);
     r->own = jox_alloc(next->own_count + 1, sizeof *r->own);
     r->memory = jox_alloc(next->memory_count + 1, sizeof *r->memory);
-    r->drawn = jox_alloc(next->own_count + 1, sizeof *r->drawn);
+    r->moved = jox_alloc(next->own_count + 1, sizeof *r->moved);
+    r->redrawn = jox_alloc(next->own_count + 1, sizeof *r->redrawn);
+    r->is_redrawn = jox_alloc(next->own_count + 1, sizeof *r->is_redrawn);
     r->before = jox_alloc((size_t)old->own_count + old->memory_count + 1, sizeof *r->before);
     map_slots(r, seed);
     for (uint32_t s = 0; s < states; s++)
@@ -154,8 +191,9 @@ JoxReplacement *jox_replacement_prepare(const JoxMachine *old, JoxMachine *next,
 void jox_replacement_free(JoxReplacement *r) {
     if (!r)
         return;
-    for (uint32_t s = 0; s < r->next->own_count; s++)
-        jox_free(r->drawn[s]);
+    jox_free(r->moved);
+    jox_free(r->redrawn);
+    jox_free(r->is_redrawn);
     jox_free(r->drawn);
     jox_free(r->before);
     jox_free(r->state);
@@ -163,8 +201,8 @@ void jox_replacement_free(JoxReplacement *r) {
     jox_free(r->memory);
     jox_free(r->truth);
     jox_free(r->truth_moves);
-    jox_free(r->changed);
-    jox_free(r->value);
+    jox_free(r->assign);
+    jox_free(r->assign_count);
     jox_free(r->tags_change);
     jox_free(r);
 }
@@ -197,39 +235,38 @@ const char *jox_mind_refuses(const JoxMind *mind, uint32_t index, const JoxRepla
     return NULL;
 }
 
+/* Which of the new slots are given where `given` of the old ones are. */
+static uint64_t given_now(const JoxReplacement *r, uint64_t given) {
+    uint64_t now = 0;
+    for (uint32_t s = 0; s < r->next->own_count && s < 64; s++)
+        if (r->own[s] >= 0 && r->own[s] < 64)
+            now |= (given >> r->own[s] & 1) << s;
+    return now;
+}
+
 /* The own values of an agent in their new slots. */
 static void carry_own(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
     JoxAgents *a = mind->agents;
-    double *own = a->own + (size_t)i * a->own_stride;
-    uint64_t given = a->given[i], now = 0;
-    memcpy(r->before, own, r->old->own_count * sizeof *own);
-    for (uint32_t s = 0; s < r->next->own_count; s++) {
-        int32_t from = r->own[s];
-        if (from >= 0)
-            own[s] = r->before[from];
-        now |= from >= 0 && from < 64 && s < 64 ? (given >> from & 1) << s : 0;
-    }
-    a->given[i] = now;
+    double *own = a->own + (size_t)i * a->own_stride, *before = r->before;
+    memcpy(before, own, r->old->own_count * sizeof *own);
+    for (uint32_t k = 0; k < r->moved_count; k++)
+        own[r->moved[k]] = before[r->own[r->moved[k]]];
 }
 
-/* One slot drawn afresh for those from `begin` to `end` whose value came from the machine. */
-static void draw_slot(JoxMind *mind, const JoxReplacement *r, uint32_t index, uint32_t slot,
-                      uint32_t begin, uint32_t end) {
-    enum { AHEAD = 12 }; /* agents: their rows lie far apart, and are asked for in time */
-    JoxAgents *a = mind->agents;
-    const JoxDist *dist = &r->next->own[slot].dist;
-    const double *drawn = r->drawn[slot];
-    uint64_t bit = slot < 64 ? (uint64_t)1 << slot : 0;
-    double *own = a->own + slot;
-    for (uint32_t i = begin; i < end; i++) {
-        __builtin_prefetch(own + (size_t)(i + AHEAD) * a->own_stride, 1);
-        if (a->machine[i] != index || (a->given[i] & bit))
+/* Values drawn afresh, but for those that the agent was given. */
+static void draw_again(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
+    const JoxAgents *a = mind->agents;
+    uint32_t id = a->id[i];
+    uint64_t given = a->given[i];
+    double *own = a->own + (size_t)i * a->own_stride;
+    const double *drawn = r->drawn + (size_t)id * r->redrawn_count;
+    for (uint32_t d = 0; d < r->redrawn_count; d++) {
+        uint32_t s = r->redrawn[d];
+        if (s < 64 && (given >> s & 1))
             continue;
-        own[(size_t)i * a->own_stride] =
-            dist->kind == JOX_DIST_CONSTANT ? dist->a
-            : a->id[i] < r->drawn_count
-                ? drawn[a->id[i]]
-                : jox_dist_draw(dist, mind->seed, a->id[i], 0, JOX_DRAW_OWN, slot);
+        own[s] = id < r->drawn_count
+                     ? drawn[d]
+                     : jox_dist_draw(&r->next->own[s].dist, mind->seed, id, 0, JOX_DRAW_OWN, s);
     }
 }
 
@@ -255,60 +292,57 @@ static void carry_agent(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
     }
     if (r->memory_moves)
         carry_memory(mind, r, i);
+    const JoxState *state = &r->next->states[is];
+    const double *own = a->own + (size_t)i * a->own_stride;
+    for (uint32_t k = 0; k < r->assign_count[was]; k++) {
+        const Assignment *assign = &r->assign[was][k];
+        a->param[assign->parameter][i] =
+            assign->own < 0
+                ? assign->value
+                : jox_parameter_store((JoxParameter)assign->parameter, own[assign->own]);
+    }
     if (r->tags_change[was]) {
-        a->ignore[i] = r->next->states[is].ignore;
-        a->push_only[i] = r->next->states[is].push_only;
+        a->ignore[i] = state->ignore;
+        a->push_only[i] = state->push_only;
     }
 }
 
-/* One parameter of those from `begin` to `end` whose state sets it otherwise; they are still in
-   their old states. */
-static void write_parameter(JoxMind *mind, const JoxReplacement *r, uint32_t index, int p,
-                            uint32_t begin, uint32_t end) {
-    JoxAgents *a = mind->agents;
-    const JoxParameterInfo *info = &jox_parameters[p];
-    bool angle = p == JOX_PARAM_push_angle || p == JOX_PARAM_brace_angle;
-    for (uint32_t i = begin; i < end; i++) {
-        if (a->machine[i] != index)
-            continue;
-        const JoxValue *value = r->value[a->state[i] * JOX_PARAM_COUNT + (uint32_t)p];
-        if (!value)
-            continue;
-        double number = value->kind == JOX_VALUE_CONST ? value->number
-                        : value->kind == JOX_VALUE_OWN
-                            ? a->own[(size_t)i * a->own_stride + (uint32_t)value->index]
-                            : info->value;
-        bool plain = !angle && number >= info->least && number <= info->greatest;
-        a->param[p][i] = plain ? (float)number : jox_parameter_store((JoxParameter)p, number);
-    }
+/* Rows are far from being in the cache after a step. */
+static void fetch_ahead(const JoxAgents *a, const JoxReplacement *r, uint32_t i) {
+    const double *own = a->own + (size_t)i * a->own_stride;
+    for (uint32_t s = 0; s < r->next->own_count; s += 8)
+        __builtin_prefetch(own + s, 1);
+    if (r->redrawn_count && a->id[i] < r->drawn_count)
+        __builtin_prefetch(r->drawn + (size_t)a->id[i] * r->redrawn_count);
 }
 
 JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, const JoxReplacement *r) {
-    enum { BLOCK = 256 };
     JoxMachine *old = mind->machines[index], *next = r->next;
     JoxAgents *a = mind->agents;
     jox_agents_widen(a, next->own_count, next->memory_count);
     jox_mind_number_names(mind, next);
     mind->machines[index] = next;
     next->version = old->version + 1;
-    for (uint32_t i = 0; r->own_moves && i < a->count; i++)
-        if (a->machine[i] == index)
-            carry_own(mind, r, i);
     bool any = r->memory_moves || r->states_move;
     for (uint32_t s = 0; s < old->state_count; s++)
-        any |= r->truth_moves[s] || r->tags_change[s];
-    /* A block at a time: what one loop has fetched the next finds near. */
-    for (uint32_t begin = 0; (any || r->draws || r->changed_all) && begin < a->count;
-         begin += BLOCK) {
-        uint32_t end = begin + BLOCK < a->count ? begin + BLOCK : a->count;
-        for (uint32_t s = 0; r->draws && s < next->own_count; s++)
-            if (r->drawn[s])
-                draw_slot(mind, r, index, s, begin, end);
-        for (uint32_t bits = r->changed_all; bits; bits &= bits - 1)
-            write_parameter(mind, r, index, __builtin_ctz(bits), begin, end);
-        for (uint32_t i = begin; any && i < end; i++)
-            if (a->machine[i] == index)
-                carry_agent(mind, r, i);
+        any |= r->assign_count[s] || r->truth_moves[s] || r->tags_change[s];
+    bool all = any || r->own_moves || r->redrawn_count, rows = r->moved_count || r->redrawn_count;
+    uint64_t given = 0, now = 0; /* of the agent before: mostly the same */
+    for (uint32_t i = 0; all && i < a->count; i++) {
+        if (rows && i + AHEAD < a->count)
+            fetch_ahead(a, r, i + AHEAD);
+        if (a->machine[i] != index)
+            continue;
+        if (r->own_moves) {
+            if (a->given[i] != given)
+                now = given_now(r, given = a->given[i]);
+            a->given[i] = now;
+            carry_own(mind, r, i);
+        }
+        if (r->redrawn_count)
+            draw_again(mind, r, i);
+        if (any)
+            carry_agent(mind, r, i);
     }
     return old;
 }

@@ -1,7 +1,8 @@
 #!/bin/bash
-# How long an edit takes to go live, and how long it holds the step up: the Tawaf with 35,000 people,
-# 100 edits (other numbers, other conditions, another distribution in turn). Prints percentiles; it
-# passes or fails nothing. EDITS and ARGS (for the run, e.g. --threads 2) may be set.
+# How long an edit takes to go live, and how long it holds the step up: the Tawaf with 35,000 people
+# and 100 edits (a condition, a duration, two distributions, a value that is new), each of which also
+# takes back the one before. Prints percentiles; nothing passes or fails. EDITS, and ARGS for the run
+# (as --threads 2), may be set.
 set -u
 cd "$(dirname "$0")/../.."
 B=${B:-build/release}

@@ -44,7 +44,7 @@ quiet() { # NAME LINES: nothing more has been said than so many lines
 sheet() { # SPEED [MORE]: a behaviour of one state
     printf 'return machine { name = "walker", version = 1, start = "Walk",\n'
     printf '  defaults = { speed = %s },\n' "$1"
-    printf '  states = { Walk = { steer = drift(0, 1) }%s } }\n' "${2:-}"
+    printf '  states = { Walk = { steer = hold }%s } }\n' "${2:-}"
 }
 scene() { # GROUPS [MORE]
     printf 'jostle: 1\nplaces: {yard: {polygon: [[0, 0], [20, 0], [20, 20], [0, 20]]}}\n%s\ngroups:\n' "${2:-}"
@@ -112,7 +112,7 @@ end "a run that was edited ends well"
 
 # ---- files that are required ----
 lib=$work/behaviours/pace.lua
-user() { printf 'local pace = require "pace"\n'; sheet "$1"| sed 's/drift(0, 1)/hold, speed = pace.slow/'; }
+user() { printf 'local pace = require "pace"\n'; sheet "$1"| sed 's/hold/hold, speed = pace.slow/'; }
 pace() { printf 'local pace = {}\npace.slow = own.speed * %s\nreturn pace\n' "$1"; }
 rm -f "$work"/behaviours/*
 pace 0.5 >"$lib"; user 1 >"$work/behaviours/a.lua"; user 1 >"$work/behaviours/b.lua"; sheet 1 >"$work/behaviours/c.lua"
@@ -200,4 +200,14 @@ printf 'walls:\n  - {solid: [[30, 30], [32, 30], [32, 32], [30, 32]]}\n' >>"$dir
 expect "a wall that is built" "walls changed, live"
 sheet 1.2 >"$file"
 expect "a behaviour after the scene" "version 2 is live"
+sheet 1.2 ', At = { steer = seek(own.goal) }' >"$file"
+expect "a value that the scene does not set" "'goal' is no parameter, and no group that runs walker sets it"
+expect "is shown where it stands" "own.goal"
+sed -i 's/speed: 0.4/speed: 0.4, goal: gate/' "$dir/scene.yaml"
+expect "the scene sets it" "values that groups set changed" 2
+sheet 1.2 ', At = { steer = seek(own.goal), { to = "Gone", when = near(own.goal, 1) } }, Gone = { removes = true }' |
+    sed 's/hold/hold, { to = "At", when = after(0) }/' >"$file"
+expect "then it is taken" "version 3 is live"
+sleep 0.5; sed -i 's/after(0)/after(0.01)/' "$file"
+says "version 4 is live" && ! grep -A1 'version 4 is live' "$said" | grep -q 'before:.* 20$'; verdict "and people get where it is" $?
 end "a run whose scene was edited ends well"

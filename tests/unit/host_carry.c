@@ -169,6 +169,43 @@ static void own_values_are_kept_by_name(void **state) {
     jo_scene_free(scene);
 }
 
+/* A slot that stands elsewhere in the next version, and was given by the scene. */
+static void values_that_move_are_carried(void **state) {
+    (void)state;
+#define ZEAL(more) HEAD "\"A\", states = { A = { steer = hold, " more "push = 10 * own.zeal } } }\n"
+    static const char *const TEXTS[] = {ZEAL("mass = 50 + own.zest, speed = own.pace, "), ZEAL(""),
+                                        ZEAL("speed = own.pace, radius = uniform(0.2, 0.25), ")};
+    JoScene *scene =
+        load_own(SCENE("groups: {people: {behaviour: own.lua, count: 40, fill: grid, "
+                       "in: yard, set: {zeal: \"uniform(1, 5)\", zest: 3, pace: 1}}}\n"),
+                 TEXTS[0]);
+    const JoxAgents *a = &scene->world->agents;
+    double push[40];
+    step(scene, 2);
+    for (uint32_t i = 0; i < 40; i++)
+        push[a->id[i]] = (double)a->param[JOX_PARAM_push][i];
+    assert_true(push[3] != push[4]);
+    static const int ORDER[] = {1, 0, 2, 0, 1, 2, 1};
+    bool moved = false;
+    uint32_t before = 0;
+    for (size_t k = 0; k < sizeof ORDER / sizeof *ORDER; k++) {
+        assert_true(reload_text(scene, 0, TEXTS[ORDER[k]]));
+        const JoxMachine *now = scene->world->mind.machines[0];
+        uint32_t slot = 0;
+        while (strcmp(now->own[slot].name, "zeal") != 0)
+            slot++;
+        moved |= k > 0 && slot != before;
+        before = slot;
+        step(scene, 1);
+        for (uint32_t i = 0; i < 40; i++)
+            assert_true((double)a->param[JOX_PARAM_push][i] == push[a->id[i]]);
+        for (uint32_t i = 0; i < 40 && ORDER[k] == 0; i++) /* as given, after it was away */
+            assert_true(a->param[JOX_PARAM_mass][i] == 53.0f);
+    }
+    assert_true(moved);
+    jo_scene_free(scene);
+}
+
 /* A condition that has been true is not rolled for again, though the transitions stand elsewhere.
  */
 static void chances_are_not_rolled_again(void **state) {
@@ -215,6 +252,7 @@ int main(void) {
         cmocka_unit_test(memory_is_kept_by_name_and_type),
         cmocka_unit_test(another_distribution_reaches_the_living),
         cmocka_unit_test(own_values_are_kept_by_name),
+        cmocka_unit_test(values_that_move_are_carried),
         cmocka_unit_test(chances_are_not_rolled_again),
         cmocka_unit_test(a_parameter_taken_out_falls_back),
     };
