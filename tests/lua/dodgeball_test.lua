@@ -28,12 +28,14 @@ end)
 
 test("the attacker kicks it into the other court and turns to defence", function()
   local s = scene(court(LIES))
-  local least = 0
+  local least, fastest = 0, 0
   while s:body("ball").x > -0.5 and s:time() < 5 do
     s:step()
+    fastest = math.max(fastest, s:agents("blue")[1].now)
     least = math.min(least, s:body("ball").vx)
   end
   truthy(s:time() < 3, "it takes a moment, not a game")
+  near(fastest, 3, 0.1)
   truthy(least < -5, "2 + 2 * speed Ns on 0.4 kg")
   equal(s:agents("blue")[1].state, "Defense")
   s:reaches("Attack", { agents = "red", within = 1 })

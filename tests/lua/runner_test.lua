@@ -16,6 +16,15 @@ test("alone, it runs at the speed it wants and stops at the goal", function()
   near(s:agent(0).x, 7.6, 0.3)
 end)
 
+test("a runner in a hurry is held to 2.2 m/s", function()
+  local s = scene {
+    places = { goal = { point = { 8, 0 }, radius = 0.5 } },
+    groups = { runner = { behaviour = "runner.lua", at = { { 0, 0 } }, set = { goal = "goal", speed = 4 } } },
+  }
+  s:slower_than(2.21, { during = 1 })
+  truthy(s:faster_than(2.1, { during = 1 }))
+end)
+
 test("it breaks through the block within ten seconds, on a nearly straight line", function()
   local s = through()
   while s:agents("runner")[1].x < 3 do

@@ -1,7 +1,7 @@
 -- tawaf.lua, on a small Tawaf: a Kaaba of 6 m and a yard of 28 m.
 local SIDES = { { 3, -3 }, { 3, 3 }, { -3, 3 }, { -3, -3 } }
 
-local function tawaf(count, laps, options)
+local function tawaf(count, laps, options, touched)
   return scene({
     places = {
       start_line = { line = { { 3, -3 }, { 30, -3 } } },
@@ -16,7 +16,7 @@ local function tawaf(count, laps, options)
     groups = {
       pilgrims = {
         behaviour = "tawaf.lua", count = count, fill = "random", ["in"] = "yard", outside = { "kaaba" },
-        memory = { laps = laps },
+        memory = { laps = laps, touched = touched or false },
       },
     },
   }, options)
@@ -58,12 +58,12 @@ test("circuits go anti-clockwise and are counted one by one", function()
   truthy(most <= 4, "and not for five")
 end)
 
-test("nobody leaves with fewer than seven", function()
+test("nobody leaves with fewer than seven, nobody stays for more", function()
   local s = tawaf(40, 5)
   repeat
     s:run(0.5)
     for _, a in ipairs(s:agents()) do
-      truthy(a.state ~= "Exit" or a.laps >= 7, "who leaves has seven circuits")
+      truthy(a.state ~= "Exit" or a.laps == 7, "who leaves has seven circuits")
     end
   until s:count() < 20
   truthy(s:time() > 30, "two circuits take time")
@@ -96,6 +96,13 @@ test("the stone: by the queue, for three seconds, once", function()
     end
   end
   truthy(visits >= 3, "several people get there in four minutes")
+end)
+
+test("who has touched the stone does not queue for it again", function()
+  local fresh, done = tawaf(60, 0), tawaf(60, 0, nil, true)
+  done:never("ToStone", { during = 230 })
+  fresh:run(230)
+  truthy(fresh:entered("ToStone") >= 3, "of those who have not, some do")
 end)
 
 test("who greets the stone goes at half a metre a second at most, and not for long", function()
