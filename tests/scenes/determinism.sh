@@ -20,4 +20,7 @@ compare() { # SCENE ARGS...
 compare tawaf --set groups.pilgrims.count=5000 --set sources.0.keep=5000 --steps 60
 compare dodgeball --for 20
 compare running-through --for 10
+compare evacuation --for 15
+compare catch --for 20
+compare station --for 12
 exit 0
