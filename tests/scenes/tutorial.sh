@@ -27,3 +27,10 @@ for step in step3 step4 step6; do
     [ -s "$work/$step/paths.png" ]; verdict "$step has a picture" $?
     [ -z "$PICTURES" ] || cp "$work/$step/paths.png" "$PICTURES/$step.png"
 done
+# The behaviour and the scene of the project's README.
+mkdir "$work/readme"
+awk '/^```lua$/ {on = 1; next} /^```$/ {on = 0} on' README.md >"$work/readme/shy.lua"
+awk '/^```yaml$/ {on = 1; next} /^```$/ {on = 0} on' README.md >"$work/readme/yard.yaml"
+(cd "$work/readme" && "$program" check . && "$program" run yard.yaml --for 10 --quiet --summary -) >"$work/log" 2>&1
+[ $? = 0 ] && grep -q '^nothing wrong' "$work/log"; verdict "the README's behaviour and scene run" $?
+exit 0
