@@ -25,6 +25,8 @@ typedef struct Tests {
     JoxText said; /* by the scene that is loaded */
 } Tests;
 
+enum { MOST_KEPT = 200, LARGEST_KEPT = 256 << 10 };
+
 /* ---- the driver ---- */
 
 static void keep_message(void *context, const char *text) {
@@ -85,6 +87,12 @@ static void *load(void *context, const JoxTestScene *wanted, JoxText *why) {
                         item->hint ? item->hint : "");
     }
     jox_diag_free(&diagnostics);
+    if (scene &&
+        scene->mod_problems.errors) { /* a test names the mods it wants: all must be there */
+        jox_text_add(why, scene->mod_problems.items[0].message);
+        jo_scene_free(scene);
+        scene = NULL;
+    }
     if (scene)
         jox_world_settle(scene->world);
     jox_free(path);
@@ -96,12 +104,20 @@ static void free_scene(void *context, void *scene) {
     jo_scene_free(scene);
 }
 
+/* A function of a behaviour that fails makes the test fail: the agents only stayed as they were. */
 static bool step(void *context, void *scene, JoxText *why) {
-    (void)context;
+    Tests *tests = ((TestContext *)context)->tests;
+    const JoxLua *lua = ((JoScene *)scene)->lua;
+    uint64_t failures = jox_lua_failures(lua);
     JoError error = {0};
-    if (jo_scene_step(scene, &error))
+    if (!jo_scene_step(scene, &error)) {
+        jox_text_add(why, error.text);
+        return false;
+    }
+    if (jox_lua_failures(lua) == failures)
         return true;
-    jox_text_add(why, error.text);
+    jox_text_printf(why, "a function of a behaviour failed:\n%s",
+                    tests->said.data ? tests->said.data : "");
     return false;
 }
 
@@ -142,20 +158,24 @@ static bool body(void *context, void *scene, const char *name, double out[6]) {
 /* Behaviours are files: one that stands in a test becomes a file for as long as the tests run. */
 static const char *keep(void *context, const char *text, size_t length) {
     Tests *tests = ((TestContext *)context)->tests;
-    char path[128];
+    char path[160];
+    if (tests->kept_count >= MOST_KEPT || length > LARGEST_KEPT)
+        return NULL;
     if (!*tests->folder) {
         strcpy(tests->folder, "/tmp/jostle-test-XXXXXX");
-        if (!mkdtemp(tests->folder)) {
+        bool made = mkdtemp(tests->folder) != NULL;
+        snprintf(path, sizeof path, "%s/behaviours", tests->folder); /* nothing lies beside it */
+        if (!made || mkdir(path, 0700) != 0) {
             *tests->folder = 0;
-            return "no-folder-for-behaviours";
+            return NULL;
         }
     }
-    snprintf(path, sizeof path, "%s/inline-%zu.lua", tests->folder, tests->kept_count + 1);
+    snprintf(path, sizeof path, "%s/behaviours/inline-%zu.lua", tests->folder,
+             tests->kept_count + 1);
     FILE *file = fopen(path, "w");
-    if (file) {
-        fwrite(text, 1, length, file);
-        fclose(file);
-    }
+    bool good = file && fwrite(text, 1, length, file) == length;
+    if (!file || fclose(file) != 0 || !good)
+        return NULL;
     JOX_RESERVE(tests->kept, tests->kept_capacity, tests->kept_count + 1);
     return tests->kept[tests->kept_count++] = jox_strdup(path);
 }
@@ -204,7 +224,16 @@ static void run_file(Tests *tests, const char *path) {
     JoxDiagnostics diagnostics = {0};
     if (!jox_lua_test(path, tests->only, &driver, report, tests, print, tests, &diagnostics))
         tests->broken = true;
-    jox_host_report(tests->message, tests->context, &diagnostics, NULL);
+    for (size_t d = 0; tests->json && d < diagnostics.count; d++) {
+        const JoxDiagnostic *item = &diagnostics.items[d];
+        JoxTestResult failed = {
+            .file = path, .name = "", .message = item->message, .line = item->line};
+        report(tests, &failed);
+    }
+    if (tests->json)
+        jox_diag_free(&diagnostics);
+    else
+        jox_host_report(tests->message, tests->context, &diagnostics, NULL);
 }
 
 static int by_name(const struct dirent **a, const struct dirent **b) {
@@ -241,6 +270,10 @@ bool jo_test(const char *const *paths, size_t count, const char *only, bool json
     Tests tests = {.message = message, .context = context, .json = json, .only = only};
     for (size_t p = 0; p < count; p++)
         run_path(&tests, paths[p]);
+    if (!json && tests.passed + tests.failed == 0 && !tests.broken) {
+        message(context, "no tests found: files that end with _test.lua hold them\n");
+        tests.broken = true;
+    }
     if (json) {
         jox_text_add(&tests.array, tests.array.length ? "\n]\n" : "[]\n");
         message(context, tests.array.data);
@@ -249,8 +282,12 @@ bool jo_test(const char *const *paths, size_t count, const char *only, bool json
         unlink(tests.kept[k]);
         jox_free(tests.kept[k]);
     }
-    if (*tests.folder)
+    if (*tests.folder) {
+        char inner[96];
+        snprintf(inner, sizeof inner, "%s/behaviours", tests.folder);
+        rmdir(inner);
         rmdir(tests.folder);
+    }
     jox_free(tests.kept);
     jox_text_free(&tests.array);
     jox_text_free(&tests.said);

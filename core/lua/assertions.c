@@ -1,5 +1,6 @@
 /* What a test asserts of plain values. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "lua/trial.h"
@@ -9,7 +10,10 @@ static int word_equal(lua_State *L) {
     jox_trial_of(L)->assertions++;
     if (lua_rawequal(L, 1, 2))
         return 0;
-    return luaL_error(L, "%s is not %s", luaL_tolstring(L, 1, NULL), luaL_tolstring(L, 2, NULL));
+    jox_trial_of(L)->failures++;
+    size_t length;
+    const char *a = jox_library_text(L, 1, &length), *b = jox_library_text(L, 2, &length);
+    return luaL_error(L, "%s is not %s", a, b);
 }
 
 static int word_near(lua_State *L) {
@@ -17,6 +21,7 @@ static int word_near(lua_State *L) {
     jox_trial_of(L)->assertions++;
     if (fabs(a - b) <= by)
         return 0;
+    jox_trial_of(L)->failures++;
     return luaL_error(L, "%f is not within %f of %f", a, by, b);
 }
 
@@ -25,6 +30,7 @@ static int word_truthy(lua_State *L) {
     jox_trial_of(L)->assertions++;
     if (lua_toboolean(L, 1))
         return 0;
+    jox_trial_of(L)->failures++;
     return luaL_error(L, "%s", luaL_optstring(L, 2, "this is not true"));
 }
 
@@ -32,14 +38,24 @@ static int word_truthy(lua_State *L) {
 static int word_fails(lua_State *L) {
     luaL_checktype(L, 1, LUA_TFUNCTION);
     const char *text = luaL_optstring(L, 2, "");
-    jox_trial_of(L)->assertions++;
+    JoxTrial *trial = jox_trial_of(L);
+    uint64_t failures = trial->failures;
+    trial->assertions++;
     lua_pushvalue(L, 1);
-    if (lua_pcall(L, 0, 0, 0) == LUA_OK)
+    bool fine = lua_pcall(L, 0, 0, 0) == LUA_OK;
+    trial->failures = failures; /* what fails in there was meant to */
+    if (fine) {
+        trial->failures++;
         return luaL_error(L, "this does not fail");
-    if (lua_type(L, -1) == LUA_TSTRING && strstr(lua_tostring(L, -1), text))
+    }
+    const char *why = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "no text";
+    if (strstr(why, text))
         return 0;
-    return luaL_error(L, "this fails, but not with '%s': %s", text,
-                      lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "no text");
+    trial->failures++;
+    int number, line, used = 0; /* without the place, which is of chunks */
+    if (sscanf(why, "b%d:%d: %n", &number, &line, &used) == 2)
+        why += used;
+    return luaL_error(L, "this fails, but not with '%s': %s", text, why);
 }
 
 const luaL_Reg jox_trial_assertions[] = {{"equal", word_equal},

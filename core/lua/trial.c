@@ -10,7 +10,7 @@
 static const char SCENE[] = "jostle scene";
 static const double MOST_STEPPING = 60.0; /* s of processor time in one test */
 static const double WITHIN = 60.0;        /* s, where a test gives no time */
-enum { MOST_SCENES = 64, MOST_NAMES = 256 };
+enum { MOST_NAMES = 1024 };
 
 /* A scene of a test, and who has been in which state. */
 typedef struct Trial {
@@ -112,8 +112,8 @@ static double option(lua_State *L, int index, const char *name, double standard)
     lua_pushstring(L, name);
     lua_rawget(L, index);
     double value = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : standard;
-    if (!lua_isnil(L, -1) && lua_type(L, -1) != LUA_TNUMBER)
-        luaL_error(L, "option '%s' must be a number", name);
+    if (!lua_isnil(L, -1) && (lua_type(L, -1) != LUA_TNUMBER || !(value >= -1.0 && value <= 4e9)))
+        luaL_error(L, "option '%s' must be a number from 0 to 4e9", name);
     lua_pop(L, 1);
     return value;
 }
@@ -355,6 +355,8 @@ static int scene_reaches(lua_State *L) {
     for (uint32_t id = 0; id < t->known; id++)
         all += group < 0 || t->group[id] == group;
     uint32_t wanted = (uint32_t)option(L, 3, "count", all);
+    if (wanted == 0)
+        return luaL_error(L, "there is nobody who could reach anything");
     if (lua_type(L, 3) == LUA_TTABLE) {
         lua_pushstring(L, "any");
         lua_rawget(L, 3);
@@ -364,8 +366,7 @@ static int scene_reaches(lua_State *L) {
     jox_trial_of(L)->assertions++;
     const JoxMind *mind = mind_of(L, t);
     double until = time_of(mind) + within - 0.5 * mind->dt;
-    while (been_in(t, state, group) < wanted && time_of(mind) < until &&
-           (mind->agents->count || mind->tick == 0))
+    while (been_in(t, state, group) < wanted && time_of(mind) < until)
         step(L, t);
     uint32_t been = been_in(t, state, group);
     if (been >= wanted) {
@@ -419,6 +420,8 @@ static void watch_speed(lua_State *L, Trial *t, double during, int32_t group, do
                            speed, time_of(mind), most);
         }
     } while (time_of(mind) < until);
+    if (count == 0)
+        luaL_error(L, "there is nobody whose speed could be measured");
     *mean = count ? sum / (double)count : 0.0;
 }
 
@@ -475,16 +478,31 @@ static size_t read_texts(lua_State *L, int index, const char *name, bool pairs,
     if (lua_type(L, index) != LUA_TTABLE)
         return 0;
     lua_pushstring(L, name);
-    if (lua_rawget(L, index) != LUA_TTABLE)
+    int type = lua_rawget(L, index);
+    if (type == LUA_TNIL)
         return 0;
+    if (type != LUA_TTABLE)
+        luaL_error(L, "option '%s' must be a table", name);
     int from = lua_gettop(L);
     lua_newtable(L);
     lua_pushnil(L);
-    while (lua_next(L, from) && count < 64) {
+    while (lua_next(L, from)) {
+        int key = lua_type(L, -2);
+        if (count == 64 || (pairs ? key != LUA_TSTRING : key != LUA_TNUMBER) ||
+            (lua_type(L, -1) != LUA_TSTRING && lua_type(L, -1) != LUA_TNUMBER &&
+             lua_type(L, -1) != LUA_TBOOLEAN))
+            luaL_error(L,
+                       pairs ? "'%s' maps at most 64 paths to values"
+                             : "'%s' is a list of at most 64 names",
+                       name);
         luaL_tolstring(L, -1, NULL);
         if (pairs)
-            lua_pushfstring(L, "%s=%s", luaL_checkstring(L, -3), lua_tostring(L, -1));
-        out[count++] = lua_tostring(L, -1);
+            lua_pushfstring(L, "%s=%s", lua_tostring(L, -3), lua_tostring(L, -1));
+        const char *text = lua_tostring(L, -1);
+        size_t at = count++; /* in ascending order, whatever the table's own */
+        for (; pairs && at > 0 && strcmp(out[at - 1], text) > 0; at--)
+            out[at] = out[at - 1];
+        out[at] = text;
         lua_rawseti(L, from + 1, (lua_Integer)count);
         lua_settop(L, from + 2);
     }

@@ -18,10 +18,9 @@ typedef struct JoxTrial {
     uint32_t test_count;
     size_t test_capacity;
     bool running;
-    uint64_t assertions;
-    double simulated, stepping; /* s, of the present test; stepping: processor time */
-    JoxText output;             /* messages of its scenes */
-    JoxText yaml;               /* of the scene that is being made */
+    uint64_t assertions, failures; /* failures: of assertions, also where a pcall swallowed them */
+    double simulated, stepping;    /* s, of the present test; stepping: processor time */
+    JoxText yaml;                  /* of the scene that is being made */
 } JoxTrial;
 
 JoxTrial *jox_trial_of(lua_State *L);

@@ -7,10 +7,13 @@
 static void write_value(lua_State *L, JoxTrial *trial, int index, const char *key, int depth,
                         JoxText *out);
 
-static void write_string(JoxTrial *trial, const char *key, const char *text, size_t length,
-                         JoxText *out) {
-    if (!strcmp(key, "behaviour") && (strchr(text, '\n') || strstr(text, "return machine")))
+static void write_string(lua_State *L, JoxTrial *trial, const char *key, const char *text,
+                         size_t length, JoxText *out) {
+    if (!strcmp(key, "behaviour") && (strchr(text, '\n') || strstr(text, "return machine"))) {
         text = trial->driver->keep(trial->driver->context, text, length);
+        if (!text)
+            luaL_error(L, "behaviours in a test are at most 200, of at most 256 KB each");
+    }
     jox_text_json(out, text);
 }
 
@@ -18,6 +21,12 @@ static void write_table(lua_State *L, JoxTrial *trial, int index, const char *ke
                         JoxText *out) {
     lua_Integer length = (lua_Integer)lua_rawlen(L, index);
     if (length > 0) {
+        lua_pushnil(L);
+        while (lua_next(L, index)) {
+            lua_pop(L, 1);
+            if (lua_type(L, -1) == LUA_TSTRING)
+                luaL_error(L, "'%s' is a list and has a key '%s'", key, lua_tostring(L, -1));
+        }
         jox_text_add(out, "[");
         for (lua_Integer i = 1; i <= length; i++) {
             jox_text_add(out, i > 1 ? ", " : "");
@@ -36,7 +45,10 @@ static void write_table(lua_State *L, JoxTrial *trial, int index, const char *ke
         lua_pushnil(L);
         while (lua_next(L, index)) {
             lua_pop(L, 1);
+            jox_vm_charge(L, 4);
             const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+            if (!name)
+                luaL_error(L, "'%s' has a key that is no name", key);
             if (name && (!last || strcmp(name, last) > 0) && (!next || strcmp(name, next) < 0))
                 next = name;
         }
@@ -67,7 +79,7 @@ static void write_value(lua_State *L, JoxTrial *trial, int index, const char *ke
     case LUA_TSTRING: {
         size_t length;
         const char *text = lua_tolstring(L, index, &length);
-        write_string(trial, key, text, length, out);
+        write_string(L, trial, key, text, length, out);
         break;
     }
     case LUA_TBOOLEAN:
@@ -85,9 +97,15 @@ void jox_trial_scene(lua_State *L, JoxTrial *trial, int index, JoxText *out) {
     lua_pushliteral(L, "jostle");
     bool version = lua_rawget(L, index) != LUA_TNIL;
     lua_pop(L, 1);
-    if (!version) {
-        lua_pushinteger(L, 1);
-        lua_setfield(L, index, "jostle");
-    }
-    write_table(L, trial, index, "", 0, out);
+    size_t from = out->length;
+    write_table(L, trial, index, "scene", 0, out);
+    if (version || out->data[from] != '{')
+        return;
+    out->data[from] = ' '; /* the version of the format goes without saying */
+    JoxText whole = {0};
+    bool empty = strcmp(out->data + from, " }") == 0;
+    jox_text_printf(&whole, "{\"jostle\": 1%s%s", empty ? "" : ",", out->data + from);
+    out->length = from;
+    jox_text_append(out, whole.data, whole.length);
+    jox_text_free(&whole);
 }
