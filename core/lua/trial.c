@@ -236,50 +236,6 @@ static int scene_hash(lua_State *L) {
     return 1;
 }
 
-static double speed_of(const JoxAgents *a, uint32_t i) {
-    return sqrt((double)a->vx[i] * a->vx[i] + (double)a->vy[i] * a->vy[i]);
-}
-
-static void set_number(lua_State *L, const char *name, double value) {
-    lua_pushnumber(L, value);
-    lua_setfield(L, -2, name);
-}
-
-/* Pushes a table with all of an agent; a copy, not the agent. */
-static void push_agent(lua_State *L, const JoxMind *mind, uint32_t i) {
-    const JoxAgents *a = mind->agents;
-    lua_newtable(L);
-    for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        set_number(L, jox_parameters[p].name, a->param[p][i]);
-    if (a->machine[i] != JOX_NO_MACHINE) {
-        const JoxMachine *m = mind->machines[a->machine[i]];
-        for (uint32_t s = 0; s < m->memory_count; s++) {
-            double value = a->memory[(size_t)i * a->memory_stride + s];
-            if (m->memory[s].kind == JOX_MEMORY_BOOLEAN) {
-                lua_pushboolean(L, value != 0.0);
-                lua_setfield(L, -2, m->memory[s].name);
-            } else if (*m->memory[s].name) {
-                set_number(L, m->memory[s].name, value);
-            }
-        }
-        lua_pushstring(L, m->name);
-        lua_setfield(L, -2, "machine");
-        lua_pushstring(L, m->states[a->state[i]].name);
-        lua_setfield(L, -2, "state");
-    }
-    lua_pushinteger(L, a->id[i]);
-    lua_setfield(L, -2, "id");
-    set_number(L, "x", a->x[i]);
-    set_number(L, "y", a->y[i]);
-    set_number(L, "vx", a->vx[i]);
-    set_number(L, "vy", a->vy[i]);
-    set_number(L, "now", speed_of(a, i)); /* present speed; `speed` is the wanted one */
-    set_number(L, "density", a->density[i]);
-    set_number(L, "compression", a->compression[i]);
-    set_number(L, "pushed",
-               sqrt((double)a->force_x[i] * a->force_x[i] + (double)a->force_y[i] * a->force_y[i]));
-}
-
 /* s:agents(["group"]): a list in order of id. */
 static int scene_agents(lua_State *L) {
     Trial *t = check(L);
@@ -295,7 +251,7 @@ static int scene_agents(lua_State *L) {
         uint32_t i = mind->agents->id_index[id];
         if (i == JOX_NO_INDEX || (group >= 0 && mind->agents->group[i] != group))
             continue;
-        push_agent(L, mind, i);
+        jox_trial_push_agent(L, mind, i);
         lua_rawseti(L, -2, ++n);
     }
     return 1;
@@ -308,7 +264,7 @@ static int scene_agent(lua_State *L) {
     if (id < 0 || id >= mind->agents->next_id || mind->agents->id_index[id] == JOX_NO_INDEX)
         lua_pushnil(L);
     else
-        push_agent(L, mind, mind->agents->id_index[id]);
+        jox_trial_push_agent(L, mind, mind->agents->id_index[id]);
     return 1;
 }
 
@@ -321,7 +277,7 @@ static int scene_body(lua_State *L) {
         return luaL_error(L, "the scene has no body '%s'", lua_tostring(L, 2));
     lua_newtable(L);
     for (int k = 0; k < 6; k++)
-        set_number(L, NAMES[k], pose[k]);
+        jox_trial_set_number(L, NAMES[k], pose[k]);
     return 1;
 }
 
@@ -412,7 +368,7 @@ static void watch_speed(lua_State *L, Trial *t, double during, int32_t group, do
         for (uint32_t i = 0; i < a->count; i++) {
             if (group >= 0 && a->group[i] != group)
                 continue;
-            double speed = speed_of(a, i);
+            double speed = jox_trial_speed(a, i);
             sum += speed;
             count++;
             if (speed > most)

@@ -33,4 +33,10 @@ void jox_trial_open(lua_State *L);
 /* Appends the table at `index` as a YAML scene (JSON is YAML). Raises errors. */
 void jox_trial_scene(lua_State *L, JoxTrial *trial, int index, JoxText *out);
 
+/* Present speed, m/s. */
+double jox_trial_speed(const JoxAgents *agents, uint32_t i);
+void jox_trial_set_number(lua_State *L, const char *name, double value);
+/* Pushes a table with all of an agent. */
+void jox_trial_push_agent(lua_State *L, const JoxMind *mind, uint32_t i);
+
 #endif

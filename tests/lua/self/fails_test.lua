@@ -176,7 +176,7 @@ end)
 test("no end behind fails", function()
   fails(function() while true do end end, "")
 end) --> it ran for too long
-test("no end of memory", function()
+test("no end of memory", function() --> and was stopped
   local all = {}
-  for n = 1, 1e9 do all[n] = string.rep("x", 1000) .. n end --> and was stopped
+  for n = 1, 1e9 do all[n] = string.rep("x", 1000) .. n end
 end)
