@@ -257,9 +257,25 @@ bool jo_scene_step(JoScene *scene, JoError *error) {
     return jox_host_collect(scene, error);
 }
 
+/* That plain functions ran, and what they cost: their authors should know without asking. */
+static void say_costs(JoScene *scene) {
+    double seconds = 0.0, wall = scene->world->statistics.wall_s;
+    uint64_t calls = 0;
+    for (uint32_t m = 0; m < scene->world->mind.machine_count; m++) {
+        uint64_t own;
+        seconds += jox_lua_seconds(scene->lua, scene->world->mind.machines[m], &own);
+        calls += own;
+    }
+    if (calls > 0 && scene->progress_until > 0.0)
+        jox_host_say(scene, "plain Lua functions: %llu calls, %.2f %% of the steps' time\n",
+                     (unsigned long long)calls, wall > 0.0 ? 100.0 * seconds / wall : 0.0);
+}
+
 bool jo_scene_finish(JoScene *scene, JoError *error) {
     JOX_REQUIRE(scene, false);
     bool good = true;
+    if (!scene->finished && scene->lua && scene->world)
+        say_costs(scene);
     JoxText why = {0};
     scene->finished = true;
     if (scene->recorder)

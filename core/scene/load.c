@@ -451,6 +451,14 @@ static bool read_box(const JoxLoad *l, const JoxYaml *node, JoxV2 *low, JoxV2 *h
     return points != NULL;
 }
 
+/* Whether a file lies in one of the mods that are taken. */
+static bool of_a_mod(const JoxLoad *l, const char *file) {
+    for (uint32_t m = 0; l->options && m < l->options->mod_count; m++)
+        if (jox_path_below(file, l->options->mods[m].folder))
+            return true;
+    return false;
+}
+
 static void read_settings(JoxLoad *l, const JoxYaml *root) {
     const JoxReader *r = &l->reader;
     JoxScene *s = l->scene;
@@ -462,7 +470,11 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
     jox_key_number(r, root, "scene", "jostle"); /* the version: its range is its check */
     s->bounded = read_box(l, jox_yaml_get(root, "bounds"), &s->low, &s->high);
     const char *input = jox_key_text(r, root, "scene", "input");
-    if (input)
+    if (input && of_a_mod(l, jox_yaml_get(root, "input")->position.file) &&
+        (*input == '/' || strstr(input, "..")))
+        jox_scene_error(r, jox_yaml_get(root, "input"), "bad-value",
+                        "A plain name, of a file beside it", "a mod cannot read '%.100s'", input);
+    else if (input)
         s->input = jox_path_beside(r->hoard, jox_yaml_get(root, "input")->position.file, input);
     const JoxYaml *map = jox_yaml_get(root, "forces");
     s->forces = true;

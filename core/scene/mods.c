@@ -101,6 +101,7 @@ static bool ends_with(const char *path, const char *ending) {
 /* The target of a scene's patch: the top-level key `patch` or `replace`. */
 static void read_target(Find *f, JoxModPatch *patch) {
     JoxYamlFiles *files = jox_hoard_take(f->reader.hoard, 1, sizeof *files);
+    files->plain = true;
     JoxYaml *root =
         jox_yaml_load(f->reader.hoard, patch->path, NULL, 0, files, f->reader.diagnostics);
     const JoxYaml *target = jox_yaml_get(root, "patch");
@@ -173,6 +174,7 @@ static void read_mod(Find *f, const char *folder, bool wanted) {
         }
     char *path = join(r->hoard, folder, "mod.yaml");
     JoxYamlFiles *files = jox_hoard_take(r->hoard, 1, sizeof *files);
+    files->plain = true;
     size_t errors = r->diagnostics->errors;
     JoxYaml *root = is_sound(f, path, (JoxPosition){path, 0, 0, 0})
                         ? jox_yaml_load(r->hoard, path, NULL, 0, files, r->diagnostics)

@@ -4,6 +4,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <yaml.h>
 
 #include "base/hash.h"
@@ -345,6 +346,14 @@ static void include(JoxHoard *hoard, JoxYaml *root, const char *path, JoxYamlFil
             continue;
         }
         char *beside = jox_path_beside(hoard, path, name->text);
+        struct stat info;
+        if (files->plain && (*name->text == '/' || strstr(name->text, "..") ||
+                             (lstat(beside, &info) == 0 && S_ISLNK(info.st_mode)))) {
+            jox_diag_error(diagnostics, name->position, "bad-include",
+                           "A mod includes files beside its own, by plain names",
+                           "a mod cannot include '%.100s'", name->text);
+            continue;
+        }
         bool again = false;
         for (uint32_t f = 0; f < files->count; f++)
             again |= strcmp(files->items[f].path, beside) == 0;

@@ -35,6 +35,8 @@ typedef struct JoxYamlFile {
 typedef struct JoxYamlFiles {
     JoxYamlFile items[64];
     uint32_t count;
+    bool
+        plain; /* of a mod, which is not trusted: only files beside it are included, and no links */
 } JoxYamlFiles;
 
 /* Reads a file, or `text` under the name `path`; NULL with diagnostics. Files read are listed. */

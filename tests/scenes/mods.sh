@@ -95,6 +95,11 @@ says "a behaviour of the mod, by mod:name" 0 'mods/states/behaviours/post.lua' b
 printf 'patch: yard\ngroups: {g: {cont: 3}}\n' >"$tree/scenes/mods/states/patches/yard.yaml"
 says "a mistake in a patch of the scene has its place" 0 "states/patches/yard.yaml:2:14: unknown key 'cont' of a group. Did you mean 'count'?" bash -c run
 printf 'jostle: 1\nmods: {states: {}}\ngroups: {g: {behaviour: stander.lua, at: [[0, 0]]}}\n' >"$tree/scenes/named.yaml"
+printf 'patch: yard\ninclude: /etc/passwd\n' >"$tree/scenes/mods/states/patches/yard.yaml"
+says "a mod includes nothing from elsewhere" 0 "states/patches/yard.yaml:2:10: a mod cannot include '/etc/passwd'" bash -c run
+grep -q root: "$work/out"; [ $? = 1 ]; verdict "and shows nothing of it" $?
+printf 'patch: yard\ninput: ../../../../../../etc/passwd\n' >"$tree/scenes/mods/states/patches/yard.yaml"
+says "nor reads it" 0 "a mod cannot read" bash -c run
 sed -i 's/api: 1/api: 1\nenabled: false/' "$tree/scenes/mods/states/mod.yaml"
 (cd "$tree" && "$program" mod list scenes/named.yaml) | grep -q '. states 1.0'; verdict "a scene names its mods" $?
 
