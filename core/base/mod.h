@@ -35,4 +35,10 @@ typedef struct JoxMod {
     uint32_t patch_count;
 } JoxMod;
 
+/* Whether one dotted path is the other, or leads to it. "" leads to all. */
+bool jox_mod_overlaps(const char *a, const char *b);
+/* Warns that mod `later` sets at `at` what mod `earlier` has set at `before`, and wins. */
+void jox_mod_conflict(JoxDiagnostics *diagnostics, const JoxMod *later, JoxPosition at,
+                      const JoxMod *earlier, JoxPosition before, const char *path);
+
 #endif

@@ -20,31 +20,17 @@ static JoxPosition position_of(const JoxVm *vm, const JoxOrigin *origin) {
     return jox_source_path(&vm->sources[origin->source], origin->from);
 }
 
-/* Whether one path is the other, or leads to it. */
-static bool overlaps(const char *a, const char *b) {
-    size_t n = strlen(a), m = strlen(b), least = n < m ? n : m;
-    const char *longer = n < m ? b : a;
-    return strncmp(a, b, least) == 0 && (n == m || longer[least] == '.' || least == 0);
-}
-
 /* Two mods that set one path, neither knowing the other: both places, and who wins. */
 static void report_conflict(const Patch *p, const JoxOrigin *mine) {
     const JoxVm *vm = p->vm;
     const JoxMod *mods = vm->scope->mods;
     for (size_t o = 0; o + 1 < vm->origin_count; o++) {
         const JoxOrigin *other = &vm->origins[o];
-        if (other->mod < 0 || other->mod == p->mod || !overlaps(other->path, mine->path) ||
+        if (other->mod < 0 || other->mod == p->mod || !jox_mod_overlaps(other->path, mine->path) ||
             (mods[p->mod].after >> other->mod & 1))
             continue;
-        JoxPosition at = position_of(vm, mine), before = position_of(vm, other);
-        char context[512];
-        snprintf(context, sizeof context,
-                 "set before by mod %s at %s:%d; mod %s comes later and wins",
-                 mods[other->mod].name, before.file, before.line, mods[p->mod].name);
-        jox_diag_add(vm->diagnostics, JOX_SEVERITY_WARNING, at, "mod-conflict",
-                     "Say which comes first with `load_after` or `depends` in mod.yaml", context,
-                     NULL, "mods %s and %s both set %s", mods[other->mod].name, mods[p->mod].name,
-                     *mine->path ? mine->path : "the whole machine");
+        jox_mod_conflict(vm->diagnostics, &mods[p->mod], position_of(vm, mine), &mods[other->mod],
+                         position_of(vm, other), mine->path);
         return;
     }
 }
@@ -140,9 +126,13 @@ static void merge_key(const Patch *p, int base, const char *key, const char *pat
     lua_settop(L, value - 1);
 }
 
-/* Plain tables: defaults, counts, renamed, kick, throw, set. */
-static void merge_plain(const Patch *p, int base, int change, const char *path, const char *from,
-                        int depth) {
+/* Merges one key of a table; the value is on top of the stack. */
+typedef void MergeKey(const Patch *p, int base, const char *key, const char *path, const char *from,
+                      int depth);
+
+/* Visits the string keys of a change, in ascending order. */
+static void merge_keys(const Patch *p, int base, int change, const char *path, const char *from,
+                       int depth, MergeKey *visit) {
     lua_State *L = p->vm->L;
     lua_Integer count = push_keys(L, change);
     int keys = lua_gettop(L);
@@ -150,15 +140,28 @@ static void merge_plain(const Patch *p, int base, int change, const char *path, 
         lua_rawgeti(L, keys, k);
         const char *key = lua_tostring(L, -1);
         jox_read_field(L, change, key);
-        merge_key(p, base, key, path, from, merge_plain, depth);
+        visit(p, base, key, path, from, depth);
         lua_settop(L, keys);
     }
+    lua_settop(L, keys - 1);
+}
+
+static Merge merge_plain;
+static void plain_key(const Patch *p, int base, const char *key, const char *path, const char *from,
+                      int depth) {
+    merge_key(p, base, key, path, from, merge_plain, depth);
+}
+
+/* Plain tables: defaults, counts, renamed, kick, throw, set. */
+static void merge_plain(const Patch *p, int base, int change, const char *path, const char *from,
+                        int depth) {
+    lua_State *L = p->vm->L;
+    merge_keys(p, base, change, path, from, depth, plain_key);
     lua_Integer items = (lua_Integer)lua_rawlen(L, change);
     for (lua_Integer i = 1; i <= items; i++) { /* the body of a kick */
         lua_rawgeti(L, change, i);
         lua_rawseti(L, base, i);
     }
-    lua_settop(L, keys - 1);
 }
 
 /* ---- transitions ---- */
@@ -376,31 +379,26 @@ static void merge_verb(const Patch *p, Verb verb, int state, const char *path, c
     lua_settop(L, table - 1);
 }
 
+static void state_key(const Patch *p, int base, const char *key, const char *path, const char *from,
+                      int depth) {
+    int verb = 0;
+    while (verb < VERBS && strcmp(VERB_NAMES[verb], key) != 0)
+        verb++;
+    if (verb < VERBS)
+        merge_verb(p, (Verb)verb, base, path, from);
+    else
+        merge_key(p, base, key, path, from, merge_plain, depth);
+}
+
 static void merge_state(const Patch *p, int base, int change, const char *path, const char *from,
                         int depth) {
-    lua_State *L = p->vm->L;
-    lua_Integer count = push_keys(L, change);
-    int keys = lua_gettop(L);
-    if (lua_rawlen(L, change) > 0)
+    if (lua_rawlen(p->vm->L, change) > 0)
         fail(p, from, "bad-patch",
              "Say where: insert_before = { ID = {...} }, insert_after, replace, change, append, "
              "or remove = { \"ID\" }",
              "%s: transitions of a patch need a place", path);
     name_transitions(p, base, path);
-    for (lua_Integer k = 1; k <= count; k++) {
-        lua_rawgeti(L, keys, k);
-        const char *key = lua_tostring(L, -1);
-        int verb = 0;
-        while (verb < VERBS && strcmp(VERB_NAMES[verb], key) != 0)
-            verb++;
-        jox_read_field(L, change, key);
-        if (verb < VERBS)
-            merge_verb(p, (Verb)verb, base, path, from);
-        else
-            merge_key(p, base, key, path, from, merge_plain, depth);
-        lua_settop(L, keys);
-    }
-    lua_settop(L, keys - 1);
+    merge_keys(p, base, change, path, from, depth, state_key);
 }
 
 /* Reports a patch of a state that is not there, where it is one and not a new state: it has verbs.
@@ -432,34 +430,20 @@ static bool changes_nothing(const Patch *p, int base, const char *key, const cha
     return true;
 }
 
-static void merge_states(const Patch *p, int base, int change, const char *path, const char *from,
-                         int depth) {
-    lua_State *L = p->vm->L;
-    lua_Integer count = push_keys(L, change);
-    int keys = lua_gettop(L);
-    for (lua_Integer k = 1; k <= count; k++) {
-        lua_rawgeti(L, keys, k);
-        const char *key = lua_tostring(L, -1);
-        jox_read_field(L, change, key);
-        if (!changes_nothing(p, base, key, from))
-            merge_key(p, base, key, path, from, merge_state, depth);
-        lua_settop(L, keys);
-    }
-    lua_settop(L, keys - 1);
+static void states_key(const Patch *p, int base, const char *key, const char *path,
+                       const char *from, int depth) {
+    if (!changes_nothing(p, base, key, from))
+        merge_key(p, base, key, path, from, merge_state, depth);
 }
 
-static void merge_machine(const Patch *p, int base, int change) {
-    lua_State *L = p->vm->L;
-    lua_Integer count = push_keys(L, change);
-    int keys = lua_gettop(L);
-    for (lua_Integer k = 1; k <= count; k++) {
-        lua_rawgeti(L, keys, k);
-        const char *key = lua_tostring(L, -1);
-        jox_read_field(L, change, key);
-        merge_key(p, base, key, "", "", strcmp(key, "states") ? merge_plain : merge_states, 0);
-        lua_settop(L, keys);
-    }
-    lua_settop(L, keys - 1);
+static void merge_states(const Patch *p, int base, int change, const char *path, const char *from,
+                         int depth) {
+    merge_keys(p, base, change, path, from, depth, states_key);
+}
+
+static void machine_key(const Patch *p, int base, const char *key, const char *path,
+                        const char *from, int depth) {
+    merge_key(p, base, key, path, from, strcmp(key, "states") ? merge_plain : merge_states, depth);
 }
 
 /* ---- a mod's file ---- */
@@ -553,7 +537,7 @@ bool jox_patch_apply(JoxVm *vm) {
                 } else {
                     push_copy(L, table);
                     lua_insert(L, -2);
-                    merge_machine(&p, lua_gettop(L) - 1, lua_gettop(L));
+                    merge_keys(&p, lua_gettop(L) - 1, lua_gettop(L), "", "", 0, machine_key);
                     lua_pop(L, 1);
                     lua_replace(L, table);
                 }

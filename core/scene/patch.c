@@ -14,12 +14,6 @@ typedef struct Patch {
     uint32_t mod;
 } Patch;
 
-static bool overlaps(const char *a, const char *b) {
-    size_t n = strlen(a), m = strlen(b), least = n < m ? n : m;
-    const char *longer = n < m ? b : a;
-    return strncmp(a, b, least) == 0 && (n == m || longer[least] == '.' || least == 0);
-}
-
 /* Keeps what was set where; two mods that set one path without knowing each other are named. */
 static void keep(const Patch *p, const char *path, JoxPosition at, bool removes) {
     JoxLoad *l = p->load;
@@ -35,17 +29,11 @@ static void keep(const Patch *p, const char *path, JoxPosition at, bool removes)
     }
     for (uint32_t c = 0; c < scene->change_count; c++) {
         const JoxSceneChange *other = &scene->changes[c];
-        if (other->mod == p->mod || !overlaps(other->path, path) ||
+        if (other->mod == p->mod || !jox_mod_overlaps(other->path, path) ||
             (mods[p->mod].after >> other->mod & 1))
             continue;
-        char context[512];
-        snprintf(
-            context, sizeof context, "set before by mod %s at %s:%d; mod %s comes later and wins",
-            mods[other->mod].name, other->position.file, other->position.line, mods[p->mod].name);
-        jox_diag_add(l->reader.diagnostics, JOX_SEVERITY_WARNING, at, "mod-conflict",
-                     "Say which comes first with `load_after` or `depends` in mod.yaml", context,
-                     NULL, "mods %s and %s both set %s", mods[other->mod].name, mods[p->mod].name,
-                     *path ? path : "the whole scene");
+        jox_mod_conflict(l->reader.diagnostics, &mods[p->mod], at, &mods[other->mod],
+                         other->position, path);
         break;
     }
     scene->changes[scene->change_count++] =
