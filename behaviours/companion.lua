@@ -9,7 +9,7 @@ return machine {
   states = {
     Walk = { steer = seek(own.goal) + 0.6 * together(0.8),
       { to = "Gone", when = inside(own.goal) },
-      { to = "Wait", when = apart & distance(own.goal):below(own.patience * 100), chance = 0.5 } },
+      { to = "Wait", when = apart & ~near(own.goal, 5), chance = 0.5 } },
 
     Wait = { steer = together(0.8), speed = 0.8 * own.speed,
       { to = "Walk", when = ~apart | after(6) } },

@@ -36,7 +36,10 @@ struct JoScene {
     uint32_t plan_file_count;
     JoxRecorder *recorder;
     uint32_t record_every; /* ticks */
-    char *report;          /* directory, or NULL */
+    uint32_t
+        record_base[JOX_MOST_MACHINES]; /* number of a machine's first state in the recording */
+    uint32_t record_next;
+    char *report; /* directory, or NULL */
     JoxDensity *density;
     JoxRegions *regions;
     JoxPaths *paths;
@@ -97,6 +100,8 @@ void jox_host_give(JoScene *scene, int32_t machine, uint32_t group, const JoxSce
    cannot. *plan is then the old one. */
 void jox_host_rescene(JoScene *scene, JoxScene **plan, double written);
 /* results.c: what is collected each step, and how it ends. */
+/* Names a machine's states in the recording, if there is one, under new numbers. */
+void jox_host_record_states(JoScene *scene, uint32_t machine);
 bool jox_host_collect(JoScene *scene, JoError *error);
 
 #endif

@@ -301,6 +301,7 @@ static void link_batch(JoScene *scene, Batch *batch) {
         JoxMachine *machine = jox_loaded_machine(change->loaded);
         jox_lua_adopt(scene->lua, change->loaded);
         change->index = jox_mind_add(mind, machine);
+        jox_host_record_states(scene, change->index);
     }
     for (uint32_t m = 0; m < mind->machine_count; m++) {
         JoxDiagnostics none = {0};
@@ -325,6 +326,13 @@ static void give_new(JoScene *scene, const Change *change, const JoxMachine *old
     }
 }
 
+static bool same_states(const JoxMachine *a, const JoxMachine *b) {
+    bool same = a->state_count == b->state_count;
+    for (uint32_t s = 0; same && s < a->state_count; s++)
+        same = strcmp(a->states[s].name, b->states[s].name) == 0;
+    return same;
+}
+
 /* Swaps the machines of a batch; the old ones go to `retired`. */
 static void swap(JoScene *scene, Batch *batch, Retired *retired) {
     JoxMind *mind = &scene->world->mind;
@@ -343,6 +351,8 @@ static void swap(JoScene *scene, Batch *batch, Retired *retired) {
         retired->machines[retired->count++] = jox_lua_retire(scene->lua, old);
         jox_lua_adopt(scene->lua, change->loaded);
         jox_mind_census(mind, change->index, after);
+        if (!same_states(old, next)) /* the recording names those of the new version too */
+            jox_host_record_states(scene, change->index);
         double took = jox_clock_wall() - begun;
         scene->swap_seconds = took > scene->swap_seconds ? took : scene->swap_seconds;
         jox_text_printf(&text, "%s: version %u is live from t = %.2f s", next->path, next->version,

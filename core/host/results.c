@@ -45,9 +45,23 @@ static void area_of(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
 
 /* ---- recording ---- */
 
-/* Number of a state in jostle_state: machine * 1000 + state. */
-static uint32_t state_number(const JoxAgents *a, uint32_t i) {
-    return a->machine[i] == JOX_NO_MACHINE ? 999999u : a->machine[i] * 1000u + a->state[i];
+/* Number of an agent's state in jostle_state. */
+static uint32_t state_number(const JoScene *scene, uint32_t i) {
+    const JoxAgents *a = &scene->world->agents;
+    return a->machine[i] == JOX_NO_MACHINE ? UINT32_MAX
+                                           : scene->record_base[a->machine[i]] + a->state[i];
+}
+
+/* A new version of a machine may have other states, so that it is given numbers of its own. */
+void jox_host_record_states(JoScene *scene, uint32_t index) {
+    const JoxMachine *machine = scene->world->mind.machines[index];
+    if (!scene->recorder)
+        return;
+    scene->record_base[index] = scene->record_next;
+    scene->record_next += 1000;
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        jox_recorder_state(scene->recorder, scene->record_base[index] + s, machine->name,
+                           machine->states[s].name);
 }
 
 bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
@@ -64,9 +78,7 @@ bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
         return fail(error, &why);
     const JoxMind *mind = &scene->world->mind;
     for (uint32_t m = 0; m < mind->machine_count; m++)
-        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++)
-            jox_recorder_state(scene->recorder, m * 1000 + s, mind->machines[m]->name,
-                               mind->machines[m]->states[s].name);
+        jox_host_record_states(scene, m);
     return true;
 }
 
@@ -82,7 +94,7 @@ static bool record_frame(JoScene *scene, JoError *error) {
             continue;
         float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
         rows[n++] = (JoxRecordRow){id,           a->x[i],          a->y[i],
-                                   a->face_x[i], a->face_y[i],     state_number(a, i),
+                                   a->face_x[i], a->face_y[i],     state_number(scene, i),
                                    force,        a->compression[i]};
     }
     n = 0;

@@ -7,7 +7,7 @@ local function square(party)
     },
     groups = {
       families = { behaviour = "companion.lua", count = 24, party = party, fill = "hex", ["in"] = "west",
-        spacing = 1, set = { goal = "gate", patience = 1 } },
+        spacing = 1, set = { goal = "gate" } },
     },
   }, { seed = 2 })
 end

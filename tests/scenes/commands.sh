@@ -23,6 +23,10 @@ expect "unwritable recording" 1 "cannot record" "$JOSTLE" run scenes/running-thr
 expect "unwritable report" 1 "cannot make" "$JOSTLE" run scenes/running-through.yaml --quiet --report /proc/x/y
 expect "check finds nothing" 0 "nothing wrong" "$JOSTLE" check scenes behaviours
 expect "trace" 0 "Run -> Arrived" "$JOSTLE" run scenes/running-through.yaml --quiet --trace 25
+expect "profile of functions" 0 "state Touch > on_exit" "$JOSTLE" run scenes/tawaf.yaml --steps 2 --quiet --profile-lua --set groups.pilgrims.count=50 --set sources.0.keep=50
+expect "reference of behaviours" 0 "### Conditions" "$JOSTLE" reference behaviours
+expect "reference: what?" 2 "there is no 'plants'" "$JOSTLE" reference plants
+expect "check --json" 3 '"code":"unreadable-file"' "$JOSTLE" check no-such.lua --json
 expect "bench" 0 "running-through" "$JOSTLE" bench scenes/running-through.yaml --steps 10 --warm-up 5
 "$JOSTLE" run scenes/running-through.yaml --quiet --seeds 3 --for 2 --summary "$work/seeds.json"
 (root=$PWD; cd "$work" && "$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$root/$JOSTLE" ;; esac)" run "$root/scenes/running-through.yaml" --quiet --for 2 --report some/where >/dev/null 2>&1)
@@ -54,6 +58,9 @@ hostile "leaves its folder" 3 "not a plain name" 'require "../../secret"'
 hostile "NaN for mass" 3 "mass must be" 'return machine { name = "m", start = "A", defaults = { mass = 0/0 }, states = { A = {} } }'
 hostile "a misspelt word" 3 "Did you mean 'stuck'" 'return machine { name = "m", start = "A", states = { A = { { to = "A", when = stuk(3) } } } }'
 
+sheet 'return false' >"$work/s/cost.lua"; scene cost.lua
+expect "what functions cost is said" 0 "plain Lua functions: 63 calls" "$JOSTLE" run "$work/s/scene.yaml" --steps 20
+
 # Reload while running: a valid change goes live, an invalid one leaves the old running.
 cp behaviours/stander.lua "$work/s/live.lua"; scene live.lua
 "$JOSTLE" run "$work/s/scene.yaml" --steps 900000000 --watch --quiet >"$work/watch" 2>&1 &
@@ -61,5 +68,14 @@ pid=$!
 sleep 0.7; sed -i 's/perception = 1.5/perception = 2.5/' "$work/s/live.lua"
 sleep 0.7; echo 'return machine {' >"$work/s/live.lua"
 sleep 0.7; kill -INT $pid 2>/dev/null; wait $pid
+# On a terminal files are watched without being asked.
+if command -v script >/dev/null; then
+    cp behaviours/stander.lua "$work/s/live.lua"
+    script -qec "$JOSTLE run $work/s/scene.yaml --steps 900000000" /dev/null >"$work/terminal" 2>&1 </dev/null &
+    pid=$!
+    sleep 1; sed -i 's/perception = 1.5/perception = 2.5/' "$work/s/live.lua"
+    sleep 1; pkill -INT -f "$work/s/scene.yaml"; wait $pid
+    grep -q 'version 2 is live' "$work/terminal"; verdict "on a terminal files are watched" $?
+fi
 grep -q 'version 2 is live' "$work/watch"; verdict "a valid change goes live" $?
 grep -q 'Version 2 keeps running' "$work/watch"; verdict "an invalid one leaves the old running" $?
