@@ -199,7 +199,7 @@ int cli_new(int argc, char **argv) {
         if (!strcmp(kind, "behaviour"))
             return new_behaviour(behaviours, name);
         if (!strcmp(kind, "scene")) /* what a scene of scenes/ needs lies in ../behaviours */
-            return new_scene(scenes, *scenes ? behaviours : "", name);
+            return new_scene(scenes, *scenes && *behaviours ? behaviours : scenes, name);
         if (!strcmp(kind, "mod"))
             return new_mod(*scenes ? "scenes/mods" : "mods", name);
     }

@@ -193,7 +193,9 @@ JO_API bool jo_scene_record(JoScene *scene, const char *path, JoError *error);
 /* Collects density and regional speeds from here on; jo_scene_finish draws them into `directory`
    (made if it is missing). */
 JO_API bool jo_scene_report(JoScene *scene, const char *directory, JoError *error);
-/* Reloads behaviours between steps when their files change. */
+/* From here on files are watched: behaviours, what they require, patches of mods and the scene
+   itself. A thread of its own loads what was edited; between two steps all of it is swapped, or
+   nothing, and `message` says so. */
 JO_API bool jo_scene_watch(JoScene *scene, JoError *error);
 /* Sends every transition of the agent with this id, and why it fired, to `message`. */
 JO_API void jo_scene_trace(JoScene *scene, uint32_t agent_id);

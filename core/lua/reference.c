@@ -175,12 +175,44 @@ static void define_word(JoxText *out, const JoxWord *word) {
     }
 }
 
+/* A key's type as lua-language-server writes it. */
+static const char *editor_type(const char *type) {
+    static const char *const TYPES[][2] = {
+        {"text", "string"},
+        {"number", "number"},
+        {"plain number", "number"},
+        {"true or false", "boolean"},
+        {"name", "string"},
+        {"name of a state", "string"},
+        {"name of a behaviour", "string"},
+        {"name of a place", "string"},
+        {"name, or table", "string|table"},
+        {"table", "table"},
+        {"table of parameters", "jostle.State"},
+        {"table of names", "table<string, string>"},
+        {"table of states", "table<string, jostle.State>"},
+        {"steering or function", "jostle.Steering|fun(me: jostle.Me): number, number"},
+        {"number, distribution", "number|jostle.Number|jostle.Drawn"},
+        {"condition", "jostle.Condition"},
+        {"condition or function(me)", "jostle.Condition|fun(me: jostle.Me): boolean"},
+        {"target", "string|jostle.Target|jostle.Number"},
+        {"\"equal\" or \"nearest\"", "\"equal\"|\"nearest\""},
+        {"tag or list of tags", "string|string[]"},
+        {"function(me)", "fun(me: jostle.Me)"},
+        {"function(name)", "fun(name: string)"},
+        {"list", "jostle.Me[]"}};
+    for (size_t t = 0; t < sizeof TYPES / sizeof *TYPES; t++)
+        if (!strcmp(TYPES[t][0], type))
+            return TYPES[t][1];
+    return "any";
+}
+
 static void define_table(JoxText *out, const char *class, const char *owner, bool parameters) {
     jox_text_printf(out, "\n---@class %s\n", class);
     for (size_t k = 0; k < jox_sheet_key_count; k++)
         if (!strcmp(jox_sheet_keys[k].owner, owner))
-            jox_text_printf(out, "---@field %s? any %s. %s%s%s\n", jox_sheet_keys[k].name,
-                            jox_sheet_keys[k].type, jox_sheet_keys[k].meaning,
+            jox_text_printf(out, "---@field %s? %s %s%s%s\n", jox_sheet_keys[k].name,
+                            editor_type(jox_sheet_keys[k].type), jox_sheet_keys[k].meaning,
                             *jox_sheet_keys[k].unit ? ", " : "", jox_sheet_keys[k].unit);
     for (int p = 0; parameters && p < JOX_PARAM_COUNT; p++) {
         const JoxParameterInfo *info = &jox_parameters[p];
@@ -223,9 +255,10 @@ void jox_lua_definitions(JoxText *out) {
     define_table(out, "jostle.Transition", "transition", false);
     jox_text_add(out, "\n---@class jostle.Me\n");
     for (size_t k = 0; k < jox_me_key_count; k++)
-        jox_text_printf(out, "---@field %s any %s%s%s. %s\n", jox_me_keys[k].name,
-                        jox_me_keys[k].type, *jox_me_keys[k].unit ? " in " : "",
-                        jox_me_keys[k].unit, jox_me_keys[k].meaning);
+        jox_text_printf(out, "---@field %s %s %s%s%s\n", jox_me_keys[k].name,
+                        editor_type(jox_me_keys[k].type), jox_me_keys[k].meaning,
+                        *jox_me_keys[k].unit ? ", " : "", jox_me_keys[k].unit);
+    jox_text_add(out, "---@field [string] any a parameter, or what memory declares\n");
     for (size_t w = 0; w < jox_word_count; w++)
         define_word(out, &jox_words[w]);
 }

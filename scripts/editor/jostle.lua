@@ -41,34 +41,34 @@ function Number:in_state(state) end
 ---@operator mul(number|jostle.Number): jostle.Steering
 
 ---@class jostle.Machine
----@field name? any text. how messages and mods call it
----@field version? any number. the author's; informs people
----@field start? any name of a state. where agents begin
----@field defaults? any table of parameters. values for all states, drawn once per agent
----@field counts? any table. memory that counts by itself, in all states
----@field renamed? any table of names. old state = new state, for agents alive at a reload
----@field states? any table of states. name = state
+---@field name? string how messages and mods call it
+---@field version? number the author's; informs people
+---@field start? string where agents begin
+---@field defaults? jostle.State values for all states, drawn once per agent
+---@field counts? table memory that counts by itself, in all states
+---@field renamed? table<string, string> old state = new state, for agents alive at a reload
+---@field states? table<string, jostle.State> name = state
 
 ---@class jostle.State
----@field steer? any steering or function. where the agent wants to go: a value, a weighted sum, or function(me) that returns vx, vy in m/s
----@field lasts? any number, distribution. drawn on entering; see `lasted`, s
----@field removes? any true or false. the agent leaves the world on entering
----@field become? any name of a behaviour. on entering, goes on with another machine, from its start; keeps its body, what the scene gave it, and memory by name
----@field push_when? any condition. pushes only while this holds
----@field push_toward? any target. pushes that way; else the way it wants to go
----@field push_weight? any "equal" or "nearest". shares the push among all in the way, or gives it to the nearest
----@field push_only? any tag or list of tags. pushes those alone
----@field ignore? any tag or list of tags. does not avoid those
----@field face? any target. looks at; else where it walks
----@field approach? any target. a body that is not anticipated, only not overlapped
----@field kick? any table. kicks a body that it touches
----@field take? any target. picks up a body within 0.6 m that is slower than 8 m/s
----@field throw? any table. throws the body that it carries
----@field signal? any name, or table. calls out on entering, and every so often with { name, every = seconds }
----@field set? any table. on entering, memory = number, condition or true/false
----@field counts? any table. memory that counts while in this state
----@field on_enter? any function(me). called on entering
----@field on_exit? any function(me). called on leaving
+---@field steer? jostle.Steering|fun(me: jostle.Me): number, number where the agent wants to go: a value, a weighted sum, or function(me) that returns vx, vy in m/s
+---@field lasts? number|jostle.Number|jostle.Drawn drawn on entering; see `lasted`, s
+---@field removes? boolean the agent leaves the world on entering
+---@field become? string on entering, goes on with another machine, from its start; keeps its body, what the scene gave it, and memory by name
+---@field push_when? jostle.Condition pushes only while this holds
+---@field push_toward? string|jostle.Target|jostle.Number pushes that way; else the way it wants to go
+---@field push_weight? "equal"|"nearest" shares the push among all in the way, or gives it to the nearest
+---@field push_only? string|string[] pushes those alone
+---@field ignore? string|string[] does not avoid those
+---@field face? string|jostle.Target|jostle.Number looks at; else where it walks
+---@field approach? string|jostle.Target|jostle.Number a body that is not anticipated, only not overlapped
+---@field kick? table kicks a body that it touches
+---@field take? string|jostle.Target|jostle.Number picks up a body within 0.6 m that is slower than 8 m/s
+---@field throw? table throws the body that it carries
+---@field signal? string|table calls out on entering, and every so often with { name, every = seconds }
+---@field set? table on entering, memory = number, condition or true/false
+---@field counts? table memory that counts while in this state
+---@field on_enter? fun(me: jostle.Me) called on entering
+---@field on_exit? fun(me: jostle.Me) called on leaving
 ---@field speed? number|jostle.Number|jostle.Drawn wanted speed, m/s; 0 to 20, default 1.3
 ---@field max_speed? number|jostle.Number|jostle.Drawn hard cap on speed; only a contact impulse exceeds it, m/s; 0 to 30, default 1.8
 ---@field perception? number|jostle.Number|jostle.Drawn radius within which neighbours and bodies are seen, m; 0 to 100, default 3
@@ -87,31 +87,32 @@ function Number:in_state(state) end
 ---@field damping? number|jostle.Number|jostle.Drawn how fast the feet stop a velocity given by force, 1/s; 0 to 50, default 2.5
 
 ---@class jostle.Transition
----@field to? any name of a state. where it leads
----@field when? any condition or function(me). absent: always; the first that holds wins
----@field chance? any number. rolled each time `when` turns true
----@field set? any table. memory = number, condition or true/false
----@field signal? any name. calls out
----@field on_take? any function(me). called when it is taken
----@field id? any text. how mods name it; else its target, with #2, #3 for repeats
+---@field to? string where it leads
+---@field when? jostle.Condition|fun(me: jostle.Me): boolean absent: always; the first that holds wins
+---@field chance? number rolled each time `when` turns true
+---@field set? table memory = number, condition or true/false
+---@field signal? string calls out
+---@field on_take? fun(me: jostle.Me) called when it is taken
+---@field id? string how mods name it; else its target, with #2, #3 for repeats
 
 ---@class jostle.Me
----@field id any number. the agent's number, never used again
----@field x any number in m. position east
----@field y any number in m. position north
----@field vx any number in m/s. velocity east
----@field vy any number in m/s. velocity north
----@field time any number in s. simulated time
----@field time_in_state any number in s. since the state was entered
----@field density any number in 1/m2. people per square metre about it
----@field pushed any number in N. magnitude of the net force
----@field compression any number in N/m. sum of contact force magnitudes over girth
----@field team any number. 0 is none
----@field state any text. name of its state
----@field machine any text. name of its machine
----@field goal any name of a place. can be set
----@field neighbours any list. views of the neighbours, nearest first, as they were before the step; memory set in them arrives after it
----@field signal any function(name). calls out: me.signal("alarm")
+---@field id number the agent's number, never used again
+---@field x number position east, m
+---@field y number position north, m
+---@field vx number velocity east, m/s
+---@field vy number velocity north, m/s
+---@field time number simulated time, s
+---@field time_in_state number since the state was entered, s
+---@field density number people per square metre about it, 1/m2
+---@field pushed number magnitude of the net force, N
+---@field compression number sum of contact force magnitudes over girth, N/m
+---@field team number 0 is none
+---@field state string name of its state
+---@field machine string name of its machine
+---@field goal string can be set
+---@field neighbours jostle.Me[] views of the neighbours, nearest first, as they were before the step; memory set in them arrives after it
+---@field signal fun(name: string) calls out: me.signal("alarm")
+---@field [string] any a parameter, or what memory declares
 
 --- `inside(place) or inside(target, place)`: the agent, or a target, is in a place
 ---@param a1 string|jostle.Target|jostle.Number

@@ -103,12 +103,20 @@ says "nor reads it" 0 "a mod cannot read" bash -c run
 sed -i 's/api: 1/api: 1\nenabled: false/' "$tree/scenes/mods/states/mod.yaml"
 (cd "$tree" && "$program" mod list scenes/named.yaml) | grep -q '. states 1.0'; verdict "a scene names its mods" $?
 
+mkdir -p "$XDG_DATA_HOME/jostle/mods/mine/patches"
+printf 'name: mine\nversion: 3.1\napi: 1\n' >"$XDG_DATA_HOME/jostle/mods/mine/mod.yaml"
+echo 'return patch "stander" { defaults = { mass = 90 } }' >"$XDG_DATA_HOME/jostle/mods/mine/patches/stander.lua"
+says "a mod of the user's data directory is taken" 0 'mine 3.1' bash -c run
+rm -r "$XDG_DATA_HOME/jostle"
+
 # jostle new: what it writes passes the check and runs.
 mkdir "$work/new"
 (cd "$work/new" && "$program" new behaviour shy && "$program" new scene hall && "$program" new mod calm) >"$work/out" 2>&1; verdict "new writes a behaviour, a scene and a mod" $?
 says "they pass the check" 0 "nothing wrong" bash -c "cd $work/new && $program check ."
 says "the scene runs" 0 '"Go"' bash -c "cd $work/new && $program run hall.yaml --for 5 --quiet --summary -"
 says "the mod's scene runs with it" 0 '"calm 1.0.0"' bash -c "cd $work/new && $program run mods/calm/scenes/calm.yaml --mod mods/calm --for 5 --quiet --summary -"
+mkdir -p "$work/new/deep/scenes"
+says "a scene in scenes/ finds its behaviour" 0 '"Go"' bash -c "cd $work/new/deep && $program new scene hall && $program run scenes/hall.yaml --for 2 --quiet --summary -"
 says "nothing is overwritten" 1 "is there already" bash -c "cd $work/new && $program new behaviour shy"
 says "a bad name" 2 "lower-case letters" "$JOSTLE" new scene ../up
 says "what is new?" 2 "a behaviour, a scene or a mod" "$JOSTLE" new world x
