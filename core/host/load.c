@@ -2,6 +2,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
@@ -11,6 +12,8 @@ enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 64 << 20 };
 
 static void to_stderr(void *context, const char *text) {
     (void)context;
+    if (isatty(2)) /* the line of progress makes room */
+        fputs("\r\033[K", stderr);
     fputs(text, stderr);
 }
 

@@ -71,10 +71,10 @@ sleep 0.7; kill -INT $pid 2>/dev/null; wait $pid
 # On a terminal files are watched without being asked.
 if command -v script >/dev/null; then
     cp behaviours/stander.lua "$work/s/live.lua"
-    script -qec "$JOSTLE run $work/s/scene.yaml --steps 900000000" /dev/null >"$work/terminal" 2>&1 </dev/null &
+    timeout 4 script -qec "timeout 3 $JOSTLE run $work/s/scene.yaml --steps 900000000" /dev/null >"$work/terminal" 2>&1 </dev/null &
     pid=$!
     sleep 1; sed -i 's/perception = 1.5/perception = 2.5/' "$work/s/live.lua"
-    sleep 1; pkill -INT -f "$work/s/scene.yaml"; wait $pid
+    wait $pid
     grep -q 'version 2 is live' "$work/terminal"; verdict "on a terminal files are watched" $?
 fi
 grep -q 'version 2 is live' "$work/watch"; verdict "a valid change goes live" $?
