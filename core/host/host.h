@@ -57,8 +57,6 @@ void jox_host_say(const JoScene *scene, const char *format, ...)
 /* Sends diagnostics as text, fills `error` from the first error, and frees them. */
 void jox_host_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
                      JoError *error);
-void jox_host_fail(JoError *error, JoCode code, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
 
 /* As jo_scene_load, but what is wrong goes to `diagnostics`. NULL if there are errors. */
 JoScene *jox_host_load(const JoSceneDef *def, JoxDiagnostics *diagnostics);

@@ -26,16 +26,6 @@ void jox_host_say(const JoScene *scene, const char *format, ...) {
     scene->message(scene->message_context, text);
 }
 
-void jox_host_fail(JoError *error, JoCode code, const char *format, ...) {
-    if (!error)
-        return;
-    *error = (JoError){.code = code};
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error->text, sizeof error->text, format, arguments);
-    va_end(arguments);
-}
-
 void jox_host_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
                      JoError *error) {
     JoxText text = {0};
@@ -47,7 +37,7 @@ void jox_host_report(JoMessage *message, void *context, JoxDiagnostics *diagnost
         const JoxDiagnostic *d = &diagnostics->items[i];
         if (d->severity != JOX_SEVERITY_ERROR)
             continue;
-        jox_host_fail(error, JO_INPUT, "%s", d->message);
+        jox_error(error, JO_INPUT, "%s", d->message);
         error->line = d->line;
         error->column = d->column;
         snprintf(error->file, sizeof error->file, "%s", d->file ? d->file : "");

@@ -150,11 +150,11 @@ char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error) {
         for (uint32_t m = 0; m < mind->machine_count; m++)
             names[m] = mind->machines[m]->name;
         const char *near = jox_suggest(name, names, mind->machine_count);
-        jox_host_fail(error, JO_INPUT,
-                      machine ? "nothing sets '%s'; write BEHAVIOUR.STATE.KEY, "
-                                "BEHAVIOUR.STATE.TRANSITION.KEY or BEHAVIOUR.defaults.KEY%s%s"
-                              : "neither a behaviour nor a mod sets '%s'%s%s",
-                      path, near ? "; did you mean " : "", near ? near : "");
+        jox_error(error, JO_INPUT,
+                  machine ? "nothing sets '%s'; write BEHAVIOUR.STATE.KEY, "
+                            "BEHAVIOUR.STATE.TRANSITION.KEY or BEHAVIOUR.defaults.KEY%s%s"
+                          : "neither a behaviour nor a mod sets '%s'%s%s",
+                  path, near ? "; did you mean " : "", near ? near : "");
         jox_text_free(&out);
     } else {
         jox_text_add(&out, "  the last one counts\n");

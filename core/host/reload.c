@@ -446,7 +446,7 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
         close(stop);
     r->stop = -1;
     jox_host_unwatch(scene);
-    jox_host_fail(error, JO_FAILED, "the system does not let files be watched");
+    jox_error(error, JO_FAILED, "the system does not let files be watched");
     return false;
 }
 

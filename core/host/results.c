@@ -14,7 +14,7 @@ static const double SAMPLE = 2.0; /* s between density samples */
 static const float MARGIN = 2.0f; /* m about the walls and people of a scene without bounds */
 
 static bool fail(JoError *error, JoxText *why) {
-    jox_host_fail(error, JO_FAILED, "%s", why->data ? why->data : "writing failed");
+    jox_error(error, JO_FAILED, "%s", why->data ? why->data : "writing failed");
     jox_text_free(why);
     return false;
 }
@@ -260,10 +260,10 @@ bool jo_scene_step(JoScene *scene, JoError *error) {
     jox_host_sinks(scene);
     const char *stalled = jox_lua_stalled(scene->lua);
     if (stalled) {
-        jox_host_fail(error, JO_FAILED,
-                      "%s: its functions take far longer than their instructions explain (look-ups "
-                      "among keys that collide, comparisons of long texts); the run was stopped",
-                      stalled);
+        jox_error(error, JO_FAILED,
+                  "%s: its functions take far longer than their instructions explain (look-ups "
+                  "among keys that collide, comparisons of long texts); the run was stopped",
+                  stalled);
         return false;
     }
     return jox_host_collect(scene, error);

@@ -194,6 +194,6 @@ char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError
     if (jox_aggregate(summaries, count, &out))
         return out.data;
     jox_text_free(&out);
-    jox_host_fail(error, JO_INPUT, "a summary is not JSON");
+    jox_error(error, JO_INPUT, "a summary is not JSON");
     return NULL;
 }

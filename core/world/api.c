@@ -25,10 +25,10 @@ void jo_free(void *text) {
     jox_free(text);
 }
 
-__attribute__((format(printf, 2, 3))) static void refuse(JoError *error, const char *format, ...) {
+void jox_error(JoError *error, JoCode code, const char *format, ...) {
     if (!error)
         return;
-    *error = (JoError){.code = JO_INPUT};
+    *error = (JoError){.code = code};
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(error->text, sizeof error->text, format, arguments);
@@ -40,7 +40,8 @@ static bool within(const char *field, const char *unit, double value, double lea
                    JoError *error) {
     if (value >= least && value <= greatest)
         return true;
-    refuse(error, "%s must be from %g to %g %s, not %g", field, least, greatest, unit, value);
+    jox_error(error, JO_INPUT, "%s must be from %g to %g %s, not %g", field, least, greatest, unit,
+              value);
     return false;
 }
 
@@ -66,16 +67,16 @@ JoWorld *jo_world_create(const JoWorldDef *def, JoError *error) {
 static JoxV2 *read_points(const JoWorld *world, const double *xy, size_t count, size_t least,
                           JoError *error) {
     if (world->tick > 0 || count < least || count > 100000) {
-        refuse(error,
-               world->tick > 0 ? "walls cannot be added after the first step"
-                               : "a wall needs at least %zu points",
-               least);
+        jox_error(error, JO_INPUT,
+                  world->tick > 0 ? "walls cannot be added after the first step"
+                                  : "a wall needs at least %zu points",
+                  least);
         return NULL;
     }
     JoxV2 *points = jox_alloc(count, sizeof *points);
     for (size_t i = 0; i < count; i++) {
         if (!(fabs(xy[2 * i]) <= FARTHEST && fabs(xy[2 * i + 1]) <= FARTHEST)) {
-            refuse(error, "point %zu of a wall must be within 10 km of the origin", i);
+            jox_error(error, JO_INPUT, "point %zu of a wall must be within 10 km of the origin", i);
             jox_free(points);
             return NULL;
         }
@@ -95,7 +96,7 @@ bool jo_world_add_solid(JoWorld *world, const double *xy, size_t count, JoError 
     if (good)
         jox_walls_add_solid(&world->walls, points, (uint32_t)count, INFINITY);
     else
-        refuse(error, "a solid must enclose an area and not cross itself");
+        jox_error(error, JO_INPUT, "a solid must enclose an area and not cross itself");
     jox_free(points);
     return good;
 }
@@ -258,7 +259,7 @@ JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
     JoxText why = {0};
     uint32_t row = jox_bodies_add(world->bodies, &body, &why);
     if (row == JOX_NO_BODY) {
-        refuse(error, "%s", why.data ? why.data : "the body was refused");
+        jox_error(error, JO_INPUT, "%s", why.data ? why.data : "the body was refused");
         jox_text_free(&why);
         return (JoBody){0};
     }

@@ -53,6 +53,9 @@ struct JoWorld {
     JoxStatistics statistics;
 };
 
+/* Fills an error, which may be NULL, with a formatted text. */
+void jox_error(JoError *error, JoCode code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 /* As jo_world_create, without checking the def. */
 JoWorld *jox_world_create(const JoWorldDef *def);
 /* Bit number of a tag, added if new; -1 when all 64 are taken. */
