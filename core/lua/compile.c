@@ -130,6 +130,8 @@ int32_t jox_build_program(JoxBuild *build, const JoxNode *node, JoxPosition posi
     JoxMachine *m = build->machine;
     if (node->kind == JOX_NODE_POISON)
         return -1;
+    if (node->program > 0) /* a local that several places use */
+        return node->program - 1;
     Code code = {.build = build};
     emit(&code, node, 0, 0);
     if (code.too_deep) {
@@ -140,5 +142,6 @@ int32_t jox_build_program(JoxBuild *build, const JoxNode *node, JoxPosition posi
     }
     JOX_RESERVE(m->programs, build->program_capacity, m->program_count + 1);
     m->programs[m->program_count] = (JoxProgram){code.items, (uint32_t)code.count};
+    ((JoxNode *)node)->program = (int32_t)m->program_count + 1;
     return (int32_t)m->program_count++;
 }

@@ -67,12 +67,14 @@ static void think_batch(const JoxMind *mind, const JoxBatchRange *batch, JoxRegi
                 count_circuits(mind, &machine->counters[c], agents[n]);
     for (uint32_t n = 0; n < batch->count; n++)
         mind->scratch->fired[agents[n]] = -1;
+    int32_t known = -1; /* program whose result is in register 0 */
     for (uint32_t k = 0; k < state->transition_count; k++) {
         const JoxTransition *t = &state->transitions[k];
         if (t->when_hook >= 0)
             continue;
-        if (t->when >= 0)
+        if (t->when >= 0 && t->when != known) /* the same once more keeps its result */
             jox_eval(mind, machine, &machine->programs[t->when], agents, batch->count, registers);
+        known = t->when >= 0 ? t->when : known;
         uint32_t bit = 1u << k;
         for (uint32_t n = 0; n < batch->count; n++) {
             uint32_t i = agents[n];
