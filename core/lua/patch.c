@@ -57,6 +57,7 @@ static void push_copy(lua_State *L, int index) {
     int copy = lua_gettop(L);
     lua_pushnil(L);
     while (lua_next(L, index)) {
+        jox_vm_charge(L, 5);
         lua_pushvalue(L, -2);
         lua_insert(L, -2);
         lua_rawset(L, copy);
@@ -81,6 +82,7 @@ static lua_Integer push_keys(lua_State *L, int index) {
         lua_pushvalue(L, -1);
         lua_Integer at = ++count; /* insertion: sheets are small */
         for (; at > 1; at--) {
+            jox_vm_charge(L, 5);
             lua_rawgeti(L, list, at - 1);
             bool later = strcmp(lua_tostring(L, -1), lua_tostring(L, -2)) > 0;
             if (!later) {
@@ -214,6 +216,7 @@ static lua_Integer find_transition(const Patch *p, int state, const char *id, co
     lua_Integer length = (lua_Integer)lua_rawlen(L, state), found = 0;
     int top = lua_gettop(L);
     for (lua_Integer i = 1; i <= length; i++, lua_settop(L, top)) {
+        jox_vm_charge(L, 10);
         if (lua_rawgeti(L, state, i) != LUA_TTABLE ||
             jox_read_field(L, top + 1, "id") != LUA_TSTRING)
             continue;
@@ -245,6 +248,7 @@ static void insert_transition(const Patch *p, int state, lua_Integer at, const c
     lua_Integer length = (lua_Integer)lua_rawlen(L, state);
     jox_read_id(L, item_at, 1, id);
     for (lua_Integer i = 1; i <= length; i++) { /* an id of its own */
+        jox_vm_charge(L, 10);
         lua_rawgeti(L, state, i);
         jox_read_field(L, item_at + 1, "id");
         const char *other = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "";
@@ -256,6 +260,7 @@ static void insert_transition(const Patch *p, int state, lua_Integer at, const c
     lua_pushstring(L, id);
     lua_setfield(L, item_at, "id");
     for (lua_Integer i = length; i >= at; i--) {
+        jox_vm_charge(L, 2);
         lua_rawgeti(L, state, i);
         lua_rawseti(L, state, i + 1);
     }
@@ -291,6 +296,7 @@ static void remove_transition(const Patch *p, int state, lua_Integer at, const c
     char item[160], canonical[256];
     lua_Integer length = (lua_Integer)lua_rawlen(L, state);
     for (lua_Integer i = at; i <= length; i++) {
+        jox_vm_charge(L, 2);
         lua_rawgeti(L, state, i + 1);
         lua_rawseti(L, state, i);
     }
