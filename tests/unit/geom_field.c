@@ -264,7 +264,8 @@ static void a_gap_of_a_persons_width_is_passed(void **state) {
             for (int t = 0; t < 4; t++) {
                 double angle = t == 3 ? 0.2 : TURN / 16 * t;
                 float shift = 0.061f * (float)s, length;
-                JoxWalls walls = barrier(0.6f, shift, angle);
+                /* Half a metre asks for more: 2 clearances and 0.6 cells. */
+                JoxWalls walls = barrier(cells[c] < 0.4f ? 0.6f : 0.7f, shift, angle);
                 JoxV2 goal = turned((JoxV2){0, -4}, angle), p = turned((JoxV2){2, 4}, angle);
                 JoxField *field = to_point(&walls, goal, 8.0f, cells[c], 0.2f);
                 float told = jox_field_distance(field, p);
