@@ -3,306 +3,266 @@
 #include <math.h>
 
 #include "base/mem.h"
+#include "geom/field_parts.h"
 
-enum { MOST_CELLS = 4000000 };
-static const float NEAR = 0.5f; /* m: walls slow people down within this */
-static const float SLOWEST = 0.35f;
+static const float MOST_CELLS = 4000000.0f;
+static const float LEAST_CELL = 0.1f, MOST_CELL = 2.0f; /* m */
+static const float LEAST_CLEARANCE = 0.05f;             /* m */
+static const float FARTHEST = 1e6f;                     /* m: no plan is larger */
 
-typedef struct Cell {
-    float time; /* to walk to the goal at 1 m/s, s */
-    float direction[2];
-    float wall;    /* distance to the nearest wall edge, m; NEAR where it is farther */
-    float away[2]; /* unit vector from that wall */
-    bool blocked;  /* too close to a wall, or in a solid */
-} Cell;
-
-struct JoxField {
-    JoxV2 low;
-    float size; /* of a cell, m */
-    int columns, rows;
-    Cell *cells;
-};
-
-typedef struct Heap {
-    int *items;
-    int *place; /* of a cell in items; -1 is not in it */
-    int count;
-} Heap;
-
-static JoxV2 centre_of(const JoxField *f, int column, int row) {
-    return (JoxV2){f->low.x + ((float)column + 0.5f) * f->size,
-                   f->low.y + ((float)row + 0.5f) * f->size};
-}
-
-/* Columns or rows that an interval touches, kept within the grid. */
-static void span(float from, float to, float low, float size, int most, int *first, int *last) {
-    float a = floorf((from - low) / size), b = floorf((to - low) / size);
-    *first = a < 0.0f ? 0 : a > (float)(most - 1) ? most - 1 : (int)a;
-    *last = b < 0.0f ? 0 : b > (float)(most - 1) ? most - 1 : (int)b;
-}
-
-static void mark_edge(JoxField *f, JoxV2 a, JoxV2 b) {
-    int c0, c1, r0, r1;
-    span(jox_minf(a.x, b.x) - NEAR, jox_maxf(a.x, b.x) + NEAR, f->low.x, f->size, f->columns, &c0,
-         &c1);
-    span(jox_minf(a.y, b.y) - NEAR, jox_maxf(a.y, b.y) + NEAR, f->low.y, f->size, f->rows, &r0,
-         &r1);
-    for (int r = r0; r <= r1; r++)
-        for (int c = c0; c <= c1; c++) {
-            Cell *cell = &f->cells[r * f->columns + c];
-            JoxV2 p = centre_of(f, c, r), away = jox_sub(p, jox_segment_nearest(a, b, p));
-            float distance = jox_length(away);
-            if (distance >= cell->wall)
-                continue;
-            cell->wall = distance;
-            away = distance > 1e-6f ? jox_scale(away, 1.0f / distance)
-                                    : jox_left(jox_unit(jox_sub(b, a)));
-            cell->away[0] = away.x;
-            cell->away[1] = away.y;
-        }
-}
-
-static void mark_solid(JoxField *f, const JoxWalls *walls, const struct JoxWallRing *ring) {
-    JoxV2 low, high, *points = jox_alloc(ring->count, sizeof *points);
-    for (uint32_t k = 0; k < ring->count; k++)
-        points[k] = walls->vertices[ring->first + k].point;
-    jox_bounds(points, ring->count, &low, &high);
-    int c0, c1, r0, r1;
-    span(low.x, high.x, f->low.x, f->size, f->columns, &c0, &c1);
-    span(low.y, high.y, f->low.y, f->size, f->rows, &r0, &r1);
-    for (int r = r0; r <= r1; r++)
-        for (int c = c0; c <= c1; c++)
-            if (jox_polygon_contains(points, ring->count, centre_of(f, c, r))) {
-                Cell *cell = &f->cells[r * f->columns + c];
-                cell->blocked = true; /* the way out is towards the wall, not away from it */
-                cell->away[0] = -cell->away[0];
-                cell->away[1] = -cell->away[1];
-            }
-    jox_free(points);
-}
-
-static void mark_walls(JoxField *f, const JoxWalls *walls, float clearance) {
-    /* A band this wide on both sides of a thin wall lets no way slip through between two cells. */
-    float closed = jox_maxf(clearance, 0.75f * f->size);
-    for (uint32_t i = 0; i < walls->count; i++)
-        mark_edge(f, walls->vertices[i].point, walls->vertices[walls->vertices[i].next].point);
-    for (int i = 0; i < f->columns * f->rows; i++)
-        f->cells[i].blocked = f->cells[i].wall < closed;
-    for (uint32_t r = 0; r < walls->ring_count; r++)
-        if (walls->rings[r].solid)
-            mark_solid(f, walls, &walls->rings[r]);
-}
-
-/* ---- a heap of cells by time; equal times by number, so that the order is one ---- */
-
-static bool sooner(const JoxField *f, int a, int b) {
-    return f->cells[a].time != f->cells[b].time ? f->cells[a].time < f->cells[b].time : a < b;
-}
-
-static void put(Heap *h, int at, int cell) {
-    h->items[at] = cell;
-    h->place[cell] = at;
-}
-
-static void rise(const JoxField *f, Heap *h, int at) {
-    int cell = h->items[at];
-    for (; at > 0 && sooner(f, cell, h->items[(at - 1) / 2]); at = (at - 1) / 2)
-        put(h, at, h->items[(at - 1) / 2]);
-    put(h, at, cell);
-}
-
-static int pop(const JoxField *f, Heap *h) {
-    int top = h->items[0], last = h->items[--h->count], at = 0;
-    h->place[top] = -1;
-    while (h->count > 0) {
-        int child = 2 * at + 1;
-        if (child >= h->count)
-            break;
-        child += child + 1 < h->count && sooner(f, h->items[child + 1], h->items[child]);
-        if (!sooner(f, h->items[child], last))
-            break;
-        put(h, at, h->items[child]);
-        at = child;
-    }
-    if (h->count > 0)
-        put(h, at, last);
-    return top;
-}
-
-/* ---- marching ---- */
-
-static float time_at(const JoxField *f, int column, int row) {
-    if (column < 0 || row < 0 || column >= f->columns || row >= f->rows)
-        return INFINITY;
-    const Cell *cell = &f->cells[row * f->columns + column];
-    return cell->blocked ? INFINITY : cell->time;
-}
-
-static float slowness(const Cell *cell) {
-    float share = jox_clampf(cell->wall / NEAR, 0.0f, 1.0f);
-    return 1.0f / (SLOWEST + (1.0f - SLOWEST) * share);
-}
-
-/* Upwind solution of |grad T| = slowness. */
-static float solve(const JoxField *f, int column, int row) {
-    float a = jox_minf(time_at(f, column - 1, row), time_at(f, column + 1, row));
-    float b = jox_minf(time_at(f, column, row - 1), time_at(f, column, row + 1));
-    float cost = slowness(&f->cells[row * f->columns + column]) * f->size;
-    float low = jox_minf(a, b), high = jox_maxf(a, b);
-    if (high - low >= cost)
-        return low + cost;
-    return 0.5f * (a + b + sqrtf(jox_maxf(0.0f, 2.0f * cost * cost - (a - b) * (a - b))));
-}
-
-static void march(JoxField *f, Heap *h, bool *done) {
-    static const int STEP[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    while (h->count > 0) {
-        int i = pop(f, h), column = i % f->columns, row = i / f->columns;
-        done[i] = true;
-        for (int s = 0; s < 4; s++) {
-            int c = column + STEP[s][0], r = row + STEP[s][1], j = r * f->columns + c;
-            if (c < 0 || r < 0 || c >= f->columns || r >= f->rows || f->cells[j].blocked || done[j])
-                continue;
-            float time = solve(f, c, r);
-            if (time >= f->cells[j].time)
-                continue;
-            f->cells[j].time = time;
-            if (h->place[j] < 0)
-                put(h, h->count++, j);
-            rise(f, h, h->place[j]);
-        }
+static void hold(const JoxPlace *places, uint32_t index, JoxV2 *low, JoxV2 *high) {
+    const JoxPlace *place = &places[index];
+    for (uint32_t k = 0; place->kind == JOX_PLACE_SET && k < place->member_count; k++)
+        hold(places, (uint32_t)place->members[k], low, high);
+    uint32_t count =
+        place->kind == JOX_PLACE_POINT || place->kind == JOX_PLACE_QUEUE ? 1 : place->count;
+    for (uint32_t k = 0; place->kind != JOX_PLACE_SET && k < count; k++) {
+        JoxV2 p = place->points[k];
+        *low = (JoxV2){jox_minf(low->x, p.x), jox_minf(low->y, p.y)};
+        *high = (JoxV2){jox_maxf(high->x, p.x), jox_maxf(high->y, p.y)};
     }
 }
 
-/* Free cells at the place begin; the nearest ones where it lies too close to a wall. */
-static void seed(JoxField *f, Heap *h, const JoxPlace *places, uint32_t place) {
-    for (float reach = 0.75f * f->size; h->count == 0 && reach < 5.0f; reach *= 1.5f)
-        for (int i = 0; i < f->columns * f->rows; i++) {
-            if (f->cells[i].blocked)
-                continue;
-            float distance =
-                jox_place_distance(places, place, centre_of(f, i % f->columns, i / f->columns));
-            if (distance > reach)
-                continue;
-            f->cells[i].time = distance;
-            put(h, h->count++, i);
-            rise(f, h, h->count - 1);
-        }
-}
-
-/* Down the gradient of the times; out of the margin of a wall away from it. */
-static void point_cells(JoxField *f) {
-    for (int i = 0; i < f->columns * f->rows; i++) {
-        Cell *cell = &f->cells[i];
-        int c = i % f->columns, r = i / f->columns;
-        if (cell->blocked) {
-            cell->direction[0] = cell->away[0];
-            cell->direction[1] = cell->away[1];
-            continue;
-        }
-        if (!(cell->time < INFINITY))
-            continue;
-        float left = time_at(f, c - 1, r), right = time_at(f, c + 1, r);
-        float down = time_at(f, c, r - 1), up = time_at(f, c, r + 1);
-        float x = jox_maxf(0.0f, cell->time - jox_minf(left, right));
-        float y = jox_maxf(0.0f, cell->time - jox_minf(down, up));
-        JoxV2 way = jox_unit((JoxV2){left < right ? -x : x, down < up ? -y : y});
-        cell->direction[0] = way.x;
-        cell->direction[1] = way.y;
+/* A box that is one: ordered, finite, not beyond all measure, and about the place too. */
+static void lay(JoxField *f, const JoxPlace *places, uint32_t place, JoxV2 low, JoxV2 high,
+                float cell) {
+    if (!(high.x >= low.x && high.y >= low.y)) {
+        low = (JoxV2){INFINITY, INFINITY};
+        high = (JoxV2){-INFINITY, -INFINITY};
     }
-}
-
-JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
-                           JoxV2 high, float cell, float clearance) {
-    JoxField *f = jox_alloc(1, sizeof *f);
+    hold(places, place, &low, &high);
+    low = (JoxV2){jox_clampf(low.x, -FARTHEST, FARTHEST), jox_clampf(low.y, -FARTHEST, FARTHEST)};
+    high = (JoxV2){jox_clampf(high.x, low.x, FARTHEST), jox_clampf(high.y, low.y, FARTHEST)};
+    cell = jox_clampf(cell > 0.0f ? cell : LEAST_CELL, LEAST_CELL, MOST_CELL);
     float width = jox_maxf(high.x - low.x, cell), height = jox_maxf(high.y - low.y, cell);
-    while ((width / cell + 1.0f) * (height / cell + 1.0f) > (float)MOST_CELLS)
+    while ((width / cell + 1.0f) * (height / cell + 1.0f) > MOST_CELLS)
         cell *= 1.1f;
     f->low = low;
     f->size = cell;
     f->columns = (int)ceilf(width / cell);
     f->rows = (int)ceilf(height / cell);
-    int count = f->columns * f->rows;
-    f->cells = jox_alloc((size_t)count, sizeof *f->cells);
-    Heap heap = {.items = jox_alloc((size_t)count, sizeof(int)),
-                 .place = jox_alloc((size_t)count, sizeof(int))};
-    bool *done = jox_alloc((size_t)count, sizeof *done);
-    for (int i = 0; i < count; i++) {
-        f->cells[i].time = INFINITY;
-        f->cells[i].wall = NEAR;
-        heap.place[i] = -1;
-    }
-    mark_walls(f, walls, clearance);
-    seed(f, &heap, places, place);
-    march(f, &heap, done);
-    point_cells(f);
-    jox_free(heap.items);
-    jox_free(heap.place);
-    jox_free(done);
+}
+
+JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
+                           JoxV2 high, float cell, float clearance) {
+    JoxField *f = jox_alloc(1, sizeof *f);
+    lay(f, places, place, low, high, cell);
+    f->clearance = clearance > LEAST_CLEARANCE ? clearance : LEAST_CLEARANCE;
+    size_t count = (size_t)f->columns * (size_t)f->rows;
+    f->cells = jox_alloc(count, sizeof *f->cells);
+    JoxFieldWork work = {.f = f,
+                         .count = (int)count,
+                         .first = jox_alloc(count + 1, sizeof(uint32_t)),
+                         .solid = jox_alloc(count, sizeof(uint16_t)),
+                         .time = jox_alloc(count, sizeof(float)),
+                         .slow = jox_alloc(count, sizeof(float)),
+                         .knot = jox_alloc(count, 1),
+                         .links = jox_alloc(count, 1),
+                         .corners = jox_alloc(count, 1)};
+    jox_field_mark(&work, walls);
+    jox_field_march(&work, places, place);
+    jox_field_patch(&work);
+    jox_free(work.first);
+    jox_free(work.solid);
+    jox_free(work.time);
+    jox_free(work.slow);
+    jox_free(work.knot);
+    jox_free(work.links);
+    jox_free(work.corners);
     return f;
 }
 
-/* The cell about a point, and where in the square of four centres it lies. */
-static const Cell *cell_at(const JoxField *f, JoxV2 p, float *u, float *v, int *column, int *row) {
-    float x = jox_clampf((p.x - f->low.x) / f->size, 0.0f, (float)f->columns - 0.001f);
-    float y = jox_clampf((p.y - f->low.y) / f->size, 0.0f, (float)f->rows - 0.001f);
-    const Cell *own = &f->cells[(int)y * f->columns + (int)x];
-    x = jox_clampf(x - 0.5f, 0.0f, (float)(f->columns - 1));
-    y = jox_clampf(y - 0.5f, 0.0f, (float)(f->rows - 1));
-    *column = (int)x;
-    *row = (int)y;
-    *u = x - (float)*column;
-    *v = y - (float)*row;
-    return own;
+/* ---- sampling ---- */
+
+/* Where a point lies in the grid, in cells; the box's nearest point for one outside. */
+typedef struct Spot {
+    float x, y;
+    int column, row;
+    const JoxFieldCell *cell;
+    JoxV2 point, beyond; /* the point within the box, and what leads there from outside */
+} Spot;
+
+static Spot find(const JoxField *f, JoxV2 p) {
+    float x = (p.x - f->low.x) / f->size, y = (p.y - f->low.y) / f->size;
+    Spot s = {.point = p};
+    s.x = x > 0.0f ? jox_minf(x, (float)f->columns) : 0.0f; /* not a number: 0 */
+    s.y = y > 0.0f ? jox_minf(y, (float)f->rows) : 0.0f;
+    if (s.x != x || s.y != y) {
+        s.point = (JoxV2){f->low.x + s.x * f->size, f->low.y + s.y * f->size};
+        s.beyond = jox_sub(s.point, p);
+    }
+    s.column = s.x < (float)f->columns ? (int)s.x : f->columns - 1;
+    s.row = s.y < (float)f->rows ? (int)s.y : f->rows - 1;
+    s.cell = &f->cells[s.row * f->columns + s.column];
+    return s;
+}
+
+/* The four centres about a spot and their weights. */
+static void corners(const JoxField *f, const Spot *s, const JoxFieldCell **cells, float *weights) {
+    float x = jox_clampf(s->x - 0.5f, 0.0f, (float)(f->columns - 1));
+    float y = jox_clampf(s->y - 0.5f, 0.0f, (float)(f->rows - 1));
+    int c = (int)x, r = (int)y;
+    int east = c + 1 < f->columns, north = r + 1 < f->rows ? f->columns : 0;
+    float u = x - (float)c, v = y - (float)r;
+    cells[0] = &f->cells[r * f->columns + c];
+    cells[1] = cells[0] + east;
+    cells[2] = cells[0] + north;
+    cells[3] = cells[2] + east;
+    weights[0] = (1.0f - u) * (1.0f - v);
+    weights[1] = u * (1.0f - v);
+    weights[2] = (1.0f - u) * v;
+    weights[3] = u * v;
+}
+
+static int nearest_sample(const JoxField *f, const Spot *s, JoxV2 *sample) {
+    int x = (int)((s->x - (float)s->column) * (float)JOX_FIELD_SIDE);
+    int y = (int)((s->y - (float)s->row) * (float)JOX_FIELD_SIDE);
+    int k = (y < JOX_FIELD_SIDE ? y : JOX_FIELD_SIDE - 1) * JOX_FIELD_SIDE +
+            (x < JOX_FIELD_SIDE ? x : JOX_FIELD_SIDE - 1);
+    *sample = jox_field_sample(f, s->row * f->columns + s->column, k);
+    return k;
+}
+
+/* A sample and what it says. */
+typedef struct Said {
+    JoxV2 at, way;
+    float length;
+} Said;
+
+static bool parted(const JoxField *f, const JoxFieldPatch *patch, JoxV2 p, JoxV2 sample) {
+    for (uint32_t k = patch->first; k < patch->first + patch->count; k++) {
+        const JoxFieldEdge *e = &f->edges[f->refs[k]];
+        if (jox_segment_crossing(e->a, e->b, p, sample) != 0)
+            return true;
+    }
+    return false;
+}
+
+/* The nearest sample of one patch that no edge parts from a point; false if there is none. */
+static bool ask(const JoxField *f, const JoxFieldPatch *about, int cell, JoxV2 p, Said *said) {
+    const JoxFieldPatch *patch = &f->patches[f->cells[cell].patch];
+    float least = INFINITY;
+    for (int k = 0; k < JOX_FIELD_SAMPLES; k++) {
+        JoxV2 at = jox_field_sample(f, cell, k);
+        float d2 = jox_length2(jox_sub(at, p));
+        if (d2 >= least || patch->upon >> k & 1 || parted(f, about, p, at))
+            continue;
+        least = d2;
+        *said = (Said){at, {patch->x[k], patch->y[k]}, patch->length[k]};
+    }
+    return least < INFINITY;
+}
+
+/* What a point at a wall is told: by the sample of its ninth of the cell; where an edge passes
+   that, by the nearest one on its own side. False if none is. */
+static bool listen(const JoxField *f, const Spot *s, Said *said) {
+    int cell = s->row * f->columns + s->column;
+    const JoxFieldPatch *patch = &f->patches[s->cell->patch];
+    int k = nearest_sample(f, s, &said->at);
+    said->way = (JoxV2){patch->x[k], patch->y[k]};
+    said->length = patch->length[k];
+    if (!(patch->cut >> k & 1))
+        return true;
+    if (!(patch->upon >> k & 1) && !parted(f, patch, s->point, said->at))
+        return true;
+    if (ask(f, patch, cell, s->point, said))
+        return true;
+    for (int n = 0; n < 8; n++) {
+        int other = jox_field_next(f, cell, n);
+        if (other >= 0 && f->cells[other].patch >= 0 && ask(f, patch, other, s->point, said))
+            return true;
+    }
+    return false;
 }
 
 float jox_field_distance(const JoxField *f, JoxV2 p) {
-    float u, v, sum = 0.0f, weights = 0.0f;
-    int column, row;
-    const Cell *own = cell_at(f, p, &u, &v, &column, &row);
-    JoxV2 inside = {jox_clampf(p.x, f->low.x, f->low.x + (float)f->columns * f->size),
-                    jox_clampf(p.y, f->low.y, f->low.y + (float)f->rows * f->size)};
-    for (int k = 0; k < 4; k++) {
-        int c = column + (k & 1), r = row + (k >> 1);
-        float time = time_at(f, c, r);
-        float weight = ((k & 1) ? u : 1.0f - u) * ((k >> 1) ? v : 1.0f - v);
-        if (!(time < INFINITY) || weight <= 0.0f)
-            continue;
-        sum += weight * time;
-        weights += weight;
-    }
-    if (weights <= 0.0f) { /* in a wall's margin: as from its free side */
-        if (!own->blocked || own->wall >= NEAR)
+    Spot s = find(f, p);
+    float beyond = jox_length(s.beyond);
+    if (s.cell->patch == JOX_FIELD_PLAIN)
+        return s.cell->length + beyond;
+    if (s.cell->patch >= 0) {
+        Said said;
+        if (!listen(f, &s, &said) || !(said.length < INFINITY))
             return INFINITY;
-        JoxV2 out = {p.x + own->away[0] * 2.0f * f->size, p.y + own->away[1] * 2.0f * f->size};
-        const Cell *free = cell_at(f, out, &u, &v, &column, &row);
-        return free->blocked ? INFINITY : free->time + 2.0f * f->size;
+        float on = said.length - jox_dot(said.way, jox_sub(s.point, said.at));
+        return jox_maxf(0.0f, on) + beyond;
     }
-    return sum / weights + jox_length(jox_sub(p, inside));
+    const JoxFieldCell *cells[4];
+    float weights[4], sum = 0.0f, close = JOX_FIELD_CLOSE * f->size;
+    JoxV2 ways = {0.0f, 0.0f};
+    bool at_goal = true;
+    corners(f, &s, cells, weights);
+    for (int k = 0; k < 4; k++) {
+        const JoxFieldCell *cell = cells[k];
+        if (!(cell->length < INFINITY))
+            return INFINITY;
+        /* Slopes alone say a little too little, and centres alone as much too much. */
+        JoxV2 off = jox_sub(s.point, jox_field_sample(f, (int)(cell - f->cells), JOX_FIELD_MIDDLE));
+        sum += weights[k] * (cell->length - 0.5f * jox_field_slope(cell, off));
+        ways = jox_add(ways, (JoxV2){weights[k] * cell->x, weights[k] * cell->y});
+        at_goal = at_goal && cell->length < close;
+    }
+    if (at_goal)
+        sum = jox_length(ways) * close;
+    return jox_maxf(0.0f, sum) + beyond;
+}
+
+static JoxV2 at_wall(const JoxField *f, const Spot *s) {
+    const JoxFieldPatch *patch = &f->patches[s->cell->patch];
+    Said said;
+    bool told = listen(f, s, &said);
+    JoxV2 ignored, at = s->point;
+    if (told && (!(said.length < INFINITY) || !(patch->cut >> nearest_sample(f, s, &ignored) & 1)))
+        return said.way;
+    /* So close to a wall that samples do not tell how close: also off it, or out of it. */
+    uint32_t e = 0;
+    float near = jox_field_nearest(f, patch->first, patch->first + patch->count, s->point, &at, &e);
+    if (near >= f->clearance || near <= 0.0f)
+        return told ? said.way : (JoxV2){0.0f, 0.0f};
+    JoxV2 off = jox_scale(jox_sub(s->point, at), (1.0f - near / f->clearance) / near);
+    if (told)
+        return jox_unit(jox_add(said.way, off));
+    JoxV2 along = jox_sub(f->edges[e].b, f->edges[e].a);
+    bool within = f->edges[e].solid && jox_det(along, jox_sub(s->point, at)) > 0.0f;
+    return jox_unit(jox_scale(off, within ? -1.0f : 1.0f));
 }
 
 JoxV2 jox_field_direction(const JoxField *f, JoxV2 p) {
-    float u, v;
-    int column, row;
-    const Cell *own = cell_at(f, p, &u, &v, &column, &row);
-    if (own->blocked)
-        return (JoxV2){own->direction[0], own->direction[1]};
-    JoxV2 sum = {0.0f, 0.0f};
-    for (int k = 0; k < 4; k++) {
-        int c = column + (k & 1), r = row + (k >> 1);
-        if (c >= f->columns || r >= f->rows)
-            continue;
-        const Cell *cell = &f->cells[r * f->columns + c];
-        float weight = ((k & 1) ? u : 1.0f - u) * ((k >> 1) ? v : 1.0f - v);
-        if (!cell->blocked)
-            sum = jox_add(sum, jox_scale((JoxV2){cell->direction[0], cell->direction[1]}, weight));
+    Spot s = find(f, p);
+    JoxV2 way = {s.cell->x, s.cell->y};
+    if (s.cell->patch >= 0) {
+        way = at_wall(f, &s);
+    } else if (s.cell->patch == JOX_FIELD_CLEAR) {
+        const JoxFieldCell *cells[4];
+        float weights[4];
+        corners(f, &s, cells, weights);
+        JoxV2 sum = {0.0f, 0.0f};
+        for (int k = 0; k < 4; k++)
+            sum = jox_add(sum, (JoxV2){weights[k] * cells[k]->x, weights[k] * cells[k]->y});
+        float length2 = jox_length2(sum);
+        if (length2 > JOX_FIELD_ARRIVED * JOX_FIELD_ARRIVED)
+            way = jox_scale(sum, 1.0f / sqrtf(length2));
+        else if (s.cell->length < f->size)
+            way = (JoxV2){0.0f, 0.0f}; /* else ways part here: one of them is taken */
     }
-    return jox_unit(sum);
+    if (s.beyond.x == 0.0f && s.beyond.y == 0.0f)
+        return way;
+    if (way.x == 0.0f && way.y == 0.0f && !(jox_field_distance(f, s.point) < INFINITY))
+        return way;
+    /* Outside the box: to it, turning into the way there within one cell of it. */
+    float far = jox_length(s.beyond);
+    if (!(far < INFINITY))
+        return way;
+    return jox_unit(jox_add(jox_scale(way, jox_maxf(0.0f, 1.0f - far / f->size)),
+                            jox_scale(s.beyond, 1.0f / far)));
 }
 
 void jox_field_free(JoxField *f) {
     if (!f)
         return;
     jox_free(f->cells);
+    jox_free(f->patches);
+    jox_free(f->edges);
+    jox_free(f->refs);
     jox_free(f);
 }

@@ -9,16 +9,19 @@
 typedef struct JoxField JoxField;
 
 /* The field to a place of any kind (a set: to its nearest member; a queue: its head) over the box
-   low..high, by the fast marching method (Sethian 1996), first order. People keep `clearance` m off
-   walls, and walk more slowly within 0.5 m of them, so that ways keep clear where there is room.
-   `cell` is in metres, and grows so that at most 4,000,000 cells are made. Never NULL. */
+   low..high and the place, for people who keep `clearance` m (at least 0.05) off walls. They walk
+   more slowly within 0.5 m of walls, so that ways keep off where there is room. `cell` is 0.1 to 2
+   m, and grows so that at most 4,000,000 cells are made. Gaps are judged by their true width, not
+   by the grid: a gap wider than 2 clearances and 0.6 cells is open, one narrower than 1.7
+   clearances is shut; what lies between depends on how the grid falls. Never NULL. */
 JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
                            JoxV2 high, float cell, float clearance);
-/* Distance that is walked from a point, m, a little more where it passes walls closely; INFINITY
-   where no way leads. Outside the box: that of the box's nearest point and the way there. */
+/* Length of the way from a point, m: 0 inside a place that is a polygon; INFINITY where no way
+   leads and inside solids. Outside the box: the straight way to it and on from there. */
 float jox_field_distance(const JoxField *field, JoxV2 point);
-/* Unit vector of the shortest way, even between cells; away from the wall for a point closer to it
-   than the clearance; (0, 0) where no way leads. */
+/* Unit vector of the way: even between cells, never towards the other side of a wall. Closer to a
+   wall than the clearance it also leads off the wall; inside a solid it leads out. (0, 0) at the
+   goal and where no way leads. */
 JoxV2 jox_field_direction(const JoxField *field, JoxV2 point);
 void jox_field_free(JoxField *field);
 

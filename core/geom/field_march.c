@@ -1,0 +1,195 @@
+/* The marching: times from the goal outwards, each knot from the triangles of its finished
+   neighbours (Sethian 1999, as for unstructured meshes). */
+#include <math.h>
+
+#include "base/mem.h"
+#include "geom/field_parts.h"
+
+static const float SEED_CELLS = 4.5f; /* so near the goal, ways are straight and lengths exact */
+static const float STRAIGHT = 0.97f;  /* cosine of how far two slopes may differ */
+static const float SEED_MOST = 5.0f;  /* m: a goal in a wall is reached from so far */
+
+/* ---- a heap of cells by time; equal times by number, so that the order is one ---- */
+
+typedef struct Heap {
+    const float *time;
+    int *items;
+    int *place; /* of a cell in items; -1: not yet, -2: finished */
+    int count;
+} Heap;
+
+static bool sooner(const Heap *h, int a, int b) {
+    return h->time[a] != h->time[b] ? h->time[a] < h->time[b] : a < b;
+}
+
+static void put(Heap *h, int at, int cell) {
+    h->items[at] = cell;
+    h->place[cell] = at;
+}
+
+static void rise(Heap *h, int cell) {
+    if (h->place[cell] < 0)
+        put(h, h->count++, cell);
+    int at = h->place[cell];
+    for (; at > 0 && sooner(h, cell, h->items[(at - 1) / 2]); at = (at - 1) / 2)
+        put(h, at, h->items[(at - 1) / 2]);
+    put(h, at, cell);
+}
+
+static int pop(Heap *h) {
+    int top = h->items[0], last = h->items[--h->count], at = 0;
+    while (h->count > 0) {
+        int child = 2 * at + 1;
+        if (child >= h->count)
+            break;
+        child += child + 1 < h->count && sooner(h, h->items[child + 1], h->items[child]);
+        if (!sooner(h, h->items[child], last))
+            break;
+        put(h, at, h->items[child]);
+        at = child;
+    }
+    if (h->count > 0)
+        put(h, at, last);
+    h->place[top] = -2;
+    return top;
+}
+
+/* ---- seeds ---- */
+
+static void offer(JoxFieldWork *w, Heap *h, int cell, float time, float length, JoxV2 way) {
+    if (!(time < w->time[cell]))
+        return;
+    w->time[cell] = time;
+    w->f->cells[cell].length = length;
+    w->f->cells[cell].x = way.x;
+    w->f->cells[cell].y = way.y;
+    rise(h, cell);
+}
+
+/* Seeds the knots within `reach` of a place that is no set; returns how many see it. Those that do
+   not are seeded too once `blindly`. */
+static int seed_within(JoxFieldWork *w, Heap *h, const JoxPlace *place, float reach, bool blindly) {
+    JoxField *f = w->f;
+    JoxV2 low, high;
+    jox_bounds(place->points,
+               place->kind == JOX_PLACE_POINT || place->kind == JOX_PLACE_QUEUE ? 1 : place->count,
+               &low, &high);
+    int c0, c1, r0, r1, seeds = 0;
+    jox_field_span(low.x - reach, high.x + reach, f->low.x, f->size, f->columns, &c0, &c1);
+    jox_field_span(low.y - reach, high.y + reach, f->low.y, f->size, f->rows, &r0, &r1);
+    for (int r = r0; r <= r1; r++)
+        for (int c = c0; c <= c1; c++) {
+            int cell = r * f->columns + c;
+            if (w->knot[cell] == JOX_FIELD_BLOCKED)
+                continue;
+            JoxV2 p = jox_field_knot(w, cell), goal = jox_place_nearest(place, 0, p);
+            float distance = jox_length(jox_sub(goal, p));
+            if (distance > reach || (!blindly && !jox_field_sees(w, goal, p, 0.85f * f->clearance)))
+                continue;
+            seeds++;
+            float scale = 1.0f / jox_maxf(distance, JOX_FIELD_CLOSE * f->size);
+            offer(w, h, cell, distance * w->slow[cell], distance,
+                  jox_scale(jox_sub(goal, p), scale));
+        }
+    return seeds;
+}
+
+static void seed(JoxFieldWork *w, Heap *h, const JoxPlace *places, uint32_t index) {
+    const JoxPlace *place = &places[index];
+    for (uint32_t k = 0; k < place->member_count && place->kind == JOX_PLACE_SET; k++)
+        seed(w, h, places, (uint32_t)place->members[k]);
+    if (place->kind == JOX_PLACE_SET || place->count == 0)
+        return;
+    float least = SEED_CELLS * w->f->size, most = jox_maxf(SEED_MOST, 2.0f * least);
+    for (int blindly = 0; blindly < 2; blindly++)
+        for (float reach = least; reach <= most; reach *= 1.25f)
+            if (seed_within(w, h, place, reach, blindly) > 0)
+                return;
+}
+
+/* ---- marching ---- */
+
+/* The soonest way from knot p by a point between two finished knots a and b. */
+static void by_side(JoxFieldWork *w, Heap *h, int cell, JoxV2 p, int a, int b) {
+    JoxV2 from = jox_field_knot(w, a), to = jox_field_knot(w, b);
+    JoxV2 side = jox_sub(to, from), out = jox_sub(p, from);
+    float long2 = jox_length2(side), slow = w->slow[cell];
+    float rise_ab = w->time[b] - w->time[a];
+    /* Along the side, times rise by `slope`; across it, way is lost by `slow`. */
+    float rest2 = slow * slow * long2 - rise_ab * rise_ab;
+    if (!(rest2 > 0.0f))
+        return;
+    float t = (jox_dot(out, side) - fabsf(jox_det(out, side)) * rise_ab / sqrtf(rest2)) / long2;
+    if (!(t > 0.0f && t < 1.0f))
+        return; /* the ends are tried on their own */
+    JoxV2 way = jox_sub(jox_add(from, jox_scale(side, t)), p);
+    float far = jox_length(way);
+    float la = w->f->cells[a].length, lb = w->f->cells[b].length;
+    offer(w, h, cell, w->time[a] + t * rise_ab + slow * far, la + t * (lb - la) + far,
+          jox_scale(way, 1.0f / far));
+}
+
+static void march(JoxFieldWork *w, Heap *h) {
+    const JoxField *f = w->f;
+    int steps[8];
+    for (int k = 0; k < 8; k++)
+        steps[k] = JOX_FIELD_RING[k][1] * f->columns + JOX_FIELD_RING[k][0];
+    while (h->count > 0) {
+        int i = pop(h);
+        JoxV2 from = jox_field_knot(w, i);
+        for (int k = 0; k < 8; k++) {
+            int j = i + steps[k];
+            if (!(w->links[i] >> k & 1) || h->place[j] == -2)
+                continue;
+            JoxV2 p = jox_field_knot(w, j), way = jox_sub(from, p);
+            float far = jox_length(way);
+            offer(w, h, j, w->time[i] + w->slow[j] * far, f->cells[i].length + far,
+                  jox_scale(way, 1.0f / far));
+            int back = (k + 4) & 7, left = (back + 1) & 7, right = (back + 7) & 7;
+            if (w->corners[j] >> back & 1 && h->place[j + steps[left]] == -2)
+                by_side(w, h, j, p, i, j + steps[left]);
+            if (w->corners[j] >> right & 1 && h->place[j + steps[right]] == -2)
+                by_side(w, h, j, p, i, j + steps[right]);
+        }
+    }
+}
+
+/* Where nothing is near, slopes over both sides are straighter than those over one; not where ways
+   from two sides meet, which the slopes over both sides do not see. */
+static void straighten(JoxFieldWork *w) {
+    JoxField *f = w->f;
+    const float *t = w->time;
+    int up = f->columns;
+    for (int i = 0; i < w->count; i++) {
+        JoxFieldCell *cell = &f->cells[i];
+        if (w->links[i] != 0xff || w->corners[i] != 0xff || jox_field_has_edges(w, i) ||
+            !(t[i] < INFINITY))
+            continue;
+        JoxV2 way = {2.0f * (t[i - 1] - t[i + 1]) + (t[i - 1 - up] - t[i + 1 - up]) +
+                         (t[i - 1 + up] - t[i + 1 + up]),
+                     2.0f * (t[i - up] - t[i + up]) + (t[i - up - 1] - t[i + up - 1]) +
+                         (t[i - up + 1] - t[i + up + 1])};
+        way = jox_unit(way);
+        if (cell->length < SEED_CELLS * f->size ||
+            jox_dot(way, (JoxV2){cell->x, cell->y}) < STRAIGHT)
+            continue;
+        cell->x = way.x;
+        cell->y = way.y;
+    }
+}
+
+void jox_field_march(JoxFieldWork *w, const JoxPlace *places, uint32_t place) {
+    Heap heap = {.time = w->time,
+                 .items = jox_alloc((size_t)w->count, sizeof(int)),
+                 .place = jox_alloc((size_t)w->count, sizeof(int))};
+    for (int i = 0; i < w->count; i++) {
+        heap.place[i] = -1;
+        w->time[i] = INFINITY;
+        w->f->cells[i].length = INFINITY;
+    }
+    seed(w, &heap, places, place);
+    march(w, &heap);
+    straighten(w);
+    jox_free(heap.items);
+    jox_free(heap.place);
+}

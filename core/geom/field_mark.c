@@ -1,0 +1,264 @@
+/* What walls do to a field: edges by cell, samples inside solids, knots and what they see. */
+#include <math.h>
+
+#include "base/mem.h"
+#include "geom/field_parts.h"
+
+const int JOX_FIELD_RING[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
+                                  {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+
+static const float NEAR = 0.5f;    /* m: walls slow people down within this */
+static const float SLOWING = 0.5f; /* more s/m right at a wall */
+/* A way round a corner cuts a little into the clearance between two knots. */
+static const float CORNER = 0.85f;
+
+void jox_field_span(float from, float to, float low, float size, int most, int *first, int *last) {
+    float a = floorf((from - low) / size), b = floorf((to - low) / size);
+    *first = a > (float)most ? most : a > 0.0f ? (int)a : 0;
+    *last = b < (float)most ? (b < 0.0f ? -1 : (int)b) : most - 1;
+}
+
+/* ---- edges by cell ---- */
+
+static void collect(JoxField *f, const JoxWalls *walls) {
+    f->edges = jox_alloc(walls->count + 1, sizeof *f->edges);
+    for (uint32_t r = 0; r < walls->ring_count; r++)
+        for (uint32_t k = 0; k < walls->rings[r].count; k++) {
+            const JoxWallVertex *v = &walls->vertices[walls->rings[r].first + k];
+            JoxV2 a = v->point, b = walls->vertices[v->next].point;
+            bool back = b.x < a.x || (!(a.x < b.x) && b.y < a.y);
+            if (back && !walls->rings[r].solid)
+                continue; /* thin walls run there and back: once is enough */
+            f->edges[f->edge_count++] = (JoxFieldEdge){a, b, walls->rings[r].solid};
+        }
+}
+
+/* Puts an edge to all cells whose centre it comes within `reach` of; counts them while refs is
+   NULL. Row by row, so that a long slanted edge does not visit the whole of its bounds. */
+static void enter(JoxFieldWork *w, uint32_t edge, float reach) {
+    JoxField *f = w->f;
+    JoxV2 a = f->edges[edge].a, b = f->edges[edge].b;
+    int r0, r1, c0, c1;
+    jox_field_span(jox_minf(a.y, b.y) - reach, jox_maxf(a.y, b.y) + reach, f->low.y, f->size,
+                   f->rows, &r0, &r1);
+    for (int r = r0; r <= r1; r++) {
+        float y = f->low.y + ((float)r + 0.5f) * f->size, rise = b.y - a.y;
+        float s = 0.0f, t = 1.0f;
+        if (fabsf(rise) > 1e-6f) { /* the part of the edge that is near this row */
+            float u = (y - reach - a.y) / rise, v = (y + reach - a.y) / rise;
+            s = jox_clampf(jox_minf(u, v), 0.0f, 1.0f);
+            t = jox_clampf(jox_maxf(u, v), 0.0f, 1.0f);
+        }
+        float x0 = a.x + s * (b.x - a.x), x1 = a.x + t * (b.x - a.x);
+        jox_field_span(jox_minf(x0, x1) - reach, jox_maxf(x0, x1) + reach, f->low.x, f->size,
+                       f->columns, &c0, &c1);
+        for (int c = c0; c <= c1; c++) {
+            int cell = r * f->columns + c;
+            JoxV2 p = jox_field_sample(f, cell, JOX_FIELD_MIDDLE);
+            if (jox_length2(jox_sub(p, jox_segment_nearest(a, b, p))) > reach * reach)
+                continue;
+            if (f->refs)
+                f->refs[--w->first[cell]] = edge;
+            else
+                w->first[cell]++;
+        }
+    }
+}
+
+static void sort_edges(JoxFieldWork *w, float reach) {
+    JoxField *f = w->f;
+    for (uint32_t e = 0; e < f->edge_count; e++)
+        enter(w, e, reach);
+    for (int i = 0; i < w->count; i++)
+        w->first[i + 1] += w->first[i];
+    f->refs = jox_alloc((size_t)w->first[w->count] + 1, sizeof *f->refs);
+    for (uint32_t e = f->edge_count; e-- > 0;) /* backwards, as each list fills from its end */
+        enter(w, e, reach);
+}
+
+/* ---- solids ---- */
+
+/* Fills the samples between pairs of crossings of one row of samples. */
+static void fill_row(JoxFieldWork *w, int row, const float *x, int crossings) {
+    JoxField *f = w->f;
+    float step = f->size / (float)JOX_FIELD_SIDE;
+    int shift = row % JOX_FIELD_SIDE * JOX_FIELD_SIDE, base = row / JOX_FIELD_SIDE * f->columns;
+    for (int k = 0; k + 1 < crossings; k += 2) {
+        float from = ceilf((x[k] - f->low.x) / step - 0.5f);
+        float to = floorf((x[k + 1] - f->low.x) / step - 0.5f);
+        float most = (float)(f->columns * JOX_FIELD_SIDE - 1);
+        int first = from > 0.0f ? (int)jox_minf(from, most + 1.0f) : 0;
+        int last = to < most ? (int)jox_maxf(to, -1.0f) : (int)most;
+        for (int j = first; j <= last; j++)
+            w->solid[base + j / JOX_FIELD_SIDE] |= (uint16_t)(1 << (shift + j % JOX_FIELD_SIDE));
+    }
+}
+
+static void fill_solid(JoxFieldWork *w, const JoxWalls *walls, const struct JoxWallRing *ring,
+                       float *x) {
+    JoxField *f = w->f;
+    float low = INFINITY, high = -INFINITY, step = f->size / (float)JOX_FIELD_SIDE;
+    const JoxWallVertex *v = walls->vertices + ring->first;
+    for (uint32_t k = 0; k < ring->count; k++) {
+        low = jox_minf(low, v[k].point.y);
+        high = jox_maxf(high, v[k].point.y);
+    }
+    int r0, r1;
+    jox_field_span(low, high, f->low.y, step, f->rows * JOX_FIELD_SIDE, &r0, &r1);
+    for (int r = r0; r <= r1; r++) {
+        float y = f->low.y + ((float)r + 0.5f) * step;
+        int crossings = 0;
+        for (uint32_t k = 0; k < ring->count; k++) {
+            JoxV2 a = v[k].point, b = v[(k + 1) % ring->count].point;
+            if ((a.y > y) == (b.y > y))
+                continue;
+            float at = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+            int n = crossings++;
+            for (; n > 0 && x[n - 1] > at; n--)
+                x[n] = x[n - 1];
+            x[n] = at;
+        }
+        fill_row(w, r, x, crossings);
+    }
+}
+
+static void fill_solids(JoxFieldWork *w, const JoxWalls *walls) {
+    float *x = jox_alloc((size_t)walls->count + 1, sizeof *x);
+    for (uint32_t r = 0; r < walls->ring_count; r++)
+        if (walls->rings[r].solid)
+            fill_solid(w, walls, &walls->rings[r], x);
+    jox_free(x);
+}
+
+/* ---- distances and sight ---- */
+
+float jox_field_nearest(const JoxField *f, uint32_t first, uint32_t last, JoxV2 p, JoxV2 *at,
+                        uint32_t *edge) {
+    float least = INFINITY;
+    for (uint32_t k = first; k < last; k++) {
+        const JoxFieldEdge *e = &f->edges[f->refs[k]];
+        JoxV2 q = jox_segment_nearest(e->a, e->b, p);
+        float d2 = jox_length2(jox_sub(p, q));
+        if (d2 < least) {
+            least = d2;
+            if (at)
+                *at = q;
+            if (edge)
+                *edge = f->refs[k];
+        }
+    }
+    return least < INFINITY ? sqrtf(least) : INFINITY;
+}
+
+static float point_segment2(JoxV2 a, JoxV2 b, JoxV2 p) {
+    return jox_length2(jox_sub(p, jox_segment_nearest(a, b, p)));
+}
+
+static bool edge_hides(const JoxFieldEdge *e, JoxV2 p, JoxV2 q, float least) {
+    if (jox_maxf(p.x, q.x) + least < jox_minf(e->a.x, e->b.x) ||
+        jox_minf(p.x, q.x) - least > jox_maxf(e->a.x, e->b.x) ||
+        jox_maxf(p.y, q.y) + least < jox_minf(e->a.y, e->b.y) ||
+        jox_minf(p.y, q.y) - least > jox_maxf(e->a.y, e->b.y))
+        return false;
+    float own2 = point_segment2(e->a, e->b, p);
+    if (own2 < 1e-6f)
+        return false; /* p lies upon it: seen from both its sides */
+    if (jox_segment_crossing(e->a, e->b, p, q) != 0)
+        return true;
+    float allowed2 = jox_minf(least * least, 0.81f * own2);
+    return point_segment2(e->a, e->b, q) < allowed2 || point_segment2(p, q, e->a) < allowed2 ||
+           point_segment2(p, q, e->b) < allowed2;
+}
+
+bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least) {
+    const JoxField *f = w->f;
+    int steps = (int)ceilf(jox_length(jox_sub(q, p)) / f->size), before = -1;
+    for (int k = 0; k <= steps; k++) {
+        JoxV2 at = jox_add(p, jox_scale(jox_sub(q, p), steps ? (float)k / (float)steps : 0.0f));
+        int c = (int)jox_clampf((at.x - f->low.x) / f->size, 0.0f, (float)(f->columns - 1));
+        int r = (int)jox_clampf((at.y - f->low.y) / f->size, 0.0f, (float)(f->rows - 1));
+        int cell = r * f->columns + c;
+        for (uint32_t i = w->first[cell]; cell != before && i < w->first[cell + 1]; i++)
+            if (edge_hides(&f->edges[f->refs[i]], p, q, least))
+                return false;
+        before = cell;
+    }
+    return true;
+}
+
+/* ---- knots and links ---- */
+
+/* The centre where it will do, else the sample that is freest. */
+static void tie(JoxFieldWork *w, int cell) {
+    JoxField *f = w->f;
+    uint32_t first = w->first[cell], last = w->first[cell + 1];
+    float best = -1.0f;
+    w->knot[cell] = JOX_FIELD_BLOCKED;
+    for (int k = 0; k < JOX_FIELD_SAMPLES; k++) {
+        int s = k == 0 ? JOX_FIELD_MIDDLE : k <= JOX_FIELD_MIDDLE ? k - 1 : k;
+        if (w->solid[cell] >> s & 1)
+            continue;
+        float d = jox_field_nearest(f, first, last, jox_field_sample(f, cell, s), NULL, NULL);
+        if (d < f->clearance || d <= best)
+            continue;
+        best = d;
+        w->knot[cell] = (uint8_t)s;
+        if (s == JOX_FIELD_MIDDLE)
+            break;
+    }
+    float lack = 1.0f - jox_clampf(best / NEAR, 0.0f, 1.0f);
+    w->slow[cell] = 1.0f + SLOWING * lack * lack;
+}
+
+static void link_cell(JoxFieldWork *w, int cell) {
+    if (w->knot[cell] == JOX_FIELD_BLOCKED)
+        return;
+    for (int k = 0; k < 4; k++) {
+        int other = jox_field_next(w->f, cell, k);
+        if (other < 0 || w->knot[other] == JOX_FIELD_BLOCKED)
+            continue;
+        if ((jox_field_has_edges(w, cell) || jox_field_has_edges(w, other)) &&
+            !jox_field_sees(w, jox_field_knot(w, cell), jox_field_knot(w, other),
+                            CORNER * w->f->clearance))
+            continue;
+        w->links[cell] |= (uint8_t)(1 << k);
+        w->links[other] |= (uint8_t)(1 << (k + 4));
+    }
+}
+
+static bool in_triangle(JoxV2 a, JoxV2 b, JoxV2 c, JoxV2 p) {
+    return jox_det(jox_sub(b, a), jox_sub(p, a)) >= 0.0f &&
+           jox_det(jox_sub(c, b), jox_sub(p, b)) >= 0.0f &&
+           jox_det(jox_sub(a, c), jox_sub(p, c)) >= 0.0f;
+}
+
+static void span_corners(JoxFieldWork *w, int cell) {
+    for (int t = 0; t < 8; t++) {
+        int next = (t + 1) & 7, across = (t + (t & 1 ? 3 : 2)) & 7;
+        if (!(w->links[cell] >> t & 1) || !(w->links[cell] >> next & 1))
+            continue;
+        int one = jox_field_next(w->f, cell, t), two = jox_field_next(w->f, cell, next);
+        if (!(w->links[one] >> across & 1))
+            continue;
+        JoxV2 a = jox_field_knot(w, cell), b = jox_field_knot(w, one), c = jox_field_knot(w, two);
+        bool empty = true; /* nothing crosses the sides: look for walls wholly within */
+        for (uint32_t k = w->first[cell]; empty && k < w->first[cell + 1]; k++)
+            empty = !in_triangle(a, b, c, w->f->edges[w->f->refs[k]].a);
+        if (empty)
+            w->corners[cell] |= (uint8_t)(1 << t);
+    }
+}
+
+void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls) {
+    JoxField *f = w->f;
+    float reach = jox_maxf(NEAR, f->clearance + 1.5f * f->size) + 0.5f * f->size;
+    collect(f, walls);
+    sort_edges(w, reach);
+    fill_solids(w, walls);
+    for (int i = 0; i < w->count; i++)
+        tie(w, i);
+    for (int i = 0; i < w->count; i++)
+        link_cell(w, i);
+    for (int i = 0; i < w->count; i++)
+        span_corners(w, i);
+}

@@ -1,0 +1,105 @@
+/* The parts of a field and of the work of making one; for the files field*.c alone.
+   Each cell away from walls has one direction, at its centre, and points between four centres blend
+   them. Cells at walls have a patch of 3 x 3 samples instead, each judged by what it sees, so that
+   sampling needs no more judging. While a field is made, every cell that can be walked has a knot:
+   that one of its samples (the centre where it will do) which the marching starts from. */
+#ifndef JOX_GEOM_FIELD_PARTS_H
+#define JOX_GEOM_FIELD_PARTS_H
+
+#include "geom/field.h"
+
+enum { JOX_FIELD_SIDE = 3, JOX_FIELD_SAMPLES = 9, JOX_FIELD_MIDDLE = 4 };
+enum { JOX_FIELD_CLEAR = -1, JOX_FIELD_PLAIN = -2 }; /* instead of a patch: blend; do not */
+enum { JOX_FIELD_BLOCKED = 9 };                      /* instead of a knot */
+
+typedef struct JoxFieldCell {
+    float length; /* of the way from the knot, m; INFINITY: none */
+    float x, y;   /* the way's direction there; shorter than 1 within JOX_FIELD_CLOSE of the goal */
+    int32_t patch;
+} JoxFieldCell;
+
+typedef struct JoxFieldPatch {
+    float x[JOX_FIELD_SAMPLES], y[JOX_FIELD_SAMPLES], length[JOX_FIELD_SAMPLES];
+    uint32_t first, count; /* edges about the cell, in refs */
+    uint16_t cut;          /* bits: samples whose ninth of the cell an edge passes */
+    uint16_t upon;         /* bits: samples upon an edge, on neither side, which say nothing */
+} JoxFieldPatch;
+
+typedef struct JoxFieldEdge {
+    JoxV2 a, b;
+    bool solid; /* matter on the left */
+} JoxFieldEdge;
+
+struct JoxField {
+    JoxV2 low;
+    float size, clearance; /* m */
+    int columns, rows;
+    JoxFieldCell *cells;
+    JoxFieldPatch *patches;
+    uint32_t patch_count, patch_capacity;
+    JoxFieldEdge *edges;
+    uint32_t edge_count;
+    uint32_t *refs; /* edges about each cell, cell by cell */
+};
+
+typedef struct JoxFieldWork {
+    JoxField *f;
+    int count;        /* cells */
+    uint32_t *first;  /* refs of cell i: first[i] to first[i + 1] */
+    uint16_t *solid;  /* bits: samples inside solids */
+    float *time;      /* of the way from the knot at 1 m/s in the open, s */
+    float *slow;      /* s/m at the knot */
+    uint8_t *knot;    /* sample, or JOX_FIELD_BLOCKED */
+    uint8_t *links;   /* bits: neighbours on the ring whose knot is seen from here */
+    uint8_t *corners; /* bit t: no wall in the triangle with neighbours t and t + 1 */
+} JoxFieldWork;
+
+/* So close to the goal, in cells, the ways of knots are as long as their share of it: four of them
+   blend to exactly the way there, and to nothing at the goal. More than a cell's diagonal. */
+#define JOX_FIELD_CLOSE 1.5f
+/* Blends this short are of points within a tenth of a cell of the goal. */
+#define JOX_FIELD_ARRIVED (0.1f / JOX_FIELD_CLOSE)
+
+/* The ring of eight neighbours, counter-clockwise from the east. */
+extern const int JOX_FIELD_RING[8][2];
+
+static inline JoxV2 jox_field_sample(const JoxField *f, int cell, int sample) {
+    float x = (float)(cell % f->columns) + ((float)(sample % JOX_FIELD_SIDE) + 0.5f) / 3.0f;
+    float y = (float)(cell / f->columns) + ((float)(sample / JOX_FIELD_SIDE) + 0.5f) / 3.0f;
+    return (JoxV2){f->low.x + x * f->size, f->low.y + y * f->size};
+}
+static inline JoxV2 jox_field_knot(const JoxFieldWork *w, int cell) {
+    return jox_field_sample(w->f, cell, w->knot[cell]);
+}
+/* The neighbour on the ring, or -1 beyond the border. */
+static inline int jox_field_next(const JoxField *f, int cell, int ring) {
+    int c = cell % f->columns + JOX_FIELD_RING[ring][0];
+    int r = cell / f->columns + JOX_FIELD_RING[ring][1];
+    return c < 0 || r < 0 || c >= f->columns || r >= f->rows ? -1 : r * f->columns + c;
+}
+static inline bool jox_field_has_edges(const JoxFieldWork *w, int cell) {
+    return w->first[cell] != w->first[cell + 1];
+}
+
+/* How much shorter the way is `off` from a knot than from it, by the slope there. */
+static inline float jox_field_slope(const JoxFieldCell *cell, JoxV2 off) {
+    return jox_dot(jox_unit((JoxV2){cell->x, cell->y}), off);
+}
+
+/* First and last column or row that an interval touches, within the grid; none: first > last. */
+void jox_field_span(float from, float to, float low, float size, int most, int *first, int *last);
+/* Distance of a point to the nearest of some edges, INFINITY for none; `at` is the point there. */
+float jox_field_nearest(const JoxField *f, uint32_t first, uint32_t last, JoxV2 p, JoxV2 *at,
+                        uint32_t *edge);
+/* True if the way straight from p to q keeps `least` m from every edge, and from those that p
+   itself is close to nine tenths of that. With least = 0 it must cross none. */
+bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least);
+
+/* Edges by cell, solids, knots, links. */
+void jox_field_mark(JoxFieldWork *work, const JoxWalls *walls);
+/* Times, lengths and directions of all knots. */
+void jox_field_march(JoxFieldWork *work, const JoxPlace *places, uint32_t place);
+/* Patches of the cells at walls. */
+void jox_field_patch(JoxFieldWork *work);
+
+#endif
