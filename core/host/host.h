@@ -61,16 +61,13 @@ void jox_host_report(JoMessage *message, void *context, JoxDiagnostics *diagnost
 /* As jo_scene_load, but what is wrong goes to `diagnostics`. NULL if there are errors. */
 JoScene *jox_host_load(const JoSceneDef *def, JoxDiagnostics *diagnostics);
 /* mods.c: finds the mods of a scene and what their files change; `without` are bits of those found
-   that are left out. */
+   that are left out, as is a mod with a patch that names no target. */
 JoxMods *jox_host_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnostics *diagnostics);
-/* Index of the mod without which, and without those after it, the scene's plan would load; -1: it
-   fails without mods too. */
-int32_t jox_host_blame_plan(const JoSceneDef *def, const JoxMods *mods);
 JoxScene *jox_host_load_plan(const JoSceneDef *def, const JoxMods *mods, uint32_t mod_count,
                              JoxDiagnostics *diagnostics);
-/* link.c: machines of the scene's groups, and of those that they may become; false with *culprit
-   (index of a mod, or -1) if one does not load. */
-bool jox_host_load_machines(JoScene *scene, int32_t *culprit, JoxDiagnostics *diagnostics);
+/* link.c: machines of the scene's groups, and of those that they may become; false if one does not
+   load. */
+bool jox_host_load_machines(JoScene *scene, JoxDiagnostics *diagnostics);
 /* What machines expect of each other and of the scene: signals, states, own values. */
 void jox_host_check_names(const JoScene *scene, JoxDiagnostics *diagnostics);
 /* Of that, the own values of one machine that is made of the files. */

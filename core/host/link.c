@@ -58,7 +58,7 @@ static bool find_behaviour(const JoScene *scene, const char *from, const char *n
 bool jox_host_find_become(const JoScene *scene, const JoxMachine *machine, uint32_t number,
                           char path[1024], JoxDiagnostics *diagnostics) {
     const JoxState *state = &machine->states[number];
-    JoxPosition at = {machine->path, state->become_line, state->become_column, 0};
+    JoxPosition at = {state->become_file, state->become_line, state->become_column, 0};
     if (number == machine->start) {
         jox_diag_error(diagnostics, at, "bad-value", "Begin in another state",
                        "the state that agents start in cannot become another machine at once");
@@ -90,7 +90,7 @@ bool jox_host_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnost
     return good;
 }
 
-bool jox_host_load_machines(JoScene *scene, int32_t *culprit, JoxDiagnostics *diagnostics) {
+bool jox_host_load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
     const JoxScene *plan = scene->plan;
     JoxMind *mind = &scene->world->mind;
     bool good = true;
@@ -104,8 +104,6 @@ bool jox_host_load_machines(JoScene *scene, int32_t *culprit, JoxDiagnostics *di
             if (failed_before || jox_host_machine(scene, path, diagnostics) >= 0)
                 continue;
             good = false;
-            if (*culprit < 0 && scene->mods->count)
-                *culprit = jox_lua_blame(scene->lua, path, &scene->scope);
         }
     for (uint32_t m = 0; m < mind->machine_count; m++) /* grows while it goes on */
         good &= jox_host_link(scene, mind->machines[m], diagnostics);

@@ -31,7 +31,7 @@ void jox_host_report(JoMessage *message, void *context, JoxDiagnostics *diagnost
     JoxText text = {0};
     jox_diag_print(diagnostics, &text);
     if (text.length)
-        message(context, text.data);
+        (message ? message : to_stderr)(context, text.data);
     jox_text_free(&text);
     for (size_t i = 0; error && i < diagnostics->count; i++) {
         const JoxDiagnostic *d = &diagnostics->items[i];
@@ -172,9 +172,7 @@ static JoxLuaLimits script_limits(const JoxScene *plan) {
     return limits;
 }
 
-/* False with the index of the mod to blame, or -1, where a behaviour does not load. */
-static bool build(JoScene *scene, const JoSceneDef *def, int32_t *culprit,
-                  JoxDiagnostics *diagnostics) {
+static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnostics) {
     JoxScene *plan = scene->plan;
     JoWorldDef world = jo_default_world_def();
     world.dt = plan->step;
@@ -191,8 +189,8 @@ static bool build(JoScene *scene, const JoSceneDef *def, int32_t *culprit,
     jox_lua_attach(scene->lua, &scene->world->mind, complain, scene); /* loading may print */
     add_bodies(scene, diagnostics);
     add_places(scene);
-    if (!jox_host_load_machines(scene, culprit, diagnostics))
-        return false;
+    if (!jox_host_load_machines(scene, diagnostics))
+        return;
     JoxMind *mind = &scene->world->mind;
     mind->call = jox_lua_call;
     mind->bracket = jox_lua_bracket;
@@ -202,7 +200,6 @@ static bool build(JoScene *scene, const JoSceneDef *def, int32_t *culprit,
         jox_host_populate(scene, diagnostics);
         jox_host_check_names(scene, diagnostics);
     }
-    return true;
 }
 
 /* The def outlives the caller's texts: a reload reads the scene as it was read first. */
@@ -235,8 +232,40 @@ static void free_def(JoScene *scene) {
     jox_free(scene->plan_files);
 }
 
+static void to_nobody(void *context, const char *text) {
+    (void)context;
+    (void)text;
+}
+
+/* Of the mods found, the first with which, and with those before it, the scene does not load; -1:
+   it does not load without mods either. Whatever went wrong: the plan, a behaviour, what they
+   expect of each other. */
+static int32_t blame(const JoSceneDef *def, uint64_t without) {
+    for (uint32_t count = 0;; count++) {
+        JoxDiagnostics ignored = {0}, now = {0};
+        JoScene *scene = jox_alloc(1, sizeof *scene);
+        scene->message = to_nobody;
+        scene->mods = jox_host_find_mods(def, without, &ignored);
+        const uint32_t all = scene->mods->count;
+        if (count < all) { /* with all of them it fails: that is known */
+            scene->mods->count = count;
+            scene->plan = jox_host_load_plan(def, scene->mods, count, &now);
+            if (scene->plan)
+                build(scene, def, &now);
+            scene->mods->count = all;
+        }
+        bool fails = count >= all || now.errors > 0;
+        int32_t culprit = fails && count > 0 ? (int32_t)scene->mods->number[count - 1] : -1;
+        jox_diag_free(&ignored);
+        jox_diag_free(&now);
+        jo_scene_free(scene);
+        if (fails)
+            return culprit;
+    }
+}
+
 /* Loads the scene with the mods found but for those in `without`. NULL: with *culprit among the
-   taken mods, or -1 and the errors in `diagnostics`. */
+   found mods, or -1 and the errors in `diagnostics`. */
 static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culprit,
                         JoxDiagnostics *mod_problems, JoxDiagnostics *diagnostics) {
     JoScene *scene = jox_alloc(1, sizeof *scene);
@@ -245,10 +274,8 @@ static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culpri
     scene->mods = jox_host_find_mods(def, without, mod_problems);
     *culprit = -1;
     scene->plan = jox_host_load_plan(def, scene->mods, scene->mods->count, diagnostics);
-    if (!scene->plan && scene->mods->count)
-        *culprit = jox_host_blame_plan(def, scene->mods);
     if (scene->plan)
-        build(scene, def, culprit, diagnostics);
+        build(scene, def, diagnostics);
     for (uint32_t f = 0; scene->plan && f < scene->plan->file_count; f++)
         jox_diag_attach_source(diagnostics, scene->plan->files[f].path, scene->plan->files[f].text,
                                scene->plan->files[f].length);
@@ -256,9 +283,9 @@ static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culpri
         keep_def(scene, def);
         return scene;
     }
-    if (*culprit >= 0)
-        *culprit = (int32_t)scene->mods->number[*culprit];
+    bool blames = scene->mods->count > 0;
     jo_scene_free(scene);
+    *culprit = blames ? blame(def, without) : -1;
     return NULL;
 }
 

@@ -8,8 +8,9 @@
 
 enum { LARGEST_PATCH = 256 << 10 };
 
-/* What a mod's Lua files change: known to lua/, which alone reads that language. */
-static void name_target(JoxModPatch *patch, JoxDiagnostics *diagnostics) {
+/* What a mod's Lua files change: known to lua/, which alone reads that language. False with an
+   error where that is nothing. */
+static bool name_target(JoxModPatch *patch, JoxDiagnostics *diagnostics) {
     size_t length;
     char *text = jox_read_file(patch->path, LARGEST_PATCH, &length);
     char target[128];
@@ -25,6 +26,7 @@ static void name_target(JoxModPatch *patch, JoxDiagnostics *diagnostics) {
                             : "this file cannot be read, or is over 256 KB");
     }
     jox_free(text);
+    return patch->target != NULL;
 }
 
 JoxMods *jox_host_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnostics *diagnostics) {
@@ -35,24 +37,24 @@ JoxMods *jox_host_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnost
                        .set_count = (uint32_t)def->override_count,
                        .named_only = def->named_mods_only,
                        .without = without};
-    JoxMods *mods = jox_mods_find(&find, diagnostics);
-    for (uint32_t m = 0; m < mods->count; m++)
-        for (uint32_t p = 0; p < mods->items[m].patch_count; p++)
-            if (mods->items[m].patches[p].lua)
-                name_target(&mods->items[m].patches[p], diagnostics);
-    return mods;
-}
-
-int32_t jox_host_blame_plan(const JoSceneDef *def, const JoxMods *mods) {
-    for (uint32_t count = 0; count <= mods->count; count++) {
-        JoxDiagnostics diagnostics = {0};
-        JoxScene *plan = jox_host_load_plan(def, mods, count, &diagnostics);
-        jox_scene_free(plan);
-        jox_diag_free(&diagnostics);
-        if (!plan)
-            return (int32_t)count - 1;
+    for (JoxDiagnostics targets = {0};;) {
+        JoxDiagnostics found = {0};
+        JoxMods *mods = jox_mods_find(&find, &found);
+        uint64_t broken = 0;
+        for (uint32_t m = 0; m < mods->count; m++)
+            for (uint32_t p = 0; p < mods->items[m].patch_count; p++)
+                if (mods->items[m].patches[p].lua &&
+                    !name_target(&mods->items[m].patches[p], &targets))
+                    broken |= (uint64_t)1 << mods->number[m];
+        if (!broken) {
+            jox_diag_move(diagnostics, &found);
+            jox_diag_move(diagnostics, &targets);
+            return mods;
+        }
+        jox_diag_free(&found);
+        jox_mods_free(mods);
+        find.without |= broken; /* and those that need it */
     }
-    return -1;
 }
 
 char *jo_mods_list(const JoSceneDef *def) {

@@ -46,7 +46,7 @@ static void take_places(Rescene *r) {
     for (uint32_t p = 0; p < r->new->place_count; p++) {
         const JoxPlace *from = &r->new->places[p];
         JoxPlace *to = &world->places[p];
-        if (same_place(&r->old->places[p], from))
+        if (same_place(to, from)) /* the plan may lag behind: see below */
             continue;
         moved = true;
         to->points = jox_realloc(to->points, from->count + 1, sizeof *to->points);

@@ -9,26 +9,9 @@
 
 enum { KEYS_MOST = 64 };
 
-/* The origin whose path is the longest that leads to `path`, the last set of equal ones. */
-static const JoxOrigin *origin_of(const JoxVm *vm, const char *path) {
-    const JoxOrigin *best = NULL;
-    size_t longest = 0;
-    for (size_t o = 0; o < vm->origin_count; o++) {
-        const JoxOrigin *origin = &vm->origins[o];
-        size_t n = strlen(origin->path);
-        bool leads =
-            n == 0 || (strncmp(origin->path, path, n) == 0 && (!path[n] || path[n] == '.'));
-        if (leads && (!best || n >= longest)) {
-            best = origin;
-            longest = n;
-        }
-    }
-    return best;
-}
-
 /* The source that a path of the machine was written in, and its path there. */
 static JoxSource *locate(const JoxBuild *b, const char *path, char there[512]) {
-    const JoxOrigin *origin = origin_of(b->vm, path);
+    const JoxOrigin *origin = jox_origin_of(b->vm, path);
     if (!origin) {
         snprintf(there, 512, "%s", path);
         return b->source;
@@ -494,7 +477,7 @@ static void judge_states(JoxBuild *b) {
         const char *names[64], *near = NULL;
         size_t count = 0;
         jox_read_join(path, "states", m->states[s].name);
-        const JoxOrigin *origin = origin_of(b->vm, path);
+        const JoxOrigin *origin = jox_origin_of(b->vm, path);
         bool added = origin && origin->mod >= 0 && strcmp(origin->path, path) == 0;
         for (uint32_t o = 0; added && o < m->state_count && count < 64; o++)
             if (o != s)

@@ -145,8 +145,10 @@ static void read_become(JoxBuild *b, int index, const char *path, JoxState *stat
     state->become_machine = -1;
     if (type == LUA_TSTRING && lua_rawlen(L, -1) <= 100) {
         state->become = jox_strdup(lua_tostring(L, -1));
-        state->become_line = jox_read_at(b, full).line;
-        state->become_column = jox_read_at(b, full).column;
+        JoxPosition at = jox_read_at(b, full);
+        state->become_file = jox_strdup(at.file);
+        state->become_line = at.line;
+        state->become_column = at.column;
     } else if (type != LUA_TNIL) {
         jox_build_error(b, jox_read_at(b, full), "bad-value", "Example: become = \"walker\"",
                         "become is the name of a behaviour");

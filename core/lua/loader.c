@@ -193,18 +193,3 @@ JoxMachine *jox_lua_load(JoxLua *lua, const char *path, const JoxScope *scope,
                          JoxDiagnostics *diagnostics) {
     return jox_lua_load_text(lua, path, NULL, 0, scope, diagnostics);
 }
-
-int32_t jox_lua_blame(JoxLua *lua, const char *path, const JoxScope *scope) {
-    for (uint32_t count = 0; count <= scope->mod_count; count++) {
-        JoxScope some = *scope;
-        JoxDiagnostics diagnostics = {0};
-        some.mod_count = count;
-        JoxMachine *machine = jox_lua_load(lua, path, &some, &diagnostics);
-        jox_diag_free(&diagnostics);
-        if (!machine)
-            return (int32_t)count - 1;
-        jox_lua_release(lua, machine);
-        jox_machine_free(machine);
-    }
-    return -1;
-}

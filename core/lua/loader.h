@@ -42,9 +42,6 @@ void jox_lua_free(JoxLua *lua);
    The machine is the caller's; its hooks live until jox_lua_release or the end of `lua`. */
 JoxMachine *jox_lua_load(JoxLua *lua, const char *path, const JoxScope *scope,
                          JoxDiagnostics *diagnostics);
-/* After a load with mods failed: index of the mod without which, and without those after it, it
-   would have succeeded; -1 if it fails without mods too. */
-int32_t jox_lua_blame(JoxLua *lua, const char *path, const JoxScope *scope);
 /* Who set a path of the machine ("Circle.push", "defaults.speed", "Circle.Exit.chance"), the first
    first, a line each: value, file and line, and the mod; false if nobody did. */
 bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,

@@ -2,6 +2,7 @@
    are copied where they change, for a file may use one table in several places. Every path that is
    set is kept with where it was set. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/mem.h"
@@ -16,39 +17,14 @@ typedef struct Patch {
     int32_t mod;
 } Patch;
 
-static JoxPosition position_of(const JoxVm *vm, const JoxOrigin *origin) {
-    return jox_source_path(&vm->sources[origin->source], origin->from);
-}
-
-/* Two mods that set one path, neither knowing the other: both places, and who wins. */
-static void report_conflict(const Patch *p, const JoxOrigin *mine) {
-    const JoxVm *vm = p->vm;
-    const JoxMod *mods = vm->scope->mods;
-    for (size_t o = 0; o + 1 < vm->origin_count; o++) {
-        const JoxOrigin *other = &vm->origins[o];
-        if (other->mod < 0 || other->mod == p->mod || !jox_mod_overlaps(other->path, mine->path) ||
-            (mods[p->mod].after >> other->mod & 1))
-            continue;
-        jox_mod_conflict(vm->diagnostics, &mods[p->mod], position_of(vm, mine), &mods[other->mod],
-                         position_of(vm, other), mine->path);
-        return;
-    }
-}
-
-/* Keeps that `path` of the machine now stands at `from` in the patch. */
-static void set_origin(const Patch *p, const char *path, const char *from, bool removes) {
-    JoxVm *vm = p->vm;
-    JOX_RESERVE(vm->origins, vm->origin_capacity, vm->origin_count + 1);
-    JoxOrigin *origin = &vm->origins[vm->origin_count++];
-    *origin = (JoxOrigin){jox_strdup(path), p->source, jox_strdup(from), p->mod, removes};
-    if (p->mod >= 0)
-        report_conflict(p, origin);
-}
-
 static void fail(const Patch *p, const char *from, const char *code, const char *hint,
                  const char *message, const char *name) {
     jox_diag_error(p->vm->diagnostics, jox_source_path(&p->vm->sources[p->source], from), code,
                    hint, message, name);
+}
+
+static void set_origin(const Patch *p, const char *path, const char *from, bool removes) {
+    jox_origin_set(p->vm, (JoxOrigin){(char *)path, p->source, (char *)from, p->mod, removes});
 }
 
 /* Pushes a copy of the table at `index`, its items shared. */
@@ -69,38 +45,54 @@ static bool is_none(lua_State *L, int index) {
     return node && node->kind == JOX_NODE_NONE;
 }
 
-/* Pushes the string keys of the table at `index`, sorted, as a list; returns how many. */
-static lua_Integer push_keys(lua_State *L, int index) {
-    lua_newtable(L);
-    int list = lua_gettop(L);
-    lua_Integer count = 0;
-    lua_pushnil(L);
-    while (lua_next(L, index)) {
-        lua_pop(L, 1);
-        if (lua_type(L, -1) != LUA_TSTRING)
-            continue;
-        lua_pushvalue(L, -1);
-        lua_Integer at = ++count; /* insertion: sheets are small */
-        for (; at > 1; at--) {
-            jox_vm_charge(L, 5);
-            lua_rawgeti(L, list, at - 1);
-            bool later = strcmp(lua_tostring(L, -1), lua_tostring(L, -2)) > 0;
-            if (!later) {
-                lua_pop(L, 1);
-                break;
-            }
-            lua_rawseti(L, list, at);
-        }
-        lua_rawseti(L, list, at);
+static int by_text(const void *a, const void *b) {
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* Pushes the string keys of the table at `index`, sorted, as a list; returns how many. Other keys
+   are an error, but for a list's where there may be `items`. */
+static lua_Integer push_keys(const Patch *p, int index, const char *from, bool items) {
+    lua_State *L = p->vm->L;
+    size_t count = 0, most = 0;
+    bool odd = false;
+    for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1))
+        most++;
+    jox_vm_charge(L, 50 * most);
+    const char **keys = lua_newuserdatauv(L, (most + 1) * sizeof *keys, 0);
+    for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) {
+        if (lua_type(L, -2) == LUA_TSTRING)
+            keys[count++] = lua_tostring(L, -2); /* the table holds it */
+        else
+            odd |= !items || !lua_isinteger(L, -2);
     }
-    return count;
+    if (odd)
+        fail(p, from, "bad-key", "Example: states = { Walk = { push = 5 } }",
+             "this table of a patch takes names as keys%s", "");
+    qsort(keys, count, sizeof *keys, by_text);
+    lua_createtable(L, (int)count, 0);
+    for (size_t k = 0; k < count; k++) {
+        lua_pushstring(L, keys[k]);
+        lua_rawseti(L, -2, (lua_Integer)k + 1);
+    }
+    lua_remove(L, -2);
+    return (lua_Integer)count;
+}
+
+/* Whether the table at `index` is a list and nothing else. */
+static bool is_list(lua_State *L, int index) {
+    bool list = lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0;
+    if (!list)
+        return false;
+    for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1))
+        list &= lua_isinteger(L, -2) != 0;
+    return list;
 }
 
 typedef void Merge(const Patch *p, int base, int change, const char *path, const char *from,
                    int depth);
 
 /* Sets base[key] to the value on top of the stack, popped; tables are merged by `inner` where both
-   sides have one. */
+   sides have one, but a list takes a list's place. */
 static void merge_key(const Patch *p, int base, const char *key, const char *path, const char *from,
                       Merge *inner, int depth) {
     lua_State *L = p->vm->L;
@@ -116,7 +108,8 @@ static void merge_key(const Patch *p, int base, const char *key, const char *pat
         lua_pushnil(L);
         lua_setfield(L, base, key);
         set_origin(p, whole, there, true);
-    } else if (had == LUA_TTABLE && lua_type(L, value) == LUA_TTABLE && inner && depth < DEEPEST) {
+    } else if (had == LUA_TTABLE && lua_type(L, value) == LUA_TTABLE && inner && depth < DEEPEST &&
+               !(is_list(L, value) && is_list(L, value + 1))) {
         push_copy(L, value + 1);
         inner(p, lua_gettop(L), value, whole, there, depth + 1);
         lua_setfield(L, base, key);
@@ -132,11 +125,11 @@ static void merge_key(const Patch *p, int base, const char *key, const char *pat
 typedef void MergeKey(const Patch *p, int base, const char *key, const char *path, const char *from,
                       int depth);
 
-/* Visits the string keys of a change, in ascending order. */
+/* Visits the string keys of a change, in ascending order; others are an error, but for items. */
 static void merge_keys(const Patch *p, int base, int change, const char *path, const char *from,
-                       int depth, MergeKey *visit) {
+                       int depth, MergeKey *visit, bool items) {
     lua_State *L = p->vm->L;
-    lua_Integer count = push_keys(L, change);
+    lua_Integer count = push_keys(p, change, from, items);
     int keys = lua_gettop(L);
     for (lua_Integer k = 1; k <= count; k++) {
         lua_rawgeti(L, keys, k);
@@ -158,11 +151,16 @@ static void plain_key(const Patch *p, int base, const char *key, const char *pat
 static void merge_plain(const Patch *p, int base, int change, const char *path, const char *from,
                         int depth) {
     lua_State *L = p->vm->L;
-    merge_keys(p, base, change, path, from, depth, plain_key);
+    merge_keys(p, base, change, path, from, depth, plain_key, true);
     lua_Integer items = (lua_Integer)lua_rawlen(L, change);
     for (lua_Integer i = 1; i <= items; i++) { /* the body of a kick */
+        char number[24], whole[256], there[256];
+        snprintf(number, sizeof number, "%lld", (long long)i);
+        jox_read_join(whole, path, number);
+        jox_read_join(there, from, number);
         lua_rawgeti(L, change, i);
         lua_rawseti(L, base, i);
+        set_origin(p, whole, there, false);
     }
 }
 
@@ -176,30 +174,22 @@ static void name_transitions(const Patch *p, int state, const char *path) {
     char ids[JOX_MOST_TRANSITIONS][128];
     for (lua_Integer i = 1; i <= count && i <= JOX_MOST_TRANSITIONS; i++) {
         if (lua_rawgeti(L, state, i) == LUA_TTABLE) {
-            int nth = 1;
-            jox_read_id(L, lua_gettop(L), 1, ids[i - 1]);
-            for (lua_Integer o = 1; o < i; o++) {
-                size_t n = strlen(ids[i - 1]);
-                nth += strncmp(ids[o - 1], ids[i - 1], n) == 0 &&
-                       (!ids[o - 1][n] || ids[o - 1][n] == '#');
+            bool taken = true;
+            for (int nth = 1; taken; nth++) { /* as without patches */
+                taken = false;
+                jox_read_id(L, lua_gettop(L), nth, ids[i - 1]);
+                for (lua_Integer o = 1; o < i; o++)
+                    taken |= strcmp(ids[o - 1], ids[i - 1]) == 0;
             }
-            jox_read_id(L, lua_gettop(L), nth, ids[i - 1]);
             push_copy(L, lua_gettop(L));
             lua_pushstring(L, ids[i - 1]);
             lua_setfield(L, -2, "id");
             lua_rawseti(L, state, i);
-            char item[160], canonical[256], from[256], number[16];
+            char item[160], canonical[256], number[24];
             snprintf(item, sizeof item, "@%.60s", ids[i - 1]);
             snprintf(number, sizeof number, "%lld", (long long)i);
             jox_read_join(canonical, path, item);
-            jox_read_join(from, path, number);
-            bool known = false;
-            for (size_t o = 0; o < p->vm->origin_count; o++)
-                known |= strcmp(p->vm->origins[o].path, canonical) == 0;
-            if (!known) {
-                const Patch own = {p->vm, 0, -1};
-                set_origin(&own, canonical, from, false);
-            }
+            jox_origin_keep(p->vm, path, number, canonical);
         } else {
             ids[i - 1][0] = 0;
         }
@@ -246,17 +236,23 @@ static void insert_transition(const Patch *p, int state, lua_Integer at, const c
     lua_remove(L, -2);
     int item_at = lua_gettop(L), nth = 1;
     lua_Integer length = (lua_Integer)lua_rawlen(L, state);
-    jox_read_id(L, item_at, 1, id);
-    for (lua_Integer i = 1; i <= length; i++) { /* an id of its own */
-        jox_vm_charge(L, 10);
-        lua_rawgeti(L, state, i);
-        jox_read_field(L, item_at + 1, "id");
-        const char *other = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "";
-        size_t n = strlen(id);
-        nth += strncmp(other, id, n) == 0 && (!other[n] || other[n] == '#');
-        lua_settop(L, item_at);
+    if (length >= 2 * JOX_MOST_TRANSITIONS) {
+        fail(p, from, "too-many", "Split the state", "%s has too many transitions", path);
+        lua_pop(L, 1);
+        return;
     }
-    jox_read_id(L, item_at, nth, id);
+    bool taken = true;
+    for (; taken && nth <= length + 1; nth++) { /* the first id that is free */
+        taken = false;
+        jox_read_id(L, item_at, nth, id);
+        for (lua_Integer i = 1; i <= length; i++) {
+            jox_vm_charge(L, 10);
+            bool table = lua_rawgeti(L, state, i) == LUA_TTABLE;
+            if (table && jox_read_field(L, item_at + 1, "id") == LUA_TSTRING)
+                taken |= strcmp(lua_tostring(L, -1), id) == 0;
+            lua_settop(L, item_at);
+        }
+    }
     lua_pushstring(L, id);
     lua_setfield(L, item_at, "id");
     for (lua_Integer i = length; i >= at; i--) {
@@ -313,7 +309,7 @@ static const char *const VERB_NAMES[VERBS] = {"change",       "replace", "insert
 static void merge_by_id(const Patch *p, Verb verb, int state, int table, const char *path,
                         const char *from) {
     lua_State *L = p->vm->L;
-    lua_Integer count = push_keys(L, table);
+    lua_Integer count = push_keys(p, table, from, false);
     int keys = lua_gettop(L);
     for (lua_Integer k = 1; k <= count; k++) {
         char there[256], item[160], canonical[256];
@@ -404,7 +400,7 @@ static void merge_state(const Patch *p, int base, int change, const char *path, 
              "or remove = { \"ID\" }",
              "%s: transitions of a patch need a place", path);
     name_transitions(p, base, path);
-    merge_keys(p, base, change, path, from, depth, state_key);
+    merge_keys(p, base, change, path, from, depth, state_key, true);
 }
 
 /* Reports a patch of a state that is not there, where it is one and not a new state: it has verbs.
@@ -444,7 +440,7 @@ static void states_key(const Patch *p, int base, const char *key, const char *pa
 
 static void merge_states(const Patch *p, int base, int change, const char *path, const char *from,
                          int depth) {
-    merge_keys(p, base, change, path, from, depth, states_key);
+    merge_keys(p, base, change, path, from, depth, states_key, false);
 }
 
 static void machine_key(const Patch *p, int base, const char *key, const char *path,
@@ -543,7 +539,7 @@ bool jox_patch_apply(JoxVm *vm) {
                 } else {
                     push_copy(L, table);
                     lua_insert(L, -2);
-                    merge_keys(&p, lua_gettop(L) - 1, lua_gettop(L), "", "", 0, machine_key);
+                    merge_keys(&p, lua_gettop(L) - 1, lua_gettop(L), "", "", 0, machine_key, false);
                     lua_pop(L, 1);
                     lua_replace(L, table);
                 }

@@ -45,4 +45,13 @@ uint64_t jox_read_tags(JoxBuild *build, int index, const char *path, const char 
 /* Fills a state, whose name is set, from the table at `index`. */
 void jox_read_state(JoxBuild *build, int index, JoxState *state, int32_t number);
 
+/* Keeps that a path of the machine now stands elsewhere (texts are copied); says so where two mods
+   set one path without knowing each other. */
+void jox_origin_set(JoxVm *vm, JoxOrigin origin);
+/* Keeps where the transition with this number in the state at `path` stands, unless that is known:
+   in the behaviour's file, or in that of a mod that wrote the whole state. */
+void jox_origin_keep(JoxVm *vm, const char *path, const char *number, const char *canonical);
+/* The last of what was set that leads to the path, NULL if none does. */
+const JoxOrigin *jox_origin_of(const JoxVm *vm, const char *path);
+
 #endif

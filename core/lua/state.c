@@ -97,13 +97,12 @@ void jox_read_id(lua_State *L, int index, int nth, char id[128]) {
         snprintf(id + strlen(id), 28, "#%d", nth);
 }
 
-/* How many transitions before `t` have this id, with or without a number. */
-static int repeats(const JoxState *state, const JoxTransition *t, const char *id) {
-    int count = 0;
-    size_t n = strlen(id);
-    for (const JoxTransition *o = state->transitions; o < t; o++)
-        count += strncmp(o->id, id, n) == 0 && (!o->id[n] || o->id[n] == '#');
-    return count;
+/* Whether a transition before `t` has this id. */
+static bool id_taken(const JoxState *state, const JoxTransition *t, const char *id) {
+    for (const JoxTransition *other = state->transitions; other < t; other++)
+        if (strcmp(other->id, id) == 0)
+            return true;
+    return false;
 }
 
 /* The state that a transition leads to. */
@@ -173,8 +172,10 @@ static void read_transitions(JoxBuild *b, int index, const char *path, JoxState 
             continue;
         }
         JoxTransition *t = &state->transitions[state->transition_count];
-        jox_read_id(L, lua_gettop(L), 1, id);
-        jox_read_id(L, lua_gettop(L), repeats(state, t, id) + 1, id);
+        int nth = 1;
+        do
+            jox_read_id(L, lua_gettop(L), nth++, id);
+        while (id_taken(state, t, id));
         snprintf(item, sizeof item, "@%.60s", id); /* how patches know it */
         if (b->vm->origin_count > 0) {
             char canonical[256];

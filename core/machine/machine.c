@@ -37,6 +37,7 @@ JoxTransition jox_transition_blank(char *id) {
 static void free_state(JoxState *state) {
     jox_free(state->name);
     jox_free(state->become);
+    jox_free(state->become_file);
     jox_free(state->enters.set);
     for (uint32_t t = 0; t < state->transition_count; t++) {
         jox_free(state->transitions[t].id);

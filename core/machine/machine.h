@@ -192,6 +192,7 @@ typedef struct JoxState {
     double signal_every;    /* s between two calls of enters.signal while in the state; 0: one */
     char *become;           /* behaviour whose machine the agent goes on with; NULL none */
     int32_t become_machine; /* its index, once known; -1 */
+    char *become_file;      /* where it is written: of the machine, or of a mod */
     int32_t become_line, become_column;
     int32_t on_enter, on_exit; /* hooks; -1 none */
     int32_t line;

@@ -18,6 +18,7 @@ typedef struct Needs {
     const JoxYaml *const *depends, *const *optional, *const *conflicts, *const *load_after;
     uint32_t depend_count, optional_count, conflict_count, after_count;
     bool wanted, broken;
+    enum { UNSEEN, ON_THE_WAY, SOUND } link; /* of what it depends on */
     int depth;
     uint64_t before; /* bits of `found` that come before it */
 } Needs;
@@ -52,7 +53,35 @@ static char *join(JoxHoard *hoard, const char *folder, const char *name) {
     return path;
 }
 
+/* "NAME" or "NAME >= 1.2": the name, and the version that is asked for. */
+static void split(const char *text, char name[64], const char **version) {
+    size_t n = strcspn(text, " >=");
+    const char *at = strstr(text, ">=");
+    snprintf(name, 64, "%.*s", (int)(n < 63 ? n : 63), text);
+    *version = at ? at + 2 + strspn(at + 2, " ") : NULL;
+}
+
 /* ---- reading one ---- */
+
+/* Names of other mods, with a version where `versions`. */
+static uint32_t read_others(const JoxReader *r, const JoxYaml *root, const char *key, bool versions,
+                            const JoxYaml *const **names) {
+    uint32_t count = jox_read_names(r, jox_yaml_get(root, key), names);
+    for (uint32_t k = 0; k < count; k++) {
+        const char *text = (*names)[k]->text, *rest = text + strcspn(text, " >=<");
+        rest += strspn(rest, " ");
+        bool asks = versions && strncmp(rest, ">=", 2) == 0;
+        rest += asks ? 2 + strspn(rest + 2, " ") : 0;
+        size_t digits = asks ? strspn(rest, "0123456789.") : 0;
+        if (*text && strcspn(text, " >=<") < 64 && rest[digits] == 0 &&
+            (!asks || (digits && *rest != '.')))
+            continue;
+        jox_scene_error(r, (*names)[k], "bad-value",
+                        versions ? "Example: 'gentle-queue >= 1.2'" : "Example: gentle-queue",
+                        "%s: '%.60s' is no name of a mod", key, text);
+    }
+    return count;
+}
 
 static bool plain_name(const char *name) {
     size_t n = strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_");
@@ -179,7 +208,12 @@ static void read_mod(Find *f, const char *folder, bool wanted) {
     JoxYaml *root = is_sound(f, path, (JoxPosition){path, 0, 0, 0})
                         ? jox_yaml_load(r->hoard, path, NULL, 0, files, r->diagnostics)
                         : NULL;
-    if (!root || !jox_keys_check(r, root, "mod") || mods->found_count == JOX_MOST_MODS)
+    if (root && mods->found_count == JOX_MOST_MODS) {
+        jox_diag_error(r->diagnostics, root->position, "too-many", "Take some out of the folder",
+                       "there are over %d mods: this is not looked at", JOX_MOST_MODS);
+        return;
+    }
+    if (!root || !jox_keys_check(r, root, "mod"))
         return;
     const char *name = jox_key_text(r, root, "mod", "name");
     const char *title = jox_key_text(r, root, "mod", "title");
@@ -204,10 +238,10 @@ static void read_mod(Find *f, const char *folder, bool wanted) {
     jox_key_number(r, root, "mod", "api"); /* its range is its check */
     Needs *needs = &f->needs[mods->found_count++];
     *needs = (Needs){.root = root, .wanted = wanted};
-    needs->depend_count = jox_read_names(r, jox_yaml_get(root, "depends"), &needs->depends);
-    needs->optional_count = jox_read_names(r, jox_yaml_get(root, "optional"), &needs->optional);
-    needs->conflict_count = jox_read_names(r, jox_yaml_get(root, "conflicts"), &needs->conflicts);
-    needs->after_count = jox_read_names(r, jox_yaml_get(root, "load_after"), &needs->load_after);
+    needs->depend_count = read_others(r, root, "depends", true, &needs->depends);
+    needs->optional_count = read_others(r, root, "optional", true, &needs->optional);
+    needs->conflict_count = read_others(r, root, "conflicts", false, &needs->conflicts);
+    needs->after_count = read_others(r, root, "load_after", true, &needs->load_after);
     if (jox_yaml_get(root, "settings"))
         read_settings(f, mod, jox_yaml_get(root, "settings"));
     read_folder(f, mod, "behaviours", at);
@@ -308,8 +342,10 @@ static void choose(Find *f) {
                 jox_diag_error(f->reader.diagnostics, values->key_positions[v], "unknown-setting",
                                NULL, "mod %s has no setting '%.60s'", mods->found[m].name,
                                values->keys[v]);
-            else if (jox_read_number(&f->reader, values->items[v], found->unit, &number))
+            else if (jox_read_number(&f->reader, values->items[v], found->unit, &number)) {
                 found->value = number;
+                found->position = values->items[v]->position;
+            }
         }
     }
     for (uint32_t i = 0; i < files->count; i++)
@@ -338,6 +374,7 @@ static void set_settings(Find *f) {
                     continue;
                 found = true;
                 mod->settings[k].value = value;
+                mod->settings[k].position = at;
             }
         }
         if (!found || end == equals + 1 || *end)
@@ -359,14 +396,6 @@ static void set_settings(Find *f) {
 
 /* ---- order ---- */
 
-/* "NAME" or "NAME >= 1.2": the name, and the version that is asked for. */
-static void split(const char *text, char name[64], const char **version) {
-    size_t n = strcspn(text, " >=");
-    const char *at = strstr(text, ">=");
-    snprintf(name, 64, "%.*s", (int)(n < 63 ? n : 63), text);
-    *version = at ? at + 2 + strspn(at + 2, " ") : NULL;
-}
-
 static int compare_versions(const char *a, const char *b) {
     for (int part = 0; part < 8 && (*a || *b); part++) {
         long x = strtol(a, (char **)&a, 10), y = strtol(b, (char **)&b, 10);
@@ -381,10 +410,13 @@ static int compare_versions(const char *a, const char *b) {
 }
 
 /* Follows what a mod depends on; false with an error if that is missing, too old, or a circle. */
-static bool link_mod(Find *f, uint32_t m, int depth) {
+static bool link_mod(Find *f, uint32_t m) {
     JoxMods *mods = f->mods;
     Needs *n = &f->needs[m];
     bool good = !n->broken;
+    if (n->link == SOUND)
+        return good;
+    n->link = ON_THE_WAY;
     for (uint32_t d = 0; d < n->depend_count && good; d++) {
         char name[64];
         const char *version;
@@ -398,20 +430,34 @@ static bool link_mod(Find *f, uint32_t m, int depth) {
                            "mod %s needs %s %s or later; %s is there", mods->found[m].name, name,
                            version, mods->found[other].version);
             good = false;
-        } else if (depth > JOX_MOST_MODS) {
+        } else if (f->needs[other].link == ON_THE_WAY) {
             jox_diag_error(f->reader.diagnostics, n->depends[d]->position, "mod-circle", NULL,
                            "mods %s and %s depend on each other", mods->found[m].name, name);
             good = false;
         } else {
-            good = link_mod(f, (uint32_t)other, depth + 1);
+            good = link_mod(f, (uint32_t)other);
             n->before |= (uint64_t)1 << other;
         }
     }
     n->broken |= !good;
+    n->link = SOUND; /* or broken: once is enough */
     return good;
 }
 
-/* Optional ones and load_after count where the other is taken too. */
+/* Whether mod `m` comes after mod `other` by what is known so far, through others too. */
+static bool comes_after(const Find *f, uint32_t m, uint32_t other) {
+    uint64_t before = f->needs[m].before;
+    for (uint64_t known = 0; known != before;) {
+        known = before;
+        for (uint32_t k = 0; k < f->mods->found_count; k++)
+            if (known >> k & 1)
+                before |= f->needs[k].before;
+    }
+    return before >> other & 1;
+}
+
+/* Optional ones and load_after count where the other is taken too, and does not itself come after
+   this one. */
 static void link_wishes(Find *f, uint32_t m) {
     Needs *n = &f->needs[m];
     for (uint32_t k = 0; k < n->optional_count + n->after_count; k++) {
@@ -421,7 +467,14 @@ static void link_wishes(Find *f, uint32_t m) {
         const char *version;
         split(name->text, plain, &version);
         int32_t other = jox_mods_index(f->mods, plain);
-        if (other >= 0 && f->needs[other].wanted && !f->needs[other].broken)
+        if (other < 0 || !f->needs[other].wanted || f->needs[other].broken || !n->wanted ||
+            n->broken)
+            continue;
+        if (other == (int32_t)m || comes_after(f, (uint32_t)other, m))
+            jox_diag_warn(f->reader.diagnostics, name->position, "mod-circle", NULL,
+                          "mod %s would come after %s, which comes after it: not heeded",
+                          f->mods->found[m].name, f->mods->found[other].name);
+        else
             n->before |= (uint64_t)1 << other;
     }
 }
@@ -473,14 +526,14 @@ static void exclude(Find *f) {
     }
 }
 
-/* Longest chain of mods that come before each; a circle of wishes is cut at the number of mods. */
+/* Longest chain of mods that come before each. There are no circles. */
 static void measure_depths(Find *f) {
     uint32_t count = f->mods->found_count;
     for (uint32_t round = 0; round < count; round++)
         for (uint32_t m = 0; m < count; m++)
             for (uint32_t o = 0; o < count; o++)
                 if (o != m && (f->needs[m].before >> o & 1) &&
-                    f->needs[m].depth <= f->needs[o].depth && f->needs[o].depth < (int)count)
+                    f->needs[m].depth <= f->needs[o].depth)
                     f->needs[m].depth = f->needs[o].depth + 1;
 }
 
@@ -527,7 +580,7 @@ JoxMods *jox_mods_find(const JoxModsDef *def, JoxDiagnostics *diagnostics) {
     set_settings(f);
     for (uint32_t m = 0; m < mods->found_count; m++)
         if (f->needs[m].wanted)
-            link_mod(f, m, 0);
+            link_mod(f, m);
     want_all(f);
     exclude(f);
     for (uint32_t m = 0; m < mods->found_count; m++)

@@ -99,7 +99,7 @@ static JoxYaml *merge_list(const Patch *p, const JoxYaml *base, const JoxYaml *c
                            const char *path, int depth) {
     JoxHoard *hoard = p->load->reader.hoard;
     JoxYaml *result = jox_yaml_copy(hoard, base);
-    bool gone[1024] = {false};
+    bool *gone = jox_hoard_take(hoard, base->count + 1, sizeof *gone);
     for (uint32_t k = 0; k < change->count; k++) {
         const char *key = change->keys[k];
         const JoxYaml *value = change->items[k];
@@ -134,16 +134,16 @@ static JoxYaml *merge_list(const Patch *p, const JoxYaml *base, const JoxYaml *c
                     "Items go by their `name`, or by their number from 0; append: [...] adds",
                     "this list has no item '%.60s'", names[n]->text);
             } else if (removes || is_null(value)) {
-                gone[at < 1024 ? at : 1023] = true;
+                gone[at] = true;
                 keep(p, whole, names[n]->position, true);
             } else {
-                result->items[at] = merge(p, base->items[at], value, whole, depth + 1);
+                result->items[at] = merge(p, result->items[at], value, whole, depth + 1);
             }
         }
     }
     uint32_t kept = 0;
     for (uint32_t i = 0; i < result->count; i++)
-        if (i >= base->count || i >= 1024 || !gone[i])
+        if (i >= base->count || !gone[i])
             result->items[kept++] = result->items[i];
     result->count = kept;
     return result;
@@ -151,9 +151,10 @@ static JoxYaml *merge_list(const Patch *p, const JoxYaml *base, const JoxYaml *c
 
 static JoxYaml *merge(const Patch *p, const JoxYaml *base, const JoxYaml *change, const char *path,
                       int depth) {
-    if (base->kind == JOX_YAML_LIST)
+    bool merges = change->kind == JOX_YAML_MAP && depth < DEEPEST;
+    if (merges && base->kind == JOX_YAML_LIST)
         return merge_list(p, base, change, path, depth);
-    if (base->kind == JOX_YAML_MAP)
+    if (merges && base->kind == JOX_YAML_MAP)
         return merge_map(p, base, change, path, depth);
     keep(p, path, change->position, false);
     return jox_yaml_copy(p->load->reader.hoard, change);

@@ -108,6 +108,69 @@ printf 'name: mine\nversion: 3.1\napi: 1\n' >"$XDG_DATA_HOME/jostle/mods/mine/mo
 echo 'return patch "stander" { defaults = { mass = 90 } }' >"$XDG_DATA_HOME/jostle/mods/mine/patches/stander.lua"
 says "a mod of the user's data directory is taken" 0 'mine 3.1' bash -c run
 rm -r "$XDG_DATA_HOME/jostle"
+# Values of other kinds, items changed twice, and the ends of long lists.
+rm -rf "$tree/scenes/mods"/* "$tree/scenes/named.yaml"
+printf 'jostle: 1\nplaces: {goal: {point: [9, 0]}}\nbodies:\n  - {name: ball, shape: {sphere: {radius: 0.1}}, mass: 0.4, at: [5, 5, 0.1]}\ngroups: {g: {behaviour: stander.lua, at: [[0, 0], [2, 0]]}}\n' >"$tree/scenes/yard.yaml"
+mod odd "" yard.yaml 'patch: yard
+groups: {g: {at: {1: [4, 0]}}}'
+says "an item of a list that is a list takes another's place" 0 '"mods": ["odd 1.0"]' bash -c run
+mod odd "" yard.yaml 'patch: yard
+bodies: {ball: [1, 2]}'
+says "a list in place of a map is an error with its place" 0 "odd/patches/yard.yaml:2:16: a body is a map of keys" bash -c run
+mod odd "" yard.yaml 'patch: yard
+bodies: {ball: {mass: -1}, 0: {restitution: 0.5}}'
+says "an item that is changed twice keeps both" 0 "odd/patches/yard.yaml:2:23: mass must be" bash -c run
+# Whatever a mod breaks, it is the one that is left out.
+rm "$tree/scenes/mods/odd/patches/yard.yaml"
+printf 'return machine { name = "turner", start = "Go", states = {\n  Go = { steer = hold, { to = "Turn", when = after(1) } }, Turn = { become = "stander" } } }\n' >"$tree/behaviours/turner.lua"
+sed -i 's/stander.lua/turner.lua/' "$tree/scenes/yard.yaml"
+left="mod odd is left out; the run goes on without"
+broken() { # NAME PLACE-AND-TEXT PATCH-FILE TEXT
+    mod odd "" "$3" "$4"
+    says "$1" 0 "$2" bash -c run
+    grep -qF "$left" "$work/out"; verdict "  and the mod is left out" $?
+    rm "$tree/scenes/mods/odd/patches/$3"
+}
+broken "of a machine that is become" "odd/patches/stander.lua:1:47: unknown key 'psh'" stander.lua 'return patch "stander" { states = { Stand = { psh = 3 } } }'
+broken "to become what is not there" "odd/patches/turner.lua:1:45: there is no behaviour 'nobody'" turner.lua 'return patch "turner" { states = { Turn = { become = "nobody" } } }'
+broken "a value that nobody sets" "odd/patches/turner.lua:1:55: 'quickness' is no parameter" turner.lua 'return patch "turner" { states = { Go = { speed = own.quickness } } }'
+broken "a value that no behaviour has" "odd/patches/yard.yaml:2:20: behaviour turner has no 'nothing'" yard.yaml 'patch: yard
+groups: {g: {set: {nothing: 3}}}'
+broken "items where names belong" "odd/patches/stander.lua:1:26: this table of a patch takes names as keys" stander.lua 'return patch "stander" { states = { { to = "Stand" } } }'
+broken "more than a patch may set" "patches set more than 4096 things" stander.lua 'local t = {} for i = 1, 30000 do t["k" .. (i * 7919 % 30011)] = i end return patch "stander" { defaults = t }'
+broken "more transitions than fit" "states.Stand has too many transitions" stander.lua 'local t = {} for i = 1, 400 do t[i] = { to = "Stand" } end return patch "stander" { states = { Stand = { append = t } } }'
+mod odd "" x.lua 'return 7'
+says "a patch of nothing leaves its mod out" 0 "this file names no behaviour that it changes" bash -c run
+grep -qF '"mods": []' "$work/out"; verdict "  with all that it does" $?
+rm -rf "$tree/scenes/mods"/*
+says "why of a scene that does not load says so" 3 "unknown key 'nme'" bash -c "cd $tree && printf 'jostle: 1\nnme: 3\n' >scenes/bad.yaml && $program mod why stander.push scenes/bad.yaml"
+# Places in what another mod wrote; ids after some were removed.
+mod one "" stander.lua 'return patch "stander" { states = {
+ Go = { steer = drift(1, 0),
+ { to = "Stand", when = after(5) } },
+ Stand = { append = { { to = "Go", when = after(1) }, { to = "Go", when = after(2) }, { to = "Go", when = after(3) } } } } }'
+mod two "depends: one" stander.lua 'return patch "stander" { states = { Go = { push = 5 }, Stand = { remove = { "Go#2" } } } }'
+mod three "depends: two" stander.lua 'return patch "stander" { states = { Stand = { append = { to = "Go", when = after(4) } } } }'
+sed -i 's/turner.lua/stander.lua/' "$tree/scenes/yard.yaml"
+says "why: in a state that another mod wrote" 0 "one/patches/stander.lua:3:18: after(5)   (mod one 1.0)" "$program" mod why stander.Go.Stand.when "$tree/scenes/yard.yaml"
+says "a removed transition's id is free" 0 "three/patches/stander.lua:1:69: after(4)   (mod three 1.0)" "$program" mod why "stander.Stand.Go#2.when" "$tree/scenes/yard.yaml"
+says "and the next one's stays" 0 "one/patches/stander.lua:4:100: after(3)   (mod one 1.0)" "$program" mod why "stander.Stand.Go#3.when" "$tree/scenes/yard.yaml"
+# Order, in large and in circles.
+rm -rf "$tree/scenes/mods"/*
+names=; for i in $(seq 10 49); do mod m$i "depends: [$names]"; names="$names${names:+, }m$i"; done
+says "forty mods, each in need of all before" 0 "40. m49 1.0" timeout 10 "$program" mod list "$tree/scenes/yard.yaml"
+for i in $(seq 50 80); do mod m$i ""; done
+says "more mods than there may be" 0 "m74/mod.yaml:1:1: there are over 64 mods" "$program" mod list "$tree/scenes/yard.yaml"
+rm -rf "$tree/scenes/mods"/*
+mod aaa "depends: yy"; mod zz "load_after: yy"; mod yy "load_after: zz"
+says "a circle of wishes is said, and depends still comes first" 0 "3. aaa 1.0" "$program" mod list "$tree/scenes/yard.yaml"
+grep -qF "zz/mod.yaml:4:13: warning: mod zz would come after yy, which comes after it: not heeded" "$work/out"; verdict "  with the place" $?
+rm -rf "$tree/scenes/mods"/*
+mod aaa "depends: 'bb <= 2'"; mod bb "settings: {x: {value: 5, least: 1, greatest: 8}}"
+says "a comparison that is not known" 0 "aaa/mod.yaml:4:10: depends: 'bb <= 2' is no name of a mod" bash -c run
+sed -i '1a mods: {bb: {x: 99}}' "$tree/scenes/yard.yaml"
+says "a setting out of range by the scene: the scene's line" 0 "scenes/yard.yaml:2:16: setting 'x' of mod bb must be from 1 to 8, not 99" bash -c run
+says "by the command line: there" 0 "--set:1:1: setting 'x' of mod bb must be from 1 to 8, not 77" bash -c "run --set mods.bb.x=77"
 
 # jostle new: what it writes passes the check and runs.
 mkdir "$work/new"

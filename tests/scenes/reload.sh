@@ -198,6 +198,13 @@ sed -i '/seeed/d; s/behaviour: /set: {speed: 0.4}, behaviour: /' "$dir/scene.yam
 expect "a value that a group sets" "values that groups set changed"
 printf 'walls:\n  - {solid: [[30, 30], [32, 30], [32, 32], [30, 32]]}\n' >>"$dir/scene.yaml"
 expect "a wall that is built" "walls changed, live"
+cp "$dir/scene.yaml" "$work/kept.yaml"
+sed -i 's/^\(  [a-z]*\)\(: {.*behaviour: .*\)/\1\2\n\1more\2/' "$dir/scene.yaml"
+expect "groups of other names wait" "groups (other names or order): takes effect at the next start"
+gate 7 >"$dir/more.yaml"
+expect "a place moves meanwhile" "places changed, live from" 3
+cp "$work/kept.yaml" "$dir/scene.yaml"; gate 4 >"$dir/more.yaml"
+expect "and back" "places changed, live from" 4
 sheet 1.2 >"$file"
 expect "a behaviour after the scene" "version 2 is live"
 sheet 1.2 ', At = { steer = seek(own.goal) }' >"$file"
