@@ -71,6 +71,7 @@ bench:
 	@$(MAKE) --no-print-directory all $(BENCH)
 	@for b in $(BENCH); do echo "== $$b"; $$b; done
 	$(B)/jostle bench
+	@B=$(B) bash tests/bench/reload.sh
 check:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory all
