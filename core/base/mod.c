@@ -1,6 +1,7 @@
 #include "base/mod.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 bool jox_mod_overlaps(const char *a, const char *b) {
@@ -19,4 +20,24 @@ void jox_mod_conflict(JoxDiagnostics *diagnostics, const JoxMod *later, JoxPosit
                  "Say which comes first with `load_after` or `depends` in mod.yaml", context, NULL,
                  "mods %s and %s both set %s", earlier->name, later->name,
                  *path ? path : "all of it");
+}
+
+void jox_mod_need(const char *text, char name[64], const char **version) {
+    size_t n = strcspn(text, " >=");
+    const char *at = strstr(text, ">=");
+    snprintf(name, 64, "%.*s", (int)(n < 63 ? n : 63), text);
+    *version = at ? at + 2 + strspn(at + 2, " ") : NULL;
+}
+
+int jox_mod_compare(const char *a, const char *b) {
+    for (int part = 0; part < 8 && (*a || *b); part++) {
+        long x = strtol(a, (char **)&a, 10), y = strtol(b, (char **)&b, 10);
+        if (x != y)
+            return x < y ? -1 : 1;
+        a += *a == '.';
+        b += *b == '.';
+        if ((*a && (*a < '0' || *a > '9')) || (*b && (*b < '0' || *b > '9')))
+            break;
+    }
+    return 0;
 }

@@ -41,4 +41,9 @@ bool jox_mod_overlaps(const char *a, const char *b);
 void jox_mod_conflict(JoxDiagnostics *diagnostics, const JoxMod *later, JoxPosition at,
                       const JoxMod *earlier, JoxPosition before, const char *path);
 
+/* "NAME" or "NAME >= 1.2": the name, and the version that is asked for, or NULL. */
+void jox_mod_need(const char *text, char name[64], const char **version);
+/* Below, at or above 0 as version a is older than, like or newer than b: number by number. */
+int jox_mod_compare(const char *a, const char *b);
+
 #endif

@@ -53,14 +53,6 @@ static char *join(JoxHoard *hoard, const char *folder, const char *name) {
     return path;
 }
 
-/* "NAME" or "NAME >= 1.2": the name, and the version that is asked for. */
-static void split(const char *text, char name[64], const char **version) {
-    size_t n = strcspn(text, " >=");
-    const char *at = strstr(text, ">=");
-    snprintf(name, 64, "%.*s", (int)(n < 63 ? n : 63), text);
-    *version = at ? at + 2 + strspn(at + 2, " ") : NULL;
-}
-
 /* ---- reading one ---- */
 
 /* Names of other mods, with a version where `versions`. */
@@ -396,19 +388,6 @@ static void set_settings(Find *f) {
 
 /* ---- order ---- */
 
-static int compare_versions(const char *a, const char *b) {
-    for (int part = 0; part < 8 && (*a || *b); part++) {
-        long x = strtol(a, (char **)&a, 10), y = strtol(b, (char **)&b, 10);
-        if (x != y)
-            return x < y ? -1 : 1;
-        a += *a == '.';
-        b += *b == '.';
-        if ((*a && (*a < '0' || *a > '9')) || (*b && (*b < '0' || *b > '9')))
-            break;
-    }
-    return 0;
-}
-
 /* Follows what a mod depends on; false with an error if that is missing, too old, or a circle. */
 static bool link_mod(Find *f, uint32_t m) {
     JoxMods *mods = f->mods;
@@ -420,12 +399,12 @@ static bool link_mod(Find *f, uint32_t m) {
     for (uint32_t d = 0; d < n->depend_count && good; d++) {
         char name[64];
         const char *version;
-        split(n->depends[d]->text, name, &version);
+        jox_mod_need(n->depends[d]->text, name, &version);
         int32_t other = jox_mods_index(mods, name);
         if (other < 0) {
             missing(f, n->depends[d]->position, name, mods->found[m].name);
             good = false;
-        } else if (version && compare_versions(mods->found[other].version, version) < 0) {
+        } else if (version && jox_mod_compare(mods->found[other].version, version) < 0) {
             jox_diag_error(f->reader.diagnostics, n->depends[d]->position, "old-mod", NULL,
                            "mod %s needs %s %s or later; %s is there", mods->found[m].name, name,
                            version, mods->found[other].version);
@@ -465,7 +444,7 @@ static void link_wishes(Find *f, uint32_t m) {
             k < n->optional_count ? n->optional[k] : n->load_after[k - n->optional_count];
         char plain[64];
         const char *version;
-        split(name->text, plain, &version);
+        jox_mod_need(name->text, plain, &version);
         int32_t other = jox_mods_index(f->mods, plain);
         if (other < 0 || !f->needs[other].wanted || f->needs[other].broken || !n->wanted ||
             n->broken)
@@ -487,7 +466,7 @@ static void want_all(Find *f) {
                  f->needs[m].wanted && !f->needs[m].broken && d < f->needs[m].depend_count; d++) {
                 char name[64];
                 const char *version;
-                split(f->needs[m].depends[d]->text, name, &version);
+                jox_mod_need(f->needs[m].depends[d]->text, name, &version);
                 int32_t other = jox_mods_index(f->mods, name);
                 if (other >= 0 && !f->needs[other].wanted)
                     f->needs[other].wanted = more = true;
@@ -518,7 +497,7 @@ static void exclude(Find *f) {
             for (uint32_t d = 0; !f->needs[m].broken && d < f->needs[m].depend_count; d++) {
                 char name[64];
                 const char *version;
-                split(f->needs[m].depends[d]->text, name, &version);
+                jox_mod_need(f->needs[m].depends[d]->text, name, &version);
                 int32_t other = jox_mods_index(mods, name);
                 if (other < 0 || f->needs[other].broken)
                     f->needs[m].broken = more = true;
