@@ -1,4 +1,4 @@
--- Walks to a goal with its party: whoever is ahead waits, whoever is behind catches up.
+-- Walks to a goal with its party: who is apart from it may wait, or walks to it first; who is close walks on.
 local mate = nearest "teammates"
 local apart = distance(mate):above(2.5) & sees(mate)
 
