@@ -316,6 +316,9 @@ static void choose(Find *f) {
     JoxYaml *root = jox_yaml_load(f->reader.hoard, f->def->scene, NULL, 0, files, &later);
     const JoxYaml *map = jox_yaml_get(root, "mods");
     jox_diag_free(&later);
+    if (map && map->kind != JOX_YAML_MAP)
+        jox_scene_error(&f->reader, map, "bad-type", "mods: {NAME: {}}",
+                        "mods maps names of mods to their settings");
     for (uint32_t k = 0; map && map->kind == JOX_YAML_MAP && k < map->count; k++) {
         int32_t m = jox_mods_index(mods, map->keys[k]);
         if (m < 0) {
@@ -324,6 +327,9 @@ static void choose(Find *f) {
         }
         f->needs[m].wanted = true;
         const JoxYaml *values = map->items[k];
+        if (values->kind != JOX_YAML_MAP && !(values->kind == JOX_YAML_SCALAR && !*values->text))
+            jox_scene_error(&f->reader, values, "bad-type", "mods: {NAME: {SETTING: 3}}",
+                            "the settings of a mod are a map");
         for (uint32_t v = 0; values->kind == JOX_YAML_MAP && v < values->count; v++) {
             double number;
             JoxModSetting *found = NULL;

@@ -103,6 +103,8 @@ says "nor reads it" 0 "a mod cannot read" bash -c run
 sed -i 's/api: 1/api: 1\nenabled: false/' "$tree/scenes/mods/states/mod.yaml"
 (cd "$tree" && "$program" mod list scenes/named.yaml) | grep -q '. states 1.0'; verdict "a scene names its mods" $?
 
+printf 'jostle: 1\nmods: [states]\ngroups: {g: {behaviour: stander.lua, at: [[0, 0]]}}\n' >"$tree/scenes/named.yaml"
+says "mods that are a list" 0 "scenes/named.yaml:2:7: mods maps names of mods to their settings" bash -c "cd $tree && $program run scenes/named.yaml --steps 1 --quiet"
 mkdir -p "$XDG_DATA_HOME/jostle/mods/mine/patches"
 printf 'name: mine\nversion: 3.1\napi: 1\n' >"$XDG_DATA_HOME/jostle/mods/mine/mod.yaml"
 echo 'return patch "stander" { defaults = { mass = 90 } }' >"$XDG_DATA_HOME/jostle/mods/mine/patches/stander.lua"
