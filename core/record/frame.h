@@ -1,0 +1,25 @@
+/* One moment of a crowd, as probes see it: the same for a running world and for a recording. The
+   arrays belong to who made the frame and hold until the next one. */
+#ifndef JOX_RECORD_FRAME_H
+#define JOX_RECORD_FRAME_H
+
+#include <stdint.h>
+
+typedef struct JoxFrame {
+    double time; /* s */
+    uint32_t count;
+    uint32_t keys;        /* every key so far is below this */
+    const uint32_t *key;  /* of each person: the same in every frame, never another's */
+    const float *x, *y;   /* m */
+    const float *vx, *vy; /* m/s: displacement over a step, or over a stretch about the moment */
+    /* NULL where they are not known, as in a recording made by others. */
+    const float *radius;       /* m */
+    const float *force;        /* magnitude of the net force, N */
+    const float *compression;  /* sum of contact force magnitudes over girth, N/m */
+    const uint8_t *failed;     /* 1 where the 2-D program had no solution */
+    const uint16_t *group;     /* index of the scene's group */
+    const char *const *groups; /* their names */
+    uint32_t group_count;
+} JoxFrame;
+
+#endif
