@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "agents/parameters.h"
+#include "base/vec.h"
 
 #define JOX_NO_INDEX UINT32_MAX
 
@@ -86,9 +87,26 @@ typedef struct JoxAgents {
     /* id -> index, JOX_NO_INDEX when gone. */
     uint32_t *id_index;
     uint32_t id_capacity;
+    /* Periodic edges: who leaves at one side comes in at the other. Lengths of the period, 0 along
+       an axis without; positions are kept within [origin, origin + period). */
+    JoxV2 origin, period;
     void *scratch; /* one column wide, for permuting */
     uint32_t *order;
 } JoxAgents;
+
+/* The shortest of the ways between two points that differ by d where edges are periodic. */
+static inline JoxV2 jox_wrap(const JoxAgents *agents, JoxV2 d) {
+    const JoxV2 period = agents->period;
+    if (period.x > 0.0f && fabsf(d.x) > 0.5f * period.x)
+        d.x -= d.x > 0.0f ? period.x : -period.x;
+    if (period.y > 0.0f && fabsf(d.y) > 0.5f * period.y)
+        d.y -= d.y > 0.0f ? period.y : -period.y;
+    return d;
+}
+/* From agent i to agent j, m. */
+static inline JoxV2 jox_offset(const JoxAgents *agents, uint32_t i, uint32_t j) {
+    return jox_wrap(agents, (JoxV2){agents->x[j] - agents->x[i], agents->y[j] - agents->y[i]});
+}
 
 /* Zero-initialised agents are empty. Strides may only grow (rows are widened, new cells zero). */
 void jox_agents_reserve(JoxAgents *agents, uint32_t capacity);

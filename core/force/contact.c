@@ -21,7 +21,7 @@ static bool sees(const JoxNeighbours *near, uint32_t other, uint32_t i, float di
 /* The normal is the first's, which has the lesser id; people in one place part along x. */
 static JoxPair make_pair(const JoxAgents *a, uint32_t i, uint32_t k) {
     uint32_t first = a->id[i] < a->id[k] ? i : k, second = first == i ? k : i;
-    JoxV2 normal = jox_unit(jox_v2(a->x[first] - a->x[second], a->y[first] - a->y[second]));
+    JoxV2 normal = jox_unit(jox_offset(a, second, first));
     if (normal.x == 0.0f && normal.y == 0.0f)
         normal.x = 1.0f;
     return (JoxPair){.first = first, .second = second, .nx = normal.x, .ny = normal.y};

@@ -37,7 +37,7 @@ static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
         if (near->distance2[at] > widest * widest)
             break; /* nearest first */
         uint32_t other = near->index[at];
-        JoxV2 offset = jox_v2(a->x[other] - a->x[i], a->y[other] - a->y[i]);
+        JoxV2 offset = jox_offset(a, i, other);
         float most = reach + radius[i] + radius[other], d2 = jox_length2(offset);
         if (!(d2 < most * most) || !jox_cone_holds(offset, aim, cosine))
             continue;

@@ -69,7 +69,7 @@ static uint32_t in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t *fo
     uint32_t n = 0;
     for (uint32_t k = 0; k < near->count[i]; k++) {
         uint32_t other = near->index[jox_neighbour_at(near, i, k)];
-        JoxV2 offset = jox_v2(a->x[other] - a->x[i], a->y[other] - a->y[i]);
+        JoxV2 offset = jox_offset(a, i, other);
         float most = radius[i] + radius[other] + f->options.reach;
         bool near_enough = f->options.literal | (jox_length2(offset) <= most * most);
         found[n] = other; /* kept only if it counts; no branch that would be guessed wrong */

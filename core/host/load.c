@@ -182,6 +182,12 @@ static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnos
     world.forces = plan->forces;
     world.literal = plan->literal;
     scene->world = jox_world_create(&world);
+    if (plan->periodic_x || plan->periodic_y) {
+        JoxV2 size = jox_sub(plan->high, plan->low);
+        scene->world->agents.origin = plan->low;
+        scene->world->agents.period =
+            (JoxV2){plan->periodic_x ? size.x : 0.0f, plan->periodic_y ? size.y : 0.0f};
+    }
     scene->world->walls = plan->walls; /* taken over */
     plan->walls = (JoxWalls){0};
     const JoxLuaLimits limits = script_limits(plan);

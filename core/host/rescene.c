@@ -210,6 +210,7 @@ static void name_the_rest(Rescene *r) {
     } REST[] = {{"seed", a->seed != b->seed},
                 {"step", a->step != b->step},
                 {"gravity", a->gravity != b->gravity},
+                {"periodic", a->periodic_x != b->periodic_x || a->periodic_y != b->periodic_y},
                 {"bodies", a->body_count != b->body_count},
                 {"forces", a->forces != b->forces || a->literal != b->literal},
                 {"limits", memcmp(&a->limits, &b->limits, sizeof a->limits) != 0},

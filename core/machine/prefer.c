@@ -133,14 +133,14 @@ static JoxV2 together(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term)
         uint32_t j = n->index[jox_neighbour_at(n, i, k)];
         if (a->team[j] != a->team[i])
             continue;
-        sum = jox_add(sum, (JoxV2){a->x[j], a->y[j]});
+        sum = jox_add(sum, jox_offset(a, i, j));
         mates++;
     }
-    JoxV2 p = {a->x[i], a->y[i]}, to = jox_scale(sum, mates ? 1.0f / (float)mates : 0.0f);
-    float distance = mates ? jox_length(jox_sub(to, p)) : 0.0f, ease = (float)term->args[0];
+    JoxV2 to = jox_scale(sum, mates ? 1.0f / (float)mates : 0.0f);
+    float distance = jox_length(to), ease = (float)term->args[0];
     if (distance <= ease)
         return (JoxV2){0.0f, 0.0f};
-    return jox_scale(jox_sub(to, p), jox_minf(1.0f, distance - ease) / distance);
+    return jox_scale(to, jox_minf(1.0f, distance - ease) / distance);
 }
 
 static JoxV2 follow(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {

@@ -21,17 +21,19 @@ int32_t jox_target_place(const JoxMind *mind, uint32_t agent, int32_t index) {
     return place >= 0 && (uint32_t)place < mind->place_count ? place : -1;
 }
 
-static JoxSpot agent_spot(const JoxMind *mind, uint32_t i) {
+/* Agent `other` as agent i sees it: across a periodic edge if that is nearer. */
+static JoxSpot agent_spot(const JoxMind *mind, uint32_t i, uint32_t other) {
     const JoxAgents *a = mind->agents;
+    JoxV2 offset = jox_offset(a, i, other);
     return (JoxSpot){.found = true,
-                     .x = a->x[i],
-                     .y = a->y[i],
-                     .vx = a->vx[i],
-                     .vy = a->vy[i],
-                     .radius = a->param[JOX_PARAM_radius][i],
+                     .x = a->x[i] + offset.x,
+                     .y = a->y[i] + offset.y,
+                     .vx = a->vx[other],
+                     .vy = a->vy[other],
+                     .radius = a->param[JOX_PARAM_radius][other],
                      .place = -1,
                      .object = -1,
-                     .agent = i};
+                     .agent = other};
 }
 
 static JoxSpot object_spot(const JoxObject *o, int32_t row) {
@@ -78,7 +80,7 @@ static uint32_t nearest_agent(const JoxMind *mind, const JoxTarget *target, uint
     uint32_t best = JOX_NO_INDEX;
     float reach = a->param[JOX_PARAM_perception][i], least = reach * reach;
     for (uint32_t j = 0; a->count <= SMALL_CROWD && j < a->count; j++) {
-        float dx = a->x[j] - a->x[i], dy = a->y[j] - a->y[i], d2 = dx * dx + dy * dy;
+        float d2 = jox_length2(jox_offset(a, i, j));
         if (j == i || !is_wanted(a, target, i, j) || d2 > least)
             continue;
         if (d2 < least || best == JOX_NO_INDEX || a->id[j] < a->id[best]) {
@@ -113,7 +115,7 @@ JoxSpot jox_target_find(const JoxMind *mind, uint32_t i, int32_t index) {
     JoxSpot none = {.place = -1, .object = -1, .agent = JOX_NO_INDEX};
     const JoxAgents *a = mind->agents;
     if (index < 0)
-        return agent_spot(mind, i);
+        return agent_spot(mind, i, i);
     const JoxTarget *target = &jox_machine_of(mind, i)->targets[index];
     if (target->kind < JOX_TARGET_NEAREST) {
         int32_t place = jox_target_place(mind, i, index);
@@ -127,9 +129,8 @@ JoxSpot jox_target_find(const JoxMind *mind, uint32_t i, int32_t index) {
         target->kind == JOX_TARGET_NEAREST ? nearest_object(mind, target, i, &object_d2) : -1;
     uint32_t other = nearest_agent(mind, target, i);
     if (other != JOX_NO_INDEX) {
-        float dx = a->x[other] - a->x[i], dy = a->y[other] - a->y[i];
-        if (object < 0 || dx * dx + dy * dy < object_d2)
-            return agent_spot(mind, other);
+        if (object < 0 || jox_length2(jox_offset(a, i, other)) < object_d2)
+            return agent_spot(mind, i, other);
     }
     return object >= 0 ? object_spot(&mind->objects->rows[object], object) : none;
 }
@@ -161,7 +162,7 @@ float jox_headway(const JoxMind *mind, uint32_t i) {
     float best = a->param[JOX_PARAM_perception][i];
     for (uint32_t k = 0; k < n->count[i]; k++) {
         uint32_t j = n->index[jox_neighbour_at(n, i, k)];
-        JoxV2 d = {a->x[j] - a->x[i], a->y[j] - a->y[i]};
+        JoxV2 d = jox_offset(a, i, j);
         float along = jox_dot(d, ahead), aside = fabsf(jox_det(d, ahead));
         float sum = radius[i] + radius[j];
         if (along > 0.0f && aside < sum / 2.0f)

@@ -99,7 +99,8 @@ static void fit_rows(JoxNav *nav, const JoxAgents *a) {
 }
 
 void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
-    bool same = nav->sorted_count == a->count && nav->sorted_next_id == a->next_id;
+    bool same =
+        nav->sorted_count == a->count && nav->sorted_next_id == a->next_id && isfinite(nav->drift);
     if ((same && tick % SORT_EVERY != 0) || a->count == 0) {
         nav->sorted_count = a->count;
         return;
@@ -195,17 +196,14 @@ typedef struct Perceive {
 
 enum { HINTS = 16 };
 
-/* Finds the nearest agents within `radius` of agent i. */
-static void search(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radius, Nearest *found,
-                   uint32_t hints[HINTS]) {
-    const float x = a->x[i], y = a->y[i], r2 = radius * radius;
+/* Adds the agents within `radius` of a point, but not agent i. */
+static void search_about(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV2 point,
+                         float radius, Nearest *found, uint32_t hints[HINTS]) {
+    const float x = point.x, y = point.y, r2 = radius * radius;
     const float *ax = a->x, *ay = a->y;
     const uint32_t *id = a->id;
     float wide = radius + nav->drift;
     uint32_t low = row_of(nav, y - wide), high = row_of(nav, y + wide);
-    found->count = found->waits = 0;
-    for (uint32_t k = 0; k < found->most; k++)
-        found->keys[k] = UINT64_MAX;
     for (uint32_t row = low; row <= high; row++) {
         uint32_t end = nav->row_first[row + 1], *hint = &hints[row % HINTS];
         uint32_t j = *hint = row_from(nav, row, x - wide, *hint);
@@ -217,6 +215,41 @@ static void search(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radi
                 sort_in(found);
         }
     }
+}
+
+/* Shifts to the images of a point along one axis, of which those beyond a periodic edge matter
+   where the edge is within `wide`. Returns how many. */
+static uint32_t images(float at, float origin, float period, float wide, float shifts[3]) {
+    uint32_t count = 0;
+    shifts[count++] = 0.0f;
+    if (period > 0.0f && at - wide < origin)
+        shifts[count++] = period;
+    if (period > 0.0f && at + wide >= origin + period)
+        shifts[count++] = -period;
+    return count;
+}
+
+/* How far one sees: less than half a period, so that nobody is seen from two sides. */
+static float sight(const JoxAgents *a, float perception) {
+    float most = a->period.x > 0.0f ? 0.49f * a->period.x : INFINITY;
+    most = a->period.y > 0.0f ? jox_minf(most, 0.49f * a->period.y) : most;
+    return jox_minf(perception, most);
+}
+
+/* Finds the nearest agents within `radius` of agent i. */
+static void search(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radius, Nearest *found,
+                   uint32_t hints[HINTS]) {
+    JoxV2 point = {a->x[i], a->y[i]};
+    float wide = radius + nav->drift, along[3], across[3];
+    uint32_t columns = images(point.x, a->origin.x, a->period.x, wide, along);
+    uint32_t rows = images(point.y, a->origin.y, a->period.y, wide, across);
+    found->count = found->waits = 0;
+    for (uint32_t k = 0; k < found->most; k++)
+        found->keys[k] = UINT64_MAX;
+    for (uint32_t row = 0; row < rows; row++)
+        for (uint32_t column = 0; column < columns; column++)
+            search_about(nav, a, i, jox_add(point, (JoxV2){along[column], across[row]}), radius,
+                         found, hints);
     sort_in(found);
     found->count = found->count < found->most ? found->count : found->most;
 }
@@ -227,7 +260,7 @@ static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t
     JoxAgents *a = p->agents;
     uint32_t hints[HINTS] = {0};
     for (uint32_t i = begin; i < end; i++) {
-        float perception = a->param[JOX_PARAM_perception][i];
+        float perception = sight(a, a->param[JOX_PARAM_perception][i]);
         Nearest found = {.most = (uint32_t)a->param[JOX_PARAM_neighbours][i]};
         float radius = a->search[i] > 0.0f ? a->search[i] + SLACK : perception * 0.5f;
         for (bool again = found.most > 0; again;) {

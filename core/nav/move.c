@@ -44,7 +44,7 @@ static void sweep(void *context, uint32_t begin, uint32_t end, uint32_t worker) 
         for (uint32_t k = 0; k < m->neighbours->count[i]; k++) {
             size_t at = jox_neighbour_at(m->neighbours, i, k);
             uint32_t j = m->neighbours->index[at];
-            JoxV2 d = jox_sub(from[i], from[j]);
+            JoxV2 d = jox_wrap(a, jox_sub(from[i], from[j]));
             float sum = radius[i] + radius[j], d2 = jox_length2(d);
             if (d2 >= sum * sum || d2 == 0.0f)
                 continue;
@@ -96,6 +96,25 @@ static JoxV2 stop_at_walls(const JoxWallGrid *grid, JoxV2 p, JoxV2 q) {
     return p; /* a corner narrower than the step: stay */
 }
 
+/* Who left at a periodic edge comes in at the other side, with the step's start beyond the edge. */
+static bool come_round(JoxAgents *a, uint32_t i) {
+    JoxV2 before = {a->x[i], a->y[i]};
+    if (a->period.x > 0.0f) {
+        float turns = floorf((a->x[i] - a->origin.x) / a->period.x);
+        a->x[i] -= turns * a->period.x;
+    }
+    if (a->period.y > 0.0f) {
+        float turns = floorf((a->y[i] - a->origin.y) / a->period.y);
+        a->y[i] -= turns * a->period.y;
+    }
+    JoxV2 shift = jox_sub((JoxV2){a->x[i], a->y[i]}, before);
+    a->prev_x[i] += shift.x;
+    a->prev_y[i] += shift.y;
+    a->still_x[i] += shift.x;
+    a->still_y[i] += shift.y;
+    return shift.x != 0.0f || shift.y != 0.0f;
+}
+
 /* Out of walls that are nearer than the radius. */
 static JoxV2 keep_clear(const JoxWallGrid *grid, JoxV2 p, float radius) {
     uint32_t count;
@@ -134,12 +153,14 @@ static void settle_range(void *context, uint32_t begin, uint32_t end, uint32_t w
         a->x[i] = q.x;
         a->y[i] = q.y;
         farthest2 = jox_maxf(farthest2, jox_length2(jox_sub(q, p)));
-        JoxV2 rest = {q.x - a->still_x[i], q.y - a->still_y[i]};
+        if (come_round(a, i))
+            farthest2 = INFINITY; /* the order in memory no longer follows space */
+        JoxV2 rest = {a->x[i] - a->still_x[i], a->y[i] - a->still_y[i]};
         a->still[i] += m->dt;
         if (jox_length2(rest) > STILL_REACH * STILL_REACH) {
             a->still[i] = 0.0f;
-            a->still_x[i] = q.x;
-            a->still_y[i] = q.y;
+            a->still_x[i] = a->x[i];
+            a->still_y[i] = a->y[i];
         }
     }
     m->nav->chunk_drift[begin / JOX_NAV_GRAIN] = farthest2;

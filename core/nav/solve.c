@@ -28,14 +28,14 @@ static JoxV2 parting(uint32_t id, uint32_t other) {
 static uint32_t agent_planes(const Solve *s, uint32_t i, JoxPlane *out) {
     const JoxAgents *a = s->agents;
     const float *radius = a->param[JOX_PARAM_radius];
-    JoxV2 at = {a->x[i], a->y[i]}, velocity = {a->vx[i], a->vy[i]};
+    JoxV2 velocity = {a->vx[i], a->vy[i]};
     float tau = a->param[JOX_PARAM_horizon][i], share = a->param[JOX_PARAM_yield][i];
     uint32_t made = 0;
     for (uint32_t k = 0; k < s->neighbours->count[i]; k++) {
         uint32_t j = s->neighbours->index[jox_neighbour_at(s->neighbours, i, k)];
         if (a->tags[j] & a->ignore[i])
             continue;
-        JoxV2 p = {a->x[j] - at.x, a->y[j] - at.y};
+        JoxV2 p = jox_offset(a, i, j);
         JoxV2 v = {velocity.x - a->vx[j], velocity.y - a->vy[j]};
         JoxV2 away = {1.0f, 0.0f};
         if (p.x == 0.0f && p.y == 0.0f)

@@ -5,10 +5,13 @@
 
 #include <stdint.h>
 
+#include "base/vec.h"
+
 typedef struct JoxFrame {
     double time; /* s */
     uint32_t count;
-    uint32_t keys;        /* every key so far is below this */
+    JoxV2 period;  /* m: of periodic edges along x and y; 0 without. Who passes one comes round. */
+    uint32_t keys; /* every key so far is below this */
     const uint32_t *key;  /* of each person: the same in every frame, never another's */
     const float *x, *y;   /* m */
     const float *vx, *vy; /* m/s: displacement over a step, or over a stretch about the moment */

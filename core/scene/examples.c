@@ -13,6 +13,7 @@ const JoxExample jox_scene_examples[] = {
      "duration: 1 min\n"
      "gravity: 9.81\n"
      "bounds: [[-20, -20], [20, 20]]\n"
+     "periodic: x\n"
      "player: runner\n"
      "input: dodgeball.input\n"
      "forces: {mode: physical}\n"

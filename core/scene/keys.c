@@ -27,6 +27,8 @@ const JoxKey jox_scene_keys[] = {
     {"scene", "gravity", NUMBER, "m/s2", 0, 100, "9.81", .meaning = "downwards, for bodies"},
     {"scene", "bounds", POINTS, "m", -FAR, FAR, "", .of = "xy[2]",
      .meaning = "two opposite corners; every agent must start between them"},
+    {"scene", "periodic", TEXT, "", 0, 0, "none", .choices = "none|x|y|both",
+     .meaning = "axes along which the bounds are joined: who leaves at one edge comes in at the other"},
     {"scene", "input", TEXT, "", 0, 0, "",
      .meaning = "file of the input log that drives player agents"},
     {"scene", "player", TEXT, "", 0, 0, "",

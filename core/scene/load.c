@@ -459,6 +459,23 @@ static bool of_a_mod(const JoxLoad *l, const char *file) {
     return false;
 }
 
+static void read_periodic(JoxLoad *l, const JoxYaml *root) {
+    const JoxYaml *node = jox_yaml_get(root, "periodic");
+    if (!node)
+        return;
+    JoxScene *s = l->scene;
+    int choice = jox_key_choice(&l->reader, root, "scene", "periodic");
+    s->periodic_x = choice == 1 || choice == 3;
+    s->periodic_y = choice == 2 || choice == 3;
+    JoxV2 size = jox_sub(s->high, s->low);
+    if (choice > 0 && !s->bounded)
+        jox_scene_error(&l->reader, node, "bad-value", "bounds: [[0, 0], [20, 4]]",
+                        "periodic edges need `bounds`");
+    else if ((s->periodic_x && size.x < 1.0f) || (s->periodic_y && size.y < 1.0f))
+        jox_scene_error(&l->reader, node, "bad-value", NULL,
+                        "bounds that are joined must be at least 1 m apart");
+}
+
 static void read_settings(JoxLoad *l, const JoxYaml *root) {
     const JoxReader *r = &l->reader;
     JoxScene *s = l->scene;
@@ -469,6 +486,7 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
     s->gravity = jox_key_number(r, root, "scene", "gravity");
     jox_key_number(r, root, "scene", "jostle"); /* the version: its range is its check */
     s->bounded = read_box(l, jox_yaml_get(root, "bounds"), &s->low, &s->high);
+    read_periodic(l, root);
     const char *input = jox_key_text(r, root, "scene", "input");
     if (input && of_a_mod(l, jox_yaml_get(root, "input")->position.file) &&
         (*input == '/' || strstr(input, "..")))

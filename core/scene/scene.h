@@ -108,6 +108,7 @@ typedef struct JoxScene {
     double step, duration, gravity; /* s, s, m/s2 */
     bool bounded;
     JoxV2 low, high; /* bounds */
+    bool periodic_x, periodic_y;
     JoxPlace *places;
     uint32_t place_count;
     JoxSceneRegion *regions;

@@ -24,8 +24,7 @@ static void sample_overlaps(JoxStatistics *s, const JoxAgents *a, const JoxNeigh
         float deepest = 0.0f;
         for (uint32_t k = 0; k < n->count[i]; k++) {
             uint32_t j = n->index[jox_neighbour_at(n, i, k)]; /* they have moved since: measure */
-            float dx = a->x[j] - a->x[i], dy = a->y[j] - a->y[i];
-            float gap = sqrtf(dx * dx + dy * dy) - radius[i] - radius[j];
+            float gap = jox_length(jox_offset(a, i, j)) - radius[i] - radius[j];
             deepest = -gap > deepest ? -gap : deepest;
         }
         int bin = (int)(deepest / (2.0f * radius[i]) * JOX_OVERLAP_BINS);
