@@ -44,6 +44,12 @@ struct JoWorld {
     uint8_t *wanted;
     uint32_t field_count, field_capacity;
 
+    /* A step longer than people plan ahead is done in equal parts; think and observe run once. */
+    uint32_t part, parts;
+    double part_dt, plan; /* s: of a part; how far ahead velocities are planned */
+    JoxV2 *ways;          /* per agent, m: during the parts so far; only where there are several */
+    uint32_t way_capacity;
+
     bool walls_set;           /* nav and bodies know the walls */
     bool settled;             /* no agent has been added since the last settling */
     uint32_t first_unsettled; /* else: id of the first of those */
