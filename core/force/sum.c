@@ -20,14 +20,14 @@ static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, fl
                            float dt) {
     float mass = a->param[JOX_PARAM_mass][i], most = a->param[JOX_PARAM_max_speed][i];
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
-    JoxV2 forced = jox_forced_velocity(velocity, force, mass, decay, dt);
     JoxV2 normal = jox_scale(force, 1.0f / size);
     a->plane_x[i] = normal.x;
     a->plane_y[i] = normal.y;
-    a->plane_offset[i] = jox_dot(forced, normal);
+    a->plane_offset[i] = jox_forced_speed(velocity, normal, size, mass, decay, dt);
     if (contact.x == 0.0f && contact.y == 0.0f)
         return;
     /* Being hit may carry someone faster than they can go; nothing else may. */
+    JoxV2 forced = jox_forced_velocity(velocity, force, mass, decay, dt);
     float hit = jox_length(jox_forced_velocity(velocity, contact, mass, decay, dt));
     a->disc[i] = jox_maxf(most, jox_minf(hit, jox_length(forced)));
 }
