@@ -66,13 +66,14 @@ static void take_places(Rescene *r) {
         to->axis_radius = from->axis_radius;
     }
     if (moved) {
-        jox_world_drop_ways(world);
+        jox_world_renew_ways(world);
         note(&r->done, "places");
     }
 }
 
 /* ---- walls ---- */
 
+/* Whether the walls there are would be the same; those that were opened or closed stay so. */
 static bool same_walls(const JoxWalls *a, const JoxWalls *b) {
     if (a->count != b->count || a->ring_count != b->ring_count)
         return false;
@@ -81,22 +82,18 @@ static bool same_walls(const JoxWalls *a, const JoxWalls *b) {
             a->vertices[i].next != b->vertices[i].next)
             return false;
     for (uint32_t i = 0; i < a->ring_count; i++)
-        if (a->rings[i].height != b->rings[i].height || a->rings[i].solid != b->rings[i].solid)
+        if (a->rings[i].height != b->rings[i].height || a->rings[i].solid != b->rings[i].solid ||
+            !same_text(a->rings[i].name, b->rings[i].name) ||
+            (!a->rings[i].set && a->rings[i].open != b->rings[i].open))
             return false;
     return true;
 }
 
 static void take_walls(Rescene *r) {
     JoWorld *world = r->scene->world;
-    if (same_walls(&world->walls, &r->new->walls))
+    if (same_walls(&world->wall_plan, &r->new->walls))
         return;
-    JoxWalls swap = world->walls;
-    world->walls = r->new->walls;
-    r->new->walls = swap; /* freed with the plan */
-    world->walls_set = false;
-    world->settled = false; /* who stands in a new wall is moved out of it */
-    world->first_unsettled = 0;
-    jox_world_drop_ways(world);
+    jox_world_set_walls(world, &r->new->walls);
     note(&r->done, "walls");
 }
 

@@ -30,10 +30,11 @@ static void area_of(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
     }
     *low = (JoxV2){INFINITY, INFINITY};
     *high = (JoxV2){-INFINITY, -INFINITY};
-    for (uint32_t i = 0; i < world->walls.count + world->agents.count; i++) {
-        JoxV2 p = i < world->walls.count ? world->walls.vertices[i].point
-                                         : (JoxV2){world->agents.x[i - world->walls.count],
-                                                   world->agents.y[i - world->walls.count]};
+    const JoxWalls *walls = &world->wall_plan;
+    for (uint32_t i = 0; i < walls->count + world->agents.count; i++) {
+        JoxV2 p = i < walls->count ? walls->vertices[i].point
+                                   : (JoxV2){world->agents.x[i - walls->count],
+                                             world->agents.y[i - walls->count]};
         *low = (JoxV2){jox_minf(low->x, p.x), jox_minf(low->y, p.y)};
         *high = (JoxV2){jox_maxf(high->x, p.x), jox_maxf(high->y, p.y)};
     }

@@ -14,7 +14,6 @@ static void perceive(JoWorld *w) {
 
 static void think(JoWorld *w) {
     JoxMind *mind = &w->mind;
-    jox_world_make_ways(w);
     mind->neighbours = &w->neighbours;
     mind->objects = &w->objects;
     mind->places = w->places;
@@ -22,6 +21,7 @@ static void think(JoWorld *w) {
     mind->tick = (uint32_t)w->tick;
     mind->inputs = w->input.present;
     mind->input_count = w->input.present_count;
+    jox_world_ways(w);
     jox_mind_think(mind, w->pool);
     w->statistics.transitions += mind->taken_count;
     w->statistics.kicks += mind->kick_count;
