@@ -62,13 +62,13 @@ void jox_walls_name(JoxWalls *walls, uint32_t first, const char *name, bool open
     }
 }
 
-void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool open_too) {
+void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates) {
     out->count = out->ring_count = 0;
     JOX_RESERVE(out->vertices, out->capacity, all->count);
     JOX_RESERVE(out->rings, out->ring_capacity, all->ring_count);
     for (uint32_t r = 0; r < all->ring_count; r++) {
         const struct JoxWallRing *ring = &all->rings[r];
-        if (ring->open && !open_too)
+        if (ring->open || (ring->name && !gates))
             continue;
         uint32_t back = ring->first - out->count; /* rings lie one behind the other */
         for (uint32_t i = ring->first; i < ring->first + ring->count; i++) {

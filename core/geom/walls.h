@@ -39,8 +39,9 @@ void jox_walls_add_polyline(JoxWalls *walls, const JoxV2 *points, uint32_t count
                             float height);
 /* Gives the rings from `first` on a name (copied); open ones do not stand. */
 void jox_walls_name(JoxWalls *walls, uint32_t first, const char *name, bool open);
-/* Makes `out` the walls of `all` that stand, without names, or all of them; keeps its memory. */
-void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool open_too);
+/* Makes `out` the walls of `all` that stand, without their names; with `gates` false, of these only
+   such as never open. Keeps its memory. */
+void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates);
 void jox_walls_free(JoxWalls *walls);
 
 #endif

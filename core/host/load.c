@@ -204,6 +204,7 @@ static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnos
     if (diagnostics->errors == 0) {
         jox_host_populate(scene, diagnostics);
         jox_host_check_names(scene, diagnostics);
+        jox_host_name_events(scene, diagnostics);
     }
 }
 

@@ -190,6 +190,19 @@ static void take_sources(Rescene *r) {
     note(&r->done, "sources and sinks");
 }
 
+static bool same_events(const JoxScene *a, const JoxScene *b) {
+    bool same = a->event_count == b->event_count;
+    for (uint32_t e = 0; same && e < a->event_count; e++) {
+        const JoxSceneEvent *x = &a->events[e], *y = &b->events[e];
+        same = x->kind == y->kind && x->at == y->at && x->every == y->every &&
+               x->until == y->until && same_text(x->name, y->name) && x->placed == y->placed &&
+               !memcmp(x->from, y->from, sizeof x->from) &&
+               !memcmp(x->velocity, y->velocity, sizeof x->velocity) &&
+               !memcmp(x->spin, y->spin, sizeof x->spin);
+    }
+    return same;
+}
+
 static bool same_regions(const JoxScene *a, const JoxScene *b) {
     bool same = a->region_count == b->region_count;
     for (uint32_t i = 0; same && i < a->region_count; i++)
@@ -241,6 +254,8 @@ void jox_host_rescene(JoScene *scene, JoxScene **plan, double written) {
         if (groups)
             take_sources(&r);
     }
+    if (!same_events(r.old, r.new))
+        note(groups ? &r.done : &r.later, "events");
     name_the_rest(&r);
     clock_gettime(CLOCK_REALTIME, &t);
     double age = (double)t.tv_sec + (double)t.tv_nsec * 1e-9 - written;
@@ -256,6 +271,7 @@ void jox_host_rescene(JoScene *scene, JoxScene **plan, double written) {
         *plan = scene->plan;
         scene->plan = r.new;
         r.new->duration = r.old->duration;
+        jox_host_name_events(scene, NULL);
     }
     jox_text_free(&r.done);
     jox_text_free(&r.later);

@@ -49,7 +49,7 @@ static void raise(JoWorld *world) {
     world->walls_set = true;
     if (world->wall_plan.count == 0 && world->walls.count == 0)
         return;
-    jox_walls_standing(&world->walls, &world->wall_plan, false);
+    jox_walls_standing(&world->walls, &world->wall_plan, true);
     jox_nav_set_walls(world->nav, &world->walls);
     jox_bodies_set_walls(world->bodies, &world->walls, JOX_WALL_HEIGHT);
 }

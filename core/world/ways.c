@@ -121,7 +121,7 @@ static Making *begin(JoWorld *w, uint32_t place, JoxWayKind kind, double delay) 
     Way *way = &ways->items[place * JOX_WAY_KINDS + kind];
     Making *making = jox_alloc(1, sizeof *making);
     making->errand.run = make;
-    jox_walls_standing(&making->walls, &w->wall_plan, kind == JOX_WAY_OPEN);
+    jox_walls_standing(&making->walls, &w->wall_plan, kind == JOX_WAY_NOW);
     jox_obstacles_add(&ways->obstacles, kind == JOX_WAY_NOW, &making->walls);
     copy_places(w, place, making);
     area(w, &making->low, &making->high);

@@ -77,6 +77,10 @@ void jox_world_set_walls(JoWorld *world, JoxWalls *walls);
 uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open);
 /* Bodies that are picked up, carried and thrown in this step. */
 void jox_world_grip(JoWorld *world);
+/* Throws a body, from a point (of its shape's own frame, m) or, with NULL, from where it is; m/s
+   and rad/s. Who carries it loses it. False for a static body or none. */
+bool jox_world_throw(JoWorld *world, uint32_t row, const double from[3], const double velocity[3],
+                     const double spin[3]);
 /* One step. */
 void jox_world_step(JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX. */
