@@ -37,7 +37,8 @@ typedef struct JoxSettled {
     float farthest; /* m, the longest way an agent was moved */
 } JoxSettled;
 /* Moves agents with id >= first_id out of walls and out of agents that they overlap by more than a
-   quarter of the smaller diameter, in ascending id, to the nearest free spot of a spiral. */
-JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *agents, uint32_t first_id);
+   quarter of the smaller diameter, in ascending id, to the nearest free spot of a spiral. Where
+   `walls_came`, also older ones that stand in a wall or deep within its reach. */
+JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *agents, uint32_t first_id, bool walls_came);
 
 #endif

@@ -36,7 +36,6 @@ static void think(JoWorld *w) {
     JoxMind *mind = &w->mind;
     if (!is_first(w))
         return;
-    jox_world_make_ways(w);
     mind->neighbours = &w->neighbours;
     mind->objects = &w->objects;
     mind->places = w->places;
@@ -44,6 +43,7 @@ static void think(JoWorld *w) {
     mind->tick = (uint32_t)w->tick;
     mind->inputs = w->input.present;
     mind->input_count = w->input.present_count;
+    jox_world_ways(w);
     jox_mind_think(mind, w->pool);
     w->statistics.transitions += mind->taken_count;
     w->statistics.kicks += mind->kick_count;
