@@ -14,6 +14,7 @@ int cli_bench(int argc, char **argv);
 int cli_mod(int argc, char **argv);
 int cli_test(int argc, char **argv);
 int cli_new(int argc, char **argv);
+int cli_reproduce(int argc, char **argv);
 int cli_reference(int argc, char **argv);
 
 /* Walks over arguments: `--name value`, `--name=value`, and what is no option. */

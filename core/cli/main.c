@@ -13,6 +13,7 @@ static const struct Command {
     {"new", "write a commented start of a behaviour, scene or mod", cli_new},
     {"mod", "list mods, and tell who set a value", cli_mod},
     {"reference", "print every word and key, for people and for editors", cli_reference},
+    {"reproduce", "run what papers and real crowds show, and compare", cli_reproduce},
     {"bench", "time scenes and stages", cli_bench},
 };
 

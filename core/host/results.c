@@ -129,6 +129,15 @@ bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
     return true;
 }
 
+bool jo_scene_data(JoScene *scene, const char *directory, JoError *error) {
+    JOX_REQUIRE(scene && directory && !scene->data, false);
+    JoxText why = {0};
+    if (!jox_plot_folder(directory, &why))
+        return fail(error, &why);
+    scene->data = jox_strdup(directory);
+    return true;
+}
+
 /* Points of the paths of those who came first, ten a second. */
 static void sample_paths(JoScene *scene) {
     const JoWorld *world = scene->world;
@@ -201,7 +210,7 @@ static bool draw(JoScene *scene, JoError *error) {
                  "%.120s: paths (a dot is the beginning, a circle the end), %.1f s", name, until);
         good = draw_paths(scene, title, &why);
     }
-    good = good && jox_host_write_probes(scene, name, &why);
+    good = good && jox_host_write_probes(scene, scene->report, name, &why);
     if (!good)
         return fail(error, &why);
     jox_host_say(scene, "pictures: %s%s%s/density.png%s%s%s\n", paths ? scene->report : "",
@@ -301,6 +310,10 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
         good = draw(scene, error) && good;
         scene->density_most = scene->density->most;
     }
+    if (scene->data)
+        good = (jox_host_write_probes(scene, scene->data, NULL, &why) || fail(error, &why)) && good;
+    jox_free(scene->data);
+    scene->data = NULL;
     jox_density_free(scene->density);
     jox_regions_free(scene->regions);
     jox_paths_free(scene->paths);
