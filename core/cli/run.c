@@ -147,20 +147,6 @@ static int simulate(const Run *run, char **summary) {
     return status;
 }
 
-static int write_text(const char *path, const char *text) {
-    if (!strcmp(path, "-")) {
-        fputs(text, stdout);
-        return JO_OK;
-    }
-    FILE *file = fopen(path, "w");
-    bool good = file && fputs(text, file) >= 0;
-    if (file && fclose(file) != 0)
-        good = false;
-    if (!good)
-        fprintf(stderr, "jostle run: cannot write '%s'\n", path);
-    return good ? JO_OK : JO_FAILED;
-}
-
 static int simulate_seeds(Run *run) {
     char **summaries = calloc(run->seeds, sizeof *summaries);
     uint64_t first = run->def.has_seed ? run->def.seed : 1;
@@ -177,7 +163,8 @@ static int simulate_seeds(Run *run) {
     if (status == JO_OK) {
         JoError error = {0};
         char *all = jo_summaries_aggregate((const char *const *)summaries, done, &error);
-        status = all ? write_text(run->summary ? run->summary : "-", all) : complain(&error, false);
+        status = all ? cli_write("run", run->summary ? run->summary : "-", all)
+                     : complain(&error, false);
         jo_free(all);
     }
     for (size_t i = 0; i < run->seeds; i++)
@@ -239,7 +226,7 @@ int cli_run(int argc, char **argv) {
         char *summary = NULL;
         status = run.seeds ? simulate_seeds(&run) : simulate(&run, &summary);
         if (summary && run.summary) {
-            int written = write_text(run.summary, summary);
+            int written = cli_write("run", run.summary, summary);
             status = status ? status : written;
         }
         jo_free(summary);
