@@ -83,6 +83,10 @@ bool jox_host_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnost
 bool jox_host_populate(JoScene *scene, JoxDiagnostics *diagnostics);
 void jox_host_sources(JoScene *scene);
 void jox_host_sinks(JoScene *scene);
+/* events.c: what is due in the step that begins. */
+void jox_host_events(JoScene *scene);
+/* Names of signals get numbers; warns of those that nobody hears (`diagnostics` may be NULL). */
+void jox_host_name_events(JoScene *scene, JoxDiagnostics *diagnostics);
 /* The file of the machine that a state becomes; false with diagnostics. */
 bool jox_host_find_become(const JoScene *scene, const JoxMachine *machine, uint32_t state,
                           char path[1024], JoxDiagnostics *diagnostics);

@@ -29,10 +29,11 @@ void jox_host_area(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
     }
     *low = (JoxV2){INFINITY, INFINITY};
     *high = (JoxV2){-INFINITY, -INFINITY};
-    for (uint32_t i = 0; i < world->walls.count + world->agents.count; i++) {
-        JoxV2 p = i < world->walls.count ? world->walls.vertices[i].point
-                                         : (JoxV2){world->agents.x[i - world->walls.count],
-                                                   world->agents.y[i - world->walls.count]};
+    const JoxWalls *walls = &world->wall_plan;
+    for (uint32_t i = 0; i < walls->count + world->agents.count; i++) {
+        JoxV2 p = i < walls->count ? walls->vertices[i].point
+                                   : (JoxV2){world->agents.x[i - walls->count],
+                                             world->agents.y[i - walls->count]};
         *low = (JoxV2){jox_minf(low->x, p.x), jox_minf(low->y, p.y)};
         *high = (JoxV2){jox_maxf(high->x, p.x), jox_maxf(high->y, p.y)};
     }
@@ -175,7 +176,7 @@ static bool draw_paths(JoScene *scene, const char *title, JoxText *why) {
             low = (JoxV2){jox_minf(low.x, point->x - 1), jox_minf(low.y, point->y - 1)};
             high = (JoxV2){jox_maxf(high.x, point->x + 1), jox_maxf(high.y, point->y + 1)};
         }
-    return jox_plot_paths(scene->report, scene->paths, names, count, &scene->world->walls, low,
+    return jox_plot_paths(scene->report, scene->paths, names, count, &scene->world->wall_plan, low,
                           high, title, why);
 }
 
@@ -189,7 +190,8 @@ static bool draw(JoScene *scene, JoError *error) {
     if (scene->density->frames == 0) /* a run shorter than the first sample */
         jox_density_add(scene->density, scene->world->agents.x, scene->world->agents.y,
                         scene->world->agents.count, until);
-    bool good = jox_plot_density(scene->report, scene->density, &scene->world->walls, title, &why);
+    bool good =
+        jox_plot_density(scene->report, scene->density, &scene->world->wall_plan, title, &why);
     if (good && scene->regions->count) {
         snprintf(title, sizeof title, "%.120s: mean speed per region, t = %.0f to %.0f s", name,
                  scene->plan->heatmap_from, until);
@@ -258,6 +260,7 @@ bool jox_host_collect(JoScene *scene, JoError *error) {
 bool jo_scene_step(JoScene *scene, JoError *error) {
     JOX_REQUIRE(scene && !scene->finished, false);
     jox_host_reload(scene);
+    jox_host_events(scene);
     jox_host_sources(scene);
     jox_world_step(scene->world);
     jox_host_sinks(scene);

@@ -63,6 +63,9 @@ static void add_events(JoxText *out, const JoScene *scene) {
                   {"moved_out", s->moved_out},
                   {"bodies_lost", s->bodies_lost},
                   {"walls_relaxed", s->walls_relaxed},
+                  {"opened", s->opened},
+                  {"closed", s->closed},
+                  {"announced", s->announced},
                   {"script_failures", jox_lua_failures(scene->lua)}};
     jox_text_add(out, ",\n \"events\": {");
     for (size_t e = 0; e < sizeof events / sizeof *events; e++)

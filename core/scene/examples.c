@@ -27,7 +27,8 @@ const JoxExample jox_scene_examples[] = {
      "groups: {standing: {tags: [crowd]}} # one more key for a group of the included scene\n"
      "sources: [{at: door, like: standing, rate: 0.5}]\n"
      "sinks: [{at: goal}]\n"
-     "probes: {moved: {displacement: true}}\n"},
+     "probes: {moved: {displacement: true}}\n"
+     "events: [{at: 5, signal: go}]\n"},
     {"forces", OPENING
      "forces: {enabled: true, mode: literal}\n"
      STANDER},
@@ -138,6 +139,17 @@ const JoxExample jox_scene_examples[] = {
     {"lanes", OPENING
      "include: running-through.yaml\n"
      "probes: {order: {lanes: {area: [[-2, -2], [6, 6]], rows: 40 cm, along: y}, group: [standing, runner]}}\n"},
+    {"event", OPENING
+     "walls:\n"
+     "  - {line: [[0, 0], [0, 2]], name: gate}\n"
+     "  - {line: [[9, 0], [9, 2]], name: shutter, open: true}\n"
+     "bodies: [{name: crate, shape: {box: {size: [0.6, 0.6, 0.6]}}, mass: 20, at: [4, 5, 0.3]}]\n"
+     STANDER
+     "events:\n"
+     "  - {at: 5, signal: alarm}\n"
+     "  - {at: 10, open: gate}\n"
+     "  - {at: 1 min, close: gate}\n"
+     "  - {at: 10, every: 5, until: 60, throw: crate, from: [4, 5, 2], velocity: [-4, 0, 3], spin: [0, 0, 2]}\n"},
     {"mod",
      "name: calm\n"
      "title: Calm crowds\n"

@@ -49,13 +49,14 @@ const JoxKey jox_scene_keys[] = {
      .meaning = "what behaviours and groups know by name"},
     {"scene", "regions", TABLE, "", 0, 0, "", .of = "xy[3]*",
      .meaning = "polygons in which the mean speed is measured"},
-    {"scene", "walls", LIST, "", 0, 0, "", .of = "wall[]", .meaning = "what never moves"},
+    {"scene", "walls", LIST, "", 0, 0, "", .of = "wall[]", .meaning = "what never moves, though it may open"},
     {"scene", "bodies", LIST, "", 0, 0, "", .of = "body[]",
      .meaning = "rigid bodies: what is pushed, kicked and falls"},
     {"scene", "groups", TABLE, "", 0, 0, "", .of = "group*", .meaning = "agents made alike"},
     {"scene", "sources", LIST, "", 0, 0, "", .of = "source[]", .meaning = "where agents come in"},
     {"scene", "sinks", LIST, "", 0, 0, "", .of = "sink[]", .meaning = "where agents leave"},
     {"scene", "probes", TABLE, "", 0, 0, "", .of = "probe*", .meaning = "what is measured"},
+    {"scene", "events", LIST, "", 0, 0, "", .of = "event[]", .meaning = "what happens at given times"},
 
     {"forces", "enabled", BOOL, "", 0, 0, "true", .meaning = "false: collision avoidance alone"},
     {"forces", "mode", TEXT, "", 0, 0, "physical", .choices = "physical|literal",
@@ -99,6 +100,8 @@ const JoxKey jox_scene_keys[] = {
     {"wall", "closed", BOOL, "", 0, 0, "false", .meaning = "of a line: its ends are joined"},
     {"wall", "height", NUMBER, "m", 0.01, 1000, "3",
      .meaning = "bodies fly over it above this; people never do"},
+    {"wall", "name", TEXT, "", 0, 0, "", .meaning = "by which events open and close it; several walls may share it"},
+    {"wall", "open", BOOL, "", 0, 0, "false", .meaning = "it is not there until it is closed"},
 
     {"body", "name", TEXT, "", 0, 0, "", .meaning = "for people and messages"},
     {"body", "shape", TABLE, "", 0, 0, "!", .of = "shape",
@@ -209,6 +212,16 @@ const JoxKey jox_scene_keys[] = {
      .meaning = "two opposite corners"},
     {"lanes", "rows", NUMBER, "m", 0.05, 100, "0.4", .meaning = "width of the rows"},
     {"lanes", "along", TEXT, "", 0, 0, "x", .choices = "x|y", .meaning = "axis that people walk along"},
+    {"event", "at", NUMBER, "s", 0, 1e6, "!", .meaning = "when; it takes effect in the step that begins then"},
+    {"event", "every", NUMBER, "s", 0.01, 1e6, "", .meaning = "again after each such time"},
+    {"event", "until", NUMBER, "s", 0, 1e9, "1e9", .meaning = "of what is repeated: not after this"},
+    {"event", "throw", TEXT, "", 0, 0, "", .meaning = "a body by its name; who carries it lets it go"},
+    {"event", "from", POINT3, "m", -FAR, FAR, "", .meaning = "of a throw: where the body is put first; else it is thrown from where it lies"},
+    {"event", "velocity", POINT3, "m/s", -100, 100, "", .meaning = "of a throw"},
+    {"event", "spin", POINT3, "rad/s", -100, 100, "", .meaning = "of a throw: about the axes x, y and z"},
+    {"event", "open", TEXT, "", 0, 0, "", .meaning = "takes the walls of this name away"},
+    {"event", "close", TEXT, "", 0, 0, "", .meaning = "puts them back; who stands there is moved out"},
+    {"event", "signal", TEXT, "", 0, 0, "", .meaning = "everybody hears it, however far, as by `heard`"},
 
     {"mod", "name", TEXT, "", 0, 0, "!", .meaning = "what others call it: lower-case letters, digits, - and _"},
     {"mod", "title", TEXT, "", 0, 0, "", .meaning = "what people see"},
@@ -261,6 +274,8 @@ const JoxOwner jox_scene_owners[] = {
      "NAME.svg. `jostle report` measures recordings by them, those of real crowds too."},
     {"map", "map", ""},
     {"lanes", "lanes", "The ways are two groups where the probe names two; else the sign of the velocity."},
+    {"event", "Events", "Each event of the list `events` does one thing at its time, once or again and again. Those of the "
+     "same time are done in the order of the list."},
     {"mod", "Mods", "A mod is a folder; its file `mod.yaml` has these keys. A scene takes it, and chooses "
      "its settings, by `mods: {calm: {patience: 60}}`."},
     {"setting", "setting", "`settings` maps names to settings: numbers that behaviours of the mod read."},
@@ -277,6 +292,7 @@ const JoxAlternative jox_scene_alternatives[] = {
     {"group", "count|density|at", JOX_AT_LEAST_ONE},
     {"source", "rate|keep", JOX_AT_LEAST_ONE},
     {"probe", "flow|measure|transit|displacement|map|winding|failures|lanes", JOX_EXACTLY_ONE},
+    {"event", "throw|open|close|signal", JOX_EXACTLY_ONE},
 };
 const size_t jox_scene_alternative_count =
     sizeof jox_scene_alternatives / sizeof *jox_scene_alternatives;
@@ -285,6 +301,7 @@ const JoxUnit jox_scene_units[] = {
     {"m", "m", 1}, {"cm", "m", 0.01}, {"mm", "m", 0.001}, {"km", "m", 1000},
     {"s", "s", 1}, {"ms", "s", 0.001}, {"min", "s", 60}, {"h", "s", 3600},
     {"m/s", "m/s", 1}, {"km/h", "m/s", 1 / 3.6},
+    {"rad/s", "rad/s", 1}, {"deg/s", "rad/s", 0.017453292519943295},
     {"deg", "deg", 1}, {"rad", "deg", 57.29577951308232},
     {"kg", "kg", 1}, {"g", "kg", 0.001}, {"t", "kg", 1000},
     {"m/s2", "m/s2", 1}, {"kg/m3", "kg/m3", 1}, {"1/m2", "1/m2", 1}, {"1/s", "1/s", 1}, {"MB", "MB", 1}, {"KB", "KB", 1},

@@ -174,32 +174,6 @@ static void read_regions(JoxLoad *l, const JoxYaml *map) {
     }
 }
 
-static void read_walls(JoxLoad *l, const JoxYaml *list) {
-    for (uint32_t i = 0; list && list->kind == JOX_YAML_LIST && i < list->count; i++) {
-        const JoxYaml *map = list->items[i], *solid, *line;
-        uint32_t count;
-        if (!jox_keys_check(&l->reader, map, "wall"))
-            continue;
-        solid = jox_yaml_get(map, "solid");
-        line = jox_yaml_get(map, "line");
-        float height = (float)jox_key_number(&l->reader, map, "wall", "height");
-        bool closed = jox_key_bool(&l->reader, map, "wall", "closed");
-        if (!solid == !line) {
-            jox_scene_error(&l->reader, map, "bad-wall", NULL, "a wall is a solid or a line");
-            continue;
-        }
-        JoxV2 *points = solid    ? jox_load_ring(l, solid, &count)
-                        : closed ? jox_load_ring(l, line, &count)
-                                 : jox_read_points(&l->reader, line, 2, &count);
-        if (points && solid)
-            jox_walls_add_solid(&l->scene->walls, points, count, height);
-        else if (points)
-            jox_walls_add_polyline(&l->scene->walls, points, count, closed, height);
-    }
-    if (list && list->kind != JOX_YAML_LIST)
-        jox_scene_error(&l->reader, list, "bad-type", NULL, "walls is a list");
-}
-
 /* ---- groups ---- */
 
 static bool exists(const char *path) {
@@ -529,11 +503,12 @@ static void read_scene(JoxLoad *l, const JoxYaml *root) {
     read_settings(l, root);
     read_places(l, jox_yaml_get(root, "places"));
     read_regions(l, jox_yaml_get(root, "regions"));
-    read_walls(l, jox_yaml_get(root, "walls"));
+    jox_load_walls(l, jox_yaml_get(root, "walls"));
     jox_load_bodies(l, jox_yaml_get(root, "bodies"));
     read_groups(l, jox_yaml_get(root, "groups"));
     read_sources(l, jox_yaml_get(root, "sources"));
     read_sinks(l, jox_yaml_get(root, "sinks"));
+    jox_load_events(l, jox_yaml_get(root, "events"));
     const JoxYaml *player = name_at(l, root, "player");
     l->scene->player_group = player ? jox_load_group(l, player) : -1;
     jox_load_probes(l, jox_yaml_get(root, "probes"));
