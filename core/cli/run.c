@@ -19,7 +19,7 @@ static const char HELP[] =
     "  --set PATH=VALUE   replace a value of the scene, e.g. groups.pilgrims.count=5000\n"
     "  --input FILE       play recorded input: lines of TICK player AGENT VX VY\n"
     "  --record FILE      write trajectories (SQLite, JuPedSim format 2)\n"
-    "  --report DIR       draw density and regional speeds into DIR\n"
+    "  --report DIR       draw density, regional speeds and what probes measure into DIR\n"
     "  --summary FILE     write the run's figures as JSON; '-' is standard output\n"
     "  --mod DIR          take a mod: a folder, or the name of one that lies in scenes' mods/ or "
     "in the\n"

@@ -201,8 +201,8 @@ JO_API bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoEr
 JO_API bool jo_scene_signal(JoScene *scene, const char *name, JoError *error);
 /* Writes trajectories to an SQLite file from here on (JuPedSim format, version 2). */
 JO_API bool jo_scene_record(JoScene *scene, const char *path, JoError *error);
-/* Collects density and regional speeds from here on; jo_scene_finish draws them into `directory`
-   (made if it is missing). */
+/* Collects density and regional speeds from here on; jo_scene_finish draws them, and what the
+   scene's probes measured, into `directory` (made if it is missing). */
 JO_API bool jo_scene_report(JoScene *scene, const char *directory, JoError *error);
 /* From here on files are watched: behaviours, what they require, patches of mods and the scene
    itself. A thread of its own loads what was edited; between two steps all of it is swapped, or
