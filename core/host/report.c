@@ -164,7 +164,8 @@ static char *summary(const Report *r) {
 
 char *jo_report(const JoReportDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == REPORT_COOKIE && def->recording, NULL);
-    JOX_REQUIRE(def->fps >= 0.0 && def->unit >= 0.0, NULL);
+    JOX_REQUIRE(def->fps >= 0.0 && def->fps <= 1e5, NULL);
+    JOX_REQUIRE(def->unit >= 0.0 && def->unit <= 1e3, NULL);
     Report r = {.def = def};
     JoxFrame frame;
     char *text = NULL;
