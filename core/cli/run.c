@@ -19,7 +19,7 @@ static const char HELP[] =
     "  --set PATH=VALUE   replace a value of the scene, e.g. groups.pilgrims.count=5000\n"
     "  --input FILE       play recorded input: lines of TICK player AGENT VX VY\n"
     "  --record FILE      write trajectories (SQLite, JuPedSim format 2)\n"
-    "  --report DIR       draw density and regional speeds into DIR\n"
+    "  --report DIR       draw density, regional speeds and what probes measure into DIR\n"
     "  --data DIR         write the CSV files of the scene's probes, and no pictures\n"
     "  --summary FILE     write the run's figures as JSON; '-' is standard output\n"
     "  --mod DIR          take a mod: a folder, or the name of one that lies in scenes' mods/ or "
@@ -151,20 +151,6 @@ static int simulate(const Run *run, char **summary) {
     return status;
 }
 
-static int write_text(const char *path, const char *text) {
-    if (!strcmp(path, "-")) {
-        fputs(text, stdout);
-        return JO_OK;
-    }
-    FILE *file = fopen(path, "w");
-    bool good = file && fputs(text, file) >= 0;
-    if (file && fclose(file) != 0)
-        good = false;
-    if (!good)
-        fprintf(stderr, "jostle run: cannot write '%s'\n", path);
-    return good ? JO_OK : JO_FAILED;
-}
-
 static int simulate_seeds(Run *run) {
     char **summaries = calloc(run->seeds, sizeof *summaries);
     uint64_t first = run->def.has_seed ? run->def.seed : 1;
@@ -181,7 +167,8 @@ static int simulate_seeds(Run *run) {
     if (status == JO_OK) {
         JoError error = {0};
         char *all = jo_summaries_aggregate((const char *const *)summaries, done, &error);
-        status = all ? write_text(run->summary ? run->summary : "-", all) : complain(&error, false);
+        status = all ? cli_write("run", run->summary ? run->summary : "-", all)
+                     : complain(&error, false);
         jo_free(all);
     }
     for (size_t i = 0; i < run->seeds; i++)
@@ -243,7 +230,7 @@ int cli_run(int argc, char **argv) {
         char *summary = NULL;
         status = run.seeds ? simulate_seeds(&run) : simulate(&run, &summary);
         if (summary && run.summary) {
-            int written = write_text(run.summary, summary);
+            int written = cli_write("run", run.summary, summary);
             status = status ? status : written;
         }
         jo_free(summary);

@@ -79,6 +79,8 @@ bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
     const JoxMind *mind = &scene->world->mind;
     for (uint32_t m = 0; m < mind->machine_count; m++)
         jox_host_record_states(scene, m);
+    for (uint32_t g = 0; g < scene->plan->group_count; g++)
+        jox_recorder_group(scene->recorder, g, scene->plan->groups[g].name);
     return true;
 }
 
@@ -93,9 +95,9 @@ static bool record_frame(JoScene *scene, JoError *error) {
         if (i == JOX_NO_INDEX)
             continue;
         float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
-        rows[n++] = (JoxRecordRow){id,           a->x[i],          a->y[i],
-                                   a->face_x[i], a->face_y[i],     state_number(scene, i),
-                                   force,        a->compression[i]};
+        rows[n++] = (JoxRecordRow){id,           a->x[i],           a->y[i],
+                                   a->face_x[i], a->face_y[i],      state_number(scene, i),
+                                   force,        a->compression[i], a->group[i]};
     }
     n = 0;
     for (uint32_t o = 0; o < objects->count && n < count; o++) {

@@ -201,8 +201,8 @@ JO_API bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoEr
 JO_API bool jo_scene_signal(JoScene *scene, const char *name, JoError *error);
 /* Writes trajectories to an SQLite file from here on (JuPedSim format, version 2). */
 JO_API bool jo_scene_record(JoScene *scene, const char *path, JoError *error);
-/* Collects density and regional speeds from here on; jo_scene_finish draws them into `directory`
-   (made if it is missing). */
+/* Collects density and regional speeds from here on; jo_scene_finish draws them, and what the
+   scene's probes measured, into `directory` (made if it is missing). */
 JO_API bool jo_scene_report(JoScene *scene, const char *directory, JoError *error);
 /* At jo_scene_finish only the probes' CSV files are written, into `directory` (made if it is
    missing). */
@@ -233,6 +233,24 @@ JO_API const char *jo_stage_name(int stage);
 JO_API char *jo_scene_summary(const JoScene *scene);
 /* From several summaries: mean and 5-95 % range of each numeric figure; free with jo_free. */
 JO_API char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error);
+
+/* What is measured of a recording: an SQLite file of jo_scene_record or of JuPedSim, or text with
+   the columns id, frame, x, y as PeTrack writes it, or CSV with a line of names. */
+typedef struct JoReportDef {
+    const char *recording;
+    const char *scene;     /* whose probes measure and whose walls are drawn; NULL: a map of all and
+                              densities and speeds over time */
+    const char *directory; /* for CSV files and pictures, made if it is missing; NULL: none */
+    double fps;            /* frames a second; 0: as the recording says */
+    double unit;           /* m, of its lengths: 1, or 0.01 for centimetres; 0: as it says */
+    JoMessage *message;    /* NULL: to stderr */
+    void *message_context;
+    uint32_t cookie;
+} JoReportDef;
+JO_API JoReportDef jo_default_report_def(void);
+/* Shows every frame to the probes and returns their figures as one JSON object; free with jo_free.
+   NULL if anything is wrong: every error went to `message`, the first is in `error`. */
+JO_API char *jo_report(const JoReportDef *def, JoError *error);
 
 /* The mods that a run of the scene would take (path NULL: of the user's data directory alone), in
    order, and the others that were found, as text; free with jo_free. */

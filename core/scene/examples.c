@@ -128,7 +128,7 @@ const JoxExample jox_scene_examples[] = {
      "  front:   {measure: [[0, 0], [2, 0], [2, 2], [0, 2]], every: 0.5, cutoff: 1.5,\n"
      "            walkable: [[-1, -1], [9, -1], [9, 9], [-1, 9]]}\n"
      "  passage: {transit: [[[0, -2], [0, 2]], [[3, -2], [3, 2]]], group: runner}\n"
-     "  block:   {displacement: true, group: standing, onset: 5 cm}\n"
+     "  block:   {displacement: true, group: standing, onset: 5 cm, rest: 0.2, along: [1, 0]}\n"
      "  fields:  {map: {}, every: 2}\n"
      "  laps:    {winding: [0, 0]}\n"
      "  solved:  {failures: 1}\n"
