@@ -8,6 +8,7 @@
 #include "lua/loader.h"
 #include "record/density.h"
 #include "record/paths.h"
+#include "record/probe.h"
 #include "record/recorder.h"
 #include "record/regions.h"
 #include "scene/mods.h"
@@ -43,6 +44,7 @@ struct JoScene {
     JoxDensity *density;
     JoxRegions *regions;
     JoxPaths *paths;
+    struct JoxMeasuring *measuring;                        /* NULL until a frame is asked for */
     double progress_until, progress_begun, progress_shown; /* s */
     int progress_tenth;
     bool finished;
@@ -102,5 +104,16 @@ void jox_host_rescene(JoScene *scene, JoxScene **plan, double written);
 /* Names a machine's states in the recording, if there is one, under new numbers. */
 void jox_host_record_states(JoScene *scene, uint32_t machine);
 bool jox_host_collect(JoScene *scene, JoError *error);
+/* The area that pictures and recordings show. */
+void jox_host_area(const JoScene *scene, JoxV2 *low, JoxV2 *high);
+/* measure.c: the frame of the present step, made once; it holds until the next. */
+typedef struct JoxMeasuring JoxMeasuring;
+const JoxFrame *jox_host_frame(JoScene *scene);
+/* Shows it to the scene's probes, if any are due. */
+void jox_host_measure(JoScene *scene);
+/* Adds ,"probes": {...} to a summary, and their files to the report's folder. */
+void jox_host_add_probes(const JoScene *scene, JoxText *out);
+bool jox_host_write_probes(const JoScene *scene, const char *title, JoxText *error);
+void jox_host_end_measuring(JoScene *scene);
 
 #endif

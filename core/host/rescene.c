@@ -212,6 +212,24 @@ static bool same_regions(const JoxScene *a, const JoxScene *b) {
     return same;
 }
 
+static bool same_probes(const JoxScene *a, const JoxScene *b) {
+    bool same = a->probe_count == b->probe_count;
+    for (uint32_t i = 0; same && i < a->probe_count; i++) {
+        const JoxProbeDef *p = &a->probes[i], *q = &b->probes[i];
+        same = same_text(p->name, q->name) && p->kind == q->kind &&
+               p->group_count == q->group_count &&
+               !memcmp(p->groups, q->groups, p->group_count * sizeof *p->groups) &&
+               p->from == q->from && p->until == q->until && p->every == q->every &&
+               p->cutoff == q->cutoff && p->onset == q->onset && p->cell == q->cell &&
+               p->kernel == q->kernel && p->rows == q->rows && p->along_y == q->along_y &&
+               !memcmp(&p->low, &q->low, sizeof p->low) &&
+               !memcmp(&p->high, &q->high, sizeof p->high) &&
+               same_points(p->points, p->count, q->points, q->count) &&
+               same_points(p->walkable, p->walkable_count, q->walkable, q->walkable_count);
+    }
+    return same;
+}
+
 static void name_the_rest(Rescene *r) {
     const JoxScene *a = r->old, *b = r->new;
     const struct {
@@ -225,7 +243,8 @@ static void name_the_rest(Rescene *r) {
                 {"forces", a->forces != b->forces || a->literal != b->literal},
                 {"limits", memcmp(&a->limits, &b->limits, sizeof a->limits) != 0},
                 {"input", !same_text(a->input, b->input)},
-                {"regions", !same_regions(a, b)}};
+                {"regions", !same_regions(a, b)},
+                {"probes", !same_probes(a, b)}};
     for (size_t k = 0; k < sizeof REST / sizeof *REST; k++)
         if (REST[k].differs)
             note(&r->later, REST[k].what);

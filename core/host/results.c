@@ -19,8 +19,7 @@ static bool fail(JoError *error, JoxText *why) {
     return false;
 }
 
-/* The area that pictures and recordings show. */
-static void area_of(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
+void jox_host_area(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
     const JoxScene *plan = scene->plan;
     const JoWorld *world = scene->world;
     if (plan->heatmap || plan->bounded) {
@@ -69,7 +68,7 @@ bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
     JOX_REQUIRE(scene && path && !scene->recorder, false);
     JoxV2 low, high;
     JoxText wkt = {0}, why = {0};
-    area_of(scene, &low, &high);
+    jox_host_area(scene, &low, &high);
     jox_wkt(&scene->world->walls, low, high, &wkt);
     double dt = scene->world->def.dt;
     scene->record_every = dt >= FRAME ? 1 : (uint32_t)(FRAME / dt + 0.5);
@@ -119,9 +118,9 @@ bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
     if (!jox_plot_folder(directory, &why))
         return fail(error, &why);
     JoxV2 low, high;
-    area_of(scene, &low, &high);
+    jox_host_area(scene, &low, &high);
     scene->report = jox_strdup(directory);
-    scene->density = jox_density_create(low, high);
+    scene->density = jox_density_create(low, high, JOX_DENSITY_CELL, JOX_DENSITY_KERNEL);
     scene->regions = jox_regions_create();
     scene->paths = jox_paths_create();
     for (uint32_t r = 0; r < scene->plan->region_count; r++)
@@ -168,7 +167,7 @@ static bool draw_paths(JoScene *scene, const char *title, JoxText *why) {
     JoxV2 low, high;
     for (uint32_t g = 0; g < count; g++)
         names[g] = scene->plan->groups[g].name;
-    area_of(scene, &low, &high);
+    jox_host_area(scene, &low, &high);
     for (uint32_t p = 0; p < scene->paths->count; p++) /* nobody's path is cut off */
         for (uint32_t i = 0; i < scene->paths->items[p].count; i++) {
             const JoxPathPoint *point = &scene->paths->items[p].points[i];
@@ -202,6 +201,7 @@ static bool draw(JoScene *scene, JoError *error) {
                  "%.120s: paths (a dot is the beginning, a circle the end), %.1f s", name, until);
         good = draw_paths(scene, title, &why);
     }
+    good = good && jox_host_write_probes(scene, name, &why);
     if (!good)
         return fail(error, &why);
     jox_host_say(scene, "pictures: %s%s%s/density.png%s%s%s\n", paths ? scene->report : "",
@@ -248,6 +248,7 @@ bool jox_host_collect(JoScene *scene, JoError *error) {
         scene->message(scene->message_context, scene->world->mind.trace.data);
     if (scene->density)
         sample(scene);
+    jox_host_measure(scene);
     if (scene->progress_until > 0.0)
         show_progress(scene);
     return !scene->recorder || scene->world->tick % scene->record_every != 0 ||

@@ -145,7 +145,7 @@ static double density_max(const JoScene *scene) {
         low = (JoxV2){jox_minf(low.x, a->x[i]), jox_minf(low.y, a->y[i])};
         high = (JoxV2){jox_maxf(high.x, a->x[i]), jox_maxf(high.y, a->y[i])};
     }
-    JoxDensity *density = jox_density_create(low, high);
+    JoxDensity *density = jox_density_create(low, high, JOX_DENSITY_CELL, JOX_DENSITY_KERNEL);
     jox_density_add(density, a->x, a->y, a->count, 0.0);
     double most = density->most;
     jox_density_free(density);
@@ -184,6 +184,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_states(&out, world);
     add_events(&out, scene);
     add_lua(&out, scene);
+    jox_host_add_probes(scene, &out);
     jox_text_printf(&out, ",\n \"hash\": \"%016llx\",\n \"isa\": \"scalar\",\n \"threads\": %u",
                     (unsigned long long)jox_world_hash(world), jox_pool_threads(world->pool));
     add_inputs(&out, scene);

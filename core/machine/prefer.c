@@ -103,7 +103,7 @@ static JoxV2 spread(const JoxMind *mind, uint32_t i) {
     uint32_t count = mind->neighbours->count[i];
     for (uint32_t k = 0; k < count; k++) {
         uint32_t j = mind->neighbours->index[jox_neighbour_at(mind->neighbours, i, k)];
-        sum = jox_add(sum, (JoxV2){a->x[i] - a->x[j], a->y[i] - a->y[j]});
+        sum = jox_add(sum, jox_offset(a, j, i));
     }
     return jox_unit(sum);
 }

@@ -62,12 +62,18 @@ bool jox_plot_draw(const char *folder, const char *script, JoxText *error) {
     return true;
 }
 
-void jox_plot_title(FILE *script, const char *title) {
-    fputs("set title \"", script);
-    for (const char *c = title; *c; c++)
+void jox_plot_quote(FILE *script, const char *text) {
+    fputc('"', script);
+    for (const char *c = text; *c; c++)
         if (*c != '"' && *c != '\\' && *c != '`' && (unsigned char)*c >= ' ')
             fputc(*c, script);
-    fputs("\" noenhanced font ',14'\n", script);
+    fputc('"', script);
+}
+
+void jox_plot_title(FILE *script, const char *title) {
+    fputs("set title ", script);
+    jox_plot_quote(script, title);
+    fputs(" noenhanced font ',14'\n", script);
 }
 
 static uint32_t write_rings(FILE *data, const JoxWalls *walls, bool open) {

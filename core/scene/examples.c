@@ -27,6 +27,7 @@ const JoxExample jox_scene_examples[] = {
      "groups: {standing: {tags: [crowd]}} # one more key for a group of the included scene\n"
      "sources: [{at: door, like: standing, rate: 0.5}]\n"
      "sinks: [{at: goal}]\n"
+     "probes: {moved: {displacement: true}}\n"
      "events: [{at: 5, signal: go}]\n"},
     {"forces", OPENING
      "forces: {enabled: true, mode: literal}\n"
@@ -121,6 +122,24 @@ const JoxExample jox_scene_examples[] = {
      "places: {exit: {point: [12, 2], radius: 1}}\n"
      "groups: {guests: {behaviour: stander.lua, at: [[6, 2], [12, 2]]}}\n"
      "sinks: [{at: exit, group: guests}]\n"},
+    {"probe", OPENING
+     "include: running-through.yaml\n"
+     "probes:\n"
+     "  door:    {flow: [[4, -2], [4, 2]], from: 2, until: 60}\n"
+     "  front:   {measure: [[0, 0], [2, 0], [2, 2], [0, 2]], every: 0.5, cutoff: 1.5,\n"
+     "            walkable: [[-1, -1], [9, -1], [9, 9], [-1, 9]]}\n"
+     "  passage: {transit: [[[0, -2], [0, 2]], [[3, -2], [3, 2]]], group: runner}\n"
+     "  block:   {displacement: true, group: standing, onset: 5 cm}\n"
+     "  fields:  {map: {}, every: 2}\n"
+     "  laps:    {winding: [0, 0]}\n"
+     "  solved:  {failures: 1}\n"
+     "  order:   {lanes: {area: [[-2, -2], [4, 2]]}}\n"},
+    {"map", OPENING
+     "include: running-through.yaml\n"
+     "probes: {fields: {map: {area: [[-2, -2], [6, 6]], cell: 0.1, kernel: 0.7}}}\n"},
+    {"lanes", OPENING
+     "include: running-through.yaml\n"
+     "probes: {order: {lanes: {area: [[-2, -2], [6, 6]], rows: 40 cm, along: y}, group: [standing, runner]}}\n"},
     {"event", OPENING
      "walls:\n"
      "  - {line: [[0, 0], [0, 2]], name: gate}\n"

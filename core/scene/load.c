@@ -414,7 +414,7 @@ static void read_sinks(JoxLoad *l, const JoxYaml *list) {
 
 /* ---- the whole ---- */
 
-static bool read_box(const JoxLoad *l, const JoxYaml *node, JoxV2 *low, JoxV2 *high) {
+bool jox_load_box(const JoxLoad *l, const JoxYaml *node, JoxV2 *low, JoxV2 *high) {
     uint32_t count;
     JoxV2 *points = node ? jox_read_points(&l->reader, node, 2, &count) : NULL;
     if (points)
@@ -458,7 +458,7 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
     s->duration = jox_key_number(r, root, "scene", "duration");
     s->gravity = jox_key_number(r, root, "scene", "gravity");
     jox_key_number(r, root, "scene", "jostle"); /* the version: its range is its check */
-    s->bounded = read_box(l, jox_yaml_get(root, "bounds"), &s->low, &s->high);
+    s->bounded = jox_load_box(l, jox_yaml_get(root, "bounds"), &s->low, &s->high);
     read_periodic(l, root);
     const char *input = jox_key_text(r, root, "scene", "input");
     if (input && of_a_mod(l, jox_yaml_get(root, "input")->position.file) &&
@@ -484,7 +484,7 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
         s->limits.print = jox_key_number(r, map, "limits", "print");
     }
     if ((map = jox_yaml_get(root, "heatmap")) && jox_keys_check(r, map, "heatmap")) {
-        s->heatmap = read_box(l, jox_yaml_get(map, "area"), &s->heatmap_low, &s->heatmap_high);
+        s->heatmap = jox_load_box(l, jox_yaml_get(map, "area"), &s->heatmap_low, &s->heatmap_high);
         s->heatmap_from = jox_key_number(r, map, "heatmap", "from");
     }
     if ((map = jox_yaml_get(root, "camera")) && jox_keys_check(r, map, "camera"))
@@ -511,7 +511,9 @@ static void read_scene(JoxLoad *l, const JoxYaml *root) {
     jox_load_events(l, jox_yaml_get(root, "events"));
     const JoxYaml *player = name_at(l, root, "player");
     l->scene->player_group = player ? jox_load_group(l, player) : -1;
-    if (!is_filled(jox_yaml_get(root, "groups")) && !is_filled(jox_yaml_get(root, "bodies")))
+    jox_load_probes(l, jox_yaml_get(root, "probes"));
+    if (!is_filled(jox_yaml_get(root, "groups")) && !is_filled(jox_yaml_get(root, "bodies")) &&
+        !is_filled(jox_yaml_get(root, "probes"))) /* of a recording: those alone */
         jox_scene_error(r, root, "empty-scene", "See scenes/circle.yaml",
                         "a scene needs a group or a body");
 }
@@ -549,8 +551,6 @@ JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
         load.scene->files[i].text = files->items[i].text;
         load.scene->files[i].length = files->items[i].length;
         memcpy(load.scene->files[i].sha256, files->items[i].sha256, 65);
-        load.scene->files[i].text = files->items[i].text;
-        load.scene->files[i].length = files->items[i].length;
     }
     return load.scene;
 }

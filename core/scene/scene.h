@@ -12,6 +12,7 @@
 #include "body/body.h"
 #include "geom/place.h"
 #include "geom/walls.h"
+#include "world/probe.h"
 
 typedef enum {
     JOX_FILL_HEX,
@@ -140,6 +141,8 @@ typedef struct JoxScene {
     uint32_t source_count;
     JoxSceneSink *sinks;
     uint32_t sink_count;
+    JoxProbeDef *probes;
+    uint32_t probe_count;
     JoxSceneEvent *events;
     uint32_t event_count;
     int32_t player_group;  /* -1: none */

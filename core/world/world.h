@@ -44,6 +44,12 @@ struct JoWorld {
 
     JoxWays *ways;
 
+    /* A step longer than people plan ahead is done in equal parts; think and observe run once. */
+    uint32_t part, parts;
+    double part_dt, plan; /* s: of a part; how far ahead velocities are planned */
+    JoxV2 *walked;        /* per agent, m: during the parts so far; only where there are several */
+    uint32_t walked_capacity;
+
     bool walls_set;           /* `walls`, nav and bodies are as the plan says */
     uint32_t walls_version;   /* counts the changes */
     bool walls_came;          /* since the last settling: some may stand in them */
