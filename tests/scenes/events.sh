@@ -32,6 +32,27 @@ fi
 without=$(hash_of "$JOSTLE" $gates --for 32 --set events.2.at=16)
 [ -n "$without" ] && [ "$without" != "$one" ]; verdict "a gate that opens a second later differs" $?
 
+# A block lands in the near door while people walk there: they turn to the far one, and nobody stays.
+cp behaviours/evacuee.lua "$work"
+cat >"$work/block.yaml" <<'END'
+jostle: 1
+duration: 60
+places:
+  hall: {polygon: [[1, 1], [9, 1], [9, 19], [1, 19]]}
+  out: {polygon: [[14, 4], [16, 4], [16, 16], [14, 16]]}
+walls:
+  - {line: [[10, 4], [10, 0], [0, 0], [0, 20], [10, 20], [10, 18]]}
+  - {line: [[10, 6], [10, 16]]}
+bodies: [{name: block, shape: {box: {size: [1, 1.9, 1.5]}}, mass: 4000, at: [30, 5, 0.75]}]
+groups: {crowd: {behaviour: evacuee.lua, count: 30, in: hall, set: {exits: out, alarm: 0}}}
+events: [{at: 8, throw: block, from: [10.3, 5, 0.8], velocity: [0, 0, 0]}]
+END
+"$JOSTLE" run "$work/block.yaml" --quiet --record "$work/b.sqlite" --summary "$work/b.json" 2>/dev/null
+between "everybody gets round the block" "$(figure agents <"$work/b.json")" 0 0
+between "it stays in the door" "$(sqlite3 "$work/b.sqlite" "SELECT max(abs(x - 10.3) + abs(y - 5)) FROM jostle_body WHERE frame > 100" 2>/dev/null)" 0 0.3
+between "people leave by the near door before" "$(sqlite3 "$work/b.sqlite" "SELECT count(DISTINCT id) FROM trajectory_data WHERE frame < 80 AND pos_x > 10 AND pos_y < 7")" 1 20
+between "and by the far one after" "$(sqlite3 "$work/b.sqlite" "SELECT count(DISTINCT id) FROM trajectory_data WHERE frame > 80 AND pos_x BETWEEN 9.9 AND 10.5 AND pos_y > 15")" 10 30
+
 wrong() { # NAME TEXT ARGS...: bad input that says so
     local name=$1 text=$2; shift 2
     "$JOSTLE" run $gates --quiet --steps 1 "$@" >"$work/out" 2>&1
@@ -44,7 +65,6 @@ wrong "a body that is static" "cannot be thrown" --set bodies.0.mass=0
 wrong "a time before the beginning" "at must be from 0" --set events.0.at=-2
 wrong "a start that is open without a name" "needs a name" --set walls.0.open=true
 sed 's/signal: alarm}/signal: alarms}/' $gates >"$work/deaf.yaml"
-cp behaviours/evacuee.lua "$work"
 "$JOSTLE" check "$work/deaf.yaml" 2>&1 | grep -qF "hears the signal 'alarms'. Did you mean 'alarm'?"
 verdict "a signal that nobody hears" $?
 exit 0

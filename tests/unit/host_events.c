@@ -166,6 +166,25 @@ static void who_stands_where_a_wall_comes_is_moved(void **state) {
     jo_scene_free(scene);
 }
 
+/* The order in memory follows in the same step: those beside the new spot see who came. */
+static void who_is_moved_is_seen_at_once(void **state) {
+    (void)state;
+    JoScene *scene = load_own(
+        "jostle: 1\n"
+        "walls: [{solid: [[3, -3], [7, -3], [7, 3], [3, 3]], name: block, open: true}]\n"
+        "groups: {people: {behaviour: own.lua, at: [[5, 0], [1.6, 0], [8.4, 0]]}}\n"
+        "events: [{at: 0.25, close: block}]\n",
+        HEAD "\"A\", defaults = { perception = 2.5 }, states = { A = { steer = hold } } }\n");
+    const JoxAgents *a = &scene->world->agents;
+    const JoxNeighbours *n = &scene->world->neighbours;
+    step(scene, 5); /* every fourth step sorts anyway; the next does not */
+    assert_int_equal(n->count[a->id_index[1]] + n->count[a->id_index[2]], 0);
+    step(scene, 1);
+    assert_int_equal(figures(scene)->moved_out, 1);
+    assert_int_equal(n->count[a->id_index[1]] + n->count[a->id_index[2]], 1);
+    jo_scene_free(scene);
+}
+
 /* A passage full of people: the nearest free spot would be outside of it. */
 static void nobody_is_moved_through_another_wall(void **state) {
     (void)state;
@@ -419,6 +438,7 @@ int main(void) {
         cmocka_unit_test(nobody_passes_a_gate_that_is_shut),
         cmocka_unit_test(walls_may_begin_open),
         cmocka_unit_test(who_stands_where_a_wall_comes_is_moved),
+        cmocka_unit_test(who_is_moved_is_seen_at_once),
         cmocka_unit_test(nobody_is_moved_through_another_wall),
         cmocka_unit_test(bodies_know_of_gates),
         cmocka_unit_test(what_rests_on_a_wall_falls_with_it),
