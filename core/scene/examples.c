@@ -56,6 +56,7 @@ const JoxExample jox_scene_examples[] = {
      "walls:\n"
      "  - {line: [[0, 0], [20, 0], [20, 10], [0, 10]], closed: true, height: 2.5}\n"
      "  - {solid: [[9, 4], [11, 4], [11, 6], [9, 6]]}\n"
+     "  - {line: [[9, 5], [0, 5]], name: fence, open: true}\n"
      STANDER},
     {"body", OPENING
      "bodies:\n"

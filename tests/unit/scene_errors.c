@@ -18,6 +18,12 @@
 #define SQUARE "places: {box: {polygon: [[0, 0], [2, 0], [2, 2], [0, 2]]}}\n"
 #define WITH(x) "groups: {g: {behaviour: stander, " x "}}\n"
 
+#define GATE "walls: [{line: [[0, 3], [2, 3]], name: gate}]\n"
+#define CRATE                                                                                      \
+    "bodies:\n"                                                                                    \
+    "  - {name: crate, shape: {box: {size: [1, 1, 1]}}, mass: 9, at: [5, 5, 1]}\n"                 \
+    "  - {name: rock, shape: {box: {size: [1, 1, 1]}}, mass: 0, at: [8, 5, 1]}\n"
+
 /* An `@` marks where the error must be reported; it is no part of the scene. */
 static const struct Case {
     const char *text, *code, *hint;
@@ -167,6 +173,35 @@ static const struct Case {
     {SQUARE "sinks: [{at: box, group: @gg}]\n" GROUP, "unknown-group", "Did you mean 'g'?"},
     {"heatmap: {area: [[0, 0], @[1]]}\n" GROUP, "bad-type", "[x, y]"},
     {"camera: {position: @far}\n" GROUP, "bad-type", "[x, y, z]"},
+    {"walls:\n  - {line: [[0, 0], [1, 1]], open: @true}\n" GROUP, "bad-wall", "name: gate"},
+    {"events: @{at: 3}\n" GROUP, "bad-type", "events: ["},
+    {"events: [@5]\n" GROUP, "bad-type", NULL},
+    {"events: [@{at: 3}]\n" GROUP, "bad-event", "{at: 20, open: gate}"},
+    {"events: [@{at: 3, signal: a, open: b}]\n" GROUP, "bad-event", "{at: 20, open: gate}"},
+    {"events: [@{signal: a}]\n" GROUP, "missing-key", NULL},
+    {"events: [{at: @-1, signal: a}]\n" GROUP, "out-of-range", NULL},
+    {"events: [{at: 1, every: @0, signal: a}]\n" GROUP, "out-of-range", NULL},
+    {"events: [{at: 9, every: 1, until: @5, signal: a}]\n" GROUP, "bad-event", NULL},
+    {"events: [{at: 1, until: @5, signal: a}]\n" GROUP, "bad-event", "every: 5"},
+    {"events: [{at: 1, signal: @[a]}]\n" GROUP, "bad-type", NULL},
+    {"events: [{at: 1, signal: @''}]\n" GROUP, "bad-event", NULL},
+    {"events: [{at: 1, @opens: gate, signal: a}]\n" GROUP, "unknown-key", "'open'"},
+    {GATE "events: [{at: 1, open: @gates}]\n" GROUP, "unknown-wall", "Did you mean 'gate'?"},
+    {"events: [{at: 1, close: @gate}]\n" GROUP, "unknown-wall", "Give walls names"},
+    {GATE "events: [{at: 1, open: gate, velocity: @[1, 0, 0]}]\n" GROUP, "bad-event", NULL},
+    {CRATE "events: [{at: 1, throw: @crat, velocity: [1, 0, 0]}]\n" GROUP, "unknown-body",
+     "Did you mean 'crate'?"},
+    {"events: [{at: 1, throw: @crate, velocity: [1, 0, 0]}]\n" GROUP, "unknown-body",
+     "Give bodies names"},
+    {CRATE "events: [{at: 1, throw: @rock, velocity: [1, 0, 0]}]\n" GROUP, "bad-event",
+     "Give it a mass above 0"},
+    {CRATE "events: [@{at: 1, throw: crate}]\n" GROUP, "bad-event", "velocity: [5, 0, 3]"},
+    {CRATE "events: [{at: 1, throw: crate, velocity: [1, 0, @1e300]}]\n" GROUP, "out-of-range",
+     NULL},
+    {CRATE "events: [{at: 1, throw: crate, from: @[1, 0]}]\n" GROUP, "bad-type", "[x, y, z]"},
+    /* of a wall that could not be read, its name is not missed too */
+    {"walls: [{line: @[[0, 0]], name: gate}]\nevents: [{at: 1, open: gate}]\n" GROUP, "bad-type",
+     NULL},
 };
 
 static JoxScene *load(const char *text, const char *const *sets, uint32_t count,
