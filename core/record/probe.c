@@ -153,13 +153,8 @@ bool jox_probe_write(const JoxProbe *p, const char *folder, const JoxWalls *wall
     if (!jox_plot_close(file, name, error))
         return false;
     bool drawn = walls && walls->ring_count > 0;
-    if (drawn) {
-        if (!(file = jox_plot_open(folder, "walls.dat", error)))
-            return false;
-        jox_plot_walls(file, walls);
-        if (!jox_plot_close(file, "walls.dat", error))
-            return false;
-    }
+    if (drawn && !jox_plot_walls(folder, walls, error))
+        return false;
     snprintf(name, sizeof name, "%s.plt", p->def.name);
     snprintf(heading, sizeof heading, "%.200s: %.100s", title, p->def.name);
     return write_script(p, folder, name, drawn, heading, error) &&

@@ -85,7 +85,7 @@ static void move(JoWorld *w) {
     jox_nav_move(w->nav, a, &w->neighbours, w->part_dt, w->plan, w->pool);
     for (uint32_t i = 0; w->parts > 1 && i < a->count; i++) {
         JoxV2 way = {a->x[i] - a->prev_x[i], a->y[i] - a->prev_y[i]};
-        w->ways[i] = is_first(w) ? way : jox_add(w->ways[i], way);
+        w->walked[i] = is_first(w) ? way : jox_add(w->walked[i], way);
     }
 }
 
@@ -159,8 +159,8 @@ static void observe(JoWorld *w) {
     if (!is_last(w))
         return;
     for (uint32_t i = 0; w->parts > 1 && i < a->count; i++) { /* where the whole step began */
-        a->prev_x[i] = a->x[i] - w->ways[i].x;
-        a->prev_y[i] = a->y[i] - w->ways[i].y;
+        a->prev_x[i] = a->x[i] - w->walked[i].x;
+        a->prev_y[i] = a->y[i] - w->walked[i].y;
     }
     jox_statistics_observe(&w->statistics, a, &w->neighbours, w->tick, w->def.dt);
     w->statistics.removed += jox_agents_compact(a);
@@ -173,7 +173,7 @@ static void divide(JoWorld *w) {
     w->part_dt = dt / w->parts;
     w->plan = w->def.literal ? dt : PLAN;
     if (w->parts > 1)
-        JOX_RESERVE(w->ways, w->way_capacity, w->agents.count);
+        JOX_RESERVE(w->walked, w->walked_capacity, w->agents.count);
 }
 
 void jox_world_step(JoWorld *w) {

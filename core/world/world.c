@@ -50,7 +50,7 @@ void jo_world_free(JoWorld *world) {
     jox_free(world->neighbours.index);
     jox_free(world->neighbours.distance2);
     jox_free(world->neighbours.count);
-    jox_free(world->ways);
+    jox_free(world->walked);
     jox_free(world->discs);
     jox_free(world->disc_agents);
     free_places(world);

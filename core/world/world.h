@@ -47,8 +47,8 @@ struct JoWorld {
     /* A step longer than people plan ahead is done in equal parts; think and observe run once. */
     uint32_t part, parts;
     double part_dt, plan; /* s: of a part; how far ahead velocities are planned */
-    JoxV2 *ways;          /* per agent, m: during the parts so far; only where there are several */
-    uint32_t way_capacity;
+    JoxV2 *walked;        /* per agent, m: during the parts so far; only where there are several */
+    uint32_t walked_capacity;
 
     bool walls_set;           /* `walls`, nav and bodies are as the plan says */
     uint32_t walls_version;   /* counts the changes */
