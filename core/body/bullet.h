@@ -68,6 +68,7 @@ struct JoxRow {
 struct JoxLean {
     uint64_t key;
     uint32_t number; /* in which they were found */
+    uint32_t block;
     btVector3 point, impulse, normal;
 };
 

@@ -80,10 +80,16 @@ static void add_leans(JoxBodies *b, const btPersistentManifold *manifold,
                             p.m_lateralFrictionDir2 * p.m_appliedImpulseLateral2;
         if (!jox_finite(impulse))
             continue;
+        int child = sign > 0 ? p.m_index0 : p.m_index1; /* children are in the order of blocks */
+        uint32_t block = child >= 0 && uint32_t(child) < b->rows[row].glue->count ? child : 0;
         jox_reserve(b->leans, b->lean_capacity, b->lean_count + 1);
-        b->leans[b->lean_count] = JoxLean{
-            key, b->lean_count, sign > 0 ? p.getPositionWorldOnA() : p.getPositionWorldOnB(),
-            impulse * sign, p.m_normalWorldOnB * sign};
+        b->leans[b->lean_count] =
+            JoxLean{key,
+                    b->lean_count,
+                    block,
+                    sign > 0 ? p.getPositionWorldOnA() : p.getPositionWorldOnB(),
+                    impulse * sign,
+                    p.m_normalWorldOnB * sign};
         b->lean_count++;
     }
 }
@@ -125,6 +131,7 @@ void jox_bodies_lean(JoxBodies *b) {
             Triple at = triple(frame.invXform(b->leans[last].point));
             Triple p = triple(b->leans[last].impulse * frame.getBasis());
             JoxGlueContact *to = &b->contacts[last - first];
+            to->block = b->leans[last].block;
             for (int i = 0; i < 3; i++) {
                 to->point[i] = at.at[i];
                 to->impulse[i] = p.at[i];

@@ -73,12 +73,15 @@ uint32_t jox_glue_block(const JoxGlue *glue, const double point[3]);
 void jox_glue_hit(JoxGlue *glue, const double point[3], const double impulse[3]);
 
 typedef struct JoxGlueContact {
+    uint32_t block; /* that touches */
     double point[3], impulse[3];
 } JoxGlueContact;
-/* The contacts with one other body. A solver's split among many touching points is one of
-   countless; of those with the same total force and moment the smoothest is taken (least squares:
-   under a wall, pressure that varies linearly along its foot), without points that would pull
-   against `normal`, the unit direction in which the other body pushes. `contacts` is changed. */
+/* The contacts with one other body. What a solver hands to each of many touching points is one of
+   countless ways to come to the same force and moment, and an odd one: most of a wall's weight may
+   stand on two of its forty feet. In its place the smoothest is taken (least squares over the
+   touching blocks: under a wall, pressure that varies linearly along its foot), without blocks that
+   would have to pull against `normal`, the unit direction in which the other body pushes; their
+   force is kept and of their moment what the rest can take. `contacts` is changed. */
 void jox_glue_lean(JoxGlue *glue, JoxGlueContact *contacts, uint32_t count, const double normal[3]);
 /* Takes in the impulses of a step of dt seconds during which the body turned at `spin`, and cuts
    the bonds that are loaded over their strength, in rounds, the most overloaded first, until the

@@ -86,6 +86,29 @@ static void spread(JoxGlueContact *c, uint32_t n, const double force[3], const d
     }
 }
 
+/* One contact per block, in the middle of its touching side; returns how many. */
+static uint32_t join_contacts(const JoxGlue *g, JoxGlueContact *c, uint32_t n,
+                              const double normal[3]) {
+    uint32_t kept = 0;
+    double away[3];
+    for (uint32_t k = 0; k < n; k++)
+        g->label[c[k].block] = UINT32_MAX;
+    for (uint32_t k = 0; k < n; k++) {
+        if (g->label[c[k].block] != UINT32_MAX)
+            continue;
+        g->label[c[k].block] = 0;
+        c[kept] = c[k];
+        jox_glue_place(g, c[k].block, away);
+        for (int i = 0; i < 3; i++)
+            away[i] -= c[kept].point[i];
+        double height = dot(away, normal);
+        for (int i = 0; i < 3; i++)
+            c[kept].point[i] += away[i] - height * normal[i];
+        kept++;
+    }
+    return kept;
+}
+
 void jox_glue_lean(JoxGlue *g, JoxGlueContact *c, uint32_t n, const double normal[3]) {
     double force[3] = {0, 0, 0}, moment[3] = {0, 0, 0}, m[3];
     for (uint32_t k = 0; k < n; k++) {
@@ -95,20 +118,23 @@ void jox_glue_lean(JoxGlue *g, JoxGlueContact *c, uint32_t n, const double norma
             moment[i] += m[i];
         }
     }
-    for (int drops = 0; drops < MOST_DROPS && n > 0; drops++) {
+    n = join_contacts(g, c, n, normal);
+    for (int drops = 0; n > 0; drops++) {
         spread(c, n, force, moment);
+        uint32_t pushing = 0;
+        for (uint32_t k = 0; k < n; k++)
+            pushing += dot(c[k].impulse, normal) >= 0.0;
+        if (pushing == n || pushing == 0 || drops == MOST_DROPS)
+            break;
         uint32_t kept = 0;
         for (uint32_t k = 0; k < n; k++)
             if (dot(c[k].impulse, normal) >= 0.0)
                 c[kept++] = c[k];
-        if (kept == n || kept == 0)
-            break;
         n = kept;
-        if (drops + 1 == MOST_DROPS)
-            spread(c, n, force, moment);
     }
     for (uint32_t k = 0; k < n; k++)
-        jox_glue_hit(g, c[k].point, c[k].impulse);
+        for (int i = 0; i < 3; i++)
+            g->impulse[c[k].block][i] += c[k].impulse[i];
 }
 
 /* ---- equilibrium ---- */
