@@ -188,9 +188,11 @@ static void add_bonds(JoxText *out, const JoScene *scene) {
     }
     jox_text_printf(out, ",\n \"bonds\": {\"held\": %u, \"broken\": %llu, \"pieces\": %u", held,
                     (unsigned long long)s->broken, s->pieces + 1);
-    if (s->touched)
-        jox_text_printf(out, ", \"first_touch_s\": %.3f, \"front_speed\": %.4f", s->touch_s,
+    if (s->front)
+        jox_text_printf(out, ", \"front_people\": %u, \"front_speed\": %.4f", s->front,
                         s->front_speed);
+    if (s->touched)
+        jox_text_printf(out, ", \"first_touch_s\": %.3f", s->touch_s);
     if (s->broken)
         jox_text_printf(out,
                         ", \"first_break_s\": %.3f, \"rows_pressing\": %u, "

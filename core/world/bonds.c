@@ -29,27 +29,30 @@ static double now(const JoWorld *w) {
     return (double)w->tick * w->def.dt + (w->part + 1) * w->part_dt;
 }
 
-void jox_world_note_touch(JoWorld *w, const JoxImpulse *impulses, uint32_t count) {
+/* Until somebody touches a glued body: how slow those before it have become. */
+void jox_world_note_touch(JoWorld *w) {
     JoxBondStatistics *s = &w->statistics.bonds;
     const JoxAgents *a = &w->agents;
     JoxBodyGlue glue;
-    uint32_t k = 0;
-    while (k < count && !jox_bodies_glue(w->bodies, impulses[k].object, &glue))
-        k++;
-    if (s->touched || k == count)
-        return;
-    s->touched = true;
-    s->touch_s = now(w);
-    uint32_t front = 0;
-    double sum = 0.0;
-    for (uint32_t i = 0; i < a->count; i++) {
-        if (gap_to(w, &w->objects.rows[impulses[k].object], i) > FRONT)
+    for (uint32_t o = 0; o < w->objects.count && !s->touched; o++) {
+        if (!jox_bodies_glue(w->bodies, o, &glue))
             continue;
-        /* Of the step before: the touch itself stops or pushes them. */
-        front++;
-        sum += sqrt((double)a->vx[i] * a->vx[i] + (double)a->vy[i] * a->vy[i]);
+        uint32_t front = 0;
+        double sum = 0.0;
+        for (uint32_t i = 0; i < a->count; i++) {
+            float gap = gap_to(w, &w->objects.rows[o], i);
+            if (gap > FRONT)
+                continue;
+            s->touched = s->touched || gap <= 0.0f;
+            front++;
+            sum += sqrt((double)a->vx[i] * a->vx[i] + (double)a->vy[i] * a->vy[i]);
+        }
+        if (s->touched)
+            s->touch_s = now(w);
+        else if (front && (s->front == 0 || sum / front < s->front_speed))
+            s->front_speed = sum / front;
+        s->front = front > s->front ? front : s->front;
     }
-    s->front_speed = front ? sum / front : 0.0;
 }
 
 /* Agents in the order in which chains of touching people, all of them squeezed, lead to them from

@@ -30,9 +30,10 @@ typedef struct JoxBondStatistics {
     uint32_t rows;      /* then: the longest of the shortest chains of people who touch and are
                            squeezed, counted from the body */
     uint32_t people;    /* then: in those chains */
-    bool touched;       /* anybody pushed or touched a glued body; the first time: */
+    bool touched;       /* anybody touched a glued body; the first time: */
     double touch_s;     /* when that was */
-    double front_speed; /* mean speed of those within 0.3 m of it, m/s */
+    double front_speed; /* before: the least mean speed of those within 0.3 m of it, m/s */
+    uint32_t front;     /* and the most there were */
 } JoxBondStatistics;
 
 typedef struct JoxStatistics {

@@ -139,7 +139,7 @@ static void bodies(JoWorld *w) {
     uint32_t count;
     const JoxImpulse *impulses = jox_force_impulses(w->forces, &count);
     if (!w->statistics.bonds.touched)
-        jox_world_note_touch(w, impulses, count);
+        jox_world_note_touch(w);
     jox_bodies_impulses(w->bodies, impulses, count);
     if (is_first(w))
         jox_bodies_impulses(w->bodies, w->mind.kicks, w->mind.kick_count);
