@@ -252,7 +252,9 @@ static void name_the_rest(Rescene *r) {
         const JoxBodyDef *x = &a->bodies[i].def, *y = &b->bodies[i].def;
         if (x->mass == y->mass && !memcmp(x->position, y->position, sizeof x->position) &&
             !memcmp(x->velocity, y->velocity, sizeof x->velocity) &&
-            !memcmp(x->shape.size, y->shape.size, sizeof x->shape.size))
+            !memcmp(x->shape.size, y->shape.size, sizeof x->shape.size) &&
+            !memcmp(x->shape.count, y->shape.count, sizeof x->shape.count) &&
+            x->shape.bond == y->shape.bond)
             continue;
         note(&r->later, "bodies");
         break;

@@ -77,6 +77,7 @@ const JoxExample jox_scene_examples[] = {
      "  - {shape: {sphere: {radius: 0.3}}, mass: 5, at: [3, 0, 0.3]}\n"
      "  - {shape: {cylinder: {radius: 0.2, height: 1}}, mass: 20, at: [6, 0, 0.5]}\n"
      "  - {shape: {hull: {points: [[-1, -1, 0], [1, -1, 0], [0, 1, 0], [0, 0, 1]]}}, mass: 30, at: [9, 0, 0.5]}\n"
+     "  - {shape: {blocks: {size: [0.5, 0.5, 0.5], count: [4, 1, 2], bond: 300}}, mass: 80, at: [15, 0, 0.5]}\n"
      "  - shape: {compound: [{shape: {sphere: {radius: 0.3}}}, {shape: {sphere: {radius: 0.2}}, at: [0, 0, 0.4]}]}\n"
      "    density: 200\n"
      "    at: [12, 0, 0.5]\n"},
@@ -91,6 +92,13 @@ const JoxExample jox_scene_examples[] = {
      "  - shape: {hull: {points: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, 1.5]]}}\n"
      "    mass: 80\n"
      "    at: [0, 0, 0.1]\n"},
+    {"blocks", OPENING
+     "bodies:\n"
+     "  - name: wall\n"
+     "    shape: {blocks: {size: [0.5, 0.5, 0.4], count: [12, 1, 3], bond: 300 N, block_mass: 8 kg}}\n"
+     "    friction: 0.4\n"
+     "    at: [0, 3, 0.6]\n"
+     STANDER},
     {"part", OPENING
      "bodies:\n"
      "  - shape:\n"

@@ -157,6 +157,28 @@ static const struct Case {
     {"bodies:\n  - {shape: {sphere: {@radios: 1, radius: 1}}, at: [0, 0, 1]}\n", "unknown-key",
      "Did you mean 'radius'?"},
     {"bodies:\n  - {shape: {sphere: {radius: 1}}, at: @[0, 1]}\n", "bad-type", "[x, y, z]"},
+    {"bodies:\n  - {shape: {blocks: {size: [1, 1, 1], count: [2, @1.5, 1], bond: 9}}, at: [0, 0, "
+     "1]}\n",
+     "bad-type", NULL},
+    {"bodies:\n  - {shape: {blocks: {size: [1, 1, 1], count: [2, @0, 1], bond: 9}}, at: [0, 0, "
+     "1]}\n",
+     "out-of-range", NULL},
+    {"bodies:\n  - {shape: {blocks: {size: [1, 1, 1], count: @[99, 99, 1], bond: 9}}, at: [0, 0, "
+     "1]}\n",
+     "out-of-range", NULL},
+    {"bodies:\n  - {shape: {blocks: {size: [1, 1, 1], count: [2, 1, 1], bond: @0}}, at: [0, 0, "
+     "1]}\n",
+     "out-of-range", NULL},
+    {"bodies:\n  - {shape: {blocks: @{size: [1, 1, 1], count: [2, 1, 1]}}, at: [0, 0, 1]}\n",
+     "missing-key", "force that breaks"},
+    {"bodies:\n  - {mass: 4, at: [0, 0, 1], shape: {blocks: {size: [1, 1, 1], count: [2, 1, 1], "
+     "bond: "
+     "9, block_mass: @3}}}\n",
+     "bad-body", NULL},
+    {"bodies:\n  - {at: [0, 0, 1], shape: {compound: [{shape: @{blocks: {size: [1, 1, 1], count: "
+     "[2, "
+     "1, 1], bond: 9}}}]}}\n",
+     "bad-shape", NULL},
     {"groups: @[a]\n", "bad-type", NULL},
     {"groups: @none\n", "bad-type", NULL},
     {"groups: {g: @{at: [[0, 0]]}}\n", "missing-key", "behaviour: walker.lua"},
