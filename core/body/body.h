@@ -74,7 +74,7 @@ JoxBodiesDef jox_bodies_def(void);
 JoxBodies *jox_bodies_create(const JoxBodiesDef *def);
 void jox_bodies_free(JoxBodies *bodies);
 /* Static walls from the ground to their height, or to `height` where theirs is not finite. Thin
-   ones are 4 cm thick. May be called once, before the first body or after. */
+   ones are 4 cm thick. Each call replaces the walls before, and wakes bodies that rest. */
 void jox_bodies_set_walls(JoxBodies *bodies, const JoxWalls *walls, float height);
 
 /* Returns the body's row, or JOX_NO_BODY with a sentence in `error` (which may be NULL). Rows of

@@ -62,6 +62,8 @@ void jox_bodies_set_walls(JoxBodies *b, const JoxWalls *walls, float height) {
         return;
     jox_bodies_ensure(b);
     jox_bodies_drop_walls(b);
+    for (uint32_t k = 0; k < b->live; k++) /* what leant on a wall that is gone falls */
+        b->rows[b->order[k]].body->activate();
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         uint32_t first = walls->rings[r].first, n = walls->rings[r].count;
         float tall = std::isfinite(walls->rings[r].height) ? walls->rings[r].height : height;

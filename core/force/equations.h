@@ -61,6 +61,15 @@ static inline JoxV2 jox_forced_velocity(JoxV2 velocity, JoxV2 force, float mass,
     return jox_add(jox_scale(velocity, decay), jox_scale(force, dt / mass));
 }
 
+/* (11) Speed along the unit vector of a force of `size` newtons that it alone would give. The feet
+   wear down motion along the force, but do not help it against motion the other way: else the
+   faintest force from ahead would brake a walker as hard as the feet can. */
+static inline float jox_forced_speed(JoxV2 velocity, JoxV2 force_unit, float size, float mass,
+                                     float decay, float dt) {
+    float along = jox_dot(velocity, force_unit);
+    return (along > 0.0f ? along * decay : along) + size * dt / mass;
+}
+
 /* (9) How far the new velocity fell short of the forced one along the force, m/s. */
 static inline float jox_shortfall(JoxV2 velocity, JoxV2 force_unit, float offset) {
     return jox_maxf(0.0f, offset - jox_dot(velocity, force_unit));

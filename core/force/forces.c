@@ -80,6 +80,8 @@ static float widest_reach(JoxForces *f) {
 void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_ASSERT(step && step->agents && step->neighbours && step->dt > 0.0);
     f->step = *step;
+    if (!(f->step.plan > 0.0))
+        f->step.plan = step->dt;
     f->totals = (JoxForceTotals){0};
     f->owed_count = f->owed_sorted = 0;
     f->touch_count = 0;

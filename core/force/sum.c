@@ -15,19 +15,19 @@ static float decay_of(Decay *decay, float damping, double dt) {
     return decay->value;
 }
 
-/* The half-plane of the force and the disc it is solved in. */
+/* The half-plane of the force over the time planned for, and the disc it is solved in. */
 static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, float decay,
                            float dt) {
     float mass = a->param[JOX_PARAM_mass][i], most = a->param[JOX_PARAM_max_speed][i];
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
-    JoxV2 forced = jox_forced_velocity(velocity, force, mass, decay, dt);
     JoxV2 normal = jox_scale(force, 1.0f / size);
     a->plane_x[i] = normal.x;
     a->plane_y[i] = normal.y;
-    a->plane_offset[i] = jox_dot(forced, normal);
+    a->plane_offset[i] = jox_forced_speed(velocity, normal, size, mass, decay, dt);
     if (contact.x == 0.0f && contact.y == 0.0f)
         return;
     /* Being hit may carry someone faster than they can go; nothing else may. */
+    JoxV2 forced = jox_forced_velocity(velocity, force, mass, decay, dt);
     float hit = jox_length(jox_forced_velocity(velocity, contact, mass, decay, dt));
     a->disc[i] = jox_maxf(most, jox_minf(hit, jox_length(forced)));
 }
@@ -51,8 +51,8 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
             continue;
         float size = jox_length(force);
         if (size >= f->options.least * mass[i] && isfinite(size))
-            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], f->step.dt),
-                           (float)f->step.dt);
+            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], f->step.plan),
+                           (float)f->step.plan);
     }
 }
 
@@ -83,11 +83,11 @@ static void give(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 fo
     list[f->transfers.counts[chunk]++] = (JoxTransfer){to, f->step.agents->id[i], force.x, force.y};
 }
 
-/* (9) Someone under force who did not get as far as it would have taken them. */
+/* (9) Someone under force whose plan falls short of where it would take them. */
 static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
     const JoxAgents *a = f->step.agents;
     JoxV2 unit = {a->plane_x[i], a->plane_y[i]};
-    float shortfall = jox_shortfall(jox_v2(a->vx[i], a->vy[i]), unit, a->plane_offset[i]);
+    float shortfall = jox_shortfall(jox_v2(a->next_x[i], a->next_y[i]), unit, a->plane_offset[i]);
     float absorb = a->param[JOX_PARAM_absorb][i];
     if (!(shortfall > 0.0f) || !(absorb > 0.0f))
         return;
@@ -95,7 +95,7 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
     for (uint32_t k = 0; k < n; k++)
         give(f, chunk, i, found[k],
              jox_resistance(unit, shortfall, absorb, a->param[JOX_PARAM_mass][i], n,
-                            (float)f->step.dt));
+                            (float)f->step.plan));
 }
 
 /* (8) Someone under no force who slowed down. */
@@ -120,7 +120,7 @@ static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
     if (n)
         return;
     JoxV2 own = jox_deceleration(change, absorb, mass, 1, dt, literal);
-    give(f, chunk, i, i, jox_keep_from_reversing(own, after, mass, dt));
+    give(f, chunk, i, i, jox_keep_from_reversing(own, after, mass, (float)f->step.plan));
 }
 
 static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {

@@ -21,7 +21,8 @@ static void add_ring(JoxWalls *walls, const JoxV2 *points, uint32_t count, bool 
     }
     walls->count += count;
     JOX_RESERVE(walls->rings, walls->ring_capacity, walls->ring_count + 1);
-    walls->rings[walls->ring_count++] = (struct JoxWallRing){first, count, solid, height};
+    walls->rings[walls->ring_count++] =
+        (struct JoxWallRing){.first = first, .count = count, .solid = solid, .height = height};
 }
 
 void jox_walls_add_solid(JoxWalls *walls, const JoxV2 *ring, uint32_t count, float height) {
@@ -54,7 +55,38 @@ void jox_walls_add_polyline(JoxWalls *walls, const JoxV2 *points, uint32_t count
     jox_free(ring);
 }
 
+void jox_walls_name(JoxWalls *walls, uint32_t first, const char *name, bool open) {
+    for (uint32_t r = first; r < walls->ring_count; r++) {
+        walls->rings[r].name = jox_strdup(name);
+        walls->rings[r].open = open;
+    }
+}
+
+void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates) {
+    out->count = out->ring_count = 0;
+    JOX_RESERVE(out->vertices, out->capacity, all->count);
+    JOX_RESERVE(out->rings, out->ring_capacity, all->ring_count);
+    for (uint32_t r = 0; r < all->ring_count; r++) {
+        const struct JoxWallRing *ring = &all->rings[r];
+        if (ring->open || (ring->name && !gates))
+            continue;
+        uint32_t back = ring->first - out->count; /* rings lie one behind the other */
+        for (uint32_t i = ring->first; i < ring->first + ring->count; i++) {
+            JoxWallVertex *v = &out->vertices[out->count++];
+            *v = all->vertices[i];
+            v->next -= back;
+            v->previous -= back;
+        }
+        out->rings[out->ring_count++] = (struct JoxWallRing){.first = ring->first - back,
+                                                             .count = ring->count,
+                                                             .solid = ring->solid,
+                                                             .height = ring->height};
+    }
+}
+
 void jox_walls_free(JoxWalls *walls) {
+    for (uint32_t r = 0; r < walls->ring_count; r++)
+        jox_free(walls->rings[r].name);
     jox_free(walls->vertices);
     jox_free(walls->rings);
     *walls = (JoxWalls){0};

@@ -24,6 +24,9 @@ typedef struct JoxWalls {
         uint32_t first, count;
         bool solid;
         float height; /* m; INFINITY unless given */
+        char *name;   /* of walls that open and close; owned; else NULL */
+        bool open;    /* taken away for now */
+        bool set;     /* opened or closed since it was made */
     } * rings;
     uint32_t ring_count, ring_capacity;
 } JoxWalls;
@@ -34,6 +37,11 @@ void jox_walls_add_solid(JoxWalls *walls, const JoxV2 *ring, uint32_t count, flo
    gives a thin closed wall, whose inside can be walked. */
 void jox_walls_add_polyline(JoxWalls *walls, const JoxV2 *points, uint32_t count, bool closed,
                             float height);
+/* Gives the rings from `first` on a name (copied); open ones do not stand. */
+void jox_walls_name(JoxWalls *walls, uint32_t first, const char *name, bool open);
+/* Makes `out` the walls of `all` that stand, without their names; with `gates` false, of these only
+   such as never open. Keeps its memory. */
+void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates);
 void jox_walls_free(JoxWalls *walls);
 
 #endif

@@ -8,6 +8,7 @@
 #include "lua/loader.h"
 #include "record/density.h"
 #include "record/paths.h"
+#include "record/probe.h"
 #include "record/recorder.h"
 #include "record/regions.h"
 #include "scene/mods.h"
@@ -43,6 +44,7 @@ struct JoScene {
     JoxDensity *density;
     JoxRegions *regions;
     JoxPaths *paths;
+    struct JoxMeasuring *measuring;                        /* NULL until a frame is asked for */
     double progress_until, progress_begun, progress_shown; /* s */
     int progress_tenth;
     bool finished;
@@ -81,6 +83,10 @@ bool jox_host_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnost
 bool jox_host_populate(JoScene *scene, JoxDiagnostics *diagnostics);
 void jox_host_sources(JoScene *scene);
 void jox_host_sinks(JoScene *scene);
+/* events.c: what is due in the step that begins. */
+void jox_host_events(JoScene *scene);
+/* Names of signals get numbers; warns of those that nobody hears (`diagnostics` may be NULL). */
+void jox_host_name_events(JoScene *scene, JoxDiagnostics *diagnostics);
 /* The file of the machine that a state becomes; false with diagnostics. */
 bool jox_host_find_become(const JoScene *scene, const JoxMachine *machine, uint32_t state,
                           char path[1024], JoxDiagnostics *diagnostics);
@@ -98,5 +104,16 @@ void jox_host_rescene(JoScene *scene, JoxScene **plan, double written);
 /* Names a machine's states in the recording, if there is one, under new numbers. */
 void jox_host_record_states(JoScene *scene, uint32_t machine);
 bool jox_host_collect(JoScene *scene, JoError *error);
+/* The area that pictures and recordings show. */
+void jox_host_area(const JoScene *scene, JoxV2 *low, JoxV2 *high);
+/* measure.c: the frame of the present step, made once; it holds until the next. */
+typedef struct JoxMeasuring JoxMeasuring;
+const JoxFrame *jox_host_frame(JoScene *scene);
+/* Shows it to the scene's probes, if any are due. */
+void jox_host_measure(JoScene *scene);
+/* Adds ,"probes": {...} to a summary, and their files to the report's folder. */
+void jox_host_add_probes(const JoScene *scene, JoxText *out);
+bool jox_host_write_probes(const JoScene *scene, const char *title, JoxText *error);
+void jox_host_end_measuring(JoScene *scene);
 
 #endif

@@ -150,6 +150,15 @@ static void attach(const JoxLuaFile *files, uint32_t count, JoxDiagnostics *diag
     }
 }
 
+/* Whether an event of the scene gives the signal. */
+static bool announced(const JoScene *scene, const char *text) {
+    for (uint32_t e = 0; e < scene->plan->event_count; e++)
+        if (scene->plan->events[e].kind == JOX_EVENT_SIGNAL &&
+            strcmp(scene->plan->events[e].name, text) == 0)
+            return true;
+    return false;
+}
+
 void jox_host_check_own(const JoScene *scene, const JoxMachine *machine, const JoxLuaFile *files,
                         uint32_t count, JoxDiagnostics *diagnostics) {
     size_t before = diagnostics->count;
@@ -188,7 +197,8 @@ void jox_host_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
         for (uint32_t n = 0; n < machine->name_count; n++) {
             const JoxName *name = &machine->names[n];
             bool heard = name->uses & JOX_NAME_HEARD, state = name->uses & JOX_NAME_STATE;
-            if (heard && !used(mind, name->text, JOX_NAME_SIGNALLED) && !machine->hook_count)
+            if (heard && !used(mind, name->text, JOX_NAME_SIGNALLED) && !machine->hook_count &&
+                !announced(scene, name->text))
                 jox_diag_warn(diagnostics, at, "unheard-signal", NULL,
                               "no machine of the scene gives the signal '%s'", name->text);
             if (state && !used(mind, name->text, JOX_NAME_STATE))

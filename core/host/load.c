@@ -188,8 +188,7 @@ static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnos
         scene->world->agents.period =
             (JoxV2){plan->periodic_x ? size.x : 0.0f, plan->periodic_y ? size.y : 0.0f};
     }
-    scene->world->walls = plan->walls; /* taken over */
-    plan->walls = (JoxWalls){0};
+    jox_world_set_walls(scene->world, &plan->walls);
     const JoxLuaLimits limits = script_limits(plan);
     scene->lua = jox_lua_create(&limits);
     jox_lua_attach(scene->lua, &scene->world->mind, complain, scene); /* loading may print */
@@ -205,6 +204,7 @@ static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnos
     if (diagnostics->errors == 0) {
         jox_host_populate(scene, diagnostics);
         jox_host_check_names(scene, diagnostics);
+        jox_host_name_events(scene, diagnostics);
     }
 }
 
@@ -373,6 +373,7 @@ void jo_scene_free(JoScene *scene) {
     if (!scene)
         return;
     jo_scene_finish(scene, NULL);
+    jox_host_end_measuring(scene);
     jox_host_unwatch(scene);
     free_def(scene);
     jo_world_free(scene->world); /* before Lua, whose machines it holds */

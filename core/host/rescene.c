@@ -66,13 +66,14 @@ static void take_places(Rescene *r) {
         to->axis_radius = from->axis_radius;
     }
     if (moved) {
-        jox_world_drop_ways(world);
+        jox_world_renew_ways(world);
         note(&r->done, "places");
     }
 }
 
 /* ---- walls ---- */
 
+/* Whether the walls there are would be the same; those that were opened or closed stay so. */
 static bool same_walls(const JoxWalls *a, const JoxWalls *b) {
     if (a->count != b->count || a->ring_count != b->ring_count)
         return false;
@@ -81,22 +82,18 @@ static bool same_walls(const JoxWalls *a, const JoxWalls *b) {
             a->vertices[i].next != b->vertices[i].next)
             return false;
     for (uint32_t i = 0; i < a->ring_count; i++)
-        if (a->rings[i].height != b->rings[i].height || a->rings[i].solid != b->rings[i].solid)
+        if (a->rings[i].height != b->rings[i].height || a->rings[i].solid != b->rings[i].solid ||
+            !same_text(a->rings[i].name, b->rings[i].name) ||
+            (!a->rings[i].set && a->rings[i].open != b->rings[i].open))
             return false;
     return true;
 }
 
 static void take_walls(Rescene *r) {
     JoWorld *world = r->scene->world;
-    if (same_walls(&world->walls, &r->new->walls))
+    if (same_walls(&world->wall_plan, &r->new->walls))
         return;
-    JoxWalls swap = world->walls;
-    world->walls = r->new->walls;
-    r->new->walls = swap; /* freed with the plan */
-    world->walls_set = false;
-    world->settled = false; /* who stands in a new wall is moved out of it */
-    world->first_unsettled = 0;
-    jox_world_drop_ways(world);
+    jox_world_set_walls(world, &r->new->walls);
     note(&r->done, "walls");
 }
 
@@ -193,12 +190,43 @@ static void take_sources(Rescene *r) {
     note(&r->done, "sources and sinks");
 }
 
+static bool same_events(const JoxScene *a, const JoxScene *b) {
+    bool same = a->event_count == b->event_count;
+    for (uint32_t e = 0; same && e < a->event_count; e++) {
+        const JoxSceneEvent *x = &a->events[e], *y = &b->events[e];
+        same = x->kind == y->kind && x->at == y->at && x->every == y->every &&
+               x->until == y->until && same_text(x->name, y->name) && x->placed == y->placed &&
+               !memcmp(x->from, y->from, sizeof x->from) &&
+               !memcmp(x->velocity, y->velocity, sizeof x->velocity) &&
+               !memcmp(x->spin, y->spin, sizeof x->spin);
+    }
+    return same;
+}
+
 static bool same_regions(const JoxScene *a, const JoxScene *b) {
     bool same = a->region_count == b->region_count;
     for (uint32_t i = 0; same && i < a->region_count; i++)
         same = same_text(a->regions[i].name, b->regions[i].name) &&
                same_points(a->regions[i].points, a->regions[i].count, b->regions[i].points,
                            b->regions[i].count);
+    return same;
+}
+
+static bool same_probes(const JoxScene *a, const JoxScene *b) {
+    bool same = a->probe_count == b->probe_count;
+    for (uint32_t i = 0; same && i < a->probe_count; i++) {
+        const JoxProbeDef *p = &a->probes[i], *q = &b->probes[i];
+        same = same_text(p->name, q->name) && p->kind == q->kind &&
+               p->group_count == q->group_count &&
+               !memcmp(p->groups, q->groups, p->group_count * sizeof *p->groups) &&
+               p->from == q->from && p->until == q->until && p->every == q->every &&
+               p->cutoff == q->cutoff && p->onset == q->onset && p->cell == q->cell &&
+               p->kernel == q->kernel && p->rows == q->rows && p->along_y == q->along_y &&
+               !memcmp(&p->low, &q->low, sizeof p->low) &&
+               !memcmp(&p->high, &q->high, sizeof p->high) &&
+               same_points(p->points, p->count, q->points, q->count) &&
+               same_points(p->walkable, p->walkable_count, q->walkable, q->walkable_count);
+    }
     return same;
 }
 
@@ -215,7 +243,8 @@ static void name_the_rest(Rescene *r) {
                 {"forces", a->forces != b->forces || a->literal != b->literal},
                 {"limits", memcmp(&a->limits, &b->limits, sizeof a->limits) != 0},
                 {"input", !same_text(a->input, b->input)},
-                {"regions", !same_regions(a, b)}};
+                {"regions", !same_regions(a, b)},
+                {"probes", !same_probes(a, b)}};
     for (size_t k = 0; k < sizeof REST / sizeof *REST; k++)
         if (REST[k].differs)
             note(&r->later, REST[k].what);
@@ -244,6 +273,8 @@ void jox_host_rescene(JoScene *scene, JoxScene **plan, double written) {
         if (groups)
             take_sources(&r);
     }
+    if (!same_events(r.old, r.new))
+        note(groups ? &r.done : &r.later, "events");
     name_the_rest(&r);
     clock_gettime(CLOCK_REALTIME, &t);
     double age = (double)t.tv_sec + (double)t.tv_nsec * 1e-9 - written;
@@ -259,6 +290,7 @@ void jox_host_rescene(JoScene *scene, JoxScene **plan, double written) {
         *plan = scene->plan;
         scene->plan = r.new;
         r.new->duration = r.old->duration;
+        jox_host_name_events(scene, NULL);
     }
     jox_text_free(&r.done);
     jox_text_free(&r.later);

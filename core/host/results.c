@@ -19,8 +19,7 @@ static bool fail(JoError *error, JoxText *why) {
     return false;
 }
 
-/* The area that pictures and recordings show. */
-static void area_of(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
+void jox_host_area(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
     const JoxScene *plan = scene->plan;
     const JoWorld *world = scene->world;
     if (plan->heatmap || plan->bounded) {
@@ -30,10 +29,11 @@ static void area_of(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
     }
     *low = (JoxV2){INFINITY, INFINITY};
     *high = (JoxV2){-INFINITY, -INFINITY};
-    for (uint32_t i = 0; i < world->walls.count + world->agents.count; i++) {
-        JoxV2 p = i < world->walls.count ? world->walls.vertices[i].point
-                                         : (JoxV2){world->agents.x[i - world->walls.count],
-                                                   world->agents.y[i - world->walls.count]};
+    const JoxWalls *walls = &world->wall_plan;
+    for (uint32_t i = 0; i < walls->count + world->agents.count; i++) {
+        JoxV2 p = i < walls->count ? walls->vertices[i].point
+                                   : (JoxV2){world->agents.x[i - walls->count],
+                                             world->agents.y[i - walls->count]};
         *low = (JoxV2){jox_minf(low->x, p.x), jox_minf(low->y, p.y)};
         *high = (JoxV2){jox_maxf(high->x, p.x), jox_maxf(high->y, p.y)};
     }
@@ -68,7 +68,7 @@ bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
     JOX_REQUIRE(scene && path && !scene->recorder, false);
     JoxV2 low, high;
     JoxText wkt = {0}, why = {0};
-    area_of(scene, &low, &high);
+    jox_host_area(scene, &low, &high);
     jox_wkt(&scene->world->walls, low, high, &wkt);
     double dt = scene->world->def.dt;
     scene->record_every = dt >= FRAME ? 1 : (uint32_t)(FRAME / dt + 0.5);
@@ -118,9 +118,9 @@ bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
     if (!jox_plot_folder(directory, &why))
         return fail(error, &why);
     JoxV2 low, high;
-    area_of(scene, &low, &high);
+    jox_host_area(scene, &low, &high);
     scene->report = jox_strdup(directory);
-    scene->density = jox_density_create(low, high);
+    scene->density = jox_density_create(low, high, JOX_DENSITY_CELL, JOX_DENSITY_KERNEL);
     scene->regions = jox_regions_create();
     scene->paths = jox_paths_create();
     for (uint32_t r = 0; r < scene->plan->region_count; r++)
@@ -167,14 +167,14 @@ static bool draw_paths(JoScene *scene, const char *title, JoxText *why) {
     JoxV2 low, high;
     for (uint32_t g = 0; g < count; g++)
         names[g] = scene->plan->groups[g].name;
-    area_of(scene, &low, &high);
+    jox_host_area(scene, &low, &high);
     for (uint32_t p = 0; p < scene->paths->count; p++) /* nobody's path is cut off */
         for (uint32_t i = 0; i < scene->paths->items[p].count; i++) {
             const JoxPathPoint *point = &scene->paths->items[p].points[i];
             low = (JoxV2){jox_minf(low.x, point->x - 1), jox_minf(low.y, point->y - 1)};
             high = (JoxV2){jox_maxf(high.x, point->x + 1), jox_maxf(high.y, point->y + 1)};
         }
-    return jox_plot_paths(scene->report, scene->paths, names, count, &scene->world->walls, low,
+    return jox_plot_paths(scene->report, scene->paths, names, count, &scene->world->wall_plan, low,
                           high, title, why);
 }
 
@@ -188,7 +188,8 @@ static bool draw(JoScene *scene, JoError *error) {
     if (scene->density->frames == 0) /* a run shorter than the first sample */
         jox_density_add(scene->density, scene->world->agents.x, scene->world->agents.y,
                         scene->world->agents.count, until);
-    bool good = jox_plot_density(scene->report, scene->density, &scene->world->walls, title, &why);
+    bool good =
+        jox_plot_density(scene->report, scene->density, &scene->world->wall_plan, title, &why);
     if (good && scene->regions->count) {
         snprintf(title, sizeof title, "%.120s: mean speed per region, t = %.0f to %.0f s", name,
                  scene->plan->heatmap_from, until);
@@ -200,6 +201,7 @@ static bool draw(JoScene *scene, JoError *error) {
                  "%.120s: paths (a dot is the beginning, a circle the end), %.1f s", name, until);
         good = draw_paths(scene, title, &why);
     }
+    good = good && jox_host_write_probes(scene, name, &why);
     if (!good)
         return fail(error, &why);
     jox_host_say(scene, "pictures: %s%s%s/density.png%s%s%s\n", paths ? scene->report : "",
@@ -246,6 +248,7 @@ bool jox_host_collect(JoScene *scene, JoError *error) {
         scene->message(scene->message_context, scene->world->mind.trace.data);
     if (scene->density)
         sample(scene);
+    jox_host_measure(scene);
     if (scene->progress_until > 0.0)
         show_progress(scene);
     return !scene->recorder || scene->world->tick % scene->record_every != 0 ||
@@ -255,6 +258,7 @@ bool jox_host_collect(JoScene *scene, JoError *error) {
 bool jo_scene_step(JoScene *scene, JoError *error) {
     JOX_REQUIRE(scene && !scene->finished, false);
     jox_host_reload(scene);
+    jox_host_events(scene);
     jox_host_sources(scene);
     jox_world_step(scene->world);
     jox_host_sinks(scene);

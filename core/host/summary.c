@@ -63,6 +63,9 @@ static void add_events(JoxText *out, const JoScene *scene) {
                   {"moved_out", s->moved_out},
                   {"bodies_lost", s->bodies_lost},
                   {"walls_relaxed", s->walls_relaxed},
+                  {"opened", s->opened},
+                  {"closed", s->closed},
+                  {"announced", s->announced},
                   {"script_failures", jox_lua_failures(scene->lua)}};
     jox_text_add(out, ",\n \"events\": {");
     for (size_t e = 0; e < sizeof events / sizeof *events; e++)
@@ -142,7 +145,7 @@ static double density_max(const JoScene *scene) {
         low = (JoxV2){jox_minf(low.x, a->x[i]), jox_minf(low.y, a->y[i])};
         high = (JoxV2){jox_maxf(high.x, a->x[i]), jox_maxf(high.y, a->y[i])};
     }
-    JoxDensity *density = jox_density_create(low, high);
+    JoxDensity *density = jox_density_create(low, high, JOX_DENSITY_CELL, JOX_DENSITY_KERNEL);
     jox_density_add(density, a->x, a->y, a->count, 0.0);
     double most = density->most;
     jox_density_free(density);
@@ -181,6 +184,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_states(&out, world);
     add_events(&out, scene);
     add_lua(&out, scene);
+    jox_host_add_probes(scene, &out);
     jox_text_printf(&out, ",\n \"hash\": \"%016llx\",\n \"isa\": \"scalar\",\n \"threads\": %u",
                     (unsigned long long)jox_world_hash(world), jox_pool_threads(world->pool));
     add_inputs(&out, scene);

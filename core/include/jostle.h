@@ -188,6 +188,17 @@ JO_API double jo_scene_duration(const JoScene *scene); /* s, as the scene says *
    reporting failed; `error` says why. */
 JO_API bool jo_scene_step(JoScene *scene, JoError *error);
 
+/* What people do to a running scene; it takes effect in the next step, as an event of the scene
+   does. False with `error` where there is no such body or wall, or a number is out of range. */
+/* Throws a body by its name: x, y, z of where it is put first (m; NULL: from where it lies),
+   velocity (m/s, each up to 100; NULL: none) and spin about x, y, z (rad/s, each up to 100; NULL:
+   none). */
+JO_API bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
+                           const double velocity[3], const double spin[3], JoError *error);
+/* Opens or closes the walls of a name. Who stands in a wall that closes is moved out. */
+JO_API bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *error);
+/* Calls a name out, which everybody hears in the next step, wherever they are. */
+JO_API bool jo_scene_signal(JoScene *scene, const char *name, JoError *error);
 /* Writes trajectories to an SQLite file from here on (JuPedSim format, version 2). */
 JO_API bool jo_scene_record(JoScene *scene, const char *path, JoError *error);
 /* Collects density and regional speeds from here on; jo_scene_finish draws them into `directory`

@@ -114,6 +114,8 @@ void jox_mind_free(JoxMind *mind) {
     jox_free(mind->grips);
     jox_free(mind->called);
     jox_free(mind->heard);
+    jox_free(mind->announced);
+    jox_free(mind->everywhere);
     for (uint32_t n = 0; n < mind->name_count; n++)
         jox_free(mind->names[n]);
     jox_free(mind->names);

@@ -51,6 +51,14 @@ typedef struct JoxGrip {
     JoxV3 velocity; /* m/s */
 } JoxGrip;
 
+/* Kinds of ways round walls and large bodies. */
+typedef enum JoxWayKind {
+    JOX_WAY_NOW,  /* as all stands now */
+    JOX_WAY_OPEN, /* as if walls that open were open, and what can be moved were away: for those who
+                     have no other way, and wait at a gate */
+    JOX_WAY_KINDS
+} JoxWayKind;
+
 typedef struct JoxMind {
     /* Given by the world before each stage. */
     JoxAgents *agents;
@@ -87,11 +95,14 @@ typedef struct JoxMind {
     uint32_t called_count, called_capacity;
     JoxSignal *heard; /* called in the last step, by name and x */
     uint32_t heard_count, heard_capacity;
+    /* Names called out to everybody: since the last think (carried on), and before it. */
+    uint32_t *announced, *everywhere;
+    uint32_t announced_count, announced_capacity, everywhere_count, everywhere_capacity;
     char **names; /* number -> name, shared by all machines */
     uint32_t name_count, name_capacity;
 
-    /* Ways round walls by place; NULL where there is none yet. What is asked for and missing is
-       marked in `wanted`, by place, for the world to make. */
+    /* Ways, [place * JOX_WAY_KINDS + kind]; NULL where there is none yet. What is asked for is
+       marked in `wanted`, by place, a bit for each kind, for the world to make or renew. */
     JoxField *const *fields;
     uint8_t *wanted;
     double gravity; /* m/s2, for throws */
@@ -151,6 +162,10 @@ void jox_mind_set_own(JoxMind *mind, uint32_t agent, uint32_t slot, double value
 uint32_t jox_mind_name(JoxMind *mind, const char *name);
 /* The agent calls out a name (by number). */
 void jox_mind_call(JoxMind *mind, uint32_t agent, uint32_t name);
+/* Everybody hears the name (by number) in the next think, wherever they are. */
+void jox_mind_announce(JoxMind *mind, uint32_t name);
+/* Marks in `wanted` the ways that agents want in the states that they are in. */
+void jox_mind_ask_ways(JoxMind *mind);
 /* Appends who went where by which transition, with the values of its condition at present. */
 void jox_mind_explain(const JoxMind *mind, const JoxTaken *taken, JoxText *out);
 void jox_mind_free(JoxMind *mind);

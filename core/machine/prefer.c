@@ -103,25 +103,50 @@ static JoxV2 spread(const JoxMind *mind, uint32_t i) {
     uint32_t count = mind->neighbours->count[i];
     for (uint32_t k = 0; k < count; k++) {
         uint32_t j = mind->neighbours->index[jox_neighbour_at(mind->neighbours, i, k)];
-        sum = jox_add(sum, (JoxV2){a->x[i] - a->x[j], a->y[i] - a->y[j]});
+        sum = jox_add(sum, jox_offset(a, j, i));
     }
     return jox_unit(sum);
 }
 
-/* The way round walls; where none is known yet, straight on, and it is asked for. */
+/* The way's direction, (0, 0) where there is none, and *none says that none leads there; it is
+   asked for again and again, as only ways that are wanted are renewed. */
+static JoxV2 way(const JoxMind *mind, uint32_t place, JoxWayKind kind, JoxV2 p, bool *none) {
+    const JoxField *field = mind->fields[place * JOX_WAY_KINDS + kind];
+    uint8_t bit = (uint8_t)(1 << kind);
+    /* Whichever thread comes first: the result is the same. */
+    if (!(__atomic_load_n(&mind->wanted[place], __ATOMIC_RELAXED) & bit))
+        __atomic_fetch_or(&mind->wanted[place], bit, __ATOMIC_RELAXED);
+    JoxV2 direction = field ? jox_field_direction(field, p) : (JoxV2){0.0f, 0.0f};
+    *none = field && jox_length2(direction) == 0.0f && !(jox_field_distance(field, p) < INFINITY);
+    return direction;
+}
+
+/* Round walls and large bodies; where no way is known yet, or none leads there, straight on. */
 static JoxV2 field(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = mind->agents;
     int32_t place = jox_target_place(mind, i, term->target);
+    bool none;
     if (place < 0)
         return (JoxV2){0.0f, 0.0f};
     JoxV2 p = {a->x[i], a->y[i]};
-    const JoxField *way = mind->fields ? mind->fields[place] : NULL;
-    if (!way && mind->wanted) /* every thread writes the same value */
-        __atomic_store_n(&mind->wanted[place], 1, __ATOMIC_RELAXED);
-    if (!way || jox_place_contains(mind->places, (uint32_t)place, p))
+    if (!mind->fields || jox_place_contains(mind->places, (uint32_t)place, p))
         return seek(mind, i, term->target);
-    JoxV2 direction = jox_field_direction(way, p);
+    JoxV2 direction = way(mind, (uint32_t)place, JOX_WAY_NOW, p, &none);
+    if (none)
+        direction = way(mind, (uint32_t)place, JOX_WAY_OPEN, p, &none);
     return jox_length2(direction) > 0.0f ? direction : seek(mind, i, term->target);
+}
+
+void jox_mind_ask_ways(JoxMind *mind) {
+    const JoxAgents *a = mind->agents;
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (a->machine[i] == JOX_NO_MACHINE)
+            continue;
+        const JoxState *state = &jox_machine_of(mind, i)->states[a->state[i]];
+        for (uint32_t t = 0; t < state->steer_count; t++)
+            if (state->steer[t].kind == JOX_STEER_FIELD)
+                field(mind, i, &state->steer[t]);
+    }
 }
 
 static JoxV2 together(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {

@@ -27,6 +27,11 @@ void jox_mind_call(JoxMind *mind, uint32_t agent, uint32_t name) {
     mind->called[mind->called_count++] = (JoxSignal){name, a->id[agent], a->x[agent], a->y[agent]};
 }
 
+void jox_mind_announce(JoxMind *mind, uint32_t name) {
+    JOX_RESERVE(mind->announced, mind->announced_capacity, mind->announced_count + 1);
+    mind->announced[mind->announced_count++] = name;
+}
+
 static bool comes_before(const JoxSignal *a, const JoxSignal *b) {
     if (a->name != b->name)
         return a->name < b->name;
@@ -42,6 +47,13 @@ void jox_mind_listen(JoxMind *mind) {
     mind->called = swap;
     mind->called_capacity = capacity;
     mind->called_count = 0;
+    uint32_t *names = mind->everywhere, room = mind->everywhere_capacity;
+    mind->everywhere = mind->announced;
+    mind->everywhere_count = mind->announced_count;
+    mind->everywhere_capacity = mind->announced_capacity;
+    mind->announced = names;
+    mind->announced_capacity = room;
+    mind->announced_count = 0;
     uint32_t count = mind->heard_count;
     for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
         for (uint32_t k = gap; k < count; k++) {
@@ -55,6 +67,9 @@ void jox_mind_listen(JoxMind *mind) {
 
 bool jox_heard(const JoxMind *mind, uint32_t i, uint32_t name, double reach) {
     const JoxAgents *a = mind->agents;
+    for (uint32_t n = 0; n < mind->everywhere_count; n++)
+        if (mind->everywhere[n] == name)
+            return true;
     float r = jox_minf((float)reach, a->param[JOX_PARAM_perception][i]), x = a->x[i], y = a->y[i];
     JoxSignal from = {.name = name, .x = x - r};
     uint32_t low = 0, high = mind->heard_count;

@@ -4,7 +4,8 @@
 #include "geom/polygon.h"
 #include "nav/internal.h"
 
-static const float STIFFNESS = 0.2f;    /* share of an overlap removed by one sweep */
+static const float STIFFNESS = 0.2f;    /* share of an overlap removed by one sweep, in a step of */
+static const float STIFF_STEP = 0.05f;  /* s; less in proportion in shorter ones */
 static const float STILL_REACH = 0.25f; /* m: less than this counts as not having moved */
 static const float SKIN = 0.001f;       /* m: kept from a wall that was about to be passed */
 enum { SWEEPS = 2 };
@@ -13,8 +14,9 @@ typedef struct Move {
     JoxNav *nav;
     JoxAgents *agents;
     const JoxNeighbours *neighbours;
-    float dt;
-    int from; /* which position buffer a sweep reads */
+    float dt, share; /* s; of the way from the old velocity to the planned one */
+    float stiffness; /* share of an overlap removed by one sweep */
+    int from;        /* which position buffer a sweep reads */
 } Move;
 
 static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -24,8 +26,8 @@ static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t work
     for (uint32_t i = begin; i < end; i++) {
         a->prev_x[i] = a->x[i];
         a->prev_y[i] = a->y[i];
-        a->vx[i] = a->next_x[i];
-        a->vy[i] = a->next_y[i];
+        a->vx[i] += (a->next_x[i] - a->vx[i]) * m->share;
+        a->vy[i] += (a->next_y[i] - a->vy[i]) * m->share;
         m->nav->position[0][i] = (JoxV2){a->x[i] + a->vx[i] * m->dt, a->y[i] + a->vy[i] * m->dt};
     }
 }
@@ -49,7 +51,7 @@ static void sweep(void *context, uint32_t begin, uint32_t end, uint32_t worker) 
             if (d2 >= sum * sum || d2 == 0.0f)
                 continue;
             float distance = sqrtf(d2);
-            float part = STIFFNESS * (sum - distance) * mass[j] / (mass[i] + mass[j]);
+            float part = m->stiffness * (sum - distance) * mass[j] / (mass[i] + mass[j]);
             shift = jox_add(shift, jox_scale(d, part / distance));
         }
         to[i] = jox_add(from[i], shift);
@@ -167,8 +169,9 @@ static void settle_range(void *context, uint32_t begin, uint32_t end, uint32_t w
 }
 
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, double dt,
-                  JoxPool *pool) {
-    Move move = {nav, agents, neighbours, (float)dt, 0};
+                  double plan, JoxPool *pool) {
+    Move move = {nav, agents, neighbours, (float)dt, (float)(dt / plan), 0.0f, 0};
+    move.stiffness = STIFFNESS * jox_minf(1.0f, (float)dt / STIFF_STEP);
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate, &move);
     for (int i = 0; i < SWEEPS; i++) {
         jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, sweep, &move);

@@ -21,13 +21,15 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *agents, uint64_t tick);
 /* perceive: exactly the `neighbours` nearest within each agent's own `perception`, nearest first,
    ties by id; also writes `search` and `density`. Grows `out` as needed. */
 void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool);
-/* solve: next_x, next_y, failed. Returns how many agents had a wall relaxed. */
+/* solve: next_x, next_y, the velocity to have `plan` seconds from now; sets failed where there is
+   none that meets all half-planes. Returns how many agents had a wall relaxed. */
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
-                       const JoxObjects *objects, double dt, JoxPool *pool);
-/* move: velocity := next, position += velocity dt, weak projection of overlaps, never through a
-   wall; prev_x, prev_y keep the old position; updates still, still_x, still_y. */
+                       const JoxObjects *objects, double plan, JoxPool *pool);
+/* move: velocity += (next - velocity) dt / plan, position += velocity dt, weak projection of
+   overlaps, never through a wall; prev_x, prev_y keep the old position; updates still, still_x,
+   still_y. */
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, double dt,
-                  JoxPool *pool);
+                  double plan, JoxPool *pool);
 
 typedef struct JoxSettled {
     uint32_t moved; /* agents put elsewhere */
@@ -35,7 +37,8 @@ typedef struct JoxSettled {
     float farthest; /* m, the longest way an agent was moved */
 } JoxSettled;
 /* Moves agents with id >= first_id out of walls and out of agents that they overlap by more than a
-   quarter of the smaller diameter, in ascending id, to the nearest free spot of a spiral. */
-JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *agents, uint32_t first_id);
+   quarter of the smaller diameter, in ascending id, to the nearest free spot of a spiral. Where
+   `walls_came`, also older ones that stand in a wall or deep within its reach. */
+JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *agents, uint32_t first_id, bool walls_came);
 
 #endif

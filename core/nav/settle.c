@@ -1,4 +1,5 @@
-/* Frees agents that were born inside a wall or deep inside another agent. */
+/* Frees agents that were born inside a wall or deep inside another agent, or that a wall came upon.
+ */
 #include <math.h>
 #include <string.h>
 
@@ -8,6 +9,8 @@
 #include "nav/internal.h"
 
 static const float DEEP = 0.25f;     /* share of the smaller diameter that may overlap */
+static const float TOUCHING = 0.99f; /* radii from a wall */
+static const float STANDING = 0.7f;  /* the same of those whom the next step does not push out */
 static const float FARTHEST = 25.0f; /* m: how far a free spot is looked for */
 
 /* A hash of cells to the agents that already have their spot. */
@@ -33,6 +36,21 @@ static void take(Taken *t, uint32_t i) {
     t->head[b] = i;
 }
 
+/* Within `clear` m of a wall, or inside one. */
+static bool in_wall(const JoxWallGrid *grid, JoxV2 p, float clear) {
+    if (!grid->walls || grid->walls->count == 0)
+        return false;
+    uint32_t count;
+    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        const JoxWallVertex *v = &grid->walls->vertices[edges[i]];
+        JoxV2 q = jox_segment_nearest(v->point, grid->walls->vertices[v->next].point, p);
+        if (jox_length2(jox_sub(p, q)) < clear * clear)
+            return true;
+    }
+    return jox_walls_contain(grid->walls, p);
+}
+
 static bool is_free(const Taken *t, const JoxWallGrid *grid, JoxV2 p, float radius) {
     const JoxAgents *a = t->agents;
     int32_t cx = cell_of(t, p.x), cy = cell_of(t, p.y);
@@ -44,27 +62,31 @@ static bool is_free(const Taken *t, const JoxWallGrid *grid, JoxV2 p, float radi
                 if (jox_length2((JoxV2){a->x[j] - p.x, a->y[j] - p.y}) < least * least)
                     return false;
             }
-    if (!grid->walls || grid->walls->count == 0)
-        return true;
-    uint32_t count;
-    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        const JoxWallVertex *v = &grid->walls->vertices[edges[i]];
-        JoxV2 q = jox_segment_nearest(v->point, grid->walls->vertices[v->next].point, p);
-        if (jox_length2(jox_sub(p, q)) < radius * radius * 0.98f)
-            return false;
-    }
-    return !jox_walls_contain(grid->walls, p);
+    return !in_wall(grid, p, TOUCHING * radius);
 }
 
-/* Spots on a spiral about p, half a radius apart, the first free one. */
-static bool find_spot(const Taken *t, const JoxWallGrid *grid, JoxV2 p, float radius, JoxV2 *spot) {
+/* Whether no wall lies between two points, but for those that p itself is closer to than `near`. */
+static bool sees(const JoxWalls *walls, JoxV2 p, JoxV2 q, float near) {
+    for (uint32_t e = 0; walls && e < walls->count; e++) {
+        JoxV2 a = walls->vertices[e].point, b = walls->vertices[walls->vertices[e].next].point;
+        if (jox_segment_crossing(a, b, p, q) != 0 &&
+            jox_length2(jox_sub(p, jox_segment_nearest(a, b, p))) >= near * near)
+            return false;
+    }
+    return true;
+}
+
+/* Spots on a spiral about p, half a radius apart, the first free one; `in_sight`: not beyond walls
+   other than those that p stands in. */
+static bool find_spot(const Taken *t, const JoxWallGrid *grid, JoxV2 p, float radius, bool in_sight,
+                      JoxV2 *spot) {
     float step = jox_maxf(radius * 0.5f, 0.05f);
     float angle = 0.0f, distance = step;
     while (distance < FARTHEST) {
         *spot =
             (JoxV2){p.x + distance * (float)jox_cos(angle), p.y + distance * (float)jox_sin(angle)};
-        if (is_free(t, grid, *spot, radius))
+        if (is_free(t, grid, *spot, radius) &&
+            (!in_sight || sees(grid->walls, p, *spot, TOUCHING * radius)))
             return true;
         angle += step / distance;
         distance += step * step / (6.2831853f * distance);
@@ -72,7 +94,29 @@ static bool find_spot(const Taken *t, const JoxWallGrid *grid, JoxV2 p, float ra
     return false;
 }
 
-JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *a, uint32_t first_id) {
+/* Looks for a free spot for an agent that has none where it is. */
+static void put(Taken *t, JoxNav *nav, JoxAgents *a, uint32_t i, bool in_sight,
+                JoxSettled *result) {
+    JoxV2 p = {a->x[i], a->y[i]}, spot;
+    float radius = a->param[JOX_PARAM_radius][i];
+    if (!(in_sight && find_spot(t, &nav->grid, p, radius, true, &spot)) &&
+        !find_spot(t, &nav->grid, p, radius, false, &spot)) {
+        result->stuck++;
+        return;
+    }
+    a->x[i] = spot.x;
+    a->y[i] = spot.y;
+    result->farthest = jox_maxf(result->farthest, jox_length(jox_sub(spot, p)));
+    result->moved++;
+    nav->drift = INFINITY; /* the order in memory no longer follows space */
+}
+
+static void begin_at(JoxAgents *a, uint32_t i) {
+    a->prev_x[i] = a->still_x[i] = a->x[i];
+    a->prev_y[i] = a->still_y[i] = a->y[i];
+}
+
+JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *a, uint32_t first_id, bool walls_came) {
     JoxSettled result = {0};
     float widest = 0.0f;
     for (uint32_t i = 0; i < a->count; i++)
@@ -84,30 +128,28 @@ JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *a, uint32_t first_id) {
         t.mask = t.mask * 2 + 1;
     t.head = jox_alloc((size_t)t.mask + 1, sizeof *t.head);
     t.next = jox_alloc((size_t)a->count + 1, sizeof *t.next);
+    bool *moves = jox_alloc((size_t)a->count + 1, sizeof *moves);
     memset(t.head, 0xff, ((size_t)t.mask + 1) * sizeof *t.head);
+    for (uint32_t i = 0; i < a->count; i++) { /* those who stay take their spots first */
+        JoxV2 p = {a->x[i], a->y[i]};
+        moves[i] = a->id[i] >= first_id;
+        if (walls_came && !moves[i])
+            moves[i] = in_wall(&nav->grid, p, STANDING * a->param[JOX_PARAM_radius][i]);
+        if (!moves[i])
+            take(&t, i);
+    }
     for (uint32_t id = 0; id < a->next_id; id++) {
         uint32_t i = a->id_index[id];
-        if (i == JOX_NO_INDEX)
+        if (i == JOX_NO_INDEX || !moves[i])
             continue;
-        JoxV2 p = {a->x[i], a->y[i]}, spot;
-        float radius = a->param[JOX_PARAM_radius][i];
-        if (id >= first_id && !is_free(&t, &nav->grid, p, radius)) {
-            if (find_spot(&t, &nav->grid, p, radius, &spot)) {
-                a->x[i] = spot.x;
-                a->y[i] = spot.y;
-                result.farthest = jox_maxf(result.farthest, jox_length(jox_sub(spot, p)));
-                result.moved++;
-            } else {
-                result.stuck++;
-            }
-        }
-        if (id >= first_id) {
-            a->prev_x[i] = a->still_x[i] = a->x[i];
-            a->prev_y[i] = a->still_y[i] = a->y[i];
-        }
+        JoxV2 p = {a->x[i], a->y[i]};
+        if (id < first_id || !is_free(&t, &nav->grid, p, a->param[JOX_PARAM_radius][i]))
+            put(&t, nav, a, i, id < first_id, &result);
+        begin_at(a, i);
         take(&t, i);
     }
     jox_free(t.head);
     jox_free(t.next);
+    jox_free(moves);
     return result;
 }

@@ -14,7 +14,7 @@ typedef struct Solve {
     JoxAgents *agents;
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
-    float dt;
+    float plan; /* s */
 } Solve;
 
 /* Where two centres coincide they part in opposite directions that depend on their ids alone. */
@@ -41,7 +41,7 @@ static uint32_t agent_planes(const Solve *s, uint32_t i, JoxPlane *out) {
         if (p.x == 0.0f && p.y == 0.0f)
             away = parting(a->id[i], a->id[j]);
         out[made++] =
-            jox_orca_plane(p, v, radius[i] + radius[j], tau, s->dt, velocity, share, away);
+            jox_orca_plane(p, v, radius[i] + radius[j], tau, s->plan, velocity, share, away);
     }
     return made;
 }
@@ -75,10 +75,10 @@ static bool object_plane(const Solve *s, uint32_t i, const JoxObject *o, bool ap
     float d2 = jox_length2(p), sum = radius + o->disc;
     if (d2 > (reach + o->disc) * (reach + o->disc))
         return false;
-    float tau = approached ? s->dt : a->param[JOX_PARAM_horizon][i];
+    float tau = approached ? s->plan : a->param[JOX_PARAM_horizon][i];
     if (d2 > sum * sum || o->footprint_count == 0) {
         float disc = o->footprint_count == 0 ? o->round : o->disc;
-        *out = jox_orca_plane(p, v, radius + disc, tau, s->dt, own, 1.0f, (JoxV2){1.0f, 0.0f});
+        *out = jox_orca_plane(p, v, radius + disc, tau, s->plan, own, 1.0f, (JoxV2){1.0f, 0.0f});
         return true;
     }
     bool inside;
@@ -87,7 +87,7 @@ static bool object_plane(const Solve *s, uint32_t i, const JoxObject *o, bool ap
     JoxV2 normal = distance > 1e-6f ? jox_scale(out_way, (inside ? -1.0f : 1.0f) / distance)
                                     : jox_unit(jox_scale(p, -1.0f));
     float gap = (inside ? -distance : distance) - radius;
-    float time = gap < 0.0f ? s->dt : tau;
+    float time = gap < 0.0f ? s->plan : tau;
     *out = (JoxPlane){normal, jox_dot(moving, normal) - gap / time};
     return jox_length2(normal) > 0.0f;
 }
@@ -123,8 +123,9 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
             planes[count++] = (JoxPlane){{a->plane_x[i], a->plane_y[i]}, a->plane_offset[i]};
         JoxV2 velocity;
         bool relaxed;
-        a->failed[i] = !jox_program_solve(planes, count, hard, a->disc[i],
-                                          (JoxV2){a->pref_x[i], a->pref_y[i]}, &velocity, &relaxed);
+        a->failed[i] |=
+            !jox_program_solve(planes, count, hard, a->disc[i], (JoxV2){a->pref_x[i], a->pref_y[i]},
+                               &velocity, &relaxed);
         relaxations += relaxed;
         a->next_x[i] = velocity.x;
         a->next_y[i] = velocity.y;
@@ -134,21 +135,21 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
 
 /* The farthest that any agent may have to look for walls, m: as far as it plans ahead, and as far
    as it can get in a step, thrown or shifted. */
-static float wall_reach(const JoxAgents *a, float dt) {
+static float wall_reach(const JoxAgents *a, float plan) {
     float reach = 0.0f;
     for (uint32_t i = 0; i < a->count; i++) {
         float radius = a->param[JOX_PARAM_radius][i];
         float planned = a->param[JOX_PARAM_wall_horizon][i] * a->param[JOX_PARAM_max_speed][i];
-        reach = jox_maxf(reach, radius + jox_maxf(planned, a->disc[i] * dt + 0.5f));
+        reach = jox_maxf(reach, radius + jox_maxf(planned, a->disc[i] * plan + 0.5f));
     }
     return reach;
 }
 
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
-                       const JoxObjects *objects, double dt, JoxPool *pool) {
-    Solve solve = {nav, agents, neighbours, objects, (float)dt};
+                       const JoxObjects *objects, double plan, JoxPool *pool) {
+    Solve solve = {nav, agents, neighbours, objects, (float)plan};
     if (nav->grid.walls)
-        jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)dt));
+        jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)plan));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);
     uint32_t relaxed = 0;
     for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)

@@ -6,13 +6,12 @@
 #include "base/elementary.h"
 #include "base/mem.h"
 
-static const float KERNEL = 1.5f; /* m, the R of Curtis et al.'s study of the Mataf */
-enum { MOST_CELLS = 4000000, WIDEST = 64, SHIFTS = 16 };
+enum { MOST_CELLS = 4000000, WIDEST = 256, SHIFTS = 16 };
 
 /* The kernel along one axis, for SHIFTS positions within a cell; the two-dimensional kernel is the
    product of two of these. Each row sums to one over its cells. */
-static void tabulate(JoxDensity *d) {
-    d->reach = (int)(3.0f * KERNEL / d->cell) < WIDEST ? (int)(3.0f * KERNEL / d->cell) : WIDEST;
+static void tabulate(JoxDensity *d, float kernel) {
+    d->reach = (int)jox_clampf(3.0f * kernel / d->cell, 1.0f, WIDEST);
     int wide = 2 * d->reach + 1;
     d->kernel = jox_alloc((size_t)SHIFTS * (size_t)wide, sizeof *d->kernel);
     for (int shift = 0; shift < SHIFTS; shift++) {
@@ -20,7 +19,7 @@ static void tabulate(JoxDensity *d) {
         double sum = 0.0;
         for (int k = 0; k < wide; k++) {
             double away = ((double)(k - d->reach) + 0.5 - inside) * d->cell;
-            row[k] = (float)jox_exp(-away * away / (2.0 * KERNEL * KERNEL));
+            row[k] = (float)jox_exp(-away * away / (2.0 * kernel * kernel));
             sum += row[k];
         }
         for (int k = 0; k < wide; k++)
@@ -36,39 +35,43 @@ static const float *factors(const JoxDensity *d, float at, int *first) {
     return d->kernel + (shift < SHIFTS ? shift : SHIFTS - 1) * (2 * d->reach + 1);
 }
 
-static void add_person(JoxDensity *d, float x, float y) {
+void jox_density_spread(const JoxDensity *d, float *const *fields, const float *weights, int count,
+                        float x, float y) {
+    if (!(fabsf(x) < 1e6f && fabsf(y) < 1e6f))
+        return;
     int column, row, wide = 2 * d->reach + 1, high = wide;
     const float *across = factors(d, x - d->low.x, &column), *up = factors(d, y - d->low.y, &row);
     int from = column < 0 ? -column : 0;
     int to = column + wide > (int)d->columns ? (int)d->columns - column : wide;
-    for (int r = 0; r < high; r++) {
-        if (row + r < 0 || row + r >= (int)d->rows)
-            continue;
-        float *line = d->now + (size_t)(row + r) * d->columns;
-        for (int c = from; c < to; c++)
-            line[column + c] += up[r] * across[c];
-    }
+    for (int f = 0; f < count; f++)
+        for (int r = 0; r < high; r++) {
+            if (row + r < 0 || row + r >= (int)d->rows)
+                continue;
+            float *line = fields[f] + (size_t)(row + r) * d->columns, share = weights[f] * up[r];
+            for (int c = from; c < to; c++)
+                line[column + c] += share * across[c];
+        }
 }
 
-JoxDensity *jox_density_create(JoxV2 low, JoxV2 high) {
+JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel) {
     JoxDensity *d = jox_alloc(1, sizeof *d);
     float width = jox_maxf(high.x - low.x, 1.0f), height = jox_maxf(high.y - low.y, 1.0f);
     d->low = low;
-    d->cell = jox_maxf(0.2f, sqrtf(width * height / MOST_CELLS));
+    d->cell = jox_maxf(cell, sqrtf(width * height / MOST_CELLS));
     d->columns = (uint32_t)ceilf(width / d->cell);
     d->rows = (uint32_t)ceilf(height / d->cell);
     d->now = jox_alloc((size_t)d->columns * d->rows, sizeof *d->now);
     d->sum = jox_alloc((size_t)d->columns * d->rows, sizeof *d->sum);
-    tabulate(d);
+    tabulate(d, kernel);
     return d;
 }
 
 void jox_density_add(JoxDensity *d, const float *x, const float *y, uint32_t count, double t) {
     size_t cells = (size_t)d->columns * d->rows;
     memset(d->now, 0, cells * sizeof *d->now);
+    const float one = 1.0f;
     for (uint32_t i = 0; i < count; i++)
-        if (fabsf(x[i]) < 1e6f && fabsf(y[i]) < 1e6f)
-            add_person(d, x[i], y[i]);
+        jox_density_spread(d, &d->now, &one, 1, x[i], y[i]);
     for (size_t c = 0; c < cells; c++) {
         d->sum[c] += d->now[c];
         if (d->now[c] > d->most) {

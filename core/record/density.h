@@ -1,11 +1,14 @@
-/* People per square metre on a grid, by a Gaussian kernel: sum of exp(-d2 / 2R2) / (2 pi R2) with
-   R = 1.5 m on cells of 0.2 m, cut off at 3 R and normalised there. Averaged over frames. */
+/* People per square metre on a grid, by a Gaussian kernel: sum of exp(-d2 / 2R2) / (2 pi R2), cut
+   off at 3 R and normalised there. Averaged over frames. */
 #ifndef JOX_RECORD_DENSITY_H
 #define JOX_RECORD_DENSITY_H
 
 #include <stdint.h>
 
 #include "base/vec.h"
+
+#define JOX_DENSITY_KERNEL 1.5f /* m: the R of Curtis et al.'s study of the Mataf */
+#define JOX_DENSITY_CELL 0.2f   /* m */
 
 typedef struct JoxDensity {
     JoxV2 low;
@@ -22,7 +25,11 @@ typedef struct JoxDensity {
 } JoxDensity;
 
 /* Cells are widened where the area would take more than four million. */
-JoxDensity *jox_density_create(JoxV2 low, JoxV2 high);
+JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel);
+/* Spreads somebody at (x, y) over `count` fields of the grid's size, each with a weight of its own.
+ */
+void jox_density_spread(const JoxDensity *density, float *const *fields, const float *weights,
+                        int count, float x, float y);
 /* Adds a frame of `count` positions at time t, s. */
 void jox_density_add(JoxDensity *density, const float *x, const float *y, uint32_t count, double t);
 /* Mean of all frames at a cell; 0 before the first. */

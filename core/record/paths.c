@@ -85,14 +85,8 @@ bool jox_plot_paths(const char *folder, const JoxPaths *paths, const char *const
             body ? "bodies" : names[s], set + 1, colour, set + 2, colour);
         set += 3;
     }
-    if (!jox_plot_close(data, "paths.csv", error) ||
-        !(data = jox_plot_open(folder, "walls.dat", error))) {
-        jox_text_free(&plot);
-        return false;
-    }
-    jox_plot_walls(data, walls);
-    script =
-        jox_plot_close(data, "walls.dat", error) ? jox_plot_open(folder, "paths.plt", error) : NULL;
+    bool written = jox_plot_close(data, "paths.csv", error) && jox_plot_walls(folder, walls, error);
+    script = written ? jox_plot_open(folder, "paths.plt", error) : NULL;
     if (script) {
         float tall = jox_clampf((high.y - low.y) / (high.x - low.x), 0.3f, 1.6f);
         fprintf(script,
@@ -103,10 +97,9 @@ bool jox_plot_paths(const char *folder, const JoxPaths *paths, const char *const
             script,
             "set datafile separator comma\nset size ratio -1\nset xlabel 'x (m)'\n"
             "set ylabel 'y (m)'\nset xrange [%g:%g]\nset yrange [%g:%g]\nset key below noenhanced\n"
-            "plot %s%s%s\n",
-            low.x, high.x, low.y, high.y, plot.length ? plot.data : "NaN notitle",
-            walls->ring_count ? ", \\\n  " : "",
-            walls->ring_count ? "'walls.dat' using 1:2 with lines lw 2 lc 'black' notitle" : "");
+            "plot %s",
+            low.x, high.x, low.y, high.y, plot.length ? plot.data : "NaN notitle");
+        jox_plot_wall_lines(script, walls, "2");
     }
     jox_text_free(&plot);
     return script && jox_plot_close(script, "paths.plt", error) &&

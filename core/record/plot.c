@@ -62,22 +62,58 @@ bool jox_plot_draw(const char *folder, const char *script, JoxText *error) {
     return true;
 }
 
-void jox_plot_title(FILE *script, const char *title) {
-    fputs("set title \"", script);
-    for (const char *c = title; *c; c++)
+void jox_plot_quote(FILE *script, const char *text) {
+    fputc('"', script);
+    for (const char *c = text; *c; c++)
         if (*c != '"' && *c != '\\' && *c != '`' && (unsigned char)*c >= ' ')
             fputc(*c, script);
-    fputs("\" noenhanced font ',14'\n", script);
+    fputc('"', script);
 }
 
-void jox_plot_walls(FILE *data, const JoxWalls *walls) {
+void jox_plot_title(FILE *script, const char *title) {
+    fputs("set title ", script);
+    jox_plot_quote(script, title);
+    fputs(" noenhanced font ',14'\n", script);
+}
+
+static uint32_t write_rings(FILE *data, const JoxWalls *walls, bool open) {
+    uint32_t count = 0;
     for (uint32_t r = 0; r < walls->ring_count; r++) {
+        if (walls->rings[r].open != open)
+            continue;
+        count++;
         for (uint32_t i = 0; i <= walls->rings[r].count; i++) {
             JoxV2 p = walls->vertices[walls->rings[r].first + i % walls->rings[r].count].point;
             fprintf(data, "%g,%g\n", p.x, p.y);
         }
         fputs("\n", data);
     }
+    return count;
+}
+
+bool jox_plot_walls(const char *folder, const JoxWalls *walls, JoxText *error) {
+    FILE *data = jox_plot_open(folder, "walls.dat", error);
+    if (!data)
+        return false;
+    if (write_rings(data, walls, false) == 0)
+        fputs("0,NaN\n\n", data);
+    fputs("\n", data); /* a second blank line: the next set */
+    write_rings(data, walls, true);
+    return jox_plot_close(data, "walls.dat", error);
+}
+
+void jox_plot_wall_lines(FILE *script, const JoxWalls *walls, const char *width) {
+    bool open = false;
+    for (uint32_t r = 0; r < walls->ring_count; r++)
+        open |= walls->rings[r].open;
+    if (walls->ring_count)
+        fprintf(script, ", \\\n  'walls.dat' index 0 using 1:2 with lines lw %s lc 'black' notitle",
+                width);
+    if (open)
+        fprintf(script,
+                ", \\\n  'walls.dat' index 1 using 1:2 with lines lw %s lc '#808080' dt 2 notitle",
+                width);
+    fputs("\n", script);
 }
 
 bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *walls,
@@ -97,11 +133,7 @@ bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *w
         }
         fputs("\n", data);
     }
-    if (!jox_plot_close(data, "density.csv", error) ||
-        !(data = jox_plot_open(folder, "walls.dat", error)))
-        return false;
-    jox_plot_walls(data, walls);
-    if (!jox_plot_close(data, "walls.dat", error) ||
+    if (!jox_plot_close(data, "density.csv", error) || !jox_plot_walls(folder, walls, error) ||
         !(data = jox_plot_open(folder, "density.plt", error)))
         return false;
     float width = d->cell * (float)d->columns, height = d->cell * (float)d->rows;
@@ -119,10 +151,10 @@ bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *w
         "set label 1 sprintf('greatest at any time: %%.1f per m^2 at (%%.0f, %%.0f) m, t = %%.0f "
         "s',"
         " %g, %g, %g, %g) at graph 0.01, 0.02 front tc '#c00000'\n"
-        "plot 'density.csv' skip 1 using 1:2:3 with image%s\n",
+        "plot 'density.csv' skip 1 using 1:2:3 with image",
         most > 0.0 ? most : 1.0, d->low.x, d->low.x + width, d->low.y, d->low.y + height, d->most,
-        d->most_at.x, d->most_at.y, d->most_time,
-        walls->ring_count ? ", 'walls.dat' using 1:2 with lines lw 1.5 lc 'black'" : "");
+        d->most_at.x, d->most_at.y, d->most_time);
+    jox_plot_wall_lines(data, walls, "1.5");
     return jox_plot_close(data, "density.plt", error) &&
            jox_plot_draw(folder, "density.plt", error);
 }

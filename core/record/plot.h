@@ -23,7 +23,11 @@ bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char 
 FILE *jox_plot_open(const char *folder, const char *name, JoxText *error);
 bool jox_plot_close(FILE *file, const char *what, JoxText *error);
 bool jox_plot_draw(const char *folder, const char *script, JoxText *error);
+/* The text in quotes, without what gnuplot would take for more than text. */
+void jox_plot_quote(FILE *script, const char *text);
 void jox_plot_title(FILE *script, const char *title);
-void jox_plot_walls(FILE *data, const JoxWalls *walls);
+/* Writes walls.dat, and what draws it behind another thing of a plot command: open walls dashed. */
+bool jox_plot_walls(const char *folder, const JoxWalls *walls, JoxText *error);
+void jox_plot_wall_lines(FILE *script, const JoxWalls *walls, const char *width);
 
 #endif

@@ -26,7 +26,9 @@ const JoxExample jox_scene_examples[] = {
      "bodies: [{shape: {sphere: {radius: 0.2}}, mass: 2, at: [0, 3, 0.2]}]\n"
      "groups: {standing: {tags: [crowd]}} # one more key for a group of the included scene\n"
      "sources: [{at: door, like: standing, rate: 0.5}]\n"
-     "sinks: [{at: goal}]\n"},
+     "sinks: [{at: goal}]\n"
+     "probes: {moved: {displacement: true}}\n"
+     "events: [{at: 5, signal: go}]\n"},
     {"forces", OPENING
      "forces: {enabled: true, mode: literal}\n"
      STANDER},
@@ -121,6 +123,35 @@ const JoxExample jox_scene_examples[] = {
      "places: {exit: {point: [12, 2], radius: 1}}\n"
      "groups: {guests: {behaviour: stander.lua, at: [[6, 2], [12, 2]]}}\n"
      "sinks: [{at: exit, group: guests}]\n"},
+    {"probe", OPENING
+     "include: running-through.yaml\n"
+     "probes:\n"
+     "  door:    {flow: [[4, -2], [4, 2]], from: 2, until: 60}\n"
+     "  front:   {measure: [[0, 0], [2, 0], [2, 2], [0, 2]], every: 0.5, cutoff: 1.5,\n"
+     "            walkable: [[-1, -1], [9, -1], [9, 9], [-1, 9]]}\n"
+     "  passage: {transit: [[[0, -2], [0, 2]], [[3, -2], [3, 2]]], group: runner}\n"
+     "  block:   {displacement: true, group: standing, onset: 5 cm}\n"
+     "  fields:  {map: {}, every: 2}\n"
+     "  laps:    {winding: [0, 0]}\n"
+     "  solved:  {failures: 1}\n"
+     "  order:   {lanes: {area: [[-2, -2], [4, 2]]}}\n"},
+    {"map", OPENING
+     "include: running-through.yaml\n"
+     "probes: {fields: {map: {area: [[-2, -2], [6, 6]], cell: 0.1, kernel: 0.7}}}\n"},
+    {"lanes", OPENING
+     "include: running-through.yaml\n"
+     "probes: {order: {lanes: {area: [[-2, -2], [6, 6]], rows: 40 cm, along: y}, group: [standing, runner]}}\n"},
+    {"event", OPENING
+     "walls:\n"
+     "  - {line: [[0, 0], [0, 2]], name: gate}\n"
+     "  - {line: [[9, 0], [9, 2]], name: shutter, open: true}\n"
+     "bodies: [{name: crate, shape: {box: {size: [0.6, 0.6, 0.6]}}, mass: 20, at: [4, 5, 0.3]}]\n"
+     STANDER
+     "events:\n"
+     "  - {at: 5, signal: alarm}\n"
+     "  - {at: 10, open: gate}\n"
+     "  - {at: 1 min, close: gate}\n"
+     "  - {at: 10, every: 5, until: 60, throw: crate, from: [4, 5, 2], velocity: [-4, 0, 3], spin: [0, 0, 2]}\n"},
     {"mod",
      "name: calm\n"
      "title: Calm crowds\n"

@@ -29,6 +29,15 @@ void jox_load_positions(const JoxLoad *load, const JoxYaml *map, JoxSceneGroup *
 void jox_load_override(const JoxLoad *load, JoxYaml *root, const char *set);
 /* patch.c: merges what mods change into the tree; the result may be another tree. */
 JoxYaml *jox_load_patches(JoxLoad *load, JoxYaml *root, JoxYamlFiles *files);
+/* Two opposite corners; false if `node` is NULL or wrong. */
+bool jox_load_box(const JoxLoad *load, const JoxYaml *node, JoxV2 *low, JoxV2 *high);
+/* probes.c */
+void jox_load_probes(JoxLoad *load, const JoxYaml *map);
+/* A polygon's corners, counter-clockwise; NULL, and no points, with an error. */
+JoxV2 *jox_load_ring(const JoxLoad *load, const JoxYaml *node, uint32_t *count);
+/* events.c: walls; events, after walls and bodies. */
+void jox_load_walls(JoxLoad *load, const JoxYaml *list);
+void jox_load_events(JoxLoad *load, const JoxYaml *list);
 /* shapes.c */
 void jox_load_bodies(JoxLoad *load, const JoxYaml *list);
 

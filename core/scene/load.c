@@ -49,8 +49,7 @@ static const JoxYaml *name_at(const JoxLoad *l, const JoxYaml *map, const char *
 
 /* ---- places ---- */
 
-/* Counter-clockwise; NULL, and no points, with an error. */
-static JoxV2 *read_ring(const JoxLoad *l, const JoxYaml *node, uint32_t *count) {
+JoxV2 *jox_load_ring(const JoxLoad *l, const JoxYaml *node, uint32_t *count) {
     JoxV2 *ring = jox_read_points(&l->reader, node, 3, count);
     uint32_t a, b;
     if (!ring)
@@ -106,7 +105,7 @@ static void read_place(const JoxLoad *l, const JoxYaml *map, JoxPlace *place) {
             place->count = 1;
         }
     } else if (place->kind == JOX_PLACE_POLYGON) {
-        place->points = read_ring(l, found, &place->count);
+        place->points = jox_load_ring(l, found, &place->count);
     } else if (place->kind != JOX_PLACE_SET) {
         place->points = jox_read_points(&l->reader, found, 2, &place->count);
         if (place->points && place->kind == JOX_PLACE_LINE && place->count != 2)
@@ -170,35 +169,9 @@ static void read_regions(JoxLoad *l, const JoxYaml *map) {
     for (uint32_t i = 0; i < map->count; i++) {
         JoxSceneRegion *region = &l->scene->regions[l->scene->region_count];
         region->name = jox_hoard_text(l->reader.hoard, map->keys[i]);
-        region->points = read_ring(l, map->items[i], &region->count);
+        region->points = jox_load_ring(l, map->items[i], &region->count);
         l->scene->region_count += region->points != NULL;
     }
-}
-
-static void read_walls(JoxLoad *l, const JoxYaml *list) {
-    for (uint32_t i = 0; list && list->kind == JOX_YAML_LIST && i < list->count; i++) {
-        const JoxYaml *map = list->items[i], *solid, *line;
-        uint32_t count;
-        if (!jox_keys_check(&l->reader, map, "wall"))
-            continue;
-        solid = jox_yaml_get(map, "solid");
-        line = jox_yaml_get(map, "line");
-        float height = (float)jox_key_number(&l->reader, map, "wall", "height");
-        bool closed = jox_key_bool(&l->reader, map, "wall", "closed");
-        if (!solid == !line) {
-            jox_scene_error(&l->reader, map, "bad-wall", NULL, "a wall is a solid or a line");
-            continue;
-        }
-        JoxV2 *points = solid    ? read_ring(l, solid, &count)
-                        : closed ? read_ring(l, line, &count)
-                                 : jox_read_points(&l->reader, line, 2, &count);
-        if (points && solid)
-            jox_walls_add_solid(&l->scene->walls, points, count, height);
-        else if (points)
-            jox_walls_add_polyline(&l->scene->walls, points, count, closed, height);
-    }
-    if (list && list->kind != JOX_YAML_LIST)
-        jox_scene_error(&l->reader, list, "bad-type", NULL, "walls is a list");
 }
 
 /* ---- groups ---- */
@@ -441,7 +414,7 @@ static void read_sinks(JoxLoad *l, const JoxYaml *list) {
 
 /* ---- the whole ---- */
 
-static bool read_box(const JoxLoad *l, const JoxYaml *node, JoxV2 *low, JoxV2 *high) {
+bool jox_load_box(const JoxLoad *l, const JoxYaml *node, JoxV2 *low, JoxV2 *high) {
     uint32_t count;
     JoxV2 *points = node ? jox_read_points(&l->reader, node, 2, &count) : NULL;
     if (points)
@@ -485,7 +458,7 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
     s->duration = jox_key_number(r, root, "scene", "duration");
     s->gravity = jox_key_number(r, root, "scene", "gravity");
     jox_key_number(r, root, "scene", "jostle"); /* the version: its range is its check */
-    s->bounded = read_box(l, jox_yaml_get(root, "bounds"), &s->low, &s->high);
+    s->bounded = jox_load_box(l, jox_yaml_get(root, "bounds"), &s->low, &s->high);
     read_periodic(l, root);
     const char *input = jox_key_text(r, root, "scene", "input");
     if (input && of_a_mod(l, jox_yaml_get(root, "input")->position.file) &&
@@ -511,7 +484,7 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
         s->limits.print = jox_key_number(r, map, "limits", "print");
     }
     if ((map = jox_yaml_get(root, "heatmap")) && jox_keys_check(r, map, "heatmap")) {
-        s->heatmap = read_box(l, jox_yaml_get(map, "area"), &s->heatmap_low, &s->heatmap_high);
+        s->heatmap = jox_load_box(l, jox_yaml_get(map, "area"), &s->heatmap_low, &s->heatmap_high);
         s->heatmap_from = jox_key_number(r, map, "heatmap", "from");
     }
     if ((map = jox_yaml_get(root, "camera")) && jox_keys_check(r, map, "camera"))
@@ -530,14 +503,17 @@ static void read_scene(JoxLoad *l, const JoxYaml *root) {
     read_settings(l, root);
     read_places(l, jox_yaml_get(root, "places"));
     read_regions(l, jox_yaml_get(root, "regions"));
-    read_walls(l, jox_yaml_get(root, "walls"));
+    jox_load_walls(l, jox_yaml_get(root, "walls"));
     jox_load_bodies(l, jox_yaml_get(root, "bodies"));
     read_groups(l, jox_yaml_get(root, "groups"));
     read_sources(l, jox_yaml_get(root, "sources"));
     read_sinks(l, jox_yaml_get(root, "sinks"));
+    jox_load_events(l, jox_yaml_get(root, "events"));
     const JoxYaml *player = name_at(l, root, "player");
     l->scene->player_group = player ? jox_load_group(l, player) : -1;
-    if (!is_filled(jox_yaml_get(root, "groups")) && !is_filled(jox_yaml_get(root, "bodies")))
+    jox_load_probes(l, jox_yaml_get(root, "probes"));
+    if (!is_filled(jox_yaml_get(root, "groups")) && !is_filled(jox_yaml_get(root, "bodies")) &&
+        !is_filled(jox_yaml_get(root, "probes"))) /* of a recording: those alone */
         jox_scene_error(r, root, "empty-scene", "See scenes/circle.yaml",
                         "a scene needs a group or a body");
 }
@@ -575,8 +551,6 @@ JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
         load.scene->files[i].text = files->items[i].text;
         load.scene->files[i].length = files->items[i].length;
         memcpy(load.scene->files[i].sha256, files->items[i].sha256, 65);
-        load.scene->files[i].text = files->items[i].text;
-        load.scene->files[i].length = files->items[i].length;
     }
     return load.scene;
 }

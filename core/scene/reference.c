@@ -57,6 +57,7 @@ static void type_name(const JoxKey *key, JoxText *out) {
         {"weight*", "map: Lua file to weight"},
         {"xy[3]*", "map: name to list of [x, y]"},
         {"xyz[4]", "list of [x, y, z]"},
+        {"xy[2][2]", "two lists of [x, y]"},
         {"quantity**", "map: mod to map of values"}};
     const char *of = key->of ? key->of : "";
     char name[32];

@@ -12,6 +12,7 @@
 #include "body/body.h"
 #include "geom/place.h"
 #include "geom/walls.h"
+#include "world/probe.h"
 
 typedef enum {
     JOX_FILL_HEX,
@@ -87,6 +88,24 @@ typedef struct JoxSceneBody {
     JoxPosition position;
 } JoxSceneBody;
 
+typedef enum JoxSceneEventKind {
+    JOX_EVENT_THROW,
+    JOX_EVENT_OPEN,
+    JOX_EVENT_CLOSE,
+    JOX_EVENT_SIGNAL
+} JoxSceneEventKind;
+
+/* What happens at given times. */
+typedef struct JoxSceneEvent {
+    JoxSceneEventKind kind;
+    double at, every, until;     /* s; `every` 0: once */
+    char *name;                  /* of the body or walls, or what is called out */
+    bool placed;                 /* the body is thrown from `from`; else from where it lies */
+    double from[3];              /* of the shape's own frame, m */
+    double velocity[3], spin[3]; /* m/s, rad/s */
+    JoxPosition position;
+} JoxSceneEvent;
+
 /* A path of the scene that a mod set. */
 typedef struct JoxSceneChange {
     char *path; /* "groups.red.count" */
@@ -123,6 +142,10 @@ typedef struct JoxScene {
     uint32_t source_count;
     JoxSceneSink *sinks;
     uint32_t sink_count;
+    JoxProbeDef *probes;
+    uint32_t probe_count;
+    JoxSceneEvent *events;
+    uint32_t event_count;
     int32_t player_group;  /* -1: none */
     uint32_t player_agent; /* index within that group */
     bool forces, literal;

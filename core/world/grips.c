@@ -47,3 +47,21 @@ void jox_world_grip(JoWorld *w) {
     }
     w->statistics.throws += w->mind.grip_count;
 }
+
+bool jox_world_throw(JoWorld *w, uint32_t row, const double from[3], const double velocity[3],
+                     const double spin[3]) {
+    JoxPose pose;
+    if (!jox_bodies_pose(w->bodies, row, &pose) || !jox_bodies_hold(w->bodies, row, 0))
+        return false;
+    JoxV3 v = {(float)velocity[0], (float)velocity[1], (float)velocity[2]};
+    JoxV3 turn = {(float)spin[0], (float)spin[1], (float)spin[2]}, at = pose.centre;
+    if (from)
+        at = (JoxV3){(float)from[0] + pose.centre.x - pose.position.x,
+                     (float)from[1] + pose.centre.y - pose.position.y,
+                     (float)from[2] + pose.centre.z - pose.position.z};
+    jox_bodies_carry(w->bodies, row, at, v);
+    jox_bodies_let_go(w->bodies, row, v);
+    jox_bodies_set_velocity(w->bodies, row, v, turn);
+    w->statistics.throws++;
+    return true;
+}

@@ -1,20 +1,41 @@
-/* The step: nine stages, each one function of a lower floor. */
+/* The step: nine stages, each one function of a lower floor.
+
+   People plan the velocity that they will have PLAN seconds later: the linear program, the velocity
+   that a force gives (equation 11) and the parting of overlaps look that far ahead, and within a
+   shorter step velocities go the corresponding part of the way. A longer step is done in parts. So
+   the size of the step is not a property of people, and what they do hardly depends on it. As
+   printed, everything happens within one step of whatever length: with `literal` it does here. */
 #include <math.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "world/world.h"
 
+static const double PLAN = 0.05; /* s */
+
+static bool is_first(const JoWorld *w) {
+    return w->part == 0;
+}
+
+static bool is_last(const JoWorld *w) {
+    return w->part + 1 == w->parts;
+}
+
 static void perceive(JoWorld *w) {
-    jox_nav_sort(w->nav, &w->agents, w->tick);
+    if (is_first(w)) {
+        jox_nav_sort(w->nav, &w->agents, w->tick);
+        jox_input_advance(&w->input, (uint32_t)w->tick);
+        if (w->agents.count)
+            memset(w->agents.failed, 0, w->agents.count);
+    }
     jox_nav_perceive(w->nav, &w->agents, &w->neighbours, w->pool);
     jox_bodies_objects(w->bodies, &w->objects);
-    jox_input_advance(&w->input, (uint32_t)w->tick);
 }
 
 static void think(JoWorld *w) {
     JoxMind *mind = &w->mind;
-    jox_world_make_ways(w);
+    if (!is_first(w))
+        return;
     mind->neighbours = &w->neighbours;
     mind->objects = &w->objects;
     mind->places = w->places;
@@ -22,6 +43,7 @@ static void think(JoWorld *w) {
     mind->tick = (uint32_t)w->tick;
     mind->inputs = w->input.present;
     mind->input_count = w->input.present_count;
+    jox_world_ways(w);
     jox_mind_think(mind, w->pool);
     w->statistics.transitions += mind->taken_count;
     w->statistics.kicks += mind->kick_count;
@@ -37,7 +59,8 @@ static void push(JoWorld *w) {
                          .neighbours = &w->neighbours,
                          .objects = &w->objects,
                          .pool = w->pool,
-                         .dt = w->def.dt,
+                         .dt = w->part_dt,
+                         .plan = w->plan,
                          .push_on = mind->push_on,
                          .push_nearest = mind->push_nearest,
                          .push_toward_x = mind->push_toward_x,
@@ -48,17 +71,22 @@ static void push(JoWorld *w) {
         jox_force_contact(w->forces);
     }
     jox_force_sum(w->forces);
-    for (uint32_t i = 0; i < w->agents.count; i++) /* given for this step alone */
+    for (uint32_t i = 0; is_last(w) && i < w->agents.count; i++) /* given for this step alone */
         w->agents.ext_x[i] = w->agents.ext_y[i] = 0.0f;
 }
 
 static void solve(JoWorld *w) {
     w->statistics.walls_relaxed +=
-        jox_nav_solve(w->nav, &w->agents, &w->neighbours, &w->objects, w->def.dt, w->pool);
+        jox_nav_solve(w->nav, &w->agents, &w->neighbours, &w->objects, w->plan, w->pool);
 }
 
 static void move(JoWorld *w) {
-    jox_nav_move(w->nav, &w->agents, &w->neighbours, w->def.dt, w->pool);
+    JoxAgents *a = &w->agents;
+    jox_nav_move(w->nav, a, &w->neighbours, w->part_dt, w->plan, w->pool);
+    for (uint32_t i = 0; w->parts > 1 && i < a->count; i++) {
+        JoxV2 way = {a->x[i] - a->prev_x[i], a->y[i] - a->prev_y[i]};
+        w->walked[i] = is_first(w) ? way : jox_add(w->walked[i], way);
+    }
 }
 
 /* People as fast bodies meet them, in ascending id: where they were and how they moved. */
@@ -91,7 +119,7 @@ static void take_hits(JoWorld *w, const JoxBodiesReport *report) {
     for (uint32_t h = 0; h < report->hit_count; h++) {
         const JoxDiscHit *hit = &report->hits[h];
         uint32_t i = w->disc_agents[hit->disc];
-        float mass = a->param[JOX_PARAM_mass][i], dt = (float)w->def.dt;
+        float mass = a->param[JOX_PARAM_mass][i], dt = (float)w->part_dt;
         a->vx[i] += hit->impulse.x / mass;
         a->vy[i] += hit->impulse.y / mass;
         a->force_x[i] += hit->impulse.x / dt;
@@ -106,15 +134,17 @@ static void take_hits(JoWorld *w, const JoxBodiesReport *report) {
 static void bodies(JoWorld *w) {
     if (jox_bodies_count(w->bodies) == 0)
         return;
-    jox_world_grip(w);
+    if (is_first(w))
+        jox_world_grip(w);
     uint32_t count;
     const JoxImpulse *impulses = jox_force_impulses(w->forces, &count);
     jox_bodies_impulses(w->bodies, impulses, count);
-    jox_bodies_impulses(w->bodies, w->mind.kicks, w->mind.kick_count);
-    bool fast = w->def.forces && jox_bodies_any_fast(w->bodies, (float)w->def.dt);
+    if (is_first(w))
+        jox_bodies_impulses(w->bodies, w->mind.kicks, w->mind.kick_count);
+    bool fast = w->def.forces && jox_bodies_any_fast(w->bodies, (float)w->part_dt);
     uint32_t discs = fast ? list_discs(w) : 0;
     JoxBodiesReport report =
-        jox_bodies_step(w->bodies, (float)w->def.dt, fast ? w->discs : NULL, discs);
+        jox_bodies_step(w->bodies, (float)w->part_dt, fast ? w->discs : NULL, discs);
     take_hits(w, &report);
     w->statistics.bodies_lost += report.gone_count;
 }
@@ -125,8 +155,25 @@ static void infer(JoWorld *w) {
 }
 
 static void observe(JoWorld *w) {
-    jox_statistics_observe(&w->statistics, &w->agents, &w->neighbours, w->tick, w->def.dt);
-    w->statistics.removed += jox_agents_compact(&w->agents);
+    JoxAgents *a = &w->agents;
+    if (!is_last(w))
+        return;
+    for (uint32_t i = 0; w->parts > 1 && i < a->count; i++) { /* where the whole step began */
+        a->prev_x[i] = a->x[i] - w->walked[i].x;
+        a->prev_y[i] = a->y[i] - w->walked[i].y;
+    }
+    jox_statistics_observe(&w->statistics, a, &w->neighbours, w->tick, w->def.dt);
+    w->statistics.removed += jox_agents_compact(a);
+}
+
+/* Into how many parts the step is cut. */
+static void divide(JoWorld *w) {
+    double dt = w->def.dt;
+    w->parts = w->def.literal || dt <= PLAN ? 1 : (uint32_t)ceil(dt / PLAN - 1e-6);
+    w->part_dt = dt / w->parts;
+    w->plan = w->def.literal ? dt : PLAN;
+    if (w->parts > 1)
+        JOX_RESERVE(w->walked, w->walked_capacity, w->agents.count);
 }
 
 void jox_world_step(JoWorld *w) {
@@ -134,12 +181,14 @@ void jox_world_step(JoWorld *w) {
         perceive, think, prefer, push, solve, move, bodies, infer, observe};
     double begin = jox_clock_wall(), cpu = jox_clock_cpu(), last = begin;
     jox_world_settle(w);
-    for (int stage = 0; stage < JO_STAGE_COUNT; stage++) {
-        STAGES[stage](w);
-        double now = jox_clock_wall();
-        w->statistics.stage_s[stage] += now - last;
-        last = now;
-    }
+    divide(w);
+    for (w->part = 0; w->part < w->parts; w->part++)
+        for (int stage = 0; stage < JO_STAGE_COUNT; stage++) {
+            STAGES[stage](w);
+            double now = jox_clock_wall();
+            w->statistics.stage_s[stage] += now - last;
+            last = now;
+        }
     w->tick++;
     w->statistics.wall_s += last - begin;
     w->statistics.cpu_s += jox_clock_cpu() - cpu;

@@ -20,6 +20,8 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     world->mind.seed = def->seed;
     world->mind.dt = def->dt;
     world->mind.gravity = def->gravity;
+    world->ways = jox_ways_create();
+    world->walls_set = true;
     world->settled = true;
     return world;
 }
@@ -36,17 +38,19 @@ static void free_places(JoWorld *world) {
 void jo_world_free(JoWorld *world) {
     if (!world)
         return;
-    jox_world_drop_ways(world);
+    jox_ways_free(world->ways);
     jox_mind_free(&world->mind);
     jox_nav_free(world->nav);
     jox_forces_free(world->forces);
     jox_bodies_free(world->bodies);
     jox_agents_free(&world->agents);
+    jox_walls_free(&world->wall_plan);
     jox_walls_free(&world->walls);
     jox_input_free(&world->input);
     jox_free(world->neighbours.index);
     jox_free(world->neighbours.distance2);
     jox_free(world->neighbours.count);
+    jox_free(world->walked);
     jox_free(world->discs);
     jox_free(world->disc_agents);
     free_places(world);
@@ -82,25 +86,6 @@ uint32_t jox_world_add_agent(JoWorld *world, float x, float y) {
     a->y[i] = a->prev_y[i] = a->still_y[i] = y;
     world->statistics.spawned++;
     return i;
-}
-
-static void set_walls(JoWorld *world) {
-    if (world->walls_set || world->walls.count == 0)
-        return;
-    world->walls_set = true;
-    jox_nav_set_walls(world->nav, &world->walls);
-    jox_bodies_set_walls(world->bodies, &world->walls, JOX_WALL_HEIGHT);
-}
-
-JoxSettled jox_world_settle(JoWorld *world) {
-    JoxSettled settled = {0};
-    set_walls(world);
-    if (world->settled)
-        return settled;
-    settled = jox_nav_settle(world->nav, &world->agents, world->first_unsettled);
-    world->statistics.moved_out += settled.moved;
-    world->settled = true;
-    return settled;
 }
 
 /* Columns that carry state from one step to the next; the rest follows from them. */
@@ -145,5 +130,11 @@ uint64_t jox_world_hash(const JoWorld *world) {
     if (world->mind.called_count) /* what will be heard in the next step */
         jox_hash_add(&hash, world->mind.called,
                      world->mind.called_count * sizeof *world->mind.called);
+    if (world->mind.announced_count)
+        jox_hash_add(&hash, world->mind.announced,
+                     world->mind.announced_count * sizeof *world->mind.announced);
+    for (uint32_t r = 0; r < world->wall_plan.ring_count; r++)
+        if (world->wall_plan.rings[r].open)
+            jox_hash_add(&hash, &r, sizeof r);
     return jox_hash_end(&hash);
 }

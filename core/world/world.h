@@ -16,6 +16,7 @@
 #include "nav/nav.h"
 #include "world/input.h"
 #include "world/statistics.h"
+#include "world/ways.h"
 
 enum { JOX_MOST_TAGS = 64 };
 /* m: height of walls that are given none, for bodies */
@@ -28,8 +29,9 @@ struct JoWorld {
 
     JoxAgents agents;
     JoxNeighbours neighbours;
-    JoxWalls walls;
-    JoxPlace *places; /* owned; their indices never change */
+    JoxWalls wall_plan; /* all walls, with their names */
+    JoxWalls walls;     /* those of them that stand */
+    JoxPlace *places;   /* owned; their indices never change */
     uint32_t place_count;
     char *tags[JOX_MOST_TAGS]; /* bit number -> name */
     uint32_t tag_count;
@@ -40,11 +42,17 @@ struct JoWorld {
     JoxBodies *bodies;
     JoxObjects objects; /* what agents see of the bodies */
 
-    JoxField **fields; /* by place; NULL until somebody asks the way there */
-    uint8_t *wanted;
-    uint32_t field_count, field_capacity;
+    JoxWays *ways;
 
-    bool walls_set;           /* nav and bodies know the walls */
+    /* A step longer than people plan ahead is done in equal parts; think and observe run once. */
+    uint32_t part, parts;
+    double part_dt, plan; /* s: of a part; how far ahead velocities are planned */
+    JoxV2 *walked;        /* per agent, m: during the parts so far; only where there are several */
+    uint32_t walked_capacity;
+
+    bool walls_set;           /* `walls`, nav and bodies are as the plan says */
+    uint32_t walls_version;   /* counts the changes */
+    bool walls_came;          /* since the last settling: some may stand in them */
     bool settled;             /* no agent has been added since the last settling */
     uint32_t first_unsettled; /* else: id of the first of those */
     JoxDisc *discs;           /* people as fast bodies meet them, and their indices */
@@ -65,15 +73,20 @@ void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count);
 /* Adds an agent at (x, y), m, with the parameters' defaults; it is settled before the next step.
    Returns its index, valid until then. */
 uint32_t jox_world_add_agent(JoWorld *world, float x, float y);
-/* Moves agents that were born in walls or each other, and says how many. Runs by itself before a
-   step. */
+/* Brings walls into effect, moves agents that were born in them or in each other or that stand
+   where walls came, and says how many. Runs by itself before a step. */
 JoxSettled jox_world_settle(JoWorld *world);
-/* Before a step: makes the distance fields that were asked for in the last. */
-void jox_world_make_ways(JoWorld *world);
-/* After walls or places have moved. */
-void jox_world_drop_ways(JoWorld *world);
+/* Takes walls over, in place of all there are. Those whose names were opened or closed before stay
+   so. Who stands in a new wall is moved out before the next step. */
+void jox_world_set_walls(JoWorld *world, JoxWalls *walls);
+/* Opens or closes the walls of a name; says how many there are. */
+uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open);
 /* Bodies that are picked up, carried and thrown in this step. */
 void jox_world_grip(JoWorld *world);
+/* Throws a body, from a point (of its shape's own frame, m) or, with NULL, from where it is; m/s
+   and rad/s. Who carries it loses it. False for a static body or none. */
+bool jox_world_throw(JoWorld *world, uint32_t row, const double from[3], const double velocity[3],
+                     const double spin[3]);
 /* One step. */
 void jox_world_step(JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX. */

@@ -54,7 +54,7 @@ static void step(Fixture *f, const JoxV2 *goals, float speed, double dt, JoxPool
         a->disc[i] = jox_maxf(a->param[JOX_PARAM_max_speed][i], speed);
     }
     jox_nav_solve(f->nav, a, &f->neighbours, NULL, dt, pool);
-    jox_nav_move(f->nav, a, &f->neighbours, dt, pool);
+    jox_nav_move(f->nav, a, &f->neighbours, dt, dt, pool);
     f->tick++;
 }
 

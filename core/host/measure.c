@@ -1,0 +1,120 @@
+/* Frames of a running world, and the scene's probes that look at them. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "host/host.h"
+
+/* Columns that the world has not in this form. */
+struct JoxMeasuring {
+    JoxFrame frame;
+    float *vx, *vy, *force;
+    size_t vx_capacity, vy_capacity, force_capacity;
+    const char **names;
+    size_t name_capacity;
+    uint64_t made; /* the tick of the frame, plus 1 */
+    JoxProbe **probes;
+    uint32_t count;
+};
+
+static void begin(JoScene *scene) {
+    const JoxScene *plan = scene->plan;
+    JoxMeasuring *m = scene->measuring = jox_alloc(1, sizeof *m);
+    m->probes = jox_alloc(plan->probe_count + 1, sizeof(JoxProbe *));
+    m->count = plan->probe_count;
+    for (uint32_t p = 0; p < m->count; p++) {
+        JoxProbeDef def = plan->probes[p];
+        if (def.kind == JOX_PROBE_MAP && def.low.x > def.high.x)
+            jox_host_area(scene, &def.low, &def.high);
+        m->probes[p] = jox_probe_create(&def);
+    }
+}
+
+const JoxFrame *jox_host_frame(JoScene *scene) {
+    const JoWorld *world = scene->world;
+    const JoxAgents *a = &world->agents;
+    if (!scene->measuring)
+        begin(scene);
+    JoxMeasuring *m = scene->measuring;
+    if (m->made == world->tick + 1)
+        return &m->frame;
+    m->made = world->tick + 1;
+    JOX_RESERVE(m->vx, m->vx_capacity, a->count + 1);
+    JOX_RESERVE(m->vy, m->vy_capacity, a->count + 1);
+    JOX_RESERVE(m->force, m->force_capacity, a->count + 1);
+    JOX_RESERVE(m->names, m->name_capacity, scene->plan->group_count + 1);
+    for (uint32_t g = 0; g < scene->plan->group_count; g++)
+        m->names[g] = scene->plan->groups[g].name;
+    float rate = (float)(1.0 / world->def.dt);
+    for (uint32_t i = 0; i < a->count; i++) {
+        m->vx[i] = (a->x[i] - a->prev_x[i]) * rate;
+        m->vy[i] = (a->y[i] - a->prev_y[i]) * rate;
+        m->force[i] = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
+    }
+    m->frame = (JoxFrame){.time = (double)world->tick * world->def.dt,
+                          .count = a->count,
+                          .period = a->period,
+                          .keys = a->next_id,
+                          .key = a->id,
+                          .x = a->x,
+                          .y = a->y,
+                          .vx = m->vx,
+                          .vy = m->vy,
+                          .radius = a->param[JOX_PARAM_radius],
+                          .force = m->force,
+                          .compression = a->compression,
+                          .failed = a->failed,
+                          .group = a->group,
+                          .groups = m->names,
+                          .group_count = scene->plan->group_count};
+    return &m->frame;
+}
+
+void jox_host_measure(JoScene *scene) {
+    if (!scene->measuring && scene->plan->probe_count == 0)
+        return;
+    if (!scene->measuring)
+        begin(scene);
+    const JoxMeasuring *m = scene->measuring;
+    double time = (double)scene->world->tick * scene->world->def.dt;
+    for (uint32_t p = 0; p < m->count; p++)
+        if (jox_probe_is_due(m->probes[p], time))
+            jox_probe_frame(m->probes[p], jox_host_frame(scene));
+}
+
+void jox_host_add_probes(const JoScene *scene, JoxText *out) {
+    const JoxMeasuring *m = scene->measuring;
+    if (!m || m->count == 0)
+        return;
+    jox_text_add(out, ",\n \"probes\": {");
+    for (uint32_t p = 0; p < m->count; p++) {
+        jox_text_add(out, p ? ",\n  " : "\n  ");
+        jox_text_json(out, jox_probe_def(m->probes[p])->name);
+        jox_text_add(out, ": ");
+        jox_probe_json(m->probes[p], out);
+    }
+    jox_text_add(out, "\n }");
+}
+
+bool jox_host_write_probes(const JoScene *scene, const char *title, JoxText *error) {
+    const JoxMeasuring *m = scene->measuring;
+    bool good = true;
+    for (uint32_t p = 0; m && good && p < m->count; p++)
+        good = jox_probe_write(m->probes[p], scene->report, &scene->world->walls, title, error);
+    return good;
+}
+
+void jox_host_end_measuring(JoScene *scene) {
+    JoxMeasuring *m = scene->measuring;
+    if (!m)
+        return;
+    for (uint32_t p = 0; p < m->count; p++)
+        jox_probe_free(m->probes[p]);
+    jox_free(m->probes);
+    jox_free(m->vx);
+    jox_free(m->vy);
+    jox_free(m->force);
+    jox_free(m->names);
+    jox_free(m);
+    scene->measuring = NULL;
+}

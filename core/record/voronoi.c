@@ -1,0 +1,204 @@
+#include "record/voronoi.h"
+
+#include <math.h>
+
+#include "base/mem.h"
+
+static const double TURN = 6.283185307179586;
+enum { MOST_BINS = 1 << 20 };
+
+void jox_cell_begin(JoxCell *cell, double cutoff) {
+    cell->count = JOX_CELL_CORNERS;
+    for (uint32_t c = 0; c < cell->count; c++) {
+        cell->x[c] = cutoff * cos(TURN * c / JOX_CELL_CORNERS);
+        cell->y[c] = cutoff * sin(TURN * c / JOX_CELL_CORNERS);
+    }
+}
+
+void jox_cell_cut(JoxCell *cell, double x, double y) {
+    double half = 0.5 * (x * x + y * y);
+    JoxCell kept = {.count = 0};
+    bool cuts = false;
+    if (half == 0.0)
+        return;
+    for (uint32_t c = 0; c < cell->count && !cuts; c++)
+        cuts = cell->x[c] * x + cell->y[c] * y > half;
+    for (uint32_t c = 0; cuts && c < cell->count; c++) {
+        uint32_t n = c + 1 < cell->count ? c + 1 : 0;
+        double here = cell->x[c] * x + cell->y[c] * y - half;
+        double next = cell->x[n] * x + cell->y[n] * y - half;
+        if (here <= 0.0 && kept.count < JOX_MOST_CORNERS) {
+            kept.x[kept.count] = cell->x[c];
+            kept.y[kept.count++] = cell->y[c];
+        }
+        if ((here < 0.0 && next > 0.0) || (here > 0.0 && next < 0.0)) {
+            double share = here / (here - next);
+            if (kept.count < JOX_MOST_CORNERS) {
+                kept.x[kept.count] = cell->x[c] + share * (cell->x[n] - cell->x[c]);
+                kept.y[kept.count++] = cell->y[c] + share * (cell->y[n] - cell->y[c]);
+            }
+        }
+    }
+    if (!cuts)
+        return;
+    cell->count = kept.count;
+    for (uint32_t c = 0; c < kept.count; c++) {
+        cell->x[c] = kept.x[c];
+        cell->y[c] = kept.y[c];
+    }
+}
+
+double jox_cell_reach2(const JoxCell *cell) {
+    double most = 0.0;
+    for (uint32_t c = 0; c < cell->count; c++)
+        most = fmax(most, cell->x[c] * cell->x[c] + cell->y[c] * cell->y[c]);
+    return most;
+}
+
+static double area(const double *x, const double *y, uint32_t count) {
+    double sum = 0.0;
+    for (uint32_t c = 0; c < count; c++) {
+        uint32_t n = c + 1 < count ? c + 1 : 0;
+        sum += x[c] * y[n] - x[n] * y[c];
+    }
+    return 0.5 * sum;
+}
+
+double jox_cell_area(const JoxCell *cell) {
+    return area(cell->x, cell->y, cell->count);
+}
+
+/* By Green's theorem over the ring's edges: each edge a-b gives the area, with its sign, that the
+   cell shares with the triangle of the person, a and b, where the person lies in the convex cell.
+   So the ring may have any shape. */
+double jox_cell_area_within(const JoxCell *cell, JoxV2 at, const JoxV2 *ring, uint32_t count) {
+    double sum = 0.0;
+    for (uint32_t e = 0; e < count; e++) {
+        JoxV2 from = ring[e], to = ring[e + 1 < count ? e + 1 : 0];
+        double x[2][JOX_MOST_CORNERS + 4], y[2][JOX_MOST_CORNERS + 4];
+        uint32_t corners = 3, now = 0;
+        x[0][0] = 0.0, y[0][0] = 0.0;
+        x[0][1] = (double)from.x - at.x, y[0][1] = (double)from.y - at.y;
+        x[0][2] = (double)to.x - at.x, y[0][2] = (double)to.y - at.y;
+        for (uint32_t c = 0; c < cell->count && corners > 0; c++) { /* clip by the cell's sides */
+            uint32_t n = c + 1 < cell->count ? c + 1 : 0, kept = 0;
+            double sx = cell->x[n] - cell->x[c], sy = cell->y[n] - cell->y[c];
+            for (uint32_t k = 0; k < corners; k++) {
+                uint32_t m = k + 1 < corners ? k + 1 : 0;
+                double here = sx * (y[now][k] - cell->y[c]) - sy * (x[now][k] - cell->x[c]);
+                double next = sx * (y[now][m] - cell->y[c]) - sy * (x[now][m] - cell->x[c]);
+                if (here >= 0.0) {
+                    x[!now][kept] = x[now][k];
+                    y[!now][kept++] = y[now][k];
+                }
+                if ((here < 0.0 && next > 0.0) || (here > 0.0 && next < 0.0)) {
+                    double share = here / (here - next);
+                    x[!now][kept] = x[now][k] + share * (x[now][m] - x[now][k]);
+                    y[!now][kept++] = y[now][k] + share * (y[now][m] - y[now][k]);
+                }
+            }
+            corners = kept;
+            now = !now;
+        }
+        sum += area(x[now], y[now], corners); /* clockwise triangles count as negative */
+    }
+    return fabs(sum);
+}
+
+/* ---- neighbours ---- */
+
+void jox_sites_clear(JoxSites *s) {
+    s->count = 0;
+}
+
+void jox_sites_add(JoxSites *s, JoxV2 point, uint32_t who) {
+    JOX_RESERVE(s->points, s->capacity, s->count + 1);
+    JOX_RESERVE(s->who, s->who_capacity, s->count + 1);
+    s->points[s->count] = point;
+    s->who[s->count++] = who;
+}
+
+static uint32_t column_of(const JoxSites *s, float x) {
+    return (uint32_t)fmin(fmax((x - s->low.x) / s->bin, 0.0), s->columns - 1);
+}
+static uint32_t row_of(const JoxSites *s, float y) {
+    return (uint32_t)fmin(fmax((y - s->low.y) / s->bin, 0.0), s->rows - 1);
+}
+static uint32_t bin_of(const JoxSites *s, JoxV2 p) {
+    return row_of(s, p.y) * s->columns + column_of(s, p.x);
+}
+
+void jox_sites_sort(JoxSites *s, double cutoff) {
+    JoxV2 high = {-INFINITY, -INFINITY};
+    s->low = (JoxV2){INFINITY, INFINITY};
+    for (uint32_t i = 0; i < s->count; i++) {
+        s->low = jox_v2(jox_minf(s->low.x, s->points[i].x), jox_minf(s->low.y, s->points[i].y));
+        high = jox_v2(jox_maxf(high.x, s->points[i].x), jox_maxf(high.y, s->points[i].y));
+    }
+    s->columns = s->rows = 1;
+    s->bin = cutoff;
+    if (s->count) {
+        double wide = (double)high.x - s->low.x, tall = (double)high.y - s->low.y;
+        s->bin = fmax(cutoff, sqrt((wide + 1.0) * (tall + 1.0) / MOST_BINS));
+        s->columns = (uint32_t)(wide / s->bin) + 1;
+        s->rows = (uint32_t)(tall / s->bin) + 1;
+    }
+    uint32_t bins = s->columns * s->rows;
+    JOX_RESERVE(s->first, s->first_capacity, bins + 1);
+    JOX_RESERVE(s->order, s->order_capacity, s->count + 1);
+    for (uint32_t b = 0; b <= bins; b++)
+        s->first[b] = 0;
+    for (uint32_t i = 0; i < s->count; i++)
+        s->first[bin_of(s, s->points[i]) + 1]++;
+    for (uint32_t b = 0; b < bins; b++)
+        s->first[b + 1] += s->first[b];
+    for (uint32_t i = s->count; i-- > 0;) /* backwards: bins keep the order of the sites */
+        s->order[--s->first[bin_of(s, s->points[i]) + 1]] = i;
+    for (uint32_t b = 0; b < bins; b++) /* the bins' ends have become their beginnings */
+        s->first[b] = s->first[b + 1];
+    s->first[bins] = s->count;
+}
+
+/* Cuts by those in the bins at `ring` bins from the person's, nearer ones first. */
+static void cut_ring(const JoxSites *s, uint32_t site, int ring, JoxCell *out) {
+    JoxV2 at = s->points[site];
+    int column = (int)column_of(s, at.x), row = (int)row_of(s, at.y);
+    double reach2 = jox_cell_reach2(out);
+    for (int r = row - ring; r <= row + ring; r++) {
+        if (r < 0 || r >= (int)s->rows)
+            continue;
+        int step = r == row - ring || r == row + ring ? 1 : 2 * ring;
+        for (int c = column - ring; c <= column + ring; c += step ? step : 1) {
+            if (c < 0 || c >= (int)s->columns)
+                continue;
+            uint32_t bin = (uint32_t)r * s->columns + (uint32_t)c;
+            for (uint32_t k = s->first[bin]; k < s->first[bin + 1]; k++) {
+                JoxV2 other = s->points[s->order[k]];
+                double x = (double)other.x - at.x, y = (double)other.y - at.y;
+                if (s->order[k] == site || x * x + y * y >= 4.0 * reach2)
+                    continue;
+                jox_cell_cut(out, x, y);
+                reach2 = jox_cell_reach2(out);
+            }
+        }
+    }
+}
+
+void jox_sites_cell(const JoxSites *s, uint32_t site, double cutoff, JoxCell *out) {
+    jox_cell_begin(out, cutoff);
+    for (int ring = 0; ring <= 2 || (ring - 1) * s->bin < 2.0 * cutoff; ring++) {
+        /* Those `ring` bins away are at least ring - 1 bins off. */
+        double away = (ring - 1) * s->bin;
+        if (ring > 1 && away * away >= 4.0 * jox_cell_reach2(out))
+            break;
+        cut_ring(s, site, ring, out);
+    }
+}
+
+void jox_sites_free(JoxSites *s) {
+    jox_free(s->points);
+    jox_free(s->who);
+    jox_free(s->first);
+    jox_free(s->order);
+    *s = (JoxSites){0};
+}

@@ -1,0 +1,173 @@
+/* Walls and what happens at given times. */
+#include <math.h>
+#include <string.h>
+
+#include "scene/internal.h"
+
+enum { LONGEST_NAME = 60 };
+
+void jox_load_walls(JoxLoad *l, const JoxYaml *list) {
+    const JoxReader *r = &l->reader;
+    JoxWalls *walls = &l->scene->walls;
+    for (uint32_t i = 0; list && list->kind == JOX_YAML_LIST && i < list->count; i++) {
+        const JoxYaml *map = list->items[i], *solid, *line;
+        uint32_t count, first = walls->ring_count;
+        if (!jox_keys_check(r, map, "wall"))
+            continue;
+        solid = jox_yaml_get(map, "solid");
+        line = jox_yaml_get(map, "line");
+        float height = (float)jox_key_number(r, map, "wall", "height");
+        bool closed = jox_key_bool(r, map, "wall", "closed");
+        const char *name = jox_key_text(r, map, "wall", "name");
+        bool open = jox_key_bool(r, map, "wall", "open");
+        if (!solid == !line) {
+            jox_scene_error(r, map, "bad-wall", NULL, "a wall is a solid or a line");
+            continue;
+        }
+        if (open && !(name && *name))
+            jox_scene_error(r, jox_yaml_get(map, "open"), "bad-wall", "name: gate",
+                            "a wall that starts open needs a name: else nothing closes it");
+        JoxV2 *points = solid    ? jox_load_ring(l, solid, &count)
+                        : closed ? jox_load_ring(l, line, &count)
+                                 : jox_read_points(r, line, 2, &count);
+        if (points && solid)
+            jox_walls_add_solid(walls, points, count, height);
+        else if (points)
+            jox_walls_add_polyline(walls, points, count, closed, height);
+        if (points && name && *name)
+            jox_walls_name(walls, first, name, open);
+    }
+    if (list && list->kind != JOX_YAML_LIST)
+        jox_scene_error(r, list, "bad-type", NULL, "walls is a list");
+}
+
+/* ---- events ---- */
+
+static void check_wall(const JoxLoad *l, const JoxYaml *name) {
+    const JoxWalls *walls = &l->scene->walls;
+    const char *names[256];
+    uint32_t count = 0;
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        if (!walls->rings[r].name)
+            continue;
+        if (strcmp(walls->rings[r].name, name->text) == 0)
+            return;
+        if (count < 256)
+            names[count++] = walls->rings[r].name;
+    }
+    jox_scene_error(&l->reader, name, "unknown-wall",
+                    count ? jox_scene_suggest(&l->reader, name->text, names, count)
+                          : "Give walls names: {line: [[0, 0], [0, 2]], name: gate}",
+                    "there is no wall named '%.60s'", name->text);
+}
+
+static bool is_static(const JoxBodyDef *def) {
+    return def->still ||
+           (def->shape.kind != JOX_SHAPE_COMPOUND && def->mass <= 0 && def->density <= 0);
+}
+
+static void check_body(const JoxLoad *l, const JoxYaml *name) {
+    const char *names[256];
+    uint32_t count = 0;
+    for (uint32_t b = 0; b < l->scene->body_count; b++) {
+        const JoxBodyDef *def = &l->scene->bodies[b].def;
+        if (def->name && strcmp(def->name, name->text) == 0) {
+            if (is_static(def))
+                jox_scene_error(&l->reader, name, "bad-event", "Give it a mass above 0",
+                                "the body '%.60s' is static: it cannot be thrown", name->text);
+            return;
+        }
+        if (def->name && count < 256)
+            names[count++] = def->name;
+    }
+    jox_scene_error(&l->reader, name, "unknown-body",
+                    count ? jox_scene_suggest(&l->reader, name->text, names, count)
+                          : "Give bodies names: {name: crate, ...}",
+                    "there is no body named '%.60s'", name->text);
+}
+
+/* What an event does, and to what; NULL with an error. */
+static const JoxYaml *read_deed(const JoxLoad *l, const JoxYaml *map, JoxSceneEvent *event) {
+    static const char *const KINDS[] = {"throw", "open", "close", "signal"};
+    const JoxYaml *name = NULL;
+    int kinds = 0;
+    for (int k = 0; k < 4; k++) {
+        const JoxYaml *node = jox_yaml_get(map, KINDS[k]);
+        if (!node)
+            continue;
+        kinds++;
+        name = node;
+        event->kind = (JoxSceneEventKind)k;
+    }
+    if (kinds != 1) {
+        jox_scene_error(&l->reader, map, "bad-event", "{at: 20, open: gate}",
+                        "an event does one of throw, open, close and signal");
+        return NULL;
+    }
+    if (name->kind != JOX_YAML_SCALAR) {
+        jox_scene_error(&l->reader, name, "bad-type", NULL, "%s must be a name",
+                        KINDS[event->kind]);
+        return NULL;
+    }
+    if (event->kind == JOX_EVENT_THROW)
+        check_body(l, name);
+    else if (event->kind != JOX_EVENT_SIGNAL)
+        check_wall(l, name);
+    else if (!*name->text || strlen(name->text) > LONGEST_NAME)
+        jox_scene_error(&l->reader, name, "bad-event", NULL,
+                        "a signal's name has from 1 to %d bytes", LONGEST_NAME);
+    return name;
+}
+
+static void read_throw(const JoxLoad *l, const JoxYaml *map, JoxSceneEvent *event) {
+    static const char *const KEYS[] = {"from", "velocity", "spin"};
+    double *const values[] = {event->from, event->velocity, event->spin};
+    bool any = false;
+    for (int k = 0; k < 3; k++) {
+        const JoxYaml *node = jox_yaml_get(map, KEYS[k]);
+        if (node && event->kind != JOX_EVENT_THROW)
+            jox_scene_error(&l->reader, node, "bad-event", NULL, "%s belongs to a throw", KEYS[k]);
+        if (node && jox_key_vector(&l->reader, map, "event", KEYS[k], values[k], 3) && k == 0)
+            event->placed = true;
+        any |= node != NULL;
+    }
+    if (event->kind == JOX_EVENT_THROW && !any)
+        jox_scene_error(&l->reader, map, "bad-event", "velocity: [5, 0, 3]",
+                        "a throw needs a velocity, a spin or a point that it is from");
+}
+
+static void read_times(const JoxLoad *l, const JoxYaml *map, JoxSceneEvent *event) {
+    const JoxYaml *until = jox_yaml_get(map, "until");
+    double every = jox_key_number(&l->reader, map, "event", "every");
+    event->at = jox_key_number(&l->reader, map, "event", "at");
+    event->every = isfinite(every) ? every : 0.0;
+    event->until = jox_key_number(&l->reader, map, "event", "until");
+    if (until && !jox_yaml_get(map, "every"))
+        jox_scene_error(&l->reader, until, "bad-event", "every: 5",
+                        "until belongs to an event that is repeated");
+    else if (until && event->until < event->at)
+        jox_scene_error(&l->reader, until, "bad-event", NULL,
+                        "this event ends (%g s) before it begins (%g s)", event->until, event->at);
+}
+
+void jox_load_events(JoxLoad *l, const JoxYaml *list) {
+    if (list && list->kind != JOX_YAML_LIST)
+        jox_scene_error(&l->reader, list, "bad-type", "events: [{at: 20, open: gate}]",
+                        "events is a list");
+    uint32_t count = list && list->kind == JOX_YAML_LIST ? list->count : 0;
+    l->scene->events = jox_hoard_take(l->reader.hoard, count, sizeof *l->scene->events);
+    for (uint32_t i = 0; i < count; i++) {
+        const JoxYaml *map = list->items[i];
+        JoxSceneEvent *event = &l->scene->events[l->scene->event_count];
+        if (!jox_keys_check(&l->reader, map, "event"))
+            continue;
+        read_times(l, map, event);
+        const JoxYaml *name = read_deed(l, map, event);
+        if (!name)
+            continue;
+        read_throw(l, map, event);
+        event->name = jox_hoard_text(l->reader.hoard, name->text);
+        event->position = name->position;
+        l->scene->event_count++;
+    }
+}

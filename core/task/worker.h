@@ -1,0 +1,25 @@
+/* A thread for long work beside the steps, done in the order in which it was given. */
+#ifndef JOX_TASK_WORKER_H
+#define JOX_TASK_WORKER_H
+
+#include <stdbool.h>
+
+typedef struct JoxWorker JoxWorker;
+
+/* One piece of work; its owner keeps it until it was waited for, or the worker is gone. Embed it
+   and fill `run`; the rest is the worker's own. */
+typedef struct JoxErrand {
+    void (*run)(struct JoxErrand *errand);
+    struct JoxErrand *next;
+    bool done;
+} JoxErrand;
+
+/* The thread begins with the first errand. Never NULL. */
+JoxWorker *jox_worker_create(void);
+/* Ends what is under way; what has not begun is not run. */
+void jox_worker_free(JoxWorker *worker);
+void jox_worker_give(JoxWorker *worker, JoxErrand *errand);
+/* Returns when the errand is done; one that has not begun is run by the caller. */
+void jox_worker_wait(JoxWorker *worker, JoxErrand *errand);
+
+#endif
