@@ -112,11 +112,13 @@ const JoxExample jox_scene_examples[] = {
      "  hall: {polygon: [[0, 0], [20, 0], [20, 10], [0, 10]]}\n"
      "  stage: {polygon: [[0, 4], [3, 4], [3, 6], [0, 6]]}\n"
      "  exit: {point: [25, 5], radius: 1}\n"
+     "  rope: {line: [[22, 8], [22, 0]]}\n"
      "groups:\n"
      "  audience: {mix: {walker.lua: 3, runner.lua: 1}, density: 1, in: hall, outside: [stage],\n"
      "             party: 4, tags: [guest], set: {goal: exit, speed: 'normal(1.3, 0.2, 0.5, 2)'}}\n"
      "  staff: {behaviour: stander.lua, count: 12, fill: grid, in: stage, spacing: 60 cm, facing: 90 deg, team: house}\n"
-     "  guards: {behaviour: stander.lua, at: [[22, 5], [23, 5]]}\n"},
+     "  guards: {behaviour: stander.lua, at: [[23, 5], [24, 5]]}\n"
+     "  press: {behaviour: stander.lua, count: 10, fill: line, in: rope}\n"},
     {"group", OPENING
      "include: tawaf.yaml\n"
      "groups: {pilgrims: {count: 300, memory: {laps: 'choose(0, 3, 6)', touched: true}}}\n"},

@@ -186,6 +186,8 @@ static const struct Case {
     {"groups: {g: @{behaviour: stander, count: 3}}\n", "missing-key", "in: NAME"},
     {SQUARE "groups: {g: @{behaviour: stander, count: 3, fill: circle, in: box}}\n", "bad-fill",
      "point and radius"},
+    {SQUARE "groups: {g: @{behaviour: stander, count: 3, fill: line, in: box}}\n", "bad-fill",
+     "place with line"},
     {WITH("at: [[0, 0]], set: @[a]"), "bad-type", NULL},
     {WITH("at: [[0, 0]], memory: {laps: @many}"), "bad-type", NULL},
     {SQUARE WITH("count: 3, in: box, @parti: 2"), "unknown-key", "Did you mean 'party'?"},
