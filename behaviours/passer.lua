@@ -9,7 +9,8 @@ return machine {
     ToEntrance = { steer = seek(own.entrance), speed = crowd.by_headway, push = crowd.nudge, push_when = crowd.held_up,
       { to = "AtEntrance", when = near(own.entrance, 3) } },
 
-    AtEntrance = { steer = seek(own.entrance), speed = crowd.at_door, push = crowd.nudge, push_when = crowd.held_up_at_door,
+    AtEntrance = { steer = seek(own.entrance), speed = crowd.at_door,
+      push = crowd.nudge, push_when = crowd.held_up_at_door,
       { to = "ToExit", when = crosses(own.entrance) },
       { to = "ToEntrance", when = ~near(own.entrance, 3.5) } },
 
