@@ -23,7 +23,8 @@ typedef enum JoxShapeKind {
     JOX_SHAPE_SPHERE,   /* size[0]: radius */
     JOX_SHAPE_CYLINDER, /* size[0]: radius, size[1]: height; the axis is z */
     JOX_SHAPE_HULL,     /* convex hull of 4 to 256 points: x0, y0, z0, x1, ... */
-    JOX_SHAPE_COMPOUND  /* 1 to 4096 parts, none of them a compound */
+    JOX_SHAPE_COMPOUND, /* 1 to 4096 parts, none of them a compound */
+    JOX_SHAPE_BLOCKS    /* size: of one block; count of them along x, y, z: glued, see glue.h */
 } JoxShapeKind;
 
 typedef struct JoxShape {
@@ -33,6 +34,8 @@ typedef struct JoxShape {
     uint32_t point_count;
     const JoxBodyPart *parts;
     uint32_t part_count;
+    uint32_t count[3]; /* blocks: at most 4096 in all; of a part none */
+    double bond;       /* N: what breaks the glue between two blocks */
 } JoxShape;
 
 struct JoxBodyPart {
@@ -137,12 +140,22 @@ typedef struct JoxBodyGone {
     JoxBodyEnd why;
 } JoxBodyGone;
 
+/* Glue that broke in a step. The greatest piece goes on as the body that it was; the others are new
+   bodies with its tags, in the order of their least block, and move as they did while whole. */
+typedef struct JoxBodyBreak {
+    uint32_t row, id;
+    uint32_t bonds;  /* cut in this step */
+    uint32_t pieces; /* that the body is in now; 1: still whole */
+} JoxBodyBreak;
+
 /* What a step did; the arrays are valid until the next call on `bodies`. */
 typedef struct JoxBodiesReport {
     const JoxDiscHit *hits; /* in order of time, then body id */
     uint32_t hit_count;
     const JoxBodyGone *gone; /* bodies that were taken out */
     uint32_t gone_count;
+    const JoxBodyBreak *breaks; /* in order of id */
+    uint32_t break_count;
     uint32_t substeps;
 } JoxBodiesReport;
 
@@ -157,7 +170,13 @@ bool jox_bodies_any_fast(const JoxBodies *bodies, float dt);
 /* Writes what agents see. Rows keep their index; `objects->rows` is owned by `bodies`. A compound
    shows the hull of all its parts as its footprint. */
 void jox_bodies_objects(JoxBodies *bodies, JoxObjects *objects);
-/* Adds ids, poses and velocities in order of id. */
+/* What holds a body of blocks together; false, and all zero, for other bodies. */
+typedef struct JoxBodyGlue {
+    uint32_t blocks, bonds; /* still joined to this body; between them */
+    double burden; /* in the last step, of the bond nearest to breaking: force over strength */
+} JoxBodyGlue;
+bool jox_bodies_glue(const JoxBodies *bodies, uint32_t row, JoxBodyGlue *glue);
+/* Adds ids, poses, velocities and bonds in order of id. */
 void jox_bodies_hash(const JoxBodies *bodies, JoxHash *hash);
 /* Whether this build has Bullet. */
 bool jox_bodies_available(void);

@@ -12,12 +12,14 @@ JoxBodies *jox_bodies_create(const JoxBodiesDef *def) {
     return b;
 }
 
-static btRigidBody *add_static(JoxBodies *b, btCollisionShape *shape, const btTransform &at) {
+/* Its user index is negative and its own: -1 the ground, then the walls. */
+static btRigidBody *add_static(JoxBodies *b, btCollisionShape *shape, const btTransform &at,
+                               int index) {
     btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape);
     info.m_startWorldTransform = at;
     info.m_friction = info.m_restitution = 1;
     btRigidBody *body = new btRigidBody(info);
-    body->setUserIndex(-1);
+    body->setUserIndex(index);
     b->world->addRigidBody(body);
     return body;
 }
@@ -39,7 +41,7 @@ void jox_bodies_ensure(JoxBodies *b) {
     if (!b->def.ground)
         return;
     b->ground_shape = new btStaticPlaneShape(btVector3(0, 0, 1), 0);
-    b->ground = add_static(b, b->ground_shape, btTransform::getIdentity());
+    b->ground = add_static(b, b->ground_shape, btTransform::getIdentity(), -1);
 }
 
 static void drop_static(JoxBodies *b, btRigidBody *body) {
@@ -78,8 +80,9 @@ void jox_bodies_set_walls(JoxBodies *b, const JoxWalls *walls, float height) {
             btTransform at(btMatrix3x3(d.x, -d.y, 0, d.y, d.x, 0, 0, 0, 1),
                            btVector3((p.x + q.x) / 2, (p.y + q.y) / 2, tall / 2));
             jox_reserve(b->walls, b->wall_capacity, b->wall_count + 1);
+            int index = -2 - int(b->wall_count);
             b->walls[b->wall_count++] =
-                add_static(b, new btBoxShape(btVector3(half, 0.02f, tall / 2)), at);
+                add_static(b, new btBoxShape(btVector3(half, 0.02f, tall / 2)), at, index);
         }
     }
 }
@@ -90,6 +93,9 @@ void jox_bodies_drop(JoxBodies *b, uint32_t row) {
     delete r->body;
     jox_built_free(&r->built);
     jox_free(r->name);
+    b->glued -= r->glue ? 1 : 0;
+    jox_glue_free(r->glue);
+    r->glue = nullptr;
     r->live = false;
     r->name = nullptr;
     r->body = nullptr;
@@ -116,7 +122,8 @@ void jox_bodies_free(JoxBodies *b) {
         delete b->dispatcher;
         delete b->configuration;
     }
-    void *owned[] = {b->walls, b->rows, b->order, b->objects, b->hits, b->gone, b->corners};
+    void *owned[] = {b->walls, b->rows,    b->order, b->objects,  b->hits,
+                     b->gone,  b->corners, b->leans, b->contacts, b->breaks};
     for (void *memory : owned)
         jox_free(memory);
     jox_disc_grid_free(&b->grid);
@@ -161,6 +168,40 @@ static btVector3 vector(const double v[3]) {
     return btVector3(float(v[0]), float(v[1]), float(v[2]));
 }
 
+void jox_row_embody(JoxBodies *b, uint32_t row, const btTransform &frame,
+                    const JoxMaterial &material) {
+    JoxRow *r = &b->rows[row];
+    const JoxBuilt &built = r->built;
+    btRigidBody::btRigidBodyConstructionInfo info(built.mass, nullptr, built.shape, built.inertia);
+    info.m_startWorldTransform = frame * built.frame;
+    info.m_friction = material.friction;
+    info.m_restitution = material.restitution;
+    info.m_linearDamping = material.damping;
+    info.m_angularDamping = material.spin_damping;
+    info.m_linearSleepingThreshold = 0.1f;
+    info.m_angularSleepingThreshold = 0.2f;
+    r->body = new btRigidBody(info);
+    r->body->setUserIndex(int(row));
+    if (built.mass > 0) {
+        r->body->setCcdMotionThreshold(built.inner);
+        r->body->setCcdSweptSphereRadius(0.8f * built.inner);
+    }
+    b->world->addRigidBody(r->body);
+}
+
+uint32_t jox_row_enter(JoxBodies *b, const JoxBuilt *built, const btTransform &frame,
+                       const JoxMaterial &material) {
+    uint32_t at = free_row(b);
+    b->rows[at] = JoxRow();
+    b->rows[at].live = true;
+    b->rows[at].id = b->next_id++;
+    b->rows[at].built = *built;
+    jox_row_embody(b, at, frame, material);
+    jox_reserve(b->order, b->order_capacity, b->live + 1);
+    b->order[b->live++] = at;
+    return at;
+}
+
 uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
     const char *problem = wrong(def);
     if (problem) {
@@ -171,39 +212,36 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
     bool still = def->still ||
                  (def->shape.kind != JOX_SHAPE_COMPOUND && def->mass <= 0 && def->density <= 0);
     JoxBuilt built;
-    if (!jox_built_make(def, still, &built, error))
+    JoxGlue *glue = nullptr;
+    if (def->shape.kind == JOX_SHAPE_BLOCKS) {
+        glue = jox_row_glue(def, error);
+        if (!glue || !jox_built_blocks(glue, still, &built, error)) {
+            jox_glue_free(glue);
+            return JOX_NO_BODY;
+        }
+    } else if (!jox_built_make(def, still, &built, error)) {
         return JOX_NO_BODY;
+    }
     jox_bodies_ensure(b);
     btQuaternion turn(float(def->turn[0]), float(def->turn[1]), float(def->turn[2]),
                       float(def->turn[3]));
     turn = turn.length2() > 1e-12f ? turn.normalized() : btQuaternion::getIdentity();
-    btRigidBody::btRigidBodyConstructionInfo info(built.mass, nullptr, built.shape, built.inertia);
-    info.m_startWorldTransform = btTransform(turn, vector(def->position)) * built.frame;
-    info.m_friction = float(def->friction);
-    info.m_restitution = float(def->restitution);
-    info.m_linearDamping = float(def->damping);
-    info.m_angularDamping = float(def->spin_damping);
-    info.m_linearSleepingThreshold = 0.1f;
-    info.m_angularSleepingThreshold = 0.2f;
-    uint32_t at = free_row(b);
+    JoxMaterial material = {float(def->friction), float(def->restitution), float(def->damping),
+                            float(def->spin_damping)};
+    uint32_t at = jox_row_enter(b, &built, btTransform(turn, vector(def->position)), material);
     JoxRow *r = &b->rows[at];
-    *r = JoxRow();
-    r->live = true;
-    r->id = b->next_id++;
     r->name = def->name ? jox_strdup(def->name) : nullptr;
     r->tags = def->tags;
-    r->built = built;
-    r->body = new btRigidBody(info);
-    r->body->setUserIndex(int(at));
     if (!still) {
         r->body->setLinearVelocity(vector(def->velocity));
         r->body->setAngularVelocity(vector(def->spin));
-        r->body->setCcdMotionThreshold(built.inner);
-        r->body->setCcdSweptSphereRadius(0.8f * built.inner);
     }
-    b->world->addRigidBody(r->body);
-    jox_reserve(b->order, b->order_capacity, b->live + 1);
-    b->order[b->live++] = at;
+    if (still) {
+        jox_glue_free(glue); /* what never moves never breaks */
+    } else if (glue) {
+        r->glue = glue;
+        b->glued++;
+    }
     return at;
 }
 
@@ -246,7 +284,7 @@ bool jox_bodies_pose(const JoxBodies *b, uint32_t row, JoxPose *pose) {
     const JoxRow *r = row_of(b, row);
     if (!r)
         return false;
-    btTransform at = r->body->getWorldTransform() * r->built.frame.inverse();
+    btTransform at = jox_row_frame(r);
     btQuaternion q = at.getRotation();
     pose->position = jox_v3(at.getOrigin());
     for (int i = 0; i < 4; i++)
@@ -329,6 +367,8 @@ uint32_t jox_bodies_impulses(JoxBodies *b, const JoxImpulse *impulses, uint32_t 
         }
         r->body->activate(true);
         r->body->applyImpulse(p, at - r->body->getWorldTransform().getOrigin());
+        if (r->glue)
+            jox_row_hit(r, at, p);
     }
     return odd;
 }
@@ -345,7 +385,8 @@ void jox_bodies_hash(const JoxBodies *b, JoxHash *hash) {
             for (int j = 0; j < 3; j++)
                 state[9 + 3 * i + j] = at.getBasis()[i][j];
         }
-        uint32_t who[2] = {r->id, r->held ? r->holder : UINT32_MAX};
+        uint32_t who[3] = {r->id, r->held ? r->holder : UINT32_MAX,
+                           r->glue ? r->glue->bond_count : 0};
         jox_hash_add(hash, who, sizeof who);
         jox_hash_add(hash, state, sizeof state);
     }

@@ -15,6 +15,7 @@ extern "C" {
 #include "base/mem.h"
 #include "body/body.h"
 #include "body/footprint.h"
+#include "body/glue.h"
 #include "body/sweep.h"
 }
 
@@ -58,8 +59,22 @@ struct JoxRow {
     btRigidBody *body;
     JoxV3 force; /* over the next step, N */
     bool grounded, swept, written;
-    bool held; /* by an agent */
+    JoxGlue *glue; /* of blocks that can come apart, or NULL; its frame is the shape's own */
+    bool held;     /* by an agent */
     uint32_t holder;
+};
+
+/* A contact of a glued body; `key` orders them by body, then by what it touches. */
+struct JoxLean {
+    uint64_t key;
+    uint32_t number; /* in which they were found */
+    uint32_t block;
+    btVector3 point, impulse, normal;
+};
+
+/* What a body is made of beside its shape. */
+struct JoxMaterial {
+    float friction, restitution, damping, spin_damping;
 };
 
 struct JoxBodies {
@@ -85,6 +100,13 @@ struct JoxBodies {
     uint32_t hit_count, hit_capacity;
     JoxBodyGone *gone;
     uint32_t gone_count, gone_capacity;
+    JoxLean *leans; /* contacts of glued bodies in a substep */
+    uint32_t lean_count, lean_capacity;
+    JoxGlueContact *contacts; /* of one of them with one other body */
+    uint32_t contact_capacity;
+    JoxBodyBreak *breaks;
+    uint32_t break_count, break_capacity;
+    uint32_t glued; /* bodies that can come apart */
     JoxDiscGrid grid;
     JoxFootprint footprint;
     JoxV3 *corners; /* scratch: a part's corners in world coordinates */
@@ -112,6 +134,22 @@ static inline bool jox_finite(const btVector3 &v) {
 /* Makes Bullet's world if it is not there yet. */
 void jox_bodies_ensure(JoxBodies *bodies);
 void jox_bodies_drop(JoxBodies *bodies, uint32_t row);
+/* Takes `built` over as a new body in a free row; the caller fills name, tags, and velocity. */
+uint32_t jox_row_enter(JoxBodies *bodies, const JoxBuilt *built, const btTransform &frame,
+                       const JoxMaterial &material);
+/* Bullet's body of a row whose shape is there: `frame` is that of the shape. */
+void jox_row_embody(JoxBodies *bodies, uint32_t row, const btTransform &frame,
+                    const JoxMaterial &material);
+/* bullet_glue.cc. The shape of glued blocks; NULL with a sentence in `error`. */
+JoxGlue *jox_row_glue(const JoxBodyDef *def, JoxText *error);
+bool jox_built_blocks(const JoxGlue *glue, bool still, JoxBuilt *out, JoxText *error);
+/* The shape's own frame in the world. */
+btTransform jox_row_frame(const JoxRow *row);
+/* An impulse upon a glued body, at a point of the world. */
+void jox_row_hit(JoxRow *row, const btVector3 &point, const btVector3 &impulse);
+/* After a substep: what ground, walls and bodies did to glued ones. After a step: what broke. */
+void jox_bodies_lean(JoxBodies *bodies);
+void jox_bodies_break(JoxBodies *bodies, float dt);
 void jox_bodies_drop_walls(JoxBodies *bodies);
 /* Whether a body at this speed is to be swept in a step of dt. */
 bool jox_row_fast(const JoxRow *row, float dt);

@@ -185,9 +185,9 @@ btCollisionShape *make_hull(const JoxShape *shape, JoxPart *part, Solid *solid) 
 }
 
 bool check_shape(const JoxShape *shape, JoxText *error) {
-    static const int sizes[] = {3, 1, 2, 0, 0};
-    if (int(shape->kind) < 0 || shape->kind > JOX_SHAPE_COMPOUND)
-        return fail(error, "a body's shape is a box, sphere, cylinder, hull or compound");
+    static const int sizes[] = {3, 1, 2, 0, 0, 3};
+    if (int(shape->kind) < 0 || shape->kind > JOX_SHAPE_BLOCKS)
+        return fail(error, "a body's shape is a box, sphere, cylinder, hull, compound or blocks");
     for (int i = 0; i < sizes[shape->kind]; i++)
         if (!good(shape->size[i], LEAST_SIZE, MOST_SIZE))
             return fail(error, "a body's sizes must lie between 0.001 and 1000 m");
@@ -219,7 +219,7 @@ btCollisionShape *make_part(const JoxShape *shape, JoxPart *part, Solid *solid, 
         return made;
     }
     default:
-        fail(error, "a compound cannot hold a compound");
+        fail(error, "a compound cannot hold a compound or glued blocks");
         return nullptr;
     }
 }

@@ -47,6 +47,8 @@ static void hit_person(JoxBodies *b, uint32_t row, JoxDisc *discs, const JoxSwee
     r->body->setWorldTransform(at);
     r->body->setInterpolationWorldTransform(at);
     r->body->applyImpulse(n * j, arm);
+    if (r->glue)
+        jox_row_hit(r, at.getOrigin() + arm, n * j);
     d->vx -= j * n.x() / d->mass;
     d->vy -= j * n.y() / d->mass;
     jox_reserve(b->hits, b->hit_capacity, b->hit_count + 1);
@@ -126,7 +128,7 @@ static void push_on(JoxBodies *b, bool last) {
 
 JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t disc_count) {
     JoxBodiesReport report = {};
-    b->hit_count = b->gone_count = 0;
+    b->hit_count = b->gone_count = b->break_count = 0;
     if (!b->world || !b->live || !(dt > 0 && dt <= 1))
         return report;
     b->last_dt = dt;
@@ -143,13 +145,19 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
             sweep_all(b, discs, h * float(s), h, dt);
         push_on(b, s + 1 == n);
         b->world->stepSimulation(h, 0);
+        if (b->glued)
+            jox_bodies_lean(b);
         weed(b);
         mark_grounded(b);
     }
+    if (b->glued)
+        jox_bodies_break(b, dt);
     report.hits = b->hits;
     report.hit_count = b->hit_count;
     report.gone = b->gone;
     report.gone_count = b->gone_count;
+    report.breaks = b->breaks;
+    report.break_count = b->break_count;
     report.substeps = n;
     return report;
 }

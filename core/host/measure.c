@@ -96,11 +96,12 @@ void jox_host_add_probes(const JoScene *scene, JoxText *out) {
     jox_text_add(out, "\n }");
 }
 
-bool jox_host_write_probes(const JoScene *scene, const char *title, JoxText *error) {
+bool jox_host_write_probes(const JoScene *scene, const char *folder, const char *title,
+                           JoxText *error) {
     const JoxMeasuring *m = scene->measuring;
     bool good = true;
     for (uint32_t p = 0; m && good && p < m->count; p++)
-        good = jox_probe_write(m->probes[p], scene->report, &scene->world->walls, title, error);
+        good = jox_probe_write(m->probes[p], folder, &scene->world->wall_plan, title, error);
     return good;
 }
 

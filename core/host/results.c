@@ -79,6 +79,8 @@ bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
     const JoxMind *mind = &scene->world->mind;
     for (uint32_t m = 0; m < mind->machine_count; m++)
         jox_host_record_states(scene, m);
+    for (uint32_t g = 0; g < scene->plan->group_count; g++)
+        jox_recorder_group(scene->recorder, g, scene->plan->groups[g].name);
     return true;
 }
 
@@ -93,9 +95,9 @@ static bool record_frame(JoScene *scene, JoError *error) {
         if (i == JOX_NO_INDEX)
             continue;
         float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
-        rows[n++] = (JoxRecordRow){id,           a->x[i],          a->y[i],
-                                   a->face_x[i], a->face_y[i],     state_number(scene, i),
-                                   force,        a->compression[i]};
+        rows[n++] = (JoxRecordRow){id,           a->x[i],           a->y[i],
+                                   a->face_x[i], a->face_y[i],      state_number(scene, i),
+                                   force,        a->compression[i], a->group[i]};
     }
     n = 0;
     for (uint32_t o = 0; o < objects->count && n < count; o++) {
@@ -126,6 +128,15 @@ bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
     for (uint32_t r = 0; r < scene->plan->region_count; r++)
         jox_regions_add(scene->regions, scene->plan->regions[r].name,
                         scene->plan->regions[r].points, scene->plan->regions[r].count);
+    return true;
+}
+
+bool jo_scene_data(JoScene *scene, const char *directory, JoError *error) {
+    JOX_REQUIRE(scene && directory && !scene->data, false);
+    JoxText why = {0};
+    if (!jox_plot_folder(directory, &why))
+        return fail(error, &why);
+    scene->data = jox_strdup(directory);
     return true;
 }
 
@@ -201,7 +212,7 @@ static bool draw(JoScene *scene, JoError *error) {
                  "%.120s: paths (a dot is the beginning, a circle the end), %.1f s", name, until);
         good = draw_paths(scene, title, &why);
     }
-    good = good && jox_host_write_probes(scene, name, &why);
+    good = good && jox_host_write_probes(scene, scene->report, name, &why);
     if (!good)
         return fail(error, &why);
     jox_host_say(scene, "pictures: %s%s%s/density.png%s%s%s\n", paths ? scene->report : "",
@@ -301,6 +312,10 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
         good = draw(scene, error) && good;
         scene->density_most = scene->density->most;
     }
+    if (scene->data)
+        good = (jox_host_write_probes(scene, scene->data, NULL, &why) || fail(error, &why)) && good;
+    jox_free(scene->data);
+    scene->data = NULL;
     jox_density_free(scene->density);
     jox_regions_free(scene->regions);
     jox_paths_free(scene->paths);

@@ -1,11 +1,15 @@
 /* A run's figures as one JSON object. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/elementary.h"
 #include "base/mem.h"
 #include "host/host.h"
 #include "record/aggregate.h"
+
+static const double PI = 3.14159265358979323846;
 
 JoStats jo_scene_stats(const JoScene *scene) {
     JOX_REQUIRE(scene, (JoStats){0});
@@ -152,6 +156,52 @@ static double density_max(const JoScene *scene) {
     return most;
 }
 
+/* How far the first glued body of the scene, or its greatest piece, has come, m, and turned, deg.
+ */
+static void add_way(JoxText *out, const JoScene *scene, uint32_t body) {
+    const JoxBodyDef *def = &scene->plan->bodies[body].def;
+    JoxPose pose; /* the bodies of the scene have the first ids, in their order */
+    if (!jox_bodies_pose(scene->world->bodies, jox_bodies_find(scene->world->bodies, body), &pose))
+        return;
+    double x = pose.position.x - def->position[0], y = pose.position.y - def->position[1];
+    const float *q = pose.turn;
+    double yaw = jox_atan2(2 * ((double)q[3] * q[2] + (double)q[0] * q[1]),
+                           1 - 2 * ((double)q[1] * q[1] + (double)q[2] * q[2]));
+    double turned = yaw - 2 * jox_atan2(def->turn[2], def->turn[3]);
+    turned = (turned - 2 * PI * floor(turned / (2 * PI) + 0.5)) * 180 / PI;
+    jox_text_printf(out, ", \"moved\": %.4f, \"turned\": %.3f", sqrt(x * x + y * y), turned);
+}
+
+/* Of scenes with glued blocks. */
+static void add_bonds(JoxText *out, const JoScene *scene) {
+    const JoxBondStatistics *s = &scene->world->statistics.bonds;
+    uint32_t body = 0, held = 0;
+    while (body < scene->plan->body_count &&
+           scene->plan->bodies[body].def.shape.kind != JOX_SHAPE_BLOCKS)
+        body++;
+    if (body == scene->plan->body_count)
+        return;
+    for (uint32_t o = 0; o < scene->world->objects.count; o++) {
+        JoxBodyGlue glue;
+        jox_bodies_glue(scene->world->bodies, o, &glue);
+        held += glue.bonds;
+    }
+    jox_text_printf(out, ",\n \"bonds\": {\"held\": %u, \"broken\": %llu, \"pieces\": %u", held,
+                    (unsigned long long)s->broken, s->pieces + 1);
+    if (s->front)
+        jox_text_printf(out, ", \"front_people\": %u, \"front_speed\": %.4f", s->front,
+                        s->front_speed);
+    if (s->touched)
+        jox_text_printf(out, ", \"first_touch_s\": %.3f", s->touch_s);
+    if (s->broken)
+        jox_text_printf(out,
+                        ", \"first_break_s\": %.3f, \"rows_pressing\": %u, "
+                        "\"people_pressing\": %u",
+                        s->first_s, s->rows, s->people);
+    add_way(out, scene, body);
+    jox_text_add(out, "}");
+}
+
 char *jo_scene_summary(const JoScene *scene) {
     JOX_REQUIRE(scene, NULL);
     const JoWorld *world = scene->world;
@@ -183,6 +233,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_number(&out, "overlap_p99", jox_statistics_overlap_p99(s));
     add_states(&out, world);
     add_events(&out, scene);
+    add_bonds(&out, scene);
     add_lua(&out, scene);
     jox_host_add_probes(scene, &out);
     jox_text_printf(&out, ",\n \"hash\": \"%016llx\",\n \"isa\": \"scalar\",\n \"threads\": %u",

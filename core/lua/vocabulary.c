@@ -40,7 +40,7 @@ const JoxWord jox_words[] = {
     {"sees", "t", CONDITION, JOX_OP_SEES, 0, "sees(target)", "",
      "the target is there, within perception", "sees(nearest \"people\")"},
     {"heard", "s?n", CONDITION, JOX_OP_HEARD, 0, "heard(name [, metres])", "",
-     "somebody within perception (and so many metres) gave the signal in the last step",
+     "somebody within perception (and so many metres) gave the signal in the last step, or the scene now",
      "heard(\"alarm\", 10)"},
     /* numbers */
     {"density", "p", NUMBER, JOX_OP_PLACE_DENSITY, 0, "density(place)", "1/m2",
@@ -91,7 +91,7 @@ const JoxWord jox_words[] = {
     {"seek", "t", STEER, JOX_STEER_SEEK, 0, "seek(target)", "",
      "straight to the target: a line is passed, at a point one stops", "seek \"post\""},
     {"field", "p", STEER, JOX_STEER_FIELD, 0, "field(place)", "",
-     "the shortest way to the place round walls; of a set, to the nearest member", "field \"post\""},
+     "the shortest way to the place round walls and large bodies; of a set, to the nearest member", "field \"post\""},
     {"away_from", "t", STEER, JOX_STEER_AWAY_FROM, 0, "away_from(target)", "",
      "straight away from the target", "away_from(nearest \"ball\")"},
     {"orbit", "*", STEER, JOX_STEER_ORBIT, 0, "orbit(place [, options])", "",

@@ -152,6 +152,8 @@ bool jox_probe_write(const JoxProbe *p, const char *folder, const JoxWalls *wall
     p->calls->csv(&p->def, p->state, file);
     if (!jox_plot_close(file, name, error))
         return false;
+    if (!title)
+        return true;
     bool drawn = walls && walls->ring_count > 0;
     if (drawn && !jox_plot_walls(folder, walls, error))
         return false;

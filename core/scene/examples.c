@@ -56,6 +56,7 @@ const JoxExample jox_scene_examples[] = {
      "walls:\n"
      "  - {line: [[0, 0], [20, 0], [20, 10], [0, 10]], closed: true, height: 2.5}\n"
      "  - {solid: [[9, 4], [11, 4], [11, 6], [9, 6]]}\n"
+     "  - {line: [[9, 5], [0, 5]], name: fence, open: true}\n"
      STANDER},
     {"body", OPENING
      "bodies:\n"
@@ -76,6 +77,7 @@ const JoxExample jox_scene_examples[] = {
      "  - {shape: {sphere: {radius: 0.3}}, mass: 5, at: [3, 0, 0.3]}\n"
      "  - {shape: {cylinder: {radius: 0.2, height: 1}}, mass: 20, at: [6, 0, 0.5]}\n"
      "  - {shape: {hull: {points: [[-1, -1, 0], [1, -1, 0], [0, 1, 0], [0, 0, 1]]}}, mass: 30, at: [9, 0, 0.5]}\n"
+     "  - {shape: {blocks: {size: [0.5, 0.5, 0.5], count: [4, 1, 2], bond: 300}}, mass: 80, at: [15, 0, 0.5]}\n"
      "  - shape: {compound: [{shape: {sphere: {radius: 0.3}}}, {shape: {sphere: {radius: 0.2}}, at: [0, 0, 0.4]}]}\n"
      "    density: 200\n"
      "    at: [12, 0, 0.5]\n"},
@@ -90,6 +92,13 @@ const JoxExample jox_scene_examples[] = {
      "  - shape: {hull: {points: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, 1.5]]}}\n"
      "    mass: 80\n"
      "    at: [0, 0, 0.1]\n"},
+    {"blocks", OPENING
+     "bodies:\n"
+     "  - name: wall\n"
+     "    shape: {blocks: {size: [0.5, 0.5, 0.4], count: [12, 1, 3], bond: 300 N, block_mass: 8 kg}}\n"
+     "    friction: 0.4\n"
+     "    at: [0, 3, 0.6]\n"
+     STANDER},
     {"part", OPENING
      "bodies:\n"
      "  - shape:\n"
@@ -130,7 +139,7 @@ const JoxExample jox_scene_examples[] = {
      "  front:   {measure: [[0, 0], [2, 0], [2, 2], [0, 2]], every: 0.5, cutoff: 1.5,\n"
      "            walkable: [[-1, -1], [9, -1], [9, 9], [-1, 9]]}\n"
      "  passage: {transit: [[[0, -2], [0, 2]], [[3, -2], [3, 2]]], group: runner}\n"
-     "  block:   {displacement: true, group: standing, onset: 5 cm}\n"
+     "  block:   {displacement: true, group: standing, onset: 5 cm, rest: 0.2, along: [1, 0]}\n"
      "  fields:  {map: {}, every: 2}\n"
      "  laps:    {winding: [0, 0]}\n"
      "  solved:  {failures: 1}\n"

@@ -56,8 +56,29 @@ static void read_parts(const JoxLoad *l, const JoxYaml *list, JoxShape *shape) {
     shape->part_count = list->count;
 }
 
+/* Glued blocks: at least one along each axis, and no more than glue can hold. */
+static void read_blocks(const JoxReader *r, const JoxYaml *map, JoxShape *shape) {
+    double count[3] = {1, 1, 1};
+    const JoxYaml *node = jox_yaml_get(map, "count");
+    jox_key_vector(r, map, "blocks", "size", shape->size, 3);
+    shape->bond = jox_key_number(r, map, "blocks", "bond");
+    if (!jox_key_vector(r, map, "blocks", "count", count, 3))
+        return;
+    for (uint32_t i = 0; i < 3; i++) {
+        if (count[i] != floor(count[i])) {
+            jox_scene_error(r, node->items[i], "bad-type", NULL, "count must be whole numbers");
+            return;
+        }
+        shape->count[i] = (uint32_t)count[i];
+    }
+    if (count[0] * count[1] * count[2] > 4096)
+        jox_scene_error(r, node, "out-of-range", NULL,
+                        "a body is glued of at most 4096 blocks, not %.0f",
+                        count[0] * count[1] * count[2]);
+}
+
 static bool read_shape(const JoxLoad *l, const JoxYaml *map, JoxShape *shape, bool parts_allowed) {
-    static const char *const KINDS[] = {"box", "sphere", "cylinder", "hull", "compound"};
+    static const char *const KINDS[] = {"box", "sphere", "cylinder", "hull", "compound", "blocks"};
     const JoxReader *r = &l->reader;
     if (!jox_keys_check(r, map, "shape"))
         return false;
@@ -66,12 +87,13 @@ static bool read_shape(const JoxLoad *l, const JoxYaml *map, JoxShape *shape, bo
         return false;
     }
     int kind = -1;
-    for (int k = 0; k < 5; k++)
+    for (int k = 0; k < 6; k++)
         if (!strcmp(map->keys[0], KINDS[k]))
             kind = k;
-    if (kind < 0 || (kind == 4 && !parts_allowed)) {
-        if (kind == 4)
-            jox_scene_error(r, map, "bad-shape", NULL, "a part cannot be a compound");
+    if (kind < 0 || (kind >= 4 && !parts_allowed)) {
+        if (kind >= 4)
+            jox_scene_error(r, map, "bad-shape", NULL, "a part cannot be %s",
+                            kind == 4 ? "a compound" : "glued blocks");
         return false;
     }
     const JoxYaml *value = map->items[0];
@@ -86,11 +108,27 @@ static bool read_shape(const JoxLoad *l, const JoxYaml *map, JoxShape *shape, bo
         jox_key_vector(r, value, "box", "size", shape->size, 3);
     else if (kind == 3)
         read_hull(l, value, shape);
+    else if (kind == 5)
+        read_blocks(r, value, shape);
     else
         shape->size[0] = jox_key_number(r, value, KINDS[kind], "radius");
     if (kind == 2)
         shape->size[1] = jox_key_number(r, value, "cylinder", "height");
     return true;
+}
+
+/* The whole has a mass or a density, or each block has a mass. */
+static void read_block_mass(const JoxReader *r, const JoxYaml *map, const JoxYaml *blocks,
+                            JoxBodyDef *def) {
+    const JoxShape *shape = &def->shape;
+    double each = jox_key_number(r, blocks, "blocks", "block_mass");
+    if (!isfinite(each))
+        return;
+    if (jox_yaml_get(map, "mass") || jox_yaml_get(map, "density"))
+        jox_scene_error(r, jox_yaml_get(blocks, "block_mass"), "bad-body", NULL,
+                        "the body has a mass or a density, or its blocks have: not both");
+    def->density = 0;
+    def->mass = each * shape->count[0] * shape->count[1] * shape->count[2];
 }
 
 static void read_body(JoxLoad *l, const JoxYaml *map, JoxSceneBody *body) {
@@ -116,8 +154,10 @@ static void read_body(JoxLoad *l, const JoxYaml *map, JoxSceneBody *body) {
     body->def.damping = jox_key_number(r, map, "body", "damping");
     body->tags = jox_load_tags(l, jox_yaml_get(map, "tags"), &body->tag_count);
     const JoxYaml *shape = jox_yaml_get(map, "shape");
-    if (shape)
-        read_shape(l, shape, &body->def.shape, true);
+    if (!shape || !read_shape(l, shape, &body->def.shape, true))
+        return;
+    if (body->def.shape.kind == JOX_SHAPE_BLOCKS)
+        read_block_mass(r, map, jox_yaml_get(shape, "blocks"), &body->def);
 }
 
 void jox_load_bodies(JoxLoad *l, const JoxYaml *list) {

@@ -2,6 +2,8 @@
 #ifndef JOX_WORLD_STATISTICS_H
 #define JOX_WORLD_STATISTICS_H
 
+#include <stdbool.h>
+
 #include "agents/agents.h"
 #include "agents/neighbours.h"
 #include "jostle.h"
@@ -20,6 +22,20 @@ typedef enum JoxStage {
     JOX_STAGE_OBSERVE
 } JoxStage;
 
+/* Of glue between blocks. */
+typedef struct JoxBondStatistics {
+    uint64_t broken;
+    uint32_t pieces;    /* bodies that came of it */
+    double first_s;     /* when the first broke */
+    uint32_t rows;      /* then: the longest of the shortest chains of people who touch and are
+                           squeezed, counted from the body */
+    uint32_t people;    /* then: in those chains */
+    bool touched;       /* anybody touched a glued body; the first time: */
+    double touch_s;     /* when that was */
+    double front_speed; /* before: the least mean speed of those within 0.3 m of it, m/s */
+    uint32_t front;     /* and the most there were */
+} JoxBondStatistics;
+
 typedef struct JoxStatistics {
     uint64_t steps, agent_steps;
     double stage_s[JO_STAGE_COUNT]; /* wall time */
@@ -34,6 +50,7 @@ typedef struct JoxStatistics {
        a simulated second. */
     uint64_t overlap[JOX_OVERLAP_BINS];
     uint64_t overlap_samples;
+    JoxBondStatistics bonds;
     double momentum_x, momentum_y; /* given to agents by bodies less that given to bodies, N s */
 } JoxStatistics;
 

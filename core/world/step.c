@@ -138,6 +138,8 @@ static void bodies(JoWorld *w) {
         jox_world_grip(w);
     uint32_t count;
     const JoxImpulse *impulses = jox_force_impulses(w->forces, &count);
+    if (!w->statistics.bonds.touched)
+        jox_world_note_touch(w);
     jox_bodies_impulses(w->bodies, impulses, count);
     if (is_first(w))
         jox_bodies_impulses(w->bodies, w->mind.kicks, w->mind.kick_count);
@@ -146,6 +148,7 @@ static void bodies(JoWorld *w) {
     JoxBodiesReport report =
         jox_bodies_step(w->bodies, (float)w->part_dt, fast ? w->discs : NULL, discs);
     take_hits(w, &report);
+    jox_world_note_breaks(w, &report);
     w->statistics.bodies_lost += report.gone_count;
 }
 

@@ -87,6 +87,9 @@ void jox_world_grip(JoWorld *world);
    and rad/s. Who carries it loses it. False for a static body or none. */
 bool jox_world_throw(JoWorld *world, uint32_t row, const double from[3], const double velocity[3],
                      const double spin[3]);
+/* In a step: who is before a glued body or touches it; what broke. */
+void jox_world_note_touch(JoWorld *world);
+void jox_world_note_breaks(JoWorld *world, const JoxBodiesReport *report);
 /* One step. */
 void jox_world_step(JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX. */

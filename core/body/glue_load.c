@@ -1,0 +1,297 @@
+/* The glue's loads: what acts from outside, what of it the glue carries, and what breaks. */
+#include <math.h>
+#include <string.h>
+
+#include "base/elementary.h"
+#include "body/glue.h"
+
+static const double ACROSS = 0.4;     /* stiffness of a bond across it, along it is 1 */
+static const double TOLERANCE = 1e-4; /* residual of the solution over the loads */
+enum { MOST_PASSES = 60, MOST_ROUNDS = 16, MOST_DROPS = 6 };
+
+typedef double Three[3];
+
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double out[3]) {
+    double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+    out[0] = x;
+    out[1] = y;
+}
+
+static void turned(const double m[9], const double v[3], double out[3]) {
+    for (int i = 0; i < 3; i++)
+        out[i] = m[3 * i] * v[0] + m[3 * i + 1] * v[1] + m[3 * i + 2] * v[2];
+}
+
+void jox_glue_hit(JoxGlue *g, const double point[3], const double impulse[3]) {
+    double *to = g->impulse[jox_glue_block(g, point)];
+    for (int i = 0; i < 3; i++)
+        to[i] += impulse[i];
+}
+
+/* ---- contacts with one other body ---- */
+
+/* x of a 3 x 3 symmetric system, by Gauss with pivots on the diagonal. Directions that nothing
+   holds against get nothing: about a row of points no moment acts along the row. */
+static void solve_three(double m[9], double b[3], double x[3]) {
+    double scale = m[0] + m[4] + m[8];
+    for (int i = 0; i < 3; i++)
+        m[4 * i] += 1e-6 * scale;
+    memset(x, 0, 3 * sizeof *x);
+    if (!(scale > 0.0))
+        return;
+    for (int k = 0; k < 3; k++)
+        for (int i = k + 1; i < 3; i++) {
+            double f = m[3 * i + k] / m[4 * k];
+            for (int j = k; j < 3; j++)
+                m[3 * i + j] -= f * m[3 * k + j];
+            b[i] -= f * b[k];
+        }
+    for (int k = 2; k >= 0; k--) {
+        double sum = b[k];
+        for (int j = k + 1; j < 3; j++)
+            sum -= m[3 * k + j] * x[j];
+        x[k] = sum / m[4 * k];
+    }
+}
+
+/* Impulses J/n + w x d_i about the points' middle, with w such that their moment is that asked
+   for. */
+static void spread(JoxGlueContact *c, uint32_t n, const double force[3], const double moment[3]) {
+    double middle[3] = {0, 0, 0}, m[9] = {0}, rest[3], w[3], d[3];
+    for (uint32_t k = 0; k < n; k++)
+        for (int i = 0; i < 3; i++)
+            middle[i] += c[k].point[i] / n;
+    for (uint32_t k = 0; k < n; k++) {
+        for (int i = 0; i < 3; i++)
+            d[i] = c[k].point[i] - middle[i];
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                m[3 * i + j] += (i == j ? dot(d, d) : 0.0) - d[i] * d[j];
+    }
+    cross(middle, force, rest);
+    for (int i = 0; i < 3; i++)
+        rest[i] = moment[i] - rest[i];
+    solve_three(m, rest, w);
+    for (uint32_t k = 0; k < n; k++) {
+        for (int i = 0; i < 3; i++)
+            d[i] = c[k].point[i] - middle[i];
+        cross(w, d, c[k].impulse);
+        for (int i = 0; i < 3; i++)
+            c[k].impulse[i] += force[i] / n;
+    }
+}
+
+/* One contact per block, in the middle of its touching side; returns how many. */
+static uint32_t join_contacts(const JoxGlue *g, JoxGlueContact *c, uint32_t n,
+                              const double normal[3]) {
+    uint32_t kept = 0;
+    double away[3];
+    for (uint32_t k = 0; k < n; k++)
+        g->label[c[k].block] = UINT32_MAX;
+    for (uint32_t k = 0; k < n; k++) {
+        if (g->label[c[k].block] != UINT32_MAX)
+            continue;
+        g->label[c[k].block] = 0;
+        c[kept] = c[k];
+        jox_glue_place(g, c[k].block, away);
+        for (int i = 0; i < 3; i++)
+            away[i] -= c[kept].point[i];
+        double height = dot(away, normal);
+        for (int i = 0; i < 3; i++)
+            c[kept].point[i] += away[i] - height * normal[i];
+        kept++;
+    }
+    return kept;
+}
+
+void jox_glue_lean(JoxGlue *g, JoxGlueContact *c, uint32_t n, const double normal[3]) {
+    double force[3] = {0, 0, 0}, moment[3] = {0, 0, 0}, m[3];
+    for (uint32_t k = 0; k < n; k++) {
+        cross(c[k].point, c[k].impulse, m);
+        for (int i = 0; i < 3; i++) {
+            force[i] += c[k].impulse[i];
+            moment[i] += m[i];
+        }
+    }
+    n = join_contacts(g, c, n, normal);
+    for (int drops = 0; n > 0; drops++) {
+        spread(c, n, force, moment);
+        uint32_t pushing = 0;
+        for (uint32_t k = 0; k < n; k++)
+            pushing += dot(c[k].impulse, normal) >= 0.0;
+        if (pushing == n || pushing == 0 || drops == MOST_DROPS)
+            break;
+        uint32_t kept = 0;
+        for (uint32_t k = 0; k < n; k++)
+            if (dot(c[k].impulse, normal) >= 0.0)
+                c[kept++] = c[k];
+        n = kept;
+    }
+    for (uint32_t k = 0; k < n; k++)
+        for (int i = 0; i < 3; i++)
+            g->impulse[c[k].block][i] += c[k].impulse[i];
+}
+
+/* ---- equilibrium ---- */
+
+/* Filters the impulses of a step into loads. */
+static void take_in(JoxGlue *g, double dt) {
+    double share = 1.0 - jox_exp(-dt / JOX_GLUE_MEMORY);
+    for (uint32_t n = 0; n < g->count; n++)
+        for (int i = 0; i < 3; i++) {
+            g->load[n][i] += share * (g->impulse[n][i] / dt - g->load[n][i]);
+            g->impulse[n][i] = 0.0;
+        }
+}
+
+/* f: the loads less mass times acceleration of the rigid whole. Returns half the sum of their
+   sizes, which no bond's force exceeds. */
+static double relieve(const JoxGlue *g, const double spin[3], Three *f) {
+    double force[3] = {0, 0, 0}, moment[3] = {0, 0, 0}, m[3], p[3], turn[3], sum = 0.0;
+    for (uint32_t n = 0; n < g->count; n++) {
+        jox_glue_place(g, n, p);
+        for (int i = 0; i < 3; i++) {
+            p[i] -= g->centre[i];
+            force[i] += g->load[n][i];
+        }
+        cross(p, g->load[n], m);
+        for (int i = 0; i < 3; i++)
+            moment[i] += m[i];
+    }
+    /* Euler's equation in the body's frame: I alpha = M - spin x (I spin). */
+    turned(g->inertia, spin, m);
+    cross(spin, m, m);
+    for (int i = 0; i < 3; i++)
+        moment[i] -= m[i];
+    turned(g->inverse, moment, turn);
+    for (uint32_t n = 0; n < g->count; n++) {
+        double swing[3], round[3], size = 0.0;
+        jox_glue_place(g, n, p);
+        for (int i = 0; i < 3; i++)
+            p[i] -= g->centre[i];
+        cross(turn, p, swing);
+        cross(spin, p, round);
+        cross(spin, round, round);
+        for (int i = 0; i < 3; i++) {
+            f[n][i] = g->load[n][i] - force[i] / g->count - g->block_mass * (swing[i] + round[i]);
+            size += f[n][i] * f[n][i];
+        }
+        sum += 0.5 * sqrt(size);
+    }
+    return sum;
+}
+
+/* out = A u for the three weighted Laplacians at once. */
+static void apply(const JoxGlue *g, const Three *u, Three *out) {
+    memset(out, 0, g->count * sizeof *out);
+    for (uint32_t k = 0; k < g->bond_count; k++) {
+        const JoxGlueBond *bond = &g->bonds[k];
+        for (uint32_t i = 0; i < 3; i++) {
+            double pull = (bond->axis == i ? 1.0 : ACROSS) * (u[bond->b][i] - u[bond->a][i]);
+            out[bond->a][i] -= pull;
+            out[bond->b][i] += pull;
+        }
+    }
+}
+
+/* Sums over the blocks for each component. */
+static void sums(const JoxGlue *g, const Three *a, const Three *b, double out[3]) {
+    memset(out, 0, 3 * sizeof *out);
+    for (uint32_t n = 0; n < g->count; n++)
+        for (int i = 0; i < 3; i++)
+            out[i] += a[n][i] * b[n][i];
+}
+
+/* Conjugate gradients for x, y and z side by side, begun at the last solution. The body must be in
+   one piece: then the loads sum to zero, as the singular systems need. */
+static void equilibrium(JoxGlue *g, const Three *f) {
+    Three *u = g->moved, *r = g->scratch, *p = r + g->count, *q = p + g->count;
+    double before[3], after[3], along[3], enough[3];
+    apply(g, u, q);
+    for (uint32_t n = 0; n < g->count; n++)
+        for (int i = 0; i < 3; i++)
+            p[n][i] = r[n][i] = f[n][i] - q[n][i];
+    sums(g, f, f, enough);
+    sums(g, r, r, before);
+    for (int i = 0; i < 3; i++)
+        enough[i] *= TOLERANCE * TOLERANCE;
+    for (int pass = 0; pass < MOST_PASSES; pass++) {
+        bool all = true;
+        for (int i = 0; i < 3; i++)
+            all = all && before[i] <= enough[i];
+        if (all)
+            return;
+        apply(g, p, q);
+        sums(g, p, q, along);
+        double step[3];
+        for (int i = 0; i < 3; i++)
+            step[i] = before[i] > enough[i] && along[i] > 0.0 ? before[i] / along[i] : 0.0;
+        for (uint32_t n = 0; n < g->count; n++)
+            for (int i = 0; i < 3; i++) {
+                u[n][i] += step[i] * p[n][i];
+                r[n][i] -= step[i] * q[n][i];
+            }
+        sums(g, r, r, after);
+        for (uint32_t n = 0; n < g->count; n++)
+            for (int i = 0; i < 3; i++)
+                p[n][i] = r[n][i] + (before[i] > 0.0 ? after[i] / before[i] : 0.0) * p[n][i];
+        memcpy(before, after, sizeof before);
+    }
+}
+
+/* What a bond carries over what it bears. */
+static double burden(const JoxGlue *g, const JoxGlueBond *bond) {
+    double tension = 0.0, shear2 = 0.0;
+    for (uint32_t i = 0; i < 3; i++) {
+        double pull = g->moved[bond->b][i] - g->moved[bond->a][i];
+        if (bond->axis == i)
+            tension = pull > 0.0 ? pull : 0.0;
+        else
+            shear2 += ACROSS * ACROSS * pull * pull;
+    }
+    return sqrt(tension * tension + shear2) / bond->strength;
+}
+
+/* Cuts every bond over its strength that carries nearly as much as the worst: the others may be
+   relieved by that, or get more. */
+static uint32_t cut_worst(JoxGlue *g) {
+    g->greatest = 0.0;
+    for (uint32_t k = 0; k < g->bond_count; k++) {
+        double share = burden(g, &g->bonds[k]);
+        g->greatest = share > g->greatest ? share : g->greatest;
+    }
+    if (!(g->greatest > 1.0))
+        return 0;
+    double limit = 0.95 * g->greatest > 1.0 ? 0.95 * g->greatest : 1.0;
+    uint32_t kept = 0, all = g->bond_count;
+    for (uint32_t k = 0; k < all; k++)
+        if (burden(g, &g->bonds[k]) <= limit)
+            g->bonds[kept++] = g->bonds[k];
+    g->bond_count = kept;
+    return all - kept;
+}
+
+uint32_t jox_glue_step(JoxGlue *g, double dt, const double spin[3]) {
+    Three *f = g->scratch + 3 * (size_t)g->count;
+    double weakest = INFINITY;
+    uint32_t cut = 0;
+    take_in(g, dt);
+    for (uint32_t k = 0; k < g->bond_count; k++)
+        weakest = g->bonds[k].strength < weakest ? g->bonds[k].strength : weakest;
+    g->greatest = 0.0;
+    if (!(relieve(g, spin, f) > weakest))
+        return 0;
+    for (int round = 0; round < MOST_ROUNDS; round++) {
+        equilibrium(g, f);
+        uint32_t now = cut_worst(g);
+        cut += now;
+        if (now == 0 || jox_glue_pieces(g) > 1)
+            break;
+    }
+    return cut;
+}

@@ -1,0 +1,99 @@
+/* Glued bodies as the crowd meets them: when it first leans on one, what breaks, and how many rows
+   press when it does. */
+#include <math.h>
+
+#include "base/mem.h"
+#include "geom/polygon.h"
+#include "world/world.h"
+
+static const float SKIN = 0.02f;  /* m: people nearer than this touch */
+static const float FRONT = 0.30f; /* m: from the wall to the skin of those who are in front */
+
+/* From an agent's skin to the footprint of a body, m. */
+static float gap_to(const JoWorld *w, const JoxObject *body, uint32_t i) {
+    const JoxAgents *a = &w->agents;
+    JoxV2 at = {a->x[i], a->y[i]};
+    float least = INFINITY;
+    if (body->footprint_count >= 3 &&
+        jox_polygon_contains(body->footprint, body->footprint_count, at))
+        return -a->param[JOX_PARAM_radius][i];
+    for (uint32_t k = 0; k < body->footprint_count; k++) {
+        JoxV2 side = jox_segment_nearest(body->footprint[k],
+                                         body->footprint[(k + 1) % body->footprint_count], at);
+        least = jox_minf(least, jox_length2(jox_sub(at, side)));
+    }
+    return sqrtf(least) - a->param[JOX_PARAM_radius][i];
+}
+
+static double now(const JoWorld *w) {
+    return (double)w->tick * w->def.dt + (w->part + 1) * w->part_dt;
+}
+
+/* Until somebody touches a glued body: how slow those before it have become. */
+void jox_world_note_touch(JoWorld *w) {
+    JoxBondStatistics *s = &w->statistics.bonds;
+    const JoxAgents *a = &w->agents;
+    JoxBodyGlue glue;
+    for (uint32_t o = 0; o < w->objects.count && !s->touched; o++) {
+        if (!jox_bodies_glue(w->bodies, o, &glue))
+            continue;
+        uint32_t front = 0;
+        double sum = 0.0;
+        for (uint32_t i = 0; i < a->count; i++) {
+            float gap = gap_to(w, &w->objects.rows[o], i);
+            if (gap > FRONT)
+                continue;
+            s->touched = s->touched || gap <= 0.0f;
+            front++;
+            sum += sqrt((double)a->vx[i] * a->vx[i] + (double)a->vy[i] * a->vy[i]);
+        }
+        if (s->touched)
+            s->touch_s = now(w);
+        else if (front && (s->front == 0 || sum / front < s->front_speed))
+            s->front_speed = sum / front;
+        s->front = front > s->front ? front : s->front;
+    }
+}
+
+/* Agents in the order in which chains of touching people, all of them squeezed, lead to them from
+   the body: the rows are how far the last is, the people all that are reached. */
+static void count_rows(JoWorld *w, const JoxObject *body) {
+    const JoxAgents *a = &w->agents;
+    const JoxNeighbours *near = &w->neighbours;
+    const float *radius = a->param[JOX_PARAM_radius];
+    uint32_t *row = jox_alloc((size_t)a->count + 1, sizeof *row);
+    uint32_t *queue = jox_alloc((size_t)a->count + 1, sizeof *queue), end = 0;
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->compression[i] > 0.0f && gap_to(w, body, i) < SKIN) {
+            row[i] = 1;
+            queue[end++] = i;
+        }
+    for (uint32_t at = 0; at < end; at++) {
+        uint32_t i = queue[at];
+        for (uint32_t k = 0; k < near->count[i]; k++) {
+            uint32_t j = near->index[jox_neighbour_at(near, i, k)];
+            float gap = jox_length(jox_offset(a, i, j)) - radius[i] - radius[j];
+            if (row[j] || !(a->compression[j] > 0.0f) || gap >= SKIN)
+                continue;
+            row[j] = row[i] + 1;
+            queue[end++] = j;
+        }
+    }
+    w->statistics.bonds.people = end;
+    w->statistics.bonds.rows = end ? row[queue[end - 1]] : 0;
+    jox_free(row);
+    jox_free(queue);
+}
+
+void jox_world_note_breaks(JoWorld *w, const JoxBodiesReport *report) {
+    JoxBondStatistics *s = &w->statistics.bonds;
+    for (uint32_t k = 0; k < report->break_count; k++) {
+        const JoxBodyBreak *broken = &report->breaks[k];
+        if (s->broken == 0) {
+            s->first_s = now(w);
+            count_rows(w, &w->objects.rows[broken->row]); /* as it was before the step */
+        }
+        s->broken += broken->bonds;
+        s->pieces += broken->pieces - 1;
+    }
+}
