@@ -18,7 +18,7 @@
 const JoxKey jox_scene_keys[] = {
     {"scene", "jostle", WHOLE, "", 1, 1, "!", .meaning = "version of the format"},
     {"scene", "include", NAMES, "", 0, 0, "",
-     .meaning = "scenes beside this one that give what it lacks; maps are joined key by key"},
+     .meaning = "scenes beside this one that give what it lacks; maps are joined key by key, and a map in place of a list changes its items by their `name`"},
     {"scene", "title", TEXT, "", 0, 0, "", .meaning = "what people see"},
     {"scene", "seed", WHOLE, "", 0, 9e15, "1", .meaning = "of all random numbers"},
     {"scene", "step", NUMBER, "s", 0.001, 0.2, "0.05", .meaning = "time step"},
