@@ -219,6 +219,9 @@ static bool draw(JoScene *scene, JoError *error) {
                  paths ? "/paths.png, " : "", scene->report, scene->regions->count ? " and " : "",
                  scene->regions->count ? scene->report : "",
                  scene->regions->count ? "/regions.png" : "");
+    if (scene->plan->probe_count)
+        jox_host_say(scene, "probes: %u in %s/NAME.csv, NAME.png and NAME.svg\n",
+                     scene->plan->probe_count, scene->report);
     return true;
 }
 
