@@ -224,6 +224,9 @@ static bool draw(JoScene *scene, JoError *error) {
     jox_host_say(scene, "pictures: %s%s%s/density.png%s%s%s\n", paths ? scene->report : "",
                  paths ? "/paths.png, " : "", scene->report, regions ? " and " : "",
                  regions ? scene->report : "", regions ? "/regions.png" : "");
+    if (scene->plan->probe_count)
+        jox_host_say(scene, "probes: %u in %s/NAME.csv, NAME.png and NAME.svg\n",
+                     scene->plan->probe_count, scene->report);
     return true;
 }
 

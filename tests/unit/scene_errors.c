@@ -73,9 +73,6 @@ static const struct Case {
     {"probes: {a: {measure: @[[0, 0], [1, 0]]}}\n" GROUP, "bad-type", NULL},
     {"probes: {a: {measure: [[0, 0], [1, 0], @[2, 0]]}}\n" GROUP, "self-crossing", NULL},
     {"probes: {a: {measure: [[0, 0], [1, 1], @[1, 0], [0, 1]]}}\n" GROUP, "self-crossing", NULL},
-    {"probes: {a: {measure: [[0, 0], [2, 0], [2, 2]], walkable: @[[0, 0], [1, 0], [1, "
-     "1]]}}\n" GROUP,
-     "bad-probe", NULL},
     {"probes: {a: {failures: 1, group: @gg}}\n" GROUP, "unknown-group", "Did you mean 'g'?"},
     {"probes: {a: {failures: @0}}\n" GROUP, "out-of-range", NULL},
     {"probes: {a: {failures: 1, from: 5, until: @5}}\n" GROUP, "bad-probe", NULL},
