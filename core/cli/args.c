@@ -66,6 +66,20 @@ uint64_t cli_whole(CliArgs *args, const char *option, uint64_t least, uint64_t g
     return value;
 }
 
+int cli_write(const char *command, const char *path, const char *text) {
+    if (!strcmp(path, "-")) {
+        fputs(text, stdout);
+        return JO_OK;
+    }
+    FILE *file = fopen(path, "w");
+    bool good = file && fputs(text, file) >= 0;
+    if (file && fclose(file) != 0)
+        good = false;
+    if (!good)
+        fprintf(stderr, "jostle %s: cannot write '%s'\n", command, path);
+    return good ? JO_OK : JO_FAILED;
+}
+
 int cli_unknown(CliArgs *args, const char *option, const char *const *known) {
     fprintf(stderr, "jostle %s: unknown option --%s", args->command, option);
     for (const char *const *k = known; *k; k++) {

@@ -8,11 +8,13 @@ static const struct Command {
     int (*run)(int argc, char **argv);
 } COMMANDS[] = {
     {"run", "simulate a scene", cli_run},
+    {"report", "measure a recording, simulated or real", cli_report},
     {"check", "find every error in scenes and behaviours, without running", cli_check},
     {"test", "run tests of behaviours, written in Lua", cli_test},
     {"new", "write a commented start of a behaviour, scene or mod", cli_new},
     {"mod", "list mods, and tell who set a value", cli_mod},
     {"reference", "print every word and key, for people and for editors", cli_reference},
+    {"reproduce", "run what papers and real crowds show, and compare", cli_reproduce},
     {"bench", "time scenes and stages", cli_bench},
 };
 

@@ -19,7 +19,8 @@ static const char HELP[] =
     "  --set PATH=VALUE   replace a value of the scene, e.g. groups.pilgrims.count=5000\n"
     "  --input FILE       play recorded input: lines of TICK player AGENT VX VY\n"
     "  --record FILE      write trajectories (SQLite, JuPedSim format 2)\n"
-    "  --report DIR       draw density and regional speeds into DIR\n"
+    "  --report DIR       draw density, regional speeds and what probes measure into DIR\n"
+    "  --data DIR         write the CSV files of the scene's probes, and no pictures\n"
     "  --summary FILE     write the run's figures as JSON; '-' is standard output\n"
     "  --mod DIR          take a mod: a folder, or the name of one that lies in scenes' mods/ or "
     "in the\n"
@@ -36,7 +37,7 @@ static const char HELP[] =
 
 typedef struct Run {
     JoSceneDef def;
-    const char *record, *report, *summary;
+    const char *record, *report, *data, *summary;
     double seconds;
     uint64_t steps, seeds, trace;
     const char **mods;
@@ -82,6 +83,8 @@ static bool read_option(Run *run, CliArgs *args, const char *option, const char 
         run->record = cli_value(args, option);
     } else if (!strcmp(option, "report")) {
         run->report = cli_value(args, option);
+    } else if (!strcmp(option, "data")) {
+        run->data = cli_value(args, option);
     } else if (!strcmp(option, "summary")) {
         run->summary = cli_value(args, option);
     } else if (!strcmp(option, "mod")) {
@@ -123,6 +126,7 @@ static int simulate(const Run *run, char **summary) {
     uint64_t steps = run->has_steps ? run->steps : (uint64_t)(seconds / dt + 0.5);
     bool ok = (!run->record || jo_scene_record(scene, run->record, &error)) &&
               (!run->report || jo_scene_report(scene, run->report, &error)) &&
+              (!run->data || jo_scene_data(scene, run->data, &error)) &&
               (!run->watch || jo_scene_watch(scene, &error));
     if (run->has_trace)
         jo_scene_trace(scene, (uint32_t)run->trace);
@@ -147,20 +151,6 @@ static int simulate(const Run *run, char **summary) {
     return status;
 }
 
-static int write_text(const char *path, const char *text) {
-    if (!strcmp(path, "-")) {
-        fputs(text, stdout);
-        return JO_OK;
-    }
-    FILE *file = fopen(path, "w");
-    bool good = file && fputs(text, file) >= 0;
-    if (file && fclose(file) != 0)
-        good = false;
-    if (!good)
-        fprintf(stderr, "jostle run: cannot write '%s'\n", path);
-    return good ? JO_OK : JO_FAILED;
-}
-
 static int simulate_seeds(Run *run) {
     char **summaries = calloc(run->seeds, sizeof *summaries);
     uint64_t first = run->def.has_seed ? run->def.seed : 1;
@@ -177,7 +167,8 @@ static int simulate_seeds(Run *run) {
     if (status == JO_OK) {
         JoError error = {0};
         char *all = jo_summaries_aggregate((const char *const *)summaries, done, &error);
-        status = all ? write_text(run->summary ? run->summary : "-", all) : complain(&error, false);
+        status = all ? cli_write("run", run->summary ? run->summary : "-", all)
+                     : complain(&error, false);
         jo_free(all);
     }
     for (size_t i = 0; i < run->seeds; i++)
@@ -201,9 +192,9 @@ static int usage_error(const Run *run, const CliArgs *args) {
 
 int cli_run(int argc, char **argv) {
     static const char *const known[] = {
-        "for",   "steps", "dt",     "seed",    "seeds",       "threads",  "isa",
-        "set",   "input", "record", "report",  "summary",     "watch",    "trace",
-        "quiet", "help",  "mod",    "no-mods", "profile-lua", "no-watch", NULL};
+        "for",   "steps",  "dt",      "seed",        "seeds",    "threads", "isa",   "set",
+        "input", "record", "report",  "data",        "summary",  "watch",   "trace", "quiet",
+        "help",  "mod",    "no-mods", "profile-lua", "no-watch", NULL};
     CliArgs args = {.argc = argc, .argv = argv, .next = 1, .command = "run"};
     const char **overrides = calloc((size_t)argc, sizeof *overrides);
     Run run = {.def = jo_default_scene_def()};
@@ -239,7 +230,7 @@ int cli_run(int argc, char **argv) {
         char *summary = NULL;
         status = run.seeds ? simulate_seeds(&run) : simulate(&run, &summary);
         if (summary && run.summary) {
-            int written = write_text(run.summary, summary);
+            int written = cli_write("run", run.summary, summary);
             status = status ? status : written;
         }
         jo_free(summary);

@@ -41,6 +41,7 @@ struct JoScene {
         record_base[JOX_MOST_MACHINES]; /* number of a machine's first state in the recording */
     uint32_t record_next;
     char *report; /* directory, or NULL */
+    char *data;   /* directory of the probes' CSV files, or NULL */
     JoxDensity *density;
     JoxRegions *regions;
     JoxPaths *paths;
@@ -113,7 +114,8 @@ const JoxFrame *jox_host_frame(JoScene *scene);
 void jox_host_measure(JoScene *scene);
 /* Adds ,"probes": {...} to a summary, and their files to the report's folder. */
 void jox_host_add_probes(const JoScene *scene, JoxText *out);
-bool jox_host_write_probes(const JoScene *scene, const char *title, JoxText *error);
+bool jox_host_write_probes(const JoScene *scene, const char *folder, const char *title,
+                           JoxText *error);
 void jox_host_end_measuring(JoScene *scene);
 
 #endif

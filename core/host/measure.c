@@ -66,7 +66,8 @@ const JoxFrame *jox_host_frame(JoScene *scene) {
                           .failed = a->failed,
                           .group = a->group,
                           .groups = m->names,
-                          .group_count = scene->plan->group_count};
+                          .group_count = scene->plan->group_count,
+                          .walls = &world->walls};
     return &m->frame;
 }
 
@@ -96,11 +97,12 @@ void jox_host_add_probes(const JoScene *scene, JoxText *out) {
     jox_text_add(out, "\n }");
 }
 
-bool jox_host_write_probes(const JoScene *scene, const char *title, JoxText *error) {
+bool jox_host_write_probes(const JoScene *scene, const char *folder, const char *title,
+                           JoxText *error) {
     const JoxMeasuring *m = scene->measuring;
     bool good = true;
     for (uint32_t p = 0; m && good && p < m->count; p++)
-        good = jox_probe_write(m->probes[p], scene->report, &scene->world->walls, title, error);
+        good = jox_probe_write(m->probes[p], folder, &scene->world->wall_plan, title, error);
     return good;
 }
 

@@ -220,12 +220,11 @@ static bool same_probes(const JoxScene *a, const JoxScene *b) {
                p->group_count == q->group_count &&
                !memcmp(p->groups, q->groups, p->group_count * sizeof *p->groups) &&
                p->from == q->from && p->until == q->until && p->every == q->every &&
-               p->cutoff == q->cutoff && p->onset == q->onset && p->cell == q->cell &&
-               p->kernel == q->kernel && p->rows == q->rows && p->along_y == q->along_y &&
-               !memcmp(&p->low, &q->low, sizeof p->low) &&
+               p->cutoff == q->cutoff && p->onset == q->onset && p->rest == q->rest &&
+               p->cell == q->cell && p->kernel == q->kernel && p->rows == q->rows &&
+               p->along_y == q->along_y && !memcmp(&p->low, &q->low, sizeof p->low) &&
                !memcmp(&p->high, &q->high, sizeof p->high) &&
-               same_points(p->points, p->count, q->points, q->count) &&
-               same_points(p->walkable, p->walkable_count, q->walkable, q->walkable_count);
+               same_points(p->points, p->count, q->points, q->count);
     }
     return same;
 }

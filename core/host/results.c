@@ -79,6 +79,8 @@ bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
     const JoxMind *mind = &scene->world->mind;
     for (uint32_t m = 0; m < mind->machine_count; m++)
         jox_host_record_states(scene, m);
+    for (uint32_t g = 0; g < scene->plan->group_count; g++)
+        jox_recorder_group(scene->recorder, g, scene->plan->groups[g].name);
     return true;
 }
 
@@ -93,9 +95,9 @@ static bool record_frame(JoScene *scene, JoError *error) {
         if (i == JOX_NO_INDEX)
             continue;
         float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
-        rows[n++] = (JoxRecordRow){id,           a->x[i],          a->y[i],
-                                   a->face_x[i], a->face_y[i],     state_number(scene, i),
-                                   force,        a->compression[i]};
+        rows[n++] = (JoxRecordRow){id,           a->x[i],           a->y[i],
+                                   a->face_x[i], a->face_y[i],      state_number(scene, i),
+                                   force,        a->compression[i], a->group[i]};
     }
     n = 0;
     for (uint32_t o = 0; o < objects->count && n < count; o++) {
@@ -121,11 +123,16 @@ bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
     jox_host_area(scene, &low, &high);
     scene->report = jox_strdup(directory);
     scene->density = jox_density_create(low, high, JOX_DENSITY_CELL, JOX_DENSITY_KERNEL);
-    scene->regions = jox_regions_create();
     scene->paths = jox_paths_create();
-    for (uint32_t r = 0; r < scene->plan->region_count; r++)
-        jox_regions_add(scene->regions, scene->plan->regions[r].name,
-                        scene->plan->regions[r].points, scene->plan->regions[r].count);
+    return true;
+}
+
+bool jo_scene_data(JoScene *scene, const char *directory, JoError *error) {
+    JOX_REQUIRE(scene && directory && !scene->data, false);
+    JoxText why = {0};
+    if (!jox_plot_folder(directory, &why))
+        return fail(error, &why);
+    scene->data = jox_strdup(directory);
     return true;
 }
 
@@ -149,15 +156,24 @@ static void sample_paths(JoScene *scene) {
     }
 }
 
+static void make_regions(JoScene *scene) {
+    scene->regions = jox_regions_create();
+    for (uint32_t r = 0; r < scene->plan->region_count; r++)
+        jox_regions_add(scene->regions, scene->plan->regions[r].name,
+                        scene->plan->regions[r].points, scene->plan->regions[r].count);
+}
+
 static void sample(JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->agents;
-    sample_paths(scene);
+    if (scene->report)
+        sample_paths(scene);
     uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(SAMPLE / world->def.dt + 0.5));
     double time = (double)world->tick * world->def.dt;
     if (world->tick % every != 0 || time < scene->plan->heatmap_from)
         return;
-    jox_density_add(scene->density, a->x, a->y, a->count, time);
+    if (scene->report)
+        jox_density_add(scene->density, a->x, a->y, a->count, time);
     jox_regions_frame(scene->regions, a->x, a->y, a->prev_x, a->prev_y, a->count, world->def.dt);
 }
 
@@ -190,24 +206,27 @@ static bool draw(JoScene *scene, JoError *error) {
                         scene->world->agents.count, until);
     bool good =
         jox_plot_density(scene->report, scene->density, &scene->world->wall_plan, title, &why);
-    if (good && scene->regions->count) {
+    if (good && scene->regions && scene->regions->count) {
         snprintf(title, sizeof title, "%.120s: mean speed per region, t = %.0f to %.0f s", name,
                  scene->plan->heatmap_from, until);
         good = jox_plot_regions(scene->report, scene->regions, title, &why);
     }
+    bool regions = scene->regions && scene->regions->count;
     bool paths = scene->world->agents.next_id <= JOX_MOST_PATHS && scene->paths->count;
     if (good && paths) {
         snprintf(title, sizeof title,
                  "%.120s: paths (a dot is the beginning, a circle the end), %.1f s", name, until);
         good = draw_paths(scene, title, &why);
     }
-    good = good && jox_host_write_probes(scene, name, &why);
+    good = good && jox_host_write_probes(scene, scene->report, name, &why);
     if (!good)
         return fail(error, &why);
     jox_host_say(scene, "pictures: %s%s%s/density.png%s%s%s\n", paths ? scene->report : "",
-                 paths ? "/paths.png, " : "", scene->report, scene->regions->count ? " and " : "",
-                 scene->regions->count ? scene->report : "",
-                 scene->regions->count ? "/regions.png" : "");
+                 paths ? "/paths.png, " : "", scene->report, regions ? " and " : "",
+                 regions ? scene->report : "", regions ? "/regions.png" : "");
+    if (scene->plan->probe_count)
+        jox_host_say(scene, "probes: %u in %s/NAME.csv, NAME.png and NAME.svg\n",
+                     scene->plan->probe_count, scene->report);
     return true;
 }
 
@@ -246,7 +265,9 @@ void jo_scene_trace(JoScene *scene, uint32_t agent_id) {
 bool jox_host_collect(JoScene *scene, JoError *error) {
     if (scene->world->mind.trace.length)
         scene->message(scene->message_context, scene->world->mind.trace.data);
-    if (scene->density)
+    if (!scene->regions)
+        make_regions(scene);
+    if (scene->density || scene->regions->count)
         sample(scene);
     jox_host_measure(scene);
     if (scene->progress_until > 0.0)
@@ -301,13 +322,15 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
         good = draw(scene, error) && good;
         scene->density_most = scene->density->most;
     }
+    if (scene->data)
+        good = (jox_host_write_probes(scene, scene->data, NULL, &why) || fail(error, &why)) && good;
+    jox_free(scene->data);
+    scene->data = NULL;
     jox_density_free(scene->density);
-    jox_regions_free(scene->regions);
     jox_paths_free(scene->paths);
     scene->paths = NULL;
     jox_free(scene->report);
     scene->density = NULL;
-    scene->regions = NULL;
     scene->report = NULL;
     return good;
 }

@@ -201,9 +201,12 @@ JO_API bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoEr
 JO_API bool jo_scene_signal(JoScene *scene, const char *name, JoError *error);
 /* Writes trajectories to an SQLite file from here on (JuPedSim format, version 2). */
 JO_API bool jo_scene_record(JoScene *scene, const char *path, JoError *error);
-/* Collects density and regional speeds from here on; jo_scene_finish draws them into `directory`
-   (made if it is missing). */
+/* Collects density and regional speeds from here on; jo_scene_finish draws them, and what the
+   scene's probes measured, into `directory` (made if it is missing). */
 JO_API bool jo_scene_report(JoScene *scene, const char *directory, JoError *error);
+/* At jo_scene_finish only the probes' CSV files are written, into `directory` (made if it is
+   missing). */
+JO_API bool jo_scene_data(JoScene *scene, const char *directory, JoError *error);
 /* From here on files are watched: behaviours, what they require, patches of mods and the scene
    itself. A thread of its own loads what was edited; between two steps all of it is swapped, or
    nothing, and `message` says so. */
@@ -231,6 +234,24 @@ JO_API char *jo_scene_summary(const JoScene *scene);
 /* From several summaries: mean and 5-95 % range of each numeric figure; free with jo_free. */
 JO_API char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error);
 
+/* What is measured of a recording: an SQLite file of jo_scene_record or of JuPedSim, or text with
+   the columns id, frame, x, y as PeTrack writes it, or CSV with a line of names. */
+typedef struct JoReportDef {
+    const char *recording;
+    const char *scene;     /* whose probes measure and whose walls are drawn; NULL: a map of all and
+                              densities and speeds over time */
+    const char *directory; /* for CSV files and pictures, made if it is missing; NULL: none */
+    double fps;            /* frames a second; 0: as the recording says */
+    double unit;           /* m, of its lengths: 1, or 0.01 for centimetres; 0: as it says */
+    JoMessage *message;    /* NULL: to stderr */
+    void *message_context;
+    uint32_t cookie;
+} JoReportDef;
+JO_API JoReportDef jo_default_report_def(void);
+/* Shows every frame to the probes and returns their figures as one JSON object; free with jo_free.
+   NULL if anything is wrong: every error went to `message`, the first is in `error`. */
+JO_API char *jo_report(const JoReportDef *def, JoError *error);
+
 /* The mods that a run of the scene would take (path NULL: of the user's data directory alone), in
    order, and the others that were found, as text; free with jo_free. */
 JO_API char *jo_mods_list(const JoSceneDef *def);
@@ -250,6 +271,27 @@ JO_API size_t jo_check(const char *const *paths, size_t count, bool json, JoMess
    cannot be run. */
 JO_API bool jo_test(const char *const *paths, size_t count, const char *only, bool json,
                     JoMessage *message, void *context, size_t *passed, size_t *failed);
+/* What a claim file says is measured and compared (scenes/claims/README.md). */
+typedef struct JoReproduceDef {
+    const char *folder;        /* of claim files */
+    const char *const *claims; /* ids, or names of files; none: all */
+    size_t claim_count;
+    const char *out;     /* folder for runs, pictures and the page */
+    const char *program; /* path of the command `jostle`, which runs the scenes */
+    uint32_t jobs;       /* processes at once */
+    uint32_t seeds;      /* per run that has several; 0: as the claim says */
+    bool quick;          /* the smaller runs of each claim */
+    bool fresh;          /* runs that are there already are done again */
+    bool list;           /* names the claims, runs nothing */
+    bool quiet;          /* no progress on stderr */
+    JoMessage *message;  /* NULL: to stdout */
+    void *message_context;
+} JoReproduceDef;
+JO_API JoReproduceDef jo_default_reproduce_def(void);
+/* Runs what claims need, measures, sends a table to `message` and writes index.html, table.md and
+   results.json into `out`. *missed counts the claims out of band. False with `error` if it could
+   not be done; what is wrong with claim files went to `message`. */
+JO_API bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error);
 /* A generated page or file by name, as `jostle reference` lists them: "behaviours", "scenes",
    "lua-ls", "luacheck", "scene-schema", "mod-schema". NULL if there is none; free with jo_free. */
 JO_API char *jo_reference(const char *what);

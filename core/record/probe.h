@@ -32,7 +32,8 @@ void jox_probe_frame(JoxProbe *probe, const JoxFrame *frame);
 JoxFigures jox_probe_figures(const JoxProbe *probe);
 /* Adds {"flow": 1.15, ...}. */
 void jox_probe_json(const JoxProbe *probe, JoxText *out);
-/* NAME.csv, NAME.png and NAME.svg into a folder that is there. False with a sentence in `error`. */
+/* NAME.csv, and with a title NAME.png and NAME.svg, into a folder that is there. False with a
+ * sentence in `error`. */
 bool jox_probe_write(const JoxProbe *probe, const char *folder, const JoxWalls *walls,
                      const char *title, JoxText *error);
 const JoxProbeDef *jox_probe_def(const JoxProbe *probe);

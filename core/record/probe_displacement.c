@@ -1,7 +1,8 @@
-/* Displacement: how far each person is from where first seen, at the end (residual) and at most,
-   and when it began. Where a push travels through people who stand, the distances at which they
-   stood from the one who moved first, fitted over the times at which they began to move, give the
-   speed of its front (least squares, time over distance). */
+/* Displacement: how far each person is from where first seen (the mean place of the first `rest`
+   seconds), at the end (residual) and at most, and when it began; in all directions, or along one.
+   Where a push travels through people who stand, the distances at which they stood from the one who
+   moved first, fitted over the times at which they began to move, give the speed of its front
+   (least squares, time over distance). */
 #include <math.h>
 #include <string.h>
 
@@ -10,10 +11,12 @@
 
 typedef struct Person {
     bool known;
-    float x, y;   /* m: where first seen */
-    float dx, dy; /* m: since, the way over periodic edges taken as it was */
-    float most;   /* m */
-    double onset; /* s: when `onset` metres were passed, or NAN */
+    float x, y;           /* m: where first seen */
+    float dx, dy;         /* m: since, the way over periodic edges taken as it was */
+    float base_x, base_y; /* m: mean of these while at rest */
+    uint32_t rested;      /* frames */
+    float now, most;      /* m: distance from there */
+    double since, onset;  /* s: when first seen; when `onset` metres were passed, or NAN */
 } Person;
 
 typedef struct Displacement {
@@ -25,6 +28,30 @@ typedef struct Displacement {
 static double pace(const JoxProbeDef *def) {
     (void)def;
     return 0.0; /* a front passes people in less than a tenth of a second */
+}
+
+/* m from the place of rest: along the given direction, else in any. */
+static float distance(const JoxProbeDef *def, const Person *p) {
+    JoxV2 away = {p->dx - p->base_x, p->dy - p->base_y};
+    return def->count ? fabsf(jox_dot(away, jox_unit(def->points[0]))) : jox_length(away);
+}
+
+static void move(const JoxProbeDef *def, Person *p, const JoxStretch *stretch) {
+    p->dx += stretch->by.x;
+    p->dy += stretch->by.y;
+    if (stretch->ended - p->since < def->rest - 1e-9) {
+        p->base_x += (p->dx - p->base_x) / (float)(p->rested + 1);
+        p->base_y += (p->dy - p->base_y) / (float)(p->rested + 1);
+        p->rested++;
+        return;
+    }
+    float before = p->now;
+    p->now = distance(def, p);
+    p->most = jox_maxf(p->most, p->now);
+    if (isnan(p->onset) && p->now > def->onset) {
+        double share = p->now > before ? (def->onset - before) / (p->now - before) : 1.0;
+        p->onset = stretch->begun + share * (stretch->ended - stretch->begun);
+    }
 }
 
 static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
@@ -39,28 +66,20 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
             continue;
         Person *p = &d->people[frame->key[i]];
         JoxStretch stretch;
-        if (!jox_track_step(&d->track, frame, i, &stretch)) {
-            *p = (Person){.known = true, .x = frame->x[i], .y = frame->y[i], .onset = NAN};
-            continue;
-        }
-        float before = sqrtf(p->dx * p->dx + p->dy * p->dy);
-        p->dx += stretch.by.x;
-        p->dy += stretch.by.y;
-        float now = sqrtf(p->dx * p->dx + p->dy * p->dy);
-        p->most = jox_maxf(p->most, now);
-        if (isnan(p->onset) && now > def->onset) {
-            double share = now > before ? (def->onset - before) / (now - before) : 1.0;
-            p->onset = stretch.begun + share * (stretch.ended - stretch.begun);
-        }
+        if (!jox_track_step(&d->track, frame, i, &stretch))
+            *p = (Person){.known = true,
+                          .x = frame->x[i],
+                          .y = frame->y[i],
+                          .rested = 1,
+                          .since = frame->time,
+                          .onset = NAN};
+        else
+            move(def, p, &stretch);
     }
 }
 
-static double residual(const Person *p) {
-    return sqrt((double)p->dx * p->dx + (double)p->dy * p->dy);
-}
-
 /* m/s; NAN where fewer than three moved, or where time does not grow with distance. */
-static double front_speed(const Displacement *d) {
+static double front_speed(const JoxProbeDef *def, const Displacement *d) {
     const Person *first = NULL;
     double n = 0, s = 0, t = 0, ss = 0, st = 0;
     for (uint32_t k = 0; k < d->capacity; k++)
@@ -71,7 +90,10 @@ static double front_speed(const Displacement *d) {
         const Person *p = &d->people[k];
         if (!p->known || !isfinite(p->onset))
             continue;
-        double away = hypot((double)p->x - first->x, (double)p->y - first->y);
+        JoxV2 apart = {p->x + p->base_x - first->x - first->base_x,
+                       p->y + p->base_y - first->y - first->base_y};
+        double away =
+            def->count ? fabsf(jox_dot(apart, jox_unit(def->points[0]))) : jox_length(apart);
         double after = p->onset - first->onset;
         n++, s += away, t += after, ss += away * away, st += away * after;
     }
@@ -80,7 +102,6 @@ static double front_speed(const Displacement *d) {
 }
 
 static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
-    (void)def;
     const Displacement *d = state;
     double *ends = jox_alloc(d->capacity + 1, sizeof *ends), sum = 0.0, peaks = 0.0, peak = NAN;
     uint32_t count = 0, moved = 0;
@@ -88,7 +109,7 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
         const Person *p = &d->people[k];
         if (!p->known)
             continue;
-        sum += ends[count++] = residual(p);
+        sum += ends[count++] = p->now;
         peaks += p->most;
         peak = isnan(peak) || p->most > peak ? p->most : peak;
         moved += isfinite(p->onset) != 0;
@@ -100,7 +121,7 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "greatest", "m", jox_quantile(ends, count, 1.0));
     jox_figure_add(out, "peak_mean", "m", count ? peaks / count : NAN);
     jox_figure_add(out, "peak", "m", peak);
-    jox_figure_add(out, "front_speed", "m/s", front_speed(d));
+    jox_figure_add(out, "front_speed", "m/s", front_speed(def, d));
     jox_free(ends);
 }
 
@@ -112,8 +133,8 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
         const Person *p = &d->people[k];
         if (!p->known)
             continue;
-        fprintf(out, "%u,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,", k, p->x, p->y, p->dx, p->dy, residual(p),
-                p->most);
+        fprintf(out, "%u,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,", k, p->x + p->base_x, p->y + p->base_y,
+                p->dx - p->base_x, p->dy - p->base_y, p->now, p->most);
         fprintf(out, isfinite(p->onset) ? "%.4f\n" : "nan\n", p->onset);
     }
 }
@@ -137,7 +158,7 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
     /* A range of colours is given: gnuplot would warn where nobody moved. */
     double most = 0.0;
     for (uint32_t k = 0; k < d->capacity; k++)
-        most = d->people[k].known ? fmax(most, residual(&d->people[k])) : most;
+        most = d->people[k].known ? fmax(most, d->people[k].now) : most;
     float margin = 0.3f + 0.03f * jox_maxf(high.x - low.x, high.y - low.y);
     jox_text_printf(out,
                     "set size ratio -1\nset xlabel 'x (m)'\nset ylabel 'y (m)'\nunset key\n"

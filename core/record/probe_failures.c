@@ -76,10 +76,11 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
     }
     jox_text_printf(out,
                     "set xlabel 'time (s)'\nset ylabel 'programs that failed (%%)'\nunset key\n"
-                    "set yrange [0:%g]\nset xrange [%g:*]\nset boxwidth %g\n"
+                    "set yrange [0:%g]\nset xrange [%g:%g]\nset boxwidth %g\n"
                     "set style fill solid 0.9\n"
                     "plot '%s.csv' skip 1 using 1:(100*$4) with boxes lc '#1f77b4'\n",
-                    fmax(1.1 * most, 1.0), def->from, 0.9 * def->every, def->name);
+                    fmax(1.1 * most, 1.0), def->from, def->from + f->count * def->every,
+                    0.9 * def->every, def->name);
 }
 
 static void release(void *state) {

@@ -14,7 +14,7 @@
 #include "record/probe_parts.h"
 
 enum { DENSITY, SPEED, VX, VY, SQUARE, COMPRESSION, FIELDS };
-static const float LEAST = 1e-3f; /* 1/m2: below this there is nobody to have a velocity */
+static const float LEAST = 0.02f; /* 1/m2: below this there is nobody to have a velocity */
 enum { MOST_CELLS_DRAWN = 250000 };
 
 typedef struct Map {

@@ -101,6 +101,7 @@ static bool write_rows(JoxRecorder *r, const Frame *f) {
         sqlite3_bind_int64(r->agent, 3, row->state);
         sqlite3_bind_double(r->agent, 4, row->force);
         sqlite3_bind_double(r->agent, 5, row->compression);
+        sqlite3_bind_int64(r->agent, 6, row->group);
         if (!put(r, r->row) || !put(r, r->agent))
             return false;
         r->low_x = fmin(r->low_x, row->x), r->high_x = fmax(r->high_x, row->x);
@@ -175,7 +176,8 @@ static const char SCHEMA[] =
     "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"
     "CREATE INDEX frame_id_idx ON trajectory_data(frame, id);"
     "CREATE TABLE jostle_agent(frame INTEGER, id INTEGER, state INTEGER, force REAL,"
-    " compression REAL);"
+    " compression REAL, member INTEGER);"
+    "CREATE TABLE jostle_group(number INTEGER PRIMARY KEY, name TEXT);"
     "CREATE TABLE jostle_state(number INTEGER PRIMARY KEY, machine TEXT, state TEXT);"
     "CREATE TABLE jostle_body(frame INTEGER, id INTEGER, x REAL, y REAL, z REAL, qx REAL, qy REAL,"
     " qz REAL, qw REAL);";
@@ -193,7 +195,7 @@ static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
     sqlite3_finalize(geometry);
     return good && run(r, "COMMIT") &&
            prepare(r, &r->row, "INSERT INTO trajectory_data VALUES(?, ?, ?, ?, ?, ?)") &&
-           prepare(r, &r->agent, "INSERT INTO jostle_agent VALUES(?, ?, ?, ?, ?)") &&
+           prepare(r, &r->agent, "INSERT INTO jostle_agent VALUES(?, ?, ?, ?, ?, ?)") &&
            prepare(r, &r->body, "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
            prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
 }
@@ -261,6 +263,20 @@ void jox_recorder_state(JoxRecorder *r, uint32_t number, const char *machine, co
         sqlite3_bind_int64(statement, 1, number);
         sqlite3_bind_text(statement, 2, machine, -1, SQLITE_STATIC);
         sqlite3_bind_text(statement, 3, state, -1, SQLITE_STATIC);
+        put(r, statement);
+        sqlite3_finalize(statement);
+    }
+    pthread_mutex_unlock(&r->lock);
+}
+
+void jox_recorder_group(JoxRecorder *r, uint32_t number, const char *name) {
+    sqlite3_stmt *statement;
+    pthread_mutex_lock(&r->lock);
+    while (r->count > 0)
+        pthread_cond_wait(&r->emptied, &r->lock);
+    if (prepare(r, &statement, "INSERT OR REPLACE INTO jostle_group VALUES(?, ?)")) {
+        sqlite3_bind_int64(statement, 1, number);
+        sqlite3_bind_text(statement, 2, name, -1, SQLITE_STATIC);
         put(r, statement);
         sqlite3_finalize(statement);
     }

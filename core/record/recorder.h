@@ -19,6 +19,7 @@ typedef struct JoxRecordRow {
     uint32_t state;     /* number in jostle_state */
     float force;        /* N */
     float compression;  /* N/m */
+    uint16_t group;     /* number in jostle_group */
 } JoxRecordRow;
 typedef struct JoxRecordBody {
     uint32_t id;
@@ -31,6 +32,8 @@ JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, Jo
 /* Names a state number; once per number, before frames that use it. */
 void jox_recorder_state(JoxRecorder *recorder, uint32_t number, const char *machine,
                         const char *state);
+/* Names a group of agents; before the first frame. */
+void jox_recorder_group(JoxRecorder *recorder, uint32_t number, const char *name);
 /* Room for a frame of so many rows, to be filled and given back by jox_recorder_put. Waits while
    the writer is more than a few frames behind: nothing is dropped. */
 JoxRecordRow *jox_recorder_take(JoxRecorder *recorder, uint32_t rows, uint32_t bodies,

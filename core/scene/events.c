@@ -9,6 +9,7 @@ enum { LONGEST_NAME = 60 };
 void jox_load_walls(JoxLoad *l, const JoxYaml *list) {
     const JoxReader *r = &l->reader;
     JoxWalls *walls = &l->scene->walls;
+    const size_t errors = r->diagnostics->errors;
     for (uint32_t i = 0; list && list->kind == JOX_YAML_LIST && i < list->count; i++) {
         const JoxYaml *map = list->items[i], *solid, *line;
         uint32_t count, first = walls->ring_count;
@@ -39,6 +40,7 @@ void jox_load_walls(JoxLoad *l, const JoxYaml *list) {
     }
     if (list && list->kind != JOX_YAML_LIST)
         jox_scene_error(r, list, "bad-type", NULL, "walls is a list");
+    l->walls_wrong = r->diagnostics->errors > errors;
 }
 
 /* ---- events ---- */
@@ -55,6 +57,8 @@ static void check_wall(const JoxLoad *l, const JoxYaml *name) {
         if (count < 256)
             names[count++] = walls->rings[r].name;
     }
+    if (l->walls_wrong)
+        return;
     jox_scene_error(&l->reader, name, "unknown-wall",
                     count ? jox_scene_suggest(&l->reader, name->text, names, count)
                           : "Give walls names: {line: [[0, 0], [0, 2]], name: gate}",

@@ -56,6 +56,7 @@ const JoxExample jox_scene_examples[] = {
      "walls:\n"
      "  - {line: [[0, 0], [20, 0], [20, 10], [0, 10]], closed: true, height: 2.5}\n"
      "  - {solid: [[9, 4], [11, 4], [11, 6], [9, 6]]}\n"
+     "  - {line: [[9, 5], [0, 5]], name: fence, open: true}\n"
      STANDER},
     {"body", OPENING
      "bodies:\n"
@@ -116,11 +117,13 @@ const JoxExample jox_scene_examples[] = {
      "  hall: {polygon: [[0, 0], [20, 0], [20, 10], [0, 10]]}\n"
      "  stage: {polygon: [[0, 4], [3, 4], [3, 6], [0, 6]]}\n"
      "  exit: {point: [25, 5], radius: 1}\n"
+     "  rope: {line: [[22, 8], [22, 0]]}\n"
      "groups:\n"
      "  audience: {mix: {walker.lua: 3, runner.lua: 1}, density: 1, in: hall, outside: [stage],\n"
      "             party: 4, tags: [guest], set: {goal: exit, speed: 'normal(1.3, 0.2, 0.5, 2)'}}\n"
      "  staff: {behaviour: stander.lua, count: 12, fill: grid, in: stage, spacing: 60 cm, facing: 90 deg, team: house}\n"
-     "  guards: {behaviour: stander.lua, at: [[22, 5], [23, 5]]}\n"},
+     "  guards: {behaviour: stander.lua, at: [[23, 5], [24, 5]]}\n"
+     "  press: {behaviour: stander.lua, count: 10, fill: line, in: rope}\n"},
     {"group", OPENING
      "include: tawaf.yaml\n"
      "groups: {pilgrims: {count: 300, memory: {laps: 'choose(0, 3, 6)', touched: true}}}\n"},
@@ -138,10 +141,9 @@ const JoxExample jox_scene_examples[] = {
      "include: running-through.yaml\n"
      "probes:\n"
      "  door:    {flow: [[4, -2], [4, 2]], from: 2, until: 60}\n"
-     "  front:   {measure: [[0, 0], [2, 0], [2, 2], [0, 2]], every: 0.5, cutoff: 1.5,\n"
-     "            walkable: [[-1, -1], [9, -1], [9, 9], [-1, 9]]}\n"
+     "  front:   {measure: [[0, 0], [2, 0], [2, 2], [0, 2]], every: 0.5, cutoff: 1.5}\n"
      "  passage: {transit: [[[0, -2], [0, 2]], [[3, -2], [3, 2]]], group: runner}\n"
-     "  block:   {displacement: true, group: standing, onset: 5 cm}\n"
+     "  block:   {displacement: true, group: standing, onset: 5 cm, rest: 0.2, along: [1, 0]}\n"
      "  fields:  {map: {}, every: 2}\n"
      "  laps:    {winding: [0, 0]}\n"
      "  solved:  {failures: 1}\n"

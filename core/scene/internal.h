@@ -12,6 +12,7 @@ typedef struct JoxLoad {
     const JoxSceneOptions *options; /* or NULL */
     const char *datadir;
     uint32_t change_capacity;
+    bool walls_wrong; /* some could not be read: their names are not known */
 } JoxLoad;
 
 /* Index by name, or -1 with an error that suggests one. */

@@ -39,6 +39,23 @@ static void circle(const JoxLoad *l, const JoxYaml *map, const uint32_t *in, uin
     }
 }
 
+/* Along one line, each in the middle of an equal share of it: where the line's ends are joined by
+   periodic edges, nobody stands closer there than elsewhere. */
+static void line(const JoxLoad *l, const JoxYaml *map, const uint32_t *in, uint32_t in_count,
+                 JoxSceneGroup *group) {
+    const JoxPlace *place = in_count == 1 ? &l->scene->places[in[0]] : NULL;
+    if (!place || place->kind != JOX_PLACE_LINE) {
+        jox_scene_error(&l->reader, map, "bad-fill", "in: a place with line",
+                        "`fill: line` goes along one line");
+        return;
+    }
+    JoxV2 from = place->points[0], way = jox_sub(place->points[1], from);
+    group->positions = jox_hoard_take(l->reader.hoard, group->count, sizeof *group->positions);
+    for (uint32_t i = 0; i < group->count; i++)
+        group->positions[i] =
+            jox_add(from, jox_scale(way, (float)((i + 0.5) / (double)group->count)));
+}
+
 static void area(const JoxLoad *l, const JoxYaml *map, const JoxArea *a, JoxSpread spread,
                  float spacing, uint32_t number, JoxSceneGroup *group) {
     JoxV2 *positions = NULL;
@@ -118,6 +135,8 @@ void jox_load_positions(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *gro
     double spacing = jox_key_number(&l->reader, map, "group", "spacing");
     if (group->fill == JOX_FILL_CIRCLE)
         circle(l, map, in, in_count, group);
+    else if (group->fill == JOX_FILL_LINE)
+        line(l, map, in, in_count, group);
     else if (fill >= 0)
         area(l, map, &a, (JoxSpread)group->fill, isfinite(spacing) ? (float)spacing : 0.0f, number,
              group);

@@ -2,7 +2,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "geom/polygon.h"
 #include "scene/internal.h"
 
 static const char KINDS[] = "flow|measure|transit|displacement|map|winding|failures|lanes";
@@ -11,8 +10,9 @@ static const char TAKEN[] = "density|paths|regions|walls|danger";
 /* What an option is of: the kinds that read it. */
 static const char *const OPTIONS[][2] = {{"every", "measure|map|lanes"},
                                          {"cutoff", "measure"},
-                                         {"walkable", "measure"},
-                                         {"onset", "displacement"}};
+                                         {"onset", "displacement"},
+                                         {"rest", "displacement"},
+                                         {"along", "displacement"}};
 
 /* Index of a word in "this|that", or -1. */
 static int word_of(const char *words, const char *word) {
@@ -89,24 +89,6 @@ static void read_lines(const JoxLoad *l, const JoxYaml *node, JoxProbeDef *probe
     probe->count = read_line(l, node->items[1], points + 2) && good ? 4 : 0;
 }
 
-static void read_polygons(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe) {
-    probe->points = jox_load_ring(l, jox_yaml_get(map, "measure"), &probe->count);
-    const JoxYaml *walkable = jox_yaml_get(map, "walkable");
-    if (!walkable)
-        return;
-    probe->walkable = jox_load_ring(l, walkable, &probe->walkable_count);
-    for (uint32_t i = 0; probe->points && probe->walkable && i < probe->count; i++) {
-        JoxV2 p = probe->points[i];
-        if (jox_polygon_contains(probe->walkable, probe->walkable_count, p) ||
-            jox_polygon_distance(probe->walkable, probe->walkable_count, p, false) < 1e-3f)
-            continue;
-        jox_scene_error(&l->reader, walkable, "bad-probe", NULL,
-                        "the measured polygon must lie within the walkable one; (%g, %g) does not",
-                        p.x, p.y);
-        return;
-    }
-}
-
 static void read_map(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe) {
     probe->low = (JoxV2){INFINITY, INFINITY};
     probe->high = (JoxV2){-INFINITY, -INFINITY};
@@ -125,13 +107,25 @@ static void read_lanes(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe)
     jox_load_box(l, jox_yaml_get(map, "area"), &probe->low, &probe->high);
 }
 
-static void read_winding(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe) {
-    double v[2];
+/* One point, or direction, of a key. */
+static bool read_point(const JoxLoad *l, const JoxYaml *map, const char *key, JoxProbeDef *probe) {
+    double v[2] = {0, 0};
     JoxV2 *point = jox_hoard_take(l->reader.hoard, 1, sizeof *point);
-    if (jox_key_vector(&l->reader, map, "probe", "winding", v, 2))
-        *point = jox_v2((float)v[0], (float)v[1]);
+    if (!jox_key_vector(&l->reader, map, "probe", key, v, 2))
+        return false;
+    *point = jox_v2((float)v[0], (float)v[1]);
     probe->points = point;
     probe->count = 1;
+    return true;
+}
+
+static void read_displacement(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe) {
+    if (!jox_key_bool(&l->reader, map, "probe", "displacement"))
+        jox_scene_error(&l->reader, jox_yaml_get(map, "displacement"), "bad-probe",
+                        "Take the probe away", "displacement is true, or is not there");
+    if (read_point(l, map, "along", probe) && jox_length(probe->points[0]) < 1e-6f)
+        jox_scene_error(&l->reader, jox_yaml_get(map, "along"), "bad-probe", "[1, 0]",
+                        "a direction has a length");
 }
 
 static void read_groups_of(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe) {
@@ -154,6 +148,7 @@ static void read_options(const JoxLoad *l, const JoxYaml *map, const char *kind,
     probe->until = jox_yaml_get(map, "until") ? jox_key_number(r, map, "probe", "until") : INFINITY;
     probe->every = jox_key_number(r, map, "probe", "every");
     probe->cutoff = jox_key_number(r, map, "probe", "cutoff");
+    probe->rest = jox_key_number(r, map, "probe", "rest");
     probe->onset = jox_key_number(r, map, "probe", "onset");
     if (probe->until <= probe->from)
         jox_scene_error(r, jox_yaml_get(map, "until"), "bad-probe", NULL,
@@ -181,18 +176,16 @@ static void read_probe(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe)
         read_lines(l, node, probe);
         break;
     case JOX_PROBE_MEASURE:
-        read_polygons(l, map, probe);
+        probe->points = jox_load_ring(l, node, &probe->count);
         break;
     case JOX_PROBE_DISPLACEMENT:
-        if (!jox_key_bool(&l->reader, map, "probe", "displacement"))
-            jox_scene_error(&l->reader, node, "bad-probe", "Take the probe away",
-                            "displacement is true, or is not there");
+        read_displacement(l, map, probe);
         break;
     case JOX_PROBE_MAP:
         read_map(l, node, probe);
         break;
     case JOX_PROBE_WINDING:
-        read_winding(l, map, probe);
+        read_point(l, map, "winding", probe);
         break;
     case JOX_PROBE_FAILURES:
         probe->every = jox_key_number(&l->reader, map, "probe", "failures");

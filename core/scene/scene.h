@@ -19,6 +19,7 @@ typedef enum {
     JOX_FILL_GRID,
     JOX_FILL_RANDOM,
     JOX_FILL_CIRCLE,
+    JOX_FILL_LINE,
     JOX_FILL_AT
 } JoxFillMode;
 

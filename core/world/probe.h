@@ -11,7 +11,7 @@ typedef enum JoxProbeKind {
     JOX_PROBE_FLOW,         /* crossings of a line: points[0..1], + from its right to its left */
     JOX_PROBE_MEASURE,      /* people, density, speed and flow within a polygon */
     JOX_PROBE_TRANSIT,      /* time from the line points[0..1] to the line points[2..3] */
-    JOX_PROBE_DISPLACEMENT, /* of each person from where first seen */
+    JOX_PROBE_DISPLACEMENT, /* from where first seen; along points[0], if given */
     JOX_PROBE_MAP,          /* fields on a grid between low and high */
     JOX_PROBE_WINDING,      /* turns of each person about points[0] */
     JOX_PROBE_FAILURES,     /* share of agent-steps whose 2-D program failed */
@@ -32,6 +32,7 @@ typedef struct JoxProbeDef {
     uint32_t walkable_count;
     double every;        /* s: measure, lanes: interval; map: between samples; failures: bin */
     double cutoff;       /* m: greatest reach of a Voronoi cell */
+    double rest;         /* s: displacement is from the mean place of this time */
     double onset;        /* m: displacement from which a person counts as moved */
     JoxV2 low, high;     /* map, lanes: the area; a map with low.x > high.x takes the scene's */
     double cell, kernel; /* m: width of a map's cells, R of its Gaussian */

@@ -9,7 +9,10 @@
 #include "world/world.h"
 
 enum { MOST_FIELDS = 64 };
-static const float CELL = 0.125f;     /* m */
+/* m: the smallest that gives few enough cells to be done within DELAY; the largest still shows
+   doors of half a metre. */
+static const float CELLS[] = {0.125f, 0.18f, 0.25f, 0.3f};
+static const float MOST_CELLS = 400000.0f;
 static const float CLEARANCE = 0.15f; /* m: half of a person who turns sideways */
 static const float MARGIN = 3.0f;     /* m about all walls and agents */
 static const double DELAY = 0.5;      /* s from asking to use */
@@ -23,6 +26,7 @@ typedef struct Making {
     JoxPlace *places; /* the place, and behind it its members */
     uint32_t place_count;
     JoxV2 low, high;
+    float cell; /* m */
     JoxField *field;
 } Making;
 
@@ -67,7 +71,7 @@ static void free_making(Making *making) {
 
 static void make(JoxErrand *errand) {
     Making *m = (Making *)errand;
-    m->field = jox_field_create(&m->walls, m->places, 0, m->low, m->high, CELL, CLEARANCE);
+    m->field = jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, CLEARANCE);
 }
 
 static void make_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -99,20 +103,25 @@ static void copy_places(const JoWorld *w, uint32_t place, Making *making) {
 
 /* The box about all walls, open ones too, and agents. Its corner lies on the grid of cells, so that
    fields that are made anew judge narrow gaps alike. */
-static void area(const JoWorld *w, JoxV2 *low, JoxV2 *high) {
+static void lay_out(const JoWorld *w, Making *making) {
     const JoxWalls *walls = &w->wall_plan;
-    *low = (JoxV2){INFINITY, INFINITY};
-    *high = (JoxV2){-INFINITY, -INFINITY};
+    JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
     for (uint32_t i = 0; i < walls->count + w->agents.count; i++) {
         JoxV2 p = i < walls->count
                       ? walls->vertices[i].point
                       : (JoxV2){w->agents.x[i - walls->count], w->agents.y[i - walls->count]};
-        *low = (JoxV2){jox_minf(low->x, p.x), jox_minf(low->y, p.y)};
-        *high = (JoxV2){jox_maxf(high->x, p.x), jox_maxf(high->y, p.y)};
+        low = (JoxV2){jox_minf(low.x, p.x), jox_minf(low.y, p.y)};
+        high = (JoxV2){jox_maxf(high.x, p.x), jox_maxf(high.y, p.y)};
     }
-    *low =
-        (JoxV2){floorf((low->x - MARGIN) / CELL) * CELL, floorf((low->y - MARGIN) / CELL) * CELL};
-    *high = jox_add(*high, (JoxV2){MARGIN, MARGIN});
+    low = jox_sub(low, (JoxV2){MARGIN, MARGIN});
+    high = jox_add(high, (JoxV2){MARGIN, MARGIN});
+    int c = 0;
+    while (c < 3 && (high.x - low.x) * (high.y - low.y) > MOST_CELLS * CELLS[c] * CELLS[c])
+        c++;
+    float cell = CELLS[c];
+    making->cell = cell;
+    making->low = (JoxV2){floorf(low.x / cell) * cell, floorf(low.y / cell) * cell};
+    making->high = high;
 }
 
 /* Begins to make a field from what stands where now. */
@@ -124,7 +133,7 @@ static Making *begin(JoWorld *w, uint32_t place, JoxWayKind kind, double delay) 
     jox_walls_standing(&making->walls, &w->wall_plan, kind == JOX_WAY_NOW);
     jox_obstacles_add(&ways->obstacles, kind == JOX_WAY_NOW, &making->walls);
     copy_places(w, place, making);
-    area(w, &making->low, &making->high);
+    lay_out(w, making);
     *way = (Way){.making = making,
                  .asked = w->tick,
                  .due = w->tick + (uint64_t)ceil(delay / w->def.dt - 1e-9),
@@ -223,7 +232,8 @@ void jox_world_ways(JoWorld *w) {
         jox_obstacles_update(&ways->obstacles, &w->objects);
     if (!ways->begun) {
         make_first(w);
-        memset(ways->wanted, 0, ways->capacity);
+        if (ways->capacity)
+            memset(ways->wanted, 0, ways->capacity);
     }
     ways->begun = true;
     for (uint32_t at = 0; at < ways->capacity * JOX_WAY_KINDS && ways->count > 0; at++) {

@@ -186,7 +186,7 @@ function has(a1) end
 ---@return jostle.Condition
 function sees(a1) end
 
---- `heard(name [, metres])`: somebody within perception (and so many metres) gave the signal in the last step
+--- `heard(name [, metres])`: somebody within perception (and so many metres) gave the signal in the last step, or the scene now
 ---@param a1 string
 ---@param a2? number|jostle.Number
 ---@return jostle.Condition
@@ -216,7 +216,7 @@ function neighbours(a1) end
 ---@type jostle.Number
 density_here = nil
 
---- `headway` in m: free way ahead to the neighbour in it; perception where nobody is
+--- `headway` in m: free way ahead to the neighbour in it who does not come the other way; perception where nobody is
 ---@type jostle.Number
 headway = nil
 
@@ -292,7 +292,7 @@ goal = nil
 ---@return jostle.Steering
 function seek(a1) end
 
---- `field(place)`: the shortest way to the place round walls; of a set, to the nearest member
+--- `field(place)`: the shortest way to the place round walls and large bodies; of a set, to the nearest member
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Steering
 function field(a1) end

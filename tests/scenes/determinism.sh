@@ -23,4 +23,5 @@ compare running-through --for 10
 compare evacuation --for 15
 compare catch --for 20
 compare station --for 12
+compare gates --for 25
 exit 0

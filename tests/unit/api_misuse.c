@@ -57,7 +57,14 @@ static void defs_must_come_from_their_default(void **state) {
     assert_true(jo_world_add_body(*state, &body, NULL).generation == 0);
     JoSceneDef scene = {.path = "x.yaml"};
     assert_null(jo_scene_load(&scene, NULL));
-    assert_int_equal(reports, 4);
+    JoReportDef report = jo_default_report_def();
+    assert_null(jo_report(&report, NULL)); /* of no recording */
+    report.recording = "x";
+    report.fps = -1;
+    assert_null(jo_report(&report, NULL));
+    assert_null(jo_report(&(JoReportDef){.recording = "x"}, NULL)); /* not of the default */
+    assert_null(jo_report(NULL, NULL));
+    assert_int_equal(reports, 8);
 }
 
 static void numbers_out_of_range_are_refused_by_name(void **state) {

@@ -18,6 +18,12 @@
 #define SQUARE "places: {box: {polygon: [[0, 0], [2, 0], [2, 2], [0, 2]]}}\n"
 #define WITH(x) "groups: {g: {behaviour: stander, " x "}}\n"
 
+#define GATE "walls: [{line: [[0, 3], [2, 3]], name: gate}]\n"
+#define CRATE                                                                                      \
+    "bodies:\n"                                                                                    \
+    "  - {name: crate, shape: {box: {size: [1, 1, 1]}}, mass: 9, at: [5, 5, 1]}\n"                 \
+    "  - {name: rock, shape: {box: {size: [1, 1, 1]}}, mass: 0, at: [8, 5, 1]}\n"
+
 /* An `@` marks where the error must be reported; it is no part of the scene. */
 static const struct Case {
     const char *text, *code, *hint;
@@ -54,6 +60,32 @@ static const struct Case {
     {SQUARE "sources: [{at: @[box], like: g, rate: 1}]\n" GROUP, "bad-type", NULL},
     {SQUARE "sources: [{at: box, like: @gg, rate: 1}]\n" GROUP, "unknown-group",
      "Did you mean 'g'?"},
+    {"probes: @[a]\n" GROUP, "bad-type", "probes: {door"},
+    {"probes: {a: @{}}\n" GROUP, "bad-probe", NULL},
+    {"probes: {a: @{flow: [[0, 0], [1, 0]], winding: [0, 0]}}\n" GROUP, "bad-probe", NULL},
+    {"probes: {a: {@flaw: [[0, 0], [1, 0]], failures: 1}}\n" GROUP, "unknown-key",
+     "Did you mean 'flow'?"},
+    {"probes: {a: {flow: @[[0, 0], [0, 0]]}}\n" GROUP, "bad-probe", "Nobody crosses a point"},
+    {"probes: {a: {flow: @[[0, 0], [1, 0], [2, 0]]}}\n" GROUP, "bad-probe", "[[0, 0], [0, 2]]"},
+    {"probes: {a: {flow: @[[0, 0]]}}\n" GROUP, "bad-type", NULL},
+    {"probes: {a: {transit: @[[[0, 0], [0, 2]]]}}\n" GROUP, "bad-type", "transit: ["},
+    {"probes: {a: {transit: [[[0, 0], [0, 2]], @[[5, 0], [5, 0]]]}}\n" GROUP, "bad-probe", NULL},
+    {"probes: {a: {measure: @[[0, 0], [1, 0]]}}\n" GROUP, "bad-type", NULL},
+    {"probes: {a: {measure: [[0, 0], [1, 0], @[2, 0]]}}\n" GROUP, "self-crossing", NULL},
+    {"probes: {a: {measure: [[0, 0], [1, 1], @[1, 0], [0, 1]]}}\n" GROUP, "self-crossing", NULL},
+    {"probes: {a: {failures: 1, group: @gg}}\n" GROUP, "unknown-group", "Did you mean 'g'?"},
+    {"probes: {a: {failures: @0}}\n" GROUP, "out-of-range", NULL},
+    {"probes: {a: {failures: 1, from: 5, until: @5}}\n" GROUP, "bad-probe", NULL},
+    {"probes: {a: {failures: 1, cutoff: @2}}\n" GROUP, "bad-probe", "Leave it out"},
+    {"probes: {a: {displacement: @false}}\n" GROUP, "bad-probe", "Take the probe away"},
+    {"probes: {a: {displacement: true, along: @[0, 0]}}\n" GROUP, "bad-probe", "[1, 0]"},
+    {"probes: {a: {winding: @5}}\n" GROUP, "bad-type", "[x, y]"},
+    {"probes: {a: {map: {area: @[[0, 0], [0, 1]]}}}\n" GROUP, "no-area", NULL},
+    {"probes: {a: {map: {cell: @0}}}\n" GROUP, "out-of-range", NULL},
+    {"probes: {a: {lanes: @{rows: 1}}}\n" GROUP, "missing-key", NULL},
+    {"probes: {a: {lanes: {area: [[0, 0], [1, 1]], along: @z}}}\n" GROUP, "bad-value", NULL},
+    {"probes: {@density: {failures: 1}}\n" GROUP, "bad-name", "Choose another"},
+    {"probes: {@../a: {failures: 1}}\n" GROUP, "bad-name", "Letters, digits"},
     {"player: @[g]\n" GROUP, "bad-type", NULL},
     {"groups: {g: {behaviour: @nobody.lua, at: [[0, 0]]}}\n", "missing-file", "Looked beside"},
     {"groups: {g: {mix: @5, at: [[0, 0]]}}\n", "bad-type", "mix: {"},
@@ -159,6 +191,8 @@ static const struct Case {
     {"groups: {g: @{behaviour: stander, count: 3}}\n", "missing-key", "in: NAME"},
     {SQUARE "groups: {g: @{behaviour: stander, count: 3, fill: circle, in: box}}\n", "bad-fill",
      "point and radius"},
+    {SQUARE "groups: {g: @{behaviour: stander, count: 3, fill: line, in: box}}\n", "bad-fill",
+     "place with line"},
     {WITH("at: [[0, 0]], set: @[a]"), "bad-type", NULL},
     {WITH("at: [[0, 0]], memory: {laps: @many}"), "bad-type", NULL},
     {SQUARE WITH("count: 3, in: box, @parti: 2"), "unknown-key", "Did you mean 'party'?"},
@@ -168,6 +202,35 @@ static const struct Case {
     {SQUARE "sinks: [{at: box, group: @gg}]\n" GROUP, "unknown-group", "Did you mean 'g'?"},
     {"heatmap: {area: [[0, 0], @[1]]}\n" GROUP, "bad-type", "[x, y]"},
     {"camera: {position: @far}\n" GROUP, "bad-type", "[x, y, z]"},
+    {"walls:\n  - {line: [[0, 0], [1, 1]], open: @true}\n" GROUP, "bad-wall", "name: gate"},
+    {"events: @{at: 3}\n" GROUP, "bad-type", "events: ["},
+    {"events: [@5]\n" GROUP, "bad-type", NULL},
+    {"events: [@{at: 3}]\n" GROUP, "bad-event", "{at: 20, open: gate}"},
+    {"events: [@{at: 3, signal: a, open: b}]\n" GROUP, "bad-event", "{at: 20, open: gate}"},
+    {"events: [@{signal: a}]\n" GROUP, "missing-key", NULL},
+    {"events: [{at: @-1, signal: a}]\n" GROUP, "out-of-range", NULL},
+    {"events: [{at: 1, every: @0, signal: a}]\n" GROUP, "out-of-range", NULL},
+    {"events: [{at: 9, every: 1, until: @5, signal: a}]\n" GROUP, "bad-event", NULL},
+    {"events: [{at: 1, until: @5, signal: a}]\n" GROUP, "bad-event", "every: 5"},
+    {"events: [{at: 1, signal: @[a]}]\n" GROUP, "bad-type", NULL},
+    {"events: [{at: 1, signal: @''}]\n" GROUP, "bad-event", NULL},
+    {"events: [{at: 1, @opens: gate, signal: a}]\n" GROUP, "unknown-key", "'open'"},
+    {GATE "events: [{at: 1, open: @gates}]\n" GROUP, "unknown-wall", "Did you mean 'gate'?"},
+    {"events: [{at: 1, close: @gate}]\n" GROUP, "unknown-wall", "Give walls names"},
+    {GATE "events: [{at: 1, open: gate, velocity: @[1, 0, 0]}]\n" GROUP, "bad-event", NULL},
+    {CRATE "events: [{at: 1, throw: @crat, velocity: [1, 0, 0]}]\n" GROUP, "unknown-body",
+     "Did you mean 'crate'?"},
+    {"events: [{at: 1, throw: @crate, velocity: [1, 0, 0]}]\n" GROUP, "unknown-body",
+     "Give bodies names"},
+    {CRATE "events: [{at: 1, throw: @rock, velocity: [1, 0, 0]}]\n" GROUP, "bad-event",
+     "Give it a mass above 0"},
+    {CRATE "events: [@{at: 1, throw: crate}]\n" GROUP, "bad-event", "velocity: [5, 0, 3]"},
+    {CRATE "events: [{at: 1, throw: crate, velocity: [1, 0, @1e300]}]\n" GROUP, "out-of-range",
+     NULL},
+    {CRATE "events: [{at: 1, throw: crate, from: @[1, 0]}]\n" GROUP, "bad-type", "[x, y, z]"},
+    /* of a wall that could not be read, its name is not missed too */
+    {"walls: [{line: @[[0, 0]], name: gate}]\nevents: [{at: 1, open: gate}]\n" GROUP, "bad-type",
+     NULL},
 };
 
 static JoxScene *load(const char *text, const char *const *sets, uint32_t count,

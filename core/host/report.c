@@ -1,0 +1,194 @@
+/* jo_report: a scene's probes over a recording. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "host/host.h"
+#include "record/plot.h"
+#include "record/trajectories.h"
+
+enum { REPORT_COOKIE = 0x4a4f5250 };
+static const float EDGE = 0.5f; /* m about everyone, of the map that is made without a scene */
+
+typedef struct Report {
+    const JoReportDef *def;
+    JoxDiagnostics diagnostics;
+    JoxScene *plan; /* or NULL */
+    JoxTrajectories *crowd;
+    JoxProbe **probes;
+    uint32_t count;
+} Report;
+
+JoReportDef jo_default_report_def(void) {
+    return (JoReportDef){.cookie = REPORT_COOKIE};
+}
+
+static void complain(Report *r, const char *file, const char *hint, const char *format,
+                     const char *probe, const char *what) {
+    JoxPosition at = {file, 0, 0, 0};
+    jox_diag_error(&r->diagnostics, at, "bad-probe", hint, format, probe, what);
+}
+
+/* The recording's numbers of the groups that a probe of the scene names; false with an error. */
+static bool find_groups(Report *r, const JoxProbeDef *def, uint16_t *out) {
+    for (uint32_t g = 0; g < def->group_count; g++) {
+        const char *name = r->plan->groups[def->groups[g]].name;
+        uint32_t found = 0;
+        while (found < r->crowd->group_count && strcmp(r->crowd->groups[found], name) != 0)
+            found++;
+        if (found == r->crowd->group_count) {
+            complain(r, r->def->recording,
+                     r->crowd->group_count ? NULL : "Take `group` out of the probe",
+                     "probe '%.60s' measures the group '%.60s', which this recording does not name",
+                     def->name, name);
+            return false;
+        }
+        out[g] = (uint16_t)found;
+    }
+    return true;
+}
+
+static bool add_probe(Report *r, const JoxProbeDef *of) {
+    JoxProbeDef def = *of;
+    uint16_t *groups = jox_alloc(def.group_count + 1, sizeof *groups);
+    bool good = find_groups(r, &def, groups);
+    if (good && def.kind == JOX_PROBE_FAILURES) {
+        complain(r, r->def->scene, "Measure it during a run",
+                 "probe '%.60s' needs to know whose 2-D program failed; no recording does%s",
+                 def.name, "");
+        good = false;
+    }
+    def.groups = groups;
+    if (def.kind == JOX_PROBE_MAP && def.low.x > def.high.x) {
+        def.low = jox_sub(r->crowd->low, (JoxV2){EDGE, EDGE});
+        def.high = jox_add(r->crowd->high, (JoxV2){EDGE, EDGE});
+    }
+    if (good)
+        r->probes[r->count++] = jox_probe_create(&def);
+    jox_free(groups);
+    return good;
+}
+
+/* Without a scene: fields, and densities and speeds over time, of all the area that was walked. */
+static void add_usual(Report *r) {
+    JoxV2 low = jox_sub(r->crowd->low, (JoxV2){EDGE, EDGE});
+    JoxV2 high = jox_add(r->crowd->high, (JoxV2){EDGE, EDGE});
+    JoxV2 corners[4] = {low, {high.x, low.y}, high, {low.x, high.y}};
+    JoxProbeDef map = {.name = "map",
+                       .kind = JOX_PROBE_MAP,
+                       .until = INFINITY,
+                       .low = low,
+                       .high = high,
+                       .every = 1.0,
+                       .cell = JOX_DENSITY_CELL,
+                       .kernel = 0.7};
+    JoxProbeDef all = {.name = "all",
+                       .kind = JOX_PROBE_MEASURE,
+                       .until = INFINITY,
+                       .points = corners,
+                       .count = 4,
+                       .every = 1.0,
+                       .cutoff = 1.0};
+    add_probe(r, &map);
+    add_probe(r, &all);
+}
+
+/* Loads what the def names; false with errors. */
+static bool load(Report *r) {
+    const JoReportDef *def = r->def;
+    JoxTrajectoryOptions options = {.fps = def->fps, .unit = def->unit};
+    if (def->scene && !(r->plan = jox_scene_load(def->scene, NULL, &r->diagnostics)))
+        return false;
+    if (r->plan && (r->plan->periodic_x || r->plan->periodic_y)) {
+        JoxV2 size = jox_sub(r->plan->high, r->plan->low);
+        options.period =
+            (JoxV2){r->plan->periodic_x ? size.x : 0.0f, r->plan->periodic_y ? size.y : 0.0f};
+    }
+    if (!(r->crowd = jox_trajectories_read(def->recording, &options, &r->diagnostics)))
+        return false;
+    r->probes = jox_alloc(r->plan ? r->plan->probe_count + 1 : 2, sizeof(JoxProbe *));
+    if (r->plan && r->plan->probe_count == 0) {
+        complain(r, def->scene, "probes: {door: {flow: [[0, 0], [1, 0]]}}",
+                 "this scene has no probes%s%s", "", "");
+        return false;
+    }
+    bool good = true;
+    if (!r->plan)
+        add_usual(r);
+    for (uint32_t p = 0; r->plan && p < r->plan->probe_count; p++)
+        good = add_probe(r, &r->plan->probes[p]) && good;
+    return good;
+}
+
+/* Of the scene, else of the recording. */
+static const JoxWalls *walls_of(const Report *r) {
+    return r->plan && r->plan->walls.ring_count ? &r->plan->walls : &r->crowd->walls;
+}
+
+static bool write(const Report *r, JoError *error) {
+    const char *slash = strrchr(r->def->recording, '/');
+    const char *title = r->plan && r->plan->title ? r->plan->title
+                        : slash                   ? slash + 1
+                                                  : r->def->recording;
+    JoxText why = {0};
+    bool good = jox_plot_folder(r->def->directory, &why);
+    for (uint32_t p = 0; good && p < r->count; p++)
+        good = jox_probe_write(r->probes[p], r->def->directory, walls_of(r), title, &why);
+    if (!good)
+        jox_error(error, JO_FAILED, "%s", why.data ? why.data : "writing failed");
+    jox_text_free(&why);
+    return good;
+}
+
+static char *summary(const Report *r) {
+    const JoxTrajectories *t = r->crowd;
+    JoxText out = {0};
+    JoxFrame first = {0}, last = {0};
+    jox_trajectories_frame(t, 0, &first);
+    jox_trajectories_frame(t, t->frame_count - 1, &last);
+    jox_text_add(&out, "{\n \"recording\": ");
+    jox_text_json(&out, r->def->recording);
+    jox_text_printf(&out,
+                    ",\n \"version\": \"%s\",\n \"people\": %u,\n \"frames\": %u,\n"
+                    " \"fps\": %.9g,\n \"from_s\": %.9g,\n \"until_s\": %.9g",
+                    jo_version(), t->people, t->frame_count, t->fps, first.time, last.time);
+    jox_text_add(&out, ",\n \"probes\": {");
+    for (uint32_t p = 0; p < r->count; p++) {
+        jox_text_add(&out, p ? ",\n  " : "\n  ");
+        jox_text_json(&out, jox_probe_def(r->probes[p])->name);
+        jox_text_add(&out, ": ");
+        jox_probe_json(r->probes[p], &out);
+    }
+    jox_text_add(&out, "\n }\n}\n");
+    return out.data;
+}
+
+char *jo_report(const JoReportDef *def, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == REPORT_COOKIE && def->recording, NULL);
+    JOX_REQUIRE(def->fps >= 0.0 && def->fps <= 1e5, NULL);
+    JOX_REQUIRE(def->unit >= 0.0 && def->unit <= 1e3, NULL);
+    Report r = {.def = def};
+    JoxFrame frame;
+    char *text = NULL;
+    bool good = load(&r);
+    for (uint32_t f = 0; good && jox_trajectories_frame(r.crowd, f, &frame); f++) {
+        frame.walls = walls_of(&r);
+        for (uint32_t p = 0; p < r.count; p++)
+            jox_probe_frame(r.probes[p], &frame);
+    }
+    if (r.plan) /* the lines that errors speak of */
+        for (uint32_t f = 0; f < r.plan->file_count; f++)
+            jox_diag_attach_source(&r.diagnostics, r.plan->files[f].path, r.plan->files[f].text,
+                                   r.plan->files[f].length);
+    jox_host_report(def->message, def->message_context, &r.diagnostics, error);
+    if (good && (!def->directory || write(&r, error)))
+        text = summary(&r);
+    for (uint32_t p = 0; p < r.count; p++)
+        jox_probe_free(r.probes[p]);
+    jox_free(r.probes);
+    jox_trajectories_free(r.crowd);
+    jox_scene_free(r.plan);
+    return text;
+}

@@ -1,0 +1,56 @@
+/* What the files of jo_reproduce share: claims, the runs that they need, and what came of them. */
+#ifndef JOX_HOST_REPRODUCE_H
+#define JOX_HOST_REPRODUCE_H
+
+#include <sys/types.h>
+
+#include "host/host.h"
+#include "lua/claims.h"
+
+typedef enum { JOX_JOB_WAITS, JOX_JOB_RUNS, JOX_JOB_DONE, JOX_JOB_FAILED } JoxJobState;
+
+/* One run of a scene, as a process of its own. */
+typedef struct JoxJob {
+    char *key; /* all that it depends on but the contents of files */
+    char *folder;
+    const JoxClaimRun *run;
+    uint64_t seed;
+    bool pictures; /* of its report; else only the data */
+    JoxJobState state;
+    pid_t process;
+    bool reused;
+    char *failure; /* what it said, where it failed */
+} JoxJob;
+
+typedef struct JoxVerdict {
+    double mean, least, most; /* over seeds; NAN: not measured */
+    bool inside;              /* the band */
+} JoxVerdict;
+
+typedef struct JoxOutcome {
+    JoxClaim *claim;
+    uint32_t **jobs;      /* [run][seed], index of the job; rows are claim->runs[r].seeds long */
+    uint32_t seeds;       /* the most of its runs */
+    JoxVerdict *verdicts; /* by figure */
+    char *failure;        /* why it could not be measured, or NULL */
+    bool inside;
+} JoxOutcome;
+
+typedef struct JoxReproduction {
+    const JoReproduceDef *def;
+    JoxOutcome *outcomes;
+    uint32_t outcome_count;
+    JoxJob *jobs;
+    uint32_t job_count;
+    size_t job_capacity;
+    char program_sha256[65];
+    double seconds; /* wall time of all */
+} JoxReproduction;
+
+/* reproduce_runs.c: does all jobs that are not done already, several at once; false where it was
+   interrupted. */
+bool jox_reproduce_run(JoxReproduction *all);
+/* reproduce_page.c: index.html, table.md and results.json in the folder of results. */
+bool jox_reproduce_write(const JoxReproduction *all, JoxText *error);
+
+#endif

@@ -1,0 +1,246 @@
+#include "record/trajectories.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+static const double REACH = 0.2;            /* s: velocities are displacements over +- this */
+static const double LONGEST = 1e9;          /* s */
+static const int64_t LARGEST_KEY = 1 << 22; /* ids above are ranked */
+static const size_t LARGEST = 2000000000;   /* bytes of a text file */
+
+size_t jox_trajectories_add(JoxTrajectories *t) {
+    if (t->count == t->capacity) {
+        size_t wider = t->capacity ? 2 * t->capacity : 1024;
+        t->number = jox_realloc(t->number, wider, sizeof *t->number);
+        t->id = jox_realloc(t->id, wider, sizeof *t->id);
+        t->line = jox_realloc(t->line, wider, sizeof *t->line);
+        t->x = jox_realloc(t->x, wider, sizeof *t->x);
+        t->y = jox_realloc(t->y, wider, sizeof *t->y);
+        t->vx = jox_realloc(t->vx, wider, sizeof *t->vx);
+        t->vy = jox_realloc(t->vy, wider, sizeof *t->vy);
+        t->capacity = wider;
+    }
+    return t->count++;
+}
+
+/* ---- order ---- */
+
+typedef struct Place {
+    int64_t frame, id;
+    size_t row;
+} Place;
+
+static int by_frame(const void *a, const void *b) {
+    const Place *p = a, *q = b;
+    if (p->frame != q->frame)
+        return p->frame < q->frame ? -1 : 1;
+    return (p->id > q->id) - (p->id < q->id);
+}
+
+static int by_id(const void *a, const void *b) {
+    const Place *p = a, *q = b;
+    if (p->id != q->id)
+        return p->id < q->id ? -1 : 1;
+    return (p->frame > q->frame) - (p->frame < q->frame);
+}
+
+/* Column `name` in the order of the places. */
+#define PERMUTE(name)                                                                              \
+    if (t->name) {                                                                                 \
+        void *fresh = jox_alloc(t->count, sizeof *t->name);                                        \
+        for (size_t i = 0; i < t->count; i++)                                                      \
+            memcpy((char *)fresh + i * sizeof *t->name, &t->name[places[i].row], sizeof *t->name); \
+        jox_free(t->name);                                                                         \
+        t->name = fresh;                                                                           \
+    }
+
+static void permute(JoxTrajectories *t, const Place *places) {
+    PERMUTE(number)
+    PERMUTE(id)
+    PERMUTE(line)
+    PERMUTE(x)
+    PERMUTE(y)
+    PERMUTE(vx)
+    PERMUTE(vy)
+    PERMUTE(force)
+    PERMUTE(compression)
+    PERMUTE(group)
+}
+
+/* Whether every frame has a time that the probes can count in; else false with an error. */
+static bool check_times(const JoxTrajectories *t, const char *path, JoxDiagnostics *diagnostics) {
+    for (size_t i = 0; i < t->count; i++) {
+        if (fabs((double)t->number[i]) / t->fps <= LONGEST)
+            continue;
+        JoxPosition at = {path, (int)t->line[i], t->line[i] ? 1 : 0, 0};
+        jox_diag_error(diagnostics, at, "bad-recording", "Are id and frame exchanged?",
+                       "frame %lld is more than 30 years from the first at %g frames a second",
+                       (long long)t->number[i], t->fps);
+        return false;
+    }
+    return true;
+}
+
+/* Rows by frame, and where each begins; false where somebody is in a frame twice. */
+static bool sort(JoxTrajectories *t, Place *places, const char *path, JoxDiagnostics *diagnostics) {
+    for (size_t i = 0; i < t->count; i++)
+        places[i] = (Place){t->number[i], t->id[i], i};
+    qsort(places, t->count, sizeof *places, by_frame);
+    permute(t, places);
+    t->first = jox_alloc(t->count + 1, sizeof *t->first);
+    for (size_t i = 0; i < t->count; i++) {
+        if (i == 0 || t->number[i] != t->number[i - 1]) {
+            t->first[t->frame_count++] = i;
+        } else if (t->id[i] == t->id[i - 1]) {
+            uint32_t later = t->line[i] > t->line[i - 1] ? t->line[i] : t->line[i - 1];
+            JoxPosition at = {path, (int)later, later ? 1 : 0, 0};
+            jox_diag_error(diagnostics, at, "bad-recording", NULL,
+                           "person %lld is in frame %lld twice", (long long)t->id[i],
+                           (long long)t->number[i]);
+            return false;
+        }
+    }
+    t->first[t->frame_count] = t->count;
+    return true;
+}
+
+/* ---- keys and velocities ---- */
+
+/* Places by person, then frame: `row` is where in the sorted columns. */
+static void number_people(JoxTrajectories *t, Place *places) {
+    for (size_t i = 0; i < t->count; i++)
+        places[i] = (Place){t->number[i], t->id[i], i};
+    qsort(places, t->count, sizeof *places, by_id);
+    bool plain = places[0].id >= 0 && places[t->count - 1].id < LARGEST_KEY;
+    t->key = jox_alloc(t->count, sizeof *t->key);
+    for (size_t i = 0; i < t->count; i++) {
+        t->people += i == 0 || places[i].id != places[i - 1].id;
+        t->key[places[i].row] = plain ? (uint32_t)places[i].id : t->people - 1;
+    }
+    t->keys = plain ? (uint32_t)places[t->count - 1].id + 1 : t->people;
+}
+
+/* The shorter way round where edges are periodic. */
+static double shortest(double d, double period) {
+    return period > 0.0 ? remainder(d, period) : d;
+}
+
+/* Displacement from the first to the last row of the person within REACH, or between the rows just
+   before and after where there are none. */
+static void measure_velocities(JoxTrajectories *t, const Place *places) {
+    int64_t reach = (int64_t)floor(REACH * t->fps + 0.5);
+    reach = reach > 0 ? reach : 1;
+    size_t low = 0, high = 0;
+    for (size_t i = 0; i < t->count; i++) {
+        while (places[low].id != places[i].id || places[i].frame - places[low].frame > reach)
+            low++;
+        high = high < i ? i : high;
+        while (high + 1 < t->count && places[high + 1].id == places[i].id &&
+               places[high + 1].frame - places[i].frame <= reach)
+            high++;
+        size_t from = low, to = high;
+        if (from == i && to == i) { /* nobody within reach */
+            from -= i > 0 && places[i - 1].id == places[i].id;
+            to += i + 1 < t->count && places[i + 1].id == places[i].id;
+        }
+        double spent = (double)(places[to].frame - places[from].frame) / t->fps;
+        size_t row = places[i].row, a = places[from].row, b = places[to].row;
+        t->vx[row] = spent > 0.0 ? (float)(shortest(t->x[b] - t->x[a], t->period.x) / spent) : 0.0f;
+        t->vy[row] = spent > 0.0 ? (float)(shortest(t->y[b] - t->y[a], t->period.y) / spent) : 0.0f;
+    }
+}
+
+static bool is_sqlite(const char *path) {
+    char start[16] = "";
+    FILE *file = fopen(path, "rb");
+    size_t got = file ? fread(start, 1, sizeof start, file) : 0;
+    if (file)
+        fclose(file);
+    return got == sizeof start && memcmp(start, "SQLite format 3", 16) == 0;
+}
+
+static bool read_text(JoxTrajectories *t, const char *path, const JoxTrajectoryOptions *options,
+                      JoxDiagnostics *diagnostics) {
+    size_t length;
+    char *text = jox_read_file(path, LARGEST, &length);
+    if (!text) {
+        JoxPosition at = {path, 0, 0, 0};
+        jox_diag_error(diagnostics, at, "unreadable-file", NULL, "cannot be read: %s",
+                       strerror(errno));
+        return false;
+    }
+    bool good = jox_trajectories_text(t, path, text, length, options, diagnostics);
+    jox_diag_attach_source(diagnostics, path, text, length);
+    jox_free(text);
+    return good;
+}
+
+JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOptions *options,
+                                       JoxDiagnostics *diagnostics) {
+    JoxTrajectories *t = jox_alloc(1, sizeof *t);
+    t->period = options->period;
+    bool good = is_sqlite(path) ? jox_trajectories_sqlite(t, path, options, diagnostics)
+                                : read_text(t, path, options, diagnostics);
+    good = good && check_times(t, path, diagnostics);
+    Place *places = good ? jox_alloc(t->count, sizeof *places) : NULL;
+    good = good && sort(t, places, path, diagnostics);
+    if (good) {
+        number_people(t, places);
+        if (!t->has_velocity)
+            measure_velocities(t, places);
+        t->low = t->high = (JoxV2){t->x[0], t->y[0]};
+        for (size_t i = 0; i < t->count; i++) {
+            t->low = jox_v2(jox_minf(t->low.x, t->x[i]), jox_minf(t->low.y, t->y[i]));
+            t->high = jox_v2(jox_maxf(t->high.x, t->x[i]), jox_maxf(t->high.y, t->y[i]));
+        }
+    }
+    jox_free(places);
+    jox_free(t->id);
+    jox_free(t->line);
+    t->id = NULL;
+    t->line = NULL;
+    if (good)
+        return t;
+    jox_trajectories_free(t);
+    return NULL;
+}
+
+bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out) {
+    if (f >= t->frame_count)
+        return false;
+    size_t first = t->first[f];
+    *out = (JoxFrame){.time = (double)t->number[first] / t->fps,
+                      .count = (uint32_t)(t->first[f + 1] - first),
+                      .period = t->period,
+                      .keys = t->keys,
+                      .key = t->key + first,
+                      .x = t->x + first,
+                      .y = t->y + first,
+                      .vx = t->vx + first,
+                      .vy = t->vy + first,
+                      .force = t->force ? t->force + first : NULL,
+                      .compression = t->compression ? t->compression + first : NULL,
+                      .group = t->group ? t->group + first : NULL,
+                      .groups = (const char *const *)t->groups,
+                      .group_count = t->group_count};
+    return true;
+}
+
+void jox_trajectories_free(JoxTrajectories *t) {
+    if (!t)
+        return;
+    void *columns[] = {t->number, t->id, t->line,  t->key,         t->x,     t->y,
+                       t->vx,     t->vy, t->force, t->compression, t->group, t->first};
+    for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
+        jox_free(columns[c]);
+    for (uint32_t g = 0; g < t->group_count; g++)
+        jox_free(t->groups[g]);
+    jox_free(t->groups);
+    jox_walls_free(&t->walls);
+    jox_free(t);
+}

@@ -1,0 +1,57 @@
+/* Recordings as frames: SQLite files in the JuPedSim format, versions 1 and 2 (ours among them);
+   text with the columns id, frame, x, y and perhaps z, as PeTrack and the archive of Juelich write
+   it; and CSV with a line of names, as ID,Frame,x,y,v_x,v_y. */
+#ifndef JOX_RECORD_TRAJECTORIES_H
+#define JOX_RECORD_TRAJECTORIES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/diag.h"
+#include "geom/walls.h"
+#include "record/frame.h"
+
+typedef struct JoxTrajectoryOptions {
+    double fps;   /* frames a second; 0: the file says it */
+    double unit;  /* m: length of the file's unit; 0: the file says it */
+    JoxV2 period; /* m: of periodic edges; 0 without */
+} JoxTrajectoryOptions;
+
+/* Rows by frame, then by person. */
+typedef struct JoxTrajectories {
+    double fps;
+    int64_t *number; /* of each row: its frame */
+    uint32_t *key;   /* the file's ids, or their ranks where these are not numbers below 2^22 */
+    float *x, *y, *vx, *vy;
+    float *force, *compression; /* NULL unless recorded */
+    uint16_t *group;            /* NULL unless recorded */
+    char **groups;              /* names */
+    uint32_t group_count;
+    int64_t *id;    /* as in the file; freed, with `line`, once it is read */
+    uint32_t *line; /* of a text file */
+    size_t count, capacity;
+    size_t *first; /* row at which each frame begins; one more at the end */
+    uint32_t frame_count, keys, people;
+    JoxV2 period;      /* m */
+    bool has_velocity; /* the file gave it */
+    JoxV2 low, high;   /* m: everyone, always */
+    JoxWalls walls;    /* outlines of the walkable area, as lines; empty unless recorded */
+} JoxTrajectories;
+
+/* NULL with errors in `diagnostics`. Velocities that the file does not give are displacements over
+   0.2 s before and after, or to the nearest frames where these are farther apart. */
+JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOptions *options,
+                                       JoxDiagnostics *diagnostics);
+/* Frame `f` of those in which anyone is; false behind the last. */
+bool jox_trajectories_frame(const JoxTrajectories *trajectories, uint32_t f, JoxFrame *out);
+void jox_trajectories_free(JoxTrajectories *trajectories);
+
+/* trajectories_text.c, trajectories_sqlite.c: rows as they come; false with errors. */
+bool jox_trajectories_text(JoxTrajectories *t, const char *path, const char *text, size_t length,
+                           const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics);
+bool jox_trajectories_sqlite(JoxTrajectories *t, const char *path,
+                             const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics);
+/* Room for one more row; its number, by which the columns are filled. */
+size_t jox_trajectories_add(JoxTrajectories *t);
+
+#endif

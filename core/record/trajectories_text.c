@@ -1,0 +1,276 @@
+/* Trajectories written as text: columns by place, or by the names of a first line. */
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/mem.h"
+#include "record/trajectories.h"
+
+enum { ID, FRAME, X, Y, VX, VY, TIME, COLUMNS, MOST_FIELDS = 64, LONGEST_NAME = 64 };
+static const char *const NAMES[COLUMNS] = {"id", "frame", "x", "y", "v_x", "v_y", "time"};
+
+typedef struct Text {
+    JoxTrajectories *t;
+    JoxDiagnostics *diagnostics;
+    const char *path;
+    int line;
+    int column_of[COLUMNS]; /* -1: none */
+    double unit, fps;       /* 0: not known */
+    char separator;         /* ' ': blanks and tabs */
+    bool named;             /* a line of names was read */
+    double first_time, last_time, first_frame, last_frame;
+} Text;
+
+typedef struct Field {
+    const char *at;
+    size_t length;
+} Field;
+
+static void complain(Text *r, int column, const char *hint, const char *format, const char *word,
+                     size_t length) {
+    char shown[41];
+    snprintf(shown, sizeof shown, "%.*s", (int)(length < 40 ? length : 40), word);
+    JoxPosition at = {r->path, r->line, column, column + (int)length};
+    jox_diag_error(r->diagnostics, at, "bad-recording", hint, format, shown);
+}
+
+/* The first of several spellings in the text, or NULL. */
+static const char *find_word(const char *text, const char *word) {
+    size_t n = strlen(word);
+    for (; *text; text++)
+        if (!strncasecmp(text, word, n))
+            return text + n;
+    return NULL;
+}
+
+/* What follows a column's name: "x/cm", "x_m", "x [m]", "X[in m]"; 0 where there is no unit. */
+static double unit_of(const char *rest) {
+    rest += strspn(rest, " \t_/[(");
+    if (!strncasecmp(rest, "in ", 3))
+        rest += 3;
+    size_t n = strspn(rest, "cm");
+    if (isalnum((unsigned char)rest[n]))
+        return 0.0;
+    return n == 1 && *rest == 'm' ? 1.0 : n == 2 && !strncmp(rest, "cm", 2) ? 0.01 : 0.0;
+}
+
+/* "# framerate: 25 fps", "# id frame x/m y/m z/m", "# ... x [in cm]". */
+static void read_comment(Text *r, const char *line, size_t length) {
+    char text[512];
+    snprintf(text, sizeof text, "%.*s", (int)(length < 511 ? length : 511), line);
+    const char *rate = find_word(text, "framerate");
+    rate = rate ? rate : find_word(text, "frame rate");
+    rate = rate ? rate : find_word(text, "fps");
+    if (rate && r->fps == 0.0) {
+        double fps = strtod(rate + strspn(rate, " \t:=*"), NULL);
+        r->fps = fps > 0.0 && fps <= 1e5 ? fps : 0.0;
+    }
+    for (const char *at = text; *at && r->unit == 0.0; at++) {
+        bool starts = at == text || !isalnum((unsigned char)at[-1]);
+        if (starts && (*at == 'x' || *at == 'X') && strchr(" \t/[(", at[1]) && at[1])
+            r->unit = unit_of(at + 1);
+    }
+}
+
+static uint32_t split(const Text *r, const char *line, size_t length, Field fields[MOST_FIELDS]) {
+    uint32_t count = 0;
+    size_t at = 0;
+    while (at < length && count < MOST_FIELDS) {
+        size_t end = at;
+        if (r->separator == ' ') {
+            while (at < length && (line[at] == ' ' || line[at] == '\t'))
+                at++;
+            end = at;
+            while (end < length && line[end] != ' ' && line[end] != '\t')
+                end++;
+            if (end == at)
+                break;
+        } else {
+            while (end < length && line[end] != r->separator)
+                end++;
+        }
+        size_t from = at, to = end;
+        while (from < to && (line[from] == ' ' || line[from] == '\t' || line[from] == '"'))
+            from++;
+        while (to > from && (line[to - 1] == ' ' || line[to - 1] == '\t' || line[to - 1] == '"'))
+            to--;
+        fields[count++] = (Field){line + from, to - from};
+        at = end + 1;
+    }
+    return count;
+}
+
+static void choose_separator(Text *r, const char *line, size_t length) {
+    r->separator = memchr(line, ',', length)    ? ','
+                   : memchr(line, ';', length)  ? ';'
+                   : memchr(line, '\t', length) ? '\t'
+                                                : ' ';
+    if (r->separator == '\t' && memchr(line, ' ', length))
+        r->separator = ' ';
+}
+
+/* Which column a name is, with the unit that it carries; -1: none that is used. */
+static int column_of(const char *name, double *unit) {
+    static const struct {
+        const char *text;
+        int column;
+    } KNOWN[] = {{"id", ID},       {"persid", ID}, {"person", ID}, {"ped_id", ID}, {"frame", FRAME},
+                 {"fr", FRAME},    {"v_x", VX},    {"vx", VX},     {"v_y", VY},    {"vy", VY},
+                 {"time_s", TIME}, {"time", TIME}, {"t_s", TIME},  {"x", X},       {"y", Y}};
+    *unit = 0.0;
+    for (size_t k = 0; k < sizeof KNOWN / sizeof *KNOWN; k++)
+        if (!strcasecmp(name, KNOWN[k].text))
+            return KNOWN[k].column;
+    if ((*name == 'x' || *name == 'X' || *name == 'y' || *name == 'Y') && name[1] &&
+        strchr(" _/[(", name[1]) && (*unit = unit_of(name + 1)) > 0.0)
+        return tolower((unsigned char)*name) == 'x' ? X : Y;
+    return !strncasecmp(name, "time", 4) && name[4] && strchr(" _/[(", name[4]) ? TIME : -1;
+}
+
+static bool read_names(Text *r, const char *line, size_t length) {
+    Field fields[MOST_FIELDS];
+    choose_separator(r, line, length);
+    uint32_t count = split(r, line, length, fields);
+    bool good = true;
+    for (int c = 0; c < COLUMNS; c++)
+        r->column_of[c] = -1;
+    for (uint32_t f = 0; f < count; f++) {
+        char name[LONGEST_NAME];
+        double unit;
+        snprintf(name, sizeof name, "%.*s", (int)fields[f].length, fields[f].at);
+        int column = column_of(name, &unit);
+        if (column < 0 || r->column_of[column] >= 0)
+            continue;
+        r->column_of[column] = (int)f;
+        if (unit > 0.0 && r->unit == 0.0)
+            r->unit = unit;
+    }
+    for (int c = ID; c <= Y; c++)
+        if (r->column_of[c] < 0) {
+            complain(r, 1, "A first line names the columns: ID,Frame,x,y",
+                     "no column is named '%s'", NAMES[c], strlen(NAMES[c]));
+            good = false;
+        }
+    r->named = true;
+    return good;
+}
+
+/* A finite number, whole where the column is one; false with an error. */
+static bool read_field(Text *r, const char *line, const Field *fields, uint32_t count, int column,
+                       double *out) {
+    uint32_t f = (uint32_t)r->column_of[column];
+    if (f >= count) {
+        complain(r, 1, "id, frame, x and y are needed in every line", "this line has no %s",
+                 NAMES[column], strlen(NAMES[column]));
+        return false;
+    }
+    char text[64], *end;
+    int place = (int)(fields[f].at - line) + 1;
+    snprintf(text, sizeof text, "%.*s", (int)(fields[f].length < 63 ? fields[f].length : 63),
+             fields[f].at);
+    *out = strtod(text, &end);
+    bool number = end != text && *end == 0 && isfinite(*out) && !strpbrk(text, "xX");
+    bool whole = column != ID && column != FRAME;
+    whole |= number && *out == floor(*out) && fabs(*out) < 1e15;
+    if (number && whole && (column < X || fabs(*out) < 1e8))
+        return true;
+    complain(r, place, whole ? "Numbers are written with a point" : "Ids and frames are counted",
+             whole ? "this must be a finite number, not '%s'"
+                   : "this must be a whole number, not '%s'",
+             fields[f].at, fields[f].length);
+    return false;
+}
+
+static bool read_row(Text *r, const char *line, size_t length) {
+    Field fields[MOST_FIELDS];
+    double v[COLUMNS] = {0};
+    uint32_t count = split(r, line, length, fields);
+    for (int c = 0; c < COLUMNS; c++)
+        if (r->column_of[c] >= 0 && !read_field(r, line, fields, count, c, &v[c]))
+            return false;
+    JoxTrajectories *t = r->t;
+    if (r->column_of[TIME] >= 0) {
+        bool first = t->count == 0;
+        if (first || v[FRAME] < r->first_frame)
+            r->first_frame = v[FRAME], r->first_time = v[TIME];
+        if (first || v[FRAME] > r->last_frame)
+            r->last_frame = v[FRAME], r->last_time = v[TIME];
+    }
+    size_t row = jox_trajectories_add(t);
+    t->number[row] = (int64_t)v[FRAME];
+    t->line[row] = (uint32_t)r->line;
+    t->id[row] = (int64_t)v[ID];
+    t->x[row] = (float)v[X];
+    t->y[row] = (float)v[Y];
+    t->vx[row] = (float)v[VX];
+    t->vy[row] = (float)v[VY];
+    return true;
+}
+
+/* What the file did not say and nobody else did. */
+static bool settle(Text *r, const JoxTrajectoryOptions *options) {
+    JoxTrajectories *t = r->t;
+    JoxPosition at = {r->path, 0, 0, 0};
+    if (r->fps == 0.0 && r->last_frame > r->first_frame && r->last_time > r->first_time)
+        r->fps = (r->last_frame - r->first_frame) / (r->last_time - r->first_time);
+    t->fps = options->fps > 0.0 ? options->fps : r->fps;
+    double unit = options->unit > 0.0 ? options->unit : r->unit;
+    if (t->count == 0)
+        jox_diag_error(r->diagnostics, at, "bad-recording", NULL, "nobody is in this recording");
+    else if (t->fps <= 0.0)
+        jox_diag_error(r->diagnostics, at, "no-frame-rate", "--fps 25",
+                       "this recording does not say how many frames a second it has");
+    else if (unit <= 0.0)
+        jox_diag_error(r->diagnostics, at, "no-unit", "--unit m, or --unit cm",
+                       "this recording does not say the unit of its lengths");
+    else
+        for (size_t i = 0; i < t->count; i++) {
+            t->x[i] = (float)(t->x[i] * unit);
+            t->y[i] = (float)(t->y[i] * unit);
+            t->vx[i] = (float)(t->vx[i] * unit);
+            t->vy[i] = (float)(t->vy[i] * unit);
+        }
+    t->has_velocity = r->named && r->column_of[VX] >= 0 && r->column_of[VY] >= 0;
+    return t->count > 0 && t->fps > 0.0 && unit > 0.0;
+}
+
+bool jox_trajectories_text(JoxTrajectories *t, const char *path, const char *text, size_t length,
+                           const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
+    Text r = {.t = t, .diagnostics = diagnostics, .path = path};
+    const size_t errors = diagnostics->errors;
+    bool begun = false;
+    for (int c = 0; c < COLUMNS; c++)
+        r.column_of[c] = c <= Y ? c : -1;
+    for (size_t at = 0; at < length && jox_diag_has_room(diagnostics, JOX_SEVERITY_ERROR);) {
+        const char *line = text + at;
+        const char *newline = memchr(line, '\n', length - at);
+        size_t n = newline ? (size_t)(newline - line) : length - at;
+        at += n + 1;
+        r.line++;
+        while (n > 0 && isspace((unsigned char)line[n - 1]))
+            n--;
+        size_t blank = 0;
+        while (blank < n && isspace((unsigned char)line[blank]))
+            blank++;
+        if (blank == n)
+            continue;
+        if (line[blank] == '#') {
+            read_comment(&r, line, n);
+            continue;
+        }
+        if (!begun && (isalpha((unsigned char)line[blank]) || line[blank] == '"')) {
+            begun = true;
+            if (!read_names(&r, line, n))
+                return false;
+            continue;
+        }
+        if (!begun)
+            choose_separator(&r, line, n);
+        begun = true;
+        read_row(&r, line, n);
+    }
+    return diagnostics->errors == errors && settle(&r, options);
+}

@@ -1,0 +1,77 @@
+-- Arithmetic for claims: on lists of numbers, and on the columns that probes leave.
+local measure = {}
+
+function measure.mean(list)
+  local sum = 0
+  for i = 1, #list do sum = sum + list[i] end
+  return sum / #list
+end
+
+-- Standard deviation of what a sample is drawn from (n - 1).
+function measure.deviation(list)
+  local mean, sum = measure.mean(list), 0
+  for i = 1, #list do sum = sum + (list[i] - mean) ^ 2 end
+  return math.sqrt(sum / (#list - 1))
+end
+
+function measure.least(list)
+  local best = math.huge
+  for i = 1, #list do best = math.min(best, list[i]) end
+  return best
+end
+
+function measure.most(list)
+  local best = -math.huge
+  for i = 1, #list do best = math.max(best, list[i]) end
+  return best
+end
+
+-- The value below which a share of the list lies, linear between ranks.
+function measure.quantile(list, share)
+  local sorted = {}
+  for i = 1, #list do sorted[i] = list[i] end
+  table.sort(sorted)
+  local at = 1 + share * (#sorted - 1)
+  local low = math.floor(at)
+  local high = math.min(low + 1, #sorted)
+  return sorted[low] + (at - low) * (sorted[high] - sorted[low])
+end
+
+function measure.median(list) return measure.quantile(list, 0.5) end
+
+-- Least-squares slope of y over x.
+function measure.slope(x, y)
+  local mx, my, sxx, sxy = measure.mean(x), measure.mean(y), 0, 0
+  for i = 1, #x do
+    sxx = sxx + (x[i] - mx) * (x[i] - mx)
+    sxy = sxy + (x[i] - mx) * (y[i] - my)
+  end
+  return sxy / sxx
+end
+
+-- Root of the mean square of a relative deviation from what is expected.
+function measure.rms(list, expected)
+  local sum = 0
+  for i = 1, #list do sum = sum + (list[i] / expected[i] - 1) ^ 2 end
+  return math.sqrt(sum / #list)
+end
+
+-- How many of a list, from `first` on, are not less than the one before: 0 is a steady fall.
+function measure.rises(list, first)
+  local count = 0
+  for i = (first or 1) + 1, #list do
+    if list[i] >= list[i - 1] then count = count + 1 end
+  end
+  return count
+end
+
+-- How many times of a flow's passages lie before `time`: N(t).
+function measure.passed(flow, time)
+  local count = 0
+  for i = 1, flow.n do
+    if flow.direction[i] > 0 and flow.time[i] <= time then count = count + 1 end
+  end
+  return count
+end
+
+return measure

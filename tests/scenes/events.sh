@@ -1,0 +1,70 @@
+# Events as a user meets them: the shipped scene, its figures and pictures, errors, and equal hashes.
+. tests/scenes/lib.sh
+gates=scenes/gates.yaml
+count() { grep -o "\"$1\": [0-9]*" "$2" | head -1 | grep -o '[0-9]*$'; }
+sql() { sqlite3 "$work/g.sqlite" "$1"; }
+
+"$JOSTLE" run $gates --quiet --record "$work/g.sqlite" --report "$work/g" --summary "$work/g.json" 2>/dev/null
+verdict "gates run" $?
+between "everybody leaves" "$(figure agents <"$work/g.json")" 0 0
+between "two gates open" "$(count opened "$work/g.json")" 2 2
+between "one shuts" "$(count closed "$work/g.json")" 1 1
+between "the crate is thrown" "$(count throws "$work/g.json")" 1 1
+between "and hits people" "$(count hits "$work/g.json")" 1 20
+between "the alarm is heard by all" "$(count transitions "$work/g.json")" 270 270 # three each
+# Frames are 0.1 s apart. The east gate is open from 15 s to 23 s, the south gate from 28 s on.
+outside="(pos_x > 14 OR pos_y < 0)"
+between "nobody is out before a gate opens" "$(sql "SELECT count(*) FROM trajectory_data WHERE frame < 150 AND $outside")" 0 0
+between "many wait at the east gate" "$(sql "SELECT count(*) FROM trajectory_data WHERE frame = 148 AND pos_x > 11 AND pos_y BETWEEN 3 AND 9")" 30 60
+between "many wait at the south gate" "$(sql "SELECT count(*) FROM trajectory_data WHERE frame = 148 AND pos_y < 3 AND pos_x BETWEEN 1 AND 7")" 25 60
+between "nobody waits in a corner" "$(sql "SELECT count(*) FROM trajectory_data WHERE frame = 148 AND (pos_x < 1 OR pos_x > 13) AND (pos_y < 1 OR pos_y > 11)")" 0 0
+between "people leave by the east gate" "$(sql "SELECT count(DISTINCT id) FROM trajectory_data WHERE pos_x > 14.5")" 10 60
+between "nobody passes it once it is shut" "$(sql "SELECT count(*) FROM trajectory_data a JOIN trajectory_data b ON a.id = b.id AND b.frame = a.frame + 1 WHERE a.frame > 230 AND a.pos_x < 14 AND b.pos_x > 14")" 0 0
+between "the rest leave by the south gate" "$(sql "SELECT count(DISTINCT id) FROM trajectory_data WHERE frame > 280 AND pos_y < -0.5")" 30 80
+[ -s "$work/g/paths.png" ] && [ -s "$work/g/density.png" ]; verdict "pictures" $?
+
+# With the same steps, whoever makes the fields, and however slowly.
+one=$(hash_of "$JOSTLE" $gates --for 32)
+same_hash "gates threads" "$one" "$(hash_of "$JOSTLE" $gates --for 32 --threads 2)" "$(hash_of "$JOSTLE" $gates --for 32 --threads 4)"
+if command -v taskset >/dev/null; then
+    same_hash "gates on one processor" "$one" "$(taskset -c 0 "$JOSTLE" run $gates --for 32 --threads 3 --quiet --summary - 2>/dev/null | figure hash)"
+fi
+without=$(hash_of "$JOSTLE" $gates --for 32 --set events.2.at=16)
+[ -n "$without" ] && [ "$without" != "$one" ]; verdict "a gate that opens a second later differs" $?
+
+# A block lands in the near door while people walk there: they turn to the far one, and nobody stays.
+cp behaviours/evacuee.lua "$work"
+cat >"$work/block.yaml" <<'END'
+jostle: 1
+duration: 60
+places:
+  hall: {polygon: [[1, 1], [9, 1], [9, 19], [1, 19]]}
+  out: {polygon: [[14, 4], [16, 4], [16, 16], [14, 16]]}
+walls:
+  - {line: [[10, 4], [10, 0], [0, 0], [0, 20], [10, 20], [10, 18]]}
+  - {line: [[10, 6], [10, 16]]}
+bodies: [{name: block, shape: {box: {size: [1, 1.9, 1.5]}}, mass: 4000, at: [30, 5, 0.75]}]
+groups: {crowd: {behaviour: evacuee.lua, count: 30, in: hall, set: {exits: out, alarm: 0}}}
+events: [{at: 8, throw: block, from: [10.3, 5, 0.8], velocity: [0, 0, 0]}]
+END
+"$JOSTLE" run "$work/block.yaml" --quiet --record "$work/b.sqlite" --summary "$work/b.json" 2>/dev/null
+between "everybody gets round the block" "$(figure agents <"$work/b.json")" 0 0
+between "it stays in the door" "$(sqlite3 "$work/b.sqlite" "SELECT max(abs(x - 10.3) + abs(y - 5)) FROM jostle_body WHERE frame > 100" 2>/dev/null)" 0 0.3
+between "people leave by the near door before" "$(sqlite3 "$work/b.sqlite" "SELECT count(DISTINCT id) FROM trajectory_data WHERE frame < 80 AND pos_x > 10 AND pos_y < 7")" 1 20
+between "and by the far one after" "$(sqlite3 "$work/b.sqlite" "SELECT count(DISTINCT id) FROM trajectory_data WHERE frame > 80 AND pos_x BETWEEN 9.9 AND 10.5 AND pos_y > 15")" 10 30
+
+wrong() { # NAME TEXT ARGS...: bad input that says so
+    local name=$1 text=$2; shift 2
+    "$JOSTLE" run $gates --quiet --steps 1 "$@" >"$work/out" 2>&1
+    if [ $? = 3 ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
+        echo "not ok $name"; head -5 "$work/out"; fi
+}
+wrong "a wall that is not there" "there is no wall named 'est_gate'. Did you mean 'east_gate'?" --set events.2.open=est_gate
+wrong "a body that is not there" "Did you mean 'crate'?" --set events.1.throw=create
+wrong "a body that is static" "cannot be thrown" --set bodies.0.mass=0
+wrong "a time before the beginning" "at must be from 0" --set events.0.at=-2
+wrong "a start that is open without a name" "needs a name" --set walls.0.open=true
+sed 's/signal: alarm}/signal: alarms}/' $gates >"$work/deaf.yaml"
+"$JOSTLE" check "$work/deaf.yaml" 2>&1 | grep -qF "hears the signal 'alarms'. Did you mean 'alarm'?"
+verdict "a signal that nobody hears" $?
+exit 0

@@ -1,0 +1,50 @@
+# Probes over recordings of real crowds against what is known of these. The recordings are not part of the
+# project: JOSTLE_REAL_DATA names their folder.
+. tests/scenes/lib.sh
+data=${JOSTLE_REAL_DATA:-}
+if [ -z "$data" ]; then echo "ok real crowds: skipped, JOSTLE_REAL_DATA names no folder"; exit 0; fi
+if [ ! -d "$data" ]; then echo "not ok real crowds: there is no folder '$data' (JOSTLE_REAL_DATA)"; exit 1; fi
+
+# measure SCENE RECORDING [OPTION...]: the summary into $work/out, CSV files into $work/files
+measure() {
+    local scene=$1 recording=$2; shift 2
+    rm -rf "$work/files"
+    "$JOSTLE" report "$data/$recording" --scene "tests/data/$scene" --summary "$work/out" --out "$work/files" "$@" >"$work/said" 2>&1 ||
+        { echo "not ok report on $recording"; head -5 "$work/said"; }
+}
+# of PROBE FIGURE: from the summary
+of() { sed -n "s/^  \"$1\": {.*\"$2\": \([^,}]*\).*/\1/p" "$work/out"; }
+
+measure bottleneck.yaml bottleneck/wuppertal_040_door050.txt
+between "door: everyone passes" "$(of door passages)" 75 75
+between "door: flow of the middle 60 %, 1/s" "$(of door flow)" 1.12 1.18
+between "door: cleared, s" "$(of door duration)" 64 65
+between "door: median lapse, s" "$(of door lapse_median)" 0.82 0.86
+between "door: longest lapse, s" "$(of door lapse_max)" 2.4 2.6
+# In a square of 0.8 m, half a metre before the door.
+between "door: density in front, 1/m2" "$(of front density)" 6.0 6.4
+between "door: density in front, 90 %, 1/m2" "$(of front density_p90)" 8.3 8.8
+
+corridor() { # NAME, then low and high of flow per metre, density and speed
+    measure "corridor-$1.yaml" "corridor/uo-$1.txt" --fps 16 --unit cm
+    between "corridor $1: flow, 1/(m s)" "$(of line specific_flow)" "$2" "$3"
+    between "corridor $1: density, 1/m2" "$(of middle density)" "$4" "$5"
+    between "corridor $1: speed, m/s" "$(of middle speed)" "$6" "$7"
+}
+corridor 100-180-180 1.30 1.46 1.08 1.20 1.15 1.27
+corridor 180-180-120 1.26 1.40 1.94 2.14 0.63 0.71
+corridor 180-180-070 0.90 1.00 2.91 3.21 0.32 0.37
+
+measure single_file.yaml single_file/n34_cam2.csv --fps 25 --unit m
+between "single file: people a metre" "$(of straight density_classical)" 1.15 1.30
+between "single file: Voronoi agrees" "$(of straight density)" 1.10 1.30
+between "single file: speed there, m/s" "$(of straight speed)" 0.42 0.53 # .58 at 1.11, .42 at 1.28
+
+measure push_row.yaml push_row/free_head_trajectories.csv
+between "push: speed of its front, m/s" "$(of row front_speed)" 2.4 2.75
+n=1
+for peak in 0.44 0.50 0.65 0.70 0.54; do
+    n=$((n + 1))
+    between "push: greatest displacement of person $((n - 1)), m" "$(sed -n "${n}p" "$work/files/row.csv" | cut -d, -f7)" \
+        "$(awk "BEGIN {print $peak - 0.015}")" "$(awk "BEGIN {print $peak + 0.015}")"
+done

@@ -1,0 +1,619 @@
+/* Probes over crowds whose figures can be worked out by hand. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/mem.h"
+#include "geom/polygon.h"
+#include "record/probe.h"
+#include "record/voronoi.h"
+
+enum { MOST = 1000 };
+
+/* A crowd that the tests move. */
+static struct {
+    uint32_t count, key[MOST];
+    float x[MOST], y[MOST], vx[MOST], vy[MOST], compression[MOST];
+    uint8_t failed[MOST];
+    uint16_t group[MOST];
+    JoxV2 period;
+    JoxWalls walls;
+} crowd;
+
+static void nobody(uint32_t count) {
+    memset(&crowd, 0, sizeof crowd);
+    crowd.count = count;
+    for (uint32_t i = 0; i < count; i++)
+        crowd.key[i] = i;
+}
+
+static void show(JoxProbe *probe, double t) {
+    const JoxFrame frame = {.time = t,
+                            .count = crowd.count,
+                            .period = crowd.period,
+                            .keys = crowd.count,
+                            .key = crowd.key,
+                            .x = crowd.x,
+                            .y = crowd.y,
+                            .vx = crowd.vx,
+                            .vy = crowd.vy,
+                            .compression = crowd.compression,
+                            .failed = crowd.failed,
+                            .group = crowd.group,
+                            .walls = &crowd.walls};
+    jox_probe_frame(probe, &frame);
+}
+
+static double figure(const JoxProbe *probe, const char *name) {
+    JoxFigures figures = jox_probe_figures(probe);
+    for (uint32_t f = 0; f < figures.count; f++)
+        if (!strcmp(figures.items[f].name, name))
+            return figures.items[f].value;
+    fail_msg("there is no figure %s", name);
+    return NAN;
+}
+
+#define assert_near(value, wanted, within)                                                         \
+    do {                                                                                           \
+        double was = (value), right = (wanted);                                                    \
+        if (!(fabs(was - right) <= (within)))                                                      \
+            fail_msg("%s is %.9g, not %.9g", #value, was, right);                                  \
+    } while (0)
+
+static JoxProbeDef def_of(JoxProbeKind kind, const JoxV2 *points, uint32_t count) {
+    return (JoxProbeDef){.name = "probe",
+                         .kind = kind,
+                         .until = INFINITY,
+                         .points = points,
+                         .count = count,
+                         .every = 1,
+                         .cutoff = 1,
+                         .onset = 0.05,
+                         .low = {-5, -5},
+                         .high = {5, 5},
+                         .cell = 0.1,
+                         .kernel = 0.5,
+                         .rows = 0.4};
+}
+
+/* ---- flow ---- */
+
+static const JoxV2 DOOR[] = {{0, 1}, {0, -1}}; /* +x goes from its right to its left */
+
+static void ten_walkers_pass_a_second_apart(void **state) {
+    (void)state;
+    JoxProbeDef def = def_of(JOX_PROBE_FLOW, DOOR, 2);
+    JoxProbe *p = jox_probe_create(&def);
+    nobody(10);
+    for (int step = 0; step <= 300; step++) { /* walker i is at the door at 5.03 + i seconds */
+        double t = 0.05 * step;
+        for (uint32_t i = 0; i < 10; i++)
+            crowd.x[i] = (float)(1.2 * (t - 5.03 - i));
+        show(p, t);
+    }
+    assert_near(figure(p, "passages"), 10, 0);
+    assert_near(figure(p, "forward"), 10, 0);
+    assert_near(figure(p, "back"), 0, 0);
+    assert_near(figure(p, "first"), 5.03, 1e-4);
+    assert_near(figure(p, "last"), 14.03, 1e-4);
+    assert_near(figure(p, "flow"), 1, 1e-4);
+    assert_near(figure(p, "specific_flow"), 0.5, 1e-4);
+    assert_near(figure(p, "lapse_median"), 1, 1e-4);
+    assert_near(figure(p, "lapse_max"), 1, 1e-4);
+    jox_probe_free(p);
+}
+
+static void the_middle_leaves_out_the_ends(void **state) {
+    (void)state;
+    /* 10 passages: two early and two late ones, and six at half a second. */
+    static const double AT[] = {1, 4, 10, 10.5, 11, 11.5, 12, 12.5, 18, 25};
+    JoxProbeDef def = def_of(JOX_PROBE_FLOW, DOOR, 2);
+    JoxProbe *p = jox_probe_create(&def);
+    nobody(10);
+    for (int step = 0; step <= 300; step++) {
+        for (uint32_t i = 0; i < 10; i++)
+            crowd.x[i] = (float)(0.1 * step - AT[i] + 0.001);
+        show(p, 0.1 * step);
+    }
+    assert_near(figure(p, "flow"), 2, 1e-3);
+    assert_near(figure(p, "flow_all"), 9.0 / 24, 1e-3);
+    assert_near(figure(p, "lapse_max"), 7, 1e-3);
+    jox_probe_free(p);
+}
+
+static void who_steps_back_has_not_passed(void **state) {
+    (void)state;
+    static const float X[] = {-1, 1, -1, 1, 1};
+    JoxProbeDef def = def_of(JOX_PROBE_FLOW, DOOR, 2);
+    JoxProbe *p = jox_probe_create(&def);
+    nobody(2); /* the other passes beside the line */
+    crowd.y[1] = 3;
+    for (int step = 0; step < 5; step++) {
+        crowd.x[0] = crowd.x[1] = X[step];
+        show(p, step);
+    }
+    assert_near(figure(p, "forward"), 2, 0);
+    assert_near(figure(p, "back"), 1, 0);
+    assert_near(figure(p, "passages"), 1, 0);
+    assert_near(figure(p, "first"), 2.5, 1e-6);
+    jox_probe_free(p);
+}
+
+static void times_and_groups_choose(void **state) {
+    (void)state;
+    const uint16_t group = 1;
+    JoxProbeDef def = def_of(JOX_PROBE_FLOW, DOOR, 2);
+    def.from = 4;
+    def.until = 8;
+    def.groups = &group;
+    def.group_count = 1;
+    JoxProbe *p = jox_probe_create(&def);
+    nobody(10);
+    for (int step = 0; step <= 100; step++) {
+        for (uint32_t i = 0; i < 10; i++) { /* at the door at i + 0.55 s; odd ones are measured */
+            crowd.x[i] = (float)(0.1 * step - i - 0.55);
+            crowd.group[i] = i % 2;
+        }
+        show(p, 0.1 * step);
+    }
+    assert_near(figure(p, "passages"), 2, 0); /* 5 and 7 */
+    jox_probe_free(p);
+}
+
+static void edges_that_are_joined_count_once(void **state) {
+    (void)state;
+    static const JoxV2 AT_EDGE[] = {{10, 1}, {10, -1}}, INSIDE[] = {{5, 1}, {5, -1}};
+    for (int edge = 0; edge < 2; edge++) {
+        JoxProbeDef def = def_of(JOX_PROBE_FLOW, edge ? AT_EDGE : INSIDE, 2);
+        JoxProbe *p = jox_probe_create(&def);
+        nobody(1);
+        crowd.period = (JoxV2){10, 0};
+        for (int step = 0; step <= 500; step++) { /* 1 m/s: five rounds */
+            double way = 0.1 * step + 0.05;
+            crowd.x[0] = (float)(way - 10 * floor(way / 10));
+            show(p, 0.1 * step);
+        }
+        assert_near(figure(p, "forward"), 5, 0);
+        assert_near(figure(p, "back"), 0, 0);
+        assert_near(figure(p, "flow"), 0.1, 1e-4);
+        jox_probe_free(p);
+    }
+}
+
+/* ---- Voronoi ---- */
+
+static void a_lattice_has_known_cells(void **state) {
+    (void)state;
+    JoxSites sites = {0};
+    JoxCell cell;
+    jox_sites_clear(&sites);
+    for (uint32_t i = 0; i < 400; i++)
+        jox_sites_add(&sites, jox_v2(0.5f * (float)(i % 20), 0.5f * (float)(i / 20)), i);
+    jox_sites_sort(&sites, 1.0);
+    jox_sites_cell(&sites, 10 * 20 + 10, 1.0, &cell);
+    assert_near(jox_cell_area(&cell), 0.25, 1e-9);
+    /* At a corner of the lattice the cell ends at the cutoff: a quarter of the 32-gon and the
+       square and stripes towards the others. */
+    jox_sites_cell(&sites, 0, 1.0, &cell);
+    assert_true(jox_cell_area(&cell) > 0.7 && jox_cell_area(&cell) < 1.4);
+    jox_sites_clear(&sites); /* alone: half the sum of 32 triangles */
+    jox_sites_add(&sites, jox_v2(3, 4), 7);
+    jox_sites_sort(&sites, 1.0);
+    jox_sites_cell(&sites, 0, 1.0, &cell);
+    assert_near(jox_cell_area(&cell), 16 * sin(2 * 3.14159265358979 / 32), 1e-9);
+    jox_sites_free(&sites);
+}
+
+/* A number within [0, 1) of a counter. */
+static double drawn(uint32_t n) {
+    n = (n ^ 61u) ^ (n >> 16);
+    n *= 9u;
+    n ^= n >> 4;
+    n *= 0x27d4eb2du;
+    return (double)((n ^ (n >> 15)) >> 8) / 16777216.0;
+}
+
+/* Cells of people at random against points of a fine grid, each given to the nearest person. */
+static void cells_are_what_is_nearest(void **state) {
+    (void)state;
+    enum { PEOPLE = 60, FINE = 400 };
+    const double side = 5.0, step = side / FINE, cutoff = 0.8;
+    static const JoxV2 L[] = {{1, 1},       {4, 1},    {4, 2.5f},
+                              {2.2f, 2.5f}, {2.2f, 4}, {1, 4}}; /* an L */
+    JoxSites sites = {0};
+    double areas[PEOPLE] = {0}, within[PEOPLE] = {0};
+    for (uint32_t i = 0; i < PEOPLE; i++)
+        jox_sites_add(
+            &sites, jox_v2((float)(side * drawn(2 * i + 1)), (float)(side * drawn(2 * i + 2))), i);
+    jox_sites_sort(&sites, cutoff);
+    for (int r = -FINE / 5; r < FINE + FINE / 5; r++)
+        for (int c = -FINE / 5; c < FINE + FINE / 5; c++) {
+            double x = (c + 0.5) * step, y = (r + 0.5) * step, best = INFINITY;
+            uint32_t who = 0;
+            for (uint32_t i = 0; i < PEOPLE; i++) {
+                double dx = x - sites.points[i].x, dy = y - sites.points[i].y;
+                if (dx * dx + dy * dy < best) {
+                    best = dx * dx + dy * dy;
+                    who = i;
+                }
+            }
+            bool in_l = x > 1 && y > 1 && x < 4 && y < 4 && (y < 2.5 || x < 2.2);
+            areas[who] += best < cutoff * cutoff ? step * step : 0.0;
+            within[who] += best < cutoff * cutoff && in_l ? step * step : 0.0;
+        }
+    for (uint32_t i = 0; i < PEOPLE; i++) {
+        JoxCell cell;
+        jox_sites_cell(&sites, i, cutoff, &cell);
+        /* The disc is a polygon of 32 corners: up to 0.7 % of its area is lost. */
+        assert_near(jox_cell_area(&cell), areas[i], 0.02);
+        assert_near(jox_cell_area_within(&cell, sites.points[i], L, 6), within[i], 0.02);
+    }
+    jox_sites_free(&sites);
+}
+
+/* What is seen past walls with a gap, against points of a fine grid. */
+static void walls_end_cells(void **state) {
+    (void)state;
+    enum { FINE = 500 };
+    static const JoxV2 BOX[] = {{-0.6f, -0.5f}, {0.7f, -0.5f}, {0.7f, 0.9f}, {-0.6f, 0.9f}};
+    static struct JoxBar walls[] = {{{-2, 0.3f}, {-0.1f, 0.3f}},    {{0.2f, 0.3f}, {2, 0.3f}},
+                                    {{0.2f, 0.3f}, {0.2f, 0.6f}},   {{-0.4f, -2}, {-0.5f, 2}},
+                                    {{0.3f, -0.4f}, {0.9f, -0.4f}}, {{0.4f, -0.6f}, {0.5f, -0.1f}}};
+    const JoxBars bars = {walls, sizeof walls / sizeof *walls, 0};
+    for (uint32_t n = 0; n < 12; n++) {
+        JoxV2 at = {(float)(0.6 * drawn(3 * n) - 0.3), (float)(0.5 * drawn(3 * n + 1) - 0.25)};
+        JoxCell cell;
+        double whole, within, seen = 0.0, seen_within = 0.0, step = 2.0 / FINE;
+        jox_cell_begin(&cell, 1.0);
+        jox_cell_cut(&cell, 0.9, 0.3);
+        jox_cell_cut(&cell, -0.3, -1.1);
+        jox_cell_seen(&cell, at, &bars, BOX, 4, &whole, &within);
+        for (int r = 0; r < FINE; r++)
+            for (int c = 0; c < FINE; c++) {
+                double x = (c + 0.5) * step - 1, y = (r + 0.5) * step - 1;
+                bool inside = true, blocked = false;
+                for (uint32_t k = 0; k < cell.count && inside; k++) {
+                    uint32_t m = k + 1 < cell.count ? k + 1 : 0;
+                    inside = (cell.x[m] - cell.x[k]) * (y - cell.y[k]) >=
+                             (cell.y[m] - cell.y[k]) * (x - cell.x[k]);
+                }
+                JoxV2 there = {at.x + (float)x, at.y + (float)y};
+                for (uint32_t b = 0; b < bars.count && inside && !blocked; b++)
+                    blocked = jox_segment_crossing(walls[b].from, walls[b].to, at, there) != 0;
+                bool in_box =
+                    there.x > -0.6f && there.x < 0.7f && there.y > -0.5f && there.y < 0.9f;
+                seen += inside && !blocked ? step * step : 0.0;
+                seen_within += inside && !blocked && in_box ? step * step : 0.0;
+            }
+        assert_true(seen > 0.05);
+        assert_near(whole, seen, 0.01);
+        assert_near(within, seen_within, 0.01);
+    }
+}
+
+static void a_lattice_is_measured(void **state) {
+    (void)state;
+    static const JoxV2 SQUARE[] = {{2, 2}, {4, 2}, {4, 4}, {2, 4}};
+    static const JoxV2 LOWER[] = {{0, -0.5f}, {8, -0.5f}}, UPPER[] = {{8, 0.5f}, {0, 0.5f}};
+    static const JoxV2 PART[] = {{2, -0.5f}, {6, -0.5f}, {6, 0.5f}, {2, 0.5f}};
+    JoxProbeDef def = def_of(JOX_PROBE_MEASURE, SQUARE, 4);
+    JoxProbe *p = jox_probe_create(&def);
+    nobody(576);
+    for (uint32_t i = 0; i < 576; i++) { /* 0.25 m apart: 16 a square metre, 0.5 m/s */
+        crowd.x[i] = 0.25f * (float)(i % 24) + 0.125f;
+        crowd.y[i] = 0.25f * (float)(i / 24) + 0.125f;
+        crowd.vx[i] = 0.3f;
+        crowd.vy[i] = 0.4f;
+    }
+    for (int step = 1; step <= 30; step++)
+        show(p, 0.1 * step);
+    assert_near(figure(p, "intervals"), 3, 0);
+    assert_near(figure(p, "people"), 64, 0);
+    assert_near(figure(p, "density_classical"), 16, 1e-6);
+    assert_near(figure(p, "density"), 16, 1e-4);
+    assert_near(figure(p, "density_p90"), 16, 1e-4);
+    assert_near(figure(p, "speed"), 0.5, 1e-6);
+    assert_near(figure(p, "specific_flow"), 8, 1e-4);
+    jox_probe_free(p);
+    def = def_of(JOX_PROBE_MEASURE, PART, 4); /* a file, 0.8 m apart, between walls */
+    p = jox_probe_create(&def);
+    nobody(10);
+    jox_walls_add_polyline(&crowd.walls, LOWER, 2, false, INFINITY);
+    jox_walls_add_polyline(&crowd.walls, UPPER, 2, false, INFINITY);
+    for (uint32_t i = 0; i < 10; i++)
+        crowd.x[i] = 0.8f * (float)i + 0.4f;
+    show(p, 0);
+    assert_near(figure(p, "density"), 1.25, 1e-5);
+    jox_probe_free(p);
+    jox_walls_free(&crowd.walls);
+}
+
+static void cells_reach_over_joined_edges(void **state) {
+    (void)state;
+    static const JoxV2 AT_EDGE[] = {{0, 0.5f}, {2, 0.5f}, {2, 2.5f}, {0, 2.5f}};
+    JoxProbeDef def = def_of(JOX_PROBE_MEASURE, AT_EDGE, 4);
+    JoxProbe *p = jox_probe_create(&def);
+    nobody(96);
+    crowd.period = (JoxV2){6, 0};
+    for (uint32_t i = 0; i < 96; i++) { /* half a metre apart, all the way round */
+        crowd.x[i] = 0.5f * (float)(i % 12);
+        crowd.y[i] = 0.5f * (float)(i / 12) - 0.25f;
+    }
+    show(p, 0);
+    assert_near(figure(p, "density"), 4, 1e-4);
+    jox_probe_free(p);
+}
+
+/* ---- the others ---- */
+
+static void transit_is_from_line_to_line(void **state) {
+    (void)state;
+    static const JoxV2 LINES[] = {{0, -1}, {0, 1}, {5, -1}, {5, 1}};
+    JoxProbeDef def = def_of(JOX_PROBE_TRANSIT, LINES, 4);
+    JoxProbe *p = jox_probe_create(&def);
+    nobody(3);
+    for (int step = 0; step <= 100; step++) {
+        double t = 0.1 * step;
+        crowd.x[0] = (float)(1.25 * t - 1);   /* 4 s */
+        crowd.x[1] = (float)(1.0 * t - 0.55); /* 5 s */
+        crowd.x[2] = (float)(0.3 * t - 1);    /* on the way */
+        show(p, t);
+    }
+    assert_near(figure(p, "passages"), 2, 0);
+    assert_near(figure(p, "under_way"), 1, 0);
+    assert_near(figure(p, "mean"), 4.5, 1e-4);
+    assert_near(figure(p, "least"), 4, 1e-4);
+    assert_near(figure(p, "greatest"), 5, 1e-4);
+    jox_probe_free(p);
+}
+
+static void a_push_travels(void **state) {
+    (void)state;
+    static const JoxV2 ALONG[] = {{0, -1}};
+    for (int along = 0; along < 2; along++) {
+        JoxProbeDef def = def_of(JOX_PROBE_DISPLACEMENT, ALONG, along ? 1 : 0);
+        def.rest = along ? 0.5 : 0.0;
+        JoxProbe *p = jox_probe_create(&def);
+        nobody(5);
+        for (int step = 0; step <= 400; step++) {
+            double t = 0.01 * step;
+            for (uint32_t i = 0; i < 5;
+                 i++) { /* 0.4 m apart; each leaves 0.2 s after the one behind */
+                double go = t - 1 - 0.2 * i, way = go < 0 ? 0 : go < 0.4 ? go : fmax(0.8 - go, 0.1);
+                crowd.y[i] = (float)(2 - 0.4 * i - way);
+                crowd.x[i] = t < 0.5 ? (step % 2 ? 0.01f : -0.01f) : 0.03f;
+            }
+            show(p, t);
+        }
+        assert_near(figure(p, "people"), 5, 0);
+        assert_near(figure(p, "moved"), 5, 0);
+        assert_near(figure(p, "front_speed"), 2, along ? 1e-3 : 0.05);
+        if (along) {
+            assert_near(figure(p, "peak"), 0.4, 1e-4);
+            assert_near(figure(p, "mean"), 0.1, 1e-4);
+        } else {
+            assert_near(figure(p, "mean"), hypot(0.1, 0.04), 1e-4); /* from -1 cm to 3 cm */
+        }
+        jox_probe_free(p);
+    }
+}
+
+static void fields_are_the_kernel(void **state) {
+    (void)state;
+    JoxProbeDef def = def_of(JOX_PROBE_MAP, NULL, 0);
+    JoxProbe *p = jox_probe_create(&def);
+    nobody(2); /* two in one place who go apart at 0.6 m/s each */
+    crowd.vx[0] = 0.6f;
+    crowd.vx[1] = -0.6f;
+    crowd.compression[1] = 250;
+    crowd.x[0] = crowd.x[1] = 0.05f;
+    crowd.y[0] = crowd.y[1] = 0.05f;
+    show(p, 0);
+    double peak = 2 / (2 * 3.14159265358979 * 0.25);
+    assert_near(figure(p, "density_max"), peak, 0.02 * peak);
+    assert_near(figure(p, "density_max_x"), 0.05, 0.01);
+    assert_near(figure(p, "speed"), 0.6, 1e-6);
+    assert_near(figure(p, "pressure_max"), peak * 0.36, 0.02 * peak * 0.36);
+    assert_near(figure(p, "compression_max"), 250, 0);
+    crowd.vx[1] = 0.6f; /* together: no variance, no pressure */
+    show(p, 1);
+    assert_near(figure(p, "pressure_mean_max"), peak * 0.18, 0.02 * peak * 0.18);
+    assert_near(figure(p, "samples"), 2, 0);
+    jox_probe_free(p);
+}
+
+static void turns_are_counted(void **state) {
+    (void)state;
+    static const JoxV2 MIDDLE[] = {{1, 2}};
+    const double turn = 6.283185307179586;
+    JoxProbeDef def = def_of(JOX_PROBE_WINDING, MIDDLE, 1);
+    JoxProbe *p = jox_probe_create(&def);
+    nobody(2);
+    for (int step = 0; step <= 200; step++) {
+        double there = step <= 100 ? -0.0125 * step : -1.25 + 0.0275 * (step - 100);
+        double ways[] = {0.01625 * step, there}; /* 3.25 turns; 1.25 clockwise, then 2.75 back */
+        for (uint32_t i = 0; i < 2; i++) {
+            crowd.x[i] = (float)(1 + 3 * cos(turn * ways[i]));
+            crowd.y[i] = (float)(2 + 3 * sin(turn * ways[i]));
+        }
+        show(p, 0.1 * step);
+    }
+    assert_near(figure(p, "greatest"), 3.25, 1e-4);
+    assert_near(figure(p, "least"), 1.5, 1e-4);
+    assert_near(figure(p, "least_running"), -1.25, 1e-4);
+    assert_near(figure(p, "clockwise_laps"), 1, 0);
+    jox_probe_free(p);
+}
+
+static void failures_are_shares(void **state) {
+    (void)state;
+    JoxProbeDef def = def_of(JOX_PROBE_FAILURES, NULL, 0);
+    JoxProbe *p = jox_probe_create(&def);
+    nobody(10);
+    for (int step = 1; step <= 40; step++) { /* one of ten fails in the second second */
+        crowd.failed[3] = step > 20 && step <= 40;
+        crowd.failed[7] = step == 5;
+        show(p, 0.05 * step);
+    }
+    assert_near(figure(p, "agent_steps"), 400, 0);
+    assert_near(figure(p, "share"), 21.0 / 400, 1e-9);
+    assert_near(figure(p, "peak"), 0.1, 1e-9);
+    assert_near(figure(p, "peak_time"), 1.5, 1e-9);
+    jox_probe_free(p);
+}
+
+static void lanes_have_an_order(void **state) {
+    (void)state;
+    for (int mixed = 0; mixed < 2; mixed++) {
+        JoxProbeDef def = def_of(JOX_PROBE_LANES, NULL, 0);
+        def.low = (JoxV2){0, 0};
+        def.high = (JoxV2){10, 4}; /* ten rows */
+        JoxProbe *p = jox_probe_create(&def);
+        nobody(40);
+        for (uint32_t i = 0; i < 40; i++) { /* four in each row */
+            crowd.x[i] = 1 + 2 * (float)(i % 4);
+            crowd.y[i] = 0.4f * (float)(i / 4) + 0.2f;
+            bool ahead = mixed ? i % 2 : i / 4 % 2;
+            crowd.vx[i] = ahead ? 1.0f : -1.0f;
+        }
+        show(p, 0);
+        assert_near(figure(p, "order"), mixed ? 0 : 1, 1e-9);
+        assert_near(figure(p, "random"), 0.25, 1e-9);
+        assert_near(figure(p, "density"), 1, 1e-6);
+        assert_near(figure(p, "speed"), 1, 1e-6);
+        crowd.vx[0] =
+            -crowd.vx[0]; /* one of four goes the other way: (3 - 1)^2 / 16 for the four */
+        show(p, 1);
+        assert_near(figure(p, "order_last"), mixed ? 0.025 : 0.925, 1e-9);
+        jox_probe_free(p);
+    }
+}
+
+/* ---- files ---- */
+
+static bool holds(const char *path, const char *first) {
+    char start[256] = "";
+    FILE *file = fopen(path, "rb");
+    size_t got = file ? fread(start, 1, sizeof start - 1, file) : 0;
+    if (file)
+        fclose(file);
+    return got > 0 && strncmp(start, first, strlen(first)) == 0;
+}
+
+/* Every kind writes its files, whether anyone was there or not. */
+static void every_kind_writes(void **state) {
+    (void)state;
+    static const JoxV2 POINTS[] = {{0, 1}, {0, -1}, {2, -1}, {2, 1}};
+    static const char *const ENDS[] = {"csv", "png", "svg", "plt"};
+    char folder[] = "/tmp/jostle-probes-XXXXXX", path[128];
+    assert_non_null(mkdtemp(folder));
+    JoxWalls walls = {0};
+    jox_walls_add_polyline(&walls, POINTS, 4, false, INFINITY);
+    for (int kind = 0; kind < JOX_PROBE_KINDS; kind++)
+        for (uint32_t people = 0; people < 3; people++) {
+            JoxProbeDef def =
+                def_of((JoxProbeKind)kind, POINTS, kind == JOX_PROBE_DISPLACEMENT ? 0 : 4);
+            JoxProbe *p = jox_probe_create(&def);
+            JoxText error = {0};
+            nobody(people);
+            for (int step = 0; step < 30; step++) {
+                for (uint32_t i = 0; i < people; i++) {
+                    crowd.x[i] = 0.1f * (float)step - 0.95f * (float)(i + 1);
+                    crowd.vx[i] = 1;
+                }
+                show(p, 0.1 * step);
+            }
+            assert_true(
+                jox_probe_write(p, folder, &walls, "it's a \"test\" `of` $(titles)", &error));
+            assert_null(error.data);
+            for (int e = 0; e < 4; e++) {
+                static const char *const STARTS[] = {"", "\x89PNG", "<?xml", "reset"};
+                snprintf(path, sizeof path, "%s/probe.%s", folder, ENDS[e]);
+                assert_true(holds(path, STARTS[e]));
+                assert_int_equal(unlink(path), 0);
+            }
+            jox_probe_free(p);
+        }
+    JoxProbeDef def = def_of(JOX_PROBE_FLOW, POINTS, 2);
+    JoxProbe *p = jox_probe_create(&def);
+    JoxText error = {0};
+    assert_false(jox_probe_write(p, "/proc/none", &walls, "", &error));
+    assert_non_null(strstr(error.data, "cannot write"));
+    jox_text_free(&error);
+    jox_probe_free(p);
+    jox_walls_free(&walls);
+    snprintf(path, sizeof path, "%s/walls.dat", folder);
+    unlink(path);
+    assert_int_equal(rmdir(folder), 0);
+}
+
+static void a_summary_is_json(void **state) {
+    (void)state;
+    JoxProbeDef def = def_of(JOX_PROBE_TRANSIT, (const JoxV2[]){{0, 0}, {0, 1}, {1, 0}, {1, 1}}, 4);
+    JoxProbe *p = jox_probe_create(&def);
+    JoxText out = {0};
+    jox_probe_json(p, &out);
+    assert_string_equal(out.data,
+                        "{\"passages\": 0, \"under_way\": 0, \"mean\": null, \"median\": null, "
+                        "\"p95\": null, \"least\": null, \"greatest\": null}");
+    jox_text_free(&out);
+    jox_probe_free(p);
+}
+
+static void steady_frames_allocate_nothing(void **state) {
+    (void)state;
+    static const JoxV2 POINTS[] = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+    for (int kind = 0; kind < JOX_PROBE_KINDS; kind++) {
+        JoxProbeDef def =
+            def_of((JoxProbeKind)kind, POINTS, kind == JOX_PROBE_DISPLACEMENT ? 0 : 4);
+        def.every = 100; /* else lists of intervals grow, now and then */
+        def.until = 99;
+        JoxProbe *p = jox_probe_create(&def);
+        nobody(200);
+        uint64_t before = 0;
+        for (int step = 0; step < 100; step++) {
+            for (uint32_t i = 0; i < 200; i++) {
+                crowd.x[i] = (float)(4 * drawn(i) - 2 + 0.001 * step);
+                crowd.y[i] = (float)(3 * drawn(i + 5000) - 5);
+            }
+            show(p, 0.1 * step);
+            if (step == 50)
+                before = jox_alloc_count();
+        }
+        assert_true(jox_alloc_count() == before);
+        jox_probe_free(p);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ten_walkers_pass_a_second_apart),
+        cmocka_unit_test(the_middle_leaves_out_the_ends),
+        cmocka_unit_test(who_steps_back_has_not_passed),
+        cmocka_unit_test(times_and_groups_choose),
+        cmocka_unit_test(edges_that_are_joined_count_once),
+        cmocka_unit_test(a_lattice_has_known_cells),
+        cmocka_unit_test(cells_are_what_is_nearest),
+        cmocka_unit_test(walls_end_cells),
+        cmocka_unit_test(a_lattice_is_measured),
+        cmocka_unit_test(cells_reach_over_joined_edges),
+        cmocka_unit_test(transit_is_from_line_to_line),
+        cmocka_unit_test(a_push_travels),
+        cmocka_unit_test(fields_are_the_kernel),
+        cmocka_unit_test(turns_are_counted),
+        cmocka_unit_test(failures_are_shares),
+        cmocka_unit_test(lanes_have_an_order),
+        cmocka_unit_test(every_kind_writes),
+        cmocka_unit_test(a_summary_is_json),
+        cmocka_unit_test(steady_frames_allocate_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,332 @@
+/* Recordings read into frames: each format, what it says of itself, and what is wrong with it. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+#include <sqlite3.h>
+
+#include "record/recorder.h"
+#include "record/trajectories.h"
+
+static char folder[] = "/tmp/jostle-trajectories-XXXXXX";
+static char path[128];
+
+static int make_folder(void **state) {
+    (void)state;
+    bool made = mkdtemp(folder) != NULL;
+    snprintf(path, sizeof path, "%s/crowd", folder);
+    return made ? 0 : -1;
+}
+
+static int remove_folder(void **state) {
+    (void)state;
+    unlink(path);
+    return rmdir(folder);
+}
+
+static void write_file(const char *text, size_t length) {
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, length, file), length);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Reads what is in the file; NULL with the messages in `said`. */
+static JoxTrajectories *read_file(double fps, double unit, JoxText *said) {
+    JoxDiagnostics diagnostics = {0};
+    const JoxTrajectoryOptions options = {.fps = fps, .unit = unit};
+    JoxTrajectories *t = jox_trajectories_read(path, &options, &diagnostics);
+    assert_true(!t == (diagnostics.errors > 0));
+    if (said)
+        jox_diag_print(&diagnostics, said);
+    jox_diag_free(&diagnostics);
+    return t;
+}
+
+static JoxTrajectories *read_text(const char *text, double fps, double unit) {
+    JoxText said = {0};
+    write_file(text, strlen(text));
+    JoxTrajectories *t = read_file(fps, unit, &said);
+    if (!t)
+        fail_msg("%s", said.data);
+    jox_text_free(&said);
+    return t;
+}
+
+#define assert_near(value, wanted, within) assert_true(fabs((double)(value) - (wanted)) <= (within))
+
+/* Person 7 walks at 1 m/s along x, person 3 stands at (1, 2); frames 10 to 14, 10 a second. */
+static void check_walk(JoxTrajectories *t) {
+    JoxFrame frame;
+    assert_int_equal(t->people, 2);
+    assert_int_equal(t->frame_count, 5);
+    for (uint32_t f = 0; f < 5; f++) {
+        assert_true(jox_trajectories_frame(t, f, &frame));
+        assert_near(frame.time, 1.0 + 0.1 * f, 1e-9);
+        assert_int_equal(frame.count, 2);
+        assert_int_equal(frame.key[0], 3);
+        assert_int_equal(frame.key[1], 7);
+        assert_true(frame.keys > 7);
+        assert_near(frame.x[0], 1, 1e-6);
+        assert_near(frame.y[0], 2, 1e-6);
+        assert_near(frame.vx[0], 0, 1e-6);
+        assert_near(frame.x[1], 0.1 * f, 1e-6);
+        assert_near(frame.y[1], -1, 1e-6);
+        assert_near(frame.vx[1], 1, 1e-4);
+        assert_near(frame.vy[1], 0, 1e-6);
+    }
+    assert_false(jox_trajectories_frame(t, 5, &frame));
+    jox_trajectories_free(t);
+}
+
+static void columns_by_place(void **state) {
+    (void)state;
+    static const char METRES[] = "# PeTrack project: x.pet\n#framerate: 10.00 fps\n"
+                                 "# id frame x/m y/m z/m\n"
+                                 "7 10 0 -1 1.7\n7\t11\t0.1\t-1\t1.7\n7 12 0.2 -1 1.7\n\n"
+                                 "7 13 0.3 -1 1.7\r\n7 14 0.4 -1 1.7\n"
+                                 "3 14 1 2\n3 13 1 2\n3 12 1 2\n3 11 1 2\n3 10 1 2";
+    static const char CENTIMETRES[] = "# framerate: 10\n# PersID Frame X [in cm] Y [in cm]\n"
+                                      "7 10 0 -100\n7 11 10 -100\n7 12 20 -100\n7 13 30 -100\n"
+                                      "7 14 40 -100\n3 14 100 200\n3 13 100 200\n3 12 100 200\n"
+                                      "3 11 100 200\n3 10 100 200\n";
+    check_walk(read_text(METRES, 0, 0));
+    check_walk(read_text(CENTIMETRES, 0, 0));
+    check_walk(
+        read_text(strstr(CENTIMETRES, "7 10"), 10, 0.01)); /* no header: the caller says it */
+    /* The caller is right where both say something. */
+    JoxTrajectories *t = read_text(METRES, 20, 2);
+    JoxFrame frame;
+    assert_true(jox_trajectories_frame(t, 0, &frame));
+    assert_near(frame.time, 0.5, 1e-9);
+    assert_near(frame.vx[1], 4, 1e-4);
+    jox_trajectories_free(t);
+}
+
+static void columns_by_name(void **state) {
+    (void)state;
+    check_walk(read_text("ID,Frame,x,y\n7,10,0,-1\n7,11,.1,-1\n7,12,.2,-1\n7,13,.3,-1\n7,14,.4,-1\n"
+                         "3,10,1,2\n3,11,1,2\n3,12,1,2\n3,13,1,2\n3,14,1,2\n",
+                         10, 1));
+    /* Time gives the frames a second, names the unit; the order of columns is free. */
+    check_walk(read_text("mass_kg;y_cm;x_cm;frame;time_s;id\n"
+                         "80;-100;0;10;1.0;7\n80;-100;10;11;1.1;7\n80;-100;20;12;1.2;7\n"
+                         "80;-100;30;13;1.3;7\n80;-100;40;14;1.4;7\n81;200;100;10;1.0;3\n"
+                         "81;200;100;11;1.1;3\n81;200;100;12;1.2;3\n81;200;100;13;1.3;3\n"
+                         "81;200;100;14;1.4;3\n",
+                         0, 0));
+    JoxTrajectories *t = read_text("ID,Frame,x,y,v_x,v_y\n1,5,2,3,0.7,-0.2\n", 25, 1);
+    JoxFrame frame;
+    assert_true(t->has_velocity && jox_trajectories_frame(t, 0, &frame));
+    assert_near(frame.vx[0], 0.7, 1e-6);
+    assert_near(frame.vy[0], -0.2, 1e-6);
+    jox_trajectories_free(t);
+}
+
+/* x = t2: a displacement over +-0.2 s is the derivative; at the ends it is one-sided. Frames that
+   are farther apart than that reach to the next. */
+static void velocity_is_displacement(void **state) {
+    (void)state;
+    JoxText text = {0};
+    JoxFrame frame;
+    for (int f = 0; f <= 50; f++)
+        jox_text_printf(&text, "1 %d %.9f 0\n", f, 0.04 * f * 0.04 * f);
+    JoxTrajectories *t = read_text(text.data, 25, 1);
+    for (uint32_t f = 5; f <= 45; f++) {
+        assert_true(jox_trajectories_frame(t, f, &frame));
+        assert_near(frame.vx[0], 2 * 0.04 * f, 1e-4);
+    }
+    assert_true(jox_trajectories_frame(t, 0, &frame));
+    assert_near(frame.vx[0], 0.2, 1e-4); /* (0.2 s)2 in 0.2 s */
+    jox_trajectories_free(t);
+    jox_text_free(&text);
+    t = read_text("1 0 0 0\n1 20 1 0\n1 40 2 0\n2 0 5 5\n", 25, 1);
+    assert_true(jox_trajectories_frame(t, 1, &frame));
+    assert_near(frame.vx[0], 1.25, 1e-5);
+    assert_true(jox_trajectories_frame(t, 0, &frame));
+    assert_near(frame.vx[0], 1.25, 1e-5);
+    assert_near(frame.vx[1], 0, 0); /* seen once */
+    jox_trajectories_free(t);
+}
+
+static void any_ids_will_do(void **state) {
+    (void)state;
+    JoxTrajectories *t = read_text("-5 0 0 0\n999999999999 0 1 0\n12 0 2 0\n12 -3 2 0\n", 10, 1);
+    JoxFrame frame;
+    assert_int_equal(t->people, 3);
+    assert_int_equal(t->keys, 3);
+    assert_true(jox_trajectories_frame(t, 0, &frame));
+    assert_near(frame.time, -0.3, 1e-9);
+    assert_int_equal(frame.key[0], 1);
+    assert_true(jox_trajectories_frame(t, 1, &frame));
+    assert_int_equal(frame.key[0], 0);
+    assert_near(frame.x[2], 1, 0);
+    jox_trajectories_free(t);
+}
+
+/* What is wrong is told with its line and column, and a way out. */
+static void errors_have_places(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *said[3];
+        double fps, unit;
+    } BAD[] = {
+        {"", {"nobody is in this recording"}, 25, 1},
+        {"# only a comment\n", {"nobody is in this recording"}, 25, 1},
+        {"1 0 0 0\n", {"how many frames a second", "--fps 25"}, 0, 1},
+        {"1 0 0 0\n", {"the unit of its lengths", "--unit m, or --unit cm"}, 25, 0},
+        {"1 0 0 0\n1 1 zero 0\n", {"crowd:2:5", "a finite number, not 'zero'"}, 25, 1},
+        {"1 0 0 0\n  1 1 0 nan\n", {"crowd:2:9", "a finite number, not 'nan'"}, 25, 1},
+        {"1 0 0 1e99\n", {"crowd:1:7", "a finite number"}, 25, 1},
+        {"1 0.5 0 0\n", {"crowd:1:3", "a whole number, not '0.5'"}, 25, 1},
+        {"1 0 0 0\n1 1 0\n", {"crowd:2:1", "this line has no y"}, 25, 1},
+        {"1 0 0 0\n2 0 0 0\n1 0 4 4\n", {"crowd:3:1", "person 1 is in frame 0 twice"}, 25, 1},
+        {"1 0 0 0\n1 900000000000 0 0\n", {"crowd:2:1", "more than 30 years"}, 25, 1},
+        {"ID,Frame,x\n1,0,0\n", {"crowd:1:1", "no column is named 'y'"}, 25, 1},
+        {"ID,Frame,x,y\n1,0,0,\"a,b\"\n", {"crowd:2:", "a finite number"}, 25, 1},
+        {"\x01\x02\xff\xfe\n", {"crowd:1:1"}, 25, 1},
+        {"1,0,0x10,0\n", {"crowd:1:5", "not '0x10'"}, 25, 1},
+    };
+    for (size_t b = 0; b < sizeof BAD / sizeof *BAD; b++) {
+        JoxText said = {0};
+        write_file(BAD[b].text, strlen(BAD[b].text));
+        assert_null(read_file(BAD[b].fps, BAD[b].unit, &said));
+        for (int s = 0; s < 3 && BAD[b].said[s]; s++)
+            if (!strstr(said.data, BAD[b].said[s]))
+                fail_msg("case %zu: '%s' is not in: %s", b, BAD[b].said[s], said.data);
+        jox_text_free(&said);
+    }
+    JoxText said = {0};
+    unlink(path);
+    assert_null(read_file(25, 1, &said));
+    assert_non_null(strstr(said.data, "cannot be read"));
+    jox_text_free(&said);
+}
+
+/* However a good file is cut or bent, it is read or refused. */
+static void bent_files_do_no_harm(void **state) {
+    (void)state;
+    static const char GOOD[] = "# framerate: 10\n# id frame x/cm y/cm\nid,frame,x,y,v_x,v_y\n"
+                               "1,0,1.5,-2,0,0\n2,0,3,4e1,0,1\n1,1,1,1,1,1\n";
+    char bent[sizeof GOOD];
+    uint32_t random = 1;
+    for (size_t cut = 0; cut < sizeof GOOD; cut++) {
+        write_file(GOOD, cut);
+        jox_trajectories_free(read_file(25, 1, NULL));
+    }
+    for (int turn = 0; turn < 2000; turn++) {
+        memcpy(bent, GOOD, sizeof GOOD);
+        for (int k = 0; k < 3; k++) {
+            random = random * 1664525u + 1013904223u;
+            bent[(random >> 8) % (sizeof GOOD - 1)] = (char)(random >> 24);
+        }
+        write_file(bent, sizeof GOOD - 1);
+        jox_trajectories_free(read_file(25, 1, NULL));
+    }
+}
+
+static void make_database(const char *sql) {
+    sqlite3 *db;
+    unlink(path);
+    assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+    assert_int_equal(sqlite3_exec(db, sql, NULL, NULL, NULL), SQLITE_OK);
+    sqlite3_close(db);
+}
+
+#define TRAJECTORIES                                                                               \
+    "CREATE TABLE trajectory_data(frame INTEGER NOT NULL, id INTEGER NOT NULL, pos_x REAL NOT "    \
+    "NULL, pos_y REAL NOT NULL, ori_x REAL NOT NULL, ori_y REAL NOT NULL);"                        \
+    "INSERT INTO trajectory_data VALUES(10,7,0,-1,1,0),(11,7,.1,-1,1,0),(12,7,.2,-1,1,0),"         \
+    "(13,7,.3,-1,1,0),(14,7,.4,-1,1,0),(10,3,1,2,1,0),(11,3,1,2,1,0),(12,3,1,2,1,0),"              \
+    "(13,3,1,2,1,0),(14,3,1,2,1,0);"                                                               \
+    "CREATE TABLE metadata(key TEXT NOT NULL UNIQUE PRIMARY KEY, value TEXT NOT NULL);"
+
+static void both_versions_of_jupedsim(void **state) {
+    (void)state;
+    make_database(
+        TRAJECTORIES
+        "INSERT INTO metadata VALUES('version','1'),('fps','10.0');"
+        "CREATE TABLE geometry(wkt TEXT NOT NULL);"
+        "INSERT INTO geometry VALUES('GEOMETRYCOLLECTION (POLYGON ((0 0, 4 0, 4 4, 0 4, 0 "
+        "0), (1 1, 2 1, 2 2, 1 1)))');");
+    JoxTrajectories *t = read_file(0, 0, NULL);
+    assert_non_null(t);
+    assert_int_equal(t->walls.ring_count, 4); /* a closed line has two sides */
+    check_walk(t);
+    make_database(TRAJECTORIES
+                  "INSERT INTO metadata VALUES('version','2'),('fps','10.0');"
+                  "CREATE TABLE geometry(hash INTEGER NOT NULL UNIQUE, wkt TEXT NOT NULL);"
+                  "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"
+                  "INSERT INTO geometry VALUES(1,'POLYGON ((0 0, 4 0, 4 4))');");
+    t = read_file(0, 0, NULL);
+    assert_non_null(t);
+    assert_int_equal(t->walls.ring_count, 2);
+    check_walk(t);
+    JoxText said = {0};
+    make_database(TRAJECTORIES
+                  "INSERT INTO metadata VALUES('fps','10');"
+                  "UPDATE trajectory_data SET frame = -9223372036854775807 WHERE id = 3;");
+    assert_null(read_file(0, 0, &said));
+    assert_non_null(strstr(said.data, "more than 30 years"));
+    make_database(TRAJECTORIES);
+    assert_null(read_file(0, 0, &said));
+    assert_non_null(strstr(said.data, "--fps 25"));
+    check_walk(read_file(10, 0, NULL));
+    make_database("CREATE TABLE other(x)");
+    assert_null(read_file(0, 0, &said));
+    assert_non_null(strstr(said.data, "a table trajectory_data"));
+    jox_text_free(&said);
+}
+
+static void our_recordings_keep_more(void **state) {
+    (void)state;
+    JoxText error = {0};
+    unlink(path);
+    JoxRecorder *r = jox_recorder_open(path, 10, "POLYGON ((0 0, 1 0, 1 1, 0 0))", &error);
+    assert_non_null(r);
+    jox_recorder_group(r, 0, "red");
+    jox_recorder_group(r, 1, "blue");
+    for (uint32_t f = 0; f < 3; f++) {
+        JoxRecordBody *bodies;
+        JoxRecordRow *rows = jox_recorder_take(r, 2, 0, &bodies);
+        for (uint32_t i = 0; i < 2; i++)
+            rows[i] = (JoxRecordRow){.id = 4 - i, /* not in order */
+                                     .x = 0.1f * (float)f,
+                                     .force = (float)(10 * i + f),
+                                     .compression = (float)(100 * i + f),
+                                     .group = (uint16_t)i};
+        assert_true(jox_recorder_put(r, f, &error));
+    }
+    assert_true(jox_recorder_close(r, &error));
+    JoxTrajectories *t = read_file(0, 0, NULL);
+    JoxFrame frame;
+    assert_non_null(t);
+    assert_int_equal(t->group_count, 2);
+    assert_true(jox_trajectories_frame(t, 2, &frame));
+    assert_int_equal(frame.key[0], 3);
+    assert_string_equal(frame.groups[frame.group[0]], "blue");
+    assert_string_equal(frame.groups[frame.group[1]], "red");
+    assert_near(frame.force[0], 12, 0);
+    assert_near(frame.compression[0], 102, 0);
+    assert_near(frame.compression[1], 2, 0);
+    assert_near(frame.vx[1], 1, 1e-5);
+    jox_trajectories_free(t);
+    jox_text_free(&error);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(columns_by_place),          cmocka_unit_test(columns_by_name),
+        cmocka_unit_test(velocity_is_displacement),  cmocka_unit_test(any_ids_will_do),
+        cmocka_unit_test(errors_have_places),        cmocka_unit_test(bent_files_do_no_harm),
+        cmocka_unit_test(both_versions_of_jupedsim), cmocka_unit_test(our_recordings_keep_more),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
