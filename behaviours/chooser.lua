@@ -20,7 +20,7 @@ return machine {
       { to = "ToNear", when = lasted, id = "again" } },
 
     AtNear = { steer = seek(own.near), speed = crowd.at_door, horizon = 0.3, push_when = crowd.slow_at_door,
-      { to = "Walk",   when = crosses(own.near) },
+      { to = "Walk",   when = crosses(own.near) | near(own.near, 0.1) },
       { to = "ToNear", when = ~near(own.near, 3) } },
 
     ToFar = { steer = seek(own.far), speed = walks.speed, horizon = walks.horizon, push_when = walks.push_when,
@@ -30,7 +30,7 @@ return machine {
       { to = "ToFar",  when = lasted, id = "again" } },
 
     AtFar = { steer = seek(own.far), speed = crowd.at_door, horizon = 0.3, push_when = crowd.slow_at_door,
-      { to = "Walk",  when = crosses(own.far) },
+      { to = "Walk",  when = crosses(own.far) | near(own.far, 0.1) },
       { to = "ToFar", when = ~near(own.far, 3) } },
 
     Walk = { steer = seek(own.goal), speed = walks.speed, horizon = walks.horizon, push_when = walks.push_when,
