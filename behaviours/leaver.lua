@@ -6,14 +6,17 @@ return machine {
   defaults = { speed = normal(1.34, 0.26, 0.6, 2.2), perception = 3, radius = 0.19 },
 
   states = {
-    ToDoor = { steer = seek(own.door), speed = crowd.by_headway, push = crowd.nudge, push_when = crowd.held_up,
-      { to = "AtDoor", when = near(own.door, 3) } },
+    ToDoor = { steer = seek(own.door), speed = crowd.by_headway, horizon = crowd.foresight,
+      push = crowd.nudge, push_when = crowd.held_up,
+      { to = "AtDoor", when = near(own.door, 2.5) } },
 
-    AtDoor = { steer = seek(own.door), speed = crowd.at_door, push = crowd.nudge, push_when = crowd.held_up_at_door,
+    AtDoor = { steer = seek(own.door), speed = crowd.at_door, horizon = 0.3,
+      push = crowd.nudge, push_when = crowd.slow_at_door,
       { to = "Walk", when = crosses(own.door) },
-      { to = "ToDoor", when = ~near(own.door, 3.5) } },
+      { to = "ToDoor", when = ~near(own.door, 3) } },
 
-    Walk = { steer = seek(own.goal), speed = crowd.by_headway, push = crowd.nudge, push_when = crowd.held_up,
+    Walk = { steer = seek(own.goal), speed = crowd.by_headway, horizon = crowd.foresight,
+      push = crowd.nudge, push_when = crowd.held_up,
       { to = "Gone", when = inside(own.goal) } },
 
     Gone = { removes = true },

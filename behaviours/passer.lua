@@ -6,21 +6,26 @@ return machine {
   defaults = { speed = normal(1.34, 0.26, 0.6, 2.2), perception = 3, radius = 0.19 },
 
   states = {
-    ToEntrance = { steer = seek(own.entrance), speed = crowd.by_headway, push = crowd.nudge, push_when = crowd.held_up,
-      { to = "AtEntrance", when = near(own.entrance, 3) } },
+    ToEntrance = { steer = seek(own.entrance), speed = crowd.by_headway, horizon = crowd.foresight,
+      push = crowd.nudge, push_when = crowd.held_up,
+      { to = "AtEntrance", when = near(own.entrance, 2.5) } },
 
-    AtEntrance = { steer = seek(own.entrance), speed = crowd.at_door, push = crowd.nudge, push_when = crowd.held_up_at_door,
+    AtEntrance = { steer = seek(own.entrance), speed = crowd.at_door, horizon = 0.3,
+      push = crowd.nudge, push_when = crowd.slow_at_door,
       { to = "ToExit", when = crosses(own.entrance) },
-      { to = "ToEntrance", when = ~near(own.entrance, 3.5) } },
+      { to = "ToEntrance", when = ~near(own.entrance, 3) } },
 
-    ToExit = { steer = seek(own.exit), speed = crowd.by_headway, push = crowd.nudge, push_when = crowd.held_up,
-      { to = "AtExit", when = near(own.exit, 3) } },
+    ToExit = { steer = seek(own.exit), speed = crowd.by_headway, horizon = crowd.foresight,
+      push = crowd.nudge, push_when = crowd.held_up,
+      { to = "AtExit", when = near(own.exit, 2.5) } },
 
-    AtExit = { steer = seek(own.exit), speed = crowd.at_door, push = crowd.nudge, push_when = crowd.held_up_at_door,
+    AtExit = { steer = seek(own.exit), speed = crowd.at_door, horizon = 0.3,
+      push = crowd.nudge, push_when = crowd.slow_at_door,
       { to = "Walk", when = crosses(own.exit) },
-      { to = "ToExit", when = ~near(own.exit, 3.5) } },
+      { to = "ToExit", when = ~near(own.exit, 3) } },
 
-    Walk = { steer = seek(own.goal), speed = crowd.by_headway, push = crowd.nudge, push_when = crowd.held_up,
+    Walk = { steer = seek(own.goal), speed = crowd.by_headway, horizon = crowd.foresight,
+      push = crowd.nudge, push_when = crowd.held_up,
       { to = "Gone", when = inside(own.goal) } },
 
     Gone = { removes = true },

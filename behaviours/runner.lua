@@ -1,10 +1,10 @@
--- Runs to a goal through whoever stands in the way: looks a short way ahead and pushes hard.
+-- Runs to a goal through whoever stands in the way: looks a short way ahead and pushes with `push`, N for each m/s.
 return machine {
   name = "runner", version = 1, start = "Run",
-  defaults = { speed = 2, max_speed = 2.2, perception = 1.5, horizon = 0.2 },
+  defaults = { speed = 2, max_speed = 2.2, perception = 1.5, horizon = 0.2, push = 250 },
 
   states = {
-    Run = { steer = seek(own.goal), push = 250 * max(now.speed, own.speed),
+    Run = { steer = seek(own.goal), push = own.push * max(now.speed, own.speed),
       { to = "Arrived", when = inside(own.goal) } },
 
     Arrived = { steer = hold },

@@ -1,18 +1,25 @@
--- Heads for a goal round whatever stands, and stops before what is in the way; held up for a while, it presses.
+-- Heads for a goal round whatever stands, looks ahead and stops; held up for a while, presses until it moves again.
 local crowd = require "crowd"
+
+local moves = now.speed:above(0.5 * own.speed)
+local there = inside(own.goal)
 
 return machine {
   name = "throng", version = 1, start = "Walk",
-  defaults = { speed = normal(1.3, 0.15, 0.8, 1.8), perception = 3, horizon = 0.5 },
+  defaults = { speed = normal(1.3, 0.15, 0.8, 1.8), perception = 3, horizon = 2 },
 
   states = {
     Walk = { steer = field(own.goal), speed = crowd.by_headway,
-      { to = "Gone",  when = inside(own.goal) },
-      { to = "Press", when = stuck(3) } },
+      { to = "Gone",  when = there },
+      { to = "Wait",  when = now.speed:below(0.2 * own.speed) } },
 
-    Press = { steer = field(own.goal), push = 110 * max(now.speed, own.speed),
-      { to = "Gone",  when = inside(own.goal) },
-      { to = "Walk",  when = now.speed:above(0.5 * own.speed) & after(1) } },
+    Wait = { steer = field(own.goal), speed = crowd.by_headway, lasts = uniform(6, 9),
+      { to = "Walk",  when = moves },
+      { to = "Press", when = lasted } },
+
+    Press = { steer = field(own.goal), horizon = 0.5, push = 110 * max(now.speed, own.speed),
+      { to = "Gone",  when = there },
+      { to = "Walk",  when = moves & after(1) } },
 
     Gone = { removes = true },
   },

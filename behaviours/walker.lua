@@ -6,7 +6,8 @@ return machine {
   defaults = { speed = normal(1.34, 0.26, 0.6, 2.2), perception = 3, radius = 0.19 },
 
   states = {
-    Walk = { steer = seek(own.goal), speed = crowd.by_headway, push = crowd.nudge, push_when = crowd.held_up,
+    Walk = { steer = seek(own.goal), speed = crowd.by_headway, horizon = crowd.foresight,
+      push = crowd.nudge, push_when = crowd.held_up,
       { to = "Gone", when = inside(own.goal) } },
 
     Gone = { removes = true },

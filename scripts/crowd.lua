@@ -1,16 +1,20 @@
 -- How people slow down among others and push, as expressions that behaviours share.
 local crowd = {}
 
--- Speed that leaves 0.88 s to whoever walks ahead, never quite nothing.
+-- Speed that leaves 0.88 s to whoever walks ahead, never quite nothing, m/s. It gives the speeds and densities
+-- of people in single file (Seyfried and others 2005) and in wide corridors.
 crowd.by_headway = clamp(headway / 0.88, 0.05, own.speed)
 
--- At a door people squeeze through: they come on even without a gap.
-crowd.at_door = clamp(headway / 0.35, 0.05, own.speed)
+-- How far walkers look ahead, s: those who crawl in a crowd mind only what is next to them.
+crowd.foresight = clamp(2 * now.speed, 0.5, 2)
 
--- Who is held up leans on those ahead, N.
-crowd.nudge = 22 * max(now.speed, own.speed)
-crowd.held_up = stuck(2)
-crowd.held_up_at_door = now.speed:below(0.3 * own.speed)
+-- In front of a door people close up, m/s, ...
+crowd.at_door = clamp(headway / 0.25, 0.05, own.speed)
+
+-- ... and who is slow there leans on those ahead, as does who is held up elsewhere, N.
+crowd.nudge = 23 * max(now.speed, own.speed)
+crowd.slow_at_door = now.speed:below(0.3 * own.speed)
+crowd.held_up = stuck(5)
 
 -- Speed that falls with density from 1 person per square metre on, to 60 % at 8.
 crowd.by_density = own.speed * (1 - 0.4 * clamp((density_here - 1) / 7, 0, 1))

@@ -7,6 +7,13 @@ function measure.mean(list)
   return sum / #list
 end
 
+-- Standard deviation of what a sample is drawn from (n - 1).
+function measure.deviation(list)
+  local mean, sum = measure.mean(list), 0
+  for i = 1, #list do sum = sum + (list[i] - mean) ^ 2 end
+  return math.sqrt(sum / (#list - 1))
+end
+
 function measure.least(list)
   local best = math.huge
   for i = 1, #list do best = math.min(best, list[i]) end

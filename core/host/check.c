@@ -8,6 +8,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "host/host.h"
+#include "lua/claims.h"
 
 enum { DEEPEST = 8, MOST_ERRORS = 10000 };
 
@@ -44,12 +45,32 @@ static void check_behaviour(const char *path, const JoxScope *scope, JoxDiagnost
     jox_lua_free(lua);
 }
 
-/* ---- mods ---- */
-
 static bool is_file(const char *path) {
     struct stat info;
     return stat(path, &info) == 0 && S_ISREG(info.st_mode);
 }
+
+/* Files of claims say so: they are no behaviours. */
+static bool is_claim(const char *path) {
+    size_t length;
+    char *text = jox_read_file(path, (size_t)1 << 20, &length);
+    const char *at = text ? strstr(text, "return claim") : NULL;
+    bool claim = at && (at == text || at[-1] == '\n');
+    jox_free(text);
+    return claim;
+}
+
+static void check_claim(const char *path, JoxDiagnostics *all) {
+    JoxClaim *claim = jox_claim_load(path, false, all);
+    for (uint32_t r = 0; claim && r < claim->run_count; r++)
+        if (!is_file(claim->runs[r].scene))
+            jox_diag_error(all, ((JoxPosition){path, 0, 0, 0}), "missing-file", NULL,
+                           "run '%s': there is no scene %s", claim->runs[r].name,
+                           claim->runs[r].scene);
+    jox_claim_free(claim);
+}
+
+/* ---- mods ---- */
 
 /* The file that a patch changes: of a mod for "mod:name"; else of the tree that the mods lie in, or
    of the library. */
@@ -153,7 +174,10 @@ static void check_path(const char *path, bool named, int depth, const char *mod,
     } else if (ends_with(path, ".yaml") || ends_with(path, ".yml")) {
         check_scene(path, mod, &own);
     } else if (ends_with(path, ".lua") && !ends_with(path, "_test.lua")) {
-        check_behaviour(path, NULL, &own);
+        if (is_claim(path))
+            check_claim(path, &own);
+        else
+            check_behaviour(path, NULL, &own);
     } else if (named && !ends_with(path, ".lua")) {
         jox_diag_error(&own, ((JoxPosition){path, 0, 0, 0}), "unknown-kind", NULL,
                        "only scenes (.yaml) and behaviours (.lua) can be checked");

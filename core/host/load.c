@@ -373,6 +373,7 @@ void jo_scene_free(JoScene *scene) {
     if (!scene)
         return;
     jo_scene_finish(scene, NULL);
+    jox_regions_free(scene->regions);
     jox_host_end_measuring(scene);
     jox_host_unwatch(scene);
     free_def(scene);

@@ -66,7 +66,8 @@ const JoxFrame *jox_host_frame(JoScene *scene) {
                           .failed = a->failed,
                           .group = a->group,
                           .groups = m->names,
-                          .group_count = scene->plan->group_count};
+                          .group_count = scene->plan->group_count,
+                          .walls = &world->walls};
     return &m->frame;
 }
 

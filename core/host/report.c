@@ -122,9 +122,12 @@ static bool load(Report *r) {
     return good;
 }
 
+/* Of the scene, else of the recording. */
+static const JoxWalls *walls_of(const Report *r) {
+    return r->plan && r->plan->walls.ring_count ? &r->plan->walls : &r->crowd->walls;
+}
+
 static bool write(const Report *r, JoError *error) {
-    const JoxWalls *walls =
-        r->plan && r->plan->walls.ring_count ? &r->plan->walls : &r->crowd->walls;
     const char *slash = strrchr(r->def->recording, '/');
     const char *title = r->plan && r->plan->title ? r->plan->title
                         : slash                   ? slash + 1
@@ -132,7 +135,7 @@ static bool write(const Report *r, JoError *error) {
     JoxText why = {0};
     bool good = jox_plot_folder(r->def->directory, &why);
     for (uint32_t p = 0; good && p < r->count; p++)
-        good = jox_probe_write(r->probes[p], r->def->directory, walls, title, &why);
+        good = jox_probe_write(r->probes[p], r->def->directory, walls_of(r), title, &why);
     if (!good)
         jox_error(error, JO_FAILED, "%s", why.data ? why.data : "writing failed");
     jox_text_free(&why);
@@ -170,9 +173,11 @@ char *jo_report(const JoReportDef *def, JoError *error) {
     JoxFrame frame;
     char *text = NULL;
     bool good = load(&r);
-    for (uint32_t f = 0; good && jox_trajectories_frame(r.crowd, f, &frame); f++)
+    for (uint32_t f = 0; good && jox_trajectories_frame(r.crowd, f, &frame); f++) {
+        frame.walls = walls_of(&r);
         for (uint32_t p = 0; p < r.count; p++)
             jox_probe_frame(r.probes[p], &frame);
+    }
     if (r.plan) /* the lines that errors speak of */
         for (uint32_t f = 0; f < r.plan->file_count; f++)
             jox_diag_attach_source(&r.diagnostics, r.plan->files[f].path, r.plan->files[f].text,

@@ -224,8 +224,7 @@ static bool same_probes(const JoxScene *a, const JoxScene *b) {
                p->cell == q->cell && p->kernel == q->kernel && p->rows == q->rows &&
                p->along_y == q->along_y && !memcmp(&p->low, &q->low, sizeof p->low) &&
                !memcmp(&p->high, &q->high, sizeof p->high) &&
-               same_points(p->points, p->count, q->points, q->count) &&
-               same_points(p->walkable, p->walkable_count, q->walkable, q->walkable_count);
+               same_points(p->points, p->count, q->points, q->count);
     }
     return same;
 }

@@ -123,11 +123,7 @@ bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
     jox_host_area(scene, &low, &high);
     scene->report = jox_strdup(directory);
     scene->density = jox_density_create(low, high, JOX_DENSITY_CELL, JOX_DENSITY_KERNEL);
-    scene->regions = jox_regions_create();
     scene->paths = jox_paths_create();
-    for (uint32_t r = 0; r < scene->plan->region_count; r++)
-        jox_regions_add(scene->regions, scene->plan->regions[r].name,
-                        scene->plan->regions[r].points, scene->plan->regions[r].count);
     return true;
 }
 
@@ -160,15 +156,24 @@ static void sample_paths(JoScene *scene) {
     }
 }
 
+static void make_regions(JoScene *scene) {
+    scene->regions = jox_regions_create();
+    for (uint32_t r = 0; r < scene->plan->region_count; r++)
+        jox_regions_add(scene->regions, scene->plan->regions[r].name,
+                        scene->plan->regions[r].points, scene->plan->regions[r].count);
+}
+
 static void sample(JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->agents;
-    sample_paths(scene);
+    if (scene->report)
+        sample_paths(scene);
     uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(SAMPLE / world->def.dt + 0.5));
     double time = (double)world->tick * world->def.dt;
     if (world->tick % every != 0 || time < scene->plan->heatmap_from)
         return;
-    jox_density_add(scene->density, a->x, a->y, a->count, time);
+    if (scene->report)
+        jox_density_add(scene->density, a->x, a->y, a->count, time);
     jox_regions_frame(scene->regions, a->x, a->y, a->prev_x, a->prev_y, a->count, world->def.dt);
 }
 
@@ -201,11 +206,12 @@ static bool draw(JoScene *scene, JoError *error) {
                         scene->world->agents.count, until);
     bool good =
         jox_plot_density(scene->report, scene->density, &scene->world->wall_plan, title, &why);
-    if (good && scene->regions->count) {
+    if (good && scene->regions && scene->regions->count) {
         snprintf(title, sizeof title, "%.120s: mean speed per region, t = %.0f to %.0f s", name,
                  scene->plan->heatmap_from, until);
         good = jox_plot_regions(scene->report, scene->regions, title, &why);
     }
+    bool regions = scene->regions && scene->regions->count;
     bool paths = scene->world->agents.next_id <= JOX_MOST_PATHS && scene->paths->count;
     if (good && paths) {
         snprintf(title, sizeof title,
@@ -216,9 +222,11 @@ static bool draw(JoScene *scene, JoError *error) {
     if (!good)
         return fail(error, &why);
     jox_host_say(scene, "pictures: %s%s%s/density.png%s%s%s\n", paths ? scene->report : "",
-                 paths ? "/paths.png, " : "", scene->report, scene->regions->count ? " and " : "",
-                 scene->regions->count ? scene->report : "",
-                 scene->regions->count ? "/regions.png" : "");
+                 paths ? "/paths.png, " : "", scene->report, regions ? " and " : "",
+                 regions ? scene->report : "", regions ? "/regions.png" : "");
+    if (scene->plan->probe_count)
+        jox_host_say(scene, "probes: %u in %s/NAME.csv, NAME.png and NAME.svg\n",
+                     scene->plan->probe_count, scene->report);
     return true;
 }
 
@@ -257,7 +265,9 @@ void jo_scene_trace(JoScene *scene, uint32_t agent_id) {
 bool jox_host_collect(JoScene *scene, JoError *error) {
     if (scene->world->mind.trace.length)
         scene->message(scene->message_context, scene->world->mind.trace.data);
-    if (scene->density)
+    if (!scene->regions)
+        make_regions(scene);
+    if (scene->density || scene->regions->count)
         sample(scene);
     jox_host_measure(scene);
     if (scene->progress_until > 0.0)
@@ -317,12 +327,10 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
     jox_free(scene->data);
     scene->data = NULL;
     jox_density_free(scene->density);
-    jox_regions_free(scene->regions);
     jox_paths_free(scene->paths);
     scene->paths = NULL;
     jox_free(scene->report);
     scene->density = NULL;
-    scene->regions = NULL;
     scene->report = NULL;
     return good;
 }

@@ -232,6 +232,16 @@ char *jo_scene_summary(const JoScene *scene) {
     add_number(&out, "density_max", density_max(scene));
     add_number(&out, "overlap_p99", jox_statistics_overlap_p99(s));
     add_states(&out, world);
+    if (scene->regions && scene->regions->count) {
+        jox_text_add(&out, ",\n \"regions\": {");
+        for (uint32_t r = 0; r < scene->regions->count; r++) {
+            jox_text_add(&out, r ? ", " : "");
+            jox_text_json(&out, scene->regions->items[r].name);
+            jox_text_add(&out, ": ");
+            jox_text_json_number(&out, jox_region_speed(&scene->regions->items[r]));
+        }
+        jox_text_add(&out, "}");
+    }
     add_events(&out, scene);
     add_bonds(&out, scene);
     add_lua(&out, scene);

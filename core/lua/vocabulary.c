@@ -56,7 +56,7 @@ const JoxWord jox_words[] = {
     {"density_here", NULL, NUMBER, NOW, JOX_NOW_density, "density_here", "1/m2",
      "people per square metre about the agent, from its neighbours' distances", "density_here"},
     {"headway", NULL, NUMBER, NOW, JOX_NOW_headway, "headway", "m",
-     "free way ahead to the neighbour in it; perception where nobody is", "headway"},
+     "free way ahead to the neighbour in it who does not come the other way; perception where nobody is", "headway"},
     {"pushed", NULL, NUMBER, NOW, JOX_NOW_pushed, "pushed", "N",
      "magnitude of the net force on the agent", "pushed"},
     {"compression", NULL, NUMBER, NOW, JOX_NOW_compression, "compression", "N/m",

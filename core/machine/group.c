@@ -23,6 +23,7 @@ static void reserve(JoxMind *mind, JoxPool *pool) {
     s->grouped = jox_realloc(s->grouped, n, sizeof *s->grouped);
     s->fired = jox_realloc(s->fired, n, sizeof *s->fired);
     s->rank = jox_realloc(s->rank, n, sizeof *s->rank);
+    s->heading = jox_realloc(s->heading, n, sizeof *s->heading);
     s->list = jox_realloc(s->list, n, sizeof *s->list);
     s->queue = jox_realloc(s->queue, n, sizeof *s->queue);
     JOX_RESERVE(mind->taken, mind->taken_capacity, n);
@@ -41,6 +42,7 @@ void jox_mind_scratch_free(JoxMind *mind) {
     jox_free(s->state_first);
     jox_free(s->fired);
     jox_free(s->rank);
+    jox_free(s->heading);
     jox_free(s->queue);
     jox_free(s->list);
     jox_free(s->pending);

@@ -24,6 +24,7 @@ typedef struct JoxMindScratch {
     int16_t *fired; /* per agent: transition to take, -1 none */
     uint32_t *rank; /* per agent: place in the queue it stands in */
     int32_t *queue; /* per agent that queues: where */
+    JoxV2 *heading; /* per agent: the velocity it preferred in the step before */
     uint32_t *list; /* agents that take something, by id */
     uint32_t list_count;
     uint32_t *pending; /* ids whose on_enter has yet to run, ascending */

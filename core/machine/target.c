@@ -152,10 +152,13 @@ float jox_spot_gap(const JoxMind *mind, uint32_t i, const JoxSpot *spot) {
     return distance - spot->radius - a->param[JOX_PARAM_radius][i];
 }
 
+/* Who wants to go the other way is met, not followed: avoidance sees to that. If people waited for
+   each other instead, both ways would come to rest face to face. */
 float jox_headway(const JoxMind *mind, uint32_t i) {
     const JoxAgents *a = mind->agents;
     const JoxNeighbours *n = mind->neighbours;
     const float *radius = a->param[JOX_PARAM_radius];
+    const JoxV2 *heading = mind->scratch->heading;
     JoxV2 ahead = jox_unit((JoxV2){a->pref_x[i], a->pref_y[i]});
     if (jox_length2(ahead) == 0.0f)
         ahead = (JoxV2){a->face_x[i], a->face_y[i]};
@@ -165,7 +168,7 @@ float jox_headway(const JoxMind *mind, uint32_t i) {
         JoxV2 d = jox_offset(a, i, j);
         float along = jox_dot(d, ahead), aside = fabsf(jox_det(d, ahead));
         float sum = radius[i] + radius[j];
-        if (along > 0.0f && aside < sum / 2.0f)
+        if (along > 0.0f && aside < sum / 2.0f && jox_dot(heading[j], ahead) >= 0.0f)
             best = jox_minf(best, jox_maxf(along - sum, 0.0f));
     }
     return best;

@@ -314,11 +314,19 @@ static bool any_views(const JoxMind *mind) {
     return false;
 }
 
+/* Kept apart, since the stage prefer writes new ones while agents look at each other's. */
+static void keep_headings(JoxMind *mind) {
+    const JoxAgents *a = mind->agents;
+    for (uint32_t i = 0; i < a->count; i++)
+        mind->scratch->heading[i] = (JoxV2){a->pref_x[i], a->pref_y[i]};
+}
+
 void jox_mind_think(JoxMind *mind, JoxPool *pool) {
     mind->taken_count = mind->kick_count = mind->grip_count = 0;
     mind->trace.length = 0;
     jox_mind_listen(mind);
     jox_mind_group(mind, pool);
+    keep_headings(mind);
     if (mind->machine_count > 0) {
         bool views = mind->bracket && any_views(mind);
         if (views)

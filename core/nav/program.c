@@ -5,10 +5,16 @@
 static const float EPSILON = 1e-5f;
 enum { MOST_PLANES = 128 };
 
-/* Along the border of planes[last]: the best point that meets planes[0..last) and the disc.
-   `optimum` is a direction when `directed`, else the point to be near. */
-static bool along_border(const JoxPlane *planes, uint32_t last, float disc, JoxV2 optimum,
-                         bool directed, JoxV2 *result) {
+/* What a program looks for: the point nearest to `wanted`, or, with a direction, the farthest along
+   it, and of those that are as far the nearest to `wanted`. */
+typedef struct Aim {
+    JoxV2 wanted, direction;
+    bool directed;
+} Aim;
+
+/* Along the border of planes[last]: the best point that meets planes[0..last) and the disc. */
+static bool along_border(const JoxPlane *planes, uint32_t last, float disc, const Aim *aim,
+                         JoxV2 *result) {
     JoxV2 normal = planes[last].normal, direction = {normal.y, -normal.x};
     float offset = planes[last].offset, half2 = disc * disc - offset * offset;
     if (half2 < 0.0f)
@@ -31,30 +37,29 @@ static bool along_border(const JoxPlane *planes, uint32_t last, float disc, JoxV
         if (low > high)
             return false;
     }
-    float t;
-    if (directed)
-        t = jox_dot(optimum, direction) > 0.0f ? high : low;
-    else
-        t = jox_clampf(jox_dot(direction, jox_sub(optimum, foot)), low, high);
+    float t = jox_clampf(jox_dot(direction, jox_sub(aim->wanted, foot)), low, high);
+    float gain = aim->directed ? jox_dot(aim->direction, direction) : 0.0f;
+    if (gain > EPSILON || gain < -EPSILON)
+        t = gain > 0.0f ? high : low;
     *result = jox_add(foot, jox_scale(direction, t));
     return true;
 }
 
 /* Returns `count` if all planes could be met, else the first that could not; *result then meets
    those before it. */
-static uint32_t incremental(const JoxPlane *planes, uint32_t count, float disc, JoxV2 optimum,
-                            bool directed, JoxV2 *result) {
-    float length2 = jox_length2(optimum);
-    if (directed)
-        *result = jox_scale(optimum, disc);
+static uint32_t incremental(const JoxPlane *planes, uint32_t count, float disc, const Aim *aim,
+                            JoxV2 *result) {
+    float length2 = jox_length2(aim->wanted);
+    if (aim->directed)
+        *result = jox_scale(aim->direction, disc);
     else if (length2 > disc * disc)
-        *result = jox_scale(optimum, disc / sqrtf(length2));
+        *result = jox_scale(aim->wanted, disc / sqrtf(length2));
     else
-        *result = optimum;
+        *result = aim->wanted;
     for (uint32_t i = 0; i < count; i++)
         if (jox_dot(planes[i].normal, *result) < planes[i].offset) {
             JoxV2 before = *result;
-            if (!along_border(planes, i, disc, optimum, directed, result)) {
+            if (!along_border(planes, i, disc, aim, result)) {
                 *result = before;
                 return i;
             }
@@ -65,7 +70,7 @@ static uint32_t incremental(const JoxPlane *planes, uint32_t count, float disc, 
 /* Minimises the greatest violation of planes[hard..count) while the hard ones hold, starting from
    the first that failed. */
 static void least_violation(const JoxPlane *planes, uint32_t count, uint32_t hard, uint32_t begin,
-                            float disc, JoxV2 *result) {
+                            float disc, JoxV2 wanted, JoxV2 *result) {
     JoxPlane projected[MOST_PLANES];
     float violation = 0.0f;
     for (uint32_t i = 0; i < hard; i++)
@@ -85,7 +90,8 @@ static void least_violation(const JoxPlane *planes, uint32_t count, uint32_t har
                                         (planes[j].offset - worst.offset) / length};
         }
         JoxV2 before = *result;
-        if (incremental(projected, n, disc, worst.normal, true, result) < n)
+        Aim aim = {wanted, worst.normal, true};
+        if (incremental(projected, n, disc, &aim, result) < n)
             *result = before; /* only by rounding: the present result already lies there */
         violation = worst.offset - jox_dot(worst.normal, *result);
     }
@@ -94,14 +100,15 @@ static void least_violation(const JoxPlane *planes, uint32_t count, uint32_t har
 bool jox_program_solve(const JoxPlane *planes, uint32_t count, uint32_t hard, float disc,
                        JoxV2 wanted, JoxV2 *velocity, bool *relaxed) {
     *relaxed = false;
-    uint32_t met = incremental(planes, count, disc, wanted, false, velocity);
+    Aim aim = {.wanted = wanted};
+    uint32_t met = incremental(planes, count, disc, &aim, velocity);
     if (met == count)
         return true;
     if (met < hard) { /* the walls alone leave nothing: the deepest offset that can be met */
         *relaxed = true;
-        least_violation(planes, hard, 0, met, disc, velocity);
+        least_violation(planes, hard, 0, met, disc, wanted, velocity);
         return false;
     }
-    least_violation(planes, count, hard, met, disc, velocity);
+    least_violation(planes, count, hard, met, disc, wanted, velocity);
     return false;
 }

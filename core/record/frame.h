@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "base/vec.h"
+#include "geom/walls.h"
 
 typedef struct JoxFrame {
     double time; /* s */
@@ -23,6 +24,7 @@ typedef struct JoxFrame {
     const uint16_t *group;     /* index of the scene's group */
     const char *const *groups; /* their names */
     uint32_t group_count;
+    const JoxWalls *walls; /* as they stand now */
 } JoxFrame;
 
 #endif

@@ -44,7 +44,6 @@ JoxProbe *jox_probe_create(const JoxProbeDef *def) {
     p->def.name = jox_strdup(def->name);
     p->def.groups = groups;
     p->def.points = copy_points(def->points, def->count);
-    p->def.walkable = copy_points(def->walkable, def->walkable_count);
     p->calls = KINDS[def->kind];
     p->state = jox_alloc(1, p->calls->size);
     p->pace = p->calls->pace ? p->calls->pace(&p->def) : PACE;
@@ -108,7 +107,6 @@ void jox_probe_free(JoxProbe *p) {
     jox_free((void *)(uintptr_t)p->def.name);
     jox_free((void *)(uintptr_t)p->def.groups);
     jox_free((void *)(uintptr_t)p->def.points);
-    jox_free((void *)(uintptr_t)p->def.walkable);
     jox_free(p->seen);
     jox_free(p);
 }

@@ -20,6 +20,7 @@ typedef struct Measure {
     JoxV2 low, high;
     double area; /* m2 */
     JoxSites sites;
+    JoxBars bars; /* of walls that may cut a cell */
     Interval *rows;
     uint32_t count, capacity;
 } Measure;
@@ -50,6 +51,21 @@ static void gather(const JoxProbeDef *def, Measure *m, const JoxFrame *frame) {
     jox_sites_sort(&m->sites, def->cutoff);
 }
 
+/* Walls near the polygon. A person sees at most `cutoff` far, and stands at most so far from it. */
+static void gather_walls(const JoxProbeDef *def, Measure *m, const JoxFrame *frame) {
+    float reach = 2.0f * (float)def->cutoff;
+    m->bars.count = 0;
+    for (uint32_t w = 0; frame->walls && w < frame->walls->count; w++) {
+        JoxV2 a = frame->walls->vertices[w].point;
+        JoxV2 b = frame->walls->vertices[frame->walls->vertices[w].next].point;
+        if (jox_maxf(a.x, b.x) < m->low.x - reach || jox_minf(a.x, b.x) > m->high.x + reach ||
+            jox_maxf(a.y, b.y) < m->low.y - reach || jox_minf(a.y, b.y) > m->high.y + reach)
+            continue;
+        JOX_RESERVE(m->bars.items, m->bars.capacity, m->bars.count + 1);
+        m->bars.items[m->bars.count++] = (struct JoxBar){a, b};
+    }
+}
+
 static double voronoi_density(const JoxProbeDef *def, Measure *m, const uint8_t *seen) {
     double sum = 0.0;
     for (uint32_t s = 0; s < m->sites.count; s++) {
@@ -58,11 +74,10 @@ static double voronoi_density(const JoxProbeDef *def, Measure *m, const uint8_t 
         if (!seen[m->sites.who[s]] || !is_near(m, at, (float)def->cutoff))
             continue;
         jox_sites_cell(&m->sites, s, def->cutoff, &cell);
-        double whole = def->walkable
-                           ? jox_cell_area_within(&cell, at, def->walkable, def->walkable_count)
-                           : jox_cell_area(&cell);
+        double whole, within;
+        jox_cell_seen(&cell, at, &m->bars, def->points, def->count, &whole, &within);
         if (whole > 0.0)
-            sum += jox_cell_area_within(&cell, at, def->points, def->count) / whole;
+            sum += within / whole;
     }
     return sum / m->area;
 }
@@ -91,6 +106,7 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
         speed += sqrt((double)frame->vx[i] * frame->vx[i] + (double)frame->vy[i] * frame->vy[i]);
     }
     gather(def, m, frame);
+    gather_walls(def, m, frame);
     double density = voronoi_density(def, m, seen);
     row->frames++;
     row->people += people;
@@ -182,6 +198,7 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
 static void release(void *state) {
     Measure *m = state;
     jox_sites_free(&m->sites);
+    jox_free(m->bars.items);
     jox_free(m->rows);
 }
 

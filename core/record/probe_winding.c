@@ -78,28 +78,29 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
 
 static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
     const Winding *w = state;
-    bool any = false;
-    double most = 0.0;
+    double least = INFINITY, greatest = -INFINITY;
     (void)walls;
     for (uint32_t k = 0; k < w->capacity; k++)
         if (w->people[k].known) {
-            any = true;
-            most = fmax(most, fmax(w->people[k].greatest, -w->people[k].least));
+            least = fmin(least, w->people[k].least);
+            greatest = fmax(greatest, w->people[k].greatest);
         }
-    if (!any) {
+    if (least > greatest) {
         jox_plot_nothing(out, "nobody was seen");
         return;
     }
+    double most = fmax(greatest, -least);
     double wide = most > 20.0 ? 1.0 : most > 4.0 ? 0.25 : most > 1.0 ? 0.1 : 0.05; /* turns */
     jox_text_printf(out,
                     "w = %g\nset xlabel 'turns, anti-clockwise'\nset ylabel 'people'\n"
                     "set key top right opaque\nset yrange [0:*]\nset boxwidth w\n"
-                    "set style fill transparent solid 0.6\nset offsets w, w, 0, 0\n"
+                    "set style fill transparent solid 0.6\nset xrange [%g:%g]\n"
                     "plot '%s.csv' skip 1 using (w * (floor($3 / w) + 0.5)):(1) smooth frequency "
                     "with boxes lc '#1f77b4' title 'at the end', '' skip 1 using "
                     "(w * (floor($4 / w) + 0.5)):(1) smooth frequency with boxes lc '#d62728' "
                     "title 'least at any time'\n",
-                    wide, def->name);
+                    wide, (floor(least / wide) - 1.0) * wide, (floor(greatest / wide) + 2.0) * wide,
+                    def->name);
 }
 
 static void release(void *state) {

@@ -9,6 +9,7 @@
 #include "base/mem.h"
 
 static const double REACH = 0.2;            /* s: velocities are displacements over +- this */
+static const double LONGEST = 1e9;          /* s */
 static const int64_t LARGEST_KEY = 1 << 22; /* ids above are ranked */
 static const size_t LARGEST = 2000000000;   /* bytes of a text file */
 
@@ -69,6 +70,20 @@ static void permute(JoxTrajectories *t, const Place *places) {
     PERMUTE(force)
     PERMUTE(compression)
     PERMUTE(group)
+}
+
+/* Whether every frame has a time that the probes can count in; else false with an error. */
+static bool check_times(const JoxTrajectories *t, const char *path, JoxDiagnostics *diagnostics) {
+    for (size_t i = 0; i < t->count; i++) {
+        if (fabs((double)t->number[i]) / t->fps <= LONGEST)
+            continue;
+        JoxPosition at = {path, (int)t->line[i], t->line[i] ? 1 : 0, 0};
+        jox_diag_error(diagnostics, at, "bad-recording", "Are id and frame exchanged?",
+                       "frame %lld is more than 30 years from the first at %g frames a second",
+                       (long long)t->number[i], t->fps);
+        return false;
+    }
+    return true;
 }
 
 /* Rows by frame, and where each begins; false where somebody is in a frame twice. */
@@ -171,6 +186,7 @@ JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOpti
     t->period = options->period;
     bool good = is_sqlite(path) ? jox_trajectories_sqlite(t, path, options, diagnostics)
                                 : read_text(t, path, options, diagnostics);
+    good = good && check_times(t, path, diagnostics);
     Place *places = good ? jox_alloc(t->count, sizeof *places) : NULL;
     good = good && sort(t, places, path, diagnostics);
     if (good) {

@@ -1,6 +1,7 @@
 /* Voronoi cells of people: the part of the plane that is nearer to one of them than to all others,
    within a polygon of 32 corners on a circle of radius `cutoff` (Steffen and Seyfried 2010,
-   doi 10.1016/j.physa.2009.12.015). The density at a point is one over the area of its cell. */
+   doi 10.1016/j.physa.2009.12.015), and not behind a wall. The density at a point is one over the
+   area of its cell. */
 #ifndef JOX_RECORD_VORONOI_H
 #define JOX_RECORD_VORONOI_H
 
@@ -25,6 +26,17 @@ double jox_cell_reach2(const JoxCell *cell);
 double jox_cell_area(const JoxCell *cell); /* m2 */
 /* Area that the cell of the person at `at` shares with a polygon without crossing edges, m2. */
 double jox_cell_area_within(const JoxCell *cell, JoxV2 at, const JoxV2 *ring, uint32_t count);
+
+/* Stretches of walls, m. */
+typedef struct JoxBars {
+    struct JoxBar {
+        JoxV2 from, to;
+    } * items;
+    uint32_t count, capacity;
+} JoxBars;
+/* The part of a cell that the person at `at` sees: its area, and what of it lies in the ring. */
+void jox_cell_seen(const JoxCell *cell, JoxV2 at, const JoxBars *bars, const JoxV2 *ring,
+                   uint32_t count, double *whole, double *within);
 
 /* Points in bins, so that neighbours are found; zero-initialise, keep for the next frame. */
 typedef struct JoxSites {

@@ -2,16 +2,17 @@
 #include <math.h>
 #include <string.h>
 
-#include "geom/polygon.h"
 #include "scene/internal.h"
 
 static const char KINDS[] = "flow|measure|transit|displacement|map|winding|failures|lanes";
 /* Files of a report that have these names already. */
 static const char TAKEN[] = "density|paths|regions|walls|danger|danger-map";
 /* What an option is of: the kinds that read it. */
-static const char *const OPTIONS[][2] = {{"every", "measure|map|lanes"}, {"cutoff", "measure"},
-                                         {"walkable", "measure"},        {"onset", "displacement"},
-                                         {"rest", "displacement"},       {"along", "displacement"}};
+static const char *const OPTIONS[][2] = {{"every", "measure|map|lanes"},
+                                         {"cutoff", "measure"},
+                                         {"onset", "displacement"},
+                                         {"rest", "displacement"},
+                                         {"along", "displacement"}};
 
 /* Index of a word in "this|that", or -1. */
 static int word_of(const char *words, const char *word) {
@@ -86,24 +87,6 @@ static void read_lines(const JoxLoad *l, const JoxYaml *node, JoxProbeDef *probe
     }
     bool good = read_line(l, node->items[0], points);
     probe->count = read_line(l, node->items[1], points + 2) && good ? 4 : 0;
-}
-
-static void read_polygons(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe) {
-    probe->points = jox_load_ring(l, jox_yaml_get(map, "measure"), &probe->count);
-    const JoxYaml *walkable = jox_yaml_get(map, "walkable");
-    if (!walkable)
-        return;
-    probe->walkable = jox_load_ring(l, walkable, &probe->walkable_count);
-    for (uint32_t i = 0; probe->points && probe->walkable && i < probe->count; i++) {
-        JoxV2 p = probe->points[i];
-        if (jox_polygon_contains(probe->walkable, probe->walkable_count, p) ||
-            jox_polygon_distance(probe->walkable, probe->walkable_count, p, false) < 1e-3f)
-            continue;
-        jox_scene_error(&l->reader, walkable, "bad-probe", NULL,
-                        "the measured polygon must lie within the walkable one; (%g, %g) does not",
-                        p.x, p.y);
-        return;
-    }
 }
 
 static void read_map(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe) {
@@ -193,7 +176,7 @@ static void read_probe(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe)
         read_lines(l, node, probe);
         break;
     case JOX_PROBE_MEASURE:
-        read_polygons(l, map, probe);
+        probe->points = jox_load_ring(l, node, &probe->count);
         break;
     case JOX_PROBE_DISPLACEMENT:
         read_displacement(l, map, probe);

@@ -134,6 +134,28 @@ JoxYaml *jox_yaml_copy(JoxHoard *hoard, const JoxYaml *node) {
     return copy;
 }
 
+static void merge(JoxHoard *hoard, JoxYaml *map, const JoxYaml *base, int depth);
+
+/* The list with those of its items changed that `change` names by their `name`; NULL where it names
+   others. */
+static JoxYaml *merge_items(JoxHoard *hoard, const JoxYaml *change, const JoxYaml *list,
+                            int depth) {
+    JoxYaml *result = jox_yaml_copy(hoard, list);
+    for (uint32_t k = 0; k < change->count; k++) {
+        uint32_t i = 0;
+        for (; i < list->count; i++) {
+            const JoxYaml *name = jox_yaml_get(list->items[i], "name");
+            if (name && name->text && strcmp(name->text, change->keys[k]) == 0)
+                break;
+        }
+        if (i == list->count || change->items[k]->kind != JOX_YAML_MAP)
+            return NULL;
+        result->items[i] = jox_yaml_copy(hoard, change->items[k]);
+        merge(hoard, result->items[i], list->items[i], depth + 1);
+    }
+    return result;
+}
+
 /* What the map lacks comes from `base`; where both are maps, deeply. */
 static void merge(JoxHoard *hoard, JoxYaml *map, const JoxYaml *base, int depth) {
     for (uint32_t i = 0; i < base->count && depth < DEEPEST; i++) {
@@ -145,6 +167,10 @@ static void merge(JoxHoard *hoard, JoxYaml *map, const JoxYaml *base, int depth)
             own = jox_yaml_copy(hoard, own); /* it may be another's too, by an alias */
             merge(hoard, own, base->items[i], depth + 1);
             jox_yaml_set(hoard, map, base->keys[i], own);
+        } else if (own->kind == JOX_YAML_MAP && base->items[i]->kind == JOX_YAML_LIST) {
+            JoxYaml *list = merge_items(hoard, own, base->items[i], depth);
+            if (list)
+                jox_yaml_set(hoard, map, base->keys[i], list);
         }
     }
 }

@@ -55,7 +55,14 @@ void jox_world_note_touch(JoWorld *w) {
     }
 }
 
-/* Agents in the order in which chains of touching people, all of them squeezed, lead to them from
+/* Whether somebody presses on what is this far from the skin: touches it, squeezed from behind, or
+   pushes it. */
+static bool presses(const JoxAgents *a, uint32_t i, float gap) {
+    return (gap < SKIN && a->compression[i] > 0.0f) ||
+           (gap < a->param[JOX_PARAM_push_reach][i] && a->param[JOX_PARAM_push][i] > 0.0f);
+}
+
+/* Agents in the order in which chains of people, each pressing on the one before, lead to them from
    the body: the rows are how far the last is, the people all that are reached. */
 static void count_rows(JoWorld *w, const JoxObject *body) {
     const JoxAgents *a = &w->agents;
@@ -64,16 +71,16 @@ static void count_rows(JoWorld *w, const JoxObject *body) {
     uint32_t *row = jox_alloc((size_t)a->count + 1, sizeof *row);
     uint32_t *queue = jox_alloc((size_t)a->count + 1, sizeof *queue), end = 0;
     for (uint32_t i = 0; i < a->count; i++)
-        if (a->compression[i] > 0.0f && gap_to(w, body, i) < SKIN) {
+        if (presses(a, i, gap_to(w, body, i))) {
             row[i] = 1;
             queue[end++] = i;
         }
     for (uint32_t at = 0; at < end; at++) {
         uint32_t i = queue[at];
-        for (uint32_t k = 0; k < near->count[i]; k++) {
+        for (uint32_t k = 0; k < near->count[i] && a->compression[i] > 0.0f; k++) {
             uint32_t j = near->index[jox_neighbour_at(near, i, k)];
             float gap = jox_length(jox_offset(a, i, j)) - radius[i] - radius[j];
-            if (row[j] || !(a->compression[j] > 0.0f) || gap >= SKIN)
+            if (row[j] || !presses(a, j, gap))
                 continue;
             row[j] = row[i] + 1;
             queue[end++] = j;

@@ -27,8 +27,8 @@ typedef struct JoxBondStatistics {
     uint64_t broken;
     uint32_t pieces;    /* bodies that came of it */
     double first_s;     /* when the first broke */
-    uint32_t rows;      /* then: the longest of the shortest chains of people who touch and are
-                           squeezed, counted from the body */
+    uint32_t rows;      /* then: the longest of the shortest chains that lead from the body over
+                           people who each press on the one before */
     uint32_t people;    /* then: in those chains */
     bool touched;       /* anybody touched a glued body; the first time: */
     double touch_s;     /* when that was */

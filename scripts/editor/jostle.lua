@@ -216,7 +216,7 @@ function neighbours(a1) end
 ---@type jostle.Number
 density_here = nil
 
---- `headway` in m: free way ahead to the neighbour in it; perception where nobody is
+--- `headway` in m: free way ahead to the neighbour in it who does not come the other way; perception where nobody is
 ---@type jostle.Number
 headway = nil
 

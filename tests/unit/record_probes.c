@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "base/random.h"
+#include "geom/polygon.h"
 #include "record/probe.h"
 #include "record/voronoi.h"
 
@@ -25,6 +25,7 @@ static struct {
     uint8_t failed[MOST];
     uint16_t group[MOST];
     JoxV2 period;
+    JoxWalls walls;
 } crowd;
 
 static void nobody(uint32_t count) {
@@ -46,7 +47,8 @@ static void show(JoxProbe *probe, double t) {
                             .vy = crowd.vy,
                             .compression = crowd.compression,
                             .failed = crowd.failed,
-                            .group = crowd.group};
+                            .group = crowd.group,
+                            .walls = &crowd.walls};
     jox_probe_frame(probe, &frame);
 }
 
@@ -257,10 +259,50 @@ static void cells_are_what_is_nearest(void **state) {
     jox_sites_free(&sites);
 }
 
+/* What is seen past walls with a gap, against points of a fine grid. */
+static void walls_end_cells(void **state) {
+    (void)state;
+    enum { FINE = 500 };
+    static const JoxV2 BOX[] = {{-0.6f, -0.5f}, {0.7f, -0.5f}, {0.7f, 0.9f}, {-0.6f, 0.9f}};
+    static struct JoxBar walls[] = {{{-2, 0.3f}, {-0.1f, 0.3f}},    {{0.2f, 0.3f}, {2, 0.3f}},
+                                    {{0.2f, 0.3f}, {0.2f, 0.6f}},   {{-0.4f, -2}, {-0.5f, 2}},
+                                    {{0.3f, -0.4f}, {0.9f, -0.4f}}, {{0.4f, -0.6f}, {0.5f, -0.1f}}};
+    const JoxBars bars = {walls, sizeof walls / sizeof *walls, 0};
+    for (uint32_t n = 0; n < 12; n++) {
+        JoxV2 at = {(float)(0.6 * drawn(3 * n) - 0.3), (float)(0.5 * drawn(3 * n + 1) - 0.25)};
+        JoxCell cell;
+        double whole, within, seen = 0.0, seen_within = 0.0, step = 2.0 / FINE;
+        jox_cell_begin(&cell, 1.0);
+        jox_cell_cut(&cell, 0.9, 0.3);
+        jox_cell_cut(&cell, -0.3, -1.1);
+        jox_cell_seen(&cell, at, &bars, BOX, 4, &whole, &within);
+        for (int r = 0; r < FINE; r++)
+            for (int c = 0; c < FINE; c++) {
+                double x = (c + 0.5) * step - 1, y = (r + 0.5) * step - 1;
+                bool inside = true, blocked = false;
+                for (uint32_t k = 0; k < cell.count && inside; k++) {
+                    uint32_t m = k + 1 < cell.count ? k + 1 : 0;
+                    inside = (cell.x[m] - cell.x[k]) * (y - cell.y[k]) >=
+                             (cell.y[m] - cell.y[k]) * (x - cell.x[k]);
+                }
+                JoxV2 there = {at.x + (float)x, at.y + (float)y};
+                for (uint32_t b = 0; b < bars.count && inside && !blocked; b++)
+                    blocked = jox_segment_crossing(walls[b].from, walls[b].to, at, there) != 0;
+                bool in_box =
+                    there.x > -0.6f && there.x < 0.7f && there.y > -0.5f && there.y < 0.9f;
+                seen += inside && !blocked ? step * step : 0.0;
+                seen_within += inside && !blocked && in_box ? step * step : 0.0;
+            }
+        assert_true(seen > 0.05);
+        assert_near(whole, seen, 0.01);
+        assert_near(within, seen_within, 0.01);
+    }
+}
+
 static void a_lattice_is_measured(void **state) {
     (void)state;
     static const JoxV2 SQUARE[] = {{2, 2}, {4, 2}, {4, 4}, {2, 4}};
-    static const JoxV2 STRIPE[] = {{0, -0.5f}, {8, -0.5f}, {8, 0.5f}, {0, 0.5f}};
+    static const JoxV2 LOWER[] = {{0, -0.5f}, {8, -0.5f}}, UPPER[] = {{8, 0.5f}, {0, 0.5f}};
     static const JoxV2 PART[] = {{2, -0.5f}, {6, -0.5f}, {6, 0.5f}, {2, 0.5f}};
     JoxProbeDef def = def_of(JOX_PROBE_MEASURE, SQUARE, 4);
     JoxProbe *p = jox_probe_create(&def);
@@ -282,15 +324,16 @@ static void a_lattice_is_measured(void **state) {
     assert_near(figure(p, "specific_flow"), 8, 1e-4);
     jox_probe_free(p);
     def = def_of(JOX_PROBE_MEASURE, PART, 4); /* a file, 0.8 m apart, between walls */
-    def.walkable = STRIPE;
-    def.walkable_count = 4;
     p = jox_probe_create(&def);
     nobody(10);
+    jox_walls_add_polyline(&crowd.walls, LOWER, 2, false, INFINITY);
+    jox_walls_add_polyline(&crowd.walls, UPPER, 2, false, INFINITY);
     for (uint32_t i = 0; i < 10; i++)
         crowd.x[i] = 0.8f * (float)i + 0.4f;
     show(p, 0);
     assert_near(figure(p, "density"), 1.25, 1e-5);
     jox_probe_free(p);
+    jox_walls_free(&crowd.walls);
 }
 
 static void cells_reach_over_joined_edges(void **state) {
@@ -559,6 +602,7 @@ int main(void) {
         cmocka_unit_test(edges_that_are_joined_count_once),
         cmocka_unit_test(a_lattice_has_known_cells),
         cmocka_unit_test(cells_are_what_is_nearest),
+        cmocka_unit_test(walls_end_cells),
         cmocka_unit_test(a_lattice_is_measured),
         cmocka_unit_test(cells_reach_over_joined_edges),
         cmocka_unit_test(transit_is_from_line_to_line),

@@ -188,6 +188,7 @@ static void errors_have_places(void **state) {
         {"1 0.5 0 0\n", {"crowd:1:3", "a whole number, not '0.5'"}, 25, 1},
         {"1 0 0 0\n1 1 0\n", {"crowd:2:1", "this line has no y"}, 25, 1},
         {"1 0 0 0\n2 0 0 0\n1 0 4 4\n", {"crowd:3:1", "person 1 is in frame 0 twice"}, 25, 1},
+        {"1 0 0 0\n1 900000000000 0 0\n", {"crowd:2:1", "more than 30 years"}, 25, 1},
         {"ID,Frame,x\n1,0,0\n", {"crowd:1:1", "no column is named 'y'"}, 25, 1},
         {"ID,Frame,x,y\n1,0,0,\"a,b\"\n", {"crowd:2:", "a finite number"}, 25, 1},
         {"\x01\x02\xff\xfe\n", {"crowd:1:1"}, 25, 1},
@@ -269,6 +270,11 @@ static void both_versions_of_jupedsim(void **state) {
     assert_int_equal(t->walls.ring_count, 2);
     check_walk(t);
     JoxText said = {0};
+    make_database(TRAJECTORIES
+                  "INSERT INTO metadata VALUES('fps','10');"
+                  "UPDATE trajectory_data SET frame = -9223372036854775807 WHERE id = 3;");
+    assert_null(read_file(0, 0, &said));
+    assert_non_null(strstr(said.data, "more than 30 years"));
     make_database(TRAJECTORIES);
     assert_null(read_file(0, 0, &said));
     assert_non_null(strstr(said.data, "--fps 25"));

@@ -73,9 +73,6 @@ static const struct Case {
     {"probes: {a: {measure: @[[0, 0], [1, 0]]}}\n" GROUP, "bad-type", NULL},
     {"probes: {a: {measure: [[0, 0], [1, 0], @[2, 0]]}}\n" GROUP, "self-crossing", NULL},
     {"probes: {a: {measure: [[0, 0], [1, 1], @[1, 0], [0, 1]]}}\n" GROUP, "self-crossing", NULL},
-    {"probes: {a: {measure: [[0, 0], [2, 0], [2, 2]], walkable: @[[0, 0], [1, 0], [1, "
-     "1]]}}\n" GROUP,
-     "bad-probe", NULL},
     {"probes: {a: {failures: 1, group: @gg}}\n" GROUP, "unknown-group", "Did you mean 'g'?"},
     {"probes: {a: {failures: @0}}\n" GROUP, "out-of-range", NULL},
     {"probes: {a: {failures: 1, from: 5, until: @5}}\n" GROUP, "bad-probe", NULL},
@@ -447,7 +444,11 @@ static void included_files_give_what_is_lacking(void **state) {
     assert_non_null(strstr(d.items[0].file, "/base.yaml"));
     assert_string_equal(d.items[0].source, "step: 7");
     jox_diag_free(&d);
-    write_file("base.yaml", "title: Base\nseed: 9\nplaces: {a: {point: [1, 2]}}\n");
+    write_file("base.yaml",
+               "title: Base\nseed: 9\nplaces: {a: {point: [1, 2]}}\nbodies:\n"
+               "  - {name: one, shape: {sphere: {radius: 1}}, mass: 3, at: [0, 0, 1]}\n"
+               "  - {name: two, shape: {sphere: {radius: 1}}, mass: 3, at: [5, 0, 1]}\n");
+    strcat(text, "bodies: {two: {mass: 7}}\n");
     JoxScene *scene = jox_scene_load(write_file("main.yaml", text), NULL, &d);
     if (!scene)
         show(&d, text);
@@ -456,6 +457,10 @@ static void included_files_give_what_is_lacking(void **state) {
     assert_int_equal(scene->seed, 2);
     assert_int_equal(scene->place_count, 2);
     assert_int_equal(scene->file_count, 2);
+    assert_int_equal(scene->body_count, 2); /* the one that is named has changed, in its place */
+    assert_float_equal(scene->bodies[0].def.mass, 3, 0);
+    assert_float_equal(scene->bodies[1].def.mass, 7, 0);
+    assert_float_equal(scene->bodies[1].def.position[0], 5, 0);
     jox_scene_free(scene);
     write_file("base.yaml", "title: Base\ninclude: [main.yaml]\n");
     assert_null(jox_scene_load(write_file("main.yaml", text), NULL, &d));

@@ -1,0 +1,16 @@
+return claim {
+  id = "L1", title = "Lanes of people who walk against each other",
+  source = "Juelich archive, bidirectional corridor of 4 m at 1.25 people per square metre",
+  text = "Fifty people each way. Lanes form by themselves, and nearly keep the speed of free walkers.",
+  runs = { both = { scene = "../bidirectional.yaml", seeds = 3 } },
+  quick = { both = { seeds = 1 } },
+  measure = function(run)
+    local lanes = run.both.summary.probes.lanes
+    return { order = lanes.order, speed = lanes.speed }
+  end,
+  expect = {
+    { "order", what = "order parameter of lanes in rows of 0.4 m (1: each row has one way; chance: 0.1)", source = "0.9", band = { 0.9, 1 } },
+    { "speed", unit = "m/s", what = "mean speed", source = "1.0", band = { 0.75, 1.25 } },
+  },
+  pictures = { both = { "lanes.png", "paths.png" } },
+}

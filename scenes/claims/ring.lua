@@ -1,0 +1,29 @@
+-- Density in the ring, 1/m2, and mean speed there, m/s.
+local points = {
+  { 0.34, 1.11 }, { 0.73, 0.94 }, { 1.27, 0.70 }, { 1.71, 0.56 },
+  { 2.26, 0.42 }, { 2.70, 0.35 }, { 3.27, 0.23 }, { 3.71, 0.17 },
+}
+local area = 100 -- m2
+
+local runs, quick, expect = {}, {}, {}
+for i = 1, #points do
+  local density, speed, name = points[i][1], points[i][2], string.format("d%03.0f", 100 * points[i][1])
+  runs[name] = { scene = "../ring.yaml", seeds = 3, set = { ["groups.people.count"] = math.floor(density * area + 0.5) } }
+  quick[name] = { seeds = 1 }
+  expect[i] = { name, unit = "m/s", what = string.format("mean speed at %.2f people per square metre", density),
+    source = string.format("%.2f", speed), band = { 0.75 * speed, 1.25 * speed } }
+end
+
+return claim {
+  id = "F2", title = "Speed and density in a wide ring corridor, one way",
+  source = "Juelich archive, ring corridor, unidirectional",
+  text = "Everybody walks the same way round: a fundamental diagram over ten-fold density.",
+  runs = runs, quick = quick,
+  measure = function(run)
+    local out = {}
+    for name in pairs(runs) do out[name] = run[name].summary.probes.middle.speed end
+    return out
+  end,
+  expect = expect,
+  pictures = { d073 = { "paths.png" }, d270 = { "paths.png", "middle.png" } },
+}
