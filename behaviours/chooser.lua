@@ -1,4 +1,4 @@
--- Leaves by the nearer of two doors, or, once it would take too long, by the farther one: people look again from time to
+-- Leaves by the nearer of two doors, or by the farther one where that is quicker: people look again from time to
 -- time, and compare their way to each door and those who stand before it.
 local crowd = require "crowd"
 
