@@ -156,6 +156,16 @@ static double density_max(const JoScene *scene) {
     return most;
 }
 
+/* Of scenes in which people and bodies touched. */
+static void add_exchange(JoxText *out, const JoxStatistics *s) {
+    const JoxExchange *e = &s->exchange;
+    if (!(e->impulse > 0))
+        return;
+    jox_text_printf(out,
+                    ",\n \"exchange\": {\"contacts\": %llu, \"impulse\": %.6g, \"residual\": %.3g}",
+                    (unsigned long long)e->contacts, e->impulse, e->residual / e->impulse);
+}
+
 /* How far the first glued body of the scene, or its greatest piece, has come, m, and turned, deg.
  */
 static void add_way(JoxText *out, const JoScene *scene, uint32_t body) {
@@ -244,6 +254,7 @@ char *jo_scene_summary(const JoScene *scene) {
     }
     add_events(&out, scene);
     add_bonds(&out, scene);
+    add_exchange(&out, s);
     add_lua(&out, scene);
     jox_host_add_probes(scene, &out);
     jox_text_printf(&out, ",\n \"hash\": \"%016llx\",\n \"isa\": \"scalar\",\n \"threads\": %u",

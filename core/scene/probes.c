@@ -6,7 +6,7 @@
 
 static const char KINDS[] = "flow|measure|transit|displacement|map|winding|failures|lanes";
 /* Files of a report that have these names already. */
-static const char TAKEN[] = "density|paths|regions|walls|danger";
+static const char TAKEN[] = "density|paths|regions|walls|danger|danger-map";
 /* What an option is of: the kinds that read it. */
 static const char *const OPTIONS[][2] = {{"every", "measure|map|lanes"},
                                          {"cutoff", "measure"},

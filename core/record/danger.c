@@ -1,0 +1,334 @@
+#include "record/danger.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/elementary.h"
+#include "base/mem.h"
+#include "record/danger_parts.h"
+
+static const double PACE = 0.5;          /* s between samples of the fields */
+static const double HOLD = 1.0;          /* s: time constant of a person's compression */
+static const double CALM = 10.0;         /* s: time constant of means at a place */
+static const float CELL = 0.4f;          /* m */
+static const float KERNEL = 0.70710678f; /* m: R / sqrt 2, R = 1 m, of exp(-d2 / R2) */
+static const float LEAST = 0.02f;        /* 1/m2: below this nobody is there to have a velocity */
+
+const char *const jox_danger_names[] = {"density", "pressure", "compression"};
+const char *const jox_danger_units[] = {"1/m2", "1/s2", "N/m"};
+
+/* N/m on somebody who is held between a load of so many newtons and what bears against it: felt on
+   two sides, over the girth of the default radius. */
+#define HELD_BY(newtons) (2.0 * (newtons) / (2.0 * 3.14159265358979323846 * 0.20))
+const char jox_danger_conversion[] =
+    "Published loads are forces in newtons on somebody held between the load and what bears "
+    "against it. The engine adds the magnitudes of all contact forces and divides by the girth, so "
+    "that a load F reads as 2 F over 2 pi 0.20 m = 1.26 m: 1000 N are 1592 N/m.";
+
+const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS] = {
+    {"density_5", JOX_DANGER_DENSITY, 5.0,
+     "upper limit for the safe planning of standing and moving crowds; risk grows fast above it",
+     "G. K. Still, Introduction to Crowd Science, 2014"},
+    {"density_7", JOX_DANGER_DENSITY, 7.0,
+     "the crowd becomes almost a fluid mass; shock waves run through it",
+     "J. J. Fruin, The causes and prevention of crowd disasters, 1993"},
+    {"pressure_002", JOX_DANGER_PRESSURE, 0.02, "crowd turbulence sets in",
+     "Helbing, Johansson, Al-Abideen, Phys. Rev. E 75, 046109, 2007"},
+    /* Men pushed against a flat bar 100 mm wide; 800 N where they could brace themselves. */
+    {"load_623", JOX_DANGER_COMPRESSION, HELD_BY(623.0),
+     "623 N: the most that men bore against a bar 100 mm wide; women bore less",
+     "Evans and Hayden 1971, in Lee and Hughes, Accid. Anal. Prev. 38, 2006, 712-722"},
+    {"load_1112", JOX_DANGER_COMPRESSION, HELD_BY(1112.0),
+     "1112 N: death estimated within 4 to 6 minutes",
+     "Hopkins et al. 1993, in Lee and Hughes, Accid. Anal. Prev. 38, 2006, 712-722"},
+    /* A force on a rail, not on one chest: what bent steel railings after disasters tell. */
+    {"load_4500", JOX_DANGER_COMPRESSION, HELD_BY(4500.0),
+     "4500 N: steel railings bent in fatal crowds",
+     "J. J. Fruin, The causes and prevention of crowd disasters, 1993"},
+    {"load_6227", JOX_DANGER_COMPRESSION, HELD_BY(6227.0),
+     "6227 N: death estimated within 15 seconds",
+     "Hopkins et al. 1993, in Lee and Hughes, Accid. Anal. Prev. 38, 2006, 712-722"},
+};
+
+/* ---- exits ---- */
+
+struct JoxExit *jox_exits_get(JoxExits *exits, const char *name) {
+    for (uint32_t e = 0; e < exits->count; e++)
+        if (strcmp(exits->items[e].name, name) == 0)
+            return &exits->items[e];
+    JOX_RESERVE(exits->items, exits->capacity, exits->count + 1);
+    struct JoxExit *exit = &exits->items[exits->count++];
+    *exit = (struct JoxExit){.name = jox_strdup(name), .last = NAN};
+    return exit;
+}
+
+void jox_exits_free(JoxExits *exits) {
+    for (uint32_t e = 0; e < exits->count; e++)
+        jox_free(exits->items[e].name);
+    jox_free(exits->items);
+    *exits = (JoxExits){0};
+}
+
+void jox_exits_json(const JoxExits *exits, JoxText *out) {
+    jox_text_printf(out, "\"left\": %llu, \"clearance_s\": ", (unsigned long long)exits->left);
+    jox_text_json_number(out, exits->left ? exits->last : NAN);
+    jox_text_add(out, ", \"exits\": {");
+    for (uint32_t e = 0; e < exits->count; e++) {
+        jox_text_add(out, e ? ", " : "");
+        jox_text_json(out, exits->items[e].name);
+        jox_text_printf(out, ": {\"people\": %u, \"last_s\": ", exits->items[e].people);
+        jox_text_json_number(out, exits->items[e].last);
+        jox_text_add(out, "}");
+    }
+    jox_text_add(out, "}");
+}
+
+/* ---- measuring ---- */
+
+JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high) {
+    JoxDanger *d = jox_alloc(1, sizeof *d);
+    d->grid = jox_density_create(low, high, CELL, KERNEL);
+    size_t cells = (size_t)d->grid->columns * d->grid->rows;
+    float **fields[] = {&d->density, &d->flow_x,      &d->flow_y, &d->mean_density, &d->mean_vx,
+                        &d->mean_vy, &d->mean_square, &d->weight, &d->pressure};
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
+        *fields[f] = jox_alloc(cells, sizeof(float));
+    for (int m = 0; m < JOX_DANGER_MEASURES; m++) {
+        d->sum[m] = jox_alloc(cells, sizeof(double));
+        d->greatest[m] = jox_alloc(cells, sizeof(float));
+        d->most[m] = (JoxDangerMost){.value = NAN, .time = NAN};
+    }
+    d->stood = jox_alloc(cells, sizeof *d->stood);
+    for (int l = 0; l < JOX_DANGER_LIMITS; l++)
+        d->counts[l].first = NAN;
+    d->last_frame = d->last_sample = NAN;
+    d->stretch = INT64_MIN;
+    return d;
+}
+
+/* The cell of a point; false outside the area. */
+static bool cell_of(const JoxDensity *g, float x, float y, size_t *cell) {
+    float column = floorf((x - g->low.x) / g->cell), row = floorf((y - g->low.y) / g->cell);
+    if (!(column >= 0.0f && column < (float)g->columns && row >= 0.0f && row < (float)g->rows))
+        return false;
+    *cell = (size_t)row * g->columns + (size_t)column;
+    return true;
+}
+
+/* Person i has `value` for `duration` seconds; marks the limits passed. */
+static void judge(JoxDanger *d, const JoxFrame *frame, uint32_t i, JoxDangerMeasure measure,
+                  double value, double duration) {
+    JoxV2 at = {frame->x[i], frame->y[i]};
+    JoxDangerMost *most = &d->most[measure];
+    if (value > (isnan(most->value) ? 0.0 : most->value))
+        *most = (JoxDangerMost){value, frame->time, at};
+    for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
+        JoxDangerCount *count = &d->counts[l];
+        if (jox_danger_limits[l].measure != measure || value < jox_danger_limits[l].value)
+            continue;
+        count->person_s += duration;
+        if (isnan(count->first)) {
+            count->first = frame->time;
+            count->first_at = at;
+        }
+        count->people += !(d->over[frame->key[i]] >> l & 1);
+        d->over[frame->key[i]] |= (uint8_t)(1 << l);
+    }
+}
+
+/* Every frame: who is held how hard. */
+static void press(JoxDanger *d, const JoxFrame *frame) {
+    double duration = isnan(d->last_frame) ? 0.0 : frame->time - d->last_frame;
+    float share = (float)(1.0 - jox_exp(-duration / HOLD));
+    d->last_frame = frame->time;
+    d->has_compression |= frame->compression != NULL;
+    for (uint32_t i = 0; frame->compression && i < frame->count; i++) {
+        float *held = &d->held[frame->key[i]];
+        *held += share * (frame->compression[i] - *held);
+        judge(d, frame, i, JOX_DANGER_COMPRESSION, *held, duration);
+    }
+}
+
+/* The fields of this sample; images over periodic edges count too. */
+static void spread(JoxDanger *d, const JoxFrame *frame) {
+    const JoxDensity *g = d->grid;
+    size_t cells = (size_t)g->columns * g->rows;
+    float *fields[3] = {d->density, d->flow_x, d->flow_y};
+    for (int f = 0; f < 3; f++)
+        memset(fields[f], 0, cells * sizeof(float));
+    int across = frame->period.x > 0.0f, up = frame->period.y > 0.0f;
+    float reach = ((float)g->reach + 1.0f) * g->cell;
+    for (uint32_t i = 0; i < frame->count; i++)
+        for (int c = -across; c <= across; c++)
+            for (int r = -up; r <= up; r++) {
+                float x = frame->x[i] + (float)c * frame->period.x;
+                float y = frame->y[i] + (float)r * frame->period.y;
+                if (x - g->low.x > -reach && y - g->low.y > -reach &&
+                    x - g->low.x < (float)g->columns * g->cell + reach &&
+                    y - g->low.y < (float)g->rows * g->cell + reach)
+                    jox_density_spread(g, fields, (float[3]){1.0f, frame->vx[i], frame->vy[i]}, 3,
+                                       x, y);
+            }
+}
+
+/* Crowd pressure of each cell, from means over time in which this sample has its share. */
+static void agitate(JoxDanger *d, double duration) {
+    size_t cells = (size_t)d->grid->columns * d->grid->rows;
+    float share = (float)(1.0 - jox_exp(-duration / CALM)), stay = 1.0f - share;
+    d->density_weight = stay * d->density_weight + share;
+    float dense = (float)(jox_danger_limits[0].value * d->density_weight);
+    for (size_t c = 0; c < cells; c++) {
+        float density = d->density[c];
+        d->mean_density[c] = stay * d->mean_density[c] + share * density;
+        d->pressure[c] = 0.0f;
+        if (density >= LEAST) {
+            float vx = d->flow_x[c] / density, vy = d->flow_y[c] / density;
+            d->mean_vx[c] = stay * d->mean_vx[c] + share * vx;
+            d->mean_vy[c] = stay * d->mean_vy[c] + share * vy;
+            d->mean_square[c] = stay * d->mean_square[c] + share * (vx * vx + vy * vy);
+            d->weight[c] = stay * d->weight[c] + share;
+        }
+        if (!(d->mean_density[c] >= dense && d->weight[c] > 0.0f))
+            continue;
+        float ux = d->mean_vx[c] / d->weight[c], uy = d->mean_vy[c] / d->weight[c];
+        float variance = d->mean_square[c] / d->weight[c] - ux * ux - uy * uy;
+        d->pressure[c] = d->mean_density[c] / (float)d->density_weight * jox_maxf(variance, 0.0f);
+    }
+}
+
+/* Adds the sample to the maps. */
+static void chart(JoxDanger *d, const JoxFrame *frame) {
+    size_t cells = (size_t)d->grid->columns * d->grid->rows, cell;
+    const float *fields[2] = {d->density, d->pressure};
+    for (int m = 0; m < 2; m++)
+        for (size_t c = 0; c < cells; c++) {
+            d->sum[m][c] += fields[m][c];
+            d->greatest[m][c] = jox_maxf(d->greatest[m][c], fields[m][c]);
+        }
+    for (uint32_t i = 0; frame->compression && i < frame->count; i++)
+        if (cell_of(d->grid, frame->x[i], frame->y[i], &cell)) {
+            float held = d->held[frame->key[i]], *most = &d->greatest[JOX_DANGER_COMPRESSION][cell];
+            d->sum[JOX_DANGER_COMPRESSION][cell] += held;
+            d->stood[cell]++;
+            *most = jox_maxf(*most, held);
+        }
+    d->samples++;
+}
+
+/* The sample's line of danger.csv. */
+static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
+    JOX_RESERVE(d->rows, d->row_capacity, d->row_count + 1);
+    JoxDangerRow *row = &d->rows[d->row_count++];
+    *row = (JoxDangerRow){.time = frame->time, .people = frame->count, .most = {0, 0, 0}};
+    for (uint32_t i = 0; i < frame->count; i++) {
+        size_t cell;
+        bool inside = cell_of(d->grid, frame->x[i], frame->y[i], &cell);
+        float values[] = {inside ? d->density[cell] : 0.0f, inside ? d->pressure[cell] : 0.0f,
+                          d->held[frame->key[i]]};
+        for (int m = 0; m < JOX_DANGER_MEASURES; m++)
+            row->most[m] = jox_maxf(row->most[m], values[m]);
+        for (int l = 0; l < JOX_DANGER_LIMITS; l++)
+            row->over[l] += values[jox_danger_limits[l].measure] >= jox_danger_limits[l].value;
+    }
+    if (!frame->compression)
+        row->most[JOX_DANGER_COMPRESSION] = NAN;
+    row->left = exits ? (uint32_t)exits->left : 0;
+    for (uint32_t e = 0; exits && e < exits->count && e < JOX_DANGER_EXITS; e++) {
+        if (e >= d->exit_count)
+            d->exit_names[d->exit_count++] = jox_strdup(exits->items[e].name);
+        row->exits[e] = exits->items[e].people;
+    }
+}
+
+void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
+    uint32_t had = d->held_capacity, marked = d->over_capacity;
+    JOX_RESERVE(d->held, d->held_capacity, frame->keys);
+    JOX_RESERVE(d->over, d->over_capacity, frame->keys);
+    if (d->held_capacity > had)
+        memset(d->held + had, 0, (d->held_capacity - had) * sizeof *d->held);
+    if (d->over_capacity > marked)
+        memset(d->over + marked, 0, d->over_capacity - marked);
+    press(d, frame);
+    /* Times are multiples of a step, whose sum may fall short of them by a hair. */
+    int64_t stretch = (int64_t)floor(frame->time / PACE + 1e-6);
+    if (stretch == d->stretch)
+        return;
+    d->stretch = stretch;
+    double duration = isnan(d->last_sample) ? 0.0 : frame->time - d->last_sample;
+    d->last_sample = frame->time;
+    spread(d, frame);
+    agitate(d, duration > 0.0 ? duration : PACE);
+    for (uint32_t i = 0; i < frame->count; i++) {
+        size_t cell;
+        if (!cell_of(d->grid, frame->x[i], frame->y[i], &cell))
+            continue;
+        judge(d, frame, i, JOX_DANGER_DENSITY, d->density[cell], duration);
+        judge(d, frame, i, JOX_DANGER_PRESSURE, d->pressure[cell], duration);
+    }
+    chart(d, frame);
+    note(d, frame, exits);
+}
+
+/* ---- figures ---- */
+
+JoxDangerCount jox_danger_count(const JoxDanger *d, int limit) {
+    return d->counts[limit];
+}
+
+JoxDangerMost jox_danger_most(const JoxDanger *d, JoxDangerMeasure measure) {
+    JoxDangerMost most = d->most[measure];
+    bool read = d->samples > 0 && (measure != JOX_DANGER_COMPRESSION || d->has_compression);
+    if (isnan(most.value) && read) /* nobody was ever pressed, say */
+        most.value = 0.0;
+    return most;
+}
+
+/* Adds , "NAMESUFFIX": VALUE. */
+static void add(JoxText *out, const char *name, const char *suffix, double value) {
+    jox_text_printf(out, ", \"%s%s\": ", name, suffix);
+    jox_text_json_number(out, value);
+}
+
+void jox_danger_json(const JoxDanger *d, JoxText *out) {
+    jox_text_printf(out, "\"samples\": %u", d->samples);
+    for (int m = 0; m < JOX_DANGER_MEASURES; m++) {
+        JoxDangerMost most = jox_danger_most(d, (JoxDangerMeasure)m);
+        bool read = isfinite(most.time);
+        add(out, jox_danger_names[m], "_max", most.value);
+        add(out, jox_danger_names[m], "_max_s", most.time);
+        add(out, jox_danger_names[m], "_max_x", read ? most.at.x : NAN);
+        add(out, jox_danger_names[m], "_max_y", read ? most.at.y : NAN);
+    }
+    jox_text_add(out, ",\n  \"limits\": {");
+    for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
+        const JoxDangerCount *count = &d->counts[l];
+        bool seen = isfinite(count->first);
+        jox_text_printf(out, "%s\n   \"%s\": {\"people\": %u", l ? "," : "",
+                        jox_danger_limits[l].key, count->people);
+        add(out, "limit", "", jox_danger_limits[l].value);
+        add(out, "person_s", "", count->person_s);
+        add(out, "first_s", "", count->first);
+        add(out, "first_x", "", seen ? count->first_at.x : NAN);
+        add(out, "first_y", "", seen ? count->first_at.y : NAN);
+        jox_text_add(out, "}");
+    }
+    jox_text_add(out, "\n  }");
+}
+
+void jox_danger_free(JoxDanger *d) {
+    if (!d)
+        return;
+    jox_density_free(d->grid);
+    void *fields[] = {d->density, d->flow_x,      d->flow_y, d->mean_density, d->mean_vx,
+                      d->mean_vy, d->mean_square, d->weight, d->pressure,     d->stood,
+                      d->held,    d->over,        d->rows};
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
+        jox_free(fields[f]);
+    for (int m = 0; m < JOX_DANGER_MEASURES; m++) {
+        jox_free(d->sum[m]);
+        jox_free(d->greatest[m]);
+    }
+    for (uint32_t e = 0; e < d->exit_count; e++)
+        jox_free(d->exit_names[e]);
+    jox_free(d);
+}

@@ -1,0 +1,87 @@
+/* Where people are squeezed, over the frames of a run or of a recording. Three measures:
+     density      people per m2 by the Gaussian kernel exp(-d2 / R2) / (pi R2), R = 1 m, at the cell
+                  where somebody stands. It reads low within R of a wall.
+     pressure     the crowd pressure of Helbing, Johansson and Al-Abideen 2007 (Phys. Rev. E 75,
+                  046109, doi 10.1103/PhysRevE.75.046109), 1/s2: mean density of a place times the
+                  variance over time of the local velocity there, V = sum of w v over sum of w with
+                  the same kernel. Means over time are exponential, 10 s. Read only where the mean
+                  density is over the first limit of density: sparse crowds vary freely.
+     compression  sum of the contact forces' magnitudes on a person over the girth, N/m, as an
+                  exponential mean over 1 s of each person: what is held, not a knock of one step.
+   Exits: who left where, and when the last did. */
+#ifndef JOX_RECORD_DANGER_H
+#define JOX_RECORD_DANGER_H
+
+#include <stdbool.h>
+
+#include "base/text.h"
+#include "geom/walls.h"
+#include "record/frame.h"
+
+typedef enum JoxDangerMeasure {
+    JOX_DANGER_DENSITY,
+    JOX_DANGER_PRESSURE,
+    JOX_DANGER_COMPRESSION,
+    JOX_DANGER_MEASURES
+} JoxDangerMeasure;
+extern const char *const jox_danger_names[JOX_DANGER_MEASURES]; /* "density", ... */
+extern const char *const jox_danger_units[JOX_DANGER_MEASURES]; /* "1/m2", ... */
+
+/* A published limit. Loads in newtons are converted: somebody held between a load F and what bears
+   against it feels F on both sides, 2 F over a girth of 2 pi 0.20 m. */
+typedef struct JoxDangerLimit {
+    const char *key; /* in summaries */
+    JoxDangerMeasure measure;
+    double value;       /* in the measure's unit */
+    const char *what;   /* what is known of it */
+    const char *source; /* who says so */
+} JoxDangerLimit;
+enum { JOX_DANGER_LIMITS = 7 };
+extern const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS];
+/* The conversion in words, for reports. */
+extern const char jox_danger_conversion[];
+
+/* Who left, and where. */
+typedef struct JoxExits {
+    struct JoxExit {
+        char *name;
+        uint32_t people;
+        double last; /* s */
+    } * items;
+    uint32_t count, capacity;
+    uint64_t left; /* everyone, through these or otherwise */
+    double last;   /* s; when the last of all left */
+} JoxExits;
+/* The exit of a name, made where there is none. */
+struct JoxExit *jox_exits_get(JoxExits *exits, const char *name);
+void jox_exits_free(JoxExits *exits);
+/* Adds "left": ..., "clearance_s": ..., "exits": {...}. */
+void jox_exits_json(const JoxExits *exits, JoxText *out);
+
+typedef struct JoxDangerCount {
+    uint32_t people; /* who were ever over the limit */
+    double person_s; /* sum of the times over it */
+    double first;    /* s; NAN: never */
+    JoxV2 first_at;  /* m */
+} JoxDangerCount;
+typedef struct JoxDangerMost {
+    double value, time; /* s; NAN where nothing was read */
+    JoxV2 at;           /* m */
+} JoxDangerMost;
+
+typedef struct JoxDanger JoxDanger;
+/* `low` to `high`: the area of fields and maps. */
+JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high);
+/* Frames in ascending time; `exits` as they are then, or NULL. */
+void jox_danger_frame(JoxDanger *danger, const JoxFrame *frame, const JoxExits *exits);
+JoxDangerCount jox_danger_count(const JoxDanger *danger, int limit);
+JoxDangerMost jox_danger_most(const JoxDanger *danger, JoxDangerMeasure measure);
+/* Adds "density_max": ..., "limits": {...}. */
+void jox_danger_json(const JoxDanger *danger, JoxText *out);
+/* danger.csv (over time) and danger-map.csv into a folder that is there; with a title, both also as
+   PNG and SVG. False with a sentence in `error`. */
+bool jox_danger_write(const JoxDanger *danger, const char *folder, const JoxWalls *walls,
+                      const char *title, JoxText *error);
+void jox_danger_free(JoxDanger *danger);
+
+#endif

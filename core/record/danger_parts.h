@@ -1,0 +1,48 @@
+/* What the files of danger share. */
+#ifndef JOX_RECORD_DANGER_PARTS_H
+#define JOX_RECORD_DANGER_PARTS_H
+
+#include "record/danger.h"
+#include "record/density.h"
+
+enum { JOX_DANGER_EXITS = 16 }; /* that have a column of their own over time */
+
+/* One line of danger.csv. */
+typedef struct JoxDangerRow {
+    double time; /* s */
+    uint32_t people;
+    float most[JOX_DANGER_MEASURES]; /* NAN: not read */
+    uint32_t over[JOX_DANGER_LIMITS];
+    uint32_t left, exits[JOX_DANGER_EXITS];
+} JoxDangerRow;
+
+struct JoxDanger {
+    JoxDensity *grid;
+    /* By cell: the sample's density and density times velocity; means over time of density, of
+       velocity and of its square, with the weight that the latter have. */
+    float *density, *flow_x, *flow_y;
+    float *mean_density, *mean_vx, *mean_vy, *mean_square, *weight;
+    float *pressure; /* as it is now; 0 where it is not read */
+    /* By cell, for the map: sum over samples (compression: over people) and greatest. */
+    double *sum[JOX_DANGER_MEASURES];
+    float *greatest[JOX_DANGER_MEASURES];
+    uint32_t *stood; /* people whose compression was summed */
+    uint32_t samples;
+    double density_weight; /* of mean_density */
+
+    float *held;   /* by key: compression, mean of the last second */
+    uint8_t *over; /* by key: bits of the limits that were ever passed */
+    uint32_t held_capacity, over_capacity;
+    bool has_compression;
+
+    double last_frame, last_sample; /* s */
+    int64_t stretch;                /* of the last sample */
+    JoxDangerCount counts[JOX_DANGER_LIMITS];
+    JoxDangerMost most[JOX_DANGER_MEASURES];
+    JoxDangerRow *rows;
+    uint32_t row_count, row_capacity;
+    char *exit_names[JOX_DANGER_EXITS];
+    uint32_t exit_count;
+};
+
+#endif
