@@ -244,6 +244,13 @@ char *jo_scene_summary(const JoScene *scene) {
     }
     add_events(&out, scene);
     add_bonds(&out, scene);
+    jox_text_add(&out, ",\n \"danger\": {");
+    jox_exits_json(&scene->exits, &out);
+    if (scene->danger) {
+        jox_text_add(&out, ",\n  ");
+        jox_danger_json(scene->danger, &out);
+    }
+    jox_text_add(&out, "}");
     add_lua(&out, scene);
     jox_host_add_probes(scene, &out);
     jox_text_printf(&out, ",\n \"hash\": \"%016llx\",\n \"isa\": \"scalar\",\n \"threads\": %u",
