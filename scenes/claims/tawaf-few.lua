@@ -1,0 +1,32 @@
+-- Turns of those who came in during the run and left before its end.
+local function turns_of(turns, seconds)
+  local done, fewer, more, clockwise = 0, 0, 0, 0
+  for i = 1, turns.n do
+    if turns.since[i] > 1 and turns["until"][i] < seconds - 1 then
+      done = done + 1
+      fewer = fewer + (turns.turns[i] < 7 and 1 or 0)
+      more = more + (turns.turns[i] >= 8.3 and 1 or 0)
+    end
+    clockwise = clockwise + (turns.least[i] <= -1 and 1 or 0)
+  end
+  return done, fewer, more, clockwise
+end
+
+return claim {
+  id = "10", title = "Seven circuits, counter-clockwise",
+  source = "Kim et al. 2014, Fig. 11",
+  text = "Two thousand pilgrims for half an hour. Whoever came in during the run and has left made seven circuits from the line on, and the way to it and out again; nobody went round clockwise.",
+  runs = { few = { scene = "../tawaf-few.yaml", seeds = 1, first = true } },
+  quick = { few = { set = { ["groups.pilgrims.count"] = 300, ["sources.0.keep"] = 300 } } },
+  measure = function(run)
+    local done, fewer, more, clockwise = turns_of(run.few.csv("turns"), run.few.summary.simulated_s)
+    return { done = done, fewer = fewer, more = more, clockwise = clockwise }
+  end,
+  expect = {
+    { "done", what = "people who came in during the run and have left", source = "-", band = { 10 } },
+    { "fewer", what = "of them, who made fewer than seven", source = "0", band = { 0, 0 } },
+    { "more", what = "of them, who made more, the way to the line and out aside", source = "0", band = { 0, 0 } },
+    { "clockwise", what = "people who went a lap clockwise", source = "0", band = { 0, 0 } },
+  },
+  pictures = { few = { "turns.png" } },
+}
