@@ -98,7 +98,7 @@ const JoxKey jox_scene_keys[] = {
      .meaning = "corners of a filled block"},
     {"wall", "line", POINTS, "m", -FAR, FAR, "", .of = "xy[2]", .meaning = "a thin wall"},
     {"wall", "file", TEXT, "", 0, 0, "",
-     .meaning = "beside the scene: walls as well-known text (WKT), or a recording, whose walls are taken"},
+     .meaning = "beside the scene: walls as well-known text (WKT), or a recording (SQLite), whose plan is taken; ours have solids and the bounds alone"},
     {"wall", "unit", NUMBER, "m", 1e-4, 1000, "1", .meaning = "of a file: one of its lengths"},
     {"wall", "origin", POINT, "", -1e12, 1e12, "",
      .meaning = "of a file: its point, in its lengths, that becomes [0, 0]"},
