@@ -183,8 +183,8 @@ static void write_file(const char *name, const char *text) {
 
 static JoxScene *load_walls(const char *walls, JoxDiagnostics *diagnostics) {
     char text[512], path[128];
-    snprintf(text, sizeof text, "jostle: 1\nwalls: [%s]\ngroups: {g: {behaviour: stander, at: [[5, 2]]}}\n",
-             walls);
+    snprintf(text, sizeof text,
+             "jostle: 1\nwalls: [%s]\ngroups: {g: {behaviour: stander, at: [[5, 2]]}}\n", walls);
     snprintf(path, sizeof path, "%s/scene.yaml", folder);
     JoxScene *scene = jox_scene_load_text(path, text, strlen(text), NULL, diagnostics);
     if (!scene)
