@@ -12,7 +12,7 @@ return machine {
 
     AtDoor = { steer = seek(own.door), speed = crowd.at_door, horizon = 0.3,
       push = crowd.nudge, push_when = crowd.slow_at_door,
-      { to = "Walk", when = crosses(own.door) },
+      { to = "Walk", when = crosses(own.door) | near(own.door, 0.1) },
       { to = "ToDoor", when = ~near(own.door, 3) } },
 
     Walk = { steer = seek(own.goal), speed = crowd.by_headway, horizon = crowd.foresight,

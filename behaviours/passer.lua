@@ -12,7 +12,7 @@ return machine {
 
     AtEntrance = { steer = seek(own.entrance), speed = crowd.at_door, horizon = 0.3,
       push = crowd.nudge, push_when = crowd.slow_at_door,
-      { to = "ToExit", when = crosses(own.entrance) },
+      { to = "ToExit", when = crosses(own.entrance) | near(own.entrance, 0.1) },
       { to = "ToEntrance", when = ~near(own.entrance, 3) } },
 
     ToExit = { steer = seek(own.exit), speed = crowd.by_headway, horizon = crowd.foresight,
@@ -21,7 +21,7 @@ return machine {
 
     AtExit = { steer = seek(own.exit), speed = crowd.at_door, horizon = 0.3,
       push = crowd.nudge, push_when = crowd.slow_at_door,
-      { to = "Walk", when = crosses(own.exit) },
+      { to = "Walk", when = crosses(own.exit) | near(own.exit, 0.1) },
       { to = "ToExit", when = ~near(own.exit, 3) } },
 
     Walk = { steer = seek(own.goal), speed = crowd.by_headway, horizon = crowd.foresight,

@@ -1,9 +1,10 @@
 -- How people slow down among others and push, as expressions that behaviours share.
 local crowd = {}
 
--- Speed that leaves 0.88 s to whoever walks ahead, never quite nothing, m/s. It gives the speeds and densities
--- of people in single file (Seyfried and others 2005) and in wide corridors.
-crowd.by_headway = clamp(headway / 0.88, 0.05, own.speed)
+-- Speed that leaves 0.88 s to whoever walks ahead, and does not close up where five stand on a square metre, m/s;
+-- never quite nothing. It gives the speeds and densities of people in single file (Seyfried and others 2005) and in
+-- wide corridors.
+crowd.by_headway = clamp(min(headway / 0.88, 0.5 * (5 - density_here)), 0.05, own.speed)
 
 -- How far walkers look ahead, s: those who crawl in a crowd mind only what is next to them.
 crowd.foresight = clamp(2 * now.speed, 0.5, 2)

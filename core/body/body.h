@@ -117,6 +117,9 @@ bool jox_bodies_force(JoxBodies *bodies, uint32_t row, JoxV3 force);
    passed over. Returns how many were passed over or clamped. */
 uint32_t jox_bodies_impulses(JoxBodies *bodies, const JoxImpulse *impulses, uint32_t count);
 
+/* Momentum of all moving bodies, kg m/s. */
+void jox_bodies_momentum(const JoxBodies *bodies, double out[3]);
+
 /* A person as a fast body meets it: an upright cylinder that moves evenly during the step. */
 typedef struct JoxDisc {
     uint32_t id;          /* ties go to the lower */
@@ -156,6 +159,8 @@ typedef struct JoxBodiesReport {
     uint32_t gone_count;
     const JoxBodyBreak *breaks; /* in order of id */
     uint32_t break_count;
+    double hit_impulse, hit_residual; /* sizes of the hits' impulses; of what bodies and discs, in
+                                         the plane, were not given alike: N s */
     uint32_t substeps;
 } JoxBodiesReport;
 

@@ -373,6 +373,15 @@ uint32_t jox_bodies_impulses(JoxBodies *b, const JoxImpulse *impulses, uint32_t 
     return odd;
 }
 
+void jox_bodies_momentum(const JoxBodies *b, double out[3]) {
+    out[0] = out[1] = out[2] = 0;
+    for (uint32_t k = 0; k < b->live; k++) {
+        const JoxRow *r = &b->rows[b->order[k]];
+        for (int i = 0; i < 3; i++)
+            out[i] += double(r->built.mass) * r->body->getLinearVelocity()[i];
+    }
+}
+
 void jox_bodies_hash(const JoxBodies *b, JoxHash *hash) {
     for (uint32_t k = 0; k < b->live; k++) {
         const JoxRow *r = &b->rows[b->order[k]];

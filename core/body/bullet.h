@@ -98,6 +98,7 @@ struct JoxBodies {
     uint32_t object_capacity;
     JoxDiscHit *hits;
     uint32_t hit_count, hit_capacity;
+    double hit_impulse, hit_residual; /* N s, of the step */
     JoxBodyGone *gone;
     uint32_t gone_count, gone_capacity;
     JoxLean *leans; /* contacts of glued bodies in a substep */

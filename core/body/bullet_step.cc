@@ -46,11 +46,18 @@ static void hit_person(JoxBodies *b, uint32_t row, JoxDisc *discs, const JoxSwee
     at.setOrigin(at.getOrigin() + r->body->getLinearVelocity() * hit->time);
     r->body->setWorldTransform(at);
     r->body->setInterpolationWorldTransform(at);
+    btVector3 before = r->body->getLinearVelocity();
+    float was_x = d->vx, was_y = d->vy;
     r->body->applyImpulse(n * j, arm);
     if (r->glue)
         jox_row_hit(r, at.getOrigin() + arm, n * j);
     d->vx -= j * n.x() / d->mass;
     d->vy -= j * n.y() / d->mass;
+    btVector3 change = r->body->getLinearVelocity() - before;
+    b->hit_impulse += j;
+    b->hit_residual +=
+        hypot(double(r->built.mass) * change.x() + double(d->mass) * (d->vx - was_x),
+              double(r->built.mass) * change.y() + double(d->mass) * (d->vy - was_y));
     jox_reserve(b->hits, b->hit_capacity, b->hit_count + 1);
     b->hits[b->hit_count++] =
         JoxDiscHit{hit->disc, row, jox_v3(at.getOrigin() + arm), JoxV2{-j * n.x(), -j * n.y()}};
@@ -129,6 +136,7 @@ static void push_on(JoxBodies *b, bool last) {
 JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t disc_count) {
     JoxBodiesReport report = {};
     b->hit_count = b->gone_count = b->break_count = 0;
+    b->hit_impulse = b->hit_residual = 0;
     if (!b->world || !b->live || !(dt > 0 && dt <= 1))
         return report;
     b->last_dt = dt;
@@ -158,6 +166,8 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
     report.gone_count = b->gone_count;
     report.breaks = b->breaks;
     report.break_count = b->break_count;
+    report.hit_impulse = b->hit_impulse;
+    report.hit_residual = b->hit_residual;
     report.substeps = n;
     return report;
 }

@@ -64,6 +64,10 @@ JoxBodiesReport jox_bodies_step(JoxBodies *bodies, float dt, JoxDisc *discs, uin
     (void)bodies, (void)dt, (void)discs, (void)disc_count;
     return (JoxBodiesReport){0};
 }
+void jox_bodies_momentum(const JoxBodies *bodies, double out[3]) {
+    (void)bodies;
+    out[0] = out[1] = out[2] = 0.0;
+}
 bool jox_bodies_any_fast(const JoxBodies *bodies, float dt) {
     return (void)bodies, (void)dt, false;
 }

@@ -274,6 +274,7 @@ void jox_touches_pass(JoxForces *f) {
 /* Forces on the agents, impulses for the bodies: the same numbers with opposite signs. */
 void jox_touches_finish(JoxForces *f) {
     JoxAgents *a = f->step.agents;
+    JoxForceTotals *totals = &f->totals;
     float per_second = 1.0f / (float)f->step.dt;
     for (uint32_t k = 0; k < f->touch_count; k++) {
         const JoxTouch *t = &f->touch[k];
@@ -284,7 +285,11 @@ void jox_touches_finish(JoxForces *f) {
         a->contact_x[i] += impulse.x * per_second;
         a->contact_y[i] += impulse.y * per_second;
         a->compression[i] += t->impulse * per_second / jox_girth(a->param[JOX_PARAM_radius][i]);
-        if (f->step.objects->rows[t->object].inverse_mass > 0.0f)
-            jox_force_owe(f, a->id[i], t->object, (JoxV3){-impulse.x, -impulse.y, 0.0f}, t->point);
+        if (!(f->step.objects->rows[t->object].inverse_mass > 0.0f))
+            continue;
+        totals->touched_x += (double)(impulse.x * per_second) * f->step.dt;
+        totals->touched_y += (double)(impulse.y * per_second) * f->step.dt;
+        totals->touched += t->impulse;
+        jox_force_owe(f, a->id[i], t->object, (JoxV3){-impulse.x, -impulse.y, 0.0f}, t->point);
     }
 }

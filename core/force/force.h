@@ -49,6 +49,9 @@ typedef struct JoxForceTotals {
     uint32_t passed;  /* forces passed on by the last infer */
     /* Momentum of the step's pushes that came from the ground, N s: zero with `react`. */
     double ground_x, ground_y;
+    /* N s: given to moving bodies by pushes; given to agents by contacts with such bodies, and the
+       sum of the sizes of these. */
+    double pushed_x, pushed_y, touched_x, touched_y, touched;
 } JoxForceTotals;
 
 JoxForceOptions jox_force_default_options(void);

@@ -163,9 +163,13 @@ void jox_force_push(JoxForces *f) {
         ground_x += f->chunk[c].ground_x;
         ground_y += f->chunk[c].ground_y;
         const JoxTouch *t = (const JoxTouch *)f->touches.items + (size_t)c * f->touches.room;
-        for (uint32_t k = 0; k < f->touches.counts[c]; k++)
+        for (uint32_t k = 0; k < f->touches.counts[c]; k++) {
+            bool moves = f->step.objects->rows[t[k].object].inverse_mass > 0.0f;
+            f->totals.pushed_x += moves ? (double)(t[k].normal.x * dt) : 0.0;
+            f->totals.pushed_y += moves ? (double)(t[k].normal.y * dt) : 0.0;
             jox_force_owe(f, a->id[t[k].agent], t[k].object,
                           (JoxV3){t[k].normal.x * dt, t[k].normal.y * dt, 0.0f}, t[k].point);
+        }
     }
     f->totals.ground_x = (double)ground_x / 1048576.0;
     f->totals.ground_y = (double)ground_y / 1048576.0;

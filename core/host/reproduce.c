@@ -282,6 +282,10 @@ bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error) {
     if (program)
         jox_sha256_hex(program, length, all.program_sha256);
     jox_free(program);
+    if (!def->list && !*all.program_sha256) {
+        jox_error(error, JO_FAILED, "%s, which is to run the scenes, cannot be read", def->program);
+        return false;
+    }
     load_claims(&all, &diagnostics);
     bool good = diagnostics.errors == 0;
     jox_host_report(def->message, def->message_context, &diagnostics, error);

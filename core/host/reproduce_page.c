@@ -149,8 +149,11 @@ static void put_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome
             char path[1400];
             struct stat info;
             snprintf(path, sizeof path, "%s/%s", job->folder, claim->pictures[p].file);
-            if (stat(path, &info) != 0)
+            if (stat(path, &info) != 0) {
+                fprintf(out, "<p class=out>The run %s left no %s.</p>\n", claim->runs[r].name,
+                        claim->pictures[p].file);
                 continue;
+            }
             const char *link = path + strlen(all->def->out) + 1;
             fprintf(out,
                     "<figure><a href=\"%s\"><img loading=lazy src=\"%s\" alt=\"%s of run %s\">",

@@ -1,5 +1,6 @@
 /* Runs of scenes as processes of their own: several at once, the long ones first, and none that is
    there already. */
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -68,6 +69,20 @@ static bool is_there(const JoxJob *job) {
     return there;
 }
 
+/* What an earlier run left: a probe that is gone must not be measured, nor half a run taken for a
+   whole one. */
+static void clear(const JoxJob *job) {
+    DIR *folder = opendir(job->folder);
+    for (struct dirent *entry; folder && (entry = readdir(folder)) != NULL;) {
+        char *path = path_in(job, entry->d_name);
+        if (entry->d_name[0] != '.')
+            remove(path);
+        jox_free(path);
+    }
+    if (folder)
+        closedir(folder);
+}
+
 static void start(const JoxReproduction *all, JoxJob *job) {
     char seed[32], dt[32], duration[32];
     const char *arguments[MOST_ARGUMENTS] = {all->def->program, "run",       job->run->scene,
@@ -75,7 +90,7 @@ static void start(const JoxReproduction *all, JoxJob *job) {
                                              "--threads",       "1",         "--no-half-step"};
     int n = 9;
     char *summary = path_in(job, "summary.json"), *log = path_in(job, "log.txt");
-    remove(summary);
+    clear(job);
     snprintf(seed, sizeof seed, "%llu", (unsigned long long)job->seed);
     snprintf(dt, sizeof dt, "%.9g", job->run->dt);
     snprintf(duration, sizeof duration, "%.9g", job->run->duration);
@@ -96,7 +111,8 @@ static void start(const JoxReproduction *all, JoxJob *job) {
     job->state = JOX_JOB_RUNS;
     job->process = fork();
     if (job->process == 0) {
-        prctl(PR_SET_PDEATHSIG, SIGTERM); /* nothing is left running */
+        setpgid(0, 0);                    /* Ctrl-C is for the parent, which stops all */
+        prctl(PR_SET_PDEATHSIG, SIGKILL); /* nothing is left running */
         int out = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0644);
         if (out >= 0) {
             dup2(out, 1);
@@ -105,6 +121,8 @@ static void start(const JoxReproduction *all, JoxJob *job) {
         execv(all->def->program, (char **)(uintptr_t)arguments);
         _exit(127);
     }
+    if (job->process > 0)
+        setpgid(job->process, job->process); /* whoever comes first */
     jox_free(summary);
     jox_free(log);
 }
@@ -125,6 +143,7 @@ static void end(JoxJob *job, int status) {
     job->state = JOX_JOB_FAILED;
     JoxText why = {0};
     char *log = read_in(job, "log.txt");
+    jox_text_printf(&why, "%s, seed %llu: ", job->run->scene, (unsigned long long)job->seed);
     if (WIFSIGNALED(status))
         jox_text_printf(&why, "ended by signal %d. ", WTERMSIG(status));
     else
@@ -181,10 +200,11 @@ static JoxJob *job_of(JoxReproduction *all, pid_t process) {
     return NULL;
 }
 
+/* With what they started themselves (gnuplot); half a run is of no use. */
 static void stop_all(JoxReproduction *all) {
     for (uint32_t j = 0; j < all->job_count; j++)
         if (all->jobs[j].state == JOX_JOB_RUNS)
-            kill(all->jobs[j].process, SIGTERM);
+            kill(-all->jobs[j].process, SIGKILL);
     while (wait(NULL) > 0 || errno == EINTR) {
     }
 }

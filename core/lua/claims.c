@@ -10,8 +10,8 @@
 #include "base/mem.h"
 #include "lua/internal.h"
 
-static const uint64_t BUDGET = 2000000000; /* instructions of a measure */
-enum { MOST_BYTES = 64 << 20 };            /* of a file that a run left */
+static const uint64_t BUDGET = 200000000; /* instructions of a measure */
+enum { MOST_BYTES = 64 << 20 };           /* of a file that a run left */
 
 struct JoxClaimCode {
     JoxLua *lua;
@@ -64,47 +64,47 @@ static bool bool_of(lua_State *L, const char *key) {
 }
 
 static int ascending(const void *a, const void *b) {
-    return strcmp(*(char *const *)a, *(char *const *)b);
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-/* Keys of the table on top in ascending order, copied. */
-static char **keys_of(lua_State *L, uint32_t *count) {
-    char **keys = NULL;
-    size_t capacity = 0;
+/* Keys of the table on top in ascending order. They are the table's own; their list is left below
+   it on the stack, so that Lua frees it whatever happens. */
+static const char **keys_of(lua_State *L, uint32_t *count) {
+    uint32_t most = 0;
     *count = 0;
-    lua_pushnil(L);
-    while (lua_next(L, -2)) {
-        lua_pop(L, 1);
-        if (lua_type(L, -1) != LUA_TSTRING)
-            continue;
-        JOX_RESERVE(keys, capacity, *count + 1);
-        keys[(*count)++] = jox_strdup(lua_tostring(L, -1));
-    }
+    for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1))
+        most++;
+    const char **keys = lua_newuserdatauv(L, (most + 1) * sizeof *keys, 0);
+    lua_insert(L, -2);
+    for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1))
+        if (lua_type(L, -2) == LUA_TSTRING)
+            keys[(*count)++] = lua_tostring(L, -2);
     if (*count)
         qsort(keys, *count, sizeof *keys, ascending);
     return keys;
 }
 
 static void read_sets(lua_State *L, JoxClaimRun *run) {
-    int type = lua_getfield(L, -1, "set");
-    if (type == LUA_TTABLE) {
-        char **keys = keys_of(L, &run->set_count);
-        run->sets = jox_alloc(run->set_count + 1, sizeof *run->sets);
-        for (uint32_t k = 0; k < run->set_count; k++) {
-            JoxText text = {0};
-            lua_getfield(L, -1, keys[k]);
-            const char *value = lua_isboolean(L, -1) ? lua_toboolean(L, -1) ? "true" : "false"
-                                                     : lua_tostring(L, -1);
-            jox_text_printf(&text, "%s=%s", keys[k], value ? value : "");
-            run->sets[k] = text.data;
-            jox_free(keys[k]);
-            lua_pop(L, 1);
-        }
-        jox_free(keys);
-    } else if (type != LUA_TNIL) {
-        luaL_error(L, "set = { [\"groups.people.count\"] = 100 }");
+    int top = lua_gettop(L), type = lua_getfield(L, -1, "set");
+    if (type != LUA_TTABLE && type != LUA_TNIL)
+        luaL_error(L, "run '%s': set = { [\"groups.people.count\"] = 100 }", run->name);
+    uint32_t count = 0;
+    const char **keys = type == LUA_TTABLE ? keys_of(L, &count) : NULL;
+    run->sets = jox_alloc(count + 1, sizeof *run->sets);
+    for (uint32_t k = 0; k < count; k++) {
+        int kind = lua_getfield(L, -1, keys[k]);
+        if (kind != LUA_TBOOLEAN && kind != LUA_TNUMBER && kind != LUA_TSTRING)
+            luaL_error(L, "run '%s': '%s' is set to a %s; it takes a number, a text, true or false",
+                       run->name, keys[k], lua_typename(L, kind));
+        JoxText text = {0};
+        const char *value = kind != LUA_TBOOLEAN   ? lua_tostring(L, -1)
+                            : lua_toboolean(L, -1) ? "true"
+                                                   : "false";
+        jox_text_printf(&text, "%s=%s", keys[k], value);
+        run->sets[run->set_count++] = text.data;
+        lua_pop(L, 1);
     }
-    lua_pop(L, 1);
+    lua_settop(L, top);
 }
 
 /* The run on top of the stack; `base` gives what it leaves out (of `quick`), or is NULL. */
@@ -133,12 +133,11 @@ static void read_run(lua_State *L, const JoxClaim *claim, const JoxClaimRun *bas
     if (run->seeds < 1 || run->seeds > 1000 || run->duration < 0.0 || run->dt < 0.0)
         luaL_error(L, "%s: seeds is 1 to 1000, duration and dt are not negative", what);
     read_sets(L, run);
-    for (uint32_t s = 0; base && run->set_count == 0 && s < base->set_count; s++) {
-        run->sets = s ? run->sets : jox_alloc(base->set_count + 1, sizeof *run->sets);
-        run->sets[s] = jox_strdup(base->sets[s]);
-    }
-    if (base && run->set_count == 0)
-        run->set_count = base->set_count;
+    if (!base || run->set_count || !base->set_count)
+        return;
+    run->sets = jox_realloc(run->sets, base->set_count, sizeof *run->sets);
+    for (uint32_t s = 0; s < base->set_count; s++)
+        run->sets[run->set_count++] = jox_strdup(base->sets[s]);
 }
 
 static void free_run(JoxClaimRun *run) {
@@ -149,48 +148,55 @@ static void free_run(JoxClaimRun *run) {
 }
 
 static void read_runs(lua_State *L, JoxClaim *claim) {
+    int top = lua_gettop(L);
     if (lua_getfield(L, -1, "runs") != LUA_TTABLE)
         luaL_error(L, "a claim needs runs = { name = { scene = \"../x.yaml\" } }");
-    char **names = keys_of(L, &claim->run_count);
-    claim->runs = jox_alloc(claim->run_count + 1, sizeof *claim->runs);
-    for (uint32_t r = 0; r < claim->run_count; r++) {
-        claim->runs[r].name = names[r];
+    uint32_t count;
+    const char **names = keys_of(L, &count);
+    if (count == 0)
+        luaL_error(L, "a claim needs at least one run");
+    claim->runs = jox_alloc(count, sizeof *claim->runs);
+    for (uint32_t r = 0; r < count; r++) {
+        claim->runs[r].name = jox_strdup(names[r]);
+        claim->run_count++;
         lua_getfield(L, -1, names[r]);
         read_run(L, claim, NULL, &claim->runs[r]);
         lua_pop(L, 1);
     }
-    jox_free(names);
-    if (claim->run_count == 0)
-        luaL_error(L, "a claim needs at least one run");
-    lua_pop(L, 1);
+    lua_settop(L, top);
 }
 
+static JoxClaimRun *find_run(lua_State *L, const JoxClaim *claim, const char *what,
+                             const char *name) {
+    for (uint32_t r = 0; r < claim->run_count; r++)
+        if (strcmp(claim->runs[r].name, name) == 0)
+            return &claim->runs[r];
+    luaL_error(L, "%s: there is no run '%s'", what, name);
+    return NULL;
+}
+
+/* Of each run that it names, what it says in place of what `runs` said. */
 static void read_quick(lua_State *L, JoxClaim *claim, bool quick) {
-    int type = lua_getfield(L, -1, "quick");
+    int top = lua_gettop(L), type = lua_getfield(L, -1, "quick");
     if (type != LUA_TNIL && type != LUA_TTABLE)
         luaL_error(L, "quick = { name = { duration = 10, seeds = 1 } }, by the names of runs");
     uint32_t count = 0;
-    char **names = type == LUA_TTABLE ? keys_of(L, &count) : NULL;
+    const char **names = type == LUA_TTABLE ? keys_of(L, &count) : NULL;
     for (uint32_t n = 0; n < count; n++) {
-        uint32_t r = 0;
-        while (r < claim->run_count && strcmp(claim->runs[r].name, names[n]) != 0)
-            r++;
-        if (r == claim->run_count)
-            luaL_error(L, "quick: there is no run '%s'", names[n]);
-        JoxClaimRun less = {.name = claim->runs[r].name};
+        JoxClaimRun *run = find_run(L, claim, "quick", names[n]);
+        claim->spare = (JoxClaimRun){.name = run->name};
         lua_getfield(L, -1, names[n]);
-        read_run(L, claim, &claim->runs[r], &less);
+        read_run(L, claim, run, &claim->spare);
         lua_pop(L, 1);
         if (quick) {
-            free_run(&claim->runs[r]);
-            claim->runs[r] = less;
-        } else {
-            free_run(&less);
+            JoxClaimRun full = *run;
+            *run = claim->spare;
+            claim->spare = full;
         }
-        jox_free(names[n]);
+        free_run(&claim->spare);
+        claim->spare = (JoxClaimRun){0};
     }
-    jox_free(names);
-    lua_pop(L, 1);
+    lua_settop(L, top);
 }
 
 static void read_figure(lua_State *L, JoxClaimFigure *figure) {
@@ -230,24 +236,35 @@ static void read_figures(lua_State *L, JoxClaim *claim) {
     for (uint32_t f = 0; f < claim->figure_count; f++) {
         lua_rawgeti(L, -1, (lua_Integer)f + 1);
         read_figure(L, &claim->figures[f]);
+        for (uint32_t other = 0; other < f; other++)
+            if (strcmp(claim->figures[other].name, claim->figures[f].name) == 0)
+                luaL_error(L, "'%s' is expected twice", claim->figures[f].name);
         lua_pop(L, 1);
     }
     lua_pop(L, 1);
 }
 
 static void read_pictures(lua_State *L, JoxClaim *claim) {
-    int top = lua_gettop(L);
+    int top = lua_gettop(L), type = lua_getfield(L, -1, "pictures");
     size_t capacity = 0;
-    bool given = lua_getfield(L, -1, "pictures") == LUA_TTABLE;
-    for (uint32_t r = 0; given && r < claim->run_count; r++) {
-        bool some = lua_getfield(L, top + 1, claim->runs[r].name) == LUA_TTABLE;
-        for (lua_Integer p = 1; some && lua_rawgeti(L, top + 2, p) == LUA_TSTRING; p++) {
+    if (type != LUA_TNIL && type != LUA_TTABLE)
+        luaL_error(L, "pictures = { name = { \"paths.png\" } }, by the names of runs");
+    uint32_t count = 0;
+    const char **names = type == LUA_TTABLE ? keys_of(L, &count) : NULL;
+    for (uint32_t n = 0; n < count; n++) {
+        find_run(L, claim, "pictures", names[n]);
+        if (lua_getfield(L, -1, names[n]) != LUA_TTABLE)
+            luaL_error(L, "pictures of run '%s' are a list of files", names[n]);
+        for (lua_Integer p = 1; lua_rawgeti(L, -1, p) != LUA_TNIL; p++) {
+            const char *file = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+            if (!file || strchr(file, '/'))
+                luaL_error(L, "pictures of run '%s' are names of files in its report", names[n]);
             JOX_RESERVE(claim->pictures, capacity, claim->picture_count + 1);
             claim->pictures[claim->picture_count++] =
-                (JoxClaimPicture){jox_strdup(claim->runs[r].name), jox_strdup(lua_tostring(L, -1))};
-            lua_settop(L, top + 2);
+                (JoxClaimPicture){jox_strdup(names[n]), jox_strdup(file)};
+            lua_pop(L, 1);
         }
-        lua_settop(L, top + 1);
+        lua_pop(L, 2);
     }
     lua_settop(L, top);
 }
@@ -354,8 +371,8 @@ static int word_csv(lua_State *L) {
     while (*at == '\n' && at[1]) {
         row++;
         for (int c = 0; c < columns && (c == 0 || *at == ','); c++) {
-            char *end;
-            double value = strtod(++at, &end);
+            char *end = ++at; /* strtod would pass over an empty value into the next line */
+            double value = strchr(",\n", *at) ? 0.0 : strtod(at, &end);
             if (end != at) {
                 lua_pushnumber(L, value);
                 lua_rawseti(L, table + 1 + c, row);
@@ -418,10 +435,14 @@ bool jox_claim_measure(const JoxClaim *claim, const char *const *folders, double
         lua_pushstring(L, claim->figures[f].name);
         if (lua_rawget(L, -2) == LUA_TNUMBER)
             values[f] = lua_tonumber(L, -1);
+        else if (!claim->figures[f].reported)
+            jox_text_printf(why, "%s%s: measure returned no number '%s'", why->length ? "\n" : "",
+                            claim->path, claim->figures[f].name);
         lua_pop(L, 1);
     }
     if (!good)
         jox_text_printf(why, "%s:%d: %s", claim->path, line, message);
+    good = good && why->length == 0;
     lua_settop(L, 0);
     return good;
 }
@@ -500,6 +521,7 @@ void jox_claim_free(JoxClaim *claim) {
         jox_free(claim->pictures[p].run);
         jox_free(claim->pictures[p].file);
     }
+    free_run(&claim->spare);
     void *owned[] = {claim->runs, claim->figures, claim->pictures, claim->path,
                      claim->id,   claim->title,   claim->source,   claim->text};
     for (size_t k = 0; k < sizeof owned / sizeof *owned; k++)

@@ -68,8 +68,13 @@ const JoxExample jox_scene_examples[] = {
      "    friction: 0.5\n"
      "    restitution: 0.7\n"
      "    damping: 0.1\n"
+     "    repeat: {count: [3, 1, 1], step: [0.5, 0, 0]}\n"
      "    tags: [ball]\n"
      "  - {name: crate, shape: {box: {size: [1, 1, 1]}}, density: 300 kg/m3, at: [5, 0, 0.5], turn: 30}\n"
+     STANDER},
+    {"repeat", OPENING
+     "bodies:\n"
+     "  - {name: chair, shape: {cylinder: {radius: 0.25, height: 0.5}}, mass: 6, at: [0, 3, 0.25], repeat: {count: [5, 2, 1], step: [1.2, 1, 0]}}\n"
      STANDER},
     {"shape", OPENING
      "bodies:\n"
@@ -142,6 +147,7 @@ const JoxExample jox_scene_examples[] = {
      "  fields:  {map: {}, every: 2}\n"
      "  laps:    {winding: [0, 0]}\n"
      "  solved:  {failures: 1}\n"
+     "  arrival: {visit: [Run, Arrived]}\n"
      "  order:   {lanes: {area: [[-2, -2], [4, 2]]}}\n"},
     {"map", OPENING
      "include: running-through.yaml\n"

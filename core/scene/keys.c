@@ -121,7 +121,11 @@ const JoxKey jox_scene_keys[] = {
     {"body", "restitution", NUMBER, "", 0, 1, "0", .meaning = "multiplied with the other's"},
     {"body", "damping", NUMBER, "", 0, 1, "0",
      .meaning = "share of the velocity lost in a second"},
+    {"body", "repeat", TABLE, "", 0, 0, "", .of = "repeat",
+     .meaning = "the same body many times, on a lattice"},
     {"body", "tags", NAMES, "", 0, 0, "", .meaning = "what behaviours know it by"},
+    {"repeat", "count", POINT3, "", 1, 4096, "!", .meaning = "how many along x, y and z; 4096 in all at most"},
+    {"repeat", "step", POINT3, "m", -FAR, FAR, "!", .meaning = "from one to the next along x, y and z"},
     {"shape", "box", TABLE, "", 0, 0, "", .of = "box", .meaning = "a cuboid"},
     {"shape", "sphere", TABLE, "", 0, 0, "", .of = "sphere", .meaning = "a ball"},
     {"shape", "cylinder", TABLE, "", 0, 0, "", .of = "cylinder",
@@ -200,6 +204,8 @@ const JoxKey jox_scene_keys[] = {
      .meaning = "share of agent-steps whose 2-D program failed, in bins of this length"},
     {"probe", "lanes", TABLE, "", 0, 0, "", .of = "lanes",
      .meaning = "order parameter of lanes between opposite ways"},
+    {"probe", "visit", NAMES, "", 0, 0, "",
+     .meaning = "two states: the time that people take from entering the first to entering the second, and whether they keep their order"},
     {"probe", "group", NAMES, "", 0, 0, "", .meaning = "only people of these groups are measured"},
     {"probe", "from", NUMBER, "s", 0, 1e9, "0", .meaning = "nothing is measured before"},
     {"probe", "until", NUMBER, "s", 0, 1e9, "1e9", .meaning = "nor from then on"},
@@ -271,6 +277,7 @@ const JoxOwner jox_scene_owners[] = {
      "POLYGON is what can be walked: its outer ring and its holes become walls; so do MULTIPOLYGON, LINESTRING, "
      "MULTILINESTRING and GEOMETRYCOLLECTION."},
     {"body", "Bodies", "Each body of the list `bodies` is simulated by Bullet, and pushed by people."},
+    {"repeat", "repeat", "The first stands at the body's `at`. Copies of a body with a name are `NAME-1`, `NAME-2` and so on, along x first, then y, then z."},
     {"shape", "Shapes", "A shape is a map with one key, its kind."},
     {"box", "box", ""},
     {"sphere", "sphere", ""},
@@ -283,7 +290,7 @@ const JoxOwner jox_scene_owners[] = {
      "some places (`in`), or `at` given points."},
     {"source", "Sources", "Each source of the list `sources` brings agents in as time goes on."},
     {"sink", "Sinks", "Each sink of the list `sinks` takes agents out."},
-    {"probe", "Probes", "`probes` maps names to probes; each has one of the first eight keys, which says what it "
+    {"probe", "Probes", "`probes` maps names to probes; each has one of the first nine keys, which says what it "
      "measures. Their figures stand in the summary under `probes`; `--report DIR` adds DIR/NAME.csv, NAME.png and "
      "NAME.svg. `jostle report` measures recordings by them, those of real crowds too."},
     {"map", "map", ""},
@@ -305,7 +312,7 @@ const JoxAlternative jox_scene_alternatives[] = {
     {"group", "count|density", JOX_AT_MOST_ONE},
     {"group", "count|density|at", JOX_AT_LEAST_ONE},
     {"source", "rate|keep", JOX_AT_LEAST_ONE},
-    {"probe", "flow|measure|transit|displacement|map|winding|failures|lanes", JOX_EXACTLY_ONE},
+    {"probe", "flow|measure|transit|displacement|map|winding|failures|lanes|visit", JOX_EXACTLY_ONE},
     {"event", "throw|open|close|signal", JOX_EXACTLY_ONE},
 };
 const size_t jox_scene_alternative_count =

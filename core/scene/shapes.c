@@ -1,10 +1,12 @@
 /* Bodies of a scene. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/elementary.h"
 #include "scene/internal.h"
 
+enum { MOST_COPIES = 4096 }; /* of a body that is repeated */
 static const double DEGREE = 3.14159265358979323846 / 180.0;
 
 static bool read_shape(const JoxLoad *l, const JoxYaml *map, JoxShape *shape, bool parts_allowed);
@@ -160,12 +162,69 @@ static void read_body(JoxLoad *l, const JoxYaml *map, JoxSceneBody *body) {
         read_block_mass(r, map, jox_yaml_get(shape, "blocks"), &body->def);
 }
 
+/* How often a body stands there, along x, y and z; false with an error. */
+static bool read_repeat(const JoxReader *r, const JoxYaml *map, double count[3], double step[3]) {
+    const JoxYaml *repeat = jox_yaml_get(map, "repeat"), *node;
+    count[0] = count[1] = count[2] = 1;
+    step[0] = step[1] = step[2] = 0;
+    if (!repeat)
+        return true;
+    if (!jox_keys_check(r, repeat, "repeat") ||
+        !jox_key_vector(r, repeat, "repeat", "count", count, 3) ||
+        !jox_key_vector(r, repeat, "repeat", "step", step, 3))
+        return false;
+    node = jox_yaml_get(repeat, "count");
+    for (uint32_t i = 0; i < 3; i++)
+        if (count[i] != floor(count[i])) {
+            jox_scene_error(r, node->items[i], "bad-type", NULL, "count must be whole numbers");
+            return false;
+        }
+    if (count[0] * count[1] * count[2] <= MOST_COPIES)
+        return true;
+    jox_scene_error(r, node, "out-of-range", NULL, "a body is repeated at most %d times, not %.0f",
+                    MOST_COPIES, count[0] * count[1] * count[2]);
+    return false;
+}
+
+/* The body at each point of its lattice, x first. Copies of a named one are NAME-1, NAME-2, ... */
+static void add_copies(JoxLoad *l, const JoxSceneBody *body, const double count[3],
+                       const double step[3], uint32_t *room) {
+    JoxScene *scene = l->scene;
+    uint32_t copies = (uint32_t)(count[0] * count[1] * count[2]);
+    if (scene->body_count + copies > *room) {
+        *room = 2 * (scene->body_count + copies);
+        JoxSceneBody *wider = jox_hoard_take(l->reader.hoard, *room, sizeof *wider);
+        if (scene->body_count)
+            memcpy(wider, scene->bodies, scene->body_count * sizeof *wider);
+        scene->bodies = wider;
+    }
+    for (uint32_t n = 0; n < copies; n++) {
+        uint32_t x = (uint32_t)count[0], y = (uint32_t)count[1];
+        uint32_t cell[3] = {n % x, n / x % y, n / (x * y)};
+        JoxSceneBody *copy = &scene->bodies[scene->body_count++];
+        *copy = *body;
+        for (int i = 0; i < 3; i++)
+            copy->def.position[i] += cell[i] * step[i];
+        if (copies > 1 && body->def.name) {
+            char name[80];
+            snprintf(name, sizeof name, "%.60s-%u", body->def.name, n + 1);
+            copy->def.name = jox_hoard_text(l->reader.hoard, name);
+        }
+    }
+}
+
 void jox_load_bodies(JoxLoad *l, const JoxYaml *list) {
     if (list && list->kind != JOX_YAML_LIST)
-        jox_scene_error(&l->reader, list, "bad-type", NULL, "bodies is a list");
-    uint32_t count = list && list->kind == JOX_YAML_LIST ? list->count : 0;
-    l->scene->bodies = jox_hoard_take(l->reader.hoard, count, sizeof *l->scene->bodies);
-    l->scene->body_count = count;
-    for (uint32_t i = 0; i < count; i++)
-        read_body(l, list->items[i], &l->scene->bodies[i]);
+        jox_scene_error(&l->reader, list, "bad-type",
+                        "A map may change bodies of an included scene that have these names",
+                        "bodies is a list");
+    uint32_t count = list && list->kind == JOX_YAML_LIST ? list->count : 0, room = count;
+    l->scene->bodies = jox_hoard_take(l->reader.hoard, room, sizeof *l->scene->bodies);
+    for (uint32_t i = 0; i < count; i++) {
+        JoxSceneBody body = {0};
+        double copies[3], step[3];
+        read_body(l, list->items[i], &body);
+        if (read_repeat(&l->reader, list->items[i], copies, step))
+            add_copies(l, &body, copies, step, &room);
+    }
 }

@@ -22,6 +22,14 @@ typedef enum JoxStage {
     JOX_STAGE_OBSERVE
 } JoxStage;
 
+/* Momentum that passes between people and bodies by contacts and hits, in the plane: what people
+   are given against how the momentum of the bodies in Bullet changes. */
+typedef struct JoxExchange {
+    uint64_t contacts;
+    double impulse;  /* sum of their sizes, N s */
+    double residual; /* sum over the steps of the size of what does not cancel, N s */
+} JoxExchange;
+
 /* Of glue between blocks. */
 typedef struct JoxBondStatistics {
     uint64_t broken;
@@ -51,7 +59,7 @@ typedef struct JoxStatistics {
     uint64_t overlap[JOX_OVERLAP_BINS];
     uint64_t overlap_samples;
     JoxBondStatistics bonds;
-    double momentum_x, momentum_y; /* given to agents by bodies less that given to bodies, N s */
+    JoxExchange exchange;
 } JoxStatistics;
 
 /* Wall clock and CPU clock of this thread, s. */

@@ -131,6 +131,23 @@ static void take_hits(JoWorld *w, const JoxBodiesReport *report) {
     w->statistics.hits += report->hit_count;
 }
 
+/* People's pushes and contacts, and whether contacts give bodies what they take from people. */
+static void give_impulses(JoWorld *w, const JoxImpulse *impulses, uint32_t count) {
+    JoxExchange *exchange = &w->statistics.exchange;
+    JoxForceTotals totals = jox_force_totals(w->forces);
+    double before[3], after[3];
+    if (count == 0)
+        return;
+    jox_bodies_momentum(w->bodies, before);
+    jox_bodies_impulses(w->bodies, impulses, count);
+    jox_bodies_momentum(w->bodies, after);
+    double x = totals.touched_x + (after[0] - before[0] - totals.pushed_x);
+    double y = totals.touched_y + (after[1] - before[1] - totals.pushed_y);
+    exchange->contacts += totals.touches;
+    exchange->impulse += totals.touched;
+    exchange->residual += sqrt(x * x + y * y);
+}
+
 static void bodies(JoWorld *w) {
     if (jox_bodies_count(w->bodies) == 0)
         return;
@@ -140,7 +157,7 @@ static void bodies(JoWorld *w) {
     const JoxImpulse *impulses = jox_force_impulses(w->forces, &count);
     if (!w->statistics.bonds.touched)
         jox_world_note_touch(w);
-    jox_bodies_impulses(w->bodies, impulses, count);
+    give_impulses(w, impulses, count);
     if (is_first(w))
         jox_bodies_impulses(w->bodies, w->mind.kicks, w->mind.kick_count);
     bool fast = w->def.forces && jox_bodies_any_fast(w->bodies, (float)w->part_dt);
@@ -148,6 +165,9 @@ static void bodies(JoWorld *w) {
     JoxBodiesReport report =
         jox_bodies_step(w->bodies, (float)w->part_dt, fast ? w->discs : NULL, discs);
     take_hits(w, &report);
+    w->statistics.exchange.contacts += report.hit_count;
+    w->statistics.exchange.impulse += report.hit_impulse;
+    w->statistics.exchange.residual += report.hit_residual;
     jox_world_note_breaks(w, &report);
     w->statistics.bodies_lost += report.gone_count;
 }

@@ -2,8 +2,8 @@ return claim {
   id = "L1", title = "Lanes of people who walk against each other",
   source = "Juelich archive, bidirectional corridor of 4 m at 1.25 people per square metre",
   text = "Fifty people each way. Lanes form by themselves, and nearly keep the speed of free walkers.",
-  runs = { both = { scene = "../bidirectional.yaml", seeds = 3 } },
-  quick = { both = { seeds = 1 } },
+  runs = { both = { scene = "../bidirectional.yaml", seeds = 6 } },
+  quick = { both = { seeds = 2 } },
   measure = function(run)
     local lanes = run.both.summary.probes.lanes
     return { order = lanes.order, speed = lanes.speed }

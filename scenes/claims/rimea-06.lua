@@ -15,6 +15,7 @@ return claim {
     return {
       round = round("corner"), round_fine = round("fine"), round_coarse = round("coarse"),
       walls = walls("corner"), walls_fine = walls("fine"), walls_coarse = walls("coarse"),
+      last = run.corner.summary.probes.corner.last,
     }
   end,
   expect = {
@@ -24,6 +25,7 @@ return claim {
     { "walls", what = "times that the middle of a person came within 0.1 m of a wall, dt 0.05 s", source = "0", band = { 0, 0 } },
     { "walls_fine", what = "the same, dt 0.01 s", source = "0", band = { 0, 0 } },
     { "walls_coarse", what = "the same, dt 0.1 s", source = "0", band = { 0, 0 } },
+    { "last", unit = "s", what = "when the last is round it, dt 0.05 s", reported = true },
   },
   pictures = { corner = { "paths.png", "corner.png" } },
 }

@@ -24,4 +24,7 @@ compare evacuation --for 15
 compare catch --for 20
 compare station --for 12
 compare gates --for 25
+compare wall-breaking --for 14
+compare office --for 8
+compare dodgeball-500 --for 4
 exit 0

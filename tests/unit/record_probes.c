@@ -12,9 +12,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "geom/polygon.h"
 #include "record/probe.h"
-#include "record/voronoi.h"
 
 enum { MOST = 1000 };
 
@@ -24,6 +22,7 @@ static struct {
     float x[MOST], y[MOST], vx[MOST], vy[MOST], compression[MOST];
     uint8_t failed[MOST];
     uint16_t group[MOST];
+    uint32_t state[MOST];
     JoxV2 period;
     JoxWalls walls;
 } crowd;
@@ -34,6 +33,8 @@ static void nobody(uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         crowd.key[i] = i;
 }
+
+static const char *const STATES[] = {"Walk", "Wait", "Served"};
 
 static void show(JoxProbe *probe, double t) {
     const JoxFrame frame = {.time = t,
@@ -48,6 +49,9 @@ static void show(JoxProbe *probe, double t) {
                             .compression = crowd.compression,
                             .failed = crowd.failed,
                             .group = crowd.group,
+                            .state = crowd.state,
+                            .states = STATES,
+                            .state_count = 3,
                             .walls = &crowd.walls};
     jox_probe_frame(probe, &frame);
 }
@@ -74,6 +78,7 @@ static JoxProbeDef def_of(JoxProbeKind kind, const JoxV2 *points, uint32_t count
                          .until = INFINITY,
                          .points = points,
                          .count = count,
+                         .states = {"Wait", "Served"},
                          .every = 1,
                          .cutoff = 1,
                          .onset = 0.05,
@@ -188,116 +193,7 @@ static void edges_that_are_joined_count_once(void **state) {
     }
 }
 
-/* ---- Voronoi ---- */
-
-static void a_lattice_has_known_cells(void **state) {
-    (void)state;
-    JoxSites sites = {0};
-    JoxCell cell;
-    jox_sites_clear(&sites);
-    for (uint32_t i = 0; i < 400; i++)
-        jox_sites_add(&sites, jox_v2(0.5f * (float)(i % 20), 0.5f * (float)(i / 20)), i);
-    jox_sites_sort(&sites, 1.0);
-    jox_sites_cell(&sites, 10 * 20 + 10, 1.0, &cell);
-    assert_near(jox_cell_area(&cell), 0.25, 1e-9);
-    /* At a corner of the lattice the cell ends at the cutoff: a quarter of the 32-gon and the
-       square and stripes towards the others. */
-    jox_sites_cell(&sites, 0, 1.0, &cell);
-    assert_true(jox_cell_area(&cell) > 0.7 && jox_cell_area(&cell) < 1.4);
-    jox_sites_clear(&sites); /* alone: half the sum of 32 triangles */
-    jox_sites_add(&sites, jox_v2(3, 4), 7);
-    jox_sites_sort(&sites, 1.0);
-    jox_sites_cell(&sites, 0, 1.0, &cell);
-    assert_near(jox_cell_area(&cell), 16 * sin(2 * 3.14159265358979 / 32), 1e-9);
-    jox_sites_free(&sites);
-}
-
-/* A number within [0, 1) of a counter. */
-static double drawn(uint32_t n) {
-    n = (n ^ 61u) ^ (n >> 16);
-    n *= 9u;
-    n ^= n >> 4;
-    n *= 0x27d4eb2du;
-    return (double)((n ^ (n >> 15)) >> 8) / 16777216.0;
-}
-
-/* Cells of people at random against points of a fine grid, each given to the nearest person. */
-static void cells_are_what_is_nearest(void **state) {
-    (void)state;
-    enum { PEOPLE = 60, FINE = 400 };
-    const double side = 5.0, step = side / FINE, cutoff = 0.8;
-    static const JoxV2 L[] = {{1, 1},       {4, 1},    {4, 2.5f},
-                              {2.2f, 2.5f}, {2.2f, 4}, {1, 4}}; /* an L */
-    JoxSites sites = {0};
-    double areas[PEOPLE] = {0}, within[PEOPLE] = {0};
-    for (uint32_t i = 0; i < PEOPLE; i++)
-        jox_sites_add(
-            &sites, jox_v2((float)(side * drawn(2 * i + 1)), (float)(side * drawn(2 * i + 2))), i);
-    jox_sites_sort(&sites, cutoff);
-    for (int r = -FINE / 5; r < FINE + FINE / 5; r++)
-        for (int c = -FINE / 5; c < FINE + FINE / 5; c++) {
-            double x = (c + 0.5) * step, y = (r + 0.5) * step, best = INFINITY;
-            uint32_t who = 0;
-            for (uint32_t i = 0; i < PEOPLE; i++) {
-                double dx = x - sites.points[i].x, dy = y - sites.points[i].y;
-                if (dx * dx + dy * dy < best) {
-                    best = dx * dx + dy * dy;
-                    who = i;
-                }
-            }
-            bool in_l = x > 1 && y > 1 && x < 4 && y < 4 && (y < 2.5 || x < 2.2);
-            areas[who] += best < cutoff * cutoff ? step * step : 0.0;
-            within[who] += best < cutoff * cutoff && in_l ? step * step : 0.0;
-        }
-    for (uint32_t i = 0; i < PEOPLE; i++) {
-        JoxCell cell;
-        jox_sites_cell(&sites, i, cutoff, &cell);
-        /* The disc is a polygon of 32 corners: up to 0.7 % of its area is lost. */
-        assert_near(jox_cell_area(&cell), areas[i], 0.02);
-        assert_near(jox_cell_area_within(&cell, sites.points[i], L, 6), within[i], 0.02);
-    }
-    jox_sites_free(&sites);
-}
-
-/* What is seen past walls with a gap, against points of a fine grid. */
-static void walls_end_cells(void **state) {
-    (void)state;
-    enum { FINE = 500 };
-    static const JoxV2 BOX[] = {{-0.6f, -0.5f}, {0.7f, -0.5f}, {0.7f, 0.9f}, {-0.6f, 0.9f}};
-    static struct JoxBar walls[] = {{{-2, 0.3f}, {-0.1f, 0.3f}},    {{0.2f, 0.3f}, {2, 0.3f}},
-                                    {{0.2f, 0.3f}, {0.2f, 0.6f}},   {{-0.4f, -2}, {-0.5f, 2}},
-                                    {{0.3f, -0.4f}, {0.9f, -0.4f}}, {{0.4f, -0.6f}, {0.5f, -0.1f}}};
-    const JoxBars bars = {walls, sizeof walls / sizeof *walls, 0};
-    for (uint32_t n = 0; n < 12; n++) {
-        JoxV2 at = {(float)(0.6 * drawn(3 * n) - 0.3), (float)(0.5 * drawn(3 * n + 1) - 0.25)};
-        JoxCell cell;
-        double whole, within, seen = 0.0, seen_within = 0.0, step = 2.0 / FINE;
-        jox_cell_begin(&cell, 1.0);
-        jox_cell_cut(&cell, 0.9, 0.3);
-        jox_cell_cut(&cell, -0.3, -1.1);
-        jox_cell_seen(&cell, at, &bars, BOX, 4, &whole, &within);
-        for (int r = 0; r < FINE; r++)
-            for (int c = 0; c < FINE; c++) {
-                double x = (c + 0.5) * step - 1, y = (r + 0.5) * step - 1;
-                bool inside = true, blocked = false;
-                for (uint32_t k = 0; k < cell.count && inside; k++) {
-                    uint32_t m = k + 1 < cell.count ? k + 1 : 0;
-                    inside = (cell.x[m] - cell.x[k]) * (y - cell.y[k]) >=
-                             (cell.y[m] - cell.y[k]) * (x - cell.x[k]);
-                }
-                JoxV2 there = {at.x + (float)x, at.y + (float)y};
-                for (uint32_t b = 0; b < bars.count && inside && !blocked; b++)
-                    blocked = jox_segment_crossing(walls[b].from, walls[b].to, at, there) != 0;
-                bool in_box =
-                    there.x > -0.6f && there.x < 0.7f && there.y > -0.5f && there.y < 0.9f;
-                seen += inside && !blocked ? step * step : 0.0;
-                seen_within += inside && !blocked && in_box ? step * step : 0.0;
-            }
-        assert_true(seen > 0.05);
-        assert_near(whole, seen, 0.01);
-        assert_near(within, seen_within, 0.01);
-    }
-}
+/* ---- density ---- */
 
 static void a_lattice_is_measured(void **state) {
     (void)state;
@@ -353,6 +249,27 @@ static void cells_reach_over_joined_edges(void **state) {
 }
 
 /* ---- the others ---- */
+
+/* Four people queue at 1, 2, 3 and 4 s; served are the first at 5, the third at 6, the second at 7
+   s; the fourth never. Of the three pairs of those served, one changed order. */
+static void visit_is_from_state_to_state(void **state) {
+    (void)state;
+    JoxProbeDef def = def_of(JOX_PROBE_VISIT, NULL, 0);
+    JoxProbe *probe = jox_probe_create(&def);
+    static const double WAITS[] = {1, 2, 3, 4}, SERVED[] = {5, 7, 6, 99};
+    nobody(4);
+    for (int tick = 0; tick <= 80; tick++) {
+        double t = tick * 0.1;
+        for (int i = 0; i < 4; i++)
+            crowd.state[i] = t > SERVED[i] - 1e-6 ? 2 : t > WAITS[i] - 1e-6 ? 1 : 0;
+        show(probe, t);
+    }
+    assert_near(figure(probe, "passages"), 3, 0);
+    assert_near(figure(probe, "under_way"), 1, 0);
+    assert_near(figure(probe, "mean"), 4, 1e-6);
+    assert_near(figure(probe, "inversions"), 1.0 / 3.0, 1e-9);
+    jox_probe_free(probe);
+}
 
 static void transit_is_from_line_to_line(void **state) {
     (void)state;
@@ -568,6 +485,15 @@ static void a_summary_is_json(void **state) {
     jox_probe_free(p);
 }
 
+/* A number within [0, 1) of a counter. */
+static double drawn(uint32_t n) {
+    n = (n ^ 61u) ^ (n >> 16);
+    n *= 9u;
+    n ^= n >> 4;
+    n *= 0x27d4eb2du;
+    return (double)((n ^ (n >> 15)) >> 8) / 16777216.0;
+}
+
 static void steady_frames_allocate_nothing(void **state) {
     (void)state;
     static const JoxV2 POINTS[] = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
@@ -600,12 +526,10 @@ int main(void) {
         cmocka_unit_test(who_steps_back_has_not_passed),
         cmocka_unit_test(times_and_groups_choose),
         cmocka_unit_test(edges_that_are_joined_count_once),
-        cmocka_unit_test(a_lattice_has_known_cells),
-        cmocka_unit_test(cells_are_what_is_nearest),
-        cmocka_unit_test(walls_end_cells),
         cmocka_unit_test(a_lattice_is_measured),
         cmocka_unit_test(cells_reach_over_joined_edges),
         cmocka_unit_test(transit_is_from_line_to_line),
+        cmocka_unit_test(visit_is_from_state_to_state),
         cmocka_unit_test(a_push_travels),
         cmocka_unit_test(fields_are_the_kernel),
         cmocka_unit_test(turns_are_counted),

@@ -176,6 +176,14 @@ static const struct Case {
      "[2, "
      "1, 1], bond: 9}}}]}}\n",
      "bad-shape", NULL},
+    {"bodies:\n  - {shape: {sphere: {radius: 1}}, at: [0, 0, 1], repeat: {count: [1, @0.5, 1], "
+     "step: "
+     "[1, 1, 1]}}\n",
+     "out-of-range", NULL},
+    {"bodies:\n  - {shape: {sphere: {radius: 1}}, at: [0, 0, 1], repeat: {count: @[99, 99, 1], "
+     "step: "
+     "[1, 1, 1]}}\n",
+     "out-of-range", NULL},
     {"groups: @[a]\n", "bad-type", NULL},
     {"groups: @none\n", "bad-type", NULL},
     {"groups: {g: @{at: [[0, 0]]}}\n", "missing-key", "behaviour: walker.lua"},
@@ -462,6 +470,7 @@ static void included_files_give_what_is_lacking(void **state) {
     assert_float_equal(scene->bodies[1].def.mass, 7, 0);
     assert_float_equal(scene->bodies[1].def.position[0], 5, 0);
     jox_scene_free(scene);
+    *strstr(text, "bodies:") = '\0';
     write_file("base.yaml", "title: Base\ninclude: [main.yaml]\n");
     assert_null(jox_scene_load(write_file("main.yaml", text), NULL, &d));
     assert_int_equal(d.errors, 1);

@@ -1,0 +1,34 @@
+local measure = require "measure"
+
+-- The western doors shut, by the ends of their leaves, and their people sent to the eastern ones.
+local shut = {
+  ["walls.4.line.1.0"] = 8, ["walls.4.line.1.1"] = 0, ["walls.5.line.1.0"] = 8, ["walls.5.line.1.1"] = 20,
+  ["groups.from_south_west.set.door"] = "door_se", ["groups.from_north_west.set.door"] = "door_ne",
+}
+
+return claim {
+  id = "R9", title = "RiMEA 9: two doors against four",
+  source = "RiMEA guideline, test 9; IMO MSC.1/Circ.1533, test 9",
+  text = "A thousand people leave a hall by four doors of 1 m, then by two of them. It takes about twice as long.",
+  runs = { four = { scene = "../rimea-09.yaml", seeds = 3 }, two = { scene = "../rimea-09.yaml", seeds = 3, set = shut } },
+  quick = { four = { seeds = 1 }, two = { seeds = 1 } },
+  measure = function(run)
+    local function last(probes, names)
+      local list, people = {}, 0
+      for i = 1, #names do
+        list[i], people = probes[names[i]].last, people + probes[names[i]].forward
+      end
+      return measure.most(list), people
+    end
+    local four, all = last(run.four.summary.probes, { "west_south", "east_south", "west_north", "east_north" })
+    local two, both = last(run.two.summary.probes, { "east_south", "east_north" })
+    return { ratio = two / four, four = four, two = two, people = math.min(all, both) }
+  end,
+  expect = {
+    { "ratio", what = "time by two doors over time by four", source = "about 2", band = { 1.7, 2.3 } },
+    { "people", what = "people who got out, the fewer of both", source = "1000", band = { 1000, 1000 } },
+    { "four", unit = "s", what = "until the last is out, four doors", reported = true },
+    { "two", unit = "s", what = "the same, two doors", reported = true },
+  },
+  pictures = { four = { "density.png", "west_south.png" }, two = { "density.png" } },
+}

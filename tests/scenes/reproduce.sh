@@ -1,0 +1,171 @@
+# `jostle reproduce`: what is in a band and what is not, what is wrong with a claim, what is run and what is reused.
+. tests/scenes/lib.sh
+expect() { # NAME STATUS TEXT COMMAND...: the exit status, and a text in the output
+    local name=$1 status=$2 text=$3; shift 3
+    timeout 60 "$@" >"$work/out" 2>&1 </dev/null
+    local got=$?
+    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
+        echo "not ok $name: status $got, wanted $status and '$text'"; head -8 "$work/out"; fi
+}
+says() { if grep -qF -- "$2" "$work/out"; then echo "ok $1"; else echo "not ok $1: nothing says '$2'"; head -8 "$work/out"; fi; }
+mkdir -p "$work/claims"
+cat >"$work/walk.yaml" <<'SCENE'
+jostle: 1
+duration: 20
+places: {east: {point: [14, 0], radius: 1}}
+groups: {walker: {behaviour: walker.lua, at: [[0, 0]], set: {goal: east, speed: 1.25}}}
+probes:
+  way:  {transit: [[[2, 3], [2, -3]], [[12, 3], [12, -3]]]}
+  line: {flow: [[2, -3], [2, 3]]}
+SCENE
+cat >"$work/claims/good.lua" <<'CLAIM'
+return claim {
+  id = "G", title = "It walks", source = "nobody",
+  runs = { walk = { scene = "../walk.yaml", seeds = 2 }, slow = { scene = "../walk.yaml", seeds = 1, duration = 30, set = { ["groups.walker.set.speed"] = 0.5 } } },
+  quick = { slow = { set = { ["groups.walker.set.speed"] = 1 } }, walk = { seeds = 1, duration = 15 } },
+  measure = function(run)
+    local line = run.walk.csv("line")
+    return {
+      time = run.walk.summary.probes.way.mean, slow = run.slow.summary.probes.way.mean, rows = line.n,
+      crossed = line.time[1], seed = run.walk.summary.seed, length = run.walk.summary.simulated_s,
+    }
+  end,
+  expect = {
+    { "time", unit = "s", source = 8, band = { 7.9, 8.1 } },
+    { "slow", unit = "s", band = { 19.5, 20.5 } },
+    { "rows", band = { 1, 1 } },
+    { "crossed", unit = "s", band = { 1.5, 1.8 } },
+    { "seed", reported = true }, { "length", unit = "s", reported = true },
+  },
+  pictures = { walk = { "paths.png" } },
+}
+CLAIM
+run=("$JOSTLE" reproduce --claims "$work/claims" --out "$work/rep" --quiet)
+
+# ---- in band ----
+expect "a claim in band is exit status 0" 0 "1 of 1 claims in band" "${run[@]}"
+says "it says so" "nobody): in band"
+value() { grep -o "\"$1\": {\"mean\": [^,]*" "$work/rep/results.json" | sed 's/.* //'; }
+between "the mean over two seeds" "$(value seed)" 1.5 1.5
+between "speeds are set by the claim" "$(value slow)" 19.5 20.5
+for file in index.html table.md results.json; do [ -s "$work/rep/$file" ]; verdict "it writes $file" $?; done
+grep -q 'src="runs/walk-[^"]*/paths.png"' "$work/rep/index.html"; verdict "the page shows the picture" $?
+[ "$(grep -c '^| ' "$work/rep/table.md")" = 7 ]; verdict "the table has a row for each figure" $?
+[ "$(sqlite3 :memory: "select json_extract(readfile('$work/rep/results.json'), '\$.G.figures.rows.mean')")" = 1 ]; verdict "results.json is JSON" $?
+[ -z "$(grep -o 'src="[^"]*"' "$work/rep/index.html" | sed 's/src="//; s/"//' | while read -r f; do [ -s "$work/rep/$f" ] || echo "$f"; done)" ]; verdict "all pictures of the page are there" $?
+
+# ---- what is done is not done again ----
+stamps() { stat -c '%Y.%y %n' "$work"/rep/runs/*/summary.json | sort; }
+runs() { "$JOSTLE" reproduce --claims "$work/claims" --out "$work/rep" "$@" 2>&1 >/dev/null | tail -1; }
+stamps >"$work/before"
+runs >"$work/out"; says "three runs are reused" "3 of 3 runs done (3 from before"
+stamps | cmp -s - "$work/before"; verdict "and not touched" $?
+runs --fresh >"$work/out"; says "--fresh does them again" "(0 from before"
+sed -i 's/duration: 20/duration: 21/' "$work/walk.yaml"
+runs >"$work/out"; says "an edited scene is run again" "(0 from before"
+# A probe that is taken away leaves nothing behind to be measured.
+sed -i '/^  line:/d' "$work/walk.yaml"
+expect "a probe that is gone is a miss, not yesterday's file" 1 "the run left no line.csv" "${run[@]}"
+echo '  line: {flow: [[2, -3], [2, 3]]}' >>"$work/walk.yaml"
+
+# ---- fewer and smaller ----
+expect "--quick" 1 "these miss: G" "${run[@]}" --quick
+between "--quick takes what quick says" "$(value length)" 15 15
+between "and its values, of runs that others share" "$(value slow)" 9.9 10.1
+expect "--seeds" 0 "in band" "${run[@]}" --seeds 4
+between "four seeds, where the claim has several" "$(value seed)" 2.5 2.5
+expect "--list names claims and runs nothing" 0 "G  It walks (nobody)" "${run[@]}" --list --out "$work/nothing"
+[ ! -e "$work/nothing" ]; verdict "and writes nothing" $?
+
+# ---- misses ----
+sed 's/id = "G"/id = "BAD"/; s/7.9, 8.1/1, 2/; s/-- .*//' "$work/claims/good.lua" >"$work/claims/bad.lua"
+expect "a claim out of band is exit status 1" 1 "1 of 2 claims in band; these miss: BAD" "${run[@]}"
+says "its figure says OUT" "band 1 to 2: OUT"
+grep -q 'class=out>misses' "$work/rep/index.html"; verdict "the page says so" $?
+expect "one claim by its id" 0 "1 of 1 claims in band" "${run[@]}" G
+expect "one claim by its file" 1 "0 of 1 claims in band; these miss: BAD" "${run[@]}" bad
+expect "no such claim" 3 "there is no claim 'X'" "${run[@]}" X
+rm "$work/claims/bad.lua"
+# fails NAME TEXT [SED...]: the good claim with changes; a miss that says why
+fails() {
+    local name=$1 text=$2; shift 2
+    sed "$@" "$work/claims/good.lua" >"$work/odd.lua"; mkdir -p "$work/odd"; mv "$work/odd.lua" "$work/odd/odd.lua"
+    expect "$name" 1 "$text" "$JOSTLE" reproduce --claims "$work/odd" --out "$work/rep" --quiet
+}
+fails "a figure that is not measured" "measure returned no number 'rows'" -e 's/rows = line.n/rwos = line.n/'
+fails "a figure that is not a number is out" "band 1 to 1: OUT" -e 's/rows = line.n/rows = 0 \/ 0/'
+fails "a mistake in measure, with its line" "odd.lua:6:" -e 's/run.walk.csv("line")/run.wolk.csv("line")/'
+fails "measure has nothing of what is expected" "odd.lua:5:" -e 's/  measure = function(run)/  measure = function(run) local e = run.expect.time/'
+fails "a scene that is missing" "../absent.yaml" -e 's/slow = { scene = "..\/walk.yaml"/slow = { scene = "..\/absent.yaml"/'
+printf 'jostle: 1\ngroups: {a: {behaviour: wlaker.lua, at: [[0, 0]]}}\n' >"$work/broken.yaml"
+fails "a scene that is wrong, with its place" "broken.yaml:2:" -e 's/slow = { scene = "..\/walk.yaml"/slow = { scene = "..\/broken.yaml"/'
+fails "a value that a scene does not have" "groups.walkr" -e 's/groups.walker.set.speed"\] = 0.5/groups.walkr.set.speed"] = 0.5/'
+fails "measure that never ends" "odd.lua:" -e 's/  measure = function(run)/  measure = function(run) while true do end/'
+
+# ---- claim files that are wrong: exit status 3, with file and line ----
+refuse() { # NAME TEXT SED...
+    local name=$1 text=$2; shift 2
+    sed "$@" "$work/claims/good.lua" >"$work/odd/odd.lua"
+    expect "$name" 3 "$text" "$JOSTLE" reproduce --claims "$work/odd" --out "$work/rep" --quiet
+    grep -q "odd.lua:[0-9]" "$work/out" || echo "not ok $name: no line"
+}
+refuse "a misspelt key" "did you mean 'source'?" -e 's/source = "nobody"/suorce = "nobody"/'
+refuse "a misspelt key of a run" "did you mean 'seeds'?" -e 's/seeds = 2/seed = 2/'
+refuse "a misspelt key of a figure" "did you mean 'band'?" -e 's/rows", band/rows", bnad/'
+refuse "no id" 'needs id = "..."' -e 's/id = "G", //'
+refuse "no measure" "needs measure = function(run)" -e '/measure = function/,/^  end,/d'
+refuse "a band upside down" "'time' needs band" -e 's/7.9, 8.1/8.1, 7.9/'
+refuse "a figure without a band" "'rows' needs band" -e 's/"rows", band = { 1, 1 }/"rows"/'
+refuse "a figure twice" "'time' is expected twice" -e 's/"slow", unit/"time", unit/'
+refuse "no seeds" "seeds is 1 to 1000" -e 's/seeds = 2/seeds = 0/'
+refuse "a duration that is a text" "duration is a number" -e 's/duration = 30/duration = "long"/'
+refuse "a value that is a table" "is set to a table" -e 's/speed"\] = 0.5/speed"] = {}/'
+refuse "quick of a run that is none" "quick: there is no run 'slwo'" -e 's/quick = { slow/quick = { slwo/'
+refuse "pictures of a run that is none" "pictures: there is no run 'wlak'" -e 's/pictures = { walk/pictures = { wlak/'
+refuse "a picture elsewhere" "names of files in its report" -e 's/"paths.png"/"..\/paths.png"/'
+refuse "a syntax error" "odd.lua:7:" -e '7s/.*/    return { = 1 }/'
+refuse "an unknown word" "clam" -e 's/return claim/return clam/'
+printf 'return 5\n' >"$work/odd/odd.lua"
+expect "a file without a claim" 3 "the file has no claim" "$JOSTLE" reproduce --claims "$work/odd" --out "$work/rep"
+mkdir -p "$work/empty"
+expect "a folder without claims" 3 "there are no claims in this folder" "$JOSTLE" reproduce --claims "$work/empty" --out "$work/rep"
+expect "an unknown option" 2 "unknown option --qiuck" "$JOSTLE" reproduce --qiuck
+expect "a help text" 0 "usage: jostle reproduce" "$JOSTLE" reproduce --help
+: >"$work/file"
+expect "a folder that cannot be made" 1 "$work/file" "$JOSTLE" reproduce --claims "$work/claims" --out "$work/file/rep" --quiet
+
+# ---- Ctrl-C ----
+cat >"$work/long.yaml" <<'SCENE'
+jostle: 1
+duration: 100000
+places: {yard: {polygon: [[0, 0], [40, 0], [40, 40], [0, 40]]}}
+groups: {people: {behaviour: stander.lua, count: 2000, in: yard, spacing: 0.5}}
+SCENE
+sed -e 's/walk.yaml/long.yaml/' "$work/claims/good.lua" >"$work/odd/odd.lua"
+"$JOSTLE" reproduce --claims "$work/odd" --out "$work/rep" --jobs 2 --quiet >"$work/out" 2>&1 </dev/null &
+parent=$!
+children() { ps -o pid= --ppid "$1" | wc -l; }
+for _ in $(seq 50); do [ "$(children $parent)" = 2 ] && break; sleep 0.1; done
+left=$(ps -o pid= --ppid $parent)
+[ "$(echo $left | wc -w)" = 2 ]; verdict "two runs at once" $?
+kill -TERM $parent # bash lets what runs in the background ignore SIGINT
+wait $parent
+[ $? = 1 ]; verdict "an interruption is exit status 1" $?
+says "and says what is kept" "interrupted; what was done is kept in"
+alive=0; for pid in $left; do kill -0 "$pid" 2>/dev/null && alive=1; done
+verdict "no run is left behind" $alive
+# Killed outright, it takes its runs along.
+"$JOSTLE" reproduce --claims "$work/odd" --out "$work/rep" --jobs 2 --quiet >"$work/out" 2>&1 </dev/null &
+parent=$!
+for _ in $(seq 50); do [ "$(children $parent)" = 2 ] && break; sleep 0.1; done
+left=$(ps -o pid= --ppid $parent)
+kill -KILL $parent; wait $parent 2>/dev/null
+for _ in $(seq 30); do alive=0; for pid in $left; do kill -0 "$pid" 2>/dev/null && alive=1; done; [ $alive = 0 ] && break; sleep 0.1; done
+verdict "nor when it is killed itself" $alive
+
+# ---- the shipped claims ----
+"$JOSTLE" reproduce --list >"$work/out" 2>&1; verdict "the shipped claims can be read" $?
+[ "$(grep -c '^[^ ]' "$work/out")" = "$(ls scenes/claims/*.lua | wc -l)" ]; verdict "and each is listed" $?
+[ -z "$(cut -d' ' -f1 "$work/out" | sort | uniq -d)" ]; verdict "under an id of its own" $?
+expect "claims that take a moment" 0 "4 of 4 claims in band" "$JOSTLE" reproduce R1 14 15 R7 --quick --out "$work/shipped" --quiet
+exit 0
