@@ -369,6 +369,23 @@ JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
     return scene;
 }
 
+/* Whether both were made of the same files, byte by byte. */
+static bool same_files(const JoScene *a, const JoScene *b) {
+    bool same = a->plan->file_count == b->plan->file_count &&
+                a->world->mind.machine_count == b->world->mind.machine_count;
+    for (uint32_t f = 0; same && f < a->plan->file_count; f++)
+        same = strcmp(a->plan->files[f].sha256, b->plan->files[f].sha256) == 0;
+    for (uint32_t m = 0; same && m < a->world->mind.machine_count; m++) {
+        uint32_t count, others;
+        const JoxLuaFile *files = jox_lua_files(a->lua, a->world->mind.machines[m], &count);
+        const JoxLuaFile *other = jox_lua_files(b->lua, b->world->mind.machines[m], &others);
+        same = count == others;
+        for (uint32_t f = 0; same && f < count; f++)
+            same = strcmp(files[f].sha256, other[f].sha256) == 0;
+    }
+    return same;
+}
+
 JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError *error) {
     JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && scene, NULL);
     if (scene->input_path) {
@@ -380,7 +397,12 @@ JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError
     half.dt = scene->world->def.dt / 2;
     half.seed = scene->world->def.seed;
     half.message = to_nobody; /* all has been said once */
-    JoScene *other = jo_scene_load(&half, error);
+    JoScene *other = scene->swap_seconds > 0.0 ? NULL : jo_scene_load(&half, error);
+    if (scene->swap_seconds > 0.0 || (other && !same_files(scene, other))) {
+        jox_error(error, JO_INPUT, "its files were edited meanwhile");
+        jo_scene_free(other);
+        return NULL;
+    }
     if (other)
         jox_host_begin_report(other);
     return other;

@@ -10,45 +10,8 @@
 #include "base/mem.h"
 #include "force/force.h"
 #include "host/reproduce.h"
+#include "record/html.h"
 #include "record/plot.h"
-
-static const char STYLE[] =
-    "body{font:16px/1.5 system-ui,sans-serif;max-width:72rem;margin:2rem auto;padding:0 1rem;"
-    "color:#1a1a1a;background:#fff}h1{font-size:1.7rem}h2{font-size:1.25rem;margin-top:2.5rem;"
-    "border-top:1px solid #ccc;padding-top:1rem}table{border-collapse:collapse;margin:1rem 0}"
-    "th,td{text-align:left;padding:.25rem .8rem .25rem 0;border-bottom:1px solid #ddd;"
-    "vertical-align:top}td.n{text-align:right;font-variant-numeric:tabular-nums}"
-    ".in{color:#00601f}.out{color:#a40000;font-weight:700}figure{display:inline-block;margin:.5rem "
-    "1rem .5rem 0;vertical-align:top}img{max-width:34rem;width:100%;border:1px solid #ddd}"
-    "figcaption,small{color:#555}details{margin:.5rem 0}pre{overflow:auto;background:#f6f6f6;"
-    "padding:.6rem;font-size:13px}.scroll{overflow-x:auto}";
-
-static void put_escaped(FILE *out, const char *text) {
-    for (; *text; text++)
-        switch (*text) {
-        case '<':
-            fputs("&lt;", out);
-            break;
-        case '>':
-            fputs("&gt;", out);
-            break;
-        case '&':
-            fputs("&amp;", out);
-            break;
-        case '"':
-            fputs("&quot;", out);
-            break;
-        default:
-            fputc(*text, out);
-        }
-}
-
-static void put_number(FILE *out, double value) {
-    if (isfinite(value))
-        fprintf(out, "%.4g", value);
-    else
-        fputs("&ndash;", out);
-}
 
 static void put_band(FILE *out, const JoxClaimFigure *figure, const char *dash) {
     if (figure->low == -INFINITY && figure->high == INFINITY)
@@ -117,17 +80,17 @@ static void put_figures(FILE *out, const JoxOutcome *outcome) {
         const JoxClaimFigure *figure = &outcome->claim->figures[f];
         const JoxVerdict *v = &outcome->verdicts[f];
         fputs("<tr><td>", out);
-        put_escaped(out, *figure->what ? figure->what : figure->name);
+        jox_html_text(out, *figure->what ? figure->what : figure->name);
         fputs("<td>", out);
-        put_escaped(out, figure->expected);
+        jox_html_text(out, figure->expected);
         fputs("<td class=n>", out);
-        put_number(out, v->mean);
+        jox_html_number(out, v->mean);
         fputc(' ', out);
-        put_escaped(out, figure->unit);
+        jox_html_text(out, figure->unit);
         fputs("<td class=n>", out);
-        put_number(out, v->least);
+        jox_html_number(out, v->least);
         fputs(" to ", out);
-        put_number(out, v->most);
+        jox_html_number(out, v->most);
         fputs("<td>", out);
         put_band(out, figure, "&ndash;");
         fprintf(out, "<td class=%s>%s</tr>\n",
@@ -155,11 +118,10 @@ static void put_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome
                 continue;
             }
             const char *link = path + strlen(all->def->out) + 1;
-            fprintf(out,
-                    "<figure><a href=\"%s\"><img loading=lazy src=\"%s\" alt=\"%s of run %s\">",
-                    link, link, claim->pictures[p].file, claim->runs[r].name);
-            fprintf(out, "</a><figcaption>%s: %s</figcaption></figure>\n", claim->runs[r].name,
-                    claim->pictures[p].file);
+            char caption[200];
+            snprintf(caption, sizeof caption, "%.90s: %.90s", claim->runs[r].name,
+                     claim->pictures[p].file);
+            jox_html_picture(out, link, NULL, caption);
         }
 }
 
@@ -170,18 +132,18 @@ static void put_runs(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
         const JoxJob *job = &all->jobs[outcome->jobs[r][0]];
         size_t length;
         fprintf(out, "<p><b>%s</b>: <code>jostle run ", run->name);
-        put_escaped(out, run->scene);
+        jox_html_text(out, run->scene);
         if (run->dt > 0.0)
             fprintf(out, " --dt %g", run->dt);
         if (run->duration > 0.0)
             fprintf(out, " --for %g", run->duration);
         for (uint32_t s = 0; s < run->set_count; s++) {
             fputs(" --set ", out);
-            put_escaped(out, run->sets[s]);
+            jox_html_text(out, run->sets[s]);
         }
         fprintf(out, "</code>, seeds 1 to %u, %s\n<pre>", run->seeds, job->folder);
         char *text = jox_read_file(run->scene, (size_t)1 << 20, &length);
-        put_escaped(out, text ? text : "");
+        jox_html_text(out, text ? text : "");
         jox_free(text);
         fputs("</pre>\n", out);
     }
@@ -191,16 +153,16 @@ static void put_runs(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
 static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
     fprintf(out, "<h2 id=\"c%u\">%s: ", (unsigned)(outcome - all->outcomes), claim->id);
-    put_escaped(out, claim->title);
+    jox_html_text(out, claim->title);
     fprintf(out, " &ndash; <span class=%s>%s</span></h2>\n<p>", outcome->inside ? "in" : "out",
             outcome->inside ? "in band" : "misses");
-    put_escaped(out, claim->text);
+    jox_html_text(out, claim->text);
     fputs("<br><small>Source: ", out);
-    put_escaped(out, claim->source);
+    jox_html_text(out, claim->source);
     fputs("</small></p>\n", out);
     if (outcome->failure) {
         fputs("<pre class=out>", out);
-        put_escaped(out, outcome->failure);
+        jox_html_text(out, outcome->failure);
         fputs("</pre>\n", out);
     }
     put_figures(out, outcome);
@@ -235,19 +197,17 @@ static bool write_page(const JoxReproduction *all, const char *when, JoxText *er
         return false;
     for (uint32_t o = 0; o < all->outcome_count; o++)
         inside += all->outcomes[o].inside;
-    fprintf(
-        out,
-        "<!doctype html><html lang=en><meta charset=utf-8><meta name=viewport "
-        "content=\"width=device-width\"><title>Jostle: what is reproduced</title>"
-        "<style>%s</style>\n<h1>What Jostle reproduces</h1>\n<p>%u of %u claims in band. %s.</p>"
-        "\n<div class=scroll><table><tr><th>claim<th>what<th>source<th>verdict</tr>\n",
-        STYLE, inside, all->outcome_count, when);
+    jox_html_begin(out, "What Jostle reproduces");
+    fprintf(out,
+            "<p>%u of %u claims in band. %s.</p>\n<div class=scroll><table><tr><th>claim<th>what"
+            "<th>source<th>verdict</tr>\n",
+            inside, all->outcome_count, when);
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         const JoxOutcome *outcome = &all->outcomes[o];
         fprintf(out, "<tr><td><a href=\"#c%u\">%s</a><td>", o, outcome->claim->id);
-        put_escaped(out, outcome->claim->title);
+        jox_html_text(out, outcome->claim->title);
         fputs("<td>", out);
-        put_escaped(out, outcome->claim->source);
+        jox_html_text(out, outcome->claim->source);
         fprintf(out, "<td class=%s>%s</tr>\n", outcome->inside ? "in" : "out",
                 outcome->inside ? "in band" : "misses");
     }
@@ -255,7 +215,7 @@ static bool write_page(const JoxReproduction *all, const char *when, JoxText *er
     for (uint32_t o = 0; o < all->outcome_count; o++)
         put_claim(out, all, &all->outcomes[o]);
     put_defaults(out);
-    fputs("</html>\n", out);
+    jox_html_end(out);
     return jox_plot_close(out, "index.html", error);
 }
 

@@ -29,8 +29,9 @@ const char jox_danger_conversion[] =
 
 const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS] = {
     {"density_5", JOX_DANGER_DENSITY, 5.0,
-     "upper limit for the safe planning of standing and moving crowds; risk grows fast above it",
-     "G. K. Still, Introduction to Crowd Science, 2014"},
+     "anything more crowded can become dangerous; dangerous crowd forces begin at 5.55",
+     "G. K. Still, in the press, 30 October 2022; Fruin, in Wirz et al., EPJ Data Science 2, 5, "
+     "2013"},
     {"density_7", JOX_DANGER_DENSITY, 7.0,
      "the crowd becomes almost a fluid mass; shock waves run through it",
      "J. J. Fruin, The causes and prevention of crowd disasters, 1993"},
@@ -45,7 +46,7 @@ const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS] = {
      "Hopkins et al. 1993, in Lee and Hughes, Accid. Anal. Prev. 38, 2006, 712-722"},
     /* A force on a rail, not on one chest: what bent steel railings after disasters tell. */
     {"load_4500", JOX_DANGER_COMPRESSION, HELD_BY(4500.0),
-     "4500 N: steel railings bent in fatal crowds",
+     "4500 N: steel railings bent in fatal crowds: on a rail, not on one chest",
      "J. J. Fruin, The causes and prevention of crowd disasters, 1993"},
     {"load_6227", JOX_DANGER_COMPRESSION, HELD_BY(6227.0),
      "6227 N: death estimated within 15 seconds",

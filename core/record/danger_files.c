@@ -106,7 +106,8 @@ static void strip(const JoxDanger *d, JoxDangerMeasure measure, FILE *script) {
             jox_danger_limits[first].value);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         double limit = jox_danger_limits[l].value;
-        if ((int)jox_danger_limits[l].measure != (int)measure || limit > 2.0 * fmax(top, limit / 2.1))
+        if ((int)jox_danger_limits[l].measure != (int)measure ||
+            limit > 2.0 * fmax(top, limit / 2.1))
             continue;
         if (limit > 1.6 * top && l > 0 && (int)jox_danger_limits[l - 1].measure == (int)measure)
             continue; /* far above: it would only flatten the line */

@@ -1,10 +1,71 @@
 /* Walls and what happens at given times. */
+#include <errno.h>
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "base/hash.h"
+#include "base/mem.h"
 #include "scene/internal.h"
+#include "scene/plan.h"
 
-enum { LONGEST_NAME = 60 };
+enum { LONGEST_NAME = 60, LARGEST_PLAN = 64 << 20 };
+
+/* A file that a mod names lies beside the mod's own. */
+static bool is_allowed(const JoxLoad *l, const JoxYaml *name, const char *path) {
+    struct stat info;
+    bool plain = *name->text != '/' && !strstr(name->text, "..") &&
+                 !(lstat(path, &info) == 0 && S_ISLNK(info.st_mode));
+    for (uint32_t m = 0; !plain && l->options && m < l->options->mod_count; m++) {
+        const char *folder = l->options->mods[m].folder;
+        if (strncmp(name->position.file, folder, strlen(folder)) == 0)
+            return false;
+    }
+    return true;
+}
+
+/* Adds the walls of `file` in a wall's map, and the file to those of the scene. */
+static bool load_plan(JoxLoad *l, const JoxYaml *map, float height) {
+    const JoxReader *r = &l->reader;
+    const JoxYaml *name = jox_yaml_get(map, "file");
+    if (!jox_key_text(r, map, "wall", "file"))
+        return false;
+    char *path = jox_path_beside(r->hoard, name->position.file, name->text);
+    JoxPlanOptions options = {.unit = jox_key_number(r, map, "wall", "unit"), .height = height};
+    double origin[2] = {0, 0};
+    if (jox_yaml_get(map, "origin") && !jox_key_vector(r, map, "wall", "origin", origin, 2))
+        return false;
+    options.origin_x = origin[0], options.origin_y = origin[1];
+    size_t length = 0;
+    bool allowed = is_allowed(l, name, path);
+    char *data = allowed ? jox_read_file(path, LARGEST_PLAN, &length) : NULL;
+    if (!data || l->files->count == sizeof l->files->items / sizeof *l->files->items) {
+        jox_scene_error(r, name, "unreadable-file",
+                        allowed ? "Paths are meant from the folder of the scene"
+                                : "A mod takes files beside its own, by plain names",
+                        "cannot read '%.200s': %s", path,
+                        data             ? "too many files"
+                        : !allowed       ? "a mod may not"
+                        : errno == EFBIG ? "it is over 64 MB"
+                                         : strerror(errno));
+        jox_free(data);
+        return false;
+    }
+    JoxYamlFile *file = &l->files->items[l->files->count++];
+    file->path = path;
+    file->text = "";
+    jox_sha256_hex(data, length, file->sha256);
+    if (length >= 16 && memcmp(data, "SQLite format 3", 16) == 0) {
+        jox_free(data);
+        if (!(data = jox_plan_recorded(path, r->diagnostics)))
+            return false;
+        length = strlen(data);
+    }
+    file->text = memcpy(jox_hoard_take(r->hoard, length + 1, 1), data, length);
+    file->length = length;
+    jox_free(data);
+    return jox_plan_read_wkt(path, file->text, length, &options, &l->scene->walls, r->diagnostics);
+}
 
 void jox_load_walls(JoxLoad *l, const JoxYaml *list) {
     const JoxReader *r = &l->reader;
@@ -21,21 +82,25 @@ void jox_load_walls(JoxLoad *l, const JoxYaml *list) {
         bool closed = jox_key_bool(r, map, "wall", "closed");
         const char *name = jox_key_text(r, map, "wall", "name");
         bool open = jox_key_bool(r, map, "wall", "open");
-        if (!solid == !line) {
-            jox_scene_error(r, map, "bad-wall", NULL, "a wall is a solid or a line");
+        const JoxYaml *file = jox_yaml_get(map, "file");
+        if (!solid + !line + !file != 2) {
+            jox_scene_error(r, map, "bad-wall", NULL, "a wall is a solid, a line or a file");
             continue;
         }
         if (open && !(name && *name))
             jox_scene_error(r, jox_yaml_get(map, "open"), "bad-wall", "name: gate",
                             "a wall that starts open needs a name: else nothing closes it");
-        JoxV2 *points = solid    ? jox_load_ring(l, solid, &count)
+        if (file && !load_plan(l, map, height))
+            continue;
+        JoxV2 *points = file     ? NULL
+                        : solid  ? jox_load_ring(l, solid, &count)
                         : closed ? jox_load_ring(l, line, &count)
                                  : jox_read_points(r, line, 2, &count);
         if (points && solid)
             jox_walls_add_solid(walls, points, count, height);
         else if (points)
             jox_walls_add_polyline(walls, points, count, closed, height);
-        if (points && name && *name)
+        if ((points || file) && name && *name)
             jox_walls_name(walls, first, name, open);
     }
     if (list && list->kind != JOX_YAML_LIST)

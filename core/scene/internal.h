@@ -11,6 +11,7 @@ typedef struct JoxLoad {
     JoxScene *scene;
     const JoxSceneOptions *options; /* or NULL */
     const char *datadir;
+    JoxYamlFiles *files; /* read for the scene */
     uint32_t change_capacity;
     bool walls_wrong; /* some could not be read: their names are not known */
 } JoxLoad;

@@ -97,6 +97,11 @@ const JoxKey jox_scene_keys[] = {
     {"wall", "solid", POINTS, "m", -FAR, FAR, "", .of = "xy[3]",
      .meaning = "corners of a filled block"},
     {"wall", "line", POINTS, "m", -FAR, FAR, "", .of = "xy[2]", .meaning = "a thin wall"},
+    {"wall", "file", TEXT, "", 0, 0, "",
+     .meaning = "beside the scene: walls as well-known text (WKT), or a recording (SQLite), whose plan is taken; ours have solids and the bounds alone"},
+    {"wall", "unit", NUMBER, "m", 1e-4, 1000, "1", .meaning = "of a file: one of its lengths"},
+    {"wall", "origin", POINT, "", -1e12, 1e12, "",
+     .meaning = "of a file: its point, in its lengths, that becomes [0, 0]"},
     {"wall", "closed", BOOL, "", 0, 0, "false", .meaning = "of a line: its ends are joined"},
     {"wall", "height", NUMBER, "m", 0.01, 1000, "3",
      .meaning = "bodies fly over it above this; people never do"},
@@ -268,7 +273,9 @@ const JoxOwner jox_scene_owners[] = {
     {"heatmap", "heatmap", "What the density map of a report shows."},
     {"camera", "camera", "For programs that draw the scene; the simulation does not use it."},
     {"place", "Places", "`places` maps names to places. There are five kinds, told apart by their key:"},
-    {"wall", "Walls", "Each wall of the list `walls` is a `solid` or a `line`."},
+    {"wall", "Walls", "Each wall of the list `walls` is a `solid`, a `line` or a `file`. In a file, a "
+     "POLYGON is what can be walked: its outer ring and its holes become walls; so do MULTIPOLYGON, LINESTRING, "
+     "MULTILINESTRING and GEOMETRYCOLLECTION."},
     {"body", "Bodies", "Each body of the list `bodies` is simulated by Bullet, and pushed by people."},
     {"repeat", "repeat", "The first stands at the body's `at`. Copies of a body with a name are `NAME-1`, `NAME-2` and so on, along x first, then y, then z."},
     {"shape", "Shapes", "A shape is a map with one key, its kind."},
@@ -298,7 +305,7 @@ const size_t jox_scene_owner_count = sizeof jox_scene_owners / sizeof *jox_scene
 
 const JoxAlternative jox_scene_alternatives[] = {
     {"place", "point|line|polygon|queue|set", JOX_EXACTLY_ONE},
-    {"wall", "solid|line", JOX_EXACTLY_ONE},
+    {"wall", "solid|line|file", JOX_EXACTLY_ONE},
     {"body", "mass|density", JOX_AT_MOST_ONE},
     {"shape", "box|sphere|cylinder|hull|compound|blocks", JOX_EXACTLY_ONE},
     {"group", "behaviour|mix", JOX_EXACTLY_ONE},

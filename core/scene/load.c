@@ -524,7 +524,8 @@ JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
     JoxYamlFiles *files = jox_hoard_take(hoard, 1, sizeof *files);
     JoxLoad load = {.reader = {hoard, diagnostics},
                     .scene = jox_alloc(1, sizeof(JoxScene)),
-                    .options = options};
+                    .options = options,
+                    .files = files};
     const size_t errors = diagnostics->errors;
     load.scene->memory = hoard;
     load.datadir = options ? options->datadir : NULL;

@@ -1,0 +1,26 @@
+/* Walls from files: well-known text (OGC 06-103r4, section 7) and the geometry of recordings. */
+#ifndef JOX_SCENE_PLAN_H
+#define JOX_SCENE_PLAN_H
+
+#include <stdbool.h>
+
+#include "base/diag.h"
+#include "geom/walls.h"
+
+typedef struct JoxPlanOptions {
+    double unit;               /* m, of the file's lengths */
+    double origin_x, origin_y; /* of the file, in its lengths: becomes 0, 0 */
+    float height;              /* m, of every wall */
+} JoxPlanOptions;
+
+/* Adds the walls of a text to `walls`. A POLYGON is what can be walked: its outer ring is a thin
+   closed wall, its holes are solid. MULTIPOLYGON and GEOMETRYCOLLECTION are several of them, a
+   LINESTRING or MULTILINESTRING thin walls. False, and some walls, with an error at its line and
+   column in `path`. */
+bool jox_plan_read_wkt(const char *path, const char *text, size_t length,
+                       const JoxPlanOptions *options, JoxWalls *walls, JoxDiagnostics *diagnostics);
+/* The text in the table `geometry` of a recording (JuPedSim's SQLite format); NULL with an error.
+   To be freed by jox_free. */
+char *jox_plan_recorded(const char *path, JoxDiagnostics *diagnostics);
+
+#endif

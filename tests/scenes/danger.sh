@@ -1,0 +1,60 @@
+# The page of a report: danger, exits, the same run at half the step; and walls from files.
+. tests/scenes/lib.sh
+out=$work/report
+# in_json KEY FILE: the first number behind a key
+in_json() { sed -n "s/.*\"$1\": \([-0-9.e]*\).*/\1/p" "$2" | head -1; }
+
+"$JOSTLE" run scenes/evacuation.yaml --for 60 --report "$out" --summary "$work/run.json" >/dev/null 2>"$work/err"
+verdict "a run with a report" $?
+grep -q "once more at half the step, 0.025 s" "$work/err"; verdict "the run is repeated at half the step, and says so" $?
+[ "$(grep -c '60.0 of 60.0 s simulated' "$work/err")" = 2 ]; verdict "both runs show their progress" $?
+for file in danger.csv danger.png danger.svg danger-map.csv danger-map.png danger-map.svg index.html; do
+    [ -s "$out/$file" ]; verdict "the report has $file" $?
+done
+head -1 "$out/danger.csv" | grep -q '^time \[s\],people,density_max \[1/m2\],.*,left,left_south_exit,left_east_exit$\|left_east_exit,left_south_exit$'; verdict "danger.csv names its columns, with the exits" $?
+missing=0
+for link in $(grep -o '\(src\|href\)="[^"]*"' "$out/index.html" | cut -d'"' -f2); do
+    case $link in *:*) missing=1 ;; esac
+    [ -s "$out/$link" ] || { echo "missing: $link"; missing=1; }
+done
+verdict "pictures of the page lie beside it" $missing
+for text in "step 0.05 s<th>step 0.025 s<th>difference" "person-seconds over density_5" "jostle reproduce" "None of that validates this scenario" "SHA-256"; do
+    grep -qF "$text" "$out/index.html"; verdict "the page has: $text" $?
+done
+grep -qF "$(sha256sum scenes/evacuation.yaml | cut -c1-64)" "$out/index.html"; verdict "the page names its inputs by their hashes" $?
+
+# Whoever left did so by an exit; the file over time ends with the summary's count.
+left=$(in_json left "$work/run.json")
+south=$(in_json people <(grep -o '"south_exit": {[^}]*}' "$work/run.json")) east=$(in_json people <(grep -o '"east_exit": {[^}]*}' "$work/run.json"))
+[ "$left" = 140 ] && [ $((south + east)) = 140 ]; verdict "everybody leaves, by one of two exits ($south and $east)" $?
+between "the clearance time is when the last one left" "$(in_json clearance_s "$work/run.json")" 20 60
+awk -F, -v left="$left" -v clear="$(in_json clearance_s "$work/run.json")" 'NR==1 {for (i=1; i<=NF; i++) if ($i=="left") c=i; next} $c==left && !first {first=$1} END {exit !($c==left && first>=clear && first<=clear+0.55)}' "$out/danger.csv"; verdict "danger.csv says so, too" $?
+
+# What a report adds changes nothing, and can be left out.
+same_hash "a report changes nothing" "$(figure hash <"$work/run.json")" "$(hash_of "$JOSTLE" scenes/evacuation.yaml --for 60)"
+"$JOSTLE" run scenes/evacuation.yaml --for 5 --report "$work/once" --no-half-step >/dev/null 2>"$work/err"
+! grep -q "half the step" "$work/err" && grep -q "not repeated at half the step: --no-half-step was given" "$work/once/index.html" && ! grep -q "<th>difference" "$work/once/index.html"; verdict "--no-half-step leaves it out, and the page says so" $?
+"$JOSTLE" run scenes/circle.yaml --for 1 --dt 0.0015 --quiet --report "$work/fine" >/dev/null 2>&1
+grep -q "not repeated at half the step: it would be below 0.001 s" "$work/fine/index.html"; verdict "a step that cannot be halved is said" $?
+for threads in 1 3; do "$JOSTLE" run scenes/evacuation.yaml --for 30 --quiet --threads $threads --data "$work/data$threads" --summary - 2>/dev/null | sed -n '/"danger"/,/^  }}/p' >"$work/danger.$threads"; done
+cmp -s "$work/danger.1" "$work/danger.3" && [ -s "$work/danger.1" ] && cmp -s "$work/data1/danger.csv" "$work/data3/danger.csv"; verdict "danger does not depend on threads" $?
+[ ! -e "$work/data1/danger.png" ] && [ ! -e "$work/data1/index.html" ]; verdict "--data draws nothing" $?
+
+# A title is text, whatever it holds.
+printf 'jostle: 1\ntitle: "<script>x</script> \\"quoted\\" & so on"\nduration: 1\ngroups: {g: {behaviour: stander, at: [[0, 0]]}}\n' >"$work/odd.yaml"
+"$JOSTLE" run "$work/odd.yaml" --quiet --report "$work/odd" >/dev/null 2>&1 && ! grep -q '<script' "$work/odd/index.html" && grep -q '&lt;script&gt;' "$work/odd/index.html"; verdict "titles are escaped" $?
+
+# Walls from files hold people, a file's own and those of a recording.
+mkdir "$work/hall"
+echo 'POLYGON ((0 0, 8 0, 8 6, 0 6, 0 0), (3 2, 5 2, 5 4, 3 4, 3 2))' >"$work/hall/plan.wkt"
+walled() { # NAME WALLS: a scene whose people want to be outside
+    printf 'jostle: 1\nduration: 8\nplaces:\n  room: {polygon: [[0.4, 0.4], [7.6, 0.4], [7.6, 1.6], [0.4, 1.6]]}\n  away: {point: [4, 30], radius: 1}\nwalls: [%s]\ngroups: {g: {behaviour: walker.lua, count: 12, in: room, set: {goal: away}}}\nprobes: {out: {flow: [[-40, 6.2], [40, 6.2]]}, hole: {measure: [[3.1, 2.1], [4.9, 2.1], [4.9, 3.9], [3.1, 3.9]]}}\n' "$2" >"$work/hall/$1.yaml"
+    "$JOSTLE" run "$work/hall/$1.yaml" --quiet --record "$work/hall/$1.sqlite" --summary "$work/hall/$1.json" >/dev/null 2>&1
+}
+crossed() { echo "$(in_json passages "$work/hall/$1.json") $(in_json intervals "$work/hall/$1.json")"; } # the outer wall, and seconds in the hole
+walled none ''; walled plan '{file: plan.wkt}'; walled again '{file: plan.sqlite}'
+[ "$(crossed plan)" = "0 0" ] && [ "$(crossed none)" != "0 0" ] && [ "$(in_json intervals "$work/hall/none.json")" -gt 0 ]; verdict "nobody walks through walls of well-known text ($(crossed none) without)" $?
+grep -q "$(sha256sum "$work/hall/plan.wkt" | cut -c1-64)" "$work/hall/plan.json"; verdict "the plan is an input, with its hash" $?
+[ "$(in_json intervals "$work/hall/again.json")" = 0 ]; verdict "nor through the solid ones that a recording has" $?
+echo 'POLYGON ((0 0, 8 0, 8 6, 0 6))' >"$work/hall/plan.wkt"
+"$JOSTLE" check "$work/hall/plan.yaml" >"$work/out" 2>&1; [ $? = 1 ] || [ $? = 3 ]; grep -q 'plan.wkt:1:10: this ring does not end where it begins' "$work/out"; verdict "what is wrong in a plan is shown where it is" $?

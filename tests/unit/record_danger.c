@@ -1,0 +1,214 @@
+/* Danger over crowds whose figures can be worked out by hand, and the building blocks of pages. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "record/danger.h"
+#include "record/html.h"
+
+enum { SIDE = 25, MOST = SIDE * SIDE };
+static const float SPACING = 0.4f; /* m: 6.25 people per m2 */
+
+/* A square of people about the middle of 20 m x 20 m. */
+static struct {
+    uint32_t count, key[MOST];
+    float x[MOST], y[MOST], vx[MOST], vy[MOST], compression[MOST];
+} crowd;
+
+static JoxDanger *square(uint32_t side) {
+    memset(&crowd, 0, sizeof crowd);
+    crowd.count = side * side;
+    for (uint32_t i = 0; i < crowd.count; i++) {
+        crowd.key[i] = i;
+        crowd.x[i] = 10.0f + SPACING * ((float)(i % side) - (float)(side - 1) / 2.0f);
+        crowd.y[i] = 10.0f + SPACING * ((float)(i / side) - (float)(side - 1) / 2.0f);
+    }
+    return jox_danger_create((JoxV2){0, 0}, (JoxV2){20, 20});
+}
+
+static void show(JoxDanger *danger, double t) {
+    const JoxFrame frame = {.time = t,
+                            .count = crowd.count,
+                            .keys = crowd.count,
+                            .key = crowd.key,
+                            .x = crowd.x,
+                            .y = crowd.y,
+                            .vx = crowd.vx,
+                            .vy = crowd.vy,
+                            .compression = crowd.compression};
+    jox_danger_frame(danger, &frame, NULL);
+}
+
+static int limit_of(const char *key) {
+    int l = 0;
+    while (strcmp(jox_danger_limits[l].key, key) != 0)
+        assert_true(++l < JOX_DANGER_LIMITS);
+    return l;
+}
+
+static void a_still_crowd_is_dense_and_calm(void **state) {
+    (void)state;
+    JoxDanger *danger = square(SIDE);
+    for (int step = 0; step <= 400; step++)
+        show(danger, 0.05 * step);
+    JoxDangerMost density = jox_danger_most(danger, JOX_DANGER_DENSITY);
+    assert_float_equal(density.value, 6.25, 0.15); /* 1 / spacing2 */
+    JoxDangerCount five = jox_danger_count(danger, limit_of("density_5"));
+    /* All but the border, where half the kernel is empty: within 0.5 m of it, 5 of 25 rows. */
+    assert_in_range(five.people, 19 * 19, 23 * 23);
+    assert_float_equal(five.person_s, 20.0 * five.people, 1e-6);
+    assert_float_equal(five.first, 0.0, 1e-9);
+    assert_int_equal(jox_danger_count(danger, limit_of("density_7")).people, 0);
+    assert_true(isnan(jox_danger_count(danger, limit_of("density_7")).first));
+    assert_float_equal(jox_danger_most(danger, JOX_DANGER_PRESSURE).value, 0.0, 1e-6);
+    assert_int_equal(jox_danger_count(danger, limit_of("pressure_002")).people, 0);
+    jox_danger_free(danger);
+}
+
+/* All sway by +-a along x, two seconds each way: the mean is 0, the variance a2. The velocity of a
+   step is that of its middle. */
+static double pressure_of(double a, double drift, uint32_t side) {
+    JoxDanger *danger = square(side);
+    for (int step = 0; step <= 800; step++) {
+        double t = 0.05 * step, v = drift + (fmod(t + 3.975, 4.0) < 2.0 ? a : -a);
+        if (step > 0)
+            for (uint32_t i = 0; i < crowd.count; i++) {
+                crowd.x[i] += (float)(0.05 * v);
+                crowd.vx[i] = (float)v;
+            }
+        show(danger, t);
+    }
+    double value = jox_danger_most(danger, JOX_DANGER_PRESSURE).value;
+    JoxDangerCount count = jox_danger_count(danger, limit_of("pressure_002"));
+    assert_int_equal(count.people > 0, value >= 0.02);
+    jox_danger_free(danger);
+    return value;
+}
+
+static void pressure_is_density_times_variance_over_time(void **state) {
+    (void)state;
+    assert_float_equal(pressure_of(0.1, 0.0, SIDE), 6.25 * 0.01, 0.004);
+    assert_float_equal(pressure_of(0.2, 0.0, SIDE), 6.25 * 0.04, 0.016);
+    /* a common drift is no variance */
+    assert_float_equal(pressure_of(0.0, 0.05, SIDE), 0.0, 1e-4);
+    /* three people never are dense enough to be read */
+    assert_float_equal(pressure_of(0.5, 0.0, 2), 0.0, 1e-9);
+}
+
+/* Person 0 is pressed from 2 s to 12 s, person 1 knocked in one step. */
+static JoxDangerCount press(double dt, JoxDangerMost *most) {
+    JoxDanger *danger = square(2);
+    int steps = (int)(20.0 / dt + 0.5);
+    for (int step = 0; step <= steps; step++) {
+        double t = dt * step;
+        crowd.compression[0] = t > 2.0 + dt / 2 && t < 12.0 + dt / 2 ? 2000.0f : 0.0f;
+        crowd.compression[1] = step == steps / 2 ? (float)(500.0 / dt) : 0.0f;
+        show(danger, t);
+    }
+    *most = jox_danger_most(danger, JOX_DANGER_COMPRESSION);
+    JoxDangerCount count = jox_danger_count(danger, limit_of("load_623"));
+    assert_int_equal(jox_danger_count(danger, limit_of("load_4500")).people, 0);
+    jox_danger_free(danger);
+    return count;
+}
+
+static void what_is_held_counts_and_a_knock_does_not(void **state) {
+    (void)state;
+    const double limit = 2.0 * 623.0 / (2.0 * 3.14159265 * 0.20);
+    assert_float_equal(jox_danger_limits[limit_of("load_623")].value, limit, 0.01);
+    /* The mean of a second nears 2000 N/m as 1 - exp(-t), and falls as exp(-t). */
+    const double up = -log(1.0 - limit / 2000.0), down = log(2000.0 / limit);
+    for (double dt = 0.0125; dt < 0.11; dt *= 2) {
+        JoxDangerMost most;
+        JoxDangerCount count = press(dt, &most);
+        assert_int_equal(count.people, 1); /* the knock of 500 Ns/m comes to 500 N/m at most */
+        assert_float_equal(count.first, 2.0 + up, 1.01 * dt);
+        assert_float_equal(count.person_s, 10.0 - up + down, 2.01 * dt);
+        assert_float_equal(count.first_at.x, crowd.x[0], 1e-6);
+        assert_float_equal(most.value, 2000.0, 1.0);
+        assert_float_equal(most.time, 12.0, 1.01 * dt);
+    }
+}
+
+static void recordings_without_forces_have_no_compression(void **state) {
+    (void)state;
+    JoxDanger *danger = square(3);
+    const JoxFrame frame = {.time = 1.0,
+                            .count = crowd.count,
+                            .keys = crowd.count,
+                            .key = crowd.key,
+                            .x = crowd.x,
+                            .y = crowd.y,
+                            .vx = crowd.vx,
+                            .vy = crowd.vy};
+    jox_danger_frame(danger, &frame, NULL);
+    JoxText text = {0};
+    jox_text_add(&text, "{");
+    jox_danger_json(danger, &text);
+    assert_non_null(strstr(text.data, "\"compression_max\": null"));
+    assert_null(strstr(text.data, "\"density_max\": null"));
+    jox_text_free(&text);
+    jox_danger_free(danger);
+}
+
+static void exits_count_by_name(void **state) {
+    (void)state;
+    JoxExits exits = {0};
+    JoxText text = {0};
+    jox_exits_get(&exits, "west");
+    jox_exits_get(&exits, "a \"door\"")->people = 3;
+    jox_exits_get(&exits, "west")->people += 2;
+    exits.left = 6;
+    exits.last = 12.5;
+    assert_int_equal(exits.count, 2);
+    jox_exits_json(&exits, &text);
+    assert_string_equal(text.data, "\"left\": 6, \"clearance_s\": 12.5, \"exits\": {\"west\": "
+                                   "{\"people\": 2, \"last_s\": null}, \"a \\\"door\\\"\": "
+                                   "{\"people\": 3, \"last_s\": null}}");
+    jox_text_free(&text);
+    jox_exits_free(&exits);
+}
+
+static void pages_escape_what_they_show(void **state) {
+    (void)state;
+    char *data = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&data, &size);
+    jox_html_begin(out, "<b>&\"'\x01");
+    jox_html_table(out, "a|<i>");
+    jox_html_row(out);
+    jox_html_cell(out, "</table>");
+    jox_html_cell_number(out, NAN, "m");
+    jox_html_cell_number(out, 1.25, "1/m2");
+    jox_html_table_end(out);
+    jox_html_picture(out, "a b\"<#.png", NULL, "x\"><script>");
+    jox_html_end(out);
+    fclose(out);
+    assert_non_null(strstr(data, "<h1>&lt;b&gt;&amp;&quot;&#39; </h1>"));
+    assert_non_null(strstr(data, "<th>a<th>&lt;i&gt;"));
+    assert_non_null(
+        strstr(data, "<td>&lt;/table&gt;<td class=n>&ndash;<td class=n>1.25&nbsp;1/m2"));
+    assert_non_null(strstr(data, "src=\"a%20b%22%3C%23.png\""));
+    assert_null(strstr(data, "<script"));
+    free(data);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_still_crowd_is_dense_and_calm),
+        cmocka_unit_test(pressure_is_density_times_variance_over_time),
+        cmocka_unit_test(what_is_held_counts_and_a_knock_does_not),
+        cmocka_unit_test(recordings_without_forces_have_no_compression),
+        cmocka_unit_test(exits_count_by_name),
+        cmocka_unit_test(pages_escape_what_they_show),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
