@@ -19,7 +19,7 @@ return machine {
 
     Press = { steer = field(own.goal), horizon = 0.5, push = 110 * max(now.speed, own.speed),
       { to = "Gone",  when = there },
-      { to = "Walk",  when = moves & after(1) } },
+      { to = "Walk",  when = moves & after(2) } },
 
     Gone = { removes = true },
   },

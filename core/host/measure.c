@@ -10,11 +10,12 @@ struct JoxMeasuring {
     JoxFrame frame;
     float *vx, *vy, *force;
     size_t vx_capacity, vy_capacity, force_capacity;
-    const char **names;
-    size_t name_capacity;
+    const char **names, **states;
+    size_t name_capacity, states_capacity, state_capacity;
+    uint32_t *state;
     uint64_t made; /* the tick of the frame, plus 1 */
     JoxProbe **probes;
-    uint32_t count;
+    uint32_t count, state_count;
 };
 
 static void begin(JoScene *scene) {
@@ -28,6 +29,24 @@ static void begin(JoScene *scene) {
             jox_host_area(scene, &def.low, &def.high);
         m->probes[p] = jox_probe_create(&def);
     }
+}
+
+/* All states of all machines in one list, which a reload may change, and each person's. */
+static void list_states(JoxMeasuring *m, const JoWorld *world) {
+    const JoxMind *mind = &world->mind;
+    const JoxAgents *a = &world->agents;
+    uint32_t first[JOX_MOST_MACHINES + 1] = {1};
+    for (uint32_t k = 0; k < mind->machine_count; k++)
+        first[k + 1] = first[k] + mind->machines[k]->state_count;
+    m->state_count = first[mind->machine_count];
+    JOX_RESERVE(m->states, m->states_capacity, m->state_count);
+    JOX_RESERVE(m->state, m->state_capacity, a->count + 1);
+    m->states[0] = ""; /* of those without a machine */
+    for (uint32_t k = 0; k < mind->machine_count; k++)
+        for (uint32_t s = 0; s < mind->machines[k]->state_count; s++)
+            m->states[first[k] + s] = mind->machines[k]->states[s].name;
+    for (uint32_t i = 0; i < a->count; i++)
+        m->state[i] = a->machine[i] == JOX_NO_MACHINE ? 0 : first[a->machine[i]] + a->state[i];
 }
 
 const JoxFrame *jox_host_frame(JoScene *scene) {
@@ -51,6 +70,7 @@ const JoxFrame *jox_host_frame(JoScene *scene) {
         m->vy[i] = (a->y[i] - a->prev_y[i]) * rate;
         m->force[i] = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
     }
+    list_states(m, world);
     m->frame = (JoxFrame){.time = (double)world->tick * world->def.dt,
                           .count = a->count,
                           .period = a->period,
@@ -67,6 +87,9 @@ const JoxFrame *jox_host_frame(JoScene *scene) {
                           .group = a->group,
                           .groups = m->names,
                           .group_count = scene->plan->group_count,
+                          .state = m->state,
+                          .states = m->states,
+                          .state_count = m->state_count,
                           .walls = &world->walls};
     return &m->frame;
 }
@@ -97,6 +120,11 @@ void jox_host_add_probes(const JoScene *scene, JoxText *out) {
     jox_text_add(out, "\n }");
 }
 
+const JoxProbe *jox_host_probe(const JoScene *scene, uint32_t n) {
+    const JoxMeasuring *m = scene->measuring;
+    return m && n < m->count ? m->probes[n] : NULL;
+}
+
 bool jox_host_write_probes(const JoScene *scene, const char *folder, const char *title,
                            JoxText *error) {
     const JoxMeasuring *m = scene->measuring;
@@ -117,6 +145,8 @@ void jox_host_end_measuring(JoScene *scene) {
     jox_free(m->vy);
     jox_free(m->force);
     jox_free(m->names);
+    jox_free(m->states);
+    jox_free(m->state);
     jox_free(m);
     scene->measuring = NULL;
 }

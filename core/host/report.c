@@ -54,10 +54,11 @@ static bool add_probe(Report *r, const JoxProbeDef *of) {
     JoxProbeDef def = *of;
     uint16_t *groups = jox_alloc(def.group_count + 1, sizeof *groups);
     bool good = find_groups(r, &def, groups);
-    if (good && def.kind == JOX_PROBE_FAILURES) {
+    if (good && (def.kind == JOX_PROBE_FAILURES || def.kind == JOX_PROBE_VISIT)) {
         complain(r, r->def->scene, "Measure it during a run",
-                 "probe '%.60s' needs to know whose 2-D program failed; no recording does%s",
-                 def.name, "");
+                 "probe '%.60s' needs to know %s; no recording does", def.name,
+                 def.kind == JOX_PROBE_VISIT ? "who is in which state"
+                                             : "whose 2-D program failed");
         good = false;
     }
     def.groups = groups;

@@ -11,7 +11,7 @@
 #include "lua/internal.h"
 
 static const uint64_t BUDGET = 200000000; /* instructions of a measure */
-enum { MOST_BYTES = 64 << 20 };            /* of a file that a run left */
+enum { MOST_BYTES = 64 << 20 };           /* of a file that a run left */
 
 struct JoxClaimCode {
     JoxLua *lua;

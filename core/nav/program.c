@@ -3,6 +3,7 @@
 #include "nav/internal.h"
 
 static const float EPSILON = 1e-5f;
+static const float SIDE = 0.25f; /* of the wanted speed: how far a tie is broken to the right */
 enum { MOST_PLANES = 128 };
 
 /* What a program looks for: the point nearest to `wanted`, or, with a direction, the farthest along
@@ -37,7 +38,10 @@ static bool along_border(const JoxPlane *planes, uint32_t last, float disc, cons
         if (low > high)
             return false;
     }
-    float t = jox_clampf(jox_dot(direction, jox_sub(aim->wanted, foot)), low, high);
+    JoxV2 wanted = aim->wanted;
+    if (aim->directed) /* somewhat to the right: who meets head-on would else stand for ever */
+        wanted = jox_sub(wanted, jox_scale(jox_left(wanted), SIDE));
+    float t = jox_clampf(jox_dot(direction, jox_sub(wanted, foot)), low, high);
     float gain = aim->directed ? jox_dot(aim->direction, direction) : 0.0f;
     if (gain > EPSILON || gain < -EPSILON)
         t = gain > 0.0f ? high : low;

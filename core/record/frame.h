@@ -24,6 +24,9 @@ typedef struct JoxFrame {
     const uint16_t *group;     /* index of the scene's group */
     const char *const *groups; /* their names */
     uint32_t group_count;
+    const uint32_t *state;     /* row of the person's state in `states` */
+    const char *const *states; /* their names, of all machines */
+    uint32_t state_count;
     const JoxWalls *walls; /* as they stand now */
 } JoxFrame;
 

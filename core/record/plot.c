@@ -147,10 +147,11 @@ bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *w
         "set xlabel 'x (m)'\nset ylabel 'y (m)'\nset cblabel 'people per m^2 (mean)'\n"
         "set palette defined (0 '#ffffff', 0.02 '#440154', 0.27 '#3b528b', 0.52 '#21918c', "
         "0.77 '#5ec962', 1 '#fde725')\nset cbrange [0:%g]\nset xrange [%g:%g]\n"
-        "set yrange [%g:%g]\nunset key\n"
+        "set yrange [%g:%g]\nunset key\nset clip two\n"
         "set label 1 sprintf('greatest at any time: %%.1f per m^2 at (%%.0f, %%.0f) m, t = %%.0f "
         "s',"
-        " %g, %g, %g, %g) at graph 0.01, 0.02 front tc '#c00000'\n"
+        " %g, %g, %g, %g) at graph 0, 0 offset 1, 0.8 front tc "
+        "'#c00000'\n"
         "plot 'density.csv' skip 1 using 1:2:3 with image",
         most > 0.0 ? most : 1.0, d->low.x, d->low.x + width, d->low.y, d->low.y + height, d->most,
         d->most_at.x, d->most_at.y, d->most_time);

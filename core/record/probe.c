@@ -26,6 +26,7 @@ static const JoxProbeCalls *const KINDS[JOX_PROBE_KINDS] = {
     [JOX_PROBE_TRANSIT] = &jox_probe_transit,   [JOX_PROBE_DISPLACEMENT] = &jox_probe_displacement,
     [JOX_PROBE_MAP] = &jox_probe_map,           [JOX_PROBE_WINDING] = &jox_probe_winding,
     [JOX_PROBE_FAILURES] = &jox_probe_failures, [JOX_PROBE_LANES] = &jox_probe_lanes,
+    [JOX_PROBE_VISIT] = &jox_probe_visit,
 };
 
 static JoxV2 *copy_points(const JoxV2 *points, uint32_t count) {
@@ -43,6 +44,8 @@ JoxProbe *jox_probe_create(const JoxProbeDef *def) {
     p->def = *def;
     p->def.name = jox_strdup(def->name);
     p->def.groups = groups;
+    for (int s = 0; s < 2; s++)
+        p->def.states[s] = def->states[s] ? jox_strdup(def->states[s]) : NULL;
     p->def.points = copy_points(def->points, def->count);
     p->calls = KINDS[def->kind];
     p->state = jox_alloc(1, p->calls->size);
@@ -106,6 +109,8 @@ void jox_probe_free(JoxProbe *p) {
     jox_free(p->state);
     jox_free((void *)(uintptr_t)p->def.name);
     jox_free((void *)(uintptr_t)p->def.groups);
+    for (int s = 0; s < 2; s++)
+        jox_free((void *)(uintptr_t)p->def.states[s]);
     jox_free((void *)(uintptr_t)p->def.points);
     jox_free(p->seen);
     jox_free(p);

@@ -24,7 +24,8 @@ typedef struct JoxProbeCalls {
 } JoxProbeCalls;
 
 extern const JoxProbeCalls jox_probe_flow, jox_probe_measure, jox_probe_transit,
-    jox_probe_displacement, jox_probe_map, jox_probe_winding, jox_probe_failures, jox_probe_lanes;
+    jox_probe_displacement, jox_probe_map, jox_probe_winding, jox_probe_failures, jox_probe_lanes,
+    jox_probe_visit;
 
 void jox_figure_add(JoxFigures *figures, const char *name, const char *unit, double value);
 /* Linear between ranks; q within 0..1. Sorts the values. NAN of none. */

@@ -147,6 +147,7 @@ const JoxExample jox_scene_examples[] = {
      "  fields:  {map: {}, every: 2}\n"
      "  laps:    {winding: [0, 0]}\n"
      "  solved:  {failures: 1}\n"
+     "  arrival: {visit: [Run, Arrived]}\n"
      "  order:   {lanes: {area: [[-2, -2], [4, 2]]}}\n"},
     {"map", OPENING
      "include: running-through.yaml\n"

@@ -178,7 +178,7 @@ const JoxKey jox_scene_keys[] = {
     {"source", "from", NUMBER, "s", 0, 1e9, "0", .meaning = "nobody comes before"},
     {"source", "until", NUMBER, "s", 0, 1e9, "1e9", .meaning = "nobody comes from then on"},
     {"source", "memory", VALUES, "", 0, 0, "", .of = "draw*",
-     .meaning = "in place of the group's"},
+     .meaning = "in place of what the group gives under the same name"},
 
     {"sink", "at", TEXT, "", 0, 0, "!", .meaning = "place; agents that come in are removed"},
     {"sink", "group", TEXT, "", 0, 0, "", .meaning = "only agents of this group"},
@@ -199,6 +199,8 @@ const JoxKey jox_scene_keys[] = {
      .meaning = "share of agent-steps whose 2-D program failed, in bins of this length"},
     {"probe", "lanes", TABLE, "", 0, 0, "", .of = "lanes",
      .meaning = "order parameter of lanes between opposite ways"},
+    {"probe", "visit", NAMES, "", 0, 0, "",
+     .meaning = "two states: the time that people take from entering the first to entering the second, and whether they keep their order"},
     {"probe", "group", NAMES, "", 0, 0, "", .meaning = "only people of these groups are measured"},
     {"probe", "from", NUMBER, "s", 0, 1e9, "0", .meaning = "nothing is measured before"},
     {"probe", "until", NUMBER, "s", 0, 1e9, "1e9", .meaning = "nor from then on"},
@@ -281,7 +283,7 @@ const JoxOwner jox_scene_owners[] = {
      "some places (`in`), or `at` given points."},
     {"source", "Sources", "Each source of the list `sources` brings agents in as time goes on."},
     {"sink", "Sinks", "Each sink of the list `sinks` takes agents out."},
-    {"probe", "Probes", "`probes` maps names to probes; each has one of the first eight keys, which says what it "
+    {"probe", "Probes", "`probes` maps names to probes; each has one of the first nine keys, which says what it "
      "measures. Their figures stand in the summary under `probes`; `--report DIR` adds DIR/NAME.csv, NAME.png and "
      "NAME.svg. `jostle report` measures recordings by them, those of real crowds too."},
     {"map", "map", ""},
@@ -303,7 +305,7 @@ const JoxAlternative jox_scene_alternatives[] = {
     {"group", "count|density", JOX_AT_MOST_ONE},
     {"group", "count|density|at", JOX_AT_LEAST_ONE},
     {"source", "rate|keep", JOX_AT_LEAST_ONE},
-    {"probe", "flow|measure|transit|displacement|map|winding|failures|lanes", JOX_EXACTLY_ONE},
+    {"probe", "flow|measure|transit|displacement|map|winding|failures|lanes|visit", JOX_EXACTLY_ONE},
     {"event", "throw|open|close|signal", JOX_EXACTLY_ONE},
 };
 const size_t jox_scene_alternative_count =

@@ -4,7 +4,7 @@
 
 #include "scene/internal.h"
 
-static const char KINDS[] = "flow|measure|transit|displacement|map|winding|failures|lanes";
+static const char KINDS[] = "flow|measure|transit|displacement|map|winding|failures|lanes|visit";
 /* Files of a report that have these names already. */
 static const char TAKEN[] = "density|paths|regions|walls|danger|danger-map";
 /* What an option is of: the kinds that read it. */
@@ -87,6 +87,19 @@ static void read_lines(const JoxLoad *l, const JoxYaml *node, JoxProbeDef *probe
     }
     bool good = read_line(l, node->items[0], points);
     probe->count = read_line(l, node->items[1], points + 2) && good ? 4 : 0;
+}
+
+static void read_visit(const JoxLoad *l, const JoxYaml *node, JoxProbeDef *probe) {
+    bool good = node->kind == JOX_YAML_LIST && node->count == 2;
+    for (uint32_t s = 0; good && s < 2; s++)
+        good = node->items[s]->kind == JOX_YAML_SCALAR;
+    if (!good) {
+        jox_scene_error(&l->reader, node, "bad-type", "visit: [Wait, Served]",
+                        "visit is a list of the names of two states");
+        return;
+    }
+    for (uint32_t s = 0; s < 2; s++)
+        probe->states[s] = jox_hoard_text(l->reader.hoard, node->items[s]->text);
 }
 
 static void read_map(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe) {
@@ -186,6 +199,9 @@ static void read_probe(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe)
         break;
     case JOX_PROBE_WINDING:
         read_point(l, map, "winding", probe);
+        break;
+    case JOX_PROBE_VISIT:
+        read_visit(l, node, probe);
         break;
     case JOX_PROBE_FAILURES:
         probe->every = jox_key_number(&l->reader, map, "probe", "failures");

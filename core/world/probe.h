@@ -16,6 +16,7 @@ typedef enum JoxProbeKind {
     JOX_PROBE_WINDING,      /* turns of each person about points[0] */
     JOX_PROBE_FAILURES,     /* share of agent-steps whose 2-D program failed */
     JOX_PROBE_LANES,        /* order parameter of lanes between low and high */
+    JOX_PROBE_VISIT,        /* time from entering states[0] to entering states[1] */
     JOX_PROBE_KINDS
 } JoxProbeKind;
 
@@ -30,14 +31,15 @@ typedef struct JoxProbeDef {
     const JoxV2
         *walkable; /* measure: cells end at this polygon's edge; NULL: at the cutoff alone */
     uint32_t walkable_count;
-    double every;        /* s: measure, lanes: interval; map: between samples; failures: bin */
-    double cutoff;       /* m: greatest reach of a Voronoi cell */
-    double rest;         /* s: displacement is from the mean place of this time */
-    double onset;        /* m: displacement from which a person counts as moved */
-    JoxV2 low, high;     /* map, lanes: the area; a map with low.x > high.x takes the scene's */
-    double cell, kernel; /* m: width of a map's cells, R of its Gaussian */
-    double rows;         /* m: width of the rows that lanes are looked for in */
-    bool along_y;        /* lanes run along y, not x */
+    double every;          /* s: measure, lanes: interval; map: between samples; failures: bin */
+    double cutoff;         /* m: greatest reach of a Voronoi cell */
+    double rest;           /* s: displacement is from the mean place of this time */
+    double onset;          /* m: displacement from which a person counts as moved */
+    JoxV2 low, high;       /* map, lanes: the area; a map with low.x > high.x takes the scene's */
+    double cell, kernel;   /* m: width of a map's cells, R of its Gaussian */
+    double rows;           /* m: width of the rows that lanes are looked for in */
+    bool along_y;          /* lanes run along y, not x */
+    const char *states[2]; /* visit: names of states, of whatever machine */
 } JoxProbeDef;
 
 #endif

@@ -40,3 +40,17 @@ awk -v a="${moved[1]}" -v b="${moved[0]}" 'BEGIN {exit !(a > b)}'; verdict "fart
 between "balls are kicked" "$(grep -o '"kicks": [0-9]*' "$work/d.json" | grep -o '[0-9]*')" 1 100
 between "the ball stays above ground" "$(sql "$work/d.sqlite" "SELECT min(z) FROM jostle_body")" 0.05 0.2
 between "the player moves as the input log says" "$(sql "$work/d.sqlite" "SELECT max(pos_x) - min(pos_x) FROM trajectory_data WHERE id = 0")" 1 16
+
+# Walls of glued blocks: people stop before them, many rows press, and then weak glue breaks.
+bonds() { grep -o "\"$1\": [-0-9.e]*" "$2" | grep -o '[-0-9.e]*$'; }
+"$JOSTLE" run scenes/wall-breaking.yaml --for 20 --quiet --summary "$work/w.json"
+between "a weak wall breaks" "$(bonds broken "$work/w.json")" 1 450
+between "after the front has stopped before it" "$(bonds front_speed "$work/w.json")" 0 0.1
+between "and rows press" "$(bonds rows_pressing "$work/w.json")" 3 100
+"$JOSTLE" run scenes/wall-tight.yaml --for 60 --quiet --summary "$work/w.json"
+between "a tight wall holds" "$(bonds broken "$work/w.json")" 0 0
+between "and turns" "$(bonds turned "$work/w.json")" 3 90
+"$JOSTLE" run scenes/wall-heavy.yaml --for 60 --quiet --summary "$work/w.json"
+between "a heavy wall stays" "$(bonds moved "$work/w.json")" 0 0.1
+"$JOSTLE" run scenes/office.yaml --for 20 --quiet --summary "$work/o.json"
+between "people and furniture exchange momentum" "$(bonds residual "$work/o.json")" 0 0.00001

@@ -22,6 +22,7 @@ static struct {
     float x[MOST], y[MOST], vx[MOST], vy[MOST], compression[MOST];
     uint8_t failed[MOST];
     uint16_t group[MOST];
+    uint32_t state[MOST];
     JoxV2 period;
     JoxWalls walls;
 } crowd;
@@ -32,6 +33,8 @@ static void nobody(uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         crowd.key[i] = i;
 }
+
+static const char *const STATES[] = {"Walk", "Wait", "Served"};
 
 static void show(JoxProbe *probe, double t) {
     const JoxFrame frame = {.time = t,
@@ -46,6 +49,9 @@ static void show(JoxProbe *probe, double t) {
                             .compression = crowd.compression,
                             .failed = crowd.failed,
                             .group = crowd.group,
+                            .state = crowd.state,
+                            .states = STATES,
+                            .state_count = 3,
                             .walls = &crowd.walls};
     jox_probe_frame(probe, &frame);
 }
@@ -72,6 +78,7 @@ static JoxProbeDef def_of(JoxProbeKind kind, const JoxV2 *points, uint32_t count
                          .until = INFINITY,
                          .points = points,
                          .count = count,
+                         .states = {"Wait", "Served"},
                          .every = 1,
                          .cutoff = 1,
                          .onset = 0.05,
@@ -242,6 +249,27 @@ static void cells_reach_over_joined_edges(void **state) {
 }
 
 /* ---- the others ---- */
+
+/* Four people queue at 1, 2, 3 and 4 s; served are the first at 5, the third at 6, the second at 7
+   s; the fourth never. Of the three pairs of those served, one changed order. */
+static void visit_is_from_state_to_state(void **state) {
+    (void)state;
+    JoxProbeDef def = def_of(JOX_PROBE_VISIT, NULL, 0);
+    JoxProbe *probe = jox_probe_create(&def);
+    static const double WAITS[] = {1, 2, 3, 4}, SERVED[] = {5, 7, 6, 99};
+    nobody(4);
+    for (int tick = 0; tick <= 80; tick++) {
+        double t = tick * 0.1;
+        for (int i = 0; i < 4; i++)
+            crowd.state[i] = t > SERVED[i] - 1e-6 ? 2 : t > WAITS[i] - 1e-6 ? 1 : 0;
+        show(probe, t);
+    }
+    assert_near(figure(probe, "passages"), 3, 0);
+    assert_near(figure(probe, "under_way"), 1, 0);
+    assert_near(figure(probe, "mean"), 4, 1e-6);
+    assert_near(figure(probe, "inversions"), 1.0 / 3.0, 1e-9);
+    jox_probe_free(probe);
+}
 
 static void transit_is_from_line_to_line(void **state) {
     (void)state;
@@ -501,6 +529,7 @@ int main(void) {
         cmocka_unit_test(a_lattice_is_measured),
         cmocka_unit_test(cells_reach_over_joined_edges),
         cmocka_unit_test(transit_is_from_line_to_line),
+        cmocka_unit_test(visit_is_from_state_to_state),
         cmocka_unit_test(a_push_travels),
         cmocka_unit_test(fields_are_the_kernel),
         cmocka_unit_test(turns_are_counted),
