@@ -12,7 +12,9 @@ test("everybody comes through a door of 0.8 m, spread across it", function()
   local s = scene {
     places = { room = room, door = { line = { { 0, 0.4 }, { 0, -0.4 } } }, goal = { polygon = outside } },
     walls = walls(0.4),
-    groups = { people = { behaviour = "leaver.lua", count = 40, ["in"] = "room", set = { door = "door", goal = "goal" } } },
+    groups = {
+      people = { behaviour = "leaver.lua", count = 40, ["in"] = "room", set = { door = "door", goal = "goal" } },
+    },
   }
   s:run(60)
   equal(s:count(), 0)

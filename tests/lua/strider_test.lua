@@ -14,7 +14,8 @@ end
 
 local function file(count)
   return corridor({
-    people = { behaviour = "strider.lua", count = count, fill = "line", ["in"] = "east", set = { way = "east", speed = 1.3 } },
+    people = { behaviour = "strider.lua", count = count, fill = "line", ["in"] = "east",
+      set = { way = "east", speed = 1.3 } },
   }, 20)
 end
 
@@ -34,12 +35,16 @@ test("in single file people are as fast as their headway allows", function()
   end
 end)
 
-test("two who come towards each other do not wait for each other", function()
+test("who walks ahead the same way is followed, who comes the other way is not", function()
   local s = scene(corridor({
-    one = { behaviour = "strider.lua", at = { { 5, 0.01 } }, set = { way = "east", speed = 1.3 } },
-    other = { behaviour = "strider.lua", at = { { 9, -0.01 } }, set = { way = "west", speed = 1.3 } },
-  }, 30))
-  s:run(5)
-  truthy(s:agents("one")[1].x > 9.5, "the one is held up")
-  truthy(s:agents("other")[1].x < 4.5, "the other is held up")
+    behind = { behaviour = "parts/headways.lua", at = { { 5, 0 } }, set = { way = "east" } },
+    ahead = { behaviour = "parts/headways.lua", at = { { 7, 0 } }, set = { way = "east" } },
+    coming = { behaviour = "parts/headways.lua", at = { { 14, 0 } }, set = { way = "west" } },
+    met = { behaviour = "parts/headways.lua", at = { { 12, 0 } }, set = { way = "east" } },
+  }, 40))
+  s:run(0.5)
+  equal(s:agents("behind")[1].state, "Follows")
+  equal(s:agents("ahead")[1].state, "Free")
+  equal(s:agents("met")[1].state, "Free")
+  equal(s:agents("coming")[1].state, "Free")
 end)
