@@ -19,7 +19,10 @@ static const char HELP[] =
     "  --set PATH=VALUE   replace a value of the scene, e.g. groups.pilgrims.count=5000\n"
     "  --input FILE       play recorded input: lines of TICK player AGENT VX VY\n"
     "  --record FILE      write trajectories (SQLite, JuPedSim format 2)\n"
-    "  --report DIR       draw density, regional speeds and what probes measure into DIR\n"
+    "  --report DIR       write a page, pictures and figures into DIR (index.html): danger, "
+    "density,\n"
+    "                     what probes measure; runs once more at half the step to show its share\n"
+    "  --no-half-step     do not run once more\n"
     "  --data DIR         write the CSV files of the scene's probes, and no pictures\n"
     "  --summary FILE     write the run's figures as JSON; '-' is standard output\n"
     "  --mod DIR          take a mod: a folder, or the name of one that lies in scenes' mods/ or "
@@ -41,10 +44,11 @@ typedef struct Run {
     double seconds;
     uint64_t steps, seeds, trace;
     const char **mods;
-    bool has_seconds, has_steps, watch, no_watch, has_trace, quiet, profile;
+    bool has_seconds, has_steps, watch, no_watch, has_trace, quiet, profile, no_half;
 } Run;
 
 static volatile sig_atomic_t interrupted;
+static const double LEAST_DT = 0.001; /* s, of --dt */
 
 static void interrupt(int number) {
     (void)number;
@@ -83,6 +87,8 @@ static bool read_option(Run *run, CliArgs *args, const char *option, const char 
         run->record = cli_value(args, option);
     } else if (!strcmp(option, "report")) {
         run->report = cli_value(args, option);
+    } else if (!strcmp(option, "no-half-step")) {
+        run->no_half = true;
     } else if (!strcmp(option, "data")) {
         run->data = cli_value(args, option);
     } else if (!strcmp(option, "summary")) {
@@ -115,6 +121,34 @@ static int complain(const JoError *error, bool already) {
     return error->code ? (int)error->code : JO_FAILED;
 }
 
+/* The report's page, with the same run at half the step beside it. */
+static int write_page(const Run *run, const JoScene *scene, uint64_t steps) {
+    JoError error = {0};
+    const char *why = interrupted                               ? "the run was interrupted"
+                      : run->no_half                            ? "--no-half-step was given"
+                      : jo_scene_stats(scene).dt / 2 < LEAST_DT ? "it would be below 0.001 s"
+                                                                : NULL;
+    JoScene *half = why ? NULL : jo_scene_half_step(&run->def, scene, &error);
+    if (!why && !half)
+        why = error.text;
+    if (half && !run->quiet) {
+        fprintf(stderr, "once more at half the step, %g s:\n", jo_scene_stats(half).dt);
+        jo_scene_show_progress(half, (double)(2 * steps) * jo_scene_stats(half).dt);
+    }
+    bool ok = true;
+    for (uint64_t i = 0; half && ok && i < 2 * steps && !interrupted; i++)
+        ok = jo_scene_step(half, &error);
+    if (half && (!ok || interrupted || !jo_scene_finish(half, &error))) {
+        why = interrupted ? "it was interrupted" : error.text;
+        jo_scene_free(half);
+        half = NULL;
+    }
+    JoError written = {0};
+    ok = jo_scene_page(scene, half, why, run->report, &written);
+    jo_scene_free(half);
+    return ok ? JO_OK : complain(&written, false);
+}
+
 /* Loads and simulates once; *summary receives JSON when asked for. */
 static int simulate(const Run *run, char **summary) {
     JoError error = {0};
@@ -140,6 +174,8 @@ static int simulate(const Run *run, char **summary) {
     if (ok && !ended)
         error = ending;
     int status = ok && ended ? JO_OK : complain(&error, false);
+    if (status == JO_OK && run->report)
+        status = write_page(run, scene, steps);
     if (run->summary || run->seeds)
         *summary = jo_scene_summary(scene);
     if (run->profile) {
@@ -192,9 +228,9 @@ static int usage_error(const Run *run, const CliArgs *args) {
 
 int cli_run(int argc, char **argv) {
     static const char *const known[] = {
-        "for",   "steps",  "dt",      "seed",        "seeds",    "threads", "isa",   "set",
-        "input", "record", "report",  "data",        "summary",  "watch",   "trace", "quiet",
-        "help",  "mod",    "no-mods", "profile-lua", "no-watch", NULL};
+        "for",   "steps",  "dt",      "seed",        "seeds",    "threads",      "isa",   "set",
+        "input", "record", "report",  "data",        "summary",  "watch",        "trace", "quiet",
+        "help",  "mod",    "no-mods", "profile-lua", "no-watch", "no-half-step", NULL};
     CliArgs args = {.argc = argc, .argv = argv, .next = 1, .command = "run"};
     const char **overrides = calloc((size_t)argc, sizeof *overrides);
     Run run = {.def = jo_default_scene_def()};

@@ -6,6 +6,7 @@
 #include "host/watch.h"
 #include "jostle.h"
 #include "lua/loader.h"
+#include "record/danger.h"
 #include "record/density.h"
 #include "record/paths.h"
 #include "record/probe.h"
@@ -45,6 +46,8 @@ struct JoScene {
     JoxDensity *density;
     JoxRegions *regions;
     JoxPaths *paths;
+    JoxDanger *danger;                                     /* NULL where nothing is reported */
+    JoxExits exits;                                        /* who left, and where */
     struct JoxMeasuring *measuring;                        /* NULL until a frame is asked for */
     double progress_until, progress_begun, progress_shown; /* s */
     int progress_tenth;
@@ -84,6 +87,8 @@ bool jox_host_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnost
 bool jox_host_populate(JoScene *scene, JoxDiagnostics *diagnostics);
 void jox_host_sources(JoScene *scene);
 void jox_host_sinks(JoScene *scene);
+/* Counts who left in the step, and where; after the sinks. */
+void jox_host_leavers(JoScene *scene);
 /* events.c: what is due in the step that begins. */
 void jox_host_events(JoScene *scene);
 /* Names of signals get numbers; warns of those that nobody hears (`diagnostics` may be NULL). */
@@ -116,6 +121,10 @@ void jox_host_measure(JoScene *scene);
 void jox_host_add_probes(const JoScene *scene, JoxText *out);
 bool jox_host_write_probes(const JoScene *scene, const char *folder, const char *title,
                            JoxText *error);
+/* The n-th probe, or NULL behind the last. */
+const JoxProbe *jox_host_probe(const JoScene *scene, uint32_t n);
+/* What a report collects, from here on. */
+void jox_host_begin_report(JoScene *scene);
 void jox_host_end_measuring(JoScene *scene);
 
 #endif

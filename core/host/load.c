@@ -369,6 +369,23 @@ JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
     return scene;
 }
 
+JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && scene, NULL);
+    if (scene->input_path) {
+        jox_error(error, JO_INPUT, "its input was recorded step by step");
+        return NULL;
+    }
+    JoSceneDef half = *def;
+    half.has_dt = half.has_seed = true;
+    half.dt = scene->world->def.dt / 2;
+    half.seed = scene->world->def.seed;
+    half.message = to_nobody; /* all has been said once */
+    JoScene *other = jo_scene_load(&half, error);
+    if (other)
+        jox_host_begin_report(other);
+    return other;
+}
+
 void jo_scene_free(JoScene *scene) {
     if (!scene)
         return;
@@ -385,6 +402,8 @@ void jo_scene_free(JoScene *scene) {
     jox_free(scene->party_left);
     jox_free(scene->party_team);
     jox_free(scene->report);
+    jox_danger_free(scene->danger);
+    jox_exits_free(&scene->exits);
     jox_free(scene->input_path);
     jox_free(scene);
 }

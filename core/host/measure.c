@@ -120,6 +120,11 @@ void jox_host_add_probes(const JoScene *scene, JoxText *out) {
     jox_text_add(out, "\n }");
 }
 
+const JoxProbe *jox_host_probe(const JoScene *scene, uint32_t n) {
+    const JoxMeasuring *m = scene->measuring;
+    return m && n < m->count ? m->probes[n] : NULL;
+}
+
 bool jox_host_write_probes(const JoScene *scene, const char *folder, const char *title,
                            JoxText *error) {
     const JoxMeasuring *m = scene->measuring;

@@ -49,6 +49,14 @@ typedef struct Overrides {
     JoxDist places[16];
 } Overrides;
 
+static void remember(const JoxSceneSet *memory, uint32_t count, const JoxMachine *machine,
+                     Overrides *o) {
+    for (uint32_t s = 0; s < count; s++)
+        for (uint32_t k = 0; k < machine->memory_count && k < 256; k++)
+            if (strcmp(machine->memory[k].name, memory[s].name) == 0)
+                o->memory[k] = &memory[s].dist;
+}
+
 static void override(JoScene *scene, const JoxSceneGroup *group, const JoxSceneSet *memory,
                      uint32_t memory_count, const JoxMachine *machine, JoxV2 at, Overrides *o) {
     uint32_t places = 0;
@@ -67,10 +75,8 @@ static void override(JoScene *scene, const JoxSceneGroup *group, const JoxSceneS
                 o->own[k] = &o->places[places++];
             }
         }
-    for (uint32_t s = 0; s < memory_count; s++)
-        for (uint32_t k = 0; k < machine->memory_count && k < 256; k++)
-            if (strcmp(machine->memory[k].name, memory[s].name) == 0)
-                o->memory[k] = &memory[s].dist;
+    remember(group->memory, group->memory_count, machine, o);
+    remember(memory, memory_count, machine, o); /* a source's, where it gives some */
 }
 
 static uint16_t team_number(const JoScene *scene, const char *team) {
@@ -156,6 +162,17 @@ static void check_names(const JoScene *scene, const JoxSceneGroup *group, const 
     }
 }
 
+/* Every exit of the scene, before anybody has left. */
+static void name_exits(JoScene *scene) {
+    const JoxScene *plan = scene->plan;
+    for (uint32_t s = 0; s < plan->sink_count; s++) {
+        const JoxPlace *of = &plan->places[plan->sinks[s].place];
+        for (uint32_t m = 0; m < (of->kind == JOX_PLACE_SET ? of->member_count : 1); m++)
+            jox_exits_get(&scene->exits,
+                          of->kind == JOX_PLACE_SET ? plan->places[of->members[m]].name : of->name);
+    }
+}
+
 bool jox_host_populate(JoScene *scene, JoxDiagnostics *diagnostics) {
     const JoxScene *plan = scene->plan;
     uint32_t total = 0;
@@ -171,6 +188,7 @@ bool jox_host_populate(JoScene *scene, JoxDiagnostics *diagnostics) {
     if (diagnostics->errors)
         return false;
     jox_agents_reserve(&scene->world->agents, total);
+    name_exits(scene);
     for (uint32_t g = 0; g < plan->group_count; g++)
         for (uint32_t i = 0; i < plan->groups[g].count; i++)
             spawn(scene, g, plan->groups[g].positions[i], plan->groups[g].memory,
@@ -236,16 +254,68 @@ void jox_host_sources(JoScene *scene) {
     }
 }
 
+static void count_at(JoScene *scene, const JoxPlace *place) {
+    struct JoxExit *exit = jox_exits_get(&scene->exits, place->name);
+    exit->people++;
+    exit->last = jo_world_time(scene->world);
+}
+
+/* Counts somebody who left at a point of a place: a set's member is the exit, not the set. */
+static void count_exit(JoScene *scene, uint32_t place, JoxV2 at) {
+    const JoxPlace *places = scene->world->places, *of = &places[place];
+    for (uint32_t m = 0; of->kind == JOX_PLACE_SET && m < of->member_count; m++)
+        if (jox_place_contains(places, (uint32_t)of->members[m], at)) {
+            of = &places[of->members[m]];
+            break;
+        }
+    count_at(scene, of);
+}
+
+/* Roughly, m2; what cannot be an exit: infinite. */
+static double size_of(const JoxPlace *place) {
+    switch (place->kind) {
+    case JOX_PLACE_POINT:
+        return 3.14159 * (double)place->radius * place->radius;
+    case JOX_PLACE_LINE:
+        return jox_length(jox_sub(place->points[1], place->points[0]));
+    case JOX_PLACE_POLYGON:
+        return fabs(jox_polygon_area(place->points, place->count));
+    default:
+        return INFINITY;
+    }
+}
+
+/* Who left where a behaviour said so left by the smallest place that they stood in. */
+void jox_host_leavers(JoScene *scene) {
+    const JoWorld *world = scene->world;
+    for (uint32_t g = 0; g < world->gone_count; g++) {
+        const JoxPlace *of = NULL;
+        for (uint32_t p = 0; p < scene->plan->place_count; p++) {
+            const JoxPlace *place = &world->places[p];
+            if (isfinite(size_of(place)) && jox_place_contains(world->places, p, world->gone[g]) &&
+                (!of || size_of(place) < size_of(of)))
+                of = place;
+        }
+        if (of)
+            count_at(scene, of);
+    }
+    if (world->statistics.removed > scene->exits.left) {
+        scene->exits.left = world->statistics.removed;
+        scene->exits.last = jo_world_time(world);
+    }
+}
+
 void jox_host_sinks(JoScene *scene) {
     JoxAgents *a = &scene->world->agents;
     bool any = false;
     for (uint32_t s = 0; s < scene->plan->sink_count && scene->world->tick % 4 == 0; s++) {
         const JoxSceneSink *sink = &scene->plan->sinks[s];
         for (uint32_t i = 0; i < a->count; i++) {
-            if (sink->group >= 0 && a->group[i] != sink->group)
+            if (a->removed[i] || (sink->group >= 0 && a->group[i] != sink->group))
                 continue;
             if (!jox_place_contains(scene->world->places, sink->place, (JoxV2){a->x[i], a->y[i]}))
                 continue;
+            count_exit(scene, sink->place, (JoxV2){a->x[i], a->y[i]});
             a->removed[i] = 1;
             any = true;
         }

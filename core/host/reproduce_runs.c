@@ -87,8 +87,8 @@ static void start(const JoxReproduction *all, JoxJob *job) {
     char seed[32], dt[32], duration[32];
     const char *arguments[MOST_ARGUMENTS] = {all->def->program, "run",       job->run->scene,
                                              "--quiet",         "--no-mods", "--no-watch",
-                                             "--threads",       "1"};
-    int n = 8;
+                                             "--threads",       "1",         "--no-half-step"};
+    int n = 9;
     char *summary = path_in(job, "summary.json"), *log = path_in(job, "log.txt");
     clear(job);
     snprintf(seed, sizeof seed, "%llu", (unsigned long long)job->seed);

@@ -114,16 +114,28 @@ static bool record_frame(JoScene *scene, JoError *error) {
 
 /* ---- report ---- */
 
+static void begin_danger(JoScene *scene) {
+    JoxV2 low, high;
+    jox_host_area(scene, &low, &high);
+    if (!scene->danger)
+        scene->danger = jox_danger_create(low, high);
+}
+
+void jox_host_begin_report(JoScene *scene) {
+    JoxV2 low, high;
+    jox_host_area(scene, &low, &high);
+    scene->density = jox_density_create(low, high, JOX_DENSITY_CELL, JOX_DENSITY_KERNEL);
+    begin_danger(scene);
+}
+
 bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
     JOX_REQUIRE(scene && directory && !scene->report, false);
     JoxText why = {0};
     if (!jox_plot_folder(directory, &why))
         return fail(error, &why);
-    JoxV2 low, high;
-    jox_host_area(scene, &low, &high);
     scene->report = jox_strdup(directory);
-    scene->density = jox_density_create(low, high, JOX_DENSITY_CELL, JOX_DENSITY_KERNEL);
     scene->paths = jox_paths_create();
+    jox_host_begin_report(scene);
     return true;
 }
 
@@ -133,6 +145,7 @@ bool jo_scene_data(JoScene *scene, const char *directory, JoError *error) {
     if (!jox_plot_folder(directory, &why))
         return fail(error, &why);
     scene->data = jox_strdup(directory);
+    begin_danger(scene);
     return true;
 }
 
@@ -166,13 +179,13 @@ static void make_regions(JoScene *scene) {
 static void sample(JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->agents;
-    if (scene->report)
+    if (scene->paths)
         sample_paths(scene);
     uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(SAMPLE / world->def.dt + 0.5));
     double time = (double)world->tick * world->def.dt;
     if (world->tick % every != 0 || time < scene->plan->heatmap_from)
         return;
-    if (scene->report)
+    if (scene->density)
         jox_density_add(scene->density, a->x, a->y, a->count, time);
     jox_regions_frame(scene->regions, a->x, a->y, a->prev_x, a->prev_y, a->count, world->def.dt);
 }
@@ -218,7 +231,8 @@ static bool draw(JoScene *scene, JoError *error) {
                  "%.120s: paths (a dot is the beginning, a circle the end), %.1f s", name, until);
         good = draw_paths(scene, title, &why);
     }
-    good = good && jox_host_write_probes(scene, scene->report, name, &why);
+    good = good && jox_host_write_probes(scene, scene->report, name, &why) &&
+           jox_danger_write(scene->danger, scene->report, &scene->world->wall_plan, name, &why);
     if (!good)
         return fail(error, &why);
     jox_host_say(scene, "pictures: %s%s%s/density.png%s%s%s\n", paths ? scene->report : "",
@@ -270,6 +284,8 @@ bool jox_host_collect(JoScene *scene, JoError *error) {
     if (scene->density || scene->regions->count)
         sample(scene);
     jox_host_measure(scene);
+    if (scene->danger)
+        jox_danger_frame(scene->danger, jox_host_frame(scene), &scene->exits);
     if (scene->progress_until > 0.0)
         show_progress(scene);
     return !scene->recorder || scene->world->tick % scene->record_every != 0 ||
@@ -283,6 +299,7 @@ bool jo_scene_step(JoScene *scene, JoError *error) {
     jox_host_sources(scene);
     jox_world_step(scene->world);
     jox_host_sinks(scene);
+    jox_host_leavers(scene);
     const char *stalled = jox_lua_stalled(scene->lua);
     if (stalled) {
         jox_error(error, JO_FAILED,
@@ -320,10 +337,14 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
     scene->recorder = NULL;
     if (scene->report) {
         good = draw(scene, error) && good;
-        scene->density_most = scene->density->most;
     }
+    if (scene->density)
+        scene->density_most = scene->density->most;
     if (scene->data)
-        good = (jox_host_write_probes(scene, scene->data, NULL, &why) || fail(error, &why)) && good;
+        good = ((jox_host_write_probes(scene, scene->data, NULL, &why) &&
+                 jox_danger_write(scene->danger, scene->data, NULL, NULL, &why)) ||
+                fail(error, &why)) &&
+               good;
     jox_free(scene->data);
     scene->data = NULL;
     jox_density_free(scene->density);

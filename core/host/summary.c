@@ -78,6 +78,29 @@ static void add_events(JoxText *out, const JoScene *scene) {
     jox_text_add(out, "}");
 }
 
+static void add_regions(JoxText *out, const JoScene *scene) {
+    if (!scene->regions || scene->regions->count == 0)
+        return;
+    jox_text_add(out, ",\n \"regions\": {");
+    for (uint32_t r = 0; r < scene->regions->count; r++) {
+        jox_text_add(out, r ? ", " : "");
+        jox_text_json(out, scene->regions->items[r].name);
+        jox_text_add(out, ": ");
+        jox_text_json_number(out, jox_region_speed(&scene->regions->items[r]));
+    }
+    jox_text_add(out, "}");
+}
+
+static void add_danger(JoxText *out, const JoScene *scene) {
+    jox_text_add(out, ",\n \"danger\": {");
+    jox_exits_json(&scene->exits, out);
+    if (scene->danger) {
+        jox_text_add(out, ",\n  ");
+        jox_danger_json(scene->danger, out);
+    }
+    jox_text_add(out, "}");
+}
+
 /* What plain functions cost: share of the stepping, calls, and what failed. */
 static void add_lua(JoxText *out, const JoScene *scene) {
     const JoWorld *world = scene->world;
@@ -242,19 +265,11 @@ char *jo_scene_summary(const JoScene *scene) {
     add_number(&out, "density_max", density_max(scene));
     add_number(&out, "overlap_p99", jox_statistics_overlap_p99(s));
     add_states(&out, world);
-    if (scene->regions && scene->regions->count) {
-        jox_text_add(&out, ",\n \"regions\": {");
-        for (uint32_t r = 0; r < scene->regions->count; r++) {
-            jox_text_add(&out, r ? ", " : "");
-            jox_text_json(&out, scene->regions->items[r].name);
-            jox_text_add(&out, ": ");
-            jox_text_json_number(&out, jox_region_speed(&scene->regions->items[r]));
-        }
-        jox_text_add(&out, "}");
-    }
+    add_regions(&out, scene);
     add_events(&out, scene);
     add_bonds(&out, scene);
     add_exchange(&out, s);
+    add_danger(&out, scene);
     add_lua(&out, scene);
     jox_host_add_probes(scene, &out);
     jox_text_printf(&out, ",\n \"hash\": \"%016llx\",\n \"isa\": \"scalar\",\n \"threads\": %u",

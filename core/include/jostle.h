@@ -181,6 +181,9 @@ JO_API JoSceneDef jo_default_scene_def(void);
 /* NULL if anything is wrong: every error went to `message`, the first is in `error`. */
 JO_API JoScene *jo_scene_load(const JoSceneDef *def, JoError *error);
 JO_API void jo_scene_free(JoScene *scene);
+/* The scene of `def` once more, with the seed of one that was loaded from it, half its step, and
+   no messages; it collects what a report does, and draws nothing. NULL with `error`. */
+JO_API JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError *error);
 /* The world, owned by the scene; agents and bodies may be read and pushed. */
 JO_API JoWorld *jo_scene_world(JoScene *scene);
 JO_API double jo_scene_duration(const JoScene *scene); /* s, as the scene says */
@@ -204,6 +207,11 @@ JO_API bool jo_scene_record(JoScene *scene, const char *path, JoError *error);
 /* Collects density and regional speeds from here on; jo_scene_finish draws them, and what the
    scene's probes measured, into `directory` (made if it is missing). */
 JO_API bool jo_scene_report(JoScene *scene, const char *directory, JoError *error);
+/* After jo_scene_finish: writes index.html into the report's `directory`, with the figures of the
+   run and, beside each, those of `half`, the same run at half the step. NULL: the page says that
+   there was none, because `why`. False with `error` if it cannot be written. */
+JO_API bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
+                          const char *directory, JoError *error);
 /* At jo_scene_finish only the probes' CSV files are written, into `directory` (made if it is
    missing). */
 JO_API bool jo_scene_data(JoScene *scene, const char *directory, JoError *error);

@@ -113,7 +113,12 @@ static bool run_file(JoxVm *vm, const char *path, JoxTrial *trial, const char *o
         fail_file(vm, text ? text : "not enough memory", line, diagnostics);
         return false;
     }
-    if (!good || !jox_vm_call(vm, 0, 0, BUDGET, &why, &line)) {
+    static const JoxScope NO_SCOPE = {0};
+    vm->scope = &NO_SCOPE;
+    vm->loading = true; /* require works */
+    good = good && jox_vm_call(vm, 0, 0, BUDGET, &why, &line);
+    vm->loading = false;
+    if (!good) {
         fail_file(vm, why, line, diagnostics);
         return false;
     }

@@ -7,12 +7,14 @@
 #include "base/mem.h"
 #include "record/danger_parts.h"
 
-static const double PACE = 0.5;          /* s between samples of the fields */
-static const double HOLD = 1.0;          /* s: time constant of a person's compression */
-static const double CALM = 10.0;         /* s: time constant of means at a place */
-static const float CELL = 0.4f;          /* m */
-static const float KERNEL = 0.70710678f; /* m: R / sqrt 2, R = 1 m, of exp(-d2 / R2) */
-static const float LEAST = 0.02f;        /* 1/m2: below this nobody is there to have a velocity */
+static const double PACE = 0.5;                /* s between samples of the fields */
+static const double HOLD = 1.0;                /* s: time constant of a person's compression */
+static const double START = 5.0;               /* s at first whose velocities are left out, */
+static const double CALM = 10.0;               /* s: time constant of means at a place */
+static const float FINE = 0.2f, COARSE = 0.4f; /* m: of cells */
+static const float FEW = 1e5f;                 /* cells: areas of more have coarser ones */
+static const float KERNEL = 0.70710678f;       /* m: R / sqrt 2, R = 1 m, of exp(-d2 / R2) */
+static const float LEAST = 0.02f; /* 1/m2: below this nobody is there to have a velocity */
 
 const char *const jox_danger_names[] = {"density", "pressure", "compression"};
 const char *const jox_danger_units[] = {"1/m2", "1/s2", "N/m"};
@@ -87,7 +89,8 @@ void jox_exits_json(const JoxExits *exits, JoxText *out) {
 
 JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high) {
     JoxDanger *d = jox_alloc(1, sizeof *d);
-    d->grid = jox_density_create(low, high, CELL, KERNEL);
+    float cell = sqrtf((high.x - low.x) * (high.y - low.y) / FEW);
+    d->grid = jox_density_create(low, high, jox_clampf(cell, FINE, COARSE), KERNEL);
     size_t cells = (size_t)d->grid->columns * d->grid->rows;
     float **fields[] = {&d->density, &d->flow_x,      &d->flow_y, &d->mean_density, &d->mean_vx,
                         &d->mean_vy, &d->mean_square, &d->weight, &d->pressure};
@@ -149,6 +152,14 @@ static void press(JoxDanger *d, const JoxFrame *frame) {
     }
 }
 
+/* Velocity of person i over the last sample interval: that of one step shakes with its contacts. */
+static JoxV2 velocity(JoxDanger *d, const JoxFrame *frame, uint32_t i) {
+    JoxStretch way;
+    if (!jox_track_step(&d->track, frame, i, &way) || way.ended - way.begun > 2.0 * PACE)
+        return (JoxV2){frame->vx[i], frame->vy[i]};
+    return jox_scale(way.by, (float)(1.0 / (way.ended - way.begun)));
+}
+
 /* The fields of this sample; images over periodic edges count too. */
 static void spread(JoxDanger *d, const JoxFrame *frame) {
     const JoxDensity *g = d->grid;
@@ -158,7 +169,9 @@ static void spread(JoxDanger *d, const JoxFrame *frame) {
         memset(fields[f], 0, cells * sizeof(float));
     int across = frame->period.x > 0.0f, up = frame->period.y > 0.0f;
     float reach = ((float)g->reach + 1.0f) * g->cell;
-    for (uint32_t i = 0; i < frame->count; i++)
+    jox_track_reserve(&d->track, frame->keys);
+    for (uint32_t i = 0; i < frame->count; i++) {
+        JoxV2 v = velocity(d, frame, i);
         for (int c = -across; c <= across; c++)
             for (int r = -up; r <= up; r++) {
                 float x = frame->x[i] + (float)c * frame->period.x;
@@ -166,13 +179,16 @@ static void spread(JoxDanger *d, const JoxFrame *frame) {
                 if (x - g->low.x > -reach && y - g->low.y > -reach &&
                     x - g->low.x < (float)g->columns * g->cell + reach &&
                     y - g->low.y < (float)g->rows * g->cell + reach)
-                    jox_density_spread(g, fields, (float[3]){1.0f, frame->vx[i], frame->vy[i]}, 3,
-                                       x, y);
+                    jox_density_spread(g, fields, (float[3]){1.0f, v.x, v.y}, 3, x, y);
             }
+    }
 }
 
 /* Crowd pressure of each cell, from means over time in which this sample has its share. */
-static void agitate(JoxDanger *d, double duration) {
+static void agitate(JoxDanger *d, double now, double duration) {
+    bool moving = now - d->begun >= START - 1e-6;
+    float enough = (float)(1.0 - jox_exp(-START / CALM)) * 0.999f;
+    d->pressure_samples += now - d->begun >= 2.0 * START - 1e-6;
     size_t cells = (size_t)d->grid->columns * d->grid->rows;
     float share = (float)(1.0 - jox_exp(-duration / CALM)), stay = 1.0f - share;
     d->density_weight = stay * d->density_weight + share;
@@ -181,14 +197,14 @@ static void agitate(JoxDanger *d, double duration) {
         float density = d->density[c];
         d->mean_density[c] = stay * d->mean_density[c] + share * density;
         d->pressure[c] = 0.0f;
-        if (density >= LEAST) {
+        if (density >= LEAST && moving) {
             float vx = d->flow_x[c] / density, vy = d->flow_y[c] / density;
             d->mean_vx[c] = stay * d->mean_vx[c] + share * vx;
             d->mean_vy[c] = stay * d->mean_vy[c] + share * vy;
             d->mean_square[c] = stay * d->mean_square[c] + share * (vx * vx + vy * vy);
             d->weight[c] = stay * d->weight[c] + share;
         }
-        if (!(d->mean_density[c] >= dense && d->weight[c] > 0.0f))
+        if (!(d->mean_density[c] >= dense && d->weight[c] >= enough))
             continue;
         float ux = d->mean_vx[c] / d->weight[c], uy = d->mean_vy[c] / d->weight[c];
         float variance = d->mean_square[c] / d->weight[c] - ux * ux - uy * uy;
@@ -254,10 +270,12 @@ void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits
     if (stretch == d->stretch)
         return;
     d->stretch = stretch;
+    if (isnan(d->last_sample))
+        d->begun = frame->time;
     double duration = isnan(d->last_sample) ? 0.0 : frame->time - d->last_sample;
     d->last_sample = frame->time;
     spread(d, frame);
-    agitate(d, duration > 0.0 ? duration : PACE);
+    agitate(d, frame->time, duration > 0.0 ? duration : PACE);
     for (uint32_t i = 0; i < frame->count; i++) {
         size_t cell;
         if (!cell_of(d->grid, frame->x[i], frame->y[i], &cell))
@@ -277,7 +295,8 @@ JoxDangerCount jox_danger_count(const JoxDanger *d, int limit) {
 
 JoxDangerMost jox_danger_most(const JoxDanger *d, JoxDangerMeasure measure) {
     JoxDangerMost most = d->most[measure];
-    bool read = d->samples > 0 && (measure != JOX_DANGER_COMPRESSION || d->has_compression);
+    bool read = (measure == JOX_DANGER_PRESSURE ? d->pressure_samples : d->samples) > 0 &&
+                (measure != JOX_DANGER_COMPRESSION || d->has_compression);
     if (isnan(most.value) && read) /* nobody was ever pressed, say */
         most.value = 0.0;
     return most;
@@ -319,6 +338,7 @@ void jox_danger_free(JoxDanger *d) {
     if (!d)
         return;
     jox_density_free(d->grid);
+    jox_free(d->track.items);
     void *fields[] = {d->density, d->flow_x,      d->flow_y, d->mean_density, d->mean_vx,
                       d->mean_vy, d->mean_square, d->weight, d->pressure,     d->stood,
                       d->held,    d->over,        d->rows};

@@ -4,8 +4,9 @@
      pressure     the crowd pressure of Helbing, Johansson and Al-Abideen 2007 (Phys. Rev. E 75,
                   046109, doi 10.1103/PhysRevE.75.046109), 1/s2: mean density of a place times the
                   variance over time of the local velocity there, V = sum of w v over sum of w with
-                  the same kernel. Means over time are exponential, 10 s. Read only where the mean
-                  density is over the first limit of density: sparse crowds vary freely.
+                  the same kernel and velocities over 0.5 s. Means over time are exponential, 10 s.
+                  Read only where the mean density is over the first limit of density (sparse crowds
+                  vary freely) and from 10 s on; the first 5 s, when all start, are left out.
      compression  sum of the contact forces' magnitudes on a person over the girth, N/m, as an
                   exponential mean over 1 s of each person: what is held, not a knock of one step.
    Exits: who left where, and when the last did. */

@@ -49,7 +49,9 @@ static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) 
 
 /* Means are over samples, of compression over the people who stood in the cell. */
 static double mean_of(const JoxDanger *d, int measure, size_t cell) {
-    double n = measure == JOX_DANGER_COMPRESSION ? d->stood[cell] : d->samples;
+    double n = measure == JOX_DANGER_COMPRESSION ? d->stood[cell]
+               : measure == JOX_DANGER_PRESSURE  ? d->pressure_samples
+                                                 : d->samples;
     return n > 0.0 ? d->sum[measure][cell] / n : 0.0;
 }
 
@@ -92,21 +94,25 @@ static void begin_picture(FILE *script, const char *name, bool svg, int width, i
 }
 
 /* Greatest value over time, with the limits as lines that say what they are. */
-static void strip(const JoxDanger *d, int measure, FILE *script) {
+static void strip(const JoxDanger *d, JoxDangerMeasure measure, FILE *script) {
     double top = 0.0;
     for (uint32_t r = 0; r < d->row_count; r++)
         top = fmax(top, d->rows[r].most[measure]);
     fprintf(script, "set ylabel '%s'\nunset arrow\nunset label\n", jox_danger_units[measure]);
-    fprintf(script, "set title 'greatest %s of anyone' noenhanced\n", WHAT[measure]);
+    int first = 0;
+    while (jox_danger_limits[first].measure != measure)
+        first++;
+    fprintf(script, "set title 'greatest %s of anyone; first limit: %.4g'\n", WHAT[measure],
+            jox_danger_limits[first].value);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         double limit = jox_danger_limits[l].value;
-        if ((int)jox_danger_limits[l].measure != measure || limit > 2.0 * fmax(top, limit / 2.1))
+        if ((int)jox_danger_limits[l].measure != (int)measure || limit > 2.0 * fmax(top, limit / 2.1))
             continue;
-        if (limit > 1.6 * top && l > 0 && (int)jox_danger_limits[l - 1].measure == measure)
+        if (limit > 1.6 * top && l > 0 && (int)jox_danger_limits[l - 1].measure == (int)measure)
             continue; /* far above: it would only flatten the line */
         fprintf(script,
                 "set arrow from graph 0, first %.6g to graph 1, first %.6g nohead lc '#c00000' dt "
-                "2\nset label '%s' at graph 0.995, first %.6g right offset 0,0.5 tc '#c00000' "
+                "2\nset label '%s' at graph 1.01, first %.6g left tc '#c00000' "
                 "noenhanced\n",
                 limit, limit, jox_danger_limits[l].key, limit);
         top = fmax(top, limit);
@@ -169,11 +175,11 @@ static bool draw_times(const JoxDanger *d, const char *folder, const char *title
         begin_picture(script, "danger", svg, 1200, 60 + strips * STRIP, title);
         fprintf(script,
                 "set multiplot layout %d,1 title heading font ',14' noenhanced\nset grid\n"
-                "set lmargin 11\nset rmargin 24\nset xlabel 't (s)'\nset xrange [0:%g]\n",
+                "set lmargin 11\nset rmargin 19\nset xlabel 't (s)'\nset xrange [0:%g]\n",
                 strips, d->row_count ? fmax(d->rows[d->row_count - 1].time, 1.0) : 1.0);
         for (int m = 0; m < JOX_DANGER_MEASURES; m++)
             if (m != JOX_DANGER_COMPRESSION || d->has_compression)
-                strip(d, m, script);
+                strip(d, (JoxDangerMeasure)m, script);
         counts(d, script);
         if (has_left(d))
             leavers(d, script);
@@ -190,11 +196,18 @@ static void panel(const JoxDanger *d, int measure, bool greatest, const JoxWalls
     double top = 0.0;
     for (size_t c = 0; c < cells; c++)
         top = fmax(top, greatest ? d->greatest[measure][c] : mean_of(d, measure, c));
+    if (top <= 0.0) { /* else one would look for it */
+        fprintf(script, "set title '%s'\nset label 1 '%s' at graph 0.5,0.5 center front\n",
+                WHAT[measure],
+                measure == JOX_DANGER_PRESSURE ? "nowhere dense enough, or too short"
+                                               : "nobody was pressed");
+        fputs("unset colorbox\nplot NaN notitle\nset colorbox\nunset label 1\n", script);
+        return;
+    }
     fprintf(script,
             "set title '%s %s'\nset cbrange [0:%g]\nplot 'danger-map.csv' skip 1 using 1:2:%d with "
             "image notitle",
-            greatest ? "greatest" : "mean", WHAT[measure], top > 0.0 ? top : 1.0,
-            3 + 2 * measure + greatest);
+            greatest ? "greatest" : "mean", WHAT[measure], top, 3 + 2 * measure + greatest);
     if (walls)
         jox_plot_wall_lines(script, walls, "1.2");
     else

@@ -4,6 +4,7 @@
 
 #include "record/danger.h"
 #include "record/density.h"
+#include "record/probe_parts.h"
 
 enum { JOX_DANGER_EXITS = 16 }; /* that have a column of their own over time */
 
@@ -27,7 +28,8 @@ struct JoxDanger {
     double *sum[JOX_DANGER_MEASURES];
     float *greatest[JOX_DANGER_MEASURES];
     uint32_t *stood; /* people whose compression was summed */
-    uint32_t samples;
+    uint32_t samples, pressure_samples;
+    JoxTrack track;        /* from sample to sample */
     double density_weight; /* of mean_density */
 
     float *held;   /* by key: compression, mean of the last second */
@@ -35,8 +37,8 @@ struct JoxDanger {
     uint32_t held_capacity, over_capacity;
     bool has_compression;
 
-    double last_frame, last_sample; /* s */
-    int64_t stretch;                /* of the last sample */
+    double begun, last_frame, last_sample; /* s */
+    int64_t stretch;                       /* of the last sample */
     JoxDangerCount counts[JOX_DANGER_LIMITS];
     JoxDangerMost most[JOX_DANGER_MEASURES];
     JoxDangerRow *rows;

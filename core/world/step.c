@@ -186,6 +186,12 @@ static void observe(JoWorld *w) {
         a->prev_y[i] = a->y[i] - w->walked[i].y;
     }
     jox_statistics_observe(&w->statistics, a, &w->neighbours, w->tick, w->def.dt);
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (!a->removed[i])
+            continue;
+        JOX_RESERVE(w->gone, w->gone_capacity, w->gone_count + 1);
+        w->gone[w->gone_count++] = (JoxV2){a->x[i], a->y[i]};
+    }
     w->statistics.removed += jox_agents_compact(a);
 }
 
@@ -205,6 +211,7 @@ void jox_world_step(JoWorld *w) {
     double begin = jox_clock_wall(), cpu = jox_clock_cpu(), last = begin;
     jox_world_settle(w);
     divide(w);
+    w->gone_count = 0;
     for (w->part = 0; w->part < w->parts; w->part++)
         for (int stage = 0; stage < JO_STAGE_COUNT; stage++) {
             STAGES[stage](w);

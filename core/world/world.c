@@ -51,6 +51,7 @@ void jo_world_free(JoWorld *world) {
     jox_free(world->neighbours.distance2);
     jox_free(world->neighbours.count);
     jox_free(world->walked);
+    jox_free(world->gone);
     jox_free(world->discs);
     jox_free(world->disc_agents);
     free_places(world);

@@ -49,6 +49,8 @@ struct JoWorld {
     double part_dt, plan; /* s: of a part; how far ahead velocities are planned */
     JoxV2 *walked;        /* per agent, m: during the parts so far; only where there are several */
     uint32_t walked_capacity;
+    JoxV2 *gone; /* m: where those stood who left of their own accord in the last step */
+    uint32_t gone_count, gone_capacity;
 
     bool walls_set;           /* `walls`, nav and bodies are as the plan says */
     uint32_t walls_version;   /* counts the changes */

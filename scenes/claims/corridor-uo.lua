@@ -9,7 +9,7 @@ local cases = {
 -- The same scene with other widths.
 local function run(entrance, exit, people, during)
   local e, x = entrance / 2, exit / 2
-  return { scene = "../corridor-uo.yaml", seeds = 3, set = {
+  return { scene = "../corridor-uo.yaml", seeds = 6, set = {
     ["groups.people.count"] = people, ["probes.middle.from"] = during[1], ["probes.middle.until"] = during[2],
     ["places.entrance.line.0.1"] = e, ["places.entrance.line.1.1"] = -e,
     ["walls.0.line.2.1"] = e, ["walls.1.line.2.1"] = -e,
@@ -21,7 +21,7 @@ end
 local runs, quick, expect, pictures = {}, {}, {}, {}
 for i = 1, #cases do
   local name, entrance, exit, people, during, flow, density, speed = table.unpack(cases[i])
-  runs[name], quick[name], pictures[name] = run(entrance, exit, people, during), { seeds = 1 }, { "paths.png", "middle.png" }
+  runs[name], quick[name], pictures[name] = run(entrance, exit, people, during), { seeds = 2 }, { "paths.png", "middle.png" }
   local function add(figure, unit, what, source)
     expect[#expect + 1] = { figure .. " " .. name, unit = unit, what = what .. ", " .. name,
       source = string.format("%.2f", source), band = { 0.75 * source, 1.25 * source } }

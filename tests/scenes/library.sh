@@ -29,7 +29,35 @@ between "catch: and hit" "$(event hits <"$work/s")" 3 500
 summary station >"$work/s"
 between "station: all 40 ride, as standers" "$(people stander Stand <"$work/s")" 40 40
 between "station: nobody of the strollers boards" "$(($(people wanderer Walk <"$work/s") + $(people wanderer Stay <"$work/s")))" 15 15
-for scene in corridor counter tour families evacuation hurried-polite catch station; do
+# of PROBE FIGURE < summary
+of() { sed -n "s/^  \"$1\": {.*\"$2\": \([-0-9.e+]*\).*/\1/p"; }
+summary bottleneck >"$work/s"
+between "bottleneck: all 180 come through 1.2 m" "$(of door forward <"$work/s")" 180 180
+between "bottleneck: 2.23 a second, within a fifth" "$(of door flow <"$work/s")" 1.78 2.68
+between "bottleneck: and are gone" "$(figure agents <"$work/s")" 0 0
+summary single-file >"$work/s"
+between "single file: speed at 30 people in 26.84 m" "$(of ring speed <"$work/s")" 0.46 0.7
+summary ring >"$work/s"
+between "ring corridor: speed at 1.71 people a square metre" "$(of middle speed <"$work/s")" 0.42 0.7
+summary corridor-uo >"$work/s"
+between "corridor with entrance and exit: all 150 leave" "$(figure agents <"$work/s")" 0 0
+summary bidirectional >"$work/s"
+between "both ways: lanes form" "$(of lanes order <"$work/s")" 0.75 1
+between "both ways: and people walk" "$(of lanes speed <"$work/s")" 0.75 1.25
+summary rimea-09 >"$work/s"
+between "RiMEA 9: a thousand leave" "$(event removed <"$work/s")" 1000 1000
+summary rimea-10 >"$work/s"
+between "RiMEA 10: nobody takes the wrong exit" "$(of main_wrong passages <"$work/s")$(of secondary_wrong passages <"$work/s")" 0 0
+between "RiMEA 10: all 23 leave" "$(event removed <"$work/s")" 23 23
+summary rimea-11 >"$work/s"
+between "RiMEA 11: most take the nearer door" "$(of near forward <"$work/s")" 150 270
+between "RiMEA 11: all 300 leave" "$(event removed <"$work/s")" 300 300
+for scene in rimea-15 rimea-15-straight; do
+    summary $scene >"$work/s"
+    between "$scene: all 60 arrive" "$(event removed <"$work/s")" 60 60
+done
+for scene in corridor counter tour families evacuation hurried-polite catch station bottleneck single-file ring \
+    corridor-uo bidirectional bidirectional-across ring-across rimea-04 rimea-04-across rimea-09 rimea-10 rimea-11 rimea-15 rimea-15-straight; do
     same_hash "$scene, one thread and two" "$(hash_of "$JOSTLE" "scenes/$scene.yaml" --for 15)" "$(hash_of "$JOSTLE" "scenes/$scene.yaml" --for 15 --threads 2)"
 done
 exit 0

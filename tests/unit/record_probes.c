@@ -78,6 +78,7 @@ static JoxProbeDef def_of(JoxProbeKind kind, const JoxV2 *points, uint32_t count
                          .until = INFINITY,
                          .points = points,
                          .count = count,
+                         .states = {"Wait", "Served"},
                          .every = 1,
                          .cutoff = 1,
                          .onset = 0.05,
@@ -254,8 +255,6 @@ static void cells_reach_over_joined_edges(void **state) {
 static void visit_is_from_state_to_state(void **state) {
     (void)state;
     JoxProbeDef def = def_of(JOX_PROBE_VISIT, NULL, 0);
-    def.states[0] = "Wait";
-    def.states[1] = "Served";
     JoxProbe *probe = jox_probe_create(&def);
     static const double WAITS[] = {1, 2, 3, 4}, SERVED[] = {5, 7, 6, 99};
     nobody(4);

@@ -1,0 +1,29 @@
+return claim {
+  id = "5", title = "Dodge-ball: players and balls change each other's velocity by the ratio of their masses",
+  source = "Kim et al. 2014, Figs. 9 and 10",
+  text = "Two players of 70 kg and a ball of 0.4 kg; two players and 500 balls among four obstacles. Where both get the same momentum with opposite signs, a collision changes the ball's velocity 175 times as much as the player's; what does not cancel is the error of that ratio. Kicks are meant, and their reaction goes to the ground: they are not among the collisions.",
+  runs = {
+    one = { scene = "../dodgeball.yaml", seeds = 1 }, one_fine = { scene = "../dodgeball.yaml", dt = 0.02, seeds = 1 },
+    many = { scene = "../dodgeball-500.yaml", seeds = 2 },
+  },
+  quick = { many = { seeds = 1, duration = 20 } },
+  measure = function(run)
+    local one, fine, many = run.one.summary, run.one_fine.summary, run.many.summary
+    return {
+      residual = one.exchange.residual, residual_fine = fine.exchange.residual, residual_many = many.exchange.residual,
+      hits = one.exchange.contacts, hits_many = many.exchange.contacts, kicks = one.events.kicks, kicks_many = many.events.kicks,
+      lost = one.events.bodies_lost + many.events.bodies_lost,
+    }
+  end,
+  expect = {
+    { "residual", what = "momentum that does not cancel, share of all in collisions, one ball, dt 0.05 s", source = "0", band = { 0, 0.01 } },
+    { "residual_fine", what = "the same, dt 0.02 s", source = "0", band = { 0, 0.01 } },
+    { "residual_many", what = "the same, 500 balls", source = "0", band = { 0, 0.01 } },
+    { "hits", what = "collisions that were measured, one ball", source = "some", band = { 1 } },
+    { "hits_many", what = "collisions that were measured, 500 balls", source = "many", band = { 100 } },
+    { "kicks", what = "kicks, one ball", source = "some", band = { 2 } },
+    { "kicks_many", what = "kicks, 500 balls", source = "many", band = { 20 } },
+    { "lost", what = "bodies that fell out of the world", source = "0", band = { 0, 0 } },
+  },
+  pictures = { one = { "paths.png" }, many = { "paths.png" } },
+}

@@ -1,0 +1,31 @@
+return claim {
+  id = "4", title = "An office: people and furniture push each other alike",
+  source = "Kim et al. 2014, Fig. 8 and equation 7",
+  text = "1200 people leave an office of 65 pieces of furniture while boxes are thrown among them. What people are given by contacts with bodies, bodies are given with the opposite sign: measured in every step, on the people's side as forces, on the other as the change of momentum in Bullet.",
+  runs = {
+    office = { scene = "../office.yaml", seeds = 3 },
+    fine = { scene = "../office.yaml", seeds = 1, dt = 0.02, duration = 30 },
+  },
+  quick = { office = { seeds = 1, duration = 30 }, fine = { duration = 15 } },
+  measure = function(run)
+    local office, fine = run.office.summary, run.fine.summary
+    return {
+      residual = office.exchange.residual, residual_fine = fine.exchange.residual,
+      contacts = office.exchange.contacts, thrown = office.events.throws, hits = office.events.hits,
+      impulse = office.exchange.impulse, lost = office.events.bodies_lost, left = office.events.removed,
+      overlap = office.overlap_p99,
+    }
+  end,
+  expect = {
+    { "residual", what = "momentum that does not cancel, share of all that is exchanged, dt 0.05 s", source = "0", band = { 0, 1e-5 } },
+    { "residual_fine", what = "the same, dt 0.02 s", source = "0", band = { 0, 1e-5 } },
+    { "contacts", what = "contacts with bodies that were measured", source = "many", band = { 1000 } },
+    { "thrown", what = "boxes thrown", source = "12", band = { 12, 12 } },
+    { "lost", what = "bodies that fell out of the world", source = "0", band = { 0, 0 } },
+    { "impulse", unit = "N s", what = "momentum exchanged, sum of sizes", reported = true },
+    { "hits", what = "people hit by boxes that fly", reported = true },
+    { "left", what = "people who got out", reported = true },
+    { "overlap", what = "99th percentile of overlap, share of a diameter", reported = true },
+  },
+  pictures = { office = { "density.png" } },
+}

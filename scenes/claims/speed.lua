@@ -1,0 +1,32 @@
+-- Steps a second of processor time, on one core, while nothing is drawn.
+local function frames(run) return run.summary.steps / run.summary.cpu_s end
+-- How much faster than the clock on the wall, stepping alone.
+local function pace(run) return run.summary.simulated_s / run.summary.cpu_s end
+
+local function run(scene, duration) return { scene = "../" .. scene .. ".yaml", duration = duration, seeds = 1 } end
+
+return claim {
+  id = "13", title = "Faster than the paper, and than real time",
+  source = "Kim et al. 2014, Table 2: frames a second on one core of a 3.4 GHz i7",
+  text = "Steps a second on one core, and how much faster than real time. On a processor that is shared, with others at work, these are lower bounds.",
+  runs = {
+    bottlenecks = run("two-bottlenecks", 30), wall = run("wall-breaking", 20), office = run("office", 20),
+    balls = run("dodgeball-500", 20), tawaf = run("tawaf", 20),
+  },
+  quick = { tawaf = { duration = 10 } },
+  measure = function(run)
+    return {
+      bottlenecks = frames(run.bottlenecks), wall = frames(run.wall), office = frames(run.office),
+      balls = frames(run.balls), tawaf = frames(run.tawaf),
+      slowest = math.min(pace(run.bottlenecks), pace(run.wall), pace(run.office), pace(run.balls), pace(run.tawaf)),
+    }
+  end,
+  expect = {
+    { "bottlenecks", unit = "1/s", what = "two bottlenecks, 1000 agents", source = "829.7", band = { 829.7 } },
+    { "wall", unit = "1/s", what = "wall breaking, 1200 agents, 200 blocks", source = "50.1", band = { 50.1 } },
+    { "office", unit = "1/s", what = "office, 1200 agents, 65 bodies", source = "69.0", band = { 69 } },
+    { "balls", unit = "1/s", what = "dodge ball, 500 balls", source = "90.9", band = { 90.9 } },
+    { "tawaf", unit = "1/s", what = "Tawaf, 35,000 agents", source = "5.7", band = { 5.7 } },
+    { "slowest", what = "the slowest of them, times faster than real time", source = "-", band = { 1 } },
+  },
+}
