@@ -11,10 +11,9 @@ return machine {
   states = {
     Walk = { steer = field(own.goal), speed = crowd.by_headway,
       { to = "Gone",  when = there },
-      { to = "Wait",  when = now.speed:below(0.2 * own.speed) } },
+      { to = "Wait",  when = now.speed:below(0.2 * own.speed) & after(1) } },
 
-    Wait = { steer = field(own.goal), speed = crowd.by_headway, lasts = uniform(6, 9),
-      { to = "Walk",  when = moves },
+    Wait = { steer = hold, lasts = uniform(6, 8),
       { to = "Press", when = lasted } },
 
     Press = { steer = field(own.goal), horizon = 0.5, push = 110 * max(now.speed, own.speed),
