@@ -1,5 +1,5 @@
--- Leaves by the nearer of two doors, or by the farther one where that is quicker: people look again from time to
--- time, and compare their way to each door and those who stand before it.
+-- Leaves by the nearer of two doors, or, once it would take too long, by the farther one: from time to time people
+-- compare their way to each door and those who stand before it.
 local crowd = require "crowd"
 
 -- Seconds to get out by a door: the way there, then those in front, of whom two a second get through.

@@ -49,6 +49,14 @@ typedef struct Overrides {
     JoxDist places[16];
 } Overrides;
 
+static void remember(const JoxSceneSet *memory, uint32_t count, const JoxMachine *machine,
+                     Overrides *o) {
+    for (uint32_t s = 0; s < count; s++)
+        for (uint32_t k = 0; k < machine->memory_count && k < 256; k++)
+            if (strcmp(machine->memory[k].name, memory[s].name) == 0)
+                o->memory[k] = &memory[s].dist;
+}
+
 static void override(JoScene *scene, const JoxSceneGroup *group, const JoxSceneSet *memory,
                      uint32_t memory_count, const JoxMachine *machine, JoxV2 at, Overrides *o) {
     uint32_t places = 0;
@@ -67,10 +75,8 @@ static void override(JoScene *scene, const JoxSceneGroup *group, const JoxSceneS
                 o->own[k] = &o->places[places++];
             }
         }
-    for (uint32_t s = 0; s < memory_count; s++)
-        for (uint32_t k = 0; k < machine->memory_count && k < 256; k++)
-            if (strcmp(machine->memory[k].name, memory[s].name) == 0)
-                o->memory[k] = &memory[s].dist;
+    remember(group->memory, group->memory_count, machine, o);
+    remember(memory, memory_count, machine, o); /* a source's, where it gives some */
 }
 
 static uint16_t team_number(const JoScene *scene, const char *team) {

@@ -178,7 +178,7 @@ const JoxKey jox_scene_keys[] = {
     {"source", "from", NUMBER, "s", 0, 1e9, "0", .meaning = "nobody comes before"},
     {"source", "until", NUMBER, "s", 0, 1e9, "1e9", .meaning = "nobody comes from then on"},
     {"source", "memory", VALUES, "", 0, 0, "", .of = "draw*",
-     .meaning = "in place of the group's"},
+     .meaning = "in place of what the group gives under the same name"},
 
     {"sink", "at", TEXT, "", 0, 0, "!", .meaning = "place; agents that come in are removed"},
     {"sink", "group", TEXT, "", 0, 0, "", .meaning = "only agents of this group"},

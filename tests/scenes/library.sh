@@ -57,7 +57,7 @@ for scene in rimea-15 rimea-15-straight; do
     between "$scene: all 60 arrive" "$(event removed <"$work/s")" 60 60
 done
 for scene in corridor counter tour families evacuation hurried-polite catch station bottleneck single-file ring \
-    corridor-uo bidirectional rimea-04 rimea-09 rimea-10 rimea-11 rimea-15 rimea-15-straight; do
+    corridor-uo bidirectional bidirectional-across ring-across rimea-04 rimea-04-across rimea-09 rimea-10 rimea-11 rimea-15 rimea-15-straight; do
     same_hash "$scene, one thread and two" "$(hash_of "$JOSTLE" "scenes/$scene.yaml" --for 15)" "$(hash_of "$JOSTLE" "scenes/$scene.yaml" --for 15 --threads 2)"
 done
 exit 0
