@@ -134,6 +134,13 @@ expect "a help text" 0 "usage: jostle reproduce" "$JOSTLE" reproduce --help
 : >"$work/file"
 expect "a folder that cannot be made" 1 "$work/file" "$JOSTLE" reproduce --claims "$work/claims" --out "$work/file/rep" --quiet
 
+# ---- jostle check knows claims ----
+expect "check: a claim that is right" 0 "nothing wrong" "$JOSTLE" check "$work/claims"
+sed 's/source = "nobody"/suorce = "nobody"/' "$work/claims/good.lua" >"$work/odd/odd.lua"
+expect "check: one that is wrong, with its line" 3 "odd.lua:1:" "$JOSTLE" check "$work/odd"
+sed 's/walk.yaml/absent.yaml/' "$work/claims/good.lua" >"$work/odd/odd.lua"
+expect "check: a scene that is missing" 3 "there is no scene" "$JOSTLE" check "$work/odd"
+
 # ---- Ctrl-C ----
 cat >"$work/long.yaml" <<'SCENE'
 jostle: 1
