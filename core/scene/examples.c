@@ -57,6 +57,7 @@ const JoxExample jox_scene_examples[] = {
      "  - {line: [[0, 0], [20, 0], [20, 10], [0, 10]], closed: true, height: 2.5}\n"
      "  - {solid: [[9, 4], [11, 4], [11, 6], [9, 6]]}\n"
      "  - {line: [[9, 5], [0, 5]], name: fence, open: true}\n"
+     "  - {file: hall.wkt, unit: 1 cm, origin: [-3000, 0]}   # drawn in centimetres; 30 m further east\n"
      STANDER},
     {"body", OPENING
      "bodies:\n"

@@ -219,8 +219,9 @@ static void schemas_say_what_the_table_says(void **state) {
                                "\"^[-+]?([0-9]+\\\\.?[0-9]*|\\\\.[0-9]+)([eE][-+]?[0-9]+)? "
                                "*(m/s|km/h)?$\"}");
     expect_property(text.data, "\"required\": [\"shape\", \"at\"]");
-    expect_property(text.data, "{\"oneOf\": [{\"required\": [\"solid\"]}, {\"required\": "
-                               "[\"line\"]}]}");
+    expect_property(text.data,
+                    "{\"oneOf\": [{\"required\": [\"solid\"]}, {\"required\": [\"line\"]}, "
+                    "{\"required\": [\"file\"]}]}");
     expect_property(text.data,
                     "\"mass\": {\"description\": \"mass, in kg; 1 to 10000, default 70\"");
     jox_text_free(&text);
