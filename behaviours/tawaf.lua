@@ -2,7 +2,7 @@
 local mine     = memory { laps = 0, touched = false, press = 0 } -- per agent; survives reloads
 local at_line  = crosses "start_line"
 local crowded  = density("black_stone"):above(6)        -- people per square metre
-local shove    = 30 * max(now.speed, own.speed)         -- newtons; present speed alone cannot break a standstill
+local shove    = 150 * max(now.speed, own.speed)         -- newtons; present speed alone cannot break a standstill
 local hurry    = mine.press * max(now.speed, own.speed)  -- of those who circle or leave: nobody, unless a scene says so
 local slowed   = now.speed:below(0.8 * own.speed)
 local pace     = own.speed * (1 - 0.4 * clamp((density_here - 1) / 7, 0, 1))
