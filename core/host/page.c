@@ -64,7 +64,8 @@ static Figures collect(const JoScene *scene) {
     const JoxStatistics *s = &scene->world->statistics;
     Figures f = {0};
     add(&f, "", scene->world->agents.count, "people at the end");
-    add(&f, "1/m2", scene->density_most, "greatest density (Gaussian kernel, R = 1.5 m)");
+    add(&f, "1/m2", scene->density_most > 0.0f ? scene->density_most : NAN,
+        "greatest density (Gaussian kernel, R = 1.5 m)");
     add(&f, "", jox_statistics_overlap_p99(s),
         "overlap that 99 %% stay below, share of a diameter");
     add(&f, "", s->agent_steps ? (double)s->failures / (double)s->agent_steps : NAN,
@@ -79,8 +80,9 @@ static Figures collect(const JoScene *scene) {
         add(&f, "s", count.person_s, "danger: person-seconds over %s", jox_danger_limits[l].key);
     }
     for (uint32_t r = 0; scene->regions && r < scene->regions->count; r++)
-        add(&f, "m/s", jox_region_speed(&scene->regions->items[r]), "mean speed in region %.60s",
-            scene->regions->items[r].name);
+        add(&f, "m/s",
+            scene->regions->items[r].people ? jox_region_speed(&scene->regions->items[r]) : NAN,
+            "mean speed in region %.60s", scene->regions->items[r].name);
     add_probes(&f, scene);
     return f;
 }
