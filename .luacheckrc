@@ -46,6 +46,7 @@ std = {
     "together",
     "drift",
     "spread",
+    "evade",
     "hold",
     "player",
     "normal",

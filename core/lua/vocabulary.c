@@ -109,6 +109,8 @@ const JoxWord jox_words[] = {
      "in a fixed direction; a length of 1 is the wanted speed", "drift(1, 0)"},
     {"spread", NULL, STEER, JOX_STEER_SPREAD, 0, "spread", "",
      "away from the neighbours", "0.3 * spread + seek \"post\""},
+    {"evade", NULL, STEER, JOX_STEER_EVADE, 0, "evade", "",
+     "sideways, out of the way of those who come towards: to the right of who is straight ahead", "seek \"post\" + 0.5 * evade"},
     {"hold", NULL, STEER, JOX_STEER_HOLD, 0, "hold", "", "stands", "hold"},
     {"player", NULL, STEER, JOX_STEER_PLAYER, 0, "player", "",
      "a person, or the input log, drives this agent", "player"},

@@ -121,6 +121,7 @@ typedef enum JoxSteerKind {
     JOX_STEER_FOLLOW,    /* behind target, args[0] metres */
     JOX_STEER_DRIFT,     /* along the vector (args[0], args[1]) */
     JOX_STEER_SPREAD,    /* away from the neighbours' centroid */
+    JOX_STEER_EVADE,     /* sideways, out of the way of those who come towards */
     JOX_STEER_ALONG,     /* along a line's direction or a queue's polyline towards its head */
     JOX_STEER_FIELD,     /* the shortest way to a place round walls */
     JOX_STEER_TOGETHER,  /* towards the mates that are seen, once they are farther than args[0] m */

@@ -108,6 +108,28 @@ static JoxV2 spread(const JoxMind *mind, uint32_t i) {
     return jox_unit(sum);
 }
 
+/* People who meet pass each other on the right by custom (Moussaid et al. 2009 measured it), and
+   who comes on one's right is let pass there. Counts more the nearer they are; headings of the step
+   before, so that no order of agents matters. */
+static JoxV2 evade(const JoxMind *mind, uint32_t i) {
+    const JoxAgents *a = mind->agents;
+    const JoxNeighbours *n = mind->neighbours;
+    const JoxV2 *heading = mind->scratch->heading;
+    const float *radius = a->param[JOX_PARAM_radius];
+    JoxV2 ahead = jox_unit(heading[i]), right = jox_scale(jox_left(ahead), -1.0f);
+    float sum = 0.0f, reach = a->param[JOX_PARAM_perception][i];
+    for (uint32_t k = 0; k < n->count[i]; k++) {
+        uint32_t j = n->index[jox_neighbour_at(n, i, k)];
+        JoxV2 d = jox_offset(a, i, j);
+        float along = jox_dot(d, ahead), aside = jox_dot(d, right), wide = radius[i] + radius[j];
+        if (along <= 0.0f || jox_dot(heading[j], ahead) >= 0.0f || fabsf(aside) > 2.0f * wide)
+            continue;
+        float nearness = jox_maxf(0.0f, 1.0f - along / reach);
+        sum += aside > 0.5f * wide ? -nearness : nearness;
+    }
+    return jox_scale(right, jox_clampf(sum, -1.0f, 1.0f));
+}
+
 /* The way's direction, (0, 0) where there is none, and *none says that none leads there; it is
    asked for again and again, as only ways that are wanted are renewed. */
 static JoxV2 way(const JoxMind *mind, uint32_t place, JoxWayKind kind, JoxV2 p, bool *none) {
@@ -207,6 +229,8 @@ static JoxV2 term_direction(const JoxMind *mind, uint32_t i, const JoxSteerTerm 
         return (JoxV2){(float)term->args[0], (float)term->args[1]};
     case JOX_STEER_SPREAD:
         return spread(mind, i);
+    case JOX_STEER_EVADE:
+        return evade(mind, i);
     case JOX_STEER_ALONG:
         return along(mind, i, term);
     case JOX_STEER_FIELD:

@@ -337,6 +337,10 @@ function drift(a1, a2) end
 ---@type jostle.Steering
 spread = nil
 
+--- `evade`: sideways, out of the way of those who come towards: to the right of who is straight ahead
+---@type jostle.Steering
+evade = nil
+
 --- `hold`: stands
 ---@type jostle.Steering
 hold = nil

@@ -48,3 +48,21 @@ test("who walks ahead the same way is followed, who comes the other way is not",
   equal(s:agents("met")[1].state, "Free")
   equal(s:agents("coming")[1].state, "Free")
 end)
+
+test("who meets head-on passes on the right", function()
+  local s = scene({
+    places = { east = { line = { { 0, 0 }, { 10, 0 } } }, west = { line = { { 10, 0 }, { 0, 0 } } } },
+    groups = {
+      one = { behaviour = "strider.lua", at = { { 0, 0 } }, set = { way = "east" } },
+      other = { behaviour = "strider.lua", at = { { 6, 0 } }, set = { way = "west" } },
+    },
+  })
+  local least = 0
+  for _ = 1, 160 do
+    s:step()
+    least = math.min(least, s:agents("one")[1].y)
+    if s:agents("one")[1].x > s:agents("other")[1].x then break end
+  end
+  truthy(s:agents("one")[1].x > s:agents("other")[1].x, "they have passed each other")
+  truthy(s:agents("one")[1].y < -0.1 and s:agents("other")[1].y > 0.1, "each on its right")
+end)
