@@ -111,12 +111,12 @@ static JoxV2 spread(const JoxMind *mind, uint32_t i) {
 /* People who meet pass each other on the right by custom (Moussaid et al. 2009 measured it), and
    who comes on one's right is let pass there. Counts more the nearer they are; headings of the step
    before, so that no order of agents matters. */
-static JoxV2 evade(const JoxMind *mind, uint32_t i) {
+static JoxV2 evade(const JoxMind *mind, uint32_t i, JoxV2 ahead) {
     const JoxAgents *a = mind->agents;
     const JoxNeighbours *n = mind->neighbours;
     const JoxV2 *heading = mind->scratch->heading;
     const float *radius = a->param[JOX_PARAM_radius];
-    JoxV2 ahead = jox_unit(heading[i]), right = jox_scale(jox_left(ahead), -1.0f);
+    JoxV2 right = jox_scale(jox_left(ahead), -1.0f);
     float sum = 0.0f, reach = a->param[JOX_PARAM_perception][i];
     for (uint32_t k = 0; k < n->count[i]; k++) {
         uint32_t j = n->index[jox_neighbour_at(n, i, k)];
@@ -229,8 +229,6 @@ static JoxV2 term_direction(const JoxMind *mind, uint32_t i, const JoxSteerTerm 
         return (JoxV2){(float)term->args[0], (float)term->args[1]};
     case JOX_STEER_SPREAD:
         return spread(mind, i);
-    case JOX_STEER_EVADE:
-        return evade(mind, i);
     case JOX_STEER_ALONG:
         return along(mind, i, term);
     case JOX_STEER_FIELD:
@@ -240,6 +238,7 @@ static JoxV2 term_direction(const JoxMind *mind, uint32_t i, const JoxSteerTerm 
     case JOX_STEER_PLAYER:
         return player(mind, i);
     case JOX_STEER_HOLD:
+    case JOX_STEER_EVADE: /* by the sum of the others */
     case JOX_STEER_FUNCTION:
         break;
     }
@@ -266,6 +265,30 @@ static bool is_function(const JoxState *state) {
     return state->steer_count == 1 && state->steer[0].kind == JOX_STEER_FUNCTION;
 }
 
+/* The weighted sum of a state's terms; those that evade come last, as they go by where the others
+   lead. */
+static JoxV2 steering(const JoxMind *mind, const JoxMachine *machine, const JoxState *state,
+                      uint32_t i) {
+    JoxV2 sum = {0.0f, 0.0f}, ahead = sum;
+    for (int pass = 0; pass < 2; pass++) {
+        for (uint32_t t = 0; t < state->steer_count; t++) {
+            const JoxSteerTerm *term = &state->steer[t];
+            if ((term->kind == JOX_STEER_EVADE) != (pass == 1))
+                continue;
+            float by = term->weight.kind == JOX_VALUE_UNSET
+                           ? 1.0f
+                           : (float)jox_value(mind, machine, &term->weight, i);
+            /* A weight may come from a target that is not there: infinitely far. */
+            if (by == 0.0f || !(fabsf(by) <= 1e6f))
+                continue;
+            JoxV2 way = pass ? evade(mind, i, ahead) : term_direction(mind, i, term);
+            sum = jox_add(sum, jox_scale(way, by));
+        }
+        ahead = jox_unit(sum);
+    }
+    return sum;
+}
+
 static void prefer_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxMind *mind = context;
@@ -279,16 +302,7 @@ static void prefer_range(void *context, uint32_t begin, uint32_t end, uint32_t w
             face(mind, state, i);
             if (is_function(state))
                 continue;
-            JoxV2 sum = {0.0f, 0.0f};
-            for (uint32_t t = 0; t < state->steer_count; t++) {
-                const JoxValue *weight = &state->steer[t].weight;
-                float by = weight->kind == JOX_VALUE_UNSET
-                               ? 1.0f
-                               : (float)jox_value(mind, machine, weight, i);
-                /* A weight may come from a target that is not there: infinitely far. */
-                if (by != 0.0f && fabsf(by) <= 1e6f)
-                    sum = jox_add(sum, jox_scale(term_direction(mind, i, &state->steer[t]), by));
-            }
+            JoxV2 sum = steering(mind, machine, state, i);
             if (jox_length2(sum) > 1.0f)
                 sum = jox_unit(sum);
             float speed = jox_minf(a->param[JOX_PARAM_speed][i], a->param[JOX_PARAM_max_speed][i]);
