@@ -50,3 +50,13 @@ test("N(t) counts who passed forward until then", function()
   equal(measure.passed(flow, 3), 2)
   equal(measure.passed(flow, 99), 3)
 end)
+
+test("correlation finds a delay", function()
+  local a, b = {}, {}
+  for i = 1, 40 do
+    a[i] = (i * 7 % 11) / 11
+    b[i] = i > 3 and a[i - 3] or 0
+  end
+  near(measure.correlation(a, b, 3), 1, 0.02)
+  truthy(measure.correlation(a, b, 1) < 0.5)
+end)
