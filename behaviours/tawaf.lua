@@ -27,7 +27,7 @@ return machine {
       { to = "Exit",    when = lasted } },
 
     ToStone = { steer = queue "black_stone", speed = 0.3 * own.speed, perception = 1, push = shove,
-      { to = "Touch",   when = near("black_stone", 0.75) },
+      { to = "Touch",   when = first_in "black_stone" & near("black_stone", 0.75) },
       { to = "Circle",  when = after(60) | stuck(15) } },
 
     Touch = { steer = hold, lasts = 3, on_exit = function(me) me.touched = true end,

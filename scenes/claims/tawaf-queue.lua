@@ -1,17 +1,14 @@
 return claim {
   id = "9", title = "The queue to the Black Stone moves because it pushes",
   source = "Kim et al. 2014, Fig. 13",
-  text = "Those who queue push those in their way. Without forces the stream around the Kaaba sweeps the queue away and hardly anybody gets to the stone.",
+  text = "Those who queue push those in their way, and are served in the order in which they came. Without forces the stream around the Kaaba sweeps the queue away and hardly anybody gets to the stone.",
   runs = {
-    tawaf = { scene = "../tawaf.yaml", seeds = 3, first = true },
-    without = { scene = "../tawaf.yaml", seeds = 2, first = true, set = { ["forces.enabled"] = false } },
+    queue = { scene = "../tawaf-queue.yaml", seeds = 3 },
+    without = { scene = "../tawaf-queue.yaml", seeds = 3, set = { ["forces.enabled"] = false } },
   },
-  quick = {
-    tawaf = { seeds = 1, duration = 160, set = { ["heatmap.from"] = 100, ["probes.fields.from"] = 100 } },
-    without = { seeds = 1, duration = 130, set = { ["forces.enabled"] = false, ["heatmap.from"] = 90, ["probes.fields.from"] = 90 } },
-  },
+  quick = { queue = { seeds = 1 }, without = { seeds = 1 } },
   measure = function(run)
-    local with, without = run.tawaf.summary.probes.stone, run.without.summary.probes.stone
+    local with, without = run.queue.summary.probes.stone, run.without.summary.probes.stone
     return {
       ratio = with.passages / math.max(1, without.passages), touched = with.passages, touched_without = without.passages,
       inversions = with.inversions, time = with.median,
@@ -24,5 +21,5 @@ return claim {
     { "touched_without", what = "people who touch it, without", reported = true },
     { "time", unit = "s", what = "median time in the queue", reported = true },
   },
-  pictures = { tawaf = { "stone.png" } },
+  pictures = { queue = { "stone.png" } },
 }
