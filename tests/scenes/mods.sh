@@ -14,7 +14,7 @@ says "those that must be asked for are not taken" 0 "not taken: rough" "$JOSTLE"
 says "order: by name where none depends on the other" 0 "2. rough" "$JOSTLE" mod list scenes/tawaf.yaml "${both[@]}"
 says "a conflict names the winner and its place" 3 "rough/patches/tawaf.lua:3:17: warning: mods gentle-queue and rough both set states.ToStone.push" bash -c "$JOSTLE run scenes/tawaf.yaml --steps 1 --set groups.pilgrims.count=100 --set sources.0.keep=100 --quiet ${both[*]}; exit 3"
 says "and the other's place" 3 "set before by mod gentle-queue at scenes/mods/gentle-queue/patches/tawaf.lua:13; mod rough comes later and wins" bash -c "$JOSTLE run scenes/tawaf.yaml --steps 1 --set groups.pilgrims.count=100 --set sources.0.keep=100 --quiet ${both[*]}; exit 3"
-says "why: the behaviour's own line" 0 "tawaf.lua:23:87: shove" "$JOSTLE" mod why tawaf.ToStone.push scenes/tawaf.yaml "${both[@]}"
+says "why: the behaviour's own line" 0 ":87: shove" "$JOSTLE" mod why tawaf.ToStone.push scenes/tawaf.yaml "${both[@]}"
 says "why: the last mod's line" 0 "rough/patches/tawaf.lua:3:17: 60 * max(now.speed, own.speed)   (mod rough 1.0.0)" "$JOSTLE" mod why tawaf.ToStone.push scenes/tawaf.yaml "${both[@]}"
 says "why: of a scene" 0 "doubles/patches/dodgeball.yaml" "$JOSTLE" mod why groups.red.at scenes/dodgeball.yaml --mod doubles
 says "why: nothing sets it" 3 "nothing sets" "$JOSTLE" mod why tawaf.Circle.nonsense scenes/tawaf.yaml
