@@ -11,7 +11,7 @@ static const double TURN = 6.283185307179586;
 
 typedef struct Turning {
     bool known;
-    double angle, turns, least, greatest, since; /* rad, turns, turns, turns, s */
+    double angle, turns, least, greatest, since, until; /* rad, turns, turns, turns, s, s */
 } Turning;
 
 typedef struct Winding {
@@ -38,6 +38,7 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
         } else {
             p->since = frame->time;
         }
+        p->until = frame->time;
         p->known = true;
         p->angle = angle;
     }
@@ -69,11 +70,11 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
 static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     (void)def;
     const Winding *w = state;
-    fputs("person,since [s],turns,least_running,greatest_running\n", out);
+    fputs("person,since [s],turns,least_running,greatest_running,until [s]\n", out);
     for (uint32_t k = 0; k < w->capacity; k++)
         if (w->people[k].known)
-            fprintf(out, "%u,%.3f,%.5f,%.5f,%.5f\n", k, w->people[k].since, w->people[k].turns,
-                    w->people[k].least, w->people[k].greatest);
+            fprintf(out, "%u,%.3f,%.5f,%.5f,%.5f,%.3f\n", k, w->people[k].since, w->people[k].turns,
+                    w->people[k].least, w->people[k].greatest, w->people[k].until);
 }
 
 static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {

@@ -7,7 +7,7 @@ local function turns_of(turns, seconds)
       fewer = fewer + (turns.turns[i] < 7 and 1 or 0)
       more = more + (turns.turns[i] >= 8.3 and 1 or 0)
     end
-    clockwise = clockwise + (turns.least[i] <= -1 and 1 or 0)
+    clockwise = clockwise + (turns.least_running[i] <= -1 and 1 or 0)
   end
   return done, fewer, more, clockwise
 end
