@@ -27,4 +27,10 @@ compare gates --for 25
 compare wall-breaking --for 14
 compare office --for 8
 compare dodgeball-500 --for 4
+# And every scene, for a short time.
+for file in scenes/*.yaml; do
+    less=$(.ci/smaller "$file")
+    same_hash "$file, short" "$(hash_of "$JOSTLE" "$file" --for 4 --set "$less")" \
+        "$(hash_of "$JOSTLE" "$file" --for 4 --set "$less" --threads 2)" "$(hash_of build/debug/jostle "$file" --for 4 --set "$less")"
+done
 exit 0
