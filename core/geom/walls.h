@@ -25,7 +25,7 @@ typedef struct JoxWalls {
         bool solid;
         float height; /* m; INFINITY unless given */
         char *name;   /* of walls that open and close; owned; else NULL */
-        bool open;    /* taken away for now */
+        bool open;    /* taken away: nothing stands there */
         bool set;     /* opened or closed since it was made */
     } * rings;
     uint32_t ring_count, ring_capacity;
