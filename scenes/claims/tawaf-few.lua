@@ -13,16 +13,26 @@ local function turns_of(turns, seconds)
 end
 
 return claim {
-  id = "10", title = "Seven circuits, counter-clockwise",
+  id = "10", title = "Seven circuits, counter-clockwise, and few on their way out",
   source = "Kim et al. 2014, Fig. 11",
   text = "Two thousand pilgrims for half an hour. Whoever came in during the run and has left made seven circuits from the line on, and the way to it and out again; nobody went round clockwise.",
-  runs = { few = { scene = "../tawaf-few.yaml", seeds = 1, first = true } },
-  quick = { few = { set = { ["groups.pilgrims.count"] = 300, ["sources.0.keep"] = 300 } } },
+  runs = {
+    few = { scene = "../tawaf-few.yaml", seeds = 1, first = true },
+    tawaf = { scene = "../tawaf.yaml", seeds = 3, first = true, set = { ["heatmap.from"] = 300, ["probes.fields.from"] = 300 } },
+  },
+  quick = {
+    tawaf = { seeds = 1, duration = 160, set = { ["heatmap.from"] = 100, ["probes.fields.from"] = 100 } },
+    few = { set = { ["groups.pilgrims.count"] = 300, ["sources.0.keep"] = 300 } },
+  },
   measure = function(run)
     local done, fewer, more, clockwise = turns_of(run.few.csv("turns"), run.few.summary.simulated_s)
-    return { done = done, fewer = fewer, more = more, clockwise = clockwise }
+    local all = run.tawaf.summary
+    return {
+      leaving = all.states.tawaf.Exit / all.agents, done = done, fewer = fewer, more = more, clockwise = clockwise,
+    }
   end,
   expect = {
+    { "leaving", what = "share of the 35,000 on their way out, at the end", source = "0.02", band = { 0.01, 0.04 } },
     { "done", what = "people who came in during the run and have left", source = "-", band = { 10 } },
     { "fewer", what = "of them, who made fewer than seven", source = "0", band = { 0, 0 } },
     { "more", what = "of them, who made more, the way to the line and out aside", source = "0", band = { 0, 0 } },
