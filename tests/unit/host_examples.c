@@ -15,7 +15,8 @@
 #include "host/host.h"
 
 static char folder[] = "/tmp/jostle-examples-XXXXXX";
-static const char *const LINKED[] = {"tawaf.yaml", "running-through.yaml", "dodgeball.input", "hall.wkt"};
+static const char *const LINKED[] = {"tawaf.yaml", "running-through.yaml", "dodgeball.input",
+                                     "hall.wkt"};
 static char path[512];
 
 static const char *in_folder(const char *name) {
