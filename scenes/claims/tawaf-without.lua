@@ -1,5 +1,5 @@
 return claim {
-  id = "6-7 without", title = "The Tawaf without forces: the same trend",
+  id = "6-7-without", title = "The Tawaf without forces: the same trend",
   source = "Kim et al. 2014, section 5",
   text = "The same pilgrims, who only avoid each other. Speeds by region fall in the same way towards and past the start line.",
   runs = { without = { scene = "../tawaf.yaml", seeds = 1, first = true, set = { ["forces.enabled"] = false, ["heatmap.from"] = 300, ["probes.fields.from"] = 300 } } },
