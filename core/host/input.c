@@ -58,6 +58,10 @@ static bool do_entry(JoScene *scene, const JoxInputEntry *entry, JoError *error)
         return jox_host_signal(scene, entry->names[0], error);
     case JOX_INPUT_SET:
         return jox_host_set(scene, entry->names[0], entry->names[1], entry->names[2], v[0], error);
+    case JOX_INPUT_BEFORE: /* was taken when the scene was loaded */
+        return true;
+    case JOX_INPUT_FILES:
+        return jox_host_play_files(scene, entry, error);
     default:
         break;
     }
@@ -117,7 +121,8 @@ bool jox_host_end_log(JoScene *scene, JoError *error) {
 static bool perform(JoScene *scene, JoxInputEntry *entry, JoError *error) {
     if (!do_entry(scene, entry, error))
         return false;
-    jox_host_log(scene, entry);
+    if (!entry->files) /* a reload is logged as it goes live */
+        jox_host_log(scene, entry);
     return true;
 }
 
