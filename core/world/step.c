@@ -152,6 +152,7 @@ static void bodies(JoWorld *w) {
         return;
     if (is_first(w))
         jox_world_grip(w);
+    jox_world_pull(w);
     uint32_t count;
     const JoxImpulse *impulses = jox_force_impulses(w->forces, &count);
     if (!w->statistics.bonds.touched)
