@@ -47,6 +47,7 @@ void jo_world_free(JoWorld *world) {
     jox_walls_free(&world->wall_plan);
     jox_walls_free(&world->walls);
     jox_input_free(&world->input);
+    jox_inspection_free(&world->inspection);
     jox_free(world->neighbours.index);
     jox_free(world->neighbours.distance2);
     jox_free(world->neighbours.count);

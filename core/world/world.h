@@ -16,6 +16,7 @@
 #include "nav/nav.h"
 #include "world/hands.h"
 #include "world/input.h"
+#include "world/inspected.h"
 #include "world/statistics.h"
 #include "world/ways.h"
 
@@ -43,6 +44,7 @@ struct JoWorld {
     JoxBodies *bodies;
     JoxObjects objects; /* what agents see of the bodies */
     JoxHands hands;
+    JoxInspection inspection;
 
     JoxWays *ways;
 
