@@ -289,10 +289,13 @@ static bool read_file(Parser *p, Reader *r, JoxInputFile *file) {
                                 : refuse(r, NULL, "how many bytes has '%.200s'?", file->path);
     if (!read_number(r, &BYTES, &bytes))
         return false;
+    const int column = r->column, end_column = r->end_column;
     if (next_word(r))
         return refuse(r, NULL, "'%.40s' is one word too many: PATH BYTES", r->word);
     if (r->wrong->length)
         return false;
+    r->column = column; /* what is said next is about their number */
+    r->end_column = end_column;
     if ((size_t)bytes > LARGEST_FILE || (size_t)bytes > (size_t)(p->end - p->at))
         return refuse(r, "Is the log cut off?", "only %zu bytes follow, not %.0f",
                       (size_t)(p->end - p->at), bytes);
