@@ -147,7 +147,7 @@ static void what_cannot_be_done_is_not_logged(void **state) {
     refuses(scene, "set m Walk sped 1", "Did you mean 'speed'?");
     refuses(scene, "set m Wlak speed 1", "Did you mean 'Walk'?");
     refuses(scene, "set n Walk speed 1", "there is no machine 'n'");
-    refuses(scene, "files 1", "files come by being saved");
+    refuses(scene, "files 1", "files stands in logs alone");
     if (jox_bodies_available()) {
         refuses(scene, "throw pillar here 1 1 1", "is static");
         refuses(scene, "grab 1 0 0 1", "is static");
@@ -160,7 +160,8 @@ static void what_cannot_be_done_is_not_logged(void **state) {
     assert_false(jo_scene_signal(scene, "a\nb", &error));
     jo_scene_free(scene);
     char *text = text_of(path);
-    assert_string_equal(strchr(text, '\n'), "\n"); /* the first line alone */
+    assert_null(strstr(text, "\n1 ")); /* what it is made of alone */
+    assert_non_null(strstr(text, "\n0 began 1 0.05\n0 made "));
     jox_free(text);
     unlink(path);
 }
@@ -524,6 +525,22 @@ static void files_of_a_log_go_live(void **state) {
     unlink(log);
 }
 
+static void a_log_of_something_else(void **state) {
+    (void)state;
+    char log[300], text[1000];
+    path_of("else.input", log);
+    jo_scene_free(begin());
+    snprintf(text, sizeof text, "0 began 7 0.02\n0 made %s/own.lua 0c8e\n5 began 1 0.05\n", folder);
+    write_file("else.input", text);
+    jo_scene_free(play(log));
+    assert_non_null(strstr(said.data, "else.input:1: the log was written with seed 7 and steps of "
+                                      "0.02 s, not 1 and 0.05 s"));
+    assert_non_null(strstr(said.data, "else.input:2: "));
+    assert_non_null(strstr(said.data, "own.lua has changed since the log was written"));
+    assert_non_null(strstr(said.data, "else.input:3: the log was begun 5 steps into the run"));
+    unlink(log);
+}
+
 static void a_wrong_log_is_an_error_of_its_file(void **state) {
     (void)state;
     char log[300], scene[300];
@@ -560,6 +577,7 @@ int main(void) {
         cmocka_unit_test(an_inspection_says_why),
         cmocka_unit_test(looking_ends_by_itself),
         cmocka_unit_test(files_of_a_log_go_live),
+        cmocka_unit_test(a_log_of_something_else),
         cmocka_unit_test(a_wrong_log_is_an_error_of_its_file),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -29,6 +29,8 @@ static const char ALL[] = "# a comment\n"
                           "5 close \"say \\\"so\\\" \\\\ twice\"\n"
                           "6 signal run\n"
                           "7 set walker Walk speed 1.2\n"
+                          "7 began 18446744073709551615 0.05\n"
+                          "7 made \"a b.lua\" 0c8e\n"
                           "8 before 1\n"
                           "a.lua 4\n"
                           "a\n"
@@ -40,7 +42,7 @@ static const char ALL[] = "# a comment\n"
                           "\"b c.lua\" 0\n"
                           "\n"
                           "9 signal \"#1\"\n";
-enum { IN_ALL = 15 };
+enum { IN_ALL = 17 };
 
 static JoxDiagnostics wrong;
 
@@ -80,13 +82,13 @@ static void each_verb_is_read(void **state) {
     assert_true(e[3].numbers[6] == 0.4 && e[3].numbers[7] == 10.0);
     assert_string_equal(e[9].names[0], "say \"so\" \\ twice");
     assert_string_equal(e[11].names[2], "speed");
-    assert_int_equal(e[13].number, 2);
-    assert_int_equal(e[12].files[0].length, 4);
-    assert_memory_equal(e[12].files[0].text, "a\nb\n", 4);
-    assert_string_equal(e[13].files[1].path, "b c.lua");
-    assert_int_equal(e[14].tick, 9);
-    assert_int_equal(e[14].line, 25);
-    assert_string_equal(e[14].names[0], "#1");
+    assert_int_equal(e[15].number, 2);
+    assert_int_equal(e[14].files[0].length, 4);
+    assert_memory_equal(e[14].files[0].text, "a\nb\n", 4);
+    assert_string_equal(e[15].files[1].path, "b c.lua");
+    assert_int_equal(e[16].tick, 9);
+    assert_int_equal(e[16].line, 27);
+    assert_string_equal(e[16].names[0], "#1");
     jox_input_free(&log);
 }
 
