@@ -104,6 +104,12 @@ static void put_figures(FILE *out, const JoxOutcome *outcome) {
 
 static void put_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
+    for (uint32_t p = 0; !outcome->failure && p < claim->plot_count; p++) {
+        char name[200], link[256];
+        jox_reproduce_plot_name(claim, &claim->plots[p], name, sizeof name);
+        snprintf(link, sizeof link, "plots/%s.png", name);
+        jox_html_picture(out, link, NULL, claim->plots[p].title);
+    }
     for (uint32_t p = 0; p < claim->picture_count; p++)
         for (uint32_t r = 0; r < claim->run_count; r++) {
             if (strcmp(claim->runs[r].name, claim->pictures[p].run) != 0)
@@ -150,6 +156,19 @@ static void put_runs(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
     fputs("</details>\n", out);
 }
 
+/* Of a claim that misses. */
+static void put_tried(FILE *out, const JoxOutcome *outcome) {
+    if (outcome->inside || outcome->claim->tried_count == 0)
+        return;
+    fputs("<p>What was tried:</p>\n<ul>\n", out);
+    for (uint32_t t = 0; t < outcome->claim->tried_count; t++) {
+        fputs("<li>", out);
+        jox_html_text(out, outcome->claim->tried[t]);
+        fputs("</li>\n", out);
+    }
+    fputs("</ul>\n", out);
+}
+
 static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
     fprintf(out, "<h2 id=\"c%u\">%s: ", (unsigned)(outcome - all->outcomes), claim->id);
@@ -166,6 +185,7 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
         fputs("</pre>\n", out);
     }
     put_figures(out, outcome);
+    put_tried(out, outcome);
     put_pictures(out, all, outcome);
     put_runs(out, all, outcome);
 }
@@ -243,6 +263,14 @@ static bool write_table(const JoxReproduction *all, const char *when, JoxText *e
             put_band(out, figure, "");
             fprintf(out, " | %s |\n", verdict_of(figure, v));
         }
+    for (uint32_t o = 0; o < all->outcome_count; o++) {
+        const JoxClaim *claim = all->outcomes[o].claim;
+        if (all->outcomes[o].inside || claim->tried_count == 0)
+            continue;
+        fprintf(out, "\n%s misses. What was tried:\n\n", claim->id);
+        for (uint32_t t = 0; t < claim->tried_count; t++)
+            fprintf(out, "- %s\n", claim->tried[t]);
+    }
     return jox_plot_close(out, "table.md", error);
 }
 
@@ -280,6 +308,6 @@ static bool write_json(const JoxReproduction *all, JoxText *error) {
 bool jox_reproduce_write(const JoxReproduction *all, JoxText *error) {
     char when[512];
     circumstances(all, when, sizeof when);
-    return jox_plot_folder(all->def->out, error) && write_page(all, when, error) &&
-           write_table(all, when, error) && write_json(all, error);
+    return jox_plot_folder(all->def->out, error) && jox_reproduce_plots(all, error) &&
+           write_page(all, when, error) && write_table(all, when, error) && write_json(all, error);
 }
