@@ -2,6 +2,7 @@
 #ifndef JOX_HOST_REPRODUCE_H
 #define JOX_HOST_REPRODUCE_H
 
+#include <stdio.h>
 #include <sys/types.h>
 
 #include "host/host.h"
@@ -56,6 +57,9 @@ bool jox_reproduce_plots(const JoxReproduction *all, JoxText *error);
 /* NAME of a plot: of its claim's file and its own. */
 void jox_reproduce_plot_name(const JoxClaim *claim, const JoxClaimPlot *plot, char *out,
                              size_t size);
+/* reproduce_deviations.c: a table of what the claims' scenes and behaviours set otherwise than the
+   engine. */
+void jox_reproduce_deviations(const JoxReproduction *all, FILE *out);
 /* reproduce_page.c: index.html, table.md and results.json in the folder of results. */
 bool jox_reproduce_write(const JoxReproduction *all, JoxText *error);
 

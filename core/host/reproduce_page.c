@@ -193,8 +193,9 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
 static void put_defaults(FILE *out) {
     JoxForceOptions force = jox_force_default_options();
     fputs(
-        "<h2>Defaults of the engine</h2>\n<p>Common to all claims; what a scene or behaviour sets "
-        "instead stands with its runs.</p><div class=scroll><table><tr><th>parameter<th>value"
+        "<h2>Defaults of the engine</h2>\n<p>Common to all claims; what scenes and behaviours set "
+        "instead stands in the table after it.</p><div "
+        "class=scroll><table><tr><th>parameter<th>value"
         "<th>unit<th>meaning</tr>\n",
         out);
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
@@ -235,6 +236,7 @@ static bool write_page(const JoxReproduction *all, const char *when, JoxText *er
     for (uint32_t o = 0; o < all->outcome_count; o++)
         put_claim(out, all, &all->outcomes[o]);
     put_defaults(out);
+    jox_reproduce_deviations(all, out);
     jox_html_end(out);
     return jox_plot_close(out, "index.html", error);
 }

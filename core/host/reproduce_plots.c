@@ -58,6 +58,16 @@ static bool has_band(const JoxClaim *claim, const JoxClaimCurve *curve) {
     return all;
 }
 
+static bool same_bands(const JoxClaim *claim, const JoxClaimCurve *a, const JoxClaimCurve *b) {
+    bool same = a->count == b->count;
+    for (uint32_t p = 0; same && p < a->count; p++) {
+        const JoxClaimFigure *f = &claim->figures[a->points[p].figure];
+        const JoxClaimFigure *g = &claim->figures[b->points[p].figure];
+        same = a->points[p].x == b->points[p].x && f->low == g->low && f->high == g->high;
+    }
+    return same;
+}
+
 static void part(FILE *out, const char *name, bool *first, uint32_t index, const char *how,
                  const char *label) {
     fprintf(out, "%s'%s.dat' index %u using %s title ", *first ? "plot " : ", \\\n  ", name, index,
@@ -76,15 +86,16 @@ static void draw_curves(const JoxClaim *claim, const JoxClaimPlot *plot, const c
     fputs("set key outside bottom center horizontal\nset grid\nset offsets graph 0.04, graph 0.04, "
           "graph 0.06, graph 0.06\n",
           out);
-    for (uint32_t c = 0; c < plot->curve_count; c++) /* behind everything else */
-        if (has_band(claim, &plot->curves[c])) {
-            snprintf(how, sizeof how,
-                     "1:5:6 with filledcurves fillcolor rgb '%s' fillstyle transparent solid 0.15",
-                     COLOURS[c % 6]);
-            char label[160];
-            snprintf(label, sizeof label, "band of %.140s", plot->curves[c].label);
-            part(out, name, &first, c, how, label);
-        }
+    for (uint32_t c = 0; c < plot->curve_count; c++) { /* behind everything else */
+        bool drawn = !has_band(claim, &plot->curves[c]);
+        for (uint32_t b = 0; b < c && !drawn; b++)
+            drawn = has_band(claim, &plot->curves[b]) &&
+                    same_bands(claim, &plot->curves[b], &plot->curves[c]);
+        if (!drawn)
+            part(out, name, &first, c,
+                 "1:5:6 with filledcurves fillcolor rgb '#777777' fillstyle transparent solid 0.2",
+                 "band");
+    }
     for (uint32_t c = 0; c < plot->curve_count; c++) {
         const JoxClaimCurve *curve = &plot->curves[c];
         const char *colour = COLOURS[c % 6];
