@@ -315,7 +315,8 @@ JO_API JoReproduceDef jo_default_reproduce_def(void);
    not be done; what is wrong with claim files went to `message`. */
 JO_API bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error);
 /* A generated page or file by name, as `jostle reference` lists them: "behaviours", "scenes",
-   "lua-ls", "luacheck", "scene-schema", "mod-schema", "inputs". NULL if there is none; free with jo_free. */
+   "lua-ls", "luacheck", "scene-schema", "mod-schema", "inputs". NULL if there is none; free with
+   jo_free. */
 JO_API char *jo_reference(const char *what);
 /* The reference of the scene format, as text; free with jo_free. */
 JO_API char *jo_scene_reference(void);

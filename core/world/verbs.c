@@ -111,7 +111,7 @@ void jox_input_reference(JoxText *out) {
                  "many bytes, and the end of a line. What lies on the disk under those\npaths is "
                  "not read in a replay.\n\n"
                  "    118 files 1\n"
-                 "    behaviours/numbers.lua 13\n"
+                 "    behaviours/numbers.lua 12\n"
                  "    return 1.25\n"
                  "\n"
                  "    140 signal run\n");
