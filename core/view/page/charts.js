@@ -53,7 +53,7 @@ export class ChartsPage {
             speed: new Chart({ title: "Mean speed", unit: "m/s" }),
             dense: new Chart({ title: "Greatest density", unit: "1/m²" }),
             failures: new Chart({ title: "Programs without a solution", unit: "%" }),
-            stages: new Chart({ title: "Time of a step", unit: "ms" }),
+            stages: new Chart({ title: "Time of a step", unit: "ns per agent" }),
         };
         this.machine = el("select", { onchange: () => this.draw() });
         this.choice = el("label", {}, "Machine", this.machine);
@@ -84,8 +84,8 @@ export class ChartsPage {
         if (Number.isFinite(status.density_max)) this.dense.add(t, { "": status.density_max });
         if (Number.isFinite(status.failures)) this.failures.add(t, { "": 100 * status.failures });
         this.flows.add(t, status.flows ?? {});
-        const stages = Object.entries(status.stage_ns ?? {}).map(([name, ns]) => [name, ns / 1e6]);
-        if (stages.length) this.stages.add(t, { all: stages.reduce((s, [, ms]) => s + ms, 0), ...Object.fromEntries(stages) });
+        const stages = Object.entries(status.stage_ns ?? {}).map(([name, ns]) => [name, ns]);
+        if (stages.length) this.stages.add(t, { all: stages.reduce((s, [, ns]) => s + ns, 0), ...Object.fromEntries(stages) });
         this.draw();
     }
 

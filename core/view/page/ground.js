@@ -123,7 +123,7 @@ export class Ground {
         this.floor.geometry.dispose();
         this.floor.geometry = new THREE.PlaneBufferGeometry(x1 - x0 + 2 * margin, y1 - y0 + 2 * margin);
         this.floor.geometry.translate((x0 + x1) / 2, (y0 + y1) / 2, 0);
-        this.uniforms.spacing.value = Math.max(x1 - x0, y1 - y0) > 60 ? 10 : 1;
+        this.uniforms.spacing.value = Math.max(x1 - x0, y1 - y0) > 80 ? 10 : 1;
         this.group.add(this.floor);
         const fixed = new Prism();
         for (const wall of this.walls) if (!wall.name) fixed.wall(wall, wall.height || 2);

@@ -1,6 +1,6 @@
 // The legend: what the colours of people and of the floor mean, with units.
 import { byId, el, figure, fill, say } from "./dom.js";
-import { COLOURS, classColour, css, FIELDS, valueColour } from "./palette.js";
+import { COLOURS, classColour, css, FIELDS, unitText, valueColour } from "./palette.js";
 
 function ramp(heat) {
     const canvas = el("canvas", { width: 128, height: 1, "aria-hidden": "true" });
@@ -47,17 +47,17 @@ export class Legend {
     classes() {
         const several = (this.hello?.machines?.length ?? 0) > 1;
         const names = this.by === "group" ? this.hello?.groups ?? []
-            : (this.hello?.states ?? []).map((s) => (several ? `${this.hello.machines[s.machine]?.name} ${s.name}` : s.name));
+            : COLOURS[this.by].names ?? (this.hello?.states ?? []).map((s) => (several ? `${this.hello.machines[s.machine]?.name} ${s.name}` : s.name));
         this.counts = names.map(() => el("span", { className: "faint" }));
         return el("ul", { "aria-label": `People by ${this.by}` }, names.map((name, i) => {
             const swatch = el("span", { className: "swatch" });
-            swatch.style.background = css(classColour(i));
+            swatch.style.background = css(classColour(COLOURS[this.by].at?.[i] ?? i));
             return el("li", {}, swatch, name, " ", this.counts[i]);
         }));
     }
 
     values() {
-        const colour = COLOURS[this.by], unit = this.hello?.colours?.[this.by]?.unit ?? colour.unit;
+        const colour = COLOURS[this.by], unit = unitText(this.hello?.colours?.[this.by]?.unit ?? colour.unit);
         this.high = el("span");
         return el("span", { className: "ramp" }, `People: ${colour.name}`, el("span", {}, "0"), ramp(false), this.high, unit);
     }

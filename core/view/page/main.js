@@ -136,7 +136,8 @@ class Page {
     /** What a new connection has to know. */
     again() {
         this.crowd.snap = true;
-        this.connection.send({ do: "colour", by: this.colour });
+        if (!this.hello) return; // the scene says how it begins
+        this.connection.send({ do: "colour", by: this.colour === "failed" ? "state" : this.colour });
         if (this.field !== "none") this.connection.send({ do: "field", of: this.field });
         if (this.slot !== null) this.connection.send({ do: "inspect", slot: this.slot });
     }
@@ -254,7 +255,7 @@ class Page {
         this.toolBar.colour.value = by;
         this.view.colourBy(by);
         this.legend.colourBy(by);
-        this.connection.send({ do: "colour", by });
+        this.connection.send({ do: "colour", by: by === "failed" ? "state" : by });
     }
 
     fieldOf(of) {

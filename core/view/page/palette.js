@@ -49,7 +49,13 @@ export const COLOURS = {
     force: { name: "net force", unit: "N" },
     compression: { name: "compression", unit: "N/m" },
     density: { name: "density", unit: "1/m²" },
+    failed: { name: "solved programs", classes: true, names: ["solved", "no velocity satisfies all"], at: [1, 5] },
 };
+
+/** A unit as it is written: 1/m2 becomes 1/m². */
+export function unitText(unit) {
+    return (unit ?? "").replace(/2$/, "²").replace(/3$/, "³");
+}
 
 export const FIELDS = {
     none: { name: "none" },

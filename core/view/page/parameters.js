@@ -1,5 +1,6 @@
 // Parameters of a state, changed while everybody in it goes on; and the line of Lua that keeps them.
 import { el, figure, fill, say } from "./dom.js";
+import { unitText } from "./palette.js";
 
 const PERIOD = 100; // ms between commands of one slider
 
@@ -36,27 +37,41 @@ export class ParametersPage {
         if (this.node.contains(document.activeElement) && document.activeElement.type === "range") return; // in the hand
         const machine = this.machines?.[this.machine];
         if (!machine) return void fill(this.node, el("p", { className: "faint" }, "This session has no state machines."));
-        this.state = Math.min(this.state, machine.states.length - 1);
+        const states = machine.defaults ? [...machine.states, { name: "defaults", parameters: machine.defaults }] : machine.states;
+        this.state = Math.min(this.state, states.length - 1);
         const choose = (list, at, change) => {
             const node = el("select", { onchange: () => change(Number(node.value)) },
                 list.map((item, i) => el("option", { value: String(i), selected: i === at }, item.name)));
             return node;
         };
-        const state = machine.states[this.state];
+        const state = states[this.state];
         this.paste = el("div", { className: "paste", hidden: true });
         fill(this.node, el("div", { className: "row" },
             el("label", {}, "Machine", choose(this.machines, this.machine, (i) => this.show(i, 0))),
-            el("label", {}, "State", choose(machine.states, this.state, (i) => this.show(this.machine, i)))),
+            el("label", {}, "State", choose(states, this.state, (i) => this.show(this.machine, i)))),
         el("p", { className: "faint" }, this.allowed
             ? "A change holds for everybody in this state, now and later, until the file is saved again."
             : "This scene does not let the page change parameters."),
-        this.paste, state.parameters.map((p) => this.parameter(machine, state, p)));
+        this.paste, this.list(machine, state));
+    }
+
+    /** First what files or people set, then what the engine has. */
+    list(machine, state) {
+        const own = [], rest = [];
+        for (const p of state.parameters) {
+            const mine = p.set !== "engine" || this.changed.has(`${machine.name} ${state.name} ${p.name}`);
+            (mine ? own : rest).push(this.parameter(machine, state, p));
+        }
+        if (rest.length === 0) return own;
+        const name = `${rest.length} more, as the engine has them`;
+        return [own, el("details", { open: own.length === 0 || this.opened, ontoggle: (event) => (this.opened = event.target.open) },
+            el("summary", {}, name), rest)];
     }
 
     parameter(machine, state, p) {
         const key = `${machine.name} ${state.name} ${p.name}`;
         const value = this.changed.get(key) ?? p.value;
-        const unit = p.unit ? ` ${p.unit}` : "";
+        const unit = p.unit ? ` ${unitText(p.unit)}` : "";
         const from = el("span", { className: "from" }, this.changed.has(key) ? "set on this page" : p.set ?? "");
         const text = value === null || value === undefined ? p.text ?? "" : "";
         const part = el("div", { className: "parameter", "data-parameter": p.name }, el("div", { className: "row" }, el("strong", {}, p.name),

@@ -11,7 +11,7 @@ attribute vec4 infoB;
 attribute vec2 person;     // radius in cm, group
 uniform vec4 mapA, mapB;   // x0, y0, sx, sy, in m
 uniform float share, swapped;
-uniform float classes;     // 0: by value, 1: by state, 2: by group
+uniform float classes;     // 0: by value, 1: by state, 2: by group, 3: by whether the program failed
 uniform mat4 viewMatrix, projectionMatrix;
 const float TURN = 6.28318530718;
 
@@ -33,13 +33,13 @@ Person decode() {
     p.at = mix(before, after, t);
     p.ahead = vec2(cos(turn), sin(turn));
     p.radius = max(person.x, 5.0) / 100.0;
-    p.colour = ((classes < 0.5 ? info.z : classes < 1.5 ? info.y : person.y) + 0.5) / 256.0;
+    float failed = mod(floor(info.w / 2.0), 2.0);
+    p.colour = ((classes < 0.5 ? info.z : classes < 1.5 ? info.y : classes < 2.5 ? person.y
+        : 1.0 + 4.0 * failed) + 0.5) / 256.0;
     p.flags = info.w;
     p.here = info.y < 254.5;
     return p;
 }
-bool failed(float flags) { return mod(floor(flags / 2.0), 2.0) > 0.5; }
-bool player(float flags) { return mod(floor(flags / 4.0), 2.0) > 0.5; }
 `;
 
 /** Everyone as one point: a disc from above, an upright capsule from the side. */
@@ -86,9 +86,7 @@ void main() {
         colour *= (head < 1.0 ? 1.05 : 0.95) - 0.3 * d * d;
         bool seen = tall < 0.4 || nose.y > 0.0;
         if (r > 4.0 && seen && distance(at, middle + nose * 0.3 * r) < 0.3 * r) colour *= 0.35;
-        float flags = paint.w;
-        if (mod(floor(flags / 2.0), 2.0) > 0.5 && d > 0.7) colour = vec3(1.0, 0.0, 0.5);
-        if (mod(floor(flags / 4.0), 2.0) > 0.5 && head >= 1.0 && body > 0.75) colour = vec3(1.0);
+        if (mod(floor(paint.w / 4.0), 2.0) > 0.5 && head >= 1.0 && body > 0.75) colour = vec3(1.0);
     }
     gl_FragColor = vec4(colour, 1.0);
 }`;
@@ -122,7 +120,6 @@ varying float shade, marks;
 void main() {
     vec3 colour = texture2D(colours, vec2(shade, 0.5)).rgb;
     if (where.z > 0.88 && where.z < 0.96 && where.x > 0.14) colour *= 0.45; // the face
-    if (mod(floor(marks / 2.0), 2.0) > 0.5 && where.z > 0.86) colour = vec3(1.0, 0.0, 0.5);
     if (mod(floor(marks / 4.0), 2.0) > 0.5 && where.z < 0.12) colour = vec3(1.0);
     vec3 n = normalize(facing);
     float light = 0.62 + 0.22 * n.z + 0.3 * max(0.0, dot(n, vec3(0.45, -0.55, 0.7)));

@@ -77,7 +77,7 @@ export class View {
         const name = `${hello.file} ${hello.session}`;
         if (this.named !== name) {
             this.named = name;
-            this.area = hello.area;
+            this.area = boundsOf(hello);
             this.home = hello.camera;
             this.goHome();
         }
@@ -89,13 +89,16 @@ export class View {
         if (!this.area) return;
         const [[x0, y0], [x1, y1]] = this.area;
         const middle = new THREE.Vector3((x0 + x1) / 2, (y0 + y1) / 2, 0);
-        const size = Math.max(4, 1.1 * Math.max(x1 - x0, y1 - y0));
-        const away = (0.5 * size) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180));
+        const wide = x1 - x0, deep = y1 - y0, aspect = this.wide / this.high;
+        const size = Math.max(4, 1.1 * Math.max(wide, deep));
+        // Seen slantingly, depth is shortened; what is near is larger than what is at the middle.
+        const across = Math.max(4, wide / aspect + 0.25 * deep, 0.95 * deep);
+        const away = (0.55 * across) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180));
         this.orbit.target.copy(this.home ? new THREE.Vector3(...this.home.look) : middle);
         this.perspective.position.copy(this.home ? new THREE.Vector3(...this.home.at)
             : new THREE.Vector3(middle.x, middle.y - 0.75 * away, 0.66 * away));
         this.orbit.maxDistance = this.slide.maxDistance = 8 * size;
-        this.lookDown(middle, size);
+        this.lookDown(middle, Math.max(4, 1.1 * Math.max(wide / aspect, deep)));
         this.flat.zoom = 1;
         this.dirty = true;
         this.orbit.update();
@@ -158,7 +161,7 @@ export class View {
     /** By what people are coloured: one of palette.js. */
     colourBy(by) {
         const u = this.people.uniforms;
-        u.classes.value = by === "state" ? 1 : by === "group" ? 2 : 0;
+        u.classes.value = { state: 1, group: 2, failed: 3 }[by] ?? 0;
         u.colours.value = u.classes.value ? this.classTable : this.valueTable;
         this.dirty = true;
     }
@@ -180,11 +183,10 @@ export class View {
         this.perspective.aspect = wide / high;
         this.perspective.updateProjectionMatrix();
         const half = (this.flatSize ?? 10) / 2;
-        const scale = wide < high ? high / wide : 1;
-        this.flat.left = (-half * wide) / high * scale;
+        this.flat.left = (-half * wide) / high;
         this.flat.right = -this.flat.left;
-        this.flat.top = half * scale;
-        this.flat.bottom = -half * scale;
+        this.flat.top = half;
+        this.flat.bottom = -half;
         this.flat.updateProjectionMatrix();
         this.dirty = true;
     }
@@ -250,6 +252,16 @@ export class View {
         const t = (z - origin.z) / direction.z;
         return Number.isFinite(t) && t > 0 ? [origin.x + t * direction.x, origin.y + t * direction.y] : null;
     }
+}
+
+/** Two corners around walls, places and regions, m; the area of a scene that has none. */
+function boundsOf(hello) {
+    const points = [...(hello.walls ?? []), ...(hello.places ?? [])].flatMap((p) => p.points ?? [])
+        .concat(Object.values(hello.regions ?? {}).flat());
+    if (points.length < 2) return hello.area;
+    const x = points.map((p) => p[0]), y = points.map((p) => p[1]);
+    const box = [[Math.min(...x), Math.min(...y)], [Math.max(...x), Math.max(...y)]];
+    return Math.max(box[1][0] - box[0][0], box[1][1] - box[0][1]) < 2 ? hello.area : box;
 }
 
 function makeRenderer(canvas) {
