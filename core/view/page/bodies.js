@@ -55,11 +55,12 @@ export class Bodies {
         this.seen = null;
         if (list.length === 0) return;
         const parts = list.map((body) => body.parts.map(makePart));
+        const kinds = [...new Set(list.map(kindOf))];
         const total = parts.flat().reduce((n, g) => n + g.attributes.position.count, 0);
         const position = new Float32Array(3 * total), normal = new Float32Array(3 * total), tint = new Float32Array(4 * total);
         let at = 0;
         parts.forEach((geometries, row) => {
-            const colour = new THREE.Color(TINTS[tintOf(list[row], row)]);
+            const colour = new THREE.Color(TINTS[kinds.indexOf(kindOf(list[row])) % TINTS.length]);
             let reach = 0;
             for (const g of geometries) {
                 position.set(g.attributes.position.array, 3 * at);
@@ -109,10 +110,7 @@ export class Bodies {
     }
 }
 
-/** The same for bodies of one kind: "desk-1" and "desk-2". */
-function tintOf(body, row) {
-    const kind = (body.name ?? `body ${row % TINTS.length}`).replace(/[-_ ]?\d+$/, "");
-    let sum = 0;
-    for (const letter of kind) sum = (31 * sum + letter.codePointAt(0)) >>> 0;
-    return sum % TINTS.length;
+/** The kind of a body: "desk" of "desk-1"; bodies of one kind look alike. */
+function kindOf(body) {
+    return (body.name ?? "thrown").replace(/[-_ ]?\d+$/, "");
 }

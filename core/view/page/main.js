@@ -166,8 +166,8 @@ class Page {
         this.panel.offer("parameters", live && (hello.machines ?? []).length > 0);
         if (first || !this.toolBar.tools[this.view.tool]) this.tool("select");
         else this.toolBar.show(this.view.tool);
-        if (first && hello.colour) this.colourBy(hello.colour);
-        if (first && hello.field) this.fieldOf(hello.field);
+        if (first && COLOURS[hello.view?.colour]) this.colourBy(hello.view.colour);
+        if (first && FIELDS[hello.view?.field]) this.fieldOf(hello.view.field);
         this.redraw();
         return undefined;
     }

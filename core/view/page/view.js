@@ -44,9 +44,15 @@ export class View {
         if (camera === this.perspective) controls.maxPolarAngle = 0.495 * Math.PI; // not below the floor
         controls.minDistance = 0.5;
         controls.zoomSpeed = 1.2;
-        controls.addEventListener("change", () => (this.dirty = true));
+        controls.addEventListener("change", () => this.moved());
         controls.addEventListener("start", () => (this.handled = true));
         return controls;
+    }
+
+    /** The eye is elsewhere: places on the screen change, and the picture. */
+    moved() {
+        this.camera?.updateMatrixWorld();
+        this.dirty = true;
     }
 
     get camera() {
@@ -103,6 +109,7 @@ export class View {
         this.dirty = true;
         this.orbit.update();
         this.slide.update();
+        this.moved();
     }
 
     lookDown(at, size) {
@@ -128,6 +135,7 @@ export class View {
         }
         this.useControls();
         this.controls.update();
+        this.moved();
     }
 
     /** Moves the eye and what it looks at, m. */
@@ -137,7 +145,7 @@ export class View {
             v.y += dy;
         }
         this.controls.update();
-        this.dirty = true;
+        this.moved();
     }
 
     /** Turns around the target (rad), climbs (rad) and nears (factor). */
@@ -155,7 +163,7 @@ export class View {
             this.perspective.position.copy(this.orbit.target).add(new THREE.Vector3(v.x, -v.z, v.y));
         }
         this.controls.update();
-        this.dirty = true;
+        this.moved();
     }
 
     /** By what people are coloured: one of palette.js. */
