@@ -49,6 +49,7 @@ struct JoScene {
     JoxDanger *danger;                                     /* NULL where nothing is reported */
     JoxExits exits;                                        /* who left, and where */
     struct JoxMeasuring *measuring;                        /* NULL until a frame is asked for */
+    struct JoxLive *live;                                  /* NULL until it is shown */
     double progress_until, progress_begun, progress_shown; /* s */
     int progress_tenth;
     bool finished;

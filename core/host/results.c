@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "host/host.h"
+#include "host/live.h"
 #include "record/plot.h"
 
 static const double FRAME = 0.1;  /* s between recorded frames, or a step where that is longer */
@@ -284,6 +285,8 @@ bool jox_host_collect(JoScene *scene, JoError *error) {
     if (scene->density || scene->regions->count)
         sample(scene);
     jox_host_measure(scene);
+    if (scene->live)
+        jox_live_note(scene);
     if (scene->danger)
         jox_danger_frame(scene->danger, jox_host_frame(scene), &scene->exits);
     if (scene->progress_until > 0.0)
