@@ -15,6 +15,7 @@ struct JoxLive {
     JoxLiveArea area;
     JoxLiveGrid grid;
     uint64_t spread; /* tick of the crowd in the grid, plus 1 */
+    bool moves;      /* with its velocities */
     /* Transitions of the last second: a ring, the oldest at `first`. Those of machine m begin with
        number `begins[m]`; of state s of it with state_begins[m][s]. */
     JoxLiveTaken *taken;
@@ -35,7 +36,7 @@ struct JoxLive {
 JoxLive *jox_live_of(JoScene *scene);
 /* Agent that the scene's player drives, by id; JOX_NO_INDEX: none. */
 uint32_t jox_live_player(const JoScene *scene);
-/* Brings the density of the present crowd up to date. */
-void jox_live_spread_crowd(JoScene *scene);
+/* Brings the grid up to date; with `moves`, velocities too. */
+void jox_live_spread_crowd(JoScene *scene, bool moves);
 
 #endif

@@ -168,7 +168,7 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
     const JoWorld *world = scene->world;
     if (!same_machines(live, &world->mind) || !live->fired)
         number_transitions(live, &world->mind);
-    jox_live_spread_crowd(scene);
+    jox_live_spread_crowd(scene, false);
     jox_text_printf(out, "{\"type\": \"status\", \"tick\": %llu", (unsigned long long)world->tick);
     add_number(out, "time", jo_world_time(world));
     jox_text_printf(out, ", \"paused\": %s", session->paused ? "true" : "false");
