@@ -267,7 +267,7 @@ void jox_live_hello(JoScene *scene, JoxText *out) {
     add_places(out, scene);
     add_groups(out, scene);
     jox_text_add(out, ", \"machines\": ");
-    jox_text_add(out, "[]");
+    jox_host_graph(scene, out);
     add_bodies(out, world->bodies);
     add_tools(out, scene);
     add_camera(out, plan);

@@ -165,6 +165,7 @@ static void hello_names_all_of_the_tawaf(void **state) {
     for (uint32_t r = 0; r < scene->plan->region_count; r++)
         has_name(&text, scene->plan->regions[r].name);
     for (uint32_t m = 0; m < world->mind.machine_count; m++) {
+        has_name(&text, world->mind.machines[m]->name);
         for (uint32_t s = 0; s < world->mind.machines[m]->state_count; s++)
             has_name(&text, world->mind.machines[m]->states[s].name);
     }
