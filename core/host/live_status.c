@@ -57,6 +57,9 @@ void jox_live_note(JoScene *scene) {
     const JoxMind *mind = &world->mind;
     if (!same_machines(live, mind) || !live->fired)
         number_transitions(live, mind);
+    if (live->noted == world->tick)
+        return;
+    live->noted = world->tick;
     const uint64_t second = (uint64_t)(1.0 / world->def.dt + 0.5);
     while (live->count && live->taken[live->first].tick + second <= world->tick) {
         live->fired[live->taken[live->first].which]--;
