@@ -260,6 +260,10 @@ uint32_t jox_bodies_count(const JoxBodies *b) {
     return b->live;
 }
 
+uint32_t jox_bodies_rows(const JoxBodies *b) {
+    return b->count;
+}
+
 uint32_t jox_bodies_find(const JoxBodies *b, uint32_t id) {
     for (uint32_t k = 0; k < b->live; k++)
         if (b->rows[b->order[k]].id == id)
@@ -272,6 +276,11 @@ uint32_t jox_bodies_find_name(const JoxBodies *b, const char *name) {
         if (strcmp(jox_bodies_name(b, b->order[k]), name) == 0)
             return b->order[k];
     return JOX_NO_BODY;
+}
+
+uint32_t jox_bodies_id(const JoxBodies *b, uint32_t row) {
+    const JoxRow *r = row_of(b, row);
+    return r ? r->id : JOX_NO_BODY;
 }
 
 const char *jox_bodies_name(const JoxBodies *b, uint32_t row) {
@@ -294,6 +303,33 @@ bool jox_bodies_pose(const JoxBodies *b, uint32_t row, JoxPose *pose) {
     pose->spin = jox_v3(r->body->getAngularVelocity());
     pose->mass = r->built.mass;
     pose->inertia = jox_v3(r->built.inertia);
+    return true;
+}
+
+bool jox_bodies_look(const JoxBodies *b, uint32_t row, uint32_t part, JoxBodyLook *out) {
+    *out = JoxBodyLook();
+    const JoxRow *r = row_of(b, row);
+    if (!r || part >= r->built.part_count)
+        return false;
+    const JoxPart *p = &r->built.parts[part];
+    btTransform at = r->built.frame * p->frame;
+    btQuaternion q = at.getRotation();
+    out->kind = p->kind;
+    out->at = jox_v3(at.getOrigin());
+    for (int i = 0; i < 4; i++)
+        out->turn[i] = q[i];
+    const JoxV3 *first = p->corners, *last = p->corners + p->corner_count - 1;
+    if (p->kind == JOX_SHAPE_BOX) { /* its corners are counted along x, y, z */
+        out->size[0] = last->x - first->x;
+        out->size[1] = last->y - first->y;
+        out->size[2] = last->z - first->z;
+    } else if (p->kind == JOX_SHAPE_HULL) {
+        out->corners = p->corners;
+        out->corner_count = p->corner_count;
+    } else {
+        out->size[0] = p->radius;
+        out->size[1] = p->kind == JOX_SHAPE_CYLINDER ? last->z - first->z : 0.0f;
+    }
     return true;
 }
 

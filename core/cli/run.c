@@ -17,7 +17,8 @@ static const char HELP[] =
     "  --threads N        threads; never changes a result (default 1)\n"
     "  --isa NAME         instruction set of the kernels: scalar\n"
     "  --set PATH=VALUE   replace a value of the scene, e.g. groups.pilgrims.count=5000\n"
-    "  --input FILE       play recorded input: lines of TICK player AGENT VX VY\n"
+    "  --input FILE       play an input log: what people did, and files that were reloaded\n"
+    "  --log-input FILE   write one (replaces FILE)\n"
     "  --record FILE      write trajectories (SQLite, JuPedSim format 2)\n"
     "  --report DIR       write a page, pictures and figures into DIR (index.html): danger, "
     "density,\n"
@@ -40,7 +41,7 @@ static const char HELP[] =
 
 typedef struct Run {
     JoSceneDef def;
-    const char *record, *report, *data, *summary;
+    const char *record, *report, *data, *summary, *log;
     double seconds;
     uint64_t steps, seeds, trace;
     const char **mods;
@@ -83,6 +84,8 @@ static bool read_option(Run *run, CliArgs *args, const char *option, const char 
         overrides[run->def.override_count++] = cli_value(args, option);
     } else if (!strcmp(option, "input")) {
         run->def.input_log = cli_value(args, option);
+    } else if (!strcmp(option, "log-input")) {
+        run->log = cli_value(args, option);
     } else if (!strcmp(option, "record")) {
         run->record = cli_value(args, option);
     } else if (!strcmp(option, "report")) {
@@ -161,6 +164,7 @@ static int simulate(const Run *run, char **summary) {
     bool ok = (!run->record || jo_scene_record(scene, run->record, &error)) &&
               (!run->report || jo_scene_report(scene, run->report, &error)) &&
               (!run->data || jo_scene_data(scene, run->data, &error)) &&
+              (!run->log || jo_scene_log_input(scene, run->log, &error)) &&
               (!run->watch || jo_scene_watch(scene, &error));
     if (run->has_trace)
         jo_scene_trace(scene, (uint32_t)run->trace);
@@ -216,11 +220,12 @@ static int simulate_seeds(Run *run) {
 static int usage_error(const Run *run, const CliArgs *args) {
     if (args->failed)
         return JO_USAGE;
-    const char *why = !run->def.path                       ? "no scene given"
-                      : run->has_seconds && run->has_steps ? "--for and --steps exclude each other"
-                      : run->seeds && (run->record || run->report || run->watch)
-                          ? "--seeds cannot be combined with --record, --report or --watch"
-                          : NULL;
+    const char *why =
+        !run->def.path                       ? "no scene given"
+        : run->has_seconds && run->has_steps ? "--for and --steps exclude each other"
+        : run->seeds && (run->record || run->report || run->watch || run->log)
+            ? "--seeds cannot be combined with --record, --report, --log-input or --watch"
+            : NULL;
     if (why)
         fprintf(stderr, "jostle run: %s\n", why);
     return why ? JO_USAGE : JO_OK;
@@ -228,9 +233,10 @@ static int usage_error(const Run *run, const CliArgs *args) {
 
 int cli_run(int argc, char **argv) {
     static const char *const known[] = {
-        "for",   "steps",  "dt",      "seed",        "seeds",    "threads",      "isa",   "set",
-        "input", "record", "report",  "data",        "summary",  "watch",        "trace", "quiet",
-        "help",  "mod",    "no-mods", "profile-lua", "no-watch", "no-half-step", NULL};
+        "for",     "steps",       "dt",       "seed",         "seeds",     "threads",
+        "isa",     "set",         "input",    "record",       "report",    "data",
+        "summary", "watch",       "trace",    "quiet",        "help",      "mod",
+        "no-mods", "profile-lua", "no-watch", "no-half-step", "log-input", NULL};
     CliArgs args = {.argc = argc, .argv = argv, .next = 1, .command = "run"};
     const char **overrides = calloc((size_t)argc, sizeof *overrides);
     Run run = {.def = jo_default_scene_def()};

@@ -2,6 +2,8 @@
 #ifndef JOX_HOST_HOST_H
 #define JOX_HOST_HOST_H
 
+#include <stdio.h>
+
 #include "base/diag.h"
 #include "host/watch.h"
 #include "jostle.h"
@@ -49,12 +51,16 @@ struct JoScene {
     JoxDanger *danger;                                     /* NULL where nothing is reported */
     JoxExits exits;                                        /* who left, and where */
     struct JoxMeasuring *measuring;                        /* NULL until a frame is asked for */
+    struct JoxLive *live;                                  /* NULL until it is shown */
     double progress_until, progress_begun, progress_shown; /* s */
     int progress_tenth;
     bool finished;
     float density_most; /* of the frames that a report sampled, 1/m2 */
-    char *input_path;   /* of the input log, or NULL */
+    char *input_path;   /* of the input log that is played, or NULL */
     char input_sha256[65];
+    FILE *log; /* input log that is written, or NULL */
+    char *log_path;
+    bool log_failed;
 };
 
 /* Sends formatted text to the scene's message function. */
@@ -91,6 +97,19 @@ void jox_host_sinks(JoScene *scene);
 void jox_host_leavers(JoScene *scene);
 /* events.c: what is due in the step that begins. */
 void jox_host_events(JoScene *scene);
+/* As jo_scene_throw, _open_wall and _signal, which write the input log besides. */
+bool jox_host_throw(JoScene *scene, const char *body, const double from[3],
+                    const double velocity[3], const double spin[3], JoError *error);
+bool jox_host_open(JoScene *scene, const char *wall, bool open, JoError *error);
+bool jox_host_signal(JoScene *scene, const char *name, JoError *error);
+/* input.c: what the log that is played says of the step that begins. */
+void jox_host_inputs(JoScene *scene);
+/* Appends to the log that is written, if one is, as of the step that comes. */
+void jox_host_log(JoScene *scene, JoxInputEntry *entry);
+/* False with `error` if it cannot be written. */
+bool jox_host_logged(const JoScene *scene, JoError *error);
+/* Ends that log. False with `error` if it could not be written. */
+bool jox_host_end_log(JoScene *scene, JoError *error);
 /* Names of signals get numbers; warns of those that nobody hears (`diagnostics` may be NULL). */
 void jox_host_name_events(JoScene *scene, JoxDiagnostics *diagnostics);
 /* The file of the machine that a state becomes; false with diagnostics. */

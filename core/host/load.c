@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "host/host.h"
+#include "host/live.h"
 
 enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 64 << 20 };
 
@@ -414,6 +415,7 @@ void jo_scene_free(JoScene *scene) {
     jo_scene_finish(scene, NULL);
     jox_regions_free(scene->regions);
     jox_host_end_measuring(scene);
+    jox_live_end(scene);
     jox_host_unwatch(scene);
     free_def(scene);
     jo_world_free(scene->world); /* before Lua, whose machines it holds */

@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "host/host.h"
+#include "host/live.h"
 #include "record/plot.h"
 
 static const double FRAME = 0.1;  /* s between recorded frames, or a step where that is longer */
@@ -284,6 +285,8 @@ bool jox_host_collect(JoScene *scene, JoError *error) {
     if (scene->density || scene->regions->count)
         sample(scene);
     jox_host_measure(scene);
+    if (scene->live)
+        jox_live_note(scene);
     if (scene->danger)
         jox_danger_frame(scene->danger, jox_host_frame(scene), &scene->exits);
     if (scene->progress_until > 0.0)
@@ -294,6 +297,7 @@ bool jox_host_collect(JoScene *scene, JoError *error) {
 
 bool jo_scene_step(JoScene *scene, JoError *error) {
     JOX_REQUIRE(scene && !scene->finished, false);
+    jox_host_inputs(scene);
     jox_host_reload(scene);
     jox_host_events(scene);
     jox_host_sources(scene);
@@ -308,7 +312,7 @@ bool jo_scene_step(JoScene *scene, JoError *error) {
                   stalled);
         return false;
     }
-    return jox_host_collect(scene, error);
+    return jox_host_collect(scene, error) && jox_host_logged(scene, error);
 }
 
 /* That plain functions ran, and what they cost: their authors should know without asking. */
@@ -335,6 +339,7 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
     if (scene->recorder)
         good = jox_recorder_close(scene->recorder, &why) || fail(error, &why);
     scene->recorder = NULL;
+    good = jox_host_end_log(scene, error) && good;
     if (scene->report) {
         good = draw(scene, error) && good;
     }

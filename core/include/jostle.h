@@ -192,7 +192,7 @@ JO_API double jo_scene_duration(const JoScene *scene); /* s, as the scene says *
 JO_API bool jo_scene_step(JoScene *scene, JoError *error);
 
 /* What people do to a running scene; it takes effect in the next step, as an event of the scene
-   does. False with `error` where there is no such body or wall, or a number is out of range. */
+   does, and goes into the input log if one is written. False with `error` where there is no such body or wall, or a number is out of range. */
 /* Throws a body by its name: x, y, z of where it is put first (m; NULL: from where it lies),
    velocity (m/s, each up to 100; NULL: none) and spin about x, y, z (rad/s, each up to 100; NULL:
    none). */
@@ -202,6 +202,12 @@ JO_API bool jo_scene_throw(JoScene *scene, const char *body, const double from[3
 JO_API bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *error);
 /* Calls a name out, which everybody hears in the next step, wherever they are. */
 JO_API bool jo_scene_signal(JoScene *scene, const char *name, JoError *error);
+/* Does what a line of an input log says, without its tick: "push 7 300 0" (core/world/input.h has
+   them all). False with `error` where it cannot be done; nothing is then logged. */
+JO_API bool jo_scene_input(JoScene *scene, const char *line, JoError *error);
+/* From here on writes what people do, and files that are reloaded, to a file (replaced if it is
+   there), which JoSceneDef.input_log plays back to the same state. */
+JO_API bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error);
 /* Writes trajectories to an SQLite file from here on (JuPedSim format, version 2). */
 JO_API bool jo_scene_record(JoScene *scene, const char *path, JoError *error);
 /* Collects density and regional speeds from here on; jo_scene_finish draws them, and what the

@@ -24,7 +24,6 @@ static bool is_last(const JoWorld *w) {
 static void perceive(JoWorld *w) {
     if (is_first(w)) {
         jox_nav_sort(w->nav, &w->agents, w->tick);
-        jox_input_advance(&w->input, (uint32_t)w->tick);
         if (w->agents.count)
             memset(w->agents.failed, 0, w->agents.count);
     }
