@@ -104,6 +104,36 @@ bool jox_host_open(JoScene *scene, const char *wall, bool open, JoError *error);
 bool jox_host_signal(JoScene *scene, const char *name, JoError *error);
 /* input.c: what the log that is played says of the step that begins. */
 void jox_host_inputs(JoScene *scene);
+/* input_set.c: a parameter by the names that a line gives. `state` -1: the machine's defaults.
+   False with `error` where there is none such, or the value is out of range. */
+typedef struct JoxChoice {
+    uint32_t machine;
+    int32_t state;
+    int parameter;
+} JoxChoice;
+bool jox_host_choose(const JoScene *scene, const char *machine, const char *state,
+                     const char *parameter, double value, JoxChoice *out, JoError *error);
+/* Sets it for everybody there, now and later, until the machine's file is reloaded. */
+bool jox_host_set(JoScene *scene, const char *machine, const char *state, const char *parameter,
+                  double value, JoError *error);
+/* inspect_graph.c: who set a parameter of a state (NULL: of the defaults), and to what. */
+typedef struct JoxSetBy {
+    JoxText
+        where; /* "state Circle behaviours/tawaf.lua:21", "mod calm ...", "live page", "engine" */
+    JoxText text;  /* the value as written */
+    double number; /* NAN where it differs between agents or in time */
+    int line;
+} JoxSetBy;
+JoxSetBy jox_host_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
+                         int parameter);
+void jox_set_by_free(JoxSetBy *by);
+/* A JSON array of the scene's machines: name, path, version, start; defaults and states with their
+   parameters; transitions with their conditions as written. */
+void jox_host_graph(const JoScene *scene, JoxText *out);
+/* Appends the line of Lua that would set a parameter for good, and where it belongs; false with
+   why not. */
+bool jox_host_lua_line(const JoScene *scene, const char *machine, const char *state,
+                       const char *parameter, double value, JoxText *out);
 /* Appends to the log that is written, if one is, as of the step that comes. */
 void jox_host_log(JoScene *scene, JoxInputEntry *entry);
 /* False with `error` if it cannot be written. */
@@ -118,6 +148,9 @@ bool jox_host_find_become(const JoScene *scene, const JoxMachine *machine, uint3
 /* reload.c: swaps what has been loaded anew since the last step; ends the thread that loads. */
 typedef struct JoxReload JoxReload;
 void jox_host_reload(JoScene *scene);
+/* Keeps the thread that loads from reading machines while one of them is changed in place; what it
+   compared with that one is compared anew. */
+void jox_host_hold_machines(JoScene *scene, uint32_t machine, bool hold);
 void jox_host_unwatch(JoScene *scene);
 /* rescene.c: gives the living of a group a value that their scene sets, in one machine or (-1) in
    whichever they are. */

@@ -56,6 +56,8 @@ static bool do_entry(JoScene *scene, const JoxInputEntry *entry, JoError *error)
         return jox_host_open(scene, entry->names[0], entry->verb == JOX_INPUT_OPEN, error);
     case JOX_INPUT_SIGNAL:
         return jox_host_signal(scene, entry->names[0], error);
+    case JOX_INPUT_SET:
+        return jox_host_set(scene, entry->names[0], entry->names[1], entry->names[2], v[0], error);
     default:
         break;
     }

@@ -28,6 +28,7 @@ typedef struct Change {
     JoxLoaded *loaded;
     JoxFiles files; /* that were looked for */
     JoxReplacement *replacement;
+    uint32_t edits; /* of the machine, when they were compared */
 } Change;
 
 /* What the loading thread hands over: machines, a new plan of the scene, or only what is wrong. */
@@ -52,7 +53,9 @@ struct JoxReload {
     atomic_uintptr_t ready;   /* Batch *, to the stepping thread */
     atomic_uintptr_t retired; /* Retired *, back */
     atomic_uint next_id, machine_count;
-    JoxChanges changes; /* the loading thread's own */
+    JoxChanges changes;       /* the loading thread's own */
+    pthread_mutex_t machines; /* held while they are compared, or changed in place */
+    uint32_t edits[JOX_MOST_MACHINES];
 };
 
 /* What was swapped out, freed off the stepping thread. */
@@ -196,6 +199,18 @@ static void load_plan(JoxReload *r, Batch *batch) {
         jox_files_add(&batch->plan_files, batch->plan->files[f].path);
 }
 
+/* Works out what it takes to put the new version in the place of the old. */
+static void compare(JoxReload *r, Change *change) {
+    const JoxMind *mind = &r->scene->world->mind;
+    jox_replacement_free(change->replacement);
+    pthread_mutex_lock(&r->machines);
+    change->edits = r->edits[change->index];
+    change->replacement =
+        jox_replacement_prepare(mind->machines[change->index], jox_loaded_machine(change->loaded),
+                                r->scene->world->def.seed, atomic_load(&r->next_id));
+    pthread_mutex_unlock(&r->machines);
+}
+
 /* The next parts whose files have changed, loaded; NULL where there are none. */
 static Batch *prepare(JoxReload *r) {
     JoScene *scene = r->scene;
@@ -218,10 +233,7 @@ static Batch *prepare(JoxReload *r) {
         batch->failed = true;
     for (uint32_t c = 0; c < batch->count && !batch->failed; c++)
         if (!batch->changes[c].added)
-            batch->changes[c].replacement =
-                jox_replacement_prepare(mind->machines[batch->changes[c].index],
-                                        jox_loaded_machine(batch->changes[c].loaded),
-                                        scene->world->def.seed, atomic_load(&r->next_id));
+            compare(r, &batch->changes[c]);
     return batch;
 }
 
@@ -381,6 +393,8 @@ static void take(JoScene *scene, Batch *batch) {
     for (uint32_t c = 0; c < batch->count && !batch->failed && !refused; c++)
         if (!batch->changes[c].added) {
             path = batch->changes[c].path;
+            if (batch->changes[c].edits != r->edits[batch->changes[c].index])
+                compare(r, &batch->changes[c]); /* a parameter was set meanwhile */
             refused = jox_mind_refuses(&scene->world->mind, batch->changes[c].index,
                                        batch->changes[c].replacement, why, sizeof why);
         }
@@ -400,6 +414,18 @@ static void take(JoScene *scene, Batch *batch) {
     while (
         !atomic_compare_exchange_weak(&r->retired, (uintptr_t *)&retired->next, (uintptr_t)retired))
         ;
+}
+
+void jox_host_hold_machines(JoScene *scene, uint32_t machine, bool hold) {
+    JoxReload *r = scene->reload;
+    if (!r)
+        return;
+    if (hold) {
+        pthread_mutex_lock(&r->machines);
+        r->edits[machine]++;
+    } else {
+        pthread_mutex_unlock(&r->machines);
+    }
 }
 
 void jox_host_reload(JoScene *scene) {
@@ -426,6 +452,7 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
     int stop = watch ? eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK) : -1;
     JoxReload *r = jox_alloc(1, sizeof *r);
     *r = (JoxReload){.scene = scene, .watch = watch, .stop = stop};
+    pthread_mutex_init(&r->machines, NULL);
     const JoxMind *mind = &scene->world->mind;
     JoxAgents *a = &scene->world->agents;
     jox_agents_widen(a, a->own_stride + OWN_ROOM, a->memory_stride + MEMORY_ROOM);
@@ -466,6 +493,7 @@ void jox_host_unwatch(JoScene *scene) {
     free_retired(r);
     jox_changes_free(&r->changes);
     jox_watch_free(r->watch);
+    pthread_mutex_destroy(&r->machines);
     jox_free(r);
     scene->reload = NULL;
 }

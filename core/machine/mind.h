@@ -158,6 +158,11 @@ void jox_mind_census(const JoxMind *mind, uint32_t index, uint32_t *people);
 void jox_mind_become(JoxMind *mind, uint32_t agent, uint32_t machine);
 /* Gives the agent an own value, as the scene's group might have done. */
 void jox_mind_set_own(JoxMind *mind, uint32_t agent, uint32_t slot, double value);
+/* Sets a parameter of one state (-1: of the defaults) to a number within its range, for all who are
+   in it and who will be, until the machine is replaced. In the defaults the own value of that name
+   follows, but for those to whom the scene gave theirs. */
+void jox_mind_set_parameter(JoxMind *mind, uint32_t machine, int32_t state, int parameter,
+                            double value);
 /* Number of a name that machines share; new names are added. */
 uint32_t jox_mind_name(JoxMind *mind, const char *name);
 /* The agent calls out a name (by number). */
