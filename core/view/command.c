@@ -143,26 +143,26 @@ static bool read_value(Reader *r, JoxCommand *command) {
     command->values[i].text = NULL;
     skip_space(r);
     if (*r->at == '"') {
-        command->values[i].kind = JOX_VALUE_TEXT;
+        command->values[i].kind = JOX_SAID_TEXT;
         command->values[i].text = read_text(r);
         return command->values[i].text != NULL;
     }
     bool yes = take_word(r, "true");
     if (yes || take_word(r, "false")) {
-        command->values[i].kind = JOX_VALUE_BOOL;
+        command->values[i].kind = JOX_SAID_BOOL;
         command->values[i].number = yes;
         return true;
     }
     if (take_word(r, "null")) {
-        command->values[i].kind = JOX_VALUE_NULL;
+        command->values[i].kind = JOX_SAID_NULL;
         return true;
     }
-    command->values[i].kind = JOX_VALUE_NUMBER;
+    command->values[i].kind = JOX_SAID_NUMBER;
     return read_number(r, &command->values[i].number);
 }
 
 /* Index of a key, or -1. */
-static int find(const JoxCommand *command, const char *key, JoxValueKind kind) {
+static int find(const JoxCommand *command, const char *key, JoxSaidKind kind) {
     for (int i = 0; i < command->count; i++)
         if (!strcmp(command->values[i].key, key))
             return command->values[i].kind == kind ? i : -1;
@@ -187,7 +187,7 @@ bool jox_command_read(const char *json, JoxCommand *command) {
     } while (take(&r, ','));
     bool closed = take(&r, '}');
     skip_space(&r);
-    int verb = find(command, "do", JOX_VALUE_TEXT);
+    int verb = find(command, "do", JOX_SAID_TEXT);
     if (!closed || *r.at || verb < 0)
         return false;
     command->verb = command->values[verb].text;
@@ -195,16 +195,16 @@ bool jox_command_read(const char *json, JoxCommand *command) {
 }
 
 const char *jox_command_text(const JoxCommand *command, const char *key, const char *otherwise) {
-    int i = find(command, key, JOX_VALUE_TEXT);
+    int i = find(command, key, JOX_SAID_TEXT);
     return i < 0 ? otherwise : command->values[i].text;
 }
 
 double jox_command_number(const JoxCommand *command, const char *key, double otherwise) {
-    int i = find(command, key, JOX_VALUE_NUMBER);
+    int i = find(command, key, JOX_SAID_NUMBER);
     return i < 0 ? otherwise : command->values[i].number;
 }
 
 bool jox_command_bool(const JoxCommand *command, const char *key, bool otherwise) {
-    int i = find(command, key, JOX_VALUE_BOOL);
+    int i = find(command, key, JOX_SAID_BOOL);
     return i < 0 ? otherwise : command->values[i].number > 0.0;
 }

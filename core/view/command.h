@@ -7,11 +7,11 @@
 
 enum { JOX_COMMAND_KEYS = 16 };
 
-typedef enum { JOX_VALUE_NULL, JOX_VALUE_BOOL, JOX_VALUE_NUMBER, JOX_VALUE_TEXT } JoxValueKind;
+typedef enum { JOX_SAID_NULL, JOX_SAID_BOOL, JOX_SAID_NUMBER, JOX_SAID_TEXT } JoxSaidKind;
 
 typedef struct JoxCommand {
     struct {
-        JoxValueKind kind;
+        JoxSaidKind kind;
         double number; /* 1 and 0 for true and false */
         char *key, *text;
     } values[JOX_COMMAND_KEYS];

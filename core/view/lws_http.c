@@ -34,8 +34,9 @@ static bool header(struct lws *wsi, enum lws_token_indexes token, char *out, siz
 static bool has_token(const JoxView *view, struct lws *wsi, bool *remembered) {
     char given[80], name[32], cookies[2048];
     *remembered = false;
-    if (lws_get_urlarg_by_name(wsi, "token=", given, sizeof given))
-        return jox_access_same(given, view->token);
+    const char *asked = lws_get_urlarg_by_name(wsi, "token=", given, sizeof given);
+    if (asked)
+        return jox_access_same(asked, view->token);
     snprintf(name, sizeof name, "jostle_%d", view->port);
     *remembered = header(wsi, WSI_TOKEN_HTTP_COOKIE, cookies, sizeof cookies) &&
                   jox_access_cookie(cookies, name, given, sizeof given) &&
