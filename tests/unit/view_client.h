@@ -1,4 +1,5 @@
-/* A browser as small as can be, on raw sockets: requests, the handshake, frames of the web socket. */
+/* A browser as small as can be, on raw sockets: requests, the handshake, frames of the web socket.
+ */
 #ifndef JOX_TESTS_VIEW_CLIENT_H
 #define JOX_TESTS_VIEW_CLIENT_H
 
@@ -73,16 +74,16 @@ static inline bool get_all(int fd, void *data, size_t length, double seconds) {
     return true;
 }
 
-/* Sends a request and reads to the end of its connection (say "Connection: close"), or to the end of
-   the headers of an upgrade. Returns the status; 0 where no answer came. */
+/* Sends a request and reads to the end of its connection (say "Connection: close"), or to the end
+   of the headers of an upgrade. Returns the status; 0 where no answer came. */
 static inline int ask(int fd, const char *request, char *answer, size_t size) {
     size_t n = 0;
     answer[0] = 0;
     if (!put(fd, request, strlen(request)))
         return 0;
     while (n + 1 < size) {
-        ssize_t got = get(fd, answer + n, strstr(request, "Upgrade: websocket") ? 1 : size - n - 1,
-                          5.0);
+        ssize_t got =
+            get(fd, answer + n, strstr(request, "Upgrade: websocket") ? 1 : size - n - 1, 5.0);
         if (got <= 0)
             break;
         n += (size_t)got;
@@ -124,7 +125,8 @@ static inline int open_socket(int port, const char *token) {
 
 enum { FRAME_TEXT = 1, FRAME_BINARY = 2, FRAME_CLOSE = 8, FRAME_PING = 9, FRAME_PONG = 10 };
 
-/* A masked frame, as browsers send them; the first part of a message is `first`, the last `last`. */
+/* A masked frame, as browsers send them; the first part of a message is `first`, the last `last`.
+ */
 static inline bool put_frame(int fd, int kind, bool first, bool last, const void *data,
                              size_t length) {
     static const uint8_t mask[4] = {0x12, 0x34, 0x56, 0x78};
@@ -157,7 +159,8 @@ static inline bool put_text(int fd, const char *text) {
     return put_frame(fd, FRAME_TEXT, true, true, text, strlen(text));
 }
 
-/* The next message, put together, or NULL; *kind 0 where nothing came in time. Pings are answered. */
+/* The next message, put together, or NULL; *kind 0 where nothing came in time. Pings are answered.
+ */
 static inline char *get_message(int fd, int *kind, size_t *length, double seconds) {
     char *message = NULL;
     size_t n = 0;
