@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "base/diag.h"
+#include "host/changes.h"
 #include "host/watch.h"
 #include "jostle.h"
 #include "lua/loader.h"
@@ -17,6 +18,11 @@
 #include "scene/mods.h"
 #include "scene/scene.h"
 #include "world/world.h"
+
+/* Is told of files that were loaded: what they are parts of (NULL: of a scene that begins), and
+   what is wrong; no errors where they are live. Without diagnostics: those have been said as text.
+ */
+typedef void JoxDiagnosed(void *context, const bool *parts, const JoxDiagnostics *diagnostics);
 
 struct JoScene {
     JoxScene *plan;
@@ -34,9 +40,11 @@ struct JoScene {
     void *message_context;
 
     struct JoxReload *reload; /* NULL: files are not watched */
-    double swap_seconds;      /* the longest that a swap has held a step up */
-    JoSceneDef def;           /* as it was loaded, with copies of its texts */
-    char **plan_files;        /* the scene's file and what it includes */
+    JoxDiagnosed *diagnosed;  /* NULL: nobody wants to know */
+    void *diagnosed_context;
+    double swap_seconds; /* the longest that a swap has held a step up */
+    JoSceneDef def;      /* as it was loaded, with copies of its texts */
+    char **plan_files;   /* the scene's file and what it includes */
     uint32_t plan_file_count;
     JoxRecorder *recorder;
     uint32_t record_every; /* ticks */
@@ -70,6 +78,11 @@ void jox_host_say(const JoScene *scene, const char *format, ...)
 void jox_host_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
                      JoError *error);
 
+/* Writes to stderr, and makes room where a line of progress stands. */
+void jox_host_to_stderr(void *context, const char *text);
+/* As jo_scene_load; `diagnosed` (it may be NULL) is told of mistakes, then and in all reloads. */
+JoScene *jox_host_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
+                            JoError *error);
 /* As jo_scene_load, but what is wrong goes to `diagnostics`. NULL if there are errors. */
 JoScene *jox_host_load(const JoSceneDef *def, JoxDiagnostics *diagnostics);
 /* mods.c: finds the mods of a scene and what their files change; `without` are bits of those found

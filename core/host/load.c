@@ -11,7 +11,7 @@
 
 enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 64 << 20 };
 
-static void to_stderr(void *context, const char *text) {
+void jox_host_to_stderr(void *context, const char *text) {
     (void)context;
     if (isatty(2)) /* the line of progress makes room */
         fputs("\r\033[K", stderr);
@@ -32,7 +32,7 @@ void jox_host_report(JoMessage *message, void *context, JoxDiagnostics *diagnost
     JoxText text = {0};
     jox_diag_print(diagnostics, &text);
     if (text.length)
-        (message ? message : to_stderr)(context, text.data);
+        (message ? message : jox_host_to_stderr)(context, text.data);
     jox_text_free(&text);
     for (size_t i = 0; error && i < diagnostics->count; i++) {
         const JoxDiagnostic *d = &diagnostics->items[i];
@@ -276,7 +276,7 @@ static int32_t blame(const JoSceneDef *def, uint64_t without) {
 static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culprit,
                         JoxDiagnostics *mod_problems, JoxDiagnostics *diagnostics) {
     JoScene *scene = jox_alloc(1, sizeof *scene);
-    scene->message = def->message ? def->message : to_stderr;
+    scene->message = def->message ? def->message : jox_host_to_stderr;
     scene->message_context = def->message_context;
     scene->mods = jox_host_find_mods(def, without, mod_problems);
     *culprit = -1;
@@ -348,14 +348,21 @@ JoScene *jox_host_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
     }
 }
 
-JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
+JoScene *jox_host_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
+                            JoError *error) {
     JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && def->path, NULL);
     JoxDiagnostics diagnostics = {0};
     JoScene *scene = jox_host_load(def, &diagnostics);
-    jox_host_report(def->message ? def->message : to_stderr, def->message_context, &diagnostics,
-                    error);
+    if (diagnosed)
+        diagnosed(context, NULL, &diagnostics);
+    jox_host_report(def->message ? def->message : jox_host_to_stderr, def->message_context,
+                    &diagnostics, error);
+    if (diagnosed)
+        diagnosed(context, NULL, NULL);
     if (!scene)
         return NULL;
+    scene->diagnosed = diagnosed;
+    scene->diagnosed_context = context;
     jox_host_report(scene->message, scene->message_context, &scene->mod_problems, NULL);
     for (uint32_t m = 0; m < scene->mods->count; m++)
         jox_host_say(scene, "%s %s %s (%s)\n", m ? "     " : "mods:", scene->mods->items[m].name,
@@ -368,6 +375,10 @@ JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
                      def->path, settled.moved, settled.farthest,
                      settled.stuck ? "; some found no free spot" : "");
     return scene;
+}
+
+JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
+    return jox_host_load_told(def, NULL, NULL, error);
 }
 
 /* Whether both were made of the same files, byte by byte. */
