@@ -197,12 +197,18 @@ static void note_bodies(JoxReplay *r, const JoxReelFrame *f) {
     }
 }
 
+void jox_replay_forget(JoxReplay *r) {
+    r->frame = (JoxReelFrame){.time = r->frame.time};
+    give_slots(r, &r->frame, 0.0);
+    r->shown = JOX_REPLAY_NOBODY;
+    r->spread = false;
+}
+
 static bool take(JoxReplay *r, uint32_t frame, JoxText *why) {
     double before = r->shown == JOX_REPLAY_NOBODY ? 0.0 : jox_reel_time(r->reel, r->shown);
     bool next = r->shown != JOX_REPLAY_NOBODY && frame == r->shown + 1;
     if (!jox_reel_read(r->reel, frame, &r->frame, why)) {
-        r->frame = (JoxReelFrame){.time = jox_reel_time(r->reel, frame)};
-        give_slots(r, &r->frame, 0.0);
+        jox_replay_forget(r);
         return false;
     }
     widen(r, r->frame.count);

@@ -23,6 +23,8 @@ uint32_t jox_replay_find(const JoxReplay *replay, double time);
 /* Reads a frame; the messages below are of the one that was read last. People who were in the frame
    before it keep their slots. False with a sentence in `why` where the file is damaged. */
 bool jox_replay_show(JoxReplay *replay, uint32_t frame, JoxText *why);
+/* Nobody is shown: whoever comes next has a slot of its own. */
+void jox_replay_forget(JoxReplay *replay);
 void jox_replay_hello(const JoxReplay *replay, JoxText *out);
 /* Another number whenever a new hello is due: other bodies came. */
 uint64_t jox_replay_version(const JoxReplay *replay);
