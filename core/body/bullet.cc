@@ -318,7 +318,7 @@ bool jox_bodies_look(const JoxBodies *b, uint32_t row, uint32_t part, JoxBodyLoo
     out->at = jox_v3(at.getOrigin());
     for (int i = 0; i < 4; i++)
         out->turn[i] = q[i];
-    const JoxV3 *first = p->corners, *last = p->corners + p->corner_count - 1;
+    const JoxV3 *first = p->corners, *last = first ? first + p->corner_count - 1 : nullptr;
     if (p->kind == JOX_SHAPE_BOX) { /* its corners are counted along x, y, z */
         out->size[0] = last->x - first->x;
         out->size[1] = last->y - first->y;

@@ -51,6 +51,8 @@ struct JoScene {
     uint32_t
         record_base[JOX_MOST_MACHINES]; /* number of a machine's first state in the recording */
     uint32_t record_next;
+    uint32_t *record_shapes; /* per body id: blocks of the shape that was recorded, plus 1 */
+    size_t record_shape_capacity;
     char *report; /* directory, or NULL */
     char *data;   /* directory of the probes' CSV files, or NULL */
     JoxDensity *density;

@@ -21,7 +21,7 @@ void jox_bytes_free(JoxBytes *bytes);
     X(state, 0, "") /* value is 0: the frame has the state */                                      \
     X(speed, 2, "m/s")                                                                             \
     X(force, 500, "N") /* magnitude of the net force */                                            \
-    X(compression, 2000, "N/m")                                                                    \
+    X(compression, 1000, "N/m")                                                                    \
     X(density, 8, "1/m2")                                                                          \
     X(group, 255, "") /* value is the number of the group */
 typedef enum JoxLiveColour {

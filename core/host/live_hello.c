@@ -108,7 +108,7 @@ void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxText
 
 /* ---- bodies: by row, those that are gone without parts ---- */
 
-static void add_part(JoxText *out, const JoxBodyLook *look) {
+void jox_live_add_part(const JoxBodyLook *look, JoxText *out) {
     static const char *const KINDS[] = {"box", "sphere", "cylinder", "hull"};
     static const int SIZES[] = {3, 1, 2, 0};
     jox_text_printf(out, "{\"shape\": \"%s\", ", KINDS[look->kind]);
@@ -133,7 +133,7 @@ void jox_live_body(const JoxBodies *bodies, uint32_t row, JoxText *out) {
     jox_text_printf(out, ", \"mass\": %.5g, \"parts\": [", (double)pose.mass);
     for (uint32_t part = 0; live && jox_bodies_look(bodies, row, part, &look); part++) {
         jox_text_add(out, part ? ", " : "");
-        add_part(out, &look);
+        jox_live_add_part(&look, out);
     }
     jox_text_add(out, "]}");
 }

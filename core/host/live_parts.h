@@ -45,6 +45,8 @@ void jox_live_add_places(const JoxPlace *places, uint32_t count, JoxText *out);
 void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxText *out);
 /* NULL: none. */
 void jox_live_add_camera(const JoxScene *plan, JoxText *out);
+/* One part of a body as an object. */
+void jox_live_add_part(const JoxBodyLook *look, JoxText *out);
 /* One body as an object: {"name": ..., "mass": ..., "parts": [...]}; without parts where there is
    none in the row. */
 void jox_live_body(const JoxBodies *bodies, uint32_t row, JoxText *out);

@@ -434,6 +434,7 @@ void jo_scene_free(JoScene *scene) {
     jox_scene_free(scene->plan);
     jox_mods_free(scene->mods);
     jox_diag_free(&scene->mod_problems);
+    jox_free(scene->record_shapes);
     jox_free(scene->party_left);
     jox_free(scene->party_team);
     jox_free(scene->report);

@@ -39,20 +39,37 @@ static void add_names(JoxText *out, const JoxReplay *r) {
     jox_text_add(out, "]");
 }
 
+/* A body of which nothing is known but where it is. */
+static void add_unknown(JoxText *out) {
+    const JoxBodyLook box = {.kind = JOX_SHAPE_BOX,
+                             .size = {BODY_SIZE, BODY_SIZE, BODY_SIZE},
+                             .turn = {0.0f, 0.0f, 0.0f, 1.0f}};
+    jox_text_add(out, "{\"name\": null, \"mass\": 0, \"parts\": [");
+    jox_live_add_part(&box, out);
+    jox_text_add(out, "]}");
+}
+
+/* By the recording, else by the scene. */
 static void add_bodies(JoxText *out, const JoxReplay *r) {
     jox_text_add(out, ", \"bodies\": [");
     for (uint32_t row = 0; row < r->row_count; row++) {
-        const uint32_t id = r->body_id[row];
+        const uint32_t id = r->body_id[row], frame = r->shown;
         const uint32_t known = r->bodies ? jox_bodies_find(r->bodies, id) : JOX_NO_BODY;
+        JoxBodyLook look;
         jox_text_add(out, row ? ", " : "");
-        if (known != JOX_NO_BODY)
-            jox_live_body(r->bodies, known, out);
-        else
-            jox_text_printf(out,
-                            "{\"name\": null, \"mass\": 0, \"parts\": [{\"shape\": \"box\", "
-                            "\"size\": [%g, %g, %g], \"at\": [0, 0, 0], \"turn\": [0, 0, 0, 1], "
-                            "\"points\": []}]}",
-                            (double)BODY_SIZE, (double)BODY_SIZE, (double)BODY_SIZE);
+        if (frame == JOX_REPLAY_NOBODY || !jox_reel_part(r->reel, frame, id, 0, &look)) {
+            if (known != JOX_NO_BODY)
+                jox_live_body(r->bodies, known, out);
+            else
+                add_unknown(out);
+            continue;
+        }
+        jox_text_add(out, "{\"name\": null, \"mass\": 0, \"parts\": [");
+        for (uint32_t part = 0; jox_reel_part(r->reel, frame, id, part, &look); part++) {
+            jox_text_add(out, part ? ", " : "");
+            jox_live_add_part(&look, out);
+        }
+        jox_text_add(out, "]}");
     }
     jox_text_add(out, "]");
 }
@@ -93,7 +110,9 @@ void jox_replay_hello(const JoxReplay *r, JoxText *out) {
 }
 
 uint64_t jox_replay_version(const JoxReplay *r) {
-    return r->row_count;
+    const uint32_t changes =
+        r->shown == JOX_REPLAY_NOBODY ? 0 : jox_reel_changes(r->reel, r->shown);
+    return (uint64_t)changes << 32 | r->row_count;
 }
 
 static void add_census(JoxText *out, JoxReplay *r) {

@@ -142,6 +142,8 @@ static void seek(Playing *p, double time) {
 
 static void advance(Playing *p) {
     const double now = jox_clock_wall();
+    if (!jox_view_clients(p->view)) /* it waits for somebody to look */
+        p->wall = now;
     if (!p->session.paused) {
         p->at = fmin(p->at + (now - p->wall) * p->session.speed, p->until);
         p->wall = now;

@@ -85,11 +85,35 @@ bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
     return true;
 }
 
+/* The parts of bodies that are new or came apart. */
+static void record_shapes(JoScene *scene, uint32_t frame) {
+    const JoxBodies *bodies = scene->world->bodies;
+    for (uint32_t row = 0; row < jox_bodies_rows(bodies); row++) {
+        const uint32_t id = jox_bodies_id(bodies, row);
+        const size_t had = scene->record_shape_capacity;
+        JoxBodyGlue glue;
+        JoxBodyLook look;
+        if (id == JOX_NO_BODY)
+            continue;
+        jox_bodies_glue(bodies, row, &glue);
+        JOX_RESERVE(scene->record_shapes, scene->record_shape_capacity, (size_t)id + 1);
+        for (size_t n = had; n < scene->record_shape_capacity; n++)
+            scene->record_shapes[n] = 0;
+        if (scene->record_shapes[id] == glue.blocks + 1)
+            continue;
+        scene->record_shapes[id] = glue.blocks + 1;
+        for (uint32_t part = 0; jox_bodies_look(bodies, row, part, &look); part++)
+            jox_recorder_part(scene->recorder, frame, id, part, &look);
+    }
+}
+
 static bool record_frame(JoScene *scene, JoError *error) {
     const JoxAgents *a = &scene->world->agents;
     const JoxObjects *objects = &scene->world->objects;
     JoxRecordBody *bodies;
     uint32_t count = jox_bodies_count(scene->world->bodies), n = 0;
+    const uint32_t frame = (uint32_t)(scene->world->tick / scene->record_every);
+    record_shapes(scene, frame);
     JoxRecordRow *rows = jox_recorder_take(scene->recorder, a->count, count, &bodies);
     for (uint32_t id = 0; id < a->next_id; id++) { /* by id, whatever the order in memory */
         uint32_t i = a->id_index[id];
@@ -109,7 +133,6 @@ static bool record_frame(JoScene *scene, JoError *error) {
                                           pose.turn[2],        pose.turn[3]};
     }
     JoxText why = {0};
-    uint32_t frame = (uint32_t)(scene->world->tick / scene->record_every);
     return jox_recorder_put(scene->recorder, frame, &why) || fail(error, &why);
 }
 

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <sqlite3.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/mem.h"
@@ -22,6 +23,12 @@ struct JoxReel {
     uint32_t frames;
     size_t number_capacity, from_capacity;
     int64_t last_body; /* row */
+    sqlite3_stmt *part;
+    int64_t *changes; /* numbers of the frames in which shapes changed */
+    uint32_t change_count;
+    size_t change_capacity;
+    JoxV3 *corners;
+    size_t corner_capacity;
     JoxTrajectories *all;
     JoxTrajectories outlines; /* walls and groups as they are read from SQLite */
     struct JoxReelState *states;
@@ -158,6 +165,15 @@ static bool prepare_rows(JoxReel *r) {
         r->bodies = prepare(r->db, "SELECT frame, id, x, y, z, qx, qy, qz, qw FROM jostle_body "
                                    "WHERE rowid >= ? ORDER BY rowid");
     }
+    r->part = prepare(r->db, "SELECT kind, size_x, size_y, size_z, x, y, z, qx, qy, qz, qw, corners"
+                             " FROM jostle_part WHERE id = ?1 AND part = ?3 AND frame = (SELECT "
+                             "MAX(frame) FROM jostle_part WHERE id = ?1 AND frame <= ?2)");
+    sqlite3_stmt *list = prepare(r->db, "SELECT DISTINCT frame FROM jostle_part ORDER BY frame");
+    while (list && sqlite3_step(list) == SQLITE_ROW) {
+        JOX_RESERVE(r->changes, r->change_capacity, r->change_count + 1);
+        r->changes[r->change_count++] = sqlite3_column_int64(list, 0);
+    }
+    sqlite3_finalize(list);
     return r->rows != NULL;
 }
 
@@ -438,9 +454,64 @@ bool jox_reel_read(JoxReel *r, uint32_t frame, JoxReelFrame *out, JoxText *why) 
     return read_people(r, frame, out, why) && read_bodies(r, frame, out, why);
 }
 
+/* ---- shapes ---- */
+
+uint32_t jox_reel_changes(const JoxReel *r, uint32_t frame) {
+    uint32_t count = 0;
+    while (count < r->change_count && r->changes[count] <= r->number[frame])
+        count++;
+    return count;
+}
+
+/* "x y z, x y z, ..." */
+static void read_corners(JoxReel *r, const char *text, JoxBodyLook *out) {
+    uint32_t count = 0;
+    for (int more = 1; text && more && count < 256;) {
+        float at[3] = {0};
+        int used = 0;
+        if (sscanf(text, "%f %f %f%n", &at[0], &at[1], &at[2], &used) != 3)
+            break;
+        JOX_RESERVE(r->corners, r->corner_capacity, count + 1);
+        r->corners[count++] = (JoxV3){at[0], at[1], at[2]};
+        text += used;
+        more = *text++ == ',';
+    }
+    out->corners = r->corners;
+    out->corner_count = count;
+}
+
+bool jox_reel_part(JoxReel *r, uint32_t frame, uint32_t body, uint32_t part, JoxBodyLook *out) {
+    *out = (JoxBodyLook){0};
+    if (!r->part)
+        return false;
+    sqlite3_reset(r->part);
+    sqlite3_bind_int64(r->part, 1, body);
+    sqlite3_bind_int64(r->part, 2, r->number[frame]);
+    sqlite3_bind_int64(r->part, 3, part);
+    if (sqlite3_step(r->part) != SQLITE_ROW)
+        return false;
+    float numbers[10];
+    bool finite = true;
+    for (int k = 0; k < 10; k++) {
+        numbers[k] = (float)sqlite3_column_double(r->part, 1 + k);
+        finite &= isfinite(numbers[k]);
+    }
+    const int kind = sqlite3_column_int(r->part, 0);
+    if (!finite || kind < JOX_SHAPE_BOX || kind > JOX_SHAPE_HULL)
+        return false;
+    out->kind = (JoxShapeKind)kind;
+    memcpy(out->size, numbers, sizeof out->size);
+    out->at = (JoxV3){numbers[3], numbers[4], numbers[5]};
+    memcpy(out->turn, numbers + 6, sizeof out->turn);
+    if (kind == JOX_SHAPE_HULL)
+        read_corners(r, (const char *)sqlite3_column_text(r->part, 11), out);
+    return true;
+}
+
 void jox_reel_close(JoxReel *r) {
     if (!r)
         return;
+    sqlite3_finalize(r->part);
     sqlite3_finalize(r->rows);
     sqlite3_finalize(r->body_at);
     sqlite3_finalize(r->bodies);
@@ -455,8 +526,9 @@ void jox_reel_close(JoxReel *r) {
         jox_free(r->states[s].name);
     }
     jox_free(r->states);
-    void *columns[] = {r->number, r->from,  r->id,          r->x,     r->y,     r->face_x,
-                       r->face_y, r->force, r->compression, r->state, r->group, r->body};
+    void *columns[] = {r->number, r->from,   r->id,      r->x,           r->y,
+                       r->face_x, r->face_y, r->force,   r->compression, r->state,
+                       r->group,  r->body,   r->changes, r->corners};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         jox_free(columns[c]);
     jox_free(r);

@@ -52,6 +52,10 @@ double jox_reel_time(const JoxReel *reel, uint32_t frame);
 uint32_t jox_reel_find(const JoxReel *reel, double time);
 /* Holds until the next call. False with a sentence in `why` where the file is damaged. */
 bool jox_reel_read(JoxReel *reel, uint32_t frame, JoxReelFrame *out, JoxText *why);
+/* Shapes that the recording has of its bodies: how often any had changed by a frame; part `part` of
+   a body as it was then, valid until the next call; false behind the last. */
+uint32_t jox_reel_changes(const JoxReel *reel, uint32_t frame);
+bool jox_reel_part(JoxReel *reel, uint32_t frame, uint32_t body, uint32_t part, JoxBodyLook *out);
 void jox_reel_close(JoxReel *reel);
 
 #endif

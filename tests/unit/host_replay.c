@@ -32,8 +32,12 @@ static char path[300];
     "walls:\n"                                                                                     \
     "  - {line: [[-2, -2], [14, -2]]}\n"                                                           \
     "  - {solid: [[6, 13], [7, 13], [7, 14], [6, 14]]}\n"                                          \
-    "bodies: [{name: ball, shape: {sphere: {radius: 0.3}}, mass: 3, at: [6, 6, 0.3], velocity: "   \
-    "[1, 0, 3], damping: 0.2}]\n"                                                                  \
+    "bodies:\n"                                                                                    \
+    "  - {name: ball, shape: {sphere: {radius: 0.3}}, mass: 3, at: [6, 6, 0.3], velocity: [1, 0, " \
+    "3], damping: 0.2}\n"                                                                          \
+    "  - {shape: {box: {size: [1.5, 1, 0.5]}}, mass: 9, at: [40, 6, 0.25]}\n"                      \
+    "  - {shape: {hull: {points: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, "         \
+    "1.5]]}}, mass: 80, at: [50, 0, 0.1]}\n"                                                       \
     "groups:\n"                                                                                    \
     "  people: {behaviour: own.lua, count: 40, fill: random, in: west}\n"                          \
     "  more: {behaviour: own.lua, count: 5, fill: random, in: west}\n"                             \
@@ -221,8 +225,16 @@ static void hello_of_a_recording(void **state) {
         assert_non_null(strstr(text.data, "\"throw\": false"));
         assert_near(number_at("dt", 0, 0, 0), 0.1, 1e-9);
         assert_near(number_at("duration", 0, 0, 0), 10, 1e-6);
-        if (k && recorded[0].bodies) /* the scene knows its shape */
+        if (recorded[0].bodies) {
             assert_near(number_at("bodies.0.parts.0.size.0", 0, 0, 0), 0.3, 1e-6);
+            assert_near(number_at("bodies.1.parts.0.size.2", 0, 0, 0), 0.5, 1e-6);
+            double highest = 0; /* of a pyramid's five corners */
+            for (int c = 0; c < 5; c++)
+                highest = fmax(highest, number_at("bodies.2.parts.0.points.%d.2", c, 0, 0) +
+                                            number_at("bodies.2.parts.0.at.2", 0, 0, 0));
+            assert_near(highest, 1.5, 1e-3);
+            assert_true(isnan(number_at("bodies.2.parts.0.points.5.0", 0, 0, 0)));
+        }
         if (k)
             has_name(&text, "west");
         assert_near(number_at(k ? "walls.0.points.1.0" : "walls.1.points.2.0", 0, 0, 0), k ? 14 : 7,
@@ -270,7 +282,8 @@ static void recordings_of_others(void **state) {
     run_sql(other,
             "CREATE TABLE t AS SELECT frame, id, pos_x, pos_y FROM trajectory_data ORDER BY id;"
             "DROP TABLE trajectory_data; ALTER TABLE t RENAME TO trajectory_data;"
-            "DROP TABLE jostle_agent; DROP TABLE jostle_state; DROP TABLE jostle_body");
+            "DROP TABLE jostle_agent; DROP TABLE jostle_state; DROP TABLE jostle_body; DROP TABLE "
+            "jostle_part");
     replay = open_replay(other, NULL, 0);
     assert_int_equal(jox_replay_frames(replay), recorded_count);
     JoxBytes bytes = {0};
