@@ -312,23 +312,25 @@ bool jox_bodies_look(const JoxBodies *b, uint32_t row, uint32_t part, JoxBodyLoo
     if (!r || part >= r->built.part_count)
         return false;
     const JoxPart *p = &r->built.parts[part];
-    btTransform at = r->built.frame * p->frame;
+    bool hull = p->kind == JOX_SHAPE_HULL; /* corners are in the frame of the centre of mass */
+    btTransform at = hull ? r->built.frame : r->built.frame * p->frame;
     btQuaternion q = at.getRotation();
     out->kind = p->kind;
     out->at = jox_v3(at.getOrigin());
     for (int i = 0; i < 4; i++)
         out->turn[i] = q[i];
-    const JoxV3 *first = p->corners, *last = first ? first + p->corner_count - 1 : nullptr;
+    const JoxV3 *c = p->corners;
     if (p->kind == JOX_SHAPE_BOX) { /* its corners are counted along x, y, z */
-        out->size[0] = last->x - first->x;
-        out->size[1] = last->y - first->y;
-        out->size[2] = last->z - first->z;
-    } else if (p->kind == JOX_SHAPE_HULL) {
-        out->corners = p->corners;
+        out->size[0] = jox_bt(c[0]).distance(jox_bt(c[1]));
+        out->size[1] = jox_bt(c[0]).distance(jox_bt(c[2]));
+        out->size[2] = jox_bt(c[0]).distance(jox_bt(c[4]));
+    } else if (hull) {
+        out->corners = c;
         out->corner_count = p->corner_count;
     } else {
         out->size[0] = p->radius;
-        out->size[1] = p->kind == JOX_SHAPE_CYLINDER ? last->z - first->z : 0.0f;
+        if (p->kind == JOX_SHAPE_CYLINDER) /* from the circle below to that above */
+            out->size[1] = jox_bt(c[0]).distance(jox_bt(c[p->corner_count / 2]));
     }
     return true;
 }
