@@ -162,7 +162,7 @@ static void do_command(JoxViewing *v, JoxWatcher *by, const char *json) {
     } VERBS[] = {{"pause", do_pause},     {"step", do_step},     {"speed", do_speed},
                  {"restart", do_restart}, {"colour", do_colour}, {"field", do_field},
                  {"input", do_input},     {"lua", do_lua}};
-    JoxCommand command;
+    JoxCommand command = {0};
     if (!jox_command_read(json, &command))
         return; /* the server has dropped those */
     Said said = {v, by, &command};
