@@ -134,6 +134,8 @@ static void do_input(const Said *said) {
         refuse(said, error.text);
     } else {
         v->changed = true;
+        if (tool != JOX_TOOL_DRAG && tool != JOX_TOOL_PUSH && tool != JOX_TOOL_PLAYER)
+            v->spoke = 0.0; /* gates, bodies and parameters are told at once */
     }
 }
 

@@ -530,7 +530,9 @@ static void pages_come_and_go(void **state) {
                   cycles, clock_now() - begun, longest * 1e3, at_first / 1000, at_last / 1000);
     if (after > before + 65536)
         fail_msg("%zu bytes in use after, %zu before", after, before);
+#ifndef __SANITIZE_ADDRESS__ /* which keeps what was freed for a while */
     assert_true(at_last < at_first + (4 << 20));
+#endif
     assert_true(longest < 2.0);
 }
 
@@ -699,7 +701,7 @@ static void commands_are_read(void **state) {
             fail_msg("%s", BAD[i]);
     char many[1024] = "{\"do\": \"a\"";
     for (int i = 0; i < JOX_COMMAND_KEYS; i++)
-        snprintf(many + strlen(many), 16, ", \"k%d\": 1", i);
+        snprintf(many + strlen(many), 32, ", \"k%d\": 1", i);
     strcat(many, "}");
     assert_false(jox_command_read(many, &command));
 }
