@@ -81,6 +81,7 @@ enum { JOX_LIVE_PARITY = 1, JOX_LIVE_FAILED = 2, JOX_LIVE_PLAYER = 4 };
 /* The area that positions are counted over; it only grows. */
 typedef struct JoxLiveArea {
     JoxV2 low, high; /* m */
+    JoxV2 steps;     /* of a position, per metre */
     bool known;
 } JoxLiveArea;
 /* Makes room for a box. One that is known grows by at least a quarter at the side where it must. */
@@ -124,7 +125,9 @@ typedef struct JoxLiveCrowd {
     const float *x, *y, *vx, *vy; /* m, m/s */
     JoxV2 period;                 /* m: of periodic edges; 0 without */
 } JoxLiveCrowd;
-void jox_live_spread(JoxLiveGrid *grid, const JoxLiveArea *area, const JoxLiveCrowd *crowd);
+/* Without `moves` only densities can be read. */
+void jox_live_spread(JoxLiveGrid *grid, const JoxLiveArea *area, const JoxLiveCrowd *crowd,
+                     bool moves);
 /* Density at a point as last spread, 1/m2. */
 float jox_live_density_at(const JoxLiveGrid *grid, float x, float y);
 void jox_live_pack_field(const JoxLiveGrid *grid, JoxLiveField field, JoxBytes *out);

@@ -50,9 +50,11 @@ static void make(JoxLiveGrid *g, const JoxLiveArea *area) {
         g->fields[f] = jox_alloc(g->cells, sizeof(float));
 }
 
-void jox_live_spread(JoxLiveGrid *g, const JoxLiveArea *area, const JoxLiveCrowd *crowd) {
+void jox_live_spread(JoxLiveGrid *g, const JoxLiveArea *area, const JoxLiveCrowd *crowd,
+                     bool moves) {
+    const int sums = moves ? SUMS : 1;
     make(g, area);
-    for (int f = 0; f < SUMS; f++)
+    for (int f = 0; f < sums; f++)
         memset(g->fields[f], 0, g->cells * sizeof(float));
     const int across = crowd->period.x > 0.0f, up = crowd->period.y > 0.0f;
     for (uint32_t i = 0; i < crowd->count; i++) {
@@ -60,7 +62,7 @@ void jox_live_spread(JoxLiveGrid *g, const JoxLiveArea *area, const JoxLiveCrowd
         const float weights[SUMS] = {1.0f, vx, vy, vx * vx + vy * vy};
         for (int c = -across; c <= across; c++) /* and the images over periodic edges */
             for (int r = -up; r <= up; r++)
-                jox_density_spread(g->grid, g->fields, weights, SUMS,
+                jox_density_spread(g->grid, g->fields, weights, sums,
                                    crowd->x[i] + (float)c * crowd->period.x,
                                    crowd->y[i] + (float)r * crowd->period.y);
     }

@@ -141,19 +141,20 @@ bool jox_live_people(JoScene *scene, JoxBytes *out) {
     return differs || out->length != before;
 }
 
-void jox_live_spread_crowd(JoScene *scene) {
+void jox_live_spread_crowd(JoScene *scene, bool moves) {
     JoxLive *live = jox_live_of(scene);
     const JoxAgents *a = &scene->world->agents;
-    if (live->spread == scene->world->tick + 1)
+    if (live->spread == scene->world->tick + 1 && (live->moves || !moves))
         return;
     live->spread = scene->world->tick + 1;
+    live->moves = moves;
     cover_people(&live->area, a);
     jox_live_spread(&live->grid, &live->area,
-                    &(JoxLiveCrowd){a->count, a->x, a->y, a->vx, a->vy, a->period});
+                    &(JoxLiveCrowd){a->count, a->x, a->y, a->vx, a->vy, a->period}, moves);
 }
 
 void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out) {
-    jox_live_spread_crowd(scene);
+    jox_live_spread_crowd(scene, field == JOX_LIVE_PRESSURE);
     jox_live_pack_field(&scene->live->grid, field, out);
 }
 

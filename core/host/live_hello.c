@@ -79,12 +79,11 @@ void jox_live_walls(const JoxWalls *walls, float height, JoxText *out) {
     jox_text_add(out, "]");
 }
 
-static void add_places(JoxText *out, const JoScene *scene) {
+void jox_live_add_places(const JoxPlace *places, uint32_t count, JoxText *out) {
     static const char *const KINDS[] = {"point", "line", "polygon", "queue", "set"};
-    const JoWorld *world = scene->world;
     jox_text_add(out, ", \"places\": [");
-    for (uint32_t p = 0; p < scene->first_antipode && p < world->place_count; p++) {
-        const JoxPlace *place = &world->places[p];
+    for (uint32_t p = 0; p < count; p++) {
+        const JoxPlace *place = &places[p];
         jox_text_add(out, p ? ", {\"name\": " : "{\"name\": ");
         jox_text_json(out, place->name);
         jox_text_printf(out, ", \"kind\": \"%s\", \"radius\": %.4g, \"height\": 0, \"points\": ",
@@ -93,12 +92,16 @@ static void add_places(JoxText *out, const JoScene *scene) {
         add_points(out, place->points, place->count);
         jox_text_add(out, "}");
     }
-    jox_text_add(out, "], \"regions\": {");
-    for (uint32_t r = 0; r < scene->plan->region_count; r++) {
+    jox_text_add(out, "]");
+}
+
+void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxText *out) {
+    jox_text_add(out, ", \"regions\": {");
+    for (uint32_t r = 0; r < count; r++) {
         jox_text_add(out, r ? ", " : "");
-        jox_text_json(out, scene->plan->regions[r].name);
+        jox_text_json(out, regions[r].name);
         jox_text_add(out, ": ");
-        add_points(out, scene->plan->regions[r].points, scene->plan->regions[r].count);
+        add_points(out, regions[r].points, regions[r].count);
     }
     jox_text_add(out, "}");
 }
@@ -121,20 +124,25 @@ static void add_part(JoxText *out, const JoxBodyLook *look) {
     jox_text_add(out, "]}");
 }
 
+void jox_live_body(const JoxBodies *bodies, uint32_t row, JoxText *out) {
+    JoxPose pose;
+    JoxBodyLook look;
+    bool live = jox_bodies_pose(bodies, row, &pose);
+    jox_text_add(out, "{\"name\": ");
+    add_name(out, live ? jox_bodies_name(bodies, row) : NULL);
+    jox_text_printf(out, ", \"mass\": %.5g, \"parts\": [", (double)pose.mass);
+    for (uint32_t part = 0; live && jox_bodies_look(bodies, row, part, &look); part++) {
+        jox_text_add(out, part ? ", " : "");
+        add_part(out, &look);
+    }
+    jox_text_add(out, "]}");
+}
+
 static void add_bodies(JoxText *out, const JoxBodies *bodies) {
     jox_text_add(out, ", \"bodies\": [");
     for (uint32_t row = 0; row < jox_bodies_rows(bodies); row++) {
-        JoxPose pose;
-        JoxBodyLook look;
-        bool live = jox_bodies_pose(bodies, row, &pose);
-        jox_text_add(out, row ? ", {\"name\": " : "{\"name\": ");
-        add_name(out, live ? jox_bodies_name(bodies, row) : NULL);
-        jox_text_printf(out, ", \"mass\": %.5g, \"parts\": [", (double)pose.mass);
-        for (uint32_t part = 0; live && jox_bodies_look(bodies, row, part, &look); part++) {
-            jox_text_add(out, part ? ", " : "");
-            add_part(out, &look);
-        }
-        jox_text_add(out, "]}");
+        jox_text_add(out, row ? ", " : "");
+        jox_live_body(bodies, row, out);
     }
     jox_text_add(out, "]");
 }
@@ -224,9 +232,9 @@ static void add_tools(JoxText *out, const JoScene *scene) {
 
 /* ---- the whole ---- */
 
-static void add_camera(JoxText *out, const JoxScene *plan) {
+void jox_live_add_camera(const JoxScene *plan, JoxText *out) {
     jox_text_add(out, ", \"camera\": ");
-    if (!plan->camera.given) {
+    if (!plan || !plan->camera.given) {
         jox_text_add(out, "null");
         return;
     }
@@ -264,13 +272,14 @@ void jox_live_hello(JoScene *scene, JoxText *out) {
     add_points(out, (JoxV2[]){live->area.low, live->area.high}, 2);
     jox_text_add(out, ", \"walls\": ");
     jox_live_walls(&world->wall_plan, JOX_WALL_HEIGHT, out);
-    add_places(out, scene);
+    jox_live_add_places(world->places, scene->first_antipode, out);
+    jox_live_add_regions(plan->regions, plan->region_count, out);
     add_groups(out, scene);
     jox_text_add(out, ", \"machines\": ");
-    jox_text_add(out, "[]");
+    jox_host_graph(scene, out);
     add_bodies(out, world->bodies);
     add_tools(out, scene);
-    add_camera(out, plan);
+    jox_live_add_camera(plan, out);
     jox_live_add_colours(out);
     jox_text_printf(out, ", \"view\": {\"colour\": \"%s\", \"field\": \"%s\"}",
                     jox_live_colours[plan->view.colour].name,

@@ -74,11 +74,9 @@ void jox_live_cover(JoxLiveArea *area, JoxV2 low, JoxV2 high) {
     cover_axis(&area->low.x, &area->high.x, low.x, high.x, area->known);
     cover_axis(&area->low.y, &area->high.y, low.y, high.y, area->known);
     area->known = true;
-}
-
-/* Length of a step along an axis, m; an area without width has one all the same. */
-static inline float step_of(float low, float high) {
-    return jox_maxf(high - low, 1.0f) / STEPS;
+    /* an area without width has steps all the same */
+    area->steps = (JoxV2){STEPS / jox_maxf(area->high.x - area->low.x, 1.0f),
+                          STEPS / jox_maxf(area->high.y - area->low.y, 1.0f)};
 }
 
 /* ---- frames ---- */
@@ -91,13 +89,11 @@ void jox_live_begin_frame(JoxBytes *out, const JoxLiveHead *head) {
     at = put_double(at, head->time);
     at = put32(put32(at, head->slots), head->bodies);
     at = put_float(put_float(at, area->low.x), area->low.y);
-    at = put_float(at, step_of(area->low.x, area->high.x));
-    at = put_float(at, step_of(area->low.y, area->high.y));
+    at = put_float(put_float(at, 1.0f / area->steps.x), 1.0f / area->steps.y);
     at = put32(put_float(at, head->most), 0);
-    for (uint32_t s = 0; s < head->slots; s++, at += JOX_LIVE_SLOT) {
-        memset(at, 0, JOX_LIVE_SLOT);
-        at[5] = JOX_LIVE_NOBODY;
-    }
+    static const uint8_t NOBODY[JOX_LIVE_SLOT] = {[5] = JOX_LIVE_NOBODY};
+    for (uint32_t s = 0; s < head->slots; s++, at += JOX_LIVE_SLOT)
+        memcpy(at, NOBODY, JOX_LIVE_SLOT);
 }
 
 /* Angle of (x, y) in 256ths of a turn, to within a hundredth of one: atan by a polynomial on the
@@ -113,16 +109,15 @@ static inline uint8_t heading(float x, float y) {
     return (uint8_t)(int)(angle * (256.0f / 6.28318531f) + 256.5f);
 }
 
-static inline uint16_t steps(float value, float low, float high) {
-    float n = (value - low) / step_of(low, high) + 0.5f;
-    return (uint16_t)jox_clampf(n, 0.0f, STEPS);
+static inline uint16_t steps(float away, float per_metre) {
+    return (uint16_t)jox_clampf(away * per_metre + 0.5f, 0.0f, STEPS);
 }
 
 void jox_live_put_person(JoxBytes *frame, const JoxLiveArea *area, uint32_t slot,
                          const JoxLivePerson *person) {
     uint8_t *at = frame->data + JOX_LIVE_HEAD + (size_t)slot * JOX_LIVE_SLOT;
-    at = put16(at, steps(person->x, area->low.x, area->high.x));
-    at = put16(at, steps(person->y, area->low.y, area->high.y));
+    at = put16(at, steps(person->x - area->low.x, area->steps.x));
+    at = put16(at, steps(person->y - area->low.y, area->steps.y));
     at[0] = heading(person->face_x, person->face_y);
     at[1] = person->state;
     at[2] = (uint8_t)(jox_clampf(person->value, 0.0f, 1.0f) * 255.0f + 0.5f);

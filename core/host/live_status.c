@@ -57,6 +57,9 @@ void jox_live_note(JoScene *scene) {
     const JoxMind *mind = &world->mind;
     if (!same_machines(live, mind) || !live->fired)
         number_transitions(live, mind);
+    if (live->noted == world->tick)
+        return;
+    live->noted = world->tick;
     const uint64_t second = (uint64_t)(1.0 / world->def.dt + 0.5);
     while (live->count && live->taken[live->first].tick + second <= world->tick) {
         live->fired[live->taken[live->first].which]--;
@@ -168,7 +171,7 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
     const JoWorld *world = scene->world;
     if (!same_machines(live, &world->mind) || !live->fired)
         number_transitions(live, &world->mind);
-    jox_live_spread_crowd(scene);
+    jox_live_spread_crowd(scene, false);
     jox_text_printf(out, "{\"type\": \"status\", \"tick\": %llu", (unsigned long long)world->tick);
     add_number(out, "time", jo_world_time(world));
     jox_text_printf(out, ", \"paused\": %s", session->paused ? "true" : "false");

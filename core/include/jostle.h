@@ -279,6 +279,28 @@ JO_API JoViewDef jo_default_view_def(void);
    not load; every error of the scene went to its `message`. */
 JO_API bool jo_view(const JoViewDef *def, JoError *error);
 
+/* Shows a recording on that page: any that jo_report takes. */
+typedef struct JoViewRecordingDef {
+    const char *recording;
+    const char *scene;   /* whose walls, places and bodies are drawn; NULL: the recording's walls */
+    double fps;          /* frames a second; 0: as the recording says */
+    double unit;         /* m, of its lengths; 0: as it says */
+    const char *address; /* these three and the port as in JoViewDef */
+    const char *page;
+    const char *three;
+    int port;
+    const volatile int *stop; /* it ends once this is not 0; NULL: never */
+    JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
+    void *opened_context;
+    JoMessage *message; /* NULL: to stderr */
+    void *message_context;
+    uint32_t cookie;
+} JoViewRecordingDef;
+JO_API JoViewRecordingDef jo_default_view_recording_def(void);
+/* Returns when it was stopped. False with `error` if the page cannot be served or there is no such
+   recording; all that is wrong with it went to `message`. */
+JO_API bool jo_view_recording(const JoViewRecordingDef *def, JoError *error);
+
 /* What is measured of a recording: an SQLite file of jo_scene_record or of JuPedSim, or text with
    the columns id, frame, x, y as PeTrack writes it, or CSV with a line of names. */
 typedef struct JoReportDef {

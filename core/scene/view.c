@@ -39,13 +39,12 @@ void jox_load_view(const JoxLoad *l, const JoxYaml *root) {
         s->camera.given = jox_key_vector(r, map, "camera", "position", s->camera.position, 3) &&
                           jox_key_vector(r, map, "camera", "target", s->camera.target, 3);
     map = jox_yaml_get(root, "view");
-    const JoxYaml *none = map ? map : root; /* for the defaults: it has no such keys */
     s->view.tools = 1u << JOX_TOOL_GATES | 1u << JOX_TOOL_PARAMETERS | 1u << JOX_TOOL_SIGNALS |
                     1u << JOX_TOOL_PLAYER;
     if (map && !jox_keys_check(r, map, "view"))
         return;
     if (map && jox_yaml_get(map, "tools"))
         s->view.tools = read_tools(r, jox_yaml_get(map, "tools"));
-    s->view.colour = jox_key_choice(r, none, "view", "colour");
-    s->view.field = jox_key_choice(r, none, "view", "field");
+    s->view.colour = jox_key_choice(r, map, "view", "colour");
+    s->view.field = jox_key_choice(r, map, "view", "field");
 }
