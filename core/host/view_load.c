@@ -122,8 +122,7 @@ bool jox_viewing_load(JoxViewing *v, JoError *error) {
     v->until = v->def->seconds > 0.0 ? v->def->seconds : jo_scene_duration(next);
     v->due = v->spoke = v->showed = 0.0;
     v->version = jox_live_version(next);
-    for (uint32_t w = 0; w < JOX_VIEW_CLIENTS; w++)
-        v->watchers[w].inspects = false;
+    v->inspector = 0;
     v->people.length = 0;
     jox_view_forget(v->view);
     if (jox_view_clients(v->view))

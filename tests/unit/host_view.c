@@ -383,6 +383,31 @@ static void what_people_do_replays_to_the_same_state(void **state) {
     jo_scene_free(scene);
 }
 
+static void one_page_at_a_time_inspects(void **state) {
+    (void)state;
+    begin(0);
+    join();
+    say("{\"do\": \"inspect\", \"slot\": 4}");
+    hear("\"inspect\"", "\"agent\":{\"id\":4,\"slot\":4");
+    hear("\"inspect\"", "\"seen\":true"); /* by then a step was looked at */
+    int first = session.fd;
+    join();
+    say("{\"do\": \"inspect\", \"slot\": null}"); /* that is not the other's */
+    hear("\"inspect\"", "\"agent\": null");
+    say("{\"do\": \"inspect\", \"slot\": 7}");
+    hear("\"inspect\"", "\"agent\":{\"id\":7,\"slot\":7");
+    int second = session.fd;
+    session.fd = first;
+    hear("\"inspect\"", "\"agent\": null");
+    hear("\"say\"", "another page");
+    session.fd = second;
+    close(first);
+    say("{\"do\": \"inspect\", \"slot\": 1000000}");
+    hear("\"inspect\"", "\"agent\":null");
+    end();
+    jo_free(session.summary);
+}
+
 static void mistakes_are_shown_until_they_are_mended(void **state) {
     (void)state;
     char wrong[1024];
@@ -440,6 +465,7 @@ int main(void) {
         cmocka_unit_test(colours_and_fields_are_as_asked),
         cmocka_unit_test(a_scene_that_is_over_waits_and_is_restarted),
         cmocka_unit_test(what_people_do_replays_to_the_same_state),
+        cmocka_unit_test(one_page_at_a_time_inspects),
         cmocka_unit_test(mistakes_are_shown_until_they_are_mended),
         cmocka_unit_test(what_cannot_begin_says_why),
     };
