@@ -1,5 +1,6 @@
 # Jostle. Sources are found, never listed; everything is built in build/MODE.
 # `make run` and `make test` install what is missing (.ci/setup); plain `make` only builds.
+# BULLET=0 leaves out bodies and Bullet, VIEW=0 the live page and libwebsockets.
 VERSION := 0.1.0
 MODE    ?= release
 BULLET  ?= 1
@@ -26,6 +27,7 @@ endif
 SRC_C   := $(filter-out $(if $(filter 0,$(VIEW)),core/view/lws_%,core/view/none.c),$(SRC_C))
 SRC_CLI := $(sort $(wildcard core/cli/*.c))
 TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api),$(wildcard tests/unit/$(d)_*.c)))
+TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/host_view.c),$(TESTS))
 BENCHES := $(sort $(wildcard tests/bench/*.c))
 PKGS    := lua5.4 yaml-0.1 sqlite3 expat $(if $(filter 0,$(BULLET)),,bullet) $(if $(filter 0,$(VIEW)),,libwebsockets)
 
@@ -72,6 +74,7 @@ test:
 	@$(MAKE) --no-print-directory all tests-built
 	@B=$(B) .ci/suite check units scenes install
 test-all: test
+	JOSTLE_VIEW_CYCLES=10000 $(B)/unit/view_server
 	@.ci/sanitizers
 bench:
 	@.ci/setup bench

@@ -253,6 +253,8 @@ bool jox_bodies_remove(JoxBodies *b, uint32_t row) {
     if (!row_of(b, row))
         return false;
     jox_bodies_drop(b, row);
+    for (uint32_t k = 0; k < b->live; k++) /* what leant on it falls */
+        b->rows[b->order[k]].body->activate();
     return true;
 }
 

@@ -326,7 +326,7 @@ int cli_run(int argc, char **argv) {
             status = -1;
     }
     if (status < 0) {
-        run.watch |= isatty(2) && !run.no_watch && !run.seeds;
+        run.watch |= isatty(2) && !run.no_watch && !run.seeds && !run.def.input_log;
         signal(SIGINT, interrupt);
         signal(SIGTERM, interrupt);
         char *summary = NULL;

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "base/diag.h"
+#include "base/overlay.h"
 #include "host/changes.h"
 #include "host/watch.h"
 #include "jostle.h"
@@ -71,6 +72,9 @@ struct JoScene {
     FILE *log; /* input log that is written, or NULL */
     char *log_path;
     bool log_failed;
+    JoxInputLog input;     /* as it was read, until there is a world */
+    JoxFiles logged_files; /* whose texts stand in it */
+    JoxOverlay overlay;    /* texts of the log that is played */
 };
 
 /* Sends formatted text to the scene's message function. */
@@ -131,6 +135,20 @@ bool jox_host_choose(const JoScene *scene, const char *machine, const char *stat
 /* Sets it for everybody there, now and later, until the machine's file is reloaded. */
 bool jox_host_set(JoScene *scene, const char *machine, const char *state, const char *parameter,
                   double value, JoError *error);
+/* input_files.c: what a reload changes, noted before it goes live for the log. */
+typedef struct JoxReloaded {
+    JoxInputEntry before, files;
+} JoxReloaded;
+void jox_host_note_file(JoScene *scene, JoxReloaded *reloaded, const char *path, const char *sha256,
+                        const char *text, size_t length);
+/* Writes what was noted, and frees it. */
+void jox_host_log_files(JoScene *scene, JoxReloaded *reloaded);
+/* Whether a file is live with this very text. */
+bool jox_host_is_live(const JoScene *scene, const JoxInputFile *file);
+/* What files were when the run began that a log tells of. */
+void jox_host_before(JoxOverlay *overlay, const JoxInputLog *log);
+/* Swaps files as a log tells; false with `error` where they do not go live. */
+bool jox_host_play_files(JoScene *scene, const JoxInputEntry *entry, JoError *error);
 /* inspect_graph.c: who set a parameter of a state (NULL: of the defaults), and to what. */
 typedef struct JoxSetBy {
     JoxText
@@ -163,6 +181,8 @@ bool jox_host_find_become(const JoScene *scene, const JoxMachine *machine, uint3
 /* reload.c: swaps what has been loaded anew since the last step; ends the thread that loads. */
 typedef struct JoxReload JoxReload;
 void jox_host_reload(JoScene *scene);
+/* Loads files and swaps what is made of them at once, in place of the thread that loads. */
+bool jox_host_reload_now(JoScene *scene, const JoxInputEntry *files, JoError *error);
 /* Keeps the thread that loads from reading machines while one of them is changed in place; what it
    compared with that one is compared anew. */
 void jox_host_hold_machines(JoScene *scene, uint32_t machine, bool hold);

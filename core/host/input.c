@@ -42,6 +42,45 @@ static bool drive(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
     return true;
 }
 
+static bool add_box(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+    const double *v = entry->numbers;
+    JoxText why = {0};
+    bool good = jox_world_add_box(scene->world, v, v + 3, v[6], v[7], &why) != JOX_NO_BODY;
+    if (!good)
+        jox_error(error, JO_INPUT, "%s", why.data ? why.data : "the box was refused");
+    jox_text_free(&why);
+    return good;
+}
+
+static bool grab(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+    JoWorld *world = scene->world;
+    const unsigned row = entry->number;
+    switch (jox_world_grab(world, row, entry->numbers, entry->verb == JOX_INPUT_GRAB)) {
+    case JOX_GRAB_DONE:
+        return true;
+    case JOX_GRAB_NONE:
+        jox_error(error, JO_INPUT, "there is no body %u", row);
+        break;
+    case JOX_GRAB_STATIC:
+        jox_error(error, JO_INPUT, "body %u is static: it cannot be moved", row);
+        break;
+    case JOX_GRAB_FREE:
+        jox_error(error, JO_INPUT, "body %u is not held; grab it first", row);
+        break;
+    case JOX_GRAB_FULL:
+        jox_error(error, JO_INPUT, "%d bodies are held already; release one first", JOX_MOST_GRABS);
+        break;
+    }
+    return false;
+}
+
+static bool release(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+    bool good = jox_world_release(scene->world, entry->number);
+    if (!good)
+        jox_error(error, JO_INPUT, "body %u is not held", entry->number);
+    return good;
+}
+
 static bool do_entry(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
     const double *v = entry->numbers;
     switch (entry->verb) {
@@ -49,6 +88,13 @@ static bool do_entry(JoScene *scene, const JoxInputEntry *entry, JoError *error)
         return drive(scene, entry, error);
     case JOX_INPUT_THROW:
         return jox_host_throw(scene, entry->names[0], entry->here ? NULL : v, v + 3, v + 6, error);
+    case JOX_INPUT_BOX:
+        return add_box(scene, entry, error);
+    case JOX_INPUT_GRAB:
+    case JOX_INPUT_DRAG:
+        return grab(scene, entry, error);
+    case JOX_INPUT_RELEASE:
+        return release(scene, entry, error);
     case JOX_INPUT_PUSH:
         return push(scene, entry, error);
     case JOX_INPUT_OPEN:
@@ -58,10 +104,13 @@ static bool do_entry(JoScene *scene, const JoxInputEntry *entry, JoError *error)
         return jox_host_signal(scene, entry->names[0], error);
     case JOX_INPUT_SET:
         return jox_host_set(scene, entry->names[0], entry->names[1], entry->names[2], v[0], error);
-    default:
+    case JOX_INPUT_BEFORE: /* was taken when the scene was loaded */
+        return true;
+    case JOX_INPUT_FILES:
+        return jox_host_play_files(scene, entry, error);
+    case JOX_INPUT_VERBS:
         break;
     }
-    jox_error(error, JO_INPUT, "this cannot be done in a running scene");
     return false;
 }
 
@@ -117,7 +166,8 @@ bool jox_host_end_log(JoScene *scene, JoError *error) {
 static bool perform(JoScene *scene, JoxInputEntry *entry, JoError *error) {
     if (!do_entry(scene, entry, error))
         return false;
-    jox_host_log(scene, entry);
+    if (!entry->files) /* a reload is logged as it goes live */
+        jox_host_log(scene, entry);
     return true;
 }
 

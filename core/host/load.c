@@ -138,6 +138,7 @@ static void add_places(JoScene *scene) {
                               .mod_count = scene->mods->count};
 }
 
+/* Reads the log and, since it tells what files were when it began, reads those through it. */
 static void load_input(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
     size_t length;
     char *text = path ? jox_read_file(path, LARGEST_INPUT, &length) : NULL;
@@ -145,8 +146,9 @@ static void load_input(JoScene *scene, const char *path, JoxDiagnostics *diagnos
         jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "unreadable-file", NULL,
                        "cannot read the input log '%s'", path);
     if (text)
-        jox_input_parse(&scene->world->input, path, text, length, diagnostics);
+        jox_input_parse(&scene->input, path, text, length, diagnostics);
     if (text) {
+        jox_host_before(&scene->overlay, &scene->input);
         jox_diag_attach_source(diagnostics, path, text, length);
         scene->input_path = jox_strdup(path);
         jox_sha256_hex(text, length, scene->input_sha256);
@@ -173,8 +175,14 @@ static JoxLuaLimits script_limits(const JoxScene *plan) {
     return limits;
 }
 
-static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnostics) {
-    JoxScene *plan = scene->plan;
+/* Plan and world, with the first `count` mods. */
+static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
+                  JoxDiagnostics *diagnostics) {
+    if (def->input_log)
+        load_input(scene, def->input_log, diagnostics);
+    JoxScene *plan = scene->plan = jox_host_load_plan(def, scene->mods, count, diagnostics);
+    if (!plan)
+        return;
     JoWorldDef world = jo_default_world_def();
     world.dt = plan->step;
     world.seed = plan->seed;
@@ -183,6 +191,10 @@ static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnos
     world.forces = plan->forces;
     world.literal = plan->literal;
     scene->world = jox_world_create(&world);
+    if (!def->input_log)
+        load_input(scene, plan->input, diagnostics);
+    scene->world->input = scene->input; /* the world's from here on */
+    scene->input = (JoxInputLog){0};
     if (plan->periodic_x || plan->periodic_y) {
         JoxV2 size = jox_sub(plan->high, plan->low);
         scene->world->agents.origin = plan->low;
@@ -201,7 +213,6 @@ static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnos
     mind->call = jox_lua_call;
     mind->bracket = jox_lua_bracket;
     mind->call_context = scene->lua;
-    load_input(scene, def->input_log ? def->input_log : plan->input, diagnostics);
     if (diagnostics->errors == 0) {
         jox_host_populate(scene, diagnostics);
         jox_host_check_names(scene, diagnostics);
@@ -256,9 +267,9 @@ static int32_t blame(const JoSceneDef *def, uint64_t without) {
         const uint32_t all = scene->mods->count;
         if (count < all) { /* with all of them it fails: that is known */
             scene->mods->count = count;
-            scene->plan = jox_host_load_plan(def, scene->mods, count, &now);
-            if (scene->plan)
-                build(scene, def, &now);
+            const JoxOverlay *before = jox_overlay_use(&scene->overlay);
+            build(scene, def, count, &now);
+            jox_overlay_use(before);
             scene->mods->count = all;
         }
         bool fails = count >= all || now.errors > 0;
@@ -280,9 +291,9 @@ static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culpri
     scene->message_context = def->message_context;
     scene->mods = jox_host_find_mods(def, without, mod_problems);
     *culprit = -1;
-    scene->plan = jox_host_load_plan(def, scene->mods, scene->mods->count, diagnostics);
-    if (scene->plan)
-        build(scene, def, diagnostics);
+    const JoxOverlay *before = jox_overlay_use(&scene->overlay);
+    build(scene, def, scene->mods->count, diagnostics);
+    jox_overlay_use(before);
     for (uint32_t f = 0; scene->plan && f < scene->plan->file_count; f++)
         jox_diag_attach_source(diagnostics, scene->plan->files[f].path, scene->plan->files[f].text,
                                scene->plan->files[f].length);
@@ -441,6 +452,9 @@ void jo_scene_free(JoScene *scene) {
     jox_danger_free(scene->danger);
     jox_exits_free(&scene->exits);
     jox_free(scene->input_path);
+    jox_input_free(&scene->input);
+    jox_files_free(&scene->logged_files);
+    jox_overlay_free(&scene->overlay);
     jox_free(scene);
 }
 

@@ -17,14 +17,12 @@ JoViewDef jo_default_view_def(void) {
 static void pause_at_end(JoxViewing *v) {
     if (jo_world_time(v->scene->world) + 0.5 * v->scene->world->def.dt < v->until)
         return;
-    char text[128];
-    snprintf(text, sizeof text, "%g s are over, and the scene waits; it can go on or be restarted",
-             v->until);
+    jox_host_say(v->scene, "%g s are over, and the scene waits; it can go on or be restarted\n",
+                 v->until);
     v->until = INFINITY;
     v->session.paused = true;
     v->steps = 0;
     v->spoke = 0.0;
-    jox_view_say(v->view, JOX_VIEW_ALL, "info", text);
 }
 
 static void step(JoxViewing *v) {

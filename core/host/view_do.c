@@ -97,6 +97,26 @@ static void do_field(const Said *said) {
     jox_view_listen(said->v->view, said->by->client, jox_viewing_channels(said->by));
 }
 
+/* One page at a time: what an agent met is kept of one alone. */
+static void do_inspect(const Said *said) {
+    static const char NOBODY[] = "{\"type\": \"inspect\", \"agent\": null}";
+    JoxViewing *v = said->v;
+    double slot = jox_command_number(said->command, "slot", -1.0);
+    uint32_t me = said->by->client, other = v->inspector != me ? v->inspector : 0;
+    if (!(slot >= 0.0)) {
+        v->inspector = other;
+        jox_view_send(v->view, me, NOBODY);
+        return;
+    }
+    if (other) {
+        jox_view_send(v->view, other, NOBODY);
+        jox_view_say(v->view, other, "info", "another page inspects somebody now");
+    }
+    v->inspector = me;
+    v->inspected = slot < 4294967295.0 ? (uint32_t)slot : UINT32_MAX;
+    jox_viewing_inspect(v);
+}
+
 /* The tool that the first word of a line needs, or -1. */
 static int find_tool(const char *line) {
     static const struct {
@@ -134,6 +154,8 @@ static void do_input(const Said *said) {
         refuse(said, error.text);
     } else {
         v->changed = true;
+        if (tool != JOX_TOOL_DRAG && tool != JOX_TOOL_PUSH && tool != JOX_TOOL_PLAYER)
+            v->spoke = 0.0; /* gates, bodies and parameters are told at once */
     }
 }
 
@@ -161,8 +183,8 @@ static void do_command(JoxViewing *v, JoxWatcher *by, const char *json) {
         void (*deed)(const Said *said);
     } VERBS[] = {{"pause", do_pause},     {"step", do_step},     {"speed", do_speed},
                  {"restart", do_restart}, {"colour", do_colour}, {"field", do_field},
-                 {"input", do_input},     {"lua", do_lua}};
-    JoxCommand command;
+                 {"input", do_input},     {"lua", do_lua},       {"inspect", do_inspect}};
+    JoxCommand command = {0};
     if (!jox_command_read(json, &command))
         return; /* the server has dropped those */
     Said said = {v, by, &command};
@@ -209,6 +231,8 @@ void jox_viewing_take(JoxViewing *v) {
             *by = (JoxWatcher){0};
         else if (what == JOX_VIEW_COMMAND && by)
             do_command(v, by, text);
+        if (what == JOX_VIEW_LEFT && client == v->inspector)
+            v->inspector = 0;
         if (what == JOX_VIEW_LEFT && jox_view_clients(v->view) == 0)
             jox_view_forget(v->view); /* who comes next is not shown what was */
     }

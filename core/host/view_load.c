@@ -66,8 +66,12 @@ static void diagnosed(void *context, const bool *parts, const JoxDiagnostics *di
     v->told = diagnostics && diagnostics->errors;
     if (!diagnostics)
         return;
-    drop_mistakes(v, parts);
-    if (diagnostics->errors) {
+    if (parts || diagnostics->errors)
+        drop_mistakes(v, parts);
+    else
+        jox_viewing_forget_mistakes(v);
+    if (diagnostics->errors &&
+        (parts || !v->mistake_count)) { /* files that are watched are known */
         JOX_RESERVE(v->mistakes, v->mistake_capacity, v->mistake_count + 1);
         JoxMistake *mistake = &v->mistakes[v->mistake_count++];
         *mistake = (JoxMistake){.errors = {0}};
@@ -83,8 +87,12 @@ static void message(void *context, const char *text) {
     JoxViewing *v = context;
     const JoSceneDef *def = &v->def->scene;
     (def->message ? def->message : jox_host_to_stderr)(def->message_context, text);
-    if (!v->told)
-        jox_view_say(v->view, JOX_VIEW_ALL, strstr(text, "warning: ") ? "warning" : "info", text);
+    if (v->told)
+        return;
+    size_t n = strlen(text);
+    char *line = jox_strndup(text, n && text[n - 1] == '\n' ? n - 1 : n);
+    jox_view_say(v->view, JOX_VIEW_ALL, strstr(text, "warning: ") ? "warning" : "info", line);
+    jox_free(line);
 }
 
 /* ---- beginning and end ---- */
@@ -122,8 +130,7 @@ bool jox_viewing_load(JoxViewing *v, JoError *error) {
     v->until = v->def->seconds > 0.0 ? v->def->seconds : jo_scene_duration(next);
     v->due = v->spoke = v->showed = 0.0;
     v->version = jox_live_version(next);
-    for (uint32_t w = 0; w < JOX_VIEW_CLIENTS; w++)
-        v->watchers[w].inspects = false;
+    v->inspector = 0;
     v->people.length = 0;
     jox_view_forget(v->view);
     if (jox_view_clients(v->view))

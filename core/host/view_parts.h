@@ -12,8 +12,6 @@ typedef struct JoxWatcher {
     uint32_t client; /* 0: this place is free */
     JoxLiveColour colour;
     JoxLiveField field;
-    bool inspects;
-    uint32_t slot; /* of whom it inspects */
 } JoxWatcher;
 
 /* Files that were saved and could not go live. */
@@ -34,7 +32,9 @@ typedef struct JoxViewing {
     bool changed;   /* what is shown is not what is there */
     bool told;      /* diagnostics that were handed over are being printed */
     JoxWatcher watchers[JOX_VIEW_CLIENTS];
-    uint64_t version; /* of the hello that was sent */
+    uint32_t inspector; /* the client who looks at somebody closely; 0: nobody */
+    uint32_t inspected; /* the slot of whom */
+    uint64_t version;   /* of the hello that was sent */
     JoxMistake *mistakes;
     size_t mistake_count, mistake_capacity;
     double due, showed, spoke; /* s of wall time: next step, last frame, last status */
@@ -60,6 +60,8 @@ void jox_viewing_forget_mistakes(JoxViewing *viewing);
 void jox_viewing_take(JoxViewing *viewing);
 /* view_show.c: sends what is due; `step`: after a step. */
 void jox_viewing_show(JoxViewing *viewing, double now);
+/* Sends what is known of the one who is inspected; of nobody, and there is an end of it. */
+void jox_viewing_inspect(JoxViewing *viewing);
 void jox_viewing_greet(JoxViewing *viewing, uint32_t client);
 /* Which channels a page is to hear. */
 uint32_t jox_viewing_channels(const JoxWatcher *watcher);

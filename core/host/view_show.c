@@ -89,6 +89,19 @@ static void show_figures(JoxViewing *v) {
     jox_view_publish(v->view, JOX_VIEW_STATUS, v->text.data, v->text.length);
 }
 
+void jox_viewing_inspect(JoxViewing *v) {
+    if (!v->inspector)
+        return;
+    char *known = jo_scene_inspect(v->scene, v->inspected);
+    v->text.length = 0;
+    jox_text_add(&v->text, "{\"type\": \"inspect\", ");
+    jox_text_add(&v->text, known + 1); /* an object that begins with "agent" */
+    jox_view_send(v->view, v->inspector, v->text.data);
+    if (strncmp(known, "{\"agent\":null", 13) == 0)
+        v->inspector = 0;
+    jo_free(known);
+}
+
 void jox_viewing_show(JoxViewing *v, double now) {
     if (!jox_view_clients(v->view))
         return;
@@ -108,6 +121,7 @@ void jox_viewing_show(JoxViewing *v, double now) {
         show_people(v);
         show_figures(v);
         show_fields(v);
+        jox_viewing_inspect(v);
         v->spoke = now;
     }
 }

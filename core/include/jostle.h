@@ -206,6 +206,13 @@ JO_API bool jo_scene_signal(JoScene *scene, const char *name, JoError *error);
 /* Does what a line of an input log says, without its tick: "push 7 300 0" (core/world/input.h has
    them all). False with `error` where it cannot be done; nothing is then logged. */
 JO_API bool jo_scene_input(JoScene *scene, const char *line, JoError *error);
+/* What the agent in a slot (JoAgent.slot) is, wants and meets, as one JSON object; free with
+   jo_free. From the first call on, and as long as it is asked for at least every 5 simulated
+   seconds, its steps are looked at closely: "planes" are the half-planes of its last step, m/s,
+   each allowing what lies to the left of its direction; "forces" the parts of its net force, N;
+   "last" its last transition, and why. {"agent": null} once where nobody is in the slot, or who was
+   inspected there has left. Nothing of it changes the run. */
+JO_API char *jo_scene_inspect(JoScene *scene, uint32_t slot);
 /* From here on writes what people do, and files that are reloaded, to a file (replaced if it is
    there), which JoSceneDef.input_log plays back to the same state. */
 JO_API bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error);

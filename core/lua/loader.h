@@ -92,6 +92,11 @@ typedef struct JoxLuaFile {
 } JoxLuaFile;
 const JoxLuaFile *jox_lua_files(const JoxLua *lua, const JoxMachine *machine, uint32_t *count);
 
+/* The text of one of them as it was read (a byte order mark made blank). */
+const char *jox_lua_text(const JoxLua *lua, const JoxMachine *machine, uint32_t file,
+                         size_t *length);
+const char *jox_loaded_text(const JoxLoaded *loaded, uint32_t file, size_t *length);
+
 /* All files that were looked for when a machine was loaded. */
 char *const *jox_lua_tried(const JoxLua *lua, const JoxMachine *machine, uint32_t *count);
 

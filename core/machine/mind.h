@@ -59,6 +59,15 @@ typedef enum JoxWayKind {
     JOX_WAY_KINDS
 } JoxWayKind;
 
+/* An agent whose last transition is kept, with the reason for it. */
+typedef struct JoxWatched {
+    uint32_t agent_id;
+    bool took; /* one since it is watched: then the rest says which */
+    uint32_t tick;
+    char from[64], to[64];
+    JoxText why; /* as jox_mind_explain says it */
+} JoxWatched;
+
 typedef struct JoxMind {
     /* Given by the world before each stage. */
     JoxAgents *agents;
@@ -112,6 +121,9 @@ typedef struct JoxMind {
     bool traces;
     uint32_t trace_id;
     JoxText trace;
+
+    JoxWatched *watched; /* given by the world */
+    uint32_t watched_count;
 
     /* What states say of pushing, per agent index, for the force stage; valid until the next think.
      */

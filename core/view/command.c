@@ -171,7 +171,7 @@ static int find(const JoxCommand *command, const char *key, JoxSaidKind kind) {
 
 bool jox_command_read(const char *json, JoxCommand *command) {
     Reader r = {.at = json, .out = command->store, .end = command->store + sizeof command->store};
-    command->count = 0; /* values beyond are not read */
+    command->count = 0;
     command->verb = NULL;
     if (!take(&r, '{'))
         return false;

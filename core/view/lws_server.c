@@ -55,9 +55,13 @@ static int write_socket(JoxView *view, JoxClient *client) {
 
 static void serve_news(JoxView *view) {
     jox_serving_gather(view);
-    for (uint32_t c = 0; c < JOX_VIEW_CLIENTS; c++)
-        if (view->connected[c] && jox_serving_has_work(view, view->connected[c]))
-            lws_callback_on_writable(view->connected[c]->wsi);
+    for (uint32_t c = 0; c < JOX_VIEW_CLIENTS; c++) {
+        JoxClient *client = view->connected[c];
+        if (client && client->bad) /* it may never be writable again */
+            lws_set_timeout(client->wsi, PENDING_TIMEOUT_USER_OK, LWS_TO_KILL_ASYNC);
+        else if (client && jox_serving_has_work(view, client))
+            lws_callback_on_writable(client->wsi);
+    }
 }
 
 static int join(JoxView *view, struct lws *wsi, JoxSession *session) {

@@ -24,6 +24,10 @@ static void release(JoxMessage *message) {
 
 /* Puts a copy, or the message itself, at the end of what a client is sent. */
 static void queue(JoxClient *client, JoxMessage *message) {
+    if (client->bad) {
+        jox_free(message);
+        return;
+    }
     message->next = NULL;
     message->refs = 1;
     if (client->last)
@@ -201,7 +205,7 @@ void jox_serving_receive(JoxView *view, JoxClient *client, const void *data, siz
     size_t n = fits ? client->length : 0;
     client->length = 0;
     client->command[n] = 0;
-    JoxCommand command;
+    JoxCommand command = {0};
     bool good = may_speak(client, now) && fits && text && strlen(client->command) == n &&
                 atomic_load(&view->waiting) < JOX_VIEW_MOST_WAITING &&
                 jox_command_read(client->command, &command);

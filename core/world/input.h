@@ -39,7 +39,7 @@ enum {
     JOX_INPUT_NUMBERS = 9,
     JOX_INPUT_NAMES = 3,
     JOX_INPUT_NAME = 120,
-    JOX_INPUT_FILE_COUNT = 64
+    JOX_INPUT_FILE_COUNT = 1024
 };
 
 /* The whole text of a file. */
