@@ -8,9 +8,11 @@ static const char HELP[] =
     "Measures a recording: an SQLite file of `jostle run --record` or of JuPedSim (versions 1 and\n"
     "2), text with the columns id, frame, x, y (PeTrack, the archive of Juelich), or CSV with a\n"
     "line of names (ID,Frame,x,y,v_x,v_y). Give one of --out and --summary, or both.\n\n"
-    "  --scene SCENE      its `probes` measure, its walls are drawn (default: fields, and\n"
+    "  --scene SCENE      its `probes` measure, its walls are drawn (without: fields, and\n"
     "                     densities and speeds over time, of all the area)\n"
-    "  --out DIR          CSV files and pictures, NAME.csv, NAME.png and NAME.svg of each probe\n"
+    "  --out DIR          a page, index.html; CSV files and pictures, NAME.csv, NAME.png and\n"
+    "                     NAME.svg, of each probe and of danger: density, crowd pressure and, in\n"
+    "                     recordings of `jostle run`, compression\n"
     "  --summary FILE     write the figures as JSON; '-' is standard output\n"
     "  --fps N            frames a second, where the recording does not say\n"
     "  --unit m|cm        unit of its lengths, where it does not say\n\n"
@@ -34,12 +36,7 @@ static bool read_option(Wanted *wanted, CliArgs *args, const char *option) {
     } else if (!strcmp(option, "fps")) {
         wanted->def.fps = cli_number(args, option, 0.01, 10000);
     } else if (!strcmp(option, "unit")) {
-        const char *unit = cli_value(args, option);
-        wanted->def.unit = unit && !strcmp(unit, "cm") ? 0.01 : 1.0;
-        if (unit && strcmp(unit, "m") != 0 && strcmp(unit, "cm") != 0) {
-            fprintf(stderr, "jostle report: --unit is m or cm, not '%s'\n", unit);
-            args->failed = true;
-        }
+        wanted->def.unit = cli_unit(args, option);
     } else {
         return false;
     }

@@ -59,6 +59,15 @@ typedef enum JoxWayKind {
     JOX_WAY_KINDS
 } JoxWayKind;
 
+/* An agent whose last transition is kept, with the reason for it. */
+typedef struct JoxWatched {
+    uint32_t agent_id;
+    bool took; /* one since it is watched: then the rest says which */
+    uint32_t tick;
+    char from[64], to[64];
+    JoxText why; /* as jox_mind_explain says it */
+} JoxWatched;
+
 typedef struct JoxMind {
     /* Given by the world before each stage. */
     JoxAgents *agents;
@@ -113,6 +122,9 @@ typedef struct JoxMind {
     uint32_t trace_id;
     JoxText trace;
 
+    JoxWatched *watched; /* given by the world */
+    uint32_t watched_count;
+
     /* What states say of pushing, per agent index, for the force stage; valid until the next think.
      */
     uint8_t *push_on, *push_nearest;
@@ -153,11 +165,20 @@ const char *jox_mind_refuses(const JoxMind *mind, uint32_t index, const JoxRepla
 JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, const JoxReplacement *replacement);
 /* Agents per state of machine `index`, written to people (as many as it has states). */
 void jox_mind_census(const JoxMind *mind, uint32_t index, uint32_t *people);
+/* How often agents of machine `index` went from state to state so far: visits each pair once, by
+   the names of the states, those of this version first. */
+typedef void JoxTakenVisit(void *context, const char *from, const char *to, uint64_t taken);
+void jox_mind_taken(const JoxMind *mind, uint32_t index, JoxTakenVisit *visit, void *context);
 /* Makes the agent go on with another machine, from its start state: it keeps its body, what the
    scene gave it and its memory, by name; the rest is drawn anew. */
 void jox_mind_become(JoxMind *mind, uint32_t agent, uint32_t machine);
 /* Gives the agent an own value, as the scene's group might have done. */
 void jox_mind_set_own(JoxMind *mind, uint32_t agent, uint32_t slot, double value);
+/* Sets a parameter of one state (-1: of the defaults) to a number within its range, for all who are
+   in it and who will be, until the machine is replaced. In the defaults the own value of that name
+   follows, but for those to whom the scene gave theirs. */
+void jox_mind_set_parameter(JoxMind *mind, uint32_t machine, int32_t state, int parameter,
+                            double value);
 /* Number of a name that machines share; new names are added. */
 uint32_t jox_mind_name(JoxMind *mind, const char *name);
 /* The agent calls out a name (by number). */

@@ -45,6 +45,8 @@ const JoxKey jox_scene_keys[] = {
      .meaning = "area and time of the density map"},
     {"scene", "camera", TABLE, "", 0, 0, "", .of = "camera",
      .meaning = "where one looks from"},
+    {"scene", "view", TABLE, "", 0, 0, "", .of = "view",
+     .meaning = "what the live page shows first, and what people may do there"},
     {"scene", "places", TABLE, "", 0, 0, "", .of = "place*",
      .meaning = "what behaviours and groups know by name"},
     {"scene", "regions", TABLE, "", 0, 0, "", .of = "xy[3]*",
@@ -78,6 +80,12 @@ const JoxKey jox_scene_keys[] = {
     {"heatmap", "from", NUMBER, "s", 0, 1e6, "0", .meaning = "averages begin then"},
     {"camera", "position", POINT3, "m", -FAR, FAR, "", .meaning = "where the eye is"},
     {"camera", "target", POINT3, "m", -FAR, FAR, "", .meaning = "what it looks at"},
+    {"view", "tools", NAMES, "", 0, 0, "", .choices = "throw|drag|push|gates|parameters|signals|player",
+     .meaning = "what people may do: throw boxes, drag bodies, push people, open and close gates, change parameters of behaviours, give signals, drive the player; default: the last four"},
+    {"view", "colour", TEXT, "", 0, 0, "state", .choices = "state|speed|force|compression|density|group",
+     .meaning = "what people are coloured by"},
+    {"view", "field", TEXT, "", 0, 0, "none", .choices = "density|pressure|none",
+     .meaning = "what the floor shows"},
 
     {"place", "point", POINT, "m", -FAR, FAR, "", .meaning = "its middle"},
     {"place", "radius", NUMBER, "m", 0.01, 1000, "0.5",
@@ -98,7 +106,7 @@ const JoxKey jox_scene_keys[] = {
      .meaning = "corners of a filled block"},
     {"wall", "line", POINTS, "m", -FAR, FAR, "", .of = "xy[2]", .meaning = "a thin wall"},
     {"wall", "file", TEXT, "", 0, 0, "",
-     .meaning = "beside the scene: walls as well-known text (WKT), or a recording (SQLite), whose plan is taken; ours have solids and the bounds alone"},
+     .meaning = "beside the scene: walls as well-known text (WKT), as a geometry of JuPedSim (XML), or a recording (SQLite), whose plan is taken; ours have solids and the bounds alone"},
     {"wall", "unit", NUMBER, "m", 1e-4, 1000, "1", .meaning = "of a file: one of its lengths"},
     {"wall", "origin", POINT, "", -1e12, 1e12, "",
      .meaning = "of a file: its point, in its lengths, that becomes [0, 0]"},
@@ -271,11 +279,15 @@ const JoxOwner jox_scene_owners[] = {
     {"forces", "forces", "What pushes between agents do."},
     {"limits", "limits", "A script that needs more is stopped and named; the run goes on."},
     {"heatmap", "heatmap", "What the density map of a report shows."},
-    {"camera", "camera", "For programs that draw the scene; the simulation does not use it."},
+    {"camera", "camera", "Of the live page and of pictures; the simulation does not use it."},
+    {"view", "view", "Of the live page, `jostle run SCENE --view`; the simulation does not use it. A tool is "
+     "offered where there is something to use it on: gates that have names, signals that somebody hears, a `player`."},
     {"place", "Places", "`places` maps names to places. There are five kinds, told apart by their key:"},
     {"wall", "Walls", "Each wall of the list `walls` is a `solid`, a `line` or a `file`. In a file, a "
      "POLYGON is what can be walked: its outer ring and its holes become walls; so do MULTIPOLYGON, LINESTRING, "
-     "MULTILINESTRING and GEOMETRYCOLLECTION."},
+     "MULTILINESTRING and GEOMETRYCOLLECTION. In an XML geometry of JuPedSim (rooms, subrooms) polygons are thin walls "
+     "and obstacles are solid; each transition is a door, a wall named `door-ID` by its id: it is open until an event "
+     "closes it. Crossings are gaps."},
     {"body", "Bodies", "Each body of the list `bodies` is simulated by Bullet, and pushed by people."},
     {"repeat", "repeat", "The first stands at the body's `at`. Copies of a body with a name are `NAME-1`, `NAME-2` and so on, along x first, then y, then z."},
     {"shape", "Shapes", "A shape is a map with one key, its kind."},
