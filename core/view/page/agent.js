@@ -50,10 +50,12 @@ export class AgentPage {
         ]));
         this.failed.hidden = !message.failed;
         fill(this.last, message.last ? [
-            el("p", {}, el("strong", {}, `${message.last.from} → ${message.last.to}`), ` at ${clock(message.last.time)}`),
+            el("p", {}, el("strong", {}, message.last.from ? `${message.last.from} → ${message.last.to}` : `began as ${message.last.to}`),
+                ` at ${clock(message.last.time)}`),
             message.last.why ? el("code", { className: "code" }, message.last.why) : null,
         ] : el("p", { className: "faint" }, "None since it is looked at."));
         drawVelocities(this.picture, message);
+        this.unseen.hidden = message.max_speed > 0 || (message.planes ?? []).length > 0;
         fill(this.planes, Object.entries(KINDS).map(([kind, name]) => {
             const n = (message.planes ?? []).filter((p) => p.kind === kind).length;
             return n ? el("li", {}, swatch(PLANE_COLOURS[kind]), `${name}: ${n}`) : null;
@@ -68,6 +70,14 @@ export class AgentPage {
         fill(this.memory, memory.map(([name, value]) => [el("dt", {}, name), el("dd", {}, typeof value === "number" ? figure(value) : String(value))]));
     }
 
+    /** What a recording tells of a person: {slot, state, group, x, y, speed, radius}. */
+    takeSeen(seen) {
+        this.id = `slot ${seen.slot}`;
+        fill(this.node, el("div", { className: "row" }, el("h2", {}, "Person"), el("button", { type: "button", onclick: () => this.page.letGo() }, "Let go")),
+            pairs([["state", seen.state ?? "–"], ["group", seen.group ?? "–"], ["place", `${figure(seen.x)}, ${figure(seen.y)} m`],
+                ["speed", `${figure(seen.speed)} m/s`], ["radius", `${figure(seen.radius)} m`]]));
+    }
+
     build(agent) {
         this.id = agent.id;
         this.state = el("div");
@@ -75,6 +85,7 @@ export class AgentPage {
             "No velocity satisfies all half-planes: the one that breaks them least was taken.");
         this.last = el("div");
         this.picture = svg("svg", { class: "velocity", role: "img", "aria-label": "Velocities: forbidden half-planes, the preferred and the chosen one" });
+        this.unseen = el("p", { className: "faint" }, "Seen from the next step on.");
         this.planes = el("ul", { className: "key" });
         this.forces = el("ul", { className: "key" });
         this.noForce = el("p", { className: "faint" }, "No force acts.");
@@ -85,7 +96,7 @@ export class AgentPage {
             el("div", { className: "row" }, el("h2", {}, `Agent ${agent.id}`), el("button", { type: "button", onclick: () => this.page.letGo() }, "Let go")),
             this.state, this.failed,
             el("h2", {}, "Last transition"), this.last,
-            el("h2", {}, "Velocities, m/s"), this.picture,
+            el("h2", {}, "Velocities, m/s"), this.picture, this.unseen,
             el("p", { className: "faint" }, "Shaded: forbidden. Dashed: preferred, and the greatest speed. Solid: chosen."), this.planes,
             el("h2", {}, "Forces"), this.forces, this.noForce, el("h2", {}, "Parameters"), this.parameters, this.memoryPart);
     }

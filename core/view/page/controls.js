@@ -23,7 +23,7 @@ export class TimeBar {
 
     set(hello) {
         const live = hello.session !== "replay";
-        for (const node of [...this.live, this.step]) node.hidden = !live;
+        for (const node of this.live) node.hidden = !live;
         this.replay = !live;
         if (document.activeElement !== this.seed) this.seed.value = hello.seed ?? "";
     }
@@ -34,7 +34,6 @@ export class TimeBar {
     }
 
     stepOnce() {
-        if (this.replay) return;
         if (!this.paused) this.toggle();
         this.send({ do: "step", n: 1 });
     }

@@ -81,7 +81,7 @@ function edge(nodes, from, to, aside) {
     const p = border(a, mx, my), q = border(b, mx, my);
     return {
         path: `M${p.x.toFixed(1)} ${p.y.toFixed(1)} Q${mx.toFixed(1)} ${my.toFixed(1)} ${q.x.toFixed(1)} ${q.y.toFixed(1)}`,
-        x: 0.25 * p.x + 0.5 * mx + 0.25 * q.x, y: 0.25 * p.y + 0.5 * my + 0.25 * q.y,
+        x: 0.42 * p.x + 0.46 * mx + 0.12 * q.x, y: 0.42 * p.y + 0.46 * my + 0.12 * q.y, // at 35 %
     };
 }
 

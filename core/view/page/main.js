@@ -139,7 +139,7 @@ class Page {
         if (!this.hello) return; // the scene says how it begins
         this.connection.send({ do: "colour", by: this.colour === "failed" ? "state" : this.colour });
         if (this.field !== "none") this.connection.send({ do: "field", of: this.field });
-        if (this.slot !== null) this.connection.send({ do: "inspect", slot: this.slot });
+        if (this.slot !== null && !this.recorded()) this.connection.send({ do: "inspect", slot: this.slot });
     }
 
     take(message) {
@@ -179,6 +179,7 @@ class Page {
         this.machine.take(status);
         this.charts.take(status);
         this.act.takeGates(status.walls);
+        if (this.recorded()) this.seePerson();
         if (this.view.ground.setOpen(status.walls)) this.redraw();
         if (!this.described || status.time < this.described || status.time > this.described + 10) {
             this.described = status.time;
@@ -234,11 +235,29 @@ class Page {
         if (slot === this.slot) return;
         this.slot = this.overlay.chosen = slot;
         this.person = this.overlay.forces = null;
-        this.connection.send({ do: "inspect", slot });
+        if (this.recorded()) this.seePerson();
+        else this.connection.send({ do: "inspect", slot });
         if (slot === null) this.agentPage.none();
         else if (this.view.tool === "select") this.panel.show("agent");
         if (slot === null) this.follow(false);
         this.redraw();
+    }
+
+    recorded() {
+        return this.hello?.session === "replay";
+    }
+
+    /** What the frames of a recording tell of the chosen person. */
+    seePerson() {
+        const { slot, crowd } = this, at = slot === null ? null : crowd.position(slot, 1);
+        if (slot === null) return;
+        if (!at) return void this.takePerson({ agent: null });
+        const from = crowd.position(slot, 0) ?? at, passed = crowd.next.time - crowd.previous.time;
+        this.agentPage.takeSeen({
+            slot, x: at[0], y: at[1], radius: crowd.radius(slot),
+            speed: passed > 0 ? Math.hypot(at[0] - from[0], at[1] - from[1]) / passed : NaN,
+            state: this.hello.states?.[crowd.next.bytes[8 * slot + 5]]?.name, group: this.hello.groups?.[crowd.person[2 * slot + 1]],
+        });
     }
 
     tool(name) {

@@ -54,7 +54,7 @@ export class Overlay {
         pen.textAlign = "center";
         pen.textBaseline = "middle";
         if (this.names) this.drawLabels();
-        for (const slot of this.players) if (slot !== this.chosen) this.drawRing(slot, share, "#ffffff", "player");
+        for (const slot of this.players) if (slot !== this.chosen) this.drawRing(slot, share, this.dark ? "#ffffff" : "#0072b2", "player");
         if (this.chosen !== null) this.drawChosen(share);
         this.sketch?.(pen, (x, y, z) => this.view.project(x, y, z));
         if (this.cross) this.drawCross();
@@ -91,7 +91,7 @@ export class Overlay {
         stroke(this.pen, path.map((p) => this.view.project(...p)), "#000000a0", 5);
         stroke(this.pen, path.map((p) => this.view.project(...p)), colour, 2.5);
         const head = this.view.project(at[0], at[1], 2.1);
-        if (head && text) this.tag(text, head, this.dark ? "#e8ecf1" : "#20242a");
+        if (head && text) this.tag(text, [head[0], head[1] - 24], this.dark ? "#e8ecf1" : "#20242a");
         return at;
     }
 

@@ -11,7 +11,7 @@ const HARDEST = 1500; // N
 const PERIOD = 50; // ms between commands of one gesture
 
 export const TOOLS = {
-    select: { name: "Look", key: "1", hint: "Click a person to see what moves them. Drag turns, right drag slides, wheel nears." },
+    select: { name: "Look", key: "1", hint: "Click a person. Drag turns, right drag slides, wheel nears." },
     throw: { name: "Throw", key: "2", hint: "Press where a box starts, draw to where it is to land, let go." },
     drag: { name: "Drag", key: "3", hint: "Press a body and draw it along." },
     push: { name: "Push", key: "4", hint: `Press a person and draw: ${NEWTONS} N for each metre.` },
