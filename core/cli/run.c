@@ -36,7 +36,15 @@ static const char HELP[] =
     "                     the output is a terminal\n"
     "  --no-watch         do not\n"
     "  --trace AGENT      print each transition of the agent with this id, and why\n"
-    "  --quiet            no progress\n\n"
+    "  --quiet            no progress\n"
+    "  --view[=PORT]      show the run on a live page, in real time; prints the page's address.\n"
+    "                     Files are watched; --record, --log-input and --summary go with it\n"
+    "  --fast             with --view: as fast as it can go\n"
+    "  --view-address A   listen at this address, not at 127.0.0.1: others can then reach the "
+    "page,\n"
+    "                     with its token\n"
+    "  --page DIR, --three DIR\n"
+    "                     folders of the page's files and of three.js\n\n"
     "exit status: 0 done, 1 the run failed, 2 wrong usage, 3 bad input\n";
 
 typedef struct Run {
@@ -45,6 +53,8 @@ typedef struct Run {
     double seconds;
     uint64_t steps, seeds, trace;
     const char **mods;
+    JoViewDef live; /* of the page */
+    bool view;
     bool has_seconds, has_steps, watch, no_watch, has_trace, quiet, profile, no_half;
 } Run;
 
@@ -54,6 +64,26 @@ static const double LEAST_DT = 0.001; /* s, of --dt */
 static void interrupt(int number) {
     (void)number;
     interrupted = 1;
+}
+
+/* Those of the live page. */
+static bool read_view_option(Run *run, CliArgs *args, const char *option) {
+    if (!strcmp(option, "view")) {
+        run->view = true;
+        if (args->value) /* a port is given with '=' only: what follows may be the scene */
+            run->live.port = (int)cli_whole(args, option, 1, 65535);
+    } else if (!strcmp(option, "view-address")) {
+        run->live.address = cli_value(args, option);
+    } else if (!strcmp(option, "page")) {
+        run->live.page = cli_value(args, option);
+    } else if (!strcmp(option, "three")) {
+        run->live.three = cli_value(args, option);
+    } else if (!strcmp(option, "fast")) {
+        run->live.fast = true;
+    } else {
+        return false;
+    }
+    return true;
 }
 
 /* Reads one option into `run`; false if there is no such option. */
@@ -112,7 +142,7 @@ static bool read_option(Run *run, CliArgs *args, const char *option, const char 
     } else if (!strcmp(option, "quiet")) {
         run->quiet = true;
     } else {
-        return false;
+        return read_view_option(run, args, option);
     }
     return true;
 }
@@ -191,6 +221,30 @@ static int simulate(const Run *run, char **summary) {
     return status;
 }
 
+static void print_address(void *context, const char *address) {
+    (void)context;
+    printf("%s\n", address);
+    fflush(stdout);
+    fputs("Open this address in a browser; Ctrl-C ends the run.\n", stderr);
+}
+
+/* On its live page, until it is interrupted. */
+static int show(Run *run, char **summary) {
+    JoViewDef *live = &run->live;
+    JoError error = {0};
+    live->scene = run->def;
+    live->watch = !run->no_watch;
+    live->record = run->record;
+    live->log_input = run->log;
+    live->stop = &interrupted;
+    live->opened = print_address;
+    live->summary = run->summary ? summary : NULL;
+    live->seconds = run->has_seconds ? run->seconds : 0.0;
+    if (jo_view(live, &error))
+        return JO_OK;
+    return complain(&error, error.code == JO_INPUT);
+}
+
 static int simulate_seeds(Run *run) {
     char **summaries = calloc(run->seeds, sizeof *summaries);
     uint64_t first = run->def.has_seed ? run->def.seed : 1;
@@ -225,6 +279,11 @@ static int usage_error(const Run *run, const CliArgs *args) {
         : run->has_seconds && run->has_steps ? "--for and --steps exclude each other"
         : run->seeds && (run->record || run->report || run->watch || run->log)
             ? "--seeds cannot be combined with --record, --report, --log-input or --watch"
+        : run->view && (run->seeds || run->report || run->data || run->has_trace || run->profile)
+            ? "--view cannot be combined with --seeds, --report, --data, --trace or --profile-lua"
+        : run->view && run->has_steps ? "--view goes with --for S, not with --steps"
+        : !run->view && (run->live.address || run->live.page || run->live.three || run->live.fast)
+            ? "--fast, --view-address, --page and --three go with --view"
             : NULL;
     if (why)
         fprintf(stderr, "jostle run: %s\n", why);
@@ -233,13 +292,14 @@ static int usage_error(const Run *run, const CliArgs *args) {
 
 int cli_run(int argc, char **argv) {
     static const char *const known[] = {
-        "for",     "steps",       "dt",       "seed",         "seeds",     "threads",
-        "isa",     "set",         "input",    "record",       "report",    "data",
-        "summary", "watch",       "trace",    "quiet",        "help",      "mod",
-        "no-mods", "profile-lua", "no-watch", "no-half-step", "log-input", NULL};
+        "for",          "steps",       "dt",       "seed",         "seeds",     "threads",
+        "isa",          "set",         "input",    "record",       "report",    "data",
+        "summary",      "watch",       "trace",    "quiet",        "help",      "mod",
+        "no-mods",      "profile-lua", "no-watch", "no-half-step", "log-input", "view",
+        "view-address", "page",        "three",    "fast",         NULL};
     CliArgs args = {.argc = argc, .argv = argv, .next = 1, .command = "run"};
     const char **overrides = calloc((size_t)argc, sizeof *overrides);
-    Run run = {.def = jo_default_scene_def()};
+    Run run = {.def = jo_default_scene_def(), .live = jo_default_view_def()};
     run.def.overrides = overrides;
     run.mods = calloc((size_t)argc, sizeof *run.mods);
     run.def.mods = run.mods;
@@ -270,7 +330,9 @@ int cli_run(int argc, char **argv) {
         signal(SIGINT, interrupt);
         signal(SIGTERM, interrupt);
         char *summary = NULL;
-        status = run.seeds ? simulate_seeds(&run) : simulate(&run, &summary);
+        status = run.view    ? show(&run, &summary)
+                 : run.seeds ? simulate_seeds(&run)
+                             : simulate(&run, &summary);
         if (summary && run.summary) {
             int written = cli_write("run", run.summary, summary);
             status = status ? status : written;

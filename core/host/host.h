@@ -20,6 +20,11 @@
 #include "scene/scene.h"
 #include "world/world.h"
 
+/* Is told of files that were loaded: what they are parts of (NULL: of a scene that begins), and
+   what is wrong; no errors where they are live. Without diagnostics: those have been said as text.
+ */
+typedef void JoxDiagnosed(void *context, const bool *parts, const JoxDiagnostics *diagnostics);
+
 struct JoScene {
     JoxScene *plan;
     JoxMods *mods;
@@ -36,15 +41,19 @@ struct JoScene {
     void *message_context;
 
     struct JoxReload *reload; /* NULL: files are not watched */
-    double swap_seconds;      /* the longest that a swap has held a step up */
-    JoSceneDef def;           /* as it was loaded, with copies of its texts */
-    char **plan_files;        /* the scene's file and what it includes */
+    JoxDiagnosed *diagnosed;  /* NULL: nobody wants to know */
+    void *diagnosed_context;
+    double swap_seconds; /* the longest that a swap has held a step up */
+    JoSceneDef def;      /* as it was loaded, with copies of its texts */
+    char **plan_files;   /* the scene's file and what it includes */
     uint32_t plan_file_count;
     JoxRecorder *recorder;
     uint32_t record_every; /* ticks */
     uint32_t
         record_base[JOX_MOST_MACHINES]; /* number of a machine's first state in the recording */
     uint32_t record_next;
+    uint32_t *record_shapes; /* per body id: blocks of the shape that was recorded, plus 1 */
+    size_t record_shape_capacity;
     char *report; /* directory, or NULL */
     char *data;   /* directory of the probes' CSV files, or NULL */
     JoxDensity *density;
@@ -53,6 +62,7 @@ struct JoScene {
     JoxDanger *danger;                                     /* NULL where nothing is reported */
     JoxExits exits;                                        /* who left, and where */
     struct JoxMeasuring *measuring;                        /* NULL until a frame is asked for */
+    struct JoxLive *live;                                  /* NULL until it is shown */
     double progress_until, progress_begun, progress_shown; /* s */
     int progress_tenth;
     bool finished;
@@ -75,6 +85,11 @@ void jox_host_say(const JoScene *scene, const char *format, ...)
 void jox_host_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
                      JoError *error);
 
+/* Writes to stderr, and makes room where a line of progress stands. */
+void jox_host_to_stderr(void *context, const char *text);
+/* As jo_scene_load; `diagnosed` (it may be NULL) is told of mistakes, then and in all reloads. */
+JoScene *jox_host_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
+                            JoError *error);
 /* As jo_scene_load, but what is wrong goes to `diagnostics`. NULL if there are errors. */
 JoScene *jox_host_load(const JoSceneDef *def, JoxDiagnostics *diagnostics);
 /* mods.c: finds the mods of a scene and what their files change; `without` are bits of those found

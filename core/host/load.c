@@ -7,10 +7,11 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "host/host.h"
+#include "host/live.h"
 
 enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 64 << 20 };
 
-static void to_stderr(void *context, const char *text) {
+void jox_host_to_stderr(void *context, const char *text) {
     (void)context;
     if (isatty(2)) /* the line of progress makes room */
         fputs("\r\033[K", stderr);
@@ -31,7 +32,7 @@ void jox_host_report(JoMessage *message, void *context, JoxDiagnostics *diagnost
     JoxText text = {0};
     jox_diag_print(diagnostics, &text);
     if (text.length)
-        (message ? message : to_stderr)(context, text.data);
+        (message ? message : jox_host_to_stderr)(context, text.data);
     jox_text_free(&text);
     for (size_t i = 0; error && i < diagnostics->count; i++) {
         const JoxDiagnostic *d = &diagnostics->items[i];
@@ -286,7 +287,7 @@ static int32_t blame(const JoSceneDef *def, uint64_t without) {
 static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culprit,
                         JoxDiagnostics *mod_problems, JoxDiagnostics *diagnostics) {
     JoScene *scene = jox_alloc(1, sizeof *scene);
-    scene->message = def->message ? def->message : to_stderr;
+    scene->message = def->message ? def->message : jox_host_to_stderr;
     scene->message_context = def->message_context;
     scene->mods = jox_host_find_mods(def, without, mod_problems);
     *culprit = -1;
@@ -358,14 +359,21 @@ JoScene *jox_host_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
     }
 }
 
-JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
+JoScene *jox_host_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
+                            JoError *error) {
     JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && def->path, NULL);
     JoxDiagnostics diagnostics = {0};
     JoScene *scene = jox_host_load(def, &diagnostics);
-    jox_host_report(def->message ? def->message : to_stderr, def->message_context, &diagnostics,
-                    error);
+    if (diagnosed)
+        diagnosed(context, NULL, &diagnostics);
+    jox_host_report(def->message ? def->message : jox_host_to_stderr, def->message_context,
+                    &diagnostics, error);
+    if (diagnosed)
+        diagnosed(context, NULL, NULL);
     if (!scene)
         return NULL;
+    scene->diagnosed = diagnosed;
+    scene->diagnosed_context = context;
     jox_host_report(scene->message, scene->message_context, &scene->mod_problems, NULL);
     for (uint32_t m = 0; m < scene->mods->count; m++)
         jox_host_say(scene, "%s %s %s (%s)\n", m ? "     " : "mods:", scene->mods->items[m].name,
@@ -379,6 +387,10 @@ JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
                      def->path, settled.moved, settled.farthest,
                      settled.stuck ? "; some found no free spot" : "");
     return scene;
+}
+
+JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
+    return jox_host_load_told(def, NULL, NULL, error);
 }
 
 /* Whether both were made of the same files, byte by byte. */
@@ -426,6 +438,7 @@ void jo_scene_free(JoScene *scene) {
     jo_scene_finish(scene, NULL);
     jox_regions_free(scene->regions);
     jox_host_end_measuring(scene);
+    jox_live_end(scene);
     jox_host_unwatch(scene);
     free_def(scene);
     jo_world_free(scene->world); /* before Lua, whose machines it holds */
@@ -433,6 +446,7 @@ void jo_scene_free(JoScene *scene) {
     jox_scene_free(scene->plan);
     jox_mods_free(scene->mods);
     jox_diag_free(&scene->mod_problems);
+    jox_free(scene->record_shapes);
     jox_free(scene->party_left);
     jox_free(scene->party_team);
     jox_free(scene->report);

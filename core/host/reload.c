@@ -289,8 +289,13 @@ static void refuse(JoScene *scene, Batch *batch, const char *path, const char *w
     const JoxMind *mind = &scene->world->mind;
     char number[16];
     if (why)
-        jox_host_say(scene, "%s: %s\n", path, why);
+        jox_diag_error(&batch->diagnostics, ((JoxPosition){path, 0, 0, 0}), "cannot-swap", NULL,
+                       "%s", why);
+    if (scene->diagnosed)
+        scene->diagnosed(scene->diagnosed_context, batch->parts, &batch->diagnostics);
     jox_host_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
+    if (scene->diagnosed)
+        scene->diagnosed(scene->diagnosed_context, batch->parts, NULL);
     for (uint32_t c = 0; c < batch->count; c++) {
         if (batch->changes[c].added)
             continue;
@@ -422,6 +427,8 @@ static bool take(JoScene *scene, Batch *batch) {
     if (batch->failed || refused) {
         refuse(scene, batch, path, refused);
     } else {
+        if (scene->diagnosed) /* warnings, at most */
+            scene->diagnosed(scene->diagnosed_context, batch->parts, &batch->diagnostics);
         jox_host_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
         JoxReloaded reloaded = {0};
         retired->live = live = true;

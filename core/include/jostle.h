@@ -256,6 +256,51 @@ JO_API char *jo_scene_summary(const JoScene *scene);
 /* From several summaries: mean and 5-95 % range of each numeric figure; free with jo_free. */
 JO_API char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error);
 
+/* A scene on a live page: a browser on this machine shows it and lets people act on it. */
+typedef struct JoViewDef {
+    JoSceneDef scene;
+    const char *address;      /* to listen at; NULL: 127.0.0.1, for this machine alone */
+    int port;                 /* 0: 8730, or the next that is free */
+    const char *page;         /* folder of the page's files; NULL: where they were installed */
+    const char *three;        /* folder of three.js; NULL: Debian's */
+    bool fast;                /* as fast as it can go, not in real time */
+    bool watch;               /* files that are edited are reloaded; on by default */
+    double seconds;           /* simulated, after which it pauses; 0: the scene's duration */
+    const char *record;       /* file for trajectories, or NULL; a restart begins it anew */
+    const char *log_input;    /* file for what people do, or NULL; a restart begins it anew */
+    const volatile int *stop; /* it ends once this is not 0; NULL: never */
+    JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
+    void *opened_context;
+    char **summary; /* NULL, or for the figures of the run as it ended; free with jo_free */
+    uint32_t cookie;
+} JoViewDef;
+JO_API JoViewDef jo_default_view_def(void);
+/* Returns when it was stopped. False with `error` if the page cannot be served or the scene does
+   not load; every error of the scene went to its `message`. */
+JO_API bool jo_view(const JoViewDef *def, JoError *error);
+
+/* Shows a recording on that page: any that jo_report takes. */
+typedef struct JoViewRecordingDef {
+    const char *recording;
+    const char *scene;   /* whose walls, places and bodies are drawn; NULL: the recording's walls */
+    double fps;          /* frames a second; 0: as the recording says */
+    double unit;         /* m, of its lengths; 0: as it says */
+    const char *address; /* these three and the port as in JoViewDef */
+    const char *page;
+    const char *three;
+    int port;
+    const volatile int *stop; /* it ends once this is not 0; NULL: never */
+    JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
+    void *opened_context;
+    JoMessage *message; /* NULL: to stderr */
+    void *message_context;
+    uint32_t cookie;
+} JoViewRecordingDef;
+JO_API JoViewRecordingDef jo_default_view_recording_def(void);
+/* Returns when it was stopped. False with `error` if the page cannot be served or there is no such
+   recording; all that is wrong with it went to `message`. */
+JO_API bool jo_view_recording(const JoViewRecordingDef *def, JoError *error);
+
 /* What is measured of a recording: an SQLite file of jo_scene_record or of JuPedSim, or text with
    the columns id, frame, x, y as PeTrack writes it, or CSV with a line of names. */
 typedef struct JoReportDef {

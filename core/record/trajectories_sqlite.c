@@ -76,6 +76,11 @@ static void read_groups(JoxTrajectories *t, sqlite3 *db) {
     sqlite3_finalize(statement);
 }
 
+void jox_trajectories_plan(JoxTrajectories *t, sqlite3 *db) {
+    read_geometry(t, db);
+    read_groups(t, db);
+}
+
 /* Rows, with force, compression and group where the recording is one of ours: then both tables have
    been written row by row. */
 static bool read_rows(JoxTrajectories *t, sqlite3 *db, JoxDiagnostics *diagnostics,
@@ -133,8 +138,7 @@ bool jox_trajectories_sqlite(JoxTrajectories *t, const char *path,
             good = fail(diagnostics, path, "--fps 25",
                         "this recording does not say how many frames a second it has");
         t->last = (int64_t)ask_number(db, "SELECT MAX(frame) FROM frame_data");
-        read_geometry(t, db);
-        read_groups(t, db);
+        jox_trajectories_plan(t, db);
     }
     sqlite3_close(db);
     return good;

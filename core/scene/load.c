@@ -482,9 +482,7 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
         s->heatmap = jox_load_box(l, jox_yaml_get(map, "area"), &s->heatmap_low, &s->heatmap_high);
         s->heatmap_from = jox_key_number(r, map, "heatmap", "from");
     }
-    if ((map = jox_yaml_get(root, "camera")) && jox_keys_check(r, map, "camera"))
-        s->camera.given = jox_key_vector(r, map, "camera", "position", s->camera.position, 3) &&
-                          jox_key_vector(r, map, "camera", "target", s->camera.target, 3);
+    jox_load_view(l, root);
 }
 
 /* Whether a key holds something, right or wrong: what is wrong is reported where it is read. */

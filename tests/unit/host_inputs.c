@@ -37,7 +37,7 @@ static JoScene *play(const char *log) {
     JoError error = {0};
     def.path = scene;
     def.input_log = log;
-    def.message = listen;
+    def.message = hear;
     def.named_mods_only = true;
     jox_text_free(&said);
     JoScene *replay = jo_scene_load(&def, &error);
@@ -566,7 +566,7 @@ static void a_wrong_log_is_an_error_of_its_file(void **state) {
     JoError error = {0};
     def.path = scene;
     def.input_log = log;
-    def.message = listen;
+    def.message = hear;
     def.named_mods_only = true;
     assert_null(jo_scene_load(&def, &error));
     assert_int_equal(error.line, 3);
