@@ -72,7 +72,7 @@ DURATION ?= 60
 test:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory all tests-built
-	@B=$(B) .ci/suite check units scenes install
+	@B=$(B) .ci/suite check units scenes install page
 test-all: test
 	JOSTLE_VIEW_CYCLES=10000 $(B)/unit/view_stream
 	@.ci/sanitizers

@@ -319,7 +319,9 @@ static bool open_view(Playing *p, JoError *error) {
 }
 
 bool jo_view_recording(const JoViewRecordingDef *def, JoError *error) {
-    JOX_REQUIRE(def && def->cookie == RECORDING_COOKIE && def->recording, false);
+    JOX_REQUIRE(def && def->cookie == RECORDING_COOKIE && def->recording && def->fps >= 0.0 &&
+                    def->unit >= 0.0,
+                false);
     Playing p = {.def = def, .frame = UINT32_MAX, .session = {.speed = 1.0}};
     const bool good = open_recording(&p, error) && open_view(&p, error);
     if (good && def->opened)
