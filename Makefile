@@ -72,9 +72,9 @@ DURATION ?= 60
 test:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory all tests-built
-	@B=$(B) .ci/suite check units scenes install
+	@B=$(B) .ci/suite check units scenes install page
 test-all: test
-	JOSTLE_VIEW_CYCLES=10000 $(B)/unit/view_server
+	JOSTLE_VIEW_CYCLES=10000 $(B)/unit/view_stream
 	@.ci/sanitizers
 bench:
 	@.ci/setup bench

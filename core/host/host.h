@@ -145,6 +145,10 @@ void jox_host_note_file(JoScene *scene, JoxReloaded *reloaded, const char *path,
 void jox_host_log_files(JoScene *scene, JoxReloaded *reloaded);
 /* Whether a file is live with this very text. */
 bool jox_host_is_live(const JoScene *scene, const JoxInputFile *file);
+/* Writes what the run is made of. */
+void jox_host_log_origin(JoScene *scene);
+/* Says where the run is made of something else than the one that was logged. */
+void jox_host_check_log(const JoScene *scene);
 /* What files were when the run began that a log tells of. */
 void jox_host_before(JoxOverlay *overlay, const JoxInputLog *log);
 /* Swaps files as a log tells; false with `error` where they do not go live. */

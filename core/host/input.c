@@ -104,7 +104,9 @@ static bool do_entry(JoScene *scene, const JoxInputEntry *entry, JoError *error)
         return jox_host_signal(scene, entry->names[0], error);
     case JOX_INPUT_SET:
         return jox_host_set(scene, entry->names[0], entry->names[1], entry->names[2], v[0], error);
-    case JOX_INPUT_BEFORE: /* was taken when the scene was loaded */
+    case JOX_INPUT_BEGAN: /* were looked at when the scene was loaded */
+    case JOX_INPUT_MADE:
+    case JOX_INPUT_BEFORE:
         return true;
     case JOX_INPUT_FILES:
         return jox_host_play_files(scene, entry, error);
@@ -140,7 +142,7 @@ bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
     fprintf(scene->log, "# input log of jostle %s: scene %s, seed %llu, dt %.9g s%s\n",
             jo_version(), scene->def.path, (unsigned long long)world->def.seed, world->def.dt,
             world->tick ? ", begun in mid-run" : "");
-    scene->log_failed = fflush(scene->log) != 0;
+    jox_host_log_origin(scene);
     return jox_host_logged(scene, error);
 }
 
@@ -166,7 +168,7 @@ bool jox_host_end_log(JoScene *scene, JoError *error) {
 static bool perform(JoScene *scene, JoxInputEntry *entry, JoError *error) {
     if (!do_entry(scene, entry, error))
         return false;
-    if (!entry->files) /* a reload is logged as it goes live */
+    if (entry->verb < JOX_INPUT_BEGAN) /* a reload is logged as it goes live */
         jox_host_log(scene, entry);
     return true;
 }

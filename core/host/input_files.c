@@ -5,6 +5,35 @@
 #include "base/mem.h"
 #include "host/host.h"
 
+/* ---- what a run is made of ---- */
+
+static void log_made(JoScene *scene, JoxFiles *told, const char *path, const char *sha256) {
+    uint32_t before = told->count;
+    jox_files_add(told, path);
+    JoxInputEntry entry = {.verb = JOX_INPUT_MADE, .names = {(char *)path, (char *)sha256}};
+    if (told->count > before && strlen(path) <= JOX_INPUT_PATH)
+        jox_host_log(scene, &entry);
+}
+
+void jox_host_log_origin(JoScene *scene) {
+    const JoWorld *world = scene->world;
+    JoxFiles told = {0};
+    char seed[32];
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)world->def.seed);
+    JoxInputEntry began = {.verb = JOX_INPUT_BEGAN, .names = {seed}, .given = 1};
+    began.numbers[0] = world->def.dt;
+    jox_host_log(scene, &began);
+    for (uint32_t f = 0; f < scene->plan->file_count; f++)
+        log_made(scene, &told, scene->plan->files[f].path, scene->plan->files[f].sha256);
+    for (uint32_t m = 0; m < world->mind.machine_count; m++) {
+        uint32_t count;
+        const JoxLuaFile *files = jox_lua_files(scene->lua, world->mind.machines[m], &count);
+        for (uint32_t f = 0; f < count; f++)
+            log_made(scene, &told, files[f].path, files[f].sha256);
+    }
+    jox_files_free(&told);
+}
+
 /* ---- writing ---- */
 
 static void add_file(JoxInputEntry *entry, const char *path, const char *text, size_t length) {
@@ -76,6 +105,40 @@ bool jox_host_is_live(const JoScene *scene, const JoxInputFile *file) {
 }
 
 /* ---- playing ---- */
+
+static void check_began(const JoScene *scene, const JoxInputEntry *entry) {
+    const JoWorldDef *def = &scene->world->def;
+    char seed[32];
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)def->seed);
+    if (strcmp(seed, entry->names[0]) != 0 || def->dt != entry->numbers[0])
+        jox_host_say(scene,
+                     "%s:%d: the log was written with seed %s and steps of %g s, not %s and %g s: "
+                     "the run goes another way (--seed %s --dt %g)\n",
+                     scene->input_path, entry->line, entry->names[0], entry->numbers[0], seed,
+                     def->dt, entry->names[0], entry->numbers[0]);
+    if (entry->tick > 0)
+        jox_host_say(scene,
+                     "%s:%d: the log was begun %u steps into the run: it does not tell all that "
+                     "was done\n",
+                     scene->input_path, entry->line, entry->tick);
+}
+
+void jox_host_check_log(const JoScene *scene) {
+    const JoxInputLog *log = &scene->world->input;
+    for (size_t e = 0; e < log->count; e++) {
+        const JoxInputEntry *entry = &log->entries[e];
+        const char *sha256;
+        size_t length;
+        if (entry->verb == JOX_INPUT_BEGAN)
+            check_began(scene, entry);
+        if (entry->verb == JOX_INPUT_MADE && live_text(scene, entry->names[0], &sha256, &length) &&
+            strcmp(sha256, entry->names[1]) != 0)
+            jox_host_say(scene,
+                         "%s:%d: %s has changed since the log was written: the run may go another "
+                         "way\n",
+                         scene->input_path, entry->line, entry->names[0]);
+    }
+}
 
 void jox_host_before(JoxOverlay *overlay, const JoxInputLog *log) {
     for (size_t e = 0; e < log->count; e++)

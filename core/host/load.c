@@ -378,6 +378,7 @@ JoScene *jox_host_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void
     for (uint32_t m = 0; m < scene->mods->count; m++)
         jox_host_say(scene, "%s %s %s (%s)\n", m ? "     " : "mods:", scene->mods->items[m].name,
                      scene->mods->items[m].version, scene->mods->items[m].folder);
+    jox_host_check_log(scene);
     JoxSettled settled = jox_world_settle(scene->world);
     if (settled.moved || settled.stuck)
         jox_host_say(scene,

@@ -250,7 +250,7 @@ static void do_command(Playing *p, JoxWatcher *by, const char *json) {
     } VERBS[] = {{"play", do_play},   {"pause", do_play},   {"step", do_step},
                  {"seek", do_seek},   {"speed", do_speed},  {"restart", do_restart},
                  {"field", do_field}, {"colour", do_colour}};
-    JoxCommand command;
+    JoxCommand command = {0};
     if (!jox_command_read(json, &command))
         return; /* the server has dropped those */
     Said said = {p, by, &command};

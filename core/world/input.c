@@ -8,13 +8,13 @@
 
 #include "base/mem.h"
 
-enum { LONGEST_LINE = 1024, LONGEST_PATH = 1000 };
+enum { LONGEST_LINE = 1200 };
 static const size_t LARGEST_FILE = (size_t)16 << 20; /* bytes */
 
 /* One word of a verb: a number with its range, or a name. */
 typedef struct Word {
     const char *name;
-    enum { NUMBER, WHOLE, NAME, FILES } kind;
+    enum { NUMBER, WHOLE, NAME, PATH, FILES } kind;
     double least, most;
     const char *unit;
 } Word;
@@ -69,6 +69,8 @@ static const struct Verb {
      4,
      4,
      "set walker Walk speed 1.2"},
+    {"began", {CALLED("SEED"), {"DT", NUMBER, 0.001, 0.2, "s"}}, 2, 2, "began 1 0.05"},
+    {"made", {{"PATH", PATH, 0, 0, ""}, CALLED("SHA256")}, 2, 2, "made scenes/office.yaml 0c8e..."},
     {"before", {{"N", FILES, 1, JOX_INPUT_FILE_COUNT, "files"}}, 1, 1, "before 1"},
     {"files", {{"N", FILES, 1, JOX_INPUT_FILE_COUNT, "files"}}, 1, 1, "files 1"}};
 
@@ -77,7 +79,7 @@ static const struct Verb {
 /* A line that is read: what is wrong with it goes into `wrong`, and where into the columns. */
 typedef struct Reader {
     const char *line, *at, *end;
-    char word[JOX_INPUT_NAME + LONGEST_PATH];
+    char word[JOX_INPUT_NAME + JOX_INPUT_PATH];
     int number;             /* of the line */
     int column, end_column; /* of the word, from 1 */
     bool quoted;
@@ -165,12 +167,13 @@ static bool read_number(Reader *r, const Word *word, double *out) {
 static bool read_word(Reader *r, const Word *word, JoxInputEntry *entry) {
     double value;
     uint32_t names = 0;
-    if (word->kind == NAME) {
+    if (word->kind == NAME || word->kind == PATH) {
+        const size_t most = word->kind == PATH ? JOX_INPUT_PATH : JOX_INPUT_NAME;
         while (names < JOX_INPUT_NAMES && entry->names[names])
             names++;
         size_t n = strlen(r->word);
-        if (n == 0 || n > JOX_INPUT_NAME || names == JOX_INPUT_NAMES)
-            return refuse(r, NULL, "%s must have from 1 to %d bytes", word->name, JOX_INPUT_NAME);
+        if (n == 0 || n > most || names == JOX_INPUT_NAMES)
+            return refuse(r, NULL, "%s must have from 1 to %zu bytes", word->name, most);
         entry->names[names] = jox_strdup(r->word);
         return true;
     }
@@ -238,8 +241,9 @@ bool jox_input_read(const char *line, JoxInputEntry *entry, JoxText *wrong) {
     bool good = n <= LONGEST_LINE
                     ? read_verb(&r, entry)
                     : refuse(&r, NULL, "the line is longer than %d bytes", LONGEST_LINE);
-    if (good && VERBS[entry->verb].words[0].kind == FILES)
-        good = refuse(&r, NULL, "files come by being saved, not by a line");
+    if (good && entry->verb >= JOX_INPUT_BEGAN)
+        good = refuse(&r, NULL, "%s stands in logs alone; files come by being saved",
+                      VERBS[entry->verb].name);
     if (!good && hint.length)
         jox_text_printf(wrong, ". %s", hint.data);
     if (!good)
@@ -281,18 +285,21 @@ static bool read_file(Parser *p, Reader *r, JoxInputFile *file) {
         return r->wrong->length
                    ? false
                    : refuse(r, "Example: behaviours/walker.lua 812", "expected a file: PATH BYTES");
-    if (!*r->word || strlen(r->word) > LONGEST_PATH)
-        return refuse(r, NULL, "the path must have from 1 to %d bytes", LONGEST_PATH);
+    if (!*r->word || strlen(r->word) > JOX_INPUT_PATH)
+        return refuse(r, NULL, "the path must have from 1 to %d bytes", JOX_INPUT_PATH);
     file->path = jox_strdup(r->word);
     if (!next_word(r))
         return r->wrong->length ? false
                                 : refuse(r, NULL, "how many bytes has '%.200s'?", file->path);
     if (!read_number(r, &BYTES, &bytes))
         return false;
+    const int column = r->column, end_column = r->end_column;
     if (next_word(r))
         return refuse(r, NULL, "'%.40s' is one word too many: PATH BYTES", r->word);
     if (r->wrong->length)
         return false;
+    r->column = column; /* what is said next is about their number */
+    r->end_column = end_column;
     if ((size_t)bytes > LARGEST_FILE || (size_t)bytes > (size_t)(p->end - p->at))
         return refuse(r, "Is the log cut off?", "only %zu bytes follow, not %.0f",
                       (size_t)(p->end - p->at), bytes);
@@ -407,7 +414,7 @@ void jox_input_write(const JoxInputEntry *entry, JoxText *out) {
     jox_text_printf(out, "%u %s", entry->tick, verb->name);
     for (uint32_t w = 0; w < verb->most; w++) {
         const Word *word = &verb->words[w];
-        if (word->kind == NAME) {
+        if (word->kind == NAME || word->kind == PATH) {
             write_name(entry->names[name++], out);
         } else if (word->kind != NUMBER) {
             jox_text_printf(out, " %u", entry->number);

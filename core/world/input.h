@@ -9,6 +9,8 @@
    force on an agent during the step, N TICK open WALL, TICK close WALL             a named wall
        TICK signal NAME                            everybody hears it
        TICK set MACHINE STATE PARAMETER VALUE      STATE may be `defaults`
+       TICK began SEED DT                          the run that was logged, s
+       TICK made PATH SHA256                       a file that it was made of
        TICK before N, TICK files N                 N files follow: a line PATH BYTES, then those
                                                    bytes and a newline; `files` go live together,
                                                    `before` is what they were when the run began */
@@ -30,6 +32,8 @@ typedef enum JoxInputVerb {
     JOX_INPUT_CLOSE,
     JOX_INPUT_SIGNAL,
     JOX_INPUT_SET,
+    JOX_INPUT_BEGAN,
+    JOX_INPUT_MADE,
     JOX_INPUT_BEFORE,
     JOX_INPUT_FILES,
     JOX_INPUT_VERBS
@@ -39,6 +43,7 @@ enum {
     JOX_INPUT_NUMBERS = 9,
     JOX_INPUT_NAMES = 3,
     JOX_INPUT_NAME = 120,
+    JOX_INPUT_PATH = 1000,
     JOX_INPUT_FILE_COUNT = 1024
 };
 
