@@ -7,9 +7,9 @@
 #include "host/replay_parts.h"
 
 enum { MOST_BODIES = 1 << 20 };
-static const float RADIUS = 0.2f; /* m: recordings do not say it */
-static const double LONGEST = 0.3;   /* s over which displacements are taken for velocities */
-static const float MARGIN = 2.0f; /* m about everything */
+static const float RADIUS = 0.2f;  /* m: recordings do not say it */
+static const double LONGEST = 0.3; /* s over which displacements are taken for velocities */
+static const float MARGIN = 2.0f;  /* m about everything */
 
 /* ---- opening ---- */
 
