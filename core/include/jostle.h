@@ -268,7 +268,7 @@ typedef struct JoViewDef {
     double seconds;           /* simulated, after which it pauses; 0: the scene's duration */
     const char *record;       /* file for trajectories, or NULL; a restart begins it anew */
     const char *log_input;    /* file for what people do, or NULL; a restart begins it anew */
-    const volatile int *stop; /* it ends once this is not 0; NULL: never */
+    const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
     JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
     void *opened_context;
     char **summary; /* NULL, or for the figures of the run as it ended; free with jo_free */
@@ -289,7 +289,7 @@ typedef struct JoViewRecordingDef {
     const char *page;
     const char *three;
     int port;
-    const volatile int *stop; /* it ends once this is not 0; NULL: never */
+    const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
     JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
     void *opened_context;
     JoMessage *message; /* NULL: to stderr */

@@ -282,10 +282,10 @@ static void no_text_does_harm(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_verb_is_read),
-        cmocka_unit_test(each_example_is_right),      cmocka_unit_test(what_is_written_reads_back),
-        cmocka_unit_test(numbers_keep_every_bit), cmocka_unit_test(mistakes_have_their_places),
-        cmocka_unit_test(one_line_by_itself),     cmocka_unit_test(no_text_does_harm),
+        cmocka_unit_test(each_verb_is_read),          cmocka_unit_test(each_example_is_right),
+        cmocka_unit_test(what_is_written_reads_back), cmocka_unit_test(numbers_keep_every_bit),
+        cmocka_unit_test(mistakes_have_their_places), cmocka_unit_test(one_line_by_itself),
+        cmocka_unit_test(no_text_does_harm),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     jox_diag_free(&wrong);
