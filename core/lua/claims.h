@@ -58,6 +58,7 @@ typedef struct JoxClaim {
     JoxClaimPlot *plots;
     char **tried; /* what was tried where it misses, sentence by sentence */
     uint32_t run_count, figure_count, picture_count, plot_count, tried_count;
+    bool too_long;     /* quick = false: nothing smaller would show it */
     JoxClaimRun spare; /* while a file is read */
     struct JoxClaimCode *code;
 } JoxClaim;
