@@ -15,8 +15,9 @@ local function run(scene, seeds) return { scene = "../" .. scene .. ".yaml", see
 return claim {
   id = "3", title = "Walls that break, that turn, and that stay",
   source = "Kim et al. 2014, Figs. 2 and 7",
-  text = "1200 people stop before a wall of 200 glued blocks, press, and carry its pieces away. With glue that holds, the "
-    .. "wall turns as a whole and a gap lets them out; too heavy, it hardly moves, and room runs through the crowd in waves.",
+  text = "1200 people stop before a wall of 200 glued blocks, press, and carry its pieces away. With glue that holds, "
+    .. "the wall turns as a whole and a gap lets them out; too heavy, it hardly moves, and room runs through the "
+    .. "crowd in waves.",
   runs = { breaking = run("wall-breaking", 3), tight = run("wall-tight", 3), heavy = run("wall-heavy", 3) },
   quick = { breaking = { seeds = 1, duration = 60 }, tight = { seeds = 1 }, heavy = { seeds = 1, duration = 90 } },
   measure = function(run)
