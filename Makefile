@@ -3,10 +3,12 @@
 VERSION := 0.1.0
 MODE    ?= release
 BULLET  ?= 1
+CAIRO   ?= 1
 PREFIX  ?= /usr/local
+LACKS   := $(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(CAIRO)),-nocairo)
 # Where the program finds its library of Lua, behaviours and scenes: this tree, until it is installed.
 DATADIR ?= $(CURDIR)
-B       ?= build/$(MODE)$(if $(filter 0,$(BULLET)),-nobullet)
+B       ?= build/$(MODE)$(LACKS)
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
@@ -18,10 +20,11 @@ SRC_CC  :=
 else
 SRC_C   := $(filter-out core/body/none.c,$(SRC_C))
 endif
+SRC_C   := $(filter-out core/record/canvas_$(if $(filter 0,$(CAIRO)),cairo,none).c,$(SRC_C))
 SRC_CLI := $(sort $(wildcard core/cli/*.c))
 TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api),$(wildcard tests/unit/$(d)_*.c)))
 BENCHES := $(sort $(wildcard tests/bench/*.c))
-PKGS    := lua5.4 yaml-0.1 sqlite3 $(if $(filter 0,$(BULLET)),,bullet)
+PKGS    := lua5.4 yaml-0.1 sqlite3 $(if $(filter 0,$(BULLET)),,bullet) $(if $(filter 0,$(CAIRO)),,cairo)
 
 OPT.release := -O2 -DNDEBUG
 OPT.debug   := -O0 -g
@@ -117,7 +120,7 @@ REFERENCE := behaviours:scripts/behaviour.md scenes:scripts/scene.md lua-ls:scri
 unit: $(UNIT)
 	@set -e; for t in $(UNIT); do echo "== $$t"; $$t; done
 # Installed files know where the library's Lua lies, so that each PREFIX is built apart.
-INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(if $(filter 0,$(BULLET)),-nobullet)
+INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(LACKS)
 D          = $(DESTDIR)$(PREFIX)
 install:
 	@$(MAKE) --no-print-directory B=$(INSTALL_B) DATADIR=$(PREFIX)/share/jostle all
