@@ -31,7 +31,7 @@ static const char HELP[] =
     "of a scene, as of `jostle run`: --seed N --dt S --threads N --set PATH=VALUE --input FILE\n"
     "  --mod DIR --no-mods\n"
     "of a recording:\n"
-    "  --scene SCENE              whose walls and places are drawn\n"
+    "  --scene SCENE              whose walls and places are drawn (recordings keep solid walls)\n"
     "  --recorded-fps N           frames a second, where the recording does not say\n"
     "  --unit m|cm                unit of its lengths, where it does not say\n\n"
     "examples:\n"

@@ -18,8 +18,8 @@ const struct JoxShown jox_shown[JOX_SHOWS] = {
     {"group", "Group", 0},
     {"speed", "Speed, m/s", 2},
     {"force", "Net force, N", 500},
-    {"compression", "Compression, N/m of girth", 2000},
-    {"density", "Density, people/m\xc2\xb2", 8},
+    {"compression", "Compression, N/m", 2000},
+    {"density", "Density, 1/m\xc2\xb2", 8},
     {"pressure", "Crowd pressure, 1/s\xc2\xb2", 0.04f},
 };
 
@@ -248,27 +248,50 @@ static void name(JoxDrawing *d, JoxV2 at, const char *text) {
     }
 }
 
+/* Where a place's name stands: within an area at its upper edge, so that it hides few. */
+static JoxV2 name_at(const JoxDrawing *d, const JoxPlace *place) {
+    JoxV2 low, high;
+    float line = 10 * d->unit / d->scale; /* m: to the middle of a line at an edge */
+    if (place->kind != JOX_PLACE_POLYGON)
+        return place->centre;
+    jox_bounds(place->points, place->count, &low, &high);
+    JoxV2 at = {place->centre.x, high.y - line};
+    bool roomy = high.y - low.y > 4 * line && jox_polygon_contains(place->points, place->count, at);
+    return roomy ? at : place->centre;
+}
+
+/* Where a gate's name stands: beside it, on the side away from the middle of the map. */
+static JoxV2 gate_name_at(const JoxDrawing *d, const struct JoxWallRing *ring) {
+    const JoxPicture *p = d->picture;
+    const JoxWallVertex *first = &p->walls->vertices[ring->first];
+    JoxV2 sum = {0, 0};
+    for (uint32_t i = 0; i < ring->count; i++)
+        sum = jox_add(sum, first[i].point);
+    JoxV2 middle = jox_scale(sum, 1.0f / (float)ring->count);
+    JoxV2 out = jox_sub(middle, jox_scale(jox_add(p->low, p->high), 0.5f));
+    JoxV2 normal = jox_left(first->direction);
+    normal = jox_dot(normal, out) < 0.0f ? jox_scale(normal, -1.0f) : normal;
+    float size = 12 * d->unit, half = 0.5f * jox_draw_width(ring->name, size, false);
+    float away = (fabsf(normal.x) * half + fabsf(normal.y) * 0.6f * size + 5 * d->unit) / d->scale;
+    return jox_add(middle, jox_scale(normal, away));
+}
+
 static void draw_names(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     JoxStyle style = {
         .fill = jox_ink_gate, .line = jox_ink_with(WHITE, 0.9f), .width = 3 * d->unit};
     jox_canvas_open(d->canvas, "names", NULL, style);
     jox_canvas_open(d->canvas, NULL, "gates", style);
-    for (uint32_t r = 0; p->walls && r < p->walls->ring_count; r++) {
-        const struct JoxWallRing *ring = &p->walls->rings[r];
-        JoxV2 sum = {0, 0};
-        for (uint32_t i = 0; i < ring->count; i++)
-            sum = jox_add(sum, p->walls->vertices[ring->first + i].point);
-        if (ring->name)
-            name(d, jox_scale(sum, 1.0f / (float)ring->count), ring->name);
-    }
+    for (uint32_t r = 0; p->walls && r < p->walls->ring_count; r++)
+        if (p->walls->rings[r].name)
+            name(d, gate_name_at(d, &p->walls->rings[r]), p->walls->rings[r].name);
     jox_canvas_close(d->canvas);
     style.fill = (JoxInk){0x24, 0x45, 0x69, 1};
     jox_canvas_open(d->canvas, NULL, "places", style);
     for (uint32_t i = 0; i < p->place_count; i++) {
         const JoxPlace *place = &p->places[i];
         if (place->kind != JOX_PLACE_SET && place->count && place->name)
-            name(d, place->centre, place->name);
+            name(d, name_at(d, place), place->name);
     }
     jox_canvas_close(d->canvas);
     jox_canvas_close(d->canvas);

@@ -30,7 +30,9 @@ static void write(const Legend *l, float x, JoxAnchor anchor, bool bold, const c
 
 static void heading(Legend *l, const char *text) {
     l->y += 8 * l->d->unit;
-    write(l, l->x, JOX_ANCHOR_START, true, text);
+    char fit[128];
+    jox_draw_fit(fit, sizeof fit, text, TEXT * l->d->unit, true, l->right - l->x);
+    write(l, l->x, JOX_ANCHOR_START, true, fit);
     l->y += ROW * l->d->unit;
 }
 
@@ -80,14 +82,14 @@ static void classes(Legend *l) {
     const JoxDrawing *d = l->d;
     const JoxPicture *p = d->picture;
     uint32_t left = 0, hidden = 0, rest = 0;
-    /* States without a machine come first; nobody wants to read of them where there are none. */
+    /* Who has no state, or no group that is named, is mentioned only where there is somebody. */
     bool all = d->classes <= MOST_SHOWN;
     float room = l->end - l->y - ROW * d->unit;
     for (uint32_t k = 0; k < d->classes; k++) {
         const char *name;
         char count[32];
         JoxInk ink = jox_draw_class(p, k, &name);
-        bool none = p->colour == JOX_SHOW_STATE && k == 0;
+        bool none = k == (p->colour == JOX_SHOW_STATE ? 0 : p->frame->group_count);
         if (d->people[k] == 0 && (!all || none))
             continue;
         if ((float)(left + 2) * ROW * d->unit > room) {
@@ -109,14 +111,15 @@ static void classes(Legend *l) {
 }
 
 /* A bar of all colours with its ends and middle. */
-static void bar(Legend *l, float most) {
+static void bar(Legend *l, float most, bool floor) {
     const JoxDrawing *d = l->d;
     float u = d->unit, size = BAR * u / JOX_DRAW_BINS;
     uint8_t levels[3 * JOX_DRAW_BINS];
     JoxInk ink[JOX_DRAW_BINS + 1] = {{0, 0, 0, 0}};
     char text[32];
     for (int k = 0; k < JOX_DRAW_BINS; k++) {
-        ink[k + 1] = jox_palette_value(((float)k + 0.5f) / JOX_DRAW_BINS);
+        ink[k + 1] = floor ? jox_draw_floor_ink(d->picture, (uint32_t)k)
+                           : jox_palette_value(((float)k + 0.5f) / JOX_DRAW_BINS);
         levels[k] = levels[JOX_DRAW_BINS + k] = levels[2 * JOX_DRAW_BINS + k] = (uint8_t)(k + 1);
     }
     JoxCells cells = {{l->x, l->y}, size, JOX_DRAW_BINS, 3, levels, ink, JOX_DRAW_BINS + 1};
@@ -223,7 +226,8 @@ void jox_draw_legend(JoxDrawing *d) {
                 .end = (float)d->canvas->height - 180 * u};
     char count[32], text[64];
     people(count, p->frame->count);
-    snprintf(text, sizeof text, "%s %s", count, p->frame->count == 1 ? "person" : "people");
+    snprintf(text, sizeof text, "%s %s%s", count, p->frame->count == 1 ? "person" : "people",
+             d->outside ? " in all" : "");
     jox_canvas_open(d->canvas, "legend", NULL, (JoxStyle){.fill = jox_ink_text});
     write(&l, l.x, JOX_ANCHOR_START, true, text);
     l.y += ROW * u;
@@ -237,12 +241,12 @@ void jox_draw_legend(JoxDrawing *d) {
         if (jox_draw_is_class(p->colour))
             classes(&l);
         else
-            bar(&l, p->colour_most);
+            bar(&l, p->colour_most, false);
     }
     if (p->grid) {
-        snprintf(text, sizeof text, "Floor: %s", jox_shown[p->floor].legend);
-        heading(&l, text);
-        bar(&l, p->floor_most);
+        heading(&l, p->floor == JOX_SHOW_DENSITY ? "Floor: density, 1/m\xc2\xb2"
+                                                 : "Floor: pressure, 1/s\xc2\xb2");
+        bar(&l, p->floor_most, true);
     }
     signs(&l);
     scale_bar(&l);

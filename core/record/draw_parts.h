@@ -19,7 +19,7 @@ typedef struct JoxDrawing {
         JoxV2 low, high;
     } labels[JOX_DRAW_LABELS]; /* px: taken by names */
     uint32_t label_count;
-    bool headings; /* are drawn */
+    bool headings, outside; /* are drawn; some people are not, as they are outside the area */
 } JoxDrawing;
 
 extern const JoxInk jox_ink_text, jox_ink_faint, jox_ink_wall, jox_ink_solid, jox_ink_gate,
@@ -37,9 +37,12 @@ static inline JoxV2 jox_draw_at(const JoxDrawing *d, JoxV2 p) {
 float jox_draw_width(const char *text, float size, bool bold);
 /* Copies text, cut with an ellipsis where it would be wider than so many px. */
 void jox_draw_fit(char *out, size_t capacity, const char *text, float size, bool bold, float wide);
-/* Colour and name of the n-th class; what a class is called in SVG goes to `kind`. */
+/* Colour and name of the n-th class. */
 JoxInk jox_draw_class(const JoxPicture *picture, uint32_t n, const char **name);
 bool jox_draw_is_class(JoxShow show);
+/* Colour of the n-th of JOX_DRAW_BINS steps on the floor: greys where people's colours are of a
+   value as well. */
+JoxInk jox_draw_floor_ink(const JoxPicture *picture, uint32_t n);
 
 void jox_draw_field(JoxDrawing *drawing);
 void jox_draw_people(JoxDrawing *drawing);

@@ -14,9 +14,20 @@ bool jox_draw_is_class(JoxShow show) {
     return show == JOX_SHOW_STATE || show == JOX_SHOW_GROUP;
 }
 
+JoxInk jox_draw_floor_ink(const JoxPicture *p, uint32_t n) {
+    float share = ((float)n + 0.5f) / JOX_DRAW_BINS;
+    uint8_t grey = (uint8_t)(235.0f - 195.0f * share);
+    return p->colour == JOX_SHOW_NOTHING || jox_draw_is_class(p->colour)
+               ? jox_palette_value(share)
+               : (JoxInk){grey, grey, grey, 1.0f};
+}
+
 JoxInk jox_draw_class(const JoxPicture *p, uint32_t n, const char **name) {
     const JoxFrame *frame = p->frame;
-    *name = p->colour == JOX_SHOW_STATE ? frame->states[n] : frame->groups[n];
+    if (p->colour == JOX_SHOW_GROUP && n >= frame->group_count)
+        *name = ""; /* of a recording that does not name it */
+    else
+        *name = p->colour == JOX_SHOW_STATE ? frame->states[n] : frame->groups[n];
     if (**name)
         /* States begin with that of those without a machine, who are grey. */
         return jox_palette_class(p->colour == JOX_SHOW_STATE ? n - 1 : n);
@@ -53,7 +64,8 @@ static uint32_t class_of(const JoxPicture *p, uint32_t i) {
     if (p->colour == JOX_SHOW_STATE)
         return p->frame->state[i];
     if (p->colour == JOX_SHOW_GROUP)
-        return p->frame->group[i];
+        return p->frame->group[i] < p->frame->group_count ? p->frame->group[i]
+                                                          : p->frame->group_count;
     uint32_t bin = (uint32_t)(share(p, i) * JOX_DRAW_BINS);
     return bin < JOX_DRAW_BINS ? bin : JOX_DRAW_BINS - 1;
 }
@@ -61,7 +73,7 @@ static uint32_t class_of(const JoxPicture *p, uint32_t i) {
 static uint32_t class_count(const JoxPicture *p) {
     return p->colour == JOX_SHOW_NOTHING ? 1
            : p->colour == JOX_SHOW_STATE ? p->frame->state_count
-           : p->colour == JOX_SHOW_GROUP ? p->frame->group_count
+           : p->colour == JOX_SHOW_GROUP ? p->frame->group_count + 1
                                          : JOX_DRAW_BINS;
 }
 
@@ -97,7 +109,9 @@ static JoxStyle style_of(const JoxDrawing *d, uint32_t k, float radius, char kin
     if (radius >= EDGED * d->unit)
         style.line = (JoxInk){0x20, 0x20, 0x20, 0.55f};
     if (p->colour == JOX_SHOW_NOTHING) {
-        style.line = (JoxInk){0x10, 0x10, 0x10, 0.85f};
+        bool small = radius < HEADED * d->unit; /* and many: the floor is to be seen */
+        style.line = (JoxInk){0x10, 0x10, 0x10, small ? 0.5f : 0.85f};
+        style.width = small ? 0.4f * d->unit : 0.8f * d->unit;
         snprintf(kind, 96, "person");
     } else if (jox_draw_is_class(p->colour)) {
         style.fill = jox_draw_class(p, k, &name);
@@ -107,6 +121,12 @@ static JoxStyle style_of(const JoxDrawing *d, uint32_t k, float radius, char kin
         snprintf(kind, 96, "%s-%u", jox_shown[p->colour].name, k);
     }
     return style;
+}
+
+/* Whether any of a disc is on the map. */
+static bool shown(const JoxDrawing *d, JoxV2 at, float radius) {
+    return at.x + radius > d->low.x && at.x - radius < d->high.x && at.y + radius > d->low.y &&
+           at.y - radius < d->high.y;
 }
 
 /* A mark from the centre to the rim, where somebody looks. */
@@ -120,9 +140,9 @@ static void draw_headings(JoxDrawing *d) {
         float radius = radius_of(d, i);
         JoxV2 along = p->face_x ? jox_v2(p->face_x[i], p->face_y[i])
                                 : jox_unit(jox_v2(frame->vx[i], frame->vy[i]));
-        if (radius < HEADED * d->unit || !(jox_length2(along) > 0.0f))
-            continue;
         JoxV2 at = jox_draw_at(d, jox_v2(frame->x[i], frame->y[i]));
+        if (radius < HEADED * d->unit || !(jox_length2(along) > 0.0f) || !shown(d, at, radius))
+            continue;
         ends[count++] = at;
         ends[count++] = jox_add(at, jox_v2(along.x * radius, -along.y * radius));
         widest = jox_maxf(widest, radius);
@@ -148,9 +168,12 @@ void jox_draw_people(JoxDrawing *d) {
         for (uint32_t n = 0; n < d->people[k]; n++) {
             uint32_t i = order[at++];
             char id[16];
+            JoxV2 here = jox_draw_at(d, jox_v2(frame->x[i], frame->y[i]));
             snprintf(id, sizeof id, "p%u", frame->key[i]);
-            jox_canvas_disc(d->canvas, jox_draw_at(d, jox_v2(frame->x[i], frame->y[i])),
-                            radius_of(d, i), id);
+            if (shown(d, here, radius_of(d, i)))
+                jox_canvas_disc(d->canvas, here, radius_of(d, i), id);
+            else
+                d->outside = true;
         }
         jox_canvas_close(d->canvas);
     }
@@ -167,7 +190,7 @@ void jox_draw_field(JoxDrawing *d) {
     uint8_t *levels = jox_alloc((size_t)grid->columns * grid->rows, 1);
     JoxInk ink[JOX_DRAW_BINS + 1] = {{0, 0, 0, 0}};
     for (int k = 0; k < JOX_DRAW_BINS; k++)
-        ink[k + 1] = jox_palette_value(((float)k + 0.5f) / JOX_DRAW_BINS);
+        ink[k + 1] = jox_draw_floor_ink(p, (uint32_t)k);
     for (uint32_t r = 0; r < grid->rows; r++)
         for (uint32_t c = 0; c < grid->columns; c++) {
             float value = p->field[(size_t)(grid->rows - 1 - r) * grid->columns + c];
