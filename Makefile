@@ -24,7 +24,7 @@ SRC_C   := $(filter-out core/record/canvas_$(if $(filter 0,$(CAIRO)),cairo,none)
 SRC_CLI := $(sort $(wildcard core/cli/*.c))
 TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api),$(wildcard tests/unit/$(d)_*.c)))
 BENCHES := $(sort $(wildcard tests/bench/*.c))
-PKGS    := lua5.4 yaml-0.1 sqlite3 $(if $(filter 0,$(BULLET)),,bullet) $(if $(filter 0,$(CAIRO)),,cairo)
+PKGS    := lua5.4 yaml-0.1 sqlite3 expat $(if $(filter 0,$(BULLET)),,bullet) $(if $(filter 0,$(CAIRO)),,cairo)
 
 OPT.release := -O2 -DNDEBUG
 OPT.debug   := -O0 -g

@@ -57,6 +57,8 @@ void jox_walls_add_polyline(JoxWalls *walls, const JoxV2 *points, uint32_t count
 
 void jox_walls_name(JoxWalls *walls, uint32_t first, const char *name, bool open) {
     for (uint32_t r = first; r < walls->ring_count; r++) {
+        if (walls->rings[r].name)
+            continue;
         walls->rings[r].name = jox_strdup(name);
         walls->rings[r].open = open;
     }

@@ -37,7 +37,7 @@ void jox_walls_add_solid(JoxWalls *walls, const JoxV2 *ring, uint32_t count, flo
    gives a thin closed wall, whose inside can be walked. */
 void jox_walls_add_polyline(JoxWalls *walls, const JoxV2 *points, uint32_t count, bool closed,
                             float height);
-/* Gives the rings from `first` on a name (copied); open ones do not stand. */
+/* Gives the rings from `first` on that have none a name (copied); open ones do not stand. */
 void jox_walls_name(JoxWalls *walls, uint32_t first, const char *name, bool open);
 /* Makes `out` the walls of `all` that stand, without their names; with `gates` false, of these only
    such as never open. Keeps its memory. */

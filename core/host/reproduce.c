@@ -1,6 +1,7 @@
 /* jo_reproduce: claims, the runs that they share, and what is measured on them. */
 #include "host/reproduce.h"
 
+#include <ctype.h>
 #include <dirent.h>
 #include <math.h>
 #include <stdio.h>
@@ -59,12 +60,30 @@ static char **list_files(const char *folder, size_t *count) {
     return files;
 }
 
+/* The paper's claims by number first, then others by letter and number. */
+static int by_id(const void *left, const void *right) {
+    const char *a = ((const JoxOutcome *)left)->claim->id;
+    const char *b = ((const JoxOutcome *)right)->claim->id;
+    if (isdigit((unsigned char)*a) != isdigit((unsigned char)*b))
+        return isdigit((unsigned char)*a) ? -1 : 1;
+    if (!isdigit((unsigned char)*a) && *a != *b)
+        return *a < *b ? -1 : 1;
+    long x = strtol(isdigit((unsigned char)*a) ? a : a + 1, NULL, 10);
+    long y = strtol(isdigit((unsigned char)*b) ? b : b + 1, NULL, 10);
+    return x != y ? (x < y ? -1 : 1) : strcmp(a, b);
+}
+
 static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
     size_t count, capacity = 0;
     char **files = list_files(all->def->folder, &count);
     for (size_t f = 0; f < count; f++) {
         JoxClaim *claim = jox_claim_load(files[f], all->def->quick, diagnostics);
-        if (claim && is_wanted(all->def, claim)) {
+        bool wanted = claim && is_wanted(all->def, claim);
+        if (wanted && all->def->quick && claim->too_long && all->def->claim_count == 0) {
+            jox_text_printf(&all->left_out, "%s%s", all->left_out.length ? ", " : "", claim->id);
+            wanted = false;
+        }
+        if (wanted) {
             JOX_RESERVE(all->outcomes, capacity, all->outcome_count + 1);
             all->outcomes[all->outcome_count++] = (JoxOutcome){.claim = claim};
         } else {
@@ -73,6 +92,8 @@ static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
         jox_free(files[f]);
     }
     jox_free(files);
+    if (all->outcome_count)
+        qsort(all->outcomes, all->outcome_count, sizeof *all->outcomes, by_id);
     if (count == 0)
         jox_diag_error(diagnostics, ((JoxPosition){all->def->folder, 0, 0, 0}), "no-claims",
                        "Run it in the project's folder, or name one: --claims DIR",
@@ -240,6 +261,7 @@ static void free_all(JoxReproduction *all) {
     }
     jox_free(all->outcomes);
     jox_free(all->jobs);
+    jox_text_free(&all->left_out);
 }
 
 static bool go(JoxReproduction *all, size_t *missed, JoError *error) {
@@ -265,6 +287,8 @@ static bool go(JoxReproduction *all, size_t *missed, JoError *error) {
         if (!all->outcomes[o].inside)
             jox_text_printf(&out, "%s%s",
                             n++ ? ", " : "; these miss: ", all->outcomes[o].claim->id);
+    if (all->left_out.length)
+        jox_text_printf(&out, "\nleft out with --quick: %s", all->left_out.data);
     jox_text_printf(&out, "\nreport: %s/index.html\n", all->def->out);
     say(all->def, out.data);
     jox_text_free(&why);

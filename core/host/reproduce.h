@@ -44,7 +44,8 @@ typedef struct JoxReproduction {
     uint32_t job_count;
     size_t job_capacity;
     char program_sha256[65];
-    double seconds; /* wall time of all */
+    double seconds;   /* wall time of all */
+    JoxText left_out; /* ids of claims that have no quick runs */
 } JoxReproduction;
 
 /* reproduce_runs.c: does all jobs that are not done already, several at once; false where it was

@@ -53,6 +53,36 @@ static void add_states(JoxText *out, const JoWorld *world) {
     jox_text_add(out, "}");
 }
 
+typedef struct Counted {
+    JoxText *out;
+    bool any;
+} Counted;
+
+static void add_taken(void *context, const char *from, const char *to, uint64_t taken) {
+    Counted *counted = context;
+    JoxText key = {0};
+    jox_text_printf(&key, "%s>%s", from, to);
+    jox_text_add(counted->out, counted->any ? ", " : "");
+    jox_text_json(counted->out, key.data);
+    jox_text_free(&key);
+    jox_text_printf(counted->out, ": %llu", (unsigned long long)taken);
+    counted->any = true;
+}
+
+/* "From>To": how often, by all agents. */
+static void add_transitions(JoxText *out, const JoxMind *mind) {
+    jox_text_add(out, ",\n \"transitions\": {");
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        Counted counted = {out, false};
+        jox_text_add(out, m ? ", " : "");
+        jox_text_json(out, mind->machines[m]->name);
+        jox_text_add(out, ": {");
+        jox_mind_taken(mind, m, add_taken, &counted);
+        jox_text_add(out, "}");
+    }
+    jox_text_add(out, "}");
+}
+
 static void add_events(JoxText *out, const JoScene *scene) {
     const JoxStatistics *s = &scene->world->statistics;
     const struct {
@@ -265,6 +295,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_number(&out, "density_max", density_max(scene));
     add_number(&out, "overlap_p99", jox_statistics_overlap_p99(s));
     add_states(&out, world);
+    add_transitions(&out, &world->mind);
     add_regions(&out, scene);
     add_events(&out, scene);
     add_bonds(&out, scene);

@@ -175,11 +175,18 @@ static JoxClaimRun *find_run(lua_State *L, const JoxClaim *claim, const char *wh
     return NULL;
 }
 
-/* Of each run that it names, what it says in place of what `runs` said. */
+/* Of each run that it names, what it says in place of what `runs` said; false: there is nothing
+   smaller that would show it. */
 static void read_quick(lua_State *L, JoxClaim *claim, bool quick) {
     int top = lua_gettop(L), type = lua_getfield(L, -1, "quick");
+    if (type == LUA_TBOOLEAN && !lua_toboolean(L, -1)) {
+        claim->too_long = true;
+        lua_settop(L, top);
+        return;
+    }
     if (type != LUA_TNIL && type != LUA_TTABLE)
-        luaL_error(L, "quick = { name = { duration = 10, seeds = 1 } }, by the names of runs");
+        luaL_error(L, "quick = { name = { duration = 10, seeds = 1 } }, by the names of runs; or "
+                      "false");
     uint32_t count = 0;
     const char **names = type == LUA_TTABLE ? keys_of(L, &count) : NULL;
     for (uint32_t n = 0; n < count; n++) {

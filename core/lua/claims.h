@@ -35,6 +35,7 @@ typedef struct JoxClaim {
     JoxClaimFigure *figures;
     JoxClaimPicture *pictures;
     uint32_t run_count, figure_count, picture_count;
+    bool too_long;     /* quick = false: nothing smaller would show it */
     JoxClaimRun spare; /* while a file is read */
     struct JoxClaimCode *code;
 } JoxClaim;

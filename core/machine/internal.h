@@ -101,6 +101,9 @@ void jox_mind_write_parameters(JoxMind *mind, uint32_t agent);
 /* The parameter as the state, else the machine, sets it; UNSET if neither does. */
 const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *state,
                                     int parameter);
+/* Counts of transitions that a machine, or those before it, lack by now. */
+void jox_machine_add_before(JoxMachine *machine, const char *from, const char *to, uint64_t taken);
+void jox_machine_carry_before(const JoxMachine *old, JoxMachine *next);
 /* Parameters that are programs, pushing, approach and kicks, after the transitions. */
 void jox_mind_act(JoxMind *mind, JoxPool *pool);
 

@@ -165,6 +165,7 @@ typedef struct JoxTransition {
     JoxValue chance;   /* UNSET: certain */
     int32_t on_take;   /* hook or -1 */
     int32_t line;
+    uint64_t taken; /* how often, by all agents, since the start: what runs, not what it is */
 } JoxTransition;
 
 typedef struct JoxState {
@@ -230,6 +231,12 @@ typedef struct JoxName {
     uint32_t number; /* equal for equal texts in all machines of a mind; set when it is added */
 } JoxName;
 
+/* How often agents went from one state to another by transitions that a newer version lacks. */
+typedef struct JoxTakenBefore {
+    char *from, *to; /* names of states */
+    uint64_t taken;
+} JoxTakenBefore;
+
 typedef struct JoxMachine {
     char *name, *path;
     uint32_t version;
@@ -254,6 +261,8 @@ typedef struct JoxMachine {
     } * renamed; /* states of an older version */
     uint32_t renamed_count;
     uint32_t hook_count;
+    JoxTakenBefore *before;
+    uint32_t before_count;
     bool views; /* hooks look at other agents: as they were before the step */
     int32_t vm; /* which Lua state owns the hooks; -1 none */
 } JoxMachine;

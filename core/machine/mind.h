@@ -153,6 +153,10 @@ const char *jox_mind_refuses(const JoxMind *mind, uint32_t index, const JoxRepla
 JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, const JoxReplacement *replacement);
 /* Agents per state of machine `index`, written to people (as many as it has states). */
 void jox_mind_census(const JoxMind *mind, uint32_t index, uint32_t *people);
+/* How often agents of machine `index` went from state to state so far: visits each pair once, by
+   the names of the states, those of this version first. */
+typedef void JoxTakenVisit(void *context, const char *from, const char *to, uint64_t taken);
+void jox_mind_taken(const JoxMind *mind, uint32_t index, JoxTakenVisit *visit, void *context);
 /* Makes the agent go on with another machine, from its start state: it keeps its body, what the
    scene gave it and its memory, by name; the rest is drawn anew. */
 void jox_mind_become(JoxMind *mind, uint32_t agent, uint32_t machine);

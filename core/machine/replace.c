@@ -316,6 +316,27 @@ static void fetch_ahead(const JoxAgents *a, const JoxReplacement *r, uint32_t i)
         __builtin_prefetch(r->drawn + (size_t)a->id[i] * r->redrawn_count);
 }
 
+/* Counts of transitions that go on; what has no counterpart is kept by the names of its states. */
+static void carry_counts(const JoxReplacement *r, const JoxMachine *old) {
+    JoxMachine *next = r->next;
+    jox_machine_carry_before(old, next);
+    for (uint32_t s = 0; s < old->state_count; s++) {
+        const JoxState *was = &old->states[s];
+        const JoxState *is = r->state[s] < 0 ? NULL : &next->states[r->state[s]];
+        for (uint32_t o = 0; o < was->transition_count; o++) {
+            const JoxTransition *t = &was->transitions[o];
+            uint32_t k = 0;
+            while (is && k < is->transition_count &&
+                   (r->truth[s][k] != (int8_t)o || is->transitions[k].to != r->state[t->to]))
+                k++;
+            if (is && k < is->transition_count)
+                is->transitions[k].taken += t->taken;
+            else if (t->taken)
+                jox_machine_add_before(next, was->name, old->states[t->to].name, t->taken);
+        }
+    }
+}
+
 JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, const JoxReplacement *r) {
     JoxMachine *old = mind->machines[index], *next = r->next;
     JoxAgents *a = mind->agents;
@@ -323,6 +344,7 @@ JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, const JoxReplacement
     jox_mind_number_names(mind, next);
     mind->machines[index] = next;
     next->version = old->version + 1;
+    carry_counts(r, old);
     bool any = r->memory_moves || r->states_move;
     for (uint32_t s = 0; s < old->state_count; s++)
         any |= r->assign_count[s] || r->truth_moves[s] || r->tags_change[s];

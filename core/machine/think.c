@@ -274,7 +274,8 @@ static void take_transitions(JoxMind *mind) {
         uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(mind, i);
         const JoxState *from = &machine->states[a->state[i]];
-        const JoxTransition *t = &from->transitions[s->fired[i]];
+        JoxTransition *t = &from->transitions[s->fired[i]];
+        t->taken++;
         mind->taken[mind->taken_count++] =
             (JoxTaken){a->id[i], a->machine[i], a->state[i], t->to, (uint16_t)s->fired[i]};
         if (mind->traces && a->id[i] == mind->trace_id)

@@ -64,7 +64,7 @@ static bool load_plan(JoxLoad *l, const JoxYaml *map, float height) {
     file->text = memcpy(jox_hoard_take(r->hoard, length + 1, 1), data, length);
     file->length = length;
     jox_free(data);
-    return jox_plan_read_wkt(path, file->text, length, &options, &l->scene->walls, r->diagnostics);
+    return jox_plan_read(path, file->text, length, &options, &l->scene->walls, r->diagnostics);
 }
 
 void jox_load_walls(JoxLoad *l, const JoxYaml *list) {

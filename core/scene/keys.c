@@ -98,7 +98,7 @@ const JoxKey jox_scene_keys[] = {
      .meaning = "corners of a filled block"},
     {"wall", "line", POINTS, "m", -FAR, FAR, "", .of = "xy[2]", .meaning = "a thin wall"},
     {"wall", "file", TEXT, "", 0, 0, "",
-     .meaning = "beside the scene: walls as well-known text (WKT), or a recording (SQLite), whose plan is taken; ours have solids and the bounds alone"},
+     .meaning = "beside the scene: walls as well-known text (WKT), as a geometry of JuPedSim (XML), or a recording (SQLite), whose plan is taken; ours have solids and the bounds alone"},
     {"wall", "unit", NUMBER, "m", 1e-4, 1000, "1", .meaning = "of a file: one of its lengths"},
     {"wall", "origin", POINT, "", -1e12, 1e12, "",
      .meaning = "of a file: its point, in its lengths, that becomes [0, 0]"},
@@ -275,7 +275,9 @@ const JoxOwner jox_scene_owners[] = {
     {"place", "Places", "`places` maps names to places. There are five kinds, told apart by their key:"},
     {"wall", "Walls", "Each wall of the list `walls` is a `solid`, a `line` or a `file`. In a file, a "
      "POLYGON is what can be walked: its outer ring and its holes become walls; so do MULTIPOLYGON, LINESTRING, "
-     "MULTILINESTRING and GEOMETRYCOLLECTION."},
+     "MULTILINESTRING and GEOMETRYCOLLECTION. In an XML geometry of JuPedSim (rooms, subrooms) polygons are thin walls "
+     "and obstacles are solid; each transition is a door, a wall named `door-ID` by its id: it is open until an event "
+     "closes it. Crossings are gaps."},
     {"body", "Bodies", "Each body of the list `bodies` is simulated by Bullet, and pushed by people."},
     {"repeat", "repeat", "The first stands at the body's `at`. Copies of a body with a name are `NAME-1`, `NAME-2` and so on, along x first, then y, then z."},
     {"shape", "Shapes", "A shape is a map with one key, its kind."},

@@ -1,4 +1,4 @@
-#include "scene/plan.h"
+#include "scene/plan_parts.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -9,11 +9,7 @@
 #include "base/mem.h"
 #include "geom/polygon.h"
 
-/* How deep collections may lie in each other; points of a file; points of a ring that is tested
-   against itself (every edge with every other). */
-enum { DEEPEST = 16, MOST_POINTS = 200000, MOST_TESTED = 2000 };
-static const double FAR = 10000.0; /* m: floats still resolve a millimetre */
-static const float NEAR = 0.001f;  /* m: points that are one */
+enum { DEEPEST = 16 }; /* of collections in each other */
 
 typedef struct Parse {
     const char *path, *text, *at, *end;
@@ -104,13 +100,13 @@ static bool take_point(Parse *p) {
     }
     xy[0] = (xy[0] - p->options->origin_x) * p->options->unit;
     xy[1] = (xy[1] - p->options->origin_y) * p->options->unit;
-    if (!(fabs(xy[0]) <= FAR && fabs(xy[1]) <= FAR))
+    if (!(fabs(xy[0]) <= JOX_PLAN_FAR && fabs(xy[1]) <= JOX_PLAN_FAR))
         return wrong(p, at, "Give `origin: [X, Y]`, a point of the plan that becomes [0, 0]",
                      "this point lies over 10 km from the origin%s", "");
-    if (++p->total > MOST_POINTS)
+    if (++p->total > JOX_PLAN_MOST_POINTS)
         return wrong(p, at, "Simplify the plan", "a plan has at most 200000 points%s", "");
     JoxV2 point = {(float)xy[0], (float)xy[1]};
-    if (p->count && jox_length(jox_sub(point, p->points[p->count - 1])) < NEAR)
+    if (p->count && jox_length(jox_sub(point, p->points[p->count - 1])) < JOX_PLAN_NEAR)
         return true;
     JOX_RESERVE(p->points, p->point_capacity, p->count + 1);
     JOX_RESERVE(p->places, p->place_capacity, p->count + 1);
@@ -135,7 +131,8 @@ static bool take_line(Parse *p) {
     const char *at = p->at;
     if (!take_points(p))
         return false;
-    bool closed = p->count > 3 && jox_length(jox_sub(p->points[0], p->points[p->count - 1])) < NEAR;
+    bool closed =
+        p->count > 3 && jox_length(jox_sub(p->points[0], p->points[p->count - 1])) < JOX_PLAN_NEAR;
     if (p->count < 2)
         return wrong(p, at, NULL, "a wall has two points that lie apart%s", "");
     jox_walls_add_polyline(p->walls, p->points, p->count - closed, closed, p->options->height);
@@ -149,13 +146,13 @@ static bool take_ring(Parse *p, bool hole) {
     const char *at = p->at;
     if (!take_points(p))
         return false;
-    bool closed = jox_length(jox_sub(p->points[0], p->points[p->count - 1])) < NEAR;
+    bool closed = jox_length(jox_sub(p->points[0], p->points[p->count - 1])) < JOX_PLAN_NEAR;
     if (!closed)
         return wrong(p, at, "Repeat its first point at its end",
                      "this ring does not end where it begins%s", "");
     if (--p->count < 3)
         return wrong(p, at, NULL, "a ring has at least three corners%s", "");
-    if (p->count <= MOST_TESTED && jox_polygon_self_crosses(p->points, p->count, &a, &b))
+    if (p->count <= JOX_PLAN_MOST_TESTED && jox_polygon_self_crosses(p->points, p->count, &a, &b))
         return wrong(p, p->places[b], "Put the corners in order",
                      "this ring crosses or touches itself, by the edge that begins here%s", "");
     if (fabs(jox_polygon_area(p->points, p->count)) < 1e-6)
@@ -242,10 +239,6 @@ bool jox_plan_read_wkt(const char *path, const char *text, size_t length,
     bool good = true;
     if (length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) /* a byte order mark */
         p.at += 3;
-    skip(&p);
-    if (p.at < p.end && *p.at == '<')
-        good = wrong(&p, p.at, "Write the plan as well-known text (WKT)",
-                     "this is XML, not a plan of walls%s", "");
     do { /* several geometries, one a line, are fine */
         good = good && take_geometry(&p, 0);
         skip(&p);
@@ -255,6 +248,15 @@ bool jox_plan_read_wkt(const char *path, const char *text, size_t length,
     jox_free(p.points);
     jox_free(p.places);
     return good;
+}
+
+bool jox_plan_read(const char *path, const char *text, size_t length, const JoxPlanOptions *options,
+                   JoxWalls *walls, JoxDiagnostics *diagnostics) {
+    size_t at = length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    while (at < length && isspace((unsigned char)text[at]))
+        at++;
+    return (at < length && text[at] == '<' ? jox_plan_read_xml : jox_plan_read_wkt)(
+        path, text, length, options, walls, diagnostics);
 }
 
 char *jox_plan_recorded(const char *path, JoxDiagnostics *diagnostics) {

@@ -23,7 +23,10 @@ return claim {
     finest = run(0.01, true), finest_without = run(0.01, false),
     coarse = run(0.1, true), coarse_without = run(0.1, false),
   },
-  quick = { finest = { seeds = 1 }, finest_without = { seeds = 1 } },
+  quick = {
+    fine = { seeds = 1 }, fine_without = { seeds = 1 }, finest = { seeds = 1 }, finest_without = { seeds = 1 },
+    coarse = { seeds = 1 }, coarse_without = { seeds = 1 },
+  },
   measure = function(run)
     local with, fine = run.with.summary, run.fine.summary
     return {

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -348,6 +349,47 @@ static void a_reload_keeps_states_and_memory_by_name(void **state) {
     end(&f);
 }
 
+/* Counts of transitions, as "A>B=5 A>C=0 ". */
+static void list_counts(void *context, const char *from, const char *to, uint64_t taken) {
+    char *out = context;
+    size_t n = strlen(out);
+    snprintf(out + n, 256 - n, "%s>%s=%llu ", from, to, (unsigned long long)taken);
+}
+
+static void transitions_are_counted_over_all_versions(void **state) {
+    (void)state;
+    JoxMachine *old = new_machine(3);
+    add_transition(old, 0, 1, after(old, 0.1));
+    add_transition(old, 0, 2, after(old, 9));
+    add_transition(old, 1, 0, after(old, 0.1));
+    Fixture f;
+    begin(&f, old, 5);
+    for (int k = 0; k < 4; k++) /* in B from the second on, in A at the third, in B at the fourth */
+        think(&f);
+    char counts[256] = "";
+    jox_mind_taken(&f.mind, 0, list_counts, counts);
+    assert_string_equal(counts, "A>B=10 A>C=0 B>A=5 ");
+
+    /* B is named K now, nothing leads back to A, and two transitions lead to it. */
+    JoxMachine *next = new_machine(3);
+    next->states[1].name[0] = 'K';
+    next->renamed = jox_alloc(1, sizeof *next->renamed);
+    next->renamed[0] = (struct JoxRenamed){jox_strdup("B"), jox_strdup("K")};
+    next->renamed_count = 1;
+    JoxTransition *kept = add_transition(next, 0, 1, after(next, 0.1));
+    kept->id[0] = 'B';
+    add_transition(next, 0, 1, after(next, 9));
+    add_transition(next, 1, 2, after(next, 0.1));
+    JoxReplacement *replacement = jox_replacement_prepare(old, next, 7, f.agents.next_id);
+    jox_machine_free(jox_mind_replace(&f.mind, 0, replacement));
+    jox_replacement_free(replacement);
+    think(&f);
+    counts[0] = 0;
+    jox_mind_taken(&f.mind, 0, list_counts, counts);
+    assert_string_equal(counts, "A>K=10 K>C=5 B>A=5 ");
+    end(&f);
+}
+
 static void a_kick_sends_the_ball_where_it_should(void **state) {
     (void)state;
     JoxV2 spot = {10, 0};
@@ -399,6 +441,7 @@ int main(void) {
         cmocka_unit_test(circuits_count_from_the_line_and_take_back),
         cmocka_unit_test(a_queue_keeps_its_order),
         cmocka_unit_test(a_reload_keeps_states_and_memory_by_name),
+        cmocka_unit_test(transitions_are_counted_over_all_versions),
         cmocka_unit_test(a_kick_sends_the_ball_where_it_should),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -17,7 +17,7 @@
 
 static bool read_plan(const char *text, JoxWalls *walls, JoxDiagnostics *diagnostics) {
     JoxPlanOptions options = {.unit = 1.0, .height = 3.0f};
-    return jox_plan_read_wkt("plan.wkt", text, strlen(text), &options, walls, diagnostics);
+    return jox_plan_read("plan.wkt", text, strlen(text), &options, walls, diagnostics);
 }
 
 static void a_polygon_is_what_can_be_walked(void **state) {
@@ -77,7 +77,6 @@ static void errors_have_their_place(void **state) {
         {"@", "begins with the name"},
         {"@POINT (1 2)", "'POINT' is no geometry"},
         {"@CIRCULARSTRING (1 2, 3 4, 5 6)", "is no geometry"},
-        {"@<geometry/>", "XML"},
         {"@{\"type\": 3}", "begins with the name"},
         {"POLYGON @EMPTI", "'(' was expected"},
         {"POLYGON EMPTY@", "no walls"},
@@ -97,6 +96,20 @@ static void errors_have_their_place(void **state) {
         {"LINESTRING (0 0,\n\n @452000.5 5411000)", "over 10 km"},
         {"LINESTRING (0 0, 1 0)\n@garbage (", "'GARBAGE' is no geometry"},
         {"LINESTRING (0 0, 1 0)@)", "begins with the name"},
+        {"@<svg/>", "this XML is a <svg>"},
+        {"@<geometry unit='cm'/>", "not in 'cm'"},
+        {"<geometry>\n</geometry>@", "no walls"},
+        {"<geometry>\n</@metry>", "no XML: mismatched tag"},
+        {"<geometry><polygon><vertex px='1' py='0'/>@<vertex px='2'/></polygon></geometry>",
+         "a vertex needs px and py"},
+        {"<geometry><polygon>\n @<vertex px='1' py='0x1'/></polygon></geometry>",
+         "'0x1' is no number"},
+        {"<geometry><polygon><vertex px='1' py='1'/>\n@</polygon></geometry>", "two points"},
+        {"<geometry><polygon>@<vertex px='1' py='20000'/></polygon></geometry>", "over 10 km"},
+        {"<geometry><transition id='1'><vertex px='1' py='2'/>@</transition></geometry>",
+         "a transition has two points"},
+        {"<geometry>@<transition/></geometry>", "needs an id"},
+        {"<!DOCTYPE g@><geometry/>", "no document type"},
     };
     for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
         char text[256];
@@ -160,12 +173,132 @@ static void broken_plans_do_no_harm(void **state) {
             memcpy(text, GOOD, sizeof GOOD);
             text[at] = BYTES[b];
             bool good =
-                jox_plan_read_wkt("plan", text, sizeof GOOD - 1, &options, &walls, &diagnostics);
+                jox_plan_read("plan", text, sizeof GOOD - 1, &options, &walls, &diagnostics);
             assert_int_equal(diagnostics.errors, good ? 0 : 1);
             assert_true(!good || walls.ring_count > 0);
             jox_diag_free(&diagnostics);
             jox_walls_free(&walls);
         }
+}
+
+/* ---- JuPedSim's XML ---- */
+
+/* A wall of a plan by its points and, if `name`, its name. */
+static bool has_ring(const JoxWalls *walls, bool solid, const char *name, const JoxV2 *points,
+                     uint32_t count) {
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &walls->rings[r];
+        if (ring->solid != solid || !ring->name != !name || ring->count != count ||
+            (name && (strcmp(ring->name, name) != 0 || !ring->open)))
+            continue;
+        uint32_t found = 0;
+        for (uint32_t k = 0; k < count; k++)
+            for (uint32_t v = 0; v < count; v++) {
+                JoxV2 p = walls->vertices[ring->first + v].point;
+                if (jox_length(jox_sub(p, points[k])) < 1e-4f) {
+                    found++;
+                    break;
+                }
+            }
+        if (found == count)
+            return true;
+    }
+    return false;
+}
+
+static void rooms_of_jupedsim_become_walls_and_doors(void **state) {
+    (void)state;
+    size_t length;
+    char *text = jox_read_file("tests/data/rooms.xml", 1 << 20, &length);
+    assert_non_null(text);
+    JoxWalls walls = {0};
+    JoxDiagnostics diagnostics = {0};
+    if (!read_plan(text, &walls, &diagnostics))
+        fail_msg("%d:%d: %s", diagnostics.items[0].line, diagnostics.items[0].column,
+                 diagnostics.items[0].message);
+    assert_int_equal(diagnostics.count, 0);
+    /* Pieces that meet are one line, there and back. The wall that both rooms name stands once. */
+    const JoxV2 hall[] = {{8, 3}, {8, 6}, {0, 6}, {0, 0}, {0, 6}, {8, 6}};
+    assert_true(has_ring(&walls, false, NULL, hall, 6));
+    const JoxV2 beside[] = {{4, 0}, {8, 0}, {8, 2}, {8, 0}};
+    assert_true(has_ring(&walls, false, NULL, beside, 4));
+    const JoxV2 corridor[] = {{8, 0}, {12, 0}};
+    assert_true(has_ring(&walls, false, NULL, corridor, 2));
+    const JoxV2 table[] = {{2, 2}, {2, 3}, {4, 3}, {4, 2}};
+    assert_true(has_ring(&walls, true, NULL, table, 4));
+    const JoxV2 door[] = {{8, 2}, {8, 3}}, exit[] = {{12, 0}, {12, 3}};
+    assert_true(has_ring(&walls, false, "door-3", door, 2));
+    assert_true(has_ring(&walls, false, "door-4", exit, 2));
+    assert_int_equal(walls.ring_count, 8); /* and the niche, and the corridor's other side */
+    for (uint32_t r = 0; r < walls.ring_count; r++)
+        assert_float_equal(walls.rings[r].height, walls.rings[r].solid ? 0.8 : 3.0, 1e-6);
+    jox_walls_free(&walls);
+    jox_free(text);
+}
+
+static void xml_that_is_whole_but_odd(void **state) {
+    (void)state;
+#define POLYGON(points) "<geometry><subroom>" points "</subroom></geometry>"
+#define V(x, y) "<vertex px='" #x "' py='" #y "'/>"
+    static const struct {
+        const char *text;
+        uint32_t rings, vertices, warnings;
+    } CASES[] = {
+        {POLYGON("<polygon>" V(0, 0) V(3, 0) "</polygon>"), 1, 2, 0},
+        {"\xef\xbb\xbf <geometry><polygon>" V(1e1, +.5) V(3, 0) "</polygon></geometry>", 1, 2, 0},
+        {POLYGON("<polygon>" V(0, 0) V(3, 0) V(3, 3) V(0, 0) "</polygon>"), 2, 6, 0}, /* closed */
+        {POLYGON("<polygon>" V(0, 0) V(3, 0) "</polygon><polygon>" V(3, 0) V(0, 0) "</polygon>"), 1,
+         2, 0}, /* there and back */
+        {POLYGON("<polygon>" V(0, 0) V(3, 0) "</polygon><polygon>" V(5, 0) V(7, 0) "</polygon>"), 2,
+         4, 0},
+        /* A ring of which one side stands already is the rest of it. */
+        {POLYGON("<polygon>" V(3, 0) V(3, 3) "</polygon><polygon>" V(0, 0) V(3, 0) V(3, 3)
+                     V(0, 0) "</polygon>"),
+         3, 6, 0},
+        {POLYGON("<obstacle><polygon>" V(0, 0) V(3, 0) V(3, 3) V(0, 0) "</polygon></obstacle>"), 1,
+         3, 0},
+        {POLYGON("<obstacle><polygon>" V(0, 0) V(3, 0) V(3, 3) "</polygon></obstacle>"), 1, 4, 0},
+        {"<geometry><subroom class='stair' A_x='0.5'><polygon>" V(0, 0)
+             V(3, 0) "</polygon></subroom><subroom class='escalator_up'/></geometry>",
+         1, 2, 1},
+        {"<geometry><transitions><transition id='1'>" V(0, 0)
+             V(3, 0) "<file>more.xml</file></transition></transitions></geometry>",
+         1, 2, 1},
+    };
+    for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
+        JoxWalls walls = {0};
+        JoxDiagnostics diagnostics = {0};
+        if (!read_plan(CASES[c].text, &walls, &diagnostics))
+            fail_msg("%s: %s", CASES[c].text, diagnostics.items[0].message);
+        if (walls.ring_count != CASES[c].rings || walls.count != CASES[c].vertices ||
+            diagnostics.warnings != CASES[c].warnings)
+            fail_msg("%s: %u rings, %u vertices, %zu warnings", CASES[c].text, walls.ring_count,
+                     walls.count, diagnostics.warnings);
+        jox_diag_free(&diagnostics);
+        jox_walls_free(&walls);
+    }
+}
+
+static void broken_xml_does_no_harm(void **state) {
+    (void)state;
+    static const char BYTES[] = "<>/\"'& 09-\n\0\xff";
+    size_t length;
+    char *text = jox_read_file("tests/data/rooms.xml", 1 << 20, &length);
+    for (size_t at = 0; at < length; at++)
+        for (size_t b = 0; b < sizeof BYTES; b++) {
+            JoxWalls walls = {0};
+            JoxDiagnostics diagnostics = {0};
+            JoxPlanOptions options = {.unit = 1.0, .height = 3.0f};
+            char was = text[at];
+            text[at] = BYTES[b];
+            bool good = jox_plan_read("plan", text, length, &options, &walls, &diagnostics);
+            text[at] = was;
+            assert_int_equal(diagnostics.errors, good ? 0 : 1);
+            assert_true(!good || walls.ring_count > 0);
+            jox_diag_free(&diagnostics);
+            jox_walls_free(&walls);
+        }
+    jox_free(text);
 }
 
 /* ---- in scenes ---- */
@@ -263,6 +396,24 @@ static void what_is_wrong_in_the_file_is_shown(void **state) {
     jox_diag_free(&diagnostics);
 }
 
+static void a_door_of_a_geometry_closes(void **state) {
+    (void)state;
+    JoxDiagnostics diagnostics = {0};
+    write_file("rooms.xml", "<geometry><polygon>" V(0, 0) V(3, 0) "</polygon><transition id='7'>" V(
+                                3, 0) V(4, 0) "</transition></geometry>");
+    JoxScene *scene =
+        load_walls("{file: rooms.xml}]\nevents: [{at: 5, close: door-7}", &diagnostics);
+    assert_non_null(scene);
+    assert_int_equal(scene->event_count, 1);
+    assert_string_equal(scene->walls.rings[1].name, "door-7");
+    assert_true(scene->walls.rings[1].open);
+    jox_scene_free(scene);
+
+    assert_null(load_walls("{file: rooms.xml}]\nevents: [{at: 5, close: door-8}", &diagnostics));
+    assert_non_null(strstr(diagnostics.items[0].hint, "door-7"));
+    jox_diag_free(&diagnostics);
+}
+
 static int make_folder(void **state) {
     (void)state;
     return mkdtemp(folder) ? 0 : -1;
@@ -270,7 +421,7 @@ static int make_folder(void **state) {
 
 static int remove_folder(void **state) {
     (void)state;
-    static const char *const NAMES[] = {"plan.wkt", "bad.wkt", "run.sqlite"};
+    static const char *const NAMES[] = {"plan.wkt", "bad.wkt", "run.sqlite", "rooms.xml"};
     for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; n++) {
         char path[128];
         snprintf(path, sizeof path, "%s/%s", folder, NAMES[n]);
@@ -286,6 +437,10 @@ int main(void) {
         cmocka_unit_test(errors_have_their_place),
         cmocka_unit_test(depth_and_size_have_ends),
         cmocka_unit_test(broken_plans_do_no_harm),
+        cmocka_unit_test(rooms_of_jupedsim_become_walls_and_doors),
+        cmocka_unit_test(xml_that_is_whole_but_odd),
+        cmocka_unit_test(broken_xml_does_no_harm),
+        cmocka_unit_test(a_door_of_a_geometry_closes),
         cmocka_unit_test(a_scene_takes_its_walls_from_a_file),
         cmocka_unit_test(a_recording_has_walls),
         cmocka_unit_test(what_is_wrong_in_the_file_is_shown),
