@@ -127,12 +127,44 @@ static void draw_places(JoxDrawing *d) {
     jox_canvas_close(c);
 }
 
-/* One ring of a wall: a polyline's vertices go there and back. */
-static void draw_ring(const JoxDrawing *d, const struct JoxWallRing *ring) {
-    JoxV2 *points = jox_alloc(ring->count + 1, sizeof *points);
-    for (uint32_t i = 0; i < ring->count; i++)
-        points[i] = d->picture->walls->vertices[ring->first + i].point;
-    plan_line(d, points, ring->count, true, ring->name);
+static bool same(JoxV2 a, JoxV2 b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+/* Thin walls have two sides: an open line's vertices go there and back, so that half of them draw
+   it; a closed line is two rings, of which one does. The number of points that draw ring r, 0 for a
+   second side, and whether they are to be closed. */
+static uint32_t points_of(const JoxWalls *walls, uint32_t r, bool *closed) {
+    const struct JoxWallRing *ring = &walls->rings[r];
+    const JoxWallVertex *v = &walls->vertices[ring->first];
+    uint32_t i = 1, half = ring->count / 2 + 1;
+    *closed = true;
+    if (ring->solid)
+        return ring->count;
+    while (i < half && same(v[i].point, v[ring->count - i].point))
+        i++;
+    *closed = i < half;
+    if (!*closed)
+        return half;
+    const struct JoxWallRing *last = ring - 1;
+    if (r == 0 || last->solid || last->count != ring->count)
+        return ring->count;
+    const JoxWallVertex *w = &walls->vertices[last->first];
+    for (i = 0; i < ring->count && same(v[i].point, w[ring->count - 1 - i].point);)
+        i++;
+    return i < ring->count ? ring->count : 0;
+}
+
+static void draw_ring(const JoxDrawing *d, uint32_t r) {
+    const JoxWalls *walls = d->picture->walls;
+    const struct JoxWallRing *ring = &walls->rings[r];
+    bool closed;
+    uint32_t count = points_of(walls, r, &closed);
+    JoxV2 *points = jox_alloc(count + 1, sizeof *points);
+    for (uint32_t i = 0; i < count; i++)
+        points[i] = walls->vertices[ring->first + i].point;
+    if (count)
+        plan_line(d, points, count, closed, ring->name);
     jox_free(points);
 }
 
@@ -155,7 +187,7 @@ static void draw_walls(JoxDrawing *d) {
             if (!any)
                 jox_canvas_open(d->canvas, NULL, kinds[kind], styles[kind]);
             any = true;
-            draw_ring(d, ring);
+            draw_ring(d, r);
         }
         if (any)
             jox_canvas_close(d->canvas);
@@ -282,8 +314,9 @@ static void draw_names(JoxDrawing *d) {
         .fill = jox_ink_gate, .line = jox_ink_with(WHITE, 0.9f), .width = 3 * d->unit};
     jox_canvas_open(d->canvas, "names", NULL, style);
     jox_canvas_open(d->canvas, NULL, "gates", style);
+    bool closed;
     for (uint32_t r = 0; p->walls && r < p->walls->ring_count; r++)
-        if (p->walls->rings[r].name)
+        if (p->walls->rings[r].name && points_of(p->walls, r, &closed))
             name(d, gate_name_at(d, &p->walls->rings[r]), p->walls->rings[r].name);
     jox_canvas_close(d->canvas);
     style.fill = (JoxInk){0x24, 0x45, 0x69, 1};

@@ -116,6 +116,8 @@ static JoxStyle style_of(const JoxDrawing *d, uint32_t k, float radius, char kin
     } else if (jox_draw_is_class(p->colour)) {
         style.fill = jox_draw_class(p, k, &name);
         snprintf(kind, 96, "%s-%.80s", jox_shown[p->colour].name, name);
+        for (char *c = kind; (c = strchr(c, ' ')) != NULL;) /* else it were two classes */
+            *c = '-';
     } else {
         style.fill = jox_palette_value(((float)k + 0.5f) / JOX_DRAW_BINS);
         snprintf(kind, 96, "%s-%u", jox_shown[p->colour].name, k);

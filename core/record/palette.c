@@ -38,7 +38,7 @@ JoxInk jox_palette_class(uint32_t n) {
     JoxInk ink = CLASSES[n % CLASS_COUNT];
     switch (n / CLASS_COUNT % 3) {
     case 1:
-        return towards(ink, 1.0f, 0.55f);
+        return towards(ink, 1.0f, 0.45f);
     case 2:
         return towards(ink, 0.0f, 0.45f);
     default:
