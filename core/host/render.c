@@ -173,7 +173,23 @@ static void progress(Job *job, bool ended) {
 
 /* ---- output ---- */
 
-/* Makes the canvas, and what pictures go to. */
+/* Where pictures go, before any is made. */
+static bool prepare(Job *job, JoError *error) {
+    const JoRenderDef *def = job->render.def;
+    JoxText why = {0};
+    if (job->kind != FRAMES && !writable(def->out, error))
+        return false;
+    if (job->kind == VIDEO && !jox_video_available()) {
+        snprintf(job->folder, sizeof job->folder, "%.*s-frames",
+                 (int)(strrchr(def->out, '.') - def->out), def->out);
+        say(def, "there is no ffmpeg to make a video; its frames go to %s\n", job->folder);
+    } else if (job->kind == FRAMES) {
+        snprintf(job->folder, sizeof job->folder, "%s", def->out);
+    }
+    return !*job->folder || jox_plot_folder(job->folder, &why) || fail(error, &why);
+}
+
+/* The canvas, of the size asked for or that suits the area, and the video. */
 static bool begin(Job *job, double fps, JoError *error) {
     const JoRenderDef *def = job->render.def;
     uint32_t width = def->width, height = def->height;
@@ -182,20 +198,9 @@ static bool begin(Job *job, double fps, JoError *error) {
         jox_draw_size(job->render.picture.low, job->render.picture.high, &width, &height);
     job->canvas =
         job->kind == SVG ? jox_canvas_svg(width, height) : jox_canvas_image(width, height);
-    if (job->kind != FRAMES && !writable(def->out, error))
-        return false;
-    if (job->kind == VIDEO && jox_video_available()) {
+    if (job->kind == VIDEO && !*job->folder)
         job->video = jox_video_open(def->out, width, height, fps, &why);
-        return job->video || fail(error, &why);
-    }
-    if (job->kind == VIDEO) {
-        snprintf(job->folder, sizeof job->folder, "%.*s-frames",
-                 (int)(strrchr(def->out, '.') - def->out), def->out);
-        say(def, "there is no ffmpeg to make a video; its frames go to %s\n", job->folder);
-    } else if (job->kind == FRAMES) {
-        snprintf(job->folder, sizeof job->folder, "%s", def->out);
-    }
-    return !*job->folder || jox_plot_folder(job->folder, &why) || fail(error, &why);
+    return job->kind != VIDEO || *job->folder || job->video || fail(error, &why);
 }
 
 static void frame_path(const Job *job, uint32_t number, char path[1100]) {
@@ -241,6 +246,16 @@ static bool end(Job *job, double fps, bool good, JoError *error) {
     return true;
 }
 
+/* Long ways to the first picture show how far they are. */
+static bool go_on(Job *job, double time, JoError *error) {
+    bool good = true;
+    for (double on = jox_render_time(&job->render) + 1.0; good && on < time; on += 1.0) {
+        good = jox_render_advance(&job->render, on, error);
+        progress(job, false);
+    }
+    return good && jox_render_advance(&job->render, time, error);
+}
+
 bool jo_render(const JoRenderDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == RENDER_COOKIE && def->out && *def->out, false);
     JOX_REQUIRE(!def->scene != !def->recording, false);
@@ -252,16 +267,17 @@ bool jo_render(const JoRenderDef *def, JoError *error) {
     job->begun = jox_clock_wall();
     job->tenth = -1;
     bool good = check(def, job->kind, error) && jox_render_load(&job->render, error) &&
-                find_times(job, &fps, error) && begin(job, fps, error);
-    bool began = good;
+                find_times(job, &fps, error) && prepare(job, error);
+    bool began = false;
     for (uint32_t n = 0; good && n < job->count; n++) {
-        double time = job->from + (double)n / fps, from = jox_render_time(&job->render);
-        /* Long ways to the first picture show how far they are. */
-        for (double on = from + 1.0; good && on < time; on += 1.0) {
-            good = jox_render_advance(&job->render, on, error);
-            progress(job, false);
+        double time = job->from + (double)n / fps;
+        good = go_on(job, time, error);
+        if (good && n == 0) {
+            if (job->count == 1)
+                jox_render_widen(&job->render);
+            good = began = begin(job, fps, error);
         }
-        good = good && jox_render_advance(&job->render, time, error) && put(job, error);
+        good = good && put(job, error);
         progress(job, n + 1 == job->count && good);
     }
     if (began)

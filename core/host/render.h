@@ -41,6 +41,8 @@ bool jox_render_load(JoxRender *render, JoError *error);
 bool jox_render_advance(JoxRender *render, double time, JoError *error);
 /* Time of the present moment, s. */
 double jox_render_time(const JoxRender *render);
+/* Widens what is shown, unless the def says it, by everyone who is outside now. */
+void jox_render_widen(JoxRender *render);
 /* The picture of now. */
 const JoxPicture *jox_render_picture(JoxRender *render);
 void jox_render_free(JoxRender *render);

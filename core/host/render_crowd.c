@@ -26,10 +26,16 @@ static void widen(Box *box, JoxV2 p) {
     box->high = jox_v2(jox_maxf(box->high.x, p.x), jox_maxf(box->high.y, p.y));
 }
 
-/* Places count where they are not farther off than all else is wide: some are only directions. */
-static void widen_by_places(Box *box, const JoxPlace *places, uint32_t count) {
-    float reach = jox_maxf(box->high.x - box->low.x, box->high.y - box->low.y);
-    Box near = {jox_sub(box->low, jox_v2(reach, reach)), jox_add(box->high, jox_v2(reach, reach))};
+/* What is no farther off a box than so many times its length; else all the rest would be small. */
+static Box near_to(const Box *box, float times) {
+    float reach = times * jox_maxf(box->high.x - box->low.x, box->high.y - box->low.y);
+    return (Box){jox_sub(box->low, jox_v2(reach, reach)), jox_add(box->high, jox_v2(reach, reach))};
+}
+
+/* Places count where they are near: some are only directions. Without walls they are all there is.
+ */
+static void widen_by_places(Box *box, const JoxPlace *places, uint32_t count, bool walls) {
+    Box near = near_to(box, walls ? 1.0f : 10.0f);
     for (uint32_t p = 0; p < count; p++)
         for (uint32_t i = 0; i < places[p].count; i++) {
             JoxV2 at = places[p].points[i];
@@ -39,6 +45,12 @@ static void widen_by_places(Box *box, const JoxPlace *places, uint32_t count) {
             widen(box, jox_sub(at, jox_v2(around, around)));
             widen(box, jox_add(at, jox_v2(around, around)));
         }
+}
+
+static JoxDensity *make_grid(const JoxPicture *p) {
+    JoxV2 size = jox_sub(p->high, p->low);
+    float cell = jox_clampf(sqrtf(size.x * size.y / FEW), CELL, COARSE);
+    return jox_density_create(p->low, p->high, cell, KERNEL);
 }
 
 static void find_area(JoxRender *r) {
@@ -71,10 +83,33 @@ static void find_area(JoxRender *r) {
                 widen(&box, p->places[k].points[0]);
     if (!(box.low.x <= box.high.x))
         box = (Box){{-1, -1}, {1, 1}};
-    widen_by_places(&box, p->places, p->place_count);
+    widen_by_places(&box, p->places, p->place_count, p->walls && p->walls->count > 0);
     float edge = 0.5f + 0.01f * jox_maxf(box.high.x - box.low.x, box.high.y - box.low.y);
     p->low = jox_sub(box.low, jox_v2(edge, edge));
     p->high = jox_add(box.high, jox_v2(edge, edge));
+}
+
+void jox_render_widen(JoxRender *r) {
+    JoxPicture *p = &r->picture;
+    Box box = {p->low, p->high};
+    const Box near = near_to(&box, 2.0f);
+    if (r->def->area)
+        return;
+    for (uint32_t i = 0; i < r->frame.count; i++) {
+        JoxV2 at = {r->frame.x[i], r->frame.y[i]}, edge = {0.5f, 0.5f};
+        bool far = !(at.x >= near.low.x && at.y >= near.low.y && at.x <= near.high.x &&
+                     at.y <= near.high.y);
+        if (far)
+            continue;
+        widen(&box, jox_sub(at, edge));
+        widen(&box, jox_add(at, edge));
+    }
+    p->low = box.low;
+    p->high = box.high;
+    if (!r->grid)
+        return;
+    jox_density_free(r->grid);
+    r->grid = make_grid(p);
 }
 
 /* ---- colours ---- */
@@ -150,10 +185,8 @@ bool jox_render_choose(JoxRender *r, JoError *error) {
 
 static void make_fields(JoxRender *r) {
     JoxPicture *p = &r->picture;
-    JoxV2 size = jox_sub(p->high, p->low);
     if (p->colour == JOX_SHOW_DENSITY || p->floor == JOX_SHOW_DENSITY)
-        r->grid = jox_density_create(
-            p->low, p->high, jox_clampf(sqrtf(size.x * size.y / FEW), CELL, COARSE), KERNEL);
+        r->grid = make_grid(p);
     if (p->floor != JOX_SHOW_PRESSURE)
         return;
     if (r->scene)
