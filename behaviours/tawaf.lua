@@ -3,7 +3,7 @@ local mine     = memory { laps = 0, touched = false, press = 0 } -- per agent; s
 local at_line  = crosses "start_line"
 local crowded  = density("black_stone"):above(6)        -- people per square metre
 local shove    = 150 * max(now.speed, own.speed)         -- newtons; present speed alone cannot break a standstill
-local hurry    = mine.press * max(now.speed, own.speed)  -- of those who circle or leave: nobody, unless a scene says so
+local hurry    = mine.press * max(now.speed, own.speed)  -- of those who circle or leave: none, unless a scene says so
 local slowed   = now.speed:below(0.8 * own.speed)
 local pace     = own.speed * (1 - 0.4 * clamp((density_here - 1) / 7, 0, 1))
 
@@ -18,13 +18,17 @@ return machine {
       { to = "Circle",  when = at_line } },
 
     Circle = { steer = orbit "kaaba", speed = pace, push = hurry, push_when = slowed,
-      { to = "Leave",   when = mine.laps:at_least(7) },
+      { to = "Outward", when = mine.laps:at_least(6) },
       { to = "ToStone", when = at_line & near("black_stone", 10) & ~crowded & ~mine.touched, chance = 0.03 },
       { to = "Pass",    when = at_line, chance = 0.36 } },
 
-    -- Who has done seven works outwards for a while, and then leaves by the gate at hand.
-    Leave = { steer = orbit "kaaba" + 0.5 * away_from "kaaba", speed = pace, lasts = uniform(20, 80),
-      { to = "Exit",    when = lasted } },
+    -- On their last circuit people work outwards; once it is done they leave by one of the gates that come along.
+    Outward = { steer = orbit("kaaba", { inward = 0 }) + 0.5 * away_from "kaaba", speed = pace,
+      push = hurry, push_when = slowed,
+      { to = "Edge",    when = distance "kaaba":above(36) } },
+
+    Edge = { steer = orbit("kaaba", { inward = 0 }), speed = pace, push = hurry, push_when = slowed,
+      { to = "Exit",    when = mine.laps:at_least(7) & near("gates", 22), chance = 0.5 } },
 
     ToStone = { steer = queue "black_stone", speed = 0.3 * own.speed, perception = 1, push = shove,
       { to = "Touch",   when = first_in "black_stone" & near("black_stone", 0.75) },

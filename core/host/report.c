@@ -5,34 +5,24 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "host/host.h"
+#include "host/report.h"
 #include "record/plot.h"
-#include "record/trajectories.h"
 
 enum { REPORT_COOKIE = 0x4a4f5250 };
 static const float EDGE = 0.5f; /* m about everyone, of the map that is made without a scene */
-
-typedef struct Report {
-    const JoReportDef *def;
-    JoxDiagnostics diagnostics;
-    JoxScene *plan; /* or NULL */
-    JoxTrajectories *crowd;
-    JoxProbe **probes;
-    uint32_t count;
-} Report;
 
 JoReportDef jo_default_report_def(void) {
     return (JoReportDef){.cookie = REPORT_COOKIE};
 }
 
-static void complain(Report *r, const char *file, const char *hint, const char *format,
+static void complain(JoxReport *r, const char *file, const char *hint, const char *format,
                      const char *probe, const char *what) {
     JoxPosition at = {file, 0, 0, 0};
     jox_diag_error(&r->diagnostics, at, "bad-probe", hint, format, probe, what);
 }
 
 /* The recording's numbers of the groups that a probe of the scene names; false with an error. */
-static bool find_groups(Report *r, const JoxProbeDef *def, uint16_t *out) {
+static bool find_groups(JoxReport *r, const JoxProbeDef *def, uint16_t *out) {
     for (uint32_t g = 0; g < def->group_count; g++) {
         const char *name = r->plan->groups[def->groups[g]].name;
         uint32_t found = 0;
@@ -50,7 +40,7 @@ static bool find_groups(Report *r, const JoxProbeDef *def, uint16_t *out) {
     return true;
 }
 
-static bool add_probe(Report *r, const JoxProbeDef *of) {
+static bool add_probe(JoxReport *r, const JoxProbeDef *of) {
     JoxProbeDef def = *of;
     uint16_t *groups = jox_alloc(def.group_count + 1, sizeof *groups);
     bool good = find_groups(r, &def, groups);
@@ -72,8 +62,9 @@ static bool add_probe(Report *r, const JoxProbeDef *of) {
     return good;
 }
 
-/* Without a scene: fields, and densities and speeds over time, of all the area that was walked. */
-static void add_usual(Report *r) {
+/* Without a scene that has probes: fields, and densities and speeds over time, of all the area that
+ * was walked. */
+static void add_usual(JoxReport *r) {
     JoxV2 low = jox_sub(r->crowd->low, (JoxV2){EDGE, EDGE});
     JoxV2 high = jox_add(r->crowd->high, (JoxV2){EDGE, EDGE});
     JoxV2 corners[4] = {low, {high.x, low.y}, high, {low.x, high.y}};
@@ -97,7 +88,7 @@ static void add_usual(Report *r) {
 }
 
 /* Loads what the def names; false with errors. */
-static bool load(Report *r) {
+static bool load(JoxReport *r) {
     const JoReportDef *def = r->def;
     JoxTrajectoryOptions options = {.fps = def->fps, .unit = def->unit};
     if (def->scene && !(r->plan = jox_scene_load(def->scene, NULL, &r->diagnostics)))
@@ -109,14 +100,9 @@ static bool load(Report *r) {
     }
     if (!(r->crowd = jox_trajectories_read(def->recording, &options, &r->diagnostics)))
         return false;
-    r->probes = jox_alloc(r->plan ? r->plan->probe_count + 1 : 2, sizeof(JoxProbe *));
-    if (r->plan && r->plan->probe_count == 0) {
-        complain(r, def->scene, "probes: {door: {flow: [[0, 0], [1, 0]]}}",
-                 "this scene has no probes%s%s", "", "");
-        return false;
-    }
+    r->probes = jox_alloc(r->plan ? r->plan->probe_count + 2 : 2, sizeof(JoxProbe *));
     bool good = true;
-    if (!r->plan)
+    if (!r->plan || r->plan->probe_count == 0)
         add_usual(r);
     for (uint32_t p = 0; r->plan && p < r->plan->probe_count; p++)
         good = add_probe(r, &r->plan->probes[p]) && good;
@@ -124,26 +110,89 @@ static bool load(Report *r) {
 }
 
 /* Of the scene, else of the recording. */
-static const JoxWalls *walls_of(const Report *r) {
+const JoxWalls *jox_report_walls(const JoxReport *r) {
     return r->plan && r->plan->walls.ring_count ? &r->plan->walls : &r->crowd->walls;
 }
 
-static bool write(const Report *r, JoError *error) {
+const char *jox_report_title(const JoxReport *r) {
     const char *slash = strrchr(r->def->recording, '/');
-    const char *title = r->plan && r->plan->title ? r->plan->title
-                        : slash                   ? slash + 1
-                                                  : r->def->recording;
+    return r->plan && r->plan->title ? r->plan->title : slash ? slash + 1 : r->def->recording;
+}
+
+static bool write(const JoxReport *r, JoError *error) {
+    const char *folder = r->def->directory, *title = jox_report_title(r);
     JoxText why = {0};
-    bool good = jox_plot_folder(r->def->directory, &why);
+    bool good = jox_plot_folder(folder, &why);
     for (uint32_t p = 0; good && p < r->count; p++)
-        good = jox_probe_write(r->probes[p], r->def->directory, walls_of(r), title, &why);
+        good = jox_probe_write(r->probes[p], folder, jox_report_walls(r), title, &why);
+    good = good && jox_danger_write(r->danger, folder, jox_report_walls(r), title, &why) &&
+           jox_report_page(r, &why);
     if (!good)
         jox_error(error, JO_FAILED, "%s", why.data ? why.data : "writing failed");
     jox_text_free(&why);
     return good;
 }
 
-static char *summary(const Report *r) {
+/* ---- measuring ---- */
+
+/* The area of a scene that says which, as in a run of it; else all that was walked. */
+static JoxDanger *begin_danger(const JoxReport *r) {
+    const JoxScene *plan = r->plan;
+    if (plan && plan->heatmap)
+        return jox_danger_create(plan->heatmap_low, plan->heatmap_high);
+    if (plan && plan->bounded)
+        return jox_danger_create(plan->low, plan->high);
+    return jox_danger_create(jox_sub(r->crowd->low, (JoxV2){EDGE, EDGE}),
+                             jox_add(r->crowd->high, (JoxV2){EDGE, EDGE}));
+}
+
+/* For each frame with people, and one more, how many were in a frame before and are in none from
+   here on. */
+static uint32_t *count_leavers(const JoxTrajectories *t) {
+    uint32_t *left = jox_alloc(t->frame_count + 1, sizeof *left);
+    uint32_t *last = jox_alloc(t->keys + 1, sizeof *last); /* by key: one more than the frame */
+    JoxFrame frame;
+    for (uint32_t f = 0; jox_trajectories_frame(t, f, &frame); f++)
+        for (uint32_t i = 0; i < frame.count; i++)
+            last[frame.key[i]] = f + 1;
+    for (uint32_t key = 0; key < t->keys; key++)
+        if (last[key])
+            left[last[key]]++;
+    for (uint32_t f = 1; f <= t->frame_count; f++)
+        left[f] += left[f - 1];
+    jox_free(last);
+    return left;
+}
+
+/* Whoever is missing from the frame on has left at its time. */
+static void leave(JoxReport *r, uint32_t left, double time) {
+    if (left > r->exits.left)
+        r->exits.last = time;
+    r->exits.left = left;
+}
+
+static void measure(JoxReport *r) {
+    const JoxTrajectories *t = r->crowd;
+    uint32_t *left = count_leavers(t);
+    JoxFrame frame;
+    r->danger = begin_danger(r);
+    for (uint32_t f = 0; jox_trajectories_frame(t, f, &frame); f++) {
+        frame.walls = jox_report_walls(r);
+        leave(r, left[f], frame.time);
+        for (uint32_t p = 0; p < r->count; p++)
+            jox_probe_frame(r->probes[p], &frame);
+        jox_danger_frame(r->danger, &frame, &r->exits);
+    }
+    int64_t end = t->number[t->count - 1];
+    if (t->last > end) { /* it goes on, empty */
+        leave(r, left[t->frame_count], (double)(end + 1) / t->fps);
+        frame = (JoxFrame){.time = (double)t->last / t->fps, .keys = t->keys};
+        jox_danger_frame(r->danger, &frame, &r->exits);
+    }
+    jox_free(left);
+}
+
+static char *summary(const JoxReport *r) {
     const JoxTrajectories *t = r->crowd;
     JoxText out = {0};
     JoxFrame first = {0}, last = {0};
@@ -155,7 +204,11 @@ static char *summary(const Report *r) {
                     ",\n \"version\": \"%s\",\n \"people\": %u,\n \"frames\": %u,\n"
                     " \"fps\": %.9g,\n \"from_s\": %.9g,\n \"until_s\": %.9g",
                     jo_version(), t->people, t->frame_count, t->fps, first.time, last.time);
-    jox_text_add(&out, ",\n \"probes\": {");
+    jox_text_add(&out, ",\n \"danger\": {");
+    jox_exits_json(&r->exits, &out);
+    jox_text_add(&out, ",\n  ");
+    jox_danger_json(r->danger, &out);
+    jox_text_add(&out, "},\n \"probes\": {");
     for (uint32_t p = 0; p < r->count; p++) {
         jox_text_add(&out, p ? ",\n  " : "\n  ");
         jox_text_json(&out, jox_probe_def(r->probes[p])->name);
@@ -170,15 +223,11 @@ char *jo_report(const JoReportDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == REPORT_COOKIE && def->recording, NULL);
     JOX_REQUIRE(def->fps >= 0.0 && def->fps <= 1e5, NULL);
     JOX_REQUIRE(def->unit >= 0.0 && def->unit <= 1e3, NULL);
-    Report r = {.def = def};
-    JoxFrame frame;
+    JoxReport r = {.def = def};
     char *text = NULL;
     bool good = load(&r);
-    for (uint32_t f = 0; good && jox_trajectories_frame(r.crowd, f, &frame); f++) {
-        frame.walls = walls_of(&r);
-        for (uint32_t p = 0; p < r.count; p++)
-            jox_probe_frame(r.probes[p], &frame);
-    }
+    if (good)
+        measure(&r);
     if (r.plan) /* the lines that errors speak of */
         for (uint32_t f = 0; f < r.plan->file_count; f++)
             jox_diag_attach_source(&r.diagnostics, r.plan->files[f].path, r.plan->files[f].text,
@@ -189,6 +238,8 @@ char *jo_report(const JoReportDef *def, JoError *error) {
     for (uint32_t p = 0; p < r.count; p++)
         jox_probe_free(r.probes[p]);
     jox_free(r.probes);
+    jox_danger_free(r.danger);
+    jox_exits_free(&r.exits);
     jox_trajectories_free(r.crowd);
     jox_scene_free(r.plan);
     return text;

@@ -2,6 +2,7 @@
 #ifndef JOX_HOST_REPRODUCE_H
 #define JOX_HOST_REPRODUCE_H
 
+#include <stdio.h>
 #include <sys/types.h>
 
 #include "host/host.h"
@@ -51,6 +52,15 @@ typedef struct JoxReproduction {
 /* reproduce_runs.c: does all jobs that are not done already, several at once; false where it was
    interrupted. */
 bool jox_reproduce_run(JoxReproduction *all);
+/* reproduce_plots.c: plots of figures, plots/NAME.png of the folder of results, for each claim that
+   was measured. */
+bool jox_reproduce_plots(const JoxReproduction *all, JoxText *error);
+/* NAME of a plot: of its claim's file and its own. */
+void jox_reproduce_plot_name(const JoxClaim *claim, const JoxClaimPlot *plot, char *out,
+                             size_t size);
+/* reproduce_deviations.c: a table of what the claims' scenes and behaviours set otherwise than the
+   engine. */
+void jox_reproduce_deviations(const JoxReproduction *all, FILE *out);
 /* reproduce_page.c: index.html, table.md and results.json in the folder of results. */
 bool jox_reproduce_write(const JoxReproduction *all, JoxText *error);
 

@@ -104,6 +104,12 @@ static void put_figures(FILE *out, const JoxOutcome *outcome) {
 
 static void put_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
+    for (uint32_t p = 0; !outcome->failure && p < claim->plot_count; p++) {
+        char name[200], link[256];
+        jox_reproduce_plot_name(claim, &claim->plots[p], name, sizeof name);
+        snprintf(link, sizeof link, "plots/%s.png", name);
+        jox_html_picture(out, link, NULL, claim->plots[p].title);
+    }
     for (uint32_t p = 0; p < claim->picture_count; p++)
         for (uint32_t r = 0; r < claim->run_count; r++) {
             if (strcmp(claim->runs[r].name, claim->pictures[p].run) != 0)
@@ -150,6 +156,19 @@ static void put_runs(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
     fputs("</details>\n", out);
 }
 
+/* Of a claim that misses. */
+static void put_tried(FILE *out, const JoxOutcome *outcome) {
+    if (outcome->inside || outcome->claim->tried_count == 0)
+        return;
+    fputs("<p>What was tried:</p>\n<ul>\n", out);
+    for (uint32_t t = 0; t < outcome->claim->tried_count; t++) {
+        fputs("<li>", out);
+        jox_html_text(out, outcome->claim->tried[t]);
+        fputs("</li>\n", out);
+    }
+    fputs("</ul>\n", out);
+}
+
 static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
     fprintf(out, "<h2 id=\"c%u\">%s: ", (unsigned)(outcome - all->outcomes), claim->id);
@@ -166,6 +185,7 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
         fputs("</pre>\n", out);
     }
     put_figures(out, outcome);
+    put_tried(out, outcome);
     put_pictures(out, all, outcome);
     put_runs(out, all, outcome);
 }
@@ -173,8 +193,9 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
 static void put_defaults(FILE *out) {
     JoxForceOptions force = jox_force_default_options();
     fputs(
-        "<h2>Defaults of the engine</h2>\n<p>Common to all claims; what a scene or behaviour sets "
-        "instead stands with its runs.</p><div class=scroll><table><tr><th>parameter<th>value"
+        "<h2>Defaults of the engine</h2>\n<p>Common to all claims; what scenes and behaviours set "
+        "instead stands in the table after it.</p><div "
+        "class=scroll><table><tr><th>parameter<th>value"
         "<th>unit<th>meaning</tr>\n",
         out);
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
@@ -215,6 +236,7 @@ static bool write_page(const JoxReproduction *all, const char *when, JoxText *er
     for (uint32_t o = 0; o < all->outcome_count; o++)
         put_claim(out, all, &all->outcomes[o]);
     put_defaults(out);
+    jox_reproduce_deviations(all, out);
     jox_html_end(out);
     return jox_plot_close(out, "index.html", error);
 }
@@ -243,6 +265,14 @@ static bool write_table(const JoxReproduction *all, const char *when, JoxText *e
             put_band(out, figure, "");
             fprintf(out, " | %s |\n", verdict_of(figure, v));
         }
+    for (uint32_t o = 0; o < all->outcome_count; o++) {
+        const JoxClaim *claim = all->outcomes[o].claim;
+        if (all->outcomes[o].inside || claim->tried_count == 0)
+            continue;
+        fprintf(out, "\n%s misses. What was tried:\n\n", claim->id);
+        for (uint32_t t = 0; t < claim->tried_count; t++)
+            fprintf(out, "- %s\n", claim->tried[t]);
+    }
     return jox_plot_close(out, "table.md", error);
 }
 
@@ -280,6 +310,6 @@ static bool write_json(const JoxReproduction *all, JoxText *error) {
 bool jox_reproduce_write(const JoxReproduction *all, JoxText *error) {
     char when[512];
     circumstances(all, when, sizeof when);
-    return jox_plot_folder(all->def->out, error) && write_page(all, when, error) &&
-           write_table(all, when, error) && write_json(all, error);
+    return jox_plot_folder(all->def->out, error) && jox_reproduce_plots(all, error) &&
+           write_page(all, when, error) && write_table(all, when, error) && write_json(all, error);
 }

@@ -246,8 +246,8 @@ JO_API char *jo_summaries_aggregate(const char *const *summaries, size_t count, 
    the columns id, frame, x, y as PeTrack writes it, or CSV with a line of names. */
 typedef struct JoReportDef {
     const char *recording;
-    const char *scene;     /* whose probes measure and whose walls are drawn; NULL: a map of all and
-                              densities and speeds over time */
+    const char *scene; /* whose probes measure and whose walls are drawn; NULL, or without probes:
+                          a map of all and densities and speeds over time */
     const char *directory; /* for CSV files and pictures, made if it is missing; NULL: none */
     double fps;            /* frames a second; 0: as the recording says */
     double unit;           /* m, of its lengths: 1, or 0.01 for centimetres; 0: as it says */

@@ -1,6 +1,7 @@
 /* Claims: what a scene is to show, written in Lua. A claim file returns claim { id, title, source,
-   text, runs, quick, measure, expect, pictures }; see scenes/claims/README.md. Its function measure
-   works on what the runs left (summary, CSV files of probes) and never sees what is expected. */
+   text, runs, quick, measure, expect, plots, pictures, tried }; see scenes/claims/README.md. Its
+   function measure works on what the runs left (summary, CSV files of probes) and never sees what
+   is expected. */
 #ifndef JOX_LUA_CLAIMS_H
 #define JOX_LUA_CLAIMS_H
 
@@ -29,12 +30,34 @@ typedef struct JoxClaimPicture {
     char *run, *file;
 } JoxClaimPicture;
 
+/* What is drawn of figures. Points of FIGURES are at x and a figure's mean, with its least and most
+   and its band; of a MAP at x and y, with a figure's mean as the colour; others as they are given,
+   from a source or a law. */
+typedef enum { JOX_CURVE_FIGURES, JOX_CURVE_POINTS, JOX_CURVE_LINE, JOX_CURVE_MAP } JoxCurveKind;
+typedef struct JoxClaimPoint {
+    double x, y;
+    uint32_t figure;
+} JoxClaimPoint;
+typedef struct JoxClaimCurve {
+    char *label; /* NULL of a map */
+    JoxCurveKind kind;
+    JoxClaimPoint *points;
+    uint32_t count;
+} JoxClaimCurve;
+typedef struct JoxClaimPlot {
+    char *name, *title, *x, *y, *z; /* of axes, with units; z of a map's colours */
+    JoxClaimCurve *curves;          /* one of a map */
+    uint32_t curve_count;
+} JoxClaimPlot;
+
 typedef struct JoxClaim {
     char *path, *id, *title, *source, *text;
     JoxClaimRun *runs;
     JoxClaimFigure *figures;
     JoxClaimPicture *pictures;
-    uint32_t run_count, figure_count, picture_count;
+    JoxClaimPlot *plots;
+    char **tried; /* what was tried where it misses, sentence by sentence */
+    uint32_t run_count, figure_count, picture_count, plot_count, tried_count;
     bool too_long;     /* quick = false: nothing smaller would show it */
     JoxClaimRun spare; /* while a file is read */
     struct JoxClaimCode *code;

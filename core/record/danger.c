@@ -309,6 +309,10 @@ JoxDangerMost jox_danger_most(const JoxDanger *d, JoxDangerMeasure measure) {
     return most;
 }
 
+bool jox_danger_reads(const JoxDanger *d, JoxDangerMeasure measure) {
+    return isfinite(jox_danger_most(d, measure).value);
+}
+
 /* Adds , "NAMESUFFIX": VALUE. */
 static void add(JoxText *out, const char *name, const char *suffix, double value) {
     jox_text_printf(out, ", \"%s%s\": ", name, suffix);
@@ -329,10 +333,12 @@ void jox_danger_json(const JoxDanger *d, JoxText *out) {
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         const JoxDangerCount *count = &d->counts[l];
         bool seen = isfinite(count->first);
-        jox_text_printf(out, "%s\n   \"%s\": {\"people\": %u", l ? "," : "",
-                        jox_danger_limits[l].key, count->people);
+        bool read = jox_danger_reads(d, jox_danger_limits[l].measure);
+        jox_text_printf(out, "%s\n   \"%s\": {\"people\": ", l ? "," : "",
+                        jox_danger_limits[l].key);
+        jox_text_json_number(out, read ? count->people : NAN);
         add(out, "limit", "", jox_danger_limits[l].value);
-        add(out, "person_s", "", count->person_s);
+        add(out, "person_s", "", read ? count->person_s : NAN);
         add(out, "first_s", "", count->first);
         add(out, "first_x", "", seen ? count->first_at.x : NAN);
         add(out, "first_y", "", seen ? count->first_at.y : NAN);

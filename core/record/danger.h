@@ -81,7 +81,10 @@ const float *jox_danger_field(const JoxDanger *danger, JoxDangerMeasure measure,
                               const JoxDensity **grid);
 JoxDangerCount jox_danger_count(const JoxDanger *danger, int limit);
 JoxDangerMost jox_danger_most(const JoxDanger *danger, JoxDangerMeasure measure);
-/* Adds "density_max": ..., "limits": {...}. */
+/* Whether there was anything to read it from: compression is in our own recordings alone, crowd
+   pressure takes ten seconds. What is over its limits is not known otherwise. */
+bool jox_danger_reads(const JoxDanger *danger, JoxDangerMeasure measure);
+/* Adds "density_max": ..., "limits": {...}; null where it was not read. */
 void jox_danger_json(const JoxDanger *danger, JoxText *out);
 /* danger.csv (over time) and danger-map.csv into a folder that is there; with a title, both also as
    PNG and SVG. False with a sentence in `error`. */

@@ -171,13 +171,16 @@ static bool draw_times(const JoxDanger *d, const char *folder, const char *title
     FILE *script = jox_plot_open(folder, "danger.plt", error);
     if (!script)
         return false;
+    /* A run begins at 0, though its first sample lies a step behind; a recording anywhere. */
+    double begun = d->begun > 1.0 ? d->begun : 0.0;
     int strips = 3 + d->has_compression + has_left(d);
     for (int svg = 0; svg < 2; svg++) {
         begin_picture(script, "danger", svg, 1200, 60 + strips * STRIP, title);
         fprintf(script,
                 "set multiplot layout %d,1 title heading font ',14' noenhanced\nset grid\n"
-                "set lmargin 11\nset rmargin 19\nset xlabel 't (s)'\nset xrange [0:%g]\n",
-                strips, d->row_count ? fmax(d->rows[d->row_count - 1].time, 1.0) : 1.0);
+                "set lmargin 11\nset rmargin 19\nset xlabel 't (s)'\nset xrange [%g:%g]\n",
+                strips, begun,
+                d->row_count ? fmax(d->rows[d->row_count - 1].time, begun + 1.0) : begun + 1.0);
         for (int m = 0; m < JOX_DANGER_MEASURES; m++)
             if (m != JOX_DANGER_COMPRESSION || d->has_compression)
                 strip(d, (JoxDangerMeasure)m, script);

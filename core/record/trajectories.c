@@ -194,6 +194,8 @@ JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOpti
     good = good && sort(t, places, path, diagnostics);
     if (good) {
         number_people(t, places);
+        if (t->last < t->number[t->count - 1] || (double)t->last / t->fps > LONGEST)
+            t->last = t->number[t->count - 1];
         if (!t->has_velocity)
             measure_velocities(t, places);
         t->low = t->high = (JoxV2){t->x[0], t->y[0]};

@@ -37,6 +37,7 @@ typedef struct JoxTrajectories {
     size_t count, capacity;
     size_t *first; /* row at which each frame begins; one more at the end */
     uint32_t frame_count, keys, people;
+    int64_t last;      /* number of the last frame, in which nobody may be */
     JoxV2 period;      /* m */
     bool has_velocity; /* the file gave it */
     JoxV2 low, high;   /* m: everyone, always */

@@ -184,6 +184,7 @@ bool jox_trajectories_sqlite(JoxTrajectories *t, const char *path,
         if (!(t->fps > 0.0 && t->fps <= 1e5))
             good = fail(diagnostics, path, options->fps_option ? options->fps_option : "--fps 25",
                         "this recording does not say how many frames a second it has");
+        t->last = (int64_t)ask_number(db, "SELECT MAX(frame) FROM frame_data");
         read_geometry(t, db);
         read_groups(t, db);
     }

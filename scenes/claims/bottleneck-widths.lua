@@ -15,13 +15,14 @@ local function run(b)
   } }
 end
 
-local runs, quick, expect = {}, {}, {}
+local runs, quick, expect, measured = {}, {}, {}, {}
 for i = 1, #widths do
   local b = widths[i]
   runs[name(b)] = run(b)
   quick[name(b)] = { seeds = 1 }
   expect[i] = { name(b), unit = "1/s", what = string.format("people through %.1f m per second, the middle 60 %%", b),
     source = string.format("%.2f", law(b)), band = { 0.8 * law(b), 1.2 * law(b) } }
+  measured[i] = { b, name(b) }
 end
 expect[#expect + 1] = { "rms", what = "deviation from the line, root of the mean square over the widths",
   source = "0.13 1/s", band = { 0, 0.12 } }
@@ -41,5 +42,7 @@ return claim {
     return out
   end,
   expect = expect,
+  plots = { { name = "flow", title = "Flow through bottlenecks", x = "width (m)", y = "flow (1/s)",
+    { "Jostle", figures = measured }, { "1.92 b - 0.07", line = { { 0.9, law(0.9) }, { 2.5, law(2.5) } } } } },
   pictures = { b090 = { "paths.png", "door.png" }, b250 = { "paths.png" } },
 }

@@ -18,7 +18,7 @@ local function run(entrance, exit, people, during)
   } }
 end
 
-local runs, quick, expect, pictures = {}, {}, {}, {}
+local runs, quick, expect, pictures, measured, source = {}, {}, {}, {}, {}, {}
 for i = 1, #cases do
   local name, entrance, exit, people, during, flow, density, speed = table.unpack(cases[i])
   runs[name], quick[name], pictures[name] = run(entrance, exit, people, during), { seeds = 2 }, { "paths.png", "middle.png" }
@@ -29,6 +29,7 @@ for i = 1, #cases do
   add("flow", "1/(m s)", "specific flow in the corridor", flow)
   add("density", "1/m2", "density in its middle", density)
   add("speed", "m/s", "speed there", speed)
+  measured[i], source[i] = { density, "speed " .. name }, { density, speed }
 end
 
 return claim {
@@ -47,5 +48,8 @@ return claim {
     return out
   end,
   expect = expect,
+  plots = { { name = "diagram", title = "Speed in the middle of the corridor, at the densities of the source",
+    x = "density measured by the source (1/m^2)", y = "mean speed (m/s)",
+    { "Jostle, the same widths", figures = measured }, { "Zhang et al. 2011", points = source } } },
   pictures = pictures,
 }

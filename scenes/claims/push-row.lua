@@ -43,5 +43,10 @@ return claim {
     { "w4", unit = "m", what = "fourth", reported = true },
     { "w5", unit = "m", what = "fifth", reported = true },
   },
+  plots = { { name = "peaks", title = "Greatest displacement along the row, the pushed one first",
+    x = "person", y = "greatest displacement (m)",
+    { "Jostle, nobody in front", figures = { { 1, "p1" }, { 2, "p2" }, { 3, "p3" }, { 4, "p4" }, { 5, "p5" } } },
+    { "Jostle, a wall in front", figures = { { 1, "w1" }, { 2, "w2" }, { 3, "w3" }, { 4, "w4" }, { 5, "w5" } } },
+    { "measured, nobody in front", points = { { 1, 0.44 }, { 2, 0.50 }, { 3, 0.65 }, { 4, 0.70 }, { 5, 0.54 } } } } },
   pictures = { free = { "row.png", "paths.png" }, wall = { "row.png" } },
 }

@@ -10,9 +10,9 @@ local starts = { { "along", "../rimea-04.yaml" }, { "across", "../rimea-04-acros
 local function weidmann(density) return 1.34 * (1 - math.exp(-1.913 * (1 / density - 1 / 5.4))) end
 local function name_of(start, density) return string.format("%s%03.0f", start, 100 * density) end
 
-local runs, quick, expect = {}, {}, {}
+local runs, quick, expect, curves, law = {}, {}, {}, {}, {}
 for k = 1, #starts do
-  local start, scene = starts[k][1], starts[k][2]
+  local start, scene, measured = starts[k][1], starts[k][2], {}
   for i = 1, #densities do
     local d = densities[i]
     local name = name_of(start, d)
@@ -21,12 +21,16 @@ for k = 1, #starts do
     expect[#expect + 1] = { name, unit = "m/s",
       what = string.format("mean speed at %g people per square metre, rows %s the way", d, start),
       source = string.format("%.2f", weidmann(d)), band = { 0.65 * weidmann(d), 1.35 * weidmann(d) } }
+    measured[i] = { d, name }
   end
+  curves[k] = { "Jostle, rows " .. start .. " the way", figures = measured }
   expect[#expect + 1] = { "rises_" .. start, source = "0", band = { 0, 0 },
     what = "densities at which people are not slower than at the one before, rows " .. start }
   expect[#expect + 1] = { "flow_" .. start, unit = "1/(m s)", reported = true,
     what = "greatest specific flow, rows " .. start, source = "1.2 (Weidmann), 0.9 (F2)" }
 end
+
+for i = 1, 36 do law[i] = { 0.4 + 0.1 * i, weidmann(0.4 + 0.1 * i) } end
 
 return claim {
   id = "R4", title = "RiMEA 4: the fundamental diagram",
@@ -48,5 +52,7 @@ return claim {
     return out
   end,
   expect = expect,
+  plots = { { name = "diagram", title = "One-way flow in a corridor: speed and density",
+    x = "density (1/m^2)", y = "mean speed (m/s)", curves[1], curves[2], { "Weidmann 1993", line = law } } },
   pictures = { along100 = { "paths.png", "corridor.png" }, across300 = { "corridor.png" } },
 }

@@ -8,9 +8,9 @@ local area = 100 -- m2
 -- Who follows whom depends on where people stand at first, so both ways of the rows count.
 local starts = { { "along", "../ring.yaml" }, { "across", "../ring-across.yaml" } }
 
-local runs, quick, expect = {}, {}, {}
+local runs, quick, expect, curves = {}, {}, {}, {}
 for k = 1, #starts do
-  local start, scene = starts[k][1], starts[k][2]
+  local start, scene, measured = starts[k][1], starts[k][2], {}
   for i = 1, #points do
     local density, speed = points[i][1], points[i][2]
     local name = string.format("%s%03.0f", start, 100 * density)
@@ -19,7 +19,9 @@ for k = 1, #starts do
     expect[#expect + 1] = { name, unit = "m/s",
       what = string.format("mean speed at %.2f people per square metre, rows %s the way", density, start),
       source = string.format("%.2f", speed), band = { 0.75 * speed, 1.25 * speed } }
+    measured[i] = { density, name }
   end
+  curves[k] = { "Jostle, rows " .. start .. " the way", figures = measured }
 end
 
 return claim {
@@ -33,5 +35,7 @@ return claim {
     return out
   end,
   expect = expect,
+  plots = { { name = "diagram", title = "Ring corridor, one way: speed and density",
+    x = "density (1/m^2)", y = "mean speed (m/s)", curves[1], curves[2], { "Juelich archive", points = points } } },
   pictures = { along073 = { "paths.png" }, across270 = { "paths.png", "middle.png" } },
 }

@@ -31,5 +31,10 @@ return claim {
     { "transit_10", what = "the same, dt 0.1 s", source = "small", band = { -0.1, 0.1 } },
     { "transit_20", what = "the same, dt 0.2 s", source = "small", reported = true },
   },
+  plots = { { name = "steps", title = "Against the step of 0.01 s", x = "time step (s)", y = "relative difference",
+    { "residual displacement", figures = { { 0.02, "moved_02" }, { 0.05, "moved_05" }, { 0.1, "moved_10" },
+      { 0.2, "moved_20" } } },
+    { "transit time", figures = { { 0.02, "transit_02" }, { 0.05, "transit_05" }, { 0.1, "transit_10" },
+      { 0.2, "transit_20" } } } } },
   pictures = { dt050 = { "paths.png", "standing.png" } },
 }

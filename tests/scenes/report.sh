@@ -67,7 +67,34 @@ expect "both given" 0 '"until_s": 0.2' "$JOSTLE" report "$work/bare.txt" --fps 1
 expect "groups that a recording lacks" 3 "which this recording does not name" "$JOSTLE" report "$work/bare.txt" --fps 10 --unit cm --scene "$work/walk.yaml" --summary -
 printf 'jostle: 1\nprobes: {a: {failures: 1}}\n' >"$work/fails.yaml"
 expect "failures need a run" 3 "Measure it during a run" "$JOSTLE" report "$work/bare.txt" --fps 10 --unit cm --scene "$work/fails.yaml" --summary -
-expect "a scene without probes" 3 "this scene has no probes" "$JOSTLE" report "$work/bare.txt" --fps 10 --unit cm --scene scenes/circle.yaml --summary -
+expect "a scene without probes" 0 '"all": {"intervals": ' "$JOSTLE" report "$work/bare.txt" --fps 10 --unit cm --scene scenes/circle.yaml --summary -
+
+# Danger: of our recordings as in the run, of those by others without forces; who left; the page.
+"$JOSTLE" run scenes/evacuation.yaml --for 60 --quiet --no-half-step --record "$work/evac.sqlite" --data "$work/evac" --summary "$work/evac.json" 2>/dev/null
+"$JOSTLE" report "$work/evac.sqlite" --scene scenes/evacuation.yaml --out "$work/evac-page" --summary "$work/evac-again.json" >/dev/null 2>&1
+verdict "a report on an evacuation" $?
+number() { sed -n "/\"danger\": /,\$s/.*\"$1\": \([-0-9.e]*\|null\)[,} ].*/\1/p" "$2" | head -1; } # KEY FILE
+near() { # KEY WITHIN: in the run and in its recording
+    local a b; a=$(number "$1" "$work/evac.json"); b=$(number "$1" "$work/evac-again.json")
+    awk -v a="$a" -v b="$b" -v d="$2" 'BEGIN {exit !(a != "" && a + 0 > 0 && a - b <= d && b - a <= d)}'
+    verdict "danger: $1 is that of the run ($a, $b)" $?
+}
+near left 0; near clearance_s 0.11; near density_max 0.15; near density_max_s 0.6; near compression_max 12; near compression_max_s 0.31
+for file in index.html danger.csv danger.png danger-map.svg; do [ -s "$work/evac-page/$file" ]; verdict "the report has $file" $?; done
+tail -1 "$work/evac-page/danger.csv" | awk -F, '{exit !($2 == 0 && $NF == 140)}'; verdict "danger.csv ends with nobody there and 140 who left" $?
+missing=0
+for link in $(grep -o '\(src\|href\)="[^"]*"' "$work/evac-page/index.html" | cut -d'"' -f2); do [ -s "$work/evac-page/$link" ] || missing=1; done
+verdict "pictures of the page lie beside it" $missing
+grep -qF "$(sha256sum "$work/evac.sqlite" | cut -c1-64)" "$work/evac-page/index.html"; verdict "the page names the recording by its hash" $?
+awk 'BEGIN {print "# framerate: 10 fps"; for (f = 0; f < 300; f++) for (i = 0; i < 49; i++) if (i || f < 200) print i, f, (i % 7) * 0.37 + 0.05 * sin(f / 3 + i), int(i / 7) * 0.37, 0}' >"$work/dense.txt"
+"$JOSTLE" report "$work/dense.txt" --unit m --out "$work/dense" --summary "$work/dense.json" >/dev/null 2>&1
+verdict "a report on positions alone" $?
+between "danger: the density of a grid 0.37 m wide" "$(number density_max "$work/dense.json")" 6.0 7.4
+between "danger: somebody is over 5 per m2 from the start" "$(grep -o '"density_5".*' "$work/dense.json" | sed 's/.*"first_s": \([^,]*\),.*/\1/')" 0 0
+grep -q '"load_623": {"people": null' "$work/dense.json" && grep -q '"pressure_002": {"people": [0-9]' "$work/dense.json"; verdict "compression is not known, crowd pressure is" $?
+[ "$(number left "$work/dense.json")" = 1 ]; verdict "one has left" $?
+between "and when" "$(number clearance_s "$work/dense.json")" 20 20
+grep -q "Compression was not measured" "$work/dense/index.html" && ! grep -q "Compression was not measured" "$work/evac-page/index.html"; verdict "the page says so" $?
 printf '1 0 0 0\n1 1 zero 0\n' >"$work/bad.txt"
 expect "an error in a recording" 3 "bad.txt:2:5" "$JOSTLE" report "$work/bad.txt" --fps 10 --unit m --summary -
 expect "no such recording" 3 "cannot be read" "$JOSTLE" report "$work/none.txt" --summary -
