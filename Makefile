@@ -5,10 +5,10 @@ MODE    ?= release
 BULLET  ?= 1
 CAIRO   ?= 1
 PREFIX  ?= /usr/local
-LACKS   := $(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(CAIRO)),-nocairo)
+WITHOUT := $(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(CAIRO)),-nocairo)
 # Where the program finds its library of Lua, behaviours and scenes: this tree, until it is installed.
 DATADIR ?= $(CURDIR)
-B       ?= build/$(MODE)$(LACKS)
+B       ?= build/$(MODE)$(WITHOUT)
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
@@ -120,7 +120,7 @@ REFERENCE := behaviours:scripts/behaviour.md scenes:scripts/scene.md lua-ls:scri
 unit: $(UNIT)
 	@set -e; for t in $(UNIT); do echo "== $$t"; $$t; done
 # Installed files know where the library's Lua lies, so that each PREFIX is built apart.
-INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(LACKS)
+INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(WITHOUT)
 D          = $(DESTDIR)$(PREFIX)
 install:
 	@$(MAKE) --no-print-directory B=$(INSTALL_B) DATADIR=$(PREFIX)/share/jostle all

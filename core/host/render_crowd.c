@@ -434,7 +434,7 @@ bool jox_render_load(JoxRender *r, JoError *error) {
     if (!(def->scene ? load_scene(r, error) : load_recording(r, error)))
         return false;
     const JoxScene *plan = r->scene ? r->scene->plan : r->plan;
-    const char *path = r->scene ? plan->path : def->recording, *slash = strrchr(path, '/');
+    const char *path = def->scene ? def->scene->path : def->recording, *slash = strrchr(path, '/');
     snprintf(r->title, sizeof r->title, "%.250s",
              plan && plan->title ? plan->title
              : slash             ? slash + 1
