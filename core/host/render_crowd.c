@@ -319,6 +319,20 @@ double jox_render_time(const JoxRender *r) {
     return r->frame.time;
 }
 
+static double frame_time(const JoxTrajectories *t, uint32_t f) {
+    return (double)t->number[t->first[f]] / t->fps;
+}
+
+/* The least time between two frames: not every one need be written. */
+static double pace_of(const JoxTrajectories *t) {
+    int64_t least = INT64_MAX;
+    for (uint32_t f = 1; f < t->frame_count; f++) {
+        int64_t gap = t->number[t->first[f]] - t->number[t->first[f - 1]];
+        least = gap < least ? gap : least;
+    }
+    return (double)(t->frame_count > 1 ? least : 1) / t->fps;
+}
+
 bool jox_render_advance(JoxRender *r, double time, JoError *error) {
     JoxFrame next;
     while (r->scene && r->frame.time < time - 0.5 * r->pace - 1e-9) {
@@ -326,10 +340,17 @@ bool jox_render_advance(JoxRender *r, double time, JoError *error) {
             return false;
         look(r);
     }
-    while (r->crowd && jox_trajectories_frame(r->crowd, r->at + 1, &next) &&
-           next.time - time <= time - r->frame.time + 1e-9) {
+    if (r->scene)
+        return true;
+    while (jox_trajectories_frame(r->crowd, r->at + 1, &next) &&
+           next.time - time <= time - frame_time(r->crowd, r->at) + 1e-9) {
         r->at++;
         look(r);
+    }
+    /* Frames without anybody are not written: then there is nobody. */
+    if (fabs(frame_time(r->crowd, r->at) - time) > 0.75 * r->pace) {
+        r->frame.count = 0;
+        r->frame.time = r->first + floor((time - r->first) / r->pace + 0.5) * r->pace;
     }
     return true;
 }
@@ -409,12 +430,10 @@ static bool load_recording(JoxRender *r, JoError *error) {
     jox_host_report(def->message, def->message_context, &diagnostics, error);
     if (!r->crowd)
         return false;
-    JoxFrame last;
-    jox_trajectories_frame(r->crowd, r->crowd->frame_count - 1, &last);
     jox_trajectories_frame(r->crowd, 0, &r->frame);
     r->first = r->frame.time;
-    r->last = last.time;
-    r->pace = 1.0 / r->crowd->fps;
+    r->last = (double)r->crowd->last / r->crowd->fps;
+    r->pace = pace_of(r->crowd);
     r->picture.walls = r->plan && r->plan->walls.ring_count ? &r->plan->walls : &r->crowd->walls;
     return true;
 }

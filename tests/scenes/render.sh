@@ -62,6 +62,9 @@ printf '1 0 0 0\n1 1 10 0\n1 2 20 0\n' >"$work/bare.txt"
 expect "a recording that does not say its frame rate" 3 "--recorded-fps 25" "$JOSTLE" render "$work/bare.txt" --out "$work/bare.svg"
 expect "what it does not say is given" 0 "bare.svg" "$JOSTLE" render "$work/bare.txt" --recorded-fps 10 --unit cm --out "$work/bare.svg"
 expect "states that are not known" 3 "--colour speed" "$JOSTLE" render "$work/bare.txt" --recorded-fps 10 --unit cm --colour state --out "$work/bare.svg"
+printf '1 0 0 0\n1 1 1 0\n1 2 2 0\n2 20 5 5\n2 21 5 4\n' >"$work/gap.txt"
+seen=$(for t in 0.1 1 2.1; do render "$work/gap.txt" --recorded-fps 10 --unit m --at $t --out "$work/gap.svg" 2>/dev/null; people "$work/gap.svg"; done | tr '\n' ' ')
+same "nobody is drawn when nobody was there" "$seen" "1 0 1 "
 
 # ---- images ----
 if [ $images = yes ]; then
