@@ -192,7 +192,8 @@ JO_API double jo_scene_duration(const JoScene *scene); /* s, as the scene says *
 JO_API bool jo_scene_step(JoScene *scene, JoError *error);
 
 /* What people do to a running scene; it takes effect in the next step, as an event of the scene
-   does. False with `error` where there is no such body or wall, or a number is out of range. */
+   does, and goes into the input log if one is written. False with `error` where there is no such
+   body or wall, or a number is out of range. */
 /* Throws a body by its name: x, y, z of where it is put first (m; NULL: from where it lies),
    velocity (m/s, each up to 100; NULL: none) and spin about x, y, z (rad/s, each up to 100; NULL:
    none). */
@@ -202,6 +203,19 @@ JO_API bool jo_scene_throw(JoScene *scene, const char *body, const double from[3
 JO_API bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *error);
 /* Calls a name out, which everybody hears in the next step, wherever they are. */
 JO_API bool jo_scene_signal(JoScene *scene, const char *name, JoError *error);
+/* Does what a line of an input log says, without its tick: "push 7 300 0" (core/world/input.h has
+   them all). False with `error` where it cannot be done; nothing is then logged. */
+JO_API bool jo_scene_input(JoScene *scene, const char *line, JoError *error);
+/* What the agent in a slot (JoAgent.slot) is, wants and meets, as one JSON object; free with
+   jo_free. From the first call on, and as long as it is asked for at least every 5 simulated
+   seconds, its steps are looked at closely: "planes" are the half-planes of its last step, m/s,
+   each allowing what lies to the left of its direction; "forces" the parts of its net force, N;
+   "last" its last transition, and why. {"agent": null} once where nobody is in the slot, or who was
+   inspected there has left. Nothing of it changes the run. */
+JO_API char *jo_scene_inspect(JoScene *scene, uint32_t slot);
+/* From here on writes what people do, and files that are reloaded, to a file (replaced if it is
+   there), which JoSceneDef.input_log plays back to the same state. */
+JO_API bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error);
 /* Writes trajectories to an SQLite file from here on (JuPedSim format, version 2). */
 JO_API bool jo_scene_record(JoScene *scene, const char *path, JoError *error);
 /* Collects density and regional speeds from here on; jo_scene_finish draws them, and what the
@@ -241,6 +255,51 @@ JO_API const char *jo_stage_name(int stage);
 JO_API char *jo_scene_summary(const JoScene *scene);
 /* From several summaries: mean and 5-95 % range of each numeric figure; free with jo_free. */
 JO_API char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error);
+
+/* A scene on a live page: a browser on this machine shows it and lets people act on it. */
+typedef struct JoViewDef {
+    JoSceneDef scene;
+    const char *address;      /* to listen at; NULL: 127.0.0.1, for this machine alone */
+    int port;                 /* 0: 8730, or the next that is free */
+    const char *page;         /* folder of the page's files; NULL: where they were installed */
+    const char *three;        /* folder of three.js; NULL: Debian's */
+    bool fast;                /* as fast as it can go, not in real time */
+    bool watch;               /* files that are edited are reloaded; on by default */
+    double seconds;           /* simulated, after which it pauses; 0: the scene's duration */
+    const char *record;       /* file for trajectories, or NULL; a restart begins it anew */
+    const char *log_input;    /* file for what people do, or NULL; a restart begins it anew */
+    const volatile int *stop; /* it ends once this is not 0; NULL: never */
+    JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
+    void *opened_context;
+    char **summary; /* NULL, or for the figures of the run as it ended; free with jo_free */
+    uint32_t cookie;
+} JoViewDef;
+JO_API JoViewDef jo_default_view_def(void);
+/* Returns when it was stopped. False with `error` if the page cannot be served or the scene does
+   not load; every error of the scene went to its `message`. */
+JO_API bool jo_view(const JoViewDef *def, JoError *error);
+
+/* Shows a recording on that page: any that jo_report takes. */
+typedef struct JoViewRecordingDef {
+    const char *recording;
+    const char *scene;   /* whose walls, places and bodies are drawn; NULL: the recording's walls */
+    double fps;          /* frames a second; 0: as the recording says */
+    double unit;         /* m, of its lengths; 0: as it says */
+    const char *address; /* these three and the port as in JoViewDef */
+    const char *page;
+    const char *three;
+    int port;
+    const volatile int *stop; /* it ends once this is not 0; NULL: never */
+    JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
+    void *opened_context;
+    JoMessage *message; /* NULL: to stderr */
+    void *message_context;
+    uint32_t cookie;
+} JoViewRecordingDef;
+JO_API JoViewRecordingDef jo_default_view_recording_def(void);
+/* Returns when it was stopped. False with `error` if the page cannot be served or there is no such
+   recording; all that is wrong with it went to `message`. */
+JO_API bool jo_view_recording(const JoViewRecordingDef *def, JoError *error);
 
 /* What is measured of a recording: an SQLite file of jo_scene_record or of JuPedSim, or text with
    the columns id, frame, x, y as PeTrack writes it, or CSV with a line of names. */

@@ -158,7 +158,7 @@ static void measure_velocities(JoxTrajectories *t, const Place *places) {
     }
 }
 
-static bool is_sqlite(const char *path) {
+bool jox_is_sqlite(const char *path) {
     char start[16] = "";
     FILE *file = fopen(path, "rb");
     size_t got = file ? fread(start, 1, sizeof start, file) : 0;
@@ -187,8 +187,8 @@ JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOpti
                                        JoxDiagnostics *diagnostics) {
     JoxTrajectories *t = jox_alloc(1, sizeof *t);
     t->period = options->period;
-    bool good = is_sqlite(path) ? jox_trajectories_sqlite(t, path, options, diagnostics)
-                                : read_text(t, path, options, diagnostics);
+    bool good = jox_is_sqlite(path) ? jox_trajectories_sqlite(t, path, options, diagnostics)
+                                    : read_text(t, path, options, diagnostics);
     good = good && check_times(t, path, diagnostics);
     Place *places = good ? jox_alloc(t->count, sizeof *places) : NULL;
     good = good && sort(t, places, path, diagnostics);

@@ -57,6 +57,11 @@ bool jox_trajectories_text(JoxTrajectories *t, const char *path, const char *tex
                            const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics);
 bool jox_trajectories_sqlite(JoxTrajectories *t, const char *path,
                              const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics);
+/* Walls and groups alone, of an open file (sqlite3 *). */
+struct sqlite3;
+void jox_trajectories_plan(JoxTrajectories *t, struct sqlite3 *db);
+/* Whether a file begins as SQLite files do. */
+bool jox_is_sqlite(const char *path);
 /* Room for one more row; its number, by which the columns are filled. */
 size_t jox_trajectories_add(JoxTrajectories *t);
 

@@ -76,6 +76,11 @@ static void read_groups(JoxTrajectories *t, sqlite3 *db) {
     sqlite3_finalize(statement);
 }
 
+void jox_trajectories_plan(JoxTrajectories *t, sqlite3 *db) {
+    read_geometry(t, db);
+    read_groups(t, db);
+}
+
 /* Names of states, and the numbers that they have in the recording, `numbers`, ascending; the first
    name is that of people without a machine. */
 static int64_t *read_states(JoxTrajectories *t, sqlite3 *db) {
@@ -185,8 +190,7 @@ bool jox_trajectories_sqlite(JoxTrajectories *t, const char *path,
             good = fail(diagnostics, path, options->fps_option ? options->fps_option : "--fps 25",
                         "this recording does not say how many frames a second it has");
         t->last = (int64_t)ask_number(db, "SELECT MAX(frame) FROM frame_data");
-        read_geometry(t, db);
-        read_groups(t, db);
+        jox_trajectories_plan(t, db);
     }
     sqlite3_close(db);
     return good;
