@@ -4,6 +4,7 @@
 
 #include "host/host.h"
 #include "record/draw.h"
+#include "record/reel.h"
 #include "record/trajectories.h"
 
 typedef struct JoxRender {
@@ -23,6 +24,7 @@ typedef struct JoxRender {
     JoxDanger *danger; /* of a recording, for pressure */
     float *density;    /* of each person */
     size_t density_capacity;
+    JoxReel *reel; /* of a recording that has bodies, for these; else NULL */
     JoxDrawnBody *bodies;
     size_t body_capacity;
     const char **states; /* of a scene: with their machines' names where there are several */
@@ -46,6 +48,8 @@ void jox_render_widen(JoxRender *render);
 /* The picture of now. */
 const JoxPicture *jox_render_picture(JoxRender *render);
 void jox_render_free(JoxRender *render);
+/* render_bodies.c: those of now, for the picture. */
+void jox_render_bodies(JoxRender *render);
 /* What colours can tell of this crowd; false with `error`. */
 bool jox_render_choose(JoxRender *render, JoError *error);
 

@@ -355,31 +355,6 @@ bool jox_render_advance(JoxRender *r, double time, JoError *error) {
     return true;
 }
 
-/* Bodies as people see them; what is above or below their reach as a disc about it. */
-static void list_bodies(JoxRender *r) {
-    JoWorld *world = r->scene->world;
-    JoxPicture *p = &r->picture;
-    jox_bodies_objects(world->bodies, &world->objects);
-    const JoxObjects *objects = &world->objects;
-    JOX_RESERVE(r->bodies, r->body_capacity, objects->count + 1);
-    p->body_count = 0;
-    for (uint32_t o = 0; o < objects->count; o++) {
-        const JoxObject *object = &objects->rows[o];
-        if (!object->live)
-            continue;
-        JoxDrawnBody *body = &r->bodies[p->body_count++];
-        *body = (JoxDrawnBody){.name = jox_bodies_name(world->bodies, o),
-                               .at = {object->position.x, object->position.y},
-                               .radius = object->in_band ? object->round : object->disc,
-                               .high = !object->in_band};
-        if (!object->in_band)
-            continue;
-        body->count = object->footprint_count;
-        memcpy(body->ring, object->footprint, sizeof body->ring);
-    }
-    p->bodies = r->bodies;
-}
-
 const JoxPicture *jox_render_picture(JoxRender *r) {
     JoxPicture *p = &r->picture;
     p->frame = &r->frame;
@@ -388,11 +363,11 @@ const JoxPicture *jox_render_picture(JoxRender *r) {
         p->face_x = a->face_x;
         p->face_y = a->face_y;
         p->walls = &r->scene->world->wall_plan;
-        list_bodies(r);
     } else if (r->crowd->face_x) {
         p->face_x = r->crowd->face_x + r->crowd->first[r->at];
         p->face_y = r->crowd->face_y + r->crowd->first[r->at];
     }
+    jox_render_bodies(r);
     p->trails = r->trails;
     p->trail_count = r->trail_count;
     if (r->grid)
@@ -424,11 +399,18 @@ static bool load_recording(JoxRender *r, JoError *error) {
     }
     if (!def->plan || r->plan)
         r->crowd = jox_trajectories_read(def->recording, &options, &diagnostics);
+    if (r->crowd && jox_is_sqlite(def->recording))
+        r->reel = jox_reel_open(def->recording, &options, &diagnostics);
+    if (r->reel && !jox_reel_info(r->reel).has_bodies) {
+        jox_reel_close(r->reel);
+        r->reel = NULL;
+    }
     for (uint32_t f = 0; r->plan && f < r->plan->file_count; f++)
         jox_diag_attach_source(&diagnostics, r->plan->files[f].path, r->plan->files[f].text,
                                r->plan->files[f].length);
+    bool good = r->crowd && diagnostics.errors == 0;
     jox_host_report(def->message, def->message_context, &diagnostics, error);
-    if (!r->crowd)
+    if (!good)
         return false;
     jox_trajectories_frame(r->crowd, 0, &r->frame);
     r->first = r->frame.time;
@@ -480,6 +462,7 @@ void jox_render_free(JoxRender *r) {
         r->scene->danger = NULL;
     }
     jo_scene_free(r->scene);
+    jox_reel_close(r->reel);
     jox_trajectories_free(r->crowd);
     jox_scene_free(r->plan);
     jox_danger_free(r->danger);

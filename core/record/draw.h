@@ -4,7 +4,7 @@
 #ifndef JOX_RECORD_DRAW_H
 #define JOX_RECORD_DRAW_H
 
-#include "geom/objects.h"
+#include "body/body.h"
 #include "geom/place.h"
 #include "record/canvas.h"
 #include "record/density.h"
@@ -29,14 +29,24 @@ extern const struct JoxShown {
     float most;
 } jox_shown[JOX_SHOWS];
 
+enum { JOX_OUTLINE_POINTS = 32 };
+
+/* A part of a body, convex. */
 typedef struct JoxDrawnBody {
     const char *name; /* "" without one */
-    JoxV2 ring[JOX_FOOTPRINT_POINTS];
+    JoxV2 ring[JOX_OUTLINE_POINTS];
     uint32_t count; /* of the ring; 0: a disc */
     JoxV2 at;
-    float radius; /* of the disc, m */
-    bool high;    /* where nobody touches it: above heads, or flat upon the ground */
+    float radius;   /* of the disc, m */
+    float low, top; /* heights between which it is, m */
+    bool high;      /* where nobody touches it: above heads, or flat upon the ground */
 } JoxDrawnBody;
+
+/* The outline of a part from above, of a body at a point (of the shape's own frame, m) and turned;
+   false where it is nowhere. */
+bool jox_draw_outline(const JoxBodyLook *look, JoxV3 at, const float turn[4], JoxDrawnBody *out);
+/* Sets `high` of all parts of one body. */
+void jox_draw_reach(JoxDrawnBody *parts, uint32_t count);
 
 /* Where somebody, or a body, went. A point that is not finite parts it. */
 typedef struct JoxTrail {

@@ -56,6 +56,12 @@ same "in the same states" "$(states "$work/recorded.svg")" "$(states "$work/run.
 render "$work/run.sqlite" --scene scenes/gates.yaml --at 15 --out "$work/with.svg" 2>/dev/null
 at() { sed -n 's/.*<circle id="p7" cx="\([0-9.]*\)" cy="\([0-9.]*\)".*/\1 \2/p' "$1"; }
 same "somebody is where they were" "$(at "$work/with.svg")" "$(at "$work/run.svg")"
+"$JOSTLE" run scenes/wall-breaking.yaml --set groups.people.count=20 --for 1 --record "$work/wall.sqlite" --quiet 2>/dev/null
+"$JOSTLE" render scenes/wall-breaking.yaml --set groups.people.count=20 --at 1 --out "$work/wall.svg" --quiet 2>/dev/null
+render "$work/wall.sqlite" --at 1 --scene scenes/wall-breaking.yaml --out "$work/wall2.svg" 2>/dev/null
+bodies() { sed -n '/<g id="bodies"/,/<\/g>/p' "$1" | grep -E '<(path|circle)' | sed 's/><title.*//; s|/>||' | sort; }
+bodies "$work/wall.svg" >"$work/parts"; bodies "$work/wall2.svg" | cmp - "$work/parts" && [ "$(wc -l <"$work/parts")" -gt 50 ]
+verdict "bodies of a recording are those of the run" $?
 expect "a time that is not in the recording" 3 "which has 0.1 to 20 s" "$JOSTLE" render "$work/run.sqlite" --at 20.4 --out "$work/x.svg"
 [ ! -e "$work/x.svg" ]; verdict "and no file" $?
 printf '1 0 0 0\n1 1 10 0\n1 2 20 0\n' >"$work/bare.txt"

@@ -242,6 +242,55 @@ static void svg_says_what_it_shows(void **state) {
     jox_walls_free(&h.walls);
 }
 
+static void bodies_are_seen_from_above(void **state) {
+    (void)state;
+    const float half = 0.70710678f, none[4] = {0, 0, 0, 1}, about_z[4] = {0, 0, half, half},
+                about_x[4] = {half, 0, 0, half};
+    JoxDrawnBody drawn;
+    /* A plank of 4 m by 1 m, a quarter of a turn: 1 m along x, 4 m along y. */
+    JoxBodyLook plank = {.kind = JOX_SHAPE_BOX, .size = {4, 1, 0.2f}, .turn = {0, 0, 0, 1}};
+    assert_true(jox_draw_outline(&plank, (JoxV3){10, 5, 1}, about_z, &drawn));
+    assert_int_equal(drawn.count, 4);
+    for (uint32_t c = 0; c < 4; c++) {
+        assert_float_equal(fabsf(drawn.ring[c].x - 10), 0.5, 1e-4);
+        assert_float_equal(fabsf(drawn.ring[c].y - 5), 2, 1e-4);
+    }
+    assert_true(jox_polygon_area(drawn.ring, 4) > 0);
+    assert_float_equal(drawn.low, 0.9, 1e-4);
+    assert_float_equal(drawn.top, 1.1, 1e-4);
+    jox_draw_reach(&drawn, 1);
+    assert_false(drawn.high);
+    /* On edge about x: its height of 1 m stands up, 0.2 m are seen. */
+    assert_true(jox_draw_outline(&plank, (JoxV3){0, 0, 3}, about_x, &drawn));
+    for (uint32_t c = 0; c < drawn.count; c++)
+        assert_float_equal(fabsf(drawn.ring[c].y), 0.1, 1e-4);
+    jox_draw_reach(&drawn, 1);
+    assert_true(drawn.high);
+    /* A part off the middle turns with its body. */
+    plank.at = (JoxV3){2, 0, 0};
+    assert_true(jox_draw_outline(&plank, (JoxV3){0, 0, 1}, about_z, &drawn));
+    assert_float_equal(drawn.at.x, 0, 1e-4);
+    assert_float_equal(drawn.at.y, 2, 1e-4);
+    /* A cylinder is a disc while it stands, and as long as it is when it lies. */
+    JoxBodyLook drum = {.kind = JOX_SHAPE_CYLINDER, .size = {0.5f, 3}, .turn = {0, 0, 0, 1}};
+    assert_true(jox_draw_outline(&drum, (JoxV3){0, 0, 1.5f}, none, &drawn));
+    assert_int_equal(drawn.count, 0);
+    assert_float_equal(drawn.radius, 0.5, 1e-6);
+    assert_float_equal(drawn.low, 0, 1e-6);
+    assert_true(jox_draw_outline(&drum, (JoxV3){0, 0, 0.5f}, about_x, &drawn));
+    assert_in_range(drawn.count, 4, JOX_OUTLINE_POINTS);
+    assert_float_equal(jox_polygon_area(drawn.ring, drawn.count), 3, 0.05);
+    /* A hull, and numbers that are none. */
+    const JoxV3 corners[4] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5f, 0.5f, 2}};
+    JoxBodyLook hull = {
+        .kind = JOX_SHAPE_HULL, .turn = {0, 0, 0, 1}, .corners = corners, .corner_count = 4};
+    assert_true(jox_draw_outline(&hull, (JoxV3){0, 0, 0}, none, &drawn));
+    assert_int_equal(drawn.count, 3);
+    assert_false(jox_draw_outline(&hull, (JoxV3){NAN, 0, 0}, none, &drawn));
+    drum.size[0] = INFINITY;
+    assert_false(jox_draw_outline(&drum, (JoxV3){0, 0, 0}, about_x, &drawn));
+}
+
 /* Names and numbers as hostile as a recording may have them. */
 static void nothing_is_taken_for_granted(void **state) {
     (void)state;
@@ -311,6 +360,7 @@ int main(void) {
         cmocka_unit_test(things_are_where_they_are),
         cmocka_unit_test(values_are_colours),
         cmocka_unit_test(svg_says_what_it_shows),
+        cmocka_unit_test(bodies_are_seen_from_above),
         cmocka_unit_test(nothing_is_taken_for_granted),
         cmocka_unit_test(colours_are_the_published_ones),
         cmocka_unit_test(sizes_suit_areas),
