@@ -21,6 +21,7 @@ import { Tools, TOOLS } from "./tools.js";
 import { View } from "./view.js";
 
 const LINKS = { connecting: "connecting", open: "connected", lost: "not connected, trying again" };
+const NEAR = 14; // m, from which a person is followed
 const MOVE = 0.08; // of the distance to what is looked at, for one press of an arrow key
 
 class Page {
@@ -293,6 +294,8 @@ class Page {
 
     follow(on = !this.following) {
         this.following = on && this.slot !== null;
+        const { view } = this, away = view.camera.position.distanceTo(view.controls.target);
+        if (this.following && !view.top && away > NEAR) view.turnBy(0, 0, away / NEAR);
         if (on && this.slot === null) this.messages.say("Choose a person first: click one.");
         this.toolBar.follow.setAttribute("aria-pressed", String(this.following));
     }
