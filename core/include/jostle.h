@@ -203,8 +203,8 @@ JO_API bool jo_scene_throw(JoScene *scene, const char *body, const double from[3
 JO_API bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *error);
 /* Calls a name out, which everybody hears in the next step, wherever they are. */
 JO_API bool jo_scene_signal(JoScene *scene, const char *name, JoError *error);
-/* Does what a line of an input log says, without its tick: "push 7 300 0" (core/world/input.h has
-   them all). False with `error` where it cannot be done; nothing is then logged. */
+/* Does what a line of an input log says, without its tick: "push 7 300 0" (jo_reference("inputs")
+   has them all). False with `error` where it cannot be done; nothing is then logged. */
 JO_API bool jo_scene_input(JoScene *scene, const char *line, JoError *error);
 /* What the agent in a slot (JoAgent.slot) is, wants and meets, as one JSON object; free with
    jo_free. From the first call on, and as long as it is asked for at least every 5 simulated
@@ -268,7 +268,7 @@ typedef struct JoViewDef {
     double seconds;           /* simulated, after which it pauses; 0: the scene's duration */
     const char *record;       /* file for trajectories, or NULL; a restart begins it anew */
     const char *log_input;    /* file for what people do, or NULL; a restart begins it anew */
-    const volatile int *stop; /* it ends once this is not 0; NULL: never */
+    const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
     JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
     void *opened_context;
     char **summary; /* NULL, or for the figures of the run as it ended; free with jo_free */
@@ -289,7 +289,7 @@ typedef struct JoViewRecordingDef {
     const char *page;
     const char *three;
     int port;
-    const volatile int *stop; /* it ends once this is not 0; NULL: never */
+    const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
     JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
     void *opened_context;
     JoMessage *message; /* NULL: to stderr */
@@ -360,7 +360,8 @@ JO_API JoReproduceDef jo_default_reproduce_def(void);
    not be done; what is wrong with claim files went to `message`. */
 JO_API bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error);
 /* A generated page or file by name, as `jostle reference` lists them: "behaviours", "scenes",
-   "lua-ls", "luacheck", "scene-schema", "mod-schema". NULL if there is none; free with jo_free. */
+   "lua-ls", "luacheck", "scene-schema", "mod-schema", "inputs". NULL if there is none; free with
+   jo_free. */
 JO_API char *jo_reference(const char *what);
 /* The reference of the scene format, as text; free with jo_free. */
 JO_API char *jo_scene_reference(void);

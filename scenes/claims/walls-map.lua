@@ -28,9 +28,9 @@ expect[#expect + 1] = { "rises", what = "strengths of which no smaller share bre
 return claim {
   id = "3m", title = "Which walls break: a map over the mass of the blocks and the strength of the bonds",
   source = "Kim et al. 2014, Figs. 2 and 7: three points of it",
-  text = "The wall of 200 glued blocks and the crowd of 1200 people of claim 3, for a minute. Bonds that are weak break "
-    .. "whatever the blocks weigh, strong ones hold; what holds lets people through only where it is light enough to be "
-    .. "pushed aside.",
+  text = "The wall of 200 glued blocks and the crowd of 1200 people of claim 3, for a minute. Bonds that are weak "
+    .. "break whatever the blocks weigh, strong ones hold; what holds lets people through only where it is light "
+    .. "enough to be pushed aside.",
   runs = runs, quick = quick,
   measure = function(run)
     local out, shares = {}, {}

@@ -64,7 +64,14 @@ static void defs_must_come_from_their_default(void **state) {
     assert_null(jo_report(&report, NULL));
     assert_null(jo_report(&(JoReportDef){.recording = "x"}, NULL)); /* not of the default */
     assert_null(jo_report(NULL, NULL));
-    assert_int_equal(reports, 8);
+    JoViewRecordingDef view = jo_default_view_recording_def();
+    assert_false(jo_view_recording(&view, NULL)); /* of no recording */
+    view.recording = "x";
+    view.fps = -1;
+    assert_false(jo_view_recording(&view, NULL));
+    assert_false(jo_view_recording(&(JoViewRecordingDef){.recording = "x"}, NULL));
+    assert_false(jo_view_recording(NULL, NULL));
+    assert_int_equal(reports, 12);
 }
 
 static void numbers_out_of_range_are_refused_by_name(void **state) {
