@@ -21,6 +21,8 @@ import { Tools, TOOLS } from "./tools.js";
 import { View } from "./view.js";
 
 const LINKS = { connecting: "connecting", open: "connected", lost: "not connected, trying again" };
+const LOST = ["The connection is lost. The page tries again by itself.",
+    "The connection is lost. If the program was started anew, open the address that it prints."];
 const NEAR = 14; // m, from which a person is followed
 const MOVE = 0.08; // of the distance to what is looked at, for one press of an arrow key
 
@@ -130,7 +132,7 @@ class Page {
         const node = byId("link");
         node.dataset.state = state;
         say(node, LINKS[state]);
-        this.messages?.stand("link", state === "lost" ? "The connection is lost. The page tries again by itself." : "");
+        this.messages?.stand("link", state === "lost" ? LOST[Number(this.connection?.attempt > 4)] : "");
         if (state === "open") this.again();
     }
 
@@ -213,6 +215,8 @@ class Page {
             this.findPlayers();
         } else if (kind === 2) {
             this.crowd.takePeople(buffer);
+            this.view.people.uploadPersons(this.crowd);
+            this.redraw();
         } else if (kind === 3) {
             const field = readField(buffer);
             if (field.which !== ["density", "pressure"].indexOf(this.field)) return;

@@ -80,11 +80,15 @@ export class People {
         this.write(this.newest, frame);
         this.uniforms.swapped.value = this.newest === 0 ? 1 : 0;
         this.points.geometry.setDrawRange(0, frame.slots);
-        if (this.personVersion !== crowd.personVersion) {
-            this.persons.array.set(crowd.person.subarray(0, 2 * this.capacity));
-            this.persons.needsUpdate = true;
-            this.personVersion = crowd.personVersion;
-        }
+        this.uploadPersons(crowd);
+    }
+
+    /** Radii and groups, where they changed. */
+    uploadPersons(crowd) {
+        if (this.personVersion === crowd.personVersion) return;
+        this.persons.array.set(crowd.person.subarray(0, 2 * this.capacity));
+        this.persons.needsUpdate = true;
+        this.personVersion = crowd.personVersion;
     }
 
     write(which, frame) {
