@@ -201,7 +201,7 @@ static void a_huge_message_ends_the_connection(void **state) {
     memset(huge, 'x', size);
     put_frame(fd, FRAME_TEXT, true, true, huge, size); /* not to its end, as it seems */
     free(huge);
-    while ((message = get_message(fd, &kind, &length, 1.0)) != NULL)
+    while ((message = get_message(fd, &kind, &length, 10.0)) != NULL)
         free(message);
     leave(fd);
     assert_true(jox_view_dropped(view) >= 1);
