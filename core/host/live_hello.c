@@ -294,6 +294,7 @@ uint64_t jox_live_version(const JoScene *scene) {
     JoxHash hash = jox_hash_begin();
     for (uint32_t m = 0; m < world->mind.machine_count; m++)
         jox_hash_add(&hash, &world->mind.machines[m], sizeof world->mind.machines[m]);
+    jox_hash_add(&hash, &world->mind.edits, sizeof world->mind.edits);
     for (uint32_t v = 0; v < walls->count; v++) /* opening and closing is in the status */
         jox_hash_add(&hash, &walls->vertices[v].point, sizeof(JoxV2));
     for (uint32_t p = 0; p < world->place_count; p++)
