@@ -292,6 +292,9 @@ uint64_t jox_live_version(const JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxWalls *walls = &world->wall_plan;
     JoxHash hash = jox_hash_begin();
+    jox_hash_add(&hash, &scene->plan->view, sizeof scene->plan->view);
+    jox_hash_add(&hash, scene->plan->camera.position, sizeof scene->plan->camera.position);
+    jox_hash_add(&hash, scene->plan->camera.target, sizeof scene->plan->camera.target);
     for (uint32_t m = 0; m < world->mind.machine_count; m++)
         jox_hash_add(&hash, &world->mind.machines[m], sizeof world->mind.machines[m]);
     for (uint32_t v = 0; v < walls->count; v++) /* opening and closing is in the status */
