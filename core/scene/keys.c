@@ -30,7 +30,7 @@ const JoxKey jox_scene_keys[] = {
     {"scene", "periodic", TEXT, "", 0, 0, "none", .choices = "none|x|y|both",
      .meaning = "axes along which the bounds are joined: who leaves at one edge comes in at the other"},
     {"scene", "input", TEXT, "", 0, 0, "",
-     .meaning = "file of the input log that drives player agents"},
+     .meaning = "file of an input log that is played (see input.md)"},
     {"scene", "player", TEXT, "", 0, 0, "",
      .meaning = "group whose first agent a person drives"},
     {"scene", "mods", TABLE, "", 0, 0, "", .of = "quantity**",

@@ -7,72 +7,10 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "world/verbs.h"
 
 enum { LONGEST_LINE = 1200 };
 static const size_t LARGEST_FILE = (size_t)16 << 20; /* bytes */
-
-/* One word of a verb: a number with its range, or a name. */
-typedef struct Word {
-    const char *name;
-    enum { NUMBER, WHOLE, NAME, PATH, FILES } kind;
-    double least, most;
-    const char *unit;
-} Word;
-
-#define METRES(axis)                                                                               \
-    { axis, NUMBER, -1e4, 1e4, "m" }
-#define SPEED(axis, most)                                                                          \
-    { axis, NUMBER, -(most), most, "m/s" }
-#define SPIN(axis)                                                                                 \
-    { axis, NUMBER, -100, 100, "rad/s" }
-#define FORCE(axis)                                                                                \
-    { axis, NUMBER, -1e4, 1e4, "N" }
-#define ID(what)                                                                                   \
-    { what, WHOLE, 0, UINT32_MAX - 1.0, "" }
-#define CALLED(what)                                                                               \
-    { what, NAME, 0, 0, "" }
-
-static const struct Verb {
-    const char *name;
-    Word words[11];
-    uint32_t least, most; /* words that it takes */
-    const char *example;
-} VERBS[JOX_INPUT_VERBS] = {
-    {"player", {ID("AGENT"), SPEED("VX", 20), SPEED("VY", 20)}, 3, 3, "player 0 1.5 0"},
-    {"throw",
-     {CALLED("BODY"), METRES("X"), METRES("Y"), METRES("Z"), SPEED("VX", 100), SPEED("VY", 100),
-      SPEED("VZ", 100), SPIN("WX"), SPIN("WY"), SPIN("WZ")},
-     7,
-     10,
-     "throw ball here 5 0 3"},
-    {"box",
-     {METRES("X"),
-      METRES("Y"),
-      METRES("Z"),
-      SPEED("VX", 100),
-      SPEED("VY", 100),
-      SPEED("VZ", 100),
-      {"SIZE", NUMBER, 0.05, 5, "m"},
-      {"MASS", NUMBER, 0.1, 1e4, "kg"}},
-     8,
-     8,
-     "box 1 2 1.5 5 0 3 0.4 10"},
-    {"grab", {ID("BODY"), METRES("X"), METRES("Y"), METRES("Z")}, 4, 4, "grab 0 1 2 0.5"},
-    {"drag", {ID("BODY"), METRES("X"), METRES("Y"), METRES("Z")}, 4, 4, "drag 0 1 3 0.5"},
-    {"release", {ID("BODY")}, 1, 1, "release 0"},
-    {"push", {ID("AGENT"), FORCE("FX"), FORCE("FY")}, 3, 3, "push 7 300 0"},
-    {"open", {CALLED("WALL")}, 1, 1, "open gate"},
-    {"close", {CALLED("WALL")}, 1, 1, "close gate"},
-    {"signal", {CALLED("NAME")}, 1, 1, "signal run"},
-    {"set",
-     {CALLED("MACHINE"), CALLED("STATE"), CALLED("PARAMETER"), {"VALUE", NUMBER, -1e9, 1e9, ""}},
-     4,
-     4,
-     "set walker Walk speed 1.2"},
-    {"began", {CALLED("SEED"), {"DT", NUMBER, 0.001, 0.2, "s"}}, 2, 2, "began 1 0.05"},
-    {"made", {{"PATH", PATH, 0, 0, ""}, CALLED("SHA256")}, 2, 2, "made scenes/office.yaml 0c8e..."},
-    {"before", {{"N", FILES, 1, JOX_INPUT_FILE_COUNT, "files"}}, 1, 1, "before 1"},
-    {"files", {{"N", FILES, 1, JOX_INPUT_FILE_COUNT, "files"}}, 1, 1, "files 1"}};
 
 /* ---- words of a line ---- */
 
@@ -139,14 +77,7 @@ static bool next_word(Reader *r) {
     return true;
 }
 
-static void usage_of(const struct Verb *verb, JoxText *out) {
-    jox_text_printf(out, "%s", verb->name);
-    for (uint32_t w = 0; w < verb->most; w++)
-        jox_text_printf(out, " %s%s%s", w == verb->least ? "[" : "", verb->words[w].name,
-                        w >= verb->least && w + 1 == verb->most ? "]" : "");
-}
-
-static bool read_number(Reader *r, const Word *word, double *out) {
+static bool read_number(Reader *r, const JoxInputWord *word, double *out) {
     char *end;
     *out = r->quoted ? NAN : strtod(r->word, &end);
     char hint[160];
@@ -155,7 +86,7 @@ static bool read_number(Reader *r, const Word *word, double *out) {
              word->unit);
     if (r->quoted || end == r->word || *end || isnan(*out))
         return refuse(r, hint, "%s must be a number, not '%.40s'", word->name, r->word);
-    if (word->kind != NUMBER && *out != floor(*out))
+    if (word->kind != JOX_WORD_NUMBER && *out != floor(*out))
         return refuse(r, hint, "%s must be a whole number, not %.9g", word->name, *out);
     if (!(*out >= word->least && *out <= word->most))
         return refuse(r, NULL, "%s must be from %.9g to %.9g%s%s, not %.9g", word->name,
@@ -164,11 +95,11 @@ static bool read_number(Reader *r, const Word *word, double *out) {
 }
 
 /* One word of the verb into the entry. */
-static bool read_word(Reader *r, const Word *word, JoxInputEntry *entry) {
+static bool read_word(Reader *r, const JoxInputWord *word, JoxInputEntry *entry) {
     double value;
     uint32_t names = 0;
-    if (word->kind == NAME || word->kind == PATH) {
-        const size_t most = word->kind == PATH ? JOX_INPUT_PATH : JOX_INPUT_NAME;
+    if (word->kind == JOX_WORD_NAME || word->kind == JOX_WORD_PATH) {
+        const size_t most = word->kind == JOX_WORD_PATH ? JOX_INPUT_PATH : JOX_INPUT_NAME;
         while (names < JOX_INPUT_NAMES && entry->names[names])
             names++;
         size_t n = strlen(r->word);
@@ -179,7 +110,7 @@ static bool read_word(Reader *r, const Word *word, JoxInputEntry *entry) {
     }
     if (!read_number(r, word, &value))
         return false;
-    if (word->kind == NUMBER)
+    if (word->kind == JOX_WORD_NUMBER)
         entry->numbers[entry->given++] = value;
     else
         entry->number = (uint32_t)value;
@@ -188,15 +119,15 @@ static bool read_word(Reader *r, const Word *word, JoxInputEntry *entry) {
 
 /* The verb and what it takes. */
 static bool read_verb(Reader *r, JoxInputEntry *entry) {
-    const struct Verb *verb = NULL;
+    const JoxVerb *verb = NULL;
     const char *names[JOX_INPUT_VERBS];
     JoxText usage = {0};
     if (!next_word(r))
         return r->wrong->length ? false : refuse(r, "Example: player 0 1.5 0", "there is no verb");
     for (int v = 0; v < JOX_INPUT_VERBS; v++) {
-        names[v] = VERBS[v].name;
-        if (strcmp(r->word, VERBS[v].name) == 0) {
-            verb = &VERBS[v];
+        names[v] = jox_input_verbs[v].name;
+        if (strcmp(r->word, jox_input_verbs[v].name) == 0) {
+            verb = &jox_input_verbs[v];
             entry->verb = (JoxInputVerb)v;
         }
     }
@@ -208,7 +139,7 @@ static bool read_verb(Reader *r, JoxInputEntry *entry) {
             snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
         return refuse(r, hint, "there is no verb '%.40s'", r->word);
     }
-    usage_of(verb, &usage);
+    jox_input_usage(verb, &usage);
     uint32_t got = 0;
     bool good = true;
     while (good && next_word(r)) {
@@ -243,7 +174,7 @@ bool jox_input_read(const char *line, JoxInputEntry *entry, JoxText *wrong) {
                     : refuse(&r, NULL, "the line is longer than %d bytes", LONGEST_LINE);
     if (good && entry->verb >= JOX_INPUT_BEGAN)
         good = refuse(&r, NULL, "%s stands in logs alone; files come by being saved",
-                      VERBS[entry->verb].name);
+                      jox_input_verbs[entry->verb].name);
     if (!good && hint.length)
         jox_text_printf(wrong, ". %s", hint.data);
     if (!good)
@@ -278,7 +209,7 @@ static Reader next_line(Parser *p, JoxText *wrong, JoxText *hint) {
 
 /* One file of a block: PATH BYTES, the bytes, the end of a line. */
 static bool read_file(Parser *p, Reader *r, JoxInputFile *file) {
-    static const Word BYTES = {"BYTES", WHOLE, 0, 16777216, "bytes"};
+    static const JoxInputWord BYTES = {"BYTES", JOX_WORD_WHOLE, 0, 16777216, "bytes"};
     double bytes;
     *r = next_line(p, r->wrong, r->hint);
     if (!next_word(r))
@@ -327,7 +258,7 @@ static bool read_files(Parser *p, Reader *r, JoxInputEntry *entry) {
 
 /* Reads an entry; *empty where the line holds none. */
 static bool read_entry(Parser *p, Reader *r, uint32_t last, JoxInputEntry *entry, bool *empty) {
-    static const Word TICK = {"TICK", WHOLE, 0, UINT32_MAX - 1.0, "steps"};
+    static const JoxInputWord TICK = {"TICK", JOX_WORD_WHOLE, 0, UINT32_MAX - 1.0, "steps"};
     double tick;
     if (r->end - r->line > LONGEST_LINE) {
         const char *mark = r->line + strspn(r->line, " \t\r");
@@ -342,7 +273,7 @@ static bool read_entry(Parser *p, Reader *r, uint32_t last, JoxInputEntry *entry
     const Reader begin = *r;
     *entry = (JoxInputEntry){.tick = (uint32_t)tick, .line = p->number};
     if (!read_verb(r, entry) ||
-        (VERBS[entry->verb].words[0].kind == FILES && !read_files(p, r, entry)))
+        (jox_input_verbs[entry->verb].words[0].kind == JOX_WORD_FILES && !read_files(p, r, entry)))
         return false;
     r->number = begin.number; /* what is said next is about the tick */
     r->column = begin.column;
@@ -409,14 +340,14 @@ static void write_number(double number, JoxText *out) {
 }
 
 void jox_input_write(const JoxInputEntry *entry, JoxText *out) {
-    const struct Verb *verb = &VERBS[entry->verb];
+    const JoxVerb *verb = &jox_input_verbs[entry->verb];
     uint32_t name = 0, number = 0;
     jox_text_printf(out, "%u %s", entry->tick, verb->name);
     for (uint32_t w = 0; w < verb->most; w++) {
-        const Word *word = &verb->words[w];
-        if (word->kind == NAME || word->kind == PATH) {
+        const JoxInputWord *word = &verb->words[w];
+        if (word->kind == JOX_WORD_NAME || word->kind == JOX_WORD_PATH) {
             write_name(entry->names[name++], out);
-        } else if (word->kind != NUMBER) {
+        } else if (word->kind != JOX_WORD_NUMBER) {
             jox_text_printf(out, " %u", entry->number);
         } else if (entry->here && number < 3) {
             jox_text_add(out, number == 0 ? " here" : "");

@@ -1,19 +1,8 @@
 /* The input log: what people did to a running scene, with the step in which it took effect. Played
-   back, it drives a run to the same state. Text, one entry a line; '#' starts a comment; a name
-   with blanks stands in double quotes, where \" and \\ are a quote and a backslash. Ticks count
-   steps from 0 and never decrease. TICK player AGENT VX VY                     from TICK on its
-   player wants that velocity, m/s TICK throw BODY X Y Z VX VY VZ [WX WY WZ]   a named body, from a
-   point (or `here`), m, m/s, rad/s TICK box X Y Z VX VY VZ SIZE MASS           a new box, m, m/s,
-   kg TICK grab BODY X Y Z                        pulls the body of a row towards a point, m TICK
-   drag BODY X Y Z                        moves that point TICK release BODY TICK push AGENT FX FY
-   force on an agent during the step, N TICK open WALL, TICK close WALL             a named wall
-       TICK signal NAME                            everybody hears it
-       TICK set MACHINE STATE PARAMETER VALUE      STATE may be `defaults`
-       TICK began SEED DT                          the run that was logged, s
-       TICK made PATH SHA256                       a file that it was made of
-       TICK before N, TICK files N                 N files follow: a line PATH BYTES, then those
-                                                   bytes and a newline; `files` go live together,
-                                                   `before` is what they were when the run began */
+   back, it drives a run to the same state. Text, one entry a line: TICK VERB ..., with the verbs of
+   verbs.c; '#' starts a comment; a name with blanks stands in double quotes, where \" and \\ are a
+   quote and a backslash. Ticks count steps from 0 and never decrease. Behind `before N` and
+   `files N` follow N files: a line PATH BYTES, the bytes, the end of a line. */
 #ifndef JOX_WORLD_INPUT_H
 #define JOX_WORLD_INPUT_H
 

@@ -148,7 +148,7 @@ static void join(void) {
 static void end(void) {
     if (session.fd > 0)
         close(session.fd);
-    session.stop = 1;
+    __atomic_store_n(&session.stop, 1, __ATOMIC_RELAXED);
     pthread_join(session.thread, NULL);
     jox_text_free(&session.said);
 }

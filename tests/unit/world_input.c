@@ -13,7 +13,7 @@
 
 #include "base/mem.h"
 #include "base/random.h"
-#include "world/input.h"
+#include "world/verbs.h"
 
 static const char ALL[] = "# a comment\n"
                           "\n"
@@ -90,6 +90,36 @@ static void each_verb_is_read(void **state) {
     assert_int_equal(e[16].line, 27);
     assert_string_equal(e[16].names[0], "#1");
     jox_input_free(&log);
+}
+
+static void each_example_is_right(void **state) {
+    (void)state;
+    for (int v = 0; v < JOX_INPUT_VERBS; v++) {
+        JoxText text = {0};
+        jox_text_printf(&text, "0 %s\n", jox_input_verbs[v].example);
+        if (jox_input_verbs[v].words[0].kind == JOX_WORD_FILES)
+            jox_text_add(&text, "a.lua 0\n\n");
+        JoxInputLog log = parse(text.data, text.length);
+        if (wrong.errors || log.count != 1 || log.entries[0].verb != (JoxInputVerb)v)
+            fail_msg("%s", text.data);
+        jox_input_free(&log);
+        jox_text_free(&text);
+    }
+    JoxText page = {0};
+    jox_input_reference(&page);
+    const char *files = strstr(page.data, "    118 files");
+    assert_non_null(files);
+    JoxText block = {0};
+    for (const char *line = files; *line; line = strchr(line, '\n') + 1) /* without the margin */
+        jox_text_append(&block, line + (*line == ' ' ? 4 : 0),
+                        strcspn(line, "\n") + 1 - (*line == ' ' ? 4 : 0));
+    JoxInputLog log = parse(block.data, block.length);
+    assert_int_equal(wrong.errors, 0);
+    assert_int_equal(log.count, 2);
+    assert_string_equal(log.entries[0].files[0].text, "return 1.25\n");
+    jox_input_free(&log);
+    jox_text_free(&block);
+    jox_text_free(&page);
 }
 
 static void what_is_written_reads_back(void **state) {
@@ -252,9 +282,10 @@ static void no_text_does_harm(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_verb_is_read),      cmocka_unit_test(what_is_written_reads_back),
-        cmocka_unit_test(numbers_keep_every_bit), cmocka_unit_test(mistakes_have_their_places),
-        cmocka_unit_test(one_line_by_itself),     cmocka_unit_test(no_text_does_harm),
+        cmocka_unit_test(each_verb_is_read),          cmocka_unit_test(each_example_is_right),
+        cmocka_unit_test(what_is_written_reads_back), cmocka_unit_test(numbers_keep_every_bit),
+        cmocka_unit_test(mistakes_have_their_places), cmocka_unit_test(one_line_by_itself),
+        cmocka_unit_test(no_text_does_harm),
     };
     int failed = cmocka_run_group_tests(tests, NULL, NULL);
     jox_diag_free(&wrong);
