@@ -9,7 +9,7 @@
 #include "host/host.h"
 #include "host/live.h"
 
-enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 64 << 20 };
+enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 256 << 20 };
 
 void jox_host_to_stderr(void *context, const char *text) {
     (void)context;
