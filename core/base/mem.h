@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 /* `count` objects of `size` bytes, zeroed. Never NULL. */
 void *jox_alloc(size_t count, size_t size);
@@ -28,6 +29,15 @@ uint64_t jox_alloc_count(void);
             (array) = jox_realloc((array), jox_c, sizeof *(array));                                \
             (capacity) = jox_c;                                                                    \
         }                                                                                          \
+    } while (0)
+
+/* The same, with zeros in what is new. */
+#define JOX_RESERVE_ZEROED(array, capacity, need)                                                  \
+    do {                                                                                           \
+        size_t jox_had = (capacity);                                                               \
+        JOX_RESERVE(array, capacity, need);                                                        \
+        if ((size_t)(capacity) > jox_had)                                                          \
+            memset((array) + jox_had, 0, ((size_t)(capacity)-jox_had) * sizeof *(array));          \
     } while (0)
 
 #endif

@@ -7,8 +7,9 @@
 #include "host/replay_parts.h"
 
 enum { MOST_BODIES = 1 << 20 };
-static const float RADIUS = 0.2f; /* m: recordings do not say it */
-static const float MARGIN = 2.0f; /* m about everything */
+static const float RADIUS = 0.2f;  /* m: recordings do not say it */
+static const double LONGEST = 0.3; /* s over which displacements are taken for velocities */
+static const float MARGIN = 2.0f;  /* m about everything */
 
 /* ---- opening ---- */
 
@@ -171,6 +172,10 @@ static void give_slots(JoxReplay *r, const JoxReelFrame *f, double spent) {
             r->slot[i] = take_slot(r);
         const uint32_t s = r->slot[i];
         bool moved = !fresh && spent > 0.0;
+        bool round = fabsf(f->x[i] - r->last_x[s]) > 0.5f * period.x && period.x > 0.0f;
+        round |= fabsf(f->y[i] - r->last_y[s]) > 0.5f * period.y && period.y > 0.0f;
+        if (!fresh && round) /* an edge: nobody flies across */
+            r->parity[s] ^= JOX_LIVE_PARITY;
         r->vx[i] = moved ? shortest(f->x[i] - r->last_x[s], period.x) / (float)spent : 0.0f;
         r->vy[i] = moved ? shortest(f->y[i] - r->last_y[s], period.y) / (float)spent : 0.0f;
         r->last_x[s] = r->x[i] = f->x[i];
@@ -204,15 +209,22 @@ void jox_replay_forget(JoxReplay *r) {
     r->spread = false;
 }
 
+/* s from the frame that is shown to one that follows it, the next or a near one; else 0. */
+static double since(const JoxReplay *r, uint32_t frame) {
+    if (r->shown == JOX_REPLAY_NOBODY || frame <= r->shown)
+        return 0.0;
+    const double spent = jox_reel_time(r->reel, frame) - jox_reel_time(r->reel, r->shown);
+    return frame == r->shown + 1 || spent <= LONGEST ? spent : 0.0;
+}
+
 static bool take(JoxReplay *r, uint32_t frame, JoxText *why) {
-    double before = r->shown == JOX_REPLAY_NOBODY ? 0.0 : jox_reel_time(r->reel, r->shown);
-    bool next = r->shown != JOX_REPLAY_NOBODY && frame == r->shown + 1;
+    const double spent = since(r, frame);
     if (!jox_reel_read(r->reel, frame, &r->frame, why)) {
         jox_replay_forget(r);
         return false;
     }
     widen(r, r->frame.count);
-    give_slots(r, &r->frame, next ? r->frame.time - before : 0.0);
+    give_slots(r, &r->frame, spent);
     note_bodies(r, &r->frame);
     r->shown = frame;
     r->spread = false;
@@ -221,7 +233,7 @@ static bool take(JoxReplay *r, uint32_t frame, JoxText *why) {
 
 bool jox_replay_show(JoxReplay *r, uint32_t frame, JoxText *why) {
     /* Speeds are those since the frame before, which may have to be read for them. */
-    if (frame > 0 && frame != r->shown + 1 && !take(r, frame - 1, why))
+    if (frame > 0 && since(r, frame) == 0.0 && !take(r, frame - 1, why))
         return false;
     return take(r, frame, why);
 }

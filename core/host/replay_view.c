@@ -45,7 +45,6 @@ static void greet(Playing *p, uint32_t client) {
     jox_view_send(p->view, client, p->text.data);
     p->people_known = false;
     p->changed = true;
-    p->spoke = 0.0;
 }
 
 /* Whether anybody wants a colour, or a field. */
@@ -59,7 +58,10 @@ static bool wants(const Playing *p, int colour, int field) {
 
 static void show_figures(Playing *p, double now) {
     const double spent = now - p->spoke;
-    const double factor = spent < 10.0 * SPEECH ? (p->at - p->spoke_at) / spent : 0.0;
+    /* where the last figures are long past, as after a leap: what it will be */
+    const double factor = spent < 10.0 * SPEECH ? (p->at - p->spoke_at) / spent
+                          : p->session.paused   ? 0.0
+                                                : p->session.speed;
     if (jox_replay_people(p->replay, &p->people) || !p->people_known)
         jox_view_publish(p->view, PEOPLE_CHANNEL, p->people.data, p->people.length);
     p->people_known = true;
@@ -85,7 +87,8 @@ static void show(Playing *p) {
     const double now = jox_clock_wall();
     if (!jox_view_clients(p->view))
         return;
-    if (jox_replay_version(p->replay) != p->version) {
+    const bool figures = now - p->spoke >= SPEECH;
+    if (figures && jox_replay_version(p->replay) != p->version) {
         p->version = jox_replay_version(p->replay);
         greet(p, JOX_VIEW_ALL);
     }
@@ -99,7 +102,7 @@ static void show(Playing *p) {
         p->showed = now;
         p->changed = false;
     }
-    if (now - p->spoke >= SPEECH)
+    if (figures)
         show_figures(p, now);
 }
 
@@ -278,6 +281,7 @@ static void take(Playing *p) {
                                .colour = jox_replay_colour(p->replay),
                                .field = jox_replay_first_field(p->replay)};
             greet(p, client);
+            p->spoke = 0.0;
             jox_view_listen(p->view, client, channels(by));
         } else if (what == JOX_VIEW_LEFT && by) {
             *by = (JoxWatcher){0};

@@ -180,8 +180,9 @@ static void draw_map(const JoxOutcome *outcome, const JoxClaimPlot *plot, const 
     fputs("set palette defined (0 '#ffffff', 1 '#f0a050')\nset cblabel ", out);
     jox_plot_quote(out, plot->z);
     fprintf(out,
-            " noenhanced\nset cbrange [%g:%g]\nunset key\nset datafile missing 'NaN'\n"
-            "plot '%s.dat' using 1:2:3 with image, '' using 1:2:(sprintf('%%.3g', $3)) with labels "
+            " noenhanced\nset cbrange [%g:%g]\nunset key\n"
+            "plot '%s.dat' using 1:2:3 with image, '' using 1:2:($3 == $3 ? sprintf('%%.3g', $3) : "
+            "'-') with labels "
             "font ',14'\n",
             fmin(least, 0.0), most > fmin(least, 0.0) ? most : fmin(least, 0.0) + 1.0, name);
 }

@@ -68,7 +68,7 @@ static bool run(JoxViewing *v, JoError *error) {
         return false;
     if (def->opened)
         def->opened(def->opened_context, jox_view_address(v->view));
-    while (!def->stop || !*def->stop) {
+    while (!def->stop || !__atomic_load_n(def->stop, __ATOMIC_RELAXED)) {
         jox_viewing_take(v);
         advance(v);
     }

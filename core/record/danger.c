@@ -258,13 +258,8 @@ static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
 }
 
 void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
-    uint32_t had = d->held_capacity, marked = d->over_capacity;
-    JOX_RESERVE(d->held, d->held_capacity, frame->keys);
-    JOX_RESERVE(d->over, d->over_capacity, frame->keys);
-    if (d->held_capacity > had)
-        memset(d->held + had, 0, (d->held_capacity - had) * sizeof *d->held);
-    if (d->over_capacity > marked)
-        memset(d->over + marked, 0, d->over_capacity - marked);
+    JOX_RESERVE_ZEROED(d->held, d->held_capacity, frame->keys);
+    JOX_RESERVE_ZEROED(d->over, d->over_capacity, frame->keys);
     press(d, frame);
     /* Times are multiples of a step, whose sum may fall short of them by a hair. */
     int64_t stretch = (int64_t)floor(frame->time / PACE + 1e-6);
@@ -289,6 +284,12 @@ void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits
 }
 
 /* ---- figures ---- */
+
+const float *jox_danger_field(const JoxDanger *d, JoxDangerMeasure measure,
+                              const JoxDensity **grid) {
+    *grid = d->grid;
+    return measure == JOX_DANGER_PRESSURE ? d->pressure : d->density;
+}
 
 JoxDangerCount jox_danger_count(const JoxDanger *d, int limit) {
     return d->counts[limit];

@@ -9,7 +9,7 @@
 #include "record/plot.h"
 #include "record/probe_parts.h"
 
-static const double PACE = 0.1; /* s */
+static const double TENTH = 0.1; /* s */
 
 struct JoxProbe {
     JoxProbeDef def;
@@ -49,7 +49,9 @@ JoxProbe *jox_probe_create(const JoxProbeDef *def) {
     p->def.points = copy_points(def->points, def->count);
     p->calls = KINDS[def->kind];
     p->state = jox_alloc(1, p->calls->size);
-    p->pace = p->calls->pace ? p->calls->pace(&p->def) : PACE;
+    p->pace = p->calls->pace == JOX_PACE_TENTH ? TENTH
+              : p->calls->pace == JOX_PACE_ALL ? 0.0
+                                               : p->def.every;
     p->last = INT64_MIN;
     if (p->calls->begin)
         p->calls->begin(&p->def, p->state);
@@ -110,6 +112,12 @@ void jox_probe_free(JoxProbe *p) {
         return;
     if (p->calls->release)
         p->calls->release(p->state);
+    for (size_t k = 0; k < sizeof p->calls->owned / sizeof *p->calls->owned; k++)
+        if (p->calls->owned[k]) {
+            void *owned; /* whatever it points to */
+            memcpy(&owned, (char *)p->state + p->calls->owned[k] - 1, sizeof owned);
+            jox_free(owned);
+        }
     jox_free(p->state);
     jox_free((void *)(uintptr_t)p->def.name);
     jox_free((void *)(uintptr_t)p->def.groups);
@@ -201,10 +209,7 @@ double jox_quantile(double *values, size_t count, double q) {
 }
 
 void jox_track_reserve(JoxTrack *track, uint32_t keys) {
-    uint32_t had = track->capacity;
-    JOX_RESERVE(track->items, track->capacity, keys);
-    if (track->capacity > had)
-        memset(track->items + had, 0, (track->capacity - had) * sizeof *track->items);
+    JOX_RESERVE_ZEROED(track->items, track->capacity, keys);
 }
 
 static float shortest(float d, float period) {

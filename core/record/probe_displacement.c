@@ -25,11 +25,6 @@ typedef struct Displacement {
     uint32_t capacity;
 } Displacement;
 
-static double pace(const JoxProbeDef *def) {
-    (void)def;
-    return 0.0; /* a front passes people in less than a tenth of a second */
-}
-
 /* m from the place of rest: along the given direction, else in any. */
 static float distance(const JoxProbeDef *def, const Person *p) {
     JoxV2 away = {p->dx - p->base_x, p->dy - p->base_y};
@@ -56,11 +51,8 @@ static void move(const JoxProbeDef *def, Person *p, const JoxStretch *stretch) {
 
 static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
     Displacement *d = state;
-    uint32_t had = d->capacity;
     jox_track_reserve(&d->track, frame->keys);
-    JOX_RESERVE(d->people, d->capacity, frame->keys);
-    if (d->capacity > had)
-        memset(d->people + had, 0, (d->capacity - had) * sizeof *d->people);
+    JOX_RESERVE_ZEROED(d->people, d->capacity, frame->keys);
     for (uint32_t i = 0; i < frame->count; i++) {
         if (!seen[i])
             continue;
@@ -176,18 +168,9 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
                     def->name);
 }
 
-static void release(void *state) {
-    Displacement *d = state;
-    jox_free(d->track.items);
-    jox_free(d->people);
-}
-
-const JoxProbeCalls jox_probe_displacement = {.size = sizeof(Displacement),
-                                              .pace = pace,
-                                              .frame = frame,
-                                              .figures = figures,
-                                              .csv = csv,
-                                              .plot = plot,
-                                              .width = 1000,
-                                              .height = 900,
-                                              .release = release};
+const JoxProbeCalls jox_probe_displacement = {
+    JOX_PROBE_KIND(Displacement, 1000, 900),
+    .frame = frame,
+    .pace = JOX_PACE_ALL, /* a front passes people in less than a tenth of a second */
+    .owned = {JOX_OWNED(Displacement, track.items), JOX_OWNED(Displacement, people)},
+};

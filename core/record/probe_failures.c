@@ -14,11 +14,6 @@ typedef struct Failures {
     uint32_t count, capacity;
 } Failures;
 
-static double pace(const JoxProbeDef *def) {
-    (void)def;
-    return 0.0;
-}
-
 static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
     Failures *f = state;
     /* The step that ends at a bin's edge belongs to the bin before. */
@@ -83,16 +78,9 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
                     0.9 * def->every, def->name);
 }
 
-static void release(void *state) {
-    jox_free(((Failures *)state)->bins);
-}
-
-const JoxProbeCalls jox_probe_failures = {.size = sizeof(Failures),
-                                          .pace = pace,
-                                          .frame = frame,
-                                          .figures = figures,
-                                          .csv = csv,
-                                          .plot = plot,
-                                          .width = 1000,
-                                          .height = 600,
-                                          .release = release};
+const JoxProbeCalls jox_probe_failures = {
+    JOX_PROBE_KIND(Failures, 1000, 600),
+    .frame = frame,
+    .pace = JOX_PACE_ALL,
+    .owned = {JOX_OWNED(Failures, bins)},
+};

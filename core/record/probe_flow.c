@@ -177,18 +177,8 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
     jox_free(times);
 }
 
-static void release(void *state) {
-    Flow *f = state;
-    jox_free(f->track.items);
-    jox_free(f->latest);
-    jox_free(f->crossings);
-}
-
-const JoxProbeCalls jox_probe_flow = {.size = sizeof(Flow),
-                                      .frame = frame,
-                                      .figures = figures,
-                                      .csv = csv,
-                                      .plot = plot,
-                                      .width = 1000,
-                                      .height = 800,
-                                      .release = release};
+const JoxProbeCalls jox_probe_flow = {
+    JOX_PROBE_KIND(Flow, 1000, 800),
+    .frame = frame,
+    .owned = {JOX_OWNED(Flow, track.items), JOX_OWNED(Flow, latest), JOX_OWNED(Flow, crossings)},
+};

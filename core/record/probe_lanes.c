@@ -24,10 +24,6 @@ typedef struct Lanes {
     uint32_t count, capacity;
 } Lanes;
 
-static double pace(const JoxProbeDef *def) {
-    return def->every;
-}
-
 static void begin(const JoxProbeDef *def, void *state) {
     Lanes *l = state;
     double across = def->along_y ? def->high.x - def->low.x : def->high.y - def->low.y;
@@ -123,20 +119,10 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
                     def->name);
 }
 
-static void release(void *state) {
-    Lanes *l = state;
-    jox_free(l->ahead);
-    jox_free(l->back);
-    jox_free(l->items);
-}
-
-const JoxProbeCalls jox_probe_lanes = {.size = sizeof(Lanes),
-                                       .pace = pace,
-                                       .begin = begin,
-                                       .frame = frame,
-                                       .figures = figures,
-                                       .csv = csv,
-                                       .plot = plot,
-                                       .width = 1000,
-                                       .height = 600,
-                                       .release = release};
+const JoxProbeCalls jox_probe_lanes = {
+    JOX_PROBE_KIND(Lanes, 1000, 600),
+    .frame = frame,
+    .pace = JOX_PACE_EVERY,
+    .begin = begin,
+    .owned = {JOX_OWNED(Lanes, ahead), JOX_OWNED(Lanes, back), JOX_OWNED(Lanes, items)},
+};

@@ -30,10 +30,6 @@ typedef struct Map {
     bool has_compression;
 } Map;
 
-static double pace(const JoxProbeDef *def) {
-    return def->every;
-}
-
 static void begin(const JoxProbeDef *def, void *state) {
     Map *m = state;
     m->grid = jox_density_create(def->low, def->high, (float)def->cell, (float)def->kernel);
@@ -235,13 +231,7 @@ static void release(void *state) {
     jox_free(m->compression_most);
 }
 
-const JoxProbeCalls jox_probe_map = {.size = sizeof(Map),
-                                     .pace = pace,
-                                     .begin = begin,
-                                     .frame = frame,
-                                     .figures = figures,
-                                     .csv = csv,
-                                     .plot = plot,
-                                     .width = 1300,
-                                     .height = 0,
-                                     .release = release};
+const JoxProbeCalls jox_probe_map = {
+    JOX_PROBE_KIND(Map, 1300, 0), .frame = frame, .pace = JOX_PACE_EVERY, .begin = begin,
+    .release = release,
+};

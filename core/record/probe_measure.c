@@ -202,12 +202,9 @@ static void release(void *state) {
     jox_free(m->rows);
 }
 
-const JoxProbeCalls jox_probe_measure = {.size = sizeof(Measure),
-                                         .begin = begin,
-                                         .frame = frame,
-                                         .figures = figures,
-                                         .csv = csv,
-                                         .plot = plot,
-                                         .width = 1200,
-                                         .height = 900,
-                                         .release = release};
+const JoxProbeCalls jox_probe_measure = {
+    JOX_PROBE_KIND(Measure, 1200, 900),
+    .frame = frame,
+    .begin = begin,
+    .release = release,
+};

@@ -2,15 +2,18 @@
 #ifndef JOX_RECORD_PROBE_PARTS_H
 #define JOX_RECORD_PROBE_PARTS_H
 
+#include <stddef.h>
 #include <stdio.h>
 
 #include "record/probe.h"
 
+/* Which frames a kind wants: ten a second, all, or one in each `every` of its def. */
+typedef enum { JOX_PACE_TENTH, JOX_PACE_ALL, JOX_PACE_EVERY } JoxPace;
+
 /* One kind. `state` is its own and starts as zeros. */
 typedef struct JoxProbeCalls {
     size_t size; /* of the state */
-    /* s between the frames it wants; 0: every one. NULL: ten a second. */
-    double (*pace)(const JoxProbeDef *def);
+    JoxPace pace;
     void (*begin)(const JoxProbeDef *def, void *state); /* or NULL */
     /* `seen[i]` is 1 for the people who are measured. */
     void (*frame)(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen);
@@ -19,9 +22,15 @@ typedef struct JoxProbeCalls {
     void (*csv)(const JoxProbeDef *def, const void *state, FILE *out);
     /* gnuplot commands that draw NAME.csv; the terminal is set, commas separate. */
     void (*plot)(const JoxProbeDef *def, const void *state, bool walls, JoxText *out);
-    int width, height; /* of the picture, pixels; height 0: by the area of the map */
-    void (*release)(void *state);
+    int width, height;            /* of the picture, pixels; height 0: by the area of the map */
+    size_t owned[8];              /* what of the state jox_free takes: JOX_OWNED of each */
+    void (*release)(void *state); /* the rest of it; or NULL */
 } JoxProbeCalls;
+/* Of calls: what all kinds have, by the names that their files give it. */
+#define JOX_PROBE_KIND(State, wide, high)                                                          \
+    .size = sizeof(State), .figures = figures, .csv = csv, .plot = plot, .width = wide,            \
+    .height = high
+#define JOX_OWNED(State, member) (offsetof(State, member) + 1) /* 0: none */
 
 extern const JoxProbeCalls jox_probe_flow, jox_probe_measure, jox_probe_transit,
     jox_probe_displacement, jox_probe_map, jox_probe_winding, jox_probe_failures, jox_probe_lanes,

@@ -62,15 +62,12 @@ static void visit_frame(const JoxProbeDef *def, void *state, const JoxFrame *fra
                         const uint8_t *seen) {
     Transit *t = state;
     uint8_t is[256] = {0};
-    uint32_t had = t->was_capacity;
     if (!frame->state)
         return;
     for (uint32_t s = 0; s < frame->state_count && s < 256; s++)
         is[s] = which(def, frame->states[s]);
     reserve(t, frame);
-    JOX_RESERVE(t->was, t->was_capacity, frame->keys);
-    if (t->was_capacity > had)
-        memset(t->was + had, 0, t->was_capacity - had);
+    JOX_RESERVE_ZEROED(t->was, t->was_capacity, frame->keys);
     for (uint32_t i = 0; i < frame->count; i++) {
         uint32_t key = frame->key[i];
         uint8_t now = frame->state[i] < 256 ? is[frame->state[i]] : 0;
@@ -145,28 +142,13 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
                     first - 1.0, last + 1.0, def->name);
 }
 
-static void release(void *state) {
-    Transit *t = state;
-    jox_free(t->track.items);
-    jox_free(t->since);
-    jox_free(t->was);
-    jox_free(t->passages);
-}
-
-const JoxProbeCalls jox_probe_transit = {.size = sizeof(Transit),
-                                         .frame = frame,
-                                         .figures = figures,
-                                         .csv = csv,
-                                         .plot = plot,
-                                         .width = 1000,
-                                         .height = 600,
-                                         .release = release};
-
-const JoxProbeCalls jox_probe_visit = {.size = sizeof(Transit),
-                                       .frame = visit_frame,
-                                       .figures = figures,
-                                       .csv = csv,
-                                       .plot = plot,
-                                       .width = 1000,
-                                       .height = 600,
-                                       .release = release};
+#define KIND(frames)                                                                               \
+    {                                                                                              \
+        JOX_PROBE_KIND(Transit, 1000, 600), .frame = frames, .owned = {                            \
+            JOX_OWNED(Transit, track.items),                                                       \
+            JOX_OWNED(Transit, since),                                                             \
+            JOX_OWNED(Transit, was),                                                               \
+            JOX_OWNED(Transit, passages)                                                           \
+        }                                                                                          \
+    }
+const JoxProbeCalls jox_probe_transit = KIND(frame), jox_probe_visit = KIND(visit_frame);

@@ -21,10 +21,7 @@ typedef struct Winding {
 
 static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
     Winding *w = state;
-    uint32_t had = w->capacity;
-    JOX_RESERVE(w->people, w->capacity, frame->keys);
-    if (w->capacity > had)
-        memset(w->people + had, 0, (w->capacity - had) * sizeof *w->people);
+    JOX_RESERVE_ZEROED(w->people, w->capacity, frame->keys);
     for (uint32_t i = 0; i < frame->count; i++) {
         if (!seen[i])
             continue;
@@ -104,15 +101,8 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
                     def->name);
 }
 
-static void release(void *state) {
-    jox_free(((Winding *)state)->people);
-}
-
-const JoxProbeCalls jox_probe_winding = {.size = sizeof(Winding),
-                                         .frame = frame,
-                                         .figures = figures,
-                                         .csv = csv,
-                                         .plot = plot,
-                                         .width = 1000,
-                                         .height = 600,
-                                         .release = release};
+const JoxProbeCalls jox_probe_winding = {
+    JOX_PROBE_KIND(Winding, 1000, 600),
+    .frame = frame,
+    .owned = {JOX_OWNED(Winding, people)},
+};

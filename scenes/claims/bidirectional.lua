@@ -4,7 +4,8 @@ return claim {
   text = "Fifty people each way. Lanes form by themselves, and nearly keep the speed of free walkers, "
     .. "however people stand at first: in rows along their way or across it.",
   runs = {
-    along = { scene = "../bidirectional.yaml", seeds = 6 }, across = { scene = "../bidirectional-across.yaml", seeds = 6 },
+    along = { scene = "../bidirectional.yaml", seeds = 6 },
+    across = { scene = "../bidirectional-across.yaml", seeds = 6 },
   },
   quick = { along = { seeds = 2 }, across = { seeds = 2 } },
   measure = function(run)

@@ -30,7 +30,8 @@ expect[#expect + 1] = { "rms", what = "deviation from the line, root of the mean
 return claim {
   id = "B2", title = "Flow through bottlenecks, 0.9 to 2.5 m wide",
   source = "Seyfried et al. 2009, doi 10.1287/trsc.1090.0263; Kretz et al. 2006; Liddle et al. 2009: J = 1.92 b - 0.07",
-  text = "180 people leave a room through a bottleneck 4 m long. The flow grows with the width in a straight line, not by lanes.",
+  text = "180 people leave a room through a bottleneck 4 m long. The flow grows with the width in a straight line, "
+    .. "not by lanes.",
   runs = runs, quick = quick,
   measure = function(run)
     local out, flows, laws = {}, {}, {}

@@ -21,7 +21,8 @@ end
 local runs, quick, expect, pictures, measured, source = {}, {}, {}, {}, {}, {}
 for i = 1, #cases do
   local name, entrance, exit, people, during, flow, density, speed = table.unpack(cases[i])
-  runs[name], quick[name], pictures[name] = run(entrance, exit, people, during), { seeds = 2 }, { "paths.png", "middle.png" }
+  runs[name], quick[name], pictures[name] = run(entrance, exit, people, during), { seeds = 2 },
+    { "paths.png", "middle.png" }
   local function add(figure, unit, what, source)
     expect[#expect + 1] = { figure .. " " .. name, unit = unit, what = what .. ", " .. name,
       source = string.format("%.2f", source), band = { 0.75 * source, 1.25 * source } }

@@ -17,7 +17,10 @@ end
 return claim {
   id = "5", title = "Dodge-ball: players and balls change each other's velocity by the ratio of their masses",
   source = "Kim et al. 2014, Figs. 9 and 10",
-  text = "Two players of 70 kg and a ball of 0.4 kg; two players and 500 balls among four obstacles. Where both get the same momentum with opposite signs, a collision changes the ball's velocity 175 times as much as the player's; what does not cancel is the error of that ratio. Kicks are meant, and their reaction goes to the ground: they are not among the collisions.",
+  text = "Two players of 70 kg and a ball of 0.4 kg; two players and 500 balls among four obstacles. Where both get "
+    .. "the same momentum with opposite signs, a collision changes the ball's velocity 175 times as much as the "
+    .. "player's; what does not cancel is the error of that ratio. Kicks are meant, and their reaction goes to the "
+    .. "ground: they are not among the collisions.",
   runs = {
     one = { scene = "../dodgeball.yaml", seeds = 1 }, one_fine = { scene = "../dodgeball.yaml", dt = 0.02, seeds = 1 },
     many = { scene = "../dodgeball-500.yaml", seeds = 2 },
@@ -30,12 +33,14 @@ return claim {
       taken = played.taken, taken_many = played_many.taken, illegal = played.illegal + played_many.illegal,
       odd = played.odd + played_many.odd,
       residual = one.exchange.residual, residual_fine = fine.exchange.residual, residual_many = many.exchange.residual,
-      hits = one.exchange.contacts, hits_many = many.exchange.contacts, kicks = one.events.kicks, kicks_many = many.events.kicks,
+      hits = one.exchange.contacts, hits_many = many.exchange.contacts, kicks = one.events.kicks,
+      kicks_many = many.events.kicks,
       lost = one.events.bodies_lost + many.events.bodies_lost,
     }
   end,
   expect = {
-    { "residual", what = "momentum that does not cancel, share of all in collisions, one ball, dt 0.05 s", source = "0", band = { 0, 0.01 } },
+    { "residual", what = "momentum that does not cancel, share of all in collisions, one ball, dt 0.05 s",
+      source = "0", band = { 0, 0.01 } },
     { "residual_fine", what = "the same, dt 0.02 s", source = "0", band = { 0, 0.01 } },
     { "residual_many", what = "the same, 500 balls", source = "0", band = { 0, 0.01 } },
     { "hits", what = "collisions that were measured, one ball", source = "some", band = { 1 } },

@@ -15,7 +15,8 @@ end
 return claim {
   id = "14", title = "People give way to objects wholly, to each other by half",
   source = "Kim et al. 2014, equations 3 and 4",
-  text = "Twelve people walk towards objects that stand in their way, twelve towards others who come from ahead. How far each steps aside, as a share of how far one of the two must.",
+  text = "Twelve people walk towards objects that stand in their way, twelve towards others who come from ahead. "
+    .. "How far each steps aside, as a share of how far one of the two must.",
   runs = {
     way = { scene = "../giving-way.yaml", seeds = 1 }, fine = { scene = "../giving-way.yaml", dt = 0.01, seeds = 1 },
     coarse = { scene = "../giving-way.yaml", dt = 0.1, seeds = 1 },
@@ -26,16 +27,19 @@ return claim {
       object = measure.mean(alone), object_least = measure.least(alone), object_most = measure.most(alone),
       agent = measure.mean(there), agent_least = measure.least(there), agent_most = measure.most(there),
       other = measure.mean(back),
-      object_fine = measure.mean(shares(run.fine.csv("alone"))), agent_fine = measure.mean(shares(run.fine.csv("there"))),
+      object_fine = measure.mean(shares(run.fine.csv("alone"))),
+      agent_fine = measure.mean(shares(run.fine.csv("there"))),
       object_coarse = measure.mean(shares(run.coarse.csv("alone"))),
       agent_coarse = measure.mean(shares(run.coarse.csv("there"))),
     }
   end,
   expect = {
-    { "object", what = "share of an object's avoidance that a person takes, mean of 12", source = "1.0", band = { 0.95, 1.05 } },
+    { "object", what = "share of an object's avoidance that a person takes, mean of 12", source = "1.0",
+      band = { 0.95, 1.05 } },
     { "object_least", what = "least of the 12", source = "1.0", band = { 0.9, 1.1 } },
     { "object_most", what = "greatest of the 12", source = "1.0", band = { 0.9, 1.1 } },
-    { "agent", what = "share between two people that one of them takes, mean of 12", source = "0.5", band = { 0.475, 0.525 } },
+    { "agent", what = "share between two people that one of them takes, mean of 12", source = "0.5",
+      band = { 0.475, 0.525 } },
     { "agent_least", what = "least of the 12", source = "0.5", band = { 0.45, 0.55 } },
     { "agent_most", what = "greatest of the 12", source = "0.5", band = { 0.45, 0.55 } },
     { "other", what = "share that the other takes, mean of 12", source = "0.5", band = { 0.475, 0.525 } },

@@ -1,7 +1,9 @@
 return claim {
   id = "4", title = "An office: people and furniture push each other alike",
   source = "Kim et al. 2014, Fig. 8 and equation 7",
-  text = "1200 people leave an office of 65 pieces of furniture while boxes are thrown among them. What people are given by contacts with bodies, bodies are given with the opposite sign: measured in every step, on the people's side as forces, on the other as the change of momentum in Bullet.",
+  text = "1200 people leave an office of 65 pieces of furniture while boxes are thrown among them. What people are "
+    .. "given by contacts with bodies, bodies are given with the opposite sign: measured in every step, on the "
+    .. "people's side as forces, on the other as the change of momentum in Bullet.",
   runs = {
     office = { scene = "../office.yaml", seeds = 3 },
     fine = { scene = "../office.yaml", seeds = 1, dt = 0.02, duration = 30 },
@@ -17,7 +19,8 @@ return claim {
     }
   end,
   expect = {
-    { "residual", what = "momentum that does not cancel, share of all that is exchanged, dt 0.05 s", source = "0", band = { 0, 1e-5 } },
+    { "residual", what = "momentum that does not cancel, share of all that is exchanged, dt 0.05 s", source = "0",
+      band = { 0, 1e-5 } },
     { "residual_fine", what = "the same, dt 0.02 s", source = "0", band = { 0, 1e-5 } },
     { "contacts", what = "contacts with bodies that were measured", source = "many", band = { 1000 } },
     { "thrown", what = "boxes thrown", source = "12", band = { 12, 12 } },

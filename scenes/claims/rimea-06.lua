@@ -1,7 +1,8 @@
 return claim {
   id = "R6", title = "RiMEA 6: round a corner",
   source = "RiMEA guideline, test 6",
-  text = "Twenty people turn left at the corner of a corridor of 2 m. All get round it, and none passes through a wall.",
+  text = "Twenty people turn left at the corner of a corridor of 2 m. All get round it, and none passes through a "
+    .. "wall.",
   runs = {
     corner = { scene = "../rimea-06.yaml", seeds = 3 }, fine = { scene = "../rimea-06.yaml", dt = 0.01, seeds = 3 },
     coarse = { scene = "../rimea-06.yaml", dt = 0.1, seeds = 3 },
@@ -9,7 +10,8 @@ return claim {
   measure = function(run)
     local function walls(name)
       local probes = run[name].summary.probes
-      return probes.outer_south.passages + probes.outer_east.passages + probes.inner_north.passages + probes.inner_west.passages
+      return probes.outer_south.passages + probes.outer_east.passages + probes.inner_north.passages
+        + probes.inner_west.passages
     end
     local function round(name) return run[name].summary.probes.corner.forward end
     return {
@@ -22,7 +24,8 @@ return claim {
     { "round", what = "people who get round the corner, dt 0.05 s", source = "20", band = { 20, 20 } },
     { "round_fine", what = "the same, dt 0.01 s", source = "20", band = { 20, 20 } },
     { "round_coarse", what = "the same, dt 0.1 s", source = "20", band = { 20, 20 } },
-    { "walls", what = "times that the middle of a person came within 0.1 m of a wall, dt 0.05 s", source = "0", band = { 0, 0 } },
+    { "walls", what = "times that the middle of a person came within 0.1 m of a wall, dt 0.05 s", source = "0",
+      band = { 0, 0 } },
     { "walls_fine", what = "the same, dt 0.01 s", source = "0", band = { 0, 0 } },
     { "walls_coarse", what = "the same, dt 0.1 s", source = "0", band = { 0, 0 } },
     { "last", unit = "s", what = "when the last is round it, dt 0.05 s", reported = true },

@@ -13,7 +13,8 @@ end
 return claim {
   id = "R7", title = "RiMEA 7: speeds of people by age",
   source = "RiMEA guideline, test 7; Weidmann 1993; Bohannon and Andrews 2011, doi 10.1016/j.physio.2010.12.004",
-  text = "Fifty adults walk as fast as Weidmann's normal distribution says, fifty of each decade as fast as their age. Bands: three standard errors of the mean of 150 people, 5 % for the older ones.",
+  text = "Fifty adults walk as fast as Weidmann's normal distribution says, fifty of each decade as fast as their "
+    .. "age. Bands: three standard errors of the mean of 150 people, 5 % for the older ones.",
   runs = { walk = { scene = "../rimea-07.yaml", seeds = 3 } },
   measure = function(run)
     local figures, all = {}, 0

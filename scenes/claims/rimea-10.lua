@@ -12,7 +12,8 @@ return claim {
     }
   end,
   expect = {
-    { "main", what = "people of rooms 1 to 4 and 7 to 10 who leave by the main exit", source = "15", band = { 15, 15 } },
+    { "main", what = "people of rooms 1 to 4 and 7 to 10 who leave by the main exit", source = "15",
+      band = { 15, 15 } },
     { "secondary", what = "people of the other rooms who leave by the secondary exit", source = "8", band = { 8, 8 } },
     { "wrong", what = "people at the other exit", source = "0", band = { 0, 0 } },
     { "last", unit = "s", what = "until the last has left", reported = true },

@@ -1,7 +1,8 @@
 return claim {
   id = "R11", title = "RiMEA 11: the nearer and the farther exit",
   source = "RiMEA guideline, test 11",
-  text = "300 people in one half of a hall with two doors: they prefer the nearer one, but some give it up for the farther one when a crowd stands before it.",
+  text = "300 people in one half of a hall with two doors: they prefer the nearer one, but some give it up for the "
+    .. "farther one when a crowd stands before it.",
   runs = { hall = { scene = "../rimea-11.yaml", seeds = 3 } },
   quick = { hall = { seeds = 1 } },
   measure = function(run)
@@ -14,7 +15,8 @@ return claim {
   expect = {
     { "out", what = "people who got out", source = "300", band = { 300, 300 } },
     { "near", what = "share of them by the nearer door", source = "more than half, not all", band = { 0.5, 0.9 } },
-    { "sooner", unit = "s", what = "how much earlier the first is through the nearer door", source = "> 0", band = { 0 } },
+    { "sooner", unit = "s", what = "how much earlier the first is through the nearer door", source = "> 0",
+      band = { 0 } },
     { "last", unit = "s", what = "until the last is out", reported = true },
   },
   pictures = { hall = { "density.png", "near.png", "far.png" } },

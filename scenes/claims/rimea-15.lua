@@ -1,8 +1,10 @@
 return claim {
   id = "R15", title = "RiMEA 15: the long and the short way round a corner",
   source = "RiMEA guideline, test 15",
-  text = "A crowd goes round a corner. It needs longer than along a straight corridor as long as the inner way, and less long than along one as long as the outer way.",
-  runs = { corner = { scene = "../rimea-15.yaml", seeds = 8 }, straight = { scene = "../rimea-15-straight.yaml", seeds = 8 } },
+  text = "A crowd goes round a corner. It needs longer than along a straight corridor as long as the inner way, and "
+    .. "less long than along one as long as the outer way.",
+  runs = { corner = { scene = "../rimea-15.yaml", seeds = 8 },
+    straight = { scene = "../rimea-15-straight.yaml", seeds = 8 } },
   measure = function(run)
     local corner, straight = run.corner.summary.probes.turned, run.straight.summary.probes
     return {
@@ -11,7 +13,8 @@ return claim {
     }
   end,
   expect = {
-    { "over", unit = "s", what = "how much longer than along the inner way, until the last is there", source = "> 0", band = { 0 } },
+    { "over", unit = "s", what = "how much longer than along the inner way, until the last is there", source = "> 0",
+      band = { 0 } },
     { "under", unit = "s", what = "how much less long than along the outer way", source = "> 0", band = { 0 } },
     { "people", what = "people who arrive, of 60", source = "60", band = { 60, 60 } },
     { "corner", unit = "s", what = "round the corner, until the last is there", reported = true },

@@ -6,7 +6,9 @@ end
 return claim {
   id = "15", title = "From rude to polite",
   source = "Kim et al. 2014, section 4.1",
-  text = "One walks through a crowd that stands loosely. Who looks a short way ahead and pushes hard is fast and moves others; who looks far and pushes little is slow and leaves them where they are. Five steps, from rude to polite; each has to go the same way.",
+  text = "One walks through a crowd that stands loosely. Who looks a short way ahead and pushes hard is fast and "
+    .. "moves others; who looks far and pushes little is slow and leaves them where they are. Five steps, from rude "
+    .. "to polite; each has to go the same way.",
   runs = {
     s1 = run(1, 240), s2 = run(2, 120), s3 = run(3, 60), s4 = run(4, 30), s5 = run(6, 15),
   },
@@ -19,15 +21,18 @@ return claim {
       slower_34 = transit("s4") - transit("s3"), slower_45 = transit("s5") - transit("s4"),
       calmer_12 = moved("s1") - moved("s2"), calmer_23 = moved("s2") - moved("s3"),
       calmer_34 = moved("s3") - moved("s4"), calmer_45 = moved("s4") - moved("s5"),
-      transit_rude = transit("s1"), transit_polite = transit("s5"), moved_rude = moved("s1"), moved_polite = moved("s5"),
+      transit_rude = transit("s1"), transit_polite = transit("s5"), moved_rude = moved("s1"),
+      moved_polite = moved("s5"),
     }
   end,
   expect = {
-    { "slower_12", unit = "s", what = "transit time, perception 2 m and push 120 N per m/s over 1 m and 240", source = "> 0", band = { 0.01 } },
+    { "slower_12", unit = "s", what = "transit time, perception 2 m and push 120 N per m/s over 1 m and 240",
+      source = "> 0", band = { 0.01 } },
     { "slower_23", unit = "s", what = "the same, 3 m and 60 over 2 m and 120", source = "> 0", band = { 0.01 } },
     { "slower_34", unit = "s", what = "the same, 4 m and 30 over 3 m and 60", source = "> 0", band = { 0.01 } },
     { "slower_45", unit = "s", what = "the same, 6 m and 15 over 4 m and 30", source = "> 0", band = { 0.01 } },
-    { "calmer_12", unit = "cm", what = "mean displacement of those who stand, 1 m and 240 over 2 m and 120", source = "> 0", band = { 0.01 } },
+    { "calmer_12", unit = "cm", what = "mean displacement of those who stand, 1 m and 240 over 2 m and 120",
+      source = "> 0", band = { 0.01 } },
     { "calmer_23", unit = "cm", what = "the same, 2 m and 120 over 3 m and 60", source = "> 0", band = { 0.01 } },
     { "calmer_34", unit = "cm", what = "the same, 3 m and 60 over 4 m and 30", source = "> 0", band = { 0.01 } },
     { "calmer_45", unit = "cm", what = "the same, 4 m and 30 over 6 m and 15", source = "> 0", band = { 0.01 } },

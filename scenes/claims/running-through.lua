@@ -21,7 +21,8 @@ end
 return claim {
   id = "1", title = "Running through a standing crowd",
   source = "Kim et al. 2014, Fig. 5",
-  text = "One fast agent runs through 25 standing ones. With forces it moves many, and those push others on; without, people barely move.",
+  text = "One fast agent runs through 25 standing ones. With forces it moves many, and those push others on; "
+    .. "without, people barely move.",
   runs = {
     s50 = run(0.5, "block_50", true), s50_without = run(0.5, "block_50", false),
     s55 = run(0.55, "block", true), s55_without = run(0.55, "block", false),
@@ -38,12 +39,15 @@ return claim {
     }
   end,
   expect = {
-    { "ratio_50", what = "mean displacement with forces over that without, spacing 0.50 m", source = ">= 2", band = { 1.8 } },
+    { "ratio_50", what = "mean displacement with forces over that without, spacing 0.50 m", source = ">= 2",
+      band = { 1.8 } },
     { "ratio_55", what = "the same, spacing 0.55 m", source = ">= 2", band = { 1.8 } },
     { "ratio_60", what = "the same, spacing 0.60 m", source = ">= 2", band = { 1.8 } },
-    { "without_55", unit = "m", what = "mean displacement without forces, spacing 0.55 m", source = "barely move", band = { 0, 0.12 } },
+    { "without_55", unit = "m", what = "mean displacement without forces, spacing 0.55 m", source = "barely move",
+      band = { 0, 0.12 } },
     { "without_60", unit = "m", what = "the same, spacing 0.60 m", source = "barely move", band = { 0, 0.12 } },
-    { "rows", what = "rows out of the runner's reach that moved, least of the spacings", source = ">= 2", band = { 2 } },
+    { "rows", what = "rows out of the runner's reach that moved, least of the spacings", source = ">= 2",
+      band = { 2 } },
   },
   pictures = { s55 = { "paths.png", "standing.png" }, s55_without = { "paths.png" } },
 }

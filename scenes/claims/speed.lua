@@ -8,7 +8,8 @@ local function run(scene, duration) return { scene = "../" .. scene .. ".yaml", 
 return claim {
   id = "13", title = "Faster than the paper, and than real time",
   source = "Kim et al. 2014, Table 2: frames a second on one core of a 3.4 GHz i7",
-  text = "Steps a second on one core, and how much faster than real time. On a processor that is shared, with others at work, these are lower bounds.",
+  text = "Steps a second on one core, and how much faster than real time. On a processor that is shared, with "
+    .. "others at work, these are lower bounds.",
   runs = {
     bottlenecks = run("two-bottlenecks", 30), wall = run("wall-breaking", 20), office = run("office", 20),
     balls = run("dodgeball-500", 20), tawaf = run("tawaf", 20),

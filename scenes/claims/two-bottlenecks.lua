@@ -16,7 +16,8 @@ end
 return claim {
   id = "2", title = "Two bottlenecks: pushing resolves arches and jams",
   source = "Kim et al. 2014, Fig. 6",
-  text = "A thousand people press through a gap of two widths, then through one of barely one. Without forces arches hold them up; with forces about twice as many get through, at any time step.",
+  text = "A thousand people press through a gap of two widths, then through one of barely one. Without forces "
+    .. "arches hold them up; with forces about twice as many get through, at any time step.",
   runs = {
     with = run(0.05, true), without = run(0.05, false),
     fine = run(0.02, true), fine_without = run(0.02, false),
@@ -39,11 +40,13 @@ return claim {
     }
   end,
   expect = {
-    { "ratio", what = "through both with forces over without, mean of T = 60 to 120 s, dt 0.05 s", source = "about 2", band = { 1.6, 2.5 } },
+    { "ratio", what = "through both with forces over without, mean of T = 60 to 120 s, dt 0.05 s",
+      source = "about 2", band = { 1.6, 2.5 } },
     { "ratio_fine", what = "the same, dt 0.02 s", source = "about 2", band = { 1.6, 2.5 } },
     { "ratio_finest", what = "the same, dt 0.01 s", source = "about 2", band = { 1.6, 2.5 } },
     { "ratio_coarse", what = "the same, dt 0.1 s", source = "about 2", band = { 1.6, 2.5 } },
-    { "lapse", unit = "s", what = "longest time that nobody came through, with forces", source = "<= 5", band = { 0, 5 } },
+    { "lapse", unit = "s", what = "longest time that nobody came through, with forces", source = "<= 5",
+      band = { 0, 5 } },
     { "lapse_fine", unit = "s", what = "the same, dt 0.02 s", source = "<= 5", band = { 0, 5 } },
     { "overlap", what = "99th percentile of overlap, share of a diameter", source = "-", band = { 0, 0.25 } },
     { "lapse_without", unit = "s", what = "longest time that nobody came through, without forces", reported = true },

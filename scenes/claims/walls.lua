@@ -15,8 +15,9 @@ local function run(scene, seeds) return { scene = "../" .. scene .. ".yaml", see
 return claim {
   id = "3", title = "Walls that break, that turn, and that stay",
   source = "Kim et al. 2014, Figs. 2 and 7",
-  text = "1200 people stop before a wall of 200 glued blocks, press, and carry its pieces away. With glue that holds, the wall turns as a whole "
-    .. "and a gap lets them out; too heavy, it hardly moves, and room runs through the crowd in waves.",
+  text = "1200 people stop before a wall of 200 glued blocks, press, and carry its pieces away. With glue that holds, "
+    .. "the wall turns as a whole and a gap lets them out; too heavy, it hardly moves, and room runs through the "
+    .. "crowd in waves.",
   runs = { breaking = run("wall-breaking", 3), tight = run("wall-tight", 3), heavy = run("wall-heavy", 3) },
   quick = { breaking = { seeds = 1, duration = 60 }, tight = { seeds = 1 }, heavy = { seeds = 1, duration = 90 } },
   measure = function(run)
@@ -26,11 +27,13 @@ return claim {
       front = breaking.front_speed, rows = breaking.rows_pressing, pieces = breaking.pieces,
       out = 1200 - run.breaking.summary.agents,
       tight_broken = tight.broken, tight_out = 1200 - run.tight.summary.agents, tight_turned = tight.turned,
-      heavy_broken = heavy.broken, heavy_moved = heavy.moved, backward = reaches(near, far), forward = reaches(far, near),
+      heavy_broken = heavy.broken, heavy_moved = heavy.moved, backward = reaches(near, far),
+      forward = reaches(far, near),
     }
   end,
   expect = {
-    { "front", unit = "m/s", what = "breaking: mean speed of the front row before it first touches the wall", source = "stops", band = { 0, 0.1 } },
+    { "front", unit = "m/s", what = "breaking: mean speed of the front row before it first touches the wall",
+      source = "stops", band = { 0, 0.1 } },
     { "rows", what = "rows that press when the first bond breaks", source = ">= 3", band = { 3 } },
     { "pieces", what = "pieces in the end", source = "broken", band = { 2 } },
     { "out", what = "people who got through", reported = true },
@@ -39,7 +42,8 @@ return claim {
     { "tight_turned", unit = "deg", what = "turned by", source = "turns", reported = true },
     { "heavy_broken", what = "heavy: bonds broken", source = "0", band = { 0, 0 } },
     { "heavy_moved", unit = "m", what = "moved by, less than a block", source = "hardly", band = { 0, 0.4 } },
-    { "backward", what = "density 8 m behind the wall follows that at 6 m: greatest correlation", source = "waves run back", band = { 0.4, 1 } },
+    { "backward", what = "density 8 m behind the wall follows that at 6 m: greatest correlation",
+      source = "waves run back", band = { 0.4, 1 } },
     { "forward", what = "density 6 m behind follows that at 8 m", source = "and forward", band = { 0.4, 1 } },
   },
   pictures = { breaking = { "density.png" }, tight = { "density.png" }, heavy = { "density.png", "behind_6.png" } },

@@ -9,6 +9,7 @@ import time
 import traceback
 
 from selenium import webdriver
+from selenium.common.exceptions import TimeoutException
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
@@ -17,7 +18,7 @@ from selenium.webdriver.common.keys import Keys
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 JOSTLE = os.path.abspath(os.environ.get("JOSTLE", "build/release/jostle"))
 PICTURES = os.path.join(os.path.abspath(os.environ.get("B", "build/release")), "page")
-PATIENCE = 20  # s, for what should happen soon
+PATIENCE = 40  # s, for what should happen soon; much, as machines may be busy
 
 
 class Failure(Exception):
@@ -125,7 +126,13 @@ class Browser:
 
     def picture(self, name):
         os.makedirs(PICTURES, exist_ok=True)
-        self.driver.save_screenshot(os.path.join(PICTURES, f"{name}.png"))
+        for attempt in range(3):  # software graphics on a busy machine may be late for one
+            try:
+                self.driver.save_screenshot(os.path.join(PICTURES, f"{name}.png"))
+                return
+            except TimeoutException:
+                if attempt == 2:
+                    raise
 
     def close(self):
         self.driver.quit()

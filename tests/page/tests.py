@@ -65,6 +65,12 @@ def loads(browser):
     browser.picture("office")
     draws = browser.run("return page.view.renderer.info.render.calls")
     expect(0 < draws <= 25, f"{draws} draw calls")
+    browser.run("""
+        HTMLAnchorElement.prototype.click = function () { window.saved = this.download; };
+        URL.createObjectURL = (blob) => { blob.arrayBuffer().then((b) => (window.data = new Uint8Array(b))); return '#'; };""")
+    browser.button("Picture").click()
+    name, data = browser.wait("return window.data && [window.saved, window.data.length > 20000 && [...window.data.slice(1, 4)]]", "no picture is saved")
+    expect(name == "Office.png" and bytes(data) == b"PNG", f"{name}: {data}")
 
 
 @served("run", "scenes/office.yaml", "--view")
@@ -221,7 +227,7 @@ def inspects(browser):
 
 WALKERS = {
     "scene.yaml": """jostle: 1
-title: Walkers
+title: "Walkers <b>60</b>"
 step: 0.05
 duration: 600
 places:
@@ -274,6 +280,13 @@ def edits(browser, _):
     number = browser.find("[data-parameter=speed] input[type=number]")
     number.clear()
     number.send_keys("0.2", Keys.ENTER)
+    # Another page's change arrives as a new hello; who types here goes on typing.
+    browser.run("""const hello = JSON.parse(JSON.stringify(page.hello)), walk = hello.machines[0].states.find((s) => s.name === 'Walk');
+        walk.parameters.find((p) => p.name === 'push').value = 33;
+        page.takeHello(hello);""")
+    expect(browser.find("[data-parameter=push] input[type=number]").get_attribute("value") == "33", "a new hello is not shown")
+    kept = browser.run("return document.activeElement.matches('[data-parameter=speed] input[type=number]')")
+    expect(kept, "the focus is lost when a hello comes")
     browser.wait("const v = page.charts.speed.values.get(''); return v.slice(-1)[0] < 0.3", "speed 0.2 has no effect")
     expect(browser.run(mean) > 0.05, "people stand still at speed 0.2")
     browser.find("[data-parameter=speed] button").click()
@@ -290,6 +303,7 @@ def edits(browser, _):
 @with_walkers
 def gates(browser, _):
     """a gate opens and a signal is heard by buttons"""
+    expect(browser.find("h1").text == "Walkers <b>60</b>", "a title is not shown as it is")
     browser.find("#tab-act").click()
     gate = browser.find("#page-act button[aria-label='Open gate']")
     gate.click()

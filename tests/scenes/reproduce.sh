@@ -37,7 +37,15 @@ return claim {
     { "crossed", unit = "s", band = { 1.5, 1.8 } },
     { "seed", reported = true }, { "length", unit = "s", reported = true },
   },
+  plots = {
+    { name = "speed", title = "Time over speed", x = "speed (m/s)", y = "time (s)",
+      { "Jostle", figures = { { 0.5, "slow" }, { 1.25, "time" } } }, { "source", points = { { 1.25, 8 } } },
+      { "law", line = { { 0.5, 20 }, { 1, 10 }, { 1.25, 8 } } } },
+    { name = "map", title = "Time", x = "speed (m/s)", y = "way (m)", z = "time (s)",
+      map = { { 0.5, 10, "slow" }, { 1.25, 10, "time" }, { 1.25, 20, "length" } } },
+  },
   pictures = { walk = { "paths.png" } },
+  tried = { "Walking <faster>: 3 m/s, no better", "Waiting" },
 }
 CLAIM
 run=("$JOSTLE" reproduce --claims "$work/claims" --out "$work/rep" --quiet)
@@ -53,6 +61,16 @@ grep -q 'src="runs/walk-[^"]*/paths.png"' "$work/rep/index.html"; verdict "the p
 [ "$(grep -c '^| ' "$work/rep/table.md")" = 7 ]; verdict "the table has a row for each figure" $?
 [ "$(sqlite3 :memory: "select json_extract(readfile('$work/rep/results.json'), '\$.G.figures.rows.mean')")" = 1 ]; verdict "results.json is JSON" $?
 [ -z "$(grep -o 'src="[^"]*"' "$work/rep/index.html" | sed 's/src="//; s/"//' | while read -r f; do [ -s "$work/rep/$f" ] || echo "$f"; done)" ]; verdict "all pictures of the page are there" $?
+
+for plot in speed map; do
+    [ -s "$work/rep/plots/good-$plot.png" ] && grep -q "src=\"plots/good-$plot.png\"" "$work/rep/index.html"; verdict "the page shows the plot $plot" $?
+done
+# x, mean, least, most and band of a figure; a source's points; a law's; cells of a map, one of them empty
+awk '$1 == 1.25 && NF == 6 && $2 > 7.9 && $3 <= $2 && $4 >= $2 && $5 == 7.9 && $6 == 8.1 {f = 1} $1 == 1.25 && NF == 2 && $2 == 8 {s++} END {exit !(f && s == 2)}' "$work/rep/plots/good-speed.dat"; verdict "a plot has figures with their bands, points and lines" $?
+[ "$(awk 'NF == 3 {print $1, $2, ($3 == "NaN" ? "none" : int($3 + 0.5))}' "$work/rep/plots/good-map.dat" | tr '\n' ';')" = "0 0 20;1 0 8;0 1 none;1 1 20;" ]; verdict "a map has a cell for each pair of values" $?
+! grep -q "What was tried" "$work/rep/index.html" "$work/rep/table.md"; verdict "nothing was tried where nothing misses" $?
+deviation() { grep -o "<td>$1<td class=n>$2<td><code>$3</code><td>[^<]*$4<td><a href=\"#c0\">G</a>" "$work/rep/index.html" | grep -q .; }
+deviation speed "1.3&nbsp;m/s" 0.5 "walk.yaml, group walker" && deviation speed "1.3&nbsp;m/s" crowd.by_headway "behaviours/walker.lua, state Walk" && ! deviation mass ".*" ".*" ".*"; verdict "what scenes and behaviours set is in a table, and nothing else" $?
 
 # ---- what is done is not done again ----
 stamps() { stat -c '%Y.%y %n' "$work"/rep/runs/*/summary.json | sort; }
@@ -82,6 +100,7 @@ sed 's/id = "G"/id = "BAD"/; s/7.9, 8.1/1, 2/; s/-- .*//' "$work/claims/good.lua
 expect "a claim out of band is exit status 1" 1 "1 of 2 claims in band; these miss: BAD" "${run[@]}"
 says "its figure says OUT" "band 1 to 2: OUT"
 grep -q 'class=out>misses' "$work/rep/index.html"; verdict "the page says so" $?
+grep -qF '<li>Walking &lt;faster&gt;: 3 m/s, no better</li>' "$work/rep/index.html" && grep -qF -- '- Waiting' "$work/rep/table.md" && grep -qF 'BAD misses. What was tried:' "$work/rep/table.md" && ! grep -qF 'G misses' "$work/rep/table.md"; verdict "and what was tried" $?
 expect "one claim by its id" 0 "1 of 1 claims in band" "${run[@]}" G
 expect "one claim by its file" 1 "0 of 1 claims in band; these miss: BAD" "${run[@]}" bad
 expect "no such claim" 3 "there is no claim 'X'" "${run[@]}" X
@@ -123,6 +142,16 @@ refuse "a value that is a table" "is set to a table" -e 's/speed"\] = 0.5/speed"
 refuse "quick of a run that is none" "quick: there is no run 'slwo'" -e 's/quick = { slow/quick = { slwo/'
 refuse "pictures of a run that is none" "pictures: there is no run 'wlak'" -e 's/pictures = { walk/pictures = { wlak/'
 refuse "a picture elsewhere" "names of files in its report" -e 's/"paths.png"/"..\/paths.png"/'
+refuse "a plot of a figure that is none" "plot 'speed': there is no figure 'slwo'" -e 's/{ 0.5, "slow" }, { 1.25, "time" } } }/{ 0.5, "slwo" } } }/'
+refuse "a plot's point without numbers" "plot 'speed': a point begins with numbers" -e 's/points = { { 1.25, 8 } }/points = { { 1.25, "eight" } }/'
+refuse "a curve of two kinds" "one of figures, points and line" -e 's/{ "source", points/{ "source", line = { { 1, 2 } }, points/'
+refuse "a curve of no kind that is known" "did you mean 'points'?" -e 's/{ "source", points/{ "source", pionts/'
+refuse "a plot without a title" 'a plot needs title = "..."' -e 's/title = "Time over speed", //'
+refuse "a plot elsewhere" "a name has letters" -e 's/name = "map"/name = "..\/map"/'
+refuse "a map without its unit" 'a plot needs z = "..."' -e 's/, z = "time (s)"//'
+refuse "two plots of a name" "there are two plots 'speed'" -e 's/name = "map"/name = "speed"/'
+refuse "a plot of nothing" "needs a map, or from 1 to 12 curves" -e 's/^      map = .*/    },/'
+refuse "tried is a list of texts" "each of tried is a text" -e 's/, "Waiting" }/, 7 }/'
 refuse "a syntax error" "odd.lua:7:" -e '7s/.*/    return { = 1 }/'
 refuse "an unknown word" "clam" -e 's/return claim/return clam/'
 printf 'return 5\n' >"$work/odd/odd.lua"

@@ -24,7 +24,8 @@ function shapeOf({ shape, size = [], points = [] }) {
     }
     if (shape === "hull" && points.length >= 4) {
         const hull = new ConvexBufferGeometry(points.map((p) => new THREE.Vector3(...p)));
-        return { toNonIndexed: () => hull }; // already without an index
+        // Points of one plane have no hull.
+        if (hull.attributes.position.count >= 12) return { toNonIndexed: () => hull }; // already without an index
     }
     const [x, y, z] = size.length === 3 ? size : [0.3, 0.3, 0.3];
     return new THREE.BoxBufferGeometry(x, y, z);

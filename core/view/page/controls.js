@@ -125,11 +125,11 @@ export class ToolBar {
 export function bindKeys(keys, player, typing) {
     window.addEventListener("keydown", (event) => {
         if (typing(event) || event.ctrlKey || event.metaKey || event.altKey) return;
-        if (player.key(event, true)) return event.preventDefault();
         const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
         // Buttons and tabs keep the keys that belong to them.
         const own = event.target instanceof HTMLElement && event.target.closest("button, [role=tab], [role=button], input");
         if (own && /^( |Enter|Arrow\w+)$/.test(event.key)) return undefined;
+        if (player.key(event, true)) return event.preventDefault();
         if (keys[name]?.(event) !== undefined) event.preventDefault();
         return undefined;
     });

@@ -21,6 +21,9 @@ import { Tools, TOOLS } from "./tools.js";
 import { View } from "./view.js";
 
 const LINKS = { connecting: "connecting", open: "connected", lost: "not connected, trying again" };
+const LOST = ["The connection is lost. The page tries again by itself.",
+    "The connection is lost. If the program was started anew, open the address that it prints."];
+const NEAR = 14; // m, from which a person is followed
 const MOVE = 0.08; // of the distance to what is looked at, for one press of an arrow key
 
 class Page {
@@ -129,7 +132,7 @@ class Page {
         const node = byId("link");
         node.dataset.state = state;
         say(node, LINKS[state]);
-        this.messages?.stand("link", state === "lost" ? "The connection is lost. The page tries again by itself." : "");
+        this.messages?.stand("link", state === "lost" ? LOST[Number(this.connection?.attempt > 4)] : "");
         if (state === "open") this.again();
     }
 
@@ -212,6 +215,8 @@ class Page {
             this.findPlayers();
         } else if (kind === 2) {
             this.crowd.takePeople(buffer);
+            this.view.people.uploadPersons(this.crowd);
+            this.redraw();
         } else if (kind === 3) {
             const field = readField(buffer);
             if (field.which !== ["density", "pressure"].indexOf(this.field)) return;
@@ -293,6 +298,8 @@ class Page {
 
     follow(on = !this.following) {
         this.following = on && this.slot !== null;
+        const { view } = this, away = view.camera.position.distanceTo(view.controls.target);
+        if (this.following && !view.top && away > NEAR) view.turnBy(0, 0, away / NEAR);
         if (on && this.slot === null) this.messages.say("Choose a person first: click one.");
         this.toolBar.follow.setAttribute("aria-pressed", String(this.following));
     }

@@ -45,7 +45,7 @@ export class Messages {
 function errorItem({ file, line, column, text, source, hint }) {
     const place = [file, line || null, line ? column || null : null].filter((part) => part !== null && part !== undefined).join(":");
     const number = String(line ?? "");
-    const mark = source && column ? `\n${" ".repeat(number.length + 3 + column - 1)}^` : "";
+    const mark = source && column ? `\n${" ".repeat(number.length + 3)}${source.slice(0, column - 1).replace(/[^\t]/g, " ")}^` : "";
     return el("li", {}, el("strong", {}, place), ` ${text ?? ""} ${hint ?? ""}`,
         source ? el("code", { className: "code" }, `${number} | ${source}${mark}`) : null);
 }

@@ -69,14 +69,20 @@ export class Overlay {
             const box = [spot[0] - wide, spot[1] - 10, spot[0] + wide, spot[1] + 10];
             if (taken.some((b) => b[0] < box[2] && b[2] > box[0] && b[1] < box[3] && b[3] > box[1])) continue;
             taken.push(box);
-            this.tag(label.text, spot, label.gate ? "#d55e00" : label.faint ? "#8a94a3" : this.dark ? "#56b4e9" : "#0072b2");
+            this.tag(label.text, spot, this.nameColour(label));
         }
     }
 
+    nameColour(label) {
+        if (label.gate) return this.dark ? "#ffab73" : "#a63d00";
+        if (label.faint) return this.dark ? "#a5afbc" : "#5a6370";
+        return this.dark ? "#6cc0f5" : "#0062a0";
+    }
+
     /** A word on a plate. */
-    tag(text, [x, y], colour) {
+    tag(text, [x, y], colour = this.dark ? "#e8ecf1" : "#20242a") {
         const pen = this.pen, wide = pen.measureText(text).width + 10;
-        pen.fillStyle = this.dark ? "rgb(18 21 25 / 72%)" : "rgb(255 255 255 / 78%)";
+        pen.fillStyle = this.dark ? "rgb(18 21 25 / 78%)" : "rgb(255 255 255 / 84%)";
         roundRect(pen, x - wide / 2, y - 9, wide, 18, 4);
         pen.fill();
         pen.fillStyle = colour;
@@ -91,7 +97,7 @@ export class Overlay {
         stroke(this.pen, path.map((p) => this.view.project(...p)), "#000000a0", 5);
         stroke(this.pen, path.map((p) => this.view.project(...p)), colour, 2.5);
         const head = this.view.project(at[0], at[1], 2.1);
-        if (head && text) this.tag(text, [head[0], head[1] - 24], this.dark ? "#e8ecf1" : "#20242a");
+        if (head && text) this.tag(text, [head[0], head[1] - 24]);
         return at;
     }
 

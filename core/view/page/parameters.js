@@ -13,6 +13,12 @@ export class ParametersPage {
         this.state = 0;
         this.changed = new Map(); // "machine state parameter" -> value set on this page
         this.shown = "";
+        node.addEventListener("pointerdown", (event) => (this.held = event.target.type === "range"));
+        window.addEventListener("pointerup", () => {
+            this.held = false;
+            if (this.late) this.build();
+            this.late = false;
+        });
     }
 
     set(hello) {
@@ -34,7 +40,11 @@ export class ParametersPage {
     }
 
     build() {
-        if (this.node.contains(document.activeElement) && document.activeElement.type === "range") return; // in the hand
+        if (this.held) { // a slider is in the hand
+            this.late = true;
+            return;
+        }
+        const focus = this.focus();
         const machine = this.machines?.[this.machine];
         if (!machine) return void fill(this.node, el("p", { className: "faint" }, "This session has no state machines."));
         const states = machine.defaults ? [...machine.states, { name: "defaults", parameters: machine.defaults }] : machine.states;
@@ -53,6 +63,14 @@ export class ParametersPage {
             ? "A change holds for everybody in this state, now and later, until the file is saved again."
             : "This scene does not let the page change parameters."),
         this.paste, this.list(machine, state));
+        this.focus(focus);
+    }
+
+    /** Which control has the focus, or, given that, gives it back after a new build. */
+    focus(which) {
+        if (which) return this.node.querySelector(which)?.focus();
+        const at = document.activeElement, part = this.node.contains(at) && at.closest("[data-parameter]");
+        return part ? `[data-parameter="${CSS.escape(part.dataset.parameter)}"] ${at.type ? `[type="${at.type}"]` : at.localName}` : null;
     }
 
     /** First what files or people set, then what the engine has. */

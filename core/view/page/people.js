@@ -4,8 +4,10 @@ import { NOBODY } from "./crowd.js";
 import { makeFigure } from "./figure.js";
 import { FIGURE_FRAGMENT, FIGURE_VERTEX, POINT_FRAGMENT, POINT_VERTEX } from "./shaders.js";
 
-const FIGURES = 4096; // at most
-const FIGURE_PIXELS = 16; // whose height on the screen is more is worth a figure
+const FIGURES = 4608; // at most; a little more than are chosen, for the margin
+const MARGIN = 0.4; // m: who stands there is drawn as both, so that nobody is missing while they slide
+const RINGS = 128; // around the eye, of equal area
+const FIGURE_PIXELS = 16; // who is taller on the screen is worth a figure
 
 export class People {
     constructor() {
@@ -15,8 +17,9 @@ export class People {
             colours: { value: null }, pixels: { value: 1 }, tall: { value: 0 },
             nearer: { value: 0 }, eye: { value: new THREE.Vector3() },
         };
-        this.most = FIGURES; // fewer where drawing is slow
+        this.most = 4096; // fewer where drawing is slow
         this.capacity = 0;
+        this.counts = new Uint32Array(RINGS);
         this.newest = 1; // of the two buffers
         this.personVersion = -1;
         this.group = new THREE.Group();
@@ -77,11 +80,15 @@ export class People {
         this.write(this.newest, frame);
         this.uniforms.swapped.value = this.newest === 0 ? 1 : 0;
         this.points.geometry.setDrawRange(0, frame.slots);
-        if (this.personVersion !== crowd.personVersion) {
-            this.persons.array.set(crowd.person.subarray(0, 2 * this.capacity));
-            this.persons.needsUpdate = true;
-            this.personVersion = crowd.personVersion;
-        }
+        this.uploadPersons(crowd);
+    }
+
+    /** Radii and groups, where they changed. */
+    uploadPersons(crowd) {
+        if (this.personVersion === crowd.personVersion) return;
+        this.persons.array.set(crowd.person.subarray(0, 2 * this.capacity));
+        this.persons.needsUpdate = true;
+        this.personVersion = crowd.personVersion;
     }
 
     write(which, frame) {
@@ -96,13 +103,8 @@ export class People {
     chooseNear(crowd, eye, pixels, top) {
         const u = this.uniforms, frame = crowd.next;
         u.eye.value.copy(eye);
-        let reach = top ? 0 : (1.7 * pixels) / FIGURE_PIXELS;
-        let count = reach > 0 ? this.collect(crowd, eye, reach, this.most) : 0;
-        for (let tries = 0; count > this.most && tries < 12; tries++) {
-            reach *= Math.min(0.95, 0.97 * Math.sqrt(this.most / count));
-            count = this.collect(crowd, eye, reach, this.most);
-        }
-        count = Math.min(count, this.most);
+        const reach = top ? 0 : this.reachOf(frame, eye, (1.7 * pixels) / FIGURE_PIXELS);
+        const count = reach > 0 ? this.collect(crowd, eye, reach) : 0;
         this.figures.geometry.maxInstancedCount = count;
         this.figures.visible = count > 0 && frame !== null;
         u.nearer.value = count > 0 ? reach : 0;
@@ -112,27 +114,41 @@ export class People {
         }
     }
 
-    /** Copies the records of those within `reach` m, at most `most`; returns how many there are. */
-    collect(crowd, eye, reach, most) {
+    /** The reach (m), at most `furthest`, within which there are no more people than may be figures. */
+    reachOf(frame, eye, furthest) {
+        const rise = eye.z - 0.85, flat = furthest * furthest - rise * rise;
+        if (flat <= 0) return 0;
+        const { words, bytes, x0, y0, sx, sy } = frame, counts = this.counts.fill(0), perRing = RINGS / flat;
+        for (let slot = 0, w = 0; slot < frame.slots; slot++, w += 4) {
+            const dx = x0 + sx * words[w] - eye.x, dy = y0 + sy * words[w + 1] - eye.y, d = dx * dx + dy * dy;
+            if (d < flat && bytes[2 * w + 5] !== NOBODY) counts[(d * perRing) | 0]++;
+        }
+        let ring = 0;
+        for (let sum = 0; ring < RINGS; ring++) {
+            sum += counts[ring];
+            if (sum > this.most) break;
+        }
+        return ring === 0 ? 0 : Math.sqrt((ring / RINGS) * flat + rise * rise);
+    }
+
+    /** Copies the records of those within `reach` m; returns how many there are. */
+    collect(crowd, eye, reach) {
         const b = crowd.next, a = crowd.previous, person = crowd.person;
-        const words = b.words, bytes = b.bytes;
+        const { words, bytes, x0, y0, sx, sy } = b;
         const newer = this.near[this.newest].array, older = this.near[1 - this.newest].array;
         const persons = this.nearPersons.array;
-        const rise = eye.z - 0.85, flat = (reach + 0.5) ** 2 - rise * rise;
-        if (flat <= 0) return 0;
+        const rise = eye.z - 0.85, flat = (reach + MARGIN) ** 2 - rise * rise;
         let count = 0;
-        for (let slot = 0, w = 0; slot < b.slots; slot++, w += 4) {
-            const dx = b.x0 + b.sx * words[w] - eye.x, dy = b.y0 + b.sy * words[w + 1] - eye.y;
+        for (let slot = 0, w = 0; slot < b.slots && count < FIGURES; slot++, w += 4) {
+            const dx = x0 + sx * words[w] - eye.x, dy = y0 + sy * words[w + 1] - eye.y;
             if (dx * dx + dy * dy > flat || bytes[2 * w + 5] === NOBODY) continue;
-            if (count < most) {
-                const to = 8 * count, from = 8 * slot, known = slot < a.slots;
-                for (let k = 0; k < 8; k++) {
-                    newer[to + k] = bytes[from + k];
-                    older[to + k] = known ? a.bytes[from + k] : NOBODY;
-                }
-                persons[2 * count] = person[2 * slot];
-                persons[2 * count + 1] = person[2 * slot + 1];
+            const to = 8 * count, from = 8 * slot, known = slot < a.slots;
+            for (let k = 0; k < 8; k++) {
+                newer[to + k] = bytes[from + k];
+                older[to + k] = known ? a.bytes[from + k] : NOBODY;
             }
+            persons[2 * count] = person[2 * slot];
+            persons[2 * count + 1] = person[2 * slot + 1];
             count++;
         }
         return count;

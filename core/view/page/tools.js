@@ -200,13 +200,13 @@ export class Tools {
                 stroke(pen, [project(...g.from, 0), project(...g.from, HAND)], style, wide);
             }
             const end = project(...path[path.length - 1]);
-            if (end) this.page.overlay.tag(`${Math.hypot(...velocity).toFixed(1)} m/s`, [end[0], end[1] - 16], "#e69f00");
+            if (end) this.page.overlay.tag(`${Math.hypot(...velocity).toFixed(1)} m/s`, [end[0], end[1] - 16]);
         } else if (g.kind === "push") {
             const at = this.page.crowd.position(g.slot, 1), force = this.force();
             if (!at || !force) return;
             this.page.overlay.arrow([...at, 1.1], [...g.to, 1.1], "#ffd21f");
             const tip = project(...g.to, 1.1);
-            if (tip) this.page.overlay.tag(`${Math.hypot(...force).toFixed(0)} N`, [tip[0], tip[1] - 16], "#e69f00");
+            if (tip) this.page.overlay.tag(`${Math.hypot(...force).toFixed(0)} N`, [tip[0], tip[1] - 16]);
         } else {
             const at = this.page.crowd.bodyPosition(g.row);
             if (at) this.page.overlay.arrow(at, [...g.to, g.z], "#ffd21f");
