@@ -1,9 +1,10 @@
 # Jostle. Sources are found, never listed; everything is built in build/MODE.
 # `make run` and `make test` install what is missing (.ci/setup); plain `make` only builds.
-# BULLET=0 leaves out bodies and Bullet, VIEW=0 the live page and libwebsockets.
+# BULLET=0 leaves out bodies and Bullet, VIEW=0 the live page and libwebsockets, CAIRO=0 images and cairo.
 VERSION := 0.1.0
 MODE    ?= release
 BULLET  ?= 1
+CAIRO   ?= 1
 VIEW    ?= 1
 PREFIX  ?= /usr/local
 # Where the program finds its library of Lua, behaviours and scenes: this tree, until it is installed.
@@ -11,7 +12,7 @@ DATADIR ?= $(CURDIR)
 # Its live page, and the three.js that the page uses (Debian's libjs-three).
 PAGEDIR ?= $(CURDIR)/core/view/page
 THREEDIR ?= /usr/share/javascript/three
-WITHOUT := $(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(VIEW)),-noview)
+WITHOUT := $(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(CAIRO)),-nocairo)$(if $(filter 0,$(VIEW)),-noview)
 B       ?= build/$(MODE)$(WITHOUT)
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
@@ -24,12 +25,13 @@ SRC_CC  :=
 else
 SRC_C   := $(filter-out core/body/none.c,$(SRC_C))
 endif
+SRC_C   := $(filter-out core/record/canvas_$(if $(filter 0,$(CAIRO)),cairo,none).c,$(SRC_C))
 SRC_C   := $(filter-out $(if $(filter 0,$(VIEW)),core/view/lws_%,core/view/none.c),$(SRC_C))
 SRC_CLI := $(sort $(wildcard core/cli/*.c))
 TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api),$(wildcard tests/unit/$(d)_*.c)))
 TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/host_view.c),$(TESTS))
 BENCHES := $(sort $(wildcard tests/bench/*.c))
-PKGS    := lua5.4 yaml-0.1 sqlite3 expat $(if $(filter 0,$(BULLET)),,bullet) $(if $(filter 0,$(VIEW)),,libwebsockets)
+PKGS    := lua5.4 yaml-0.1 sqlite3 expat $(if $(filter 0,$(BULLET)),,bullet) $(if $(filter 0,$(CAIRO)),,cairo) $(if $(filter 0,$(VIEW)),,libwebsockets)
 
 OPT.release := -O2 -DNDEBUG
 OPT.debug   := -O0 -g

@@ -10,6 +10,7 @@
 /* Exit statuses are those of JoCode: 0 done, 1 the run failed, 2 wrong usage, 3 bad input. */
 int cli_run(int argc, char **argv);
 int cli_report(int argc, char **argv);
+int cli_render(int argc, char **argv);
 int cli_view(int argc, char **argv);
 int cli_check(int argc, char **argv);
 int cli_bench(int argc, char **argv);

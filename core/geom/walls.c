@@ -86,6 +86,17 @@ void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates) {
     }
 }
 
+uint32_t jox_walls_given(const JoxWalls *walls, uint32_t ring, bool *closed, bool *twin) {
+    const struct JoxWallRing *r = &walls->rings[ring];
+    const JoxWallVertex *v = walls->vertices + r->first;
+    const uint32_t n = r->count;
+    bool back = !r->solid && n % 2 == 0 &&
+                (n == 2 || (v[1].point.x == v[n - 1].point.x && v[1].point.y == v[n - 1].point.y));
+    *closed = !back;
+    *twin = !back && !r->solid;
+    return back ? n / 2 + 1 : n;
+}
+
 void jox_walls_free(JoxWalls *walls) {
     for (uint32_t r = 0; r < walls->ring_count; r++)
         jox_free(walls->rings[r].name);

@@ -42,6 +42,9 @@ void jox_walls_name(JoxWalls *walls, uint32_t first, const char *name, bool open
 /* Makes `out` the walls of `all` that stand, without their names; with `gates` false, of these only
    such as never open. Keeps its memory. */
 void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates);
+/* Points of a ring as they were given, from its first vertex on, and whether the last is joined to
+   the first. A closed line is two rings, of which *twin says that the next repeats this one. */
+uint32_t jox_walls_given(const JoxWalls *walls, uint32_t ring, bool *closed, bool *twin);
 void jox_walls_free(JoxWalls *walls);
 
 #endif

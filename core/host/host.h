@@ -72,6 +72,7 @@ struct JoScene {
     FILE *log; /* input log that is written, or NULL */
     char *log_path;
     bool log_failed;
+    bool acted_on;         /* by people, other than a log */
     JoxInputLog input;     /* as it was read, until there is a world */
     JoxFiles logged_files; /* whose texts stand in it */
     JoxOverlay overlay;    /* texts of the log that is played */

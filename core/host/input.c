@@ -168,6 +168,7 @@ bool jox_host_end_log(JoScene *scene, JoError *error) {
 static bool perform(JoScene *scene, JoxInputEntry *entry, JoError *error) {
     if (!do_entry(scene, entry, error))
         return false;
+    scene->acted_on |= entry->line == 0;
     if (entry->verb < JOX_INPUT_BEGAN) /* a reload is logged as it goes live */
         jox_host_log(scene, entry);
     return true;

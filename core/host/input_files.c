@@ -76,6 +76,13 @@ void jox_host_note_file(JoScene *scene, JoxReloaded *reloaded, const char *path,
     const char *live = live_text(scene, path, &known, &live_length);
     if (live && strcmp(known, sha256) == 0)
         return;
+    if (length > JOX_INPUT_LARGEST || strlen(path) > JOX_INPUT_PATH) {
+        jox_host_say(scene,
+                     "%s is over 16 MB: the input log does without, and a replay reads it "
+                     "from the disk\n",
+                     path);
+        return;
+    }
     add_file(&reloaded->files, path, text, length);
     bool first = true;
     for (uint32_t f = 0; f < scene->logged_files.count; f++)

@@ -1,5 +1,6 @@
 /* Frames of a running scene: who is where, by slot. */
 #include <math.h>
+#include <string.h>
 
 #include "base/mem.h"
 #include "host/live_parts.h"
@@ -98,6 +99,28 @@ static void put_bodies(const JoScene *scene, uint32_t slots, JoxBytes *out) {
     }
 }
 
+static void note_edges(JoxLive *live, const JoWorld *world) {
+    const JoxAgents *a = &world->agents;
+    const size_t had = live->round_capacity;
+    if ((a->period.x <= 0.0f && a->period.y <= 0.0f) || live->came_round == world->tick + 1)
+        return;
+    live->came_round = world->tick + 1;
+    JOX_RESERVE(live->rounds, live->round_capacity, a->slot_count);
+    if (live->round_capacity > had)
+        memset(live->rounds + had, 0, (live->round_capacity - had) * sizeof *live->rounds);
+    for (uint32_t i = 0; i < a->count; i++) {
+        struct JoxLiveRound *r = &live->rounds[a->slot[i]];
+        const uint32_t generation = a->slot_generation[a->slot[i]];
+        const JoxV2 now = {a->x[i], a->y[i]}, way = jox_sub(now, r->at);
+        const bool far = (a->period.x > 0.0f && fabsf(way.x) > 0.5f * a->period.x) ||
+                         (a->period.y > 0.0f && fabsf(way.y) > 0.5f * a->period.y);
+        if (far && r->generation == generation)
+            r->flips ^= JOX_LIVE_PARITY;
+        r->at = now;
+        r->generation = generation;
+    }
+}
+
 void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
     JoxLive *live = jox_live_of(scene);
     const JoWorld *world = scene->world;
@@ -107,6 +130,7 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
         first[m + 1] = first[m] + world->mind.machines[m]->state_count;
     const uint32_t player = jox_live_player(scene);
     cover_people(&live->area, a);
+    note_edges(live, world);
     JoxLiveHead head = {.tick = (uint32_t)world->tick,
                         .time = jo_world_time(world),
                         .slots = a->slot_count,
@@ -119,7 +143,8 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
         uint32_t state = a->machine[i] == JOX_NO_MACHINE ? JOX_LIVE_OTHER_STATE
                                                          : first[a->machine[i]] + a->state[i];
         uint32_t slot = a->slot[i];
-        uint8_t flags = (uint8_t)((a->slot_generation[slot] & JOX_LIVE_PARITY) |
+        const uint32_t flips = slot < live->round_capacity ? live->rounds[slot].flips : 0;
+        uint8_t flags = (uint8_t)(((a->slot_generation[slot] ^ flips) & JOX_LIVE_PARITY) |
                                   (a->failed[i] ? JOX_LIVE_FAILED : 0u) |
                                   (a->id[i] == player ? JOX_LIVE_PLAYER : 0u));
         jox_live_put_person(
@@ -168,6 +193,7 @@ void jox_live_end(JoScene *scene) {
     jox_free(live->taken);
     jox_free(live->fired);
     jox_free(live->people);
+    jox_free(live->rounds);
     jox_free(live);
     scene->live = NULL;
 }

@@ -50,31 +50,23 @@ static void add_floats(JoxText *out, const char *key, const float *values, int c
 
 /* ---- walls, places, regions ---- */
 
-static bool same_point(const JoxWalls *walls, uint32_t a, uint32_t b) {
-    return memcmp(&walls->vertices[a].point, &walls->vertices[b].point, sizeof(JoxV2)) == 0;
-}
-
 void jox_live_walls(const JoxWalls *walls, float height, JoxText *out) {
     jox_text_add(out, "[");
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
-        const uint32_t n = ring->count;
-        /* A line is a ring there and back; a closed one is two rings, of which one is shown. */
-        const bool back = !ring->solid && n % 2 == 0 &&
-                          (n == 2 || same_point(walls, ring->first + 1, ring->first + n - 1));
-        const bool closed = !ring->solid && !back;
+        bool closed, twin;
+        const uint32_t n = jox_walls_given(walls, r, &closed, &twin);
         jox_text_add(out, r ? ", {\"name\": " : "{\"name\": ");
         add_name(out, ring->name);
         jox_text_printf(out, ", \"solid\": %s, \"open\": %s, \"height\": %.4g, \"points\": [",
                         ring->solid ? "true" : "false", ring->open ? "true" : "false",
                         (double)(isfinite(ring->height) ? ring->height : height));
-        const uint32_t shown = back ? n / 2 + 1 : closed ? n + 1 : n;
-        for (uint32_t i = 0; i < shown; i++) {
+        for (uint32_t i = 0; i < n + twin; i++) { /* a closed line ends where it began */
             jox_text_add(out, i ? ", " : "");
             add_point(out, walls->vertices[ring->first + i % n].point);
         }
         jox_text_add(out, "]}");
-        r += closed;
+        r += twin;
     }
     jox_text_add(out, "]");
 }
@@ -292,8 +284,12 @@ uint64_t jox_live_version(const JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxWalls *walls = &world->wall_plan;
     JoxHash hash = jox_hash_begin();
+    jox_hash_add(&hash, &scene->plan->view, sizeof scene->plan->view);
+    jox_hash_add(&hash, scene->plan->camera.position, sizeof scene->plan->camera.position);
+    jox_hash_add(&hash, scene->plan->camera.target, sizeof scene->plan->camera.target);
     for (uint32_t m = 0; m < world->mind.machine_count; m++)
         jox_hash_add(&hash, &world->mind.machines[m], sizeof world->mind.machines[m]);
+    jox_hash_add(&hash, &world->mind.edits, sizeof world->mind.edits);
     for (uint32_t v = 0; v < walls->count; v++) /* opening and closing is in the status */
         jox_hash_add(&hash, &walls->vertices[v].point, sizeof(JoxV2));
     for (uint32_t p = 0; p < world->place_count; p++)

@@ -28,6 +28,15 @@ struct JoxLive {
     /* As of the last status. */
     double wall, time, stage_s[JO_STAGE_COUNT];
     uint64_t failures, agent_steps;
+    /* Where edges are periodic, by slot: where its person was in the last frame, and the parity
+       that changes whenever they came round an edge, so that nobody is seen to fly across. */
+    struct JoxLiveRound {
+        JoxV2 at;
+        uint32_t generation;
+        uint8_t flips;
+    } * rounds;
+    size_t round_capacity;
+    uint64_t came_round; /* tick of that frame, plus 1 */
     /* Scratch. */
     uint32_t *people;
     size_t people_capacity;

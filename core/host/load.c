@@ -9,7 +9,7 @@
 #include "host/host.h"
 #include "host/live.h"
 
-enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 64 << 20 };
+enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 256 << 20 };
 
 void jox_host_to_stderr(void *context, const char *text) {
     (void)context;
@@ -412,8 +412,8 @@ static bool same_files(const JoScene *a, const JoScene *b) {
 
 JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError *error) {
     JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && scene, NULL);
-    if (scene->input_path) {
-        jox_error(error, JO_INPUT, "its input was recorded step by step");
+    if (scene->input_path || scene->acted_on) {
+        jox_error(error, JO_INPUT, "people acted on it in steps of its own length");
         return NULL;
     }
     JoSceneDef half = *def;

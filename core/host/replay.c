@@ -172,6 +172,10 @@ static void give_slots(JoxReplay *r, const JoxReelFrame *f, double spent) {
             r->slot[i] = take_slot(r);
         const uint32_t s = r->slot[i];
         bool moved = !fresh && spent > 0.0;
+        bool round = fabsf(f->x[i] - r->last_x[s]) > 0.5f * period.x && period.x > 0.0f;
+        round |= fabsf(f->y[i] - r->last_y[s]) > 0.5f * period.y && period.y > 0.0f;
+        if (!fresh && round) /* an edge: nobody flies across */
+            r->parity[s] ^= JOX_LIVE_PARITY;
         r->vx[i] = moved ? shortest(f->x[i] - r->last_x[s], period.x) / (float)spent : 0.0f;
         r->vy[i] = moved ? shortest(f->y[i] - r->last_y[s], period.y) / (float)spent : 0.0f;
         r->last_x[s] = r->x[i] = f->x[i];

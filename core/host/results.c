@@ -77,6 +77,7 @@ bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
     jox_text_free(&wkt);
     if (!scene->recorder)
         return fail(error, &why);
+    jox_recorder_walls(scene->recorder, &scene->world->wall_plan);
     const JoxMind *mind = &scene->world->mind;
     for (uint32_t m = 0; m < mind->machine_count; m++)
         jox_host_record_states(scene, m);

@@ -319,6 +319,40 @@ JO_API JoReportDef jo_default_report_def(void);
    NULL if anything is wrong: every error went to `message`, the first is in `error`. */
 JO_API char *jo_report(const JoReportDef *def, JoError *error);
 
+/* A top view, as a picture, as frames or as a video: of a scene, which is run for it, or of a
+   recording (as for JoReportDef). */
+typedef struct JoRenderDef {
+    const JoSceneDef *scene; /* runs this, */
+    const char *recording;   /* or reads this; */
+    const char *plan;        /* then the walls and places of this scene are drawn; or NULL */
+    double recorded_fps;     /* frames a second of the recording; 0: as it says */
+    double unit;             /* m, of its lengths; 0: as it says */
+    const char *out;         /* FILE.svg or FILE.png: one picture; FILE.mp4, .mkv or .webm: a video
+                                (needs ffmpeg); else a folder for frame-000001.png, ... */
+    double at;               /* s, of a picture; default NAN: the beginning */
+    double from, until;      /* s, of frames and videos; default NAN: from beginning to end */
+    double fps;              /* of frames and videos; 0: as of the steps or the recording, but at
+                                most 30 a second */
+    uint32_t width, height;  /* pixels, 320 to 8192; 0: what suits the area */
+    const double *area;      /* x0, y0, x1, y1, m; NULL: all */
+    const char *colour;      /* "state", "group", "speed", "force", "compression", "density" or
+                                "none", or as "speed:1.5" with the value at the bar's end; NULL:
+                                state or, where none is known, group or speed */
+    const char *field;       /* "density" or "pressure", or with a value; NULL: a bare floor */
+    bool paths;              /* draws where people went until then */
+    bool progress;           /* on stderr, as jo_scene_show_progress */
+    JoMessage *message;      /* NULL: to stderr */
+    void *message_context;
+    uint32_t cookie;
+} JoRenderDef;
+JO_API JoRenderDef jo_default_render_def(void);
+/* What was written goes to `message`, and everything that is wrong with a scene or a recording.
+   False with `error` if anything failed: JO_USAGE if the def makes no sense, JO_INPUT if the scene
+   or recording is wrong or has no such time, JO_FAILED if writing failed. */
+JO_API bool jo_render(const JoRenderDef *def, JoError *error);
+/* Whether this build makes images and videos; else SVG alone. */
+JO_API bool jo_render_has_images(void);
+
 /* The mods that a run of the scene would take (path NULL: of the user's data directory alone), in
    order, and the others that were found, as text; free with jo_free. */
 JO_API char *jo_mods_list(const JoSceneDef *def);

@@ -93,6 +93,7 @@ void jox_mind_set_parameter(JoxMind *mind, uint32_t index, int32_t number, int p
     for (uint32_t s = 0; number < 0 && s < machine->own_count; s++)
         if (strcmp(machine->own[s].name, name) == 0)
             slot = (int32_t)s;
+    mind->edits++;
     if (slot >= 0)
         machine->own[slot].dist = jox_dist_constant(value);
     *(number < 0 ? &machine->defaults[parameter] : &machine->states[number].param[parameter]) = set;

@@ -92,6 +92,7 @@ typedef struct JoxMind {
     /* Machines in use; owned. A reload replaces an entry (see jox_mind_replace). */
     JoxMachine **machines;
     uint32_t machine_count, machine_capacity;
+    uint32_t edits; /* parameters set in place so far (see jox_mind_set_parameter) */
 
     /* Results of the step. */
     JoxTaken *taken;

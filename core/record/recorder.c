@@ -183,7 +183,9 @@ static const char SCHEMA[] =
     " qz REAL, qw REAL);"
     "CREATE TABLE jostle_part(frame INTEGER, id INTEGER, part INTEGER, kind INTEGER, size_x REAL,"
     " size_y REAL, size_z REAL, x REAL, y REAL, z REAL, qx REAL, qy REAL, qz REAL, qw REAL,"
-    " corners TEXT, PRIMARY KEY(id, frame, part));";
+    " corners TEXT, PRIMARY KEY(id, frame, part));"
+    "CREATE TABLE jostle_wall(name TEXT, solid INTEGER, closed INTEGER, open INTEGER, height REAL,"
+    " points TEXT);";
 
 static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
     sqlite3_stmt *geometry = NULL;
@@ -284,6 +286,37 @@ void jox_recorder_group(JoxRecorder *r, uint32_t number, const char *name) {
         sqlite3_finalize(statement);
     }
     pthread_mutex_unlock(&r->lock);
+}
+
+void jox_recorder_walls(JoxRecorder *r, const JoxWalls *walls) {
+    sqlite3_stmt *statement;
+    JoxText points = {0};
+    pthread_mutex_lock(&r->lock);
+    while (r->count > 0)
+        pthread_cond_wait(&r->emptied, &r->lock);
+    bool good = prepare(r, &statement, "INSERT INTO jostle_wall VALUES(?, ?, ?, ?, ?, ?)");
+    for (uint32_t w = 0; good && w < walls->ring_count; w++) {
+        const struct JoxWallRing *ring = &walls->rings[w];
+        bool closed, twin;
+        const uint32_t count = jox_walls_given(walls, w, &closed, &twin);
+        points.length = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            const JoxV2 at = walls->vertices[ring->first + i].point;
+            jox_text_printf(&points, "%s%.9g %.9g", i ? ", " : "", (double)at.x, (double)at.y);
+        }
+        sqlite3_bind_text(statement, 1, ring->name, -1, SQLITE_STATIC);
+        sqlite3_bind_int(statement, 2, ring->solid);
+        sqlite3_bind_int(statement, 3, closed);
+        sqlite3_bind_int(statement, 4, ring->open);
+        sqlite3_bind_double(statement, 5, isfinite(ring->height) ? (double)ring->height : 0.0);
+        sqlite3_bind_text(statement, 6, points.data, -1, SQLITE_STATIC);
+        good = put(r, statement);
+        w += twin;
+    }
+    if (statement)
+        sqlite3_finalize(statement);
+    pthread_mutex_unlock(&r->lock);
+    jox_text_free(&points);
 }
 
 void jox_recorder_part(JoxRecorder *r, uint32_t frame, uint32_t body, uint32_t part,

@@ -35,6 +35,9 @@ void jox_recorder_state(JoxRecorder *recorder, uint32_t number, const char *mach
                         const char *state);
 /* Names a group of agents; before the first frame. */
 void jox_recorder_group(JoxRecorder *recorder, uint32_t number, const char *name);
+/* Walls with their names and heights, which the walkable area cannot tell; before the first frame.
+ */
+void jox_recorder_walls(JoxRecorder *recorder, const JoxWalls *walls);
 /* A part of a body as it is from a frame on: all its parts are given again whenever one changes. */
 void jox_recorder_part(JoxRecorder *recorder, uint32_t frame, uint32_t body, uint32_t part,
                        const JoxBodyLook *look);

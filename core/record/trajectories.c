@@ -70,6 +70,9 @@ static void permute(JoxTrajectories *t, const Place *places) {
     PERMUTE(force)
     PERMUTE(compression)
     PERMUTE(group)
+    PERMUTE(state)
+    PERMUTE(face_x)
+    PERMUTE(face_y)
 }
 
 /* Whether every frame has a time that the probes can count in; else false with an error. */
@@ -229,20 +232,27 @@ bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out)
                       .compression = t->compression ? t->compression + first : NULL,
                       .group = t->group ? t->group + first : NULL,
                       .groups = (const char *const *)t->groups,
-                      .group_count = t->group_count};
+                      .group_count = t->group_count,
+                      .state = t->state ? t->state + first : NULL,
+                      .states = (const char *const *)t->states,
+                      .state_count = t->state_count};
     return true;
 }
 
 void jox_trajectories_free(JoxTrajectories *t) {
     if (!t)
         return;
-    void *columns[] = {t->number, t->id, t->line,  t->key,         t->x,     t->y,
-                       t->vx,     t->vy, t->force, t->compression, t->group, t->first};
+    void *columns[] = {t->number, t->id,    t->line,  t->key,    t->x,
+                       t->y,      t->vx,    t->vy,    t->force,  t->compression,
+                       t->group,  t->first, t->state, t->face_x, t->face_y};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         jox_free(columns[c]);
     for (uint32_t g = 0; g < t->group_count; g++)
         jox_free(t->groups[g]);
     jox_free(t->groups);
+    for (uint32_t s = 0; s < t->state_count; s++)
+        jox_free(t->states[s]);
+    jox_free(t->states);
     jox_walls_free(&t->walls);
     jox_free(t);
 }

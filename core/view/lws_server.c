@@ -82,6 +82,8 @@ static int callback(struct lws *wsi, enum lws_callback_reasons reason, void *use
         return 0;
     case LWS_CALLBACK_HTTP:
         return jox_http_answer(view, wsi, in);
+    case LWS_CALLBACK_RAW_ADOPT: /* what CONNECT leads to */
+    case LWS_CALLBACK_RAW_RX:
     case LWS_CALLBACK_HTTP_BODY: /* nobody is asked for one */
         return -1;
     case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:

@@ -10,7 +10,6 @@
 #include "world/verbs.h"
 
 enum { LONGEST_LINE = 1200 };
-static const size_t LARGEST_FILE = (size_t)16 << 20; /* bytes */
 
 /* ---- words of a line ---- */
 
@@ -231,7 +230,7 @@ static bool read_file(Parser *p, Reader *r, JoxInputFile *file) {
         return false;
     r->column = column; /* what is said next is about their number */
     r->end_column = end_column;
-    if ((size_t)bytes > LARGEST_FILE || (size_t)bytes > (size_t)(p->end - p->at))
+    if ((size_t)bytes > JOX_INPUT_LARGEST || (size_t)bytes > (size_t)(p->end - p->at))
         return refuse(r, "Is the log cut off?", "only %zu bytes follow, not %.0f",
                       (size_t)(p->end - p->at), bytes);
     file->length = (size_t)bytes;

@@ -28,6 +28,9 @@ typedef enum JoxInputVerb {
     JOX_INPUT_VERBS
 } JoxInputVerb;
 
+/* Bytes of one file. */
+#define JOX_INPUT_LARGEST ((size_t)16 << 20)
+
 enum {
     JOX_INPUT_NUMBERS = 9,
     JOX_INPUT_NAMES = 3,

@@ -22,7 +22,7 @@ local function glued(bond)
   return {
     name = "block",
     shape = { blocks = { size = { 0.5, 0.38, 0.26 }, count = { 2, 10, 5 }, bond = bond } },
-    mass = 100,
+    mass = 600,
     friction = 0.2,
     at = { 8, 0, 0.65 },
   }
@@ -52,7 +52,8 @@ test("glue that bears them holds; weak glue gives way, and they walk through", f
   local holds, breaks = scene(lane(glued(1e6), 12)), scene(lane(glued(5), 12))
   holds:run(40)
   breaks:run(40)
-  truthy(breaks:body("block").x > holds:body("block").x + 0.5, "a piece goes farther than the whole")
+  equal(holds:count(), 12)
+  truthy(breaks:count() < 12, "who is through the pieces is gone")
 end)
 
 test("two runs are the same to the last bit, on one thread and on two", function()

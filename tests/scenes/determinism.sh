@@ -27,6 +27,7 @@ compare gates --for 25
 compare wall-breaking --for 14
 compare office --for 8
 compare dodgeball-500 --for 4
+compare office --set groups.people.count=300 --for 5 --input tests/data/session.input
 # And every scene, for a short time.
 for file in scenes/*.yaml; do
     less=$(.ci/smaller "$file")

@@ -4,28 +4,13 @@
 log=$work/session.input
 
 # ---- every verb ----
-cat >"$work/script.input" <<'LINES'
-# people push, throw, pull, shut, call and set
-5 push 0 400 0
-6 throw desk-1 6 4 1.2 2 0 3 0 0 1
-10 box 3 3 1.5 0 4 2 0.4 8
-12 box 1 1 0 0 0 0 0.3 5
-20 grab 3 2 2 1.2
-24 set throng defaults speed 0.8
-25 drag 3 4 2 1.2
-30 set throng Flee max_speed 1.1
-60 release 3
-62 signal "everybody out"
-70 player 4 1 0.5
-LINES
-state=$(sed -n 's/^ *\([A-Z][A-Za-z]*\) = {.*/\1/p' behaviours/throng.lua | head -1)
-sed -i "s/throng Flee/throng $state/" "$work/script.input"
+script=tests/data/session.input
 office() { "$JOSTLE" run scenes/office.yaml --set groups.people.count=300 --for 5 --quiet --summary - "$@" 2>"$work/err" | figure hash; }
-one=$(office --input "$work/script.input" --log-input "$log")
+one=$(office --input $script --log-input "$log")
 [ ! -s "$work/err" ]; verdict "every verb is done" $?
 cat "$work/err"
 same_hash "a session of every verb" "$one" "$(office --input "$log")" "$(office --input "$log" --threads 2)" "$(office --input "$log" --threads 4)"
-[ "$(grep -Ev '^#|^0 (began|made)' "$log")" = "$(grep -v '^#' "$work/script.input")" ]
+[ "$(grep -Ev '^#|^0 (began|made)' "$log")" = "$(grep -v '^#' $script)" ]
 verdict "the log of a replay says the same" $?
 head -1 "$log" | grep -q '^# input log of jostle .*: scene scenes/office.yaml, seed [0-9]*, dt 0.05 s$'
 verdict "a log begins with what it was made of" $?

@@ -206,16 +206,19 @@ static void errors_after_reading_show_their_line(void **state) {
 
 static void errors_of_other_files_show_their_line(void **state) {
     (void)state;
-    const Case input = {NULL, "bad-input", "Example: 40 player 0 1.5 0"};
+    static const Case LINES[] = {
+        {"0 player 0 1 0\n3 @piano 0 1 0\n", "bad-input",
+         "One of player, throw, box, grab, drag, release, push, open, close, signal, set, files"},
+        {"3 player@\n", "bad-input", "Example: player 0 1.5 0"},
+        {"@-1 player 0 1 0\n", "bad-input", NULL},
+        {"1 player 0 @99 0\n", "bad-input", NULL},
+        {"5 player 0 1 0\n# back\n@4 player 0 0 0\n", "bad-input", NULL}};
     const Case value = {NULL, "unknown-value", "Did you mean 'speed'?"};
     write_file("scenes/example.yaml",
                "jostle: 1\ninput: broken.input\n" STANDER("at: [[0, 0]]") "player: g\n");
-    static const char *const LINES[] = {"0 player 0 1 0\n@3 piano 0 1 0\n", "@3 player\n",
-                                        "@-1 player 0 1 0\n", "@1 player 0 99 0\n",
-                                        "5 player 0 1 0\n# back\n@4 player 0 0 0\n"};
     int wrong = 0;
     for (size_t i = 0; i < sizeof LINES / sizeof *LINES; i++)
-        wrong += check_case(&input, LINES[i], "scenes/broken.input");
+        wrong += check_case(&LINES[i], LINES[i].text, "scenes/broken.input");
     write_file("scenes/example.yaml", "jostle: 1\ninclude: part.yaml\n");
     wrong += check_case(&value, STANDER("at: [[0, 0]],\n  set: {@sped: 1}"), "scenes/part.yaml");
     assert_int_equal(wrong, 0);

@@ -223,6 +223,38 @@ static void slots_stay_with_their_people(void **state) {
     jo_scene_free(scene);
 }
 
+/* Who comes round a periodic edge keeps the slot and is as somebody else in it. */
+static void nobody_flies_across(void **state) {
+    (void)state;
+    JoScene *scene = load("scenes/ring.yaml", NULL, 0);
+    const float period = scene->world->agents.period.x;
+    JoxBytes frame = {0};
+    static double x[1000];
+    static uint8_t parity[1000];
+    uint32_t rounds = 0;
+    assert_true(period > 1.0f);
+    for (int t = 0; t < 200; t++) {
+        step(scene, 1);
+        jox_live_frame(scene, JOX_LIVE_COLOUR_speed, &frame);
+        jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+        Seen seen = decode(&frame, scene->world);
+        check_people(scene, &seen);
+        for (uint32_t s = 0; s < seen.slots; s++) {
+            const uint8_t now = seen.slot[8 * (size_t)s + 7] & 1;
+            if (t > 0) {
+                const bool round = fabs(x_of(&seen, s) - x[s]) > 0.5 * (double)period;
+                assert_int_equal(now != parity[s], round);
+                rounds += round;
+            }
+            x[s] = x_of(&seen, s);
+            parity[s] = now;
+        }
+    }
+    assert_true(rounds > 2);
+    jox_bytes_free(&frame);
+    jo_scene_free(scene);
+}
+
 /* Who goes where the scene names nothing is still where the frame says. */
 static void the_area_grows(void **state) {
     (void)state;
@@ -460,6 +492,7 @@ int main(void) {
         cmocka_unit_test(hello_of_bodies_and_a_player),
         cmocka_unit_test(hello_with_odd_names),
         cmocka_unit_test(slots_stay_with_their_people),
+        cmocka_unit_test(nobody_flies_across),
         cmocka_unit_test(the_area_grows),
         cmocka_unit_test(colours_measure),
         cmocka_unit_test(people_are_told_once),

@@ -166,6 +166,20 @@ static void what_cannot_be_done_is_not_logged(void **state) {
     unlink(path);
 }
 
+static void half_the_step_knows_nothing_of_it(void **state) {
+    (void)state;
+    JoError error = {0};
+    JoScene *scene = begin();
+    step(scene, 2);
+    JoScene *half = jo_scene_half_step(&scene->def, scene, &error);
+    assert_non_null(half);
+    jo_scene_free(half);
+    does(scene, "push 1 10 0");
+    assert_null(jo_scene_half_step(&scene->def, scene, &error));
+    assert_non_null(strstr(error.text, "people acted on it"));
+    jo_scene_free(scene);
+}
+
 static void a_log_that_cannot_be_written(void **state) {
     (void)state;
     JoError error = {0};
@@ -565,6 +579,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_session_plays_back),
         cmocka_unit_test(what_cannot_be_done_is_not_logged),
+        cmocka_unit_test(half_the_step_knows_nothing_of_it),
         cmocka_unit_test(a_log_that_cannot_be_written),
         cmocka_unit_test(a_push_acts_for_one_step),
         cmocka_unit_test(a_parameter_is_set_for_all),

@@ -32,6 +32,8 @@ static char path[300];
     "walls:\n"                                                                                     \
     "  - {line: [[-2, -2], [14, -2]]}\n"                                                           \
     "  - {solid: [[6, 13], [7, 13], [7, 14], [6, 14]]}\n"                                          \
+    "  - {line: [[-10, 20], [-9, 20], [-9, 21], [-10, 21]], closed: true, height: 1.5, name: "     \
+    "gate}\n"                                                                                      \
     "bodies:\n"                                                                                    \
     "  - {name: ball, shape: {sphere: {radius: 0.3}}, mass: 3, at: [6, 6, 0.3], velocity: [1, 0, " \
     "3], damping: 0.2}\n"                                                                          \
@@ -250,8 +252,13 @@ static void hello_of_a_recording(void **state) {
         }
         if (k)
             has_name(&text, "west");
-        assert_near(number_at(k ? "walls.0.points.1.0" : "walls.1.points.2.0", 0, 0, 0), k ? 14 : 7,
-                    1e-5);
+        assert_near(number_at("walls.0.points.1.0", 0, 0, 0), 14, 1e-5);
+        assert_true(isnan(number_at("walls.0.points.2.0", 0, 0, 0)));
+        assert_near(number_at("walls.1.points.2.1", 0, 0, 0), 14, 1e-5);
+        assert_near(number_at("walls.2.points.4.0", 0, 0, 0), -10, 1e-5); /* closed */
+        assert_near(number_at("walls.2.height", 0, 0, 0), 1.5, 1e-5);
+        has_name(&text, "gate");
+        assert_true(isnan(number_at("walls.3.height", 0, 0, 0)));
         jox_text_free(&text);
         jox_replay_close(replay);
     }

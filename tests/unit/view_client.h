@@ -83,7 +83,7 @@ static inline int ask(int fd, const char *request, char *answer, size_t size) {
         return 0;
     while (n + 1 < size) {
         ssize_t got =
-            get(fd, answer + n, strstr(request, "Upgrade: websocket") ? 1 : size - n - 1, 5.0);
+            get(fd, answer + n, strstr(request, "Upgrade: websocket") ? 1 : size - n - 1, 20.0);
         if (got <= 0)
             break;
         n += (size_t)got;

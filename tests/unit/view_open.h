@@ -84,7 +84,7 @@ static inline JoxView *open_with(int at, const char *address, double patience) {
 
 static inline int open_view(void **state) {
     (void)state;
-    view = open_with(0, NULL, 1.0);
+    view = open_with(0, NULL, 3.0);
     return sscanf(jox_view_address(view), "http://127.0.0.1:%d/?token=%63s", &port, token) == 2
                ? 0
                : -1;
@@ -125,9 +125,9 @@ static inline const char *body(void) {
     return end ? end + 4 : "";
 }
 
-/* The next that the stepping thread is told, within two seconds. */
+/* The next that the stepping thread is told, within ten seconds. */
 static inline JoxViewTaken take(uint32_t *client, char text[JOX_VIEW_MOST_COMMAND + 1]) {
-    for (double until = clock_now() + 2.0; clock_now() < until;) {
+    for (double until = clock_now() + 10.0; clock_now() < until;) {
         JoxViewTaken taken = jox_view_take(view, client, text, JOX_VIEW_MOST_COMMAND + 1);
         if (taken != JOX_VIEW_NOTHING)
             return taken;
@@ -156,7 +156,7 @@ static inline void leave(int fd) {
 }
 
 static inline bool wait_for(uint64_t (*count)(const JoxView *), uint64_t least) {
-    for (double until = clock_now() + 3.0; clock_now() < until;) {
+    for (double until = clock_now() + 10.0; clock_now() < until;) {
         if (count(view) >= least)
             return true;
         usleep(2000);

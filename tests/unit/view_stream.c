@@ -1,5 +1,6 @@
 /* The live page's server under load: nobody holds it up, and nothing is left behind. */
 #include <malloc.h>
+#include <sys/resource.h>
 
 #include "unit/view_open.h"
 
@@ -12,7 +13,9 @@ static void who_says_too_much_is_not_heard(void **state) {
     double begun = clock_now();
     for (int i = 0; i < SAID; i++)
         assert_true(put_text(fd, "{\"do\": \"pause\"}"));
-    while (take(&from, text) == JOX_VIEW_COMMAND)
+    while (heard + (int)jox_view_dropped(view) < SAID && take(&from, text) == JOX_VIEW_COMMAND)
+        heard++;
+    while (jox_view_take(view, &from, text, sizeof text) == JOX_VIEW_COMMAND)
         heard++;
     double took = clock_now() - begun;
     assert_int_equal(heard + (int)jox_view_dropped(view), SAID);
@@ -50,7 +53,7 @@ static void noise_harms_nobody(void **state) {
     jox_view_send(view, 0, "{\"type\": \"say\"}");
     int kind;
     size_t length;
-    char *message = get_message(other, &kind, &length, 2.0);
+    char *message = get_message(other, &kind, &length, 10.0);
     assert_non_null(message);
     assert_string_equal(message, "{\"type\": \"say\"}");
     free(message);
@@ -71,12 +74,13 @@ static void half_open_connections_do_not_stay(void **state) {
     }
     double begun = clock_now();
     assert_int_equal(fetch("/"), 200); /* at once, and not behind them */
-    assert_true(clock_now() - begun < 1.0);
+    char first;
+    assert_int_equal(get(half[HALF - 1], &first, 1, 0.0), -1); /* which are still there */
     int gone = 0;
     for (int i = 0; i < HALF; i++) {
         char block[512];
         ssize_t n;
-        while ((n = get(half[i], block, sizeof block, 6.0 - (clock_now() - begun))) > 0)
+        while ((n = get(half[i], block, sizeof block, 30.0 - (clock_now() - begun))) > 0)
             ;
         gone += n == 0;
         close(half[i]);
@@ -135,12 +139,12 @@ static void pages_come_and_go(void **state) {
         jox_view_send(view, client, "{\"type\": \"hello\"}");
         jox_view_listen(view, client, 1u << JOX_VIEW_FRAMES);
         jox_view_publish(view, JOX_VIEW_FRAMES, frame, sizeof frame);
-        char *message = get_message(fd, &kind, &length, 2.0);
+        char *message = get_message(fd, &kind, &length, 10.0);
         assert_non_null(message);
         assert_int_equal(kind, FRAME_TEXT);
         free(message);
         if (i % 3 == 0) { /* some wait for the frame, some vanish under way */
-            message = get_message(fd, &kind, &length, 2.0);
+            message = get_message(fd, &kind, &length, 10.0);
             assert_non_null(message);
             assert_int_equal(length, sizeof frame);
             free(message);
@@ -163,29 +167,38 @@ static void pages_come_and_go(void **state) {
 #ifndef __SANITIZE_ADDRESS__ /* which keeps what was freed for a while */
     assert_true(at_last < at_first + (4 << 20));
 #endif
-    assert_true(longest < 2.0);
+    assert_true(longest < 10.0);
+}
+
+/* How often this thread has waited for something. */
+static long waits(void) {
+    struct rusage usage;
+    getrusage(RUSAGE_THREAD, &usage);
+    return usage.ru_nvcsw;
 }
 
 static void a_slow_reader_gets_the_newest(void **state) {
     (void)state;
     enum { FRAMES = 400, SIZE = 300000 };
     uint32_t client, number;
-    int fd = join(&client), kind, received = 0;
+    int fd = join(&client), kind, received = 0, slept = 0;
     jox_view_listen(view, client, 1u << JOX_VIEW_FRAMES);
     char *frame = calloc(SIZE, 1), *message;
-    double longest = 0.0;
+    long waited = waits();
     for (uint32_t i = 1; i <= FRAMES; i++) {
         memcpy(frame, &i, sizeof i);
         memcpy(frame + SIZE - sizeof i, &i, sizeof i);
-        double from = clock_now();
         jox_view_publish(view, JOX_VIEW_FRAMES, frame, SIZE);
-        double took = clock_now() - from;
-        longest = took > longest ? took : longest;
-        usleep(500);
+        if (i % 8 == 0) {
+            slept++;
+            usleep(4000);
+        }
     }
+    waited = waits() - waited;
+    assert_in_range(waited, 0, slept + 10); /* memory may be late, browsers are not waited for */
     uint32_t last = 0;
     size_t length;
-    while (last != FRAMES && (message = get_message(fd, &kind, &length, 2.0)) != NULL) {
+    while (last != FRAMES && (message = get_message(fd, &kind, &length, 10.0)) != NULL) {
         assert_int_equal(kind, FRAME_BINARY);
         assert_int_equal(length, SIZE);
         memcpy(&number, message, sizeof number);
@@ -198,7 +211,6 @@ static void a_slow_reader_gets_the_newest(void **state) {
     }
     assert_int_equal(last, FRAMES);
     assert_true(received < FRAMES / 2);
-    assert_true(longest < 0.05); /* a copy; the machine may be busy */
     free(frame);
     leave(fd);
 }
@@ -236,7 +248,7 @@ static void what_is_sent_precedes_what_is_published_after(void **state) {
         jox_view_publish(view, JOX_VIEW_FRAMES, "new", 3);
         bool greeted = false, shown = false;
         while (!shown) {
-            char *message = get_message(fd, &kind, &length, 2.0);
+            char *message = get_message(fd, &kind, &length, 10.0);
             assert_non_null(message);
             if (kind == FRAME_TEXT)
                 greeted = strcmp(message, text) == 0;
@@ -258,7 +270,7 @@ static void the_last_page_may_stay(void **state) {
     int fd = join(&client);
     jox_view_send(view, client, "{\"type\": \"say\"}"); /* unread, and closed under it */
     jox_view_close(view);
-    view = open_with(0, NULL, 1.0);
+    view = open_with(0, NULL, 3.0);
     close(fd);
 }
 

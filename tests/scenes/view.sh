@@ -1,0 +1,56 @@
+#!/bin/bash
+# The command line of the live page: its address, its end, what it refuses. Prints "ok NAME" or
+# "not ok NAME". What the page and its server do is tested in tests/unit/view_*.c and host_view.c.
+set -u
+cd "$(dirname "$0")/../.."
+. tests/scenes/lib.sh
+mkdir -p "$work/page/build"
+echo "the page" >"$work/page/index.html"
+echo "three" >"$work/page/build/three.module.js"
+page="--page $work/page --three $work/page"
+
+request() { # PORT PATH: the answer of a plain request
+    exec 3<>"/dev/tcp/127.0.0.1/$1" || return 1
+    printf 'GET %s HTTP/1.1\r\nHost: localhost:%s\r\nConnection: close\r\n\r\n' "$2" "$1" >&3
+    timeout 20 cat <&3
+    exec 3<&- 3>&-
+}
+"$JOSTLE" run scenes/circle.yaml --view $page --summary "$work/summary" --log-input "$work/log" \
+    >"$work/said" 2>"$work/errors" </dev/null &
+pid=$!
+for _ in $(seq 200); do grep -q token "$work/said" && break; sleep 0.1; done
+address=$(cat "$work/said")
+[[ "$address" =~ ^http://127\.0\.0\.1:([0-9]+)(/\?token=[0-9a-f]{32})$ ]]
+verdict "the address is printed, alone" $?
+port=${BASH_REMATCH[1]:-0} path=${BASH_REMATCH[2]:-/}
+request "$port" "$path" | grep -q "the page"
+verdict "the page is there" $?
+request "$port" "/" | grep -q "403 Forbidden"
+verdict "not without the token" $?
+"$JOSTLE" run scenes/circle.yaml --view="$port" $page >/dev/null 2>"$work/second"
+[ $? = 1 ] && grep -q "port $port: Address already in use" "$work/second"
+verdict "a port that is taken is said" $?
+sleep 0.5
+kill -INT $pid
+wait $pid
+verdict "Ctrl-C ends it well" $?
+[ -n "$(figure hash <"$work/summary")" ]
+verdict "with its figures" $?
+hash=$(figure hash <"$work/summary")
+same_hash "a run without a page gives the same state" "$hash" \
+    "$(hash_of "$JOSTLE" scenes/circle.yaml --steps "$(figure steps <"$work/summary")" --input "$work/log")"
+
+refuses() { # NAME STATUS TEXT ARGS...
+    local name=$1 status=$2 text=$3; shift 3
+    timeout 60 "$JOSTLE" run "$@" >"$work/out" 2>&1 </dev/null
+    local got=$?
+    [ $got = "$status" ] && grep -q -e "$text" "$work/out" || { got=$?; sed 's/^/    /' "$work/out"; false; }
+    verdict "$name" $?
+}
+refuses "a page that is not there" 1 "give its folder by --page" scenes/circle.yaml --view --page /nowhere
+refuses "three.js that is not there" 1 "libjs-three" scenes/circle.yaml --view --page "$work/page" --three /nowhere
+refuses "an address that is none" 1 "no address" scenes/circle.yaml --view $page --view-address here
+refuses "a port that is none" 2 "whole number from 1 to 65535" scenes/circle.yaml --view=eighty
+refuses "pictures of a live run" 2 "--report" scenes/circle.yaml --view $page --report "$work/report"
+refuses "options of the page without it" 2 "go with --view" scenes/circle.yaml --fast
+refuses "a scene that is wrong" 3 "nonsense" "$(printf 'jostle: 1\nnonsense: 1\n' >"$work/wrong.yaml"; echo "$work/wrong.yaml")" --view $page
