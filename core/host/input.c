@@ -132,6 +132,12 @@ void jox_host_log(JoScene *scene, JoxInputEntry *entry) {
 bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
     JOX_REQUIRE(scene && path && !scene->log && !scene->finished, false);
     const JoWorld *world = scene->world;
+    if (scene->input_path && strcmp(path, scene->input_path) == 0) {
+        jox_error(error, JO_INPUT,
+                  "'%.200s' is the input log that is played; write the new one to another file",
+                  path);
+        return false;
+    }
     scene->log = fopen(path, "w");
     if (!scene->log) {
         jox_error(error, JO_FAILED, "cannot write the input log '%.200s': %s", path,

@@ -30,13 +30,14 @@ static void path_of(const char *name, char path[300]) {
 }
 
 /* The same scene, that plays a log. */
-static JoScene *play(const char *log) {
+static JoScene *play(const char *log, uint32_t threads) {
     char scene[300];
     path_of("scene.yaml", scene);
     JoSceneDef def = jo_default_scene_def();
     JoError error = {0};
     def.path = scene;
     def.input_log = log;
+    def.threads = threads;
     def.message = hear;
     def.named_mods_only = true;
     jox_text_free(&said);
@@ -105,10 +106,12 @@ static void a_session_plays_back(void **state) {
     assert_true(jo_scene_finish(scene, &error));
     jo_scene_free(scene);
 
-    for (int threads = 0; threads < 2; threads++) {
-        JoScene *replay = play(first);
+    for (uint32_t threads = 1; threads <= 4; threads *= 2) {
+        JoScene *replay = play(first, threads);
         said.length = 0;
-        if (threads == 0) { /* what is played is logged too */
+        if (threads == 1) { /* what is played is logged too */
+            assert_false(jo_scene_log_input(replay, first, &error));
+            assert_non_null(strstr(error.text, "write the new one to another file"));
             assert_true(jo_scene_log_input(replay, second, &error));
         }
         step(replay, 42);
@@ -519,7 +522,7 @@ static void files_of_a_log_go_live(void **state) {
              folder, sizeof BEGAN - 1, BEGAN, folder, sizeof LIVE - 1, LIVE, folder, sizeof BAD - 1,
              BAD);
     write_file("files.input", text);
-    scene = play(log);
+    scene = play(log, 1);
     assert_true((float)speed_of(scene, 0) == 0.7f);
     step(scene, 3);
     assert_true((float)speed_of(scene, 0) == 0.7f);
@@ -546,7 +549,7 @@ static void a_log_of_something_else(void **state) {
     jo_scene_free(begin());
     snprintf(text, sizeof text, "0 began 7 0.02\n0 made %s/own.lua 0c8e\n5 began 1 0.05\n", folder);
     write_file("else.input", text);
-    jo_scene_free(play(log));
+    jo_scene_free(play(log, 1));
     assert_non_null(strstr(said.data, "else.input:1: the log was written with seed 7 and steps of "
                                       "0.02 s, not 1 and 0.05 s"));
     assert_non_null(strstr(said.data, "else.input:2: "));
