@@ -1,16 +1,23 @@
 # Jostle. Sources are found, never listed; everything is built in build/MODE.
 # `make run` and `make test` install what is missing (.ci/setup); plain `make` only builds.
+# BULLET=0 leaves out bodies and Bullet, VIEW=0 the live page and libwebsockets, CAIRO=0 images and cairo.
 VERSION := 0.1.0
 MODE    ?= release
 BULLET  ?= 1
+CAIRO   ?= 1
+VIEW    ?= 1
 PREFIX  ?= /usr/local
 # Where the program finds its library of Lua, behaviours and scenes: this tree, until it is installed.
 DATADIR ?= $(CURDIR)
-B       ?= build/$(MODE)$(if $(filter 0,$(BULLET)),-nobullet)
+# Its live page, and the three.js that the page uses (Debian's libjs-three).
+PAGEDIR ?= $(CURDIR)/core/view/page
+THREEDIR ?= /usr/share/javascript/three
+WITHOUT := $(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(CAIRO)),-nocairo)$(if $(filter 0,$(VIEW)),-noview)
+B       ?= build/$(MODE)$(WITHOUT)
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
-FOLDERS := $(if $(ONLY),$(ONLY),base task geom agents nav force body machine world scene lua record host)
+FOLDERS := $(if $(ONLY),$(ONLY),base task geom agents nav force body machine world scene lua record view host)
 SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))
 SRC_CC  := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.cc)))
 ifeq ($(BULLET),0)
@@ -18,10 +25,13 @@ SRC_CC  :=
 else
 SRC_C   := $(filter-out core/body/none.c,$(SRC_C))
 endif
+SRC_C   := $(filter-out core/record/canvas_$(if $(filter 0,$(CAIRO)),cairo,none).c,$(SRC_C))
+SRC_C   := $(filter-out $(if $(filter 0,$(VIEW)),core/view/lws_%,core/view/none.c),$(SRC_C))
 SRC_CLI := $(sort $(wildcard core/cli/*.c))
 TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api),$(wildcard tests/unit/$(d)_*.c)))
+TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/host_view.c),$(TESTS))
 BENCHES := $(sort $(wildcard tests/bench/*.c))
-PKGS    := lua5.4 yaml-0.1 sqlite3 expat $(if $(filter 0,$(BULLET)),,bullet)
+PKGS    := lua5.4 yaml-0.1 sqlite3 expat $(if $(filter 0,$(BULLET)),,bullet) $(if $(filter 0,$(CAIRO)),,cairo) $(if $(filter 0,$(VIEW)),,libwebsockets)
 
 OPT.release := -O2 -DNDEBUG
 OPT.debug   := -O0 -g
@@ -35,7 +45,7 @@ WARN    := -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-
 FP      := -ffp-contract=off
 CFLAGS  ?=
 CPPFLAGS_ALL := -Icore -Icore/include -DJOX_VERSION='"$(VERSION)"' -DJOX_BULLET=$(BULLET) \
-           -DJOX_DATADIR='"$(DATADIR)"' -D_GNU_SOURCE
+           -DJOX_DATADIR='"$(DATADIR)"' -DJOX_PAGEDIR='"$(PAGEDIR)"' -DJOX_THREEDIR='"$(THREEDIR)"' -D_GNU_SOURCE
 # Statics of inline functions must not become process-wide symbols.
 UNIQUE  := $(shell echo | $(CXX) -fno-gnu-unique -x c++ -E - >/dev/null 2>&1 && echo -fno-gnu-unique)
 CFLAGS_ALL  = -std=c17 $(OPT) $(WARN) $(FP) -fPIC -fvisibility=hidden -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
@@ -59,12 +69,14 @@ run:
 	@.ci/setup run
 	@$(MAKE) --no-print-directory all
 	$(B)/jostle run scenes/tawaf.yaml --for $(DURATION) --report build/out/tawaf --summary build/out/tawaf.json
+	@echo "See it live, and act on it:  $(B)/jostle run scenes/tawaf.yaml --view"
 DURATION ?= 60
 test:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory all tests-built
-	@B=$(B) .ci/suite check units scenes install
+	@B=$(B) .ci/suite check units scenes install page
 test-all: test
+	JOSTLE_VIEW_CYCLES=10000 $(B)/unit/view_stream
 	@.ci/sanitizers
 bench:
 	@.ci/setup bench
@@ -112,15 +124,15 @@ reference: all
 	@for page in $(REFERENCE); do $(B)/jostle reference $${page%%:*} > $${page#*:}; done
 REFERENCE := behaviours:scripts/behaviour.md scenes:scripts/scene.md lua-ls:scripts/editor/jostle.lua \
            luacheck:scripts/editor/luacheckrc luacheck:.luacheckrc \
-           scene-schema:scripts/scene.schema.json mod-schema:scripts/mod.schema.json
+           scene-schema:scripts/scene.schema.json mod-schema:scripts/mod.schema.json inputs:scripts/input.md
 # Unit tests alone: `make unit`, or `make unit ONLY="base geom"` for some folders.
 unit: $(UNIT)
 	@set -e; for t in $(UNIT); do echo "== $$t"; $$t; done
 # Installed files know where the library's Lua lies, so that each PREFIX is built apart.
-INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(if $(filter 0,$(BULLET)),-nobullet)
+INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(WITHOUT)
 D          = $(DESTDIR)$(PREFIX)
 install:
-	@$(MAKE) --no-print-directory B=$(INSTALL_B) DATADIR=$(PREFIX)/share/jostle all
+	@$(MAKE) --no-print-directory B=$(INSTALL_B) DATADIR=$(PREFIX)/share/jostle PAGEDIR=$(PREFIX)/share/jostle/page all
 	install -d $(D)/bin $(D)/lib/pkgconfig $(D)/include $(D)/share/man/man1
 	install -m 755 $(INSTALL_B)/jostle $(D)/bin/jostle
 	install -m 644 $(INSTALL_B)/libjostle.a $(D)/lib/
@@ -130,6 +142,8 @@ install:
 	install -m 644 core/include/jostle.h $(D)/include/
 	install -m 644 core/cli/jostle.1 $(D)/share/man/man1/
 	printf 'prefix=%s\nName: jostle\nDescription: Dense crowds that push, scripted in Lua\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -ljostle\nRequires.private: %s\nLibs.private: -lstdc++ -lm -pthread\n' '$(PREFIX)' '$(VERSION)' '$(PKGS)' > $(D)/lib/pkgconfig/jostle.pc
+	install -d $(D)/share/jostle/page
+	if [ -d core/view/page ]; then cp -R core/view/page/. $(D)/share/jostle/page; fi
 	for d in scripts behaviours scenes; do install -d $(D)/share/jostle/$$d; cp -R $$d/. $(D)/share/jostle/$$d; done
 uninstall:
 	rm -rf $(D)/share/jostle

@@ -6,6 +6,7 @@ local shove    = 150 * max(now.speed, own.speed)         -- newtons; present spe
 local hurry    = mine.press * max(now.speed, own.speed)  -- of those who circle or leave: none, unless a scene says so
 local slowed   = now.speed:below(0.8 * own.speed)
 local pace     = own.speed * (1 - 0.4 * clamp((density_here - 1) / 7, 0, 1))
+local done     = mine.laps:at_least(7)
 
 return machine {
   name = "tawaf", version = 1, start = "Enter",
@@ -25,10 +26,15 @@ return machine {
     -- On their last circuit people work outwards; once it is done they leave by one of the gates that come along.
     Outward = { steer = orbit("kaaba", { inward = 0 }) + 0.5 * away_from "kaaba", speed = pace,
       push = hurry, push_when = slowed,
+      { to = "Leave",   when = done },
       { to = "Edge",    when = distance "kaaba":above(36) } },
 
     Edge = { steer = orbit("kaaba", { inward = 0 }), speed = pace, push = hurry, push_when = slowed,
-      { to = "Exit",    when = mine.laps:at_least(7) & near("gates", 22), chance = 0.5 } },
+      { to = "Leave",   when = done } },
+
+    Leave = { steer = orbit("kaaba", { inward = 0 }), speed = pace, push = hurry, push_when = slowed,
+      { to = "Exit",    when = near("gates", 22), chance = 0.5 },
+      { to = "Exit",    when = after(120) } },
 
     ToStone = { steer = queue "black_stone", speed = 0.3 * own.speed, perception = 1, push = shove,
       { to = "Touch",   when = first_in "black_stone" & near("black_stone", 0.75) },

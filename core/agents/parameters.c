@@ -1,8 +1,11 @@
 #include "agents/parameters.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/elementary.h"
+
+static const double PI = 3.14159265358979323846;
 
 const JoxParameterInfo jox_parameters[JOX_PARAM_COUNT] = {
 #define X(name, unit, least, greatest, value, meaning)                                             \
@@ -24,6 +27,14 @@ float jox_parameter_store(JoxParameter parameter, double value) {
         value = info->value;
     value = value < info->least ? info->least : value > info->greatest ? info->greatest : value;
     if (parameter == JOX_PARAM_push_angle || parameter == JOX_PARAM_brace_angle)
-        value = jox_cos(value * (3.14159265358979323846 / 180.0));
+        value = jox_cos(value * (PI / 180.0));
     return (float)value;
+}
+
+double jox_parameter_value(JoxParameter parameter, float stored) {
+    if (parameter != JOX_PARAM_push_angle && parameter != JOX_PARAM_brace_angle)
+        return stored;
+    double cosine = stored, sine2 = 1.0 - cosine * cosine;
+    double degrees = jox_atan2(sine2 > 0.0 ? sqrt(sine2) : 0.0, cosine) * (180.0 / PI);
+    return floor(degrees * 100.0 + 0.5) / 100.0; /* all that a cosine in a float tells */
 }

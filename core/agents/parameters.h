@@ -41,5 +41,7 @@ int jox_parameter_find(const char *name);
 /* What the column holds for a value in the parameter's unit: the value, an angle's cosine. The
    value is first kept within [least, greatest]; NaN becomes the default. */
 float jox_parameter_store(JoxParameter parameter, double value);
+/* The value in the parameter's unit of what a column holds. */
+double jox_parameter_value(JoxParameter parameter, float stored);
 
 #endif

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include "base/mem.h"
+#include "base/overlay.h"
 
 void jox_text_append(JoxText *text, const char *data, size_t length) {
     JOX_RESERVE(text->data, text->capacity, text->length + length + 1);
@@ -132,7 +133,21 @@ const char *jox_suggest(const char *word, const char *const *names, size_t count
     return nearest;
 }
 
+/* A copy of what an overlay holds. */
+static char *read_overlay(const JoxOverlayFile *file, size_t limit, size_t *length) {
+    if (file->length > limit) {
+        errno = EFBIG;
+        return NULL;
+    }
+    if (length)
+        *length = file->length;
+    return jox_strndup(file->text, file->length);
+}
+
 char *jox_read_file(const char *path, size_t limit, size_t *length) {
+    const JoxOverlayFile *instead = jox_overlay_file(path);
+    if (instead)
+        return read_overlay(instead, limit, length);
     FILE *file = fopen(path, "rb");
     if (!file)
         return NULL;

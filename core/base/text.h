@@ -26,7 +26,8 @@ void jox_text_clean(char *text);
 /* The nearest of `names` to `word` by edit distance, or NULL if none is near enough. */
 const char *jox_suggest(const char *word, const char *const *names, size_t count);
 
-/* Reads a whole file; NULL with errno set (EFBIG when over `limit` bytes). Ends with a NUL. */
+/* Reads a whole file, or what an overlay in use holds in its place (overlay.h); NULL with errno set
+ * (EFBIG when over `limit` bytes). Ends with a NUL. */
 char *jox_read_file(const char *path, size_t limit, size_t *length);
 
 /* Takes "folder/.." and "." out of a path, in place, where that is the same file: two ways to write

@@ -86,9 +86,13 @@ uint32_t jox_bodies_add(JoxBodies *bodies, const JoxBodyDef *def, JoxText *error
 /* False where there is no such body. */
 bool jox_bodies_remove(JoxBodies *bodies, uint32_t row);
 uint32_t jox_bodies_count(const JoxBodies *bodies);
+/* Rows so far, those of dead bodies among them. */
+uint32_t jox_bodies_rows(const JoxBodies *bodies);
 /* Row of the live body with this id or name, or JOX_NO_BODY. */
 uint32_t jox_bodies_find(const JoxBodies *bodies, uint32_t id);
 uint32_t jox_bodies_find_name(const JoxBodies *bodies, const char *name);
+/* Id of the live body in a row, or JOX_NO_BODY. */
+uint32_t jox_bodies_id(const JoxBodies *bodies, uint32_t row);
 /* "" where it has none. Valid while the body lives. */
 const char *jox_bodies_name(const JoxBodies *bodies, uint32_t row);
 
@@ -103,6 +107,18 @@ typedef struct JoxPose {
 } JoxPose;
 /* False, and `pose` zero, where there is no such body. */
 bool jox_bodies_pose(const JoxBodies *bodies, uint32_t row, JoxPose *pose);
+/* One convex part of a body as it is drawn. */
+typedef struct JoxBodyLook {
+    JoxShapeKind kind;    /* box, sphere, cylinder or hull */
+    float size[3];        /* m, as of JoxShape */
+    JoxV3 at;             /* of the part's frame in the shape's own, m */
+    float turn[4];        /* quaternion x, y, z, w */
+    const JoxV3 *corners; /* of a hull, in the part's frame, m; valid until the next call */
+    uint32_t corner_count;
+} JoxBodyLook;
+/* Part `part` of a body; false where it has none of that number. Parts that broke off are bodies of
+   their own. */
+bool jox_bodies_look(const JoxBodies *bodies, uint32_t row, uint32_t part, JoxBodyLook *out);
 /* False, and nothing done, for a static body or a number that is not finite. */
 bool jox_bodies_set_velocity(JoxBodies *bodies, uint32_t row, JoxV3 velocity, JoxV3 spin);
 /* From here on an agent carries the body: it touches nothing until it is let go. False for a static

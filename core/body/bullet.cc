@@ -253,11 +253,17 @@ bool jox_bodies_remove(JoxBodies *b, uint32_t row) {
     if (!row_of(b, row))
         return false;
     jox_bodies_drop(b, row);
+    for (uint32_t k = 0; k < b->live; k++) /* what leant on it falls */
+        b->rows[b->order[k]].body->activate();
     return true;
 }
 
 uint32_t jox_bodies_count(const JoxBodies *b) {
     return b->live;
+}
+
+uint32_t jox_bodies_rows(const JoxBodies *b) {
+    return b->count;
 }
 
 uint32_t jox_bodies_find(const JoxBodies *b, uint32_t id) {
@@ -272,6 +278,11 @@ uint32_t jox_bodies_find_name(const JoxBodies *b, const char *name) {
         if (strcmp(jox_bodies_name(b, b->order[k]), name) == 0)
             return b->order[k];
     return JOX_NO_BODY;
+}
+
+uint32_t jox_bodies_id(const JoxBodies *b, uint32_t row) {
+    const JoxRow *r = row_of(b, row);
+    return r ? r->id : JOX_NO_BODY;
 }
 
 const char *jox_bodies_name(const JoxBodies *b, uint32_t row) {
@@ -294,6 +305,35 @@ bool jox_bodies_pose(const JoxBodies *b, uint32_t row, JoxPose *pose) {
     pose->spin = jox_v3(r->body->getAngularVelocity());
     pose->mass = r->built.mass;
     pose->inertia = jox_v3(r->built.inertia);
+    return true;
+}
+
+bool jox_bodies_look(const JoxBodies *b, uint32_t row, uint32_t part, JoxBodyLook *out) {
+    *out = JoxBodyLook();
+    const JoxRow *r = row_of(b, row);
+    if (!r || part >= r->built.part_count)
+        return false;
+    const JoxPart *p = &r->built.parts[part];
+    bool hull = p->kind == JOX_SHAPE_HULL; /* corners are in the frame of the centre of mass */
+    btTransform at = hull ? r->built.frame : r->built.frame * p->frame;
+    btQuaternion q = at.getRotation();
+    out->kind = p->kind;
+    out->at = jox_v3(at.getOrigin());
+    for (int i = 0; i < 4; i++)
+        out->turn[i] = q[i];
+    const JoxV3 *c = p->corners;
+    if (p->kind == JOX_SHAPE_BOX) { /* its corners are counted along x, y, z */
+        out->size[0] = jox_bt(c[0]).distance(jox_bt(c[1]));
+        out->size[1] = jox_bt(c[0]).distance(jox_bt(c[2]));
+        out->size[2] = jox_bt(c[0]).distance(jox_bt(c[4]));
+    } else if (hull) {
+        out->corners = c;
+        out->corner_count = p->corner_count;
+    } else {
+        out->size[0] = p->radius;
+        if (p->kind == JOX_SHAPE_CYLINDER) /* from the circle below to that above */
+            out->size[1] = jox_bt(c[0]).distance(jox_bt(c[p->corner_count / 2]));
+    }
     return true;
 }
 

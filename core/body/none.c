@@ -28,6 +28,12 @@ bool jox_bodies_remove(JoxBodies *bodies, uint32_t row) {
 uint32_t jox_bodies_count(const JoxBodies *bodies) {
     return (void)bodies, 0;
 }
+uint32_t jox_bodies_rows(const JoxBodies *bodies) {
+    return (void)bodies, 0;
+}
+uint32_t jox_bodies_id(const JoxBodies *bodies, uint32_t row) {
+    return (void)bodies, (void)row, JOX_NO_BODY;
+}
 uint32_t jox_bodies_find(const JoxBodies *bodies, uint32_t id) {
     return (void)bodies, (void)id, JOX_NO_BODY;
 }
@@ -40,6 +46,11 @@ const char *jox_bodies_name(const JoxBodies *bodies, uint32_t row) {
 bool jox_bodies_pose(const JoxBodies *bodies, uint32_t row, JoxPose *pose) {
     (void)bodies, (void)row;
     *pose = (JoxPose){0};
+    return false;
+}
+bool jox_bodies_look(const JoxBodies *bodies, uint32_t row, uint32_t part, JoxBodyLook *out) {
+    (void)bodies, (void)row, (void)part;
+    *out = (JoxBodyLook){0};
     return false;
 }
 bool jox_bodies_set_velocity(JoxBodies *bodies, uint32_t row, JoxV3 velocity, JoxV3 spin) {

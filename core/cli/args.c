@@ -66,6 +66,15 @@ uint64_t cli_whole(CliArgs *args, const char *option, uint64_t least, uint64_t g
     return value;
 }
 
+double cli_unit(CliArgs *args, const char *option) {
+    const char *unit = cli_value(args, option);
+    if (unit && strcmp(unit, "m") != 0 && strcmp(unit, "cm") != 0) {
+        fprintf(stderr, "jostle %s: --%s is m or cm, not '%s'\n", args->command, option, unit);
+        args->failed = true;
+    }
+    return unit && !strcmp(unit, "cm") ? 0.01 : 1.0;
+}
+
 int cli_write(const char *command, const char *path, const char *text) {
     if (!strcmp(path, "-")) {
         fputs(text, stdout);

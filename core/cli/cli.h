@@ -10,6 +10,8 @@
 /* Exit statuses are those of JoCode: 0 done, 1 the run failed, 2 wrong usage, 3 bad input. */
 int cli_run(int argc, char **argv);
 int cli_report(int argc, char **argv);
+int cli_render(int argc, char **argv);
+int cli_view(int argc, char **argv);
 int cli_check(int argc, char **argv);
 int cli_bench(int argc, char **argv);
 int cli_mod(int argc, char **argv);
@@ -34,6 +36,8 @@ const char *cli_next(CliArgs *args, const char **plain);
 const char *cli_value(CliArgs *args, const char *option);
 double cli_number(CliArgs *args, const char *option, double least, double greatest);
 uint64_t cli_whole(CliArgs *args, const char *option, uint64_t least, uint64_t greatest);
+/* m of a unit: m or cm. */
+double cli_unit(CliArgs *args, const char *option);
 /* Writes text to a file, or to standard output for "-"; JO_FAILED with a message. */
 int cli_write(const char *command, const char *path, const char *text);
 /* Prints "jostle COMMAND: unknown option --xyz" and a way out; returns JO_USAGE. */

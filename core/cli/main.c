@@ -9,6 +9,8 @@ static const struct Command {
 } COMMANDS[] = {
     {"run", "simulate a scene", cli_run},
     {"report", "measure a recording, simulated or real", cli_report},
+    {"render", "draw a scene or a recording: pictures, frames, video", cli_render},
+    {"view", "show a recording on the live page", cli_view},
     {"check", "find every error in scenes and behaviours, without running", cli_check},
     {"test", "run tests of behaviours, written in Lua", cli_test},
     {"new", "write a commented start of a behaviour, scene or mod", cli_new},

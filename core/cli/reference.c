@@ -9,6 +9,7 @@ static const char HELP[] =
     "  scenes        every key of scenes and mods, as Markdown\n"
     "  lua-ls        definitions for lua-language-server\n"
     "  luacheck      a standard for luacheck\n"
+    "  inputs        lines of input logs, as Markdown\n"
     "  scene-schema  JSON Schema of scenes, for yaml-language-server\n"
     "  mod-schema    JSON Schema of mod.yaml\n";
 

@@ -36,12 +36,7 @@ static bool read_option(Wanted *wanted, CliArgs *args, const char *option) {
     } else if (!strcmp(option, "fps")) {
         wanted->def.fps = cli_number(args, option, 0.01, 10000);
     } else if (!strcmp(option, "unit")) {
-        const char *unit = cli_value(args, option);
-        wanted->def.unit = unit && !strcmp(unit, "cm") ? 0.01 : 1.0;
-        if (unit && strcmp(unit, "m") != 0 && strcmp(unit, "cm") != 0) {
-            fprintf(stderr, "jostle report: --unit is m or cm, not '%s'\n", unit);
-            args->failed = true;
-        }
+        wanted->def.unit = cli_unit(args, option);
     } else {
         return false;
     }

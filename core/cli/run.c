@@ -17,7 +17,8 @@ static const char HELP[] =
     "  --threads N        threads; never changes a result (default 1)\n"
     "  --isa NAME         instruction set of the kernels: scalar\n"
     "  --set PATH=VALUE   replace a value of the scene, e.g. groups.pilgrims.count=5000\n"
-    "  --input FILE       play recorded input: lines of TICK player AGENT VX VY\n"
+    "  --input FILE       play an input log: what people did, and files that were reloaded\n"
+    "  --log-input FILE   write one (replaces FILE)\n"
     "  --record FILE      write trajectories (SQLite, JuPedSim format 2)\n"
     "  --report DIR       write a page, pictures and figures into DIR (index.html): danger, "
     "density,\n"
@@ -35,15 +36,25 @@ static const char HELP[] =
     "                     the output is a terminal\n"
     "  --no-watch         do not\n"
     "  --trace AGENT      print each transition of the agent with this id, and why\n"
-    "  --quiet            no progress\n\n"
+    "  --quiet            no progress\n"
+    "  --view[=PORT]      show the run on a live page, in real time; prints the page's address.\n"
+    "                     Files are watched; --record, --log-input and --summary go with it\n"
+    "  --fast             with --view: as fast as it can go\n"
+    "  --view-address A   listen at this address, not at 127.0.0.1: others can then reach the "
+    "page,\n"
+    "                     with its token\n"
+    "  --page DIR, --three DIR\n"
+    "                     folders of the page's files and of three.js\n\n"
     "exit status: 0 done, 1 the run failed, 2 wrong usage, 3 bad input\n";
 
 typedef struct Run {
     JoSceneDef def;
-    const char *record, *report, *data, *summary;
+    const char *record, *report, *data, *summary, *log;
     double seconds;
     uint64_t steps, seeds, trace;
     const char **mods;
+    JoViewDef live; /* of the page */
+    bool view;
     bool has_seconds, has_steps, watch, no_watch, has_trace, quiet, profile, no_half;
 } Run;
 
@@ -53,6 +64,26 @@ static const double LEAST_DT = 0.001; /* s, of --dt */
 static void interrupt(int number) {
     (void)number;
     interrupted = 1;
+}
+
+/* Those of the live page. */
+static bool read_view_option(Run *run, CliArgs *args, const char *option) {
+    if (!strcmp(option, "view")) {
+        run->view = true;
+        if (args->value) /* a port is given with '=' only: what follows may be the scene */
+            run->live.port = (int)cli_whole(args, option, 1, 65535);
+    } else if (!strcmp(option, "view-address")) {
+        run->live.address = cli_value(args, option);
+    } else if (!strcmp(option, "page")) {
+        run->live.page = cli_value(args, option);
+    } else if (!strcmp(option, "three")) {
+        run->live.three = cli_value(args, option);
+    } else if (!strcmp(option, "fast")) {
+        run->live.fast = true;
+    } else {
+        return false;
+    }
+    return true;
 }
 
 /* Reads one option into `run`; false if there is no such option. */
@@ -83,6 +114,8 @@ static bool read_option(Run *run, CliArgs *args, const char *option, const char 
         overrides[run->def.override_count++] = cli_value(args, option);
     } else if (!strcmp(option, "input")) {
         run->def.input_log = cli_value(args, option);
+    } else if (!strcmp(option, "log-input")) {
+        run->log = cli_value(args, option);
     } else if (!strcmp(option, "record")) {
         run->record = cli_value(args, option);
     } else if (!strcmp(option, "report")) {
@@ -109,7 +142,7 @@ static bool read_option(Run *run, CliArgs *args, const char *option, const char 
     } else if (!strcmp(option, "quiet")) {
         run->quiet = true;
     } else {
-        return false;
+        return read_view_option(run, args, option);
     }
     return true;
 }
@@ -161,6 +194,7 @@ static int simulate(const Run *run, char **summary) {
     bool ok = (!run->record || jo_scene_record(scene, run->record, &error)) &&
               (!run->report || jo_scene_report(scene, run->report, &error)) &&
               (!run->data || jo_scene_data(scene, run->data, &error)) &&
+              (!run->log || jo_scene_log_input(scene, run->log, &error)) &&
               (!run->watch || jo_scene_watch(scene, &error));
     if (run->has_trace)
         jo_scene_trace(scene, (uint32_t)run->trace);
@@ -185,6 +219,30 @@ static int simulate(const Run *run, char **summary) {
     }
     jo_scene_free(scene);
     return status;
+}
+
+static void print_address(void *context, const char *address) {
+    (void)context;
+    printf("%s\n", address);
+    fflush(stdout);
+    fputs("Open this address in a browser; Ctrl-C ends the run.\n", stderr);
+}
+
+/* On its live page, until it is interrupted. */
+static int show(Run *run, char **summary) {
+    JoViewDef *live = &run->live;
+    JoError error = {0};
+    live->scene = run->def;
+    live->watch = !run->no_watch;
+    live->record = run->record;
+    live->log_input = run->log;
+    live->stop = &interrupted;
+    live->opened = print_address;
+    live->summary = run->summary ? summary : NULL;
+    live->seconds = run->has_seconds ? run->seconds : 0.0;
+    if (jo_view(live, &error))
+        return JO_OK;
+    return complain(&error, error.code == JO_INPUT);
 }
 
 static int simulate_seeds(Run *run) {
@@ -216,11 +274,17 @@ static int simulate_seeds(Run *run) {
 static int usage_error(const Run *run, const CliArgs *args) {
     if (args->failed)
         return JO_USAGE;
-    const char *why = !run->def.path                       ? "no scene given"
-                      : run->has_seconds && run->has_steps ? "--for and --steps exclude each other"
-                      : run->seeds && (run->record || run->report || run->watch)
-                          ? "--seeds cannot be combined with --record, --report or --watch"
-                          : NULL;
+    const char *why =
+        !run->def.path                       ? "no scene given"
+        : run->has_seconds && run->has_steps ? "--for and --steps exclude each other"
+        : run->seeds && (run->record || run->report || run->watch || run->log)
+            ? "--seeds cannot be combined with --record, --report, --log-input or --watch"
+        : run->view && (run->seeds || run->report || run->data || run->has_trace || run->profile)
+            ? "--view cannot be combined with --seeds, --report, --data, --trace or --profile-lua"
+        : run->view && run->has_steps ? "--view goes with --for S, not with --steps"
+        : !run->view && (run->live.address || run->live.page || run->live.three || run->live.fast)
+            ? "--fast, --view-address, --page and --three go with --view"
+            : NULL;
     if (why)
         fprintf(stderr, "jostle run: %s\n", why);
     return why ? JO_USAGE : JO_OK;
@@ -228,12 +292,14 @@ static int usage_error(const Run *run, const CliArgs *args) {
 
 int cli_run(int argc, char **argv) {
     static const char *const known[] = {
-        "for",   "steps",  "dt",      "seed",        "seeds",    "threads",      "isa",   "set",
-        "input", "record", "report",  "data",        "summary",  "watch",        "trace", "quiet",
-        "help",  "mod",    "no-mods", "profile-lua", "no-watch", "no-half-step", NULL};
+        "for",          "steps",       "dt",       "seed",         "seeds",     "threads",
+        "isa",          "set",         "input",    "record",       "report",    "data",
+        "summary",      "watch",       "trace",    "quiet",        "help",      "mod",
+        "no-mods",      "profile-lua", "no-watch", "no-half-step", "log-input", "view",
+        "view-address", "page",        "three",    "fast",         NULL};
     CliArgs args = {.argc = argc, .argv = argv, .next = 1, .command = "run"};
     const char **overrides = calloc((size_t)argc, sizeof *overrides);
-    Run run = {.def = jo_default_scene_def()};
+    Run run = {.def = jo_default_scene_def(), .live = jo_default_view_def()};
     run.def.overrides = overrides;
     run.mods = calloc((size_t)argc, sizeof *run.mods);
     run.def.mods = run.mods;
@@ -260,11 +326,13 @@ int cli_run(int argc, char **argv) {
             status = -1;
     }
     if (status < 0) {
-        run.watch |= isatty(2) && !run.no_watch && !run.seeds;
+        run.watch |= isatty(2) && !run.no_watch && !run.seeds && !run.def.input_log;
         signal(SIGINT, interrupt);
         signal(SIGTERM, interrupt);
         char *summary = NULL;
-        status = run.seeds ? simulate_seeds(&run) : simulate(&run, &summary);
+        status = run.view    ? show(&run, &summary)
+                 : run.seeds ? simulate_seeds(&run)
+                             : simulate(&run, &summary);
         if (summary && run.summary) {
             int written = cli_write("run", run.summary, summary);
             status = status ? status : written;

@@ -48,6 +48,12 @@ static void forget(JoxChanges *changes, uint32_t file) {
     changes->files[file] = changes->files[--changes->count];
 }
 
+void jox_changes_drop(JoxChanges *changes, const char *path) {
+    for (uint32_t f = changes->count; f-- > 0;)
+        if (strcmp(changes->files[f].path, path) == 0)
+            forget(changes, f);
+}
+
 bool jox_changes_fresh(const JoxChanges *changes) {
     for (uint32_t f = 0; f < changes->count; f++)
         if (changes->files[f].fresh)

@@ -39,6 +39,8 @@ typedef struct JoxChanges {
 /* A part uses a file too. */
 void jox_changes_uses(JoxChanges *changes, uint32_t part, const char *path);
 void jox_changes_file(JoxChanges *changes, const char *path, double written);
+/* The file is live as it is: it has not changed. */
+void jox_changes_drop(JoxChanges *changes, const char *path);
 /* Whether a file has changed that was not tried yet. */
 bool jox_changes_fresh(const JoxChanges *changes);
 /* The next parts to try together: all that hang together by files that are not live, one of which

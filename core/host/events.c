@@ -48,9 +48,8 @@ static bool within(const char *what, const double v[3], double most, const char 
     return true;
 }
 
-bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
+bool jox_host_throw(JoScene *scene, const char *body, const double from[3],
                     const double velocity[3], const double spin[3], JoError *error) {
-    JOX_REQUIRE(scene && body, false);
     static const double NONE[3] = {0.0, 0.0, 0.0};
     JoWorld *world = scene->world;
     const double *v = velocity ? velocity : NONE, *turn = spin ? spin : NONE;
@@ -70,8 +69,7 @@ bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
     return false;
 }
 
-bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *error) {
-    JOX_REQUIRE(scene && wall, false);
+bool jox_host_open(JoScene *scene, const char *wall, bool open, JoError *error) {
     JoWorld *world = scene->world;
     if (jox_world_open_walls(world, wall, open) == 0) {
         const char *names[MOST_NAMES];
@@ -82,8 +80,7 @@ bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *er
     return true;
 }
 
-bool jo_scene_signal(JoScene *scene, const char *name, JoError *error) {
-    JOX_REQUIRE(scene && name, false);
+bool jox_host_signal(JoScene *scene, const char *name, JoError *error) {
     if (!*name || strlen(name) > LONGEST_NAME) {
         jox_error(error, JO_INPUT, "a signal's name has from 1 to %d bytes", LONGEST_NAME);
         return false;
@@ -99,15 +96,15 @@ static void happen(JoScene *scene, const JoxSceneEvent *event) {
     bool good = false;
     switch (event->kind) {
     case JOX_EVENT_THROW:
-        good = jo_scene_throw(scene, event->name, event->placed ? event->from : NULL,
+        good = jox_host_throw(scene, event->name, event->placed ? event->from : NULL,
                               event->velocity, event->spin, &error);
         break;
     case JOX_EVENT_OPEN:
     case JOX_EVENT_CLOSE:
-        good = jo_scene_open_wall(scene, event->name, event->kind == JOX_EVENT_OPEN, &error);
+        good = jox_host_open(scene, event->name, event->kind == JOX_EVENT_OPEN, &error);
         break;
     case JOX_EVENT_SIGNAL:
-        good = jo_scene_signal(scene, event->name, &error);
+        good = jox_host_signal(scene, event->name, &error);
         break;
     }
     if (!good) /* a body that fell off the world, or that an edit brings at the next start */

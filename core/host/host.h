@@ -2,7 +2,11 @@
 #ifndef JOX_HOST_HOST_H
 #define JOX_HOST_HOST_H
 
+#include <stdio.h>
+
 #include "base/diag.h"
+#include "base/overlay.h"
+#include "host/changes.h"
 #include "host/watch.h"
 #include "jostle.h"
 #include "lua/loader.h"
@@ -15,6 +19,11 @@
 #include "scene/mods.h"
 #include "scene/scene.h"
 #include "world/world.h"
+
+/* Is told of files that were loaded: what they are parts of (NULL: of a scene that begins), and
+   what is wrong; no errors where they are live. Without diagnostics: those have been said as text.
+ */
+typedef void JoxDiagnosed(void *context, const bool *parts, const JoxDiagnostics *diagnostics);
 
 struct JoScene {
     JoxScene *plan;
@@ -32,15 +41,19 @@ struct JoScene {
     void *message_context;
 
     struct JoxReload *reload; /* NULL: files are not watched */
-    double swap_seconds;      /* the longest that a swap has held a step up */
-    JoSceneDef def;           /* as it was loaded, with copies of its texts */
-    char **plan_files;        /* the scene's file and what it includes */
+    JoxDiagnosed *diagnosed;  /* NULL: nobody wants to know */
+    void *diagnosed_context;
+    double swap_seconds; /* the longest that a swap has held a step up */
+    JoSceneDef def;      /* as it was loaded, with copies of its texts */
+    char **plan_files;   /* the scene's file and what it includes */
     uint32_t plan_file_count;
     JoxRecorder *recorder;
     uint32_t record_every; /* ticks */
     uint32_t
         record_base[JOX_MOST_MACHINES]; /* number of a machine's first state in the recording */
     uint32_t record_next;
+    uint32_t *record_shapes; /* per body id: blocks of the shape that was recorded, plus 1 */
+    size_t record_shape_capacity;
     char *report; /* directory, or NULL */
     char *data;   /* directory of the probes' CSV files, or NULL */
     JoxDensity *density;
@@ -49,12 +62,19 @@ struct JoScene {
     JoxDanger *danger;                                     /* NULL where nothing is reported */
     JoxExits exits;                                        /* who left, and where */
     struct JoxMeasuring *measuring;                        /* NULL until a frame is asked for */
+    struct JoxLive *live;                                  /* NULL until it is shown */
     double progress_until, progress_begun, progress_shown; /* s */
     int progress_tenth;
     bool finished;
     float density_most; /* of the frames that a report sampled, 1/m2 */
-    char *input_path;   /* of the input log, or NULL */
+    char *input_path;   /* of the input log that is played, or NULL */
     char input_sha256[65];
+    FILE *log; /* input log that is written, or NULL */
+    char *log_path;
+    bool log_failed;
+    JoxInputLog input;     /* as it was read, until there is a world */
+    JoxFiles logged_files; /* whose texts stand in it */
+    JoxOverlay overlay;    /* texts of the log that is played */
 };
 
 /* Sends formatted text to the scene's message function. */
@@ -64,6 +84,11 @@ void jox_host_say(const JoScene *scene, const char *format, ...)
 void jox_host_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
                      JoError *error);
 
+/* Writes to stderr, and makes room where a line of progress stands. */
+void jox_host_to_stderr(void *context, const char *text);
+/* As jo_scene_load; `diagnosed` (it may be NULL) is told of mistakes, then and in all reloads. */
+JoScene *jox_host_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
+                            JoError *error);
 /* As jo_scene_load, but what is wrong goes to `diagnostics`. NULL if there are errors. */
 JoScene *jox_host_load(const JoSceneDef *def, JoxDiagnostics *diagnostics);
 /* mods.c: finds the mods of a scene and what their files change; `without` are bits of those found
@@ -91,6 +116,67 @@ void jox_host_sinks(JoScene *scene);
 void jox_host_leavers(JoScene *scene);
 /* events.c: what is due in the step that begins. */
 void jox_host_events(JoScene *scene);
+/* As jo_scene_throw, _open_wall and _signal, which write the input log besides. */
+bool jox_host_throw(JoScene *scene, const char *body, const double from[3],
+                    const double velocity[3], const double spin[3], JoError *error);
+bool jox_host_open(JoScene *scene, const char *wall, bool open, JoError *error);
+bool jox_host_signal(JoScene *scene, const char *name, JoError *error);
+/* input.c: what the log that is played says of the step that begins. */
+void jox_host_inputs(JoScene *scene);
+/* input_set.c: a parameter by the names that a line gives. `state` -1: the machine's defaults.
+   False with `error` where there is none such, or the value is out of range. */
+typedef struct JoxChoice {
+    uint32_t machine;
+    int32_t state;
+    int parameter;
+} JoxChoice;
+bool jox_host_choose(const JoScene *scene, const char *machine, const char *state,
+                     const char *parameter, double value, JoxChoice *out, JoError *error);
+/* Sets it for everybody there, now and later, until the machine's file is reloaded. */
+bool jox_host_set(JoScene *scene, const char *machine, const char *state, const char *parameter,
+                  double value, JoError *error);
+/* input_files.c: what a reload changes, noted before it goes live for the log. */
+typedef struct JoxReloaded {
+    JoxInputEntry before, files;
+} JoxReloaded;
+void jox_host_note_file(JoScene *scene, JoxReloaded *reloaded, const char *path, const char *sha256,
+                        const char *text, size_t length);
+/* Writes what was noted, and frees it. */
+void jox_host_log_files(JoScene *scene, JoxReloaded *reloaded);
+/* Whether a file is live with this very text. */
+bool jox_host_is_live(const JoScene *scene, const JoxInputFile *file);
+/* Writes what the run is made of. */
+void jox_host_log_origin(JoScene *scene);
+/* Says where the run is made of something else than the one that was logged. */
+void jox_host_check_log(const JoScene *scene);
+/* What files were when the run began that a log tells of. */
+void jox_host_before(JoxOverlay *overlay, const JoxInputLog *log);
+/* Swaps files as a log tells; false with `error` where they do not go live. */
+bool jox_host_play_files(JoScene *scene, const JoxInputEntry *entry, JoError *error);
+/* inspect_graph.c: who set a parameter of a state (NULL: of the defaults), and to what. */
+typedef struct JoxSetBy {
+    JoxText
+        where; /* "state Circle behaviours/tawaf.lua:21", "mod calm ...", "live page", "engine" */
+    JoxText text;  /* the value as written */
+    double number; /* NAN where it differs between agents or in time */
+    int line;
+} JoxSetBy;
+JoxSetBy jox_host_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
+                         int parameter);
+void jox_set_by_free(JoxSetBy *by);
+/* A JSON array of the scene's machines: name, path, version, start; defaults and states with their
+   parameters; transitions with their conditions as written. */
+void jox_host_graph(const JoScene *scene, JoxText *out);
+/* Appends the line of Lua that would set a parameter for good, and where it belongs; false with
+   why not. */
+bool jox_host_lua_line(const JoScene *scene, const char *machine, const char *state,
+                       const char *parameter, double value, JoxText *out);
+/* Appends to the log that is written, if one is, as of the step that comes. */
+void jox_host_log(JoScene *scene, JoxInputEntry *entry);
+/* False with `error` if it cannot be written. */
+bool jox_host_logged(const JoScene *scene, JoError *error);
+/* Ends that log. False with `error` if it could not be written. */
+bool jox_host_end_log(JoScene *scene, JoError *error);
 /* Names of signals get numbers; warns of those that nobody hears (`diagnostics` may be NULL). */
 void jox_host_name_events(JoScene *scene, JoxDiagnostics *diagnostics);
 /* The file of the machine that a state becomes; false with diagnostics. */
@@ -99,6 +185,11 @@ bool jox_host_find_become(const JoScene *scene, const JoxMachine *machine, uint3
 /* reload.c: swaps what has been loaded anew since the last step; ends the thread that loads. */
 typedef struct JoxReload JoxReload;
 void jox_host_reload(JoScene *scene);
+/* Loads files and swaps what is made of them at once, in place of the thread that loads. */
+bool jox_host_reload_now(JoScene *scene, const JoxInputEntry *files, JoError *error);
+/* Keeps the thread that loads from reading machines while one of them is changed in place; what it
+   compared with that one is compared anew. */
+void jox_host_hold_machines(JoScene *scene, uint32_t machine, bool hold);
 void jox_host_unwatch(JoScene *scene);
 /* rescene.c: gives the living of a group a value that their scene sets, in one machine or (-1) in
    whichever they are. */

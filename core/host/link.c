@@ -1,9 +1,9 @@
 /* Machines of a scene: loaded, linked to those that they become, and held against each other. */
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/mem.h"
+#include "base/overlay.h"
 #include "host/host.h"
 
 static int32_t find_machine(const JoxMind *mind, const char *path) {
@@ -27,11 +27,6 @@ int32_t jox_host_machine(JoScene *scene, const char *path, JoxDiagnostics *diagn
     return machine ? (int32_t)jox_mind_add(mind, machine) : -1;
 }
 
-static bool is_file(const char *path) {
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISREG(info.st_mode);
-}
-
 /* The file of a behaviour that another one names: beside it, of the library, or of a mod. */
 static bool find_behaviour(const JoScene *scene, const char *from, const char *name,
                            char path[1024]) {
@@ -46,13 +41,13 @@ static bool find_behaviour(const JoScene *scene, const char *from, const char *n
         if (strncmp(mod->name, name, (size_t)(colon - name)) || mod->name[colon - name])
             continue;
         snprintf(path, 1024, "%.500s/behaviours/%.200s%s", mod->folder, colon + 1, lua);
-        return is_file(path);
+        return jox_is_file(path);
     }
     snprintf(path, 1024, "%.*s%.200s%s", slash ? (int)(slash - from) + 1 : 0, from, name, lua);
-    if (is_file(path))
+    if (jox_is_file(path))
         return true;
     snprintf(path, 1024, "%s/behaviours/%.200s%s", JOX_DATADIR, name, lua);
-    return is_file(path);
+    return jox_is_file(path);
 }
 
 bool jox_host_find_become(const JoScene *scene, const JoxMachine *machine, uint32_t number,

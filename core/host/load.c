@@ -7,10 +7,11 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "host/host.h"
+#include "host/live.h"
 
 enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 64 << 20 };
 
-static void to_stderr(void *context, const char *text) {
+void jox_host_to_stderr(void *context, const char *text) {
     (void)context;
     if (isatty(2)) /* the line of progress makes room */
         fputs("\r\033[K", stderr);
@@ -31,7 +32,7 @@ void jox_host_report(JoMessage *message, void *context, JoxDiagnostics *diagnost
     JoxText text = {0};
     jox_diag_print(diagnostics, &text);
     if (text.length)
-        (message ? message : to_stderr)(context, text.data);
+        (message ? message : jox_host_to_stderr)(context, text.data);
     jox_text_free(&text);
     for (size_t i = 0; error && i < diagnostics->count; i++) {
         const JoxDiagnostic *d = &diagnostics->items[i];
@@ -137,6 +138,7 @@ static void add_places(JoScene *scene) {
                               .mod_count = scene->mods->count};
 }
 
+/* Reads the log and, since it tells what files were when it began, reads those through it. */
 static void load_input(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
     size_t length;
     char *text = path ? jox_read_file(path, LARGEST_INPUT, &length) : NULL;
@@ -144,8 +146,9 @@ static void load_input(JoScene *scene, const char *path, JoxDiagnostics *diagnos
         jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "unreadable-file", NULL,
                        "cannot read the input log '%s'", path);
     if (text)
-        jox_input_parse(&scene->world->input, path, text, length, diagnostics);
+        jox_input_parse(&scene->input, path, text, length, diagnostics);
     if (text) {
+        jox_host_before(&scene->overlay, &scene->input);
         jox_diag_attach_source(diagnostics, path, text, length);
         scene->input_path = jox_strdup(path);
         jox_sha256_hex(text, length, scene->input_sha256);
@@ -172,8 +175,14 @@ static JoxLuaLimits script_limits(const JoxScene *plan) {
     return limits;
 }
 
-static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnostics) {
-    JoxScene *plan = scene->plan;
+/* Plan and world, with the first `count` mods. */
+static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
+                  JoxDiagnostics *diagnostics) {
+    if (def->input_log)
+        load_input(scene, def->input_log, diagnostics);
+    JoxScene *plan = scene->plan = jox_host_load_plan(def, scene->mods, count, diagnostics);
+    if (!plan)
+        return;
     JoWorldDef world = jo_default_world_def();
     world.dt = plan->step;
     world.seed = plan->seed;
@@ -182,6 +191,10 @@ static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnos
     world.forces = plan->forces;
     world.literal = plan->literal;
     scene->world = jox_world_create(&world);
+    if (!def->input_log)
+        load_input(scene, plan->input, diagnostics);
+    scene->world->input = scene->input; /* the world's from here on */
+    scene->input = (JoxInputLog){0};
     if (plan->periodic_x || plan->periodic_y) {
         JoxV2 size = jox_sub(plan->high, plan->low);
         scene->world->agents.origin = plan->low;
@@ -200,7 +213,6 @@ static void build(JoScene *scene, const JoSceneDef *def, JoxDiagnostics *diagnos
     mind->call = jox_lua_call;
     mind->bracket = jox_lua_bracket;
     mind->call_context = scene->lua;
-    load_input(scene, def->input_log ? def->input_log : plan->input, diagnostics);
     if (diagnostics->errors == 0) {
         jox_host_populate(scene, diagnostics);
         jox_host_check_names(scene, diagnostics);
@@ -255,9 +267,9 @@ static int32_t blame(const JoSceneDef *def, uint64_t without) {
         const uint32_t all = scene->mods->count;
         if (count < all) { /* with all of them it fails: that is known */
             scene->mods->count = count;
-            scene->plan = jox_host_load_plan(def, scene->mods, count, &now);
-            if (scene->plan)
-                build(scene, def, &now);
+            const JoxOverlay *before = jox_overlay_use(&scene->overlay);
+            build(scene, def, count, &now);
+            jox_overlay_use(before);
             scene->mods->count = all;
         }
         bool fails = count >= all || now.errors > 0;
@@ -275,13 +287,13 @@ static int32_t blame(const JoSceneDef *def, uint64_t without) {
 static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culprit,
                         JoxDiagnostics *mod_problems, JoxDiagnostics *diagnostics) {
     JoScene *scene = jox_alloc(1, sizeof *scene);
-    scene->message = def->message ? def->message : to_stderr;
+    scene->message = def->message ? def->message : jox_host_to_stderr;
     scene->message_context = def->message_context;
     scene->mods = jox_host_find_mods(def, without, mod_problems);
     *culprit = -1;
-    scene->plan = jox_host_load_plan(def, scene->mods, scene->mods->count, diagnostics);
-    if (scene->plan)
-        build(scene, def, diagnostics);
+    const JoxOverlay *before = jox_overlay_use(&scene->overlay);
+    build(scene, def, scene->mods->count, diagnostics);
+    jox_overlay_use(before);
     for (uint32_t f = 0; scene->plan && f < scene->plan->file_count; f++)
         jox_diag_attach_source(diagnostics, scene->plan->files[f].path, scene->plan->files[f].text,
                                scene->plan->files[f].length);
@@ -347,18 +359,26 @@ JoScene *jox_host_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
     }
 }
 
-JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
+JoScene *jox_host_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
+                            JoError *error) {
     JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && def->path, NULL);
     JoxDiagnostics diagnostics = {0};
     JoScene *scene = jox_host_load(def, &diagnostics);
-    jox_host_report(def->message ? def->message : to_stderr, def->message_context, &diagnostics,
-                    error);
+    if (diagnosed)
+        diagnosed(context, NULL, &diagnostics);
+    jox_host_report(def->message ? def->message : jox_host_to_stderr, def->message_context,
+                    &diagnostics, error);
+    if (diagnosed)
+        diagnosed(context, NULL, NULL);
     if (!scene)
         return NULL;
+    scene->diagnosed = diagnosed;
+    scene->diagnosed_context = context;
     jox_host_report(scene->message, scene->message_context, &scene->mod_problems, NULL);
     for (uint32_t m = 0; m < scene->mods->count; m++)
         jox_host_say(scene, "%s %s %s (%s)\n", m ? "     " : "mods:", scene->mods->items[m].name,
                      scene->mods->items[m].version, scene->mods->items[m].folder);
+    jox_host_check_log(scene);
     JoxSettled settled = jox_world_settle(scene->world);
     if (settled.moved || settled.stuck)
         jox_host_say(scene,
@@ -367,6 +387,10 @@ JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
                      def->path, settled.moved, settled.farthest,
                      settled.stuck ? "; some found no free spot" : "");
     return scene;
+}
+
+JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
+    return jox_host_load_told(def, NULL, NULL, error);
 }
 
 /* Whether both were made of the same files, byte by byte. */
@@ -414,6 +438,7 @@ void jo_scene_free(JoScene *scene) {
     jo_scene_finish(scene, NULL);
     jox_regions_free(scene->regions);
     jox_host_end_measuring(scene);
+    jox_live_end(scene);
     jox_host_unwatch(scene);
     free_def(scene);
     jo_world_free(scene->world); /* before Lua, whose machines it holds */
@@ -421,12 +446,16 @@ void jo_scene_free(JoScene *scene) {
     jox_scene_free(scene->plan);
     jox_mods_free(scene->mods);
     jox_diag_free(&scene->mod_problems);
+    jox_free(scene->record_shapes);
     jox_free(scene->party_left);
     jox_free(scene->party_team);
     jox_free(scene->report);
     jox_danger_free(scene->danger);
     jox_exits_free(&scene->exits);
     jox_free(scene->input_path);
+    jox_input_free(&scene->input);
+    jox_files_free(&scene->logged_files);
+    jox_overlay_free(&scene->overlay);
     jox_free(scene);
 }
 

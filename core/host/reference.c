@@ -4,6 +4,7 @@
 #include "base/assert.h"
 #include "host/host.h"
 #include "lua/reference.h"
+#include "world/verbs.h"
 
 static void scene_schema(JoxText *out) {
     jox_scene_json_schema("scene", out);
@@ -19,7 +20,8 @@ char *jo_reference(const char *what) {
         void (*print)(JoxText *out);
     } PAGES[] = {{"behaviours", jox_lua_reference}, {"lua-ls", jox_lua_definitions},
                  {"luacheck", jox_lua_luacheck},    {"scenes", jox_scene_reference_markdown},
-                 {"scene-schema", scene_schema},    {"mod-schema", mod_schema}};
+                 {"scene-schema", scene_schema},    {"mod-schema", mod_schema},
+                 {"inputs", jox_input_reference}};
     JoxText out = {0};
     for (size_t p = 0; p < sizeof PAGES / sizeof *PAGES; p++)
         if (!strcmp(PAGES[p].name, what))

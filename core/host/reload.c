@@ -28,6 +28,7 @@ typedef struct Change {
     JoxLoaded *loaded;
     JoxFiles files; /* that were looked for */
     JoxReplacement *replacement;
+    uint32_t edits; /* of the machine, when they were compared */
 } Change;
 
 /* What the loading thread hands over: machines, a new plan of the scene, or only what is wrong. */
@@ -52,7 +53,9 @@ struct JoxReload {
     atomic_uintptr_t ready;   /* Batch *, to the stepping thread */
     atomic_uintptr_t retired; /* Retired *, back */
     atomic_uint next_id, machine_count;
-    JoxChanges changes; /* the loading thread's own */
+    JoxChanges changes;       /* the loading thread's own */
+    pthread_mutex_t machines; /* held while they are compared, or changed in place */
+    uint32_t edits[JOX_MOST_MACHINES];
 };
 
 /* What was swapped out, freed off the stepping thread. */
@@ -83,7 +86,7 @@ static void free_batch(Batch *batch) {
 
 static bool use(JoxReload *r, uint32_t part, const char *path) {
     jox_changes_uses(&r->changes, part, path);
-    return jox_watch_add(r->watch, path);
+    return !r->watch || jox_watch_add(r->watch, path);
 }
 
 /* What a batch is made of counts from here on; if it could not go live, that counts too. */
@@ -183,7 +186,7 @@ static void load_change(JoxReload *r, Batch *batch, uint32_t c) {
         add_becomes(r, batch, c, next);
     else
         batch->failed = true;
-    for (uint32_t f = 0; f < batch->changes[c].files.count; f++)
+    for (uint32_t f = 0; r->watch && f < batch->changes[c].files.count; f++)
         jox_watch_add(r->watch, batch->changes[c].files.paths[f]);
 }
 
@@ -194,6 +197,18 @@ static void load_plan(JoxReload *r, Batch *batch) {
     batch->failed |= !batch->plan;
     for (uint32_t f = 0; batch->plan && f < batch->plan->file_count; f++)
         jox_files_add(&batch->plan_files, batch->plan->files[f].path);
+}
+
+/* Works out what it takes to put the new version in the place of the old. */
+static void compare(JoxReload *r, Change *change) {
+    const JoxMind *mind = &r->scene->world->mind;
+    jox_replacement_free(change->replacement);
+    pthread_mutex_lock(&r->machines);
+    change->edits = r->edits[change->index];
+    change->replacement =
+        jox_replacement_prepare(mind->machines[change->index], jox_loaded_machine(change->loaded),
+                                r->scene->world->def.seed, atomic_load(&r->next_id));
+    pthread_mutex_unlock(&r->machines);
 }
 
 /* The next parts whose files have changed, loaded; NULL where there are none. */
@@ -218,10 +233,7 @@ static Batch *prepare(JoxReload *r) {
         batch->failed = true;
     for (uint32_t c = 0; c < batch->count && !batch->failed; c++)
         if (!batch->changes[c].added)
-            batch->changes[c].replacement =
-                jox_replacement_prepare(mind->machines[batch->changes[c].index],
-                                        jox_loaded_machine(batch->changes[c].loaded),
-                                        scene->world->def.seed, atomic_load(&r->next_id));
+            compare(r, &batch->changes[c]);
     return batch;
 }
 
@@ -277,8 +289,13 @@ static void refuse(JoScene *scene, Batch *batch, const char *path, const char *w
     const JoxMind *mind = &scene->world->mind;
     char number[16];
     if (why)
-        jox_host_say(scene, "%s: %s\n", path, why);
+        jox_diag_error(&batch->diagnostics, ((JoxPosition){path, 0, 0, 0}), "cannot-swap", NULL,
+                       "%s", why);
+    if (scene->diagnosed)
+        scene->diagnosed(scene->diagnosed_context, batch->parts, &batch->diagnostics);
     jox_host_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
+    if (scene->diagnosed)
+        scene->diagnosed(scene->diagnosed_context, batch->parts, NULL);
     for (uint32_t c = 0; c < batch->count; c++) {
         if (batch->changes[c].added)
             continue;
@@ -372,15 +389,36 @@ static void swap(JoScene *scene, Batch *batch, Retired *retired) {
     jox_text_free(&text);
 }
 
-static void take(JoScene *scene, Batch *batch) {
+/* Notes the texts that differ from those that are live, for the input log. */
+static void note_files(JoScene *scene, const Batch *batch, JoxReloaded *reloaded) {
+    for (uint32_t c = 0; c < batch->count; c++) {
+        uint32_t count;
+        const JoxLuaFile *files = jox_loaded_files(batch->changes[c].loaded, &count);
+        for (uint32_t f = 0; f < count; f++) {
+            size_t length;
+            const char *text = jox_loaded_text(batch->changes[c].loaded, f, &length);
+            jox_host_note_file(scene, reloaded, files[f].path, files[f].sha256, text, length);
+        }
+    }
+    for (uint32_t f = 0; batch->plan && f < batch->plan->file_count; f++) {
+        const JoxSceneFile *file = &batch->plan->files[f];
+        jox_host_note_file(scene, reloaded, file->path, file->sha256, file->text, file->length);
+    }
+}
+
+/* Takes the batch over. True if it is live. */
+static bool take(JoScene *scene, Batch *batch) {
     JoxReload *r = scene->reload;
     char why[256];
+    bool live = false;
     const char *refused = NULL, *path = "";
     if (batch->said.length)
         scene->message(scene->message_context, batch->said.data);
     for (uint32_t c = 0; c < batch->count && !batch->failed && !refused; c++)
         if (!batch->changes[c].added) {
             path = batch->changes[c].path;
+            if (batch->changes[c].edits != r->edits[batch->changes[c].index])
+                compare(r, &batch->changes[c]); /* a parameter was set meanwhile */
             refused = jox_mind_refuses(&scene->world->mind, batch->changes[c].index,
                                        batch->changes[c].replacement, why, sizeof why);
         }
@@ -389,17 +427,36 @@ static void take(JoScene *scene, Batch *batch) {
     if (batch->failed || refused) {
         refuse(scene, batch, path, refused);
     } else {
+        if (scene->diagnosed) /* warnings, at most */
+            scene->diagnosed(scene->diagnosed_context, batch->parts, &batch->diagnostics);
         jox_host_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
-        retired->live = true;
+        JoxReloaded reloaded = {0};
+        retired->live = live = true;
+        if (scene->log)
+            note_files(scene, batch, &reloaded);
         swap(scene, batch, retired);
         if (batch->plan)
             jox_host_rescene(scene, &batch->plan, batch->written);
+        jox_host_log_files(scene, &reloaded);
     }
     atomic_store(&r->machine_count, scene->world->mind.machine_count);
     retired->next = (Retired *)atomic_load(&r->retired);
     while (
         !atomic_compare_exchange_weak(&r->retired, (uintptr_t *)&retired->next, (uintptr_t)retired))
         ;
+    return live;
+}
+
+void jox_host_hold_machines(JoScene *scene, uint32_t machine, bool hold) {
+    JoxReload *r = scene->reload;
+    if (!r)
+        return;
+    if (hold) {
+        pthread_mutex_lock(&r->machines);
+        r->edits[machine]++;
+    } else {
+        pthread_mutex_unlock(&r->machines);
+    }
 }
 
 void jox_host_reload(JoScene *scene) {
@@ -419,35 +476,78 @@ static void use_first(JoxReload *r, uint32_t part, const char *path) {
         jox_host_say(r->scene, "%s cannot be watched: %s\n", path, strerror(errno));
 }
 
-bool jo_scene_watch(JoScene *scene, JoError *error) {
-    if (scene->reload)
-        return true;
-    JoxWatch *watch = jox_watch_create();
-    int stop = watch ? eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK) : -1;
+/* What the running scene is made of. */
+static JoxReload *begin(JoScene *scene, JoxWatch *watch, int stop) {
     JoxReload *r = jox_alloc(1, sizeof *r);
     *r = (JoxReload){.scene = scene, .watch = watch, .stop = stop};
+    pthread_mutex_init(&r->machines, NULL);
     const JoxMind *mind = &scene->world->mind;
     JoxAgents *a = &scene->world->agents;
     jox_agents_widen(a, a->own_stride + OWN_ROOM, a->memory_stride + MEMORY_ROOM);
     atomic_store(&r->next_id, a->next_id);
     atomic_store(&r->machine_count, mind->machine_count);
-    for (uint32_t m = 0; watch && m < mind->machine_count; m++) {
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
         uint32_t count;
         char *const *tried = jox_lua_tried(scene->lua, mind->machines[m], &count);
         for (uint32_t f = 0; f < count; f++)
             use_first(r, m, tried[f]);
     }
-    for (uint32_t f = 0; watch && f < scene->plan_file_count; f++)
+    for (uint32_t f = 0; f < scene->plan_file_count; f++)
         use_first(r, JOX_PART_PLAN, scene->plan_files[f]);
     scene->reload = r;
-    if (stop >= 0 && pthread_create(&r->thread, NULL, load_for_ever, r) == 0)
+    return r;
+}
+
+bool jo_scene_watch(JoScene *scene, JoError *error) {
+    if (scene->reload && scene->reload->watch)
         return true;
-    if (stop >= 0)
+    const JoxInputLog *log = &scene->world->input;
+    for (size_t e = 0; e < log->count; e++)
+        if (log->entries[e].verb == JOX_INPUT_FILES) {
+            jox_error(error, JO_INPUT,
+                      "the input log '%.200s' swaps files itself; files on the disk cannot be "
+                      "watched besides",
+                      scene->input_path);
+            return false;
+        }
+    JoxWatch *watch = jox_watch_create();
+    int stop = watch ? eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK) : -1;
+    if (stop >= 0) {
+        JoxReload *r = begin(scene, watch, stop);
+        if (pthread_create(&r->thread, NULL, load_for_ever, r) == 0)
+            return true;
         close(stop);
-    r->stop = -1;
-    jox_host_unwatch(scene);
+        r->stop = -1;
+        jox_host_unwatch(scene);
+    } else {
+        jox_watch_free(watch);
+    }
     jox_error(error, JO_FAILED, "the system does not let files be watched");
     return false;
+}
+
+bool jox_host_reload_now(JoScene *scene, const JoxInputEntry *files, JoError *error) {
+    JoxReload *r = scene->reload ? scene->reload : begin(scene, NULL, -1);
+    bool live = true;
+    Batch *batch;
+    if (r->watch) {
+        jox_error(error, JO_INPUT, "files cannot be swapped while they are watched");
+        return false;
+    }
+    for (uint32_t f = 0; f < files->number; f++)
+        jox_changes_file(&r->changes, files->files[f].path, 0.0);
+    atomic_store(&r->next_id, scene->world->agents.next_id);
+    while ((batch = prepare(r))) {
+        live &= take(scene, batch);
+        free_retired(r);
+        for (uint32_t f = 0; f < files->number; f++) /* a file that only the new version uses */
+            if (jox_host_is_live(scene, &files->files[f]))
+                jox_changes_drop(&r->changes, files->files[f].path);
+    }
+    if (!live)
+        jox_error(error, JO_INPUT,
+                  "the files that follow were not taken: the run goes another way");
+    return live;
 }
 
 void jox_host_unwatch(JoScene *scene) {
@@ -466,6 +566,7 @@ void jox_host_unwatch(JoScene *scene) {
     free_retired(r);
     jox_changes_free(&r->changes);
     jox_watch_free(r->watch);
+    pthread_mutex_destroy(&r->machines);
     jox_free(r);
     scene->reload = NULL;
 }

@@ -279,10 +279,12 @@ void jox_host_rescene(JoScene *scene, JoxScene **plan, double written) {
     name_the_rest(&r);
     clock_gettime(CLOCK_REALTIME, &t);
     double age = (double)t.tv_sec + (double)t.tv_nsec * 1e-9 - written;
+    char ago[40] = "";
+    if (written > 0.0)
+        snprintf(ago, sizeof ago, "saved %.0f ms ago, ", age * 1e3);
     if (r.done.length)
-        jox_host_say(scene,
-                     "%s: %s changed, live from t = %.2f s (saved %.0f ms ago, took %.2f ms)\n",
-                     scene->plan->path, r.done.data, jo_world_time(scene->world), age * 1e3,
+        jox_host_say(scene, "%s: %s changed, live from t = %.2f s (%stook %.2f ms)\n",
+                     scene->plan->path, r.done.data, jo_world_time(scene->world), ago,
                      (jox_clock_wall() - begun) * 1e3);
     if (r.later.length)
         jox_host_say(scene, "%s: %s: takes effect at the next start\n", scene->plan->path,

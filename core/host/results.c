@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "host/host.h"
+#include "host/live.h"
 #include "record/plot.h"
 
 static const double FRAME = 0.1;  /* s between recorded frames, or a step where that is longer */
@@ -84,11 +85,35 @@ bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
     return true;
 }
 
+/* The parts of bodies that are new or came apart. */
+static void record_shapes(JoScene *scene, uint32_t frame) {
+    const JoxBodies *bodies = scene->world->bodies;
+    for (uint32_t row = 0; row < jox_bodies_rows(bodies); row++) {
+        const uint32_t id = jox_bodies_id(bodies, row);
+        const size_t had = scene->record_shape_capacity;
+        JoxBodyGlue glue;
+        JoxBodyLook look;
+        if (id == JOX_NO_BODY)
+            continue;
+        jox_bodies_glue(bodies, row, &glue);
+        JOX_RESERVE(scene->record_shapes, scene->record_shape_capacity, (size_t)id + 1);
+        for (size_t n = had; n < scene->record_shape_capacity; n++)
+            scene->record_shapes[n] = 0;
+        if (scene->record_shapes[id] == glue.blocks + 1)
+            continue;
+        scene->record_shapes[id] = glue.blocks + 1;
+        for (uint32_t part = 0; jox_bodies_look(bodies, row, part, &look); part++)
+            jox_recorder_part(scene->recorder, frame, id, part, &look);
+    }
+}
+
 static bool record_frame(JoScene *scene, JoError *error) {
     const JoxAgents *a = &scene->world->agents;
     const JoxObjects *objects = &scene->world->objects;
     JoxRecordBody *bodies;
     uint32_t count = jox_bodies_count(scene->world->bodies), n = 0;
+    const uint32_t frame = (uint32_t)(scene->world->tick / scene->record_every);
+    record_shapes(scene, frame);
     JoxRecordRow *rows = jox_recorder_take(scene->recorder, a->count, count, &bodies);
     for (uint32_t id = 0; id < a->next_id; id++) { /* by id, whatever the order in memory */
         uint32_t i = a->id_index[id];
@@ -108,7 +133,6 @@ static bool record_frame(JoScene *scene, JoError *error) {
                                           pose.turn[2],        pose.turn[3]};
     }
     JoxText why = {0};
-    uint32_t frame = (uint32_t)(scene->world->tick / scene->record_every);
     return jox_recorder_put(scene->recorder, frame, &why) || fail(error, &why);
 }
 
@@ -284,6 +308,8 @@ bool jox_host_collect(JoScene *scene, JoError *error) {
     if (scene->density || scene->regions->count)
         sample(scene);
     jox_host_measure(scene);
+    if (scene->live)
+        jox_live_note(scene);
     if (scene->danger)
         jox_danger_frame(scene->danger, jox_host_frame(scene), &scene->exits);
     if (scene->progress_until > 0.0)
@@ -294,6 +320,7 @@ bool jox_host_collect(JoScene *scene, JoError *error) {
 
 bool jo_scene_step(JoScene *scene, JoError *error) {
     JOX_REQUIRE(scene && !scene->finished, false);
+    jox_host_inputs(scene);
     jox_host_reload(scene);
     jox_host_events(scene);
     jox_host_sources(scene);
@@ -308,7 +335,7 @@ bool jo_scene_step(JoScene *scene, JoError *error) {
                   stalled);
         return false;
     }
-    return jox_host_collect(scene, error);
+    return jox_host_collect(scene, error) && jox_host_logged(scene, error);
 }
 
 /* That plain functions ran, and what they cost: their authors should know without asking. */
@@ -335,6 +362,7 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
     if (scene->recorder)
         good = jox_recorder_close(scene->recorder, &why) || fail(error, &why);
     scene->recorder = NULL;
+    good = jox_host_end_log(scene, error) && good;
     if (scene->report) {
         good = draw(scene, error) && good;
     }

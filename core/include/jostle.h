@@ -192,7 +192,8 @@ JO_API double jo_scene_duration(const JoScene *scene); /* s, as the scene says *
 JO_API bool jo_scene_step(JoScene *scene, JoError *error);
 
 /* What people do to a running scene; it takes effect in the next step, as an event of the scene
-   does. False with `error` where there is no such body or wall, or a number is out of range. */
+   does, and goes into the input log if one is written. False with `error` where there is no such
+   body or wall, or a number is out of range. */
 /* Throws a body by its name: x, y, z of where it is put first (m; NULL: from where it lies),
    velocity (m/s, each up to 100; NULL: none) and spin about x, y, z (rad/s, each up to 100; NULL:
    none). */
@@ -202,6 +203,19 @@ JO_API bool jo_scene_throw(JoScene *scene, const char *body, const double from[3
 JO_API bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *error);
 /* Calls a name out, which everybody hears in the next step, wherever they are. */
 JO_API bool jo_scene_signal(JoScene *scene, const char *name, JoError *error);
+/* Does what a line of an input log says, without its tick: "push 7 300 0" (jo_reference("inputs")
+   has them all). False with `error` where it cannot be done; nothing is then logged. */
+JO_API bool jo_scene_input(JoScene *scene, const char *line, JoError *error);
+/* What the agent in a slot (JoAgent.slot) is, wants and meets, as one JSON object; free with
+   jo_free. From the first call on, and as long as it is asked for at least every 5 simulated
+   seconds, its steps are looked at closely: "planes" are the half-planes of its last step, m/s,
+   each allowing what lies to the left of its direction; "forces" the parts of its net force, N;
+   "last" its last transition, and why. {"agent": null} once where nobody is in the slot, or who was
+   inspected there has left. Nothing of it changes the run. */
+JO_API char *jo_scene_inspect(JoScene *scene, uint32_t slot);
+/* From here on writes what people do, and files that are reloaded, to a file (replaced if it is
+   there), which JoSceneDef.input_log plays back to the same state. */
+JO_API bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error);
 /* Writes trajectories to an SQLite file from here on (JuPedSim format, version 2). */
 JO_API bool jo_scene_record(JoScene *scene, const char *path, JoError *error);
 /* Collects density and regional speeds from here on; jo_scene_finish draws them, and what the
@@ -242,6 +256,51 @@ JO_API char *jo_scene_summary(const JoScene *scene);
 /* From several summaries: mean and 5-95 % range of each numeric figure; free with jo_free. */
 JO_API char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error);
 
+/* A scene on a live page: a browser on this machine shows it and lets people act on it. */
+typedef struct JoViewDef {
+    JoSceneDef scene;
+    const char *address;      /* to listen at; NULL: 127.0.0.1, for this machine alone */
+    int port;                 /* 0: 8730, or the next that is free */
+    const char *page;         /* folder of the page's files; NULL: where they were installed */
+    const char *three;        /* folder of three.js; NULL: Debian's */
+    bool fast;                /* as fast as it can go, not in real time */
+    bool watch;               /* files that are edited are reloaded; on by default */
+    double seconds;           /* simulated, after which it pauses; 0: the scene's duration */
+    const char *record;       /* file for trajectories, or NULL; a restart begins it anew */
+    const char *log_input;    /* file for what people do, or NULL; a restart begins it anew */
+    const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
+    JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
+    void *opened_context;
+    char **summary; /* NULL, or for the figures of the run as it ended; free with jo_free */
+    uint32_t cookie;
+} JoViewDef;
+JO_API JoViewDef jo_default_view_def(void);
+/* Returns when it was stopped. False with `error` if the page cannot be served or the scene does
+   not load; every error of the scene went to its `message`. */
+JO_API bool jo_view(const JoViewDef *def, JoError *error);
+
+/* Shows a recording on that page: any that jo_report takes. */
+typedef struct JoViewRecordingDef {
+    const char *recording;
+    const char *scene;   /* whose walls, places and bodies are drawn; NULL: the recording's walls */
+    double fps;          /* frames a second; 0: as the recording says */
+    double unit;         /* m, of its lengths; 0: as it says */
+    const char *address; /* these three and the port as in JoViewDef */
+    const char *page;
+    const char *three;
+    int port;
+    const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
+    JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
+    void *opened_context;
+    JoMessage *message; /* NULL: to stderr */
+    void *message_context;
+    uint32_t cookie;
+} JoViewRecordingDef;
+JO_API JoViewRecordingDef jo_default_view_recording_def(void);
+/* Returns when it was stopped. False with `error` if the page cannot be served or there is no such
+   recording; all that is wrong with it went to `message`. */
+JO_API bool jo_view_recording(const JoViewRecordingDef *def, JoError *error);
+
 /* What is measured of a recording: an SQLite file of jo_scene_record or of JuPedSim, or text with
    the columns id, frame, x, y as PeTrack writes it, or CSV with a line of names. */
 typedef struct JoReportDef {
@@ -259,6 +318,40 @@ JO_API JoReportDef jo_default_report_def(void);
 /* Shows every frame to the probes and returns their figures as one JSON object; free with jo_free.
    NULL if anything is wrong: every error went to `message`, the first is in `error`. */
 JO_API char *jo_report(const JoReportDef *def, JoError *error);
+
+/* A top view, as a picture, as frames or as a video: of a scene, which is run for it, or of a
+   recording (as for JoReportDef). */
+typedef struct JoRenderDef {
+    const JoSceneDef *scene; /* runs this, */
+    const char *recording;   /* or reads this; */
+    const char *plan;        /* then the walls and places of this scene are drawn; or NULL */
+    double recorded_fps;     /* frames a second of the recording; 0: as it says */
+    double unit;             /* m, of its lengths; 0: as it says */
+    const char *out;         /* FILE.svg or FILE.png: one picture; FILE.mp4, .mkv or .webm: a video
+                                (needs ffmpeg); else a folder for frame-000001.png, ... */
+    double at;               /* s, of a picture; default NAN: the beginning */
+    double from, until;      /* s, of frames and videos; default NAN: from beginning to end */
+    double fps;              /* of frames and videos; 0: as of the steps or the recording, but at
+                                most 30 a second */
+    uint32_t width, height;  /* pixels, 320 to 8192; 0: what suits the area */
+    const double *area;      /* x0, y0, x1, y1, m; NULL: all */
+    const char *colour;      /* "state", "group", "speed", "force", "compression", "density" or
+                                "none", or as "speed:1.5" with the value at the bar's end; NULL:
+                                state or, where none is known, group or speed */
+    const char *field;       /* "density" or "pressure", or with a value; NULL: a bare floor */
+    bool paths;              /* draws where people went until then */
+    bool progress;           /* on stderr, as jo_scene_show_progress */
+    JoMessage *message;      /* NULL: to stderr */
+    void *message_context;
+    uint32_t cookie;
+} JoRenderDef;
+JO_API JoRenderDef jo_default_render_def(void);
+/* What was written goes to `message`, and everything that is wrong with a scene or a recording.
+   False with `error` if anything failed: JO_USAGE if the def makes no sense, JO_INPUT if the scene
+   or recording is wrong or has no such time, JO_FAILED if writing failed. */
+JO_API bool jo_render(const JoRenderDef *def, JoError *error);
+/* Whether this build makes images and videos; else SVG alone. */
+JO_API bool jo_render_has_images(void);
 
 /* The mods that a run of the scene would take (path NULL: of the user's data directory alone), in
    order, and the others that were found, as text; free with jo_free. */
@@ -301,7 +394,8 @@ JO_API JoReproduceDef jo_default_reproduce_def(void);
    not be done; what is wrong with claim files went to `message`. */
 JO_API bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error);
 /* A generated page or file by name, as `jostle reference` lists them: "behaviours", "scenes",
-   "lua-ls", "luacheck", "scene-schema", "mod-schema". NULL if there is none; free with jo_free. */
+   "lua-ls", "luacheck", "scene-schema", "mod-schema", "inputs". NULL if there is none; free with
+   jo_free. */
 JO_API char *jo_reference(const char *what);
 /* The reference of the scene format, as text; free with jo_free. */
 JO_API char *jo_scene_reference(void);

@@ -141,6 +141,21 @@ const JoxLuaFile *jox_loaded_files(const JoxLoaded *loaded, uint32_t *count) {
     return loaded->vm ? loaded->vm->files : NULL;
 }
 
+/* Files and sources are added together. */
+static const char *text_of(const JoxVm *vm, uint32_t file, size_t *length) {
+    *length = vm && file < vm->source_count ? vm->sources[file].length : 0;
+    return *length ? vm->sources[file].text : "";
+}
+
+const char *jox_loaded_text(const JoxLoaded *loaded, uint32_t file, size_t *length) {
+    return text_of(loaded->vm, file, length);
+}
+
+const char *jox_lua_text(const JoxLua *lua, const JoxMachine *machine, uint32_t file,
+                         size_t *length) {
+    return text_of(machine->vm >= 0 ? lua->vms[machine->vm] : NULL, file, length);
+}
+
 const char *jox_loaded_said(const JoxLoaded *loaded) {
     return loaded->vm && loaded->vm->printed_text.data ? loaded->vm->printed_text.data : "";
 }

@@ -46,6 +46,16 @@ JoxMachine *jox_lua_load(JoxLua *lua, const char *path, const JoxScope *scope,
    first, a line each: value, file and line, and the mod; false if nobody did. */
 bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
                  const JoxScope *scope, JoxText *out);
+/* What set a canonical path of the machine last: "defaults.speed", "states.Circle.push",
+   "states.Circle.@Exit.when" (a transition by its id). */
+typedef struct JoxWritten {
+    JoxText text;     /* the value as written, on one line; the caller frees */
+    const char *file; /* of the machine's files, valid as long as it */
+    int line, column;
+    const char *mod; /* name, or NULL: the behaviour itself */
+} JoxWritten;
+bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *path,
+                     const JoxScope *scope, JoxWritten *out);
 /* Name of the behaviour that a mod's Lua file changes, and whether it replaces it: copied into
    target; false where it names none. */
 bool jox_lua_patch_target(const char *text, size_t length, char target[128], bool *replaces,
@@ -81,6 +91,11 @@ typedef struct JoxLuaFile {
     char sha256[65];
 } JoxLuaFile;
 const JoxLuaFile *jox_lua_files(const JoxLua *lua, const JoxMachine *machine, uint32_t *count);
+
+/* The text of one of them as it was read (a byte order mark made blank). */
+const char *jox_lua_text(const JoxLua *lua, const JoxMachine *machine, uint32_t file,
+                         size_t *length);
+const char *jox_loaded_text(const JoxLoaded *loaded, uint32_t file, size_t *length);
 
 /* All files that were looked for when a machine was loaded. */
 char *const *jox_lua_tried(const JoxLua *lua, const JoxMachine *machine, uint32_t *count);

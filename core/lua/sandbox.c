@@ -9,6 +9,7 @@
 
 #include "base/hash.h"
 #include "base/mem.h"
+#include "base/overlay.h"
 #include "lua/internal.h"
 
 enum { MOST_FILES = 64 };
@@ -38,11 +39,12 @@ JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *given, size_t le
     snprintf(large, sizeof large, "the file is over %zu KB", limit >> 10);
     struct stat info;
     char *text = NULL;
+    bool disk = !given && !jox_overlay_file(path);
     if (given) {
         text = jox_strndup(given, length);
-    } else if (lstat(path, &info) == 0 && S_ISLNK(info.st_mode)) {
+    } else if (disk && lstat(path, &info) == 0 && S_ISLNK(info.st_mode)) {
         wrong = "symbolic links are not followed";
-    } else if (stat(path, &info) == 0 && !S_ISREG(info.st_mode)) {
+    } else if (disk && stat(path, &info) == 0 && !S_ISREG(info.st_mode)) {
         wrong = "it is no regular file"; /* opening a pipe would wait */
     } else if (!(text = jox_read_file(path, limit, &length))) {
         wrong = errno == EFBIG ? large : strerror(errno);
@@ -96,7 +98,8 @@ static bool is_module(JoxVm *vm, const char *folder, const char *name, char path
     struct stat info;
     snprintf(path, 1024, "%.511s/%.400s.lua", folder, name);
     jox_vm_tried(vm, path);
-    return lstat(path, &info) == 0 && (S_ISLNK(info.st_mode) || jox_path_below(path, folder));
+    return jox_overlay_file(path) ||
+           (lstat(path, &info) == 0 && (S_ISLNK(info.st_mode) || jox_path_below(path, folder)));
 }
 
 /* The file of a module: "mod:name" of a mod; else beside the file that requires it, beside the

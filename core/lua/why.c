@@ -9,36 +9,64 @@ static const JoxVm *vm_of(const JoxLua *lua, const JoxMachine *machine) {
     return machine->vm >= 0 && (uint32_t)machine->vm < lua->vm_count ? lua->vms[machine->vm] : NULL;
 }
 
-/* The text of a value as written, on one line and cut where it is long. */
-static void print_value(const JoxSource *source, const JoxPath *path, JoxText *out) {
-    const JoxToken *first = &source->tokens[path->first];
-    const char *end = path->last < source->token_count ? source->tokens[path->last].text
-                                                       : source->text + source->length;
-    const char *from = first->kind == JOX_TOKEN_STRING ? first->text - 1 : first->text;
-    while (end > from && (end[-1] == ' ' || end[-1] == '\n' || end[-1] == '\t' || end[-1] == '\r'))
-        end--;
-    size_t length = (size_t)(end - from), shown = length < 60 ? length : 57;
-    for (size_t i = 0; i < shown; i++)
-        jox_text_append(out, (unsigned char)from[i] < 0x20 ? " " : from + i, 1);
-    if (shown < length)
-        jox_text_add(out, "...");
+/* The text of a value as written, on one line and without comments; cut after `most` bytes. */
+static void print_value(const JoxSource *source, const JoxPath *path, size_t most, JoxText *out) {
+    size_t begin = out->length;
+    const char *before = NULL; /* where the last token ended */
+    for (uint32_t t = path->first; t < path->last && t < source->token_count; t++) {
+        const JoxToken *token = &source->tokens[t];
+        bool quoted = token->kind == JOX_TOKEN_STRING;
+        if (before && token->text - quoted > before)
+            jox_text_add(out, " ");
+        jox_text_add(out, quoted ? "\"" : "");
+        for (uint32_t i = 0; i < token->length; i++)
+            jox_text_append(out, (unsigned char)token->text[i] < 0x20 ? " " : token->text + i, 1);
+        jox_text_add(out, quoted ? "\"" : "");
+        before = token->text + token->length + quoted;
+    }
+    if (out->length - begin <= most)
+        return;
+    out->length = begin + most - 3;
+    while (out->length > begin && ((unsigned char)out->data[out->length] & 0xc0) == 0x80)
+        out->length--; /* no half of a letter */
+    jox_text_add(out, "...");
 }
 
-/* One line: where a path stands in a source, its value, who set it. False where it does not. */
-static bool print_place(const JoxVm *vm, uint32_t source, const char *path, int32_t mod,
-                        bool removes, const JoxScope *scope, JoxText *out) {
+/* One place that set a path. */
+typedef struct Setting {
+    const JoxSource *source;
+    const JoxPath *path;
+    const JoxToken *key;
+    int32_t mod; /* index, or -1 */
+    bool removes;
+} Setting;
+
+/* Where all of them go: lines of text, or the last alone. */
+typedef struct Settings {
+    const JoxScope *scope;
+    JoxText *out;
+    Setting last;
+} Settings;
+
+/* Takes the place of a path in a source. False where it does not stand there. */
+static bool take_place(const JoxVm *vm, uint32_t source, const char *path, int32_t mod,
+                       bool removes, Settings *to) {
     const JoxPath *found = jox_source_path_find(&vm->sources[source], path);
     if (!found || found->key >= vm->sources[source].token_count)
         return false;
     const JoxToken *key = &vm->sources[source].tokens[found->key];
-    jox_text_printf(out, "  %s:%d:%d: ", vm->sources[source].path, key->line, key->column);
+    to->last = (Setting){&vm->sources[source], found, key, mod, removes};
+    if (!to->out)
+        return true;
+    jox_text_printf(to->out, "  %s:%d:%d: ", vm->sources[source].path, key->line, key->column);
     if (removes)
-        jox_text_add(out, "taken away");
+        jox_text_add(to->out, "taken away");
     else
-        print_value(&vm->sources[source], found, out);
-    if (mod >= 0 && (uint32_t)mod < scope->mod_count)
-        jox_text_printf(out, "   (mod %s %s)", scope->mods[mod].name, scope->mods[mod].version);
-    jox_text_add(out, "\n");
+        print_value(&vm->sources[source], found, 60, to->out);
+    if (mod >= 0 && (uint32_t)mod < to->scope->mod_count)
+        jox_text_printf(to->out, "   (mod %s %s)", to->scope->mods[mod].name,
+                        to->scope->mods[mod].version);
+    jox_text_add(to->out, "\n");
     return true;
 }
 
@@ -59,8 +87,8 @@ static void by_number(const JoxMachine *machine, const char *canonical, char pat
 }
 
 /* Everything that set one canonical path, in order; how many. */
-static int print_all(const JoxVm *vm, const JoxMachine *machine, const char *canonical,
-                     const JoxScope *scope, JoxText *out) {
+static int take_all(const JoxVm *vm, const JoxMachine *machine, const char *canonical,
+                    Settings *to) {
     char own[256];
     int count = 0;
     bool named = false; /* the file's own place is among the origins */
@@ -68,7 +96,7 @@ static int print_all(const JoxVm *vm, const JoxMachine *machine, const char *can
         named |= vm->origins[o].mod < 0 && strstr(canonical, vm->origins[o].path) == canonical;
     by_number(machine, canonical, own);
     if (!named)
-        count += print_place(vm, 0, own, -1, false, scope, out);
+        count += take_place(vm, 0, own, -1, false, to);
     for (size_t o = 0; o < vm->origin_count; o++) {
         const JoxOrigin *origin = &vm->origins[o];
         size_t n = strlen(origin->path);
@@ -78,7 +106,7 @@ static int print_all(const JoxVm *vm, const JoxMachine *machine, const char *can
         const char *rest = canonical + n + (n && canonical[n] == '.');
         snprintf(path, sizeof path, "%.250s%s%.250s", origin->from,
                  *rest && *origin->from ? "." : "", rest);
-        count += print_place(vm, origin->source, path, origin->mod, origin->removes, scope, out);
+        count += take_place(vm, origin->source, path, origin->mod, origin->removes, to);
     }
     return count;
 }
@@ -91,14 +119,15 @@ bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
     size_t n = rest ? (size_t)(rest - path) : strlen(path);
     if (!vm)
         return false;
-    int count = print_all(vm, machine, path, scope, out);
+    Settings to = {.scope = scope, .out = out};
+    int count = take_all(vm, machine, path, &to);
     snprintf(canonical, sizeof canonical, "states.%.240s", path);
     if (!count)
-        count = print_all(vm, machine, canonical, scope, out);
+        count = take_all(vm, machine, canonical, &to);
     snprintf(canonical, sizeof canonical, "states.%.*s.@%.120s", (int)(n < 100 ? n : 100), path,
              rest ? rest + 1 : "");
     if (!count && rest)
-        count = print_all(vm, machine, canonical, scope, out);
+        count = take_all(vm, machine, canonical, &to);
     int parameter = jox_parameter_find(last ? last + 1 : path);
     if (parameter < 0)
         return count > 0;
@@ -108,12 +137,28 @@ bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
         snprintf(state, sizeof state, "%.*s", (int)(n < 120 ? n : 120), path);
         if (jox_machine_state(machine, state) < 0 && strncmp(path, "defaults.", 9) != 0)
             return false;
-        count = print_all(vm, machine, canonical, scope, out);
+        count = take_all(vm, machine, canonical, &to);
     }
     if (!count) {
         jox_text_printf(out, "  the engine's default: %g %s\n", jox_parameters[parameter].value,
                         jox_parameters[parameter].unit);
         count = 1;
     }
+    return true;
+}
+
+bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *path,
+                     const JoxScope *scope, JoxWritten *out) {
+    const JoxVm *vm = vm_of(lua, machine);
+    Settings to = {.scope = scope};
+    *out = (JoxWritten){0};
+    if (!vm || take_all(vm, machine, path, &to) == 0 || to.last.removes)
+        return false;
+    print_value(to.last.source, to.last.path, 400, &out->text);
+    out->file = to.last.source->path;
+    out->line = to.last.key->line;
+    out->column = to.last.key->column;
+    if (to.last.mod >= 0 && (uint32_t)to.last.mod < scope->mod_count)
+        out->mod = scope->mods[to.last.mod].name;
     return true;
 }

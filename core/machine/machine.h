@@ -109,8 +109,9 @@ typedef struct JoxValue {
     JoxValueKind kind;
     double number; /* CONST */
     int32_t index; /* own slot, or program */
-    int32_t line;  /* where it was set, for `why`; 0 default */
+    int32_t line;  /* where it was set; 0 default; JOX_LINE_LIVE: by a person, in a run */
 } JoxValue;
+enum { JOX_LINE_LIVE = -1 };
 
 typedef enum JoxSteerKind {
     JOX_STEER_HOLD, /* stand still */

@@ -73,6 +73,44 @@ void jox_mind_set_own(JoxMind *mind, uint32_t i, uint32_t slot, double value) {
     jox_mind_write_parameters(mind, i);
 }
 
+/* Writes what the agent's state says of a parameter, where it is a number or an own value. */
+static void write_parameter(JoxMind *mind, uint32_t i, int p) {
+    const JoxMachine *machine = jox_machine_of(mind, i);
+    const JoxValue *value =
+        jox_state_parameter(machine, &machine->states[mind->agents->state[i]], p);
+    if (value->kind == JOX_VALUE_CONST || value->kind == JOX_VALUE_OWN)
+        mind->agents->param[p][i] =
+            jox_parameter_store((JoxParameter)p, jox_value(mind, machine, value, i));
+}
+
+void jox_mind_set_parameter(JoxMind *mind, uint32_t index, int32_t number, int parameter,
+                            double value) {
+    JoxAgents *a = mind->agents;
+    JoxMachine *machine = mind->machines[index];
+    const JoxValue set = {JOX_VALUE_CONST, value, 0, JOX_LINE_LIVE};
+    const char *name = jox_parameters[parameter].name;
+    int32_t slot = -1;
+    for (uint32_t s = 0; number < 0 && s < machine->own_count; s++)
+        if (strcmp(machine->own[s].name, name) == 0)
+            slot = (int32_t)s;
+    if (slot >= 0)
+        machine->own[slot].dist = jox_dist_constant(value);
+    *(number < 0 ? &machine->defaults[parameter] : &machine->states[number].param[parameter]) = set;
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (a->machine[i] != index || (number >= 0 && a->state[i] != number))
+            continue;
+        bool follows = slot >= 0 && !(slot < 64 && (a->given[i] >> slot & 1));
+        if (follows)
+            a->own[(size_t)i * a->own_stride + (uint32_t)slot] = value;
+        for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+            const JoxState *state = &machine->states[a->state[i]];
+            const JoxValue *held = jox_state_parameter(machine, state, p);
+            if (p == parameter || (follows && held->kind == JOX_VALUE_OWN && held->index == slot))
+                write_parameter(mind, i, p);
+        }
+    }
+}
+
 void jox_mind_become(JoxMind *mind, uint32_t i, uint32_t machine) {
     enum { MOST = 256 };
     JoxAgents *a = mind->agents;

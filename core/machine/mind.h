@@ -59,6 +59,15 @@ typedef enum JoxWayKind {
     JOX_WAY_KINDS
 } JoxWayKind;
 
+/* An agent whose last transition is kept, with the reason for it. */
+typedef struct JoxWatched {
+    uint32_t agent_id;
+    bool took; /* one since it is watched: then the rest says which */
+    uint32_t tick;
+    char from[64], to[64];
+    JoxText why; /* as jox_mind_explain says it */
+} JoxWatched;
+
 typedef struct JoxMind {
     /* Given by the world before each stage. */
     JoxAgents *agents;
@@ -113,6 +122,9 @@ typedef struct JoxMind {
     uint32_t trace_id;
     JoxText trace;
 
+    JoxWatched *watched; /* given by the world */
+    uint32_t watched_count;
+
     /* What states say of pushing, per agent index, for the force stage; valid until the next think.
      */
     uint8_t *push_on, *push_nearest;
@@ -162,6 +174,11 @@ void jox_mind_taken(const JoxMind *mind, uint32_t index, JoxTakenVisit *visit, v
 void jox_mind_become(JoxMind *mind, uint32_t agent, uint32_t machine);
 /* Gives the agent an own value, as the scene's group might have done. */
 void jox_mind_set_own(JoxMind *mind, uint32_t agent, uint32_t slot, double value);
+/* Sets a parameter of one state (-1: of the defaults) to a number within its range, for all who are
+   in it and who will be, until the machine is replaced. In the defaults the own value of that name
+   follows, but for those to whom the scene gave theirs. */
+void jox_mind_set_parameter(JoxMind *mind, uint32_t machine, int32_t state, int parameter,
+                            double value);
 /* Number of a name that machines share; new names are added. */
 uint32_t jox_mind_name(JoxMind *mind, const char *name);
 /* The agent calls out a name (by number). */

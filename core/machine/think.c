@@ -1,5 +1,6 @@
 /* The stage think: counters, transitions, hooks, then what the new states ask for. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/elementary.h"
@@ -260,6 +261,21 @@ static void enter(JoxMind *mind, uint32_t i, uint16_t to) {
     call_hook(mind, machine->states[machine->start].on_enter, JOX_HOOK_ENTER, i);
 }
 
+static void watch(const JoxMind *mind, const JoxTaken *taken) {
+    const JoxMachine *machine = mind->machines[taken->machine];
+    for (uint32_t n = 0; n < mind->watched_count; n++) {
+        JoxWatched *watched = &mind->watched[n];
+        if (watched->agent_id != taken->agent_id)
+            continue;
+        watched->took = true;
+        watched->tick = mind->tick;
+        snprintf(watched->from, sizeof watched->from, "%s", machine->states[taken->from].name);
+        snprintf(watched->to, sizeof watched->to, "%s", machine->states[taken->to].name);
+        watched->why.length = 0;
+        jox_mind_explain(mind, taken, &watched->why);
+    }
+}
+
 /* Takes the fired transitions, by id; hooks of leaving, taking and entering in that order. */
 static void take_transitions(JoxMind *mind) {
     JoxMindScratch *s = mind->scratch;
@@ -280,6 +296,8 @@ static void take_transitions(JoxMind *mind) {
             (JoxTaken){a->id[i], a->machine[i], a->state[i], t->to, (uint16_t)s->fired[i]};
         if (mind->traces && a->id[i] == mind->trace_id)
             jox_mind_explain(mind, &mind->taken[n], &mind->trace);
+        if (mind->watched_count)
+            watch(mind, &mind->taken[n]);
         call_hook(mind, from->on_exit, JOX_HOOK_EXIT, i);
         jox_actions_do(mind, machine, &t->does, i);
         call_hook(mind, t->on_take, JOX_HOOK_TAKE, i);

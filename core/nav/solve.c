@@ -1,4 +1,6 @@
 /* The stage solve: every agent's half-planes, and the best velocity that they leave. */
+#include <assert.h>
+
 #include "base/random.h"
 #include "geom/polygon.h"
 #include "nav/internal.h"
@@ -103,6 +105,47 @@ static uint32_t object_planes(const Solve *s, uint32_t i, JoxPlane *out) {
     return made;
 }
 
+/* How many half-planes of each kind, in their order, which is that of JoxPlaneKind. */
+typedef struct Counts {
+    uint32_t walls, agents, objects, force;
+} Counts;
+
+static inline Counts make_planes(const Solve *s, uint32_t i, JoxPlane *planes) {
+    const JoxAgents *a = s->agents;
+    float tau = a->param[JOX_PARAM_wall_horizon][i], radius = a->param[JOX_PARAM_radius][i];
+    Counts made = {0};
+    if (s->nav->grid.first)
+        made.walls = jox_orca_walls(
+            &s->nav->grid, (JoxV2){a->x[i], a->y[i]}, (JoxV2){a->vx[i], a->vy[i]}, radius, tau,
+            tau * a->param[JOX_PARAM_max_speed][i] + radius, planes, MOST_WALLS);
+    made.agents = agent_planes(s, i, planes + made.walls);
+    if (s->objects && s->objects->count)
+        made.objects = object_planes(s, i, planes + made.walls + made.agents);
+    made.force = a->plane_x[i] != 0.0f || a->plane_y[i] != 0.0f;
+    if (made.force)
+        planes[made.walls + made.agents + made.objects] =
+            (JoxPlane){{a->plane_x[i], a->plane_y[i]}, a->plane_offset[i]};
+    return made;
+}
+
+uint32_t jox_nav_planes(const JoxNav *nav, const JoxAgents *agents, const JoxNeighbours *neighbours,
+                        const JoxObjects *objects, double plan, uint32_t agent,
+                        JoxPlaneSeen out[JOX_MOST_PLANES]) {
+    static_assert((int)MOST == (int)JOX_MOST_PLANES, "room for all");
+    const Solve solve = {(JoxNav *)nav, (JoxAgents *)agents, neighbours, objects, (float)plan};
+    JoxPlane planes[MOST];
+    Counts made = make_planes(&solve, agent, planes);
+    const uint32_t ends[] = {made.walls, made.walls + made.agents,
+                             made.walls + made.agents + made.objects, UINT32_MAX};
+    uint32_t count = ends[2] + made.force, kind = 0;
+    for (uint32_t p = 0; p < count; p++) {
+        while (p >= ends[kind])
+            kind++;
+        out[p] = (JoxPlaneSeen){(JoxPlaneKind)kind, planes[p].normal, planes[p].offset};
+    }
+    return count;
+}
+
 static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     Solve *s = context;
@@ -110,17 +153,8 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
     uint32_t relaxations = 0;
     for (uint32_t i = begin; i < end; i++) {
         JoxPlane planes[MOST];
-        float tau = a->param[JOX_PARAM_wall_horizon][i], radius = a->param[JOX_PARAM_radius][i];
-        uint32_t hard = 0;
-        if (s->nav->grid.first)
-            hard = jox_orca_walls(
-                &s->nav->grid, (JoxV2){a->x[i], a->y[i]}, (JoxV2){a->vx[i], a->vy[i]}, radius, tau,
-                tau * a->param[JOX_PARAM_max_speed][i] + radius, planes, MOST_WALLS);
-        uint32_t count = hard + agent_planes(s, i, planes + hard);
-        if (s->objects && s->objects->count)
-            count += object_planes(s, i, planes + count);
-        if (a->plane_x[i] != 0.0f || a->plane_y[i] != 0.0f)
-            planes[count++] = (JoxPlane){{a->plane_x[i], a->plane_y[i]}, a->plane_offset[i]};
+        Counts made = make_planes(s, i, planes);
+        uint32_t hard = made.walls, count = hard + made.agents + made.objects + made.force;
         JoxV2 velocity;
         bool relaxed;
         a->failed[i] |=

@@ -285,6 +285,12 @@ void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits
 
 /* ---- figures ---- */
 
+const float *jox_danger_field(const JoxDanger *d, JoxDangerMeasure measure,
+                              const JoxDensity **grid) {
+    *grid = d->grid;
+    return measure == JOX_DANGER_PRESSURE ? d->pressure : d->density;
+}
+
 JoxDangerCount jox_danger_count(const JoxDanger *d, int limit) {
     return d->counts[limit];
 }

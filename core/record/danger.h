@@ -17,6 +17,7 @@
 
 #include "base/text.h"
 #include "geom/walls.h"
+#include "record/density.h"
 #include "record/frame.h"
 
 typedef enum JoxDangerMeasure {
@@ -75,6 +76,9 @@ typedef struct JoxDanger JoxDanger;
 JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high);
 /* Frames in ascending time; `exits` as they are then, or NULL. */
 void jox_danger_frame(JoxDanger *danger, const JoxFrame *frame, const JoxExits *exits);
+/* The field of density or pressure at the last sample, and its grid. */
+const float *jox_danger_field(const JoxDanger *danger, JoxDangerMeasure measure,
+                              const JoxDensity **grid);
 JoxDangerCount jox_danger_count(const JoxDanger *danger, int limit);
 JoxDangerMost jox_danger_most(const JoxDanger *danger, JoxDangerMeasure measure);
 /* Whether there was anything to read it from: compression is in our own recordings alone, crowd

@@ -93,6 +93,10 @@ JoxFigures jox_probe_figures(const JoxProbe *p) {
     return figures;
 }
 
+uint32_t jox_probe_passages(const JoxProbe *p) {
+    return p->def.kind == JOX_PROBE_FLOW ? jox_flow_passages(p->state) : 0;
+}
+
 void jox_probe_json(const JoxProbe *p, JoxText *out) {
     JoxFigures figures = jox_probe_figures(p);
     jox_text_add(out, "{");

@@ -30,6 +30,8 @@ bool jox_probe_is_due(const JoxProbe *probe, double t);
 void jox_probe_frame(JoxProbe *probe, const JoxFrame *frame);
 /* The figures so far. */
 JoxFigures jox_probe_figures(const JoxProbe *probe);
+/* Passages of a flow that stand so far; 0 of other kinds. */
+uint32_t jox_probe_passages(const JoxProbe *probe);
 /* Adds {"flow": 1.15, ...}. */
 void jox_probe_json(const JoxProbe *probe, JoxText *out);
 /* NAME.csv, and with a title NAME.png and NAME.svg, into a folder that is there. False with a

@@ -22,7 +22,7 @@ typedef struct Flow {
     uint32_t *latest; /* by key: the latest standing passage, plus 1 */
     uint32_t latest_capacity;
     Crossing *crossings;
-    uint32_t count, capacity, forward, back;
+    uint32_t count, capacity, forward, back, standing;
 } Flow;
 
 static void add(Flow *f, uint32_t key, int direction, double time) {
@@ -32,6 +32,7 @@ static void add(Flow *f, uint32_t key, int direction, double time) {
     uint32_t *latest = &f->latest[key];
     if (direction > 0) {
         f->forward++;
+        f->standing++;
         c->previous = *latest;
         *latest = f->count;
         return;
@@ -39,6 +40,7 @@ static void add(Flow *f, uint32_t key, int direction, double time) {
     f->back++;
     if (*latest) {
         f->crossings[*latest - 1].stands = false;
+        f->standing--;
         *latest = f->crossings[*latest - 1].previous;
     }
 }
@@ -59,6 +61,10 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
         if (direction)
             add(f, frame->key[i], direction, time);
     }
+}
+
+uint32_t jox_flow_passages(const void *state) {
+    return ((const Flow *)state)->standing;
 }
 
 /* Times of the passages that stand, ascending; to be freed. */

@@ -36,6 +36,8 @@ extern const JoxProbeCalls jox_probe_flow, jox_probe_measure, jox_probe_transit,
     jox_probe_displacement, jox_probe_map, jox_probe_winding, jox_probe_failures, jox_probe_lanes,
     jox_probe_visit;
 
+/* probe_flow.c: passages that stand so far, of a flow's state. */
+uint32_t jox_flow_passages(const void *state);
 void jox_figure_add(JoxFigures *figures, const char *name, const char *unit, double value);
 /* Linear between ranks; q within 0..1. Sorts the values. NAN of none. */
 double jox_quantile(double *values, size_t count, double q);

@@ -180,7 +180,10 @@ static const char SCHEMA[] =
     "CREATE TABLE jostle_group(number INTEGER PRIMARY KEY, name TEXT);"
     "CREATE TABLE jostle_state(number INTEGER PRIMARY KEY, machine TEXT, state TEXT);"
     "CREATE TABLE jostle_body(frame INTEGER, id INTEGER, x REAL, y REAL, z REAL, qx REAL, qy REAL,"
-    " qz REAL, qw REAL);";
+    " qz REAL, qw REAL);"
+    "CREATE TABLE jostle_part(frame INTEGER, id INTEGER, part INTEGER, kind INTEGER, size_x REAL,"
+    " size_y REAL, size_z REAL, x REAL, y REAL, z REAL, qx REAL, qy REAL, qz REAL, qw REAL,"
+    " corners TEXT, PRIMARY KEY(id, frame, part));";
 
 static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
     sqlite3_stmt *geometry = NULL;
@@ -281,6 +284,34 @@ void jox_recorder_group(JoxRecorder *r, uint32_t number, const char *name) {
         sqlite3_finalize(statement);
     }
     pthread_mutex_unlock(&r->lock);
+}
+
+void jox_recorder_part(JoxRecorder *r, uint32_t frame, uint32_t body, uint32_t part,
+                       const JoxBodyLook *look) {
+    const float numbers[] = {look->size[0], look->size[1], look->size[2], look->at.x,
+                             look->at.y,    look->at.z,    look->turn[0], look->turn[1],
+                             look->turn[2], look->turn[3]};
+    JoxText corners = {0};
+    for (uint32_t c = 0; c < look->corner_count; c++)
+        jox_text_printf(&corners, "%s%.6g %.6g %.6g", c ? ", " : "", (double)look->corners[c].x,
+                        (double)look->corners[c].y, (double)look->corners[c].z);
+    sqlite3_stmt *statement;
+    pthread_mutex_lock(&r->lock);
+    while (r->count > 0)
+        pthread_cond_wait(&r->emptied, &r->lock);
+    if (prepare(r, &statement,
+                "INSERT OR REPLACE INTO jostle_part VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")) {
+        const uint32_t whole[] = {frame, body, part, (uint32_t)look->kind};
+        for (int k = 0; k < 4; k++)
+            sqlite3_bind_int64(statement, 1 + k, whole[k]);
+        for (int k = 0; k < 10; k++)
+            sqlite3_bind_double(statement, 5 + k, (double)numbers[k]);
+        sqlite3_bind_text(statement, 15, corners.data, -1, SQLITE_STATIC);
+        put(r, statement);
+        sqlite3_finalize(statement);
+    }
+    pthread_mutex_unlock(&r->lock);
+    jox_text_free(&corners);
 }
 
 JoxRecordRow *jox_recorder_take(JoxRecorder *r, uint32_t rows, uint32_t bodies,

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "base/text.h"
+#include "body/body.h"
 #include "geom/walls.h"
 
 typedef struct JoxRecorder JoxRecorder;
@@ -34,6 +35,9 @@ void jox_recorder_state(JoxRecorder *recorder, uint32_t number, const char *mach
                         const char *state);
 /* Names a group of agents; before the first frame. */
 void jox_recorder_group(JoxRecorder *recorder, uint32_t number, const char *name);
+/* A part of a body as it is from a frame on: all its parts are given again whenever one changes. */
+void jox_recorder_part(JoxRecorder *recorder, uint32_t frame, uint32_t body, uint32_t part,
+                       const JoxBodyLook *look);
 /* Room for a frame of so many rows, to be filled and given back by jox_recorder_put. Waits while
    the writer is more than a few frames behind: nothing is dropped. */
 JoxRecordRow *jox_recorder_take(JoxRecorder *recorder, uint32_t rows, uint32_t bodies,

@@ -70,6 +70,9 @@ static void permute(JoxTrajectories *t, const Place *places) {
     PERMUTE(force)
     PERMUTE(compression)
     PERMUTE(group)
+    PERMUTE(state)
+    PERMUTE(face_x)
+    PERMUTE(face_y)
 }
 
 /* Whether every frame has a time that the probes can count in; else false with an error. */
@@ -155,7 +158,7 @@ static void measure_velocities(JoxTrajectories *t, const Place *places) {
     }
 }
 
-static bool is_sqlite(const char *path) {
+bool jox_is_sqlite(const char *path) {
     char start[16] = "";
     FILE *file = fopen(path, "rb");
     size_t got = file ? fread(start, 1, sizeof start, file) : 0;
@@ -184,8 +187,8 @@ JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOpti
                                        JoxDiagnostics *diagnostics) {
     JoxTrajectories *t = jox_alloc(1, sizeof *t);
     t->period = options->period;
-    bool good = is_sqlite(path) ? jox_trajectories_sqlite(t, path, options, diagnostics)
-                                : read_text(t, path, options, diagnostics);
+    bool good = jox_is_sqlite(path) ? jox_trajectories_sqlite(t, path, options, diagnostics)
+                                    : read_text(t, path, options, diagnostics);
     good = good && check_times(t, path, diagnostics);
     Place *places = good ? jox_alloc(t->count, sizeof *places) : NULL;
     good = good && sort(t, places, path, diagnostics);
@@ -229,20 +232,27 @@ bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out)
                       .compression = t->compression ? t->compression + first : NULL,
                       .group = t->group ? t->group + first : NULL,
                       .groups = (const char *const *)t->groups,
-                      .group_count = t->group_count};
+                      .group_count = t->group_count,
+                      .state = t->state ? t->state + first : NULL,
+                      .states = (const char *const *)t->states,
+                      .state_count = t->state_count};
     return true;
 }
 
 void jox_trajectories_free(JoxTrajectories *t) {
     if (!t)
         return;
-    void *columns[] = {t->number, t->id, t->line,  t->key,         t->x,     t->y,
-                       t->vx,     t->vy, t->force, t->compression, t->group, t->first};
+    void *columns[] = {t->number, t->id,    t->line,  t->key,    t->x,
+                       t->y,      t->vx,    t->vy,    t->force,  t->compression,
+                       t->group,  t->first, t->state, t->face_x, t->face_y};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         jox_free(columns[c]);
     for (uint32_t g = 0; g < t->group_count; g++)
         jox_free(t->groups[g]);
     jox_free(t->groups);
+    for (uint32_t s = 0; s < t->state_count; s++)
+        jox_free(t->states[s]);
+    jox_free(t->states);
     jox_walls_free(&t->walls);
     jox_free(t);
 }

@@ -12,9 +12,10 @@
 #include "record/frame.h"
 
 typedef struct JoxTrajectoryOptions {
-    double fps;   /* frames a second; 0: the file says it */
-    double unit;  /* m: length of the file's unit; 0: the file says it */
-    JoxV2 period; /* m: of periodic edges; 0 without */
+    double fps;             /* frames a second; 0: the file says it */
+    double unit;            /* m: length of the file's unit; 0: the file says it */
+    JoxV2 period;           /* m: of periodic edges; 0 without */
+    const char *fps_option; /* what gives `fps`, for hints; NULL: "--fps 25" */
 } JoxTrajectoryOptions;
 
 /* Rows by frame, then by person. */
@@ -27,8 +28,12 @@ typedef struct JoxTrajectories {
     uint16_t *group;            /* NULL unless recorded */
     char **groups;              /* names */
     uint32_t group_count;
-    int64_t *id;    /* as in the file; freed, with `line`, once it is read */
-    uint32_t *line; /* of a text file */
+    uint32_t *state; /* rows of `states`; NULL unless recorded */
+    char **states;   /* names; the first, "", is of who has no machine */
+    uint32_t state_count;
+    float *face_x, *face_y; /* unit vectors along which people look; NULL unless recorded */
+    int64_t *id;            /* as in the file; freed, with `line`, once it is read */
+    uint32_t *line;         /* of a text file */
     size_t count, capacity;
     size_t *first; /* row at which each frame begins; one more at the end */
     uint32_t frame_count, keys, people;
@@ -52,6 +57,11 @@ bool jox_trajectories_text(JoxTrajectories *t, const char *path, const char *tex
                            const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics);
 bool jox_trajectories_sqlite(JoxTrajectories *t, const char *path,
                              const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics);
+/* Walls and groups alone, of an open file (sqlite3 *). */
+struct sqlite3;
+void jox_trajectories_plan(JoxTrajectories *t, struct sqlite3 *db);
+/* Whether a file begins as SQLite files do. */
+bool jox_is_sqlite(const char *path);
 /* Room for one more row; its number, by which the columns are filled. */
 size_t jox_trajectories_add(JoxTrajectories *t);
 

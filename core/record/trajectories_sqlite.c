@@ -76,20 +76,68 @@ static void read_groups(JoxTrajectories *t, sqlite3 *db) {
     sqlite3_finalize(statement);
 }
 
-/* Rows, with force, compression and group where the recording is one of ours: then both tables have
-   been written row by row. */
+void jox_trajectories_plan(JoxTrajectories *t, sqlite3 *db) {
+    read_geometry(t, db);
+    read_groups(t, db);
+}
+
+/* Names of states, and the numbers that they have in the recording, `numbers`, ascending; the first
+   name is that of people without a machine. */
+static int64_t *read_states(JoxTrajectories *t, sqlite3 *db) {
+    sqlite3_stmt *statement =
+        ask(db, "SELECT number, machine, state, (SELECT COUNT(DISTINCT machine) FROM jostle_state) "
+                "FROM jostle_state ORDER BY number");
+    uint32_t capacity = 0, room = 0;
+    int64_t *numbers = NULL;
+    while (statement && sqlite3_step(statement) == SQLITE_ROW) {
+        const char *machine = (const char *)sqlite3_column_text(statement, 1);
+        const char *state = (const char *)sqlite3_column_text(statement, 2);
+        JoxText name = {0};
+        JOX_RESERVE(t->states, capacity, t->state_count + 2);
+        JOX_RESERVE(numbers, room, t->state_count + 2);
+        if (t->state_count == 0) {
+            numbers[0] = INT64_MIN;
+            t->states[t->state_count++] = jox_strdup("");
+        }
+        if (machine && sqlite3_column_int64(statement, 3) > 1)
+            jox_text_printf(&name, "%s: ", machine);
+        jox_text_add(&name, state ? state : "");
+        numbers[t->state_count] = sqlite3_column_int64(statement, 0);
+        t->states[t->state_count++] = name.data ? name.data : jox_strdup("");
+    }
+    sqlite3_finalize(statement);
+    return numbers;
+}
+
+/* The row of the state with a number; that of nobody's where there is none. */
+static uint32_t find_state(const JoxTrajectories *t, const int64_t *numbers, int64_t number) {
+    uint32_t low = 0, high = t->state_count;
+    while (low + 1 < high) {
+        uint32_t middle = (low + high) / 2;
+        if (numbers[middle] <= number)
+            low = middle;
+        else
+            high = middle;
+    }
+    return numbers[low] == number ? low : 0;
+}
+
+/* Rows, with force, compression, group, state and heading where the recording is one of ours: then
+   both tables have been written row by row. */
 static bool read_rows(JoxTrajectories *t, sqlite3 *db, JoxDiagnostics *diagnostics,
                       const char *path) {
     sqlite3_stmt *rows =
-        ask(db, "SELECT d.frame, d.id, d.pos_x, d.pos_y, a.force, a.compression, a.member "
-                "FROM trajectory_data d LEFT JOIN jostle_agent a ON a.rowid = d.rowid");
+        ask(db, "SELECT d.frame, d.id, d.pos_x, d.pos_y, a.force, a.compression, a.member, "
+                "a.state, d.ori_x, d.ori_y FROM trajectory_data d LEFT JOIN jostle_agent a ON "
+                "a.rowid = d.rowid");
     bool ours = rows != NULL, good = true;
     if (!ours)
         rows = ask(db, "SELECT frame, id, pos_x, pos_y FROM trajectory_data");
     if (!rows)
         return fail(diagnostics, path, "It must be of the JuPedSim format: a table trajectory_data",
                     sqlite3_errmsg(db));
-    size_t capacities[3] = {0};
+    int64_t *numbers = ours ? read_states(t, db) : NULL;
+    size_t capacities[6] = {0};
     int status;
     while ((status = sqlite3_step(rows)) == SQLITE_ROW && good) {
         double x = sqlite3_column_double(rows, 2), y = sqlite3_column_double(rows, 3);
@@ -109,7 +157,16 @@ static bool read_rows(JoxTrajectories *t, sqlite3 *db, JoxDiagnostics *diagnosti
         t->force[row] = (float)sqlite3_column_double(rows, 4);
         t->compression[row] = (float)sqlite3_column_double(rows, 5);
         t->group[row] = (uint16_t)sqlite3_column_int64(rows, 6);
+        JOX_RESERVE(t->face_x, capacities[3], row + 1);
+        JOX_RESERVE(t->face_y, capacities[4], row + 1);
+        t->face_x[row] = (float)sqlite3_column_double(rows, 8);
+        t->face_y[row] = (float)sqlite3_column_double(rows, 9);
+        if (!numbers)
+            continue;
+        JOX_RESERVE(t->state, capacities[5], row + 1);
+        t->state[row] = find_state(t, numbers, sqlite3_column_int64(rows, 7));
     }
+    jox_free(numbers);
     sqlite3_finalize(rows);
     if (!good)
         return fail(diagnostics, path, NULL, "somebody is more than 1000 km from the origin");
@@ -130,11 +187,10 @@ bool jox_trajectories_sqlite(JoxTrajectories *t, const char *path,
                      ? options->fps
                      : ask_number(db, "SELECT CAST(value AS REAL) FROM metadata WHERE key = 'fps'");
         if (!(t->fps > 0.0 && t->fps <= 1e5))
-            good = fail(diagnostics, path, "--fps 25",
+            good = fail(diagnostics, path, options->fps_option ? options->fps_option : "--fps 25",
                         "this recording does not say how many frames a second it has");
         t->last = (int64_t)ask_number(db, "SELECT MAX(frame) FROM frame_data");
-        read_geometry(t, db);
-        read_groups(t, db);
+        jox_trajectories_plan(t, db);
     }
     sqlite3_close(db);
     return good;

@@ -221,7 +221,8 @@ static bool settle(Text *r, const JoxTrajectoryOptions *options) {
     if (t->count == 0)
         jox_diag_error(r->diagnostics, at, "bad-recording", NULL, "nobody is in this recording");
     else if (t->fps <= 0.0)
-        jox_diag_error(r->diagnostics, at, "no-frame-rate", "--fps 25",
+        jox_diag_error(r->diagnostics, at, "no-frame-rate",
+                       options->fps_option ? options->fps_option : "--fps 25",
                        "this recording does not say how many frames a second it has");
     else if (unit <= 0.0)
         jox_diag_error(r->diagnostics, at, "no-unit", "--unit m, or --unit cm",

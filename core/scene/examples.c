@@ -20,6 +20,7 @@ const JoxExample jox_scene_examples[] = {
      "limits: {memory: 16 MB}\n"
      "heatmap: {from: 5}\n"
      "camera: {position: [0, -15, 12], target: [0, 0, 0]}\n"
+     "view: {tools: [throw, drag, push]}\n"
      "places: {door: {line: [[10, -1], [10, 1]]}}\n"
      "regions: {middle: [[-2, -2], [2, -2], [2, 2], [-2, 2]]}\n"
      "walls: [{line: [[-10, -5], [10, -5]]}]\n"
@@ -41,6 +42,9 @@ const JoxExample jox_scene_examples[] = {
      STANDER},
     {"camera", OPENING
      "camera: {position: [0, -20, 15], target: [0, 0, 1]}\n"
+     STANDER},
+    {"view", OPENING
+     "view: {tools: [push, parameters], colour: compression, field: density}\n"
      STANDER},
     {"place", OPENING
      "places:\n"

@@ -40,6 +40,8 @@ JoxV2 *jox_load_ring(const JoxLoad *load, const JoxYaml *node, uint32_t *count);
 /* events.c: walls; events, after walls and bodies. */
 void jox_load_walls(JoxLoad *load, const JoxYaml *list);
 void jox_load_events(JoxLoad *load, const JoxYaml *list);
+/* view.c: camera, view. */
+void jox_load_view(const JoxLoad *load, const JoxYaml *root);
 /* shapes.c */
 void jox_load_bodies(JoxLoad *load, const JoxYaml *list);
 

@@ -110,8 +110,16 @@ static void contents(const JoxKey *key, size_t length, JoxText *out) {
     }
 }
 
-static void type_of(const JoxKey *key, JoxText *out) {
+/* The key's fixed values. */
+static void choices(const JoxKey *key, JoxText *out) {
     char name[64];
+    jox_text_add(out, "\"enum\": [");
+    for (int i = 0; jox_choice_name(key->choices, i, name, sizeof name); i++)
+        jox_text_printf(out, "%s\"%s\"", i ? ", " : "", name);
+    jox_text_add(out, "]");
+}
+
+static void type_of(const JoxKey *key, JoxText *out) {
     if (key->of) {
         contents(key, strlen(key->of), out);
         return;
@@ -132,6 +140,14 @@ static void type_of(const JoxKey *key, JoxText *out) {
         vector(key, key->type == JOX_TYPE_POINT ? 2 : 3, out);
         return;
     case JOX_TYPE_NAMES:
+        if (key->choices) {
+            jox_text_add(out, "\"anyOf\": [{");
+            choices(key, out);
+            jox_text_add(out, "}, {\"type\": \"array\", \"items\": {");
+            choices(key, out);
+            jox_text_add(out, "}}]");
+            return;
+        }
         jox_text_add(out, "\"anyOf\": [{\"$ref\": \"#/definitions/name\"}, "
                           "{\"type\": \"array\", \"items\": {\"$ref\": \"#/definitions/name\"}}]");
         return;
@@ -142,10 +158,7 @@ static void type_of(const JoxKey *key, JoxText *out) {
         jox_text_add(out, "\"type\": [\"string\", \"number\"]"); /* a title may be 1984 */
         return;
     }
-    jox_text_add(out, "\"enum\": [");
-    for (int i = 0; jox_choice_name(key->choices, i, name, sizeof name); i++)
-        jox_text_printf(out, "%s\"%s\"", i ? ", " : "", name);
-    jox_text_add(out, "]");
+    choices(key, out);
 }
 
 static void property(const JoxKey *key, JoxText *out) {

@@ -30,7 +30,7 @@ const JoxKey jox_scene_keys[] = {
     {"scene", "periodic", TEXT, "", 0, 0, "none", .choices = "none|x|y|both",
      .meaning = "axes along which the bounds are joined: who leaves at one edge comes in at the other"},
     {"scene", "input", TEXT, "", 0, 0, "",
-     .meaning = "file of the input log that drives player agents"},
+     .meaning = "file of an input log that is played (see input.md)"},
     {"scene", "player", TEXT, "", 0, 0, "",
      .meaning = "group whose first agent a person drives"},
     {"scene", "mods", TABLE, "", 0, 0, "", .of = "quantity**",
@@ -45,6 +45,8 @@ const JoxKey jox_scene_keys[] = {
      .meaning = "area and time of the density map"},
     {"scene", "camera", TABLE, "", 0, 0, "", .of = "camera",
      .meaning = "where one looks from"},
+    {"scene", "view", TABLE, "", 0, 0, "", .of = "view",
+     .meaning = "what the live page shows first, and what people may do there"},
     {"scene", "places", TABLE, "", 0, 0, "", .of = "place*",
      .meaning = "what behaviours and groups know by name"},
     {"scene", "regions", TABLE, "", 0, 0, "", .of = "xy[3]*",
@@ -78,6 +80,12 @@ const JoxKey jox_scene_keys[] = {
     {"heatmap", "from", NUMBER, "s", 0, 1e6, "0", .meaning = "averages begin then"},
     {"camera", "position", POINT3, "m", -FAR, FAR, "", .meaning = "where the eye is"},
     {"camera", "target", POINT3, "m", -FAR, FAR, "", .meaning = "what it looks at"},
+    {"view", "tools", NAMES, "", 0, 0, "", .choices = "throw|drag|push|gates|parameters|signals|player",
+     .meaning = "what people may do: throw boxes, drag bodies, push people, open and close gates, change parameters of behaviours, give signals, drive the player; default: the last four"},
+    {"view", "colour", TEXT, "", 0, 0, "state", .choices = "state|speed|force|compression|density|group",
+     .meaning = "what people are coloured by"},
+    {"view", "field", TEXT, "", 0, 0, "none", .choices = "density|pressure|none",
+     .meaning = "what the floor shows"},
 
     {"place", "point", POINT, "m", -FAR, FAR, "", .meaning = "its middle"},
     {"place", "radius", NUMBER, "m", 0.01, 1000, "0.5",
@@ -271,7 +279,9 @@ const JoxOwner jox_scene_owners[] = {
     {"forces", "forces", "What pushes between agents do."},
     {"limits", "limits", "A script that needs more is stopped and named; the run goes on."},
     {"heatmap", "heatmap", "What the density map of a report shows."},
-    {"camera", "camera", "For programs that draw the scene; the simulation does not use it."},
+    {"camera", "camera", "Of the live page and of pictures; the simulation does not use it."},
+    {"view", "view", "Of the live page, `jostle run SCENE --view`; the simulation does not use it. A tool is "
+     "offered where there is something to use it on: gates that have names, signals that somebody hears, a `player`."},
     {"place", "Places", "`places` maps names to places. There are five kinds, told apart by their key:"},
     {"wall", "Walls", "Each wall of the list `walls` is a `solid`, a `line` or a `file`. In a file, a "
      "POLYGON is what can be walked: its outer ring and its holes become walls; so do MULTIPOLYGON, LINESTRING, "

@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/elementary.h"
 #include "base/mem.h"
+#include "base/overlay.h"
 #include "scene/internal.h"
 
 static const double DEGREE = 3.14159265358979323846 / 180.0;
@@ -176,11 +176,6 @@ static void read_regions(JoxLoad *l, const JoxYaml *map) {
 
 /* ---- groups ---- */
 
-static bool exists(const char *path) {
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISREG(info.st_mode);
-}
-
 /* The behaviour's file: beside the scene, in ../behaviours, or installed; NULL with an error. */
 static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition position) {
     JoxHoard *hoard = l->reader.hoard;
@@ -195,7 +190,7 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
             continue;
         snprintf(relative, sizeof relative, "%.300s/behaviours/%.150s%s", mod->folder, colon + 1,
                  lua);
-        if (!strstr(colon, "..") && exists(relative))
+        if (!strstr(colon, "..") && jox_is_file(relative))
             return jox_hoard_text(hoard, relative);
     }
     const char *forms[] = {"%.400s%s", "../behaviours/%.400s%s", "%s/behaviours/%.300s%s"};
@@ -206,7 +201,7 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
             snprintf(relative, sizeof relative, "%s/behaviours/%.300s%s",
                      l->datadir ? l->datadir : JOX_DATADIR, name, lua);
         char *path = jox_path_beside(hoard, from, relative);
-        if (exists(path)) {
+        if (jox_is_file(path)) {
             jox_path_clean(path);
             return path;
         }
@@ -487,9 +482,7 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
         s->heatmap = jox_load_box(l, jox_yaml_get(map, "area"), &s->heatmap_low, &s->heatmap_high);
         s->heatmap_from = jox_key_number(r, map, "heatmap", "from");
     }
-    if ((map = jox_yaml_get(root, "camera")) && jox_keys_check(r, map, "camera"))
-        s->camera.given = jox_key_vector(r, map, "camera", "position", s->camera.position, 3) &&
-                          jox_key_vector(r, map, "camera", "target", s->camera.target, 3);
+    jox_load_view(l, root);
 }
 
 /* Whether a key holds something, right or wrong: what is wrong is reported where it is read. */

@@ -88,6 +88,23 @@ typedef struct JoxSceneBody {
     JoxPosition position;
 } JoxSceneBody;
 
+/* What people may do to the running scene on its live page. */
+#define JOX_TOOLS(X)                                                                               \
+    X(THROW, "throw")                                                                              \
+    X(DRAG, "drag")                                                                                \
+    X(PUSH, "push")                                                                                \
+    X(GATES, "gates")                                                                              \
+    X(PARAMETERS, "parameters")                                                                    \
+    X(SIGNALS, "signals")                                                                          \
+    X(PLAYER, "player")
+typedef enum JoxTool {
+#define X(tool, name) JOX_TOOL_##tool,
+    JOX_TOOLS(X)
+#undef X
+        JOX_TOOL_COUNT
+} JoxTool;
+extern const char *const jox_scene_tools[JOX_TOOL_COUNT]; /* names */
+
 typedef enum JoxSceneEventKind {
     JOX_EVENT_THROW,
     JOX_EVENT_OPEN,
@@ -153,6 +170,11 @@ typedef struct JoxScene {
         double position[3], target[3];
         bool given;
     } camera;
+    struct {
+        uint32_t tools; /* bit per JoxTool */
+        int colour;     /* which of the key's choices, in their order */
+        int field;
+    } view;
     struct {
         bool given;                             /* else the host's defaults hold */
         double instructions, step_instructions; /* of a call, of all calls in a step */

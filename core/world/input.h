@@ -1,16 +1,57 @@
-/* The input log: what people did, with the tick at which it took effect. Played back, it drives a
-   run to the same state. Text, one entry a line, '#' starts a comment:
-       TICK player AGENT VX VY      from TICK on, the player's agent wants this velocity, m/s
-   Ticks never decrease. */
+/* The input log: what people did to a running scene, with the step in which it took effect. Played
+   back, it drives a run to the same state. Text, one entry a line: TICK VERB ..., with the verbs of
+   verbs.c; '#' starts a comment; a name with blanks stands in double quotes, where \" and \\ are a
+   quote and a backslash. Ticks count steps from 0 and never decrease. Behind `before N` and
+   `files N` follow N files: a line PATH BYTES, the bytes, the end of a line. */
 #ifndef JOX_WORLD_INPUT_H
 #define JOX_WORLD_INPUT_H
 
 #include "base/diag.h"
 #include "machine/mind.h"
 
+typedef enum JoxInputVerb {
+    JOX_INPUT_PLAYER,
+    JOX_INPUT_THROW,
+    JOX_INPUT_BOX,
+    JOX_INPUT_GRAB,
+    JOX_INPUT_DRAG,
+    JOX_INPUT_RELEASE,
+    JOX_INPUT_PUSH,
+    JOX_INPUT_OPEN,
+    JOX_INPUT_CLOSE,
+    JOX_INPUT_SIGNAL,
+    JOX_INPUT_SET,
+    JOX_INPUT_BEGAN,
+    JOX_INPUT_MADE,
+    JOX_INPUT_BEFORE,
+    JOX_INPUT_FILES,
+    JOX_INPUT_VERBS
+} JoxInputVerb;
+
+enum {
+    JOX_INPUT_NUMBERS = 9,
+    JOX_INPUT_NAMES = 3,
+    JOX_INPUT_NAME = 120,
+    JOX_INPUT_PATH = 1000,
+    JOX_INPUT_FILE_COUNT = 1024
+};
+
+/* The whole text of a file. */
+typedef struct JoxInputFile {
+    char *path, *text;
+    size_t length;
+} JoxInputFile;
+
 typedef struct JoxInputEntry {
-    uint32_t tick, agent_id;
-    float vx, vy;
+    uint32_t tick;
+    JoxInputVerb verb;
+    uint32_t number;                   /* of an agent, the row of a body, or how many files */
+    char *names[JOX_INPUT_NAMES];      /* in the order of the line; NULL: none */
+    double numbers[JOX_INPUT_NUMBERS]; /* likewise */
+    uint32_t given;                    /* how many numbers the line has */
+    bool here;                         /* throw: from where the body lies */
+    JoxInputFile *files;               /* `number` of them */
+    int line;                          /* of the log; 0: did not come from one */
 } JoxInputEntry;
 
 /* Zero-initialised is empty. */
@@ -27,9 +68,17 @@ typedef struct JoxInputLog {
 /* Appends the entries of `text`; every wrong line is an error of `file`. */
 bool jox_input_parse(JoxInputLog *log, const char *file, const char *text, size_t length,
                      JoxDiagnostics *diagnostics);
+/* Reads one line without its tick, and no files. False with what is wrong and the way out. */
+bool jox_input_read(const char *line, JoxInputEntry *entry, JoxText *wrong);
+/* Appends the entry as jox_input_parse reads it back, bit for bit. */
+void jox_input_write(const JoxInputEntry *entry, JoxText *out);
+/* The log takes the entry over. */
 void jox_input_add(JoxInputLog *log, JoxInputEntry entry);
-/* Lets all entries up to `tick` take effect. */
-void jox_input_advance(JoxInputLog *log, uint32_t tick);
+/* The next entry that takes effect at `tick` or did not before; NULL where there is none. */
+const JoxInputEntry *jox_input_next(JoxInputLog *log, uint64_t tick);
+/* From here on the player of the agent with this id wants that velocity, m/s. */
+void jox_input_player(JoxInputLog *log, uint32_t agent_id, float vx, float vy);
+void jox_input_entry_free(JoxInputEntry *entry);
 void jox_input_free(JoxInputLog *log);
 
 #endif

@@ -24,7 +24,6 @@ static bool is_last(const JoWorld *w) {
 static void perceive(JoWorld *w) {
     if (is_first(w)) {
         jox_nav_sort(w->nav, &w->agents, w->tick);
-        jox_input_advance(&w->input, (uint32_t)w->tick);
         if (w->agents.count)
             memset(w->agents.failed, 0, w->agents.count);
     }
@@ -71,6 +70,8 @@ static void push(JoWorld *w) {
         jox_force_contact(w->forces);
     }
     jox_force_sum(w->forces);
+    if (w->inspection.count)
+        jox_inspect_pushed(w);
     for (uint32_t i = 0; is_last(w) && i < w->agents.count; i++) /* given for this step alone */
         w->agents.ext_x[i] = w->agents.ext_y[i] = 0.0f;
 }
@@ -78,6 +79,8 @@ static void push(JoWorld *w) {
 static void solve(JoWorld *w) {
     w->statistics.walls_relaxed +=
         jox_nav_solve(w->nav, &w->agents, &w->neighbours, &w->objects, w->plan, w->pool);
+    if (w->inspection.count)
+        jox_inspect_solved(w);
 }
 
 static void move(JoWorld *w) {
@@ -153,6 +156,7 @@ static void bodies(JoWorld *w) {
         return;
     if (is_first(w))
         jox_world_grip(w);
+    jox_world_pull(w);
     uint32_t count;
     const JoxImpulse *impulses = jox_force_impulses(w->forces, &count);
     if (!w->statistics.bonds.touched)
@@ -175,6 +179,8 @@ static void bodies(JoWorld *w) {
 static void infer(JoWorld *w) {
     if (w->def.forces)
         jox_force_infer(w->forces);
+    if (w->inspection.count)
+        jox_inspect_inferred(w);
 }
 
 static void observe(JoWorld *w) {
@@ -210,6 +216,7 @@ void jox_world_step(JoWorld *w) {
         perceive, think, prefer, push, solve, move, bodies, infer, observe};
     double begin = jox_clock_wall(), cpu = jox_clock_cpu(), last = begin;
     jox_world_settle(w);
+    jox_inspect_expire(w);
     divide(w);
     w->gone_count = 0;
     for (w->part = 0; w->part < w->parts; w->part++)

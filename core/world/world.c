@@ -47,6 +47,7 @@ void jo_world_free(JoWorld *world) {
     jox_walls_free(&world->wall_plan);
     jox_walls_free(&world->walls);
     jox_input_free(&world->input);
+    jox_inspection_free(&world->inspection);
     jox_free(world->neighbours.index);
     jox_free(world->neighbours.distance2);
     jox_free(world->neighbours.count);
@@ -128,6 +129,7 @@ uint64_t jox_world_hash(const JoWorld *world) {
         if (a->id_index[id] != JOX_NO_INDEX)
             hash_agent(&hash, &world->mind, a->id_index[id]);
     jox_bodies_hash(world->bodies, &hash);
+    jox_hands_hash(&world->hands, &hash);
     if (world->mind.called_count) /* what will be heard in the next step */
         jox_hash_add(&hash, world->mind.called,
                      world->mind.called_count * sizeof *world->mind.called);

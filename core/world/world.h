@@ -14,7 +14,9 @@
 #include "jostle.h"
 #include "machine/mind.h"
 #include "nav/nav.h"
+#include "world/hands.h"
 #include "world/input.h"
+#include "world/inspected.h"
 #include "world/statistics.h"
 #include "world/ways.h"
 
@@ -41,6 +43,8 @@ struct JoWorld {
     JoxForces *forces;
     JoxBodies *bodies;
     JoxObjects objects; /* what agents see of the bodies */
+    JoxHands hands;
+    JoxInspection inspection;
 
     JoxWays *ways;
 
@@ -89,6 +93,25 @@ void jox_world_grip(JoWorld *world);
    and rad/s. Who carries it loses it. False for a static body or none. */
 bool jox_world_throw(JoWorld *world, uint32_t row, const double from[3], const double velocity[3],
                      const double spin[3]);
+/* A new cube, at its centre (m; lifted where it would be in the ground), with its velocity (m/s),
+   edge (m) and mass (kg). With JOX_MOST_BOXES there already the oldest of them is taken out.
+   Returns its row, or JOX_NO_BODY with a sentence in `why`. */
+uint32_t jox_world_add_box(JoWorld *world, const double at[3], const double velocity[3],
+                           double size, double mass, JoxText *why);
+/* From here on pulls a body's centre of mass towards a point, m; who carries it loses it. Unless
+   `anew` it is to be pulled already. */
+typedef enum JoxGrabbed {
+    JOX_GRAB_DONE,
+    JOX_GRAB_NONE,   /* there is no such body */
+    JOX_GRAB_STATIC, /* it never moves */
+    JOX_GRAB_FREE,   /* it is not pulled */
+    JOX_GRAB_FULL    /* JOX_MOST_GRABS are */
+} JoxGrabbed;
+JoxGrabbed jox_world_grab(JoWorld *world, uint32_t row, const double to[3], bool anew);
+/* False where it is not pulled. */
+bool jox_world_release(JoWorld *world, uint32_t row);
+/* In a step: gives the bodies that are pulled their forces. */
+void jox_world_pull(JoWorld *world);
 /* In a step: who is before a glued body or touches it; what broke. */
 void jox_world_note_touch(JoWorld *world);
 void jox_world_note_breaks(JoWorld *world, const JoxBodiesReport *report);

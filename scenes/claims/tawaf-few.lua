@@ -23,7 +23,7 @@ return claim {
       set = { ["heatmap.from"] = 300, ["probes.fields.from"] = 300 } },
   },
   quick = {
-    tawaf = { seeds = 1, duration = 160, set = { ["heatmap.from"] = 100, ["probes.fields.from"] = 100 } },
+    tawaf = { seeds = 1, duration = 100, set = { ["heatmap.from"] = 60, ["probes.fields.from"] = 60 } },
     few = { set = { ["groups.pilgrims.count"] = 300, ["sources.0.keep"] = 300 } },
   },
   measure = function(run)

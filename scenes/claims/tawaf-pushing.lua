@@ -9,10 +9,7 @@ return claim {
     pushing = { scene = "../tawaf-pushing.yaml", seeds = 3, first = true,
       set = { ["heatmap.from"] = 300, ["probes.fields.from"] = 300 } },
   },
-  quick = {
-    tawaf = { seeds = 1, duration = 160, set = { ["heatmap.from"] = 100, ["probes.fields.from"] = 100 } },
-    pushing = { seeds = 1, duration = 160, set = { ["heatmap.from"] = 100, ["probes.fields.from"] = 100 } },
-  },
+  quick = false,
   measure = function(run)
     local before, after = run.tawaf.summary.regions, run.pushing.summary.regions
     local sum, least = 0, math.huge

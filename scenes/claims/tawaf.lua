@@ -31,7 +31,7 @@ return claim {
     .. "line is the slowest, the one before it the second.",
   runs = { tawaf = { scene = "../tawaf.yaml", seeds = 3, first = true,
     set = { ["heatmap.from"] = 300, ["probes.fields.from"] = 300 } } },
-  quick = { tawaf = { seeds = 1, duration = 160, set = { ["heatmap.from"] = 100, ["probes.fields.from"] = 100 } } },
+  quick = { tawaf = { seeds = 1, duration = 100, set = { ["heatmap.from"] = 60, ["probes.fields.from"] = 60 } } },
   measure = function(run)
     local summary = run.tawaf.summary
     local r, list = summary.regions, {}

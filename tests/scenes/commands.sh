@@ -27,6 +27,13 @@ expect "profile of functions" 0 "state Touch > on_exit" "$JOSTLE" run scenes/taw
 expect "reference of behaviours" 0 "### Conditions" "$JOSTLE" reference behaviours
 expect "reference: what?" 2 "there is no 'plants'" "$JOSTLE" reference plants
 expect "check --json" 3 '"code":"unreadable-file"' "$JOSTLE" check no-such.lua --json
+expect "view: no recording" 2 "no recording given" "$JOSTLE" view
+expect "view: missing recording" 3 "cannot be read" "$JOSTLE" view no-such.sqlite
+printf 'SQLite format 3\0%512s' x >"$work/no.sqlite"
+expect "view: no recording at all" 3 "is not a database" "$JOSTLE" view "$work/no.sqlite"
+expect "view: a scene is no recording" 3 "scenes/circle.yaml" "$JOSTLE" view scenes/circle.yaml
+expect "view: missing scene" 3 "no-such.yaml" "$JOSTLE" view no-such.sqlite --scene no-such.yaml
+expect "view: bad option" 2 "Did you mean --scene" "$JOSTLE" view x.sqlite --scen y
 expect "bench" 0 "running-through" "$JOSTLE" bench scenes/running-through.yaml --steps 10 --warm-up 5
 "$JOSTLE" run scenes/running-through.yaml --quiet --seeds 3 --for 2 --summary "$work/seeds.json"
 (root=$PWD; cd "$work" && "$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$root/$JOSTLE" ;; esac)" run "$root/scenes/running-through.yaml" --quiet --for 2 --report some/where >/dev/null 2>&1)

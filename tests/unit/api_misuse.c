@@ -64,7 +64,25 @@ static void defs_must_come_from_their_default(void **state) {
     assert_null(jo_report(&report, NULL));
     assert_null(jo_report(&(JoReportDef){.recording = "x"}, NULL)); /* not of the default */
     assert_null(jo_report(NULL, NULL));
-    assert_int_equal(reports, 8);
+    JoRenderDef render = jo_default_render_def();
+    assert_false(jo_render(&render, NULL)); /* of nothing, to nowhere */
+    render.recording = "x";
+    assert_false(jo_render(&render, NULL));
+    render.out = "x.svg";
+    JoSceneDef both = jo_default_scene_def();
+    render.scene = &both;
+    assert_false(jo_render(&render, NULL));
+    render = (JoRenderDef){.recording = "x", .out = "x.svg"}; /* not of the default */
+    assert_false(jo_render(&render, NULL));
+    assert_false(jo_render(NULL, NULL));
+    JoViewRecordingDef view = jo_default_view_recording_def();
+    assert_false(jo_view_recording(&view, NULL)); /* of no recording */
+    view.recording = "x";
+    view.fps = -1;
+    assert_false(jo_view_recording(&view, NULL));
+    assert_false(jo_view_recording(&(JoViewRecordingDef){.recording = "x"}, NULL));
+    assert_false(jo_view_recording(NULL, NULL));
+    assert_int_equal(reports, 17);
 }
 
 static void numbers_out_of_range_are_refused_by_name(void **state) {

@@ -21,7 +21,7 @@ static JoxText said;
 static char why[256];
 static char folder[] = "/tmp/jostle-reload-XXXXXX";
 
-static void listen(void *context, const char *text) {
+static void hear(void *context, const char *text) {
     (void)context;
     jox_text_add(&said, text);
 }
@@ -31,7 +31,7 @@ static JoScene *load(const char *path, const char *const *sets, size_t count) {
     def.path = path;
     def.overrides = sets;
     def.override_count = count;
-    def.message = listen;
+    def.message = hear;
     def.named_mods_only = true;
     JoError error = {0};
     jox_text_free(&said);

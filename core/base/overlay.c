@@ -1,0 +1,51 @@
+#include "base/overlay.h"
+
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/mem.h"
+
+static _Thread_local const JoxOverlay *used;
+
+const JoxOverlayFile *jox_overlay_find(const JoxOverlay *overlay, const char *path) {
+    for (size_t f = 0; overlay && f < overlay->count; f++)
+        if (strcmp(overlay->files[f].path, path) == 0)
+            return &overlay->files[f];
+    return NULL;
+}
+
+void jox_overlay_put(JoxOverlay *overlay, const char *path, const char *text, size_t length) {
+    JoxOverlayFile *file = (JoxOverlayFile *)jox_overlay_find(overlay, path);
+    if (!file) {
+        JOX_RESERVE(overlay->files, overlay->capacity, overlay->count + 1);
+        file = &overlay->files[overlay->count++];
+        *file = (JoxOverlayFile){.path = jox_strdup(path)};
+    }
+    jox_free(file->text);
+    file->text = jox_strndup(text, length);
+    file->length = length;
+}
+
+void jox_overlay_free(JoxOverlay *overlay) {
+    for (size_t f = 0; f < overlay->count; f++) {
+        jox_free(overlay->files[f].path);
+        jox_free(overlay->files[f].text);
+    }
+    jox_free(overlay->files);
+    *overlay = (JoxOverlay){0};
+}
+
+const JoxOverlay *jox_overlay_use(const JoxOverlay *overlay) {
+    const JoxOverlay *before = used;
+    used = overlay;
+    return before;
+}
+
+const JoxOverlayFile *jox_overlay_file(const char *path) {
+    return jox_overlay_find(used, path);
+}
+
+bool jox_is_file(const char *path) {
+    struct stat info;
+    return jox_overlay_file(path) || (stat(path, &info) == 0 && S_ISREG(info.st_mode));
+}

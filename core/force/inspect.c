@@ -1,0 +1,26 @@
+/* What one agent's forces are made of, for who looks at it. */
+#include "force/equations.h"
+#include "force/internal.h"
+
+JoxV2 jox_force_of_bodies(const JoxForces *f, uint32_t agent) {
+    JoxV2 sum = {0.0f, 0.0f};
+    for (uint32_t k = 0; k < f->touch_count; k++)
+        if (f->touch[k].agent == agent)
+            sum = jox_add(sum, jox_scale(f->touch[k].normal, f->touch[k].impulse));
+    return jox_scale(sum, 1.0f / (float)f->step.dt);
+}
+
+JoxV2 jox_force_slowed(const JoxForces *f, uint32_t agent, float *kept) {
+    const JoxAgents *a = f->step.agents;
+    JoxV2 sum = {0.0f, 0.0f};
+    *kept = 1.0f - (f->options.literal ? 1.0f : jox_filter_share(f->step.dt, f->options.filter));
+    if (!f->totals.passed)
+        return sum;
+    for (uint32_t k = f->starts[agent]; k < f->starts[agent + 1]; k++) {
+        const JoxTransfer *t = &f->sorted[k];
+        uint32_t giver = a->id_index[t->from_id];
+        if (a->plane_x[giver] == 0.0f && a->plane_y[giver] == 0.0f)
+            sum = jox_add(sum, (JoxV2){t->x, t->y});
+    }
+    return sum;
+}

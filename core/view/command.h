@@ -1,0 +1,31 @@
+/* Commands of the page: a flat JSON object with "do" and values that are numbers, texts, true,
+   false or null. */
+#ifndef JOX_VIEW_COMMAND_H
+#define JOX_VIEW_COMMAND_H
+
+#include <stdbool.h>
+
+enum { JOX_COMMAND_KEYS = 16 };
+
+typedef enum { JOX_SAID_NULL, JOX_SAID_BOOL, JOX_SAID_NUMBER, JOX_SAID_TEXT } JoxSaidKind;
+
+typedef struct JoxCommand {
+    struct {
+        JoxSaidKind kind;
+        double number; /* 1 and 0 for true and false */
+        char *key, *text;
+    } values[JOX_COMMAND_KEYS];
+    int count;
+    char *verb;       /* the text of "do" */
+    char store[4200]; /* where keys and texts lie */
+} JoxCommand;
+
+/* False if it is no such object, or a text of it has control characters or is not UTF-8: what is
+   read may be shown on a terminal and written into a log of lines. */
+bool jox_command_read(const char *json, JoxCommand *command);
+/* The value of a key, or what is said `otherwise` where there is none of this kind. */
+const char *jox_command_text(const JoxCommand *command, const char *key, const char *otherwise);
+double jox_command_number(const JoxCommand *command, const char *key, double otherwise);
+bool jox_command_bool(const JoxCommand *command, const char *key, bool otherwise);
+
+#endif

@@ -1,0 +1,279 @@
+/* The serving thread: connections by libwebsockets. */
+#include <errno.h>
+#include <netinet/in.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <arpa/inet.h>
+
+#include "base/mem.h"
+#include "view/access.h"
+#include "view/lws_server.h"
+
+enum { PATIENCE = 5, PING = 15, HANG_UP = 30, SEND_BUFFER = 128 << 10, MOST_CONNECTIONS = 512 };
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+/* Sends what there is for a client until the socket is full; at most a few fragments at a time, so
+   that each client has its turn. */
+static int write_socket(JoxView *view, JoxClient *client) {
+    unsigned char *to = view->transport->scratch + LWS_PRE;
+    for (int i = 0; i < 8; i++) {
+        if (client->bad)
+            return -1;
+        if (lws_send_pipe_choked(client->wsi))
+            break;
+        if (!jox_serving_choose(view, client))
+            return 0;
+        const JoxMessage *message = client->sending;
+        size_t n = message->length - client->sent;
+        n = n < JOX_VIEW_FRAGMENT ? n : JOX_VIEW_FRAGMENT;
+        bool first = client->sent == 0, last = client->sent + n == message->length;
+        int flags =
+            lws_write_ws_flags(client->text ? LWS_WRITE_TEXT : LWS_WRITE_BINARY, first, last);
+        memcpy(to, message->data + client->sent, n);
+        if (lws_write(client->wsi, to, n, (enum lws_write_protocol)flags) < (int)n)
+            return -1;
+        client->sent += n;
+        if (last)
+            jox_serving_sent(view, client);
+    }
+    if (jox_serving_has_work(view, client))
+        lws_callback_on_writable(client->wsi);
+    return 0;
+}
+
+static void serve_news(JoxView *view) {
+    jox_serving_gather(view);
+    for (uint32_t c = 0; c < JOX_VIEW_CLIENTS; c++) {
+        JoxClient *client = view->connected[c];
+        if (client && client->bad) /* it may never be writable again */
+            lws_set_timeout(client->wsi, PENDING_TIMEOUT_USER_OK, LWS_TO_KILL_ASYNC);
+        else if (client && jox_serving_has_work(view, client))
+            lws_callback_on_writable(client->wsi);
+    }
+}
+
+static int join(JoxView *view, struct lws *wsi, JoxSession *session) {
+    int size = SEND_BUFFER; /* frames should not age in the kernel */
+    setsockopt(lws_get_socket_fd(wsi), SOL_SOCKET, SO_SNDBUF, &size, sizeof size);
+    session->client = jox_serving_join(view, wsi);
+    return session->client ? 0 : -1;
+}
+
+static int callback(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in,
+                    size_t length) {
+    JoxSession *session = user;
+    JoxView *view = wsi ? lws_context_user(lws_get_context(wsi)) : NULL;
+    JoxClient *client = session ? session->client : NULL;
+    switch (reason) {
+    case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
+        serve_news(view);
+        return 0;
+    case LWS_CALLBACK_HTTP:
+        return jox_http_answer(view, wsi, in);
+    case LWS_CALLBACK_HTTP_BODY: /* nobody is asked for one */
+        return -1;
+    case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
+        return jox_http_upgrade(view, wsi, in);
+    case LWS_CALLBACK_ESTABLISHED:
+        return join(view, wsi, session);
+    case LWS_CALLBACK_SERVER_WRITEABLE:
+        return client ? write_socket(view, client) : 0;
+    case LWS_CALLBACK_RECEIVE:
+        if (!client)
+            return -1;
+        jox_serving_receive(view, client, in, length,
+                            lws_is_final_fragment(wsi) && lws_remaining_packet_payload(wsi) == 0,
+                            !lws_frame_is_binary(wsi), now());
+        return client->bad ? -1 : 0;
+    case LWS_CALLBACK_CLOSED:
+        if (client)
+            jox_serving_leave(view, client);
+        session->client = NULL;
+        return 0;
+    default:
+        return lws_callback_http_dummy(wsi, reason, user, in, length);
+    }
+}
+
+static const struct lws_protocols PROTOCOLS[] = {{.name = "jostle",
+                                                  .callback = callback,
+                                                  .per_session_data_size = sizeof(JoxSession),
+                                                  .rx_buffer_size = 4096},
+                                                 {0}};
+
+/* Browsers answer pings by themselves; what does not is gone. */
+static const lws_retry_bo_t LIVENESS = {.secs_since_valid_ping = PING,
+                                        .secs_since_valid_hangup = HANG_UP};
+
+static void *serve(void *argument) {
+    JoxView *view = argument;
+    while (!atomic_load(&view->stop) && lws_service(view->transport->context, 0) >= 0)
+        ;
+    return NULL;
+}
+
+void jox_transport_wake(JoxView *view) {
+    if (view->transport && view->transport->running)
+        lws_cancel_service(view->transport->context);
+}
+
+/* 0 where the port can be had, else errno. */
+static int try_port(const char *address, int port) {
+    struct sockaddr_storage to = {0};
+    struct sockaddr_in *four = (struct sockaddr_in *)&to;
+    struct sockaddr_in6 *six = (struct sockaddr_in6 *)&to;
+    socklen_t size = sizeof *four;
+    if (inet_pton(AF_INET, address, &four->sin_addr) == 1) {
+        four->sin_family = AF_INET;
+        four->sin_port = htons((uint16_t)port);
+    } else if (inet_pton(AF_INET6, address, &six->sin6_addr) == 1) {
+        six->sin6_family = AF_INET6;
+        six->sin6_port = htons((uint16_t)port);
+        size = sizeof *six;
+    } else {
+        return EINVAL;
+    }
+    int one = 1, fd = socket(to.ss_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    if (fd < 0)
+        return errno;
+    setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &one, sizeof one);
+    int failed = bind(fd, (struct sockaddr *)&to, size) || listen(fd, 1) ? errno : 0;
+    close(fd);
+    return failed;
+}
+
+static bool has_file(const char *folder, const char *name) {
+    char path[4200];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return access(path, R_OK) == 0;
+}
+
+static bool check(const JoxViewOptions *options, const char *address, JoxText *why) {
+    if (!options->page || !has_file(options->page, "index.html"))
+        jox_text_printf(why,
+                        "the live page is not in '%s' (no index.html there): install Jostle, or "
+                        "give its folder by --page",
+                        options->page ? options->page : "");
+    else if (!options->three || !has_file(options->three, "build/three.module.js"))
+        jox_text_printf(why,
+                        "the live page needs three.js, which is not in '%s': install Debian's "
+                        "libjs-three, or give its folder by --three",
+                        options->three ? options->three : "");
+    else if (options->port < 0 || options->port > 65535)
+        jox_text_printf(why, "there is no port %d", options->port);
+    else if (try_port(address, 0) == EINVAL)
+        jox_text_printf(why, "'%s' is no address of this machine, as 127.0.0.1 or 0.0.0.0 is",
+                        address);
+    else
+        return true;
+    return false;
+}
+
+static bool find_port(JoxView *view, const JoxViewOptions *options, const char *address,
+                      JoxText *why) {
+    int first = options->port ? options->port : JOX_VIEW_PORT;
+    int count = options->port ? 1 : JOX_VIEW_PORTS, failed = 0;
+    for (int p = first; p < first + count; p++) {
+        failed = try_port(address, p);
+        view->port = p;
+        if (!failed)
+            return true;
+        if (failed != EADDRINUSE)
+            break;
+    }
+    jox_text_printf(why, "cannot listen at %s, port %d: %s; --view=PORT takes another", address,
+                    first, strerror(failed));
+    return false;
+}
+
+static bool open_transport(JoxView *view, const char *address, double patience) {
+    JoxTransport *transport = view->transport;
+    struct rlimit files;
+    rlim_t most = MOST_CONNECTIONS; /* and the program's own files need room too */
+    if (getrlimit(RLIMIT_NOFILE, &files) == 0 && files.rlim_cur / 2 < most)
+        most = files.rlim_cur / 2;
+    unsigned seconds = patience >= 1.0 ? (unsigned)patience : PATIENCE;
+    bool six = strchr(address, ':') != NULL;
+    struct lws_context_creation_info info = {
+        .port = view->port,
+        .iface = address,
+        .protocols = PROTOCOLS,
+        .user = view,
+        .fd_limit_per_thread = (unsigned)most,
+        .timeout_secs = seconds,
+        .timeout_secs_ah_idle = seconds,
+        .keepalive_timeout = (int)seconds,
+        .retry_and_idle_policy = &LIVENESS,
+        .vhost_name = "jostle",
+        .server_string = "jostle",
+        .options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND |
+                   LWS_SERVER_OPTION_VALIDATE_UTF8 | (six ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6)};
+    lws_set_log_level(0, NULL);
+    transport->context = lws_create_context(&info);
+    transport->vhost = transport->context ? lws_create_vhost(transport->context, &info) : NULL;
+    if (!transport->vhost)
+        return false;
+    sigset_t all, before; /* signals are the other threads' */
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    transport->running = pthread_create(&transport->thread, NULL, serve, view) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return transport->running;
+}
+
+JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
+    const char *address = options->address ? options->address : "127.0.0.1";
+    if (!check(options, address, why))
+        return NULL;
+    JoxView *view = jox_view_create();
+    view->transport = jox_alloc(1, sizeof *view->transport);
+    view->any_host = options->address != NULL;
+    snprintf(view->page, sizeof view->page, "%s", options->page);
+    snprintf(view->three, sizeof view->three, "%s", options->three);
+    bool good = jox_access_token(view->token) && view->wake >= 0;
+    if (!good)
+        jox_text_add(why, "the system has no random numbers or no file descriptors left");
+    good = good && find_port(view, options, address, why);
+    if (good && !open_transport(view, address, options->patience)) {
+        jox_text_printf(why, "cannot listen at %s, port %d", address, view->port);
+        good = false;
+    }
+    if (!good) {
+        jox_view_close(view);
+        return NULL;
+    }
+    bool any =
+        !strcmp(address, "0.0.0.0") || !strcmp(address, "::"); /* this machine is one of all */
+    bool six = strchr(address, ':') && !any;
+    snprintf(view->address, sizeof view->address, "http://%s%s%s:%d/?token=%s", six ? "[" : "",
+             any ? "127.0.0.1" : address, six ? "]" : "", view->port, view->token);
+    return view;
+}
+
+void jox_view_close(JoxView *view) {
+    if (!view)
+        return;
+    JoxTransport *transport = view->transport;
+    if (transport->running) {
+        atomic_store(&view->stop, true);
+        lws_cancel_service(transport->context);
+        pthread_join(transport->thread, NULL);
+    }
+    if (transport->context)
+        lws_context_destroy(transport->context);
+    jox_free(transport);
+    view->transport = NULL;
+    jox_view_free(view);
+}

@@ -1,0 +1,77 @@
+// The socket: comes back by itself, hands out what arrives, counts it.
+
+const WAITS = [0.3, 0.6, 1, 2, 4]; // s, between attempts
+
+/**
+ * Opens the page's socket. `handlers`: {json(message), binary(buffer), state(text)}, where the state
+ * is "connecting", "open", "lost" or "refused". The token of the page's address goes along.
+ */
+export class Connection {
+    constructor(handlers) {
+        this.handlers = handlers;
+        this.attempt = 0;
+        this.bytes = 0; // received since the page was loaded
+        this.frames = 0;
+        this.unsent = 0; // commands given while there was no connection
+        this.open();
+    }
+
+    open() {
+        const url = new URL("socket", location.href);
+        url.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+        url.search = location.search;
+        url.hash = "";
+        this.handlers.state(this.attempt ? "lost" : "connecting");
+        const socket = new WebSocket(url, "jostle");
+        socket.binaryType = "arraybuffer";
+        socket.onopen = () => {
+            this.attempt = 0;
+            this.handlers.state("open");
+        };
+        socket.onmessage = (event) => this.receive(event.data);
+        socket.onclose = () => this.lost();
+        this.socket = socket;
+    }
+
+    lost() {
+        const wait = WAITS[Math.min(this.attempt, WAITS.length - 1)];
+        this.attempt++;
+        this.handlers.state("lost");
+        clearTimeout(this.timer);
+        this.timer = setTimeout(() => this.open(), 1000 * wait);
+    }
+
+    receive(data) {
+        if (typeof data !== "string") {
+            this.bytes += data.byteLength;
+            this.frames++;
+            this.handlers.binary(data);
+            return;
+        }
+        this.bytes += data.length;
+        let message;
+        try {
+            message = JSON.parse(data);
+        } catch (error) {
+            console.warn(`a message that is no JSON: ${error.message}`);
+            return;
+        }
+        this.handlers.json(message);
+    }
+
+    /** Sends one command, an object with the key `do`. False while there is no connection. */
+    send(command) {
+        if (this.socket.readyState !== WebSocket.OPEN) {
+            this.unsent++;
+            return false;
+        }
+        this.socket.send(JSON.stringify(command));
+        return true;
+    }
+
+    /** One line of the input log, without its tick. Numbers are rounded to what a log needs. */
+    input(...words) {
+        const line = words.map((w) => (typeof w === "number" ? String(Number(w.toFixed(4))) : w)).join(" ");
+        return this.send({ do: "input", line });
+    }
+}

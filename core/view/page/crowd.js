@@ -1,0 +1,125 @@
+// The last two frames as they came, and what the page reads of them: positions, states, bodies.
+
+const HEADER = 48; // bytes of a frame before its slots
+const BODY = 20;
+export const NOBODY = 255;
+export const FLAG = { parity: 1, failed: 2, player: 4 };
+
+/** Reads a frame's header; its slots stay where they are in the buffer. Lengths in m. */
+export function readFrame(buffer) {
+    const view = new DataView(buffer);
+    const slots = view.getUint32(16, true), bodies = view.getUint32(20, true);
+    if (buffer.byteLength < HEADER + 8 * slots + BODY * bodies) throw new Error("a frame that is cut short");
+    return {
+        tick: view.getUint32(4, true), time: view.getFloat64(8, true), slots, bodies,
+        x0: view.getFloat32(24, true), y0: view.getFloat32(28, true),
+        sx: view.getFloat32(32, true), sy: view.getFloat32(36, true),
+        most: view.getFloat32(40, true),
+        bytes: new Uint8Array(buffer, HEADER, 8 * slots),
+        words: new Uint16Array(buffer, HEADER, 4 * slots),
+        poses: new DataView(buffer, HEADER + 8 * slots, BODY * bodies),
+    };
+}
+
+/** Reads a field: cells of `cell` m, rows from y0 upwards; 255 is `most`. */
+export function readField(buffer) {
+    const view = new DataView(buffer);
+    const columns = view.getUint32(8, true), rows = view.getUint32(12, true);
+    if (buffer.byteLength < 32 + columns * rows) throw new Error("a field that is cut short");
+    return {
+        which: view.getUint32(4, true), columns, rows,
+        x0: view.getFloat32(16, true), y0: view.getFloat32(20, true),
+        cell: view.getFloat32(24, true), most: view.getFloat32(28, true),
+        cells: new Uint8Array(buffer, 32, columns * rows),
+    };
+}
+
+export class Crowd {
+    constructor() {
+        this.previous = null;
+        this.next = null;
+        this.person = new Uint8Array(0); // radius in cm and group, two bytes a slot
+        this.personVersion = 0;
+        this.arrived = 0;
+        this.interval = 50; // ms between frames, as measured
+        this.snap = true; // nothing to slide from
+    }
+
+    /** Takes a frame that arrived at `now` (ms). Returns "new", or "same" for a tick seen already. */
+    take(buffer, now) {
+        const frame = readFrame(buffer);
+        if (this.next && frame.tick === this.next.tick && frame.slots === this.next.slots) {
+            this.next = frame;
+            return "same";
+        }
+        const back = this.next && frame.time < this.next.time;
+        this.snap = !this.next || back || frame.time - this.next.time > 5;
+        if (!this.snap) {
+            const gap = Math.min(1000, Math.max(4, now - this.arrived));
+            this.interval += 0.2 * (gap - this.interval);
+        }
+        this.arrived = now;
+        this.previous = this.next ?? frame;
+        this.next = frame;
+        return "new";
+    }
+
+    /** Radii and groups of slots from `first` on. */
+    takePeople(buffer) {
+        const view = new DataView(buffer);
+        const first = view.getUint32(4, true), count = view.getUint32(8, true);
+        if (buffer.byteLength < 16 + 2 * count) throw new Error("people that are cut short");
+        if (this.person.length < 2 * (first + count)) {
+            const grown = new Uint8Array(2 * (first + count)).fill(0);
+            grown.set(this.person);
+            this.person = grown;
+        }
+        this.person.set(new Uint8Array(buffer, 16, 2 * count), 2 * first);
+        this.personVersion++;
+    }
+
+    /** How far from the previous frame to the next, 0 to 1, at `now` (ms). */
+    share(now) {
+        if (this.snap || !this.next) return 1;
+        return Math.min(1, (now - this.arrived) / this.interval);
+    }
+
+    alive(slot) {
+        return this.next !== null && slot < this.next.slots && this.next.bytes[8 * slot + 5] !== NOBODY;
+    }
+
+    /** Where a slot's person is at a share of the way, m; null where there is nobody. */
+    position(slot, share) {
+        if (!this.alive(slot)) return null;
+        const b = this.next, a = this.previous;
+        let x = b.x0 + b.sx * b.words[4 * slot], y = b.y0 + b.sy * b.words[4 * slot + 1];
+        if (share < 1 && slot < a.slots && a.bytes[8 * slot + 5] !== NOBODY
+            && !((a.bytes[8 * slot + 7] ^ b.bytes[8 * slot + 7]) & FLAG.parity)) {
+            x = (1 - share) * (a.x0 + a.sx * a.words[4 * slot]) + share * x;
+            y = (1 - share) * (a.y0 + a.sy * a.words[4 * slot + 1]) + share * y;
+        }
+        return [x, y];
+    }
+
+    /** m */
+    radius(slot) {
+        return 2 * slot < this.person.length ? this.person[2 * slot] / 100 : 0.2;
+    }
+
+    /** Where a body is in the newest frame: [x, y, z], m; null for none. */
+    bodyPosition(row) {
+        if (!this.next || row >= this.next.bodies) return null;
+        const at = BODY * row, p = this.next.poses;
+        return [p.getFloat32(at, true), p.getFloat32(at + 4, true), p.getFloat32(at + 8, true)];
+    }
+}
+
+/** Writes x, y, z, 0 and a unit quaternion of each body into `out`, `stride` numbers apart. */
+export function readPoses(frame, out, offset, stride, count) {
+    const p = frame.poses;
+    for (let row = 0; row < Math.min(count, frame.bodies); row++) {
+        const at = BODY * row, o = offset + stride * row;
+        for (let k = 0; k < 3; k++) out[o + k] = p.getFloat32(at + 4 * k, true);
+        for (let k = 0; k < 4; k++) out[o + 4 + k] = p.getInt16(at + 12 + 2 * k, true) / 32767;
+    }
+}

@@ -1,0 +1,358 @@
+// The page: joins the connection, the picture and the panels, and keeps the loop.
+import { ActPage } from "./act.js";
+import { AgentPage, announce } from "./agent.js";
+import { ChartsPage } from "./charts.js";
+import { Connection } from "./connection.js";
+import { bindKeys, Figures, TimeBar, ToolBar } from "./controls.js";
+import { Crowd, FLAG, NOBODY, readField } from "./crowd.js";
+import { byId, el, say, typing } from "./dom.js";
+import { Help, Meter } from "./help.js";
+import { Legend } from "./legend.js";
+import { MachinePage } from "./machine.js";
+import { Messages } from "./messages.js";
+import { describe, Overlay } from "./overlay.js";
+import { COLOURS, FIELDS } from "./palette.js";
+import { Panel } from "./panel.js";
+import { ParametersPage } from "./parameters.js";
+import { savePicture } from "./picture.js";
+import { Player } from "./player.js";
+import { Replay } from "./replay.js";
+import { Tools, TOOLS } from "./tools.js";
+import { View } from "./view.js";
+
+const LINKS = { connecting: "connecting", open: "connected", lost: "not connected, trying again" };
+const MOVE = 0.08; // of the distance to what is looked at, for one press of an arrow key
+
+class Page {
+    constructor() {
+        this.crowd = new Crowd();
+        this.view = new View(byId("picture"), this.crowd);
+        this.overlay = new Overlay(byId("overlay"), this.view, this.crowd);
+        this.messages = new Messages();
+        this.meter = new Meter();
+        this.legend = new Legend();
+        this.slot = null; // of the person that is looked at
+        this.person = null; // what was last said of them
+        this.following = false;
+        this.colour = "state";
+        this.field = "none";
+        this.makeParts();
+        this.keys();
+        this.theme();
+        this.resize();
+        new ResizeObserver(() => this.resize()).observe(byId("stage"));
+        requestAnimationFrame((now) => this.loop(now));
+    }
+
+    makeParts() {
+        this.connection = new Connection({
+            json: (message) => this.timed(() => this.take(message)),
+            binary: (buffer) => this.timed(() => this.takeBinary(buffer)),
+            state: (state) => this.link(state),
+        });
+        const send = (command) => this.connection.send(command) || this.messages.say("Not connected: that was not sent.", "warning");
+        this.bar = new TimeBar(send);
+        this.figures = new Figures();
+        this.replay = new Replay(send);
+        this.player = new Player({ view: this.view, connection: this.connection });
+        this.tools = new Tools(byId("picture"), {
+            view: this.view, crowd: this.crowd, overlay: this.overlay, connection: this.connection,
+            inspect: (slot) => this.inspect(slot), box: () => this.act.box(), share: () => this.crowd.share(performance.now()),
+            agentId: (slot) => (this.person && this.person.slot === slot ? this.person.id : null),
+        });
+        this.toolBar = new ToolBar({
+            tool: (name) => this.tool(name), colour: (by) => this.colourBy(by), field: (of) => this.fieldOf(of),
+            top: () => this.top(), home: () => this.view.goHome(), follow: () => this.follow(),
+            picture: () => savePicture(this.view, this.overlay, this.hello?.title ?? "Jostle"),
+            names: () => this.names(), help: () => this.help.toggle(),
+        });
+        this.help = new Help({ meter: this.meter, view: this.view, connection: this.connection });
+        this.panel = new Panel(() => this.charts?.draw());
+        const pages = this.panel.pages;
+        this.agentPage = new AgentPage(pages.agent, { letGo: () => this.inspect(null) });
+        this.parameters = new ParametersPage(pages.parameters, { connection: this.connection });
+        this.machine = new MachinePage(pages.machine, (machine, state) => {
+            this.parameters.show(machine, state);
+            this.panel.show("parameters");
+            this.panel.tabs.parameters.focus();
+        });
+        this.charts = new ChartsPage(pages.charts);
+        this.act = new ActPage(pages.act, { connection: this.connection, player: this.player, playing: (on) => this.playing(on) });
+    }
+
+    keys() {
+        const step = (x, y) => () => this.move(x, y);
+        const next = (choices, now) => {
+            const names = Object.keys(choices);
+            return names[(names.indexOf(now) + 1) % names.length];
+        };
+        const turn = (...by) => () => (this.view.turnBy(...by), true);
+        bindKeys({
+            " ": () => (this.bar.toggle(), true), ".": () => (this.bar.stepOnce(), true),
+            t: () => (this.top(), true), f: () => (this.follow(), true), h: () => (this.view.goHome(), true),
+            n: () => (this.names(), true), p: () => (savePicture(this.view, this.overlay, this.hello?.title ?? "Jostle"), true),
+            c: () => (this.colourBy(next(COLOURS, this.colour)), true), d: () => (this.fieldOf(next(FIELDS, this.field)), true),
+            "?": () => (this.help.toggle(), true), Escape: () => this.escape(),
+            ArrowLeft: step(-1, 0), ArrowRight: step(1, 0), ArrowUp: step(0, 1), ArrowDown: step(0, -1),
+            q: turn(-0.12, 0, 1), e: turn(0.12, 0, 1), r: turn(0, 0.1, 1), v: turn(0, -0.1, 1),
+            "+": turn(0, 0, 1.15), "=": turn(0, 0, 1.15), "-": turn(0, 0, 1 / 1.15),
+            Enter: (event) => (event.target === this.view.canvas ? (this.tools.act(), true) : undefined),
+            ...Object.fromEntries(Object.entries(TOOLS).map(([name, t]) => [t.key, () => (this.tool(name), true)])),
+        }, this.player, typing);
+    }
+
+    /** Moves what is looked at, in directions of the picture. */
+    move(right, up) {
+        const { view } = this, away = view.top ? view.flatSize / view.flat.zoom : view.camera.position.distanceTo(view.controls.target);
+        const m = view.camera.matrixWorld.elements, flat = Math.hypot(m[0], m[1]) || 1;
+        const x = (m[0] / flat) * MOVE * away, y = (m[1] / flat) * MOVE * away;
+        view.moveBy(right * x - up * y, right * y + up * x);
+        return true;
+    }
+
+    escape() {
+        if (this.player.on) this.act.play(false);
+        else if (this.tools.gesture) this.tools.cancel();
+        else if (!this.help.node.hidden) this.help.toggle(false);
+        else if (this.view.tool !== "select") this.tool("select");
+        else this.inspect(null);
+        return true;
+    }
+
+    timed(work) {
+        const begun = performance.now();
+        work();
+        this.meter.messages += performance.now() - begun;
+    }
+
+    link(state) {
+        const node = byId("link");
+        node.dataset.state = state;
+        say(node, LINKS[state]);
+        this.messages?.stand("link", state === "lost" ? "The connection is lost. The page tries again by itself." : "");
+        if (state === "open") this.again();
+    }
+
+    /** What a new connection has to know. */
+    again() {
+        this.crowd.snap = true;
+        if (!this.hello) return; // the scene says how it begins
+        this.connection.send({ do: "colour", by: this.colour === "failed" ? "state" : this.colour });
+        if (this.field !== "none") this.connection.send({ do: "field", of: this.field });
+        if (this.slot !== null && !this.recorded()) this.connection.send({ do: "inspect", slot: this.slot });
+    }
+
+    take(message) {
+        const taken = {
+            hello: () => this.takeHello(message), status: () => this.takeStatus(message),
+            errors: () => this.messages.showErrors(message.errors ?? []),
+            say: () => this.messages.say(message.text, message.level),
+            inspect: () => this.takePerson(message), lua: () => this.parameters.takeLua(message.text),
+            refused: () => this.messages.say(message.text, "warning"), time: () => this.replay.take(message),
+        }[message.type];
+        if (taken) taken();
+    }
+
+    takeHello(hello) {
+        if (hello.protocol !== 1) return this.messages.stand("protocol", "This page is of another version than the program. Reload it.");
+        const first = !this.hello;
+        this.hello = hello;
+        say(byId("title"), hello.title || hello.file || "Jostle");
+        document.title = `${hello.title || hello.file || "Jostle"} – Jostle`;
+        for (const part of [this.bar, this.replay, this.view, this.overlay, this.legend, this.machine, this.parameters, this.charts, this.toolBar]) part.set(hello);
+        this.panel.offer("act", this.act.set(hello));
+        const live = hello.session !== "replay";
+        this.panel.offer("machine", (hello.machines ?? []).length > 0);
+        this.panel.offer("parameters", live && (hello.machines ?? []).length > 0);
+        if (first || !this.toolBar.tools[this.view.tool]) this.tool("select");
+        else this.toolBar.show(this.view.tool);
+        if (first && COLOURS[hello.view?.colour]) this.colourBy(hello.view.colour);
+        if (first && FIELDS[hello.view?.field]) this.fieldOf(hello.view.field);
+        this.redraw();
+        return undefined;
+    }
+
+    takeStatus(status) {
+        this.bar.take(status);
+        this.figures.take(status);
+        this.legend.take(status);
+        this.machine.take(status);
+        this.charts.take(status);
+        this.act.takeGates(status.walls);
+        if (this.recorded()) this.seePerson();
+        if (this.view.ground.setOpen(status.walls)) this.redraw();
+        if (!this.described || status.time < this.described || status.time > this.described + 10) {
+            this.described = status.time;
+            describe(byId("described"), status);
+        }
+    }
+
+    takePerson(message) {
+        const agent = message.agent;
+        if (!agent && this.slot === null) return;
+        if (agent && agent.slot !== this.slot) return; // of the one before
+        this.agentPage.take(message);
+        if (!agent) {
+            this.slot = this.overlay.chosen = this.overlay.forces = this.person = null;
+        } else {
+            if (this.person?.id !== agent.id) announce(byId("described"), agent);
+            this.person = agent;
+            this.overlay.forces = message.forces ?? null;
+            this.machine.mark(agent.machine, agent.state);
+        }
+        this.redraw();
+    }
+
+    takeBinary(buffer) {
+        const kind = new DataView(buffer).getUint32(0, true);
+        if (kind === 1) {
+            const taken = this.crowd.take(buffer, performance.now());
+            this.view.takeFrame(taken);
+            this.legend.setMost(this.crowd.next.most);
+            this.findPlayers();
+        } else if (kind === 2) {
+            this.crowd.takePeople(buffer);
+        } else if (kind === 3) {
+            const field = readField(buffer);
+            if (field.which !== ["density", "pressure"].indexOf(this.field)) return;
+            this.view.ground.setField(field);
+            this.legend.setMost(field.most, true);
+            this.redraw();
+        }
+    }
+
+    /** Slots of players, where the scene has any. */
+    findPlayers() {
+        if (!this.hello?.tools?.players?.length) return;
+        const { bytes, slots } = this.crowd.next;
+        this.overlay.players = [];
+        for (let slot = 0; slot < slots && this.overlay.players.length < 16; slot++) {
+            if (bytes[8 * slot + 7] & FLAG.player && bytes[8 * slot + 5] !== NOBODY) this.overlay.players.push(slot);
+        }
+    }
+
+    inspect(slot) {
+        if (slot === this.slot) return;
+        this.slot = this.overlay.chosen = slot;
+        this.person = this.overlay.forces = null;
+        if (this.recorded()) this.seePerson();
+        else this.connection.send({ do: "inspect", slot });
+        if (slot === null) this.agentPage.none();
+        else if (this.view.tool === "select") this.panel.show("agent");
+        if (slot === null) this.follow(false);
+        this.redraw();
+    }
+
+    recorded() {
+        return this.hello?.session === "replay";
+    }
+
+    /** What the frames of a recording tell of the chosen person. */
+    seePerson() {
+        const { slot, crowd } = this, at = slot === null ? null : crowd.position(slot, 1);
+        if (slot === null) return;
+        if (!at) return void this.takePerson({ agent: null });
+        const from = crowd.position(slot, 0) ?? at, passed = crowd.next.time - crowd.previous.time;
+        this.agentPage.takeSeen({
+            slot, x: at[0], y: at[1], radius: crowd.radius(slot),
+            speed: passed > 0 ? Math.hypot(at[0] - from[0], at[1] - from[1]) / passed : NaN,
+            state: this.hello.states?.[crowd.next.bytes[8 * slot + 5]]?.name, group: this.hello.groups?.[crowd.person[2 * slot + 1]],
+        });
+    }
+
+    tool(name) {
+        if (!this.toolBar.tools[name]) return;
+        this.tools.cancel();
+        this.view.tool = name;
+        this.view.useControls();
+        this.toolBar.show(name);
+        say(byId("hint"), TOOLS[name].hint);
+    }
+
+    colourBy(by) {
+        this.colour = by;
+        this.toolBar.colour.value = by;
+        this.view.colourBy(by);
+        this.legend.colourBy(by);
+        this.connection.send({ do: "colour", by: by === "failed" ? "state" : by });
+    }
+
+    fieldOf(of) {
+        this.field = of;
+        this.toolBar.field.value = of;
+        this.view.ground.setField(null);
+        this.legend.fieldOf(of);
+        this.connection.send({ do: "field", of });
+        this.redraw();
+    }
+
+    top() {
+        this.view.setTop(!this.view.top);
+        this.toolBar.top.setAttribute("aria-pressed", String(this.view.top));
+    }
+
+    follow(on = !this.following) {
+        this.following = on && this.slot !== null;
+        if (on && this.slot === null) this.messages.say("Choose a person first: click one.");
+        this.toolBar.follow.setAttribute("aria-pressed", String(this.following));
+    }
+
+    names() {
+        this.overlay.names = !this.overlay.names;
+        this.toolBar.names.setAttribute("aria-pressed", String(this.overlay.names));
+        this.redraw();
+    }
+
+    playing(on) {
+        say(byId("hint"), on ? "W A S D or arrows drive the player. Escape ends." : TOOLS[this.view.tool].hint);
+        if (on) this.view.canvas.focus();
+    }
+
+    theme() {
+        const query = matchMedia("(prefers-color-scheme: dark)");
+        const set = () => {
+            this.view.theme(query.matches);
+            this.overlay.theme(query.matches);
+            this.charts.draw();
+        };
+        query.addEventListener("change", set);
+        set();
+    }
+
+    resize() {
+        this.view.resize();
+        this.overlay.resize();
+        this.charts.draw();
+    }
+
+    redraw() {
+        this.view.dirty = true;
+    }
+
+    loop(now) {
+        const begun = performance.now();
+        const share = this.crowd.share(begun);
+        if (this.following) this.keepUp(share);
+        if (this.view.draw(begun, this.drawn)) {
+            this.overlay.draw(share);
+            this.meter.add(performance.now() - begun);
+            this.drawn = begun;
+        } else this.drawn = undefined;
+        requestAnimationFrame((next) => this.loop(next));
+    }
+
+    /** The eye goes where the chosen person goes. */
+    keepUp(share) {
+        const at = this.slot === null ? null : this.crowd.position(this.slot, share);
+        if (!at) return;
+        const target = this.view.controls.target, dx = at[0] - target.x, dy = at[1] - target.y;
+        if (Math.hypot(dx, dy) > 1e-3) this.view.moveBy(dx, dy);
+    }
+}
+
+try {
+    window.page = new Page(); // for the browser's console, and for tests
+} catch (error) {
+    document.body.prepend(el("p", { role: "alert", className: "errors" }, error.message));
+    throw error;
+}

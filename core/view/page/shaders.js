@@ -1,0 +1,194 @@
+// What the programs of the people share: a slot's record is decoded on the graphics card, from the
+// bytes as they came, and people slide from the previous frame to the next one.
+
+/** Records of two frames, A and B; `swapped` says that A is the newer one. */
+export const RECORDS = `
+precision highp float;
+attribute vec4 position;   // frame A: x low, x high, y low, y high
+attribute vec4 infoA;      // heading, state, value, flags
+attribute vec4 placeB;
+attribute vec4 infoB;
+attribute vec2 person;     // radius in cm, group
+uniform vec4 mapA, mapB;   // x0, y0, sx, sy, in m
+uniform float share, swapped;
+uniform float classes;     // 0: by value, 1: by state, 2: by group, 3: by whether the program failed
+uniform mat4 viewMatrix, projectionMatrix;
+const float TURN = 6.28318530718;
+
+struct Person { vec2 at; vec2 ahead; float radius; float colour; float flags; bool here; };
+
+vec2 place(vec4 b, vec4 map) { return map.xy + map.zw * vec2(b.x + 256.0 * b.y, b.z + 256.0 * b.w); }
+
+Person decode() {
+    bool late = swapped > 0.5;
+    vec4 oldInfo = late ? infoB : infoA, info = late ? infoA : infoB;
+    vec2 before = late ? place(placeB, mapB) : place(position, mapA);
+    vec2 after = late ? place(position, mapA) : place(placeB, mapB);
+    float t = share;
+    // A slot that got another person, or was empty, does not slide.
+    if (oldInfo.y > 254.5 || mod(oldInfo.w, 2.0) != mod(info.w, 2.0)) t = 1.0;
+    float from = oldInfo.x / 256.0, to = info.x / 256.0;
+    float turn = (from + t * (mod(to - from + 1.5, 1.0) - 0.5)) * TURN;
+    Person p;
+    p.at = mix(before, after, t);
+    p.ahead = vec2(cos(turn), sin(turn));
+    p.radius = max(person.x, 5.0) / 100.0;
+    float failed = mod(floor(info.w / 2.0), 2.0);
+    p.colour = ((classes < 0.5 ? info.z : classes < 1.5 ? info.y : classes < 2.5 ? person.y
+        : 1.0 + 4.0 * failed) + 0.5) / 256.0;
+    p.flags = info.w;
+    p.here = info.y < 254.5;
+    return p;
+}
+`;
+
+/** Everyone as one point: a disc from above, an upright capsule from the side. */
+export const POINT_VERTEX = RECORDS + `
+uniform float pixels;      // pixels of a metre at distance 1 (orthographic: of a metre)
+uniform float tall;        // share of a height that is seen: cosine of the eye's elevation
+uniform float nearer;      // m: figures stand for those who are nearer to the eye
+uniform vec3 eye;
+varying vec4 paint;        // radius and half of the spine in pixels, colour, flags
+varying vec2 nose;
+const float HEIGHT = 1.7;
+void main() {
+    Person p = decode();
+    vec3 middle = vec3(p.at, 0.5 * HEIGHT);
+    gl_Position = projectionMatrix * viewMatrix * vec4(middle, 1.0);
+    float metre = pixels / gl_Position.w;
+    float r = max(p.radius * metre, 0.6);
+    float spine = max(0.0, 0.5 * HEIGHT * tall * metre - r);
+    paint = vec4(r, spine, p.colour, p.flags);
+    vec2 seen = (viewMatrix * vec4(p.ahead, 0.0, 0.0)).xy;
+    nose = vec2(seen.x, -seen.y);
+    gl_PointSize = 2.0 * (r + spine);
+    if (!p.here || distance(middle, eye) < nearer) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+}`;
+
+export const POINT_FRAGMENT = `
+precision highp float;
+uniform sampler2D colours;
+uniform float tall;
+varying vec4 paint;
+varying vec2 nose;
+void main() {
+    float r = paint.x, spine = paint.y;
+    vec3 colour = texture2D(colours, vec2(paint.z, 0.5)).rgb;
+    if (r > 1.2) {
+        // A body, and over it a head; from above the head is in the middle of the shoulders.
+        vec2 at = (gl_PointCoord - 0.5) * 2.0 * (r + spine);
+        float shoulder = max(0.0, spine - 0.8 * r);
+        float body = length(vec2(at.x, at.y - clamp(at.y, -shoulder, spine))) / r;
+        vec2 middle = vec2(0.0, -(spine + 0.45 * r * tall));
+        float head = distance(at, middle) / (0.55 * r);
+        if (body > 1.0 && head > 1.0) discard;
+        float d = head < 1.0 ? head : body;
+        colour *= (head < 1.0 ? 1.05 : 0.95) - 0.3 * d * d;
+        bool seen = tall < 0.4 || nose.y > 0.0;
+        if (r > 4.0 && seen && distance(at, middle + nose * 0.3 * r) < 0.3 * r) colour *= 0.35;
+        if (mod(floor(paint.w / 4.0), 2.0) > 0.5 && head >= 1.0 && body > 0.75) colour = vec3(1.0);
+    }
+    gl_FragColor = vec4(colour, 1.0);
+}`;
+
+/** Those near the eye as figures that look where they go. */
+export const FIGURE_VERTEX = RECORDS + `
+attribute vec3 corner;     // of a figure 1 m high and 1 m wide, looking along +x
+attribute vec3 normal;
+varying vec3 facing, where;
+varying float shade, marks;
+void main() {
+    Person p = decode();
+    float high = 1.7 * clamp(sqrt(p.radius / 0.2), 0.6, 1.15);
+    vec3 scale = vec3(2.0 * p.radius, 2.0 * p.radius, high);
+    vec3 c = corner * scale, n = normal / scale;
+    vec2 ahead = p.ahead, left = vec2(-ahead.y, ahead.x);
+    vec3 at = vec3(p.at + ahead * c.x + left * c.y, c.z);
+    facing = normalize(vec3(ahead * n.x + left * n.y, n.z));
+    where = corner;
+    shade = p.colour;
+    marks = p.flags;
+    gl_Position = projectionMatrix * viewMatrix * vec4(at, 1.0);
+    if (!p.here) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+}`;
+
+export const FIGURE_FRAGMENT = `
+precision highp float;
+uniform sampler2D colours;
+varying vec3 facing, where;
+varying float shade, marks;
+void main() {
+    vec3 colour = texture2D(colours, vec2(shade, 0.5)).rgb;
+    if (where.z > 0.88 && where.z < 0.96 && where.x > 0.14) colour *= 0.45; // the face
+    if (mod(floor(marks / 4.0), 2.0) > 0.5 && where.z < 0.12) colour = vec3(1.0);
+    vec3 n = normalize(facing);
+    float light = 0.62 + 0.22 * n.z + 0.3 * max(0.0, dot(n, vec3(0.45, -0.55, 0.7)));
+    gl_FragColor = vec4(colour * min(light, 1.12) * (0.8 + 0.2 * smoothstep(0.0, 0.5, where.z)), 1.0);
+}`;
+
+/** Bodies: all parts of all of them in one mesh, whose vertices know the row of their body. */
+export const BODY_VERTEX = `
+precision highp float;
+attribute vec3 position;
+attribute vec3 normal;
+attribute vec4 tint;       // colour, and the body's row
+uniform sampler2D poses;   // four texels a body: previous place and turn, next place and turn
+uniform vec2 size;         // of the texture
+uniform float share, chosen;
+uniform mat4 viewMatrix, projectionMatrix;
+varying vec3 facing, colour;
+vec4 texel(float index) {
+    float row = floor((index + 0.5) / size.x);
+    return texture2D(poses, vec2(index - row * size.x + 0.5, row + 0.5) / size);
+}
+vec3 turned(vec3 v, vec4 q) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+void main() {
+    float at = 4.0 * tint.w;
+    vec4 q0 = texel(at + 1.0), q1 = texel(at + 3.0);
+    vec4 q = mix(dot(q0, q1) < 0.0 ? -q0 : q0, q1, share);
+    q = dot(q, q) < 1e-6 ? vec4(0.0, 0.0, 0.0, 1.0) : normalize(q);
+    vec3 p = mix(texel(at).xyz, texel(at + 2.0).xyz, share) + turned(position, q);
+    facing = turned(normal, q);
+    colour = abs(tint.w - chosen) < 0.5 ? vec3(1.0, 0.85, 0.3) : tint.rgb;
+    gl_Position = projectionMatrix * viewMatrix * vec4(p, 1.0);
+}`;
+
+export const BODY_FRAGMENT = `
+precision highp float;
+varying vec3 facing, colour;
+void main() {
+    vec3 n = normalize(facing);
+    float light = 0.6 + 0.2 * n.z + 0.35 * max(0.0, dot(n, vec3(0.45, -0.55, 0.7)));
+    gl_FragColor = vec4(colour * light, 1.0);
+}`;
+
+/** The floor with lines every so many metres, and the field over it. */
+export const FLOOR_VERTEX = `
+varying vec2 ground;
+void main() {
+    ground = position.xy;
+    gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
+}`;
+
+export const FLOOR_FRAGMENT = `
+uniform vec3 base, line;
+uniform float spacing;     // m between thin lines; every fifth is thicker
+uniform sampler2D field, ramp;
+uniform vec4 cover;        // x0, y0, width, height of the field, m; width 0: none
+varying vec2 ground;
+float lines(float every, float wide) {
+    vec2 at = ground / every;
+    vec2 off = abs(fract(at - 0.5) - 0.5) / max(fwidth(at), 1e-6);
+    return 1.0 - min(min(off.x, off.y) / wide, 1.0);
+}
+void main() {
+    vec3 colour = mix(base, line, max(0.35 * lines(spacing, 1.0), 0.8 * lines(5.0 * spacing, 1.3)));
+    if (cover.z > 0.0) {
+        vec2 at = (ground - cover.xy) / cover.zw;
+        if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) {
+            float v = texture2D(field, at).r;
+            if (v > 0.004) colour = mix(colour, texture2D(ramp, vec2(v, 0.5)).rgb, min(1.0, 0.35 + 4.0 * v));
+        }
+    }
+    gl_FragColor = vec4(colour, 1.0);
+}`;

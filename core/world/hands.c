@@ -1,0 +1,120 @@
+/* What people do to bodies while a world runs: boxes that they throw in, and bodies that they pull
+   along, as if by a hand. */
+#include <math.h>
+#include <string.h>
+
+#include "world/world.h"
+
+/* A hand pulls as a critically damped spring does, at this rate, up to a speed and a force. */
+static const float HAND_RATE = 12.0f;  /* 1/s: how fast the body takes on the velocity wanted */
+static const float HAND_SPEED = 6.0f;  /* m/s */
+static const float HAND_FORCE = 4e3f;  /* N, besides the body's weight up to as much */
+static const float HAND_STEADY = 6.0f; /* 1/s: how fast it stops turning */
+
+uint32_t jox_world_add_box(JoWorld *w, const double at[3], const double velocity[3], double size,
+                           double mass, JoxText *why) {
+    JoxHands *hands = &w->hands;
+    JoxBodyDef def = jox_body_def();
+    memcpy(def.position, at, sizeof def.position);
+    memcpy(def.velocity, velocity, sizeof def.velocity);
+    for (int k = 0; k < 3; k++)
+        def.shape.size[k] = size;
+    if (def.position[2] < size / 2) /* it lies upon the ground, not in it */
+        def.position[2] = size / 2;
+    def.mass = mass;
+    uint32_t row = jox_bodies_add(w->bodies, &def, why);
+    if (row == JOX_NO_BODY)
+        return row;
+    jox_bodies_objects(w->bodies, &w->objects);
+    if (hands->box_count == JOX_MOST_BOXES) { /* the oldest goes */
+        jox_bodies_remove(w->bodies, jox_bodies_find(w->bodies, hands->boxes[0]));
+        jox_bodies_objects(w->bodies, &w->objects);
+        memmove(hands->boxes, hands->boxes + 1, --hands->box_count * sizeof *hands->boxes);
+    }
+    hands->boxes[hands->box_count++] = w->objects.rows[row].id;
+    return row;
+}
+
+static int32_t find_grab(const JoWorld *w, uint32_t row) {
+    for (uint32_t g = 0; g < w->hands.grab_count; g++)
+        if (w->hands.grabs[g].row == row && row < w->objects.count &&
+            w->objects.rows[row].id == w->hands.grabs[g].id)
+            return (int32_t)g;
+    return -1;
+}
+
+static void drop(JoWorld *w, uint32_t g) {
+    w->hands.grabs[g] = w->hands.grabs[--w->hands.grab_count];
+}
+
+JoxGrabbed jox_world_grab(JoWorld *w, uint32_t row, const double to[3], bool anew) {
+    JoxPose pose;
+    jox_bodies_objects(w->bodies, &w->objects);
+    if (!jox_bodies_pose(w->bodies, row, &pose))
+        return JOX_GRAB_NONE;
+    if (!(pose.mass > 0.0f))
+        return JOX_GRAB_STATIC;
+    int32_t g = find_grab(w, row);
+    if (g < 0 && !anew)
+        return JOX_GRAB_FREE;
+    if (g < 0 && w->hands.grab_count == JOX_MOST_GRABS)
+        return JOX_GRAB_FULL;
+    if (g < 0)
+        g = (int32_t)w->hands.grab_count++;
+    if (w->objects.rows[row].held) /* who carries it loses it */
+        jox_bodies_let_go(w->bodies, row, pose.velocity);
+    w->hands.grabs[g] =
+        (struct JoxGrab){row, w->objects.rows[row].id, {(float)to[0], (float)to[1], (float)to[2]}};
+    return JOX_GRAB_DONE;
+}
+
+bool jox_world_release(JoWorld *w, uint32_t row) {
+    jox_bodies_objects(w->bodies, &w->objects);
+    int32_t g = find_grab(w, row);
+    if (g >= 0)
+        drop(w, (uint32_t)g);
+    return g >= 0;
+}
+
+static float length3(JoxV3 v) {
+    return sqrtf(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
+static JoxV3 at_most(JoxV3 v, float most) {
+    float length = length3(v), k = length > most ? most / length : 1.0f;
+    return (JoxV3){v.x * k, v.y * k, v.z * k};
+}
+
+void jox_world_pull(JoWorld *w) {
+    for (uint32_t g = 0; g < w->hands.grab_count;) {
+        const struct JoxGrab *grab = &w->hands.grabs[g];
+        JoxPose pose;
+        if (!jox_bodies_pose(w->bodies, grab->row, &pose) ||
+            w->objects.rows[grab->row].id != grab->id) {
+            drop(w, g); /* it is gone */
+            continue;
+        }
+        g++;
+        float near = HAND_RATE / 4.0f, most = pose.mass * HAND_RATE;
+        JoxV3 wanted = at_most((JoxV3){(grab->to.x - pose.centre.x) * near,
+                                       (grab->to.y - pose.centre.y) * near,
+                                       (grab->to.z - pose.centre.z) * near},
+                               HAND_SPEED);
+        JoxV3 force = at_most((JoxV3){most * (wanted.x - pose.velocity.x),
+                                      most * (wanted.y - pose.velocity.y),
+                                      most * (wanted.z - pose.velocity.z)},
+                              HAND_FORCE);
+        force.z += jox_minf(pose.mass * (float)w->def.gravity, HAND_FORCE);
+        float kept = jox_maxf(0.0f, 1.0f - HAND_STEADY * (float)w->part_dt);
+        JoxV3 spin = {pose.spin.x * kept, pose.spin.y * kept, pose.spin.z * kept};
+        jox_bodies_set_velocity(w->bodies, grab->row, pose.velocity, spin);
+        jox_bodies_force(w->bodies, grab->row, force);
+    }
+}
+
+void jox_hands_hash(const JoxHands *hands, JoxHash *hash) {
+    if (hands->box_count)
+        jox_hash_add(hash, hands->boxes, hands->box_count * sizeof *hands->boxes);
+    if (hands->grab_count)
+        jox_hash_add(hash, hands->grabs, hands->grab_count * sizeof *hands->grabs);
+}

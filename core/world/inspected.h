@@ -1,0 +1,56 @@
+/* What a step did with agents that somebody looks at: their half-planes, what their forces were
+   made of, why they changed state. Written beside the step; nothing of it is read by a step. */
+#ifndef JOX_WORLD_INSPECTED_H
+#define JOX_WORLD_INSPECTED_H
+
+#include "machine/mind.h"
+#include "nav/nav.h"
+
+enum { JOX_MOST_INSPECTED = 8 };
+
+/* The parts of a net force, N. */
+typedef enum JoxForcePart {
+    JOX_FORCE_PUSH,
+    JOX_FORCE_CONTACT, /* with agents */
+    JOX_FORCE_DECELERATION,
+    JOX_FORCE_RESISTANCE,
+    JOX_FORCE_EXTERNAL,
+    JOX_FORCE_BODY, /* contact with bodies, and hits by fast ones */
+    JOX_FORCE_PARTS
+} JoxForcePart;
+
+typedef struct JoxInspected {
+    uint32_t slot, id;
+    uint32_t asked; /* tick at which somebody looked last */
+    bool seen;      /* a step was done since it is looked at */
+    JoxPlaneSeen planes[JOX_MOST_PLANES];
+    uint32_t plane_count;
+    JoxV2 forces[JOX_FORCE_PARTS];
+    JoxV2 summed; /* the net force before fast bodies hit, N */
+    JoxV2 slowed; /* of its inferred force, what comes of equation 8 */
+    JoxV2 preferred, chosen;
+    float most; /* m/s, of the disc that it was solved in */
+    bool failed;
+} JoxInspected;
+
+/* Zero-initialise. */
+typedef struct JoxInspection {
+    JoxInspected agents[JOX_MOST_INSPECTED];
+    JoxWatched watched[JOX_MOST_INSPECTED]; /* the same agents' transitions */
+    uint32_t count;
+} JoxInspection;
+
+struct JoWorld;
+/* The inspection of the agent that is in a slot; begun where there is none, in place of the one
+   that was asked for longest ago. NULL where nobody is in the slot, or who was inspected there is
+   gone: that inspection then ends. */
+JoxInspected *jox_world_inspect(struct JoWorld *world, uint32_t slot, const JoxWatched **watched);
+/* In a step, behind the stages push, solve and infer. */
+void jox_inspect_pushed(struct JoWorld *world);
+void jox_inspect_solved(struct JoWorld *world);
+void jox_inspect_inferred(struct JoWorld *world);
+/* Nobody has looked for a while: ends what is old. */
+void jox_inspect_expire(struct JoWorld *world);
+void jox_inspection_free(JoxInspection *inspection);
+
+#endif

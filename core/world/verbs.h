@@ -1,0 +1,39 @@
+/* The verbs of input lines, once: drives reading, writing, what is said of mistakes, and the page
+   that explains them. */
+#ifndef JOX_WORLD_VERBS_H
+#define JOX_WORLD_VERBS_H
+
+#include "base/text.h"
+#include "world/input.h"
+
+typedef enum JoxInputWordKind {
+    JOX_WORD_NUMBER,
+    JOX_WORD_WHOLE, /* a number of a thing: an agent's id, a body's row */
+    JOX_WORD_NAME,
+    JOX_WORD_PATH,
+    JOX_WORD_FILES /* how many files follow */
+} JoxInputWordKind;
+
+/* What stands behind a verb. */
+typedef struct JoxInputWord {
+    const char *name;
+    JoxInputWordKind kind;
+    double least, most;
+    const char *unit;
+} JoxInputWord;
+
+typedef struct JoxVerb {
+    const char *name;
+    JoxInputWord words[10];
+    uint32_t least, most; /* words that it takes: so many or so many */
+    const char *example, *meaning;
+} JoxVerb;
+
+extern const JoxVerb jox_input_verbs[JOX_INPUT_VERBS];
+
+/* "push AGENT FX FY" */
+void jox_input_usage(const JoxVerb *verb, JoxText *out);
+/* The page of Markdown. */
+void jox_input_reference(JoxText *out);
+
+#endif

@@ -1,0 +1,182 @@
+"""What the tests of the page share: a browser, a served session, and waiting for things."""
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+import traceback
+
+from selenium import webdriver
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+JOSTLE = os.path.abspath(os.environ.get("JOSTLE", "build/release/jostle"))
+PICTURES = os.path.join(os.path.abspath(os.environ.get("B", "build/release")), "page")
+PATIENCE = 20  # s, for what should happen soon
+
+
+class Failure(Exception):
+    """A test's expectation that did not hold."""
+
+
+def expect(holds, text):
+    if not holds:
+        raise Failure(text)
+
+
+def wait_for(probe, text, patience=PATIENCE):
+    """What `probe` returns once it is true; fails with `text` after `patience` seconds."""
+    until = time.monotonic() + patience
+    while True:
+        value = probe()
+        if value:
+            return value
+        if time.monotonic() > until:
+            raise Failure(f"{text} (after {patience} s)")
+        time.sleep(0.05)
+
+
+class Session:
+    """A run or a recording on its live page, in a process of its own."""
+
+    def __init__(self, *arguments):
+        self.process = subprocess.Popen([JOSTLE, *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                        stdin=subprocess.DEVNULL, text=True, cwd=ROOT)
+        self.said = []
+        threading.Thread(target=self.read, daemon=True).start()
+        self.address = wait_for(lambda: next((line for line in self.said if line.startswith("http://")), None),
+                                f"no address from jostle {' '.join(arguments)}")
+
+    def read(self):
+        for line in self.process.stdout:
+            self.said.append(line.strip())
+
+    def stop(self):
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGINT)
+            try:
+                self.process.wait(10)
+            except subprocess.TimeoutExpired:
+                self.process.kill()
+                self.process.wait()
+        self.process.stdout.close()
+        return self.process.returncode
+
+
+class Browser:
+    """Chromium without a display, and short ways to ask the page."""
+
+    def __init__(self):
+        options = Options()
+        options.binary_location = shutil.which("chromium")
+        for argument in ("--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
+                         "--enable-unsafe-swiftshader", "--window-size=1280,940", "--hide-scrollbars",
+                         "--disable-dev-shm-usage", "--force-prefers-reduced-motion"):
+            options.add_argument(argument)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        self.driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+        self.driver.set_script_timeout(30)
+        self.driver.set_page_load_timeout(60)
+
+    def size(self, wide, high, ratio=1):
+        """The page's own size, in CSS pixels; a ratio of 2 is a page enlarged to 200 %."""
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": wide, "height": high, "deviceScaleFactor": ratio, "mobile": False})
+
+    def dark(self, on):
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+            "features": [{"name": "prefers-color-scheme", "value": "dark" if on else "light"}]})
+
+    def open(self, session):
+        self.driver.get_log("browser")
+        self.driver.get(session.address)
+        self.wait("return window.page && page.hello && page.crowd.next && page.crowd.next.slots > 0", "no frame reached the page")
+
+    def run(self, script, *arguments):
+        return self.driver.execute_script(script, *arguments)
+
+    def wait(self, script, text, *arguments, patience=PATIENCE):
+        return wait_for(lambda: self.run(script, *arguments), text, patience)
+
+    def complaints(self):
+        """What the console says against the page."""
+        return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
+
+    def find(self, selector):
+        return self.driver.find_element(By.CSS_SELECTOR, selector)
+
+    def button(self, text):
+        for node in self.driver.find_elements(By.TAG_NAME, "button"):
+            if node.text == text and node.is_displayed():
+                return node
+        raise Failure(f"no button {text!r}")
+
+    def press(self, *keys):
+        """Keys for whatever has the focus."""
+        self.driver.switch_to.active_element.send_keys(*keys)
+
+    def canvas(self):
+        return self.find("#picture")
+
+    def picture(self, name):
+        os.makedirs(PICTURES, exist_ok=True)
+        self.driver.save_screenshot(os.path.join(PICTURES, f"{name}.png"))
+
+    def close(self):
+        self.driver.quit()
+
+
+def temporary_copy(files):
+    """A folder with the files {name: text}."""
+    folder = tempfile.mkdtemp(prefix="jostle-page-")
+    for name, text in files.items():
+        write(folder, name, text)
+    return folder
+
+
+def write(folder, name, text):
+    """Saves as editors do: a new file in the place of the old one."""
+    path = os.path.join(folder, name)
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path + ".new", "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(path + ".new", path)
+
+
+def read(*path):
+    with open(os.path.join(ROOT, *path), encoding="utf-8") as file:
+        return file.read()
+
+
+def run_all(tests, names):
+    """Runs tests (functions of a browser) by name; returns the exit status."""
+    browser = Browser()
+    failed = 0
+    try:
+        for test in tests:
+            name = test.__name__
+            if names and name not in names:
+                continue
+            begun = time.monotonic()
+            try:
+                browser.size(1280, 800)
+                browser.dark(False)
+                test(browser)
+                print(f"ok {test.__doc__.strip()} ({time.monotonic() - begun:.1f} s)", flush=True)
+            except Exception as error:  # whatever it was, the next test runs
+                failed += 1
+                print(f"not ok {test.__doc__.strip()}: {str(error).splitlines()[0] if str(error) else error!r}", flush=True)
+                if not isinstance(error, Failure):
+                    traceback.print_exc()
+                try:
+                    browser.picture(f"failed-{name}")
+                except Exception:  # the browser itself is gone
+                    pass
+    finally:
+        browser.close()
+    return 1 if failed else 0

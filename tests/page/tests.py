@@ -1,0 +1,514 @@
+"""Tests of the live page: see run.sh."""
+import functools
+import os
+import shutil
+import subprocess
+import sys
+import time
+
+from harness import JOSTLE, Session, expect, read, run_all, temporary_copy, write
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select
+
+
+def served(*arguments):
+    """A test with a session of its own, which has to end well."""
+    def decorate(test):
+        @functools.wraps(test)
+        def run(browser):
+            session = Session(*arguments)
+            try:
+                browser.open(session)
+                test(browser)
+                expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
+            finally:
+                status = session.stop()
+            expect(status == 0, f"the program ended with status {status}: {session.said[-3:]}")
+        return run
+    return decorate
+
+
+# The share of people on whose spot of the picture there is colour; the floor and walls are grey.
+COLOURED = """
+const v = page.view, gl = v.renderer.getContext();
+v.people.group.visible = arguments[0];
+v.dirty = true;
+v.draw(performance.now());
+const spot = new Uint8Array(4);
+let seen = 0, all = 0;
+for (let slot = 0; slot < page.crowd.next.slots; slot += 3) {
+    const at = page.crowd.position(slot, page.crowd.share(performance.now()));
+    const s = at && v.project(at[0], at[1], 0.8);
+    if (!s || s[0] < 0 || s[1] < 0 || s[0] >= v.wide || s[1] >= v.high) continue;
+    gl.readPixels(s[0] * v.ratio, gl.drawingBufferHeight - 1 - s[1] * v.ratio, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, spot);
+    all++;
+    if (Math.max(spot[0], spot[1], spot[2]) - Math.min(spot[0], spot[1], spot[2]) > 50) seen++;
+}
+v.people.group.visible = true;
+v.dirty = true;
+return [seen, all];
+"""
+
+
+@served("run", "scenes/office.yaml", "--view")
+def loads(browser):
+    """the page loads and shows the people where they are"""
+    # A picture is drawn before its pixels are read, in one go: the browser keeps none.
+    seen, total = browser.run(COLOURED, True)
+    without, _ = browser.run(COLOURED, False)
+    expect(total > 100, f"only {total} people are in the picture")
+    expect(seen > 0.8 * total, f"colour on the spot of {seen} of {total} people")
+    expect(without < 0.25 * total, f"colour on the spot of {without} of {total} people who are hidden")
+    browser.run("page.view.turnBy(0, -0.15, 2.6)")
+    time.sleep(0.7)
+    browser.picture("office")
+    draws = browser.run("return page.view.renderer.info.render.calls")
+    expect(0 < draws <= 25, f"{draws} draw calls")
+
+
+@served("run", "scenes/office.yaml", "--view")
+def pauses(browser):
+    """Space stops the time, the full stop is one step, speed and restart work"""
+    tick = "return page.crowd.next.tick"
+    browser.find("body").send_keys(" ")
+    browser.wait("return page.bar.paused && document.querySelector('#time button').textContent === 'Play'", "no pause")
+    time.sleep(0.3)
+    stopped = browser.run(tick)
+    time.sleep(0.6)
+    expect(browser.run(tick) == stopped, "time goes on while it is stopped")
+    browser.find("body").send_keys(".")
+    browser.wait("return page.crowd.next.tick === arguments[0]", "not one step", stopped + 1)
+    browser.find("body").send_keys(" ")
+    browser.wait("return page.crowd.next.tick > arguments[0]", "time does not go on", stopped + 3)
+    Select(browser.find("#time select")).select_by_value("4")
+    browser.wait("return page.charts.dense.times.length > 2 && page.bar.speed.value === '4'", "no speed")
+    seed = browser.find("#time input")
+    seed.clear()
+    seed.send_keys("7")
+    browser.button("Restart").click()
+    browser.wait("return page.hello.seed === 7 && page.crowd.next.time < 5", "no new start with seed 7")
+
+
+STEP = "page.connection.send({do: 'step', n: arguments[0]})"
+PLACES = """
+const out = {};
+for (let slot = 0; slot < page.crowd.next.slots; slot++) {
+    const at = page.crowd.position(slot, 1);
+    if (at) out[slot] = at;
+}
+return out;
+"""
+
+
+def step_to(browser, tick):
+    now = browser.run("return page.crowd.next.tick")
+    browser.run(STEP, tick - now)
+    browser.wait("return page.crowd.next.tick === arguments[0]", f"step {tick} was not reached", tick)
+
+
+def start_stopped(browser):
+    """From the beginning, with the time stopped."""
+    browser.run("page.connection.send({do: 'restart'}); page.connection.send({do: 'pause', on: true})")
+    browser.wait("return page.bar.paused && page.crowd.next.tick < 20", "no start with the time stopped")
+    time.sleep(0.3)
+    expect(browser.run("return page.crowd.next.tick") == 0, "the time was not stopped at once")
+
+
+def draw(browser, tool, start, end, hold):
+    """Presses at one place of the scene (x, y, z in m), draws to another, holds `hold` s, lets go."""
+    browser.button(tool).click()
+    spots = [browser.run("return page.view.project(...arguments[0])", list(place)) for place in (start, end)]
+    box = browser.canvas().rect
+    (x0, y0), (x1, y1) = [(int(s[0] - box["width"] / 2), int(s[1] - box["height"] / 2)) for s in spots]
+    hand = ActionChains(browser.driver, duration=50)
+    hand.move_to_element_with_offset(browser.canvas(), x0, y0).click_and_hold()
+    hand.move_to_element_with_offset(browser.canvas(), x1, y1).perform()
+    until = time.monotonic() + hold
+    while time.monotonic() < until:
+        yield
+        time.sleep(0.1)
+    ActionChains(browser.driver).release().perform()
+
+
+@served("run", "scenes/office.yaml", "--view")
+def throws(browser):
+    """a box that is thrown with the mouse moves people; without it nothing else happens"""
+    start_stopped(browser)
+    step_to(browser, 60)
+    alone = browser.run(PLACES)
+    start_stopped(browser)
+    bodies = browser.run("return page.hello.bodies.length")
+    browser.run("page.act.size.value = 1; page.act.mass.value = 300")
+    for _ in draw(browser, "Throw", (14, 12, 0), (18, 12, 0), 0.1):
+        expect(browser.run("return page.tools.gesture && page.tools.gesture.kind") == "throw", "no throw is under way")
+        browser.picture("throw")
+    step_to(browser, 60)
+    browser.wait("return page.hello.bodies.length === arguments[0]", "no box more", bodies + 1)
+    place = browser.run("return page.crowd.bodyPosition(arguments[0])", bodies)
+    expect(10 < place[0] < 30 and 4 < place[1] < 20, f"the box is at {place}")
+    hit = browser.run(PLACES)
+    moved = [s for s in alone if s in hit and abs(alone[s][0] - hit[s][0]) + abs(alone[s][1] - hit[s][1]) > 0.1]
+    expect(len(moved) >= 3, f"{len(moved)} people moved by the box")
+    browser.picture("thrown")
+
+
+@served("run", "scenes/office.yaml", "--view")
+def pulls(browser):
+    """a desk is dragged along, a person is pushed by as many newtons as are drawn"""
+    desk = browser.run("return page.crowd.bodyPosition(0)")
+    for _ in draw(browser, "Drag", desk, (desk[0] + 4, desk[1] + 2.5, desk[2]), 4):
+        pass
+    now = browser.run("return page.crowd.bodyPosition(0)")
+    gone = ((now[0] - desk[0]) ** 2 + (now[1] - desk[1]) ** 2) ** 0.5
+    expect(gone > 1, f"the desk was dragged by {gone:.2f} m")
+    # Somebody at the far wall, where nobody is in front.
+    slot, *at = browser.run("""
+        let best = null;
+        for (let slot = 0; slot < page.crowd.next.slots; slot++) {
+            const p = page.crowd.position(slot, 1);
+            if (p && p[0] > 10 && p[0] < 26 && (!best || p[1] > best[2])) best = [slot, ...p];
+        }
+        return best;""")
+    most = 0
+    for _ in draw(browser, "Push", (*at, 1.2), (at[0], at[1] - 3, 0), 1.5):
+        most = max(most, browser.run("""return Math.max(0, ...(page.overlay.forces ?? []).filter((f) => f.kind === 'external')
+            .map((f) => Math.hypot(f.fx, f.fy)))"""))
+    expect(300 < most < 1500, f"a push of {most:.0f} N was felt, of about 750")
+    browser.picture("push")
+
+
+@served("run", "scenes/tawaf-few.yaml", "--view")
+def inspects(browser):
+    """a click on a person shows state, parameters, velocities and why it changed"""
+    browser.run("page.bar.toggle()")
+    browser.wait("return page.bar.paused && page.crowd.share(performance.now()) === 1", "no pause")
+    # Near enough that the person is large, and alone under the pointer.
+    slot = browser.run("""
+        const slot = [...Array(page.crowd.next.slots).keys()].find((s) => page.crowd.alive(s));
+        const at = page.crowd.position(slot, 1), t = page.view.orbit.target;
+        page.view.turnBy(0, 0.3, 10);
+        page.view.moveBy(at[0] - t.x, at[1] - t.y);
+        return slot;""")
+    time.sleep(0.5)
+    spot = browser.run("const a = page.crowd.position(arguments[0], 1); return page.view.project(a[0], a[1], 0.9)", slot)
+    box = browser.canvas().rect
+    ActionChains(browser.driver).move_to_element_with_offset(
+        browser.canvas(), int(spot[0] - box["width"] / 2), int(spot[1] - box["height"] / 2)).click().perform()
+    chosen = browser.wait("return page.person && [page.person.slot, page.person.id, page.person.state]", "nobody was chosen")
+    expect(chosen[0] == slot, f"slot {chosen[0]} was chosen, not {slot}")
+    panel = browser.find("#page-agent").text
+    expect(f"Agent {chosen[1]}" in panel and chosen[2] in panel, f"the panel says {panel[:80]!r}")
+    expect("tawaf.lua" in panel, "the panel does not say where parameters were set")
+    expect(browser.run("return document.querySelectorAll('.velocity circle').length") >= 2, "no velocities")
+    expect("laps" in panel, "no memory")
+    browser.find("body").send_keys("f")
+    browser.run("page.bar.toggle()")
+    before = browser.run("return page.view.controls.target.toArray()")
+    browser.wait("return page.view.controls.target.distanceTo({x: arguments[0], y: arguments[1], z: 0}) > 0.3",
+                 "the eye does not follow", before[0], before[1])
+    browser.picture("inspect")
+    browser.find("#tab-machine").click()
+    browser.wait("return [...document.querySelectorAll('.graph .count')].reduce((s, n) => s + Number(n.textContent.replace(/\\D/g, '')), 0) > 10",
+                 "no counts in the graph of states")
+    browser.picture("machine")
+    browser.find("#tab-charts").click()
+    time.sleep(1)
+    browser.picture("charts")
+    browser.find("body").send_keys(Keys.ESCAPE)
+    browser.wait("return page.slot === null", "Escape does not let go")
+
+
+WALKERS = {
+    "scene.yaml": """jostle: 1
+title: Walkers
+step: 0.05
+duration: 600
+places:
+  room: {polygon: [[0, 0], [20, 0], [20, 12], [0, 12]]}
+  goals: {point: [60, 6]}
+walls:
+  - {line: [[0, -0.5], [50, -0.5]]}
+  - {line: [[0, 12.5], [50, 12.5]]}
+  - {line: [[30, 0], [30, 12]], name: gate}
+groups:
+  walkers: {behaviour: walk.lua, count: 60, fill: random, in: room}
+""",
+    "walk.lua": """return machine {
+  name = "walk", version = 1, start = "Walk",
+  defaults = { speed = 1.2, perception = 4 },
+  states = {
+    Walk = { steer = seek "goals", push = 20,
+      { to = "Rest", when = heard "rest" } },
+    Rest = { steer = hold, lasts = 2,
+      { to = "Walk", when = lasted } },
+  },
+}
+""",
+}
+
+
+def with_walkers(test):
+    """A test with the walkers' files in a folder of its own."""
+    @functools.wraps(test)
+    def run(browser):
+        folder = temporary_copy(WALKERS)
+        session = Session("run", os.path.join(folder, "scene.yaml"), "--view")
+        try:
+            browser.open(session)
+            test(browser, folder)
+        finally:
+            status = session.stop()
+            shutil.rmtree(folder)
+        expect(status == 0, f"the program ended with status {status}: {session.said[-3:]}")
+    return run
+
+
+@with_walkers
+def edits(browser, _):
+    """a parameter that is changed takes effect, and Lua to keep it is shown"""
+    mean = "return page.charts.speed.values.get('')?.slice(-1)[0]"
+    browser.wait("const v = page.charts.speed.values.get(''); return v && v.slice(-1)[0] > 0.9", "nobody walks")
+    browser.find("#tab-parameters").click()
+    Select(browser.driver.find_elements("css selector", "#page-parameters select")[1]).select_by_visible_text("Walk")
+    number = browser.find("[data-parameter=speed] input[type=number]")
+    number.clear()
+    number.send_keys("0.2", Keys.ENTER)
+    browser.wait("const v = page.charts.speed.values.get(''); return v.slice(-1)[0] < 0.3", "speed 0.2 has no effect")
+    expect(browser.run(mean) > 0.05, "people stand still at speed 0.2")
+    browser.find("[data-parameter=speed] button").click()
+    text = browser.wait("return document.querySelector('.paste:not([hidden]) code')?.textContent", "no line of Lua")
+    expect("Walk" in text and "speed = 0.2" in text, f"the line of Lua is {text!r}")
+    browser.picture("parameters")
+    browser.find("[data-parameter=speed] input[type=range]").send_keys(Keys.END)
+    browser.wait("const v = page.charts.speed.values.get(''); return v.slice(-1)[0] > 0.5", "the slider has no effect")
+    # What cannot be is refused, with the range.
+    browser.run("page.connection.input('set', 'walk', 'Walk', 'speed', -5)")
+    browser.wait("return /speed/.test(document.getElementById('messages').textContent)", "no refusal is shown")
+
+
+@with_walkers
+def gates(browser, _):
+    """a gate opens and a signal is heard by buttons"""
+    browser.find("#tab-act").click()
+    gate = browser.find("#page-act button[aria-label='Open gate']")
+    gate.click()
+    browser.wait("return page.view.ground.open.gate && document.querySelector('#page-act button').textContent === 'Close'",
+                 "the gate does not open")
+    browser.button("rest").click()
+    browser.wait("return page.machine.status.census[0].some((n, i) => page.hello.machines[0].states[i].name === 'Rest' && n === 60)",
+                 "nobody rests")
+    browser.picture("gates")
+
+
+@with_walkers
+def reloads(browser, folder):
+    """an error of a reload stands over the picture, and goes when it is mended"""
+    write(folder, "walk.lua", WALKERS["walk.lua"].replace('seek "goals"', 'seeek "goals"'))
+    text = browser.wait("const e = document.getElementById('errors'); return !e.hidden && e.textContent", "no error is shown")
+    expect("walk.lua:5" in text and "seeek" in text and "push = 20" in text, f"the error is {text[:200]!r}")
+    browser.picture("reload-error")
+    tick = browser.run("return page.crowd.next.tick")
+    browser.wait("return page.crowd.next.tick > arguments[0]", "the run stands still", tick + 5)
+    write(folder, "walk.lua", WALKERS["walk.lua"].replace("speed = 1.2", "speed = 0.4"))
+    browser.wait("return document.getElementById('errors').hidden", "the error stays")
+    browser.wait("return page.charts.speed.values.get('').slice(-1)[0] < 0.6", "the mended file has no effect")
+
+
+def plays(browser):
+    """the player is driven by keys until it kicks the ball"""
+    scene = read("scenes", "dodgeball.yaml").replace("input: dodgeball.input\n", "")
+    folder = temporary_copy({"scenes/dodgeball.yaml": scene, "behaviours/player.lua": read("behaviours", "player.lua"),
+                             "behaviours/dodgeball.lua": read("behaviours", "dodgeball.lua")})
+    session = Session("run", os.path.join(folder, "scenes/dodgeball.yaml"), "--view")
+    try:
+        browser.open(session)
+        browser.find("#tab-act").click()
+        browser.find("body").send_keys("t")
+        browser.button("Drive with the keys").click()
+        slot = browser.wait("return page.overlay.players.length ? page.overlay.players[0] + 1 : 0", "no player") - 1
+        kicked = drive(browser, slot)
+        browser.picture("dodgeball")
+        expect(kicked, "no kick in 40 s")
+        expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
+    finally:
+        session.stop()
+        shutil.rmtree(folder)
+
+
+def drive(browser, slot):
+    """Runs after the ball by arrow keys; true once it flies off from the player."""
+    browser.run("""
+        window.kicks = 0;
+        let last = null;
+        const take = page.view.takeFrame.bind(page.view);
+        page.view.takeFrame = (kind) => {
+            const b = page.crowd.bodyPosition(0), t = page.crowd.next.time, p = page.crowd.position(arguments[0], 1);
+            if (last && t > last.t && Math.hypot(b[0] - last.b[0], b[1] - last.b[1]) / (t - last.t) > 3.5
+                && Math.hypot(p[0] - last.b[0], p[1] - last.b[1]) < 0.9) window.kicks++;
+            last = {b, t};
+            take(kind);
+        };""", slot)
+    keys = {"x": (Keys.ARROW_LEFT, Keys.ARROW_RIGHT), "y": (Keys.ARROW_DOWN, Keys.ARROW_UP)}
+    held = set()
+    until = time.monotonic() + 40
+    while time.monotonic() < until:
+        way = browser.run("""
+            const b = page.crowd.bodyPosition(0), p = page.crowd.position(arguments[0], 1);
+            return window.kicks ? null : {x: b[0] - p[0], y: b[1] - p[1]};""", slot)
+        wanted = set() if way is None else {keys[a][d > 0] for a, d in way.items() if abs(d) > 0.12}
+        hand = ActionChains(browser.driver, duration=0)
+        for key in held - wanted:
+            hand.key_up(key)
+        for key in wanted - held:
+            hand.key_down(key)
+        hand.perform()
+        held = wanted
+        if way is None:
+            return True
+    return False
+
+
+def replays(browser):
+    """a recording is played, stopped and looked through by its time bar"""
+    folder = temporary_copy({})
+    recording = os.path.join(folder, "run.sqlite")
+    subprocess.run([JOSTLE, "run", "scenes/office.yaml", "--for", "12", "--record", recording, "--quiet"], check=True)
+    session = Session("view", recording)
+    try:
+        browser.open(session)
+        expect(browser.find("#replay").is_displayed(), "no time bar")
+        expect(not browser.driver.find_elements("xpath", "//button[text()='Restart' and not(@hidden)]"), "a recording offers a restart")
+        bar = browser.find("#replay input")
+        browser.wait("return Number(document.querySelector('#replay input').max) > 11", "the bar does not know the end")
+        browser.run("page.bar.paused || page.bar.toggle()")
+        browser.wait("return page.bar.paused", "no pause")
+        bar.send_keys(Keys.HOME)
+        browser.run("page.replay.seek(8)")
+        browser.wait("return Math.abs(page.crowd.next.time - 8) < 0.6", "no seek to 8 s")
+        expect(browser.run("return page.crowd.next.slots") >= 1000, "people are missing")
+        browser.run("page.inspect([...Array(page.crowd.next.slots).keys()].find((s) => page.crowd.alive(s)))")
+        browser.wait("return /state/.test(document.getElementById('page-agent').textContent)", "nothing is said of a person")
+        browser.picture("replay")
+        bar.send_keys(Keys.PAGE_DOWN, Keys.ARROW_RIGHT)
+        browser.wait("return page.crowd.next.time < 2.6", "the keys do not move the bar")
+        at = browser.run("return page.crowd.next.time")
+        browser.button("Play").click()
+        browser.wait("return page.crowd.next.time > arguments[0]", "it does not play", at + 0.5)
+        expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
+    finally:
+        session.stop()
+        shutil.rmtree(folder)
+
+
+# What can be used: visible, enabled, in the bars and the panel.
+USABLE = """
+return [...document.querySelectorAll('button, select, input, canvas[tabindex], [role=tabpanel], .graph [tabindex]')]
+    .filter((n) => n.checkVisibility() && !n.disabled && n.tabIndex >= 0);
+"""
+
+
+@served("run", "scenes/office.yaml", "--view")
+def keyboard(browser):
+    """everything is reached by the Tab key, in sight, with a name"""
+    browser.find("body").send_keys(" ")
+    for tab in ("machine", "parameters", "act"):
+        browser.find(f"#tab-{tab}").click()
+        wanted = browser.run(USABLE)
+        expect(len(wanted) > 15, f"only {len(wanted)} controls")
+        nameless = browser.run("""return arguments[0].filter((n) => !(n.getAttribute('aria-label') || n.textContent.trim()
+            || n.labels?.length || n.title || n.getAttribute('aria-labelledby'))).map((n) => n.outerHTML.slice(0, 80))""", wanted)
+        expect(not nameless, f"without a name: {nameless[:2]}")
+        browser.run("document.activeElement.blur(); window.reached = new Set(); window.unseen = []; window.scrollTo(0, 0)")
+        for _ in range(len(wanted) + 8):
+            ActionChains(browser.driver, duration=0).send_keys(Keys.TAB).perform()
+            browser.run("""const n = document.activeElement; window.reached.add(n);
+                const s = getComputedStyle(n);
+                if (n !== document.body && (s.outlineStyle === 'none' || parseFloat(s.outlineWidth) < 2)) window.unseen.push(n.outerHTML.slice(0, 80));""")
+        missed = browser.run("return arguments[0].filter((n) => !window.reached.has(n)).map((n) => n.outerHTML.slice(0, 80))", wanted)
+        expect(not missed, f"not reached: {missed[:2]}")
+        unseen = browser.run("return window.unseen")
+        expect(not unseen, f"the focus is not seen on {unseen[:2]}")
+    # The crowd without a pointer: Enter at the middle of the picture chooses a person.
+    browser.run("""const at = page.crowd.position([...Array(page.crowd.next.slots).keys()].find((s) => page.crowd.alive(s)), 1);
+        const t = page.view.orbit.target; page.view.moveBy(at[0] - t.x, at[1] - t.y);
+        const c = document.getElementById('picture'); c.focus({focusVisible: true});""")
+    time.sleep(0.3)
+    browser.press(Keys.ENTER)
+    browser.wait("return page.person", "Enter chooses nobody")
+    browser.picture("keyboard")
+
+
+OVERLAPS = """
+const nodes = arguments[0].filter((n) => !n.closest('.graph') && n.tagName !== 'CANVAS' && n.getAttribute('role') !== 'tabpanel');
+const boxes = nodes.map((n) => n.getBoundingClientRect()), out = [];
+nodes.forEach((a, i) => nodes.forEach((b, j) => {
+    if (j <= i || a.contains(b) || b.contains(a)) return;
+    const p = boxes[i], q = boxes[j];
+    if (p.left < q.right - 1 && q.left < p.right - 1 && p.top < q.bottom - 1 && q.top < p.bottom - 1) out.push(a.outerHTML.slice(0, 60) + ' on ' + b.outerHTML.slice(0, 60));
+}));
+nodes.forEach((n, i) => {
+    if (boxes[i].left < -1 || boxes[i].right > innerWidth + 1) out.push(n.outerHTML.slice(0, 60) + ' leaves the window');
+    if (n.tagName === 'BUTTON' && n.scrollWidth > n.clientWidth + 1) out.push(n.outerHTML.slice(0, 60) + ' is cut');
+});
+if (document.documentElement.scrollWidth > innerWidth + 1) out.push('the page is wider than the window');
+return out;
+"""
+
+
+@served("run", "scenes/office.yaml", "--view")
+def enlarged(browser):
+    """enlarged to 200 % nothing overlaps or is cut, in light and in dark"""
+    browser.find("body").send_keys(" ")  # that the browser has time for layouts
+    for wide, high, ratio, dark, name in ((1280, 800, 1, True, "dark"), (640, 400, 2, False, "zoom-200"), (400, 640, 2, True, "narrow")):
+        browser.size(wide, high, ratio)
+        browser.dark(dark)
+        for tab in ("machine", "parameters", "charts", "act", "agent"):
+            browser.find(f"#tab-{tab}").click()
+            time.sleep(0.2)
+            wrong = browser.run(OVERLAPS, browser.run(USABLE))
+            expect(not wrong, f"at {wide} x {high}, {tab}: {wrong[:2]}")
+        high_enough = browser.run("return document.getElementById('stage').clientHeight")
+        expect(high_enough >= 200, f"the picture is only {high_enough} pixels high")
+        browser.run("window.scrollTo(0, 0)")
+        time.sleep(0.5)
+        browser.picture(name)
+
+
+def reconnects(browser):
+    """a lost connection comes back by itself; an ended program is said"""
+    session = Session("run", "scenes/office.yaml", "--view")
+    try:
+        browser.open(session)
+        browser.run("page.connection.socket.close()")
+        browser.wait("return page.connection.socket.readyState > 1", "the socket stays open")
+        browser.wait("return page.connection.socket.readyState === 1", "no new connection")
+        tick = browser.run("return page.crowd.next.tick")
+        browser.wait("return page.crowd.next.tick > arguments[0] + 3", "no frames after the new connection", tick)
+        expect("connected" == browser.find("#link").text, "it does not say that it is connected")
+    finally:
+        session.stop()
+    browser.wait("return /lost/.test(document.getElementById('messages').textContent)", "the page does not say that the program is gone")
+    browser.picture("lost")
+
+
+@served("run", "scenes/tawaf.yaml", "--view")
+def crowd_of_35000(browser):
+    """35,000 people take at most 8 ms of script and 25 draw calls a picture"""
+    browser.size(800, 500)  # software draws slowly, the script does not mind
+    browser.wait("return page.meter.pictures >= 5", "too few pictures", patience=40)
+    browser.run("page.meter.spent.length = 0")
+    browser.wait("return page.meter.spent.length >= 20", "too few pictures", patience=40)
+    spent = browser.run("return page.meter.get()")
+    draws = browser.run("return page.view.renderer.info.render.calls")
+    people = browser.run("return page.machine.status.agents")
+    browser.picture("tawaf")
+    expect(people >= 34000, f"{people} people")
+    expect(spent["median"] <= 8, f"{spent['median']:.1f} ms of script")
+    expect(0 < draws <= 25, f"{draws} draw calls")
+
+
+TESTS = [loads, pauses, throws, pulls, inspects, edits, gates, reloads, plays, replays, keyboard, enlarged, reconnects, crowd_of_35000]
+
+if __name__ == "__main__":
+    sys.exit(run_all(TESTS, sys.argv[1:]))

@@ -1,0 +1,95 @@
+# Sessions: what people do to a running scene, and files that they save, are written to an input log
+# that plays back to the same hash, on any number of threads.
+. tests/scenes/lib.sh
+log=$work/session.input
+
+# ---- every verb ----
+cat >"$work/script.input" <<'LINES'
+# people push, throw, pull, shut, call and set
+5 push 0 400 0
+6 throw desk-1 6 4 1.2 2 0 3 0 0 1
+10 box 3 3 1.5 0 4 2 0.4 8
+12 box 1 1 0 0 0 0 0.3 5
+20 grab 3 2 2 1.2
+24 set throng defaults speed 0.8
+25 drag 3 4 2 1.2
+30 set throng Flee max_speed 1.1
+60 release 3
+62 signal "everybody out"
+70 player 4 1 0.5
+LINES
+state=$(sed -n 's/^ *\([A-Z][A-Za-z]*\) = {.*/\1/p' behaviours/throng.lua | head -1)
+sed -i "s/throng Flee/throng $state/" "$work/script.input"
+office() { "$JOSTLE" run scenes/office.yaml --set groups.people.count=300 --for 5 --quiet --summary - "$@" 2>"$work/err" | figure hash; }
+one=$(office --input "$work/script.input" --log-input "$log")
+[ ! -s "$work/err" ]; verdict "every verb is done" $?
+cat "$work/err"
+same_hash "a session of every verb" "$one" "$(office --input "$log")" "$(office --input "$log" --threads 2)" "$(office --input "$log" --threads 4)"
+[ "$(grep -Ev '^#|^0 (began|made)' "$log")" = "$(grep -v '^#' "$work/script.input")" ]
+verdict "the log of a replay says the same" $?
+head -1 "$log" | grep -q '^# input log of jostle .*: scene scenes/office.yaml, seed [0-9]*, dt 0.05 s$'
+verdict "a log begins with what it was made of" $?
+[ "$one" != "$(office)" ]; verdict "what people do matters" $?
+
+# ---- walls ----
+printf '20 open exit\n40 close exit\n' >"$work/gates.input"
+name=$(sed -n 's/.*name: \([a-z_]*\)[,}].*/\1/p' scenes/gates.yaml | head -1)
+sed -i "s/exit/$name/" "$work/gates.input"
+gates() { hash_of "$JOSTLE" scenes/gates.yaml --for 6 --input "$work/gates.input" "$@"; }
+same_hash "gates" "$(gates)" "$(gates --threads 2)"
+[ "$(gates)" != "$(hash_of "$JOSTLE" scenes/gates.yaml --for 6)" ]; verdict "gates of a log open and shut" $?
+
+# ---- mistakes ----
+printf '7 push 0 1 1\n8 shove 0\n5 push 0 1 1\n' >"$work/bad.input"
+"$JOSTLE" run scenes/office.yaml --steps 1 --quiet --input "$work/bad.input" 2>"$work/err"
+[ $? = 3 ] && grep -qF "bad.input:2:3: there is no verb 'shove'" "$work/err" && grep -qF 'bad.input:3:1: ticks must not decrease' "$work/err"
+verdict "a wrong log is bad input, with its places" $?
+"$JOSTLE" run scenes/office.yaml --steps 1 --quiet --log-input "$work/no/such/folder" 2>"$work/err"
+[ $? = 1 ] && grep -qF 'cannot write the input log' "$work/err"; verdict "a log that cannot be written is said" $?
+
+# ---- saved files: 500 pilgrims, a behaviour, what it requires, and the scene ----
+tree=$work/tree
+mkdir -p "$tree/scenes" "$tree/behaviours"
+cp scenes/tawaf.yaml "$tree/scenes/"
+cp behaviours/*.lua "$tree/behaviours/"
+scene=$tree/scenes/tawaf.yaml sheet=$tree/behaviours/tawaf.lua
+few="--set groups.pilgrims.count=500 --set sources.0.keep=500 --no-mods --quiet"
+log=$work/saved.input
+"$JOSTLE" run "$scene" $few --steps 900000000 --watch --log-input "$log" --summary "$work/summary" >"$work/said" 2>&1 </dev/null &
+pid=$!
+trap '[ -z "$pid" ] || kill -KILL $pid; rm -rf "$work"' EXIT
+lives() { # NAME TEXT: waits until it is said
+    for i in $(seq 400); do
+        grep -qF -- "$2" "$work/said" && break
+        sleep 0.02
+    done
+    grep -qF -- "$2" "$work/said"; verdict "$1" $?
+}
+for i in $(seq 200); do
+    [ "$(ls /proc/$pid/task 2>/dev/null | wc -l)" -lt 2 ] || break
+    sleep 0.05
+done
+sleep 0.2
+sed -i 's/push = shove/push = 33/' "$sheet"; lives "a saved behaviour" "version 2 is live"
+sed -i 's/push = 33/puhs = 33/' "$sheet"; lives "one that does not load" "unknown key 'puhs'"
+echo 'return 2.5' >"$tree/behaviours/extra.lua"
+sed -i 's/^return machine/local extra = require "extra"\nreturn machine/; s/puhs = 33/push = extra/' "$sheet"
+lives "one that requires a new file" "version 3 is live"
+echo 'return 90' >"$tree/behaviours/extra.lua"; lives "what it requires" "version 4 is live"
+sed -i 's/^events:/events:\n  - {at: 1, every: 0.5, signal: hello}/' "$scene"
+grep -q '^events:' "$scene" || printf 'events:\n  - {at: 1, every: 0.5, signal: hello}\n' >>"$scene"
+lives "the scene" "events changed, live"
+kill -INT $pid
+wait $pid; verdict "the session ends well" $?
+pid=
+steps=$(figure steps <"$work/summary") hash=$(figure hash <"$work/summary")
+again() { hash_of "$JOSTLE" "$scene" $few --steps "$steps" --input "$log" "$@"; }
+same_hash "a session of saved files" "$hash" "$(again)" "$(again --threads 2)" "$(again --threads 4)"
+echo 'return machine {}' >"$sheet"
+rm "$tree/behaviours/extra.lua"
+same_hash "the files on the disk are not read" "$hash" "$(again --log-input "$work/again.input")"
+cmp "$log" "$work/again.input"; verdict "and its log is the same, byte by byte" $?
+grep -qa '^ *local extra = require "extra"' "$log"; verdict "sources stand in the log as they are" $?
+"$JOSTLE" run "$scene" $few --steps 1 --input "$log" --watch 2>&1 | grep -qF 'cannot be watched besides'
+verdict "a log with files and --watch exclude each other" $?
+exit 0

@@ -1,0 +1,473 @@
+/* A scene on its live page, driven as a browser would: what comes, what can be done, and that a
+   session replays to its state. */
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <sys/stat.h>
+
+#include <cmocka.h>
+
+#include "base/text.h"
+#include "jostle.h"
+#include "unit/view_client.h"
+
+static char folder[] = "/tmp/jostle-live-XXXXXX";
+
+static const char SCENE[] =
+    "jostle: 1\n"
+    "seed: 3\n"
+    "duration: 1000\n"
+    "places:\n"
+    "  yard: {polygon: [[0, 0], [20, 0], [20, 20], [0, 20]]}\n"
+    "walls:\n"
+    "  - {line: [[0, 10], [20, 10]], name: gate}\n"
+    "groups: {people: {behaviour: walker.lua, count: 30, fill: grid, in: yard}}\n";
+static const char WALKER[] =
+    "return machine { name = \"walker\", version = 1, start = \"Stand\",\n"
+    "  defaults = { speed = 1.2 },\n"
+    "  states = {\n"
+    "    Stand = { steer = hold, { to = \"Walk\", when = heard \"go\" } },\n"
+    "    Walk = { steer = away_from \"yard\" },\n"
+    "  },\n"
+    "}\n";
+
+static const char *in_folder(const char *name) {
+    static char paths[8][300];
+    static int turn;
+    char *path = paths[turn++ % 8];
+    snprintf(path, 300, "%s/%s", folder, name);
+    return path;
+}
+
+static void write_file(const char *name, const char *text) {
+    FILE *file = fopen(in_folder(name), "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+static int make_folder(void **state) {
+    (void)state;
+    if (!mkdtemp(folder))
+        return -1;
+    mkdir(in_folder("build"), 0700);
+    write_file("index.html", "page");
+    write_file("build/three.module.js", "three");
+    return 0;
+}
+
+static int remove_folder(void **state) {
+    (void)state;
+    static const char *const NAMES[] = {"index.html", "build/three.module.js", "scene.yaml",
+                                        "walker.lua", "log.txt"};
+    for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++)
+        unlink(in_folder(NAMES[i]));
+    rmdir(in_folder("build"));
+    return rmdir(folder);
+}
+
+/* ---- a session on a thread of its own ---- */
+
+typedef struct Session {
+    pthread_t thread;
+    JoViewDef def;
+    volatile int stop;
+    pthread_mutex_t lock;
+    pthread_cond_t opened;
+    char address[256];
+    JoxText said; /* under the lock */
+    char *summary;
+    bool good, done;
+    JoError error;
+    int fd;
+} Session;
+
+static Session session;
+
+static void opened(void *context, const char *address) {
+    Session *s = context;
+    pthread_mutex_lock(&s->lock);
+    snprintf(s->address, sizeof s->address, "%s", address);
+    pthread_cond_signal(&s->opened);
+    pthread_mutex_unlock(&s->lock);
+}
+
+static void listen_to(void *context, const char *text) {
+    Session *s = context;
+    pthread_mutex_lock(&s->lock);
+    jox_text_add(&s->said, text);
+    pthread_mutex_unlock(&s->lock);
+}
+
+static void *run_session(void *context) {
+    Session *s = context;
+    s->good = jo_view(&s->def, &s->error);
+    pthread_mutex_lock(&s->lock);
+    s->done = true;
+    pthread_cond_signal(&s->opened);
+    pthread_mutex_unlock(&s->lock);
+    return NULL;
+}
+
+/* Starts a session of the scene as it lies in the folder; `seconds` as of the def. */
+static void begin(double seconds) {
+    session = (Session){.def = jo_default_view_def(),
+                        .lock = PTHREAD_MUTEX_INITIALIZER,
+                        .opened = PTHREAD_COND_INITIALIZER};
+    JoViewDef *def = &session.def;
+    def->scene.path = in_folder("scene.yaml");
+    def->scene.message = listen_to;
+    def->scene.message_context = &session;
+    def->scene.named_mods_only = true;
+    def->page = def->three = folder;
+    def->log_input = in_folder("log.txt");
+    def->seconds = seconds;
+    def->stop = &session.stop;
+    def->opened = opened;
+    def->opened_context = &session;
+    def->summary = &session.summary;
+    assert_int_equal(pthread_create(&session.thread, NULL, run_session, &session), 0);
+    pthread_mutex_lock(&session.lock);
+    while (!*session.address && !session.done)
+        pthread_cond_wait(&session.opened, &session.lock);
+    pthread_mutex_unlock(&session.lock);
+}
+
+static void join(void) {
+    int port;
+    char token[64];
+    if (session.done)
+        fail_msg("%s", session.error.text);
+    assert_int_equal(sscanf(session.address, "http://127.0.0.1:%d/?token=%63s", &port, token), 2);
+    session.fd = open_socket(port, token);
+    assert_true(session.fd >= 0);
+}
+
+static void end(void) {
+    if (session.fd > 0)
+        close(session.fd);
+    __atomic_store_n(&session.stop, 1, __ATOMIC_RELAXED);
+    pthread_join(session.thread, NULL);
+    jox_text_free(&session.said);
+}
+
+static void say(const char *format, ...) {
+    char text[2048];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    assert_true(put_text(session.fd, text));
+}
+
+/* The next JSON message that has all of some texts (NULL at the end), within five seconds. */
+static char last[1 << 20];
+static const char *hear(const char *first, const char *second) {
+    for (double until = clock_now() + 5.0; clock_now() < until;) {
+        int kind;
+        size_t length;
+        char *message = get_message(session.fd, &kind, &length, until - clock_now());
+        if (!message)
+            break;
+        bool found =
+            kind == FRAME_TEXT && strstr(message, first) && (!second || strstr(message, second));
+        if (kind == FRAME_TEXT && strstr(message, first)) /* also to be told of where it fails */
+            snprintf(last, sizeof last, "%s", message);
+        free(message);
+        if (found)
+            return last;
+    }
+    fail_msg("nothing came with %s and %s; the last was %.500s", first, second ? second : "", last);
+    return NULL;
+}
+
+/* The next frame's tick. */
+static uint32_t see(void) {
+    for (double until = clock_now() + 5.0; clock_now() < until;) {
+        int kind;
+        size_t length;
+        uint32_t head[2];
+        char *message = get_message(session.fd, &kind, &length, until - clock_now());
+        if (!message)
+            break;
+        memcpy(head, message, kind == FRAME_BINARY && length >= 8 ? sizeof head : 0);
+        free(message);
+        if (kind == FRAME_BINARY && length >= 8 && head[0] == 1)
+            return head[1];
+    }
+    fail_msg("no frame came");
+    return 0;
+}
+
+static double number_of(const char *json, const char *key) {
+    char quoted[64];
+    snprintf(quoted, sizeof quoted, "\"%s\": ", key);
+    const char *at = strstr(json, quoted);
+    if (!at)
+        fail_msg("no %s in %.400s", key, json);
+    return strtod(at + strlen(quoted), NULL);
+}
+
+/* ---- tests ---- */
+
+static void pages_are_greeted_and_shown_the_run(void **state) {
+    (void)state;
+    write_file("scene.yaml", SCENE);
+    write_file("walker.lua", WALKER);
+    begin(0);
+    join();
+    int kind;
+    size_t length;
+    char *message = get_message(session.fd, &kind, &length, 2.0);
+    assert_non_null(message);
+    assert_int_equal(kind, FRAME_TEXT); /* before anything else */
+    assert_non_null(
+        strstr(message, "{\"type\": \"hello\", \"protocol\": 1, \"session\": \"live\""));
+    free(message);
+    hear("\"type\": \"errors\"", "\"errors\": []");
+    uint32_t first = see();
+    double begun = clock_now();
+    uint32_t tick = first;
+    while (tick < first + 20)
+        tick = see();
+    double took = clock_now() - begun; /* 20 steps of 0.05 s in real time */
+    assert_true(took > 0.8 && took < 3.0);
+    const char *status = hear("\"type\": \"status\"", NULL);
+    assert_true(number_of(status, "agents") == 30);
+    assert_non_null(strstr(status, "\"paused\": false"));
+    end();
+    assert_true(session.good);
+    assert_non_null(session.summary);
+    jo_free(session.summary);
+}
+
+static void a_run_is_paused_stepped_and_hurried(void **state) {
+    (void)state;
+    begin(0);
+    join();
+    say("{\"do\": \"pause\", \"on\": true}");
+    hear("\"status\"", "\"paused\": true");
+    double tick = number_of(hear("\"status\"", "\"paused\": true"), "tick");
+    usleep(300000);
+    assert_true(number_of(hear("\"status\"", NULL), "tick") == tick);
+    say("{\"do\": \"step\", \"n\": 7}");
+    double then = tick;
+    for (int i = 0; i < 8 && then == tick; i++)
+        then = number_of(hear("\"status\"", NULL), "tick");
+    assert_true(number_of(hear("\"status\"", "\"paused\": true"), "tick") == tick + 7);
+    say("{\"do\": \"speed\", \"factor\": 10}");
+    say("{\"do\": \"pause\", \"on\": false}");
+    hear("\"status\"", "\"paused\": false");
+    double from = number_of(last, "time"), begun = clock_now();
+    while (number_of(hear("\"status\"", NULL), "time") < from + 5.0)
+        ;
+    assert_true(clock_now() - begun < 2.0); /* 5 s in about a half */
+    assert_true(number_of(last, "speed") == 10);
+    say("{\"do\": \"speed\", \"factor\": -1}");
+    hear("\"refused\"", "\"do\": \"speed\"");
+    say("{\"do\": \"step\", \"n\": 1e9}");
+    hear("\"refused\"", "\"do\": \"step\"");
+    say("{\"do\": \"dance\"}");
+    hear("\"refused\"", "no such command");
+    say("{\"do\": \"colour\", \"by\": \"taste\"}");
+    hear("\"refused\"", "\"do\": \"colour\"");
+    say("not a command");
+    double dropped = 0;
+    for (int i = 0; i < 8 && dropped < 2; i++)
+        dropped = number_of(hear("\"status\"", NULL), "dropped");
+    assert_true(dropped == 2); /* the dance too */
+    end();
+    jo_free(session.summary);
+}
+
+static void colours_and_fields_are_as_asked(void **state) {
+    (void)state;
+    begin(0);
+    join();
+    hear("\"hello\"", NULL);
+    say("{\"do\": \"field\", \"of\": \"pressure\"}");
+    int kind;
+    size_t length;
+    bool came = false;
+    for (double until = clock_now() + 5.0; clock_now() < until && !came;) {
+        char *message = get_message(session.fd, &kind, &length, 2.0);
+        assert_non_null(message);
+        uint32_t head[2] = {0};
+        memcpy(head, message, length >= 8 && kind == FRAME_BINARY ? 8 : 0);
+        came = kind == FRAME_BINARY && head[0] == 3;
+        if (came)
+            assert_int_equal(head[1], 1); /* pressure, and not the other */
+        free(message);
+    }
+    assert_true(came);
+    say("{\"do\": \"colour\", \"by\": \"speed\"}");
+    say("{\"do\": \"field\", \"of\": \"none\"}");
+    say("{\"do\": \"field\", \"of\": \"smell\"}");
+    hear("\"refused\"", "\"do\": \"field\"");
+    for (double until = clock_now() + 0.7; clock_now() < until;) {
+        char *message = get_message(session.fd, &kind, &length, 2.0);
+        assert_non_null(message);
+        uint32_t head = 0;
+        memcpy(&head, message, length >= 8 && kind == FRAME_BINARY ? 4 : 0);
+        free(message);
+        assert_int_not_equal(head, 3);
+    }
+    end();
+    jo_free(session.summary);
+}
+
+static void a_scene_that_is_over_waits_and_is_restarted(void **state) {
+    (void)state;
+    begin(0.5);
+    join();
+    hear("\"say\"", "0.5 s are over");
+    hear("\"status\"", "\"paused\": true");
+    assert_true(number_of(last, "tick") == 10);
+    say("{\"do\": \"restart\", \"seed\": 77}");
+    hear("\"hello\"", "\"seed\": 77");
+    hear("\"say\"", "0.5 s are over");
+    say("{\"do\": \"restart\", \"seed\": 0.5}");
+    hear("\"refused\"", "\"do\": \"restart\"");
+    say("{\"do\": \"pause\", \"on\": false}"); /* beyond its end */
+    while (number_of(hear("\"status\"", NULL), "time") < 0.7)
+        ;
+    end();
+    assert_true(session.good);
+    jo_free(session.summary);
+}
+
+static void what_people_do_replays_to_the_same_state(void **state) {
+    (void)state;
+    begin(0);
+    join();
+    say("{\"do\": \"input\", \"line\": \"signal go\"}");
+    say("{\"do\": \"input\", \"line\": \"open gate\"}");
+    hear("\"status\"", "\"gate\": true");
+    say("{\"do\": \"input\", \"line\": \"push 1 300 0\"}"); /* not offered by the scene */
+    hear("\"refused\"", "view: {tools: [push]}");
+    say("{\"do\": \"input\", \"line\": \"open window\"}");
+    hear("\"refused\"", "window");
+    say("{\"do\": \"input\", \"line\": \"files 1\"}");
+    hear("\"refused\"", "\"do\": \"input\"");
+    say("{\"do\": \"input\", \"line\": \"set walker Walk speed 0.8\"}");
+    say("{\"do\": \"lua\", \"machine\": \"walker\", \"state\": \"Walk\", \"parameter\": \"speed\","
+        " \"value\": 0.8}");
+    hear("\"lua\"", "speed = 0.8");
+    usleep(400000);
+    say("{\"do\": \"pause\", \"on\": true}");
+    hear("\"status\"", "\"paused\": true");
+    double ticks = number_of(last, "tick");
+    end();
+    assert_true(session.good);
+    const char *live = strstr(session.summary, "\"hash\": ");
+    assert_non_null(live);
+
+    JoSceneDef def = jo_default_scene_def();
+    def.path = in_folder("scene.yaml");
+    def.input_log = in_folder("log.txt");
+    def.named_mods_only = true;
+    JoError error = {0};
+    JoScene *scene = jo_scene_load(&def, &error);
+    if (!scene)
+        fail_msg("%s", error.text);
+    for (int i = 0; i < (int)ticks; i++)
+        assert_true(jo_scene_step(scene, &error));
+    char *summary = jo_scene_summary(scene);
+    const char *again = strstr(summary, "\"hash\": ");
+    assert_int_equal(strncmp(live, again, 26), 0);
+    assert_true(number_of(session.summary, "steps") == ticks);
+    jo_free(summary);
+    jo_free(session.summary);
+    jo_scene_free(scene);
+}
+
+static void one_page_at_a_time_inspects(void **state) {
+    (void)state;
+    begin(0);
+    join();
+    say("{\"do\": \"inspect\", \"slot\": 4}");
+    hear("\"inspect\"", "\"agent\":{\"id\":4,\"slot\":4");
+    hear("\"inspect\"", "\"seen\":true"); /* by then a step was looked at */
+    int first = session.fd;
+    join();
+    say("{\"do\": \"inspect\", \"slot\": null}"); /* that is not the other's */
+    hear("\"inspect\"", "\"agent\": null");
+    say("{\"do\": \"inspect\", \"slot\": 7}");
+    hear("\"inspect\"", "\"agent\":{\"id\":7,\"slot\":7");
+    int second = session.fd;
+    session.fd = first;
+    hear("\"inspect\"", "\"agent\": null");
+    hear("\"say\"", "another page");
+    session.fd = second;
+    close(first);
+    say("{\"do\": \"inspect\", \"slot\": 1000000}");
+    hear("\"inspect\"", "\"agent\":null");
+    end();
+    jo_free(session.summary);
+}
+
+static void mistakes_are_shown_until_they_are_mended(void **state) {
+    (void)state;
+    char wrong[1024];
+    begin(0);
+    join();
+    hear("\"errors\"", "\"errors\": []");
+    snprintf(wrong, sizeof wrong, "%s", WALKER);
+    memcpy(strstr(wrong, "away_from"), "awax_from", 9);
+    write_file("walker.lua", wrong);
+    hear("\"type\": \"errors\"", "walker.lua\", \"line\": 5, \"column\": 22");
+    assert_non_null(strstr(last, "awax_from"));
+    assert_non_null(strstr(last, "\"source\": \"    Walk = { steer = awax_from \\\"yard\\\" },\""));
+    assert_non_null(strstr(last, "\"hint\": \"Did you mean 'away_from'"));
+    int first = session.fd;
+    join(); /* who comes later sees it too */
+    hear("\"type\": \"errors\"", "awax_from");
+    close(first);
+    say("{\"do\": \"pause\", \"on\": true}"); /* and files are looked at in a pause */
+    hear("\"status\"", "\"paused\": true");
+    write_file("scene.yaml", "jostle: 1\nnonsense: 3\n");
+    hear("\"type\": \"errors\"", "nonsense");
+    assert_non_null(strstr(last, "awax_from")); /* each file has its own */
+    say("{\"do\": \"restart\"}");               /* cannot be: the run goes on as it was */
+    hear("\"refused\"", "\"do\": \"restart\"");
+    write_file("scene.yaml", SCENE);
+    write_file("walker.lua", WALKER);
+    hear("\"type\": \"errors\"", "\"errors\": []");
+    assert_true(number_of(hear("\"status\"", NULL), "tick") > 0);
+    end();
+    assert_true(session.good);
+    jo_free(session.summary);
+}
+
+static void what_cannot_begin_says_why(void **state) {
+    (void)state;
+    write_file("scene.yaml", "jostle: 1\nnonsense: 3\n");
+    begin(0);
+    end();
+    assert_false(session.good);
+    assert_int_equal(session.error.code, JO_INPUT);
+    assert_int_equal(session.error.line, 2);
+    JoError error = {0};
+    JoViewDef def = jo_default_view_def();
+    def.scene.path = "x.yaml";
+    def.page = "/nowhere";
+    assert_false(jo_view(&def, &error));
+    assert_int_equal(error.code, JO_FAILED);
+    assert_non_null(strstr(error.text, "/nowhere"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pages_are_greeted_and_shown_the_run),
+        cmocka_unit_test(a_run_is_paused_stepped_and_hurried),
+        cmocka_unit_test(colours_and_fields_are_as_asked),
+        cmocka_unit_test(a_scene_that_is_over_waits_and_is_restarted),
+        cmocka_unit_test(what_people_do_replays_to_the_same_state),
+        cmocka_unit_test(one_page_at_a_time_inspects),
+        cmocka_unit_test(mistakes_are_shown_until_they_are_mended),
+        cmocka_unit_test(what_cannot_begin_says_why),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
