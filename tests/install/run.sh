@@ -19,5 +19,6 @@ verdict "the example with the static library" $?
 (cd "$dir" && "$top/bin/jostle" run "$top/share/jostle/scenes/running-through.yaml" --steps 10 --quiet)
 verdict "an installed scene runs" $?
 [ -s "$top/share/man/man1/jostle.1" ]; verdict "the man page" $?
+[ -s "$top/share/jostle/page/index.html" ]; verdict "the live page" $?
 make -s uninstall PREFIX=/opt/jostle-test DESTDIR="$dir" >/dev/null
 [ -z "$(find "$top" -type f -o -type l)" ]; verdict "uninstall leaves nothing" $?

@@ -1,7 +1,7 @@
 # Events as a user meets them: the shipped scene, its figures and pictures, errors, and equal hashes.
 . tests/scenes/lib.sh
 gates=scenes/gates.yaml
-count() { grep -o "\"$1\": [0-9]*" "$2" | head -1 | grep -o '[0-9]*$'; }
+count() { grep -o "\"$1\": [0-9][0-9]*" "$2" | head -1 | grep -o '[0-9]*$'; }
 sql() { sqlite3 "$work/g.sqlite" "$1"; }
 
 "$JOSTLE" run $gates --quiet --record "$work/g.sqlite" --report "$work/g" --summary "$work/g.json" 2>/dev/null

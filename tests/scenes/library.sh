@@ -3,7 +3,7 @@
 summary() { "$JOSTLE" run "scenes/$1.yaml" --quiet --summary - "${@:2}" 2>/dev/null; }
 # people MACHINE STATE < summary: how many are in it
 people() { tr '\n' ' ' | sed -n "s/.*\"$1\": {[^}]*\"$2\": \([0-9]*\).*/\1/p"; }
-event() { sed -n "s/.*\"$1\": \([0-9]*\).*/\1/p"; }
+event() { sed -n "s/.*\"$1\": \([0-9][0-9]*\).*/\1/p"; }
 summary corridor >"$work/s"
 between "corridor: nobody is lost" "$(figure agents <"$work/s")" 160 160
 between "corridor: people turn round at the ends" "$(event transitions <"$work/s")" 120 400
