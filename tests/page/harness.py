@@ -3,6 +3,7 @@ import os
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -82,7 +83,7 @@ class Browser:
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
         self.driver.set_script_timeout(30)
-        self.driver.set_page_load_timeout(60)
+        self.driver.set_page_load_timeout(150)
 
     def size(self, wide, high, ratio=1):
         """The page's own size, in CSS pixels; a ratio of 2 is a page enlarged to 200 %."""
@@ -131,8 +132,7 @@ class Browser:
                 self.driver.save_screenshot(os.path.join(PICTURES, f"{name}.png"))
                 return
             except TimeoutException:
-                if attempt == 2:
-                    raise
+                print(f"  the picture {name}.png is late ({attempt + 1})", file=sys.stderr)
 
     def close(self):
         self.driver.quit()

@@ -272,8 +272,17 @@ function boundsOf(hello) {
     return Math.max(box[1][0] - box[0][0], box[1][1] - box[0][1]) < 2 ? hello.area : box;
 }
 
+/** Whether pictures are drawn by the processor: then edges are not smoothed, which would cost it much. */
+function drawsSlowly() {
+    const probe = document.createElement("canvas").getContext("webgl");
+    const known = probe?.getExtension("WEBGL_debug_renderer_info");
+    const name = known ? probe.getParameter(known.UNMASKED_RENDERER_WEBGL) : "";
+    probe?.getExtension("WEBGL_lose_context")?.loseContext();
+    return /swiftshader|llvmpipe|softpipe|software/i.test(name);
+}
+
 function makeRenderer(canvas) {
-    const wanted = { antialias: true, alpha: false, powerPreference: "high-performance" };
+    const wanted = { antialias: !drawsSlowly(), alpha: false, powerPreference: "high-performance" };
     const context = canvas.getContext("webgl2", wanted) || canvas.getContext("webgl", wanted);
     if (!context) throw new Error("This browser shows no 3-D graphics (WebGL). Turn on hardware acceleration, or try another browser.");
     const renderer = new THREE.WebGLRenderer({ canvas, context });
