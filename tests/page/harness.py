@@ -95,6 +95,7 @@ class Browser:
             "features": [{"name": "prefers-color-scheme", "value": "dark" if on else "light"}]})
 
     def open(self, session):
+        self.driver.get("about:blank")  # the page before would try the new server, with its old token
         self.driver.get_log("browser")
         self.driver.get(session.address)
         self.wait("return window.page && page.hello && page.crowd.next && page.crowd.next.slots > 0", "no frame reached the page")
