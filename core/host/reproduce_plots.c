@@ -83,7 +83,7 @@ static void draw_curves(const JoxClaim *claim, const JoxClaimPlot *plot, const c
                                           "#9a2c8f", "#5a9a20", "#8a6d00"};
     char how[200];
     bool first = true;
-    fputs("set key outside bottom center horizontal\nset grid\nset offsets graph 0.04, graph 0.04, "
+    fputs("set key outside top center horizontal\nset grid\nset offsets graph 0.04, graph 0.04, "
           "graph 0.06, graph 0.06\n",
           out);
     for (uint32_t c = 0; c < plot->curve_count; c++) { /* behind everything else */

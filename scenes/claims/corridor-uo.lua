@@ -50,7 +50,7 @@ return claim {
   end,
   expect = expect,
   plots = { { name = "diagram", title = "Speed in the middle of the corridor, at the densities of the source",
-    x = "density measured by the source (1/m^2)", y = "mean speed (m/s)",
+    x = "density measured by the source (1/m²)", y = "mean speed (m/s)",
     { "Jostle, the same widths", figures = measured }, { "Zhang et al. 2011", points = source } } },
   pictures = pictures,
 }

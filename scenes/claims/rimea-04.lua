@@ -58,6 +58,6 @@ return claim {
   end,
   expect = expect,
   plots = { { name = "diagram", title = "One-way flow in a corridor: speed and density",
-    x = "density (1/m^2)", y = "mean speed (m/s)", curves[1], curves[2], { "Weidmann 1993", line = law } } },
+    x = "density (1/m²)", y = "mean speed (m/s)", curves[1], curves[2], { "Weidmann 1993", line = law } } },
   pictures = { along100 = { "paths.png", "corridor.png" }, across300 = { "corridor.png" } },
 }

@@ -41,6 +41,6 @@ return claim {
   end,
   expect = expect,
   plots = { { name = "diagram", title = "Ring corridor, one way: speed and density",
-    x = "density (1/m^2)", y = "mean speed (m/s)", curves[1], curves[2], { "Juelich archive", points = points } } },
+    x = "density (1/m²)", y = "mean speed (m/s)", curves[1], curves[2], { "Juelich archive", points = points } } },
   pictures = { along073 = { "paths.png" }, across270 = { "paths.png", "middle.png" } },
 }
