@@ -112,12 +112,16 @@ static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
 
 /* ---- runs ---- */
 
-static uint32_t add_job(JoxReproduction *all, const JoxClaimRun *run, uint64_t seed) {
+/* The first seed leaves a report, if its claim shows pictures; what a report collects takes time.
+ */
+static uint32_t add_job(JoxReproduction *all, const JoxClaim *claim, const JoxClaimRun *run,
+                        uint64_t seed) {
+    bool pictures = seed == 1 && claim->picture_count > 0;
     JoxText key = {0}, folder = {0};
     char hash[65];
     jox_text_printf(&key, "%s\n%s\nseed %llu\ndt %.9g\nduration %.9g\npictures %d\n",
                     all->program_sha256, run->scene, (unsigned long long)seed, run->dt,
-                    run->duration, seed == 1);
+                    run->duration, pictures);
     for (uint32_t s = 0; s < run->set_count; s++)
         jox_text_printf(&key, "set %s\n", run->sets[s]);
     for (uint32_t j = 0; j < all->job_count; j++)
@@ -132,7 +136,7 @@ static uint32_t add_job(JoxReproduction *all, const JoxClaimRun *run, uint64_t s
                     file, hash, (unsigned long long)seed);
     JOX_RESERVE(all->jobs, all->job_capacity, all->job_count + 1);
     all->jobs[all->job_count] = (JoxJob){
-        .key = key.data, .folder = folder.data, .run = run, .seed = seed, .pictures = seed == 1};
+        .key = key.data, .folder = folder.data, .run = run, .seed = seed, .pictures = pictures};
     return all->job_count++;
 }
 
@@ -149,7 +153,7 @@ static void plan_runs(JoxReproduction *all) {
             outcome->seeds = run->seeds > outcome->seeds ? run->seeds : outcome->seeds;
             outcome->jobs[r] = jox_alloc(run->seeds, sizeof **outcome->jobs);
             for (uint32_t s = 0; s < run->seeds; s++)
-                outcome->jobs[r][s] = add_job(all, run, s + 1);
+                outcome->jobs[r][s] = add_job(all, claim, run, s + 1);
         }
     }
 }

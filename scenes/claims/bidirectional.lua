@@ -7,7 +7,6 @@ return claim {
     along = { scene = "../bidirectional.yaml", seeds = 6 },
     across = { scene = "../bidirectional-across.yaml", seeds = 6 },
   },
-  quick = { along = { seeds = 2 }, across = { seeds = 2 } },
   measure = function(run)
     local along, across = run.along.summary.probes.lanes, run.across.summary.probes.lanes
     return { order = along.order, speed = along.speed, order_across = across.order, speed_across = across.speed }
