@@ -280,6 +280,9 @@ def edits(browser, _):
     number = browser.find("[data-parameter=speed] input[type=number]")
     number.clear()
     number.send_keys("0.2", Keys.ENTER)
+    # The server tells all pages of it, and the panel is built anew.
+    browser.wait("""const walk = page.hello.machines[0].states.find((s) => s.name === 'Walk');
+        return walk.parameters.find((p) => p.name === 'speed').value === 0.2""", "no hello tells of the new value")
     # Another page's change arrives as a new hello; who types here goes on typing.
     browser.run("""const hello = JSON.parse(JSON.stringify(page.hello)), walk = hello.machines[0].states.find((s) => s.name === 'Walk');
         walk.parameters.find((p) => p.name === 'push').value = 33;
