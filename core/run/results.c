@@ -92,17 +92,17 @@ static void record_shapes(JoScene *scene, uint32_t frame) {
     for (uint32_t row = 0; row < jox_bodies_rows(bodies); row++) {
         const uint32_t id = jox_bodies_id(bodies, row);
         const size_t had = scene->record_shape_capacity;
-        JoxBodyGlue glue;
+        JoxBodyBonds bonds;
         JoxBodyLook look;
         if (id == JOX_NO_BODY)
             continue;
-        jox_bodies_glue(bodies, row, &glue);
+        jox_bodies_bonds(bodies, row, &bonds);
         JOX_RESERVE(scene->record_shapes, scene->record_shape_capacity, (size_t)id + 1);
         for (size_t n = had; n < scene->record_shape_capacity; n++)
             scene->record_shapes[n] = 0;
-        if (scene->record_shapes[id] == glue.blocks + 1)
+        if (scene->record_shapes[id] == bonds.blocks + 1)
             continue;
-        scene->record_shapes[id] = glue.blocks + 1;
+        scene->record_shapes[id] = bonds.blocks + 1;
         for (uint32_t part = 0; jox_bodies_look(bodies, row, part, &look); part++)
             jox_recorder_part(scene->recorder, frame, id, part, &look);
     }
