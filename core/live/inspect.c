@@ -198,7 +198,7 @@ static void add_step(const JoxInspected *seen, double compression, JoxText *out)
     add_key(out, "planes");
     jox_text_add(out, "[");
     for (uint32_t p = 0; p < seen->plane_count; p++) {
-        const JoxWallFileeSeen *plane = &seen->planes[p];
+        const JoxPlaneSeen *plane = &seen->planes[p];
         jox_text_printf(out, "%s{\"kind\":\"%s\"", p ? "," : "", PLANES[plane->kind]);
         add_vector(out, "point", jox_scale(plane->normal, plane->offset));
         add_vector(out, "direction", (JoxV2){plane->normal.y, -plane->normal.x});
