@@ -46,10 +46,11 @@ static bool sample_paths(void *self, JoScene *scene, JoError *error) {
     (void)error;
     if (world->tick % every != 0)
         return true;
-    for (uint32_t id = 0; id < a->next_id && id < JOX_MOST_PATHS; id++) {
-        uint32_t i = a->id_index[id];
-        if (i != JOX_NO_INDEX)
-            jox_paths_add(r->paths, id, false, a->group[i], time, a->x[i], a->y[i]);
+    for (uint32_t rank = 0; rank < a->count; rank++) {
+        uint32_t i = a->by_rank[rank];
+        if (a->id[i] >= JOX_MOST_PATHS)
+            break;
+        jox_paths_add(r->paths, a->id[i], false, a->group[i], time, a->x[i], a->y[i]);
     }
     for (uint32_t o = 0; o < world->objects.count; o++) {
         const JoxObject *object = &world->objects.rows[o];

@@ -59,17 +59,17 @@ static void record_shapes(Recording *r, const JoScene *scene, uint32_t frame) {
     for (uint32_t row = 0; row < jox_bodies_rows(bodies); row++) {
         const uint32_t id = jox_bodies_id(bodies, row);
         const size_t had = r->shape_capacity;
-        JoxBodyGlue glue;
+        JoxBodyBonds bonds;
         JoxBodyLook look;
         if (id == JOX_NO_BODY)
             continue;
-        jox_bodies_glue(bodies, row, &glue);
+        jox_bodies_bonds(bodies, row, &bonds);
         JOX_RESERVE(r->shapes, r->shape_capacity, (size_t)id + 1);
         for (size_t n = had; n < r->shape_capacity; n++)
             r->shapes[n] = 0;
-        if (r->shapes[id] == glue.blocks + 1)
+        if (r->shapes[id] == bonds.blocks + 1)
             continue;
-        r->shapes[id] = glue.blocks + 1;
+        r->shapes[id] = bonds.blocks + 1;
         for (uint32_t part = 0; jox_bodies_look(bodies, row, part, &look); part++)
             jox_recorder_part(r->recorder, frame, id, part, &look);
     }
@@ -86,10 +86,8 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
     const uint32_t frame = (uint32_t)(scene->world->tick / r->every);
     record_shapes(r, scene, frame);
     JoxRecordRow *rows = jox_recorder_take(r->recorder, a->count, count, &bodies);
-    for (uint32_t id = 0; id < a->next_id; id++) { /* by id, whatever the order in memory */
-        uint32_t i = a->id_index[id];
-        if (i == JOX_NO_INDEX)
-            continue;
+    for (uint32_t rank = 0; rank < a->count; rank++) { /* whatever the order in memory */
+        const uint32_t i = a->by_rank[rank], id = a->id[i];
         float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
         rows[n++] = (JoxRecordRow){id,           a->x[i],           a->y[i],
                                    a->face_x[i], a->face_y[i],      state_number(r, a, i),
