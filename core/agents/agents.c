@@ -12,7 +12,7 @@ enum { PADDING = 16 }; /* whole packets may be read past the last agent */
 typedef void ColumnVisitor(void *context, void **column, size_t size);
 
 static void visit_columns(JoxAgents *a, ColumnVisitor *visit, void *context) {
-#define X(type, name) visit(context, (void **)&a->name, sizeof(type));
+#define X(keep, type, name) visit(context, (void **)&a->name, sizeof(type));
     JOX_AGENT_COLUMNS(X)
 #undef X
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
