@@ -14,11 +14,12 @@
 
 /* X(keep, type, name): what it is. Units: m, m/s, N, s.
    STATE: carried from step to step, so it is hashed and saved. SCRATCH: every step writes it before
-   it reads it; between steps it holds figures of the last step, and a restored world may lack it
-   until the next. */
+   it reads it; between steps it holds figures of the last step, which a restored world lacks until
+   the next. INDEX: follows from state, kept up by the functions below. */
 #define JOX_AGENT_COLUMNS(X)                                                                       \
     X(STATE, uint32_t, id)      /* counts up from 0, never reused */                               \
     X(STATE, uint32_t, slot)    /* row of the handle table */                                      \
+    X(INDEX, uint32_t, rank)    /* how many living agents have smaller ids; follows from `id` */   \
     X(STATE, uint16_t, group)   /* index of the scene's group */                                   \
     X(STATE, uint16_t, machine) /* index of the machine; JOX_NO_MACHINE has none */                \
     X(STATE, uint16_t, state)   /* index of the state in the machine */                            \
@@ -89,9 +90,9 @@ typedef struct JoxAgents {
     /* Handles: slot -> index (JOX_NO_INDEX when free) and generation. */
     uint32_t *slot_index, *slot_generation, *free_slots;
     uint32_t slot_count, slot_capacity, free_count, free_capacity;
-    /* id -> index, JOX_NO_INDEX when gone. */
-    uint32_t *id_index;
-    uint32_t id_capacity;
+    /* By rank, that is in ascending id: index and id. Room for `capacity`, so that they grow with
+       the most who ever lived at once, not with all ids ever given. */
+    uint32_t *by_rank, *rank_id;
     /* Periodic edges: who leaves at one side comes in at the other. Lengths of the period, 0 along
        an axis without; positions are kept within [origin, origin + period). */
     JoxV2 origin, period;
@@ -115,6 +116,7 @@ static inline JoxV2 jox_offset(const JoxAgents *agents, uint32_t i, uint32_t j) 
 
 /* Zero-initialised agents are empty. Strides may only grow (rows are widened, new cells zero). */
 void jox_agents_reserve(JoxAgents *agents, uint32_t capacity);
+void jox_agents_reserve_slots(JoxAgents *agents, uint32_t capacity);
 void jox_agents_widen(JoxAgents *agents, uint32_t own_stride, uint32_t memory_stride);
 /* Adds one agent: all columns zero, parameters at their defaults, face +x, lasts infinite, goal,
    kicked and approach -1, machine JOX_NO_MACHINE. Returns its index (valid until the next sort). */
@@ -123,13 +125,20 @@ uint32_t jox_agents_add(JoxAgents *agents);
 uint32_t jox_agents_compact(JoxAgents *agents);
 /* Puts the agents in the order given: new index i is what was at order[i]; a permutation. */
 void jox_agents_permute(JoxAgents *agents, const uint32_t *order);
-/* Writes the indices of all agents in ascending id into `out` (count entries). */
+/* Writes the indices of all agents in ascending id into `out` (count entries). One at a time they
+   are agents->by_rank[0 .. count - 1]. */
 void jox_agents_by_id(const JoxAgents *agents, uint32_t *out);
+<<<<<<< HEAD
 /* Lists the agents' state. Agents come in ascending id: their order in memory is no part of it, and
    restored they lie by id. */
 void jox_agents_sections(JoxAgents *agents, JoxSections *sections);
 /* Overwrites the scratch columns, with NaN where they hold numbers: no later step may notice. */
 void jox_agents_forget(JoxAgents *agents);
+=======
+/* Index of the living agent with an id, or JOX_NO_INDEX. At once while nobody has left, else in
+   logarithmic time. */
+uint32_t jox_agents_find(const JoxAgents *agents, uint32_t id);
+>>>>>>> origin/main
 void jox_agents_free(JoxAgents *agents);
 
 #endif

@@ -34,7 +34,7 @@ static uint64_t checksum(const void *data, size_t size) {
     return jox_hash_end(&hash);
 }
 
-static void fail(JoxSections *s, const char *name, const char *why) {
+void jox_sections_fail(JoxSections *s, const char *name, const char *why) {
     if (s->failed || s->differs)
         return;
     s->failed = true;
@@ -46,14 +46,14 @@ static JoxSections begin_reading(JoxSectionsMode mode, const void *data, size_t 
     JoxSections s = {.mode = mode, .module = "", .begin = data, .at = data};
     uint64_t sum = 0;
     if (!data || size < sizeof MAGIC + sizeof sum || memcmp(data, MAGIC, sizeof MAGIC) != 0) {
-        fail(&s, "", "this is not the state of a world");
+        jox_sections_fail(&s, "", "this is not the state of a world");
         s.end = s.at;
         return s;
     }
     s.end = s.begin + size - sizeof sum;
     memcpy(&sum, s.end, sizeof sum);
     if (sum != checksum(data, size - sizeof sum))
-        fail(&s, "", "the state is damaged: its checksum is another");
+        jox_sections_fail(&s, "", "the state is damaged: its checksum is another");
     s.at += sizeof MAGIC;
     return s;
 }
@@ -79,7 +79,7 @@ bool jox_sections_end(JoxSections *s) {
     bool reads = s->mode == JOX_SECTIONS_RESTORE || s->mode == JOX_SECTIONS_COMPARE;
     s->module = "";
     if (reads && s->at != s->end)
-        fail(s, "", "the state has sections that this world does not know");
+        jox_sections_fail(s, "", "the state has sections that this world does not know");
     return !s->failed && !s->differs;
 }
 
@@ -112,18 +112,18 @@ static bool read_head(JoxSections *s, const char *name, size_t size, uint64_t *c
     if (s->failed || s->differs)
         return false;
     if ((size_t)(s->end - s->at) < sizeof head) {
-        fail(s, name, "the state ends before this section");
+        jox_sections_fail(s, name, "the state ends before this section");
         return false;
     }
     memcpy(&head, s->at, sizeof head);
     if (head.name != name_hash(s, name)) {
-        fail(s, name, "the state has another section in this place");
+        jox_sections_fail(s, name, "the state has another section in this place");
         return false;
     }
     s->at += sizeof head;
     size_t left = (size_t)(s->end - s->at);
     if (head.size != size || (size && head.count > left / size)) {
-        fail(s, name, "the section has cells of another size");
+        jox_sections_fail(s, name, "the section has cells of another size");
         return false;
     }
     *count = head.count;
@@ -206,7 +206,7 @@ void jox_section_ordered(JoxSections *s, const char *name, void *cells, size_t s
     if (!read_head(s, name, size, &saved))
         return;
     if (saved != count) {
-        fail(s, name, "the section has another number of cells");
+        jox_sections_fail(s, name, "the section has another number of cells");
         return;
     }
     if (s->mode == JOX_SECTIONS_COMPARE) {
@@ -249,13 +249,13 @@ size_t jox_section_count(JoxSections *s, const char *name, size_t count, size_t 
         return count;
     }
     if (!read_head(s, name, sizeof number, &cells) || cells != 1) {
-        fail(s, name, "the section is no number");
+        jox_sections_fail(s, name, "the section is no number");
         return 0;
     }
     memcpy(&number, s->at, sizeof number);
     s->at += sizeof number;
     if (number > (size_t)(s->end - s->at) / (size ? size : 1)) {
-        fail(s, name, "the number is greater than the state has room for");
+        jox_sections_fail(s, name, "the number is greater than the state has room for");
         return 0;
     }
     return number;

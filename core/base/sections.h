@@ -64,6 +64,8 @@ JoxSections jox_sections_visit(JoxCellVisit *visit, void *context);
    comparing, the whole buffer was used. */
 bool jox_sections_end(JoxSections *sections);
 
+/* Restoring: what was read is no state, though the buffer has the right form. */
+void jox_sections_fail(JoxSections *sections, const char *name, const char *why);
 /* Names the module whose sections follow; a string that outlives the walk. */
 void jox_sections_module(JoxSections *sections, const char *module);
 /* From here on: whether sections are left out of the hash, because no step reads them (figures of

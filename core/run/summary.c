@@ -219,7 +219,7 @@ static void add_exchange(JoxText *out, const JoxStatistics *s) {
                     (unsigned long long)e->contacts, e->impulse, e->residual / e->impulse);
 }
 
-/* How far the first glued body of the scene, or its greatest piece, has come, m, and turned, deg.
+/* How far the first bonded body of the scene, or its greatest piece, has come, m, and turned, deg.
  */
 static void add_way(JoxText *out, const JoScene *scene, uint32_t body) {
     const JoxBodyDef *def = &scene->spec->bodies[body].def;
@@ -235,7 +235,7 @@ static void add_way(JoxText *out, const JoScene *scene, uint32_t body) {
     jox_text_printf(out, ", \"moved\": %.4f, \"turned\": %.3f", sqrt(x * x + y * y), turned);
 }
 
-/* Of scenes with glued blocks. */
+/* Of scenes with bonded blocks. */
 static void add_bonds(JoxText *out, const JoScene *scene) {
     const JoxBondStatistics *s = &scene->world->statistics.bonds;
     uint32_t body = 0, held = 0;
@@ -245,9 +245,9 @@ static void add_bonds(JoxText *out, const JoScene *scene) {
     if (body == scene->spec->body_count)
         return;
     for (uint32_t o = 0; o < scene->world->objects.count; o++) {
-        JoxBodyGlue glue;
-        jox_bodies_glue(scene->world->bodies, o, &glue);
-        held += glue.bonds;
+        JoxBodyBonds bonds;
+        jox_bodies_bonds(scene->world->bodies, o, &bonds);
+        held += bonds.bonds;
     }
     jox_text_printf(out, ",\n \"bonds\": {\"held\": %u, \"broken\": %llu, \"pieces\": %u", held,
                     (unsigned long long)s->broken, s->pieces + 1);

@@ -182,9 +182,9 @@ static void a_push_acts_for_one_step(void **state) {
     step(pushed, 1);
     step(pair, 1);
     const JoxAgents *a = &pushed->world->agents, *b = &pair->world->agents;
-    double gain = (double)(a->vx[a->id_index[3]] - b->vx[b->id_index[3]]);
+    double gain = (double)(a->vx[jox_agents_find(a, 3)] - b->vx[jox_agents_find(b, 3)]);
     assert_true(gain > 0.35 && gain < 0.5); /* m/s: 800 N on 80 kg for 0.05 s, less damping */
-    assert_true(a->ext_x[a->id_index[3]] == 0.0f);
+    assert_true(a->ext_x[jox_agents_find(a, 3)] == 0.0f);
     jo_scene_free(pushed);
     jo_scene_free(pair);
 }
@@ -193,7 +193,7 @@ static void a_push_acts_for_one_step(void **state) {
 
 static double parameter(const JoScene *scene, uint32_t id, JoxParameter p) {
     const JoxAgents *a = &scene->world->agents;
-    return (double)a->param[p][a->id_index[id]];
+    return (double)a->param[p][jox_agents_find(a, id)];
 }
 
 static void a_parameter_is_set_for_all(void **state) {
@@ -347,7 +347,7 @@ static void the_oldest_box_goes(void **state) {
             step(scene, 1);
     }
     assert_int_equal(jo_world_body_count(world), before + JOX_MOST_BOXES);
-    assert_int_equal(world->hands.boxes[0], before + 7); /* ids are not used again */
+    assert_int_equal(world->drags.boxes[0], before + 7); /* ids are not used again */
     assert_int_equal(jox_bodies_find(world->bodies, before + 6), JOX_NO_BODY);
     step(scene, 3);
     JoxPose pose = pose_of(scene, jox_bodies_find(world->bodies, before + 7));
