@@ -128,17 +128,14 @@ void jox_agents_permute(JoxAgents *agents, const uint32_t *order);
 /* Writes the indices of all agents in ascending id into `out` (count entries). One at a time they
    are agents->by_rank[0 .. count - 1]. */
 void jox_agents_by_id(const JoxAgents *agents, uint32_t *out);
-<<<<<<< HEAD
+/* Index of the living agent with an id, or JOX_NO_INDEX. At once while nobody has left, else in
+   logarithmic time. */
+uint32_t jox_agents_find(const JoxAgents *agents, uint32_t id);
 /* Lists the agents' state. Agents come in ascending id: their order in memory is no part of it, and
    restored they lie by id. */
 void jox_agents_sections(JoxAgents *agents, JoxSections *sections);
 /* Overwrites the scratch columns, with NaN where they hold numbers: no later step may notice. */
 void jox_agents_forget(JoxAgents *agents);
-=======
-/* Index of the living agent with an id, or JOX_NO_INDEX. At once while nobody has left, else in
-   logarithmic time. */
-uint32_t jox_agents_find(const JoxAgents *agents, uint32_t id);
->>>>>>> origin/main
 void jox_agents_free(JoxAgents *agents);
 
 #endif

@@ -40,12 +40,14 @@ static bool restore_sizes(JoxAgents *a, JoxSections *s) {
     JOX_SECTION(s, "next_id", next_id);
     if (count + spare != slots || count > next_id)
         jox_sections_fail(s, "count", "agents and free slots do not add up");
-    if (own < a->own_stride || memory < a->memory_stride)
-        jox_sections_fail(s, "own_stride", "rows are narrower than the machines need");
     if (s->failed)
         return false;
     a->count = 0; /* rows are about to be read: nothing is worth moving */
     jox_agents_reserve(a, (uint32_t)count);
+    jox_free(a->own);
+    jox_free(a->memory);
+    a->own = a->memory = NULL;
+    a->own_stride = a->memory_stride = 0;
     jox_agents_widen(a, (uint32_t)own, (uint32_t)memory);
     jox_agents_reserve_slots(a, (uint32_t)slots);
     a->count = (uint32_t)count;
@@ -78,11 +80,13 @@ static void restore_indices(JoxAgents *a, JoxSections *s) {
 void jox_agents_sections(JoxAgents *a, JoxSections *s) {
     jox_sections_module(s, "agents");
     if (s->mode == JOX_SECTIONS_RESTORE) {
+        uint32_t own = a->own_stride, memory = a->memory_stride;
         if (!restore_sizes(a, s))
             return;
         list_columns(a, s, NULL);
         list_slots(a, s);
         restore_indices(a, s);
+        jox_agents_widen(a, own, memory); /* machines may have come that need wider rows */
         return;
     }
     jox_section_count(s, "count", a->count, sizeof *a->id);
