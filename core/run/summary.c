@@ -109,14 +109,15 @@ static void add_events(JoxText *out, const JoScene *scene) {
 }
 
 static void add_regions(JoxText *out, const JoScene *scene) {
-    if (!scene->regions || scene->regions->count == 0)
+    const JoxRegions *regions = jox_run_regions(scene);
+    if (!regions)
         return;
     jox_text_add(out, ",\n \"regions\": {");
-    for (uint32_t r = 0; r < scene->regions->count; r++) {
+    for (uint32_t r = 0; r < regions->count; r++) {
         jox_text_add(out, r ? ", " : "");
-        jox_text_json(out, scene->regions->items[r].name);
+        jox_text_json(out, regions->items[r].name);
         jox_text_add(out, ": ");
-        jox_text_json_number(out, jox_region_speed(&scene->regions->items[r]));
+        jox_text_json_number(out, jox_region_speed(&regions->items[r]));
     }
     jox_text_add(out, "}");
 }
@@ -124,9 +125,9 @@ static void add_regions(JoxText *out, const JoScene *scene) {
 static void add_danger(JoxText *out, const JoScene *scene) {
     jox_text_add(out, ",\n \"danger\": {");
     jox_exits_json(&scene->exits, out);
-    if (scene->danger) {
+    if (jox_run_danger(scene)) {
         jox_text_add(out, ",\n  ");
-        jox_danger_json(scene->danger, out);
+        jox_danger_json(jox_run_danger(scene), out);
     }
     jox_text_add(out, "}");
 }
@@ -194,8 +195,11 @@ static void add_inputs(JoxText *out, const JoScene *scene) {
 /* Greatest density of the frames sampled, or of the present one where none were. */
 static double density_max(const JoScene *scene) {
     const JoxAgents *a = &scene->world->agents;
-    if (scene->density_most > 0.0f || a->count == 0)
-        return scene->density_most;
+    const JoxDensity *sampled = jox_run_density(scene);
+    if (sampled && sampled->most > 0.0f)
+        return sampled->most;
+    if (a->count == 0)
+        return 0.0;
     JoxV2 low, high;
     jox_bounds((JoxV2[]){{a->x[0], a->y[0]}}, 1, &low, &high);
     for (uint32_t i = 0; i < a->count; i++) {
