@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "base/diag.h"
+#include "base/json_writer.h"
 #include "base/overlay.h"
 #include "jostle.h"
 #include "lua/loader.h"
@@ -148,9 +149,11 @@ typedef struct JoxSetBy {
 JoxSetBy jox_run_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
                         int parameter);
 void jox_set_by_free(JoxSetBy *by);
-/* A JSON array of the scene's machines: name, path, version, start; defaults and states with their
+/* Writes the scene's machines, an array: name, path, version, start; defaults and states with their
    parameters; transitions with their conditions as written. */
-void jox_run_graph(const JoScene *scene, JoxText *out);
+void jox_run_graph(const JoScene *scene, JoxJson *json, const char *key);
+/* Adds what jo_scene_inspect tells of an agent to an open object; false if there is nobody. */
+bool jox_run_inspect(JoScene *scene, uint32_t slot, JoxJson *json);
 /* Appends the line of Lua that would set a parameter for good, and where it belongs; false with
    why not. */
 bool jox_run_lua_line(const JoScene *scene, const char *machine, const char *state,
