@@ -136,8 +136,6 @@ void jox_run_log_origin(JoScene *scene);
 void jox_run_check_log(const JoScene *scene);
 /* What files were when the run began that a log tells of. */
 void jox_run_before(JoxOverlay *overlay, const JoxInputLog *log);
-/* Swaps files as a log tells; false with `error` where they do not go live. */
-bool jox_run_play_files(JoScene *scene, const JoxInputEntry *entry, JoError *error);
 /* inspect_graph.c: who set a parameter of a state (NULL: of the defaults), and to what. */
 typedef struct JoxSetBy {
     JoxText
