@@ -52,7 +52,8 @@ static void add_places(JoScene *scene) {
         for (uint32_t s = 0; s < spec->groups[g].set_count; s++)
             if (spec->groups[g].set[s].kind == JOX_SET_ANTIPODE)
                 extra += spec->groups[g].count;
-    JoxPlace *places = jox_alloc(spec->place_count + extra + 1, sizeof *places);
+    scene->place_capacity = spec->place_count + extra;
+    JoxPlace *places = jox_alloc(scene->place_capacity + 1, sizeof *places);
     for (uint32_t i = 0; i < spec->place_count; i++) {
         const JoxPlace *from = &spec->places[i];
         places[i] = *from;
@@ -386,6 +387,7 @@ void jo_scene_free(JoScene *scene) {
     jox_scene_free(scene->spec);
     jox_mods_free(scene->mods);
     jox_diag_free(&scene->mod_problems);
+    jox_free(scene->spawned);
     jox_free(scene->party_left);
     jox_free(scene->party_team);
     jox_exits_free(&scene->exits);

@@ -36,7 +36,8 @@ struct JoScene {
     JoxLua *lua;
     JoxScope scope;
     uint32_t first_antipode; /* places from here on belong to single agents */
-    double spawned[256];     /* per source: agents so far by rate */
+    uint32_t place_capacity; /* of the world's places, those included */
+    double *spawned;         /* per source: agents so far by rate */
     JoMessage *message;
     void *message_context;
 

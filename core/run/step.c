@@ -9,7 +9,10 @@ bool jo_scene_step(JoScene *scene, JoError *error) {
     jox_run_reload(scene);
     jox_run_events(scene);
     jox_run_sources(scene);
-    jox_world_step(scene->world);
+    if (!jox_world_step(scene->world)) {
+        jox_error(error, JO_FAILED, "%s", scene->world->failure);
+        return false;
+    }
     jox_run_sinks(scene);
     jox_run_leavers(scene);
     const char *stalled = jox_lua_stalled(scene->lua);
