@@ -10,11 +10,12 @@ typedef struct Run {
     JoSceneDef def;
     JoViewDef live; /* of the page */
     CliList sets, mods;
-    const char *record, *report, *data, *summary, *log, *isa;
+    const char *record, *report, *data, *summary, *log;
     double seconds;
     uint64_t steps, seeds, trace;
     bool view, of_scene, has_seconds, has_steps, watch, no_watch, has_trace, quiet, profile;
     bool no_half;
+    bool suspended; /* functions of a behaviour failed so often that it did not run as written */
 } Run;
 
 static const double LEAST_DT = 0.001; /* s, of --dt */
@@ -108,8 +109,17 @@ static int write_page(const Run *run, const JoScene *scene, uint64_t steps) {
     return ok ? JO_OK : complain(&written, false);
 }
 
+/* Whether functions of behaviours were suspended, which it says. */
+static bool tell_suspended(const JoScene *scene) {
+    char *which = jo_scene_suspended(scene);
+    if (which)
+        fprintf(stderr, "jostle run: %s\n", which);
+    jo_free(which);
+    return which != NULL;
+}
+
 /* Loads and simulates once; *summary receives JSON when asked for. */
-static int simulate(const Run *run, char **summary) {
+static int simulate(Run *run, char **summary) {
     JoError error = {0};
     JoScene *scene = jo_scene_load(&run->def, &error);
     if (!scene)
@@ -138,6 +148,7 @@ static int simulate(const Run *run, char **summary) {
         status = write_page(run, scene, steps);
     if (run->summary || run->seeds)
         *summary = jo_scene_summary(scene);
+    run->suspended |= tell_suspended(scene);
     if (run->profile) {
         char *profile = jo_scene_lua_profile(scene);
         fputs(profile ? profile : "", stderr);
@@ -225,7 +236,7 @@ static int begin(Run *run) {
         status = status ? status : written;
     }
     jo_free(summary);
-    return status;
+    return status == JO_OK && run->suspended ? JO_FAILED : status;
 }
 
 static int run_scene(int argc, char **argv) {
@@ -249,7 +260,10 @@ const CliCommand cli_run = {
     .name = "run",
     .what = "simulate a scene",
     .usage = "SCENE [options]",
-    .notes = "exit status: 0 done, 1 the run failed, 2 wrong usage, 3 bad input",
+    .notes =
+        "exit status: 0 done, 1 the run failed, or a behaviour was suspended by its own errors "
+        "and not mended and reloaded (the run goes on to its end), 2 wrong usage, 3 bad input: "
+        "also a mod that is asked for and is not there, or does not load",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "scene",
