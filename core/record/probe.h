@@ -11,7 +11,7 @@
 #include "world/probe.h"
 
 typedef struct JoxProbe JoxProbe;
-enum { JOX_MOST_FIGURES = 16 };
+enum { JOX_MOST_FIGURES = 16, JOX_PROBE_STEM = 120 };
 
 /* Figures by name, in SI units; NAN where nothing was seen that could give one. */
 typedef struct JoxFigures {
@@ -34,6 +34,8 @@ JoxFigures jox_probe_figures(const JoxProbe *probe);
 uint32_t jox_probe_passages(const JoxProbe *probe);
 /* Adds {"flow": 1.15, ...}. */
 void jox_probe_json(const JoxProbe *probe, JoxText *out);
+/* NAME of the probe's files: its name, fit for one. */
+void jox_probe_stem(const JoxProbe *probe, char stem[JOX_PROBE_STEM]);
 /* NAME.csv, and with a title NAME.png and NAME.svg, into a folder that is there. False with a
  * sentence in `error`. */
 bool jox_probe_write(const JoxProbe *probe, const char *folder, const JoxWalls *walls,
