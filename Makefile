@@ -17,7 +17,7 @@ B       ?= build/$(MODE)$(WITHOUT)
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
-FOLDERS := $(if $(ONLY),$(ONLY),base task geom agents nav force body machine world scene lua record view host)
+FOLDERS := $(if $(ONLY),$(ONLY),base task geom agents nav force body machine world scene lua/vm lua record record/probes view picture run live report render validate luatest)
 SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))
 SRC_CC  := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.cc)))
 ifeq ($(BULLET),0)
@@ -25,11 +25,11 @@ SRC_CC  :=
 else
 SRC_C   := $(filter-out core/body/none.c,$(SRC_C))
 endif
-SRC_C   := $(filter-out core/record/canvas_$(if $(filter 0,$(CAIRO)),cairo,none).c,$(SRC_C))
+SRC_C   := $(filter-out core/picture/canvas_$(if $(filter 0,$(CAIRO)),cairo,none).c,$(SRC_C))
 SRC_C   := $(filter-out $(if $(filter 0,$(VIEW)),core/view/lws_%,core/view/none.c),$(SRC_C))
 SRC_CLI := $(sort $(wildcard core/cli/*.c))
-TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api),$(wildcard tests/unit/$(d)_*.c)))
-TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/host_view.c),$(TESTS))
+TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api),$(wildcard tests/unit/$(subst /,_,$(d))_*.c)))
+TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/live_view.c),$(TESTS))
 BENCHES := $(sort $(wildcard tests/bench/*.c))
 PKGS    := lua5.4 yaml-0.1 sqlite3 expat $(if $(filter 0,$(BULLET)),,bullet) $(if $(filter 0,$(CAIRO)),,cairo) $(if $(filter 0,$(VIEW)),,libwebsockets)
 

@@ -7,7 +7,7 @@
 #include "base/hash.h"
 #include "base/mem.h"
 #include "scene/internal.h"
-#include "scene/plan.h"
+#include "scene/wall_file.h"
 
 enum { LONGEST_NAME = 60, LARGEST_PLAN = 64 << 20 };
 
@@ -30,8 +30,8 @@ static bool load_plan(JoxLoad *l, const JoxYaml *map, float height) {
     const JoxYaml *name = jox_yaml_get(map, "file");
     if (!jox_key_text(r, map, "wall", "file"))
         return false;
-    char *path = jox_path_beside(r->hoard, name->position.file, name->text);
-    JoxPlanOptions options = {.unit = jox_key_number(r, map, "wall", "unit"), .height = height};
+    char *path = jox_path_beside(r->arena, name->position.file, name->text);
+    JoxWallFileOptions options = {.unit = jox_key_number(r, map, "wall", "unit"), .height = height};
     double origin[2] = {0, 0};
     if (jox_yaml_get(map, "origin") && !jox_key_vector(r, map, "wall", "origin", origin, 2))
         return false;
@@ -57,14 +57,14 @@ static bool load_plan(JoxLoad *l, const JoxYaml *map, float height) {
     jox_sha256_hex(data, length, file->sha256);
     if (length >= 16 && memcmp(data, "SQLite format 3", 16) == 0) {
         jox_free(data);
-        if (!(data = jox_plan_recorded(path, r->diagnostics)))
+        if (!(data = jox_wall_file_recorded(path, r->diagnostics)))
             return false;
         length = strlen(data);
     }
-    file->text = memcpy(jox_hoard_take(r->hoard, length + 1, 1), data, length);
+    file->text = memcpy(jox_arena_take(r->arena, length + 1, 1), data, length);
     file->length = length;
     jox_free(data);
-    return jox_plan_read(path, file->text, length, &options, &l->scene->walls, r->diagnostics);
+    return jox_wall_file_read(path, file->text, length, &options, &l->scene->walls, r->diagnostics);
 }
 
 void jox_load_walls(JoxLoad *l, const JoxYaml *list) {
@@ -224,7 +224,7 @@ void jox_load_events(JoxLoad *l, const JoxYaml *list) {
         jox_scene_error(&l->reader, list, "bad-type", "events: [{at: 20, open: gate}]",
                         "events is a list");
     uint32_t count = list && list->kind == JOX_YAML_LIST ? list->count : 0;
-    l->scene->events = jox_hoard_take(l->reader.hoard, count, sizeof *l->scene->events);
+    l->scene->events = jox_arena_take(l->reader.arena, count, sizeof *l->scene->events);
     for (uint32_t i = 0; i < count; i++) {
         const JoxYaml *map = list->items[i];
         JoxSceneEvent *event = &l->scene->events[l->scene->event_count];
@@ -235,7 +235,7 @@ void jox_load_events(JoxLoad *l, const JoxYaml *list) {
         if (!name)
             continue;
         read_throw(l, map, event);
-        event->name = jox_hoard_text(l->reader.hoard, name->text);
+        event->name = jox_arena_text(l->reader.arena, name->text);
         event->position = name->position;
         l->scene->event_count++;
     }

@@ -8,7 +8,7 @@
 
 typedef struct JoxLoad {
     JoxReader reader;
-    JoxScene *scene;
+    JoxSceneSpec *scene;
     const JoxSceneOptions *options; /* or NULL */
     const char *datadir;
     JoxYamlFiles *files; /* read for the scene */

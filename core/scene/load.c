@@ -1,4 +1,4 @@
-/* From a tree of YAML to a JoxScene. Everything wrong is reported, not only the first. */
+/* From a tree of YAML to a JoxSceneSpec. Everything wrong is reported, not only the first. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -100,7 +100,7 @@ static void read_place(const JoxLoad *l, const JoxYaml *map, JoxPlace *place) {
     double v[2];
     if (place->kind == JOX_PLACE_POINT) {
         if (jox_key_vector(&l->reader, map, "place", "point", v, 2)) {
-            place->points = jox_hoard_take(l->reader.hoard, 1, sizeof *place->points);
+            place->points = jox_arena_take(l->reader.arena, 1, sizeof *place->points);
             place->points[0] = (JoxV2){(float)v[0], (float)v[1]};
             place->count = 1;
         }
@@ -127,7 +127,7 @@ static void link_places(const JoxLoad *l, const JoxYaml *map) {
         if (place->kind != JOX_PLACE_SET)
             continue;
         uint32_t count = jox_read_names(&l->reader, jox_yaml_get(map->items[i], "set"), &names);
-        place->members = jox_hoard_take(l->reader.hoard, count, sizeof *place->members);
+        place->members = jox_arena_take(l->reader.arena, count, sizeof *place->members);
         for (uint32_t n = 0; n < count; n++) {
             int32_t member = jox_load_place(l, names[n]);
             if (member >= 0 && l->scene->places[member].kind == JOX_PLACE_SET)
@@ -148,11 +148,11 @@ static void read_places(JoxLoad *l, const JoxYaml *map) {
             jox_scene_error(&l->reader, map, "bad-type", NULL, "places maps names to places");
         return;
     }
-    l->scene->places = jox_hoard_take(l->reader.hoard, map->count, sizeof *l->scene->places);
+    l->scene->places = jox_arena_take(l->reader.arena, map->count, sizeof *l->scene->places);
     l->scene->place_count = map->count;
     for (uint32_t i = 0; i < map->count; i++) {
         JoxPlace *place = &l->scene->places[i];
-        place->name = jox_hoard_text(l->reader.hoard, map->keys[i]);
+        place->name = jox_arena_text(l->reader.arena, map->keys[i]);
         place->start = -1;
         read_place(l, map->items[i], place);
     }
@@ -165,10 +165,10 @@ static void read_regions(JoxLoad *l, const JoxYaml *map) {
             jox_scene_error(&l->reader, map, "bad-type", NULL, "regions maps names to polygons");
         return;
     }
-    l->scene->regions = jox_hoard_take(l->reader.hoard, map->count, sizeof *l->scene->regions);
+    l->scene->regions = jox_arena_take(l->reader.arena, map->count, sizeof *l->scene->regions);
     for (uint32_t i = 0; i < map->count; i++) {
         JoxSceneRegion *region = &l->scene->regions[l->scene->region_count];
-        region->name = jox_hoard_text(l->reader.hoard, map->keys[i]);
+        region->name = jox_arena_text(l->reader.arena, map->keys[i]);
         region->points = jox_load_ring(l, map->items[i], &region->count);
         l->scene->region_count += region->points != NULL;
     }
@@ -178,7 +178,7 @@ static void read_regions(JoxLoad *l, const JoxYaml *map) {
 
 /* The behaviour's file: beside the scene, in ../behaviours, or installed; NULL with an error. */
 static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition position) {
-    JoxHoard *hoard = l->reader.hoard;
+    JoxArena *arena = l->reader.arena;
     /* Overrides are of no file: the scene's folder is meant. */
     const char *from = strcmp(position.file, JOX_LOAD_OVERRIDE) ? position.file : l->scene->path;
     char relative[512];
@@ -191,7 +191,7 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
         snprintf(relative, sizeof relative, "%.300s/behaviours/%.150s%s", mod->folder, colon + 1,
                  lua);
         if (!strstr(colon, "..") && jox_is_file(relative))
-            return jox_hoard_text(hoard, relative);
+            return jox_arena_text(arena, relative);
     }
     const char *forms[] = {"%.400s%s", "../behaviours/%.400s%s", "%s/behaviours/%.300s%s"};
     for (int i = 0; i < 3; i++) {
@@ -200,7 +200,7 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
         else
             snprintf(relative, sizeof relative, "%s/behaviours/%.300s%s",
                      l->datadir ? l->datadir : JOX_DATADIR, name, lua);
-        char *path = jox_path_beside(hoard, from, relative);
+        char *path = jox_path_beside(arena, from, relative);
         if (jox_is_file(path)) {
             jox_path_clean(path);
             return path;
@@ -228,7 +228,7 @@ static void read_mix(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group)
     }
     uint32_t count = one ? 1 : mix->count;
     double sum = 0;
-    group->mix = jox_hoard_take(l->reader.hoard, count, sizeof *group->mix);
+    group->mix = jox_arena_take(l->reader.arena, count, sizeof *group->mix);
     for (uint32_t i = 0; i < count; i++) {
         JoxSceneMix *entry = &group->mix[group->mix_count];
         entry->weight = 1;
@@ -285,12 +285,12 @@ JoxSceneSet *jox_load_sets(const JoxLoad *l, const JoxYaml *map, bool numbers_on
         jox_scene_error(&l->reader, map, "bad-type", NULL, "this maps names to values");
         return NULL;
     }
-    JoxSceneSet *sets = jox_hoard_take(l->reader.hoard, map->count, sizeof *sets);
+    JoxSceneSet *sets = jox_arena_take(l->reader.arena, map->count, sizeof *sets);
     for (uint32_t i = 0; i < map->count; i++) {
         const JoxYaml *value = map->items[i];
         const size_t errors = l->reader.diagnostics->errors;
         JoxSceneSet *set = &sets[*count];
-        *set = (JoxSceneSet){.name = jox_hoard_text(l->reader.hoard, map->keys[i]),
+        *set = (JoxSceneSet){.name = jox_arena_text(l->reader.arena, map->keys[i]),
                              .position = map->key_positions[i]};
         bool flag = value->kind == JOX_YAML_SCALAR &&
                     (!strcmp(value->text, "true") || !strcmp(value->text, "false"));
@@ -319,9 +319,9 @@ JoxSceneSet *jox_load_sets(const JoxLoad *l, const JoxYaml *map, bool numbers_on
 char **jox_load_tags(const JoxLoad *l, const JoxYaml *node, uint32_t *count) {
     const JoxYaml *const *names;
     *count = jox_read_names(&l->reader, node, &names);
-    char **tags = jox_hoard_take(l->reader.hoard, *count, sizeof *tags);
+    char **tags = jox_arena_take(l->reader.arena, *count, sizeof *tags);
     for (uint32_t i = 0; i < *count; i++)
-        tags[i] = jox_hoard_text(l->reader.hoard, names[i]->text);
+        tags[i] = jox_arena_text(l->reader.arena, names[i]->text);
     return tags;
 }
 
@@ -333,7 +333,7 @@ static void read_group(JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group, uin
     read_mix(l, map, group);
     double facing = jox_key_number(&l->reader, map, "group", "facing");
     group->facing = (float)(facing * DEGREE);
-    group->team = jox_hoard_text(l->reader.hoard, jox_key_text(&l->reader, map, "group", "team"));
+    group->team = jox_arena_text(l->reader.arena, jox_key_text(&l->reader, map, "group", "team"));
     group->party = (uint32_t)jox_key_number(&l->reader, map, "group", "party");
     group->tags = jox_load_tags(l, jox_yaml_get(map, "tags"), &group->tag_count);
     group->set = jox_load_sets(l, jox_yaml_get(map, "set"), false, &group->set_count);
@@ -347,10 +347,10 @@ static void read_groups(JoxLoad *l, const JoxYaml *map) {
             jox_scene_error(&l->reader, map, "bad-type", NULL, "groups maps names to groups");
         return;
     }
-    l->scene->groups = jox_hoard_take(l->reader.hoard, map->count, sizeof *l->scene->groups);
+    l->scene->groups = jox_arena_take(l->reader.arena, map->count, sizeof *l->scene->groups);
     l->scene->group_count = map->count;
     for (uint32_t i = 0; i < map->count; i++) {
-        l->scene->groups[i].name = jox_hoard_text(l->reader.hoard, map->keys[i]);
+        l->scene->groups[i].name = jox_arena_text(l->reader.arena, map->keys[i]);
         l->scene->groups[i].position = map->key_positions[i];
         read_group(l, map->items[i], &l->scene->groups[i], i);
     }
@@ -362,7 +362,7 @@ static void read_sources(JoxLoad *l, const JoxYaml *list) {
     if (list && list->kind != JOX_YAML_LIST)
         jox_scene_error(&l->reader, list, "bad-type", NULL, "sources is a list");
     uint32_t count = list && list->kind == JOX_YAML_LIST ? list->count : 0;
-    l->scene->sources = jox_hoard_take(l->reader.hoard, count, sizeof *l->scene->sources);
+    l->scene->sources = jox_arena_take(l->reader.arena, count, sizeof *l->scene->sources);
     for (uint32_t i = 0; i < count; i++) {
         const JoxYaml *map = list->items[i];
         if (!jox_keys_check(&l->reader, map, "source"))
@@ -394,7 +394,7 @@ static void read_sinks(JoxLoad *l, const JoxYaml *list) {
     if (list && list->kind != JOX_YAML_LIST)
         jox_scene_error(&l->reader, list, "bad-type", NULL, "sinks is a list");
     uint32_t count = list && list->kind == JOX_YAML_LIST ? list->count : 0;
-    l->scene->sinks = jox_hoard_take(l->reader.hoard, count, sizeof *l->scene->sinks);
+    l->scene->sinks = jox_arena_take(l->reader.arena, count, sizeof *l->scene->sinks);
     for (uint32_t i = 0; i < count; i++) {
         if (!jox_keys_check(&l->reader, list->items[i], "sink"))
             continue;
@@ -431,7 +431,7 @@ static void read_periodic(JoxLoad *l, const JoxYaml *root) {
     const JoxYaml *node = jox_yaml_get(root, "periodic");
     if (!node)
         return;
-    JoxScene *s = l->scene;
+    JoxSceneSpec *s = l->scene;
     int choice = jox_key_choice(&l->reader, root, "scene", "periodic");
     s->periodic_x = choice == 1 || choice == 3;
     s->periodic_y = choice == 2 || choice == 3;
@@ -446,8 +446,8 @@ static void read_periodic(JoxLoad *l, const JoxYaml *root) {
 
 static void read_settings(JoxLoad *l, const JoxYaml *root) {
     const JoxReader *r = &l->reader;
-    JoxScene *s = l->scene;
-    s->title = jox_hoard_text(r->hoard, jox_key_text(r, root, "scene", "title"));
+    JoxSceneSpec *s = l->scene;
+    s->title = jox_arena_text(r->arena, jox_key_text(r, root, "scene", "title"));
     s->seed = (uint64_t)jox_key_number(r, root, "scene", "seed");
     s->step = jox_key_number(r, root, "scene", "step");
     s->duration = jox_key_number(r, root, "scene", "duration");
@@ -461,7 +461,7 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
         jox_scene_error(r, jox_yaml_get(root, "input"), "bad-value",
                         "A plain name, of a file beside it", "a mod cannot read '%.100s'", input);
     else if (input)
-        s->input = jox_path_beside(r->hoard, jox_yaml_get(root, "input")->position.file, input);
+        s->input = jox_path_beside(r->arena, jox_yaml_get(root, "input")->position.file, input);
     const JoxYaml *map = jox_yaml_get(root, "forces");
     s->forces = true;
     if (map && jox_keys_check(r, map, "forces")) {
@@ -511,19 +511,19 @@ static void read_scene(JoxLoad *l, const JoxYaml *root) {
                         "a scene needs a group or a body");
 }
 
-JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
-                              const JoxSceneOptions *options, JoxDiagnostics *diagnostics) {
-    JoxHoard *hoard = jox_hoard_create();
-    JoxYamlFiles *files = jox_hoard_take(hoard, 1, sizeof *files);
-    JoxLoad load = {.reader = {hoard, diagnostics},
-                    .scene = jox_alloc(1, sizeof(JoxScene)),
+JoxSceneSpec *jox_scene_load_text(const char *name, const char *text, size_t length,
+                                  const JoxSceneOptions *options, JoxDiagnostics *diagnostics) {
+    JoxArena *arena = jox_arena_create();
+    JoxYamlFiles *files = jox_arena_take(arena, 1, sizeof *files);
+    JoxLoad load = {.reader = {arena, diagnostics},
+                    .scene = jox_alloc(1, sizeof(JoxSceneSpec)),
                     .options = options,
                     .files = files};
     const size_t errors = diagnostics->errors;
-    load.scene->memory = hoard;
+    load.scene->memory = arena;
     load.datadir = options ? options->datadir : NULL;
-    load.scene->path = jox_hoard_text(hoard, name);
-    JoxYaml *root = jox_yaml_load(hoard, load.scene->path, text, length, files, diagnostics);
+    load.scene->path = jox_arena_text(arena, name);
+    JoxYaml *root = jox_yaml_load(arena, load.scene->path, text, length, files, diagnostics);
     if (root && options)
         root = jox_load_patches(&load, root, files);
     for (uint32_t i = 0; root && options && i < options->set_count; i++)
@@ -538,7 +538,7 @@ JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
         jox_scene_free(load.scene);
         return NULL;
     }
-    load.scene->files = jox_hoard_take(hoard, files->count, sizeof *load.scene->files);
+    load.scene->files = jox_arena_take(arena, files->count, sizeof *load.scene->files);
     load.scene->file_count = files->count;
     for (uint32_t i = 0; i < files->count; i++) {
         load.scene->files[i].path = files->items[i].path;
@@ -549,15 +549,15 @@ JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
     return load.scene;
 }
 
-JoxScene *jox_scene_load(const char *path, const JoxSceneOptions *options,
-                         JoxDiagnostics *diagnostics) {
+JoxSceneSpec *jox_scene_load(const char *path, const JoxSceneOptions *options,
+                             JoxDiagnostics *diagnostics) {
     return jox_scene_load_text(path, NULL, 0, options, diagnostics);
 }
 
-void jox_scene_free(JoxScene *scene) {
+void jox_scene_free(JoxSceneSpec *scene) {
     if (!scene)
         return;
     jox_walls_free(&scene->walls);
-    jox_hoard_free(scene->memory);
+    jox_arena_free(scene->memory);
     jox_free(scene);
 }

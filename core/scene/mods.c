@@ -47,8 +47,8 @@ static bool same_folder(const char *a, const char *b) {
     return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }
 
-static char *join(JoxHoard *hoard, const char *folder, const char *name) {
-    char *path = jox_hoard_take(hoard, strlen(folder) + strlen(name) + 2, 1);
+static char *join(JoxArena *arena, const char *folder, const char *name) {
+    char *path = jox_arena_take(arena, strlen(folder) + strlen(name) + 2, 1);
     sprintf(path, "%s/%s", folder, name);
     return path;
 }
@@ -87,7 +87,7 @@ static void read_settings(Find *f, JoxMod *mod, const JoxYaml *map) {
                         "settings maps at most 64 names to settings");
         return;
     }
-    mod->settings = jox_hoard_take(r->hoard, map->count, sizeof *mod->settings);
+    mod->settings = jox_arena_take(r->arena, map->count, sizeof *mod->settings);
     for (uint32_t s = 0; s < map->count; s++) {
         if (!jox_keys_check(r, map->items[s], "setting"))
             continue;
@@ -95,9 +95,9 @@ static void read_settings(Find *f, JoxMod *mod, const JoxYaml *map) {
         const char *unit = jox_key_text(r, map->items[s], "setting", "unit");
         const char *meaning = jox_key_text(r, map->items[s], "setting", "meaning");
         *setting = (JoxModSetting){
-            .name = jox_hoard_text(r->hoard, map->keys[s]),
-            .unit = jox_hoard_text(r->hoard, unit ? unit : ""),
-            .meaning = jox_hoard_text(r->hoard, meaning ? meaning : ""),
+            .name = jox_arena_text(r->arena, map->keys[s]),
+            .unit = jox_arena_text(r->arena, unit ? unit : ""),
+            .meaning = jox_arena_text(r->arena, meaning ? meaning : ""),
             .value = jox_key_number(r, map->items[s], "setting", "value"),
             .least = jox_key_number(r, map->items[s], "setting", "least"),
             .greatest = jox_key_number(r, map->items[s], "setting", "greatest"),
@@ -121,10 +121,10 @@ static bool ends_with(const char *path, const char *ending) {
 
 /* The target of a scene's patch: the top-level key `patch` or `replace`. */
 static void read_target(Find *f, JoxModPatch *patch) {
-    JoxYamlFiles *files = jox_hoard_take(f->reader.hoard, 1, sizeof *files);
+    JoxYamlFiles *files = jox_arena_take(f->reader.arena, 1, sizeof *files);
     files->plain = true;
     JoxYaml *root =
-        jox_yaml_load(f->reader.hoard, patch->path, NULL, 0, files, f->reader.diagnostics);
+        jox_yaml_load(f->reader.arena, patch->path, NULL, 0, files, f->reader.diagnostics);
     const JoxYaml *target = jox_yaml_get(root, "patch");
     patch->replaces = !target;
     target = target ? target : jox_yaml_get(root, "replace");
@@ -134,7 +134,7 @@ static void read_target(Find *f, JoxModPatch *patch) {
         return;
     }
     if (target) {
-        patch->target = jox_hoard_text(f->reader.hoard, target->text);
+        patch->target = jox_arena_text(f->reader.arena, target->text);
         patch->position = target->position;
     }
 }
@@ -156,7 +156,7 @@ static bool is_sound(Find *f, const char *path, JoxPosition from) {
 
 /* Looks at all files of one of a mod's folders; those of patches/ become patches. */
 static void read_folder(Find *f, JoxMod *mod, const char *name, JoxPosition from) {
-    char *folder = join(f->reader.hoard, mod->folder, name);
+    char *folder = join(f->reader.arena, mod->folder, name);
     bool patches = strcmp(name, "patches") == 0;
     struct dirent **entries;
     struct stat info;
@@ -169,9 +169,9 @@ static void read_folder(Find *f, JoxMod *mod, const char *name, JoxPosition from
         jox_diag_error(f->reader.diagnostics, from, "bad-mod", NULL, "'%s' has more than %d files",
                        folder, MOST_FILES);
     if (patches && count > 0)
-        mod->patches = jox_hoard_take(f->reader.hoard, (size_t)count, sizeof *mod->patches);
+        mod->patches = jox_arena_take(f->reader.arena, (size_t)count, sizeof *mod->patches);
     for (int e = 0; e < count; e++) {
-        char *path = join(f->reader.hoard, folder, entries[e]->d_name);
+        char *path = join(f->reader.arena, folder, entries[e]->d_name);
         bool lua = ends_with(path, ".lua"), yaml = ends_with(path, ".yaml");
         if (entries[e]->d_name[0] != '.' && is_sound(f, path, from) && patches && (lua || yaml)) {
             JoxModPatch *patch = &mod->patches[mod->patch_count++];
@@ -193,12 +193,12 @@ static void read_mod(Find *f, const char *folder, bool wanted) {
             f->needs[m].wanted |= wanted;
             return;
         }
-    char *path = join(r->hoard, folder, "mod.yaml");
-    JoxYamlFiles *files = jox_hoard_take(r->hoard, 1, sizeof *files);
+    char *path = join(r->arena, folder, "mod.yaml");
+    JoxYamlFiles *files = jox_arena_take(r->arena, 1, sizeof *files);
     files->plain = true;
     size_t errors = r->diagnostics->errors;
     JoxYaml *root = is_sound(f, path, (JoxPosition){path, 0, 0, 0})
-                        ? jox_yaml_load(r->hoard, path, NULL, 0, files, r->diagnostics)
+                        ? jox_yaml_load(r->arena, path, NULL, 0, files, r->diagnostics)
                         : NULL;
     if (root && mods->found_count == JOX_MOST_MODS) {
         jox_diag_error(r->diagnostics, root->position, "too-many", "Take some out of the folder",
@@ -222,10 +222,10 @@ static void read_mod(Find *f, const char *folder, bool wanted) {
         return;
     }
     JoxMod *mod = &mods->found[mods->found_count];
-    *mod = (JoxMod){.name = jox_hoard_text(r->hoard, name ? name : folder),
-                    .title = jox_hoard_text(r->hoard, title ? title : ""),
-                    .version = jox_hoard_text(r->hoard, version ? version : "0"),
-                    .folder = jox_hoard_text(r->hoard, folder),
+    *mod = (JoxMod){.name = jox_arena_text(r->arena, name ? name : folder),
+                    .title = jox_arena_text(r->arena, title ? title : ""),
+                    .version = jox_arena_text(r->arena, version ? version : "0"),
+                    .folder = jox_arena_text(r->arena, folder),
                     .enabled = jox_key_bool(r, root, "mod", "enabled")};
     jox_key_number(r, root, "mod", "api"); /* its range is its check */
     Needs *needs = &f->needs[mods->found_count++];
@@ -251,9 +251,9 @@ static void look_into(Find *f, const char *folder) {
     struct dirent **entries;
     int count = is_folder(folder) ? scandir(folder, &entries, NULL, by_name) : -1;
     for (int e = 0; e < count; e++) {
-        char *path = join(f->reader.hoard, folder, entries[e]->d_name);
+        char *path = join(f->reader.arena, folder, entries[e]->d_name);
         struct stat info;
-        char *sheet = join(f->reader.hoard, path, "mod.yaml");
+        char *sheet = join(f->reader.arena, path, "mod.yaml");
         bool link = lstat(path, &info) == 0 && S_ISLNK(info.st_mode);
         if (entries[e]->d_name[0] != '.' && !link && stat(sheet, &info) == 0)
             read_mod(f, path, false);
@@ -311,9 +311,9 @@ static void choose(Find *f) {
         f->needs[m].wanted |= mods->found[m].enabled && !f->def->named_only;
     if (!f->def->scene)
         return;
-    JoxYamlFiles *files = jox_hoard_take(f->reader.hoard, 1, sizeof *files);
+    JoxYamlFiles *files = jox_arena_take(f->reader.arena, 1, sizeof *files);
     JoxDiagnostics later = {0}; /* the scene's own errors are for its loader */
-    JoxYaml *root = jox_yaml_load(f->reader.hoard, f->def->scene, NULL, 0, files, &later);
+    JoxYaml *root = jox_yaml_load(f->reader.arena, f->def->scene, NULL, 0, files, &later);
     const JoxYaml *map = jox_yaml_get(root, "mods");
     jox_diag_free(&later);
     if (map && map->kind != JOX_YAML_MAP)
@@ -540,8 +540,8 @@ static void order(Find *f) {
             list[at] = list[at - 1];
         list[at] = m;
     }
-    mods->items = jox_hoard_take(f->reader.hoard, count + 1, sizeof *mods->items);
-    mods->number = jox_hoard_take(f->reader.hoard, count + 1, sizeof *mods->number);
+    mods->items = jox_arena_take(f->reader.arena, count + 1, sizeof *mods->items);
+    mods->number = jox_arena_take(f->reader.arena, count + 1, sizeof *mods->number);
     mods->count = count;
     for (uint32_t k = 0; k < count; k++) {
         mods->number[k] = list[k];
@@ -555,8 +555,8 @@ static void order(Find *f) {
 JoxMods *jox_mods_find(const JoxModsDef *def, JoxDiagnostics *diagnostics) {
     JoxMods *mods = jox_alloc(1, sizeof *mods);
     Find *f = jox_alloc(1, sizeof *f);
-    mods->memory = jox_hoard_create();
-    mods->found = jox_hoard_take(mods->memory, JOX_MOST_MODS, sizeof *mods->found);
+    mods->memory = jox_arena_create();
+    mods->found = jox_arena_take(mods->memory, JOX_MOST_MODS, sizeof *mods->found);
     f->def = def;
     f->mods = mods;
     f->reader = (JoxReader){mods->memory, diagnostics};
@@ -580,8 +580,8 @@ void jox_mods_free(JoxMods *mods) {
         return;
     for (uint32_t m = 0; m < mods->count; m++)
         for (uint32_t p = 0; p < mods->items[m].patch_count; p++)
-            if (mods->items[m].patches[p].lua) /* named by who reads Lua, the rest by the hoard */
+            if (mods->items[m].patches[p].lua) /* named by who reads Lua, the rest by the arena */
                 jox_free(mods->items[m].patches[p].target);
-    jox_hoard_free(mods->memory);
+    jox_arena_free(mods->memory);
     jox_free(mods);
 }

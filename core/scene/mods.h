@@ -20,7 +20,7 @@ typedef struct JoxMods {
     JoxMod *found; /* all that were found, by name; a taken one shares its texts */
     uint32_t found_count;
     uint32_t *number; /* of a taken one among the found */
-    struct JoxHoard *memory;
+    struct JoxArena *memory;
 } JoxMods;
 
 /* Finds, reads, chooses and orders mods: by depth of what they depend on, then by name. What is

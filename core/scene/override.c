@@ -30,16 +30,16 @@ void jox_load_override(const JoxLoad *l, JoxYaml *root, const char *set) {
     const char *part = set;
     for (JoxYaml **slot;;) {
         size_t n = strcspn(part, ".=");
-        char *key = jox_hoard_take(l->reader.hoard, n + 1, 1);
+        char *key = jox_arena_take(l->reader.arena, n + 1, 1);
         memcpy(key, part, n);
         part += n;
         if (*part == '=') {
-            JoxYaml *value = jox_hoard_take(l->reader.hoard, 1, sizeof *value);
+            JoxYaml *value = jox_arena_take(l->reader.arena, 1, sizeof *value);
             *value = (JoxYaml){.kind = JOX_YAML_SCALAR,
-                               .text = jox_hoard_text(l->reader.hoard, equals + 1),
+                               .text = jox_arena_text(l->reader.arena, equals + 1),
                                .position = at};
             if (map->kind == JOX_YAML_MAP)
-                jox_yaml_set(l->reader.hoard, map, key, value);
+                jox_yaml_set(l->reader.arena, map, key, value);
             else if ((slot = find_slot(map, key)))
                 *slot = value;
             else
@@ -51,9 +51,9 @@ void jox_load_override(const JoxLoad *l, JoxYaml *root, const char *set) {
         JoxYaml *next = slot ? *slot : NULL;
         if (!next && map == root && jox_key_is_table("scene", key)) {
             /* A table left at its defaults. */
-            next = jox_hoard_take(l->reader.hoard, 1, sizeof *next);
+            next = jox_arena_take(l->reader.arena, 1, sizeof *next);
             *next = (JoxYaml){.kind = JOX_YAML_MAP, .position = at};
-            jox_yaml_set(l->reader.hoard, map, key, next);
+            jox_yaml_set(l->reader.arena, map, key, next);
             slot = find_slot(map, key);
         }
         if (!next || next->kind == JOX_YAML_SCALAR) {
@@ -64,7 +64,7 @@ void jox_load_override(const JoxLoad *l, JoxYaml *root, const char *set) {
                            "the scene has no '%.*s'", (int)(part - set), set);
             return;
         }
-        map = *slot = jox_yaml_copy(l->reader.hoard, next); /* aliases of it stay as they are */
+        map = *slot = jox_yaml_copy(l->reader.arena, next); /* aliases of it stay as they are */
         part++;
     }
 }

@@ -17,11 +17,11 @@ typedef struct Patch {
 /* Keeps what was set where; two mods that set one path without knowing each other are named. */
 static void keep(const Patch *p, const char *path, JoxPosition at, bool removes) {
     JoxLoad *l = p->load;
-    JoxScene *scene = l->scene;
+    JoxSceneSpec *scene = l->scene;
     const JoxMod *mods = l->options->mods;
     if (scene->change_count == l->change_capacity) {
         uint32_t wider = l->change_capacity ? 2 * l->change_capacity : 16;
-        JoxSceneChange *changes = jox_hoard_take(l->reader.hoard, wider, sizeof *changes);
+        JoxSceneChange *changes = jox_arena_take(l->reader.arena, wider, sizeof *changes);
         if (scene->change_count)
             memcpy(changes, scene->changes, scene->change_count * sizeof *changes);
         scene->changes = changes;
@@ -37,7 +37,7 @@ static void keep(const Patch *p, const char *path, JoxPosition at, bool removes)
         break;
     }
     scene->changes[scene->change_count++] =
-        (JoxSceneChange){jox_hoard_text(l->reader.hoard, path), at, p->mod, removes};
+        (JoxSceneChange){jox_arena_text(l->reader.arena, path), at, p->mod, removes};
 }
 
 static bool is_null(const JoxYaml *node) {
@@ -54,8 +54,8 @@ static JoxYaml *merge(const Patch *p, const JoxYaml *base, const JoxYaml *change
 
 static JoxYaml *merge_map(const Patch *p, const JoxYaml *base, const JoxYaml *change,
                           const char *path, int depth) {
-    JoxHoard *hoard = p->load->reader.hoard;
-    JoxYaml *result = jox_yaml_copy(hoard, base);
+    JoxArena *arena = p->load->reader.arena;
+    JoxYaml *result = jox_yaml_copy(arena, base);
     for (uint32_t k = 0; k < change->count; k++) {
         const char *key = change->keys[k];
         char whole[512];
@@ -74,9 +74,9 @@ static JoxYaml *merge_map(const Patch *p, const JoxYaml *base, const JoxYaml *ch
             keep(p, whole, change->key_positions[k], true);
         } else if (now && change->items[k]->kind == JOX_YAML_MAP && depth < DEEPEST &&
                    now->kind != JOX_YAML_SCALAR) {
-            jox_yaml_set(hoard, result, key, merge(p, now, change->items[k], whole, depth + 1));
+            jox_yaml_set(arena, result, key, merge(p, now, change->items[k], whole, depth + 1));
         } else {
-            jox_yaml_put(hoard, result, key, change->key_positions[k], change->items[k]);
+            jox_yaml_put(arena, result, key, change->key_positions[k], change->items[k]);
             keep(p, whole, change->key_positions[k], false);
         }
     }
@@ -97,9 +97,9 @@ static uint32_t find_item(const JoxYaml *list, const char *key) {
 
 static JoxYaml *merge_list(const Patch *p, const JoxYaml *base, const JoxYaml *change,
                            const char *path, int depth) {
-    JoxHoard *hoard = p->load->reader.hoard;
-    JoxYaml *result = jox_yaml_copy(hoard, base);
-    bool *gone = jox_hoard_take(hoard, base->count + 1, sizeof *gone);
+    JoxArena *arena = p->load->reader.arena;
+    JoxYaml *result = jox_yaml_copy(arena, base);
+    bool *gone = jox_arena_take(arena, base->count + 1, sizeof *gone);
     for (uint32_t k = 0; k < change->count; k++) {
         const char *key = change->keys[k];
         const JoxYaml *value = change->items[k];
@@ -113,7 +113,7 @@ static JoxYaml *merge_list(const Patch *p, const JoxYaml *base, const JoxYaml *c
                 char number[16];
                 snprintf(number, sizeof number, "%u", result->count);
                 join(whole, path, name && name->kind == JOX_YAML_SCALAR ? name->text : number);
-                jox_yaml_append(hoard, result, item);
+                jox_yaml_append(arena, result, item);
                 keep(p, whole, item->position, false);
             }
             continue;
@@ -157,7 +157,7 @@ static JoxYaml *merge(const Patch *p, const JoxYaml *base, const JoxYaml *change
     if (merges && base->kind == JOX_YAML_MAP)
         return merge_map(p, base, change, path, depth);
     keep(p, path, change->position, false);
-    return jox_yaml_copy(p->load->reader.hoard, change);
+    return jox_yaml_copy(p->load->reader.arena, change);
 }
 
 /* Whether a patch's target is this scene: by its file, or by "mod:file" for one of a mod. */
@@ -182,13 +182,13 @@ JoxYaml *jox_load_patches(JoxLoad *l, JoxYaml *root, JoxYamlFiles *files) {
             if (patch->lua || !patch->target || !is_target(l, patch->target))
                 continue;
             JoxYaml *change =
-                jox_yaml_load(l->reader.hoard, patch->path, NULL, 0, files, l->reader.diagnostics);
+                jox_yaml_load(l->reader.arena, patch->path, NULL, 0, files, l->reader.diagnostics);
             if (!change || change->kind != JOX_YAML_MAP)
                 continue;
             const Patch p = {l, m};
             if (patch->replaces) {
                 keep(&p, "", change->position, false);
-                root = jox_yaml_copy(l->reader.hoard, change);
+                root = jox_yaml_copy(l->reader.arena, change);
                 jox_yaml_remove(root, "replace");
             } else {
                 root = merge_map(&p, root, change, "", 0);

@@ -4,7 +4,7 @@
 
 #include "base/elementary.h"
 #include "base/mem.h"
-#include "scene/fill.h"
+#include "geom/fill.h"
 #include "scene/internal.h"
 
 enum { MOST_AGENTS = 1000000 };
@@ -12,7 +12,7 @@ enum { MOST_AGENTS = 1000000 };
 static uint32_t read_places(const JoxLoad *l, const JoxYaml *node, uint32_t **out) {
     const JoxYaml *const *names;
     uint32_t count = jox_read_names(&l->reader, node, &names), n = 0;
-    *out = jox_hoard_take(l->reader.hoard, count, sizeof **out);
+    *out = jox_arena_take(l->reader.arena, count, sizeof **out);
     for (uint32_t i = 0; i < count; i++) {
         int32_t place = jox_load_place(l, names[i]);
         /* One that was wrong has no points; that is reported already. */
@@ -31,7 +31,7 @@ static void circle(const JoxLoad *l, const JoxYaml *map, const uint32_t *in, uin
         return;
     }
     group->centre = place->centre;
-    group->positions = jox_hoard_take(l->reader.hoard, group->count, sizeof *group->positions);
+    group->positions = jox_arena_take(l->reader.arena, group->count, sizeof *group->positions);
     for (uint32_t i = 0; i < group->count; i++) {
         double angle = 6.283185307179586 * i / group->count;
         group->positions[i] = (JoxV2){place->centre.x + place->radius * (float)jox_cos(angle),
@@ -50,7 +50,7 @@ static void line(const JoxLoad *l, const JoxYaml *map, const uint32_t *in, uint3
         return;
     }
     JoxV2 from = place->points[0], way = jox_sub(place->points[1], from);
-    group->positions = jox_hoard_take(l->reader.hoard, group->count, sizeof *group->positions);
+    group->positions = jox_arena_take(l->reader.arena, group->count, sizeof *group->positions);
     for (uint32_t i = 0; i < group->count; i++)
         group->positions[i] =
             jox_add(from, jox_scale(way, (float)((i + 0.5) / (double)group->count)));
@@ -64,7 +64,7 @@ static void area(const JoxLoad *l, const JoxYaml *map, const JoxArea *a, JoxSpre
         jox_scene_error(&l->reader, map, "too-many", "Lower count or spacing, or widen the area",
                         "%u agents do not fit: %u do", group->count, fit);
     group->count = fit < group->count ? fit : group->count;
-    group->positions = jox_hoard_take(l->reader.hoard, group->count, sizeof *group->positions);
+    group->positions = jox_arena_take(l->reader.arena, group->count, sizeof *group->positions);
     if (positions)
         memcpy(group->positions, positions, group->count * sizeof *positions);
     jox_free(positions);
@@ -72,7 +72,7 @@ static void area(const JoxLoad *l, const JoxYaml *map, const JoxArea *a, JoxSpre
 
 /* `node`: the group, or the list of its agents' points. */
 static void check_bounds(const JoxLoad *l, const JoxYaml *node, const JoxSceneGroup *group) {
-    const JoxScene *s = l->scene;
+    const JoxSceneSpec *s = l->scene;
     for (uint32_t i = 0; s->bounded && group->positions && i < group->count; i++) {
         JoxV2 p = group->positions[i];
         if (p.x >= s->low.x && p.x <= s->high.x && p.y >= s->low.y && p.y <= s->high.y)

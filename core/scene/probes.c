@@ -73,7 +73,7 @@ static bool read_line(const JoxLoad *l, const JoxYaml *node, JoxV2 *out) {
 }
 
 static void read_lines(const JoxLoad *l, const JoxYaml *node, JoxProbeDef *probe) {
-    JoxV2 *points = jox_hoard_take(l->reader.hoard, 4, sizeof *points);
+    JoxV2 *points = jox_arena_take(l->reader.arena, 4, sizeof *points);
     probe->points = points;
     if (probe->kind == JOX_PROBE_FLOW) {
         probe->count = read_line(l, node, points) ? 2 : 0;
@@ -99,7 +99,7 @@ static void read_visit(const JoxLoad *l, const JoxYaml *node, JoxProbeDef *probe
         return;
     }
     for (uint32_t s = 0; s < 2; s++)
-        probe->states[s] = jox_hoard_text(l->reader.hoard, node->items[s]->text);
+        probe->states[s] = jox_arena_text(l->reader.arena, node->items[s]->text);
 }
 
 static void read_map(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe) {
@@ -123,7 +123,7 @@ static void read_lanes(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe)
 /* One point, or direction, of a key. */
 static bool read_point(const JoxLoad *l, const JoxYaml *map, const char *key, JoxProbeDef *probe) {
     double v[2] = {0, 0};
-    JoxV2 *point = jox_hoard_take(l->reader.hoard, 1, sizeof *point);
+    JoxV2 *point = jox_arena_take(l->reader.arena, 1, sizeof *point);
     if (!jox_key_vector(&l->reader, map, "probe", key, v, 2))
         return false;
     *point = jox_v2((float)v[0], (float)v[1]);
@@ -144,7 +144,7 @@ static void read_displacement(const JoxLoad *l, const JoxYaml *map, JoxProbeDef 
 static void read_groups_of(const JoxLoad *l, const JoxYaml *map, JoxProbeDef *probe) {
     const JoxYaml *const *names;
     uint32_t count = jox_read_names(&l->reader, jox_yaml_get(map, "group"), &names);
-    uint16_t *groups = jox_hoard_take(l->reader.hoard, count, sizeof *groups);
+    uint16_t *groups = jox_arena_take(l->reader.arena, count, sizeof *groups);
     for (uint32_t n = 0; n < count; n++) {
         int32_t group = jox_load_group(l, names[n]);
         if (group >= 0)
@@ -218,10 +218,10 @@ void jox_load_probes(JoxLoad *l, const JoxYaml *map) {
                             "probes maps names to probes");
         return;
     }
-    l->scene->probes = jox_hoard_take(l->reader.hoard, map->count, sizeof *l->scene->probes);
+    l->scene->probes = jox_arena_take(l->reader.arena, map->count, sizeof *l->scene->probes);
     l->scene->probe_count = map->count;
     for (uint32_t i = 0; i < map->count; i++) {
-        l->scene->probes[i].name = jox_hoard_text(l->reader.hoard, map->keys[i]);
+        l->scene->probes[i].name = jox_arena_text(l->reader.arena, map->keys[i]);
         check_name(l, map->keys[i], map->key_positions[i]);
         read_probe(l, map->items[i], &l->scene->probes[i]);
     }

@@ -138,7 +138,7 @@ typedef struct JoxSceneFile {
     size_t length;
 } JoxSceneFile;
 
-typedef struct JoxScene {
+typedef struct JoxSceneSpec {
     char *path, *title;
     char *input; /* path of the input log, or NULL */
     uint64_t seed;
@@ -191,7 +191,7 @@ typedef struct JoxScene {
     JoxSceneChange *changes; /* in the order in which they were made */
     uint32_t change_count;
     void *memory; /* owns every text and array above but `walls` */
-} JoxScene;
+} JoxSceneSpec;
 
 /* `sets` are "PATH=VALUE", as "groups.pilgrims.count=5000". */
 typedef struct JoxSceneOptions {
@@ -204,12 +204,12 @@ typedef struct JoxSceneOptions {
 } JoxSceneOptions;
 
 /* NULL when there are errors, all of them in `diagnostics`. `options` may be NULL. */
-JoxScene *jox_scene_load(const char *path, const JoxSceneOptions *options,
-                         JoxDiagnostics *diagnostics);
+JoxSceneSpec *jox_scene_load(const char *path, const JoxSceneOptions *options,
+                             JoxDiagnostics *diagnostics);
 /* The same from memory; `name` stands for the path, its folder is where files are looked for. */
-JoxScene *jox_scene_load_text(const char *name, const char *text, size_t length,
-                              const JoxSceneOptions *options, JoxDiagnostics *diagnostics);
-void jox_scene_free(JoxScene *scene);
+JoxSceneSpec *jox_scene_load_text(const char *name, const char *text, size_t length,
+                                  const JoxSceneOptions *options, JoxDiagnostics *diagnostics);
+void jox_scene_free(JoxSceneSpec *scene);
 /* Every key with type, unit, range, default and meaning, as plain text. */
 void jox_scene_print_reference(JoxText *out);
 /* The same as a page of Markdown, with examples. */

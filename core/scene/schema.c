@@ -23,7 +23,7 @@ const char *jox_scene_suggest(const JoxReader *reader, const char *word, const c
     const char *near = jox_suggest(word, names, count);
     if (!near)
         return NULL;
-    char *hint = jox_hoard_take(reader->hoard, strlen(near) + 24, 1);
+    char *hint = jox_arena_take(reader->arena, strlen(near) + 24, 1);
     sprintf(hint, "Did you mean '%s'?", near);
     return hint;
 }

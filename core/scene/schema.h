@@ -64,7 +64,7 @@ extern const size_t jox_scene_unit_count;
 
 /* Reading context: where errors go. */
 typedef struct JoxReader {
-    JoxHoard *hoard;
+    JoxArena *arena;
     JoxDiagnostics *diagnostics;
 } JoxReader;
 
@@ -104,7 +104,7 @@ bool jox_read_dist(const JoxReader *reader, const JoxYaml *node, JoxDist *out);
 void jox_scene_error(const JoxReader *reader, const JoxYaml *node, const char *code,
                      const char *hint, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
-/* "Did you mean 'x'?" in a buffer of the hoard, or NULL. */
+/* "Did you mean 'x'?" in a buffer of the arena, or NULL. */
 const char *jox_scene_suggest(const JoxReader *reader, const char *word, const char *const *names,
                               size_t count);
 

@@ -18,7 +18,7 @@ static void read_hull(const JoxLoad *l, const JoxYaml *map, JoxShape *shape) {
                         "a hull has 4 to 256 points");
         return;
     }
-    double *points = jox_hoard_take(l->reader.hoard, list->count * 3, sizeof *points);
+    double *points = jox_arena_take(l->reader.arena, list->count * 3, sizeof *points);
     for (uint32_t i = 0; i < list->count; i++)
         for (uint32_t k = 0; k < 3; k++) {
             const JoxYaml *p = list->items[i];
@@ -44,7 +44,7 @@ static void read_parts(const JoxLoad *l, const JoxYaml *list, JoxShape *shape) {
         jox_scene_error(&l->reader, list, "bad-type", NULL, "a compound is a list of parts");
         return;
     }
-    JoxBodyPart *parts = jox_hoard_take(l->reader.hoard, list->count, sizeof *parts);
+    JoxBodyPart *parts = jox_arena_take(l->reader.arena, list->count, sizeof *parts);
     for (uint32_t i = 0; i < list->count; i++) {
         const JoxYaml *map = list->items[i], *inner = jox_yaml_get(map, "shape");
         if (!jox_keys_check(&l->reader, map, "part"))
@@ -139,7 +139,7 @@ static void read_body(JoxLoad *l, const JoxYaml *map, JoxSceneBody *body) {
     body->position = map->position;
     if (!jox_keys_check(r, map, "body"))
         return;
-    body->def.name = jox_hoard_text(r->hoard, jox_key_text(r, map, "body", "name"));
+    body->def.name = jox_arena_text(r->arena, jox_key_text(r, map, "body", "name"));
     double mass = jox_key_number(r, map, "body", "mass");
     double density = jox_key_number(r, map, "body", "density");
     if (isfinite(mass) && isfinite(density))
@@ -189,11 +189,11 @@ static bool read_repeat(const JoxReader *r, const JoxYaml *map, double count[3],
 /* The body at each point of its lattice, x first. Copies of a named one are NAME-1, NAME-2, ... */
 static void add_copies(JoxLoad *l, const JoxSceneBody *body, const double count[3],
                        const double step[3], uint32_t *room) {
-    JoxScene *scene = l->scene;
+    JoxSceneSpec *scene = l->scene;
     uint32_t copies = (uint32_t)(count[0] * count[1] * count[2]);
     if (scene->body_count + copies > *room) {
         *room = 2 * (scene->body_count + copies);
-        JoxSceneBody *wider = jox_hoard_take(l->reader.hoard, *room, sizeof *wider);
+        JoxSceneBody *wider = jox_arena_take(l->reader.arena, *room, sizeof *wider);
         if (scene->body_count)
             memcpy(wider, scene->bodies, scene->body_count * sizeof *wider);
         scene->bodies = wider;
@@ -208,7 +208,7 @@ static void add_copies(JoxLoad *l, const JoxSceneBody *body, const double count[
         if (copies > 1 && body->def.name) {
             char name[80];
             snprintf(name, sizeof name, "%.60s-%u", body->def.name, n + 1);
-            copy->def.name = jox_hoard_text(l->reader.hoard, name);
+            copy->def.name = jox_arena_text(l->reader.arena, name);
         }
     }
 }
@@ -219,7 +219,7 @@ void jox_load_bodies(JoxLoad *l, const JoxYaml *list) {
                         "A map may change bodies of an included scene that have these names",
                         "bodies is a list");
     uint32_t count = list && list->kind == JOX_YAML_LIST ? list->count : 0, room = count;
-    l->scene->bodies = jox_hoard_take(l->reader.hoard, room, sizeof *l->scene->bodies);
+    l->scene->bodies = jox_arena_take(l->reader.arena, room, sizeof *l->scene->bodies);
     for (uint32_t i = 0; i < count; i++) {
         JoxSceneBody body = {0};
         double copies[3], step[3];

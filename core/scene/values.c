@@ -65,7 +65,7 @@ JoxV2 *jox_read_points(const JoxReader *reader, const JoxYaml *list, uint32_t le
                         "a list of points has at most %d, not %u", MOST_POINTS, list->count);
         return NULL;
     }
-    JoxV2 *points = jox_hoard_take(reader->hoard, list->count, sizeof *points);
+    JoxV2 *points = jox_arena_take(reader->arena, list->count, sizeof *points);
     for (uint32_t i = 0; i < list->count; i++) {
         const JoxYaml *p = list->items[i];
         double v[2] = {0, 0};
@@ -92,7 +92,7 @@ uint32_t jox_read_names(const JoxReader *reader, const JoxYaml *node, const JoxY
     if (!node)
         return 0;
     uint32_t count = node->kind == JOX_YAML_LIST ? node->count : 1, n = 0;
-    const JoxYaml **names = jox_hoard_take(reader->hoard, count, sizeof *names);
+    const JoxYaml **names = jox_arena_take(reader->arena, count, sizeof *names);
     for (uint32_t i = 0; i < count; i++) {
         const JoxYaml *name = node->kind == JOX_YAML_LIST ? node->items[i] : node;
         if (name->kind == JOX_YAML_SCALAR)

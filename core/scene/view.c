@@ -33,7 +33,7 @@ static uint32_t read_tools(const JoxReader *r, const JoxYaml *list) {
 
 void jox_load_view(const JoxLoad *l, const JoxYaml *root) {
     const JoxReader *r = &l->reader;
-    JoxScene *s = l->scene;
+    JoxSceneSpec *s = l->scene;
     const JoxYaml *map = jox_yaml_get(root, "camera");
     if (map && jox_keys_check(r, map, "camera"))
         s->camera.given = jox_key_vector(r, map, "camera", "position", s->camera.position, 3) &&

@@ -20,22 +20,22 @@ enum {
 
 /* ---- memory ---- */
 
-struct JoxHoard {
+struct JoxArena {
     void **blocks;
     size_t count, capacity;
 };
 
-JoxHoard *jox_hoard_create(void) {
-    return jox_alloc(1, sizeof(JoxHoard));
+JoxArena *jox_arena_create(void) {
+    return jox_alloc(1, sizeof(JoxArena));
 }
-void *jox_hoard_take(JoxHoard *h, size_t count, size_t size) {
+void *jox_arena_take(JoxArena *h, size_t count, size_t size) {
     JOX_RESERVE(h->blocks, h->capacity, h->count + 1);
     return h->blocks[h->count++] = jox_alloc(count ? count : 1, size);
 }
-char *jox_hoard_text(JoxHoard *h, const char *text) {
-    return text ? strcpy(jox_hoard_take(h, strlen(text) + 1, 1), text) : NULL;
+char *jox_arena_text(JoxArena *h, const char *text) {
+    return text ? strcpy(jox_arena_take(h, strlen(text) + 1, 1), text) : NULL;
 }
-void jox_hoard_free(JoxHoard *h) {
+void jox_arena_free(JoxArena *h) {
     for (size_t i = 0; h && i < h->count; i++)
         jox_free(h->blocks[i]);
     if (h)
@@ -43,10 +43,10 @@ void jox_hoard_free(JoxHoard *h) {
     jox_free(h);
 }
 
-char *jox_path_beside(JoxHoard *hoard, const char *file, const char *name) {
+char *jox_path_beside(JoxArena *arena, const char *file, const char *name) {
     const char *slash = strrchr(file, '/');
     size_t folder = slash && *name != '/' ? (size_t)(slash - file) + 1 : 0;
-    char *path = jox_hoard_take(hoard, folder + strlen(name) + 1, 1);
+    char *path = jox_arena_take(arena, folder + strlen(name) + 1, 1);
     memcpy(path, file, folder);
     strcpy(path + folder, name);
     return path;
@@ -61,17 +61,17 @@ JoxYaml *jox_yaml_get(const JoxYaml *map, const char *key) {
     return NULL;
 }
 
-static void add_item(JoxHoard *hoard, JoxYaml *node, const char *key, JoxPosition at,
+static void add_item(JoxArena *arena, JoxYaml *node, const char *key, JoxPosition at,
                      JoxYaml *value) {
-    if (node->count == node->capacity) { /* the hoard cannot grow a block: old ones stay in it */
+    if (node->count == node->capacity) { /* the arena cannot grow a block: old ones stay in it */
         uint32_t wider = node->capacity ? 2 * node->capacity : 4;
-        JoxYaml **items = jox_hoard_take(hoard, wider, sizeof *items);
+        JoxYaml **items = jox_arena_take(arena, wider, sizeof *items);
         if (node->count)
             memcpy(items, node->items, node->count * sizeof *items);
         node->items = items;
         if (node->kind == JOX_YAML_MAP) {
-            const char **keys = jox_hoard_take(hoard, wider, sizeof *keys);
-            JoxPosition *positions = jox_hoard_take(hoard, wider, sizeof *positions);
+            const char **keys = jox_arena_take(arena, wider, sizeof *keys);
+            JoxPosition *positions = jox_arena_take(arena, wider, sizeof *positions);
             if (node->count) {
                 memcpy(keys, node->keys, node->count * sizeof *keys);
                 memcpy(positions, node->key_positions, node->count * sizeof *positions);
@@ -89,17 +89,17 @@ static void add_item(JoxHoard *hoard, JoxYaml *node, const char *key, JoxPositio
     node->count++;
 }
 
-void jox_yaml_set(JoxHoard *hoard, JoxYaml *map, const char *key, JoxYaml *value) {
+void jox_yaml_set(JoxArena *arena, JoxYaml *map, const char *key, JoxYaml *value) {
     for (uint32_t i = 0; i < map->count; i++)
         if (strcmp(map->keys[i], key) == 0) {
             map->items[i] = value;
             return;
         }
-    add_item(hoard, map, jox_hoard_text(hoard, key), value->position, value);
+    add_item(arena, map, jox_arena_text(arena, key), value->position, value);
 }
 
-void jox_yaml_put(JoxHoard *hoard, JoxYaml *map, const char *key, JoxPosition at, JoxYaml *value) {
-    jox_yaml_set(hoard, map, key, value);
+void jox_yaml_put(JoxArena *arena, JoxYaml *map, const char *key, JoxPosition at, JoxYaml *value) {
+    jox_yaml_set(arena, map, key, value);
     for (uint32_t i = 0; i < map->count; i++)
         if (strcmp(map->keys[i], key) == 0)
             map->key_positions[i] = at;
@@ -117,30 +117,30 @@ void jox_yaml_remove(JoxYaml *map, const char *key) {
     map->count = kept;
 }
 
-void jox_yaml_append(JoxHoard *hoard, JoxYaml *list, JoxYaml *item) {
-    add_item(hoard, list, NULL, item->position, item);
+void jox_yaml_append(JoxArena *arena, JoxYaml *list, JoxYaml *item) {
+    add_item(arena, list, NULL, item->position, item);
 }
 
-JoxYaml *jox_yaml_copy(JoxHoard *hoard, const JoxYaml *node) {
-    JoxYaml *copy = jox_hoard_take(hoard, 1, sizeof *copy);
+JoxYaml *jox_yaml_copy(JoxArena *arena, const JoxYaml *node) {
+    JoxYaml *copy = jox_arena_take(arena, 1, sizeof *copy);
     *copy = *node;
     copy->items = NULL, copy->keys = NULL, copy->key_positions = NULL;
     copy->count = copy->capacity = 0;
     for (uint32_t i = 0; i < node->count; i++) {
         bool map = node->kind == JOX_YAML_MAP;
-        add_item(hoard, copy, map ? node->keys[i] : NULL,
+        add_item(arena, copy, map ? node->keys[i] : NULL,
                  map ? node->key_positions[i] : node->position, node->items[i]);
     }
     return copy;
 }
 
-static void merge(JoxHoard *hoard, JoxYaml *map, const JoxYaml *base, int depth);
+static void merge(JoxArena *arena, JoxYaml *map, const JoxYaml *base, int depth);
 
 /* The list with those of its items changed that `change` names by their `name`; NULL where it names
    others. */
-static JoxYaml *merge_items(JoxHoard *hoard, const JoxYaml *change, const JoxYaml *list,
+static JoxYaml *merge_items(JoxArena *arena, const JoxYaml *change, const JoxYaml *list,
                             int depth) {
-    JoxYaml *result = jox_yaml_copy(hoard, list);
+    JoxYaml *result = jox_yaml_copy(arena, list);
     for (uint32_t k = 0; k < change->count; k++) {
         uint32_t i = 0;
         for (; i < list->count; i++) {
@@ -150,27 +150,27 @@ static JoxYaml *merge_items(JoxHoard *hoard, const JoxYaml *change, const JoxYam
         }
         if (i == list->count || change->items[k]->kind != JOX_YAML_MAP)
             return NULL;
-        result->items[i] = jox_yaml_copy(hoard, change->items[k]);
-        merge(hoard, result->items[i], list->items[i], depth + 1);
+        result->items[i] = jox_yaml_copy(arena, change->items[k]);
+        merge(arena, result->items[i], list->items[i], depth + 1);
     }
     return result;
 }
 
 /* What the map lacks comes from `base`; where both are maps, deeply. */
-static void merge(JoxHoard *hoard, JoxYaml *map, const JoxYaml *base, int depth) {
+static void merge(JoxArena *arena, JoxYaml *map, const JoxYaml *base, int depth) {
     for (uint32_t i = 0; i < base->count && depth < DEEPEST; i++) {
         JoxYaml *own = jox_yaml_get(map, base->keys[i]);
         if (!own) {
-            add_item(hoard, map, base->keys[i], base->key_positions[i], base->items[i]);
+            add_item(arena, map, base->keys[i], base->key_positions[i], base->items[i]);
         } else if (own->kind == JOX_YAML_MAP && base->items[i]->kind == JOX_YAML_MAP &&
                    own != base->items[i]) {
-            own = jox_yaml_copy(hoard, own); /* it may be another's too, by an alias */
-            merge(hoard, own, base->items[i], depth + 1);
-            jox_yaml_set(hoard, map, base->keys[i], own);
+            own = jox_yaml_copy(arena, own); /* it may be another's too, by an alias */
+            merge(arena, own, base->items[i], depth + 1);
+            jox_yaml_set(arena, map, base->keys[i], own);
         } else if (own->kind == JOX_YAML_MAP && base->items[i]->kind == JOX_YAML_LIST) {
-            JoxYaml *list = merge_items(hoard, own, base->items[i], depth);
+            JoxYaml *list = merge_items(arena, own, base->items[i], depth);
             if (list)
-                jox_yaml_set(hoard, map, base->keys[i], list);
+                jox_yaml_set(arena, map, base->keys[i], list);
         }
     }
 }
@@ -183,7 +183,7 @@ typedef struct Anchor {
 } Anchor;
 
 typedef struct Parse {
-    JoxHoard *hoard;
+    JoxArena *arena;
     JoxDiagnostics *diagnostics;
     yaml_parser_t parser;
     const char *path;
@@ -224,7 +224,7 @@ static uint64_t tree_size(const JoxYaml *node, int depth) {
 static void remember(Parse *p, const yaml_char_t *name, JoxYaml *node) {
     if (name && p->anchor_count < 256)
         p->anchors[p->anchor_count++] =
-            (Anchor){jox_hoard_text(p->hoard, (const char *)name), node};
+            (Anchor){jox_arena_text(p->arena, (const char *)name), node};
 }
 
 static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth);
@@ -257,7 +257,7 @@ static void parse_map_items(Parse *p, JoxYaml *map, int depth) {
             yaml_event_delete(&event);
             break;
         }
-        char *key = jox_hoard_text(p->hoard, (const char *)event.data.scalar.value);
+        char *key = jox_arena_text(p->arena, (const char *)event.data.scalar.value);
         yaml_event_delete(&event);
         if (!next_event(p, &event))
             break;
@@ -280,10 +280,10 @@ static void parse_map_items(Parse *p, JoxYaml *map, int depth) {
             jox_diag_error(p->diagnostics, at, "duplicate-key", "Keep one of them",
                            "the key '%s' stands here twice", key);
         else
-            add_item(p->hoard, map, key, at, value);
+            add_item(p->arena, map, key, at, value);
     }
     for (uint32_t i = 0; i < base_count && !p->failed; i++)
-        merge(p->hoard, map, bases[i], 0);
+        merge(p->arena, map, bases[i], 0);
 }
 
 /* Makes the node that begins with `event`, which it deletes. */
@@ -296,11 +296,11 @@ static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth) {
     } else if (event->type == YAML_ALIAS_EVENT) {
         node = resolve_alias(p, (const char *)event->data.alias.anchor, at);
     } else {
-        node = jox_hoard_take(p->hoard, 1, sizeof *node);
+        node = jox_arena_take(p->arena, 1, sizeof *node);
         node->position = at;
         if (event->type == YAML_SCALAR_EVENT) {
             node->kind = JOX_YAML_SCALAR;
-            node->text = jox_hoard_text(p->hoard, (const char *)event->data.scalar.value);
+            node->text = jox_arena_text(p->arena, (const char *)event->data.scalar.value);
             node->quoted = event->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
             remember(p, event->data.scalar.anchor, node);
         } else if (event->type == YAML_SEQUENCE_START_EVENT) {
@@ -313,7 +313,7 @@ static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth) {
                 }
                 JoxYaml *child = parse_node(p, &item, depth + 1);
                 if (child)
-                    add_item(p->hoard, node, NULL, at, child);
+                    add_item(p->arena, node, NULL, at, child);
             }
             remember(p, event->data.sequence_start.anchor, node); /* after: no cycles */
         } else if (event->type == YAML_MAPPING_START_EVENT) {
@@ -356,11 +356,11 @@ static JoxYaml *parse_text(Parse *p, const char *text, size_t length) {
 
 /* ---- files ---- */
 
-static JoxYaml *load(JoxHoard *hoard, const char *path, const char *text, size_t length,
+static JoxYaml *load(JoxArena *arena, const char *path, const char *text, size_t length,
                      JoxYamlFiles *files, JoxDiagnostics *diagnostics, JoxPosition from);
 
 /* Files that this one includes, merged under it in their order. */
-static void include(JoxHoard *hoard, JoxYaml *root, const char *path, JoxYamlFiles *files,
+static void include(JoxArena *arena, JoxYaml *root, const char *path, JoxYamlFiles *files,
                     JoxDiagnostics *diagnostics) {
     JoxYaml *names = jox_yaml_get(root, "include");
     uint32_t count = !names ? 0 : names->kind == JOX_YAML_LIST ? names->count : 1;
@@ -371,7 +371,7 @@ static void include(JoxHoard *hoard, JoxYaml *root, const char *path, JoxYamlFil
                            "include names files");
             continue;
         }
-        char *beside = jox_path_beside(hoard, path, name->text);
+        char *beside = jox_path_beside(arena, path, name->text);
         struct stat info;
         if (files->plain && (*name->text == '/' || strstr(name->text, "..") ||
                              (lstat(beside, &info) == 0 && S_ISLNK(info.st_mode)))) {
@@ -390,13 +390,13 @@ static void include(JoxHoard *hoard, JoxYaml *root, const char *path, JoxYamlFil
                            name->text);
             continue;
         }
-        JoxYaml *base = load(hoard, beside, NULL, 0, files, diagnostics, name->position);
+        JoxYaml *base = load(arena, beside, NULL, 0, files, diagnostics, name->position);
         if (base)
-            merge(hoard, root, base, 0);
+            merge(arena, root, base, 0);
     }
 }
 
-static JoxYaml *load(JoxHoard *hoard, const char *path, const char *text, size_t length,
+static JoxYaml *load(JoxArena *arena, const char *path, const char *text, size_t length,
                      JoxYamlFiles *files, JoxDiagnostics *diagnostics, JoxPosition from) {
     char *own = NULL;
     const char *wrong = NULL;
@@ -413,23 +413,23 @@ static JoxYaml *load(JoxHoard *hoard, const char *path, const char *text, size_t
         return NULL;
     }
     JoxYamlFile *file = &files->items[files->count++];
-    file->path = jox_hoard_text(hoard, path);
-    file->text = memcpy(jox_hoard_take(hoard, length + 1, 1), text, length);
+    file->path = jox_arena_text(arena, path);
+    file->text = memcpy(jox_arena_take(arena, length + 1, 1), text, length);
     file->length = length;
     jox_sha256_hex(text, length, file->sha256);
     jox_free(own);
     Parse *parse = jox_alloc(1, sizeof *parse);
-    parse->hoard = hoard;
+    parse->arena = arena;
     parse->diagnostics = diagnostics;
     parse->path = file->path;
     JoxYaml *root = parse_text(parse, file->text, length);
     jox_free(parse);
     if (root)
-        include(hoard, root, file->path, files, diagnostics);
+        include(arena, root, file->path, files, diagnostics);
     return root;
 }
 
-JoxYaml *jox_yaml_load(JoxHoard *hoard, const char *path, const char *text, size_t length,
+JoxYaml *jox_yaml_load(JoxArena *arena, const char *path, const char *text, size_t length,
                        JoxYamlFiles *files, JoxDiagnostics *diagnostics) {
-    return load(hoard, path, text, length, files, diagnostics, (JoxPosition){0});
+    return load(arena, path, text, length, files, diagnostics, (JoxPosition){0});
 }

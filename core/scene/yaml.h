@@ -7,11 +7,11 @@
 #include "base/diag.h"
 
 /* Memory that lives and dies with a scene. */
-typedef struct JoxHoard JoxHoard;
-JoxHoard *jox_hoard_create(void);
-void *jox_hoard_take(JoxHoard *hoard, size_t count, size_t size); /* zeroed */
-char *jox_hoard_text(JoxHoard *hoard, const char *text);
-void jox_hoard_free(JoxHoard *hoard);
+typedef struct JoxArena JoxArena;
+JoxArena *jox_arena_create(void);
+void *jox_arena_take(JoxArena *arena, size_t count, size_t size); /* zeroed */
+char *jox_arena_text(JoxArena *arena, const char *text);
+void jox_arena_free(JoxArena *arena);
 
 typedef enum { JOX_YAML_SCALAR, JOX_YAML_LIST, JOX_YAML_MAP } JoxYamlKind;
 typedef struct JoxYaml JoxYaml;
@@ -40,19 +40,19 @@ typedef struct JoxYamlFiles {
 } JoxYamlFiles;
 
 /* Reads a file, or `text` under the name `path`; NULL with diagnostics. Files read are listed. */
-JoxYaml *jox_yaml_load(JoxHoard *hoard, const char *path, const char *text, size_t length,
+JoxYaml *jox_yaml_load(JoxArena *arena, const char *path, const char *text, size_t length,
                        JoxYamlFiles *files, JoxDiagnostics *diagnostics);
 JoxYaml *jox_yaml_get(const JoxYaml *map, const char *key);
 /* Sets `map[key]`, new or not. */
-void jox_yaml_set(JoxHoard *hoard, JoxYaml *map, const char *key, JoxYaml *value);
+void jox_yaml_set(JoxArena *arena, JoxYaml *map, const char *key, JoxYaml *value);
 /* The same with the key's position; takes the key away; adds an item to a list. */
-void jox_yaml_put(JoxHoard *hoard, JoxYaml *map, const char *key, JoxPosition at, JoxYaml *value);
+void jox_yaml_put(JoxArena *arena, JoxYaml *map, const char *key, JoxPosition at, JoxYaml *value);
 void jox_yaml_remove(JoxYaml *map, const char *key);
-void jox_yaml_append(JoxHoard *hoard, JoxYaml *list, JoxYaml *item);
+void jox_yaml_append(JoxArena *arena, JoxYaml *list, JoxYaml *item);
 /* A copy whose own items can be changed; the items themselves are shared. An aliased node stands at
    several places of a tree, so copy before changing one of them. */
-JoxYaml *jox_yaml_copy(JoxHoard *hoard, const JoxYaml *node);
+JoxYaml *jox_yaml_copy(JoxArena *arena, const JoxYaml *node);
 /* A path beside another file: absolute paths stay as they are. */
-char *jox_path_beside(JoxHoard *hoard, const char *file, const char *name);
+char *jox_path_beside(JoxArena *arena, const char *file, const char *name);
 
 #endif

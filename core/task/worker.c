@@ -8,19 +8,19 @@ struct JoxWorker {
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t given, done;
-    JoxErrand *first; /* that has not begun */
+    JoxWorkItem *first; /* that has not begun */
     bool begun, quit;
 };
 
-/* Takes an errand off the list; false where it has begun already. Under the lock. */
-static bool take(JoxWorker *worker, JoxErrand *errand) {
-    JoxErrand **at = &worker->first;
-    while (*at && *at != errand)
+/* Takes an item off the list; false where it has begun already. Under the lock. */
+static bool take(JoxWorker *worker, JoxWorkItem *item) {
+    JoxWorkItem **at = &worker->first;
+    while (*at && *at != item)
         at = &(*at)->next;
     if (!*at)
         return false;
-    *at = errand->next;
-    errand->next = NULL;
+    *at = item->next;
+    item->next = NULL;
     return true;
 }
 
@@ -32,12 +32,12 @@ static void *work(void *argument) {
             pthread_cond_wait(&worker->given, &worker->lock);
         if (worker->quit)
             break;
-        JoxErrand *errand = worker->first;
-        take(worker, errand);
+        JoxWorkItem *item = worker->first;
+        take(worker, item);
         pthread_mutex_unlock(&worker->lock);
-        errand->run(errand);
+        item->run(item);
         pthread_mutex_lock(&worker->lock);
-        errand->done = true;
+        item->done = true;
         pthread_cond_broadcast(&worker->done);
     }
     pthread_mutex_unlock(&worker->lock);
@@ -52,29 +52,29 @@ JoxWorker *jox_worker_create(void) {
     return worker;
 }
 
-void jox_worker_give(JoxWorker *worker, JoxErrand *errand) {
+void jox_worker_give(JoxWorker *worker, JoxWorkItem *item) {
     if (!worker->begun) /* without a thread, who waits does the work */
         worker->begun = pthread_create(&worker->thread, NULL, work, worker) == 0;
     pthread_mutex_lock(&worker->lock);
-    JoxErrand **end = &worker->first;
+    JoxWorkItem **end = &worker->first;
     while (*end)
         end = &(*end)->next;
-    *end = errand;
-    errand->next = NULL;
-    errand->done = false;
+    *end = item;
+    item->next = NULL;
+    item->done = false;
     pthread_cond_signal(&worker->given);
     pthread_mutex_unlock(&worker->lock);
 }
 
-void jox_worker_wait(JoxWorker *worker, JoxErrand *errand) {
+void jox_worker_wait(JoxWorker *worker, JoxWorkItem *item) {
     pthread_mutex_lock(&worker->lock);
-    bool mine = take(worker, errand);
-    while (!mine && !errand->done)
+    bool mine = take(worker, item);
+    while (!mine && !item->done)
         pthread_cond_wait(&worker->done, &worker->lock);
     pthread_mutex_unlock(&worker->lock);
     if (mine) {
-        errand->run(errand);
-        errand->done = true;
+        item->run(item);
+        item->done = true;
     }
 }
 

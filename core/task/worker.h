@@ -8,18 +8,18 @@ typedef struct JoxWorker JoxWorker;
 
 /* One piece of work; its owner keeps it until it was waited for, or the worker is gone. Embed it
    and fill `run`; the rest is the worker's own. */
-typedef struct JoxErrand {
-    void (*run)(struct JoxErrand *errand);
-    struct JoxErrand *next;
+typedef struct JoxWorkItem {
+    void (*run)(struct JoxWorkItem *item);
+    struct JoxWorkItem *next;
     bool done;
-} JoxErrand;
+} JoxWorkItem;
 
-/* The thread begins with the first errand. Never NULL. */
+/* The thread begins with the first item. Never NULL. */
 JoxWorker *jox_worker_create(void);
 /* Ends what is under way; what has not begun is not run. */
 void jox_worker_free(JoxWorker *worker);
-void jox_worker_give(JoxWorker *worker, JoxErrand *errand);
-/* Returns when the errand is done; one that has not begun is run by the caller. */
-void jox_worker_wait(JoxWorker *worker, JoxErrand *errand);
+void jox_worker_give(JoxWorker *worker, JoxWorkItem *item);
+/* Returns when the item is done; one that has not begun is run by the caller. */
+void jox_worker_wait(JoxWorker *worker, JoxWorkItem *item);
 
 #endif

@@ -94,7 +94,7 @@ bool jo_world_add_solid(JoWorld *world, const double *xy, size_t count, JoError 
     bool good = !jox_polygon_self_crosses(points, (uint32_t)count, &a, &b) &&
                 jox_polygon_area(points, (uint32_t)count) != 0.0;
     if (good)
-        jox_walls_add_solid(&world->wall_plan, points, (uint32_t)count, INFINITY);
+        jox_walls_add_solid(&world->all_walls, points, (uint32_t)count, INFINITY);
     world->walls_set = false;
     if (!good)
         jox_error(error, JO_INPUT, "a solid must enclose an area and not cross itself");
@@ -107,7 +107,7 @@ bool jo_world_add_line(JoWorld *world, const double *xy, size_t count, JoError *
     JoxV2 *points = read_points(world, xy, count, 2, error);
     if (!points)
         return false;
-    jox_walls_add_polyline(&world->wall_plan, points, (uint32_t)count, false, INFINITY);
+    jox_walls_add_polyline(&world->all_walls, points, (uint32_t)count, false, INFINITY);
     world->walls_set = false;
     jox_free(points);
     return true;

@@ -9,11 +9,11 @@ static void change(JoWorld *world) {
 }
 
 void jox_world_set_walls(JoWorld *world, JoxWalls *walls) {
-    JoxWalls old = world->wall_plan;
-    world->wall_plan = *walls;
+    JoxWalls old = world->all_walls;
+    world->all_walls = *walls;
     *walls = (JoxWalls){0};
-    for (uint32_t r = 0; r < world->wall_plan.ring_count; r++) {
-        struct JoxWallRing *ring = &world->wall_plan.rings[r];
+    for (uint32_t r = 0; r < world->all_walls.ring_count; r++) {
+        struct JoxWallRing *ring = &world->all_walls.rings[r];
         for (uint32_t o = 0; ring->name && o < old.ring_count; o++) {
             if (!old.rings[o].set || strcmp(old.rings[o].name, ring->name) != 0)
                 continue;
@@ -28,8 +28,8 @@ void jox_world_set_walls(JoWorld *world, JoxWalls *walls) {
 
 uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open) {
     uint32_t count = 0;
-    for (uint32_t r = 0; r < world->wall_plan.ring_count; r++) {
-        struct JoxWallRing *ring = &world->wall_plan.rings[r];
+    for (uint32_t r = 0; r < world->all_walls.ring_count; r++) {
+        struct JoxWallRing *ring = &world->all_walls.rings[r];
         if (!ring->name || strcmp(ring->name, name) != 0)
             continue;
         count++;
@@ -47,9 +47,9 @@ static void raise(JoWorld *world) {
     if (world->walls_set)
         return;
     world->walls_set = true;
-    if (world->wall_plan.count == 0 && world->walls.count == 0)
+    if (world->all_walls.count == 0 && world->walls.count == 0)
         return;
-    jox_walls_standing(&world->walls, &world->wall_plan, true);
+    jox_walls_standing(&world->walls, &world->all_walls, true);
     jox_nav_set_walls(world->nav, &world->walls);
     jox_bodies_set_walls(world->bodies, &world->walls, JOX_WALL_HEIGHT);
 }

@@ -21,7 +21,7 @@ static const double LOOK = 0.25;      /* s between looks at bodies */
 
 /* One field to be made, with copies of all that it is made of. */
 typedef struct Making {
-    JoxErrand errand; /* first */
+    JoxWorkItem item; /* first */
     JoxWalls walls;
     JoxPlace *places; /* the place, and behind it its members */
     uint32_t place_count;
@@ -69,8 +69,8 @@ static void free_making(Making *making) {
     jox_free(making);
 }
 
-static void make(JoxErrand *errand) {
-    Making *m = (Making *)errand;
+static void make(JoxWorkItem *item) {
+    Making *m = (Making *)item;
     m->field = jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, CLEARANCE);
 }
 
@@ -78,7 +78,7 @@ static void make_range(void *context, uint32_t begin, uint32_t end, uint32_t wor
     (void)worker;
     Making **makings = context;
     for (uint32_t i = begin; i < end; i++)
-        make(&makings[i]->errand);
+        make(&makings[i]->item);
 }
 
 static void copy_place(JoxPlace *to, const JoxPlace *from) {
@@ -104,7 +104,7 @@ static void copy_places(const JoWorld *w, uint32_t place, Making *making) {
 /* The box about all walls, open ones too, and agents. Its corner lies on the grid of cells, so that
    fields that are made anew judge narrow gaps alike. */
 static void lay_out(const JoWorld *w, Making *making) {
-    const JoxWalls *walls = &w->wall_plan;
+    const JoxWalls *walls = &w->all_walls;
     JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
     for (uint32_t i = 0; i < walls->count + w->agents.count; i++) {
         JoxV2 p = i < walls->count
@@ -129,8 +129,8 @@ static Making *begin(JoWorld *w, uint32_t place, JoxWayKind kind, double delay) 
     JoxWays *ways = w->ways;
     Way *way = &ways->items[place * JOX_WAY_KINDS + kind];
     Making *making = jox_alloc(1, sizeof *making);
-    making->errand.run = make;
-    jox_walls_standing(&making->walls, &w->wall_plan, kind == JOX_WAY_NOW);
+    making->item.run = make;
+    jox_walls_standing(&making->walls, &w->all_walls, kind == JOX_WAY_NOW);
     jox_obstacles_add(&ways->obstacles, kind == JOX_WAY_NOW, &making->walls);
     copy_places(w, place, making);
     lay_out(w, making);
@@ -156,8 +156,8 @@ static void take(JoxWays *ways, uint32_t at) {
 
 /* Whether ways could lead elsewhere if what can go away were not there. */
 static bool is_shut(const JoWorld *w) {
-    for (uint32_t r = 0; r < w->wall_plan.ring_count; r++)
-        if (w->wall_plan.rings[r].name && !w->wall_plan.rings[r].open)
+    for (uint32_t r = 0; r < w->all_walls.ring_count; r++)
+        if (w->all_walls.rings[r].name && !w->all_walls.rings[r].open)
             return true;
     for (uint32_t o = 0; o < w->ways->obstacles.count; o++)
         if (w->ways->obstacles.items[o].movable)
@@ -239,7 +239,7 @@ void jox_world_ways(JoWorld *w) {
     for (uint32_t at = 0; at < ways->capacity * JOX_WAY_KINDS && ways->count > 0; at++) {
         if (!ways->items[at].making || ways->items[at].due > w->tick)
             continue;
-        jox_worker_wait(ways->worker, &ways->items[at].making->errand);
+        jox_worker_wait(ways->worker, &ways->items[at].making->item);
         take(ways, at);
     }
     for (uint32_t p = 0; any && p < ways->capacity; p++) {
@@ -247,7 +247,7 @@ void jox_world_ways(JoWorld *w) {
             if (!is_due(w, p, kind))
                 continue;
             ways->count += !ways->fields[p * JOX_WAY_KINDS + kind];
-            jox_worker_give(ways->worker, &begin(w, p, kind, DELAY)->errand);
+            jox_worker_give(ways->worker, &begin(w, p, kind, DELAY)->item);
         }
         ways->wanted[p] = 0;
     }

@@ -44,7 +44,7 @@ void jo_world_free(JoWorld *world) {
     jox_forces_free(world->forces);
     jox_bodies_free(world->bodies);
     jox_agents_free(&world->agents);
-    jox_walls_free(&world->wall_plan);
+    jox_walls_free(&world->all_walls);
     jox_walls_free(&world->walls);
     jox_input_free(&world->input);
     jox_inspection_free(&world->inspection);
@@ -136,8 +136,8 @@ uint64_t jox_world_hash(const JoWorld *world) {
     if (world->mind.announced_count)
         jox_hash_add(&hash, world->mind.announced,
                      world->mind.announced_count * sizeof *world->mind.announced);
-    for (uint32_t r = 0; r < world->wall_plan.ring_count; r++)
-        if (world->wall_plan.rings[r].open)
+    for (uint32_t r = 0; r < world->all_walls.ring_count; r++)
+        if (world->all_walls.rings[r].open)
             jox_hash_add(&hash, &r, sizeof r);
     return jox_hash_end(&hash);
 }

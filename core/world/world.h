@@ -31,7 +31,7 @@ struct JoWorld {
 
     JoxAgents agents;
     JoxNeighbours neighbours;
-    JoxWalls wall_plan; /* all walls, with their names */
+    JoxWalls all_walls; /* all walls, with their names */
     JoxWalls walls;     /* those of them that stand */
     JoxPlace *places;   /* owned; their indices never change */
     uint32_t place_count;

@@ -1,6 +1,6 @@
 #!/bin/bash
 # The command line of the live page: its address, its end, what it refuses. Prints "ok NAME" or
-# "not ok NAME". What the page and its server do is tested in tests/unit/view_*.c and host_view.c.
+# "not ok NAME". What the page and its server do is tested in tests/unit/view_*.c and live_view.c.
 set -u
 cd "$(dirname "$0")/../.."
 . tests/scenes/lib.sh

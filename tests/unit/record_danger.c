@@ -11,8 +11,8 @@
 
 #include <cmocka.h>
 
+#include "picture/html.h"
 #include "record/danger.h"
-#include "record/html.h"
 
 enum { SIDE = 25, MOST = SIDE * SIDE };
 static const float SPACING = 0.4f; /* m: 6.25 people per m2 */

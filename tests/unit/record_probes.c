@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "record/probe.h"
+#include "record/probes/probe.h"
 
 enum { MOST = 1000 };
 

@@ -240,8 +240,8 @@ static const struct Case {
      NULL},
 };
 
-static JoxScene *load(const char *text, const char *const *sets, uint32_t count,
-                      JoxDiagnostics *diagnostics) {
+static JoxSceneSpec *load(const char *text, const char *const *sets, uint32_t count,
+                          JoxDiagnostics *diagnostics) {
     JoxSceneOptions options = {.sets = sets, .set_count = count};
     return jox_scene_load_text("scenes/test.yaml", text, strlen(text), &options, diagnostics);
 }
@@ -273,7 +273,7 @@ static void every_error_has_its_place_and_its_way_out(void **state) {
         }
         memmove(at, at + 1, strlen(at));
         JoxDiagnostics d = {0};
-        JoxScene *scene = load(text, NULL, 0, &d);
+        JoxSceneSpec *scene = load(text, NULL, 0, &d);
         if (scene || d.errors != 1 ||
             !matches(&d.items[0], CASES[c].code, line, column, CASES[c].hint) ||
             strcmp(d.items[0].file, "scenes/test.yaml") != 0) {
@@ -366,7 +366,7 @@ static void overrides_change_what_they_name_alone(void **state) {
                           "walls.0.height=2", "groups.h.behaviour=walker.lua",
                           "seed=12",          "forces.enabled=false"};
     JoxDiagnostics d = {0};
-    JoxScene *scene = load(text, good, 6, &d);
+    JoxSceneSpec *scene = load(text, good, 6, &d);
     if (!scene)
         show(&d, text);
     assert_non_null(scene);
@@ -413,7 +413,7 @@ static void anchors_and_merge_keys(void **state) {
         "  c: {<<: [{team: blue}, *b], at: [[6, 0], [7, 0]]}\n"
         "  d: {<<: {set: {radius: 0.3}}, behaviour: stander, at: [[9, 0]], set: *s}\n";
     JoxDiagnostics d = {0};
-    JoxScene *scene = load(text, NULL, 0, &d);
+    JoxSceneSpec *scene = load(text, NULL, 0, &d);
     if (!scene)
         show(&d, text);
     assert_non_null(scene);
@@ -464,7 +464,7 @@ static void included_files_give_what_is_lacking(void **state) {
                "  - {name: one, shape: {sphere: {radius: 1}}, mass: 3, at: [0, 0, 1]}\n"
                "  - {name: two, shape: {sphere: {radius: 1}}, mass: 3, at: [5, 0, 1]}\n");
     strcat(text, "bodies: {two: {mass: 7}}\n");
-    JoxScene *scene = jox_scene_load(write_file("main.yaml", text), NULL, &d);
+    JoxSceneSpec *scene = jox_scene_load(write_file("main.yaml", text), NULL, &d);
     if (!scene)
         show(&d, text);
     assert_non_null(scene);

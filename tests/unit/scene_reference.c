@@ -67,25 +67,25 @@ static void examples_show_every_key(void **state) {
         for (size_t e = 0; e < jox_scene_example_count; e++) {
             if (strcmp(jox_scene_examples[e].owner, owner) != 0)
                 continue;
-            JoxHoard *hoard = jox_hoard_create();
-            JoxYamlFiles *files = jox_hoard_take(hoard, 1, sizeof *files);
+            JoxArena *arena = jox_arena_create();
+            JoxYamlFiles *files = jox_arena_take(arena, 1, sizeof *files);
             JoxDiagnostics d = {0};
             const char *yaml = jox_scene_examples[e].yaml;
-            char *own = jox_hoard_text(hoard, yaml); /* what it includes is not its own */
+            char *own = jox_arena_text(arena, yaml); /* what it includes is not its own */
             char *include = strstr(own, "include:");
             if (include)
                 memcpy(include, "without:", 8);
-            JoxYaml *root = jox_yaml_load(hoard, "example.yaml", own, strlen(own), files, &d);
+            JoxYaml *root = jox_yaml_load(arena, "example.yaml", own, strlen(own), files, &d);
             assert_non_null(root);
             for (uint32_t k = 0; include && k < root->count; k++)
                 if (!strcmp(root->keys[k], "without"))
                     root->keys[k] = "include";
             const char *of = of_mods(owner) ? "mod" : "scene";
-            walk(&(JoxReader){hoard, &d}, root, of, strlen(of), seen);
+            walk(&(JoxReader){arena, &d}, root, of, strlen(of), seen);
             if (d.count)
                 show(&d, yaml);
             assert_int_equal(d.count, 0);
-            jox_hoard_free(hoard);
+            jox_arena_free(arena);
         }
         for (size_t k = 0; k < jox_scene_key_count; k++) {
             const JoxKey *key = &jox_scene_keys[k];
@@ -108,8 +108,8 @@ static void examples_load_without_a_word(void **state) {
         if (of_mods(example->owner))
             continue;
         JoxDiagnostics d = {0};
-        JoxScene *scene = jox_scene_load_text("scenes/example.yaml", example->yaml,
-                                              strlen(example->yaml), NULL, &d);
+        JoxSceneSpec *scene = jox_scene_load_text("scenes/example.yaml", example->yaml,
+                                                  strlen(example->yaml), NULL, &d);
         if (!scene || d.count)
             show(&d, example->yaml);
         assert_non_null(scene);
@@ -151,12 +151,12 @@ static void the_table_is_whole(void **state) {
 }
 
 /* JSON is YAML: the schema as a tree. */
-static JoxYaml *schema_tree(JoxHoard *hoard, const char *root) {
+static JoxYaml *schema_tree(JoxArena *arena, const char *root) {
     JoxText text = {0};
     JoxDiagnostics d = {0};
-    JoxYamlFiles *files = jox_hoard_take(hoard, 1, sizeof *files);
+    JoxYamlFiles *files = jox_arena_take(arena, 1, sizeof *files);
     jox_scene_json_schema(root, &text);
-    JoxYaml *tree = jox_yaml_load(hoard, "schema.json", text.data, text.length, files, &d);
+    JoxYaml *tree = jox_yaml_load(arena, "schema.json", text.data, text.length, files, &d);
     if (!tree)
         show(&d, "schema");
     assert_non_null(tree);
@@ -180,8 +180,8 @@ static void schemas_know_every_key(void **state) {
     (void)state;
     static const char *const ROOTS[] = {"scene", "mod"};
     for (int r = 0; r < 2; r++) {
-        JoxHoard *hoard = jox_hoard_create();
-        const JoxYaml *root = schema_tree(hoard, ROOTS[r]);
+        JoxArena *arena = jox_arena_create();
+        const JoxYaml *root = schema_tree(arena, ROOTS[r]);
         const JoxYaml *definitions = jox_yaml_get(root, "definitions");
         check_references(root, definitions);
         for (size_t k = 0; k < jox_scene_key_count; k++) {
@@ -194,7 +194,7 @@ static void schemas_know_every_key(void **state) {
             if (!property || !jox_yaml_get(property, "description"))
                 fail_msg("the schema of %s lacks %s.%s", ROOTS[r], key->owner, key->name);
         }
-        jox_hoard_free(hoard);
+        jox_arena_free(arena);
     }
 }
 

@@ -13,7 +13,7 @@
 enum { COUNT = 200 };
 
 typedef struct Work {
-    JoxErrand errand; /* first */
+    JoxWorkItem item; /* first */
     int number;
     int turn; /* as which it was run, from 1 */
 } Work;
@@ -24,13 +24,13 @@ static void nap(void) {
     nanosleep(&(struct timespec){0, 1000000}, NULL);
 }
 
-static void run(JoxErrand *errand) {
-    ((Work *)errand)->turn = atomic_fetch_add(&turns, 1) + 1;
+static void run(JoxWorkItem *item) {
+    ((Work *)item)->turn = atomic_fetch_add(&turns, 1) + 1;
 }
 
 /* Keeps the thread until it is let go. */
-static void hold(JoxErrand *errand) {
-    ((Work *)errand)->turn = atomic_fetch_add(&turns, 1) + 1;
+static void hold(JoxWorkItem *item) {
+    ((Work *)item)->turn = atomic_fetch_add(&turns, 1) + 1;
     atomic_store(&held, 1);
     while (atomic_load(&held) == 1)
         nap();
@@ -42,14 +42,14 @@ static void each_is_done_once_and_in_order(void **state) {
     JoxWorker *worker = jox_worker_create();
     atomic_store(&turns, 0);
     for (int i = 0; i < COUNT; i++) {
-        work[i] = (Work){.errand.run = run, .number = i};
-        jox_worker_give(worker, &work[i].errand);
+        work[i] = (Work){.item.run = run, .number = i};
+        jox_worker_give(worker, &work[i].item);
     }
     while (atomic_load(&turns) < COUNT) /* who waits would take part in it */
         nap();
     for (int i = 0; i < COUNT; i++) {
-        jox_worker_wait(worker, &work[i].errand);
-        jox_worker_wait(worker, &work[i].errand); /* once more returns at once */
+        jox_worker_wait(worker, &work[i].item);
+        jox_worker_wait(worker, &work[i].item); /* once more returns at once */
         assert_int_equal(work[i].turn, i + 1);
     }
     jox_worker_free(worker);
@@ -57,29 +57,29 @@ static void each_is_done_once_and_in_order(void **state) {
 
 static void who_waits_does_what_has_not_begun(void **state) {
     (void)state;
-    Work first = {.errand.run = hold}, second = {.errand.run = run};
+    Work first = {.item.run = hold}, second = {.item.run = run};
     JoxWorker *worker = jox_worker_create();
     atomic_store(&held, 0);
-    jox_worker_give(worker, &first.errand);
+    jox_worker_give(worker, &first.item);
     while (atomic_load(&held) == 0)
         nap();
-    jox_worker_give(worker, &second.errand);
-    jox_worker_wait(worker, &second.errand); /* the thread is held: this returns all the same */
+    jox_worker_give(worker, &second.item);
+    jox_worker_wait(worker, &second.item); /* the thread is held: this returns all the same */
     assert_true(second.turn > 0);
     atomic_store(&held, 2);
-    jox_worker_wait(worker, &first.errand);
+    jox_worker_wait(worker, &first.item);
     jox_worker_free(worker);
 }
 
 static void what_nobody_waits_for_is_dropped(void **state) {
     (void)state;
-    Work first = {.errand.run = hold}, second = {.errand.run = run};
+    Work first = {.item.run = hold}, second = {.item.run = run};
     JoxWorker *worker = jox_worker_create();
     atomic_store(&held, 0);
-    jox_worker_give(worker, &first.errand);
+    jox_worker_give(worker, &first.item);
     while (atomic_load(&held) == 0)
         nap();
-    jox_worker_give(worker, &second.errand);
+    jox_worker_give(worker, &second.item);
     atomic_store(&held, 2);
     jox_worker_free(worker); /* ends the first, which is under way */
     assert_true(first.turn > 0);

@@ -1,0 +1,218 @@
+/* The machines of a scene as JSON: states with their parameters, who set each and where, and
+   transitions as they are written. Also the line of Lua that would set a parameter. */
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "run/run.h"
+
+/* ---- who set a value ---- */
+
+/* `kind` is "defaults" or "state Circle". */
+static void print_setting(const char *kind, const JoxWritten *written, JoxText *out) {
+    if (written->mod)
+        jox_text_printf(out, "mod %s %s:%d", written->mod, written->file, written->line);
+    else
+        jox_text_printf(out, "%s %s:%d", kind, written->file, written->line);
+}
+
+JoxSetBy jox_run_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
+                        int p) {
+    JoxSetBy by = {0};
+    char path[256], kind[160] = "defaults";
+    JoxWritten written = {0};
+    const JoxValue *value = &machine->defaults[p];
+    bool found = false;
+    if (state && state->param[p].kind != JOX_VALUE_UNSET) {
+        value = &state->param[p];
+        snprintf(kind, sizeof kind, "state %.120s", state->name);
+        snprintf(path, sizeof path, "states.%.120s.%s", state->name, jox_parameters[p].name);
+    } else {
+        snprintf(path, sizeof path, "defaults.%s", jox_parameters[p].name);
+    }
+    by.line = value->line;
+    if (value->line == JOX_LINE_LIVE) {
+        jox_text_add(&by.where, "live page");
+    } else if (value->line > 0) {
+        found = jox_lua_written(scene->lua, machine, path, &scene->scope, &written);
+        if (!found) /* made by a function: no text says so */
+            written = (JoxWritten){.file = machine->path, .line = value->line};
+        print_setting(kind, &written, &by.where);
+    } else {
+        jox_text_add(&by.where, "engine");
+    }
+    if (found)
+        by.text = written.text;
+    else if (value->kind == JOX_VALUE_CONST)
+        jox_text_printf(&by.text, "%.9g", value->number);
+    by.number = NAN;
+    if (value->kind == JOX_VALUE_CONST) {
+        by.number = value->number;
+    } else if (value->kind == JOX_VALUE_OWN) { /* the same for all unless a group gives another */
+        const JoxDist *dist = &machine->own[value->index].dist;
+        by.number = dist->kind == JOX_DIST_CONSTANT ? dist->a : NAN;
+    } else if (value->kind == JOX_VALUE_UNSET) {
+        by.number = jox_parameters[p].value;
+    }
+    return by;
+}
+
+void jox_set_by_free(JoxSetBy *by) {
+    jox_text_free(&by->where);
+    jox_text_free(&by->text);
+}
+
+/* ---- the graph ---- */
+
+static void add_key(JoxText *out, const char *key) {
+    jox_text_printf(out, ",\"%s\":", key);
+}
+
+static void add_parameters(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
+                           JoxText *out) {
+    jox_text_add(out, "[");
+    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+        const JoxParameterInfo *info = &jox_parameters[p];
+        JoxSetBy by = jox_run_set_by(scene, machine, state, p);
+        jox_text_printf(out, "%s{\"name\":\"%s\",\"value\":", p ? "," : "", info->name);
+        jox_text_json_number(out, by.number);
+        add_key(out, "text");
+        jox_text_json(out, by.text.data ? by.text.data : "");
+        add_key(out, "set");
+        jox_text_json(out, by.where.data);
+        add_key(out, "least");
+        jox_text_json_number(out, info->least);
+        add_key(out, "most");
+        jox_text_json_number(out, info->greatest);
+        add_key(out, "unit");
+        jox_text_json(out, info->unit);
+        jox_text_add(out, "}");
+        jox_set_by_free(&by);
+    }
+    jox_text_add(out, "]");
+}
+
+/* Adds what is written at a path, as a JSON string; "" where nothing is. */
+static void add_written(const JoScene *scene, const JoxMachine *machine, const char *path,
+                        JoxText *out) {
+    JoxWritten written;
+    bool found = jox_lua_written(scene->lua, machine, path, &scene->scope, &written);
+    jox_text_json(out, found && written.text.data ? written.text.data : "");
+    jox_text_free(&written.text);
+}
+
+static void add_state(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
+                      JoxText *out) {
+    char path[256];
+    jox_text_add(out, "{\"name\":");
+    jox_text_json(out, state->name);
+    jox_text_printf(out, ",\"line\":%d,\"steer\":", state->line);
+    snprintf(path, sizeof path, "states.%.200s.steer", state->name);
+    add_written(scene, machine, path, out);
+    if (state->removes)
+        jox_text_add(out, ",\"removes\":true");
+    if (state->become) {
+        add_key(out, "become");
+        jox_text_json(out, state->become);
+    }
+    add_key(out, "parameters");
+    add_parameters(scene, machine, state, out);
+    jox_text_add(out, "}");
+}
+
+static void add_transition(const JoScene *scene, const JoxMachine *machine, const JoxState *from,
+                           const JoxTransition *t, JoxText *out) {
+    char path[300];
+    jox_text_add(out, "{\"id\":");
+    jox_text_json(out, t->id);
+    add_key(out, "from");
+    jox_text_json(out, from->name);
+    add_key(out, "to");
+    jox_text_json(out, machine->states[t->to].name);
+    add_key(out, "text");
+    snprintf(path, sizeof path, "states.%.120s.@%.120s.when", from->name, t->id);
+    add_written(scene, machine, path, out);
+    jox_text_printf(out, ",\"line\":%d,\"chance\":", t->line);
+    jox_text_json_number(out, t->chance.kind == JOX_VALUE_CONST ? t->chance.number : NAN);
+    if (t->chance.kind != JOX_VALUE_CONST && t->chance.kind != JOX_VALUE_UNSET) {
+        snprintf(path, sizeof path, "states.%.120s.@%.120s.chance", from->name, t->id);
+        add_key(out, "chance_text");
+        add_written(scene, machine, path, out);
+    }
+    jox_text_add(out, "}");
+}
+
+static void add_machine(const JoScene *scene, const JoxMachine *machine, JoxText *out) {
+    jox_text_add(out, "{\"name\":");
+    jox_text_json(out, machine->name);
+    add_key(out, "path");
+    jox_text_json(out, machine->path);
+    jox_text_printf(out, ",\"version\":%u,\"start\":", machine->version);
+    jox_text_json(out, machine->states[machine->start].name);
+    add_key(out, "defaults");
+    add_parameters(scene, machine, NULL, out);
+    add_key(out, "states");
+    for (uint32_t s = 0; s < machine->state_count; s++) {
+        jox_text_add(out, s ? ",\n" : "[");
+        add_state(scene, machine, &machine->states[s], out);
+    }
+    jox_text_add(out, "],\"transitions\":[");
+    for (uint32_t s = 0, n = 0; s < machine->state_count; s++)
+        for (uint32_t k = 0; k < machine->states[s].transition_count; k++) {
+            jox_text_add(out, n++ ? ",\n" : "");
+            add_transition(scene, machine, &machine->states[s], &machine->states[s].transitions[k],
+                           out);
+        }
+    jox_text_add(out, "]}");
+}
+
+void jox_run_graph(const JoScene *scene, JoxText *out) {
+    const JoxMind *mind = &scene->world->mind;
+    jox_text_add(out, "[");
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        jox_text_add(out, m ? ",\n" : "");
+        add_machine(scene, mind->machines[m], out);
+    }
+    jox_text_add(out, "]");
+}
+
+/* ---- a line to paste ---- */
+
+static bool is_identifier(const char *name) {
+    bool good = isalpha((unsigned char)*name) || *name == '_';
+    for (const char *c = name; *c && good; c++)
+        good = isalnum((unsigned char)*c) || *c == '_';
+    return good;
+}
+
+bool jox_run_lua_line(const JoScene *scene, const char *machine, const char *state,
+                      const char *parameter, double value, JoxText *out) {
+    JoError error;
+    JoxChoice choice;
+    if (!jox_run_choose(scene, machine, state, parameter, value, &choice, &error)) {
+        jox_text_add(out, error.text);
+        return false;
+    }
+    const JoxMachine *found = scene->world->mind.machines[choice.machine];
+    char path[256], key[160];
+    JoxWritten written = {0};
+    snprintf(key, sizeof key, is_identifier(state) ? "%.120s" : "[\"%.120s\"]", state);
+    snprintf(path, sizeof path, "%s%.120s.%s", choice.state >= 0 ? "states." : "", state,
+             parameter);
+    jox_text_printf(out, "%s = { %s = %.9g, ... },   -- ", key, parameter, value);
+    if (jox_lua_written(scene->lua, found, path, &scene->scope, &written)) {
+        jox_text_printf(out, "%s:%d", written.file, written.line);
+        if (written.mod)
+            jox_text_printf(out, " (mod %s)", written.mod);
+        jox_text_printf(out, ", where it is %s", written.text.data);
+    } else {
+        snprintf(path, sizeof path, "%s%.120s", choice.state >= 0 ? "states." : "", state);
+        bool there = jox_lua_written(scene->lua, found, path, &scene->scope, &written);
+        int line = choice.state >= 0 ? found->states[choice.state].line : 1;
+        jox_text_printf(out, "%s:%d", there ? written.file : found->path,
+                        there ? written.line : line);
+    }
+    jox_text_free(&written.text);
+    return true;
+}

@@ -1,0 +1,142 @@
+/* What a live page is shown of a running scene, or of a recording: JSON objects, and packed frames
+   of little-endian binary. Everything is by slot (JoxAgents.slot), which a person keeps while
+   alive. Reads the world between two steps and changes nothing of it. */
+#ifndef JOX_LIVE_LIVE_H
+#define JOX_LIVE_LIVE_H
+
+#include "base/text.h"
+#include "base/vec.h"
+#include "geom/walls.h"
+#include "jostle.h"
+
+/* Growing bytes; zero-initialise, `length = 0` to use again, free by jox_bytes_free. */
+typedef struct JoxBytes {
+    uint8_t *data;
+    size_t length, capacity;
+} JoxBytes;
+void jox_bytes_free(JoxBytes *bytes);
+
+/* What a frame's `value` measures; scaled so that 255 is the frame's value_most. */
+#define JOX_LIVE_COLOURS(X)                                                                        \
+    X(state, 0, "") /* value is 0: the frame has the state */                                      \
+    X(speed, 2, "m/s")                                                                             \
+    X(force, 500, "N") /* magnitude of the net force */                                            \
+    X(compression, 1000, "N/m")                                                                    \
+    X(density, 8, "1/m2")                                                                          \
+    X(group, 255, "") /* value is the number of the group */
+typedef enum JoxLiveColour {
+#define X(name, most, unit) JOX_LIVE_COLOUR_##name,
+    JOX_LIVE_COLOURS(X)
+#undef X
+        JOX_LIVE_COLOUR_COUNT
+} JoxLiveColour;
+typedef struct JoxLiveColourInfo {
+    const char *name, *unit;
+    float most;
+} JoxLiveColourInfo;
+extern const JoxLiveColourInfo jox_live_colours[JOX_LIVE_COLOUR_COUNT];
+/* Number of a colour by name, or -1. */
+int jox_live_colour(const char *name);
+
+typedef enum JoxLiveField {
+    JOX_LIVE_DENSITY,  /* people per m2, Gaussian kernel (see live_field.c) */
+    JOX_LIVE_PRESSURE, /* density times the local variance of velocity, 1/s2 */
+    JOX_LIVE_FIELDS    /* none */
+} JoxLiveField;
+/* Number of a field by name, JOX_LIVE_FIELDS for "none", or -1. */
+int jox_live_field_named(const char *name);
+const char *jox_live_field_name(JoxLiveField field);
+
+/* What of a session only the one who steps knows. */
+typedef struct JoxLiveSession {
+    bool paused;
+    double speed;     /* wanted, simulated seconds in a second */
+    uint64_t dropped; /* messages that were refused */
+} JoxLiveSession;
+
+typedef struct JoxLive JoxLive;
+/* {"type": "hello", ...}: all that stays as it is for a while. */
+void jox_live_scene(JoScene *scene, JoxText *out);
+/* Another number whenever a new hello is due: machines, walls, places or bodies changed. */
+uint64_t jox_live_version(const JoScene *scene);
+/* {"type": "status", ...}. `fired`, times and failures are those since the last second or status.
+ */
+void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out);
+/* Binary, in place of what `out` held. A frame (kind 1); radii and groups of everybody (kind 2;
+   true if they differ from what `out` held); a field (kind 3). */
+void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out);
+bool jox_live_people(JoScene *scene, JoxBytes *out);
+void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out);
+/* After each step of a scene that has been shown: counts the transitions that were taken. */
+void jox_live_note(JoScene *scene);
+void jox_live_end(JoScene *scene);
+
+/* ---- packing, from whatever source ---- */
+
+enum { JOX_LIVE_HEAD = 48, JOX_LIVE_SLOT = 8, JOX_LIVE_BODY = 20, JOX_LIVE_NOBODY = 255 };
+/* State of those who are in none of the hello's list. */
+enum { JOX_LIVE_OTHER_STATE = 254 };
+enum { JOX_LIVE_PARITY = 1, JOX_LIVE_FAILED = 2, JOX_LIVE_PLAYER = 4 };
+
+/* The area that positions are counted over; it only grows. */
+typedef struct JoxLiveArea {
+    JoxV2 low, high; /* m */
+    JoxV2 steps;     /* of a position, per metre */
+    bool known;
+} JoxLiveArea;
+/* Makes room for a box. One that is known grows by at least a quarter at the side where it must. */
+void jox_live_cover(JoxLiveArea *area, JoxV2 low, JoxV2 high);
+
+typedef struct JoxLiveHead {
+    uint32_t tick;
+    double time; /* s */
+    uint32_t slots, bodies;
+    const JoxLiveArea *area;
+    float most; /* value that 255 stands for */
+} JoxLiveHead;
+/* Sizes `out` for the frame, writes its head, and makes every slot empty. */
+void jox_live_begin_frame(JoxBytes *out, const JoxLiveHead *head);
+typedef struct JoxLivePerson {
+    float x, y;           /* m */
+    float face_x, face_y; /* the way they look, of any length */
+    float value;          /* 0 to 1 */
+    uint8_t state, flags;
+} JoxLivePerson;
+void jox_live_put_person(JoxBytes *frame, const JoxLiveArea *area, uint32_t slot,
+                         const JoxLivePerson *person);
+/* `slots`: as of the frame's head. */
+void jox_live_put_body(JoxBytes *frame, uint32_t slots, uint32_t row, JoxV3 at,
+                       const float turn[4]);
+/* Head of a `people` message; room for so many slots. */
+void jox_live_begin_people(JoxBytes *out, uint32_t slots);
+/* True if that changed the bytes. */
+bool jox_live_put_people(JoxBytes *people, uint32_t slot, float radius, uint32_t group);
+
+/* Fields of a crowd over an area. Zero-initialise. */
+typedef struct JoxLiveGrid {
+    struct JoxDensity *grid;
+    float *fields[4]; /* sums of w, w vx, w vy, w v2 */
+    size_t cells;
+    JoxV2 low, high;
+    float most; /* greatest density of the last crowd, 1/m2 */
+} JoxLiveGrid;
+typedef struct JoxLiveCrowd {
+    uint32_t count;
+    const float *x, *y, *vx, *vy; /* m, m/s */
+    JoxV2 period;                 /* m: of periodic edges; 0 without */
+} JoxLiveCrowd;
+/* Without `moves` only densities can be read. */
+void jox_live_spread(JoxLiveGrid *grid, const JoxLiveArea *area, const JoxLiveCrowd *crowd,
+                     bool moves);
+/* Density at a point as last spread, 1/m2. */
+float jox_live_density_at(const JoxLiveGrid *grid, float x, float y);
+void jox_live_pack_field(const JoxLiveGrid *grid, JoxLiveField field, JoxBytes *out);
+void jox_live_free_grid(JoxLiveGrid *grid);
+
+/* JSON of walls as the hello has them: a list. */
+
+void jox_live_walls(const JoxWalls *walls, float height, JoxText *out);
+/* ,"colours": {...} */
+void jox_live_add_colours(JoxText *out);
+
+#endif

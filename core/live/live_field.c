@@ -1,0 +1,119 @@
+/* Fields for the floor: people spread by the Gaussian kernel of record/density.h with R = 0.7 m, on
+   cells of 0.5 m, or wider where the area is large. Pressure is density times the local variance of
+   velocity, as of the probe `map` (Helbing, Johansson and Al-Abideen 2007), of one moment. */
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "live/live.h"
+#include "record/density.h"
+
+enum { W, VX, VY, SQUARE, SUMS, MOST_CELLS = 65536, HEAD = 32, FIELD = 3 };
+static const float KERNEL = 0.7f, CELL = 0.5f; /* m */
+static const float LEAST = 0.02f; /* 1/m2: below this there is nobody to have a velocity */
+
+static const char *const NAMES[] = {"density", "pressure", "none"};
+
+const char *jox_live_field_name(JoxLiveField field) {
+    return NAMES[field];
+}
+
+int jox_live_field_named(const char *name) {
+    for (int f = 0; f <= JOX_LIVE_FIELDS; f++)
+        if (strcmp(NAMES[f], name) == 0)
+            return f;
+    return -1;
+}
+
+void jox_live_free_grid(JoxLiveGrid *g) {
+    for (int f = 0; f < SUMS; f++)
+        jox_free(g->fields[f]);
+    jox_density_free(g->grid);
+    *g = (JoxLiveGrid){0};
+}
+
+/* Grid over the area, made again where that has grown. */
+static void make(JoxLiveGrid *g, const JoxLiveArea *area) {
+    if (g->grid && jox_length(jox_sub(g->low, area->low)) == 0.0f &&
+        jox_length(jox_sub(g->high, area->high)) == 0.0f)
+        return;
+    jox_live_free_grid(g);
+    g->low = area->low;
+    g->high = area->high;
+    JoxV2 size = jox_sub(area->high, area->low);
+    float cell = jox_maxf(CELL, sqrtf(size.x * size.y / MOST_CELLS));
+    float kernel = jox_maxf(KERNEL, cell);
+    JoxV2 edge = {3.5f * kernel, 3.5f * kernel}; /* all of everybody is on it */
+    g->grid = jox_density_create(jox_sub(area->low, edge), jox_add(area->high, edge), cell, kernel);
+    g->cells = (size_t)g->grid->columns * g->grid->rows;
+    for (int f = 0; f < SUMS; f++)
+        g->fields[f] = jox_alloc(g->cells, sizeof(float));
+}
+
+void jox_live_spread(JoxLiveGrid *g, const JoxLiveArea *area, const JoxLiveCrowd *crowd,
+                     bool moves) {
+    const int sums = moves ? SUMS : 1;
+    make(g, area);
+    for (int f = 0; f < sums; f++)
+        memset(g->fields[f], 0, g->cells * sizeof(float));
+    const int across = crowd->period.x > 0.0f, up = crowd->period.y > 0.0f;
+    for (uint32_t i = 0; i < crowd->count; i++) {
+        float vx = crowd->vx[i], vy = crowd->vy[i];
+        const float weights[SUMS] = {1.0f, vx, vy, vx * vx + vy * vy};
+        for (int c = -across; c <= across; c++) /* and the images over periodic edges */
+            for (int r = -up; r <= up; r++)
+                jox_density_spread(g->grid, g->fields, weights, sums,
+                                   crowd->x[i] + (float)c * crowd->period.x,
+                                   crowd->y[i] + (float)r * crowd->period.y);
+    }
+    g->most = 0.0f;
+    for (size_t c = 0; c < g->cells; c++)
+        g->most = jox_maxf(g->most, g->fields[W][c]);
+}
+
+float jox_live_density_at(const JoxLiveGrid *g, float x, float y) {
+    const JoxDensity *d = g->grid;
+    if (!d)
+        return 0.0f;
+    float column = floorf((x - d->low.x) / d->cell), row = floorf((y - d->low.y) / d->cell);
+    if (!(column >= 0.0f && column < (float)d->columns && row >= 0.0f && row < (float)d->rows))
+        return 0.0f;
+    return g->fields[W][(size_t)row * d->columns + (size_t)column];
+}
+
+static float value(const JoxLiveGrid *g, JoxLiveField field, size_t c) {
+    float density = g->fields[W][c];
+    if (field == JOX_LIVE_DENSITY)
+        return density;
+    if (density < LEAST)
+        return 0.0f;
+    float vx = g->fields[VX][c] / density, vy = g->fields[VY][c] / density;
+    return density * jox_maxf(g->fields[SQUARE][c] / density - vx * vx - vy * vy, 0.0f);
+}
+
+static uint8_t *put(uint8_t *at, const void *number) {
+    uint32_t bits;
+    memcpy(&bits, number, sizeof bits);
+    for (int i = 0; i < 4; i++)
+        at[i] = (uint8_t)(bits >> (8 * i));
+    return at + 4;
+}
+
+void jox_live_pack_field(const JoxLiveGrid *g, JoxLiveField field, JoxBytes *out) {
+    const JoxDensity *d = g->grid;
+    float most = 0.0f;
+    for (size_t c = 0; c < g->cells; c++)
+        most = jox_maxf(most, value(g, field, c));
+    most = most > 0.0f ? most : 1.0f;
+    const uint32_t head[4] = {FIELD, (uint32_t)field, d->columns, d->rows};
+    const float more[4] = {d->low.x, d->low.y, d->cell, most};
+    JOX_RESERVE(out->data, out->capacity, HEAD + g->cells);
+    out->length = HEAD + g->cells;
+    uint8_t *at = out->data;
+    for (int i = 0; i < 4; i++)
+        at = put(at, &head[i]);
+    for (int i = 0; i < 4; i++)
+        at = put(at, &more[i]);
+    for (size_t c = 0; c < g->cells; c++)
+        *at++ = (uint8_t)(value(g, field, c) / most * 255.0f + 0.5f);
+}

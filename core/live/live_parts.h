@@ -1,0 +1,63 @@
+/* What the files live_*.c keep of a running scene. */
+#ifndef JOX_LIVE_LIVE_PARTS_H
+#define JOX_LIVE_LIVE_PARTS_H
+
+#include "live/live.h"
+#include "run/run.h"
+
+/* A transition that somebody took. */
+typedef struct JoxLiveTaken {
+    uint64_t tick;
+    uint32_t which; /* of all transitions of all machines */
+} JoxLiveTaken;
+
+struct JoxLive {
+    JoxLiveArea area;
+    JoxLiveGrid grid;
+    uint64_t spread; /* tick of the crowd in the grid, plus 1 */
+    bool moves;      /* with its velocities */
+    /* Transitions of the last second: a ring, the oldest at `first`. Those of machine m begin with
+       number `begins[m]`; of state s of it with state_begins[m][s]. */
+    JoxLiveTaken *taken;
+    uint32_t first, count, capacity;
+    const JoxMachine *machines[JOX_MOST_MACHINES];
+    uint32_t machine_count, begins[JOX_MOST_MACHINES + 1];
+    uint32_t *state_begins[JOX_MOST_MACHINES];
+    uint32_t *fired; /* by number: how many in the last second */
+    uint64_t noted;  /* tick after the last step that was counted */
+    /* As of the last status. */
+    double wall, time, stage_s[JO_STAGE_COUNT];
+    uint64_t failures, agent_steps;
+    /* Where edges are periodic, by slot: where its person was in the last frame, and the parity
+       that changes whenever they came round an edge, so that nobody is seen to fly across. */
+    struct JoxLiveRound {
+        JoxV2 at;
+        uint32_t generation;
+        uint8_t flips;
+    } * rounds;
+    size_t round_capacity;
+    uint64_t came_round; /* tick of that frame, plus 1 */
+    /* Scratch. */
+    uint32_t *people;
+    size_t people_capacity;
+};
+
+/* Made on first use. */
+JoxLive *jox_live_of(JoScene *scene);
+/* Agent that the scene's player drives, by id; JOX_NO_INDEX: none. */
+uint32_t jox_live_player(const JoScene *scene);
+/* Brings the grid up to date; with `moves`, velocities too. */
+void jox_live_spread_crowd(JoScene *scene, bool moves);
+
+/* live_hello.c. Parts of the object, each with a comma before it. */
+void jox_live_add_places(const JoxPlace *places, uint32_t count, JoxText *out);
+void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxText *out);
+/* NULL: none. */
+void jox_live_add_camera(const JoxSceneSpec *spec, JoxText *out);
+/* One part of a body as an object. */
+void jox_live_add_part(const JoxBodyLook *look, JoxText *out);
+/* One body as an object: {"name": ..., "mass": ..., "parts": [...]}; without parts where there is
+   none in the row. */
+void jox_live_body(const JoxBodies *bodies, uint32_t row, JoxText *out);
+
+#endif

@@ -1,0 +1,187 @@
+/* What a live page is told a few times a second: figures of the moment, and what happened since. */
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "live/live_parts.h"
+
+/* ---- transitions of the last second ---- */
+
+static bool same_machines(const JoxLive *live, const JoxMind *mind) {
+    bool same = live->machine_count == mind->machine_count;
+    for (uint32_t m = 0; same && m < mind->machine_count; m++)
+        same = live->machines[m] == mind->machines[m];
+    return same;
+}
+
+/* Numbers the transitions of all machines; those that were counted under other numbers are
+   forgotten. */
+static void number_transitions(JoxLive *live, const JoxMind *mind) {
+    for (uint32_t m = 0; m < live->machine_count; m++)
+        jox_free(live->state_begins[m]);
+    live->machine_count = mind->machine_count;
+    live->count = 0;
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        const JoxMachine *machine = mind->machines[m];
+        live->machines[m] = machine;
+        live->state_begins[m] = jox_alloc(machine->state_count + 1, sizeof(uint32_t));
+        uint32_t number = live->begins[m];
+        for (uint32_t s = 0; s < machine->state_count; s++) {
+            live->state_begins[m][s] = number;
+            number += machine->states[s].transition_count;
+        }
+        live->state_begins[m][machine->state_count] = live->begins[m + 1] = number;
+    }
+    jox_free(live->fired);
+    live->fired = jox_alloc(live->begins[live->machine_count] + 1, sizeof *live->fired);
+}
+
+static void push_taken(JoxLive *live, JoxLiveTaken taken) {
+    if (live->count == live->capacity) { /* a ring: straightened when it grows */
+        uint32_t wider = live->capacity ? 2 * live->capacity : 256;
+        JoxLiveTaken *ring = jox_alloc(wider, sizeof *ring);
+        for (uint32_t n = 0; n < live->count; n++)
+            ring[n] = live->taken[(live->first + n) % live->capacity];
+        jox_free(live->taken);
+        live->taken = ring;
+        live->capacity = wider;
+        live->first = 0;
+    }
+    live->taken[(live->first + live->count++) % live->capacity] = taken;
+    live->fired[taken.which]++;
+}
+
+void jox_live_note(JoScene *scene) {
+    JoxLive *live = jox_live_of(scene);
+    const JoWorld *world = scene->world;
+    const JoxMind *mind = &world->mind;
+    if (!same_machines(live, mind) || !live->fired)
+        number_transitions(live, mind);
+    if (live->noted == world->tick)
+        return;
+    live->noted = world->tick;
+    const uint64_t second = (uint64_t)(1.0 / world->def.dt + 0.5);
+    while (live->count && live->taken[live->first].tick + second <= world->tick) {
+        live->fired[live->taken[live->first].which]--;
+        live->first = (live->first + 1) % live->capacity;
+        live->count--;
+    }
+    for (uint32_t n = 0; n < mind->taken_count; n++) {
+        const JoxTaken *taken = &mind->taken[n];
+        const uint32_t which = live->state_begins[taken->machine][taken->from] + taken->transition;
+        push_taken(live, (JoxLiveTaken){world->tick, which});
+    }
+}
+
+/* ---- the object ---- */
+
+static void add_number(JoxText *out, const char *name, double value) {
+    jox_text_printf(out, ", \"%s\": ", name);
+    jox_text_json_number(out, value);
+}
+
+/* ,"census": [[people in each state] of each machine], and "fired" alike by transition. */
+static void add_machines(JoxText *out, JoxLive *live, const JoxMind *mind) {
+    jox_text_add(out, ", \"census\": [");
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        const uint32_t count = mind->machines[m]->state_count;
+        JOX_RESERVE(live->people, live->people_capacity, count);
+        jox_mind_census(mind, m, live->people);
+        for (uint32_t s = 0; s < count; s++)
+            jox_text_printf(out, "%s%u", s ? ", " : m ? ", [" : "[", live->people[s]);
+        jox_text_add(out, "]");
+    }
+    jox_text_add(out, "], \"fired\": [");
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        jox_text_add(out, m ? ", [" : "[");
+        for (uint32_t t = live->begins[m]; t < live->begins[m + 1]; t++)
+            jox_text_printf(out, "%s%u", t > live->begins[m] ? ", " : "", live->fired[t]);
+        jox_text_add(out, "]");
+    }
+    jox_text_add(out, "]");
+}
+
+static double mean_speed(const JoxAgents *a) {
+    double sum = 0.0;
+    for (uint32_t i = 0; i < a->count; i++)
+        sum += sqrtf(a->vx[i] * a->vx[i] + a->vy[i] * a->vy[i]);
+    return a->count ? sum / a->count : 0.0;
+}
+
+/* Passages of flow probes, and which walls of a name stand open. */
+static void add_doors(JoxText *out, const JoScene *scene) {
+    const JoxWalls *walls = &scene->world->all_walls;
+    const JoxProbe *probe;
+    const char *comma = "";
+    jox_text_add(out, ", \"flows\": {");
+    for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++) {
+        if (jox_probe_def(probe)->kind != JOX_PROBE_FLOW)
+            continue;
+        jox_text_add(out, comma);
+        jox_text_json(out, jox_probe_def(probe)->name);
+        jox_text_printf(out, ": %u", jox_probe_passages(probe));
+        comma = ", ";
+    }
+    jox_text_add(out, "}, \"walls\": {");
+    comma = "";
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        bool known = !walls->rings[r].name;
+        for (uint32_t o = 0; o < r && !known; o++)
+            known = walls->rings[o].name && !strcmp(walls->rings[o].name, walls->rings[r].name);
+        if (known)
+            continue;
+        jox_text_add(out, comma);
+        jox_text_json(out, walls->rings[r].name);
+        jox_text_add(out, walls->rings[r].open ? ": true" : ": false");
+        comma = ", ";
+    }
+    jox_text_add(out, "}");
+}
+
+/* What the steps since the last status came to: how fast, what failed, and time by stage in ns per
+   agent-step. Where there was none: since loading. */
+static void add_costs(JoxText *out, JoxLive *live, const JoScene *scene) {
+    const JoWorld *world = scene->world;
+    const JoxStatistics *s = &world->statistics;
+    const double wall = jox_clock_wall(), time = jo_world_time(world);
+    const bool stepped = s->agent_steps > live->agent_steps;
+    const double people = stepped ? (double)(s->agent_steps - live->agent_steps)
+                                  : (double)(s->agent_steps ? s->agent_steps : 1);
+    const double spent = wall - live->wall;
+    add_number(out, "real_time_factor", spent > 0.0 ? (time - live->time) / spent : 0.0);
+    add_number(out, "failures", (double)(s->failures - (stepped ? live->failures : 0)) / people);
+    jox_text_add(out, ", \"stage_ns\": {");
+    for (int k = 0; k < JO_STAGE_COUNT; k++) {
+        const double seconds = s->stage_s[k] - (stepped ? live->stage_s[k] : 0.0);
+        jox_text_printf(out, "%s\"%s\": %.2f", k ? ", " : "", jo_stage_name(k),
+                        seconds * 1e9 / people);
+    }
+    jox_text_add(out, "}");
+    live->wall = wall;
+    live->time = time;
+    if (!stepped)
+        return;
+    live->failures = s->failures;
+    live->agent_steps = s->agent_steps;
+    memcpy(live->stage_s, s->stage_s, sizeof live->stage_s);
+}
+
+void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out) {
+    JoxLive *live = jox_live_of(scene);
+    const JoWorld *world = scene->world;
+    if (!same_machines(live, &world->mind) || !live->fired)
+        number_transitions(live, &world->mind);
+    jox_live_spread_crowd(scene, false);
+    jox_text_printf(out, "{\"type\": \"status\", \"tick\": %llu", (unsigned long long)world->tick);
+    add_number(out, "time", jo_world_time(world));
+    jox_text_printf(out, ", \"paused\": %s", session->paused ? "true" : "false");
+    add_number(out, "speed", session->speed);
+    jox_text_printf(out, ", \"agents\": %u, \"bodies\": %u", world->agents.count,
+                    jox_bodies_count(world->bodies));
+    add_machines(out, live, &world->mind);
+    add_number(out, "mean_speed", mean_speed(&world->agents));
+    add_number(out, "density_max", live->grid.most);
+    add_costs(out, live, scene);
+    add_doors(out, scene);
+    jox_text_printf(out, ", \"dropped\": %llu}", (unsigned long long)session->dropped);
+}

@@ -1,0 +1,61 @@
+/* What the files replay*.c share. */
+#ifndef JOX_LIVE_REPLAY_PARTS_H
+#define JOX_LIVE_REPLAY_PARTS_H
+
+#include "live/live_parts.h"
+#include "live/replay.h"
+#include "record/trajectory_reader.h"
+
+#define JOX_REPLAY_NOBODY UINT32_MAX
+
+/* Machines and states under one number each, though a machine that was loaded anew in the run has
+   more in the file. */
+typedef struct JoxReplayNames {
+    const char **machines;
+    struct {
+        uint32_t machine;
+        const char *name;
+    } * states;
+    uint32_t *state_of; /* by row of the reader's states */
+    uint32_t machine_count, state_count;
+} JoxReplayNames;
+
+struct JoxReplay {
+    char *path;
+    JoxTrajectoryReader *reader;
+    JoxTrajectoryReaderInfo info;
+    JoxSceneSpec *spec; /* or NULL */
+    JoxBodies *bodies;  /* of the scene, or NULL */
+    JoxReplayNames names;
+    JoxLiveArea area;
+    JoxLiveGrid grid;
+    uint32_t shown; /* frame, or JOX_REPLAY_NOBODY */
+    bool spread, moves;
+    JoxTrajectoryReaderFrame frame;
+    /* Slots of the people shown, in their order; and of those in the frame before. */
+    int64_t *id, *old_id;
+    uint32_t *slot, *old_slot;
+    float *vx, *vy, *x, *y;
+    uint32_t count;
+    size_t capacity;
+    uint8_t *parity;        /* by slot */
+    float *last_x, *last_y; /* by slot: where its person was */
+    uint32_t *spare;        /* free slots */
+    uint32_t slot_count, spare_count;
+    size_t slot_capacity;
+    /* Bodies: rows in the order in which their ids came. */
+    uint32_t *row_of; /* by id */
+    uint32_t *body_id;
+    uint32_t row_count;
+    size_t row_of_capacity, body_capacity;
+    uint32_t *people; /* scratch: by state */
+};
+
+/* Of the scene, else those that the recording has. */
+const JoxWalls *jox_replay_walls(const JoxReplay *replay);
+/* Number of a person's state in the hello's list; UINT32_MAX: it has none. */
+uint32_t jox_replay_state(const JoxReplay *replay, uint32_t person);
+/* Brings the grid up to date; with `moves`, velocities too. */
+void jox_replay_spread(JoxReplay *replay, bool moves);
+
+#endif

@@ -1,0 +1,297 @@
+/* jo_test: scenes for tests that are written in Lua, and what comes of them. */
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "luatest/testing.h"
+#include "run/run.h"
+
+typedef struct Tests {
+    JoMessage *message;
+    void *context;
+    bool json;
+    JoxText array; /* of JSON */
+    const char *only;
+    size_t passed, failed;
+    bool broken;
+    char folder[64]; /* for behaviours that stand in tests; "" while there are none */
+    char **kept;
+    size_t kept_count, kept_capacity;
+    JoxText said; /* by the scene that is loaded */
+} Tests;
+
+enum { MOST_KEPT = 200, LARGEST_KEPT = 256 << 10 };
+
+/* ---- the driver ---- */
+
+static void keep_message(void *context, const char *text) {
+    Tests *tests = context;
+    if (tests->said.length < 100000)
+        jox_text_add(&tests->said, text);
+}
+
+/* A scene's file: as named, beside the test, or in the scenes of the tree. */
+static char *find_scene(const JoxTestScene *scene, const char *test) {
+    char path[1024];
+    struct stat info;
+    const char *slash = strrchr(test, '/');
+    int folder = slash ? (int)(slash - test) + 1 : 0;
+    const char *const forms[] = {"%.*s%s", "%.*s../scenes/%s", "%.*s../../scenes/%s"};
+    for (int f = 0; f < 3; f++) {
+        snprintf(path, sizeof path, forms[f], folder, test, scene->path);
+        if (stat(path, &info) == 0)
+            return jox_strdup(path);
+    }
+    snprintf(path, sizeof path, "scenes/%s", scene->path);
+    return jox_strdup(stat(path, &info) == 0 ? path : scene->path);
+}
+
+typedef struct TestContext {
+    Tests *tests;
+    const char *path; /* of the test's file */
+} TestContext;
+
+static void *load(void *context, const JoxTestScene *wanted, JoxText *why) {
+    const TestContext *c = context;
+    JoSceneDef def = jo_default_scene_def();
+    char *path = wanted->text ? jox_strdup(wanted->path) : find_scene(wanted, c->path);
+    JoxDiagnostics diagnostics = {0};
+    def.path = path;
+    def.text = wanted->text;
+    def.text_length = wanted->length;
+    def.overrides = wanted->sets;
+    def.override_count = wanted->set_count;
+    def.mods = wanted->mods;
+    def.mod_count = wanted->mod_count;
+    def.named_mods_only = true;
+    def.has_seed = wanted->has_seed;
+    def.seed = wanted->seed;
+    def.has_dt = wanted->has_dt;
+    def.dt = wanted->dt;
+    def.threads = wanted->threads;
+    def.message = keep_message;
+    def.message_context = c->tests;
+    c->tests->said.length = 0;
+    JoScene *scene = jox_run_load(&def, &diagnostics);
+    for (size_t d = 0; d < diagnostics.count && !scene; d++) {
+        const JoxDiagnostic *item = &diagnostics.items[d];
+        bool generated = wanted->text && item->file && !strcmp(item->file, wanted->path);
+        if (!generated && item->file) /* a place in the generated scene tells nothing */
+            jox_text_printf(why, "%s:%d:%d: ", item->file, item->line, item->column);
+        jox_text_printf(why, "%s%s%s\n", item->message, item->hint ? ". " : "",
+                        item->hint ? item->hint : "");
+    }
+    jox_diag_free(&diagnostics);
+    if (scene &&
+        scene->mod_problems.errors) { /* a test names the mods it wants: all must be there */
+        jox_text_add(why, scene->mod_problems.items[0].message);
+        jo_scene_free(scene);
+        scene = NULL;
+    }
+    if (scene)
+        jox_world_settle(scene->world);
+    jox_free(path);
+    return scene;
+}
+
+static void free_scene(void *context, void *scene) {
+    (void)context;
+    jo_scene_free(scene);
+}
+
+/* A function of a behaviour that fails makes the test fail: the agents only stayed as they were. */
+static bool step(void *context, void *scene, JoxText *why) {
+    Tests *tests = ((TestContext *)context)->tests;
+    const JoxLua *lua = ((JoScene *)scene)->lua;
+    uint64_t failures = jox_lua_failures(lua);
+    JoError error = {0};
+    if (!jo_scene_step(scene, &error)) {
+        jox_text_add(why, error.text);
+        return false;
+    }
+    if (jox_lua_failures(lua) == failures)
+        return true;
+    jox_text_printf(why, "a function of a behaviour failed:\n%s",
+                    tests->said.data ? tests->said.data : "");
+    return false;
+}
+
+static const JoxMind *mind_of(void *context, void *scene) {
+    (void)context;
+    JoWorld *world = ((JoScene *)scene)->world;
+    world->mind.tick = (uint32_t)world->tick; /* steps done, as a test sees it */
+    return &world->mind;
+}
+
+static uint64_t hash(void *context, void *scene) {
+    (void)context;
+    return jox_world_hash(((JoScene *)scene)->world);
+}
+
+static int32_t group(void *context, void *scene, const char *name) {
+    (void)context;
+    const JoxSceneSpec *spec = ((JoScene *)scene)->spec;
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        if (strcmp(spec->groups[g].name, name) == 0)
+            return (int32_t)g;
+    return -1;
+}
+
+static bool body(void *context, void *scene, const char *name, double out[6]) {
+    (void)context;
+    const JoxBodies *bodies = ((JoScene *)scene)->world->bodies;
+    JoxPose pose;
+    uint32_t row = jox_bodies_find_name(bodies, name);
+    if (row == JOX_NO_BODY || !jox_bodies_pose(bodies, row, &pose))
+        return false;
+    const double numbers[6] = {pose.centre.x,   pose.centre.y,   pose.centre.z,
+                               pose.velocity.x, pose.velocity.y, pose.velocity.z};
+    memcpy(out, numbers, sizeof numbers);
+    return true;
+}
+
+/* Behaviours are files: one that stands in a test becomes a file for as long as the tests run. */
+static const char *keep(void *context, const char *text, size_t length) {
+    Tests *tests = ((TestContext *)context)->tests;
+    char path[160];
+    if (tests->kept_count >= MOST_KEPT || length > LARGEST_KEPT)
+        return NULL;
+    if (!*tests->folder) {
+        strcpy(tests->folder, "/tmp/jostle-test-XXXXXX");
+        bool made = mkdtemp(tests->folder) != NULL;
+        snprintf(path, sizeof path, "%s/behaviours", tests->folder); /* nothing lies beside it */
+        if (!made || mkdir(path, 0700) != 0) {
+            *tests->folder = 0;
+            return NULL;
+        }
+    }
+    snprintf(path, sizeof path, "%s/behaviours/inline-%zu.lua", tests->folder,
+             tests->kept_count + 1);
+    FILE *file = fopen(path, "w");
+    bool good = file && fwrite(text, 1, length, file) == length;
+    if (!file || fclose(file) != 0 || !good)
+        return NULL;
+    JOX_RESERVE(tests->kept, tests->kept_capacity, tests->kept_count + 1);
+    return tests->kept[tests->kept_count++] = jox_strdup(path);
+}
+
+/* ---- results ---- */
+
+static void report(void *context, const JoxTestResult *result) {
+    Tests *tests = context;
+    JoxText text = {0};
+    *(result->passed ? &tests->passed : &tests->failed) += 1;
+    if (tests->json) {
+        jox_text_add(&tests->array, tests->array.length ? ",\n {\"file\": " : "[\n {\"file\": ");
+        jox_text_json(&tests->array, result->file);
+        jox_text_printf(&tests->array, ", \"line\": %d, \"name\": ", result->line);
+        jox_text_json(&tests->array, result->name);
+        jox_text_printf(&tests->array, ", \"passed\": %s, \"simulated_s\": %.3f, \"message\": ",
+                        result->passed ? "true" : "false", result->simulated);
+        jox_text_json(&tests->array, result->message);
+        jox_text_add(&tests->array, "}");
+        return;
+    }
+    jox_text_printf(&text, "%s %s (%.1f s simulated in %.2f s)\n", result->passed ? "ok" : "not ok",
+                    result->name, result->simulated, result->seconds);
+    jox_text_add(&text, result->message);
+    tests->message(tests->context, text.data);
+    jox_text_free(&text);
+}
+
+static void print(void *context, const char *text) {
+    const Tests *tests = context;
+    if (!tests->json)
+        tests->message(tests->context, text);
+}
+
+static void run_file(Tests *tests, const char *path) {
+    TestContext context = {tests, path};
+    const JoxTestDriver driver = {.load = load,
+                                  .free = free_scene,
+                                  .step = step,
+                                  .mind = mind_of,
+                                  .hash = hash,
+                                  .group = group,
+                                  .body = body,
+                                  .keep = keep,
+                                  .context = &context};
+    JoxDiagnostics diagnostics = {0};
+    if (!jox_lua_test(path, tests->only, &driver, report, tests, print, tests, &diagnostics))
+        tests->broken = true;
+    for (size_t d = 0; tests->json && d < diagnostics.count; d++) {
+        const JoxDiagnostic *item = &diagnostics.items[d];
+        JoxTestResult failed = {
+            .file = path, .name = "", .message = item->message, .line = item->line};
+        report(tests, &failed);
+    }
+    if (tests->json)
+        jox_diag_free(&diagnostics);
+    else
+        jox_run_report(tests->message, tests->context, &diagnostics, NULL);
+}
+
+static int by_name(const struct dirent **a, const struct dirent **b) {
+    return strcmp((*a)->d_name, (*b)->d_name);
+}
+
+static bool is_test(const char *name) {
+    size_t n = strlen(name);
+    return n > 9 && strcmp(name + n - 9, "_test.lua") == 0 && *name != '.';
+}
+
+static void run_path(Tests *tests, const char *path) {
+    struct stat info;
+    struct dirent **entries;
+    if (stat(path, &info) != 0 || !S_ISDIR(info.st_mode)) {
+        run_file(tests, path);
+        return;
+    }
+    int count = scandir(path, &entries, NULL, by_name);
+    for (int e = 0; e < count; e++) {
+        char inner[1024];
+        snprintf(inner, sizeof inner, "%s/%s", path, entries[e]->d_name);
+        if (is_test(entries[e]->d_name))
+            run_file(tests, inner);
+        free(entries[e]);
+    }
+    if (count >= 0)
+        free(entries);
+}
+
+bool jo_test(const char *const *paths, size_t count, const char *only, bool json,
+             JoMessage *message, void *context, size_t *passed, size_t *failed) {
+    JOX_REQUIRE(paths && message && passed && failed, false);
+    Tests tests = {.message = message, .context = context, .json = json, .only = only};
+    for (size_t p = 0; p < count; p++)
+        run_path(&tests, paths[p]);
+    if (!json && tests.passed + tests.failed == 0 && !tests.broken) {
+        message(context, "no tests found: files that end with _test.lua hold them\n");
+        tests.broken = true;
+    }
+    if (json) {
+        jox_text_add(&tests.array, tests.array.length ? "\n]\n" : "[]\n");
+        message(context, tests.array.data);
+    }
+    for (size_t k = 0; k < tests.kept_count; k++) {
+        unlink(tests.kept[k]);
+        jox_free(tests.kept[k]);
+    }
+    if (*tests.folder) {
+        char inner[96];
+        snprintf(inner, sizeof inner, "%s/behaviours", tests.folder);
+        rmdir(inner);
+        rmdir(tests.folder);
+    }
+    jox_free(tests.kept);
+    jox_text_free(&tests.array);
+    jox_text_free(&tests.said);
+    *passed = tests.passed;
+    *failed = tests.failed;
+    return !tests.broken;
+}

@@ -1,0 +1,563 @@
+/* What a test can say: build a scene, step it, look at it, assert. */
+#include "luatest/trial.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+static const char SCENE[] = "jostle scene";
+static const double MOST_STEPPING = 60.0; /* s of processor time in one test */
+static const double WITHIN = 60.0;        /* s, where a test gives no time */
+enum { MOST_NAMES = 1024 };
+
+/* A scene of a test, and who has been in which state. */
+typedef struct Trial {
+    void *scene; /* NULL once freed */
+    char *names[MOST_NAMES];
+    uint8_t *been[MOST_NAMES]; /* by agent id */
+    uint32_t name_count, id_capacity;
+    int32_t *group; /* by agent id */
+    uint32_t known; /* ids whose group is known */
+} Trial;
+
+static Trial *check(lua_State *L) {
+    Trial *t = luaL_checkudata(L, 1, SCENE);
+    if (!t->scene)
+        luaL_error(L, "this scene is over");
+    return t;
+}
+
+static const JoxMind *mind_of(lua_State *L, const Trial *t) {
+    const JoxTestDriver *driver = jox_trial_of(L)->driver;
+    return driver->mind(driver->context, t->scene);
+}
+
+static double time_of(const JoxMind *mind) {
+    return mind->tick * mind->dt;
+}
+
+/* ---- who has been where ---- */
+
+static int find_name(const Trial *t, const char *name) {
+    for (uint32_t n = 0; n < t->name_count; n++)
+        if (strcmp(t->names[n], name) == 0)
+            return (int)n;
+    return -1;
+}
+
+static void mark(Trial *t, const char *state, uint32_t id) {
+    int n = find_name(t, state);
+    if (n < 0 && t->name_count < MOST_NAMES) {
+        n = (int)t->name_count++;
+        t->names[n] = jox_strdup(state);
+        t->been[n] = jox_alloc(t->id_capacity + 1, 1);
+    }
+    if (n >= 0 && id < t->id_capacity)
+        t->been[n][id] = 1;
+}
+
+static void note(const JoxMind *mind, Trial *t) {
+    const JoxAgents *a = mind->agents;
+    if (a->next_id > t->id_capacity) {
+        uint32_t wider = a->next_id + a->next_id / 2 + 64;
+        t->group = jox_realloc(t->group, wider, sizeof *t->group);
+        for (uint32_t n = 0; n < t->name_count; n++) {
+            t->been[n] = jox_realloc(t->been[n], wider + 1, 1);
+            memset(t->been[n] + t->id_capacity, 0, wider + 1 - t->id_capacity);
+        }
+        t->id_capacity = wider;
+    }
+    for (; t->known < a->next_id; t->known++) {
+        uint32_t i = a->id_index[t->known];
+        t->group[t->known] = i == JOX_NO_INDEX ? -1 : a->group[i];
+        if (i != JOX_NO_INDEX && a->machine[i] != JOX_NO_MACHINE)
+            mark(t, mind->machines[a->machine[i]]->states[a->state[i]].name, t->known);
+    }
+    for (uint32_t k = 0; k < mind->taken_count; k++) {
+        const JoxTaken *taken = &mind->taken[k];
+        mark(t, mind->machines[taken->machine]->states[taken->to].name, taken->agent_id);
+        uint32_t i = a->id_index[taken->agent_id]; /* it may have become another machine */
+        if (i != JOX_NO_INDEX)
+            mark(t, mind->machines[a->machine[i]]->states[a->state[i]].name, taken->agent_id);
+    }
+}
+
+static void step(lua_State *L, Trial *t) {
+    JoxTrial *trial = jox_trial_of(L);
+    const JoxTestDriver *driver = trial->driver;
+    JoxText why = {0};
+    double begun = jox_trial_clock();
+    bool good = driver->step(driver->context, t->scene, &why);
+    trial->stepping += jox_trial_clock() - begun;
+    const JoxMind *mind = mind_of(L, t);
+    trial->simulated += mind->dt;
+    note(mind, t);
+    if (!good) {
+        lua_pushfstring(L, "%s", why.data ? why.data : "the step failed");
+        jox_text_free(&why);
+        luaL_error(L, "%s", lua_tostring(L, -1));
+    }
+    if (trial->stepping > MOST_STEPPING)
+        luaL_error(L, "this test has stepped for over %d s of processor time", (int)MOST_STEPPING);
+}
+
+/* ---- options ---- */
+
+/* A number of an options table at `index`; `standard` where it is absent. */
+static double option(lua_State *L, int index, const char *name, double standard) {
+    if (lua_type(L, index) != LUA_TTABLE)
+        return standard;
+    lua_pushstring(L, name);
+    lua_rawget(L, index);
+    double value = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : standard;
+    if (!lua_isnil(L, -1) && (lua_type(L, -1) != LUA_TNUMBER || !(value >= -1.0 && value <= 4e9)))
+        luaL_error(L, "option '%s' must be a number from 0 to 4e9", name);
+    lua_pop(L, 1);
+    return value;
+}
+
+/* Names of options, so that none is misspelt. */
+static void check_options(lua_State *L, int index, const char *const *known, size_t count) {
+    if (lua_isnoneornil(L, index))
+        return;
+    luaL_checktype(L, index, LUA_TTABLE);
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        lua_pop(L, 1);
+        const char *key = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "?";
+        bool found = false;
+        for (size_t k = 0; k < count; k++)
+            found |= strcmp(known[k], key) == 0;
+        const char *near = found ? NULL : jox_suggest(key, known, count);
+        if (!found)
+            luaL_error(L, "there is no option '%s'%s%s", key, near ? "; did you mean " : "",
+                       near ? near : "");
+    }
+}
+
+/* The group that the option `agents` names; -1 for all. */
+static int32_t group_option(lua_State *L, const Trial *t, int index) {
+    if (lua_type(L, index) != LUA_TTABLE)
+        return -1;
+    lua_pushstring(L, "agents");
+    if (lua_rawget(L, index) == LUA_TNIL) {
+        lua_pop(L, 1);
+        return -1;
+    }
+    const JoxTestDriver *driver = jox_trial_of(L)->driver;
+    const char *name = luaL_checkstring(L, -1);
+    int32_t group = driver->group(driver->context, t->scene, name);
+    if (group < 0)
+        luaL_error(L, "the scene has no group '%s'", name);
+    lua_pop(L, 1);
+    return group;
+}
+
+/* A state that some machine of the scene has. */
+static const char *check_state(lua_State *L, const Trial *t, int index) {
+    const char *name = luaL_checkstring(L, index), *names[256];
+    const JoxMind *mind = mind_of(L, t);
+    size_t count = 0;
+    for (uint32_t m = 0; m < mind->machine_count; m++)
+        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++) {
+            if (strcmp(mind->machines[m]->states[s].name, name) == 0)
+                return name;
+            if (count < 256)
+                names[count++] = mind->machines[m]->states[s].name;
+        }
+    const char *near = jox_suggest(name, names, count);
+    luaL_error(L, "no machine of the scene has a state '%s'%s%s", name,
+               near ? "; did you mean " : "", near ? near : "");
+    return NULL;
+}
+
+/* ---- looking ---- */
+
+static uint32_t count_in(const JoxMind *mind, const char *state, int32_t group) {
+    const JoxAgents *a = mind->agents;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < a->count; i++)
+        count +=
+            (group < 0 || a->group[i] == group) &&
+            (!state || (a->machine[i] != JOX_NO_MACHINE &&
+                        !strcmp(mind->machines[a->machine[i]]->states[a->state[i]].name, state)));
+    return count;
+}
+
+static uint32_t been_in(const Trial *t, const char *state, int32_t group) {
+    int n = find_name(t, state);
+    uint32_t count = 0;
+    for (uint32_t id = 0; n >= 0 && id < t->known; id++)
+        count += t->been[n][id] && (group < 0 || t->group[id] == group);
+    return count;
+}
+
+/* "Walk 3, Rest 2": where the agents are. */
+static void push_census(lua_State *L, const JoxMind *mind, int32_t group) {
+    JoxText text = {0};
+    for (uint32_t m = 0; m < mind->machine_count; m++)
+        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++) {
+            const char *name = mind->machines[m]->states[s].name;
+            uint32_t people = count_in(mind, name, group);
+            if (people)
+                jox_text_printf(&text, "%s%s %u", text.length ? ", " : "", name, people);
+        }
+    lua_pushstring(L, text.length ? text.data : "nobody is left");
+    jox_text_free(&text);
+}
+
+static int scene_count(lua_State *L) {
+    Trial *t = check(L);
+    const char *state = lua_isnoneornil(L, 2) ? NULL : check_state(L, t, 2);
+    lua_pushinteger(L, count_in(mind_of(L, t), state, group_option(L, t, 3)));
+    return 1;
+}
+
+static int scene_entered(lua_State *L) {
+    Trial *t = check(L);
+    const char *state = check_state(L, t, 2);
+    lua_pushinteger(L, been_in(t, state, group_option(L, t, 3)));
+    return 1;
+}
+
+static int scene_time(lua_State *L) {
+    lua_pushnumber(L, time_of(mind_of(L, check(L))));
+    return 1;
+}
+
+static int scene_hash(lua_State *L) {
+    const JoxTestDriver *driver = jox_trial_of(L)->driver;
+    char text[24];
+    snprintf(text, sizeof text, "%016llx",
+             (unsigned long long)driver->hash(driver->context, check(L)->scene));
+    lua_pushstring(L, text);
+    return 1;
+}
+
+/* s:agents(["group"]): a list in order of id. */
+static int scene_agents(lua_State *L) {
+    Trial *t = check(L);
+    const JoxMind *mind = mind_of(L, t);
+    const JoxTestDriver *driver = jox_trial_of(L)->driver;
+    int32_t group = -1;
+    if (!lua_isnoneornil(L, 2) &&
+        (group = driver->group(driver->context, t->scene, luaL_checkstring(L, 2))) < 0)
+        return luaL_error(L, "the scene has no group '%s'", lua_tostring(L, 2));
+    lua_newtable(L);
+    lua_Integer n = 0;
+    for (uint32_t id = 0; id < mind->agents->next_id; id++) {
+        uint32_t i = mind->agents->id_index[id];
+        if (i == JOX_NO_INDEX || (group >= 0 && mind->agents->group[i] != group))
+            continue;
+        jox_trial_push_agent(L, mind, i);
+        lua_rawseti(L, -2, ++n);
+    }
+    return 1;
+}
+
+/* s:agent(id): nil where it has left. */
+static int scene_agent(lua_State *L) {
+    const JoxMind *mind = mind_of(L, check(L));
+    lua_Integer id = luaL_checkinteger(L, 2);
+    if (id < 0 || id >= mind->agents->next_id || mind->agents->id_index[id] == JOX_NO_INDEX)
+        lua_pushnil(L);
+    else
+        jox_trial_push_agent(L, mind, mind->agents->id_index[id]);
+    return 1;
+}
+
+static int scene_body(lua_State *L) {
+    static const char *const NAMES[] = {"x", "y", "z", "vx", "vy", "vz"};
+    Trial *t = check(L);
+    const JoxTestDriver *driver = jox_trial_of(L)->driver;
+    double pose[6];
+    if (!driver->body(driver->context, t->scene, luaL_checkstring(L, 2), pose))
+        return luaL_error(L, "the scene has no body '%s'", lua_tostring(L, 2));
+    lua_newtable(L);
+    for (int k = 0; k < 6; k++)
+        jox_trial_set_number(L, NAMES[k], pose[k]);
+    return 1;
+}
+
+/* ---- stepping ---- */
+
+static int scene_step(lua_State *L) {
+    Trial *t = check(L);
+    for (lua_Integer n = luaL_optinteger(L, 2, 1); n > 0; n--)
+        step(L, t);
+    return 0;
+}
+
+static int scene_run(lua_State *L) {
+    Trial *t = check(L);
+    const JoxMind *mind = mind_of(L, t);
+    double steps = luaL_checknumber(L, 2) / mind->dt;
+    for (double n = 0.5; n < steps; n += 1.0)
+        step(L, t);
+    return 0;
+}
+
+/* s:reaches(state, { within = s, agents = "group", count = n, any = true }) */
+static int scene_reaches(lua_State *L) {
+    static const char *const OPTIONS[] = {"within", "agents", "count", "any"};
+    Trial *t = check(L);
+    const char *state = check_state(L, t, 2);
+    check_options(L, 3, OPTIONS, 4);
+    int32_t group = group_option(L, t, 3);
+    double within = option(L, 3, "within", WITHIN);
+    uint32_t all = 0;
+    for (uint32_t id = 0; id < t->known; id++)
+        all += group < 0 || t->group[id] == group;
+    uint32_t wanted = (uint32_t)option(L, 3, "count", all);
+    if (wanted == 0)
+        return luaL_error(L, "there is nobody who could reach anything");
+    if (lua_type(L, 3) == LUA_TTABLE) {
+        lua_pushstring(L, "any");
+        lua_rawget(L, 3);
+        wanted = lua_toboolean(L, -1) ? 1 : wanted;
+        lua_pop(L, 1);
+    }
+    jox_trial_of(L)->assertions++;
+    const JoxMind *mind = mind_of(L, t);
+    double until = time_of(mind) + within - 0.5 * mind->dt;
+    while (been_in(t, state, group) < wanted && time_of(mind) < until)
+        step(L, t);
+    uint32_t been = been_in(t, state, group);
+    if (been >= wanted) {
+        lua_pushnumber(L, time_of(mind));
+        return 1;
+    }
+    push_census(L, mind, group);
+    return luaL_error(L, "%d of %d agents reached '%s' within %f s; now at t = %f s: %s", (int)been,
+                      (int)wanted, state, within, time_of(mind), lua_tostring(L, -1));
+}
+
+/* s:never(state, { during = s, agents = "group" }); what was before counts as well. */
+static int scene_never(lua_State *L) {
+    static const char *const OPTIONS[] = {"during", "agents"};
+    Trial *t = check(L);
+    const char *state = check_state(L, t, 2);
+    check_options(L, 3, OPTIONS, 2);
+    int32_t group = group_option(L, t, 3);
+    const JoxMind *mind = mind_of(L, t);
+    double until = time_of(mind) + option(L, 3, "during", 0.0) - 0.5 * mind->dt;
+    jox_trial_of(L)->assertions++;
+    for (;;) {
+        int n = find_name(t, state);
+        for (uint32_t id = 0; n >= 0 && id < t->known; id++)
+            if (t->been[n][id] && (group < 0 || t->group[id] == group))
+                return luaL_error(L, "agent %d has been in '%s', by t = %f s", (int)id, state,
+                                  time_of(mind));
+        if (time_of(mind) >= until)
+            return 0;
+        step(L, t);
+    }
+}
+
+/* The greatest speed and the mean of all agents during some seconds. */
+static void watch_speed(lua_State *L, Trial *t, double during, int32_t group, double most,
+                        double *mean) {
+    const JoxMind *mind = mind_of(L, t);
+    const JoxAgents *a = mind->agents;
+    double until = time_of(mind) + during - 0.5 * mind->dt, sum = 0.0;
+    uint64_t count = 0;
+    do {
+        step(L, t);
+        for (uint32_t i = 0; i < a->count; i++) {
+            if (group >= 0 && a->group[i] != group)
+                continue;
+            double speed = jox_trial_speed(a, i);
+            sum += speed;
+            count++;
+            if (speed > most)
+                luaL_error(L, "agent %d moves at %f m/s at t = %f s, faster than %f", (int)a->id[i],
+                           speed, time_of(mind), most);
+        }
+    } while (time_of(mind) < until);
+    if (count == 0)
+        luaL_error(L, "there is nobody whose speed could be measured");
+    *mean = count ? sum / (double)count : 0.0;
+}
+
+static int scene_slower_than(lua_State *L) {
+    static const char *const OPTIONS[] = {"during", "agents"};
+    Trial *t = check(L);
+    double mean;
+    check_options(L, 3, OPTIONS, 2);
+    jox_trial_of(L)->assertions++;
+    watch_speed(L, t, option(L, 3, "during", 1.0), group_option(L, t, 3), luaL_checknumber(L, 2),
+                &mean);
+    return 0;
+}
+
+static int scene_faster_than(lua_State *L) {
+    static const char *const OPTIONS[] = {"during", "agents"};
+    Trial *t = check(L);
+    double mean, least = luaL_checknumber(L, 2);
+    check_options(L, 3, OPTIONS, 2);
+    jox_trial_of(L)->assertions++;
+    watch_speed(L, t, option(L, 3, "during", 1.0), group_option(L, t, 3), INFINITY, &mean);
+    if (!(mean > least))
+        return luaL_error(L, "agents move at %f m/s on the average, not faster than %f", mean,
+                          least);
+    lua_pushnumber(L, mean);
+    return 1;
+}
+
+/* ---- making scenes ---- */
+
+static void free_trial(lua_State *L, Trial *t) {
+    if (t->scene) {
+        const JoxTestDriver *driver = jox_trial_of(L)->driver;
+        driver->free(driver->context, t->scene);
+    }
+    for (uint32_t n = 0; n < t->name_count; n++) {
+        jox_free(t->names[n]);
+        jox_free(t->been[n]);
+    }
+    jox_free(t->group);
+    *t = (Trial){0};
+}
+
+static int scene_gc(lua_State *L) {
+    free_trial(L, luaL_checkudata(L, 1, SCENE));
+    return 0;
+}
+
+/* Texts of a list, or "KEY=VALUE" of a table, kept by the Lua table that is pushed; returns how
+   many. */
+static size_t read_texts(lua_State *L, int index, const char *name, bool pairs,
+                         const char *out[64]) {
+    size_t count = 0;
+    if (lua_type(L, index) != LUA_TTABLE)
+        return 0;
+    lua_pushstring(L, name);
+    int type = lua_rawget(L, index);
+    if (type == LUA_TNIL)
+        return 0;
+    if (type != LUA_TTABLE)
+        luaL_error(L, "option '%s' must be a table", name);
+    int from = lua_gettop(L);
+    lua_newtable(L);
+    lua_pushnil(L);
+    while (lua_next(L, from)) {
+        int key = lua_type(L, -2);
+        if (count == 64 || (pairs ? key != LUA_TSTRING : key != LUA_TNUMBER) ||
+            (lua_type(L, -1) != LUA_TSTRING && lua_type(L, -1) != LUA_TNUMBER &&
+             lua_type(L, -1) != LUA_TBOOLEAN))
+            luaL_error(L,
+                       pairs ? "'%s' maps at most 64 paths to values"
+                             : "'%s' is a list of at most 64 names",
+                       name);
+        luaL_tolstring(L, -1, NULL);
+        if (pairs)
+            lua_pushfstring(L, "%s=%s", lua_tostring(L, -3), lua_tostring(L, -1));
+        const char *text = lua_tostring(L, -1);
+        size_t at = count++; /* in ascending order, whatever the table's own */
+        for (; pairs && at > 0 && strcmp(out[at - 1], text) > 0; at--)
+            out[at] = out[at - 1];
+        out[at] = text;
+        lua_rawseti(L, from + 1, (lua_Integer)count);
+        lua_settop(L, from + 2);
+    }
+    return count;
+}
+
+/* Loads what arguments 1 and 2 of `scene` say; NULL with the reason in `why`. */
+static void *load(lua_State *L, JoxText *why) {
+    static const char *const OPTIONS[] = {"set", "mods", "seed", "dt", "threads"};
+    JoxTrial *trial = jox_trial_of(L);
+    const char *sets[64], *mods[64];
+    lua_settop(L, 2);
+    check_options(L, 2, OPTIONS, 5);
+    JoxTestScene scene = {.path = trial->path, .threads = 1, .sets = sets, .mods = mods};
+    scene.threads = (uint32_t)option(L, 2, "threads", 1);
+    scene.dt = option(L, 2, "dt", 0.0);
+    scene.seed = (uint64_t)option(L, 2, "seed", 0);
+    scene.has_dt = scene.dt > 0.0;
+    scene.has_seed = lua_type(L, 2) == LUA_TTABLE && option(L, 2, "seed", -1) >= 0;
+    scene.set_count = read_texts(L, 2, "set", true, sets);
+    scene.mod_count = read_texts(L, 2, "mods", false, mods);
+    if (lua_type(L, 1) == LUA_TTABLE) {
+        trial->yaml.length = 0;
+        jox_trial_scene(L, trial, 1, &trial->yaml);
+        scene.text = trial->yaml.data;
+        scene.length = trial->yaml.length;
+    } else { /* a file beside the test's, or in ../scenes */
+        scene.path = luaL_checkstring(L, 1);
+    }
+    void *loaded = trial->driver->load(trial->driver->context, &scene, why);
+    return loaded; // cppcheck-suppress returnDanglingLifetime
+}
+
+/* scene { ... } or scene("file.yaml" [, options]) */
+static int word_scene(lua_State *L) {
+    JoxText why = {0};
+    if (!jox_trial_of(L)->running)
+        return luaL_error(L, "a scene belongs into a test");
+    void *scene = load(L, &why);
+    if (!scene) {
+        lua_pushfstring(L, "the scene is refused: %s", why.data ? why.data : "?");
+        jox_text_free(&why);
+        return luaL_error(L, "%s", lua_tostring(L, -1));
+    }
+    jox_text_free(&why);
+    Trial *t = lua_newuserdatauv(L, sizeof *t, 0);
+    *t = (Trial){.scene = scene};
+    luaL_setmetatable(L, SCENE);
+    note(mind_of(L, t), t);
+    return 1;
+}
+
+/* refused({ ... }, "text"): the scene must not load, and say so with that text. */
+static int word_refused(lua_State *L) {
+    JoxText why = {0};
+    char wanted[256];
+    JoxTrial *trial = jox_trial_of(L);
+    snprintf(wanted, sizeof wanted, "%s", luaL_checkstring(L, 2));
+    trial->assertions++;
+    lua_settop(L, 1);
+    void *scene = load(L, &why);
+    if (scene) {
+        trial->driver->free(trial->driver->context, scene);
+        jox_text_free(&why);
+        return luaL_error(L, "the scene loads, and should not");
+    }
+    bool found = why.data && strstr(why.data, wanted);
+    lua_pushfstring(L, "the scene is refused, but not for '%s': %s", wanted,
+                    why.data ? why.data : "?");
+    jox_text_free(&why);
+    return found ? 0 : luaL_error(L, "%s", lua_tostring(L, -1));
+}
+
+void jox_trial_open(lua_State *L) {
+    static const luaL_Reg WORDS[] = {
+        {"scene", word_scene}, {"refused", word_refused}, {NULL, NULL}};
+    static const luaL_Reg METHODS[] = {{"run", scene_run},
+                                       {"step", scene_step},
+                                       {"time", scene_time},
+                                       {"count", scene_count},
+                                       {"entered", scene_entered},
+                                       {"hash", scene_hash},
+                                       {"reaches", scene_reaches},
+                                       {"never", scene_never},
+                                       {"slower_than", scene_slower_than},
+                                       {"agents", scene_agents},
+                                       {"agent", scene_agent},
+                                       {"faster_than", scene_faster_than},
+                                       {"body", scene_body},
+                                       {NULL, NULL}};
+    luaL_setfuncs(L, WORDS, 0);
+    luaL_setfuncs(L, jox_trial_assertions, 0);
+    luaL_newmetatable(L, SCENE);
+    lua_newtable(L);
+    luaL_setfuncs(L, METHODS, 0);
+    lua_setfield(L, -2, "__index");
+    lua_pushcfunction(L, scene_gc);
+    lua_setfield(L, -2, "__gc");
+    lua_pushboolean(L, 0);
+    lua_setfield(L, -2, "__metatable");
+    lua_pop(L, 1);
+}

@@ -1,0 +1,42 @@
+/* What testing.c (running tests) and trial.c (what a test says) share. */
+#ifndef JOX_LUATEST_TRIAL_H
+#define JOX_LUATEST_TRIAL_H
+
+#include "lua/internal.h"
+#include "luatest/testing.h"
+
+typedef struct JoxTest {
+    char *name;
+    int line, function; /* registry reference */
+} JoxTest;
+
+/* One test file while it runs. */
+typedef struct JoxTrial {
+    const JoxTestDriver *driver;
+    const char *path;
+    JoxTest *tests;
+    uint32_t test_count;
+    size_t test_capacity;
+    bool running;
+    uint64_t assertions, failures; /* failures: of assertions, also where a pcall swallowed them */
+    double simulated, stepping;    /* s, of the present test; stepping: processor time */
+    JoxText yaml;                  /* of the scene that is being made */
+} JoxTrial;
+
+JoxTrial *jox_trial_of(lua_State *L);
+/* Processor time of this thread, s. */
+double jox_trial_clock(void);
+/* equal, near, truthy, fails */
+extern const luaL_Reg jox_trial_assertions[];
+/* Adds the words of a test to the table on top of the stack. */
+void jox_trial_open(lua_State *L);
+/* Appends the table at `index` as a YAML scene (JSON is YAML). Raises errors. */
+void jox_trial_scene(lua_State *L, JoxTrial *trial, int index, JoxText *out);
+
+/* Present speed, m/s. */
+double jox_trial_speed(const JoxAgents *agents, uint32_t i);
+void jox_trial_set_number(lua_State *L, const char *name, double value);
+/* Pushes a table with all of an agent. */
+void jox_trial_push_agent(lua_State *L, const JoxMind *mind, uint32_t i);
+
+#endif

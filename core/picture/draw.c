@@ -1,0 +1,377 @@
+/* Layout, and all of the map but people. */
+#include "picture/draw.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "picture/draw_parts.h"
+
+/* px at the usual size: of the head, of the legend on the right, and about the map */
+static const float HEAD = 46, PANEL = 206, EDGE = 16;
+static const float WIDE = 1280, LOW = 480;
+
+const struct JoxShown jox_shown[JOX_SHOWS] = {
+    {"none", "", 0},
+    {"state", "State", 0},
+    {"group", "Group", 0},
+    {"speed", "Speed, m/s", 2},
+    {"force", "Net force, N", 500},
+    {"compression", "Compression, N/m", 2000},
+    {"density", "Density, 1/m\xc2\xb2", 8},
+    {"pressure", "Crowd pressure, 1/s\xc2\xb2", 0.04f},
+};
+
+const JoxInk jox_ink_text = {0x1f, 0x29, 0x33, 1}, jox_ink_faint = {0x52, 0x60, 0x6d, 1},
+             jox_ink_wall = {0x2b, 0x34, 0x3d, 1}, jox_ink_solid = {0xa3, 0xac, 0xb5, 1},
+             jox_ink_gate = {0xa4, 0x26, 0x12, 1}, jox_ink_place = {0x4c, 0x6f, 0x94, 1},
+             jox_ink_body = {0xc4, 0xa4, 0x84, 1}, jox_ink_body_line = {0x5a, 0x3e, 0x2b, 1},
+             jox_ink_path = {0x3a, 0x3a, 0x3a, 0.45f};
+static const JoxInk WHITE = {0xff, 0xff, 0xff, 1}, FLOOR = {0xf8, 0xf8, 0xf6, 1};
+
+void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
+    float wide = WIDE - PANEL - 2 * EDGE;
+    float tall = wide * (high.y - low.y) / (high.x - low.x);
+    if (tall > 960.0f) { /* a high area makes a narrow picture */
+        wide = jox_maxf(wide * 960.0f / tall, 420.0f);
+        tall = 960.0f;
+    }
+    tall = jox_maxf(tall, LOW - HEAD - EDGE);
+    *width = (uint32_t)(wide + PANEL + 2 * EDGE + 1.0f) / 2 * 2;
+    *height = (uint32_t)(tall + HEAD + EDGE + 1.0f) / 2 * 2;
+}
+
+static uint32_t letters(const char *text) {
+    uint32_t count = 0;
+    for (; *text; text++)
+        count += ((uint8_t)*text & 0xc0) != 0x80;
+    return count;
+}
+
+float jox_draw_width(const char *text, float size, bool bold) {
+    return (float)letters(text) * size * (bold ? 0.67f : 0.6f);
+}
+
+void jox_draw_fit(char *out, size_t capacity, const char *text, float size, bool bold, float wide) {
+    snprintf(out, capacity - 4, "%s", text);
+    jox_text_clean(out); /* what was cut within a letter */
+    if (strlen(out) == strlen(text) && jox_draw_width(out, size, bold) <= wide)
+        return;
+    size_t end = strlen(out);
+    do { /* a letter less */
+        while (end > 0 && ((uint8_t)out[--end] & 0xc0) == 0x80) {
+        }
+        out[end] = 0;
+    } while (end > 0 && jox_draw_width(out, size, bold) > wide - size);
+    strcat(out, "\xe2\x80\xa6");
+}
+
+/* ---- the map ---- */
+
+static void lay_out(JoxDrawing *d) {
+    const JoxPicture *p = d->picture;
+    float wide = (float)d->canvas->width, tall = (float)d->canvas->height;
+    d->unit = jox_clampf(jox_minf(wide / WIDE, tall / LOW), 0.75f, 6.0f);
+    if (wide < WIDE) /* a narrow picture of a high area */
+        d->unit = jox_clampf(tall / 800.0f, 0.75f, jox_maxf(0.75f, wide / 640.0f));
+    float u = d->unit;
+    d->panel = wide - (PANEL + EDGE) * u + EDGE * u;
+    JoxV2 low = {EDGE * u, HEAD * u}, high = {d->panel - EDGE * u, tall - EDGE * u};
+    JoxV2 size = jox_sub(p->high, p->low);
+    d->scale = jox_minf((high.x - low.x) / size.x, (high.y - low.y) / size.y);
+    JoxV2 spare = jox_scale(jox_sub(jox_sub(high, low), jox_scale(size, d->scale)), 0.5f);
+    d->low = jox_v2(low.x + spare.x, low.y + spare.y);
+    d->high = jox_v2(high.x - spare.x, high.y - spare.y);
+}
+
+/* Points of the plan in px; to be freed. */
+static JoxV2 *project(const JoxDrawing *d, const JoxV2 *points, uint32_t count) {
+    JoxV2 *out = jox_alloc(count + 1, sizeof *out);
+    for (uint32_t i = 0; i < count; i++)
+        out[i] = jox_draw_at(d, points[i]);
+    return out;
+}
+
+static void plan_line(const JoxDrawing *d, const JoxV2 *points, uint32_t count, bool closed,
+                      const char *name) {
+    JoxV2 *at = project(d, points, count);
+    jox_canvas_line(d->canvas, at, count, closed, name);
+    jox_free(at);
+}
+
+static void draw_places(JoxDrawing *d) {
+    const JoxPicture *p = d->picture;
+    JoxCanvas *c = d->canvas;
+    float u = d->unit;
+    JoxStyle line = {.line = jox_ink_with(jox_ink_place, 0.8f), .width = 1.2f * u, .dash = 5 * u};
+    JoxStyle area = {.fill = jox_ink_with(jox_ink_place, 0.08f),
+                     .line = jox_ink_with(jox_ink_place, 0.6f),
+                     .width = 0.8f * u};
+    jox_canvas_open(c, "places", NULL, area);
+    for (uint32_t i = 0; i < p->place_count; i++) {
+        const JoxPlace *place = &p->places[i];
+        bool open = place->kind == JOX_PLACE_LINE || place->kind == JOX_PLACE_QUEUE;
+        if (place->count == 0 || place->kind == JOX_PLACE_SET)
+            continue;
+        if (open)
+            jox_canvas_open(c, NULL, "line", line);
+        if (place->kind == JOX_PLACE_POINT)
+            jox_canvas_disc(c, jox_draw_at(d, place->points[0]),
+                            jox_maxf(place->radius * d->scale, 3 * u), NULL);
+        else
+            plan_line(d, place->points, place->count, !open, place->name);
+        if (open)
+            jox_canvas_close(c);
+    }
+    jox_canvas_close(c);
+}
+
+static bool same(JoxV2 a, JoxV2 b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+/* Thin walls have two sides: an open line's vertices go there and back, so that half of them draw
+   it; a closed line is two rings, of which one does. The number of points that draw ring r, 0 for a
+   second side, and whether they are to be closed. */
+static uint32_t points_of(const JoxWalls *walls, uint32_t r, bool *closed) {
+    const struct JoxWallRing *ring = &walls->rings[r];
+    const JoxWallVertex *v = &walls->vertices[ring->first];
+    uint32_t i = 1, half = ring->count / 2 + 1;
+    *closed = true;
+    if (ring->solid)
+        return ring->count;
+    while (i < half && same(v[i].point, v[ring->count - i].point))
+        i++;
+    *closed = i < half;
+    if (!*closed)
+        return half;
+    const struct JoxWallRing *last = ring - 1;
+    if (r == 0 || last->solid || last->count != ring->count)
+        return ring->count;
+    const JoxWallVertex *w = &walls->vertices[last->first];
+    for (i = 0; i < ring->count && same(v[i].point, w[ring->count - 1 - i].point);)
+        i++;
+    return i < ring->count ? ring->count : 0;
+}
+
+static void draw_ring(const JoxDrawing *d, uint32_t r) {
+    const JoxWalls *walls = d->picture->walls;
+    const struct JoxWallRing *ring = &walls->rings[r];
+    bool closed;
+    uint32_t count = points_of(walls, r, &closed);
+    JoxV2 *points = jox_alloc(count + 1, sizeof *points);
+    for (uint32_t i = 0; i < count; i++)
+        points[i] = walls->vertices[ring->first + i].point;
+    if (count)
+        plan_line(d, points, count, closed, ring->name);
+    jox_free(points);
+}
+
+static void draw_walls(JoxDrawing *d) {
+    const JoxWalls *walls = d->picture->walls;
+    float u = d->unit;
+    const JoxStyle styles[] = {
+        {.fill = jox_ink_solid, .line = jox_ink_wall, .width = 1.5f * u},
+        {.line = jox_ink_wall, .width = 2.5f * u},
+        {.line = jox_ink_gate, .width = 3.0f * u},
+        {.line = jox_ink_with(jox_ink_gate, 0.7f), .width = 1.6f * u, .dash = 4 * u}};
+    static const char *const kinds[] = {"solid", "wall", "gate closed", "gate open"};
+    jox_canvas_open(d->canvas, "walls", NULL, (JoxStyle){0});
+    for (int kind = 0; kind < 4; kind++) {
+        bool any = false;
+        for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
+            const struct JoxWallRing *ring = &walls->rings[r];
+            if ((ring->name ? 2 + ring->open : !ring->solid) != kind)
+                continue;
+            if (!any)
+                jox_canvas_open(d->canvas, NULL, kinds[kind], styles[kind]);
+            any = true;
+            draw_ring(d, r);
+        }
+        if (any)
+            jox_canvas_close(d->canvas);
+    }
+    jox_canvas_close(d->canvas);
+}
+
+static void draw_bodies(JoxDrawing *d, bool high) {
+    const JoxPicture *p = d->picture;
+    float u = d->unit;
+    JoxStyle style = {.fill = jox_ink_with(jox_ink_body, high ? 0.6f : 1.0f),
+                      .line = jox_ink_body_line,
+                      .width = 1.2f * u,
+                      .dash = high ? 3 * u : 0};
+    jox_canvas_open(d->canvas, high ? "bodies-above" : "bodies", NULL, style);
+    for (uint32_t b = 0; b < p->body_count; b++) {
+        const JoxDrawnBody *body = &p->bodies[b];
+        if (body->high != high)
+            continue;
+        if (body->count)
+            plan_line(d, body->ring, body->count, true, body->name);
+        else
+            jox_canvas_disc(d->canvas, jox_draw_at(d, body->at),
+                            jox_maxf(body->radius * d->scale, 2 * u), NULL);
+    }
+    jox_canvas_close(d->canvas);
+}
+
+static void draw_trails(JoxDrawing *d) {
+    const JoxPicture *p = d->picture;
+    float u = d->unit;
+    jox_canvas_open(d->canvas, "paths", NULL, (JoxStyle){0});
+    for (uint32_t t = 0; t < p->trail_count; t++) {
+        const JoxTrail *trail = &p->trails[t];
+        JoxStyle style = {.line = jox_ink_path, .width = 1.2f * u};
+        if (p->colour == JOX_SHOW_GROUP && !trail->body)
+            style.line = jox_ink_with(jox_palette_class(trail->group), 0.7f);
+        if (trail->body)
+            style = (JoxStyle){.line = jox_ink_body_line, .width = 1.2f * u, .dash = 4 * u};
+        jox_canvas_open(d->canvas, NULL, trail->body ? "body" : "person", style);
+        for (uint32_t from = 0, to; from < trail->count; from = to + 1) {
+            for (to = from; to < trail->count && isfinite(trail->points[to].x);)
+                to++;
+            if (to - from > 1)
+                plan_line(d, trail->points + from, to - from, false, NULL);
+        }
+        jox_canvas_close(d->canvas);
+    }
+    jox_canvas_close(d->canvas);
+}
+
+/* ---- names ---- */
+
+/* Whether a box is on the map and clear of all names so far; then it is taken. */
+static bool take(JoxDrawing *d, JoxV2 low, JoxV2 high) {
+    if (low.x < d->low.x || low.y < d->low.y || high.x > d->high.x || high.y > d->high.y ||
+        d->label_count == JOX_DRAW_LABELS)
+        return false;
+    for (uint32_t i = 0; i < d->label_count; i++)
+        if (low.x < d->labels[i].high.x && d->labels[i].low.x < high.x &&
+            low.y < d->labels[i].high.y && d->labels[i].low.y < high.y)
+            return false;
+    d->labels[d->label_count].low = low;
+    d->labels[d->label_count++].high = high;
+    return true;
+}
+
+/* Writes a name at a point of the plan, or beside it where another is; where all is taken, it is
+   left out. */
+static void name(JoxDrawing *d, JoxV2 at, const char *text) {
+    static const JoxV2 tries[] = {{0, 0}, {0, -1.3f}, {0, 1.3f}, {0, -2.6f}, {0, 2.6f}};
+    float size = 12 * d->unit;
+    char fit[128];
+    jox_draw_fit(fit, sizeof fit, text, size, false, 240 * d->unit);
+    float half = 0.5f * jox_draw_width(fit, size, false) + 2 * d->unit;
+    JoxV2 on = jox_draw_at(d, at);
+    if (on.x < d->low.x || on.x > d->high.x || on.y < d->low.y || on.y > d->high.y)
+        return;
+    /* Names at an edge move inwards. */
+    on.x = jox_clampf(on.x, jox_minf(d->low.x + half, d->high.x - half), d->high.x - half);
+    on.y = jox_clampf(on.y, d->low.y + size, d->high.y - size);
+    for (size_t t = 0; t < sizeof tries / sizeof *tries; t++) {
+        JoxV2 here = {on.x, on.y + tries[t].y * size};
+        if (!take(d, jox_v2(here.x - half, here.y - 0.6f * size),
+                  jox_v2(here.x + half, here.y + 0.6f * size)))
+            continue;
+        jox_canvas_text(d->canvas, jox_v2(here.x, here.y + 0.35f * size), size, JOX_ANCHOR_MIDDLE,
+                        false, fit);
+        return;
+    }
+}
+
+/* Where a place's name stands: within an area at its upper edge, so that it hides few. */
+static JoxV2 name_at(const JoxDrawing *d, const JoxPlace *place) {
+    JoxV2 low, high;
+    float line = 10 * d->unit / d->scale; /* m: to the middle of a line at an edge */
+    if (place->kind != JOX_PLACE_POLYGON)
+        return place->centre;
+    jox_bounds(place->points, place->count, &low, &high);
+    JoxV2 at = {place->centre.x, high.y - line};
+    bool roomy = high.y - low.y > 4 * line && jox_polygon_contains(place->points, place->count, at);
+    return roomy ? at : place->centre;
+}
+
+/* Where a gate's name stands: beside it, on the side away from the middle of the map. */
+static JoxV2 gate_name_at(const JoxDrawing *d, const struct JoxWallRing *ring) {
+    const JoxPicture *p = d->picture;
+    const JoxWallVertex *first = &p->walls->vertices[ring->first];
+    JoxV2 sum = {0, 0};
+    for (uint32_t i = 0; i < ring->count; i++)
+        sum = jox_add(sum, first[i].point);
+    JoxV2 middle = jox_scale(sum, 1.0f / (float)ring->count);
+    JoxV2 out = jox_sub(middle, jox_scale(jox_add(p->low, p->high), 0.5f));
+    JoxV2 normal = jox_left(first->direction);
+    normal = jox_dot(normal, out) < 0.0f ? jox_scale(normal, -1.0f) : normal;
+    float size = 12 * d->unit, half = 0.5f * jox_draw_width(ring->name, size, false);
+    float away = (fabsf(normal.x) * half + fabsf(normal.y) * 0.6f * size + 5 * d->unit) / d->scale;
+    return jox_add(middle, jox_scale(normal, away));
+}
+
+static void draw_names(JoxDrawing *d) {
+    const JoxPicture *p = d->picture;
+    JoxStyle style = {
+        .fill = jox_ink_gate, .line = jox_ink_with(WHITE, 0.9f), .width = 3 * d->unit};
+    jox_canvas_open(d->canvas, "names", NULL, style);
+    jox_canvas_open(d->canvas, NULL, "gates", style);
+    bool closed;
+    for (uint32_t r = 0; p->walls && r < p->walls->ring_count; r++)
+        if (p->walls->rings[r].name && points_of(p->walls, r, &closed))
+            name(d, gate_name_at(d, &p->walls->rings[r]), p->walls->rings[r].name);
+    jox_canvas_close(d->canvas);
+    style.fill = (JoxInk){0x24, 0x45, 0x69, 1};
+    jox_canvas_open(d->canvas, NULL, "places", style);
+    for (uint32_t i = 0; i < p->place_count; i++) {
+        const JoxPlace *place = &p->places[i];
+        if (place->kind != JOX_PLACE_SET && place->count && place->name)
+            name(d, name_at(d, place), place->name);
+    }
+    jox_canvas_close(d->canvas);
+    jox_canvas_close(d->canvas);
+}
+
+static void draw_head(const JoxDrawing *d) {
+    const JoxPicture *p = d->picture;
+    char fit[256], time[64];
+    float u = d->unit, wide = (float)d->canvas->width;
+    snprintf(time, sizeof time, "t = %.2f s", p->frame->time);
+    float room = wide - 3 * EDGE * u - jox_draw_width(time, 17 * u, true);
+    jox_draw_fit(fit, sizeof fit, p->title, 19 * u, true, room);
+    jox_canvas_open(d->canvas, "head", NULL, (JoxStyle){.fill = jox_ink_text});
+    jox_canvas_text(d->canvas, jox_v2(EDGE * u, 30 * u), 19 * u, JOX_ANCHOR_START, true, fit);
+    jox_canvas_open(d->canvas, "time", NULL, (JoxStyle){.fill = jox_ink_text});
+    jox_canvas_text(d->canvas, jox_v2(wide - EDGE * u, 30 * u), 17 * u, JOX_ANCHOR_END, true, time);
+    jox_canvas_close(d->canvas);
+    jox_canvas_close(d->canvas);
+}
+
+static void draw_frame(const JoxDrawing *d, const char *id, JoxStyle style) {
+    JoxV2 box[4] = {d->low, {d->high.x, d->low.y}, d->high, {d->low.x, d->high.y}};
+    jox_canvas_open(d->canvas, id, NULL, style);
+    jox_canvas_line(d->canvas, box, 4, true, NULL);
+    jox_canvas_close(d->canvas);
+}
+
+void jox_draw(JoxCanvas *canvas, const JoxPicture *picture) {
+    JoxDrawing *d = jox_alloc(1, sizeof *d);
+    d->canvas = canvas;
+    d->picture = picture;
+    jox_canvas_begin(canvas, picture->title);
+    lay_out(d);
+    draw_head(d);
+    draw_frame(d, "floor", (JoxStyle){.fill = FLOOR});
+    jox_canvas_clip(canvas, d->low, d->high);
+    jox_draw_field(d);
+    draw_places(d);
+    draw_trails(d);
+    draw_walls(d);
+    draw_bodies(d, false);
+    jox_draw_people(d);
+    draw_bodies(d, true);
+    draw_names(d);
+    jox_canvas_close(canvas);
+    draw_frame(d, "frame", (JoxStyle){.line = jox_ink_with(jox_ink_faint, 0.5f), .width = d->unit});
+    jox_draw_legend(d);
+    jox_free(d->people);
+    jox_free(d);
+}

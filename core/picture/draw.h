@@ -1,0 +1,84 @@
+/* Top views of a crowd: walls and gates, places, bodies as footprints, people as discs with what is
+   known of them as colours, a field on the floor, and a legend. Metres, seconds; one drawing code
+   for every kind of canvas. */
+#ifndef JOX_PICTURE_DRAW_H
+#define JOX_PICTURE_DRAW_H
+
+#include "body/body.h"
+#include "geom/place.h"
+#include "picture/canvas.h"
+#include "record/density.h"
+#include "record/frame.h"
+
+/* What colours tell of people, or of the floor. */
+typedef enum JoxShow {
+    JOX_SHOW_NOTHING, /* people as rings, the floor bare */
+    JOX_SHOW_STATE,
+    JOX_SHOW_GROUP,
+    JOX_SHOW_SPEED,
+    JOX_SHOW_FORCE,
+    JOX_SHOW_COMPRESSION,
+    JOX_SHOW_DENSITY,
+    JOX_SHOW_PRESSURE, /* of the floor alone */
+    JOX_SHOWS
+} JoxShow;
+/* Name, how legends call it (unit and all), and the value at the bar's upper end unless another is
+   asked for; 0 for classes. */
+extern const struct JoxShown {
+    const char *name, *legend;
+    float most;
+} jox_shown[JOX_SHOWS];
+
+enum { JOX_OUTLINE_POINTS = 32 };
+
+/* A part of a body, convex. */
+typedef struct JoxDrawnBody {
+    const char *name; /* "" without one */
+    JoxV2 ring[JOX_OUTLINE_POINTS];
+    uint32_t count; /* of the ring; 0: a disc */
+    JoxV2 at;
+    float radius;   /* of the disc, m */
+    float low, top; /* heights between which it is, m */
+    bool high;      /* where nobody touches it: above heads, or flat upon the ground */
+} JoxDrawnBody;
+
+/* The outline of a part from above, of a body at a point (of the shape's own frame, m) and turned;
+   false where it is nowhere. */
+bool jox_draw_outline(const JoxBodyLook *look, JoxV3 at, const float turn[4], JoxDrawnBody *out);
+/* Sets `high` of all parts of one body. */
+void jox_draw_reach(JoxDrawnBody *parts, uint32_t count);
+
+/* Where somebody, or a body, went. A point that is not finite parts it. */
+typedef struct JoxTrail {
+    uint32_t key;
+    uint16_t group;
+    bool body;
+    JoxV2 *points;
+    uint32_t count, capacity;
+} JoxTrail;
+
+typedef struct JoxPicture {
+    const char *title;
+    const JoxFrame *frame;
+    const float *face_x, *face_y; /* unit vectors; NULL: along the velocities */
+    const float *density;         /* 1/m2, of each person; NULL: not known */
+    const JoxWalls *walls;        /* all of them, open gates too */
+    const JoxPlace *places;
+    uint32_t place_count;
+    const JoxDrawnBody *bodies;
+    uint32_t body_count;
+    const JoxTrail *trails;
+    uint32_t trail_count, trail_people; /* how many people are followed */
+    const JoxDensity *grid;             /* of the field; NULL: a bare floor */
+    const float *field;
+    JoxShow colour, floor;
+    float colour_most, floor_most; /* at the bars' upper ends */
+    float radius;                  /* m, of everyone, where the frame does not say */
+    JoxV2 low, high;               /* what is shown */
+} JoxPicture;
+
+/* The size in pixels that suits an area, both even. */
+void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height);
+void jox_draw(JoxCanvas *canvas, const JoxPicture *picture);
+
+#endif

@@ -1,0 +1,105 @@
+/* Bodies from above: the outline of each of their parts. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "body/footprint.h"
+#include "picture/draw_parts.h"
+
+enum { RIM = 16, MOST_CORNERS = 256 };
+static const float UPRIGHT =
+    0.9999f; /* cosine of what a cylinder may lean and be drawn as a disc */
+
+static JoxV3 turned(const float q[4], JoxV3 v) {
+    JoxV3 t = {2 * (q[1] * v.z - q[2] * v.y), 2 * (q[2] * v.x - q[0] * v.z),
+               2 * (q[0] * v.y - q[1] * v.x)};
+    return (JoxV3){v.x + q[3] * t.x + q[1] * t.z - q[2] * t.y,
+                   v.y + q[3] * t.y + q[2] * t.x - q[0] * t.z,
+                   v.z + q[3] * t.z + q[0] * t.y - q[1] * t.x};
+}
+
+static JoxV3 plus(JoxV3 a, JoxV3 b) {
+    return (JoxV3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+/* Corners of a part in its own frame; of a cylinder, points of both rims. */
+static uint32_t corners_of(const JoxBodyLook *look, JoxV3 out[MOST_CORNERS]) {
+    const float *s = look->size;
+    uint32_t count = 0;
+    if (look->kind == JOX_SHAPE_BOX)
+        for (int c = 0; c < 8; c++)
+            out[count++] = (JoxV3){c & 1 ? s[0] / 2 : -s[0] / 2, c & 2 ? s[1] / 2 : -s[1] / 2,
+                                   c & 4 ? s[2] / 2 : -s[2] / 2};
+    else if (look->kind == JOX_SHAPE_CYLINDER)
+        for (int c = 0; c < 2 * RIM; c++) {
+            float angle = 2 * 3.14159265f * (float)(c / 2) / RIM;
+            out[count++] =
+                (JoxV3){s[0] * cosf(angle), s[0] * sinf(angle), c & 1 ? s[1] / 2 : -s[1] / 2};
+        }
+    else
+        for (; count < look->corner_count && count < MOST_CORNERS; count++)
+            out[count] = look->corners[count];
+    return count;
+}
+
+static int by_x(const void *a, const void *b) {
+    const JoxV2 *p = a, *q = b;
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    return (p->y > q->y) - (p->y < q->y);
+}
+
+/* Convex hull, counter-clockwise (A. M. Andrew, 1979), of points that are sorted here. */
+static uint32_t hull(JoxV2 *points, uint32_t count, JoxV2 out[2 * MOST_CORNERS]) {
+    uint32_t n = 0;
+    qsort(points, count, sizeof *points, by_x);
+    for (int side = 0; side < 2; side++) {
+        uint32_t least = n + 1;
+        for (uint32_t i = 0; i < count; i++) {
+            JoxV2 p = points[side ? count - 1 - i : i];
+            while (n > least &&
+                   jox_det(jox_sub(out[n - 1], out[n - 2]), jox_sub(p, out[n - 2])) <= 0.0f)
+                n--;
+            out[n++] = p;
+        }
+        n--; /* the last is the other side's first */
+    }
+    return n;
+}
+
+bool jox_draw_outline(const JoxBodyLook *look, JoxV3 at, const float turn[4], JoxDrawnBody *out) {
+    JoxV3 middle = plus(at, turned(turn, look->at)), corners[MOST_CORNERS];
+    JoxV2 points[MOST_CORNERS], ring[2 * MOST_CORNERS];
+    JoxV3 axis = turned(turn, turned(look->turn, (JoxV3){0, 0, 1}));
+    *out = (JoxDrawnBody){.name = "", .at = {middle.x, middle.y}, .radius = look->size[0]};
+    bool upright = look->kind == JOX_SHAPE_CYLINDER && fabsf(axis.z) >= UPRIGHT;
+    if (look->kind == JOX_SHAPE_SPHERE || upright) {
+        float half = upright ? look->size[1] / 2 : look->size[0];
+        out->low = middle.z - half;
+        out->top = middle.z + half;
+        return isfinite(middle.x) && isfinite(middle.y);
+    }
+    uint32_t count = corners_of(look, corners);
+    for (uint32_t c = 0; c < count; c++) {
+        JoxV3 p = plus(at, turned(turn, plus(look->at, turned(look->turn, corners[c]))));
+        if (!(isfinite(p.x) && isfinite(p.y)))
+            return false;
+        points[c] = jox_v2(p.x, p.y);
+        out->low = c ? jox_minf(out->low, p.z) : p.z;
+        out->top = c ? jox_maxf(out->top, p.z) : p.z;
+    }
+    if (count < 3)
+        return false;
+    count = hull(points, count, ring);
+    uint32_t every = (count + JOX_OUTLINE_POINTS - 1) / JOX_OUTLINE_POINTS;
+    for (uint32_t c = 0; c < count; c += every)
+        out->ring[out->count++] = ring[c];
+    return true;
+}
+
+void jox_draw_reach(JoxDrawnBody *parts, uint32_t count) {
+    bool touched = false;
+    for (uint32_t p = 0; p < count; p++)
+        touched |= parts[p].top > JOX_BAND_LOW && parts[p].low < JOX_BAND_HIGH;
+    for (uint32_t p = 0; p < count; p++)
+        parts[p].high = !touched;
+}

@@ -1,0 +1,254 @@
+/* The legend, to the right of the map, from top to bottom. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "picture/draw_parts.h"
+
+static const float ROW = 19, TEXT = 13, BAR = 160;
+enum { MOST_SHOWN = 10 }; /* classes: of more, only those that somebody is in */
+
+typedef struct Legend {
+    JoxDrawing *d;
+    float x, y, right, end; /* px; y: of the next row's upper edge */
+} Legend;
+
+/* A number of people as 35,000. */
+static void people(char out[32], uint32_t count) {
+    if (count >= 1000000)
+        snprintf(out, 32, "%u,%03u,%03u", count / 1000000, count / 1000 % 1000, count % 1000);
+    else if (count >= 1000)
+        snprintf(out, 32, "%u,%03u", count / 1000, count % 1000);
+    else
+        snprintf(out, 32, "%u", count);
+}
+
+static void write(const Legend *l, float x, JoxAnchor anchor, bool bold, const char *text) {
+    float u = l->d->unit;
+    jox_canvas_text(l->d->canvas, jox_v2(x, l->y + 13 * u), TEXT * u, anchor, bold, text);
+}
+
+static void heading(Legend *l, const char *text) {
+    l->y += 8 * l->d->unit;
+    char fit[128];
+    jox_draw_fit(fit, sizeof fit, text, TEXT * l->d->unit, true, l->right - l->x);
+    write(l, l->x, JOX_ANCHOR_START, true, fit);
+    l->y += ROW * l->d->unit;
+}
+
+/* A row with a sign on the left and, where `count` is not "", a number on the right. */
+static void row(Legend *l, const char *text, const char *count) {
+    char fit[128];
+    float u = l->d->unit, wide = l->right - l->x - 26 * u;
+    wide -= *count ? jox_draw_width(count, TEXT * u, false) + 6 * u : 0;
+    jox_draw_fit(fit, sizeof fit, text, TEXT * u, false, wide);
+    write(l, l->x + 26 * u, JOX_ANCHOR_START, false, fit);
+    if (*count)
+        write(l, l->right, JOX_ANCHOR_END, false, count);
+    l->y += ROW * u;
+}
+
+static JoxV2 sign(const Legend *l) {
+    return jox_v2(l->x + 9 * l->d->unit, l->y + 8.5f * l->d->unit);
+}
+
+static void disc_sign(const Legend *l, JoxStyle style) {
+    style.width = style.line.a > 0.0f ? l->d->unit : 0.0f;
+    jox_canvas_open(l->d->canvas, NULL, "sign", style);
+    jox_canvas_disc(l->d->canvas, sign(l), 6 * l->d->unit, NULL);
+    jox_canvas_close(l->d->canvas);
+}
+
+static void line_sign(const Legend *l, JoxStyle style) {
+    JoxV2 at = sign(l), ends[2] = {{at.x - 9 * l->d->unit, at.y}, {at.x + 9 * l->d->unit, at.y}};
+    jox_canvas_open(l->d->canvas, NULL, "sign", style);
+    jox_canvas_line(l->d->canvas, ends, 2, false, NULL);
+    jox_canvas_close(l->d->canvas);
+}
+
+static void box_sign(const Legend *l, JoxStyle style) {
+    float u = l->d->unit;
+    JoxV2 a = sign(l);
+    JoxV2 box[4] = {{a.x - 8 * u, a.y - 5 * u},
+                    {a.x + 8 * u, a.y - 5 * u},
+                    {a.x + 8 * u, a.y + 5 * u},
+                    {a.x - 8 * u, a.y + 5 * u}};
+    jox_canvas_open(l->d->canvas, NULL, "sign", style);
+    jox_canvas_line(l->d->canvas, box, 4, true, NULL);
+    jox_canvas_close(l->d->canvas);
+}
+
+static void classes(Legend *l) {
+    const JoxDrawing *d = l->d;
+    const JoxPicture *p = d->picture;
+    uint32_t left = 0, hidden = 0, rest = 0;
+    /* Who has no state, or no group that is named, is mentioned only where there is somebody. */
+    bool all = d->classes <= MOST_SHOWN;
+    float room = l->end - l->y - ROW * d->unit;
+    for (uint32_t k = 0; k < d->classes; k++) {
+        const char *name;
+        char count[32];
+        JoxInk ink = jox_draw_class(p, k, &name);
+        bool none = k == (p->colour == JOX_SHOW_STATE ? 0 : p->frame->group_count);
+        if (d->people[k] == 0 && (!all || none))
+            continue;
+        if ((float)(left + 2) * ROW * d->unit > room) {
+            hidden++;
+            rest += d->people[k];
+            continue;
+        }
+        left++;
+        people(count, d->people[k]);
+        disc_sign(l, (JoxStyle){.fill = ink, .line = {0x20, 0x20, 0x20, 0.55f}});
+        row(l, name, count);
+    }
+    if (hidden) {
+        char text[64], count[32];
+        snprintf(text, sizeof text, "and %u more", hidden);
+        people(count, rest);
+        row(l, text, count);
+    }
+}
+
+/* A bar of all colours with its ends and middle. */
+static void bar(Legend *l, float most, bool floor) {
+    const JoxDrawing *d = l->d;
+    float u = d->unit, size = BAR * u / JOX_DRAW_BINS;
+    uint8_t levels[3 * JOX_DRAW_BINS];
+    JoxInk ink[JOX_DRAW_BINS + 1] = {{0, 0, 0, 0}};
+    char text[32];
+    for (int k = 0; k < JOX_DRAW_BINS; k++) {
+        ink[k + 1] = floor ? jox_draw_floor_ink(d->picture, (uint32_t)k)
+                           : jox_palette_value(((float)k + 0.5f) / JOX_DRAW_BINS);
+        levels[k] = levels[JOX_DRAW_BINS + k] = levels[2 * JOX_DRAW_BINS + k] = (uint8_t)(k + 1);
+    }
+    JoxCells cells = {{l->x, l->y}, size, JOX_DRAW_BINS, 3, levels, ink, JOX_DRAW_BINS + 1};
+    jox_canvas_open(d->canvas, NULL, "bar", (JoxStyle){.fill = jox_ink_text});
+    jox_canvas_cells(d->canvas, &cells);
+    l->y += 3 * size + 2 * u;
+    write(l, l->x, JOX_ANCHOR_START, false, "0");
+    snprintf(text, sizeof text, "%.4g", (double)most / 2);
+    write(l, l->x + 0.5f * BAR * u, JOX_ANCHOR_MIDDLE, false, text);
+    snprintf(text, sizeof text, "\xe2\x89\xa5 %.4g", (double)most);
+    write(l, l->x + BAR * u, JOX_ANCHOR_END, false, text);
+    jox_canvas_close(d->canvas);
+    l->y += ROW * u;
+}
+
+/* What lines and boxes mean; only of what is in the picture. */
+static void signs(Legend *l) {
+    const JoxPicture *p = l->d->picture;
+    float u = l->d->unit;
+    bool solid = false, wall = false, closed = false, open = false, above = false, lying = false;
+    for (uint32_t r = 0; p->walls && r < p->walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &p->walls->rings[r];
+        closed |= ring->name && !ring->open;
+        open |= ring->name && ring->open;
+        solid |= !ring->name && ring->solid;
+        wall |= !ring->name && !ring->solid;
+    }
+    for (uint32_t b = 0; b < p->body_count; b++) {
+        above |= p->bodies[b].high;
+        lying |= !p->bodies[b].high;
+    }
+    l->y += 8 * u;
+    if (l->d->headings) {
+        disc_sign(l, (JoxStyle){.line = {0x20, 0x20, 0x20, 0.55f}});
+        JoxV2 at = sign(l), ends[2] = {at, {at.x + 6 * u, at.y}};
+        jox_canvas_open(l->d->canvas, NULL, "sign",
+                        (JoxStyle){.line = {0x10, 0x10, 0x10, 0.85f}, .width = 1.4f * u});
+        jox_canvas_line(l->d->canvas, ends, 2, false, NULL);
+        jox_canvas_close(l->d->canvas);
+        row(l, "where they look", "");
+    }
+    if (wall || solid) {
+        if (solid)
+            box_sign(l, (JoxStyle){jox_ink_solid, jox_ink_wall, 1.5f * u, 0});
+        else
+            line_sign(l, (JoxStyle){.line = jox_ink_wall, .width = 2.5f * u});
+        row(l, "wall", "");
+    }
+    if (closed) {
+        line_sign(l, (JoxStyle){.line = jox_ink_gate, .width = 3 * u});
+        row(l, "gate, closed", "");
+    }
+    if (open) {
+        line_sign(
+            l,
+            (JoxStyle){.line = jox_ink_with(jox_ink_gate, 0.7f), .width = 1.6f * u, .dash = 4 * u});
+        row(l, "gate, open", "");
+    }
+    if (p->place_count) {
+        box_sign(l, (JoxStyle){jox_ink_with(jox_ink_place, 0.08f),
+                               jox_ink_with(jox_ink_place, 0.6f), 0.8f * u, 0});
+        row(l, "place", "");
+    }
+    if (lying) {
+        box_sign(l, (JoxStyle){jox_ink_body, jox_ink_body_line, 1.2f * u, 0});
+        row(l, "body", "");
+    }
+    if (above) {
+        box_sign(l,
+                 (JoxStyle){jox_ink_with(jox_ink_body, 0.6f), jox_ink_body_line, 1.2f * u, 3 * u});
+        row(l, "body out of reach", "");
+    }
+    if (p->trail_count) {
+        char text[64], count[32];
+        people(count, p->trail_people);
+        snprintf(text, sizeof text, "paths of %s", count);
+        line_sign(l, (JoxStyle){.line = jox_ink_path, .width = 1.2f * u});
+        row(l, text, "");
+    }
+}
+
+/* A length of 1, 2 or 5 times a power of ten. */
+static void scale_bar(const Legend *l) {
+    const JoxDrawing *d = l->d;
+    float u = d->unit, most = BAR * u / d->scale, length = powf(10.0f, floorf(log10f(most)));
+    length *= most >= 5 * length ? 5.0f : most >= 2 * length ? 2.0f : 1.0f;
+    float y = (float)d->canvas->height - 24 * u, x = l->x, end = l->x + length * d->scale;
+    JoxV2 bar[4] = {{x, y - 5 * u}, {x, y}, {end, y}, {end, y - 5 * u}};
+    char text[32];
+    jox_canvas_open(d->canvas, "scale", NULL, (JoxStyle){.line = jox_ink_text, .width = 2 * u});
+    jox_canvas_line(d->canvas, bar, 4, false, NULL);
+    jox_canvas_close(d->canvas);
+    snprintf(text, sizeof text, "%g m", (double)length);
+    jox_canvas_text(d->canvas, jox_v2(x, y - 9 * u), TEXT * u, JOX_ANCHOR_START, false, text);
+}
+
+void jox_draw_legend(JoxDrawing *d) {
+    const JoxPicture *p = d->picture;
+    float u = d->unit;
+    Legend l = {.d = d,
+                .x = d->panel,
+                .y = 46 * u,
+                .right = (float)d->canvas->width - 16 * u,
+                .end = (float)d->canvas->height - 180 * u};
+    char count[32], text[64];
+    people(count, p->frame->count);
+    snprintf(text, sizeof text, "%s %s%s", count, p->frame->count == 1 ? "person" : "people",
+             d->outside ? " in all" : "");
+    jox_canvas_open(d->canvas, "legend", NULL, (JoxStyle){.fill = jox_ink_text});
+    write(&l, l.x, JOX_ANCHOR_START, true, text);
+    l.y += ROW * u;
+    if (!p->frame->radius) {
+        snprintf(text, sizeof text, "drawn %.2g m in radius", (double)p->radius);
+        write(&l, l.x, JOX_ANCHOR_START, false, text);
+        l.y += ROW * u;
+    }
+    if (p->colour != JOX_SHOW_NOTHING) {
+        heading(&l, jox_shown[p->colour].legend);
+        if (jox_draw_is_class(p->colour))
+            classes(&l);
+        else
+            bar(&l, p->colour_most, false);
+    }
+    if (p->grid) {
+        heading(&l, p->floor == JOX_SHOW_DENSITY ? "Floor: density, 1/m\xc2\xb2"
+                                                 : "Floor: pressure, 1/s\xc2\xb2");
+        bar(&l, p->floor_most, true);
+    }
+    signs(&l);
+    scale_bar(&l);
+    jox_canvas_close(d->canvas);
+}

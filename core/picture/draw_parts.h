@@ -1,0 +1,51 @@
+/* Shared by draw*.c alone. */
+#ifndef JOX_PICTURE_DRAW_PARTS_H
+#define JOX_PICTURE_DRAW_PARTS_H
+
+#include "picture/draw.h"
+
+enum { JOX_DRAW_BINS = 32, JOX_DRAW_LABELS = 256 };
+
+typedef struct JoxDrawing {
+    JoxCanvas *canvas;
+    const JoxPicture *picture;
+    float unit;       /* px: what is one in a picture of the usual size */
+    float scale;      /* px/m */
+    JoxV2 low, high;  /* px: of the map, upper left and lower right */
+    float panel;      /* px: where the legend begins */
+    uint32_t *people; /* by class, or bin of the value */
+    uint32_t classes;
+    struct {
+        JoxV2 low, high;
+    } labels[JOX_DRAW_LABELS]; /* px: taken by names */
+    uint32_t label_count;
+    bool headings, outside; /* are drawn; some people are not, as they are outside the area */
+} JoxDrawing;
+
+extern const JoxInk jox_ink_text, jox_ink_faint, jox_ink_wall, jox_ink_solid, jox_ink_gate,
+    jox_ink_place, jox_ink_body, jox_ink_body_line, jox_ink_path;
+static inline JoxInk jox_ink_with(JoxInk ink, float a) {
+    ink.a = a;
+    return ink;
+}
+
+static inline JoxV2 jox_draw_at(const JoxDrawing *d, JoxV2 p) {
+    return (JoxV2){d->low.x + (p.x - d->picture->low.x) * d->scale,
+                   d->high.y - (p.y - d->picture->low.y) * d->scale};
+}
+/* The width that writing takes in about any sans-serif type, px. */
+float jox_draw_width(const char *text, float size, bool bold);
+/* Copies text, cut with an ellipsis where it would be wider than so many px. */
+void jox_draw_fit(char *out, size_t capacity, const char *text, float size, bool bold, float wide);
+/* Colour and name of the n-th class. */
+JoxInk jox_draw_class(const JoxPicture *picture, uint32_t n, const char **name);
+bool jox_draw_is_class(JoxShow show);
+/* Colour of the n-th of JOX_DRAW_BINS steps on the floor: greys where people's colours are of a
+   value as well. */
+JoxInk jox_draw_floor_ink(const JoxPicture *picture, uint32_t n);
+
+void jox_draw_field(JoxDrawing *drawing);
+void jox_draw_people(JoxDrawing *drawing);
+void jox_draw_legend(JoxDrawing *drawing);
+
+#endif

@@ -1,0 +1,211 @@
+/* People, and the field on the floor. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "picture/draw_parts.h"
+
+/* px at the usual size: discs below are drawn as large as that; below these, without a heading,
+   without an edge */
+static const float LEAST = 1.2f, HEADED = 3.5f, EDGED = 2.5f;
+
+bool jox_draw_is_class(JoxShow show) {
+    return show == JOX_SHOW_STATE || show == JOX_SHOW_GROUP;
+}
+
+JoxInk jox_draw_floor_ink(const JoxPicture *p, uint32_t n) {
+    float share = ((float)n + 0.5f) / JOX_DRAW_BINS;
+    uint8_t grey = (uint8_t)(235.0f - 195.0f * share);
+    return p->colour == JOX_SHOW_NOTHING || jox_draw_is_class(p->colour)
+               ? jox_palette_value(share)
+               : (JoxInk){grey, grey, grey, 1.0f};
+}
+
+JoxInk jox_draw_class(const JoxPicture *p, uint32_t n, const char **name) {
+    const JoxFrame *frame = p->frame;
+    if (p->colour == JOX_SHOW_GROUP && n >= frame->group_count)
+        *name = ""; /* of a recording that does not name it */
+    else
+        *name = p->colour == JOX_SHOW_STATE ? frame->states[n] : frame->groups[n];
+    if (**name)
+        /* States begin with that of those without a machine, who are grey. */
+        return jox_palette_class(p->colour == JOX_SHOW_STATE ? n - 1 : n);
+    *name = "none";
+    return (JoxInk){0x77, 0x77, 0x77, 1};
+}
+
+/* Share of the bar's length, 0 to 1, at which a person's value is. */
+static float share(const JoxPicture *p, uint32_t i) {
+    const JoxFrame *frame = p->frame;
+    float value = 0.0f;
+    switch (p->colour) {
+    case JOX_SHOW_SPEED:
+        value = jox_length(jox_v2(frame->vx[i], frame->vy[i]));
+        break;
+    case JOX_SHOW_FORCE:
+        value = frame->force[i];
+        break;
+    case JOX_SHOW_COMPRESSION:
+        value = frame->compression[i];
+        break;
+    case JOX_SHOW_DENSITY:
+        value = p->density[i];
+        break;
+    default:
+        break;
+    }
+    return jox_clampf(value / p->colour_most, 0.0f, 1.0f);
+}
+
+static uint32_t class_of(const JoxPicture *p, uint32_t i) {
+    if (p->colour == JOX_SHOW_NOTHING)
+        return 0;
+    if (p->colour == JOX_SHOW_STATE)
+        return p->frame->state[i];
+    if (p->colour == JOX_SHOW_GROUP)
+        return p->frame->group[i] < p->frame->group_count ? p->frame->group[i]
+                                                          : p->frame->group_count;
+    uint32_t bin = (uint32_t)(share(p, i) * JOX_DRAW_BINS);
+    return bin < JOX_DRAW_BINS ? bin : JOX_DRAW_BINS - 1;
+}
+
+static uint32_t class_count(const JoxPicture *p) {
+    return p->colour == JOX_SHOW_NOTHING ? 1
+           : p->colour == JOX_SHOW_STATE ? p->frame->state_count
+           : p->colour == JOX_SHOW_GROUP ? p->frame->group_count + 1
+                                         : JOX_DRAW_BINS;
+}
+
+static float radius_of(const JoxDrawing *d, uint32_t i) {
+    const JoxPicture *p = d->picture;
+    float radius = p->frame->radius ? p->frame->radius[i] : p->radius;
+    return jox_maxf(radius * d->scale, LEAST * d->unit);
+}
+
+/* Their indices by class; d->people counts them. */
+static uint32_t *sort(JoxDrawing *d) {
+    const JoxPicture *p = d->picture;
+    uint32_t count = p->frame->count;
+    d->classes = class_count(p);
+    d->people = jox_alloc(d->classes + 1, sizeof *d->people);
+    uint32_t *order = jox_alloc(count + 1, sizeof *order);
+    uint32_t *next = jox_alloc(d->classes + 1, sizeof *next);
+    for (uint32_t i = 0; i < count; i++)
+        d->people[class_of(p, i)]++;
+    for (uint32_t k = 1; k < d->classes; k++)
+        next[k] = next[k - 1] + d->people[k - 1];
+    for (uint32_t i = 0; i < count; i++)
+        order[next[class_of(p, i)]++] = i;
+    jox_free(next);
+    return order;
+}
+
+/* The style of a class, and what SVG calls it. */
+static JoxStyle style_of(const JoxDrawing *d, uint32_t k, float radius, char kind[96]) {
+    const JoxPicture *p = d->picture;
+    const char *name;
+    JoxStyle style = {.width = 0.7f * d->unit};
+    if (radius >= EDGED * d->unit)
+        style.line = (JoxInk){0x20, 0x20, 0x20, 0.55f};
+    if (p->colour == JOX_SHOW_NOTHING) {
+        bool small = radius < HEADED * d->unit; /* and many: the floor is to be seen */
+        style.line = (JoxInk){0x10, 0x10, 0x10, small ? 0.5f : 0.85f};
+        style.width = small ? 0.4f * d->unit : 0.8f * d->unit;
+        snprintf(kind, 96, "person");
+    } else if (jox_draw_is_class(p->colour)) {
+        style.fill = jox_draw_class(p, k, &name);
+        snprintf(kind, 96, "%s-%.80s", jox_shown[p->colour].name, name);
+        for (char *c = kind; (c = strchr(c, ' ')) != NULL;) /* else it were two classes */
+            *c = '-';
+    } else {
+        style.fill = jox_palette_value(((float)k + 0.5f) / JOX_DRAW_BINS);
+        snprintf(kind, 96, "%s-%u", jox_shown[p->colour].name, k);
+    }
+    return style;
+}
+
+/* Whether any of a disc is on the map. */
+static bool shown(const JoxDrawing *d, JoxV2 at, float radius) {
+    return at.x + radius > d->low.x && at.x - radius < d->high.x && at.y + radius > d->low.y &&
+           at.y - radius < d->high.y;
+}
+
+/* A mark from the centre to the rim, where somebody looks. */
+static void draw_headings(JoxDrawing *d) {
+    const JoxPicture *p = d->picture;
+    const JoxFrame *frame = p->frame;
+    JoxV2 *ends = jox_alloc(2 * (size_t)frame->count + 1, sizeof *ends);
+    uint32_t count = 0;
+    float widest = 0.0f;
+    for (uint32_t i = 0; i < frame->count; i++) {
+        float radius = radius_of(d, i);
+        JoxV2 along = p->face_x ? jox_v2(p->face_x[i], p->face_y[i])
+                                : jox_unit(jox_v2(frame->vx[i], frame->vy[i]));
+        JoxV2 at = jox_draw_at(d, jox_v2(frame->x[i], frame->y[i]));
+        if (radius < HEADED * d->unit || !(jox_length2(along) > 0.0f) || !shown(d, at, radius))
+            continue;
+        ends[count++] = at;
+        ends[count++] = jox_add(at, jox_v2(along.x * radius, -along.y * radius));
+        widest = jox_maxf(widest, radius);
+    }
+    d->headings = count > 0;
+    JoxStyle style = {.line = {0x10, 0x10, 0x10, 0.85f},
+                      .width = jox_clampf(0.22f * widest, 0.8f * d->unit, 3 * d->unit)};
+    jox_canvas_open(d->canvas, "headings", NULL, style);
+    jox_canvas_dashes(d->canvas, ends, count);
+    jox_canvas_close(d->canvas);
+    jox_free(ends);
+}
+
+void jox_draw_people(JoxDrawing *d) {
+    const JoxFrame *frame = d->picture->frame;
+    uint32_t *order = sort(d), at = 0;
+    jox_canvas_open(d->canvas, "people", NULL, (JoxStyle){0});
+    for (uint32_t k = 0; k < d->classes; k++) {
+        char kind[96];
+        if (d->people[k] == 0)
+            continue;
+        jox_canvas_open(d->canvas, NULL, kind, style_of(d, k, radius_of(d, order[at]), kind));
+        for (uint32_t n = 0; n < d->people[k]; n++) {
+            uint32_t i = order[at++];
+            char id[16];
+            JoxV2 here = jox_draw_at(d, jox_v2(frame->x[i], frame->y[i]));
+            snprintf(id, sizeof id, "p%u", frame->key[i]);
+            if (shown(d, here, radius_of(d, i)))
+                jox_canvas_disc(d->canvas, here, radius_of(d, i), id);
+            else
+                d->outside = true;
+        }
+        jox_canvas_close(d->canvas);
+    }
+    jox_canvas_close(d->canvas);
+    draw_headings(d);
+    jox_free(order);
+}
+
+void jox_draw_field(JoxDrawing *d) {
+    const JoxPicture *p = d->picture;
+    const JoxDensity *grid = p->grid;
+    if (!grid)
+        return;
+    uint8_t *levels = jox_alloc((size_t)grid->columns * grid->rows, 1);
+    JoxInk ink[JOX_DRAW_BINS + 1] = {{0, 0, 0, 0}};
+    for (int k = 0; k < JOX_DRAW_BINS; k++)
+        ink[k + 1] = jox_draw_floor_ink(p, (uint32_t)k);
+    for (uint32_t r = 0; r < grid->rows; r++)
+        for (uint32_t c = 0; c < grid->columns; c++) {
+            float value = p->field[(size_t)(grid->rows - 1 - r) * grid->columns + c];
+            float part = jox_clampf(value / p->floor_most, 0.0f, 1.0f) * JOX_DRAW_BINS;
+            uint32_t bin = (uint32_t)jox_minf(part, JOX_DRAW_BINS - 1);
+            levels[(size_t)r * grid->columns + c] = part < 0.5f ? 0 : (uint8_t)(bin + 1);
+        }
+    JoxV2 top = {grid->low.x, grid->low.y + (float)grid->rows * grid->cell};
+    jox_canvas_open(d->canvas, "field", jox_shown[p->floor].name, (JoxStyle){0});
+    JoxCells cells = {
+        jox_draw_at(d, top), grid->cell * d->scale, grid->columns, grid->rows, levels, ink,
+        JOX_DRAW_BINS + 1};
+    jox_canvas_cells(d->canvas, &cells);
+    jox_canvas_close(d->canvas);
+    jox_free(levels);
+}

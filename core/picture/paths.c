@@ -1,0 +1,120 @@
+#include "picture/paths.h"
+
+#include <stdio.h>
+
+#include "base/mem.h"
+#include "base/quote.h"
+#include "picture/palette.h"
+#include "picture/plot.h"
+
+JoxPaths *jox_paths_create(void) {
+    return jox_alloc(1, sizeof(JoxPaths));
+}
+
+void jox_paths_add(JoxPaths *paths, uint32_t id, bool body, uint32_t series, float t, float x,
+                   float y) {
+    JoxWalkedPath *path = NULL;
+    for (uint32_t p = 0; p < paths->count && !path; p++)
+        if (paths->items[p].id == id && paths->items[p].body == body)
+            path = &paths->items[p];
+    if (!path) {
+        if (paths->count == JOX_MOST_PATHS)
+            return;
+        JOX_RESERVE(paths->items, paths->capacity, paths->count + 1);
+        path = &paths->items[paths->count++];
+        *path = (JoxWalkedPath){.id = id, .body = body, .series = series};
+    }
+    JOX_RESERVE(path->points, path->capacity, path->count + 1);
+    path->points[path->count++] = (JoxPathPoint){t, x, y};
+}
+
+void jox_paths_free(JoxPaths *paths) {
+    for (uint32_t p = 0; paths && p < paths->count; p++)
+        jox_free(paths->items[p].points);
+    if (paths)
+        jox_free(paths->items);
+    jox_free(paths);
+}
+
+/* Points of all paths of one series: lines apart by an empty one, then first and last points. */
+static void write_series(FILE *data, const JoxPaths *paths, uint32_t series, bool body, int what) {
+    for (uint32_t p = 0; p < paths->count; p++) {
+        const JoxWalkedPath *path = &paths->items[p];
+        if (path->body != body || path->series != series || path->count == 0)
+            continue;
+        uint32_t first = what == 2 ? path->count - 1 : 0, last = what == 1 ? 1 : path->count;
+        for (uint32_t i = first; i < last; i++)
+            fprintf(data, "%u,%.2f,%.3f,%.3f\n", path->id, path->points[i].t, path->points[i].x,
+                    path->points[i].y);
+        if (what == 0)
+            fputs("\n", data);
+    }
+    fputs("\n\n", data); /* the next set of data */
+}
+
+static bool has_series(const JoxPaths *paths, uint32_t series, bool body) {
+    for (uint32_t p = 0; p < paths->count; p++)
+        if (paths->items[p].body == body && paths->items[p].series == series &&
+            paths->items[p].count)
+            return true;
+    return false;
+}
+
+/* What draws a series: its lines, first points and last points. */
+static void add_series(JoxText *plot, uint32_t set, const char *colour, const char *width,
+                       const char *name) {
+    jox_text_printf(plot, "%s'paths.csv' index %u using 3:4 with lines lw %s lc '%s' title ",
+                    plot->length ? ", \\\n  " : "", set, width, colour);
+    jox_quote_gnuplot(plot, name);
+    jox_text_printf(plot,
+                    ", '' index %u using 3:4 with points pt 7 ps 0.7 lc '%s' notitle, "
+                    "'' index %u using 3:4 with points pt 6 ps 1.6 lw 2 lc '%s' notitle",
+                    set + 1, colour, set + 2, colour);
+}
+
+/* Groups have the colours that they have in pictures and on the live page. */
+static void write_all(FILE *data, JoxText *plot, const JoxPaths *paths, const char *const *names,
+                      uint32_t name_count) {
+    uint32_t set = 0;
+    fputs("# id,t_s,x_m,y_m\n", data);
+    for (uint32_t s = 0; s <= name_count; s++) { /* the last one: bodies */
+        bool body = s == name_count;
+        JoxInk ink = jox_palette_class(s);
+        char colour[8];
+        if (!has_series(paths, body ? 0 : s, body))
+            continue;
+        for (int what = 0; what < 3; what++)
+            write_series(data, paths, body ? 0 : s, body, what);
+        snprintf(colour, sizeof colour, "#%02x%02x%02x", ink.r, ink.g, ink.b);
+        add_series(plot, set, body ? "#606060" : colour, body ? "1.2 dt 2" : "1.6",
+                   body ? "bodies" : names[s]);
+        set += 3;
+    }
+}
+
+bool jox_plot_paths(const char *folder, const JoxPaths *paths, const char *const *names,
+                    uint32_t name_count, const JoxWalls *walls, JoxV2 low, JoxV2 high,
+                    const char *title, JoxText *error) {
+    FILE *data = jox_plot_open(folder, "paths.csv", error), *script;
+    JoxText plot = {0};
+    if (!data)
+        return false;
+    write_all(data, &plot, paths, names, name_count);
+    bool written = jox_plot_close(data, "paths.csv", error) && jox_plot_walls(folder, walls, error);
+    script = written ? jox_plot_open(folder, "paths.plt", error) : NULL;
+    if (script) {
+        float tall = jox_clampf((high.y - low.y) / (high.x - low.x), 0.3f, 1.6f);
+        jox_plot_begin(script, "paths", false, 1100, (int)(1000.0f * tall) + 140);
+        jox_plot_title(script, title);
+        fprintf(
+            script,
+            "set datafile separator comma\nset size ratio -1\nset xlabel 'x (m)'\n"
+            "set ylabel 'y (m)'\nset xrange [%g:%g]\nset yrange [%g:%g]\nset key below noenhanced\n"
+            "plot %s",
+            low.x, high.x, low.y, high.y, plot.length ? plot.data : "NaN notitle");
+        jox_plot_wall_lines(script, walls, "2");
+    }
+    jox_text_free(&plot);
+    return script && jox_plot_close(script, "paths.plt", error) &&
+           jox_plot_draw(folder, "paths.plt", error);
+}

@@ -1,0 +1,176 @@
+/* Displacement: how far each person is from where first seen (the mean place of the first `rest`
+   seconds), at the end (residual) and at most, and when it began; in all directions, or along one.
+   Where a push travels through people who stand, the distances at which they stood from the one who
+   moved first, fitted over the times at which they began to move, give the speed of its front
+   (least squares, time over distance). */
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "record/probes/probe_parts.h"
+
+typedef struct Person {
+    bool known;
+    float x, y;           /* m: where first seen */
+    float dx, dy;         /* m: since, the way over periodic edges taken as it was */
+    float base_x, base_y; /* m: mean of these while at rest */
+    uint32_t rested;      /* frames */
+    float now, most;      /* m: distance from there */
+    double since, onset;  /* s: when first seen; when `onset` metres were passed, or NAN */
+} Person;
+
+typedef struct Displacement {
+    JoxTrack track;
+    Person *people; /* by key */
+    uint32_t capacity;
+} Displacement;
+
+/* m from the place of rest: along the given direction, else in any. */
+static float distance(const JoxProbeDef *def, const Person *p) {
+    JoxV2 away = {p->dx - p->base_x, p->dy - p->base_y};
+    return def->count ? fabsf(jox_dot(away, jox_unit(def->points[0]))) : jox_length(away);
+}
+
+static void move(const JoxProbeDef *def, Person *p, const JoxStretch *stretch) {
+    p->dx += stretch->by.x;
+    p->dy += stretch->by.y;
+    if (stretch->ended - p->since < def->rest - 1e-9) {
+        p->base_x += (p->dx - p->base_x) / (float)(p->rested + 1);
+        p->base_y += (p->dy - p->base_y) / (float)(p->rested + 1);
+        p->rested++;
+        return;
+    }
+    float before = p->now;
+    p->now = distance(def, p);
+    p->most = jox_maxf(p->most, p->now);
+    if (isnan(p->onset) && p->now > def->onset) {
+        double share = p->now > before ? (def->onset - before) / (p->now - before) : 1.0;
+        p->onset = stretch->begun + share * (stretch->ended - stretch->begun);
+    }
+}
+
+static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+    Displacement *d = state;
+    jox_track_reserve(&d->track, frame->keys);
+    JOX_RESERVE_ZEROED(d->people, d->capacity, frame->keys);
+    for (uint32_t i = 0; i < frame->count; i++) {
+        if (!seen[i])
+            continue;
+        Person *p = &d->people[frame->key[i]];
+        JoxStretch stretch;
+        if (!jox_track_step(&d->track, frame, i, &stretch))
+            *p = (Person){.known = true,
+                          .x = frame->x[i],
+                          .y = frame->y[i],
+                          .rested = 1,
+                          .since = frame->time,
+                          .onset = NAN};
+        else
+            move(def, p, &stretch);
+    }
+}
+
+/* m/s; NAN where fewer than three moved, or where time does not grow with distance. */
+static double front_speed(const JoxProbeDef *def, const Displacement *d) {
+    const Person *first = NULL;
+    double n = 0, s = 0, t = 0, ss = 0, st = 0;
+    for (uint32_t k = 0; k < d->capacity; k++)
+        if (d->people[k].known && isfinite(d->people[k].onset) &&
+            (!first || d->people[k].onset < first->onset))
+            first = &d->people[k];
+    for (uint32_t k = 0; first && k < d->capacity; k++) {
+        const Person *p = &d->people[k];
+        if (!p->known || !isfinite(p->onset))
+            continue;
+        JoxV2 apart = {p->x + p->base_x - first->x - first->base_x,
+                       p->y + p->base_y - first->y - first->base_y};
+        double away =
+            def->count ? fabsf(jox_dot(apart, jox_unit(def->points[0]))) : jox_length(apart);
+        double after = p->onset - first->onset;
+        n++, s += away, t += after, ss += away * away, st += away * after;
+    }
+    double spread = n * ss - s * s, slope = spread > 0.0 ? (n * st - s * t) / spread : 0.0;
+    return n >= 3 && slope > 0.0 ? 1.0 / slope : NAN;
+}
+
+static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+    const Displacement *d = state;
+    double *ends = jox_alloc(d->capacity + 1, sizeof *ends), sum = 0.0, peaks = 0.0, peak = NAN;
+    uint32_t count = 0, moved = 0;
+    for (uint32_t k = 0; k < d->capacity; k++) {
+        const Person *p = &d->people[k];
+        if (!p->known)
+            continue;
+        sum += ends[count++] = p->now;
+        peaks += p->most;
+        peak = isnan(peak) || p->most > peak ? p->most : peak;
+        moved += isfinite(p->onset) != 0;
+    }
+    jox_figure_add(out, "people", "", count);
+    jox_figure_add(out, "moved", "", moved);
+    jox_figure_add(out, "mean", "m", count ? sum / count : NAN);
+    jox_figure_add(out, "median", "m", jox_quantile(ends, count, 0.5));
+    jox_figure_add(out, "greatest", "m", jox_quantile(ends, count, 1.0));
+    jox_figure_add(out, "peak_mean", "m", count ? peaks / count : NAN);
+    jox_figure_add(out, "peak", "m", peak);
+    jox_figure_add(out, "front_speed", "m/s", front_speed(def, d));
+    jox_free(ends);
+}
+
+static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+    (void)def;
+    const Displacement *d = state;
+    fputs("person,x [m],y [m],dx [m],dy [m],residual [m],peak [m],onset [s]\n", out);
+    for (uint32_t k = 0; k < d->capacity; k++) {
+        const Person *p = &d->people[k];
+        if (!p->known)
+            continue;
+        fprintf(out, "%u,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,", k, p->x + p->base_x, p->y + p->base_y,
+                p->dx - p->base_x, p->dy - p->base_y, p->now, p->most);
+        fprintf(out, isfinite(p->onset) ? "%.4f\n" : "nan\n", p->onset);
+    }
+}
+
+static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+    (void)def;
+    const Displacement *d = state;
+    JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+    for (uint32_t k = 0; k < d->capacity; k++) {
+        const Person *p = &d->people[k];
+        if (!p->known)
+            continue;
+        low = jox_v2(jox_minf(low.x, jox_minf(p->x, p->x + p->dx)),
+                     jox_minf(low.y, jox_minf(p->y, p->y + p->dy)));
+        high = jox_v2(jox_maxf(high.x, jox_maxf(p->x, p->x + p->dx)),
+                      jox_maxf(high.y, jox_maxf(p->y, p->y + p->dy)));
+    }
+    if (low.x > high.x) {
+        jox_plot_nothing(out, "nobody was seen");
+        return;
+    }
+    /* A range of colours is given: gnuplot would warn where nobody moved. */
+    double most = 0.0;
+    for (uint32_t k = 0; k < d->capacity; k++)
+        most = d->people[k].known ? fmax(most, d->people[k].now) : most;
+    float margin = 0.3f + 0.03f * jox_maxf(high.x - low.x, high.y - low.y);
+    jox_text_printf(out,
+                    "set size ratio -1\nset xlabel 'x (m)'\nset ylabel 'y (m)'\nunset key\n"
+                    "set cblabel 'distance from where first seen (m)'\nset cbrange [0:%g]\n"
+                    "set palette defined (0 '#3b528b', 0.5 '#21918c', 1 '#fde725')\n"
+                    "set xrange [%g:%g]\nset yrange [%g:%g]\nplot ",
+                    most > 0.0 ? most : 1.0, low.x - margin, high.x + margin, low.y - margin,
+                    high.y + margin);
+    if (walls)
+        jox_text_add(out, "'walls.dat' using 1:2 with lines lw 2 lc 'black', ");
+    jox_text_printf(out,
+                    "csv skip 1 using 2:3 with points pt 6 ps 0.8 lc '#888888', "
+                    "'' skip 1 using 2:3:4:5:6 with vectors head filled size graph 0.012,20 lw 1.5 "
+                    "lc palette\n");
+}
+
+const JoxProbeCalls jox_probe_displacement = {
+    JOX_PROBE_KIND(Displacement, 1000, 900),
+    .frame = frame,
+    .pace = JOX_PACE_ALL, /* a front passes people in less than a tenth of a second */
+    .owned = {JOX_OWNED(Displacement, track.items), JOX_OWNED(Displacement, people)},
+};

@@ -1,0 +1,183 @@
+/* Flow through a line: N(t), and the mean flow of the middle 60 % of the passages, which leaves out
+   how a crowd arrives at and runs out of a door. Who steps back over the line takes the latest
+   passage back: it never was one. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/mem.h"
+#include "record/probes/probe_parts.h"
+
+static const double TAIL = 0.2; /* share of the passages left out at either end */
+
+typedef struct Crossing {
+    double time; /* s */
+    uint32_t key;
+    int direction;
+    bool stands;       /* forward, and not taken back */
+    uint32_t previous; /* the same person's standing passage before this one, plus 1 */
+} Crossing;
+
+typedef struct Flow {
+    JoxTrack track;
+    uint32_t *latest; /* by key: the latest standing passage, plus 1 */
+    uint32_t latest_capacity;
+    Crossing *crossings;
+    uint32_t count, capacity, forward, back, standing;
+} Flow;
+
+static void add(Flow *f, uint32_t key, int direction, double time) {
+    JOX_RESERVE(f->crossings, f->capacity, f->count + 1);
+    Crossing *c = &f->crossings[f->count++];
+    *c = (Crossing){time, key, direction, direction > 0, 0};
+    uint32_t *latest = &f->latest[key];
+    if (direction > 0) {
+        f->forward++;
+        f->standing++;
+        c->previous = *latest;
+        *latest = f->count;
+        return;
+    }
+    f->back++;
+    if (*latest) {
+        f->crossings[*latest - 1].stands = false;
+        f->standing--;
+        *latest = f->crossings[*latest - 1].previous;
+    }
+}
+
+static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+    Flow *f = state;
+    JoxStretch stretch;
+    double time;
+    uint32_t had = f->latest_capacity;
+    jox_track_reserve(&f->track, frame->keys);
+    JOX_RESERVE(f->latest, f->latest_capacity, frame->keys);
+    for (uint32_t k = had; k < f->latest_capacity; k++)
+        f->latest[k] = 0;
+    for (uint32_t i = 0; i < frame->count; i++) {
+        if (!seen[i] || !jox_track_step(&f->track, frame, i, &stretch))
+            continue;
+        int direction = jox_stretch_crosses(&stretch, def->points[0], def->points[1], &time);
+        if (direction)
+            add(f, frame->key[i], direction, time);
+    }
+}
+
+uint32_t jox_flow_passages(const void *state) {
+    return ((const Flow *)state)->standing;
+}
+
+/* Times of the passages that stand, ascending; to be freed. */
+static double *passages(const Flow *f, size_t *count) {
+    double *times = jox_alloc(f->count + 1, sizeof *times);
+    *count = 0;
+    for (uint32_t c = 0; c < f->count; c++)
+        if (f->crossings[c].stands)
+            times[(*count)++] = f->crossings[c].time;
+    jox_quantile(times, *count, 0.0); /* sorts */
+    return times;
+}
+
+/* First and last of the middle 60 %; false of fewer than two. */
+static bool middle(size_t count, size_t *first, size_t *last) {
+    *first = (size_t)floor(TAIL * (double)count);
+    *last = (size_t)ceil((1.0 - TAIL) * (double)count);
+    *last = *last ? *last - 1 : 0;
+    return count >= 2 && *last > *first;
+}
+
+static double rate(const double *times, size_t first, size_t last) {
+    double spent = times[last] - times[first];
+    return spent > 0.0 ? (double)(last - first) / spent : NAN;
+}
+
+static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+    const Flow *f = state;
+    size_t count, first, last;
+    double *times = passages(f, &count), *lapses = jox_alloc(count + 1, sizeof *lapses);
+    double flow = middle(count, &first, &last) ? rate(times, first, last) : NAN;
+    double width = jox_length(jox_sub(def->points[1], def->points[0]));
+    for (size_t i = 1; i < count; i++)
+        lapses[i - 1] = times[i] - times[i - 1];
+    size_t gaps = count ? count - 1 : 0;
+    jox_figure_add(out, "passages", "", (double)count);
+    jox_figure_add(out, "forward", "", f->forward);
+    jox_figure_add(out, "back", "", f->back);
+    jox_figure_add(out, "flow", "1/s", flow);
+    jox_figure_add(out, "flow_all", "1/s", count >= 2 ? rate(times, 0, count - 1) : NAN);
+    jox_figure_add(out, "specific_flow", "1/(m s)", flow / width);
+    jox_figure_add(out, "lapse_median", "s", jox_quantile(lapses, gaps, 0.5));
+    jox_figure_add(out, "lapse_max", "s", jox_quantile(lapses, gaps, 1.0));
+    jox_figure_add(out, "first", "s", count ? times[0] : NAN);
+    jox_figure_add(out, "last", "s", count ? times[count - 1] : NAN);
+    jox_figure_add(out, "duration", "s", count ? times[count - 1] - times[0] : NAN);
+    jox_free(times);
+    jox_free(lapses);
+}
+
+static int by_time(const void *a, const void *b) {
+    const Crossing *x = a, *y = b;
+    if (x->time != y->time)
+        return x->time < y->time ? -1 : 1;
+    return (x->key > y->key) - (x->key < y->key);
+}
+
+static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+    (void)def;
+    const Flow *f = state;
+    Crossing *sorted = jox_alloc(f->count + 1, sizeof *sorted);
+    for (uint32_t c = 0; c < f->count; c++)
+        sorted[c] = f->crossings[c];
+    qsort(sorted, f->count, sizeof *sorted, by_time);
+    fputs("time [s],person,direction,passages,lapse [s]\n", out);
+    double before = NAN;
+    uint32_t passed = 0;
+    for (uint32_t c = 0; c < f->count; c++) {
+        const Crossing *s = &sorted[c];
+        passed += s->stands;
+        fprintf(out, "%.4f,%u,%d,%u,", s->time, s->key, s->direction, passed);
+        if (s->stands && isfinite(before))
+            fprintf(out, "%.4f\n", s->time - before);
+        else
+            fputs("nan\n", out);
+        before = s->stands ? s->time : before;
+    }
+    jox_free(sorted);
+}
+
+static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+    (void)def;
+    (void)walls;
+    const Flow *f = state;
+    size_t count, first, last;
+    if (f->count == 0) {
+        jox_plot_nothing(out, "nobody crossed the line");
+        return;
+    }
+    double *times = passages(f, &count);
+    double flow = middle(count, &first, &last) ? rate(times, first, last) : NAN;
+    jox_text_printf(out,
+                    "unset title\nset multiplot layout 2,1 title heading font ',14' noenhanced\n"
+                    "set key top left\nset xlabel 'time (s)'\nset xrange [%g:%g]\n"
+                    "set ylabel 'passages'\nset yrange [0:%g]\n"
+                    "plot csv skip 1 using 1:4 with steps lw 2 lc '#1f77b4' title 'N(t)'",
+                    floor(f->crossings[0].time) - 1, f->crossings[f->count - 1].time + 1,
+                    1.1 * (double)count + 1);
+    if (isfinite(flow))
+        jox_text_printf(out,
+                        ", [%g:%g] %zu + %.9g * (x - %.9g) with lines lw 2 dt 2 lc '#d62728' "
+                        "title sprintf('middle 60 %%%%: %%.3g people/s', %.9g)",
+                        times[first], times[last], first + 1, flow, times[first], flow);
+    if (count >= 2)
+        jox_text_printf(out, "\nset ylabel 'lapse since the one before (s)'\nset yrange [0:*]\n"
+                             "plot csv skip 1 using 1:5 with impulses lw 2 lc '#1f77b4' notitle\n");
+    else
+        jox_text_add(out, "\n");
+    jox_free(times);
+}
+
+const JoxProbeCalls jox_probe_flow = {
+    JOX_PROBE_KIND(Flow, 1000, 800),
+    .frame = frame,
+    .owned = {JOX_OWNED(Flow, track.items), JOX_OWNED(Flow, latest), JOX_OWNED(Flow, crossings)},
+};

@@ -1,0 +1,210 @@
+/* People in a polygon, per interval. Of each frame: their number; the classical density, number
+   over area; the Voronoi density, the mean over the area of one over the cell's area (Steffen and
+   Seyfried 2010, equation 5); the mean speed of those inside; and the specific flow, Voronoi
+   density times mean speed. An interval has the mean of its frames, speed and flow of those with
+   anyone inside. Figures are means over the intervals in which anyone was inside. */
+#include <math.h>
+
+#include "base/mem.h"
+#include "geom/polygon.h"
+#include "record/probes/probe_parts.h"
+#include "record/voronoi.h"
+
+typedef struct Interval {
+    int64_t number;
+    double people, classical, voronoi, speed, flow; /* sums over frames */
+    uint32_t frames, walked;                        /* walked: with anyone inside */
+} Interval;
+
+typedef struct Measure {
+    JoxV2 low, high;
+    double area; /* m2 */
+    JoxSites sites;
+    JoxBars bars; /* of walls that may cut a cell */
+    Interval *rows;
+    uint32_t count, capacity;
+} Measure;
+
+static void begin(const JoxProbeDef *def, void *state) {
+    Measure *m = state;
+    jox_bounds(def->points, def->count, &m->low, &m->high);
+    m->area = fabs(jox_polygon_area(def->points, def->count));
+}
+
+static bool is_near(const Measure *m, JoxV2 p, float reach) {
+    return p.x >= m->low.x - reach && p.x <= m->high.x + reach && p.y >= m->low.y - reach &&
+           p.y <= m->high.y + reach;
+}
+
+/* Everyone, and their images over periodic edges, who may shape a cell that reaches the polygon. */
+static void gather(const JoxProbeDef *def, Measure *m, const JoxFrame *frame) {
+    int across = frame->period.x > 0.0f, up = frame->period.y > 0.0f;
+    jox_sites_clear(&m->sites);
+    for (uint32_t i = 0; i < frame->count; i++)
+        for (int c = -across; c <= across; c++)
+            for (int r = -up; r <= up; r++) {
+                JoxV2 p = {frame->x[i] + (float)c * frame->period.x,
+                           frame->y[i] + (float)r * frame->period.y};
+                if (is_near(m, p, 3.0f * (float)def->cutoff))
+                    jox_sites_add(&m->sites, p, i);
+            }
+    jox_sites_sort(&m->sites, def->cutoff);
+}
+
+/* Walls near the polygon. A person sees at most `cutoff` far, and stands at most so far from it. */
+static void gather_walls(const JoxProbeDef *def, Measure *m, const JoxFrame *frame) {
+    float reach = 2.0f * (float)def->cutoff;
+    m->bars.count = 0;
+    for (uint32_t w = 0; frame->walls && w < frame->walls->count; w++) {
+        JoxV2 a = frame->walls->vertices[w].point;
+        JoxV2 b = frame->walls->vertices[frame->walls->vertices[w].next].point;
+        if (jox_maxf(a.x, b.x) < m->low.x - reach || jox_minf(a.x, b.x) > m->high.x + reach ||
+            jox_maxf(a.y, b.y) < m->low.y - reach || jox_minf(a.y, b.y) > m->high.y + reach)
+            continue;
+        JOX_RESERVE(m->bars.items, m->bars.capacity, m->bars.count + 1);
+        m->bars.items[m->bars.count++] = (struct JoxBar){a, b};
+    }
+}
+
+static double voronoi_density(const JoxProbeDef *def, Measure *m, const uint8_t *seen) {
+    double sum = 0.0;
+    for (uint32_t s = 0; s < m->sites.count; s++) {
+        JoxV2 at = m->sites.points[s];
+        JoxCell cell;
+        if (!seen[m->sites.who[s]] || !is_near(m, at, (float)def->cutoff))
+            continue;
+        jox_sites_cell(&m->sites, s, def->cutoff, &cell);
+        double whole, within;
+        jox_cell_seen(&cell, at, &m->bars, def->points, def->count, &whole, &within);
+        if (whole > 0.0)
+            sum += within / whole;
+    }
+    return sum / m->area;
+}
+
+static Interval *interval_at(const JoxProbeDef *def, Measure *m, double t) {
+    /* The step that ends at an interval's edge belongs to the interval before. */
+    int64_t number = (int64_t)ceil((t - def->from) / def->every - 1e-6) - 1;
+    number = number > 0 ? number : 0;
+    if (m->count == 0 || m->rows[m->count - 1].number != number) {
+        JOX_RESERVE(m->rows, m->capacity, m->count + 1);
+        m->rows[m->count++] = (Interval){.number = number};
+    }
+    return &m->rows[m->count - 1];
+}
+
+static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+    Measure *m = state;
+    Interval *row = interval_at(def, m, frame->time);
+    uint32_t people = 0;
+    double speed = 0.0;
+    for (uint32_t i = 0; i < frame->count; i++) {
+        JoxV2 p = {frame->x[i], frame->y[i]};
+        if (!seen[i] || !is_near(m, p, 0.0f) || !jox_polygon_contains(def->points, def->count, p))
+            continue;
+        people++;
+        speed += sqrt((double)frame->vx[i] * frame->vx[i] + (double)frame->vy[i] * frame->vy[i]);
+    }
+    gather(def, m, frame);
+    gather_walls(def, m, frame);
+    double density = voronoi_density(def, m, seen);
+    row->frames++;
+    row->people += people;
+    row->classical += people / m->area;
+    row->voronoi += density;
+    if (people) {
+        row->walked++;
+        row->speed += speed / people;
+        row->flow += density * speed / people;
+    }
+}
+
+/* Mean over an interval of a sum; NAN where nobody was there to walk. */
+static double mean(double sum, uint32_t frames) {
+    return frames ? sum / frames : NAN;
+}
+
+static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+    (void)def;
+    const Measure *m = state;
+    double *densities = jox_alloc(m->count + 1, sizeof *densities);
+    double people = 0, classical = 0, voronoi = 0, speed = 0, flow = 0;
+    uint32_t n = 0;
+    for (uint32_t r = 0; r < m->count; r++) {
+        const Interval *row = &m->rows[r];
+        if (!row->walked)
+            continue;
+        people += row->people / row->frames;
+        classical += row->classical / row->frames;
+        voronoi += densities[n++] = row->voronoi / row->frames;
+        speed += row->speed / row->walked;
+        flow += row->flow / row->walked;
+    }
+    jox_figure_add(out, "intervals", "", n);
+    jox_figure_add(out, "people", "", mean(people, n));
+    jox_figure_add(out, "density_classical", "1/m2", mean(classical, n));
+    jox_figure_add(out, "density", "1/m2", mean(voronoi, n));
+    jox_figure_add(out, "density_median", "1/m2", jox_quantile(densities, n, 0.5));
+    jox_figure_add(out, "density_p90", "1/m2", jox_quantile(densities, n, 0.9));
+    jox_figure_add(out, "density_max", "1/m2", jox_quantile(densities, n, 1.0));
+    jox_figure_add(out, "speed", "m/s", mean(speed, n));
+    jox_figure_add(out, "specific_flow", "1/(m s)", mean(flow, n));
+    jox_free(densities);
+}
+
+static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+    const Measure *m = state;
+    fputs("time [s],people,density_classical [1/m2],density [1/m2],speed [m/s],"
+          "specific_flow [1/(m s)]\n",
+          out);
+    for (uint32_t r = 0; r < m->count; r++) {
+        const Interval *row = &m->rows[r];
+        fprintf(out, "%.4f,%.4f,%.5g,%.5g,", def->from + ((double)row->number + 0.5) * def->every,
+                mean(row->people, row->frames), mean(row->classical, row->frames),
+                mean(row->voronoi, row->frames));
+        if (row->walked)
+            fprintf(out, "%.5g,%.5g\n", mean(row->speed, row->walked),
+                    mean(row->flow, row->walked));
+        else
+            fputs("nan,nan\n", out);
+    }
+}
+
+static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+    (void)def;
+    const Measure *m = state;
+    bool any = false;
+    (void)walls;
+    for (uint32_t r = 0; r < m->count; r++)
+        any |= m->rows[r].walked > 0;
+    if (!any) {
+        jox_plot_nothing(out, "nobody was in the polygon");
+        return;
+    }
+    jox_text_printf(out,
+                    "unset title\nset multiplot layout 2,2 title heading font ',14' "
+                    "noenhanced\nset key top right opaque\nset yrange [0:*]\n"
+                    "set xlabel 'time (s)'\nset ylabel 'density (1/m^2)'\n"
+                    "plot csv skip 1 using 1:4 with lines lw 2 lc '#1f77b4' title 'Voronoi', "
+                    "'' skip 1 using 1:3 with lines lw 1 lc '#999999' title 'classical'\n"
+                    "set ylabel 'mean speed (m/s)'\n"
+                    "plot csv skip 1 using 1:5 with lines lw 2 lc '#d62728' notitle\n"
+                    "set xrange [0:*]\nset xlabel 'Voronoi density (1/m^2)'\n"
+                    "plot csv skip 1 using 4:5 with points pt 7 ps 0.7 lc '#1f77b4' notitle\n"
+                    "set ylabel 'specific flow (1/(m s))'\n"
+                    "plot csv skip 1 using 4:6 with points pt 7 ps 0.7 lc '#1f77b4' notitle\n");
+}
+
+static void release(void *state) {
+    Measure *m = state;
+    jox_sites_free(&m->sites);
+    jox_free(m->bars.items);
+    jox_free(m->rows);
+}
+
+const JoxProbeCalls jox_probe_measure = {
+    JOX_PROBE_KIND(Measure, 1200, 900),
+    .frame = frame,
+    .begin = begin,
+    .release = release,
+};

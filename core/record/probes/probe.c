@@ -1,0 +1,262 @@
+#include "record/probes/probe.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "base/quote.h"
+#include "geom/polygon.h"
+#include "picture/plot.h"
+#include "record/probes/probe_parts.h"
+
+static const double TENTH = 0.1; /* s */
+
+struct JoxProbe {
+    JoxProbeDef def;
+    const JoxProbeCalls *calls;
+    void *state;
+    double pace;
+    int64_t last; /* the stretch of `pace` seconds in which the last frame was */
+    uint8_t *seen;
+    uint32_t seen_capacity;
+};
+
+static const JoxProbeCalls *const KINDS[JOX_PROBE_KINDS] = {
+    [JOX_PROBE_FLOW] = &jox_probe_flow,         [JOX_PROBE_MEASURE] = &jox_probe_measure,
+    [JOX_PROBE_TRANSIT] = &jox_probe_transit,   [JOX_PROBE_DISPLACEMENT] = &jox_probe_displacement,
+    [JOX_PROBE_MAP] = &jox_probe_map,           [JOX_PROBE_WINDING] = &jox_probe_winding,
+    [JOX_PROBE_FAILURES] = &jox_probe_failures, [JOX_PROBE_LANES] = &jox_probe_lanes,
+    [JOX_PROBE_VISIT] = &jox_probe_visit,
+};
+
+static JoxV2 *copy_points(const JoxV2 *points, uint32_t count) {
+    JoxV2 *copy = points ? jox_alloc(count ? count : 1, sizeof *copy) : NULL;
+    if (points)
+        memcpy(copy, points, count * sizeof *copy);
+    return copy;
+}
+
+JoxProbe *jox_probe_create(const JoxProbeDef *def) {
+    JoxProbe *p = jox_alloc(1, sizeof *p);
+    uint16_t *groups = jox_alloc(def->group_count + 1, sizeof *groups);
+    for (uint32_t g = 0; g < def->group_count; g++)
+        groups[g] = def->groups[g];
+    p->def = *def;
+    p->def.name = jox_strdup(def->name);
+    p->def.groups = groups;
+    for (int s = 0; s < 2; s++)
+        p->def.states[s] = def->states[s] ? jox_strdup(def->states[s]) : NULL;
+    p->def.points = copy_points(def->points, def->count);
+    p->calls = KINDS[def->kind];
+    p->state = jox_alloc(1, p->calls->size);
+    p->pace = p->calls->pace == JOX_PACE_TENTH ? TENTH
+              : p->calls->pace == JOX_PACE_ALL ? 0.0
+                                               : p->def.every;
+    p->last = INT64_MIN;
+    if (p->calls->begin)
+        p->calls->begin(&p->def, p->state);
+    return p;
+}
+
+const JoxProbeDef *jox_probe_def(const JoxProbe *p) {
+    return &p->def;
+}
+
+/* Frames of a scene come at multiples of its step, whose sum may fall short of them by a hair. */
+static int64_t stretch_of(const JoxProbe *p, double t) {
+    return p->pace > 0.0 ? (int64_t)floor(t / p->pace + 1e-6) : 0;
+}
+
+bool jox_probe_is_due(const JoxProbe *p, double t) {
+    if (t < p->def.from - 1e-9 || t >= p->def.until)
+        return false;
+    return p->pace <= 0.0 || stretch_of(p, t) != p->last;
+}
+
+void jox_probe_frame(JoxProbe *p, const JoxFrame *frame) {
+    if (!jox_probe_is_due(p, frame->time))
+        return;
+    p->last = stretch_of(p, frame->time);
+    JOX_RESERVE(p->seen, p->seen_capacity, frame->count + 1);
+    for (uint32_t i = 0; i < frame->count; i++) {
+        bool seen = p->def.group_count == 0;
+        for (uint32_t g = 0; frame->group && g < p->def.group_count && !seen; g++)
+            seen = frame->group[i] == p->def.groups[g];
+        p->seen[i] = seen;
+    }
+    p->calls->frame(&p->def, p->state, frame, p->seen);
+}
+
+JoxFigures jox_probe_figures(const JoxProbe *p) {
+    JoxFigures figures = {.count = 0};
+    p->calls->figures(&p->def, p->state, &figures);
+    return figures;
+}
+
+uint32_t jox_probe_passages(const JoxProbe *p) {
+    return p->def.kind == JOX_PROBE_FLOW ? jox_flow_passages(p->state) : 0;
+}
+
+void jox_probe_json(const JoxProbe *p, JoxText *out) {
+    JoxFigures figures = jox_probe_figures(p);
+    jox_text_add(out, "{");
+    for (uint32_t f = 0; f < figures.count; f++) {
+        jox_text_printf(out, "%s\"%s\": ", f ? ", " : "", figures.items[f].name);
+        jox_text_json_number(out, figures.items[f].value);
+    }
+    jox_text_add(out, "}");
+}
+
+void jox_probe_free(JoxProbe *p) {
+    if (!p)
+        return;
+    if (p->calls->release)
+        p->calls->release(p->state);
+    for (size_t k = 0; k < sizeof p->calls->owned / sizeof *p->calls->owned; k++)
+        if (p->calls->owned[k]) {
+            void *owned; /* whatever it points to */
+            memcpy(&owned, (char *)p->state + p->calls->owned[k] - 1, sizeof owned);
+            jox_free(owned);
+        }
+    jox_free(p->state);
+    jox_free((void *)(uintptr_t)p->def.name);
+    jox_free((void *)(uintptr_t)p->def.groups);
+    for (int s = 0; s < 2; s++)
+        jox_free((void *)(uintptr_t)p->def.states[s]);
+    jox_free((void *)(uintptr_t)p->def.points);
+    jox_free(p->seen);
+    jox_free(p);
+}
+
+/* ---- files ---- */
+
+/* Writes NAME.plt: the same commands for both terminals. */
+static bool write_script(const JoxProbe *p, const char *folder, const char *stem, bool walls,
+                         const char *title, JoxText *error) {
+    char name[128];
+    snprintf(name, sizeof name, "%s.plt", stem);
+    FILE *script = jox_plot_open(folder, name, error);
+    JoxText body = {0};
+    if (!script)
+        return false;
+    int width = p->calls->width, height = p->calls->height;
+    if (height == 0) {
+        float wide = p->def.high.x - p->def.low.x, high = p->def.high.y - p->def.low.y;
+        height = (int)((float)width * jox_clampf(wide > 0.0f ? high / wide : 1.0f, 0.3f, 1.5f));
+    }
+    p->calls->plot(&p->def, p->state, walls, &body);
+    for (int svg = 0; svg < 2; svg++) {
+        jox_plot_begin(script, stem, svg, width, height);
+        jox_plot_title(script, title);
+        fputs("csv = ", script); /* what the kinds plot */
+        jox_plot_file(script, stem, "csv");
+        fputs("\nheading = ", script); /* for pages of several plots */
+        jox_quote_put(script, jox_quote_gnuplot, title);
+        fprintf(script, "\nset datafile separator comma\nset grid\n%s", body.data ? body.data : "");
+        fputs("unset multiplot\nset output\n", script);
+    }
+    jox_text_free(&body);
+    return jox_plot_close(script, name, error);
+}
+
+void jox_probe_stem(const JoxProbe *p, char stem[JOX_PROBE_STEM]) {
+    JoxText name = {0};
+    jox_quote_file_name(&name, p->def.name);
+    snprintf(stem, JOX_PROBE_STEM, "%s", name.data);
+    jox_text_free(&name);
+}
+
+bool jox_probe_write(const JoxProbe *p, const char *folder, const JoxWalls *walls,
+                     const char *title, JoxText *error) {
+    char stem[JOX_PROBE_STEM], name[128], heading[400];
+    jox_probe_stem(p, stem);
+    snprintf(name, sizeof name, "%s.csv", stem);
+    FILE *file = jox_plot_open(folder, name, error);
+    if (!file)
+        return false;
+    p->calls->csv(&p->def, p->state, file);
+    if (!jox_plot_close(file, name, error))
+        return false;
+    if (!title)
+        return true;
+    bool drawn = walls && walls->ring_count > 0;
+    if (drawn && !jox_plot_walls(folder, walls, error))
+        return false;
+    snprintf(name, sizeof name, "%s.plt", stem);
+    snprintf(heading, sizeof heading, "%.200s: %.100s", title, p->def.name);
+    return write_script(p, folder, stem, drawn, heading, error) &&
+           jox_plot_draw(folder, name, error);
+}
+
+/* ---- shared by the kinds ---- */
+
+void jox_figure_add(JoxFigures *figures, const char *name, const char *unit, double value) {
+    if (figures->count < JOX_MOST_FIGURES)
+        figures->items[figures->count++] = (struct JoxFigure){name, unit, value};
+}
+
+void jox_plot_nothing(JoxText *out, const char *why) {
+    jox_text_printf(out,
+                    "set label 1 '%s' at graph 0.5,0.5 center\nunset key\nplot [0:1] [0:1] -1\n"
+                    "unset label 1\n",
+                    why);
+}
+
+static int ascending(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double jox_quantile(double *values, size_t count, double q) {
+    if (count == 0)
+        return NAN;
+    qsort(values, count, sizeof *values, ascending);
+    double rank = q * (double)(count - 1);
+    size_t below = (size_t)rank;
+    if (below + 1 >= count)
+        return values[count - 1];
+    return values[below] + (rank - (double)below) * (values[below + 1] - values[below]);
+}
+
+void jox_track_reserve(JoxTrack *track, uint32_t keys) {
+    JOX_RESERVE_ZEROED(track->items, track->capacity, keys);
+}
+
+static float shortest(float d, float period) {
+    if (period > 0.0f && fabsf(d) > 0.5f * period)
+        d -= d > 0.0f ? period : -period;
+    return d;
+}
+
+bool jox_track_step(JoxTrack *track, const JoxFrame *frame, uint32_t i, JoxStretch *stretch) {
+    struct JoxTracked *last = &track->items[frame->key[i]];
+    struct JoxTracked now = {frame->x[i], frame->y[i], frame->time, true};
+    bool known = last->known;
+    if (known)
+        *stretch = (JoxStretch){.from = {last->x, last->y},
+                                .by = {shortest(now.x - last->x, frame->period.x),
+                                       shortest(now.y - last->y, frame->period.y)},
+                                .to = {now.x, now.y},
+                                .begun = last->time,
+                                .ended = now.time};
+    *last = now;
+    return known;
+}
+
+int jox_stretch_crosses(const JoxStretch *s, JoxV2 a, JoxV2 b, double *time) {
+    JoxV2 from = s->from, to = jox_add(s->from, s->by);
+    int crosses = jox_segment_crossing(a, b, from, to);
+    if (crosses == 0 && (to.x != s->to.x || to.y != s->to.y)) { /* seen from the other edge */
+        from = jox_sub(s->to, s->by), to = s->to;
+        crosses = jox_segment_crossing(a, b, from, to);
+    }
+    if (crosses == 0)
+        return 0;
+    JoxV2 along = jox_sub(b, a);
+    double before = fabs((double)jox_det(along, jox_sub(from, a)));
+    double after = fabs((double)jox_det(along, jox_sub(to, a)));
+    double share = before + after > 0.0 ? before / (before + after) : 0.0;
+    *time = s->begun + share * (s->ended - s->begun);
+    return crosses;
+}

@@ -1,0 +1,72 @@
+/* What the kinds of probes share. */
+#ifndef JOX_RECORD_PROBES_PROBE_PARTS_H
+#define JOX_RECORD_PROBES_PROBE_PARTS_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "record/probes/probe.h"
+
+/* Which frames a kind wants: ten a second, all, or one in each `every` of its def. */
+typedef enum { JOX_PACE_TENTH, JOX_PACE_ALL, JOX_PACE_EVERY } JoxPace;
+
+/* One kind. `state` is its own and starts as zeros. */
+typedef struct JoxProbeCalls {
+    size_t size; /* of the state */
+    JoxPace pace;
+    void (*begin)(const JoxProbeDef *def, void *state); /* or NULL */
+    /* `seen[i]` is 1 for the people who are measured. */
+    void (*frame)(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen);
+    void (*figures)(const JoxProbeDef *def, const void *state, JoxFigures *out);
+    /* A first line with names and units in brackets, then rows. */
+    void (*csv)(const JoxProbeDef *def, const void *state, FILE *out);
+    /* gnuplot commands that draw the file `csv`; the terminal is set, commas separate. */
+    void (*plot)(const JoxProbeDef *def, const void *state, bool walls, JoxText *out);
+    int width, height;            /* of the picture, pixels; height 0: by the area of the map */
+    size_t owned[8];              /* what of the state jox_free takes: JOX_OWNED of each */
+    void (*release)(void *state); /* the rest of it; or NULL */
+} JoxProbeCalls;
+/* Of calls: what all kinds have, by the names that their files give it. */
+#define JOX_PROBE_KIND(State, wide, high)                                                          \
+    .size = sizeof(State), .figures = figures, .csv = csv, .plot = plot, .width = wide,            \
+    .height = high
+#define JOX_OWNED(State, member) (offsetof(State, member) + 1) /* 0: none */
+
+extern const JoxProbeCalls jox_probe_flow, jox_probe_measure, jox_probe_transit,
+    jox_probe_displacement, jox_probe_map, jox_probe_winding, jox_probe_failures, jox_probe_lanes,
+    jox_probe_visit;
+
+/* probe_flow.c: passages that stand so far, of a flow's state. */
+uint32_t jox_flow_passages(const void *state);
+void jox_figure_add(JoxFigures *figures, const char *name, const char *unit, double value);
+/* Linear between ranks; q within 0..1. Sorts the values. NAN of none. */
+double jox_quantile(double *values, size_t count, double q);
+
+/* A plot that only says why there is nothing to draw. */
+void jox_plot_nothing(JoxText *out, const char *why);
+
+/* Where each person was in the frame before. */
+typedef struct JoxTrack {
+    struct JoxTracked {
+        float x, y;
+        double time;
+        bool known;
+    } * items; /* by key */
+    uint32_t capacity;
+} JoxTrack;
+
+/* A stretch of somebody's way: from `from` by `by`, the shorter way round where edges are periodic,
+   to `to`, which is elsewhere than from + by if an edge was passed. */
+typedef struct JoxStretch {
+    JoxV2 from, by, to;
+    double begun, ended; /* s */
+} JoxStretch;
+
+/* Notes person i's place in the frame; false where it is the first. Call jox_track_reserve before
+   the first of a frame. */
+void jox_track_reserve(JoxTrack *track, uint32_t keys);
+bool jox_track_step(JoxTrack *track, const JoxFrame *frame, uint32_t i, JoxStretch *stretch);
+/* +1 or -1, and the time, if the stretch crosses a-b; else 0. */
+int jox_stretch_crosses(const JoxStretch *stretch, JoxV2 a, JoxV2 b, double *time);
+
+#endif

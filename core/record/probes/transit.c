@@ -1,0 +1,154 @@
+/* Transit: the time from a person's last crossing of the first line, in either direction, to the
+   crossing of the second that follows. Visit: the same from entering one state to entering another.
+   Who comes round again counts again. Inversions: share of the pairs that were under way together
+   of whom the later one to begin ended first; 0 keeps the order, 0.5 has none. */
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "record/probes/probe_parts.h"
+
+typedef struct Passage {
+    uint32_t key;
+    double from, until; /* s */
+} Passage;
+
+typedef struct Transit {
+    JoxTrack track;
+    double *since; /* by key: when the first line was crossed; NAN: not on the way */
+    uint32_t since_capacity;
+    uint8_t *was; /* visit, by key: 1 in the first state, 2 in the second */
+    uint32_t was_capacity;
+    Passage *passages;
+    uint32_t count, capacity;
+} Transit;
+
+static void reserve(Transit *t, const JoxFrame *frame) {
+    uint32_t had = t->since_capacity;
+    JOX_RESERVE(t->since, t->since_capacity, frame->keys);
+    for (uint32_t k = had; k < t->since_capacity; k++)
+        t->since[k] = NAN;
+}
+
+static void arrive(Transit *t, uint32_t key, double time) {
+    JOX_RESERVE(t->passages, t->capacity, t->count + 1);
+    t->passages[t->count++] = (Passage){key, t->since[key], time};
+    t->since[key] = NAN;
+}
+
+static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+    Transit *t = state;
+    JoxStretch stretch;
+    double time;
+    jox_track_reserve(&t->track, frame->keys);
+    reserve(t, frame);
+    for (uint32_t i = 0; i < frame->count; i++) {
+        if (!seen[i] || !jox_track_step(&t->track, frame, i, &stretch))
+            continue;
+        double *since = &t->since[frame->key[i]];
+        if (jox_stretch_crosses(&stretch, def->points[0], def->points[1], &time))
+            *since = time;
+        if (isfinite(*since) &&
+            jox_stretch_crosses(&stretch, def->points[2], def->points[3], &time) && time >= *since)
+            arrive(t, frame->key[i], time);
+    }
+}
+
+static uint8_t which(const JoxProbeDef *def, const char *name) {
+    return strcmp(name, def->states[0]) == 0 ? 1 : strcmp(name, def->states[1]) == 0 ? 2 : 0;
+}
+
+static void visit_frame(const JoxProbeDef *def, void *state, const JoxFrame *frame,
+                        const uint8_t *seen) {
+    Transit *t = state;
+    uint8_t is[256] = {0};
+    if (!frame->state)
+        return;
+    for (uint32_t s = 0; s < frame->state_count && s < 256; s++)
+        is[s] = which(def, frame->states[s]);
+    reserve(t, frame);
+    JOX_RESERVE_ZEROED(t->was, t->was_capacity, frame->keys);
+    for (uint32_t i = 0; i < frame->count; i++) {
+        uint32_t key = frame->key[i];
+        uint8_t now = frame->state[i] < 256 ? is[frame->state[i]] : 0;
+        if (seen[i] && now == 1 && t->was[key] != 1)
+            t->since[key] = frame->time;
+        if (seen[i] && now == 2 && t->was[key] != 2 && isfinite(t->since[key]))
+            arrive(t, key, frame->time);
+        t->was[key] = now;
+    }
+}
+
+/* Of all pairs that were under way at the same time, the share that changed order. */
+static double inversions(const Transit *t) {
+    uint64_t pairs = 0, changed = 0;
+    for (uint32_t a = 0; a < t->count; a++)
+        for (uint32_t b = 0; b < a; b++) {
+            const Passage *p = &t->passages[a], *q = &t->passages[b];
+            if (p->from == q->from || p->from > q->until || q->from > p->until)
+                continue;
+            pairs++;
+            changed += (p->from < q->from) != (p->until < q->until);
+        }
+    return pairs ? (double)changed / (double)pairs : NAN;
+}
+
+static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+    const Transit *t = state;
+    double *times = jox_alloc(t->count + 1, sizeof *times), sum = 0.0;
+    uint32_t under_way = 0;
+    for (uint32_t p = 0; p < t->count; p++)
+        sum += times[p] = t->passages[p].until - t->passages[p].from;
+    for (uint32_t k = 0; k < t->since_capacity; k++)
+        under_way += isfinite(t->since[k]) != 0;
+    jox_figure_add(out, "passages", "", t->count);
+    jox_figure_add(out, "under_way", "", under_way);
+    jox_figure_add(out, "mean", "s", t->count ? sum / t->count : NAN);
+    jox_figure_add(out, "median", "s", jox_quantile(times, t->count, 0.5));
+    jox_figure_add(out, "p95", "s", jox_quantile(times, t->count, 0.95));
+    jox_figure_add(out, "least", "s", jox_quantile(times, t->count, 0.0));
+    jox_figure_add(out, "greatest", "s", jox_quantile(times, t->count, 1.0));
+    if (def->kind == JOX_PROBE_VISIT)
+        jox_figure_add(out, "inversions", "", inversions(t));
+    jox_free(times);
+}
+
+static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+    (void)def;
+    const Transit *t = state;
+    fputs("person,from [s],until [s],transit [s]\n", out);
+    for (uint32_t p = 0; p < t->count; p++)
+        fprintf(out, "%u,%.4f,%.4f,%.4f\n", t->passages[p].key, t->passages[p].from,
+                t->passages[p].until, t->passages[p].until - t->passages[p].from);
+}
+
+static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+    (void)walls;
+    const Transit *t = state;
+    if (t->count == 0) {
+        jox_plot_nothing(out, def->kind == JOX_PROBE_VISIT ? "nobody entered both states"
+                                                           : "nobody crossed both lines");
+        return;
+    }
+    double first = INFINITY, last = -INFINITY;
+    for (uint32_t p = 0; p < t->count; p++) {
+        first = fmin(first, t->passages[p].from);
+        last = fmax(last, t->passages[p].from);
+    }
+    jox_text_printf(out,
+                    "set xlabel 'time of the beginning (s)'\nset ylabel 'time to the end (s)'\n"
+                    "set xrange [%g:%g]\nset yrange [0:*]\nset offsets 0, 0, 0.1, 0\nunset key\n"
+                    "plot csv skip 1 using 2:4 with points pt 7 ps 0.8 lc '#1f77b4'\n",
+                    first - 1.0, last + 1.0);
+}
+
+#define KIND(frames)                                                                               \
+    {                                                                                              \
+        JOX_PROBE_KIND(Transit, 1000, 600), .frame = frames, .owned = {                            \
+            JOX_OWNED(Transit, track.items),                                                       \
+            JOX_OWNED(Transit, since),                                                             \
+            JOX_OWNED(Transit, was),                                                               \
+            JOX_OWNED(Transit, passages)                                                           \
+        }                                                                                          \
+    }
+const JoxProbeCalls jox_probe_transit = KIND(frame), jox_probe_visit = KIND(visit_frame);

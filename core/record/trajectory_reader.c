@@ -1,0 +1,278 @@
+/* The frames of a recording that has been opened. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "record/trajectory_reader_parts.h"
+
+JoxTrajectoryReaderInfo jox_trajectory_reader_info(const JoxTrajectoryReader *r) {
+    const JoxTrajectories *t = r->all ? r->all : &r->outlines;
+    return (JoxTrajectoryReaderInfo){.fps = r->fps,
+                                     .frames = r->frames,
+                                     .bounded = r->bounded,
+                                     .low = r->low,
+                                     .high = r->high,
+                                     .walls = &t->walls,
+                                     .groups = (const char *const *)t->groups,
+                                     .group_count = t->group_count,
+                                     .states = r->states,
+                                     .state_count = r->state_count,
+                                     .whole = r->all != NULL,
+                                     .has_force = r->all ? r->all->force != NULL : r->ours,
+                                     .has_bodies = r->bodies != NULL};
+}
+
+double jox_trajectory_reader_time(const JoxTrajectoryReader *r, uint32_t frame) {
+    return (double)(r->all ? r->all->number[r->all->first[frame]] : r->number[frame]) / r->fps;
+}
+
+uint32_t jox_trajectory_reader_find(const JoxTrajectoryReader *r, double time) {
+    uint32_t low = 0, high = r->frames; /* the frames below `low` are not later */
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (jox_trajectory_reader_time(r, middle) <= time + 1e-9)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low ? low - 1 : 0;
+}
+
+/* ---- frames ---- */
+
+static bool damaged(JoxText *why, const char *format, const char *what) {
+    jox_text_printf(why, format, what);
+    return false;
+}
+
+static void widen(JoxTrajectoryReader *r, size_t need) {
+    if (need <= r->capacity)
+        return;
+    r->capacity = need + need / 2 + 64;
+    r->id = jox_realloc(r->id, r->capacity, sizeof *r->id);
+    float **columns[] = {&r->x, &r->y, &r->face_x, &r->face_y, &r->force, &r->compression};
+    for (int c = 0; c < 6; c++)
+        *columns[c] = jox_realloc(*columns[c], r->capacity, sizeof(float));
+    r->state = jox_realloc(r->state, r->capacity, sizeof *r->state);
+    r->group = jox_realloc(r->group, r->capacity, sizeof *r->group);
+}
+
+static uint32_t state_row(const JoxTrajectoryReader *r, int64_t number) {
+    uint32_t low = 0, high = r->state_count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (r->states[middle].number < number)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < r->state_count && r->states[low].number == number ? low : JOX_REEL_NO_STATE;
+}
+
+static void take_row(JoxTrajectoryReader *r, uint32_t n) {
+    widen(r, (size_t)n + 1);
+    r->id[n] = sqlite3_column_int64(r->rows, 0);
+    r->x[n] = (float)sqlite3_column_double(r->rows, 1);
+    r->y[n] = (float)sqlite3_column_double(r->rows, 2);
+    if (r->facing) {
+        r->face_x[n] = (float)sqlite3_column_double(r->rows, 3);
+        r->face_y[n] = (float)sqlite3_column_double(r->rows, 4);
+    }
+    if (!r->ours)
+        return;
+    const bool known = sqlite3_column_type(r->rows, 5) != SQLITE_NULL;
+    r->state[n] = known ? state_row(r, sqlite3_column_int64(r->rows, 5)) : JOX_REEL_NO_STATE;
+    r->force[n] = (float)sqlite3_column_double(r->rows, 6);
+    r->compression[n] = (float)sqlite3_column_double(r->rows, 7);
+    r->group[n] = (uint16_t)sqlite3_column_int64(r->rows, 8);
+}
+
+static bool read_people(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryReaderFrame *out,
+                        JoxText *why) {
+    uint32_t n = 0;
+    int status;
+    sqlite3_reset(r->rows);
+    sqlite3_bind_int64(r->rows, 1, r->number[frame]);
+    sqlite3_bind_int64(r->rows, 2, r->from[frame]);
+    sqlite3_bind_int64(r->rows, 3, r->from[frame + 1]);
+    while ((status = sqlite3_step(r->rows)) == SQLITE_ROW) {
+        take_row(r, n);
+        if (!(fabsf(r->x[n]) < 1e6f && fabsf(r->y[n]) < 1e6f))
+            return damaged(why, "%s is more than 1000 km from the origin", "somebody");
+        if (n > 0 && r->id[n] == r->id[n - 1])
+            return damaged(why, "%s is in a frame twice", "somebody");
+        n++;
+    }
+    if (status != SQLITE_DONE)
+        return damaged(why, "the recording cannot be read: %s", sqlite3_errmsg(r->db));
+    out->count = n;
+    out->id = r->id;
+    out->x = r->x;
+    out->y = r->y;
+    out->face_x = r->facing ? r->face_x : NULL;
+    out->face_y = r->facing ? r->face_y : NULL;
+    out->state = r->ours && r->state_count ? r->state : NULL;
+    out->force = r->ours ? r->force : NULL;
+    out->compression = r->ours ? r->compression : NULL;
+    out->group = r->ours ? r->group : NULL;
+    return true;
+}
+
+/* First row of the bodies of a frame: they were written frame by frame, without an index. */
+static int64_t first_body(JoxTrajectoryReader *r, int64_t number) {
+    int64_t low = 1, high = r->last_body + 1;
+    while (low < high) {
+        int64_t middle = low + (high - low) / 2;
+        sqlite3_reset(r->body_at);
+        sqlite3_bind_int64(r->body_at, 1, middle);
+        if (sqlite3_step(r->body_at) == SQLITE_ROW && sqlite3_column_int64(r->body_at, 0) < number)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static bool read_bodies(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryReaderFrame *out,
+                        JoxText *why) {
+    if (!r->bodies || !r->body_at)
+        return true;
+    uint32_t n = 0;
+    int status;
+    const int64_t number = r->number[frame], first = first_body(r, number);
+    sqlite3_reset(r->bodies);
+    sqlite3_bind_int64(r->bodies, 1, first);
+    while ((status = sqlite3_step(r->bodies)) == SQLITE_ROW &&
+           sqlite3_column_int64(r->bodies, 0) == number) {
+        float values[7];
+        for (int k = 0; k < 7; k++)
+            values[k] = (float)sqlite3_column_double(r->bodies, 2 + k);
+        JOX_RESERVE(r->body, r->body_capacity, n + 1);
+        JoxRecordBody *body = &r->body[n];
+        *body = (JoxRecordBody){(uint32_t)sqlite3_column_int64(r->bodies, 1),
+                                values[0],
+                                values[1],
+                                values[2],
+                                values[3],
+                                values[4],
+                                values[5],
+                                values[6]};
+        for (int k = 0; k < 7; k++)
+            if (!isfinite(values[k]))
+                return damaged(why, "%s is nowhere", "a body");
+        n++;
+    }
+    if (status != SQLITE_ROW && status != SQLITE_DONE)
+        return damaged(why, "the recording cannot be read: %s", sqlite3_errmsg(r->db));
+    out->body_count = n;
+    out->bodies = r->body;
+    return true;
+}
+
+static bool read_whole(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryReaderFrame *out) {
+    JoxFrame all;
+    jox_trajectories_frame(r->all, frame, &all);
+    widen(r, all.count);
+    for (uint32_t i = 0; i < all.count; i++)
+        r->id[i] = all.key[i];
+    out->count = all.count;
+    out->id = r->id;
+    out->x = all.x;
+    out->y = all.y;
+    out->face_x = all.vx; /* people look where they go */
+    out->face_y = all.vy;
+    out->force = all.force;
+    out->compression = all.compression;
+    out->group = all.group;
+    return true;
+}
+
+bool jox_trajectory_reader_read(JoxTrajectoryReader *r, uint32_t frame,
+                                JoxTrajectoryReaderFrame *out, JoxText *why) {
+    *out = (JoxTrajectoryReaderFrame){.time = jox_trajectory_reader_time(r, frame)};
+    if (r->all)
+        return read_whole(r, frame, out);
+    return read_people(r, frame, out, why) && read_bodies(r, frame, out, why);
+}
+
+/* ---- shapes ---- */
+
+uint32_t jox_trajectory_reader_changes(const JoxTrajectoryReader *r, uint32_t frame) {
+    uint32_t count = 0;
+    while (count < r->change_count && r->changes[count] <= r->number[frame])
+        count++;
+    return count;
+}
+
+/* "x y z, x y z, ..." */
+static void read_corners(JoxTrajectoryReader *r, const char *text, JoxBodyLook *out) {
+    uint32_t count = 0;
+    for (int more = 1; text && more && count < 256;) {
+        float at[3] = {0};
+        int used = 0;
+        if (sscanf(text, "%f %f %f%n", &at[0], &at[1], &at[2], &used) != 3)
+            break;
+        JOX_RESERVE(r->corners, r->corner_capacity, count + 1);
+        r->corners[count++] = (JoxV3){at[0], at[1], at[2]};
+        text += used;
+        more = *text++ == ',';
+    }
+    out->corners = r->corners;
+    out->corner_count = count;
+}
+
+bool jox_trajectory_reader_part(JoxTrajectoryReader *r, uint32_t frame, uint32_t body,
+                                uint32_t part, JoxBodyLook *out) {
+    *out = (JoxBodyLook){0};
+    if (!r->part)
+        return false;
+    sqlite3_reset(r->part);
+    sqlite3_bind_int64(r->part, 1, body);
+    sqlite3_bind_int64(r->part, 2, r->number[frame]);
+    sqlite3_bind_int64(r->part, 3, part);
+    if (sqlite3_step(r->part) != SQLITE_ROW)
+        return false;
+    float numbers[10];
+    bool finite = true;
+    for (int k = 0; k < 10; k++) {
+        numbers[k] = (float)sqlite3_column_double(r->part, 1 + k);
+        finite &= isfinite(numbers[k]);
+    }
+    const int kind = sqlite3_column_int(r->part, 0);
+    if (!finite || kind < JOX_SHAPE_BOX || kind > JOX_SHAPE_HULL)
+        return false;
+    out->kind = (JoxShapeKind)kind;
+    memcpy(out->size, numbers, sizeof out->size);
+    out->at = (JoxV3){numbers[3], numbers[4], numbers[5]};
+    memcpy(out->turn, numbers + 6, sizeof out->turn);
+    if (kind == JOX_SHAPE_HULL)
+        read_corners(r, (const char *)sqlite3_column_text(r->part, 11), out);
+    return true;
+}
+
+void jox_trajectory_reader_close(JoxTrajectoryReader *r) {
+    if (!r)
+        return;
+    sqlite3_finalize(r->part);
+    sqlite3_finalize(r->rows);
+    sqlite3_finalize(r->body_at);
+    sqlite3_finalize(r->bodies);
+    sqlite3_close(r->db);
+    jox_trajectories_free(r->all);
+    for (uint32_t g = 0; g < r->outlines.group_count; g++)
+        jox_free(r->outlines.groups[g]);
+    jox_free(r->outlines.groups);
+    jox_walls_free(&r->outlines.walls);
+    for (uint32_t s = 0; s < r->state_count; s++) {
+        jox_free(r->states[s].machine);
+        jox_free(r->states[s].name);
+    }
+    jox_free(r->states);
+    void *columns[] = {r->number, r->from,   r->id,      r->x,           r->y,
+                       r->face_x, r->face_y, r->force,   r->compression, r->state,
+                       r->group,  r->body,   r->changes, r->corners};
+    for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
+        jox_free(columns[c]);
+    jox_free(r);
+}

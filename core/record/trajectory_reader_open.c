@@ -1,0 +1,278 @@
+/* Opening a recording: which frames it has, where they are, and what it says of itself. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "record/trajectory_reader_parts.h"
+
+enum { MOST_FRAMES = 10000000, MOST_POINTS = 100000 };
+
+static bool wrong(JoxDiagnostics *diagnostics, const char *path, const char *hint,
+                  const char *what) {
+    JoxPosition at = {path, 0, 0, 0};
+    jox_diag_error(diagnostics, at, "bad-recording", hint, "%s", what);
+    return false;
+}
+
+static sqlite3_stmt *prepare(sqlite3 *db, const char *sql) {
+    sqlite3_stmt *statement = NULL;
+    if (sqlite3_prepare_v2(db, sql, -1, &statement, NULL) == SQLITE_OK)
+        return statement;
+    sqlite3_finalize(statement);
+    return NULL;
+}
+
+/* The first column of the first row; false where there is none. */
+static bool ask(sqlite3 *db, const char *sql, double *value) {
+    sqlite3_stmt *statement = prepare(db, sql);
+    bool found = statement && sqlite3_step(statement) == SQLITE_ROW &&
+                 sqlite3_column_type(statement, 0) != SQLITE_NULL;
+    *value = found ? sqlite3_column_double(statement, 0) : 0.0;
+    sqlite3_finalize(statement);
+    return found;
+}
+
+/* ---- which frames there are ---- */
+
+static void add_frame(JoxTrajectoryReader *r, int64_t number, int64_t from) {
+    JOX_RESERVE(r->number, r->number_capacity, r->frames + 1);
+    JOX_RESERVE(r->from, r->from_capacity, r->frames + 2);
+    r->number[r->frames] = number;
+    r->from[r->frames] = from;
+    r->from[++r->frames] = from;
+}
+
+/* Numbers of frames by the index, one look-up each; those without anybody too, where a table lists
+   them. */
+static bool list_by_index(JoxTrajectoryReader *r) {
+    sqlite3_stmt *list = prepare(r->db, "SELECT DISTINCT frame FROM frame_data ORDER BY frame");
+    while (list && r->frames < MOST_FRAMES && sqlite3_step(list) == SQLITE_ROW)
+        add_frame(r, sqlite3_column_int64(list, 0), 0);
+    sqlite3_finalize(list);
+    if (r->frames)
+        return true;
+    sqlite3_stmt *next =
+        prepare(r->db, "SELECT frame FROM trajectory_data WHERE frame > ? ORDER BY frame LIMIT 1");
+    int64_t last = INT64_MIN;
+    while (next && r->frames < MOST_FRAMES) {
+        sqlite3_bind_int64(next, 1, last);
+        if (sqlite3_step(next) != SQLITE_ROW)
+            break;
+        last = sqlite3_column_int64(next, 0);
+        sqlite3_reset(next);
+        add_frame(r, last, 0);
+    }
+    sqlite3_finalize(next);
+    return r->frames > 0;
+}
+
+/* Where each frame begins, in one pass; false where the rows are not in the order of frames. */
+static bool list_by_row(JoxTrajectoryReader *r) {
+    sqlite3_stmt *rows = prepare(r->db, "SELECT rowid, frame FROM trajectory_data ORDER BY rowid");
+    bool ordered = rows != NULL;
+    int64_t row = 0;
+    while (ordered && sqlite3_step(rows) == SQLITE_ROW) {
+        int64_t frame = sqlite3_column_int64(rows, 1);
+        row = sqlite3_column_int64(rows, 0);
+        ordered = (r->frames == 0 || frame >= r->number[r->frames - 1]) && r->frames < MOST_FRAMES;
+        if (ordered && (r->frames == 0 || frame > r->number[r->frames - 1]))
+            add_frame(r, frame, row);
+    }
+    sqlite3_finalize(rows);
+    if (r->frames)
+        r->from[r->frames] = row + 1;
+    if (!ordered)
+        r->frames = 0;
+    return ordered && r->frames > 0;
+}
+
+/* ---- opening ---- */
+
+static void read_states(JoxTrajectoryReader *r) {
+    sqlite3_stmt *list =
+        prepare(r->db, "SELECT number, machine, state FROM jostle_state ORDER BY number");
+    size_t capacity = 0;
+    while (list && r->state_count < UINT16_MAX && sqlite3_step(list) == SQLITE_ROW) {
+        const char *machine = (const char *)sqlite3_column_text(list, 1);
+        const char *name = (const char *)sqlite3_column_text(list, 2);
+        JOX_RESERVE(r->states, capacity, r->state_count + 1);
+        r->states[r->state_count++] = (struct JoxTrajectoryReaderState){
+            jox_strdup(machine ? machine : ""), jox_strdup(name ? name : ""),
+            sqlite3_column_int64(list, 0)};
+    }
+    sqlite3_finalize(list);
+}
+
+/* The columns that there are: of ours; of JuPedSim; of whoever writes no more than places. */
+static bool prepare_rows(JoxTrajectoryReader *r) {
+    static const char *const WAYS[] = {"WHERE d.frame = ?1 ORDER BY d.id",
+                                       "WHERE d.rowid >= ?2 AND d.rowid < ?3 ORDER BY d.id"};
+    static const char *const COLUMNS[] = {
+        "SELECT d.id, d.pos_x, d.pos_y, d.ori_x, d.ori_y, a.state, a.force, a.compression, a.member"
+        " FROM trajectory_data d LEFT JOIN jostle_agent a ON a.rowid = d.rowid AND a.id = d.id"
+        " AND a.frame = d.frame",
+        "SELECT d.id, d.pos_x, d.pos_y, d.ori_x, d.ori_y FROM trajectory_data d",
+        "SELECT d.id, d.pos_x, d.pos_y FROM trajectory_data d"};
+    for (int c = 0; c < 3 && !r->rows; c++) {
+        JoxText sql = {0};
+        jox_text_printf(&sql, "%s %s", COLUMNS[c], WAYS[r->way]);
+        r->rows = prepare(r->db, sql.data);
+        r->ours = c == 0;
+        r->facing = c < 2;
+        jox_text_free(&sql);
+    }
+    double last;
+    if (ask(r->db, "SELECT MAX(rowid) FROM jostle_body", &last)) {
+        r->last_body = (int64_t)last;
+        r->body_at = prepare(r->db, "SELECT frame FROM jostle_body WHERE rowid = ?");
+        r->bodies = prepare(r->db, "SELECT frame, id, x, y, z, qx, qy, qz, qw FROM jostle_body "
+                                   "WHERE rowid >= ? ORDER BY rowid");
+    }
+    r->part = prepare(r->db, "SELECT kind, size_x, size_y, size_z, x, y, z, qx, qy, qz, qw, corners"
+                             " FROM jostle_part WHERE id = ?1 AND part = ?3 AND frame = (SELECT "
+                             "MAX(frame) FROM jostle_part WHERE id = ?1 AND frame <= ?2)");
+    sqlite3_stmt *list = prepare(r->db, "SELECT DISTINCT frame FROM jostle_part ORDER BY frame");
+    while (list && sqlite3_step(list) == SQLITE_ROW) {
+        JOX_RESERVE(r->changes, r->change_capacity, r->change_count + 1);
+        r->changes[r->change_count++] = sqlite3_column_int64(list, 0);
+    }
+    sqlite3_finalize(list);
+    return r->rows != NULL;
+}
+
+/* "x y, x y, ..."; 0 points where it is something else. */
+static uint32_t read_points(const char *text, JoxV2 *points, uint32_t most) {
+    uint32_t count = 0;
+    for (bool more = text != NULL; more; text++) {
+        float x, y;
+        int used = 0;
+        if (count == most || sscanf(text, "%f %f%n", &x, &y, &used) != 2 || !(fabsf(x) < 1e6f) ||
+            !(fabsf(y) < 1e6f))
+            return 0;
+        points[count++] = (JoxV2){x, y};
+        text += used;
+        more = *text == ',';
+    }
+    return count;
+}
+
+/* Walls of ours, in place of the walkable area, whose outline is where nobody went. */
+static void read_walls(JoxTrajectoryReader *r) {
+    sqlite3_stmt *list =
+        prepare(r->db, "SELECT name, solid, closed, open, height, points FROM jostle_wall");
+    if (!list)
+        return;
+    JoxV2 *points = jox_alloc(MOST_POINTS, sizeof *points);
+    JoxWalls *walls = &r->outlines.walls;
+    jox_walls_free(walls);
+    while (sqlite3_step(list) == SQLITE_ROW) {
+        const uint32_t first = walls->ring_count;
+        const char *name = (const char *)sqlite3_column_text(list, 0);
+        const bool solid = sqlite3_column_int(list, 1), closed = sqlite3_column_int(list, 2);
+        const float given = (float)sqlite3_column_double(list, 4);
+        const float height = given > 0.0f && given < 1e6f ? given : INFINITY;
+        const char *text = (const char *)sqlite3_column_text(list, 5);
+        const uint32_t count = read_points(text, points, MOST_POINTS);
+        if (solid && count >= 3)
+            jox_walls_add_solid(walls, points, count, height);
+        else if (!solid && count >= (closed ? 3 : 2))
+            jox_walls_add_polyline(walls, points, count, closed, height);
+        if (name)
+            jox_walls_name(walls, first, name, sqlite3_column_int(list, 3));
+    }
+    sqlite3_finalize(list);
+    jox_free(points);
+}
+
+static void read_bounds(JoxTrajectoryReader *r) {
+#define BOUND(key) "SELECT CAST(value AS REAL) FROM metadata WHERE key = '" key "'"
+    static const char *const QUESTIONS[] = {BOUND("xmin"), BOUND("ymin"), BOUND("xmax"),
+                                            BOUND("ymax")};
+#undef BOUND
+    double bounds[4];
+    r->bounded = true;
+    for (int k = 0; k < 4; k++)
+        r->bounded &= ask(r->db, QUESTIONS[k], &bounds[k]) && fabs(bounds[k]) < 1e6;
+    r->bounded = r->bounded && bounds[0] <= bounds[2] && bounds[1] <= bounds[3];
+    if (r->bounded) {
+        r->low = (JoxV2){(float)bounds[0], (float)bounds[1]};
+        r->high = (JoxV2){(float)bounds[2], (float)bounds[3]};
+    }
+}
+
+/* False with an error; *whole: the rows are in no order, so that all must be read. */
+static bool open_sqlite(JoxTrajectoryReader *r, const char *path,
+                        const JoxTrajectoryOptions *options, bool *whole,
+                        JoxDiagnostics *diagnostics) {
+    static const char *const HINT = "It must be of the JuPedSim format: a table trajectory_data";
+    double found;
+    if (sqlite3_open_v2(path, &r->db, SQLITE_OPEN_READONLY, NULL) != SQLITE_OK)
+        return wrong(diagnostics, path, NULL, sqlite3_errmsg(r->db));
+    sqlite3_stmt *probe = prepare(r->db, "SELECT frame, id, pos_x, pos_y FROM trajectory_data "
+                                         "LIMIT 1");
+    const int status = probe ? sqlite3_step(probe) : SQLITE_ERROR;
+    if (!probe || (status != SQLITE_ROW && status != SQLITE_DONE))
+        wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db));
+    else if (status == SQLITE_DONE)
+        wrong(diagnostics, path, NULL, "nobody is in this recording");
+    sqlite3_finalize(probe);
+    if (status != SQLITE_ROW)
+        return false;
+    bool indexed = ask(r->db,
+                       "SELECT 1 FROM pragma_index_list('trajectory_data') l, "
+                       "pragma_index_info(l.name) i WHERE i.seqno = 0 AND i.name = 'frame'",
+                       &found);
+    r->way = indexed ? JOX_REEL_BY_INDEX : JOX_REEL_BY_ROW;
+    if (!(indexed ? list_by_index(r) : list_by_row(r))) {
+        *whole = true;
+        return true;
+    }
+    r->fps = options->fps;
+    if (r->fps <= 0.0 &&
+        !ask(r->db, "SELECT CAST(value AS REAL) FROM metadata WHERE key = 'fps'", &r->fps))
+        r->fps = 0.0;
+    if (!(r->fps > 0.0 && r->fps <= 1e5))
+        return wrong(diagnostics, path, "--fps 25",
+                     "this recording does not say how many frames a second it has");
+    if (!prepare_rows(r))
+        return wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db));
+    for (uint32_t f = 0; f < r->frames; f++)
+        if (!(fabs((double)r->number[f]) / r->fps <= 1e9))
+            return wrong(diagnostics, path, "Are id and frame exchanged?",
+                         "a frame is more than 30 years from the first");
+    read_bounds(r);
+    read_states(r);
+    jox_trajectories_plan(&r->outlines, r->db);
+    read_walls(r);
+    return true;
+}
+
+static bool open_whole(JoxTrajectoryReader *r, const char *path,
+                       const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
+    r->way = JOX_REEL_WHOLE;
+    r->all = jox_trajectories_read(path, options, diagnostics);
+    if (!r->all)
+        return false;
+    r->fps = r->all->fps;
+    r->frames = r->all->frame_count;
+    r->bounded = true;
+    r->low = r->all->low;
+    r->high = r->all->high;
+    return true;
+}
+
+JoxTrajectoryReader *jox_trajectory_reader_open(const char *path,
+                                                const JoxTrajectoryOptions *options,
+                                                JoxDiagnostics *diagnostics) {
+    JoxTrajectoryReader *r = jox_alloc(1, sizeof *r);
+    bool whole = !jox_is_sqlite(path), good = true;
+    if (!whole)
+        good = open_sqlite(r, path, options, &whole, diagnostics);
+    if (good && whole)
+        good = open_whole(r, path, options, diagnostics);
+    if (good)
+        return r;
+    jox_trajectory_reader_close(r);
+    return NULL;
+}

@@ -1,0 +1,480 @@
+/* A crowd for pictures: a scene that is run, or a recording. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "render/render.h"
+
+enum { MOST_FOLLOWED = 500, MOST_TRAILS = 2000, MOST_BODY_TRAILS = 200 };
+static const float STRIDE = 0.1f;              /* m between points of a trail */
+static const float RADIUS = 0.2f;              /* m: of people whose recording does not say */
+static const float CELL = 0.2f, COARSE = 0.4f; /* m */
+static const float KERNEL = 0.70710678f;       /* m: the kernel of JoxDanger */
+static const float FEW = 1e5f;                 /* cells: areas of more have coarser ones */
+
+/* ---- what is shown ---- */
+
+typedef struct Box {
+    JoxV2 low, high;
+} Box;
+
+static void widen(Box *box, JoxV2 p) {
+    box->low = jox_v2(jox_minf(box->low.x, p.x), jox_minf(box->low.y, p.y));
+    box->high = jox_v2(jox_maxf(box->high.x, p.x), jox_maxf(box->high.y, p.y));
+}
+
+/* What is no farther off a box than so many times its length; else all the rest would be small. */
+static Box near_to(const Box *box, float times) {
+    float reach = times * jox_maxf(box->high.x - box->low.x, box->high.y - box->low.y);
+    return (Box){jox_sub(box->low, jox_v2(reach, reach)), jox_add(box->high, jox_v2(reach, reach))};
+}
+
+/* Places count where they are near: some are only directions. Without walls they are all there is.
+ */
+static void widen_by_places(Box *box, const JoxPlace *places, uint32_t count, bool walls) {
+    Box near = near_to(box, walls ? 1.0f : 10.0f);
+    for (uint32_t p = 0; p < count; p++)
+        for (uint32_t i = 0; i < places[p].count; i++) {
+            JoxV2 at = places[p].points[i];
+            float around = places[p].kind == JOX_PLACE_POINT ? places[p].radius : 0.0f;
+            if (at.x < near.low.x || at.y < near.low.y || at.x > near.high.x || at.y > near.high.y)
+                continue;
+            widen(box, jox_sub(at, jox_v2(around, around)));
+            widen(box, jox_add(at, jox_v2(around, around)));
+        }
+}
+
+static JoxDensity *make_grid(const JoxPicture *p) {
+    JoxV2 size = jox_sub(p->high, p->low);
+    float cell = jox_clampf(sqrtf(size.x * size.y / FEW), CELL, COARSE);
+    return jox_density_create(p->low, p->high, cell, KERNEL);
+}
+
+static void find_area(JoxRender *r) {
+    JoxPicture *p = &r->picture;
+    const JoxSceneSpec *spec = r->scene ? r->scene->spec : r->spec;
+    const double *area = r->def->area;
+    if (area) {
+        p->low = jox_v2((float)area[0], (float)area[1]);
+        p->high = jox_v2((float)area[2], (float)area[3]);
+        return;
+    }
+    if (spec && spec->bounded) {
+        p->low = spec->low;
+        p->high = spec->high;
+        return;
+    }
+    Box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (uint32_t i = 0; p->walls && i < p->walls->count; i++)
+        widen(&box, p->walls->vertices[i].point);
+    if (r->crowd) {
+        widen(&box, r->crowd->low);
+        widen(&box, r->crowd->high);
+    }
+    const JoxFrame *frame = r->scene ? jox_run_frame(r->scene) : NULL;
+    for (uint32_t i = 0; frame && i < frame->count; i++)
+        widen(&box, jox_v2(frame->x[i], frame->y[i]));
+    if (!(box.low.x <= box.high.x)) /* nobody, and no walls: places alone */
+        for (uint32_t k = 0; k < p->place_count; k++)
+            if (p->places[k].count)
+                widen(&box, p->places[k].points[0]);
+    if (!(box.low.x <= box.high.x))
+        box = (Box){{-1, -1}, {1, 1}};
+    widen_by_places(&box, p->places, p->place_count, p->walls && p->walls->count > 0);
+    float edge = 0.5f + 0.01f * jox_maxf(box.high.x - box.low.x, box.high.y - box.low.y);
+    p->low = jox_sub(box.low, jox_v2(edge, edge));
+    p->high = jox_add(box.high, jox_v2(edge, edge));
+}
+
+void jox_render_widen(JoxRender *r) {
+    JoxPicture *p = &r->picture;
+    Box box = {p->low, p->high};
+    const Box near = near_to(&box, 2.0f);
+    if (r->def->area)
+        return;
+    for (uint32_t i = 0; i < r->frame.count; i++) {
+        JoxV2 at = {r->frame.x[i], r->frame.y[i]}, edge = {0.5f, 0.5f};
+        bool far = !(at.x >= near.low.x && at.y >= near.low.y && at.x <= near.high.x &&
+                     at.y <= near.high.y);
+        if (far)
+            continue;
+        widen(&box, jox_sub(at, edge));
+        widen(&box, jox_add(at, edge));
+    }
+    p->low = box.low;
+    p->high = box.high;
+    if (!r->grid)
+        return;
+    jox_density_free(r->grid);
+    r->grid = make_grid(p);
+}
+
+/* ---- colours ---- */
+
+/* "speed" or "speed:1.5"; false with `error`. */
+static bool read_show(const char *option, const char *text, const char *choices, JoxShow *show,
+                      float *most, JoError *error) {
+    const char *colon = strchr(text, ':'), *found = NULL;
+    size_t length = colon ? (size_t)(colon - text) : strlen(text);
+    for (int s = 0; s < JOX_SHOWS; s++) {
+        const char *name = jox_shown[s].name;
+        if (strlen(name) != length || strncmp(name, text, length) != 0)
+            continue;
+        found = strstr(choices, name);
+        *show = (JoxShow)s;
+        *most = jox_shown[s].most;
+    }
+    if (!found) {
+        jox_error(error, JO_USAGE, "--%s is %s, not '%.40s'", option, choices, text);
+        return false;
+    }
+    if (!colon)
+        return true;
+    char *end;
+    double value = strtod(colon + 1, &end);
+    if (*most <= 0.0f || end == colon + 1 || *end || !(value > 0.0 && value < 1e9)) {
+        jox_error(error, JO_USAGE,
+                  *most > 0.0f ? "--%s %.40s: after the colon comes the value at the bar's end, "
+                                 "above 0"
+                               : "--%s %.40s: only values have a bar, as speed:1.5",
+                  option, text);
+        return false;
+    }
+    *most = (float)value;
+    return true;
+}
+
+/* Whether the crowd has what the colours tell; else the way out. */
+static bool known(const JoxRender *r, JoxShow show, JoError *error) {
+    const JoxFrame *f = &r->frame;
+    bool there = show == JOX_SHOW_STATE         ? f->state != NULL && f->state_count > 0
+                 : show == JOX_SHOW_GROUP       ? f->group != NULL
+                 : show == JOX_SHOW_FORCE       ? f->force != NULL
+                 : show == JOX_SHOW_COMPRESSION ? f->compression != NULL
+                                                : true;
+    if (!there)
+        jox_error(error, JO_INPUT,
+                  "this recording does not know the %s of people; --colour speed, or density",
+                  jox_shown[show].name);
+    return there;
+}
+
+bool jox_render_choose(JoxRender *r, JoError *error) {
+    const JoRenderDef *def = r->def;
+    JoxPicture *p = &r->picture;
+    if (def->field &&
+        !read_show("field", def->field, "density or pressure", &p->floor, &p->floor_most, error))
+        return false;
+    if (def->colour)
+        return read_show("colour", def->colour,
+                         "state, group, speed, force, compression, density or none", &p->colour,
+                         &p->colour_most, error) &&
+               known(r, p->colour, error);
+    /* On a coloured floor people are rings. */
+    const JoxFrame *f = &r->frame;
+    p->colour = def->field                       ? JOX_SHOW_NOTHING
+                : f->state && f->state_count > 1 ? JOX_SHOW_STATE
+                : f->group && f->group_count > 1 ? JOX_SHOW_GROUP
+                                                 : JOX_SHOW_SPEED;
+    p->colour_most = jox_shown[p->colour].most;
+    return true;
+}
+
+static void make_fields(JoxRender *r) {
+    JoxPicture *p = &r->picture;
+    if (p->colour == JOX_SHOW_DENSITY || p->floor == JOX_SHOW_DENSITY)
+        r->grid = make_grid(p);
+    if (p->floor != JOX_SHOW_PRESSURE)
+        return;
+    if (r->scene)
+        r->scene->danger = jox_danger_create(p->low, p->high);
+    else
+        r->danger = jox_danger_create(p->low, p->high);
+}
+
+/* Density of now; images over periodic edges count too. */
+static void measure_density(JoxRender *r) {
+    JoxDensity *g = r->grid;
+    const JoxFrame *f = &r->frame;
+    const float one = 1.0f;
+    memset(g->now, 0, (size_t)g->columns * g->rows * sizeof *g->now);
+    int across = f->period.x > 0.0f, up = f->period.y > 0.0f;
+    for (uint32_t i = 0; i < f->count; i++)
+        for (int c = -across; c <= across; c++)
+            for (int k = -up; k <= up; k++)
+                jox_density_spread(g, &g->now, &one, 1, f->x[i] + (float)c * f->period.x,
+                                   f->y[i] + (float)k * f->period.y);
+    JOX_RESERVE(r->density, r->density_capacity, f->count + 1);
+    for (uint32_t i = 0; i < f->count; i++) {
+        float column = floorf((f->x[i] - g->low.x) / g->cell);
+        float row = floorf((f->y[i] - g->low.y) / g->cell);
+        bool inside = column >= 0 && row >= 0 && column < (float)g->columns && row < (float)g->rows;
+        r->density[i] = inside ? g->now[(size_t)row * g->columns + (size_t)column] : 0.0f;
+    }
+}
+
+/* ---- where they went ---- */
+
+static void follow(JoxTrail *trail, JoxV2 at, JoxV2 period) {
+    JoxV2 last = trail->count ? trail->points[trail->count - 1] : jox_v2(INFINITY, 0.0f);
+    JoxV2 step = jox_sub(at, last);
+    if (trail->count && jox_length2(step) < STRIDE * STRIDE)
+        return;
+    JOX_RESERVE(trail->points, trail->capacity, trail->count + 2);
+    if (trail->count && ((period.x > 0.0f && fabsf(step.x) > 0.5f * period.x) ||
+                         (period.y > 0.0f && fabsf(step.y) > 0.5f * period.y)))
+        trail->points[trail->count++] = (JoxV2){NAN, NAN}; /* came round */
+    trail->points[trail->count++] = at;
+}
+
+static JoxTrail *begin_trail(JoxRender *r, uint32_t key, uint16_t group, bool body) {
+    JOX_RESERVE(r->trails, r->trail_capacity, r->trail_count + 1);
+    r->trails[r->trail_count] = (JoxTrail){.key = key, .group = group, .body = body};
+    return &r->trails[r->trail_count++];
+}
+
+static void follow_people(JoxRender *r) {
+    const JoxFrame *f = &r->frame;
+    if (f->keys > r->trail_keys) {
+        r->trail_of = jox_realloc(r->trail_of, f->keys, sizeof *r->trail_of);
+        memset(r->trail_of + r->trail_keys, 0, (f->keys - r->trail_keys) * sizeof *r->trail_of);
+        r->trail_keys = f->keys;
+    }
+    if (r->trail_stride == 0)
+        r->trail_stride = 1 + (r->crowd ? r->crowd->people : f->count) / (MOST_FOLLOWED + 1);
+    for (uint32_t i = 0; i < f->count; i++) {
+        uint32_t *of = &r->trail_of[f->key[i]];
+        if (f->key[i] % r->trail_stride != 0 || (!*of && r->trail_count >= MOST_TRAILS))
+            continue;
+        if (!*of) {
+            begin_trail(r, f->key[i], f->group ? f->group[i] : 0, false);
+            *of = r->trail_count;
+            r->picture.trail_people++;
+        }
+        follow(&r->trails[*of - 1], jox_v2(f->x[i], f->y[i]), f->period);
+    }
+}
+
+static void follow_bodies(JoxRender *r) {
+    const JoxObjects *objects = &r->scene->world->objects;
+    uint32_t count = 0;
+    for (uint32_t o = 0; o < objects->count; o++) {
+        const JoxObject *object = &objects->rows[o];
+        JoxTrail *trail = NULL;
+        if (!object->live || !object->moves || ++count > MOST_BODY_TRAILS)
+            continue;
+        for (uint32_t t = 0; t < r->trail_count && !trail; t++)
+            if (r->trails[t].body && r->trails[t].key == object->id)
+                trail = &r->trails[t];
+        if (!trail)
+            trail = begin_trail(r, object->id, 0, true);
+        follow(trail, jox_v2(object->position.x, object->position.y), (JoxV2){0, 0});
+    }
+}
+
+/* ---- moments ---- */
+
+/* States by number as frames have them, called "machine: state" where there are several machines.
+ */
+static void name_states(JoxRender *r) {
+    const JoxMind *mind = &r->scene->world->mind;
+    r->states = jox_alloc(r->frame.state_count + 1, sizeof *r->states);
+    r->state_texts = jox_alloc(r->frame.state_count + 1, sizeof *r->state_texts);
+    r->state_texts[r->state_count++] = jox_strdup("");
+    for (uint32_t m = 0; m < mind->machine_count; m++)
+        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++) {
+            JoxText text = {0};
+            if (mind->machine_count > 1)
+                jox_text_printf(&text, "%s: ", mind->machines[m]->name);
+            jox_text_add(&text, mind->machines[m]->states[s].name);
+            r->state_texts[r->state_count++] = text.data;
+        }
+    for (uint32_t s = 0; s < r->state_count; s++)
+        r->states[s] = r->state_texts[s];
+}
+
+/* Takes the present moment in. */
+static void look(JoxRender *r) {
+    if (r->scene) {
+        r->frame = *jox_run_frame(r->scene);
+        if (!r->states)
+            name_states(r);
+        r->frame.states = r->states;
+    } else {
+        jox_trajectories_frame(r->crowd, r->at, &r->frame);
+        r->frame.walls = r->picture.walls;
+        if (r->danger)
+            jox_danger_frame(r->danger, &r->frame, NULL);
+    }
+    if (r->def->paths)
+        follow_people(r);
+    if (r->def->paths && r->scene)
+        follow_bodies(r);
+}
+
+double jox_render_time(const JoxRender *r) {
+    return r->frame.time;
+}
+
+static double frame_time(const JoxTrajectories *t, uint32_t f) {
+    return (double)t->number[t->first[f]] / t->fps;
+}
+
+/* The least time between two frames: not every one need be written. */
+static double pace_of(const JoxTrajectories *t) {
+    int64_t least = INT64_MAX;
+    for (uint32_t f = 1; f < t->frame_count; f++) {
+        int64_t gap = t->number[t->first[f]] - t->number[t->first[f - 1]];
+        least = gap < least ? gap : least;
+    }
+    return (double)(t->frame_count > 1 ? least : 1) / t->fps;
+}
+
+bool jox_render_advance(JoxRender *r, double time, JoError *error) {
+    JoxFrame next;
+    while (r->scene && r->frame.time < time - 0.5 * r->pace - 1e-9) {
+        if (!jo_scene_step(r->scene, error))
+            return false;
+        look(r);
+    }
+    if (r->scene)
+        return true;
+    while (jox_trajectories_frame(r->crowd, r->at + 1, &next) &&
+           next.time - time <= time - frame_time(r->crowd, r->at) + 1e-9) {
+        r->at++;
+        look(r);
+    }
+    /* Frames without anybody are not written: then there is nobody. */
+    if (fabs(frame_time(r->crowd, r->at) - time) > 0.75 * r->pace) {
+        r->frame.count = 0;
+        r->frame.time = r->first + floor((time - r->first) / r->pace + 0.5) * r->pace;
+    }
+    return true;
+}
+
+const JoxPicture *jox_render_picture(JoxRender *r) {
+    JoxPicture *p = &r->picture;
+    p->frame = &r->frame;
+    if (r->scene) {
+        const JoxAgents *a = &r->scene->world->agents;
+        p->face_x = a->face_x;
+        p->face_y = a->face_y;
+        p->walls = &r->scene->world->all_walls;
+    } else if (r->crowd->face_x) {
+        p->face_x = r->crowd->face_x + r->crowd->first[r->at];
+        p->face_y = r->crowd->face_y + r->crowd->first[r->at];
+    }
+    jox_render_bodies(r);
+    p->trails = r->trails;
+    p->trail_count = r->trail_count;
+    if (r->grid)
+        measure_density(r);
+    p->density = r->density;
+    if (p->floor == JOX_SHOW_DENSITY) {
+        p->grid = r->grid;
+        p->field = r->grid->now;
+    } else if (p->floor == JOX_SHOW_PRESSURE) {
+        p->field = jox_danger_field(r->scene ? r->scene->danger : r->danger, JOX_DANGER_PRESSURE,
+                                    &p->grid);
+    }
+    return p;
+}
+
+/* ---- loading ---- */
+
+static bool load_recording(JoxRender *r, JoError *error) {
+    const JoRenderDef *def = r->def;
+    JoxDiagnostics diagnostics = {0};
+    JoxTrajectoryOptions options = {
+        .fps = def->recorded_fps, .unit = def->unit, .fps_option = "--recorded-fps 25"};
+    if (def->plan)
+        r->spec = jox_scene_load(def->plan, NULL, &diagnostics);
+    if (r->spec && (r->spec->periodic_x || r->spec->periodic_y)) {
+        JoxV2 size = jox_sub(r->spec->high, r->spec->low);
+        options.period =
+            jox_v2(r->spec->periodic_x ? size.x : 0.0f, r->spec->periodic_y ? size.y : 0.0f);
+    }
+    if (!def->plan || r->spec)
+        r->crowd = jox_trajectories_read(def->recording, &options, &diagnostics);
+    if (r->crowd && jox_is_sqlite(def->recording))
+        r->reader = jox_trajectory_reader_open(def->recording, &options, &diagnostics);
+    if (r->reader && !jox_trajectory_reader_info(r->reader).has_bodies) {
+        jox_trajectory_reader_close(r->reader);
+        r->reader = NULL;
+    }
+    for (uint32_t f = 0; r->spec && f < r->spec->file_count; f++)
+        jox_diag_attach_source(&diagnostics, r->spec->files[f].path, r->spec->files[f].text,
+                               r->spec->files[f].length);
+    bool good = r->crowd && diagnostics.errors == 0;
+    jox_run_report(def->message, def->message_context, &diagnostics, error);
+    if (!good)
+        return false;
+    jox_trajectories_frame(r->crowd, 0, &r->frame);
+    r->first = r->frame.time;
+    r->last = (double)r->crowd->last / r->crowd->fps;
+    r->pace = pace_of(r->crowd);
+    r->picture.walls = r->spec && r->spec->walls.ring_count ? &r->spec->walls : &r->crowd->walls;
+    return true;
+}
+
+static bool load_scene(JoxRender *r, JoError *error) {
+    r->scene = jo_scene_load(r->def->scene, error);
+    if (!r->scene)
+        return false;
+    r->last = INFINITY;
+    r->pace = r->scene->world->def.dt;
+    r->picture.walls = &r->scene->world->all_walls;
+    return true;
+}
+
+bool jox_render_load(JoxRender *r, JoError *error) {
+    const JoRenderDef *def = r->def;
+    if (!(def->scene ? load_scene(r, error) : load_recording(r, error)))
+        return false;
+    const JoxSceneSpec *spec = r->scene ? r->scene->spec : r->spec;
+    const char *path = def->scene ? def->scene->path : def->recording, *slash = strrchr(path, '/');
+    snprintf(r->title, sizeof r->title, "%.250s",
+             spec && spec->title ? spec->title
+             : slash             ? slash + 1
+                                 : path);
+    r->picture.title = r->title;
+    r->picture.radius = RADIUS;
+    if (spec) {
+        r->picture.places = spec->places;
+        r->picture.place_count = spec->place_count;
+    }
+    find_area(r);
+    look(r);
+    if (!jox_render_choose(r, error))
+        return false;
+    make_fields(r);
+    if (r->danger)
+        jox_danger_frame(r->danger, &r->frame, NULL);
+    return true;
+}
+
+void jox_render_free(JoxRender *r) {
+    if (r->scene && r->scene->danger) { /* made here */
+        jox_danger_free(r->scene->danger);
+        r->scene->danger = NULL;
+    }
+    jo_scene_free(r->scene);
+    jox_trajectory_reader_close(r->reader);
+    jox_trajectories_free(r->crowd);
+    jox_scene_free(r->spec);
+    jox_danger_free(r->danger);
+    jox_density_free(r->grid);
+    jox_free(r->density);
+    jox_free(r->bodies);
+    for (uint32_t s = 0; s < r->state_count; s++)
+        jox_free(r->state_texts[s]);
+    jox_free(r->state_texts);
+    jox_free(r->states);
+    for (uint32_t t = 0; t < r->trail_count; t++)
+        jox_free(r->trails[t].points);
+    jox_free(r->trails);
+    jox_free(r->trail_of);
+}

@@ -1,0 +1,246 @@
+/* jo_report: a scene's probes over a recording. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "picture/plot.h"
+#include "report/report.h"
+
+enum { REPORT_COOKIE = 0x4a4f5250 };
+static const float EDGE = 0.5f; /* m about everyone, of the map that is made without a scene */
+
+JoReportDef jo_default_report_def(void) {
+    return (JoReportDef){.cookie = REPORT_COOKIE};
+}
+
+static void complain(JoxReport *r, const char *file, const char *hint, const char *format,
+                     const char *probe, const char *what) {
+    JoxPosition at = {file, 0, 0, 0};
+    jox_diag_error(&r->diagnostics, at, "bad-probe", hint, format, probe, what);
+}
+
+/* The recording's numbers of the groups that a probe of the scene names; false with an error. */
+static bool find_groups(JoxReport *r, const JoxProbeDef *def, uint16_t *out) {
+    for (uint32_t g = 0; g < def->group_count; g++) {
+        const char *name = r->spec->groups[def->groups[g]].name;
+        uint32_t found = 0;
+        while (found < r->crowd->group_count && strcmp(r->crowd->groups[found], name) != 0)
+            found++;
+        if (found == r->crowd->group_count) {
+            complain(r, r->def->recording,
+                     r->crowd->group_count ? NULL : "Take `group` out of the probe",
+                     "probe '%.60s' measures the group '%.60s', which this recording does not name",
+                     def->name, name);
+            return false;
+        }
+        out[g] = (uint16_t)found;
+    }
+    return true;
+}
+
+static bool add_probe(JoxReport *r, const JoxProbeDef *of) {
+    JoxProbeDef def = *of;
+    uint16_t *groups = jox_alloc(def.group_count + 1, sizeof *groups);
+    bool good = find_groups(r, &def, groups);
+    if (good && (def.kind == JOX_PROBE_FAILURES || def.kind == JOX_PROBE_VISIT)) {
+        complain(r, r->def->scene, "Measure it during a run",
+                 "probe '%.60s' needs to know %s; no recording does", def.name,
+                 def.kind == JOX_PROBE_VISIT ? "who is in which state"
+                                             : "whose 2-D program failed");
+        good = false;
+    }
+    def.groups = groups;
+    if (def.kind == JOX_PROBE_MAP && def.low.x > def.high.x) {
+        def.low = jox_sub(r->crowd->low, (JoxV2){EDGE, EDGE});
+        def.high = jox_add(r->crowd->high, (JoxV2){EDGE, EDGE});
+    }
+    if (good)
+        r->probes[r->count++] = jox_probe_create(&def);
+    jox_free(groups);
+    return good;
+}
+
+/* Without a scene that has probes: fields, and densities and speeds over time, of all the area that
+ * was walked. */
+static void add_usual(JoxReport *r) {
+    JoxV2 low = jox_sub(r->crowd->low, (JoxV2){EDGE, EDGE});
+    JoxV2 high = jox_add(r->crowd->high, (JoxV2){EDGE, EDGE});
+    JoxV2 corners[4] = {low, {high.x, low.y}, high, {low.x, high.y}};
+    JoxProbeDef map = {.name = "map",
+                       .kind = JOX_PROBE_MAP,
+                       .until = INFINITY,
+                       .low = low,
+                       .high = high,
+                       .every = 1.0,
+                       .cell = JOX_DENSITY_CELL,
+                       .kernel = 0.7};
+    JoxProbeDef all = {.name = "all",
+                       .kind = JOX_PROBE_MEASURE,
+                       .until = INFINITY,
+                       .points = corners,
+                       .count = 4,
+                       .every = 1.0,
+                       .cutoff = 1.0};
+    add_probe(r, &map);
+    add_probe(r, &all);
+}
+
+/* Loads what the def names; false with errors. */
+static bool load(JoxReport *r) {
+    const JoReportDef *def = r->def;
+    JoxTrajectoryOptions options = {.fps = def->fps, .unit = def->unit};
+    if (def->scene && !(r->spec = jox_scene_load(def->scene, NULL, &r->diagnostics)))
+        return false;
+    if (r->spec && (r->spec->periodic_x || r->spec->periodic_y)) {
+        JoxV2 size = jox_sub(r->spec->high, r->spec->low);
+        options.period =
+            (JoxV2){r->spec->periodic_x ? size.x : 0.0f, r->spec->periodic_y ? size.y : 0.0f};
+    }
+    if (!(r->crowd = jox_trajectories_read(def->recording, &options, &r->diagnostics)))
+        return false;
+    r->probes = jox_alloc(r->spec ? r->spec->probe_count + 2 : 2, sizeof(JoxProbe *));
+    bool good = true;
+    if (!r->spec || r->spec->probe_count == 0)
+        add_usual(r);
+    for (uint32_t p = 0; r->spec && p < r->spec->probe_count; p++)
+        good = add_probe(r, &r->spec->probes[p]) && good;
+    return good;
+}
+
+/* Of the scene, else of the recording. */
+const JoxWalls *jox_report_walls(const JoxReport *r) {
+    return r->spec && r->spec->walls.ring_count ? &r->spec->walls : &r->crowd->walls;
+}
+
+const char *jox_report_title(const JoxReport *r) {
+    const char *slash = strrchr(r->def->recording, '/');
+    return r->spec && r->spec->title ? r->spec->title : slash ? slash + 1 : r->def->recording;
+}
+
+static bool write(const JoxReport *r, JoError *error) {
+    const char *folder = r->def->directory, *title = jox_report_title(r);
+    JoxText why = {0};
+    bool good = jox_plot_folder(folder, &why);
+    for (uint32_t p = 0; good && p < r->count; p++)
+        good = jox_probe_write(r->probes[p], folder, jox_report_walls(r), title, &why);
+    good = good && jox_danger_write(r->danger, folder, jox_report_walls(r), title, &why) &&
+           jox_report_page(r, &why);
+    if (!good)
+        jox_error(error, JO_FAILED, "%s", why.data ? why.data : "writing failed");
+    jox_text_free(&why);
+    return good;
+}
+
+/* ---- measuring ---- */
+
+/* The area of a scene that says which, as in a run of it; else all that was walked. */
+static JoxDanger *begin_danger(const JoxReport *r) {
+    const JoxSceneSpec *spec = r->spec;
+    if (spec && spec->heatmap)
+        return jox_danger_create(spec->heatmap_low, spec->heatmap_high);
+    if (spec && spec->bounded)
+        return jox_danger_create(spec->low, spec->high);
+    return jox_danger_create(jox_sub(r->crowd->low, (JoxV2){EDGE, EDGE}),
+                             jox_add(r->crowd->high, (JoxV2){EDGE, EDGE}));
+}
+
+/* For each frame with people, and one more, how many were in a frame before and are in none from
+   here on. */
+static uint32_t *count_leavers(const JoxTrajectories *t) {
+    uint32_t *left = jox_alloc(t->frame_count + 1, sizeof *left);
+    uint32_t *last = jox_alloc(t->keys + 1, sizeof *last); /* by key: one more than the frame */
+    JoxFrame frame;
+    for (uint32_t f = 0; jox_trajectories_frame(t, f, &frame); f++)
+        for (uint32_t i = 0; i < frame.count; i++)
+            last[frame.key[i]] = f + 1;
+    for (uint32_t key = 0; key < t->keys; key++)
+        if (last[key])
+            left[last[key]]++;
+    for (uint32_t f = 1; f <= t->frame_count; f++)
+        left[f] += left[f - 1];
+    jox_free(last);
+    return left;
+}
+
+/* Whoever is missing from the frame on has left at its time. */
+static void leave(JoxReport *r, uint32_t left, double time) {
+    if (left > r->exits.left)
+        r->exits.last = time;
+    r->exits.left = left;
+}
+
+static void measure(JoxReport *r) {
+    const JoxTrajectories *t = r->crowd;
+    uint32_t *left = count_leavers(t);
+    JoxFrame frame;
+    r->danger = begin_danger(r);
+    for (uint32_t f = 0; jox_trajectories_frame(t, f, &frame); f++) {
+        frame.walls = jox_report_walls(r);
+        leave(r, left[f], frame.time);
+        for (uint32_t p = 0; p < r->count; p++)
+            jox_probe_frame(r->probes[p], &frame);
+        jox_danger_frame(r->danger, &frame, &r->exits);
+    }
+    int64_t end = t->number[t->count - 1];
+    if (t->last > end) { /* it goes on, empty */
+        leave(r, left[t->frame_count], (double)(end + 1) / t->fps);
+        frame = (JoxFrame){.time = (double)t->last / t->fps, .keys = t->keys};
+        jox_danger_frame(r->danger, &frame, &r->exits);
+    }
+    jox_free(left);
+}
+
+static char *summary(const JoxReport *r) {
+    const JoxTrajectories *t = r->crowd;
+    JoxText out = {0};
+    JoxFrame first = {0}, last = {0};
+    jox_trajectories_frame(t, 0, &first);
+    jox_trajectories_frame(t, t->frame_count - 1, &last);
+    jox_text_add(&out, "{\n \"recording\": ");
+    jox_text_json(&out, r->def->recording);
+    jox_text_printf(&out,
+                    ",\n \"version\": \"%s\",\n \"people\": %u,\n \"frames\": %u,\n"
+                    " \"fps\": %.9g,\n \"from_s\": %.9g,\n \"until_s\": %.9g",
+                    jo_version(), t->people, t->frame_count, t->fps, first.time, last.time);
+    jox_text_add(&out, ",\n \"danger\": {");
+    jox_exits_json(&r->exits, &out);
+    jox_text_add(&out, ",\n  ");
+    jox_danger_json(r->danger, &out);
+    jox_text_add(&out, "},\n \"probes\": {");
+    for (uint32_t p = 0; p < r->count; p++) {
+        jox_text_add(&out, p ? ",\n  " : "\n  ");
+        jox_text_json(&out, jox_probe_def(r->probes[p])->name);
+        jox_text_add(&out, ": ");
+        jox_probe_json(r->probes[p], &out);
+    }
+    jox_text_add(&out, "\n }\n}\n");
+    return out.data;
+}
+
+char *jo_report(const JoReportDef *def, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == REPORT_COOKIE && def->recording, NULL);
+    JOX_REQUIRE(def->fps >= 0.0 && def->fps <= 1e5, NULL);
+    JOX_REQUIRE(def->unit >= 0.0 && def->unit <= 1e3, NULL);
+    JoxReport r = {.def = def};
+    char *text = NULL;
+    bool good = load(&r);
+    if (good)
+        measure(&r);
+    if (r.spec) /* the lines that errors speak of */
+        for (uint32_t f = 0; f < r.spec->file_count; f++)
+            jox_diag_attach_source(&r.diagnostics, r.spec->files[f].path, r.spec->files[f].text,
+                                   r.spec->files[f].length);
+    jox_run_report(def->message, def->message_context, &r.diagnostics, error);
+    if (good && (!def->directory || write(&r, error)))
+        text = summary(&r);
+    for (uint32_t p = 0; p < r.count; p++)
+        jox_probe_free(r.probes[p]);
+    jox_free(r.probes);
+    jox_danger_free(r.danger);
+    jox_exits_free(&r.exits);
+    jox_trajectories_free(r.crowd);
+    jox_scene_free(r.spec);
+    return text;
+}

@@ -1,0 +1,131 @@
+/* The page of a report on a recording. */
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/hash.h"
+#include "picture/html.h"
+#include "picture/plot.h"
+#include "report/page_parts.h"
+#include "report/report.h"
+
+static JoxPageFigures collect(const JoxReport *r) {
+    const JoxTrajectories *t = r->crowd;
+    JoxPageFigures f = {0};
+    JoxFrame first = {0}, last = {0};
+    jox_trajectories_frame(t, 0, &first);
+    jox_trajectories_frame(t, t->frame_count - 1, &last);
+    jox_page_add(&f, "", t->people, "people");
+    jox_page_add(&f, "", t->frame_count, "frames with people");
+    jox_page_add(&f, "s", first.time, "first of them");
+    jox_page_add(&f, "s", last.time, "last of them");
+    jox_page_add(&f, "", t->people - (double)r->exits.left, "people in the last frame");
+    jox_page_add_exits(&f, &r->exits);
+    jox_page_add_danger(&f, r->danger);
+    for (uint32_t p = 0; p < r->count; p++)
+        jox_page_add_probe(&f, r->probes[p]);
+    return f;
+}
+
+static void put_figures(FILE *out, const JoxReport *r) {
+    JoxPageFigures f = collect(r);
+    jox_html_heading(out, "Figures");
+    jox_html_paragraph(out, "Somebody has left from the first frame on in which they are missing, "
+                            "and in none behind which they come again; where a recording shows a "
+                            "part of a place, to leave is to leave the picture.");
+    jox_html_table(out, "figure|value");
+    for (uint32_t i = 0; i < f.count; i++) {
+        jox_html_row(out);
+        jox_html_cell(out, f.items[i].name);
+        jox_html_cell_number(out, f.items[i].value, f.items[i].unit);
+    }
+    jox_html_table_end(out);
+    jox_page_release(&f);
+}
+
+static void put_worth(FILE *out, const JoxReport *r) {
+    bool forces = jox_danger_reads(r->danger, JOX_DANGER_COMPRESSION);
+    jox_page_validation(out);
+    jox_html_paragraph(
+        out, forces
+                 ? "None of that validates this recording. It is a simulated crowd; its geometry, "
+                   "numbers of people, behaviours and parameters are what its author gave. "
+                   "Compression in particular is a model's: forces inside real crowds of this size "
+                   "have hardly been measured, and the limits come from single persons and from "
+                   "what was found after disasters. Read the limits as places and times to look "
+                   "at, not as a count of injured."
+                 : "What is on this page follows from positions alone: it is as good as these are. "
+                   "Velocities are displacements over 0.2 s before and after, unless the recording "
+                   "gives them; those of sway and of noise in tracking add to crowd pressure. Read "
+                   "the limits as places and times to look at, not as a count of injured.");
+}
+
+/* SHA-256 of the recording, which may be large; a dash if it cannot be mapped. */
+static void hash_file(const char *path, char out[65]) {
+    struct stat info;
+    int file = open(path, O_RDONLY | O_CLOEXEC);
+    void *data = MAP_FAILED;
+    snprintf(out, 65, "-");
+    if (file >= 0 && fstat(file, &info) == 0 && info.st_size > 0)
+        data = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, file, 0);
+    if (data != MAP_FAILED) {
+        jox_sha256_hex(data, (size_t)info.st_size, out);
+        munmap(data, (size_t)info.st_size);
+    }
+    if (file >= 0)
+        close(file);
+}
+
+static void put_inputs(FILE *out, const JoxReport *r) {
+    char hash[65];
+    jox_html_heading(out, "How to repeat it");
+    fputs("<p><code>jostle report ", out);
+    jox_html_argument(out, r->def->recording);
+    if (r->def->scene) {
+        fputs(" --scene ", out);
+        jox_html_argument(out, r->def->scene);
+    }
+    if (r->def->fps > 0.0)
+        fprintf(out, " --fps %g", r->def->fps);
+    if (r->def->unit > 0.0)
+        fprintf(out, " --unit %s", r->def->unit == 1.0 ? "m" : "cm");
+    fputs(" --out DIR</code></p>\n", out);
+    jox_html_table(out, "input|SHA-256");
+    hash_file(r->def->recording, hash);
+    jox_html_row(out);
+    jox_html_cell(out, r->def->recording);
+    jox_html_cell(out, hash);
+    for (uint32_t f = 0; r->spec && f < r->spec->file_count; f++) {
+        jox_html_row(out);
+        jox_html_cell(out, r->spec->files[f].path);
+        jox_html_cell(out, r->spec->files[f].sha256);
+    }
+    jox_html_table_end(out);
+}
+
+bool jox_report_page(const JoxReport *r, JoxText *error) {
+    FILE *out = jox_plot_open(r->def->directory, "index.html", error);
+    char line[512];
+    if (!out)
+        return false;
+    jox_html_begin(out, jox_report_title(r));
+    snprintf(line, sizeof line,
+             "The recording %.200s: %u people, %u frames, %g a second; measured by Jostle %s.",
+             r->def->recording, r->crowd->people, r->crowd->frame_count, r->crowd->fps,
+             jo_version());
+    jox_html_paragraph(out, line);
+    jox_html_heading(out, "Pictures");
+    jox_page_danger_pictures(out, r->def->directory);
+    for (uint32_t p = 0; p < r->count; p++)
+        jox_page_probe(out, r->def->directory, r->probes[p]);
+    jox_page_danger(out, r->danger);
+    put_figures(out, r);
+    put_worth(out, r);
+    put_inputs(out, r);
+    jox_html_end(out);
+    return jox_plot_close(out, "index.html", error);
+}

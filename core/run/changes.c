@@ -1,0 +1,123 @@
+#include "run/changes.h"
+
+#include <string.h>
+
+#include "base/mem.h"
+
+static bool holds(const JoxFiles *files, const char *path) {
+    for (uint32_t f = 0; f < files->count; f++)
+        if (strcmp(files->paths[f], path) == 0)
+            return true;
+    return false;
+}
+
+void jox_files_add(JoxFiles *files, const char *path) {
+    if (holds(files, path))
+        return;
+    JOX_RESERVE(files->paths, files->capacity, files->count + 1);
+    files->paths[files->count++] = jox_strdup(path);
+}
+
+void jox_files_free(JoxFiles *files) {
+    for (uint32_t f = 0; f < files->count; f++)
+        jox_free(files->paths[f]);
+    jox_free(files->paths);
+    *files = (JoxFiles){0};
+}
+
+void jox_changes_uses(JoxChanges *changes, uint32_t part, const char *path) {
+    jox_files_add(&changes->made_of[part], path);
+}
+
+void jox_changes_file(JoxChanges *changes, const char *path, double written) {
+    JoxChangedFile *file = NULL;
+    for (uint32_t f = 0; f < changes->count; f++)
+        if (strcmp(changes->files[f].path, path) == 0)
+            file = &changes->files[f];
+    if (!file) {
+        JOX_RESERVE(changes->files, changes->capacity, changes->count + 1);
+        file = &changes->files[changes->count++];
+        file->path = jox_strdup(path);
+    }
+    file->written = written;
+    file->fresh = true;
+}
+
+static void forget(JoxChanges *changes, uint32_t file) {
+    jox_free(changes->files[file].path);
+    changes->files[file] = changes->files[--changes->count];
+}
+
+void jox_changes_drop(JoxChanges *changes, const char *path) {
+    for (uint32_t f = changes->count; f-- > 0;)
+        if (strcmp(changes->files[f].path, path) == 0)
+            forget(changes, f);
+}
+
+bool jox_changes_fresh(const JoxChanges *changes) {
+    for (uint32_t f = 0; f < changes->count; f++)
+        if (changes->files[f].fresh)
+            return true;
+    return false;
+}
+
+/* Adds to `parts` what hangs together with the file, by way of any number of others. */
+static void spread(const JoxChanges *changes, uint32_t file, bool parts[JOX_PARTS]) {
+    const char *path = changes->files[file].path;
+    for (uint32_t p = 0; p < JOX_PARTS; p++) {
+        if (parts[p] || !holds(&changes->made_of[p], path))
+            continue;
+        parts[p] = true;
+        for (uint32_t f = 0; f < changes->count; f++)
+            if (f != file && holds(&changes->made_of[p], changes->files[f].path))
+                spread(changes, f, parts);
+    }
+}
+
+static bool used_by(const JoxChanges *changes, const bool parts[JOX_PARTS], const char *path) {
+    for (uint32_t p = 0; p < JOX_PARTS; p++)
+        if (parts[p] && holds(&changes->made_of[p], path))
+            return true;
+    return false;
+}
+
+bool jox_changes_next(JoxChanges *changes, bool parts[JOX_PARTS], double *written) {
+    *written = 0.0;
+    for (uint32_t first = 0; first < changes->count; first++) {
+        if (!changes->files[first].fresh)
+            continue;
+        memset(parts, 0, JOX_PARTS * sizeof *parts);
+        spread(changes, first, parts);
+        if (!used_by(changes, parts, changes->files[first].path)) {
+            forget(changes, first--); /* nothing is made of it any more */
+            continue;
+        }
+        for (uint32_t f = 0; f < changes->count; f++) {
+            JoxChangedFile *file = &changes->files[f];
+            if (!file->fresh || !used_by(changes, parts, file->path))
+                continue;
+            file->fresh = false;
+            *written = file->written > *written ? file->written : *written;
+        }
+        return true;
+    }
+    return false;
+}
+
+void jox_changes_live(JoxChanges *changes, const bool parts[JOX_PARTS]) {
+    for (uint32_t f = changes->count; f-- > 0;)
+        if (!changes->files[f].fresh && used_by(changes, parts, changes->files[f].path))
+            forget(changes, f);
+    for (uint32_t p = 0; p < JOX_PARTS; p++)
+        if (parts[p])
+            jox_files_free(&changes->made_of[p]);
+}
+
+void jox_changes_free(JoxChanges *changes) {
+    while (changes->count)
+        forget(changes, 0);
+    jox_free(changes->files);
+    for (uint32_t p = 0; p < JOX_PARTS; p++)
+        jox_files_free(&changes->made_of[p]);
+    *changes = (JoxChanges){0};
+}

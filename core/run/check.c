@@ -1,0 +1,205 @@
+/* jo_check: every error of scenes, behaviours and folders of them; nothing is run. */
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "run/run.h"
+#include "validate/claims.h"
+
+enum { DEEPEST = 8, MOST_ERRORS = 10000 };
+
+static bool ends_with(const char *path, const char *ending) {
+    size_t n = strlen(path), m = strlen(ending);
+    return n >= m && strcmp(path + n - m, ending) == 0;
+}
+
+static void keep_message(void *context, const char *text) {
+    (void)context;
+    (void)text;
+}
+
+/* A scene is loaded whole, with its behaviours, into a world that never steps. `mod` may be NULL: a
+   mod's folder that is taken. */
+static void check_scene(const char *path, const char *mod, JoxDiagnostics *all) {
+    JoSceneDef def = jo_default_scene_def();
+    def.path = path;
+    def.message = keep_message;
+    def.mods = &mod;
+    def.mod_count = mod != NULL;
+    def.named_mods_only = mod != NULL;
+    JoScene *scene = jox_run_load(&def, all);
+    if (scene)
+        jox_diag_move(all, &scene->mod_problems);
+    jo_scene_free(scene);
+}
+
+static void check_behaviour(const char *path, const JoxScope *scope, JoxDiagnostics *all) {
+    JoxLua *lua = jox_lua_create(NULL);
+    JoxDiagnostics own = {0};
+    jox_machine_free(jox_lua_load(lua, path, scope, &own));
+    jox_diag_move(all, &own);
+    jox_lua_free(lua);
+}
+
+static bool is_file(const char *path) {
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISREG(info.st_mode);
+}
+
+/* Files of claims say so: they are no behaviours. */
+static bool is_claim(const char *path) {
+    size_t length;
+    char *text = jox_read_file(path, (size_t)1 << 20, &length);
+    const char *at = text ? strstr(text, "return claim") : NULL;
+    bool claim = at && (at == text || at[-1] == '\n');
+    jox_free(text);
+    return claim;
+}
+
+static void check_claim(const char *path, JoxDiagnostics *all) {
+    JoxClaim *claim = jox_claim_load(path, false, all);
+    for (uint32_t r = 0; claim && r < claim->run_count; r++)
+        if (!is_file(claim->runs[r].scene))
+            jox_diag_error(all, ((JoxPosition){path, 0, 0, 0}), "missing-file", NULL,
+                           "run '%s': there is no scene %s", claim->runs[r].name,
+                           claim->runs[r].scene);
+    jox_claim_free(claim);
+}
+
+/* ---- mods ---- */
+
+/* The file that a patch changes: of a mod for "mod:name"; else of the tree that the mods lie in, or
+   of the library. */
+static bool find_target(const JoxMods *mods, const JoxMod *mod, const JoxModPatch *patch,
+                        char path[1024]) {
+    const char *kind = patch->lua ? "behaviours" : "scenes", *end = patch->lua ? "lua" : "yaml";
+    const char *colon = strchr(patch->target, ':');
+    for (uint32_t m = 0; colon && m < mods->found_count; m++) {
+        const JoxMod *owner = &mods->found[m];
+        if (strncmp(owner->name, patch->target, (size_t)(colon - patch->target)) ||
+            owner->name[colon - patch->target])
+            continue;
+        snprintf(path, 1024, "%.500s/%s/%.200s.%s", owner->folder, kind, colon + 1, end);
+        return is_file(path);
+    }
+    const char *const forms[] = {"%.500s/../../%.20s/%.200s.%s", "%.500s/../../../%.20s/%.200s.%s"};
+    for (int f = 0; f < 2; f++) {
+        snprintf(path, 1024, forms[f], mod->folder, kind, patch->target, end);
+        if (is_file(path))
+            return true;
+    }
+    snprintf(path, 1024, "%.500s/../../%.200s.%s", mod->folder, patch->target, end);
+    if (is_file(path))
+        return true;
+    snprintf(path, 1024, "%s/%s/%.200s.%s", JOX_DATADIR, kind, patch->target, end);
+    return is_file(path);
+}
+
+/* What a mod's patches make of the files that they change. */
+static void check_patches(const JoxMods *mods, const JoxMod *mod, JoxDiagnostics *all) {
+    for (uint32_t p = 0; p < mod->patch_count; p++) {
+        const JoxModPatch *patch = &mod->patches[p];
+        char path[1024];
+        if (!patch->target)
+            continue;
+        if (!find_target(mods, mod, patch, path)) {
+            jox_diag_error(all, patch->position, "unknown-target",
+                           "A file of behaviours/ or scenes/ by its name, or mod:name of a mod",
+                           "there is no %s '%s' to change", patch->lua ? "behaviour" : "scene",
+                           patch->target);
+        } else if (patch->lua) {
+            JoxScope scope = {.mods = mods->items, .mod_count = mods->count};
+            check_behaviour(path, &scope, all);
+        } else {
+            check_scene(path, mod->folder, all);
+        }
+    }
+}
+
+static void check_mod(const char *folder, JoxDiagnostics *all) {
+    char beside[1024];
+    snprintf(beside, sizeof beside, "%.900s/../../scene", folder); /* so that others are found */
+    JoSceneDef def = jo_default_scene_def();
+    def.path = beside;
+    def.mods = &folder;
+    def.mod_count = 1;
+    def.named_mods_only = true;
+    JoxMods *mods = jox_run_find_mods(&def, 0, all);
+    for (uint32_t m = 0; m < mods->count; m++)
+        if (strcmp(mods->items[m].folder, folder) == 0)
+            check_patches(mods, &mods->items[m], all);
+    jox_mods_free(mods);
+}
+
+static int by_name(const struct dirent **a, const struct dirent **b) {
+    return strcmp((*a)->d_name, (*b)->d_name);
+}
+
+/* `mod`: the folder of the mod that the path lies in, or NULL. */
+static void check_path(const char *path, bool named, int depth, const char *mod,
+                       JoxDiagnostics *all) {
+    struct stat info;
+    JoxDiagnostics own = {0};
+    if (stat(path, &info) != 0) {
+        jox_diag_error(&own, ((JoxPosition){path, 0, 0, 0}), "unreadable-file", NULL,
+                       "there is no such file");
+    } else if (S_ISDIR(info.st_mode) && depth < DEEPEST) {
+        struct dirent **entries;
+        char sheet[1024];
+        snprintf(sheet, sizeof sheet, "%.900s/mod.yaml", path);
+        if (!mod && is_file(sheet)) {
+            mod = path;
+            check_mod(path, &own);
+        }
+        int count = scandir(path, &entries, NULL, by_name);
+        for (int e = 0; e < count; e++) {
+            char inner[1024];
+            snprintf(inner, sizeof inner, "%s/%s", path, entries[e]->d_name);
+            bool patches = mod && strcmp(entries[e]->d_name, "patches") == 0; /* looked at above */
+            if (entries[e]->d_name[0] != '.' && !patches)
+                check_path(inner, false, depth + 1, mod, all);
+            free(entries[e]);
+        }
+        if (count >= 0)
+            free(entries);
+    } else if (ends_with(path, "/mod.yaml")) {
+        char folder[1024];
+        snprintf(folder, sizeof folder, "%.*s", (int)(strlen(path) - 9), path);
+        if (named)
+            check_mod(folder, &own);
+    } else if (ends_with(path, ".yaml") || ends_with(path, ".yml")) {
+        check_scene(path, mod, &own);
+    } else if (ends_with(path, ".lua") && !ends_with(path, "_test.lua")) {
+        if (is_claim(path))
+            check_claim(path, &own);
+        else
+            check_behaviour(path, NULL, &own);
+    } else if (named && !ends_with(path, ".lua")) {
+        jox_diag_error(&own, ((JoxPosition){path, 0, 0, 0}), "unknown-kind", NULL,
+                       "only scenes (.yaml) and behaviours (.lua) can be checked");
+    }
+    jox_diag_move(all, &own);
+}
+
+size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
+                void *context) {
+    JOX_REQUIRE(paths && message, 0);
+    JoxDiagnostics all = {.limit = MOST_ERRORS}; /* each file keeps 20 of its own */
+    for (size_t p = 0; p < count; p++)
+        check_path(paths[p], true, 0, NULL, &all);
+    JoxText text = {0};
+    if (json)
+        jox_diag_json(&all, &text);
+    else
+        jox_diag_print(&all, &text);
+    if (text.length)
+        message(context, text.data);
+    size_t errors = all.errors;
+    jox_text_free(&text);
+    jox_diag_free(&all);
+    return errors;
+}

@@ -1,0 +1,248 @@
+/* What people do to a running scene: every deed is an entry of an input log, done before the step
+   that comes and written down, so that the log plays back to the same state. */
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "run/run.h"
+
+/* ---- deeds ---- */
+
+/* Index of the living agent with an id, or JOX_NO_INDEX with `error`. */
+static uint32_t find_agent(const JoScene *scene, uint32_t id, JoError *error) {
+    const JoxAgents *a = &scene->world->agents;
+    if (id < a->next_id && a->id_index[id] != JOX_NO_INDEX)
+        return a->id_index[id];
+    if (id < a->next_id)
+        jox_error(error, JO_INPUT, "agent %u has left", id);
+    else
+        jox_error(error, JO_INPUT, "there is no agent %u; ids go up to %u", id,
+                  a->next_id ? a->next_id - 1 : 0);
+    return JOX_NO_INDEX;
+}
+
+static bool push(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+    JoxAgents *a = &scene->world->agents;
+    uint32_t i = find_agent(scene, entry->number, error);
+    if (i == JOX_NO_INDEX)
+        return false;
+    a->ext_x[i] += (float)entry->numbers[0];
+    a->ext_y[i] += (float)entry->numbers[1];
+    return true;
+}
+
+/* A log may speak of players who are yet to come. */
+static bool drive(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+    if (entry->line == 0 && find_agent(scene, entry->number, error) == JOX_NO_INDEX)
+        return false;
+    jox_input_player(&scene->world->input, entry->number, (float)entry->numbers[0],
+                     (float)entry->numbers[1]);
+    return true;
+}
+
+static bool add_box(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+    const double *v = entry->numbers;
+    JoxText why = {0};
+    bool good = jox_world_add_box(scene->world, v, v + 3, v[6], v[7], &why) != JOX_NO_BODY;
+    if (!good)
+        jox_error(error, JO_INPUT, "%s", why.data ? why.data : "the box was refused");
+    jox_text_free(&why);
+    return good;
+}
+
+static bool grab(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+    JoWorld *world = scene->world;
+    const unsigned row = entry->number;
+    switch (jox_world_grab(world, row, entry->numbers, entry->verb == JOX_INPUT_GRAB)) {
+    case JOX_GRAB_DONE:
+        return true;
+    case JOX_GRAB_NONE:
+        jox_error(error, JO_INPUT, "there is no body %u", row);
+        break;
+    case JOX_GRAB_STATIC:
+        jox_error(error, JO_INPUT, "body %u is static: it cannot be moved", row);
+        break;
+    case JOX_GRAB_FREE:
+        jox_error(error, JO_INPUT, "body %u is not held; grab it first", row);
+        break;
+    case JOX_GRAB_FULL:
+        jox_error(error, JO_INPUT, "%d bodies are held already; release one first", JOX_MOST_GRABS);
+        break;
+    }
+    return false;
+}
+
+static bool release(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+    bool good = jox_world_release(scene->world, entry->number);
+    if (!good)
+        jox_error(error, JO_INPUT, "body %u is not held", entry->number);
+    return good;
+}
+
+static bool do_entry(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+    const double *v = entry->numbers;
+    switch (entry->verb) {
+    case JOX_INPUT_PLAYER:
+        return drive(scene, entry, error);
+    case JOX_INPUT_THROW:
+        return jox_run_throw(scene, entry->names[0], entry->here ? NULL : v, v + 3, v + 6, error);
+    case JOX_INPUT_BOX:
+        return add_box(scene, entry, error);
+    case JOX_INPUT_GRAB:
+    case JOX_INPUT_DRAG:
+        return grab(scene, entry, error);
+    case JOX_INPUT_RELEASE:
+        return release(scene, entry, error);
+    case JOX_INPUT_PUSH:
+        return push(scene, entry, error);
+    case JOX_INPUT_OPEN:
+    case JOX_INPUT_CLOSE:
+        return jox_run_open(scene, entry->names[0], entry->verb == JOX_INPUT_OPEN, error);
+    case JOX_INPUT_SIGNAL:
+        return jox_run_signal(scene, entry->names[0], error);
+    case JOX_INPUT_SET:
+        return jox_run_set(scene, entry->names[0], entry->names[1], entry->names[2], v[0], error);
+    case JOX_INPUT_BEGAN: /* were looked at when the scene was loaded */
+    case JOX_INPUT_MADE:
+    case JOX_INPUT_BEFORE:
+        return true;
+    case JOX_INPUT_FILES:
+        return jox_run_play_files(scene, entry, error);
+    case JOX_INPUT_VERBS:
+        break;
+    }
+    return false;
+}
+
+/* ---- the log that is written ---- */
+
+void jox_run_log(JoScene *scene, JoxInputEntry *entry) {
+    JoxText text = {0};
+    if (!scene->log)
+        return;
+    entry->tick = (uint32_t)scene->world->tick;
+    jox_input_write(entry, &text);
+    if (fwrite(text.data, 1, text.length, scene->log) != text.length || fflush(scene->log) != 0)
+        scene->log_failed = true;
+    jox_text_free(&text);
+}
+
+bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
+    JOX_REQUIRE(scene && path && !scene->log && !scene->finished, false);
+    const JoWorld *world = scene->world;
+    if (scene->input_path && strcmp(path, scene->input_path) == 0) {
+        jox_error(error, JO_INPUT,
+                  "'%.200s' is the input log that is played; write the new one to another file",
+                  path);
+        return false;
+    }
+    scene->log = fopen(path, "w");
+    if (!scene->log) {
+        jox_error(error, JO_FAILED, "cannot write the input log '%.200s': %s", path,
+                  strerror(errno));
+        return false;
+    }
+    scene->log_path = jox_strdup(path);
+    fprintf(scene->log, "# input log of jostle %s: scene %s, seed %llu, dt %.9g s%s\n",
+            jo_version(), scene->def.path, (unsigned long long)world->def.seed, world->def.dt,
+            world->tick ? ", begun in mid-run" : "");
+    jox_run_log_origin(scene);
+    return jox_run_logged(scene, error);
+}
+
+bool jox_run_logged(const JoScene *scene, JoError *error) {
+    if (scene->log_failed)
+        jox_error(error, JO_FAILED, "cannot write the input log '%.200s'", scene->log_path);
+    return !scene->log_failed;
+}
+
+bool jox_run_end_log(JoScene *scene, JoError *error) {
+    if (!scene->log)
+        return true;
+    scene->log_failed |= fclose(scene->log) != 0;
+    scene->log = NULL;
+    bool good = jox_run_logged(scene, error);
+    jox_free(scene->log_path);
+    scene->log_path = NULL;
+    return good;
+}
+
+/* ---- what comes in ---- */
+
+static bool perform(JoScene *scene, JoxInputEntry *entry, JoError *error) {
+    if (!do_entry(scene, entry, error))
+        return false;
+    scene->acted_on |= entry->line == 0;
+    if (entry->verb < JOX_INPUT_BEGAN) /* a reload is logged as it goes live */
+        jox_run_log(scene, entry);
+    return true;
+}
+
+bool jo_scene_input(JoScene *scene, const char *line, JoError *error) {
+    JOX_REQUIRE(scene && line && !scene->finished, false);
+    JoxInputEntry entry;
+    JoxText wrong = {0};
+    bool good = jox_input_read(line, &entry, &wrong);
+    if (good) {
+        good = perform(scene, &entry, error);
+        jox_input_entry_free(&entry);
+    } else {
+        jox_error(error, JO_INPUT, "%s", wrong.data);
+    }
+    jox_text_free(&wrong);
+    return good;
+}
+
+void jox_run_inputs(JoScene *scene) {
+    const JoxInputEntry *next;
+    while ((next = jox_input_next(&scene->world->input, scene->world->tick))) {
+        JoxInputEntry entry = *next;
+        JoError error = {0};
+        if (!perform(scene, &entry, &error))
+            jox_run_say(scene, "%s:%d: t = %.2f s: %s\n", scene->input_path, entry.line,
+                        jo_world_time(scene->world), error.text);
+    }
+}
+
+/* A name that a line can hold. */
+static bool writable(const char *what, const char *name, JoError *error) {
+    size_t n = strlen(name);
+    bool good = n > 0 && n <= JOX_INPUT_NAME;
+    for (size_t i = 0; i < n; i++)
+        good = good && (unsigned char)name[i] >= 0x20 && name[i] != 0x7f;
+    if (!good)
+        jox_error(error, JO_INPUT, "%s has from 1 to %d bytes, without control characters", what,
+                  JOX_INPUT_NAME);
+    return good;
+}
+
+static bool named(JoScene *scene, JoxInputVerb verb, const char *what, const char *name,
+                  JoError *error) {
+    JoxInputEntry entry = {.verb = verb, .names = {(char *)name}};
+    return writable(what, name, error) && perform(scene, &entry, error);
+}
+
+bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
+                    const double velocity[3], const double spin[3], JoError *error) {
+    JOX_REQUIRE(scene && body, false);
+    JoxInputEntry entry = {.verb = JOX_INPUT_THROW, .names = {(char *)body}, .here = !from};
+    entry.given = spin ? 9 : 6;
+    for (int k = 0; k < 3; k++) {
+        entry.numbers[k] = from ? from[k] : 0.0;
+        entry.numbers[3 + k] = velocity ? velocity[k] : 0.0;
+        entry.numbers[6 + k] = spin ? spin[k] : 0.0;
+    }
+    return writable("a body's name", body, error) && perform(scene, &entry, error);
+}
+
+bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *error) {
+    JOX_REQUIRE(scene && wall, false);
+    return named(scene, open ? JOX_INPUT_OPEN : JOX_INPUT_CLOSE, "a wall's name", wall, error);
+}
+
+bool jo_scene_signal(JoScene *scene, const char *name, JoError *error) {
+    JOX_REQUIRE(scene && name, false);
+    return named(scene, JOX_INPUT_SIGNAL, "a signal's name", name, error);
+}

@@ -1,0 +1,169 @@
+/* Reloaded files in input logs: the texts that went live, and, on a replay, the same swap in the
+   same step from those texts. */
+#include <string.h>
+
+#include "base/mem.h"
+#include "run/run.h"
+
+/* ---- what a run is made of ---- */
+
+static void log_made(JoScene *scene, JoxFiles *told, const char *path, const char *sha256) {
+    uint32_t before = told->count;
+    jox_files_add(told, path);
+    JoxInputEntry entry = {.verb = JOX_INPUT_MADE, .names = {(char *)path, (char *)sha256}};
+    if (told->count > before && strlen(path) <= JOX_INPUT_PATH)
+        jox_run_log(scene, &entry);
+}
+
+void jox_run_log_origin(JoScene *scene) {
+    const JoWorld *world = scene->world;
+    JoxFiles told = {0};
+    char seed[32];
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)world->def.seed);
+    JoxInputEntry began = {.verb = JOX_INPUT_BEGAN, .names = {seed}, .given = 1};
+    began.numbers[0] = world->def.dt;
+    jox_run_log(scene, &began);
+    for (uint32_t f = 0; f < scene->spec->file_count; f++)
+        log_made(scene, &told, scene->spec->files[f].path, scene->spec->files[f].sha256);
+    for (uint32_t m = 0; m < world->mind.machine_count; m++) {
+        uint32_t count;
+        const JoxLuaFile *files = jox_lua_files(scene->lua, world->mind.machines[m], &count);
+        for (uint32_t f = 0; f < count; f++)
+            log_made(scene, &told, files[f].path, files[f].sha256);
+    }
+    jox_files_free(&told);
+}
+
+/* ---- writing ---- */
+
+static void add_file(JoxInputEntry *entry, const char *path, const char *text, size_t length) {
+    for (uint32_t f = 0; f < entry->number; f++)
+        if (strcmp(entry->files[f].path, path) == 0)
+            return;
+    if (entry->number == JOX_INPUT_FILE_COUNT)
+        return;
+    entry->files = jox_realloc(entry->files, entry->number + 1, sizeof *entry->files);
+    entry->files[entry->number++] =
+        (JoxInputFile){jox_strdup(path), jox_strndup(text, length), length};
+}
+
+/* The live text of a file that machines are made of; NULL where none is. */
+static const char *live_text(const JoScene *scene, const char *path, const char **sha256,
+                             size_t *length) {
+    const JoxMind *mind = &scene->world->mind;
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        uint32_t count;
+        const JoxLuaFile *files = jox_lua_files(scene->lua, mind->machines[m], &count);
+        for (uint32_t f = 0; f < count; f++)
+            if (strcmp(files[f].path, path) == 0) {
+                *sha256 = files[f].sha256;
+                return jox_lua_text(scene->lua, mind->machines[m], f, length);
+            }
+    }
+    for (uint32_t f = 0; f < scene->spec->file_count; f++)
+        if (strcmp(scene->spec->files[f].path, path) == 0) {
+            *sha256 = scene->spec->files[f].sha256;
+            *length = scene->spec->files[f].length;
+            return scene->spec->files[f].text;
+        }
+    return NULL;
+}
+
+void jox_run_note_file(JoScene *scene, JoxReloaded *reloaded, const char *path, const char *sha256,
+                       const char *text, size_t length) {
+    const char *known;
+    size_t live_length;
+    const char *live = live_text(scene, path, &known, &live_length);
+    if (live && strcmp(known, sha256) == 0)
+        return;
+    if (length > JOX_INPUT_LARGEST || strlen(path) > JOX_INPUT_PATH) {
+        jox_run_say(scene,
+                    "%s is over 16 MB: the input log does without, and a replay reads it "
+                    "from the disk\n",
+                    path);
+        return;
+    }
+    add_file(&reloaded->files, path, text, length);
+    bool first = true;
+    for (uint32_t f = 0; f < scene->logged_files.count; f++)
+        first &= strcmp(scene->logged_files.paths[f], path) != 0;
+    if (live && first)
+        add_file(&reloaded->before, path, live, live_length);
+}
+
+void jox_run_log_files(JoScene *scene, JoxReloaded *reloaded) {
+    JoxInputEntry *const entries[] = {&reloaded->before, &reloaded->files};
+    reloaded->before.verb = JOX_INPUT_BEFORE;
+    reloaded->files.verb = JOX_INPUT_FILES;
+    for (int e = 0; e < 2; e++) {
+        if (entries[e]->number)
+            jox_run_log(scene, entries[e]);
+        for (uint32_t f = 0; f < entries[e]->number; f++)
+            jox_files_add(&scene->logged_files, entries[e]->files[f].path);
+        jox_input_entry_free(entries[e]);
+    }
+}
+
+bool jox_run_is_live(const JoScene *scene, const JoxInputFile *file) {
+    const char *sha256;
+    size_t length;
+    const char *live = live_text(scene, file->path, &sha256, &length);
+    return live && length == file->length && memcmp(live, file->text, length) == 0;
+}
+
+/* ---- playing ---- */
+
+static void check_began(const JoScene *scene, const JoxInputEntry *entry) {
+    const JoWorldDef *def = &scene->world->def;
+    char seed[32];
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)def->seed);
+    if (strcmp(seed, entry->names[0]) != 0 || def->dt != entry->numbers[0])
+        jox_run_say(scene,
+                    "%s:%d: the log was written with seed %s and steps of %g s, not %s and %g s: "
+                    "the run goes another way (--seed %s --dt %g)\n",
+                    scene->input_path, entry->line, entry->names[0], entry->numbers[0], seed,
+                    def->dt, entry->names[0], entry->numbers[0]);
+    if (entry->tick > 0)
+        jox_run_say(scene,
+                    "%s:%d: the log was begun %u steps into the run: it does not tell all that "
+                    "was done\n",
+                    scene->input_path, entry->line, entry->tick);
+}
+
+void jox_run_check_log(const JoScene *scene) {
+    const JoxInputLog *log = &scene->world->input;
+    for (size_t e = 0; e < log->count; e++) {
+        const JoxInputEntry *entry = &log->entries[e];
+        const char *sha256;
+        size_t length;
+        if (entry->verb == JOX_INPUT_BEGAN)
+            check_began(scene, entry);
+        if (entry->verb == JOX_INPUT_MADE && live_text(scene, entry->names[0], &sha256, &length) &&
+            strcmp(sha256, entry->names[1]) != 0)
+            jox_run_say(scene,
+                        "%s:%d: %s has changed since the log was written: the run may go another "
+                        "way\n",
+                        scene->input_path, entry->line, entry->names[0]);
+    }
+}
+
+void jox_run_before(JoxOverlay *overlay, const JoxInputLog *log) {
+    for (size_t e = 0; e < log->count; e++)
+        for (uint32_t f = 0; log->entries[e].verb == JOX_INPUT_BEFORE && f < log->entries[e].number;
+             f++) {
+            const JoxInputFile *file = &log->entries[e].files[f];
+            if (!jox_overlay_find(overlay, file->path))
+                jox_overlay_put(overlay, file->path, file->text, file->length);
+        }
+}
+
+bool jox_run_play_files(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+    for (uint32_t f = 0; f < entry->number; f++) {
+        const JoxInputFile *file = &entry->files[f];
+        jox_overlay_put(&scene->overlay, file->path, file->text, file->length);
+    }
+    const JoxOverlay *before = jox_overlay_use(&scene->overlay);
+    bool live = jox_run_reload_now(scene, entry, error);
+    jox_overlay_use(before);
+    return live;
+}

@@ -1,0 +1,84 @@
+/* Parameters that people set while a scene runs: of a state, or of a machine's defaults. */
+#include <math.h>
+#include <string.h>
+
+#include "run/run.h"
+
+enum { MOST_NAMES = 256 };
+
+static bool unknown(const char *kind, const char *name, const char *const *names, uint32_t count,
+                    JoError *error) {
+    const char *near = jox_suggest(name, names, count);
+    jox_error(error, JO_INPUT, "there is no %s '%.60s'%s%.60s%s", kind, name,
+              near ? ". Did you mean '" : "", near ? near : "", near ? "'?" : "");
+    return false;
+}
+
+static bool choose_machine(const JoxMind *mind, const char *name, JoxChoice *out, JoError *error) {
+    const char *names[JOX_MOST_MACHINES];
+    uint32_t found = 0;
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        const JoxMachine *machine = mind->machines[m];
+        names[m] = machine->name;
+        if (strcmp(machine->path, name) == 0) { /* tells those of one name apart */
+            out->machine = m;
+            return true;
+        }
+        if (strcmp(machine->name, name) == 0 && found++ == 0)
+            out->machine = m;
+    }
+    if (found > 1) {
+        jox_error(error, JO_INPUT,
+                  "%u machines are named '%.60s'; name it by its file, as '%.200s'", found, name,
+                  mind->machines[out->machine]->path);
+        return false;
+    }
+    return found == 1 || unknown("machine", name, names, mind->machine_count, error);
+}
+
+static bool choose_state(const JoxMachine *machine, const char *name, JoxChoice *out,
+                         JoError *error) {
+    out->state = jox_machine_state(machine, name);
+    if (out->state >= 0 || strcmp(name, "defaults") == 0)
+        return true;
+    const char *names[MOST_NAMES] = {"defaults"};
+    uint32_t count = 1;
+    for (uint32_t s = 0; s < machine->state_count && count < MOST_NAMES; s++)
+        names[count++] = machine->states[s].name;
+    char kind[100];
+    snprintf(kind, sizeof kind, "state of %.60s named", machine->name);
+    return unknown(kind, name, names, count, error);
+}
+
+bool jox_run_choose(const JoScene *scene, const char *machine, const char *state,
+                    const char *parameter, double value, JoxChoice *out, JoError *error) {
+    const JoxMind *mind = &scene->world->mind;
+    if (!choose_machine(mind, machine, out, error) ||
+        !choose_state(mind->machines[out->machine], state, out, error))
+        return false;
+    out->parameter = jox_parameter_find(parameter);
+    if (out->parameter < 0) {
+        const char *names[JOX_PARAM_COUNT];
+        for (int p = 0; p < JOX_PARAM_COUNT; p++)
+            names[p] = jox_parameters[p].name;
+        return unknown("parameter", parameter, names, JOX_PARAM_COUNT, error);
+    }
+    const JoxParameterInfo *info = &jox_parameters[out->parameter];
+    if (value >= info->least && value <= info->greatest)
+        return true;
+    jox_error(error, JO_INPUT, "%s must be from %g to %g%s%s, not %g", info->name, info->least,
+              info->greatest, *info->unit ? " " : "", info->unit, value);
+    return false;
+}
+
+bool jox_run_set(JoScene *scene, const char *machine, const char *state, const char *parameter,
+                 double value, JoError *error) {
+    JoxChoice choice;
+    if (!jox_run_choose(scene, machine, state, parameter, value, &choice, error))
+        return false;
+    jox_run_hold_machines(scene, choice.machine, true);
+    jox_mind_set_parameter(&scene->world->mind, choice.machine, choice.state, choice.parameter,
+                           value);
+    jox_run_hold_machines(scene, choice.machine, false);
+    return true;
+}

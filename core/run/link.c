@@ -1,0 +1,206 @@
+/* Machines of a scene: loaded, linked to those that they become, and held against each other. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "base/overlay.h"
+#include "run/run.h"
+
+static int32_t find_machine(const JoxMind *mind, const char *path) {
+    for (uint32_t m = 0; m < mind->machine_count; m++)
+        if (strcmp(mind->machines[m]->path, path) == 0)
+            return (int32_t)m;
+    return -1;
+}
+
+int32_t jox_run_machine(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
+    JoxMind *mind = &scene->world->mind;
+    int32_t known = find_machine(mind, path);
+    if (known >= 0)
+        return known;
+    if (mind->machine_count == JOX_MOST_MACHINES) {
+        jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "too-many", NULL,
+                       "a scene has at most %d behaviours", JOX_MOST_MACHINES);
+        return -1;
+    }
+    JoxMachine *machine = jox_lua_load(scene->lua, path, &scene->scope, diagnostics);
+    return machine ? (int32_t)jox_mind_add(mind, machine) : -1;
+}
+
+/* The file of a behaviour that another one names: beside it, of the library, or of a mod. */
+static bool find_behaviour(const JoScene *scene, const char *from, const char *name,
+                           char path[1024]) {
+    const char *slash = strrchr(from, '/'), *colon = strchr(name, ':');
+    size_t n = strlen(name);
+    const char *lua = n > 4 && !strcmp(name + n - 4, ".lua") ? "" : ".lua";
+    if (strstr(name, "..") &&
+        !scene->spec) /* plain names alone, but where a scene stands for them */
+        return false;
+    for (uint32_t m = 0; colon && m < scene->mods->count; m++) {
+        const JoxMod *mod = &scene->mods->items[m];
+        if (strncmp(mod->name, name, (size_t)(colon - name)) || mod->name[colon - name])
+            continue;
+        snprintf(path, 1024, "%.500s/behaviours/%.200s%s", mod->folder, colon + 1, lua);
+        return jox_is_file(path);
+    }
+    snprintf(path, 1024, "%.*s%.200s%s", slash ? (int)(slash - from) + 1 : 0, from, name, lua);
+    if (jox_is_file(path))
+        return true;
+    snprintf(path, 1024, "%s/behaviours/%.200s%s", JOX_DATADIR, name, lua);
+    return jox_is_file(path);
+}
+
+bool jox_run_find_become(const JoScene *scene, const JoxMachine *machine, uint32_t number,
+                         char path[1024], JoxDiagnostics *diagnostics) {
+    const JoxState *state = &machine->states[number];
+    JoxPosition at = {state->become_file, state->become_line, state->become_column, 0};
+    if (number == machine->start) {
+        jox_diag_error(diagnostics, at, "bad-value", "Begin in another state",
+                       "the state that agents start in cannot become another machine at once");
+        return false;
+    }
+    if (!strstr(state->become, "..") && *state->become != '/' &&
+        find_behaviour(scene, machine->path, state->become, path)) {
+        jox_path_clean(path);
+        return true;
+    }
+    jox_diag_error(diagnostics, at, "missing-file",
+                   "A plain name: of a file beside this one, or of the library",
+                   "there is no behaviour '%.100s' to become", state->become);
+    return false;
+}
+
+bool jox_run_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics) {
+    bool good = true;
+    for (uint32_t s = 0; s < machine->state_count; s++) {
+        char path[1024];
+        if (!machine->states[s].become)
+            continue;
+        int32_t index = jox_run_find_become(scene, machine, s, path, diagnostics)
+                            ? jox_run_machine(scene, path, diagnostics)
+                            : -1;
+        machine->states[s].become_machine = index;
+        good = good && index >= 0;
+    }
+    return good;
+}
+
+bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
+    const JoxSceneSpec *spec = scene->spec;
+    JoxMind *mind = &scene->world->mind;
+    bool good = true;
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        for (uint32_t m = 0; m < spec->groups[g].mix_count; m++) {
+            const char *path = spec->groups[g].mix[m].behaviour;
+            bool failed_before = false;
+            for (uint32_t h = 0; h <= g; h++)
+                for (uint32_t k = 0; k < (h == g ? m : spec->groups[h].mix_count); k++)
+                    failed_before |= !strcmp(spec->groups[h].mix[k].behaviour, path);
+            if (failed_before || jox_run_machine(scene, path, diagnostics) >= 0)
+                continue;
+            good = false;
+        }
+    for (uint32_t m = 0; m < mind->machine_count; m++) /* grows while it goes on */
+        good &= jox_run_link(scene, mind->machines[m], diagnostics);
+    return good;
+}
+
+/* Whether some machine has a name in that use, or a state of that name. */
+static bool used(const JoxMind *mind, const char *text, uint32_t use) {
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        const JoxMachine *machine = mind->machines[m];
+        for (uint32_t n = 0; n < machine->name_count; n++)
+            if ((machine->names[n].uses & use) && strcmp(machine->names[n].text, text) == 0)
+                return true;
+        if (use == JOX_NAME_STATE && jox_machine_state(machine, text) >= 0)
+            return true;
+    }
+    return false;
+}
+
+/* Whether a group whose agents may run the machine sets the own value. */
+static bool given(const JoScene *scene, const JoxMachine *machine, const char *name) {
+    const JoxSceneSpec *spec = scene->spec;
+    bool runs = false;
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        for (uint32_t m = 0; m < spec->groups[g].mix_count; m++) {
+            if (strcmp(spec->groups[g].mix[m].behaviour, machine->path) != 0)
+                continue;
+            runs = true;
+            for (uint32_t s = 0; s < spec->groups[g].set_count; s++)
+                if (strcmp(spec->groups[g].set[s].name, name) == 0)
+                    return true;
+        }
+    return !runs; /* something else becomes it, and brings its own values */
+}
+
+/* Shows the line of an error that is in a behaviour's file. */
+static void attach(const JoxLuaFile *files, uint32_t count, JoxDiagnostics *diagnostics) {
+    for (uint32_t f = 0; f < count; f++) {
+        size_t length;
+        char *text = jox_read_file(files[f].path, 1 << 20, &length);
+        if (text)
+            jox_diag_attach_source(diagnostics, files[f].path, text, length);
+        jox_free(text);
+    }
+}
+
+/* Whether an event of the scene gives the signal. */
+static bool announced(const JoScene *scene, const char *text) {
+    for (uint32_t e = 0; e < scene->spec->event_count; e++)
+        if (scene->spec->events[e].kind == JOX_EVENT_SIGNAL &&
+            strcmp(scene->spec->events[e].name, text) == 0)
+            return true;
+    return false;
+}
+
+void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const JoxLuaFile *files,
+                       uint32_t count, JoxDiagnostics *diagnostics) {
+    size_t before = diagnostics->count;
+    for (uint32_t o = 0; o < machine->own_count; o++) {
+        const JoxOwnSlot *slot = &machine->own[o];
+        if (!*slot->name || jox_parameter_find(slot->name) >= 0 ||
+            given(scene, machine, slot->name))
+            continue;
+        const char *names[JOX_PARAM_COUNT], *near;
+        char hint[160];
+        for (int p = 0; p < JOX_PARAM_COUNT; p++)
+            names[p] = jox_parameters[p].name;
+        near = jox_suggest(slot->name, names, JOX_PARAM_COUNT);
+        const char *file = slot->source < count ? files[slot->source].path : machine->path;
+        snprintf(hint, sizeof hint,
+                 near ? "Did you mean 'own.%.60s'?" : "In the scene's group: set: {%.60s: ...}",
+                 near ? near : slot->name);
+        jox_diag_error(
+            diagnostics, ((JoxPosition){file, slot->line, slot->column, slot->end_column}),
+            "unknown-value", hint, "'%.60s' is no parameter, and no group that runs %s sets it",
+            slot->name, machine->name);
+    }
+    if (diagnostics->count > before)
+        attach(files, count, diagnostics);
+}
+
+void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
+    const JoxMind *mind = &scene->world->mind;
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        const JoxMachine *machine = mind->machines[m];
+        const JoxPosition at = {machine->path, 0, 0, 0};
+        uint32_t count;
+        const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
+        size_t before = diagnostics->count;
+        jox_run_check_own(scene, machine, files, count, diagnostics);
+        for (uint32_t n = 0; n < machine->name_count; n++) {
+            const JoxName *name = &machine->names[n];
+            bool heard = name->uses & JOX_NAME_HEARD, state = name->uses & JOX_NAME_STATE;
+            if (heard && !used(mind, name->text, JOX_NAME_SIGNALLED) && !machine->hook_count &&
+                !announced(scene, name->text))
+                jox_diag_warn(diagnostics, at, "unheard-signal", NULL,
+                              "no machine of the scene gives the signal '%s'", name->text);
+            if (state && !used(mind, name->text, JOX_NAME_STATE))
+                jox_diag_warn(diagnostics, at, "unknown-state", NULL,
+                              "no machine of the scene has a state '%s'", name->text);
+        }
+        if (diagnostics->count > before)
+            attach(files, count, diagnostics);
+    }
+}

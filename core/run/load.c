@@ -1,0 +1,476 @@
+/* From a scene's file to a running world. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "live/live.h"
+#include "run/run.h"
+
+enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 256 << 20 };
+
+void jox_run_to_stderr(void *context, const char *text) {
+    (void)context;
+    if (isatty(2)) /* the line of progress makes room */
+        fputs("\r\033[K", stderr);
+    fputs(text, stderr);
+}
+
+void jox_run_say(const JoScene *scene, const char *format, ...) {
+    char text[2048];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    scene->message(scene->message_context, text);
+}
+
+void jox_run_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
+                    JoError *error) {
+    JoxText text = {0};
+    jox_diag_print(diagnostics, &text);
+    if (text.length)
+        (message ? message : jox_run_to_stderr)(context, text.data);
+    jox_text_free(&text);
+    for (size_t i = 0; error && i < diagnostics->count; i++) {
+        const JoxDiagnostic *d = &diagnostics->items[i];
+        if (d->severity != JOX_SEVERITY_ERROR)
+            continue;
+        jox_error(error, JO_INPUT, "%s", d->message);
+        error->line = d->line;
+        error->column = d->column;
+        snprintf(error->file, sizeof error->file, "%s", d->file ? d->file : "");
+        break;
+    }
+    jox_diag_free(diagnostics);
+}
+
+JoSceneDef jo_default_scene_def(void) {
+    return (JoSceneDef){.threads = 1, .cookie = SCENE_COOKIE};
+}
+
+/* The def's overrides, with seed and step as two more. */
+JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint32_t mod_count,
+                                JoxDiagnostics *diagnostics) {
+    char seed[32], step[48];
+    const char **sets = jox_alloc(def->override_count + 2, sizeof *sets);
+    uint32_t count = 0;
+    for (size_t i = 0; i < def->override_count; i++)
+        sets[count++] = def->overrides[i];
+    if (def->has_seed) {
+        snprintf(seed, sizeof seed, "seed=%llu", (unsigned long long)def->seed);
+        sets[count++] = seed;
+    }
+    if (def->has_dt) {
+        snprintf(step, sizeof step, "step=%.9g", def->dt);
+        sets[count++] = step;
+    }
+    JoxSceneOptions options = {
+        .sets = sets, .set_count = count, .mods = mods->items, .mod_count = mod_count};
+    JoxSceneSpec *spec =
+        jox_scene_load_text(def->path, def->text, def->text_length, &options, diagnostics);
+    jox_free(sets);
+    return spec;
+}
+
+static uint64_t tag_mask(JoWorld *world, char *const *tags, uint32_t count, JoxPosition position,
+                         JoxDiagnostics *diagnostics) {
+    uint64_t mask = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        int bit = jox_world_tag(world, tags[i]);
+        if (bit < 0)
+            jox_diag_error(diagnostics, position, "too-many-tags", NULL,
+                           "a scene has at most 64 different tags");
+        else
+            mask |= (uint64_t)1 << bit;
+    }
+    return mask;
+}
+
+static void add_bodies(JoScene *scene, JoxDiagnostics *diagnostics) {
+    JoxSceneSpec *spec = scene->spec;
+    for (uint32_t i = 0; i < spec->body_count; i++) {
+        JoxSceneBody *body = &spec->bodies[i];
+        JoxText why = {0};
+        body->def.tags =
+            tag_mask(scene->world, body->tags, body->tag_count, body->position, diagnostics);
+        if (jox_bodies_add(scene->world->bodies, &body->def, &why) == JOX_NO_BODY)
+            jox_diag_error(diagnostics, body->position, "bad-body", NULL, "%s",
+                           why.data ? why.data : "this body was refused");
+        jox_text_free(&why);
+    }
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        tag_mask(scene->world, spec->groups[g].tags, spec->groups[g].tag_count,
+                 spec->groups[g].position, diagnostics);
+}
+
+/* Places are copied to the world, which owns them, with one more for each agent that is bound for
+   the opposite side of its circle. */
+static void add_places(JoScene *scene) {
+    const JoxSceneSpec *spec = scene->spec;
+    uint32_t extra = 0;
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        for (uint32_t s = 0; s < spec->groups[g].set_count; s++)
+            if (spec->groups[g].set[s].kind == JOX_SET_ANTIPODE)
+                extra += spec->groups[g].count;
+    JoxPlace *places = jox_alloc(spec->place_count + extra + 1, sizeof *places);
+    for (uint32_t i = 0; i < spec->place_count; i++) {
+        const JoxPlace *from = &spec->places[i];
+        places[i] = *from;
+        places[i].name = jox_strdup(from->name);
+        places[i].points = jox_alloc(from->count + 1, sizeof *from->points);
+        if (from->count)
+            memcpy(places[i].points, from->points, from->count * sizeof *from->points);
+        places[i].members = jox_alloc(from->member_count + 1, sizeof *from->members);
+        if (from->member_count)
+            memcpy(places[i].members, from->members, from->member_count * sizeof *from->members);
+    }
+    scene->first_antipode = spec->place_count;
+    jox_world_set_places(scene->world, places, spec->place_count);
+    scene->scope = (JoxScope){.places = places,
+                              .place_count = spec->place_count,
+                              .tags = (const char *const *)scene->world->tags,
+                              .tag_count = scene->world->tag_count,
+                              .complete = true,
+                              .mods = scene->mods->items,
+                              .mod_count = scene->mods->count};
+}
+
+/* Reads the log and, since it tells what files were when it began, reads those through it. */
+static void load_input(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
+    size_t length;
+    char *text = path ? jox_read_file(path, LARGEST_INPUT, &length) : NULL;
+    if (path && !text)
+        jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "unreadable-file", NULL,
+                       "cannot read the input log '%s'", path);
+    if (text)
+        jox_input_parse(&scene->input, path, text, length, diagnostics);
+    if (text) {
+        jox_run_before(&scene->overlay, &scene->input);
+        jox_diag_attach_source(diagnostics, path, text, length);
+        scene->input_path = jox_strdup(path);
+        jox_sha256_hex(text, length, scene->input_sha256);
+    }
+    jox_free(text);
+}
+
+static void complain(void *context, const char *text) {
+    const JoScene *scene = context;
+    scene->message(scene->message_context, text);
+}
+
+static JoxLuaLimits script_limits(const JoxSceneSpec *spec) {
+    JoxLuaLimits limits = jox_lua_default_limits();
+    if (!spec->limits.given)
+        return limits;
+    limits.hook_instructions = (uint64_t)spec->limits.instructions;
+    limits.step_instructions = (uint64_t)spec->limits.step_instructions;
+    limits.load_instructions = (uint64_t)spec->limits.load_instructions;
+    limits.memory = (size_t)(spec->limits.memory * (1 << 20));
+    limits.block = (size_t)(spec->limits.block * (1 << 20));
+    limits.source = (size_t)(spec->limits.source * (1 << 10));
+    limits.print_lines = (uint32_t)spec->limits.print;
+    return limits;
+}
+
+/* Plan and world, with the first `count` mods. */
+static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
+                  JoxDiagnostics *diagnostics) {
+    if (def->input_log)
+        load_input(scene, def->input_log, diagnostics);
+    JoxSceneSpec *spec = scene->spec = jox_run_load_spec(def, scene->mods, count, diagnostics);
+    if (!spec)
+        return;
+    JoWorldDef world = jo_default_world_def();
+    world.dt = spec->step;
+    world.seed = spec->seed;
+    world.threads = def->threads;
+    world.gravity = spec->gravity;
+    world.forces = spec->forces;
+    world.literal = spec->literal;
+    scene->world = jox_world_create(&world);
+    if (!def->input_log)
+        load_input(scene, spec->input, diagnostics);
+    scene->world->input = scene->input; /* the world's from here on */
+    scene->input = (JoxInputLog){0};
+    if (spec->periodic_x || spec->periodic_y) {
+        JoxV2 size = jox_sub(spec->high, spec->low);
+        scene->world->agents.origin = spec->low;
+        scene->world->agents.period =
+            (JoxV2){spec->periodic_x ? size.x : 0.0f, spec->periodic_y ? size.y : 0.0f};
+    }
+    jox_world_set_walls(scene->world, &spec->walls);
+    const JoxLuaLimits limits = script_limits(spec);
+    scene->lua = jox_lua_create(&limits);
+    jox_lua_attach(scene->lua, &scene->world->mind, complain, scene); /* loading may print */
+    add_bodies(scene, diagnostics);
+    add_places(scene);
+    if (!jox_run_load_machines(scene, diagnostics))
+        return;
+    JoxMind *mind = &scene->world->mind;
+    mind->call = jox_lua_call;
+    mind->bracket = jox_lua_bracket;
+    mind->call_context = scene->lua;
+    if (diagnostics->errors == 0) {
+        jox_run_populate(scene, diagnostics);
+        jox_run_check_names(scene, diagnostics);
+        jox_run_name_events(scene, diagnostics);
+    }
+}
+
+/* The def outlives the caller's texts: a reload reads the scene as it was read first. */
+static void keep_def(JoScene *scene, const JoSceneDef *def) {
+    JoSceneDef *own = &scene->def;
+    *own = *def;
+    own->path = jox_strdup(def->path);
+    own->input_log = jox_strdup(def->input_log);
+    const char **overrides = jox_alloc(def->override_count + 1, sizeof *overrides);
+    for (size_t i = 0; i < def->override_count; i++)
+        overrides[i] = jox_strdup(def->overrides[i]);
+    own->overrides = overrides;
+    own->text = NULL; /* what stands in memory is not edited */
+    own->mods = NULL; /* found already */
+    own->mod_count = 0;
+    scene->plan_file_count = scene->spec->file_count;
+    scene->plan_files = jox_alloc(scene->plan_file_count + 1, sizeof *scene->plan_files);
+    for (uint32_t f = 0; f < scene->plan_file_count; f++)
+        scene->plan_files[f] = jox_strdup(scene->spec->files[f].path);
+}
+
+static void free_def(JoScene *scene) {
+    jox_free((char *)scene->def.path);
+    jox_free((char *)scene->def.input_log);
+    for (size_t i = 0; scene->def.overrides && i < scene->def.override_count; i++)
+        jox_free((char *)scene->def.overrides[i]);
+    jox_free((char **)scene->def.overrides);
+    for (uint32_t f = 0; f < scene->plan_file_count; f++)
+        jox_free(scene->plan_files[f]);
+    jox_free(scene->plan_files);
+}
+
+static void to_nobody(void *context, const char *text) {
+    (void)context;
+    (void)text;
+}
+
+/* Of the mods found, the first with which, and with those before it, the scene does not load; -1:
+   it does not load without mods either. Whatever went wrong: the spec, a behaviour, what they
+   expect of each other. */
+static int32_t blame(const JoSceneDef *def, uint64_t without) {
+    for (uint32_t count = 0;; count++) {
+        JoxDiagnostics ignored = {0}, now = {0};
+        JoScene *scene = jox_alloc(1, sizeof *scene);
+        scene->message = to_nobody;
+        scene->mods = jox_run_find_mods(def, without, &ignored);
+        const uint32_t all = scene->mods->count;
+        if (count < all) { /* with all of them it fails: that is known */
+            scene->mods->count = count;
+            const JoxOverlay *before = jox_overlay_use(&scene->overlay);
+            build(scene, def, count, &now);
+            jox_overlay_use(before);
+            scene->mods->count = all;
+        }
+        bool fails = count >= all || now.errors > 0;
+        int32_t culprit = fails && count > 0 ? (int32_t)scene->mods->number[count - 1] : -1;
+        jox_diag_free(&ignored);
+        jox_diag_free(&now);
+        jo_scene_free(scene);
+        if (fails)
+            return culprit;
+    }
+}
+
+/* Loads the scene with the mods found but for those in `without`. NULL: with *culprit among the
+   found mods, or -1 and the errors in `diagnostics`. */
+static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culprit,
+                        JoxDiagnostics *mod_problems, JoxDiagnostics *diagnostics) {
+    JoScene *scene = jox_alloc(1, sizeof *scene);
+    scene->message = def->message ? def->message : jox_run_to_stderr;
+    scene->message_context = def->message_context;
+    scene->mods = jox_run_find_mods(def, without, mod_problems);
+    *culprit = -1;
+    const JoxOverlay *before = jox_overlay_use(&scene->overlay);
+    build(scene, def, scene->mods->count, diagnostics);
+    jox_overlay_use(before);
+    for (uint32_t f = 0; scene->spec && f < scene->spec->file_count; f++)
+        jox_diag_attach_source(diagnostics, scene->spec->files[f].path, scene->spec->files[f].text,
+                               scene->spec->files[f].length);
+    if (diagnostics->errors == 0) {
+        keep_def(scene, def);
+        return scene;
+    }
+    bool blames = scene->mods->count > 0;
+    jo_scene_free(scene);
+    *culprit = blames ? blame(def, without) : -1;
+    return NULL;
+}
+
+/* What `attempt` found wrong with a mod, and that it is left out. */
+static void leave_out(const JoSceneDef *def, uint64_t without, int32_t culprit,
+                      JoxDiagnostics *problems, JoxDiagnostics *diagnostics) {
+    JoxDiagnostics ignored = {0};
+    JoxMods *before = jox_run_find_mods(def, without, &ignored);
+    JoxMods *after = jox_run_find_mods(def, without | (uint64_t)1 << culprit, &ignored);
+    const JoxMod *mod = &before->found[culprit];
+    char others[256] = "";
+    for (uint32_t b = 0; b < before->count; b++) { /* those that go with it */
+        bool stays = before->number[b] == (uint32_t)culprit;
+        for (uint32_t a = 0; a < after->count; a++)
+            stays |= after->number[a] == before->number[b];
+        if (!stays && strlen(others) < 180)
+            snprintf(others + strlen(others), 64, ", and %s, which needs it",
+                     before->items[b].name);
+    }
+    jox_diag_move(problems, diagnostics);
+    const JoxPosition at = {mod->folder, 0, 0, 0};
+    jox_diag_note(problems, at, "mod-left-out", "mod %s is left out%s; the run goes on without",
+                  mod->name, others);
+    jox_mods_free(before);
+    jox_mods_free(after);
+    jox_diag_free(&ignored);
+}
+
+JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
+    uint64_t without = 0;
+    if (def->threads < 1 || def->threads > 64) {
+        jox_diag_error(diagnostics, ((JoxPosition){0}), "out-of-range", NULL,
+                       "threads must be from 1 to 64");
+        return NULL;
+    }
+    JoxDiagnostics problems = {0}; /* of mods */
+    for (;;) {
+        JoxDiagnostics found = {0}, now = {0};
+        int32_t culprit;
+        JoScene *scene = attempt(def, without, &culprit, &found, &now);
+        if (scene || culprit < 0 || (without >> culprit & 1)) {
+            jox_diag_move(&problems, &found);
+            jox_diag_move(diagnostics, &now);
+            if (scene)
+                scene->mod_problems = problems;
+            else
+                jox_diag_move(diagnostics, &problems);
+            return scene;
+        }
+        jox_diag_free(&found);
+        leave_out(def, without, culprit, &problems, &now);
+        without |= (uint64_t)1 << culprit;
+    }
+}
+
+JoScene *jox_run_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
+                           JoError *error) {
+    JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && def->path, NULL);
+    JoxDiagnostics diagnostics = {0};
+    JoScene *scene = jox_run_load(def, &diagnostics);
+    if (diagnosed)
+        diagnosed(context, NULL, &diagnostics);
+    jox_run_report(def->message ? def->message : jox_run_to_stderr, def->message_context,
+                   &diagnostics, error);
+    if (diagnosed)
+        diagnosed(context, NULL, NULL);
+    if (!scene)
+        return NULL;
+    scene->diagnosed = diagnosed;
+    scene->diagnosed_context = context;
+    jox_run_report(scene->message, scene->message_context, &scene->mod_problems, NULL);
+    for (uint32_t m = 0; m < scene->mods->count; m++)
+        jox_run_say(scene, "%s %s %s (%s)\n", m ? "     " : "mods:", scene->mods->items[m].name,
+                    scene->mods->items[m].version, scene->mods->items[m].folder);
+    jox_run_check_log(scene);
+    JoxSettled settled = jox_world_settle(scene->world);
+    if (settled.moved || settled.stuck)
+        jox_run_say(scene,
+                    "%s: %u agents were born in a wall or in another and moved by up to "
+                    "%.2f m%s\n",
+                    def->path, settled.moved, settled.farthest,
+                    settled.stuck ? "; some found no free spot" : "");
+    return scene;
+}
+
+JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
+    return jox_run_load_told(def, NULL, NULL, error);
+}
+
+/* Whether both were made of the same files, byte by byte. */
+static bool same_files(const JoScene *a, const JoScene *b) {
+    bool same = a->spec->file_count == b->spec->file_count &&
+                a->world->mind.machine_count == b->world->mind.machine_count;
+    for (uint32_t f = 0; same && f < a->spec->file_count; f++)
+        same = strcmp(a->spec->files[f].sha256, b->spec->files[f].sha256) == 0;
+    for (uint32_t m = 0; same && m < a->world->mind.machine_count; m++) {
+        uint32_t count, others;
+        const JoxLuaFile *files = jox_lua_files(a->lua, a->world->mind.machines[m], &count);
+        const JoxLuaFile *other = jox_lua_files(b->lua, b->world->mind.machines[m], &others);
+        same = count == others;
+        for (uint32_t f = 0; same && f < count; f++)
+            same = strcmp(files[f].sha256, other[f].sha256) == 0;
+    }
+    return same;
+}
+
+JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && scene, NULL);
+    if (scene->input_path || scene->acted_on) {
+        jox_error(error, JO_INPUT, "people acted on it in steps of its own length");
+        return NULL;
+    }
+    JoSceneDef half = *def;
+    half.has_dt = half.has_seed = true;
+    half.dt = scene->world->def.dt / 2;
+    half.seed = scene->world->def.seed;
+    half.message = to_nobody; /* all has been said once */
+    JoScene *other = scene->swap_seconds > 0.0 ? NULL : jo_scene_load(&half, error);
+    if (scene->swap_seconds > 0.0 || (other && !same_files(scene, other))) {
+        jox_error(error, JO_INPUT, "its files were edited meanwhile");
+        jo_scene_free(other);
+        return NULL;
+    }
+    if (other)
+        jox_run_begin_report(other);
+    return other;
+}
+
+void jo_scene_free(JoScene *scene) {
+    if (!scene)
+        return;
+    jo_scene_finish(scene, NULL);
+    jox_regions_free(scene->regions);
+    jox_run_end_measuring(scene);
+    jox_live_end(scene);
+    jox_run_unwatch(scene);
+    free_def(scene);
+    jo_world_free(scene->world); /* before Lua, whose machines it holds */
+    jox_lua_free(scene->lua);
+    jox_scene_free(scene->spec);
+    jox_mods_free(scene->mods);
+    jox_diag_free(&scene->mod_problems);
+    jox_free(scene->record_shapes);
+    jox_free(scene->party_left);
+    jox_free(scene->party_team);
+    jox_free(scene->report);
+    jox_danger_free(scene->danger);
+    jox_exits_free(&scene->exits);
+    jox_free(scene->input_path);
+    jox_input_free(&scene->input);
+    jox_files_free(&scene->logged_files);
+    jox_overlay_free(&scene->overlay);
+    jox_free(scene);
+}
+
+JoWorld *jo_scene_world(JoScene *scene) {
+    JOX_REQUIRE(scene, NULL);
+    return scene->world;
+}
+
+double jo_scene_duration(const JoScene *scene) {
+    JOX_REQUIRE(scene, 0.0);
+    return scene->spec->duration;
+}
+
+char *jo_scene_reference(void) {
+    JoxText text = {0};
+    jox_scene_print_reference(&text);
+    return text.data;
+}

@@ -1,0 +1,30 @@
+/* Generated pages and files, by name. */
+#include <string.h>
+
+#include "base/assert.h"
+#include "lua/reference.h"
+#include "run/run.h"
+#include "world/verbs.h"
+
+static void scene_schema(JoxText *out) {
+    jox_scene_json_schema("scene", out);
+}
+static void mod_schema(JoxText *out) {
+    jox_scene_json_schema("mod", out);
+}
+
+char *jo_reference(const char *what) {
+    JOX_REQUIRE(what, NULL);
+    static const struct {
+        const char *name;
+        void (*print)(JoxText *out);
+    } PAGES[] = {{"behaviours", jox_lua_reference}, {"lua-ls", jox_lua_definitions},
+                 {"luacheck", jox_lua_luacheck},    {"scenes", jox_scene_reference_markdown},
+                 {"scene-schema", scene_schema},    {"mod-schema", mod_schema},
+                 {"inputs", jox_input_reference}};
+    JoxText out = {0};
+    for (size_t p = 0; p < sizeof PAGES / sizeof *PAGES; p++)
+        if (!strcmp(PAGES[p].name, what))
+            PAGES[p].print(&out);
+    return out.data;
+}

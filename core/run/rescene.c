@@ -1,0 +1,300 @@
+/* A scene's own files were edited: what can change while it runs does, the rest is named. */
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/mem.h"
+#include "run/run.h"
+
+typedef struct Rescene {
+    JoScene *scene;
+    JoxSceneSpec *old, *new;
+    JoxText done, later; /* what changed; what waits for the next start */
+} Rescene;
+
+static void note(JoxText *list, const char *what) {
+    jox_text_printf(list, "%s%s", list->length ? ", " : "", what);
+}
+
+static bool same_points(const JoxV2 *a, uint32_t n, const JoxV2 *b, uint32_t m) {
+    return n == m && (n == 0 || memcmp(a, b, n * sizeof *a) == 0);
+}
+
+static bool same_text(const char *a, const char *b) {
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+/* ---- places: geometry of those of the same names ---- */
+
+static bool same_place(const JoxPlace *a, const JoxPlace *b) {
+    return same_points(a->points, a->count, b->points, b->count) && a->radius == b->radius &&
+           a->spacing == b->spacing && a->start == b->start && a->member_count == b->member_count &&
+           (!a->member_count ||
+            !memcmp(a->members, b->members, a->member_count * sizeof *a->members));
+}
+
+static void take_places(Rescene *r) {
+    JoWorld *world = r->scene->world;
+    bool moved = false, names = r->old->place_count == r->new->place_count;
+    for (uint32_t p = 0; names && p < r->old->place_count; p++)
+        names = !strcmp(r->old->places[p].name, r->new->places[p].name) &&
+                r->old->places[p].kind == r->new->places[p].kind;
+    if (!names) {
+        note(&r->later, "places (other names, kinds or order)");
+        return;
+    }
+    for (uint32_t p = 0; p < r->new->place_count; p++) {
+        const JoxPlace *from = &r->new->places[p];
+        JoxPlace *to = &world->places[p];
+        if (same_place(to, from)) /* the plan may lag behind: see below */
+            continue;
+        moved = true;
+        to->points = jox_realloc(to->points, from->count + 1, sizeof *to->points);
+        to->members = jox_realloc(to->members, from->member_count + 1, sizeof *to->members);
+        if (from->count)
+            memcpy(to->points, from->points, from->count * sizeof *to->points);
+        if (from->member_count)
+            memcpy(to->members, from->members, from->member_count * sizeof *to->members);
+        to->count = from->count;
+        to->member_count = from->member_count;
+        to->radius = from->radius;
+        to->spacing = from->spacing;
+        to->start = from->start;
+        to->centre = from->centre;
+        to->axis_a = from->axis_a;
+        to->axis_b = from->axis_b;
+        to->axis_radius = from->axis_radius;
+    }
+    if (moved) {
+        jox_world_renew_ways(world);
+        note(&r->done, "places");
+    }
+}
+
+/* ---- walls ---- */
+
+/* Whether the walls there are would be the same; those that were opened or closed stay so. */
+static bool same_walls(const JoxWalls *a, const JoxWalls *b) {
+    if (a->count != b->count || a->ring_count != b->ring_count)
+        return false;
+    for (uint32_t i = 0; i < a->count; i++)
+        if (memcmp(&a->vertices[i].point, &b->vertices[i].point, sizeof(JoxV2)) != 0 ||
+            a->vertices[i].next != b->vertices[i].next)
+            return false;
+    for (uint32_t i = 0; i < a->ring_count; i++)
+        if (a->rings[i].height != b->rings[i].height || a->rings[i].solid != b->rings[i].solid ||
+            !same_text(a->rings[i].name, b->rings[i].name) ||
+            (!a->rings[i].set && a->rings[i].open != b->rings[i].open))
+            return false;
+    return true;
+}
+
+static void take_walls(Rescene *r) {
+    JoWorld *world = r->scene->world;
+    if (same_walls(&world->all_walls, &r->new->walls))
+        return;
+    jox_world_set_walls(world, &r->new->walls);
+    note(&r->done, "walls");
+}
+
+/* ---- groups: values that they set ---- */
+
+static bool same_dist(const JoxDist *a, const JoxDist *b) {
+    return a->kind == b->kind && a->a == b->a && a->b == b->b && a->lo == b->lo && a->hi == b->hi &&
+           a->choices == b->choices &&
+           !memcmp(a->values, b->values, (size_t)a->choices * sizeof *a->values);
+}
+
+void jox_run_give(JoScene *scene, int32_t which, uint32_t group, const JoxSceneSet *set) {
+    JoxMind *mind = &scene->world->mind;
+    JoxAgents *a = mind->agents;
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (a->group[i] != group || a->machine[i] == JOX_NO_MACHINE ||
+            (which >= 0 && a->machine[i] != which))
+            continue;
+        const JoxMachine *machine = mind->machines[a->machine[i]];
+        for (uint32_t s = 0; s < machine->own_count; s++) {
+            if (strcmp(machine->own[s].name, set->name) != 0)
+                continue;
+            double value = set->kind == JOX_SET_PLACE ? set->place
+                                                      : jox_dist_draw(&set->dist, mind->seed,
+                                                                      a->id[i], 0, JOX_DRAW_OWN, s);
+            jox_mind_set_own(mind, i, s, value);
+        }
+    }
+}
+
+/* False where the groups are others. */
+static bool take_groups(Rescene *r) {
+    bool names = r->old->group_count == r->new->group_count, set_any = false, counts = false;
+    for (uint32_t g = 0; names && g < r->old->group_count; g++)
+        names = !strcmp(r->old->groups[g].name, r->new->groups[g].name);
+    if (!names) {
+        note(&r->later, "groups (other names or order)");
+        return false;
+    }
+    for (uint32_t g = 0; g < r->new->group_count; g++) {
+        const JoxSceneGroup *was = &r->old->groups[g], *is = &r->new->groups[g];
+        counts |= was->count != is->count || was->mix_count != is->mix_count ||
+                  !same_points(was->positions, was->positions ? was->count : 0, is->positions,
+                               is->positions ? is->count : 0);
+        for (uint32_t m = 0; m < is->mix_count && m < was->mix_count; m++)
+            counts |= strcmp(was->mix[m].behaviour, is->mix[m].behaviour) != 0;
+        for (uint32_t s = 0; s < is->set_count; s++) {
+            const JoxSceneSet *set = &is->set[s], *before = NULL;
+            for (uint32_t o = 0; o < was->set_count; o++)
+                if (strcmp(was->set[o].name, set->name) == 0)
+                    before = &was->set[o];
+            bool same = before && before->kind == set->kind && before->place == set->place &&
+                        same_dist(&before->dist, &set->dist);
+            if (same || set->kind == JOX_SET_ANTIPODE)
+                continue;
+            jox_run_give(r->scene, -1, g, set);
+            set_any = true;
+        }
+    }
+    if (set_any)
+        note(&r->done, "values that groups set");
+    if (counts)
+        note(&r->later, "counts, positions and behaviours of groups");
+    return true;
+}
+
+/* ---- the rest ---- */
+
+static bool same_sources(const JoxSceneSpec *a, const JoxSceneSpec *b) {
+    if (a->source_count != b->source_count || a->sink_count != b->sink_count)
+        return false;
+    for (uint32_t s = 0; s < a->source_count; s++) {
+        const JoxSceneSource *x = &a->sources[s], *y = &b->sources[s];
+        if (x->place != y->place || x->rate != y->rate || x->keep != y->keep ||
+            x->like != y->like || x->from != y->from || x->until != y->until)
+            return false;
+    }
+    for (uint32_t s = 0; s < a->sink_count; s++)
+        if (a->sinks[s].place != b->sinks[s].place || a->sinks[s].group != b->sinks[s].group)
+            return false;
+    return true;
+}
+
+/* Sources go on from what they have given: a new rate counts from now. */
+static void take_sources(Rescene *r) {
+    double time = jo_world_time(r->scene->world);
+    if (same_sources(r->old, r->new))
+        return;
+    for (uint32_t s = 0; s < r->new->source_count &&s < 256; s++) {
+        const JoxSceneSource *source = &r->new->sources[s];
+        r->scene->spawned[s] =
+            time > source->from ? floor(source->rate * (time - source->from)) : 0.0;
+    }
+    note(&r->done, "sources and sinks");
+}
+
+static bool same_events(const JoxSceneSpec *a, const JoxSceneSpec *b) {
+    bool same = a->event_count == b->event_count;
+    for (uint32_t e = 0; same && e < a->event_count; e++) {
+        const JoxSceneEvent *x = &a->events[e], *y = &b->events[e];
+        same = x->kind == y->kind && x->at == y->at && x->every == y->every &&
+               x->until == y->until && same_text(x->name, y->name) && x->placed == y->placed &&
+               !memcmp(x->from, y->from, sizeof x->from) &&
+               !memcmp(x->velocity, y->velocity, sizeof x->velocity) &&
+               !memcmp(x->spin, y->spin, sizeof x->spin);
+    }
+    return same;
+}
+
+static bool same_regions(const JoxSceneSpec *a, const JoxSceneSpec *b) {
+    bool same = a->region_count == b->region_count;
+    for (uint32_t i = 0; same && i < a->region_count; i++)
+        same = same_text(a->regions[i].name, b->regions[i].name) &&
+               same_points(a->regions[i].points, a->regions[i].count, b->regions[i].points,
+                           b->regions[i].count);
+    return same;
+}
+
+static bool same_probes(const JoxSceneSpec *a, const JoxSceneSpec *b) {
+    bool same = a->probe_count == b->probe_count;
+    for (uint32_t i = 0; same && i < a->probe_count; i++) {
+        const JoxProbeDef *p = &a->probes[i], *q = &b->probes[i];
+        same = same_text(p->name, q->name) && p->kind == q->kind &&
+               p->group_count == q->group_count &&
+               !memcmp(p->groups, q->groups, p->group_count * sizeof *p->groups) &&
+               p->from == q->from && p->until == q->until && p->every == q->every &&
+               p->cutoff == q->cutoff && p->onset == q->onset && p->rest == q->rest &&
+               p->cell == q->cell && p->kernel == q->kernel && p->rows == q->rows &&
+               p->along_y == q->along_y && !memcmp(&p->low, &q->low, sizeof p->low) &&
+               !memcmp(&p->high, &q->high, sizeof p->high) &&
+               same_points(p->points, p->count, q->points, q->count);
+    }
+    return same;
+}
+
+static void name_the_rest(Rescene *r) {
+    const JoxSceneSpec *a = r->old, *b = r->new;
+    const struct {
+        const char *what;
+        bool differs;
+    } REST[] = {{"seed", a->seed != b->seed},
+                {"step", a->step != b->step},
+                {"gravity", a->gravity != b->gravity},
+                {"periodic", a->periodic_x != b->periodic_x || a->periodic_y != b->periodic_y},
+                {"bodies", a->body_count != b->body_count},
+                {"forces", a->forces != b->forces || a->literal != b->literal},
+                {"limits", memcmp(&a->limits, &b->limits, sizeof a->limits) != 0},
+                {"input", !same_text(a->input, b->input)},
+                {"regions", !same_regions(a, b)},
+                {"probes", !same_probes(a, b)}};
+    for (size_t k = 0; k < sizeof REST / sizeof *REST; k++)
+        if (REST[k].differs)
+            note(&r->later, REST[k].what);
+    for (uint32_t i = 0; i < a->body_count && a->body_count == b->body_count; i++) {
+        const JoxBodyDef *x = &a->bodies[i].def, *y = &b->bodies[i].def;
+        if (x->mass == y->mass && !memcmp(x->position, y->position, sizeof x->position) &&
+            !memcmp(x->velocity, y->velocity, sizeof x->velocity) &&
+            !memcmp(x->shape.size, y->shape.size, sizeof x->shape.size) &&
+            !memcmp(x->shape.count, y->shape.count, sizeof x->shape.count) &&
+            x->shape.bond == y->shape.bond)
+            continue;
+        note(&r->later, "bodies");
+        break;
+    }
+    if (a->duration != b->duration)
+        note(&r->later, "duration");
+}
+
+void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
+    Rescene r = {.scene = scene, .old = scene->spec, .new = *spec};
+    struct timespec t;
+    double begun = jox_clock_wall();
+    take_places(&r);
+    bool groups = r.later.length == 0; /* places of other names: their numbers mean others */
+    take_walls(&r);
+    if (groups) {
+        groups = take_groups(&r);
+        if (groups)
+            take_sources(&r);
+    }
+    if (!same_events(r.old, r.new))
+        note(groups ? &r.done : &r.later, "events");
+    name_the_rest(&r);
+    clock_gettime(CLOCK_REALTIME, &t);
+    double age = (double)t.tv_sec + (double)t.tv_nsec * 1e-9 - written;
+    char ago[40] = "";
+    if (written > 0.0)
+        snprintf(ago, sizeof ago, "saved %.0f ms ago, ", age * 1e3);
+    if (r.done.length)
+        jox_run_say(scene, "%s: %s changed, live from t = %.2f s (%stook %.2f ms)\n",
+                    scene->spec->path, r.done.data, jo_world_time(scene->world), ago,
+                    (jox_clock_wall() - begun) * 1e3);
+    if (r.later.length)
+        jox_run_say(scene, "%s: %s: takes effect at the next start\n", scene->spec->path,
+                    r.later.data);
+    if (groups) { /* the old plan goes where the new one came from */
+        *spec = scene->spec;
+        scene->spec = r.new;
+        r.new->duration = r.old->duration;
+        jox_run_name_events(scene, NULL);
+    }
+    jox_text_free(&r.done);
+    jox_text_free(&r.later);
+}

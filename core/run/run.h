@@ -1,0 +1,221 @@
+/* What the files of host share: a running scene. */
+#ifndef JOX_RUN_RUN_H
+#define JOX_RUN_RUN_H
+
+#include <stdio.h>
+
+#include "base/diag.h"
+#include "base/overlay.h"
+#include "jostle.h"
+#include "lua/loader.h"
+#include "picture/paths.h"
+#include "record/danger.h"
+#include "record/density.h"
+#include "record/probes/probe.h"
+#include "record/recorder.h"
+#include "record/regions.h"
+#include "run/changes.h"
+#include "run/watch.h"
+#include "scene/mods.h"
+#include "scene/scene.h"
+#include "world/world.h"
+
+/* Is told of files that were loaded: what they are parts of (NULL: of a scene that begins), and
+   what is wrong; no errors where they are live. Without diagnostics: those have been said as text.
+ */
+typedef void JoxDiagnosed(void *context, const bool *parts, const JoxDiagnostics *diagnostics);
+
+struct JoScene {
+    JoxSceneSpec *spec;
+    JoxMods *mods;
+    JoxDiagnostics mod_problems; /* of mods that were left out, and conflicts */
+    uint32_t *party_left;        /* per group: places left in the party that fills up */
+    uint16_t *party_team;        /* and its team */
+    uint32_t next_party;
+    JoWorld *world;
+    JoxLua *lua;
+    JoxScope scope;
+    uint32_t first_antipode; /* places from here on belong to single agents */
+    double spawned[256];     /* per source: agents so far by rate */
+    JoMessage *message;
+    void *message_context;
+
+    struct JoxReload *reload; /* NULL: files are not watched */
+    JoxDiagnosed *diagnosed;  /* NULL: nobody wants to know */
+    void *diagnosed_context;
+    double swap_seconds; /* the longest that a swap has held a step up */
+    JoSceneDef def;      /* as it was loaded, with copies of its texts */
+    char **plan_files;   /* the scene's file and what it includes */
+    uint32_t plan_file_count;
+    JoxRecorder *recorder;
+    uint32_t record_every; /* ticks */
+    uint32_t
+        record_base[JOX_MOST_MACHINES]; /* number of a machine's first state in the recording */
+    uint32_t record_next;
+    uint32_t *record_shapes; /* per body id: blocks of the shape that was recorded, plus 1 */
+    size_t record_shape_capacity;
+    char *report; /* directory, or NULL */
+    char *data;   /* directory of the probes' CSV files, or NULL */
+    JoxDensity *density;
+    JoxRegions *regions;
+    JoxPaths *paths;
+    JoxDanger *danger;                                     /* NULL where nothing is reported */
+    JoxExits exits;                                        /* who left, and where */
+    struct JoxMeasuring *measuring;                        /* NULL until a frame is asked for */
+    struct JoxLive *live;                                  /* NULL until it is shown */
+    double progress_until, progress_begun, progress_shown; /* s */
+    int progress_tenth;
+    bool finished;
+    float density_most; /* of the frames that a report sampled, 1/m2 */
+    char *input_path;   /* of the input log that is played, or NULL */
+    char input_sha256[65];
+    FILE *log; /* input log that is written, or NULL */
+    char *log_path;
+    bool log_failed;
+    bool acted_on;         /* by people, other than a log */
+    JoxInputLog input;     /* as it was read, until there is a world */
+    JoxFiles logged_files; /* whose texts stand in it */
+    JoxOverlay overlay;    /* texts of the log that is played */
+};
+
+/* Sends formatted text to the scene's message function. */
+void jox_run_say(const JoScene *scene, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+/* Sends diagnostics as text, fills `error` from the first error, and frees them. */
+void jox_run_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics, JoError *error);
+
+/* Writes to stderr, and makes room where a line of progress stands. */
+void jox_run_to_stderr(void *context, const char *text);
+/* As jo_scene_load; `diagnosed` (it may be NULL) is told of mistakes, then and in all reloads. */
+JoScene *jox_run_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
+                           JoError *error);
+/* As jo_scene_load, but what is wrong goes to `diagnostics`. NULL if there are errors. */
+JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics);
+/* mods.c: finds the mods of a scene and what their files change; `without` are bits of those found
+   that are left out, as is a mod with a patch that names no target. */
+JoxMods *jox_run_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnostics *diagnostics);
+JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint32_t mod_count,
+                                JoxDiagnostics *diagnostics);
+/* link.c: machines of the scene's groups, and of those that they may become; false if one does not
+   load. */
+bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics);
+/* What machines expect of each other and of the scene: signals, states, own values. */
+void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics);
+/* Of that, the own values of one machine that is made of the files. */
+void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const JoxLuaFile *files,
+                       uint32_t count, JoxDiagnostics *diagnostics);
+/* Index of the machine of a file, loaded where it is not there yet; -1 with diagnostics. */
+int32_t jox_run_machine(JoScene *scene, const char *path, JoxDiagnostics *diagnostics);
+/* Finds the machines that states of machine become; false with diagnostics. */
+bool jox_run_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics);
+/* populate.c: groups at the start; sources and sinks as time goes on. */
+bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics);
+void jox_run_sources(JoScene *scene);
+void jox_run_sinks(JoScene *scene);
+/* Counts who left in the step, and where; after the sinks. */
+void jox_run_leavers(JoScene *scene);
+/* events.c: what is due in the step that begins. */
+void jox_run_events(JoScene *scene);
+/* As jo_scene_throw, _open_wall and _signal, which write the input log besides. */
+bool jox_run_throw(JoScene *scene, const char *body, const double from[3], const double velocity[3],
+                   const double spin[3], JoError *error);
+bool jox_run_open(JoScene *scene, const char *wall, bool open, JoError *error);
+bool jox_run_signal(JoScene *scene, const char *name, JoError *error);
+/* input.c: what the log that is played says of the step that begins. */
+void jox_run_inputs(JoScene *scene);
+/* input_set.c: a parameter by the names that a line gives. `state` -1: the machine's defaults.
+   False with `error` where there is none such, or the value is out of range. */
+typedef struct JoxChoice {
+    uint32_t machine;
+    int32_t state;
+    int parameter;
+} JoxChoice;
+bool jox_run_choose(const JoScene *scene, const char *machine, const char *state,
+                    const char *parameter, double value, JoxChoice *out, JoError *error);
+/* Sets it for everybody there, now and later, until the machine's file is reloaded. */
+bool jox_run_set(JoScene *scene, const char *machine, const char *state, const char *parameter,
+                 double value, JoError *error);
+/* input_files.c: what a reload changes, noted before it goes live for the log. */
+typedef struct JoxReloaded {
+    JoxInputEntry before, files;
+} JoxReloaded;
+void jox_run_note_file(JoScene *scene, JoxReloaded *reloaded, const char *path, const char *sha256,
+                       const char *text, size_t length);
+/* Writes what was noted, and frees it. */
+void jox_run_log_files(JoScene *scene, JoxReloaded *reloaded);
+/* Whether a file is live with this very text. */
+bool jox_run_is_live(const JoScene *scene, const JoxInputFile *file);
+/* Writes what the run is made of. */
+void jox_run_log_origin(JoScene *scene);
+/* Says where the run is made of something else than the one that was logged. */
+void jox_run_check_log(const JoScene *scene);
+/* What files were when the run began that a log tells of. */
+void jox_run_before(JoxOverlay *overlay, const JoxInputLog *log);
+/* Swaps files as a log tells; false with `error` where they do not go live. */
+bool jox_run_play_files(JoScene *scene, const JoxInputEntry *entry, JoError *error);
+/* inspect_graph.c: who set a parameter of a state (NULL: of the defaults), and to what. */
+typedef struct JoxSetBy {
+    JoxText
+        where; /* "state Circle behaviours/tawaf.lua:21", "mod calm ...", "live page", "engine" */
+    JoxText text;  /* the value as written */
+    double number; /* NAN where it differs between agents or in time */
+    int line;
+} JoxSetBy;
+JoxSetBy jox_run_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
+                        int parameter);
+void jox_set_by_free(JoxSetBy *by);
+/* A JSON array of the scene's machines: name, path, version, start; defaults and states with their
+   parameters; transitions with their conditions as written. */
+void jox_run_graph(const JoScene *scene, JoxText *out);
+/* Appends the line of Lua that would set a parameter for good, and where it belongs; false with
+   why not. */
+bool jox_run_lua_line(const JoScene *scene, const char *machine, const char *state,
+                      const char *parameter, double value, JoxText *out);
+/* Appends to the log that is written, if one is, as of the step that comes. */
+void jox_run_log(JoScene *scene, JoxInputEntry *entry);
+/* False with `error` if it cannot be written. */
+bool jox_run_logged(const JoScene *scene, JoError *error);
+/* Ends that log. False with `error` if it could not be written. */
+bool jox_run_end_log(JoScene *scene, JoError *error);
+/* Names of signals get numbers; warns of those that nobody hears (`diagnostics` may be NULL). */
+void jox_run_name_events(JoScene *scene, JoxDiagnostics *diagnostics);
+/* The file of the machine that a state becomes; false with diagnostics. */
+bool jox_run_find_become(const JoScene *scene, const JoxMachine *machine, uint32_t state,
+                         char path[1024], JoxDiagnostics *diagnostics);
+/* reload.c: swaps what has been loaded anew since the last step; ends the thread that loads. */
+typedef struct JoxReload JoxReload;
+void jox_run_reload(JoScene *scene);
+/* Loads files and swaps what is made of them at once, in place of the thread that loads. */
+bool jox_run_reload_now(JoScene *scene, const JoxInputEntry *files, JoError *error);
+/* Keeps the thread that loads from reading machines while one of them is changed in place; what it
+   compared with that one is compared anew. */
+void jox_run_hold_machines(JoScene *scene, uint32_t machine, bool hold);
+void jox_run_unwatch(JoScene *scene);
+/* rescene.c: gives the living of a group a value that their scene sets, in one machine or (-1) in
+   whichever they are. */
+void jox_run_give(JoScene *scene, int32_t machine, uint32_t group, const JoxSceneSet *set);
+/* Takes over from a new plan of the scene what can change while it runs, and says what
+   cannot. *spec is then the old one. */
+void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written);
+/* results.c: what is collected each step, and how it ends. */
+/* Names a machine's states in the recording, if there is one, under new numbers. */
+void jox_run_record_states(JoScene *scene, uint32_t machine);
+bool jox_run_collect(JoScene *scene, JoError *error);
+/* The area that pictures and recordings show. */
+void jox_run_area(const JoScene *scene, JoxV2 *low, JoxV2 *high);
+/* measure.c: the frame of the present step, made once; it holds until the next. */
+typedef struct JoxMeasuring JoxMeasuring;
+const JoxFrame *jox_run_frame(JoScene *scene);
+/* Shows it to the scene's probes, if any are due. */
+void jox_run_measure(JoScene *scene);
+/* Adds ,"probes": {...} to a summary, and their files to the report's folder. */
+void jox_run_add_probes(const JoScene *scene, JoxText *out);
+bool jox_run_write_probes(const JoScene *scene, const char *folder, const char *title,
+                          JoxText *error);
+/* The n-th probe, or NULL behind the last. */
+const JoxProbe *jox_run_probe(const JoScene *scene, uint32_t n);
+/* What a report collects, from here on. */
+void jox_run_begin_report(JoScene *scene);
+void jox_run_end_measuring(JoScene *scene);
+
+#endif

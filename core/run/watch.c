@@ -1,0 +1,205 @@
+#include "run/watch.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/inotify.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/hash.h"
+#include "base/mem.h"
+#include "base/text.h"
+
+enum { LARGEST_FILE = 16 << 20 };
+static const double QUIET = 0.030; /* s */
+
+typedef struct WatchedFile {
+    char *path, *name; /* name: the last part of path */
+    int folder;        /* inotify's number of its folder, or of the nearest one that is there */
+    bool away;         /* its folder is not there */
+    char digest[65];   /* of the content last reported; "" when it could not be read */
+    bool moved;        /* something happened to it since */
+} WatchedFile;
+
+struct JoxWatch {
+    int inotify;
+    double last_event; /* s */
+    WatchedFile *files;
+    size_t count, capacity;
+};
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+static void digest_file(const char *path, char digest[65]) {
+    size_t length;
+    char *text = jox_read_file(path, LARGEST_FILE, &length);
+    digest[0] = 0;
+    if (text)
+        jox_sha256_hex(text, length, digest);
+    jox_free(text);
+}
+
+JoxWatch *jox_watch_create(void) {
+    int inotify = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    if (inotify < 0)
+        return NULL;
+    JoxWatch *watch = jox_alloc(1, sizeof *watch);
+    watch->inotify = inotify;
+    return watch;
+}
+
+static bool is_folder(const char *path) {
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+/* Watches the folder of a file, or, while that is not there, the nearest one above it. */
+static bool watch_folder(JoxWatch *watch, WatchedFile *file) {
+    char folder[4096], missing[4096];
+    snprintf(folder, sizeof folder, "%.*s", (int)(file->name - file->path), file->path);
+    file->away = false;
+    for (;;) {
+        size_t n = strlen(folder);
+        while (n > 1 && folder[n - 1] == '/')
+            folder[--n] = 0;
+        file->folder = inotify_add_watch(watch->inotify, n ? folder : ".",
+                                         IN_CLOSE_WRITE | IN_MOVED_TO | IN_CREATE | IN_DELETE |
+                                             IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR);
+        if (file->folder >= 0 && file->away && is_folder(missing)) {
+            file->away = false; /* made in between */
+            strcpy(folder, missing);
+            continue;
+        }
+        if (file->folder >= 0)
+            return true;
+        if ((errno != ENOENT && errno != ENOTDIR) || !n || !strcmp(folder, "/"))
+            return false;
+        file->away = true;
+        strcpy(missing, folder);
+        char *slash = strrchr(folder, '/');
+        folder[slash ? slash - folder + (slash == folder) : 0] = 0;
+    }
+}
+
+bool jox_watch_add(JoxWatch *watch, const char *path) {
+    for (size_t i = 0; i < watch->count; i++)
+        if (strcmp(watch->files[i].path, path) == 0)
+            return true;
+    JOX_RESERVE(watch->files, watch->capacity, watch->count + 1);
+    WatchedFile *file = &watch->files[watch->count];
+    const char *slash = strrchr(path, '/');
+    *file = (WatchedFile){.path = jox_strdup(path)};
+    file->name = slash ? file->path + (slash - path) + 1 : file->path;
+    if (!watch_folder(watch, file)) {
+        int why = errno;
+        jox_free(file->path);
+        errno = why;
+        return false;
+    }
+    watch->count++;
+    digest_file(path, file->digest);
+    return true;
+}
+
+/* Folders come and go: a file whose own appears, or is another one now, is looked at. */
+static bool follow_folder(JoxWatch *watch, WatchedFile *file, const struct inotify_event *event) {
+    bool appears = file->away && (event->mask & IN_ISDIR);
+    bool goes = event->mask & (IN_DELETE_SELF | IN_MOVE_SELF);
+    if (!appears && !goes)
+        return false;
+    watch_folder(watch, file);
+    return file->moved = !file->away;
+}
+
+/* A folder that is elsewhere now, unless it has come back. */
+static void leave_folder(JoxWatch *watch, int folder) {
+    for (size_t i = 0; i < watch->count; i++)
+        if (watch->files[i].folder == folder)
+            return;
+    inotify_rm_watch(watch->inotify, folder);
+}
+
+/* Marks the files that events speak of; a lost event marks them all. What else happens beside them
+   does not count as unrest. */
+static void read_events(JoxWatch *watch) {
+    _Alignas(struct inotify_event) char block[4096];
+    ssize_t got;
+    while ((got = read(watch->inotify, block, sizeof block)) > 0) {
+        bool any = false;
+        for (char *at = block; at < block + got;) {
+            const struct inotify_event *event = (const void *)at;
+            for (size_t i = 0; i < watch->count; i++) {
+                WatchedFile *file = &watch->files[i];
+                if (!(event->mask & IN_Q_OVERFLOW) && event->wd != file->folder)
+                    continue;
+                if (follow_folder(watch, file, event) || (event->mask & IN_Q_OVERFLOW) ||
+                    (!file->away && event->len && !strcmp(event->name, file->name)))
+                    file->moved = any = true;
+            }
+            if (event->mask & IN_MOVE_SELF)
+                leave_folder(watch, event->wd);
+            at += sizeof *event + event->len;
+        }
+        if (any)
+            watch->last_event = now();
+    }
+}
+
+static bool any_moved(const JoxWatch *watch) {
+    for (size_t i = 0; i < watch->count; i++)
+        if (watch->files[i].moved)
+            return true;
+    return false;
+}
+
+/* When a file was last written, or, put in place of another, changed. */
+static double written_at(const char *path) {
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return 0.0;
+    double modified = (double)info.st_mtim.tv_sec + (double)info.st_mtim.tv_nsec * 1e-9;
+    double placed = (double)info.st_ctim.tv_sec + (double)info.st_ctim.tv_nsec * 1e-9;
+    return placed > modified ? placed : modified;
+}
+
+void jox_watch_wait(JoxWatch *watch, int other, double seconds, JoxChanged *changed,
+                    void *context) {
+    struct pollfd fds[2] = {{.fd = watch->inotify, .events = POLLIN},
+                            {.fd = other, .events = POLLIN}};
+    poll(fds, other >= 0 ? 2 : 1, (int)(seconds * 1e3));
+    read_events(watch);
+    while (any_moved(watch) && now() - watch->last_event < QUIET) {
+        double left = QUIET - (now() - watch->last_event);
+        poll(fds, 1, (int)(left * 1e3) + 1);
+        read_events(watch);
+    }
+    for (size_t i = 0; i < watch->count; i++) {
+        WatchedFile *file = &watch->files[i];
+        if (!file->moved)
+            continue;
+        file->moved = false;
+        char digest[65];
+        digest_file(file->path, digest);
+        if (digest[0] && strcmp(digest, file->digest) != 0) {
+            strcpy(file->digest, digest);
+            changed(context, file->path, written_at(file->path));
+        }
+    }
+}
+
+void jox_watch_free(JoxWatch *watch) {
+    if (!watch)
+        return;
+    close(watch->inotify);
+    for (size_t i = 0; i < watch->count; i++)
+        jox_free(watch->files[i].path);
+    jox_free(watch->files);
+    jox_free(watch);
+}

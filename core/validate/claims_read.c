@@ -1,0 +1,319 @@
+/* Claim files: reading the table. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "validate/claims_parts.h"
+
+void jox_claim_known(lua_State *L, const char *what, const char *const *known, size_t count) {
+    lua_pushnil(L);
+    while (lua_next(L, -2)) {
+        const char *key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : NULL;
+        bool fine = key == NULL;
+        for (size_t k = 0; key && k < count; k++)
+            fine |= strcmp(key, known[k]) == 0;
+        if (!fine) {
+            const char *near = jox_suggest(key, known, count);
+            luaL_error(L, "%s has no '%s'%s%s%s", what, key, near ? "; did you mean '" : "",
+                       near ? near : "", near ? "'?" : "");
+        }
+        lua_pop(L, 1);
+    }
+}
+
+/* A text of the table on top; "" where it is absent and not needed. */
+char *jox_claim_text(lua_State *L, const char *what, const char *key, bool needed) {
+    int type = lua_getfield(L, -1, key);
+    if (type != LUA_TSTRING && (needed || type != LUA_TNIL))
+        luaL_error(L, "%s needs %s = \"...\"", what, key);
+    char *text = jox_strdup(type == LUA_TNIL ? "" : lua_tostring(L, -1));
+    lua_pop(L, 1);
+    return text;
+}
+
+double jox_claim_number(lua_State *L, const char *what, const char *key, double otherwise) {
+    int type = lua_getfield(L, -1, key);
+    double value = type == LUA_TNIL ? otherwise : lua_tonumber(L, -1);
+    if (type != LUA_TNIL && (type != LUA_TNUMBER || !isfinite(value)))
+        luaL_error(L, "%s: %s is a number", what, key);
+    lua_pop(L, 1);
+    return value;
+}
+
+static bool bool_of(lua_State *L, const char *key) {
+    lua_getfield(L, -1, key);
+    bool value = lua_toboolean(L, -1);
+    lua_pop(L, 1);
+    return value;
+}
+
+static int ascending(const void *a, const void *b) {
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* Keys of the table on top in ascending order. They are the table's own; their list is left below
+   it on the stack, so that Lua frees it whatever happens. */
+static const char **keys_of(lua_State *L, uint32_t *count) {
+    uint32_t most = 0;
+    *count = 0;
+    for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1))
+        most++;
+    const char **keys = lua_newuserdatauv(L, (most + 1) * sizeof *keys, 0);
+    lua_insert(L, -2);
+    for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1))
+        if (lua_type(L, -2) == LUA_TSTRING)
+            keys[(*count)++] = lua_tostring(L, -2);
+    if (*count)
+        qsort(keys, *count, sizeof *keys, ascending);
+    return keys;
+}
+
+static void read_sets(lua_State *L, JoxClaimRun *run) {
+    int top = lua_gettop(L), type = lua_getfield(L, -1, "set");
+    if (type != LUA_TTABLE && type != LUA_TNIL)
+        luaL_error(L, "run '%s': set = { [\"groups.people.count\"] = 100 }", run->name);
+    uint32_t count = 0;
+    const char **keys = type == LUA_TTABLE ? keys_of(L, &count) : NULL;
+    run->sets = jox_alloc(count + 1, sizeof *run->sets);
+    for (uint32_t k = 0; k < count; k++) {
+        int kind = lua_getfield(L, -1, keys[k]);
+        if (kind != LUA_TBOOLEAN && kind != LUA_TNUMBER && kind != LUA_TSTRING)
+            luaL_error(L, "run '%s': '%s' is set to a %s; it takes a number, a text, true or false",
+                       run->name, keys[k], lua_typename(L, kind));
+        JoxText text = {0};
+        const char *value = kind != LUA_TBOOLEAN   ? lua_tostring(L, -1)
+                            : lua_toboolean(L, -1) ? "true"
+                                                   : "false";
+        jox_text_printf(&text, "%s=%s", keys[k], value);
+        run->sets[run->set_count++] = text.data;
+        lua_pop(L, 1);
+    }
+    lua_settop(L, top);
+}
+
+/* The run on top of the stack; `base` gives what it leaves out (of `quick`), or is NULL. */
+static void read_run(lua_State *L, const JoxClaim *claim, const JoxClaimRun *base,
+                     JoxClaimRun *run) {
+    static const char *const KEYS[] = {"scene", "seeds", "duration", "dt", "set", "first"};
+    char what[128];
+    snprintf(what, sizeof what, "run '%.80s'", run->name);
+    if (!lua_istable(L, -1))
+        luaL_error(L, "%s is a table", what);
+    jox_claim_known(L, what, KEYS, sizeof KEYS / sizeof *KEYS);
+    char *scene = jox_claim_text(L, what, "scene", !base);
+    const char *slash = strrchr(claim->path, '/');
+    JoxText path = {0};
+    jox_text_printf(&path, "%.*s%s", slash && *scene != '/' ? (int)(slash - claim->path) + 1 : 0,
+                    claim->path, scene);
+    run->scene = *scene || !base ? path.data : jox_strdup(base->scene);
+    if (run->scene != path.data)
+        jox_text_free(&path);
+    jox_free(scene);
+    jox_path_clean(run->scene);
+    run->seeds = (uint32_t)jox_claim_number(L, what, "seeds", base ? base->seeds : 3);
+    run->duration = jox_claim_number(L, what, "duration", base ? base->duration : 0.0);
+    run->dt = jox_claim_number(L, what, "dt", base ? base->dt : 0.0);
+    run->first = bool_of(L, "first") || (base && base->first);
+    if (run->seeds < 1 || run->seeds > 1000 || run->duration < 0.0 || run->dt < 0.0)
+        luaL_error(L, "%s: seeds is 1 to 1000, duration and dt are not negative", what);
+    read_sets(L, run);
+    if (!base || run->set_count || !base->set_count)
+        return;
+    run->sets = jox_realloc(run->sets, base->set_count, sizeof *run->sets);
+    for (uint32_t s = 0; s < base->set_count; s++)
+        run->sets[run->set_count++] = jox_strdup(base->sets[s]);
+}
+
+void jox_claim_free_run(JoxClaimRun *run) {
+    for (uint32_t s = 0; s < run->set_count; s++)
+        jox_free(run->sets[s]);
+    jox_free(run->sets);
+    jox_free(run->scene);
+}
+
+static void read_runs(lua_State *L, JoxClaim *claim) {
+    int top = lua_gettop(L);
+    if (lua_getfield(L, -1, "runs") != LUA_TTABLE)
+        luaL_error(L, "a claim needs runs = { name = { scene = \"../x.yaml\" } }");
+    uint32_t count;
+    const char **names = keys_of(L, &count);
+    if (count == 0)
+        luaL_error(L, "a claim needs at least one run");
+    claim->runs = jox_alloc(count, sizeof *claim->runs);
+    for (uint32_t r = 0; r < count; r++) {
+        claim->runs[r].name = jox_strdup(names[r]);
+        claim->run_count++;
+        lua_getfield(L, -1, names[r]);
+        read_run(L, claim, NULL, &claim->runs[r]);
+        lua_pop(L, 1);
+    }
+    lua_settop(L, top);
+}
+
+static JoxClaimRun *find_run(lua_State *L, const JoxClaim *claim, const char *what,
+                             const char *name) {
+    for (uint32_t r = 0; r < claim->run_count; r++)
+        if (strcmp(claim->runs[r].name, name) == 0)
+            return &claim->runs[r];
+    luaL_error(L, "%s: there is no run '%s'", what, name);
+    return NULL;
+}
+
+/* Of each run that it names, what it says in place of what `runs` said; false: there is nothing
+   smaller that would show it. */
+static void read_quick(lua_State *L, JoxClaim *claim, bool quick) {
+    int top = lua_gettop(L), type = lua_getfield(L, -1, "quick");
+    if (type == LUA_TBOOLEAN && !lua_toboolean(L, -1)) {
+        claim->too_long = true;
+        lua_settop(L, top);
+        return;
+    }
+    if (type != LUA_TNIL && type != LUA_TTABLE)
+        luaL_error(L, "quick = { name = { duration = 10, seeds = 1 } }, by the names of runs; or "
+                      "false");
+    uint32_t count = 0;
+    const char **names = type == LUA_TTABLE ? keys_of(L, &count) : NULL;
+    for (uint32_t n = 0; n < count; n++) {
+        JoxClaimRun *run = find_run(L, claim, "quick", names[n]);
+        claim->spare = (JoxClaimRun){.name = run->name};
+        lua_getfield(L, -1, names[n]);
+        read_run(L, claim, run, &claim->spare);
+        lua_pop(L, 1);
+        if (quick) {
+            JoxClaimRun full = *run;
+            *run = claim->spare;
+            claim->spare = full;
+        }
+        jox_claim_free_run(&claim->spare);
+        claim->spare = (JoxClaimRun){0};
+    }
+    lua_settop(L, top);
+}
+
+static void read_figure(lua_State *L, JoxClaimFigure *figure) {
+    static const char *const KEYS[] = {"unit", "source", "band", "what", "reported"};
+    if (!lua_istable(L, -1) || lua_rawgeti(L, -1, 1) != LUA_TSTRING)
+        luaL_error(L, "each of expect is { \"name\", unit = ..., band = { least, greatest } }");
+    figure->name = jox_strdup(lua_tostring(L, -1));
+    lua_pop(L, 1);
+    jox_claim_known(L, "a figure", KEYS, sizeof KEYS / sizeof *KEYS);
+    figure->unit = jox_claim_text(L, "a figure", "unit", false);
+    figure->what = jox_claim_text(L, "a figure", "what", false);
+    lua_getfield(L, -1, "source");
+    figure->expected = jox_strdup(lua_tostring(L, -1) ? lua_tostring(L, -1) : "");
+    lua_pop(L, 1);
+    figure->reported = bool_of(L, "reported");
+    figure->low = -INFINITY;
+    figure->high = INFINITY;
+    int type = lua_getfield(L, -1, "band");
+    if (type == LUA_TTABLE) {
+        if (lua_rawgeti(L, -1, 1) == LUA_TNUMBER)
+            figure->low = lua_tonumber(L, -1);
+        if (lua_rawgeti(L, -2, 2) == LUA_TNUMBER)
+            figure->high = lua_tonumber(L, -1);
+        lua_pop(L, 2);
+    }
+    lua_pop(L, 1);
+    bool open = figure->low == -INFINITY && figure->high == INFINITY;
+    if (!figure->reported && (open || !(figure->low <= figure->high)))
+        luaL_error(L, "'%s' needs band = { least, greatest }, or reported = true", figure->name);
+}
+
+static void read_figures(lua_State *L, JoxClaim *claim) {
+    if (lua_getfield(L, -1, "expect") != LUA_TTABLE || luaL_len(L, -1) < 1)
+        luaL_error(L, "a claim needs expect = { { \"figure\", band = { 1, 2 } } }");
+    claim->figure_count = (uint32_t)luaL_len(L, -1);
+    claim->figures = jox_alloc(claim->figure_count, sizeof *claim->figures);
+    for (uint32_t f = 0; f < claim->figure_count; f++) {
+        lua_rawgeti(L, -1, (lua_Integer)f + 1);
+        read_figure(L, &claim->figures[f]);
+        for (uint32_t other = 0; other < f; other++)
+            if (strcmp(claim->figures[other].name, claim->figures[f].name) == 0)
+                luaL_error(L, "'%s' is expected twice", claim->figures[f].name);
+        lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+}
+
+static void read_pictures(lua_State *L, JoxClaim *claim) {
+    int top = lua_gettop(L), type = lua_getfield(L, -1, "pictures");
+    size_t capacity = 0;
+    if (type != LUA_TNIL && type != LUA_TTABLE)
+        luaL_error(L, "pictures = { name = { \"paths.png\" } }, by the names of runs");
+    uint32_t count = 0;
+    const char **names = type == LUA_TTABLE ? keys_of(L, &count) : NULL;
+    for (uint32_t n = 0; n < count; n++) {
+        find_run(L, claim, "pictures", names[n]);
+        if (lua_getfield(L, -1, names[n]) != LUA_TTABLE)
+            luaL_error(L, "pictures of run '%s' are a list of files", names[n]);
+        for (lua_Integer p = 1; lua_rawgeti(L, -1, p) != LUA_TNIL; p++) {
+            const char *file = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+            if (!file || strchr(file, '/'))
+                luaL_error(L, "pictures of run '%s' are names of files in its report", names[n]);
+            JOX_RESERVE(claim->pictures, capacity, claim->picture_count + 1);
+            claim->pictures[claim->picture_count++] =
+                (JoxClaimPicture){jox_strdup(names[n]), jox_strdup(file)};
+            lua_pop(L, 1);
+        }
+        lua_pop(L, 2);
+    }
+    lua_settop(L, top);
+}
+
+static void read_tried(lua_State *L, JoxClaim *claim) {
+    int type = lua_getfield(L, -1, "tried");
+    if (type != LUA_TNIL && type != LUA_TTABLE)
+        luaL_error(L, "tried = { \"what was tried, and what came of it\", ... }");
+    lua_Integer count = type == LUA_TTABLE ? luaL_len(L, -1) : 0;
+    claim->tried = jox_alloc((size_t)count + 1, sizeof *claim->tried);
+    for (lua_Integer t = 1; t <= count; t++) {
+        if (lua_rawgeti(L, -1, t) != LUA_TSTRING)
+            luaL_error(L, "each of tried is a text");
+        claim->tried[claim->tried_count++] = jox_strdup(lua_tostring(L, -1));
+        lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+}
+
+/* claim { ... }: reads everything and keeps measure alone. */
+static int word_claim(lua_State *L) {
+    static const char *const KEYS[] = {"id",      "title",  "source", "text",     "runs", "quick",
+                                       "measure", "expect", "plots",  "pictures", "tried"};
+    lua_getfield(L, LUA_REGISTRYINDEX, "jostle claim");
+    JoxClaim *claim = lua_touserdata(L, -1);
+    lua_getfield(L, LUA_REGISTRYINDEX, "jostle quick");
+    bool quick = lua_toboolean(L, -1);
+    lua_pop(L, 2);
+    luaL_checktype(L, 1, LUA_TTABLE);
+    lua_settop(L, 1);
+    if (claim->id)
+        return luaL_error(L, "a file has one claim");
+    jox_claim_known(L, "a claim", KEYS, sizeof KEYS / sizeof *KEYS);
+    claim->id = jox_claim_text(L, "a claim", "id", true);
+    claim->title = jox_claim_text(L, "a claim", "title", true);
+    claim->source = jox_claim_text(L, "a claim", "source", true);
+    claim->text = jox_claim_text(L, "a claim", "text", false);
+    read_runs(L, claim);
+    read_quick(L, claim, quick);
+    read_figures(L, claim);
+    jox_claim_plots(L, claim);
+    read_pictures(L, claim);
+    read_tried(L, claim);
+    if (lua_getfield(L, -1, "measure") != LUA_TFUNCTION)
+        return luaL_error(L, "a claim needs measure = function(run) return { figure = 1 } end");
+    claim->code->measure = luaL_ref(L, LUA_REGISTRYINDEX);
+    lua_pushnil(L); /* nothing that is expected stays within reach of measure */
+    lua_setfield(L, 1, "expect");
+    lua_pushboolean(L, 1);
+    return 1;
+}
+
+int jox_claim_words(lua_State *L) {
+    lua_newtable(L);
+    lua_pushcfunction(L, word_claim);
+    lua_setfield(L, -2, "claim");
+    lua_setfield(L, LUA_REGISTRYINDEX, "jostle words");
+    return 0;
+}

@@ -1,0 +1,326 @@
+/* jo_reproduce: claims, the runs that they share, and what is measured on them. */
+#include "validate/reproduce.h"
+
+#include <ctype.h>
+#include <dirent.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/assert.h"
+#include "base/hash.h"
+#include "base/mem.h"
+
+JoReproduceDef jo_default_reproduce_def(void) {
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    return (JoReproduceDef){.folder = "scenes/claims",
+                            .out = "build/out/reproduce",
+                            .jobs = cores > 0 ? (uint32_t)cores : 1};
+}
+
+/* ---- claims ---- */
+
+static bool is_wanted(const JoReproduceDef *def, const JoxClaim *claim) {
+    for (size_t c = 0; c < def->claim_count; c++) {
+        const char *slash = strrchr(claim->path, '/'), *file = slash ? slash + 1 : claim->path;
+        size_t stem = strcspn(file, ".");
+        if (strcmp(def->claims[c], claim->id) == 0 ||
+            (strncmp(def->claims[c], file, stem) == 0 && def->claims[c][stem] == 0) ||
+            strcmp(def->claims[c], claim->path) == 0)
+            return true;
+    }
+    return def->claim_count == 0;
+}
+
+static int by_name(const void *a, const void *b) {
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+static char **list_files(const char *folder, size_t *count) {
+    char **files = NULL;
+    size_t capacity = 0;
+    *count = 0;
+    DIR *dir = opendir(folder);
+    for (struct dirent *entry; dir && (entry = readdir(dir)) != NULL;) {
+        const char *dot = strrchr(entry->d_name, '.');
+        if (!dot || strcmp(dot, ".lua") != 0 || entry->d_name[0] == '.')
+            continue;
+        JoxText path = {0};
+        jox_text_printf(&path, "%s/%s", folder, entry->d_name);
+        JOX_RESERVE(files, capacity, *count + 1);
+        files[(*count)++] = path.data;
+    }
+    if (dir)
+        closedir(dir);
+    if (*count)
+        qsort(files, *count, sizeof *files, by_name);
+    return files;
+}
+
+/* The paper's claims by number first, then others by letter and number. */
+static int by_id(const void *left, const void *right) {
+    const char *a = ((const JoxOutcome *)left)->claim->id;
+    const char *b = ((const JoxOutcome *)right)->claim->id;
+    if (isdigit((unsigned char)*a) != isdigit((unsigned char)*b))
+        return isdigit((unsigned char)*a) ? -1 : 1;
+    if (!isdigit((unsigned char)*a) && *a != *b)
+        return *a < *b ? -1 : 1;
+    long x = strtol(isdigit((unsigned char)*a) ? a : a + 1, NULL, 10);
+    long y = strtol(isdigit((unsigned char)*b) ? b : b + 1, NULL, 10);
+    return x != y ? (x < y ? -1 : 1) : strcmp(a, b);
+}
+
+static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
+    size_t count, capacity = 0;
+    char **files = list_files(all->def->folder, &count);
+    for (size_t f = 0; f < count; f++) {
+        JoxClaim *claim = jox_claim_load(files[f], all->def->quick, diagnostics);
+        bool wanted = claim && is_wanted(all->def, claim);
+        if (wanted && all->def->quick && claim->too_long && all->def->claim_count == 0) {
+            jox_text_printf(&all->left_out, "%s%s", all->left_out.length ? ", " : "", claim->id);
+            wanted = false;
+        }
+        if (wanted) {
+            JOX_RESERVE(all->outcomes, capacity, all->outcome_count + 1);
+            all->outcomes[all->outcome_count++] = (JoxOutcome){.claim = claim};
+        } else {
+            jox_claim_free(claim);
+        }
+        jox_free(files[f]);
+    }
+    jox_free(files);
+    if (all->outcome_count)
+        qsort(all->outcomes, all->outcome_count, sizeof *all->outcomes, by_id);
+    if (count == 0)
+        jox_diag_error(diagnostics, ((JoxPosition){all->def->folder, 0, 0, 0}), "no-claims",
+                       "Run it in the project's folder, or name one: --claims DIR",
+                       "there are no claims in this folder");
+    for (size_t c = 0; c < all->def->claim_count && diagnostics->errors == 0; c++) {
+        bool found = false;
+        JoReproduceDef one = {.claims = &all->def->claims[c], .claim_count = 1};
+        for (uint32_t o = 0; o < all->outcome_count; o++)
+            found |= is_wanted(&one, all->outcomes[o].claim);
+        if (!found)
+            jox_diag_error(diagnostics, ((JoxPosition){all->def->folder, 0, 0, 0}), "no-claim",
+                           "jostle reproduce --list names all", "there is no claim '%.100s'",
+                           all->def->claims[c]);
+    }
+}
+
+/* ---- runs ---- */
+
+/* The first seed leaves a report, if its claim shows pictures; what a report collects takes time.
+ */
+static uint32_t add_job(JoxReproduction *all, const JoxClaim *claim, const JoxClaimRun *run,
+                        uint64_t seed) {
+    bool pictures = seed == 1 && claim->picture_count > 0;
+    JoxText key = {0}, folder = {0};
+    char hash[65];
+    jox_text_printf(&key, "%s\n%s\nseed %llu\ndt %.9g\nduration %.9g\npictures %d\n",
+                    all->program_sha256, run->scene, (unsigned long long)seed, run->dt,
+                    run->duration, pictures);
+    for (uint32_t s = 0; s < run->set_count; s++)
+        jox_text_printf(&key, "set %s\n", run->sets[s]);
+    for (uint32_t j = 0; j < all->job_count; j++)
+        if (strcmp(all->jobs[j].key, key.data) == 0) {
+            jox_text_free(&key);
+            return j;
+        }
+    /* The program is not part of the folder's name: a new one writes over what an old one left. */
+    jox_sha256_hex(key.data + 64, key.length - 64, hash);
+    const char *slash = strrchr(run->scene, '/'), *file = slash ? slash + 1 : run->scene;
+    jox_text_printf(&folder, "%s/runs/%.*s-%.10s-%llu", all->def->out, (int)strcspn(file, "."),
+                    file, hash, (unsigned long long)seed);
+    JOX_RESERVE(all->jobs, all->job_capacity, all->job_count + 1);
+    all->jobs[all->job_count] = (JoxJob){
+        .key = key.data, .folder = folder.data, .run = run, .seed = seed, .pictures = pictures};
+    return all->job_count++;
+}
+
+static void plan_runs(JoxReproduction *all) {
+    for (uint32_t o = 0; o < all->outcome_count; o++) {
+        JoxOutcome *outcome = &all->outcomes[o];
+        JoxClaim *claim = outcome->claim;
+        outcome->jobs = jox_alloc(claim->run_count, sizeof *outcome->jobs);
+        outcome->verdicts = jox_alloc(claim->figure_count, sizeof *outcome->verdicts);
+        for (uint32_t r = 0; r < claim->run_count; r++) {
+            JoxClaimRun *run = &claim->runs[r];
+            if (all->def->seeds && run->seeds > 1)
+                run->seeds = all->def->seeds;
+            outcome->seeds = run->seeds > outcome->seeds ? run->seeds : outcome->seeds;
+            outcome->jobs[r] = jox_alloc(run->seeds, sizeof **outcome->jobs);
+            for (uint32_t s = 0; s < run->seeds; s++)
+                outcome->jobs[r][s] = add_job(all, claim, run, s + 1);
+        }
+    }
+}
+
+/* ---- measuring ---- */
+
+static const char *failed_run(const JoxReproduction *all, const JoxOutcome *outcome) {
+    for (uint32_t r = 0; r < outcome->claim->run_count; r++)
+        for (uint32_t s = 0; s < outcome->claim->runs[r].seeds; s++)
+            if (all->jobs[outcome->jobs[r][s]].state == JOX_JOB_FAILED)
+                return all->jobs[outcome->jobs[r][s]].failure;
+    return NULL;
+}
+
+static void measure(const JoxReproduction *all, JoxOutcome *outcome) {
+    const JoxClaim *claim = outcome->claim;
+    const char *failure = failed_run(all, outcome);
+    double *values = jox_alloc(claim->figure_count, sizeof *values);
+    const char **folders = jox_alloc(claim->run_count, sizeof *folders);
+    JoxText why = {0};
+    for (uint32_t f = 0; f < claim->figure_count; f++)
+        outcome->verdicts[f] = (JoxVerdict){0.0, INFINITY, -INFINITY, false};
+    if (failure)
+        jox_text_add(&why, failure);
+    for (uint32_t s = 0; s < outcome->seeds && why.length == 0; s++) {
+        for (uint32_t r = 0; r < claim->run_count; r++) {
+            uint32_t own = claim->runs[r].seeds;
+            folders[r] = all->jobs[outcome->jobs[r][s % own]].folder;
+        }
+        jox_claim_measure(claim, folders, values, &why);
+        for (uint32_t f = 0; f < claim->figure_count; f++) {
+            JoxVerdict *v = &outcome->verdicts[f];
+            v->mean += values[f] / outcome->seeds; /* NAN stays */
+            v->least = fmin(v->least, values[f]);
+            v->most = fmax(v->most, values[f]);
+        }
+    }
+    outcome->failure = why.data;
+    outcome->inside = why.length == 0;
+    for (uint32_t f = 0; f < claim->figure_count; f++) {
+        JoxVerdict *v = &outcome->verdicts[f];
+        const JoxClaimFigure *figure = &claim->figures[f];
+        if (why.length)
+            v->mean = v->least = v->most = NAN;
+        v->inside = v->mean >= figure->low && v->mean <= figure->high;
+        outcome->inside &= v->inside || figure->reported;
+    }
+    jox_free(values);
+    jox_free(folders);
+}
+
+/* ---- the whole ---- */
+
+static void say(const JoReproduceDef *def, const char *text) {
+    if (def->message)
+        def->message(def->message_context, text);
+    else
+        fputs(text, stdout);
+}
+
+static void say_number(JoxText *out, double value) {
+    jox_text_printf(out, isfinite(value) ? "%.4g" : "-", value);
+}
+
+static void list_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) {
+    const JoxClaim *claim = outcome->claim;
+    JoxText out = {0};
+    jox_text_printf(&out, "%s  %s (%s)%s\n", claim->id, claim->title, claim->source,
+                    def->list         ? ""
+                    : outcome->inside ? ": in band"
+                                      : ": MISSES");
+    for (uint32_t f = 0; f < claim->figure_count && !def->list; f++) {
+        const JoxClaimFigure *figure = &claim->figures[f];
+        const JoxVerdict *v = &outcome->verdicts[f];
+        jox_text_printf(&out, "   %-24s source %-12s measured ", figure->name,
+                        *figure->expected ? figure->expected : "-");
+        say_number(&out, v->mean);
+        jox_text_add(&out, " (");
+        say_number(&out, v->least);
+        jox_text_add(&out, " to ");
+        say_number(&out, v->most);
+        jox_text_printf(&out, ") %s", figure->unit);
+        if (figure->reported)
+            jox_text_add(&out, ", reported\n");
+        else
+            jox_text_printf(&out, ", band %.4g to %.4g: %s\n", figure->low, figure->high,
+                            v->inside ? "in" : "OUT");
+    }
+    if (outcome->failure)
+        jox_text_printf(&out, "   %s\n", outcome->failure);
+    say(def, out.data);
+    jox_text_free(&out);
+}
+
+static void free_all(JoxReproduction *all) {
+    for (uint32_t o = 0; o < all->outcome_count; o++) {
+        JoxOutcome *outcome = &all->outcomes[o];
+        for (uint32_t r = 0; outcome->jobs && r < outcome->claim->run_count; r++)
+            jox_free(outcome->jobs[r]);
+        jox_free(outcome->jobs);
+        jox_free(outcome->verdicts);
+        jox_free(outcome->failure);
+        jox_claim_free(outcome->claim);
+    }
+    for (uint32_t j = 0; j < all->job_count; j++) {
+        jox_free(all->jobs[j].key);
+        jox_free(all->jobs[j].folder);
+        jox_free(all->jobs[j].failure);
+    }
+    jox_free(all->outcomes);
+    jox_free(all->jobs);
+    jox_text_free(&all->left_out);
+}
+
+static bool go(JoxReproduction *all, size_t *missed, JoError *error) {
+    double begun = jox_clock_wall();
+    plan_runs(all);
+    if (!jox_reproduce_run(all)) {
+        jox_error(error, JO_FAILED, "interrupted; what was done is kept in %s", all->def->out);
+        return false;
+    }
+    all->seconds = jox_clock_wall() - begun;
+    for (uint32_t o = 0; o < all->outcome_count; o++) {
+        measure(all, &all->outcomes[o]);
+        list_outcome(all->def, &all->outcomes[o]);
+        *missed += !all->outcomes[o].inside;
+    }
+    JoxText why = {0}, out = {0};
+    bool good = jox_reproduce_write(all, &why);
+    if (!good)
+        jox_error(error, JO_FAILED, "%s", why.data);
+    jox_text_printf(&out, "%u of %u claims in band", all->outcome_count - (uint32_t)*missed,
+                    all->outcome_count);
+    for (uint32_t o = 0, n = 0; o < all->outcome_count; o++)
+        if (!all->outcomes[o].inside)
+            jox_text_printf(&out, "%s%s",
+                            n++ ? ", " : "; these miss: ", all->outcomes[o].claim->id);
+    if (all->left_out.length)
+        jox_text_printf(&out, "\nleft out with --quick: %s", all->left_out.data);
+    jox_text_printf(&out, "\nreport: %s/index.html\n", all->def->out);
+    say(all->def, out.data);
+    jox_text_free(&why);
+    jox_text_free(&out);
+    return good;
+}
+
+bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error) {
+    JOX_REQUIRE(def && missed && (def->program || def->list) && def->jobs > 0, false);
+    JoxReproduction all = {.def = def};
+    JoxDiagnostics diagnostics = {0};
+    size_t length;
+    *missed = 0;
+    char *program = def->program ? jox_read_file(def->program, (size_t)256 << 20, &length) : NULL;
+    if (program)
+        jox_sha256_hex(program, length, all.program_sha256);
+    jox_free(program);
+    if (!def->list && !*all.program_sha256) {
+        jox_error(error, JO_FAILED, "%s, which is to run the scenes, cannot be read", def->program);
+        return false;
+    }
+    load_claims(&all, &diagnostics);
+    bool good = diagnostics.errors == 0;
+    jox_run_report(def->message, def->message_context, &diagnostics, error);
+    for (uint32_t o = 0; good && def->list && o < all.outcome_count; o++)
+        list_outcome(def, &all.outcomes[o]);
+    if (good && !def->list)
+        good = go(&all, missed, error);
+    free_all(&all);
+    return good;
+}

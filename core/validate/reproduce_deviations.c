@@ -1,0 +1,238 @@
+/* What scenes and behaviours of the claims set otherwise than the engine does. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "agents/parameters.h"
+#include "base/mem.h"
+#include "base/quote.h"
+#include "picture/html.h"
+#include "validate/reproduce.h"
+
+/* One value, and who works with it. */
+typedef struct Row {
+    int parameter;    /* -1, -2: keys of `forces` */
+    char *where;      /* file, and state or group */
+    char *value;      /* as written */
+    const char *last; /* the claim that was added last */
+    JoxText claims;   /* ids, with links */
+} Row;
+
+/* A behaviour, loaded once. */
+typedef struct Kind {
+    char *path;
+    JoxMachine *machine; /* NULL: it does not load */
+} Kind;
+
+typedef struct Deviations {
+    JoxLua *lua;
+    Row *rows;
+    uint32_t row_count, row_capacity;
+    Kind *kinds;
+    uint32_t kind_count, kind_capacity;
+    const JoxClaim *claim; /* whose runs are looked at, */
+    uint32_t number;       /* and its place on the page */
+} Deviations;
+
+static const char *const FORCES[][2] = {{"forces.enabled", "true"}, {"forces.mode", "physical"}};
+
+static void add(Deviations *d, int parameter, const char *where, const char *value) {
+    Row *row = NULL;
+    for (uint32_t r = 0; r < d->row_count && !row; r++)
+        if (d->rows[r].parameter == parameter && !strcmp(d->rows[r].where, where) &&
+            !strcmp(d->rows[r].value, value))
+            row = &d->rows[r];
+    if (!row) {
+        JOX_RESERVE(d->rows, d->row_capacity, d->row_count + 1);
+        row = &d->rows[d->row_count++];
+        *row =
+            (Row){.parameter = parameter, .where = jox_strdup(where), .value = jox_strdup(value)};
+    }
+    if (row->last == d->claim->id)
+        return;
+    jox_text_printf(&row->claims, "%s<a href=\"#c%u\">", row->last ? ", " : "", d->number);
+    jox_quote_xml(&row->claims, d->claim->id);
+    jox_text_add(&row->claims, "</a>");
+    row->last = d->claim->id;
+}
+
+/* A path without the folder of the installed files, which says nothing. */
+static void shorten(const char *path, char out[512]) {
+    char clean[1024];
+    size_t n = strlen(JOX_DATADIR);
+    snprintf(clean, sizeof clean, "%s", path);
+    jox_path_clean(clean);
+    bool installed = strncmp(clean, JOX_DATADIR, n) == 0 && clean[n] == '/';
+    snprintf(out, 512, "%.500s", installed ? clean + n + 1 : clean);
+}
+
+static void print_dist(const JoxDist *dist, JoxText *out) {
+    switch (dist->kind) {
+    case JOX_DIST_CONSTANT:
+        jox_text_printf(out, "%g", dist->a);
+        break;
+    case JOX_DIST_UNIFORM:
+        jox_text_printf(out, "uniform(%g, %g)", dist->a, dist->b);
+        break;
+    case JOX_DIST_NORMAL:
+        jox_text_printf(out, "normal(%g, %g, %g, %g)", dist->a, dist->b, dist->lo, dist->hi);
+        break;
+    case JOX_DIST_CHOOSE:
+        for (int c = 0; c < dist->choices; c++)
+            jox_text_printf(out, "%s%g", c ? " or " : "", dist->values[c]);
+        break;
+    }
+}
+
+/* ---- behaviours ---- */
+
+/* The value of a path of the machine as it is written, in the last of the places that set it. */
+static void written(const Deviations *d, const JoxMachine *machine, const char *path,
+                    JoxText *out) {
+    static const JoxScope ANY = {0};
+    JoxText all = {0};
+    if (jox_lua_why(d->lua, machine, path, &ANY, &all) && all.length > 1) {
+        all.data[--all.length] = 0; /* the end of the last line */
+        const char *line = strrchr(all.data, '\n'), *at = strstr(line ? line : all.data, ": ");
+        jox_text_add(out, at ? at + 2 : "");
+    }
+    jox_text_free(&all);
+}
+
+/* Whether a value is the engine's: machines keep what they do not set as an own value of each
+ * agent.
+ */
+static bool is_usual(const JoxMachine *machine, int p, const JoxValue *value) {
+    if (value->kind == JOX_VALUE_OWN) {
+        const JoxDist *dist = &machine->own[value->index].dist;
+        return dist->kind == JOX_DIST_CONSTANT && dist->a == jox_parameters[p].value;
+    }
+    return value->kind == JOX_VALUE_UNSET ||
+           (value->kind == JOX_VALUE_CONST && value->number == jox_parameters[p].value);
+}
+
+static void look_at_value(Deviations *d, const JoxMachine *machine, const char *file,
+                          const char *owner, int p, const JoxValue *value) {
+    char path[200], where[700];
+    JoxText text = {0};
+    if (is_usual(machine, p, value))
+        return;
+    snprintf(path, sizeof path, "%.100s.%s", owner ? owner : "defaults", jox_parameters[p].name);
+    snprintf(where, sizeof where, "%s%s%.100s", file, owner ? ", state " : "", owner ? owner : "");
+    written(d, machine, path, &text);
+    add(d, p, where, text.length ? text.data : "an expression");
+    jox_text_free(&text);
+}
+
+static void look_at_behaviour(Deviations *d, const char *path) {
+    char file[512];
+    Kind *kind = NULL;
+    for (uint32_t k = 0; k < d->kind_count && !kind; k++)
+        kind = strcmp(d->kinds[k].path, path) == 0 ? &d->kinds[k] : NULL;
+    if (!kind) {
+        static const JoxScope ANY = {0};
+        JoxDiagnostics unread = {0};
+        JOX_RESERVE(d->kinds, d->kind_capacity, d->kind_count + 1);
+        kind = &d->kinds[d->kind_count++];
+        *kind = (Kind){jox_strdup(path), jox_lua_load(d->lua, path, &ANY, &unread)};
+        jox_diag_free(&unread);
+    }
+    shorten(path, file);
+    for (int p = 0; kind->machine && p < JOX_PARAM_COUNT; p++) {
+        const JoxMachine *m = kind->machine;
+        look_at_value(d, m, file, NULL, p, &m->defaults[p]);
+        for (uint32_t s = 0; s < m->state_count; s++)
+            look_at_value(d, m, file, m->states[s].name, p, &m->states[s].param[p]);
+    }
+}
+
+/* ---- scenes ---- */
+
+static void look_at_group(Deviations *d, const char *scene, const JoxSceneGroup *group) {
+    char where[700];
+    snprintf(where, sizeof where, "%s, group %.100s", scene, group->name);
+    for (uint32_t m = 0; m < group->mix_count; m++)
+        look_at_behaviour(d, group->mix[m].behaviour);
+    for (uint32_t s = 0; s < group->set_count; s++) {
+        const JoxSceneSet *set = &group->set[s];
+        int p = jox_parameter_find(set->name);
+        JoxText text = {0};
+        if (p < 0 || set->kind != JOX_SET_NUMBER ||
+            (set->dist.kind == JOX_DIST_CONSTANT && set->dist.a == jox_parameters[p].value))
+            continue;
+        print_dist(&set->dist, &text);
+        add(d, p, where, text.data);
+        jox_text_free(&text);
+    }
+}
+
+static void look_at_run(Deviations *d, const JoxClaimRun *run) {
+    char file[512];
+    JoxDiagnostics unread = {0}; /* a scene that does not load has failed as a run */
+    JoxSceneOptions options = {.sets = (const char *const *)run->sets, .set_count = run->set_count};
+    JoxSceneSpec *spec = jox_scene_load(run->scene, &options, &unread);
+    jox_diag_free(&unread);
+    if (!spec)
+        return;
+    shorten(run->scene, file);
+    if (!spec->forces)
+        add(d, -1, file, "false");
+    if (spec->literal)
+        add(d, -2, file, "literal");
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        look_at_group(d, file, &spec->groups[g]);
+    jox_scene_free(spec);
+}
+
+/* ---- the table ---- */
+
+static void put_row(FILE *out, const Row *row) {
+    jox_html_row(out);
+    if (row->parameter < 0) {
+        jox_html_cell(out, FORCES[-1 - row->parameter][0]);
+        jox_html_cell(out, FORCES[-1 - row->parameter][1]);
+    } else {
+        const JoxParameterInfo *info = &jox_parameters[row->parameter];
+        jox_html_cell(out, info->name);
+        jox_html_cell_number(out, info->value, info->unit);
+    }
+    fputs("<td><code>", out);
+    jox_html_text(out, row->value);
+    fputs("</code>", out);
+    jox_html_cell(out, row->where);
+    fputs("<td>", out);
+    fputs(row->claims.data, out); /* quoted where it was put together */
+}
+
+void jox_reproduce_deviations(const JoxReproduction *all, FILE *out) {
+    Deviations d = {.lua = jox_lua_create(NULL)};
+    for (uint32_t o = 0; o < all->outcome_count; o++) {
+        d.claim = all->outcomes[o].claim;
+        d.number = o;
+        for (uint32_t r = 0; r < d.claim->run_count; r++)
+            look_at_run(&d, &d.claim->runs[r]);
+    }
+    jox_html_heading(out, "What scenes and behaviours set instead");
+    jox_html_paragraph(out, "Every parameter that a scene's group, a behaviour, or one of its "
+                            "states sets otherwise than the engine, for the claims of this page.");
+    fputs("<details><summary>All of them</summary>\n", out);
+    jox_html_table(out, "parameter|engine|set to|by|claims");
+    for (int p = -2; p < JOX_PARAM_COUNT; p++) /* in the order of the table above */
+        for (uint32_t r = 0; r < d.row_count; r++)
+            if (d.rows[r].parameter == p)
+                put_row(out, &d.rows[r]);
+    jox_html_table_end(out);
+    fputs("</details>\n", out);
+    for (uint32_t r = 0; r < d.row_count; r++) {
+        jox_free(d.rows[r].where);
+        jox_free(d.rows[r].value);
+        jox_text_free(&d.rows[r].claims);
+    }
+    for (uint32_t k = 0; k < d.kind_count; k++) {
+        jox_free(d.kinds[k].path);
+        jox_machine_free(d.kinds[k].machine);
+    }
+    jox_free(d.rows);
+    jox_free(d.kinds);
+    jox_lua_free(d.lua);
+}

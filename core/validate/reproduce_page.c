@@ -1,0 +1,335 @@
+/* What jo_reproduce leaves for people: a page, a table, and the figures as JSON. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/utsname.h>
+#include <time.h>
+
+#include "agents/parameters.h"
+#include "base/mem.h"
+#include "base/quote.h"
+#include "force/force.h"
+#include "picture/html.h"
+#include "picture/plot.h"
+#include "validate/reproduce.h"
+
+static void put_band(FILE *out, const JoxClaimFigure *figure, const char *dash) {
+    if (figure->low == -INFINITY && figure->high == INFINITY)
+        fputs(dash, out);
+    else if (figure->low == -INFINITY)
+        fprintf(out, "at most %.4g", figure->high);
+    else if (figure->high == INFINITY)
+        fprintf(out, "at least %.4g", figure->low);
+    else
+        fprintf(out, "%.4g to %.4g", figure->low, figure->high);
+}
+
+static const char *verdict_of(const JoxClaimFigure *figure, const JoxVerdict *verdict) {
+    return figure->reported ? "reported" : verdict->inside ? "in band" : "misses";
+}
+
+/* ---- where and when ---- */
+
+static void first_line(const char *path, const char *key, char *out, size_t size) {
+    char line[512];
+    FILE *file = fopen(path, "r");
+    *out = 0;
+    while (file && fgets(line, sizeof line, file))
+        if (strncmp(line, key, strlen(key)) == 0) {
+            const char *at = strchr(line, ':');
+            snprintf(out, size, "%s", at ? at + 2 : line + strlen(key));
+            out[strcspn(out, "\n")] = 0;
+            break;
+        }
+    if (file)
+        fclose(file);
+}
+
+/* The commit of a checkout, or "". */
+static void commit_of(char *out, size_t size) {
+    char head[512], path[600];
+    first_line(".git/HEAD", "", head, sizeof head);
+    if (strncmp(head, "refs/", 5) == 0) {
+        snprintf(path, sizeof path, ".git/%s", head);
+        first_line(path, "", head, sizeof head);
+    }
+    snprintf(out, size, "%.12s", head);
+}
+
+static void circumstances(const JoxReproduction *all, char *out, size_t size) {
+    char cpu[128], commit[32], day[32];
+    struct utsname system;
+    time_t now = time(NULL);
+    struct tm tm;
+    uname(&system);
+    first_line("/proc/cpuinfo", "model name", cpu, sizeof cpu);
+    commit_of(commit, sizeof commit);
+    strftime(day, sizeof day, "%Y-%m-%d", gmtime_r(&now, &tm));
+    snprintf(out, size, "%s, Jostle %s%s%s, %s, %s %s, %u runs in %.0f s%s", day, jo_version(),
+             *commit ? ", commit " : "", commit, *cpu ? cpu : system.machine, system.sysname,
+             system.machine, all->job_count, all->seconds, all->def->quick ? ", quick" : "");
+}
+
+/* ---- the page ---- */
+
+static void put_figures(FILE *out, const JoxOutcome *outcome) {
+    fputs("<div class=scroll><table><tr><th>figure<th>source<th>measured<th>least to most of the "
+          "seeds<th>band<th>verdict</tr>\n",
+          out);
+    for (uint32_t f = 0; f < outcome->claim->figure_count; f++) {
+        const JoxClaimFigure *figure = &outcome->claim->figures[f];
+        const JoxVerdict *v = &outcome->verdicts[f];
+        fputs("<tr><td>", out);
+        jox_html_text(out, *figure->what ? figure->what : figure->name);
+        fputs("<td>", out);
+        jox_html_text(out, figure->expected);
+        fputs("<td class=n>", out);
+        jox_html_number(out, v->mean);
+        fputc(' ', out);
+        jox_html_text(out, figure->unit);
+        fputs("<td class=n>", out);
+        jox_html_number(out, v->least);
+        fputs(" to ", out);
+        jox_html_number(out, v->most);
+        fputs("<td>", out);
+        put_band(out, figure, "&ndash;");
+        fprintf(out, "<td class=%s>%s</tr>\n",
+                figure->reported ? "none"
+                : v->inside      ? "in"
+                                 : "out",
+                verdict_of(figure, v));
+    }
+    fputs("</table></div>\n", out);
+}
+
+static void put_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
+    const JoxClaim *claim = outcome->claim;
+    for (uint32_t p = 0; !outcome->failure && p < claim->plot_count; p++) {
+        char name[200], link[256];
+        jox_reproduce_plot_name(claim, &claim->plots[p], name, sizeof name);
+        snprintf(link, sizeof link, "plots/%s.png", name);
+        jox_html_picture(out, link, NULL, claim->plots[p].title);
+    }
+    for (uint32_t p = 0; p < claim->picture_count; p++)
+        for (uint32_t r = 0; r < claim->run_count; r++) {
+            if (strcmp(claim->runs[r].name, claim->pictures[p].run) != 0)
+                continue;
+            const JoxJob *job = &all->jobs[outcome->jobs[r][0]];
+            char path[1400];
+            struct stat info;
+            snprintf(path, sizeof path, "%s/%s", job->folder, claim->pictures[p].file);
+            if (stat(path, &info) != 0) {
+                fputs("<p class=out>The run ", out);
+                jox_html_text(out, claim->runs[r].name);
+                fputs(" left no ", out);
+                jox_html_text(out, claim->pictures[p].file);
+                fputs(".</p>\n", out);
+                continue;
+            }
+            const char *link = path + strlen(all->def->out) + 1;
+            char caption[200];
+            snprintf(caption, sizeof caption, "%.90s: %.90s", claim->runs[r].name,
+                     claim->pictures[p].file);
+            jox_html_picture(out, link, NULL, caption);
+        }
+}
+
+static void put_runs(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
+    fputs("<details><summary>Runs and what their scenes set</summary>\n", out);
+    for (uint32_t r = 0; r < outcome->claim->run_count; r++) {
+        const JoxClaimRun *run = &outcome->claim->runs[r];
+        const JoxJob *job = &all->jobs[outcome->jobs[r][0]];
+        size_t length;
+        fputs("<p><b>", out);
+        jox_html_text(out, run->name);
+        fputs("</b>: <code>jostle run ", out);
+        jox_html_argument(out, run->scene);
+        if (run->dt > 0.0)
+            fprintf(out, " --dt %g", run->dt);
+        if (run->duration > 0.0)
+            fprintf(out, " --for %g", run->duration);
+        for (uint32_t s = 0; s < run->set_count; s++) {
+            fputs(" --set ", out);
+            jox_html_argument(out, run->sets[s]);
+        }
+        fprintf(out, "</code>, seeds 1 to %u, ", run->seeds);
+        jox_html_text(out, job->folder);
+        fputs("\n<pre>", out);
+        char *text = jox_read_file(run->scene, (size_t)1 << 20, &length);
+        jox_html_text(out, text ? text : "");
+        jox_free(text);
+        fputs("</pre>\n", out);
+    }
+    fputs("</details>\n", out);
+}
+
+/* Of a claim that misses. */
+static void put_tried(FILE *out, const JoxOutcome *outcome) {
+    if (outcome->inside || outcome->claim->tried_count == 0)
+        return;
+    fputs("<p>What was tried:</p>\n<ul>\n", out);
+    for (uint32_t t = 0; t < outcome->claim->tried_count; t++) {
+        fputs("<li>", out);
+        jox_html_text(out, outcome->claim->tried[t]);
+        fputs("</li>\n", out);
+    }
+    fputs("</ul>\n", out);
+}
+
+static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
+    const JoxClaim *claim = outcome->claim;
+    fprintf(out, "<h2 id=\"c%u\">", (unsigned)(outcome - all->outcomes));
+    jox_html_text(out, claim->id);
+    fputs(": ", out);
+    jox_html_text(out, claim->title);
+    fprintf(out, " &ndash; <span class=%s>%s</span></h2>\n<p>", outcome->inside ? "in" : "out",
+            outcome->inside ? "in band" : "misses");
+    jox_html_text(out, claim->text);
+    fputs("<br><small>Source: ", out);
+    jox_html_text(out, claim->source);
+    fputs("</small></p>\n", out);
+    if (outcome->failure) {
+        fputs("<pre class=out>", out);
+        jox_html_text(out, outcome->failure);
+        fputs("</pre>\n", out);
+    }
+    put_figures(out, outcome);
+    put_tried(out, outcome);
+    put_pictures(out, all, outcome);
+    put_runs(out, all, outcome);
+}
+
+static void put_defaults(FILE *out) {
+    JoxForceOptions force = jox_force_default_options();
+    fputs(
+        "<h2>Defaults of the engine</h2>\n<p>Common to all claims; what scenes and behaviours set "
+        "instead stands in the table after it.</p><div "
+        "class=scroll><table><tr><th>parameter<th>value"
+        "<th>unit<th>meaning</tr>\n",
+        out);
+    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+        const JoxParameterInfo *info = &jox_parameters[p];
+        fprintf(out, "<tr><td>%s<td class=n>%g<td>%s<td>%s</tr>\n", info->name, info->value,
+                info->unit, info->meaning);
+    }
+    fprintf(out,
+            "<tr><td>reach<td class=n>%g<td>m<td>gap over which a braced person passes a force on"
+            "</tr>\n<tr><td>filter<td class=n>%g<td>s<td>time over which passed-on forces arrive"
+            "</tr>\n<tr><td>iterations<td class=n>%u<td><td>passes over the contacts of a step"
+            "</tr>\n</table></div>\n",
+            (double)force.reach, (double)force.filter, force.iterations);
+}
+
+static bool write_page(const JoxReproduction *all, const char *when, JoxText *error) {
+    FILE *out = jox_plot_open(all->def->out, "index.html", error);
+    uint32_t inside = 0;
+    if (!out)
+        return false;
+    for (uint32_t o = 0; o < all->outcome_count; o++)
+        inside += all->outcomes[o].inside;
+    jox_html_begin(out, "What Jostle reproduces");
+    fprintf(out, "<p>%u of %u claims in band. ", inside, all->outcome_count);
+    jox_html_text(out, when);
+    fputs(".</p>\n<div class=scroll><table><tr><th>claim<th>what<th>source<th>verdict</tr>\n", out);
+    for (uint32_t o = 0; o < all->outcome_count; o++) {
+        const JoxOutcome *outcome = &all->outcomes[o];
+        fprintf(out, "<tr><td><a href=\"#c%u\">", o);
+        jox_html_text(out, outcome->claim->id);
+        fputs("</a><td>", out);
+        jox_html_text(out, outcome->claim->title);
+        fputs("<td>", out);
+        jox_html_text(out, outcome->claim->source);
+        fprintf(out, "<td class=%s>%s</tr>\n", outcome->inside ? "in" : "out",
+                outcome->inside ? "in band" : "misses");
+    }
+    fputs("</table></div>\n", out);
+    for (uint32_t o = 0; o < all->outcome_count; o++)
+        put_claim(out, all, &all->outcomes[o]);
+    put_defaults(out);
+    jox_reproduce_deviations(all, out);
+    jox_html_end(out);
+    return jox_plot_close(out, "index.html", error);
+}
+
+/* ---- the table and the figures ---- */
+
+static void put_cell(FILE *out, const char *text) {
+    jox_quote_put(out, jox_quote_markdown, text);
+    fputs(" | ", out);
+}
+
+static bool write_table(const JoxReproduction *all, const char *when, JoxText *error) {
+    FILE *out = jox_plot_open(all->def->out, "table.md", error);
+    if (!out)
+        return false;
+    jox_quote_put(out, jox_quote_markdown, when);
+    fputs(
+        ".\n\n| claim | figure | source | measured | band | verdict |\n|---|---|---|---|---|---|\n",
+        out);
+    for (uint32_t o = 0; o < all->outcome_count; o++)
+        for (uint32_t f = 0; f < all->outcomes[o].claim->figure_count; f++) {
+            const JoxClaim *claim = all->outcomes[o].claim;
+            const JoxClaimFigure *figure = &claim->figures[f];
+            const JoxVerdict *v = &all->outcomes[o].verdicts[f];
+            fputs("| ", out);
+            jox_quote_put(out, jox_quote_markdown, f ? "" : claim->id);
+            fputc(' ', out);
+            put_cell(out, f ? "" : claim->title);
+            put_cell(out, *figure->what ? figure->what : figure->name);
+            put_cell(out, figure->expected);
+            if (isfinite(v->mean))
+                fprintf(out, "%.4g (%.4g to %.4g) %s | ", v->mean, v->least, v->most, figure->unit);
+            else
+                fputs("not measured | ", out);
+            put_band(out, figure, "");
+            fprintf(out, " | %s |\n", verdict_of(figure, v));
+        }
+    for (uint32_t o = 0; o < all->outcome_count; o++) {
+        const JoxClaim *claim = all->outcomes[o].claim;
+        if (all->outcomes[o].inside || claim->tried_count == 0)
+            continue;
+        fprintf(out, "\n%s misses. What was tried:\n\n", claim->id);
+        for (uint32_t t = 0; t < claim->tried_count; t++)
+            fprintf(out, "- %s\n", claim->tried[t]);
+    }
+    return jox_plot_close(out, "table.md", error);
+}
+
+static bool write_json(const JoxReproduction *all, JoxText *error) {
+    JoxText text = {0};
+    jox_text_add(&text, "{");
+    for (uint32_t o = 0; o < all->outcome_count; o++) {
+        const JoxOutcome *outcome = &all->outcomes[o];
+        jox_text_add(&text, o ? ",\n " : "\n ");
+        jox_text_json(&text, outcome->claim->id);
+        jox_text_printf(&text, ": {\"inside\": %s, \"figures\": {",
+                        outcome->inside ? "true" : "false");
+        for (uint32_t f = 0; f < outcome->claim->figure_count; f++) {
+            const JoxVerdict *v = &outcome->verdicts[f];
+            jox_text_add(&text, f ? ", " : "");
+            jox_text_json(&text, outcome->claim->figures[f].name);
+            jox_text_add(&text, ": {\"mean\": ");
+            jox_text_json_number(&text, v->mean);
+            jox_text_add(&text, ", \"least\": ");
+            jox_text_json_number(&text, v->least);
+            jox_text_add(&text, ", \"most\": ");
+            jox_text_json_number(&text, v->most);
+            jox_text_printf(&text, ", \"inside\": %s}", v->inside ? "true" : "false");
+        }
+        jox_text_add(&text, "}}");
+    }
+    jox_text_add(&text, "\n}\n");
+    FILE *out = jox_plot_open(all->def->out, "results.json", error);
+    if (out)
+        fputs(text.data, out);
+    jox_text_free(&text);
+    return out && jox_plot_close(out, "results.json", error);
+}
+
+bool jox_reproduce_write(const JoxReproduction *all, JoxText *error) {
+    char when[512];
+    circumstances(all, when, sizeof when);
+    return jox_plot_folder(all->def->out, error) && jox_reproduce_plots(all, error) &&
+           write_page(all, when, error) && write_table(all, when, error) && write_json(all, error);
+}

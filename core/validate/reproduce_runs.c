@@ -1,0 +1,264 @@
+/* Runs of scenes as processes of their own: several at once, the long ones first, and none that is
+   there already. */
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/mem.h"
+#include "picture/plot.h"
+#include "validate/reproduce.h"
+
+enum { MOST_ARGUMENTS = 200 };
+
+static volatile sig_atomic_t interrupted;
+
+static void interrupt(int number) {
+    (void)number;
+    interrupted = 1;
+}
+
+static char *path_in(const JoxJob *job, const char *name) {
+    JoxText path = {0};
+    jox_text_printf(&path, "%s/%s", job->folder, name);
+    return path.data;
+}
+
+static char *read_in(const JoxJob *job, const char *name) {
+    size_t length;
+    char *path = path_in(job, name), *text = jox_read_file(path, (size_t)16 << 20, &length);
+    jox_free(path);
+    return text;
+}
+
+/* Whether each {"path": "...", "sha256": "..."} of the summary still holds. */
+static bool inputs_hold(const char *summary) {
+    const char *at = strstr(summary, "\"inputs\": [");
+    const char *end = at ? strchr(at, ']') : NULL;
+    while (at && (at = strstr(at, "{\"path\": \"")) != NULL && at < end) {
+        char path[1024], wanted[65], found[65];
+        size_t length;
+        if (sscanf(at, "{\"path\": \"%1023[^\"]\", \"sha256\": \"%64[0-9a-f]", path, wanted) != 2)
+            return false;
+        char *text = jox_read_file(path, (size_t)64 << 20, &length);
+        if (!text)
+            return false;
+        jox_sha256_hex(text, length, found);
+        jox_free(text);
+        if (strcmp(found, wanted) != 0)
+            return false;
+        at++;
+    }
+    return end != NULL;
+}
+
+/* Done before, by the same program, from the same files. */
+static bool is_there(const JoxJob *job) {
+    char *key = read_in(job, "run.txt"), *summary = read_in(job, "summary.json");
+    bool there = key && summary && strcmp(key, job->key) == 0 && inputs_hold(summary);
+    jox_free(key);
+    jox_free(summary);
+    return there;
+}
+
+/* What an earlier run left: a probe that is gone must not be measured, nor half a run taken for a
+   whole one. */
+static void clear(const JoxJob *job) {
+    DIR *folder = opendir(job->folder);
+    for (struct dirent *entry; folder && (entry = readdir(folder)) != NULL;) {
+        char *path = path_in(job, entry->d_name);
+        if (entry->d_name[0] != '.')
+            remove(path);
+        jox_free(path);
+    }
+    if (folder)
+        closedir(folder);
+}
+
+static void start(const JoxReproduction *all, JoxJob *job) {
+    char seed[32], dt[32], duration[32];
+    const char *arguments[MOST_ARGUMENTS] = {all->def->program, "run",       job->run->scene,
+                                             "--quiet",         "--no-mods", "--no-watch",
+                                             "--threads",       "1",         "--no-half-step"};
+    int n = 9;
+    char *summary = path_in(job, "summary.json"), *log = path_in(job, "log.txt");
+    clear(job);
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)job->seed);
+    snprintf(dt, sizeof dt, "%.9g", job->run->dt);
+    snprintf(duration, sizeof duration, "%.9g", job->run->duration);
+    const char *options[][2] = {{"--seed", seed},
+                                {"--summary", summary},
+                                {job->pictures ? "--report" : "--data", job->folder},
+                                {job->run->dt > 0.0 ? "--dt" : NULL, dt},
+                                {job->run->duration > 0.0 ? "--for" : NULL, duration}};
+    for (size_t o = 0; o < sizeof options / sizeof *options; o++)
+        if (options[o][0]) {
+            arguments[n++] = options[o][0];
+            arguments[n++] = options[o][1];
+        }
+    for (uint32_t s = 0; s < job->run->set_count && n + 3 < MOST_ARGUMENTS; s++) {
+        arguments[n++] = "--set";
+        arguments[n++] = job->run->sets[s];
+    }
+    job->state = JOX_JOB_RUNS;
+    job->process = fork();
+    if (job->process == 0) {
+        setpgid(0, 0);                    /* Ctrl-C is for the parent, which stops all */
+        prctl(PR_SET_PDEATHSIG, SIGKILL); /* nothing is left running */
+        int out = open(log, O_WRONLY | O_CREAT | O_TRUNC, 0644);
+        if (out >= 0) {
+            dup2(out, 1);
+            dup2(out, 2);
+        }
+        execv(all->def->program, (char **)(uintptr_t)arguments);
+        _exit(127);
+    }
+    if (job->process > 0)
+        setpgid(job->process, job->process); /* whoever comes first */
+    jox_free(summary);
+    jox_free(log);
+}
+
+static void end(JoxJob *job, int status) {
+    job->state = JOX_JOB_DONE;
+    job->process = 0;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+        char *path = path_in(job, "run.txt");
+        FILE *file = fopen(path, "w");
+        if (file) {
+            fputs(job->key, file);
+            fclose(file);
+        }
+        jox_free(path);
+        return;
+    }
+    job->state = JOX_JOB_FAILED;
+    JoxText why = {0};
+    char *log = read_in(job, "log.txt");
+    jox_text_printf(&why, "%s, seed %llu: ", job->run->scene, (unsigned long long)job->seed);
+    if (WIFSIGNALED(status))
+        jox_text_printf(&why, "ended by signal %d. ", WTERMSIG(status));
+    else
+        jox_text_printf(&why, "ended with status %d. ", WEXITSTATUS(status));
+    jox_text_printf(&why, "%.600s", log ? log : "");
+    jox_free(log);
+    job->failure = why.data;
+}
+
+static void show_progress(const JoxReproduction *all, double begun, bool last) {
+    uint32_t done = 0, running = 0, reused = 0, failed = 0;
+    for (uint32_t j = 0; j < all->job_count; j++) {
+        done += all->jobs[j].state >= JOX_JOB_DONE;
+        failed += all->jobs[j].state == JOX_JOB_FAILED;
+        running += all->jobs[j].state == JOX_JOB_RUNS;
+        reused += all->jobs[j].reused;
+    }
+    double spent = jox_clock_wall() - begun;
+    double left = done > reused ? spent / (done - reused) * (double)(all->job_count - done) : NAN;
+    static uint32_t shown; /* tenths */
+    bool terminal = isatty(2);
+    uint32_t tenth = all->job_count ? 10 * done / all->job_count : 10;
+    if (all->def->quiet || (!terminal && tenth == shown))
+        return;
+    shown = tenth;
+    fprintf(stderr, "%s%u of %u runs done (%u from before, %u failed), %u running, %.0f s%s",
+            terminal ? "\r  " : "  ", done, all->job_count, reused, failed, running, spent,
+            terminal ? "" : "\n");
+    if (terminal && isfinite(left))
+        fprintf(stderr, ", about %.0f s left   ", left);
+    if (terminal && last)
+        fputs("\n", stderr);
+}
+
+static bool comes_first(const JoxJob *a, const JoxJob *b) {
+    return a->run->first && !b->run->first;
+}
+
+/* The next that waits: the long ones first, else in the order of the claims. */
+static JoxJob *next_job(JoxReproduction *all) {
+    JoxJob *next = NULL;
+    for (uint32_t j = 0; j < all->job_count; j++) {
+        JoxJob *job = &all->jobs[j];
+        if (job->state == JOX_JOB_WAITS && (!next || comes_first(job, next)))
+            next = job;
+    }
+    return next;
+}
+
+static JoxJob *job_of(JoxReproduction *all, pid_t process) {
+    for (uint32_t j = 0; j < all->job_count; j++)
+        if (all->jobs[j].state == JOX_JOB_RUNS && all->jobs[j].process == process)
+            return &all->jobs[j];
+    return NULL;
+}
+
+/* With what they started themselves (gnuplot); half a run is of no use. */
+static void stop_all(JoxReproduction *all) {
+    for (uint32_t j = 0; j < all->job_count; j++)
+        if (all->jobs[j].state == JOX_JOB_RUNS)
+            kill(-all->jobs[j].process, SIGKILL);
+    while (wait(NULL) > 0 || errno == EINTR) {
+    }
+}
+
+static void look_for_old(JoxReproduction *all) {
+    JoxText error = {0};
+    for (uint32_t j = 0; j < all->job_count; j++) {
+        JoxJob *job = &all->jobs[j];
+        if (!jox_plot_folder(job->folder, &error)) {
+            job->state = JOX_JOB_FAILED;
+            job->failure = jox_strdup(error.data);
+            error.length = 0;
+        } else if (!all->def->fresh && is_there(job)) {
+            job->state = JOX_JOB_DONE;
+            job->reused = true;
+        }
+    }
+    jox_text_free(&error);
+}
+
+bool jox_reproduce_run(JoxReproduction *all) {
+    struct sigaction action = {.sa_handler = interrupt}, old_int, old_term;
+    double begun = jox_clock_wall();
+    interrupted = 0;
+    sigaction(SIGINT, &action, &old_int);
+    sigaction(SIGTERM, &action, &old_term);
+    look_for_old(all);
+    uint32_t running = 0;
+    while (!interrupted) {
+        JoxJob *job = running < all->def->jobs ? next_job(all) : NULL;
+        if (job) {
+            start(all, job);
+            running += job->process > 0;
+            if (job->process < 0)
+                end(job, 127 << 8);
+            continue;
+        }
+        show_progress(all, begun, false);
+        if (running == 0)
+            break;
+        int status;
+        pid_t process = waitpid(-1, &status, WNOHANG);
+        job = process > 0 ? job_of(all, process) : NULL;
+        if (job) {
+            end(job, status);
+            running--;
+        } else {
+            usleep(50000);
+        }
+    }
+    show_progress(all, begun, true);
+    if (interrupted)
+        stop_all(all);
+    sigaction(SIGINT, &old_int, NULL);
+    sigaction(SIGTERM, &old_term, NULL);
+    return !interrupted;
+}

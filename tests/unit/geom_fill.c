@@ -1,0 +1,46 @@
+/* Filling areas: exact counts, spacing, walls kept clear, the same for the same seed. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/mem.h"
+#include "geom/fill.h"
+
+static void counts_and_spacing_are_kept(void **state) {
+    (void)state;
+    JoxV2 square[] = {{0, 0}, {20, 0}, {20, 20}, {0, 20}};
+    JoxV2 pillar[] = {{8, 8}, {12, 8}, {12, 12}, {8, 12}};
+    JoxPlace place = {.kind = JOX_PLACE_POLYGON, .points = square, .count = 4, .start = -1};
+    JoxWalls walls = {0};
+    jox_walls_add_solid(&walls, pillar, 4, INFINITY);
+    uint32_t in = 0;
+    JoxArea area = {&place, &in, NULL, 1, 0, &walls, 0.2f};
+    assert_true(fabs(jox_area_size(&area) - (400 - 19.2)) < 4);
+    for (int spread = 0; spread <= JOX_SPREAD_RANDOM; spread++) {
+        JoxV2 *p, *q;
+        assert_int_equal(jox_fill(&area, (JoxSpread)spread, 300, 0.6f, 7, 1, &p), 300);
+        assert_int_equal(jox_fill(&area, (JoxSpread)spread, 300, 0.6f, 7, 1, &q), 300);
+        assert_memory_equal(p, q, 300 * sizeof *p);
+        for (int i = 0; i < 300; i++) {
+            assert_false(p[i].x > 7.8f && p[i].x < 12.2f && p[i].y > 7.99f && p[i].y < 12.01f);
+            for (int j = 0; j < i; j++)
+                assert_true(jox_length(jox_sub(p[i], p[j])) > 0.599f);
+        }
+        jox_free(p), jox_free(q);
+        assert_int_equal(jox_fill(&area, (JoxSpread)spread, 1500, 0, 7, 1, &p), 1500);
+        jox_free(p);
+        assert_true(jox_fill(&area, (JoxSpread)spread, 100000, 0.6f, 7, 1, &p) < 1400);
+        jox_free(p);
+    }
+    jox_walls_free(&walls);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(counts_and_spacing_are_kept)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,115 @@
+/* What a page makes of messages: numbers of JSON by path, and frames from the bytes alone. */
+#ifndef JOX_TESTS_HOST_BYTES_H
+#define JOX_TESTS_HOST_BYTES_H
+
+#include <math.h>
+
+#include "base/json.h"
+#include "live/live.h"
+#include "live_page.h"
+
+/* ---- JSON: the numbers by path, and that it is JSON ---- */
+
+typedef struct Numbers {
+    struct {
+        char path[64];
+        double value;
+    } items[20000];
+    int count;
+} Numbers;
+static Numbers numbers;
+
+static inline void note(void *context, const char *path, double value) {
+    Numbers *n = context;
+    assert_true(n->count < 20000);
+    snprintf(n->items[n->count].path, sizeof n->items->path, "%s", path);
+    n->items[n->count++].value = value;
+}
+
+static inline double number_at(const char *format, int a, int b, int c) {
+    char path[64];
+    snprintf(path, sizeof path, format, a, b, c);
+    for (int i = 0; i < numbers.count; i++)
+        if (strcmp(numbers.items[i].path, path) == 0)
+            return numbers.items[i].value;
+    return NAN;
+}
+
+static inline void parse(const JoxText *text) {
+    numbers.count = 0;
+    if (!jox_json_numbers(text->data, note, &numbers))
+        fail_msg("no JSON: %s", text->data);
+}
+
+#define assert_near(value, wanted, within)                                                         \
+    do {                                                                                           \
+        const double near_v = (double)(value), near_w = (double)(wanted);                          \
+        if (!(fabs(near_v - near_w) <= (within)))                                                  \
+            fail_msg("%s is %.9g, not %.9g", #value, near_v, near_w);                              \
+    } while (0)
+
+static inline void has_name(const JoxText *text, const char *name) {
+    JoxText quoted = {0};
+    jox_text_json(&quoted, name);
+    if (!strstr(text->data, quoted.data))
+        fail_msg("%s is not named", quoted.data);
+    jox_text_free(&quoted);
+}
+
+/* ---- binary ---- */
+
+static inline uint32_t get32(const uint8_t *at) {
+    return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+}
+
+static inline float get_float(const uint8_t *at) {
+    const uint32_t bits = get32(at);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static inline double get_double(const uint8_t *at) {
+    const uint64_t bits = get32(at) | (uint64_t)get32(at + 4) << 32;
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+typedef struct Seen {
+    uint32_t tick;
+    double time;
+    uint32_t slots, bodies;
+    float x0, y0, sx, sy, most;
+    const uint8_t *slot, *body;
+} Seen;
+
+static inline Seen decode_bytes(const uint8_t *at, size_t length) {
+    assert_true(length >= 48);
+    assert_int_equal(get32(at), 1);
+    Seen seen = {.tick = get32(at + 4),
+                 .time = get_double(at + 8),
+                 .slots = get32(at + 16),
+                 .bodies = get32(at + 20),
+                 .x0 = get_float(at + 24),
+                 .y0 = get_float(at + 28),
+                 .sx = get_float(at + 32),
+                 .sy = get_float(at + 36),
+                 .most = get_float(at + 40),
+                 .slot = at + 48};
+    seen.body = seen.slot + 8 * (size_t)seen.slots;
+    assert_int_equal(length, 48 + 8 * (size_t)seen.slots + 20 * (size_t)seen.bodies);
+    return seen;
+}
+
+static inline double x_of(const Seen *seen, uint32_t slot) {
+    const uint8_t *at = seen->slot + 8 * (size_t)slot;
+    return (double)seen->x0 + (double)seen->sx * (at[0] | at[1] << 8);
+}
+
+static inline double y_of(const Seen *seen, uint32_t slot) {
+    const uint8_t *at = seen->slot + 8 * (size_t)slot;
+    return (double)seen->y0 + (double)seen->sy * (at[2] | at[3] << 8);
+}
+
+#endif

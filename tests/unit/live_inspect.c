@@ -1,0 +1,134 @@
+/* Agents that somebody looks at: what is shown is what the step did, and changes nothing. */
+#include <math.h>
+
+#include "unit/run_acted.h"
+
+#define TIGHT                                                                                      \
+    "jostle: 1\n"                                                                                  \
+    "places: {yard: {polygon: [[0, 0], [3.6, 0], [3.6, 3.6], [0, 3.6]]}}\n"                        \
+    "groups: {people: {behaviour: own.lua, count: 60, fill: grid, in: yard, spacing: 0.45}}\n"
+
+/* The number behind a key, from its n-th place on. */
+static double number_at(const char *json, const char *key) {
+    const char *at = strstr(json, key);
+    assert_non_null(at);
+    return atof(at + strlen(key));
+}
+
+static void an_inspection_adds_up(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own(TIGHT, HEAD
+                 "\"A\", states = { A = { steer = seek \"yard\" + 0.3 * spread, push = 60 } } }\n");
+    JoScene *plain =
+        load_own(TIGHT, HEAD
+                 "\"A\", states = { A = { steer = seek \"yard\" + 0.3 * spread, push = 60 } } }\n");
+    const JoxAgents *a = &scene->world->agents;
+    double most = 0.0;
+    for (int n = 0; n < 60; n++) {
+        const JoxWatched *watched;
+        jo_free(jo_scene_inspect(scene, 25));
+        JoError error = {0};
+        if (n % 7 == 3) {
+            assert_true(jo_scene_input(scene, "push 25 90 -30", &error));
+            assert_true(jo_scene_input(plain, "push 25 90 -30", &error));
+        }
+        step(scene, 1);
+        step(plain, 1);
+        const JoxInspected *seen = jox_world_inspect(scene->world, 25, &watched);
+        uint32_t i = a->slot_index[25];
+        JoxV2 sum = {0, 0};
+        for (int f = 0; f < JOX_FORCE_PARTS; f++)
+            sum = jox_add(sum, seen->forces[f]);
+        assert_true(fabsf(sum.x - a->force_x[i]) < 0.01f && fabsf(sum.y - a->force_y[i]) < 0.01f);
+        assert_true((seen->forces[JOX_FORCE_EXTERNAL].x == 90.0f) == (n % 7 == 3));
+        most = fmax(most, (double)jox_length(seen->forces[JOX_FORCE_PUSH]));
+        assert_true(seen->plane_count >= 5);
+        for (uint32_t p = 0; p < seen->plane_count && !seen->failed; p++)
+            assert_true(jox_dot(seen->planes[p].normal, seen->chosen) >
+                        seen->planes[p].offset - 1e-4f);
+        assert_true(jox_length(seen->chosen) <= seen->most + 1e-4f);
+    }
+    assert_true(most > 10.0); /* somebody did push */
+    assert_true(jo_world_hash(scene->world) == jo_world_hash(plain->world));
+    char *json = jo_scene_inspect(scene, 25);
+    assert_non_null(strstr(json, "{\"agent\":{\"id\":25,\"slot\":25,\"group\":\"people\","
+                                 "\"machine\":\"m\",\"state\":\"A\",\"since\":3,"));
+    assert_true(fabs(number_at(json, "\"x\":") - (double)a->x[a->slot_index[25]]) < 1e-4);
+    assert_non_null(
+        strstr(json, "{\"name\":\"push\",\"value\":60,\"unit\":\"N\",\"set\":\"state A "));
+    assert_non_null(strstr(json, "{\"name\":\"push_angle\",\"value\":60,"));
+    jo_free(json);
+    jo_scene_free(scene);
+    jo_scene_free(plain);
+}
+
+static void an_inspection_says_why(void **state) {
+    (void)state;
+    JoScene *scene = begin();
+    char *json = jo_scene_inspect(scene, 1);
+    assert_non_null(
+        strstr(json, "\"last\":{\"from\":null,\"to\":\"Walk\",\"time\":0,\"why\":null}"));
+    assert_non_null(strstr(json, "\"memory\":{\"laps\":3,\"met\":false}"));
+    assert_non_null(
+        strstr(json, "\"value\":80,\"unit\":\"kg\",\"set\":\"scene groups.people.set "));
+    assert_non_null(strstr(json, "\"seen\":false"));
+    jo_free(json);
+    does(scene, "signal stop");
+    does(scene, "set m Wait max_speed 0.7");
+    step(scene, 2);
+    json = jo_scene_inspect(scene, 1);
+    assert_non_null(strstr(json, "\"last\":{\"from\":\"Walk\",\"to\":\"Wait\",\"time\":0"));
+    assert_non_null(strstr(json, "HEARD 'stop' -> 1"));
+    assert_non_null(strstr(
+        json, "\"name\":\"max_speed\",\"value\":0.7,\"unit\":\"m/s\",\"set\":\"live page\""));
+    assert_non_null(strstr(json, "\"seen\":true"));
+    jo_free(json);
+    /* Who was inspected has left: said once, though another takes the slot. */
+    JoAgent agent = {1, scene->world->agents.slot_generation[1]};
+    jo_world_remove_agent(scene->world, agent);
+    uint32_t i = jox_world_add_agent(scene->world, 9.0f, 9.0f);
+    jox_mind_spawn(&scene->world->mind, i, 0, NULL, NULL);
+    assert_int_equal(scene->world->agents.slot[i], 1);
+    json = jo_scene_inspect(scene, 1);
+    assert_string_equal(json, "{\"agent\":null}");
+    jo_free(json);
+    json = jo_scene_inspect(scene, 1);
+    assert_non_null(strstr(json, "{\"agent\":{\"id\":4,"));
+    jo_free(json);
+    json = jo_scene_inspect(scene, 4000000000u);
+    assert_string_equal(json, "{\"agent\":null}");
+    jo_free(json);
+    jo_scene_free(scene);
+}
+
+static void looking_ends_by_itself(void **state) {
+    (void)state;
+    JoScene *scene = begin();
+    JoxInspection *all = &scene->world->inspection;
+    for (uint32_t slot = 0; slot < 4; slot++)
+        jo_free(jo_scene_inspect(scene, slot));
+    assert_int_equal(all->count, 4);
+    step(scene, 60);
+    jo_free(jo_scene_inspect(scene, 2));
+    step(scene, 60);
+    assert_int_equal(all->count, 1);
+    assert_int_equal(all->agents[0].slot, 2);
+    for (int n = 0; n < 8; n++)
+        jox_mind_spawn(&scene->world->mind, jox_world_add_agent(scene->world, 9.0f, (float)n), 0,
+                       NULL, NULL);
+    for (uint32_t slot = 3; slot < 12; slot++) /* one too many: the oldest goes */
+        jo_free(jo_scene_inspect(scene, slot));
+    assert_int_equal(all->count, JOX_MOST_INSPECTED);
+    step(scene, 1);
+    jo_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_inspection_adds_up),
+        cmocka_unit_test(an_inspection_says_why),
+        cmocka_unit_test(looking_ends_by_itself),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

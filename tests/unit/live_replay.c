@@ -1,0 +1,544 @@
+/* Recordings on the live page: what is shown is what was recorded, wherever one looks first, and a
+   damaged file ends in an error. */
+#include "live_bytes.h"
+
+#include <pthread.h>
+#include <sqlite3.h>
+
+#include "live/replay.h"
+#include "view_client.h"
+
+enum { MOST_PEOPLE = 300, MOST_FRAMES = 200 };
+
+/* What a run was like when its frames were recorded. */
+static struct Recorded {
+    double time;
+    uint32_t count, bodies;
+    struct {
+        uint32_t id;
+        float x, y;
+        char state[32];
+    } people[MOST_PEOPLE];
+    JoxV3 body[4];
+} recorded[MOST_FRAMES];
+static uint32_t recorded_count;
+static char path[300];
+
+#define ROOM                                                                                       \
+    "jostle: 1\n"                                                                                  \
+    "places:\n"                                                                                    \
+    "  west: {polygon: [[0, 0], [4, 0], [4, 12], [0, 12]]}\n"                                      \
+    "  gone: {polygon: [[12, -5], [30, -5], [30, 17], [12, 17]]}\n"                                \
+    "walls:\n"                                                                                     \
+    "  - {line: [[-2, -2], [14, -2]]}\n"                                                           \
+    "  - {solid: [[6, 13], [7, 13], [7, 14], [6, 14]]}\n"                                          \
+    "  - {line: [[-10, 20], [-9, 20], [-9, 21], [-10, 21]], closed: true, height: 1.5, name: "     \
+    "gate}\n"                                                                                      \
+    "bodies:\n"                                                                                    \
+    "  - {name: ball, shape: {sphere: {radius: 0.3}}, mass: 3, at: [6, 6, 0.3], velocity: [1, 0, " \
+    "3], damping: 0.2}\n"                                                                          \
+    "  - {shape: {compound: [{shape: {box: {size: [1.5, 1, 0.5]}}}, {shape: {cylinder: {radius: "  \
+    "0.2, height: 0.8}}, at: [0.5, 0.3, 0.65]}]}, mass: 9, at: [40, 6, 0.25]}\n"                   \
+    "  - {shape: {hull: {points: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, "         \
+    "1.5]]}}, mass: 80, at: [50, 0, 0.1]}\n"                                                       \
+    "groups:\n"                                                                                    \
+    "  people: {behaviour: own.lua, count: 40, fill: random, in: west}\n"                          \
+    "  more: {behaviour: own.lua, count: 5, fill: random, in: west}\n"                             \
+    "sources: [{at: west, like: people, rate: 6}]\n"                                               \
+    "sinks: [{at: gone}]\n"
+#define WALKERS                                                                                    \
+    HEAD "\"A\", states = { A = { steer = drift(1, 0), speed = uniform(1, 3), lasts = uniform(1, " \
+         "3), { to = \"B\", when = lasted } }, B = { steer = hold, lasts = 1, { to = \"A\", when " \
+         "= lasted } } } }\n"
+
+static void note_frame(const JoScene *scene) {
+    const JoWorld *world = scene->world;
+    const JoxAgents *a = &world->agents;
+    assert_true(recorded_count < MOST_FRAMES);
+    struct Recorded *f = &recorded[recorded_count++];
+    *f = (struct Recorded){.time = jo_world_time(world)};
+    for (uint32_t id = 0; id < a->next_id; id++) {
+        const uint32_t i = a->id_index[id];
+        if (i == JOX_NO_INDEX)
+            continue;
+        assert_true(f->count < MOST_PEOPLE);
+        f->people[f->count].id = id;
+        f->people[f->count].x = a->x[i];
+        f->people[f->count].y = a->y[i];
+        snprintf(f->people[f->count++].state, 32, "%s",
+                 world->mind.machines[a->machine[i]]->states[a->state[i]].name);
+    }
+    for (uint32_t row = 0; row < jox_bodies_rows(world->bodies) && f->bodies < 4; row++) {
+        JoxPose pose;
+        if (jox_bodies_pose(world->bodies, row, &pose))
+            f->body[f->bodies++] = pose.position;
+    }
+}
+
+/* Runs and records the scene; bodies only where this build has them. */
+static void record(void) {
+    JoScene *scene = load_own(ROOM, WALKERS);
+    JoError error = {0};
+    recorded_count = 0;
+    snprintf(path, sizeof path, "%s/room.sqlite", folder);
+    if (!jo_scene_record(scene, path, &error))
+        fail_msg("%s", error.text);
+    for (int t = 0; t < 200; t++) {
+        step(scene, 1);
+        if (scene->world->tick % 2 == 0)
+            note_frame(scene);
+    }
+    assert_true(jo_scene_finish(scene, &error));
+    jo_scene_free(scene);
+}
+
+static JoxReplay *open_replay(const char *file, const char *scene, double fps) {
+    JoxDiagnostics diagnostics = {0};
+    const JoxReplayDef def = {.recording = file, .scene = scene, .options = {.fps = fps}};
+    JoxReplay *replay = jox_replay_open(&def, &diagnostics);
+    if (!replay)
+        fail_msg("%s", diagnostics.items[0].message);
+    jox_diag_free(&diagnostics);
+    return replay;
+}
+
+/* Shows a frame and compares it with what was recorded; slot of each person, by id, in `slots`. */
+static void check_frame(JoxReplay *replay, uint32_t frame, uint32_t *slots) {
+    const struct Recorded *f = &recorded[frame];
+    JoxBytes bytes = {0};
+    JoxText told = {0};
+    if (!jox_replay_show(replay, frame, &told))
+        fail_msg("%s", told.data);
+    jox_replay_frame(replay, JOX_LIVE_COLOUR_state, &bytes);
+    const Seen seen = decode_bytes(bytes.data, bytes.length);
+    bool taken[4000] = {false};
+    uint32_t people = 0;
+    assert_near(seen.time, f->time, 1e-6);
+    for (uint32_t s = 0; s < seen.slots; s++)
+        people += seen.slot[8 * (size_t)s + 5] != 255;
+    assert_int_equal(people, f->count);
+    for (uint32_t p = 0; p < f->count; p++) {
+        uint32_t s = 0, id = f->people[p].id;
+        for (s = 0; s < seen.slots; s++)
+            if (seen.slot[8 * (size_t)s + 5] != 255 && !taken[s] &&
+                fabs(x_of(&seen, s) - (double)f->people[p].x) <= 0.501 * (double)seen.sx + 1e-5 &&
+                fabs(y_of(&seen, s) - (double)f->people[p].y) <= 0.501 * (double)seen.sy + 1e-5)
+                break;
+        assert_true(s < seen.slots);
+        taken[s] = true;
+        assert_int_equal(seen.slot[8 * (size_t)s + 5], f->people[p].state[0] == 'B');
+        slots[id] = s;
+    }
+    assert_int_equal(seen.bodies, f->bodies);
+    for (uint32_t b = 0; b < f->bodies; b++) {
+        assert_near(get_float(seen.body + 20 * b), f->body[b].x, 1e-5);
+        assert_near(get_float(seen.body + 20 * b + 8), f->body[b].z, 1e-5);
+    }
+    jox_bytes_free(&bytes);
+}
+
+static void frames_are_those_recorded(void **state) {
+    (void)state;
+    record();
+    JoxReplay *replay = open_replay(path, NULL, 0);
+    assert_int_equal(jox_replay_frames(replay), recorded_count);
+    static uint32_t slots[4000], before[4000];
+    for (uint32_t f = 0; f < recorded_count; f++) {
+        assert_near(jox_replay_time(replay, f), recorded[f].time, 1e-9);
+        assert_int_equal(jox_replay_find(replay, recorded[f].time + 0.01), f);
+        memcpy(before, slots, sizeof slots);
+        check_frame(replay, f, slots);
+        /* Who was there a frame ago has the slot of then. */
+        for (uint32_t p = 0; f > 0 && p < recorded[f - 1].count; p++)
+            for (uint32_t q = 0; q < recorded[f].count; q++)
+                if (recorded[f].people[q].id == recorded[f - 1].people[p].id)
+                    assert_int_equal(slots[recorded[f].people[q].id],
+                                     before[recorded[f].people[q].id]);
+    }
+    assert_int_equal(jox_replay_find(replay, -5), 0);
+    assert_int_equal(jox_replay_find(replay, 1e9), recorded_count - 1);
+    /* Anywhere, in any order. */
+    uint32_t at = 7;
+    for (int k = 0; k < 60; k++) {
+        at = (at * 37 + 11) % recorded_count;
+        check_frame(replay, at, slots);
+    }
+    jox_replay_close(replay);
+}
+
+/* Speeds are displacements, densities those of the crowd, whichever frame is looked at first. */
+static void what_is_measured(void **state) {
+    (void)state;
+    JoxReplay *replay = open_replay(path, NULL, 0), *other = open_replay(path, NULL, 0);
+    JoxBytes bytes = {0}, more = {0};
+    JoxText told = {0}, text = {0};
+    for (uint32_t f = 0; f < 30; f++)
+        assert_true(jox_replay_show(replay, f, &told));
+    assert_true(jox_replay_show(other, 29, &told));
+    jox_replay_frame(replay, JOX_LIVE_COLOUR_speed, &bytes);
+    jox_replay_frame(other, JOX_LIVE_COLOUR_speed, &more);
+    uint32_t histogram[2][256] = {{0}};
+    for (int k = 0; k < 2; k++) {
+        const JoxBytes *b = k ? &more : &bytes;
+        const Seen seen = decode_bytes(b->data, b->length);
+        for (uint32_t s = 0; s < seen.slots; s++)
+            if (seen.slot[8 * (size_t)s + 5] != 255)
+                histogram[k][seen.slot[8 * (size_t)s + 6]]++;
+    }
+    assert_memory_equal(histogram[0], histogram[1], sizeof histogram[0]);
+    assert_true(histogram[0][0] < recorded[29].count); /* some walk */
+    JoxLiveSession session = {.speed = 2};
+    jox_replay_status(replay, &session, 1.5, &text);
+    parse(&text);
+    assert_near(number_at("agents", 0, 0, 0), recorded[29].count, 0);
+    assert_near(number_at("time", 0, 0, 0), recorded[29].time, 1e-6);
+    assert_near(number_at("census.0.0", 0, 0, 0) + number_at("census.0.1", 0, 0, 0),
+                recorded[29].count, 0);
+    const double most = number_at("density_max", 0, 0, 0);
+    jox_replay_field(replay, JOX_LIVE_DENSITY, &bytes);
+    assert_near(get_float(bytes.data + 28), most, 1e-3);
+    assert_true(most > 0.5);
+    jox_replay_field(replay, JOX_LIVE_PRESSURE, &bytes);
+    assert_true(get_float(bytes.data + 28) > 0.0f);
+    assert_true(jox_replay_people(replay, &bytes));
+    assert_false(jox_replay_people(replay, &bytes));
+    assert_int_equal(bytes.data[16], 20);
+    jox_bytes_free(&bytes);
+    jox_bytes_free(&more);
+    jox_text_free(&text);
+    jox_text_free(&told);
+    jox_replay_close(replay);
+    jox_replay_close(other);
+}
+
+static void hello_of_a_recording(void **state) {
+    (void)state;
+    char scene[300];
+    snprintf(scene, sizeof scene, "%s/scene.yaml", folder);
+    for (int k = 0; k < 2; k++) {
+        JoxReplay *replay = open_replay(path, k ? scene : NULL, 0);
+        JoxText text = {0}, told = {0};
+        assert_true(jox_replay_show(replay, 0, &told));
+        jox_replay_scene(replay, &text);
+        parse(&text);
+        has_name(&text, "replay");
+        has_name(&text, "people");
+        has_name(&text, "more");
+        has_name(&text, "A");
+        assert_non_null(strstr(text.data, "\"throw\": false"));
+        assert_near(number_at("dt", 0, 0, 0), 0.1, 1e-9);
+        assert_near(number_at("duration", 0, 0, 0), 10, 1e-6);
+        if (recorded[0].bodies) {
+            assert_near(number_at("bodies.0.parts.0.size.0", 0, 0, 0), 0.3, 1e-6);
+            /* of a table with a leg upwards, whose axes of inertia are not its own */
+            static const double TABLE[2][6] = {{1.5, 1, 0.5, 0, 0, 0},
+                                               {0.2, 0.8, NAN, 0.5, 0.3, 0.65}};
+            for (int part = 0; part < 2; part++)
+                for (int n = 0; n < 6 - part; n++) {
+                    const int of = n < 3 - part ? n : n - 3 + part;
+                    const bool size = n < 3 - part;
+                    assert_near(
+                        number_at(size ? "bodies.1.parts.%d.size.%d" : "bodies.1.parts.%d.at.%d",
+                                  part, of, 0),
+                        TABLE[part][size ? of : 3 + of], 1e-5);
+                }
+            assert_near(number_at("bodies.1.parts.1.turn.3", 0, 0, 0), 1, 1e-6);
+            double highest = 0; /* of a pyramid's five corners */
+            for (int c = 0; c < 5; c++)
+                highest = fmax(highest, number_at("bodies.2.parts.0.points.%d.2", c, 0, 0) +
+                                            number_at("bodies.2.parts.0.at.2", 0, 0, 0));
+            assert_near(highest, 1.5, 1e-3);
+            assert_true(isnan(number_at("bodies.2.parts.0.points.5.0", 0, 0, 0)));
+        }
+        if (k)
+            has_name(&text, "west");
+        assert_near(number_at("walls.0.points.1.0", 0, 0, 0), 14, 1e-5);
+        assert_true(isnan(number_at("walls.0.points.2.0", 0, 0, 0)));
+        assert_near(number_at("walls.1.points.2.1", 0, 0, 0), 14, 1e-5);
+        assert_near(number_at("walls.2.points.4.0", 0, 0, 0), -10, 1e-5); /* closed */
+        assert_near(number_at("walls.2.height", 0, 0, 0), 1.5, 1e-5);
+        has_name(&text, "gate");
+        assert_true(isnan(number_at("walls.3.height", 0, 0, 0)));
+        jox_text_free(&text);
+        jox_replay_close(replay);
+    }
+}
+
+/* ---- other files ---- */
+
+static void run_sql(const char *file, const char *sql) {
+    sqlite3 *db;
+    char *wrong = NULL;
+    assert_int_equal(sqlite3_open(file, &db), SQLITE_OK);
+    if (sqlite3_exec(db, sql, NULL, NULL, &wrong) != SQLITE_OK)
+        fail_msg("%s", wrong);
+    sqlite3_close(db);
+}
+
+static void copy_file(const char *from, const char *to) {
+    size_t length;
+    char *text = jox_read_file(from, 1 << 30, &length);
+    FILE *file = fopen(to, "wb");
+    assert_non_null(text);
+    assert_int_equal(fwrite(text, 1, length, file), length);
+    fclose(file);
+    jox_free(text);
+}
+
+/* Without the index, and without order either: the same frames. */
+static void recordings_of_others(void **state) {
+    (void)state;
+    static uint32_t slots[4000];
+    char other[300];
+    snprintf(other, sizeof other, "%s/other.sqlite", folder);
+    copy_file(path, other);
+    run_sql(other, "DROP INDEX frame_id_idx; DROP TABLE frame_data");
+    JoxReplay *replay = open_replay(other, NULL, 0);
+    assert_int_equal(jox_replay_frames(replay), recorded_count);
+    check_frame(replay, 60, slots);
+    check_frame(replay, 3, slots);
+    check_frame(replay, recorded_count - 1, slots);
+    jox_replay_close(replay);
+    run_sql(other,
+            "CREATE TABLE t AS SELECT frame, id, pos_x, pos_y FROM trajectory_data ORDER BY id;"
+            "DROP TABLE trajectory_data; ALTER TABLE t RENAME TO trajectory_data;"
+            "DROP TABLE jostle_agent; DROP TABLE jostle_state; DROP TABLE jostle_body; DROP TABLE "
+            "jostle_part");
+    replay = open_replay(other, NULL, 0);
+    assert_int_equal(jox_replay_frames(replay), recorded_count);
+    JoxBytes bytes = {0};
+    JoxText told = {0};
+    assert_true(jox_replay_show(replay, 50, &told));
+    jox_replay_frame(replay, JOX_LIVE_COLOUR_state, &bytes);
+    Seen seen = decode_bytes(bytes.data, bytes.length);
+    uint32_t people = 0;
+    for (uint32_t s = 0; s < seen.slots; s++)
+        people += seen.slot[8 * (size_t)s + 5] == 254; /* in no state that is known */
+    assert_int_equal(people, recorded[50].count);
+    jox_replay_close(replay);
+    write_file(
+        "walk.txt",
+        "#framerate: 10\n# id frame x/m y/m\n7 10 0 -1\n7 11 0.1 -1\n7 12 0.2 -1\n3 12 5 5\n");
+    snprintf(other, sizeof other, "%s/walk.txt", folder);
+    replay = open_replay(other, NULL, 0);
+    assert_int_equal(jox_replay_frames(replay), 3);
+    assert_true(jox_replay_show(replay, 2, &told));
+    jox_replay_frame(replay, JOX_LIVE_COLOUR_speed, &bytes);
+    seen = decode_bytes(bytes.data, bytes.length);
+    assert_near(seen.time, 1.2, 1e-9);
+    for (uint32_t s = 0; s < 2; s++) {
+        bool walks = y_of(&seen, s) < 0;
+        assert_near(x_of(&seen, s), walks ? 0.2 : 5, 1e-3);
+        assert_near(seen.slot[8 * s + 6] / 255.0 * 2, walks ? 1 : 0, 0.02);
+    }
+    jox_bytes_free(&bytes);
+    jox_replay_close(replay);
+}
+
+/* Opens a file that may be anything, and looks through all of it. */
+static bool look_through(const char *file, JoxText *told) {
+    JoxDiagnostics diagnostics = {0};
+    const JoxReplayDef def = {.recording = file};
+    JoxReplay *replay = jox_replay_open(&def, &diagnostics);
+    JoxBytes bytes = {0};
+    assert_int_equal(replay == NULL, diagnostics.errors > 0);
+    if (!replay)
+        jox_diag_print(&diagnostics, told);
+    bool good = replay != NULL;
+    for (uint32_t f = 0; replay && f < jox_replay_frames(replay) && f < 500; f++) {
+        const size_t said_before = told->length;
+        const bool shown = jox_replay_show(replay, f, told);
+        assert_int_equal(shown, told->length == said_before);
+        good &= shown;
+        jox_replay_frame(replay, JOX_LIVE_COLOUR_density, &bytes);
+    }
+    jox_bytes_free(&bytes);
+    jox_diag_free(&diagnostics);
+    jox_replay_close(replay);
+    return good;
+}
+
+static void damaged_recordings_give_errors(void **state) {
+    (void)state;
+    char other[300];
+    size_t length;
+    char *text = jox_read_file(path, 1 << 30, &length);
+    snprintf(other, sizeof other, "%s/broken.sqlite", folder);
+    uint32_t wrong = 0;
+    for (int k = 0; k < 60; k++) {
+        JoxText told = {0};
+        char *bad = jox_alloc(length, 1);
+        memcpy(bad, text, length);
+        size_t kept = k < 20 ? length * (size_t)k / 20 : length;
+        for (size_t n = 0; k >= 20 && n < 400; n++) /* a page of noise, somewhere */
+            bad[((size_t)(k - 19) * 7919 * 64 + n) % length] = (char)(n * 151 + (size_t)k * 17);
+        FILE *file = fopen(other, "wb");
+        fwrite(bad, 1, kept, file);
+        fclose(file);
+        wrong += !look_through(other, &told);
+        jox_text_free(&told);
+        jox_free(bad);
+    }
+    jox_free(text);
+    assert_true(wrong >= 20); /* what was cut, and some of the noise */
+    static const struct {
+        const char *sql, *says;
+    } CASES[] = {
+        {"UPDATE trajectory_data SET pos_x = 1e30 WHERE frame = 20 AND id = 3", "1000 km"},
+        {"INSERT INTO trajectory_data SELECT * FROM trajectory_data WHERE frame = 9 AND id = 4",
+         "twice"},
+        {"DELETE FROM metadata", "how many frames"},
+        {"UPDATE metadata SET value = '-3' WHERE key = 'fps'", "how many frames"},
+        {"DELETE FROM trajectory_data", "nobody"},
+        {"UPDATE frame_data SET frame = 1e17 WHERE frame = 1", "30 years"},
+        {"ALTER TABLE trajectory_data RENAME TO t", "trajectory_data"},
+        {"UPDATE jostle_body SET x = 9e999 WHERE frame = 5", "a body is nowhere"},
+    };
+    for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
+        JoxText told = {0};
+        copy_file(path, other);
+        if (recorded[0].bodies == 0 && strstr(CASES[c].sql, "jostle_body"))
+            continue;
+        run_sql(other, CASES[c].sql);
+        assert_false(look_through(other, &told));
+        if (!strstr(told.data, CASES[c].says))
+            fail_msg("%s: %s", CASES[c].sql, told.data);
+        jox_text_free(&told);
+    }
+    JoxText told = {0};
+    assert_false(look_through("/nowhere/at.all", &told));
+    assert_non_null(strstr(told.data, "cannot be read"));
+    jox_text_free(&told);
+}
+
+/* ---- the page ---- */
+
+static char address[300];
+static volatile int stop;
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+static void opened(void *context, const char *text) {
+    (void)context;
+    pthread_mutex_lock(&lock);
+    snprintf(address, sizeof address, "%s", text);
+    pthread_mutex_unlock(&lock);
+}
+
+static void *serve(void *context) {
+    const JoViewRecordingDef *def = context;
+    JoError error = {0};
+    bool good = jo_view_recording(def, &error);
+    if (!good)
+        print_message("%s\n", error.text);
+    return good ? context : NULL;
+}
+
+/* The next message of a type (of JSON), or the next frame where that is NULL; to be freed. */
+static char *wait_for(int fd, const char *type, size_t *length) {
+    char key[64];
+    snprintf(key, sizeof key, "{\"type\": \"%s\"", type ? type : "");
+    for (int n = 0; n < 500; n++) {
+        int kind;
+        char *message = get_message(fd, &kind, length, 5);
+        if (!message)
+            break;
+        if (type ? kind == FRAME_TEXT && strncmp(message, key, strlen(key)) == 0
+                 : kind == FRAME_BINARY && get32((uint8_t *)message) == 1)
+            return message;
+        free(message);
+    }
+    fail_msg("no %s came", type ? type : "frame");
+    return NULL;
+}
+
+/* Waits for a message in which a number is as wanted. */
+static void wait_for_number(int fd, const char *type, const char *key, double value) {
+    for (int n = 0; n < 100; n++) {
+        size_t length;
+        char *message = wait_for(fd, type, &length);
+        JoxText text = {.data = message};
+        parse(&text);
+        free(message);
+        if (fabs(number_at(key, 0, 0, 0) - value) < 1e-6)
+            return;
+    }
+    fail_msg("%s never was %g", key, value);
+}
+
+static void a_page_plays_and_seeks(void **state) {
+    (void)state;
+    pthread_t thread;
+    JoViewRecordingDef def = jo_default_view_recording_def();
+    write_file("index.html", "a page");
+    def.recording = path;
+    def.page = folder;
+    def.stop = &stop;
+    def.opened = opened;
+    assert_int_equal(pthread_create(&thread, NULL, serve, &def), 0);
+    char token[64] = "";
+    int port = 0;
+    for (int n = 0; n < 500 && !port; n++) {
+        usleep(10000);
+        pthread_mutex_lock(&lock);
+        sscanf(address, "http://127.0.0.1:%d/?token=%63s", &port, token);
+        pthread_mutex_unlock(&lock);
+    }
+    assert_true(port > 0);
+    int fd = open_socket(port, token);
+    assert_true(fd >= 0);
+    size_t length;
+    char *message = wait_for(fd, "hello", &length);
+    assert_non_null(strstr(message, "\"session\": \"replay\""));
+    free(message);
+    double first = NAN, last = NAN; /* it plays */
+    for (int n = 0; n < 4; n++) {
+        message = wait_for(fd, NULL, &length);
+        const Seen seen = decode_bytes((uint8_t *)message, length);
+        first = n ? first : seen.time;
+        last = seen.time;
+        free(message);
+    }
+    assert_true(last > first);
+    put_text(fd, "{\"do\": \"pause\", \"on\": true}");
+    put_text(fd, "{\"do\": \"seek\", \"time\": 5.04}");
+    wait_for_number(fd, "time", "at", 5.04);
+    put_text(fd, "{\"do\": \"step\", \"n\": 2}");
+    wait_for_number(fd, "status", "time", 5.2);
+    put_text(fd, "{\"do\": \"seek\", \"time\": 1e9}");
+    wait_for_number(fd, "time", "at", 10);
+    put_text(fd, "{\"do\": \"seek\", \"time\": null}");
+    free(wait_for(fd, "refused", &length));
+    put_text(fd, "{\"do\": \"input\", \"line\": \"open gate\"}");
+    message = wait_for(fd, "refused", &length);
+    assert_non_null(strstr(message, "has happened"));
+    free(message);
+    put_text(fd, "{\"do\": \"speed\", \"factor\": 100}");
+    put_text(fd, "{\"do\": \"play\", \"on\": true}"); /* from the beginning, to the end */
+    wait_for_number(fd, "status", "speed", 100);
+    wait_for_number(fd, "time", "at", 10);
+    stop = 1;
+    void *good;
+    pthread_join(thread, &good);
+    assert_non_null(good);
+    close(fd);
+}
+
+static int remove_more(void **state) {
+    static const char *const NAMES[] = {"room.sqlite", "other.sqlite", "broken.sqlite", "walk.txt",
+                                        "index.html"};
+    for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; n++) {
+        char file[300];
+        snprintf(file, sizeof file, "%s/%s", folder, NAMES[n]);
+        unlink(file);
+    }
+    return remove_folder(state);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(frames_are_those_recorded),      cmocka_unit_test(what_is_measured),
+        cmocka_unit_test(hello_of_a_recording),           cmocka_unit_test(recordings_of_others),
+        cmocka_unit_test(damaged_recordings_give_errors), cmocka_unit_test(a_page_plays_and_seeks),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_more);
+}

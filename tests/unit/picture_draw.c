@@ -1,0 +1,369 @@
+/* Pictures: the same crowd as an image and as SVG, looked at where things must be. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/mem.h"
+#include "picture/draw.h"
+#include "picture/palette.h"
+
+enum { WIDTH = 1280, HEIGHT = 640 };
+
+/* fontconfig keeps what it has looked up while the process lives, behind pointers that
+   LeakSanitizer cannot follow. */
+__attribute__((visibility("default"))) const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void) {
+    return "leak:libfontconfig\n";
+}
+
+/* A hall of 20 m by 10 m: a solid in its middle, a gate on the right, a person of state 1 at
+   (5, 5), one of state 2 at (5, 8), and a box at (15, 5). */
+typedef struct Hall {
+    JoxPicture picture;
+    JoxFrame frame;
+    JoxWalls walls;
+    JoxPlace place;
+    JoxV2 ring[4];
+    JoxDrawnBody body;
+    uint32_t key[2], state[2];
+    uint16_t group[2];
+    float x[2], y[2], vx[2], vy[2], radius[2], face_x[2], face_y[2], force[2];
+    const char *states[3], *groups[1];
+} Hall;
+
+static void make_hall(Hall *h) {
+    *h = (Hall){.x = {5, 5},
+                .y = {5, 8},
+                .vx = {1, 0},
+                .vy = {0, 0.5f},
+                .radius = {0.5f, 0.5f},
+                .face_x = {1, 0},
+                .face_y = {0, 1},
+                .force = {0, 500},
+                .key = {7, 3},
+                .state = {1, 2},
+                .states = {"", "Walk", "Sit & <eat>"},
+                .groups = {"all"}};
+    const JoxV2 solid[4] = {{9, 4}, {11, 4}, {11, 6}, {9, 6}}, gate[2] = {{18, 2}, {18, 8}};
+    jox_walls_add_solid(&h->walls, solid, 4, INFINITY);
+    jox_walls_add_polyline(&h->walls, gate, 2, false, INFINITY);
+    jox_walls_name(&h->walls, 1, "exit \"A\"", false);
+    h->ring[0] = jox_v2(1, 1);
+    h->ring[1] = jox_v2(3, 1);
+    h->ring[2] = jox_v2(3, 3);
+    h->ring[3] = jox_v2(1, 3);
+    static char stand[] = "stand";
+    h->place = (JoxPlace){.name = stand, .kind = JOX_PLACE_POLYGON, .points = h->ring, .count = 4};
+    h->place.centre = jox_v2(2, 2);
+    h->body = (JoxDrawnBody){
+        .name = "box", .ring = {{14, 4}, {16, 4}, {16, 6}, {14, 6}}, .count = 4, .at = {15, 5}};
+    h->frame = (JoxFrame){.time = 12.5,
+                          .count = 2,
+                          .keys = 8,
+                          .key = h->key,
+                          .x = h->x,
+                          .y = h->y,
+                          .vx = h->vx,
+                          .vy = h->vy,
+                          .radius = h->radius,
+                          .force = h->force,
+                          .group = h->group,
+                          .groups = h->groups,
+                          .group_count = 1,
+                          .state = h->state,
+                          .states = h->states,
+                          .state_count = 3};
+    h->picture = (JoxPicture){.title = "A hall",
+                              .frame = &h->frame,
+                              .face_x = h->face_x,
+                              .face_y = h->face_y,
+                              .walls = &h->walls,
+                              .places = &h->place,
+                              .place_count = 1,
+                              .bodies = &h->body,
+                              .body_count = 1,
+                              .colour = JOX_SHOW_STATE,
+                              .radius = 0.2f,
+                              .high = {20, 10}};
+}
+
+/* The map takes all the width: 16 px at the left, 206 and twice 16 px less than the picture. */
+static JoxV2 pixel(float x, float y) {
+    float scale = (WIDTH - 206 - 32) / 20.0f, tall = 10 * scale;
+    float spare = 0.5f * (HEIGHT - 46 - 16 - tall);
+    return jox_v2(16 + x * scale, HEIGHT - 16 - spare - y * scale);
+}
+
+static void expect(const uint8_t *pixels, float x, float y, JoxInk ink) {
+    JoxV2 at = pixel(x, y);
+    const uint8_t *p = pixels + 4 * ((size_t)at.y * WIDTH + (size_t)at.x);
+    if (abs(p[2] - ink.r) > 2 || abs(p[1] - ink.g) > 2 || abs(p[0] - ink.b) > 2)
+        fail_msg("at %g, %g m: #%02x%02x%02x, not #%02x%02x%02x", (double)x, (double)y, p[2], p[1],
+                 p[0], ink.r, ink.g, ink.b);
+}
+
+static void things_are_where_they_are(void **state) {
+    (void)state;
+    Hall h;
+    make_hall(&h);
+    JoxCanvas *canvas = jox_canvas_image(WIDTH, HEIGHT);
+    if (!canvas)
+        skip();
+    jox_draw(canvas, &h.picture);
+    const uint8_t *pixels = jox_canvas_pixels(canvas);
+    expect(pixels, 4.8f, 5, (JoxInk){0x00, 0x72, 0xb2, 1});   /* the first of the classes */
+    expect(pixels, 5, 7.8f, (JoxInk){0xe6, 0x9f, 0x00, 1});   /* the second */
+    expect(pixels, 10, 5, (JoxInk){0xa3, 0xac, 0xb5, 1});     /* the solid */
+    expect(pixels, 15, 5, (JoxInk){0xc4, 0xa4, 0x84, 1});     /* the body */
+    expect(pixels, 18, 3, (JoxInk){0xa4, 0x26, 0x12, 1});     /* the gate */
+    expect(pixels, 13, 9, (JoxInk){0xf8, 0xf8, 0xf6, 1});     /* the floor */
+    expect(pixels, 21, -0.5f, (JoxInk){0xff, 0xff, 0xff, 1}); /* outside */
+    JoxV2 at = pixel(5.3f, 5); /* the first looks to the right, along its heading */
+    const uint8_t *mark = pixels + 4 * ((size_t)at.y * WIDTH + (size_t)at.x);
+    assert_true(mark[0] < 0x60 && mark[1] < 0x60 && mark[2] < 0x60);
+    /* An open gate lets the floor through: its line is broken. */
+    h.walls.rings[1].open = true;
+    jox_draw(canvas, &h.picture);
+    uint32_t bare = 0, red = 0;
+    for (float y = 2.5f; y < 7.5f; y += 0.02f) {
+        JoxV2 on = pixel(18, y);
+        const uint8_t *p = jox_canvas_pixels(canvas) + 4 * ((size_t)on.y * WIDTH + (size_t)on.x);
+        bare += p[0] > 0xe0;
+        red += p[0] < 0x90;
+    }
+    assert_true(bare > 50 && red > 50);
+    jox_canvas_free(canvas);
+    jox_walls_free(&h.walls);
+}
+
+static void values_are_colours(void **state) {
+    (void)state;
+    Hall h;
+    make_hall(&h);
+    JoxCanvas *canvas = jox_canvas_image(WIDTH, HEIGHT);
+    if (!canvas)
+        skip();
+    h.picture.colour = JOX_SHOW_SPEED; /* 1 and 0.5 m/s of 2: bins 16 and 8 of 32 */
+    h.picture.colour_most = 2;
+    jox_draw(canvas, &h.picture);
+    expect(jox_canvas_pixels(canvas), 4.8f, 5, jox_palette_value(16.5f / 32));
+    expect(jox_canvas_pixels(canvas), 5, 7.8f, jox_palette_value(8.5f / 32));
+    h.picture.colour = JOX_SHOW_FORCE;
+    h.picture.colour_most = 400; /* above the bar's end: its last colour */
+    jox_draw(canvas, &h.picture);
+    expect(jox_canvas_pixels(canvas), 4.8f, 5, jox_palette_value(0.5f / 32));
+    expect(jox_canvas_pixels(canvas), 5, 7.8f, jox_palette_value(31.5f / 32));
+    /* The floor: a field whose cells are 1 m; the upper right quarter has the greatest value. */
+    JoxDensity *grid = jox_density_create(jox_v2(0, 0), jox_v2(20, 10), 1, 1);
+    assert_true(grid->columns == 20 && grid->rows == 10);
+    for (uint32_t r = 5; r < 10; r++)
+        for (uint32_t c = 10; c < 20; c++)
+            grid->now[r * 20 + c] = 7;
+    h.picture.colour = JOX_SHOW_NOTHING;
+    h.picture.floor = JOX_SHOW_DENSITY;
+    h.picture.floor_most = 8;
+    h.picture.grid = grid;
+    h.picture.field = grid->now;
+    jox_draw(canvas, &h.picture);
+    expect(jox_canvas_pixels(canvas), 13, 9, jox_palette_value(28.5f / 32));
+    expect(jox_canvas_pixels(canvas), 16.5f, 7.5f, jox_palette_value(28.5f / 32));
+    expect(jox_canvas_pixels(canvas), 13, 2, (JoxInk){0xf8, 0xf8, 0xf6, 1});
+    expect(jox_canvas_pixels(canvas), 7, 9, (JoxInk){0xf8, 0xf8, 0xf6, 1});
+    jox_density_free(grid);
+    jox_canvas_free(canvas);
+    jox_walls_free(&h.walls);
+}
+
+static char *draw_svg(const JoxPicture *picture) {
+    char path[] = "/tmp/jostle-draw-XXXXXX";
+    size_t length;
+    JoxText error = {0};
+    int file = mkstemp(path);
+    assert_true(file >= 0);
+    close(file);
+    JoxCanvas *canvas = jox_canvas_svg(WIDTH, HEIGHT);
+    jox_draw(canvas, picture);
+    assert_true(jox_canvas_write(canvas, path, &error));
+    jox_canvas_free(canvas);
+    char *text = jox_read_file(path, 1 << 24, &length);
+    assert_non_null(text);
+    unlink(path);
+    return text;
+}
+
+static void svg_says_what_it_shows(void **state) {
+    (void)state;
+    static const char *const wanted[] = {
+        "<g id=\"walls\"",
+        "<g id=\"places\"",
+        "<g id=\"bodies\"",
+        "<g id=\"people\"",
+        "class=\"state-Walk\"",
+        "class=\"state-Sit----eat-\"",
+        "class=\"gate closed\"",
+        "<title>exit &quot;A&quot;</title>",
+        ">exit &quot;A&quot;</text>",
+        ">Sit &amp; &lt;eat&gt;</text>",
+        "<title>box</title>",
+        ">stand</text>",
+        ">A hall</text>",
+        ">t = 12.50 s</text>",
+        ">2 people</text>",
+        ">2 m</text>",
+        "<circle id=\"p7\"",
+        "<circle id=\"p3\"",
+    };
+    Hall h;
+    make_hall(&h);
+    char *text = draw_svg(&h.picture), place[96];
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
+        if (!strstr(text, wanted[i]))
+            fail_msg("%s is missing", wanted[i]);
+    JoxV2 at = pixel(5, 8); /* to a tenth of a pixel */
+    snprintf(place, sizeof place, "<circle id=\"p3\" cx=\"%.1f", (double)at.x);
+    assert_non_null(strstr(text, place));
+    assert_non_null(strstr(text, "</svg>"));
+    jox_free(text);
+    /* Who is outside the area is not drawn, and the legend says that there are more. */
+    h.picture.high = jox_v2(20, 6);
+    text = draw_svg(&h.picture);
+    assert_non_null(strstr(text, "id=\"p7\""));
+    assert_null(strstr(text, "id=\"p3\""));
+    assert_non_null(strstr(text, ">2 people in all</text>"));
+    jox_free(text);
+    jox_walls_free(&h.walls);
+}
+
+static void bodies_are_seen_from_above(void **state) {
+    (void)state;
+    const float half = 0.70710678f, none[4] = {0, 0, 0, 1}, about_z[4] = {0, 0, half, half},
+                about_x[4] = {half, 0, 0, half};
+    JoxDrawnBody drawn;
+    /* A plank of 4 m by 1 m, a quarter of a turn: 1 m along x, 4 m along y. */
+    JoxBodyLook plank = {.kind = JOX_SHAPE_BOX, .size = {4, 1, 0.2f}, .turn = {0, 0, 0, 1}};
+    assert_true(jox_draw_outline(&plank, (JoxV3){10, 5, 1}, about_z, &drawn));
+    assert_int_equal(drawn.count, 4);
+    for (uint32_t c = 0; c < 4; c++) {
+        assert_float_equal(fabsf(drawn.ring[c].x - 10), 0.5, 1e-4);
+        assert_float_equal(fabsf(drawn.ring[c].y - 5), 2, 1e-4);
+    }
+    assert_true(jox_polygon_area(drawn.ring, 4) > 0);
+    assert_float_equal(drawn.low, 0.9, 1e-4);
+    assert_float_equal(drawn.top, 1.1, 1e-4);
+    jox_draw_reach(&drawn, 1);
+    assert_false(drawn.high);
+    /* On edge about x: its height of 1 m stands up, 0.2 m are seen. */
+    assert_true(jox_draw_outline(&plank, (JoxV3){0, 0, 3}, about_x, &drawn));
+    for (uint32_t c = 0; c < drawn.count; c++)
+        assert_float_equal(fabsf(drawn.ring[c].y), 0.1, 1e-4);
+    jox_draw_reach(&drawn, 1);
+    assert_true(drawn.high);
+    /* A part off the middle turns with its body. */
+    plank.at = (JoxV3){2, 0, 0};
+    assert_true(jox_draw_outline(&plank, (JoxV3){0, 0, 1}, about_z, &drawn));
+    assert_float_equal(drawn.at.x, 0, 1e-4);
+    assert_float_equal(drawn.at.y, 2, 1e-4);
+    /* A cylinder is a disc while it stands, and as long as it is when it lies. */
+    JoxBodyLook drum = {.kind = JOX_SHAPE_CYLINDER, .size = {0.5f, 3}, .turn = {0, 0, 0, 1}};
+    assert_true(jox_draw_outline(&drum, (JoxV3){0, 0, 1.5f}, none, &drawn));
+    assert_int_equal(drawn.count, 0);
+    assert_float_equal(drawn.radius, 0.5, 1e-6);
+    assert_float_equal(drawn.low, 0, 1e-6);
+    assert_true(jox_draw_outline(&drum, (JoxV3){0, 0, 0.5f}, about_x, &drawn));
+    assert_in_range(drawn.count, 4, JOX_OUTLINE_POINTS);
+    assert_float_equal(jox_polygon_area(drawn.ring, drawn.count), 3, 0.05);
+    /* A hull, and numbers that are none. */
+    const JoxV3 corners[4] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5f, 0.5f, 2}};
+    JoxBodyLook hull = {
+        .kind = JOX_SHAPE_HULL, .turn = {0, 0, 0, 1}, .corners = corners, .corner_count = 4};
+    assert_true(jox_draw_outline(&hull, (JoxV3){0, 0, 0}, none, &drawn));
+    assert_int_equal(drawn.count, 3);
+    assert_false(jox_draw_outline(&hull, (JoxV3){NAN, 0, 0}, none, &drawn));
+    drum.size[0] = INFINITY;
+    assert_false(jox_draw_outline(&drum, (JoxV3){0, 0, 0}, about_x, &drawn));
+}
+
+/* Names and numbers as hostile as a recording may have them. */
+static void nothing_is_taken_for_granted(void **state) {
+    (void)state;
+    Hall h;
+    make_hall(&h);
+    char long_title[1000];
+    memset(long_title, 'W', sizeof long_title);
+    long_title[sizeof long_title - 1] = 0;
+    memcpy(long_title, "\xff\x01</title>", 10);
+    h.picture.title = long_title;
+    h.picture.colour = JOX_SHOW_GROUP;
+    h.group[0] = 0;
+    h.group[1] = 65535; /* that nobody has named */
+    h.vx[0] = NAN;
+    h.picture.face_x = NULL;
+    h.x[1] = 1e30f;
+    char *text = draw_svg(&h.picture);
+    assert_null(strstr(text, "nan"));
+    assert_null(strstr(text, "\xff"));
+    assert_null(strchr(text, 1));
+    assert_non_null(strstr(text, "class=\"group-all\""));
+    assert_non_null(strstr(text, ">none</text>"));
+    jox_free(text);
+    h.picture.colour = JOX_SHOW_SPEED;
+    h.picture.colour_most = 2;
+    text = draw_svg(&h.picture);
+    assert_non_null(strstr(text, "id=\"p7\""));
+    jox_free(text);
+    h.frame.count = 0;
+    text = draw_svg(&h.picture);
+    assert_non_null(strstr(text, ">0 people</text>"));
+    jox_free(text);
+    jox_walls_free(&h.walls);
+}
+
+static void colours_are_the_published_ones(void **state) {
+    (void)state;
+    JoxInk low = jox_palette_value(-1), middle = jox_palette_value(128.0f / 255.0f),
+           high = jox_palette_value(2);
+    assert_true(low.r == 0x44 && low.g == 0x01 && low.b == 0x54);
+    assert_true(middle.r == 0x21 && middle.g == 0x91 && middle.b == 0x8c);
+    assert_true(high.r == 0xfd && high.g == 0xe7 && high.b == 0x25);
+    /* 37 of 255, between two that are written: 0.275191, 0.194905, 0.496005 is 36. */
+    JoxInk between = jox_palette_value(36.0f / 255.0f);
+    assert_true(abs(between.r - 70) <= 2 && abs(between.g - 50) <= 2 && abs(between.b - 126) <= 2);
+    for (uint32_t a = 0; a < 21; a++) /* classes differ */
+        for (uint32_t b = 0; b < a; b++) {
+            JoxInk p = jox_palette_class(a), q = jox_palette_class(b);
+            assert_true(abs(p.r - q.r) + abs(p.g - q.g) + abs(p.b - q.b) > 40);
+        }
+}
+
+static void sizes_suit_areas(void **state) {
+    (void)state;
+    static const JoxV2 areas[] = {{20, 10}, {1, 1}, {1000, 1}, {1, 1000}, {3, 4}};
+    for (size_t i = 0; i < sizeof areas / sizeof *areas; i++) {
+        uint32_t width, height;
+        jox_draw_size(jox_v2(0, 0), areas[i], &width, &height);
+        assert_true(width % 2 == 0 && height % 2 == 0);
+        assert_in_range(width, 600, 1280);
+        assert_in_range(height, 400, 1100);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(things_are_where_they_are),
+        cmocka_unit_test(values_are_colours),
+        cmocka_unit_test(svg_says_what_it_shows),
+        cmocka_unit_test(bodies_are_seen_from_above),
+        cmocka_unit_test(nothing_is_taken_for_granted),
+        cmocka_unit_test(colours_are_the_published_ones),
+        cmocka_unit_test(sizes_suit_areas),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,260 @@
+/* What agents keep when another version of their behaviour takes over, and what is refused. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "unit/live_page.h"
+
+static const char GREET[] =
+    "local mine = memory { met = 0, left = 0 }\n" HEAD "\"Enter\", states = {\n"
+    "  Enter = { steer = hold, { to = \"Greet\", when = after(0.1) } },\n"
+    "  Greet = { steer = hold, on_enter = function(me) me.met = me.met + 1 end,\n"
+    "    on_exit = function(me) me.left = me.left + 1 end } } }\n";
+static const char ISTILAM[] =
+    "local mine = memory { met = 0, left = 0 }\n" HEAD
+    "\"Enter\", renamed = { Greet = \"Istilam\" }, states = {\n"
+    "  Enter = { steer = hold, { to = \"Istilam\", when = after(0.1) } },\n"
+    "  Other = { steer = hold, { to = \"Enter\", when = after(9) } },\n"
+    "  Istilam = { steer = hold, on_enter = function(me) me.met = me.met + 1 end,\n"
+    "    on_exit = function(me) me.left = me.left + 1 end, { to = \"Other\", when = after(0.5) } } "
+    "} }\n";
+
+static double memory_of(const JoScene *scene, uint32_t agent, const char *name) {
+    const JoxAgents *a = &scene->world->agents;
+    const JoxMachine *m = scene->world->mind.machines[a->machine[agent]];
+    for (uint32_t s = 0; s < m->memory_count; s++)
+        if (strcmp(m->memory[s].name, name) == 0)
+            return a->memory[(size_t)agent * a->memory_stride + s];
+    fail_msg("no memory '%s'", name);
+    return 0.0;
+}
+
+static const char *state_of(const JoScene *scene, uint32_t agent) {
+    const JoxAgents *a = &scene->world->agents;
+    return scene->world->mind.machines[a->machine[agent]]->states[a->state[agent]].name;
+}
+
+static void a_renamed_state_goes_on_where_it_was(void **state) {
+    (void)state;
+    JoScene *scene = load_own(PEOPLE(5), GREET);
+    step(scene, 8); /* 0.1 s in Enter, and some 0.25 s in Greet */
+    assert_string_equal(state_of(scene, 0), "Greet");
+    uint32_t entered = scene->world->agents.entered[0];
+    assert_true(reload_text(scene, 0, ISTILAM));
+    assert_string_equal(state_of(scene, 0), "Istilam");
+    assert_int_equal(scene->world->agents.entered[0], entered);
+    int steps = 0;
+    for (; strcmp(state_of(scene, 0), "Istilam") == 0 && steps < 100; steps++)
+        step(scene, 1);
+    assert_in_range(steps, 3, 8); /* its time counts from when Greet was entered */
+    for (uint32_t i = 0; i < 5; i++) {
+        assert_true(memory_of(scene, i, "met") == 1.0); /* not entered again */
+        assert_true(memory_of(scene, i, "left") == 1.0);
+    }
+    jo_scene_free(scene);
+}
+
+static void a_state_with_people_cannot_disappear(void **state) {
+    (void)state;
+    static const char WITHOUT[] =
+        HEAD "\"Enter\", states = { Enter = { steer = hold }, Istilam = { steer = hold, "
+             "{ to = \"Enter\", when = after(1) } } } }\n";
+    JoScene *scene = load_own(PEOPLE(312), GREET);
+    assert_true(reload_text(scene, 0, GREET));
+    step(scene, 8);
+    uint64_t before = jo_world_hash(scene->world);
+    assert_false(reload_text(scene, 0, WITHOUT));
+    assert_non_null(strstr(why, "312 agents are in 'Greet', which this version lacks"));
+    assert_non_null(strstr(why, "renamed"));
+    assert_int_equal(jo_world_hash(scene->world), before);
+    assert_int_equal(scene->world->mind.machines[0]->version, 2);
+    step(scene, 8);
+    assert_string_equal(state_of(scene, 311), "Greet");
+    jo_scene_free(scene);
+    scene = load_own(PEOPLE(312), GREET); /* nobody has got there yet */
+    assert_true(reload_text(scene, 0, WITHOUT));
+    jo_scene_free(scene);
+}
+
+static void memory_is_kept_by_name_and_type(void **state) {
+    (void)state;
+    static const char BEFORE[] =
+        "local mine = memory { laps = 0, seen = 0, tired = false, gone = 3 }\n" HEAD
+        "\"A\", states = { A = { steer = hold,\n"
+        "  on_enter = function(me) me.laps = 5; me.seen = 7; me.tired = true end } } }\n";
+    static const char AFTER[] =
+        "local mine = memory { fresh = 11, tired = 4, laps = 0, seen = true }\n" HEAD
+        "\"A\", states = { A = { steer = hold, on_enter = function(me) me.laps = 99 end } } }\n";
+    JoScene *scene = load_own(PEOPLE(5), BEFORE);
+    step(scene, 2);
+    assert_true(memory_of(scene, 4, "seen") == 7.0 && memory_of(scene, 4, "tired") == 1.0);
+    assert_true(reload_text(scene, 0, AFTER));
+    for (uint32_t i = 0; i < 5; i++) {
+        assert_true(memory_of(scene, i, "laps") == 5.0);  /* kept; on_enter has not run */
+        assert_true(memory_of(scene, i, "tired") == 4.0); /* was a boolean */
+        assert_true(memory_of(scene, i, "seen") == 1.0);  /* was a number */
+        assert_true(memory_of(scene, i, "fresh") == 11.0);
+    }
+    step(scene, 2);
+    assert_true(memory_of(scene, 4, "laps") == 5.0);
+    jo_scene_free(scene);
+}
+
+static const char TWO_GROUPS[] =
+    SCENE("groups:\n"
+          "  free: {behaviour: own.lua, count: 50, fill: grid, in: yard}\n"
+          "  set: {behaviour: own.lua, count: 50, fill: grid, in: yard, set: {speed: 0.7}}\n");
+
+static void another_distribution_reaches_the_living(void **state) {
+    (void)state;
+    JoScene *scene = load_own(TWO_GROUPS, FAST("uniform(1, 1.2)", ""));
+    step(scene, 3);
+    uint64_t before = jo_world_hash(scene->world);
+    const JoxAgents *a = &scene->world->agents;
+    assert_true(reload_text(scene, 0, FAST("uniform(1.4, 1.6)", "")));
+    double low = 9, high = 0;
+    for (uint32_t i = 0; i < a->count; i++) {
+        double speed = speed_of(scene, i);
+        if (a->group[i] == 1) {
+            assert_true(speed == (double)0.7f); /* what the scene sets stays */
+            continue;
+        }
+        assert_true(speed >= 1.4 && speed <= 1.6);
+        low = speed < low ? speed : low;
+        high = speed > high ? speed : high;
+    }
+    assert_true(low < 1.45 && high > 1.55); /* each has its own */
+    assert_true(reload_text(scene, 0, FAST("2", "")));
+    for (uint32_t i = 0; i < a->count; i++)
+        assert_true(speed_of(scene, i) == (a->group[i] ? (double)0.7f : 2.0));
+    assert_true(reload_text(scene, 0, FAST("uniform(1, 1.2)", "")));
+    assert_int_equal(jo_world_hash(scene->world), before); /* and back: the same random numbers */
+    assert_true(reload_text(scene, 0, FAST("uniform(1, 1.2)", ", speed = 1.9")));
+    for (uint32_t i = 0; i < a->count; i++)
+        assert_true(speed_of(scene, i) == (double)1.9f); /* a state's value goes before both */
+    jo_scene_free(scene);
+}
+
+static void own_values_are_kept_by_name(void **state) {
+    (void)state;
+    static const char BEFORE[] =
+        HEAD "\"A\", defaults = { speed = uniform(1, 2), horizon = uniform(0.3, 0.6) },\n"
+             "  states = { A = { steer = hold, push = 100 * own.horizon } } }\n";
+    static const char AFTER[] =
+        HEAD "\"A\", defaults = { perception = uniform(5, 6), mass = normal(70, 5, 50, 90),\n"
+             "  horizon = uniform(0.3, 0.6), speed = uniform(1, 2) }, states = {\n"
+             "  A = { steer = hold, max_speed = uniform(2, 3), push = own.perception + 100 * "
+             "own.horizon } } }\n";
+    JoScene *scene = load_own(PEOPLE(40), BEFORE);
+    step(scene, 2);
+    double speed[40], push[40];
+    const JoxAgents *a = &scene->world->agents;
+    for (uint32_t i = 0; i < 40; i++) {
+        speed[a->id[i]] = speed_of(scene, i);
+        push[a->id[i]] = (double)a->param[JOX_PARAM_push][i];
+    }
+    assert_true(reload_text(scene, 0, AFTER));
+    step(scene, 1);
+    for (uint32_t i = 0; i < 40; i++) {
+        double more = (double)a->param[JOX_PARAM_push][i] - push[a->id[i]];
+        assert_true(speed_of(scene, i) == speed[a->id[i]]);
+        assert_true(more > 4.99 && more < 6.01);
+        assert_true(a->param[JOX_PARAM_max_speed][i] >= 2.0f);
+    }
+    jo_scene_free(scene);
+}
+
+/* A slot that stands elsewhere in the next version, and was given by the scene. */
+static void values_that_move_are_carried(void **state) {
+    (void)state;
+#define ZEAL(more) HEAD "\"A\", states = { A = { steer = hold, " more "push = 10 * own.zeal } } }\n"
+    static const char *const TEXTS[] = {ZEAL("mass = 50 + own.zest, speed = own.pace, "), ZEAL(""),
+                                        ZEAL("speed = own.pace, radius = uniform(0.2, 0.25), ")};
+    JoScene *scene =
+        load_own(SCENE("groups: {people: {behaviour: own.lua, count: 40, fill: grid, "
+                       "in: yard, set: {zeal: \"uniform(1, 5)\", zest: 3, pace: 1}}}\n"),
+                 TEXTS[0]);
+    const JoxAgents *a = &scene->world->agents;
+    double push[40];
+    step(scene, 2);
+    for (uint32_t i = 0; i < 40; i++)
+        push[a->id[i]] = (double)a->param[JOX_PARAM_push][i];
+    assert_true(push[3] != push[4]);
+    static const int ORDER[] = {1, 0, 2, 0, 1, 2, 1};
+    bool moved = false;
+    uint32_t before = 0;
+    for (size_t k = 0; k < sizeof ORDER / sizeof *ORDER; k++) {
+        assert_true(reload_text(scene, 0, TEXTS[ORDER[k]]));
+        const JoxMachine *now = scene->world->mind.machines[0];
+        uint32_t slot = 0;
+        while (strcmp(now->own[slot].name, "zeal") != 0)
+            slot++;
+        moved |= k > 0 && slot != before;
+        before = slot;
+        step(scene, 1);
+        for (uint32_t i = 0; i < 40; i++)
+            assert_true((double)a->param[JOX_PARAM_push][i] == push[a->id[i]]);
+        for (uint32_t i = 0; i < 40 && ORDER[k] == 0; i++) /* as given, after it was away */
+            assert_true(a->param[JOX_PARAM_mass][i] == 53.0f);
+    }
+    assert_true(moved);
+    jo_scene_free(scene);
+}
+
+/* A condition that has been true is not rolled for again, though the transitions stand elsewhere.
+ */
+static void chances_are_not_rolled_again(void **state) {
+    (void)state;
+#define ROLL(before)                                                                               \
+    HEAD "\"A\", states = { A = { steer = hold, " before                                           \
+         "{ to = \"B\", when = after(0.1), chance = 0.5 } }, B = { steer = hold }, "               \
+         "C = { steer = hold } } }\n"
+    JoScene *scene = load_own(PEOPLE(200), ROLL(""));
+    step(scene, 8);
+    uint32_t people[3];
+    jox_mind_census(&scene->world->mind, 0, people);
+    assert_in_range(people[0], 60, 140);
+    uint32_t waiting = people[0];
+    for (int i = 0; i < 10; i++) {
+        const char *text = i % 2
+                               ? ROLL("")
+                               : ROLL("{ to = \"C\", when = after(50) }, { to = \"C\", id = \"x\", "
+                                      "when = after(60) }, ");
+        assert_true(reload_text(scene, 0, text));
+        step(scene, 2);
+    }
+    jox_mind_census(&scene->world->mind, 0, people);
+    assert_int_equal(people[0], waiting);
+    jo_scene_free(scene);
+}
+
+/* Parameters that a new version no longer sets fall back to what holds without it. */
+static void a_parameter_taken_out_falls_back(void **state) {
+    (void)state;
+    JoScene *scene = load_own(PEOPLE(5), FAST("1.5", ", push = 80, ignore = {}"));
+    step(scene, 2);
+    float push = jox_parameter_store(JOX_PARAM_push, jox_parameters[JOX_PARAM_push].value);
+    assert_true(scene->world->agents.param[JOX_PARAM_push][2] == 80.0f);
+    assert_true(reload_text(scene, 0, FAST("1.5", "")));
+    assert_true(scene->world->agents.param[JOX_PARAM_push][2] == push);
+    jo_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_renamed_state_goes_on_where_it_was),
+        cmocka_unit_test(a_state_with_people_cannot_disappear),
+        cmocka_unit_test(memory_is_kept_by_name_and_type),
+        cmocka_unit_test(another_distribution_reaches_the_living),
+        cmocka_unit_test(own_values_are_kept_by_name),
+        cmocka_unit_test(values_that_move_are_carried),
+        cmocka_unit_test(chances_are_not_rolled_again),
+        cmocka_unit_test(a_parameter_taken_out_falls_back),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

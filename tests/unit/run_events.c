@@ -1,0 +1,454 @@
+/* Events of scenes: when they happen, what they do, and that an edited scene keeps what they did.
+ */
+#include <math.h>
+
+#include "unit/live_page.h"
+
+#define STAY HEAD "\"A\", states = { A = { steer = hold } } }\n"
+#define EVENTS(list)                                                                               \
+    "jostle: 1\nwalls: [{line: [[5, -5], [5, 5]], name: gate}]\n"                                  \
+    "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n"                             \
+    "events:\n" list
+
+static JoxStatistics *figures(JoScene *scene) {
+    return &scene->world->statistics;
+}
+
+static bool is_open(const JoScene *scene) {
+    return scene->world->all_walls.rings[0].open;
+}
+
+/* ---- when ---- */
+
+static void at_their_times(void **state) {
+    (void)state;
+    JoScene *scene = load_own(EVENTS("  - {at: 0, signal: a}\n"
+                                     "  - {at: 0.1, every: 0.1, until: 0.3, signal: b}\n"
+                                     "  - {at: 0.12, signal: c}\n"),
+                              STAY);
+    const uint64_t wanted[12] = {1, 1, 2, 3, 4, 4, 5, 5, 5, 5, 5, 5}; /* steps of 0.05 s */
+    for (int n = 0; n < 12; n++) {
+        step(scene, 1);
+        assert_int_equal(figures(scene)->announced, wanted[n]);
+    }
+    jo_scene_free(scene);
+}
+
+static void faster_than_the_steps(void **state) {
+    (void)state;
+    JoScene *scene = load_own(EVENTS("  - {at: 0, every: 0.01, until: 0.11, signal: a}\n"), STAY);
+    const uint64_t wanted[5] = {1, 6, 11, 12, 12};
+    for (int n = 0; n < 5; n++) {
+        step(scene, 1);
+        assert_int_equal(figures(scene)->announced, wanted[n]);
+    }
+    jo_scene_free(scene);
+}
+
+static void every_step_for_long(void **state) {
+    (void)state;
+    JoScene *scene = load_own(EVENTS("  - {at: 0.05, every: 0.05, signal: a}\n"
+                                     "  - {at: 0.7, every: 0.3, signal: a}\n"),
+                              STAY);
+    step(scene, 2001); /* up to 100 s: sums of rounded times neither miss one nor repeat it */
+    assert_int_equal(figures(scene)->announced, 2000 + 332);
+    jo_scene_free(scene);
+}
+
+static void in_order_of_time_then_of_the_list(void **state) {
+    (void)state;
+    JoScene *scene = load_own(EVENTS("  - {at: 0.04, close: gate}\n"
+                                     "  - {at: 0.02, open: gate}\n"
+                                     "  - {at: 0.2, close: gate}\n"
+                                     "  - {at: 0.2, open: gate}\n"),
+                              STAY);
+    step(scene, 2);
+    assert_int_equal(figures(scene)->opened + figures(scene)->closed, 2);
+    assert_false(is_open(scene));
+    step(scene, 3);
+    assert_true(is_open(scene));
+    jo_scene_free(scene);
+}
+
+/* ---- signals ---- */
+
+static void everybody_hears(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own(EVENTS("  - {at: 0.2, signal: alarm}\n"),
+                 HEAD "\"Z\", defaults = { perception = 1 }, states = { Z = { steer = hold, "
+                      "{ to = \"B\", when = heard(\"alarm\", 0.5) } }, B = { steer = hold, "
+                      "{ to = \"Z\", when = heard \"alarm\" } } } }\n");
+    const JoxAgents *a = &scene->world->agents;
+    step(scene, 4);
+    uint16_t waits = a->state[0];
+    assert_int_equal(a->state[1], waits);
+    step(scene, 1); /* the step whose time is 0.2 s */
+    assert_true(a->state[0] != waits && a->state[1] != waits);
+    step(scene, 5); /* once: nobody hears it again */
+    assert_true(a->state[0] != waits && a->state[1] != waits);
+    assert_true(jo_scene_signal(scene, "alarm", NULL));
+    step(scene, 1);
+    assert_true(a->state[0] == waits && a->state[1] == waits);
+    jo_scene_free(scene);
+}
+
+static void signals_that_nobody_hears_are_named(void **state) {
+    (void)state;
+    JoScene *scene = load_own(EVENTS("  - {at: 1, signal: alarms}\n"),
+                              HEAD "\"A\", states = { A = { steer = hold, { to = \"A\", when = "
+                                   "heard \"alarm\" } } } }\n");
+    assert_non_null(strstr(said.data, "scene.yaml:5:21: warning: "));
+    assert_non_null(strstr(said.data, "Did you mean 'alarm'?"));
+    jo_scene_free(scene);
+    scene = load_own(EVENTS("  - {at: 1, signal: alarm}\n"),
+                     HEAD "\"A\", states = { A = { steer = hold, { to = \"A\", when = "
+                          "heard \"alarm\" } } } }\n");
+    assert_null(said.data); /* given by the scene, heard by a machine */
+    jo_scene_free(scene);
+}
+
+/* ---- walls ---- */
+
+#define WALK                                                                                       \
+    HEAD "\"A\", defaults = { speed = 1.3, max_speed = 1.5 }, states = { A = { steer = drift(1, "  \
+         "0) "                                                                                     \
+         "} } }\n"
+
+static void nobody_passes_a_gate_that_is_shut(void **state) {
+    (void)state;
+    JoScene *scene = load_own(EVENTS("  - {at: 8, open: gate}\n"), WALK);
+    const JoxAgents *a = &scene->world->agents;
+    step(scene, 160);
+    assert_float_equal(a->x[0], 4.8, 0.05);
+    step(scene, 40);
+    assert_true(a->x[0] > 6.0f);
+    jo_scene_free(scene);
+}
+
+static void walls_may_begin_open(void **state) {
+    (void)state;
+    JoScene *scene = load_own("jostle: 1\n"
+                              "walls: [{line: [[2, -5], [2, 5]], name: a, open: true},\n"
+                              "        {line: [[4, -5], [4, 5]], name: b, open: true},\n"
+                              "        {line: [[6, -5], [6, 5]], name: b, open: true}]\n"
+                              "groups: {people: {behaviour: own.lua, at: [[0, 0]]}}\n"
+                              "events: [{at: 2.6, close: b}]\n",
+                              WALK);
+    step(scene, 200);
+    assert_float_equal(scene->world->agents.x[0], 3.8, 0.05); /* one name shuts two walls */
+    assert_int_equal(scene->world->walls.ring_count, 2);
+    jo_scene_free(scene);
+}
+
+static void who_stands_where_a_wall_comes_is_moved(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own("jostle: 1\n"
+                 "walls: [{solid: [[4, -2], [6, -2], [6, 2], [4, 2]], name: block, open: true}]\n"
+                 "groups: {people: {behaviour: own.lua, at: [[5, 0], [5.5, 1], [4.1, -1.9], [9, "
+                 "0], [3.8, 0]]}}\n"
+                 "events: [{at: 0.2, close: block}]\n",
+                 STAY);
+    const JoxAgents *a = &scene->world->agents;
+    step(scene, 4);
+    assert_int_equal(figures(scene)->moved_out, 0);
+    step(scene, 1);
+    assert_int_equal(figures(scene)->moved_out, 3);
+    for (uint32_t id = 0; id < 5; id++) {
+        uint32_t i = a->id_index[id];
+        float dx = fabsf(a->x[i] - 5.0f) - 1.0f, dy = fabsf(a->y[i]) - 2.0f;
+        assert_true(dx > 0.19f || dy > 0.19f);
+    }
+    uint32_t far = a->id_index[3], beside = a->id_index[4];
+    assert_true(a->x[far] == 9.0f && a->y[far] == 0.0f);
+    assert_float_equal(a->x[beside], 3.8, 0.01);
+    jo_scene_free(scene);
+}
+
+/* The order in memory follows in the same step: those beside the new spot see who came. */
+static void who_is_moved_is_seen_at_once(void **state) {
+    (void)state;
+    JoScene *scene = load_own(
+        "jostle: 1\n"
+        "walls: [{solid: [[3, -3], [7, -3], [7, 3], [3, 3]], name: block, open: true}]\n"
+        "groups: {people: {behaviour: own.lua, at: [[5, 0], [1.6, 0], [8.4, 0]]}}\n"
+        "events: [{at: 0.25, close: block}]\n",
+        HEAD "\"A\", defaults = { perception = 2.5 }, states = { A = { steer = hold } } }\n");
+    const JoxAgents *a = &scene->world->agents;
+    const JoxNeighbours *n = &scene->world->neighbours;
+    step(scene, 5); /* every fourth step sorts anyway; the next does not */
+    assert_int_equal(n->count[a->id_index[1]] + n->count[a->id_index[2]], 0);
+    step(scene, 1);
+    assert_int_equal(figures(scene)->moved_out, 1);
+    assert_int_equal(n->count[a->id_index[1]] + n->count[a->id_index[2]], 1);
+    jo_scene_free(scene);
+}
+
+/* A passage full of people: the nearest free spot would be outside of it. */
+static void nobody_is_moved_through_another_wall(void **state) {
+    (void)state;
+    JoScene *scene = load_own("jostle: 1\n"
+                              "walls:\n"
+                              "  - {line: [[0, -0.25], [9, -0.25]]}\n"
+                              "  - {line: [[0, 0.25], [9, 0.25]]}\n"
+                              "  - {line: [[5, -0.25], [5, 0.25]], name: gate, open: true}\n"
+                              "groups: {people: {behaviour: own.lua, at: [[5, 0], [5.32, 0], "
+                              "[5.7, 0], [6.1, 0], [4.68, 0], [4.3, 0], [3.9, 0]]}}\n"
+                              "events: [{at: 0.1, close: gate}]\n",
+                              STAY);
+    const JoxAgents *a = &scene->world->agents;
+    step(scene, 3);
+    assert_int_equal(figures(scene)->moved_out, 1);
+    assert_true(fabsf(a->x[a->id_index[0]] - 5.0f) > 1.0f);
+    for (uint32_t i = 0; i < a->count; i++)
+        assert_true(fabsf(a->y[i]) < 0.1f);
+    jo_scene_free(scene);
+}
+
+#define BALL                                                                                       \
+    "bodies: [{name: ball, shape: {sphere: {radius: 0.2}}, mass: 2, at: [8, 2, 0.2], friction: "   \
+    "0, "                                                                                          \
+    "velocity: [-1.5, 0, 0]},\n"                                                                   \
+    "  {name: rock, shape: {box: {size: [1, 1, 1]}}, mass: 0, at: [20, 20, 0.5]}]\n"
+
+static JoxPose pose_of(const JoScene *scene, const char *name) {
+    JoxPose pose;
+    assert_true(jox_bodies_pose(scene->world->bodies,
+                                jox_bodies_find_name(scene->world->bodies, name), &pose));
+    return pose;
+}
+
+static void bodies_know_of_gates(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoScene *scene =
+        load_own(EVENTS("  - {at: 5, open: gate}\n"
+                        "  - {at: 5, throw: ball, velocity: [-3, 0, 0]}\n"
+                        "  - {at: 8, close: gate}\n"
+                        "  - {at: 8, throw: ball, from: [4, 2, 0.2], velocity: [3, 0, 0]}\n") BALL,
+                 STAY);
+    step(scene, 100);
+    assert_float_equal(pose_of(scene, "ball").centre.x, 5.22, 0.05); /* it lies at the gate */
+    step(scene, 40);
+    assert_true(pose_of(scene, "ball").centre.x < 3.0f);
+    step(scene, 60);
+    assert_true(pose_of(scene, "ball").centre.x < 5.0f);
+    jo_scene_free(scene);
+}
+
+static void what_rests_on_a_wall_falls_with_it(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoScene *scene = load_own(
+        "jostle: 1\n"
+        "walls: [{line: [[0, -2], [0, 2]], name: gate, height: 0.5}]\n"
+        "bodies: [{name: ball, shape: {box: {size: [1, 1, 0.4]}}, mass: 5, at: [0, 0, 0.7]}]\n"
+        "groups: {people: {behaviour: own.lua, at: [[9, 0]]}}\n"
+        "events: [{at: 6, open: gate}]\n",
+        STAY);
+    step(scene, 120); /* asleep by now */
+    assert_float_equal(pose_of(scene, "ball").centre.z, 0.7, 0.05);
+    step(scene, 30);
+    assert_float_equal(pose_of(scene, "ball").centre.z, 0.2, 0.05);
+    jo_scene_free(scene);
+}
+
+/* ---- throws ---- */
+
+static void a_throw_does_what_it_says(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoScene *scene = load_own(EVENTS("  - {at: 60, signal: a}\n") BALL, STAY);
+    const double from[3] = {1, 2, 3}, velocity[3] = {4, 5, 6}, spin[3] = {7, 8, 9};
+    step(scene, 10);
+    assert_true(jo_scene_throw(scene, "ball", from, velocity, spin, NULL));
+    JoxPose pose = pose_of(scene, "ball");
+    assert_true(pose.centre.x == 1 && pose.centre.y == 2 && pose.centre.z == 3);
+    assert_true(pose.velocity.x == 4 && pose.velocity.y == 5 && pose.velocity.z == 6);
+    assert_true(pose.spin.x == 7 && pose.spin.y == 8 && pose.spin.z == 9);
+    step(scene, 1);
+    pose = pose_of(scene, "ball");
+    assert_float_equal(pose.centre.x, 1.2, 0.001);
+    assert_true(jo_scene_throw(scene, "ball", NULL, NULL, NULL, NULL)); /* stopped in the air */
+    assert_true(pose_of(scene, "ball").centre.x == pose.centre.x);
+    assert_true(pose_of(scene, "ball").velocity.z == 0);
+    assert_int_equal(figures(scene)->throws, 2);
+    jo_scene_free(scene);
+}
+
+static void a_throw_takes_it_from_the_hand(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoScene *scene = load_own(EVENTS("  - {at: 60, signal: a}\n") BALL, STAY);
+    JoxBodies *bodies = scene->world->bodies;
+    const double up[3] = {0, 0, 3};
+    step(scene, 1);
+    assert_true(jox_bodies_hold(bodies, jox_bodies_find_name(bodies, "ball"), 0));
+    step(scene, 1);
+    assert_true(jo_scene_throw(scene, "ball", NULL, up, NULL, NULL));
+    step(scene, 1);
+    const JoxObjects *objects = &scene->world->objects;
+    assert_false(objects->rows[jox_bodies_find_name(bodies, "ball")].held);
+    assert_true(pose_of(scene, "ball").velocity.z > 2);
+    jo_scene_free(scene);
+}
+
+/* ---- errors of the calls ---- */
+
+static void calls_say_what_is_wrong(void **state) {
+    (void)state;
+    JoScene *scene = load_own(EVENTS("  - {at: 60, signal: a}\n"), STAY);
+    JoError error = {0};
+    const double much[3] = {0, NAN, 0};
+    char longer[80];
+    memset(longer, 'x', sizeof longer);
+    longer[79] = 0;
+    assert_false(jo_scene_open_wall(scene, "gates", true, &error));
+    assert_string_equal(error.text, "there is no wall named 'gates'. Did you mean 'gate'?");
+    assert_int_equal(error.code, JO_INPUT);
+    assert_false(jo_scene_throw(scene, "ball", NULL, NULL, NULL, &error));
+    assert_string_equal(error.text, "there is no body named 'ball'");
+    assert_false(jo_scene_throw(scene, "ball", NULL, much, NULL, &error));
+    assert_non_null(strstr(error.text, "velocity must be from -100 to 100 m/s"));
+    assert_false(jo_scene_signal(scene, "", &error));
+    assert_false(jo_scene_signal(scene, longer, &error));
+    assert_non_null(strstr(error.text, "from 1 to 60 bytes"));
+    assert_false(jo_scene_signal(scene, longer, NULL));
+    jo_scene_free(scene);
+    if (!jox_bodies_available())
+        return;
+    scene = load_own(EVENTS("  - {at: 60, signal: a}\n") BALL, STAY);
+    assert_false(jo_scene_throw(scene, "bal", NULL, NULL, NULL, &error));
+    assert_string_equal(error.text, "there is no body named 'bal'. Did you mean 'ball'?");
+    assert_false(jo_scene_throw(scene, "rock", NULL, NULL, NULL, &error));
+    assert_string_equal(error.text, "the body 'rock' is static: it cannot be thrown");
+    jo_scene_free(scene);
+}
+
+/* A body that is lost does not end the run. */
+static void what_cannot_happen_is_said(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoScene *scene =
+        load_own(EVENTS("  - {at: 0.5, throw: ball, velocity: [1, 0, 0]}\n") BALL, STAY);
+    JoxBodies *bodies = scene->world->bodies;
+    step(scene, 1);
+    assert_true(jox_bodies_remove(bodies, jox_bodies_find_name(bodies, "ball")));
+    jox_text_free(&said);
+    step(scene, 20);
+    assert_non_null(said.data);
+    assert_non_null(
+        strstr(said.data, "scene.yaml:5:22: t = 0.50 s: there is no body named 'ball'"));
+    jo_scene_free(scene);
+}
+
+/* ---- an edited scene ---- */
+
+static void edit(JoScene *scene, const char *text) {
+    JoxDiagnostics diagnostics = {0};
+    write_file("scene.yaml", text);
+    JoxSceneSpec *spec = jox_run_load_spec(&scene->def, scene->mods, 0, &diagnostics);
+    assert_non_null(spec);
+    jox_text_free(&said);
+    jox_run_rescene(scene, &spec, 0.0);
+    jox_scene_free(spec);
+    jox_diag_free(&diagnostics);
+}
+
+static void an_edited_scene_keeps_what_events_did(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own(EVENTS("  - {at: 0.5, open: gate}\n  - {at: 0.6, signal: a}\n"), STAY);
+    step(scene, 20); /* t = 1 s */
+    assert_true(is_open(scene));
+    /* Another wall, and a further event: the gate stays open, what was done is not done again. */
+    edit(scene, "jostle: 1\n"
+                "walls: [{line: [[5, -5], [5, 5]], name: gate}, {line: [[8, 0], [9, 0]]}]\n"
+                "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n"
+                "events:\n"
+                "  - {at: 0.5, open: gate}\n"
+                "  - {at: 0.6, signal: a}\n"
+                "  - {at: 0.7, signal: b}\n" /* too late */
+                "  - {at: 1.0, signal: c}\n" /* in the next step */
+                "  - {at: 1.5, close: gate}\n");
+    assert_non_null(strstr(said.data, "walls, events changed, live from t = 1.00 s"));
+    step(scene, 1);
+    assert_true(is_open(scene));
+    assert_int_equal(scene->world->walls.ring_count, 1);
+    assert_int_equal(figures(scene)->announced, 2);
+    assert_int_equal(figures(scene)->opened, 1);
+    /* Nothing but a title: nothing changes. */
+    edit(scene, "jostle: 1\n"
+                "title: Another\n"
+                "walls: [{line: [[5, -5], [5, 5]], name: gate}, {line: [[8, 0], [9, 0]]}]\n"
+                "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n"
+                "events: [{at: 1.5, close: gate}]\n");
+    assert_null(strstr(said.data, "walls"));
+    step(scene, 8);
+    assert_true(is_open(scene));
+    step(scene, 2);
+    assert_false(is_open(scene));
+    assert_int_equal(scene->world->walls.ring_count, 2);
+    jo_scene_free(scene);
+}
+
+/* A name without an event's touch follows the file. */
+static void an_edited_gate_follows_the_file(void **state) {
+    (void)state;
+    JoScene *scene = load_own(EVENTS("  - {at: 50, open: gate}\n"), STAY);
+    step(scene, 1);
+    assert_false(is_open(scene));
+    edit(scene, "jostle: 1\n"
+                "walls: [{line: [[5, -5], [5, 5]], name: gate, open: true}]\n"
+                "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n");
+    step(scene, 1);
+    assert_true(is_open(scene));
+    assert_int_equal(scene->world->walls.ring_count, 0);
+    jo_scene_free(scene);
+}
+
+/* ---- cost ---- */
+
+static void steps_without_events_allocate_nothing(void **state) {
+    (void)state;
+    JoScene *scene = load_own(
+        EVENTS("  - {at: 0.5, open: gate}\n  - {at: 1, signal: a}\n  - {at: 900, signal: b}\n"),
+        WALK);
+    step(scene, 100);
+    uint64_t before = jox_alloc_count();
+    step(scene, 100);
+    assert_int_equal(jox_alloc_count() - before, 0);
+    jo_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(at_their_times),
+        cmocka_unit_test(faster_than_the_steps),
+        cmocka_unit_test(every_step_for_long),
+        cmocka_unit_test(in_order_of_time_then_of_the_list),
+        cmocka_unit_test(everybody_hears),
+        cmocka_unit_test(signals_that_nobody_hears_are_named),
+        cmocka_unit_test(nobody_passes_a_gate_that_is_shut),
+        cmocka_unit_test(walls_may_begin_open),
+        cmocka_unit_test(who_stands_where_a_wall_comes_is_moved),
+        cmocka_unit_test(who_is_moved_is_seen_at_once),
+        cmocka_unit_test(nobody_is_moved_through_another_wall),
+        cmocka_unit_test(bodies_know_of_gates),
+        cmocka_unit_test(what_rests_on_a_wall_falls_with_it),
+        cmocka_unit_test(a_throw_does_what_it_says),
+        cmocka_unit_test(a_throw_takes_it_from_the_hand),
+        cmocka_unit_test(calls_say_what_is_wrong),
+        cmocka_unit_test(what_cannot_happen_is_said),
+        cmocka_unit_test(an_edited_scene_keeps_what_events_did),
+        cmocka_unit_test(an_edited_gate_follows_the_file),
+        cmocka_unit_test(steps_without_events_allocate_nothing),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

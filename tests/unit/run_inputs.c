@@ -1,0 +1,449 @@
+/* What people do to a running scene: done in the next step, written to a log, and played back to
+   the same state. */
+#include <math.h>
+
+#include "unit/run_acted.h"
+
+static void path_of(const char *name, char path[300]) {
+    snprintf(path, 300, "%s/%s", folder, name);
+}
+
+/* The same scene, that plays a log. */
+static JoScene *play(const char *log, uint32_t threads) {
+    char scene[300];
+    path_of("scene.yaml", scene);
+    JoSceneDef def = jo_default_scene_def();
+    JoError error = {0};
+    def.path = scene;
+    def.input_log = log;
+    def.threads = threads;
+    def.message = hear;
+    def.named_mods_only = true;
+    jox_text_free(&said);
+    JoScene *replay = jo_scene_load(&def, &error);
+    if (!replay)
+        fail_msg("%s", error.text);
+    return replay;
+}
+
+static void refuses(JoScene *scene, const char *line, const char *because) {
+    JoError error = {0};
+    uint64_t before = jo_world_hash(scene->world);
+    if (jo_scene_input(scene, line, &error) || !strstr(error.text, because))
+        fail_msg("%s: %s, not '%s'", line, error.text, because);
+    assert_int_equal(error.code, JO_INPUT);
+    assert_true(before == jo_world_hash(scene->world));
+}
+
+static char *text_of(const char *path) {
+    char *text = jox_read_file(path, 1 << 24, NULL);
+    assert_non_null(text);
+    return text;
+}
+
+/* ---- the log ---- */
+
+static void a_session_plays_back(void **state) {
+    (void)state;
+    char first[300], second[300];
+    JoError error = {0};
+    path_of("first.input", first);
+    path_of("second.input", second);
+    JoScene *scene = begin();
+    bool bodies = jox_bodies_available();
+    assert_true(jo_scene_log_input(scene, first, &error));
+    step(scene, 3);
+    does(scene, "push 1 250 -40.5");
+    does(scene, "set m Walk speed 0.9");
+    step(scene, 2);
+    does(scene, "open gate");
+    assert_true(jo_scene_open_wall(scene, "gate", false, &error));
+    if (bodies) {
+        does(scene, "throw ball 4 0 1.2 -6 0 1");
+        assert_true(jo_scene_throw(scene, "ball", NULL, (double[]){-5.1, 0.3, 2}, NULL, &error));
+        does(scene, "box 5 0 1 -4 0 0 0.4 12");
+        does(scene, "grab 0 2 2 1");
+    }
+    step(scene, 7);
+    does(scene, "signal stop");
+    does(scene, "player 2 1 0.3");
+    does(scene, "set m defaults radius 0.25");
+    if (bodies)
+        does(scene, "drag 0 3 2 1");
+    step(scene, 10);
+    if (bodies)
+        does(scene, "release 0");
+    assert_true(jo_scene_signal(scene, "stop", &error));
+    step(scene, 20);
+    uint64_t hash = jo_world_hash(scene->world);
+    assert_true(jo_scene_finish(scene, &error));
+    jo_scene_free(scene);
+
+    for (uint32_t threads = 1; threads <= 4; threads *= 2) {
+        JoScene *replay = play(first, threads);
+        said.length = 0;
+        if (threads == 1) { /* what is played is logged too */
+            assert_false(jo_scene_log_input(replay, first, &error));
+            assert_non_null(strstr(error.text, "write the new one to another file"));
+            assert_true(jo_scene_log_input(replay, second, &error));
+        }
+        step(replay, 42);
+        assert_int_equal(said.length, 0);
+        assert_true(jo_world_hash(replay->world) == hash);
+        jo_scene_free(replay);
+    }
+    char *one = text_of(first), *two = text_of(second);
+    assert_string_equal(one, two);
+    assert_non_null(strstr(one, "# input log of jostle "));
+    assert_non_null(strstr(one, "3 push 1 250 -40.5\n3 set m Walk speed 0.9\n5 open gate\n"));
+    jox_free(one);
+    jox_free(two);
+
+    JoScene *without = begin();
+    step(without, 42);
+    assert_false(jo_world_hash(without->world) == hash);
+    jo_scene_free(without);
+    unlink(first);
+    unlink(second);
+}
+
+static void what_cannot_be_done_is_not_logged(void **state) {
+    (void)state;
+    char path[300];
+    JoError error = {0};
+    path_of("bad.input", path);
+    JoScene *scene = begin();
+    assert_true(jo_scene_log_input(scene, path, &error));
+    step(scene, 1);
+    refuses(scene, "push 4 1 1", "there is no agent 4; ids go up to 3");
+    refuses(scene, "player 77 1 1", "there is no agent 77");
+    refuses(scene, "open gaet", "Did you mean 'gate'?");
+    refuses(scene, "shove 1 2 3", "there is no verb 'shove'");
+    refuses(scene, "set m Walk speed 21", "speed must be from 0 to 20 m/s, not 21");
+    refuses(scene, "set m Walk sped 1", "Did you mean 'speed'?");
+    refuses(scene, "set m Wlak speed 1", "Did you mean 'Walk'?");
+    refuses(scene, "set n Walk speed 1", "there is no machine 'n'");
+    refuses(scene, "files 1", "files stands in logs alone");
+    if (jox_bodies_available()) {
+        refuses(scene, "throw pillar here 1 1 1", "is static");
+        refuses(scene, "grab 1 0 0 1", "is static");
+        refuses(scene, "grab 9 0 0 1", "there is no body 9");
+        refuses(scene, "drag 0 0 0 1", "grab it first");
+        refuses(scene, "release 0", "is not held");
+    } else {
+        refuses(scene, "box 0 0 1 0 0 0 0.4 10", "no Bullet");
+    }
+    assert_false(jo_scene_signal(scene, "a\nb", &error));
+    jo_scene_free(scene);
+    char *text = text_of(path);
+    assert_null(strstr(text, "\n1 ")); /* what it is made of alone */
+    assert_non_null(strstr(text, "\n0 began 1 0.05\n0 made "));
+    jox_free(text);
+    unlink(path);
+}
+
+static void half_the_step_knows_nothing_of_it(void **state) {
+    (void)state;
+    JoError error = {0};
+    JoScene *scene = begin();
+    step(scene, 2);
+    JoScene *half = jo_scene_half_step(&scene->def, scene, &error);
+    assert_non_null(half);
+    jo_scene_free(half);
+    does(scene, "push 1 10 0");
+    assert_null(jo_scene_half_step(&scene->def, scene, &error));
+    assert_non_null(strstr(error.text, "people acted on it"));
+    jo_scene_free(scene);
+}
+
+static void a_log_that_cannot_be_written(void **state) {
+    (void)state;
+    JoError error = {0};
+    JoScene *scene = begin();
+    assert_false(jo_scene_log_input(scene, "/nowhere/at/all.input", &error));
+    assert_int_equal(error.code, JO_FAILED);
+    assert_non_null(strstr(error.text, "/nowhere/at/all.input"));
+    if (access("/dev/full", W_OK) == 0) {
+        assert_false(jo_scene_log_input(scene, "/dev/full", &error) &&
+                     jo_scene_step(scene, &error));
+        assert_non_null(strstr(error.text, "cannot write the input log '/dev/full'"));
+    }
+    jo_scene_free(scene);
+}
+
+/* ---- pushes ---- */
+
+static void a_push_acts_for_one_step(void **state) {
+    (void)state;
+    JoScene *pushed = begin(), *pair = begin();
+    step(pushed, 20);
+    step(pair, 20);
+    does(pushed, "push 3 800 0");
+    step(pushed, 1);
+    step(pair, 1);
+    const JoxAgents *a = &pushed->world->agents, *b = &pair->world->agents;
+    double gain = (double)(a->vx[a->id_index[3]] - b->vx[b->id_index[3]]);
+    assert_true(gain > 0.35 && gain < 0.5); /* m/s: 800 N on 80 kg for 0.05 s, less damping */
+    assert_true(a->ext_x[a->id_index[3]] == 0.0f);
+    jo_scene_free(pushed);
+    jo_scene_free(pair);
+}
+
+/* ---- parameters ---- */
+
+static double parameter(const JoScene *scene, uint32_t id, JoxParameter p) {
+    const JoxAgents *a = &scene->world->agents;
+    return (double)a->param[p][a->id_index[id]];
+}
+
+static void a_parameter_is_set_for_all(void **state) {
+    (void)state;
+    JoScene *scene = begin();
+    step(scene, 2);
+    assert_false(parameter(scene, 0, JOX_PARAM_speed) == 0.9f);
+    does(scene, "set m Walk speed 0.9"); /* an expression before */
+    for (uint32_t id = 0; id < 4; id++)
+        assert_true((float)parameter(scene, id, JOX_PARAM_speed) == 0.9f);
+    step(scene, 5);
+    assert_true((float)parameter(scene, 0, JOX_PARAM_speed) == 0.9f);
+    does(scene, "set m Wait max_speed 0.7"); /* who is not there yet */
+    does(scene, "set m Wait push_angle 30");
+    assert_true((float)parameter(scene, 0, JOX_PARAM_max_speed) == 1.8f);
+    does(scene, "signal stop");
+    step(scene, 2);
+    assert_true((float)parameter(scene, 0, JOX_PARAM_max_speed) == 0.7f);
+    assert_true(fabs(parameter(scene, 0, JOX_PARAM_push_angle) - 0.8660254) < 1e-6);
+    uint32_t i = jox_world_add_agent(scene->world, 9.0f, 9.0f); /* and who comes later */
+    jox_mind_spawn(&scene->world->mind, i, 0, NULL, NULL);
+    assert_true((float)parameter(scene, 4, JOX_PARAM_speed) == 0.9f);
+    jo_scene_free(scene);
+}
+
+static void defaults_reach_what_follows_them(void **state) {
+    (void)state;
+    JoScene *scene = begin();
+    does(scene, "signal stop");
+    step(scene, 2);
+    does(scene, "set m defaults speed 1.7");
+    for (uint32_t id = 0; id < 4; id++) {
+        assert_true((float)parameter(scene, id, JOX_PARAM_speed) == 1.7f);
+        assert_true((float)parameter(scene, id, JOX_PARAM_push) == 1.7f); /* own.speed */
+    }
+    does(scene, "set m defaults mass 60"); /* given by the scene: set all the same */
+    assert_true((float)parameter(scene, 0, JOX_PARAM_mass) == 60.0f);
+    does(scene, "set m defaults max_speed 0.5"); /* the state says otherwise */
+    assert_true((float)parameter(scene, 0, JOX_PARAM_max_speed) == 1.0f);
+    jo_scene_free(scene);
+}
+
+static void a_reload_takes_it_back(void **state) {
+    (void)state;
+    JoScene *scene = begin(), *other = begin();
+    step(scene, 2);
+    step(other, 2);
+    does(scene, "set m Wait max_speed 0.7");
+    does(scene, "set m defaults speed 1.7");
+    does(scene, "set m defaults mass 60");
+    if (!reload_text(scene, 0, WALKER "-- saved once more\n"))
+        fail_msg("%s", why);
+    step(scene, 5);
+    step(other, 5);
+    for (uint32_t id = 0; id < 4; id++)
+        for (int p = 0; p < JOX_PARAM_COUNT; p++)
+            if (p != JOX_PARAM_speed) /* follows the present speed */
+                assert_true(parameter(scene, id, (JoxParameter)p) ==
+                            parameter(other, id, (JoxParameter)p));
+    jo_scene_free(scene);
+    jo_scene_free(other);
+}
+
+static void the_graph_says_who_set_what(void **state) {
+    (void)state;
+    JoScene *scene = begin();
+    JoxText text = {0};
+    char wanted[400];
+    does(scene, "set m Wait max_speed 0.7");
+    jox_run_graph(scene, &text);
+    snprintf(wanted, sizeof wanted,
+             "{\"name\":\"speed\",\"value\":null,\"text\":\"0.5 * now.speed + 0.4\","
+             "\"set\":\"state Walk %s/own.lua:3\",\"least\":0,\"most\":20,\"unit\":\"m/s\"}",
+             folder);
+    assert_non_null(strstr(text.data, wanted));
+    snprintf(wanted, sizeof wanted, "\"text\":\"normal(1.2, 0.2)\",\"set\":\"defaults %s/own.lua:2",
+             folder);
+    assert_non_null(strstr(text.data, wanted));
+    assert_non_null(strstr(text.data, "{\"name\":\"max_speed\",\"value\":0.7,\"text\":\"0.7\","
+                                      "\"set\":\"live page\""));
+    assert_non_null(strstr(text.data, "{\"name\":\"yield\",\"value\":0.5,\"text\":\"\","
+                                      "\"set\":\"engine\""));
+    assert_non_null(strstr(
+        text.data, "{\"id\":\"Wait\",\"from\":\"Walk\",\"to\":\"Wait\",\"text\":\"heard "
+                   "\\\"stop\\\" & ~mine.met & mine.laps:above(1)\",\"line\":4,\"chance\":null}"));
+    assert_non_null(strstr(text.data, "\"text\":\"after(60)\",\"line\":6,\"chance\":0.5}"));
+    jox_text_free(&text);
+    assert_true(jox_run_lua_line(scene, "m", "Wait", "max_speed", 0.7, &text));
+    snprintf(wanted, sizeof wanted,
+             "Wait = { max_speed = 0.7, ... },   -- %s/own.lua:5, where it is 1", folder);
+    assert_string_equal(text.data, wanted);
+    jox_text_free(&text);
+    assert_true(jox_run_lua_line(scene, "m", "defaults", "horizon", 1, &text));
+    assert_non_null(strstr(text.data, "defaults = { horizon = 1, ... },   -- "));
+    assert_non_null(strstr(text.data, "own.lua:2"));
+    jox_text_free(&text);
+    assert_false(jox_run_lua_line(scene, "m", "Wait", "max_speed", 70, &text));
+    assert_string_equal(text.data, "max_speed must be from 0 to 30 m/s, not 70");
+    jox_text_free(&text);
+    jo_scene_free(scene);
+}
+
+/* ---- bodies ---- */
+
+static JoxPose pose_of(const JoScene *scene, uint32_t row) {
+    JoxPose pose;
+    assert_true(jox_bodies_pose(scene->world->bodies, row, &pose));
+    return pose;
+}
+
+static void a_body_is_pulled(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        return;
+    JoScene *scene = begin();
+    does(scene, "grab 0 9 3 1.5");
+    float fastest = 0.0f;
+    for (int n = 0; n < 60; n++) {
+        step(scene, 1);
+        JoxPose pose = pose_of(scene, 0);
+        fastest = jox_maxf(fastest, fabsf(pose.velocity.y));
+    }
+    JoxPose pose = pose_of(scene, 0);
+    assert_true(fabsf(pose.centre.x - 9) < 0.05f && fabsf(pose.centre.y - 3) < 0.05f);
+    assert_true(fabsf(pose.centre.z - 1.5f) < 0.05f); /* its weight is borne */
+    assert_true(fastest < 6.1f);
+    does(scene, "drag 0 9 4 1.5");
+    step(scene, 60);
+    assert_true(fabsf(pose_of(scene, 0).centre.y - 4) < 0.05f);
+    does(scene, "release 0");
+    step(scene, 40);
+    assert_true(pose_of(scene, 0).centre.z < 0.2f);
+    does(scene, "grab 0 9 4 -60"); /* into the ground: it stays above */
+    step(scene, 20);
+    assert_true(pose_of(scene, 0).centre.z > 0.0f);
+    jo_scene_free(scene);
+}
+
+static void the_oldest_box_goes(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        return;
+    JoScene *scene = begin();
+    JoWorld *world = scene->world;
+    uint32_t before = jo_world_body_count(world);
+    for (int n = 0; n < JOX_MOST_BOXES + 7; n++) {
+        char line[100];
+        snprintf(line, sizeof line, "box %d %d 0 0 0 0 0.3 4", 40 + n % 15, 20 + n / 15);
+        does(scene, line);
+        if (n % 50 == 0)
+            step(scene, 1);
+    }
+    assert_int_equal(jo_world_body_count(world), before + JOX_MOST_BOXES);
+    assert_int_equal(world->hands.boxes[0], before + 7); /* ids are not used again */
+    assert_int_equal(jox_bodies_find(world->bodies, before + 6), JOX_NO_BODY);
+    step(scene, 3);
+    JoxPose pose = pose_of(scene, jox_bodies_find(world->bodies, before + 7));
+    assert_true(fabsf(pose.centre.z - 0.15f) < 0.02f); /* lifted out of the ground */
+    for (uint32_t o = 0; o < 2; o++)
+        assert_true(world->objects.rows[o].live); /* those of the scene stay */
+    jo_scene_free(scene);
+}
+
+/* ---- reloaded files ---- */
+
+static void files_of_a_log_go_live(void **state) {
+    (void)state;
+    char log[300], text[4000];
+    path_of("files.input", log);
+    JoScene *scene = load_own(PEOPLE(20), FAST("1.5", "")); /* what lies on the disk at the end */
+    jo_scene_free(scene);
+    static const char BEGAN[] = FAST("0.7", ""), LIVE[] = FAST("0.9", ""), BAD[] = "return 7\n";
+    snprintf(text, sizeof text,
+             "# a session\n3 before 1\n%s/own.lua %zu\n%s\n3 files 1\n%s/own.lua %zu\n%s\n"
+             "6 files 1\n%s/own.lua %zu\n%s\n",
+             folder, sizeof BEGAN - 1, BEGAN, folder, sizeof LIVE - 1, LIVE, folder, sizeof BAD - 1,
+             BAD);
+    write_file("files.input", text);
+    scene = play(log, 1);
+    assert_true((float)speed_of(scene, 0) == 0.7f);
+    step(scene, 3);
+    assert_true((float)speed_of(scene, 0) == 0.7f);
+    step(scene, 1);
+    assert_true((float)speed_of(scene, 0) == 0.9f);
+    assert_non_null(strstr(said.data, "version 2 is live from t = 0.15 s\n"));
+    assert_null(strstr(said.data, "ms ago"));
+    step(scene, 3);
+    assert_non_null(
+        strstr(said.data, "files.input:10: t = 0.30 s: the files that follow were not"));
+    assert_non_null(strstr(said.data, "Version 2 keeps running"));
+    assert_true((float)speed_of(scene, 0) == 0.9f);
+    JoError error = {0};
+    assert_false(jo_scene_watch(scene, &error));
+    assert_non_null(strstr(error.text, "cannot be watched besides"));
+    jo_scene_free(scene);
+    unlink(log);
+}
+
+static void a_log_of_something_else(void **state) {
+    (void)state;
+    char log[300], text[1000];
+    path_of("else.input", log);
+    jo_scene_free(begin());
+    snprintf(text, sizeof text, "0 began 7 0.02\n0 made %s/own.lua 0c8e\n5 began 1 0.05\n", folder);
+    write_file("else.input", text);
+    jo_scene_free(play(log, 1));
+    assert_non_null(strstr(said.data, "else.input:1: the log was written with seed 7 and steps of "
+                                      "0.02 s, not 1 and 0.05 s"));
+    assert_non_null(strstr(said.data, "else.input:2: "));
+    assert_non_null(strstr(said.data, "own.lua has changed since the log was written"));
+    assert_non_null(strstr(said.data, "else.input:3: the log was begun 5 steps into the run"));
+    unlink(log);
+}
+
+static void a_wrong_log_is_an_error_of_its_file(void **state) {
+    (void)state;
+    char log[300], scene[300];
+    path_of("wrong.input", log);
+    path_of("scene.yaml", scene);
+    jo_scene_free(begin());
+    write_file("wrong.input", "# x\n2 push 0 1 1\n3 shove 0\n");
+    JoSceneDef def = jo_default_scene_def();
+    JoError error = {0};
+    def.path = scene;
+    def.input_log = log;
+    def.message = hear;
+    def.named_mods_only = true;
+    assert_null(jo_scene_load(&def, &error));
+    assert_int_equal(error.line, 3);
+    assert_int_equal(error.column, 3);
+    assert_string_equal(error.file, log);
+    unlink(log);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_session_plays_back),
+        cmocka_unit_test(what_cannot_be_done_is_not_logged),
+        cmocka_unit_test(half_the_step_knows_nothing_of_it),
+        cmocka_unit_test(a_log_that_cannot_be_written),
+        cmocka_unit_test(a_push_acts_for_one_step),
+        cmocka_unit_test(a_parameter_is_set_for_all),
+        cmocka_unit_test(defaults_reach_what_follows_them),
+        cmocka_unit_test(a_reload_takes_it_back),
+        cmocka_unit_test(the_graph_says_who_set_what),
+        cmocka_unit_test(a_body_is_pulled),
+        cmocka_unit_test(the_oldest_box_goes),
+        cmocka_unit_test(files_of_a_log_go_live),
+        cmocka_unit_test(a_log_of_something_else),
+        cmocka_unit_test(a_wrong_log_is_an_error_of_its_file),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,290 @@
+/* Reload: every beginning of every behaviour, reloads that change nothing, memory, saved files. */
+#include <glob.h>
+#include <malloc.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "unit/live_page.h"
+
+enum { STEPS = 40, MOST_PEOPLE = 200, LONG_FILE = 1500, LARGEST = 1 << 18 };
+
+static char *read_behaviour(const JoScene *scene, uint32_t index, size_t *length) {
+    char *text = jox_read_file(scene->world->mind.machines[index]->path, LARGEST, length);
+    assert_non_null(text);
+    return text;
+}
+
+/* ---- the scenes that are shipped, each with few people ---- */
+
+static JoScene *load_small(const char *path) {
+    enum { MOST = 64 };
+    static char texts[MOST][160];
+    const char *sets[MOST];
+    size_t count = 0;
+    JoxDiagnostics diagnostics = {0};
+    JoxSceneSpec *spec = jox_scene_load(path, NULL, &diagnostics);
+    jox_diag_free(&diagnostics);
+    assert_non_null(spec);
+    for (uint32_t g = 0; g < spec->group_count && count < MOST; g++)
+        if (spec->groups[g].count > MOST_PEOPLE && spec->groups[g].fill != JOX_FILL_AT) {
+            snprintf(texts[count], sizeof *texts, "groups.%s.count=%d", spec->groups[g].name,
+                     MOST_PEOPLE);
+            sets[count] = texts[count];
+            count++;
+        }
+    for (uint32_t s = 0; s < spec->source_count && count < MOST; s++)
+        if (spec->sources[s].keep > MOST_PEOPLE) {
+            snprintf(texts[count], sizeof *texts, "sources.%u.keep=%d", s, MOST_PEOPLE);
+            sets[count] = texts[count];
+            count++;
+        }
+    jox_scene_free(spec);
+    return load(path, sets, count);
+}
+
+static void each_scene(void (*visit)(const char *path)) {
+    glob_t scenes;
+    assert_int_equal(glob("scenes/*.yaml", 0, NULL, &scenes), 0);
+    for (size_t s = 0; s < scenes.gl_pathc; s++)
+        visit(scenes.gl_pathv[s]);
+    globfree(&scenes);
+}
+
+static uint64_t hash_alone(const char *path) {
+    JoScene *scene = load_small(path);
+    step(scene, STEPS);
+    uint64_t hash = jo_world_hash(scene->world);
+    jo_scene_free(scene);
+    return hash;
+}
+
+/* ---- every beginning of a file, saved while the crowd runs ---- */
+
+static size_t next_prefix(size_t n, size_t length) {
+    size_t next = length > LONG_FILE && n >= 400 ? n + 5 : n + 1;
+    return next > length && n < length ? length : next; /* the whole is always the last */
+}
+
+static size_t prefixes_of(size_t length) {
+    size_t count = 0;
+    for (size_t n = 0; n <= length; n = next_prefix(n, length))
+        count++;
+    return count;
+}
+
+static size_t tried, lived;
+
+static void try_prefixes(const char *path) {
+    uint64_t alone = hash_alone(path);
+    JoScene *scene = load_small(path);
+    for (uint32_t m = 0; m < scene->world->mind.machine_count; m++) {
+        size_t length, n = 0;
+        char *text = read_behaviour(scene, m, &length);
+        size_t all = prefixes_of(length), done = 0;
+        jo_scene_free(scene);
+        scene = load_small(path);
+        for (int s = 0; s < STEPS; s++) {
+            for (; done < all * ((size_t)s + 1) / STEPS; done++, n = next_prefix(n, length)) {
+                /* a block of exactly this size, so that a read beyond it is seen */
+                char *prefix = jox_alloc(n + 1, 1);
+                memcpy(prefix, text, n);
+                bool live = reload(scene, m, prefix, n);
+                if (live && n + 1 < length)
+                    fail_msg("the first %zu bytes of %s are a machine", n,
+                             scene->world->mind.machines[m]->path);
+                if (!live && n == length)
+                    fail_msg("%s: %s", scene->world->mind.machines[m]->path, why);
+                jox_free(prefix);
+                lived += live;
+                tried++;
+            }
+            step(scene, 1);
+        }
+        if (jo_world_hash(scene->world) != alone)
+            fail_msg("%s: beginnings of %s change the hash", path,
+                     scene->world->mind.machines[m]->path);
+        jox_free(text);
+    }
+    jo_scene_free(scene);
+}
+
+static void every_beginning_of_a_behaviour_leaves_the_hash(void **state) {
+    (void)state;
+    each_scene(try_prefixes);
+    assert_true(lived >= 5 && tried > 1000); /* the whole files did go live */
+}
+
+/* Behaviours that no scene uses, without people. */
+static void every_beginning_of_a_behaviour_is_refused_but_the_last(void **state) {
+    (void)state;
+    glob_t files;
+    assert_int_equal(glob("behaviours/*.lua", 0, NULL, &files), 0);
+    JoxLua *lua = jox_lua_create(NULL);
+    for (size_t f = 0; f < files.gl_pathc; f++) {
+        size_t length, complete = 0;
+        char *text = jox_read_file(files.gl_pathv[f], LARGEST, &length);
+        for (size_t n = 0; n <= length; n = next_prefix(n, length)) {
+            JoxDiagnostics diagnostics = {0};
+            JoxMachine *machine =
+                jox_lua_load_text(lua, files.gl_pathv[f], text, n, NULL, &diagnostics);
+            if (!machine && !diagnostics.errors)
+                fail_msg("%s: %zu bytes fail in silence", files.gl_pathv[f], n);
+            complete += machine != NULL;
+            jox_lua_release(lua, machine);
+            jox_machine_free(machine);
+            jox_diag_free(&diagnostics);
+        }
+        if (complete < 1 || complete > 2)
+            fail_msg("%zu beginnings of %s are machines", complete, files.gl_pathv[f]);
+        jox_free(text);
+    }
+    jox_lua_free(lua);
+    globfree(&files);
+}
+
+/* ---- a reload that changes nothing ---- */
+
+static void reload_all_the_time(const char *path) {
+    uint64_t alone = hash_alone(path);
+    JoScene *scene = load_small(path);
+    uint32_t machines = scene->world->mind.machine_count;
+    for (int s = 0; s < STEPS; s++) {
+        for (uint32_t m = 0; m < machines && s % 2 == 0; m++) {
+            size_t length;
+            char *text = read_behaviour(scene, m, &length);
+            if (!reload(scene, m, text, length))
+                fail_msg("%s: %s", scene->world->mind.machines[m]->path, why);
+            jox_free(text);
+        }
+        step(scene, 1);
+    }
+    for (uint32_t m = 0; m < machines; m++)
+        assert_int_equal(scene->world->mind.machines[m]->version, 1 + STEPS / 2);
+    if (jo_world_hash(scene->world) != alone)
+        fail_msg("%s: reloads that change nothing change the hash", path);
+    jo_scene_free(scene);
+}
+
+static void a_reload_that_changes_nothing_leaves_the_hash(void **state) {
+    (void)state;
+    each_scene(reload_all_the_time);
+}
+
+static void watch_alone(const char *path) {
+    uint64_t alone = hash_alone(path);
+    JoScene *scene = load_small(path);
+    JoError error = {0};
+    assert_true(jo_scene_watch(scene, &error));
+    step(scene, STEPS);
+    if (jo_world_hash(scene->world) != alone)
+        fail_msg("%s: being watched changes the hash", path);
+    jo_scene_free(scene);
+}
+
+static void being_watched_leaves_the_hash(void **state) {
+    (void)state;
+    each_scene(watch_alone);
+}
+
+/* ---- memory ---- */
+
+static void ten_thousand_reloads_keep_nothing(void **state) {
+    (void)state;
+    static const char EVEN[] =
+        "local mine = memory { laps = 0, seen = false }\n" HEAD
+        "\"A\", defaults = { speed = uniform(1, 2), horizon = normal(1, 0.2, 0.2, 2) }, states = "
+        "{\n"
+        "  A = { steer = hold, push = 20 * own.horizon, { to = \"B\", when = after(0.2) } },\n"
+        "  B = { steer = hold, on_enter = function(me) me.laps = me.laps + 1 end,\n"
+        "    { to = \"A\", when = after(0.1) | stuck(1) } } } }\n";
+    static const char ODD[] =
+        "local mine = memory { seen = false, more = 1, laps = 0 }\n" HEAD
+        "\"B\", defaults = { speed = uniform(0.5, 1), perception = 3 }, states = {\n"
+        "  B = { steer = spread, { to = \"A\", when = function(me) return me.laps > 2 end } },\n"
+        "  C = { steer = hold }, A = { steer = hold, speed = own.perception / 3,\n"
+        "    { to = \"B\", when = after(0.1) } } } }\n";
+    JoScene *scene = load_own(PEOPLE(30), EVEN);
+    size_t before = 0;
+    for (int i = 0; i < 10200; i++) {
+        if (i == 200)
+            before = mallinfo2().uordblks;
+        if (!reload_text(scene, 0,
+                         i % 3 == 2 ? "return machine { name = "
+                         : i % 2    ? ODD
+                                    : EVEN) &&
+            i % 3 != 2)
+            fail_msg("%s", why);
+        if (i % 10 == 0)
+            step(scene, 1);
+    }
+    size_t after = mallinfo2().uordblks; /* zero under the sanitizers, which look for leaks */
+    if (after > before + 1000000)
+        fail_msg("%zu bytes more", after - before);
+    assert_int_equal(scene->world->mind.machines[0]->version, 1 + 6800);
+    jo_scene_free(scene);
+}
+
+/* ---- a file saved while the crowd runs ---- */
+
+static double wall(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+/* Steps until the scene has said it, for at most ten seconds. */
+static bool says(JoScene *scene, const char *text) {
+    for (double begun = wall(); wall() - begun < 10.0;) {
+        step(scene, 1);
+        if (said.data && strstr(said.data, text))
+            return true;
+        usleep(500);
+    }
+    return false;
+}
+
+static void a_saved_file_goes_live(void **state) {
+    (void)state;
+    JoScene *scene = load_own(PEOPLE(20), FAST("1.5", ""));
+    JoError error = {0};
+    assert_true(jo_scene_watch(scene, &error));
+    step(scene, 5);
+    write_file("own.lua", FAST("0.5", ""));
+    assert_true(says(scene, "version 2 is live"));
+    assert_true(speed_of(scene, 3) == 0.5);
+    write_file("own.lua", "return machine {");
+    assert_true(says(scene, "Version 2 keeps running"));
+    for (int i = 0; i < 30; i++) { /* saved again and again while the crowd runs */
+        char text[200];
+        snprintf(text, sizeof text, FAST("1.%02d", ""), i);
+        write_file("own.lua", text);
+        step(scene, 3);
+    }
+    write_file("own.lua", FAST("1.9", ""));
+    for (double begun = wall(); speed_of(scene, 3) != (double)1.9f && wall() - begun < 10.0;)
+        step(scene, 1), usleep(500);
+    assert_true(speed_of(scene, 3) == (double)1.9f);
+    write_file("own.lua", FAST("1.1", "")); /* freed while something is being loaded */
+    usleep(40000);
+    jo_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_beginning_of_a_behaviour_leaves_the_hash),
+        cmocka_unit_test(every_beginning_of_a_behaviour_is_refused_but_the_last),
+        cmocka_unit_test(a_reload_that_changes_nothing_leaves_the_hash),
+        cmocka_unit_test(being_watched_leaves_the_hash),
+        cmocka_unit_test(ten_thousand_reloads_keep_nothing),
+        cmocka_unit_test(a_saved_file_goes_live),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
