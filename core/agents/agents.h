@@ -15,6 +15,7 @@
 #define JOX_AGENT_COLUMNS(X)                                                                       \
     X(uint32_t, id)      /* counts up from 0, never reused */                                      \
     X(uint32_t, slot)    /* row of the handle table */                                             \
+    X(uint32_t, rank)    /* how many living agents have smaller ids; follows from `id` */          \
     X(uint16_t, group)   /* index of the scene's group */                                          \
     X(uint16_t, machine) /* index of the machine; JOX_NO_MACHINE has none */                       \
     X(uint16_t, state)   /* index of the state in the machine */                                   \
@@ -84,9 +85,9 @@ typedef struct JoxAgents {
     /* Handles: slot -> index (JOX_NO_INDEX when free) and generation. */
     uint32_t *slot_index, *slot_generation, *free_slots;
     uint32_t slot_count, slot_capacity, free_count, free_capacity;
-    /* id -> index, JOX_NO_INDEX when gone. */
-    uint32_t *id_index;
-    uint32_t id_capacity;
+    /* By rank, that is in ascending id: index and id. Room for `capacity`, so that they grow with
+       the most who ever lived at once, not with all ids ever given. */
+    uint32_t *by_rank, *rank_id;
     /* Periodic edges: who leaves at one side comes in at the other. Lengths of the period, 0 along
        an axis without; positions are kept within [origin, origin + period). */
     JoxV2 origin, period;
@@ -118,8 +119,12 @@ uint32_t jox_agents_add(JoxAgents *agents);
 uint32_t jox_agents_compact(JoxAgents *agents);
 /* Puts the agents in the order given: new index i is what was at order[i]; a permutation. */
 void jox_agents_permute(JoxAgents *agents, const uint32_t *order);
-/* Writes the indices of all agents in ascending id into `out` (count entries). */
+/* Writes the indices of all agents in ascending id into `out` (count entries). One at a time they
+   are agents->by_rank[0 .. count - 1]. */
 void jox_agents_by_id(const JoxAgents *agents, uint32_t *out);
+/* Index of the living agent with an id, or JOX_NO_INDEX. At once while nobody has left, else in
+   logarithmic time. */
+uint32_t jox_agents_find(const JoxAgents *agents, uint32_t id);
 void jox_agents_free(JoxAgents *agents);
 
 #endif

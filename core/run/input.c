@@ -13,8 +13,9 @@
 /* Index of the living agent with an id, or JOX_NO_INDEX with `error`. */
 static uint32_t find_agent(const JoScene *scene, uint32_t id, JoError *error) {
     const JoxAgents *a = &scene->world->agents;
-    if (id < a->next_id && a->id_index[id] != JOX_NO_INDEX)
-        return a->id_index[id];
+    uint32_t i = jox_agents_find(a, id);
+    if (i != JOX_NO_INDEX)
+        return i;
     if (id < a->next_id)
         jox_error(error, JO_INPUT, "agent %u has left", id);
     else

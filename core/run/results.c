@@ -116,10 +116,8 @@ static bool record_frame(JoScene *scene, JoError *error) {
     const uint32_t frame = (uint32_t)(scene->world->tick / scene->record_every);
     record_shapes(scene, frame);
     JoxRecordRow *rows = jox_recorder_take(scene->recorder, a->count, count, &bodies);
-    for (uint32_t id = 0; id < a->next_id; id++) { /* by id, whatever the order in memory */
-        uint32_t i = a->id_index[id];
-        if (i == JOX_NO_INDEX)
-            continue;
+    for (uint32_t rank = 0; rank < a->count; rank++) { /* whatever the order in memory */
+        const uint32_t i = a->by_rank[rank], id = a->id[i];
         float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
         rows[n++] = (JoxRecordRow){id,           a->x[i],           a->y[i],
                                    a->face_x[i], a->face_y[i],      state_number(scene, i),
@@ -180,11 +178,11 @@ static void sample_paths(JoScene *scene) {
     const JoxAgents *a = &world->agents;
     uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(FRAME / world->def.dt + 0.5));
     float time = (float)((double)world->tick * world->def.dt);
-    for (uint32_t id = 0; world->tick % every == 0 && id < a->next_id && id < JOX_MOST_PATHS;
-         id++) {
-        uint32_t i = a->id_index[id];
-        if (i != JOX_NO_INDEX)
-            jox_paths_add(scene->paths, id, false, a->group[i], time, a->x[i], a->y[i]);
+    for (uint32_t rank = 0; world->tick % every == 0 && rank < a->count; rank++) {
+        uint32_t i = a->by_rank[rank];
+        if (a->id[i] >= JOX_MOST_PATHS)
+            break;
+        jox_paths_add(scene->paths, a->id[i], false, a->group[i], time, a->x[i], a->y[i]);
     }
     for (uint32_t o = 0; world->tick % every == 0 && o < world->objects.count; o++) {
         const JoxObject *object = &world->objects.rows[o];

@@ -317,9 +317,8 @@ uint32_t jo_world_agents(const JoWorld *world, JoAgent *out, uint32_t capacity) 
     JOX_REQUIRE(world && (out || capacity == 0), 0);
     const JoxAgents *a = &world->agents;
     uint32_t n = 0;
-    for (uint32_t id = 0; id < a->next_id && n < capacity; id++)
-        if (a->id_index[id] != JOX_NO_INDEX)
-            out[n++] = handle_of(world, a->id_index[id]);
+    for (; n < a->count && n < capacity; n++)
+        out[n] = handle_of(world, a->by_rank[n]);
     return n;
 }
 

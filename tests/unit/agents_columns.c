@@ -31,7 +31,7 @@ static void columns_follow_their_agent(void **state) {
     for (uint32_t i = 0; i < 300; i++) {
         uint32_t id = a.id[i];
         assert_int_equal(id, order[i]);
-        assert_int_equal(a.id_index[id], i);
+        assert_int_equal(jox_agents_find(&a, id), i);
         assert_int_equal(a.slot_index[a.slot[i]], i);
         assert_true(a.x[i] == (float)id && a.tags[i] == (uint64_t)id << 40);
         assert_true(a.own[i * 5 + 1] == id && a.own[i * 5 + 4] == 0);
@@ -50,7 +50,7 @@ static void removing_keeps_order_and_retires_handles(void **state) {
     assert_int_equal(jox_agents_compact(&a), 2);
     assert_int_equal(a.count, 8);
     assert_int_equal(a.id[3], 4);
-    assert_int_equal(a.id_index[3], JOX_NO_INDEX);
+    assert_int_equal(jox_agents_find(&a, 3), JOX_NO_INDEX);
     assert_int_equal(a.slot_index[slot], JOX_NO_INDEX);
     assert_int_equal(a.slot_generation[slot], generation + 1);
     uint32_t at = jox_agents_add(&a);
@@ -59,6 +59,39 @@ static void removing_keeps_order_and_retires_handles(void **state) {
     jox_agents_by_id(&a, by_id);
     for (int i = 1; i < 9; i++)
         assert_true(a.id[by_id[i - 1]] < a.id[by_id[i]]);
+    jox_agents_free(&a);
+}
+
+/* A million births and deaths among 100: no table grows with the number of ids ever given. */
+static void turnover_takes_no_memory(void **state) {
+    (void)state;
+    JoxAgents a = {0};
+    uint64_t allocations = 0;
+    for (uint32_t i = 0; i < 100; i++)
+        jox_agents_add(&a);
+    for (uint32_t round = 0; round < 20000; round++) {
+        uint32_t order[100], by_id[100], gone = 0;
+        for (uint32_t i = 0; i < 100; i++)
+            order[i] = (i * 37 + round) % 100;
+        jox_agents_permute(&a, order);
+        for (uint32_t i = 0; i < 100; i++)
+            a.removed[i] = i % 2 == 0;
+        gone = a.id[50];
+        assert_int_equal(jox_agents_compact(&a), 50);
+        assert_int_equal(jox_agents_find(&a, gone), JOX_NO_INDEX);
+        for (int i = 0; i < 50; i++)
+            jox_agents_add(&a);
+        jox_agents_by_id(&a, by_id);
+        for (uint32_t n = 0; n < 100; n++) {
+            assert_true(n == 0 || a.id[by_id[n]] > a.id[by_id[n - 1]]);
+            assert_int_equal(jox_agents_find(&a, a.id[by_id[n]]), by_id[n]);
+        }
+        if (round == 100)
+            allocations = jox_alloc_count();
+    }
+    assert_int_equal(a.next_id, 100 + 1000000);
+    assert_int_equal(jox_alloc_count(), allocations);
+    assert_int_equal(jox_agents_find(&a, a.next_id), JOX_NO_INDEX);
     jox_agents_free(&a);
 }
 
@@ -109,6 +142,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(columns_follow_their_agent),
         cmocka_unit_test(removing_keeps_order_and_retires_handles),
+        cmocka_unit_test(turnover_takes_no_memory),
         cmocka_unit_test(a_new_agent_has_the_defaults),
         cmocka_unit_test(every_index_runs_once_in_the_same_chunks),
     };

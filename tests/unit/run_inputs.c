@@ -182,9 +182,9 @@ static void a_push_acts_for_one_step(void **state) {
     step(pushed, 1);
     step(pair, 1);
     const JoxAgents *a = &pushed->world->agents, *b = &pair->world->agents;
-    double gain = (double)(a->vx[a->id_index[3]] - b->vx[b->id_index[3]]);
+    double gain = (double)(a->vx[jox_agents_find(a, 3)] - b->vx[jox_agents_find(b, 3)]);
     assert_true(gain > 0.35 && gain < 0.5); /* m/s: 800 N on 80 kg for 0.05 s, less damping */
-    assert_true(a->ext_x[a->id_index[3]] == 0.0f);
+    assert_true(a->ext_x[jox_agents_find(a, 3)] == 0.0f);
     jo_scene_free(pushed);
     jo_scene_free(pair);
 }
@@ -193,7 +193,7 @@ static void a_push_acts_for_one_step(void **state) {
 
 static double parameter(const JoScene *scene, uint32_t id, JoxParameter p) {
     const JoxAgents *a = &scene->world->agents;
-    return (double)a->param[p][a->id_index[id]];
+    return (double)a->param[p][jox_agents_find(a, id)];
 }
 
 static void a_parameter_is_set_for_all(void **state) {
