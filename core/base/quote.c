@@ -36,8 +36,18 @@ static void enclose(JoxText *out, const char *text, char mark, const char *inner
     jox_free(clean);
 }
 
+/* In double quotes, with octal escapes: single quotes cannot hold every text, since gnuplot 5.4
+   takes a pair of them at the beginning of a string, or next to another pair, for its end. */
 void jox_quote_gnuplot(JoxText *out, const char *text) {
-    enclose(out, text, '\'', "''");
+    char *clean = cleaned(text);
+    jox_text_append(out, "\"", 1);
+    for (const unsigned char *c = (const unsigned char *)clean; *c; c++)
+        if (*c >= 0x80 || is_plain((char)*c, " -_.,:;()/+=?!*"))
+            jox_text_append(out, (const char *)c, 1);
+        else
+            jox_text_printf(out, "\\%03o", *c);
+    jox_text_append(out, "\"", 1);
+    jox_free(clean);
 }
 
 void jox_quote_gnuplot_file(JoxText *out, const char *text) {

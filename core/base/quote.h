@@ -12,8 +12,8 @@
    lines, which mean nothing there. */
 typedef void JoxQuote(JoxText *out, const char *text);
 
-/* A gnuplot string in single quotes, in which gnuplot expands neither `commands` nor @macros. Text
-   that is shown also needs `noenhanced`, else _ ^ { } are markup. */
+/* A gnuplot string in double quotes, with octal escapes for all that gnuplot would expand or that
+   would end the string. Text that is shown also needs `noenhanced`, else _ ^ { } are markup. */
 JoxQuote jox_quote_gnuplot;
 /* The name of a file for gnuplot: as above, with "./" before a relative path, since names that
    begin with < or | would be commands. */

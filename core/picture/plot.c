@@ -87,7 +87,7 @@ void jox_plot_begin(FILE *script, const char *stem, bool svg, int width, int hei
     fprintf(script, "reset\nset terminal %s size %d,%d font 'sans,%d'\nset output ",
             svg ? "svg background '#ffffff'" : "pngcairo", width, height, svg ? 13 : 12);
     jox_plot_file(script, stem, svg ? "svg" : "png");
-    fputc('\n', script);
+    fputs("\nset key noautotitle\n", script); /* names of files are no titles */
 }
 
 void jox_plot_title(FILE *script, const char *title) {
