@@ -8,6 +8,7 @@
 
 #include "base/mem.h"
 #include "picture/html.h"
+#include "picture/probe_files.h"
 
 /* ---- figures ---- */
 

@@ -14,7 +14,7 @@
 #include "jostle.h"
 #include "machine/mind.h"
 #include "nav/nav.h"
-#include "world/hands.h"
+#include "world/drag.h"
 #include "world/input.h"
 #include "world/inspected.h"
 #include "world/statistics.h"
@@ -43,7 +43,7 @@ struct JoWorld {
     JoxForces *forces;
     JoxBodies *bodies;
     JoxObjects objects; /* what agents see of the bodies */
-    JoxHands hands;
+    JoxDrags drags;
     JoxInspection inspection;
 
     JoxWays *ways;
@@ -65,6 +65,7 @@ struct JoWorld {
     uint32_t *disc_agents, disc_capacity;
 
     JoxStatistics statistics;
+    char failure[256]; /* why no further step can be done; "" while none failed */
 };
 
 /* Fills an error, which may be NULL, with a formatted text. */
@@ -88,7 +89,7 @@ void jox_world_set_walls(JoWorld *world, JoxWalls *walls);
 /* Opens or closes the walls of a name; says how many there are. */
 uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open);
 /* Bodies that are picked up, carried and thrown in this step. */
-void jox_world_grip(JoWorld *world);
+void jox_world_carry(JoWorld *world);
 /* Throws a body, from a point (of its shape's own frame, m) or, with NULL, from where it is; m/s
    and rad/s. Who carries it loses it. False for a static body or none. */
 bool jox_world_throw(JoWorld *world, uint32_t row, const double from[3], const double velocity[3],
@@ -112,11 +113,15 @@ JoxGrabbed jox_world_grab(JoWorld *world, uint32_t row, const double to[3], bool
 bool jox_world_release(JoWorld *world, uint32_t row);
 /* In a step: gives the bodies that are pulled their forces. */
 void jox_world_pull(JoWorld *world);
-/* In a step: who is before a glued body or touches it; what broke. */
+/* In a step: who is before a bonded body or touches it; what broke. */
 void jox_world_note_touch(JoWorld *world);
 void jox_world_note_breaks(JoWorld *world, const JoxBodiesReport *report);
-/* One step. */
-void jox_world_step(JoWorld *world);
+/* One step. False, with the reason in `failure`, where a number of an agent is not finite after it;
+   from then on nothing is done. */
+bool jox_world_step(JoWorld *world);
+/* Whether all numbers of agents that the next step reads are finite; else `failure` names the
+   agent, its machine and its state. */
+bool jox_world_is_finite(JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX. */
 uint32_t jox_world_find(const JoWorld *world, JoAgent agent);
 uint64_t jox_world_hash(const JoWorld *world);

@@ -21,8 +21,8 @@
 #include "picture/palette.h"
 #include "picture/paths.h"
 #include "picture/plot.h"
-#include "record/danger.h"
-#include "record/probes/probe.h"
+#include "picture/probe_files.h"
+#include "report/danger_files.h"
 
 /* Each would leave a file that begins with "pwned" if it were obeyed. */
 static const char *const HOSTILE[] = {

@@ -1,0 +1,36 @@
+/* One step of a running scene, and its end. */
+#include "base/assert.h"
+#include "base/mem.h"
+#include "run/run.h"
+
+bool jo_scene_step(JoScene *scene, JoError *error) {
+    JOX_REQUIRE(scene && !scene->finished, false);
+    jox_run_inputs(scene);
+    jox_run_reload(scene);
+    jox_run_events(scene);
+    jox_run_sources(scene);
+    if (!jox_world_step(scene->world)) {
+        jox_error(error, JO_FAILED, "%s", scene->world->failure);
+        return false;
+    }
+    jox_run_sinks(scene);
+    jox_run_leavers(scene);
+    const char *stalled = jox_lua_stalled(scene->lua);
+    if (stalled) {
+        jox_error(error, JO_FAILED,
+                  "%s: its functions take far longer than their instructions explain (look-ups "
+                  "among keys that collide, comparisons of long texts); the run was stopped",
+                  stalled);
+        return false;
+    }
+    return jox_run_tell_frame(scene, error) && jox_run_logged(scene, error);
+}
+
+bool jo_scene_finish(JoScene *scene, JoError *error) {
+    JOX_REQUIRE(scene, false);
+    if (scene->finished)
+        return true;
+    scene->finished = true;
+    bool good = !scene->world || jox_run_tell_end(scene, error);
+    return jox_run_end_log(scene, good ? error : NULL) && good;
+}
