@@ -437,6 +437,7 @@ void jo_scene_free(JoScene *scene) {
         return;
     jo_scene_finish(scene, NULL);
     jox_regions_free(scene->regions);
+    jox_density_free(scene->peak);
     jox_run_end_measuring(scene);
     jox_live_end(scene);
     jox_run_unwatch(scene);

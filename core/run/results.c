@@ -12,6 +12,12 @@
 
 static const double FRAME = 0.1;  /* s between recorded frames, or a step where that is longer */
 static const double SAMPLE = 2.0; /* s between density samples */
+/* Densities of the figure density_max, which every run has: people per m2 by the Gaussian kernel of
+   density.h, read at points so far apart, m; farther in areas of more points than MOST_POINTS.
+   A crowd's density changes little over that distance; a report's map is finer, and takes ten times
+   as long. */
+static const float PEAK_CELL = 0.5f;
+static const float MOST_POINTS = 1e6f;
 static const float MARGIN = 2.0f; /* m about the walls and people of a scene without bounds */
 
 static bool fail(JoError *error, JoxText *why) {
@@ -199,6 +205,25 @@ static void make_regions(JoScene *scene) {
                         scene->spec->regions[r].points, scene->spec->regions[r].count);
 }
 
+static JoxDensity *make_peak(const JoScene *scene) {
+    JoxV2 low, high;
+    jox_run_area(scene, &low, &high);
+    float cell = sqrtf((high.x - low.x) * (high.y - low.y) / MOST_POINTS);
+    return jox_density_create(low, high, jox_maxf(cell, PEAK_CELL), JOX_DENSITY_KERNEL);
+}
+
+/* Of the samples so far; of the present where a run is too short to have one. */
+double jox_run_density_max(const JoScene *scene) {
+    if (scene->peak && scene->peak->frames)
+        return scene->peak->most;
+    const JoxAgents *a = &scene->world->agents;
+    JoxDensity *now = make_peak(scene);
+    jox_density_add(now, a->x, a->y, a->count, jo_world_time(scene->world));
+    double most = now->most;
+    jox_density_free(now);
+    return most;
+}
+
 static void sample(JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->agents;
@@ -210,6 +235,7 @@ static void sample(JoScene *scene) {
         return;
     if (scene->density)
         jox_density_add(scene->density, a->x, a->y, a->count, time);
+    jox_density_add(scene->peak, a->x, a->y, a->count, time);
     jox_regions_frame(scene->regions, a->x, a->y, a->prev_x, a->prev_y, a->count, world->def.dt);
 }
 
@@ -237,11 +263,16 @@ static bool draw(JoScene *scene, JoError *error) {
     double until = jo_world_time(scene->world);
     snprintf(title, sizeof title, "%.120s: density, t = %.0f to %.0f s, %u agents", name,
              scene->spec->heatmap_from, until, scene->world->agents.count);
-    if (scene->density->frames == 0) /* a run shorter than the first sample */
-        jox_density_add(scene->density, scene->world->agents.x, scene->world->agents.y,
-                        scene->world->agents.count, until);
+    if (!scene->peak)
+        scene->peak = make_peak(scene);
+    if (scene->density->frames == 0) { /* a run shorter than the first sample */
+        const JoxAgents *a = &scene->world->agents;
+        jox_density_add(scene->density, a->x, a->y, a->count, until);
+        if (scene->peak->frames == 0)
+            jox_density_add(scene->peak, a->x, a->y, a->count, until);
+    }
     bool good =
-        jox_plot_density(scene->report, scene->density, &scene->world->all_walls, title, &why);
+        jox_plot_density(scene->report, scene->density, scene->peak, &scene->world->all_walls, title, &why);
     if (good && scene->regions && scene->regions->count) {
         snprintf(title, sizeof title, "%.120s: mean speed per region, t = %.0f to %.0f s", name,
                  scene->spec->heatmap_from, until);
@@ -304,8 +335,9 @@ bool jox_run_collect(JoScene *scene, JoError *error) {
         scene->message(scene->message_context, scene->world->mind.trace.data);
     if (!scene->regions)
         make_regions(scene);
-    if (scene->density || scene->regions->count)
-        sample(scene);
+    if (!scene->peak)
+        scene->peak = make_peak(scene);
+    sample(scene);
     jox_run_measure(scene);
     if (scene->live)
         jox_live_note(scene);
@@ -365,8 +397,6 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
     if (scene->report) {
         good = draw(scene, error) && good;
     }
-    if (scene->density)
-        scene->density_most = scene->density->most;
     if (scene->data)
         good = ((jox_run_write_probes(scene, scene->data, NULL, &why) &&
                  jox_danger_write(scene->danger, scene->data, NULL, NULL, &why)) ||

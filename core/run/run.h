@@ -56,7 +56,8 @@ struct JoScene {
     size_t record_shape_capacity;
     char *report; /* directory, or NULL */
     char *data;   /* directory of the probes' CSV files, or NULL */
-    JoxDensity *density;
+    JoxDensity *density; /* the report's map */
+    JoxDensity *peak;    /* the same every run has, for the figure density_max */
     JoxRegions *regions;
     JoxPaths *paths;
     JoxDanger *danger;                                     /* NULL where nothing is reported */
@@ -66,7 +67,6 @@ struct JoScene {
     double progress_until, progress_begun, progress_shown; /* s */
     int progress_tenth;
     bool finished;
-    float density_most; /* of the frames that a report sampled, 1/m2 */
     char *input_path;   /* of the input log that is played, or NULL */
     char input_sha256[65];
     FILE *log; /* input log that is written, or NULL */
@@ -214,6 +214,8 @@ bool jox_run_write_probes(const JoScene *scene, const char *folder, const char *
                           JoxText *error);
 /* The n-th probe, or NULL behind the last. */
 const JoxProbe *jox_run_probe(const JoScene *scene, uint32_t n);
+/* Greatest density at any time, 1/m2: the figure density_max (see results.c). */
+double jox_run_density_max(const JoScene *scene);
 /* What a report collects, from here on. */
 void jox_run_begin_report(JoScene *scene);
 void jox_run_end_measuring(JoScene *scene);
