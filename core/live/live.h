@@ -67,9 +67,6 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
 void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out);
 bool jox_live_people(JoScene *scene, JoxBytes *out);
 void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out);
-/* After each step of a scene that has been shown: counts the transitions that were taken. */
-void jox_live_note(JoScene *scene);
-void jox_live_end(JoScene *scene);
 
 /* ---- packing, from whatever source ---- */
 

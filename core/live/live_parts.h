@@ -42,8 +42,10 @@ struct JoxLive {
     size_t people_capacity;
 };
 
-/* Made on first use. */
+/* Attached to the scene on first use. */
 JoxLive *jox_live_of(JoScene *scene);
+/* After each step: counts the transitions that were taken. */
+void jox_live_count(JoxLive *live, const JoScene *scene);
 /* Agent that the scene's player drives, by id; JOX_NO_INDEX: none. */
 uint32_t jox_live_player(const JoScene *scene);
 /* Brings the grid up to date; with `moves`, velocities too. */

@@ -296,10 +296,10 @@ uint64_t jox_live_version(const JoScene *scene) {
         jox_hash_add(&hash, world->places[p].points, world->places[p].count * sizeof(JoxV2));
     for (uint32_t row = 0; row < jox_bodies_rows(world->bodies); row++) {
         const uint32_t id = jox_bodies_id(world->bodies, row);
-        JoxBodyGlue glue;
-        jox_bodies_glue(world->bodies, row, &glue);
+        JoxBodyBonds bonds;
+        jox_bodies_bonds(world->bodies, row, &bonds);
         jox_hash_add(&hash, &id, sizeof id);
-        jox_hash_add(&hash, &glue.blocks, sizeof glue.blocks);
+        jox_hash_add(&hash, &bonds.blocks, sizeof bonds.blocks);
     }
     return jox_hash_end(&hash);
 }

@@ -51,8 +51,7 @@ static void push_taken(JoxLive *live, JoxLiveTaken taken) {
     live->fired[taken.which]++;
 }
 
-void jox_live_note(JoScene *scene) {
-    JoxLive *live = jox_live_of(scene);
+void jox_live_count(JoxLive *live, const JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxMind *mind = &world->mind;
     if (!same_machines(live, mind) || !live->fired)

@@ -28,8 +28,6 @@ static void pause_at_end(JoxViewing *v) {
 static void step(JoxViewing *v) {
     JoError error = {0};
     if (jo_scene_step(v->scene, &error)) {
-        if (jox_view_clients(v->view))
-            jox_live_note(v->scene);
         pause_at_end(v);
     } else {
         v->failed = v->session.paused = true;

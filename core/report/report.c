@@ -6,6 +6,8 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "picture/plot.h"
+#include "picture/probe_files.h"
+#include "report/danger_files.h"
 #include "report/report.h"
 
 enum { REPORT_COOKIE = 0x4a4f5250 };

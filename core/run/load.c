@@ -6,7 +6,6 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "live/live.h"
 #include "run/run.h"
 
 enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 256 << 20 };
@@ -217,6 +216,9 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         jox_run_populate(scene, diagnostics);
         jox_run_check_names(scene, diagnostics);
         jox_run_name_events(scene, diagnostics);
+        jox_run_collect_regions(scene);
+        jox_run_collect_peak(scene);
+        jox_run_collect_probes(scene);
     }
 }
 
@@ -427,8 +429,9 @@ JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError
         jo_scene_free(other);
         return NULL;
     }
-    if (other)
-        jox_run_begin_report(other);
+    if (other) {
+        jox_run_collect_danger(other);
+    }
     return other;
 }
 
@@ -436,10 +439,8 @@ void jo_scene_free(JoScene *scene) {
     if (!scene)
         return;
     jo_scene_finish(scene, NULL);
-    jox_regions_free(scene->regions);
-    jox_density_free(scene->peak);
-    jox_run_end_measuring(scene);
-    jox_live_end(scene);
+    jox_run_release_listeners(scene);
+    jox_run_free_frame(scene);
     jox_run_unwatch(scene);
     free_def(scene);
     jo_world_free(scene->world); /* before Lua, whose machines it holds */
@@ -447,11 +448,8 @@ void jo_scene_free(JoScene *scene) {
     jox_scene_free(scene->spec);
     jox_mods_free(scene->mods);
     jox_diag_free(&scene->mod_problems);
-    jox_free(scene->record_shapes);
     jox_free(scene->party_left);
     jox_free(scene->party_team);
-    jox_free(scene->report);
-    jox_danger_free(scene->danger);
     jox_exits_free(&scene->exits);
     jox_free(scene->input_path);
     jox_input_free(&scene->input);

@@ -110,14 +110,15 @@ static void add_events(JoxText *out, const JoScene *scene) {
 }
 
 static void add_regions(JoxText *out, const JoScene *scene) {
-    if (!scene->regions || scene->regions->count == 0)
+    const JoxRegions *regions = jox_run_regions(scene);
+    if (!regions)
         return;
     jox_text_add(out, ",\n \"regions\": {");
-    for (uint32_t r = 0; r < scene->regions->count; r++) {
+    for (uint32_t r = 0; r < regions->count; r++) {
         jox_text_add(out, r ? ", " : "");
-        jox_text_json(out, scene->regions->items[r].name);
+        jox_text_json(out, regions->items[r].name);
         jox_text_add(out, ": ");
-        jox_text_json_number(out, jox_region_speed(&scene->regions->items[r]));
+        jox_text_json_number(out, jox_region_speed(&regions->items[r]));
     }
     jox_text_add(out, "}");
 }
@@ -125,9 +126,9 @@ static void add_regions(JoxText *out, const JoScene *scene) {
 static void add_danger(JoxText *out, const JoScene *scene) {
     jox_text_add(out, ",\n \"danger\": {");
     jox_exits_json(&scene->exits, scene->world->agents.count, out);
-    if (scene->danger) {
+    if (jox_run_danger(scene)) {
         jox_text_add(out, ",\n  ");
-        jox_danger_json(scene->danger, out);
+        jox_danger_json(jox_run_danger(scene), out);
     }
     jox_text_add(out, "}");
 }
@@ -202,7 +203,7 @@ static void add_exchange(JoxText *out, const JoxStatistics *s) {
                     (unsigned long long)e->contacts, e->impulse, e->residual / e->impulse);
 }
 
-/* How far the first glued body of the scene, or its greatest piece, has come, m, and turned, deg.
+/* How far the first bonded body of the scene, or its greatest piece, has come, m, and turned, deg.
  */
 static void add_way(JoxText *out, const JoScene *scene, uint32_t body) {
     const JoxBodyDef *def = &scene->spec->bodies[body].def;
@@ -218,7 +219,7 @@ static void add_way(JoxText *out, const JoScene *scene, uint32_t body) {
     jox_text_printf(out, ", \"moved\": %.4f, \"turned\": %.3f", sqrt(x * x + y * y), turned);
 }
 
-/* Of scenes with glued blocks. */
+/* Of scenes with bonded blocks. */
 static void add_bonds(JoxText *out, const JoScene *scene) {
     const JoxBondStatistics *s = &scene->world->statistics.bonds;
     uint32_t body = 0, held = 0;
@@ -228,9 +229,9 @@ static void add_bonds(JoxText *out, const JoScene *scene) {
     if (body == scene->spec->body_count)
         return;
     for (uint32_t o = 0; o < scene->world->objects.count; o++) {
-        JoxBodyGlue glue;
-        jox_bodies_glue(scene->world->bodies, o, &glue);
-        held += glue.bonds;
+        JoxBodyBonds bonds;
+        jox_bodies_bonds(scene->world->bodies, o, &bonds);
+        held += bonds.bonds;
     }
     jox_text_printf(out, ",\n \"bonds\": {\"held\": %u, \"broken\": %llu, \"pieces\": %u", held,
                     (unsigned long long)s->broken, s->pieces + 1);

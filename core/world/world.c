@@ -128,7 +128,7 @@ uint64_t jox_world_hash(const JoWorld *world) {
     for (uint32_t rank = 0; rank < a->count; rank++)
         hash_agent(&hash, &world->mind, a->by_rank[rank]);
     jox_bodies_hash(world->bodies, &hash);
-    jox_hands_hash(&world->hands, &hash);
+    jox_drags_hash(&world->drags, &hash);
     if (world->mind.called_count) /* what will be heard in the next step */
         jox_hash_add(&hash, world->mind.called,
                      world->mind.called_count * sizeof *world->mind.called);

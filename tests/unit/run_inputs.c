@@ -347,7 +347,7 @@ static void the_oldest_box_goes(void **state) {
             step(scene, 1);
     }
     assert_int_equal(jo_world_body_count(world), before + JOX_MOST_BOXES);
-    assert_int_equal(world->hands.boxes[0], before + 7); /* ids are not used again */
+    assert_int_equal(world->drags.boxes[0], before + 7); /* ids are not used again */
     assert_int_equal(jox_bodies_find(world->bodies, before + 6), JOX_NO_BODY);
     step(scene, 3);
     JoxPose pose = pose_of(scene, jox_bodies_find(world->bodies, before + 7));

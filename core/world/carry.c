@@ -28,7 +28,7 @@ static void carry_along(JoWorld *w) {
     }
 }
 
-void jox_world_grip(JoWorld *w) {
+void jox_world_carry(JoWorld *w) {
     const JoxAgents *a = &w->agents;
     carry_along(w);
     for (uint32_t g = 0; g < w->mind.grip_count; g++) {
