@@ -13,7 +13,9 @@ static const char HELP[] =
     "  --steps N          or N steps\n"
     "  --dt S             time step, s (0.001 to 0.2)\n"
     "  --seed N           seed of all random numbers\n"
-    "  --seeds N          run with N seeds; the summary gives mean and 5-95 % of each figure\n"
+    "  --seeds N          run with N seeds; the summary gives mean and 5-95 % of each figure, and "
+    "once,\n"
+    "                     or as a list, what is none\n"
     "  --threads N        threads; never changes a result (default 1)\n"
     "  --isa NAME         instruction set of the kernels: scalar\n"
     "  --set PATH=VALUE   replace a value of the scene, e.g. groups.pilgrims.count=5000\n"
@@ -24,7 +26,8 @@ static const char HELP[] =
     "density,\n"
     "                     what probes measure; runs once more at half the step to show its share\n"
     "  --no-half-step     do not run once more\n"
-    "  --data DIR         write the CSV files of the scene's probes, and no pictures\n"
+    "  --data DIR         write the CSV files of the scene's probes, and no pictures;\n"
+    "                     with --seeds into DIR/seed-N for each seed\n"
     "  --summary FILE     write the run's figures as JSON; '-' is standard output\n"
     "  --mod DIR          take a mod: a folder, or the name of one that lies in scenes' mods/ or "
     "in the\n"
@@ -248,11 +251,18 @@ static int show(Run *run, char **summary) {
 static int simulate_seeds(Run *run) {
     char **summaries = calloc(run->seeds, sizeof *summaries);
     uint64_t first = run->def.has_seed ? run->def.seed : 1;
+    const char *data = run->data;
+    char folder[4096];
     int status = JO_OK;
     size_t done = 0;
     for (uint64_t i = 0; i < run->seeds && status == JO_OK && !interrupted; i++) {
         run->def.seed = first + i;
         run->def.has_seed = true;
+        if (data) { /* each seed its own files */
+            snprintf(folder, sizeof folder, "%.4000s/seed-%llu", data,
+                     (unsigned long long)run->def.seed);
+            run->data = folder;
+        }
         if (!run->quiet)
             fprintf(stderr, "seed %llu\n", (unsigned long long)run->def.seed);
         status = simulate(run, &summaries[i]);
@@ -265,6 +275,7 @@ static int simulate_seeds(Run *run) {
                      : complain(&error, false);
         jo_free(all);
     }
+    run->data = data;
     for (size_t i = 0; i < run->seeds; i++)
         jo_free(summaries[i]);
     free(summaries);
