@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "base/diag.h"
+#include "base/json_writer.h"
 #include "base/overlay.h"
 #include "jostle.h"
 #include "lua/loader.h"
@@ -35,7 +36,8 @@ struct JoScene {
     JoxLua *lua;
     JoxScope scope;
     uint32_t first_antipode; /* places from here on belong to single agents */
-    double spawned[256];     /* per source: agents so far by rate */
+    uint32_t place_capacity; /* of the world's places, those included */
+    double *spawned;         /* per source: agents so far by rate */
     JoMessage *message;
     void *message_context;
 
@@ -134,8 +136,6 @@ void jox_run_log_origin(JoScene *scene);
 void jox_run_check_log(const JoScene *scene);
 /* What files were when the run began that a log tells of. */
 void jox_run_before(JoxOverlay *overlay, const JoxInputLog *log);
-/* Swaps files as a log tells; false with `error` where they do not go live. */
-bool jox_run_play_files(JoScene *scene, const JoxInputEntry *entry, JoError *error);
 /* inspect_graph.c: who set a parameter of a state (NULL: of the defaults), and to what. */
 typedef struct JoxSetBy {
     JoxText
@@ -147,9 +147,11 @@ typedef struct JoxSetBy {
 JoxSetBy jox_run_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
                         int parameter);
 void jox_set_by_free(JoxSetBy *by);
-/* A JSON array of the scene's machines: name, path, version, start; defaults and states with their
+/* Writes the scene's machines, an array: name, path, version, start; defaults and states with their
    parameters; transitions with their conditions as written. */
-void jox_run_graph(const JoScene *scene, JoxText *out);
+void jox_run_graph(const JoScene *scene, JoxJson *json, const char *key);
+/* Adds what jo_scene_inspect tells of an agent to an open object; false if there is nobody. */
+bool jox_run_inspect(JoScene *scene, uint32_t slot, JoxJson *json);
 /* Appends the line of Lua that would set a parameter for good, and where it belongs; false with
    why not. */
 bool jox_run_lua_line(const JoScene *scene, const char *machine, const char *state,

@@ -227,13 +227,13 @@ static void the_program_finds_the_nearest_velocity(void **state) {
     (void)state;
     int feasible = 0;
     for (uint32_t trial = 0; trial < 800; trial++) {
-        JoxWallFilee planes[8];
+        JoxPlane planes[8];
         uint32_t count = 1 + trial % 8;
         for (uint32_t k = 0; k < count; k++) {
             double angle = 6.283185 * jox_random_unit(trial, k, 1, JOX_DRAW_FILL, 0);
             planes[k] =
-                (JoxWallFilee){{(float)cos(angle), (float)sin(angle)},
-                               (float)(1.6 * jox_random_unit(trial, k, 1, JOX_DRAW_FILL, 1) - 1.2)};
+                (JoxPlane){{(float)cos(angle), (float)sin(angle)},
+                           (float)(1.6 * jox_random_unit(trial, k, 1, JOX_DRAW_FILL, 1) - 1.2)};
         }
         JoxV2 wanted = {(float)(3 * jox_random_unit(trial, 9, 1, JOX_DRAW_FILL, 0) - 1.5),
                         (float)(3 * jox_random_unit(trial, 9, 1, JOX_DRAW_FILL, 1) - 1.5)};

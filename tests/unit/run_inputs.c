@@ -263,23 +263,26 @@ static void the_graph_says_who_set_what(void **state) {
     JoxText text = {0};
     char wanted[400];
     does(scene, "set m Wait max_speed 0.7");
-    jox_run_graph(scene, &text);
+    JoxJson json = jox_json_begin(&text, 0);
+    jox_run_graph(scene, &json, NULL);
     snprintf(wanted, sizeof wanted,
-             "{\"name\":\"speed\",\"value\":null,\"text\":\"0.5 * now.speed + 0.4\","
-             "\"set\":\"state Walk %s/own.lua:3\",\"least\":0,\"most\":20,\"unit\":\"m/s\"}",
+             "{\"name\": \"speed\", \"value\": null, \"text\": \"0.5 * now.speed + 0.4\", "
+             "\"set\": \"state Walk %s/own.lua:3\", \"least\": 0, \"most\": 20, \"unit\": \"m/s\"}",
              folder);
     assert_non_null(strstr(text.data, wanted));
-    snprintf(wanted, sizeof wanted, "\"text\":\"normal(1.2, 0.2)\",\"set\":\"defaults %s/own.lua:2",
-             folder);
+    snprintf(wanted, sizeof wanted,
+             "\"text\": \"normal(1.2, 0.2)\", \"set\": \"defaults %s/own.lua:2", folder);
     assert_non_null(strstr(text.data, wanted));
-    assert_non_null(strstr(text.data, "{\"name\":\"max_speed\",\"value\":0.7,\"text\":\"0.7\","
-                                      "\"set\":\"live page\""));
-    assert_non_null(strstr(text.data, "{\"name\":\"yield\",\"value\":0.5,\"text\":\"\","
-                                      "\"set\":\"engine\""));
-    assert_non_null(strstr(
-        text.data, "{\"id\":\"Wait\",\"from\":\"Walk\",\"to\":\"Wait\",\"text\":\"heard "
-                   "\\\"stop\\\" & ~mine.met & mine.laps:above(1)\",\"line\":4,\"chance\":null}"));
-    assert_non_null(strstr(text.data, "\"text\":\"after(60)\",\"line\":6,\"chance\":0.5}"));
+    assert_non_null(strstr(text.data,
+                           "{\"name\": \"max_speed\", \"value\": 0.7, \"text\": \"0.7\", "
+                           "\"set\": \"live page\""));
+    assert_non_null(strstr(text.data, "{\"name\": \"yield\", \"value\": 0.5, \"text\": \"\", "
+                                      "\"set\": \"engine\""));
+    assert_non_null(
+        strstr(text.data,
+               "{\"id\": \"Wait\", \"from\": \"Walk\", \"to\": \"Wait\", \"text\": \"heard "
+               "\\\"stop\\\" & ~mine.met & mine.laps:above(1)\", \"line\": 4, \"chance\": null}"));
+    assert_non_null(strstr(text.data, "\"text\": \"after(60)\", \"line\": 6, \"chance\": 0.5}"));
     jox_text_free(&text);
     assert_true(jox_run_lua_line(scene, "m", "Wait", "max_speed", 0.7, &text));
     snprintf(wanted, sizeof wanted,
