@@ -287,7 +287,8 @@ static void who_picks_up_has_not_thrown(void **state) {
         skip();
     static const char FETCH[] =
         HEAD "\"Take\", states = {\n"
-             "  Take = { steer = hold, take = nearest \"ball\", { to = \"Wait\", when = after(0.5) } },\n"
+             "  Take = { steer = hold, take = nearest \"ball\", { to = \"Wait\", when = after(0.5) "
+             "} },\n"
              "  Wait = { steer = hold, { to = \"Throw\", when = after(1) } },\n"
              "  Throw = { steer = hold, throw = { nearest \"ball\", at = \"post\", speed = 6 },\n"
              "    { to = \"End\", when = after(0.5) } }, End = { steer = hold } } }\n";
