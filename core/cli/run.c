@@ -48,7 +48,8 @@ static const char HELP[] =
     "                     with its token\n"
     "  --page DIR, --three DIR\n"
     "                     folders of the page's files and of three.js\n\n"
-    "exit status: 0 done, 1 the run failed, 2 wrong usage, 3 bad input\n";
+    "exit status: 0 done, 1 the run failed, or a behaviour was suspended by its own errors,\n"
+    "2 wrong usage, 3 bad input\n";
 
 typedef struct Run {
     JoSceneDef def;
@@ -59,6 +60,7 @@ typedef struct Run {
     JoViewDef live; /* of the page */
     bool view;
     bool has_seconds, has_steps, watch, no_watch, has_trace, quiet, profile, no_half;
+    bool suspended; /* functions of a behaviour failed so often that it did not run as written */
 } Run;
 
 static volatile sig_atomic_t interrupted;
@@ -185,8 +187,17 @@ static int write_page(const Run *run, const JoScene *scene, uint64_t steps) {
     return ok ? JO_OK : complain(&written, false);
 }
 
+/* Whether functions of behaviours were suspended, which it says. */
+static bool tell_suspended(const JoScene *scene) {
+    char *which = jo_scene_suspended(scene);
+    if (which)
+        fprintf(stderr, "jostle run: %s\n", which);
+    jo_free(which);
+    return which != NULL;
+}
+
 /* Loads and simulates once; *summary receives JSON when asked for. */
-static int simulate(const Run *run, char **summary) {
+static int simulate(Run *run, char **summary) {
     JoError error = {0};
     JoScene *scene = jo_scene_load(&run->def, &error);
     if (!scene)
@@ -215,6 +226,7 @@ static int simulate(const Run *run, char **summary) {
         status = write_page(run, scene, steps);
     if (run->summary || run->seeds)
         *summary = jo_scene_summary(scene);
+    run->suspended |= tell_suspended(scene);
     if (run->profile) {
         char *profile = jo_scene_lua_profile(scene);
         fputs(profile ? profile : "", stderr);
@@ -349,6 +361,8 @@ int cli_run(int argc, char **argv) {
             status = status ? status : written;
         }
         jo_free(summary);
+        if (status == JO_OK && run.suspended)
+            status = JO_FAILED;
     }
     free(overrides);
     free(run.mods);

@@ -175,7 +175,8 @@ typedef struct JoSceneDef {
     JoMessage *message;    /* NULL: to stderr */
     void *message_context;
     const char *const *mods; /* folders of mods, or names of mods that lie beside the scene or in
-                                the user's data directory */
+                                the user's data directory; one that is not there, or does not load,
+                                is an error */
     size_t mod_count;
     bool named_mods_only; /* mods are not taken because they lie in one of those folders */
     const char *text; /* of the scene, or NULL: it is read from `path`, which else only names it */
@@ -370,6 +371,9 @@ JO_API char *jo_mods_list(const JoSceneDef *def);
    the scene: every place in order, the last one wins. NULL with `error` where there is no such
    path. */
 JO_API char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error);
+/* A sentence on each function of a behaviour that is suspended, since it failed too often: the run
+   went on, but not as it was written. NULL where none is; free with jo_free. */
+JO_API char *jo_scene_suspended(const JoScene *scene);
 /* What plain Lua functions cost so far: a line for each, by behaviour; free with jo_free. */
 JO_API char *jo_scene_lua_profile(const JoScene *scene);
 /* Checks scenes and behaviours (or folders of them) without running; everything wrong goes to

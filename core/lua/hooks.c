@@ -21,6 +21,18 @@ uint64_t jox_lua_failures(const JoxLua *lua) {
     return lua->failures;
 }
 
+void jox_lua_suspended(const JoxLua *lua, JoxText *out) {
+    for (uint32_t v = 0; v < lua->vm_count; v++) {
+        const JoxVm *vm = lua->vms[v];
+        for (uint32_t h = 0; vm && h < vm->hook_count; h++)
+            if (vm->hooks[h].suspended)
+                jox_text_printf(
+                    out, "%sbehaviour %.200s was suspended: %.200s failed %d times within a second",
+                    out->length ? "; " : "", vm->sources[0].path, vm->hooks[h].where,
+                    MOST_FAILURES);
+    }
+}
+
 /* Names and messages are a script's: none may command a terminal. */
 static void say(JoxLua *lua, char *text) {
     for (char *line = text; *line;) {
