@@ -83,10 +83,10 @@ static void put_inputs(FILE *out, const JoxReport *r) {
     char hash[65];
     jox_html_heading(out, "How to repeat it");
     fputs("<p><code>jostle report ", out);
-    jox_html_text(out, r->def->recording);
+    jox_html_argument(out, r->def->recording);
     if (r->def->scene) {
         fputs(" --scene ", out);
-        jox_html_text(out, r->def->scene);
+        jox_html_argument(out, r->def->scene);
     }
     if (r->def->fps > 0.0)
         fprintf(out, " --fps %g", r->def->fps);
