@@ -56,6 +56,15 @@ PKG_LIBS   := $(shell pkg-config --libs $(PKGS) 2>/dev/null)
 LIBS       := $(PKG_LIBS) -lm -pthread
 LINK       := $(if $(filter 0,$(BULLET)),$(CC),$(CXX)) $(OPT) -pthread
 
+# One short line a file; V=1 shows the commands.
+ifeq ($(V),1)
+Q   :=
+say :=
+else
+Q   := @
+say = @printf '  %-4s %s\n' $(1) $(2)
+endif
+
 OBJ     := $(SRC_C:%.c=$(B)/%.o) $(SRC_CC:%.cc=$(B)/%.o)
 OBJ_CLI := $(SRC_CLI:%.c=$(B)/%.o)
 UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
@@ -92,39 +101,48 @@ tests-built: $(UNIT)
 
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -c $< -o $@
+	$(call say,CC,$<)
+	$(Q)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -c $< -o $@
 $(B)/%.o: %.cc
 	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS_ALL) $(CXXFLAGS_ALL) -c $< -o $@
+	$(call say,CXX,$<)
+	$(Q)$(CXX) $(CPPFLAGS_ALL) $(CXXFLAGS_ALL) -c $< -o $@
 $(B)/internal.a: $(OBJ)
 	@rm -f $@
-	ar rcs $@ $^
+	$(call say,AR,$@)
+	$(Q)ar rcs $@ $^
 $(B)/jostle: $(OBJ_CLI) $(B)/internal.a
-	$(LINK) $^ -o $@ $(LIBS)
+	$(call say,LINK,$@)
+	$(Q)$(LINK) $^ -o $@ $(LIBS)
 # What leaves the libraries: the public calls alone. Hidden symbols become local.
 $(B)/jostle.o: $(OBJ)
-	ld -r $^ -o $@
-	objcopy --localize-hidden $@
+	$(call say,LD,$@)
+	$(Q)ld -r $^ -o $@
+	$(Q)objcopy --localize-hidden $@
 $(B)/libjostle.a: $(B)/jostle.o
 	@rm -f $@
-	ar rcs $@ $^
+	$(call say,AR,$@)
+	$(Q)ar rcs $@ $^
 $(B)/libjostle.so.$(VERSION): $(B)/jostle.o
-	$(LINK) -shared -Wl,-soname,libjostle.so.0 $^ -o $@ $(LIBS)
+	$(call say,LINK,$@)
+	$(Q)$(LINK) -shared -Wl,-soname,libjostle.so.0 $^ -o $@ $(LIBS)
 $(B)/unit/%: tests/unit/%.c $(B)/internal.a
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
-	$(LINK) $@.o $(B)/internal.a -o $@ -lcmocka $(LIBS)
+	$(call say,TEST,$<)
+	$(Q)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
+	$(Q)$(LINK) $@.o $(B)/internal.a -o $@ -lcmocka $(LIBS)
 $(B)/bench/%: tests/bench/%.c $(B)/internal.a
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
-	$(LINK) $@.o $(B)/internal.a -o $@ $(LIBS)
+	$(call say,TEST,$<)
+	$(Q)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
+	$(Q)$(LINK) $@.o $(B)/internal.a -o $@ $(LIBS)
 
 # Pages and files for editors, made of the tables of words and keys; `make check` compares them.
 reference: all
 	@for page in $(REFERENCE); do $(B)/jostle reference $${page%%:*} > $${page#*:}; done
 REFERENCE := behaviours:scripts/behaviour.md scenes:scripts/scene.md lua-ls:scripts/editor/jostle.lua \
            luacheck:scripts/editor/luacheckrc luacheck:.luacheckrc \
-           scene-schema:scripts/scene.schema.json mod-schema:scripts/mod.schema.json inputs:scripts/input.md
+           scene-schema:scripts/scene.schema.json mod-schema:scripts/mod.schema.json inputs:scripts/input.md manual:core/cli/jostle.1
 # Unit tests alone: `make unit`, or `make unit ONLY="base geom"` for some folders.
 unit: $(UNIT)
 	@set -e; for t in $(UNIT); do echo "== $$t"; $$t; done

@@ -12,7 +12,7 @@ enum { PADDING = 16 }; /* whole packets may be read past the last agent */
 typedef void ColumnVisitor(void *context, void **column, size_t size);
 
 static void visit_columns(JoxAgents *a, ColumnVisitor *visit, void *context) {
-#define X(type, name) visit(context, (void **)&a->name, sizeof(type));
+#define X(keep, type, name) visit(context, (void **)&a->name, sizeof(type));
     JOX_AGENT_COLUMNS(X)
 #undef X
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
@@ -87,19 +87,22 @@ static void clear_row(void *context, void **column, size_t size) {
     memset((char *)*column + *(uint32_t *)context * size, 0, size);
 }
 
+void jox_agents_reserve_slots(JoxAgents *a, uint32_t capacity) {
+    if (capacity <= a->slot_capacity)
+        return;
+    a->slot_index = jox_realloc(a->slot_index, capacity, sizeof *a->slot_index);
+    a->slot_generation = jox_realloc(a->slot_generation, capacity, sizeof *a->slot_generation);
+    a->free_slots = jox_realloc(a->free_slots, capacity, sizeof *a->free_slots);
+    a->slot_capacity = capacity;
+}
+
 static uint32_t take_slot(JoxAgents *a, uint32_t index) {
     uint32_t slot;
     if (a->free_count) {
         slot = a->free_slots[--a->free_count];
     } else {
-        if (a->slot_count == a->slot_capacity) {
-            uint32_t capacity = a->slot_capacity ? 2 * a->slot_capacity : 64;
-            a->slot_index = jox_realloc(a->slot_index, capacity, sizeof *a->slot_index);
-            a->slot_generation =
-                jox_realloc(a->slot_generation, capacity, sizeof *a->slot_generation);
-            a->free_slots = jox_realloc(a->free_slots, capacity, sizeof *a->free_slots);
-            a->slot_capacity = capacity;
-        }
+        if (a->slot_count == a->slot_capacity)
+            jox_agents_reserve_slots(a, a->slot_capacity ? 2 * a->slot_capacity : 64);
         slot = a->slot_count++;
         a->slot_generation[slot] = 1;
     }
@@ -161,13 +164,22 @@ void jox_agents_permute(JoxAgents *a, const uint32_t *order) {
     reindex(a);
 }
 
-/* Ranks of those who stay, once the others are gone. */
+static void release_slot(JoxAgents *a, uint32_t slot) {
+    a->slot_index[slot] = JOX_NO_INDEX;
+    a->slot_generation[slot]++;
+    a->free_slots[a->free_count++] = slot;
+}
+
+/* Ranks of those who stay, once the others are gone. Slots are released in ascending id, so that
+   who gets which slot next does not depend on the order in memory. */
 static void close_ranks(JoxAgents *a) {
     uint32_t rank = 0;
     for (uint32_t r = 0; r < a->count; r++) {
         uint32_t i = a->by_rank[r];
-        if (a->removed[i])
+        if (a->removed[i]) {
+            release_slot(a, a->slot[i]);
             continue;
+        }
         a->rank_id[rank] = a->id[i];
         a->rank[i] = rank++;
         JOX_ASSERT(rank < 2 || a->rank_id[rank - 2] < a->rank_id[rank - 1]);
@@ -177,14 +189,8 @@ static void close_ranks(JoxAgents *a) {
 uint32_t jox_agents_compact(JoxAgents *a) {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < a->count; i++) {
-        if (!a->removed[i]) {
+        if (!a->removed[i])
             a->order[kept++] = i;
-            continue;
-        }
-        uint32_t slot = a->slot[i];
-        a->slot_index[slot] = JOX_NO_INDEX;
-        a->slot_generation[slot]++;
-        a->free_slots[a->free_count++] = slot;
     }
     uint32_t gone = a->count - kept;
     if (gone) {

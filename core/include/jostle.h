@@ -111,7 +111,8 @@ typedef struct JoAgentState {
 } JoAgentState;
 /* All zero for a null or stale handle. */
 JO_API JoAgentState jo_agent_state(const JoWorld *world, JoAgent agent);
-/* Wanted velocity, m/s, for agents without a machine; holds until set again. */
+/* Wanted velocity, m/s, for agents without a machine; holds until set again. At most 1e6 along each
+   axis. */
 JO_API void jo_agent_set_preferred(JoWorld *world, JoAgent agent, double vx, double vy);
 /* An external force in newtons that acts during the next step. */
 JO_API void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy);
@@ -139,8 +140,13 @@ typedef struct JoBodyState {
 } JoBodyState;
 JO_API JoBodyState jo_body_state(const JoWorld *world, JoBody body);
 
-/* Advances by `steps` steps of dt. */
+/* Advances by `steps` steps of dt. Where a number of an agent is not finite after a step, the world
+   has failed: from then on this does nothing, and jo_world_failure says why. */
 JO_API void jo_world_step(JoWorld *world, uint32_t steps);
+/* NULL, or why the world has failed: the agent, its machine and its state. Valid while the world
+ * is.
+ */
+JO_API const char *jo_world_failure(const JoWorld *world);
 JO_API double jo_world_time(const JoWorld *world);   /* s */
 JO_API uint64_t jo_world_tick(const JoWorld *world); /* steps done */
 JO_API uint32_t jo_world_agent_count(const JoWorld *world);
@@ -169,7 +175,8 @@ typedef struct JoSceneDef {
     JoMessage *message;    /* NULL: to stderr */
     void *message_context;
     const char *const *mods; /* folders of mods, or names of mods that lie beside the scene or in
-                                the user's data directory */
+                                the user's data directory; one that is not there, or does not load,
+                                is an error */
     size_t mod_count;
     bool named_mods_only; /* mods are not taken because they lie in one of those folders */
     const char *text; /* of the scene, or NULL: it is read from `path`, which else only names it */
@@ -360,6 +367,9 @@ JO_API char *jo_mods_list(const JoSceneDef *def);
    the scene: every place in order, the last one wins. NULL with `error` where there is no such
    path. */
 JO_API char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error);
+/* A sentence on each function of a behaviour that is suspended, since it failed too often: the run
+   went on, but not as it was written. NULL where none is; free with jo_free. */
+JO_API char *jo_scene_suspended(const JoScene *scene);
 /* What plain Lua functions cost so far: a line for each, by behaviour; free with jo_free. */
 JO_API char *jo_scene_lua_profile(const JoScene *scene);
 /* Checks scenes and behaviours (or folders of them) without running; everything wrong goes to

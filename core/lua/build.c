@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "base/name.h"
 #include "lua/read.h"
 #include "lua/vocabulary.h"
 
@@ -46,16 +47,12 @@ static void read_defaults(JoxBuild *b, int index) {
     lua_pop(L, 1);
 }
 
-/* Whether the text at a stack index can be a name: nothing in it ends or commands anything. */
+/* Whether the text at a stack index can be a name, of a state or a machine. */
 static bool is_name(lua_State *L, int index) {
     if (lua_type(L, index) != LUA_TSTRING)
         return false;
     const char *text = lua_tostring(L, index);
-    size_t length = lua_rawlen(L, index);
-    for (size_t i = 0; i < length; i++)
-        if ((unsigned char)text[i] < 32 || text[i] == 127)
-            return false;
-    return length > 0;
+    return strlen(text) == lua_rawlen(L, index) && jox_name_is_plain(text);
 }
 
 /* The states' names, ascending: tables have no order of their own. */
@@ -68,7 +65,10 @@ static void name_states(JoxBuild *b, int table) {
         const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "?";
         char path[256];
         jox_read_join(path, "states", name);
-        if (!good || m->state_count >= 1000)
+        if (lua_type(L, -2) == LUA_TSTRING && !is_name(L, -2))
+            jox_build_error(b, jox_read_at(b, path), "bad-name", JOX_NAME_RULE,
+                            "'%.60s' is no name for a state", name);
+        else if (!good || m->state_count >= 1000)
             jox_build_error(b, jox_read_at(b, path), "bad-value",
                             "Example: Walk = { steer = seek(goal) }",
                             "states must be tables with names");
@@ -213,7 +213,10 @@ void jox_build(JoxScript *script, const JoxSource *source) {
     jox_read_check(&build, table, "", known, jox_sheet_names("machine", false, known, 16), false);
     jox_read_field(L, table, "name");
     m->name = jox_strdup(is_name(L, -1) ? lua_tostring(L, -1) : "machine");
-    if (!is_name(L, -1))
+    if (lua_type(L, -1) == LUA_TSTRING && !is_name(L, -1))
+        jox_build_error(&build, jox_read_at(&build, "name"), "bad-name", JOX_NAME_RULE,
+                        "'%.60s' is no name for a machine", lua_tostring(L, -1));
+    else if (!is_name(L, -1))
         jox_build_error(&build, jox_read_at(&build, "name"), "missing-key", "name = \"walker\"",
                         "a machine needs a name");
     lua_pop(L, 1);

@@ -21,6 +21,18 @@ uint64_t jox_lua_failures(const JoxLua *lua) {
     return lua->failures;
 }
 
+void jox_lua_suspended(const JoxLua *lua, JoxText *out) {
+    for (uint32_t v = 0; v < lua->script_count; v++) {
+        const JoxScript *script = lua->scripts[v];
+        for (uint32_t h = 0; script && h < script->hook_count; h++)
+            if (script->hooks[h].suspended)
+                jox_text_printf(
+                    out, "%sbehaviour %.200s was suspended: %.200s failed %d times within a second",
+                    out->length ? "; " : "", script->vm.sources[0]->path, script->hooks[h].where,
+                    MOST_FAILURES);
+    }
+}
+
 /* Names and messages are a script's: none may command a terminal. */
 static void say(JoxLua *lua, char *text) {
     for (char *line = text; *line;) {
@@ -137,9 +149,8 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
     lua_Debug where;
     if (jox_upvalues_restore(L, &script->upvalues, hook->first_upvalue, hook->upvalue_count, name,
                              &where)) {
-        unsigned source = 0;
-        sscanf(where.short_src, "b%u", &source);
-        script->vm.failed_source = source < script->vm.source_count ? source : 0;
+        int source = jox_vm_source(&script->vm, where.short_src);
+        script->vm.failed_source = source > 0 ? (size_t)source : 0;
         script->vm.traceback[0] = 0;
         line = where.linedefined;
         snprintf(

@@ -71,10 +71,9 @@ static JoxMachine *run(JoxScript *script) {
     lua_State *L = script->vm.L;
     const size_t errors = script->diagnostics->errors;
     if (!jox_vm_compile(&script->vm, 0)) {
-        int used = 0, number;
         const char *text = lua_tostring(L, -1);
-        if (text && sscanf(text, "b%d:%d: %n", &number, &line, &used) == 2)
-            text += used;
+        if (text)
+            text = jox_vm_split(&script->vm, text, &line, &script->vm.failed_source);
         report_failure(script, text ? text : "not enough memory", line);
         return NULL;
     }

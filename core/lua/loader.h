@@ -101,5 +101,7 @@ void jox_lua_profile(const JoxLua *lua, const JoxMachine *machine, double wall, 
 const char *jox_lua_stalled(const JoxLua *lua);
 /* Calls of hooks that failed so far. */
 uint64_t jox_lua_failures(const JoxLua *lua);
+/* Appends a sentence for each function that is suspended, as it failed too often. */
+void jox_lua_suspended(const JoxLua *lua, JoxText *out);
 
 #endif

@@ -93,18 +93,27 @@ static bool run_file(JoxScript *script, const char *path, JoxTestRun *run, const
     lua_pushcfunction(script->vm.L, open_words);
     bool good = jox_vm_call(&script->vm, 0, 0, BUDGET, &why, &line);
     if (good && !jox_vm_compile(&script->vm, 0)) {
-        int used = 0, number;
         const char *text = lua_tostring(script->vm.L, -1);
-        if (text && sscanf(text, "b%d:%d: %n", &number, &line, &used) == 2)
-            text += used;
+        size_t source;
+        if (text)
+            text = jox_vm_split(&script->vm, text, &line, &source);
         fail_file(script, text ? text : "not enough memory", line, diagnostics);
         return false;
     }
     static const JoxScope NO_SCOPE = {0};
     script->scope = &NO_SCOPE;
     script->vm.loading = true; /* require works */
+    script->diagnostics = diagnostics;
+    const size_t errors = diagnostics->errors;
     good = good && jox_vm_call(&script->vm, 0, 0, BUDGET, &why, &line);
     script->vm.loading = false;
+    script->diagnostics = NULL;
+    if (good && diagnostics->errors > errors) { /* a word of the file that means nothing */
+        for (size_t s = 0; s < script->vm.source_count; s++)
+            jox_diag_attach_source(diagnostics, script->vm.sources[s]->path,
+                                   script->vm.sources[s]->text, script->vm.sources[s]->length);
+        return false;
+    }
     if (!good) {
         fail_file(script, why, line, diagnostics);
         return false;

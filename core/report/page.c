@@ -105,12 +105,12 @@ static void put_inputs(FILE *out, const JoScene *scene) {
     const JoWorld *world = scene->world;
     jox_html_heading(out, "How to repeat it");
     fputs("<p><code>jostle run ", out);
-    jox_html_text(out, def->path);
+    jox_html_argument(out, def->path);
     fprintf(out, " --seed %llu --dt %g --steps %llu", (unsigned long long)world->def.seed,
             world->def.dt, (unsigned long long)world->statistics.steps);
     for (size_t i = 0; i < def->override_count; i++) {
         fputs(" --set ", out);
-        jox_html_text(out, def->overrides[i]);
+        jox_html_argument(out, def->overrides[i]);
     }
     fprintf(out, "</code>: state hash %016llx, whatever the number of threads.</p>\n",
             (unsigned long long)jox_world_hash(world));

@@ -8,6 +8,7 @@
 
 #include "base/mem.h"
 #include "picture/html.h"
+#include "picture/probe_files.h"
 
 /* ---- figures ---- */
 
@@ -126,7 +127,7 @@ static bool is_there(const char *directory, const char *file) {
 }
 
 void jox_page_picture(FILE *out, const char *directory, const char *name, const char *caption) {
-    char png[128], svg[128];
+    char png[140], svg[140];
     snprintf(png, sizeof png, "%s.png", name);
     snprintf(svg, sizeof svg, "%s.svg", name);
     if (is_there(directory, png))
@@ -139,10 +140,10 @@ void jox_page_danger_pictures(FILE *out, const char *directory) {
 }
 
 void jox_page_probe(FILE *out, const char *directory, const JoxProbe *probe) {
-    char caption[128];
-    const char *name = jox_probe_def(probe)->name;
-    snprintf(caption, sizeof caption, "Probe %.60s", name);
-    jox_page_picture(out, directory, name, caption);
+    char caption[128], stem[JOX_PROBE_STEM];
+    snprintf(caption, sizeof caption, "Probe %.60s", jox_probe_def(probe)->name);
+    jox_probe_stem(probe, stem);
+    jox_page_picture(out, directory, stem, caption);
 }
 
 void jox_page_validation(FILE *out) {

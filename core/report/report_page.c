@@ -84,10 +84,10 @@ static void put_inputs(FILE *out, const JoxReport *r) {
     char hash[65];
     jox_html_heading(out, "How to repeat it");
     fputs("<p><code>jostle report ", out);
-    jox_html_text(out, r->def->recording);
+    jox_html_argument(out, r->def->recording);
     if (r->def->scene) {
         fputs(" --scene ", out);
-        jox_html_text(out, r->def->scene);
+        jox_html_argument(out, r->def->scene);
     }
     if (r->def->fps > 0.0)
         fprintf(out, " --fps %g", r->def->fps);
@@ -128,4 +128,14 @@ bool jox_report_page(const JoxReport *r, JoxText *error) {
     put_inputs(out, r);
     jox_html_end(out);
     return jox_plot_close(out, "index.html", error);
+}
+
+/* Of the scene, else of the recording. */
+const JoxWalls *jox_report_walls(const JoxReport *r) {
+    return r->spec && r->spec->walls.ring_count ? &r->spec->walls : &r->crowd->walls;
+}
+
+const char *jox_report_title(const JoxReport *r) {
+    const char *slash = strrchr(r->def->recording, '/');
+    return r->spec && r->spec->title ? r->spec->title : slash ? slash + 1 : r->def->recording;
 }

@@ -1,8 +1,6 @@
 /* From a scene's file to a running world. */
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
@@ -10,68 +8,8 @@
 
 enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 256 << 20 };
 
-void jox_run_to_stderr(void *context, const char *text) {
-    (void)context;
-    if (isatty(2)) /* the line of progress makes room */
-        fputs("\r\033[K", stderr);
-    fputs(text, stderr);
-}
-
-void jox_run_say(const JoScene *scene, const char *format, ...) {
-    char text[2048];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    scene->message(scene->message_context, text);
-}
-
-void jox_run_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
-                    JoError *error) {
-    JoxText text = {0};
-    jox_diag_print(diagnostics, &text);
-    if (text.length)
-        (message ? message : jox_run_to_stderr)(context, text.data);
-    jox_text_free(&text);
-    for (size_t i = 0; error && i < diagnostics->count; i++) {
-        const JoxDiagnostic *d = &diagnostics->items[i];
-        if (d->severity != JOX_SEVERITY_ERROR)
-            continue;
-        jox_error(error, JO_INPUT, "%s", d->message);
-        error->line = d->line;
-        error->column = d->column;
-        snprintf(error->file, sizeof error->file, "%s", d->file ? d->file : "");
-        break;
-    }
-    jox_diag_free(diagnostics);
-}
-
 JoSceneDef jo_default_scene_def(void) {
     return (JoSceneDef){.threads = 1, .cookie = SCENE_COOKIE};
-}
-
-/* The def's overrides, with seed and step as two more. */
-JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint32_t mod_count,
-                                JoxDiagnostics *diagnostics) {
-    char seed[32], step[48];
-    const char **sets = jox_alloc(def->override_count + 2, sizeof *sets);
-    uint32_t count = 0;
-    for (size_t i = 0; i < def->override_count; i++)
-        sets[count++] = def->overrides[i];
-    if (def->has_seed) {
-        snprintf(seed, sizeof seed, "seed=%llu", (unsigned long long)def->seed);
-        sets[count++] = seed;
-    }
-    if (def->has_dt) {
-        snprintf(step, sizeof step, "step=%.9g", def->dt);
-        sets[count++] = step;
-    }
-    JoxSceneOptions options = {
-        .sets = sets, .set_count = count, .mods = mods->items, .mod_count = mod_count};
-    JoxSceneSpec *spec =
-        jox_scene_load_text(def->path, def->text, def->text_length, &options, diagnostics);
-    jox_free(sets);
-    return spec;
 }
 
 static uint64_t tag_mask(JoWorld *world, char *const *tags, uint32_t count, JoxPosition position,
@@ -114,7 +52,8 @@ static void add_places(JoScene *scene) {
         for (uint32_t s = 0; s < spec->groups[g].set_count; s++)
             if (spec->groups[g].set[s].kind == JOX_SET_ANTIPODE)
                 extra += spec->groups[g].count;
-    JoxPlace *places = jox_alloc(spec->place_count + extra + 1, sizeof *places);
+    scene->place_capacity = spec->place_count + extra;
+    JoxPlace *places = jox_alloc(scene->place_capacity + 1, sizeof *places);
     for (uint32_t i = 0; i < spec->place_count; i++) {
         const JoxPlace *from = &spec->places[i];
         places[i] = *from;
@@ -326,11 +265,38 @@ static void leave_out(const JoSceneDef *def, uint64_t without, int32_t culprit,
     }
     jox_diag_move(problems, diagnostics);
     const JoxPosition at = {mod->folder, 0, 0, 0};
-    jox_diag_note(problems, at, "mod-left-out", "mod %s is left out%s; the run goes on without",
-                  mod->name, others);
+    jox_diag_note(problems, at, "mod-left-out", "mod %s is left out%s", mod->name, others);
     jox_mods_free(before);
     jox_mods_free(after);
     jox_diag_free(&ignored);
+}
+
+static bool is_missing_mod(const JoxMods *mods, const char *name) {
+    return !strchr(name, '/') && jox_mods_index(mods, name) < 0;
+}
+
+/* Whether the mods that the def names are all taken; else an error names one. Those that the user
+   turned on, or the scene names, may be missing. */
+static bool takes_named_mods(const JoSceneDef *def, const JoxMods *mods,
+                             JoxDiagnostics *diagnostics) {
+    for (size_t n = 0; n < def->mod_count; n++) {
+        const char *name = def->mods[n];
+        size_t length = strlen(name);
+        for (; length > 1 && name[length - 1] == '/'; length--)
+            continue;
+        bool taken = false;
+        for (uint32_t m = 0; m < mods->count && !taken; m++)
+            taken = strcmp(mods->items[m].name, name) == 0 ||
+                    (strncmp(mods->items[m].folder, name, length) == 0 &&
+                     !mods->items[m].folder[length]);
+        if (taken)
+            continue;
+        if (!is_missing_mod(mods, name)) /* that has been said */
+            jox_diag_error(diagnostics, ((JoxPosition){"--mod", 0, 0, 0}), "mod-not-taken", NULL,
+                           "mod '%.200s' was asked for and cannot be taken", name);
+        return false;
+    }
+    return true;
 }
 
 JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
@@ -348,11 +314,13 @@ JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
         if (scene || culprit < 0 || (without >> culprit & 1)) {
             jox_diag_move(&problems, &found);
             jox_diag_move(diagnostics, &now);
-            if (scene)
+            if (scene && takes_named_mods(def, scene->mods, &problems)) {
                 scene->mod_problems = problems;
-            else
-                jox_diag_move(diagnostics, &problems);
-            return scene;
+                return scene;
+            }
+            jox_diag_move(diagnostics, &problems);
+            jo_scene_free(scene);
+            return NULL;
         }
         jox_diag_free(&found);
         leave_out(def, without, culprit, &problems, &now);
@@ -448,6 +416,7 @@ void jo_scene_free(JoScene *scene) {
     jox_scene_free(scene->spec);
     jox_mods_free(scene->mods);
     jox_diag_free(&scene->mod_problems);
+    jox_free(scene->spawned);
     jox_free(scene->party_left);
     jox_free(scene->party_team);
     jox_exits_free(&scene->exits);

@@ -164,7 +164,7 @@ const JoxKey jox_scene_keys[] = {
      .meaning = "a Lua file: beside the scene, in ../behaviours or of the installed ones"},
     {"group", "mix", VALUES, "", 0, 0, "", .of = "weight*",
      .meaning = "several behaviours, each with its share"},
-    {"group", "count", WHOLE, "", 1, 1000000, "", .meaning = "how many agents"},
+    {"group", "count", WHOLE, "", 0, 1000000, "", .meaning = "how many agents at the start; 0 where sources bring them"},
     {"group", "density", NUMBER, "1/m2", 0.001, 20, "", .meaning = "in place of count"},
     {"group", "at", POINTS, "m", -FAR, FAR, "", .of = "xy[1]",
      .meaning = "in place of count: one agent at each point"},
@@ -275,7 +275,8 @@ const size_t jox_scene_key_count = sizeof jox_scene_keys / sizeof *jox_scene_key
 
 const JoxOwner jox_scene_owners[] = {
     {"scene", "Scene", "A scene is one YAML file: the keys below, in any order. Anchors, aliases and `<<` work as "
-     "usual."},
+     "usual. Names of groups, places and all else have letters of any script, digits, spaces, _, - and . (no space, "
+     "- or . at the beginning)."},
     {"forces", "forces", "What pushes between agents do."},
     {"limits", "limits", "A script that needs more is stopped and named; the run goes on."},
     {"heatmap", "heatmap", "What the density map of a report shows."},

@@ -169,10 +169,10 @@ static bool run_file(JoxClaim *claim, bool quick, JoxDiagnostics *diagnostics) {
     bool good =
         jox_vm_call(&script->vm, 0, 0, BUDGET, &why, &line) && jox_vm_compile(&script->vm, 0);
     if (!good && !why) {
-        int used = 0, number;
+        size_t source;
         why = lua_tostring(script->vm.L, -1);
-        if (why && sscanf(why, "b%d:%d: %n", &number, &line, &used) == 2)
-            why += used;
+        if (why)
+            why = jox_vm_split(&script->vm, why, &line, &source);
     } else if (good) {
         static const JoxScope NO_SCOPE = {0};
         script->scope = &NO_SCOPE;

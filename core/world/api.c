@@ -204,7 +204,7 @@ JoAgentState jo_agent_state(const JoWorld *world, JoAgent agent) {
 }
 
 void jo_agent_set_preferred(JoWorld *world, JoAgent agent, double vx, double vy) {
-    JOX_REQUIRE(world && isfinite(vx) && isfinite(vy), );
+    JOX_REQUIRE(world && fabs(vx) <= 1e6 && fabs(vy) <= 1e6, );
     uint32_t i = jox_world_find(world, agent);
     if (i == JOX_NO_INDEX)
         return;
@@ -294,8 +294,13 @@ const char *jo_stage_name(int stage) {
 
 void jo_world_step(JoWorld *world, uint32_t steps) {
     JOX_REQUIRE(world, );
-    for (uint32_t i = 0; i < steps; i++)
-        jox_world_step(world);
+    for (uint32_t i = 0; i < steps && jox_world_step(world); i++)
+        continue;
+}
+
+const char *jo_world_failure(const JoWorld *world) {
+    JOX_REQUIRE(world, NULL);
+    return world->failure[0] ? world->failure : NULL;
 }
 
 double jo_world_time(const JoWorld *world) {

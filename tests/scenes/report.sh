@@ -102,3 +102,11 @@ expect "unwritable folder" 1 "cannot make" "$JOSTLE" report "$work/walk.sqlite" 
 expect "nothing asked for" 2 "give --out DIR" "$JOSTLE" report "$work/walk.sqlite"
 expect "a unit that is none" 2 "--unit is m or cm" "$JOSTLE" report "$work/bare.txt" --unit inch --summary -
 expect "report --help" 0 "PeTrack" "$JOSTLE" report --help
+# Names are letters and digits; titles are any text. Neither is ever obeyed.
+sed 's/^  walkers: {/  "`id > x`": {/' "$work/walk.yaml" >"$work/named.yaml"
+expect "a group that is named like a command" 3 "named.yaml:8:3: '\`id > x\`' is no name for a group" "$JOSTLE" run "$work/named.yaml" --quiet --report "$work/named"
+expect "and check says so" 3 "Letters, digits, spaces, _ - and . are allowed" "$JOSTLE" check "$work/named.yaml"
+sed "s/^step:/title: '\`touch pwned\` \$(touch pwned) \"; system(\"touch pwned\") <\/script><script>'\nstep:/; s/^duration: 20/duration: 1/" "$work/walk.yaml" >"$work/titled.yaml"
+expect "a title that is one" 0 "report:" "$JOSTLE" run "$work/titled.yaml" --report "$work/titled"
+[ -z "$(find "$work" . -maxdepth 2 \( -name pwned -o -name x \) -newer "$work/named.yaml" 2>/dev/null)" ] && [ ! -e "$work/titled/pwned" ]; verdict "nothing of it is done" $?
+[ -s "$work/titled/paths.png" ] && ! grep -q "<script" "$work/titled/index.html"; verdict "and the pictures are drawn" $?

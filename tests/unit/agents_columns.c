@@ -138,6 +138,86 @@ static void every_index_runs_once_in_the_same_chunks(void **state) {
     }
 }
 
+static uint64_t hash_of(JoxAgents *a) {
+    JoxSections s = jox_sections_hash();
+    jox_agents_sections(a, &s);
+    return jox_hash_end(&s.hash);
+}
+
+static JoxAgents crowd(void) {
+    JoxAgents a = {0};
+    jox_agents_widen(&a, 2, 1);
+    for (uint32_t i = 0; i < 120; i++) {
+        uint32_t at = jox_agents_add(&a);
+        a.x[at] = (float)(i * 37 % 120);
+        a.own[at * a.own_stride + 1] = i;
+        a.removed[at] = i % 5 == 2;
+    }
+    jox_agents_compact(&a);
+    jox_agents_add(&a);
+    return a;
+}
+
+static void shuffle(JoxAgents *a) {
+    uint32_t order[200];
+    for (uint32_t i = 0; i < a->count; i++)
+        order[i] = a->count - 1 - i;
+    jox_agents_permute(a, order);
+}
+
+/* Neither the order in memory, nor scratch, nor the width of rows is part of the state, and what is
+   restored goes on as the original does: the next handles are the same, too. */
+static void state_is_restored_whatever_the_order(void **state) {
+    (void)state;
+    JoxAgents a = crowd(), b = {0};
+    JoxText saved = {0};
+    shuffle(&a);
+    JoxSections s = jox_sections_save(&saved);
+    jox_agents_sections(&a, &s);
+    assert_true(jox_sections_end(&s));
+    uint64_t hash = hash_of(&a);
+    jox_agents_widen(&b, 4, 1); /* its machines need more */
+    s = jox_sections_restore(saved.data, saved.length);
+    jox_agents_sections(&b, &s);
+    assert_true(jox_sections_end(&s));
+    assert_int_equal(b.own_stride, 4);
+    jox_agents_forget(&b);
+    assert_true(isnan(b.next_x[0]) && b.x[3] == 4 * 37 % 120);
+    assert_true(hash_of(&b) == hash);
+    for (int round = 0; round < 3; round++) {
+        for (uint32_t i = 0; i < a.count; i++)
+            a.removed[i] = a.id[i] % 7 == 3;
+        for (uint32_t i = 0; i < b.count; i++)
+            b.removed[i] = b.id[i] % 7 == 3;
+        assert_int_equal(jox_agents_compact(&a), jox_agents_compact(&b));
+        for (int born = 0; born < 5; born++)
+            assert_int_equal(a.slot[jox_agents_add(&a)], b.slot[jox_agents_add(&b)]);
+        assert_true(hash_of(&a) == hash_of(&b));
+        shuffle(&a);
+    }
+    jox_text_free(&saved);
+    jox_agents_free(&a);
+    jox_agents_free(&b);
+}
+
+static void what_is_no_state_is_refused(void **state) {
+    (void)state;
+    JoxAgents a = crowd(), b = {0};
+    JoxText saved = {0};
+    a.slot[3] = a.slot[4];
+    JoxSections s = jox_sections_save(&saved);
+    jox_agents_sections(&a, &s);
+    jox_sections_end(&s);
+    s = jox_sections_restore(saved.data, saved.length);
+    jox_agents_sections(&b, &s);
+    assert_false(jox_sections_end(&s));
+    assert_string_equal(s.wrong, "agents.slot: two agents have one slot");
+    assert_int_equal(b.count, 0);
+    jox_text_free(&saved);
+    jox_agents_free(&a);
+    jox_agents_free(&b);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(columns_follow_their_agent),
@@ -145,6 +225,8 @@ int main(void) {
         cmocka_unit_test(turnover_takes_no_memory),
         cmocka_unit_test(a_new_agent_has_the_defaults),
         cmocka_unit_test(every_index_runs_once_in_the_same_chunks),
+        cmocka_unit_test(state_is_restored_whatever_the_order),
+        cmocka_unit_test(what_is_no_state_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
