@@ -5,26 +5,26 @@
 
 #include "base/json_writer.h"
 #include "base/mem.h"
-#include "luatest/trial.h"
+#include "luatest/internal.h"
 
 enum { DEEPEST = 16, LONGEST = 4 << 20 };
 
-static void write_value(lua_State *L, JoxTrial *trial, int index, const char *key, const char *name,
+static void write_value(lua_State *L, JoxTestRun *run, int index, const char *key, const char *name,
                         JoxJson *json);
 
-static void write_string(lua_State *L, JoxTrial *trial, int index, const char *key,
+static void write_string(lua_State *L, JoxTestRun *run, int index, const char *key,
                          const char *name, JoxJson *json) {
     size_t length;
     const char *text = lua_tolstring(L, index, &length);
     if (!strcmp(name, "behaviour") && (strchr(text, '\n') || strstr(text, "return machine"))) {
-        text = trial->driver->keep(trial->driver->context, text, length);
+        text = run->driver->keep(run->driver->context, text, length);
         if (!text)
             luaL_error(L, "behaviours in a test are at most 200, of at most 256 KB each");
     }
     jox_json_string(json, key, text);
 }
 
-static void write_list(lua_State *L, JoxTrial *trial, int index, lua_Integer length,
+static void write_list(lua_State *L, JoxTestRun *run, int index, lua_Integer length,
                        const char *key, const char *name, JoxJson *json) {
     lua_pushnil(L);
     while (lua_next(L, index)) {
@@ -35,7 +35,7 @@ static void write_list(lua_State *L, JoxTrial *trial, int index, lua_Integer len
     jox_json_array(json, key);
     for (lua_Integer i = 1; i <= length; i++) {
         lua_rawgeti(L, index, i);
-        write_value(L, trial, lua_gettop(L), NULL, name, json);
+        write_value(L, run, lua_gettop(L), NULL, name, json);
         lua_pop(L, 1);
     }
     jox_json_end(json);
@@ -57,18 +57,18 @@ static const char *next_key(lua_State *L, int index, const char *last, const cha
     return next;
 }
 
-static void write_members(lua_State *L, JoxTrial *trial, int index, const char *name,
+static void write_members(lua_State *L, JoxTestRun *run, int index, const char *name,
                           JoxJson *json) {
     const char *key = NULL;
     while ((key = next_key(L, index, key, name))) {
         lua_pushstring(L, key);
         lua_rawget(L, index);
-        write_value(L, trial, lua_gettop(L), key, key, json);
+        write_value(L, run, lua_gettop(L), key, key, json);
         lua_pop(L, 1);
     }
 }
 
-static void write_value(lua_State *L, JoxTrial *trial, int index, const char *key, const char *name,
+static void write_value(lua_State *L, JoxTestRun *run, int index, const char *key, const char *name,
                         JoxJson *json) {
     luaL_checkstack(L, 10, NULL);
     if (json->depth > DEEPEST || json->out->length > LONGEST)
@@ -77,16 +77,16 @@ static void write_value(lua_State *L, JoxTrial *trial, int index, const char *ke
     case LUA_TTABLE: {
         lua_Integer length = (lua_Integer)lua_rawlen(L, index);
         if (length > 0) {
-            write_list(L, trial, index, length, key, name, json);
+            write_list(L, run, index, length, key, name, json);
             break;
         }
         jox_json_object(json, key);
-        write_members(L, trial, index, name, json);
+        write_members(L, run, index, name, json);
         jox_json_end(json);
         break;
     }
     case LUA_TSTRING:
-        write_string(L, trial, index, key, name, json);
+        write_string(L, run, index, key, name, json);
         break;
     case LUA_TBOOLEAN:
         jox_json_bool(json, key, lua_toboolean(L, index));
@@ -101,10 +101,10 @@ static void write_value(lua_State *L, JoxTrial *trial, int index, const char *ke
     }
 }
 
-void jox_trial_scene(lua_State *L, JoxTrial *trial, int index, JoxText *out) {
+void jox_test_scene_yaml(lua_State *L, JoxTestRun *run, int index, JoxText *out) {
     JoxJson json = jox_json_begin(out, 0);
     if (lua_rawlen(L, index) > 0) { /* no scene; loading says so */
-        write_value(L, trial, index, NULL, "scene", &json);
+        write_value(L, run, index, NULL, "scene", &json);
         return;
     }
     lua_pushliteral(L, "jostle");
@@ -113,6 +113,6 @@ void jox_trial_scene(lua_State *L, JoxTrial *trial, int index, JoxText *out) {
     jox_json_object(&json, NULL);
     if (!version) /* the version of the format goes without saying */
         jox_json_whole(&json, "jostle", 1);
-    write_members(L, trial, index, "scene", &json);
+    write_members(L, run, index, "scene", &json);
     jox_json_end(&json);
 }
