@@ -140,7 +140,8 @@ typedef struct JoBodyState {
 JO_API JoBodyState jo_body_state(const JoWorld *world, JoBody body);
 
 /* Advances by `steps` steps of dt. */
-JO_API void jo_world_step(JoWorld *world, uint32_t steps);
+JO_API bool jo_world_step(JoWorld *world, uint32_t steps);
+JO_API bool jo_world_failed(const JoWorld *world);
 JO_API double jo_world_time(const JoWorld *world);   /* s */
 JO_API uint64_t jo_world_tick(const JoWorld *world); /* steps done */
 JO_API uint32_t jo_world_agent_count(const JoWorld *world);

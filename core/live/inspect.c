@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "run/run.h"
 
 /* ---- pieces of JSON ---- */
@@ -224,13 +225,15 @@ static void add_step(const JoxInspected *seen, double compression, JoxText *out)
 
 char *jo_scene_inspect(JoScene *scene, uint32_t slot) {
     JOX_REQUIRE(scene, NULL);
+    JOX_GUARD(scene->heap, NULL)
+    return NULL;
     const JoxAgents *a = &scene->world->agents;
     const JoxWatched *watched;
     const JoxInspected *seen = jox_world_inspect(scene->world, slot, &watched);
     JoxText out = {0};
     if (!seen) {
         jox_text_add(&out, "{\"agent\":null}");
-        return out.data;
+        return jox_disown(out.data);
     }
     uint32_t i = a->slot_index[slot];
     jox_text_add(&out, "{\"agent\":");
@@ -243,5 +246,5 @@ char *jo_scene_inspect(JoScene *scene, uint32_t slot) {
     jox_text_add(&out, seen->seen ? "true" : "false");
     add_step(seen, (double)a->compression[i], &out);
     jox_text_add(&out, "}");
-    return out.data;
+    return jox_disown(out.data);
 }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "luatest/testing.h"
 #include "run/run.h"
@@ -264,9 +265,8 @@ static void run_path(Tests *tests, const char *path) {
         free(entries);
 }
 
-bool jo_test(const char *const *paths, size_t count, const char *only, bool json,
-             JoMessage *message, void *context, size_t *passed, size_t *failed) {
-    JOX_REQUIRE(paths && message && passed && failed, false);
+static bool test_all(const char *const *paths, size_t count, const char *only, bool json,
+                     JoMessage *message, void *context, size_t *passed, size_t *failed) {
     Tests tests = {.message = message, .context = context, .json = json, .only = only};
     for (size_t p = 0; p < count; p++)
         run_path(&tests, paths[p]);
@@ -294,4 +294,14 @@ bool jo_test(const char *const *paths, size_t count, const char *only, bool json
     *passed = tests.passed;
     *failed = tests.failed;
     return !tests.broken;
+}
+
+bool jo_test(const char *const *paths, size_t count, const char *only, bool json,
+             JoMessage *message, void *context, size_t *passed, size_t *failed) {
+    JOX_REQUIRE(paths && message && passed && failed, false);
+    JOX_GUARD(NULL, NULL) {
+        message(context, "out of memory\n");
+        return false;
+    }
+    return test_all(paths, count, only, json, message, context, passed, failed);
 }

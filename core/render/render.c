@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "picture/plot.h"
 #include "picture/video.h"
@@ -256,10 +257,7 @@ static bool go_on(Job *job, double time, JoError *error) {
     return good && jox_render_advance(&job->render, time, error);
 }
 
-bool jo_render(const JoRenderDef *def, JoError *error) {
-    JOX_REQUIRE(def && def->cookie == RENDER_COOKIE && def->out && *def->out, false);
-    JOX_REQUIRE(!def->scene != !def->recording, false);
-    JOX_REQUIRE(strlen(def->out) < 1000, false);
+static bool draw_all(const JoRenderDef *def, JoError *error) {
     Job *job = jox_alloc(1, sizeof *job);
     double fps = 1.0;
     job->kind = kind_of(def->out);
@@ -286,4 +284,13 @@ bool jo_render(const JoRenderDef *def, JoError *error) {
     jox_render_free(&job->render);
     jox_free(job);
     return good;
+}
+
+bool jo_render(const JoRenderDef *def, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == RENDER_COOKIE && def->out && *def->out, false);
+    JOX_REQUIRE(!def->scene != !def->recording, false);
+    JOX_REQUIRE(strlen(def->out) < 1000, false);
+    JOX_GUARD(NULL, error)
+    return false;
+    return draw_all(def, error);
 }

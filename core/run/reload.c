@@ -11,6 +11,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "run/changes.h"
 #include "run/run.h"
@@ -284,6 +286,14 @@ static double real_time(void) {
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
+static void tell_diagnosed(const JoScene *scene, const bool *parts,
+                           const JoxDiagnostics *diagnostics) {
+    JoxHeap *own = jox_guard_leave();
+    if (scene->diagnosed)
+        scene->diagnosed(scene->diagnosed_context, parts, diagnostics);
+    jox_heap_use(own);
+}
+
 /* Says why a batch is not taken, and which versions go on. */
 static void refuse(JoScene *scene, Batch *batch, const char *path, const char *why) {
     const JoxMind *mind = &scene->world->mind;
@@ -291,11 +301,9 @@ static void refuse(JoScene *scene, Batch *batch, const char *path, const char *w
     if (why)
         jox_diag_error(&batch->diagnostics, ((JoxPosition){path, 0, 0, 0}), "cannot-swap", NULL,
                        "%s", why);
-    if (scene->diagnosed)
-        scene->diagnosed(scene->diagnosed_context, batch->parts, &batch->diagnostics);
+    tell_diagnosed(scene, batch->parts, &batch->diagnostics);
     jox_run_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
-    if (scene->diagnosed)
-        scene->diagnosed(scene->diagnosed_context, batch->parts, NULL);
+    tell_diagnosed(scene, batch->parts, NULL);
     for (uint32_t c = 0; c < batch->count; c++) {
         if (batch->changes[c].added)
             continue;
@@ -385,7 +393,7 @@ static void swap(JoScene *scene, Batch *batch, Retired *retired) {
     }
     link_batch(scene, batch);
     if (text.data)
-        scene->message(scene->message_context, text.data);
+        jox_run_tell(scene, text.data);
     jox_text_free(&text);
 }
 
@@ -413,7 +421,7 @@ static bool take(JoScene *scene, Batch *batch) {
     bool live = false;
     const char *refused = NULL, *path = "";
     if (batch->said.length)
-        scene->message(scene->message_context, batch->said.data);
+        jox_run_tell(scene, batch->said.data);
     for (uint32_t c = 0; c < batch->count && !batch->failed && !refused; c++)
         if (!batch->changes[c].added) {
             path = batch->changes[c].path;
@@ -427,8 +435,7 @@ static bool take(JoScene *scene, Batch *batch) {
     if (batch->failed || refused) {
         refuse(scene, batch, path, refused);
     } else {
-        if (scene->diagnosed) /* warnings, at most */
-            scene->diagnosed(scene->diagnosed_context, batch->parts, &batch->diagnostics);
+        tell_diagnosed(scene, batch->parts, &batch->diagnostics); /* warnings, at most */
         jox_run_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
         JoxReloaded reloaded = {0};
         retired->live = live = true;
@@ -499,6 +506,9 @@ static JoxReload *begin(JoScene *scene, JoxWatch *watch, int stop) {
 }
 
 bool jo_scene_watch(JoScene *scene, JoError *error) {
+    JOX_REQUIRE(scene, false);
+    JOX_GUARD(scene->heap, error)
+    return false;
     if (scene->reload && scene->reload->watch)
         return true;
     const JoxInputLog *log = &scene->world->input;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "live/live.h"
 #include "picture/plot.h"
@@ -67,6 +68,8 @@ void jox_run_record_states(JoScene *scene, uint32_t index) {
 
 bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
     JOX_REQUIRE(scene && path && !scene->recorder, false);
+    JOX_GUARD(scene->heap, error)
+    return false;
     JoxV2 low, high;
     JoxText wkt = {0}, why = {0};
     jox_run_area(scene, &low, &high);
@@ -155,6 +158,8 @@ void jox_run_begin_report(JoScene *scene) {
 
 bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
     JOX_REQUIRE(scene && directory && !scene->report, false);
+    JOX_GUARD(scene->heap, error)
+    return false;
     JoxText why = {0};
     if (!jox_plot_folder(directory, &why))
         return fail(error, &why);
@@ -166,6 +171,8 @@ bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
 
 bool jo_scene_data(JoScene *scene, const char *directory, JoError *error) {
     JOX_REQUIRE(scene && directory && !scene->data, false);
+    JOX_GUARD(scene->heap, error)
+    return false;
     JoxText why = {0};
     if (!jox_plot_folder(directory, &why))
         return fail(error, &why);
@@ -303,7 +310,7 @@ void jo_scene_trace(JoScene *scene, uint32_t agent_id) {
 
 bool jox_run_collect(JoScene *scene, JoError *error) {
     if (scene->world->mind.trace.length)
-        scene->message(scene->message_context, scene->world->mind.trace.data);
+        jox_run_tell(scene, scene->world->mind.trace.data);
     if (!scene->regions)
         make_regions(scene);
     if (scene->density || scene->regions->count)
@@ -321,6 +328,8 @@ bool jox_run_collect(JoScene *scene, JoError *error) {
 
 bool jo_scene_step(JoScene *scene, JoError *error) {
     JOX_REQUIRE(scene && !scene->finished, false);
+    JOX_GUARD(scene->heap, error)
+    return false;
     jox_run_inputs(scene);
     jox_run_reload(scene);
     jox_run_events(scene);
@@ -353,8 +362,7 @@ static void say_costs(JoScene *scene) {
                     (unsigned long long)calls, wall > 0.0 ? 100.0 * seconds / wall : 0.0);
 }
 
-bool jo_scene_finish(JoScene *scene, JoError *error) {
-    JOX_REQUIRE(scene, false);
+static bool finish(JoScene *scene, JoError *error) {
     bool good = true;
     if (!scene->finished && scene->lua && scene->world)
         say_costs(scene);
@@ -383,4 +391,11 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
     scene->density = NULL;
     scene->report = NULL;
     return good;
+}
+
+bool jo_scene_finish(JoScene *scene, JoError *error) {
+    JOX_REQUIRE(scene, false);
+    JOX_GUARD(scene->heap, error)
+    return false;
+    return finish(scene, error);
 }
