@@ -31,7 +31,7 @@ SRC_CLI := $(sort $(wildcard core/cli/*.c))
 TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api),$(wildcard tests/unit/$(subst /,_,$(d))_*.c)))
 TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/live_view.c),$(TESTS))
 BENCHES := $(sort $(wildcard tests/bench/*.c))
-PKGS    := lua5.4 yaml-0.1 sqlite3 expat $(if $(filter 0,$(BULLET)),,bullet) $(if $(filter 0,$(CAIRO)),,cairo) $(if $(filter 0,$(VIEW)),,libwebsockets)
+PKGS    := lua5.4 yaml-0.1 sqlite3 expat libcjson $(if $(filter 0,$(BULLET)),,bullet) $(if $(filter 0,$(CAIRO)),,cairo) $(if $(filter 0,$(VIEW)),,libwebsockets)
 
 OPT.release := -O2 -DNDEBUG
 OPT.debug   := -O0 -g
@@ -55,6 +55,15 @@ PKG_CFLAGS := $(shell pkg-config --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isyst
 PKG_LIBS   := $(shell pkg-config --libs $(PKGS) 2>/dev/null)
 LIBS       := $(PKG_LIBS) -lm -pthread
 LINK       := $(if $(filter 0,$(BULLET)),$(CC),$(CXX)) $(OPT) -pthread
+
+# One short line a file; V=1 shows the commands.
+ifeq ($(V),1)
+Q   :=
+say :=
+else
+Q   := @
+say = @printf '  %-4s %s\n' $(1) $(2)
+endif
 
 OBJ     := $(SRC_C:%.c=$(B)/%.o) $(SRC_CC:%.cc=$(B)/%.o)
 OBJ_CLI := $(SRC_CLI:%.c=$(B)/%.o)
@@ -92,32 +101,41 @@ tests-built: $(UNIT)
 
 $(B)/%.o: %.c
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -c $< -o $@
+	$(call say,CC,$<)
+	$(Q)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -c $< -o $@
 $(B)/%.o: %.cc
 	@mkdir -p $(@D)
-	$(CXX) $(CPPFLAGS_ALL) $(CXXFLAGS_ALL) -c $< -o $@
+	$(call say,CXX,$<)
+	$(Q)$(CXX) $(CPPFLAGS_ALL) $(CXXFLAGS_ALL) -c $< -o $@
 $(B)/internal.a: $(OBJ)
 	@rm -f $@
-	ar rcs $@ $^
+	$(call say,AR,$@)
+	$(Q)ar rcs $@ $^
 $(B)/jostle: $(OBJ_CLI) $(B)/internal.a
-	$(LINK) $^ -o $@ $(LIBS)
+	$(call say,LINK,$@)
+	$(Q)$(LINK) $^ -o $@ $(LIBS)
 # What leaves the libraries: the public calls alone. Hidden symbols become local.
 $(B)/jostle.o: $(OBJ)
-	ld -r $^ -o $@
-	objcopy --localize-hidden $@
+	$(call say,LD,$@)
+	$(Q)ld -r $^ -o $@
+	$(Q)objcopy --localize-hidden $@
 $(B)/libjostle.a: $(B)/jostle.o
 	@rm -f $@
-	ar rcs $@ $^
+	$(call say,AR,$@)
+	$(Q)ar rcs $@ $^
 $(B)/libjostle.so.$(VERSION): $(B)/jostle.o
-	$(LINK) -shared -Wl,-soname,libjostle.so.0 $^ -o $@ $(LIBS)
+	$(call say,LINK,$@)
+	$(Q)$(LINK) -shared -Wl,-soname,libjostle.so.0 $^ -o $@ $(LIBS)
 $(B)/unit/%: tests/unit/%.c $(B)/internal.a
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
-	$(LINK) $@.o $(B)/internal.a -o $@ -lcmocka $(LIBS)
+	$(call say,TEST,$<)
+	$(Q)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
+	$(Q)$(LINK) $@.o $(B)/internal.a -o $@ -lcmocka $(LIBS)
 $(B)/bench/%: tests/bench/%.c $(B)/internal.a
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
-	$(LINK) $@.o $(B)/internal.a -o $@ $(LIBS)
+	$(call say,TEST,$<)
+	$(Q)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
+	$(Q)$(LINK) $@.o $(B)/internal.a -o $@ $(LIBS)
 
 # Pages and files for editors, made of the tables of words and keys; `make check` compares them.
 reference: all

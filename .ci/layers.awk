@@ -1,12 +1,6 @@
 # Which folder of core includes which: only its own or a strictly lower floor, and no file includes
-# itself in a circle. A folder in a folder is a room of its own, with its own floor: where the two
-# differ in the fraction alone, only the upper of them may include the lower. Prints each breach.
-BEGIN {
-    split("include 0 base 0 task 1 geom 1 agents 1 nav 2 force 2 body 2 machine 2 world 3 " \
-          "scene 4 lua/vm 4.1 lua 4.2 record 4.1 record/probes 4.2 view 4 picture 5 run 5 " \
-          "live 6 report 6 render 6 validate 6 luatest 6 cli 7", words, " ")
-    for (i = 1; (i + 1) in words; i += 2) floor_of[words[i]] = words[i + 1]
-}
+# itself in a circle. Prints each breach. Read after floors.awk.
+BEGIN { floors(floor_of) }
 { sub(/\r$/, "") }
 # The room of a path below core/: its folder.
 function room_of(path) { sub(/\/[^\/]*$/, "", path); return path }

@@ -12,7 +12,7 @@ enum { PADDING = 16 }; /* whole packets may be read past the last agent */
 typedef void ColumnVisitor(void *context, void **column, size_t size);
 
 static void visit_columns(JoxAgents *a, ColumnVisitor *visit, void *context) {
-#define X(type, name) visit(context, (void **)&a->name, sizeof(type));
+#define X(keep, type, name) visit(context, (void **)&a->name, sizeof(type));
     JOX_AGENT_COLUMNS(X)
 #undef X
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
@@ -56,6 +56,8 @@ void jox_agents_reserve(JoxAgents *a, uint32_t capacity) {
     grow_scratch(a);
     jox_free(a->order);
     a->order = jox_alloc(capacity, sizeof *a->order);
+    a->by_rank = jox_realloc(a->by_rank, capacity, sizeof *a->by_rank);
+    a->rank_id = jox_realloc(a->rank_id, capacity, sizeof *a->rank_id);
 }
 
 /* Rows of `old` doubles become rows of `wider`. */
@@ -85,19 +87,22 @@ static void clear_row(void *context, void **column, size_t size) {
     memset((char *)*column + *(uint32_t *)context * size, 0, size);
 }
 
+void jox_agents_reserve_slots(JoxAgents *a, uint32_t capacity) {
+    if (capacity <= a->slot_capacity)
+        return;
+    a->slot_index = jox_realloc(a->slot_index, capacity, sizeof *a->slot_index);
+    a->slot_generation = jox_realloc(a->slot_generation, capacity, sizeof *a->slot_generation);
+    a->free_slots = jox_realloc(a->free_slots, capacity, sizeof *a->free_slots);
+    a->slot_capacity = capacity;
+}
+
 static uint32_t take_slot(JoxAgents *a, uint32_t index) {
     uint32_t slot;
     if (a->free_count) {
         slot = a->free_slots[--a->free_count];
     } else {
-        if (a->slot_count == a->slot_capacity) {
-            uint32_t capacity = a->slot_capacity ? 2 * a->slot_capacity : 64;
-            a->slot_index = jox_realloc(a->slot_index, capacity, sizeof *a->slot_index);
-            a->slot_generation =
-                jox_realloc(a->slot_generation, capacity, sizeof *a->slot_generation);
-            a->free_slots = jox_realloc(a->free_slots, capacity, sizeof *a->free_slots);
-            a->slot_capacity = capacity;
-        }
+        if (a->slot_count == a->slot_capacity)
+            jox_agents_reserve_slots(a, a->slot_capacity ? 2 * a->slot_capacity : 64);
         slot = a->slot_count++;
         a->slot_generation[slot] = 1;
     }
@@ -110,12 +115,9 @@ uint32_t jox_agents_add(JoxAgents *a) {
         jox_agents_reserve(a, a->capacity ? 2 * a->capacity : 64);
     uint32_t i = a->count++;
     visit_columns(a, clear_row, &i);
-    a->id[i] = a->next_id++;
-    if (a->next_id > a->id_capacity) {
-        a->id_capacity = a->id_capacity ? 2 * a->id_capacity : 64;
-        a->id_index = jox_realloc(a->id_index, a->id_capacity, sizeof *a->id_index);
-    }
-    a->id_index[a->id[i]] = i;
+    a->id[i] = a->rank_id[i] = a->next_id++; /* greater than any: the last by rank */
+    a->rank[i] = i;
+    a->by_rank[i] = i;
     a->slot[i] = take_slot(a, i);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         a->param[p][i] = jox_parameter_store((JoxParameter)p, jox_parameters[p].value);
@@ -150,8 +152,9 @@ static void gather_column(void *context, void **column, size_t size) {
 
 static void reindex(JoxAgents *a) {
     for (uint32_t i = 0; i < a->count; i++) {
+        JOX_ASSERT(a->rank[i] < a->count && a->rank_id[a->rank[i]] == a->id[i]);
         a->slot_index[a->slot[i]] = i;
-        a->id_index[a->id[i]] = i;
+        a->by_rank[a->rank[i]] = i;
     }
 }
 
@@ -161,21 +164,37 @@ void jox_agents_permute(JoxAgents *a, const uint32_t *order) {
     reindex(a);
 }
 
+static void release_slot(JoxAgents *a, uint32_t slot) {
+    a->slot_index[slot] = JOX_NO_INDEX;
+    a->slot_generation[slot]++;
+    a->free_slots[a->free_count++] = slot;
+}
+
+/* Ranks of those who stay, once the others are gone. Slots are released in ascending id, so that
+   who gets which slot next does not depend on the order in memory. */
+static void close_ranks(JoxAgents *a) {
+    uint32_t rank = 0;
+    for (uint32_t r = 0; r < a->count; r++) {
+        uint32_t i = a->by_rank[r];
+        if (a->removed[i]) {
+            release_slot(a, a->slot[i]);
+            continue;
+        }
+        a->rank_id[rank] = a->id[i];
+        a->rank[i] = rank++;
+        JOX_ASSERT(rank < 2 || a->rank_id[rank - 2] < a->rank_id[rank - 1]);
+    }
+}
+
 uint32_t jox_agents_compact(JoxAgents *a) {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < a->count; i++) {
-        if (!a->removed[i]) {
+        if (!a->removed[i])
             a->order[kept++] = i;
-            continue;
-        }
-        uint32_t slot = a->slot[i];
-        a->slot_index[slot] = JOX_NO_INDEX;
-        a->slot_generation[slot]++;
-        a->free_slots[a->free_count++] = slot;
-        a->id_index[a->id[i]] = JOX_NO_INDEX;
     }
     uint32_t gone = a->count - kept;
     if (gone) {
+        close_ranks(a);
         Gather gather = {a->order, kept, a->scratch};
         visit_columns(a, gather_column, &gather);
         a->count = kept;
@@ -185,11 +204,24 @@ uint32_t jox_agents_compact(JoxAgents *a) {
 }
 
 void jox_agents_by_id(const JoxAgents *a, uint32_t *out) {
-    uint32_t n = 0;
-    for (uint32_t id = 0; id < a->next_id; id++)
-        if (a->id_index[id] != JOX_NO_INDEX)
-            out[n++] = a->id_index[id];
-    JOX_ASSERT(n == a->count);
+    if (a->count)
+        memcpy(out, a->by_rank, a->count * sizeof *out);
+}
+
+uint32_t jox_agents_find(const JoxAgents *a, uint32_t id) {
+    if (id >= a->next_id || a->count == 0)
+        return JOX_NO_INDEX;
+    /* Of all ids given, next_id - count are gone: so many at most below this one. */
+    uint32_t gone = a->next_id - a->count;
+    uint32_t low = id > gone ? id - gone : 0, high = id < a->count ? id : a->count - 1;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (a->rank_id[middle] < id)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < a->count && a->rank_id[low] == id ? a->by_rank[low] : JOX_NO_INDEX;
 }
 
 static void free_column(void *context, void **column, size_t size) {
@@ -204,7 +236,8 @@ void jox_agents_free(JoxAgents *a) {
     jox_free(a->slot_index);
     jox_free(a->slot_generation);
     jox_free(a->free_slots);
-    jox_free(a->id_index);
+    jox_free(a->by_rank);
+    jox_free(a->rank_id);
     jox_free(a->scratch);
     jox_free(a->order);
     *a = (JoxAgents){0};

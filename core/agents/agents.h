@@ -7,72 +7,78 @@
 #include <stdint.h>
 
 #include "agents/parameters.h"
+#include "base/sections.h"
 #include "base/vec.h"
 
 #define JOX_NO_INDEX UINT32_MAX
 
-/* X(type, name): what it is. Units: m, m/s, N, s. */
+/* X(keep, type, name): what it is. Units: m, m/s, N, s.
+   STATE: carried from step to step, so it is hashed and saved. SCRATCH: every step writes it before
+   it reads it; between steps it holds figures of the last step, which a restored world lacks until
+   the next. INDEX: follows from state, kept up by the functions below. */
 #define JOX_AGENT_COLUMNS(X)                                                                       \
-    X(uint32_t, id)      /* counts up from 0, never reused */                                      \
-    X(uint32_t, slot)    /* row of the handle table */                                             \
-    X(uint16_t, group)   /* index of the scene's group */                                          \
-    X(uint16_t, machine) /* index of the machine; JOX_NO_MACHINE has none */                       \
-    X(uint16_t, state)   /* index of the state in the machine */                                   \
-    X(uint16_t, team)    /* 0 none; agents of other teams are opponents */                         \
-    X(uint64_t, given)   /* bit per own slot (the first 64) that the scene or a function set */    \
-    X(uint64_t, tags)    /* bit per tag of the world */                                            \
-    X(float, x)                                                                                    \
-    X(float, y)                                                                                    \
-    X(float, vx)                                                                                   \
-    X(float, vy)                                                                                   \
-    X(float, prev_x) /* position before the last move */                                           \
-    X(float, prev_y)                                                                               \
-    X(float, face_x) /* unit vector the agent looks along */                                       \
-    X(float, face_y)                                                                               \
-    X(float, pref_x) /* preferred velocity, written by `prefer` */                                 \
-    X(float, pref_y)                                                                               \
-    X(float, next_x) /* new velocity, written by `solve` */                                        \
-    X(float, next_y)                                                                               \
-    X(float, ext_x) /* external force given by the host this step, N */                            \
-    X(float, ext_y)                                                                                \
-    X(float, push_x) /* sum of pushes received, N */                                               \
-    X(float, push_y)                                                                               \
-    X(float, contact_x) /* sum of contact forces received, N */                                    \
-    X(float, contact_y)                                                                            \
-    X(float, inferred_x) /* filtered deceleration and resistance, for the next step, N */          \
-    X(float, inferred_y)                                                                           \
-    X(float, force_x) /* net force of this step, equation 10, N */                                 \
-    X(float, force_y)                                                                              \
-    X(float, compression) /* sum of |f.n| of contacts over girth, N/m */                           \
-    X(float, plane_x)     /* force half-plane: unit normal; (0, 0) means none */                   \
-    X(float, plane_y)                                                                              \
-    X(float, plane_offset) /* (v . normal) >= offset, m/s */                                       \
-    X(float, disc)         /* radius of the speed disc of this step, m/s */                        \
-    X(float, density)      /* from the distance of the farthest neighbour kept, 1/m2 */            \
-    X(float, search)       /* radius that held the neighbours last time; 0 unknown */              \
-    X(uint8_t, failed)     /* 1 where the 2-D program was infeasible this step */                  \
-    X(uint8_t, contacts)   /* agents and bodies touched this step */                               \
-    X(uint8_t, removed)    /* 1: leaves the world at the end of the step */                        \
-    X(uint32_t, entered)   /* tick at which the state was entered */                               \
-    X(float, lasts)        /* drawn duration of the state, s; INFINITY if none */                  \
-    X(uint32_t, was_true)  /* bit per transition: its `when` held last step */                     \
-    X(int32_t, goal)       /* place index aimed at, or -1 */                                       \
-    X(float, still)        /* seconds since it last moved 0.25 m */                                \
-    X(float, still_x)      /* where that was */                                                    \
-    X(float, still_y)                                                                              \
-    X(int32_t, queue_at)    /* place whose queue it stands in, or -1 */                            \
-    X(uint32_t, queued)     /* tick at which it joined that queue */                               \
-    X(int32_t, kicked)      /* body kicked last step, or -1 */                                     \
-    X(uint32_t, kick_ready) /* tick from which it may kick again */                                \
-    X(uint64_t, ignore)     /* tags of agents and bodies that are not avoided */                   \
-    X(uint64_t, push_only)  /* tags that are pushed; 0 means all */                                \
-    X(int32_t, approach)    /* body index that is approached, not anticipated; -1 none */
+    X(STATE, uint32_t, id)      /* counts up from 0, never reused */                               \
+    X(STATE, uint32_t, slot)    /* row of the handle table */                                      \
+    X(INDEX, uint32_t, rank)    /* how many living agents have smaller ids; follows from `id` */   \
+    X(STATE, uint16_t, group)   /* index of the scene's group */                                   \
+    X(STATE, uint16_t, machine) /* index of the machine; JOX_NO_MACHINE has none */                \
+    X(STATE, uint16_t, state)   /* index of the state in the machine */                            \
+    X(STATE, uint16_t, team)    /* 0 none; agents of other teams are opponents */                  \
+    X(STATE, uint64_t,                                                                             \
+      given) /* bit per own slot (the first 64) that the scene or a function set */                \
+    X(STATE, uint64_t, tags) /* bit per tag of the world */                                        \
+    X(STATE, float, x)                                                                             \
+    X(STATE, float, y)                                                                             \
+    X(STATE, float, vx)                                                                            \
+    X(STATE, float, vy)                                                                            \
+    X(STATE, float, prev_x) /* position before the last move */                                    \
+    X(STATE, float, prev_y)                                                                        \
+    X(STATE, float, face_x) /* unit vector the agent looks along */                                \
+    X(STATE, float, face_y)                                                                        \
+    X(STATE, float, pref_x) /* preferred velocity, written by `prefer` */                          \
+    X(STATE, float, pref_y)                                                                        \
+    X(SCRATCH, float, next_x) /* new velocity, written by `solve` */                               \
+    X(SCRATCH, float, next_y)                                                                      \
+    X(STATE, float, ext_x) /* external force given by the host this step, N */                     \
+    X(STATE, float, ext_y)                                                                         \
+    X(SCRATCH, float, push_x) /* sum of pushes received, N */                                      \
+    X(SCRATCH, float, push_y)                                                                      \
+    X(SCRATCH, float, contact_x) /* sum of contact forces received, N */                           \
+    X(SCRATCH, float, contact_y)                                                                   \
+    X(STATE, float, inferred_x) /* filtered deceleration and resistance, for the next step, N */   \
+    X(STATE, float, inferred_y)                                                                    \
+    X(STATE, float, force_x) /* net force of this step, equation 10, N */                          \
+    X(STATE, float, force_y)                                                                       \
+    X(STATE, float, compression) /* sum of |f.n| of contacts over girth, N/m */                    \
+    X(SCRATCH, float, plane_x)   /* force half-plane: unit normal; (0, 0) means none */            \
+    X(SCRATCH, float, plane_y)                                                                     \
+    X(SCRATCH, float, plane_offset) /* (v . normal) >= offset, m/s */                              \
+    X(SCRATCH, float, disc)         /* radius of the speed disc of this step, m/s */               \
+    X(SCRATCH, float, density)      /* from the distance of the farthest neighbour kept, 1/m2 */   \
+    X(SCRATCH, float, search)       /* radius that held the neighbours last time; 0 unknown */     \
+    X(SCRATCH, uint8_t, failed)     /* 1 where the 2-D program was infeasible this step */         \
+    X(STATE, uint8_t, contacts)     /* agents and bodies touched this step */                      \
+    X(STATE, uint8_t, removed)      /* 1: leaves the world at the end of the step */               \
+    X(STATE, uint32_t, entered)     /* tick at which the state was entered */                      \
+    X(STATE, float, lasts)          /* drawn duration of the state, s; INFINITY if none */         \
+    X(STATE, uint32_t, was_true)    /* bit per transition: its `when` held last step */            \
+    X(STATE, int32_t, goal)         /* place index aimed at, or -1 */                              \
+    X(STATE, float, still)          /* seconds since it last moved 0.25 m */                       \
+    X(STATE, float, still_x)        /* where that was */                                           \
+    X(STATE, float, still_y)                                                                       \
+    X(STATE, int32_t, queue_at)    /* place whose queue it stands in, or -1 */                     \
+    X(STATE, uint32_t, queued)     /* tick at which it joined that queue */                        \
+    X(STATE, int32_t, kicked)      /* body kicked last step, or -1 */                              \
+    X(STATE, uint32_t, kick_ready) /* tick from which it may kick again */                         \
+    X(STATE, uint64_t, ignore)     /* tags of agents and bodies that are not avoided */            \
+    X(STATE, uint64_t, push_only)  /* tags that are pushed; 0 means all */                         \
+    X(STATE, int32_t, approach)    /* body index that is approached, not anticipated; -1 none */
 
 #define JOX_NO_MACHINE UINT16_MAX
 
 typedef struct JoxAgents {
     uint32_t count, capacity;
-#define X(type, name) type *name;
+#define X(keep, type, name) type *name;
     JOX_AGENT_COLUMNS(X)
 #undef X
     /* One column a parameter, e.g. agents->param[JOX_PARAM_speed][i]; angles hold the cosine. */
@@ -84,9 +90,9 @@ typedef struct JoxAgents {
     /* Handles: slot -> index (JOX_NO_INDEX when free) and generation. */
     uint32_t *slot_index, *slot_generation, *free_slots;
     uint32_t slot_count, slot_capacity, free_count, free_capacity;
-    /* id -> index, JOX_NO_INDEX when gone. */
-    uint32_t *id_index;
-    uint32_t id_capacity;
+    /* By rank, that is in ascending id: index and id. Room for `capacity`, so that they grow with
+       the most who ever lived at once, not with all ids ever given. */
+    uint32_t *by_rank, *rank_id;
     /* Periodic edges: who leaves at one side comes in at the other. Lengths of the period, 0 along
        an axis without; positions are kept within [origin, origin + period). */
     JoxV2 origin, period;
@@ -110,6 +116,7 @@ static inline JoxV2 jox_offset(const JoxAgents *agents, uint32_t i, uint32_t j) 
 
 /* Zero-initialised agents are empty. Strides may only grow (rows are widened, new cells zero). */
 void jox_agents_reserve(JoxAgents *agents, uint32_t capacity);
+void jox_agents_reserve_slots(JoxAgents *agents, uint32_t capacity);
 void jox_agents_widen(JoxAgents *agents, uint32_t own_stride, uint32_t memory_stride);
 /* Adds one agent: all columns zero, parameters at their defaults, face +x, lasts infinite, goal,
    kicked and approach -1, machine JOX_NO_MACHINE. Returns its index (valid until the next sort). */
@@ -118,8 +125,17 @@ uint32_t jox_agents_add(JoxAgents *agents);
 uint32_t jox_agents_compact(JoxAgents *agents);
 /* Puts the agents in the order given: new index i is what was at order[i]; a permutation. */
 void jox_agents_permute(JoxAgents *agents, const uint32_t *order);
-/* Writes the indices of all agents in ascending id into `out` (count entries). */
+/* Writes the indices of all agents in ascending id into `out` (count entries). One at a time they
+   are agents->by_rank[0 .. count - 1]. */
 void jox_agents_by_id(const JoxAgents *agents, uint32_t *out);
+/* Index of the living agent with an id, or JOX_NO_INDEX. At once while nobody has left, else in
+   logarithmic time. */
+uint32_t jox_agents_find(const JoxAgents *agents, uint32_t id);
+/* Lists the agents' state. Agents come in ascending id: their order in memory is no part of it, and
+   restored they lie by id. */
+void jox_agents_sections(JoxAgents *agents, JoxSections *sections);
+/* Overwrites the scratch columns, with NaN where they hold numbers: no later step may notice. */
+void jox_agents_forget(JoxAgents *agents);
 void jox_agents_free(JoxAgents *agents);
 
 #endif

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/json_writer.h"
 #include "base/mem.h"
 
 enum { KEPT = 20, SOURCE_SHOWN = 200 };
@@ -109,22 +110,26 @@ void jox_diag_print(const JoxDiagnostics *d, JoxText *out) {
 }
 
 void jox_diag_json(const JoxDiagnostics *d, JoxText *out) {
-    const char *severity[] = {"error", "warning", "note"};
-    jox_text_add(out, "[");
+    static const char *const SEVERITIES[] = {[JOX_SEVERITY_ERROR] = "error",
+                                             [JOX_SEVERITY_WARNING] = "warning",
+                                             [JOX_SEVERITY_NOTE] = "note"};
+    JoxJson json = jox_json_begin(out, 1);
+    jox_json_array(&json, NULL);
     for (size_t i = 0; i < d->count; i++) {
         const JoxDiagnostic *item = &d->items[i];
-        jox_text_add(out, i ? ",\n {\"file\":" : "\n {\"file\":");
-        jox_text_json(out, item->file ? item->file : "");
-        jox_text_printf(out, ",\"line\":%d,\"column\":%d,\"end\":%d,\"severity\":\"%s\",\"code\":",
-                        item->line, item->column, item->end_column, severity[item->severity]);
-        jox_text_json(out, item->code);
-        jox_text_add(out, ",\"message\":");
-        jox_text_json(out, item->message);
-        jox_text_add(out, ",\"hint\":");
-        jox_text_json(out, item->hint ? item->hint : "");
-        jox_text_add(out, "}");
+        jox_json_object(&json, NULL);
+        jox_json_string(&json, "file", item->file ? item->file : "");
+        jox_json_integer(&json, "line", item->line);
+        jox_json_integer(&json, "column", item->column);
+        jox_json_integer(&json, "end", item->end_column);
+        jox_json_string(&json, "severity", SEVERITIES[item->severity]);
+        jox_json_string(&json, "code", item->code);
+        jox_json_string(&json, "message", item->message);
+        jox_json_string(&json, "hint", item->hint ? item->hint : "");
+        jox_json_end(&json);
     }
-    jox_text_add(out, d->count ? "\n]\n" : "]\n");
+    jox_json_end(&json);
+    jox_text_append(out, "\n", 1);
 }
 
 void jox_diag_move(JoxDiagnostics *to, JoxDiagnostics *from) {

@@ -1,104 +1,127 @@
 #include "base/json.h"
 
-#include <ctype.h>
+#include <cJSON.h>
 #include <math.h>
-#include <stddef.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum { DEEPEST = 16, LONGEST_PATH = 256 };
+#include "base/mem.h"
+#include "base/text.h"
 
-typedef struct Reader {
-    const char *at;
-    JoxJsonNumber *number;
-    void *context;
-    char path[LONGEST_PATH];
-    bool bad;
-} Reader;
+enum { LONGEST_PATH = 256 };
 
-static void skip_space(Reader *r) {
-    while (isspace((unsigned char)*r->at))
-        r->at++;
+/* ---- before the library is asked: size, nesting, and characters that it would let pass ---- */
+
+/* Length of the text in quotation marks at `s`, with them; 0 if it does not end or holds control
+   characters, the escape of a NUL, or what is not UTF-8. */
+static size_t quoted_length(const char *s) {
+    size_t n = 1;
+    while (s[n] != '"') {
+        size_t wide = jox_utf8_length(s + n);
+        if ((unsigned char)s[n] < 32 || wide == 0 || !strncmp(s + n, "\\u0000", 6))
+            return 0;
+        n += s[n] == '\\' && s[n + 1] ? 2 : wide;
+    }
+    return n + 1;
 }
 
-static bool take(Reader *r, char c) {
-    skip_space(r);
-    if (*r->at != c)
+static bool within_limits(const char *text, JoxJsonLimits limits) {
+    size_t items = 0;
+    int depth = 0;
+    if (strnlen(text, limits.length + 1) > limits.length)
         return false;
-    r->at++;
+    for (const char *s = text; *s;) {
+        size_t n = *s == '"' ? quoted_length(s) : 1;
+        if (n == 0)
+            return false;
+        items += *s == ',' || *s == '{' || *s == '[';
+        depth += (*s == '{' || *s == '[') - (*s == '}' || *s == ']');
+        if (depth > limits.depth || items > limits.items)
+            return false;
+        s += n;
+    }
     return true;
 }
 
-/* Reads a string into `out` (escapes are kept as they are; paths need no more). */
-static void read_string(Reader *r, char *out, size_t size) {
-    size_t n = 0;
-    if (!take(r, '"'))
-        r->bad = true;
-    while (!r->bad && *r->at && *r->at != '"') {
-        if (*r->at == '\\' && r->at[1])
-            r->at++;
-        if (out && n + 1 < size)
-            out[n++] = *r->at;
-        r->at++;
+/* ---- the document as it is visited ---- */
+
+typedef struct Reader {
+    JoxJsonVisit *visit;
+    void *context;
+    char path[LONGEST_PATH];
+} Reader;
+
+static JoxJsonItem item_of(const cJSON *value, int depth, const char *path) {
+    JoxJsonItem item = {.depth = depth, .key = value->string, .path = path};
+    if (cJSON_IsString(value)) {
+        item.kind = JOX_JSON_TEXT;
+        item.text = value->valuestring;
+    } else if (cJSON_IsNumber(value)) {
+        item.kind = JOX_JSON_NUMBER;
+        item.number = value->valuedouble;
+    } else if (cJSON_IsBool(value)) {
+        item.kind = JOX_JSON_BOOL;
+        item.number = cJSON_IsTrue(value);
+    } else if (cJSON_IsObject(value)) {
+        item.kind = JOX_JSON_OBJECT;
+    } else if (cJSON_IsArray(value)) {
+        item.kind = JOX_JSON_ARRAY;
     }
-    if (out)
-        out[n] = 0;
-    r->bad |= *r->at != '"';
-    r->at += *r->at == '"';
+    return item;
 }
 
-static void read_value(Reader *r, int depth) {
-    size_t length = strlen(r->path);
-    skip_space(r);
-    if (depth > DEEPEST) {
-        r->bad = true;
-    } else if (*r->at == '{' || *r->at == '[') {
-        bool map = *r->at++ == '{';
-        char close = map ? '}' : ']', key[64];
-        for (int item = 0; !r->bad && !take(r, close); item++) {
-            if (item && !take(r, ','))
-                r->bad = true;
-            if (map)
-                read_string(r, key, sizeof key);
-            else
-                snprintf(key, sizeof key, "%d", item);
-            if (map && !take(r, ':'))
-                r->bad = true;
-            snprintf(r->path + length, sizeof r->path - length, "%s%s", length ? "." : "", key);
-            if (!r->bad)
-                read_value(r, depth + 1);
-            r->path[length] = 0;
-        }
-    } else if (*r->at == '"') {
-        read_string(r, NULL, 0);
-    } else if (isalpha((unsigned char)*r->at)) { /* true, false, null */
-        static const char *const WORDS[] = {"true", "false", "null"};
-        size_t length_of = 0;
-        while (isalpha((unsigned char)r->at[length_of]))
-            length_of++;
-        bool known = false;
-        for (int w = 0; w < 3; w++)
-            known |= strlen(WORDS[w]) == length_of && !strncmp(r->at, WORDS[w], length_of);
-        r->bad |= !known;
-        r->at += length_of;
-    } else {
-        char *end;
-        double value = strtod(r->at, &end);
-        r->bad |=
-            end == r->at || end > r->at + strspn(r->at, "+-.0123456789eE") || !isfinite(value);
-        r->at = end;
-        if (!r->bad)
-            r->number(r->context, r->path, value);
+static bool visit_items(Reader *r, const cJSON *parent, int depth) {
+    const size_t length = strlen(r->path);
+    int index = 0;
+    for (const cJSON *child = parent->child; child; child = child->next, index++) {
+        const char *dot = length ? "." : "";
+        if (child->string)
+            snprintf(r->path + length, sizeof r->path - length, "%s%s", dot, child->string);
+        else
+            snprintf(r->path + length, sizeof r->path - length, "%s%d", dot, index);
+        const JoxJsonItem item = item_of(child, depth, r->path);
+        if (!r->visit(r->context, &item) || !visit_items(r, child, depth + 1))
+            return false;
+        r->path[length] = 0;
     }
+    return true;
+}
+
+/* Whether every number is finite: 1e999 is infinite to the library. */
+static bool finite_numbers(const cJSON *value) {
+    if (cJSON_IsNumber(value) && !isfinite(value->valuedouble))
+        return false;
+    for (const cJSON *child = value->child; child; child = child->next)
+        if (!finite_numbers(child))
+            return false;
+    return true;
+}
+
+bool jox_json_read(const char *text, JoxJsonLimits limits, JoxJsonVisit *visit, void *context) {
+    Reader reader = {.visit = visit, .context = context};
+    if (!within_limits(text, limits))
+        return false;
+    cJSON *document = cJSON_ParseWithOpts(text, NULL, true);
+    bool good =
+        cJSON_IsObject(document) && finite_numbers(document) && visit_items(&reader, document, 1);
+    cJSON_Delete(document);
+    return good;
+}
+
+typedef struct Numbers {
+    JoxJsonNumber *number;
+    void *context;
+} Numbers;
+
+static bool visit_number(void *context, const JoxJsonItem *item) {
+    const Numbers *numbers = context;
+    if (item->kind == JOX_JSON_NUMBER)
+        numbers->number(numbers->context, item->path, item->number);
+    return true;
 }
 
 bool jox_json_numbers(const char *text, JoxJsonNumber *number, void *context) {
-    Reader r = {.at = text, .number = number, .context = context};
-    skip_space(&r);
-    r.bad |= *r.at != '{';
-    if (!r.bad)
-        read_value(&r, 0);
-    skip_space(&r);
-    return !r.bad && *r.at == 0;
+    static const JoxJsonLimits OWN_FILES = {.length = 1 << 26, .items = 1 << 20, .depth = 16};
+    Numbers numbers = {number, context};
+    return jox_json_read(text, OWN_FILES, visit_number, &numbers);
 }

@@ -23,22 +23,27 @@ void jox_text_add(JoxText *text, const char *string) {
     jox_text_append(text, string, strlen(string));
 }
 
-void jox_text_printf(JoxText *text, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    int need = vsnprintf(NULL, 0, format, arguments);
-    va_end(arguments);
+void jox_text_vprintf(JoxText *text, const char *format, va_list arguments) {
+    va_list again;
+    va_copy(again, arguments);
+    int need = vsnprintf(NULL, 0, format, again);
+    va_end(again);
     if (need < 0)
         return;
     JOX_RESERVE(text->data, text->capacity, text->length + (size_t)need + 1);
-    va_start(arguments, format);
     vsnprintf(text->data + text->length, (size_t)need + 1, format, arguments);
-    va_end(arguments);
     text->length += (size_t)need;
 }
 
-/* Length of the valid UTF-8 sequence at `s`, or 0. */
-static size_t utf8_length(const unsigned char *s) {
+void jox_text_printf(JoxText *text, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    jox_text_vprintf(text, format, arguments);
+    va_end(arguments);
+}
+
+size_t jox_utf8_length(const char *string) {
+    const unsigned char *s = (const unsigned char *)string;
     if (s[0] < 0x80)
         return 1;
     size_t n = s[0] >= 0xF0 && s[0] < 0xF5   ? 4
@@ -48,12 +53,14 @@ static size_t utf8_length(const unsigned char *s) {
     for (size_t i = 1; i < n; i++)
         if ((s[i] & 0xC0) != 0x80)
             return 0;
-    return n;
+    bool overlong = (s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xF0 && s[1] < 0x90);
+    bool no_character = (s[0] == 0xED && s[1] > 0x9F) || (s[0] == 0xF4 && s[1] > 0x8F);
+    return overlong || no_character ? 0 : n;
 }
 
 void jox_text_clean(char *text) {
     for (unsigned char *s = (unsigned char *)text; *s;) {
-        size_t n = utf8_length(s);
+        size_t n = jox_utf8_length((const char *)s);
         bool control = *s < 32 || *s == 127 || (n == 2 && s[0] == 0xC2 && s[1] < 0xA0);
         if (*s == '\n' || *s == '\t') {
             *s++ = ' ';
@@ -69,7 +76,7 @@ void jox_text_clean(char *text) {
 void jox_text_json(JoxText *text, const char *string) {
     jox_text_append(text, "\"", 1);
     for (const unsigned char *s = (const unsigned char *)string; *s;) {
-        size_t n = utf8_length(s);
+        size_t n = jox_utf8_length((const char *)s);
         if (n == 0) {
             jox_text_add(text, "\\ufffd");
             n = 1;

@@ -2,6 +2,7 @@
 #ifndef JOX_BASE_TEXT_H
 #define JOX_BASE_TEXT_H
 
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -14,6 +15,10 @@ typedef struct JoxText {
 void jox_text_append(JoxText *text, const char *data, size_t length);
 void jox_text_add(JoxText *text, const char *string);
 void jox_text_printf(JoxText *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void jox_text_vprintf(JoxText *text, const char *format, va_list arguments);
+/* Bytes of the character of UTF-8 that `string` begins with, 1 for its end; 0 if it is none:
+   overlong forms, halves of surrogate pairs and what is beyond U+10FFFF are none. */
+size_t jox_utf8_length(const char *string);
 /* Appends `string` as a JSON string with its quotes; bytes that are not UTF-8 become U+FFFD. */
 void jox_text_json(JoxText *text, const char *string);
 /* Appends a number as JSON: %.9g, or null where it is not finite. */

@@ -24,7 +24,7 @@ typedef enum JoxShapeKind {
     JOX_SHAPE_CYLINDER, /* size[0]: radius, size[1]: height; the axis is z */
     JOX_SHAPE_HULL,     /* convex hull of 4 to 256 points: x0, y0, z0, x1, ... */
     JOX_SHAPE_COMPOUND, /* 1 to 4096 parts, none of them a compound */
-    JOX_SHAPE_BLOCKS    /* size: of one block; count of them along x, y, z: glued, see glue.h */
+    JOX_SHAPE_BLOCKS    /* size: of one block; count of them along x, y, z: bonded, see bonds.h */
 } JoxShapeKind;
 
 typedef struct JoxShape {
@@ -35,7 +35,7 @@ typedef struct JoxShape {
     const JoxBodyPart *parts;
     uint32_t part_count;
     uint32_t count[3]; /* blocks: at most 4096 in all; of a part none */
-    double bond;       /* N: what breaks the glue between two blocks */
+    double bond;       /* N: what breaks the bond between two blocks */
 } JoxShape;
 
 struct JoxBodyPart {
@@ -159,8 +159,8 @@ typedef struct JoxBodyGone {
     JoxBodyEnd why;
 } JoxBodyGone;
 
-/* Glue that broke in a step. The greatest piece goes on as the body that it was; the others are new
-   bodies with its tags, in the order of their least block, and move as they did while whole. */
+/* Bonds that broke in a step. The greatest piece goes on as the body that it was; the others are
+   new bodies with its tags, in the order of their least block, and move as they did while whole. */
 typedef struct JoxBodyBreak {
     uint32_t row, id;
     uint32_t bonds;  /* cut in this step */
@@ -192,11 +192,11 @@ bool jox_bodies_any_fast(const JoxBodies *bodies, float dt);
    shows the hull of all its parts as its footprint. */
 void jox_bodies_objects(JoxBodies *bodies, JoxObjects *objects);
 /* What holds a body of blocks together; false, and all zero, for other bodies. */
-typedef struct JoxBodyGlue {
+typedef struct JoxBodyBonds {
     uint32_t blocks, bonds; /* still joined to this body; between them */
-    double burden; /* in the last step, of the bond nearest to breaking: force over strength */
-} JoxBodyGlue;
-bool jox_bodies_glue(const JoxBodies *bodies, uint32_t row, JoxBodyGlue *glue);
+    double load_ratio; /* in the last step, of the bond nearest to breaking: force over strength */
+} JoxBodyBonds;
+bool jox_bodies_bonds(const JoxBodies *bodies, uint32_t row, JoxBodyBonds *bonds);
 /* Adds ids, poses, velocities and bonds in order of id. */
 void jox_bodies_hash(const JoxBodies *bodies, JoxHash *hash);
 /* Whether this build has Bullet. */

@@ -91,11 +91,11 @@ void jox_bodies_drop(JoxBodies *b, uint32_t row) {
     JoxRow *r = &b->rows[row];
     b->world->removeRigidBody(r->body);
     delete r->body;
-    jox_built_free(&r->built);
+    jox_body_shape_free(&r->shape);
     jox_free(r->name);
-    b->glued -= r->glue ? 1 : 0;
-    jox_glue_free(r->glue);
-    r->glue = nullptr;
+    b->bonded -= r->bonds ? 1 : 0;
+    jox_bonds_free(r->bonds);
+    r->bonds = nullptr;
     r->live = false;
     r->name = nullptr;
     r->body = nullptr;
@@ -122,8 +122,8 @@ void jox_bodies_free(JoxBodies *b) {
         delete b->dispatcher;
         delete b->configuration;
     }
-    void *owned[] = {b->walls, b->rows,    b->order, b->objects,  b->hits,
-                     b->gone,  b->corners, b->leans, b->contacts, b->breaks};
+    void *owned[] = {b->walls, b->rows,    b->order,         b->objects,  b->hits,
+                     b->gone,  b->corners, b->contact_loads, b->contacts, b->breaks};
     for (void *memory : owned)
         jox_free(memory);
     jox_disc_grid_free(&b->grid);
@@ -168,12 +168,13 @@ static btVector3 vector(const double v[3]) {
     return btVector3(float(v[0]), float(v[1]), float(v[2]));
 }
 
-void jox_row_embody(JoxBodies *b, uint32_t row, const btTransform &frame,
-                    const JoxMaterial &material) {
+void jox_row_create_body(JoxBodies *b, uint32_t row, const btTransform &frame,
+                         const JoxMaterial &material) {
     JoxRow *r = &b->rows[row];
-    const JoxBuilt &built = r->built;
-    btRigidBody::btRigidBodyConstructionInfo info(built.mass, nullptr, built.shape, built.inertia);
-    info.m_startWorldTransform = frame * built.frame;
+    const JoxBodyShape &shape = r->shape;
+    btRigidBody::btRigidBodyConstructionInfo info(shape.mass, nullptr, shape.collision,
+                                                  shape.inertia);
+    info.m_startWorldTransform = frame * shape.frame;
     info.m_friction = material.friction;
     info.m_restitution = material.restitution;
     info.m_linearDamping = material.damping;
@@ -182,21 +183,21 @@ void jox_row_embody(JoxBodies *b, uint32_t row, const btTransform &frame,
     info.m_angularSleepingThreshold = 0.2f;
     r->body = new btRigidBody(info);
     r->body->setUserIndex(int(row));
-    if (built.mass > 0) {
-        r->body->setCcdMotionThreshold(built.inner);
-        r->body->setCcdSweptSphereRadius(0.8f * built.inner);
+    if (shape.mass > 0) {
+        r->body->setCcdMotionThreshold(shape.inner);
+        r->body->setCcdSweptSphereRadius(0.8f * shape.inner);
     }
     b->world->addRigidBody(r->body);
 }
 
-uint32_t jox_row_enter(JoxBodies *b, const JoxBuilt *built, const btTransform &frame,
-                       const JoxMaterial &material) {
+uint32_t jox_row_add(JoxBodies *b, const JoxBodyShape *shape, const btTransform &frame,
+                     const JoxMaterial &material) {
     uint32_t at = free_row(b);
     b->rows[at] = JoxRow();
     b->rows[at].live = true;
     b->rows[at].id = b->next_id++;
-    b->rows[at].built = *built;
-    jox_row_embody(b, at, frame, material);
+    b->rows[at].shape = *shape;
+    jox_row_create_body(b, at, frame, material);
     jox_reserve(b->order, b->order_capacity, b->live + 1);
     b->order[b->live++] = at;
     return at;
@@ -211,15 +212,15 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
     }
     bool still = def->still ||
                  (def->shape.kind != JOX_SHAPE_COMPOUND && def->mass <= 0 && def->density <= 0);
-    JoxBuilt built;
-    JoxGlue *glue = nullptr;
+    JoxBodyShape shape;
+    JoxBondGraph *bonds = nullptr;
     if (def->shape.kind == JOX_SHAPE_BLOCKS) {
-        glue = jox_row_glue(def, error);
-        if (!glue || !jox_built_blocks(glue, still, &built, error)) {
-            jox_glue_free(glue);
+        bonds = jox_row_bonds(def, error);
+        if (!bonds || !jox_body_shape_of_blocks(bonds, still, &shape, error)) {
+            jox_bonds_free(bonds);
             return JOX_NO_BODY;
         }
-    } else if (!jox_built_make(def, still, &built, error)) {
+    } else if (!jox_body_shape_make(def, still, &shape, error)) {
         return JOX_NO_BODY;
     }
     jox_bodies_ensure(b);
@@ -228,7 +229,7 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
     turn = turn.length2() > 1e-12f ? turn.normalized() : btQuaternion::getIdentity();
     JoxMaterial material = {float(def->friction), float(def->restitution), float(def->damping),
                             float(def->spin_damping)};
-    uint32_t at = jox_row_enter(b, &built, btTransform(turn, vector(def->position)), material);
+    uint32_t at = jox_row_add(b, &shape, btTransform(turn, vector(def->position)), material);
     JoxRow *r = &b->rows[at];
     r->name = def->name ? jox_strdup(def->name) : nullptr;
     r->tags = def->tags;
@@ -237,10 +238,10 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
         r->body->setAngularVelocity(vector(def->spin));
     }
     if (still) {
-        jox_glue_free(glue); /* what never moves never breaks */
-    } else if (glue) {
-        r->glue = glue;
-        b->glued++;
+        jox_bonds_free(bonds); /* what never moves never breaks */
+    } else if (bonds) {
+        r->bonds = bonds;
+        b->bonded++;
     }
     return at;
 }
@@ -303,19 +304,19 @@ bool jox_bodies_pose(const JoxBodies *b, uint32_t row, JoxPose *pose) {
     pose->centre = jox_v3(r->body->getWorldTransform().getOrigin());
     pose->velocity = jox_v3(r->body->getLinearVelocity());
     pose->spin = jox_v3(r->body->getAngularVelocity());
-    pose->mass = r->built.mass;
-    pose->inertia = jox_v3(r->built.inertia);
+    pose->mass = r->shape.mass;
+    pose->inertia = jox_v3(r->shape.inertia);
     return true;
 }
 
 bool jox_bodies_look(const JoxBodies *b, uint32_t row, uint32_t part, JoxBodyLook *out) {
     *out = JoxBodyLook();
     const JoxRow *r = row_of(b, row);
-    if (!r || part >= r->built.part_count)
+    if (!r || part >= r->shape.part_count)
         return false;
-    const JoxPart *p = &r->built.parts[part];
+    const JoxConvexPart *p = &r->shape.parts[part];
     bool hull = p->kind == JOX_SHAPE_HULL; /* corners are in the frame of the centre of mass */
-    btTransform at = hull ? r->built.frame : r->built.frame * p->frame;
+    btTransform at = hull ? r->shape.frame : r->shape.frame * p->frame;
     btQuaternion q = at.getRotation();
     out->kind = p->kind;
     out->at = jox_v3(at.getOrigin());
@@ -339,7 +340,7 @@ bool jox_bodies_look(const JoxBodies *b, uint32_t row, uint32_t part, JoxBodyLoo
 
 bool jox_bodies_set_velocity(JoxBodies *b, uint32_t row, JoxV3 velocity, JoxV3 spin) {
     JoxRow *r = row_of(b, row);
-    if (!r || r->built.mass <= 0 || !jox_finite(jox_bt(velocity)) || !jox_finite(jox_bt(spin)))
+    if (!r || r->shape.mass <= 0 || !jox_finite(jox_bt(velocity)) || !jox_finite(jox_bt(spin)))
         return false;
     r->body->activate(true);
     r->body->setLinearVelocity(jox_bt(velocity));
@@ -349,7 +350,7 @@ bool jox_bodies_set_velocity(JoxBodies *b, uint32_t row, JoxV3 velocity, JoxV3 s
 
 bool jox_bodies_hold(JoxBodies *b, uint32_t row, uint32_t agent_id) {
     JoxRow *r = row_of(b, row);
-    if (!r || r->built.mass <= 0)
+    if (!r || r->shape.mass <= 0)
         return false;
     r->held = true;
     r->holder = agent_id;
@@ -383,7 +384,7 @@ void jox_bodies_let_go(JoxBodies *b, uint32_t row, JoxV3 velocity) {
 
 bool jox_bodies_force(JoxBodies *b, uint32_t row, JoxV3 force) {
     JoxRow *r = row_of(b, row);
-    if (!r || r->built.mass <= 0 || !jox_finite(jox_bt(force)))
+    if (!r || r->shape.mass <= 0 || !jox_finite(jox_bt(force)))
         return false;
     r->force = jox_v3(jox_bt(r->force) + jox_bt(force));
     return true;
@@ -394,21 +395,21 @@ uint32_t jox_bodies_impulses(JoxBodies *b, const JoxImpulse *impulses, uint32_t 
     for (uint32_t i = 0; i < count; i++) {
         btVector3 p = jox_bt(impulses[i].impulse), at = jox_bt(impulses[i].point);
         JoxRow *r = row_of(b, impulses[i].object);
-        if (!r || r->built.mass <= 0 || !jox_finite(p) || !jox_finite(at)) {
+        if (!r || r->shape.mass <= 0 || !jox_finite(p) || !jox_finite(at)) {
             odd++;
             continue;
         }
-        float change = p.length() / r->built.mass, most = float(b->def.most_change);
+        float change = p.length() / r->shape.mass, most = float(b->def.most_change);
         if (!(change <= most)) {
             odd++;
             /* Scaled twice, so that a square that overflows is still clamped. */
             p /= p.absolute()[p.absolute().maxAxis()];
-            p *= most * r->built.mass / p.length();
+            p *= most * r->shape.mass / p.length();
         }
         r->body->activate(true);
         r->body->applyImpulse(p, at - r->body->getWorldTransform().getOrigin());
-        if (r->glue)
-            jox_row_hit(r, at, p);
+        if (r->bonds)
+            jox_row_add_impulse(r, at, p);
     }
     return odd;
 }
@@ -418,7 +419,7 @@ void jox_bodies_momentum(const JoxBodies *b, double out[3]) {
     for (uint32_t k = 0; k < b->live; k++) {
         const JoxRow *r = &b->rows[b->order[k]];
         for (int i = 0; i < 3; i++)
-            out[i] += double(r->built.mass) * r->body->getLinearVelocity()[i];
+            out[i] += double(r->shape.mass) * r->body->getLinearVelocity()[i];
     }
 }
 
@@ -435,7 +436,7 @@ void jox_bodies_hash(const JoxBodies *b, JoxHash *hash) {
                 state[9 + 3 * i + j] = at.getBasis()[i][j];
         }
         uint32_t who[3] = {r->id, r->held ? r->holder : UINT32_MAX,
-                           r->glue ? r->glue->bond_count : 0};
+                           r->bonds ? r->bonds->bond_count : 0};
         jox_hash_add(hash, who, sizeof who);
         jox_hash_add(hash, state, sizeof state);
     }

@@ -14,15 +14,15 @@
 extern "C" {
 #include "base/mem.h"
 #include "body/body.h"
+#include "body/bonds.h"
 #include "body/footprint.h"
-#include "body/glue.h"
 #include "body/sweep.h"
 }
 
 static_assert(sizeof(btScalar) == sizeof(float), "Bullet of single precision");
 
 /* One convex part in the frame of the body's centre of mass and principal axes. */
-struct JoxPart {
+struct JoxConvexPart {
     JoxShapeKind kind;
     float radius; /* sphere, cylinder */
     btTransform frame;
@@ -33,11 +33,11 @@ struct JoxPart {
 };
 
 /* What a definition comes to: the shape for Bullet, the parts for footprints, and the mass. */
-struct JoxBuilt {
-    btCollisionShape *shape; /* a compound owns nothing: `children` are freed one by one */
+struct JoxBodyShape {
+    btCollisionShape *collision; /* a compound owns nothing: `children` are freed one by one */
     btCollisionShape **children;
     uint32_t child_count;
-    JoxPart *parts;
+    JoxConvexPart *parts;
     uint32_t part_count;
     btTransform frame = btTransform::getIdentity(); /* of the centre of mass and principal axes in
                                                        the shape's own frame */
@@ -47,25 +47,25 @@ struct JoxBuilt {
 };
 
 /* False, with a sentence in `error`, where the definition makes no sense. */
-bool jox_built_make(const JoxBodyDef *def, bool still, JoxBuilt *out, JoxText *error);
-void jox_built_free(JoxBuilt *built);
+bool jox_body_shape_make(const JoxBodyDef *def, bool still, JoxBodyShape *out, JoxText *error);
+void jox_body_shape_free(JoxBodyShape *shape);
 
 struct JoxRow {
     bool live;
     uint32_t id;
     char *name;
     uint64_t tags;
-    JoxBuilt built;
+    JoxBodyShape shape;
     btRigidBody *body;
     JoxV3 force; /* over the next step, N */
     bool grounded, swept, written;
-    JoxGlue *glue; /* of blocks that can come apart, or NULL; its frame is the shape's own */
-    bool held;     /* by an agent */
+    JoxBondGraph *bonds; /* of blocks that can come apart, or NULL; its frame is the shape's own */
+    bool held;           /* by an agent */
     uint32_t holder;
 };
 
-/* A contact of a glued body; `key` orders them by body, then by what it touches. */
-struct JoxLean {
+/* A contact of a bonded body; `key` orders them by body, then by what it touches. */
+struct JoxContactLoad {
     uint64_t key;
     uint32_t number; /* in which they were found */
     uint32_t block;
@@ -101,13 +101,13 @@ struct JoxBodies {
     double hit_impulse, hit_residual; /* N s, of the step */
     JoxBodyGone *gone;
     uint32_t gone_count, gone_capacity;
-    JoxLean *leans; /* contacts of glued bodies in a substep */
-    uint32_t lean_count, lean_capacity;
-    JoxGlueContact *contacts; /* of one of them with one other body */
+    JoxContactLoad *contact_loads; /* contacts of bonded bodies in a substep */
+    uint32_t contact_load_count, contact_load_capacity;
+    JoxBondContact *contacts; /* of one of them with one other body */
     uint32_t contact_capacity;
     JoxBodyBreak *breaks;
     uint32_t break_count, break_capacity;
-    uint32_t glued; /* bodies that can come apart */
+    uint32_t bonded; /* bodies that can come apart */
     JoxDiscGrid grid;
     JoxFootprint footprint;
     JoxV3 *corners; /* scratch: a part's corners in world coordinates */
@@ -135,21 +135,22 @@ static inline bool jox_finite(const btVector3 &v) {
 /* Makes Bullet's world if it is not there yet. */
 void jox_bodies_ensure(JoxBodies *bodies);
 void jox_bodies_drop(JoxBodies *bodies, uint32_t row);
-/* Takes `built` over as a new body in a free row; the caller fills name, tags, and velocity. */
-uint32_t jox_row_enter(JoxBodies *bodies, const JoxBuilt *built, const btTransform &frame,
-                       const JoxMaterial &material);
+/* Takes `shape` over as a new body in a free row; the caller fills name, tags, and velocity. */
+uint32_t jox_row_add(JoxBodies *bodies, const JoxBodyShape *shape, const btTransform &frame,
+                     const JoxMaterial &material);
 /* Bullet's body of a row whose shape is there: `frame` is that of the shape. */
-void jox_row_embody(JoxBodies *bodies, uint32_t row, const btTransform &frame,
-                    const JoxMaterial &material);
-/* bullet_glue.cc. The shape of glued blocks; NULL with a sentence in `error`. */
-JoxGlue *jox_row_glue(const JoxBodyDef *def, JoxText *error);
-bool jox_built_blocks(const JoxGlue *glue, bool still, JoxBuilt *out, JoxText *error);
+void jox_row_create_body(JoxBodies *bodies, uint32_t row, const btTransform &frame,
+                         const JoxMaterial &material);
+/* bullet_bonds.cc. The shape of bonded blocks; NULL with a sentence in `error`. */
+JoxBondGraph *jox_row_bonds(const JoxBodyDef *def, JoxText *error);
+bool jox_body_shape_of_blocks(const JoxBondGraph *bonds, bool still, JoxBodyShape *out,
+                              JoxText *error);
 /* The shape's own frame in the world. */
 btTransform jox_row_frame(const JoxRow *row);
-/* An impulse upon a glued body, at a point of the world. */
-void jox_row_hit(JoxRow *row, const btVector3 &point, const btVector3 &impulse);
-/* After a substep: what ground, walls and bodies did to glued ones. After a step: what broke. */
-void jox_bodies_lean(JoxBodies *bodies);
+/* An impulse upon a bonded body, at a point of the world. */
+void jox_row_add_impulse(JoxRow *row, const btVector3 &point, const btVector3 &impulse);
+/* After a substep: what ground, walls and bodies did to bonded ones. After a step: what broke. */
+void jox_bodies_gather_contacts(JoxBodies *bodies);
 void jox_bodies_break(JoxBodies *bodies, float dt);
 void jox_bodies_drop_walls(JoxBodies *bodies);
 /* Whether a body at this speed is to be swept in a step of dt. */

@@ -49,14 +49,14 @@ bool quaternion(const double turn[4], btQuaternion *out) {
     return true;
 }
 
-void corners_of(JoxPart *part, uint32_t corners, uint32_t edges) {
+void corners_of(JoxConvexPart *part, uint32_t corners, uint32_t edges) {
     part->corners = static_cast<JoxV3 *>(jox_alloc(corners, sizeof(JoxV3)));
     part->edges = static_cast<uint32_t *>(jox_alloc(edges, 2 * sizeof(uint32_t)));
     part->corner_count = corners;
     part->edge_count = edges;
 }
 
-btCollisionShape *make_box(const JoxShape *shape, JoxPart *part, Solid *solid) {
+btCollisionShape *make_box(const JoxShape *shape, JoxConvexPart *part, Solid *solid) {
     double a = shape->size[0], b = shape->size[1], c = shape->size[2];
     btVector3 half(float(a / 2), float(b / 2), float(c / 2));
     corners_of(part, 8, 12);
@@ -77,7 +77,7 @@ btCollisionShape *make_box(const JoxShape *shape, JoxPart *part, Solid *solid) {
     return new btBoxShape(half);
 }
 
-btCollisionShape *make_sphere(const JoxShape *shape, JoxPart *part, Solid *solid) {
+btCollisionShape *make_sphere(const JoxShape *shape, JoxConvexPart *part, Solid *solid) {
     double r = shape->size[0];
     part->radius = float(r);
     solid->volume = 4.0 / 3.0 * 3.141592653589793 * r * r * r;
@@ -86,7 +86,7 @@ btCollisionShape *make_sphere(const JoxShape *shape, JoxPart *part, Solid *solid
     return new btSphereShape(float(r));
 }
 
-btCollisionShape *make_cylinder(const JoxShape *shape, JoxPart *part, Solid *solid) {
+btCollisionShape *make_cylinder(const JoxShape *shape, JoxConvexPart *part, Solid *solid) {
     double r = shape->size[0], h = shape->size[1];
     part->radius = float(r);
     corners_of(part, 2 * PRISM_SIDES, 3 * PRISM_SIDES);
@@ -154,7 +154,7 @@ void hull_solid(const btConvexHullComputer &hull, Solid *solid) {
 }
 
 /* NULL where the points span no volume. */
-btCollisionShape *make_hull(const JoxShape *shape, JoxPart *part, Solid *solid) {
+btCollisionShape *make_hull(const JoxShape *shape, JoxConvexPart *part, Solid *solid) {
     btConvexHullComputer hull;
     hull.compute(shape->points, 3 * sizeof(double), int(shape->point_count), 0, 0);
     if (hull.vertices.size() < 4)
@@ -201,7 +201,8 @@ bool check_shape(const JoxShape *shape, JoxText *error) {
     return true;
 }
 
-btCollisionShape *make_part(const JoxShape *shape, JoxPart *part, Solid *solid, JoxText *error) {
+btCollisionShape *make_part(const JoxShape *shape, JoxConvexPart *part, Solid *solid,
+                            JoxText *error) {
     if (!check_shape(shape, error))
         return nullptr;
     part->kind = shape->kind;
@@ -219,7 +220,7 @@ btCollisionShape *make_part(const JoxShape *shape, JoxPart *part, Solid *solid, 
         return made;
     }
     default:
-        fail(error, "a compound cannot hold a compound or glued blocks");
+        fail(error, "a compound cannot hold a compound or bonded blocks");
         return nullptr;
     }
 }
@@ -261,7 +262,7 @@ void add_part(Total *total, const Solid &solid, const btTransform &frame, double
 }
 
 /* Centre of mass, principal axes and moments. */
-void principal(const Total &total, JoxBuilt *out) {
+void principal(const Total &total, JoxBodyShape *out) {
     double c[3], s[3][3], trace = 0, off = 0;
     for (int i = 0; i < 3; i++)
         c[i] = total.first[i] / total.mass;
@@ -286,12 +287,12 @@ void principal(const Total &total, JoxBuilt *out) {
 }
 
 /* Corners into the body's frame, and how far the body reaches from its centre of mass. */
-void settle_parts(JoxBuilt *out) {
+void settle_parts(JoxBodyShape *out) {
     btTransform back = out->frame.inverse();
     out->bound = 0;
     out->inner = INFINITY;
     for (uint32_t p = 0; p < out->part_count; p++) {
-        JoxPart *part = &out->parts[p];
+        JoxConvexPart *part = &out->parts[p];
         part->frame = back * part->frame;
         btVector3 low, high;
         out->children[p]->getAabb(btTransform::getIdentity(), low, high);
@@ -312,21 +313,22 @@ void settle_parts(JoxBuilt *out) {
 }
 
 /* One part whose frame is that of the mass needs no compound around it. */
-void join_parts(JoxBuilt *out) {
+void join_parts(JoxBodyShape *out) {
     const btTransform &only = out->parts[0].frame;
     if (out->part_count == 1 && only.getOrigin().length2() < 1e-14f &&
         fabsf(only.getRotation().w()) > 0.9999999f) {
-        out->shape = out->children[0];
+        out->collision = out->children[0];
         return;
     }
     btCompoundShape *compound = new btCompoundShape(out->part_count > 1, int(out->part_count));
     for (uint32_t p = 0; p < out->part_count; p++)
         compound->addChildShape(out->parts[p].frame, out->children[p]);
-    out->shape = compound;
+    out->collision = compound;
 }
 
-bool build_part(const JoxBodyPart *part, bool still, JoxBuilt *out, Total *total, JoxText *error) {
-    JoxPart *made = &out->parts[out->part_count];
+bool build_part(const JoxBodyPart *part, bool still, JoxBodyShape *out, Total *total,
+                JoxText *error) {
+    JoxConvexPart *made = &out->parts[out->part_count];
     Solid solid = {};
     btQuaternion turn;
     for (int i = 0; i < 3; i++)
@@ -354,8 +356,8 @@ bool build_part(const JoxBodyPart *part, bool still, JoxBuilt *out, Total *total
 
 } // namespace
 
-bool jox_built_make(const JoxBodyDef *def, bool still, JoxBuilt *out, JoxText *error) {
-    *out = JoxBuilt();
+bool jox_body_shape_make(const JoxBodyDef *def, bool still, JoxBodyShape *out, JoxText *error) {
+    *out = JoxBodyShape();
     JoxBodyPart single = JoxBodyPart();
     single.shape = def->shape;
     single.mass = def->mass;
@@ -368,12 +370,12 @@ bool jox_built_make(const JoxBodyDef *def, bool still, JoxBuilt *out, JoxText *e
         if (!parts || count < 1 || count > 4096)
             return fail(error, "a compound needs 1 to 4096 parts");
     }
-    out->parts = static_cast<JoxPart *>(jox_alloc(count, sizeof(JoxPart)));
+    out->parts = static_cast<JoxConvexPart *>(jox_alloc(count, sizeof(JoxConvexPart)));
     out->children = static_cast<btCollisionShape **>(jox_alloc(count, sizeof(btCollisionShape *)));
     Total total = {};
     for (uint32_t i = 0; i < count; i++)
         if (!build_part(&parts[i], still, out, &total, error)) {
-            jox_built_free(out);
+            jox_body_shape_free(out);
             return false;
         }
     principal(total, out);
@@ -386,16 +388,16 @@ bool jox_built_make(const JoxBodyDef *def, bool still, JoxBuilt *out, JoxText *e
     return true;
 }
 
-void jox_built_free(JoxBuilt *built) {
-    if (built->shape && (built->child_count == 0 || built->shape != built->children[0]))
-        delete built->shape;
-    for (uint32_t i = 0; i < built->child_count; i++)
-        delete built->children[i];
-    for (uint32_t i = 0; i < built->part_count; i++) {
-        jox_free(built->parts[i].corners);
-        jox_free(built->parts[i].edges);
+void jox_body_shape_free(JoxBodyShape *shape) {
+    if (shape->collision && (shape->child_count == 0 || shape->collision != shape->children[0]))
+        delete shape->collision;
+    for (uint32_t i = 0; i < shape->child_count; i++)
+        delete shape->children[i];
+    for (uint32_t i = 0; i < shape->part_count; i++) {
+        jox_free(shape->parts[i].corners);
+        jox_free(shape->parts[i].edges);
     }
-    jox_free(built->parts);
-    jox_free(built->children);
-    *built = JoxBuilt();
+    jox_free(shape->parts);
+    jox_free(shape->children);
+    *shape = JoxBodyShape();
 }

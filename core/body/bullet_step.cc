@@ -2,7 +2,7 @@
 #include "body/bullet.h"
 
 bool jox_row_fast(const JoxRow *r, float dt) {
-    return !r->held && r->built.mass > 0 && r->built.bound <= 0.75f &&
+    return !r->held && r->shape.mass > 0 && r->shape.bound <= 0.75f &&
            r->body->getLinearVelocity().length() * dt > 0.1f;
 }
 
@@ -21,7 +21,7 @@ static uint32_t substeps(const JoxBodies *b, float dt) {
         const JoxRow *r = &b->rows[b->order[k]];
         if (!jox_row_fast(r, dt))
             continue;
-        float n = ceilf(r->body->getLinearVelocity().length() * dt / r->built.inner);
+        float n = ceilf(r->body->getLinearVelocity().length() * dt / r->shape.inner);
         need = n > need ? n : need;
     }
     need = need < most ? need : most;
@@ -38,7 +38,7 @@ static void hit_person(JoxBodies *b, uint32_t row, JoxDisc *discs, const JoxSwee
         inverse[i] = r->body->getInvInertiaTensorWorld()[i / 3][i % 3];
     float e = float(r->body->getRestitution() * b->def.person_hardness);
     float j = jox_sweep_impulse(jox_v3(r->body->getLinearVelocity()),
-                                jox_v3(r->body->getAngularVelocity()), 1.0f / r->built.mass,
+                                jox_v3(r->body->getAngularVelocity()), 1.0f / r->shape.mass,
                                 inverse, jox_v3(arm), hit->normal, d, e);
     if (!(j > 0))
         return;
@@ -49,15 +49,15 @@ static void hit_person(JoxBodies *b, uint32_t row, JoxDisc *discs, const JoxSwee
     btVector3 before = r->body->getLinearVelocity();
     float was_x = d->vx, was_y = d->vy;
     r->body->applyImpulse(n * j, arm);
-    if (r->glue)
-        jox_row_hit(r, at.getOrigin() + arm, n * j);
+    if (r->bonds)
+        jox_row_add_impulse(r, at.getOrigin() + arm, n * j);
     d->vx -= j * n.x() / d->mass;
     d->vy -= j * n.y() / d->mass;
     btVector3 change = r->body->getLinearVelocity() - before;
     b->hit_impulse += j;
     b->hit_residual +=
-        hypot(double(r->built.mass) * change.x() + double(d->mass) * (d->vx - was_x),
-              double(r->built.mass) * change.y() + double(d->mass) * (d->vy - was_y));
+        hypot(double(r->shape.mass) * change.x() + double(d->mass) * (d->vx - was_x),
+              double(r->shape.mass) * change.y() + double(d->mass) * (d->vy - was_y));
     jox_reserve(b->hits, b->hit_capacity, b->hit_count + 1);
     b->hits[b->hit_count++] =
         JoxDiscHit{hit->disc, row, jox_v3(at.getOrigin() + arm), JoxV2{-j * n.x(), -j * n.y()}};
@@ -68,9 +68,9 @@ static void sweep_all(JoxBodies *b, JoxDisc *discs, float begin, float span, flo
         JoxRow *r = &b->rows[b->order[k]];
         if (!r->swept && !jox_row_fast(r, dt))
             continue;
-        float radius = r->built.parts[0].kind == JOX_SHAPE_SPHERE && r->built.part_count == 1
-                           ? r->built.parts[0].radius
-                           : 0.5f * (r->built.inner + r->built.bound);
+        float radius = r->shape.parts[0].kind == JOX_SHAPE_SPHERE && r->shape.part_count == 1
+                           ? r->shape.parts[0].radius
+                           : 0.5f * (r->shape.inner + r->shape.bound);
         JoxSweep sweep = {jox_v3(r->body->getWorldTransform().getOrigin()),
                           jox_v3(r->body->getLinearVelocity()),
                           radius,
@@ -109,7 +109,7 @@ static void weed(JoxBodies *b) {
         const btVector3 &at = r->body->getWorldTransform().getOrigin();
         bool sound = jox_finite(at) && jox_finite(r->body->getLinearVelocity()) &&
                      jox_finite(r->body->getAngularVelocity());
-        bool fell = sound && r->built.mass > 0 && at.z() < b->def.kill_height;
+        bool fell = sound && r->shape.mass > 0 && at.z() < b->def.kill_height;
         if (sound && !fell) {
             k++;
             continue;
@@ -153,12 +153,12 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
             sweep_all(b, discs, h * float(s), h, dt);
         push_on(b, s + 1 == n);
         b->world->stepSimulation(h, 0);
-        if (b->glued)
-            jox_bodies_lean(b);
+        if (b->bonded)
+            jox_bodies_gather_contacts(b);
         weed(b);
         mark_grounded(b);
     }
-    if (b->glued)
+    if (b->bonded)
         jox_bodies_break(b, dt);
     report.hits = b->hits;
     report.hit_count = b->hit_count;
@@ -174,11 +174,11 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
 
 static void write_footprint(JoxBodies *b, const JoxRow *r, JoxObject *o) {
     const btTransform &at = r->body->getWorldTransform();
-    const JoxPart *first = &r->built.parts[0];
+    const JoxConvexPart *first = &r->shape.parts[0];
     float reach2 = 0;
     jox_footprint_begin(&b->footprint);
-    for (uint32_t p = 0; p < r->built.part_count; p++) {
-        const JoxPart *part = &r->built.parts[p];
+    for (uint32_t p = 0; p < r->shape.part_count; p++) {
+        const JoxConvexPart *part = &r->shape.parts[p];
         if (part->kind == JOX_SHAPE_SPHERE) {
             btVector3 c = at * part->frame.getOrigin();
             float away = jox_length(jox_v2(c.x() - o->position.x, c.y() - o->position.y));
@@ -200,7 +200,7 @@ static void write_footprint(JoxBodies *b, const JoxRow *r, JoxObject *o) {
     bool upright = first->kind == JOX_SHAPE_CYLINDER &&
                    fabsf((at.getBasis() * first->frame.getBasis())[2][2]) > 0.9999f;
     o->round = o->disc;
-    if (r->built.part_count > 1 || (first->kind != JOX_SHAPE_SPHERE && !upright))
+    if (r->shape.part_count > 1 || (first->kind != JOX_SHAPE_SPHERE && !upright))
         return;
     o->footprint_count = 0;
     o->round = upright ? first->radius : jox_footprint_sphere(o->position.z, first->radius);
@@ -210,7 +210,7 @@ static void write_object(JoxBodies *b, JoxRow *r, JoxObject *o) {
     *o = JoxObject();
     o->id = r->id;
     o->live = true;
-    o->moves = r->built.mass > 0;
+    o->moves = r->shape.mass > 0;
     o->grounded = r->grounded;
     r->swept = jox_row_fast(r, b->last_dt);
     o->swept = r->swept;

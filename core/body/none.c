@@ -86,9 +86,9 @@ void jox_bodies_objects(JoxBodies *bodies, JoxObjects *objects) {
     (void)bodies;
     *objects = (JoxObjects){0};
 }
-bool jox_bodies_glue(const JoxBodies *bodies, uint32_t row, JoxBodyGlue *glue) {
+bool jox_bodies_bonds(const JoxBodies *bodies, uint32_t row, JoxBodyBonds *bonds) {
     (void)bodies, (void)row;
-    *glue = (JoxBodyGlue){0};
+    *bonds = (JoxBodyBonds){0};
     return false;
 }
 void jox_bodies_hash(const JoxBodies *bodies, JoxHash *hash) {

@@ -6,31 +6,14 @@
 #include "base/guard.h"
 #include "run/run.h"
 
-/* ---- pieces of JSON ---- */
+enum { DIGITS = 6 };
 
-static void add_number(JoxText *out, double number) {
-    if (isfinite(number))
-        jox_text_printf(out, "%.6g", number);
-    else
-        jox_text_add(out, "null");
+static void add_figure(JoxJson *json, const char *key, double number) {
+    jox_json_digits(json, key, number, DIGITS);
 }
 
-static void add_key(JoxText *out, const char *key) {
-    jox_text_printf(out, ",\"%s\":", key);
-}
-
-static void add_figure(JoxText *out, const char *key, double number) {
-    add_key(out, key);
-    add_number(out, number);
-}
-
-static void add_vector(JoxText *out, const char *key, JoxV2 v) {
-    add_key(out, key);
-    jox_text_add(out, "[");
-    add_number(out, v.x);
-    jox_text_add(out, ",");
-    add_number(out, v.y);
-    jox_text_add(out, "]");
+static void add_vector(JoxJson *json, const char *key, JoxV2 v) {
+    jox_json_numbers_of(json, key, (double[]){(double)v.x, (double)v.y}, 2, DIGITS);
 }
 
 /* ---- what the agent is ---- */
@@ -41,26 +24,26 @@ static const JoxMachine *machine_of(const JoScene *scene, uint32_t i) {
     return machine == JOX_NO_MACHINE ? NULL : mind->machines[machine];
 }
 
-static void add_agent(const JoScene *scene, uint32_t i, JoxText *out) {
+static void add_agent(const JoScene *scene, uint32_t i, JoxJson *json) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->agents;
     const JoxMachine *machine = machine_of(scene, i);
     bool grouped = a->group[i] < scene->spec->group_count;
-    jox_text_printf(out, "{\"id\":%u,\"slot\":%u,\"group\":", a->id[i], a->slot[i]);
-    jox_text_json(out, grouped ? scene->spec->groups[a->group[i]].name : "");
-    add_key(out, "machine");
-    jox_text_json(out, machine ? machine->name : "");
-    add_key(out, "state");
-    jox_text_json(out, machine ? machine->states[a->state[i]].name : "");
     uint64_t since = world->tick > a->entered[i] ? world->tick - a->entered[i] : 0;
-    add_figure(out, "since", (double)since * world->def.dt);
-    add_figure(out, "x", (double)a->x[i]);
-    add_figure(out, "y", (double)a->y[i]);
-    add_figure(out, "vx", (double)a->vx[i]);
-    add_figure(out, "vy", (double)a->vy[i]);
-    add_figure(out, "radius", (double)a->param[JOX_PARAM_radius][i]);
-    add_figure(out, "mass", (double)a->param[JOX_PARAM_mass][i]);
-    jox_text_add(out, "}");
+    jox_json_object(json, "agent");
+    jox_json_whole(json, "id", a->id[i]);
+    jox_json_whole(json, "slot", a->slot[i]);
+    jox_json_string(json, "group", grouped ? scene->spec->groups[a->group[i]].name : "");
+    jox_json_string(json, "machine", machine ? machine->name : "");
+    jox_json_string(json, "state", machine ? machine->states[a->state[i]].name : "");
+    add_figure(json, "since", (double)since * world->def.dt);
+    add_figure(json, "x", (double)a->x[i]);
+    add_figure(json, "y", (double)a->y[i]);
+    add_figure(json, "vx", (double)a->vx[i]);
+    add_figure(json, "vy", (double)a->vy[i]);
+    add_figure(json, "radius", (double)a->param[JOX_PARAM_radius][i]);
+    add_figure(json, "mass", (double)a->param[JOX_PARAM_mass][i]);
+    jox_json_end(json);
 }
 
 /* What the agent's group in the scene sets of a name, or NULL. */
@@ -75,7 +58,7 @@ static const JoxSceneSet *group_set(const JoScene *scene, uint32_t i, const char
 
 /* Who set a parameter of the agent: its state, the defaults, its group, or a function since. */
 static void add_setter(const JoScene *scene, uint32_t i, const JoxMachine *machine, int p,
-                       JoxText *out) {
+                       JoxJson *json) {
     const JoxAgents *a = &scene->world->agents;
     const JoxState *state = &machine->states[a->state[i]];
     bool own = state->param[p].kind == JOX_VALUE_UNSET;
@@ -99,152 +82,141 @@ static void add_setter(const JoScene *scene, uint32_t i, const JoxMachine *machi
         jox_text_add(&text, by.where.data);
         jox_set_by_free(&by);
     }
-    jox_text_json(out, text.data);
+    jox_json_string(json, "set", text.data);
     jox_text_free(&text);
 }
 
-static void add_parameters(const JoScene *scene, uint32_t i, JoxText *out) {
+static void add_parameters(const JoScene *scene, uint32_t i, JoxJson *json) {
     const JoxAgents *a = &scene->world->agents;
     const JoxMachine *machine = machine_of(scene, i);
-    jox_text_add(out, "[");
+    jox_json_array(json, "parameters");
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
-        jox_text_printf(out, "%s{\"name\":\"%s\"", p ? "," : "", jox_parameters[p].name);
-        add_figure(out, "value", jox_parameter_value((JoxParameter)p, a->param[p][i]));
-        add_key(out, "unit");
-        jox_text_json(out, jox_parameters[p].unit);
-        add_key(out, "set");
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", jox_parameters[p].name);
+        add_figure(json, "value", jox_parameter_value((JoxParameter)p, a->param[p][i]));
+        jox_json_string(json, "unit", jox_parameters[p].unit);
         if (machine)
-            add_setter(scene, i, machine, p, out);
+            add_setter(scene, i, machine, p, json);
         else
-            jox_text_json(out, "program");
-        jox_text_add(out, "}");
+            jox_json_string(json, "set", "program");
+        jox_json_end(json);
     }
-    jox_text_add(out, "]");
+    jox_json_end(json);
 }
 
-/* Memory, and own values that are no parameters, by name. */
-static void add_values(const JoScene *scene, uint32_t i, JoxText *out) {
-    const JoWorld *world = scene->world;
-    const JoxAgents *a = &world->agents;
+static void add_memory(const JoScene *scene, uint32_t i, JoxJson *json) {
+    const JoxAgents *a = &scene->world->agents;
     const JoxMachine *machine = machine_of(scene, i);
-    uint32_t added = 0;
-    add_key(out, "memory");
-    jox_text_add(out, "{");
+    jox_json_object(json, "memory");
     for (uint32_t s = 0; machine && s < machine->memory_count; s++) {
         const JoxMemorySlot *slot = &machine->memory[s];
         double value = a->memory[(size_t)i * a->memory_stride + s];
         if (!*slot->name)
             continue;
-        jox_text_add(out, added++ ? "," : "");
-        jox_text_json(out, slot->name);
-        jox_text_add(out, ":");
         if (slot->kind == JOX_MEMORY_BOOLEAN)
-            jox_text_add(out, value != 0.0 ? "true" : "false");
+            jox_json_bool(json, slot->name, value != 0.0);
         else
-            add_number(out, value);
+            add_figure(json, slot->name, value);
     }
-    jox_text_add(out, "}");
-    add_key(out, "own");
-    jox_text_add(out, "{");
-    added = 0;
+    jox_json_end(json);
+}
+
+/* Own values that are no parameters, by name. */
+static void add_own_values(const JoScene *scene, uint32_t i, JoxJson *json) {
+    const JoWorld *world = scene->world;
+    const JoxAgents *a = &world->agents;
+    const JoxMachine *machine = machine_of(scene, i);
+    jox_json_object(json, "own");
     for (uint32_t s = 0; machine && s < machine->own_count; s++) {
         const JoxOwnSlot *slot = &machine->own[s];
         double value = a->own[(size_t)i * a->own_stride + s];
         if (!*slot->name || jox_parameter_find(slot->name) >= 0)
             continue;
-        jox_text_add(out, added++ ? "," : "");
-        jox_text_json(out, slot->name);
-        jox_text_add(out, ":");
         bool place = slot->is_place && value >= 0.0 && value < world->place_count;
         if (place && world->places[(uint32_t)value].name)
-            jox_text_json(out, world->places[(uint32_t)value].name);
+            jox_json_string(json, slot->name, world->places[(uint32_t)value].name);
         else
-            add_number(out, value);
+            add_figure(json, slot->name, value);
     }
-    jox_text_add(out, "}");
+    jox_json_end(json);
 }
 
 /* ---- what its last step was ---- */
 
-static void add_last(const JoScene *scene, uint32_t i, const JoxWatched *watched, JoxText *out) {
+static void add_last(const JoScene *scene, uint32_t i, const JoxWatched *watched, JoxJson *json) {
     const JoWorld *world = scene->world;
     const JoxMachine *machine = machine_of(scene, i);
     const uint32_t entered = world->agents.entered[i];
-    add_key(out, "last");
     if (!machine) {
-        jox_text_add(out, "null");
+        jox_json_null(json, "last");
         return;
     }
     bool known = watched->took;
-    jox_text_add(out, "{\"from\":");
-    if (known)
-        jox_text_json(out, watched->from);
-    else
-        jox_text_add(out, "null");
-    add_key(out, "to");
-    jox_text_json(out, known ? watched->to : machine->states[world->agents.state[i]].name);
-    add_figure(out, "time", (known ? watched->tick : entered) * world->def.dt);
-    add_key(out, "why");
-    if (known && watched->why.data)
-        jox_text_json(out, watched->why.data);
-    else
-        jox_text_add(out, "null");
-    jox_text_add(out, "}");
+    jox_json_object(json, "last");
+    jox_json_string(json, "from", known ? watched->from : NULL);
+    jox_json_string(json, "to", known ? watched->to : machine->states[world->agents.state[i]].name);
+    add_figure(json, "time", (known ? watched->tick : entered) * world->def.dt);
+    jox_json_string(json, "why", known ? watched->why.data : NULL);
+    jox_json_end(json);
 }
 
-static void add_step(const JoxInspected *seen, double compression, JoxText *out) {
+static void add_step(const JoxInspected *seen, double compression, JoxJson *json) {
     static const char *const PLANES[] = {"wall", "agent", "body", "force"};
     static const char *const FORCES[JOX_FORCE_PARTS] = {"push",       "contact",  "deceleration",
                                                         "resistance", "external", "body"};
-    add_key(out, "planes");
-    jox_text_add(out, "[");
+    jox_json_array(json, "planes");
     for (uint32_t p = 0; p < seen->plane_count; p++) {
-        const JoxWallFileeSeen *plane = &seen->planes[p];
-        jox_text_printf(out, "%s{\"kind\":\"%s\"", p ? "," : "", PLANES[plane->kind]);
-        add_vector(out, "point", jox_scale(plane->normal, plane->offset));
-        add_vector(out, "direction", (JoxV2){plane->normal.y, -plane->normal.x});
-        jox_text_add(out, "}");
+        const JoxPlaneSeen *plane = &seen->planes[p];
+        jox_json_object(json, NULL);
+        jox_json_string(json, "kind", PLANES[plane->kind]);
+        add_vector(json, "point", jox_scale(plane->normal, plane->offset));
+        add_vector(json, "direction", (JoxV2){plane->normal.y, -plane->normal.x});
+        jox_json_end(json);
     }
-    jox_text_add(out, "]");
-    add_vector(out, "preferred", seen->preferred);
-    add_vector(out, "chosen", seen->chosen);
-    add_figure(out, "max_speed", (double)seen->most);
-    add_key(out, "failed");
-    jox_text_add(out, seen->failed ? "true" : "false");
-    add_key(out, "forces");
-    jox_text_add(out, "[");
+    jox_json_end(json);
+    add_vector(json, "preferred", seen->preferred);
+    add_vector(json, "chosen", seen->chosen);
+    add_figure(json, "max_speed", (double)seen->most);
+    jox_json_bool(json, "failed", seen->failed);
+    jox_json_array(json, "forces");
     for (int f = 0; f < JOX_FORCE_PARTS; f++) {
-        jox_text_printf(out, "%s{\"kind\":\"%s\"", f ? "," : "", FORCES[f]);
-        add_figure(out, "fx", (double)seen->forces[f].x);
-        add_figure(out, "fy", (double)seen->forces[f].y);
-        jox_text_add(out, "}");
+        jox_json_object(json, NULL);
+        jox_json_string(json, "kind", FORCES[f]);
+        add_figure(json, "fx", (double)seen->forces[f].x);
+        add_figure(json, "fy", (double)seen->forces[f].y);
+        jox_json_end(json);
     }
-    jox_text_add(out, "]");
-    add_figure(out, "compression", compression);
+    jox_json_end(json);
+    add_figure(json, "compression", compression);
+}
+
+bool jox_run_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
+    const JoxAgents *a = &scene->world->agents;
+    const JoxWatched *watched;
+    const JoxInspected *seen = jox_world_inspect(scene->world, slot, &watched);
+    if (!seen) {
+        jox_json_null(json, "agent");
+        return false;
+    }
+    uint32_t i = a->slot_index[slot];
+    add_agent(scene, i, json);
+    add_parameters(scene, i, json);
+    add_memory(scene, i, json);
+    add_own_values(scene, i, json);
+    add_last(scene, i, watched, json);
+    jox_json_bool(json, "seen", seen->seen);
+    add_step(seen, (double)a->compression[i], json);
+    return true;
 }
 
 char *jo_scene_inspect(JoScene *scene, uint32_t slot) {
     JOX_REQUIRE(scene, NULL);
-    JOX_GUARD(scene->heap, NULL)
-    return NULL;
-    const JoxAgents *a = &scene->world->agents;
-    const JoxWatched *watched;
-    const JoxInspected *seen = jox_world_inspect(scene->world, slot, &watched);
+    JOX_GUARD (scene->heap, NULL)
+        return NULL;
     JoxText out = {0};
-    if (!seen) {
-        jox_text_add(&out, "{\"agent\":null}");
-        return jox_disown(out.data);
-    }
-    uint32_t i = a->slot_index[slot];
-    jox_text_add(&out, "{\"agent\":");
-    add_agent(scene, i, &out);
-    add_key(&out, "parameters");
-    add_parameters(scene, i, &out);
-    add_values(scene, i, &out);
-    add_last(scene, i, watched, &out);
-    add_key(&out, "seen");
-    jox_text_add(&out, seen->seen ? "true" : "false");
-    add_step(seen, (double)a->compression[i], &out);
-    jox_text_add(&out, "}");
+    JoxJson json = jox_json_begin(&out, 0);
+    jox_json_object(&json, NULL);
+    jox_run_inspect(scene, slot, &json);
+    jox_json_end(&json);
     return jox_disown(out.data);
 }

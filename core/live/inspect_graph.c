@@ -65,116 +65,96 @@ void jox_set_by_free(JoxSetBy *by) {
 
 /* ---- the graph ---- */
 
-static void add_key(JoxText *out, const char *key) {
-    jox_text_printf(out, ",\"%s\":", key);
-}
-
 static void add_parameters(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
-                           JoxText *out) {
-    jox_text_add(out, "[");
+                           JoxJson *json, const char *key) {
+    jox_json_array(json, key);
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxParameterInfo *info = &jox_parameters[p];
         JoxSetBy by = jox_run_set_by(scene, machine, state, p);
-        jox_text_printf(out, "%s{\"name\":\"%s\",\"value\":", p ? "," : "", info->name);
-        jox_text_json_number(out, by.number);
-        add_key(out, "text");
-        jox_text_json(out, by.text.data ? by.text.data : "");
-        add_key(out, "set");
-        jox_text_json(out, by.where.data);
-        add_key(out, "least");
-        jox_text_json_number(out, info->least);
-        add_key(out, "most");
-        jox_text_json_number(out, info->greatest);
-        add_key(out, "unit");
-        jox_text_json(out, info->unit);
-        jox_text_add(out, "}");
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", info->name);
+        jox_json_number(json, "value", by.number);
+        jox_json_string(json, "text", by.text.data ? by.text.data : "");
+        jox_json_string(json, "set", by.where.data);
+        jox_json_number(json, "least", info->least);
+        jox_json_number(json, "most", info->greatest);
+        jox_json_string(json, "unit", info->unit);
+        jox_json_end(json);
         jox_set_by_free(&by);
     }
-    jox_text_add(out, "]");
+    jox_json_end(json);
 }
 
-/* Adds what is written at a path, as a JSON string; "" where nothing is. */
+/* Adds what is written at a path, as a text; "" where nothing is. */
 static void add_written(const JoScene *scene, const JoxMachine *machine, const char *path,
-                        JoxText *out) {
+                        JoxJson *json, const char *key) {
     JoxWritten written;
     bool found = jox_lua_written(scene->lua, machine, path, &scene->scope, &written);
-    jox_text_json(out, found && written.text.data ? written.text.data : "");
+    jox_json_string(json, key, found && written.text.data ? written.text.data : "");
     jox_text_free(&written.text);
 }
 
 static void add_state(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
-                      JoxText *out) {
+                      JoxJson *json) {
     char path[256];
-    jox_text_add(out, "{\"name\":");
-    jox_text_json(out, state->name);
-    jox_text_printf(out, ",\"line\":%d,\"steer\":", state->line);
+    jox_json_object(json, NULL);
+    jox_json_string(json, "name", state->name);
+    jox_json_integer(json, "line", state->line);
     snprintf(path, sizeof path, "states.%.200s.steer", state->name);
-    add_written(scene, machine, path, out);
+    add_written(scene, machine, path, json, "steer");
     if (state->removes)
-        jox_text_add(out, ",\"removes\":true");
-    if (state->become) {
-        add_key(out, "become");
-        jox_text_json(out, state->become);
-    }
-    add_key(out, "parameters");
-    add_parameters(scene, machine, state, out);
-    jox_text_add(out, "}");
+        jox_json_bool(json, "removes", true);
+    if (state->become)
+        jox_json_string(json, "become", state->become);
+    add_parameters(scene, machine, state, json, "parameters");
+    jox_json_end(json);
 }
 
 static void add_transition(const JoScene *scene, const JoxMachine *machine, const JoxState *from,
-                           const JoxTransition *t, JoxText *out) {
+                           const JoxTransition *t, JoxJson *json) {
     char path[300];
-    jox_text_add(out, "{\"id\":");
-    jox_text_json(out, t->id);
-    add_key(out, "from");
-    jox_text_json(out, from->name);
-    add_key(out, "to");
-    jox_text_json(out, machine->states[t->to].name);
-    add_key(out, "text");
+    jox_json_object(json, NULL);
+    jox_json_string(json, "id", t->id);
+    jox_json_string(json, "from", from->name);
+    jox_json_string(json, "to", machine->states[t->to].name);
     snprintf(path, sizeof path, "states.%.120s.@%.120s.when", from->name, t->id);
-    add_written(scene, machine, path, out);
-    jox_text_printf(out, ",\"line\":%d,\"chance\":", t->line);
-    jox_text_json_number(out, t->chance.kind == JOX_VALUE_CONST ? t->chance.number : NAN);
+    add_written(scene, machine, path, json, "text");
+    jox_json_integer(json, "line", t->line);
+    jox_json_number(json, "chance",
+                    t->chance.kind == JOX_VALUE_CONST ? t->chance.number : (double)NAN);
     if (t->chance.kind != JOX_VALUE_CONST && t->chance.kind != JOX_VALUE_UNSET) {
         snprintf(path, sizeof path, "states.%.120s.@%.120s.chance", from->name, t->id);
-        add_key(out, "chance_text");
-        add_written(scene, machine, path, out);
+        add_written(scene, machine, path, json, "chance_text");
     }
-    jox_text_add(out, "}");
+    jox_json_end(json);
 }
 
-static void add_machine(const JoScene *scene, const JoxMachine *machine, JoxText *out) {
-    jox_text_add(out, "{\"name\":");
-    jox_text_json(out, machine->name);
-    add_key(out, "path");
-    jox_text_json(out, machine->path);
-    jox_text_printf(out, ",\"version\":%u,\"start\":", machine->version);
-    jox_text_json(out, machine->states[machine->start].name);
-    add_key(out, "defaults");
-    add_parameters(scene, machine, NULL, out);
-    add_key(out, "states");
-    for (uint32_t s = 0; s < machine->state_count; s++) {
-        jox_text_add(out, s ? ",\n" : "[");
-        add_state(scene, machine, &machine->states[s], out);
-    }
-    jox_text_add(out, "],\"transitions\":[");
-    for (uint32_t s = 0, n = 0; s < machine->state_count; s++)
-        for (uint32_t k = 0; k < machine->states[s].transition_count; k++) {
-            jox_text_add(out, n++ ? ",\n" : "");
+static void add_machine(const JoScene *scene, const JoxMachine *machine, JoxJson *json) {
+    jox_json_object(json, NULL);
+    jox_json_string(json, "name", machine->name);
+    jox_json_string(json, "path", machine->path);
+    jox_json_whole(json, "version", machine->version);
+    jox_json_string(json, "start", machine->states[machine->start].name);
+    add_parameters(scene, machine, NULL, json, "defaults");
+    jox_json_array(json, "states");
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        add_state(scene, machine, &machine->states[s], json);
+    jox_json_end(json);
+    jox_json_array(json, "transitions");
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        for (uint32_t k = 0; k < machine->states[s].transition_count; k++)
             add_transition(scene, machine, &machine->states[s], &machine->states[s].transitions[k],
-                           out);
-        }
-    jox_text_add(out, "]}");
+                           json);
+    jox_json_end(json);
+    jox_json_end(json);
 }
 
-void jox_run_graph(const JoScene *scene, JoxText *out) {
+void jox_run_graph(const JoScene *scene, JoxJson *json, const char *key) {
     const JoxMind *mind = &scene->world->mind;
-    jox_text_add(out, "[");
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
-        jox_text_add(out, m ? ",\n" : "");
-        add_machine(scene, mind->machines[m], out);
-    }
-    jox_text_add(out, "]");
+    jox_json_array(json, key);
+    for (uint32_t m = 0; m < mind->machine_count; m++)
+        add_machine(scene, mind->machines[m], json);
+    jox_json_end(json);
 }
 
 /* ---- a line to paste ---- */

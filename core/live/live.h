@@ -4,6 +4,7 @@
 #ifndef JOX_LIVE_LIVE_H
 #define JOX_LIVE_LIVE_H
 
+#include "base/json_writer.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "geom/walls.h"
@@ -67,9 +68,6 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
 void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out);
 bool jox_live_people(JoScene *scene, JoxBytes *out);
 void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out);
-/* After each step of a scene that has been shown: counts the transitions that were taken. */
-void jox_live_note(JoScene *scene);
-void jox_live_end(JoScene *scene);
 
 /* ---- packing, from whatever source ---- */
 
@@ -133,10 +131,9 @@ float jox_live_density_at(const JoxLiveGrid *grid, float x, float y);
 void jox_live_pack_field(const JoxLiveGrid *grid, JoxLiveField field, JoxBytes *out);
 void jox_live_free_grid(JoxLiveGrid *grid);
 
-/* JSON of walls as the hello has them: a list. */
-
-void jox_live_walls(const JoxWalls *walls, float height, JoxText *out);
-/* ,"colours": {...} */
-void jox_live_add_colours(JoxText *out);
+/* Walls of a scene or a recording: the member "walls", a list. */
+void jox_live_add_walls(const JoxWalls *walls, float height, JoxJson *json);
+/* The member "colours", an object. */
+void jox_live_add_colours(JoxJson *json);
 
 #endif

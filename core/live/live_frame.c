@@ -39,14 +39,41 @@ static void cover_scene(JoxLiveArea *area, const JoScene *scene) {
     cover_points(area, (JoxV2[]){all.low, all.high}, 2, MARGIN);
 }
 
-JoxLive *jox_live_of(JoScene *scene) {
-    if (scene->live)
-        return scene->live;
-    JoxLive *live = scene->live = jox_alloc(1, sizeof *live);
+static bool begin(void *self, JoScene *scene, const void *options, JoError *error) {
+    JoxLive *live = self;
+    (void)options, (void)error;
     cover_scene(&live->area, scene);
     live->wall = jox_clock_wall();
     live->time = jo_world_time(scene->world);
-    return live;
+    return true;
+}
+
+static bool count_transitions(void *self, JoScene *scene, JoError *error) {
+    (void)error;
+    jox_live_count(self, scene);
+    return true;
+}
+
+static void release(void *self) {
+    JoxLive *live = self;
+    for (uint32_t m = 0; m < live->machine_count; m++)
+        jox_free(live->state_begins[m]);
+    jox_live_free_grid(&live->grid);
+    jox_free(live->taken);
+    jox_free(live->fired);
+    jox_free(live->people);
+    jox_free(live->rounds);
+}
+
+static const JoxListenerKind LIVE = {.name = "live page",
+                                     .size = sizeof(JoxLive),
+                                     .begin = begin,
+                                     .frame = count_transitions,
+                                     .release = release};
+
+JoxLive *jox_live_of(JoScene *scene) {
+    JoxLive *live = jox_run_listener(scene, &LIVE);
+    return live ? live : jox_run_listen(scene, &LIVE, NULL, NULL);
 }
 
 /* Who went beyond the area makes it grow. */
@@ -180,20 +207,5 @@ void jox_live_spread_crowd(JoScene *scene, bool moves) {
 
 void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out) {
     jox_live_spread_crowd(scene, field == JOX_LIVE_PRESSURE);
-    jox_live_pack_field(&scene->live->grid, field, out);
-}
-
-void jox_live_end(JoScene *scene) {
-    JoxLive *live = scene->live;
-    if (!live)
-        return;
-    for (uint32_t m = 0; m < live->machine_count; m++)
-        jox_free(live->state_begins[m]);
-    jox_live_free_grid(&live->grid);
-    jox_free(live->taken);
-    jox_free(live->fired);
-    jox_free(live->people);
-    jox_free(live->rounds);
-    jox_free(live);
-    scene->live = NULL;
+    jox_live_pack_field(&jox_live_of(scene)->grid, field, out);
 }

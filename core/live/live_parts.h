@@ -42,22 +42,36 @@ struct JoxLive {
     size_t people_capacity;
 };
 
-/* Made on first use. */
+/* Attached to the scene on first use. */
 JoxLive *jox_live_of(JoScene *scene);
+/* After each step: counts the transitions that were taken. */
+void jox_live_count(JoxLive *live, const JoScene *scene);
 /* Agent that the scene's player drives, by id; JOX_NO_INDEX: none. */
 uint32_t jox_live_player(const JoScene *scene);
 /* Brings the grid up to date; with `moves`, velocities too. */
 void jox_live_spread_crowd(JoScene *scene, bool moves);
 
-/* live_hello.c. Parts of the object, each with a comma before it. */
-void jox_live_add_places(const JoxPlace *places, uint32_t count, JoxText *out);
-void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxText *out);
+/* live_scene.c. What a live scene and a recording begin with. */
+typedef struct JoxLiveSceneHead {
+    const char *session, *title, *file;
+    double dt, duration; /* s */
+    uint64_t seed;
+    JoxLiveArea area;
+} JoxLiveSceneHead;
+/* Each adds members to an open object. */
+void jox_live_add_head(const JoxLiveSceneHead *head, JoxJson *json);
+void jox_live_add_places(const JoxPlace *places, uint32_t count, JoxJson *json);
+void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxJson *json);
 /* NULL: none. */
-void jox_live_add_camera(const JoxSceneSpec *spec, JoxText *out);
-/* One part of a body as an object. */
-void jox_live_add_part(const JoxBodyLook *look, JoxText *out);
-/* One body as an object: {"name": ..., "mass": ..., "parts": [...]}; without parts where there is
-   none in the row. */
-void jox_live_body(const JoxBodies *bodies, uint32_t row, JoxText *out);
+void jox_live_add_camera(const JoxSceneSpec *spec, JoxJson *json);
+void jox_live_add_view(JoxLiveColour colour, JoxLiveField field, JoxJson *json);
+/* Each adds an object to an open array: a state of a machine, by the machine's number; one part of
+   a body; one body, {"name": ..., "mass": ..., "parts": [...]}, without parts where there is none
+   in the row. */
+void jox_live_add_state(uint32_t machine, const char *name, JoxJson *json);
+void jox_live_add_part(const JoxBodyLook *look, JoxJson *json);
+void jox_live_add_body(const JoxBodies *bodies, uint32_t row, JoxJson *json);
+/* live_status.c: the state of the session. */
+void jox_live_add_session(uint64_t tick, double time, const JoxLiveSession *session, JoxJson *json);
 
 #endif

@@ -5,172 +5,160 @@
 #include "base/hash.h"
 #include "live/live_parts.h"
 
-static void add_point(JoxText *out, JoxV2 p) {
-    jox_text_printf(out, "[%.7g, %.7g]", (double)p.x, (double)p.y);
+enum { DIGITS = 7 }; /* of positions and sizes, which are floats */
+
+static void add_point(JoxJson *json, JoxV2 p) {
+    jox_json_numbers_of(json, NULL, (double[]){(double)p.x, (double)p.y}, 2, DIGITS);
 }
 
-static void add_points(JoxText *out, const JoxV2 *points, uint32_t count) {
-    jox_text_add(out, "[");
-    for (uint32_t i = 0; i < count; i++) {
-        jox_text_add(out, i ? ", " : "");
-        add_point(out, points[i]);
-    }
-    jox_text_add(out, "]");
+static void add_points(JoxJson *json, const char *key, const JoxV2 *points, uint32_t count) {
+    jox_json_array(json, key);
+    for (uint32_t i = 0; i < count; i++)
+        add_point(json, points[i]);
+    jox_json_end(json);
 }
 
-static void add_name(JoxText *out, const char *name) {
-    if (name && *name)
-        jox_text_json(out, name);
-    else
-        jox_text_add(out, "null");
+/* A name that may be missing: null then. */
+static void add_name(JoxJson *json, const char *name) {
+    jox_json_string(json, "name", name && *name ? name : NULL);
 }
 
-static void add_names(JoxText *out, const char *key, const char *const *names, uint32_t count) {
-    jox_text_printf(out, ", \"%s\": [", key);
-    for (uint32_t n = 0; n < count; n++) {
-        jox_text_add(out, n ? ", " : "");
-        jox_text_json(out, names[n]);
-    }
-    jox_text_add(out, "]");
+static void add_names(JoxJson *json, const char *key, const char *const *names, uint32_t count) {
+    jox_json_array(json, key);
+    for (uint32_t n = 0; n < count; n++)
+        jox_json_string(json, NULL, names[n]);
+    jox_json_end(json);
 }
 
-static void add_numbers(JoxText *out, const char *key, const double *values, int count) {
-    jox_text_printf(out, "\"%s\": [", key);
-    for (int i = 0; i < count; i++)
-        jox_text_printf(out, "%s%.7g", i ? ", " : "", values[i]);
-    jox_text_add(out, "]");
-}
-
-static void add_floats(JoxText *out, const char *key, const float *values, int count) {
+static void add_floats(JoxJson *json, const char *key, const float *values, int count) {
     double wide[4];
     for (int i = 0; i < count; i++)
         wide[i] = (double)values[i];
-    add_numbers(out, key, wide, count);
+    jox_json_numbers_of(json, key, wide, count, DIGITS);
 }
 
 /* ---- walls, places, regions ---- */
 
-void jox_live_walls(const JoxWalls *walls, float height, JoxText *out) {
-    jox_text_add(out, "[");
+void jox_live_add_walls(const JoxWalls *walls, float height, JoxJson *json) {
+    jox_json_array(json, "walls");
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         const struct JoxWallRing *ring = &walls->rings[r];
         bool closed, twin;
         const uint32_t n = jox_walls_given(walls, r, &closed, &twin);
-        jox_text_add(out, r ? ", {\"name\": " : "{\"name\": ");
-        add_name(out, ring->name);
-        jox_text_printf(out, ", \"solid\": %s, \"open\": %s, \"height\": %.4g, \"points\": [",
-                        ring->solid ? "true" : "false", ring->open ? "true" : "false",
-                        (double)(isfinite(ring->height) ? ring->height : height));
-        for (uint32_t i = 0; i < n + twin; i++) { /* a closed line ends where it began */
-            jox_text_add(out, i ? ", " : "");
-            add_point(out, walls->vertices[ring->first + i % n].point);
-        }
-        jox_text_add(out, "]}");
+        jox_json_object(json, NULL);
+        add_name(json, ring->name);
+        jox_json_bool(json, "solid", ring->solid);
+        jox_json_bool(json, "open", ring->open);
+        jox_json_digits(json, "height", (double)(isfinite(ring->height) ? ring->height : height),
+                        DIGITS);
+        jox_json_array(json, "points");
+        for (uint32_t i = 0; i < n + twin; i++) /* a closed line ends where it began */
+            add_point(json, walls->vertices[ring->first + i % n].point);
+        jox_json_end(json);
+        jox_json_end(json);
         r += twin;
     }
-    jox_text_add(out, "]");
+    jox_json_end(json);
 }
 
-void jox_live_add_places(const JoxPlace *places, uint32_t count, JoxText *out) {
+void jox_live_add_places(const JoxPlace *places, uint32_t count, JoxJson *json) {
     static const char *const KINDS[] = {"point", "line", "polygon", "queue", "set"};
-    jox_text_add(out, ", \"places\": [");
+    jox_json_array(json, "places");
     for (uint32_t p = 0; p < count; p++) {
         const JoxPlace *place = &places[p];
-        jox_text_add(out, p ? ", {\"name\": " : "{\"name\": ");
-        jox_text_json(out, place->name);
-        jox_text_printf(out, ", \"kind\": \"%s\", \"radius\": %.4g, \"height\": 0, \"points\": ",
-                        KINDS[place->kind],
-                        place->kind == JOX_PLACE_POINT ? (double)place->radius : 0.0);
-        add_points(out, place->points, place->count);
-        jox_text_add(out, "}");
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", place->name);
+        jox_json_string(json, "kind", KINDS[place->kind]);
+        jox_json_digits(json, "radius",
+                        place->kind == JOX_PLACE_POINT ? (double)place->radius : 0.0, DIGITS);
+        jox_json_whole(json, "height", 0);
+        add_points(json, "points", place->points, place->count);
+        jox_json_end(json);
     }
-    jox_text_add(out, "]");
+    jox_json_end(json);
 }
 
-void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxText *out) {
-    jox_text_add(out, ", \"regions\": {");
-    for (uint32_t r = 0; r < count; r++) {
-        jox_text_add(out, r ? ", " : "");
-        jox_text_json(out, regions[r].name);
-        jox_text_add(out, ": ");
-        add_points(out, regions[r].points, regions[r].count);
-    }
-    jox_text_add(out, "}");
+void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxJson *json) {
+    jox_json_object(json, "regions");
+    for (uint32_t r = 0; r < count; r++)
+        add_points(json, regions[r].name, regions[r].points, regions[r].count);
+    jox_json_end(json);
 }
 
 /* ---- bodies: by row, those that are gone without parts ---- */
 
-void jox_live_add_part(const JoxBodyLook *look, JoxText *out) {
+void jox_live_add_part(const JoxBodyLook *look, JoxJson *json) {
     static const char *const KINDS[] = {"box", "sphere", "cylinder", "hull"};
     static const int SIZES[] = {3, 1, 2, 0};
-    jox_text_printf(out, "{\"shape\": \"%s\", ", KINDS[look->kind]);
-    add_floats(out, "size", look->size, SIZES[look->kind]);
-    jox_text_add(out, ", ");
-    add_floats(out, "at", (float[]){look->at.x, look->at.y, look->at.z}, 3);
-    jox_text_add(out, ", ");
-    add_floats(out, "turn", look->turn, 4);
-    jox_text_add(out, ", \"points\": [");
+    jox_json_object(json, NULL);
+    jox_json_string(json, "shape", KINDS[look->kind]);
+    add_floats(json, "size", look->size, SIZES[look->kind]);
+    add_floats(json, "at", (float[]){look->at.x, look->at.y, look->at.z}, 3);
+    add_floats(json, "turn", look->turn, 4);
+    jox_json_array(json, "points");
     for (uint32_t c = 0; c < look->corner_count; c++)
-        jox_text_printf(out, "%s[%.6g, %.6g, %.6g]", c ? ", " : "", (double)look->corners[c].x,
-                        (double)look->corners[c].y, (double)look->corners[c].z);
-    jox_text_add(out, "]}");
+        add_floats(json, NULL,
+                   (float[]){look->corners[c].x, look->corners[c].y, look->corners[c].z}, 3);
+    jox_json_end(json);
+    jox_json_end(json);
 }
 
-void jox_live_body(const JoxBodies *bodies, uint32_t row, JoxText *out) {
+void jox_live_add_body(const JoxBodies *bodies, uint32_t row, JoxJson *json) {
     JoxPose pose;
     JoxBodyLook look;
     bool live = jox_bodies_pose(bodies, row, &pose);
-    jox_text_add(out, "{\"name\": ");
-    add_name(out, live ? jox_bodies_name(bodies, row) : NULL);
-    jox_text_printf(out, ", \"mass\": %.5g, \"parts\": [", (double)pose.mass);
-    for (uint32_t part = 0; live && jox_bodies_look(bodies, row, part, &look); part++) {
-        jox_text_add(out, part ? ", " : "");
-        jox_live_add_part(&look, out);
-    }
-    jox_text_add(out, "]}");
+    jox_json_object(json, NULL);
+    add_name(json, live ? jox_bodies_name(bodies, row) : NULL);
+    jox_json_digits(json, "mass", live ? (double)pose.mass : 0.0, DIGITS);
+    jox_json_array(json, "parts");
+    for (uint32_t part = 0; live && jox_bodies_look(bodies, row, part, &look); part++)
+        jox_live_add_part(&look, json);
+    jox_json_end(json);
+    jox_json_end(json);
 }
 
-static void add_bodies(JoxText *out, const JoxBodies *bodies) {
-    jox_text_add(out, ", \"bodies\": [");
-    for (uint32_t row = 0; row < jox_bodies_rows(bodies); row++) {
-        jox_text_add(out, row ? ", " : "");
-        jox_live_body(bodies, row, out);
-    }
-    jox_text_add(out, "]");
+static void add_bodies(JoxJson *json, const JoxBodies *bodies) {
+    jox_json_array(json, "bodies");
+    for (uint32_t row = 0; row < jox_bodies_rows(bodies); row++)
+        jox_live_add_body(bodies, row, json);
+    jox_json_end(json);
 }
 
 /* ---- people ---- */
 
-static void add_groups(JoxText *out, const JoScene *scene) {
-    const JoxSceneSpec *spec = scene->spec;
-    const JoxMind *mind = &scene->world->mind;
-    jox_text_add(out, ", \"groups\": [");
-    for (uint32_t g = 0; g < spec->group_count; g++) {
-        jox_text_add(out, g ? ", " : "");
-        jox_text_json(out, spec->groups[g].name);
-    }
-    jox_text_add(out, "], \"states\": [");
-    for (uint32_t m = 0, n = 0; m < mind->machine_count; m++)
-        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++, n++) {
-            jox_text_printf(out, "%s{\"machine\": %u, \"name\": ", n ? ", " : "", m);
-            jox_text_json(out, mind->machines[m]->states[s].name);
-            jox_text_add(out, "}");
-        }
-    jox_text_add(out, "]");
+void jox_live_add_state(uint32_t machine, const char *name, JoxJson *json) {
+    jox_json_object(json, NULL);
+    jox_json_whole(json, "machine", machine);
+    jox_json_string(json, "name", name);
+    jox_json_end(json);
 }
 
-void jox_live_add_colours(JoxText *out) {
-    jox_text_add(out, ", \"colours\": {");
-    const char *comma = "";
+static void add_groups(JoxJson *json, const JoScene *scene) {
+    const JoxSceneSpec *spec = scene->spec;
+    const JoxMind *mind = &scene->world->mind;
+    jox_json_array(json, "groups");
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        jox_json_string(json, NULL, spec->groups[g].name);
+    jox_json_end(json);
+    jox_json_array(json, "states");
+    for (uint32_t m = 0; m < mind->machine_count; m++)
+        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++)
+            jox_live_add_state(m, mind->machines[m]->states[s].name, json);
+    jox_json_end(json);
+}
+
+void jox_live_add_colours(JoxJson *json) {
+    jox_json_object(json, "colours");
     for (int c = 0; c < JOX_LIVE_COLOUR_COUNT; c++) {
         const JoxLiveColourInfo *colour = &jox_live_colours[c];
         if (c == JOX_LIVE_COLOUR_state || c == JOX_LIVE_COLOUR_group)
             continue;
-        jox_text_printf(out, "%s\"%s\": {\"most\": %g, \"unit\": \"%s\"}", comma, colour->name,
-                        (double)colour->most, colour->unit);
-        comma = ", ";
+        jox_json_object(json, colour->name);
+        jox_json_digits(json, "most", (double)colour->most, DIGITS);
+        jox_json_string(json, "unit", colour->unit);
+        jox_json_end(json);
     }
-    jox_text_add(out, "}");
+    jox_json_end(json);
 }
 
 /* ---- tools ---- */
@@ -187,7 +175,7 @@ static uint32_t add_unique(const char **names, uint32_t count, const char *name)
 }
 
 /* What people may do: what the scene lets them, where there is something to do it with. */
-static void add_tools(JoxText *out, const JoScene *scene) {
+static void add_tools(JoxJson *json, const JoScene *scene) {
     const JoWorld *world = scene->world;
     const uint32_t allowed = scene->spec->view.tools;
     const char *walls[MOST_NAMES], *signals[MOST_NAMES];
@@ -209,75 +197,84 @@ static void add_tools(JoxText *out, const JoScene *scene) {
         [JOX_TOOL_SIGNALS] = signal_count > 0,
         [JOX_TOOL_PLAYER] = jox_live_player(scene) != JOX_NO_INDEX,
     };
-    jox_text_add(out, ", \"tools\": {");
+    jox_json_object(json, "tools");
     for (int t = 0; t < JOX_TOOL_COUNT; t++)
-        jox_text_printf(out, "%s\"%s\": %s", t ? ", " : "", jox_scene_tools[t],
-                        offered[t] && (allowed >> t & 1) ? "true" : "false");
+        jox_json_bool(json, jox_scene_tools[t], offered[t] && (allowed >> t & 1));
+    jox_json_array(json, "players");
     if (offered[JOX_TOOL_PLAYER] && (allowed >> JOX_TOOL_PLAYER & 1))
-        jox_text_printf(out, ", \"players\": [%u]", jox_live_player(scene));
-    else
-        jox_text_add(out, ", \"players\": []");
-    add_names(out, "walls", walls, wall_count);
-    add_names(out, "signal_names", signals, signal_count);
-    jox_text_add(out, "}");
+        jox_json_whole(json, NULL, jox_live_player(scene));
+    jox_json_end(json);
+    add_names(json, "walls", walls, wall_count);
+    add_names(json, "signal_names", signals, signal_count);
+    jox_json_end(json);
 }
 
 /* ---- the whole ---- */
 
-void jox_live_add_camera(const JoxSceneSpec *spec, JoxText *out) {
-    jox_text_add(out, ", \"camera\": ");
-    if (!spec || !spec->camera.given) {
-        jox_text_add(out, "null");
-        return;
-    }
-    jox_text_add(out, "{");
-    add_numbers(out, "at", spec->camera.position, 3);
-    jox_text_add(out, ", ");
-    add_numbers(out, "look", spec->camera.target, 3);
-    jox_text_add(out, "}");
+void jox_live_add_head(const JoxLiveSceneHead *head, JoxJson *json) {
+    jox_json_string(json, "type", "hello");
+    jox_json_whole(json, "protocol", 1);
+    jox_json_string(json, "session", head->session);
+    jox_json_string(json, "title", head->title);
+    jox_json_string(json, "file", head->file);
+    jox_json_number(json, "dt", head->dt);
+    jox_json_number(json, "duration", head->duration);
+    jox_json_whole(json, "seed", head->seed);
+    add_points(json, "area", (JoxV2[]){head->area.low, head->area.high}, 2);
 }
 
-static void add_charts(JoxText *out, const JoxSceneSpec *spec) {
-    const char *comma = "";
-    jox_text_add(out, ", \"charts\": [");
-    for (uint32_t p = 0; p < spec->probe_count; p++) {
-        if (spec->probes[p].kind != JOX_PROBE_FLOW)
-            continue;
-        jox_text_add(out, comma);
-        jox_text_json(out, spec->probes[p].name);
-        comma = ", ";
+void jox_live_add_camera(const JoxSceneSpec *spec, JoxJson *json) {
+    if (!spec || !spec->camera.given) {
+        jox_json_null(json, "camera");
+        return;
     }
-    jox_text_add(out, "]");
+    jox_json_object(json, "camera");
+    jox_json_numbers_of(json, "at", spec->camera.position, 3, DIGITS);
+    jox_json_numbers_of(json, "look", spec->camera.target, 3, DIGITS);
+    jox_json_end(json);
+}
+
+void jox_live_add_view(JoxLiveColour colour, JoxLiveField field, JoxJson *json) {
+    jox_json_object(json, "view");
+    jox_json_string(json, "colour", jox_live_colours[colour].name);
+    jox_json_string(json, "field", jox_live_field_name(field));
+    jox_json_end(json);
+}
+
+static void add_charts(JoxJson *json, const JoxSceneSpec *spec) {
+    jox_json_array(json, "charts");
+    for (uint32_t p = 0; p < spec->probe_count; p++)
+        if (spec->probes[p].kind == JOX_PROBE_FLOW)
+            jox_json_string(json, NULL, spec->probes[p].name);
+    jox_json_end(json);
 }
 
 void jox_live_scene(JoScene *scene, JoxText *out) {
     const JoxLive *live = jox_live_of(scene);
     const JoxSceneSpec *spec = scene->spec;
     const JoWorld *world = scene->world;
-    jox_text_add(out, "{\"type\": \"hello\", \"protocol\": 1, \"session\": \"live\", \"title\": ");
-    jox_text_json(out, spec->title && *spec->title ? spec->title : spec->path);
-    jox_text_add(out, ", \"file\": ");
-    jox_text_json(out, spec->path);
-    jox_text_printf(out,
-                    ", \"dt\": %.9g, \"duration\": %.9g, \"seed\": %llu, \"area\": ", world->def.dt,
-                    spec->duration, (unsigned long long)world->def.seed);
-    add_points(out, (JoxV2[]){live->area.low, live->area.high}, 2);
-    jox_text_add(out, ", \"walls\": ");
-    jox_live_walls(&world->all_walls, JOX_WALL_HEIGHT, out);
-    jox_live_add_places(world->places, scene->first_antipode, out);
-    jox_live_add_regions(spec->regions, spec->region_count, out);
-    add_groups(out, scene);
-    jox_text_add(out, ", \"machines\": ");
-    jox_run_graph(scene, out);
-    add_bodies(out, world->bodies);
-    add_tools(out, scene);
-    jox_live_add_camera(spec, out);
-    jox_live_add_colours(out);
-    jox_text_printf(out, ", \"view\": {\"colour\": \"%s\", \"field\": \"%s\"}",
-                    jox_live_colours[spec->view.colour].name,
-                    jox_live_field_name((JoxLiveField)spec->view.field));
-    add_charts(out, spec);
-    jox_text_add(out, "}");
+    const JoxLiveSceneHead head = {.session = "live",
+                                   .title = spec->title && *spec->title ? spec->title : spec->path,
+                                   .file = spec->path,
+                                   .dt = world->def.dt,
+                                   .duration = spec->duration,
+                                   .seed = world->def.seed,
+                                   .area = live->area};
+    JoxJson json = jox_json_begin(out, 0);
+    jox_json_object(&json, NULL);
+    jox_live_add_head(&head, &json);
+    jox_live_add_walls(&world->all_walls, JOX_WALL_HEIGHT, &json);
+    jox_live_add_places(world->places, scene->first_antipode, &json);
+    jox_live_add_regions(spec->regions, spec->region_count, &json);
+    add_groups(&json, scene);
+    jox_run_graph(scene, &json, "machines");
+    add_bodies(&json, world->bodies);
+    add_tools(&json, scene);
+    jox_live_add_camera(spec, &json);
+    jox_live_add_colours(&json);
+    jox_live_add_view((JoxLiveColour)spec->view.colour, (JoxLiveField)spec->view.field, &json);
+    add_charts(&json, spec);
+    jox_json_end(&json);
 }
 
 uint64_t jox_live_version(const JoScene *scene) {
@@ -296,10 +293,10 @@ uint64_t jox_live_version(const JoScene *scene) {
         jox_hash_add(&hash, world->places[p].points, world->places[p].count * sizeof(JoxV2));
     for (uint32_t row = 0; row < jox_bodies_rows(world->bodies); row++) {
         const uint32_t id = jox_bodies_id(world->bodies, row);
-        JoxBodyGlue glue;
-        jox_bodies_glue(world->bodies, row, &glue);
+        JoxBodyBonds bonds;
+        jox_bodies_bonds(world->bodies, row, &bonds);
         jox_hash_add(&hash, &id, sizeof id);
-        jox_hash_add(&hash, &glue.blocks, sizeof glue.blocks);
+        jox_hash_add(&hash, &bonds.blocks, sizeof bonds.blocks);
     }
     return jox_hash_end(&hash);
 }

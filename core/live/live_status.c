@@ -51,8 +51,7 @@ static void push_taken(JoxLive *live, JoxLiveTaken taken) {
     live->fired[taken.which]++;
 }
 
-void jox_live_note(JoScene *scene) {
-    JoxLive *live = jox_live_of(scene);
+void jox_live_count(JoxLive *live, const JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxMind *mind = &world->mind;
     if (!same_machines(live, mind) || !live->fired)
@@ -75,30 +74,27 @@ void jox_live_note(JoScene *scene) {
 
 /* ---- the object ---- */
 
-static void add_number(JoxText *out, const char *name, double value) {
-    jox_text_printf(out, ", \"%s\": ", name);
-    jox_text_json_number(out, value);
-}
-
-/* ,"census": [[people in each state] of each machine], and "fired" alike by transition. */
-static void add_machines(JoxText *out, JoxLive *live, const JoxMind *mind) {
-    jox_text_add(out, ", \"census\": [");
+/* "census": [[people in each state] of each machine], and "fired" alike by transition. */
+static void add_machines(JoxJson *json, JoxLive *live, const JoxMind *mind) {
+    jox_json_array(json, "census");
     for (uint32_t m = 0; m < mind->machine_count; m++) {
         const uint32_t count = mind->machines[m]->state_count;
         JOX_RESERVE(live->people, live->people_capacity, count);
         jox_mind_census(mind, m, live->people);
+        jox_json_array(json, NULL);
         for (uint32_t s = 0; s < count; s++)
-            jox_text_printf(out, "%s%u", s ? ", " : m ? ", [" : "[", live->people[s]);
-        jox_text_add(out, "]");
+            jox_json_whole(json, NULL, live->people[s]);
+        jox_json_end(json);
     }
-    jox_text_add(out, "], \"fired\": [");
+    jox_json_end(json);
+    jox_json_array(json, "fired");
     for (uint32_t m = 0; m < mind->machine_count; m++) {
-        jox_text_add(out, m ? ", [" : "[");
+        jox_json_array(json, NULL);
         for (uint32_t t = live->begins[m]; t < live->begins[m + 1]; t++)
-            jox_text_printf(out, "%s%u", t > live->begins[m] ? ", " : "", live->fired[t]);
-        jox_text_add(out, "]");
+            jox_json_whole(json, NULL, live->fired[t]);
+        jox_json_end(json);
     }
-    jox_text_add(out, "]");
+    jox_json_end(json);
 }
 
 static double mean_speed(const JoxAgents *a) {
@@ -109,38 +105,28 @@ static double mean_speed(const JoxAgents *a) {
 }
 
 /* Passages of flow probes, and which walls of a name stand open. */
-static void add_doors(JoxText *out, const JoScene *scene) {
+static void add_doors(JoxJson *json, const JoScene *scene) {
     const JoxWalls *walls = &scene->world->all_walls;
     const JoxProbe *probe;
-    const char *comma = "";
-    jox_text_add(out, ", \"flows\": {");
-    for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++) {
-        if (jox_probe_def(probe)->kind != JOX_PROBE_FLOW)
-            continue;
-        jox_text_add(out, comma);
-        jox_text_json(out, jox_probe_def(probe)->name);
-        jox_text_printf(out, ": %u", jox_probe_passages(probe));
-        comma = ", ";
-    }
-    jox_text_add(out, "}, \"walls\": {");
-    comma = "";
+    jox_json_object(json, "flows");
+    for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
+        if (jox_probe_def(probe)->kind == JOX_PROBE_FLOW)
+            jox_json_whole(json, jox_probe_def(probe)->name, jox_probe_passages(probe));
+    jox_json_end(json);
+    jox_json_object(json, "walls");
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         bool known = !walls->rings[r].name;
         for (uint32_t o = 0; o < r && !known; o++)
             known = walls->rings[o].name && !strcmp(walls->rings[o].name, walls->rings[r].name);
-        if (known)
-            continue;
-        jox_text_add(out, comma);
-        jox_text_json(out, walls->rings[r].name);
-        jox_text_add(out, walls->rings[r].open ? ": true" : ": false");
-        comma = ", ";
+        if (!known)
+            jox_json_bool(json, walls->rings[r].name, walls->rings[r].open);
     }
-    jox_text_add(out, "}");
+    jox_json_end(json);
 }
 
 /* What the steps since the last status came to: how fast, what failed, and time by stage in ns per
    agent-step. Where there was none: since loading. */
-static void add_costs(JoxText *out, JoxLive *live, const JoScene *scene) {
+static void add_costs(JoxJson *json, JoxLive *live, const JoScene *scene) {
     const JoWorld *world = scene->world;
     const JoxStatistics *s = &world->statistics;
     const double wall = jox_clock_wall(), time = jo_world_time(world);
@@ -148,15 +134,15 @@ static void add_costs(JoxText *out, JoxLive *live, const JoScene *scene) {
     const double people = stepped ? (double)(s->agent_steps - live->agent_steps)
                                   : (double)(s->agent_steps ? s->agent_steps : 1);
     const double spent = wall - live->wall;
-    add_number(out, "real_time_factor", spent > 0.0 ? (time - live->time) / spent : 0.0);
-    add_number(out, "failures", (double)(s->failures - (stepped ? live->failures : 0)) / people);
-    jox_text_add(out, ", \"stage_ns\": {");
+    jox_json_number(json, "real_time_factor", spent > 0.0 ? (time - live->time) / spent : 0.0);
+    jox_json_number(json, "failures",
+                    (double)(s->failures - (stepped ? live->failures : 0)) / people);
+    jox_json_object(json, "stage_ns");
     for (int k = 0; k < JO_STAGE_COUNT; k++) {
         const double seconds = s->stage_s[k] - (stepped ? live->stage_s[k] : 0.0);
-        jox_text_printf(out, "%s\"%s\": %.2f", k ? ", " : "", jo_stage_name(k),
-                        seconds * 1e9 / people);
+        jox_json_digits(json, jo_stage_name(k), seconds * 1e9 / people, 6);
     }
-    jox_text_add(out, "}");
+    jox_json_end(json);
     live->wall = wall;
     live->time = time;
     if (!stepped)
@@ -166,22 +152,31 @@ static void add_costs(JoxText *out, JoxLive *live, const JoScene *scene) {
     memcpy(live->stage_s, s->stage_s, sizeof live->stage_s);
 }
 
+void jox_live_add_session(uint64_t tick, double time, const JoxLiveSession *session,
+                          JoxJson *json) {
+    jox_json_string(json, "type", "status");
+    jox_json_whole(json, "tick", tick);
+    jox_json_number(json, "time", time);
+    jox_json_bool(json, "paused", session->paused);
+    jox_json_number(json, "speed", session->speed);
+    jox_json_whole(json, "dropped", session->dropped);
+}
+
 void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out) {
     JoxLive *live = jox_live_of(scene);
     const JoWorld *world = scene->world;
     if (!same_machines(live, &world->mind) || !live->fired)
         number_transitions(live, &world->mind);
     jox_live_spread_crowd(scene, false);
-    jox_text_printf(out, "{\"type\": \"status\", \"tick\": %llu", (unsigned long long)world->tick);
-    add_number(out, "time", jo_world_time(world));
-    jox_text_printf(out, ", \"paused\": %s", session->paused ? "true" : "false");
-    add_number(out, "speed", session->speed);
-    jox_text_printf(out, ", \"agents\": %u, \"bodies\": %u", world->agents.count,
-                    jox_bodies_count(world->bodies));
-    add_machines(out, live, &world->mind);
-    add_number(out, "mean_speed", mean_speed(&world->agents));
-    add_number(out, "density_max", live->grid.most);
-    add_costs(out, live, scene);
-    add_doors(out, scene);
-    jox_text_printf(out, ", \"dropped\": %llu}", (unsigned long long)session->dropped);
+    JoxJson json = jox_json_begin(out, 0);
+    jox_json_object(&json, NULL);
+    jox_live_add_session(world->tick, jo_world_time(world), session, &json);
+    jox_json_whole(&json, "agents", world->agents.count);
+    jox_json_whole(&json, "bodies", jox_bodies_count(world->bodies));
+    add_machines(&json, live, &world->mind);
+    jox_json_number(&json, "mean_speed", mean_speed(&world->agents));
+    jox_json_number(&json, "density_max", live->grid.most);
+    add_costs(&json, live, scene);
+    add_doors(&json, scene);
+    jox_json_end(&json);
 }

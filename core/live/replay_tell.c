@@ -6,109 +6,124 @@
 
 static const float BODY_SIZE = 0.4f; /* m: of a body whose shape nothing says */
 
-static void add_names(JoxText *out, const JoxReplay *r) {
-    const JoxReplayNames *n = &r->names;
-    jox_text_add(out, ", \"groups\": [");
-    for (uint32_t g = 0; g < r->info.group_count; g++) {
-        jox_text_add(out, g ? ", " : "");
-        jox_text_json(out, r->info.groups[g]);
+/* A machine of which only the states' names are known. */
+static void add_machine(JoxJson *json, const JoxReplayNames *n, uint32_t machine) {
+    static const char *const EMPTY[] = {"defaults", "transitions"};
+    jox_json_object(json, NULL);
+    jox_json_string(json, "name", n->machines[machine]);
+    jox_json_string(json, "path", "");
+    jox_json_whole(json, "version", 0);
+    jox_json_null(json, "start");
+    for (int e = 0; e < 2; e++) {
+        jox_json_array(json, EMPTY[e]);
+        jox_json_end(json);
     }
-    jox_text_add(out, "], \"states\": [");
+    jox_json_array(json, "states");
     for (uint32_t s = 0; s < n->state_count; s++) {
-        jox_text_printf(out, "%s{\"machine\": %u, \"name\": ", s ? ", " : "", n->states[s].machine);
-        jox_text_json(out, n->states[s].name);
-        jox_text_add(out, "}");
+        if (n->states[s].machine != machine)
+            continue;
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", n->states[s].name);
+        jox_json_whole(json, "line", 0);
+        jox_json_array(json, "parameters");
+        jox_json_end(json);
+        jox_json_end(json);
     }
-    jox_text_add(out, "], \"machines\": [");
-    for (uint32_t m = 0; m < n->machine_count; m++) {
-        const char *comma = "";
-        jox_text_add(out, m ? ", {\"name\": " : "{\"name\": ");
-        jox_text_json(out, n->machines[m]);
-        jox_text_add(out, ", \"path\": \"\", \"version\": 0, \"start\": null, \"defaults\": [], "
-                          "\"transitions\": [], \"states\": [");
-        for (uint32_t s = 0; s < n->state_count; s++) {
-            if (n->states[s].machine != m)
-                continue;
-            jox_text_printf(out, "%s{\"name\": ", comma);
-            jox_text_json(out, n->states[s].name);
-            jox_text_add(out, ", \"line\": 0, \"parameters\": []}");
-            comma = ", ";
-        }
-        jox_text_add(out, "]}");
-    }
-    jox_text_add(out, "]");
+    jox_json_end(json);
+    jox_json_end(json);
 }
 
-/* A body of which nothing is known but where it is. */
-static void add_unknown(JoxText *out) {
-    const JoxBodyLook box = {.kind = JOX_SHAPE_BOX,
-                             .size = {BODY_SIZE, BODY_SIZE, BODY_SIZE},
-                             .turn = {0.0f, 0.0f, 0.0f, 1.0f}};
-    jox_text_add(out, "{\"name\": null, \"mass\": 0, \"parts\": [");
-    jox_live_add_part(&box, out);
-    jox_text_add(out, "]}");
+static void add_names(JoxJson *json, const JoxReplay *r) {
+    const JoxReplayNames *n = &r->names;
+    jox_json_array(json, "groups");
+    for (uint32_t g = 0; g < r->info.group_count; g++)
+        jox_json_string(json, NULL, r->info.groups[g]);
+    jox_json_end(json);
+    jox_json_array(json, "states");
+    for (uint32_t s = 0; s < n->state_count; s++)
+        jox_live_add_state(n->states[s].machine, n->states[s].name, json);
+    jox_json_end(json);
+    jox_json_array(json, "machines");
+    for (uint32_t m = 0; m < n->machine_count; m++)
+        add_machine(json, n, m);
+    jox_json_end(json);
+}
+
+/* A body as the recording has it in the frame that is shown; a box where nothing is known but where
+   it is. */
+static void add_recorded(JoxJson *json, const JoxReplay *r, uint32_t id, bool known) {
+    JoxBodyLook look = {.kind = JOX_SHAPE_BOX,
+                        .size = {BODY_SIZE, BODY_SIZE, BODY_SIZE},
+                        .turn = {0.0f, 0.0f, 0.0f, 1.0f}};
+    jox_json_object(json, NULL);
+    jox_json_null(json, "name");
+    jox_json_whole(json, "mass", 0);
+    jox_json_array(json, "parts");
+    for (uint32_t part = 0;
+         known && jox_trajectory_reader_part(r->reader, r->shown, id, part, &look); part++)
+        jox_live_add_part(&look, json);
+    if (!known)
+        jox_live_add_part(&look, json);
+    jox_json_end(json);
+    jox_json_end(json);
 }
 
 /* By the recording, else by the scene. */
-static void add_bodies(JoxText *out, const JoxReplay *r) {
-    jox_text_add(out, ", \"bodies\": [");
+static void add_bodies(JoxJson *json, const JoxReplay *r) {
+    jox_json_array(json, "bodies");
     for (uint32_t row = 0; row < r->row_count; row++) {
-        const uint32_t id = r->body_id[row], frame = r->shown;
-        const uint32_t known = r->bodies ? jox_bodies_find(r->bodies, id) : JOX_NO_BODY;
+        const uint32_t id = r->body_id[row];
+        const uint32_t of_scene = r->bodies ? jox_bodies_find(r->bodies, id) : JOX_NO_BODY;
         JoxBodyLook look;
-        jox_text_add(out, row ? ", " : "");
-        if (frame == JOX_REPLAY_NOBODY ||
-            !jox_trajectory_reader_part(r->reader, frame, id, 0, &look)) {
-            if (known != JOX_NO_BODY)
-                jox_live_body(r->bodies, known, out);
-            else
-                add_unknown(out);
-            continue;
-        }
-        jox_text_add(out, "{\"name\": null, \"mass\": 0, \"parts\": [");
-        for (uint32_t part = 0; jox_trajectory_reader_part(r->reader, frame, id, part, &look);
-             part++) {
-            jox_text_add(out, part ? ", " : "");
-            jox_live_add_part(&look, out);
-        }
-        jox_text_add(out, "]}");
+        bool recorded = r->shown != JOX_REPLAY_NOBODY &&
+                        jox_trajectory_reader_part(r->reader, r->shown, id, 0, &look);
+        if (!recorded && of_scene != JOX_NO_BODY)
+            jox_live_add_body(r->bodies, of_scene, json);
+        else
+            add_recorded(json, r, id, recorded);
     }
-    jox_text_add(out, "]");
+    jox_json_end(json);
+}
+
+/* Nothing can be done in a recording. */
+static void add_tools(JoxJson *json) {
+    static const char *const EMPTY[] = {"players", "walls", "signal_names"};
+    jox_json_object(json, "tools");
+    for (int t = 0; t < JOX_TOOL_COUNT; t++)
+        jox_json_bool(json, jox_scene_tools[t], false);
+    for (int e = 0; e < 3; e++) {
+        jox_json_array(json, EMPTY[e]);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
 }
 
 void jox_replay_scene(const JoxReplay *r, JoxText *out) {
+    const JoxSceneSpec *spec = r->spec;
     const char *slash = strrchr(r->path, '/');
-    const char *title = r->spec && r->spec->title && *r->spec->title ? r->spec->title
-                        : slash                                      ? slash + 1
-                                                                     : r->path;
-    jox_text_add(out,
-                 "{\"type\": \"hello\", \"protocol\": 1, \"session\": \"replay\", \"title\": ");
-    jox_text_json(out, title);
-    jox_text_add(out, ", \"file\": ");
-    jox_text_json(out, r->path);
-    jox_text_printf(out,
-                    ", \"dt\": %.9g, \"duration\": %.9g, \"seed\": 0, "
-                    "\"area\": [[%.7g, %.7g], [%.7g, %.7g]], \"walls\": ",
-                    1.0 / r->info.fps, jox_replay_time(r, r->info.frames - 1),
-                    (double)r->area.low.x, (double)r->area.low.y, (double)r->area.high.x,
-                    (double)r->area.high.y);
-    jox_live_walls(jox_replay_walls(r), JOX_WALL_HEIGHT, out);
-    jox_live_add_places(r->spec ? r->spec->places : NULL, r->spec ? r->spec->place_count : 0, out);
-    jox_live_add_regions(r->spec ? r->spec->regions : NULL, r->spec ? r->spec->region_count : 0,
-                         out);
-    add_names(out, r);
-    add_bodies(out, r);
-    jox_text_add(out, ", \"tools\": {");
-    for (int t = 0; t < JOX_TOOL_COUNT; t++)
-        jox_text_printf(out, "\"%s\": false, ", jox_scene_tools[t]);
-    jox_text_add(out, "\"players\": [], \"walls\": [], \"signal_names\": []}");
-    jox_live_add_camera(r->spec, out);
-    jox_live_add_colours(out);
-    jox_text_printf(out,
-                    ", \"view\": {\"colour\": \"%s\", \"field\": \"%s\"}, "
-                    "\"charts\": []}",
-                    jox_live_colours[jox_replay_colour(r)].name,
-                    jox_live_field_name(jox_replay_first_field(r)));
+    const JoxLiveSceneHead head = {.session = "replay",
+                                   .title = spec && spec->title && *spec->title ? spec->title
+                                            : slash                             ? slash + 1
+                                                                                : r->path,
+                                   .file = r->path,
+                                   .dt = 1.0 / r->info.fps,
+                                   .duration = jox_replay_time(r, r->info.frames - 1),
+                                   .area = r->area};
+    JoxJson json = jox_json_begin(out, 0);
+    jox_json_object(&json, NULL);
+    jox_live_add_head(&head, &json);
+    jox_live_add_walls(jox_replay_walls(r), JOX_WALL_HEIGHT, &json);
+    jox_live_add_places(spec ? spec->places : NULL, spec ? spec->place_count : 0, &json);
+    jox_live_add_regions(spec ? spec->regions : NULL, spec ? spec->region_count : 0, &json);
+    add_names(&json, r);
+    add_bodies(&json, r);
+    add_tools(&json);
+    jox_live_add_camera(spec, &json);
+    jox_live_add_colours(&json);
+    jox_live_add_view(jox_replay_colour(r), jox_replay_first_field(r), &json);
+    jox_json_array(&json, "charts");
+    jox_json_end(&json);
+    jox_json_end(&json);
 }
 
 uint64_t jox_replay_version(const JoxReplay *r) {
@@ -117,7 +132,7 @@ uint64_t jox_replay_version(const JoxReplay *r) {
     return (uint64_t)changes << 32 | r->row_count;
 }
 
-static void add_census(JoxText *out, JoxReplay *r) {
+static void add_census(JoxJson *json, JoxReplay *r) {
     const JoxReplayNames *n = &r->names;
     memset(r->people, 0, n->state_count * sizeof *r->people);
     for (uint32_t i = 0; i < r->count; i++) {
@@ -125,39 +140,43 @@ static void add_census(JoxText *out, JoxReplay *r) {
         if (state < n->state_count)
             r->people[state]++;
     }
-    jox_text_add(out, ", \"census\": [");
+    jox_json_array(json, "census");
     for (uint32_t m = 0; m < n->machine_count; m++) {
-        const char *comma = "";
-        jox_text_add(out, m ? ", [" : "[");
-        for (uint32_t s = 0; s < n->state_count; s++) {
-            if (n->states[s].machine != m)
-                continue;
-            jox_text_printf(out, "%s%u", comma, r->people[s]);
-            comma = ", ";
-        }
-        jox_text_add(out, "]");
+        jox_json_array(json, NULL);
+        for (uint32_t s = 0; s < n->state_count; s++)
+            if (n->states[s].machine == m)
+                jox_json_whole(json, NULL, r->people[s]);
+        jox_json_end(json);
     }
-    jox_text_add(out, "], \"fired\": [");
-    for (uint32_t m = 0; m < n->machine_count; m++)
-        jox_text_add(out, m ? ", []" : "[]");
-    jox_text_add(out, "]");
+    jox_json_end(json);
+    jox_json_array(json, "fired");
+    for (uint32_t m = 0; m < n->machine_count; m++) {
+        jox_json_array(json, NULL);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
 }
 
 void jox_replay_status(JoxReplay *r, const JoxLiveSession *session, double factor, JoxText *out) {
+    static const char *const UNKNOWN[] = {"stage_ns", "flows", "walls"};
     double speed = 0.0;
     for (uint32_t i = 0; i < r->count; i++)
         speed += (double)sqrtf(r->vx[i] * r->vx[i] + r->vy[i] * r->vy[i]);
     jox_replay_spread(r, false);
-    jox_text_printf(out,
-                    "{\"type\": \"status\", \"tick\": %u, \"time\": %.9g, \"paused\": %s, "
-                    "\"speed\": %.9g, \"real_time_factor\": %.6g, \"agents\": %u, \"bodies\": %u",
-                    r->shown == JOX_REPLAY_NOBODY ? 0 : r->shown, r->frame.time,
-                    session->paused ? "true" : "false", session->speed, factor, r->count,
-                    r->frame.body_count);
-    add_census(out, r);
-    jox_text_printf(out,
-                    ", \"mean_speed\": %.6g, \"density_max\": %.6g, \"failures\": null, "
-                    "\"stage_ns\": {}, \"flows\": {}, \"walls\": {}, \"dropped\": %llu}",
-                    r->count ? speed / r->count : 0.0, (double)r->grid.most,
-                    (unsigned long long)session->dropped);
+    JoxJson json = jox_json_begin(out, 0);
+    jox_json_object(&json, NULL);
+    jox_live_add_session(r->shown == JOX_REPLAY_NOBODY ? 0 : r->shown, r->frame.time, session,
+                         &json);
+    jox_json_digits(&json, "real_time_factor", factor, 6);
+    jox_json_whole(&json, "agents", r->count);
+    jox_json_whole(&json, "bodies", r->frame.body_count);
+    add_census(&json, r);
+    jox_json_digits(&json, "mean_speed", r->count ? speed / r->count : 0.0, 6);
+    jox_json_digits(&json, "density_max", (double)r->grid.most, 6);
+    jox_json_null(&json, "failures");
+    for (int u = 0; u < 3; u++) {
+        jox_json_object(&json, UNKNOWN[u]);
+        jox_json_end(&json);
+    }
+    jox_json_end(&json);
 }

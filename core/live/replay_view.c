@@ -71,8 +71,13 @@ static void show_figures(Playing *p, double now) {
     jox_replay_status(p->replay, &p->session, factor, &p->text);
     jox_view_publish(p->view, JOX_VIEW_STATUS, p->text.data, p->text.length);
     p->text.length = 0;
-    jox_text_printf(&p->text, "{\"type\": \"time\", \"from\": %.9g, \"until\": %.9g, \"at\": %.9g}",
-                    p->from, p->until, p->at);
+    JoxJson json = jox_json_begin(&p->text, 0);
+    jox_json_object(&json, NULL);
+    jox_json_string(&json, "type", "time");
+    jox_json_number(&json, "from", p->from);
+    jox_json_number(&json, "until", p->until);
+    jox_json_number(&json, "at", p->at);
+    jox_json_end(&json);
     jox_view_publish(p->view, TIME_CHANNEL, p->text.data, p->text.length);
     for (int f = 0; f < JOX_LIVE_FIELDS; f++)
         if (wants(p, -1, f)) {
@@ -346,7 +351,7 @@ bool jo_view_recording(const JoViewRecordingDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == RECORDING_COOKIE && def->recording && def->fps >= 0.0 &&
                     def->unit >= 0.0,
                 false);
-    JOX_GUARD(NULL, error)
-    return false;
+    JOX_GUARD (NULL, error)
+        return false;
     return view_recording(def, error);
 }

@@ -29,8 +29,6 @@ static void pause_at_end(JoxViewing *v) {
 static void step(JoxViewing *v) {
     JoError error = {0};
     if (jo_scene_step(v->scene, &error)) {
-        if (jox_view_clients(v->view))
-            jox_live_note(v->scene);
         pause_at_end(v);
     } else {
         v->failed = v->session.paused = true;
@@ -105,7 +103,7 @@ static bool view(const JoViewDef *def, JoError *error) {
 
 bool jo_view(const JoViewDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == VIEW_COOKIE && def->scene.path, false);
-    JOX_GUARD(NULL, error)
-    return false;
+    JOX_GUARD (NULL, error)
+        return false;
     return view(def, error);
 }

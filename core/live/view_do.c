@@ -161,20 +161,22 @@ static void do_input(const Said *said) {
 
 static void do_lua(const Said *said) {
     const JoxCommand *c = said->command;
-    JoxText line = {0}, json = {0};
+    JoxText line = {0}, text = {0};
     bool good = jox_run_lua_line(
         said->v->scene, jox_command_text(c, "machine", ""), jox_command_text(c, "state", ""),
         jox_command_text(c, "parameter", ""), jox_command_number(c, "value", NAN), &line);
     if (good) {
-        jox_text_add(&json, "{\"type\": \"lua\", \"text\": ");
-        jox_text_json(&json, line.data ? line.data : "");
-        jox_text_add(&json, "}");
-        jox_view_send(said->v->view, said->by->client, json.data);
+        JoxJson json = jox_json_begin(&text, 0);
+        jox_json_object(&json, NULL);
+        jox_json_string(&json, "type", "lua");
+        jox_json_string(&json, "text", line.data ? line.data : "");
+        jox_json_end(&json);
+        jox_view_send(said->v->view, said->by->client, text.data);
     } else {
         refuse(said, line.data ? line.data : "there is no such parameter");
     }
     jox_text_free(&line);
-    jox_text_free(&json);
+    jox_text_free(&text);
 }
 
 static void do_command(JoxViewing *v, JoxWatcher *by, const char *json) {

@@ -7,19 +7,36 @@
 
 /* ---- mistakes ---- */
 
+static void add_error(JoxJson *json, const JoxDiagnostic *d) {
+    jox_json_object(json, NULL);
+    jox_json_string(json, "file", d->file ? d->file : "");
+    jox_json_integer(json, "line", d->line);
+    jox_json_integer(json, "column", d->column);
+    jox_json_integer(json, "end", d->end_column);
+    jox_json_string(json, "text", d->message);
+    jox_json_string(json, "source", d->source ? d->source : "");
+    jox_json_string(json, "hint", d->hint ? d->hint : "");
+    jox_json_string(json, "context", d->context ? d->context : "");
+    jox_json_end(json);
+}
+
 void jox_viewing_tell_mistakes(JoxViewing *v, uint32_t client) {
-    JoxText json = {0};
-    jox_text_add(&json, "{\"type\": \"errors\", \"errors\": [");
+    v->text.length = 0;
+    JoxJson json = jox_json_begin(&v->text, 0);
+    jox_json_object(&json, NULL);
+    jox_json_string(&json, "type", "errors");
+    jox_json_array(&json, "errors");
     for (size_t m = 0; m < v->mistake_count; m++)
-        jox_text_printf(&json, "%s%s", m ? ", " : "", v->mistakes[m].errors.data);
-    jox_text_add(&json, "]}");
-    jox_view_send(v->view, client, json.data);
-    jox_text_free(&json);
+        for (size_t i = 0; i < v->mistakes[m].errors.count; i++)
+            add_error(&json, &v->mistakes[m].errors.items[i]);
+    jox_json_end(&json);
+    jox_json_end(&json);
+    jox_view_send(v->view, client, v->text.data);
 }
 
 void jox_viewing_forget_mistakes(JoxViewing *v) {
     for (size_t m = 0; m < v->mistake_count; m++)
-        jox_text_free(&v->mistakes[m].errors);
+        jox_diag_free(&v->mistakes[m].errors);
     v->mistake_count = 0;
 }
 
@@ -33,30 +50,18 @@ static void drop_mistakes(JoxViewing *v, const bool *parts) {
         }
         if (!shared && !beginning)
             continue;
-        jox_text_free(&v->mistakes[m].errors);
+        jox_diag_free(&v->mistakes[m].errors);
         v->mistakes[m] = v->mistakes[--v->mistake_count];
     }
 }
 
-static void print_errors(const JoxDiagnostics *diagnostics, JoxText *out) {
-    const char *comma = "";
+static void keep_errors(const JoxDiagnostics *diagnostics, JoxDiagnostics *kept) {
     for (size_t i = 0; i < diagnostics->count; i++) {
         const JoxDiagnostic *d = &diagnostics->items[i];
-        if (d->severity != JOX_SEVERITY_ERROR)
-            continue;
-        jox_text_printf(out, "%s{\"file\": ", comma);
-        jox_text_json(out, d->file ? d->file : "");
-        jox_text_printf(out, ", \"line\": %d, \"column\": %d, \"end\": %d, \"text\": ", d->line,
-                        d->column, d->end_column);
-        jox_text_json(out, d->message);
-        jox_text_add(out, ", \"source\": ");
-        jox_text_json(out, d->source ? d->source : "");
-        jox_text_add(out, ", \"hint\": ");
-        jox_text_json(out, d->hint ? d->hint : "");
-        jox_text_add(out, ", \"context\": ");
-        jox_text_json(out, d->context ? d->context : "");
-        jox_text_add(out, "}");
-        comma = ", ";
+        const JoxPosition position = {d->file, d->line, d->column, d->end_column};
+        if (d->severity == JOX_SEVERITY_ERROR)
+            jox_diag_add(kept, d->severity, position, d->code, d->hint, d->context, d->source, "%s",
+                         d->message);
     }
 }
 
@@ -77,7 +82,7 @@ static void diagnosed(void *context, const bool *parts, const JoxDiagnostics *di
         *mistake = (JoxMistake){.errors = {0}};
         if (parts)
             memcpy(mistake->parts, parts, sizeof mistake->parts);
-        print_errors(diagnostics, &mistake->errors);
+        keep_errors(diagnostics, &mistake->errors);
     }
     jox_viewing_tell_mistakes(v, JOX_VIEW_ALL);
 }

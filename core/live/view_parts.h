@@ -17,7 +17,7 @@ typedef struct JoxWatcher {
 /* Files that were saved and could not go live. */
 typedef struct JoxMistake {
     bool parts[JOX_PARTS]; /* what they are parts of; none: a scene that was to begin anew */
-    JoxText errors;        /* objects of a JSON array */
+    JoxDiagnostics errors;
 } JoxMistake;
 
 typedef struct JoxViewing {

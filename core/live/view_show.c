@@ -8,24 +8,26 @@ static const double FRAME = 1.0 / 65.0; /* s, least time between frames */
 static const double SPEECH = 0.25;      /* s between figures */
 enum { PEOPLE_CHANNEL = JOX_VIEW_FIRST_TEXT - 1 };
 
+/* Sends an object of texts: its type, and two members. */
+static void send_texts(JoxView *view, uint32_t client, const char *type,
+                       const char *const members[2][2]) {
+    JoxText text = {0};
+    JoxJson json = jox_json_begin(&text, 0);
+    jox_json_object(&json, NULL);
+    jox_json_string(&json, "type", type);
+    jox_json_string(&json, members[0][0], members[0][1]);
+    jox_json_string(&json, members[1][0], members[1][1]);
+    jox_json_end(&json);
+    jox_view_send(view, client, text.data);
+    jox_text_free(&text);
+}
+
 void jox_view_say(JoxView *view, uint32_t client, const char *level, const char *text) {
-    JoxText json = {0};
-    jox_text_printf(&json, "{\"type\": \"say\", \"level\": \"%s\", \"text\": ", level);
-    jox_text_json(&json, text);
-    jox_text_add(&json, "}");
-    jox_view_send(view, client, json.data);
-    jox_text_free(&json);
+    send_texts(view, client, "say", (const char *const[2][2]){{"level", level}, {"text", text}});
 }
 
 void jox_view_refuse(JoxView *view, uint32_t client, const char *verb, const char *text) {
-    JoxText json = {0};
-    jox_text_add(&json, "{\"type\": \"refused\", \"do\": ");
-    jox_text_json(&json, verb);
-    jox_text_add(&json, ", \"text\": ");
-    jox_text_json(&json, text);
-    jox_text_add(&json, "}");
-    jox_view_send(view, client, json.data);
-    jox_text_free(&json);
+    send_texts(view, client, "refused", (const char *const[2][2]){{"do", verb}, {"text", text}});
 }
 
 uint32_t jox_viewing_channels(const JoxWatcher *watcher) {
@@ -92,14 +94,15 @@ static void show_figures(JoxViewing *v) {
 void jox_viewing_inspect(JoxViewing *v) {
     if (!v->inspector)
         return;
-    char *known = jo_scene_inspect(v->scene, v->inspected);
     v->text.length = 0;
-    jox_text_add(&v->text, "{\"type\": \"inspect\", ");
-    jox_text_add(&v->text, known + 1); /* an object that begins with "agent" */
+    JoxJson json = jox_json_begin(&v->text, 0);
+    jox_json_object(&json, NULL);
+    jox_json_string(&json, "type", "inspect");
+    bool there = jox_run_inspect(v->scene, v->inspected, &json);
+    jox_json_end(&json);
     jox_view_send(v->view, v->inspector, v->text.data);
-    if (strncmp(known, "{\"agent\":null", 13) == 0)
+    if (!there)
         v->inspector = 0;
-    jo_free(known);
 }
 
 void jox_viewing_show(JoxViewing *v, double now) {

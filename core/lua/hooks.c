@@ -131,6 +131,23 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
         vm->traceback[0] = 0;
         lua_settop(L, 0);
     }
+    char name[64], changed[200];
+    lua_Debug where;
+    if (jox_upvalues_restore(L, &vm->upvalues, hook->first_upvalue, hook->upvalue_count, name,
+                             &where)) {
+        unsigned source = 0;
+        sscanf(where.short_src, "b%u", &source);
+        vm->failed_source = source < vm->source_count ? source : 0;
+        vm->traceback[0] = 0;
+        line = where.linedefined;
+        snprintf(
+            changed, sizeof changed,
+            "a function changed '%s', a variable from outside of it, and it was set back: what "
+            "an agent remembers belongs in memory",
+            name);
+        why = changed;
+        good = false;
+    }
     if (timed) {
         hook->seconds += now() - begun;
         hook->timed++;

@@ -32,8 +32,9 @@ typedef struct JoxSource {
     size_t token_count, token_capacity;
     JoxPath *paths;
     size_t path_count, path_capacity;
-    const JoxToken *patches; /* of a mod's file: the name of what it changes */
-    uint32_t looks;          /* tokens looked at for conditions; bounded */
+    const JoxToken *patches;  /* of a mod's file: the name of what it changes */
+    uint32_t looks;           /* tokens looked at for conditions; bounded */
+    struct JoxScopes *scopes; /* of its variables; NULL until asked for */
 } JoxSource;
 
 /* Splits Lua source into tokens; never fails, for Lua's own parser reports what is malformed. */
@@ -45,6 +46,11 @@ JoxToken *jox_source_find(JoxSource *source, int line, const char *name);
 JoxPosition jox_source_path(const JoxSource *source, const char *path);
 /* Says of each diagnostic in the source which part of the sheet it is in. */
 void jox_source_contexts(const JoxSource *source, JoxDiagnostics *diagnostics);
+/* The first place where a function with these lines (or one in it) assigns one of the named
+   variables, which was declared outside of it; NULL where none is seen. */
+const JoxToken *jox_source_assigned(JoxSource *source, int first_line, int last_line,
+                                    const char *const *names, size_t name_count);
+void jox_source_scopes_free(struct JoxScopes *scopes);
 const JoxPath *jox_source_path_find(const JoxSource *source, const char *path);
 static inline bool jox_token_is(const JoxToken *token, const char *text) {
     size_t n = token->length;
@@ -104,10 +110,23 @@ typedef struct JoxOrigin {
     bool removes;
 } JoxOrigin;
 
+/* A variable that a Lua function shares with the code around it: Lua's name of the variable itself,
+   and its number in the function that stands for it. */
+typedef struct JoxUpvalue {
+    const void *id;
+    int number;
+} JoxUpvalue;
+typedef struct JoxUpvalues {
+    JoxUpvalue *items;
+    uint32_t count;
+    size_t capacity;
+} JoxUpvalues;
+
 /* A plain function of the behaviour. */
 typedef struct JoxHook {
-    int ref;     /* in the registry */
-    char *where; /* "state Circle > transition 2 (to Exit) > on_take" */
+    int ref;                               /* in the registry */
+    char *where;                           /* "state Circle > transition 2 (to Exit) > on_take" */
+    uint32_t first_upvalue, upvalue_count; /* that it could change */
     uint64_t calls, failures, timed;
     double seconds;           /* of the calls that were timed */
     uint32_t second;          /* simulated, of the failures that follow */
@@ -154,8 +173,10 @@ typedef struct JoxVm {
     const JoxMod *mod; /* whose file is running; NULL: the behaviour's own */
     JoxOrigin *origins;
     size_t origin_count, origin_capacity;
+    JoxUpvalues upvalues;
     JoxHook *hooks;
     uint32_t hook_count;
+    uint32_t hook_walked; /* while loading: whose upvalues are looked at */
     size_t hook_capacity;
     JoxMemorySlot *memory; /* declared by memory{} */
     uint32_t memory_count;
@@ -259,11 +280,13 @@ void jox_frozen_contents(lua_State *L, int index);
 /* Raises an error where the table at `index` is frozen or belongs to the library. */
 void jox_frozen_check_writable(lua_State *L, int index);
 
-/* Whether the Lua function at `index`, or one nested in it, assigns a variable from outside it.
-   Then its name and the line of the first such assignment, and the number of its source. */
-bool jox_upvalue_assigned(lua_State *L, int index, char name[64], int *line, int *source);
-/* Raises an error where this Lua's compiled form is not the one that is understood. */
-void jox_upvalue_self_check(lua_State *L);
+/* Adds the variables of the Lua function at `index` that are not among those from `first` on, with
+   their present values. Raises errors: call it protected. */
+void jox_upvalues_add(lua_State *L, int index, JoxUpvalues *all, uint32_t first);
+/* Gives `count` variables from `first` on the values they had when they were added. Whether one had
+   changed; then the name of the first and the function that was added with it. Raises no errors. */
+bool jox_upvalues_restore(lua_State *L, const JoxUpvalues *all, uint32_t first, uint32_t count,
+                          char name[64], lua_Debug *where);
 
 /* Reports an error at a word's place in the running chunk and pushes a poison value; returns 1. */
 int jox_word_error(lua_State *L, const char *word, const char *code, const char *hint,

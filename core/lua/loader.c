@@ -20,23 +20,32 @@ static void report_failure(JoxVm *vm, const char *why, int line) {
     jox_diag_error(vm->diagnostics, position, "lua-error", NULL, "%s", why);
 }
 
-/* What a function remembers outside memory would be lost at a reload, and run apart at a resume. */
+/* What a function remembers outside memory would be lost at a reload, and run apart at a resume.
+   What the source does not show of it is found when the function runs. */
 static void check_upvalues(lua_State *L, int index, void *context) {
+    enum { MOST_UPVALUES = 256 };
     JoxVm *vm = context;
-    char name[64];
-    int line = 0, number = 0;
-    if (!jox_upvalue_assigned(L, index, name, &line, &number))
+    const char *names[MOST_UPVALUES];
+    int count = 0, number = 0;
+    lua_Debug about;
+    lua_pushvalue(L, index);
+    lua_getinfo(L, ">S", &about);
+    while (count < MOST_UPVALUES && (names[count] = lua_getupvalue(L, index, count + 1)) != NULL) {
+        lua_pop(L, 1);
+        count++;
+    }
+    jox_upvalues_add(L, index, &vm->upvalues, vm->hooks[vm->hook_walked].first_upvalue);
+    if (sscanf(about.short_src, "b%d", &number) != 1 || (size_t)number >= vm->source_count)
         return;
-    JoxSource *source = &vm->sources[number >= 0 && (size_t)number < vm->source_count ? number : 0];
-    const JoxToken *t = NULL; /* what is assigned comes first */
-    for (size_t i = 0; i < source->token_count && !t; i++)
-        if (source->tokens[i].line == line && jox_token_is(&source->tokens[i], name))
-            t = &source->tokens[i];
-    jox_diag_error(vm->diagnostics,
-                   ((JoxPosition){source->path, line, t ? t->column : 0, t ? t->end_column : 0}),
-                   "assigned-upvalue", "Declare it: local mine = memory { ... }, and write me.NAME",
-                   "a function cannot change '%s': what an agent remembers belongs in memory",
-                   name);
+    JoxSource *source = &vm->sources[number];
+    const JoxToken *t =
+        jox_source_assigned(source, about.linedefined, about.lastlinedefined, names, (size_t)count);
+    if (t)
+        jox_diag_error(
+            vm->diagnostics, ((JoxPosition){source->path, t->line, t->column, t->end_column}),
+            "assigned-upvalue", "Declare it: local mine = memory { ... }, and write me.NAME",
+            "a function cannot change '%.*s': what an agent remembers belongs in memory",
+            (int)t->length, t->text);
 }
 
 static int build_protected(lua_State *L) {
@@ -45,8 +54,11 @@ static int build_protected(lua_State *L) {
         return 0;
     jox_build(vm, &vm->sources[0]);
     for (uint32_t h = 0; h < vm->hook_count; h++) { /* and nothing it reaches changes any more */
+        vm->hook_walked = h;
+        vm->hooks[h].first_upvalue = vm->upvalues.count;
         lua_rawgeti(L, LUA_REGISTRYINDEX, vm->hooks[h].ref);
         jox_freeze(L, lua_gettop(L), check_upvalues, vm);
+        vm->hooks[h].upvalue_count = vm->upvalues.count - vm->hooks[h].first_upvalue;
         lua_pop(L, 1);
     }
     return 0;

@@ -169,7 +169,7 @@ void jox_lua_bracket(void *context, bool begins) {
     }
     for (uint32_t w = 0; w < lua->write_count; w++) {
         const JoxWrite *write = &lua->writes[w];
-        uint32_t i = a->id_index[write->agent_id];
+        uint32_t i = jox_agents_find(a, write->agent_id);
         if (i != JOX_NO_INDEX)
             a->memory[(size_t)i * a->memory_stride + write->slot] = write->value;
     }

@@ -197,6 +197,7 @@ void jox_source_scan(JoxSource *source) {
 void jox_source_free(JoxSource *source) {
     for (size_t i = 0; i < source->path_count; i++)
         jox_free(source->paths[i].path);
+    jox_source_scopes_free(source->scopes);
     jox_free(source->paths);
     jox_free(source->tokens);
     jox_free(source->text);

@@ -299,7 +299,7 @@ static bool test_all(const char *const *paths, size_t count, const char *only, b
 bool jo_test(const char *const *paths, size_t count, const char *only, bool json,
              JoMessage *message, void *context, size_t *passed, size_t *failed) {
     JOX_REQUIRE(paths && message && passed && failed, false);
-    JOX_GUARD(NULL, NULL) {
+    JOX_GUARD (NULL, NULL) {
         message(context, "out of memory\n");
         return false;
     }

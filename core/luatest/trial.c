@@ -70,7 +70,7 @@ static void note(const JoxMind *mind, Trial *t) {
         t->id_capacity = wider;
     }
     for (; t->known < a->next_id; t->known++) {
-        uint32_t i = a->id_index[t->known];
+        uint32_t i = jox_agents_find(a, t->known);
         t->group[t->known] = i == JOX_NO_INDEX ? -1 : a->group[i];
         if (i != JOX_NO_INDEX && a->machine[i] != JOX_NO_MACHINE)
             mark(t, mind->machines[a->machine[i]]->states[a->state[i]].name, t->known);
@@ -78,7 +78,7 @@ static void note(const JoxMind *mind, Trial *t) {
     for (uint32_t k = 0; k < mind->taken_count; k++) {
         const JoxTaken *taken = &mind->taken[k];
         mark(t, mind->machines[taken->machine]->states[taken->to].name, taken->agent_id);
-        uint32_t i = a->id_index[taken->agent_id]; /* it may have become another machine */
+        uint32_t i = jox_agents_find(a, taken->agent_id); /* it may have become another machine */
         if (i != JOX_NO_INDEX)
             mark(t, mind->machines[a->machine[i]]->states[a->state[i]].name, taken->agent_id);
     }
@@ -247,9 +247,9 @@ static int scene_agents(lua_State *L) {
         return luaL_error(L, "the scene has no group '%s'", lua_tostring(L, 2));
     lua_newtable(L);
     lua_Integer n = 0;
-    for (uint32_t id = 0; id < mind->agents->next_id; id++) {
-        uint32_t i = mind->agents->id_index[id];
-        if (i == JOX_NO_INDEX || (group >= 0 && mind->agents->group[i] != group))
+    for (uint32_t rank = 0; rank < mind->agents->count; rank++) {
+        uint32_t i = mind->agents->by_rank[rank];
+        if (group >= 0 && mind->agents->group[i] != group)
             continue;
         jox_trial_push_agent(L, mind, i);
         lua_rawseti(L, -2, ++n);
@@ -261,10 +261,13 @@ static int scene_agents(lua_State *L) {
 static int scene_agent(lua_State *L) {
     const JoxMind *mind = mind_of(L, check(L));
     lua_Integer id = luaL_checkinteger(L, 2);
-    if (id < 0 || id >= mind->agents->next_id || mind->agents->id_index[id] == JOX_NO_INDEX)
+    uint32_t i = id < 0 || id >= mind->agents->next_id
+                     ? JOX_NO_INDEX
+                     : jox_agents_find(mind->agents, (uint32_t)id);
+    if (i == JOX_NO_INDEX)
         lua_pushnil(L);
     else
-        jox_trial_push_agent(L, mind, mind->agents->id_index[id]);
+        jox_trial_push_agent(L, mind, i);
     return 1;
 }
 

@@ -44,7 +44,7 @@ void jox_mind_explain(const JoxMind *mind, const JoxTaken *taken, JoxText *out) 
                     mind->tick * mind->dt, taken->agent_id, machine->name,
                     machine->states[taken->from].name, machine->states[taken->to].name,
                     taken->transition + 1u, t->id, machine->path, t->line);
-    uint32_t agent = mind->agents->id_index[taken->agent_id];
+    uint32_t agent = jox_agents_find(mind->agents, taken->agent_id);
     if (t->when < 0 || agent == JOX_NO_INDEX)
         return;
     jox_text_add(out, "    its condition:\n");

@@ -320,9 +320,9 @@ static void ask_functions(JoxMind *mind) {
         const JoxBatchRange *batch = &mind->scratch->batches[b];
         any |= is_function(&mind->machines[batch->machine]->states[batch->state]);
     }
-    for (uint32_t id = 0; any && id < a->next_id; id++) {
-        uint32_t i = a->id_index[id];
-        if (i == JOX_NO_INDEX || a->machine[i] == JOX_NO_MACHINE)
+    for (uint32_t rank = 0; any && rank < a->count; rank++) {
+        uint32_t i = a->by_rank[rank];
+        if (a->machine[i] == JOX_NO_MACHINE)
             continue;
         const JoxMachine *machine = jox_machine_of(mind, i);
         const JoxState *state = &machine->states[a->state[i]];

@@ -96,27 +96,27 @@ static void think_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
         think_batch(mind, &mind->scratch->batches[b], mind->scratch->registers[worker]);
 }
 
-/* Marks the ids of a long list in a bitmap, and reads it from the front. */
+/* Marks the ranks of a long list in a bitmap, and reads it from the front. */
 static void sort_by_marks(JoxMind *mind, uint32_t *list, uint32_t count) {
     JoxMindScratch *s = mind->scratch;
     const JoxAgents *a = mind->agents;
-    uint32_t words = a->next_id / 64 + 1, n = 0;
+    uint32_t words = a->count / 64 + 1, n = 0;
     if (words > s->mark_capacity) {
         s->mark_capacity = words + words / 4;
         s->marks = jox_realloc(s->marks, s->mark_capacity, sizeof *s->marks);
     }
     memset(s->marks, 0, words * sizeof *s->marks);
     for (uint32_t k = 0; k < count; k++)
-        s->marks[a->id[list[k]] / 64] |= (uint64_t)1 << a->id[list[k]] % 64;
+        s->marks[a->rank[list[k]] / 64] |= (uint64_t)1 << a->rank[list[k]] % 64;
     for (uint32_t w = 0; w < words; w++)
         for (uint64_t bits = s->marks[w]; bits; bits &= bits - 1)
-            list[n++] = a->id_index[w * 64 + (uint32_t)__builtin_ctzll(bits)];
+            list[n++] = a->by_rank[w * 64 + (uint32_t)__builtin_ctzll(bits)];
 }
 
 /* Sorts indices by id (Shell): short lists mostly. */
 void jox_sort_by_id(JoxMind *mind, uint32_t *list, uint32_t count) {
     const JoxAgents *a = mind->agents;
-    if (count > 256 && count > a->next_id / 256) {
+    if (count > 256 && count > a->count / 256) {
         sort_by_marks(mind, list, count);
         return;
     }
@@ -311,7 +311,7 @@ static void greet_spawned(JoxMind *mind) {
     JoxMindScratch *s = mind->scratch;
     JoxAgents *a = mind->agents;
     for (uint32_t n = 0; n < s->pending_count; n++) {
-        uint32_t i = s->pending[n] < a->next_id ? a->id_index[s->pending[n]] : JOX_NO_INDEX;
+        uint32_t i = jox_agents_find(a, s->pending[n]);
         if (i == JOX_NO_INDEX)
             continue;
         const JoxMachine *machine = jox_machine_of(mind, i);

@@ -127,11 +127,11 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
 }
 
 /* A candidate as one number that sorts by distance, then id: bits of the squared distance (which is
-   not negative) above the id. */
-static inline uint64_t key_of(float d2, uint32_t id) {
+   not negative) above the rank, in which agents have the order of their ids. */
+static inline uint64_t key_of(float d2, uint32_t rank) {
     uint32_t bits;
     memcpy(&bits, &d2, sizeof bits);
-    return (uint64_t)bits << 32 | id;
+    return (uint64_t)bits << 32 | rank;
 }
 
 static inline float distance2_of(uint64_t key) {
@@ -201,7 +201,7 @@ static void search_about(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV
                          float radius, Nearest *found, uint32_t hints[HINTS]) {
     const float x = point.x, y = point.y, r2 = radius * radius;
     const float *ax = a->x, *ay = a->y;
-    const uint32_t *id = a->id;
+    const uint32_t *rank = a->rank;
     float wide = radius + nav->drift;
     uint32_t low = row_of(nav, y - wide), high = row_of(nav, y + wide);
     for (uint32_t row = low; row <= high; row++) {
@@ -209,7 +209,7 @@ static void search_about(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV
         uint32_t j = *hint = row_from(nav, row, x - wide, *hint);
         for (float stop = x + wide; j < end && nav->sorted_x[j] <= stop; j++) {
             float dx = ax[j] - x, dy = ay[j] - y, d2 = dx * dx + dy * dy;
-            found->waiting[found->waits] = key_of(d2, id[j]);
+            found->waiting[found->waits] = key_of(d2, rank[j]);
             found->waits += (d2 <= r2) & (j != i); /* kept or written over, without a branch */
             if (found->waits == BUFFER)
                 sort_in(found);
@@ -278,7 +278,7 @@ static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t
         p->out->count[i] = (uint8_t)found.count;
         for (uint32_t k = 0; k < found.count; k++) {
             size_t at = jox_neighbour_at(p->out, i, k);
-            p->out->index[at] = a->id_index[(uint32_t)found.keys[k]];
+            p->out->index[at] = a->by_rank[(uint32_t)found.keys[k]];
             p->out->distance2[at] = distance2_of(found.keys[k]);
         }
     }

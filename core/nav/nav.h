@@ -26,23 +26,23 @@ void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPoo
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                        const JoxObjects *objects, double plan, JoxPool *pool);
 /* One of an agent's half-planes: it allows the velocities v with normal . v >= offset, m/s. */
-typedef enum JoxWallFileeKind {
+typedef enum JoxPlaneKind {
     JOX_PLANE_WALL,
     JOX_PLANE_AGENT,
     JOX_PLANE_BODY,
     JOX_PLANE_FORCE
-} JoxWallFileeKind;
-typedef struct JoxWallFileeSeen {
-    JoxWallFileeKind kind;
+} JoxPlaneKind;
+typedef struct JoxPlaneSeen {
+    JoxPlaneKind kind;
     JoxV2 normal; /* unit */
     float offset;
-} JoxWallFileeSeen;
+} JoxPlaneSeen;
 enum { JOX_MOST_PLANES = 57 };
 /* The half-planes that solve gave the agent at an index, in the order of solving, between solve and
    move. Returns how many. */
 uint32_t jox_nav_planes(const JoxNav *nav, const JoxAgents *agents, const JoxNeighbours *neighbours,
                         const JoxObjects *objects, double plan, uint32_t agent,
-                        JoxWallFileeSeen out[JOX_MOST_PLANES]);
+                        JoxPlaneSeen out[JOX_MOST_PLANES]);
 /* move: velocity += (next - velocity) dt / plan, position += velocity dt, weak projection of
    overlaps, never through a wall; prev_x, prev_y keep the old position; updates still, still_x,
    still_y. */

@@ -2,22 +2,21 @@
 #include "nav/internal.h"
 
 /* The plane whose border passes through own + share * u with outward normal n. */
-static JoxWallFilee plane_through(JoxV2 normal, JoxV2 own, JoxV2 u, float share) {
+static JoxPlane plane_through(JoxV2 normal, JoxV2 own, JoxV2 u, float share) {
     JoxV2 point = jox_add(own, jox_scale(u, share));
-    return (JoxWallFilee){normal, jox_dot(normal, point)};
+    return (JoxPlane){normal, jox_dot(normal, point)};
 }
 
 /* Outward from a disc of the velocity obstacle: its centre is at `centre` in velocity space. */
-static JoxWallFilee from_disc(JoxV2 v, JoxV2 centre, float radius, JoxV2 own, float share,
-                              JoxV2 away) {
+static JoxPlane from_disc(JoxV2 v, JoxV2 centre, float radius, JoxV2 own, float share, JoxV2 away) {
     JoxV2 w = jox_sub(v, centre);
     float length = jox_length(w);
     JoxV2 normal = length > 1e-6f ? jox_scale(w, 1.0f / length) : away;
     return plane_through(normal, own, jox_scale(normal, radius - length), share);
 }
 
-JoxWallFilee jox_orca_plane(JoxV2 p, JoxV2 v, float radius, float tau, float dt, JoxV2 own,
-                            float share, JoxV2 away) {
+JoxPlane jox_orca_plane(JoxV2 p, JoxV2 v, float radius, float tau, float dt, JoxV2 own, float share,
+                        JoxV2 away) {
     float d2 = jox_length2(p), r2 = radius * radius;
     if (d2 <= r2) /* overlapping: apart within one step */
         return from_disc(v, jox_scale(p, 1.0f / dt), radius / dt, own, share, away);

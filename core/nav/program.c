@@ -14,7 +14,7 @@ typedef struct Aim {
 } Aim;
 
 /* Along the border of planes[last]: the best point that meets planes[0..last) and the disc. */
-static bool along_border(const JoxWallFilee *planes, uint32_t last, float disc, const Aim *aim,
+static bool along_border(const JoxPlane *planes, uint32_t last, float disc, const Aim *aim,
                          JoxV2 *result) {
     JoxV2 normal = planes[last].normal, direction = {normal.y, -normal.x};
     float offset = planes[last].offset, half2 = disc * disc - offset * offset;
@@ -51,7 +51,7 @@ static bool along_border(const JoxWallFilee *planes, uint32_t last, float disc, 
 
 /* Returns `count` if all planes could be met, else the first that could not; *result then meets
    those before it. */
-static uint32_t incremental(const JoxWallFilee *planes, uint32_t count, float disc, const Aim *aim,
+static uint32_t incremental(const JoxPlane *planes, uint32_t count, float disc, const Aim *aim,
                             JoxV2 *result) {
     float length2 = jox_length2(aim->wanted);
     if (aim->directed)
@@ -73,14 +73,14 @@ static uint32_t incremental(const JoxWallFilee *planes, uint32_t count, float di
 
 /* Minimises the greatest violation of planes[hard..count) while the hard ones hold, starting from
    the first that failed. */
-static void least_violation(const JoxWallFilee *planes, uint32_t count, uint32_t hard,
-                            uint32_t begin, float disc, JoxV2 wanted, JoxV2 *result) {
-    JoxWallFilee projected[MOST_PLANES];
+static void least_violation(const JoxPlane *planes, uint32_t count, uint32_t hard, uint32_t begin,
+                            float disc, JoxV2 wanted, JoxV2 *result) {
+    JoxPlane projected[MOST_PLANES];
     float violation = 0.0f;
     for (uint32_t i = 0; i < hard; i++)
         projected[i] = planes[i];
     for (uint32_t i = begin; i < count; i++) {
-        JoxWallFilee worst = planes[i];
+        JoxPlane worst = planes[i];
         if (worst.offset - jox_dot(worst.normal, *result) <= violation)
             continue;
         /* Where plane i is violated at least as much as plane j: (n_j - n_i) . v >= c_j - c_i. */
@@ -90,8 +90,8 @@ static void least_violation(const JoxWallFilee *planes, uint32_t count, uint32_t
             float length = jox_length(difference);
             if (length <= EPSILON)
                 continue; /* the same direction: whichever is farther out decides by itself */
-            projected[n++] = (JoxWallFilee){jox_scale(difference, 1.0f / length),
-                                            (planes[j].offset - worst.offset) / length};
+            projected[n++] = (JoxPlane){jox_scale(difference, 1.0f / length),
+                                        (planes[j].offset - worst.offset) / length};
         }
         JoxV2 before = *result;
         Aim aim = {wanted, worst.normal, true};
@@ -101,7 +101,7 @@ static void least_violation(const JoxWallFilee *planes, uint32_t count, uint32_t
     }
 }
 
-bool jox_program_solve(const JoxWallFilee *planes, uint32_t count, uint32_t hard, float disc,
+bool jox_program_solve(const JoxPlane *planes, uint32_t count, uint32_t hard, float disc,
                        JoxV2 wanted, JoxV2 *velocity, bool *relaxed) {
     *relaxed = false;
     Aim aim = {.wanted = wanted};

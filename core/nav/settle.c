@@ -138,9 +138,9 @@ JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *a, uint32_t first_id, bool wal
         if (!moves[i])
             take(&t, i);
     }
-    for (uint32_t id = 0; id < a->next_id; id++) {
-        uint32_t i = a->id_index[id];
-        if (i == JOX_NO_INDEX || !moves[i])
+    for (uint32_t rank = 0; rank < a->count; rank++) {
+        uint32_t i = a->by_rank[rank], id = a->id[i];
+        if (!moves[i])
             continue;
         JoxV2 p = {a->x[i], a->y[i]};
         if (id < first_id || !is_free(&t, &nav->grid, p, a->param[JOX_PARAM_radius][i]))

@@ -27,7 +27,7 @@ static JoxV2 parting(uint32_t id, uint32_t other) {
     return jox_unit(id < other ? d : jox_scale(d, -1.0f));
 }
 
-static uint32_t agent_planes(const Solve *s, uint32_t i, JoxWallFilee *out) {
+static uint32_t agent_planes(const Solve *s, uint32_t i, JoxPlane *out) {
     const JoxAgents *a = s->agents;
     const float *radius = a->param[JOX_PARAM_radius];
     JoxV2 velocity = {a->vx[i], a->vy[i]};
@@ -68,7 +68,7 @@ static JoxV2 footprint_nearest(const JoxObject *o, JoxV2 at, bool *inside) {
 /* An object: its bounding disc from outside; within that disc, the nearest side of its true
    footprint, so that one can walk along a long wall. Objects never reciprocate: share 1. */
 static bool object_plane(const Solve *s, uint32_t i, const JoxObject *o, bool approached,
-                         JoxWallFilee *out) {
+                         JoxPlane *out) {
     const JoxAgents *a = s->agents;
     JoxV2 at = {a->x[i], a->y[i]}, own = {a->vx[i], a->vy[i]};
     JoxV2 p = {o->position.x - at.x, o->position.y - at.y};
@@ -90,11 +90,11 @@ static bool object_plane(const Solve *s, uint32_t i, const JoxObject *o, bool ap
                                     : jox_unit(jox_scale(p, -1.0f));
     float gap = (inside ? -distance : distance) - radius;
     float time = gap < 0.0f ? s->plan : tau;
-    *out = (JoxWallFilee){normal, jox_dot(moving, normal) - gap / time};
+    *out = (JoxPlane){normal, jox_dot(moving, normal) - gap / time};
     return jox_length2(normal) > 0.0f;
 }
 
-static uint32_t object_planes(const Solve *s, uint32_t i, JoxWallFilee *out) {
+static uint32_t object_planes(const Solve *s, uint32_t i, JoxPlane *out) {
     const JoxAgents *a = s->agents;
     uint32_t made = 0;
     for (uint32_t o = 0; o < s->objects->count && made < MOST_OBJECTS; o++) {
@@ -105,12 +105,12 @@ static uint32_t object_planes(const Solve *s, uint32_t i, JoxWallFilee *out) {
     return made;
 }
 
-/* How many half-planes of each kind, in their order, which is that of JoxWallFileeKind. */
+/* How many half-planes of each kind, in their order, which is that of JoxPlaneKind. */
 typedef struct Counts {
     uint32_t walls, agents, objects, force;
 } Counts;
 
-static inline Counts make_planes(const Solve *s, uint32_t i, JoxWallFilee *planes) {
+static inline Counts make_planes(const Solve *s, uint32_t i, JoxPlane *planes) {
     const JoxAgents *a = s->agents;
     float tau = a->param[JOX_PARAM_wall_horizon][i], radius = a->param[JOX_PARAM_radius][i];
     Counts made = {0};
@@ -124,16 +124,16 @@ static inline Counts make_planes(const Solve *s, uint32_t i, JoxWallFilee *plane
     made.force = a->plane_x[i] != 0.0f || a->plane_y[i] != 0.0f;
     if (made.force)
         planes[made.walls + made.agents + made.objects] =
-            (JoxWallFilee){{a->plane_x[i], a->plane_y[i]}, a->plane_offset[i]};
+            (JoxPlane){{a->plane_x[i], a->plane_y[i]}, a->plane_offset[i]};
     return made;
 }
 
 uint32_t jox_nav_planes(const JoxNav *nav, const JoxAgents *agents, const JoxNeighbours *neighbours,
                         const JoxObjects *objects, double plan, uint32_t agent,
-                        JoxWallFileeSeen out[JOX_MOST_PLANES]) {
+                        JoxPlaneSeen out[JOX_MOST_PLANES]) {
     static_assert((int)MOST == (int)JOX_MOST_PLANES, "room for all");
     const Solve solve = {(JoxNav *)nav, (JoxAgents *)agents, neighbours, objects, (float)plan};
-    JoxWallFilee planes[MOST];
+    JoxPlane planes[MOST];
     Counts made = make_planes(&solve, agent, planes);
     const uint32_t ends[] = {made.walls, made.walls + made.agents,
                              made.walls + made.agents + made.objects, UINT32_MAX};
@@ -141,7 +141,7 @@ uint32_t jox_nav_planes(const JoxNav *nav, const JoxAgents *agents, const JoxNei
     for (uint32_t p = 0; p < count; p++) {
         while (p >= ends[kind])
             kind++;
-        out[p] = (JoxWallFileeSeen){(JoxWallFileeKind)kind, planes[p].normal, planes[p].offset};
+        out[p] = (JoxPlaneSeen){(JoxPlaneKind)kind, planes[p].normal, planes[p].offset};
     }
     return count;
 }
@@ -152,7 +152,7 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxAgents *a = s->agents;
     uint32_t relaxations = 0;
     for (uint32_t i = begin; i < end; i++) {
-        JoxWallFilee planes[MOST];
+        JoxPlane planes[MOST];
         Counts made = make_planes(s, i, planes);
         uint32_t hard = made.walls, count = hard + made.agents + made.objects + made.force;
         JoxV2 velocity;

@@ -133,15 +133,15 @@ static JoxV2 right_leg(JoxV2 p, float radius, float d2) {
 }
 
 /* Out of the disc of `radius` about `centre`, through the point nearest to v. */
-static JoxWallFilee round_plane(JoxV2 v, JoxV2 centre, float radius) {
+static JoxPlane round_plane(JoxV2 v, JoxV2 centre, float radius) {
     JoxV2 normal = jox_unit(jox_sub(v, centre));
-    return (JoxWallFilee){normal, jox_dot(normal, centre) + radius};
+    return (JoxPlane){normal, jox_dot(normal, centre) + radius};
 }
 
 /* Beyond the line through `point` along `direction`, `radius` to its left. */
-static JoxWallFilee straight_plane(JoxV2 point, JoxV2 direction, float radius) {
+static JoxPlane straight_plane(JoxV2 point, JoxV2 direction, float radius) {
     JoxV2 normal = jox_left(direction);
-    return (JoxWallFilee){normal, jox_dot(normal, point) + radius};
+    return (JoxPlane){normal, jox_dot(normal, point) + radius};
 }
 
 /* The edge seen from the agent: its two ends, which coincide where it is seen along its length. */
@@ -153,22 +153,22 @@ typedef struct View {
 
 /* Planes of touching walls pass through zero velocity; true if the edge is settled by that. */
 static bool touching_plane(const JoxWallVertex *a, const JoxWallVertex *b, JoxV2 p1, JoxV2 p2,
-                           float s, float line2, float r2, JoxWallFilee *plane, bool *made) {
+                           float s, float line2, float r2, JoxPlane *plane, bool *made) {
     *made = false;
     if (s < 0.0f && jox_length2(p1) <= r2) {
         *made = a->convex;
-        *plane = (JoxWallFilee){jox_unit(jox_scale(p1, -1.0f)), 0.0f};
+        *plane = (JoxPlane){jox_unit(jox_scale(p1, -1.0f)), 0.0f};
         return true;
     }
     if (s > 1.0f && jox_length2(p2) <= r2) {
         /* The next edge takes care unless the agent is past its start. */
         *made = b->convex && jox_det(p2, b->direction) >= 0.0f;
-        *plane = (JoxWallFilee){jox_unit(jox_scale(p2, -1.0f)), 0.0f};
+        *plane = (JoxPlane){jox_unit(jox_scale(p2, -1.0f)), 0.0f};
         return true;
     }
     if (s >= 0.0f && s <= 1.0f && line2 <= r2) {
         *made = true;
-        *plane = (JoxWallFilee){jox_left(jox_scale(a->direction, -1.0f)), 0.0f};
+        *plane = (JoxPlane){jox_left(jox_scale(a->direction, -1.0f)), 0.0f};
         return true;
     }
     return false;
@@ -200,7 +200,7 @@ static bool make_view(const JoxWallVertex *a, const JoxWallVertex *b, JoxV2 p1, 
 
 /* The plane of the part of the velocity obstacle nearest to v; false if it is another edge's. */
 static bool view_plane(const JoxWalls *walls, View *w, JoxV2 v, float inverse, float radius,
-                       JoxWallFilee *plane) {
+                       JoxPlane *plane) {
     /* A leg that points into a neighbouring edge is cut by that edge, whose own plane counts. */
     JoxV2 before = jox_scale(walls->vertices[w->left->previous].direction, -1.0f);
     bool foreign_left = w->left->convex && jox_det(w->left_leg, before) >= 0.0f;
@@ -239,8 +239,8 @@ static bool view_plane(const JoxWalls *walls, View *w, JoxV2 v, float inverse, f
 }
 
 /* True if planes made for nearer edges already keep clear of this whole edge. */
-static bool is_covered(const JoxWallFilee *planes, uint32_t count, JoxV2 p1, JoxV2 p2,
-                       float inverse, float radius) {
+static bool is_covered(const JoxPlane *planes, uint32_t count, JoxV2 p1, JoxV2 p2, float inverse,
+                       float radius) {
     for (uint32_t i = 0; i < count; i++) {
         float need = planes[i].offset - radius * inverse + 1e-5f;
         if (jox_dot(planes[i].normal, p1) * inverse <= need &&
@@ -282,7 +282,7 @@ static uint32_t near_edges(const JoxWallGrid *grid, JoxV2 position, float range,
 }
 
 uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity, float radius,
-                        float tau, float range, JoxWallFilee *out, uint32_t most) {
+                        float tau, float range, JoxPlane *out, uint32_t most) {
     NearEdge near[16];
     uint32_t edges = near_edges(grid, position, range, near, 16), made = 0;
     float inverse = 1.0f / tau, r2 = radius * radius;

@@ -86,10 +86,6 @@ JoxDangerMost jox_danger_most(const JoxDanger *danger, JoxDangerMeasure measure)
 bool jox_danger_reads(const JoxDanger *danger, JoxDangerMeasure measure);
 /* Adds "density_max": ..., "limits": {...}; null where it was not read. */
 void jox_danger_json(const JoxDanger *danger, JoxText *out);
-/* danger.csv (over time) and danger-map.csv into a folder that is there; with a title, both also as
-   PNG and SVG. False with a sentence in `error`. */
-bool jox_danger_write(const JoxDanger *danger, const char *folder, const JoxWalls *walls,
-                      const char *title, JoxText *error);
 void jox_danger_free(JoxDanger *danger);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "record/danger.h"
 #include "record/density.h"
-#include "record/probes/probe_parts.h"
+#include "record/track.h"
 
 enum { JOX_DANGER_EXITS = 16 }; /* that have a column of their own over time */
 

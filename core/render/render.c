@@ -290,7 +290,7 @@ bool jo_render(const JoRenderDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == RENDER_COOKIE && def->out && *def->out, false);
     JOX_REQUIRE(!def->scene != !def->recording, false);
     JOX_REQUIRE(strlen(def->out) < 1000, false);
-    JOX_GUARD(NULL, error)
-    return false;
+    JOX_GUARD (NULL, error)
+        return false;
     return draw_all(def, error);
 }

@@ -190,7 +190,7 @@ static void make_fields(JoxRender *r) {
     if (p->floor != JOX_SHOW_PRESSURE)
         return;
     if (r->scene)
-        r->scene->danger = jox_danger_create(p->low, p->high);
+        jox_run_collect_danger_in(r->scene, p->low, p->high);
     else
         r->danger = jox_danger_create(p->low, p->high);
 }
@@ -377,8 +377,8 @@ const JoxPicture *jox_render_picture(JoxRender *r) {
         p->grid = r->grid;
         p->field = r->grid->now;
     } else if (p->floor == JOX_SHOW_PRESSURE) {
-        p->field = jox_danger_field(r->scene ? r->scene->danger : r->danger, JOX_DANGER_PRESSURE,
-                                    &p->grid);
+        p->field = jox_danger_field(r->scene ? jox_run_danger(r->scene) : r->danger,
+                                    JOX_DANGER_PRESSURE, &p->grid);
     }
     return p;
 }
@@ -457,10 +457,6 @@ bool jox_render_load(JoxRender *r, JoError *error) {
 }
 
 void jox_render_free(JoxRender *r) {
-    if (r->scene && r->scene->danger) { /* made here */
-        jox_danger_free(r->scene->danger);
-        r->scene->danger = NULL;
-    }
     jo_scene_free(r->scene);
     jox_trajectory_reader_close(r->reader);
     jox_trajectories_free(r->crowd);

@@ -5,6 +5,7 @@
 
 #include "picture/plot.h"
 #include "record/danger_parts.h"
+#include "report/danger_files.h"
 
 enum { MOST_CELLS_DRAWN = 250000, STRIP = 260, PANEL = 620 };
 

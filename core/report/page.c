@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "picture/html.h"
+#include "picture/paths.h"
 #include "picture/plot.h"
 #include "report/page_parts.h"
 #include "run/run.h"
@@ -16,19 +17,20 @@ static JoxPageFigures collect(const JoScene *scene) {
     const JoxStatistics *s = &scene->world->statistics;
     JoxPageFigures f = {0};
     jox_page_add(&f, "", scene->world->agents.count, "people at the end");
-    jox_page_add(&f, "1/m2", scene->density_most > 0.0f ? scene->density_most : NAN,
+    const JoxDensity *density = jox_run_density(scene);
+    const JoxRegions *regions = jox_run_regions(scene);
+    jox_page_add(&f, "1/m2", density && density->most > 0.0f ? density->most : NAN,
                  "greatest density (Gaussian kernel, R = 1.5 m)");
     jox_page_add(&f, "", jox_statistics_overlap_p99(s),
                  "overlap that 99 %% stay below, share of a diameter");
     jox_page_add(&f, "", s->agent_steps ? (double)s->failures / (double)s->agent_steps : NAN,
                  "share of agent-steps whose 2-D program failed");
     jox_page_add_exits(&f, &scene->exits);
-    jox_page_add_danger(&f, scene->danger);
-    for (uint32_t r = 0; scene->regions && r < scene->regions->count; r++)
+    jox_page_add_danger(&f, jox_run_danger(scene));
+    for (uint32_t r = 0; regions && r < regions->count; r++)
         jox_page_add(&f, "m/s",
-                     scene->regions->items[r].people ? jox_region_speed(&scene->regions->items[r])
-                                                     : NAN,
-                     "mean speed in region %.60s", scene->regions->items[r].name);
+                     regions->items[r].people ? jox_region_speed(&regions->items[r]) : NAN,
+                     "mean speed in region %.60s", regions->items[r].name);
     const JoxProbe *probe;
     for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
         jox_page_add_probe(&f, probe);
@@ -144,10 +146,10 @@ static void put_inputs(FILE *out, const JoScene *scene) {
 
 bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
                    const char *directory, JoError *error) {
-    JOX_REQUIRE(scene && scene->finished && scene->danger && directory, false);
-    JOX_REQUIRE(!half || (half->finished && half->danger), false);
-    JOX_GUARD(NULL, error)
-    return false;
+    JOX_REQUIRE(scene && scene->finished && jox_run_danger(scene) && directory, false);
+    JOX_REQUIRE(!half || (half->finished && jox_run_danger(half)), false);
+    JOX_GUARD (NULL, error)
+        return false;
     JoxText text = {0};
     FILE *out = jox_plot_open(directory, "index.html", &text);
     const JoWorld *world = scene->world;
@@ -160,7 +162,7 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
                  world->def.dt, world->agents.count, jo_version());
         jox_html_paragraph(out, line);
         put_pictures(out, scene, directory);
-        jox_page_danger(out, scene->danger);
+        jox_page_danger(out, jox_run_danger(scene));
         put_figures(out, scene, half, why);
         jox_page_validation(out);
         jox_html_paragraph(

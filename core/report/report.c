@@ -7,6 +7,8 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "picture/plot.h"
+#include "picture/probe_files.h"
+#include "report/danger_files.h"
 #include "report/report.h"
 
 enum { REPORT_COOKIE = 0x4a4f5250 };
@@ -247,7 +249,7 @@ char *jo_report(const JoReportDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == REPORT_COOKIE && def->recording, NULL);
     JOX_REQUIRE(def->fps >= 0.0 && def->fps <= 1e5, NULL);
     JOX_REQUIRE(def->unit >= 0.0 && def->unit <= 1e3, NULL);
-    JOX_GUARD(NULL, error) {
+    JOX_GUARD (NULL, error) {
         jox_run_message(def->message, def->message_context, "out of memory\n");
         return NULL;
     }

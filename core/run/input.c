@@ -14,8 +14,9 @@
 /* Index of the living agent with an id, or JOX_NO_INDEX with `error`. */
 static uint32_t find_agent(const JoScene *scene, uint32_t id, JoError *error) {
     const JoxAgents *a = &scene->world->agents;
-    if (id < a->next_id && a->id_index[id] != JOX_NO_INDEX)
-        return a->id_index[id];
+    uint32_t i = jox_agents_find(a, id);
+    if (i != JOX_NO_INDEX)
+        return i;
     if (id < a->next_id)
         jox_error(error, JO_INPUT, "agent %u has left", id);
     else
@@ -132,8 +133,8 @@ void jox_run_log(JoScene *scene, JoxInputEntry *entry) {
 
 bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
     JOX_REQUIRE(scene && path && !scene->log && !scene->finished, false);
-    JOX_GUARD(scene->heap, error)
-    return false;
+    JOX_GUARD (scene->heap, error)
+        return false;
     const JoWorld *world = scene->world;
     if (scene->input_path && strcmp(path, scene->input_path) == 0) {
         jox_error(error, JO_INPUT,
@@ -185,8 +186,8 @@ static bool perform(JoScene *scene, JoxInputEntry *entry, JoError *error) {
 
 bool jo_scene_input(JoScene *scene, const char *line, JoError *error) {
     JOX_REQUIRE(scene && line && !scene->finished, false);
-    JOX_GUARD(scene->heap, error)
-    return false;
+    JOX_GUARD (scene->heap, error)
+        return false;
     JoxInputEntry entry;
     JoxText wrong = {0};
     bool good = jox_input_read(line, &entry, &wrong);
@@ -232,8 +233,8 @@ static bool named(JoScene *scene, JoxInputVerb verb, const char *what, const cha
 bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
                     const double velocity[3], const double spin[3], JoError *error) {
     JOX_REQUIRE(scene && body, false);
-    JOX_GUARD(scene->heap, error)
-    return false;
+    JOX_GUARD (scene->heap, error)
+        return false;
     JoxInputEntry entry = {.verb = JOX_INPUT_THROW, .names = {(char *)body}, .here = !from};
     entry.given = spin ? 9 : 6;
     for (int k = 0; k < 3; k++) {
@@ -246,14 +247,14 @@ bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
 
 bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *error) {
     JOX_REQUIRE(scene && wall, false);
-    JOX_GUARD(scene->heap, error)
-    return false;
+    JOX_GUARD (scene->heap, error)
+        return false;
     return named(scene, open ? JOX_INPUT_OPEN : JOX_INPUT_CLOSE, "a wall's name", wall, error);
 }
 
 bool jo_scene_signal(JoScene *scene, const char *name, JoError *error) {
     JOX_REQUIRE(scene && name, false);
-    JOX_GUARD(scene->heap, error)
-    return false;
+    JOX_GUARD (scene->heap, error)
+        return false;
     return named(scene, JOX_INPUT_SIGNAL, "a signal's name", name, error);
 }

@@ -7,7 +7,6 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
-#include "live/live.h"
 #include "run/run.h"
 
 enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 256 << 20 };
@@ -227,6 +226,8 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         jox_run_populate(scene, diagnostics);
         jox_run_check_names(scene, diagnostics);
         jox_run_name_events(scene, diagnostics);
+        jox_run_collect_regions(scene);
+        jox_run_collect_probes(scene);
     }
 }
 
@@ -407,8 +408,8 @@ static JoScene *load_and_tell(const JoSceneDef *def, JoxDiagnosed *diagnosed, vo
 
 static JoScene *load_guarded(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
                              JoxHeap *heap, JoError *error) {
-    JOX_GUARD(heap, error)
-    return NULL;
+    JOX_GUARD (heap, error)
+        return NULL;
     return load_and_tell(def, diagnosed, context, error);
 }
 
@@ -455,9 +456,10 @@ static bool same_files(const JoScene *a, const JoScene *b) {
 }
 
 static bool begin_report(JoScene *scene, JoError *error) {
-    JOX_GUARD(scene->heap, error)
-    return false;
-    jox_run_begin_report(scene);
+    JOX_GUARD (scene->heap, error)
+        return false;
+    jox_run_collect_density(scene);
+    jox_run_collect_danger(scene);
     return true;
 }
 
@@ -486,9 +488,8 @@ JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError
 
 static void free_scene(JoScene *scene) {
     jo_scene_finish(scene, NULL);
-    jox_regions_free(scene->regions);
-    jox_run_end_measuring(scene);
-    jox_live_end(scene);
+    jox_run_release_listeners(scene);
+    jox_run_free_frame(scene);
     jox_run_unwatch(scene);
     free_def(scene);
     jo_world_free(scene->world); /* before Lua, whose machines it holds */
@@ -496,11 +497,8 @@ static void free_scene(JoScene *scene) {
     jox_scene_free(scene->spec);
     jox_mods_free(scene->mods);
     jox_diag_free(&scene->mod_problems);
-    jox_free(scene->record_shapes);
     jox_free(scene->party_left);
     jox_free(scene->party_team);
-    jox_free(scene->report);
-    jox_danger_free(scene->danger);
     jox_exits_free(&scene->exits);
     jox_free(scene->input_path);
     jox_input_free(&scene->input);
@@ -510,8 +508,8 @@ static void free_scene(JoScene *scene) {
 }
 
 static void free_guarded(JoScene *scene) {
-    JOX_GUARD(scene->heap, NULL)
-    return;
+    JOX_GUARD (scene->heap, NULL)
+        return;
     free_scene(scene);
 }
 
@@ -539,8 +537,8 @@ double jo_scene_duration(const JoScene *scene) {
 }
 
 char *jo_scene_reference(void) {
-    JOX_GUARD(NULL, NULL)
-    return NULL;
+    JOX_GUARD (NULL, NULL)
+        return NULL;
     JoxText text = {0};
     jox_scene_print_reference(&text);
     return jox_disown(text.data);

@@ -60,8 +60,8 @@ JoxMods *jox_run_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnosti
 
 char *jo_mods_list(const JoSceneDef *def) {
     JOX_REQUIRE(def, NULL);
-    JOX_GUARD(NULL, NULL)
-    return NULL;
+    JOX_GUARD (NULL, NULL)
+        return NULL;
     JoxDiagnostics diagnostics = {0};
     JoxMods *mods = jox_run_find_mods(def, 0, &diagnostics);
     JoxText out = {0};
@@ -134,8 +134,8 @@ static const JoxMachine *find_behaviour(JoScene *scene, const char *name) {
 
 char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error) {
     JOX_REQUIRE(def && def->path && path, NULL);
-    JOX_GUARD(NULL, error)
-    return NULL;
+    JOX_GUARD (NULL, error)
+        return NULL;
     JoxDiagnostics diagnostics = {0};
     JoxText out = {0};
     JoScene *scene = jox_run_load(def, &diagnostics);

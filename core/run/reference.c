@@ -16,8 +16,8 @@ static void mod_schema(JoxText *out) {
 
 char *jo_reference(const char *what) {
     JOX_REQUIRE(what, NULL);
-    JOX_GUARD(NULL, NULL)
-    return NULL;
+    JOX_GUARD (NULL, NULL)
+        return NULL;
     static const struct {
         const char *name;
         void (*print)(JoxText *out);

@@ -326,7 +326,7 @@ static void link_batch(JoScene *scene, Batch *batch) {
         JoxMachine *machine = jox_loaded_machine(change->loaded);
         jox_lua_adopt(scene->lua, change->loaded);
         change->index = jox_mind_add(mind, machine);
-        jox_run_record_states(scene, change->index);
+        jox_run_tell_replaced(scene, change->index);
     }
     for (uint32_t m = 0; m < mind->machine_count; m++) {
         JoxDiagnostics none = {0};
@@ -377,7 +377,7 @@ static void swap(JoScene *scene, Batch *batch, Retired *retired) {
         jox_lua_adopt(scene->lua, change->loaded);
         jox_mind_census(mind, change->index, after);
         if (!same_states(old, next)) /* the recording names those of the new version too */
-            jox_run_record_states(scene, change->index);
+            jox_run_tell_replaced(scene, change->index);
         double took = jox_clock_wall() - begun;
         scene->swap_seconds = took > scene->swap_seconds ? took : scene->swap_seconds;
         jox_text_printf(&text, "%s: version %u is live from t = %.2f s", next->path, next->version,
@@ -507,8 +507,8 @@ static JoxReload *begin(JoScene *scene, JoxWatch *watch, int stop) {
 
 bool jo_scene_watch(JoScene *scene, JoError *error) {
     JOX_REQUIRE(scene, false);
-    JOX_GUARD(scene->heap, error)
-    return false;
+    JOX_GUARD (scene->heap, error)
+        return false;
     if (scene->reload && scene->reload->watch)
         return true;
     const JoxInputLog *log = &scene->world->input;

@@ -1,20 +1,20 @@
-/* What the files of host share: a running scene. */
+/* What the files of run share: a running scene. */
 #ifndef JOX_RUN_RUN_H
 #define JOX_RUN_RUN_H
 
 #include <stdio.h>
 
 #include "base/diag.h"
+#include "base/json_writer.h"
 #include "base/overlay.h"
 #include "jostle.h"
 #include "lua/loader.h"
-#include "picture/paths.h"
 #include "record/danger.h"
 #include "record/density.h"
 #include "record/probes/probe.h"
-#include "record/recorder.h"
 #include "record/regions.h"
 #include "run/changes.h"
+#include "run/listener.h"
 #include "run/watch.h"
 #include "scene/mods.h"
 #include "scene/scene.h"
@@ -49,27 +49,11 @@ struct JoScene {
     JoSceneDef def;      /* as it was loaded, with copies of its texts */
     char **plan_files;   /* the scene's file and what it includes */
     uint32_t plan_file_count;
-    JoxRecorder *recorder;
-    uint32_t record_every; /* ticks */
-    uint32_t
-        record_base[JOX_MOST_MACHINES]; /* number of a machine's first state in the recording */
-    uint32_t record_next;
-    uint32_t *record_shapes; /* per body id: blocks of the shape that was recorded, plus 1 */
-    size_t record_shape_capacity;
-    char *report; /* directory, or NULL */
-    char *data;   /* directory of the probes' CSV files, or NULL */
-    JoxDensity *density;
-    JoxRegions *regions;
-    JoxPaths *paths;
-    JoxDanger *danger;                                     /* NULL where nothing is reported */
-    JoxExits exits;                                        /* who left, and where */
-    struct JoxMeasuring *measuring;                        /* NULL until a frame is asked for */
-    struct JoxLive *live;                                  /* NULL until it is shown */
-    double progress_until, progress_begun, progress_shown; /* s */
-    int progress_tenth;
+    JoxExits exits;            /* who left, and where */
+    JoxListeners listeners;    /* who collects what happens */
+    struct JoxRunFrame *frame; /* the present frame; NULL until it is asked for */
     bool finished;
-    float density_most; /* of the frames that a report sampled, 1/m2 */
-    char *input_path;   /* of the input log that is played, or NULL */
+    char *input_path; /* of the input log that is played, or NULL */
     char input_sha256[65];
     FILE *log; /* input log that is written, or NULL */
     char *log_path;
@@ -169,9 +153,11 @@ typedef struct JoxSetBy {
 JoxSetBy jox_run_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
                         int parameter);
 void jox_set_by_free(JoxSetBy *by);
-/* A JSON array of the scene's machines: name, path, version, start; defaults and states with their
+/* Writes the scene's machines, an array: name, path, version, start; defaults and states with their
    parameters; transitions with their conditions as written. */
-void jox_run_graph(const JoScene *scene, JoxText *out);
+void jox_run_graph(const JoScene *scene, JoxJson *json, const char *key);
+/* Adds what jo_scene_inspect tells of an agent to an open object; false if there is nobody. */
+bool jox_run_inspect(JoScene *scene, uint32_t slot, JoxJson *json);
 /* Appends the line of Lua that would set a parameter for good, and where it belongs; false with
    why not. */
 bool jox_run_lua_line(const JoScene *scene, const char *machine, const char *state,
@@ -202,25 +188,27 @@ void jox_run_give(JoScene *scene, int32_t machine, uint32_t group, const JoxScen
 /* Takes over from a new plan of the scene what can change while it runs, and says what
    cannot. *spec is then the old one. */
 void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written);
-/* results.c: what is collected each step, and how it ends. */
-/* Names a machine's states in the recording, if there is one, under new numbers. */
-void jox_run_record_states(JoScene *scene, uint32_t machine);
-bool jox_run_collect(JoScene *scene, JoError *error);
-/* The area that pictures and recordings show. */
+/* step.c: the area that pictures and recordings show. */
 void jox_run_area(const JoScene *scene, JoxV2 *low, JoxV2 *high);
-/* measure.c: the frame of the present step, made once; it holds until the next. */
-typedef struct JoxMeasuring JoxMeasuring;
+/* Fills `error` with what could not be written, and frees the text. Returns false. */
+bool jox_run_failed(JoError *error, JoxText *why);
+/* frame.c: the frame of the present step, made once; it holds until the next. */
+typedef struct JoxRunFrame JoxRunFrame;
 const JoxFrame *jox_run_frame(JoScene *scene);
-/* Shows it to the scene's probes, if any are due. */
-void jox_run_measure(JoScene *scene);
-/* Adds ,"probes": {...} to a summary, and their files to the report's folder. */
-void jox_run_add_probes(const JoScene *scene, JoxText *out);
-bool jox_run_write_probes(const JoScene *scene, const char *folder, const char *title,
-                          JoxText *error);
-/* The n-th probe, or NULL behind the last. */
+void jox_run_free_frame(JoScene *scene);
+/* figures.c: attaches what collects figures, if it is not there yet, from here on; and what has
+   been collected so far, or NULL. Regions and probes: of scenes that have some. */
+void jox_run_collect_regions(JoScene *scene);
+void jox_run_collect_density(JoScene *scene);
+void jox_run_collect_danger(JoScene *scene);
+void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high); /* m */
+const JoxRegions *jox_run_regions(const JoScene *scene);
+const JoxDensity *jox_run_density(const JoScene *scene);
+const JoxDanger *jox_run_danger(const JoScene *scene);
+/* probes.c: the same for probes. The n-th, or NULL behind the last. */
+void jox_run_collect_probes(JoScene *scene);
 const JoxProbe *jox_run_probe(const JoScene *scene, uint32_t n);
-/* What a report collects, from here on. */
-void jox_run_begin_report(JoScene *scene);
-void jox_run_end_measuring(JoScene *scene);
+/* Adds ,"probes": {...} to a summary. */
+void jox_run_add_probes(const JoScene *scene, JoxText *out);
 
 #endif

@@ -110,14 +110,15 @@ static void add_events(JoxText *out, const JoScene *scene) {
 }
 
 static void add_regions(JoxText *out, const JoScene *scene) {
-    if (!scene->regions || scene->regions->count == 0)
+    const JoxRegions *regions = jox_run_regions(scene);
+    if (!regions)
         return;
     jox_text_add(out, ",\n \"regions\": {");
-    for (uint32_t r = 0; r < scene->regions->count; r++) {
+    for (uint32_t r = 0; r < regions->count; r++) {
         jox_text_add(out, r ? ", " : "");
-        jox_text_json(out, scene->regions->items[r].name);
+        jox_text_json(out, regions->items[r].name);
         jox_text_add(out, ": ");
-        jox_text_json_number(out, jox_region_speed(&scene->regions->items[r]));
+        jox_text_json_number(out, jox_region_speed(&regions->items[r]));
     }
     jox_text_add(out, "}");
 }
@@ -125,9 +126,9 @@ static void add_regions(JoxText *out, const JoScene *scene) {
 static void add_danger(JoxText *out, const JoScene *scene) {
     jox_text_add(out, ",\n \"danger\": {");
     jox_exits_json(&scene->exits, out);
-    if (scene->danger) {
+    if (jox_run_danger(scene)) {
         jox_text_add(out, ",\n  ");
-        jox_danger_json(scene->danger, out);
+        jox_danger_json(jox_run_danger(scene), out);
     }
     jox_text_add(out, "}");
 }
@@ -149,8 +150,8 @@ static void add_lua(JoxText *out, const JoScene *scene) {
 
 char *jo_scene_lua_profile(const JoScene *scene) {
     JOX_REQUIRE(scene, NULL);
-    JOX_GUARD(NULL, NULL)
-    return NULL;
+    JOX_GUARD (NULL, NULL)
+        return NULL;
     const JoWorld *world = scene->world;
     JoxText out = {0};
     for (uint32_t m = 0; m < world->mind.machine_count; m++) {
@@ -197,8 +198,11 @@ static void add_inputs(JoxText *out, const JoScene *scene) {
 /* Greatest density of the frames sampled, or of the present one where none were. */
 static double density_max(const JoScene *scene) {
     const JoxAgents *a = &scene->world->agents;
-    if (scene->density_most > 0.0f || a->count == 0)
-        return scene->density_most;
+    const JoxDensity *sampled = jox_run_density(scene);
+    if (sampled && sampled->most > 0.0f)
+        return sampled->most;
+    if (a->count == 0)
+        return 0.0;
     JoxV2 low, high;
     jox_bounds((JoxV2[]){{a->x[0], a->y[0]}}, 1, &low, &high);
     for (uint32_t i = 0; i < a->count; i++) {
@@ -222,7 +226,7 @@ static void add_exchange(JoxText *out, const JoxStatistics *s) {
                     (unsigned long long)e->contacts, e->impulse, e->residual / e->impulse);
 }
 
-/* How far the first glued body of the scene, or its greatest piece, has come, m, and turned, deg.
+/* How far the first bonded body of the scene, or its greatest piece, has come, m, and turned, deg.
  */
 static void add_way(JoxText *out, const JoScene *scene, uint32_t body) {
     const JoxBodyDef *def = &scene->spec->bodies[body].def;
@@ -238,7 +242,7 @@ static void add_way(JoxText *out, const JoScene *scene, uint32_t body) {
     jox_text_printf(out, ", \"moved\": %.4f, \"turned\": %.3f", sqrt(x * x + y * y), turned);
 }
 
-/* Of scenes with glued blocks. */
+/* Of scenes with bonded blocks. */
 static void add_bonds(JoxText *out, const JoScene *scene) {
     const JoxBondStatistics *s = &scene->world->statistics.bonds;
     uint32_t body = 0, held = 0;
@@ -248,9 +252,9 @@ static void add_bonds(JoxText *out, const JoScene *scene) {
     if (body == scene->spec->body_count)
         return;
     for (uint32_t o = 0; o < scene->world->objects.count; o++) {
-        JoxBodyGlue glue;
-        jox_bodies_glue(scene->world->bodies, o, &glue);
-        held += glue.bonds;
+        JoxBodyBonds bonds;
+        jox_bodies_bonds(scene->world->bodies, o, &bonds);
+        held += bonds.bonds;
     }
     jox_text_printf(out, ",\n \"bonds\": {\"held\": %u, \"broken\": %llu, \"pieces\": %u", held,
                     (unsigned long long)s->broken, s->pieces + 1);
@@ -272,8 +276,8 @@ char *jo_scene_summary(const JoScene *scene) {
     JOX_REQUIRE(scene, NULL);
     if (jox_heap_has_failed(scene->heap))
         return NULL;
-    JOX_GUARD(NULL, NULL)
-    return NULL;
+    JOX_GUARD (NULL, NULL)
+        return NULL;
     const JoWorld *world = scene->world;
     const JoxStatistics *s = &world->statistics;
     JoStats stats = jo_scene_stats(scene);
@@ -319,8 +323,8 @@ char *jo_scene_summary(const JoScene *scene) {
 
 char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error) {
     JOX_REQUIRE(summaries || count == 0, NULL);
-    JOX_GUARD(NULL, error)
-    return NULL;
+    JOX_GUARD (NULL, error)
+        return NULL;
     JoxText out = {0};
     if (jox_aggregate(summaries, count, &out))
         return jox_disown(out.data);

@@ -327,7 +327,7 @@ static bool reproduce(const JoReproduceDef *def, size_t *missed, JoError *error)
 
 bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error) {
     JOX_REQUIRE(def && missed && (def->program || def->list) && def->jobs > 0, false);
-    JOX_GUARD(NULL, error)
-    return false;
+    JOX_GUARD (NULL, error)
+        return false;
     return reproduce(def, missed, error);
 }

@@ -56,8 +56,8 @@ JoWorldDef jo_default_world_def(void) {
 }
 
 static JoWorld *create_in(JoxHeap *heap, const JoWorldDef *def, JoError *error) {
-    JOX_GUARD(heap, error)
-    return NULL;
+    JOX_GUARD (heap, error)
+        return NULL;
     return jox_world_create(def);
 }
 
@@ -104,8 +104,8 @@ static JoxV2 *read_points(const JoWorld *world, const double *xy, size_t count, 
 
 bool jo_world_add_solid(JoWorld *world, const double *xy, size_t count, JoError *error) {
     JOX_REQUIRE(world && xy, false);
-    JOX_GUARD(world->heap, error)
-    return false;
+    JOX_GUARD (world->heap, error)
+        return false;
     JoxV2 *points = read_points(world, xy, count, 3, error);
     if (!points)
         return false;
@@ -123,8 +123,8 @@ bool jo_world_add_solid(JoWorld *world, const double *xy, size_t count, JoError 
 
 bool jo_world_add_line(JoWorld *world, const double *xy, size_t count, JoError *error) {
     JOX_REQUIRE(world && xy, false);
-    JOX_GUARD(world->heap, error)
-    return false;
+    JOX_GUARD (world->heap, error)
+        return false;
     JoxV2 *points = read_points(world, xy, count, 2, error);
     if (!points)
         return false;
@@ -173,8 +173,8 @@ static JoAgent handle_of(const JoWorld *world, uint32_t index) {
 JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error) {
     JOX_REQUIRE(world && def && def->cookie == AGENT_COOKIE, (JoAgent){0});
     double values[JOX_PARAM_COUNT];
-    JOX_GUARD(world->heap, error)
-    return (JoAgent){0};
+    JOX_GUARD (world->heap, error)
+        return (JoAgent){0};
     if (!agent_parameters(def, values, error))
         return (JoAgent){0};
     uint32_t i = jox_world_add_agent(world, (float)def->x, (float)def->y);
@@ -270,8 +270,8 @@ JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
                                          [JO_BOX] = JOX_SHAPE_BOX,
                                          [JO_CYLINDER] = JOX_SHAPE_CYLINDER};
     JOX_REQUIRE(def->shape <= JO_CYLINDER, (JoBody){0});
-    JOX_GUARD(world->heap, error)
-    return (JoBody){0};
+    JOX_GUARD (world->heap, error)
+        return (JoBody){0};
     JoxBodyDef body = jox_body_def();
     body.shape.kind = KINDS[def->shape];
     memcpy(body.shape.size, def->size, sizeof def->size);
@@ -320,8 +320,8 @@ const char *jo_stage_name(int stage) {
 
 bool jo_world_step(JoWorld *world, uint32_t steps) {
     JOX_REQUIRE(world, false);
-    JOX_GUARD(world->heap, NULL)
-    return false;
+    JOX_GUARD (world->heap, NULL)
+        return false;
     for (uint32_t i = 0; i < steps; i++)
         jox_world_step(world);
     return true;
@@ -353,15 +353,14 @@ uint32_t jo_world_agents(const JoWorld *world, JoAgent *out, uint32_t capacity) 
     uint32_t n = 0;
     if (jox_heap_has_failed(world->heap))
         return 0;
-    for (uint32_t id = 0; id < a->next_id && n < capacity; id++)
-        if (a->id_index[id] != JOX_NO_INDEX)
-            out[n++] = handle_of(world, a->id_index[id]);
+    for (; n < a->count && n < capacity; n++)
+        out[n] = handle_of(world, a->by_rank[n]);
     return n;
 }
 
 uint64_t jo_world_hash(const JoWorld *world) {
     JOX_REQUIRE(world, 0);
-    JOX_GUARD(world->heap, NULL)
-    return 0;
+    JOX_GUARD (world->heap, NULL)
+        return 0;
     return jox_world_hash(world);
 }

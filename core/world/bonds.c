@@ -1,4 +1,4 @@
-/* Glued bodies as the crowd meets them: when it first leans on one, what breaks, and how many rows
+/* Bonded bodies as the crowd meets them: when it first leans on one, what breaks, and how many rows
    press when it does. */
 #include <math.h>
 
@@ -29,13 +29,13 @@ static double now(const JoWorld *w) {
     return (double)w->tick * w->def.dt + (w->part + 1) * w->part_dt;
 }
 
-/* Until somebody touches a glued body: how slow those before it have become. */
+/* Until somebody touches a bonded body: how slow those before it have become. */
 void jox_world_note_touch(JoWorld *w) {
     JoxBondStatistics *s = &w->statistics.bonds;
     const JoxAgents *a = &w->agents;
-    JoxBodyGlue glue;
+    JoxBodyBonds bonds;
     for (uint32_t o = 0; o < w->objects.count && !s->touched; o++) {
-        if (!jox_bodies_glue(w->bodies, o, &glue))
+        if (!jox_bodies_bonds(w->bodies, o, &bonds))
             continue;
         uint32_t front = 0;
         double sum = 0.0;

@@ -7,7 +7,7 @@
 static const double FORGOTTEN = 5.0; /* s, simulated, without a look */
 
 static uint32_t index_of(const JoWorld *w, uint32_t id) {
-    return id < w->agents.next_id ? w->agents.id_index[id] : JOX_NO_INDEX;
+    return jox_agents_find(&w->agents, id);
 }
 
 static void end(JoWorld *w, uint32_t n) {

@@ -23,7 +23,7 @@ typedef struct JoxInspected {
     uint32_t slot, id;
     uint32_t asked; /* tick at which somebody looked last */
     bool seen;      /* a step was done since it is looked at */
-    JoxWallFileeSeen planes[JOX_MOST_PLANES];
+    JoxPlaneSeen planes[JOX_MOST_PLANES];
     uint32_t plane_count;
     JoxV2 forces[JOX_FORCE_PARTS];
     JoxV2 summed; /* the net force before fast bodies hit, N */

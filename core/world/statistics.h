@@ -30,7 +30,7 @@ typedef struct JoxExchange {
     double residual; /* sum over the steps of the size of what does not cancel, N s */
 } JoxExchange;
 
-/* Of glue between blocks. */
+/* Of bonds between blocks. */
 typedef struct JoxBondStatistics {
     uint64_t broken;
     uint32_t pieces;    /* bodies that came of it */
@@ -38,7 +38,7 @@ typedef struct JoxBondStatistics {
     uint32_t rows;      /* then: the longest of the shortest chains that lead from the body over
                            people who each press on the one before */
     uint32_t people;    /* then: in those chains */
-    bool touched;       /* anybody touched a glued body; the first time: */
+    bool touched;       /* anybody touched a bonded body; the first time: */
     double touch_s;     /* when that was */
     double front_speed; /* before: the least mean speed of those within 0.3 m of it, m/s */
     uint32_t front;     /* and the most there were */

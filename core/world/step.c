@@ -155,7 +155,7 @@ static void bodies(JoWorld *w) {
     if (jox_bodies_count(w->bodies) == 0)
         return;
     if (is_first(w))
-        jox_world_grip(w);
+        jox_world_carry(w);
     jox_world_pull(w);
     uint32_t count;
     const JoxImpulse *impulses = jox_force_impulses(w->forces, &count);

@@ -63,8 +63,8 @@ static void free_world(JoWorld *world) {
 }
 
 static void free_guarded(JoWorld *world) {
-    JOX_GUARD(world->heap, NULL)
-    return;
+    JOX_GUARD (world->heap, NULL)
+        return;
     free_world(world);
 }
 
@@ -143,11 +143,10 @@ uint64_t jox_world_hash(const JoWorld *world) {
     JoxHash hash = jox_hash_begin();
     jox_hash_add(&hash, &world->tick, sizeof world->tick);
     const JoxAgents *a = &world->agents;
-    for (uint32_t id = 0; id < a->next_id; id++)
-        if (a->id_index[id] != JOX_NO_INDEX)
-            hash_agent(&hash, &world->mind, a->id_index[id]);
+    for (uint32_t rank = 0; rank < a->count; rank++)
+        hash_agent(&hash, &world->mind, a->by_rank[rank]);
     jox_bodies_hash(world->bodies, &hash);
-    jox_hands_hash(&world->hands, &hash);
+    jox_drags_hash(&world->drags, &hash);
     if (world->mind.called_count) /* what will be heard in the next step */
         jox_hash_add(&hash, world->mind.called,
                      world->mind.called_count * sizeof *world->mind.called);

@@ -15,7 +15,7 @@
 #include "jostle.h"
 #include "machine/mind.h"
 #include "nav/nav.h"
-#include "world/hands.h"
+#include "world/drag.h"
 #include "world/input.h"
 #include "world/inspected.h"
 #include "world/statistics.h"
@@ -46,7 +46,7 @@ struct JoWorld {
     JoxForces *forces;
     JoxBodies *bodies;
     JoxObjects objects; /* what agents see of the bodies */
-    JoxHands hands;
+    JoxDrags drags;
     JoxInspection inspection;
 
     JoxWays *ways;
@@ -91,7 +91,7 @@ void jox_world_set_walls(JoWorld *world, JoxWalls *walls);
 /* Opens or closes the walls of a name; says how many there are. */
 uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open);
 /* Bodies that are picked up, carried and thrown in this step. */
-void jox_world_grip(JoWorld *world);
+void jox_world_carry(JoWorld *world);
 /* Throws a body, from a point (of its shape's own frame, m) or, with NULL, from where it is; m/s
    and rad/s. Who carries it loses it. False for a static body or none. */
 bool jox_world_throw(JoWorld *world, uint32_t row, const double from[3], const double velocity[3],
@@ -115,7 +115,7 @@ JoxGrabbed jox_world_grab(JoWorld *world, uint32_t row, const double to[3], bool
 bool jox_world_release(JoWorld *world, uint32_t row);
 /* In a step: gives the bodies that are pulled their forces. */
 void jox_world_pull(JoWorld *world);
-/* In a step: who is before a glued body or touches it; what broke. */
+/* In a step: who is before a bonded body or touches it; what broke. */
 void jox_world_note_touch(JoWorld *world);
 void jox_world_note_breaks(JoWorld *world, const JoxBodiesReport *report);
 /* One step. */

@@ -26,7 +26,7 @@ expect "trace" 0 "Run -> Arrived" "$JOSTLE" run scenes/running-through.yaml --qu
 expect "profile of functions" 0 "state Touch > on_exit" "$JOSTLE" run scenes/tawaf.yaml --steps 2 --quiet --profile-lua --set groups.pilgrims.count=50 --set sources.0.keep=50
 expect "reference of behaviours" 0 "### Conditions" "$JOSTLE" reference behaviours
 expect "reference: what?" 2 "there is no 'plants'" "$JOSTLE" reference plants
-expect "check --json" 3 '"code":"unreadable-file"' "$JOSTLE" check no-such.lua --json
+expect "check --json" 3 '"code": "unreadable-file"' "$JOSTLE" check no-such.lua --json
 expect "view: no recording" 2 "no recording given" "$JOSTLE" view
 expect "view: missing recording" 3 "cannot be read" "$JOSTLE" view no-such.sqlite
 printf 'SQLite format 3\0%512s' x >"$work/no.sqlite"

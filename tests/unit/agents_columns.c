@@ -31,7 +31,7 @@ static void columns_follow_their_agent(void **state) {
     for (uint32_t i = 0; i < 300; i++) {
         uint32_t id = a.id[i];
         assert_int_equal(id, order[i]);
-        assert_int_equal(a.id_index[id], i);
+        assert_int_equal(jox_agents_find(&a, id), i);
         assert_int_equal(a.slot_index[a.slot[i]], i);
         assert_true(a.x[i] == (float)id && a.tags[i] == (uint64_t)id << 40);
         assert_true(a.own[i * 5 + 1] == id && a.own[i * 5 + 4] == 0);
@@ -50,7 +50,7 @@ static void removing_keeps_order_and_retires_handles(void **state) {
     assert_int_equal(jox_agents_compact(&a), 2);
     assert_int_equal(a.count, 8);
     assert_int_equal(a.id[3], 4);
-    assert_int_equal(a.id_index[3], JOX_NO_INDEX);
+    assert_int_equal(jox_agents_find(&a, 3), JOX_NO_INDEX);
     assert_int_equal(a.slot_index[slot], JOX_NO_INDEX);
     assert_int_equal(a.slot_generation[slot], generation + 1);
     uint32_t at = jox_agents_add(&a);
@@ -59,6 +59,39 @@ static void removing_keeps_order_and_retires_handles(void **state) {
     jox_agents_by_id(&a, by_id);
     for (int i = 1; i < 9; i++)
         assert_true(a.id[by_id[i - 1]] < a.id[by_id[i]]);
+    jox_agents_free(&a);
+}
+
+/* A million births and deaths among 100: no table grows with the number of ids ever given. */
+static void turnover_takes_no_memory(void **state) {
+    (void)state;
+    JoxAgents a = {0};
+    uint64_t allocations = 0;
+    for (uint32_t i = 0; i < 100; i++)
+        jox_agents_add(&a);
+    for (uint32_t round = 0; round < 20000; round++) {
+        uint32_t order[100], by_id[100], gone = 0;
+        for (uint32_t i = 0; i < 100; i++)
+            order[i] = (i * 37 + round) % 100;
+        jox_agents_permute(&a, order);
+        for (uint32_t i = 0; i < 100; i++)
+            a.removed[i] = i % 2 == 0;
+        gone = a.id[50];
+        assert_int_equal(jox_agents_compact(&a), 50);
+        assert_int_equal(jox_agents_find(&a, gone), JOX_NO_INDEX);
+        for (int i = 0; i < 50; i++)
+            jox_agents_add(&a);
+        jox_agents_by_id(&a, by_id);
+        for (uint32_t n = 0; n < 100; n++) {
+            assert_true(n == 0 || a.id[by_id[n]] > a.id[by_id[n - 1]]);
+            assert_int_equal(jox_agents_find(&a, a.id[by_id[n]]), by_id[n]);
+        }
+        if (round == 100)
+            allocations = jox_alloc_count();
+    }
+    assert_int_equal(a.next_id, 100 + 1000000);
+    assert_int_equal(jox_alloc_count(), allocations);
+    assert_int_equal(jox_agents_find(&a, a.next_id), JOX_NO_INDEX);
     jox_agents_free(&a);
 }
 
@@ -105,12 +138,95 @@ static void every_index_runs_once_in_the_same_chunks(void **state) {
     }
 }
 
+static uint64_t hash_of(JoxAgents *a) {
+    JoxSections s = jox_sections_hash();
+    jox_agents_sections(a, &s);
+    return jox_hash_end(&s.hash);
+}
+
+static JoxAgents crowd(void) {
+    JoxAgents a = {0};
+    jox_agents_widen(&a, 2, 1);
+    for (uint32_t i = 0; i < 120; i++) {
+        uint32_t at = jox_agents_add(&a);
+        a.x[at] = (float)(i * 37 % 120);
+        a.own[at * a.own_stride + 1] = i;
+        a.removed[at] = i % 5 == 2;
+    }
+    jox_agents_compact(&a);
+    jox_agents_add(&a);
+    return a;
+}
+
+static void shuffle(JoxAgents *a) {
+    uint32_t order[200];
+    for (uint32_t i = 0; i < a->count; i++)
+        order[i] = a->count - 1 - i;
+    jox_agents_permute(a, order);
+}
+
+/* Neither the order in memory, nor scratch, nor the width of rows is part of the state, and what is
+   restored goes on as the original does: the next handles are the same, too. */
+static void state_is_restored_whatever_the_order(void **state) {
+    (void)state;
+    JoxAgents a = crowd(), b = {0};
+    JoxText saved = {0};
+    shuffle(&a);
+    JoxSections s = jox_sections_save(&saved);
+    jox_agents_sections(&a, &s);
+    assert_true(jox_sections_end(&s));
+    uint64_t hash = hash_of(&a);
+    jox_agents_widen(&b, 4, 1); /* its machines need more */
+    s = jox_sections_restore(saved.data, saved.length);
+    jox_agents_sections(&b, &s);
+    assert_true(jox_sections_end(&s));
+    assert_int_equal(b.own_stride, 4);
+    jox_agents_forget(&b);
+    assert_true(isnan(b.next_x[0]) && b.x[3] == 4 * 37 % 120);
+    assert_true(hash_of(&b) == hash);
+    for (int round = 0; round < 3; round++) {
+        for (uint32_t i = 0; i < a.count; i++)
+            a.removed[i] = a.id[i] % 7 == 3;
+        for (uint32_t i = 0; i < b.count; i++)
+            b.removed[i] = b.id[i] % 7 == 3;
+        assert_int_equal(jox_agents_compact(&a), jox_agents_compact(&b));
+        for (int born = 0; born < 5; born++)
+            assert_int_equal(a.slot[jox_agents_add(&a)], b.slot[jox_agents_add(&b)]);
+        assert_true(hash_of(&a) == hash_of(&b));
+        shuffle(&a);
+    }
+    jox_text_free(&saved);
+    jox_agents_free(&a);
+    jox_agents_free(&b);
+}
+
+static void what_is_no_state_is_refused(void **state) {
+    (void)state;
+    JoxAgents a = crowd(), b = {0};
+    JoxText saved = {0};
+    a.slot[3] = a.slot[4];
+    JoxSections s = jox_sections_save(&saved);
+    jox_agents_sections(&a, &s);
+    jox_sections_end(&s);
+    s = jox_sections_restore(saved.data, saved.length);
+    jox_agents_sections(&b, &s);
+    assert_false(jox_sections_end(&s));
+    assert_string_equal(s.wrong, "agents.slot: two agents have one slot");
+    assert_int_equal(b.count, 0);
+    jox_text_free(&saved);
+    jox_agents_free(&a);
+    jox_agents_free(&b);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(columns_follow_their_agent),
         cmocka_unit_test(removing_keeps_order_and_retires_handles),
+        cmocka_unit_test(turnover_takes_no_memory),
         cmocka_unit_test(a_new_agent_has_the_defaults),
         cmocka_unit_test(every_index_runs_once_in_the_same_chunks),
+        cmocka_unit_test(state_is_restored_whatever_the_order),
+        cmocka_unit_test(what_is_no_state_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -45,7 +45,7 @@ static void a_diagnostic_prints_its_place(void **state) {
                                    " machine m > state S\n");
     jox_text_free(&text);
     jox_diag_json(&d, &text);
-    assert_non_null(strstr(text.data, "\"line\":2,\"column\":3,\"end\":6"));
+    assert_non_null(strstr(text.data, "\"line\": 2, \"column\": 3, \"end\": 6"));
     jox_text_free(&text);
     jox_diag_free(&d);
 }

@@ -263,7 +263,7 @@ static void advance(Crowd *c, bool shuffle) {
 
 static void assert_same(const Crowd *c, const Crowd *d) {
     for (uint32_t id = 0; id < MANY; id++) {
-        uint32_t i = c->agents.id_index[id], k = d->agents.id_index[id];
+        uint32_t i = jox_agents_find(&c->agents, id), k = jox_agents_find(&d->agents, id);
         const float left[] = {c->agents.x[i],          c->agents.vy[i],
                               c->agents.force_x[i],    c->agents.contact_y[i],
                               c->agents.inferred_x[i], c->agents.compression[i],

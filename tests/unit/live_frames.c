@@ -114,8 +114,8 @@ static void hello_of_bodies_and_a_player(void **state) {
     assert_near(get_float(seen.body), pose.position.x, 1e-6);
     assert_near(get_float(seen.body + 8), pose.position.z, 1e-6);
     assert_near((int16_t)(seen.body[18] | seen.body[19] << 8) / 32767.0, pose.turn[3], 1e-4);
-    const uint32_t red = scene->world->agents.slot[scene->world->agents.id_index[0]];
-    const uint32_t blue = scene->world->agents.slot[scene->world->agents.id_index[1]];
+    const uint32_t red = scene->world->agents.slot[jox_agents_find(&scene->world->agents, 0)];
+    const uint32_t blue = scene->world->agents.slot[jox_agents_find(&scene->world->agents, 1)];
     assert_int_equal(seen.slot[8 * red + 7] & 4, 4);
     assert_int_equal(seen.slot[8 * blue + 7] & 4, 0);
     jox_bytes_free(&frame);

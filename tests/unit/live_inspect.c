@@ -52,12 +52,12 @@ static void an_inspection_adds_up(void **state) {
     assert_true(most > 10.0); /* somebody did push */
     assert_true(jo_world_hash(scene->world) == jo_world_hash(plain->world));
     char *json = jo_scene_inspect(scene, 25);
-    assert_non_null(strstr(json, "{\"agent\":{\"id\":25,\"slot\":25,\"group\":\"people\","
-                                 "\"machine\":\"m\",\"state\":\"A\",\"since\":3,"));
-    assert_true(fabs(number_at(json, "\"x\":") - (double)a->x[a->slot_index[25]]) < 1e-4);
+    assert_non_null(strstr(json, "{\"agent\": {\"id\": 25, \"slot\": 25, \"group\": \"people\", "
+                                 "\"machine\": \"m\", \"state\": \"A\", \"since\": 3,"));
+    assert_true(fabs(number_at(json, "\"x\": ") - (double)a->x[a->slot_index[25]]) < 1e-4);
     assert_non_null(
-        strstr(json, "{\"name\":\"push\",\"value\":60,\"unit\":\"N\",\"set\":\"state A "));
-    assert_non_null(strstr(json, "{\"name\":\"push_angle\",\"value\":60,"));
+        strstr(json, "{\"name\": \"push\", \"value\": 60, \"unit\": \"N\", \"set\": \"state A "));
+    assert_non_null(strstr(json, "{\"name\": \"push_angle\", \"value\": 60,"));
     jo_free(json);
     jo_scene_free(scene);
     jo_scene_free(plain);
@@ -68,21 +68,22 @@ static void an_inspection_says_why(void **state) {
     JoScene *scene = begin();
     char *json = jo_scene_inspect(scene, 1);
     assert_non_null(
-        strstr(json, "\"last\":{\"from\":null,\"to\":\"Walk\",\"time\":0,\"why\":null}"));
-    assert_non_null(strstr(json, "\"memory\":{\"laps\":3,\"met\":false}"));
+        strstr(json, "\"last\": {\"from\": null, \"to\": \"Walk\", \"time\": 0, \"why\": null}"));
+    assert_non_null(strstr(json, "\"memory\": {\"laps\": 3, \"met\": false}"));
     assert_non_null(
-        strstr(json, "\"value\":80,\"unit\":\"kg\",\"set\":\"scene groups.people.set "));
-    assert_non_null(strstr(json, "\"seen\":false"));
+        strstr(json, "\"value\": 80, \"unit\": \"kg\", \"set\": \"scene groups.people.set "));
+    assert_non_null(strstr(json, "\"seen\": false"));
     jo_free(json);
     does(scene, "signal stop");
     does(scene, "set m Wait max_speed 0.7");
     step(scene, 2);
     json = jo_scene_inspect(scene, 1);
-    assert_non_null(strstr(json, "\"last\":{\"from\":\"Walk\",\"to\":\"Wait\",\"time\":0"));
+    assert_non_null(strstr(json, "\"last\": {\"from\": \"Walk\", \"to\": \"Wait\", \"time\": 0"));
     assert_non_null(strstr(json, "HEARD 'stop' -> 1"));
     assert_non_null(strstr(
-        json, "\"name\":\"max_speed\",\"value\":0.7,\"unit\":\"m/s\",\"set\":\"live page\""));
-    assert_non_null(strstr(json, "\"seen\":true"));
+        json,
+        "\"name\": \"max_speed\", \"value\": 0.7, \"unit\": \"m/s\", \"set\": \"live page\""));
+    assert_non_null(strstr(json, "\"seen\": true"));
     jo_free(json);
     /* Who was inspected has left: said once, though another takes the slot. */
     JoAgent agent = {1, scene->world->agents.slot_generation[1]};
@@ -91,13 +92,13 @@ static void an_inspection_says_why(void **state) {
     jox_mind_spawn(&scene->world->mind, i, 0, NULL, NULL);
     assert_int_equal(scene->world->agents.slot[i], 1);
     json = jo_scene_inspect(scene, 1);
-    assert_string_equal(json, "{\"agent\":null}");
+    assert_string_equal(json, "{\"agent\": null}");
     jo_free(json);
     json = jo_scene_inspect(scene, 1);
-    assert_non_null(strstr(json, "{\"agent\":{\"id\":4,"));
+    assert_non_null(strstr(json, "{\"agent\": {\"id\": 4,"));
     jo_free(json);
     json = jo_scene_inspect(scene, 4000000000u);
-    assert_string_equal(json, "{\"agent\":null}");
+    assert_string_equal(json, "{\"agent\": null}");
     jo_free(json);
     jo_scene_free(scene);
 }

@@ -58,7 +58,7 @@ static void note_frame(const JoScene *scene) {
     struct Recorded *f = &recorded[recorded_count++];
     *f = (struct Recorded){.time = jo_world_time(world)};
     for (uint32_t id = 0; id < a->next_id; id++) {
-        const uint32_t i = a->id_index[id];
+        const uint32_t i = jox_agents_find(a, id);
         if (i == JOX_NO_INDEX)
             continue;
         assert_true(f->count < MOST_PEOPLE);

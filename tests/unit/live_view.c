@@ -387,14 +387,14 @@ static void one_page_at_a_time_inspects(void **state) {
     begin(0);
     join();
     say("{\"do\": \"inspect\", \"slot\": 4}");
-    hear("\"inspect\"", "\"agent\":{\"id\":4,\"slot\":4");
-    hear("\"inspect\"", "\"seen\":true"); /* by then a step was looked at */
+    hear("\"inspect\"", "\"agent\": {\"id\": 4, \"slot\": 4");
+    hear("\"inspect\"", "\"seen\": true"); /* by then a step was looked at */
     int first = session.fd;
     join();
     say("{\"do\": \"inspect\", \"slot\": null}"); /* that is not the other's */
     hear("\"inspect\"", "\"agent\": null");
     say("{\"do\": \"inspect\", \"slot\": 7}");
-    hear("\"inspect\"", "\"agent\":{\"id\":7,\"slot\":7");
+    hear("\"inspect\"", "\"agent\": {\"id\": 7, \"slot\": 7");
     int second = session.fd;
     session.fd = first;
     hear("\"inspect\"", "\"agent\": null");
@@ -402,7 +402,7 @@ static void one_page_at_a_time_inspects(void **state) {
     session.fd = second;
     close(first);
     say("{\"do\": \"inspect\", \"slot\": 1000000}");
-    hear("\"inspect\"", "\"agent\":null");
+    hear("\"inspect\"", "\"agent\": null");
     end();
     jo_free(session.summary);
 }

@@ -183,13 +183,13 @@ static void head_on_both_give_way_alike(void **state) {
     for (int i = 0; i < 140; i++) {
         step(&f, goals, 1.3f, 0.05, NULL);
         for (uint32_t k = 0; k < 2; k++)
-            aside[k] = jox_maxf(aside[k], fabsf(f.agents.y[f.agents.id_index[k]]));
+            aside[k] = jox_maxf(aside[k], fabsf(f.agents.y[jox_agents_find(&f.agents, k)]));
         nearest = jox_minf(nearest, jox_length((JoxV2){f.agents.x[0] - f.agents.x[1],
                                                        f.agents.y[0] - f.agents.y[1]}));
     }
     assert_true(nearest > 0.39f);
     assert_true(aside[0] > 0.1f && fabsf(aside[0] - aside[1]) < 0.02f);
-    assert_true(f.agents.x[f.agents.id_index[0]] > 3.0f);
+    assert_true(f.agents.x[jox_agents_find(&f.agents, 0)] > 3.0f);
     end(&f);
 }
 
@@ -211,8 +211,8 @@ static void threads_do_not_change_a_bit(void **state) {
         sums[threads - 1] = 0;
         for (uint32_t i = 0; i < 1500; i++) {
             uint32_t bits[2];
-            memcpy(&bits[0], &f.agents.x[f.agents.id_index[i]], 4);
-            memcpy(&bits[1], &f.agents.y[f.agents.id_index[i]], 4);
+            memcpy(&bits[0], &f.agents.x[jox_agents_find(&f.agents, i)], 4);
+            memcpy(&bits[1], &f.agents.y[jox_agents_find(&f.agents, i)], 4);
             sums[threads - 1] = (sums[threads - 1] * 31 + bits[0]) * 31 + bits[1];
         }
         jox_pool_free(pool);
@@ -227,13 +227,13 @@ static void the_program_finds_the_nearest_velocity(void **state) {
     (void)state;
     int feasible = 0;
     for (uint32_t trial = 0; trial < 800; trial++) {
-        JoxWallFilee planes[8];
+        JoxPlane planes[8];
         uint32_t count = 1 + trial % 8;
         for (uint32_t k = 0; k < count; k++) {
             double angle = 6.283185 * jox_random_unit(trial, k, 1, JOX_DRAW_FILL, 0);
             planes[k] =
-                (JoxWallFilee){{(float)cos(angle), (float)sin(angle)},
-                               (float)(1.6 * jox_random_unit(trial, k, 1, JOX_DRAW_FILL, 1) - 1.2)};
+                (JoxPlane){{(float)cos(angle), (float)sin(angle)},
+                           (float)(1.6 * jox_random_unit(trial, k, 1, JOX_DRAW_FILL, 1) - 1.2)};
         }
         JoxV2 wanted = {(float)(3 * jox_random_unit(trial, 9, 1, JOX_DRAW_FILL, 0) - 1.5),
                         (float)(3 * jox_random_unit(trial, 9, 1, JOX_DRAW_FILL, 1) - 1.5)};

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
+#include "picture/probe_files.h"
 #include "record/probes/probe.h"
 
 enum { MOST = 1000 };

@@ -156,11 +156,11 @@ static void who_stands_where_a_wall_comes_is_moved(void **state) {
     step(scene, 1);
     assert_int_equal(figures(scene)->moved_out, 3);
     for (uint32_t id = 0; id < 5; id++) {
-        uint32_t i = a->id_index[id];
+        uint32_t i = jox_agents_find(a, id);
         float dx = fabsf(a->x[i] - 5.0f) - 1.0f, dy = fabsf(a->y[i]) - 2.0f;
         assert_true(dx > 0.19f || dy > 0.19f);
     }
-    uint32_t far = a->id_index[3], beside = a->id_index[4];
+    uint32_t far = jox_agents_find(a, 3), beside = jox_agents_find(a, 4);
     assert_true(a->x[far] == 9.0f && a->y[far] == 0.0f);
     assert_float_equal(a->x[beside], 3.8, 0.01);
     jo_scene_free(scene);
@@ -178,10 +178,10 @@ static void who_is_moved_is_seen_at_once(void **state) {
     const JoxAgents *a = &scene->world->agents;
     const JoxNeighbours *n = &scene->world->neighbours;
     step(scene, 5); /* every fourth step sorts anyway; the next does not */
-    assert_int_equal(n->count[a->id_index[1]] + n->count[a->id_index[2]], 0);
+    assert_int_equal(n->count[jox_agents_find(a, 1)] + n->count[jox_agents_find(a, 2)], 0);
     step(scene, 1);
     assert_int_equal(figures(scene)->moved_out, 1);
-    assert_int_equal(n->count[a->id_index[1]] + n->count[a->id_index[2]], 1);
+    assert_int_equal(n->count[jox_agents_find(a, 1)] + n->count[jox_agents_find(a, 2)], 1);
     jo_scene_free(scene);
 }
 
@@ -200,7 +200,7 @@ static void nobody_is_moved_through_another_wall(void **state) {
     const JoxAgents *a = &scene->world->agents;
     step(scene, 3);
     assert_int_equal(figures(scene)->moved_out, 1);
-    assert_true(fabsf(a->x[a->id_index[0]] - 5.0f) > 1.0f);
+    assert_true(fabsf(a->x[jox_agents_find(a, 0)] - 5.0f) > 1.0f);
     for (uint32_t i = 0; i < a->count; i++)
         assert_true(fabsf(a->y[i]) < 0.1f);
     jo_scene_free(scene);

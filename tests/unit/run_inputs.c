@@ -182,9 +182,9 @@ static void a_push_acts_for_one_step(void **state) {
     step(pushed, 1);
     step(pair, 1);
     const JoxAgents *a = &pushed->world->agents, *b = &pair->world->agents;
-    double gain = (double)(a->vx[a->id_index[3]] - b->vx[b->id_index[3]]);
+    double gain = (double)(a->vx[jox_agents_find(a, 3)] - b->vx[jox_agents_find(b, 3)]);
     assert_true(gain > 0.35 && gain < 0.5); /* m/s: 800 N on 80 kg for 0.05 s, less damping */
-    assert_true(a->ext_x[a->id_index[3]] == 0.0f);
+    assert_true(a->ext_x[jox_agents_find(a, 3)] == 0.0f);
     jo_scene_free(pushed);
     jo_scene_free(pair);
 }
@@ -193,7 +193,7 @@ static void a_push_acts_for_one_step(void **state) {
 
 static double parameter(const JoScene *scene, uint32_t id, JoxParameter p) {
     const JoxAgents *a = &scene->world->agents;
-    return (double)a->param[p][a->id_index[id]];
+    return (double)a->param[p][jox_agents_find(a, id)];
 }
 
 static void a_parameter_is_set_for_all(void **state) {
@@ -263,23 +263,26 @@ static void the_graph_says_who_set_what(void **state) {
     JoxText text = {0};
     char wanted[400];
     does(scene, "set m Wait max_speed 0.7");
-    jox_run_graph(scene, &text);
+    JoxJson json = jox_json_begin(&text, 0);
+    jox_run_graph(scene, &json, NULL);
     snprintf(wanted, sizeof wanted,
-             "{\"name\":\"speed\",\"value\":null,\"text\":\"0.5 * now.speed + 0.4\","
-             "\"set\":\"state Walk %s/own.lua:3\",\"least\":0,\"most\":20,\"unit\":\"m/s\"}",
+             "{\"name\": \"speed\", \"value\": null, \"text\": \"0.5 * now.speed + 0.4\", "
+             "\"set\": \"state Walk %s/own.lua:3\", \"least\": 0, \"most\": 20, \"unit\": \"m/s\"}",
              folder);
     assert_non_null(strstr(text.data, wanted));
-    snprintf(wanted, sizeof wanted, "\"text\":\"normal(1.2, 0.2)\",\"set\":\"defaults %s/own.lua:2",
-             folder);
+    snprintf(wanted, sizeof wanted,
+             "\"text\": \"normal(1.2, 0.2)\", \"set\": \"defaults %s/own.lua:2", folder);
     assert_non_null(strstr(text.data, wanted));
-    assert_non_null(strstr(text.data, "{\"name\":\"max_speed\",\"value\":0.7,\"text\":\"0.7\","
-                                      "\"set\":\"live page\""));
-    assert_non_null(strstr(text.data, "{\"name\":\"yield\",\"value\":0.5,\"text\":\"\","
-                                      "\"set\":\"engine\""));
-    assert_non_null(strstr(
-        text.data, "{\"id\":\"Wait\",\"from\":\"Walk\",\"to\":\"Wait\",\"text\":\"heard "
-                   "\\\"stop\\\" & ~mine.met & mine.laps:above(1)\",\"line\":4,\"chance\":null}"));
-    assert_non_null(strstr(text.data, "\"text\":\"after(60)\",\"line\":6,\"chance\":0.5}"));
+    assert_non_null(strstr(text.data,
+                           "{\"name\": \"max_speed\", \"value\": 0.7, \"text\": \"0.7\", "
+                           "\"set\": \"live page\""));
+    assert_non_null(strstr(text.data, "{\"name\": \"yield\", \"value\": 0.5, \"text\": \"\", "
+                                      "\"set\": \"engine\""));
+    assert_non_null(
+        strstr(text.data,
+               "{\"id\": \"Wait\", \"from\": \"Walk\", \"to\": \"Wait\", \"text\": \"heard "
+               "\\\"stop\\\" & ~mine.met & mine.laps:above(1)\", \"line\": 4, \"chance\": null}"));
+    assert_non_null(strstr(text.data, "\"text\": \"after(60)\", \"line\": 6, \"chance\": 0.5}"));
     jox_text_free(&text);
     assert_true(jox_run_lua_line(scene, "m", "Wait", "max_speed", 0.7, &text));
     snprintf(wanted, sizeof wanted,
@@ -347,7 +350,7 @@ static void the_oldest_box_goes(void **state) {
             step(scene, 1);
     }
     assert_int_equal(jo_world_body_count(world), before + JOX_MOST_BOXES);
-    assert_int_equal(world->hands.boxes[0], before + 7); /* ids are not used again */
+    assert_int_equal(world->drags.boxes[0], before + 7); /* ids are not used again */
     assert_int_equal(jox_bodies_find(world->bodies, before + 6), JOX_NO_BODY);
     step(scene, 3);
     JoxPose pose = pose_of(scene, jox_bodies_find(world->bodies, before + 7));

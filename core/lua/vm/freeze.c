@@ -56,12 +56,29 @@ static void reach(Walk *w) {
     lua_pop(w->L, 1);
 }
 
+/* Looks through the contents of a table that is frozen already; the engine's are left alone. */
+static void walk_frozen(Walk *w) {
+    lua_State *L = w->L;
+    const int table = lua_gettop(L);
+    jox_frozen_contents(L, table);
+    if (lua_rawequal(L, table, table + 1))
+        return;
+    for (lua_pushnil(L); lua_next(L, table + 1);) {
+        jox_vm_charge(L, 4);
+        reach(w);
+        lua_pop(L, 1);
+        reach(w); /* the key, which stays */
+    }
+}
+
 /* Freezes the table on top of the stack, which stays. */
 static void freeze_table(Walk *w) {
     lua_State *L = w->L;
     const int table = lua_gettop(L), shadow = table + 1;
     if (lua_getmetatable(L, table)) { /* frozen already, or the engine's */
         lua_pop(L, 1);
+        walk_frozen(w);
+        lua_settop(L, table);
         return;
     }
     lua_createtable(L, (int)lua_rawlen(L, table), 0);

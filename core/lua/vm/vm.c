@@ -200,7 +200,6 @@ static int open_all(lua_State *L) {
     jox_words_open(vm);
     jox_me_open(vm);
     jox_sandbox_open(vm);
-    jox_upvalue_self_check(L);
     return 0;
 }
 
@@ -254,6 +253,7 @@ void jox_vm_free(JoxVm *vm) {
         jox_free(vm->hooks[h].complaint);
     }
     jox_free(vm->hooks);
+    jox_free(vm->upvalues.items);
     jox_free(vm);
 }
 

@@ -5,8 +5,6 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "geom/polygon.h"
-#include "picture/plot.h"
 #include "record/probes/probe_parts.h"
 
 static const double TENTH = 0.1; /* s */
@@ -128,54 +126,19 @@ void jox_probe_free(JoxProbe *p) {
     jox_free(p);
 }
 
-/* ---- files ---- */
-
-/* Writes NAME.plt: the same commands for both terminals. */
-static bool write_script(const JoxProbe *p, const char *folder, const char *name, bool walls,
-                         const char *title, JoxText *error) {
-    FILE *script = jox_plot_open(folder, name, error);
-    JoxText body = {0};
-    if (!script)
-        return false;
-    int width = p->calls->width, height = p->calls->height;
-    if (height == 0) {
-        float wide = p->def.high.x - p->def.low.x, high = p->def.high.y - p->def.low.y;
-        height = (int)((float)width * jox_clampf(wide > 0.0f ? high / wide : 1.0f, 0.3f, 1.5f));
-    }
-    p->calls->plot(&p->def, p->state, walls, &body);
-    for (int svg = 0; svg < 2; svg++) {
-        fprintf(script, "reset\nset terminal %s size %d,%d font 'sans,%d'\nset output '%s.%s'\n",
-                svg ? "svg background '#ffffff'" : "pngcairo", width, height, svg ? 13 : 12,
-                p->def.name, svg ? "svg" : "png");
-        jox_plot_title(script, title);
-        fputs("heading = ", script); /* for pages of several plots */
-        jox_plot_quote(script, title);
-        fprintf(script, "\nset datafile separator comma\nset grid\n%s", body.data ? body.data : "");
-        fputs("unset multiplot\nset output\n", script);
-    }
-    jox_text_free(&body);
-    return jox_plot_close(script, name, error);
+void jox_probe_csv(const JoxProbe *p, FILE *out) {
+    p->calls->csv(&p->def, p->state, out);
 }
 
-bool jox_probe_write(const JoxProbe *p, const char *folder, const JoxWalls *walls,
-                     const char *title, JoxText *error) {
-    char name[128], heading[400];
-    snprintf(name, sizeof name, "%s.csv", p->def.name);
-    FILE *file = jox_plot_open(folder, name, error);
-    if (!file)
-        return false;
-    p->calls->csv(&p->def, p->state, file);
-    if (!jox_plot_close(file, name, error))
-        return false;
-    if (!title)
-        return true;
-    bool drawn = walls && walls->ring_count > 0;
-    if (drawn && !jox_plot_walls(folder, walls, error))
-        return false;
-    snprintf(name, sizeof name, "%s.plt", p->def.name);
-    snprintf(heading, sizeof heading, "%.200s: %.100s", title, p->def.name);
-    return write_script(p, folder, name, drawn, heading, error) &&
-           jox_plot_draw(folder, name, error);
+void jox_probe_plot(const JoxProbe *p, bool walls, JoxText *commands, int *width, int *height) {
+    *width = p->calls->width;
+    *height = p->calls->height;
+    if (*height == 0) {
+        float wide = p->def.high.x - p->def.low.x, high = p->def.high.y - p->def.low.y;
+        float ratio = jox_clampf(wide > 0.0f ? high / wide : 1.0f, 0.3f, 1.5f);
+        *height = (int)((float)*width * ratio);
+    }
+    p->calls->plot(&p->def, p->state, walls, commands);
 }
 
 /* ---- shared by the kinds ---- */
@@ -206,46 +169,4 @@ double jox_quantile(double *values, size_t count, double q) {
     if (below + 1 >= count)
         return values[count - 1];
     return values[below] + (rank - (double)below) * (values[below + 1] - values[below]);
-}
-
-void jox_track_reserve(JoxTrack *track, uint32_t keys) {
-    JOX_RESERVE_ZEROED(track->items, track->capacity, keys);
-}
-
-static float shortest(float d, float period) {
-    if (period > 0.0f && fabsf(d) > 0.5f * period)
-        d -= d > 0.0f ? period : -period;
-    return d;
-}
-
-bool jox_track_step(JoxTrack *track, const JoxFrame *frame, uint32_t i, JoxStretch *stretch) {
-    struct JoxTracked *last = &track->items[frame->key[i]];
-    struct JoxTracked now = {frame->x[i], frame->y[i], frame->time, true};
-    bool known = last->known;
-    if (known)
-        *stretch = (JoxStretch){.from = {last->x, last->y},
-                                .by = {shortest(now.x - last->x, frame->period.x),
-                                       shortest(now.y - last->y, frame->period.y)},
-                                .to = {now.x, now.y},
-                                .begun = last->time,
-                                .ended = now.time};
-    *last = now;
-    return known;
-}
-
-int jox_stretch_crosses(const JoxStretch *s, JoxV2 a, JoxV2 b, double *time) {
-    JoxV2 from = s->from, to = jox_add(s->from, s->by);
-    int crosses = jox_segment_crossing(a, b, from, to);
-    if (crosses == 0 && (to.x != s->to.x || to.y != s->to.y)) { /* seen from the other edge */
-        from = jox_sub(s->to, s->by), to = s->to;
-        crosses = jox_segment_crossing(a, b, from, to);
-    }
-    if (crosses == 0)
-        return 0;
-    JoxV2 along = jox_sub(b, a);
-    double before = fabs((double)jox_det(along, jox_sub(from, a)));
-    double after = fabs((double)jox_det(along, jox_sub(to, a)));
-    double share = before + after > 0.0 ? before / (before + after) : 0.0;
-    *time = s->begun + share * (s->ended - s->begun);
-    return crosses;
 }

@@ -4,6 +4,7 @@
 #define JOX_RECORD_PROBES_PROBE_H
 
 #include <stdbool.h>
+#include <stdio.h>
 
 #include "base/text.h"
 #include "geom/walls.h"
@@ -34,10 +35,11 @@ JoxFigures jox_probe_figures(const JoxProbe *probe);
 uint32_t jox_probe_passages(const JoxProbe *probe);
 /* Adds {"flow": 1.15, ...}. */
 void jox_probe_json(const JoxProbe *probe, JoxText *out);
-/* NAME.csv, and with a title NAME.png and NAME.svg, into a folder that is there. False with a
- * sentence in `error`. */
-bool jox_probe_write(const JoxProbe *probe, const char *folder, const JoxWalls *walls,
-                     const char *title, JoxText *error);
+/* Writes the table: a first line with names and units in brackets, then rows. */
+void jox_probe_csv(const JoxProbe *probe, FILE *out);
+/* Appends the gnuplot commands that draw NAME.csv, and gives the picture's size in pixels. With
+   `walls`, walls.dat is drawn too. */
+void jox_probe_plot(const JoxProbe *probe, bool walls, JoxText *commands, int *width, int *height);
 const JoxProbeDef *jox_probe_def(const JoxProbe *probe);
 void jox_probe_free(JoxProbe *probe);
 

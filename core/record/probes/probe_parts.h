@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "record/probes/probe.h"
+#include "record/track.h"
 
 /* Which frames a kind wants: ten a second, all, or one in each `every` of its def. */
 typedef enum { JOX_PACE_TENTH, JOX_PACE_ALL, JOX_PACE_EVERY } JoxPace;
@@ -44,29 +45,5 @@ double jox_quantile(double *values, size_t count, double q);
 
 /* A plot that only says why there is nothing to draw. */
 void jox_plot_nothing(JoxText *out, const char *why);
-
-/* Where each person was in the frame before. */
-typedef struct JoxTrack {
-    struct JoxTracked {
-        float x, y;
-        double time;
-        bool known;
-    } * items; /* by key */
-    uint32_t capacity;
-} JoxTrack;
-
-/* A stretch of somebody's way: from `from` by `by`, the shorter way round where edges are periodic,
-   to `to`, which is elsewhere than from + by if an edge was passed. */
-typedef struct JoxStretch {
-    JoxV2 from, by, to;
-    double begun, ended; /* s */
-} JoxStretch;
-
-/* Notes person i's place in the frame; false where it is the first. Call jox_track_reserve before
-   the first of a frame. */
-void jox_track_reserve(JoxTrack *track, uint32_t keys);
-bool jox_track_step(JoxTrack *track, const JoxFrame *frame, uint32_t i, JoxStretch *stretch);
-/* +1 or -1, and the time, if the stretch crosses a-b; else 0. */
-int jox_stretch_crosses(const JoxStretch *stretch, JoxV2 a, JoxV2 b, double *time);
 
 #endif

@@ -17,7 +17,7 @@ static void carry_along(JoWorld *w) {
         const JoxObject *object = &w->objects.rows[o];
         if (!object->live || !object->held)
             continue;
-        uint32_t i = object->holder < a->next_id ? a->id_index[object->holder] : JOX_NO_INDEX;
+        uint32_t i = jox_agents_find(a, object->holder);
         if (i == JOX_NO_INDEX || a->removed[i]) { /* who left lets it fall */
             jox_bodies_let_go(w->bodies, o, (JoxV3){0.0f, 0.0f, 0.0f});
             continue;
@@ -28,12 +28,12 @@ static void carry_along(JoWorld *w) {
     }
 }
 
-void jox_world_grip(JoWorld *w) {
+void jox_world_carry(JoWorld *w) {
     const JoxAgents *a = &w->agents;
     carry_along(w);
     for (uint32_t g = 0; g < w->mind.grip_count; g++) {
         const JoxGrip *grip = &w->mind.grips[g];
-        uint32_t i = a->id_index[grip->agent_id];
+        uint32_t i = jox_agents_find(a, grip->agent_id);
         if (i == JOX_NO_INDEX)
             continue;
         const JoxObject *object = &w->objects.rows[grip->object];

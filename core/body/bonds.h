@@ -1,9 +1,10 @@
-/* Blocks on a lattice, glued face to face to one rigid body, and the glue's loads. Plain C without
-   Bullet. All vectors are in the body's own frame, whose axes are the lattice's; m, kg, s, N.
+/* Blocks on a lattice, bonded face to face to one rigid body, and the loads of their bonds. Plain C
+   without Bullet. All vectors are in the body's own frame, whose axes are the lattice's; m, kg, s,
+   N.
 
    The model. Of a rigid body one knows how each block moves, and with that the net force upon it:
    m_i a_i, where a_i is the acceleration of the rigid whole at the block. What acts on the block
-   from outside (people, ground, other bodies) is a different force; the glue carries the difference
+   from outside (people, ground, other bodies) is a different force; the bonds carry the difference
    ("inertial relief"). Gravity and whatever else acts in proportion to mass cancels. Those
    self-equilibrated loads f are spread over the bonds as over springs between the centres, of
    stiffness 1 along the bond and 0.4 across (G/E of a solid of Poisson ratio 0.25):
@@ -17,28 +18,28 @@
    that of a joint, in newtons, not of a material.
 
    Why so: a constraint per bond in the solver of bodies collapses under its own weight and gives
-   forces that depend on the order of its passes. Here glue that holds costs no accuracy of the body
+   forces that depend on the order of its passes. Here bonds that hold cost no accuracy of the body
    at all, and the loads are those of equilibrium, whatever the step.
 
-   Loads are low-pass filtered with JOX_GLUE_MEMORY: a contact solver hands out the impulse of a
+   Loads are low-pass filtered with JOX_BONDS_LOAD_TIME: a contact solver hands out the impulse of a
    collision in one step, whose length must not decide what breaks. Nothing is solved while half the
    sum of all loads is below the weakest bond's strength: no single bond can carry more. */
-#ifndef JOX_BODY_GLUE_H
-#define JOX_BODY_GLUE_H
+#ifndef JOX_BODY_BONDS_H
+#define JOX_BODY_BONDS_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#define JOX_GLUE_MEMORY 0.1 /* s: time constant of the loads' filter */
-enum { JOX_GLUE_MOST_BLOCKS = 4096 };
+#define JOX_BONDS_LOAD_TIME 0.1 /* s: time constant of the loads' filter */
+enum { JOX_BONDS_MOST_BLOCKS = 4096 };
 
-typedef struct JoxGlueBond {
+typedef struct JoxBond {
     uint32_t a, b; /* blocks; b lies beyond a along the axis */
     uint32_t axis; /* 0 x, 1 y, 2 z */
     double strength;
-} JoxGlueBond;
+} JoxBond;
 
-typedef struct JoxGlue {
+typedef struct JoxBondGraph {
     double size[3];      /* of a block, m */
     double origin[3];    /* the lattice's corner of least x, y, z in the body's own frame, m */
     double block_mass;   /* kg */
@@ -48,49 +49,51 @@ typedef struct JoxGlue {
     uint32_t *at;        /* block in each cell of the range, or UINT32_MAX */
     uint32_t count;      /* blocks */
     uint32_t (*cell)[3]; /* of each block, ascending by z, y, x */
-    JoxGlueBond *bonds;  /* what holds still, ascending by a, then axis */
+    JoxBond *bonds;      /* what holds still, ascending by a, then axis */
     uint32_t bond_count;
-    double inertia[9];    /* about the centre, kg m2 */
-    double inverse[9];    /* of it */
-    double (*impulse)[3]; /* from outside since the last step, N s */
-    double (*load)[3];    /* the same as filtered force, N */
-    double (*moved)[3];   /* u: what the springs give way, in N (stiffness 1) */
-    double (*scratch)[3]; /* 4 * count: residual, direction, product, relieved load */
-    uint32_t *label;      /* of each block: the piece it is in, counted by its least block */
-    double greatest;      /* load of the bond nearest to breaking in the last step, over strength */
-} JoxGlue;
+    double inertia[9];         /* about the centre, kg m2 */
+    double inverse[9];         /* of it */
+    double (*impulse)[3];      /* from outside since the last step, N s */
+    double (*load)[3];         /* the same as filtered force, N */
+    double (*displacement)[3]; /* u: what the springs give way, in N (stiffness 1) */
+    double (*scratch)[3];      /* 4 * count: residual, direction, product, relieved load */
+    uint32_t *label;           /* of each block: the piece it is in, counted by its least block */
+    double peak_load; /* load of the bond nearest to breaking in the last step, over strength */
+} JoxBondGraph;
 
-/* A full lattice about the frame's origin. NULL unless there are 1 to JOX_GLUE_MOST_BLOCKS blocks
+/* A full lattice about the frame's origin. NULL unless there are 1 to JOX_BONDS_MOST_BLOCKS blocks
    and every number is finite and above 0. */
-JoxGlue *jox_glue_create(const uint32_t count[3], const double size[3], double block_mass,
-                         double strength);
-void jox_glue_free(JoxGlue *glue);
+JoxBondGraph *jox_bonds_create(const uint32_t count[3], const double size[3], double block_mass,
+                               double strength);
+void jox_bonds_free(JoxBondGraph *bonds);
 /* Middle of a block, m. */
-void jox_glue_place(const JoxGlue *glue, uint32_t block, double out[3]);
+void jox_bonds_block_centre(const JoxBondGraph *bonds, uint32_t block, double out[3]);
 /* The block at a point, or the nearest to it. */
-uint32_t jox_glue_block(const JoxGlue *glue, const double point[3]);
+uint32_t jox_bonds_block_at(const JoxBondGraph *bonds, const double point[3]);
 /* An impulse from outside upon the block at this point. */
-void jox_glue_hit(JoxGlue *glue, const double point[3], const double impulse[3]);
+void jox_bonds_add_impulse(JoxBondGraph *bonds, const double point[3], const double impulse[3]);
 
-typedef struct JoxGlueContact {
+typedef struct JoxBondContact {
     uint32_t block; /* that touches */
     double point[3], impulse[3];
-} JoxGlueContact;
+} JoxBondContact;
 /* The contacts with one other body. What a solver hands to each of many touching points is one of
    countless ways to come to the same force and moment, and an odd one: most of a wall's weight may
    stand on two of its forty feet. In its place the smoothest is taken (least squares over the
    touching blocks: under a wall, pressure that varies linearly along its foot), without blocks that
    would have to pull against `normal`, the unit direction in which the other body pushes; their
    force is kept and of their moment what the rest can take. `contacts` is changed. */
-void jox_glue_lean(JoxGlue *glue, JoxGlueContact *contacts, uint32_t count, const double normal[3]);
+void jox_bonds_add_contacts(JoxBondGraph *bonds, JoxBondContact *contacts, uint32_t count,
+                            const double normal[3]);
 /* Takes in the impulses of a step of dt seconds during which the body turned at `spin`, and cuts
    the bonds that are loaded over their strength, in rounds, the most overloaded first, until the
    rest holds or the body is in pieces. Returns how many were cut. Allocates nothing. */
-uint32_t jox_glue_step(JoxGlue *glue, double dt, const double spin[3]);
+uint32_t jox_bonds_step(JoxBondGraph *bonds, double dt, const double spin[3]);
 /* Writes `label` and returns the number of pieces. */
-uint32_t jox_glue_pieces(JoxGlue *glue);
-/* The blocks with this label as glue of their own, with their bonds and loads. With `own_frame`
+uint32_t jox_bonds_label_pieces(JoxBondGraph *bonds);
+/* The blocks with this label as a graph of their own, with their bonds and loads. With `own_frame`
    the frame's origin is moved to their centre of mass; where that was, is returned in `centre`. */
-JoxGlue *jox_glue_part(const JoxGlue *glue, uint32_t label, bool own_frame, double centre[3]);
+JoxBondGraph *jox_bonds_extract(const JoxBondGraph *bonds, uint32_t label, bool own_frame,
+                                double centre[3]);
 
 #endif

@@ -1,5 +1,5 @@
-/* Blocks and bonds: making, finding, falling apart. The loads are in glue_load.c. */
-#include "body/glue.h"
+/* Blocks and bonds: making, finding, falling apart. The loads are in bonds_load.c. */
+#include "body/bonds.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,21 +8,22 @@
 
 static const uint32_t NONE = UINT32_MAX;
 
-void jox_glue_free(JoxGlue *g) {
+void jox_bonds_free(JoxBondGraph *g) {
     if (!g)
         return;
-    void *owned[] = {g->at, g->cell, g->bonds, g->impulse, g->load, g->moved, g->scratch, g->label};
+    void *owned[] = {g->at,   g->cell,         g->bonds,   g->impulse,
+                     g->load, g->displacement, g->scratch, g->label};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
         jox_free(owned[i]);
     jox_free(g);
 }
 
-static uint32_t *cell_entry(const JoxGlue *g, const uint32_t cell[3]) {
+static uint32_t *cell_entry(const JoxBondGraph *g, const uint32_t cell[3]) {
     uint32_t x = cell[0] - g->low[0], y = cell[1] - g->low[1], z = cell[2] - g->low[2];
     return &g->at[x + g->range[0] * (y + g->range[1] * z)];
 }
 
-void jox_glue_place(const JoxGlue *g, uint32_t block, double out[3]) {
+void jox_bonds_block_centre(const JoxBondGraph *g, uint32_t block, double out[3]) {
     for (int i = 0; i < 3; i++)
         out[i] = g->origin[i] + (g->cell[block][i] + 0.5) * g->size[i];
 }
@@ -38,18 +39,18 @@ static void invert(const double m[9], double out[9]) {
         out[i] = adjugate[i] / d;
 }
 
-static void weigh(JoxGlue *g) {
+static void weigh(JoxBondGraph *g) {
     double p[3];
     memset(g->centre, 0, sizeof g->centre);
     memset(g->inertia, 0, sizeof g->inertia);
     for (uint32_t n = 0; n < g->count; n++) {
-        jox_glue_place(g, n, p);
+        jox_bonds_block_centre(g, n, p);
         for (int i = 0; i < 3; i++)
             g->centre[i] += p[i] / g->count;
     }
     for (uint32_t n = 0; n < g->count; n++) {
         double square = 0.0;
-        jox_glue_place(g, n, p);
+        jox_bonds_block_centre(g, n, p);
         for (int i = 0; i < 3; i++) {
             p[i] -= g->centre[i];
             square += p[i] * p[i] + g->size[i] * g->size[i] / 12.0;
@@ -63,28 +64,28 @@ static void weigh(JoxGlue *g) {
     invert(g->inertia, g->inverse);
 }
 
-static void make_columns(JoxGlue *g) {
+static void make_columns(JoxBondGraph *g) {
     g->at = jox_alloc((size_t)g->range[0] * g->range[1] * g->range[2], sizeof *g->at);
     memset(g->at, 0xff, (size_t)g->range[0] * g->range[1] * g->range[2] * sizeof *g->at);
     g->cell = jox_alloc(g->count, sizeof *g->cell);
     g->impulse = jox_alloc(g->count, sizeof *g->impulse);
     g->load = jox_alloc(g->count, sizeof *g->load);
-    g->moved = jox_alloc(g->count, sizeof *g->moved);
+    g->displacement = jox_alloc(g->count, sizeof *g->displacement);
     g->scratch = jox_alloc(4 * (size_t)g->count, sizeof *g->scratch);
     g->label = jox_alloc(g->count, sizeof *g->label);
 }
 
-JoxGlue *jox_glue_create(const uint32_t count[3], const double size[3], double block_mass,
-                         double strength) {
+JoxBondGraph *jox_bonds_create(const uint32_t count[3], const double size[3], double block_mass,
+                               double strength) {
     uint64_t blocks = 1;
     bool good = block_mass > 0.0 && isfinite(block_mass) && strength > 0.0 && isfinite(strength);
     for (int i = 0; i < 3; i++) {
         good = good && count[i] > 0 && size[i] > 0.0 && isfinite(size[i]);
-        blocks = blocks > JOX_GLUE_MOST_BLOCKS ? blocks : blocks * count[i];
+        blocks = blocks > JOX_BONDS_MOST_BLOCKS ? blocks : blocks * count[i];
     }
-    if (!good || blocks > JOX_GLUE_MOST_BLOCKS)
+    if (!good || blocks > JOX_BONDS_MOST_BLOCKS)
         return NULL;
-    JoxGlue *g = jox_alloc(1, sizeof *g);
+    JoxBondGraph *g = jox_alloc(1, sizeof *g);
     g->block_mass = block_mass;
     g->count = (uint32_t)blocks;
     for (int i = 0; i < 3; i++) {
@@ -101,13 +102,13 @@ JoxGlue *jox_glue_create(const uint32_t count[3], const double size[3], double b
         g->at[n] = n;
         for (uint32_t axis = 0; axis < 3; axis++)
             if (cell[axis] + 1 < count[axis])
-                g->bonds[g->bond_count++] = (JoxGlueBond){n, n + stride[axis], axis, strength};
+                g->bonds[g->bond_count++] = (JoxBond){n, n + stride[axis], axis, strength};
     }
     weigh(g);
     return g;
 }
 
-uint32_t jox_glue_block(const JoxGlue *g, const double point[3]) {
+uint32_t jox_bonds_block_at(const JoxBondGraph *g, const double point[3]) {
     uint32_t cell[3];
     for (int i = 0; i < 3; i++) {
         double at = floor((point[i] - g->origin[i]) / g->size[i]) - g->low[i];
@@ -120,7 +121,7 @@ uint32_t jox_glue_block(const JoxGlue *g, const double point[3]) {
     double least = INFINITY, p[3];
     found = 0;
     for (uint32_t n = 0; n < g->count; n++) {
-        jox_glue_place(g, n, p);
+        jox_bonds_block_centre(g, n, p);
         double away = 0.0;
         for (int i = 0; i < 3; i++)
             away += (p[i] - point[i]) * (p[i] - point[i]);
@@ -133,13 +134,13 @@ uint32_t jox_glue_block(const JoxGlue *g, const double point[3]) {
 }
 
 /* Labels spread along the bonds until none changes; bonds ascend, so that few passes do. */
-uint32_t jox_glue_pieces(JoxGlue *g) {
+uint32_t jox_bonds_label_pieces(JoxBondGraph *g) {
     for (uint32_t n = 0; n < g->count; n++)
         g->label[n] = n;
     for (bool changed = true; changed;) {
         changed = false;
         for (uint32_t k = 0; k < 2 * g->bond_count; k++) { /* forth and back */
-            const JoxGlueBond *bond = &g->bonds[k < g->bond_count ? k : 2 * g->bond_count - 1 - k];
+            const JoxBond *bond = &g->bonds[k < g->bond_count ? k : 2 * g->bond_count - 1 - k];
             uint32_t *a = &g->label[bond->a], *b = &g->label[bond->b];
             changed = changed || *a != *b;
             *a = *b = *a < *b ? *a : *b;
@@ -153,7 +154,8 @@ uint32_t jox_glue_pieces(JoxGlue *g) {
 }
 
 /* Cells and columns of the blocks with this label; new index of each old block in `renamed`. */
-static void copy_blocks(const JoxGlue *g, JoxGlue *part, uint32_t label, uint32_t *renamed) {
+static void copy_blocks(const JoxBondGraph *g, JoxBondGraph *part, uint32_t label,
+                        uint32_t *renamed) {
     uint32_t high[3] = {0, 0, 0};
     memset(part->low, 0xff, sizeof part->low);
     part->count = 0;
@@ -177,13 +179,14 @@ static void copy_blocks(const JoxGlue *g, JoxGlue *part, uint32_t label, uint32_
         memcpy(part->cell[to], g->cell[n], sizeof part->cell[to]);
         memcpy(part->impulse[to], g->impulse[n], sizeof part->impulse[to]);
         memcpy(part->load[to], g->load[n], sizeof part->load[to]);
-        memcpy(part->moved[to], g->moved[n], sizeof part->moved[to]);
+        memcpy(part->displacement[to], g->displacement[n], sizeof part->displacement[to]);
         *cell_entry(part, part->cell[to]) = to;
     }
 }
 
-JoxGlue *jox_glue_part(const JoxGlue *g, uint32_t label, bool own_frame, double centre[3]) {
-    JoxGlue *part = jox_alloc(1, sizeof *part);
+JoxBondGraph *jox_bonds_extract(const JoxBondGraph *g, uint32_t label, bool own_frame,
+                                double centre[3]) {
+    JoxBondGraph *part = jox_alloc(1, sizeof *part);
     memcpy(part->size, g->size, sizeof part->size);
     memcpy(part->origin, g->origin, sizeof part->origin);
     part->block_mass = g->block_mass;
@@ -191,10 +194,10 @@ JoxGlue *jox_glue_part(const JoxGlue *g, uint32_t label, bool own_frame, double 
     copy_blocks(g, part, label, renamed);
     part->bonds = jox_alloc(3 * (size_t)part->count, sizeof *part->bonds);
     for (uint32_t k = 0; k < g->bond_count; k++) {
-        const JoxGlueBond *bond = &g->bonds[k];
+        const JoxBond *bond = &g->bonds[k];
         if (g->label[bond->a] == label && g->label[bond->b] == label)
             part->bonds[part->bond_count++] =
-                (JoxGlueBond){renamed[bond->a], renamed[bond->b], bond->axis, bond->strength};
+                (JoxBond){renamed[bond->a], renamed[bond->b], bond->axis, bond->strength};
     }
     jox_free(renamed);
     weigh(part);

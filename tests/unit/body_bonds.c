@@ -1,4 +1,4 @@
-/* Glue: loads that can be worked out by hand, what breaks, and how bodies come apart. */
+/* Bonds: loads that can be worked out by hand, what breaks, and how bodies come apart. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -8,22 +8,22 @@
 #include <cmocka.h>
 
 #include "body/body.h"
-#include "body/glue.h"
+#include "body/bonds.h"
 
 static const double STILL[3] = {0, 0, 0};
 
-static JoxGlue *row_of(uint32_t n, double strength) {
-    return jox_glue_create((uint32_t[]){n, 1, 1}, (double[]){1, 1, 1}, 10, strength);
+static JoxBondGraph *row_of(uint32_t n, double strength) {
+    return jox_bonds_create((uint32_t[]){n, 1, 1}, (double[]){1, 1, 1}, 10, strength);
 }
 
 /* A steady force on one block, until the filter has let it through. */
-static uint32_t hold(JoxGlue *g, uint32_t block, double fx, double fy, double seconds) {
+static uint32_t hold(JoxBondGraph *g, uint32_t block, double fx, double fy, double seconds) {
     uint32_t cut = 0;
     double p[3];
-    jox_glue_place(g, block, p);
+    jox_bonds_block_centre(g, block, p);
     for (int step = 0; step < (int)(seconds / 0.05 + 0.5) && !cut; step++) {
-        jox_glue_hit(g, p, (double[]){fx * 0.05, fy * 0.05, 0});
-        cut = jox_glue_step(g, 0.05, STILL);
+        jox_bonds_add_impulse(g, p, (double[]){fx * 0.05, fy * 0.05, 0});
+        cut = jox_bonds_step(g, 0.05, STILL);
     }
     return cut;
 }
@@ -32,61 +32,61 @@ static uint32_t hold(JoxGlue *g, uint32_t block, double fx, double fy, double se
    four blocks of five and carries 4/5 F, the next 3/5 F. */
 static void chain_breaks_at_the_right_bond(void **state) {
     (void)state;
-    JoxGlue *g = row_of(5, 400);
+    JoxBondGraph *g = row_of(5, 400);
     assert_int_equal(g->bond_count, 4);
     assert_int_equal(hold(g, 4, 495, 0, 3), 0); /* 4/5 of it is 396 N */
     assert_int_equal(hold(g, 4, 505, 0, 3), 1); /* 404 N */
-    assert_int_equal(jox_glue_pieces(g), 2);
+    assert_int_equal(jox_bonds_label_pieces(g), 2);
     assert_int_equal(g->label[3], 0);
     assert_int_equal(g->label[4], 1);
-    jox_glue_free(g);
+    jox_bonds_free(g);
 }
 
 /* Pushed at the same end, all is compressed, and nothing breaks whatever the force. */
 static void compression_breaks_nothing(void **state) {
     (void)state;
-    JoxGlue *g = row_of(5, 400);
+    JoxBondGraph *g = row_of(5, 400);
     assert_int_equal(hold(g, 0, 1e6, 0, 3), 0);
-    jox_glue_free(g);
+    jox_bonds_free(g);
 }
 
 /* A weak bond in the middle: 2/5 of the force pass it, though the first carries twice that. */
 static void the_weakest_for_its_load_breaks(void **state) {
     (void)state;
-    JoxGlue *g = row_of(5, 400);
+    JoxBondGraph *g = row_of(5, 400);
     g->bonds[1].strength = 100;
     assert_int_equal(hold(g, 4, 245, 0, 3), 0);
     assert_int_equal(hold(g, 4, 255, 0, 3), 1);
-    jox_glue_pieces(g);
+    jox_bonds_label_pieces(g);
     assert_int_equal(g->label[1], 0);
     assert_int_equal(g->label[2], 1);
-    jox_glue_free(g);
+    jox_bonds_free(g);
 }
 
 /* Across: a free beam under F in its middle. Two blocks of five on either side have to be moved
    along by the bonds beside the middle, each 2/5 F in shear. */
 static void shear_breaks_too(void **state) {
     (void)state;
-    JoxGlue *g = row_of(5, 400);
+    JoxBondGraph *g = row_of(5, 400);
     assert_int_equal(hold(g, 2, 0, 990, 3), 0);
-    assert_float_equal(g->greatest, 396.0 / 400.0, 1e-3);
+    assert_float_equal(g->peak_load, 396.0 / 400.0, 1e-3);
     assert_int_equal(hold(g, 2, 0, 1010, 3), 2); /* both at once: the middle is driven out */
-    assert_int_equal(jox_glue_pieces(g), 3);
-    jox_glue_free(g);
+    assert_int_equal(jox_bonds_label_pieces(g), 3);
+    jox_bonds_free(g);
 }
 
 static void uniform_push_breaks_nothing(void **state) {
     (void)state;
-    JoxGlue *g = jox_glue_create((uint32_t[]){20, 1, 10}, (double[]){0.4, 0.2, 0.2}, 5, 10);
+    JoxBondGraph *g = jox_bonds_create((uint32_t[]){20, 1, 10}, (double[]){0.4, 0.2, 0.2}, 5, 10);
     for (int step = 0; step < 100; step++) {
         for (uint32_t n = 0; n < g->count; n++) {
             double p[3];
-            jox_glue_place(g, n, p);
-            jox_glue_hit(g, p, (double[]){0, 500 * 0.05, 0});
+            jox_bonds_block_centre(g, n, p);
+            jox_bonds_add_impulse(g, p, (double[]){0, 500 * 0.05, 0});
         }
-        assert_int_equal(jox_glue_step(g, 0.05, STILL), 0);
+        assert_int_equal(jox_bonds_step(g, 0.05, STILL), 0);
     }
-    jox_glue_free(g);
+    jox_bonds_free(g);
 }
 
 /* One step of a great force is filtered to what its impulse is worth over 0.1 s. */
@@ -95,15 +95,15 @@ static void a_spike_is_an_impulse(void **state) {
     double greatest[2];
     for (int k = 0; k < 2; k++) {
         double dt = k ? 0.05 : 0.005, p[3];
-        JoxGlue *g = row_of(2, 1e6);
-        jox_glue_place(g, 1, p);
-        jox_glue_hit(g, p, (double[]){100, 0, 0});
-        jox_glue_step(g, dt, STILL);
+        JoxBondGraph *g = row_of(2, 1e6);
+        jox_bonds_block_centre(g, 1, p);
+        jox_bonds_add_impulse(g, p, (double[]){100, 0, 0});
+        jox_bonds_step(g, dt, STILL);
         greatest[k] = 0;
         for (uint32_t i = 0; i < g->bond_count; i++)
             g->bonds[i].strength = 1; /* so that the solver is asked */
         greatest[k] = 0.5 * g->load[1][0];
-        jox_glue_free(g);
+        jox_bonds_free(g);
     }
     /* 100 N s over 0.1 s: at most 1000 N, half of it on the bond. */
     assert_float_equal(greatest[0], 500, 20);
@@ -113,35 +113,36 @@ static void a_spike_is_an_impulse(void **state) {
 /* Spinning, a ring of mass pulls outwards: two blocks 1 m apart at w carry m w^2 / 2. */
 static void spin_pulls(void **state) {
     (void)state;
-    JoxGlue *g = row_of(2, 100);
-    assert_int_equal(jox_glue_step(g, 0.05, (double[]){0, 0, 4.4}), 0); /* 96.8 N */
-    assert_float_equal(g->greatest, 0.0, 1e-9);                         /* too little to look */
-    assert_int_equal(jox_glue_step(g, 0.05, (double[]){0, 0, 4.6}), 1); /* 105.8 N */
-    jox_glue_free(g);
+    JoxBondGraph *g = row_of(2, 100);
+    assert_int_equal(jox_bonds_step(g, 0.05, (double[]){0, 0, 4.4}), 0); /* 96.8 N */
+    assert_float_equal(g->peak_load, 0.0, 1e-9);                         /* too little to look */
+    assert_int_equal(jox_bonds_step(g, 0.05, (double[]){0, 0, 4.6}), 1); /* 105.8 N */
+    jox_bonds_free(g);
 }
 
 /* A load handed out unevenly by a solver is leant on evenly; a moment tilts it, and nothing
    pulls. */
 static void leans_smoothly(void **state) {
     (void)state;
-    JoxGlue *g = row_of(4, 1e9);
-    JoxGlueContact c[5];
+    JoxBondGraph *g = row_of(4, 1e9);
+    JoxBondContact c[5];
     for (uint32_t k = 0; k < 5; k++) /* the last block touches at two points */
-        c[k] = (JoxGlueContact){
+        c[k] = (JoxBondContact){
             k < 4 ? k : 3, {k < 4 ? k - 1.9 : 1.9, 0, -0.5}, {0, 0, k == 1 || k == 2 ? 20 : 0}};
     c[2].point[0] = 0.9; /* 20 N s on either side of the middle */
     c[1].point[0] = -0.9;
-    jox_glue_lean(g, c, 5, (double[]){0, 0, 1});
+    jox_bonds_add_contacts(g, c, 5, (double[]){0, 0, 1});
     for (uint32_t n = 0; n < 4; n++)
         assert_float_equal(g->impulse[n][2], 10, 1e-3);
     for (uint32_t k = 0; k < 4; k++)
-        c[k] = (JoxGlueContact){k, {k - 1.5, 0, -0.5}, {0, 0, k == 2 ? 40 : 0}};
-    jox_glue_lean(g, c, 4, (double[]){0, 0, 1}); /* half a metre off: 4, 8, 12, 16 */
+        c[k] = (JoxBondContact){k, {k - 1.5, 0, -0.5}, {0, 0, k == 2 ? 40 : 0}};
+    jox_bonds_add_contacts(g, c, 4, (double[]){0, 0, 1}); /* half a metre off: 4, 8, 12, 16 */
     for (uint32_t n = 0; n < 4; n++)
         assert_float_equal(g->impulse[n][2] - 10, 4.0 + 4.0 * n, 1e-3);
     for (uint32_t k = 0; k < 4; k++)
-        c[k] = (JoxGlueContact){k, {k - 1.5, 0, -0.5}, {0, 0, k == 3 ? 40 : 0}};
-    jox_glue_lean(g, c, 4, (double[]){0, 0, 1}); /* at the edge: the far ones would have to pull */
+        c[k] = (JoxBondContact){k, {k - 1.5, 0, -0.5}, {0, 0, k == 3 ? 40 : 0}};
+    jox_bonds_add_contacts(g, c, 4,
+                           (double[]){0, 0, 1}); /* at the edge: the far ones would have to pull */
     double sum = 0;
     for (uint32_t n = 0; n < 4; n++) {
         assert_true(g->impulse[n][2] >= 14 + 4.0 * n - 1e-3);
@@ -149,35 +150,37 @@ static void leans_smoothly(void **state) {
     }
     assert_float_equal(sum, 120, 1e-3);
     assert_float_equal(g->impulse[0][2], 14, 1e-3);
-    jox_glue_free(g);
+    jox_bonds_free(g);
 }
 
 static void finds_blocks(void **state) {
     (void)state;
-    JoxGlue *g = jox_glue_create((uint32_t[]){3, 2, 2}, (double[]){1, 1, 1}, 1, 1);
-    assert_int_equal(jox_glue_block(g, (double[]){-1.2, -0.9, -0.1}), 0);
-    assert_int_equal(jox_glue_block(g, (double[]){1.4, 0.9, 0.1}), 11);
-    assert_int_equal(jox_glue_block(g, (double[]){99, -99, 99}), 8);
+    JoxBondGraph *g = jox_bonds_create((uint32_t[]){3, 2, 2}, (double[]){1, 1, 1}, 1, 1);
+    assert_int_equal(jox_bonds_block_at(g, (double[]){-1.2, -0.9, -0.1}), 0);
+    assert_int_equal(jox_bonds_block_at(g, (double[]){1.4, 0.9, 0.1}), 11);
+    assert_int_equal(jox_bonds_block_at(g, (double[]){99, -99, 99}), 8);
     for (uint32_t n = 0; n < g->count; n++)
         g->label[n] = n == 4; /* one from the middle */
     double centre[3];
-    JoxGlue *rest = jox_glue_part(g, 0, false, centre), *one = jox_glue_part(g, 1, true, centre);
+    JoxBondGraph *rest = jox_bonds_extract(g, 0, false, centre),
+                 *one = jox_bonds_extract(g, 1, true, centre);
     assert_int_equal(rest->count, 11);
     assert_int_equal(rest->bond_count, g->bond_count - 4);
     assert_int_equal(one->bond_count, 0);
     assert_float_equal(centre[0], 0, 1e-12);
     assert_float_equal(centre[1], 0.5, 1e-12);
-    assert_int_equal(jox_glue_block(rest, (double[]){1.2, 0.5, -0.5}), 4); /* was 5 */
+    assert_int_equal(jox_bonds_block_at(rest, (double[]){1.2, 0.5, -0.5}), 4); /* was 5 */
     double p[3];
-    jox_glue_place(rest, jox_glue_block(rest, (double[]){0.1, 0.5, -0.5}), p); /* the hole */
+    jox_bonds_block_centre(rest, jox_bonds_block_at(rest, (double[]){0.1, 0.5, -0.5}),
+                           p); /* the hole */
     assert_float_equal(fabs(p[0]) + fabs(p[1] - 0.5) + fabs(p[2] + 0.5), 1, 1e-9);
-    jox_glue_free(rest);
-    jox_glue_free(one);
-    jox_glue_free(g);
-    assert_null(jox_glue_create((uint32_t[]){5000, 1, 1}, (double[]){1, 1, 1}, 1, 1));
-    assert_null(jox_glue_create((uint32_t[]){1, 0, 1}, (double[]){1, 1, 1}, 1, 1));
-    assert_null(jox_glue_create((uint32_t[]){1, 1, 1}, (double[]){1, -1, 1}, 1, 1));
-    assert_null(jox_glue_create((uint32_t[]){1, 1, 1}, (double[]){1, 1, 1}, 1, NAN));
+    jox_bonds_free(rest);
+    jox_bonds_free(one);
+    jox_bonds_free(g);
+    assert_null(jox_bonds_create((uint32_t[]){5000, 1, 1}, (double[]){1, 1, 1}, 1, 1));
+    assert_null(jox_bonds_create((uint32_t[]){1, 0, 1}, (double[]){1, 1, 1}, 1, 1));
+    assert_null(jox_bonds_create((uint32_t[]){1, 1, 1}, (double[]){1, -1, 1}, 1, 1));
+    assert_null(jox_bonds_create((uint32_t[]){1, 1, 1}, (double[]){1, 1, 1}, 1, NAN));
 }
 
 /* ---- bodies ---- */
@@ -210,16 +213,16 @@ static void a_wall_stands(void **state) {
     JoxBodyDef d = wall(60);
     uint32_t row = jox_bodies_add(b, &d, NULL);
     JoxPose p;
-    JoxBodyGlue glue;
+    JoxBodyBonds bonds;
     for (int i = 0; i < 1200; i++) {
         /* A touch now and then keeps Bullet from putting it to sleep. */
         jox_bodies_set_velocity(b, row, (JoxV3){0, 0, 0}, (JoxV3){0, 0, 0});
         assert_int_equal(jox_bodies_step(b, 0.05f, NULL, 0).break_count, 0);
     }
     jox_bodies_pose(b, row, &p);
-    assert_true(jox_bodies_glue(b, row, &glue));
-    assert_int_equal(glue.blocks, 200);
-    assert_int_equal(glue.bonds, 19 * 10 + 100 + 20 * 2 * 4);
+    assert_true(jox_bodies_bonds(b, row, &bonds));
+    assert_int_equal(bonds.blocks, 200);
+    assert_int_equal(bonds.bonds, 19 * 10 + 100 + 20 * 2 * 4);
     assert_float_equal(p.position.x, 0, 2e-3);
     assert_float_equal(p.position.y, 0, 2e-3);
     assert_float_equal(p.position.z, 0.625, 1e-2);
@@ -363,9 +366,9 @@ static void refuses_nonsense(void **state) {
     d = wall(100);
     d.mass = 0; /* stands for ever */
     uint32_t row = jox_bodies_add(b, &d, NULL);
-    JoxBodyGlue glue;
+    JoxBodyBonds bonds;
     assert_int_not_equal(row, JOX_NO_BODY);
-    assert_false(jox_bodies_glue(b, row, &glue));
+    assert_false(jox_bodies_bonds(b, row, &bonds));
     jox_text_free(&error);
     jox_bodies_free(b);
 }

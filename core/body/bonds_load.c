@@ -1,9 +1,9 @@
-/* The glue's loads: what acts from outside, what of it the glue carries, and what breaks. */
+/* Loads of bonds: what acts from outside, what of it the bonds carry, and what breaks. */
 #include <math.h>
 #include <string.h>
 
 #include "base/elementary.h"
-#include "body/glue.h"
+#include "body/bonds.h"
 
 static const double ACROSS = 0.4;     /* stiffness of a bond across it, along it is 1 */
 static const double TOLERANCE = 1e-4; /* residual of the solution over the loads */
@@ -27,8 +27,8 @@ static void turned(const double m[9], const double v[3], double out[3]) {
         out[i] = m[3 * i] * v[0] + m[3 * i + 1] * v[1] + m[3 * i + 2] * v[2];
 }
 
-void jox_glue_hit(JoxGlue *g, const double point[3], const double impulse[3]) {
-    double *to = g->impulse[jox_glue_block(g, point)];
+void jox_bonds_add_impulse(JoxBondGraph *g, const double point[3], const double impulse[3]) {
+    double *to = g->impulse[jox_bonds_block_at(g, point)];
     for (int i = 0; i < 3; i++)
         to[i] += impulse[i];
 }
@@ -61,7 +61,7 @@ static void solve_three(double m[9], double b[3], double x[3]) {
 
 /* Impulses J/n + w x d_i about the points' middle, with w such that their moment is that asked
    for. */
-static void spread(JoxGlueContact *c, uint32_t n, const double force[3], const double moment[3]) {
+static void spread(JoxBondContact *c, uint32_t n, const double force[3], const double moment[3]) {
     double middle[3] = {0, 0, 0}, m[9] = {0}, rest[3], w[3], d[3];
     for (uint32_t k = 0; k < n; k++)
         for (int i = 0; i < 3; i++)
@@ -87,7 +87,7 @@ static void spread(JoxGlueContact *c, uint32_t n, const double force[3], const d
 }
 
 /* One contact per block, in the middle of its touching side; returns how many. */
-static uint32_t join_contacts(const JoxGlue *g, JoxGlueContact *c, uint32_t n,
+static uint32_t join_contacts(const JoxBondGraph *g, JoxBondContact *c, uint32_t n,
                               const double normal[3]) {
     uint32_t kept = 0;
     double away[3];
@@ -98,7 +98,7 @@ static uint32_t join_contacts(const JoxGlue *g, JoxGlueContact *c, uint32_t n,
             continue;
         g->label[c[k].block] = 0;
         c[kept] = c[k];
-        jox_glue_place(g, c[k].block, away);
+        jox_bonds_block_centre(g, c[k].block, away);
         for (int i = 0; i < 3; i++)
             away[i] -= c[kept].point[i];
         double height = dot(away, normal);
@@ -109,7 +109,8 @@ static uint32_t join_contacts(const JoxGlue *g, JoxGlueContact *c, uint32_t n,
     return kept;
 }
 
-void jox_glue_lean(JoxGlue *g, JoxGlueContact *c, uint32_t n, const double normal[3]) {
+void jox_bonds_add_contacts(JoxBondGraph *g, JoxBondContact *c, uint32_t n,
+                            const double normal[3]) {
     double force[3] = {0, 0, 0}, moment[3] = {0, 0, 0}, m[3];
     for (uint32_t k = 0; k < n; k++) {
         cross(c[k].point, c[k].impulse, m);
@@ -140,8 +141,8 @@ void jox_glue_lean(JoxGlue *g, JoxGlueContact *c, uint32_t n, const double norma
 /* ---- equilibrium ---- */
 
 /* Filters the impulses of a step into loads. */
-static void take_in(JoxGlue *g, double dt) {
-    double share = 1.0 - jox_exp(-dt / JOX_GLUE_MEMORY);
+static void take_in(JoxBondGraph *g, double dt) {
+    double share = 1.0 - jox_exp(-dt / JOX_BONDS_LOAD_TIME);
     for (uint32_t n = 0; n < g->count; n++)
         for (int i = 0; i < 3; i++) {
             g->load[n][i] += share * (g->impulse[n][i] / dt - g->load[n][i]);
@@ -151,10 +152,10 @@ static void take_in(JoxGlue *g, double dt) {
 
 /* f: the loads less mass times acceleration of the rigid whole. Returns half the sum of their
    sizes, which no bond's force exceeds. */
-static double relieve(const JoxGlue *g, const double spin[3], Three *f) {
+static double relieve(const JoxBondGraph *g, const double spin[3], Three *f) {
     double force[3] = {0, 0, 0}, moment[3] = {0, 0, 0}, m[3], p[3], turn[3], sum = 0.0;
     for (uint32_t n = 0; n < g->count; n++) {
-        jox_glue_place(g, n, p);
+        jox_bonds_block_centre(g, n, p);
         for (int i = 0; i < 3; i++) {
             p[i] -= g->centre[i];
             force[i] += g->load[n][i];
@@ -171,7 +172,7 @@ static double relieve(const JoxGlue *g, const double spin[3], Three *f) {
     turned(g->inverse, moment, turn);
     for (uint32_t n = 0; n < g->count; n++) {
         double swing[3], round[3], size = 0.0;
-        jox_glue_place(g, n, p);
+        jox_bonds_block_centre(g, n, p);
         for (int i = 0; i < 3; i++)
             p[i] -= g->centre[i];
         cross(turn, p, swing);
@@ -187,10 +188,10 @@ static double relieve(const JoxGlue *g, const double spin[3], Three *f) {
 }
 
 /* out = A u for the three weighted Laplacians at once. */
-static void apply(const JoxGlue *g, const Three *u, Three *out) {
+static void apply(const JoxBondGraph *g, const Three *u, Three *out) {
     memset(out, 0, g->count * sizeof *out);
     for (uint32_t k = 0; k < g->bond_count; k++) {
-        const JoxGlueBond *bond = &g->bonds[k];
+        const JoxBond *bond = &g->bonds[k];
         for (uint32_t i = 0; i < 3; i++) {
             double pull = (bond->axis == i ? 1.0 : ACROSS) * (u[bond->b][i] - u[bond->a][i]);
             out[bond->a][i] -= pull;
@@ -200,7 +201,7 @@ static void apply(const JoxGlue *g, const Three *u, Three *out) {
 }
 
 /* Sums over the blocks for each component. */
-static void sums(const JoxGlue *g, const Three *a, const Three *b, double out[3]) {
+static void sums(const JoxBondGraph *g, const Three *a, const Three *b, double out[3]) {
     memset(out, 0, 3 * sizeof *out);
     for (uint32_t n = 0; n < g->count; n++)
         for (int i = 0; i < 3; i++)
@@ -209,8 +210,8 @@ static void sums(const JoxGlue *g, const Three *a, const Three *b, double out[3]
 
 /* Conjugate gradients for x, y and z side by side, begun at the last solution. The body must be in
    one piece: then the loads sum to zero, as the singular systems need. */
-static void equilibrium(JoxGlue *g, const Three *f) {
-    Three *u = g->moved, *r = g->scratch, *p = r + g->count, *q = p + g->count;
+static void equilibrium(JoxBondGraph *g, const Three *f) {
+    Three *u = g->displacement, *r = g->scratch, *p = r + g->count, *q = p + g->count;
     double before[3], after[3], along[3], enough[3];
     apply(g, u, q);
     for (uint32_t n = 0; n < g->count; n++)
@@ -245,10 +246,10 @@ static void equilibrium(JoxGlue *g, const Three *f) {
 }
 
 /* What a bond carries over what it bears. */
-static double burden(const JoxGlue *g, const JoxGlueBond *bond) {
+static double load_ratio(const JoxBondGraph *g, const JoxBond *bond) {
     double tension = 0.0, shear2 = 0.0;
     for (uint32_t i = 0; i < 3; i++) {
-        double pull = g->moved[bond->b][i] - g->moved[bond->a][i];
+        double pull = g->displacement[bond->b][i] - g->displacement[bond->a][i];
         if (bond->axis == i)
             tension = pull > 0.0 ? pull : 0.0;
         else
@@ -259,38 +260,38 @@ static double burden(const JoxGlue *g, const JoxGlueBond *bond) {
 
 /* Cuts every bond over its strength that carries nearly as much as the worst: the others may be
    relieved by that, or get more. */
-static uint32_t cut_worst(JoxGlue *g) {
-    g->greatest = 0.0;
+static uint32_t cut_worst(JoxBondGraph *g) {
+    g->peak_load = 0.0;
     for (uint32_t k = 0; k < g->bond_count; k++) {
-        double share = burden(g, &g->bonds[k]);
-        g->greatest = share > g->greatest ? share : g->greatest;
+        double share = load_ratio(g, &g->bonds[k]);
+        g->peak_load = share > g->peak_load ? share : g->peak_load;
     }
-    if (!(g->greatest > 1.0))
+    if (!(g->peak_load > 1.0))
         return 0;
-    double limit = 0.95 * g->greatest > 1.0 ? 0.95 * g->greatest : 1.0;
+    double limit = 0.95 * g->peak_load > 1.0 ? 0.95 * g->peak_load : 1.0;
     uint32_t kept = 0, all = g->bond_count;
     for (uint32_t k = 0; k < all; k++)
-        if (burden(g, &g->bonds[k]) <= limit)
+        if (load_ratio(g, &g->bonds[k]) <= limit)
             g->bonds[kept++] = g->bonds[k];
     g->bond_count = kept;
     return all - kept;
 }
 
-uint32_t jox_glue_step(JoxGlue *g, double dt, const double spin[3]) {
+uint32_t jox_bonds_step(JoxBondGraph *g, double dt, const double spin[3]) {
     Three *f = g->scratch + 3 * (size_t)g->count;
     double weakest = INFINITY;
     uint32_t cut = 0;
     take_in(g, dt);
     for (uint32_t k = 0; k < g->bond_count; k++)
         weakest = g->bonds[k].strength < weakest ? g->bonds[k].strength : weakest;
-    g->greatest = 0.0;
+    g->peak_load = 0.0;
     if (!(relieve(g, spin, f) > weakest))
         return 0;
     for (int round = 0; round < MOST_ROUNDS; round++) {
         equilibrium(g, f);
         uint32_t now = cut_worst(g);
         cut += now;
-        if (now == 0 || jox_glue_pieces(g) > 1)
+        if (now == 0 || jox_bonds_label_pieces(g) > 1)
             break;
     }
     return cut;

@@ -1,4 +1,4 @@
-/* Bodies of glued blocks: one compound in Bullet while whole. Here their loads are gathered from
+/* Bodies of bonded blocks: one compound in Bullet while whole. Here their loads are gathered from
    Bullet's contacts, and what broke goes on in pieces. */
 #include "body/bullet.h"
 
@@ -16,10 +16,10 @@ const float TOUCHING = 0.005f; /* m: nearer points of contact are taken for touc
 
 } // namespace
 
-JoxGlue *jox_row_glue(const JoxBodyDef *def, JoxText *error) {
+JoxBondGraph *jox_row_bonds(const JoxBodyDef *def, JoxText *error) {
     const JoxShape *shape = &def->shape;
     double blocks = double(shape->count[0]) * shape->count[1] * shape->count[2], volume = blocks;
-    bool good = blocks >= 1 && blocks <= JOX_GLUE_MOST_BLOCKS;
+    bool good = blocks >= 1 && blocks <= JOX_BONDS_MOST_BLOCKS;
     for (double size : shape->size) {
         good = good && size >= 0.001 && size <= 1000;
         volume *= size;
@@ -27,48 +27,51 @@ JoxGlue *jox_row_glue(const JoxBodyDef *def, JoxText *error) {
     double mass = def->mass > 0 ? def->mass : def->density * volume;
     /* A body that never moves has no mass, and needs none. */
     double each = mass > 0 && mass <= 1e9 ? mass / blocks : 1.0;
-    JoxGlue *glue = good ? jox_glue_create(shape->count, shape->size, each, shape->bond) : nullptr;
-    if (!glue && error)
+    JoxBondGraph *bonds =
+        good ? jox_bonds_create(shape->count, shape->size, each, shape->bond) : nullptr;
+    if (!bonds && error)
         jox_text_add(error, "glued blocks are 1 to 4096 of 0.001 to 1000 m, with bonds of more "
                             "than 0 N");
-    return glue;
+    return bonds;
 }
 
-bool jox_built_blocks(const JoxGlue *glue, bool still, JoxBuilt *out, JoxText *error) {
-    JoxBodyPart *parts = static_cast<JoxBodyPart *>(jox_alloc(glue->count, sizeof(JoxBodyPart)));
-    for (uint32_t n = 0; n < glue->count; n++) {
+bool jox_body_shape_of_blocks(const JoxBondGraph *bonds, bool still, JoxBodyShape *out,
+                              JoxText *error) {
+    JoxBodyPart *parts = static_cast<JoxBodyPart *>(jox_alloc(bonds->count, sizeof(JoxBodyPart)));
+    for (uint32_t n = 0; n < bonds->count; n++) {
         parts[n].shape.kind = JOX_SHAPE_BOX;
         for (int i = 0; i < 3; i++)
-            parts[n].shape.size[i] = glue->size[i];
-        jox_glue_place(glue, n, parts[n].position);
-        parts[n].mass = glue->block_mass;
+            parts[n].shape.size[i] = bonds->size[i];
+        jox_bonds_block_centre(bonds, n, parts[n].position);
+        parts[n].mass = bonds->block_mass;
     }
     JoxBodyDef def = jox_body_def();
     def.shape.kind = JOX_SHAPE_COMPOUND;
     def.shape.parts = parts;
-    def.shape.part_count = glue->count;
-    bool made = jox_built_make(&def, still, out, error);
+    def.shape.part_count = bonds->count;
+    bool made = jox_body_shape_make(&def, still, out, error);
     jox_free(parts);
     return made;
 }
 
 btTransform jox_row_frame(const JoxRow *r) {
-    return r->body->getWorldTransform() * r->built.frame.inverse();
+    return r->body->getWorldTransform() * r->shape.frame.inverse();
 }
 
-void jox_row_hit(JoxRow *r, const btVector3 &point, const btVector3 &impulse) {
+void jox_row_add_impulse(JoxRow *r, const btVector3 &point, const btVector3 &impulse) {
     btTransform frame = jox_row_frame(r);
     Triple at = triple(frame.invXform(point)), p = triple(impulse * frame.getBasis());
-    jox_glue_hit(r->glue, at.at, p.at);
+    jox_bonds_add_impulse(r->bonds, at.at, p.at);
 }
 
 /* ---- contacts ---- */
 
-/* `sign` is 1 where the glued body is the first of the manifold. */
-static void add_leans(JoxBodies *b, const btPersistentManifold *manifold,
-                      const btCollisionObject *own, const btCollisionObject *other, float sign) {
+/* `sign` is 1 where the bonded body is the first of the manifold. */
+static void add_contact_loads(JoxBodies *b, const btPersistentManifold *manifold,
+                              const btCollisionObject *own, const btCollisionObject *other,
+                              float sign) {
     int row = own->getUserIndex();
-    if (row < 0 || !b->rows[row].glue || b->rows[row].held || !own->isActive())
+    if (row < 0 || !b->rows[row].bonds || b->rows[row].held || !own->isActive())
         return;
     uint64_t key = uint64_t(row) << 32 | uint32_t(other->getUserIndex());
     for (int c = 0; c < manifold->getNumContacts(); c++) {
@@ -81,79 +84,80 @@ static void add_leans(JoxBodies *b, const btPersistentManifold *manifold,
         if (!jox_finite(impulse))
             continue;
         int child = sign > 0 ? p.m_index0 : p.m_index1; /* children are in the order of blocks */
-        uint32_t block = child >= 0 && uint32_t(child) < b->rows[row].glue->count ? child : 0;
-        jox_reserve(b->leans, b->lean_capacity, b->lean_count + 1);
-        b->leans[b->lean_count] =
-            JoxLean{key,
-                    b->lean_count,
-                    block,
-                    sign > 0 ? p.getPositionWorldOnA() : p.getPositionWorldOnB(),
-                    impulse * sign,
-                    p.m_normalWorldOnB * sign};
-        b->lean_count++;
+        uint32_t block = child >= 0 && uint32_t(child) < b->rows[row].bonds->count ? child : 0;
+        jox_reserve(b->contact_loads, b->contact_load_capacity, b->contact_load_count + 1);
+        b->contact_loads[b->contact_load_count] =
+            JoxContactLoad{key,
+                           b->contact_load_count,
+                           block,
+                           sign > 0 ? p.getPositionWorldOnA() : p.getPositionWorldOnB(),
+                           impulse * sign,
+                           p.m_normalWorldOnB * sign};
+        b->contact_load_count++;
     }
 }
 
 /* Shell's sort by key, then by number. */
-static void sort_leans(JoxLean *leans, uint32_t count) {
+static void sort_contact_loads(JoxContactLoad *contact_loads, uint32_t count) {
     static const uint32_t gaps[] = {9841, 3280, 1093, 364, 121, 40, 13, 4, 1};
     for (uint32_t gap : gaps)
         for (uint32_t i = gap; i < count; i++) {
-            JoxLean moved = leans[i];
+            JoxContactLoad moved = contact_loads[i];
             uint32_t j = i;
             for (; j >= gap; j -= gap) {
-                const JoxLean &before = leans[j - gap];
+                const JoxContactLoad &before = contact_loads[j - gap];
                 if (before.key < moved.key ||
                     (before.key == moved.key && before.number < moved.number))
                     break;
-                leans[j] = before;
+                contact_loads[j] = before;
             }
-            leans[j] = moved;
+            contact_loads[j] = moved;
         }
 }
 
-void jox_bodies_lean(JoxBodies *b) {
-    b->lean_count = 0;
+void jox_bodies_gather_contacts(JoxBodies *b) {
+    b->contact_load_count = 0;
     for (int m = 0; m < b->dispatcher->getNumManifolds(); m++) {
         const btPersistentManifold *manifold = b->dispatcher->getManifoldByIndexInternal(m);
         const btCollisionObject *one = manifold->getBody0(), *two = manifold->getBody1();
-        add_leans(b, manifold, one, two, 1);
-        add_leans(b, manifold, two, one, -1);
+        add_contact_loads(b, manifold, one, two, 1);
+        add_contact_loads(b, manifold, two, one, -1);
     }
-    sort_leans(b->leans, b->lean_count);
-    jox_reserve(b->contacts, b->contact_capacity, b->lean_count);
-    for (uint32_t first = 0, last; first < b->lean_count; first = last) {
-        JoxRow *r = &b->rows[b->leans[first].key >> 32];
+    sort_contact_loads(b->contact_loads, b->contact_load_count);
+    jox_reserve(b->contacts, b->contact_capacity, b->contact_load_count);
+    for (uint32_t first = 0, last; first < b->contact_load_count; first = last) {
+        JoxRow *r = &b->rows[b->contact_loads[first].key >> 32];
         btTransform frame = jox_row_frame(r);
         btVector3 normal(0, 0, 0);
-        for (last = first; last < b->lean_count && b->leans[last].key == b->leans[first].key;
+        for (last = first; last < b->contact_load_count &&
+                           b->contact_loads[last].key == b->contact_loads[first].key;
              last++) {
-            Triple at = triple(frame.invXform(b->leans[last].point));
-            Triple p = triple(b->leans[last].impulse * frame.getBasis());
-            JoxGlueContact *to = &b->contacts[last - first];
-            to->block = b->leans[last].block;
+            Triple at = triple(frame.invXform(b->contact_loads[last].point));
+            Triple p = triple(b->contact_loads[last].impulse * frame.getBasis());
+            JoxBondContact *to = &b->contacts[last - first];
+            to->block = b->contact_loads[last].block;
             for (int i = 0; i < 3; i++) {
                 to->point[i] = at.at[i];
                 to->impulse[i] = p.at[i];
             }
-            normal += b->leans[last].normal;
+            normal += b->contact_loads[last].normal;
         }
         normal = normal.length2() > 1e-12f ? normal.normalized() : btVector3(0, 0, 0);
         Triple n = triple(normal * frame.getBasis());
-        jox_glue_lean(r->glue, b->contacts, last - first, n.at);
+        jox_bonds_add_contacts(r->bonds, b->contacts, last - first, n.at);
     }
 }
 
 /* ---- coming apart ---- */
 
-/* Glue without bonds is none. */
-static void give_glue(JoxBodies *b, uint32_t row, JoxGlue *glue) {
-    if (glue->bond_count == 0) {
-        jox_glue_free(glue);
+/* A body without bonds left needs no graph. */
+static void set_bonds(JoxBodies *b, uint32_t row, JoxBondGraph *bonds) {
+    if (bonds->bond_count == 0) {
+        jox_bonds_free(bonds);
         return;
     }
-    b->rows[row].glue = glue;
-    b->glued++;
+    b->rows[row].bonds = bonds;
+    b->bonded++;
 }
 
 /* A piece keeps turning, and moves as its own centre of mass did in the whole: then momentum and
@@ -170,12 +174,12 @@ static void set_going(btRigidBody *body, const Motion &whole) {
     body->activate(true);
 }
 
-static uint32_t greatest_piece(const JoxGlue *glue, uint32_t pieces) {
+static uint32_t greatest_piece(const JoxBondGraph *bonds, uint32_t pieces) {
     uint32_t best = 0, most = 0;
     for (uint32_t label = 0; label < pieces; label++) {
         uint32_t blocks = 0;
-        for (uint32_t n = 0; n < glue->count; n++)
-            blocks += glue->label[n] == label;
+        for (uint32_t n = 0; n < bonds->count; n++)
+            blocks += bonds->label[n] == label;
         if (blocks > most) {
             most = blocks;
             best = label;
@@ -186,38 +190,39 @@ static uint32_t greatest_piece(const JoxGlue *glue, uint32_t pieces) {
 
 static void fall_apart(JoxBodies *b, uint32_t row, uint32_t pieces) {
     JoxRow *r = &b->rows[row];
-    JoxGlue *glue = r->glue;
+    JoxBondGraph *bonds = r->bonds;
     const Motion whole = {jox_row_frame(r), r->body->getWorldTransform().getOrigin(),
                           r->body->getLinearVelocity(), r->body->getAngularVelocity()};
     const JoxMaterial material = {r->body->getFriction(), r->body->getRestitution(),
                                   r->body->getLinearDamping(), r->body->getAngularDamping()};
     const uint64_t tags = r->tags;
-    uint32_t keeps = greatest_piece(glue, pieces);
+    uint32_t keeps = greatest_piece(bonds, pieces);
     b->world->removeRigidBody(r->body);
     delete r->body;
-    jox_built_free(&r->built);
-    r->glue = nullptr;
-    b->glued--;
+    jox_body_shape_free(&r->shape);
+    r->bonds = nullptr;
+    b->bonded--;
     for (uint32_t label = 0; label < pieces; label++) {
         Triple centre;
-        JoxBuilt built;
-        JoxGlue *part = jox_glue_part(glue, label, label != keeps, centre.at);
-        jox_built_blocks(part, false, &built, nullptr); /* as good as the whole, which was made */
+        JoxBodyShape shape;
+        JoxBondGraph *part = jox_bonds_extract(bonds, label, label != keeps, centre.at);
+        /* As good as the whole, which was made: it cannot be refused. */
+        jox_body_shape_of_blocks(part, false, &shape, nullptr);
         uint32_t at = row;
         if (label == keeps) {
-            b->rows[row].built = built;
-            jox_row_embody(b, row, whole.frame, material);
+            b->rows[row].shape = shape;
+            jox_row_create_body(b, row, whole.frame, material);
         } else {
             btTransform shift(
                 btQuaternion::getIdentity(),
                 btVector3(float(centre.at[0]), float(centre.at[1]), float(centre.at[2])));
-            at = jox_row_enter(b, &built, whole.frame * shift, material);
+            at = jox_row_add(b, &shape, whole.frame * shift, material);
             b->rows[at].tags = tags;
         }
         set_going(b->rows[at].body, whole);
-        give_glue(b, at, part);
+        set_bonds(b, at, part);
     }
-    jox_glue_free(glue);
+    jox_bonds_free(bonds);
 }
 
 void jox_bodies_break(JoxBodies *b, float dt) {
@@ -225,13 +230,13 @@ void jox_bodies_break(JoxBodies *b, float dt) {
     for (uint32_t k = 0; k < bodies; k++) {
         uint32_t row = b->order[k];
         JoxRow *r = &b->rows[row];
-        if (!r->glue || r->held || !r->body->isActive())
+        if (!r->bonds || r->held || !r->body->isActive())
             continue;
         Triple spin = triple(r->body->getAngularVelocity() * jox_row_frame(r).getBasis());
-        uint32_t cut = jox_glue_step(r->glue, dt, spin.at);
+        uint32_t cut = jox_bonds_step(r->bonds, dt, spin.at);
         if (cut == 0)
             continue;
-        uint32_t pieces = jox_glue_pieces(r->glue);
+        uint32_t pieces = jox_bonds_label_pieces(r->bonds);
         jox_reserve(b->breaks, b->break_capacity, b->break_count + 1);
         b->breaks[b->break_count++] = JoxBodyBreak{row, r->id, cut, pieces};
         if (pieces > 1)
@@ -239,11 +244,11 @@ void jox_bodies_break(JoxBodies *b, float dt) {
     }
 }
 
-bool jox_bodies_glue(const JoxBodies *b, uint32_t row, JoxBodyGlue *glue) {
-    *glue = JoxBodyGlue();
-    if (row >= b->count || !b->rows[row].live || !b->rows[row].glue)
+bool jox_bodies_bonds(const JoxBodies *b, uint32_t row, JoxBodyBonds *bonds) {
+    *bonds = JoxBodyBonds();
+    if (row >= b->count || !b->rows[row].live || !b->rows[row].bonds)
         return false;
-    const JoxGlue *g = b->rows[row].glue;
-    *glue = JoxBodyGlue{g->count, g->bond_count, g->greatest};
+    const JoxBondGraph *g = b->rows[row].bonds;
+    *bonds = JoxBodyBonds{g->count, g->bond_count, g->peak_load};
     return true;
 }

@@ -13,7 +13,7 @@ static const float HAND_STEADY = 6.0f; /* 1/s: how fast it stops turning */
 
 uint32_t jox_world_add_box(JoWorld *w, const double at[3], const double velocity[3], double size,
                            double mass, JoxText *why) {
-    JoxHands *hands = &w->hands;
+    JoxDrags *drags = &w->drags;
     JoxBodyDef def = jox_body_def();
     memcpy(def.position, at, sizeof def.position);
     memcpy(def.velocity, velocity, sizeof def.velocity);
@@ -26,25 +26,25 @@ uint32_t jox_world_add_box(JoWorld *w, const double at[3], const double velocity
     if (row == JOX_NO_BODY)
         return row;
     jox_bodies_objects(w->bodies, &w->objects);
-    if (hands->box_count == JOX_MOST_BOXES) { /* the oldest goes */
-        jox_bodies_remove(w->bodies, jox_bodies_find(w->bodies, hands->boxes[0]));
+    if (drags->box_count == JOX_MOST_BOXES) { /* the oldest goes */
+        jox_bodies_remove(w->bodies, jox_bodies_find(w->bodies, drags->boxes[0]));
         jox_bodies_objects(w->bodies, &w->objects);
-        memmove(hands->boxes, hands->boxes + 1, --hands->box_count * sizeof *hands->boxes);
+        memmove(drags->boxes, drags->boxes + 1, --drags->box_count * sizeof *drags->boxes);
     }
-    hands->boxes[hands->box_count++] = w->objects.rows[row].id;
+    drags->boxes[drags->box_count++] = w->objects.rows[row].id;
     return row;
 }
 
 static int32_t find_grab(const JoWorld *w, uint32_t row) {
-    for (uint32_t g = 0; g < w->hands.grab_count; g++)
-        if (w->hands.grabs[g].row == row && row < w->objects.count &&
-            w->objects.rows[row].id == w->hands.grabs[g].id)
+    for (uint32_t g = 0; g < w->drags.grab_count; g++)
+        if (w->drags.grabs[g].row == row && row < w->objects.count &&
+            w->objects.rows[row].id == w->drags.grabs[g].id)
             return (int32_t)g;
     return -1;
 }
 
 static void drop(JoWorld *w, uint32_t g) {
-    w->hands.grabs[g] = w->hands.grabs[--w->hands.grab_count];
+    w->drags.grabs[g] = w->drags.grabs[--w->drags.grab_count];
 }
 
 JoxGrabbed jox_world_grab(JoWorld *w, uint32_t row, const double to[3], bool anew) {
@@ -57,13 +57,13 @@ JoxGrabbed jox_world_grab(JoWorld *w, uint32_t row, const double to[3], bool ane
     int32_t g = find_grab(w, row);
     if (g < 0 && !anew)
         return JOX_GRAB_FREE;
-    if (g < 0 && w->hands.grab_count == JOX_MOST_GRABS)
+    if (g < 0 && w->drags.grab_count == JOX_MOST_GRABS)
         return JOX_GRAB_FULL;
     if (g < 0)
-        g = (int32_t)w->hands.grab_count++;
+        g = (int32_t)w->drags.grab_count++;
     if (w->objects.rows[row].held) /* who carries it loses it */
         jox_bodies_let_go(w->bodies, row, pose.velocity);
-    w->hands.grabs[g] =
+    w->drags.grabs[g] =
         (struct JoxGrab){row, w->objects.rows[row].id, {(float)to[0], (float)to[1], (float)to[2]}};
     return JOX_GRAB_DONE;
 }
@@ -86,8 +86,8 @@ static JoxV3 at_most(JoxV3 v, float most) {
 }
 
 void jox_world_pull(JoWorld *w) {
-    for (uint32_t g = 0; g < w->hands.grab_count;) {
-        const struct JoxGrab *grab = &w->hands.grabs[g];
+    for (uint32_t g = 0; g < w->drags.grab_count;) {
+        const struct JoxGrab *grab = &w->drags.grabs[g];
         JoxPose pose;
         if (!jox_bodies_pose(w->bodies, grab->row, &pose) ||
             w->objects.rows[grab->row].id != grab->id) {
@@ -112,9 +112,9 @@ void jox_world_pull(JoWorld *w) {
     }
 }
 
-void jox_hands_hash(const JoxHands *hands, JoxHash *hash) {
-    if (hands->box_count)
-        jox_hash_add(hash, hands->boxes, hands->box_count * sizeof *hands->boxes);
-    if (hands->grab_count)
-        jox_hash_add(hash, hands->grabs, hands->grab_count * sizeof *hands->grabs);
+void jox_drags_hash(const JoxDrags *drags, JoxHash *hash) {
+    if (drags->box_count)
+        jox_hash_add(hash, drags->boxes, drags->box_count * sizeof *drags->boxes);
+    if (drags->grab_count)
+        jox_hash_add(hash, drags->grabs, drags->grab_count * sizeof *drags->grabs);
 }

@@ -207,7 +207,7 @@ static size_t check_all(const char *const *paths, size_t count, bool json, JoMes
 size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
                 void *context) {
     JOX_REQUIRE(paths && message, 0);
-    JOX_GUARD(NULL, NULL) {
+    JOX_GUARD (NULL, NULL) {
         message(context, "out of memory\n");
         return 1;
     }

@@ -1,7 +1,7 @@
 /* Bodies in people's hands: boxes that they threw in, and what they pull along. State of a world
    that is carried from step to step. */
-#ifndef JOX_WORLD_HANDS_H
-#define JOX_WORLD_HANDS_H
+#ifndef JOX_WORLD_DRAG_H
+#define JOX_WORLD_DRAG_H
 
 #include "base/hash.h"
 #include "base/vec.h"
@@ -9,7 +9,7 @@
 enum { JOX_MOST_BOXES = 200, JOX_MOST_GRABS = 64 };
 
 /* Zero-initialised is empty. */
-typedef struct JoxHands {
+typedef struct JoxDrags {
     uint32_t boxes[JOX_MOST_BOXES]; /* ids of their bodies, the oldest first */
     uint32_t box_count;
     struct JoxGrab {
@@ -17,8 +17,8 @@ typedef struct JoxHands {
         JoxV3 to;         /* where its centre of mass is to be, m */
     } grabs[JOX_MOST_GRABS];
     uint32_t grab_count;
-} JoxHands;
+} JoxDrags;
 
-void jox_hands_hash(const JoxHands *hands, JoxHash *hash);
+void jox_drags_hash(const JoxDrags *drags, JoxHash *hash);
 
 #endif

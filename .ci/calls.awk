@@ -1,0 +1,59 @@
+# Who calls whom, from `nm -A` of the object files: a file calls its own folder or a strictly lower
+# floor (the floors of layers.awk), and within a folder calls go one way: no circle of files. Data that
+# a file reads counts as a call. Prints each breach. Read after floors.awk. The first file read lists pairs that are
+# tolerated: "CALLER CALLED why", paths below core/ without ending.
+BEGIN { floors(floor_of) }
+FNR == NR {
+    if ($0 !~ /^#/ && NF > 2) allowed[$1 " " $2] = 1
+    next
+}
+{
+    file = $1
+    sub(/:.*$/, "", file)
+    sub(/^.*\/core\//, "", file)
+    sub(/\.o$/, "", file)
+    kind = $(NF - 1); symbol = $NF
+    if (symbol !~ /^jox?_/) next # statics, the C library, C++ names
+    if (kind ~ /^[TDBRV]$/) { home[symbol] = file; files[file] = 1 }
+    else if (kind == "U") wants[file] = wants[file] " " symbol
+}
+function room_of(path) { sub(/\/[^\/]*$/, "", path); return path }
+function may_call(mine, other,    a, b) {
+    if (mine == other) return 1
+    split(mine, a, "/"); split(other, b, "/")
+    if (a[1] == b[1]) return floor_of[other] < floor_of[mine]
+    return int(floor_of[other]) < int(floor_of[mine])
+}
+# Tarjan's strongly connected components.
+function visit(v,    list, n, i, w, members, size) {
+    number[v] = low[v] = ++counter
+    stack[++depth] = v; on_stack[v] = 1
+    n = split(calls[v], list, " ")
+    for (i = 1; i <= n; i++) {
+        w = list[i]
+        if (!number[w]) { visit(w); if (low[w] < low[v]) low[v] = low[w] }
+        else if (on_stack[w] && number[w] < low[v]) low[v] = number[w]
+    }
+    if (low[v] != number[v]) return
+    members = ""; size = 0
+    do { w = stack[depth--]; on_stack[w] = 0; members = members " " w; size++ } while (w != v)
+    if (size > 1) print "circle of calls:" members
+}
+END {
+    for (file in wants) {
+        n = split(wants[file], list, " ")
+        for (i = 1; i <= n; i++) {
+            other = home[list[i]]
+            if (other == "" || other == file) continue
+            pair = file " " other
+            if (!may_call(room_of(file), room_of(other)) && !(pair in allowed))
+                print file " calls " list[i] " of " other ", which is not below it"
+            if (room_of(file) == room_of(other) && !(pair in allowed) && !(pair in known)) {
+                known[pair] = 1
+                calls[file] = calls[file] " " other
+                through[pair] = list[i]
+            }
+        }
+    }
+    for (file in files) if (!number[file]) visit(file)
+}

@@ -1,0 +1,115 @@
+/* The agents' state as sections, and their scratch, which a step may forget. */
+#include <math.h>
+#include <string.h>
+
+#include "agents/agents.h"
+
+/* What to do with a column by its mark. */
+#define KEEP_STATE(s, a, name)                                                                     \
+    jox_section_ordered(s, #name, (a)->name, sizeof *(a)->name, (a)->count, order);
+#define KEEP_SCRATCH(s, a, name)
+#define KEEP_INDEX(s, a, name)
+
+static void list_columns(JoxAgents *a, JoxSections *s, const uint32_t *order) {
+#define X(keep, type, name) KEEP_##keep(s, a, name)
+    JOX_AGENT_COLUMNS(X)
+#undef X
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        jox_section_ordered(s, jox_parameters[p].name, a->param[p], sizeof(float), a->count, order);
+    jox_section_rows(s, "own", a->own, a->own_stride, a->count, order);
+    jox_section_rows(s, "memory", a->memory, a->memory_stride, a->count, order);
+}
+
+/* Handles. Slots without an agent keep their generation, so that old handles stay invalid. */
+static void list_slots(JoxAgents *a, JoxSections *s) {
+    jox_section(s, "slot_generation", a->slot_generation, sizeof *a->slot_generation,
+                a->slot_count);
+    jox_section(s, "free_slots", a->free_slots, sizeof *a->free_slots, a->free_count);
+}
+
+/* Reads the numbers that say how large everything is, and makes room for it. False if they are no
+   state: nothing is changed then. */
+static bool restore_sizes(JoxAgents *a, JoxSections *s) {
+    size_t id_size = sizeof *a->id, row = sizeof *a->own;
+    size_t count = jox_section_count(s, "count", 0, id_size);
+    size_t own = jox_section_count(s, "own_stride", 0, row);
+    size_t memory = jox_section_count(s, "memory_stride", 0, row);
+    size_t slots = jox_section_count(s, "slot_count", 0, sizeof *a->slot_generation);
+    size_t spare = jox_section_count(s, "free_count", 0, sizeof *a->free_slots);
+    uint32_t next_id = 0;
+    JOX_SECTION(s, "next_id", next_id);
+    if (count + spare != slots || count > next_id)
+        jox_sections_fail(s, "count", "agents and free slots do not add up");
+    if (s->failed)
+        return false;
+    a->count = 0; /* rows are about to be read: nothing is worth moving */
+    jox_agents_reserve(a, (uint32_t)count);
+    jox_free(a->own);
+    jox_free(a->memory);
+    a->own = a->memory = NULL;
+    a->own_stride = a->memory_stride = 0;
+    jox_agents_widen(a, (uint32_t)own, (uint32_t)memory);
+    jox_agents_reserve_slots(a, (uint32_t)slots);
+    a->count = (uint32_t)count;
+    a->slot_count = (uint32_t)slots;
+    a->free_count = (uint32_t)spare;
+    a->next_id = next_id;
+    return true;
+}
+
+/* Ranks, and the tables of ranks and slots, from the ids and slots that were read. */
+static void restore_indices(JoxAgents *a, JoxSections *s) {
+    for (uint32_t k = 0; k < a->slot_count; k++)
+        a->slot_index[k] = JOX_NO_INDEX;
+    for (uint32_t i = 0; i < a->count && !s->failed; i++) {
+        if (a->id[i] >= a->next_id || (i && a->id[i] <= a->id[i - 1]))
+            jox_sections_fail(s, "id", "ids do not ascend");
+        else if (a->slot[i] >= a->slot_count || a->slot_index[a->slot[i]] != JOX_NO_INDEX)
+            jox_sections_fail(s, "slot", "two agents have one slot");
+        else
+            a->slot_index[a->slot[i]] = a->rank[i] = a->by_rank[i] = i;
+        a->rank_id[i] = a->id[i];
+    }
+    for (uint32_t k = 0; k < a->free_count; k++)
+        if (a->free_slots[k] >= a->slot_count || a->slot_index[a->free_slots[k]] != JOX_NO_INDEX)
+            jox_sections_fail(s, "free_slots", "a free slot is taken");
+    if (s->failed)
+        a->count = a->slot_count = a->free_count = 0;
+}
+
+void jox_agents_sections(JoxAgents *a, JoxSections *s) {
+    jox_sections_module(s, "agents");
+    if (s->mode == JOX_SECTIONS_RESTORE) {
+        uint32_t own = a->own_stride, memory = a->memory_stride;
+        if (!restore_sizes(a, s))
+            return;
+        list_columns(a, s, NULL);
+        list_slots(a, s);
+        restore_indices(a, s);
+        jox_agents_widen(a, own, memory); /* machines may have come that need wider rows */
+        return;
+    }
+    jox_section_count(s, "count", a->count, sizeof *a->id);
+    jox_sections_unhashed(s, true); /* rows may be wider than need be, from an older machine */
+    jox_section_count(s, "own_stride", a->own_stride, sizeof *a->own);
+    jox_section_count(s, "memory_stride", a->memory_stride, sizeof *a->memory);
+    jox_sections_unhashed(s, false);
+    jox_section_count(s, "slot_count", a->slot_count, sizeof *a->slot_generation);
+    jox_section_count(s, "free_count", a->free_count, sizeof *a->free_slots);
+    JOX_SECTION(s, "next_id", a->next_id);
+    list_columns(a, s, a->by_rank);
+    list_slots(a, s);
+}
+
+#define FORGET_STATE(a, name)
+#define FORGET_INDEX(a, name)
+#define FORGET_SCRATCH(a, name) memset((a)->name, 0xff, (a)->count * sizeof *(a)->name);
+
+void jox_agents_forget(JoxAgents *a) {
+    if (a->count == 0)
+        return;
+        /* All bits set are NaN in a float and the greatest whole number. */
+#define X(keep, type, name) FORGET_##keep(a, name)
+    JOX_AGENT_COLUMNS(X)
+#undef X
+}

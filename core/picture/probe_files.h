@@ -1,0 +1,12 @@
+/* The files of a probe: its table, and its picture. */
+#ifndef JOX_PICTURE_PROBE_FILES_H
+#define JOX_PICTURE_PROBE_FILES_H
+
+#include "record/probes/probe.h"
+
+/* NAME.csv, and with a title NAME.png and NAME.svg, into a folder that is there. False with a
+   sentence in `error`. */
+bool jox_probe_write(const JoxProbe *probe, const char *folder, const JoxWalls *walls,
+                     const char *title, JoxText *error);
+
+#endif

@@ -1,0 +1,160 @@
+/* The files that a run leaves: CSV files of its probes and of danger, and their pictures. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/assert.h"
+#include "base/guard.h"
+#include "base/mem.h"
+#include "picture/paths.h"
+#include "picture/plot.h"
+#include "picture/probe_files.h"
+#include "report/danger_files.h"
+#include "run/run.h"
+
+static const double PACE = 0.1; /* s between points of paths, or a step where that is longer */
+
+typedef struct RunReport {
+    char *folder;
+    JoxPaths *paths; /* NULL: CSV files alone, no pictures */
+} RunReport;
+
+static bool begin(void *self, JoScene *scene, const void *folder, JoError *error) {
+    RunReport *r = self;
+    JoxText why = {0};
+    if (!jox_plot_folder(folder, &why))
+        return jox_run_failed(error, &why);
+    r->folder = jox_strdup(folder);
+    jox_run_collect_danger(scene);
+    return true;
+}
+
+static bool begin_with_pictures(void *self, JoScene *scene, const void *folder, JoError *error) {
+    RunReport *r = self;
+    if (!begin(self, scene, folder, error))
+        return false;
+    r->paths = jox_paths_create();
+    jox_run_collect_density(scene);
+    return true;
+}
+
+/* Points of the paths of those who came first, and of what moves. */
+static bool sample_paths(void *self, JoScene *scene, JoError *error) {
+    RunReport *r = self;
+    const JoWorld *world = scene->world;
+    const JoxAgents *a = &world->agents;
+    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(PACE / world->def.dt + 0.5));
+    float time = (float)jo_world_time(world);
+    (void)error;
+    if (world->tick % every != 0)
+        return true;
+    for (uint32_t rank = 0; rank < a->count; rank++) {
+        uint32_t i = a->by_rank[rank];
+        if (a->id[i] >= JOX_MOST_PATHS)
+            break;
+        jox_paths_add(r->paths, a->id[i], false, a->group[i], time, a->x[i], a->y[i]);
+    }
+    for (uint32_t o = 0; o < world->objects.count; o++) {
+        const JoxObject *object = &world->objects.rows[o];
+        if (object->live && object->moves)
+            jox_paths_add(r->paths, object->id, true, 0, time, object->position.x,
+                          object->position.y);
+    }
+    return true;
+}
+
+static bool draw_paths(const RunReport *r, const JoScene *scene, const char *title, JoxText *why) {
+    const char *names[256];
+    uint32_t count = scene->spec->group_count < 256 ? scene->spec->group_count : 256;
+    JoxV2 low, high;
+    for (uint32_t g = 0; g < count; g++)
+        names[g] = scene->spec->groups[g].name;
+    jox_run_area(scene, &low, &high);
+    for (uint32_t p = 0; p < r->paths->count; p++) /* nobody's path is cut off */
+        for (uint32_t i = 0; i < r->paths->items[p].count; i++) {
+            const JoxPathPoint *point = &r->paths->items[p].points[i];
+            low = (JoxV2){jox_minf(low.x, point->x - 1), jox_minf(low.y, point->y - 1)};
+            high = (JoxV2){jox_maxf(high.x, point->x + 1), jox_maxf(high.y, point->y + 1)};
+        }
+    return jox_plot_paths(r->folder, r->paths, names, count, &scene->world->all_walls, low, high,
+                          title, why);
+}
+
+/* The files of probes and of danger; with a title, their pictures too. */
+static bool write_files(const RunReport *r, const JoScene *scene, const char *title, JoxText *why) {
+    const JoxWalls *walls = title ? &scene->world->all_walls : NULL;
+    const JoxProbe *probe;
+    bool good = true;
+    for (uint32_t p = 0; good && (probe = jox_run_probe(scene, p)); p++)
+        good = jox_probe_write(probe, r->folder, &scene->world->all_walls, title, why);
+    return good && jox_danger_write(jox_run_danger(scene), r->folder, walls, title, why);
+}
+
+static bool write_data(void *self, JoScene *scene, JoError *error) {
+    JoxText why = {0};
+    return write_files(self, scene, NULL, &why) || jox_run_failed(error, &why);
+}
+
+static bool draw(void *self, JoScene *scene, JoError *error) {
+    const RunReport *r = self;
+    JoxText why = {0};
+    char title[256];
+    const char *name = scene->spec->title ? scene->spec->title : scene->spec->path;
+    const double until = jo_world_time(scene->world);
+    const JoxRegions *regions = jox_run_regions(scene);
+    const bool paths = scene->world->agents.next_id <= JOX_MOST_PATHS && r->paths->count;
+    snprintf(title, sizeof title, "%.120s: density, t = %.0f to %.0f s, %u agents", name,
+             scene->spec->heatmap_from, until, scene->world->agents.count);
+    bool good =
+        jox_plot_density(r->folder, jox_run_density(scene), &scene->world->all_walls, title, &why);
+    if (good && regions) {
+        snprintf(title, sizeof title, "%.120s: mean speed per region, t = %.0f to %.0f s", name,
+                 scene->spec->heatmap_from, until);
+        good = jox_plot_regions(r->folder, regions, title, &why);
+    }
+    if (good && paths) {
+        snprintf(title, sizeof title,
+                 "%.120s: paths (a dot is the beginning, a circle the end), %.1f s", name, until);
+        good = draw_paths(r, scene, title, &why);
+    }
+    if (!good || !write_files(r, scene, name, &why))
+        return jox_run_failed(error, &why);
+    jox_run_say(scene, "pictures: %s%s%s/density.png%s%s%s\n", paths ? r->folder : "",
+                paths ? "/paths.png, " : "", r->folder, regions ? " and " : "",
+                regions ? r->folder : "", regions ? "/regions.png" : "");
+    if (scene->spec->probe_count)
+        jox_run_say(scene, "probes: %u in %s/NAME.csv, NAME.png and NAME.svg\n",
+                    scene->spec->probe_count, r->folder);
+    return true;
+}
+
+static void release(void *self) {
+    RunReport *r = self;
+    jox_free(r->folder);
+    jox_paths_free(r->paths);
+}
+
+static const JoxListenerKind REPORT = {.name = "report",
+                                       .size = sizeof(RunReport),
+                                       .begin = begin_with_pictures,
+                                       .frame = sample_paths,
+                                       .end = draw,
+                                       .release = release};
+static const JoxListenerKind DATA = {.name = "data files",
+                                     .size = sizeof(RunReport),
+                                     .begin = begin,
+                                     .end = write_data,
+                                     .release = release};
+
+bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
+    JOX_REQUIRE(scene && directory && !jox_run_listener(scene, &REPORT), false);
+    JOX_GUARD (scene->heap, error)
+        return false;
+    return jox_run_listen(scene, &REPORT, directory, error) != NULL;
+}
+
+bool jo_scene_data(JoScene *scene, const char *directory, JoError *error) {
+    JOX_REQUIRE(scene && directory && !jox_run_listener(scene, &DATA), false);
+    JOX_GUARD (scene->heap, error)
+        return false;
+    return jox_run_listen(scene, &DATA, directory, error) != NULL;
+}

@@ -1,0 +1,169 @@
+/* What every report of a run draws on: mean speeds of the scene's regions, the field of density,
+   and where people were squeezed. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "run/run.h"
+
+static const double SAMPLE = 2.0; /* s between samples of density and of the regions' speeds */
+
+/* Whether the frame of now is a sample. */
+static bool is_sample(const JoScene *scene) {
+    const JoWorld *world = scene->world;
+    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(SAMPLE / world->def.dt + 0.5));
+    return world->tick % every == 0 &&
+           (double)world->tick * world->def.dt >= scene->spec->heatmap_from;
+}
+
+/* ---- regions: in every scene that has some ---- */
+
+typedef struct RegionSpeeds {
+    JoxRegions *regions;
+} RegionSpeeds;
+
+static bool regions_begin(void *self, JoScene *scene, const void *options, JoError *error) {
+    RegionSpeeds *r = self;
+    (void)options, (void)error;
+    r->regions = jox_regions_create();
+    for (uint32_t i = 0; i < scene->spec->region_count; i++)
+        jox_regions_add(r->regions, scene->spec->regions[i].name, scene->spec->regions[i].points,
+                        scene->spec->regions[i].count);
+    return true;
+}
+
+static bool regions_frame(void *self, JoScene *scene, JoError *error) {
+    RegionSpeeds *r = self;
+    const JoxAgents *a = &scene->world->agents;
+    (void)error;
+    if (is_sample(scene))
+        jox_regions_frame(r->regions, a->x, a->y, a->prev_x, a->prev_y, a->count,
+                          scene->world->def.dt);
+    return true;
+}
+
+static void regions_release(void *self) {
+    jox_regions_free(((RegionSpeeds *)self)->regions);
+}
+
+static const JoxListenerKind REGIONS = {.name = "speeds of regions",
+                                        .size = sizeof(RegionSpeeds),
+                                        .begin = regions_begin,
+                                        .frame = regions_frame,
+                                        .release = regions_release};
+
+void jox_run_collect_regions(JoScene *scene) {
+    if (scene->spec->region_count)
+        jox_run_listen(scene, &REGIONS, NULL, NULL);
+}
+
+const JoxRegions *jox_run_regions(const JoScene *scene) {
+    const RegionSpeeds *r = jox_run_listener(scene, &REGIONS);
+    return r ? r->regions : NULL;
+}
+
+/* ---- density ---- */
+
+typedef struct DensityField {
+    JoxDensity *density;
+} DensityField;
+
+static bool density_begin(void *self, JoScene *scene, const void *options, JoError *error) {
+    JoxV2 low, high;
+    (void)options, (void)error;
+    jox_run_area(scene, &low, &high);
+    ((DensityField *)self)->density =
+        jox_density_create(low, high, JOX_DENSITY_CELL, JOX_DENSITY_KERNEL);
+    return true;
+}
+
+static void add_density(DensityField *field, const JoScene *scene) {
+    const JoxAgents *a = &scene->world->agents;
+    jox_density_add(field->density, a->x, a->y, a->count, jo_world_time(scene->world));
+}
+
+static bool density_frame(void *self, JoScene *scene, JoError *error) {
+    (void)error;
+    if (is_sample(scene))
+        add_density(self, scene);
+    return true;
+}
+
+static bool density_end(void *self, JoScene *scene, JoError *error) {
+    DensityField *field = self;
+    (void)error;
+    if (field->density->frames == 0) /* a run shorter than the first sample */
+        add_density(field, scene);
+    return true;
+}
+
+static void density_release(void *self) {
+    jox_density_free(((DensityField *)self)->density);
+}
+
+static const JoxListenerKind DENSITY = {.name = "density",
+                                        .size = sizeof(DensityField),
+                                        .begin = density_begin,
+                                        .frame = density_frame,
+                                        .end = density_end,
+                                        .release = density_release};
+
+void jox_run_collect_density(JoScene *scene) {
+    if (!jox_run_listener(scene, &DENSITY))
+        jox_run_listen(scene, &DENSITY, NULL, NULL);
+}
+
+const JoxDensity *jox_run_density(const JoScene *scene) {
+    const DensityField *field = jox_run_listener(scene, &DENSITY);
+    return field ? field->density : NULL;
+}
+
+/* ---- danger ---- */
+
+typedef struct DangerFigures {
+    JoxDanger *danger;
+} DangerFigures;
+
+typedef struct DangerArea {
+    JoxV2 low, high;
+} DangerArea;
+
+static bool danger_begin(void *self, JoScene *scene, const void *options, JoError *error) {
+    const DangerArea *area = options;
+    (void)scene, (void)error;
+    ((DangerFigures *)self)->danger = jox_danger_create(area->low, area->high);
+    return true;
+}
+
+static bool danger_frame(void *self, JoScene *scene, JoError *error) {
+    (void)error;
+    jox_danger_frame(((DangerFigures *)self)->danger, jox_run_frame(scene), &scene->exits);
+    return true;
+}
+
+static void danger_release(void *self) {
+    jox_danger_free(((DangerFigures *)self)->danger);
+}
+
+static const JoxListenerKind DANGER = {.name = "danger",
+                                       .size = sizeof(DangerFigures),
+                                       .begin = danger_begin,
+                                       .frame = danger_frame,
+                                       .release = danger_release};
+
+void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high) {
+    DangerArea area = {low, high};
+    if (!jox_run_listener(scene, &DANGER))
+        jox_run_listen(scene, &DANGER, &area, NULL);
+}
+
+void jox_run_collect_danger(JoScene *scene) {
+    JoxV2 low, high;
+    jox_run_area(scene, &low, &high);
+    jox_run_collect_danger_in(scene, low, high);
+}
+
+const JoxDanger *jox_run_danger(const JoScene *scene) {
+    const DangerFigures *figures = jox_run_listener(scene, &DANGER);
+    return figures ? figures->danger : NULL;
+}

@@ -1,0 +1,68 @@
+#include "run/listener.h"
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "run/run.h"
+
+void *jox_run_listen(JoScene *scene, const JoxListenerKind *kind, const void *options,
+                     JoError *error) {
+    JoxListeners *all = &scene->listeners;
+    void *self = jox_alloc(1, kind->size);
+    if (kind->begin && !kind->begin(self, scene, options, error)) {
+        if (kind->release)
+            kind->release(self);
+        jox_free(self);
+        return NULL;
+    }
+    JOX_RESERVE(all->items, all->capacity, all->count + 1);
+    all->items[all->count++] = (JoxListener){kind, self};
+    return self;
+}
+
+void *jox_run_listener(const JoScene *scene, const JoxListenerKind *kind) {
+    for (uint32_t l = 0; l < scene->listeners.count; l++)
+        if (scene->listeners.items[l].kind == kind)
+            return scene->listeners.items[l].self;
+    return NULL;
+}
+
+bool jox_run_tell_frame(JoScene *scene, JoError *error) {
+    bool good = true;
+    for (uint32_t l = 0; l < scene->listeners.count; l++) {
+        const JoxListener *listener = &scene->listeners.items[l];
+        if (listener->kind->frame)
+            good = listener->kind->frame(listener->self, scene, good ? error : NULL) && good;
+    }
+    return good;
+}
+
+void jox_run_tell_replaced(JoScene *scene, uint32_t machine) {
+    for (uint32_t l = 0; l < scene->listeners.count; l++) {
+        const JoxListener *listener = &scene->listeners.items[l];
+        if (listener->kind->replaced)
+            listener->kind->replaced(listener->self, scene, machine);
+    }
+}
+
+bool jox_run_tell_end(JoScene *scene, JoError *error) {
+    bool good = true;
+    for (uint32_t l = 0; l < scene->listeners.count; l++) {
+        const JoxListener *listener = &scene->listeners.items[l];
+        if (listener->kind->end)
+            good = listener->kind->end(listener->self, scene, good ? error : NULL) && good;
+    }
+    return good;
+}
+
+void jox_run_release_listeners(JoScene *scene) {
+    JoxListeners *all = &scene->listeners;
+    while (all->count) {
+        const JoxListener *listener = &all->items[--all->count];
+        if (listener->kind->release)
+            listener->kind->release(listener->self);
+        jox_free(listener->self);
+    }
+    jox_free(all->items);
+    all->items = NULL;
+    all->capacity = 0;
+}

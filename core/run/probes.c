@@ -1,0 +1,66 @@
+/* The scene's probes, which look at the frames of a run. */
+#include "base/mem.h"
+#include "run/run.h"
+
+typedef struct Probes {
+    JoxProbe **items;
+    uint32_t count;
+} Probes;
+
+static bool begin(void *self, JoScene *scene, const void *options, JoError *error) {
+    Probes *p = self;
+    const JoxSceneSpec *spec = scene->spec;
+    (void)options, (void)error;
+    p->items = jox_alloc(spec->probe_count, sizeof *p->items);
+    p->count = spec->probe_count;
+    for (uint32_t n = 0; n < p->count; n++) {
+        JoxProbeDef def = spec->probes[n];
+        if (def.kind == JOX_PROBE_MAP && def.low.x > def.high.x)
+            jox_run_area(scene, &def.low, &def.high);
+        p->items[n] = jox_probe_create(&def);
+    }
+    return true;
+}
+
+static bool frame(void *self, JoScene *scene, JoError *error) {
+    const Probes *p = self;
+    (void)error;
+    for (uint32_t n = 0; n < p->count; n++)
+        if (jox_probe_is_due(p->items[n], jo_world_time(scene->world)))
+            jox_probe_frame(p->items[n], jox_run_frame(scene));
+    return true;
+}
+
+static void release(void *self) {
+    Probes *p = self;
+    for (uint32_t n = 0; n < p->count; n++)
+        jox_probe_free(p->items[n]);
+    jox_free(p->items);
+}
+
+static const JoxListenerKind PROBES = {
+    .name = "probes", .size = sizeof(Probes), .begin = begin, .frame = frame, .release = release};
+
+void jox_run_collect_probes(JoScene *scene) {
+    if (scene->spec->probe_count)
+        jox_run_listen(scene, &PROBES, NULL, NULL);
+}
+
+const JoxProbe *jox_run_probe(const JoScene *scene, uint32_t n) {
+    const Probes *p = jox_run_listener(scene, &PROBES);
+    return p && n < p->count ? p->items[n] : NULL;
+}
+
+void jox_run_add_probes(const JoScene *scene, JoxText *out) {
+    const JoxProbe *probe = jox_run_probe(scene, 0);
+    if (!probe)
+        return;
+    jox_text_add(out, ",\n \"probes\": {");
+    for (uint32_t n = 0; (probe = jox_run_probe(scene, n)); n++) {
+        jox_text_add(out, n ? ",\n  " : "\n  ");
+        jox_text_json(out, jox_probe_def(probe)->name);
+        jox_text_add(out, ": ");
+        jox_probe_json(probe, out);
+    }
+    jox_text_add(out, "\n }");
+}

@@ -1,0 +1,81 @@
+/* A run told to people while it goes on: the line of progress, and one agent's transitions. */
+#include <stdio.h>
+#include <unistd.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "run/run.h"
+
+typedef struct Progress {
+    double until;        /* s, simulated */
+    double begun, shown; /* s, wall time */
+    int tenth;           /* the last that was shown, where each tenth has a line */
+} Progress;
+
+static bool begin(void *self, JoScene *scene, const void *until, JoError *error) {
+    (void)scene, (void)error;
+    *(Progress *)self = (Progress){.until = *(const double *)until, .begun = jox_clock_wall()};
+    return true;
+}
+
+static bool show(void *self, JoScene *scene, JoError *error) {
+    Progress *p = self;
+    double time = jo_world_time(scene->world), now = jox_clock_wall(), wall = now - p->begun;
+    double share = time / p->until, left = wall / share - wall;
+    bool terminal = isatty(STDERR_FILENO), last = share >= 1.0 - 1e-9;
+    int tenth = (int)(share * 10.0 + 1e-9);
+    (void)error;
+    if (terminal ? now - p->shown < 0.2 && !last : tenth == p->tenth)
+        return true;
+    p->shown = now;
+    p->tenth = tenth;
+    fprintf(stderr, "%s%6.1f of %.1f s simulated, %.2f x real time, %.0f s left, %u agents%s",
+            terminal ? "\r" : "", time, p->until, time / wall, last ? 0.0 : left,
+            scene->world->agents.count, !terminal || last ? "\n" : "   ");
+    return true;
+}
+
+/* That plain functions ran, and what they cost: their authors should know without asking. */
+static bool say_costs(void *self, JoScene *scene, JoError *error) {
+    const JoWorld *world = scene->world;
+    double seconds = 0.0, wall = world->statistics.wall_s;
+    uint64_t calls = 0;
+    (void)self, (void)error;
+    for (uint32_t m = 0; m < world->mind.machine_count; m++) {
+        uint64_t machine_calls;
+        seconds += jox_lua_seconds(scene->lua, world->mind.machines[m], &machine_calls);
+        calls += machine_calls;
+    }
+    if (calls > 0)
+        jox_run_say(scene, "plain Lua functions: %llu calls, %.2f %% of the steps' time\n",
+                    (unsigned long long)calls, wall > 0.0 ? 100.0 * seconds / wall : 0.0);
+    return true;
+}
+
+static const JoxListenerKind PROGRESS = {
+    .name = "progress", .size = sizeof(Progress), .begin = begin, .frame = show, .end = say_costs};
+
+void jo_scene_show_progress(JoScene *scene, double until) {
+    JOX_REQUIRE(scene, );
+    if (until > 0.0 && !jox_run_listener(scene, &PROGRESS))
+        jox_run_listen(scene, &PROGRESS, &until, NULL);
+}
+
+/* ---- trace ---- */
+
+static bool say_trace(void *self, JoScene *scene, JoError *error) {
+    (void)self, (void)error;
+    if (scene->world->mind.trace.length)
+        jox_run_tell(scene, scene->world->mind.trace.data);
+    return true;
+}
+
+static const JoxListenerKind TRACE = {.name = "trace", .size = 1, .frame = say_trace};
+
+void jo_scene_trace(JoScene *scene, uint32_t agent_id) {
+    JOX_REQUIRE(scene, );
+    scene->world->mind.traces = true;
+    scene->world->mind.trace_id = agent_id;
+    if (!jox_run_listener(scene, &TRACE))
+        jox_run_listen(scene, &TRACE, NULL, NULL);
+}

@@ -1,0 +1,137 @@
+/* Trajectories of a run, written to an SQLite file. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/guard.h"
+#include "base/mem.h"
+#include "record/recorder.h"
+#include "run/run.h"
+
+static const double FRAME = 0.1; /* s between recorded frames, or a step where that is longer */
+
+typedef struct Recording {
+    JoxRecorder *recorder;
+    uint32_t every;                   /* ticks */
+    uint32_t base[JOX_MOST_MACHINES]; /* number of a machine's first state in the recording */
+    uint32_t next;                    /* the first number that no machine has */
+    uint32_t *shapes; /* per body id: blocks of the shape that was recorded, plus 1 */
+    size_t shape_capacity;
+} Recording;
+
+/* Number of an agent's state in jostle_state. */
+static uint32_t state_number(const Recording *r, const JoxAgents *a, uint32_t i) {
+    return a->machine[i] == JOX_NO_MACHINE ? UINT32_MAX : r->base[a->machine[i]] + a->state[i];
+}
+
+/* A new version of a machine may have other states, so that it is given numbers of its own. */
+static void name_states(void *self, JoScene *scene, uint32_t index) {
+    Recording *r = self;
+    const JoxMachine *machine = scene->world->mind.machines[index];
+    r->base[index] = r->next;
+    r->next += 1000;
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        jox_recorder_state(r->recorder, r->base[index] + s, machine->name, machine->states[s].name);
+}
+
+static bool begin(void *self, JoScene *scene, const void *path, JoError *error) {
+    Recording *r = self;
+    JoxV2 low, high;
+    JoxText wkt = {0}, why = {0};
+    jox_run_area(scene, &low, &high);
+    jox_wkt(&scene->world->walls, low, high, &wkt);
+    double dt = scene->world->def.dt;
+    r->every = dt >= FRAME ? 1 : (uint32_t)(FRAME / dt + 0.5);
+    r->recorder = jox_recorder_open(path, 1.0 / (dt * r->every), wkt.data, &why);
+    jox_text_free(&wkt);
+    if (!r->recorder)
+        return jox_run_failed(error, &why);
+    jox_recorder_walls(r->recorder, &scene->world->all_walls);
+    const JoxMind *mind = &scene->world->mind;
+    for (uint32_t m = 0; m < mind->machine_count; m++)
+        name_states(r, scene, m);
+    for (uint32_t g = 0; g < scene->spec->group_count; g++)
+        jox_recorder_group(r->recorder, g, scene->spec->groups[g].name);
+    return true;
+}
+
+/* The parts of bodies that are new or came apart. */
+static void record_shapes(Recording *r, const JoScene *scene, uint32_t frame) {
+    const JoxBodies *bodies = scene->world->bodies;
+    for (uint32_t row = 0; row < jox_bodies_rows(bodies); row++) {
+        const uint32_t id = jox_bodies_id(bodies, row);
+        const size_t had = r->shape_capacity;
+        JoxBodyBonds bonds;
+        JoxBodyLook look;
+        if (id == JOX_NO_BODY)
+            continue;
+        jox_bodies_bonds(bodies, row, &bonds);
+        JOX_RESERVE(r->shapes, r->shape_capacity, (size_t)id + 1);
+        for (size_t n = had; n < r->shape_capacity; n++)
+            r->shapes[n] = 0;
+        if (r->shapes[id] == bonds.blocks + 1)
+            continue;
+        r->shapes[id] = bonds.blocks + 1;
+        for (uint32_t part = 0; jox_bodies_look(bodies, row, part, &look); part++)
+            jox_recorder_part(r->recorder, frame, id, part, &look);
+    }
+}
+
+static bool record_frame(void *self, JoScene *scene, JoError *error) {
+    Recording *r = self;
+    if (scene->world->tick % r->every != 0)
+        return true;
+    const JoxAgents *a = &scene->world->agents;
+    const JoxObjects *objects = &scene->world->objects;
+    JoxRecordBody *bodies;
+    uint32_t count = jox_bodies_count(scene->world->bodies), n = 0;
+    const uint32_t frame = (uint32_t)(scene->world->tick / r->every);
+    record_shapes(r, scene, frame);
+    JoxRecordRow *rows = jox_recorder_take(r->recorder, a->count, count, &bodies);
+    for (uint32_t rank = 0; rank < a->count; rank++) { /* whatever the order in memory */
+        const uint32_t i = a->by_rank[rank], id = a->id[i];
+        float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
+        rows[n++] = (JoxRecordRow){id,           a->x[i],           a->y[i],
+                                   a->face_x[i], a->face_y[i],      state_number(r, a, i),
+                                   force,        a->compression[i], a->group[i]};
+    }
+    n = 0;
+    for (uint32_t o = 0; o < objects->count && n < count; o++) {
+        JoxPose pose;
+        if (objects->rows[o].live && jox_bodies_pose(scene->world->bodies, o, &pose))
+            bodies[n++] = (JoxRecordBody){objects->rows[o].id, pose.position.x, pose.position.y,
+                                          pose.position.z,     pose.turn[0],    pose.turn[1],
+                                          pose.turn[2],        pose.turn[3]};
+    }
+    JoxText why = {0};
+    return jox_recorder_put(r->recorder, frame, &why) || jox_run_failed(error, &why);
+}
+
+static bool end(void *self, JoScene *scene, JoError *error) {
+    Recording *r = self;
+    JoxText why = {0};
+    (void)scene;
+    bool good = jox_recorder_close(r->recorder, &why) || jox_run_failed(error, &why);
+    r->recorder = NULL;
+    return good;
+}
+
+static void release(void *self) {
+    Recording *r = self;
+    JOX_ASSERT(!r->recorder);
+    jox_free(r->shapes);
+}
+
+static const JoxListenerKind RECORDING = {.name = "recording",
+                                          .size = sizeof(Recording),
+                                          .begin = begin,
+                                          .frame = record_frame,
+                                          .replaced = name_states,
+                                          .end = end,
+                                          .release = release};
+
+bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
+    JOX_REQUIRE(scene && path && !jox_run_listener(scene, &RECORDING), false);
+    JOX_GUARD (scene->heap, error)
+        return false;
+    return jox_run_listen(scene, &RECORDING, path, error) != NULL;
+}
