@@ -55,12 +55,17 @@ static bool extent(const JoxArea *area, JoxV2 *low, JoxV2 *high) {
     return low->x < high->x && low->y < high->y;
 }
 
+/* m between the points by which an area is measured. */
+static double sampling(JoxV2 low, JoxV2 high) {
+    return fmax(0.1, sqrt(((double)high.x - low.x) * ((double)high.y - low.y) / 1e6));
+}
+
 double jox_area_size(const JoxArea *area) {
     JoxV2 low, high;
     if (!extent(area, &low, &high))
         return 0;
     double w = (double)high.x - low.x, h = (double)high.y - low.y;
-    double step = fmax(0.1, sqrt(w * h / 1e6));
+    double step = sampling(low, high);
     double nx = floor(w / step) + 1, ny = floor(h / step) + 1, hits = 0;
     if (!(nx * ny <= 4e6))
         return 0; /* too thin or too large to sample */
@@ -103,8 +108,13 @@ uint32_t jox_fill(const JoxArea *area, JoxSpread spread, uint32_t count, float s
         step = sqrt(jox_area_size(area) / count * (hex ? 1.1547005383792515 : 1.0));
     double apart = spread == JOX_SPREAD_RANDOM && spacing > 0 ? step / 0.75 : step;
     uint32_t have = lattice(area, hex, apart, positions);
-    /* A border may cost a row: close up until the count fits, if no spacing was asked for. */
-    for (int i = 0; have < count && !(spacing > 0) && i < 40; i++) {
+    /* A border may cost a row, and few points may all miss a narrow area: close up until the count
+       fits. A spacing that was asked for is kept, but by one agent, who has nobody to keep it from.
+     */
+    JoxV2 low, high;
+    bool closes = (!(spacing > 0) || (count == 1 && have == 0)) && extent(area, &low, &high);
+    double finest = closes ? sampling(low, high) : 0;
+    for (int i = 0; have < count && closes && (i < 40 || apart > finest); i++) {
         jox_free(*positions);
         apart *= 0.985;
         have = lattice(area, hex, apart, positions);

@@ -111,7 +111,8 @@ typedef struct JoAgentState {
 } JoAgentState;
 /* All zero for a null or stale handle. */
 JO_API JoAgentState jo_agent_state(const JoWorld *world, JoAgent agent);
-/* Wanted velocity, m/s, for agents without a machine; holds until set again. */
+/* Wanted velocity, m/s, for agents without a machine; holds until set again. At most 1e6 along each
+   axis. */
 JO_API void jo_agent_set_preferred(JoWorld *world, JoAgent agent, double vx, double vy);
 /* An external force in newtons that acts during the next step. */
 JO_API void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy);
@@ -139,9 +140,13 @@ typedef struct JoBodyState {
 } JoBodyState;
 JO_API JoBodyState jo_body_state(const JoWorld *world, JoBody body);
 
-/* Advances by `steps` steps of dt. */
-JO_API bool jo_world_step(JoWorld *world, uint32_t steps);
-JO_API bool jo_world_failed(const JoWorld *world);
+/* Advances by `steps` steps of dt. Where a number of an agent is not finite after a step, the world
+   has failed: from then on this does nothing, and jo_world_failure says why. */
+JO_API void jo_world_step(JoWorld *world, uint32_t steps);
+/* NULL, or why the world has failed: the agent, its machine and its state. Valid while the world
+ * is.
+ */
+JO_API const char *jo_world_failure(const JoWorld *world);
 JO_API double jo_world_time(const JoWorld *world);   /* s */
 JO_API uint64_t jo_world_tick(const JoWorld *world); /* steps done */
 JO_API uint32_t jo_world_agent_count(const JoWorld *world);

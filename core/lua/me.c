@@ -116,6 +116,11 @@ static int view_index(lua_State *L) {
     }
     if (push_number(L, lua->mind, i, name))
         return 1;
+    /* One without a machine, whom a program moves, or with another machine. */
+    bool lacks =
+        a->machine[i] == JOX_NO_MACHINE && (!strcmp(name, "state") || !strcmp(name, "machine"));
+    if (lacks || memory_slot(vm->machine, name) >= 0)
+        return lua_pushnil(L), 1;
     return luaL_error(L, "a neighbour has no '%s'", name);
 }
 

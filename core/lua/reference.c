@@ -42,6 +42,11 @@ static void print_words(JoxText *out, const struct Section *section) {
         cell(out, word->signature);
         jox_text_printf(out, "` | %s | ", word->unit);
         cell(out, word->meaning);
+        const JoxWordNumber *number;
+        for (uint32_t n = 0; (number = jox_word_number(word->name, n)); n++)
+            jox_text_printf(out, "%s`%s` %g to %g%s%s", n ? ", " : "; ", number->name,
+                            number->least, number->greatest, *number->unit ? " " : "",
+                            number->unit);
         jox_text_add(out, " | `");
         cell(out, word->example);
         jox_text_add(out, "` |\n");

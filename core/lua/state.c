@@ -1,10 +1,28 @@
 /* One state of a machine: steering, parameters, actions, transitions. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "lua/read.h"
 #include "lua/vocabulary.h"
+
+/* The weight of a steering term: a number, or an expression that is computed each step. */
+static JoxValue read_weight(JoxBuild *b, JoxNode *weight, JoxPosition position) {
+    JoxValue value = {.kind = JOX_VALUE_UNSET};
+    if (weight && weight->kind == JOX_NODE_NUMBER && weight->op == JOX_OP_CONST) {
+        value = (JoxValue){JOX_VALUE_CONST, weight->number, 0, 0};
+        if (!(fabs(weight->number) <= JOX_MOST_WEIGHT))
+            jox_build_error(b, position, "out-of-range", NULL,
+                            "a weight must be from %d to %d, not %g", -JOX_MOST_WEIGHT,
+                            JOX_MOST_WEIGHT, weight->number);
+    } else if (weight) {
+        value = (JoxValue){JOX_VALUE_PROGRAM, 0.0, jox_build_program(b, weight, position), 0};
+        if (value.index < 0)
+            value = (JoxValue){.kind = JOX_VALUE_UNSET};
+    }
+    return value;
+}
 
 static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->vm->L;
@@ -27,13 +45,7 @@ static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state
         JoxSteerTerm *term = &state->steer[state->steer_count++];
         *term = t->term;
         term->target = t->target ? jox_build_target(b, t->target) : -1;
-        if (t->weight && t->weight->kind == JOX_NODE_NUMBER && t->weight->op == JOX_OP_CONST)
-            term->weight = (JoxValue){JOX_VALUE_CONST, t->weight->number, 0, 0};
-        else if (t->weight)
-            term->weight = (JoxValue){JOX_VALUE_PROGRAM, 0.0,
-                                      jox_build_program(b, t->weight, jox_read_at(b, full)), 0};
-        if (term->weight.kind == JOX_VALUE_PROGRAM && term->weight.index < 0)
-            term->weight = (JoxValue){.kind = JOX_VALUE_UNSET};
+        term->weight = read_weight(b, t->weight, jox_read_at(b, full));
     }
     if (type != LUA_TNIL &&
         !(node && (node->kind == JOX_NODE_STEER || node->kind == JOX_NODE_POISON)))

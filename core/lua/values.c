@@ -9,27 +9,34 @@
 
 /* orbit(place [, { inward, density_near, density_far, far, beyond }]) */
 static int make_orbit(lua_State *L) {
-    static const char *const KEYS[] = {"inward", "density_near", "density_far", "far", "beyond"};
     JoxNode *place = jox_word_argument(L, "orbit", 1, 'p');
     if (!place)
         return 1;
     JoxNode *node = jox_node_push(L, JOX_NODE_STEER);
     node->term.kind = JOX_STEER_ORBIT;
     node->target = place;
-    memcpy(node->term.args, (double[]){0.5, 5.6, 4.6, 40.0, 50.0}, 5 * sizeof(double));
+    const JoxWordNumber *number;
+    for (uint32_t k = 0; (number = jox_word_number("orbit", k)); k++)
+        node->term.args[k] = number->standard;
     if (lua_isnoneornil(L, 2) || lua_type(L, 2) != LUA_TTABLE)
         return 1;
     lua_pushnil(L);
     while (lua_next(L, 2)) {
         const char *key = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "?";
         int found = -1;
-        for (int k = 0; k < 5; k++)
-            found = strcmp(KEYS[k], key) == 0 ? k : found;
-        if (found < 0 || lua_type(L, -1) != LUA_TNUMBER || !(fabs(lua_tonumber(L, -1)) < 1e6))
+        for (uint32_t k = 0; (number = jox_word_number("orbit", k)); k++)
+            found = strcmp(number->name, key) == 0 ? (int)k : found;
+        if (found < 0 || lua_type(L, -1) != LUA_TNUMBER)
             return jox_word_error(L, key, "bad-argument",
                                   "orbit takes inward, density_near, density_far, far and beyond",
                                   "bad option '%s' of orbit", key);
-        node->term.args[found] = lua_tonumber(L, -1);
+        number = jox_word_number("orbit", (uint32_t)found);
+        double value = lua_tonumber(L, -1);
+        if (!(value >= number->least && value <= number->greatest))
+            return jox_word_error(
+                L, key, "out-of-range", NULL, "%s of orbit must be from %g to %g%s%s, not %g", key,
+                number->least, number->greatest, *number->unit ? " " : "", number->unit, value);
+        node->term.args[found] = value;
         lua_pop(L, 1);
     }
     lua_pushvalue(L, -1);
@@ -97,6 +104,9 @@ static int make_memory(lua_State *L) {
                                   "memory '%s' cannot be a %s", name, luaL_typename(L, -1));
         JOX_RESERVE(vm->memory, vm->memory_capacity, vm->memory_count + 1);
         double value = type == LUA_TNUMBER ? lua_tonumber(L, -1) : lua_toboolean(L, -1);
+        if (!isfinite(value))
+            return jox_word_error(L, name, "bad-memory", "Numbers and booleans can be remembered",
+                                  "memory '%s' must begin with a finite number", name);
         JoxMemorySlot slot = {jox_strdup(name),
                               type == LUA_TNUMBER ? JOX_MEMORY_NUMBER : JOX_MEMORY_BOOLEAN, value};
         uint32_t at = vm->memory_count++; /* sorted, for tables have no order */

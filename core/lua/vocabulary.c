@@ -1,5 +1,6 @@
 #include "lua/vocabulary.h"
 
+#include <math.h>
 #include <string.h>
 
 #define CONDITION JOX_NODE_CONDITION
@@ -148,6 +149,19 @@ const JoxWord jox_words[] = {
 };
 const size_t jox_word_count = sizeof jox_words / sizeof *jox_words;
 
+const JoxWordNumber jox_word_numbers[] = {
+    {"orbit", "inward", -10, 10, 0.5, ""},
+    {"orbit", "density_near", 0, 20, 5.6, "1/m2"},
+    {"orbit", "density_far", 0, 20, 4.6, "1/m2"},
+    {"orbit", "far", 0.1, 10000, 40, "m"},
+    {"orbit", "beyond", 0, 10000, 50, "m"},
+    {"follow", "metres", 0, 1000, 1, "m"},
+    {"together", "metres", 0, 1000, 1, "m"},
+    {"drift", "x", -100, 100, NAN, ""},
+    {"drift", "y", -100, 100, NAN, ""},
+};
+const size_t jox_word_number_count = sizeof jox_word_numbers / sizeof *jox_word_numbers;
+
 const JoxSheetKey jox_sheet_keys[] = {
     {"machine", "name", "text", "", "how messages and mods call it", "name = \"walker\""},
     {"machine", "version", "number", "", "the author's; informs people", "version = 1"},
@@ -209,10 +223,10 @@ const JoxMeKey jox_me_keys[] = {
     {"pushed", "number", "N", "magnitude of the net force"},
     {"compression", "number", "N/m", "sum of contact force magnitudes over girth"},
     {"team", "number", "", "0 is none"},
-    {"state", "text", "", "name of its state"},
-    {"machine", "text", "", "name of its machine"},
+    {"state", "text", "", "name of its state; nil of a neighbour without a machine"},
+    {"machine", "text", "", "name of its machine; nil of a neighbour without one"},
     {"goal", "name of a place", "", "can be set"},
-    {"neighbours", "list", "", "views of the neighbours, nearest first, as they were before the step; memory set in them arrives after it"},
+    {"neighbours", "list", "", "views of the neighbours, nearest first, as they were before the step; memory set in them arrives after it, and what their machine does not remember is nil"},
     {"signal", "function(name)", "", "calls out: me.signal(\"alarm\")"},
 };
 const size_t jox_me_key_count = sizeof jox_me_keys / sizeof *jox_me_keys;
@@ -226,4 +240,11 @@ size_t jox_sheet_names(const char *owner, bool parameters, const char **names, s
     for (int p = 0; parameters && p < JOX_PARAM_COUNT && n < capacity; p++)
         names[n++] = jox_parameters[p].name;
     return n;
+}
+
+const JoxWordNumber *jox_word_number(const char *word, uint32_t n) {
+    for (size_t i = 0; i < jox_word_number_count; i++)
+        if (strcmp(jox_word_numbers[i].word, word) == 0 && n-- == 0)
+            return &jox_word_numbers[i];
+    return NULL;
 }

@@ -21,6 +21,19 @@ typedef struct JoxWord {
 extern const JoxWord jox_words[];
 extern const size_t jox_word_count;
 
+/* A plain number that a word takes: the letters d of `takes` in their order, and the options of
+   orbit. */
+typedef struct JoxWordNumber {
+    const char *word, *name;
+    double least, greatest, standard; /* standard: where it is left out; NAN: it never is */
+    const char *unit;
+} JoxWordNumber;
+
+extern const JoxWordNumber jox_word_numbers[];
+extern const size_t jox_word_number_count;
+/* The n-th number of a word, from 0; NULL behind the last. */
+const JoxWordNumber *jox_word_number(const char *word, uint32_t n);
+
 /* A key of a table of the sheet; parameters are further keys of states and of `defaults`. */
 typedef struct JoxSheetKey {
     const char *owner; /* "machine", "state", "transition", "kick", "throw", "signal" */

@@ -189,6 +189,17 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
     return NULL;
 }
 
+/* Whether the n-th plain number of a word is in its range; false with an error pushed. */
+static bool in_range(lua_State *L, const JoxWord *word, uint32_t n, double value) {
+    const JoxWordNumber *number = jox_word_number(word->name, n);
+    if (!number || (value >= number->least && value <= number->greatest))
+        return true;
+    jox_word_error(L, word->name, "out-of-range", word->meaning,
+                   "%s of %s must be from %g to %g%s%s, not %g", number->name, word->signature,
+                   number->least, number->greatest, *number->unit ? " " : "", number->unit, value);
+    return false;
+}
+
 static bool too_many(lua_State *L, const JoxWord *word, int given, int most) {
     if (given <= most)
         return false;
@@ -247,14 +258,16 @@ static JoxNode *assemble(lua_State *L, const JoxWord *word, JoxNode *const *argu
     case JOX_NODE_STEER:
         node->term.kind = (JoxSteerKind)word->op;
         if (word->op == JOX_STEER_TOGETHER)
-            node->term.args[0] = count ? arguments[0]->number : 1.0;
+            node->term.args[0] =
+                count ? arguments[0]->number : jox_word_number(word->name, 0)->standard;
         else if (word->op == JOX_STEER_DRIFT)
             memcpy(node->term.args, (double[]){arguments[0]->number, arguments[1]->number},
                    2 * sizeof(double));
         else
             node->target = arguments[0];
         if (word->op == JOX_STEER_FOLLOW)
-            node->term.args[0] = count > 1 ? arguments[1]->number : 1.0;
+            node->term.args[0] =
+                count > 1 ? arguments[1]->number : jox_word_number(word->name, 0)->standard;
         break;
     case JOX_NODE_CIRCUITS:
         node->target = arguments[0];
@@ -284,12 +297,15 @@ static int make_word(lua_State *L) {
                           word->name);
     JoxNode *arguments[3] = {NULL, NULL, NULL};
     int count = 0, given = lua_gettop(L); /* reading arguments pushes more */
+    uint32_t numbers = 0;
     for (const char *t = word->takes; *t; t++) {
         bool optional = *t == '?';
         t += optional;
         if (optional && count + 1 > given)
             break;
         if (!(arguments[count] = jox_word_argument(L, word->name, count + 1, *t)))
+            return 1;
+        if (*t == 'd' && !in_range(L, word, numbers++, arguments[count]->number))
             return 1;
         count++;
     }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/file.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "luatest/testing.h"
@@ -173,9 +174,9 @@ static const char *keep(void *context, const char *text, size_t length) {
     }
     snprintf(path, sizeof path, "%s/behaviours/inline-%zu.lua", tests->folder,
              tests->kept_count + 1);
-    FILE *file = fopen(path, "w");
+    FILE *file = jox_file_open(path, "w");
     bool good = file && fwrite(text, 1, length, file) == length;
-    if (!file || fclose(file) != 0 || !good)
+    if (!file || jox_file_close(file) != 0 || !good)
         return NULL;
     JOX_RESERVE(tests->kept, tests->kept_capacity, tests->kept_count + 1);
     return tests->kept[tests->kept_count++] = jox_strdup(path);

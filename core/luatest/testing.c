@@ -116,8 +116,17 @@ static bool run_file(JoxVm *vm, const char *path, JoxTrial *trial, const char *o
     static const JoxScope NO_SCOPE = {0};
     vm->scope = &NO_SCOPE;
     vm->loading = true; /* require works */
+    vm->diagnostics = diagnostics;
+    const size_t errors = diagnostics->errors;
     good = good && jox_vm_call(vm, 0, 0, BUDGET, &why, &line);
     vm->loading = false;
+    vm->diagnostics = NULL;
+    if (good && diagnostics->errors > errors) { /* a word of the file that means nothing */
+        for (size_t s = 0; s < vm->source_count; s++)
+            jox_diag_attach_source(diagnostics, vm->sources[s].path, vm->sources[s].text,
+                                   vm->sources[s].length);
+        return false;
+    }
     if (!good) {
         fail_file(vm, why, line, diagnostics);
         return false;

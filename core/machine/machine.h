@@ -11,6 +11,8 @@
 #include "base/random.h"
 
 enum { JOX_MOST_TRANSITIONS = 32, JOX_MOST_REGISTERS = 32, JOX_MOST_TERMS = 8 };
+/* Greatest weight of a steering term, of either sign. */
+enum { JOX_MOST_WEIGHT = 1000000 };
 
 /* What a word measures of the agent itself. */
 #define JOX_NOW(X)                                                                                 \

@@ -4,6 +4,9 @@
 #include "machine/internal.h"
 
 static const float SLOWING = 0.5f; /* s: who arrives slows to stop within this time */
+/* Of the wanted speed: a term that asks for more, or for what is no number, is left out. Above what
+   the words allow (drift). */
+static const float MOST_SHARE = 1e6f;
 
 /* Full speed towards a point, less when it is near. */
 static JoxV2 arrive(JoxV2 from, JoxV2 to, float speed) {
@@ -185,7 +188,7 @@ static JoxV2 together(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term)
     }
     JoxV2 to = jox_scale(sum, mates ? 1.0f / (float)mates : 0.0f);
     float distance = jox_length(to), ease = (float)term->args[0];
-    if (distance <= ease)
+    if (distance == 0.0f || distance <= ease)
         return (JoxV2){0.0f, 0.0f};
     return jox_scale(to, jox_minf(1.0f, distance - ease) / distance);
 }
@@ -208,7 +211,8 @@ static JoxV2 player(const JoxMind *mind, uint32_t i) {
     return (JoxV2){0.0f, 0.0f};
 }
 
-/* Direction of one term, of length at most 1: a share of the wanted speed. */
+/* What one term asks for, as a share of the wanted speed: of length 1 at most, drift and player
+   aside. */
 static JoxV2 term_direction(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = mind->agents;
     switch (term->kind) {
@@ -261,6 +265,13 @@ static void face(const JoxMind *mind, const JoxState *state, uint32_t i) {
     a->face_y[i] = way.y;
 }
 
+/* Keeps a term finite whatever its numbers are, so that no sum of terms overflows. */
+static JoxV2 bounded(JoxV2 way) {
+    if (jox_length2(way) <= MOST_SHARE * MOST_SHARE)
+        return way;
+    return (JoxV2){0.0f, 0.0f};
+}
+
 static bool is_function(const JoxState *state) {
     return state->steer_count == 1 && state->steer[0].kind == JOX_STEER_FUNCTION;
 }
@@ -279,9 +290,9 @@ static JoxV2 steering(const JoxMind *mind, const JoxMachine *machine, const JoxS
                            ? 1.0f
                            : (float)jox_value(mind, machine, &term->weight, i);
             /* A weight may come from a target that is not there: infinitely far. */
-            if (by == 0.0f || !(fabsf(by) <= 1e6f))
+            if (by == 0.0f || !(fabsf(by) <= (float)JOX_MOST_WEIGHT))
                 continue;
-            JoxV2 way = pass ? evade(mind, i, ahead) : term_direction(mind, i, term);
+            JoxV2 way = bounded(pass ? evade(mind, i, ahead) : term_direction(mind, i, term));
             sum = jox_add(sum, jox_scale(way, by));
         }
         ahead = jox_unit(sum);

@@ -223,6 +223,14 @@ void jox_mind_write_parameters(JoxMind *mind, uint32_t i) {
     a->push_only[i] = state->push_only;
 }
 
+/* A duration that was computed, s: what is no number sets none. */
+static float computed_duration(const JoxMind *mind, const JoxMachine *machine,
+                               const JoxState *state, uint32_t i) {
+    double value = jox_value(
+        mind, machine, &(JoxValue){.kind = JOX_VALUE_PROGRAM, .index = state->lasts_program}, i);
+    return isnan(value) ? INFINITY : (float)value;
+}
+
 void jox_mind_enter(JoxMind *mind, uint32_t i, uint16_t to) {
     JoxAgents *a = mind->agents;
     const JoxMachine *machine = jox_machine_of(mind, i);
@@ -237,9 +245,7 @@ void jox_mind_enter(JoxMind *mind, uint32_t i, uint16_t to) {
         a->lasts[i] = (float)jox_dist_draw(&state->lasts, mind->seed, a->id[i], mind->tick,
                                            JOX_DRAW_LASTS, 0);
     else if (state->lasts_program >= 0 && !mind->spawning)
-        a->lasts[i] = (float)jox_value(
-            mind, machine, &(JoxValue){.kind = JOX_VALUE_PROGRAM, .index = state->lasts_program},
-            i);
+        a->lasts[i] = computed_duration(mind, machine, state, i);
     pick_goal(mind, machine, state, i);
     jox_mind_write_parameters(mind, i);
     if (state->removes)
@@ -317,9 +323,7 @@ static void greet_spawned(JoxMind *mind) {
         const JoxMachine *machine = jox_machine_of(mind, i);
         const JoxState *state = &machine->states[a->state[i]];
         if (state->lasts_program >= 0)
-            a->lasts[i] = (float)jox_value(
-                mind, machine,
-                &(JoxValue){.kind = JOX_VALUE_PROGRAM, .index = state->lasts_program}, i);
+            a->lasts[i] = computed_duration(mind, machine, state, i);
         jox_actions_do(mind, machine, &state->enters, i);
         call_hook(mind, state->on_enter, JOX_HOOK_ENTER, i);
     }

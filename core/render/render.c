@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/file.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "picture/plot.h"
@@ -93,12 +94,12 @@ static bool check(const JoRenderDef *def, Kind kind, JoError *error) {
 /* That a file can be written is found out before an hour of simulation. */
 static bool writable(const char *path, JoError *error) {
     bool was = access(path, F_OK) == 0;
-    FILE *file = fopen(path, "a");
+    FILE *file = jox_file_open(path, "a");
     if (!file) {
         jox_error(error, JO_FAILED, "cannot write '%s': %s", path, strerror(errno));
         return false;
     }
-    fclose(file);
+    jox_file_close(file);
     if (!was)
         unlink(path);
     return true;

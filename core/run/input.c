@@ -1,6 +1,5 @@
-/* What people do to a running scene: every deed is an entry of an input log, done before the step
+/* What people do to a running scene: every action is an entry of an input log, done before the step
    that comes and written down, so that the log plays back to the same state. */
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +8,7 @@
 #include "base/mem.h"
 #include "run/run.h"
 
-/* ---- deeds ---- */
+/* ---- actions ---- */
 
 /* Index of the living agent with an id, or JOX_NO_INDEX with `error`. */
 static uint32_t find_agent(const JoScene *scene, uint32_t id, JoError *error) {
@@ -83,6 +82,18 @@ static bool release(JoScene *scene, const JoxInputEntry *entry, JoError *error) 
     return good;
 }
 
+/* Swaps files as a log tells. */
+static bool reload(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
+    for (uint32_t f = 0; f < entry->number; f++) {
+        const JoxInputFile *file = &entry->files[f];
+        jox_overlay_put(&scene->overlay, file->path, file->text, file->length);
+    }
+    const JoxOverlay *before = jox_overlay_use(&scene->overlay);
+    bool live = jox_run_reload_now(scene, entry, error);
+    jox_overlay_use(before);
+    return live;
+}
+
 static bool do_entry(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
     const double *v = entry->numbers;
     switch (entry->verb) {
@@ -111,66 +122,11 @@ static bool do_entry(JoScene *scene, const JoxInputEntry *entry, JoError *error)
     case JOX_INPUT_BEFORE:
         return true;
     case JOX_INPUT_FILES:
-        return jox_run_play_files(scene, entry, error);
+        return reload(scene, entry, error);
     case JOX_INPUT_VERBS:
         break;
     }
     return false;
-}
-
-/* ---- the log that is written ---- */
-
-void jox_run_log(JoScene *scene, JoxInputEntry *entry) {
-    JoxText text = {0};
-    if (!scene->log)
-        return;
-    entry->tick = (uint32_t)scene->world->tick;
-    jox_input_write(entry, &text);
-    if (fwrite(text.data, 1, text.length, scene->log) != text.length || fflush(scene->log) != 0)
-        scene->log_failed = true;
-    jox_text_free(&text);
-}
-
-bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
-    JOX_REQUIRE(scene && path && !scene->log && !scene->finished, false);
-    JOX_GUARD (scene->heap, error)
-        return false;
-    const JoWorld *world = scene->world;
-    if (scene->input_path && strcmp(path, scene->input_path) == 0) {
-        jox_error(error, JO_INPUT,
-                  "'%.200s' is the input log that is played; write the new one to another file",
-                  path);
-        return false;
-    }
-    scene->log = fopen(path, "w");
-    if (!scene->log) {
-        jox_error(error, JO_FAILED, "cannot write the input log '%.200s': %s", path,
-                  strerror(errno));
-        return false;
-    }
-    scene->log_path = jox_strdup(path);
-    fprintf(scene->log, "# input log of jostle %s: scene %s, seed %llu, dt %.9g s%s\n",
-            jo_version(), scene->def.path, (unsigned long long)world->def.seed, world->def.dt,
-            world->tick ? ", begun in mid-run" : "");
-    jox_run_log_origin(scene);
-    return jox_run_logged(scene, error);
-}
-
-bool jox_run_logged(const JoScene *scene, JoError *error) {
-    if (scene->log_failed)
-        jox_error(error, JO_FAILED, "cannot write the input log '%.200s'", scene->log_path);
-    return !scene->log_failed;
-}
-
-bool jox_run_end_log(JoScene *scene, JoError *error) {
-    if (!scene->log)
-        return true;
-    scene->log_failed |= fclose(scene->log) != 0;
-    scene->log = NULL;
-    bool good = jox_run_logged(scene, error);
-    jox_free(scene->log_path);
-    scene->log_path = NULL;
-    return good;
 }
 
 /* ---- what comes in ---- */

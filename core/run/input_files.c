@@ -1,7 +1,11 @@
 /* Reloaded files in input logs: the texts that went live, and, on a replay, the same swap in the
    same step from those texts. */
+#include <errno.h>
 #include <string.h>
 
+#include "base/assert.h"
+#include "base/file.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
 
@@ -32,6 +36,31 @@ void jox_run_log_origin(JoScene *scene) {
             log_made(scene, &told, files[f].path, files[f].sha256);
     }
     jox_files_free(&told);
+}
+
+bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
+    JOX_REQUIRE(scene && path && !scene->log && !scene->finished, false);
+    JOX_GUARD (scene->heap, error)
+        return false;
+    const JoWorld *world = scene->world;
+    if (scene->input_path && strcmp(path, scene->input_path) == 0) {
+        jox_error(error, JO_INPUT,
+                  "'%.200s' is the input log that is played; write the new one to another file",
+                  path);
+        return false;
+    }
+    scene->log = jox_file_open(path, "w");
+    if (!scene->log) {
+        jox_error(error, JO_FAILED, "cannot write the input log '%.200s': %s", path,
+                  strerror(errno));
+        return false;
+    }
+    scene->log_path = jox_strdup(path);
+    fprintf(scene->log, "# input log of jostle %s: scene %s, seed %llu, dt %.9g s%s\n",
+            jo_version(), scene->def.path, (unsigned long long)world->def.seed, world->def.dt,
+            world->tick ? ", begun in mid-run" : "");
+    jox_run_log_origin(scene);
+    return jox_run_logged(scene, error);
 }
 
 /* ---- writing ---- */
@@ -155,15 +184,4 @@ void jox_run_before(JoxOverlay *overlay, const JoxInputLog *log) {
             if (!jox_overlay_find(overlay, file->path))
                 jox_overlay_put(overlay, file->path, file->text, file->length);
         }
-}
-
-bool jox_run_play_files(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
-    for (uint32_t f = 0; f < entry->number; f++) {
-        const JoxInputFile *file = &entry->files[f];
-        jox_overlay_put(&scene->overlay, file->path, file->text, file->length);
-    }
-    const JoxOverlay *before = jox_overlay_use(&scene->overlay);
-    bool live = jox_run_reload_now(scene, entry, error);
-    jox_overlay_use(before);
-    return live;
 }

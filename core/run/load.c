@@ -1,8 +1,6 @@
 /* From a scene's file to a running world. */
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/assert.h"
 #include "base/guard.h"
@@ -11,78 +9,8 @@
 
 enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 256 << 20 };
 
-void jox_run_to_stderr(void *context, const char *text) {
-    (void)context;
-    if (isatty(2)) /* the line of progress makes room */
-        fputs("\r\033[K", stderr);
-    fputs(text, stderr);
-}
-
-void jox_run_message(JoMessage *message, void *context, const char *text) {
-    JoxHeap *own = jox_guard_leave();
-    (message ? message : jox_run_to_stderr)(context, text);
-    jox_heap_use(own);
-}
-
-void jox_run_tell(const JoScene *scene, const char *text) {
-    jox_run_message(scene->message, scene->message_context, text);
-}
-
-void jox_run_say(const JoScene *scene, const char *format, ...) {
-    char text[2048];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    jox_run_tell(scene, text);
-}
-
-void jox_run_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
-                    JoError *error) {
-    JoxText text = {0};
-    jox_diag_print(diagnostics, &text);
-    if (text.length)
-        jox_run_message(message, context, text.data);
-    jox_text_free(&text);
-    for (size_t i = 0; error && i < diagnostics->count; i++) {
-        const JoxDiagnostic *d = &diagnostics->items[i];
-        if (d->severity != JOX_SEVERITY_ERROR)
-            continue;
-        jox_error(error, JO_INPUT, "%s", d->message);
-        error->line = d->line;
-        error->column = d->column;
-        snprintf(error->file, sizeof error->file, "%s", d->file ? d->file : "");
-        break;
-    }
-    jox_diag_free(diagnostics);
-}
-
 JoSceneDef jo_default_scene_def(void) {
     return (JoSceneDef){.threads = 1, .cookie = SCENE_COOKIE};
-}
-
-/* The def's overrides, with seed and step as two more. */
-JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint32_t mod_count,
-                                JoxDiagnostics *diagnostics) {
-    char seed[32], step[48];
-    const char **sets = jox_alloc(def->override_count + 2, sizeof *sets);
-    uint32_t count = 0;
-    for (size_t i = 0; i < def->override_count; i++)
-        sets[count++] = def->overrides[i];
-    if (def->has_seed) {
-        snprintf(seed, sizeof seed, "seed=%llu", (unsigned long long)def->seed);
-        sets[count++] = seed;
-    }
-    if (def->has_dt) {
-        snprintf(step, sizeof step, "step=%.9g", def->dt);
-        sets[count++] = step;
-    }
-    JoxSceneOptions options = {
-        .sets = sets, .set_count = count, .mods = mods->items, .mod_count = mod_count};
-    JoxSceneSpec *spec =
-        jox_scene_load_text(def->path, def->text, def->text_length, &options, diagnostics);
-    jox_free(sets);
-    return spec;
 }
 
 static uint64_t tag_mask(JoWorld *world, char *const *tags, uint32_t count, JoxPosition position,
@@ -125,7 +53,8 @@ static void add_places(JoScene *scene) {
         for (uint32_t s = 0; s < spec->groups[g].set_count; s++)
             if (spec->groups[g].set[s].kind == JOX_SET_ANTIPODE)
                 extra += spec->groups[g].count;
-    JoxPlace *places = jox_alloc(spec->place_count + extra + 1, sizeof *places);
+    scene->place_capacity = spec->place_count + extra;
+    JoxPlace *places = jox_alloc(scene->place_capacity + 1, sizeof *places);
     for (uint32_t i = 0; i < spec->place_count; i++) {
         const JoxPlace *from = &spec->places[i];
         places[i] = *from;
@@ -371,22 +300,14 @@ JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
     }
 }
 
-static void tell_diagnosed(JoxDiagnosed *diagnosed, void *context,
-                           const JoxDiagnostics *diagnostics) {
-    JoxHeap *own = jox_guard_leave();
-    if (diagnosed)
-        diagnosed(context, NULL, diagnostics);
-    jox_heap_use(own);
-}
-
 /* The scene, and what is wrong with it, told by the callbacks. */
 static JoScene *load_and_tell(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
                               JoError *error) {
     JoxDiagnostics diagnostics = {0};
     JoScene *scene = jox_run_load(def, &diagnostics);
-    tell_diagnosed(diagnosed, context, &diagnostics);
+    jox_run_tell_diagnosed(diagnosed, context, NULL, &diagnostics);
     jox_run_report(def->message, def->message_context, &diagnostics, error);
-    tell_diagnosed(diagnosed, context, NULL);
+    jox_run_tell_diagnosed(diagnosed, context, NULL, NULL);
     if (!scene)
         return NULL;
     scene->diagnosed = diagnosed;
@@ -497,6 +418,7 @@ static void free_scene(JoScene *scene) {
     jox_scene_free(scene->spec);
     jox_mods_free(scene->mods);
     jox_diag_free(&scene->mod_problems);
+    jox_free(scene->spawned);
     jox_free(scene->party_left);
     jox_free(scene->party_team);
     jox_exits_free(&scene->exits);

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/elementary.h"
 #include "base/mem.h"
 #include "run/run.h"
@@ -29,6 +30,7 @@ static uint32_t pick_machine(const JoScene *scene, const JoxSceneGroup *group, u
 /* A place of its own for an agent that is bound for the opposite side of its circle. */
 static int32_t add_antipode(JoScene *scene, const JoxSceneGroup *group, JoxV2 from) {
     JoWorld *world = scene->world;
+    JOX_ASSERT(world->place_count < scene->place_capacity);
     JoxPlace *place = &world->places[world->place_count];
     JoxV2 to = {2 * group->centre.x - from.x, 2 * group->centre.y - from.y};
     *place = (JoxPlace){.name = jox_strdup("antipode"),
@@ -188,6 +190,7 @@ bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics) {
     if (diagnostics->errors)
         return false;
     jox_agents_reserve(&scene->world->agents, total);
+    scene->spawned = jox_alloc(spec->source_count + 1, sizeof *scene->spawned);
     name_exits(scene);
     for (uint32_t g = 0; g < spec->group_count; g++)
         for (uint32_t i = 0; i < spec->groups[g].count; i++)
@@ -229,7 +232,7 @@ static uint32_t owed(JoScene *scene, uint32_t s) {
     double time = (double)world->tick * world->def.dt;
     if (time < source->from || time >= source->until)
         return 0;
-    double due = floor(source->rate * (time - source->from)) - scene->spawned[s % 256];
+    double due = floor(source->rate * (time - source->from)) - scene->spawned[s];
     uint64_t second = (uint64_t)(1.0 / world->def.dt + 0.5);
     if (source->keep > 0 && world->tick % second == 0) {
         uint32_t present = 0;
@@ -250,7 +253,7 @@ void jox_run_sources(JoScene *scene) {
                   source->memory_count ? source->memory : group->memory,
                   source->memory_count ? source->memory_count : group->memory_count);
         if (source->rate > 0)
-            scene->spawned[s % 256] += count;
+            scene->spawned[s] += count;
     }
 }
 

@@ -182,7 +182,9 @@ static void take_sources(Rescene *r) {
     double time = jo_world_time(r->scene->world);
     if (same_sources(r->old, r->new))
         return;
-    for (uint32_t s = 0; s < r->new->source_count &&s < 256; s++) {
+    r->scene->spawned =
+        jox_realloc(r->scene->spawned, r->new->source_count + 1, sizeof *r->scene->spawned);
+    for (uint32_t s = 0; s < r->new->source_count; s++) {
         const JoxSceneSource *source = &r->new->sources[s];
         r->scene->spawned[s] =
             time > source->from ? floor(source->rate * (time - source->from)) : 0.0;

@@ -38,7 +38,8 @@ struct JoScene {
     JoxLua *lua;
     JoxScope scope;
     uint32_t first_antipode; /* places from here on belong to single agents */
-    double spawned[256];     /* per source: agents so far by rate */
+    uint32_t place_capacity; /* of the world's places, those included */
+    double *spawned;         /* per source: agents so far by rate */
     JoMessage *message;
     void *message_context;
 
@@ -75,6 +76,9 @@ void jox_run_to_stderr(void *context, const char *text);
 /* Calls a `message` of the program's (NULL: to stderr); that of the scene. */
 void jox_run_message(JoMessage *message, void *context, const char *text);
 void jox_run_tell(const JoScene *scene, const char *text);
+/* Calls `diagnosed`, unless NULL. */
+void jox_run_tell_diagnosed(JoxDiagnosed *diagnosed, void *context, const bool *parts,
+                            const JoxDiagnostics *diagnostics);
 /* As jo_scene_load; `diagnosed` (it may be NULL) is told of mistakes, then and in all reloads. */
 JoScene *jox_run_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
                            JoError *error);
@@ -140,8 +144,6 @@ void jox_run_log_origin(JoScene *scene);
 void jox_run_check_log(const JoScene *scene);
 /* What files were when the run began that a log tells of. */
 void jox_run_before(JoxOverlay *overlay, const JoxInputLog *log);
-/* Swaps files as a log tells; false with `error` where they do not go live. */
-bool jox_run_play_files(JoScene *scene, const JoxInputEntry *entry, JoError *error);
 /* inspect_graph.c: who set a parameter of a state (NULL: of the defaults), and to what. */
 typedef struct JoxSetBy {
     JoxText

@@ -13,7 +13,8 @@ typedef struct JoxLoad {
     const char *datadir;
     JoxYamlFiles *files; /* read for the scene */
     uint32_t change_capacity;
-    bool walls_wrong; /* some could not be read: their names are not known */
+    const JoxYaml *root; /* of the whole scene, merged */
+    bool walls_wrong;    /* some could not be read: their names are not known */
 } JoxLoad;
 
 /* Index by name, or -1 with an error that suggests one. */

@@ -358,6 +358,19 @@ static void read_groups(JoxLoad *l, const JoxYaml *map) {
 
 /* ---- sources and sinks ---- */
 
+/* The point opposite on the circle is that of agents who stand on it at the start. */
+static void refuse_antipode(const JoxLoad *l, const JoxYaml *like, const JoxSceneGroup *group) {
+    for (uint32_t s = 0; s < group->set_count; s++)
+        if (group->set[s].kind == JOX_SET_ANTIPODE) {
+            jox_scene_error(&l->reader, like, "bad-value",
+                            "Let the source be like a group that is bound for a place",
+                            "group '%.60s' sets %.60s: antipode, which is for agents who stand on "
+                            "a circle at the start; a source cannot be like it",
+                            group->name, group->set[s].name);
+            return;
+        }
+}
+
 static void read_sources(JoxLoad *l, const JoxYaml *list) {
     if (list && list->kind != JOX_YAML_LIST)
         jox_scene_error(&l->reader, list, "bad-type", NULL, "sources is a list");
@@ -384,6 +397,7 @@ static void read_sources(JoxLoad *l, const JoxYaml *list) {
             continue;
         if (l->scene->places[at].kind == JOX_PLACE_SET)
             jox_scene_error(&l->reader, place, "bad-place", NULL, "a source cannot be at a set");
+        refuse_antipode(l, like, &l->scene->groups[group]);
         source->place = (uint32_t)at;
         source->like = (uint32_t)group;
         l->scene->source_count++;
@@ -492,6 +506,7 @@ static bool is_filled(const JoxYaml *node) {
 
 static void read_scene(JoxLoad *l, const JoxYaml *root) {
     const JoxReader *r = &l->reader;
+    l->root = root;
     jox_keys_check(r, root, "scene");
     read_settings(l, root);
     read_places(l, jox_yaml_get(root, "places"));

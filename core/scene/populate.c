@@ -62,12 +62,23 @@ static void area(const JoxLoad *l, const JoxYaml *map, const JoxArea *a, JoxSpre
     uint32_t fit = jox_fill(a, spread, group->count, spacing, l->scene->seed, number, &positions);
     if (fit < group->count)
         jox_scene_error(&l->reader, map, "too-many", "Lower count or spacing, or widen the area",
-                        "%u agents do not fit: %u do", group->count, fit);
+                        "%u of %u agents fit", fit, group->count);
     group->count = fit < group->count ? fit : group->count;
     group->positions = jox_arena_take(l->reader.arena, group->count, sizeof *group->positions);
     if (positions)
         memcpy(group->positions, positions, group->count * sizeof *positions);
     jox_free(positions);
+}
+
+/* Whether a source makes agents like a group. */
+static bool has_source(const JoxLoad *l, const JoxSceneGroup *group) {
+    const JoxYaml *list = jox_yaml_get(l->root, "sources");
+    for (uint32_t s = 0; list && list->kind == JOX_YAML_LIST && s < list->count; s++) {
+        const JoxYaml *like = jox_yaml_get(list->items[s], "like");
+        if (like && like->kind == JOX_YAML_SCALAR && strcmp(like->text, group->name) == 0)
+            return true;
+    }
+    return false;
 }
 
 /* `node`: the group, or the list of its agents' points. */
@@ -99,6 +110,11 @@ void jox_load_positions(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *gro
                         "a group needs one of count, density and at");
         return;
     }
+    double number_of = jox_key_number(&l->reader, map, "group", count ? "count" : "density");
+    if (!isfinite(number_of))
+        return;
+    if (count && number_of == 0 && has_source(l, group))
+        return; /* nobody is there at the start */
     uint32_t *in, *out;
     uint32_t in_count = read_places(l, jox_yaml_get(map, "in"), &in);
     uint32_t out_count = read_places(l, jox_yaml_get(map, "outside"), &out);
@@ -109,13 +125,11 @@ void jox_load_positions(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *gro
         return;
     }
     JoxArea a = {l->scene->places, in, out, in_count, out_count, &l->scene->walls, 0.2f};
-    double number_of = jox_key_number(&l->reader, map, "group", count ? "count" : "density");
-    if (!isfinite(number_of))
-        return;
     if (density)
         number_of = floor(number_of * jox_area_size(&a) + 0.5);
     if (!(number_of >= 1 && number_of <= MOST_AGENTS)) {
-        jox_scene_error(&l->reader, density ? density : count, "out-of-range", NULL,
+        jox_scene_error(&l->reader, density ? density : count, "out-of-range",
+                        "A group may begin empty, with count: 0, where a source is like it",
                         "this makes %g agents; 1 to 1,000,000 are possible", number_of);
         return;
     }

@@ -227,7 +227,7 @@ JoAgentState jo_agent_state(const JoWorld *world, JoAgent agent) {
 }
 
 void jo_agent_set_preferred(JoWorld *world, JoAgent agent, double vx, double vy) {
-    JOX_REQUIRE(world && isfinite(vx) && isfinite(vy), );
+    JOX_REQUIRE(world && fabs(vx) <= 1e6 && fabs(vy) <= 1e6, );
     uint32_t i = jox_world_find(world, agent);
     if (i == JOX_NO_INDEX)
         return;
@@ -318,18 +318,19 @@ const char *jo_stage_name(int stage) {
     return stage >= 0 && stage < JO_STAGE_COUNT ? NAMES[stage] : "";
 }
 
-bool jo_world_step(JoWorld *world, uint32_t steps) {
-    JOX_REQUIRE(world, false);
+void jo_world_step(JoWorld *world, uint32_t steps) {
+    JOX_REQUIRE(world, );
     JOX_GUARD (world->heap, NULL)
-        return false;
-    for (uint32_t i = 0; i < steps; i++)
-        jox_world_step(world);
-    return true;
+        return;
+    for (uint32_t i = 0; i < steps && jox_world_step(world); i++)
+        continue;
 }
 
-bool jo_world_failed(const JoWorld *world) {
-    JOX_REQUIRE(world, true);
-    return jox_heap_has_failed(world->heap);
+const char *jo_world_failure(const JoWorld *world) {
+    JOX_REQUIRE(world, NULL);
+    if (jox_heap_has_failed(world->heap))
+        return "out of memory";
+    return world->failure[0] ? world->failure : NULL;
 }
 
 double jo_world_time(const JoWorld *world) {

@@ -211,22 +211,28 @@ static void divide(JoWorld *w) {
         JOX_RESERVE(w->walked, w->walked_capacity, w->agents.count);
 }
 
-void jox_world_step(JoWorld *w) {
+bool jox_world_step(JoWorld *w) {
     static void (*const STAGES[JO_STAGE_COUNT])(JoWorld *) = {
         perceive, think, prefer, push, solve, move, bodies, infer, observe};
+    if (w->failure[0])
+        return false;
     double begin = jox_clock_wall(), cpu = jox_clock_cpu(), last = begin;
     jox_world_settle(w);
     jox_inspect_expire(w);
     divide(w);
     w->gone_count = 0;
-    for (w->part = 0; w->part < w->parts; w->part++)
+    bool good = true;
+    for (w->part = 0; w->part < w->parts && good; w->part++) {
         for (int stage = 0; stage < JO_STAGE_COUNT; stage++) {
             STAGES[stage](w);
             double now = jox_clock_wall();
             w->statistics.stage_s[stage] += now - last;
             last = now;
         }
+        good = jox_world_is_finite(w);
+    }
     w->tick++;
     w->statistics.wall_s += last - begin;
     w->statistics.cpu_s += jox_clock_cpu() - cpu;
+    return good;
 }

@@ -68,6 +68,7 @@ struct JoWorld {
     uint32_t *disc_agents, disc_capacity;
 
     JoxStatistics statistics;
+    char failure[256]; /* why no further step can be done; "" while none failed */
 };
 
 /* Fills an error, which may be NULL, with a formatted text. */
@@ -118,8 +119,12 @@ void jox_world_pull(JoWorld *world);
 /* In a step: who is before a bonded body or touches it; what broke. */
 void jox_world_note_touch(JoWorld *world);
 void jox_world_note_breaks(JoWorld *world, const JoxBodiesReport *report);
-/* One step. */
-void jox_world_step(JoWorld *world);
+/* One step. False, with the reason in `failure`, where a number of an agent is not finite after it;
+   from then on nothing is done. */
+bool jox_world_step(JoWorld *world);
+/* Whether all numbers of agents that the next step reads are finite; else `failure` names the
+   agent, its machine and its state. */
+bool jox_world_is_finite(JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX. */
 uint32_t jox_world_find(const JoWorld *world, JoAgent agent);
 uint64_t jox_world_hash(const JoWorld *world);

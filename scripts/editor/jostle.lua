@@ -107,10 +107,10 @@ function Number:in_state(state) end
 ---@field pushed number magnitude of the net force, N
 ---@field compression number sum of contact force magnitudes over girth, N/m
 ---@field team number 0 is none
----@field state string name of its state
----@field machine string name of its machine
+---@field state string name of its state; nil of a neighbour without a machine
+---@field machine string name of its machine; nil of a neighbour without one
 ---@field goal string can be set
----@field neighbours jostle.Me[] views of the neighbours, nearest first, as they were before the step; memory set in them arrives after it
+---@field neighbours jostle.Me[] views of the neighbours, nearest first, as they were before the step; memory set in them arrives after it, and what their machine does not remember is nil
 ---@field signal fun(name: string) calls out: me.signal("alarm")
 ---@field [string] any a parameter, or what memory declares
 

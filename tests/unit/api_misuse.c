@@ -108,6 +108,19 @@ static void numbers_out_of_range_are_refused_by_name(void **state) {
     assert_int_equal(jo_world_agent_count(*state), 0);
 }
 
+/* A double may be finite and yet no finite float. */
+static void huge_velocities_are_refused(void **state) {
+    JoWorld *world = *state;
+    JoAgentDef def = jo_default_agent_def();
+    JoAgent agent = jo_world_add_agent(world, &def, NULL);
+    jo_agent_set_preferred(world, agent, 1e300, 0.0);
+    jo_agent_set_preferred(world, agent, 0.0, -1e39);
+    assert_int_equal(reports, 2);
+    jo_world_step(world, 3);
+    assert_null(jo_world_failure(world));
+    assert_true(jo_agent_state(world, agent).x == 0.0);
+}
+
 static void a_stale_handle_stays_stale(void **state) {
     JoWorld *world = *state;
     JoAgentDef def = jo_default_agent_def();
@@ -182,6 +195,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(defs_must_come_from_their_default, set_up, tear_down),
         cmocka_unit_test_setup_teardown(numbers_out_of_range_are_refused_by_name, set_up,
                                         tear_down),
+        cmocka_unit_test_setup_teardown(huge_velocities_are_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_stale_handle_stays_stale, set_up, tear_down),
         cmocka_unit_test_setup_teardown(walls_must_make_sense, set_up, tear_down),
         cmocka_unit_test_setup_teardown(stepping_an_empty_world_is_fine, set_up, tear_down),

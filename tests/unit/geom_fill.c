@@ -40,7 +40,32 @@ static void counts_and_spacing_are_kept(void **state) {
     jox_walls_free(&walls);
 }
 
+/* A lattice as wide as one agent's share of a corridor may miss it with every point. */
+static void few_fit_wherever_there_is_room(void **state) {
+    (void)state;
+    JoxV2 corridors[3][4] = {{{0, 0}, {40, 0}, {40, 1}, {0, 1}},
+                             {{0, 0}, {1, 0}, {1, 40}, {0, 40}},
+                             {{0, 0}, {0.3f, 0}, {0.3f, 0.3f}, {0, 0.3f}}};
+    for (int c = 0; c < 3; c++) {
+        JoxPlace place = {
+            .kind = JOX_PLACE_POLYGON, .points = corridors[c], .count = 4, .start = -1};
+        uint32_t in = 0;
+        JoxArea area = {&place, &in, NULL, 1, 0, NULL, 0.2f};
+        for (int spread = 0; spread <= JOX_SPREAD_RANDOM; spread++)
+            for (uint32_t count = 1; count <= (c < 2 ? 3 : 1); count++) {
+                JoxV2 *p;
+                assert_int_equal(jox_fill(&area, (JoxSpread)spread, count, 0, 7, 1, &p), count);
+                for (uint32_t i = 0; i < count; i++)
+                    assert_true(jox_place_contains(&place, 0, p[i]));
+                jox_free(p);
+                assert_int_equal(jox_fill(&area, (JoxSpread)spread, 1, 1.0f, 7, 1, &p), 1);
+                jox_free(p);
+            }
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(counts_and_spacing_are_kept)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(counts_and_spacing_are_kept),
+                                       cmocka_unit_test(few_fit_wherever_there_is_room)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,37 @@
+/* The input log that a run writes. */
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/file.h"
+#include "base/mem.h"
+#include "run/run.h"
+
+void jox_run_log(JoScene *scene, JoxInputEntry *entry) {
+    JoxText text = {0};
+    if (!scene->log)
+        return;
+    entry->tick = (uint32_t)scene->world->tick;
+    jox_input_write(entry, &text);
+    if (fwrite(text.data, 1, text.length, scene->log) != text.length || fflush(scene->log) != 0)
+        scene->log_failed = true;
+    jox_text_free(&text);
+}
+
+bool jox_run_logged(const JoScene *scene, JoError *error) {
+    if (scene->log_failed)
+        jox_error(error, JO_FAILED, "cannot write the input log '%.200s'", scene->log_path);
+    return !scene->log_failed;
+}
+
+bool jox_run_end_log(JoScene *scene, JoError *error) {
+    if (!scene->log)
+        return true;
+    scene->log_failed |= jox_file_close(scene->log) != 0;
+    scene->log = NULL;
+    bool good = jox_run_logged(scene, error);
+    jox_free(scene->log_path);
+    scene->log_path = NULL;
+    return good;
+}

@@ -1,0 +1,66 @@
+/* Whether every number of the agents that the next step reads is finite. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "world/world.h"
+
+/* Columns that are looked at, causes before effects: an agent whose preferred velocity is no number
+   spoils its neighbours' velocities in the same step. */
+enum { COLUMNS = 8 };
+
+typedef struct Column {
+    const char *what;
+    const float *of;
+} Column;
+
+static void list_columns(const JoxAgents *a, Column out[COLUMNS]) {
+    const Column columns[COLUMNS] = {{"preferred velocity", a->pref_x},
+                                     {"preferred velocity", a->pref_y},
+                                     {"inferred force", a->inferred_x},
+                                     {"inferred force", a->inferred_y},
+                                     {"velocity", a->vx},
+                                     {"velocity", a->vy},
+                                     {"position", a->x},
+                                     {"position", a->y}};
+    memcpy(out, columns, sizeof columns);
+}
+
+/* Exponents of all ones are those of infinities and NaNs: the largest magnitude tells. */
+static bool is_finite(const float *column, uint32_t count) {
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, &column[i], sizeof bits);
+        bits &= 0x7fffffffu;
+        most = bits > most ? bits : most;
+    }
+    return most < 0x7f800000u;
+}
+
+/* The agent of the least id whose number is not finite, and who it is. */
+static void blame(JoWorld *w, const Column *column) {
+    const JoxAgents *a = &w->agents;
+    uint32_t worst = JOX_NO_INDEX;
+    for (uint32_t i = 0; i < a->count; i++)
+        if (!isfinite(column->of[i]) && (worst == JOX_NO_INDEX || a->id[i] < a->id[worst]))
+            worst = i;
+    uint16_t number = a->machine[worst];
+    const JoxMachine *machine = number == JOX_NO_MACHINE ? NULL : w->mind.machines[number];
+    snprintf(w->failure, sizeof w->failure,
+             "step %llu: the %s of agent %u is not finite (%s%.60s%s%.60s); the run cannot go on",
+             (unsigned long long)w->tick, column->what, a->id[worst],
+             machine ? "machine " : "no machine", machine ? machine->name : "",
+             machine ? ", state " : "", machine ? machine->states[a->state[worst]].name : "");
+}
+
+bool jox_world_is_finite(JoWorld *w) {
+    Column columns[COLUMNS];
+    list_columns(&w->agents, columns);
+    for (int c = 0; c < COLUMNS; c++)
+        if (!is_finite(columns[c].of, w->agents.count)) {
+            blame(w, &columns[c]);
+            return false;
+        }
+    return true;
+}

@@ -1,0 +1,196 @@
+/* What must not spoil a run: numbers that are not finite, agents without a machine, more sources
+   than usual, groups that begin empty. */
+#include <math.h>
+
+#include "unit/live_page.h"
+
+/* ---- numbers that are not finite ---- */
+
+#define CROWD                                                                                      \
+    SCENE("groups:\n"                                                                              \
+          "  people: {behaviour: " JOX_DATADIR "/behaviours/stander.lua, count: 100, fill: grid, " \
+          "in: yard}\n"                                                                            \
+          "  odd: {behaviour: own.lua, at: [[20, 20], [20.1, 20.1]], team: a}\n")
+
+static bool all_finite(const JoScene *scene) {
+    const JoxAgents *a = &scene->world->agents;
+    for (uint32_t i = 0; i < a->count; i++)
+        if (!isfinite(a->x[i]) || !isfinite(a->y[i]) || !isfinite(a->vx[i]) ||
+            !isfinite(a->vy[i]) || !isfinite(a->pref_x[i]) || !isfinite(a->pref_y[i]))
+            return false;
+    return true;
+}
+
+/* Whether a scene whose behaviour steers so loads; the first error is in `why`. */
+static bool accepts(const char *steer) {
+    char path[300], sheet[600];
+    snprintf(sheet, sizeof sheet, HEAD "\"A\", states = { A = { steer = %s } } }\n", steer);
+    write_file("own.lua", sheet);
+    write_file("scene.yaml", CROWD);
+    snprintf(path, sizeof path, "%s/scene.yaml", folder);
+    JoSceneDef def = jo_default_scene_def();
+    JoError error = {0};
+    def.path = path;
+    def.message = hear;
+    def.named_mods_only = true;
+    JoScene *scene = jo_scene_load(&def, &error);
+    snprintf(why, sizeof why, "%.250s", error.text);
+    jo_scene_free(scene);
+    return scene != NULL;
+}
+
+static void words_refuse_numbers_out_of_range(void **state) {
+    (void)state;
+    const char *const wrong[] = {"together(-5)",
+                                 "together(1e39)",
+                                 "drift(1e39, 0)",
+                                 "drift(0, -101)",
+                                 "follow(nearest \"anyone\", 1e39)",
+                                 "follow(nearest \"anyone\", -1)",
+                                 "orbit(\"yard\", { far = 0 })",
+                                 "orbit(\"yard\", { inward = 1e5 })",
+                                 "1e7 * drift(1, 0)",
+                                 "(0 / 0) * drift(1, 0)"};
+    for (size_t n = 0; n < sizeof wrong / sizeof *wrong; n++) {
+        if (accepts(wrong[n]))
+            fail_msg("%s was accepted", wrong[n]);
+        if (!strstr(why, " must be from "))
+            fail_msg("%s: %s", wrong[n], why);
+    }
+    assert_true(accepts("100 * drift(100, -100) + together(0) + follow(nearest \"anyone\", 1000)"));
+}
+
+/* Weights and parameters that are computed become infinite, or no numbers at all. */
+static void computed_numbers_keep_everybody_finite(void **state) {
+    (void)state;
+    const char *const sheets[] = {
+        "steer = together(0)",
+        "steer = (distance(nearest \"opponents\")) * drift(1, 0)",
+        "steer = (distance(nearest \"opponents\") - distance(nearest \"opponents\")) * drift(1, 0) "
+        "+ together(0)",
+        "steer = 1e6 * drift(100, 0) + -1e6 * drift(100, 1e-30)",
+        "steer = drift(1, 0), speed = distance(nearest \"opponents\"), "
+        "push = distance(nearest \"opponents\") - distance(nearest \"opponents\")",
+        "steer = drift(1, 0), lasts = distance(nearest \"opponents\") * 0, { to = \"A\", when = "
+        "lasted }"};
+    for (size_t n = 0; n < sizeof sheets / sizeof *sheets; n++) {
+        char sheet[600];
+        snprintf(sheet, sizeof sheet, HEAD "\"A\", states = { A = { %s } } }\n", sheets[n]);
+        JoScene *scene = load_own(CROWD, sheet);
+        step(scene, 40);
+        if (!all_finite(scene))
+            fail_msg("%s", sheets[n]);
+        jo_scene_free(scene);
+    }
+}
+
+/* The engine's last line: a number that is not finite ends the run, and says whose it is. */
+static void a_number_that_is_not_finite_ends_the_run(void **state) {
+    (void)state;
+    JoScene *scene = load_own(CROWD, HEAD "\"Odd\", states = { Odd = { steer = hold } } }\n");
+    JoxAgents *a = &scene->world->agents;
+    JoError error = {0};
+    step(scene, 1);
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->id[i] == 101)
+            a->vx[i] = NAN;
+    assert_null(jo_world_failure(scene->world));
+    assert_false(jo_scene_step(scene, &error));
+    assert_int_equal(error.code, JO_FAILED);
+    assert_string_equal(error.text, jo_world_failure(scene->world));
+    assert_non_null(strstr(error.text, "of agent 101 is not finite (machine m, state Odd)"));
+    uint64_t tick = jo_world_tick(scene->world);
+    assert_false(jo_scene_step(scene, &error)); /* and it stays ended */
+    jo_world_step(scene->world, 3);
+    assert_int_equal(jo_world_tick(scene->world), tick);
+    jo_scene_free(scene);
+}
+
+static void a_failed_world_names_agents_without_a_machine(void **state) {
+    (void)state;
+    JoWorldDef def = jo_default_world_def();
+    JoWorld *world = jo_world_create(&def, NULL);
+    JoAgentDef agent = jo_default_agent_def();
+    jo_world_add_agent(world, &agent, NULL);
+    jo_world_step(world, 1);
+    world->agents.inferred_y[0] = INFINITY;
+    jo_world_step(world, 5);
+    assert_int_equal(jo_world_tick(world), 2);
+    assert_non_null(strstr(jo_world_failure(world), "of agent 0 is not finite (no machine)"));
+    jo_world_free(world);
+}
+
+/* ---- agents without a machine ---- */
+
+static void lua_may_look_at_agents_without_a_machine(void **state) {
+    (void)state;
+    JoScene *scene = load_own(
+        PEOPLE(4), "local mine = memory { hits = 0, seen = 0 }\n" HEAD
+                   "\"A\", defaults = { perception = 60 }, states = { A = { steer = hold,\n"
+                   "  { to = \"A\", when = function(me)\n"
+                   "    me.seen = 0\n"
+                   "    for _, n in ipairs(me.neighbours) do\n"
+                   "      if n.machine == nil and n.state == nil and n.hits == nil then\n"
+                   "        me.seen = me.seen + 1 end\n"
+                   "    end\n"
+                   "    return false\n"
+                   "  end } } } }\n");
+    JoAgentDef agent = jo_default_agent_def();
+    agent.x = agent.y = 12.0;
+    jo_world_add_agent(scene->world, &agent, NULL);
+    step(scene, 5);
+    assert_int_equal(jox_lua_failures(scene->lua), 0);
+    const JoxAgents *a = &scene->world->agents;
+    const JoxMachine *machine = scene->world->mind.machines[0];
+    uint32_t slot = strcmp(machine->memory[0].name, "seen") ? 1 : 0, looked = 0;
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (a->machine[i] == JOX_NO_MACHINE)
+            continue;
+        assert_true(a->memory[(size_t)i * a->memory_stride + slot] == 1.0);
+        looked++;
+    }
+    assert_int_equal(looked, 4);
+    jo_scene_free(scene);
+}
+
+/* ---- sources ---- */
+
+static void each_of_three_hundred_sources_counts_for_itself(void **state) {
+    (void)state;
+    enum { SOURCES = 300 };
+    JoxText text = {0};
+    jox_text_add(&text, "jostle: 1\nplaces:\n");
+    for (int s = 0; s < SOURCES; s++)
+        jox_text_printf(&text, "  p%d: {point: [%d, %d], radius: 0.2}\n", s, s % 20 * 5,
+                        s / 20 * 5);
+    jox_text_add(&text, "groups: {people: {behaviour: own.lua, count: 0}}\nsources:\n");
+    for (int s = 0; s < SOURCES; s++)
+        jox_text_printf(&text, "  - {at: p%d, like: people, rate: %d}\n", s, s == 44 ? 5 : 1);
+    JoScene *scene = load_own(text.data, HEAD "\"A\", states = { A = { steer = hold } } }\n");
+    jox_text_free(&text);
+    assert_int_equal(jo_world_agent_count(scene->world), 0);
+    step(scene, 61); /* 3 s: three of each, and fifteen of one */
+    uint32_t made[SOURCES] = {0};
+    const JoxAgents *a = &scene->world->agents;
+    for (uint32_t i = 0; i < a->count; i++) {
+        int s = (int)(a->y[i] / 5 + 0.5f) * 20 + (int)(a->x[i] / 5 + 0.5f);
+        assert_in_range(s, 0, SOURCES - 1);
+        made[s]++;
+    }
+    for (int s = 0; s < SOURCES; s++)
+        if (made[s] != (s == 44 ? 15 : 3))
+            fail_msg("source %d made %u", s, made[s]);
+    jo_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(words_refuse_numbers_out_of_range),
+        cmocka_unit_test(computed_numbers_keep_everybody_finite),
+        cmocka_unit_test(a_number_that_is_not_finite_ends_the_run),
+        cmocka_unit_test(a_failed_world_names_agents_without_a_machine),
+        cmocka_unit_test(lua_may_look_at_agents_without_a_machine),
+        cmocka_unit_test(each_of_three_hundred_sources_counts_for_itself),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
