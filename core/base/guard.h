@@ -16,7 +16,6 @@
 
 #include "base/mem.h"
 #include "base/overlay.h"
-#include "base/recovery.h"
 #include "jostle.h"
 
 typedef struct JoxGuard {

@@ -1,11 +1,11 @@
 #include "base/mem.h"
 
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/recovery.h"
 
 static atomic_uint_fast64_t allocations;
 static atomic_bool limited;           /* for tests: memory is out, */
@@ -31,6 +31,34 @@ uint64_t jox_alloc_count(void) {
 void jox_alloc_fail_after(uint64_t count) {
     atomic_store(&remaining, count < INT64_MAX ? (int64_t)count : INT64_MAX);
     atomic_store(&limited, count != UINT64_MAX);
+}
+
+/* ---- recovery points ---- */
+
+static _Thread_local JoxRecovery *innermost;
+
+void jox_recovery_push(JoxRecovery *recovery) {
+    recovery->outer = innermost;
+    innermost = recovery;
+}
+
+void jox_recovery_pop(JoxRecovery *recovery) {
+    if (innermost == recovery)
+        innermost = recovery->outer;
+}
+
+bool jox_recovery_exists(void) {
+    return innermost != NULL;
+}
+
+void jox_out_of_memory(size_t bytes) {
+    JoxRecovery *recovery = innermost;
+    if (!recovery) {
+        fprintf(stderr, "jostle: out of memory (%zu bytes wanted)\n", bytes);
+        abort();
+    }
+    innermost = recovery->outer;
+    longjmp(recovery->jump, 1);
 }
 
 /* ---- blocks ---- */

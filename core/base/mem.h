@@ -1,7 +1,7 @@
 /* Memory: the one allocator of the engine, and heaps, which own what is allocated.
  *
  * Where memory is out, an allocation does not return: the thread goes back to its innermost
- * recovery point (recovery.h), which is where a public call began (guard.h). Whatever was allocated
+ * recovery point, which is where a public call began (guard.h). Whatever was allocated
  * in a call belongs to the heap that the thread uses: that of the world or of the scene that was
  * called, or one of the call alone. A heap in which memory ran out is failed: what it owns may be
  * half done, so that its destructors are not run, but the heap releases it as a whole.
@@ -10,6 +10,7 @@
 #define JOX_BASE_MEM_H
 
 #include <pthread.h>
+#include <setjmp.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -34,6 +35,35 @@ void *jox_try_realloc(void *memory, size_t bytes);
 uint64_t jox_alloc_count(void);
 /* For tests: after `count` more allocations memory is out, until this is called with UINT64_MAX. */
 void jox_alloc_fail_after(uint64_t count);
+
+/* ---- recovery points ----
+ *
+ *     JoxRecovery recovery;
+ *     jox_recovery_push(&recovery);
+ *     if (setjmp(recovery.jump) != 0) {
+ *         ... memory is out: the point is gone already ...
+ *     } else {
+ *         ... work ...
+ *         jox_recovery_pop(&recovery);
+ *     }
+ *
+ * Code between a recovery point and an allocation must hold no lock. Public calls use guard.h. */
+
+typedef struct JoxRecovery {
+    jmp_buf jump;
+    struct JoxRecovery *outer;
+} JoxRecovery;
+
+/* Of the calling thread. `recovery` stays in the caller's frame until it is popped or reached. */
+void jox_recovery_push(JoxRecovery *recovery);
+/* Takes the innermost point away; does nothing where it was reached and is gone. */
+void jox_recovery_pop(JoxRecovery *recovery);
+/* Whether the calling thread has a recovery point. */
+bool jox_recovery_exists(void);
+
+/* Goes to the innermost recovery point of the thread. Without one the program ends with a message:
+   only our own programs and tests call the engine that way. `bytes` were wanted; 0 is unknown. */
+__attribute__((noreturn)) void jox_out_of_memory(size_t bytes);
 
 /* ---- heaps ---- */
 

@@ -7,7 +7,6 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "base/recovery.h"
 
 enum { MOST_THREADS = 64, SPINS = 2000 };
 

@@ -3,7 +3,6 @@
 #include <pthread.h>
 
 #include "base/mem.h"
-#include "base/recovery.h"
 
 struct JoxWorker {
     pthread_t thread;

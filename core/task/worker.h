@@ -21,7 +21,7 @@ JoxWorker *jox_worker_create(void);
 void jox_worker_free(JoxWorker *worker);
 void jox_worker_give(JoxWorker *worker, JoxWorkItem *item);
 /* Returns when the item is done; one that has not begun is run by the caller. Where memory ran out
-   in it, that shows here, as in an allocation of the caller's (base/recovery.h). */
+   in it, that shows here, as in an allocation of the caller's (base/mem.h). */
 void jox_worker_wait(JoxWorker *worker, JoxWorkItem *item);
 
 #endif
