@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "live/replay.h"
 #include "live/view_parts.h"
@@ -130,6 +131,7 @@ static void turn_to(Playing *p) {
     p->damaged = !jox_replay_show(p->replay, frame, &why);
     if (p->damaged) {
         JoxText text = {0};
+        p->session.jumps++;
         jox_text_printf(&text, "The recording is damaged at %.2f s: %s.", p->at, why.data);
         jox_view_say(p->view, JOX_VIEW_ALL, "error", text.data);
         jox_text_free(&text);
@@ -142,6 +144,7 @@ static void turn_to(Playing *p) {
 static void seek(Playing *p, double time) {
     p->at = fmin(fmax(time, p->from), p->until);
     p->frame = UINT32_MAX;
+    p->session.jumps++;
     p->wall = jox_clock_wall();
     p->spoke = 0.0;
     jox_replay_forget(p->replay);
@@ -199,6 +202,7 @@ static void do_step(const Said *said) {
     }
     const double frame = fmin(fmax(floor(p->frame + n), 0.0), last);
     p->at = jox_replay_time(p->replay, (uint32_t)frame);
+    p->session.jumps += fabs(n) > 1.0;
     turn_to(p);
     pause(p, true);
 }
@@ -327,10 +331,7 @@ static bool open_view(Playing *p, JoError *error) {
     return p->view != NULL;
 }
 
-bool jo_view_recording(const JoViewRecordingDef *def, JoError *error) {
-    JOX_REQUIRE(def && def->cookie == RECORDING_COOKIE && def->recording && def->fps >= 0.0 &&
-                    def->unit >= 0.0,
-                false);
+static bool view_recording(const JoViewRecordingDef *def, JoError *error) {
     Playing p = {.def = def, .frame = UINT32_MAX, .session = {.speed = 1.0}};
     const bool good = open_recording(&p, error) && open_view(&p, error);
     if (good && def->opened)
@@ -347,4 +348,13 @@ bool jo_view_recording(const JoViewRecordingDef *def, JoError *error) {
     jox_bytes_free(&p.people);
     jox_text_free(&p.text);
     return good;
+}
+
+bool jo_view_recording(const JoViewRecordingDef *def, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == RECORDING_COOKIE && def->recording && def->fps >= 0.0 &&
+                    def->unit >= 0.0,
+                false);
+    JOX_GUARD (NULL, error)
+        return false;
+    return view_recording(def, error);
 }
