@@ -6,14 +6,21 @@
 
 static const char HELP[] =
     "usage: jostle mod list [SCENE] [--mod DIR]...\n"
+    "       jostle mod enable|disable NAME|DIR [SCENE]\n"
     "       jostle mod why PATH SCENE [--mod DIR]...\n"
     "       jostle mod check DIR...\n\n"
-    "  list    the mods that a run of the scene takes, in order, what they change, their settings\n"
+    "  list    the mods that a run of the scene takes, in order, what they change, their "
+    "settings;\n"
+    "          and those that are off\n"
+    "  enable  turns a mod on for all runs: until it is, it is off, whatever folder it lies in. "
+    "When\n"
+    "          its files change, it is off again. Scenes can name their mods themselves\n"
+    "  disable turns it off\n"
     "  why     who set a value, e.g. tawaf.Circle.push or groups.red.count: every place, the last "
     "counts\n"
     "  check   every error of mods, without running\n\n"
     "  --mod DIR    take a mod, as of jostle run\n"
-    "  --no-mods    none but those\n\n"
+    "  --no-mods    none but those, and those that the scene names\n\n"
     "exit status: 0 done, 2 wrong usage, 3 errors found or no such path\n";
 
 static void print(void *context, const char *text) {
@@ -30,6 +37,16 @@ static int why(JoSceneDef *def, const char *path) {
     }
     fputs(text, stdout);
     jo_free(text);
+    return JO_OK;
+}
+
+static int enable(const JoSceneDef *def, const char *mod, bool on) {
+    JoError error = {0};
+    if (!jo_mods_enable(def, mod, on, &error)) {
+        fprintf(stderr, "jostle mod: %s\n", error.text);
+        return (int)error.code;
+    }
+    printf("mod %s is %s\n", mod, on ? "on, until its files change" : "off");
     return JO_OK;
 }
 
@@ -66,6 +83,10 @@ int cli_mod(int argc, char **argv) {
     } else if (status < 0 && !strcmp(verb, "why") && count == 3) {
         def.path = plains[2];
         status = why(&def, plains[1]);
+    } else if (status < 0 && (!strcmp(verb, "enable") || !strcmp(verb, "disable")) &&
+               (count == 2 || count == 3)) {
+        def.path = count > 2 ? plains[2] : NULL;
+        status = enable(&def, plains[1], !strcmp(verb, "enable"));
     } else if (status < 0 && !strcmp(verb, "check") && count > 1) {
         size_t errors = jo_check(plains + 1, count - 1, false, print, stdout);
         if (!errors)
