@@ -260,9 +260,13 @@ typedef struct JoStats {
 JO_API JoStats jo_scene_stats(const JoScene *scene);
 /* "perceive", "think", "prefer", "push", "solve", "move", "bodies", "infer", "observe". */
 JO_API const char *jo_stage_name(int stage);
-/* One JSON object with the figures of the run so far; free with jo_free. */
+/* One JSON object with the figures of the run so far; free with jo_free. They do not depend on what
+   is reported or recorded, which may add some. "density_max" is the greatest density of any time,
+   people per m2 by a Gaussian kernel of 1.5 m, sampled every 2 simulated seconds. */
 JO_API char *jo_scene_summary(const JoScene *scene);
-/* From several summaries: mean and 5-95 % range of each numeric figure; free with jo_free. */
+/* From several summaries: {"runs", "given": {PATH: value, or a list by run where they differ},
+   "figures": {PATH: {"mean", "p5", "p95"}}}. Figures are statistics of a run; what it was given,
+   coordinates and texts are not. Free with jo_free. */
 JO_API char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error);
 
 /* A scene on a live page: a browser on this machine shows it and lets people act on it. */

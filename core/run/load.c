@@ -156,6 +156,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         jox_run_check_names(scene, diagnostics);
         jox_run_name_events(scene, diagnostics);
         jox_run_collect_regions(scene);
+        jox_run_collect_peak(scene);
         jox_run_collect_probes(scene);
     }
 }
@@ -397,7 +398,6 @@ JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError
         return NULL;
     }
     if (other) {
-        jox_run_collect_density(other);
         jox_run_collect_danger(other);
     }
     return other;
