@@ -67,6 +67,9 @@ walled() { # NAME WALLS: a scene whose people want to be outside
 crossed() { echo "$(in_json passages "$work/hall/$1.json") $(in_json intervals "$work/hall/$1.json")"; } # the outer wall, and seconds in the hole
 walled none ''; walled plan '{file: plan.wkt}'; walled again '{file: plan.sqlite}'
 [ "$(crossed plan)" = "0 0" ] && [ "$(crossed none)" != "0 0" ] && [ "$(in_json intervals "$work/hall/none.json")" -gt 0 ]; verdict "nobody walks through walls of well-known text ($(crossed none) without)" $?
+grep -aq 'POLYGON ((0 0, 8 0, 8 6, 0 6, 0 0), (3 2, 5 2, 5 4, 3 4, 3 2))' "$work/hall/plan.sqlite"; verdict "a recording has the plan's own outline for its walkable area" $?
+grep -aq 'POLYGON ((0 0, 8 0, 8 6, 0 6, 0 0), (3 2, 5 2, 5 4, 3 4, 3 2))' "$work/hall/again.sqlite"; verdict "and hands it on" $?
+! grep -aq 'POLYGON ((0 0, 8 0' "$work/hall/none.sqlite"; verdict "without a plan it is the box about everything" $?
 grep -q "$(sha256sum "$work/hall/plan.wkt" | cut -c1-64)" "$work/hall/plan.json"; verdict "the plan is an input, with its hash" $?
 [ "$(in_json intervals "$work/hall/again.json")" = 0 ]; verdict "nor through the solid ones that a recording has" $?
 echo 'POLYGON ((0 0, 8 0, 8 6, 0 6))' >"$work/hall/plan.wkt"

@@ -244,6 +244,38 @@ static void walkable_area_as_text(void **state) {
     jox_walls_free(&walls);
 }
 
+/* What a plan says can be walked is written as it was; what is no hole of it is left out. */
+static void walkable_area_of_a_plan(void **state) {
+    (void)state;
+    JoxWalls all = {0}, walls = {0};
+    JoxText out = {0};
+    JoxV2 hall[] = {{0, 0}, {0, 9}, {9, 9}, {12, 0}}, yard[] = {{20, 0}, {30, 0}, {25, 8}};
+    JoxV2 desk[] = {{1, 1}, {2, 1}, {2, 2}}, far[] = {{15, 1}, {16, 1}, {16, 2}};
+    JoxV2 through[] = {{8, 8}, {8, 20}, {12, 20}}, post[] = {{24, 1}, {25, 1}, {25, 2}};
+    JoxV2 loop[] = {{3, 3}, {4, 3}, {4, 4}};
+    jox_walls_add_polyline(&all, loop, 3, true, 3); /* a wall about something bounds no area */
+    jox_walls_add_outline(&all, hall, 4, 3);
+    jox_walls_add_solid(&all, desk, 3, 3);
+    jox_walls_add_solid(&all, far, 3, 3);
+    jox_walls_add_solid(&all, through, 3, 3);
+    jox_walls_standing(&walls, &all, true);
+    jox_wkt_outlines(&walls, &out);
+    assert_string_equal(out.data, "POLYGON ((12 0, 9 9, 0 9, 0 0, 12 0), (1 1, 2 1, 2 2, 1 1))");
+    out.length = 0;
+    jox_walls_add_outline(&walls, yard, 3, 3);
+    jox_walls_add_solid(&walls, post, 3, 3);
+    jox_wkt_outlines(&walls, &out);
+    assert_string_equal(out.data,
+                        "MULTIPOLYGON (((12 0, 9 9, 0 9, 0 0, 12 0), (1 1, 2 1, 2 2, 1 1)), "
+                        "((20 0, 30 0, 25 8, 20 0), (24 1, 25 1, 25 2, 24 1)))");
+    const JoxV2 people[] = {{25, 7}, {1, 8}, {15, 5}};
+    assert_true(jox_walls_outline_all(&walls, people, 2));
+    assert_false(jox_walls_outline_all(&walls, people, 3));
+    jox_text_free(&out);
+    jox_walls_free(&walls);
+    jox_walls_free(&all);
+}
+
 static void figures_of_several_runs(void **state) {
     (void)state;
     const char *runs[] = {
@@ -370,6 +402,7 @@ int main(void) {
                                        cmocka_unit_test(a_position_that_is_no_number_is_an_error),
                                        cmocka_unit_test(density_is_that_of_the_people),
                                        cmocka_unit_test(walkable_area_as_text),
+                                       cmocka_unit_test(walkable_area_of_a_plan),
                                        cmocka_unit_test(figures_of_several_runs),
                                        cmocka_unit_test(what_is_no_figure_is_listed),
                                        cmocka_unit_test(speeds_per_region)};
