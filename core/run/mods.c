@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
 #include "scene/mods_on.h"
@@ -69,6 +70,8 @@ static const char *const SWITCHES[] = {
 
 char *jo_mods_list(const JoSceneDef *def) {
     JOX_REQUIRE(def, NULL);
+    JOX_GUARD (NULL, NULL)
+        return NULL;
     JoxDiagnostics diagnostics = {0};
     JoxMods *mods = jox_run_find_mods(def, 0, &diagnostics);
     JoxText out = {0};
@@ -104,7 +107,7 @@ char *jo_mods_list(const JoSceneDef *def) {
     jox_diag_print(&diagnostics, &out);
     jox_diag_free(&diagnostics);
     jox_mods_free(mods);
-    return out.data;
+    return jox_disown(out.data);
 }
 
 /* ---- on and off ---- */
@@ -194,6 +197,8 @@ static const JoxMachine *find_behaviour(JoScene *scene, const char *name) {
 
 char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error) {
     JOX_REQUIRE(def && def->path && path, NULL);
+    JOX_GUARD (NULL, error)
+        return NULL;
     JoxDiagnostics diagnostics = {0};
     JoxText out = {0};
     JoScene *scene = jox_run_load(def, &diagnostics);
@@ -226,5 +231,5 @@ char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error) {
     }
     jo_scene_free(scene);
     jox_diag_free(&diagnostics);
-    return out.data;
+    return jox_disown(out.data);
 }
