@@ -28,9 +28,10 @@ typedef struct JoxViewing {
     JoxLiveSession session;
     uint64_t steps; /* to be done while paused */
     double until;   /* s, at which it pauses by itself */
-    bool failed;    /* the run cannot go on */
-    bool changed;   /* what is shown is not what is there */
-    bool told;      /* diagnostics that were handed over are being printed */
+    bool failed;    /* the run cannot go on, for this reason: */
+    char failure[1024];
+    bool changed; /* what is shown is not what is there */
+    bool told;    /* diagnostics that were handed over are being printed */
     JoxWatcher watchers[JOX_VIEW_CLIENTS];
     uint32_t inspector; /* the client who looks at somebody closely; 0: nobody */
     uint32_t inspected; /* the slot of whom */
@@ -53,6 +54,8 @@ void jox_view_refuse(JoxView *view, uint32_t client, const char *verb, const cha
 bool jox_viewing_load(JoxViewing *viewing, JoError *error);
 /* Ends the scene and what is written of it. */
 bool jox_viewing_end(JoxViewing *viewing, JoError *error);
+/* view_mistakes.c: a JoxDiagnosed whose context is the viewing. */
+void jox_viewing_diagnosed(void *viewing, const bool *parts, const JoxDiagnostics *diagnostics);
 /* Tells a client, or all, what is wrong with files. */
 void jox_viewing_tell_mistakes(JoxViewing *viewing, uint32_t client);
 void jox_viewing_forget_mistakes(JoxViewing *viewing);

@@ -38,14 +38,14 @@ void jox_world_carry(JoWorld *w) {
             continue;
         const JoxObject *object = &w->objects.rows[grip->object];
         if (grip->takes) {
-            jox_bodies_hold(w->bodies, grip->object, grip->agent_id);
+            w->statistics.pickups += jox_bodies_hold(w->bodies, grip->object, grip->agent_id);
             continue;
         }
         JoxV2 way = jox_unit((JoxV2){grip->velocity.x, grip->velocity.y});
         jox_bodies_carry(w->bodies, grip->object, before(a, i, object, way), grip->velocity);
         jox_bodies_let_go(w->bodies, grip->object, grip->velocity);
+        w->statistics.throws++;
     }
-    w->statistics.throws += w->mind.grip_count;
 }
 
 bool jox_world_throw(JoWorld *w, uint32_t row, const double from[3], const double velocity[3],
