@@ -66,7 +66,7 @@ void jo_scene_show_progress(JoScene *scene, double until) {
 static bool say_trace(void *self, JoScene *scene, JoError *error) {
     (void)self, (void)error;
     if (scene->world->mind.trace.length)
-        scene->message(scene->message_context, scene->world->mind.trace.data);
+        jox_run_tell(scene, scene->world->mind.trace.data);
     return true;
 }
 

@@ -6,6 +6,7 @@
 #include "agents/agents.h"
 #include "agents/neighbours.h"
 #include "base/hash.h"
+#include "base/mem.h"
 #include "body/body.h"
 #include "force/force.h"
 #include "geom/objects.h"
@@ -25,6 +26,8 @@ enum { JOX_MOST_TAGS = 64 };
 #define JOX_WALL_HEIGHT 3.0f
 
 struct JoWorld {
+    JoxHeap *heap; /* that it allocates from: its own, or that of its scene */
+    bool owns_heap;
     JoWorldDef def;
     uint64_t tick; /* steps done */
     JoxPool *pool;
