@@ -273,3 +273,12 @@ void jox_section_string(JoxSections *s, const char *name, char **string) {
     if (s->mode == JOX_SECTIONS_RESTORE && *string)
         (*string)[length - 1] = 0;
 }
+
+void jox_section_model(JoxSections *s, const char *name, uint64_t digest) {
+    uint64_t saved = digest;
+    if (s->mode == JOX_SECTIONS_HASH || s->mode == JOX_SECTIONS_VISIT)
+        return;
+    jox_section(s, name, &saved, sizeof saved, 1);
+    if (saved != digest)
+        jox_sections_fail(s, name, "it is another than when the state was saved");
+}

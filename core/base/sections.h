@@ -87,6 +87,9 @@ void jox_section_rows(JoxSections *sections, const char *name, double *rows, siz
 size_t jox_section_count(JoxSections *sections, const char *name, size_t count, size_t size);
 /* A string made by jox_strdup, or NULL; restoring frees the one that is there. */
 void jox_section_string(JoxSections *sections, const char *name, char **string);
+/* What the state belongs to, as a number made of it: saved but not hashed; restoring a state of
+   something else is refused. */
+void jox_section_model(JoxSections *sections, const char *name, uint64_t digest);
 
 /* A variable. */
 #define JOX_SECTION(sections, name, variable)                                                      \
