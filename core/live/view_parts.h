@@ -53,6 +53,8 @@ void jox_view_refuse(JoxView *view, uint32_t client, const char *verb, const cha
 bool jox_viewing_load(JoxViewing *viewing, JoError *error);
 /* Ends the scene and what is written of it. */
 bool jox_viewing_end(JoxViewing *viewing, JoError *error);
+/* view_mistakes.c: a JoxDiagnosed whose context is the viewing. */
+void jox_viewing_diagnosed(void *viewing, const bool *parts, const JoxDiagnostics *diagnostics);
 /* Tells a client, or all, what is wrong with files. */
 void jox_viewing_tell_mistakes(JoxViewing *viewing, uint32_t client);
 void jox_viewing_forget_mistakes(JoxViewing *viewing);

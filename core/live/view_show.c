@@ -8,28 +8,6 @@ static const double FRAME = 1.0 / 65.0; /* s, least time between frames */
 static const double SPEECH = 0.25;      /* s between figures */
 enum { PEOPLE_CHANNEL = JOX_VIEW_FIRST_TEXT - 1 };
 
-/* Sends an object of texts: its type, and two members. */
-static void send_texts(JoxView *view, uint32_t client, const char *type,
-                       const char *const members[2][2]) {
-    JoxText text = {0};
-    JoxJson json = jox_json_begin(&text, 0);
-    jox_json_object(&json, NULL);
-    jox_json_string(&json, "type", type);
-    jox_json_string(&json, members[0][0], members[0][1]);
-    jox_json_string(&json, members[1][0], members[1][1]);
-    jox_json_end(&json);
-    jox_view_send(view, client, text.data);
-    jox_text_free(&text);
-}
-
-void jox_view_say(JoxView *view, uint32_t client, const char *level, const char *text) {
-    send_texts(view, client, "say", (const char *const[2][2]){{"level", level}, {"text", text}});
-}
-
-void jox_view_refuse(JoxView *view, uint32_t client, const char *verb, const char *text) {
-    send_texts(view, client, "refused", (const char *const[2][2]){{"do", verb}, {"text", text}});
-}
-
 uint32_t jox_viewing_channels(const JoxWatcher *watcher) {
     uint32_t field =
         watcher->field < JOX_LIVE_FIELDS ? (uint32_t)1 << (JOX_VIEW_FIELDS + watcher->field) : 0;

@@ -12,22 +12,6 @@
 static const float HEAD = 46, PANEL = 206, EDGE = 16;
 static const float WIDE = 1280, LOW = 480;
 
-const struct JoxShown jox_shown[JOX_SHOWS] = {
-    {"none", "", 0},
-    {"state", "State", 0},
-    {"group", "Group", 0},
-    {"speed", "Speed, m/s", 2},
-    {"force", "Net force, N", 500},
-    {"compression", "Compression, N/m", 2000},
-    {"density", "Density, 1/m\xc2\xb2", 8},
-    {"pressure", "Crowd pressure, 1/s\xc2\xb2", 0.04f},
-};
-
-const JoxInk jox_ink_text = {0x1f, 0x29, 0x33, 1}, jox_ink_faint = {0x52, 0x60, 0x6d, 1},
-             jox_ink_wall = {0x2b, 0x34, 0x3d, 1}, jox_ink_solid = {0xa3, 0xac, 0xb5, 1},
-             jox_ink_gate = {0xa4, 0x26, 0x12, 1}, jox_ink_place = {0x4c, 0x6f, 0x94, 1},
-             jox_ink_body = {0xc4, 0xa4, 0x84, 1}, jox_ink_body_line = {0x5a, 0x3e, 0x2b, 1},
-             jox_ink_path = {0x3a, 0x3a, 0x3a, 0.45f};
 static const JoxInk WHITE = {0xff, 0xff, 0xff, 1}, FLOOR = {0xf8, 0xf8, 0xf6, 1};
 
 void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
@@ -40,31 +24,6 @@ void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
     tall = jox_maxf(tall, LOW - HEAD - EDGE);
     *width = (uint32_t)(wide + PANEL + 2 * EDGE + 1.0f) / 2 * 2;
     *height = (uint32_t)(tall + HEAD + EDGE + 1.0f) / 2 * 2;
-}
-
-static uint32_t letters(const char *text) {
-    uint32_t count = 0;
-    for (; *text; text++)
-        count += ((uint8_t)*text & 0xc0) != 0x80;
-    return count;
-}
-
-float jox_draw_width(const char *text, float size, bool bold) {
-    return (float)letters(text) * size * (bold ? 0.67f : 0.6f);
-}
-
-void jox_draw_fit(char *out, size_t capacity, const char *text, float size, bool bold, float wide) {
-    snprintf(out, capacity - 4, "%s", text);
-    jox_text_clean(out); /* what was cut within a letter */
-    if (strlen(out) == strlen(text) && jox_draw_width(out, size, bold) <= wide)
-        return;
-    size_t end = strlen(out);
-    do { /* a letter less */
-        while (end > 0 && ((uint8_t)out[--end] & 0xc0) == 0x80) {
-        }
-        out[end] = 0;
-    } while (end > 0 && jox_draw_width(out, size, bold) > wide - size);
-    strcat(out, "\xe2\x80\xa6");
 }
 
 /* ---- the map ---- */

@@ -111,16 +111,6 @@ static bool load(JoxReport *r) {
     return good;
 }
 
-/* Of the scene, else of the recording. */
-const JoxWalls *jox_report_walls(const JoxReport *r) {
-    return r->spec && r->spec->walls.ring_count ? &r->spec->walls : &r->crowd->walls;
-}
-
-const char *jox_report_title(const JoxReport *r) {
-    const char *slash = strrchr(r->def->recording, '/');
-    return r->spec && r->spec->title ? r->spec->title : slash ? slash + 1 : r->def->recording;
-}
-
 static bool write(const JoxReport *r, JoError *error) {
     const char *folder = r->def->directory, *title = jox_report_title(r);
     JoxText why = {0};

@@ -129,3 +129,13 @@ bool jox_report_page(const JoxReport *r, JoxText *error) {
     jox_html_end(out);
     return jox_plot_close(out, "index.html", error);
 }
+
+/* Of the scene, else of the recording. */
+const JoxWalls *jox_report_walls(const JoxReport *r) {
+    return r->spec && r->spec->walls.ring_count ? &r->spec->walls : &r->crowd->walls;
+}
+
+const char *jox_report_title(const JoxReport *r) {
+    const char *slash = strrchr(r->def->recording, '/');
+    return r->spec && r->spec->title ? r->spec->title : slash ? slash + 1 : r->def->recording;
+}

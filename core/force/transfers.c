@@ -1,0 +1,129 @@
+/* Lists that the stages of force hand on: forces between agents, and impulses on bodies. */
+#include "base/mem.h"
+#include "force/internal.h"
+
+void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t size) {
+    size_t need = (size_t)chunks * room * size;
+    if (need > list->capacity) {
+        /* Not a reallocation: nothing is kept, and untouched pages stay unused. */
+        jox_free(list->items);
+        list->capacity = need + need / 2;
+        list->items = jox_alloc(list->capacity, 1);
+    }
+    JOX_RESERVE(list->counts, list->chunk_capacity, chunks);
+    list->room = room;
+    if (chunks)
+        memset(list->counts, 0, chunks * sizeof *list->counts);
+}
+
+uint32_t jox_transfers_sort(JoxForces *f) {
+    uint32_t n = f->step.agents->count, total = 0;
+    for (uint32_t c = 0; c < f->chunks; c++)
+        total += f->transfers.counts[c];
+    if (!total)
+        return 0;
+    /* Room for a dense crowd from the start, so that a steady step never grows it. */
+    uint32_t room = 6 * f->step.agents->count;
+    JOX_RESERVE(f->sorted, f->sorted_capacity, total > room ? total : room);
+    memset(f->starts, 0, ((size_t)n + 1) * sizeof *f->starts);
+    const JoxTransfer *items = f->transfers.items;
+    for (uint32_t c = 0; c < f->chunks; c++) {
+        const JoxTransfer *t = items + (size_t)c * f->transfers.room;
+        for (uint32_t i = 0; i < f->transfers.counts[c]; i++)
+            f->starts[t[i].to]++;
+    }
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i <= n; i++) {
+        sum += f->starts[i];
+        f->starts[i] = sum; /* the end; filling backwards makes it the start */
+    }
+    for (uint32_t c = 0; c < f->chunks; c++) {
+        const JoxTransfer *t = items + (size_t)c * f->transfers.room;
+        for (uint32_t i = 0; i < f->transfers.counts[c]; i++)
+            f->sorted[--f->starts[t[i].to]] = t[i];
+    }
+    return total;
+}
+
+static void order_by_giver(JoxTransfer *t, uint32_t count) {
+    for (uint32_t i = 1; i < count; i++) {
+        JoxTransfer moved = t[i];
+        uint32_t j = i;
+        for (; j > 0 && t[j - 1].from_id > moved.from_id; j--)
+            t[j] = t[j - 1];
+        t[j] = moved;
+    }
+}
+
+typedef struct SumTask {
+    JoxForces *forces;
+    float *x, *y, *squeeze;
+} SumTask;
+
+static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const SumTask *task = context;
+    JoxForces *f = task->forces;
+    const float *radius = f->step.agents->param[JOX_PARAM_radius];
+    for (uint32_t i = begin; i < end; i++) {
+        uint32_t first = f->starts[i], count = f->starts[i + 1] - first;
+        if (!count)
+            continue;
+        JoxTransfer *t = f->sorted + first;
+        order_by_giver(t, count);
+        float x = 0.0f, y = 0.0f, size = 0.0f;
+        for (uint32_t k = 0; k < count; k++) {
+            x += t[k].x;
+            y += t[k].y;
+            if (task->squeeze)
+                size += sqrtf(t[k].x * t[k].x + t[k].y * t[k].y);
+        }
+        task->x[i] += x;
+        task->y[i] += y;
+        if (task->squeeze)
+            task->squeeze[i] += size / jox_girth(radius[i]);
+    }
+}
+
+void jox_transfers_sum(JoxForces *f, float *x, float *y, float *squeeze) {
+    SumTask task = {f, x, y, squeeze};
+    jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, sum_chunk, &task);
+}
+
+void jox_force_owe(JoxForces *f, uint32_t agent_id, uint32_t object, JoxV3 impulse, JoxV3 point) {
+    JOX_RESERVE(f->owed, f->owed_capacity, (size_t)f->owed_count + 1);
+    uint64_t key = (uint64_t)agent_id << 32 | object;
+    f->owed[f->owed_count] = (JoxOwed){key, f->owed_count, {object, impulse, point}};
+    f->owed_count++;
+}
+
+static bool later(const JoxOwed *a, const JoxOwed *b) {
+    return a->key != b->key ? a->key > b->key : a->turn > b->turn;
+}
+
+/* Shell's sort: in place, and never of equals, so that there is one order. */
+static void sort_owed(JoxOwed *owed, uint32_t count) {
+    static const uint32_t gaps[] = {88573, 29524, 9841, 3280, 1093, 364, 121, 40, 13, 4, 1};
+    for (size_t g = 0; g < sizeof gaps / sizeof *gaps; g++) {
+        uint32_t gap = gaps[g];
+        for (uint32_t i = gap; i < count; i++) {
+            JoxOwed moved = owed[i];
+            uint32_t j = i;
+            for (; j >= gap && later(&owed[j - gap], &moved); j -= gap)
+                owed[j] = owed[j - gap];
+            owed[j] = moved;
+        }
+    }
+}
+
+const JoxImpulse *jox_force_impulses(JoxForces *f, uint32_t *count) {
+    if (f->owed_sorted != f->owed_count) {
+        sort_owed(f->owed, f->owed_count);
+        JOX_RESERVE(f->impulses, f->impulse_capacity, f->owed_count);
+        for (uint32_t i = 0; i < f->owed_count; i++)
+            f->impulses[i] = f->owed[i].impulse;
+        f->owed_sorted = f->owed_count;
+    }
+    *count = f->owed_count;
+    return f->impulses;
+}

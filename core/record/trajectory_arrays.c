@@ -1,0 +1,64 @@
+/* Frames and people of a recording in memory. */
+#include "record/trajectories.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+size_t jox_trajectories_add(JoxTrajectories *t) {
+    if (t->count == t->capacity) {
+        size_t wider = t->capacity ? 2 * t->capacity : 1024;
+        t->number = jox_realloc(t->number, wider, sizeof *t->number);
+        t->id = jox_realloc(t->id, wider, sizeof *t->id);
+        t->line = jox_realloc(t->line, wider, sizeof *t->line);
+        t->x = jox_realloc(t->x, wider, sizeof *t->x);
+        t->y = jox_realloc(t->y, wider, sizeof *t->y);
+        t->vx = jox_realloc(t->vx, wider, sizeof *t->vx);
+        t->vy = jox_realloc(t->vy, wider, sizeof *t->vy);
+        t->capacity = wider;
+    }
+    return t->count++;
+}
+
+bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out) {
+    if (f >= t->frame_count)
+        return false;
+    size_t first = t->first[f];
+    *out = (JoxFrame){.time = (double)t->number[first] / t->fps,
+                      .count = (uint32_t)(t->first[f + 1] - first),
+                      .period = t->period,
+                      .keys = t->keys,
+                      .key = t->key + first,
+                      .x = t->x + first,
+                      .y = t->y + first,
+                      .vx = t->vx + first,
+                      .vy = t->vy + first,
+                      .force = t->force ? t->force + first : NULL,
+                      .compression = t->compression ? t->compression + first : NULL,
+                      .group = t->group ? t->group + first : NULL,
+                      .groups = (const char *const *)t->groups,
+                      .group_count = t->group_count,
+                      .state = t->state ? t->state + first : NULL,
+                      .states = (const char *const *)t->states,
+                      .state_count = t->state_count};
+    return true;
+}
+
+void jox_trajectories_free(JoxTrajectories *t) {
+    if (!t)
+        return;
+    void *columns[] = {t->number, t->id,    t->line,  t->key,    t->x,
+                       t->y,      t->vx,    t->vy,    t->force,  t->compression,
+                       t->group,  t->first, t->state, t->face_x, t->face_y};
+    for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
+        jox_free(columns[c]);
+    for (uint32_t g = 0; g < t->group_count; g++)
+        jox_free(t->groups[g]);
+    jox_free(t->groups);
+    for (uint32_t s = 0; s < t->state_count; s++)
+        jox_free(t->states[s]);
+    jox_free(t->states);
+    jox_walls_free(&t->walls);
+    jox_free(t);
+}

@@ -1,0 +1,175 @@
+/* The loading half of a reload: edited files become new machines and what it takes to put them in
+   the place of the old. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "run/reload_parts.h"
+
+void jox_batch_free(JoxBatch *batch) {
+    for (uint32_t c = 0; c < batch->count; c++) {
+        jox_free(batch->changes[c].path);
+        jox_files_free(&batch->changes[c].files);
+        jox_replacement_free(batch->changes[c].replacement);
+        jox_loaded_free(batch->changes[c].loaded);
+    }
+    jox_free(batch->changes);
+    jox_scene_free(batch->spec);
+    jox_files_free(&batch->plan_files);
+    jox_diag_free(&batch->diagnostics);
+    jox_text_free(&batch->said);
+    jox_free(batch);
+}
+
+bool jox_reload_use(JoxReload *r, uint32_t part, const char *path) {
+    jox_changes_uses(&r->changes, part, path);
+    return !r->watch || jox_watch_add(r->watch, path);
+}
+
+/* What a batch is made of counts from here on; if it could not go live, that counts too. */
+static void settle(JoxReload *r, const JoxBatch *batch, bool live) {
+    if (live)
+        jox_changes_live(&r->changes, batch->parts);
+    for (uint32_t c = 0; c < batch->count; c++) {
+        const JoxChange *change = &batch->changes[c];
+        for (uint32_t f = 0; f < change->files.count && (live || !change->added); f++)
+            jox_reload_use(r, change->index, change->files.paths[f]);
+    }
+    for (uint32_t f = 0; batch->plan_files.count > f; f++)
+        jox_reload_use(r, JOX_PART_PLAN, batch->plan_files.paths[f]);
+}
+
+void jox_reload_free_retired(JoxReload *r) {
+    JoxRetired *retired = (JoxRetired *)atomic_exchange(&r->retired, 0);
+    while (retired) {
+        JoxRetired *next = retired->next;
+        settle(r, retired->batch, retired->live);
+        jox_batch_free(retired->batch);
+        for (uint32_t m = 0; m < retired->count; m++)
+            jox_loaded_free(retired->machines[m]);
+        jox_free(retired->machines);
+        jox_free(retired);
+        retired = next;
+    }
+}
+
+static JoxChange *add_change(JoxBatch *batch, uint32_t index, const char *path) {
+    JOX_RESERVE(batch->changes, batch->capacity, batch->count + 1);
+    JoxChange *change = &batch->changes[batch->count++];
+    *change = (JoxChange){.index = index, .path = jox_strdup(path)};
+    return change;
+}
+
+/* Where a machine that is missing would be: beside the one that becomes it. */
+static void place_beside(const char *from, const char *name, char path[1024]) {
+    const char *slash = strrchr(from, '/');
+    size_t n = strlen(name);
+    if (n > 4 && !strcmp(name + n - 4, ".lua"))
+        n -= 4;
+    snprintf(path, 1024, "%.*s%.*s.lua", slash ? (int)(slash - from) + 1 : 0, from,
+             n < 200 ? (int)n : 200, name);
+}
+
+/* Machines that a new version becomes and that are not there yet join the batch. */
+static void add_becomes(JoxReload *r, JoxBatch *batch, uint32_t c, const JoxMachine *next) {
+    JoScene *scene = r->scene;
+    const JoxMind *mind = &scene->world->mind;
+    uint32_t machines = atomic_load(&r->machine_count);
+    for (uint32_t s = 0; s < next->state_count; s++) {
+        char path[1024];
+        if (!next->states[s].become)
+            continue;
+        if (!jox_run_find_become(scene, next, s, path, &batch->diagnostics)) {
+            place_beside(next->path, next->states[s].become, path);
+            jox_files_add(&batch->changes[c].files, path); /* when it is written, try again */
+            continue;
+        }
+        bool known = false;
+        uint32_t added = 0;
+        for (uint32_t m = 0; m < machines; m++)
+            known |= strcmp(mind->machines[m]->path, path) == 0;
+        for (uint32_t o = 0; o < batch->count; o++) {
+            known |= strcmp(batch->changes[o].path, path) == 0;
+            added += batch->changes[o].added;
+        }
+        if (!known && machines + added < JOX_MOST_MACHINES)
+            add_change(batch, 0, path)->added = true;
+        else if (!known)
+            jox_diag_error(&batch->diagnostics,
+                           ((JoxPosition){next->path, next->states[s].become_line,
+                                          next->states[s].become_column, 0}),
+                           "too-many", NULL, "a scene has at most %d behaviours",
+                           JOX_MOST_MACHINES);
+    }
+}
+
+/* Loads one machine of a batch, and watches what it is made of, whether that went well or not. */
+static void load_change(JoxReload *r, JoxBatch *batch, uint32_t c) {
+    JoScene *scene = r->scene;
+    const char *path = batch->changes[c].path;
+    JoxLoaded *loaded =
+        jox_lua_prepare(scene->lua, path, NULL, 0, &scene->scope, &batch->diagnostics);
+    uint32_t count;
+    char *const *tried = jox_loaded_tried(loaded, &count);
+    for (uint32_t f = 0; f < count; f++)
+        jox_files_add(&batch->changes[c].files, tried[f]);
+    batch->changes[c].loaded = loaded;
+    jox_text_add(&batch->said, jox_loaded_said(loaded));
+    const JoxMachine *next = jox_loaded_machine(loaded);
+    const JoxLuaFile *files = jox_loaded_files(loaded, &count);
+    if (next)
+        jox_run_check_own(scene, next, files, count, &batch->diagnostics);
+    if (next)
+        add_becomes(r, batch, c, next);
+    else
+        batch->failed = true;
+    for (uint32_t f = 0; r->watch && f < batch->changes[c].files.count; f++)
+        jox_watch_add(r->watch, batch->changes[c].files.paths[f]);
+}
+
+static void load_plan(JoxReload *r, JoxBatch *batch) {
+    JoScene *scene = r->scene;
+    batch->spec =
+        jox_run_load_spec(&scene->def, scene->mods, scene->mods->count, &batch->diagnostics);
+    batch->failed |= !batch->spec;
+    for (uint32_t f = 0; batch->spec && f < batch->spec->file_count; f++)
+        jox_files_add(&batch->plan_files, batch->spec->files[f].path);
+}
+
+/* Works out what it takes to put the new version in the place of the old. */
+void jox_batch_compare(JoxReload *r, JoxChange *change) {
+    const JoxMind *mind = &r->scene->world->mind;
+    jox_replacement_free(change->replacement);
+    pthread_mutex_lock(&r->machines);
+    change->edits = r->edits[change->index];
+    change->replacement =
+        jox_replacement_prepare(mind->machines[change->index], jox_loaded_machine(change->loaded),
+                                r->scene->world->def.seed, atomic_load(&r->next_id));
+    pthread_mutex_unlock(&r->machines);
+}
+
+/* The next parts whose files have changed, loaded; NULL where there are none. */
+JoxBatch *jox_batch_prepare(JoxReload *r) {
+    JoScene *scene = r->scene;
+    const JoxMind *mind = &scene->world->mind;
+    bool parts[JOX_PARTS];
+    double written;
+    if (!jox_changes_next(&r->changes, parts, &written))
+        return NULL;
+    JoxBatch *batch = jox_alloc(1, sizeof *batch);
+    memcpy(batch->parts, parts, sizeof parts);
+    batch->written = written;
+    for (uint32_t m = 0; m < atomic_load(&r->machine_count); m++)
+        if (parts[m])
+            add_change(batch, m, mind->machines[m]->path);
+    for (uint32_t c = 0; c < batch->count; c++) /* grows by what others become */
+        load_change(r, batch, c);
+    if (parts[JOX_PART_PLAN])
+        load_plan(r, batch);
+    if (batch->diagnostics.errors)
+        batch->failed = true;
+    for (uint32_t c = 0; c < batch->count && !batch->failed; c++)
+        if (!batch->changes[c].added)
+            jox_batch_compare(r, &batch->changes[c]);
+    return batch;
+}

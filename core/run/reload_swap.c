@@ -1,0 +1,197 @@
+/* The swapping half of a reload, between two steps. */
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/mem.h"
+#include "run/reload_parts.h"
+
+/* "35,000" */
+static const char *grouped(uint32_t number, char out[16]) {
+    char plain[16];
+    int n = snprintf(plain, sizeof plain, "%u", number), at = 0;
+    for (int i = 0; i < n; i++) {
+        out[at++] = plain[i];
+        if ((n - 1 - i) % 3 == 0 && i + 1 < n)
+            out[at++] = ',';
+    }
+    out[at] = 0;
+    return out;
+}
+
+/* "  Circle 31204  Exit 310": agents per state. */
+static void print_census(const JoxMachine *machine, const uint32_t *people, JoxText *out) {
+    char number[16];
+    for (uint32_t s = 0; s < machine->state_count; s++)
+        if (people[s])
+            jox_text_printf(out, "  %s %s", machine->states[s].name, grouped(people[s], number));
+}
+
+static double real_time(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_REALTIME, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+/* Says why a batch is not taken, and which versions go on. */
+static void refuse(JoScene *scene, JoxBatch *batch, const char *path, const char *why) {
+    const JoxMind *mind = &scene->world->mind;
+    char number[16];
+    if (why)
+        jox_diag_error(&batch->diagnostics, ((JoxPosition){path, 0, 0, 0}), "cannot-swap", NULL,
+                       "%s", why);
+    if (scene->diagnosed)
+        scene->diagnosed(scene->diagnosed_context, batch->parts, &batch->diagnostics);
+    jox_run_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
+    if (scene->diagnosed)
+        scene->diagnosed(scene->diagnosed_context, batch->parts, NULL);
+    for (uint32_t c = 0; c < batch->count; c++) {
+        if (batch->changes[c].added)
+            continue;
+        const JoxMachine *machine = mind->machines[batch->changes[c].index];
+        jox_run_say(scene, " Version %u%s%s keeps running; %s agents unaffected.\n",
+                    machine->version, batch->count > 1 ? " of " : "",
+                    batch->count > 1 ? machine->name : "", grouped(mind->agents->count, number));
+    }
+    if (batch->count == 0)
+        jox_run_say(scene, " The scene goes on as it was.\n");
+}
+
+/* Machines that others become, and links to them. */
+static void link_batch(JoScene *scene, JoxBatch *batch) {
+    JoxMind *mind = &scene->world->mind;
+    for (uint32_t c = 0; c < batch->count; c++) {
+        JoxChange *change = &batch->changes[c];
+        if (!change->added)
+            continue;
+        JoxMachine *machine = jox_loaded_machine(change->loaded);
+        jox_lua_adopt(scene->lua, change->loaded);
+        change->index = jox_mind_add(mind, machine);
+        jox_run_tell_replaced(scene, change->index);
+    }
+    for (uint32_t m = 0; m < mind->machine_count; m++) {
+        JoxDiagnostics none = {0};
+        jox_run_link(scene, mind->machines[m], &none);
+        jox_diag_free(&none);
+    }
+}
+
+/* Own values that the old version did not have, as the scene sets them. */
+static void give_new(JoScene *scene, const JoxChange *change, const JoxMachine *old,
+                     const JoxMachine *next) {
+    const JoxSceneSpec *spec = scene->spec;
+    for (uint32_t s = 0; s < next->own_count; s++) {
+        bool known = !*next->own[s].name;
+        for (uint32_t o = 0; o < old->own_count && !known; o++)
+            known = strcmp(old->own[o].name, next->own[s].name) == 0;
+        for (uint32_t g = 0; g < spec->group_count && !known; g++)
+            for (uint32_t k = 0; k < spec->groups[g].set_count; k++)
+                if (strcmp(spec->groups[g].set[k].name, next->own[s].name) == 0 &&
+                    spec->groups[g].set[k].kind != JOX_SET_ANTIPODE)
+                    jox_run_give(scene, (int32_t)change->index, g, &spec->groups[g].set[k]);
+    }
+}
+
+static bool same_states(const JoxMachine *a, const JoxMachine *b) {
+    bool same = a->state_count == b->state_count;
+    for (uint32_t s = 0; same && s < a->state_count; s++)
+        same = strcmp(a->states[s].name, b->states[s].name) == 0;
+    return same;
+}
+
+/* Swaps the machines of a batch; the old ones go to `retired`. */
+static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
+    JoxMind *mind = &scene->world->mind;
+    JoxText text = {0};
+    uint32_t before[1000], after[1000];
+    retired->machines = jox_alloc(batch->count + 1, sizeof *retired->machines);
+    for (uint32_t c = 0; c < batch->count; c++) {
+        JoxChange *change = &batch->changes[c];
+        if (change->added)
+            continue;
+        double begun = jox_clock_wall();
+        jox_mind_census(mind, change->index, before);
+        JoxMachine *next = jox_loaded_machine(change->loaded);
+        JoxMachine *old = jox_mind_replace(mind, change->index, change->replacement);
+        give_new(scene, change, old, next);
+        retired->machines[retired->count++] = jox_lua_retire(scene->lua, old);
+        jox_lua_adopt(scene->lua, change->loaded);
+        jox_mind_census(mind, change->index, after);
+        if (!same_states(old, next)) /* the recording names those of the new version too */
+            jox_run_tell_replaced(scene, change->index);
+        double took = jox_clock_wall() - begun;
+        scene->swap_seconds = took > scene->swap_seconds ? took : scene->swap_seconds;
+        jox_text_printf(&text, "%s: version %u is live from t = %.2f s", next->path, next->version,
+                        jo_world_time(scene->world));
+        if (batch->written > 0.0)
+            jox_text_printf(&text, " (saved %.0f ms ago, swapped in %.2f ms)",
+                            (real_time() - batch->written) * 1e3, took * 1e3);
+        jox_text_add(&text, "\n before:");
+        print_census(old, before, &text);
+        jox_text_add(&text, "\n after: ");
+        print_census(next, after, &text);
+        jox_text_add(&text, "\n");
+    }
+    link_batch(scene, batch);
+    if (text.data)
+        scene->message(scene->message_context, text.data);
+    jox_text_free(&text);
+}
+
+/* Notes the texts that differ from those that are live, for the input log. */
+static void note_files(JoScene *scene, const JoxBatch *batch, JoxReloaded *reloaded) {
+    for (uint32_t c = 0; c < batch->count; c++) {
+        uint32_t count;
+        const JoxLuaFile *files = jox_loaded_files(batch->changes[c].loaded, &count);
+        for (uint32_t f = 0; f < count; f++) {
+            size_t length;
+            const char *text = jox_loaded_text(batch->changes[c].loaded, f, &length);
+            jox_run_note_file(scene, reloaded, files[f].path, files[f].sha256, text, length);
+        }
+    }
+    for (uint32_t f = 0; batch->spec && f < batch->spec->file_count; f++) {
+        const JoxSceneFile *file = &batch->spec->files[f];
+        jox_run_note_file(scene, reloaded, file->path, file->sha256, file->text, file->length);
+    }
+}
+
+/* Takes the batch over. True if it is live. */
+bool jox_batch_take(JoScene *scene, JoxBatch *batch) {
+    JoxReload *r = scene->reload;
+    char why[256];
+    bool live = false;
+    const char *refused = NULL, *path = "";
+    if (batch->said.length)
+        scene->message(scene->message_context, batch->said.data);
+    for (uint32_t c = 0; c < batch->count && !batch->failed && !refused; c++)
+        if (!batch->changes[c].added) {
+            path = batch->changes[c].path;
+            if (batch->changes[c].edits != r->edits[batch->changes[c].index])
+                jox_batch_compare(r, &batch->changes[c]); /* a parameter was set meanwhile */
+            refused = jox_mind_refuses(&scene->world->mind, batch->changes[c].index,
+                                       batch->changes[c].replacement, why, sizeof why);
+        }
+    JoxRetired *retired = jox_alloc(1, sizeof *retired);
+    retired->batch = batch;
+    if (batch->failed || refused) {
+        refuse(scene, batch, path, refused);
+    } else {
+        if (scene->diagnosed) /* warnings, at most */
+            scene->diagnosed(scene->diagnosed_context, batch->parts, &batch->diagnostics);
+        jox_run_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
+        JoxReloaded reloaded = {0};
+        retired->live = live = true;
+        if (scene->log)
+            note_files(scene, batch, &reloaded);
+        swap(scene, batch, retired);
+        if (batch->spec)
+            jox_run_rescene(scene, &batch->spec, batch->written);
+        jox_run_log_files(scene, &reloaded);
+    }
+    atomic_store(&r->machine_count, scene->world->mind.machine_count);
+    retired->next = (JoxRetired *)atomic_load(&r->retired);
+    while (
+        !atomic_compare_exchange_weak(&r->retired, (uintptr_t *)&retired->next, (uintptr_t)retired))
+        ;
+    return live;
+}
