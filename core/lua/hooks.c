@@ -11,8 +11,8 @@
 enum { MOST_FAILURES = 100 }; /* in a simulated second, before a function is suspended */
 enum { TIMED = 16 };          /* one call in so many is timed */
 
-void jox_lua_attach(JoxLua *lua, JoxMind *mind, JoxLuaComplain *complain, void *context) {
-    lua->mind = mind;
+void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *complain, void *context) {
+    lua->machines = machines;
     lua->complain = complain;
     lua->complain_context = context;
 }
@@ -52,9 +52,9 @@ static void new_second(JoxLua *lua, const JoxVm *vm, JoxHook *hook, uint32_t sec
 
 /* Says each new failure in full; the same again is counted and said once a second. */
 static void report(JoxLua *lua, JoxVm *vm, JoxHook *hook, const char *why, int line) {
-    const JoxMind *mind = lua->mind;
+    const JoxMachineRun *machines = lua->machines;
     char text[2600];
-    uint32_t second = (uint32_t)(mind->tick * mind->dt);
+    uint32_t second = (uint32_t)(machines->tick * machines->dt);
     if (second != hook->second)
         new_second(lua, vm, hook, second);
     lua->failures++;
@@ -78,7 +78,8 @@ static void report(JoxLua *lua, JoxVm *vm, JoxHook *hook, const char *why, int l
     snprintf(text, sizeof text,
              "%.200s:%d: %.400s\n%s machine %.60s > %.200s; agent %u, step %u, seed %llu\n",
              vm->sources[vm->failed_source].path, line, why, vm->traceback, vm->machine->name,
-             hook->where, mind->agents->id[vm->agent], mind->tick, (unsigned long long)mind->seed);
+             hook->where, machines->agents->id[vm->agent], machines->tick,
+             (unsigned long long)machines->seed);
     say(lua, text);
 }
 

@@ -205,7 +205,7 @@ struct JoxLua {
     JoxVm **vms;
     uint32_t vm_count;
     size_t vm_capacity;
-    JoxMind *mind;
+    JoxMachineRun *machines;
     JoxLuaComplain *complain;
     void *complain_context;
     uint64_t failures;

@@ -37,6 +37,6 @@ void jox_trial_scene(lua_State *L, JoxTrial *trial, int index, JoxText *out);
 double jox_trial_speed(const JoxAgents *agents, uint32_t i);
 void jox_trial_set_number(lua_State *L, const char *name, double value);
 /* Pushes a table with all of an agent. */
-void jox_trial_push_agent(lua_State *L, const JoxMind *mind, uint32_t i);
+void jox_trial_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i);
 
 #endif

@@ -23,7 +23,8 @@ static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
     }
 }
 
-static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch, JoxRegisters registers) {
+static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
+                          JoxRegisters registers) {
     const JoxMachine *machine = run->set->items[batch->machine];
     const JoxState *state = &machine->states[batch->state];
     const uint32_t *agents = run->scratch->grouped + batch->begin;
@@ -136,8 +137,8 @@ static void toss(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
     float rise = 0.5f * (float)run->gravity * flight - drop / flight;
     way = jox_scale(way, level / distance);
     add_grip(run, (JoxGrip){.object = (uint32_t)row,
-                             .agent_id = a->id[i],
-                             .velocity = {way.x, way.y, jox_clampf(rise, -20.0f, 20.0f)}});
+                            .agent_id = a->id[i],
+                            .velocity = {way.x, way.y, jox_clampf(rise, -20.0f, 20.0f)}});
     a->kicked[i] = row;
 }
 

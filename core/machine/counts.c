@@ -56,7 +56,8 @@ static bool leads(const JoxMachine *machine, const char *from, const char *to) {
     return false;
 }
 
-void jox_machines_taken(const JoxMachineRun *run, uint32_t index, JoxTakenVisit *visit, void *context) {
+void jox_machines_taken(const JoxMachineRun *run, uint32_t index, JoxTakenVisit *visit,
+                        void *context) {
     const JoxMachine *machine = run->set->items[index];
     const JoxMachineCounts *counts = &run->state->counts[index];
     for (uint32_t s = 0; s < machine->state_count; s++) {

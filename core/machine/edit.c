@@ -24,7 +24,8 @@ static void apply(JoxMachine *machine, const JoxParameterEdit *edit) {
                       : &machine->states[edit->state].param[edit->parameter]) = set;
 }
 
-/* The copy: its states and own slots are its own, all that they point to belongs to the built one. */
+/* The copy: its states and own slots are its own, all that they point to belongs to the built one.
+ */
 static JoxMachine *copy_of(JoxMachineSet *set, uint32_t index) {
     const JoxMachine *built = set->built[index];
     JoxMachine *copy = set->edited[index];
@@ -101,7 +102,7 @@ static void write_parameter(JoxMachineRun *run, uint32_t i, int p) {
 }
 
 void jox_machines_set_parameter(JoxMachineRun *run, uint32_t index, int32_t number, int parameter,
-                            double value) {
+                                double value) {
     JoxAgents *a = run->agents;
     run->edits_made++;
     keep(run->state, (JoxParameterEdit){index, number, parameter, 0, value});
@@ -122,4 +123,3 @@ void jox_machines_set_parameter(JoxMachineRun *run, uint32_t index, int32_t numb
         }
     }
 }
-

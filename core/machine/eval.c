@@ -135,7 +135,7 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
     break
 
 static void execute(const JoxMachineRun *run, const JoxMachine *machine, const JoxInstruction *in,
-                const uint32_t *agents, uint32_t count, JoxRegisters r) {
+                    const uint32_t *agents, uint32_t count, JoxRegisters r) {
     const JoxAgents *g = run->agents;
     double *to = r[in->to];
     const double *a = r[in->a], *b = r[in->b], *c = r[in->c];

@@ -13,8 +13,8 @@ static const char *const NOWS[] = {
 };
 
 /* One line per instruction: what it is, of what, and its value for the agent at present. */
-static void print_program(const JoxMachineRun *run, const JoxMachine *machine, const JoxProgram *program,
-                          uint32_t agent, JoxText *out) {
+static void print_program(const JoxMachineRun *run, const JoxMachine *machine,
+                          const JoxProgram *program, uint32_t agent, JoxText *out) {
     static _Thread_local JoxRegisters registers;
     for (uint32_t k = 0; k < program->count; k++) {
         const JoxInstruction *in = &program->code[k];

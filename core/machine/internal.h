@@ -104,11 +104,11 @@ void jox_machines_write_parameters(JoxMachineRun *run, uint32_t agent);
 /* The parameter as the state, else the machine, sets it; UNSET if neither does. */
 const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *state,
                                     int parameter);
-/* Clears the agent's own values and memory beyond those of the machine, so that what an older machine
-   left there is no part of the state. */
+/* Clears the agent's own values and memory beyond those of the machine, so that what an older
+   machine left there is no part of the state. */
 void jox_rows_end(const JoxAgents *agents, uint32_t agent, const JoxMachine *machine);
-/* Puts a machine into a place of the set: numbers its names and transitions, widens the agents' rows,
-   begins its counts. From here on it does not change. */
+/* Puts a machine into a place of the set: numbers its names and transitions, widens the agents'
+   rows, begins its counts. From here on it does not change. */
 void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine);
 /* Room for the counts of a machine's transitions, with zeros. */
 void jox_counts_begin(JoxMachineCounts *counts, const JoxMachine *machine);

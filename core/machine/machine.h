@@ -1,7 +1,7 @@
 /* A state machine as data: states, their parameters, their ordered transitions, and the programs
    that their conditions and numeric expressions are compiled to. lua/ builds it; it is immutable
-   from when it is added to a set (run.h), except that run/ links it to those that it becomes. Think and
-   prefer run it. Knows no Lua. */
+   from when it is added to a set (run.h), except that run/ links it to those that it becomes. Think
+   and prefer run it. Knows no Lua. */
 #ifndef JOX_MACHINE_MACHINE_H
 #define JOX_MACHINE_MACHINE_H
 

@@ -135,8 +135,8 @@ static JoxV2 evade(const JoxMachineRun *run, uint32_t i, JoxV2 ahead) {
 
 /* The way's direction, (0, 0) where there is none, and *none says that none leads there; it is
    asked for again and again, as only ways that are wanted are renewed. */
-static JoxV2 way(const JoxMachineRun *run, uint32_t place, JoxWayKind kind, JoxV2 p, bool *none) {
-    const JoxField *field = run->fields[place * JOX_WAY_KINDS + kind];
+static JoxV2 way(const JoxMachineRun *run, uint32_t place, JoxRouteKind kind, JoxV2 p, bool *none) {
+    const JoxField *field = run->fields[place * JOX_ROUTE_KINDS + kind];
     uint8_t bit = (uint8_t)(1 << kind);
     /* Whichever thread comes first: the result is the same. */
     if (!(__atomic_load_n(&run->wanted[place], __ATOMIC_RELAXED) & bit))
@@ -156,13 +156,13 @@ static JoxV2 field(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *ter
     JoxV2 p = {a->x[i], a->y[i]};
     if (!run->fields || jox_place_contains(run->places, (uint32_t)place, p))
         return seek(run, i, term->target);
-    JoxV2 direction = way(run, (uint32_t)place, JOX_WAY_NOW, p, &none);
+    JoxV2 direction = way(run, (uint32_t)place, JOX_ROUTE_NOW, p, &none);
     if (none)
-        direction = way(run, (uint32_t)place, JOX_WAY_OPEN, p, &none);
+        direction = way(run, (uint32_t)place, JOX_ROUTE_OPEN, p, &none);
     return jox_length2(direction) > 0.0f ? direction : seek(run, i, term->target);
 }
 
-void jox_machines_ask_ways(JoxMachineRun *run) {
+void jox_machines_ask_routes(JoxMachineRun *run) {
     const JoxAgents *a = run->agents;
     for (uint32_t i = 0; i < a->count; i++) {
         if (a->machine[i] == JOX_NO_MACHINE)
@@ -341,7 +341,7 @@ static void ask_functions(JoxMachineRun *run) {
             continue;
         double v[2] = {0.0, 0.0};
         bool good = run->call && run->call(run->call_context, machine, state->steer[0].hook,
-                                             JOX_HOOK_STEER, i, v);
+                                           JOX_HOOK_STEER, i, v);
         good = good && fabs(v[0]) <= 100.0 && fabs(v[1]) <= 100.0;
         a->pref_x[i] = good ? (float)v[0] : 0.0f;
         a->pref_y[i] = good ? (float)v[1] : 0.0f;

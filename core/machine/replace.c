@@ -216,7 +216,7 @@ void jox_machines_people(const JoxMachineRun *run, uint32_t index, uint32_t *peo
 }
 
 const char *jox_machines_refuses(const JoxMachineRun *run, uint32_t index, const JoxReplacement *r,
-                             char *why, uint32_t size) {
+                                 char *why, uint32_t size) {
     const JoxMachine *old = run->set->items[index];
     uint32_t people[1000];
     if (old->state_count > 1000)
@@ -356,9 +356,9 @@ JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxRe
     bool any = r->memory_moves || r->states_move;
     for (uint32_t s = 0; s < old->state_count; s++)
         any |= r->assign_count[s] || r->truth_moves[s] || r->tags_change[s];
-    bool shorter =
-        next->own_count < old->own_count || next->memory_count < old->memory_count;
-    bool all = any || shorter || r->own_moves || r->redrawn_count, rows = r->moved_count || r->redrawn_count;
+    bool shorter = next->own_count < old->own_count || next->memory_count < old->memory_count;
+    bool all = any || shorter || r->own_moves || r->redrawn_count,
+         rows = r->moved_count || r->redrawn_count;
     uint64_t given = 0, now = 0; /* of the agent before: mostly the same */
     for (uint32_t i = 0; all && i < a->count; i++) {
         if (rows && i + AHEAD < a->count)

@@ -55,12 +55,12 @@ typedef struct JoxGrip {
 } JoxGrip;
 
 /* Kinds of ways round walls and large bodies. */
-typedef enum JoxWayKind {
-    JOX_WAY_NOW,  /* as all stands now */
-    JOX_WAY_OPEN, /* as if walls that open were open, and what can be moved were away: for those who
-                     have no other way, and wait at a gate */
-    JOX_WAY_KINDS
-} JoxWayKind;
+typedef enum JoxRouteKind {
+    JOX_ROUTE_NOW,  /* as all stands now */
+    JOX_ROUTE_OPEN, /* as if walls that open were open, and what can be moved were away: for those
+                     who have no other way, and wait at a gate */
+    JOX_ROUTE_KINDS
+} JoxRouteKind;
 
 /* An agent whose last transition is kept, with the reason for it. */
 typedef struct JoxWatched {
@@ -98,9 +98,10 @@ typedef struct JoxMachineCounts {
    while a world runs (JoxMachineState.edits) is applied to a copy, so that a machine never changes
    once it is built. Owned. Zero-initialised is empty. */
 typedef struct JoxMachineSet {
-    const JoxMachine *items[JOX_MOST_MACHINES]; /* as they run: built, or edited where there is one */
-    JoxMachine *built[JOX_MOST_MACHINES];       /* as the file says */
-    JoxMachine *edited[JOX_MOST_MACHINES];      /* copies with the parameters that were set; NULL */
+    const JoxMachine
+        *items[JOX_MOST_MACHINES];         /* as they run: built, or edited where there is one */
+    JoxMachine *built[JOX_MOST_MACHINES];  /* as the file says */
+    JoxMachine *edited[JOX_MOST_MACHINES]; /* copies with the parameters that were set; NULL */
     uint32_t count;
     char **names; /* number -> name, shared by all machines; only grows */
     uint32_t name_count;
@@ -135,19 +136,20 @@ typedef struct JoxMachineRun {
     const JoxPlace *places;
     uint32_t place_count;
     uint64_t seed;
-    uint32_t tick; /* number of this step, or of the last one, from 0 */
+    uint32_t tick;      /* number of this step, or of the last one, from 0 */
     double dt, gravity; /* s; m/s2, for throws */
     JoxHookCall *call;
     JoxHookBracket *bracket;
     JoxHookSections *hook_sections;
     void *call_context;
-    /* Velocity that the player (or the input log) wants for the agent with this id; (0,0) default. */
+    /* Velocity that the player (or the input log) wants for the agent with this id; (0,0) default.
+     */
     const struct JoxPlayerInput {
         uint32_t agent_id;
         float vx, vy;
     } * inputs;
     uint32_t input_count;
-    /* Ways, [place * JOX_WAY_KINDS + kind]; NULL where there is none yet. What is asked for is
+    /* Ways, [place * JOX_ROUTE_KINDS + kind]; NULL where there is none yet. What is asked for is
        marked in `wanted`, by place, a bit for each kind, for the world to make or renew. */
     JoxField *const *fields;
     uint8_t *wanted;
@@ -184,8 +186,8 @@ uint32_t jox_machines_add(JoxMachineRun *run, JoxMachine *machine);
    per own slot, NULL or an array of own_count pointers, NULL where the machine's own distribution
    stands), memory (likewise), enters the start state (its parameters are written; on_enter is
    queued and runs in the next think). */
-void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine, const JoxDist *const *own,
-                    const JoxDist *const *memory);
+void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
+                        const JoxDist *const *own, const JoxDist *const *memory);
 /* Evaluates counters, transitions, parameters, kicks. Agents with `removes` states get `removed`.
  */
 void jox_machines_think(JoxMachineRun *run, JoxPool *pool);
@@ -202,18 +204,20 @@ JoxReplacement *jox_replacement_prepare(const JoxMachine *old, JoxMachine *next,
 void jox_replacement_free(JoxReplacement *replacement);
 /* Whether it may be done now: NULL, or why not ("312 agents are in 'Greet', which this version
    lacks"), written into `why`. */
-const char *jox_machines_refuses(const JoxMachineRun *run, uint32_t index, const JoxReplacement *replacement,
-                             char *why, uint32_t size);
+const char *jox_machines_refuses(const JoxMachineRun *run, uint32_t index,
+                                 const JoxReplacement *replacement, char *why, uint32_t size);
 /* Swaps machine `index` for the next (taken over; the old one is returned, caller frees). Agents
    keep state (by name or `renamed`), time, memory and own values; enter and exit hooks do not run.
  */
-JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxReplacement *replacement);
+JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index,
+                                 const JoxReplacement *replacement);
 /* Agents per state of machine `index`, written to people (as many as it has states). */
 void jox_machines_people(const JoxMachineRun *run, uint32_t index, uint32_t *people);
 /* How often agents of machine `index` went from state to state so far: visits each pair once, by
    the names of the states, those of this version first. */
 typedef void JoxTakenVisit(void *context, const char *from, const char *to, uint64_t taken);
-void jox_machines_taken(const JoxMachineRun *run, uint32_t index, JoxTakenVisit *visit, void *context);
+void jox_machines_taken(const JoxMachineRun *run, uint32_t index, JoxTakenVisit *visit,
+                        void *context);
 /* Makes the agent go on with another machine, from its start state: it keeps its body, what the
    scene gave it and its memory, by name; the rest is drawn anew. */
 void jox_machines_become(JoxMachineRun *run, uint32_t agent, uint32_t machine);
@@ -223,7 +227,7 @@ void jox_machines_set_own(JoxMachineRun *run, uint32_t agent, uint32_t slot, dou
    in it and who will be, until the machine is replaced. In the defaults the own value of that name
    follows, but for those to whom the scene gave theirs. */
 void jox_machines_set_parameter(JoxMachineRun *run, uint32_t machine, int32_t state, int parameter,
-                            double value);
+                                double value);
 /* Number of a name that machines share; new names are added. */
 uint32_t jox_machines_name(JoxMachineRun *run, const char *name);
 /* The agent calls out a name (by number). */
@@ -231,7 +235,7 @@ void jox_machines_call(JoxMachineRun *run, uint32_t agent, uint32_t name);
 /* Everybody hears the name (by number) in the next think, wherever they are. */
 void jox_machines_announce(JoxMachineRun *run, uint32_t name);
 /* Marks in `wanted` the ways that agents want in the states that they are in. */
-void jox_machines_ask_ways(JoxMachineRun *run);
+void jox_machines_ask_routes(JoxMachineRun *run);
 /* Appends who went where by which transition, with the values of its condition at present. */
 void jox_machines_explain(const JoxMachineRun *run, const JoxTaken *taken, JoxText *out);
 /* Lists the state of the machines. After jox_agents_sections, whose machines and states it checks

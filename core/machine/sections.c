@@ -53,8 +53,7 @@ static void check(const JoxMachineRun *run, JoxSections *s) {
     const JoxMachineSet *set = run->set;
     for (uint32_t i = 0; i < a->count; i++)
         if (a->machine[i] != JOX_NO_MACHINE &&
-            (a->machine[i] >= set->count ||
-             a->state[i] >= set->built[a->machine[i]]->state_count))
+            (a->machine[i] >= set->count || a->state[i] >= set->built[a->machine[i]]->state_count))
             jox_sections_fail(s, "state", "an agent is in a state that there is not");
     for (uint32_t e = 0; e < state->edit_count; e++) {
         const JoxParameterEdit *edit = &state->edits[e];
@@ -109,11 +108,16 @@ void jox_machines_forget(JoxMachineRun *run) {
     struct {
         void *cells;
         size_t size;
-    } all[] = {{s->grouped, sizeof *s->grouped}, {s->fired, sizeof *s->fired},
-               {s->rank, sizeof *s->rank},       {s->queue, sizeof *s->queue},
-               {s->heading, sizeof *s->heading}, {s->list, sizeof *s->list},
-               {run->push_on, 1},                {run->push_nearest, 1},
-               {run->push_toward_x, 4},          {run->push_toward_y, 4}};
+    } all[] = {{s->grouped, sizeof *s->grouped},
+               {s->fired, sizeof *s->fired},
+               {s->rank, sizeof *s->rank},
+               {s->queue, sizeof *s->queue},
+               {s->heading, sizeof *s->heading},
+               {s->list, sizeof *s->list},
+               {run->push_on, 1},
+               {run->push_nearest, 1},
+               {run->push_toward_x, 4},
+               {run->push_toward_y, 4}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         memset(all[k].cells, 0xa5, n * all[k].size);
     if (s->place_capacity)

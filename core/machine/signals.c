@@ -18,11 +18,13 @@ uint32_t jox_machines_name(JoxMachineRun *run, const char *name) {
 void jox_machines_call(JoxMachineRun *run, uint32_t agent, uint32_t name) {
     const JoxAgents *a = run->agents;
     JOX_RESERVE(run->state->called, run->state->called_capacity, run->state->called_count + 1);
-    run->state->called[run->state->called_count++] = (JoxSignal){name, a->id[agent], a->x[agent], a->y[agent]};
+    run->state->called[run->state->called_count++] =
+        (JoxSignal){name, a->id[agent], a->x[agent], a->y[agent]};
 }
 
 void jox_machines_announce(JoxMachineRun *run, uint32_t name) {
-    JOX_RESERVE(run->state->announced, run->state->announced_capacity, run->state->announced_count + 1);
+    JOX_RESERVE(run->state->announced, run->state->announced_capacity,
+                run->state->announced_count + 1);
     run->state->announced[run->state->announced_count++] = name;
 }
 

@@ -53,8 +53,8 @@ static void draw_values(JoxMachineRun *run, uint32_t agent, const JoxMachine *ki
     }
 }
 
-void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine, const JoxDist *const *own,
-                    const JoxDist *const *memory) {
+void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
+                        const JoxDist *const *own, const JoxDist *const *memory) {
     JoxAgents *a = run->agents;
     const JoxMachine *kind = run->set->items[machine];
     a->machine[agent] = (uint16_t)machine;
@@ -138,10 +138,9 @@ void jox_machines_free(JoxMachineRun *run) {
     for (uint32_t n = 0; n < set->name_count; n++)
         jox_free(set->names[n]);
     jox_free(set->names);
-    void *const owned[] = {state->called,      state->announced,  state->pending,
-                           state->edits,       run->taken,        run->kicks,
-                           run->grips,         run->push_on,      run->push_nearest,
-                           run->push_toward_x, run->push_toward_y};
+    void *const owned[] = {state->called,     state->announced,   state->pending,    state->edits,
+                           run->taken,        run->kicks,         run->grips,        run->push_on,
+                           run->push_nearest, run->push_toward_x, run->push_toward_y};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
         jox_free(owned[i]);
     jox_text_free(&run->trace);

@@ -43,13 +43,12 @@ static void count_circuits(const JoxMachineRun *run, const JoxCounter *counter, 
 }
 
 /* Whether a transition whose condition has just turned true is taken. */
-static bool roll(const JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *t, uint32_t k,
-                 uint32_t i) {
+static bool roll(const JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *t,
+                 uint32_t k, uint32_t i) {
     if (t->chance.kind == JOX_VALUE_UNSET)
         return true;
     double chance = jox_value(run, machine, &t->chance, i);
-    return jox_random_unit(run->seed, run->agents->id[i], run->tick, JOX_DRAW_CHANCE, k) <
-           chance;
+    return jox_random_unit(run->seed, run->agents->id[i], run->tick, JOX_DRAW_CHANCE, k) < chance;
 }
 
 typedef struct Think {
@@ -57,7 +56,8 @@ typedef struct Think {
 } Think;
 
 /* Counters and compiled conditions of one batch; fills `fired`. */
-static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch, JoxRegisters registers) {
+static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
+                        JoxRegisters registers) {
     JoxAgents *a = run->agents;
     const JoxMachine *machine = run->set->items[batch->machine];
     const JoxState *state = &machine->states[batch->state];
@@ -178,7 +178,8 @@ static void call_hook(JoxMachineRun *run, int32_t hook, JoxHookKind kind, uint32
 }
 
 /* A set's member for this entry, for targets of the state that ask for one. */
-static void pick_goal(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state, uint32_t i) {
+static void pick_goal(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
+                      uint32_t i) {
     JoxAgents *a = run->agents;
     int16_t asked[JOX_MOST_TERMS + 4];
     uint32_t count = 0;
@@ -242,8 +243,8 @@ void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
     if (jox_queue_target(state) < 0)
         a->queue_at[i] = -1;
     if (state->has_lasts)
-        a->lasts[i] = (float)jox_dist_draw(&state->lasts, run->seed, a->id[i], run->tick,
-                                           JOX_DRAW_LASTS, 0);
+        a->lasts[i] =
+            (float)jox_dist_draw(&state->lasts, run->seed, a->id[i], run->tick, JOX_DRAW_LASTS, 0);
     else if (state->lasts_program >= 0 && !run->spawning)
         a->lasts[i] = computed_duration(run, machine, state, i);
     pick_goal(run, machine, state, i);

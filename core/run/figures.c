@@ -11,9 +11,9 @@ static const double SAMPLE = 2.0; /* s between samples of density and of the reg
 /* Whether the frame of now is a sample. */
 static bool is_sample(const JoScene *scene) {
     const JoWorld *world = scene->world;
-    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(SAMPLE / world->def.dt + 0.5));
-    return world->tick % every == 0 &&
-           (double)world->tick * world->def.dt >= scene->spec->heatmap_from;
+    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(SAMPLE / world->model.def.dt + 0.5));
+    return world->state.tick % every == 0 &&
+           (double)world->state.tick * world->model.def.dt >= scene->spec->heatmap_from;
 }
 
 /* ---- regions: in every scene that has some ---- */
@@ -34,11 +34,11 @@ static bool regions_begin(void *self, JoScene *scene, const void *options, JoErr
 
 static bool regions_frame(void *self, JoScene *scene, JoError *error) {
     RegionSpeeds *r = self;
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     (void)error;
     if (is_sample(scene))
         jox_regions_frame(r->regions, a->x, a->y, a->prev_x, a->prev_y, a->count,
-                          scene->world->def.dt);
+                          scene->world->model.def.dt);
     return true;
 }
 
@@ -78,7 +78,7 @@ static bool density_begin(void *self, JoScene *scene, const void *options, JoErr
 }
 
 static void add_density(DensityField *field, const JoScene *scene) {
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     jox_density_add(field->density, a->x, a->y, a->count, jo_world_time(scene->world));
 }
 

@@ -14,13 +14,13 @@ static const double PI = 3.14159265358979323846;
 JoStats jo_scene_stats(const JoScene *scene) {
     JOX_REQUIRE(scene, (JoStats){0});
     const JoWorld *world = scene->world;
-    const JoxStatistics *s = &world->statistics;
+    const JoxStatistics *s = &world->state.statistics;
     JoStats stats = {.steps = s->steps,
                      .agent_steps = s->agent_steps,
-                     .agents = world->agents.count,
-                     .bodies = jox_bodies_count(world->bodies),
-                     .dt = world->def.dt,
-                     .simulated_s = (double)s->steps * world->def.dt,
+                     .agents = world->state.agents.count,
+                     .bodies = jox_bodies_count(world->state.bodies),
+                     .dt = world->model.def.dt,
+                     .simulated_s = (double)s->steps * world->model.def.dt,
                      .wall_s = s->wall_s,
                      .cpu_s = s->cpu_s};
     for (int k = 0; k < JO_STAGE_COUNT && s->agent_steps; k++)
@@ -34,18 +34,18 @@ static void add_number(JoxText *out, const char *name, double value) {
 }
 
 static void add_states(JoxText *out, const JoWorld *world) {
-    const JoxMind *mind = &world->mind;
+    const JoxMachineRun *machines = &world->machines;
     jox_text_add(out, ",\n \"states\": {");
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
+    for (uint32_t m = 0; m < machines->set->count; m++) {
         jox_text_add(out, m ? ", " : "");
-        jox_text_json(out, mind->machines[m]->name);
+        jox_text_json(out, machines->set->items[m]->name);
         jox_text_add(out, ": {");
-        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++) {
+        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
             uint32_t people = 0;
-            for (uint32_t i = 0; i < world->agents.count; i++)
-                people += world->agents.machine[i] == m && world->agents.state[i] == s;
+            for (uint32_t i = 0; i < world->state.agents.count; i++)
+                people += world->state.agents.machine[i] == m && world->state.agents.state[i] == s;
             jox_text_add(out, s ? ", " : "");
-            jox_text_json(out, mind->machines[m]->states[s].name);
+            jox_text_json(out, machines->set->items[m]->states[s].name);
             jox_text_printf(out, ": %u", people);
         }
         jox_text_add(out, "}");
@@ -70,21 +70,21 @@ static void add_taken(void *context, const char *from, const char *to, uint64_t 
 }
 
 /* "From>To": how often, by all agents. */
-static void add_transitions(JoxText *out, const JoxMind *mind) {
+static void add_transitions(JoxText *out, const JoxMachineRun *machines) {
     jox_text_add(out, ",\n \"transitions\": {");
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
+    for (uint32_t m = 0; m < machines->set->count; m++) {
         Counted counted = {out, false};
         jox_text_add(out, m ? ", " : "");
-        jox_text_json(out, mind->machines[m]->name);
+        jox_text_json(out, machines->set->items[m]->name);
         jox_text_add(out, ": {");
-        jox_mind_taken(mind, m, add_taken, &counted);
+        jox_machines_taken(machines, m, add_taken, &counted);
         jox_text_add(out, "}");
     }
     jox_text_add(out, "}");
 }
 
 static void add_events(JoxText *out, const JoScene *scene) {
-    const JoxStatistics *s = &scene->world->statistics;
+    const JoxStatistics *s = &scene->world->state.statistics;
     const struct {
         const char *name;
         uint64_t count;
@@ -137,12 +137,12 @@ static void add_lua(JoxText *out, const JoScene *scene) {
     const JoWorld *world = scene->world;
     double seconds = 0.0;
     uint64_t calls = 0;
-    for (uint32_t m = 0; m < world->mind.machine_count; m++) {
+    for (uint32_t m = 0; m < world->model.machines.count; m++) {
         uint64_t own;
-        seconds += jox_lua_seconds(scene->lua, world->mind.machines[m], &own);
+        seconds += jox_lua_seconds(scene->lua, world->model.machines.items[m], &own);
         calls += own;
     }
-    double wall = world->statistics.wall_s;
+    double wall = world->state.statistics.wall_s;
     jox_text_printf(out, ",\n \"lua\": {\"calls\": %llu, \"seconds\": %.6f, \"share\": %.6f}",
                     (unsigned long long)calls, seconds, wall > 0.0 ? seconds / wall : 0.0);
 }
@@ -151,16 +151,17 @@ char *jo_scene_lua_profile(const JoScene *scene) {
     JOX_REQUIRE(scene, NULL);
     const JoWorld *world = scene->world;
     JoxText out = {0};
-    for (uint32_t m = 0; m < world->mind.machine_count; m++) {
-        const JoxMachine *machine = world->mind.machines[m];
+    for (uint32_t m = 0; m < world->model.machines.count; m++) {
+        const JoxMachine *machine = world->model.machines.items[m];
         uint64_t calls;
         double seconds = jox_lua_seconds(scene->lua, machine, &calls);
         jox_text_printf(
             &out, "%s (%s): %u plain functions, %llu calls, %.2f ms, %.2f %% of the steps\n",
             machine->name, machine->path, machine->hook_count, (unsigned long long)calls,
             seconds * 1e3,
-            world->statistics.wall_s > 0 ? 100.0 * seconds / world->statistics.wall_s : 0.0);
-        jox_lua_profile(scene->lua, machine, world->statistics.wall_s, &out);
+            world->state.statistics.wall_s > 0 ? 100.0 * seconds / world->state.statistics.wall_s
+                                               : 0.0);
+        jox_lua_profile(scene->lua, machine, world->state.statistics.wall_s, &out);
     }
     return out.data;
 }
@@ -175,9 +176,10 @@ static void add_inputs(JoxText *out, const JoScene *scene) {
     jox_text_add(out, ",\n \"inputs\": [");
     for (uint32_t f = 0; f < scene->spec->file_count; f++)
         add_file(out, scene->spec->files[f].path, scene->spec->files[f].sha256, f == 0);
-    for (uint32_t m = 0; m < scene->world->mind.machine_count; m++) {
+    for (uint32_t m = 0; m < scene->world->model.machines.count; m++) {
         uint32_t count;
-        const JoxLuaFile *files = jox_lua_files(scene->lua, scene->world->mind.machines[m], &count);
+        const JoxLuaFile *files =
+            jox_lua_files(scene->lua, scene->world->model.machines.items[m], &count);
         for (uint32_t f = 0; f < count; f++)
             add_file(out, files[f].path, files[f].sha256, false);
     }
@@ -194,7 +196,7 @@ static void add_inputs(JoxText *out, const JoScene *scene) {
 
 /* Greatest density of the frames sampled, or of the present one where none were. */
 static double density_max(const JoScene *scene) {
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     const JoxDensity *sampled = jox_run_density(scene);
     if (sampled && sampled->most > 0.0f)
         return sampled->most;
@@ -228,7 +230,8 @@ static void add_exchange(JoxText *out, const JoxStatistics *s) {
 static void add_way(JoxText *out, const JoScene *scene, uint32_t body) {
     const JoxBodyDef *def = &scene->spec->bodies[body].def;
     JoxPose pose; /* the bodies of the scene have the first ids, in their order */
-    if (!jox_bodies_pose(scene->world->bodies, jox_bodies_find(scene->world->bodies, body), &pose))
+    if (!jox_bodies_pose(scene->world->state.bodies,
+                         jox_bodies_find(scene->world->state.bodies, body), &pose))
         return;
     double x = pose.position.x - def->position[0], y = pose.position.y - def->position[1];
     const float *q = pose.turn;
@@ -241,16 +244,16 @@ static void add_way(JoxText *out, const JoScene *scene, uint32_t body) {
 
 /* Of scenes with bonded blocks. */
 static void add_bonds(JoxText *out, const JoScene *scene) {
-    const JoxBondStatistics *s = &scene->world->statistics.bonds;
+    const JoxBondStatistics *s = &scene->world->state.statistics.bonds;
     uint32_t body = 0, held = 0;
     while (body < scene->spec->body_count &&
            scene->spec->bodies[body].def.shape.kind != JOX_SHAPE_BLOCKS)
         body++;
     if (body == scene->spec->body_count)
         return;
-    for (uint32_t o = 0; o < scene->world->objects.count; o++) {
+    for (uint32_t o = 0; o < scene->world->scratch.objects.count; o++) {
         JoxBodyBonds bonds;
-        jox_bodies_bonds(scene->world->bodies, o, &bonds);
+        jox_bodies_bonds(scene->world->state.bodies, o, &bonds);
         held += bonds.bonds;
     }
     jox_text_printf(out, ",\n \"bonds\": {\"held\": %u, \"broken\": %llu, \"pieces\": %u", held,
@@ -272,13 +275,13 @@ static void add_bonds(JoxText *out, const JoScene *scene) {
 char *jo_scene_summary(const JoScene *scene) {
     JOX_REQUIRE(scene, NULL);
     const JoWorld *world = scene->world;
-    const JoxStatistics *s = &world->statistics;
+    const JoxStatistics *s = &world->state.statistics;
     JoStats stats = jo_scene_stats(scene);
     JoxText out = {0};
     jox_text_add(&out, "{\n \"scene\": ");
     jox_text_json(&out, scene->spec->path);
     jox_text_printf(&out, ",\n \"version\": \"%s\",\n \"seed\": %llu", jo_version(),
-                    (unsigned long long)world->def.seed);
+                    (unsigned long long)world->model.def.seed);
     add_number(&out, "agents", stats.agents);
     add_number(&out, "bodies", stats.bodies);
     add_number(&out, "dt", stats.dt);
@@ -299,7 +302,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_number(&out, "density_max", density_max(scene));
     add_number(&out, "overlap_p99", jox_statistics_overlap_p99(s));
     add_states(&out, world);
-    add_transitions(&out, &world->mind);
+    add_transitions(&out, &world->machines);
     add_regions(&out, scene);
     add_events(&out, scene);
     add_bonds(&out, scene);
@@ -308,7 +311,8 @@ char *jo_scene_summary(const JoScene *scene) {
     add_lua(&out, scene);
     jox_run_add_probes(scene, &out);
     jox_text_printf(&out, ",\n \"hash\": \"%016llx\",\n \"isa\": \"scalar\",\n \"threads\": %u",
-                    (unsigned long long)jox_world_hash(world), jox_pool_threads(world->pool));
+                    (unsigned long long)jox_world_hash(world),
+                    jox_pool_threads(world->scratch.pool));
     add_inputs(&out, scene);
     jox_text_add(&out, "\n}\n");
     return out.data;

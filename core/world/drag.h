@@ -3,7 +3,7 @@
 #ifndef JOX_WORLD_DRAG_H
 #define JOX_WORLD_DRAG_H
 
-#include "base/hash.h"
+#include "base/sections.h"
 #include "base/vec.h"
 
 enum { JOX_MOST_BOXES = 200, JOX_MOST_GRABS = 64 };
@@ -19,6 +19,6 @@ typedef struct JoxDrags {
     uint32_t grab_count;
 } JoxDrags;
 
-void jox_drags_hash(const JoxDrags *drags, JoxHash *hash);
+void jox_drags_sections(JoxDrags *drags, JoxSections *sections);
 
 #endif

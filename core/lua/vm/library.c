@@ -141,12 +141,12 @@ static int math_type(lua_State *L) {
 /* From the agent's own stream: a function of seed, agent and tick. */
 static int math_random(lua_State *L) {
     JoxVm *vm = jox_vm_of(L);
-    if (vm->loading || !vm->owner->mind)
+    if (vm->loading || !vm->owner->machines)
         return luaL_error(L, "math.random works in functions of agents only; at load use normal, "
                              "uniform or choose");
-    const JoxMind *mind = vm->owner->mind;
-    double u = jox_random_unit(mind->seed, mind->agents->id[vm->agent], mind->tick, JOX_DRAW_LUA,
-                               vm->draws++);
+    const JoxMachineRun *machines = vm->owner->machines;
+    double u = jox_random_unit(machines->seed, machines->agents->id[vm->agent], machines->tick,
+                               JOX_DRAW_LUA, vm->draws++);
     if (lua_gettop(L) == 0) {
         lua_pushnumber(L, u);
         return 1;
@@ -495,9 +495,9 @@ static int base_pcall(lua_State *L) {
 
 /* Whether one more line may be said; the last one says that no more follow. */
 static bool may_print(JoxVm *vm, bool *last) {
-    const JoxMind *mind = vm->owner->mind;
+    const JoxMachineRun *machines = vm->owner->machines;
     uint32_t most = vm->owner->limits.print_lines;
-    uint32_t second = vm->loading || !mind ? 0 : (uint32_t)(mind->tick * mind->dt) + 1;
+    uint32_t second = vm->loading || !machines ? 0 : (uint32_t)(machines->tick * machines->dt) + 1;
     if (second != vm->print_second) {
         vm->print_second = second;
         vm->printed = 0;

@@ -347,9 +347,9 @@ static locale_t plain_locale(void) {
 
 /* What a hook may use: less where those before it in this step have used up what all may. */
 static uint64_t step_budget(JoxVm *vm, uint64_t instructions) {
-    const JoxMind *mind = vm->owner->mind;
-    if (mind && (vm->calls == 0 || vm->step != mind->tick)) {
-        vm->step = mind->tick;
+    const JoxMachineRun *machines = vm->owner->machines;
+    if (machines && (vm->calls == 0 || vm->step != machines->tick)) {
+        vm->step = machines->tick;
         vm->step_left = vm->owner->limits.step_instructions;
     }
     uint64_t left = vm->step_left > LEAST_BUDGET ? vm->step_left : LEAST_BUDGET;
