@@ -142,7 +142,7 @@ reference: all
 	@for page in $(REFERENCE); do $(B)/jostle reference $${page%%:*} > $${page#*:}; done
 REFERENCE := behaviours:scripts/behaviour.md scenes:scripts/scene.md lua-ls:scripts/editor/jostle.lua \
            luacheck:scripts/editor/luacheckrc luacheck:.luacheckrc \
-           scene-schema:scripts/scene.schema.json mod-schema:scripts/mod.schema.json inputs:scripts/input.md
+           scene-schema:scripts/scene.schema.json mod-schema:scripts/mod.schema.json inputs:scripts/input.md manual:core/cli/jostle.1
 # Unit tests alone: `make unit`, or `make unit ONLY="base geom"` for some folders.
 unit: $(UNIT)
 	@set -e; for t in $(UNIT); do echo "== $$t"; $$t; done

@@ -13,7 +13,7 @@ FNR == NR {
     sub(/^.*\/core\//, "", file)
     sub(/\.o$/, "", file)
     kind = $(NF - 1); symbol = $NF
-    if (symbol !~ /^jox?_/) next # statics, the C library, C++ names
+    if (symbol !~ /^(jox?_|_Z[0-9A-Z]*[0-9]jox_)/) next # statics, other libraries
     if (kind ~ /^[TDBRV]$/) { home[symbol] = file; files[file] = 1 }
     else if (kind == "U") wants[file] = wants[file] " " symbol
 }

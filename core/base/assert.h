@@ -11,7 +11,7 @@ void jox_assert_set_handler(JoxAssertHandler *handler);
 
 /* Internal invariants: compiled out of release builds. */
 #ifdef NDEBUG
-#define JOX_ASSERT(condition) ((void)0)
+#define JOX_ASSERT(condition) ((void)sizeof((condition) ? 1 : 0)) /* never evaluated */
 #else
 #define JOX_ASSERT(condition)                                                                      \
     ((condition) ? (void)0 : jox_assert_failed(#condition, __FILE__, __LINE__))

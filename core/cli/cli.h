@@ -1,46 +1,151 @@
-/* What the commands share: arguments and exit statuses. */
+/* Commands and their options. A command is one file, which defines a CliCommand, and one row of
+   CLI_COMMANDS. Parsing, `--help` and the manual page are made of the same rows. */
 #ifndef JOX_CLI_CLI_H
 #define JOX_CLI_CLI_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "jostle.h"
 
-/* Exit statuses are those of JoCode: 0 done, 1 the run failed, 2 wrong usage, 3 bad input. */
-int cli_run(int argc, char **argv);
-int cli_report(int argc, char **argv);
-int cli_render(int argc, char **argv);
-int cli_view(int argc, char **argv);
-int cli_check(int argc, char **argv);
-int cli_bench(int argc, char **argv);
-int cli_mod(int argc, char **argv);
-int cli_test(int argc, char **argv);
-int cli_new(int argc, char **argv);
-int cli_reproduce(int argc, char **argv);
-int cli_reference(int argc, char **argv);
+/* In the order of `jostle --help`. */
+#define CLI_COMMANDS(X)                                                                            \
+    X(run)                                                                                         \
+    X(report)                                                                                      \
+    X(render)                                                                                      \
+    X(view)                                                                                        \
+    X(check)                                                                                       \
+    X(test)                                                                                        \
+    X(new)                                                                                         \
+    X(mod)                                                                                         \
+    X(reference)                                                                                   \
+    X(reproduce)                                                                                   \
+    X(bench)
 
-/* Walks over arguments: `--name value`, `--name=value`, and what is no option. */
-typedef struct CliArgs {
-    int argc, next;
-    char **argv;
-    const char *command; /* for messages */
-    const char *value;   /* of the present option, when it was given with '=' */
-    bool failed;         /* an error was printed */
-} CliArgs;
+/* What an option is stored as: chosen by CLI_TO from the type of its member. */
+typedef enum {
+    CLI_HEADING, /* a line between options, no option */
+    CLI_FLAG,    /* bool */
+    CLI_TEXT,    /* const char * */
+    CLI_LIST,    /* CliList: may be given several times */
+    CLI_DOUBLE,
+    CLI_INT,
+    CLI_U32,
+    CLI_U64,
+    CLI_READ /* read by a function of the command */
+} CliKind;
 
-/* The next option's name without dashes ("for", "h"), or NULL for a plain argument (in *plain), or
-   NULL with *plain NULL at the end. */
-const char *cli_next(CliArgs *args, const char **plain);
-/* The value of the option just read; prints an error and sets `failed` when it is missing. */
-const char *cli_value(CliArgs *args, const char *option);
-double cli_number(CliArgs *args, const char *option, double least, double greatest);
-uint64_t cli_whole(CliArgs *args, const char *option, uint64_t least, uint64_t greatest);
-/* m of a unit: m or cm. */
-double cli_unit(CliArgs *args, const char *option);
+/* Texts in the order given; `items` is made by cli_parse, freed by cli_free. */
+typedef struct CliList {
+    const char **items;
+    size_t count;
+} CliList;
+
+typedef struct CliOption {
+    const char *name;     /* without dashes; of a heading: the line */
+    const char *argument; /* its name in the help; NULL of a flag */
+    const char *help;     /* NULL: another spelling, which the help leaves out */
+    const char *standard; /* default, as the help says it; NULL: none is said */
+    CliKind kind;
+    bool only_equals; /* a value is given by '=' or not at all, as in --view=8730 */
+    size_t at, given; /* of the member, and 1 + that of a bool: whether it was given; 0: none */
+    double least, greatest; /* of numbers; both 0: any */
+    /* Of CLI_READ: stores a value in the command's options; false with what is wrong in `why`. */
+    bool (*read)(void *options, const char *text, char why[160]);
+} CliOption;
+
+/* Destination of a row: a member of the command's options. */
+#define CLI_TO(type, member)                                                                       \
+    .kind = _Generic(((type *)0)->member, bool                                                     \
+                     : CLI_FLAG, const char *                                                      \
+                     : CLI_TEXT, double                                                            \
+                     : CLI_DOUBLE, int                                                             \
+                     : CLI_INT, uint32_t                                                           \
+                     : CLI_U32, uint64_t                                                           \
+                     : CLI_U64, CliList                                                            \
+                     : CLI_LIST),                                                                  \
+    .at = offsetof(type, member)
+#define CLI_GIVEN(type, member) .given = 1 + offsetof(type, member)
+#define CLI_RANGE(from, to) .least = (from), .greatest = (to)
+
+typedef struct CliCommand {
+    const char *name;
+    const char *what;  /* one line of `jostle --help` */
+    const char *usage; /* what follows "jostle NAME", a line each way to call it */
+    /* Paragraphs before and after the options, a line each; lines that begin with a blank are
+       printed as they are. May be NULL. */
+    const char *about, *notes;
+    const CliOption *options;
+    size_t option_count;
+    const char *takes;     /* name of its plain arguments in messages; NULL: it takes none */
+    size_t least, most;    /* how many of them; most 0: any number */
+    const char *none_said; /* what is said where none is given; NULL: "no TAKES given" */
+    int (*run)(int argc, char **argv); /* returns an exit status, a JoCode */
+} CliCommand;
+
+#define X(name) extern const CliCommand cli_##name;
+CLI_COMMANDS(X)
+#undef X
+extern const CliCommand *const cli_commands[];
+extern const size_t cli_command_count;
+
+enum { CLI_GO_ON = -1 };
+
+/* Reads arguments: options into `options`, the rest into `plain`. Returns CLI_GO_ON, or the exit
+   status: the help was printed, or what is wrong. cli_free is due in any case. */
+int cli_parse(const CliCommand *command, int argc, char **argv, void *options, CliList *plain);
+void cli_free(const CliCommand *command, void *options, CliList *plain);
+
+/* Prints "jostle COMMAND: why" and where help is found; returns JO_USAGE. */
+int cli_misused(const CliCommand *command, const char *why);
 /* Writes text to a file, or to standard output for "-"; JO_FAILED with a message. */
-int cli_write(const char *command, const char *path, const char *text);
-/* Prints "jostle COMMAND: unknown option --xyz" and a way out; returns JO_USAGE. */
-int cli_unknown(CliArgs *args, const char *option, const char *const *known);
+int cli_write(const CliCommand *command, const char *path, const char *text);
+/* Prints text to the FILE that `context` is: where jo_check and jo_test send theirs. */
+void cli_print(void *context, const char *text);
+/* Prints an error unless it was sent as a message before; returns the exit status. */
+int cli_failed(const CliCommand *command, const JoError *error, bool sent);
+
+/* The help of a command, and the manual page of all. Freed by jo_free. */
+char *cli_help(const CliCommand *command);
+char *cli_manual(void);
+
+/* ---- options that several commands have ---- */
+
+/* "m" or "cm": metres of a unit. For a row of CLI_READ. */
+bool cli_unit(double *metres, const char *text, char why[160]);
+
+/* Of a scene: `def` is a member JoSceneDef; the options have CliLists `sets` and `mods`, and a bool
+   `of_scene`: whether one of these rows was given (seed and dt: see def.has_seed, def.has_dt). */
+#define CLI_SCENE_OPTIONS(type, def)                                                               \
+    {"dt",                                                                                         \
+     "S",                                                                                          \
+     "time step, s (0.001 to 0.2)",                                                                \
+     CLI_TO(type, def.dt),                                                                         \
+     CLI_GIVEN(type, def.has_dt),                                                                  \
+     CLI_RANGE(0.001, 0.2)},                                                                       \
+        {"seed", "N", "seed of all random numbers", CLI_TO(type, def.seed),                        \
+         CLI_GIVEN(type, def.has_seed)},                                                           \
+        {"threads",                                                                                \
+         "N",                                                                                      \
+         "threads; never changes a result",                                                        \
+         "1",                                                                                      \
+         CLI_TO(type, def.threads),                                                                \
+         CLI_GIVEN(type, of_scene),                                                                \
+         CLI_RANGE(1, 64)},                                                                        \
+        {"set", "PATH=VALUE", "replace a value of the scene, as groups.pilgrims.count=5000",       \
+         CLI_TO(type, sets), CLI_GIVEN(type, of_scene)},                                           \
+        {"input", "FILE", "play an input log: what people did, and files that were reloaded",      \
+         CLI_TO(type, def.input_log), CLI_GIVEN(type, of_scene)},                                  \
+        CLI_MOD_OPTIONS(type, def)
+#define CLI_MOD_OPTIONS(type, def)                                                                 \
+    {"mod", "DIR",                                                                                 \
+     "take a mod: a folder, or the name of one that lies in the scene's mods/ or in the user's "   \
+     "data directory ($XDG_DATA_HOME/jostle/mods); may be given several times",                    \
+     CLI_TO(type, mods), CLI_GIVEN(type, of_scene)},                                               \
+    {                                                                                              \
+        "no-mods", NULL, "take no mods but those given by --mod or named by the scene",            \
+            CLI_TO(type, def.named_mods_only), CLI_GIVEN(type, of_scene)                           \
+    }
 
 #endif

@@ -1,31 +1,28 @@
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/cli.h"
 
-static const char HELP[] =
-    "usage: jostle mod list [SCENE] [--mod DIR]...\n"
-    "       jostle mod why PATH SCENE [--mod DIR]...\n"
-    "       jostle mod check DIR...\n\n"
-    "  list    the mods that a run of the scene takes, in order, what they change, their settings\n"
-    "  why     who set a value, e.g. tawaf.Circle.push or groups.red.count: every place, the last "
-    "counts\n"
-    "  check   every error of mods, without running\n\n"
-    "  --mod DIR    take a mod, as of jostle run\n"
-    "  --no-mods    none but those\n\n"
-    "exit status: 0 done, 2 wrong usage, 3 errors found or no such path\n";
+typedef struct Mods {
+    JoSceneDef def;
+    CliList mods;
+    bool of_scene;
+} Mods;
 
-static void print(void *context, const char *text) {
-    fputs(text, context);
+static const CliOption OPTIONS[] = {CLI_MOD_OPTIONS(Mods, def)};
+
+static int list(const JoSceneDef *def) {
+    char *text = jo_mods_list(def);
+    fputs(text ? text : "", stdout);
+    jo_free(text);
+    return JO_OK;
 }
 
-/* Scenes are files, or names of files in scenes/. */
-static int why(JoSceneDef *def, const char *path) {
+static int why(const JoSceneDef *def, const char *path) {
     JoError error = {0};
     char *text = jo_mods_why(def, path, &error);
     if (!text) {
-        fprintf(stderr, "jostle mod: %s\n", error.text);
+        cli_failed(&cli_mod, &error, false);
         return JO_INPUT;
     }
     fputs(text, stdout);
@@ -33,49 +30,51 @@ static int why(JoSceneDef *def, const char *path) {
     return JO_OK;
 }
 
-int cli_mod(int argc, char **argv) {
-    static const char *const known[] = {"mod", "no-mods", "help", NULL};
-    CliArgs args = {.argc = argc, .argv = argv, .next = 1, .command = "mod"};
-    const char **mods = calloc((size_t)argc, sizeof *mods);
-    const char **plains = calloc((size_t)argc, sizeof *plains), *option, *plain;
-    JoSceneDef def = jo_default_scene_def();
-    size_t count = 0;
-    int status = -1;
-    def.mods = mods;
-    while (status < 0 && ((option = cli_next(&args, &plain)) || plain)) {
-        if (plain) {
-            plains[count++] = plain;
-        } else if (!strcmp(option, "mod")) {
-            mods[def.mod_count++] = cli_value(&args, option);
-        } else if (!strcmp(option, "no-mods")) {
-            def.named_mods_only = true;
-        } else if (!strcmp(option, "help") || !strcmp(option, "h")) {
-            fputs(HELP, stdout);
-            status = JO_OK;
-        } else {
-            status = cli_unknown(&args, option, known);
-        }
+static int check(const char *const *folders, size_t count) {
+    size_t errors = jo_check(folders, count, false, cli_print, stdout);
+    if (!errors)
+        puts("nothing wrong");
+    return errors ? JO_INPUT : JO_OK;
+}
+
+static int run(int argc, char **argv) {
+    Mods options = {.def = jo_default_scene_def()};
+    CliList plain = {0};
+    int status = cli_parse(&cli_mod, argc, argv, &options, &plain);
+    if (status == CLI_GO_ON) {
+        const char *verb = plain.items[0];
+        options.def.mods = options.mods.items;
+        options.def.mod_count = options.mods.count;
+        options.def.path = plain.count > 1 ? plain.items[plain.count - 1] : NULL;
+        if (!strcmp(verb, "list") && plain.count <= 2)
+            status = list(&options.def);
+        else if (!strcmp(verb, "why") && plain.count == 3)
+            status = why(&options.def, plain.items[1]);
+        else if (!strcmp(verb, "check") && plain.count > 1)
+            status = check(plain.items + 1, plain.count - 1);
+        else
+            status = cli_misused(&cli_mod, "what shall be done?");
     }
-    const char *verb = count ? plains[0] : "";
-    if (status < 0 && !strcmp(verb, "list") && count <= 2) {
-        def.path = count > 1 ? plains[1] : NULL;
-        char *text = jo_mods_list(&def);
-        fputs(text ? text : "", stdout);
-        jo_free(text);
-        status = JO_OK;
-    } else if (status < 0 && !strcmp(verb, "why") && count == 3) {
-        def.path = plains[2];
-        status = why(&def, plains[1]);
-    } else if (status < 0 && !strcmp(verb, "check") && count > 1) {
-        size_t errors = jo_check(plains + 1, count - 1, false, print, stdout);
-        if (!errors)
-            puts("nothing wrong");
-        status = errors ? JO_INPUT : JO_OK;
-    } else if (status < 0) {
-        fprintf(stderr, "jostle mod: what shall be done?\n\n%s", HELP);
-        status = JO_USAGE;
-    }
-    free(mods);
-    free(plains);
+    cli_free(&cli_mod, &options, &plain);
     return status;
 }
+
+const CliCommand cli_mod = {
+    .name = "mod",
+    .what = "list mods, and tell who set a value",
+    .usage = "list [SCENE] [--mod DIR]...\n"
+             "why PATH SCENE [--mod DIR]...\n"
+             "check DIR...",
+    .about = "  list    the mods that a run of the scene takes, in order, what they change, their "
+             "settings\n"
+             "  why     who set a value, e.g. tawaf.Circle.push or groups.red.count: every place, "
+             "the last counts\n"
+             "  check   every error of mods, without running",
+    .notes = "exit status: 0 done, 2 wrong usage, 3 errors found or no such path",
+    .options = OPTIONS,
+    .option_count = sizeof OPTIONS / sizeof *OPTIONS,
+    .takes = "verb",
+    .least = 1,
+    .none_said = "what shall be done?",
+    .run = run,
+};

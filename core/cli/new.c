@@ -7,14 +7,6 @@
 
 #include "cli/cli.h"
 
-static const char HELP[] =
-    "usage: jostle new behaviour|scene|mod NAME\n\n"
-    "  behaviour   writes NAME.lua (in behaviours/, where there is such a folder)\n"
-    "  scene       writes NAME.yaml (in scenes/), and NAME.lua for it where there is none\n"
-    "  mod         writes mods/NAME/ (in scenes/mods/) with a behaviour, a scene and mod.yaml\n\n"
-    "What exists is never overwritten. NAME has lower-case letters, digits, - and _.\n"
-    "exit status: 0 done, 1 cannot write, 2 wrong usage\n";
-
 static const char BEHAVIOUR[] =
     "-- NAME: walks to and fro between two ends. Save this file while a scene runs with --watch, "
     "and\n"
@@ -186,27 +178,45 @@ static int new_mod(const char *parent, const char *name) {
     return status;
 }
 
-int cli_new(int argc, char **argv) {
-    const char *kind = argc > 1 ? argv[1] : "", *name = argc > 2 ? argv[2] : "";
-    if (!strcmp(kind, "--help") || !strcmp(kind, "-h")) {
-        fputs(HELP, stdout);
-        return JO_OK;
-    }
+static int make(const char *kind, const char *name) {
+    const char *behaviours = is_folder("behaviours") ? "behaviours/" : "";
+    const char *scenes = is_folder("scenes") ? "scenes/" : "";
     size_t n = strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_");
-    if (argc == 3 && n > 0 && n <= 60 && !name[n]) {
-        const char *behaviours = is_folder("behaviours") ? "behaviours/" : "";
-        const char *scenes = is_folder("scenes") ? "scenes/" : "";
-        if (!strcmp(kind, "behaviour"))
-            return new_behaviour(behaviours, name);
-        if (!strcmp(kind, "scene")) /* what a scene of scenes/ needs lies in ../behaviours */
-            return new_scene(scenes, *scenes && *behaviours ? behaviours : scenes, name);
-        if (!strcmp(kind, "mod"))
-            return new_mod(*scenes ? "scenes/mods" : "mods", name);
-    }
-    fprintf(stderr, "jostle new: %s\n\n%s",
-            argc != 3       ? "say what, and its name"
-            : name[n] || !n ? "a name has lower-case letters, digits, - and _"
-                            : "a behaviour, a scene or a mod can be made",
-            HELP);
-    return JO_USAGE;
+    if (n == 0 || n > 60 || name[n])
+        return cli_misused(&cli_new, "a name has up to 60 lower-case letters, digits, - and _");
+    if (!strcmp(kind, "behaviour"))
+        return new_behaviour(behaviours, name);
+    if (!strcmp(kind, "scene")) /* what a scene of scenes/ needs lies in ../behaviours */
+        return new_scene(scenes, *scenes && *behaviours ? behaviours : scenes, name);
+    if (!strcmp(kind, "mod"))
+        return new_mod(*scenes ? "scenes/mods" : "mods", name);
+    return cli_misused(&cli_new, "a behaviour, a scene or a mod can be made");
 }
+
+static int run(int argc, char **argv) {
+    CliList plain = {0};
+    int status = cli_parse(&cli_new, argc, argv, NULL, &plain);
+    if (status == CLI_GO_ON)
+        status = make(plain.items[0], plain.items[1]);
+    cli_free(&cli_new, NULL, &plain);
+    return status;
+}
+
+const CliCommand cli_new = {
+    .name = "new",
+    .what = "write a commented start of a behaviour, scene or mod",
+    .usage = "behaviour|scene|mod NAME",
+    .about =
+        "  behaviour   writes NAME.lua (in behaviours/, where there is such a folder)\n"
+        "  scene       writes NAME.yaml (in scenes/), and NAME.lua for it where there is none\n"
+        "  mod         writes mods/NAME/ (in scenes/mods/) with a behaviour, a scene and "
+        "mod.yaml\n"
+        "\n"
+        "What exists is never overwritten. NAME has lower-case letters, digits, - and _.",
+    .notes = "exit status: 0 done, 1 cannot write, 2 wrong usage",
+    .takes = "kind and name",
+    .least = 2,
+    .most = 2,
+    .none_said = "say what, and its name",
+    .run = run,
+};

@@ -3,28 +3,41 @@
 
 #include "cli/cli.h"
 
-static const char HELP[] =
-    "usage: jostle reference [WHAT]\n\n"
-    "  behaviours    every word, parameter and key of behaviours, as Markdown (the default)\n"
-    "  scenes        every key of scenes and mods, as Markdown\n"
-    "  lua-ls        definitions for lua-language-server\n"
-    "  luacheck      a standard for luacheck\n"
-    "  inputs        lines of input logs, as Markdown\n"
-    "  scene-schema  JSON Schema of scenes, for yaml-language-server\n"
-    "  mod-schema    JSON Schema of mod.yaml\n";
-
-int cli_reference(int argc, char **argv) {
-    const char *what = argc > 1 ? argv[1] : "behaviours";
-    if (!strcmp(what, "--help") || !strcmp(what, "-h")) {
-        fputs(HELP, stdout);
-        return JO_OK;
-    }
-    char *text = argc > 2 ? NULL : jo_reference(what);
+static int print_reference(const char *what) {
+    char *text = !strcmp(what, "manual") ? cli_manual() : jo_reference(what);
     if (!text) {
-        fprintf(stderr, "jostle reference: there is no '%s'\n\n%s", what, HELP);
-        return JO_USAGE;
+        char why[120];
+        snprintf(why, sizeof why, "there is no '%.60s'", what);
+        return cli_misused(&cli_reference, why);
     }
     fputs(text, stdout);
     jo_free(text);
     return JO_OK;
 }
+
+static int run(int argc, char **argv) {
+    CliList plain = {0};
+    int status = cli_parse(&cli_reference, argc, argv, NULL, &plain);
+    if (status == CLI_GO_ON)
+        status = print_reference(plain.count ? plain.items[0] : "behaviours");
+    cli_free(&cli_reference, NULL, &plain);
+    return status;
+}
+
+const CliCommand cli_reference = {
+    .name = "reference",
+    .what = "print every word and key, for people and for editors",
+    .usage = "[WHAT]",
+    .about =
+        "  behaviours    every word, parameter and key of behaviours, as Markdown (the default)\n"
+        "  scenes        every key of scenes and mods, as Markdown\n"
+        "  lua-ls        definitions for lua-language-server\n"
+        "  luacheck      a standard for luacheck\n"
+        "  inputs        lines of input logs, as Markdown\n"
+        "  scene-schema  JSON Schema of scenes, for yaml-language-server\n"
+        "  mod-schema    JSON Schema of mod.yaml\n"
+        "  manual        the manual page of this program, as roff",
+    .takes = "page",
+    .most = 1,
+    .run = run,
+};

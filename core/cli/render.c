@@ -5,79 +5,37 @@
 
 #include "cli/cli.h"
 
-static const char HELP[] =
-    "usage: jostle render SCENE|RECORDING [options]\n\n"
-    "Draws a crowd from above, without a display: a scene (.yaml), which is run for it, or a\n"
-    "recording as of `jostle report`. Walls, gates and places with their names, bodies, people as\n"
-    "discs of their radius, a legend with units, a scale and the time.\n\n"
-    "  --out FILE.svg|FILE.png    one picture (default: NAME.png here)\n"
-    "  --out FOLDER               frame-000001.png, ... (default with --from, --until or --fps:\n"
-    "                             NAME-frames)\n"
-    "  --out FILE.mp4             a video, also .mkv and .webm; needs the program ffmpeg, without\n"
-    "                             which its frames stay in FILE-frames\n"
-    "  --at T                     time of the picture, s (default: the beginning)\n"
-    "  --from T, --until T        of frames and videos, s (default: all of the scene's duration,\n"
-    "                             or of the recording)\n"
-    "  --fps N                    frames a second (default: of every step, or every few, up to "
-    "30)\n"
-    "  --size WxH                 in pixels, each from 320 to 8192 (default: what suits the area)\n"
-    "  --area X0,Y0,X1,Y1         what is shown, m (default: everything)\n"
-    "  --colour WHAT[:MOST]       of people: state, group, speed, force, compression, density or\n"
-    "                             none; MOST is the value at the end of the bar, as speed:1.5\n"
-    "  --field WHAT[:MOST]        on the floor: density (people/m2) or pressure (crowd pressure,\n"
-    "                             1/s2, from 10 s on); people are then rings\n"
-    "  --paths                    where people and bodies went until then (of many, 500)\n"
-    "  --quiet                    no progress\n\n"
-    "of a scene, as of `jostle run`: --seed N --dt S --threads N --set PATH=VALUE --input FILE\n"
-    "  --mod DIR --no-mods\n"
-    "of a recording:\n"
-    "  --scene SCENE              whose walls and places are drawn (recordings keep solid walls)\n"
-    "  --recorded-fps N           frames a second, where the recording does not say\n"
-    "  --unit m|cm                unit of its lengths, where it does not say\n\n"
-    "examples:\n"
-    "  jostle render scenes/office.yaml --at 8 --out office.svg\n"
-    "  jostle render scenes/door-050.yaml --at 20 --colour compression --out door.png\n"
-    "  jostle render run.sqlite --field density --from 0 --until 30 --out run.mp4\n\n"
-    "exit status: 0 done, 1 writing failed, 2 wrong usage, 3 bad input\n";
-
-static const char *const KNOWN[] = {"out",     "at",     "from",         "until", "fps",   "size",
-                                    "area",    "colour", "color",        "field", "paths", "quiet",
-                                    "seed",    "dt",     "threads",      "set",   "input", "mod",
-                                    "no-mods", "scene",  "recorded-fps", "unit",  "help",  NULL};
-
 typedef struct Wanted {
     JoRenderDef def;
     JoSceneDef scene;
-    const char **overrides, **mods;
+    CliList sets, mods;
     double area[4];
     const char *path;
-    bool series, of_scene, of_recording; /* options were given that only these have */
+    bool quiet, from, until, fps, of_scene, of_recording; /* options that were given */
 } Wanted;
 
 /* "1280x720" */
-static void read_size(Wanted *w, CliArgs *args, const char *option) {
-    const char *text = cli_value(args, option);
+static bool read_size(void *options, const char *text, char why[160]) {
+    Wanted *w = options;
     char rest;
     unsigned width, height;
-    if (!text)
-        return;
     if (*text == '-' || sscanf(text, "%5ux%5u%c", &width, &height, &rest) != 2 || width < 320 ||
         height < 320 || width > 8192 || height > 8192) {
-        fprintf(stderr,
-                "jostle render: --size is WIDTHxHEIGHT in pixels, each from 320 to 8192, as "
-                "1280x720, not '%s'\n",
-                text);
-        args->failed = true;
-        return;
+        snprintf(why, 160,
+                 "is WIDTHxHEIGHT in pixels, each from 320 to 8192, as 1280x720, not '%.60s'",
+                 text);
+        return false;
     }
     w->def.width = width;
     w->def.height = height;
+    return true;
 }
 
 /* "0,0,10,5" */
-static void read_area(Wanted *w, CliArgs *args, const char *option) {
-    const char *text = cli_value(args, option), *at = text;
-    bool good = text != NULL;
+static bool read_area(void *options, const char *text, char why[160]) {
+    Wanted *w = options;
+    const char *at = text;
+    bool good = true;
     for (int i = 0; good && i < 4; i++) {
         char *end;
         w->area[i] = strtod(at, &end);
@@ -86,90 +44,53 @@ static void read_area(Wanted *w, CliArgs *args, const char *option) {
     }
     good = good && w->area[2] - w->area[0] >= 0.1 && w->area[3] - w->area[1] >= 0.1;
     w->def.area = w->area;
-    if (good || !text)
-        return;
-    fprintf(stderr,
-            "jostle render: --area is X0,Y0,X1,Y1 in metres with X0 < X1 and Y0 < Y1, not '%s'\n",
-            text);
-    args->failed = true;
+    if (!good)
+        snprintf(why, 160, "is X0,Y0,X1,Y1 in metres with X0 < X1 and Y0 < Y1, not '%.60s'", text);
+    return good;
 }
 
-static bool read_scene_option(Wanted *w, CliArgs *args, const char *option) {
-    if (!strcmp(option, "seed")) {
-        w->scene.seed = cli_whole(args, option, 0, UINT64_MAX);
-        w->scene.has_seed = true;
-    } else if (!strcmp(option, "dt")) {
-        w->scene.dt = cli_number(args, option, 0.001, 0.2);
-        w->scene.has_dt = true;
-    } else if (!strcmp(option, "threads")) {
-        w->scene.threads = (uint32_t)cli_whole(args, option, 1, 64);
-    } else if (!strcmp(option, "set")) {
-        w->overrides[w->scene.override_count++] = cli_value(args, option);
-    } else if (!strcmp(option, "input")) {
-        w->scene.input_log = cli_value(args, option);
-    } else if (!strcmp(option, "mod")) {
-        w->mods[w->scene.mod_count++] = cli_value(args, option);
-    } else if (!strcmp(option, "no-mods")) {
-        w->scene.named_mods_only = true;
-    } else {
-        return false;
-    }
-    w->of_scene = true;
-    return true;
+static bool read_unit(void *options, const char *text, char why[160]) {
+    return cli_unit(&((Wanted *)options)->def.unit, text, why);
 }
 
-static bool read_recording_option(Wanted *w, CliArgs *args, const char *option) {
-    if (!strcmp(option, "scene")) {
-        w->def.plan = cli_value(args, option);
-    } else if (!strcmp(option, "recorded-fps")) {
-        w->def.recorded_fps = cli_number(args, option, 0.01, 10000);
-    } else if (!strcmp(option, "unit")) {
-        const char *unit = cli_value(args, option);
-        w->def.unit = unit && !strcmp(unit, "cm") ? 0.01 : 1.0;
-        if (unit && strcmp(unit, "m") != 0 && strcmp(unit, "cm") != 0) {
-            fprintf(stderr, "jostle render: --unit is m or cm, not '%s'\n", unit);
-            args->failed = true;
-        }
-    } else {
-        return false;
-    }
-    w->of_recording = true;
-    return true;
-}
-
-/* Reads one option; false if there is none of this name. */
-static bool read_option(Wanted *w, CliArgs *args, const char *option) {
-    JoRenderDef *def = &w->def;
-    if (!strcmp(option, "out")) {
-        def->out = cli_value(args, option);
-    } else if (!strcmp(option, "at")) {
-        def->at = cli_number(args, option, -1e9, 1e9);
-    } else if (!strcmp(option, "from")) {
-        def->from = cli_number(args, option, -1e9, 1e9);
-        w->series = true;
-    } else if (!strcmp(option, "until")) {
-        def->until = cli_number(args, option, -1e9, 1e9);
-        w->series = true;
-    } else if (!strcmp(option, "fps")) {
-        def->fps = cli_number(args, option, 0.001, 1000);
-        w->series = true;
-    } else if (!strcmp(option, "size")) {
-        read_size(w, args, option);
-    } else if (!strcmp(option, "area")) {
-        read_area(w, args, option);
-    } else if (!strcmp(option, "colour") || !strcmp(option, "color")) {
-        def->colour = cli_value(args, option);
-    } else if (!strcmp(option, "field")) {
-        def->field = cli_value(args, option);
-    } else if (!strcmp(option, "paths")) {
-        def->paths = true;
-    } else if (!strcmp(option, "quiet")) {
-        def->progress = false;
-    } else {
-        return read_scene_option(w, args, option) || read_recording_option(w, args, option);
-    }
-    return true;
-}
+static const CliOption OPTIONS[] = {
+    {"out", "FILE",
+     "FILE.svg or FILE.png: one picture. FILE.mp4, .mkv or .webm: a video, by the program ffmpeg, "
+     "without which its frames stay in FILE-frames. A folder: frame-000001.png, ...",
+     "NAME.png here, and NAME-frames with --from, --until or --fps", CLI_TO(Wanted, def.out)},
+    {"at", "T", "time of the picture, s", "the beginning", CLI_TO(Wanted, def.at),
+     CLI_RANGE(-1e9, 1e9)},
+    {"from", "T", "where frames and videos begin, s", "the beginning", CLI_TO(Wanted, def.from),
+     CLI_GIVEN(Wanted, from), CLI_RANGE(-1e9, 1e9)},
+    {"until", "T", "where they end, s", "the end of the scene's duration, or of the recording",
+     CLI_TO(Wanted, def.until), CLI_GIVEN(Wanted, until), CLI_RANGE(-1e9, 1e9)},
+    {"fps", "N", "frames a second", "of every step, or every few, up to 30",
+     CLI_TO(Wanted, def.fps), CLI_GIVEN(Wanted, fps), CLI_RANGE(0.001, 1000)},
+    {"size", "WxH", "in pixels, each from 320 to 8192", "what suits the area", .kind = CLI_READ,
+     .read = read_size},
+    {"area", "X0,Y0,X1,Y1", "what is shown, m", "everything", .kind = CLI_READ, .read = read_area},
+    {"colour", "WHAT[:MOST]",
+     "of people: state, group, speed, force, compression, density or none; MOST is the value at "
+     "the end of the bar, as speed:1.5",
+     CLI_TO(Wanted, def.colour)},
+    {"color", "WHAT[:MOST]", CLI_TO(Wanted, def.colour)},
+    {"field", "WHAT[:MOST]",
+     "on the floor: density (people/m2) or pressure (crowd pressure, 1/s2, from 10 s on); people "
+     "are then rings",
+     CLI_TO(Wanted, def.field)},
+    {"paths", NULL, "where people and bodies went until then (of many, 500)",
+     CLI_TO(Wanted, def.paths)},
+    {"quiet", NULL, "no progress", CLI_TO(Wanted, quiet)},
+    {"of a scene, as of `jostle run`:", .kind = CLI_HEADING},
+    CLI_SCENE_OPTIONS(Wanted, scene),
+    {"of a recording:", .kind = CLI_HEADING},
+    {"scene", "SCENE", "whose walls and places are drawn (recordings keep solid walls)",
+     CLI_TO(Wanted, def.plan)},
+    {"recorded-fps", "N", "frames a second, where the recording does not say",
+     CLI_TO(Wanted, def.recorded_fps), CLI_GIVEN(Wanted, of_recording), CLI_RANGE(0.01, 10000)},
+    {"unit", "m|cm", "unit of its lengths, where it does not say", .kind = CLI_READ,
+     .read = read_unit, CLI_GIVEN(Wanted, of_recording)},
+};
 
 static bool ends(const char *text, const char *end) {
     size_t n = strlen(text), m = strlen(end);
@@ -182,76 +103,80 @@ static void usual_out(const Wanted *w, char out[512]) {
     const char *dot = strrchr(name, '.');
     int length = dot && dot > name ? (int)(dot - name) : (int)strlen(name);
     snprintf(out, 512, "%.*s%s", length < 400 ? length : 400, name,
-             w->series                ? "-frames"
-             : jo_render_has_images() ? ".png"
-                                      : ".svg");
+             w->from || w->until || w->fps ? "-frames"
+             : jo_render_has_images()      ? ".png"
+                                           : ".svg");
+}
+
+/* What of the options does not go together; NULL: nothing. */
+static const char *misuse(const Wanted *w, bool scene) {
+    const bool of_scene = w->of_scene || w->scene.has_seed || w->scene.has_dt;
+    const bool of_recording = w->of_recording || w->def.plan;
+    return scene && of_recording
+               ? "--scene, --recorded-fps and --unit are of recordings; this is a scene"
+           : !scene && of_scene
+               ? "--seed, --dt, --threads, --set, --input and --mod are of scenes (.yaml); this is "
+                 "taken for a recording"
+           : w->def.out && (!*w->def.out || strlen(w->def.out) >= 1000)
+               ? "--out names a file or a folder"
+               : NULL;
 }
 
 static int draw(Wanted *w) {
     JoError error = {0};
     char out[512];
-    bool scene = ends(w->path, ".yaml") || ends(w->path, ".yml");
-    const char *why = scene && w->of_recording
-                          ? "--scene, --recorded-fps and --unit are of recordings; this is a scene"
-                      : !scene && w->of_scene
-                          ? "--seed, --dt, --threads, --set, --input and --mod are of scenes "
-                            "(.yaml); this is taken for a recording"
-                      : w->def.out && (!*w->def.out || strlen(w->def.out) >= 1000)
-                          ? "--out names a file or a folder"
-                          : NULL;
-    if (why) {
-        fprintf(stderr, "jostle render: %s\nTry 'jostle render --help'.\n", why);
-        return JO_USAGE;
-    }
+    const bool scene = ends(w->path, ".yaml") || ends(w->path, ".yml");
+    const char *why = misuse(w, scene);
+    if (why)
+        return cli_misused(&cli_render, why);
     usual_out(w, out);
     if (!w->def.out)
         w->def.out = out;
+    w->def.progress = !w->quiet;
     w->scene.path = w->path;
-    w->scene.overrides = w->overrides;
-    w->scene.mods = w->mods;
+    w->scene.overrides = w->sets.items;
+    w->scene.override_count = w->sets.count;
+    w->scene.mods = w->mods.items;
+    w->scene.mod_count = w->mods.count;
     if (scene)
         w->def.scene = &w->scene;
     else
         w->def.recording = w->path;
     if (jo_render(&w->def, &error))
-        return JO_OK;
-    if (!*error.file) /* else it was sent as a message, with its place */
-        fprintf(stderr, "jostle render: %s\n", error.text);
-    return error.code ? (int)error.code : JO_FAILED;
+        return JO_OK; /* an error with a file's name was sent as a message */
+    return cli_failed(&cli_render, &error, *error.file != 0);
 }
 
-int cli_render(int argc, char **argv) {
-    CliArgs args = {.argc = argc, .argv = argv, .next = 1, .command = "render"};
-    Wanted w = {.def = jo_default_render_def(), .scene = jo_default_scene_def()};
-    w.overrides = calloc((size_t)argc, sizeof *w.overrides);
-    w.mods = calloc((size_t)argc, sizeof *w.mods);
-    w.def.progress = true;
-    const char *option, *plain;
-    int status = -1;
-    while (status < 0 && ((option = cli_next(&args, &plain)) || plain)) {
-        if (plain && w.path) {
-            fprintf(stderr, "jostle render: one scene or recording at a time; what is '%s'?\n",
-                    plain);
-            status = JO_USAGE;
-        } else if (plain) {
-            w.path = plain;
-        } else if (!strcmp(option, "help") || !strcmp(option, "h")) {
-            fputs(HELP, stdout);
-            status = JO_OK;
-        } else if (!read_option(&w, &args, option)) {
-            status = cli_unknown(&args, option, KNOWN);
-        }
+static int run(int argc, char **argv) {
+    Wanted wanted = {.def = jo_default_render_def(), .scene = jo_default_scene_def()};
+    CliList plain = {0};
+    int status = cli_parse(&cli_render, argc, argv, &wanted, &plain);
+    if (status == CLI_GO_ON) {
+        wanted.path = plain.items[0];
+        status = draw(&wanted);
     }
-    if (status < 0 && args.failed)
-        status = JO_USAGE;
-    if (status < 0 && !w.path) {
-        fprintf(stderr, "jostle render: no scene and no recording given\n"
-                        "Try 'jostle render --help'.\n");
-        status = JO_USAGE;
-    }
-    if (status < 0)
-        status = draw(&w);
-    free(w.overrides);
-    free(w.mods);
+    cli_free(&cli_render, &wanted, &plain);
     return status;
 }
+
+const CliCommand cli_render = {
+    .name = "render",
+    .what = "draw a scene or a recording: pictures, frames, video",
+    .usage = "SCENE|RECORDING [options]",
+    .about = "Draws a crowd from above, without a display: a scene (.yaml), which is run for it, "
+             "or a recording as of `jostle report`. Walls, gates and places with their names, "
+             "bodies, people as discs of their radius, a legend with units, a scale and the time.",
+    .notes = "examples:\n"
+             "  jostle render scenes/office.yaml --at 8 --out office.svg\n"
+             "  jostle render scenes/door-050.yaml --at 20 --colour compression --out door.png\n"
+             "  jostle render run.sqlite --field density --from 0 --until 30 --out run.mp4\n"
+             "\n"
+             "exit status: 0 done, 1 writing failed, 2 wrong usage, 3 bad input",
+    .options = OPTIONS,
+    .option_count = sizeof OPTIONS / sizeof *OPTIONS,
+    .takes = "scene or recording",
+    .least = 1,
+    .most = 1,
+    .none_said = "no scene and no recording given",
+    .run = run,
+};

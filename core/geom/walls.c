@@ -55,6 +55,39 @@ void jox_walls_add_polyline(JoxWalls *walls, const JoxV2 *points, uint32_t count
     jox_free(ring);
 }
 
+void jox_walls_add_outline(JoxWalls *walls, const JoxV2 *points, uint32_t count, float height) {
+    uint32_t ring = walls->ring_count; /* the first of the two is counter-clockwise */
+    jox_walls_add_polyline(walls, points, count, true, height);
+    walls->rings[ring].outline = true;
+}
+
+JoxV2 *jox_walls_ring_points(const JoxWalls *walls, uint32_t ring) {
+    const struct JoxWallRing *r = &walls->rings[ring];
+    JoxV2 *points = jox_alloc(r->count, sizeof *points);
+    for (uint32_t i = 0; i < r->count; i++)
+        points[i] = walls->vertices[r->first + i].point;
+    return points;
+}
+
+bool jox_walls_outline_all(const JoxWalls *walls, const JoxV2 *points, uint32_t count) {
+    bool *within = jox_alloc((size_t)count + 1, sizeof *within), any = false;
+    uint32_t held = 0;
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        if (!walls->rings[r].outline)
+            continue;
+        JoxV2 *ring = jox_walls_ring_points(walls, r);
+        any = true;
+        for (uint32_t i = 0; i < count; i++)
+            if (!within[i] && jox_polygon_contains(ring, walls->rings[r].count, points[i])) {
+                within[i] = true;
+                held++;
+            }
+        jox_free(ring);
+    }
+    jox_free(within);
+    return any && held == count;
+}
+
 void jox_walls_name(JoxWalls *walls, uint32_t first, const char *name, bool open) {
     for (uint32_t r = first; r < walls->ring_count; r++) {
         if (walls->rings[r].name)
@@ -82,6 +115,7 @@ void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates) {
         out->rings[out->ring_count++] = (struct JoxWallRing){.first = ring->first - back,
                                                              .count = ring->count,
                                                              .solid = ring->solid,
+                                                             .outline = ring->outline,
                                                              .height = ring->height};
     }
 }

@@ -23,6 +23,7 @@ typedef struct JoxWalls {
     struct JoxWallRing {
         uint32_t first, count;
         bool solid;
+        bool outline; /* a plan says that what lies inside can be walked, and nothing else */
         float height; /* m; INFINITY unless given */
         char *name;   /* of walls that open and close; owned; else NULL */
         bool open;    /* taken away: nothing stands there */
@@ -37,6 +38,12 @@ void jox_walls_add_solid(JoxWalls *walls, const JoxV2 *ring, uint32_t count, flo
    gives a thin closed wall, whose inside can be walked. */
 void jox_walls_add_polyline(JoxWalls *walls, const JoxV2 *points, uint32_t count, bool closed,
                             float height);
+/* The same of a closed one, whose inside is the area, or one of the areas, that can be walked. */
+void jox_walls_add_outline(JoxWalls *walls, const JoxV2 *points, uint32_t count, float height);
+/* Whether there are outlines, and every point lies within one. */
+bool jox_walls_outline_all(const JoxWalls *walls, const JoxV2 *points, uint32_t count);
+/* The points of a ring, to be freed by jox_free. */
+JoxV2 *jox_walls_ring_points(const JoxWalls *walls, uint32_t ring);
 /* Gives the rings from `first` on that have none a name (copied); open ones do not stand. */
 void jox_walls_name(JoxWalls *walls, uint32_t first, const char *name, bool open);
 /* Makes `out` the walls of `all` that stand, without their names; with `gates` false, of these only

@@ -175,7 +175,8 @@ typedef struct JoSceneDef {
     JoMessage *message;    /* NULL: to stderr */
     void *message_context;
     const char *const *mods; /* folders of mods, or names of mods that lie beside the scene or in
-                                the user's data directory */
+                                the user's data directory; one that is not there, or does not load,
+                                is an error */
     size_t mod_count;
     bool named_mods_only; /* mods are not taken because they lie in one of those folders */
     const char *text; /* of the scene, or NULL: it is read from `path`, which else only names it */
@@ -257,9 +258,13 @@ typedef struct JoStats {
 JO_API JoStats jo_scene_stats(const JoScene *scene);
 /* "perceive", "think", "prefer", "push", "solve", "move", "bodies", "infer", "observe". */
 JO_API const char *jo_stage_name(int stage);
-/* One JSON object with the figures of the run so far; free with jo_free. */
+/* One JSON object with the figures of the run so far; free with jo_free. They do not depend on what
+   is reported or recorded, which may add some. "density_max" is the greatest density of any time,
+   people per m2 by a Gaussian kernel of 1.5 m, sampled every 2 simulated seconds. */
 JO_API char *jo_scene_summary(const JoScene *scene);
-/* From several summaries: mean and 5-95 % range of each numeric figure; free with jo_free. */
+/* From several summaries: {"runs", "given": {PATH: value, or a list by run where they differ},
+   "figures": {PATH: {"mean", "p5", "p95"}}}. Figures are statistics of a run; what it was given,
+   coordinates and texts are not. Free with jo_free. */
 JO_API char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error);
 
 /* A scene on a live page: a browser on this machine shows it and lets people act on it. */
@@ -366,6 +371,9 @@ JO_API char *jo_mods_list(const JoSceneDef *def);
    the scene: every place in order, the last one wins. NULL with `error` where there is no such
    path. */
 JO_API char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error);
+/* A sentence on each function of a behaviour that is suspended, since it failed too often: the run
+   went on, but not as it was written. NULL where none is; free with jo_free. */
+JO_API char *jo_scene_suspended(const JoScene *scene);
 /* What plain Lua functions cost so far: a line for each, by behaviour; free with jo_free. */
 JO_API char *jo_scene_lua_profile(const JoScene *scene);
 /* Checks scenes and behaviours (or folders of them) without running; everything wrong goes to

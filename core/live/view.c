@@ -1,5 +1,6 @@
 /* A scene on its live page: the loop that steps it at the pace people want. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
@@ -31,6 +32,7 @@ static void step(JoxViewing *v) {
         pause_at_end(v);
     } else {
         v->failed = v->session.paused = true;
+        snprintf(v->failure, sizeof v->failure, "%s", error.text);
         v->steps = 0;
         jox_run_say(v->scene, "%s\n", error.text);
         jox_view_say(v->view, JOX_VIEW_ALL, "error", error.text);
@@ -72,7 +74,14 @@ static bool run(JoxViewing *v, JoError *error) {
     }
     if (def->summary)
         *def->summary = jo_scene_summary(v->scene);
-    return true;
+    char *suspended = jo_scene_suspended(v->scene);
+    if (v->failed)
+        jox_error(error, JO_FAILED, "%s", v->failure);
+    else if (suspended)
+        jox_error(error, JO_FAILED, "%s", suspended);
+    bool good = !v->failed && !suspended;
+    jo_free(suspended);
+    return good;
 }
 
 bool jo_view(const JoViewDef *def, JoError *error) {

@@ -47,8 +47,10 @@ bool jox_viewing_load(JoxViewing *v, JoError *error) {
     v->scene = next;
     v->failed = false;
     v->session.paused = v->failed = !begin(v, error);
-    if (v->failed)
+    if (v->failed) {
+        snprintf(v->failure, sizeof v->failure, "%s", error->text);
         jox_view_say(v->view, JOX_VIEW_ALL, "error", error->text);
+    }
     v->steps = 0;
     v->until = v->def->seconds > 0.0 ? v->def->seconds : jo_scene_duration(next);
     v->due = v->spoke = v->showed = 0.0;

@@ -28,9 +28,10 @@ typedef struct JoxViewing {
     JoxLiveSession session;
     uint64_t steps; /* to be done while paused */
     double until;   /* s, at which it pauses by itself */
-    bool failed;    /* the run cannot go on */
-    bool changed;   /* what is shown is not what is there */
-    bool told;      /* diagnostics that were handed over are being printed */
+    bool failed;    /* the run cannot go on, for this reason: */
+    char failure[1024];
+    bool changed; /* what is shown is not what is there */
+    bool told;    /* diagnostics that were handed over are being printed */
     JoxWatcher watchers[JOX_VIEW_CLIENTS];
     uint32_t inspector; /* the client who looks at somebody closely; 0: nobody */
     uint32_t inspected; /* the slot of whom */

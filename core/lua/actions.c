@@ -1,5 +1,5 @@
 /* What agents do besides walking: set memory, call out, kick, take and throw bodies, become another
-   machine. */
+   machine; and what their memory counts by itself. */
 #include <stdio.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 /* What a name of memory is set to. */
 static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxAssign *assign) {
     static const JoxParameterInfo ANY = {"this", "", "", -1e12, 1e12, 0};
-    lua_State *L = b->vm->L;
+    lua_State *L = b->script->vm.L;
     JoxNode *node = jox_node_get(L, -1);
     *assign = (struct JoxAssign){.slot = slot};
     if (b->machine->memory[slot].kind == JOX_MEMORY_NUMBER) {
@@ -31,7 +31,7 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
         if (assign->value.index < 0)
             assign->value.kind = JOX_VALUE_UNSET;
     } else {
-        if (!node || node->kind != JOX_NODE_POISON)
+        if (!node || node->kind != JOX_NODE_ERROR)
             jox_build_error(b, jox_read_at(b, path), "bad-value", NULL,
                             "this memory is true or false, or set to a condition");
         lua_pop(L, 1);
@@ -39,7 +39,7 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
 }
 
 static void read_set(JoxBuild *b, int index, const char *path, JoxActions *actions) {
-    lua_State *L = b->vm->L;
+    lua_State *L = b->script->vm.L;
     char full[256], part[256];
     jox_read_join(full, path, "set");
     int type = jox_read_field(L, index, "set"), table = lua_gettop(L);
@@ -50,11 +50,11 @@ static void read_set(JoxBuild *b, int index, const char *path, JoxActions *actio
         lua_pop(L, 1);
         return;
     }
-    const JoxVm *vm = b->vm;
+    const JoxScript *script = b->script;
     const char *names[64];
-    actions->set = jox_alloc(vm->memory_count + 1, sizeof *actions->set);
-    for (uint32_t m = 0; m < vm->memory_count; m++) {
-        names[m] = vm->memory[m].name;
+    actions->set = jox_alloc(script->memory_count + 1, sizeof *actions->set);
+    for (uint32_t m = 0; m < script->memory_count; m++) {
+        names[m] = script->memory[m].name;
         if (jox_read_field(L, table, names[m]) == LUA_TNIL) {
             lua_pop(L, 1);
             continue;
@@ -62,7 +62,7 @@ static void read_set(JoxBuild *b, int index, const char *path, JoxActions *actio
         jox_read_join(part, full, names[m]);
         read_assign(b, part, jox_read_memory(b, names[m]), &actions->set[actions->set_count++]);
     }
-    jox_read_check(b, table, full, names, vm->memory_count, false);
+    jox_read_check(b, table, full, names, script->memory_count, false);
     lua_settop(L, table - 1);
 }
 
@@ -70,7 +70,7 @@ static void read_set(JoxBuild *b, int index, const char *path, JoxActions *actio
 static void read_signal(JoxBuild *b, int index, const char *path, JoxActions *actions,
                         double *every) {
     static const char *const KEYS[] = {"every"};
-    lua_State *L = b->vm->L;
+    lua_State *L = b->script->vm.L;
     char full[256];
     jox_read_join(full, path, "signal");
     int type = jox_read_field(L, index, "signal"), top = lua_gettop(L);
@@ -100,16 +100,16 @@ void jox_read_actions(JoxBuild *b, int index, const char *path, JoxActions *acti
 }
 
 /* { body, at = target, VALUE = number }: kick and throw. */
-static int16_t read_deed(JoxBuild *b, int index, const char *path, const char *deed,
-                         const JoxParameterInfo *info, int16_t *at, JoxValue *value) {
-    lua_State *L = b->vm->L;
+static int16_t read_body_action(JoxBuild *b, int index, const char *path, const char *action,
+                                const JoxParameterInfo *info, int16_t *at, JoxValue *value) {
+    lua_State *L = b->script->vm.L;
     const char *keys[] = {"at", info->name};
     char full[256], part[256], hint[96];
     int16_t what = -1;
-    jox_read_join(full, path, deed);
+    jox_read_join(full, path, action);
     *at = -1;
-    int type = jox_read_field(L, index, deed), table = lua_gettop(L);
-    snprintf(hint, sizeof hint, "Example: %s = { nearest \"ball\", at = goal, %s = 4 }", deed,
+    int type = jox_read_field(L, index, action), table = lua_gettop(L);
+    snprintf(hint, sizeof hint, "Example: %s = { nearest \"ball\", at = goal, %s = 4 }", action,
              info->name);
     if (type == LUA_TTABLE) {
         jox_read_check(b, table, full, keys, 2, true);
@@ -117,28 +117,28 @@ static int16_t read_deed(JoxBuild *b, int index, const char *path, const char *d
         JoxNode *body = jox_node_get(L, -1);
         if (body && body->kind == JOX_NODE_TARGET)
             what = jox_build_target(b, body);
-        else if (!body || body->kind != JOX_NODE_POISON)
+        else if (!body || body->kind != JOX_NODE_ERROR)
             jox_build_error(b, jox_read_at(b, full), "bad-value", hint,
-                            "%s needs the body as its first item", deed);
+                            "%s needs the body as its first item", action);
         lua_pop(L, 1);
         *at = jox_read_target(b, table, full, "at");
         jox_read_join(part, full, info->name);
         if (jox_read_field(L, table, info->name) == LUA_TNIL) {
             lua_pop(L, 1);
-            jox_build_error(b, jox_read_at(b, full), "missing-key", hint, "%s needs `%s`", deed,
+            jox_build_error(b, jox_read_at(b, full), "missing-key", hint, "%s needs `%s`", action,
                             info->name);
         } else {
             *value = jox_read_parameter(b, part, info);
         }
     } else if (type != LUA_TNIL) {
-        jox_build_error(b, jox_read_at(b, full), "bad-value", hint, "%s must be a table", deed);
+        jox_build_error(b, jox_read_at(b, full), "bad-value", hint, "%s must be a table", action);
     }
     lua_settop(L, table - 1);
     return what;
 }
 
 static void read_become(JoxBuild *b, int index, const char *path, JoxState *state) {
-    lua_State *L = b->vm->L;
+    lua_State *L = b->script->vm.L;
     char full[256];
     jox_read_join(full, path, "become");
     int type = jox_read_field(L, index, "become");
@@ -156,13 +156,14 @@ static void read_become(JoxBuild *b, int index, const char *path, JoxState *stat
     lua_pop(L, 1);
 }
 
-void jox_read_deeds(JoxBuild *b, int index, const char *path, JoxState *state) {
+void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *state) {
     static const JoxParameterInfo IMPULSE = {"impulse", "m/s", "", 0, 50, 0},
                                   SPEED = {"speed", "m/s", "", 0.1, 40, 5};
     char full[256];
     state->kick =
-        read_deed(b, index, path, "kick", &IMPULSE, &state->kick_at, &state->kick_impulse);
-    state->toss = read_deed(b, index, path, "throw", &SPEED, &state->toss_at, &state->toss_speed);
+        read_body_action(b, index, path, "kick", &IMPULSE, &state->kick_at, &state->kick_impulse);
+    state->toss =
+        read_body_action(b, index, path, "throw", &SPEED, &state->toss_at, &state->toss_speed);
     jox_read_join(full, path, "throw");
     if (state->toss >= 0 && state->toss_at < 0)
         jox_build_error(b, jox_read_at(b, full), "missing-key",
@@ -170,4 +171,57 @@ void jox_read_deeds(JoxBuild *b, int index, const char *path, JoxState *state) {
                         "throw needs `at`, a target");
     state->take = jox_read_target(b, index, path, "take");
     read_become(b, index, path, state);
+}
+
+/* ---- what counts by itself ---- */
+
+/* One thing that counts by itself. */
+static void read_counter(JoxBuild *b, const char *path, uint32_t slot, int32_t state) {
+    JoxMachine *m = b->machine;
+    JoxNode *node = jox_node_get(b->script->vm.L, -1);
+    if (node && node->kind == JOX_NODE_CIRCUITS) {
+        JOX_RESERVE(m->counters, b->counter_capacity, m->counter_count + 1);
+        JoxCounter counter = {
+            .target = jox_build_target(b, node->target), .value = (int32_t)slot, .state = state};
+        counter.angle = jox_build_memory(b, "");
+        counter.begun = jox_build_memory(b, "");
+        m->counters[m->counter_count++] = counter;
+    } else if (!node || node->kind != JOX_NODE_ERROR) {
+        jox_build_error(b, jox_read_at(b, path), "bad-value", "Example: laps = circuits \"kaaba\"",
+                        "this must be something that can be counted");
+    }
+}
+
+void jox_read_counts(JoxBuild *b, int index, const char *prefix, int32_t state) {
+    lua_State *L = b->script->vm.L;
+    JoxMachine *m = b->machine;
+    char path[256], full[256];
+    int type = jox_read_field(L, index, "counts"), table = lua_gettop(L);
+    jox_read_join(path, prefix, "counts");
+    if (type != LUA_TTABLE) {
+        if (type != LUA_TNIL)
+            jox_build_error(b, jox_read_at(b, path), "bad-value", NULL, "counts must be a table");
+        lua_pop(L, 1);
+        return;
+    }
+    for (uint32_t slot = 0; slot < b->script->memory_count;
+         slot++) { /* in the order of the memory */
+        if (jox_read_field(L, table, m->memory[slot].name) != LUA_TNIL) {
+            jox_read_join(full, path, m->memory[slot].name);
+            read_counter(b, full, slot, state);
+        }
+        lua_settop(L, table);
+    }
+    lua_pushnil(L);
+    while (lua_next(L, table)) {
+        lua_pop(L, 1);
+        const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "?";
+        if (jox_read_memory(b, name) >= 0)
+            continue;
+        jox_read_join(full, path, name);
+        jox_build_error(b, jox_read_at(b, full), "unknown-memory",
+                        "Declare it: local mine = memory { laps = 0 }",
+                        "'%s' is counted but not remembered", name);
+    }
+    lua_settop(L, table - 1);
 }

@@ -245,7 +245,7 @@ static Scopes *resolve(const JoxSource *source) {
     return s;
 }
 
-void jox_source_scopes_free(struct JoxScopes *s) {
+void jox_scopes_free(struct JoxScopes *s) {
     if (!s)
         return;
     jox_free(s->open);
@@ -272,11 +272,12 @@ static const JoxToken *assigned_in(const Scopes *s, int32_t f, const char *name,
     return found;
 }
 
-const JoxToken *jox_source_assigned(JoxSource *source, int first_line, int last_line,
-                                    const char *const *names, size_t name_count) {
-    if (!source->scopes)
-        source->scopes = resolve(source);
-    const Scopes *s = source->scopes;
+const JoxToken *jox_outline_assigned(const JoxSource *source, int first_line, int last_line,
+                                     const char *const *names, size_t name_count) {
+    JoxOutline *outline = jox_outline_of(source);
+    if (!outline->scopes)
+        outline->scopes = resolve(source);
+    const Scopes *s = outline->scopes;
     const JoxToken *first = NULL;
     for (size_t n = 0; n < name_count; n++) {
         const JoxToken *found = NULL;

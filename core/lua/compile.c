@@ -14,7 +14,7 @@ void jox_build_error(JoxBuild *build, JoxPosition position, const char *code, co
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    jox_diag_error(build->vm->diagnostics, position, code, hint, "%s", text);
+    jox_diag_error(build->script->diagnostics, position, code, hint, "%s", text);
 }
 
 int32_t jox_build_own(JoxBuild *build, const char *name) {
@@ -63,7 +63,7 @@ int16_t jox_build_name(JoxBuild *build, const char *name, JoxNameUse use) {
 
 int16_t jox_build_target(JoxBuild *build, const JoxNode *node) {
     JoxMachine *m = build->machine;
-    if (!node || node->kind == JOX_NODE_POISON)
+    if (!node || node->kind == JOX_NODE_ERROR)
         return -1;
     JoxTarget target = {node->target_kind, node->target_arg, NULL};
     bool own_set = node->kind == JOX_NODE_TARGET && node->target_kind == JOX_TARGET_ONE_OF_OWN;
@@ -128,7 +128,7 @@ static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
 
 int32_t jox_build_program(JoxBuild *build, const JoxNode *node, JoxPosition position) {
     JoxMachine *m = build->machine;
-    if (node->kind == JOX_NODE_POISON)
+    if (node->kind == JOX_NODE_ERROR)
         return -1;
     if (node->program > 0) /* a local that several places use */
         return node->program - 1;

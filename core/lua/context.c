@@ -8,7 +8,7 @@
 
 /* The text of a string value at a path, or "?". */
 static void value_at(const JoxSource *source, const char *path, char out[64]) {
-    const JoxPath *found = jox_source_path_find(source, path);
+    const JoxPath *found = jox_outline_find(source, path);
     const JoxToken *t =
         found && found->first < source->token_count ? &source->tokens[found->first] : NULL;
     bool text = t && t->kind == JOX_TOKEN_STRING;
@@ -23,8 +23,9 @@ static bool is_before(const JoxToken *t, int line, int column) {
 /* The longest path whose value stands about a place. */
 static const JoxPath *path_about(const JoxSource *source, int line, int column) {
     const JoxPath *best = NULL;
-    for (size_t p = 0; p < source->path_count; p++) {
-        const JoxPath *path = &source->paths[p];
+    const JoxOutline *outline = jox_outline_of(source);
+    for (size_t p = 0; p < outline->path_count; p++) {
+        const JoxPath *path = &outline->paths[p];
         if (path->key >= source->token_count ||
             !is_before(&source->tokens[path->key], line, column))
             continue;
@@ -40,9 +41,10 @@ static const JoxPath *path_about(const JoxSource *source, int line, int column) 
 static char *describe(const JoxSource *source, const JoxPath *path) {
     char name[64], state[64], to[64], full[256];
     JoxText out = {0};
+    const JoxToken *patches = jox_outline_of(source)->patches;
     value_at(source, "name", name);
-    if (source->patches)
-        jox_text_printf(&out, "patch of %.*s", (int)source->patches->length, source->patches->text);
+    if (patches)
+        jox_text_printf(&out, "patch of %.*s", (int)patches->length, patches->text);
     else
         jox_text_printf(&out, "machine %s", name);
     if (strncmp(path->path, "states.", 7) != 0)
@@ -60,7 +62,7 @@ static char *describe(const JoxSource *source, const JoxPath *path) {
     return out.data;
 }
 
-void jox_source_contexts(const JoxSource *source, JoxDiagnostics *diagnostics) {
+void jox_outline_contexts(const JoxSource *source, JoxDiagnostics *diagnostics) {
     for (size_t d = 0; d < diagnostics->count; d++) {
         JoxDiagnostic *item = &diagnostics->items[d];
         if (item->context || item->line < 1 || !item->file || strcmp(item->file, source->path) != 0)

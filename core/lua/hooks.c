@@ -13,12 +13,24 @@ enum { TIMED = 16 };          /* one call in so many is timed */
 
 void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *complain, void *context) {
     lua->machines = machines;
-    lua->complain = complain;
-    lua->complain_context = context;
+    lua->group.say = complain;
+    lua->group.say_context = context;
 }
 
 uint64_t jox_lua_failures(const JoxLua *lua) {
     return lua->failures;
+}
+
+void jox_lua_suspended(const JoxLua *lua, JoxText *out) {
+    for (uint32_t v = 0; v < lua->script_count; v++) {
+        const JoxScript *script = lua->scripts[v];
+        for (uint32_t h = 0; script && h < script->hook_count; h++)
+            if (script->hooks[h].suspended)
+                jox_text_printf(
+                    out, "%sbehaviour %.200s was suspended: %.200s failed %d times within a second",
+                    out->length ? "; " : "", script->vm.sources[0]->path, script->hooks[h].where,
+                    MOST_FAILURES);
+    }
 }
 
 /* Names and messages are a script's: none may command a terminal. */
@@ -33,16 +45,16 @@ static void say(JoxLua *lua, char *text) {
         *end = '\n';
         line = end + 1;
     }
-    if (lua->complain)
-        lua->complain(lua->complain_context, text);
+    if (lua->group.say)
+        lua->group.say(lua->group.say_context, text);
 }
 
 /* A new second begins for a hook: what was not said of the last is summed up. */
-static void new_second(JoxLua *lua, const JoxVm *vm, JoxHook *hook, uint32_t second) {
+static void new_second(JoxLua *lua, const JoxScript *script, JoxHook *hook, uint32_t second) {
     char text[1024];
     if (hook->repeated > 0) {
         snprintf(text, sizeof text, "%.200s: %.200s: %llu times more in a second\n",
-                 vm->machine->path, hook->where, (unsigned long long)hook->repeated);
+                 script->machine->path, hook->where, (unsigned long long)hook->repeated);
         say(lua, text);
     }
     hook->second = second;
@@ -51,12 +63,12 @@ static void new_second(JoxLua *lua, const JoxVm *vm, JoxHook *hook, uint32_t sec
 }
 
 /* Says each new failure in full; the same again is counted and said once a second. */
-static void report(JoxLua *lua, JoxVm *vm, JoxHook *hook, const char *why, int line) {
+static void report(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *why, int line) {
     const JoxMachineRun *machines = lua->machines;
     char text[2600];
     uint32_t second = (uint32_t)(machines->tick * machines->dt);
     if (second != hook->second)
-        new_second(lua, vm, hook, second);
+        new_second(lua, script, hook, second);
     lua->failures++;
     hook->failures++;
     if (++hook->second_failures == MOST_FAILURES) {
@@ -65,11 +77,12 @@ static void report(JoxLua *lua, JoxVm *vm, JoxHook *hook, const char *why, int l
             text, sizeof text,
             "%.200s: %.200s: it failed %d times within a second and is suspended until the file "
             "is reloaded; agents stay in their states\n",
-            vm->machine->path, hook->where, MOST_FAILURES);
+            script->machine->path, hook->where, MOST_FAILURES);
         say(lua, text);
         return;
     }
-    if ((hook->complaint && strcmp(hook->complaint, why) == 0) || !jox_vm_may_say(vm, second)) {
+    if ((hook->complaint && strcmp(hook->complaint, why) == 0) ||
+        !jox_vm_may_say(&script->vm, second)) {
         hook->repeated++;
         return;
     }
@@ -77,9 +90,9 @@ static void report(JoxLua *lua, JoxVm *vm, JoxHook *hook, const char *why, int l
     hook->complaint = jox_strdup(why);
     snprintf(text, sizeof text,
              "%.200s:%d: %.400s\n%s machine %.60s > %.200s; agent %u, step %u, seed %llu\n",
-             vm->sources[vm->failed_source].path, line, why, vm->traceback, vm->machine->name,
-             hook->where, machines->agents->id[vm->agent], machines->tick,
-             (unsigned long long)machines->seed);
+             script->vm.sources[script->vm.failed_source]->path, line, why, script->vm.traceback,
+             script->machine->name, hook->where, machines->agents->id[script->agent],
+             machines->tick, (unsigned long long)machines->seed);
     say(lua, text);
 }
 
@@ -109,37 +122,36 @@ static double now(void) {
 bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxHookKind kind,
                   uint32_t agent, double result[2]) {
     JoxLua *lua = context;
-    JoxVm *vm = machine->vm >= 0 ? lua->vms[machine->vm] : NULL;
-    if (!vm || (uint32_t)number >= vm->hook_count || vm->hooks[number].suspended)
+    JoxScript *script = machine->vm >= 0 ? lua->scripts[machine->vm] : NULL;
+    if (!script || (uint32_t)number >= script->hook_count || script->hooks[number].suspended)
         return false;
-    JoxHook *hook = &vm->hooks[number];
-    lua_State *L = vm->L;
+    JoxHook *hook = &script->hooks[number];
+    lua_State *L = script->vm.L;
     bool timed = hook->calls++ % TIMED == 0;
     double begun = timed ? now() : 0.0;
-    vm->machine = machine;
-    vm->agent = agent;
-    vm->draws = 0;
-    vm->run++;
+    script->machine = machine;
+    script->agent = agent;
+    script->draws = 0;
+    script->vm.run++;
     lua_rawgeti(L, LUA_REGISTRYINDEX, hook->ref);
-    lua_rawgeti(L, LUA_REGISTRYINDEX, vm->me);
-    *(uint32_t *)lua_touserdata(L, -1) = vm->run;
+    lua_rawgeti(L, LUA_REGISTRYINDEX, script->me);
+    *(uint32_t *)lua_touserdata(L, -1) = script->vm.run;
     const char *why = NULL;
     int line = 0;
-    bool good = jox_vm_call(vm, 1, 2, lua->limits.hook_instructions, &why, &line);
+    bool good = jox_vm_call(&script->vm, 1, 2, lua->group.limits.hook_instructions, &why, &line);
     if (good) {
         why = read_result(L, kind, result);
         good = !why;
-        vm->traceback[0] = 0;
+        script->vm.traceback[0] = 0;
         lua_settop(L, 0);
     }
     char name[64], changed[200];
     lua_Debug where;
-    if (jox_upvalues_restore(L, &vm->upvalues, hook->first_upvalue, hook->upvalue_count, name,
+    if (jox_upvalues_restore(L, &script->upvalues, hook->first_upvalue, hook->upvalue_count, name,
                              &where)) {
-        unsigned source = 0;
-        sscanf(where.short_src, "b%u", &source);
-        vm->failed_source = source < vm->source_count ? source : 0;
-        vm->traceback[0] = 0;
+        int source = jox_vm_source(&script->vm, where.short_src);
+        script->vm.failed_source = source > 0 ? (size_t)source : 0;
+        script->vm.traceback[0] = 0;
         line = where.linedefined;
         snprintf(
             changed, sizeof changed,
@@ -154,18 +166,18 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
         hook->timed++;
     }
     if (!good)
-        report(lua, vm, hook, why, line);
+        report(lua, script, hook, why, line);
     return good;
 }
 
 /* ---- costs ---- */
 
 double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls) {
-    const JoxVm *vm = machine->vm >= 0 ? lua->vms[machine->vm] : NULL;
+    const JoxScript *script = jox_lua_script(lua, machine);
     double seconds = 0.0;
     *calls = 0;
-    for (uint32_t h = 0; vm && h < vm->hook_count; h++) {
-        const JoxHook *hook = &vm->hooks[h];
+    for (uint32_t h = 0; script && h < script->hook_count; h++) {
+        const JoxHook *hook = &script->hooks[h];
         *calls += hook->calls;
         if (hook->timed)
             seconds += hook->seconds / (double)hook->timed * (double)hook->calls;
@@ -174,9 +186,9 @@ double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *c
 }
 
 void jox_lua_profile(const JoxLua *lua, const JoxMachine *machine, double wall, JoxText *out) {
-    const JoxVm *vm = machine->vm >= 0 ? lua->vms[machine->vm] : NULL;
-    for (uint32_t h = 0; vm && h < vm->hook_count; h++) {
-        const JoxHook *hook = &vm->hooks[h];
+    const JoxScript *script = jox_lua_script(lua, machine);
+    for (uint32_t h = 0; script && h < script->hook_count; h++) {
+        const JoxHook *hook = &script->hooks[h];
         double each = hook->timed ? hook->seconds / (double)hook->timed : 0.0;
         double all = each * (double)hook->calls;
         jox_text_printf(out, "  %-52.100s %10llu calls %8.0f ns each %9.2f ms %6.2f %%%s\n",

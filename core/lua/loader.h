@@ -6,22 +6,10 @@
 #include "base/mod.h"
 #include "base/text.h"
 #include "geom/place.h"
+#include "lua/vm/limits.h"
 #include "machine/run.h"
 
 typedef struct JoxLua JoxLua;
-
-/* Every script works within these; over them it is stopped and named. */
-typedef struct JoxLuaLimits {
-    uint64_t load_instructions; /* of one load; default 20 million */
-    uint64_t hook_instructions; /* of one call of a hook; default 100,000 */
-    uint64_t step_instructions; /* of all of a behaviour's hooks in one step; default 20 million;
-                                   then each hook has 1,000 */
-    size_t memory;              /* bytes of one Lua state; default 32 MB */
-    size_t block;               /* bytes of one allocation; default 2 MB */
-    size_t source;              /* bytes of one file; default 256 KB */
-    uint32_t print_lines;       /* of `print` in a simulated second; default 20; at load 5 times */
-} JoxLuaLimits;
-JoxLuaLimits jox_lua_default_limits(void);
 
 /* Names that a behaviour may use. Not complete: any name is accepted (checking a behaviour without
    a scene); places then stay unresolved, with index -1. */
@@ -78,7 +66,7 @@ char *const *jox_loaded_tried(const JoxLoaded *loaded, uint32_t *count);
 /* What was printed while loading; "" for nothing. */
 const char *jox_loaded_said(const JoxLoaded *loaded);
 /* As jox_lua_files, before it is adopted. */
-const struct JoxLuaFile *jox_loaded_files(const JoxLoaded *loaded, uint32_t *count);
+const JoxLuaFile *jox_loaded_files(const JoxLoaded *loaded, uint32_t *count);
 /* The machine's functions can be called from here on; the machine is the caller's. */
 void jox_lua_adopt(JoxLua *lua, JoxLoaded *loaded);
 /* The reverse: machine and Lua state, in one piece, to be freed on any thread. */
@@ -86,10 +74,6 @@ JoxLoaded *jox_lua_retire(JoxLua *lua, JoxMachine *machine);
 void jox_loaded_free(JoxLoaded *loaded);
 
 /* Files that a machine was made of, its own first. */
-typedef struct JoxLuaFile {
-    char *path;
-    char sha256[65];
-} JoxLuaFile;
 const JoxLuaFile *jox_lua_files(const JoxLua *lua, const JoxMachine *machine, uint32_t *count);
 
 /* The text of one of them as it was read (a byte order mark made blank). */
@@ -103,7 +87,6 @@ char *const *jox_lua_tried(const JoxLua *lua, const JoxMachine *machine, uint32_
 /* Ready for JoxMachineRun.call, with the JoxLua as context. `jox_lua_attach` says whose columns
    hooks read and write, and where their errors go: each place and message in full once, then
    counted. */
-typedef void JoxLuaComplain(void *context, const char *text);
 void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *complain, void *context);
 bool jox_lua_call(void *lua, const JoxMachine *machine, int32_t hook, JoxHookKind kind,
                   uint32_t agent, double result[2]);
@@ -119,5 +102,7 @@ void jox_lua_profile(const JoxLua *lua, const JoxMachine *machine, double wall, 
 const char *jox_lua_stalled(const JoxLua *lua);
 /* Calls of hooks that failed so far. */
 uint64_t jox_lua_failures(const JoxLua *lua);
+/* Appends a sentence for each function that is suspended, as it failed too often. */
+void jox_lua_suspended(const JoxLua *lua, JoxText *out);
 
 #endif

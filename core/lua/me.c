@@ -88,17 +88,17 @@ static double check_memory(lua_State *L, const JoxMemorySlot *slot, int index) {
 
 /* ---- others ---- */
 
-static uint32_t check_view(lua_State *L, JoxVm *vm) {
+static uint32_t check_view(lua_State *L, JoxScript *script) {
     const View *view = luaL_checkudata(L, 1, VIEW);
-    if (vm->loading || view->run != vm->run)
+    if (script->vm.loading || view->run != script->vm.run)
         luaL_error(L, "a neighbour was kept from an earlier call; it is valid during its own only");
     return view->index;
 }
 
 static int view_index(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
-    JoxLua *lua = vm->owner;
-    uint32_t i = check_view(L, vm);
+    JoxScript *script = jox_script_of(L);
+    JoxLua *lua = script->owner;
+    uint32_t i = check_view(L, script);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     const JoxAgents *a = lua->machines->agents;
     if (a->machine[i] != JOX_NO_MACHINE) {
@@ -119,15 +119,15 @@ static int view_index(lua_State *L) {
     /* One without a machine, whom a program moves, or with another machine. */
     bool lacks =
         a->machine[i] == JOX_NO_MACHINE && (!strcmp(name, "state") || !strcmp(name, "machine"));
-    if (lacks || memory_slot(vm->machine, name) >= 0)
+    if (lacks || memory_slot(script->machine, name) >= 0)
         return lua_pushnil(L), 1;
     return luaL_error(L, "a neighbour has no '%s'", name);
 }
 
 static int view_newindex(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
-    JoxLua *lua = vm->owner;
-    uint32_t i = check_view(L, vm);
+    JoxScript *script = jox_script_of(L);
+    JoxLua *lua = script->owner;
+    uint32_t i = check_view(L, script);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     const JoxAgents *a = lua->machines->agents;
     const JoxMachine *m =
@@ -144,14 +144,14 @@ static int view_newindex(lua_State *L) {
     return 0;
 }
 
-static int push_neighbours(lua_State *L, JoxVm *vm, uint32_t i) {
-    const JoxNeighbours *n = vm->owner->machines->neighbours;
-    if (!vm->machine->views) /* nothing was kept of the others before the step */
+static int push_neighbours(lua_State *L, JoxScript *script, uint32_t i) {
+    const JoxNeighbours *n = script->owner->machines->neighbours;
+    if (!script->machine->views) /* nothing was kept of the others before the step */
         return luaL_error(L, "write me.neighbours as such, not by a name that is put together");
     lua_createtable(L, n->count[i], 0);
     for (uint32_t k = 0; k < n->count[i]; k++) {
         View *view = lua_newuserdatauv(L, sizeof *view, 0);
-        *view = (View){vm->run, n->index[jox_neighbour_at(n, i, k)]};
+        *view = (View){script->vm.run, n->index[jox_neighbour_at(n, i, k)]};
         luaL_setmetatable(L, VIEW);
         lua_rawseti(L, -2, k + 1);
     }
@@ -184,43 +184,46 @@ void jox_lua_bracket(void *context, bool begins) {
 /* ---- me ---- */
 
 /* The agent that `me` stands for; raises an error where it was kept from an earlier call. */
-static uint32_t check_me(lua_State *L, JoxVm *vm) {
+static uint32_t check_me(lua_State *L, JoxScript *script) {
     const uint32_t *run = luaL_checkudata(L, 1, ME);
-    if (vm->loading || *run != vm->run)
+    if (script->vm.loading || *run != script->vm.run)
         luaL_error(L, "`me` was kept from an earlier call; it is valid during its own only");
-    return vm->agent;
+    return script->agent;
 }
 
 /* me.signal("name"), and me:signal("name") */
 static int me_signal(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
+    JoxScript *script = jox_script_of(L);
     int at = lua_type(L, 1) == LUA_TUSERDATA ? 2 : 1;
-    if (vm->loading)
+    if (script->vm.loading)
         return luaL_error(L, "signals are given while the crowd runs");
     if (lua_type(L, at) != LUA_TSTRING)
         return luaL_error(L, "a signal is a name");
     const char *name = lua_tostring(L, at);
-    jox_vm_charge(L, 20 + (vm->machine->name_count + vm->owner->machines->set->name_count) / 8);
-    if (vm->owner->machines->state->called_count > 1000000)
+    jox_vm_charge(L, 20 + (script->machine->name_count + script->owner->machines->set->name_count) /
+                              8);
+    if (script->owner->machines->state->called_count > 1000000)
         return luaL_error(L, "too many signals are given in one step");
-    for (uint32_t n = 0; n < vm->machine->name_count; n++)
-        if (strcmp(vm->machine->names[n].text, name) == 0) {
-            jox_machines_call(vm->owner->machines, vm->agent, vm->machine->names[n].number);
+    for (uint32_t n = 0; n < script->machine->name_count; n++)
+        if (strcmp(script->machine->names[n].text, name) == 0) {
+            jox_machines_call(script->owner->machines, script->agent,
+                              script->machine->names[n].number);
             return 0;
         }
-    if (lua_rawlen(L, at) > 60 || vm->owner->machines->set->name_count > 10000)
+    if (lua_rawlen(L, at) > 60 || script->owner->machines->set->name_count > 10000)
         return luaL_error(L, "a signal's name has at most 60 bytes, and there are not so many");
-    jox_machines_call(vm->owner->machines, vm->agent, jox_machines_name(vm->owner->machines, name));
+    jox_machines_call(script->owner->machines, script->agent,
+                      jox_machines_name(script->owner->machines, name));
     return 0;
 }
 
 static int me_index(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
-    uint32_t i = check_me(L, vm);
+    JoxScript *script = jox_script_of(L);
+    uint32_t i = check_me(L, script);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
-    const JoxMachineRun *machines = vm->owner->machines;
+    const JoxMachineRun *machines = script->owner->machines;
     const JoxAgents *a = machines->agents;
-    const JoxMachine *m = vm->machine;
+    const JoxMachine *m = script->machine;
     int32_t slot = memory_slot(m, name);
     if (slot >= 0)
         return push_memory(L, &m->memory[slot],
@@ -231,7 +234,7 @@ static int me_index(lua_State *L) {
     if (strcmp(name, "machine") == 0)
         return lua_pushstring(L, m->name), 1;
     if (strcmp(name, "neighbours") == 0)
-        return push_neighbours(L, vm, i);
+        return push_neighbours(L, script, i);
     if (strcmp(name, "signal") == 0)
         return lua_pushcfunction(L, me_signal), 1;
     if (push_number(L, machines, i, name))
@@ -249,15 +252,15 @@ static int me_index(lua_State *L) {
 }
 
 static int me_newindex(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
-    uint32_t i = check_me(L, vm);
+    JoxScript *script = jox_script_of(L);
+    uint32_t i = check_me(L, script);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
-    JoxMachineRun *machines = vm->owner->machines;
-    int32_t slot = memory_slot(vm->machine, name);
+    JoxMachineRun *machines = script->owner->machines;
+    int32_t slot = memory_slot(script->machine, name);
     int parameter = jox_parameter_find(name);
     if (slot >= 0) {
         const JoxAgents *a = machines->agents;
-        double value = check_memory(L, &vm->machine->memory[slot], 3);
+        double value = check_memory(L, &script->machine->memory[slot], 3);
         a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = value;
     } else if (parameter >= 0) { /* the own slots begin with the parameters */
         const JoxParameterInfo *info = &jox_parameters[parameter];
@@ -292,12 +295,12 @@ static void add_type(lua_State *L, const char *type, lua_CFunction index, lua_CF
     lua_pop(L, 1);
 }
 
-void jox_me_open(JoxVm *vm) {
-    lua_State *L = vm->L;
+void jox_me_open(JoxScript *script) {
+    lua_State *L = script->vm.L;
     add_type(L, ME, me_index, me_newindex);
     add_type(L, VIEW, view_index, view_newindex);
     uint32_t *run = lua_newuserdatauv(L, sizeof *run, 0);
     *run = 0;
     luaL_setmetatable(L, ME);
-    vm->me = luaL_ref(L, LUA_REGISTRYINDEX); /* the one object that is handed out */
+    script->me = luaL_ref(L, LUA_REGISTRYINDEX); /* the one object that is handed out */
 }

@@ -1,5 +1,6 @@
-/* What Lua would pass over in silence: `and`, `or`, `not`, `==` and `~=` between conditions decide
-   while the file loads. The tokens of a condition, and of the locals that it uses, are looked at.
+/* Misuse that Lua would pass over in silence: `and`, `or`, `not`, `==` and `~=` between conditions
+   decide while the file loads. The tokens of a condition, and of the locals that it uses, are
+   looked at.
  */
 #include <string.h>
 
@@ -11,11 +12,11 @@ enum { MOST_LOOKS = 20000000 };
 static bool scan_operators(JoxBuild *b, const JoxSource *source, uint32_t first, uint32_t last) {
     static const struct {
         const char *sign, *instead;
-    } TRAPS[] = {{"and", "Use & between conditions"},
-                 {"or", "Use | between conditions"},
-                 {"not", "Use ~ before a condition"},
-                 {"==", "Write :is(n)"},
-                 {"~=", "Write ~x:is(n)"}};
+    } MISUSED[] = {{"and", "Use & between conditions"},
+                   {"or", "Use | between conditions"},
+                   {"not", "Use ~ before a condition"},
+                   {"==", "Write :is(n)"},
+                   {"~=", "Write ~x:is(n)"}};
     bool found = false;
     int body = 0;
     for (uint32_t i = first; i < last && i < source->token_count; i++) {
@@ -25,12 +26,12 @@ static bool scan_operators(JoxBuild *b, const JoxSource *source, uint32_t first,
             body++;
         else if (body > 0 && jox_token_is(t, "end"))
             body--;
-        for (size_t k = 0; body == 0 && k < sizeof TRAPS / sizeof *TRAPS; k++)
-            if (jox_token_is(t, TRAPS[k].sign)) {
+        for (size_t k = 0; body == 0 && k < sizeof MISUSED / sizeof *MISUSED; k++)
+            if (jox_token_is(t, MISUSED[k].sign)) {
                 jox_build_error(b, (JoxPosition){source->path, t->line, t->column, t->end_column},
-                                "lua-operator", TRAPS[k].instead,
+                                "lua-operator", MISUSED[k].instead,
                                 "'%s' decides while the file loads, not while the crowd runs",
-                                TRAPS[k].sign);
+                                MISUSED[k].sign);
                 found = true;
             }
     }
@@ -38,18 +39,19 @@ static bool scan_operators(JoxBuild *b, const JoxSource *source, uint32_t first,
 }
 
 /* The same in the definitions of the locals that a condition uses. */
-bool jox_read_traps(JoxBuild *b, const char *path) {
-    JoxSource *source;
+bool jox_read_misuse(JoxBuild *b, const char *path) {
+    const JoxSource *source;
     const JoxPath *span = jox_read_span(b, path, &source);
     if (!span)
         return false;
+    JoxOutline *outline = jox_outline_of(source);
     bool found = scan_operators(b, source, span->first, span->last);
     const JoxToken *t = source->tokens;
     for (uint32_t use = span->first; use < span->last; use++) {
         if (t[use].kind != JOX_TOKEN_NAME)
             continue;
-        for (uint32_t i = 0; i + 2 < span->first && source->looks < MOST_LOOKS; i++) {
-            source->looks++;
+        for (uint32_t i = 0; i + 2 < span->first && outline->looks < MOST_LOOKS; i++) {
+            outline->looks++;
             bool defines = jox_token_is(&t[i], "local") && jox_token_is(&t[i + 2], "=") &&
                            t[i + 1].length == t[use].length &&
                            memcmp(t[i + 1].text, t[use].text, t[use].length) == 0;

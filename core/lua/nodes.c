@@ -1,19 +1,20 @@
-/* Expressions as values: arithmetic, & | ~, and comparisons by method. Each operator that Lua would
-   silently get wrong is refused with the right spelling. */
+/* Nodes: what an expression of the language is to Lua, a userdata of one type. */
+#include <assert.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/internal.h"
 
 static const char TYPE[] = "jostle value";
 
 JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind) {
-    JoxVm *vm = jox_vm_of(L);
-    if (vm->running && !vm->loading)
+    JoxScript *script = jox_script_of(L);
+    if (script->vm.running && !script->vm.loading)
         luaL_error(L, "values of the sheet are made while the file loads, not in functions");
     jox_vm_charge(L, 8);
-    vm->node_bytes += sizeof(JoxNode);
-    if (vm->node_bytes > vm->owner->limits.memory)
+    script->node_bytes += sizeof(JoxNode);
+    if (script->node_bytes > script->owner->group.limits.memory)
         luaL_error(L, "it makes too many expressions");
     JoxNode **slot = lua_newuserdatauv(L, sizeof *slot, 0);
     luaL_setmetatable(L, TYPE);
@@ -22,12 +23,12 @@ JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind) {
     node->hook = LUA_NOREF;
     node->term.target = -1;
     node->term.hook = -1;
-    JOX_RESERVE(vm->nodes, vm->node_capacity, vm->node_count + 1);
-    vm->nodes[vm->node_count++] = node;
+    JOX_RESERVE(script->nodes, script->node_capacity, script->node_count + 1);
+    script->nodes[script->node_count++] = node;
     lua_Debug debug;
     if (lua_getstack(L, 1, &debug) && lua_getinfo(L, "l", &debug))
-        node->position =
-            (JoxPosition){vm->source_count ? vm->sources[0].path : NULL, debug.currentline, 0, 0};
+        node->position = (JoxPosition){script->vm.source_count ? script->vm.sources[0]->path : NULL,
+                                       debug.currentline, 0, 0};
     return *slot = node;
 }
 
@@ -55,322 +56,40 @@ JoxNode *jox_node_number(lua_State *L, int index) {
         return jox_node_constant(L, lua_tonumber(L, index));
     JoxNode *node = jox_node_get(L, index);
     return node && (node->kind == JOX_NODE_NUMBER || node->kind == JOX_NODE_OWN ||
-                    node->kind == JOX_NODE_POISON)
+                    node->kind == JOX_NODE_ERROR)
                ? node
                : NULL;
 }
 
-static bool is_poison(lua_State *L, int index) {
+bool jox_node_is_error(lua_State *L, int index) {
     JoxNode *node = jox_node_get(L, index);
-    return node && node->kind == JOX_NODE_POISON;
+    return node && node->kind == JOX_NODE_ERROR;
 }
 
-static int push_poison(lua_State *L) {
-    jox_node_push(L, JOX_NODE_POISON);
+int jox_node_push_error(lua_State *L) {
+    jox_node_push(L, JOX_NODE_ERROR);
     return 1;
 }
 
-static const char *kind_name(lua_State *L, int index) {
-    static const char *const NAMES[] = {"",          "a number",   "a condition",    "a target",
-                                        "a value",   "a steering", "a distribution", "circuits",
-                                        "a machine", "a patch",    "a replacement",  "`none`",
-                                        "an error"};
+const char *jox_node_kind(lua_State *L, int index) {
+    static const char *const NAMES[] = {
+        [JOX_NODE_NUMBER] = "a number",   [JOX_NODE_CONDITION] = "a condition",
+        [JOX_NODE_TARGET] = "a target",   [JOX_NODE_OWN] = "a value",
+        [JOX_NODE_STEER] = "a steering",  [JOX_NODE_DIST] = "a distribution",
+        [JOX_NODE_CIRCUITS] = "circuits", [JOX_NODE_MACHINE] = "a machine",
+        [JOX_NODE_PATCH] = "a patch",     [JOX_NODE_REPLACE] = "a replacement",
+        [JOX_NODE_NONE] = "`none`",       [JOX_NODE_ERROR] = "an error"};
+    static_assert(sizeof NAMES / sizeof *NAMES == JOX_NODE_ERROR + 1, "every kind has a name");
     JoxNode *node = jox_node_get(L, index);
     return node ? NAMES[node->kind] : luaL_typename(L, index);
 }
 
-static JoxNode *binary(lua_State *L, JoxNodeKind kind, int op, JoxNode *a, JoxNode *b) {
-    JoxNode *node = jox_node_push(L, kind);
-    node->op = op;
-    node->a = a;
-    node->b = b;
-    return node;
-}
-
-enum { MOST_SUMMANDS = 64 };
-
-static int summands(const JoxNode *steer) {
-    int n = 0;
-    for (; steer && n <= MOST_SUMMANDS; steer = steer->next)
-        n++;
-    return n;
-}
-
-/* A copy of a steering sum with every weight multiplied. */
-static JoxNode *scaled(lua_State *L, JoxNode *steer, JoxNode *by) {
-    JoxNode *node = jox_node_push(L, JOX_NODE_STEER);
-    JoxPosition position = node->position;
-    *node = *steer;
-    node->position = position;
-    if (steer->weight) {
-        node->weight = binary(L, JOX_NODE_NUMBER, JOX_OP_MUL, steer->weight, by);
-        lua_pop(L, 1);
-    } else {
-        node->weight = by;
-    }
-    if (steer->next) {
-        node->next = scaled(L, steer->next, by);
-        lua_pop(L, 1);
-    }
-    return node;
-}
-
-static int arithmetic(lua_State *L, int op, const char *sign) {
-    if (is_poison(L, 1) || is_poison(L, 2))
-        return push_poison(L);
-    JoxNode *a = jox_node_number(L, 1), *b = jox_node_number(L, 2);
-    if (a && b) {
-        binary(L, JOX_NODE_NUMBER, op, a, b);
-        return 1;
-    }
-    JoxNode *left = jox_node_get(L, 1), *right = jox_node_get(L, 2);
-    int terms = (left && left->kind == JOX_NODE_STEER ? summands(left) : 0) +
-                (right && right->kind == JOX_NODE_STEER ? summands(right) : 0);
-    if (terms > MOST_SUMMANDS)
-        return luaL_error(L, "a steering of so many terms");
-    luaL_checkstack(L, 3 * MOST_SUMMANDS, NULL);
-    if (op == JOX_OP_MUL && a && right && right->kind == JOX_NODE_STEER) {
-        scaled(L, right, a);
-        return 1;
-    }
-    if (op == JOX_OP_MUL && b && left && left->kind == JOX_NODE_STEER) {
-        scaled(L, left, b);
-        return 1;
-    }
-    if (op == JOX_OP_ADD && left && right && left->kind == JOX_NODE_STEER &&
-        right->kind == JOX_NODE_STEER) {
-        JoxNode *sum = jox_node_push(L, JOX_NODE_STEER), *last = sum;
-        JoxPosition position = sum->position;
-        *sum = *left;
-        sum->position = position;
-        while (last->next) { /* terms are copied: a value never changes */
-            JoxNode *copy = jox_node_push(L, JOX_NODE_STEER);
-            *copy = *last->next;
-            last->next = copy;
-            last = copy;
-            lua_pop(L, 1);
-        }
-        last->next = right;
-        return 1;
-    }
-    bool condition =
-        (left && left->kind == JOX_NODE_CONDITION) || (right && right->kind == JOX_NODE_CONDITION);
-    return jox_word_error(L, sign, "bad-operand",
-                          condition ? "Put parentheses about the number: (150 * now.speed):below(3)"
-                                    : NULL,
-                          "'%s' cannot join %s and %s", sign, kind_name(L, 1), kind_name(L, 2));
-}
-
-static int meta_add(lua_State *L) {
-    return arithmetic(L, JOX_OP_ADD, "+");
-}
-static int meta_sub(lua_State *L) {
-    return arithmetic(L, JOX_OP_SUB, "-");
-}
-static int meta_mul(lua_State *L) {
-    return arithmetic(L, JOX_OP_MUL, "*");
-}
-static int meta_div(lua_State *L) {
-    return arithmetic(L, JOX_OP_DIV, "/");
-}
-
-static int meta_unm(lua_State *L) {
-    if (is_poison(L, 1))
-        return push_poison(L);
-    JoxNode *a = jox_node_number(L, 1);
-    if (!a)
-        return jox_word_error(L, "-", "bad-operand", NULL, "'-' needs a number, not %s",
-                              kind_name(L, 1));
-    binary(L, JOX_NODE_NUMBER, JOX_OP_NEG, a, NULL);
-    return 1;
-}
-
-static JoxNode *condition(lua_State *L, int index) {
-    JoxNode *node = jox_node_get(L, index);
-    return node && node->kind == JOX_NODE_CONDITION ? node : NULL;
-}
-
-static int logic(lua_State *L, int op, const char *sign) {
-    if (is_poison(L, 1) || is_poison(L, 2))
-        return push_poison(L);
-    JoxNode *a = condition(L, 1), *b = condition(L, 2);
-    if (!a || !b)
-        return jox_word_error(L, sign, "bad-operand",
-                              "A number becomes a condition by :above, :below, :at_least, :at_most "
-                              "or :is",
-                              "'%s' joins conditions, not %s", sign, kind_name(L, a ? 2 : 1));
-    binary(L, JOX_NODE_CONDITION, op, a, b);
-    return 1;
-}
-
-static int meta_and(lua_State *L) {
-    return logic(L, JOX_OP_AND, "&");
-}
-static int meta_or(lua_State *L) {
-    return logic(L, JOX_OP_OR, "|");
-}
-
-static int meta_not(lua_State *L) {
-    if (is_poison(L, 1))
-        return push_poison(L);
-    JoxNode *a = condition(L, 1);
-    if (!a)
-        return jox_word_error(L, "~", "bad-operand",
-                              "A number becomes a condition by :above, :below, :at_least, :at_most "
-                              "or :is",
-                              "'~' negates a condition, not %s", kind_name(L, 1));
-    binary(L, JOX_NODE_CONDITION, JOX_OP_NOT, a, NULL);
-    return 1;
-}
-
-/* Operators that Lua would accept and get wrong. */
-static int refuse(lua_State *L, const char *sign, const char *hint) {
-    bool poison = is_poison(L, 1) || is_poison(L, 2);
-    if (poison)
-        return push_poison(L);
-    return jox_word_error(L, sign, "bad-operator", hint,
-                          "'%s' does not work on values of behaviours", sign);
-}
-static int meta_lt(lua_State *L) {
-    return refuse(L, "<", "Write :below(n) or :above(n)");
-}
-static int meta_le(lua_State *L) {
-    return refuse(L, "<=", "Write :at_most(n) or :at_least(n)");
-}
-static int meta_eq(lua_State *L) {
-    return refuse(L, "==", "Write :is(n)");
-}
-static int meta_concat(lua_State *L) {
-    return refuse(L, "..", "Use & between conditions");
-}
-static int meta_len(lua_State *L) {
-    return refuse(L, "#", "Use count(place)");
-}
-static int meta_pow(lua_State *L) {
-    return refuse(L, "^", "Multiply: x * x");
-}
-static int meta_mod(lua_State *L) {
-    return refuse(L, "%", "There is no remainder");
-}
-static int meta_idiv(lua_State *L) {
-    return refuse(L, "//", "Use /");
-}
-static int meta_bxor(lua_State *L) {
-    return refuse(L, "~", "Use & and | with ~ before a condition");
-}
-static int meta_newindex(lua_State *L) {
-    return refuse(L, ".", "Values cannot be changed");
-}
-
-static int meta_call(lua_State *L) {
-    if (is_poison(L, 1))
-        return push_poison(L);
-    return jox_word_error(L, "(", "bad-call", NULL, "%s cannot be called", kind_name(L, 1));
-}
-
-static int compare(lua_State *L, int op, const char *name) {
-    if (is_poison(L, 1) || is_poison(L, 2))
-        return push_poison(L);
-    JoxNode *a = jox_node_number(L, 1), *b = jox_node_number(L, 2);
-    if (lua_type(L, 2) == LUA_TBOOLEAN && a) { /* mine.flag:is(true) never gets here: see below */
-        return jox_word_error(L, name, "bad-argument", NULL, ":%s wants a number", name);
-    }
-    if (!a || !b)
-        return jox_word_error(L, name, "bad-argument", "Example: now.speed:below(0.5)",
-                              ":%s compares a number with a number, not %s with %s", name,
-                              kind_name(L, 1), lua_gettop(L) < 2 ? "nothing" : kind_name(L, 2));
-    binary(L, JOX_NODE_CONDITION, op, a, b);
-    return 1;
-}
-static int method_above(lua_State *L) {
-    return compare(L, JOX_OP_GT, "above");
-}
-static int method_below(lua_State *L) {
-    return compare(L, JOX_OP_LT, "below");
-}
-static int method_at_least(lua_State *L) {
-    return compare(L, JOX_OP_GE, "at_least");
-}
-static int method_at_most(lua_State *L) {
-    return compare(L, JOX_OP_LE, "at_most");
-}
-static int method_is(lua_State *L) {
-    return compare(L, JOX_OP_EQ, "is");
-}
-
-/* neighbours(TAG):in_state(NAME) */
-static int method_in_state(lua_State *L) {
-    if (is_poison(L, 1))
-        return push_poison(L);
-    JoxNode *tagged = jox_node_get(L, 1);
-    if (!tagged || tagged->kind != JOX_NODE_NUMBER || tagged->op != JOX_OP_TAGGED)
-        return jox_word_error(L, "in_state", "bad-operand",
-                              "Example: neighbours(\"people\"):in_state(\"Exit\")",
-                              ":in_state counts neighbours, it is nothing of %s", kind_name(L, 1));
-    if (lua_type(L, 2) != LUA_TSTRING || lua_rawlen(L, 2) > 60)
-        return jox_word_error(L, "in_state", "bad-argument", NULL,
-                              ":in_state takes the name of a state");
-    JoxNode *node = jox_node_push(L, JOX_NODE_NUMBER);
-    node->op = JOX_OP_IN_STATE;
-    node->arg = tagged->arg;
-    node->name = jox_vm_intern(jox_vm_of(L), lua_tostring(L, 2));
-    return 1;
-}
-
-static const luaL_Reg METHODS[] = {{"above", method_above},
-                                   {"below", method_below},
-                                   {"at_least", method_at_least},
-                                   {"at_most", method_at_most},
-                                   {"is", method_is},
-                                   {"in_state", method_in_state},
-                                   {NULL, NULL}};
-
-static int meta_index(lua_State *L) {
-    if (is_poison(L, 1))
-        return push_poison(L);
-    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
-    const char *names[8];
-    size_t count = 0;
-    for (const luaL_Reg *m = METHODS; m->name; m++) {
-        names[count++] = m->name;
-        if (strcmp(m->name, name) == 0) {
-            lua_pushcfunction(L, m->func);
-            return 1;
-        }
-    }
-    const char *near = jox_suggest(name, names, count);
-    char hint[64] = "Numbers have above, below, at_least, at_most and is";
-    if (near)
-        strcpy(stpcpy(stpcpy(hint, "Did you mean '"), near), "'?");
-    return jox_word_error(L, name, "unknown-method", hint, "%s has no '%s'", kind_name(L, 1), name);
-}
-
-void jox_nodes_open(JoxVm *vm) {
-    static const luaL_Reg META[] = {{"__add", meta_add},
-                                    {"__sub", meta_sub},
-                                    {"__mul", meta_mul},
-                                    {"__div", meta_div},
-                                    {"__unm", meta_unm},
-                                    {"__band", meta_and},
-                                    {"__bor", meta_or},
-                                    {"__bnot", meta_not},
-                                    {"__lt", meta_lt},
-                                    {"__le", meta_le},
-                                    {"__eq", meta_eq},
-                                    {"__concat", meta_concat},
-                                    {"__len", meta_len},
-                                    {"__pow", meta_pow},
-                                    {"__mod", meta_mod},
-                                    {"__idiv", meta_idiv},
-                                    {"__bxor", meta_bxor},
-                                    {"__call", meta_call},
-                                    {"__index", meta_index},
-                                    {"__newindex", meta_newindex},
-                                    {NULL, NULL}};
-    lua_State *L = vm->L;
+void jox_nodes_open(lua_State *L, const luaL_Reg *operators) {
     luaL_newmetatable(L, TYPE);
-    luaL_setfuncs(L, META, 0);
+    luaL_setfuncs(L, operators, 0);
     lua_pushboolean(L, 0);
     lua_setfield(L, -2, "__metatable");
+    lua_pushliteral(L, "value"); /* what type() says */
+    lua_setfield(L, -2, "__kind");
     lua_pop(L, 1);
 }

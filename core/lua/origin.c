@@ -7,42 +7,42 @@
 
 enum { MOST = 4096 };
 
-static JoxPosition position_of(const JoxVm *vm, const JoxOrigin *origin) {
-    return jox_source_path(&vm->sources[origin->source], origin->from);
+static JoxPosition position_of(const JoxScript *script, const JoxOrigin *origin) {
+    return jox_outline_at(script->vm.sources[origin->source], origin->from);
 }
 
 /* Two mods that set one path, neither knowing the other: both places, and who wins. */
-static void report_conflict(const JoxVm *vm, const JoxOrigin *mine) {
-    const JoxMod *mods = vm->scope->mods;
-    for (size_t o = 0; o + 1 < vm->origin_count; o++) {
-        const JoxOrigin *other = &vm->origins[o];
+static void report_conflict(const JoxScript *script, const JoxOrigin *mine) {
+    const JoxMod *mods = script->scope->mods;
+    for (size_t o = 0; o + 1 < script->origin_count; o++) {
+        const JoxOrigin *other = &script->origins[o];
         if (other->mod < 0 || other->mod == mine->mod ||
             !jox_mod_overlaps(other->path, mine->path) || (mods[mine->mod].after >> other->mod & 1))
             continue;
-        jox_mod_conflict(vm->diagnostics, &mods[mine->mod], position_of(vm, mine),
-                         &mods[other->mod], position_of(vm, other), mine->path);
+        jox_mod_conflict(script->diagnostics, &mods[mine->mod], position_of(script, mine),
+                         &mods[other->mod], position_of(script, other), mine->path);
         return;
     }
 }
 
-void jox_origin_set(JoxVm *vm, JoxOrigin origin) {
-    if (vm->origin_count == MOST)
-        jox_diag_error(vm->diagnostics, position_of(vm, &origin), "too-many", NULL,
+void jox_origin_set(JoxScript *script, JoxOrigin origin) {
+    if (script->origin_count == MOST)
+        jox_diag_error(script->diagnostics, position_of(script, &origin), "too-many", NULL,
                        "patches set more than %d things, here '%s'", MOST, origin.path);
-    if (vm->origin_count > MOST) /* one more bears the error */
+    if (script->origin_count > MOST) /* one more bears the error */
         return;
-    JOX_RESERVE(vm->origins, vm->origin_capacity, vm->origin_count + 1);
+    JOX_RESERVE(script->origins, script->origin_capacity, script->origin_count + 1);
     origin.path = jox_strdup(origin.path);
     origin.from = jox_strdup(origin.from);
-    vm->origins[vm->origin_count++] = origin;
+    script->origins[script->origin_count++] = origin;
     if (origin.mod >= 0)
-        report_conflict(vm, &origin);
+        report_conflict(script, &origin);
 }
 
-const JoxOrigin *jox_origin_of(const JoxVm *vm, const char *path) {
+const JoxOrigin *jox_origin_of(const JoxScript *script, const char *path) {
     const JoxOrigin *last = NULL;
-    for (size_t o = 0; o < vm->origin_count; o++) {
-        const JoxOrigin *origin = &vm->origins[o];
+    for (size_t o = 0; o < script->origin_count; o++) {
+        const JoxOrigin *origin = &script->origins[o];
         size_t n = strlen(origin->path);
         bool leads =
             n == 0 || (strncmp(origin->path, path, n) == 0 && (!path[n] || path[n] == '.'));
@@ -52,10 +52,11 @@ const JoxOrigin *jox_origin_of(const JoxVm *vm, const char *path) {
     return last;
 }
 
-void jox_origin_keep(JoxVm *vm, const char *path, const char *number, const char *canonical) {
-    const JoxOrigin *whole = jox_origin_of(vm, canonical);
+void jox_origin_keep(JoxScript *script, const char *path, const char *number,
+                     const char *canonical) {
+    const JoxOrigin *whole = jox_origin_of(script, canonical);
     char from[512];
-    if ((whole && strcmp(whole->path, canonical) == 0) || vm->origin_count >= MOST)
+    if ((whole && strcmp(whole->path, canonical) == 0) || script->origin_count >= MOST)
         return;
     const char *rest = whole ? path + strlen(whole->path) : path;
     rest += whole && *whole->path && *rest == '.';
@@ -63,6 +64,33 @@ void jox_origin_keep(JoxVm *vm, const char *path, const char *number, const char
     snprintf(from, sizeof from, "%.200s%s%.200s.%s", lead, *lead && *rest ? "." : "", rest, number);
     JoxOrigin origin = {jox_strdup(canonical), whole ? whole->source : 0, jox_strdup(from),
                         whole ? whole->mod : -1, false};
-    JOX_RESERVE(vm->origins, vm->origin_capacity, vm->origin_count + 1);
-    vm->origins[vm->origin_count++] = origin;
+    JOX_RESERVE(script->origins, script->origin_capacity, script->origin_count + 1);
+    script->origins[script->origin_count++] = origin;
+}
+
+/* ---- of a machine under construction ---- */
+
+/* The source that a path of the machine was written in, and its path there. */
+static const JoxSource *locate(const JoxBuild *b, const char *path, char there[512]) {
+    const JoxOrigin *origin = jox_origin_of(b->script, path);
+    if (!origin) {
+        snprintf(there, 512, "%s", path);
+        return b->source;
+    }
+    size_t n = strlen(origin->path);
+    const char *rest = path + n + (n && path[n] == '.');
+    snprintf(there, 512, "%.250s%s%.250s", origin->from, *rest && *origin->from ? "." : "", rest);
+    return b->script->vm.sources[origin->source];
+}
+
+JoxPosition jox_read_at(const JoxBuild *b, const char *path) {
+    char there[512];
+    const JoxSource *source = locate(b, path, there);
+    return jox_outline_at(source, there);
+}
+
+const JoxPath *jox_read_span(const JoxBuild *b, const char *path, const JoxSource **source) {
+    char there[512];
+    *source = locate(b, path, there);
+    return jox_outline_find(*source, there);
 }

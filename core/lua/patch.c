@@ -12,19 +12,19 @@
 enum { DEEPEST = 8 };
 
 typedef struct Patch {
-    JoxVm *vm;
+    JoxScript *script;
     uint32_t source; /* number of the patch's file */
     int32_t mod;
 } Patch;
 
 static void fail(const Patch *p, const char *from, const char *code, const char *hint,
                  const char *message, const char *name) {
-    jox_diag_error(p->vm->diagnostics, jox_source_path(&p->vm->sources[p->source], from), code,
-                   hint, message, name);
+    jox_diag_error(p->script->diagnostics, jox_outline_at(p->script->vm.sources[p->source], from),
+                   code, hint, message, name);
 }
 
 static void set_origin(const Patch *p, const char *path, const char *from, bool removes) {
-    jox_origin_set(p->vm, (JoxOrigin){(char *)path, p->source, (char *)from, p->mod, removes});
+    jox_origin_set(p->script, (JoxOrigin){(char *)path, p->source, (char *)from, p->mod, removes});
 }
 
 /* Pushes a copy of the table at `index`, its items shared. */
@@ -52,7 +52,7 @@ static int by_text(const void *a, const void *b) {
 /* Pushes the string keys of the table at `index`, sorted, as a list; returns how many. Other keys
    are an error, but for a list's where there may be `items`. */
 static lua_Integer push_keys(const Patch *p, int index, const char *from, bool items) {
-    lua_State *L = p->vm->L;
+    lua_State *L = p->script->vm.L;
     size_t count = 0, most = 0;
     bool odd = false;
     for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1))
@@ -95,7 +95,7 @@ typedef void Merge(const Patch *p, int base, int change, const char *path, const
    sides have one, but a list takes a list's place. */
 static void merge_key(const Patch *p, int base, const char *key, const char *path, const char *from,
                       Merge *inner, int depth) {
-    lua_State *L = p->vm->L;
+    lua_State *L = p->script->vm.L;
     int value = lua_gettop(L);
     char whole[256], there[256];
     jox_read_join(whole, path, key);
@@ -128,7 +128,7 @@ typedef void MergeKey(const Patch *p, int base, const char *key, const char *pat
 /* Visits the string keys of a change, in ascending order; others are an error, but for items. */
 static void merge_keys(const Patch *p, int base, int change, const char *path, const char *from,
                        int depth, MergeKey *visit, bool items) {
-    lua_State *L = p->vm->L;
+    lua_State *L = p->script->vm.L;
     lua_Integer count = push_keys(p, change, from, items);
     int keys = lua_gettop(L);
     for (lua_Integer k = 1; k <= count; k++) {
@@ -150,7 +150,7 @@ static void plain_key(const Patch *p, int base, const char *key, const char *pat
 /* Plain tables: defaults, counts, renamed, kick, throw, set. */
 static void merge_plain(const Patch *p, int base, int change, const char *path, const char *from,
                         int depth) {
-    lua_State *L = p->vm->L;
+    lua_State *L = p->script->vm.L;
     merge_keys(p, base, change, path, from, depth, plain_key, true);
     lua_Integer items = (lua_Integer)lua_rawlen(L, change);
     for (lua_Integer i = 1; i <= items; i++) { /* the body of a kick */
@@ -169,7 +169,7 @@ static void merge_plain(const Patch *p, int base, int change, const char *path, 
 /* Gives every transition of the state its id, as a copy of its own, and keeps where it stands. Once
    a state. */
 static void name_transitions(const Patch *p, int state, const char *path) {
-    lua_State *L = p->vm->L;
+    lua_State *L = p->script->vm.L;
     lua_Integer count = (lua_Integer)lua_rawlen(L, state);
     char ids[JOX_MOST_TRANSITIONS][128];
     for (lua_Integer i = 1; i <= count && i <= JOX_MOST_TRANSITIONS; i++) {
@@ -189,7 +189,7 @@ static void name_transitions(const Patch *p, int state, const char *path) {
             snprintf(item, sizeof item, "@%.60s", ids[i - 1]);
             snprintf(number, sizeof number, "%lld", (long long)i);
             jox_read_join(canonical, path, item);
-            jox_origin_keep(p->vm, path, number, canonical);
+            jox_origin_keep(p->script, path, number, canonical);
         } else {
             ids[i - 1][0] = 0;
         }
@@ -199,7 +199,7 @@ static void name_transitions(const Patch *p, int state, const char *path) {
 
 /* Place of the transition with this id in a state, or 0 with an error. */
 static lua_Integer find_transition(const Patch *p, int state, const char *id, const char *from) {
-    lua_State *L = p->vm->L;
+    lua_State *L = p->script->vm.L;
     const char *names[JOX_MOST_TRANSITIONS];
     char hint[96];
     size_t count = 0;
@@ -210,7 +210,7 @@ static lua_Integer find_transition(const Patch *p, int state, const char *id, co
         if (lua_rawgeti(L, state, i) != LUA_TTABLE ||
             jox_read_field(L, top + 1, "id") != LUA_TSTRING)
             continue;
-        const char *name = jox_vm_intern(p->vm, lua_tostring(L, -1));
+        const char *name = jox_vm_intern(&p->script->vm, lua_tostring(L, -1));
         if (count < JOX_MOST_TRANSITIONS)
             names[count++] = name;
         found = strcmp(name, id) == 0 ? i : found;
@@ -224,7 +224,7 @@ static lua_Integer find_transition(const Patch *p, int state, const char *id, co
 /* Puts the transition on top of the stack at place `at`, and keeps where it stands. */
 static void insert_transition(const Patch *p, int state, lua_Integer at, const char *path,
                               const char *from) {
-    lua_State *L = p->vm->L;
+    lua_State *L = p->script->vm.L;
     char id[128], item[160], canonical[256];
     if (lua_type(L, -1) != LUA_TTABLE) {
         fail(p, from, "bad-value", "Example: { to = \"Exit\", when = after(5) }",
@@ -269,7 +269,7 @@ static void insert_transition(const Patch *p, int state, lua_Integer at, const c
 /* One transition, or a list of them, on top of the stack, popped: put in from place `at` on. */
 static void insert_all(const Patch *p, int state, lua_Integer at, const char *path,
                        const char *from) {
-    lua_State *L = p->vm->L;
+    lua_State *L = p->script->vm.L;
     int value = lua_gettop(L);
     bool list = lua_type(L, value) == LUA_TTABLE && lua_rawlen(L, value) > 0;
     lua_Integer count = list ? (lua_Integer)lua_rawlen(L, value) : 1;
@@ -288,7 +288,7 @@ static void insert_all(const Patch *p, int state, lua_Integer at, const char *pa
 
 static void remove_transition(const Patch *p, int state, lua_Integer at, const char *id,
                               const char *path, const char *from) {
-    lua_State *L = p->vm->L;
+    lua_State *L = p->script->vm.L;
     char item[160], canonical[256];
     lua_Integer length = (lua_Integer)lua_rawlen(L, state);
     for (lua_Integer i = at; i <= length; i++) {
@@ -308,7 +308,7 @@ static const char *const VERB_NAMES[VERBS] = {"change",       "replace", "insert
 /* change, replace, insert_before, insert_after: a table of id = transition. */
 static void merge_by_id(const Patch *p, Verb verb, int state, int table, const char *path,
                         const char *from) {
-    lua_State *L = p->vm->L;
+    lua_State *L = p->script->vm.L;
     lua_Integer count = push_keys(p, table, from, false);
     int keys = lua_gettop(L);
     for (lua_Integer k = 1; k <= count; k++) {
@@ -351,7 +351,7 @@ static void merge_by_id(const Patch *p, Verb verb, int state, int table, const c
 }
 
 static void merge_remove(const Patch *p, int state, int table, const char *path, const char *from) {
-    lua_State *L = p->vm->L;
+    lua_State *L = p->script->vm.L;
     lua_Integer count = (lua_Integer)lua_rawlen(L, table);
     for (lua_Integer i = 1; i <= count; i++) {
         char id[128];
@@ -365,7 +365,7 @@ static void merge_remove(const Patch *p, int state, int table, const char *path,
 }
 
 static void merge_verb(const Patch *p, Verb verb, int state, const char *path, const char *from) {
-    lua_State *L = p->vm->L;
+    lua_State *L = p->script->vm.L;
     int table = lua_gettop(L);
     char there[256];
     jox_read_join(there, from, VERB_NAMES[verb]);
@@ -394,7 +394,7 @@ static void state_key(const Patch *p, int base, const char *key, const char *pat
 
 static void merge_state(const Patch *p, int base, int change, const char *path, const char *from,
                         int depth) {
-    if (lua_rawlen(p->vm->L, change) > 0)
+    if (lua_rawlen(p->script->vm.L, change) > 0)
         fail(p, from, "bad-patch",
              "Say where: insert_before = { ID = {...} }, insert_after, replace, change, append, "
              "or remove = { \"ID\" }",
@@ -406,7 +406,7 @@ static void merge_state(const Patch *p, int base, int change, const char *path, 
 /* Reports a patch of a state that is not there, where it is one and not a new state: it has verbs.
    The value is on top of the stack. */
 static bool changes_nothing(const Patch *p, int base, const char *key, const char *from) {
-    lua_State *L = p->vm->L;
+    lua_State *L = p->script->vm.L;
     int value = lua_gettop(L);
     bool verbs = false;
     for (int v = 0; lua_type(L, value) == LUA_TTABLE && v < VERBS; v++) {
@@ -424,7 +424,7 @@ static bool changes_nothing(const Patch *p, int base, const char *key, const cha
     while (lua_next(L, base)) {
         lua_pop(L, 1);
         if (lua_type(L, -1) == LUA_TSTRING && count < 64)
-            names[count++] = jox_vm_intern(p->vm, lua_tostring(L, -1));
+            names[count++] = jox_vm_intern(&p->script->vm, lua_tostring(L, -1));
     }
     jox_read_join(whole, from, key);
     fail(p, whole, "unknown-state", jox_did_you_mean(key, names, count, hint),
@@ -474,16 +474,16 @@ bool jox_lua_patch_target(const char *text, size_t length, char target[128], boo
 
 /* Whether a patch's target is the machine whose table is at `index`: by its name, by its file's, or
    by "mod:file" for one of a mod. */
-static bool is_target(JoxVm *vm, int index, const char *target) {
-    lua_State *L = vm->L;
-    const char *path = vm->sources[0].path, *slash = strrchr(path, '/');
+static bool is_target(JoxScript *script, int index, const char *target) {
+    lua_State *L = script->vm.L;
+    const char *path = script->vm.sources[0]->path, *slash = strrchr(path, '/');
     const char *stem = slash ? slash + 1 : path;
     size_t n = strcspn(stem, ".");
     bool is =
         jox_read_field(L, index, "name") == LUA_TSTRING && !strcmp(lua_tostring(L, -1), target);
     lua_pop(L, 1);
-    for (uint32_t m = 0; m < vm->scope->mod_count; m++) {
-        const JoxMod *mod = &vm->scope->mods[m];
+    for (uint32_t m = 0; m < script->scope->mod_count; m++) {
+        const JoxMod *mod = &script->scope->mods[m];
         size_t name = strlen(mod->name);
         if (jox_path_below(path, mod->folder)) /* "mod:file" alone */
             return strncmp(target, mod->name, name) == 0 && target[name] == ':' &&
@@ -493,44 +493,45 @@ static bool is_target(JoxVm *vm, int index, const char *target) {
 }
 
 /* Runs one file of a mod; its patch is left on the stack. NULL with diagnostics. */
-static JoxNode *run_file(JoxVm *vm, int32_t mod, const JoxModPatch *patch, uint32_t *number) {
-    lua_State *L = vm->L;
-    *number = (uint32_t)vm->source_count;
-    jox_vm_tried(vm, patch->path);
-    if (!jox_vm_read(vm, patch->path, NULL, 0, (JoxPosition){0}))
+static JoxNode *run_file(JoxScript *script, int32_t mod, const JoxModPatch *patch,
+                         uint32_t *number) {
+    lua_State *L = script->vm.L;
+    *number = (uint32_t)script->vm.source_count;
+    jox_vm_tried(&script->vm, patch->path);
+    if (!jox_script_read(script, patch->path, NULL, 0, (JoxPosition){0}))
         return NULL;
-    vm->mod = &vm->scope->mods[mod];
-    if (!jox_source_compile(vm, *number))
+    script->mod = &script->scope->mods[mod];
+    if (!jox_vm_compile(&script->vm, *number))
         lua_error(L);
     lua_call(L, 0, 1);
-    vm->mod = NULL;
+    script->mod = NULL;
     JoxNode *node = jox_node_get(L, -1);
     if (node && (node->kind == JOX_NODE_PATCH || node->kind == JOX_NODE_REPLACE))
         return node;
-    if (!node || node->kind != JOX_NODE_POISON)
-        jox_diag_error(vm->diagnostics, ((JoxPosition){patch->path, 0, 0, 0}), "no-patch",
+    if (!node || node->kind != JOX_NODE_ERROR)
+        jox_diag_error(script->diagnostics, ((JoxPosition){patch->path, 0, 0, 0}), "no-patch",
                        "End the file with: return patch \"NAME\" { ... }",
                        "this file must return one patch or replacement");
     return NULL;
 }
 
-bool jox_patch_apply(JoxVm *vm) {
-    lua_State *L = vm->L;
+bool jox_patch_apply(JoxScript *script) {
+    lua_State *L = script->vm.L;
     JoxNode *machine = jox_node_get(L, -1);
-    const JoxScope *scope = vm->scope;
+    const JoxScope *scope = script->scope;
     if (!machine || machine->kind != JOX_NODE_MACHINE || scope->mod_count == 0)
         return true;
-    size_t errors = vm->diagnostics->errors;
+    size_t errors = script->diagnostics->errors;
     int top = lua_gettop(L);
     lua_rawgeti(L, LUA_REGISTRYINDEX, machine->hook);
     int table = lua_gettop(L);
     for (uint32_t m = 0; m < scope->mod_count; m++)
         for (uint32_t f = 0; f < scope->mods[m].patch_count; f++) {
             const JoxModPatch *patch = &scope->mods[m].patches[f];
-            Patch p = {vm, 0, (int32_t)m};
-            if (!patch->lua || !patch->target || !is_target(vm, table, patch->target))
+            Patch p = {script, 0, (int32_t)m};
+            if (!patch->lua || !patch->target || !is_target(script, table, patch->target))
                 continue;
-            JoxNode *node = run_file(vm, (int32_t)m, patch, &p.source);
+            JoxNode *node = run_file(script, (int32_t)m, patch, &p.source);
             if (node) {
                 lua_rawgeti(L, LUA_REGISTRYINDEX, node->hook);
                 if (node->kind == JOX_NODE_REPLACE) {
@@ -548,5 +549,5 @@ bool jox_patch_apply(JoxVm *vm) {
         }
     lua_rawseti(L, LUA_REGISTRYINDEX, machine->hook);
     lua_settop(L, top);
-    return vm->diagnostics->errors == errors;
+    return script->diagnostics->errors == errors;
 }

@@ -7,9 +7,9 @@
 /* Position of a path in the source: "states.Circle.2.when". */
 JoxPosition jox_read_at(const JoxBuild *build, const char *path);
 /* The tokens of a path's value, and the source they are in; NULL where it is not written out. */
-const JoxPath *jox_read_span(const JoxBuild *build, const char *path, JoxSource **source);
+const JoxPath *jox_read_span(const JoxBuild *build, const char *path, const JoxSource **source);
 /* Reports Lua's own operators between conditions at a path; whether there were any. */
-bool jox_read_traps(JoxBuild *build, const char *path);
+bool jox_read_misuse(JoxBuild *build, const char *path);
 /* Slot of a name in memory, or -1. */
 int32_t jox_read_memory(const JoxBuild *build, const char *name);
 /* Reads the `counts` of the table at `index`, for one state or, with -1, for all. */
@@ -18,7 +18,7 @@ void jox_read_counts(JoxBuild *build, int index, const char *prefix, int32_t sta
 void jox_read_actions(JoxBuild *build, int index, const char *path, JoxActions *actions,
                       double *every);
 /* kick, take, throw and become of a state. */
-void jox_read_deeds(JoxBuild *build, int index, const char *path, JoxState *state);
+void jox_read_body_actions(JoxBuild *build, int index, const char *path, JoxState *state);
 /* Id of the transition table at `index`, number `nth` of its id: "Exit", "Exit#2". */
 void jox_read_id(lua_State *L, int index, int nth, char id[128]);
 /* Joins a path and a key. */
@@ -47,11 +47,12 @@ void jox_read_state(JoxBuild *build, int index, JoxState *state, int32_t number)
 
 /* Keeps that a path of the machine now stands elsewhere (texts are copied); says so where two mods
    set one path without knowing each other. */
-void jox_origin_set(JoxVm *vm, JoxOrigin origin);
+void jox_origin_set(JoxScript *script, JoxOrigin origin);
 /* Keeps where the transition with this number in the state at `path` stands, unless that is known:
    in the behaviour's file, or in that of a mod that wrote the whole state. */
-void jox_origin_keep(JoxVm *vm, const char *path, const char *number, const char *canonical);
+void jox_origin_keep(JoxScript *script, const char *path, const char *number,
+                     const char *canonical);
 /* The last of what was set that leads to the path, NULL if none does. */
-const JoxOrigin *jox_origin_of(const JoxVm *vm, const char *path);
+const JoxOrigin *jox_origin_of(const JoxScript *script, const char *path);
 
 #endif

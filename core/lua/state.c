@@ -25,7 +25,7 @@ static JoxValue read_weight(JoxBuild *b, JoxNode *weight, JoxPosition position) 
 }
 
 static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state) {
-    lua_State *L = b->vm->L;
+    lua_State *L = b->script->vm.L;
     char full[256];
     jox_read_join(full, path, "steer");
     int type = jox_read_field(L, index, "steer");
@@ -48,7 +48,7 @@ static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state
         term->weight = read_weight(b, t->weight, jox_read_at(b, full));
     }
     if (type != LUA_TNIL &&
-        !(node && (node->kind == JOX_NODE_STEER || node->kind == JOX_NODE_POISON)))
+        !(node && (node->kind == JOX_NODE_STEER || node->kind == JOX_NODE_ERROR)))
         jox_build_error(b, jox_read_at(b, full), "bad-value", "Example: steer = seek(goal)",
                         "steer must be a steering or a function, not %s",
                         node ? "this value" : lua_typename(L, type));
@@ -57,7 +57,7 @@ static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state
 
 static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state) {
     static const JoxParameterInfo LASTS = {"lasts", "s", "", 0, 1e6, 0};
-    lua_State *L = b->vm->L;
+    lua_State *L = b->script->vm.L;
     char full[256];
     jox_read_join(full, path, "lasts");
     if (jox_read_field(L, index, "lasts") == LUA_TNIL) {
@@ -79,7 +79,7 @@ static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state
 }
 
 static void read_flags(JoxBuild *b, int index, const char *path, JoxState *state) {
-    lua_State *L = b->vm->L;
+    lua_State *L = b->script->vm.L;
     char full[256];
     int type = jox_read_field(L, index, "removes");
     jox_read_join(full, path, "removes");
@@ -119,7 +119,7 @@ static bool id_taken(const JoxState *state, const JoxTransition *t, const char *
 
 /* The state that a transition leads to. */
 static uint16_t read_to(JoxBuild *b, int index, const char *path) {
-    lua_State *L = b->vm->L;
+    lua_State *L = b->script->vm.L;
     const JoxMachine *m = b->machine;
     char full[256], hint[96];
     jox_read_join(full, path, "to");
@@ -144,7 +144,7 @@ static uint16_t read_to(JoxBuild *b, int index, const char *path) {
 static void read_transition(JoxBuild *b, int index, const char *path, const char *id,
                             JoxTransition *t) {
     static const JoxParameterInfo CHANCE = {"chance", "", "", 0, 1, 1};
-    lua_State *L = b->vm->L;
+    lua_State *L = b->script->vm.L;
     const char *known[16];
     char full[256];
     *t = jox_transition_blank(jox_strdup(id));
@@ -164,7 +164,7 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
 }
 
 static void read_transitions(JoxBuild *b, int index, const char *path, JoxState *state) {
-    lua_State *L = b->vm->L;
+    lua_State *L = b->script->vm.L;
     uint32_t count = (uint32_t)lua_rawlen(L, index);
     if (count > JOX_MOST_TRANSITIONS) {
         jox_build_error(b, jox_read_at(b, path), "too-many", "Split the state",
@@ -189,11 +189,11 @@ static void read_transitions(JoxBuild *b, int index, const char *path, JoxState 
             jox_read_id(L, lua_gettop(L), nth++, id);
         while (id_taken(state, t, id));
         snprintf(item, sizeof item, "@%.60s", id); /* how patches know it */
-        if (b->vm->origin_count > 0) {
+        if (b->script->origin_count > 0) {
             char canonical[256];
             jox_read_join(canonical, path, item);
-            for (size_t o = 0; o < b->vm->origin_count; o++)
-                if (strcmp(b->vm->origins[o].path, canonical) == 0)
+            for (size_t o = 0; o < b->script->origin_count; o++)
+                if (strcmp(b->script->origins[o].path, canonical) == 0)
                     memcpy(full, canonical, sizeof full);
         }
         read_transition(b, lua_gettop(L), full, id, t);
@@ -204,7 +204,7 @@ static void read_transitions(JoxBuild *b, int index, const char *path, JoxState 
 
 void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     const char *known[96];
-    lua_State *L = b->vm->L;
+    lua_State *L = b->script->vm.L;
     char path[256], full[256];
     snprintf(path, sizeof path, "states.%.200s", state->name);
     jox_read_check(b, index, path, known, jox_sheet_names("state", true, known, 96), true);
@@ -219,7 +219,7 @@ void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     read_steer(b, index, path, state);
     read_lasts(b, index, path, state);
     read_flags(b, index, path, state);
-    jox_read_deeds(b, index, path, state);
+    jox_read_body_actions(b, index, path, state);
     jox_read_actions(b, index, path, &state->enters, &state->signal_every);
     jox_read_counts(b, index, path, number);
     jox_read_join(full, path, "push_when");

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/vocabulary.h"
 
@@ -90,8 +91,8 @@ static int make_machine(lua_State *L) {
 
 /* memory { laps = 0, touched = false }: what each agent remembers. */
 static int make_memory(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
-    if (!vm->loading || lua_type(L, 1) != LUA_TTABLE)
+    JoxScript *script = jox_script_of(L);
+    if (!script->vm.loading || lua_type(L, 1) != LUA_TTABLE)
         return jox_word_error(L, "memory", "bad-argument", "memory { laps = 0, touched = false }",
                               "memory takes a table");
     lua_pushnil(L);
@@ -99,20 +100,20 @@ static int make_memory(lua_State *L) {
         int type = lua_type(L, -1);
         const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "?";
         if (lua_type(L, -2) != LUA_TSTRING || (type != LUA_TNUMBER && type != LUA_TBOOLEAN) ||
-            vm->memory_count >= 64)
+            script->memory_count >= 64)
             return jox_word_error(L, name, "bad-memory", "Numbers and booleans can be remembered",
                                   "memory '%s' cannot be a %s", name, luaL_typename(L, -1));
-        JOX_RESERVE(vm->memory, vm->memory_capacity, vm->memory_count + 1);
+        JOX_RESERVE(script->memory, script->memory_capacity, script->memory_count + 1);
         double value = type == LUA_TNUMBER ? lua_tonumber(L, -1) : lua_toboolean(L, -1);
         if (!isfinite(value))
             return jox_word_error(L, name, "bad-memory", "Numbers and booleans can be remembered",
                                   "memory '%s' must begin with a finite number", name);
         JoxMemorySlot slot = {jox_strdup(name),
                               type == LUA_TNUMBER ? JOX_MEMORY_NUMBER : JOX_MEMORY_BOOLEAN, value};
-        uint32_t at = vm->memory_count++; /* sorted, for tables have no order */
-        for (; at > 0 && strcmp(vm->memory[at - 1].name, name) > 0; at--)
-            vm->memory[at] = vm->memory[at - 1];
-        vm->memory[at] = slot;
+        uint32_t at = script->memory_count++; /* sorted, for tables have no order */
+        for (; at > 0 && strcmp(script->memory[at - 1].name, name) > 0; at--)
+            script->memory[at] = script->memory[at - 1];
+        script->memory[at] = slot;
         lua_pop(L, 1);
     }
     luaL_getmetatable(L, "jostle memory");
@@ -123,22 +124,22 @@ static int make_memory(lua_State *L) {
 }
 
 static int memory_index(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
+    JoxScript *script = jox_script_of(L);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     const char *names[64];
-    for (uint32_t i = 0; i < vm->memory_count; i++) {
-        names[i] = vm->memory[i].name;
-        if (strcmp(vm->memory[i].name, name) == 0) {
-            bool flag = vm->memory[i].kind == JOX_MEMORY_BOOLEAN;
+    for (uint32_t i = 0; i < script->memory_count; i++) {
+        names[i] = script->memory[i].name;
+        if (strcmp(script->memory[i].name, name) == 0) {
+            bool flag = script->memory[i].kind == JOX_MEMORY_BOOLEAN;
             JoxNode *node = jox_node_push(L, flag ? JOX_NODE_CONDITION : JOX_NODE_NUMBER);
             node->op = JOX_OP_MEMORY;
-            node->name = jox_vm_intern(vm, name);
+            node->name = jox_vm_intern(&script->vm, name);
             return 1;
         }
     }
     char hint[96];
     return jox_word_error(L, name, "unknown-memory",
-                          jox_did_you_mean(name, names, vm->memory_count, hint),
+                          jox_did_you_mean(name, names, script->memory_count, hint),
                           "memory has no '%s'", name);
 }
 
@@ -168,8 +169,8 @@ static int own_index(lua_State *L) {
     node->op = JOX_OP_OWN;
     node->name = jox_vm_intern(jox_vm_of(L), name);
     node->position = jox_word_position(L, name);
-    for (uint32_t s = 0; s < jox_vm_of(L)->source_count; s++)
-        if (jox_vm_of(L)->sources[s].path == node->position.file)
+    for (uint32_t s = 0; s < jox_script_of(L)->vm.source_count; s++)
+        if (jox_script_of(L)->vm.sources[s]->path == node->position.file)
             node->source = s;
     return 1;
 }
@@ -190,10 +191,10 @@ static int make_change(lua_State *L) {
 }
 
 static int make_verb(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
+    JoxScript *script = jox_script_of(L);
     JoxNodeKind kind = (JoxNodeKind)lua_tointeger(L, lua_upvalueindex(1));
     const char *verb = kind == JOX_NODE_PATCH ? "patch" : "replace";
-    if (!vm->mod)
+    if (!script->mod)
         return jox_word_error(L, verb, "not-a-mod", "Put it into the patches/ of a mod",
                               "'%s' works in mods only", verb);
     if (lua_type(L, 1) != LUA_TSTRING)
@@ -207,21 +208,21 @@ static int make_verb(lua_State *L) {
 }
 
 static int settings_index(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
+    JoxScript *script = jox_script_of(L);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?", *names[64];
     size_t count = 0;
-    if (!vm->mod)
+    if (!script->mod)
         return jox_word_error(L, name, "not-a-mod", NULL, "only mods have settings");
-    for (uint32_t s = 0; s < vm->mod->setting_count && count < 64; s++) {
-        names[count++] = vm->mod->settings[s].name;
-        if (strcmp(vm->mod->settings[s].name, name) == 0) {
-            lua_pushnumber(L, vm->mod->settings[s].value);
+    for (uint32_t s = 0; s < script->mod->setting_count && count < 64; s++) {
+        names[count++] = script->mod->settings[s].name;
+        if (strcmp(script->mod->settings[s].name, name) == 0) {
+            lua_pushnumber(L, script->mod->settings[s].value);
             return 1;
         }
     }
     char hint[96];
     return jox_word_error(L, name, "unknown-setting", jox_did_you_mean(name, names, count, hint),
-                          "mod %s has no setting '%s'", vm->mod->name, name);
+                          "mod %s has no setting '%s'", script->mod->name, name);
 }
 
 static void add_object(lua_State *L, const char *name, const char *type, lua_CFunction index) {
@@ -238,7 +239,8 @@ static void add_object(lua_State *L, const char *name, const char *type, lua_CFu
     lua_setfield(L, -2, name);
 }
 
-void jox_values_open(lua_State *L) {
+void jox_values_add(lua_State *L) {
+    JOX_ASSERT(lua_istable(L, -1));
     static const char *const DISTS[] = {"normal", "uniform", "choose"};
     static const luaL_Reg MAKERS[] = {
         {"orbit", make_orbit}, {"machine", make_machine}, {"memory", make_memory}, {NULL, NULL}};

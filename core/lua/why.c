@@ -5,10 +5,6 @@
 #include "base/mem.h"
 #include "lua/vocabulary.h"
 
-static const JoxVm *vm_of(const JoxLua *lua, const JoxMachine *machine) {
-    return machine->vm >= 0 && (uint32_t)machine->vm < lua->vm_count ? lua->vms[machine->vm] : NULL;
-}
-
 /* The text of a value as written, on one line and without comments; cut after `most` bytes. */
 static void print_value(const JoxSource *source, const JoxPath *path, size_t most, JoxText *out) {
     size_t begin = out->length;
@@ -49,20 +45,21 @@ typedef struct Settings {
 } Settings;
 
 /* Takes the place of a path in a source. False where it does not stand there. */
-static bool take_place(const JoxVm *vm, uint32_t source, const char *path, int32_t mod,
+static bool take_place(const JoxScript *script, uint32_t source, const char *path, int32_t mod,
                        bool removes, Settings *to) {
-    const JoxPath *found = jox_source_path_find(&vm->sources[source], path);
-    if (!found || found->key >= vm->sources[source].token_count)
+    const JoxPath *found = jox_outline_find(script->vm.sources[source], path);
+    if (!found || found->key >= script->vm.sources[source]->token_count)
         return false;
-    const JoxToken *key = &vm->sources[source].tokens[found->key];
-    to->last = (Setting){&vm->sources[source], found, key, mod, removes};
+    const JoxToken *key = &script->vm.sources[source]->tokens[found->key];
+    to->last = (Setting){script->vm.sources[source], found, key, mod, removes};
     if (!to->out)
         return true;
-    jox_text_printf(to->out, "  %s:%d:%d: ", vm->sources[source].path, key->line, key->column);
+    jox_text_printf(to->out, "  %s:%d:%d: ", script->vm.sources[source]->path, key->line,
+                    key->column);
     if (removes)
         jox_text_add(to->out, "taken away");
     else
-        print_value(&vm->sources[source], found, 60, to->out);
+        print_value(script->vm.sources[source], found, 60, to->out);
     if (mod >= 0 && (uint32_t)mod < to->scope->mod_count)
         jox_text_printf(to->out, "   (mod %s %s)", to->scope->mods[mod].name,
                         to->scope->mods[mod].version);
@@ -87,18 +84,19 @@ static void by_number(const JoxMachine *machine, const char *canonical, char pat
 }
 
 /* Everything that set one canonical path, in order; how many. */
-static int take_all(const JoxVm *vm, const JoxMachine *machine, const char *canonical,
+static int take_all(const JoxScript *script, const JoxMachine *machine, const char *canonical,
                     Settings *to) {
     char own[256];
     int count = 0;
     bool named = false; /* the file's own place is among the origins */
-    for (size_t o = 0; o < vm->origin_count; o++)
-        named |= vm->origins[o].mod < 0 && strstr(canonical, vm->origins[o].path) == canonical;
+    for (size_t o = 0; o < script->origin_count; o++)
+        named |=
+            script->origins[o].mod < 0 && strstr(canonical, script->origins[o].path) == canonical;
     by_number(machine, canonical, own);
     if (!named)
-        count += take_place(vm, 0, own, -1, false, to);
-    for (size_t o = 0; o < vm->origin_count; o++) {
-        const JoxOrigin *origin = &vm->origins[o];
+        count += take_place(script, 0, own, -1, false, to);
+    for (size_t o = 0; o < script->origin_count; o++) {
+        const JoxOrigin *origin = &script->origins[o];
         size_t n = strlen(origin->path);
         if (strncmp(origin->path, canonical, n) != 0 || (n && canonical[n] && canonical[n] != '.'))
             continue;
@@ -106,28 +104,28 @@ static int take_all(const JoxVm *vm, const JoxMachine *machine, const char *cano
         const char *rest = canonical + n + (n && canonical[n] == '.');
         snprintf(path, sizeof path, "%.250s%s%.250s", origin->from,
                  *rest && *origin->from ? "." : "", rest);
-        count += take_place(vm, origin->source, path, origin->mod, origin->removes, to);
+        count += take_place(script, origin->source, path, origin->mod, origin->removes, to);
     }
     return count;
 }
 
 bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
                  const JoxScope *scope, JoxText *out) {
-    const JoxVm *vm = vm_of(lua, machine);
+    const JoxScript *script = jox_lua_script(lua, machine);
     char canonical[256];
     const char *rest = strchr(path, '.'), *last = strrchr(path, '.');
     size_t n = rest ? (size_t)(rest - path) : strlen(path);
-    if (!vm)
+    if (!script)
         return false;
     Settings to = {.scope = scope, .out = out};
-    int count = take_all(vm, machine, path, &to);
+    int count = take_all(script, machine, path, &to);
     snprintf(canonical, sizeof canonical, "states.%.240s", path);
     if (!count)
-        count = take_all(vm, machine, canonical, &to);
+        count = take_all(script, machine, canonical, &to);
     snprintf(canonical, sizeof canonical, "states.%.*s.@%.120s", (int)(n < 100 ? n : 100), path,
              rest ? rest + 1 : "");
     if (!count && rest)
-        count = take_all(vm, machine, canonical, &to);
+        count = take_all(script, machine, canonical, &to);
     int parameter = jox_parameter_find(last ? last + 1 : path);
     if (parameter < 0)
         return count > 0;
@@ -137,7 +135,7 @@ bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
         snprintf(state, sizeof state, "%.*s", (int)(n < 120 ? n : 120), path);
         if (jox_machine_state(machine, state) < 0 && strncmp(path, "defaults.", 9) != 0)
             return false;
-        count = take_all(vm, machine, canonical, &to);
+        count = take_all(script, machine, canonical, &to);
     }
     if (!count) {
         jox_text_printf(out, "  the engine's default: %g %s\n", jox_parameters[parameter].value,
@@ -149,10 +147,10 @@ bool jox_lua_why(const JoxLua *lua, const JoxMachine *machine, const char *path,
 
 bool jox_lua_written(const JoxLua *lua, const JoxMachine *machine, const char *path,
                      const JoxScope *scope, JoxWritten *out) {
-    const JoxVm *vm = vm_of(lua, machine);
+    const JoxScript *script = jox_lua_script(lua, machine);
     Settings to = {.scope = scope};
     *out = (JoxWritten){0};
-    if (!vm || take_all(vm, machine, path, &to) == 0 || to.last.removes)
+    if (!script || take_all(script, machine, path, &to) == 0 || to.last.removes)
         return false;
     print_value(to.last.source, to.last.path, 400, &out->text);
     out->file = to.last.source->path;

@@ -1,11 +1,13 @@
 /* Words that are called: their arguments are read as the vocabulary says, and become a value. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/vocabulary.h"
+
+static const char WORDS[] = "jostle words"; /* in the registry: what a file can name */
 
 size_t jox_word_names(const char **names, size_t capacity) {
     size_t n = 0;
@@ -14,66 +16,19 @@ size_t jox_word_names(const char **names, size_t capacity) {
     return n;
 }
 
-/* ---- errors at words ---- */
-
-JoxPosition jox_word_position(lua_State *L, const char *word) {
-    JoxVm *vm = jox_vm_of(L);
-    lua_Debug debug;
-    for (int level = 1; lua_getstack(L, level, &debug); level++) {
-        lua_getinfo(L, "Sl", &debug);
-        int number;
-        if (debug.currentline < 1 || sscanf(debug.short_src, "b%d", &number) != 1 ||
-            (size_t)number >= vm->source_count)
-            continue;
-        JoxSource *source = &vm->sources[number];
-        const JoxToken *t = jox_source_find(source, debug.currentline, word);
-        if (!t && word[0] == '<') /* Lua turns a > b into b < a */
-            t = jox_source_find(source, debug.currentline, word[1] ? ">=" : ">");
-        return t ? (JoxPosition){source->path, t->line, t->column, t->end_column}
-                 : (JoxPosition){source->path, debug.currentline, 0, 0};
-    }
-    return (JoxPosition){vm->source_count ? vm->sources[0].path : NULL, 0, 0, 0};
-}
-
-int jox_word_error(lua_State *L, const char *word, const char *code, const char *hint,
-                   const char *format, ...) {
-    char text[512];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    JoxVm *vm = jox_vm_of(L);
-    jox_vm_charge(L, 2000); /* a suggestion compares with every word */
-    if (!vm->loading)
-        return luaL_error(L, "%s", text); /* inside a hook: words make nothing there */
-    JoxPosition position = jox_word_position(L, word);
-    jox_diag_error(vm->diagnostics, position, code, hint, "%s", text);
-    jox_node_push(L, JOX_NODE_POISON);
-    return 1;
-}
-
-const char *jox_did_you_mean(const char *word, const char *const *names, size_t count,
-                             char hint[96]) {
-    const char *near = jox_suggest(word, names, count);
-    if (!near)
-        return NULL;
-    snprintf(hint, 96, "Did you mean '%s'?", near);
-    return hint;
-}
-
 /* ---- arguments ---- */
 
 /* The place that a string names, as a target; NULL with an error pushed. */
 static JoxNode *place_by_name(lua_State *L, const char *name) {
-    JoxVm *vm = jox_vm_of(L);
+    JoxScript *script = jox_script_of(L);
     int32_t index = -1;
-    if (vm->scope->places)
-        index = jox_place_find(vm->scope->places, vm->scope->place_count, name);
-    if (index < 0 && vm->scope->complete) {
+    if (script->scope->places)
+        index = jox_place_find(script->scope->places, script->scope->place_count, name);
+    if (index < 0 && script->scope->complete) {
         const char *names[256];
-        size_t count = vm->scope->place_count < 256 ? vm->scope->place_count : 256;
+        size_t count = script->scope->place_count < 256 ? script->scope->place_count : 256;
         for (size_t i = 0; i < count; i++)
-            names[i] = vm->scope->places[i].name;
+            names[i] = script->scope->places[i].name;
         char hint[96];
         jox_word_error(L, name, "unknown-place", jox_did_you_mean(name, names, count, hint),
                        "the scene has no place '%s'", name);
@@ -82,7 +37,7 @@ static JoxNode *place_by_name(lua_State *L, const char *name) {
     JoxNode *node = jox_node_push(L, JOX_NODE_TARGET);
     node->target_kind = JOX_TARGET_PLACE;
     node->target_arg = index;
-    node->name = jox_vm_intern(vm, name);
+    node->name = jox_vm_intern(&script->vm, name);
     return node;
 }
 
@@ -101,8 +56,8 @@ static JoxNode *tag_argument(lua_State *L, const char *word, int index) {
     } RELATIONS[] = {{"opponents", JOX_TARGET_OPPONENT, JOX_KIN_OPPONENTS},
                      {"teammates", JOX_TARGET_TEAMMATE, JOX_KIN_TEAMMATES},
                      {"anyone", JOX_TARGET_ANYONE, JOX_KIN_ALL}};
-    JoxVm *vm = jox_vm_of(L);
-    const JoxScope *scope = vm->scope;
+    JoxScript *script = jox_script_of(L);
+    const JoxScope *scope = script->scope;
     char hint[96];
     if (lua_type(L, index) != LUA_TSTRING) {
         jox_word_error(L, word, "bad-argument", "Example: nearest \"ball\"",
@@ -130,7 +85,7 @@ static JoxNode *tag_argument(lua_State *L, const char *word, int index) {
     JoxNode *node = jox_node_push(L, JOX_NODE_TARGET);
     node->target_kind = kind;
     node->target_arg = arg;
-    node->name = jox_vm_intern(vm, name);
+    node->name = jox_vm_intern(&script->vm, name);
     return node;
 }
 
@@ -150,8 +105,8 @@ JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char lette
                   {'n', "a number"}, {'d', "a plain number"},
                   {'g', "a tag"},    {'s', "a name"}};
     JoxNode *node = jox_node_get(L, index);
-    if (node && node->kind == JOX_NODE_POISON) {
-        jox_node_push(L, JOX_NODE_POISON);
+    if (node && node->kind == JOX_NODE_ERROR) {
+        jox_node_push(L, JOX_NODE_ERROR);
         return NULL;
     }
     JoxNode *result = NULL;
@@ -292,7 +247,7 @@ static JoxNode *assemble(lua_State *L, const JoxWord *word, JoxNode *const *argu
 
 static int make_word(lua_State *L) {
     const JoxWord *word = lua_touserdata(L, lua_upvalueindex(1));
-    if (!jox_vm_of(L)->loading)
+    if (!jox_script_of(L)->vm.loading)
         return luaL_error(L, "'%s' makes a value of the sheet and cannot be used in a function",
                           word->name);
     JoxNode *arguments[3] = {NULL, NULL, NULL};
@@ -321,7 +276,7 @@ static int make_word(lua_State *L) {
 }
 
 bool jox_word_lookup(lua_State *L, const char *name) {
-    lua_getfield(L, LUA_REGISTRYINDEX, "jostle words");
+    lua_getfield(L, LUA_REGISTRYINDEX, WORDS);
     lua_pushstring(L, name);
     lua_rawget(L, -2);
     lua_remove(L, -2);
@@ -343,9 +298,8 @@ static void push_value(lua_State *L, const JoxWord *word) {
     node->name = jox_vm_intern(jox_vm_of(L), word->name);
 }
 
-void jox_words_open(JoxVm *vm) {
-    lua_State *L = vm->L;
-    lua_newtable(L);
+void jox_words_add(lua_State *L) {
+    JOX_ASSERT(lua_istable(L, -1));
     for (size_t i = 0; i < jox_word_count; i++) {
         const JoxWord *word = &jox_words[i];
         if (word->makes == 0 || (word->takes && *word->takes == '*'))
@@ -358,6 +312,9 @@ void jox_words_open(JoxVm *vm) {
         }
         lua_setfield(L, -2, word->name);
     }
-    jox_values_open(L);
-    lua_setfield(L, LUA_REGISTRYINDEX, "jostle words");
+}
+
+void jox_script_set_words(lua_State *L) {
+    JOX_ASSERT(lua_istable(L, -1));
+    lua_setfield(L, LUA_REGISTRYINDEX, WORDS);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/quote.h"
 #include "picture/canvas.h"
 
 typedef struct Svg {
@@ -32,30 +33,6 @@ static void point(JoxText *out, char before, JoxV2 at) {
     number(out, at.x);
     jox_text_append(out, " ", 1);
     number(out, at.y);
-}
-
-/* Text between tags or in quotes; what is no text for XML becomes '?'. */
-static void escape(JoxText *out, const char *text) {
-    char *clean = jox_strdup(text);
-    jox_text_clean(clean);
-    for (const char *c = clean; *c; c++)
-        switch (*c) {
-        case '&':
-            jox_text_add(out, "&amp;");
-            break;
-        case '<':
-            jox_text_add(out, "&lt;");
-            break;
-        case '>':
-            jox_text_add(out, "&gt;");
-            break;
-        case '"':
-            jox_text_add(out, "&quot;");
-            break;
-        default:
-            jox_text_append(out, c, 1);
-        }
-    jox_free(clean);
 }
 
 /* A class or id: letters, digits and '-' alone. */
@@ -90,7 +67,7 @@ static void begin(JoxCanvas *c, const char *title) {
                     "viewBox=\"0 0 %u %u\" "
                     "font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\">\n<title>",
                     c->width, c->height, c->width, c->height);
-    escape(&svg->out, title);
+    jox_quote_xml(&svg->out, title);
     jox_text_printf(&svg->out, "</title>\n<rect width=\"%u\" height=\"%u\" fill=\"#ffffff\"/>\n",
                     c->width, c->height);
 }
@@ -144,7 +121,7 @@ static void line(JoxCanvas *c, const JoxV2 *points, uint32_t count, bool closed,
     jox_text_add(out, closed ? "Z\"" : "\"");
     if (name && *name) {
         jox_text_add(out, "><title>");
-        escape(out, name);
+        jox_quote_xml(out, name);
         jox_text_add(out, "</title></path>\n");
     } else {
         jox_text_add(out, "/>\n");
@@ -191,7 +168,7 @@ static void text(JoxCanvas *c, JoxV2 at, float size, JoxAnchor anchor, bool bold
     number(out, size);
     jox_text_printf(out, "\"%s%s%s>", anchors[anchor], bold ? " font-weight=\"bold\"" : "",
                     c->style[c->depth - 1].line.a > 0.0f ? " paint-order=\"stroke\"" : "");
-    escape(out, string);
+    jox_quote_xml(out, string);
     jox_text_add(out, "</text>\n");
 }
 

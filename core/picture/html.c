@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/quote.h"
+
 static const char STYLE[] =
     "body{font:16px/1.5 system-ui,sans-serif;max-width:72rem;margin:2rem auto;padding:0 1rem;"
     "color:#1a1a1a;background:#fff}h1{font-size:1.7rem}h2{font-size:1.25rem;margin-top:2.5rem;"
@@ -16,35 +18,18 @@ static const char STYLE[] =
     "overflow-wrap:anywhere}";
 
 void jox_html_text(FILE *out, const char *text) {
-    for (; *text; text++)
-        switch (*text) {
-        case '<':
-            fputs("&lt;", out);
-            break;
-        case '>':
-            fputs("&gt;", out);
-            break;
-        case '&':
-            fputs("&amp;", out);
-            break;
-        case '"':
-            fputs("&quot;", out);
-            break;
-        case '\'':
-            fputs("&#39;", out);
-            break;
-        default:
-            fputc((unsigned char)*text < ' ' && *text != '\n' ? ' ' : *text, out);
-        }
+    jox_quote_put(out, jox_quote_xml, text);
+}
+
+void jox_html_argument(FILE *out, const char *argument) {
+    JoxText quoted = {0};
+    jox_quote_shell(&quoted, argument);
+    jox_html_text(out, quoted.data);
+    jox_text_free(&quoted);
 }
 
 void jox_html_link(FILE *out, const char *path) {
-    for (; *path; path++) {
-        unsigned char c = (unsigned char)*path;
-        bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                     strchr("-_./", c);
-        fprintf(out, plain ? "%c" : "%%%02X", c);
-    }
+    jox_quote_put(out, jox_quote_url, path);
 }
 
 void jox_html_begin(FILE *out, const char *title) {

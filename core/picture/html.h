@@ -11,9 +11,11 @@
 void jox_html_begin(FILE *out, const char *title);
 void jox_html_end(FILE *out);
 
-/* Text as it reads: < > & and quotes are escaped, control characters become blanks. */
+/* Text as it reads, by jox_quote_xml. */
 void jox_html_text(FILE *out, const char *text);
-/* Part of a link: what is no plain character of a path is percent-encoded. */
+/* An argument of a command line, as one types it in a shell. */
+void jox_html_argument(FILE *out, const char *argument);
+/* The path of a link, by jox_quote_url. */
 void jox_html_link(FILE *out, const char *path);
 /* %.4g; a dash where it is not finite. */
 void jox_html_number(FILE *out, double value);

@@ -3,6 +3,8 @@
 #include <stdio.h>
 
 #include "base/mem.h"
+#include "base/quote.h"
+#include "picture/palette.h"
 #include "picture/plot.h"
 
 JoxPaths *jox_paths_create(void) {
@@ -58,40 +60,51 @@ static bool has_series(const JoxPaths *paths, uint32_t series, bool body) {
     return false;
 }
 
-bool jox_plot_paths(const char *folder, const JoxPaths *paths, const char *const *names,
-                    uint32_t name_count, const JoxWalls *walls, JoxV2 low, JoxV2 high,
-                    const char *title, JoxText *error) {
-    static const char *const COLOURS[] = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd",
-                                          "#8c564b", "#e377c2", "#17becf", "#bcbd22"};
-    FILE *data = jox_plot_open(folder, "paths.csv", error), *script;
-    JoxText plot = {0};
+/* What draws a series: its lines, first points and last points. */
+static void add_series(JoxText *plot, uint32_t set, const char *colour, const char *width,
+                       const char *name) {
+    jox_text_printf(plot, "%s'paths.csv' index %u using 3:4 with lines lw %s lc '%s' title ",
+                    plot->length ? ", \\\n  " : "", set, width, colour);
+    jox_quote_gnuplot(plot, name);
+    jox_text_printf(plot,
+                    ", '' index %u using 3:4 with points pt 7 ps 0.7 lc '%s' notitle, "
+                    "'' index %u using 3:4 with points pt 6 ps 1.6 lw 2 lc '%s' notitle",
+                    set + 1, colour, set + 2, colour);
+}
+
+/* Groups have the colours that they have in pictures and on the live page. */
+static void write_all(FILE *data, JoxText *plot, const JoxPaths *paths, const char *const *names,
+                      uint32_t name_count) {
     uint32_t set = 0;
-    if (!data)
-        return false;
     fputs("# id,t_s,x_m,y_m\n", data);
     for (uint32_t s = 0; s <= name_count; s++) { /* the last one: bodies */
         bool body = s == name_count;
+        JoxInk ink = jox_palette_class(s);
+        char colour[8];
         if (!has_series(paths, body ? 0 : s, body))
             continue;
         for (int what = 0; what < 3; what++)
             write_series(data, paths, body ? 0 : s, body, what);
-        const char *colour = body ? "#ff7f0e" : COLOURS[s % 8];
-        jox_text_printf(
-            &plot,
-            "%s'paths.csv' index %u using 3:4 with lines lw %s lc '%s' title \"%.60s\", "
-            "'' index %u using 3:4 with points pt 7 ps 0.7 lc '%s' notitle, "
-            "'' index %u using 3:4 with points pt 6 ps 1.6 lw 2 lc '%s' notitle",
-            plot.length ? ", \\\n  " : "", set, body ? "1.2 dt 2" : "1.6", colour,
-            body ? "bodies" : names[s], set + 1, colour, set + 2, colour);
+        snprintf(colour, sizeof colour, "#%02x%02x%02x", ink.r, ink.g, ink.b);
+        add_series(plot, set, body ? "#606060" : colour, body ? "1.2 dt 2" : "1.6",
+                   body ? "bodies" : names[s]);
         set += 3;
     }
+}
+
+bool jox_plot_paths(const char *folder, const JoxPaths *paths, const char *const *names,
+                    uint32_t name_count, const JoxWalls *walls, JoxV2 low, JoxV2 high,
+                    const char *title, JoxText *error) {
+    FILE *data = jox_plot_open(folder, "paths.csv", error), *script;
+    JoxText plot = {0};
+    if (!data)
+        return false;
+    write_all(data, &plot, paths, names, name_count);
     bool written = jox_plot_close(data, "paths.csv", error) && jox_plot_walls(folder, walls, error);
     script = written ? jox_plot_open(folder, "paths.plt", error) : NULL;
     if (script) {
         float tall = jox_clampf((high.y - low.y) / (high.x - low.x), 0.3f, 1.6f);
-        fprintf(script,
-                "set terminal pngcairo size 1100,%d font 'sans,12'\nset output 'paths.png'\n",
-                (int)(1000.0f * tall) + 140);
+        jox_plot_begin(script, "paths", false, 1100, (int)(1000.0f * tall) + 140);
         jox_plot_title(script, title);
         fprintf(
             script,

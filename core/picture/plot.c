@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
+#include "base/quote.h"
+
 extern char **environ;
 
 bool jox_plot_folder(const char *folder, JoxText *error) {
@@ -44,35 +46,53 @@ bool jox_plot_close(FILE *file, const char *what, JoxText *error) {
     return good;
 }
 
-/* Runs gnuplot on a script of the folder, inside it. */
-bool jox_plot_draw(const char *folder, const char *script, JoxText *error) {
-    char command[] = "gnuplot", execute[] = "-e", change[1200], name[64];
-    snprintf(change, sizeof change, "cd '%.1023s'", folder);
-    snprintf(name, sizeof name, "%s", script);
-    char *arguments[] = {command, execute, change, name, NULL};
-    pid_t child;
-    int status = 0;
-    if (strchr(folder, '\'') ||
-        posix_spawnp(&child, command, NULL, NULL, arguments, environ) != 0 ||
-        waitpid(child, &status, 0) < 0 || status != 0) {
-        jox_text_printf(error, "gnuplot could not draw %s/%s (is gnuplot installed?)", folder,
-                        script);
-        return false;
-    }
-    return true;
+/* The child that runs gnuplot on a script of the folder, inside it; -1 if there is none. */
+static pid_t spawn(const char *folder, const char *script) {
+    char command[] = "gnuplot", usual[] = "-d"; /* -d: ~/.gnuplot is not read */
+    JoxText path = {0};
+    posix_spawn_file_actions_t actions;
+    pid_t child = -1;
+    if (posix_spawn_file_actions_init(&actions) != 0)
+        return -1;
+    jox_text_printf(&path, "./%s", script); /* nor does a name become an option */
+    char *arguments[] = {command, usual, path.data, NULL};
+    if (posix_spawn_file_actions_addchdir_np(&actions, folder) != 0 ||
+        posix_spawnp(&child, command, &actions, NULL, arguments, environ) != 0)
+        child = -1;
+    posix_spawn_file_actions_destroy(&actions);
+    jox_text_free(&path);
+    return child;
 }
 
-void jox_plot_quote(FILE *script, const char *text) {
-    fputc('"', script);
-    for (const char *c = text; *c; c++)
-        if (*c != '"' && *c != '\\' && *c != '`' && (unsigned char)*c >= ' ')
-            fputc(*c, script);
-    fputc('"', script);
+bool jox_plot_draw(const char *folder, const char *script, JoxText *error) {
+    pid_t child = spawn(folder, script), ended;
+    int status = 0;
+    do
+        ended = child > 0 ? waitpid(child, &status, 0) : -1;
+    while (ended < 0 && child > 0 && errno == EINTR);
+    if (ended >= 0 && status == 0)
+        return true;
+    jox_text_printf(error, "gnuplot could not draw %s/%s (is gnuplot installed?)", folder, script);
+    return false;
+}
+
+void jox_plot_file(FILE *script, const char *stem, const char *ending) {
+    JoxText name = {0};
+    jox_text_printf(&name, "%s.%s", stem, ending);
+    jox_quote_put(script, jox_quote_gnuplot_file, name.data);
+    jox_text_free(&name);
+}
+
+void jox_plot_begin(FILE *script, const char *stem, bool svg, int width, int height) {
+    fprintf(script, "reset\nset terminal %s size %d,%d font 'sans,%d'\nset output ",
+            svg ? "svg background '#ffffff'" : "pngcairo", width, height, svg ? 13 : 12);
+    jox_plot_file(script, stem, svg ? "svg" : "png");
+    fputs("\nset key noautotitle\n", script); /* names of files are no titles */
 }
 
 void jox_plot_title(FILE *script, const char *title) {
     fputs("set title ", script);
-    jox_plot_quote(script, title);
+    jox_quote_put(script, jox_quote_gnuplot, title);
     fputs(" noenhanced font ',14'\n", script);
 }
 
@@ -116,8 +136,8 @@ void jox_plot_wall_lines(FILE *script, const JoxWalls *walls, const char *width)
     fputs("\n", script);
 }
 
-bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *walls,
-                      const char *title, JoxText *error) {
+bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxDensity *peak,
+                      const JoxWalls *walls, const char *title, JoxText *error) {
     FILE *data = jox_plot_open(folder, "density.csv", error);
     if (!data)
         return false;
@@ -138,8 +158,7 @@ bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *w
         return false;
     float width = d->cell * (float)d->columns, height = d->cell * (float)d->rows;
     int tall = (int)(1000.0f * jox_clampf(height / width, 0.3f, 2.0f)) + 120;
-    fprintf(data, "set terminal pngcairo size 1200,%d font 'sans,12'\nset output 'density.png'\n",
-            tall);
+    jox_plot_begin(data, "density", false, 1200, tall);
     jox_plot_title(data, title);
     fprintf(
         data,
@@ -153,8 +172,8 @@ bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *w
         " %g, %g, %g, %g) at graph 0, 0 offset 1, 0.8 front tc "
         "'#c00000'\n"
         "plot 'density.csv' skip 1 using 1:2:3 with image",
-        most > 0.0 ? most : 1.0, d->low.x, d->low.x + width, d->low.y, d->low.y + height, d->most,
-        d->most_at.x, d->most_at.y, d->most_time);
+        most > 0.0 ? most : 1.0, d->low.x, d->low.x + width, d->low.y, d->low.y + height,
+        peak->most, peak->most_at.x, peak->most_at.y, peak->most_time);
     jox_plot_wall_lines(data, walls, "1.5");
     return jox_plot_close(data, "density.plt", error) &&
            jox_plot_draw(folder, "density.plt", error);
@@ -166,17 +185,19 @@ bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char 
     if (!data)
         return false;
     fputs("region,mean_speed_m_per_s,people_frames\n", data);
-    for (uint32_t r = 0; r < regions->count; r++)
-        fprintf(data, "%s,%.4f,%llu\n", regions->items[r].name,
-                jox_region_speed(&regions->items[r]), (unsigned long long)regions->items[r].people);
+    for (uint32_t r = 0; r < regions->count; r++) {
+        jox_quote_put(data, jox_quote_csv, regions->items[r].name);
+        fprintf(data, ",%.4f,%llu\n", jox_region_speed(&regions->items[r]),
+                (unsigned long long)regions->items[r].people);
+    }
     if (!jox_plot_close(data, "regions.csv", error) ||
         !(data = jox_plot_open(folder, "regions.plt", error)))
         return false;
-    fputs("set terminal pngcairo size 1200,600 font 'sans,12'\nset output 'regions.png'\n", data);
+    jox_plot_begin(data, "regions", false, 1200, 600);
     jox_plot_title(data, title);
     fputs("set datafile separator comma\nset style fill solid 0.9\nset boxwidth 0.6\nunset key\n"
           "set yrange [0:*]\nset offsets 0.5, 0.5, 0.05, 0\nset grid ytics\n"
-          "set xlabel 'region'\nset ylabel 'mean speed (m/s)'\n"
+          "set xtics noenhanced\nset xlabel 'region'\nset ylabel 'mean speed (m/s)'\n"
           "plot 'regions.csv' skip 1 using 0:2:xtic(1) with boxes lc '#21918c', "
           "'' skip 1 using 0:2:(sprintf('%.2f', $2)) with labels offset 0,0.7\n",
           data);

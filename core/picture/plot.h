@@ -12,20 +12,25 @@
 
 /* Makes the folder, and those above it. False with a sentence in `error`. */
 bool jox_plot_folder(const char *folder, JoxText *error);
-/* density.png: mean density over the frames, walls drawn, the greatest value named. */
-bool jox_plot_density(const char *folder, const JoxDensity *density, const JoxWalls *walls,
-                      const char *title, JoxText *error);
+/* density.png: mean density over the frames, walls drawn, the greatest value of `peak` named. */
+bool jox_plot_density(const char *folder, const JoxDensity *density, const JoxDensity *peak,
+                      const JoxWalls *walls, const char *title, JoxText *error);
 /* regions.png: mean speed of each region as bars. */
 bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char *title,
                       JoxText *error);
 
-/* For further pictures: files of the folder, and gnuplot on a script of it. */
+/* For further pictures: files of the folder, and gnuplot on a script of it. Texts go into
+   scripts by jox_quote_gnuplot, data into files. */
 FILE *jox_plot_open(const char *folder, const char *name, JoxText *error);
 bool jox_plot_close(FILE *file, const char *what, JoxText *error);
+/* Without a shell, and without the user's own settings of gnuplot. */
 bool jox_plot_draw(const char *folder, const char *script, JoxText *error);
-/* The text in quotes, without what gnuplot would take for more than text. */
-void jox_plot_quote(FILE *script, const char *text);
+/* The terminal (PNG, or SVG on white) of so many pixels, its font, and the file STEM.png or
+   STEM.svg that it writes. */
+void jox_plot_begin(FILE *script, const char *stem, bool svg, int width, int height);
 void jox_plot_title(FILE *script, const char *title);
+/* STEM.ENDING as a quoted name of a file. */
+void jox_plot_file(FILE *script, const char *stem, const char *ending);
 /* Writes walls.dat, and what draws it behind another thing of a plot command: open walls dashed. */
 bool jox_plot_walls(const char *folder, const JoxWalls *walls, JoxText *error);
 void jox_plot_wall_lines(FILE *script, const JoxWalls *walls, const char *width);

@@ -2,11 +2,14 @@
 
 #include <stdio.h>
 
+#include "base/quote.h"
 #include "picture/plot.h"
 
 /* Writes NAME.plt: the same commands for both terminals. */
-static bool write_script(const JoxProbe *p, const char *folder, const char *name, bool walls,
+static bool write_script(const JoxProbe *p, const char *folder, const char *stem, bool walls,
                          const char *title, JoxText *error) {
+    char name[128];
+    snprintf(name, sizeof name, "%s.plt", stem);
     FILE *script = jox_plot_open(folder, name, error);
     JoxText body = {0};
     if (!script)
@@ -14,12 +17,12 @@ static bool write_script(const JoxProbe *p, const char *folder, const char *name
     int width, height;
     jox_probe_plot(p, walls, &body, &width, &height);
     for (int svg = 0; svg < 2; svg++) {
-        fprintf(script, "reset\nset terminal %s size %d,%d font 'sans,%d'\nset output '%s.%s'\n",
-                svg ? "svg background '#ffffff'" : "pngcairo", width, height, svg ? 13 : 12,
-                jox_probe_def(p)->name, svg ? "svg" : "png");
+        jox_plot_begin(script, stem, svg, width, height);
         jox_plot_title(script, title);
-        fputs("heading = ", script); /* for pages of several plots */
-        jox_plot_quote(script, title);
+        fputs("csv = ", script); /* what the kinds plot */
+        jox_plot_file(script, stem, "csv");
+        fputs("\nheading = ", script); /* for pages of several plots */
+        jox_quote_put(script, jox_quote_gnuplot, title);
         fprintf(script, "\nset datafile separator comma\nset grid\n%s", body.data ? body.data : "");
         fputs("unset multiplot\nset output\n", script);
     }
@@ -27,10 +30,18 @@ static bool write_script(const JoxProbe *p, const char *folder, const char *name
     return jox_plot_close(script, name, error);
 }
 
+void jox_probe_stem(const JoxProbe *p, char stem[JOX_PROBE_STEM]) {
+    JoxText name = {0};
+    jox_quote_file_name(&name, jox_probe_def(p)->name);
+    snprintf(stem, JOX_PROBE_STEM, "%s", name.data);
+    jox_text_free(&name);
+}
+
 bool jox_probe_write(const JoxProbe *p, const char *folder, const JoxWalls *walls,
                      const char *title, JoxText *error) {
-    char name[128], heading[400];
-    snprintf(name, sizeof name, "%s.csv", jox_probe_def(p)->name);
+    char stem[JOX_PROBE_STEM], name[128], heading[400];
+    jox_probe_stem(p, stem);
+    snprintf(name, sizeof name, "%s.csv", stem);
     FILE *file = jox_plot_open(folder, name, error);
     if (!file)
         return false;
@@ -42,8 +53,8 @@ bool jox_probe_write(const JoxProbe *p, const char *folder, const JoxWalls *wall
     bool drawn = walls && walls->ring_count > 0;
     if (drawn && !jox_plot_walls(folder, walls, error))
         return false;
-    snprintf(name, sizeof name, "%s.plt", jox_probe_def(p)->name);
+    snprintf(name, sizeof name, "%s.plt", stem);
     snprintf(heading, sizeof heading, "%.200s: %.100s", title, jox_probe_def(p)->name);
-    return write_script(p, folder, name, drawn, heading, error) &&
+    return write_script(p, folder, stem, drawn, heading, error) &&
            jox_plot_draw(folder, name, error);
 }

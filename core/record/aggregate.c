@@ -1,77 +1,175 @@
 #include "record/aggregate.h"
 
+#include <fnmatch.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/json.h"
+#include "base/json_writer.h"
 #include "base/mem.h"
 
-/* Numbers by path; values[k] of the k-th text. */
-typedef struct Figure {
+/* What a number of a summary is, by its path; the first row that fits holds. Figures are statistics
+   of a run, of which a mean makes sense. All else is listed: what the run was given, texts, and
+   coordinates, whose mean would be a place where nothing was. `*` stands for any characters. */
+static const struct {
+    const char *path;
+    bool is_figure;
+} KINDS[] = {
+    {"danger.samples", false}, {"danger.limits.*.limit", false},
+    {"danger.*_x", false},     {"danger.*_y", false},
+    {"probes.*_x", false},     {"probes.*_y", false},
+    {"agents", true},          {"bodies", true},
+    {"wall_s", true},          {"cpu_s", true},
+    {"steps_per_s", true},     {"ns_per_agent_step", true},
+    {"stage_ns.*", true},      {"lp_failure_*", true},
+    {"density_max", true},     {"overlap_p99", true},
+    {"states.*", true},        {"transitions.*", true},
+    {"regions.*", true},       {"events.*", true},
+    {"bonds.*", true},         {"exchange.*", true},
+    {"danger.*", true},        {"lua.*", true},
+    {"probes.*", true},
+};
+
+static bool is_figure(const char *path) {
+    for (size_t k = 0; k < sizeof KINDS / sizeof *KINDS; k++)
+        if (fnmatch(KINDS[k].path, path, 0) == 0)
+            return KINDS[k].is_figure;
+    return false;
+}
+
+typedef struct Value {
+    JoxJsonKind kind;
+    double number;
+    char *text; /* of a text, else NULL */
+    bool known; /* the run has it */
+} Value;
+
+/* What all runs have at a path: values[k] of the k-th text. */
+typedef struct Entry {
     char *path;
-    double *values;
-    size_t count;
-} Figure;
+    Value *values;
+    bool is_figure;
+} Entry;
 
 typedef struct Reader {
-    Figure *figures;
+    Entry *entries;
     size_t count, capacity, texts, text; /* `text`: the one being read */
-    bool bad;
 } Reader;
 
-static void add_number(void *context, const char *path, double value) {
+static bool add_item(void *context, const JoxJsonItem *item) {
     Reader *r = context;
-    size_t f = 0;
-    while (f < r->count && strcmp(r->figures[f].path, path) != 0)
-        f++;
-    if (f == r->count && r->text == 0) {
-        JOX_RESERVE(r->figures, r->capacity, r->count + 1);
-        r->figures[r->count++] = (Figure){jox_strdup(path), jox_alloc(r->texts, sizeof(double)), 0};
+    size_t e = 0;
+    if (item->kind == JOX_JSON_OBJECT || item->kind == JOX_JSON_ARRAY)
+        return true;
+    while (e < r->count && strcmp(r->entries[e].path, item->path) != 0)
+        e++;
+    if (e == r->count) {
+        JOX_RESERVE(r->entries, r->capacity, r->count + 1);
+        r->entries[r->count++] = (Entry){jox_strdup(item->path), jox_alloc(r->texts, sizeof(Value)),
+                                         is_figure(item->path)};
     }
-    /* Those that an earlier text lacks, or that this one repeats, are left out. */
-    if (f < r->count && r->figures[f].count == r->text)
-        r->figures[f].values[r->figures[f].count++] = value;
+    Value *value = &r->entries[e].values[r->text];
+    if (!value->known) /* else a key that is repeated */
+        *value = (Value){item->kind, item->number, jox_strdup(item->text), true};
+    return true;
 }
+
+/* ---- writing ---- */
 
 static int ascending(const void *a, const void *b) {
     double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
 }
 
-/* Between the ranks about share * (n - 1). */
-static double quantile(const Figure *f, double share) {
-    double at = share * (double)(f->count - 1);
-    size_t low = (size_t)at, high = low + 1 < f->count ? low + 1 : low;
-    return f->values[low] + (at - (double)low) * (f->values[high] - f->values[low]);
+/* Between the ranks about share * (count - 1). */
+static double quantile(const double *values, size_t count, double share) {
+    double at = share * (double)(count - 1);
+    size_t low = (size_t)at, high = low + 1 < count ? low + 1 : low;
+    return values[low] + (at - (double)low) * (values[high] - values[low]);
+}
+
+/* Where all runs have a number. */
+static void put_figure(JoxJson *json, const Entry *entry, size_t count, double *numbers) {
+    double sum = 0.0;
+    for (size_t k = 0; k < count; k++) {
+        if (entry->values[k].kind != JOX_JSON_NUMBER)
+            return;
+        sum += numbers[k] = entry->values[k].number;
+    }
+    qsort(numbers, count, sizeof *numbers, ascending);
+    jox_json_object(json, entry->path);
+    jox_json_number(json, "mean", sum / (double)count);
+    jox_json_number(json, "p5", quantile(numbers, count, 0.05));
+    jox_json_number(json, "p95", quantile(numbers, count, 0.95));
+    jox_json_end(json);
+}
+
+static bool same(const Value *a, const Value *b) {
+    return a->kind == b->kind && a->number == b->number && !a->text == !b->text &&
+           (!a->text || strcmp(a->text, b->text) == 0);
+}
+
+static void put_value(JoxJson *json, const char *key, const Value *value) {
+    if (value->kind == JOX_JSON_TEXT)
+        jox_json_string(json, key, value->text);
+    else if (value->kind == JOX_JSON_NUMBER)
+        jox_json_digits(json, key, value->number, 15);
+    else if (value->kind == JOX_JSON_BOOL)
+        jox_json_bool(json, key, value->number != 0.0);
+    else
+        jox_json_null(json, key);
+}
+
+/* Once where all runs agree, else a list by run. */
+static void put_given(JoxJson *json, const Entry *entry, size_t count) {
+    bool equal = true;
+    for (size_t k = 1; k < count; k++)
+        equal = equal && same(&entry->values[k], &entry->values[0]);
+    if (equal) {
+        put_value(json, entry->path, &entry->values[0]);
+        return;
+    }
+    jox_json_array(json, entry->path);
+    for (size_t k = 0; k < count; k++)
+        put_value(json, NULL, &entry->values[k]);
+    jox_json_end(json);
+}
+
+static void write_all(const Reader *r, size_t count, JoxText *out) {
+    double *numbers = jox_alloc(count + 1, sizeof *numbers);
+    JoxJson json = jox_json_begin(out, 2);
+    jox_json_object(&json, NULL);
+    jox_json_whole(&json, "runs", count);
+    jox_json_object(&json, "given");
+    for (size_t e = 0; e < r->count; e++)
+        if (!r->entries[e].is_figure)
+            put_given(&json, &r->entries[e], count);
+    jox_json_end(&json);
+    jox_json_object(&json, "figures");
+    for (size_t e = 0; e < r->count; e++)
+        if (r->entries[e].is_figure)
+            put_figure(&json, &r->entries[e], count, numbers);
+    jox_json_end(&json);
+    jox_json_end(&json);
+    jox_text_add(out, "\n");
+    jox_free(numbers);
 }
 
 bool jox_aggregate(const char *const *texts, size_t count, JoxText *out) {
+    static const JoxJsonLimits SUMMARY = {.length = 1 << 26, .items = 1 << 20, .depth = 16};
     Reader r = {.texts = count};
-    for (size_t t = 0; t < count && !r.bad; t++) {
-        r.text = t;
-        r.bad = !jox_json_numbers(texts[t], add_number, &r);
+    bool good = true;
+    for (; r.text < count && good; r.text++)
+        good = jox_json_read(texts[r.text], SUMMARY, add_item, &r);
+    if (good)
+        write_all(&r, count, out);
+    for (size_t e = 0; e < r.count; e++) {
+        for (size_t k = 0; k < count; k++)
+            jox_free(r.entries[e].values[k].text);
+        jox_free(r.entries[e].values);
+        jox_free(r.entries[e].path);
     }
-    jox_text_printf(out, "{\n \"runs\": %zu,\n \"figures\": {", count);
-    bool first = true;
-    for (size_t f = 0; f < r.count; f++) {
-        Figure *figure = &r.figures[f];
-        if (figure->count == count && !r.bad) {
-            double sum = 0.0;
-            qsort(figure->values, count, sizeof *figure->values, ascending);
-            for (size_t k = 0; k < count; k++)
-                sum += figure->values[k];
-            jox_text_add(out, first ? "\n  " : ",\n  ");
-            jox_text_json(out, figure->path);
-            jox_text_printf(out, ": {\"mean\": %.9g, \"p5\": %.9g, \"p95\": %.9g}",
-                            sum / (double)count, quantile(figure, 0.05), quantile(figure, 0.95));
-            first = false;
-        }
-        jox_free(figure->path);
-        jox_free(figure->values);
-    }
-    jox_free(r.figures);
-    jox_text_add(out, "\n }\n}\n");
-    return !r.bad;
+    jox_free(r.entries);
+    return good;
 }

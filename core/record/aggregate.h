@@ -1,4 +1,4 @@
-/* Figures of several summaries, joined. */
+/* Summaries of several runs, joined. */
 #ifndef JOX_RECORD_AGGREGATE_H
 #define JOX_RECORD_AGGREGATE_H
 
@@ -7,8 +7,10 @@
 
 #include "base/text.h"
 
-/* Each text is a JSON object; writes one object with, for every number that all of them hold, its
-   dotted path: {mean, p5, p95} (linear between ranks). False if a text is not JSON. */
+/* Each text is a summary: a JSON object. Writes one object by dotted paths: "figures", which are
+   statistics of a run, have {mean, p5, p95} (linear between ranks) where every run has a number;
+   all else is in "given", once where the runs agree, else as a list with null where a run has
+   none. False, and nothing written, if a text is no JSON object. */
 bool jox_aggregate(const char *const *texts, size_t count, JoxText *out);
 
 #endif

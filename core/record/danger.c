@@ -72,9 +72,16 @@ void jox_exits_free(JoxExits *exits) {
     *exits = (JoxExits){0};
 }
 
-void jox_exits_json(const JoxExits *exits, JoxText *out) {
-    jox_text_printf(out, "\"left\": %llu, \"clearance_s\": ", (unsigned long long)exits->left);
+double jox_exits_clearance(const JoxExits *exits, uint32_t inside) {
+    return exits->left && inside == 0 ? exits->last : NAN;
+}
+
+void jox_exits_json(const JoxExits *exits, uint32_t inside, JoxText *out) {
+    jox_text_printf(out, "\"left\": %llu, \"inside\": %u, \"last_left_s\": ",
+                    (unsigned long long)exits->left, inside);
     jox_text_json_number(out, exits->left ? exits->last : NAN);
+    jox_text_add(out, ", \"clearance_s\": ");
+    jox_text_json_number(out, jox_exits_clearance(exits, inside));
     jox_text_add(out, ", \"exits\": {");
     for (uint32_t e = 0; e < exits->count; e++) {
         jox_text_add(out, e ? ", " : "");

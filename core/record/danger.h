@@ -57,8 +57,10 @@ typedef struct JoxExits {
 /* The exit of a name, made where there is none. */
 struct JoxExit *jox_exits_get(JoxExits *exits, const char *name);
 void jox_exits_free(JoxExits *exits);
-/* Adds "left": ..., "clearance_s": ..., "exits": {...}. */
-void jox_exits_json(const JoxExits *exits, JoxText *out);
+/* When the last of all left, s; NAN while `inside` people are still there, or where nobody left. */
+double jox_exits_clearance(const JoxExits *exits, uint32_t inside);
+/* Adds "left": ..., "inside": ..., "last_left_s": ..., "clearance_s": ..., "exits": {...}. */
+void jox_exits_json(const JoxExits *exits, uint32_t inside, JoxText *out);
 
 typedef struct JoxDangerCount {
     uint32_t people; /* who were ever over the limit */

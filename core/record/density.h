@@ -18,7 +18,10 @@ typedef struct JoxDensity {
     double *sum; /* over frames */
     uint32_t frames;
     float *kernel;         /* along one axis, by position within a cell */
+    float *centred;        /* the same of somebody in the middle of a cell */
     int reach;             /* cells */
+    float *lines;          /* of a frame: spread along x alone; `reach` more rows at either side */
+    uint32_t *from, *to;   /* by row of `lines`: the columns that are not empty */
     float most, most_mean; /* greatest value of any frame */
     JoxV2 most_at;
     double most_time; /* s */
@@ -30,7 +33,8 @@ JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel);
  */
 void jox_density_spread(const JoxDensity *density, float *const *fields, const float *weights,
                         int count, float x, float y);
-/* Adds a frame of `count` positions at time t, s. */
+/* Adds a frame of `count` positions at time t, s. People are spread along x from where they stand,
+   then along y from the middle of their row of cells, which is quick. */
 void jox_density_add(JoxDensity *density, const float *x, const float *y, uint32_t count, double t);
 /* Mean of all frames at a cell; 0 before the first. */
 double jox_density_mean(const JoxDensity *density, uint32_t column, uint32_t row);

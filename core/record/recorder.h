@@ -50,7 +50,11 @@ bool jox_recorder_put(JoxRecorder *recorder, uint32_t frame, JoxText *error);
 /* Writes what is left and closes. False with `error` if anything was lost. */
 bool jox_recorder_close(JoxRecorder *recorder, JoxText *error);
 
-/* One POLYGON: the box about everything (or `low`, `high`), with a hole for each solid. */
+/* The walkable area as well-known text: one POLYGON, the box about everything (or `low`, `high`),
+   with a hole for each solid. */
 void jox_wkt(const JoxWalls *walls, JoxV2 low, JoxV2 high, JoxText *out);
+/* Of walls with outlines: a POLYGON or MULTIPOLYGON of these, with a hole for each solid that lies
+   within one. */
+void jox_wkt_outlines(const JoxWalls *walls, JoxText *out);
 
 #endif

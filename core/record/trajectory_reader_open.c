@@ -186,15 +186,14 @@ static void read_walls(JoxTrajectoryReader *r) {
 }
 
 static void read_bounds(JoxTrajectoryReader *r) {
-    static const char *const KEYS[] = {"xmin", "ymin", "xmax", "ymax"};
+#define BOUND(key) "SELECT CAST(value AS REAL) FROM metadata WHERE key = '" key "'"
+    static const char *const QUESTIONS[] = {BOUND("xmin"), BOUND("ymin"), BOUND("xmax"),
+                                            BOUND("ymax")};
+#undef BOUND
     double bounds[4];
     r->bounded = true;
-    for (int k = 0; k < 4; k++) {
-        JoxText sql = {0};
-        jox_text_printf(&sql, "SELECT CAST(value AS REAL) FROM metadata WHERE key = '%s'", KEYS[k]);
-        r->bounded &= ask(r->db, sql.data, &bounds[k]) && fabs(bounds[k]) < 1e6;
-        jox_text_free(&sql);
-    }
+    for (int k = 0; k < 4; k++)
+        r->bounded &= ask(r->db, QUESTIONS[k], &bounds[k]) && fabs(bounds[k]) < 1e6;
     r->bounded = r->bounded && bounds[0] <= bounds[2] && bounds[1] <= bounds[3];
     if (r->bounded) {
         r->low = (JoxV2){(float)bounds[0], (float)bounds[1]};

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/quote.h"
 #include "picture/plot.h"
 #include "record/danger_parts.h"
 #include "report/danger_files.h"
@@ -11,12 +12,6 @@ enum { MOST_CELLS_DRAWN = 250000, STRIP = 260, PANEL = 620 };
 
 static const char *const WHAT[] = {"density (1/m^2)", "crowd pressure (1/s^2)",
                                    "compression held for 1 s (N/m)"};
-
-/* Names of exits are cells of a CSV file. */
-static void put_name(FILE *out, const char *name) {
-    for (; *name; name++)
-        fputc(*name == ',' || *name == '"' || (unsigned char)*name < ' ' ? '_' : *name, out);
-}
 
 static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "danger.csv", error);
@@ -29,8 +24,11 @@ static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) 
         fprintf(out, ",over_%s", jox_danger_limits[l].key);
     fputs(",left", out);
     for (uint32_t e = 0; e < d->exit_count; e++) {
-        fputs(",left_", out);
-        put_name(out, d->exit_names[e]);
+        JoxText head = {0};
+        jox_text_printf(&head, "left_%s", d->exit_names[e]);
+        fputc(',', out);
+        jox_quote_put(out, jox_quote_csv, head.data);
+        jox_text_free(&head);
     }
     fputc('\n', out);
     for (uint32_t r = 0; r < d->row_count; r++) {
@@ -86,11 +84,9 @@ static bool write_map(const JoxDanger *d, const char *folder, JoxText *error) {
 /* Opens a script and says, for PNG and SVG, how large and under which title. */
 static void begin_picture(FILE *script, const char *name, bool svg, int width, int height,
                           const char *title) {
-    fprintf(script, "reset\nset terminal %s size %d,%d font 'sans,%d'\nset output '%s.%s'\n",
-            svg ? "svg background '#ffffff'" : "pngcairo", width, height, svg ? 13 : 12, name,
-            svg ? "svg" : "png");
+    jox_plot_begin(script, name, svg, width, height);
     fputs("set datafile separator comma\nheading = ", script);
-    jox_plot_quote(script, title);
+    jox_quote_put(script, jox_quote_gnuplot, title);
     fputc('\n', script);
 }
 
@@ -162,7 +158,7 @@ static void leavers(const JoxDanger *d, FILE *script) {
     fprintf(script, "%d with lines lw 2 lc 'black' title 'all'", column);
     for (uint32_t e = 0; e < d->exit_count; e++) {
         fprintf(script, ", '' skip 1 using 1:%d with lines lw 2 title ", column + 1 + (int)e);
-        jox_plot_quote(script, d->exit_names[e]);
+        jox_quote_put(script, jox_quote_gnuplot, d->exit_names[e]);
         fputs(" noenhanced", script);
     }
     fputc('\n', script);

@@ -16,15 +16,14 @@ static JoxPageFigures collect(const JoScene *scene) {
     const JoxStatistics *s = &scene->world->state.statistics;
     JoxPageFigures f = {0};
     jox_page_add(&f, "", scene->world->state.agents.count, "people at the end");
-    const JoxDensity *density = jox_run_density(scene);
     const JoxRegions *regions = jox_run_regions(scene);
-    jox_page_add(&f, "1/m2", density && density->most > 0.0f ? density->most : NAN,
+    jox_page_add(&f, "1/m2", jox_run_density_max(scene),
                  "greatest density (Gaussian kernel, R = 1.5 m)");
     jox_page_add(&f, "", jox_statistics_overlap_p99(s),
                  "overlap that 99 %% stay below, share of a diameter");
     jox_page_add(&f, "", s->agent_steps ? (double)s->failures / (double)s->agent_steps : NAN,
                  "share of agent-steps whose 2-D program failed");
-    jox_page_add_exits(&f, &scene->exits);
+    jox_page_add_exits(&f, &scene->exits, scene->world->state.agents.count);
     jox_page_add_danger(&f, jox_run_danger(scene));
     for (uint32_t r = 0; regions && r < regions->count; r++)
         jox_page_add(&f, "m/s",
@@ -52,7 +51,7 @@ static void put_change(FILE *out, double whole, double half) {
 static void put_figures(FILE *out, const JoScene *scene, const JoScene *half, const char *why) {
     JoxPageFigures whole = collect(scene), other = {0};
     char heads[128], text[512];
-    jox_html_heading(out, "JoxPageFigures");
+    jox_html_heading(out, "Figures");
     if (half) {
         other = collect(half);
         snprintf(text, sizeof text,
@@ -73,14 +72,17 @@ static void put_figures(FILE *out, const JoScene *scene, const JoScene *half, co
         const JoxPageFigure *a = &whole.items[i];
         jox_html_row(out);
         jox_html_cell(out, a->name);
-        jox_html_cell_number(out, a->value, a->unit);
+        jox_page_value(out, a);
         if (!half)
             continue;
         /* by name: one run may have left somebody elsewhere, the other not */
         const JoxPageFigure *b = NULL;
         for (uint32_t k = 0; k < other.count && !b; k++)
             b = strcmp(other.items[k].name, a->name) == 0 ? &other.items[k] : NULL;
-        jox_html_cell_number(out, b ? b->value : NAN, a->unit);
+        if (b)
+            jox_page_value(out, b);
+        else
+            jox_html_cell_number(out, NAN, a->unit);
         put_change(out, a->value, b ? b->value : NAN);
     }
     jox_html_table_end(out);
@@ -105,12 +107,12 @@ static void put_inputs(FILE *out, const JoScene *scene) {
     const JoWorld *world = scene->world;
     jox_html_heading(out, "How to repeat it");
     fputs("<p><code>jostle run ", out);
-    jox_html_text(out, def->path);
+    jox_html_argument(out, def->path);
     fprintf(out, " --seed %llu --dt %g --steps %llu", (unsigned long long)world->model.def.seed,
             world->model.def.dt, (unsigned long long)world->state.statistics.steps);
     for (size_t i = 0; i < def->override_count; i++) {
         fputs(" --set ", out);
-        jox_html_text(out, def->overrides[i]);
+        jox_html_argument(out, def->overrides[i]);
     }
     fprintf(out, "</code>: state hash %016llx, whatever the number of threads.</p>\n",
             (unsigned long long)jox_world_hash(world));

@@ -8,6 +8,7 @@
 
 #include "base/mem.h"
 #include "picture/html.h"
+#include "picture/probe_files.h"
 
 /* ---- figures ---- */
 
@@ -18,13 +19,24 @@ void jox_page_add(JoxPageFigures *f, const char *unit, double value, const char 
     vsnprintf(name, sizeof name, format, arguments);
     va_end(arguments);
     JOX_RESERVE(f->items, f->capacity, f->count + 1);
-    f->items[f->count++] = (JoxPageFigure){jox_strdup(name), unit, value};
+    f->items[f->count++] = (JoxPageFigure){jox_strdup(name), unit, value, NULL};
 }
 
-void jox_page_add_exits(JoxPageFigures *f, const JoxExits *exits) {
+void jox_page_value(FILE *out, const JoxPageFigure *figure) {
+    if (figure->none && !isfinite(figure->value))
+        fprintf(out, "<td class=n>%s", figure->none);
+    else
+        jox_html_cell_number(out, figure->value, figure->unit);
+}
+
+void jox_page_add_exits(JoxPageFigures *f, const JoxExits *exits, uint32_t inside) {
     uint64_t known = 0;
     jox_page_add(f, "", (double)exits->left, "people who left");
-    jox_page_add(f, "s", exits->left ? exits->last : NAN, "clearance: when the last of them left");
+    jox_page_add(f, "", inside, "people still inside at the end");
+    jox_page_add(f, "s", exits->left ? exits->last : NAN, "when the last of those who left did so");
+    jox_page_add(f, "s", jox_exits_clearance(exits, inside), "clearance time: nobody is inside");
+    if (inside)
+        f->items[f->count - 1].none = "not cleared";
     for (uint32_t e = 0; e < exits->count; e++) {
         jox_page_add(f, "", exits->items[e].people, "people who left at %.60s",
                      exits->items[e].name);
@@ -126,7 +138,7 @@ static bool is_there(const char *directory, const char *file) {
 }
 
 void jox_page_picture(FILE *out, const char *directory, const char *name, const char *caption) {
-    char png[128], svg[128];
+    char png[140], svg[140];
     snprintf(png, sizeof png, "%s.png", name);
     snprintf(svg, sizeof svg, "%s.svg", name);
     if (is_there(directory, png))
@@ -139,10 +151,10 @@ void jox_page_danger_pictures(FILE *out, const char *directory) {
 }
 
 void jox_page_probe(FILE *out, const char *directory, const JoxProbe *probe) {
-    char caption[128];
-    const char *name = jox_probe_def(probe)->name;
-    snprintf(caption, sizeof caption, "Probe %.60s", name);
-    jox_page_picture(out, directory, name, caption);
+    char caption[128], stem[JOX_PROBE_STEM];
+    snprintf(caption, sizeof caption, "Probe %.60s", jox_probe_def(probe)->name);
+    jox_probe_stem(probe, stem);
+    jox_page_picture(out, directory, stem, caption);
 }
 
 void jox_page_validation(FILE *out) {

@@ -13,6 +13,7 @@ typedef struct JoxPageFigure {
     char *name;
     const char *unit;
     double value;
+    const char *none; /* said where there is no value; NULL: a dash */
 } JoxPageFigure;
 typedef struct JoxPageFigures {
     JoxPageFigure *items;
@@ -21,9 +22,12 @@ typedef struct JoxPageFigures {
 
 void jox_page_add(JoxPageFigures *f, const char *unit, double value, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-void jox_page_add_exits(JoxPageFigures *f, const JoxExits *exits);
+/* `inside`: people who are still there at the end. */
+void jox_page_add_exits(JoxPageFigures *f, const JoxExits *exits, uint32_t inside);
 void jox_page_add_danger(JoxPageFigures *f, const JoxDanger *danger);
 void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe);
+/* The cell with its value. */
+void jox_page_value(FILE *out, const JoxPageFigure *figure);
 void jox_page_release(JoxPageFigures *f);
 
 /* The section on danger: how it is measured, limits, greatest values. */

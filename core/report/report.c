@@ -197,7 +197,7 @@ static char *summary(const JoxReport *r) {
                     " \"fps\": %.9g,\n \"from_s\": %.9g,\n \"until_s\": %.9g",
                     jo_version(), t->people, t->frame_count, t->fps, first.time, last.time);
     jox_text_add(&out, ",\n \"danger\": {");
-    jox_exits_json(&r->exits, &out);
+    jox_exits_json(&r->exits, (uint32_t)(t->people - r->exits.left), &out);
     jox_text_add(&out, ",\n  ");
     jox_danger_json(r->danger, &out);
     jox_text_add(&out, "},\n \"probes\": {");

@@ -23,8 +23,7 @@ static JoxPageFigures collect(const JoxReport *r) {
     jox_page_add(&f, "", t->frame_count, "frames with people");
     jox_page_add(&f, "s", first.time, "first of them");
     jox_page_add(&f, "s", last.time, "last of them");
-    jox_page_add(&f, "", t->people - (double)r->exits.left, "people in the last frame");
-    jox_page_add_exits(&f, &r->exits);
+    jox_page_add_exits(&f, &r->exits, (uint32_t)(t->people - r->exits.left));
     jox_page_add_danger(&f, r->danger);
     for (uint32_t p = 0; p < r->count; p++)
         jox_page_add_probe(&f, r->probes[p]);
@@ -41,7 +40,7 @@ static void put_figures(FILE *out, const JoxReport *r) {
     for (uint32_t i = 0; i < f.count; i++) {
         jox_html_row(out);
         jox_html_cell(out, f.items[i].name);
-        jox_html_cell_number(out, f.items[i].value, f.items[i].unit);
+        jox_page_value(out, &f.items[i]);
     }
     jox_html_table_end(out);
     jox_page_release(&f);
@@ -84,10 +83,10 @@ static void put_inputs(FILE *out, const JoxReport *r) {
     char hash[65];
     jox_html_heading(out, "How to repeat it");
     fputs("<p><code>jostle report ", out);
-    jox_html_text(out, r->def->recording);
+    jox_html_argument(out, r->def->recording);
     if (r->def->scene) {
         fputs(" --scene ", out);
-        jox_html_text(out, r->def->scene);
+        jox_html_argument(out, r->def->scene);
     }
     if (r->def->fps > 0.0)
         fprintf(out, " --fps %g", r->def->fps);

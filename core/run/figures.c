@@ -7,6 +7,11 @@
 #include "run/run.h"
 
 static const double SAMPLE = 2.0; /* s between samples of density and of the regions' speeds */
+/* m between the points at which density_max is read, farther in areas of more than MOST_POINTS. The
+   kernel is smooth over that distance; a report's map has finer cells for its picture, and takes
+   six times as long. */
+static const float PEAK_CELL = 0.5f;
+static const float MOST_POINTS = 1e6f;
 
 /* Whether the frame of now is a sample. */
 static bool is_sample(const JoScene *scene) {
@@ -62,7 +67,7 @@ const JoxRegions *jox_run_regions(const JoScene *scene) {
     return r ? r->regions : NULL;
 }
 
-/* ---- density ---- */
+/* ---- density: of every run for its greatest value, and finer for a report's map ---- */
 
 typedef struct DensityField {
     JoxDensity *density;
@@ -74,6 +79,16 @@ static bool density_begin(void *self, JoScene *scene, const void *options, JoErr
     jox_run_area(scene, &low, &high);
     ((DensityField *)self)->density =
         jox_density_create(low, high, JOX_DENSITY_CELL, JOX_DENSITY_KERNEL);
+    return true;
+}
+
+static bool peak_begin(void *self, JoScene *scene, const void *options, JoError *error) {
+    JoxV2 low, high;
+    (void)options, (void)error;
+    jox_run_area(scene, &low, &high);
+    float cell = sqrtf((high.x - low.x) * (high.y - low.y) / MOST_POINTS);
+    ((DensityField *)self)->density =
+        jox_density_create(low, high, jox_maxf(cell, PEAK_CELL), JOX_DENSITY_KERNEL);
     return true;
 }
 
@@ -116,6 +131,39 @@ void jox_run_collect_density(JoScene *scene) {
 const JoxDensity *jox_run_density(const JoScene *scene) {
     const DensityField *field = jox_run_listener(scene, &DENSITY);
     return field ? field->density : NULL;
+}
+
+static const JoxListenerKind PEAK = {.name = "greatest density",
+                                     .size = sizeof(DensityField),
+                                     .begin = peak_begin,
+                                     .frame = density_frame,
+                                     .end = density_end,
+                                     .release = density_release};
+
+void jox_run_collect_peak(JoScene *scene) {
+    if (!jox_run_listener(scene, &PEAK))
+        jox_run_listen(scene, &PEAK, NULL, NULL);
+}
+
+const JoxDensity *jox_run_peak(const JoScene *scene) {
+    const DensityField *field = jox_run_listener(scene, &PEAK);
+    return field ? field->density : NULL;
+}
+
+double jox_run_density_max(const JoScene *scene) {
+    const JoxDensity *peak = jox_run_peak(scene);
+    const JoxAgents *a = &scene->world->state.agents;
+    if (!peak || peak->frames)
+        return peak ? peak->most : NAN;
+    /* no sample yet: that of the present */
+    JoxDensity *now = jox_density_create(
+        peak->low,
+        jox_add(peak->low, jox_scale((JoxV2){(float)peak->columns, (float)peak->rows}, peak->cell)),
+        peak->cell, JOX_DENSITY_KERNEL);
+    jox_density_add(now, a->x, a->y, a->count, jo_world_time(scene->world));
+    double most = now->most;
+    jox_density_free(now);
+    return most;
 }
 
 /* ---- danger ---- */

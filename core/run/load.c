@@ -156,6 +156,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         jox_run_check_names(scene, diagnostics);
         jox_run_name_events(scene, diagnostics);
         jox_run_collect_regions(scene);
+        jox_run_collect_peak(scene);
         jox_run_collect_probes(scene);
     }
 }
@@ -265,11 +266,38 @@ static void leave_out(const JoSceneDef *def, uint64_t without, int32_t culprit,
     }
     jox_diag_move(problems, diagnostics);
     const JoxPosition at = {mod->folder, 0, 0, 0};
-    jox_diag_note(problems, at, "mod-left-out", "mod %s is left out%s; the run goes on without",
-                  mod->name, others);
+    jox_diag_note(problems, at, "mod-left-out", "mod %s is left out%s", mod->name, others);
     jox_mods_free(before);
     jox_mods_free(after);
     jox_diag_free(&ignored);
+}
+
+static bool is_missing_mod(const JoxMods *mods, const char *name) {
+    return !strchr(name, '/') && jox_mods_index(mods, name) < 0;
+}
+
+/* Whether the mods that the def names are all taken; else an error names one. Those that the user
+   turned on, or the scene names, may be missing. */
+static bool takes_named_mods(const JoSceneDef *def, const JoxMods *mods,
+                             JoxDiagnostics *diagnostics) {
+    for (size_t n = 0; n < def->mod_count; n++) {
+        const char *name = def->mods[n];
+        size_t length = strlen(name);
+        for (; length > 1 && name[length - 1] == '/'; length--)
+            continue;
+        bool taken = false;
+        for (uint32_t m = 0; m < mods->count && !taken; m++)
+            taken = strcmp(mods->items[m].name, name) == 0 ||
+                    (strncmp(mods->items[m].folder, name, length) == 0 &&
+                     !mods->items[m].folder[length]);
+        if (taken)
+            continue;
+        if (!is_missing_mod(mods, name)) /* that has been said */
+            jox_diag_error(diagnostics, ((JoxPosition){"--mod", 0, 0, 0}), "mod-not-taken", NULL,
+                           "mod '%.200s' was asked for and cannot be taken", name);
+        return false;
+    }
+    return true;
 }
 
 JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
@@ -287,11 +315,13 @@ JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
         if (scene || culprit < 0 || (without >> culprit & 1)) {
             jox_diag_move(&problems, &found);
             jox_diag_move(diagnostics, &now);
-            if (scene)
+            if (scene && takes_named_mods(def, scene->mods, &problems)) {
                 scene->mod_problems = problems;
-            else
-                jox_diag_move(diagnostics, &problems);
-            return scene;
+                return scene;
+            }
+            jox_diag_move(diagnostics, &problems);
+            jo_scene_free(scene);
+            return NULL;
         }
         jox_diag_free(&found);
         leave_out(def, without, culprit, &problems, &now);
@@ -368,7 +398,6 @@ JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError
         return NULL;
     }
     if (other) {
-        jox_run_collect_density(other);
         jox_run_collect_danger(other);
     }
     return other;

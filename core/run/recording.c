@@ -32,12 +32,29 @@ static void name_states(void *self, JoScene *scene, uint32_t index) {
         jox_recorder_state(r->recorder, r->base[index] + s, machine->name, machine->states[s].name);
 }
 
+/* The walkable area: that of the plan from which the scene has its walls, where all people are in
+   it and come into being there; else the box about everything. */
+static void write_area(const JoScene *scene, JoxText *wkt) {
+    const JoWorld *world = scene->world;
+    const JoxAgents *a = &world->state.agents;
+    const uint32_t sources = scene->spec->source_count;
+    JoxV2 low, high, *points = jox_alloc((size_t)a->count + sources + 1, sizeof *points);
+    for (uint32_t i = 0; i < a->count; i++)
+        points[i] = (JoxV2){a->x[i], a->y[i]};
+    for (uint32_t s = 0; s < sources; s++)
+        points[a->count + s] = world->model.places[scene->spec->sources[s].place].centre;
+    jox_run_area(scene, &low, &high);
+    if (jox_walls_outline_all(&world->scratch.walls, points, a->count + sources))
+        jox_wkt_outlines(&world->scratch.walls, wkt);
+    else
+        jox_wkt(&world->scratch.walls, low, high, wkt);
+    jox_free(points);
+}
+
 static bool begin(void *self, JoScene *scene, const void *path, JoError *error) {
     Recording *r = self;
-    JoxV2 low, high;
     JoxText wkt = {0}, why = {0};
-    jox_run_area(scene, &low, &high);
-    jox_wkt(&scene->world->scratch.walls, low, high, &wkt);
+    write_area(scene, &wkt);
     double dt = scene->world->model.def.dt;
     r->every = dt >= FRAME ? 1 : (uint32_t)(FRAME / dt + 0.5);
     r->recorder = jox_recorder_open(path, 1.0 / (dt * r->every), wkt.data, &why);

@@ -198,6 +198,11 @@ void jox_run_collect_danger(JoScene *scene);
 void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high); /* m */
 const JoxRegions *jox_run_regions(const JoScene *scene);
 const JoxDensity *jox_run_density(const JoScene *scene);
+/* Densities that every run samples, coarser than a report's map, and the greatest of any time,
+   1/m2: the figure density_max. */
+void jox_run_collect_peak(JoScene *scene);
+const JoxDensity *jox_run_peak(const JoScene *scene);
+double jox_run_density_max(const JoScene *scene);
 const JoxDanger *jox_run_danger(const JoScene *scene);
 /* probes.c: the same for probes. The n-th, or NULL behind the last. */
 void jox_run_collect_probes(JoScene *scene);

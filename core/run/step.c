@@ -34,3 +34,12 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
     bool good = !scene->world || jox_run_tell_end(scene, error);
     return jox_run_end_log(scene, good ? error : NULL) && good;
 }
+
+char *jo_scene_suspended(const JoScene *scene) {
+    JOX_REQUIRE(scene, NULL);
+    JoxText text = {0};
+    jox_lua_suspended(scene->lua, &text);
+    if (text.data)
+        jox_text_clean(text.data);
+    return text.data;
+}

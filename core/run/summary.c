@@ -91,6 +91,7 @@ static void add_events(JoxText *out, const JoScene *scene) {
     } events[] = {{"transitions", s->transitions},
                   {"kicks", s->kicks},
                   {"throws", s->throws},
+                  {"pickups", s->pickups},
                   {"hits", s->hits},
                   {"spawned", s->spawned},
                   {"removed", s->removed},
@@ -124,7 +125,7 @@ static void add_regions(JoxText *out, const JoScene *scene) {
 
 static void add_danger(JoxText *out, const JoScene *scene) {
     jox_text_add(out, ",\n \"danger\": {");
-    jox_exits_json(&scene->exits, out);
+    jox_exits_json(&scene->exits, scene->world->state.agents.count, out);
     if (jox_run_danger(scene)) {
         jox_text_add(out, ",\n  ");
         jox_danger_json(jox_run_danger(scene), out);
@@ -192,27 +193,6 @@ static void add_inputs(JoxText *out, const JoScene *scene) {
                         scene->mods->items[m].version);
     }
     jox_text_add(out, "]");
-}
-
-/* Greatest density of the frames sampled, or of the present one where none were. */
-static double density_max(const JoScene *scene) {
-    const JoxAgents *a = &scene->world->state.agents;
-    const JoxDensity *sampled = jox_run_density(scene);
-    if (sampled && sampled->most > 0.0f)
-        return sampled->most;
-    if (a->count == 0)
-        return 0.0;
-    JoxV2 low, high;
-    jox_bounds((JoxV2[]){{a->x[0], a->y[0]}}, 1, &low, &high);
-    for (uint32_t i = 0; i < a->count; i++) {
-        low = (JoxV2){jox_minf(low.x, a->x[i]), jox_minf(low.y, a->y[i])};
-        high = (JoxV2){jox_maxf(high.x, a->x[i]), jox_maxf(high.y, a->y[i])};
-    }
-    JoxDensity *density = jox_density_create(low, high, JOX_DENSITY_CELL, JOX_DENSITY_KERNEL);
-    jox_density_add(density, a->x, a->y, a->count, 0.0);
-    double most = density->most;
-    jox_density_free(density);
-    return most;
 }
 
 /* Of scenes in which people and bodies touched. */
@@ -299,7 +279,7 @@ char *jo_scene_summary(const JoScene *scene) {
     add_number(&out, "lp_failure_share",
                stats.agent_steps ? (double)s->failures / (double)stats.agent_steps : 0);
     add_number(&out, "lp_failure_peak", s->failure_peak);
-    add_number(&out, "density_max", density_max(scene));
+    add_number(&out, "density_max", jox_run_density_max(scene));
     add_number(&out, "overlap_p99", jox_statistics_overlap_p99(s));
     add_states(&out, world);
     add_transitions(&out, &world->machines);

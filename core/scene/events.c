@@ -80,7 +80,7 @@ void jox_load_walls(JoxLoad *l, const JoxYaml *list) {
         line = jox_yaml_get(map, "line");
         float height = (float)jox_key_number(r, map, "wall", "height");
         bool closed = jox_key_bool(r, map, "wall", "closed");
-        const char *name = jox_key_text(r, map, "wall", "name");
+        const char *name = jox_load_name(l, map, "wall", "name");
         bool open = jox_key_bool(r, map, "wall", "open");
         const JoxYaml *file = jox_yaml_get(map, "file");
         if (!solid + !line + !file != 2) {

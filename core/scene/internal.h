@@ -22,6 +22,8 @@ int32_t jox_load_place(const JoxLoad *load, const JoxYaml *name);
 int32_t jox_load_group(const JoxLoad *load, const JoxYaml *name);
 JoxSceneSet *jox_load_sets(const JoxLoad *load, const JoxYaml *map, bool numbers_only,
                            uint32_t *count);
+/* The text of a key that is a name; "" where it is missing, an error where it can be none. */
+char *jox_load_name(const JoxLoad *load, const JoxYaml *map, const char *owner, const char *key);
 char **jox_load_tags(const JoxLoad *load, const JoxYaml *node, uint32_t *count);
 /* populate.c: where a group's agents stand. */
 void jox_load_positions(const JoxLoad *load, const JoxYaml *map, JoxSceneGroup *group,

@@ -275,7 +275,8 @@ const size_t jox_scene_key_count = sizeof jox_scene_keys / sizeof *jox_scene_key
 
 const JoxOwner jox_scene_owners[] = {
     {"scene", "Scene", "A scene is one YAML file: the keys below, in any order. Anchors, aliases and `<<` work as "
-     "usual."},
+     "usual. Names of groups, places and all else have letters of any script, digits, spaces, _, - and . (no space, "
+     "- or . at the beginning)."},
     {"forces", "forces", "What pushes between agents do."},
     {"limits", "limits", "A script that needs more is stopped and named; the run goes on."},
     {"heatmap", "heatmap", "What the density map of a report shows."},

@@ -153,6 +153,7 @@ static void read_places(JoxLoad *l, const JoxYaml *map) {
     for (uint32_t i = 0; i < map->count; i++) {
         JoxPlace *place = &l->scene->places[i];
         place->name = jox_arena_text(l->reader.arena, map->keys[i]);
+        jox_scene_name(&l->reader, map->key_positions[i], "place", place->name);
         place->start = -1;
         read_place(l, map->items[i], place);
     }
@@ -169,6 +170,7 @@ static void read_regions(JoxLoad *l, const JoxYaml *map) {
     for (uint32_t i = 0; i < map->count; i++) {
         JoxSceneRegion *region = &l->scene->regions[l->scene->region_count];
         region->name = jox_arena_text(l->reader.arena, map->keys[i]);
+        jox_scene_name(&l->reader, map->key_positions[i], "region", region->name);
         region->points = jox_load_ring(l, map->items[i], &region->count);
         l->scene->region_count += region->points != NULL;
     }
@@ -316,12 +318,21 @@ JoxSceneSet *jox_load_sets(const JoxLoad *l, const JoxYaml *map, bool numbers_on
     return sets;
 }
 
+char *jox_load_name(const JoxLoad *l, const JoxYaml *map, const char *owner, const char *key) {
+    const char *name = jox_key_text(&l->reader, map, owner, key);
+    if (name && *name)
+        jox_scene_name(&l->reader, jox_yaml_get(map, key)->position, key, name);
+    return jox_arena_text(l->reader.arena, name);
+}
+
 char **jox_load_tags(const JoxLoad *l, const JoxYaml *node, uint32_t *count) {
     const JoxYaml *const *names;
     *count = jox_read_names(&l->reader, node, &names);
     char **tags = jox_arena_take(l->reader.arena, *count, sizeof *tags);
-    for (uint32_t i = 0; i < *count; i++)
+    for (uint32_t i = 0; i < *count; i++) {
         tags[i] = jox_arena_text(l->reader.arena, names[i]->text);
+        jox_scene_name(&l->reader, names[i]->position, "tag", tags[i]);
+    }
     return tags;
 }
 
@@ -333,7 +344,7 @@ static void read_group(JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group, uin
     read_mix(l, map, group);
     double facing = jox_key_number(&l->reader, map, "group", "facing");
     group->facing = (float)(facing * DEGREE);
-    group->team = jox_arena_text(l->reader.arena, jox_key_text(&l->reader, map, "group", "team"));
+    group->team = jox_load_name(l, map, "group", "team");
     group->party = (uint32_t)jox_key_number(&l->reader, map, "group", "party");
     group->tags = jox_load_tags(l, jox_yaml_get(map, "tags"), &group->tag_count);
     group->set = jox_load_sets(l, jox_yaml_get(map, "set"), false, &group->set_count);
@@ -352,6 +363,7 @@ static void read_groups(JoxLoad *l, const JoxYaml *map) {
     for (uint32_t i = 0; i < map->count; i++) {
         l->scene->groups[i].name = jox_arena_text(l->reader.arena, map->keys[i]);
         l->scene->groups[i].position = map->key_positions[i];
+        jox_scene_name(&l->reader, map->key_positions[i], "group", map->keys[i]);
         read_group(l, map->items[i], &l->scene->groups[i], i);
     }
 }

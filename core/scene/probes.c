@@ -24,12 +24,7 @@ static int word_of(const char *words, const char *word) {
 }
 
 static void check_name(const JoxLoad *l, const char *name, JoxPosition at) {
-    size_t good = strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-");
-    if (name[good] || good == 0 || good > 60)
-        jox_diag_error(l->reader.diagnostics, at, "bad-name",
-                       "Letters, digits, - and _, at most 60: files are named so",
-                       "'%.60s' is no name for a probe", name);
-    else if (word_of(TAKEN, name) >= 0)
+    if (jox_scene_name(&l->reader, at, "probe", name) && word_of(TAKEN, name) >= 0)
         jox_diag_error(l->reader.diagnostics, at, "bad-name", "Choose another",
                        "a report has a file of the name '%.60s' already", name);
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/name.h"
 void jox_scene_error(const JoxReader *reader, const JoxYaml *node, const char *code,
                      const char *hint, const char *format, ...) {
     char text[512];
@@ -14,6 +15,14 @@ void jox_scene_error(const JoxReader *reader, const JoxYaml *node, const char *c
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     jox_diag_error(reader->diagnostics, node->position, code, hint, "%s", text);
+}
+
+bool jox_scene_name(const JoxReader *reader, JoxPosition at, const char *what, const char *name) {
+    if (jox_name_is_plain(name))
+        return true;
+    jox_diag_error(reader->diagnostics, at, "bad-name", JOX_NAME_RULE,
+                   "'%.60s' is no name for a %s", name, what);
+    return false;
 }
 
 const char *jox_scene_suggest(const JoxReader *reader, const char *word, const char *const *names,

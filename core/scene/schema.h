@@ -104,6 +104,8 @@ bool jox_read_dist(const JoxReader *reader, const JoxYaml *node, JoxDist *out);
 void jox_scene_error(const JoxReader *reader, const JoxYaml *node, const char *code,
                      const char *hint, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
+/* Whether `name` can be that of a `what` ("group"); false with an error. */
+bool jox_scene_name(const JoxReader *reader, JoxPosition at, const char *what, const char *name);
 /* "Did you mean 'x'?" in a buffer of the arena, or NULL. */
 const char *jox_scene_suggest(const JoxReader *reader, const char *word, const char *const *names,
                               size_t count);

@@ -139,7 +139,7 @@ static void read_body(JoxLoad *l, const JoxYaml *map, JoxSceneBody *body) {
     body->position = map->position;
     if (!jox_keys_check(r, map, "body"))
         return;
-    body->def.name = jox_arena_text(r->arena, jox_key_text(r, map, "body", "name"));
+    body->def.name = jox_load_name(l, map, "body", "name");
     double mass = jox_key_number(r, map, "body", "mass");
     double density = jox_key_number(r, map, "body", "density");
     if (isfinite(mass) && isfinite(density))

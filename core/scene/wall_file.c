@@ -160,7 +160,7 @@ static bool take_ring(Parse *p, bool hole) {
     if (hole)
         jox_walls_add_solid(p->walls, p->points, p->count, p->options->height);
     else
-        jox_walls_add_polyline(p->walls, p->points, p->count, true, p->options->height);
+        jox_walls_add_outline(p->walls, p->points, p->count, p->options->height);
     return true;
 }
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/name.h"
 #include "geom/polygon.h"
 #include "scene/wall_file_parts.h"
 
@@ -263,8 +264,8 @@ static void begin_obstacle(Geometry *g, const char **attributes) {
 static void begin_door(Geometry *g, const char **attributes) {
     const char *id = attribute(attributes, "id");
     finish_line(g);
-    if (!id || !*id || strlen(id) > 40) {
-        wrong(g, "<transition id=\"1\" ...>", "a transition needs an id%s", "");
+    if (!id || !jox_name_is_plain(id) || strlen(id) > 40) {
+        wrong(g, "<transition id=\"1\" ...>", "a transition needs an id: letters and digits%s", "");
         return;
     }
     snprintf(g->door, sizeof g->door, "door-%s", id);

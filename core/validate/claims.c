@@ -119,16 +119,16 @@ static int push_runs(lua_State *L) {
 
 bool jox_claim_measure(const JoxClaim *claim, const char *const *folders, double *values,
                        JoxText *why) {
-    JoxVm *vm = claim->code->vm;
-    lua_State *L = vm->L;
+    JoxScript *script = claim->code->script;
+    lua_State *L = script->vm.L;
     const char *message = NULL;
     int line = 0;
     lua_settop(L, 0);
     lua_pushcfunction(L, push_runs);
     lua_pushlightuserdata(L, (void *)(uintptr_t)claim);
     lua_pushlightuserdata(L, (void *)(uintptr_t)folders);
-    bool good = jox_vm_call(vm, 2, 2, BUDGET, &message, &line) &&
-                jox_vm_call(vm, 1, 1, BUDGET, &message, &line);
+    bool good = jox_vm_call(&script->vm, 2, 2, BUDGET, &message, &line) &&
+                jox_vm_call(&script->vm, 1, 1, BUDGET, &message, &line);
     for (uint32_t f = 0; f < claim->figure_count; f++)
         values[f] = NAN;
     if (good && !lua_istable(L, -1)) {
@@ -154,41 +154,42 @@ bool jox_claim_measure(const JoxClaim *claim, const char *const *folders, double
 /* ---- the file ---- */
 
 static bool run_file(JoxClaim *claim, bool quick, JoxDiagnostics *diagnostics) {
-    JoxVm *vm = claim->code->vm;
+    JoxScript *script = claim->code->script;
     const char *why = NULL;
     int line = 0;
-    vm->untimed = true;
-    vm->diagnostics = diagnostics;
-    if (!jox_vm_read(vm, claim->path, NULL, 0, (JoxPosition){0}))
+    script->vm.untimed = true;
+    script->diagnostics = diagnostics;
+    if (!jox_script_read(script, claim->path, NULL, 0, (JoxPosition){0}))
         return false;
-    lua_pushlightuserdata(vm->L, claim);
-    lua_setfield(vm->L, LUA_REGISTRYINDEX, "jostle claim");
-    lua_pushboolean(vm->L, quick);
-    lua_setfield(vm->L, LUA_REGISTRYINDEX, "jostle quick");
-    lua_pushcfunction(vm->L, jox_claim_words);
-    bool good = jox_vm_call(vm, 0, 0, BUDGET, &why, &line) && jox_source_compile(vm, 0);
+    lua_pushlightuserdata(script->vm.L, claim);
+    lua_setfield(script->vm.L, LUA_REGISTRYINDEX, "jostle claim");
+    lua_pushboolean(script->vm.L, quick);
+    lua_setfield(script->vm.L, LUA_REGISTRYINDEX, "jostle quick");
+    lua_pushcfunction(script->vm.L, jox_claim_words);
+    bool good =
+        jox_vm_call(&script->vm, 0, 0, BUDGET, &why, &line) && jox_vm_compile(&script->vm, 0);
     if (!good && !why) {
-        int used = 0, number;
-        why = lua_tostring(vm->L, -1);
-        if (why && sscanf(why, "b%d:%d: %n", &number, &line, &used) == 2)
-            why += used;
+        size_t source;
+        why = lua_tostring(script->vm.L, -1);
+        if (why)
+            why = jox_vm_split(&script->vm, why, &line, &source);
     } else if (good) {
         static const JoxScope NO_SCOPE = {0};
-        vm->scope = &NO_SCOPE;
-        vm->loading = true; /* require works */
-        good = jox_vm_call(vm, 0, 0, BUDGET, &why, &line);
-        vm->loading = false;
+        script->scope = &NO_SCOPE;
+        script->vm.loading = true; /* require works */
+        good = jox_vm_call(&script->vm, 0, 0, BUDGET, &why, &line);
+        script->vm.loading = false;
         if (good && !claim->id) {
             good = false;
             why = "the file has no claim { id = ..., ... }";
         }
     }
-    vm->diagnostics = NULL;
+    script->diagnostics = NULL;
     if (!good) {
         jox_diag_error(diagnostics, ((JoxPosition){claim->path, line, 0, 0}), "bad-claim", NULL,
                        "%s", why ? why : "not enough memory");
-        jox_diag_attach_source(diagnostics, claim->path, vm->sources[0].text,
-                               vm->sources[0].length);
+        jox_diag_attach_source(diagnostics, claim->path, script->vm.sources[0]->text,
+                               script->vm.sources[0]->length);
     }
     return good;
 }
@@ -201,8 +202,8 @@ JoxClaim *jox_claim_load(const char *path, bool quick, JoxDiagnostics *diagnosti
     claim->path = jox_strdup(path);
     claim->code = jox_alloc(1, sizeof *claim->code);
     claim->code->lua = jox_lua_create(&limits);
-    claim->code->vm = jox_vm_create(claim->code->lua);
-    if (claim->code->vm && run_file(claim, quick, diagnostics))
+    claim->code->script = jox_script_create(claim->code->lua);
+    if (claim->code->script && run_file(claim, quick, diagnostics))
         return claim;
     jox_claim_free(claim);
     return NULL;
@@ -233,7 +234,7 @@ void jox_claim_free(JoxClaim *claim) {
                      claim->title, claim->source,  claim->text,     claim->tried};
     for (size_t k = 0; k < sizeof owned / sizeof *owned; k++)
         jox_free(owned[k]);
-    jox_vm_free(claim->code->vm);
+    jox_script_free(claim->code->script);
     jox_lua_free(claim->code->lua);
     jox_free(claim->code);
     jox_free(claim);

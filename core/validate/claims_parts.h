@@ -7,7 +7,7 @@
 
 struct JoxClaimCode {
     JoxLua *lua;
-    JoxVm *vm;
+    JoxScript *script;
     int measure; /* registry reference */
 };
 

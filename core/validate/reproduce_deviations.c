@@ -5,6 +5,7 @@
 
 #include "agents/parameters.h"
 #include "base/mem.h"
+#include "base/quote.h"
 #include "picture/html.h"
 #include "validate/reproduce.h"
 
@@ -49,8 +50,9 @@ static void add(Deviations *d, int parameter, const char *where, const char *val
     }
     if (row->last == d->claim->id)
         return;
-    jox_text_printf(&row->claims, "%s<a href=\"#c%u\">%s</a>", row->last ? ", " : "", d->number,
-                    d->claim->id);
+    jox_text_printf(&row->claims, "%s<a href=\"#c%u\">", row->last ? ", " : "", d->number);
+    jox_quote_xml(&row->claims, d->claim->id);
+    jox_text_add(&row->claims, "</a>");
     row->last = d->claim->id;
 }
 
@@ -198,7 +200,8 @@ static void put_row(FILE *out, const Row *row) {
     jox_html_text(out, row->value);
     fputs("</code>", out);
     jox_html_cell(out, row->where);
-    fprintf(out, "<td>%s", row->claims.data);
+    fputs("<td>", out);
+    fputs(row->claims.data, out); /* quoted where it was put together */
 }
 
 void jox_reproduce_deviations(const JoxReproduction *all, FILE *out) {

@@ -8,6 +8,7 @@
 
 #include "agents/parameters.h"
 #include "base/mem.h"
+#include "base/quote.h"
 #include "force/force.h"
 #include "picture/html.h"
 #include "picture/plot.h"
@@ -119,8 +120,11 @@ static void put_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome
             struct stat info;
             snprintf(path, sizeof path, "%s/%s", job->folder, claim->pictures[p].file);
             if (stat(path, &info) != 0) {
-                fprintf(out, "<p class=out>The run %s left no %s.</p>\n", claim->runs[r].name,
-                        claim->pictures[p].file);
+                fputs("<p class=out>The run ", out);
+                jox_html_text(out, claim->runs[r].name);
+                fputs(" left no ", out);
+                jox_html_text(out, claim->pictures[p].file);
+                fputs(".</p>\n", out);
                 continue;
             }
             const char *link = path + strlen(all->def->out) + 1;
@@ -137,17 +141,21 @@ static void put_runs(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
         const JoxClaimRun *run = &outcome->claim->runs[r];
         const JoxJob *job = &all->jobs[outcome->jobs[r][0]];
         size_t length;
-        fprintf(out, "<p><b>%s</b>: <code>jostle run ", run->name);
-        jox_html_text(out, run->scene);
+        fputs("<p><b>", out);
+        jox_html_text(out, run->name);
+        fputs("</b>: <code>jostle run ", out);
+        jox_html_argument(out, run->scene);
         if (run->dt > 0.0)
             fprintf(out, " --dt %g", run->dt);
         if (run->duration > 0.0)
             fprintf(out, " --for %g", run->duration);
         for (uint32_t s = 0; s < run->set_count; s++) {
             fputs(" --set ", out);
-            jox_html_text(out, run->sets[s]);
+            jox_html_argument(out, run->sets[s]);
         }
-        fprintf(out, "</code>, seeds 1 to %u, %s\n<pre>", run->seeds, job->folder);
+        fprintf(out, "</code>, seeds 1 to %u, ", run->seeds);
+        jox_html_text(out, job->folder);
+        fputs("\n<pre>", out);
         char *text = jox_read_file(run->scene, (size_t)1 << 20, &length);
         jox_html_text(out, text ? text : "");
         jox_free(text);
@@ -171,7 +179,9 @@ static void put_tried(FILE *out, const JoxOutcome *outcome) {
 
 static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
-    fprintf(out, "<h2 id=\"c%u\">%s: ", (unsigned)(outcome - all->outcomes), claim->id);
+    fprintf(out, "<h2 id=\"c%u\">", (unsigned)(outcome - all->outcomes));
+    jox_html_text(out, claim->id);
+    fputs(": ", out);
     jox_html_text(out, claim->title);
     fprintf(out, " &ndash; <span class=%s>%s</span></h2>\n<p>", outcome->inside ? "in" : "out",
             outcome->inside ? "in band" : "misses");
@@ -219,13 +229,14 @@ static bool write_page(const JoxReproduction *all, const char *when, JoxText *er
     for (uint32_t o = 0; o < all->outcome_count; o++)
         inside += all->outcomes[o].inside;
     jox_html_begin(out, "What Jostle reproduces");
-    fprintf(out,
-            "<p>%u of %u claims in band. %s.</p>\n<div class=scroll><table><tr><th>claim<th>what"
-            "<th>source<th>verdict</tr>\n",
-            inside, all->outcome_count, when);
+    fprintf(out, "<p>%u of %u claims in band. ", inside, all->outcome_count);
+    jox_html_text(out, when);
+    fputs(".</p>\n<div class=scroll><table><tr><th>claim<th>what<th>source<th>verdict</tr>\n", out);
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         const JoxOutcome *outcome = &all->outcomes[o];
-        fprintf(out, "<tr><td><a href=\"#c%u\">%s</a><td>", o, outcome->claim->id);
+        fprintf(out, "<tr><td><a href=\"#c%u\">", o);
+        jox_html_text(out, outcome->claim->id);
+        fputs("</a><td>", out);
         jox_html_text(out, outcome->claim->title);
         fputs("<td>", out);
         jox_html_text(out, outcome->claim->source);
@@ -243,21 +254,30 @@ static bool write_page(const JoxReproduction *all, const char *when, JoxText *er
 
 /* ---- the table and the figures ---- */
 
+static void put_cell(FILE *out, const char *text) {
+    jox_quote_put(out, jox_quote_markdown, text);
+    fputs(" | ", out);
+}
+
 static bool write_table(const JoxReproduction *all, const char *when, JoxText *error) {
     FILE *out = jox_plot_open(all->def->out, "table.md", error);
     if (!out)
         return false;
-    fprintf(out,
-            "%s.\n\n| claim | figure | source | measured | band | verdict |\n"
-            "|---|---|---|---|---|---|\n",
-            when);
+    jox_quote_put(out, jox_quote_markdown, when);
+    fputs(
+        ".\n\n| claim | figure | source | measured | band | verdict |\n|---|---|---|---|---|---|\n",
+        out);
     for (uint32_t o = 0; o < all->outcome_count; o++)
         for (uint32_t f = 0; f < all->outcomes[o].claim->figure_count; f++) {
             const JoxClaim *claim = all->outcomes[o].claim;
             const JoxClaimFigure *figure = &claim->figures[f];
             const JoxVerdict *v = &all->outcomes[o].verdicts[f];
-            fprintf(out, "| %s %s | %s | %s | ", f ? "" : claim->id, f ? "" : claim->title,
-                    *figure->what ? figure->what : figure->name, figure->expected);
+            fputs("| ", out);
+            jox_quote_put(out, jox_quote_markdown, f ? "" : claim->id);
+            fputc(' ', out);
+            put_cell(out, f ? "" : claim->title);
+            put_cell(out, *figure->what ? figure->what : figure->name);
+            put_cell(out, figure->expected);
             if (isfinite(v->mean))
                 fprintf(out, "%.4g (%.4g to %.4g) %s | ", v->mean, v->least, v->most, figure->unit);
             else

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/quote.h"
 #include "picture/plot.h"
 #include "validate/reproduce.h"
 
@@ -70,9 +71,10 @@ static bool same_bands(const JoxClaim *claim, const JoxClaimCurve *a, const JoxC
 
 static void part(FILE *out, const char *name, bool *first, uint32_t index, const char *how,
                  const char *label) {
-    fprintf(out, "%s'%s.dat' index %u using %s title ", *first ? "plot " : ", \\\n  ", name, index,
-            how);
-    jox_plot_quote(out, label);
+    fputs(*first ? "plot " : ", \\\n  ", out);
+    jox_plot_file(out, name, "dat");
+    fprintf(out, " index %u using %s title ", index, how);
+    jox_quote_put(out, jox_quote_gnuplot, label);
     fputs(" noenhanced", out);
     *first = false;
 }
@@ -178,13 +180,14 @@ static void draw_map(const JoxOutcome *outcome, const JoxClaimPlot *plot, const 
         return;
     }
     fputs("set palette defined (0 '#ffffff', 1 '#f0a050')\nset cblabel ", out);
-    jox_plot_quote(out, plot->z);
-    fprintf(out,
-            " noenhanced\nset cbrange [%g:%g]\nunset key\n"
-            "plot '%s.dat' using 1:2:3 with image, '' using 1:2:($3 == $3 ? sprintf('%%.3g', $3) : "
-            "'-') with labels "
-            "font ',14'\n",
-            fmin(least, 0.0), most > fmin(least, 0.0) ? most : fmin(least, 0.0) + 1.0, name);
+    jox_quote_put(out, jox_quote_gnuplot, plot->z);
+    fprintf(out, " noenhanced\nset cbrange [%g:%g]\nunset key\nplot ", fmin(least, 0.0),
+            most > fmin(least, 0.0) ? most : fmin(least, 0.0) + 1.0);
+    jox_plot_file(out, name, "dat");
+    fputs(
+        " using 1:2:3 with image, '' using 1:2:($3 == $3 ? sprintf('%.3g', $3) : '-') with labels "
+        "font ',14'\n",
+        out);
 }
 
 /* ---- all ---- */
@@ -207,12 +210,12 @@ static bool draw(const JoxOutcome *outcome, const JoxClaimPlot *plot, const char
     snprintf(file, sizeof file, "%s.plt", name);
     if (!(out = jox_plot_open(folder, file, error)))
         return false;
-    fprintf(out, "set terminal pngcairo size 900,640 font 'sans,12'\nset output '%s.png'\n", name);
+    jox_plot_begin(out, name, false, 900, 640);
     jox_plot_title(out, plot->title);
     fputs("set xlabel ", out);
-    jox_plot_quote(out, plot->x);
+    jox_quote_put(out, jox_quote_gnuplot, plot->x);
     fputs(" noenhanced\nset ylabel ", out);
-    jox_plot_quote(out, plot->y);
+    jox_quote_put(out, jox_quote_gnuplot, plot->y);
     fputs(" noenhanced\n", out);
     if (map)
         draw_map(outcome, plot, name, out);

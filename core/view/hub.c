@@ -117,34 +117,34 @@ void jox_view_publish(JoxView *view, uint32_t channel, const void *bytes, size_t
         unseen->next = to->spare;
         to->spare = unseen;
     }
-    jox_transport_wake(view);
+    view->wake_transport(view);
 }
 
-static void post(JoxView *view, JoxDeed deed, uint32_t client, uint32_t mask, const void *data,
+static void post(JoxView *view, JoxRequest request, uint32_t client, uint32_t mask, const void *data,
                  size_t length) {
     JoxMessage *message = jox_message_create(length);
     if (length)
         memcpy(message->data, data, length);
-    message->what = deed;
+    message->what = request;
     message->client = client;
     message->mask = mask;
     message->epoch = view->epoch;
     jox_post_put(&view->out, message);
-    jox_transport_wake(view);
+    view->wake_transport(view);
 }
 
 void jox_view_send(JoxView *view, uint32_t client, const char *text) {
     if (jox_view_clients(view))
-        post(view, JOX_DEED_TEXT, client, 0, text, strlen(text));
+        post(view, JOX_REQUEST_TEXT, client, 0, text, strlen(text));
 }
 
 void jox_view_send_bytes(JoxView *view, uint32_t client, const void *bytes, size_t length) {
     if (jox_view_clients(view))
-        post(view, JOX_DEED_BYTES, client, 0, bytes, length);
+        post(view, JOX_REQUEST_BYTES, client, 0, bytes, length);
 }
 
 void jox_view_listen(JoxView *view, uint32_t client, uint32_t channels) {
-    post(view, JOX_DEED_LISTEN, client, channels, NULL, 0);
+    post(view, JOX_REQUEST_LISTEN, client, channels, NULL, 0);
 }
 
 void jox_view_forget(JoxView *view) {
@@ -156,7 +156,7 @@ void jox_view_forget(JoxView *view) {
             view->channels[c].spare = unseen;
         }
     }
-    post(view, JOX_DEED_FORGET, JOX_VIEW_ALL, 0, NULL, 0);
+    post(view, JOX_REQUEST_FORGET, JOX_VIEW_ALL, 0, NULL, 0);
 }
 
 /* The serving thread calls this. */

@@ -15,18 +15,18 @@ enum {
     JOX_VIEW_RATE = 200           /* commands a second, of one client */
 };
 
-typedef enum JoxDeed { /* what a message asks of the serving thread */
-                       JOX_DEED_TEXT,
-                       JOX_DEED_BYTES,
-                       JOX_DEED_LISTEN,
-                       JOX_DEED_FORGET
-} JoxDeed;
+typedef enum JoxRequest { /* what a message asks of the serving thread */
+                          JOX_REQUEST_TEXT,
+                          JOX_REQUEST_BYTES,
+                          JOX_REQUEST_LISTEN,
+                          JOX_REQUEST_FORGET
+} JoxRequest;
 
 typedef struct JoxMessage {
     struct JoxMessage *next;
     size_t length, capacity;
     uint32_t client, refs;      /* refs: of the serving thread, for what is published */
-    uint32_t what;              /* JoxDeed, or JoxViewTaken on the way back */
+    uint32_t what;              /* JoxRequest, or JoxViewTaken on the way back */
     uint32_t mask, epoch;       /* epoch: how often all had been forgotten */
     struct JoxChannel *channel; /* NULL: not published */
     unsigned char data[];
@@ -75,6 +75,7 @@ struct JoxView {
     atomic_ullong dropped;
     atomic_bool stop;
     struct JoxTransport *transport;
+    void (*wake_transport)(JoxView *view); /* makes the serving thread look for messages */
     JoxClient *connected[JOX_VIEW_CLIENTS];
     uint32_t next_id;
     char token[33];
@@ -103,7 +104,5 @@ void jox_serving_leave(JoxView *view, JoxClient *client);
 /* A part of a message of the client; `now` in seconds. */
 void jox_serving_receive(JoxView *view, JoxClient *client, const void *data, size_t length,
                          bool last, bool text, double now);
-/* lws_server.c, or none.c: wakes the serving thread. */
-void jox_transport_wake(JoxView *view);
 
 #endif

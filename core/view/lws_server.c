@@ -126,7 +126,7 @@ static void *serve(void *argument) {
     return NULL;
 }
 
-void jox_transport_wake(JoxView *view) {
+static void wake(JoxView *view) {
     if (view->transport && view->transport->running)
         lws_cancel_service(view->transport->context);
 }
@@ -241,6 +241,7 @@ JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
         return NULL;
     JoxView *view = jox_view_create();
     view->transport = jox_alloc(1, sizeof *view->transport);
+    view->wake_transport = wake;
     view->any_host = options->address != NULL;
     snprintf(view->page, sizeof view->page, "%s", options->page);
     snprintf(view->three, sizeof view->three, "%s", options->three);

@@ -10,7 +10,3 @@ JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
 void jox_view_close(JoxView *view) {
     (void)view; /* there is none */
 }
-
-void jox_transport_wake(JoxView *view) {
-    (void)view;
-}

@@ -58,9 +58,9 @@ static void forget(JoxView *view, uint32_t epoch) {
 
 static void do_deed(JoxView *view, JoxMessage *message) {
     JoxClient *client = find(view, message->client);
-    switch ((JoxDeed)message->what) {
-    case JOX_DEED_TEXT:
-    case JOX_DEED_BYTES:
+    switch ((JoxRequest)message->what) {
+    case JOX_REQUEST_TEXT:
+    case JOX_REQUEST_BYTES:
         for (uint32_t c = 0; c < JOX_VIEW_CLIENTS && message->client == JOX_VIEW_ALL; c++)
             if (view->connected[c])
                 queue(view->connected[c], copy(message));
@@ -69,11 +69,11 @@ static void do_deed(JoxView *view, JoxMessage *message) {
             return;
         }
         break;
-    case JOX_DEED_LISTEN:
+    case JOX_REQUEST_LISTEN:
         if (client)
             client->mask = message->mask;
         break;
-    case JOX_DEED_FORGET:
+    case JOX_REQUEST_FORGET:
         forget(view, message->epoch);
         break;
     }
@@ -124,7 +124,7 @@ bool jox_serving_choose(JoxView *view, JoxClient *client) {
         client->sending = client->first;
         client->first = client->first->next;
         client->last = client->first ? client->last : NULL;
-        client->text = client->sending->what == JOX_DEED_TEXT;
+        client->text = client->sending->what == JOX_REQUEST_TEXT;
         return true;
     }
     uint32_t c = find_news(view, client);

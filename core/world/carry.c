@@ -38,14 +38,15 @@ void jox_world_carry(JoWorld *w) {
             continue;
         const JoxObject *object = &w->scratch.objects.rows[grip->object];
         if (grip->takes) {
-            jox_bodies_hold(w->state.bodies, grip->object, grip->agent_id);
+            w->state.statistics.pickups +=
+                jox_bodies_hold(w->state.bodies, grip->object, grip->agent_id);
             continue;
         }
         JoxV2 way = jox_unit((JoxV2){grip->velocity.x, grip->velocity.y});
         jox_bodies_carry(w->state.bodies, grip->object, before(a, i, object, way), grip->velocity);
         jox_bodies_let_go(w->state.bodies, grip->object, grip->velocity);
+        w->state.statistics.throws++;
     }
-    w->state.statistics.throws += w->machines.grip_count;
 }
 
 bool jox_world_throw(JoWorld *w, uint32_t row, const double from[3], const double velocity[3],

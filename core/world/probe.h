@@ -21,7 +21,7 @@ typedef enum JoxProbeKind {
 } JoxProbeKind;
 
 typedef struct JoxProbeDef {
-    const char *name; /* letters, digits, - and _: files are named so */
+    const char *name; /* files are named so */
     JoxProbeKind kind;
     const uint16_t *groups; /* indices of the scene's groups that are measured */
     uint32_t group_count;   /* 0: everyone */

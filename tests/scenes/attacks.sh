@@ -46,7 +46,7 @@ run() { # BEHAVIOUR: status in $status, seconds in $work/time, output in $work/o
     { time timeout $((20 * SLOWER)) "$JOSTLE" run "$yard/scene.yaml" --steps 40 --quiet \
         --summary "$work/summary" >"$work/out" 2>&1 </dev/null; } 2>"$work/time"
     status=$?
-    hash=$([ $status = 0 ] && figure hash <"$work/summary")
+    hash=$([ $status -le 1 ] && figure hash <"$work/summary")
 }
 run ""
 alone=$hash
@@ -67,6 +67,7 @@ attack() { # FILE EXPECTS TEXT
     [ ! -f "$yard/$name.lua" ] || ! grep -q "^local mine = memory { n = 0 }" "$yard/$name.lua" || same=$mindful
     took=$(within "$most" <"$work/time"); slow=$?
     case $2 in load-error) wanted=3 ;; stop) wanted=1 ;; esac
+    [ "$3" != "was suspended" ] || wanted=1 # the run goes on to its end all the same
     if [ $status != $wanted ]; then
         echo "not ok $name: status $status, wanted $wanted"; head -5 "$work/out"
     elif [ $slow != 0 ]; then echo "not ok $name: took $took s of processor time, at most $most"
@@ -77,7 +78,7 @@ attack() { # FILE EXPECTS TEXT
     elif ! iconv -f utf-8 "$work/out" >/dev/null 2>&1; then
         echo "not ok $name: said what is not text"
     elif grep -q $'[\001-\010\013-\037\177]' "$work/out"; then echo "not ok $name: commands the terminal"
-    elif [ $status = 0 ] && [ "$2" != acts ] && [ "$hash" != "$same" ]; then echo "not ok $name: hash $hash, not $same"
+    elif [ -n "$hash" ] && [ "$2" != stop ] && [ "$2" != acts ] && [ "$hash" != "$same" ]; then echo "not ok $name: hash $hash, not $same"
     else echo "ok $name ($took s)"; fi
 }
 attack_file() { # FILE: as its first line says
@@ -102,13 +103,13 @@ run inert.lua
 few=$quiet quiet=$hash
 for name in hook_loops hook_loops_in_pcall hook_throws_a_thousand_times hook_memory; do
     cp tests/attacks/$name.lua "$yard/horde_$name.lua"
-    attack horde_$name.lua run suspended
+    attack horde_$name.lua run "was suspended"
 done
 count=600
 run inert.lua
 quiet=$hash
 cp tests/attacks/hook_busy.lua "$yard/horde_hook_busy.lua"
-attack horde_hook_busy.lua run suspended
+attack horde_hook_busy.lua run "was suspended"
 count=3 quiet=$few
 
 # The limits are the scene's to set.

@@ -39,6 +39,9 @@ expect "bench" 0 "running-through" "$JOSTLE" bench scenes/running-through.yaml -
 (root=$PWD; cd "$work" && "$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$root/$JOSTLE" ;; esac)" run "$root/scenes/running-through.yaml" --quiet --for 2 --report some/where >/dev/null 2>&1)
 [ -s "$work/some/where/density.png" ]; verdict "a report into a folder that is new and relative" $?
 grep -q '"runs": 3' "$work/seeds.json" && grep -q '"lp_failure_share": {"mean"' "$work/seeds.json"; verdict "several seeds" $?
+grep -q '^  "seed": \[1, 2, 3\],*$' "$work/seeds.json" && grep -q '^  "dt": 0.0[0-9]*,*$' "$work/seeds.json" && ! grep -q '"\(seed\|dt\|threads\)": {"mean"' "$work/seeds.json"; verdict "what is no figure is given, not averaged" $?
+"$JOSTLE" run scenes/evacuation.yaml --quiet --seeds 2 --seed 7 --for 3 --data "$work/each" --summary /dev/null 2>/dev/null
+[ -s "$work/each/seed-7/danger.csv" ] && [ -s "$work/each/seed-8/danger.csv" ] && ! cmp -s "$work/each/seed-7/danger.csv" "$work/each/seed-8/danger.csv" && [ ! -e "$work/each/danger.csv" ]; verdict "each seed has its own CSV files" $?
 "$JOSTLE" run scenes/running-through.yaml --quiet --steps 5 --summary - | grep -q "$(sha256sum scenes/running-through.yaml | cut -d' ' -f1)"
 verdict "the summary lists its inputs" $?
 

@@ -18,7 +18,7 @@ for link in $(grep -o '\(src\|href\)="[^"]*"' "$out/index.html" | cut -d'"' -f2)
     [ -s "$out/$link" ] || { echo "missing: $link"; missing=1; }
 done
 verdict "pictures of the page lie beside it" $missing
-for text in "step 0.05 s<th>step 0.025 s<th>difference" "person-seconds over density_5" "jostle reproduce" "None of that validates this scenario" "SHA-256"; do
+for text in "<h2>Figures</h2>" "step 0.05 s<th>step 0.025 s<th>difference" "person-seconds over density_5" "jostle reproduce" "None of that validates this scenario" "SHA-256"; do
     grep -qF "$text" "$out/index.html"; verdict "the page has: $text" $?
 done
 grep -qF "$(sha256sum scenes/evacuation.yaml | cut -c1-64)" "$out/index.html"; verdict "the page names its inputs by their hashes" $?
@@ -29,6 +29,19 @@ south=$(in_json people <(grep -o '"south_exit": {[^}]*}' "$work/run.json")) east
 [ "$left" = 140 ] && [ $((south + east)) = 140 ]; verdict "everybody leaves, by one of two exits ($south and $east)" $?
 between "the clearance time is when the last one left" "$(in_json clearance_s "$work/run.json")" 20 60
 awk -F, -v left="$left" -v clear="$(in_json clearance_s "$work/run.json")" 'NR==1 {for (i=1; i<=NF; i++) if ($i=="left") c=i; next} $c==left && !first {first=$1} END {exit !($c==left && first>=clear && first<=clear+0.55)}' "$out/danger.csv"; verdict "danger.csv says so, too" $?
+
+# Not cleared is said: no time of clearance while somebody is inside.
+"$JOSTLE" run scenes/evacuation.yaml --for 20 --quiet --no-half-step --report "$work/early" --summary "$work/early.json" >/dev/null 2>&1
+inside=$(sed -n 's/.*"inside": \([0-9]*\).*/\1/p' "$work/early.json")
+[ "$(in_json agents "$work/early.json")" = "$inside" ] && [ "$inside" -gt 0 ] && [ "$(in_json left "$work/early.json")" -gt 0 ]; verdict "who is still inside is counted ($inside)" $?
+grep -q '"clearance_s": null' "$work/early.json"; verdict "not cleared: there is no such time" $?
+between "the last who left is dated" "$(in_json last_left_s "$work/early.json")" 10 20
+grep -q "clearance time.*<td class=n>not cleared" "$work/early/index.html"; verdict "the page says: not cleared" $?
+
+# The greatest density is one figure, with a report or without.
+"$JOSTLE" run scenes/evacuation.yaml --for 60 --quiet --summary "$work/bare.json" 2>/dev/null
+between "the density of a run that ended empty" "$(figure density_max <"$work/bare.json")" 0.5 10
+[ "$(figure density_max <"$work/bare.json")" = "$(figure density_max <"$work/run.json")" ]; verdict "the greatest density does not depend on a report" $?
 
 # What a report adds changes nothing, and can be left out.
 same_hash "a report changes nothing" "$(figure hash <"$work/run.json")" "$(hash_of "$JOSTLE" scenes/evacuation.yaml --for 60)"
@@ -54,6 +67,9 @@ walled() { # NAME WALLS: a scene whose people want to be outside
 crossed() { echo "$(in_json passages "$work/hall/$1.json") $(in_json intervals "$work/hall/$1.json")"; } # the outer wall, and seconds in the hole
 walled none ''; walled plan '{file: plan.wkt}'; walled again '{file: plan.sqlite}'
 [ "$(crossed plan)" = "0 0" ] && [ "$(crossed none)" != "0 0" ] && [ "$(in_json intervals "$work/hall/none.json")" -gt 0 ]; verdict "nobody walks through walls of well-known text ($(crossed none) without)" $?
+grep -aq 'POLYGON ((0 0, 8 0, 8 6, 0 6, 0 0), (3 2, 5 2, 5 4, 3 4, 3 2))' "$work/hall/plan.sqlite"; verdict "a recording has the plan's own outline for its walkable area" $?
+grep -aq 'POLYGON ((0 0, 8 0, 8 6, 0 6, 0 0), (3 2, 5 2, 5 4, 3 4, 3 2))' "$work/hall/again.sqlite"; verdict "and hands it on" $?
+! grep -aq 'POLYGON ((0 0, 8 0' "$work/hall/none.sqlite"; verdict "without a plan it is the box about everything" $?
 grep -q "$(sha256sum "$work/hall/plan.wkt" | cut -c1-64)" "$work/hall/plan.json"; verdict "the plan is an input, with its hash" $?
 [ "$(in_json intervals "$work/hall/again.json")" = 0 ]; verdict "nor through the solid ones that a recording has" $?
 echo 'POLYGON ((0 0, 8 0, 8 6, 0 6))' >"$work/hall/plan.wkt"

@@ -19,7 +19,7 @@ says "why: the last mod's line" 0 "rough/patches/tawaf.lua:3:17: 60 * max(now.sp
 says "why: of a scene" 0 "doubles/patches/dodgeball.yaml" "$JOSTLE" mod why groups.red.at scenes/dodgeball.yaml --mod doubles
 says "why: nothing sets it" 3 "nothing sets" "$JOSTLE" mod why tawaf.Circle.nonsense scenes/tawaf.yaml
 says "why: the engine's default" 0 "the engine's default: 0.1 m" "$JOSTLE" mod why tawaf.Circle.push_reach scenes/tawaf.yaml
-says "an unknown mod" 0 "there is no mod 'gentle-quue'. Did you mean 'gentle-queue'?" "$JOSTLE" run scenes/tawaf.yaml --steps 1 --quiet --set groups.pilgrims.count=10 --set sources.0.keep=10 --mod gentle-quue
+says "an unknown mod" 3 "there is no mod 'gentle-quue'. Did you mean 'gentle-queue'?" "$JOSTLE" run scenes/tawaf.yaml --steps 1 --quiet --set groups.pilgrims.count=10 --set sources.0.keep=10 --mod gentle-quue
 says "four players and three balls" 0 '"bodies": 3' "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet --summary -
 says "  the four" 0 '"agents": 4' "$JOSTLE" run scenes/dodgeball.yaml --mod doubles --steps 5 --quiet --summary -
 says "without it two" 0 '"agents": 2' "$JOSTLE" run scenes/dodgeball.yaml --steps 5 --quiet --summary -
@@ -28,7 +28,7 @@ joined() { "$JOSTLE" run scenes/tawaf.yaml --set groups.pilgrims.count=1500 --se
     --set mods.gentle-queue.chance=$1 --set mods.gentle-queue.crowding=9 --summary - 2>/dev/null | sed -n 's/.*"ToStone": \([0-9]*\).*/\1/p'; }
 between "a setting of 0: nobody queues" "$(joined 0)" 0 0
 between "a setting of 1: many do" "$(joined 1)" 3 1500
-says "a setting out of its range" 0 "setting 'chance' of mod gentle-queue must be from 0 to 1, not 7" "$JOSTLE" run scenes/tawaf.yaml --steps 1 --quiet --set groups.pilgrims.count=10 --set sources.0.keep=10 --mod gentle-queue --set mods.gentle-queue.chance=7
+says "a setting out of its range" 3 "setting 'chance' of mod gentle-queue must be from 0 to 1, not 7" "$JOSTLE" run scenes/tawaf.yaml --steps 1 --quiet --set groups.pilgrims.count=10 --set sources.0.keep=10 --mod gentle-queue --set mods.gentle-queue.chance=7
 says "a setting that is not there" 0 "names no setting of a mod" "$JOSTLE" run scenes/tawaf.yaml --steps 1 --quiet --set groups.pilgrims.count=10 --set sources.0.keep=10 --mod gentle-queue --set mods.gentle-queue.chanse=1
 
 # A tree of our own.
@@ -53,6 +53,9 @@ mod gamma "depends: [beta]" stander.lua 'return patch "stander" { states = { Sta
 says "a failing mod is named with its place" 0 "scenes/mods/beta/patches/stander.lua:1:47: unknown key 'psh'. Did you mean 'push'?" bash -c run
 says "and left out with those that need it, while the run goes on" 0 "mod beta is left out, and gamma, which needs it" bash -c run
 grep -q '"mods": \["alpha 1.0"\]' "$work/out"; verdict "the sound ones stay" $?
+says "but one that is asked for must load" 3 "mod 'beta' was asked for and cannot be taken" bash -c "run --mod beta"
+says "  by its folder too" 3 "mod 'scenes/mods/gamma/' was asked for and cannot be taken" bash -c "run --mod scenes/mods/gamma/"
+says "  while a sound one is taken" 0 "mods: alpha 1.0" bash -c "run --no-mods --mod scenes/mods/alpha/"
 rm -r "$tree/scenes/mods/beta"
 says "a dependency that is missing" 0 "gamma/mod.yaml:4:11: there is no mod 'beta', which is needed by gamma" bash -c run
 mod beta "depends: [gamma]"
@@ -126,7 +129,7 @@ says "an item that is changed twice keeps both" 0 "odd/patches/yard.yaml:2:23: m
 rm "$tree/scenes/mods/odd/patches/yard.yaml"
 printf 'return machine { name = "turner", start = "Go", states = {\n  Go = { steer = hold, { to = "Turn", when = after(1) } }, Turn = { become = "stander" } } }\n' >"$tree/behaviours/turner.lua"
 sed -i 's/stander.lua/turner.lua/' "$tree/scenes/yard.yaml"
-left="mod odd is left out; the run goes on without"
+left="mod odd is left out"
 broken() { # NAME PLACE-AND-TEXT PATCH-FILE TEXT
     mod odd "" "$3" "$4"
     says "$1" 0 "$2" bash -c run

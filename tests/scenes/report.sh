@@ -93,7 +93,8 @@ between "danger: the density of a grid 0.37 m wide" "$(number density_max "$work
 between "danger: somebody is over 5 per m2 from the start" "$(grep -o '"density_5".*' "$work/dense.json" | sed 's/.*"first_s": \([^,]*\),.*/\1/')" 0 0
 grep -q '"load_623": {"people": null' "$work/dense.json" && grep -q '"pressure_002": {"people": [0-9]' "$work/dense.json"; verdict "compression is not known, crowd pressure is" $?
 [ "$(number left "$work/dense.json")" = 1 ]; verdict "one has left" $?
-between "and when" "$(number clearance_s "$work/dense.json")" 20 20
+between "and when" "$(number last_left_s "$work/dense.json")" 20 20
+grep -q '"inside": 48, .*"clearance_s": null' "$work/dense.json" && grep -q "<td class=n>not cleared" "$work/dense/index.html"; verdict "48 are still there: not cleared" $?
 grep -q "Compression was not measured" "$work/dense/index.html" && ! grep -q "Compression was not measured" "$work/evac-page/index.html"; verdict "the page says so" $?
 printf '1 0 0 0\n1 1 zero 0\n' >"$work/bad.txt"
 expect "an error in a recording" 3 "bad.txt:2:5" "$JOSTLE" report "$work/bad.txt" --fps 10 --unit m --summary -
@@ -102,3 +103,11 @@ expect "unwritable folder" 1 "cannot make" "$JOSTLE" report "$work/walk.sqlite" 
 expect "nothing asked for" 2 "give --out DIR" "$JOSTLE" report "$work/walk.sqlite"
 expect "a unit that is none" 2 "--unit is m or cm" "$JOSTLE" report "$work/bare.txt" --unit inch --summary -
 expect "report --help" 0 "PeTrack" "$JOSTLE" report --help
+# Names are letters and digits; titles are any text. Neither is ever obeyed.
+sed 's/^  walkers: {/  "`id > x`": {/' "$work/walk.yaml" >"$work/named.yaml"
+expect "a group that is named like a command" 3 "named.yaml:8:3: '\`id > x\`' is no name for a group" "$JOSTLE" run "$work/named.yaml" --quiet --report "$work/named"
+expect "and check says so" 3 "Letters, digits, spaces, _ - and . are allowed" "$JOSTLE" check "$work/named.yaml"
+sed "s/^step:/title: '\`touch pwned\` \$(touch pwned) \"; system(\"touch pwned\") <\/script><script>'\nstep:/; s/^duration: 20/duration: 1/" "$work/walk.yaml" >"$work/titled.yaml"
+expect "a title that is one" 0 "report:" "$JOSTLE" run "$work/titled.yaml" --report "$work/titled"
+[ -z "$(find "$work" . -maxdepth 2 \( -name pwned -o -name x \) -newer "$work/named.yaml" 2>/dev/null)" ] && [ ! -e "$work/titled/pwned" ]; verdict "nothing of it is done" $?
+[ -s "$work/titled/paths.png" ] && ! grep -q "<script" "$work/titled/index.html"; verdict "and the pictures are drawn" $?

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "base/diag.h"
+#include "base/name.h"
 #include "base/text.h"
 
 static void json_escapes_whatever_comes(void **state) {
@@ -71,6 +72,56 @@ static void text_is_made_fit_for_a_terminal(void **state) {
     assert_string_equal(text, "a?[2J  b? \xc3\xa4 ?? ??");
 }
 
+static void names_are_letters_digits_and_little_else(void **state) {
+    (void)state;
+    static const char *const GOOD[] = {"a",
+                                       "9",
+                                       "_x",
+                                       "red team",
+                                       "door-1.b",
+                                       "\xc3\xa4rzte",
+                                       "\xd9\x85\xd9\x86\xd9\x89",
+                                       "\xe4\xba\xba\xe7\xbe\xa4",
+                                       "\xe0\xa4\xad\xe0\xa5\x80\xe0\xa4\xa1\xe0\xa4\xbc"};
+    static const char *const BAD[] = {"",
+                                      " a",
+                                      "a ",
+                                      "-a",
+                                      ".a",
+                                      "a`b",
+                                      "a'b",
+                                      "a\"b",
+                                      "a$b",
+                                      "a\nb",
+                                      "a<b",
+                                      "a;b",
+                                      "a/b",
+                                      "a@b",
+                                      "a%b",
+                                      "a|b",
+                                      "a\\b",
+                                      "\x7f",
+                                      "\xff",
+                                      "\xc2\x85",
+                                      "\xe2\x80\xae"
+                                      "a",
+                                      "\xf0\x9f\x98\x80",
+                                      "\xe2\x80\x9c",
+                                      "\xef\xbb\xbf"
+                                      "a"};
+    char longest[102];
+    for (size_t k = 0; k < sizeof GOOD / sizeof *GOOD; k++)
+        assert_true(jox_name_is_plain(GOOD[k]));
+    for (size_t k = 0; k < sizeof BAD / sizeof *BAD; k++)
+        if (jox_name_is_plain(BAD[k]))
+            fail_msg("a name: '%s'", BAD[k]);
+    memset(longest, 'a', sizeof longest);
+    longest[101] = 0;
+    assert_false(jox_name_is_plain(longest));
+    longest[100] = 0;
+    assert_true(jox_name_is_plain(longest));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_is_made_fit_for_a_terminal),
@@ -78,6 +129,7 @@ int main(void) {
         cmocka_unit_test(suggestions_are_near_or_absent),
         cmocka_unit_test(a_diagnostic_prints_its_place),
         cmocka_unit_test(a_flood_is_counted_and_cut),
+        cmocka_unit_test(names_are_letters_digits_and_little_else),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

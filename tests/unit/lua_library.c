@@ -11,6 +11,7 @@
 
 #include "base/mem.h"
 #include "lua/internal.h"
+#include "lua/vm/library.h"
 
 static JoxDiagnostics diagnostics;
 static char printed[65536];
@@ -23,44 +24,45 @@ static void keep_line(void *context, const char *text) {
     lines++;
 }
 
-static JoxVm *open_vm(JoxLua *lua) {
+static JoxScript *open_script(JoxLua *lua) {
     static const JoxScope OPEN = {0};
-    JoxVm *vm = jox_vm_create(lua);
-    assert_non_null(vm);
-    vm->scope = &OPEN;
-    vm->diagnostics = &diagnostics;
-    vm->loading = true;
+    JoxScript *script = jox_script_create(lua);
+    assert_non_null(script);
+    script->scope = &OPEN;
+    script->diagnostics = &diagnostics;
+    script->vm.loading = true;
     printed[0] = 0;
     lines = 0;
-    lua->complain = keep_line;
-    return vm;
+    lua->group.say = keep_line;
+    return script;
 }
 
 /* Runs text; what it returned, as text, or "error: " and why. */
-static const char *run_in(JoxVm *vm, const char *text) {
+static const char *run_in(JoxScript *script, const char *text) {
     static char result[1024];
     const char *why;
     int line;
-    if (!jox_vm_read(vm, "t.lua", text, strlen(text), (JoxPosition){0}) ||
-        luaL_loadbufferx(vm->L, text, strlen(text), "=b0", "t") != LUA_OK) {
+    if (!jox_script_read(script, "t.lua", text, strlen(text), (JoxPosition){0}) ||
+        luaL_loadbufferx(script->vm.L, text, strlen(text), "=b0", "t") != LUA_OK) {
         snprintf(result, sizeof result, "refused");
-        lua_settop(vm->L, 0);
+        lua_settop(script->vm.L, 0);
         return result;
     }
-    if (!jox_vm_call(vm, 0, 1, vm->owner->limits.load_instructions, &why, &line)) {
+    if (!jox_vm_call(&script->vm, 0, 1, script->owner->group.limits.load_instructions, &why,
+                     &line)) {
         snprintf(result, sizeof result, "error: %s", why);
         return result;
     }
-    snprintf(result, sizeof result, "%s", jox_library_text(vm->L, -1, NULL));
-    lua_settop(vm->L, 0);
+    snprintf(result, sizeof result, "%s", jox_library_text(script->vm.L, -1, NULL));
+    lua_settop(script->vm.L, 0);
     return result;
 }
 
 static const char *run(const char *text) {
     JoxLua *lua = jox_lua_create(NULL);
-    JoxVm *vm = open_vm(lua);
-    const char *result = run_in(vm, text);
-    jox_vm_free(vm);
+    JoxScript *script = open_script(lua);
+    const char *result = run_in(script, text);
+    jox_script_free(script);
     jox_diag_free(&diagnostics);
     jox_lua_free(lua);
     return result;
@@ -289,28 +291,28 @@ static void errors_and_budgets(void **state) {
 }
 
 /* What a load prints waits in its VM: counted by its lines. */
-static void keep_printed(JoxVm *vm) {
+static void keep_printed(JoxScript *script) {
     printed[0] = 0;
-    keep_line(NULL, vm->printed_text.data);
+    keep_line(NULL, script->vm.printed_text.data);
     lines = 0;
-    for (const char *c = vm->printed_text.data; *c; c++)
+    for (const char *c = script->vm.printed_text.data; *c; c++)
         lines += *c == '\n';
 }
 
 static void print_is_limited(void **state) {
     (void)state;
     JoxLua *lua = jox_lua_create(NULL);
-    JoxVm *vm = open_vm(lua);
-    run_in(vm, "print('a', 1, nil)\nprint('\\27[2J\\n' .. ('x'):rep(9999))");
-    keep_printed(vm);
+    JoxScript *script = open_script(lua);
+    run_in(script, "print('a', 1, nil)\nprint('\\27[2J\\n' .. ('x'):rep(9999))");
+    keep_printed(script);
     assert_non_null(strstr(printed, "t.lua:1: a 1 nil\n"));
     assert_non_null(strstr(printed, "t.lua:2: ?[2J xxx"));
     assert_non_null(strstr(printed, "xxx ...\n"));
-    run_in(vm, "for i = 1, 1000 do print(i) end");
-    keep_printed(vm);
+    run_in(script, "for i = 1, 1000 do print(i) end");
+    keep_printed(script);
     assert_int_equal(lines, 101);
     assert_non_null(strstr(printed, "t.lua:1: ... print is limited\n"));
-    jox_vm_free(vm);
+    jox_script_free(script);
     jox_diag_free(&diagnostics);
     jox_lua_free(lua);
 }
@@ -356,8 +358,8 @@ static void frozen_tables(void **state) {
     };
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
         JoxLua *lua = jox_lua_create(NULL);
-        JoxVm *vm = open_vm(lua);
-        lua_State *L = vm->L;
+        JoxScript *script = open_script(lua);
+        lua_State *L = script->vm.L;
         const char *why = "", *got;
         char text[1024];
         int line;
@@ -371,24 +373,24 @@ static void frozen_tables(void **state) {
                  "return {t, kept, function(t, kept) %s end}",
                  CASES[i].text);
         assert_int_equal(luaL_loadbufferx(L, text, strlen(text), "=b0", "t"), LUA_OK);
-        assert_true(jox_vm_call(vm, 0, 1, 100000, &why, &line));
+        assert_true(jox_vm_call(&script->vm, 0, 1, 100000, &why, &line));
         lua_rawgeti(L, 1, 1);
         lua_rawgeti(L, 1, 2);
         lua_rawgeti(L, 1, 3);
         lua_pushcfunction(L, freeze_argument);
         lua_pushvalue(L, 2);
-        assert_true(jox_vm_call(vm, 1, 0, 100000, &why, &line));
+        assert_true(jox_vm_call(&script->vm, 1, 0, 100000, &why, &line));
         assert_int_equal(functions_met, 2);
         lua_insert(L, 2);
         assert_int_equal(lua_gettop(L), 4);
-        bool good = jox_vm_call(vm, 2, 1, 100000, &why, &line);
+        bool good = jox_vm_call(&script->vm, 2, 1, 100000, &why, &line);
         got = good ? jox_library_text(L, -1, NULL) : why;
         const char *wanted = CASES[i].gives;
         bool error = strncmp(wanted, "error: ", 7) == 0;
         size_t skip = strncmp(wanted, "b0:1: ", 6) == 0 ? 6 : 0; /* other lines */
         if (error == good || !strstr(got, wanted + (error ? 7 : skip)))
             fail_msg("%s\n gave '%s', not '%s'", CASES[i].text, got, wanted);
-        jox_vm_free(vm);
+        jox_script_free(script);
         jox_diag_free(&diagnostics);
         jox_lua_free(lua);
     }
@@ -404,21 +406,21 @@ typedef struct Assigned {
 
 /* Where the function that a text returns assigns a variable from outside of it, as a load sees it.
  */
-static const JoxToken *assigned_by(JoxVm *vm, const char *text) {
+static const JoxToken *assigned_by(JoxScript *script, const char *text) {
     const char *why, *names[64];
     int line, count = 0, top;
     lua_Debug about;
-    JoxSource *source = jox_vm_read(vm, "t.lua", text, strlen(text), (JoxPosition){0});
+    JoxSource *source = jox_script_read(script, "t.lua", text, strlen(text), (JoxPosition){0});
     assert_non_null(source);
-    assert_int_equal(luaL_loadbufferx(vm->L, text, strlen(text), "=b3", "t"), LUA_OK);
-    assert_true(jox_vm_call(vm, 0, 1, 100000, &why, &line));
-    top = lua_gettop(vm->L);
-    for (; (names[count] = lua_getupvalue(vm->L, top, count + 1)); count++)
-        lua_pop(vm->L, 1);
-    lua_getinfo(vm->L, ">S", &about);
+    assert_int_equal(luaL_loadbufferx(script->vm.L, text, strlen(text), "=b3", "t"), LUA_OK);
+    assert_true(jox_vm_call(&script->vm, 0, 1, 100000, &why, &line));
+    top = lua_gettop(script->vm.L);
+    for (; (names[count] = lua_getupvalue(script->vm.L, top, count + 1)); count++)
+        lua_pop(script->vm.L, 1);
+    lua_getinfo(script->vm.L, ">S", &about);
     assert_int_equal(about.short_src[1], '3');
-    return jox_source_assigned(source, about.linedefined, about.lastlinedefined, names,
-                               (size_t)count);
+    return jox_outline_assigned(source, about.linedefined, about.lastlinedefined, names,
+                                (size_t)count);
 }
 
 static void assigned_upvalues(void **state) {
@@ -467,13 +469,13 @@ static void assigned_upvalues(void **state) {
     };
     JoxLua *lua = jox_lua_create(NULL);
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
-        JoxVm *vm = open_vm(lua);
-        const JoxToken *t = assigned_by(vm, CASES[i].text);
+        JoxScript *script = open_script(lua);
+        const JoxToken *t = assigned_by(script, CASES[i].text);
         if ((t != NULL) != (CASES[i].name != NULL))
             fail_msg("%s\n %s", CASES[i].text, t ? "was found" : "was not found");
         if (t && (!jox_token_is(t, CASES[i].name) || t->line != CASES[i].line))
             fail_msg("%s\n gave %.*s in line %d", CASES[i].text, (int)t->length, t->text, t->line);
-        jox_vm_free(vm);
+        jox_script_free(script);
     }
     jox_lua_free(lua);
 }
@@ -482,7 +484,7 @@ static void assigned_upvalues(void **state) {
 static void upvalues_of_large_functions(void **state) {
     (void)state;
     JoxLua *lua = jox_lua_create(NULL);
-    JoxVm *vm = open_vm(lua);
+    JoxScript *script = open_script(lua);
     JoxText text = {0};
     jox_text_add(&text, "local last = 0 return function()\n");
     for (int i = 0; i < 300; i++)
@@ -499,12 +501,12 @@ static void upvalues_of_large_functions(void **state) {
     int wanted = 1;
     for (const char *c = text.data; *c; c++)
         wanted += *c == '\n';
-    const JoxToken *t = assigned_by(vm, text.data);
+    const JoxToken *t = assigned_by(script, text.data);
     assert_non_null(t);
     assert_true(jox_token_is(t, "last"));
     assert_int_equal(t->line, wanted);
     jox_text_free(&text);
-    jox_vm_free(vm);
+    jox_script_free(script);
     jox_lua_free(lua);
 }
 
@@ -547,30 +549,30 @@ static void changed_upvalues_are_set_back(void **state) {
     };
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
         JoxLua *lua = jox_lua_create(NULL);
-        JoxVm *vm = open_vm(lua);
-        lua_State *L = vm->L;
+        JoxScript *script = open_script(lua);
+        lua_State *L = script->vm.L;
         const char *why, *text = CASES[i].text;
         char name[64] = "";
         int line;
         lua_Debug where;
         watched.count = 0;
         assert_int_equal(luaL_loadbufferx(L, text, strlen(text), "=b0", "t"), LUA_OK);
-        assert_true(jox_vm_call(vm, 0, 1, 100000, &why, &line));
+        assert_true(jox_vm_call(&script->vm, 0, 1, 100000, &why, &line));
         int function = luaL_ref(L, LUA_REGISTRYINDEX);
         lua_pushcfunction(L, watch_argument);
         lua_rawgeti(L, LUA_REGISTRYINDEX, function);
-        assert_true(jox_vm_call(vm, 1, 0, 100000, &why, &line));
+        assert_true(jox_vm_call(&script->vm, 1, 0, 100000, &why, &line));
         if (watched.count != CASES[i].count)
             fail_msg("%s: %u variables", text, watched.count);
         lua_rawgeti(L, LUA_REGISTRYINDEX, function);
-        jox_vm_call(vm, 0, 0, 100000, &why, &line);
+        jox_vm_call(&script->vm, 0, 0, 100000, &why, &line);
         assert_int_equal(lua_gettop(L), 0);
         bool changed = jox_upvalues_restore(L, &watched, 0, watched.count, name, &where);
         if (changed != (CASES[i].name != NULL) || (changed && strcmp(name, CASES[i].name) != 0))
             fail_msg("%s: '%s' changed", text, name);
         assert_false(jox_upvalues_restore(L, &watched, 0, watched.count, name, &where));
         assert_int_equal(lua_gettop(L), 0);
-        jox_vm_free(vm);
+        jox_script_free(script);
         jox_diag_free(&diagnostics);
         jox_lua_free(lua);
     }

@@ -169,10 +169,15 @@ static void exits_count_by_name(void **state) {
     exits.left = 6;
     exits.last = 12.5;
     assert_int_equal(exits.count, 2);
-    jox_exits_json(&exits, &text);
-    assert_string_equal(text.data, "\"left\": 6, \"clearance_s\": 12.5, \"exits\": {\"west\": "
+    jox_exits_json(&exits, 0, &text);
+    assert_string_equal(text.data, "\"left\": 6, \"inside\": 0, \"last_left_s\": 12.5, "
+                                   "\"clearance_s\": 12.5, \"exits\": {\"west\": "
                                    "{\"people\": 2, \"last_s\": null}, \"a \\\"door\\\"\": "
                                    "{\"people\": 3, \"last_s\": null}}");
+    text.length = 0;
+    jox_exits_json(&exits, 53, &text); /* not cleared */
+    assert_non_null(strstr(text.data, "\"left\": 6, \"inside\": 53, \"last_left_s\": 12.5, "
+                                      "\"clearance_s\": null"));
     jox_text_free(&text);
     jox_exits_free(&exits);
 }
@@ -192,7 +197,7 @@ static void pages_escape_what_they_show(void **state) {
     jox_html_picture(out, "a b\"<#.png", NULL, "x\"><script>");
     jox_html_end(out);
     fclose(out);
-    assert_non_null(strstr(data, "<h1>&lt;b&gt;&amp;&quot;&#39; </h1>"));
+    assert_non_null(strstr(data, "<h1>&lt;b&gt;&amp;&quot;&#39;?</h1>"));
     assert_non_null(strstr(data, "<th>a<th>&lt;i&gt;"));
     assert_non_null(
         strstr(data, "<td>&lt;/table&gt;<td class=n>&ndash;<td class=n>1.25&nbsp;1/m2"));

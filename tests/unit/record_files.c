@@ -244,21 +244,57 @@ static void walkable_area_as_text(void **state) {
     jox_walls_free(&walls);
 }
 
+/* What a plan says can be walked is written as it was; what is no hole of it is left out. */
+static void walkable_area_of_a_plan(void **state) {
+    (void)state;
+    JoxWalls all = {0}, walls = {0};
+    JoxText out = {0};
+    JoxV2 hall[] = {{0, 0}, {0, 9}, {9, 9}, {12, 0}}, yard[] = {{20, 0}, {30, 0}, {25, 8}};
+    JoxV2 desk[] = {{1, 1}, {2, 1}, {2, 2}}, far[] = {{15, 1}, {16, 1}, {16, 2}};
+    JoxV2 through[] = {{8, 8}, {8, 20}, {12, 20}}, post[] = {{24, 1}, {25, 1}, {25, 2}};
+    JoxV2 loop[] = {{3, 3}, {4, 3}, {4, 4}};
+    jox_walls_add_polyline(&all, loop, 3, true, 3); /* a wall about something bounds no area */
+    jox_walls_add_outline(&all, hall, 4, 3);
+    jox_walls_add_solid(&all, desk, 3, 3);
+    jox_walls_add_solid(&all, far, 3, 3);
+    jox_walls_add_solid(&all, through, 3, 3);
+    jox_walls_standing(&walls, &all, true);
+    jox_wkt_outlines(&walls, &out);
+    assert_string_equal(out.data, "POLYGON ((12 0, 9 9, 0 9, 0 0, 12 0), (1 1, 2 1, 2 2, 1 1))");
+    out.length = 0;
+    jox_walls_add_outline(&walls, yard, 3, 3);
+    jox_walls_add_solid(&walls, post, 3, 3);
+    jox_wkt_outlines(&walls, &out);
+    assert_string_equal(out.data,
+                        "MULTIPOLYGON (((12 0, 9 9, 0 9, 0 0, 12 0), (1 1, 2 1, 2 2, 1 1)), "
+                        "((20 0, 30 0, 25 8, 20 0), (24 1, 25 1, 25 2, 24 1)))");
+    const JoxV2 people[] = {{25, 7}, {1, 8}, {15, 5}};
+    assert_true(jox_walls_outline_all(&walls, people, 2));
+    assert_false(jox_walls_outline_all(&walls, people, 3));
+    jox_text_free(&out);
+    jox_walls_free(&walls);
+    jox_walls_free(&all);
+}
+
 static void figures_of_several_runs(void **state) {
     (void)state;
     const char *runs[] = {
-        "{\"a\": 1, \"b\": {\"c\": [10, -2.5e1]}, \"s\": \"x \\\" 5\", \"t\": true, \"only\": 4}",
-        "{\"t\": null, \"late\": 2, \"b\": {\"c\": [30, -25]}, \"a\": 3, \"a\": 99}",
-        " {\"a\" : 2 ,\"b\":{\"c\":[20,-25]},\"late\":2,\"late\":2,\"late\":3} \n"};
+        "{\"agents\": 1, \"probes\": {\"c\": [10, -2.5e1]}, \"s\": \"x \\\" 5\", \"t\": true, "
+        "\"bodies\": 4}",
+        "{\"t\": null, \"lua\": {\"late\": 2}, \"probes\": {\"c\": [30, -25]}, \"agents\": 3, "
+        "\"agents\": 99}",
+        " {\"agents\" : 2 ,\"probes\":{\"c\":[20,-25]},\"lua\":{\"late\":2,\"late\":2,\"late\":3}} "
+        "\n"};
     JoxText out = {0};
     assert_true(jox_aggregate(runs, 3, &out));
     assert_non_null(strstr(out.data, "\"runs\": 3"));
-    assert_non_null(strstr(out.data, "\"a\": {\"mean\": 2, \"p5\": 1.1, \"p95\": 2.9}"));
-    assert_non_null(strstr(out.data, "\"b.c.0\": {\"mean\": 20, \"p5\": 11, \"p95\": 29}"));
-    assert_non_null(strstr(out.data, "\"b.c.1\": {\"mean\": -25, \"p5\": -25, \"p95\": -25}"));
-    assert_null(strstr(out.data, "only"));
+    assert_non_null(strstr(out.data, "\"agents\": {\"mean\": 2, \"p5\": 1.1, \"p95\": 2.9}"));
+    assert_non_null(strstr(out.data, "\"probes.c.0\": {\"mean\": 20, \"p5\": 11, \"p95\": 29}"));
+    assert_non_null(strstr(out.data, "\"probes.c.1\": {\"mean\": -25, \"p5\": -25, \"p95\": -25}"));
+    assert_null(strstr(out.data, "bodies"));
     assert_null(strstr(out.data, "late"));
-    assert_null(strstr(out.data, "\"s\""));
+    assert_non_null(strstr(out.data, "\"s\": [\"x \\\" 5\", null, null]"));
+    jox_text_free(&out);
     const char *bad[] = {"",
                          "5",
                          "{",
@@ -288,6 +324,58 @@ static void figures_of_several_runs(void **state) {
     jox_text_free(&out);
 }
 
+/* What a run was given, and where something was, has no mean. */
+static void what_is_no_figure_is_listed(void **state) {
+    (void)state;
+    const char *runs[] = {"{\"scene\": \"a b\", \"seed\": 1, \"dt\": 0.05, \"steps\": 40, "
+                          "\"overlap_p99\": 0.1, \"danger\": "
+                          "{\"samples\": 9, \"density_max\": 3, \"density_max_x\": 1, \"limits\": "
+                          "{\"load\": {\"limit\": "
+                          "700, \"people\": 2, \"first_y\": null}}}, \"states\": {\"m\": "
+                          "{\"go_x\": 2}}, \"probes\": {\"map_y\": "
+                          "{\"density_max_y\": 1, \"flow\": 1}}, \"future\": 1, \"threads\": 2, "
+                          "\"hash\": \"0a\", \"mods\": "
+                          "[\"m 1\"]}",
+                          "{\"scene\": \"a b\", \"seed\": 2, \"dt\": 0.05, \"steps\": 40, "
+                          "\"overlap_p99\": 0.3, \"danger\": "
+                          "{\"samples\": 9, \"density_max\": 5, \"density_max_x\": 8, \"limits\": "
+                          "{\"load\": {\"limit\": "
+                          "700, \"people\": 4, \"first_y\": 5}}}, \"states\": {\"m\": {\"go_x\": "
+                          "4}}, \"probes\": {\"map_y\": "
+                          "{\"density_max_y\": 2, \"flow\": 3}}, \"future\": 3, \"threads\": 2, "
+                          "\"hash\": \"0b\", \"mods\": "
+                          "[\"m 1\"]}"};
+    JoxText out = {0};
+    assert_true(jox_aggregate(runs, 2, &out));
+    char *figures = strstr(out.data, "\"figures\"");
+    assert_non_null(figures);
+    static const char *const MEANS[] = {
+        "overlap_p99\": {\"mean\": 0.2,", "danger.density_max\": {\"mean\": 4,",
+        "danger.limits.load.people\": {\"mean\": 3,", "states.m.go_x\": {\"mean\": 3,",
+        "probes.map_y.flow\": {\"mean\": 2,"};
+    for (size_t m = 0; m < sizeof MEANS / sizeof *MEANS; m++)
+        assert_non_null(strstr(figures, MEANS[m]));
+    static const char *const GIVEN[] = {"\"scene\": \"a b\"",
+                                        "\"seed\": [1, 2]",
+                                        "\"dt\": 0.05",
+                                        "\"steps\": 40",
+                                        "\"danger.samples\": 9",
+                                        "\"danger.density_max_x\": [1, 8]",
+                                        "\"danger.limits.load.limit\": 700",
+                                        "\"danger.limits.load.first_y\": [null, 5]",
+                                        "\"probes.map_y.density_max_y\": [1, 2]",
+                                        "\"future\": [1, 3]",
+                                        "\"threads\": 2",
+                                        "\"hash\": [\"0a\", \"0b\"]",
+                                        "\"mods.0\": \"m 1\""};
+    for (size_t g = 0; g < sizeof GIVEN / sizeof *GIVEN; g++) {
+        const char *at = strstr(out.data, GIVEN[g]);
+        if (!at || at > figures)
+            fail_msg("not given: %s in %s", GIVEN[g], out.data);
+    }
+    jox_text_free(&out);
+}
+
 static void speeds_per_region(void **state) {
     (void)state;
     JoxRegions *r = jox_regions_create();
@@ -314,7 +402,9 @@ int main(void) {
                                        cmocka_unit_test(a_position_that_is_no_number_is_an_error),
                                        cmocka_unit_test(density_is_that_of_the_people),
                                        cmocka_unit_test(walkable_area_as_text),
+                                       cmocka_unit_test(walkable_area_of_a_plan),
                                        cmocka_unit_test(figures_of_several_runs),
+                                       cmocka_unit_test(what_is_no_figure_is_listed),
                                        cmocka_unit_test(speeds_per_region)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -280,6 +280,35 @@ static void a_throw_does_what_it_says(void **state) {
     jo_scene_free(scene);
 }
 
+/* Picking a body up is counted apart from throwing it. */
+static void who_picks_up_has_not_thrown(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    static const char FETCH[] =
+        HEAD "\"Take\", states = {\n"
+             "  Take = { steer = hold, take = nearest \"ball\", { to = \"Wait\", when = after(0.5) "
+             "} },\n"
+             "  Wait = { steer = hold, { to = \"Throw\", when = after(1) } },\n"
+             "  Throw = { steer = hold, throw = { nearest \"ball\", at = \"post\", speed = 6 },\n"
+             "    { to = \"End\", when = after(0.5) } }, End = { steer = hold } } }\n";
+    JoScene *scene = load_own("jostle: 1\nplaces: {post: {point: [20, 0]}}\n"
+                              "groups: {people: {behaviour: own.lua, at: [[0, 0]]}}\n"
+                              "bodies: [{name: b, shape: {sphere: {radius: 0.1}}, mass: 1, "
+                              "at: [0.5, 0, 0.1], tags: [ball]}]\n",
+                              FETCH);
+    step(scene, 15);
+    assert_int_equal(figures(scene)->pickups, 1);
+    assert_int_equal(figures(scene)->throws, 0);
+    step(scene, 60);
+    assert_int_equal(figures(scene)->pickups, 1);
+    assert_int_equal(figures(scene)->throws, 1);
+    char *summary = jo_scene_summary(scene);
+    assert_non_null(strstr(summary, "\"throws\": 1, \"pickups\": 1,"));
+    jo_free(summary);
+    jo_scene_free(scene);
+}
+
 static void a_throw_takes_it_from_the_hand(void **state) {
     (void)state;
     if (!jox_bodies_available())
@@ -443,6 +472,7 @@ int main(void) {
         cmocka_unit_test(bodies_know_of_gates),
         cmocka_unit_test(what_rests_on_a_wall_falls_with_it),
         cmocka_unit_test(a_throw_does_what_it_says),
+        cmocka_unit_test(who_picks_up_has_not_thrown),
         cmocka_unit_test(a_throw_takes_it_from_the_hand),
         cmocka_unit_test(calls_say_what_is_wrong),
         cmocka_unit_test(what_cannot_happen_is_said),

@@ -1,8 +1,9 @@
 /* Tables that nothing can change once a file is loaded. The contents move to a table of their own,
    behind a metatable that reads there and refuses to write. */
-#include "lua/internal.h"
+#include "lua/vm/vm.h"
 
-const char jox_frozen_key = 0;
+/* The metatable of a frozen table holds its contents under this key's address. */
+static const char CONTENTS;
 
 static int refuse_write(lua_State *L) {
     return luaL_error(L, "tables are frozen once the file is loaded; what an agent remembers "
@@ -16,7 +17,7 @@ static int frozen_length(lua_State *L) {
 
 void jox_frozen_contents(lua_State *L, int index) {
     if (lua_getmetatable(L, index)) {
-        if (lua_rawgetp(L, -1, &jox_frozen_key) == LUA_TTABLE) {
+        if (lua_rawgetp(L, -1, &CONTENTS) == LUA_TTABLE) {
             lua_remove(L, -2);
             return;
         }
@@ -28,7 +29,7 @@ void jox_frozen_contents(lua_State *L, int index) {
 void jox_frozen_check_writable(lua_State *L, int index) {
     if (!lua_getmetatable(L, index))
         return;
-    if (lua_rawgetp(L, -1, &jox_frozen_key) == LUA_TTABLE)
+    if (lua_rawgetp(L, -1, &CONTENTS) == LUA_TTABLE)
         refuse_write(L);
     luaL_error(L, "this table belongs to the library and cannot be changed");
 }
@@ -104,7 +105,7 @@ static void freeze_table(Walk *w) {
     lua_pushboolean(L, 0);
     lua_setfield(L, -2, "__metatable");
     lua_pushvalue(L, shadow);
-    lua_rawsetp(L, -2, &jox_frozen_key);
+    lua_rawsetp(L, -2, &CONTENTS);
     lua_setmetatable(L, table);
     lua_settop(L, table);
 }

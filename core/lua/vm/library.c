@@ -1,177 +1,11 @@
-/* The base functions of behaviours and their mathematics. Everything that loops in C is charged. */
+/* The base functions of behaviours. Everything that loops in C is charged. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/elementary.h"
-#include "lua/internal.h"
+#include "lua/vm/library.h"
 
 enum { MOST_KEYS = 65536, LONGEST_LINE = 400, LOAD_LINES = 5 /* times the limit of a second */ };
-
-/* ---- mathematics: the same bits everywhere ---- */
-
-static int call_1(lua_State *L, double (*f)(double)) {
-    lua_pushnumber(L, f(luaL_checknumber(L, 1)));
-    return 1;
-}
-static int math_sin(lua_State *L) {
-    return call_1(L, jox_sin);
-}
-static int math_cos(lua_State *L) {
-    return call_1(L, jox_cos);
-}
-static int math_tan(lua_State *L) {
-    double x = luaL_checknumber(L, 1);
-    lua_pushnumber(L, jox_sin(x) / jox_cos(x));
-    return 1;
-}
-static int math_asin(lua_State *L) {
-    double x = luaL_checknumber(L, 1);
-    lua_pushnumber(L, jox_atan2(x, sqrt((1.0 - x) * (1.0 + x))));
-    return 1;
-}
-static int math_acos(lua_State *L) {
-    double x = luaL_checknumber(L, 1);
-    lua_pushnumber(L, jox_atan2(sqrt((1.0 - x) * (1.0 + x)), x));
-    return 1;
-}
-static int math_atan(lua_State *L) {
-    lua_pushnumber(L, jox_atan2(luaL_checknumber(L, 1), luaL_optnumber(L, 2, 1.0)));
-    return 1;
-}
-static int math_exp(lua_State *L) {
-    return call_1(L, jox_exp);
-}
-static int math_log(lua_State *L) {
-    double x = jox_log(luaL_checknumber(L, 1));
-    lua_pushnumber(L, lua_isnoneornil(L, 2) ? x : x / jox_log(luaL_checknumber(L, 2)));
-    return 1;
-}
-static int math_sqrt(lua_State *L) {
-    return call_1(L, sqrt);
-}
-static int math_deg(lua_State *L) {
-    lua_pushnumber(L, luaL_checknumber(L, 1) * (180.0 / 3.14159265358979323846));
-    return 1;
-}
-static int math_rad(lua_State *L) {
-    lua_pushnumber(L, luaL_checknumber(L, 1) * (3.14159265358979323846 / 180.0));
-    return 1;
-}
-static int math_abs(lua_State *L) {
-    if (lua_isinteger(L, 1)) {
-        lua_Unsigned n = (lua_Unsigned)lua_tointeger(L, 1);
-        lua_pushinteger(L, lua_tointeger(L, 1) < 0 ? (lua_Integer)(0u - n) : (lua_Integer)n);
-        return 1;
-    }
-    return call_1(L, fabs);
-}
-
-/* A whole number as an integer where it fits, else as it is. */
-static int push_whole(lua_State *L, double x) {
-    if (x >= -9223372036854775808.0 && x < 9223372036854775808.0)
-        lua_pushinteger(L, (lua_Integer)x);
-    else
-        lua_pushnumber(L, x);
-    return 1;
-}
-static int math_floor(lua_State *L) {
-    if (lua_isinteger(L, 1))
-        return lua_settop(L, 1), 1;
-    return push_whole(L, floor(luaL_checknumber(L, 1)));
-}
-static int math_ceil(lua_State *L) {
-    if (lua_isinteger(L, 1))
-        return lua_settop(L, 1), 1;
-    return push_whole(L, ceil(luaL_checknumber(L, 1)));
-}
-static int math_modf(lua_State *L) {
-    double x = luaL_checknumber(L, 1), whole = x < 0 ? ceil(x) : floor(x);
-    lua_pushnumber(L, whole);
-    lua_pushnumber(L, x == whole ? 0.0 : x - whole);
-    return 2;
-}
-static int math_fmod(lua_State *L) {
-    if (lua_isinteger(L, 1) && lua_isinteger(L, 2)) {
-        lua_Integer a = lua_tointeger(L, 1), b = lua_tointeger(L, 2);
-        luaL_argcheck(L, b != 0, 2, "zero");
-        lua_pushinteger(L, b == -1 ? 0 : a % b);
-        return 1;
-    }
-    lua_pushnumber(L, fmod(luaL_checknumber(L, 1), luaL_checknumber(L, 2)));
-    return 1;
-}
-static int extreme(lua_State *L, bool greatest) {
-    int best = 1, count = lua_gettop(L);
-    luaL_checknumber(L, 1);
-    for (int i = 1; i <= count; i++)
-        if (lua_type(L, i) != LUA_TNUMBER)
-            return luaL_typeerror(L, i, "number");
-    for (int i = 2; i <= count; i++)
-        if (lua_compare(L, greatest ? best : i, greatest ? i : best, LUA_OPLT))
-            best = i;
-    lua_pushvalue(L, best);
-    return 1;
-}
-static int math_max(lua_State *L) {
-    return extreme(L, true);
-}
-static int math_min(lua_State *L) {
-    return extreme(L, false);
-}
-static int math_tointeger(lua_State *L) {
-    int good = 0;
-    luaL_checkany(L, 1);
-    lua_Integer n = lua_type(L, 1) == LUA_TNUMBER ? lua_tointegerx(L, 1, &good) : 0;
-    if (good)
-        lua_pushinteger(L, n);
-    else
-        lua_pushnil(L);
-    return 1;
-}
-static int math_type(lua_State *L) {
-    luaL_checkany(L, 1);
-    if (lua_type(L, 1) == LUA_TNUMBER)
-        lua_pushstring(L, lua_isinteger(L, 1) ? "integer" : "float");
-    else
-        lua_pushnil(L);
-    return 1;
-}
-
-/* From the agent's own stream: a function of seed, agent and tick. */
-static int math_random(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
-    if (vm->loading || !vm->owner->machines)
-        return luaL_error(L, "math.random works in functions of agents only; at load use normal, "
-                             "uniform or choose");
-    const JoxMachineRun *machines = vm->owner->machines;
-    double u = jox_random_unit(machines->seed, machines->agents->id[vm->agent], machines->tick,
-                               JOX_DRAW_LUA, vm->draws++);
-    if (lua_gettop(L) == 0) {
-        lua_pushnumber(L, u);
-        return 1;
-    }
-    double low = lua_gettop(L) > 1 ? floor(luaL_checknumber(L, 1)) : 1.0;
-    double high = floor(luaL_checknumber(L, lua_gettop(L) > 1 ? 2 : 1));
-    luaL_argcheck(
-        L, fabs(low) <= 9007199254740992.0 && fabs(high) <= 9007199254740992.0 && high - low < 1e15,
-        1, "the interval is too large");
-    luaL_argcheck(L, high >= low, 1, "the interval is empty");
-    lua_pushinteger(L, (lua_Integer)(low + floor(u * (high - low + 1.0))));
-    return 1;
-}
-
-const luaL_Reg jox_library_math[] = {{"sin", math_sin},       {"cos", math_cos},
-                                     {"tan", math_tan},       {"asin", math_asin},
-                                     {"acos", math_acos},     {"atan", math_atan},
-                                     {"exp", math_exp},       {"log", math_log},
-                                     {"sqrt", math_sqrt},     {"deg", math_deg},
-                                     {"rad", math_rad},       {"abs", math_abs},
-                                     {"ceil", math_ceil},     {"floor", math_floor},
-                                     {"modf", math_modf},     {"fmod", math_fmod},
-                                     {"max", math_max},       {"min", math_min},
-                                     {"type", math_type},     {"tointeger", math_tointeger},
-                                     {"random", math_random}, {NULL, NULL}};
 
 /* ---- pairs in a fixed order: numbers, then strings ---- */
 
@@ -367,25 +201,10 @@ static int base_ipairs(lua_State *L) {
 
 /* ---- kinds and text of values ---- */
 
-static const char *kind_of(lua_State *L, int index) {
-    return jox_node_get(L, index) ? "value" : luaL_typename(L, index);
-}
 static int base_type(lua_State *L) {
     luaL_checkany(L, 1);
-    lua_pushstring(L, kind_of(L, 1));
+    lua_pushstring(L, jox_library_kind(L, 1));
     return 1;
-}
-const char *jox_library_text(lua_State *L, int index, size_t *length) {
-    int type = lua_type(L, index);
-    if (type == LUA_TNUMBER && lua_tonumber(L, index) != lua_tonumber(L, index))
-        lua_pushliteral(L, "nan"); /* its sign means nothing */
-    else if (type == LUA_TNUMBER || type == LUA_TSTRING)
-        lua_pushvalue(L, index);
-    else if (type == LUA_TBOOLEAN)
-        lua_pushstring(L, lua_toboolean(L, index) ? "true" : "false");
-    else
-        lua_pushstring(L, kind_of(L, index)); /* no addresses */
-    return lua_tolstring(L, -1, length);
 }
 static int base_tostring(lua_State *L) {
     luaL_checkany(L, 1);
@@ -495,9 +314,8 @@ static int base_pcall(lua_State *L) {
 
 /* Whether one more line may be said; the last one says that no more follow. */
 static bool may_print(JoxVm *vm, bool *last) {
-    const JoxMachineRun *machines = vm->owner->machines;
-    uint32_t most = vm->owner->limits.print_lines;
-    uint32_t second = vm->loading || !machines ? 0 : (uint32_t)(machines->tick * machines->dt) + 1;
+    uint32_t most = vm->group->limits.print_lines;
+    const uint32_t second = vm->loading ? 0 : vm->second;
     if (second != vm->print_second) {
         vm->print_second = second;
         vm->printed = 0;
@@ -515,7 +333,7 @@ static int base_print(lua_State *L) {
     int count = lua_gettop(L);
     bool last;
     jox_vm_charge(L, 50);
-    if (!may_print(vm, &last) || (!vm->loading && !vm->owner->complain))
+    if (!may_print(vm, &last) || (!vm->loading && !vm->group->say))
         return 0;
     JoxPosition place = jox_vm_place(L);
     char line[LONGEST_LINE + 600];
@@ -543,7 +361,7 @@ static int base_print(lua_State *L) {
     if (vm->loading) /* perhaps on a thread of its own: said when the file is adopted */
         jox_text_add(&vm->printed_text, line);
     else
-        vm->owner->complain(vm->owner->complain_context, line);
+        vm->group->say(vm->group->say_context, line);
     return 0;
 }
 

@@ -2,43 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lua/internal.h"
+#include "lua/vm/library.h"
 
 enum { LONGEST_STRING = 1 << 20, MOST_BYTES = 200, WIDEST = 99 };
-
-/* ---- text that grows ---- */
-
-void jox_scratch_open(JoxScratch *s, lua_State *L, size_t capacity) {
-    capacity = capacity < 64 ? 64 : capacity;
-    luaL_checkstack(L, 4, "text");
-    *s = (JoxScratch){L, lua_newuserdatauv(L, capacity, 0), 0, capacity, lua_gettop(L)};
-}
-
-void jox_scratch_add(JoxScratch *s, const char *text, size_t length) {
-    if (s->length + length > LONGEST_STRING)
-        luaL_error(s->L, "the result would be over 1 MB");
-    if (s->length + length > s->capacity) {
-        size_t capacity =
-            2 * s->capacity > s->length + length ? 2 * s->capacity : s->length + length;
-        char *data = lua_newuserdatauv(s->L, capacity, 0);
-        memcpy(data, s->data, s->length);
-        lua_replace(s->L, s->slot);
-        s->data = data;
-        s->capacity = capacity;
-    }
-    if (length > 0)
-        memcpy(s->data + s->length, text, length);
-    s->length += length;
-}
-
-void jox_scratch_push(JoxScratch *s) {
-    lua_pushlstring(s->L, s->data, s->length);
-}
-
-int jox_library_compare(const char *a, size_t a_length, const char *b, size_t b_length) {
-    int order = memcmp(a, b, a_length < b_length ? a_length : b_length);
-    return order ? order : (a_length > b_length) - (a_length < b_length);
-}
 
 /* ---- parts ---- */
 

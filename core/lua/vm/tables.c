@@ -1,7 +1,7 @@
 /* table.*, for behaviours: raw access, frozen tables are read but never written, all is charged. */
 #include <string.h>
 
-#include "lua/internal.h"
+#include "lua/vm/library.h"
 
 enum { MOST_UNPACKED = 200, MOST_MOVED = 100000 };
 

@@ -1,7 +1,7 @@
 /* Variables that functions share with the code around them (Lua's upvalues). They are constants
    once a file is loaded: what a function changed there is found after its call, through Lua's debug
    interface, and taken back. */
-#include "lua/internal.h"
+#include "lua/vm/vm.h"
 
 #include <string.h>
 

@@ -5,8 +5,9 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
-#include "lua/internal.h"
+#include "lua/vm/vm.h"
 
 enum {
     FIRST_CHECK = 100,
@@ -58,7 +59,7 @@ static void *allocate(void *context, void *memory, size_t old, size_t size) {
         free(memory);
         return NULL;
     }
-    const JoxLuaLimits *limits = &vm->owner->limits;
+    const JoxLuaLimits *limits = &vm->group->limits;
     const size_t most = is_hash_part(old, size) ? limits->block / 2 : limits->block;
     uint64_t cost = size > old ? (size - old) >> 2 : 0; /* a few instructions can copy megabytes */
     void *result = NULL;
@@ -83,7 +84,7 @@ static double thread_seconds(void) {
 }
 
 static double load_seconds(const JoxVm *vm) {
-    double share = (double)vm->owner->limits.load_instructions / 20e6;
+    double share = (double)vm->group->limits.load_instructions / 20e6;
     return LOAD_SECONDS * SLOWER * (share > 1.0 ? share : 1.0);
 }
 
@@ -100,8 +101,8 @@ static void watch(JoxVm *vm, double weight, double most) {
     vm->beyond = vm->beyond + beyond > 0.0 ? vm->beyond + beyond : 0.0;
     vm->watch_from = now;
     vm->watch_left = vm->left;
-    if (vm->beyond > STALL_SECONDS * SLOWER && !vm->owner->stalled[0])
-        snprintf(vm->owner->stalled, sizeof vm->owner->stalled, "%s", vm->sources[0].path);
+    if (vm->beyond > STALL_SECONDS * SLOWER && !vm->group->stalled[0])
+        snprintf(vm->group->stalled, sizeof vm->group->stalled, "%s", vm->sources[0]->path);
 }
 
 static void begin_load(JoxVm *vm) {
@@ -129,16 +130,13 @@ static const char *next_piece(lua_State *L, void *context, size_t *size) {
     return *size > 0 ? text : NULL;
 }
 
-bool jox_source_compile(JoxVm *vm, size_t number) {
+bool jox_vm_compile(JoxVm *vm, size_t number) {
+    JOX_ASSERT(number < vm->source_count);
     char chunk[24];
     snprintf(chunk, sizeof chunk, "=b%zu", number);
     begin_load(vm);
-    Piece piece = {vm, vm->sources[number].text, vm->sources[number].length};
+    Piece piece = {vm, vm->sources[number]->text, vm->sources[number]->length};
     return lua_load(vm->L, next_piece, &piece, chunk, "t") == LUA_OK;
-}
-
-const char *jox_lua_stalled(const JoxLua *lua) {
-    return lua->stalled[0] ? lua->stalled : NULL;
 }
 
 int jox_vm_stop(lua_State *L) {
@@ -166,7 +164,7 @@ static void count_hook(lua_State *L, lua_Debug *debug) {
         good = good && thread_seconds() < vm->deadline;
     } else if (vm->interval == CHECK_EVERY) {
         watch(vm, 1.0, 1e9);
-        good = good && !vm->owner->stalled[0];
+        good = good && !vm->group->stalled[0];
     } else if (good) {
         vm->watch_from = thread_seconds();
         vm->watch_left = vm->left;
@@ -194,67 +192,40 @@ JoxVm *jox_vm_of(lua_State *L) {
     return *(JoxVm **)lua_getextraspace(L);
 }
 
-static int open_all(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
-    jox_nodes_open(vm);
-    jox_words_open(vm);
-    jox_me_open(vm);
-    jox_sandbox_open(vm);
-    return 0;
-}
-
-JoxVm *jox_vm_create(JoxLua *lua) {
-    JoxVm *vm = jox_alloc(1, sizeof *vm);
-    vm->owner = lua;
+bool jox_vm_open(JoxVm *vm, JoxVmGroup *group, lua_CFunction open) {
+    JOX_ASSERT(!vm->L && !vm->group);
+    vm->group = group;
     vm->L = lua_newstate(allocate, vm);
-    if (!vm->L) {
-        jox_free(vm);
-        return NULL;
-    }
+    if (!vm->L)
+        return false;
     *(JoxVm **)lua_getextraspace(vm->L) = vm;
-    lua_pushcfunction(vm->L, open_all);
-    if (lua_pcall(vm->L, 0, 0, 0) != LUA_OK) {
-        jox_vm_free(vm);
-        return NULL;
-    }
-    return vm;
+    lua_pushcfunction(vm->L, open);
+    bool good = lua_pcall(vm->L, 0, 0, 0) == LUA_OK;
+    JOX_ASSERT(!good || lua_gettop(vm->L) == 0);
+    return good;
 }
 
-void jox_vm_free(JoxVm *vm) {
-    if (!vm)
-        return;
-    lua_close(vm->L);
-    for (size_t i = 0; i < vm->node_count; i++)
-        jox_free(vm->nodes[i]);
+void jox_vm_close(JoxVm *vm) {
+    JOX_ASSERT(!vm->running);
+    if (vm->L)
+        lua_close(vm->L);
+    JOX_ASSERT(vm->used == 0);
     for (size_t i = 0; i < vm->name_count; i++)
         jox_free(vm->names[i]);
-    for (size_t i = 0; i < vm->source_count; i++)
-        jox_source_free(&vm->sources[i]);
+    for (size_t i = 0; i < vm->source_count; i++) {
+        jox_source_free(vm->sources[i]);
+        jox_free(vm->sources[i]);
+    }
     for (uint32_t i = 0; i < vm->file_count; i++)
         jox_free(vm->files[i].path);
     for (uint32_t i = 0; i < vm->tried_count; i++)
         jox_free(vm->tried[i]);
     jox_free(vm->tried);
     jox_text_free(&vm->printed_text);
-    for (uint32_t i = 0; i < vm->memory_count; i++)
-        jox_free(vm->memory[i].name);
-    for (size_t o = 0; o < vm->origin_count; o++) {
-        jox_free(vm->origins[o].path);
-        jox_free(vm->origins[o].from);
-    }
-    jox_free(vm->origins);
-    jox_free(vm->nodes);
     jox_free(vm->names);
     jox_free(vm->sources);
     jox_free(vm->files);
-    jox_free(vm->memory);
-    for (uint32_t h = 0; h < vm->hook_count; h++) {
-        jox_free(vm->hooks[h].where);
-        jox_free(vm->hooks[h].complaint);
-    }
-    jox_free(vm->hooks);
-    jox_free(vm->upvalues.items);
-    jox_free(vm);
+    *vm = (JoxVm){0};
 }
 
 const char *jox_vm_intern(JoxVm *vm, const char *name) {
@@ -268,24 +239,30 @@ const char *jox_vm_intern(JoxVm *vm, const char *name) {
     return vm->names[vm->name_count++] = jox_strdup(name);
 }
 
+int jox_vm_source(const JoxVm *vm, const char *chunk) {
+    int number, used = 0;
+    if (sscanf(chunk, "b%d%n", &number, &used) != 1 || chunk[used] || number < 0 ||
+        (size_t)number >= vm->source_count)
+        return -1;
+    return number;
+}
+
 JoxPosition jox_vm_place(lua_State *L) {
-    JoxVm *vm = jox_vm_of(L);
+    const JoxVm *vm = jox_vm_of(L);
     lua_Debug debug;
     for (int level = 1, number; lua_getstack(L, level, &debug); level++)
         if (lua_getinfo(L, "Sl", &debug) && debug.currentline > 0 &&
-            sscanf(debug.short_src, "b%d", &number) == 1 && number >= 0 &&
-            (size_t)number < vm->source_count)
-            return (JoxPosition){vm->sources[number].path, debug.currentline, 0, 0};
+            (number = jox_vm_source(vm, debug.short_src)) >= 0)
+            return (JoxPosition){vm->sources[number]->path, debug.currentline, 0, 0};
     return (JoxPosition){0};
 }
 
-/* Splits "b12:34: message" into line and message; the number is that of the source. */
-static const char *split_message(JoxVm *vm, const char *message, int *line) {
-    int source, used = 0;
+const char *jox_vm_split(const JoxVm *vm, const char *message, int *line, size_t *source) {
+    int number, used = 0;
     *line = 0;
-    vm->failed_source = 0;
-    if (sscanf(message, "b%d:%d: %n", &source, line, &used) == 2 && used > 0) {
-        vm->failed_source = source > 0 && (size_t)source < vm->source_count ? (size_t)source : 0;
+    *source = 0;
+    if (sscanf(message, "b%d:%d: %n", &number, line, &used) == 2 && used > 0) {
+        *source = number > 0 && (size_t)number < vm->source_count ? (size_t)number : 0;
         return message + used;
     }
     *line = 0;
@@ -300,18 +277,17 @@ static int keep_traceback(lua_State *L) {
     vm->traceback[0] = 0;
     lua_Debug debug;
     for (int level = 1; shown < 10 && lua_getstack(L, level, &debug); level++) {
-        int number;
         lua_getinfo(L, "Sln", &debug);
-        if (debug.currentline < 1 || sscanf(debug.short_src, "b%d", &number) != 1 ||
-            (size_t)number >= vm->source_count)
+        int number = debug.currentline < 1 ? -1 : jox_vm_source(vm, debug.short_src);
+        if (number < 0)
             continue;
         char name[48]; /* it may be any text: t["..."]() */
         snprintf(name, sizeof name, "%.40s", debug.name ? debug.name : "");
         jox_text_clean(name);
-        used +=
-            (size_t)snprintf(vm->traceback + used, sizeof vm->traceback - used,
-                             "   at %.200s:%d%s%s%s\n", vm->sources[number].path, debug.currentline,
-                             debug.name ? " in '" : "", name, debug.name ? "'" : "");
+        used += (size_t)snprintf(vm->traceback + used, sizeof vm->traceback - used,
+                                 "   at %.200s:%d%s%s%s\n", vm->sources[number]->path,
+                                 debug.currentline, debug.name ? " in '" : "", name,
+                                 debug.name ? "'" : "");
         shown++;
         if (used >= sizeof vm->traceback)
             break;
@@ -347,10 +323,9 @@ static locale_t plain_locale(void) {
 
 /* What a hook may use: less where those before it in this step have used up what all may. */
 static uint64_t step_budget(JoxVm *vm, uint64_t instructions) {
-    const JoxMachineRun *machines = vm->owner->machines;
-    if (machines && (vm->calls == 0 || vm->step != machines->tick)) {
-        vm->step = machines->tick;
-        vm->step_left = vm->owner->limits.step_instructions;
+    if (vm->calls == 0 || vm->step != vm->budget_step) {
+        vm->budget_step = vm->step;
+        vm->step_left = vm->group->limits.step_instructions;
     }
     uint64_t left = vm->step_left > LEAST_BUDGET ? vm->step_left : LEAST_BUDGET;
     return instructions < left ? instructions : left;
@@ -358,6 +333,8 @@ static uint64_t step_budget(JoxVm *vm, uint64_t instructions) {
 
 bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, const char **why,
                  int *line) {
+    JOX_ASSERT(!vm->running);
+    JOX_ASSERT(arguments >= 0 && lua_gettop(vm->L) > arguments);
     vm->over = vm->starved = false;
     vm->failed_source = 0;
     vm->traceback[0] = 0;
@@ -401,49 +378,12 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
     if (status == LUA_ERRMEM || vm->starved)
         snprintf(text, sizeof text, "it asked for too much memory and was stopped");
     else if (lua_type(vm->L, -1) == LUA_TSTRING)
-        snprintf(text, sizeof text, "%s", split_message(vm, lua_tostring(vm->L, -1), line));
+        snprintf(text, sizeof text, "%s",
+                 jox_vm_split(vm, lua_tostring(vm->L, -1), line, &vm->failed_source));
     else
         snprintf(text, sizeof text, "it raised an error that is a %s, not a text",
                  lua_typename(vm->L, lua_type(vm->L, -1)));
     jox_text_clean(text);
     lua_settop(vm->L, 0);
     return false;
-}
-
-JoxLua *jox_lua_create(const JoxLuaLimits *limits) {
-    JoxLua *lua = jox_alloc(1, sizeof *lua);
-    lua->limits = limits ? *limits : jox_lua_default_limits();
-    return lua;
-}
-
-void jox_lua_free(JoxLua *lua) {
-    if (!lua)
-        return;
-    for (uint32_t i = 0; i < lua->vm_count; i++)
-        jox_vm_free(lua->vms[i]);
-    jox_free(lua->vms);
-    jox_free(lua->before_state);
-    jox_free(lua->before_memory);
-    jox_free(lua->writes);
-    jox_free(lua);
-}
-
-JoxVm *jox_vm_detach(JoxLua *lua, const JoxMachine *machine) {
-    if (!machine || machine->vm < 0 || (uint32_t)machine->vm >= lua->vm_count)
-        return NULL;
-    JoxVm *vm = lua->vms[machine->vm];
-    lua->vms[machine->vm] = NULL;
-    return vm;
-}
-
-void jox_lua_release(JoxLua *lua, const JoxMachine *machine) {
-    jox_vm_free(jox_vm_detach(lua, machine));
-}
-
-const JoxLuaFile *jox_lua_files(const JoxLua *lua, const JoxMachine *machine, uint32_t *count) {
-    *count = 0;
-    if (machine->vm < 0 || !lua->vms[machine->vm])
-        return NULL;
-    *count = lua->vms[machine->vm]->file_count;
-    return lua->vms[machine->vm]->files;
 }

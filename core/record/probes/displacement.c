@@ -132,6 +132,7 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
 }
 
 static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+    (void)def;
     const Displacement *d = state;
     JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
     for (uint32_t k = 0; k < d->capacity; k++) {
@@ -162,10 +163,9 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
     if (walls)
         jox_text_add(out, "'walls.dat' using 1:2 with lines lw 2 lc 'black', ");
     jox_text_printf(out,
-                    "'%s.csv' skip 1 using 2:3 with points pt 6 ps 0.8 lc '#888888', "
+                    "csv skip 1 using 2:3 with points pt 6 ps 0.8 lc '#888888', "
                     "'' skip 1 using 2:3:4:5:6 with vectors head filled size graph 0.012,20 lw 1.5 "
-                    "lc palette\n",
-                    def->name);
+                    "lc palette\n");
 }
 
 const JoxProbeCalls jox_probe_displacement = {

@@ -73,9 +73,9 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
                     "set xlabel 'time (s)'\nset ylabel 'programs that failed (%%)'\nunset key\n"
                     "set yrange [0:%g]\nset xrange [%g:%g]\nset boxwidth %g\n"
                     "set style fill solid 0.9\n"
-                    "plot '%s.csv' skip 1 using 1:(100*$4) with boxes lc '#1f77b4'\n",
+                    "plot csv skip 1 using 1:(100*$4) with boxes lc '#1f77b4'\n",
                     fmax(1.1 * most, 1.0), def->from, def->from + f->count * def->every,
-                    0.9 * def->every, def->name);
+                    0.9 * def->every);
 }
 
 const JoxProbeCalls jox_probe_failures = {

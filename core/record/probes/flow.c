@@ -146,6 +146,7 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
 }
 
 static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+    (void)def;
     (void)walls;
     const Flow *f = state;
     size_t count, first, last;
@@ -159,19 +160,17 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
                     "unset title\nset multiplot layout 2,1 title heading font ',14' noenhanced\n"
                     "set key top left\nset xlabel 'time (s)'\nset xrange [%g:%g]\n"
                     "set ylabel 'passages'\nset yrange [0:%g]\n"
-                    "plot '%s.csv' skip 1 using 1:4 with steps lw 2 lc '#1f77b4' title 'N(t)'",
+                    "plot csv skip 1 using 1:4 with steps lw 2 lc '#1f77b4' title 'N(t)'",
                     floor(f->crossings[0].time) - 1, f->crossings[f->count - 1].time + 1,
-                    1.1 * (double)count + 1, def->name);
+                    1.1 * (double)count + 1);
     if (isfinite(flow))
         jox_text_printf(out,
                         ", [%g:%g] %zu + %.9g * (x - %.9g) with lines lw 2 dt 2 lc '#d62728' "
                         "title sprintf('middle 60 %%%%: %%.3g people/s', %.9g)",
                         times[first], times[last], first + 1, flow, times[first], flow);
     if (count >= 2)
-        jox_text_printf(out,
-                        "\nset ylabel 'lapse since the one before (s)'\nset yrange [0:*]\n"
-                        "plot '%s.csv' skip 1 using 1:5 with impulses lw 2 lc '#1f77b4' notitle\n",
-                        def->name);
+        jox_text_printf(out, "\nset ylabel 'lapse since the one before (s)'\nset yrange [0:*]\n"
+                             "plot csv skip 1 using 1:5 with impulses lw 2 lc '#1f77b4' notitle\n");
     else
         jox_text_add(out, "\n");
     jox_free(times);

@@ -104,19 +104,18 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
 }
 
 static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+    (void)def;
     const Lanes *l = state;
     (void)walls;
     if (l->count == 0) {
         jox_plot_nothing(out, "nobody walked in the area");
         return;
     }
-    jox_text_printf(out,
-                    "set xlabel 'time (s)'\nset ylabel 'order parameter of lanes'\n"
-                    "set yrange [0:1.05]\nset key bottom right opaque\n"
-                    "plot '%s.csv' skip 1 using 1:2 with lines lw 2 lc '#1f77b4' title 'measured', "
-                    "'' skip 1 using 1:3 with lines lw 1.5 dt 2 lc '#999999' title "
-                    "'of people placed at random'\n",
-                    def->name);
+    jox_text_printf(out, "set xlabel 'time (s)'\nset ylabel 'order parameter of lanes'\n"
+                         "set yrange [0:1.05]\nset key bottom right opaque\n"
+                         "plot csv skip 1 using 1:2 with lines lw 2 lc '#1f77b4' title 'measured', "
+                         "'' skip 1 using 1:3 with lines lw 1.5 dt 2 lc '#999999' title "
+                         "'of people placed at random'\n");
 }
 
 const JoxProbeCalls jox_probe_lanes = {

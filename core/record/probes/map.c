@@ -178,20 +178,19 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
 }
 
 /* One field; the range of colours is given: gnuplot would warn where all is 0. */
-static void panel(const JoxProbeDef *def, bool walls, int column, const char *what, double most,
-                  JoxText *out) {
+static void panel(bool walls, int column, const char *what, double most, JoxText *out) {
     jox_text_printf(out,
                     "set title '%s'\nset cbrange [0:%g]\n"
                     "set palette defined (%s0.02 '#440154', 0.27 '#3b528b', 0.52 '#21918c', "
                     "0.77 '#5ec962', 1 '#fde725')\n"
-                    "plot '%s.csv' skip 1 using 1:2:%d with image%s\n",
+                    "plot csv skip 1 using 1:2:%d with image%s\n",
                     what, most > 0.0 ? most : 1.0,
                     column == 4 ? "" : "0 '#ffffff', ", /* where all is still, too, one sees it */
-                    def->name, column,
-                    walls ? ", 'walls.dat' using 1:2 with lines lw 1.5 lc 'black'" : "");
+                    column, walls ? ", 'walls.dat' using 1:2 with lines lw 1.5 lc 'black'" : "");
 }
 
 static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+    (void)def;
     const Map *m = state;
     const JoxDensity *g = m->grid;
     double density = 0.0, speed = 0.0, pressure = 0.0, n = m->samples;
@@ -212,11 +211,11 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
         "unset grid\nset xrange [%g:%g]\nset yrange [%g:%g]\n",
         g->low.x, g->low.x + (float)g->columns * g->cell, g->low.y,
         g->low.y + (float)g->rows * g->cell);
-    panel(def, walls, 3, "density (1/m^2)", density, out);
-    panel(def, walls, 4, "speed (m/s)", speed, out);
-    panel(def, walls, 5, "crowd pressure (1/s^2)", pressure, out);
+    panel(walls, 3, "density (1/m^2)", density, out);
+    panel(walls, 4, "speed (m/s)", speed, out);
+    panel(walls, 5, "crowd pressure (1/s^2)", pressure, out);
     if (m->has_compression)
-        panel(def, walls, 7, "greatest compression (N/m)", m->compression_greatest, out);
+        panel(walls, 7, "greatest compression (N/m)", m->compression_greatest, out);
 }
 
 static void release(void *state) {

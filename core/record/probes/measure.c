@@ -171,6 +171,7 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
 }
 
 static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+    (void)def;
     const Measure *m = state;
     bool any = false;
     (void)walls;
@@ -184,15 +185,14 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
                     "unset title\nset multiplot layout 2,2 title heading font ',14' "
                     "noenhanced\nset key top right opaque\nset yrange [0:*]\n"
                     "set xlabel 'time (s)'\nset ylabel 'density (1/m^2)'\n"
-                    "plot '%s.csv' skip 1 using 1:4 with lines lw 2 lc '#1f77b4' title 'Voronoi', "
+                    "plot csv skip 1 using 1:4 with lines lw 2 lc '#1f77b4' title 'Voronoi', "
                     "'' skip 1 using 1:3 with lines lw 1 lc '#999999' title 'classical'\n"
                     "set ylabel 'mean speed (m/s)'\n"
-                    "plot '%s.csv' skip 1 using 1:5 with lines lw 2 lc '#d62728' notitle\n"
+                    "plot csv skip 1 using 1:5 with lines lw 2 lc '#d62728' notitle\n"
                     "set xrange [0:*]\nset xlabel 'Voronoi density (1/m^2)'\n"
-                    "plot '%s.csv' skip 1 using 4:5 with points pt 7 ps 0.7 lc '#1f77b4' notitle\n"
+                    "plot csv skip 1 using 4:5 with points pt 7 ps 0.7 lc '#1f77b4' notitle\n"
                     "set ylabel 'specific flow (1/(m s))'\n"
-                    "plot '%s.csv' skip 1 using 4:6 with points pt 7 ps 0.7 lc '#1f77b4' notitle\n",
-                    def->name, def->name, def->name, def->name);
+                    "plot csv skip 1 using 4:6 with points pt 7 ps 0.7 lc '#1f77b4' notitle\n");
 }
 
 static void release(void *state) {

@@ -21,7 +21,7 @@ typedef struct JoxProbeCalls {
     void (*figures)(const JoxProbeDef *def, const void *state, JoxFigures *out);
     /* A first line with names and units in brackets, then rows. */
     void (*csv)(const JoxProbeDef *def, const void *state, FILE *out);
-    /* gnuplot commands that draw NAME.csv; the terminal is set, commas separate. */
+    /* gnuplot commands that draw the file `csv`; the terminal is set, commas separate. */
     void (*plot)(const JoxProbeDef *def, const void *state, bool walls, JoxText *out);
     int width, height;            /* of the picture, pixels; height 0: by the area of the map */
     size_t owned[8];              /* what of the state jox_free takes: JOX_OWNED of each */

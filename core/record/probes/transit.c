@@ -138,8 +138,8 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
     jox_text_printf(out,
                     "set xlabel 'time of the beginning (s)'\nset ylabel 'time to the end (s)'\n"
                     "set xrange [%g:%g]\nset yrange [0:*]\nset offsets 0, 0, 0.1, 0\nunset key\n"
-                    "plot '%s.csv' skip 1 using 2:4 with points pt 7 ps 0.8 lc '#1f77b4'\n",
-                    first - 1.0, last + 1.0, def->name);
+                    "plot csv skip 1 using 2:4 with points pt 7 ps 0.8 lc '#1f77b4'\n",
+                    first - 1.0, last + 1.0);
 }
 
 #define KIND(frames)                                                                               \

@@ -75,6 +75,7 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
 }
 
 static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+    (void)def;
     const Winding *w = state;
     double least = INFINITY, greatest = -INFINITY;
     (void)walls;
@@ -93,12 +94,12 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
                     "w = %g\nset xlabel 'turns, anti-clockwise'\nset ylabel 'people'\n"
                     "set key top right opaque\nset yrange [0:*]\nset boxwidth w\n"
                     "set style fill transparent solid 0.6\nset xrange [%g:%g]\n"
-                    "plot '%s.csv' skip 1 using (w * (floor($3 / w) + 0.5)):(1) smooth frequency "
+                    "plot csv skip 1 using (w * (floor($3 / w) + 0.5)):(1) smooth frequency "
                     "with boxes lc '#1f77b4' title 'at the end', '' skip 1 using "
                     "(w * (floor($4 / w) + 0.5)):(1) smooth frequency with boxes lc '#d62728' "
                     "title 'least at any time'\n",
-                    wide, (floor(least / wide) - 1.0) * wide, (floor(greatest / wide) + 2.0) * wide,
-                    def->name);
+                    wide, (floor(least / wide) - 1.0) * wide,
+                    (floor(greatest / wide) + 2.0) * wide);
 }
 
 const JoxProbeCalls jox_probe_winding = {

@@ -1,7 +1,7 @@
 // Colours. Classes: Okabe and Ito (2008), which people with any colour vision tell apart, then the
-// same lighter and darker. Values: a ramp like viridis, whose lightness grows throughout.
+// same lighter and darker: those of palette.c, so that a group looks alike in pictures. Values: a ramp like viridis, whose lightness grows throughout.
 
-const CLASSES = ["#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7", "#999999"];
+const CLASSES = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#f0e442"];
 const RAMP = ["#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c", "#28ae80", "#5ec962", "#addc30", "#fde725"];
 const HEAT = ["#1b1044", "#51127c", "#8c2981", "#b73779", "#de4968", "#f7705c", "#fe9f6d", "#fecf92", "#fcfdbf"];
 
@@ -15,7 +15,7 @@ export function classColour(index) {
     const turn = Math.floor(index / CLASSES.length) % 3;
     if (turn === 0) return base;
     const towards = turn === 1 ? 255 : 0;
-    return base.map((c) => Math.round(c + 0.5 * (towards - c)));
+    return base.map((c) => Math.round(c + 0.45 * (towards - c)));
 }
 
 /** sRGB of a share of the most, 0 to 1. */
@@ -49,7 +49,7 @@ export const COLOURS = {
     force: { name: "net force", unit: "N" },
     compression: { name: "compression", unit: "N/m" },
     density: { name: "density", unit: "1/m²" },
-    failed: { name: "solved programs", classes: true, names: ["solved", "no velocity satisfies all"], at: [1, 5] },
+    failed: { name: "solved programs", classes: true, names: ["solved", "no velocity satisfies all"], at: [4, 3] },
 };
 
 /** A unit as it is written: 1/m2 becomes 1/m². */

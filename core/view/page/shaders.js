@@ -35,7 +35,7 @@ Person decode() {
     p.radius = max(person.x, 5.0) / 100.0;
     float failed = mod(floor(info.w / 2.0), 2.0);
     p.colour = ((classes < 0.5 ? info.z : classes < 1.5 ? info.y : classes < 2.5 ? person.y
-        : 1.0 + 4.0 * failed) + 0.5) / 256.0;
+        : 4.0 - failed) + 0.5) / 256.0;
     p.flags = info.w;
     p.here = info.y < 254.5;
     return p;

@@ -1,23 +1,23 @@
 /* An agent as a test sees it: a table with all of it, which is a copy. */
 #include <math.h>
 
-#include "luatest/trial.h"
+#include "luatest/internal.h"
 
-double jox_trial_speed(const JoxAgents *a, uint32_t i) {
+double jox_test_speed(const JoxAgents *a, uint32_t i) {
     return sqrt((double)a->vx[i] * a->vx[i] + (double)a->vy[i] * a->vy[i]);
 }
 
-void jox_trial_set_number(lua_State *L, const char *name, double value) {
+void jox_test_set_number(lua_State *L, const char *name, double value) {
     lua_pushnumber(L, value);
     lua_setfield(L, -2, name);
 }
 
 /* Pushes a table with all of an agent; a copy, not the agent. */
-void jox_trial_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i) {
+void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i) {
     const JoxAgents *a = machines->agents;
     lua_newtable(L);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        jox_trial_set_number(L, jox_parameters[p].name, a->param[p][i]);
+        jox_test_set_number(L, jox_parameters[p].name, a->param[p][i]);
     if (a->machine[i] != JOX_NO_MACHINE) {
         const JoxMachine *m = machines->set->items[a->machine[i]];
         for (uint32_t s = 0; s < m->memory_count; s++) {
@@ -26,7 +26,7 @@ void jox_trial_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t 
                 lua_pushboolean(L, value != 0.0);
                 lua_setfield(L, -2, m->memory[s].name);
             } else if (*m->memory[s].name) {
-                jox_trial_set_number(L, m->memory[s].name, value);
+                jox_test_set_number(L, m->memory[s].name, value);
             }
         }
         lua_pushstring(L, m->name);
@@ -36,15 +36,15 @@ void jox_trial_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t 
     }
     lua_pushinteger(L, a->id[i]);
     lua_setfield(L, -2, "id");
-    jox_trial_set_number(L, "x", a->x[i]);
-    jox_trial_set_number(L, "y", a->y[i]);
-    jox_trial_set_number(L, "vx", a->vx[i]);
-    jox_trial_set_number(L, "vy", a->vy[i]);
-    jox_trial_set_number(L, "now",
-                         jox_trial_speed(a, i)); /* present speed; `speed` is the wanted one */
-    jox_trial_set_number(L, "density", a->density[i]);
-    jox_trial_set_number(L, "compression", a->compression[i]);
-    jox_trial_set_number(
+    jox_test_set_number(L, "x", a->x[i]);
+    jox_test_set_number(L, "y", a->y[i]);
+    jox_test_set_number(L, "vx", a->vx[i]);
+    jox_test_set_number(L, "vy", a->vy[i]);
+    jox_test_set_number(L, "now",
+                        jox_test_speed(a, i)); /* present speed; `speed` is the wanted one */
+    jox_test_set_number(L, "density", a->density[i]);
+    jox_test_set_number(L, "compression", a->compression[i]);
+    jox_test_set_number(
         L, "pushed",
         sqrt((double)a->force_x[i] * a->force_x[i] + (double)a->force_y[i] * a->force_y[i]));
 }

@@ -1,5 +1,5 @@
 /* What a test can say: build a scene, step it, look at it, assert. */
-#include "luatest/trial.h"
+#include "luatest/internal.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,24 +13,24 @@ static const double WITHIN = 60.0;        /* s, where a test gives no time */
 enum { MOST_NAMES = 1024 };
 
 /* A scene of a test, and who has been in which state. */
-typedef struct Trial {
+typedef struct Scene {
     void *scene; /* NULL once freed */
     char *names[MOST_NAMES];
     uint8_t *been[MOST_NAMES]; /* by agent id */
     uint32_t name_count, id_capacity;
     int32_t *group; /* by agent id */
     uint32_t known; /* ids whose group is known */
-} Trial;
+} Scene;
 
-static Trial *check(lua_State *L) {
-    Trial *t = luaL_checkudata(L, 1, SCENE);
+static Scene *check(lua_State *L) {
+    Scene *t = luaL_checkudata(L, 1, SCENE);
     if (!t->scene)
         luaL_error(L, "this scene is over");
     return t;
 }
 
-static const JoxMachineRun *machines_of(lua_State *L, const Trial *t) {
-    const JoxTestDriver *driver = jox_trial_of(L)->driver;
+static const JoxMachineRun *machines_of(lua_State *L, const Scene *t) {
+    const JoxTestDriver *driver = jox_test_run_of(L)->driver;
     return driver->machines(driver->context, t->scene);
 }
 
@@ -40,14 +40,14 @@ static double time_of(const JoxMachineRun *machines) {
 
 /* ---- who has been where ---- */
 
-static int find_name(const Trial *t, const char *name) {
+static int find_name(const Scene *t, const char *name) {
     for (uint32_t n = 0; n < t->name_count; n++)
         if (strcmp(t->names[n], name) == 0)
             return (int)n;
     return -1;
 }
 
-static void mark(Trial *t, const char *state, uint32_t id) {
+static void mark(Scene *t, const char *state, uint32_t id) {
     int n = find_name(t, state);
     if (n < 0 && t->name_count < MOST_NAMES) {
         n = (int)t->name_count++;
@@ -58,7 +58,7 @@ static void mark(Trial *t, const char *state, uint32_t id) {
         t->been[n][id] = 1;
 }
 
-static void note(const JoxMachineRun *machines, Trial *t) {
+static void note(const JoxMachineRun *machines, Scene *t) {
     const JoxAgents *a = machines->agents;
     if (a->next_id > t->id_capacity) {
         uint32_t wider = a->next_id + a->next_id / 2 + 64;
@@ -84,22 +84,22 @@ static void note(const JoxMachineRun *machines, Trial *t) {
     }
 }
 
-static void step(lua_State *L, Trial *t) {
-    JoxTrial *trial = jox_trial_of(L);
-    const JoxTestDriver *driver = trial->driver;
+static void step(lua_State *L, Scene *t) {
+    JoxTestRun *run = jox_test_run_of(L);
+    const JoxTestDriver *driver = run->driver;
     JoxText why = {0};
-    double begun = jox_trial_clock();
+    double begun = jox_test_clock();
     bool good = driver->step(driver->context, t->scene, &why);
-    trial->stepping += jox_trial_clock() - begun;
+    run->stepping += jox_test_clock() - begun;
     const JoxMachineRun *machines = machines_of(L, t);
-    trial->simulated += machines->dt;
+    run->simulated += machines->dt;
     note(machines, t);
     if (!good) {
         lua_pushfstring(L, "%s", why.data ? why.data : "the step failed");
         jox_text_free(&why);
         luaL_error(L, "%s", lua_tostring(L, -1));
     }
-    if (trial->stepping > MOST_STEPPING)
+    if (run->stepping > MOST_STEPPING)
         luaL_error(L, "this test has stepped for over %d s of processor time", (int)MOST_STEPPING);
 }
 
@@ -138,7 +138,7 @@ static void check_options(lua_State *L, int index, const char *const *known, siz
 }
 
 /* The group that the option `agents` names; -1 for all. */
-static int32_t group_option(lua_State *L, const Trial *t, int index) {
+static int32_t group_option(lua_State *L, const Scene *t, int index) {
     if (lua_type(L, index) != LUA_TTABLE)
         return -1;
     lua_pushstring(L, "agents");
@@ -146,7 +146,7 @@ static int32_t group_option(lua_State *L, const Trial *t, int index) {
         lua_pop(L, 1);
         return -1;
     }
-    const JoxTestDriver *driver = jox_trial_of(L)->driver;
+    const JoxTestDriver *driver = jox_test_run_of(L)->driver;
     const char *name = luaL_checkstring(L, -1);
     int32_t group = driver->group(driver->context, t->scene, name);
     if (group < 0)
@@ -156,7 +156,7 @@ static int32_t group_option(lua_State *L, const Trial *t, int index) {
 }
 
 /* A state that some machine of the scene has. */
-static const char *check_state(lua_State *L, const Trial *t, int index) {
+static const char *check_state(lua_State *L, const Scene *t, int index) {
     const char *name = luaL_checkstring(L, index), *names[256];
     const JoxMachineRun *machines = machines_of(L, t);
     size_t count = 0;
@@ -186,7 +186,7 @@ static uint32_t count_in(const JoxMachineRun *machines, const char *state, int32
     return count;
 }
 
-static uint32_t been_in(const Trial *t, const char *state, int32_t group) {
+static uint32_t been_in(const Scene *t, const char *state, int32_t group) {
     int n = find_name(t, state);
     uint32_t count = 0;
     for (uint32_t id = 0; n >= 0 && id < t->known; id++)
@@ -195,7 +195,7 @@ static uint32_t been_in(const Trial *t, const char *state, int32_t group) {
 }
 
 /* "Walk 3, Rest 2": where the agents are. */
-static void push_census(lua_State *L, const JoxMachineRun *machines, int32_t group) {
+static void push_counts(lua_State *L, const JoxMachineRun *machines, int32_t group) {
     JoxText text = {0};
     for (uint32_t m = 0; m < machines->set->count; m++)
         for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
@@ -209,14 +209,14 @@ static void push_census(lua_State *L, const JoxMachineRun *machines, int32_t gro
 }
 
 static int scene_count(lua_State *L) {
-    Trial *t = check(L);
+    Scene *t = check(L);
     const char *state = lua_isnoneornil(L, 2) ? NULL : check_state(L, t, 2);
     lua_pushinteger(L, count_in(machines_of(L, t), state, group_option(L, t, 3)));
     return 1;
 }
 
 static int scene_entered(lua_State *L) {
-    Trial *t = check(L);
+    Scene *t = check(L);
     const char *state = check_state(L, t, 2);
     lua_pushinteger(L, been_in(t, state, group_option(L, t, 3)));
     return 1;
@@ -228,7 +228,7 @@ static int scene_time(lua_State *L) {
 }
 
 static int scene_hash(lua_State *L) {
-    const JoxTestDriver *driver = jox_trial_of(L)->driver;
+    const JoxTestDriver *driver = jox_test_run_of(L)->driver;
     char text[24];
     snprintf(text, sizeof text, "%016llx",
              (unsigned long long)driver->hash(driver->context, check(L)->scene));
@@ -238,9 +238,9 @@ static int scene_hash(lua_State *L) {
 
 /* s:agents(["group"]): a list in order of id. */
 static int scene_agents(lua_State *L) {
-    Trial *t = check(L);
+    Scene *t = check(L);
     const JoxMachineRun *machines = machines_of(L, t);
-    const JoxTestDriver *driver = jox_trial_of(L)->driver;
+    const JoxTestDriver *driver = jox_test_run_of(L)->driver;
     int32_t group = -1;
     if (!lua_isnoneornil(L, 2) &&
         (group = driver->group(driver->context, t->scene, luaL_checkstring(L, 2))) < 0)
@@ -251,7 +251,7 @@ static int scene_agents(lua_State *L) {
         uint32_t i = machines->agents->by_rank[rank];
         if (group >= 0 && machines->agents->group[i] != group)
             continue;
-        jox_trial_push_agent(L, machines, i);
+        jox_test_push_agent(L, machines, i);
         lua_rawseti(L, -2, ++n);
     }
     return 1;
@@ -267,34 +267,34 @@ static int scene_agent(lua_State *L) {
     if (i == JOX_NO_INDEX)
         lua_pushnil(L);
     else
-        jox_trial_push_agent(L, machines, i);
+        jox_test_push_agent(L, machines, i);
     return 1;
 }
 
 static int scene_body(lua_State *L) {
     static const char *const NAMES[] = {"x", "y", "z", "vx", "vy", "vz"};
-    Trial *t = check(L);
-    const JoxTestDriver *driver = jox_trial_of(L)->driver;
+    Scene *t = check(L);
+    const JoxTestDriver *driver = jox_test_run_of(L)->driver;
     double pose[6];
     if (!driver->body(driver->context, t->scene, luaL_checkstring(L, 2), pose))
         return luaL_error(L, "the scene has no body '%s'", lua_tostring(L, 2));
     lua_newtable(L);
     for (int k = 0; k < 6; k++)
-        jox_trial_set_number(L, NAMES[k], pose[k]);
+        jox_test_set_number(L, NAMES[k], pose[k]);
     return 1;
 }
 
 /* ---- stepping ---- */
 
 static int scene_step(lua_State *L) {
-    Trial *t = check(L);
+    Scene *t = check(L);
     for (lua_Integer n = luaL_optinteger(L, 2, 1); n > 0; n--)
         step(L, t);
     return 0;
 }
 
 static int scene_run(lua_State *L) {
-    Trial *t = check(L);
+    Scene *t = check(L);
     const JoxMachineRun *machines = machines_of(L, t);
     double steps = luaL_checknumber(L, 2) / machines->dt;
     for (double n = 0.5; n < steps; n += 1.0)
@@ -305,7 +305,7 @@ static int scene_run(lua_State *L) {
 /* s:reaches(state, { within = s, agents = "group", count = n, any = true }) */
 static int scene_reaches(lua_State *L) {
     static const char *const OPTIONS[] = {"within", "agents", "count", "any"};
-    Trial *t = check(L);
+    Scene *t = check(L);
     const char *state = check_state(L, t, 2);
     check_options(L, 3, OPTIONS, 4);
     int32_t group = group_option(L, t, 3);
@@ -322,7 +322,7 @@ static int scene_reaches(lua_State *L) {
         wanted = lua_toboolean(L, -1) ? 1 : wanted;
         lua_pop(L, 1);
     }
-    jox_trial_of(L)->assertions++;
+    jox_test_run_of(L)->assertions++;
     const JoxMachineRun *machines = machines_of(L, t);
     double until = time_of(machines) + within - 0.5 * machines->dt;
     while (been_in(t, state, group) < wanted && time_of(machines) < until)
@@ -332,7 +332,7 @@ static int scene_reaches(lua_State *L) {
         lua_pushnumber(L, time_of(machines));
         return 1;
     }
-    push_census(L, machines, group);
+    push_counts(L, machines, group);
     return luaL_error(L, "%d of %d agents reached '%s' within %f s; now at t = %f s: %s", (int)been,
                       (int)wanted, state, within, time_of(machines), lua_tostring(L, -1));
 }
@@ -340,13 +340,13 @@ static int scene_reaches(lua_State *L) {
 /* s:never(state, { during = s, agents = "group" }); what was before counts as well. */
 static int scene_never(lua_State *L) {
     static const char *const OPTIONS[] = {"during", "agents"};
-    Trial *t = check(L);
+    Scene *t = check(L);
     const char *state = check_state(L, t, 2);
     check_options(L, 3, OPTIONS, 2);
     int32_t group = group_option(L, t, 3);
     const JoxMachineRun *machines = machines_of(L, t);
     double until = time_of(machines) + option(L, 3, "during", 0.0) - 0.5 * machines->dt;
-    jox_trial_of(L)->assertions++;
+    jox_test_run_of(L)->assertions++;
     for (;;) {
         int n = find_name(t, state);
         for (uint32_t id = 0; n >= 0 && id < t->known; id++)
@@ -360,7 +360,7 @@ static int scene_never(lua_State *L) {
 }
 
 /* The greatest speed and the mean of all agents during some seconds. */
-static void watch_speed(lua_State *L, Trial *t, double during, int32_t group, double most,
+static void watch_speed(lua_State *L, Scene *t, double during, int32_t group, double most,
                         double *mean) {
     const JoxMachineRun *machines = machines_of(L, t);
     const JoxAgents *a = machines->agents;
@@ -371,7 +371,7 @@ static void watch_speed(lua_State *L, Trial *t, double during, int32_t group, do
         for (uint32_t i = 0; i < a->count; i++) {
             if (group >= 0 && a->group[i] != group)
                 continue;
-            double speed = jox_trial_speed(a, i);
+            double speed = jox_test_speed(a, i);
             sum += speed;
             count++;
             if (speed > most)
@@ -386,10 +386,10 @@ static void watch_speed(lua_State *L, Trial *t, double during, int32_t group, do
 
 static int scene_slower_than(lua_State *L) {
     static const char *const OPTIONS[] = {"during", "agents"};
-    Trial *t = check(L);
+    Scene *t = check(L);
     double mean;
     check_options(L, 3, OPTIONS, 2);
-    jox_trial_of(L)->assertions++;
+    jox_test_run_of(L)->assertions++;
     watch_speed(L, t, option(L, 3, "during", 1.0), group_option(L, t, 3), luaL_checknumber(L, 2),
                 &mean);
     return 0;
@@ -397,10 +397,10 @@ static int scene_slower_than(lua_State *L) {
 
 static int scene_faster_than(lua_State *L) {
     static const char *const OPTIONS[] = {"during", "agents"};
-    Trial *t = check(L);
+    Scene *t = check(L);
     double mean, least = luaL_checknumber(L, 2);
     check_options(L, 3, OPTIONS, 2);
-    jox_trial_of(L)->assertions++;
+    jox_test_run_of(L)->assertions++;
     watch_speed(L, t, option(L, 3, "during", 1.0), group_option(L, t, 3), INFINITY, &mean);
     if (!(mean > least))
         return luaL_error(L, "agents move at %f m/s on the average, not faster than %f", mean,
@@ -411,9 +411,9 @@ static int scene_faster_than(lua_State *L) {
 
 /* ---- making scenes ---- */
 
-static void free_trial(lua_State *L, Trial *t) {
+static void free_trial(lua_State *L, Scene *t) {
     if (t->scene) {
-        const JoxTestDriver *driver = jox_trial_of(L)->driver;
+        const JoxTestDriver *driver = jox_test_run_of(L)->driver;
         driver->free(driver->context, t->scene);
     }
     for (uint32_t n = 0; n < t->name_count; n++) {
@@ -421,7 +421,7 @@ static void free_trial(lua_State *L, Trial *t) {
         jox_free(t->been[n]);
     }
     jox_free(t->group);
-    *t = (Trial){0};
+    *t = (Scene){0};
 }
 
 static int scene_gc(lua_State *L) {
@@ -471,11 +471,11 @@ static size_t read_texts(lua_State *L, int index, const char *name, bool pairs,
 /* Loads what arguments 1 and 2 of `scene` say; NULL with the reason in `why`. */
 static void *load(lua_State *L, JoxText *why) {
     static const char *const OPTIONS[] = {"set", "mods", "seed", "dt", "threads"};
-    JoxTrial *trial = jox_trial_of(L);
+    JoxTestRun *run = jox_test_run_of(L);
     const char *sets[64], *mods[64];
     lua_settop(L, 2);
     check_options(L, 2, OPTIONS, 5);
-    JoxTestScene scene = {.path = trial->path, .threads = 1, .sets = sets, .mods = mods};
+    JoxTestScene scene = {.path = run->path, .threads = 1, .sets = sets, .mods = mods};
     scene.threads = (uint32_t)option(L, 2, "threads", 1);
     scene.dt = option(L, 2, "dt", 0.0);
     scene.seed = (uint64_t)option(L, 2, "seed", 0);
@@ -484,21 +484,21 @@ static void *load(lua_State *L, JoxText *why) {
     scene.set_count = read_texts(L, 2, "set", true, sets);
     scene.mod_count = read_texts(L, 2, "mods", false, mods);
     if (lua_type(L, 1) == LUA_TTABLE) {
-        trial->yaml.length = 0;
-        jox_trial_scene(L, trial, 1, &trial->yaml);
-        scene.text = trial->yaml.data;
-        scene.length = trial->yaml.length;
+        run->yaml.length = 0;
+        jox_test_scene_yaml(L, run, 1, &run->yaml);
+        scene.text = run->yaml.data;
+        scene.length = run->yaml.length;
     } else { /* a file beside the test's, or in ../scenes */
         scene.path = luaL_checkstring(L, 1);
     }
-    void *loaded = trial->driver->load(trial->driver->context, &scene, why);
+    void *loaded = run->driver->load(run->driver->context, &scene, why);
     return loaded; // cppcheck-suppress returnDanglingLifetime
 }
 
 /* scene { ... } or scene("file.yaml" [, options]) */
 static int word_scene(lua_State *L) {
     JoxText why = {0};
-    if (!jox_trial_of(L)->running)
+    if (!jox_test_run_of(L)->running)
         return luaL_error(L, "a scene belongs into a test");
     void *scene = load(L, &why);
     if (!scene) {
@@ -507,8 +507,8 @@ static int word_scene(lua_State *L) {
         return luaL_error(L, "%s", lua_tostring(L, -1));
     }
     jox_text_free(&why);
-    Trial *t = lua_newuserdatauv(L, sizeof *t, 0);
-    *t = (Trial){.scene = scene};
+    Scene *t = lua_newuserdatauv(L, sizeof *t, 0);
+    *t = (Scene){.scene = scene};
     luaL_setmetatable(L, SCENE);
     note(machines_of(L, t), t);
     return 1;
@@ -518,13 +518,13 @@ static int word_scene(lua_State *L) {
 static int word_refused(lua_State *L) {
     JoxText why = {0};
     char wanted[256];
-    JoxTrial *trial = jox_trial_of(L);
+    JoxTestRun *run = jox_test_run_of(L);
     snprintf(wanted, sizeof wanted, "%s", luaL_checkstring(L, 2));
-    trial->assertions++;
+    run->assertions++;
     lua_settop(L, 1);
     void *scene = load(L, &why);
     if (scene) {
-        trial->driver->free(trial->driver->context, scene);
+        run->driver->free(run->driver->context, scene);
         jox_text_free(&why);
         return luaL_error(L, "the scene loads, and should not");
     }
@@ -535,7 +535,7 @@ static int word_refused(lua_State *L) {
     return found ? 0 : luaL_error(L, "%s", lua_tostring(L, -1));
 }
 
-void jox_trial_open(lua_State *L) {
+void jox_test_scene_words(lua_State *L) {
     static const luaL_Reg WORDS[] = {
         {"scene", word_scene}, {"refused", word_refused}, {NULL, NULL}};
     static const luaL_Reg METHODS[] = {{"run", scene_run},
@@ -553,7 +553,7 @@ void jox_trial_open(lua_State *L) {
                                        {"body", scene_body},
                                        {NULL, NULL}};
     luaL_setfuncs(L, WORDS, 0);
-    luaL_setfuncs(L, jox_trial_assertions, 0);
+    luaL_setfuncs(L, jox_test_assertions, 0);
     luaL_newmetatable(L, SCENE);
     lua_newtable(L);
     luaL_setfuncs(L, METHODS, 0);

@@ -2,22 +2,22 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "luatest/trial.h"
+#include "luatest/internal.h"
 
-static void write_value(lua_State *L, JoxTrial *trial, int index, const char *key, int depth,
+static void write_value(lua_State *L, JoxTestRun *run, int index, const char *key, int depth,
                         JoxText *out);
 
-static void write_string(lua_State *L, JoxTrial *trial, const char *key, const char *text,
+static void write_string(lua_State *L, JoxTestRun *run, const char *key, const char *text,
                          size_t length, JoxText *out) {
     if (!strcmp(key, "behaviour") && (strchr(text, '\n') || strstr(text, "return machine"))) {
-        text = trial->driver->keep(trial->driver->context, text, length);
+        text = run->driver->keep(run->driver->context, text, length);
         if (!text)
             luaL_error(L, "behaviours in a test are at most 200, of at most 256 KB each");
     }
     jox_text_json(out, text);
 }
 
-static void write_table(lua_State *L, JoxTrial *trial, int index, const char *key, int depth,
+static void write_table(lua_State *L, JoxTestRun *run, int index, const char *key, int depth,
                         JoxText *out) {
     lua_Integer length = (lua_Integer)lua_rawlen(L, index);
     if (length > 0) {
@@ -31,7 +31,7 @@ static void write_table(lua_State *L, JoxTrial *trial, int index, const char *ke
         for (lua_Integer i = 1; i <= length; i++) {
             jox_text_add(out, i > 1 ? ", " : "");
             lua_rawgeti(L, index, i);
-            write_value(L, trial, lua_gettop(L), key, depth + 1, out);
+            write_value(L, run, lua_gettop(L), key, depth + 1, out);
             lua_pop(L, 1);
         }
         jox_text_add(out, "]");
@@ -61,25 +61,25 @@ static void write_table(lua_State *L, JoxTrial *trial, int index, const char *ke
         jox_text_add(out, ": ");
         lua_pushstring(L, next);
         lua_rawget(L, index);
-        write_value(L, trial, lua_gettop(L), next, depth + 1, out);
+        write_value(L, run, lua_gettop(L), next, depth + 1, out);
         lua_pop(L, 1);
     }
     jox_text_add(out, "}");
 }
 
-static void write_value(lua_State *L, JoxTrial *trial, int index, const char *key, int depth,
+static void write_value(lua_State *L, JoxTestRun *run, int index, const char *key, int depth,
                         JoxText *out) {
     luaL_checkstack(L, 10, NULL);
     if (depth > 16 || out->length > 4 << 20)
         luaL_error(L, "this scene is too deep or too large");
     switch (lua_type(L, index)) {
     case LUA_TTABLE:
-        write_table(L, trial, index, key, depth, out);
+        write_table(L, run, index, key, depth, out);
         break;
     case LUA_TSTRING: {
         size_t length;
         const char *text = lua_tolstring(L, index, &length);
-        write_string(L, trial, key, text, length, out);
+        write_string(L, run, key, text, length, out);
         break;
     }
     case LUA_TBOOLEAN:
@@ -93,12 +93,12 @@ static void write_value(lua_State *L, JoxTrial *trial, int index, const char *ke
     }
 }
 
-void jox_trial_scene(lua_State *L, JoxTrial *trial, int index, JoxText *out) {
+void jox_test_scene_yaml(lua_State *L, JoxTestRun *run, int index, JoxText *out) {
     lua_pushliteral(L, "jostle");
     bool version = lua_rawget(L, index) != LUA_TNIL;
     lua_pop(L, 1);
     size_t from = out->length;
-    write_table(L, trial, index, "scene", 0, out);
+    write_table(L, run, index, "scene", 0, out);
     if (version || out->data[from] != '{')
         return;
     out->data[from] = ' '; /* the version of the format goes without saying */

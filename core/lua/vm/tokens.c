@@ -3,8 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
-#include "lua/internal.h"
+#include "lua/vm/source.h"
 
 typedef struct Scan {
     JoxSource *source;
@@ -107,69 +108,6 @@ static void scan_one(Scan *s) {
     }
 }
 
-/* Deeper or shallower by what a token opens or closes. */
-static int depth_change(const JoxToken *t) {
-    static const char *const OPEN[] = {"{", "(", "[", "function", "if", "do", "repeat"};
-    static const char *const CLOSE[] = {"}", ")", "]", "end", "until"};
-    for (size_t i = 0; i < sizeof OPEN / sizeof *OPEN; i++)
-        if (jox_token_is(t, OPEN[i]))
-            return 1;
-    for (size_t i = 0; i < sizeof CLOSE / sizeof *CLOSE; i++)
-        if (jox_token_is(t, CLOSE[i]))
-            return -1;
-    return 0;
-}
-
-static void add_path(JoxSource *source, const char *path, size_t key, size_t first, size_t last) {
-    JOX_RESERVE(source->paths, source->path_capacity, source->path_count + 1);
-    source->paths[source->path_count++] =
-        (JoxPath){jox_strdup(path), (uint32_t)key, (uint32_t)first, (uint32_t)last};
-}
-
-/* Reads the table constructor that opens at token `at`; returns the token after it. */
-static size_t read_table(JoxSource *source, size_t at, const char *prefix, int level) {
-    const JoxToken *t = source->tokens;
-    size_t count = source->token_count;
-    int item = 0;
-    for (at++; at < count && !jox_token_is(&t[at], "}");) {
-        char path[256];
-        size_t key = at, value = at;
-        if (at + 1 < count && t[at].kind == JOX_TOKEN_NAME && jox_token_is(&t[at + 1], "=")) {
-            snprintf(path, sizeof path, "%s%s%.*s", prefix, *prefix ? "." : "", (int)t[at].length,
-                     t[at].text);
-            value = at + 2;
-        } else if (at + 4 < count && jox_token_is(&t[at], "[") &&
-                   t[at + 1].kind == JOX_TOKEN_STRING && jox_token_is(&t[at + 3], "=")) {
-            snprintf(path, sizeof path, "%s%s%.*s", prefix, *prefix ? "." : "",
-                     (int)t[at + 1].length, t[at + 1].text);
-            key = at + 1;
-            value = at + 4;
-        } else {
-            snprintf(path, sizeof path, "%s%s%d", prefix, *prefix ? "." : "", ++item);
-        }
-        size_t end = value;
-        for (int depth = 0; end < count; end++) {
-            if (depth == 0 && (jox_token_is(&t[end], ",") || jox_token_is(&t[end], ";") ||
-                               jox_token_is(&t[end], "}")))
-                break;
-            depth += depth_change(&t[end]);
-        }
-        add_path(source, path, key, value, end);
-        if (value < count && jox_token_is(&t[value], "{") && level < 6)
-            read_table(source, value, path, level + 1);
-        at = end < count && jox_token_is(&t[end], "}") ? end : end + 1;
-    }
-    return at + 1;
-}
-
-/* patch "NAME" { or replace "NAME" { */
-static bool begins_patch(const JoxSource *source, size_t i) {
-    const JoxToken *t = &source->tokens[i];
-    return i + 3 < source->token_count &&
-           (jox_token_is(t, "patch") || jox_token_is(t, "replace")) &&
-           t[1].kind == JOX_TOKEN_STRING && jox_token_is(&t[2], "{");
-}
-
 void jox_source_scan(JoxSource *source) {
     Scan s = {source, source->text, source->text + source->length, source->text, 1};
     while (s.at < s.end) {
@@ -184,24 +122,13 @@ void jox_source_scan(JoxSource *source) {
             scan_one(&s);
         }
     }
-    for (size_t i = source->token_count; i-- > 0;) /* the one that the file ends with */
-        if (i + 2 < source->token_count && ((jox_token_is(&source->tokens[i], "machine") &&
-                                             jox_token_is(&source->tokens[i + 1], "{")) ||
-                                            begins_patch(source, i))) {
-            source->patches = begins_patch(source, i) ? &source->tokens[i + 1] : NULL;
-            read_table(source, i + (source->patches ? 2 : 1), "", 0);
-            break;
-        }
 }
 
 void jox_source_free(JoxSource *source) {
-    for (size_t i = 0; i < source->path_count; i++)
-        jox_free(source->paths[i].path);
-    jox_source_scopes_free(source->scopes);
-    jox_free(source->paths);
+    JOX_ASSERT(!source->outline);
     jox_free(source->tokens);
     jox_free(source->text);
-    jox_free((char *)source->path);
+    jox_free(source->path);
 }
 
 JoxToken *jox_source_find(JoxSource *source, int line, const char *name) {
@@ -226,27 +153,4 @@ JoxToken *jox_source_find(JoxSource *source, int line, const char *name) {
         any = t;
     }
     return any;
-}
-
-const JoxPath *jox_source_path_find(const JoxSource *source, const char *path) {
-    for (size_t i = 0; i < source->path_count; i++)
-        if (strcmp(source->paths[i].path, path) == 0)
-            return &source->paths[i];
-    return NULL;
-}
-
-JoxPosition jox_source_path(const JoxSource *source, const char *path) {
-    char shorter[256];
-    snprintf(shorter, sizeof shorter, "%s", path);
-    for (;;) {
-        const JoxPath *found = jox_source_path_find(source, shorter);
-        if (found && found->key < source->token_count) {
-            const JoxToken *t = &source->tokens[found->key];
-            return (JoxPosition){source->path, t->line, t->column, t->end_column};
-        }
-        char *dot = strrchr(shorter, '.');
-        if (!dot)
-            return (JoxPosition){source->path, 0, 0, 0};
-        *dot = 0;
-    }
 }

@@ -1,6 +1,6 @@
-/* What testing.c (running tests) and trial.c (what a test says) share. */
-#ifndef JOX_LUATEST_TRIAL_H
-#define JOX_LUATEST_TRIAL_H
+/* What testing.c (running tests) and scene.c (what a test says) share. */
+#ifndef JOX_LUATEST_INTERNAL_H
+#define JOX_LUATEST_INTERNAL_H
 
 #include "lua/internal.h"
 #include "luatest/testing.h"
@@ -11,7 +11,7 @@ typedef struct JoxTest {
 } JoxTest;
 
 /* One test file while it runs. */
-typedef struct JoxTrial {
+typedef struct JoxTestRun {
     const JoxTestDriver *driver;
     const char *path;
     JoxTest *tests;
@@ -21,22 +21,22 @@ typedef struct JoxTrial {
     uint64_t assertions, failures; /* failures: of assertions, also where a pcall swallowed them */
     double simulated, stepping;    /* s, of the present test; stepping: processor time */
     JoxText yaml;                  /* of the scene that is being made */
-} JoxTrial;
+} JoxTestRun;
 
-JoxTrial *jox_trial_of(lua_State *L);
+JoxTestRun *jox_test_run_of(lua_State *L);
 /* Processor time of this thread, s. */
-double jox_trial_clock(void);
+double jox_test_clock(void);
 /* equal, near, truthy, fails */
-extern const luaL_Reg jox_trial_assertions[];
+extern const luaL_Reg jox_test_assertions[];
 /* Adds the words of a test to the table on top of the stack. */
-void jox_trial_open(lua_State *L);
+void jox_test_scene_words(lua_State *L);
 /* Appends the table at `index` as a YAML scene (JSON is YAML). Raises errors. */
-void jox_trial_scene(lua_State *L, JoxTrial *trial, int index, JoxText *out);
+void jox_test_scene_yaml(lua_State *L, JoxTestRun *run, int index, JoxText *out);
 
 /* Present speed, m/s. */
-double jox_trial_speed(const JoxAgents *agents, uint32_t i);
-void jox_trial_set_number(lua_State *L, const char *name, double value);
+double jox_test_speed(const JoxAgents *agents, uint32_t i);
+void jox_test_set_number(lua_State *L, const char *name, double value);
 /* Pushes a table with all of an agent. */
-void jox_trial_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i);
+void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i);
 
 #endif

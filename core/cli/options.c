@@ -1,0 +1,220 @@
+/* Reading a command's arguments by its rows. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "cli/cli.h"
+
+/* Arguments of one call, and how far they are read. */
+typedef struct Reading {
+    const CliCommand *command;
+    int argc, next;
+    char **argv;
+    char *options; /* the command's struct */
+} Reading;
+
+int cli_misused(const CliCommand *command, const char *why) {
+    fprintf(stderr, "jostle %s: %s\nTry 'jostle %s --help'.\n", command->name, why, command->name);
+    return JO_USAGE;
+}
+
+static int misused(const CliCommand *command, const CliOption *option, const char *why) {
+    char text[320];
+    snprintf(text, sizeof text, "--%s %s", option->name, why);
+    return cli_misused(command, text);
+}
+
+static bool add(CliList *list, int room, const char *text) {
+    if (!list->items)
+        list->items = calloc((size_t)room, sizeof *list->items);
+    if (list->items)
+        list->items[list->count++] = text;
+    return list->items != NULL;
+}
+
+static const CliOption *find(const CliCommand *command, const char *name) {
+    for (size_t o = 0; o < command->option_count; o++)
+        if (command->options[o].kind != CLI_HEADING && !strcmp(command->options[o].name, name))
+            return &command->options[o];
+    return NULL;
+}
+
+static int unknown(const CliCommand *command, const char *name) {
+    const char *names[64];
+    char text[200];
+    size_t count = 0;
+    for (size_t o = 0; o < command->option_count && count < 63; o++)
+        if (command->options[o].kind != CLI_HEADING)
+            names[count++] = command->options[o].name;
+    names[count++] = "help";
+    const char *near = jox_suggest(name, names, count);
+    snprintf(text, sizeof text, "unknown option --%.60s%s%s%s", name,
+             near ? ". Did you mean --" : "", near ? near : "", near ? "?" : "");
+    return cli_misused(command, text);
+}
+
+static int read_double(const Reading *r, const CliOption *o, const char *text) {
+    char *end, why[200];
+    const bool any = o->least >= o->greatest;
+    const double value = strtod(text, &end);
+    if (end != text && !*end && isfinite(value) &&
+        (any || (value >= o->least && value <= o->greatest))) {
+        memcpy(r->options + o->at, &value, sizeof value);
+        return CLI_GO_ON;
+    }
+    if (any)
+        snprintf(why, sizeof why, "takes a number, not '%.60s'", text);
+    else
+        snprintf(why, sizeof why, "takes a number from %g to %g, not '%.60s'", o->least,
+                 o->greatest, text);
+    return misused(r->command, o, why);
+}
+
+static int read_whole(const Reading *r, const CliOption *o, const char *text) {
+    char *end, why[200];
+    const bool any = o->least >= o->greatest;
+    const uint64_t least = any ? 0 : (uint64_t)o->least;
+    const uint64_t most = !any                 ? (uint64_t)o->greatest
+                          : o->kind == CLI_U64 ? UINT64_MAX
+                          : o->kind == CLI_U32 ? UINT32_MAX
+                                               : INT32_MAX;
+    errno = 0;
+    const unsigned long long value = strtoull(text, &end, 10);
+    if (end == text || *end || strchr(text, '-') || errno || value < least || value > most) {
+        snprintf(why, sizeof why, "takes a whole number from %llu to %llu, not '%.60s'",
+                 (unsigned long long)least, (unsigned long long)most, text);
+        return misused(r->command, o, why);
+    }
+    const uint64_t wide = value;
+    const uint32_t narrow = (uint32_t)value; /* an int of these ranges has the same bits */
+    if (o->kind == CLI_U64)
+        memcpy(r->options + o->at, &wide, sizeof wide);
+    else
+        memcpy(r->options + o->at, &narrow, sizeof narrow);
+    return CLI_GO_ON;
+}
+
+static int store(const Reading *r, const CliOption *o, const char *text) {
+    char why[160];
+    bool yes = true;
+    switch (o->kind) {
+    case CLI_FLAG:
+        memcpy(r->options + o->at, &yes, sizeof yes);
+        return CLI_GO_ON;
+    case CLI_TEXT:
+        memcpy(r->options + o->at, &text, sizeof text);
+        return CLI_GO_ON;
+    case CLI_LIST:
+        return add((CliList *)(void *)(r->options + o->at), r->argc, text) ? CLI_GO_ON : JO_FAILED;
+    case CLI_DOUBLE:
+        return read_double(r, o, text);
+    case CLI_READ:
+        return o->read(r->options, text, why) ? CLI_GO_ON : misused(r->command, o, why);
+    default:
+        return read_whole(r, o, text);
+    }
+}
+
+/* Reads one option, `word` without its dashes, and the value that follows it. */
+static int read_option(Reading *r, const char *word) {
+    char name[64];
+    const bool yes = true;
+    const char *equals = strchr(word, '=');
+    const char *value = equals ? equals + 1 : NULL;
+    snprintf(name, sizeof name, "%.*s", equals ? (int)(equals - word) : 63, word);
+    if (!strcmp(name, "help") || !strcmp(name, "h")) {
+        char *help = cli_help(r->command);
+        fputs(help ? help : "", stdout);
+        jo_free(help);
+        return JO_OK;
+    }
+    const CliOption *o = find(r->command, name);
+    if (!o)
+        return unknown(r->command, name);
+    if (!o->argument && value)
+        return misused(r->command, o, "takes no value");
+    if (o->argument && !o->only_equals && !value && r->next < r->argc)
+        value = r->argv[r->next++];
+    if (o->argument && !o->only_equals && !value)
+        return misused(r->command, o, "needs a value");
+    if (o->given)
+        memcpy(r->options + o->given - 1, &yes, sizeof yes);
+    return value || !o->argument ? store(r, o, value) : CLI_GO_ON;
+}
+
+static int read_plain(const Reading *r, CliList *plain, const char *text) {
+    char why[200];
+    const CliCommand *command = r->command;
+    if (command->takes && (command->most == 0 || plain->count < command->most))
+        return add(plain, r->argc, text) ? CLI_GO_ON : JO_FAILED;
+    if (command->takes && command->most == 1)
+        snprintf(why, sizeof why, "one %s at a time; what is '%.60s'?", command->takes, text);
+    else
+        snprintf(why, sizeof why, "what is '%.60s'?", text);
+    return cli_misused(command, why);
+}
+
+int cli_parse(const CliCommand *command, int argc, char **argv, void *options, CliList *plain) {
+    Reading r = {.command = command, .argc = argc, .next = 1, .argv = argv, .options = options};
+    int status = CLI_GO_ON;
+    while (status == CLI_GO_ON && r.next < argc) {
+        const char *word = argv[r.next++];
+        if (word[0] == '-' && word[1])
+            status = read_option(&r, word + (word[1] == '-' ? 2 : 1));
+        else
+            status = read_plain(&r, plain, word);
+    }
+    if (status == CLI_GO_ON && plain->count < command->least) {
+        char why[200];
+        snprintf(why, sizeof why, "no %s given", command->takes);
+        status = cli_misused(command, command->none_said ? command->none_said : why);
+    }
+    return status;
+}
+
+void cli_free(const CliCommand *command, void *options, CliList *plain) {
+    for (size_t o = 0; o < command->option_count; o++)
+        if (command->options[o].kind == CLI_LIST) {
+            CliList *list = (CliList *)(void *)((char *)options + command->options[o].at);
+            free(list->items);
+            *list = (CliList){0};
+        }
+    free(plain->items);
+    *plain = (CliList){0};
+}
+
+bool cli_unit(double *metres, const char *text, char why[160]) {
+    bool known = !strcmp(text, "m") || !strcmp(text, "cm");
+    *metres = !strcmp(text, "cm") ? 0.01 : 1.0;
+    if (!known)
+        snprintf(why, 160, "is m or cm, not '%.60s'", text);
+    return known;
+}
+
+int cli_write(const CliCommand *command, const char *path, const char *text) {
+    if (!strcmp(path, "-")) {
+        fputs(text, stdout);
+        return JO_OK;
+    }
+    FILE *file = fopen(path, "w");
+    bool good = file && fputs(text, file) >= 0;
+    if (file && fclose(file) != 0)
+        good = false;
+    if (!good)
+        fprintf(stderr, "jostle %s: cannot write '%s'\n", command->name, path);
+    return good ? JO_OK : JO_FAILED;
+}
+
+void cli_print(void *context, const char *text) {
+    fputs(text, context);
+    fflush(context);
+}
+
+int cli_failed(const CliCommand *command, const JoError *error, bool sent) {
+    if (!sent)
+        fprintf(stderr, "jostle %s: %s\n", command->name, error->text);
+    return error->code ? (int)error->code : JO_FAILED;
+}

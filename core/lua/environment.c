@@ -1,0 +1,110 @@
+/* What a script can name besides Lua's own functions: the words, `require`, random numbers of the
+   agent. Says of any other name what was meant. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "lua/internal.h"
+
+/* Why a name of Lua's own libraries is missing; NULL for any other. */
+static const char *absent(const char *name) {
+    static const struct {
+        const char *name, *why;
+    } ABSENT[] = {
+        {"io", "Behaviours have no files"},
+        {"os", "Behaviours have no clock and no files; me.time is the simulated time"},
+        {"debug", "Behaviours cannot look into the engine"},
+        {"package", "require \"name\" loads a file beside this one"},
+        {"coroutine", "A state of the machine is what a coroutine would remember"},
+        {"load", "Code is not made from texts; require \"name\" loads a file beside this one"},
+        {"loadstring", "Code is not made from texts"},
+        {"loadfile", "require \"name\" loads a file beside this one"},
+        {"dofile", "require \"name\" loads a file beside this one"},
+        {"setmetatable", "Tables have no metatables here"},
+        {"getmetatable", "Tables have no metatables here"},
+        {"rawget", "Tables have no metatables here: t[key] is raw"},
+        {"rawset", "Tables have no metatables here: t[key] = value is raw"},
+        {"rawequal", "Tables have no metatables here: == is raw"},
+        {"rawlen", "Tables have no metatables here: # is raw"},
+        {"collectgarbage", "Memory is looked after by the engine"},
+        {"xpcall", "pcall catches errors"},
+        {"_G", "There are no globals; what an agent remembers belongs in memory"},
+        {"utf8", "string.byte and string.char work on bytes"},
+    };
+    for (size_t i = 0; i < sizeof ABSENT / sizeof *ABSENT; i++)
+        if (strcmp(ABSENT[i].name, name) == 0)
+            return ABSENT[i].why;
+    return NULL;
+}
+
+static int env_index(lua_State *L) {
+    JoxScript *script = jox_script_of(L);
+    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+    lua_pushvalue(L, 2);
+    if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL)
+        return 1;
+    if (jox_word_lookup(L, name)) {
+        if (script->vm.loading)
+            jox_word_position(L, name); /* marks this occurrence as read */
+        return 1;
+    }
+    if (!script->vm.loading)
+        return luaL_error(L, "unknown name '%s'", name);
+    const char *names[128];
+    size_t count = jox_word_names(names, 128);
+    char hint[128];
+    const char *near = jox_suggest(name, names, count);
+    if (jox_parameter_find(name) >= 0)
+        snprintf(hint, sizeof hint,
+                 "As a value write own.%s (what was drawn) or now.NAME (what is "
+                 "measured)",
+                 name);
+    else if (absent(name))
+        snprintf(hint, sizeof hint, "%s", absent(name));
+    else if (near)
+        snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
+    else
+        snprintf(hint, sizeof hint, "Words and locals are all that a behaviour can use");
+    return jox_word_error(L, name, "unknown-word", hint, "unknown word '%s'", name);
+}
+
+static int env_newindex(lua_State *L) {
+    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+    if (!jox_vm_of(L)->loading)
+        return luaL_error(L,
+                          "globals cannot be set; what an agent remembers belongs in memory: "
+                          "'%s'",
+                          name);
+    jox_word_error(L, name, "global-assignment", "Write: local NAME = ...",
+                   "'%s' would be a global", name);
+    return 0;
+}
+
+/* From the agent's own stream: a function of seed, agent and tick. */
+static int math_random(lua_State *L) {
+    JoxScript *script = jox_script_of(L);
+    if (script->vm.loading || !script->owner->machines)
+        return luaL_error(L, "math.random works in functions of agents only; at load use normal, "
+                             "uniform or choose");
+    const JoxMachineRun *machines = script->owner->machines;
+    double u = jox_random_unit(machines->seed, machines->agents->id[script->agent], machines->tick,
+                               JOX_DRAW_LUA, script->draws++);
+    if (lua_gettop(L) == 0) {
+        lua_pushnumber(L, u);
+        return 1;
+    }
+    double low = lua_gettop(L) > 1 ? floor(luaL_checknumber(L, 1)) : 1.0;
+    double high = floor(luaL_checknumber(L, lua_gettop(L) > 1 ? 2 : 1));
+    luaL_argcheck(
+        L, fabs(low) <= 9007199254740992.0 && fabs(high) <= 9007199254740992.0 && high - low < 1e15,
+        1, "the interval is too large");
+    luaL_argcheck(L, high >= low, 1, "the interval is empty");
+    lua_pushinteger(L, (lua_Integer)(low + floor(u * (high - low + 1.0))));
+    return 1;
+}
+
+void jox_environment_open(lua_State *L) {
+    static const luaL_Reg BASE[] = {{"require", jox_require}, {NULL, NULL}};
+    static const luaL_Reg MATH[] = {{"random", math_random}, {NULL, NULL}};
+    jox_sandbox_open(L, &(JoxSandbox){BASE, MATH, env_index, env_newindex});
+}

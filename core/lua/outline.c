@@ -1,0 +1,129 @@
+/* What a file writes out: the keys of the table that it returns, and where each stands. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "lua/internal.h"
+
+/* Deeper or shallower by what a token opens or closes. */
+static int depth_change(const JoxToken *t) {
+    static const char *const OPEN[] = {"{", "(", "[", "function", "if", "do", "repeat"};
+    static const char *const CLOSE[] = {"}", ")", "]", "end", "until"};
+    for (size_t i = 0; i < sizeof OPEN / sizeof *OPEN; i++)
+        if (jox_token_is(t, OPEN[i]))
+            return 1;
+    for (size_t i = 0; i < sizeof CLOSE / sizeof *CLOSE; i++)
+        if (jox_token_is(t, CLOSE[i]))
+            return -1;
+    return 0;
+}
+
+static void add_path(JoxOutline *outline, const char *path, size_t key, size_t first, size_t last) {
+    JOX_RESERVE(outline->paths, outline->path_capacity, outline->path_count + 1);
+    outline->paths[outline->path_count++] =
+        (JoxPath){jox_strdup(path), (uint32_t)key, (uint32_t)first, (uint32_t)last};
+}
+
+/* Reads the table constructor that opens at token `at`; returns the token after it. */
+static size_t read_table(const JoxSource *source, size_t at, const char *prefix, int level) {
+    JoxOutline *outline = source->outline;
+    const JoxToken *t = source->tokens;
+    size_t count = source->token_count;
+    int item = 0;
+    for (at++; at < count && !jox_token_is(&t[at], "}");) {
+        char path[256];
+        size_t key = at, value = at;
+        if (at + 1 < count && t[at].kind == JOX_TOKEN_NAME && jox_token_is(&t[at + 1], "=")) {
+            snprintf(path, sizeof path, "%s%s%.*s", prefix, *prefix ? "." : "", (int)t[at].length,
+                     t[at].text);
+            value = at + 2;
+        } else if (at + 4 < count && jox_token_is(&t[at], "[") &&
+                   t[at + 1].kind == JOX_TOKEN_STRING && jox_token_is(&t[at + 3], "=")) {
+            snprintf(path, sizeof path, "%s%s%.*s", prefix, *prefix ? "." : "",
+                     (int)t[at + 1].length, t[at + 1].text);
+            key = at + 1;
+            value = at + 4;
+        } else {
+            snprintf(path, sizeof path, "%s%s%d", prefix, *prefix ? "." : "", ++item);
+        }
+        size_t end = value;
+        for (int depth = 0; end < count; end++) {
+            if (depth == 0 && (jox_token_is(&t[end], ",") || jox_token_is(&t[end], ";") ||
+                               jox_token_is(&t[end], "}")))
+                break;
+            depth += depth_change(&t[end]);
+        }
+        add_path(outline, path, key, value, end);
+        if (value < count && jox_token_is(&t[value], "{") && level < 6)
+            read_table(source, value, path, level + 1);
+        at = end < count && jox_token_is(&t[end], "}") ? end : end + 1;
+    }
+    return at + 1;
+}
+
+/* patch "NAME" { or replace "NAME" { */
+static bool begins_patch(const JoxSource *source, size_t i) {
+    const JoxToken *t = &source->tokens[i];
+    return i + 3 < source->token_count &&
+           (jox_token_is(t, "patch") || jox_token_is(t, "replace")) &&
+           t[1].kind == JOX_TOKEN_STRING && jox_token_is(&t[2], "{");
+}
+
+void jox_outline_read(JoxSource *source) {
+    JOX_ASSERT(!source->outline);
+    JoxOutline *outline = source->outline = jox_alloc(1, sizeof *outline);
+    for (size_t i = source->token_count; i-- > 0;) /* the one that the file ends with */
+        if (i + 2 < source->token_count && ((jox_token_is(&source->tokens[i], "machine") &&
+                                             jox_token_is(&source->tokens[i + 1], "{")) ||
+                                            begins_patch(source, i))) {
+            outline->patches = begins_patch(source, i) ? &source->tokens[i + 1] : NULL;
+            read_table(source, i + (outline->patches ? 2 : 1), "", 0);
+            break;
+        }
+}
+
+void jox_outline_free(JoxSource *source) {
+    JoxOutline *outline = source->outline;
+    if (!outline)
+        return;
+    for (size_t i = 0; i < outline->path_count; i++)
+        jox_free(outline->paths[i].path);
+    jox_scopes_free(outline->scopes);
+    jox_free(outline->paths);
+    jox_free(outline);
+    source->outline = NULL;
+}
+
+const JoxPath *jox_outline_find(const JoxSource *source, const char *path) {
+    const JoxOutline *outline = jox_outline_of(source);
+    for (size_t i = 0; i < outline->path_count; i++)
+        if (strcmp(outline->paths[i].path, path) == 0)
+            return &outline->paths[i];
+    return NULL;
+}
+
+JoxPosition jox_outline_at(const JoxSource *source, const char *path) {
+    char shorter[256];
+    snprintf(shorter, sizeof shorter, "%s", path);
+    for (;;) {
+        const JoxPath *found = jox_outline_find(source, shorter);
+        if (found && found->key < source->token_count) {
+            const JoxToken *t = &source->tokens[found->key];
+            return (JoxPosition){source->path, t->line, t->column, t->end_column};
+        }
+        char *dot = strrchr(shorter, '.');
+        if (!dot)
+            return (JoxPosition){source->path, 0, 0, 0};
+        *dot = 0;
+    }
+}
+
+JoxSource *jox_script_read(JoxScript *script, const char *path, const char *text, size_t length,
+                           JoxPosition from) {
+    const size_t before = script->vm.source_count;
+    JoxSource *source = jox_vm_read(&script->vm, path, text, length, from, script->diagnostics);
+    for (size_t s = before; s < script->vm.source_count; s++) /* also one that was refused */
+        jox_outline_read(script->vm.sources[s]);
+    return source;
+}

@@ -1,0 +1,255 @@
+/* Reading the machine's table: keys, values and what they must be. Everything wrong is reported,
+   not only the first. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "lua/read.h"
+#include "lua/vocabulary.h"
+
+enum { KEYS_MOST = 64 };
+
+/* Position of a key itself: of the key written out, or of the table around it. */
+static void unknown_key(JoxBuild *b, const char *path, const char *key, const char *const *known,
+                        size_t count) {
+    char full[256], hint[160];
+    snprintf(full, sizeof full, "%s%s%s", path, *path ? "." : "", key);
+    const char *near = jox_suggest(key, known, count);
+    if (near)
+        snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
+    jox_build_error(b, jox_read_at(b, full), "unknown-key", near ? hint : NULL, "unknown key '%s'",
+                    key);
+}
+
+/* Reports string keys of the table at `index` that are not known, in ascending order. */
+void jox_read_check(JoxBuild *b, int index, const char *path, const char *const *known,
+                    size_t count, bool items) {
+    lua_State *L = b->script->vm.L;
+    const char *wrong[KEYS_MOST];
+    size_t n = 0;
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        lua_pop(L, 1);
+        if (lua_type(L, -1) != LUA_TSTRING) {
+            if (!items || !lua_isinteger(L, -1))
+                jox_build_error(b, jox_read_at(b, path), "bad-key", NULL,
+                                "this table takes names as keys");
+            continue;
+        }
+        const char *key = lua_tostring(L, -1);
+        bool found = false;
+        for (size_t k = 0; k < count; k++)
+            found |= strcmp(known[k], key) == 0;
+        if (found || n == KEYS_MOST)
+            continue;
+        size_t place = n++;
+        for (; place > 0 && strcmp(wrong[place - 1], key) > 0; place--)
+            wrong[place] = wrong[place - 1];
+        wrong[place] = key;
+    }
+    for (size_t k = 0; k < n; k++)
+        unknown_key(b, path, wrong[k], known, count);
+}
+
+/* Pushes table[key] by raw access; its type. */
+int jox_read_field(lua_State *L, int index, const char *key) {
+    lua_pushstring(L, key);
+    return lua_rawget(L, index);
+}
+
+void jox_read_join(char path[256], const char *prefix, const char *key) {
+    snprintf(path, 256, "%.190s%s%.60s", prefix, *prefix ? "." : "", key);
+}
+
+/* "states.Circle.2.on_take" in words: "state Circle > transition 2 > on_take". */
+static void describe(const char *path, JoxText *out) {
+    char part[128];
+    for (int depth = 0; *path; depth++) {
+        size_t n = strcspn(path, ".");
+        snprintf(part, sizeof part, "%.*s", (int)n, path);
+        bool number = part[strspn(part, "0123456789")] == 0;
+        if (depth > 0)
+            jox_text_printf(out, "%s%s%s", depth > 1 ? " > " : "",
+                            depth == 1                               ? "state "
+                            : number || (depth == 2 && *part == '@') ? "transition "
+                                                                     : "",
+                            *part == '@' ? part + 1 : part);
+        path += n + (path[n] == '.');
+    }
+}
+
+int32_t jox_read_add_hook(JoxBuild *b, const char *path) { /* takes the function from the stack */
+    JoxScript *script = b->script;
+    JoxText where = {0};
+    describe(path, &where);
+    JOX_RESERVE(script->hooks, script->hook_capacity, script->hook_count + 1);
+    script->hooks[script->hook_count] =
+        (JoxHook){.ref = luaL_ref(script->vm.L, LUA_REGISTRYINDEX), .where = where.data};
+    b->machine->hook_count = script->hook_count + 1;
+    return (int32_t)script->hook_count++;
+}
+
+int32_t jox_read_hook(JoxBuild *b, int index, const char *path, const char *key) {
+    lua_State *L = b->script->vm.L;
+    char full[256];
+    jox_read_join(full, path, key);
+    int type = jox_read_field(L, index, key);
+    if (type == LUA_TFUNCTION)
+        return jox_read_add_hook(b, full);
+    if (type != LUA_TNIL && !jox_node_get(L, -1))
+        jox_build_error(b, jox_read_at(b, full), "bad-value", "Write: function(me) ... end",
+                        "'%s' must be a function, not %s", key, lua_typename(L, type));
+    lua_pop(L, 1);
+    return -1;
+}
+
+/* A number, distribution or expression for a parameter; pops it. */
+JoxValue jox_read_value(JoxBuild *b, const char *path, const JoxParameterInfo *info, bool *is_dist,
+                        JoxDist *dist) {
+    lua_State *L = b->script->vm.L;
+    JoxPosition position = jox_read_at(b, path);
+    JoxValue value = {.kind = JOX_VALUE_UNSET, .line = position.line};
+    JoxNode *node = jox_node_get(L, -1);
+    *is_dist = false;
+    if (lua_type(L, -1) == LUA_TNUMBER) {
+        value.kind = JOX_VALUE_CONST;
+        value.number = lua_tonumber(L, -1);
+        if (!(value.number >= info->least && value.number <= info->greatest))
+            jox_build_error(b, position, "out-of-range", NULL,
+                            "%s must be from %g to %g %s, not %g", info->name, info->least,
+                            info->greatest, info->unit, value.number);
+    } else if (node && node->kind == JOX_NODE_DIST) {
+        *is_dist = true;
+        *dist = node->dist;
+    } else if (node && node->kind == JOX_NODE_OWN) {
+        value.kind = JOX_VALUE_OWN;
+        value.index = jox_build_own_at(b, node);
+    } else if (node && node->kind == JOX_NODE_NUMBER) {
+        value.kind = JOX_VALUE_PROGRAM;
+        value.index = jox_build_program(b, node, position);
+        if (value.index < 0)
+            value.kind = JOX_VALUE_UNSET;
+    } else if (!node || node->kind != JOX_NODE_ERROR) {
+        jox_build_error(b, position, "bad-value", "Give a number, a distribution or an expression",
+                        "%s must be a number, not %s", info->name,
+                        node ? "this value" : luaL_typename(L, -1));
+    }
+    lua_pop(L, 1);
+    return value;
+}
+
+JoxValue jox_read_parameter(JoxBuild *b, const char *path, const JoxParameterInfo *info) {
+    bool is_dist;
+    JoxDist dist;
+    JoxValue value = jox_read_value(b, path, info, &is_dist, &dist);
+    if (is_dist) { /* drawn once per agent, into a slot of its own */
+        value.kind = JOX_VALUE_OWN;
+        value.index = jox_build_own(b, "");
+        b->machine->own[value.index].dist = dist;
+    }
+    return value;
+}
+
+/* A condition's program; -1 for none. Pops the value. A function becomes *hook where allowed. */
+int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
+    lua_State *L = b->script->vm.L;
+    JoxNode *node = jox_node_get(L, -1);
+    int type = lua_type(L, -1);
+    int32_t program = -1;
+    if (hook && type == LUA_TFUNCTION) {
+        *hook = jox_read_add_hook(b, path);
+        return -1;
+    }
+    bool trapped = type != LUA_TNIL && jox_read_misuse(b, path);
+    if (node && node->kind == JOX_NODE_CONDITION) {
+        program = jox_build_program(b, node, jox_read_at(b, path));
+    } else if (type != LUA_TNIL && !trapped && !(node && node->kind == JOX_NODE_ERROR)) {
+        const char *hint = type == LUA_TBOOLEAN ? "Leave `when` out for always; compare with :is, "
+                                                  ":above, ... and join with & | ~"
+                           : node ? "A number becomes a condition by :above, :below, :at_least, "
+                                    ":at_most or :is"
+                                  : NULL;
+        jox_build_error(b, jox_read_at(b, path), "bad-condition", hint,
+                        "this must be a condition, not %s",
+                        node ? "a number" : lua_typename(L, type));
+    }
+    lua_pop(L, 1);
+    return program;
+}
+
+/* A target named by a key (a place's name or a target value), or -1. */
+int16_t jox_read_target(JoxBuild *b, int index, const char *path, const char *key) {
+    lua_State *L = b->script->vm.L;
+    char full[256];
+    jox_read_join(full, path, key);
+    int type = jox_read_field(L, index, key);
+    JoxNode *node = jox_node_get(L, -1), named = {.kind = JOX_NODE_TARGET};
+    int16_t target = -1;
+    if (type == LUA_TSTRING) {
+        named.name = lua_tostring(L, -1);
+        named.target_kind = JOX_TARGET_PLACE;
+        named.target_arg = -1;
+        const JoxScope *scope = b->script->scope;
+        if (scope->places)
+            named.target_arg = jox_place_find(scope->places, scope->place_count, named.name);
+        if (named.target_arg < 0 && scope->complete)
+            jox_build_error(b, jox_read_at(b, full), "unknown-place", NULL,
+                            "the scene has no place '%s'", named.name);
+        target = jox_build_target(b, &named);
+    } else if (node && (node->kind == JOX_NODE_TARGET || node->kind == JOX_NODE_OWN)) {
+        target = jox_build_target(b, node);
+    } else if (type != LUA_TNIL && !(node && node->kind == JOX_NODE_ERROR)) {
+        jox_build_error(b, jox_read_at(b, full), "bad-value", "Example: face = \"black_stone\"",
+                        "'%s' must be a target or the name of a place", key);
+    }
+    lua_pop(L, 1);
+    return target;
+}
+
+/* Adds the bit of the tag on the stack. */
+static void add_tag(JoxBuild *b, const char *path, uint64_t *mask) {
+    lua_State *L = b->script->vm.L;
+    const JoxScope *scope = b->script->scope;
+    const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+    for (uint32_t i = 0; name && i < scope->tag_count; i++)
+        if (strcmp(scope->tags[i], name) == 0) {
+            *mask |= (uint64_t)1 << i;
+            return;
+        }
+    if (!name || scope->complete) {
+        const char *near = name ? jox_suggest(name, scope->tags, scope->tag_count) : NULL;
+        char hint[96];
+        if (near)
+            snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
+        jox_build_error(b, jox_read_at(b, path), "unknown-tag", near ? hint : NULL,
+                        name ? "nothing in the scene bears the tag '%s'" : "tags are names%s",
+                        name ? name : "");
+    }
+}
+
+uint64_t jox_read_tags(JoxBuild *b, int index, const char *path, const char *key) {
+    lua_State *L = b->script->vm.L;
+    char full[256];
+    uint64_t mask = 0;
+    jox_read_join(full, path, key);
+    int type = jox_read_field(L, index, key);
+    if (type == LUA_TTABLE) {
+        for (lua_Integer i = 1; lua_rawgeti(L, -1, i) != LUA_TNIL; i++) {
+            add_tag(b, full, &mask);
+            lua_pop(L, 1);
+        }
+        lua_pop(L, 1);
+    } else if (type != LUA_TNIL) {
+        add_tag(b, full, &mask);
+    }
+    lua_pop(L, 1);
+    return mask;
+}
+
+int32_t jox_read_memory(const JoxBuild *b, const char *name) {
+    for (uint32_t s = 0; s < b->machine->memory_count; s++)
+        if (*name && strcmp(b->machine->memory[s].name, name) == 0)
+            return (int32_t)s;
+    return -1;
+}

@@ -1,0 +1,98 @@
+/* require: a file beside the one that asks, beside the script, or of the library. */
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/overlay.h"
+#include "lua/internal.h"
+
+enum { MOST_FILES = 64 };
+
+/* Only plain names below the behaviour's folder or the library's: no "..", no absolute paths. */
+static bool plain_name(const char *name) {
+    if (!*name || *name == '/' || *name == '.' || strlen(name) > 100 || strstr(name, ".."))
+        return false;
+    for (const char *c = name; *c; c++)
+        if (!((*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') || (*c >= '0' && *c <= '9') ||
+              *c == '_' || *c == '-' || *c == '/' || *c == '.' || *c == ':'))
+            return false;
+    return true;
+}
+
+/* Whether a module's file is there, in a folder that it may be in. Links are refused later. */
+static bool is_module(JoxScript *script, const char *folder, const char *name, char path[1024]) {
+    struct stat info;
+    snprintf(path, 1024, "%.511s/%.400s.lua", folder, name);
+    jox_vm_tried(&script->vm, path);
+    return jox_overlay_file(path) ||
+           (lstat(path, &info) == 0 && (S_ISLNK(info.st_mode) || jox_path_below(path, folder)));
+}
+
+/* The file of a module: "mod:name" of a mod; else beside the file that requires it, beside the
+   behaviour, or of the library. */
+static bool find_module(lua_State *L, const char *name, char path[1024]) {
+    JoxScript *script = jox_script_of(L);
+    JoxPosition from = jox_vm_place(L);
+    const char *colon = strchr(name, ':');
+    const char *asking = from.file ? from.file : script->vm.sources[0]->path,
+               *own = script->vm.sources[0]->path;
+    char folder[512];
+    for (uint32_t m = 0; colon && m < script->scope->mod_count; m++) {
+        const JoxMod *mod = &script->scope->mods[m];
+        snprintf(folder, sizeof folder, "%.480s/behaviours", mod->folder);
+        if (!strncmp(mod->name, name, (size_t)(colon - name)) && !mod->name[colon - name])
+            return is_module(script, folder, colon + 1, path);
+    }
+    if (colon)
+        return false;
+    const char *const files[] = {asking, own};
+    for (int i = 0; i < 2; i++) {
+        const char *slash = strrchr(files[i], '/');
+        snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - files[i]) : 1,
+                 slash ? files[i] : ".");
+        if (is_module(script, folder, name, path))
+            return true;
+    }
+    const char *slash = strrchr(own, '/');
+    snprintf(folder, sizeof folder, "%.*s/../scripts", slash ? (int)(slash - own) : 1,
+             slash ? own : ".");
+    if (is_module(script, folder, name, path))
+        return true;
+    snprintf(folder, sizeof folder, "%s/scripts", JOX_DATADIR);
+    return is_module(script, folder, name, path);
+}
+
+int jox_require(lua_State *L) {
+    JoxScript *script = jox_script_of(L);
+    const char *name = luaL_checkstring(L, 1);
+    char path[1024];
+    jox_vm_charge(L, 500); /* the system is asked for files */
+    if (!script->vm.loading)
+        return luaL_error(L, "require works at the top of a file, not in functions");
+    if (!plain_name(name))
+        return jox_word_error(L, name, "bad-require", "Names are relative to this file's folder",
+                              "cannot require '%s': not a plain name", name);
+    if (!find_module(L, name, path) || script->vm.source_count >= MOST_FILES)
+        return jox_word_error(
+            L, name, "missing-file", NULL,
+            "cannot require '%s': there is no such file beside this one or in the "
+            "library",
+            name);
+    luaL_getsubtable(L, LUA_REGISTRYINDEX, "jostle loaded");
+    if (lua_getfield(L, -1, path) != LUA_TNIL)
+        return 1;
+    JoxPosition from = jox_word_position(L, name);
+    size_t number = script->vm.source_count;
+    JoxSource *source = jox_script_read(script, path, NULL, 0, from);
+    if (!source)
+        return jox_node_push_error(L);
+    jox_vm_charge(L, source->length / 4);
+    lua_pushboolean(L, 1); /* a circle of requires sees this */
+    lua_setfield(L, 2, path);
+    if (!jox_vm_compile(&script->vm, number))
+        return lua_error(L);
+    lua_call(L, 0, 1);
+    lua_pushvalue(L, -1);
+    lua_setfield(L, 2, path);
+    return 1;
+}

@@ -1,0 +1,79 @@
+/* The files of a script: reading them within limits. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/assert.h"
+#include "base/hash.h"
+#include "base/mem.h"
+#include "base/overlay.h"
+#include "lua/vm/vm.h"
+
+/* What names mean in a file is not to be changed, neither for the reader nor for the checks. */
+static bool refuse_env(const JoxSource *source, JoxDiagnostics *diagnostics) {
+    for (size_t i = 0; i < source->token_count; i++) {
+        const JoxToken *t = &source->tokens[i];
+        if (t->kind != JOX_TOKEN_NAME || !jox_token_is(t, "_ENV"))
+            continue;
+        jox_diag_error(diagnostics,
+                       ((JoxPosition){source->path, t->line, t->column, t->end_column}),
+                       "unknown-word", "Words and locals are all that a behaviour can use",
+                       "'_ENV' cannot be used");
+        return true;
+    }
+    return false;
+}
+
+JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *given, size_t length,
+                       JoxPosition from, JoxDiagnostics *diagnostics) {
+    const size_t limit = vm->group->limits.source;
+    char large[64];
+    const char *wrong = NULL;
+    snprintf(large, sizeof large, "the file is over %zu KB", limit >> 10);
+    struct stat info;
+    char *text = NULL;
+    bool disk = !given && !jox_overlay_file(path);
+    if (given) {
+        text = jox_strndup(given, length);
+    } else if (disk && lstat(path, &info) == 0 && S_ISLNK(info.st_mode)) {
+        wrong = "symbolic links are not followed";
+    } else if (disk && stat(path, &info) == 0 && !S_ISREG(info.st_mode)) {
+        wrong = "it is no regular file"; /* opening a pipe would wait */
+    } else if (!(text = jox_read_file(path, limit, &length))) {
+        wrong = errno == EFBIG ? large : strerror(errno);
+    }
+    if (text && length > limit)
+        wrong = large;
+    else if (text && length > 0 && text[0] == '\x1b')
+        wrong = "this is compiled Lua; only source is loaded";
+    else if (text && memchr(text, 0, length))
+        wrong = "the file contains a zero byte";
+    if (wrong) {
+        jox_free(text);
+        jox_diag_error(diagnostics, from.file ? from : ((JoxPosition){path, 0, 0, 0}),
+                       "unreadable-file", NULL, "cannot load '%s': %s", path, wrong);
+        return NULL;
+    }
+    if (length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
+        memcpy(text, "   ", 3); /* a byte order mark */
+    JOX_RESERVE(vm->files, vm->file_capacity, vm->file_count + 1);
+    JoxLuaFile *file = &vm->files[vm->file_count++];
+    file->path = jox_strdup(path);
+    jox_sha256_hex(given ? given : text, length, file->sha256);
+    JOX_RESERVE(vm->sources, vm->source_capacity, vm->source_count + 1);
+    JoxSource *source = vm->sources[vm->source_count++] = jox_alloc(1, sizeof *source);
+    JOX_ASSERT(vm->source_count == vm->file_count);
+    *source = (JoxSource){.path = jox_strdup(path), .text = text, .length = length};
+    jox_source_scan(source);
+    return refuse_env(source, diagnostics) ? NULL : source;
+}
+
+void jox_vm_tried(JoxVm *vm, const char *path) {
+    for (uint32_t i = 0; i < vm->tried_count; i++)
+        if (strcmp(vm->tried[i], path) == 0)
+            return;
+    JOX_RESERVE(vm->tried, vm->tried_capacity, vm->tried_count + 1);
+    vm->tried[vm->tried_count++] = jox_strdup(path);
+}

@@ -1,0 +1,50 @@
+/* Errors at words: each is reported where the word stands in its file. */
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "base/assert.h"
+#include "lua/internal.h"
+
+JoxPosition jox_word_position(lua_State *L, const char *word) {
+    JoxScript *script = jox_script_of(L);
+    lua_Debug debug;
+    for (int level = 1; lua_getstack(L, level, &debug); level++) {
+        lua_getinfo(L, "Sl", &debug);
+        int number = debug.currentline < 1 ? -1 : jox_vm_source(&script->vm, debug.short_src);
+        if (number < 0)
+            continue;
+        JoxSource *source = script->vm.sources[number];
+        const JoxToken *t = jox_source_find(source, debug.currentline, word);
+        if (!t && word[0] == '<') /* Lua turns a > b into b < a */
+            t = jox_source_find(source, debug.currentline, word[1] ? ">=" : ">");
+        return t ? (JoxPosition){source->path, t->line, t->column, t->end_column}
+                 : (JoxPosition){source->path, debug.currentline, 0, 0};
+    }
+    return (JoxPosition){script->vm.source_count ? script->vm.sources[0]->path : NULL, 0, 0, 0};
+}
+
+int jox_word_error(lua_State *L, const char *word, const char *code, const char *hint,
+                   const char *format, ...) {
+    char text[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    JoxScript *script = jox_script_of(L);
+    jox_vm_charge(L, 2000); /* a suggestion compares with every word */
+    if (!script->vm.loading)
+        return luaL_error(L, "%s", text); /* inside a hook: words make nothing there */
+    JoxPosition position = jox_word_position(L, word);
+    jox_diag_error(script->diagnostics, position, code, hint, "%s", text);
+    jox_node_push(L, JOX_NODE_ERROR);
+    return 1;
+}
+
+const char *jox_did_you_mean(const char *word, const char *const *names, size_t count,
+                             char hint[96]) {
+    const char *near = jox_suggest(word, names, count);
+    if (!near)
+        return NULL;
+    snprintf(hint, 96, "Did you mean '%s'?", near);
+    return hint;
+}
