@@ -108,6 +108,8 @@ bool jox_json_read(const char *text, JoxJsonLimits limits, JoxJsonVisit *visit, 
     return good;
 }
 
+const JoxJsonLimits jox_json_own_files = {.length = 1 << 26, .items = 1 << 20, .depth = 16};
+
 typedef struct Numbers {
     JoxJsonNumber *number;
     void *context;
@@ -121,7 +123,6 @@ static bool visit_number(void *context, const JoxJsonItem *item) {
 }
 
 bool jox_json_numbers(const char *text, JoxJsonNumber *number, void *context) {
-    static const JoxJsonLimits OWN_FILES = {.length = 1 << 26, .items = 1 << 20, .depth = 16};
     Numbers numbers = {number, context};
-    return jox_json_read(text, OWN_FILES, visit_number, &numbers);
+    return jox_json_read(text, jox_json_own_files, visit_number, &numbers);
 }

@@ -37,8 +37,9 @@ typedef bool JoxJsonVisit(void *context, const JoxJsonItem *item);
    control characters in a text, has a number that is not finite, or exceeds a limit. */
 bool jox_json_read(const char *text, JoxJsonLimits limits, JoxJsonVisit *visit, void *context);
 
-/* Calls `number` for each number of an object, in order; the limits are those of files that
-   Jostle wrote. */
+/* The limits of files that Jostle wrote: 64 MB, a million items, 16 levels. */
+extern const JoxJsonLimits jox_json_own_files;
+/* Calls `number` for each number of an object in such a file, in order. */
 typedef void JoxJsonNumber(void *context, const char *path, double value);
 bool jox_json_numbers(const char *text, JoxJsonNumber *number, void *context);
 

@@ -11,41 +11,40 @@ JoxJson jox_json_begin(JoxText *out, int lines) {
     return (JoxJson){.out = out, .lines = lines};
 }
 
-/* Begins a line at the present depth, where its members stand on lines of their own. */
+/* Begins a line at the present depth. */
 static void new_line(JoxJson *json) {
     jox_text_append(json->out, "\n", 1);
     for (int d = 0; d < json->depth; d++)
         jox_text_append(json->out, " ", 1);
 }
 
-/* What precedes a value: a separator, and its key in an object. */
-static void begin_value(JoxJson *json, const char *key) {
+/* What precedes a value: a separator, the beginning of a line, and its key in an object. */
+static void begin_value(JoxJson *json, const char *key, bool has_items) {
     if (json->depth == 0) {
-        JOX_ASSERT(!key);
+        JOX_ASSERT(!key && !json->ended);
+        json->ended = true;
         return;
     }
-    bool is_object = json->levels[json->depth - 1].is_object;
-    bool any = json->levels[json->depth - 1].any;
-    JOX_ASSERT(is_object == (key != NULL));
-    bool own_line = json->depth <= json->lines;
-    if (any)
+    struct JoxJsonLevel *level = &json->levels[json->depth - 1];
+    const bool own_line = json->depth <= json->lines && (level->is_object || has_items);
+    JOX_ASSERT(level->is_object == (key != NULL));
+    if (level->any)
         jox_text_add(json->out, own_line ? "," : ", ");
     if (own_line)
         new_line(json);
-    if (is_object && key) {
+    if (level->is_object && key) {
         jox_text_json(json->out, key);
         jox_text_append(json->out, ": ", 2);
     }
-    json->levels[json->depth - 1].any = true;
+    level->any = true;
+    level->on_lines |= own_line;
 }
 
 static void open_level(JoxJson *json, const char *key, bool is_object) {
-    begin_value(json, key);
+    begin_value(json, key, true);
     JOX_ASSERT(json->depth < JOX_JSON_DEEPEST);
     jox_text_append(json->out, is_object ? "{" : "[", 1);
-    json->levels[json->depth].is_object = is_object;
-    json->levels[json->depth].any = false;
-    json->depth++;
+    json->levels[json->depth++] = (struct JoxJsonLevel){.is_object = is_object};
 }
 
 void jox_json_object(JoxJson *json, const char *key) {
@@ -59,7 +58,7 @@ void jox_json_array(JoxJson *json, const char *key) {
 void jox_json_end(JoxJson *json) {
     JOX_ASSERT(json->depth > 0);
     json->depth--;
-    if (json->levels[json->depth].any && json->depth < json->lines)
+    if (json->levels[json->depth].on_lines)
         new_line(json);
     jox_text_append(json->out, json->levels[json->depth].is_object ? "}" : "]", 1);
 }
@@ -69,7 +68,7 @@ void jox_json_string(JoxJson *json, const char *key, const char *string) {
         jox_json_null(json, key);
         return;
     }
-    begin_value(json, key);
+    begin_value(json, key, false);
     jox_text_json(json->out, string);
 }
 
@@ -85,7 +84,7 @@ void jox_json_format(JoxJson *json, const char *key, const char *format, ...) {
 
 void jox_json_digits(JoxJson *json, const char *key, double number, int digits) {
     JOX_ASSERT(digits >= 1 && digits <= 17);
-    begin_value(json, key);
+    begin_value(json, key, false);
     if (isfinite(number))
         jox_text_printf(json->out, "%.*g", digits, number);
     else
@@ -97,22 +96,22 @@ void jox_json_number(JoxJson *json, const char *key, double number) {
 }
 
 void jox_json_whole(JoxJson *json, const char *key, uint64_t number) {
-    begin_value(json, key);
+    begin_value(json, key, false);
     jox_text_printf(json->out, "%llu", (unsigned long long)number);
 }
 
 void jox_json_integer(JoxJson *json, const char *key, int64_t number) {
-    begin_value(json, key);
+    begin_value(json, key, false);
     jox_text_printf(json->out, "%lld", (long long)number);
 }
 
 void jox_json_bool(JoxJson *json, const char *key, bool value) {
-    begin_value(json, key);
+    begin_value(json, key, false);
     jox_text_add(json->out, value ? "true" : "false");
 }
 
 void jox_json_null(JoxJson *json, const char *key) {
-    begin_value(json, key);
+    begin_value(json, key, false);
     jox_text_add(json->out, "null");
 }
 

@@ -1,7 +1,8 @@
 /* Writing JSON: the one layout of all that Jostle writes. A key is followed by ": ", items are
-   separated by ", "; the members of the outermost `lines` levels stand on a line each. Texts are
-   escaped, bytes that are not UTF-8 become U+FFFD, numbers that are not finite become null.
-   Each value takes the key that it has in an object, or NULL in an array and at the outermost. */
+   separated by ", "; of the outermost `lines` levels, the members of objects and the objects and
+   arrays in arrays stand on a line each. Texts are escaped, bytes that are not UTF-8 become U+FFFD,
+   numbers that are not finite become null. Each value takes the key that it has in an object, or
+   NULL in an array and at the outermost. */
 #ifndef JOX_BASE_JSON_WRITER_H
 #define JOX_BASE_JSON_WRITER_H
 
@@ -14,9 +15,11 @@ enum { JOX_JSON_DEEPEST = 32 };
 
 typedef struct JoxJson {
     JoxText *out;
-    int lines, depth;
-    struct {
-        bool is_object, any; /* whether it has an item already */
+    int lines; /* may be changed between values */
+    int depth;
+    bool ended; /* the outermost value has begun: there is one */
+    struct JoxJsonLevel {
+        bool is_object, any, on_lines; /* whether it has items, and some on lines of their own */
     } levels[JOX_JSON_DEEPEST];
 } JoxJson;
 

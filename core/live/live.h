@@ -53,6 +53,7 @@ typedef struct JoxLiveSession {
     bool paused;
     double speed;     /* wanted, simulated seconds in a second */
     uint64_t dropped; /* messages that were refused */
+    uint64_t jumps;   /* of a recording: how often it went elsewhere than to the next frame */
 } JoxLiveSession;
 
 typedef struct JoxLive JoxLive;

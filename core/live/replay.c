@@ -205,6 +205,7 @@ static void note_bodies(JoxReplay *r, const JoxTrajectoryReaderFrame *f) {
 void jox_replay_forget(JoxReplay *r) {
     r->frame = (JoxTrajectoryReaderFrame){.time = r->frame.time};
     give_slots(r, &r->frame, 0.0);
+    r->timed = false;
     r->shown = JOX_REPLAY_NOBODY;
     r->spread = false;
 }
@@ -228,6 +229,7 @@ static bool take(JoxReplay *r, uint32_t frame, JoxText *why) {
     give_slots(r, &r->frame, spent);
     note_bodies(r, &r->frame);
     r->shown = frame;
+    r->timed = spent > 0.0;
     r->spread = false;
     return true;
 }

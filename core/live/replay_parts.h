@@ -31,6 +31,7 @@ struct JoxReplay {
     JoxLiveGrid grid;
     uint32_t shown; /* frame, or JOX_REPLAY_NOBODY */
     bool spread, moves;
+    bool timed; /* speeds are known: the frame before was read, too */
     JoxTrajectoryReaderFrame frame;
     /* Slots of the people shown, in their order; and of those in the frame before. */
     int64_t *id, *old_id;

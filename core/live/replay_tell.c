@@ -143,7 +143,7 @@ static void add_census(JoxJson *json, JoxReplay *r) {
     jox_json_array(json, "census");
     for (uint32_t m = 0; m < n->machine_count; m++) {
         jox_json_array(json, NULL);
-        for (uint32_t s = 0; s < n->state_count; s++)
+        for (uint32_t s = 0; s < n->state_count && r->shown != JOX_REPLAY_NOBODY; s++)
             if (n->states[s].machine == m)
                 jox_json_whole(json, NULL, r->people[s]);
         jox_json_end(json);
@@ -159,20 +159,21 @@ static void add_census(JoxJson *json, JoxReplay *r) {
 
 void jox_replay_status(JoxReplay *r, const JoxLiveSession *session, double factor, JoxText *out) {
     static const char *const UNKNOWN[] = {"stage_ns", "flows", "walls"};
+    const bool shown = r->shown != JOX_REPLAY_NOBODY; /* else the frame could not be read */
     double speed = 0.0;
     for (uint32_t i = 0; i < r->count; i++)
         speed += (double)sqrtf(r->vx[i] * r->vx[i] + r->vy[i] * r->vy[i]);
     jox_replay_spread(r, false);
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);
-    jox_live_add_session(r->shown == JOX_REPLAY_NOBODY ? 0 : r->shown, r->frame.time, session,
-                         &json);
+    jox_live_add_session(shown ? r->shown : 0, r->frame.time, session, &json);
+    jox_json_whole(&json, "jumps", session->jumps);
     jox_json_digits(&json, "real_time_factor", factor, 6);
     jox_json_whole(&json, "agents", r->count);
     jox_json_whole(&json, "bodies", r->frame.body_count);
     add_census(&json, r);
-    jox_json_digits(&json, "mean_speed", r->count ? speed / r->count : 0.0, 6);
-    jox_json_digits(&json, "density_max", (double)r->grid.most, 6);
+    jox_json_digits(&json, "mean_speed", r->timed && r->count ? speed / r->count : NAN, 6);
+    jox_json_digits(&json, "density_max", shown ? (double)r->grid.most : NAN, 6);
     jox_json_null(&json, "failures");
     for (int u = 0; u < 3; u++) {
         jox_json_object(&json, UNKNOWN[u]);

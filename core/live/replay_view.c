@@ -130,6 +130,7 @@ static void turn_to(Playing *p) {
     p->damaged = !jox_replay_show(p->replay, frame, &why);
     if (p->damaged) {
         JoxText text = {0};
+        p->session.jumps++;
         jox_text_printf(&text, "The recording is damaged at %.2f s: %s.", p->at, why.data);
         jox_view_say(p->view, JOX_VIEW_ALL, "error", text.data);
         jox_text_free(&text);
@@ -142,6 +143,7 @@ static void turn_to(Playing *p) {
 static void seek(Playing *p, double time) {
     p->at = fmin(fmax(time, p->from), p->until);
     p->frame = UINT32_MAX;
+    p->session.jumps++;
     p->wall = jox_clock_wall();
     p->spoke = 0.0;
     jox_replay_forget(p->replay);
@@ -199,6 +201,7 @@ static void do_step(const Said *said) {
     }
     const double frame = fmin(fmax(floor(p->frame + n), 0.0), last);
     p->at = jox_replay_time(p->replay, (uint32_t)frame);
+    p->session.jumps += fabs(n) > 1.0;
     turn_to(p);
     pause(p, true);
 }

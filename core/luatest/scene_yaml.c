@@ -1,111 +1,118 @@
-/* A Lua table as the text of a scene. */
+/* A Lua table as the text of a scene: JSON, which is YAML. In what follows `name` is what errors
+   call a value: its key, or that of the list in which it stands; `key` is NULL in a list. */
+#include <math.h>
 #include <string.h>
 
+#include "base/json_writer.h"
 #include "base/mem.h"
 #include "luatest/internal.h"
 
-static void write_value(lua_State *L, JoxTestRun *run, int index, const char *key, int depth,
-                        JoxText *out);
+enum { DEEPEST = 16, LONGEST = 4 << 20 };
 
-static void write_string(lua_State *L, JoxTestRun *run, const char *key, const char *text,
-                         size_t length, JoxText *out) {
-    if (!strcmp(key, "behaviour") && (strchr(text, '\n') || strstr(text, "return machine"))) {
+static void write_value(lua_State *L, JoxTestRun *run, int index, const char *key, const char *name,
+                        JoxJson *json);
+
+static void write_string(lua_State *L, JoxTestRun *run, int index, const char *key,
+                         const char *name, JoxJson *json) {
+    size_t length;
+    const char *text = lua_tolstring(L, index, &length);
+    if (!strcmp(name, "behaviour") && (strchr(text, '\n') || strstr(text, "return machine"))) {
         text = run->driver->keep(run->driver->context, text, length);
         if (!text)
             luaL_error(L, "behaviours in a test are at most 200, of at most 256 KB each");
     }
-    jox_text_json(out, text);
+    jox_json_string(json, key, text);
 }
 
-static void write_table(lua_State *L, JoxTestRun *run, int index, const char *key, int depth,
-                        JoxText *out) {
-    lua_Integer length = (lua_Integer)lua_rawlen(L, index);
-    if (length > 0) {
-        lua_pushnil(L);
-        while (lua_next(L, index)) {
-            lua_pop(L, 1);
-            if (lua_type(L, -1) == LUA_TSTRING)
-                luaL_error(L, "'%s' is a list and has a key '%s'", key, lua_tostring(L, -1));
-        }
-        jox_text_add(out, "[");
-        for (lua_Integer i = 1; i <= length; i++) {
-            jox_text_add(out, i > 1 ? ", " : "");
-            lua_rawgeti(L, index, i);
-            write_value(L, run, lua_gettop(L), key, depth + 1, out);
-            lua_pop(L, 1);
-        }
-        jox_text_add(out, "]");
-        return;
+static void write_list(lua_State *L, JoxTestRun *run, int index, lua_Integer length,
+                       const char *key, const char *name, JoxJson *json) {
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        lua_pop(L, 1);
+        if (lua_type(L, -1) == LUA_TSTRING)
+            luaL_error(L, "'%s' is a list and has a key '%s'", name, lua_tostring(L, -1));
     }
-    bool first = true;
-    const char *last = NULL; /* keys in ascending order, whatever the table's own */
-    jox_text_add(out, "{");
-    for (;;) {
-        const char *next = NULL;
-        lua_pushnil(L);
-        while (lua_next(L, index)) {
-            lua_pop(L, 1);
-            jox_vm_charge(L, 4);
-            const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
-            if (!name)
-                luaL_error(L, "'%s' has a key that is no name", key);
-            if (name && (!last || strcmp(name, last) > 0) && (!next || strcmp(name, next) < 0))
-                next = name;
-        }
-        if (!next)
-            break;
-        last = next;
-        jox_text_add(out, first ? "" : ", ");
-        first = false;
-        jox_text_json(out, next);
-        jox_text_add(out, ": ");
-        lua_pushstring(L, next);
-        lua_rawget(L, index);
-        write_value(L, run, lua_gettop(L), next, depth + 1, out);
+    jox_json_array(json, key);
+    for (lua_Integer i = 1; i <= length; i++) {
+        lua_rawgeti(L, index, i);
+        write_value(L, run, lua_gettop(L), NULL, name, json);
         lua_pop(L, 1);
     }
-    jox_text_add(out, "}");
+    jox_json_end(json);
 }
 
-static void write_value(lua_State *L, JoxTestRun *run, int index, const char *key, int depth,
-                        JoxText *out) {
+/* The key after `last` in ascending order, whatever the table's own order; NULL after the last. */
+static const char *next_key(lua_State *L, int index, const char *last, const char *name) {
+    const char *next = NULL;
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        lua_pop(L, 1);
+        jox_vm_charge(L, 4);
+        const char *key = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
+        if (!key)
+            luaL_error(L, "'%s' has a key that is no name", name);
+        if (key && (!last || strcmp(key, last) > 0) && (!next || strcmp(key, next) < 0))
+            next = key;
+    }
+    return next;
+}
+
+static void write_members(lua_State *L, JoxTestRun *run, int index, const char *name,
+                          JoxJson *json) {
+    const char *key = NULL;
+    while ((key = next_key(L, index, key, name))) {
+        lua_pushstring(L, key);
+        lua_rawget(L, index);
+        write_value(L, run, lua_gettop(L), key, key, json);
+        lua_pop(L, 1);
+    }
+}
+
+static void write_value(lua_State *L, JoxTestRun *run, int index, const char *key, const char *name,
+                        JoxJson *json) {
     luaL_checkstack(L, 10, NULL);
-    if (depth > 16 || out->length > 4 << 20)
+    if (json->depth > DEEPEST || json->out->length > LONGEST)
         luaL_error(L, "this scene is too deep or too large");
     switch (lua_type(L, index)) {
-    case LUA_TTABLE:
-        write_table(L, run, index, key, depth, out);
-        break;
-    case LUA_TSTRING: {
-        size_t length;
-        const char *text = lua_tolstring(L, index, &length);
-        write_string(L, run, key, text, length, out);
+    case LUA_TTABLE: {
+        lua_Integer length = (lua_Integer)lua_rawlen(L, index);
+        if (length > 0) {
+            write_list(L, run, index, length, key, name, json);
+            break;
+        }
+        jox_json_object(json, key);
+        write_members(L, run, index, name, json);
+        jox_json_end(json);
         break;
     }
+    case LUA_TSTRING:
+        write_string(L, run, index, key, name, json);
+        break;
     case LUA_TBOOLEAN:
-        jox_text_add(out, lua_toboolean(L, index) ? "true" : "false");
+        jox_json_bool(json, key, lua_toboolean(L, index));
         break;
     case LUA_TNUMBER:
-        jox_text_printf(out, "%.17g", lua_tonumber(L, index));
+        if (!isfinite(lua_tonumber(L, index)))
+            luaL_error(L, "'%s' of a scene is not finite", name);
+        jox_json_digits(json, key, lua_tonumber(L, index), 17);
         break;
     default:
-        luaL_error(L, "'%s' of a scene cannot be a %s", key, luaL_typename(L, index));
+        luaL_error(L, "'%s' of a scene cannot be a %s", name, luaL_typename(L, index));
     }
 }
 
 void jox_test_scene_yaml(lua_State *L, JoxTestRun *run, int index, JoxText *out) {
+    JoxJson json = jox_json_begin(out, 0);
+    if (lua_rawlen(L, index) > 0) { /* no scene; loading says so */
+        write_value(L, run, index, NULL, "scene", &json);
+        return;
+    }
     lua_pushliteral(L, "jostle");
     bool version = lua_rawget(L, index) != LUA_TNIL;
     lua_pop(L, 1);
-    size_t from = out->length;
-    write_table(L, run, index, "scene", 0, out);
-    if (version || out->data[from] != '{')
-        return;
-    out->data[from] = ' '; /* the version of the format goes without saying */
-    JoxText whole = {0};
-    bool empty = strcmp(out->data + from, " }") == 0;
-    jox_text_printf(&whole, "{\"jostle\": 1%s%s", empty ? "" : ",", out->data + from);
-    out->length = from;
-    jox_text_append(out, whole.data, whole.length);
-    jox_text_free(&whole);
+    jox_json_object(&json, NULL);
+    if (!version) /* the version of the format goes without saying */
+        jox_json_whole(&json, "jostle", 1);
+    write_members(L, run, index, "scene", &json);
+    jox_json_end(&json);
 }

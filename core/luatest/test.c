@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/json_writer.h"
 #include "base/mem.h"
 #include "luatest/testing.h"
 #include "run/run.h"
@@ -15,7 +16,8 @@ typedef struct Tests {
     JoMessage *message;
     void *context;
     bool json;
-    JoxText array; /* of JSON */
+    JoxText results; /* as JSON */
+    JoxJson array;   /* which is being written there */
     const char *only;
     size_t passed, failed;
     bool broken;
@@ -187,14 +189,15 @@ static void report(void *context, const JoxTestResult *result) {
     JoxText text = {0};
     *(result->passed ? &tests->passed : &tests->failed) += 1;
     if (tests->json) {
-        jox_text_add(&tests->array, tests->array.length ? ",\n {\"file\": " : "[\n {\"file\": ");
-        jox_text_json(&tests->array, result->file);
-        jox_text_printf(&tests->array, ", \"line\": %d, \"name\": ", result->line);
-        jox_text_json(&tests->array, result->name);
-        jox_text_printf(&tests->array, ", \"passed\": %s, \"simulated_s\": %.3f, \"message\": ",
-                        result->passed ? "true" : "false", result->simulated);
-        jox_text_json(&tests->array, result->message);
-        jox_text_add(&tests->array, "}");
+        JoxJson *json = &tests->array;
+        jox_json_object(json, NULL);
+        jox_json_string(json, "file", result->file);
+        jox_json_integer(json, "line", result->line);
+        jox_json_string(json, "name", result->name);
+        jox_json_bool(json, "passed", result->passed);
+        jox_json_digits(json, "simulated_s", result->simulated, 6);
+        jox_json_string(json, "message", result->message);
+        jox_json_end(json);
         return;
     }
     jox_text_printf(&text, "%s %s (%.1f s simulated in %.2f s)\n", result->passed ? "ok" : "not ok",
@@ -268,6 +271,8 @@ bool jo_test(const char *const *paths, size_t count, const char *only, bool json
              JoMessage *message, void *context, size_t *passed, size_t *failed) {
     JOX_REQUIRE(paths && message && passed && failed, false);
     Tests tests = {.message = message, .context = context, .json = json, .only = only};
+    tests.array = jox_json_begin(&tests.results, 1);
+    jox_json_array(&tests.array, NULL);
     for (size_t p = 0; p < count; p++)
         run_path(&tests, paths[p]);
     if (!json && tests.passed + tests.failed == 0 && !tests.broken) {
@@ -275,8 +280,9 @@ bool jo_test(const char *const *paths, size_t count, const char *only, bool json
         tests.broken = true;
     }
     if (json) {
-        jox_text_add(&tests.array, tests.array.length ? "\n]\n" : "[]\n");
-        message(context, tests.array.data);
+        jox_json_end(&tests.array);
+        jox_text_append(&tests.results, "\n", 1);
+        message(context, tests.results.data);
     }
     for (size_t k = 0; k < tests.kept_count; k++) {
         unlink(tests.kept[k]);
@@ -289,7 +295,7 @@ bool jo_test(const char *const *paths, size_t count, const char *only, bool json
         rmdir(tests.folder);
     }
     jox_free(tests.kept);
-    jox_text_free(&tests.array);
+    jox_text_free(&tests.results);
     jox_text_free(&tests.said);
     *passed = tests.passed;
     *failed = tests.failed;

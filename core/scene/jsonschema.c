@@ -1,8 +1,10 @@
 /* JSON Schemas for editors, made of the table of keys. Stricter than loading in one way only: a
    text that stands for a plain number must be written as a number. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "agents/parameters.h"
+#include "base/json_writer.h"
 #include "scene/scene.h"
 #include "scene/schema.h"
 
@@ -12,7 +14,7 @@ static const char DRAWN[] = "^(normal\\(" LIST_OF_DECIMALS(1, 3) "\\)|uniform\\(
     1, 1) "\\)|choose\\(" LIST_OF_DECIMALS(0, 7) "\\))$";
 
 /* "unit_m_per_s": the definition of numbers with such a unit. */
-static void unit_reference(const char *kind, JoxText *out) {
+static void unit_name(const char *kind, JoxText *out) {
     jox_text_add(out, "unit_");
     for (const char *c = kind; *c; c++) {
         if (*c == '/')
@@ -22,8 +24,31 @@ static void unit_reference(const char *kind, JoxText *out) {
     }
 }
 
-/* The pattern of numbers with a unit of a kind; of any unit where `kind` is NULL. */
-static void unit_pattern(const char *kind, JoxText *out) {
+static void reference(JoxJson *json, const char *definition, int length) {
+    jox_json_format(json, "$ref", "#/definitions/%.*s", length, definition);
+}
+
+static void type(JoxJson *json, const char *name) {
+    jox_json_string(json, "type", name);
+}
+
+static void one_of_types(JoxJson *json, const char *const types[2]) {
+    jox_json_array(json, "type");
+    jox_json_string(json, NULL, types[0]);
+    jox_json_string(json, NULL, types[1]);
+    jox_json_end(json);
+}
+
+/* A text that matches a pattern: of the key, or in an array where `key` is NULL. */
+static void matching(JoxJson *json, const char *key, const char *pattern) {
+    jox_json_object(json, key);
+    type(json, "string");
+    jox_json_string(json, "pattern", pattern);
+    jox_json_end(json);
+}
+
+/* Numbers with a unit of a kind; of any unit where `kind` is NULL. */
+static void with_unit(JoxJson *json, const char *key, const char *kind) {
     JoxText pattern = {0};
     int count = 0;
     jox_text_add(&pattern, "^" DECIMAL " *(");
@@ -31,203 +56,265 @@ static void unit_pattern(const char *kind, JoxText *out) {
         if (!kind || !strcmp(jox_scene_units[u].kind, kind))
             jox_text_printf(&pattern, "%s%s", count++ ? "|" : "", jox_scene_units[u].name);
     jox_text_add(&pattern, ")?$");
-    jox_text_add(out, "{\"type\": \"string\", \"pattern\": ");
-    jox_text_json(out, pattern.data);
-    jox_text_add(out, "}");
+    matching(json, key, pattern.data);
     jox_text_free(&pattern);
 }
 
-static void range(double least, double greatest, JoxText *out) {
-    if (least < greatest || least != 0) /* both 0: none is given */
-        jox_text_printf(out, ", \"minimum\": %.9g, \"maximum\": %.9g", least, greatest);
+static void range(double least, double greatest, JoxJson *json) {
+    if (least < greatest || least != 0) { /* both 0: none is given */
+        jox_json_number(json, "minimum", least);
+        jox_json_number(json, "maximum", greatest);
+    }
 }
 
-static void quantity(const JoxKey *key, JoxText *out) {
-    jox_text_add(out, *key->unit ? "\"anyOf\": [{\"type\": \"number\"" : "\"type\": \"number\"");
-    range(key->least, key->greatest, out);
-    if (!*key->unit)
+static void quantity(const JoxKey *key, JoxJson *json) {
+    if (!*key->unit) {
+        type(json, "number");
+        range(key->least, key->greatest, json);
         return;
-    jox_text_add(out, "}, {\"$ref\": \"#/definitions/");
-    unit_reference(key->unit, out);
-    jox_text_add(out, "\"}]");
+    }
+    JoxText unit = {0};
+    unit_name(key->unit, &unit);
+    jox_json_array(json, "anyOf");
+    jox_json_object(json, NULL);
+    type(json, "number");
+    range(key->least, key->greatest, json);
+    jox_json_end(json);
+    jox_json_object(json, NULL);
+    reference(json, unit.data, (int)unit.length);
+    jox_json_end(json);
+    jox_json_end(json);
+    jox_text_free(&unit);
 }
 
-static void vector(const JoxKey *key, int count, JoxText *out) {
-    jox_text_add(out, "\"type\": \"array\", \"items\": {");
-    quantity(key, out);
-    jox_text_printf(out, "}, \"minItems\": %d, \"maxItems\": %d", count, count);
+static void vector(const JoxKey *key, int count, JoxJson *json) {
+    type(json, "array");
+    jox_json_object(json, "items");
+    quantity(key, json);
+    jox_json_end(json);
+    jox_json_integer(json, "minItems", count);
+    jox_json_integer(json, "maxItems", count);
 }
 
 /* Values that a group sets: the parameters by name, else numbers, distributions and places. */
-static void parameters(JoxText *out) {
-    jox_text_add(out, ", \"properties\": {");
+static void parameters(JoxJson *json) {
+    jox_json_object(json, "properties");
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxParameterInfo *info = &jox_parameters[p];
-        JoxText meaning = {0};
-        jox_text_printf(&meaning, "%s%s%s; %.9g to %.9g, default %.9g", info->meaning,
+        jox_json_object(json, info->name);
+        jox_json_format(json, "description", "%s%s%s; %.9g to %.9g, default %.9g", info->meaning,
                         *info->unit ? ", in " : "", info->unit, info->least, info->greatest,
                         info->value);
-        jox_text_printf(out, "%s\n    \"%s\": {\"description\": ", p ? "," : "", info->name);
-        jox_text_json(out, meaning.data);
-        jox_text_add(out, ", \"anyOf\": [{\"type\": \"number\"");
-        range(info->least, info->greatest, out);
-        jox_text_add(out, "}, {\"$ref\": \"#/definitions/drawn\"}]}");
-        jox_text_free(&meaning);
+        jox_json_array(json, "anyOf");
+        jox_json_object(json, NULL);
+        type(json, "number");
+        range(info->least, info->greatest, json);
+        jox_json_end(json);
+        jox_json_object(json, NULL);
+        reference(json, "drawn", 5);
+        jox_json_end(json);
+        jox_json_end(json);
+        jox_json_end(json);
     }
-    jox_text_add(out, "}");
+    jox_json_end(json);
 }
 
 /* What `of` says of the key, from its last suffix to its base; `length` of it is read. */
-static void contents(const JoxKey *key, size_t length, JoxText *out) {
+static void contents(const JoxKey *key, size_t length, JoxJson *json) {
     const char *of = key->of;
     if (length && of[length - 1] == '*') {
-        bool inner = length < strlen(of); /* "mod:" alone takes a mod as it is */
-        jox_text_add(out, inner ? "\"type\": [\"object\", \"null\"]" : "\"type\": \"object\"");
+        if (length < strlen(of)) /* "mod:" alone takes a mod as it is */
+            one_of_types(json, (const char *const[]){"object", "null"});
+        else
+            type(json, "object");
         if (!strcmp(of, "value*"))
-            parameters(out);
-        jox_text_add(out, ", \"additionalProperties\": {");
-        contents(key, length - 1, out);
-        jox_text_add(out, "}");
+            parameters(json);
+        jox_json_object(json, "additionalProperties");
+        contents(key, length - 1, json);
+        jox_json_end(json);
     } else if (length && of[length - 1] == ']') {
         size_t open = length - 1;
         while (of[open] != '[')
             open--;
-        jox_text_add(out, "\"type\": \"array\"");
+        type(json, "array");
         if (open + 2 < length)
-            jox_text_printf(out, ", \"minItems\": %.*s", (int)(length - open - 2), of + open + 1);
-        jox_text_add(out, ", \"items\": {");
-        contents(key, open, out);
-        jox_text_add(out, "}");
+            jox_json_integer(json, "minItems", strtol(of + open + 1, NULL, 10));
+        jox_json_object(json, "items");
+        contents(key, open, json);
+        jox_json_end(json);
     } else if (length == 2 && !strncmp(of, "xy", 2)) {
         const JoxKey metres = {.unit = "m", .least = -JOX_FARTHEST, .greatest = JOX_FARTHEST};
-        vector(key->type == JOX_TYPE_POINTS ? key : &metres, 2, out);
+        vector(key->type == JOX_TYPE_POINTS ? key : &metres, 2, json);
     } else if (length == 3 && !strncmp(of, "xyz", 3)) {
-        vector(key, 3, out);
+        vector(key, 3, json);
     } else if (length == 6 && !strncmp(of, "weight", 6)) {
-        jox_text_add(out, "\"type\": \"number\", \"exclusiveMinimum\": 0, \"maximum\": 1000000");
+        type(json, "number");
+        jox_json_integer(json, "exclusiveMinimum", 0);
+        jox_json_integer(json, "maximum", 1000000);
     } else {
-        jox_text_printf(out, "\"$ref\": \"#/definitions/%.*s\"", (int)length, of);
+        reference(json, of, (int)length);
     }
 }
 
 /* The key's fixed values. */
-static void choices(const JoxKey *key, JoxText *out) {
+static void choices(const JoxKey *key, JoxJson *json) {
     char name[64];
-    jox_text_add(out, "\"enum\": [");
+    jox_json_array(json, "enum");
     for (int i = 0; jox_choice_name(key->choices, i, name, sizeof name); i++)
-        jox_text_printf(out, "%s\"%s\"", i ? ", " : "", name);
-    jox_text_add(out, "]");
+        jox_json_string(json, NULL, name);
+    jox_json_end(json);
 }
 
-static void type_of(const JoxKey *key, JoxText *out) {
+/* One of the choices, or one name; or a list of them. */
+static void names(const JoxKey *key, JoxJson *json) {
+    jox_json_array(json, "anyOf");
+    for (int list = 0; list < 2; list++) {
+        jox_json_object(json, NULL);
+        if (list) {
+            type(json, "array");
+            jox_json_object(json, "items");
+        }
+        if (key->choices)
+            choices(key, json);
+        else
+            reference(json, "name", 4);
+        if (list)
+            jox_json_end(json);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+}
+
+static void type_of(const JoxKey *key, JoxJson *json) {
     if (key->of) {
-        contents(key, strlen(key->of), out);
+        contents(key, strlen(key->of), json);
         return;
     }
     switch (key->type) {
     case JOX_TYPE_NUMBER:
-        quantity(key, out);
+        quantity(key, json);
         return;
     case JOX_TYPE_WHOLE:
-        jox_text_add(out, "\"type\": \"integer\"");
-        range(key->least, key->greatest, out);
+        type(json, "integer");
+        range(key->least, key->greatest, json);
         return;
     case JOX_TYPE_BOOL:
-        jox_text_add(out, "\"type\": \"boolean\"");
+        type(json, "boolean");
         return;
     case JOX_TYPE_POINT:
     case JOX_TYPE_POINT3:
-        vector(key, key->type == JOX_TYPE_POINT ? 2 : 3, out);
+        vector(key, key->type == JOX_TYPE_POINT ? 2 : 3, json);
         return;
     case JOX_TYPE_NAMES:
-        if (key->choices) {
-            jox_text_add(out, "\"anyOf\": [{");
-            choices(key, out);
-            jox_text_add(out, "}, {\"type\": \"array\", \"items\": {");
-            choices(key, out);
-            jox_text_add(out, "}}]");
-            return;
-        }
-        jox_text_add(out, "\"anyOf\": [{\"$ref\": \"#/definitions/name\"}, "
-                          "{\"type\": \"array\", \"items\": {\"$ref\": \"#/definitions/name\"}}]");
+        names(key, json);
         return;
     default:
         break;
     }
-    if (!key->choices) {
-        jox_text_add(out, "\"type\": [\"string\", \"number\"]"); /* a title may be 1984 */
-        return;
-    }
-    choices(key, out);
+    if (key->choices)
+        choices(key, json);
+    else
+        one_of_types(json, (const char *const[]){"string", "number"}); /* a title may be 1984 */
 }
 
-static void property(const JoxKey *key, JoxText *out) {
+/* The default of a key, as its type has it. */
+static void standard(const JoxKey *key, JoxJson *json) {
+    char *end;
+    const double number = strtod(key->standard, &end);
+    if (key->type == JOX_TYPE_BOOL)
+        jox_json_bool(json, "default", !strcmp(key->standard, "true"));
+    else if (key->type != JOX_TYPE_TEXT && end != key->standard && !*end)
+        jox_json_number(json, "default", number);
+    else
+        jox_json_string(json, "default", key->standard);
+}
+
+static void property(const JoxKey *key, JoxJson *json) {
+    const bool number = key->type == JOX_TYPE_NUMBER || key->type == JOX_TYPE_WHOLE;
+    const bool ranged = number && (key->least != 0 || key->greatest != 0);
+    const bool has_standard = *key->standard && *key->standard != '!';
     JoxText meaning = {0};
-    bool number = key->type == JOX_TYPE_NUMBER || key->type == JOX_TYPE_WHOLE;
-    bool ranged = number && (key->least != 0 || key->greatest != 0);
     jox_text_add(&meaning, key->meaning);
     if (*key->unit)
         jox_text_printf(&meaning, ", in %s", key->unit);
     if (ranged)
         jox_text_printf(&meaning, "; %.9g to %.9g", key->least, key->greatest);
-    if (*key->standard && *key->standard != '!')
+    if (has_standard)
         jox_text_printf(&meaning, "%s default %s", ranged ? "," : ";", key->standard);
-    jox_text_printf(out, "\"%s\": {\"description\": ", key->name);
-    jox_text_json(out, meaning.data);
+    jox_json_object(json, key->name);
+    jox_json_string(json, "description", meaning.data);
     jox_text_free(&meaning);
-    jox_text_add(out, ", ");
-    if (*key->standard && *key->standard != '!') {
-        bool text = key->type == JOX_TYPE_TEXT;
-        jox_text_printf(out, text ? "\"default\": \"%s\", " : "\"default\": %s, ", key->standard);
-    }
+    if (has_standard)
+        standard(key, json);
     if (key->of && strchr("*]", key->of[strlen(key->of) - 1]) == NULL) {
-        jox_text_add(out, "\"allOf\": [{"); /* what stands beside a $ref is not read */
-        type_of(key, out);
-        jox_text_add(out, "}]}");
-        return;
+        jox_json_array(json, "allOf"); /* what stands beside a $ref is not read */
+        jox_json_object(json, NULL);
+        type_of(key, json);
+        jox_json_end(json);
+        jox_json_end(json);
+    } else {
+        type_of(key, json);
     }
-    type_of(key, out);
-    jox_text_add(out, "}");
+    jox_json_end(json);
 }
 
-/* "anyOf": each of the alternatives' keys is required; prefixed by a comma. */
-static void alternative(const JoxAlternative *a, JoxText *out) {
+/* {"required": [...]} of one key, or of two. */
+static void requires(JoxJson *json, const char *one, const char *other) {
+    jox_json_object(json, NULL);
+    jox_json_array(json, "required");
+    jox_json_string(json, NULL, one);
+    if (other)
+        jox_json_string(json, NULL, other);
+    jox_json_end(json);
+    jox_json_end(json);
+}
+
+/* Which of the alternatives' keys are required. */
+static void alternative(const JoxAlternative *a, JoxJson *json) {
     char one[64], other[64];
-    bool some = a->rule != JOX_AT_MOST_ONE;
-    jox_text_add(out, some ? (a->rule == JOX_EXACTLY_ONE ? "{\"oneOf\": [" : "{\"anyOf\": [")
-                           : "{\"not\": {\"anyOf\": [");
-    int count = 0;
-    for (int i = 0; jox_choice_name(a->keys, i, one, sizeof one); i++) {
-        if (some)
-            jox_text_printf(out, "%s{\"required\": [\"%s\"]}", count++ ? ", " : "", one);
-        for (int k = 0; !some && k < i && jox_choice_name(a->keys, k, other, sizeof other); k++)
-            jox_text_printf(out, "%s{\"required\": [\"%s\", \"%s\"]}", count++ ? ", " : "", other,
-                            one);
+    jox_json_object(json, NULL);
+    if (a->rule != JOX_AT_MOST_ONE) {
+        jox_json_array(json, a->rule == JOX_EXACTLY_ONE ? "oneOf" : "anyOf");
+        for (int i = 0; jox_choice_name(a->keys, i, one, sizeof one); i++)
+        requires(json, one, NULL);
+        jox_json_end(json);
+    } else {
+        jox_json_object(json, "not");
+        jox_json_array(json, "anyOf");
+        for (int i = 0; jox_choice_name(a->keys, i, one, sizeof one); i++)
+            for (int k = 0; k < i && jox_choice_name(a->keys, k, other, sizeof other); k++)
+        requires(json, other, one);
+        jox_json_end(json);
+        jox_json_end(json);
     }
-    jox_text_add(out, some ? "]}" : "]}}");
+    jox_json_end(json);
 }
 
-/* What must be there; a separate list for owners whose maps are joined from several files. */
-static void demands(const char *owner, JoxText *out) {
-    int count = 0;
+/* What must be there: the members "required" and "allOf". */
+static void demands(const char *owner, JoxJson *json) {
+    bool any = false;
     for (size_t i = 0; i < jox_scene_key_count; i++) {
         const JoxKey *key = &jox_scene_keys[i];
-        if (!strcmp(key->owner, owner) && *key->standard == '!')
-            jox_text_printf(out, "%s\"%s\"", count++ ? ", " : "\"required\": [", key->name);
-    }
-    if (count)
-        jox_text_add(out, "]");
-    bool first = true;
-    for (size_t i = 0; i < jox_scene_alternative_count; i++) {
-        const JoxAlternative *a = &jox_scene_alternatives[i];
-        if (strcmp(a->owner, owner) != 0)
+        if (strcmp(key->owner, owner) != 0 || *key->standard != '!')
             continue;
-        jox_text_add(out, first ? (count ? ", \"allOf\": [" : "\"allOf\": [") : ", ");
-        alternative(a, out);
-        first = false;
+        if (!any)
+            jox_json_array(json, "required");
+        any = true;
+        jox_json_string(json, NULL, key->name);
     }
-    if (!first)
-        jox_text_add(out, "]");
+    if (any)
+        jox_json_end(json);
+    any = false;
+    for (size_t i = 0; i < jox_scene_alternative_count; i++) {
+        if (strcmp(jox_scene_alternatives[i].owner, owner) != 0)
+            continue;
+        if (!any)
+            jox_json_array(json, "allOf");
+        any = true;
+        alternative(&jox_scene_alternatives[i], json);
+    }
+    if (any)
+        jox_json_end(json);
 }
 
 /* Places and groups may come in part from another file: what they lack is looked at from the root.
@@ -236,35 +323,55 @@ static bool joined(const char *owner) {
     return !strcmp(owner, "scene") || !strcmp(owner, "place") || !strcmp(owner, "group");
 }
 
-static void object(const char *owner, JoxText *out) {
-    JoxText needed = {0};
-    int count = 0;
-    jox_text_add(out, "\"type\": \"object\", \"additionalProperties\": false, ");
+static void object(const char *owner, JoxJson *json) {
+    type(json, "object");
+    jox_json_bool(json, "additionalProperties", false);
     if (!joined(owner))
-        demands(owner, &needed);
-    if (needed.length)
-        jox_text_printf(out, "%s, ", needed.data);
-    jox_text_free(&needed);
-    jox_text_add(out, "\"properties\": {");
+        demands(owner, json);
+    const int lines = json->lines;
+    json->lines = json->depth + 1; /* a line for each property */
+    jox_json_object(json, "properties");
     for (size_t i = 0; i < jox_scene_key_count; i++)
-        if (!strcmp(jox_scene_keys[i].owner, owner)) {
-            jox_text_add(out, count++ ? ",\n   " : "\n   ");
-            property(&jox_scene_keys[i], out);
-        }
-    jox_text_add(out, "}");
+        if (!strcmp(jox_scene_keys[i].owner, owner))
+            property(&jox_scene_keys[i], json);
+    jox_json_end(json);
+    json->lines = lines;
 }
 
-static void shared_definitions(JoxText *out) {
-    jox_text_add(out,
-                 "  \"name\": {\"type\": [\"string\", \"number\"]},\n  \"quantity\": {\"anyOf\": "
-                 "[{\"type\": \"number\"}, ");
-    unit_pattern(NULL, out);
-    jox_text_add(out, "]},\n  \"drawn\": {\"type\": \"string\", \"pattern\": ");
-    jox_text_json(out, DRAWN);
-    jox_text_add(out, "},\n  \"draw\": {\"anyOf\": [{\"type\": [\"number\", \"boolean\"]}, "
-                      "{\"$ref\": \"#/definitions/drawn\"}]},\n"
-                      "  \"value\": {\"anyOf\": [{\"$ref\": \"#/definitions/draw\"}, "
-                      "{\"type\": \"string\", \"pattern\": \"^[^(]*$\"}]}");
+static void any_of_types(JoxJson *json, const char *key, const char *const types[2]) {
+    jox_json_object(json, key);
+    jox_json_array(json, "anyOf");
+    jox_json_object(json, NULL);
+    if (types[1])
+        one_of_types(json, types);
+    else
+        type(json, types[0]);
+    jox_json_end(json);
+}
+
+static void shared_definitions(JoxJson *json) {
+    jox_json_object(json, "name");
+    one_of_types(json, (const char *const[]){"string", "number"});
+    jox_json_end(json);
+    any_of_types(json, "quantity", (const char *const[]){"number", NULL});
+    with_unit(json, NULL, NULL);
+    jox_json_end(json);
+    jox_json_end(json);
+    matching(json, "drawn", DRAWN);
+    any_of_types(json, "draw", (const char *const[]){"number", "boolean"});
+    jox_json_object(json, NULL);
+    reference(json, "drawn", 5);
+    jox_json_end(json);
+    jox_json_end(json);
+    jox_json_end(json);
+    jox_json_object(json, "value");
+    jox_json_array(json, "anyOf");
+    jox_json_object(json, NULL);
+    reference(json, "draw", 4);
+    jox_json_end(json);
+    matching(json, NULL, "^[^(]*$");
+    jox_json_end(json);
+    jox_json_end(json);
     for (size_t u = 0; u < jox_scene_unit_count; u++) {
         const char *kind = jox_scene_units[u].kind;
         bool known = false;
@@ -272,10 +379,10 @@ static void shared_definitions(JoxText *out) {
             known |= !strcmp(jox_scene_units[k].kind, kind);
         if (known)
             continue;
-        jox_text_add(out, ",\n  \"");
-        unit_reference(kind, out);
-        jox_text_add(out, "\": ");
-        unit_pattern(kind, out);
+        JoxText name = {0};
+        unit_name(kind, &name);
+        with_unit(json, name.data, kind);
+        jox_text_free(&name);
     }
 }
 
@@ -285,31 +392,55 @@ static bool belongs(const char *owner, const char *root) {
     return strcmp(owner, root) != 0 && mod == !strcmp(root, "mod");
 }
 
+/* {"additionalProperties": {what the owner must have}} */
+static void demands_of_all(JoxJson *json, const char *key, const char *owner) {
+    jox_json_object(json, key);
+    jox_json_object(json, "additionalProperties");
+    demands(owner, json);
+    jox_json_end(json);
+    jox_json_end(json);
+}
+
+/* What a scene must have unless it is joined from several files. */
+static void demands_of_scene(JoxJson *json) {
+    jox_json_object(json, "if");
+    jox_json_array(json, "anyOf");
+    requires(json, "include", NULL);
+    requires(json, "patch", NULL);
+    jox_json_end(json);
+    jox_json_end(json);
+    jox_json_object(json, "then");
+    jox_json_end(json);
+    jox_json_object(json, "else");
+    demands("scene", json);
+    jox_json_object(json, "properties");
+    demands_of_all(json, "places", "place");
+    demands_of_all(json, "groups", "group");
+    jox_json_end(json);
+    jox_json_end(json);
+}
+
 void jox_scene_json_schema(const char *root_owner, JoxText *out) {
     bool scene = !strcmp(root_owner, "scene");
-    jox_text_printf(out,
-                    "{\n\"$schema\": \"http://json-schema.org/draft-07/schema#\",\n"
-                    "\"title\": \"%s\",\n",
+    JoxJson json = jox_json_begin(out, 1);
+    jox_json_object(&json, NULL);
+    jox_json_string(&json, "$schema", "http://json-schema.org/draft-07/schema#");
+    jox_json_string(&json, "title",
                     scene ? "A scene of Jostle" : "The mod.yaml of a mod for Jostle");
-    object(root_owner, out);
-    if (scene) {
-        jox_text_add(out, ",\n\"if\": {\"anyOf\": [{\"required\": [\"include\"]}, {\"required\": "
-                          "[\"patch\"]}]},\n\"then\": {},\n\"else\": {");
-        demands("scene", out);
-        jox_text_add(out, ", \"properties\": {\n  \"places\": {\"additionalProperties\": {");
-        demands("place", out);
-        jox_text_add(out, "}},\n  \"groups\": {\"additionalProperties\": {");
-        demands("group", out);
-        jox_text_add(out, "}}}}");
-    }
-    jox_text_add(out, ",\n\"definitions\": {\n");
-    shared_definitions(out);
+    object(root_owner, &json);
+    if (scene)
+        demands_of_scene(&json);
+    json.lines = 2;
+    jox_json_object(&json, "definitions");
+    shared_definitions(&json);
     for (size_t i = 0; i < jox_scene_owner_count; i++) {
         if (!belongs(jox_scene_owners[i].name, root_owner))
             continue;
-        jox_text_printf(out, ",\n  \"%s\": {", jox_scene_owners[i].name);
-        object(jox_scene_owners[i].name, out);
-        jox_text_add(out, "}");
+        jox_json_object(&json, jox_scene_owners[i].name);
+        object(jox_scene_owners[i].name, &json);
+        jox_json_end(&json);
     }
-    jox_text_add(out, "\n}\n}\n");
+    jox_json_end(&json);
+    jox_json_end(&json);
+    jox_text_append(out, "\n", 1);
 }

@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "agents/parameters.h"
+#include "base/json_writer.h"
 #include "base/mem.h"
 #include "base/quote.h"
 #include "force/force.h"
@@ -298,28 +299,27 @@ static bool write_table(const JoxReproduction *all, const char *when, JoxText *e
 
 static bool write_json(const JoxReproduction *all, JoxText *error) {
     JoxText text = {0};
-    jox_text_add(&text, "{");
+    JoxJson json = jox_json_begin(&text, 1);
+    jox_json_object(&json, NULL);
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         const JoxOutcome *outcome = &all->outcomes[o];
-        jox_text_add(&text, o ? ",\n " : "\n ");
-        jox_text_json(&text, outcome->claim->id);
-        jox_text_printf(&text, ": {\"inside\": %s, \"figures\": {",
-                        outcome->inside ? "true" : "false");
+        jox_json_object(&json, outcome->claim->id);
+        jox_json_bool(&json, "inside", outcome->inside);
+        jox_json_object(&json, "figures");
         for (uint32_t f = 0; f < outcome->claim->figure_count; f++) {
             const JoxVerdict *v = &outcome->verdicts[f];
-            jox_text_add(&text, f ? ", " : "");
-            jox_text_json(&text, outcome->claim->figures[f].name);
-            jox_text_add(&text, ": {\"mean\": ");
-            jox_text_json_number(&text, v->mean);
-            jox_text_add(&text, ", \"least\": ");
-            jox_text_json_number(&text, v->least);
-            jox_text_add(&text, ", \"most\": ");
-            jox_text_json_number(&text, v->most);
-            jox_text_printf(&text, ", \"inside\": %s}", v->inside ? "true" : "false");
+            jox_json_object(&json, outcome->claim->figures[f].name);
+            jox_json_number(&json, "mean", v->mean);
+            jox_json_number(&json, "least", v->least);
+            jox_json_number(&json, "most", v->most);
+            jox_json_bool(&json, "inside", v->inside);
+            jox_json_end(&json);
         }
-        jox_text_add(&text, "}}");
+        jox_json_end(&json);
+        jox_json_end(&json);
     }
-    jox_text_add(&text, "\n}\n");
+    jox_json_end(&json);
+    jox_text_append(&text, "\n", 1);
     FILE *out = jox_plot_open(all->def->out, "results.json", error);
     if (out)
         fputs(text.data, out);

@@ -13,6 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/json.h"
 #include "base/mem.h"
 #include "picture/plot.h"
 #include "validate/reproduce.h"
@@ -39,25 +40,39 @@ static char *read_in(const JoxJob *job, const char *name) {
     return text;
 }
 
-/* Whether each {"path": "...", "sha256": "..."} of the summary still holds. */
-static bool inputs_hold(const char *summary) {
-    const char *at = strstr(summary, "\"inputs\": [");
-    const char *end = at ? strchr(at, ']') : NULL;
-    while (at && (at = strstr(at, "{\"path\": \"")) != NULL && at < end) {
-        char path[1024], wanted[65], found[65];
+typedef struct Inputs {
+    char *path;     /* of the file that was read last */
+    bool any, hold; /* whether there are inputs, and all are as they were */
+} Inputs;
+
+/* Of "inputs": [{"path": "...", "sha256": "..."}, ...] each file. */
+static bool compare_input(void *context, const JoxJsonItem *item) {
+    Inputs *inputs = context;
+    if (item->kind == JOX_JSON_ARRAY && !strcmp(item->path, "inputs"))
+        inputs->any = true;
+    if (item->kind != JOX_JSON_TEXT || strncmp(item->path, "inputs.", 7) != 0)
+        return true;
+    if (!strcmp(item->key, "path")) {
+        jox_free(inputs->path);
+        inputs->path = jox_strdup(item->text);
+    } else if (!strcmp(item->key, "sha256")) {
+        char found[65] = "";
         size_t length;
-        if (sscanf(at, "{\"path\": \"%1023[^\"]\", \"sha256\": \"%64[0-9a-f]", path, wanted) != 2)
-            return false;
-        char *text = jox_read_file(path, (size_t)64 << 20, &length);
-        if (!text)
-            return false;
-        jox_sha256_hex(text, length, found);
+        char *text = inputs->path ? jox_read_file(inputs->path, (size_t)64 << 20, &length) : NULL;
+        if (text)
+            jox_sha256_hex(text, length, found);
+        inputs->hold &= text && strcmp(found, item->text) == 0;
         jox_free(text);
-        if (strcmp(found, wanted) != 0)
-            return false;
-        at++;
     }
-    return end != NULL;
+    return inputs->hold;
+}
+
+/* Whether the files that the summary names are still those that were read. */
+static bool inputs_hold(const char *summary) {
+    Inputs inputs = {.hold = true};
+    bool read = jox_json_read(summary, jox_json_own_files, compare_input, &inputs);
+    jox_free(inputs.path);
+    return read && inputs.any && inputs.hold;
 }
 
 /* Done before, by the same program, from the same files. */

@@ -409,9 +409,21 @@ def replays(browser):
         browser.picture("replay")
         bar.send_keys(Keys.PAGE_DOWN, Keys.ARROW_RIGHT)
         browser.wait("return page.crowd.next.time < 2.6", "the keys do not move the bar")
+        # Charts after jumps: points in the order of time, those of before kept, and no line over what nobody saw.
+        browser.run("for (const s of [...page.charts.census, page.charts.speed, page.charts.dense]) s.clear()")
+        for time in (9, 4, 6):
+            browser.run(f"page.replay.seek({time})")
+            browser.wait(f"return page.charts.dense.times.some((t) => Math.abs(t - {time}) < 0.2)", f"no point at {time} s")
+        for series in ("census[0]", "speed", "dense"):
+            times, seen = browser.run(f"return [page.charts.{series}.times, page.charts.{series}.seen]")
+            expect(len(times) >= 3 and times == sorted(times), f"{series}: points lie at {times}")
+            expect(not any(seen), f"{series}: a line leads over a jump")
+        browser.run("page.replay.seek(2)")
+        browser.wait("return page.crowd.next.time < 2.6", "no seek to 2 s")
         at = browser.run("return page.crowd.next.time")
         browser.button("Play").click()
         browser.wait("return page.crowd.next.time > arguments[0]", "it does not play", at + 0.5)
+        browser.wait("return page.charts.speed.seen.filter((s) => s).length > 1", "no line where it was played")
         expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
     finally:
         session.stop()

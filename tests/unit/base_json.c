@@ -53,11 +53,16 @@ static void outer_levels_stand_on_lines(void **state) {
     jox_json_whole(&json, NULL, 2);
     jox_json_end(&json);
     jox_json_end(&json);
+    jox_json_array(&json, "e");
+    jox_json_object(&json, NULL);
+    jox_json_whole(&json, "f", 3);
+    jox_json_end(&json);
+    jox_json_end(&json);
     jox_json_object(&json, "empty");
     jox_json_end(&json);
     jox_json_end(&json);
     assert_string_equal(out.data, "{\n \"a\": false,\n \"b\": {\n  \"c\": null,\n  \"d\": [1, 2]\n "
-                                  "},\n \"empty\": {}\n}");
+                                  "},\n \"e\": [\n  {\"f\": 3}\n ],\n \"empty\": {}\n}");
     jox_text_free(&out);
 }
 

@@ -187,9 +187,22 @@ static void what_is_measured(void **state) {
     }
     assert_memory_equal(histogram[0], histogram[1], sizeof histogram[0]);
     assert_true(histogram[0][0] < recorded[29].count); /* some walk */
-    JoxLiveSession session = {.speed = 2};
+    JoxLiveSession session = {.speed = 2, .jumps = 7};
+    jox_replay_forget(other); /* after a jump speeds are those at once; at the first frame none */
+    assert_true(jox_replay_show(other, 29, &told));
+    jox_replay_status(other, &session, 1.5, &text);
+    parse(&text);
+    const double speed = number_at("mean_speed", 0, 0, 0);
+    assert_true(speed > 0.0);
+    assert_near(number_at("jumps", 0, 0, 0), 7, 0);
+    assert_true(jox_replay_show(other, 0, &told));
+    text.length = 0;
+    jox_replay_status(other, &session, 1.5, &text);
+    assert_non_null(strstr(text.data, "\"mean_speed\": null"));
+    text.length = 0;
     jox_replay_status(replay, &session, 1.5, &text);
     parse(&text);
+    assert_near(number_at("mean_speed", 0, 0, 0), speed, 1e-6);
     assert_near(number_at("agents", 0, 0, 0), recorded[29].count, 0);
     assert_near(number_at("time", 0, 0, 0), recorded[29].time, 1e-6);
     assert_near(number_at("census.0.0", 0, 0, 0) + number_at("census.0.1", 0, 0, 0),
@@ -502,10 +515,14 @@ static void a_page_plays_and_seeks(void **state) {
     put_text(fd, "{\"do\": \"pause\", \"on\": true}");
     put_text(fd, "{\"do\": \"seek\", \"time\": 5.04}");
     wait_for_number(fd, "time", "at", 5.04);
+    wait_for_number(fd, "status", "jumps", 2); /* the first went to the beginning */
     put_text(fd, "{\"do\": \"step\", \"n\": 2}");
     wait_for_number(fd, "status", "time", 5.2);
+    put_text(fd, "{\"do\": \"step\", \"n\": -1}");
+    wait_for_number(fd, "status", "time", 5.1);
     put_text(fd, "{\"do\": \"seek\", \"time\": 1e9}");
     wait_for_number(fd, "time", "at", 10);
+    wait_for_number(fd, "status", "jumps", 4); /* a frame back is none, two ahead are one */
     put_text(fd, "{\"do\": \"seek\", \"time\": null}");
     free(wait_for(fd, "refused", &length));
     put_text(fd, "{\"do\": \"input\", \"line\": \"open gate\"}");

@@ -6,8 +6,9 @@ import { classColour, css } from "./palette.js";
 const KEPT = 2400; // points a series; then every second one goes
 const STAGES = ["perceive", "think", "prefer", "push", "solve", "move", "bodies", "infer", "observe"];
 
-/** Values over time, of names that may come and go. */
-class Series {
+/** Values over time, of names that may come and go. Times ascend; a line leads from one point to the
+    next only where all between them was seen. */
+export class Series {
     constructor() {
         this.clear();
     }
@@ -15,26 +16,41 @@ class Series {
     clear() {
         this.times = [];
         this.values = new Map();
+        this.seen = []; // by point: whether all since the point before it was seen
     }
 
-    /** `numbers`: {name: value} at time `t`, s. Time that goes back starts anew. */
-    add(t, numbers) {
-        const last = this.times[this.times.length - 1];
-        if (last !== undefined && t < last) this.clear();
-        if (t === last) return;
+    /** `numbers`: {name: value} at time `t`, s. `since`: the time from which on all was seen until `t`, or
+        behind it, where it went backwards; undefined after a jump. */
+    add(t, numbers, since) {
         for (const name of Object.keys(numbers)) {
             if (!this.values.has(name)) this.values.set(name, Array(this.times.length).fill(NaN));
         }
-        this.times.push(t);
-        for (const [name, list] of this.values) list.push(numbers[name] ?? NaN);
-        if (this.times.length <= KEPT) return;
-        const thin = (list) => list.filter((_, i) => i % 2 === 0);
-        this.times = thin(this.times);
-        for (const [name, list] of this.values) this.values.set(name, thin(list));
+        let at = this.times.length;
+        while (at > 0 && this.times[at - 1] >= t) at--;
+        if (this.times[at] !== t) {
+            this.times.splice(at, 0, t);
+            this.seen.splice(at, 0, this.seen[at] ?? false); // within what was seen, both halves are
+            for (const [name, list] of this.values) list.splice(at, 0, numbers[name] ?? NaN);
+        }
+        const from = Math.min(t, since ?? t), to = Math.max(t, since ?? t);
+        for (let i = 1; i < this.times.length; i++) {
+            if (this.times[i - 1] >= from && this.times[i] <= to) this.seen[i] = true;
+        }
+        if (this.times.length > KEPT) this.thin();
     }
 
-    list(colour) {
-        return [...this.values].map(([name, values], i) => ({ name, values, colour: colour(i, name) }));
+    thin() {
+        const half = (list) => list.filter((_, i) => i % 2 === 0);
+        this.seen = half(this.seen.map((seen, i) => seen && (this.seen[i - 1] ?? true)));
+        this.times = half(this.times);
+        for (const [name, list] of this.values) this.values.set(name, half(list));
+    }
+
+    /** Onto a chart, with gaps where nobody looked. */
+    draw(chart, colour) {
+        const spread = (list, gap) => list.flatMap((v, i) => (i > 0 && !this.seen[i] ? [gap(i), v] : [v]));
+        chart.draw(spread(this.times, (i) => this.times[i]), [...this.values].map(([name, values], i) => (
+            { name, values: spread(values, () => NaN), colour: colour(i, name) })));
     }
 }
 
@@ -47,6 +63,7 @@ export class ChartsPage {
         this.failures = new Series();
         this.flows = new Series();
         this.stages = new Series();
+        this.last = null; // status
         this.charts = {
             census: new Chart({ title: "People in each state", unit: "agents" }),
             flows: new Chart({ title: "Passed through lines", unit: "agents" }),
@@ -69,23 +86,33 @@ export class ChartsPage {
         }
         this.choice.hidden = names.length < 2;
         this.charts.flows.node.hidden = !(hello.charts?.length > 0);
-        const live = hello.session !== "replay";
+        const live = this.live = hello.session !== "replay";
         this.charts.stages.node.hidden = this.charts.failures.node.hidden = !live;
         this.charts.census.node.hidden = names.length === 0;
     }
 
+    /** What comes next does not follow what came last: the page was not told of all between. */
+    lost() {
+        this.last = null;
+    }
+
     take(status) {
-        const t = status.time;
+        const t = status.time, last = this.last;
+        if (this.live && this.speed.times[this.speed.times.length - 1] > t) { // the run began anew
+            for (const series of [...this.census, this.speed, this.dense, this.failures, this.flows, this.stages]) series.clear();
+        }
+        const since = last && last.jumps === status.jumps && (!this.live || last.time <= t) ? last.time : undefined;
+        this.last = status;
         (status.census ?? []).forEach((counts, m) => {
             const states = this.hello?.machines?.[m]?.states ?? [];
-            this.census[m]?.add(t, Object.fromEntries(counts.map((n, i) => [states[i]?.name ?? String(i), n])));
+            this.census[m]?.add(t, Object.fromEntries(counts.map((n, i) => [states[i]?.name ?? String(i), n])), since);
         });
-        if (Number.isFinite(status.mean_speed)) this.speed.add(t, { "": status.mean_speed });
-        if (Number.isFinite(status.density_max)) this.dense.add(t, { "": status.density_max });
-        if (Number.isFinite(status.failures)) this.failures.add(t, { "": 100 * status.failures });
-        this.flows.add(t, status.flows ?? {});
+        if (Number.isFinite(status.mean_speed)) this.speed.add(t, { "": status.mean_speed }, since);
+        if (Number.isFinite(status.density_max)) this.dense.add(t, { "": status.density_max }, since);
+        if (Number.isFinite(status.failures)) this.failures.add(t, { "": 100 * status.failures }, since);
+        this.flows.add(t, status.flows ?? {}, since);
         const stages = Object.entries(status.stage_ns ?? {}).map(([name, ns]) => [name, ns]);
-        if (stages.length) this.stages.add(t, { all: stages.reduce((s, [, ns]) => s + ns, 0), ...Object.fromEntries(stages) });
+        if (stages.length) this.stages.add(t, { all: stages.reduce((s, [, ns]) => s + ns, 0), ...Object.fromEntries(stages) }, since);
         this.draw();
     }
 
@@ -97,12 +124,12 @@ export class ChartsPage {
         const one = () => "#0072b2";
         const stage = (i, name) => (name === "all" ? "#888888" : css(classColour(Math.max(0, STAGES.indexOf(name)))));
         const census = this.census[m];
-        if (census) this.charts.census.draw(census.times, census.list((i) => classes(first + i)));
-        this.charts.speed.draw(this.speed.times, this.speed.list(one));
-        this.charts.dense.draw(this.dense.times, this.dense.list(one));
-        if (!this.charts.flows.node.hidden) this.charts.flows.draw(this.flows.times, this.flows.list(classes));
+        if (census) census.draw(this.charts.census, (i) => classes(first + i));
+        this.speed.draw(this.charts.speed, one);
+        this.dense.draw(this.charts.dense, one);
+        if (!this.charts.flows.node.hidden) this.flows.draw(this.charts.flows, classes);
         if (this.charts.stages.node.hidden) return;
-        this.charts.failures.draw(this.failures.times, this.failures.list(one));
-        this.charts.stages.draw(this.stages.times, this.stages.list(stage));
+        this.failures.draw(this.charts.failures, one);
+        this.stages.draw(this.charts.stages, stage);
     }
 }

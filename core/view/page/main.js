@@ -139,6 +139,7 @@ class Page {
     /** What a new connection has to know. */
     again() {
         this.crowd.snap = true;
+        this.charts.lost();
         if (!this.hello) return; // the scene says how it begins
         this.connection.send({ do: "colour", by: this.colour === "failed" ? "state" : this.colour });
         if (this.field !== "none") this.connection.send({ do: "field", of: this.field });
