@@ -5,41 +5,151 @@
 #include <stdlib.h>
 #include <string.h>
 
-static atomic_uint_fast64_t allocations;
+#include "base/assert.h"
 
-static void *checked(void *memory, size_t bytes) {
-    if (!memory) {
+static atomic_uint_fast64_t allocations;
+static atomic_bool limited;           /* for tests: memory is out, */
+static atomic_int_fast64_t remaining; /* after so many more allocations */
+static _Thread_local JoxHeap *in_use;
+
+_Static_assert(sizeof(JoxBlock) % 16 == 0, "memory behind a block is aligned as malloc aligns it");
+
+static bool may_allocate(void) {
+    return !atomic_load_explicit(&limited, memory_order_relaxed) ||
+           atomic_fetch_sub_explicit(&remaining, 1, memory_order_relaxed) > 0;
+}
+
+static bool count_allocation(void) {
+    atomic_fetch_add_explicit(&allocations, 1, memory_order_relaxed);
+    return may_allocate();
+}
+
+uint64_t jox_alloc_count(void) {
+    return atomic_load_explicit(&allocations, memory_order_relaxed);
+}
+
+void jox_alloc_fail_after(uint64_t count) {
+    atomic_store(&remaining, count < INT64_MAX ? (int64_t)count : INT64_MAX);
+    atomic_store(&limited, count != UINT64_MAX);
+}
+
+/* ---- recovery points ---- */
+
+static _Thread_local JoxRecovery *innermost;
+
+void jox_recovery_push(JoxRecovery *recovery) {
+    recovery->outer = innermost;
+    innermost = recovery;
+}
+
+void jox_recovery_pop(JoxRecovery *recovery) {
+    if (innermost == recovery)
+        innermost = recovery->outer;
+}
+
+bool jox_recovery_exists(void) {
+    return innermost != NULL;
+}
+
+void jox_out_of_memory(size_t bytes) {
+    JoxRecovery *recovery = innermost;
+    if (!recovery) {
         fprintf(stderr, "jostle: out of memory (%zu bytes wanted)\n", bytes);
         abort();
     }
-    atomic_fetch_add_explicit(&allocations, 1, memory_order_relaxed);
-    return memory;
+    innermost = recovery->outer;
+    longjmp(recovery->jump, 1);
 }
 
-static size_t total(size_t count, size_t size) {
+/* ---- blocks ---- */
+
+static void link_block(JoxHeap *heap, JoxBlock *block) {
+    block->heap = heap;
+    if (!heap)
+        return;
+    pthread_mutex_lock(&heap->lock);
+    block->next = heap->blocks.next;
+    block->previous = &heap->blocks;
+    block->next->previous = block;
+    heap->blocks.next = block;
+    pthread_mutex_unlock(&heap->lock);
+}
+
+static void unlink_block(JoxBlock *block) {
+    JoxHeap *heap = block->heap;
+    if (!heap)
+        return;
+    pthread_mutex_lock(&heap->lock);
+    JOX_ASSERT(block->next->previous == block && block->previous->next == block);
+    block->next->previous = block->previous;
+    block->previous->next = block->next;
+    pthread_mutex_unlock(&heap->lock);
+    block->heap = NULL;
+}
+
+static JoxBlock *block_of(void *memory) {
+    return (JoxBlock *)memory - 1;
+}
+
+/* Bytes of `count` objects and of what stands before them; does not return where that overflows. */
+static size_t total(size_t count, size_t size, size_t before) {
     size_t bytes;
-    if (__builtin_mul_overflow(count, size, &bytes))
-        bytes = SIZE_MAX / 2; /* malloc refuses this, and `checked` reports it */
-    return bytes ? bytes : 1;
+    if (__builtin_mul_overflow(count, size, &bytes) ||
+        __builtin_add_overflow(bytes, before + 64, &bytes) || bytes > PTRDIFF_MAX)
+        jox_out_of_memory(SIZE_MAX);
+    return bytes - 64;
+}
+
+/* Puts the block behind `start`, which malloc gave, and returns the memory behind the block. */
+static void *begin_block(char *start, size_t offset, size_t bytes) {
+    if (!start)
+        jox_out_of_memory(bytes);
+    JoxBlock *block = block_of(start + offset);
+    block->offset = offset;
+    link_block(in_use, block);
+    return block + 1;
 }
 
 void *jox_alloc(size_t count, size_t size) {
-    size_t bytes = total(count, size);
-    return checked(calloc(1, bytes), bytes);
-}
-
-void *jox_realloc(void *memory, size_t count, size_t size) {
-    size_t bytes = total(count, size);
-    return checked(realloc(memory, bytes), bytes);
+    size_t bytes = total(count, size, sizeof(JoxBlock));
+    return begin_block(count_allocation() ? calloc(1, bytes) : NULL, sizeof(JoxBlock), bytes);
 }
 
 void *jox_alloc_aligned(size_t count, size_t size) {
-    size_t bytes = (total(count, size) + 63) & ~(size_t)63;
-    return memset(checked(aligned_alloc(64, bytes), bytes), 0, bytes);
+    size_t bytes = (total(count, size, 64) + 63) & ~(size_t)63;
+    char *start = count_allocation() ? aligned_alloc(64, bytes) : NULL;
+    if (start)
+        memset(start, 0, bytes);
+    return begin_block(start, 64, bytes);
+}
+
+void *jox_realloc(void *memory, size_t count, size_t size) {
+    size_t bytes = total(count, size, sizeof(JoxBlock));
+    if (!memory)
+        return begin_block(count_allocation() ? malloc(bytes) : NULL, sizeof(JoxBlock), bytes);
+    JoxBlock *block = block_of(memory);
+    JoxHeap *heap = block->heap;
+    JOX_ASSERT(block->offset == sizeof(JoxBlock));
+    unlink_block(block);
+    JoxBlock *moved = count_allocation() ? realloc(block, bytes) : NULL;
+    link_block(heap, moved ? moved : block); /* where memory is out, the old one stays */
+    if (!moved)
+        jox_out_of_memory(bytes);
+    return moved + 1;
 }
 
 void jox_free(void *memory) {
-    free(memory);
+    if (!memory)
+        return;
+    JoxBlock *block = block_of(memory);
+    unlink_block(block);
+    free((char *)memory - block->offset);
+}
+
+void *jox_disown(void *memory) {
+    if (memory)
+        unlink_block(block_of(memory));
+    return memory;
 }
 
 char *jox_strndup(const char *text, size_t length) {
@@ -52,6 +162,111 @@ char *jox_strdup(const char *text) {
     return text ? jox_strndup(text, strlen(text)) : NULL;
 }
 
-uint64_t jox_alloc_count(void) {
-    return atomic_load_explicit(&allocations, memory_order_relaxed);
+void *jox_try_realloc(void *memory, size_t bytes) {
+    return may_allocate() ? realloc(memory, bytes) : NULL;
+}
+
+/* ---- what heaps hold ---- */
+
+typedef struct Held {
+    struct Held *older;
+    JoxHeap *heap;
+    void *thing;
+    JoxRelease *release;
+} Held;
+
+/* Of all heaps: few things are held at once. */
+static Held *newest;
+static pthread_mutex_t held_lock = PTHREAD_MUTEX_INITIALIZER;
+
+void *jox_hold(void *thing, JoxRelease *release) {
+    JOX_ASSERT(thing && release);
+    if (!in_use)
+        return thing;
+    Held *held = may_allocate() ? malloc(sizeof *held) : NULL;
+    if (!held) {
+        release(thing);
+        jox_out_of_memory(sizeof *held);
+    }
+    pthread_mutex_lock(&held_lock);
+    *held = (Held){newest, in_use, thing, release};
+    newest = held;
+    pthread_mutex_unlock(&held_lock);
+    return thing;
+}
+
+/* Takes the newest off the list that is this thing (NULL: any) and, unless NULL, of this heap. */
+static Held *take_held(const void *thing, const JoxHeap *heap) {
+    pthread_mutex_lock(&held_lock);
+    Held **at = &newest;
+    while (*at && ((thing && (*at)->thing != thing) || (heap && (*at)->heap != heap)))
+        at = &(*at)->older;
+    Held *held = *at;
+    if (held)
+        *at = held->older;
+    pthread_mutex_unlock(&held_lock);
+    return held;
+}
+
+void jox_let_go(void *thing) {
+    if (thing)
+        free(take_held(thing, NULL));
+}
+
+/* ---- heaps ---- */
+
+void jox_heap_begin(JoxHeap *heap) {
+    *heap = (JoxHeap){0};
+    pthread_mutex_init(&heap->lock, NULL);
+    heap->blocks.next = heap->blocks.previous = &heap->blocks;
+}
+
+JoxHeap *jox_heap_create(void) {
+    JoxHeap *heap = may_allocate() ? malloc(sizeof *heap) : NULL;
+    if (heap)
+        jox_heap_begin(heap);
+    return heap;
+}
+
+void jox_heap_end(JoxHeap *heap) {
+    JOX_ASSERT(jox_heap_has_failed(heap) || heap->blocks.next == &heap->blocks);
+    for (Held *held; (held = take_held(NULL, heap));) {
+        if (jox_heap_has_failed(heap))
+            held->release(held->thing);
+        free(held);
+    }
+    while (heap->blocks.next != &heap->blocks) {
+        void *memory = heap->blocks.next + 1;
+        if (jox_heap_has_failed(heap))
+            jox_free(memory);
+        else
+            jox_disown(memory);
+    }
+    pthread_mutex_destroy(&heap->lock);
+}
+
+void jox_heap_free(JoxHeap *heap) {
+    if (!heap)
+        return;
+    jox_heap_end(heap);
+    free(heap);
+}
+
+JoxHeap *jox_heap_use(JoxHeap *heap) {
+    JoxHeap *before = in_use;
+    in_use = heap;
+    return before;
+}
+
+JoxHeap *jox_heap_used(void) {
+    return in_use;
+}
+
+void jox_heap_fail(JoxHeap *heap) {
+    if (heap)
+        __atomic_store_n(&heap->failed, true, __ATOMIC_RELEASE);
+}
+
+bool jox_heap_has_failed(const JoxHeap *heap) {
+    return heap && __atomic_load_n(&heap->failed, __ATOMIC_ACQUIRE);
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/file.h"
 #include "base/mem.h"
 #include "base/overlay.h"
 
@@ -155,12 +156,12 @@ char *jox_read_file(const char *path, size_t limit, size_t *length) {
     const JoxOverlayFile *instead = jox_overlay_file(path);
     if (instead)
         return read_overlay(instead, limit, length);
-    FILE *file = fopen(path, "rb");
+    FILE *file = jox_file_open(path, "rb");
     if (!file)
         return NULL;
     struct stat info;
     if (fstat(fileno(file), &info) == 0 && !S_ISREG(info.st_mode)) {
-        fclose(file);
+        jox_file_close(file);
         errno = S_ISDIR(info.st_mode) ? EISDIR : EINVAL;
         return NULL;
     }
@@ -170,7 +171,7 @@ char *jox_read_file(const char *path, size_t limit, size_t *length) {
     while ((got = fread(block, 1, sizeof block, file)) > 0 && text.length <= limit)
         jox_text_append(&text, block, got);
     int failed = ferror(file) ? EIO : text.length > limit ? EFBIG : 0;
-    fclose(file);
+    jox_file_close(file);
     if (failed) {
         jox_text_free(&text);
         errno = failed;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "run/run.h"
 
 enum { DIGITS = 6 };
@@ -211,10 +212,12 @@ bool jox_run_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
 
 char *jo_scene_inspect(JoScene *scene, uint32_t slot) {
     JOX_REQUIRE(scene, NULL);
+    JOX_GUARD (scene->heap, NULL)
+        return NULL;
     JoxText out = {0};
     JoxJson json = jox_json_begin(&out, 0);
     jox_json_object(&json, NULL);
     jox_run_inspect(scene, slot, &json);
     jox_json_end(&json);
-    return out.data;
+    return jox_disown(out.data);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "live/replay.h"
 #include "live/view_parts.h"
@@ -330,10 +331,7 @@ static bool open_view(Playing *p, JoError *error) {
     return p->view != NULL;
 }
 
-bool jo_view_recording(const JoViewRecordingDef *def, JoError *error) {
-    JOX_REQUIRE(def && def->cookie == RECORDING_COOKIE && def->recording && def->fps >= 0.0 &&
-                    def->unit >= 0.0,
-                false);
+static bool view_recording(const JoViewRecordingDef *def, JoError *error) {
     Playing p = {.def = def, .frame = UINT32_MAX, .session = {.speed = 1.0}};
     const bool good = open_recording(&p, error) && open_view(&p, error);
     if (good && def->opened)
@@ -350,4 +348,13 @@ bool jo_view_recording(const JoViewRecordingDef *def, JoError *error) {
     jox_bytes_free(&p.people);
     jox_text_free(&p.text);
     return good;
+}
+
+bool jo_view_recording(const JoViewRecordingDef *def, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == RECORDING_COOKIE && def->recording && def->fps >= 0.0 &&
+                    def->unit >= 0.0,
+                false);
+    JOX_GUARD (NULL, error)
+        return false;
+    return view_recording(def, error);
 }

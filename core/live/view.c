@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "live/view_parts.h"
 
@@ -84,8 +85,7 @@ static bool run(JoxViewing *v, JoError *error) {
     return good;
 }
 
-bool jo_view(const JoViewDef *def, JoError *error) {
-    JOX_REQUIRE(def && def->cookie == VIEW_COOKIE && def->scene.path, false);
+static bool view(const JoViewDef *def, JoError *error) {
     JoxViewOptions options = {.address = def->address,
                               .port = def->port,
                               .page = def->page ? def->page : JOX_PAGEDIR,
@@ -108,4 +108,11 @@ bool jo_view(const JoViewDef *def, JoError *error) {
     jox_bytes_free(&v.field);
     jox_text_free(&v.text);
     return good && ended;
+}
+
+bool jo_view(const JoViewDef *def, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == VIEW_COOKIE && def->scene.path, false);
+    JOX_GUARD (NULL, error)
+        return false;
+    return view(def, error);
 }

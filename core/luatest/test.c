@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/file.h"
+#include "base/guard.h"
 #include "base/json_writer.h"
 #include "base/mem.h"
 #include "luatest/testing.h"
@@ -174,9 +176,9 @@ static const char *keep(void *context, const char *text, size_t length) {
     }
     snprintf(path, sizeof path, "%s/behaviours/inline-%zu.lua", tests->folder,
              tests->kept_count + 1);
-    FILE *file = fopen(path, "w");
+    FILE *file = jox_file_open(path, "w");
     bool good = file && fwrite(text, 1, length, file) == length;
-    if (!file || fclose(file) != 0 || !good)
+    if (!file || jox_file_close(file) != 0 || !good)
         return NULL;
     JOX_RESERVE(tests->kept, tests->kept_capacity, tests->kept_count + 1);
     return tests->kept[tests->kept_count++] = jox_strdup(path);
@@ -267,9 +269,8 @@ static void run_path(Tests *tests, const char *path) {
         free(entries);
 }
 
-bool jo_test(const char *const *paths, size_t count, const char *only, bool json,
-             JoMessage *message, void *context, size_t *passed, size_t *failed) {
-    JOX_REQUIRE(paths && message && passed && failed, false);
+static bool test_all(const char *const *paths, size_t count, const char *only, bool json,
+                     JoMessage *message, void *context, size_t *passed, size_t *failed) {
     Tests tests = {.message = message, .context = context, .json = json, .only = only};
     tests.array = jox_json_begin(&tests.results, 1);
     jox_json_array(&tests.array, NULL);
@@ -300,4 +301,14 @@ bool jo_test(const char *const *paths, size_t count, const char *only, bool json
     *passed = tests.passed;
     *failed = tests.failed;
     return !tests.broken;
+}
+
+bool jo_test(const char *const *paths, size_t count, const char *only, bool json,
+             JoMessage *message, void *context, size_t *passed, size_t *failed) {
+    JOX_REQUIRE(paths && message && passed && failed, false);
+    JOX_GUARD (NULL, NULL) {
+        message(context, "out of memory\n");
+        return false;
+    }
+    return test_all(paths, count, only, json, message, context, passed, failed);
 }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/mem.h"
 #include "base/quote.h"
 #include "picture/canvas.h"
@@ -209,10 +210,10 @@ static bool write_svg(JoxCanvas *c, const char *path, JoxText *error) {
     if (!svg->ended)
         jox_text_add(&svg->out, "</svg>\n");
     svg->ended = true;
-    FILE *file = fopen(path, "w");
+    FILE *file = jox_file_open(path, "w");
     bool good = file && fwrite(svg->out.data, 1, svg->out.length, file) == svg->out.length;
     if (file)
-        good = fclose(file) == 0 && good;
+        good = jox_file_close(file) == 0 && good;
     if (!good)
         jox_text_printf(error, "cannot write '%s': %s", path, strerror(errno));
     return good;

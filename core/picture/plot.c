@@ -1,4 +1,5 @@
 #include "picture/plot.h"
+#include "base/file.h"
 
 #include <errno.h>
 #include <spawn.h>
@@ -32,7 +33,7 @@ bool jox_plot_folder(const char *folder, JoxText *error) {
 FILE *jox_plot_open(const char *folder, const char *name, JoxText *error) {
     char path[1100];
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
+    FILE *file = jox_file_open(path, "w");
     if (!file)
         jox_text_printf(error, "cannot write '%s': %s", path, strerror(errno));
     return file;
@@ -40,7 +41,7 @@ FILE *jox_plot_open(const char *folder, const char *name, JoxText *error) {
 
 bool jox_plot_close(FILE *file, const char *what, JoxText *error) {
     bool good = !ferror(file);
-    good = fclose(file) == 0 && good;
+    good = jox_file_close(file) == 0 && good;
     if (!good)
         jox_text_printf(error, "cannot write %s: %s", what, strerror(errno));
     return good;

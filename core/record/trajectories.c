@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/mem.h"
 
 static const double REACH = 0.2;            /* s: velocities are displacements over +- this */
@@ -145,10 +146,10 @@ static void measure_velocities(JoxTrajectories *t, const Place *places) {
 
 bool jox_is_sqlite(const char *path) {
     char start[16] = "";
-    FILE *file = fopen(path, "rb");
+    FILE *file = jox_file_open(path, "rb");
     size_t got = file ? fread(start, 1, sizeof start, file) : 0;
     if (file)
-        fclose(file);
+        jox_file_close(file);
     return got == sizeof start && memcmp(start, "SQLite format 3", 16) == 0;
 }
 

@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/file.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "picture/plot.h"
 #include "picture/video.h"
@@ -92,12 +94,12 @@ static bool check(const JoRenderDef *def, Kind kind, JoError *error) {
 /* That a file can be written is found out before an hour of simulation. */
 static bool writable(const char *path, JoError *error) {
     bool was = access(path, F_OK) == 0;
-    FILE *file = fopen(path, "a");
+    FILE *file = jox_file_open(path, "a");
     if (!file) {
         jox_error(error, JO_FAILED, "cannot write '%s': %s", path, strerror(errno));
         return false;
     }
-    fclose(file);
+    jox_file_close(file);
     if (!was)
         unlink(path);
     return true;
@@ -256,10 +258,7 @@ static bool go_on(Job *job, double time, JoError *error) {
     return good && jox_render_advance(&job->render, time, error);
 }
 
-bool jo_render(const JoRenderDef *def, JoError *error) {
-    JOX_REQUIRE(def && def->cookie == RENDER_COOKIE && def->out && *def->out, false);
-    JOX_REQUIRE(!def->scene != !def->recording, false);
-    JOX_REQUIRE(strlen(def->out) < 1000, false);
+static bool draw_all(const JoRenderDef *def, JoError *error) {
     Job *job = jox_alloc(1, sizeof *job);
     double fps = 1.0;
     job->kind = kind_of(def->out);
@@ -286,4 +285,13 @@ bool jo_render(const JoRenderDef *def, JoError *error) {
     jox_render_free(&job->render);
     jox_free(job);
     return good;
+}
+
+bool jo_render(const JoRenderDef *def, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == RENDER_COOKIE && def->out && *def->out, false);
+    JOX_REQUIRE(!def->scene != !def->recording, false);
+    JOX_REQUIRE(strlen(def->out) < 1000, false);
+    JOX_GUARD (NULL, error)
+        return false;
+    return draw_all(def, error);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "picture/html.h"
 #include "picture/paths.h"
 #include "picture/plot.h"
@@ -149,6 +150,8 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
                    const char *directory, JoError *error) {
     JOX_REQUIRE(scene && scene->finished && jox_run_danger(scene) && directory, false);
     JOX_REQUIRE(!half || (half->finished && jox_run_danger(half)), false);
+    JOX_GUARD (NULL, error)
+        return false;
     JoxText text = {0};
     FILE *out = jox_plot_open(directory, "index.html", &text);
     const JoWorld *world = scene->world;

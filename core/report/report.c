@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "picture/plot.h"
 #include "picture/probe_files.h"
@@ -211,10 +212,7 @@ static char *summary(const JoxReport *r) {
     return out.data;
 }
 
-char *jo_report(const JoReportDef *def, JoError *error) {
-    JOX_REQUIRE(def && def->cookie == REPORT_COOKIE && def->recording, NULL);
-    JOX_REQUIRE(def->fps >= 0.0 && def->fps <= 1e5, NULL);
-    JOX_REQUIRE(def->unit >= 0.0 && def->unit <= 1e3, NULL);
+static char *report(const JoReportDef *def, JoError *error) {
     JoxReport r = {.def = def};
     char *text = NULL;
     bool good = load(&r);
@@ -235,4 +233,15 @@ char *jo_report(const JoReportDef *def, JoError *error) {
     jox_trajectories_free(r.crowd);
     jox_scene_free(r.spec);
     return text;
+}
+
+char *jo_report(const JoReportDef *def, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == REPORT_COOKIE && def->recording, NULL);
+    JOX_REQUIRE(def->fps >= 0.0 && def->fps <= 1e5, NULL);
+    JOX_REQUIRE(def->unit >= 0.0 && def->unit <= 1e3, NULL);
+    JOX_GUARD (NULL, error) {
+        jox_run_message(def->message, def->message_context, "out of memory\n");
+        return NULL;
+    }
+    return jox_disown(report(def, error));
 }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "picture/paths.h"
 #include "picture/plot.h"
@@ -146,10 +147,14 @@ static const JoxListenerKind DATA = {.name = "data files",
 
 bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
     JOX_REQUIRE(scene && directory && !jox_run_listener(scene, &REPORT), false);
+    JOX_GUARD (scene->heap, error)
+        return false;
     return jox_run_listen(scene, &REPORT, directory, error) != NULL;
 }
 
 bool jo_scene_data(JoScene *scene, const char *directory, JoError *error) {
     JOX_REQUIRE(scene && directory && !jox_run_listener(scene, &DATA), false);
+    JOX_GUARD (scene->heap, error)
+        return false;
     return jox_run_listen(scene, &DATA, directory, error) != NULL;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
 
@@ -141,6 +142,8 @@ static bool perform(JoScene *scene, JoxInputEntry *entry, JoError *error) {
 
 bool jo_scene_input(JoScene *scene, const char *line, JoError *error) {
     JOX_REQUIRE(scene && line && !scene->finished, false);
+    JOX_GUARD (scene->heap, error)
+        return false;
     JoxInputEntry entry;
     JoxText wrong = {0};
     bool good = jox_input_read(line, &entry, &wrong);
@@ -186,6 +189,8 @@ static bool named(JoScene *scene, JoxInputVerb verb, const char *what, const cha
 bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
                     const double velocity[3], const double spin[3], JoError *error) {
     JOX_REQUIRE(scene && body, false);
+    JOX_GUARD (scene->heap, error)
+        return false;
     JoxInputEntry entry = {.verb = JOX_INPUT_THROW, .names = {(char *)body}, .here = !from};
     entry.given = spin ? 9 : 6;
     for (int k = 0; k < 3; k++) {
@@ -198,10 +203,14 @@ bool jo_scene_throw(JoScene *scene, const char *body, const double from[3],
 
 bool jo_scene_open_wall(JoScene *scene, const char *wall, bool open, JoError *error) {
     JOX_REQUIRE(scene && wall, false);
+    JOX_GUARD (scene->heap, error)
+        return false;
     return named(scene, open ? JOX_INPUT_OPEN : JOX_INPUT_CLOSE, "a wall's name", wall, error);
 }
 
 bool jo_scene_signal(JoScene *scene, const char *name, JoError *error) {
     JOX_REQUIRE(scene && name, false);
+    JOX_GUARD (scene->heap, error)
+        return false;
     return named(scene, JOX_INPUT_SIGNAL, "a signal's name", name, error);
 }

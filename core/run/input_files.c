@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/file.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
 
@@ -38,6 +40,8 @@ void jox_run_log_origin(JoScene *scene) {
 
 bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
     JOX_REQUIRE(scene && path && !scene->log && !scene->finished, false);
+    JOX_GUARD (scene->heap, error)
+        return false;
     const JoWorld *world = scene->world;
     if (scene->input_path && strcmp(path, scene->input_path) == 0) {
         jox_error(error, JO_INPUT,
@@ -45,7 +49,7 @@ bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
                   path);
         return false;
     }
-    scene->log = fopen(path, "w");
+    scene->log = jox_file_open(path, "w");
     if (!scene->log) {
         jox_error(error, JO_FAILED, "cannot write the input log '%.200s': %s", path,
                   strerror(errno));

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/file.h"
 #include "base/mem.h"
 #include "run/run.h"
 
@@ -27,7 +28,7 @@ bool jox_run_logged(const JoScene *scene, JoError *error) {
 bool jox_run_end_log(JoScene *scene, JoError *error) {
     if (!scene->log)
         return true;
-    scene->log_failed |= fclose(scene->log) != 0;
+    scene->log_failed |= jox_file_close(scene->log) != 0;
     scene->log = NULL;
     bool good = jox_run_logged(scene, error);
     jox_free(scene->log_path);

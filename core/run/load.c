@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
 
@@ -95,8 +96,7 @@ static void load_input(JoScene *scene, const char *path, JoxDiagnostics *diagnos
 }
 
 static void complain(void *context, const char *text) {
-    const JoScene *scene = context;
-    scene->message(scene->message_context, text);
+    jox_run_tell(context, text);
 }
 
 static JoxLuaLimits script_limits(const JoxSceneSpec *spec) {
@@ -228,6 +228,7 @@ static int32_t blame(const JoSceneDef *def, uint64_t without) {
 static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culprit,
                         JoxDiagnostics *mod_problems, JoxDiagnostics *diagnostics) {
     JoScene *scene = jox_alloc(1, sizeof *scene);
+    scene->heap = jox_heap_used();
     scene->message = def->message ? def->message : jox_run_to_stderr;
     scene->message_context = def->message_context;
     scene->mods = jox_run_find_mods(def, without, mod_problems);
@@ -329,17 +330,14 @@ JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
     }
 }
 
-JoScene *jox_run_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
-                           JoError *error) {
-    JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && def->path, NULL);
+/* The scene, and what is wrong with it, told by the callbacks. */
+static JoScene *load_and_tell(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
+                              JoError *error) {
     JoxDiagnostics diagnostics = {0};
     JoScene *scene = jox_run_load(def, &diagnostics);
-    if (diagnosed)
-        diagnosed(context, NULL, &diagnostics);
-    jox_run_report(def->message ? def->message : jox_run_to_stderr, def->message_context,
-                   &diagnostics, error);
-    if (diagnosed)
-        diagnosed(context, NULL, NULL);
+    jox_run_tell_diagnosed(diagnosed, context, NULL, &diagnostics);
+    jox_run_report(def->message, def->message_context, &diagnostics, error);
+    jox_run_tell_diagnosed(diagnosed, context, NULL, NULL);
     if (!scene)
         return NULL;
     scene->diagnosed = diagnosed;
@@ -357,6 +355,34 @@ JoScene *jox_run_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void 
                     def->path, settled.moved, settled.farthest,
                     settled.stuck ? "; some found no free spot" : "");
     return scene;
+}
+
+static JoScene *load_guarded(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
+                             JoxHeap *heap, JoError *error) {
+    JOX_GUARD (heap, error)
+        return NULL;
+    return load_and_tell(def, diagnosed, context, error);
+}
+
+static void release_scene(void *scene) {
+    jo_scene_free(scene);
+}
+
+JoScene *jox_run_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
+                           JoError *error) {
+    JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && def->path, NULL);
+    JoxHeap *heap = jox_heap_create();
+    JoScene *scene = heap ? load_guarded(def, diagnosed, context, heap, error) : NULL;
+    if (!heap || jox_heap_has_failed(heap)) {
+        jox_memory_error(error);
+        jox_run_message(def->message, def->message_context, "out of memory\n");
+    }
+    if (!scene) {
+        jox_heap_free(heap);
+        return NULL;
+    }
+    scene->owns_heap = true;
+    return jox_hold(scene, release_scene); /* by a call that it is loaded for */
 }
 
 JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
@@ -380,6 +406,13 @@ static bool same_files(const JoScene *a, const JoScene *b) {
     return same;
 }
 
+static bool begin_report(JoScene *scene, JoError *error) {
+    JOX_GUARD (scene->heap, error)
+        return false;
+    jox_run_collect_danger(scene);
+    return true;
+}
+
 JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError *error) {
     JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && scene, NULL);
     if (scene->input_path || scene->acted_on) {
@@ -397,15 +430,13 @@ JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError
         jo_scene_free(other);
         return NULL;
     }
-    if (other) {
-        jox_run_collect_danger(other);
-    }
-    return other;
+    if (!other || begin_report(other, error))
+        return other;
+    jo_scene_free(other);
+    return NULL;
 }
 
-void jo_scene_free(JoScene *scene) {
-    if (!scene)
-        return;
+static void free_scene(JoScene *scene) {
     jo_scene_finish(scene, NULL);
     jox_run_release_listeners(scene);
     jox_run_free_frame(scene);
@@ -427,6 +458,25 @@ void jo_scene_free(JoScene *scene) {
     jox_free(scene);
 }
 
+static void free_guarded(JoScene *scene) {
+    JOX_GUARD (scene->heap, NULL)
+        return;
+    free_scene(scene);
+}
+
+void jo_scene_free(JoScene *scene) {
+    if (!scene)
+        return;
+    if (!scene->owns_heap) {
+        free_scene(scene);
+        return;
+    }
+    JoxHeap *heap = scene->heap;
+    jox_let_go(scene);
+    free_guarded(scene); /* does nothing where memory ran out: the heap releases all of it */
+    jox_heap_free(heap);
+}
+
 JoWorld *jo_scene_world(JoScene *scene) {
     JOX_REQUIRE(scene, NULL);
     return scene->world;
@@ -438,7 +488,9 @@ double jo_scene_duration(const JoScene *scene) {
 }
 
 char *jo_scene_reference(void) {
+    JOX_GUARD (NULL, NULL)
+        return NULL;
     JoxText text = {0};
     jox_scene_print_reference(&text);
-    return text.data;
+    return jox_disown(text.data);
 }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
 
@@ -13,13 +14,31 @@ void jox_run_to_stderr(void *context, const char *text) {
     fputs(text, stderr);
 }
 
+void jox_run_message(JoMessage *message, void *context, const char *text) {
+    JoxHeap *own = jox_guard_leave();
+    (message ? message : jox_run_to_stderr)(context, text);
+    jox_heap_use(own);
+}
+
+void jox_run_tell(const JoScene *scene, const char *text) {
+    jox_run_message(scene->message, scene->message_context, text);
+}
+
+void jox_run_tell_diagnosed(JoxDiagnosed *diagnosed, void *context, const bool *parts,
+                            const JoxDiagnostics *diagnostics) {
+    JoxHeap *own = jox_guard_leave();
+    if (diagnosed)
+        diagnosed(context, parts, diagnostics);
+    jox_heap_use(own);
+}
+
 void jox_run_say(const JoScene *scene, const char *format, ...) {
     char text[2048];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    scene->message(scene->message_context, text);
+    jox_run_tell(scene, text);
 }
 
 void jox_run_report(JoMessage *message, void *context, JoxDiagnostics *diagnostics,
@@ -27,7 +46,7 @@ void jox_run_report(JoMessage *message, void *context, JoxDiagnostics *diagnosti
     JoxText text = {0};
     jox_diag_print(diagnostics, &text);
     if (text.length)
-        (message ? message : jox_run_to_stderr)(context, text.data);
+        jox_run_message(message, context, text.data);
     jox_text_free(&text);
     for (size_t i = 0; error && i < diagnostics->count; i++) {
         const JoxDiagnostic *d = &diagnostics->items[i];

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
 
@@ -59,6 +60,8 @@ JoxMods *jox_run_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnosti
 
 char *jo_mods_list(const JoSceneDef *def) {
     JOX_REQUIRE(def, NULL);
+    JOX_GUARD (NULL, NULL)
+        return NULL;
     JoxDiagnostics diagnostics = {0};
     JoxMods *mods = jox_run_find_mods(def, 0, &diagnostics);
     JoxText out = {0};
@@ -92,7 +95,7 @@ char *jo_mods_list(const JoSceneDef *def) {
     jox_diag_print(&diagnostics, &out);
     jox_diag_free(&diagnostics);
     jox_mods_free(mods);
-    return out.data;
+    return jox_disown(out.data);
 }
 
 /* ---- why ---- */
@@ -131,6 +134,8 @@ static const JoxMachine *find_behaviour(JoScene *scene, const char *name) {
 
 char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error) {
     JOX_REQUIRE(def && def->path && path, NULL);
+    JOX_GUARD (NULL, error)
+        return NULL;
     JoxDiagnostics diagnostics = {0};
     JoxText out = {0};
     JoScene *scene = jox_run_load(def, &diagnostics);
@@ -163,5 +168,5 @@ char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error) {
     }
     jo_scene_free(scene);
     jox_diag_free(&diagnostics);
-    return out.data;
+    return jox_disown(out.data);
 }

@@ -66,7 +66,7 @@ void jo_scene_show_progress(JoScene *scene, double until) {
 static bool say_trace(void *self, JoScene *scene, JoError *error) {
     (void)self, (void)error;
     if (scene->world->machines.trace.length)
-        scene->message(scene->message_context, scene->world->machines.trace.data);
+        jox_run_tell(scene, scene->world->machines.trace.data);
     return true;
 }
 

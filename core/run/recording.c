@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "record/recorder.h"
 #include "run/run.h"
@@ -147,5 +148,7 @@ static const JoxListenerKind RECORDING = {.name = "recording",
 
 bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
     JOX_REQUIRE(scene && path && !jox_run_listener(scene, &RECORDING), false);
+    JOX_GUARD (scene->heap, error)
+        return false;
     return jox_run_listen(scene, &RECORDING, path, error) != NULL;
 }

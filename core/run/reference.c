@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "lua/reference.h"
 #include "run/run.h"
 #include "world/verbs.h"
@@ -15,6 +16,8 @@ static void mod_schema(JoxText *out) {
 
 char *jo_reference(const char *what) {
     JOX_REQUIRE(what, NULL);
+    JOX_GUARD (NULL, NULL)
+        return NULL;
     static const struct {
         const char *name;
         void (*print)(JoxText *out);
@@ -26,5 +29,5 @@ char *jo_reference(const char *what) {
     for (size_t p = 0; p < sizeof PAGES / sizeof *PAGES; p++)
         if (!strcmp(PAGES[p].name, what))
             PAGES[p].print(&out);
-    return out.data;
+    return jox_disown(out.data);
 }

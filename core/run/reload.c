@@ -7,6 +7,8 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "run/reload_parts.h"
 
@@ -85,6 +87,9 @@ static JoxReload *begin(JoScene *scene, JoxWatch *watch, int stop) {
 }
 
 bool jo_scene_watch(JoScene *scene, JoError *error) {
+    JOX_REQUIRE(scene, false);
+    JOX_GUARD (scene->heap, error)
+        return false;
     if (scene->reload && scene->reload->watch)
         return true;
     const JoxInputLog *log = &scene->world->state.input;

@@ -40,11 +40,10 @@ static void refuse(JoScene *scene, JoxBatch *batch, const char *path, const char
     if (why)
         jox_diag_error(&batch->diagnostics, ((JoxPosition){path, 0, 0, 0}), "cannot-swap", NULL,
                        "%s", why);
-    if (scene->diagnosed)
-        scene->diagnosed(scene->diagnosed_context, batch->parts, &batch->diagnostics);
+    jox_run_tell_diagnosed(scene->diagnosed, scene->diagnosed_context, batch->parts,
+                           &batch->diagnostics);
     jox_run_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
-    if (scene->diagnosed)
-        scene->diagnosed(scene->diagnosed_context, batch->parts, NULL);
+    jox_run_tell_diagnosed(scene->diagnosed, scene->diagnosed_context, batch->parts, NULL);
     for (uint32_t c = 0; c < batch->count; c++) {
         if (batch->changes[c].added)
             continue;
@@ -135,7 +134,7 @@ static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
     }
     link_batch(scene, batch);
     if (text.data)
-        scene->message(scene->message_context, text.data);
+        jox_run_tell(scene, text.data);
     jox_text_free(&text);
 }
 
@@ -163,7 +162,7 @@ bool jox_batch_take(JoScene *scene, JoxBatch *batch) {
     bool live = false;
     const char *refused = NULL, *path = "";
     if (batch->said.length)
-        scene->message(scene->message_context, batch->said.data);
+        jox_run_tell(scene, batch->said.data);
     for (uint32_t c = 0; c < batch->count && !batch->failed && !refused; c++)
         if (!batch->changes[c].added) {
             path = batch->changes[c].path;
@@ -177,8 +176,8 @@ bool jox_batch_take(JoScene *scene, JoxBatch *batch) {
     if (batch->failed || refused) {
         refuse(scene, batch, path, refused);
     } else {
-        if (scene->diagnosed) /* warnings, at most */
-            scene->diagnosed(scene->diagnosed_context, batch->parts, &batch->diagnostics);
+        jox_run_tell_diagnosed(scene->diagnosed, scene->diagnosed_context, batch->parts,
+                               &batch->diagnostics);
         jox_run_report(scene->message, scene->message_context, &batch->diagnostics, NULL);
         JoxReloaded reloaded = {0};
         retired->live = live = true;

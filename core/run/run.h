@@ -13,9 +13,9 @@
 #include "record/density.h"
 #include "record/probes/probe.h"
 #include "record/regions.h"
-#include "run/changes.h"
 #include "run/listener.h"
-#include "run/watch.h"
+#include "run/watch/changes.h"
+#include "run/watch/watch.h"
 #include "scene/mods.h"
 #include "scene/scene.h"
 #include "world/world.h"
@@ -26,6 +26,8 @@
 typedef void JoxDiagnosed(void *context, const bool *parts, const JoxDiagnostics *diagnostics);
 
 struct JoScene {
+    JoxHeap *heap; /* that it and its world allocate from */
+    bool owns_heap;
     JoxSceneSpec *spec;
     JoxMods *mods;
     JoxDiagnostics mod_problems; /* of mods that were left out, and conflicts */
@@ -71,6 +73,12 @@ void jox_run_report(JoMessage *message, void *context, JoxDiagnostics *diagnosti
 
 /* Writes to stderr, and makes room where a line of progress stands. */
 void jox_run_to_stderr(void *context, const char *text);
+/* Calls a `message` of the program's (NULL: to stderr); that of the scene. */
+void jox_run_message(JoMessage *message, void *context, const char *text);
+void jox_run_tell(const JoScene *scene, const char *text);
+/* Calls `diagnosed`, unless NULL. */
+void jox_run_tell_diagnosed(JoxDiagnosed *diagnosed, void *context, const bool *parts,
+                            const JoxDiagnostics *diagnostics);
 /* As jo_scene_load; `diagnosed` (it may be NULL) is told of mistakes, then and in all reloads. */
 JoScene *jox_run_load_told(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,
                            JoError *error);

@@ -1,10 +1,13 @@
 /* One step of a running scene, and its end. */
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
 
 bool jo_scene_step(JoScene *scene, JoError *error) {
     JOX_REQUIRE(scene && !scene->finished, false);
+    JOX_GUARD (scene->heap, error)
+        return false;
     jox_run_inputs(scene);
     jox_run_reload(scene);
     jox_run_events(scene);
@@ -28,6 +31,8 @@ bool jo_scene_step(JoScene *scene, JoError *error) {
 
 bool jo_scene_finish(JoScene *scene, JoError *error) {
     JOX_REQUIRE(scene, false);
+    JOX_GUARD (scene->heap, error)
+        return false;
     if (scene->finished)
         return true;
     scene->finished = true;

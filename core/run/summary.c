@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "base/elementary.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "record/aggregate.h"
 #include "run/run.h"
@@ -150,6 +151,8 @@ static void add_lua(JoxText *out, const JoScene *scene) {
 
 char *jo_scene_lua_profile(const JoScene *scene) {
     JOX_REQUIRE(scene, NULL);
+    JOX_GUARD (NULL, NULL)
+        return NULL;
     const JoWorld *world = scene->world;
     JoxText out = {0};
     for (uint32_t m = 0; m < world->model.machines.count; m++) {
@@ -164,7 +167,7 @@ char *jo_scene_lua_profile(const JoScene *scene) {
                                                : 0.0);
         jox_lua_profile(scene->lua, machine, world->state.statistics.wall_s, &out);
     }
-    return out.data;
+    return jox_disown(out.data);
 }
 
 static void add_file(JoxText *out, const char *path, const char *sha256, bool first) {
@@ -254,6 +257,10 @@ static void add_bonds(JoxText *out, const JoScene *scene) {
 
 char *jo_scene_summary(const JoScene *scene) {
     JOX_REQUIRE(scene, NULL);
+    if (jox_heap_has_failed(scene->heap))
+        return NULL;
+    JOX_GUARD (NULL, NULL)
+        return NULL;
     const JoWorld *world = scene->world;
     const JoxStatistics *s = &world->state.statistics;
     JoStats stats = jo_scene_stats(scene);
@@ -295,14 +302,16 @@ char *jo_scene_summary(const JoScene *scene) {
                     jox_pool_threads(world->scratch.pool));
     add_inputs(&out, scene);
     jox_text_add(&out, "\n}\n");
-    return out.data;
+    return jox_disown(out.data);
 }
 
 char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error) {
     JOX_REQUIRE(summaries || count == 0, NULL);
+    JOX_GUARD (NULL, error)
+        return NULL;
     JoxText out = {0};
     if (jox_aggregate(summaries, count, &out))
-        return out.data;
+        return jox_disown(out.data);
     jox_text_free(&out);
     jox_error(error, JO_INPUT, "a summary is not JSON");
     return NULL;

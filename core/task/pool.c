@@ -22,15 +22,17 @@ struct JoxPool {
     pthread_mutex_t lock;
     pthread_cond_t wake, done;
     atomic_uint round;
-    atomic_uint busy; /* workers that have not finished this round */
-    atomic_uint next; /* first chunk not taken */
+    atomic_uint busy;    /* workers that have not finished this round */
+    atomic_uint next;    /* first chunk not taken */
+    atomic_bool starved; /* memory ran out in a chunk of this round */
     bool quit;
+    JoxHeap *heap; /* of the caller */
     uint32_t count, grain, chunks;
     JoxTask *task;
     void *context;
 };
 
-static void run_chunks(JoxPool *pool, uint32_t worker) {
+static void take_chunks(JoxPool *pool, uint32_t worker) {
     for (;;) {
         uint32_t chunk = atomic_fetch_add_explicit(&pool->next, 1, memory_order_relaxed);
         if (chunk >= pool->chunks)
@@ -39,6 +41,21 @@ static void run_chunks(JoxPool *pool, uint32_t worker) {
         uint32_t left = pool->count - begin;
         pool->task(pool->context, begin, begin + (left < pool->grain ? left : pool->grain), worker);
     }
+}
+
+/* Where memory is out, the round ends early: its caller learns it when no thread is in it. */
+static void run_chunks(JoxPool *pool, uint32_t worker) {
+    JoxRecovery recovery;
+    JoxHeap *before = jox_heap_use(pool->heap);
+    jox_recovery_push(&recovery);
+    if (setjmp(recovery.jump) != 0) {
+        atomic_store(&pool->starved, true);
+        atomic_store(&pool->next, pool->chunks);
+    } else {
+        take_chunks(pool, worker);
+    }
+    jox_recovery_pop(&recovery);
+    jox_heap_use(before);
 }
 
 static void *worker_main(void *argument) {
@@ -65,6 +82,10 @@ static void *worker_main(void *argument) {
     }
 }
 
+static void release_pool(void *pool) {
+    jox_pool_free(pool);
+}
+
 JoxPool *jox_pool_create(uint32_t threads) {
     JoxPool *pool = jox_alloc(1, sizeof *pool);
     pthread_mutex_init(&pool->lock, NULL);
@@ -78,7 +99,7 @@ JoxPool *jox_pool_create(uint32_t threads) {
             break; /* fewer threads give the same results */
         pool->threads++;
     }
-    return pool;
+    return jox_hold(pool, release_pool);
 }
 
 static void start_round(JoxPool *pool) {
@@ -92,6 +113,7 @@ static void start_round(JoxPool *pool) {
 void jox_pool_free(JoxPool *pool) {
     if (!pool)
         return;
+    jox_let_go(pool);
     pool->quit = true;
     start_round(pool);
     for (uint32_t i = 1; i < pool->threads; i++)
@@ -118,6 +140,7 @@ void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *ta
     pool->chunks = (count + grain - 1) / grain;
     pool->task = task;
     pool->context = context;
+    pool->heap = jox_heap_used();
     atomic_store(&pool->next, 0);
     start_round(pool);
     run_chunks(pool, 0);
@@ -127,4 +150,6 @@ void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *ta
     while (atomic_load(&pool->busy) > 0)
         pthread_cond_wait(&pool->done, &pool->lock);
     pthread_mutex_unlock(&pool->lock);
+    if (atomic_exchange(&pool->starved, false))
+        jox_out_of_memory(0);
 }

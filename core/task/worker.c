@@ -24,6 +24,18 @@ static bool take(JoxWorker *worker, JoxWorkItem *item) {
     return true;
 }
 
+static void run(JoxWorkItem *item) {
+    JoxRecovery recovery;
+    JoxHeap *before = jox_heap_use(item->heap);
+    jox_recovery_push(&recovery);
+    if (setjmp(recovery.jump) != 0)
+        item->starved = true;
+    else
+        item->run(item);
+    jox_recovery_pop(&recovery);
+    jox_heap_use(before);
+}
+
 static void *work(void *argument) {
     JoxWorker *worker = argument;
     pthread_mutex_lock(&worker->lock);
@@ -35,7 +47,7 @@ static void *work(void *argument) {
         JoxWorkItem *item = worker->first;
         take(worker, item);
         pthread_mutex_unlock(&worker->lock);
-        item->run(item);
+        run(item);
         pthread_mutex_lock(&worker->lock);
         item->done = true;
         pthread_cond_broadcast(&worker->done);
@@ -44,12 +56,16 @@ static void *work(void *argument) {
     return NULL;
 }
 
+static void release_worker(void *worker) {
+    jox_worker_free(worker);
+}
+
 JoxWorker *jox_worker_create(void) {
     JoxWorker *worker = jox_alloc(1, sizeof *worker);
     pthread_mutex_init(&worker->lock, NULL);
     pthread_cond_init(&worker->given, NULL);
     pthread_cond_init(&worker->done, NULL);
-    return worker;
+    return jox_hold(worker, release_worker);
 }
 
 void jox_worker_give(JoxWorker *worker, JoxWorkItem *item) {
@@ -61,7 +77,8 @@ void jox_worker_give(JoxWorker *worker, JoxWorkItem *item) {
         end = &(*end)->next;
     *end = item;
     item->next = NULL;
-    item->done = false;
+    item->done = item->starved = false;
+    item->heap = jox_heap_used();
     pthread_cond_signal(&worker->given);
     pthread_mutex_unlock(&worker->lock);
 }
@@ -73,14 +90,17 @@ void jox_worker_wait(JoxWorker *worker, JoxWorkItem *item) {
         pthread_cond_wait(&worker->done, &worker->lock);
     pthread_mutex_unlock(&worker->lock);
     if (mine) {
-        item->run(item);
+        run(item);
         item->done = true;
     }
+    if (item->starved)
+        jox_out_of_memory(0);
 }
 
 void jox_worker_free(JoxWorker *worker) {
     if (!worker)
         return;
+    jox_let_go(worker);
     pthread_mutex_lock(&worker->lock);
     worker->quit = true;
     pthread_cond_signal(&worker->given);

@@ -11,7 +11,8 @@ typedef struct JoxWorker JoxWorker;
 typedef struct JoxWorkItem {
     void (*run)(struct JoxWorkItem *item);
     struct JoxWorkItem *next;
-    bool done;
+    struct JoxHeap *heap; /* of who gave it */
+    bool done, starved;
 } JoxWorkItem;
 
 /* The thread begins with the first item. Never NULL. */
@@ -19,7 +20,8 @@ JoxWorker *jox_worker_create(void);
 /* Ends what is under way; what has not begun is not run. */
 void jox_worker_free(JoxWorker *worker);
 void jox_worker_give(JoxWorker *worker, JoxWorkItem *item);
-/* Returns when the item is done; one that has not begun is run by the caller. */
+/* Returns when the item is done; one that has not begun is run by the caller. Where memory ran out
+   in it, that shows here, as in an allocation of the caller's (base/mem.h). */
 void jox_worker_wait(JoxWorker *worker, JoxWorkItem *item);
 
 #endif

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
 #include "validate/claims.h"
@@ -185,9 +186,8 @@ static void check_path(const char *path, bool named, int depth, const char *mod,
     jox_diag_move(all, &own);
 }
 
-size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
-                void *context) {
-    JOX_REQUIRE(paths && message, 0);
+static size_t check_all(const char *const *paths, size_t count, bool json, JoMessage *message,
+                        void *context) {
     JoxDiagnostics all = {.limit = MOST_ERRORS}; /* each file keeps 20 of its own */
     for (size_t p = 0; p < count; p++)
         check_path(paths[p], true, 0, NULL, &all);
@@ -202,4 +202,14 @@ size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *me
     jox_text_free(&text);
     jox_diag_free(&all);
     return errors;
+}
+
+size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
+                void *context) {
+    JOX_REQUIRE(paths && message, 0);
+    JOX_GUARD (NULL, NULL) {
+        message(context, "out of memory\n");
+        return 1;
+    }
+    return check_all(paths, count, json, message, context);
 }

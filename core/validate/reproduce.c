@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/guard.h"
 #include "base/hash.h"
 #include "base/mem.h"
 
@@ -300,8 +301,7 @@ static bool go(JoxReproduction *all, size_t *missed, JoError *error) {
     return good;
 }
 
-bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error) {
-    JOX_REQUIRE(def && missed && (def->program || def->list) && def->jobs > 0, false);
+static bool reproduce(const JoReproduceDef *def, size_t *missed, JoError *error) {
     JoxReproduction all = {.def = def};
     JoxDiagnostics diagnostics = {0};
     size_t length;
@@ -323,4 +323,11 @@ bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error) {
         good = go(&all, missed, error);
     free_all(&all);
     return good;
+}
+
+bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error) {
+    JOX_REQUIRE(def && missed && (def->program || def->list) && def->jobs > 0, false);
+    JOX_GUARD (NULL, error)
+        return false;
+    return reproduce(def, missed, error);
 }

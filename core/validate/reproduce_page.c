@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "agents/parameters.h"
+#include "base/file.h"
 #include "base/json_writer.h"
 #include "base/mem.h"
 #include "base/quote.h"
@@ -34,7 +35,7 @@ static const char *verdict_of(const JoxClaimFigure *figure, const JoxVerdict *ve
 
 static void first_line(const char *path, const char *key, char *out, size_t size) {
     char line[512];
-    FILE *file = fopen(path, "r");
+    FILE *file = jox_file_open(path, "r");
     *out = 0;
     while (file && fgets(line, sizeof line, file))
         if (strncmp(line, key, strlen(key)) == 0) {
@@ -44,7 +45,7 @@ static void first_line(const char *path, const char *key, char *out, size_t size
             break;
         }
     if (file)
-        fclose(file);
+        jox_file_close(file);
 }
 
 /* The commit of a checkout, or "". */

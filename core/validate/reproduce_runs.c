@@ -13,6 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "base/json.h"
 #include "base/mem.h"
 #include "picture/plot.h"
@@ -147,10 +148,10 @@ static void end(JoxJob *job, int status) {
     job->process = 0;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
         char *path = path_in(job, "run.txt");
-        FILE *file = fopen(path, "w");
+        FILE *file = jox_file_open(path, "w");
         if (file) {
             fputs(job->key, file);
-            fclose(file);
+            jox_file_close(file);
         }
         jox_free(path);
         return;

@@ -120,8 +120,8 @@ void jox_view_publish(JoxView *view, uint32_t channel, const void *bytes, size_t
     view->wake_transport(view);
 }
 
-static void post(JoxView *view, JoxRequest request, uint32_t client, uint32_t mask, const void *data,
-                 size_t length) {
+static void post(JoxView *view, JoxRequest request, uint32_t client, uint32_t mask,
+                 const void *data, size_t length) {
     JoxMessage *message = jox_message_create(length);
     if (length)
         memcpy(message->data, data, length);

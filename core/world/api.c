@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/elementary.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
 #include "world/world.h"
@@ -54,13 +55,29 @@ JoWorldDef jo_default_world_def(void) {
                         .cookie = WORLD_COOKIE};
 }
 
+static JoWorld *create_in(JoxHeap *heap, const JoWorldDef *def, JoError *error) {
+    JOX_GUARD (heap, error)
+        return NULL;
+    return jox_world_create(def);
+}
+
 JoWorld *jo_world_create(const JoWorldDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == WORLD_COOKIE, NULL);
     if (!within("dt", "s", def->dt, 0.001, 0.2, error) ||
         !within("threads", "threads", def->threads, 1, 64, error) ||
         !within("gravity", "m/s2", def->gravity, -100, 100, error))
         return NULL;
-    return jox_world_create(def);
+    JoxHeap *heap = jox_heap_create();
+    if (!heap) {
+        jox_memory_error(error);
+        return NULL;
+    }
+    JoWorld *world = create_in(heap, def, error);
+    if (world)
+        world->owns_heap = true;
+    else
+        jox_heap_free(heap);
+    return world;
 }
 
 /* Checks and converts points; NULL with `error` if something is wrong. The caller frees. */
@@ -87,6 +104,8 @@ static JoxV2 *read_points(const JoWorld *world, const double *xy, size_t count, 
 
 bool jo_world_add_solid(JoWorld *world, const double *xy, size_t count, JoError *error) {
     JOX_REQUIRE(world && xy, false);
+    JOX_GUARD (world->heap, error)
+        return false;
     JoxV2 *points = read_points(world, xy, count, 3, error);
     if (!points)
         return false;
@@ -104,6 +123,8 @@ bool jo_world_add_solid(JoWorld *world, const double *xy, size_t count, JoError 
 
 bool jo_world_add_line(JoWorld *world, const double *xy, size_t count, JoError *error) {
     JOX_REQUIRE(world && xy, false);
+    JOX_GUARD (world->heap, error)
+        return false;
     JoxV2 *points = read_points(world, xy, count, 2, error);
     if (!points)
         return false;
@@ -152,6 +173,8 @@ static JoAgent handle_of(const JoWorld *world, uint32_t index) {
 JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error) {
     JOX_REQUIRE(world && def && def->cookie == AGENT_COOKIE, (JoAgent){0});
     double values[JOX_PARAM_COUNT];
+    JOX_GUARD (world->heap, error)
+        return (JoAgent){0};
     if (!agent_parameters(def, values, error))
         return (JoAgent){0};
     uint32_t i = jox_world_add_agent(world, (float)def->x, (float)def->y);
@@ -162,7 +185,7 @@ JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error
 
 uint32_t jox_world_find(const JoWorld *world, JoAgent agent) {
     const JoxAgents *a = &world->state.agents;
-    if (agent.generation == 0 || agent.slot >= a->slot_count ||
+    if (jox_heap_has_failed(world->heap) || agent.generation == 0 || agent.slot >= a->slot_count ||
         a->slot_generation[agent.slot] != agent.generation)
         return JOX_NO_INDEX;
     return a->slot_index[agent.slot];
@@ -247,6 +270,8 @@ JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
                                          [JO_BOX] = JOX_SHAPE_BOX,
                                          [JO_CYLINDER] = JOX_SHAPE_CYLINDER};
     JOX_REQUIRE(def->shape <= JO_CYLINDER, (JoBody){0});
+    JOX_GUARD (world->heap, error)
+        return (JoBody){0};
     JoxBodyDef body = jox_body_def();
     body.shape.kind = KINDS[def->shape];
     memcpy(body.shape.size, def->size, sizeof def->size);
@@ -273,7 +298,7 @@ JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
 JoBodyState jo_body_state(const JoWorld *world, JoBody body) {
     JOX_REQUIRE(world, (JoBodyState){0});
     JoxPose pose;
-    if (body.generation == 0 ||
+    if (jox_heap_has_failed(world->heap) || body.generation == 0 ||
         jox_bodies_find(world->state.bodies, body.generation - 1) != body.slot ||
         !jox_bodies_pose(world->state.bodies, body.slot, &pose))
         return (JoBodyState){0};
@@ -295,12 +320,16 @@ const char *jo_stage_name(int stage) {
 
 void jo_world_step(JoWorld *world, uint32_t steps) {
     JOX_REQUIRE(world, );
+    JOX_GUARD (world->heap, NULL)
+        return;
     for (uint32_t i = 0; i < steps && jox_world_step(world); i++)
         continue;
 }
 
 const char *jo_world_failure(const JoWorld *world) {
     JOX_REQUIRE(world, NULL);
+    if (jox_heap_has_failed(world->heap))
+        return "out of memory";
     return world->failure[0] ? world->failure : NULL;
 }
 
@@ -323,6 +352,8 @@ uint32_t jo_world_agents(const JoWorld *world, JoAgent *out, uint32_t capacity) 
     JOX_REQUIRE(world && (out || capacity == 0), 0);
     const JoxAgents *a = &world->state.agents;
     uint32_t n = 0;
+    if (jox_heap_has_failed(world->heap))
+        return 0;
     for (; n < a->count && n < capacity; n++)
         out[n] = handle_of(world, a->by_rank[n]);
     return n;
@@ -330,5 +361,7 @@ uint32_t jo_world_agents(const JoWorld *world, JoAgent *out, uint32_t capacity) 
 
 uint64_t jo_world_hash(const JoWorld *world) {
     JOX_REQUIRE(world, 0);
+    JOX_GUARD (world->heap, NULL)
+        return 0;
     return jox_world_hash(world);
 }

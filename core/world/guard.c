@@ -26,16 +26,21 @@ static void list_columns(const JoxAgents *a, Column out[COLUMNS]) {
     memcpy(out, columns, sizeof columns);
 }
 
-/* Exponents of all ones are those of infinities and NaNs: the largest magnitude tells. */
+/* An exponent of all ones is that of an infinity or a NaN: one more, and it carries into the sign.
+   In blocks, of which compilers make vector instructions. */
 static bool is_finite(const float *column, uint32_t count) {
-    uint32_t most = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t bits;
-        memcpy(&bits, &column[i], sizeof bits);
-        bits &= 0x7fffffffu;
-        most = bits > most ? bits : most;
+    enum { BLOCK = 64 };
+    const uint32_t exponent = 0x7f800000u, one = 0x00800000u;
+    uint32_t carried = 0, i = 0;
+    for (; i + BLOCK <= count; i += BLOCK) {
+        uint32_t bits[BLOCK];
+        memcpy(bits, column + i, sizeof bits);
+        for (int k = 0; k < BLOCK; k++)
+            carried |= (bits[k] & exponent) + one;
     }
-    return most < 0x7f800000u;
+    for (; i < count; i++)
+        carried |= isfinite(column[i]) ? 0 : ~exponent;
+    return !(carried >> 31);
 }
 
 /* The agent of the least id whose number is not finite, and who it is. */

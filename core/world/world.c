@@ -3,11 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/guard.h"
 #include "base/mem.h"
 
 JoWorld *jox_world_create(const JoWorldDef *def) {
     JoWorld *world = jox_alloc(1, sizeof *world);
     world->model.def = *def;
+    world->heap = jox_heap_used();
     world->scratch.pool = jox_pool_create(def->threads);
     world->scratch.nav = jox_nav_create();
     JoxForceOptions options = jox_force_default_options();
@@ -37,9 +39,7 @@ static void free_places(JoWorld *world) {
     jox_free(world->model.places);
 }
 
-void jo_world_free(JoWorld *world) {
-    if (!world)
-        return;
+static void free_world(JoWorld *world) {
     jox_routes_free(world->state.routes);
     jox_machines_free(&world->machines);
     jox_nav_free(world->scratch.nav);
@@ -62,6 +62,24 @@ void jo_world_free(JoWorld *world) {
         jox_free(world->model.tags[i]);
     jox_pool_free(world->scratch.pool);
     jox_free(world);
+}
+
+static void free_guarded(JoWorld *world) {
+    JOX_GUARD (world->heap, NULL)
+        return;
+    free_world(world);
+}
+
+void jo_world_free(JoWorld *world) {
+    if (!world)
+        return;
+    if (!world->owns_heap) {
+        free_world(world);
+        return;
+    }
+    JoxHeap *heap = world->heap;
+    free_guarded(world); /* does nothing where memory ran out: the heap releases all of it */
+    jox_heap_free(heap);
 }
 
 int jox_world_tag(JoWorld *world, const char *name) {

@@ -6,6 +6,7 @@
 #include "agents/agents.h"
 #include "agents/neighbours.h"
 #include "base/hash.h"
+#include "base/mem.h"
 #include "body/body.h"
 #include "force/force.h"
 #include "geom/objects.h"
@@ -77,6 +78,8 @@ typedef struct JoxWorldScratch {
 } JoxWorldScratch;
 
 struct JoWorld {
+    JoxHeap *heap; /* that it allocates from: its own, or that of its scene */
+    bool owns_heap;
     JoxWorldModel model;
     JoxWorldState state;
     JoxWorldScratch scratch;

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "base/mem.h"
 #include "scene/scene.h"
 
 enum { LARGE = 10 << 20, MUTATIONS = 1000 };
@@ -222,7 +223,7 @@ static void mutations_of_the_shipped_scenes(void **state) {
                       MUTATIONS, slowest);
         assert_true(scenes > 0 && scenes < MUTATIONS);
         free(text);
-        free(original);
+        jox_free(original);
     }
 }
 

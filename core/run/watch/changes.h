@@ -1,7 +1,7 @@
 /* Which parts of a running scene are made of which files, and which files have changed and are not
    live yet. Parts that share a changed file go live together or not at all. */
-#ifndef JOX_RUN_CHANGES_H
-#define JOX_RUN_CHANGES_H
+#ifndef JOX_RUN_WATCH_CHANGES_H
+#define JOX_RUN_WATCH_CHANGES_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-#include "run/watch.h"
+#include "run/watch/watch.h"
 
 #include <errno.h>
 #include <poll.h>

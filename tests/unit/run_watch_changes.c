@@ -12,8 +12,8 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "run/changes.h"
-#include "run/watch.h"
+#include "run/watch/changes.h"
+#include "run/watch/watch.h"
 
 /* "02" for parts 0 and 2, and "p" for the plan: the next to try; "" for none. */
 static const char *next(JoxChanges *c) {

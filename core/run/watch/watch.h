@@ -1,7 +1,7 @@
 /* Notices edited files. Folders are watched, not files: editors replace or truncate what they
    save. */
-#ifndef JOX_RUN_WATCH_H
-#define JOX_RUN_WATCH_H
+#ifndef JOX_RUN_WATCH_WATCH_H
+#define JOX_RUN_WATCH_WATCH_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-#include "run/changes.h"
+#include "run/watch/changes.h"
 
 #include <string.h>
 

@@ -1,0 +1,61 @@
+#include "base/file.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+
+static void release_file(void *file) {
+    fclose(file);
+}
+
+FILE *jox_file_open(const char *path, const char *mode) {
+    FILE *file = fopen(path, mode);
+    return file ? jox_hold(file, release_file) : NULL;
+}
+
+int jox_file_close(FILE *file) {
+    jox_let_go(file);
+    return fclose(file);
+}
+
+static void release_folder(void *folder) {
+    closedir(folder);
+}
+
+static int by_bytes(const void *a, const void *b) {
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+char **jox_folder_names(const char *path) {
+    DIR *folder = opendir(path);
+    if (!folder)
+        return NULL;
+    jox_hold(folder, release_folder);
+    char *text = NULL;
+    size_t length = 0, capacity = 0, count = 0;
+    const struct dirent *entry;
+    while ((entry = readdir(folder))) {
+        const size_t size = strlen(entry->d_name) + 1;
+        if (*entry->d_name == '.')
+            continue;
+        JOX_RESERVE(text, capacity, length + size);
+        memcpy(text + length, entry->d_name, size);
+        length += size;
+        count++;
+    }
+    jox_let_go(folder);
+    closedir(folder);
+    /* The pointers, then what they point to. */
+    const size_t table = (count + 1) * sizeof(char *);
+    char **names = jox_alloc(table + length, 1), *at = (char *)names + table;
+    if (length)
+        memcpy(at, text, length);
+    jox_free(text);
+    for (size_t n = 0; n < count; n++, at += strlen(at) + 1)
+        names[n] = at;
+    qsort(names, count, sizeof *names, by_bytes);
+    return names;
+}

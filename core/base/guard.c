@@ -1,0 +1,55 @@
+#include "base/guard.h"
+
+#include <stdio.h>
+
+static _Thread_local JoxGuard *innermost;
+
+void jox_memory_error(JoError *error) {
+    if (!error)
+        return;
+    *error = (JoError){.code = JO_FAILED};
+    snprintf(error->text, sizeof error->text, "out of memory");
+}
+
+void jox_guard_open(JoxGuard *guard, JoxHeap *heap, JoError *error) {
+    guard->error = error;
+    if (!heap)
+        jox_heap_begin(&guard->own);
+    guard->heap = heap ? heap : &guard->own;
+    guard->heap_before = jox_heap_use(guard->heap);
+    guard->overlay_before = jox_overlay_use(NULL);
+    jox_overlay_use(guard->overlay_before);
+    guard->locale_before = uselocale((locale_t)0);
+    guard->outer = innermost;
+    innermost = guard;
+    jox_recovery_push(&guard->recovery);
+    guard->failed = jox_heap_has_failed(guard->heap);
+    if (guard->failed)
+        jox_guard_fail(guard);
+}
+
+void jox_guard_fail(JoxGuard *guard) {
+    guard->failed = true;
+    jox_heap_fail(guard->heap);
+    jox_memory_error(guard->error);
+    jox_heap_use(guard->heap_before);
+    jox_overlay_use(guard->overlay_before);
+    uselocale(guard->locale_before);
+    innermost = guard->outer;
+    jox_recovery_pop(&guard->recovery);
+    if (guard->heap == guard->heap_before) /* a call within a call on the same thing: both fail */
+        jox_out_of_memory(0);
+}
+
+void jox_guard_close(JoxGuard *guard) {
+    jox_recovery_pop(&guard->recovery);
+    if (innermost == guard)
+        innermost = guard->outer;
+    jox_heap_use(guard->heap_before);
+    if (guard->heap == &guard->own)
+        jox_heap_end(&guard->own);
+}
+
+JoxHeap *jox_guard_leave(void) {
+    return jox_heap_use(innermost ? innermost->heap_before : NULL);
+}

@@ -1,0 +1,53 @@
+/* Guards of public calls: a call in which memory runs out returns its error.
+ *
+ *     bool jo_scene_signal(JoScene *scene, const char *name, JoError *error) {
+ *         JOX_GUARD(scene->heap, error) return false;
+ *         return signal_everybody(scene, name, error);
+ *     }
+ *
+ * The statement behind JOX_GUARD is what the call does where memory is out, now or in an earlier
+ * call with the same heap. The guard ends with the block in which it stands. It may stand once in a
+ * function, which should do little but call: a local variable that changes below the guard has no
+ * certain value in that statement. */
+#ifndef JOX_BASE_GUARD_H
+#define JOX_BASE_GUARD_H
+
+#include <locale.h>
+
+#include "base/mem.h"
+#include "base/overlay.h"
+#include "jostle.h"
+
+typedef struct JoxGuard {
+    JoxRecovery recovery;
+    JoxHeap own; /* of the call, where it was given no heap */
+    JoxHeap *heap, *heap_before;
+    const JoxOverlay *overlay_before;
+    locale_t locale_before;
+    struct JoxGuard *outer;
+    JoError *error;
+    bool failed;
+} JoxGuard;
+
+/* `heap`: that of the object which the call changes, and which fails with it. NULL: of the call
+   alone, for calls that leave nothing behind; what they return is disowned (mem.h). `error` may be
+   NULL. */
+#define JOX_GUARD(heap_, error_)                                                                   \
+    __attribute__((cleanup(jox_guard_close))) JoxGuard jox_guard;                                  \
+    jox_guard_open(&jox_guard, (heap_), (error_));                                                 \
+    if (setjmp(jox_guard.recovery.jump) != 0)                                                      \
+        jox_guard_fail(&jox_guard);                                                                \
+    if (jox_guard.failed)
+
+void jox_guard_open(JoxGuard *guard, JoxHeap *heap, JoError *error);
+void jox_guard_fail(JoxGuard *guard);
+void jox_guard_close(JoxGuard *guard);
+
+/* Around a call back into the program: it runs with the heap that was in use where the innermost
+   public call was made, which jox_heap_use puts back. Returns the heap of that call. */
+JoxHeap *jox_guard_leave(void);
+
+/* Fills `error`, unless NULL, with JO_FAILED and "out of memory". */
+void jox_memory_error(JoError *error);
+
+#endif

@@ -1,0 +1,60 @@
+# What goes wrong in a run or a scene is said, with the exit status that belongs to it.
+. tests/scenes/lib.sh
+program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
+yard=$work/yard
+mkdir -p "$yard"
+cp behaviours/stander.lua "$yard/"
+says() { # NAME STATUS TEXT COMMAND...
+    local name=$1 status=$2 text=$3; shift 3
+    (cd "$yard" && timeout 60 "$@") >"$work/out" 2>&1 </dev/null
+    local got=$?
+    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
+        echo "not ok $name: status $got, wanted $status and '$text'"; head -8 "$work/out"; fi
+}
+behaviour() { # STEER: odd.lua
+    printf 'return machine { name = "odd", start = "A", states = { A = { steer = %s } } }\n' "$1" >"$yard/odd.lua"
+}
+# scene GROUPS-AND-MORE: scene.yaml, with a yard, a corridor and a circle
+scene() {
+    printf 'jostle: 1\nplaces:\n  yard: {polygon: [[0, 0], [20, 0], [20, 20], [0, 20]]}\n' >"$yard/scene.yaml"
+    printf '  corridor: {polygon: [[30, 0], [70, 0], [70, 1], [30, 1]]}\n  ring: {point: [50, 50], radius: 5}\n%s\n' "$1" >>"$yard/scene.yaml"
+}
+
+# ---- numbers that are not finite ----
+scene 'groups:
+  people: {behaviour: stander.lua, count: 100, fill: grid, in: yard}
+  odd: {behaviour: odd.lua, at: [[10, 10], [10.4, 10]], team: a}'
+for steer in 'together(-5)' 'drift(1e39, 0)' 'follow(nearest "anyone", 1e39)'; do
+    behaviour "$steer"
+    says "a run refuses $steer" 3 " must be from " "$program" run scene.yaml --for 1 --quiet
+    says "  and so does the check" 3 "odd.lua:1:70: " "$program" check scene.yaml
+done
+behaviour 'drift(100, 0)'
+says "what is within the ranges runs" 0 '"agents": 102' "$program" run scene.yaml --for 1 --quiet --summary -
+
+# ---- behaviours that were suspended ----
+behaviour 'function(me) return me.x + nil, 0 end'
+sed -i 's/count: 100/count: 10/; s/at: \[\[10, 10\], \[10.4, 10\]\]/count: 30, in: yard/' "$yard/scene.yaml"
+says "a run whose behaviour was suspended ends with status 1" 1 "jostle run: behaviour odd.lua was suspended: " \
+    "$program" run scene.yaml --for 2 --quiet --summary summary.json
+[ "$(figure steps <"$yard/summary.json")" = 40 ]
+verdict "  having gone on to its end, with a summary" $?
+says "  with several seeds too" 1 "was suspended" "$program" run scene.yaml --for 2 --quiet --seeds 2
+behaviour 'function(me) if me.time < 0.1 then return nil, 0 end return 0, 0 end'
+says "one that failed a few times is not suspended" 0 "must return two numbers" "$program" run scene.yaml --for 2 --quiet
+
+# ---- sources and counts ----
+behaviour 'seek(own.goal)'
+scene 'groups: {g: {behaviour: odd.lua, count: 3, fill: circle, in: ring, set: {goal: antipode}}}
+sources: [{at: yard, like: g, rate: 5}]'
+says "a source cannot be like a group bound for its antipode" 3 "scene.yaml:7:28: group 'g' sets goal: antipode" "$program" run scene.yaml --for 2 --quiet
+says "  and the check says so too" 3 "scene.yaml:7:28: group 'g' sets goal: antipode" "$program" check scene.yaml
+scene 'groups: {g: {behaviour: stander.lua, count: 0}}
+sources: [{at: yard, like: g, rate: 5}]'
+says "a group may begin empty where a source fills it" 0 '"agents": 5' "$program" run scene.yaml --steps 21 --quiet --summary -
+scene 'groups: {g: {behaviour: stander.lua, count: 0, in: yard}}'
+says "  but not otherwise" 3 "where a source is like it" "$program" run scene.yaml --steps 1 --quiet
+for fill in random hex grid; do
+    scene "groups: {g: {behaviour: stander.lua, count: 1, fill: $fill, in: corridor}}"
+    says "one agent fits into a corridor, fill: $fill" 0 '"agents": 1' "$program" run scene.yaml --steps 1 --quiet --summary -
+done
