@@ -101,9 +101,16 @@ bool jox_json_read(const char *text, JoxJsonLimits limits, JoxJsonVisit *visit, 
     Reader reader = {.visit = visit, .context = context};
     if (!within_limits(text, limits))
         return false;
-    cJSON *document = cJSON_ParseWithOpts(text, NULL, true);
-    bool good =
+    cJSON *document = cJSON_ParseWithOpts(text, NULL, true); /* by malloc: no heap owns it */
+    JoxRecovery recovery;
+    jox_recovery_push(&recovery);
+    if (setjmp(recovery.jump) != 0) {
+        cJSON_Delete(document);
+        jox_out_of_memory(0);
+    }
+    const bool good =
         cJSON_IsObject(document) && finite_numbers(document) && visit_items(&reader, document, 1);
+    jox_recovery_pop(&recovery);
     cJSON_Delete(document);
     return good;
 }

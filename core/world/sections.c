@@ -65,20 +65,32 @@ void jox_world_sections(JoWorld *w, JoxSections *s) {
     jox_routes_sections(w, s);
     jox_nav_sections(w->scratch.nav, s);
     jox_drags_sections(&w->state.drags, s);
+    jox_bodies_sections(w->state.bodies, s);
     jox_sections_module(s, "figures");
     jox_sections_unhashed(s, true);
     JOX_SECTION(s, "statistics", w->state.statistics);
     jox_sections_unhashed(s, false);
 }
 
-bool jox_world_snapshot(JoWorld *world, JoxText *out, JoError *error) {
-    if (jox_bodies_count(world->state.bodies) > 0) {
-        jox_error(error, JO_INPUT, "the state of a world with bodies cannot be saved");
-        return false;
-    }
+bool jox_world_snapshot_is_exact(const JoWorld *world) {
+    return jox_bodies_count(world->state.bodies) == 0 ||
+           world->state.tick % JOX_BODIES_REINSERT_STEPS == 0;
+}
+
+static void save(JoWorld *world, JoxText *out) {
     JoxSections s = jox_sections_save(out);
     jox_world_sections(world, &s);
     jox_sections_end(&s);
+}
+
+bool jox_world_snapshot(JoWorld *world, JoxText *out, JoError *error) {
+    if (!jox_world_snapshot_is_exact(world)) {
+        jox_error(error, JO_INPUT,
+                  "with bodies a state can be saved after every %d steps, not after %llu",
+                  JOX_BODIES_REINSERT_STEPS, (unsigned long long)world->state.tick);
+        return false;
+    }
+    save(world, out);
     return true;
 }
 
@@ -98,8 +110,7 @@ static bool restore(JoWorld *w, const void *data, size_t size, JoError *error) {
 
 bool jox_world_restore(JoWorld *world, const void *data, size_t size, JoError *error) {
     JoxText before = {0};
-    if (!jox_world_snapshot(world, &before, error))
-        return false;
+    save(world, &before);
     bool good = restore(world, data, size, error);
     if (!good)
         restore(world, before.data, before.length, NULL);
@@ -117,6 +128,5 @@ void jox_world_forget(JoWorld *w) {
 uint64_t jox_world_hash(const JoWorld *world) {
     JoxSections s = jox_sections_hash();
     jox_world_sections((JoWorld *)world, &s); /* in this mode nothing is written */
-    jox_bodies_hash(world->state.bodies, &s.hash);
     return jox_hash_end(&s.hash);
 }

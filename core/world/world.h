@@ -148,8 +148,11 @@ uint32_t jox_world_find(const JoWorld *world, JoAgent agent);
 /* Lists the state, in one order for all modes. */
 void jox_world_sections(JoWorld *world, JoxSections *sections);
 uint64_t jox_world_hash(const JoWorld *world);
-/* Appends the whole state to a buffer. False, and nothing appended, where it cannot be said now:
-   with bodies that is so but for some ticks (see body.h). */
+/* Whether a state that is saved now goes on to the bit: always without bodies, and with them where
+   the next step re-inserts them (JOX_BODIES_REINSERT_STEPS). Who wants a snapshot between steps on
+   until it is so. */
+bool jox_world_snapshot_is_exact(const JoWorld *world);
+/* Appends the whole state to a buffer. False, and nothing appended, where it would not be exact. */
 bool jox_world_snapshot(JoWorld *world, JoxText *out, JoError *error);
 /* Puts a world of the same model (machines, walls, places, seed, step) into the state of a
    snapshot: from here on it does what the other did. A buffer that is none, or of another model, is
