@@ -15,6 +15,7 @@
 
 #include <cmocka.h>
 
+#include "base/mem.h"
 #include "base/quote.h"
 #include "picture/canvas.h"
 #include "picture/html.h"
