@@ -97,13 +97,20 @@ static bool finite_numbers(const cJSON *value) {
     return true;
 }
 
+static void release_document(void *document) {
+    cJSON_Delete(document);
+}
+
 bool jox_json_read(const char *text, JoxJsonLimits limits, JoxJsonVisit *visit, void *context) {
     Reader reader = {.visit = visit, .context = context};
     if (!within_limits(text, limits))
         return false;
     cJSON *document = cJSON_ParseWithOpts(text, NULL, true);
+    if (document)
+        jox_hold(document, release_document);
     bool good =
         cJSON_IsObject(document) && finite_numbers(document) && visit_items(&reader, document, 1);
+    jox_let_go(document);
     cJSON_Delete(document);
     return good;
 }

@@ -5,8 +5,15 @@
 
 static const float REACH = 10000.0f;
 
+static void release_bodies(void *bodies) {
+    jox_bullet_free_heap(static_cast<JoxBodies *>(bodies)->heap);
+}
+
 JoxBodies *jox_bodies_create(const JoxBodiesDef *def) {
+    jox_bullet_use_memory();
     JoxBodies *b = static_cast<JoxBodies *>(jox_alloc(1, sizeof(JoxBodies)));
+    b->heap = jox_heap_used();
+    jox_hold(b, release_bodies);
     b->def = *def;
     b->last_dt = 0.05f;
     return b;
@@ -109,6 +116,7 @@ void jox_bodies_drop(JoxBodies *b, uint32_t row) {
 void jox_bodies_free(JoxBodies *b) {
     if (!b)
         return;
+    jox_let_go(b);
     while (b->live)
         jox_bodies_drop(b, b->order[b->live - 1]);
     if (b->world) {
