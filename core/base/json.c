@@ -97,20 +97,20 @@ static bool finite_numbers(const cJSON *value) {
     return true;
 }
 
-static void release_document(void *document) {
-    cJSON_Delete(document);
-}
-
 bool jox_json_read(const char *text, JoxJsonLimits limits, JoxJsonVisit *visit, void *context) {
     Reader reader = {.visit = visit, .context = context};
     if (!within_limits(text, limits))
         return false;
-    cJSON *document = cJSON_ParseWithOpts(text, NULL, true);
-    if (document)
-        jox_hold(document, release_document);
-    bool good =
+    cJSON *document = cJSON_ParseWithOpts(text, NULL, true); /* by malloc: no heap owns it */
+    JoxRecovery recovery;
+    jox_recovery_push(&recovery);
+    if (setjmp(recovery.jump) != 0) {
+        cJSON_Delete(document);
+        jox_out_of_memory(0);
+    }
+    const bool good =
         cJSON_IsObject(document) && finite_numbers(document) && visit_items(&reader, document, 1);
-    jox_let_go(document);
+    jox_recovery_pop(&recovery);
     cJSON_Delete(document);
     return good;
 }

@@ -23,10 +23,17 @@ typedef struct JoxModPatch {
     JoxPosition position; /* of the target's name */
 } JoxModPatch;
 
+/* What a person said of a mod. */
+typedef enum JoxModSwitch {
+    JOX_MOD_OFF,     /* nothing: it is taken only where it is named */
+    JOX_MOD_CHANGED, /* turned on, but it holds something else since: as above */
+    JOX_MOD_ON,
+} JoxModSwitch;
+
 typedef struct JoxMod {
     char *name, *title, *version;
     char *folder; /* where its mod.yaml lies */
-    bool enabled; /* taken because it lies in a folder of mods */
+    JoxModSwitch on;
     uint64_t
         after; /* bits of the mods (by index in the order) that it depends on, through others too */
     JoxModSetting *settings;

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/hash.h"
+#include "base/sections.h"
 #include "base/text.h"
 #include "geom/objects.h"
 #include "geom/walls.h"
@@ -188,6 +188,13 @@ JoxBodiesReport jox_bodies_step(JoxBodies *bodies, float dt, JoxDisc *discs, uin
 /* True if the next step would sweep any body: only then are discs needed. */
 bool jox_bodies_any_fast(const JoxBodies *bodies, float dt);
 
+/* Bullet keeps contacts and its search tree from step to step, and what it computes depends on
+   them. At fixed steps everything is taken out of Bullet's world and put back in order of id, which
+   leaves nothing but the bodies' own state (image.h): a state saved just before goes on as the run
+   itself does. Costs about a step of these bodies. Contacts start anew; stacks keep still. */
+enum { JOX_BODIES_REINSERT_STEPS = 128 };
+void jox_bodies_reinsert(JoxBodies *bodies);
+
 /* Writes what agents see. Rows keep their index; `objects->rows` is owned by `bodies`. A compound
    shows the hull of all its parts as its footprint. */
 void jox_bodies_objects(JoxBodies *bodies, JoxObjects *objects);
@@ -197,7 +204,12 @@ typedef struct JoxBodyBonds {
     double load_ratio; /* in the last step, of the bond nearest to breaking: force over strength */
 } JoxBodyBonds;
 bool jox_bodies_bonds(const JoxBodies *bodies, uint32_t row, JoxBodyBonds *bonds);
-/* Adds ids, poses, velocities and bonds in order of id. */
+/* Lists all that the bodies' future depends on (image.h). Restoring replaces the bodies, whatever
+   there were; the walls must be those of the saved state before, and stay. What Bullet keeps
+   between two re-insertions is no part of it: only a state that is saved where the next step begins
+   with one goes on to the bit. */
+void jox_bodies_sections(JoxBodies *bodies, JoxSections *sections);
+/* Adds the hash of these sections. */
 void jox_bodies_hash(const JoxBodies *bodies, JoxHash *hash);
 /* Whether this build has Bullet. */
 bool jox_bodies_available(void);

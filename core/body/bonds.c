@@ -73,6 +73,22 @@ static void make_columns(JoxBondGraph *g) {
     g->displacement = jox_alloc(g->count, sizeof *g->displacement);
     g->scratch = jox_alloc(4 * (size_t)g->count, sizeof *g->scratch);
     g->label = jox_alloc(g->count, sizeof *g->label);
+    g->bonds = jox_alloc(3 * (size_t)g->count, sizeof *g->bonds);
+}
+
+JoxBondGraph *jox_bonds_allocate(const uint32_t low[3], const uint32_t range[3], uint32_t count) {
+    JoxBondGraph *g = jox_alloc(1, sizeof *g);
+    memcpy(g->low, low, sizeof g->low);
+    memcpy(g->range, range, sizeof g->range);
+    g->count = count;
+    make_columns(g);
+    return g;
+}
+
+void jox_bonds_index(JoxBondGraph *g) {
+    for (uint32_t n = 0; n < g->count; n++)
+        *cell_entry(g, g->cell[n]) = n;
+    weigh(g);
 }
 
 JoxBondGraph *jox_bonds_create(const uint32_t count[3], const double size[3], double block_mass,
@@ -94,7 +110,6 @@ JoxBondGraph *jox_bonds_create(const uint32_t count[3], const double size[3], do
         g->range[i] = count[i];
     }
     make_columns(g);
-    g->bonds = jox_alloc(3 * (size_t)g->count, sizeof *g->bonds);
     uint32_t stride[3] = {1, count[0], count[0] * count[1]};
     for (uint32_t n = 0; n < g->count; n++) {
         uint32_t cell[3] = {n % count[0], n / count[0] % count[1], n / stride[2]};
@@ -192,7 +207,6 @@ JoxBondGraph *jox_bonds_extract(const JoxBondGraph *g, uint32_t label, bool own_
     part->block_mass = g->block_mass;
     uint32_t *renamed = jox_alloc(g->count, sizeof *renamed);
     copy_blocks(g, part, label, renamed);
-    part->bonds = jox_alloc(3 * (size_t)part->count, sizeof *part->bonds);
     for (uint32_t k = 0; k < g->bond_count; k++) {
         const JoxBond *bond = &g->bonds[k];
         if (g->label[bond->a] == label && g->label[bond->b] == label)

@@ -65,6 +65,11 @@ typedef struct JoxBondGraph {
    and every number is finite and above 0. */
 JoxBondGraph *jox_bonds_create(const uint32_t count[3], const double size[3], double block_mass,
                                double strength);
+/* For a graph that is put together from what was saved: `count` blocks within that range of cells,
+   all zero. Once size, origin, block mass, cells and bonds are written, jox_bonds_index fills in
+   what follows from them. */
+JoxBondGraph *jox_bonds_allocate(const uint32_t low[3], const uint32_t range[3], uint32_t count);
+void jox_bonds_index(JoxBondGraph *bonds);
 void jox_bonds_free(JoxBondGraph *bonds);
 /* Middle of a block, m. */
 void jox_bonds_block_centre(const JoxBondGraph *bonds, uint32_t block, double out[3]);

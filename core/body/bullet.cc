@@ -180,6 +180,7 @@ void jox_row_create_body(JoxBodies *b, uint32_t row, const btTransform &frame,
                          const JoxMaterial &material) {
     JoxRow *r = &b->rows[row];
     const JoxBodyShape &shape = r->shape;
+    r->material = material;
     btRigidBody::btRigidBodyConstructionInfo info(shape.mass, nullptr, shape.collision,
                                                   shape.inertia);
     info.m_startWorldTransform = frame * shape.frame;
@@ -428,25 +429,6 @@ void jox_bodies_momentum(const JoxBodies *b, double out[3]) {
         const JoxRow *r = &b->rows[b->order[k]];
         for (int i = 0; i < 3; i++)
             out[i] += double(r->shape.mass) * r->body->getLinearVelocity()[i];
-    }
-}
-
-void jox_bodies_hash(const JoxBodies *b, JoxHash *hash) {
-    for (uint32_t k = 0; k < b->live; k++) {
-        const JoxRow *r = &b->rows[b->order[k]];
-        const btTransform &at = r->body->getWorldTransform();
-        float state[18];
-        for (int i = 0; i < 3; i++) {
-            state[i] = at.getOrigin()[i];
-            state[3 + i] = r->body->getLinearVelocity()[i];
-            state[6 + i] = r->body->getAngularVelocity()[i];
-            for (int j = 0; j < 3; j++)
-                state[9 + 3 * i + j] = at.getBasis()[i][j];
-        }
-        uint32_t who[3] = {r->id, r->held ? r->holder : UINT32_MAX,
-                           r->bonds ? r->bonds->bond_count : 0};
-        jox_hash_add(hash, who, sizeof who);
-        jox_hash_add(hash, state, sizeof state);
     }
 }
 

@@ -16,6 +16,7 @@ extern "C" {
 #include "body/body.h"
 #include "body/bonds.h"
 #include "body/footprint.h"
+#include "body/image.h"
 #include "body/sweep.h"
 }
 
@@ -44,21 +45,33 @@ struct JoxBodyShape {
     float mass;
     btVector3 inertia = btVector3(0, 0, 0); /* principal moments */
     float inner, bound; /* smallest half extent; bounding radius about the centre of mass */
+    bool still;
+    JoxBodyPartRecord *source; /* of each part: what it was made of, to make it again */
+    double *source_points;     /* of all hulls among them */
+    uint32_t source_point_count, source_point_capacity; /* numbers */
 };
 
 /* False, with a sentence in `error`, where the definition makes no sense. */
 bool jox_body_shape_make(const JoxBodyDef *def, bool still, JoxBodyShape *out, JoxText *error);
 void jox_body_shape_free(JoxBodyShape *shape);
 
+/* What a body is made of beside its shape. */
+struct JoxMaterial {
+    float friction, restitution, damping, spin_damping;
+};
+
+/* Everything of a live row but `shape`, `body` and `cold` is state; see image.h. */
 struct JoxRow {
     bool live;
     uint32_t id;
     char *name;
     uint64_t tags;
     JoxBodyShape shape;
+    JoxMaterial material;
     btRigidBody *body;
     JoxV3 force; /* over the next step, N */
-    bool grounded, swept, written;
+    bool grounded, swept;
+    bool cold;           /* has not moved since it was put back: Bullet has no contacts of it */
     JoxBondGraph *bonds; /* of blocks that can come apart, or NULL; its frame is the shape's own */
     bool held;           /* by an agent */
     uint32_t holder;
@@ -70,11 +83,6 @@ struct JoxContactLoad {
     uint32_t number; /* in which they were found */
     uint32_t block;
     btVector3 point, impulse, normal;
-};
-
-/* What a body is made of beside its shape. */
-struct JoxMaterial {
-    float friction, restitution, damping, spin_damping;
 };
 
 /* Has Bullet allocate so that it meets no null pointer. */
@@ -113,7 +121,8 @@ struct JoxBodies {
     uint32_t contact_capacity;
     JoxBodyBreak *breaks;
     uint32_t break_count, break_capacity;
-    uint32_t bonded; /* bodies that can come apart */
+    uint32_t bonded;         /* bodies that can come apart */
+    JoxBodiesImage *visited; /* while a test changes its cells: then it is what is hashed */
     JoxDiscGrid grid;
     JoxFootprint footprint;
     JoxV3 *corners; /* scratch: a part's corners in world coordinates */

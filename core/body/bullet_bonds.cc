@@ -193,8 +193,7 @@ static void fall_apart(JoxBodies *b, uint32_t row, uint32_t pieces) {
     JoxBondGraph *bonds = r->bonds;
     const Motion whole = {jox_row_frame(r), r->body->getWorldTransform().getOrigin(),
                           r->body->getLinearVelocity(), r->body->getAngularVelocity()};
-    const JoxMaterial material = {r->body->getFriction(), r->body->getRestitution(),
-                                  r->body->getLinearDamping(), r->body->getAngularDamping()};
+    const JoxMaterial material = r->material;
     const uint64_t tags = r->tags;
     uint32_t keeps = greatest_piece(bonds, pieces);
     b->world->removeRigidBody(r->body);

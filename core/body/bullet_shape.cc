@@ -2,6 +2,8 @@
    a hull is that of its box, so the integrals are done here. */
 #include "body/bullet.h"
 
+#include <string.h>
+
 #include <LinearMath/btConvexHullComputer.h>
 
 extern "C" {
@@ -326,6 +328,24 @@ void join_parts(JoxBodyShape *out) {
     out->collision = compound;
 }
 
+/* Keeps what a part is made of. */
+void keep_source(const JoxBodyPart *part, JoxBodyShape *out) {
+    JoxBodyPartRecord *to = &out->source[out->part_count];
+    const bool hull = part->shape.kind == JOX_SHAPE_HULL;
+    to->kind = uint32_t(part->shape.kind);
+    to->point_count = hull ? part->shape.point_count : 0;
+    memcpy(to->size, part->shape.size, sizeof to->size);
+    memcpy(to->position, part->position, sizeof to->position);
+    memcpy(to->turn, part->turn, sizeof to->turn);
+    to->mass = part->mass;
+    to->density = part->density;
+    const uint32_t first = out->source_point_count, numbers = 3 * to->point_count;
+    jox_reserve(out->source_points, out->source_point_capacity, first + numbers);
+    if (numbers)
+        memcpy(out->source_points + first, part->shape.points, numbers * sizeof(double));
+    out->source_point_count += numbers;
+}
+
 bool build_part(const JoxBodyPart *part, bool still, JoxBodyShape *out, Total *total,
                 JoxText *error) {
     JoxConvexPart *made = &out->parts[out->part_count];
@@ -337,6 +357,8 @@ bool build_part(const JoxBodyPart *part, bool still, JoxBodyShape *out, Total *t
     if (!quaternion(part->turn, &turn))
         return fail(error, "a part's turn must be a finite quaternion");
     btCollisionShape *shape = make_part(&part->shape, made, &solid, error);
+    if (shape)
+        keep_source(part, out);
     out->part_count++;
     if (!shape)
         return false;
@@ -372,6 +394,8 @@ bool jox_body_shape_make(const JoxBodyDef *def, bool still, JoxBodyShape *out, J
     }
     out->parts = static_cast<JoxConvexPart *>(jox_alloc(count, sizeof(JoxConvexPart)));
     out->children = static_cast<btCollisionShape **>(jox_alloc(count, sizeof(btCollisionShape *)));
+    out->source = static_cast<JoxBodyPartRecord *>(jox_alloc(count, sizeof(JoxBodyPartRecord)));
+    out->still = still;
     Total total = {};
     for (uint32_t i = 0; i < count; i++)
         if (!build_part(&parts[i], still, out, &total, error)) {
@@ -399,5 +423,7 @@ void jox_body_shape_free(JoxBodyShape *shape) {
     }
     jox_free(shape->parts);
     jox_free(shape->children);
+    jox_free(shape->source);
+    jox_free(shape->source_points);
     *shape = JoxBodyShape();
 }

@@ -1,6 +1,6 @@
 /* A build without Bullet: bodies cannot be made, and there is nothing to do with none. */
 #include "base/mem.h"
-#include "body/body.h"
+#include "body/image.h"
 
 struct JoxBodies {
     uint32_t nothing;
@@ -91,8 +91,28 @@ bool jox_bodies_bonds(const JoxBodies *bodies, uint32_t row, JoxBodyBonds *bonds
     *bonds = (JoxBodyBonds){0};
     return false;
 }
-void jox_bodies_hash(const JoxBodies *bodies, JoxHash *hash) {
-    (void)bodies, (void)hash;
+void jox_bodies_reinsert(JoxBodies *bodies) {
+    (void)bodies;
+}
+void jox_bodies_capture(const JoxBodies *bodies, JoxBodiesImage *image) {
+    (void)bodies;
+    jox_bodies_image_free(image);
+}
+bool jox_bodies_rebuild(JoxBodies *bodies, const JoxBodiesImage *image, JoxText *error) {
+    (void)bodies;
+    if (image->body_count && error)
+        jox_text_add(error, "this build has no Bullet, so it cannot simulate bodies");
+    return image->body_count == 0;
+}
+void jox_bodies_sections(JoxBodies *bodies, JoxSections *sections) {
+    JoxBodiesImage image = {0};
+    JoxText wrong = {0};
+    jox_bodies_image_sections(&image, sections);
+    if (sections->mode == JOX_SECTIONS_RESTORE && !sections->failed &&
+        !jox_bodies_rebuild(bodies, &image, &wrong))
+        jox_sections_fail(sections, "bodies", wrong.data);
+    jox_text_free(&wrong);
+    jox_bodies_image_free(&image);
 }
 bool jox_bodies_available(void) {
     return false;

@@ -141,7 +141,9 @@ bool cli_unit(double *metres, const char *text, char why[160]);
 #define CLI_MOD_OPTIONS(type, def)                                                                 \
     {"mod", "DIR",                                                                                 \
      "take a mod: a folder, or the name of one that lies in the scene's mods/ or in the user's "   \
-     "data directory ($XDG_DATA_HOME/jostle/mods); may be given several times",                    \
+     "data directory ($XDG_DATA_HOME/jostle/mods); may be given several times. Others are off, "   \
+     "but those that `jostle mod enable` turned on, and what a mod depends on must be on or "      \
+     "named, too",                                                                                 \
      CLI_TO(type, mods), CLI_GIVEN(type, of_scene)},                                               \
     {                                                                                              \
         "no-mods", NULL, "take no mods but those given by --mod or named by the scene",            \

@@ -30,6 +30,16 @@ static int why(const JoSceneDef *def, const char *path) {
     return JO_OK;
 }
 
+static int enable(const JoSceneDef *def, const char *mod, bool on) {
+    JoError error = {0};
+    if (!jo_mods_enable(def, mod, on, &error)) {
+        fprintf(stderr, "jostle mod: %s\n", error.text);
+        return (int)error.code;
+    }
+    printf("mod %s is %s\n", mod, on ? "on, until its files change" : "off");
+    return JO_OK;
+}
+
 static int check(const char *const *folders, size_t count) {
     size_t errors = jo_check(folders, count, false, cli_print, stdout);
     if (!errors)
@@ -45,11 +55,14 @@ static int run(int argc, char **argv) {
         const char *verb = plain.items[0];
         options.def.mods = options.mods.items;
         options.def.mod_count = options.mods.count;
-        options.def.path = plain.count > 1 ? plain.items[plain.count - 1] : NULL;
+        const bool on = !strcmp(verb, "enable"), turns = on || !strcmp(verb, "disable");
+        options.def.path = plain.count > (turns ? 2 : 1) ? plain.items[plain.count - 1] : NULL;
         if (!strcmp(verb, "list") && plain.count <= 2)
             status = list(&options.def);
         else if (!strcmp(verb, "why") && plain.count == 3)
             status = why(&options.def, plain.items[1]);
+        else if (turns && (plain.count == 2 || plain.count == 3))
+            status = enable(&options.def, plain.items[1], on);
         else if (!strcmp(verb, "check") && plain.count > 1)
             status = check(plain.items + 1, plain.count - 1);
         else
@@ -61,12 +74,16 @@ static int run(int argc, char **argv) {
 
 const CliCommand cli_mod = {
     .name = "mod",
-    .what = "list mods, and tell who set a value",
+    .what = "list mods, turn them on and off, and tell who set a value",
     .usage = "list [SCENE] [--mod DIR]...\n"
+             "enable|disable NAME|DIR [SCENE]\n"
              "why PATH SCENE [--mod DIR]...\n"
              "check DIR...",
     .about = "  list    the mods that a run of the scene takes, in order, what they change, their "
-             "settings\n"
+             "settings; and those that are off\n"
+             "  enable  turns a mod on for all runs: until then it is off, whatever folder it lies "
+             "in; when its files change, it is off again\n"
+             "  disable turns it off\n"
              "  why     who set a value, e.g. tawaf.Circle.push or groups.red.count: every place, "
              "the last counts\n"
              "  check   every error of mods, without running",

@@ -62,14 +62,12 @@ static const char SCENE[] =
     "    set: {goal: west, home: east}\n";
 
 static const char MOD[] =
-    "# NAME: a mod. It is taken by scenes that lie beside its folder `mods/`, or by --mod.\n"
+    "# NAME: a mod. Name it for one run: --mod; or turn it on: jostle mod enable NAME.\n"
     "name: NAME\n"
     "title: What it does, in a line\n"
     "version: 1.0.0\n"
     "api: 1\n"
-    "enabled: false          # true: taken because it lies in a folder of mods; false: only when "
-    "named\n"
-    "# depends: [other-mod, \"third >= 1.2\"]     # must be there, and come before\n"
+    "# depends: [other-mod, \"third >= 1.2\"]     # must be taken too, and come before\n"
     "# load_after: [other-mod]                  # comes after it where both are taken\n"
     "# conflicts: [another]\n"
     "settings:               # --set mods.NAME.reach=4, or in a scene: mods: {NAME: {reach: 4}}\n"

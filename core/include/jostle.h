@@ -178,7 +178,9 @@ typedef struct JoSceneDef {
                                 the user's data directory; one that is not there, or does not load,
                                 is an error */
     size_t mod_count;
-    bool named_mods_only; /* mods are not taken because they lie in one of those folders */
+    bool named_mods_only; /* mods that the user turned on (jo_mods_enable) are not taken for that,
+                             but those of `mods` and those that the scene names */
+    bool needed_mods_too; /* what these depend on is taken, too, without being named */
     const char *text; /* of the scene, or NULL: it is read from `path`, which else only names it */
     size_t text_length;
     uint32_t cookie;
@@ -365,8 +367,13 @@ JO_API bool jo_render(const JoRenderDef *def, JoError *error);
 JO_API bool jo_render_has_images(void);
 
 /* The mods that a run of the scene would take (path NULL: of the user's data directory alone), in
-   order, and the others that were found, as text; free with jo_free. */
+   order, and the others that were found, on or off, as text; free with jo_free. */
 JO_API char *jo_mods_list(const JoSceneDef *def);
+/* Turns a mod on or off for all later runs: its folder, or its name where it lies beside the scene
+   of def->path or in the user's data directory (path NULL: also in mods/ or scenes/mods/). That is
+   kept in the user's configuration with a hash of what the mod holds: when that changes, the mod is
+   off until it is turned on again. False with `error`. */
+JO_API bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *error);
 /* Who set a value: "tawaf.Circle.push" of a behaviour, or, with def->path, "groups.red.count" of
    the scene: every place in order, the last one wins. NULL with `error` where there is no such
    path. */
@@ -391,15 +398,16 @@ typedef struct JoReproduceDef {
     const char *folder;        /* of claim files */
     const char *const *claims; /* ids, or names of files; none: all */
     size_t claim_count;
-    const char *out;     /* folder for runs, pictures and the page */
-    const char *program; /* path of the command `jostle`, which runs the scenes */
-    uint32_t jobs;       /* processes at once */
-    uint32_t seeds;      /* per run that has several; 0: as the claim says */
-    bool quick;          /* the smaller runs of each claim */
-    bool fresh;          /* runs that are there already are done again */
-    bool list;           /* names the claims, runs nothing */
-    bool quiet;          /* no progress on stderr */
-    JoMessage *message;  /* NULL: to stdout */
+    const char *out;          /* folder for runs, pictures and the page */
+    const char *program;      /* path of the command `jostle`, which runs the scenes */
+    uint32_t jobs;            /* processes at once */
+    uint32_t seeds;           /* per run that has several; 0: as the claim says */
+    bool quick;               /* the smaller runs of each claim */
+    bool fresh;               /* runs that are there already are done again */
+    bool list;                /* names the claims, runs nothing */
+    bool quiet;               /* no progress on stderr */
+    const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
+    JoMessage *message;       /* NULL: to stdout */
     void *message_context;
 } JoReproduceDef;
 JO_API JoReproduceDef jo_default_reproduce_def(void);

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "lua/language/vocabulary.h"
 #include "lua/read.h"
-#include "lua/vocabulary.h"
 
 /* What a name of memory is set to. */
 static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxAssign *assign) {

@@ -5,8 +5,8 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/name.h"
+#include "lua/language/vocabulary.h"
 #include "lua/read.h"
-#include "lua/vocabulary.h"
 
 /* Every parameter has a slot of its own name, so that a scene's group can set any of them. */
 static void read_defaults(JoxBuild *b, int index) {

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "lua/internal.h"
+#include "lua/read.h"
 
 void jox_build_error(JoxBuild *build, JoxPosition position, const char *code, const char *hint,
                      const char *format, ...) {

@@ -6,7 +6,8 @@
 #include <time.h>
 
 #include "base/mem.h"
-#include "lua/internal.h"
+#include "lua/language/script.h"
+#include "lua/loader.h"
 
 enum { MOST_FAILURES = 100 }; /* in a simulated second, before a function is suspended */
 enum { TIMED = 16 };          /* one call in so many is timed */
@@ -168,6 +169,31 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
     if (!good)
         report(lua, script, hook, why, line);
     return good;
+}
+
+/* ---- what others read and write ---- */
+
+void jox_lua_bracket(void *context, bool begins) {
+    JoxLua *lua = context;
+    JoxAgents *a = lua->mind->agents;
+    if (begins) {
+        JOX_RESERVE(lua->before_state, lua->before_capacity, a->count);
+        JOX_RESERVE(lua->before_memory, lua->before_memory_capacity,
+                    (size_t)a->count * a->memory_stride);
+        if (a->count)
+            memcpy(lua->before_state, a->state, a->count * sizeof *a->state);
+        if (a->count && a->memory_stride)
+            memcpy(lua->before_memory, a->memory,
+                   (size_t)a->count * a->memory_stride * sizeof *a->memory);
+        return;
+    }
+    for (uint32_t w = 0; w < lua->write_count; w++) {
+        const JoxWrite *write = &lua->writes[w];
+        uint32_t i = jox_agents_find(a, write->agent_id);
+        if (i != JOX_NO_INDEX)
+            a->memory[(size_t)i * a->memory_stride + write->slot] = write->value;
+    }
+    lua->write_count = 0;
 }
 
 /* ---- costs ---- */

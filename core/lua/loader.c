@@ -3,7 +3,8 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "lua/internal.h"
+#include "lua/loader.h"
+#include "lua/read.h"
 
 /* Where Lua's parser stopped: it names the line and, mostly, the token "near" it. */
 static void report_failure(JoxScript *script, const char *why, int line) {
@@ -224,4 +225,18 @@ JoxMachine *jox_lua_load_text(JoxLua *lua, const char *path, const char *text, s
 JoxMachine *jox_lua_load(JoxLua *lua, const char *path, const JoxScope *scope,
                          JoxDiagnostics *diagnostics) {
     return jox_lua_load_text(lua, path, NULL, 0, scope, diagnostics);
+}
+
+void jox_lua_release(JoxLua *lua, const JoxMachine *machine) {
+    jox_script_free(jox_script_detach(lua, machine));
+}
+
+const char *jox_lua_stalled(const JoxLua *lua) {
+    return lua->group.stalled[0] ? lua->group.stalled : NULL;
+}
+
+const JoxLuaFile *jox_lua_files(const JoxLua *lua, const JoxMachine *machine, uint32_t *count) {
+    const JoxScript *script = jox_lua_script(lua, machine);
+    *count = script ? script->vm.file_count : 0;
+    return script ? script->vm.files : NULL;
 }

@@ -3,28 +3,10 @@
 #define JOX_LUA_LOADER_H
 
 #include "base/diag.h"
-#include "base/mod.h"
 #include "base/text.h"
-#include "geom/place.h"
+#include "lua/language/scope.h"
 #include "lua/vm/limits.h"
 #include "machine/mind.h"
-
-typedef struct JoxLua JoxLua;
-
-/* Names that a behaviour may use. Not complete: any name is accepted (checking a behaviour without
-   a scene); places then stay unresolved, with index -1. */
-typedef struct JoxScope {
-    const JoxPlace *places;
-    uint32_t place_count;
-    const char *const *tags; /* the index is the bit */
-    uint32_t tag_count;
-    bool complete;
-    const JoxMod *mods; /* in order; their patches of a behaviour are applied to it */
-    uint32_t mod_count;
-} JoxScope;
-
-JoxLua *jox_lua_create(const JoxLuaLimits *limits);
-void jox_lua_free(JoxLua *lua);
 
 /* NULL if anything is wrong; every error (up to 20) is then in `diagnostics`, and nothing changed.
    The machine is the caller's; its hooks live until jox_lua_release or the end of `lua`. */

@@ -6,8 +6,9 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "lua/language/vocabulary.h"
+#include "lua/loader.h"
 #include "lua/read.h"
-#include "lua/vocabulary.h"
 
 enum { DEEPEST = 8 };
 

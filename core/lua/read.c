@@ -5,8 +5,8 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "lua/language/vocabulary.h"
 #include "lua/read.h"
-#include "lua/vocabulary.h"
 
 enum { KEYS_MOST = 64 };
 

@@ -2,7 +2,32 @@
 #ifndef JOX_LUA_READ_H
 #define JOX_LUA_READ_H
 
-#include "lua/internal.h"
+#include "lua/language/script.h"
+
+/* The machine under construction. */
+typedef struct JoxBuild {
+    JoxScript *script;
+    const JoxSource *source;
+    JoxMachine *machine;
+    size_t program_capacity, target_capacity, own_capacity, memory_capacity, counter_capacity,
+        state_capacity, name_capacity;
+} JoxBuild;
+int16_t jox_build_target(JoxBuild *build, const JoxNode *node);
+/* Index of a name that machines share. */
+int16_t jox_build_name(JoxBuild *build, const char *name, JoxNameUse use);
+int32_t jox_build_own(JoxBuild *build, const char *name);
+/* The same for an own value that was written out: keeps where. */
+int32_t jox_build_own_at(JoxBuild *build, const JoxNode *node);
+int32_t jox_build_memory(JoxBuild *build, const char *name);
+int32_t jox_build_program(JoxBuild *build, const JoxNode *node, JoxPosition position);
+void jox_build_error(JoxBuild *build, JoxPosition position, const char *code, const char *hint,
+                     const char *format, ...) __attribute__((format(printf, 5, 6)));
+
+/* Runs the patches that the scope's mods have for the machine on top of the stack, and puts the
+   changed one in its place. False with diagnostics. */
+bool jox_patch_apply(JoxScript *script);
+/* Makes script->built of the machine on top of the stack; what is wrong goes to the diagnostics. */
+void jox_build(JoxScript *script, const JoxSource *source);
 
 /* Position of a path in the source: "states.Circle.2.when". */
 JoxPosition jox_read_at(const JoxBuild *build, const char *path);

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lua/vocabulary.h"
+#include "lua/language/vocabulary.h"
 
 static const struct Section {
     const char *title, *intro;

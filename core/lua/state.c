@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "lua/language/vocabulary.h"
 #include "lua/read.h"
-#include "lua/vocabulary.h"
 
 /* The weight of a steering term: a number, or an expression that is computed each step. */
 static JoxValue read_weight(JoxBuild *b, JoxNode *weight, JoxPosition position) {

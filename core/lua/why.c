@@ -3,7 +3,8 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "lua/vocabulary.h"
+#include "lua/language/vocabulary.h"
+#include "lua/loader.h"
 
 /* The text of a value as written, on one line and without comments; cut after `most` bytes. */
 static void print_value(const JoxSource *source, const JoxPath *path, size_t most, JoxText *out) {

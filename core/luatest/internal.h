@@ -2,7 +2,7 @@
 #ifndef JOX_LUATEST_INTERNAL_H
 #define JOX_LUATEST_INTERNAL_H
 
-#include "lua/internal.h"
+#include "lua/language/script.h"
 #include "luatest/testing.h"
 
 typedef struct JoxTest {

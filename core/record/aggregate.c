@@ -157,11 +157,10 @@ static void write_all(const Reader *r, size_t count, JoxText *out) {
 }
 
 bool jox_aggregate(const char *const *texts, size_t count, JoxText *out) {
-    static const JoxJsonLimits SUMMARY = {.length = 1 << 26, .items = 1 << 20, .depth = 16};
     Reader r = {.texts = count};
     bool good = true;
     for (; r.text < count && good; r.text++)
-        good = jox_json_read(texts[r.text], SUMMARY, add_item, &r);
+        good = jox_json_read(texts[r.text], jox_json_own_files, add_item, &r);
     if (good)
         write_all(&r, count, out);
     for (size_t e = 0; e < r.count; e++) {

@@ -1,6 +1,7 @@
 #include "record/danger.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/elementary.h"
@@ -76,21 +77,19 @@ double jox_exits_clearance(const JoxExits *exits, uint32_t inside) {
     return exits->left && inside == 0 ? exits->last : NAN;
 }
 
-void jox_exits_json(const JoxExits *exits, uint32_t inside, JoxText *out) {
-    jox_text_printf(out, "\"left\": %llu, \"inside\": %u, \"last_left_s\": ",
-                    (unsigned long long)exits->left, inside);
-    jox_text_json_number(out, exits->left ? exits->last : NAN);
-    jox_text_add(out, ", \"clearance_s\": ");
-    jox_text_json_number(out, jox_exits_clearance(exits, inside));
-    jox_text_add(out, ", \"exits\": {");
+void jox_exits_json(const JoxExits *exits, uint32_t inside, JoxJson *json) {
+    jox_json_whole(json, "left", exits->left);
+    jox_json_whole(json, "inside", inside);
+    jox_json_number(json, "last_left_s", exits->left ? exits->last : NAN);
+    jox_json_number(json, "clearance_s", jox_exits_clearance(exits, inside));
+    jox_json_object(json, "exits");
     for (uint32_t e = 0; e < exits->count; e++) {
-        jox_text_add(out, e ? ", " : "");
-        jox_text_json(out, exits->items[e].name);
-        jox_text_printf(out, ": {\"people\": %u, \"last_s\": ", exits->items[e].people);
-        jox_text_json_number(out, exits->items[e].last);
-        jox_text_add(out, "}");
+        jox_json_object(json, exits->items[e].name);
+        jox_json_whole(json, "people", exits->items[e].people);
+        jox_json_number(json, "last_s", exits->items[e].last);
+        jox_json_end(json);
     }
-    jox_text_add(out, "}");
+    jox_json_end(json);
 }
 
 /* ---- measuring ---- */
@@ -315,38 +314,38 @@ bool jox_danger_reads(const JoxDanger *d, JoxDangerMeasure measure) {
     return isfinite(jox_danger_most(d, measure).value);
 }
 
-/* Adds , "NAMESUFFIX": VALUE. */
-static void add(JoxText *out, const char *name, const char *suffix, double value) {
-    jox_text_printf(out, ", \"%s%s\": ", name, suffix);
-    jox_text_json_number(out, value);
+/* "NAMESUFFIX": VALUE */
+static void add(JoxJson *json, const char *name, const char *suffix, double value) {
+    char key[64];
+    snprintf(key, sizeof key, "%s%s", name, suffix);
+    jox_json_number(json, key, value);
 }
 
-void jox_danger_json(const JoxDanger *d, JoxText *out) {
-    jox_text_printf(out, "\"samples\": %u", d->samples);
+void jox_danger_json(const JoxDanger *d, JoxJson *json) {
+    jox_json_whole(json, "samples", d->samples);
     for (int m = 0; m < JOX_DANGER_MEASURES; m++) {
         JoxDangerMost most = jox_danger_most(d, (JoxDangerMeasure)m);
         bool read = isfinite(most.time);
-        add(out, jox_danger_names[m], "_max", most.value);
-        add(out, jox_danger_names[m], "_max_s", most.time);
-        add(out, jox_danger_names[m], "_max_x", read ? most.at.x : NAN);
-        add(out, jox_danger_names[m], "_max_y", read ? most.at.y : NAN);
+        add(json, jox_danger_names[m], "_max", most.value);
+        add(json, jox_danger_names[m], "_max_s", most.time);
+        add(json, jox_danger_names[m], "_max_x", read ? most.at.x : NAN);
+        add(json, jox_danger_names[m], "_max_y", read ? most.at.y : NAN);
     }
-    jox_text_add(out, ",\n  \"limits\": {");
+    jox_json_object(json, "limits");
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         const JoxDangerCount *count = &d->counts[l];
         bool seen = isfinite(count->first);
         bool read = jox_danger_reads(d, jox_danger_limits[l].measure);
-        jox_text_printf(out, "%s\n   \"%s\": {\"people\": ", l ? "," : "",
-                        jox_danger_limits[l].key);
-        jox_text_json_number(out, read ? count->people : NAN);
-        add(out, "limit", "", jox_danger_limits[l].value);
-        add(out, "person_s", "", read ? count->person_s : NAN);
-        add(out, "first_s", "", count->first);
-        add(out, "first_x", "", seen ? count->first_at.x : NAN);
-        add(out, "first_y", "", seen ? count->first_at.y : NAN);
-        jox_text_add(out, "}");
+        jox_json_object(json, jox_danger_limits[l].key);
+        jox_json_number(json, "people", read ? count->people : NAN);
+        jox_json_number(json, "limit", jox_danger_limits[l].value);
+        jox_json_number(json, "person_s", read ? count->person_s : NAN);
+        jox_json_number(json, "first_s", count->first);
+        jox_json_number(json, "first_x", seen ? count->first_at.x : NAN);
+        jox_json_number(json, "first_y", seen ? count->first_at.y : NAN);
+        jox_json_end(json);
     }
-    jox_text_add(out, "\n  }");
+    jox_json_end(json);
 }
 
 void jox_danger_free(JoxDanger *d) {

@@ -15,6 +15,7 @@
 
 #include <stdbool.h>
 
+#include "base/json_writer.h"
 #include "base/text.h"
 #include "geom/walls.h"
 #include "record/density.h"
@@ -60,7 +61,7 @@ void jox_exits_free(JoxExits *exits);
 /* When the last of all left, s; NAN while `inside` people are still there, or where nobody left. */
 double jox_exits_clearance(const JoxExits *exits, uint32_t inside);
 /* Adds "left": ..., "inside": ..., "last_left_s": ..., "clearance_s": ..., "exits": {...}. */
-void jox_exits_json(const JoxExits *exits, uint32_t inside, JoxText *out);
+void jox_exits_json(const JoxExits *exits, uint32_t inside, JoxJson *json);
 
 typedef struct JoxDangerCount {
     uint32_t people; /* who were ever over the limit */
@@ -87,7 +88,7 @@ JoxDangerMost jox_danger_most(const JoxDanger *danger, JoxDangerMeasure measure)
    pressure takes ten seconds. What is over its limits is not known otherwise. */
 bool jox_danger_reads(const JoxDanger *danger, JoxDangerMeasure measure);
 /* Adds "density_max": ..., "limits": {...}; null where it was not read. */
-void jox_danger_json(const JoxDanger *danger, JoxText *out);
+void jox_danger_json(const JoxDanger *danger, JoxJson *json);
 void jox_danger_free(JoxDanger *danger);
 
 #endif

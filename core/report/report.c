@@ -191,24 +191,25 @@ static char *summary(const JoxReport *r) {
     JoxFrame first = {0}, last = {0};
     jox_trajectories_frame(t, 0, &first);
     jox_trajectories_frame(t, t->frame_count - 1, &last);
-    jox_text_add(&out, "{\n \"recording\": ");
-    jox_text_json(&out, r->def->recording);
-    jox_text_printf(&out,
-                    ",\n \"version\": \"%s\",\n \"people\": %u,\n \"frames\": %u,\n"
-                    " \"fps\": %.9g,\n \"from_s\": %.9g,\n \"until_s\": %.9g",
-                    jo_version(), t->people, t->frame_count, t->fps, first.time, last.time);
-    jox_text_add(&out, ",\n \"danger\": {");
-    jox_exits_json(&r->exits, (uint32_t)(t->people - r->exits.left), &out);
-    jox_text_add(&out, ",\n  ");
-    jox_danger_json(r->danger, &out);
-    jox_text_add(&out, "},\n \"probes\": {");
-    for (uint32_t p = 0; p < r->count; p++) {
-        jox_text_add(&out, p ? ",\n  " : "\n  ");
-        jox_text_json(&out, jox_probe_def(r->probes[p])->name);
-        jox_text_add(&out, ": ");
-        jox_probe_json(r->probes[p], &out);
-    }
-    jox_text_add(&out, "\n }\n}\n");
+    JoxJson json = jox_json_begin(&out, 2);
+    jox_json_object(&json, NULL);
+    jox_json_string(&json, "recording", r->def->recording);
+    jox_json_string(&json, "version", jo_version());
+    jox_json_whole(&json, "people", t->people);
+    jox_json_whole(&json, "frames", t->frame_count);
+    jox_json_number(&json, "fps", t->fps);
+    jox_json_number(&json, "from_s", first.time);
+    jox_json_number(&json, "until_s", last.time);
+    jox_json_object(&json, "danger");
+    jox_exits_json(&r->exits, (uint32_t)(t->people - r->exits.left), &json);
+    jox_danger_json(r->danger, &json);
+    jox_json_end(&json);
+    jox_json_object(&json, "probes");
+    for (uint32_t p = 0; p < r->count; p++)
+        jox_probe_json(r->probes[p], &json, jox_probe_def(r->probes[p])->name);
+    jox_json_end(&json);
+    jox_json_end(&json);
+    jox_text_append(&out, "\n", 1);
     return out.data;
 }
 

@@ -1,11 +1,13 @@
 /* Mods of a scene: found, asked about, and blamed. */
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
+#include "scene/mods_on.h"
 
 enum { LARGEST_PATCH = 256 << 10 };
 
@@ -37,6 +39,7 @@ JoxMods *jox_run_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnosti
                        .sets = def->overrides,
                        .set_count = (uint32_t)def->override_count,
                        .named_only = def->named_mods_only,
+                       .needed_too = def->needed_mods_too,
                        .without = without};
     for (JoxDiagnostics targets = {0};;) {
         JoxDiagnostics found = {0};
@@ -58,6 +61,13 @@ JoxMods *jox_run_find_mods(const JoSceneDef *def, uint64_t without, JoxDiagnosti
     }
 }
 
+/* How the list says it of those that are not taken. */
+static const char *const SWITCHES[] = {
+    [JOX_MOD_OFF] = "off",
+    [JOX_MOD_CHANGED] = "off, as it has changed since it was turned on",
+    [JOX_MOD_ON] = "on, but not taken",
+};
+
 char *jo_mods_list(const JoSceneDef *def) {
     JOX_REQUIRE(def, NULL);
     JOX_GUARD (NULL, NULL)
@@ -67,8 +77,9 @@ char *jo_mods_list(const JoSceneDef *def) {
     JoxText out = {0};
     for (uint32_t m = 0; m < mods->count; m++) {
         const JoxMod *mod = &mods->items[m];
-        jox_text_printf(&out, "%u. %s %s%s%s (%s)\n", m + 1, mod->name, mod->version,
-                        *mod->title ? ": " : "", mod->title, mod->folder);
+        jox_text_printf(&out, "%u. %s %s%s%s (%s; %s)\n", m + 1, mod->name, mod->version,
+                        *mod->title ? ": " : "", mod->title, mod->folder,
+                        mod->on == JOX_MOD_ON ? "on" : "named");
         for (uint32_t p = 0; p < mod->patch_count; p++)
             jox_text_printf(&out, "     %s %s %s\n",
                             mod->patches[p].replaces ? "replaces" : "patches",
@@ -86,9 +97,10 @@ char *jo_mods_list(const JoSceneDef *def) {
         for (uint32_t m = 0; m < mods->count; m++)
             taken |= mods->number[m] == f;
         if (!taken)
-            jox_text_printf(&out, "not taken: %s %s%s%s (%s)\n", mods->found[f].name,
-                            mods->found[f].version, *mods->found[f].title ? ": " : "",
-                            mods->found[f].title, mods->found[f].folder);
+            jox_text_printf(&out, "%s: %s %s%s%s (%s)\n", SWITCHES[mods->found[f].on],
+                            mods->found[f].name, mods->found[f].version,
+                            *mods->found[f].title ? ": " : "", mods->found[f].title,
+                            mods->found[f].folder);
     }
     if (mods->found_count == 0)
         jox_text_add(&out, "no mods found\n");
@@ -96,6 +108,57 @@ char *jo_mods_list(const JoSceneDef *def) {
     jox_diag_free(&diagnostics);
     jox_mods_free(mods);
     return jox_disown(out.data);
+}
+
+/* ---- on and off ---- */
+
+/* Turns the mod of the name, or in the folder, on or off, if it is among those that a scene of the
+   path (or NULL) would find; *found says whether it is. */
+static bool turn(const char *scene, const char *mod, bool on, bool *found, JoError *error) {
+    const JoSceneDef def = {
+        .path = scene, .mods = &mod, .mod_count = 1, .named_mods_only = true, .message = NULL};
+    JoxDiagnostics problems = {0};
+    JoxText why = {0};
+    JoxMods *mods = jox_run_find_mods(&def, 0, &problems);
+    const JoxMod *one = NULL;
+    struct stat wanted, other;
+    const bool folder = stat(mod, &wanted) == 0 && S_ISDIR(wanted.st_mode);
+    for (uint32_t m = 0; m < mods->found_count && !one; m++) {
+        const JoxMod *candidate = &mods->found[m];
+        if (folder ? stat(candidate->folder, &other) == 0 && other.st_dev == wanted.st_dev &&
+                         other.st_ino == wanted.st_ino
+                   : strcmp(candidate->name, mod) == 0)
+            one = candidate;
+    }
+    *found = one != NULL;
+    const bool good = one && jox_mods_on_set(one->name, one->folder, on, &why);
+    if (one && !good)
+        jox_error(error, JO_FAILED, "%s", why.data);
+    else if (folder && !one) /* its mod.yaml is what is wrong */
+        jox_run_report(NULL, NULL, &problems, error);
+    jox_text_free(&why);
+    jox_mods_free(mods);
+    jox_diag_free(&problems);
+    return good;
+}
+
+bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *error) {
+    JOX_REQUIRE(def && mod, false);
+    /* Without a scene: the user's mods, then those of scenes here. */
+    const char *const places[] = {def->path, def->path ? NULL : "./scene",
+                                  def->path ? NULL : "scenes/scene"};
+    bool found = false;
+    *error = (JoError){0};
+    for (int p = 0; p < 3; p++)
+        if ((p == 0 || places[p]) && turn(places[p], mod, on, &found, error))
+            return true;
+        else if (found || error->code != JO_OK)
+            return false;
+    jox_error(error, JO_INPUT,
+              "there is no mod '%.100s' here; give its folder, or its name and the scene that it "
+              "lies beside",
+              mod);
+    return false;
 }
 
 /* ---- why ---- */

@@ -51,16 +51,12 @@ const JoxProbe *jox_run_probe(const JoScene *scene, uint32_t n) {
     return p && n < p->count ? p->items[n] : NULL;
 }
 
-void jox_run_add_probes(const JoScene *scene, JoxText *out) {
+void jox_run_add_probes(const JoScene *scene, JoxJson *json) {
     const JoxProbe *probe = jox_run_probe(scene, 0);
     if (!probe)
         return;
-    jox_text_add(out, ",\n \"probes\": {");
-    for (uint32_t n = 0; (probe = jox_run_probe(scene, n)); n++) {
-        jox_text_add(out, n ? ",\n  " : "\n  ");
-        jox_text_json(out, jox_probe_def(probe)->name);
-        jox_text_add(out, ": ");
-        jox_probe_json(probe, out);
-    }
-    jox_text_add(out, "\n }");
+    jox_json_object(json, "probes");
+    for (uint32_t n = 0; (probe = jox_run_probe(scene, n)); n++)
+        jox_probe_json(probe, json, jox_probe_def(probe)->name);
+    jox_json_end(json);
 }

@@ -216,6 +216,6 @@ const JoxDanger *jox_run_danger(const JoScene *scene);
 void jox_run_collect_probes(JoScene *scene);
 const JoxProbe *jox_run_probe(const JoScene *scene, uint32_t n);
 /* Adds ,"probes": {...} to a summary. */
-void jox_run_add_probes(const JoScene *scene, JoxText *out);
+void jox_run_add_probes(const JoScene *scene, JoxJson *json);
 
 #endif

@@ -29,62 +29,41 @@ JoStats jo_scene_stats(const JoScene *scene) {
     return stats;
 }
 
-static void add_number(JoxText *out, const char *name, double value) {
-    jox_text_printf(out, ",\n \"%s\": ", name);
-    jox_text_json_number(out, value);
-}
-
-static void add_states(JoxText *out, const JoWorld *world) {
+static void add_states(JoxJson *json, const JoWorld *world) {
     const JoxMind *mind = &world->mind;
-    jox_text_add(out, ",\n \"states\": {");
+    jox_json_object(json, "states");
     for (uint32_t m = 0; m < mind->machine_count; m++) {
-        jox_text_add(out, m ? ", " : "");
-        jox_text_json(out, mind->machines[m]->name);
-        jox_text_add(out, ": {");
+        jox_json_object(json, mind->machines[m]->name);
         for (uint32_t s = 0; s < mind->machines[m]->state_count; s++) {
             uint32_t people = 0;
             for (uint32_t i = 0; i < world->agents.count; i++)
                 people += world->agents.machine[i] == m && world->agents.state[i] == s;
-            jox_text_add(out, s ? ", " : "");
-            jox_text_json(out, mind->machines[m]->states[s].name);
-            jox_text_printf(out, ": %u", people);
+            jox_json_whole(json, mind->machines[m]->states[s].name, people);
         }
-        jox_text_add(out, "}");
+        jox_json_end(json);
     }
-    jox_text_add(out, "}");
+    jox_json_end(json);
 }
 
-typedef struct Counted {
-    JoxText *out;
-    bool any;
-} Counted;
-
 static void add_taken(void *context, const char *from, const char *to, uint64_t taken) {
-    Counted *counted = context;
     JoxText key = {0};
     jox_text_printf(&key, "%s>%s", from, to);
-    jox_text_add(counted->out, counted->any ? ", " : "");
-    jox_text_json(counted->out, key.data);
+    jox_json_whole(context, key.data, taken);
     jox_text_free(&key);
-    jox_text_printf(counted->out, ": %llu", (unsigned long long)taken);
-    counted->any = true;
 }
 
 /* "From>To": how often, by all agents. */
-static void add_transitions(JoxText *out, const JoxMind *mind) {
-    jox_text_add(out, ",\n \"transitions\": {");
+static void add_transitions(JoxJson *json, const JoxMind *mind) {
+    jox_json_object(json, "transitions");
     for (uint32_t m = 0; m < mind->machine_count; m++) {
-        Counted counted = {out, false};
-        jox_text_add(out, m ? ", " : "");
-        jox_text_json(out, mind->machines[m]->name);
-        jox_text_add(out, ": {");
-        jox_mind_taken(mind, m, add_taken, &counted);
-        jox_text_add(out, "}");
+        jox_json_object(json, mind->machines[m]->name);
+        jox_mind_taken(mind, m, add_taken, json);
+        jox_json_end(json);
     }
-    jox_text_add(out, "}");
+    jox_json_end(json);
 }
 
-static void add_events(JoxText *out, const JoScene *scene) {
+static void add_events(JoxJson *json, const JoScene *scene) {
     const JoxStatistics *s = &scene->world->statistics;
     const struct {
         const char *name;
@@ -103,39 +82,32 @@ static void add_events(JoxText *out, const JoScene *scene) {
                   {"closed", s->closed},
                   {"announced", s->announced},
                   {"script_failures", jox_lua_failures(scene->lua)}};
-    jox_text_add(out, ",\n \"events\": {");
+    jox_json_object(json, "events");
     for (size_t e = 0; e < sizeof events / sizeof *events; e++)
-        jox_text_printf(out, "%s\"%s\": %llu", e ? ", " : "", events[e].name,
-                        (unsigned long long)events[e].count);
-    jox_text_add(out, "}");
+        jox_json_whole(json, events[e].name, events[e].count);
+    jox_json_end(json);
 }
 
-static void add_regions(JoxText *out, const JoScene *scene) {
+static void add_regions(JoxJson *json, const JoScene *scene) {
     const JoxRegions *regions = jox_run_regions(scene);
     if (!regions)
         return;
-    jox_text_add(out, ",\n \"regions\": {");
-    for (uint32_t r = 0; r < regions->count; r++) {
-        jox_text_add(out, r ? ", " : "");
-        jox_text_json(out, regions->items[r].name);
-        jox_text_add(out, ": ");
-        jox_text_json_number(out, jox_region_speed(&regions->items[r]));
-    }
-    jox_text_add(out, "}");
+    jox_json_object(json, "regions");
+    for (uint32_t r = 0; r < regions->count; r++)
+        jox_json_number(json, regions->items[r].name, jox_region_speed(&regions->items[r]));
+    jox_json_end(json);
 }
 
-static void add_danger(JoxText *out, const JoScene *scene) {
-    jox_text_add(out, ",\n \"danger\": {");
-    jox_exits_json(&scene->exits, scene->world->agents.count, out);
-    if (jox_run_danger(scene)) {
-        jox_text_add(out, ",\n  ");
-        jox_danger_json(jox_run_danger(scene), out);
-    }
-    jox_text_add(out, "}");
+static void add_danger(JoxJson *json, const JoScene *scene) {
+    jox_json_object(json, "danger");
+    jox_exits_json(&scene->exits, scene->world->agents.count, json);
+    if (jox_run_danger(scene))
+        jox_danger_json(jox_run_danger(scene), json);
+    jox_json_end(json);
 }
 
 /* What plain functions cost: share of the stepping, calls, and what failed. */
-static void add_lua(JoxText *out, const JoScene *scene) {
+static void add_lua(JoxJson *json, const JoScene *scene) {
     const JoWorld *world = scene->world;
     double seconds = 0.0;
     uint64_t calls = 0;
@@ -145,8 +117,11 @@ static void add_lua(JoxText *out, const JoScene *scene) {
         calls += own;
     }
     double wall = world->statistics.wall_s;
-    jox_text_printf(out, ",\n \"lua\": {\"calls\": %llu, \"seconds\": %.6f, \"share\": %.6f}",
-                    (unsigned long long)calls, seconds, wall > 0.0 ? seconds / wall : 0.0);
+    jox_json_object(json, "lua");
+    jox_json_whole(json, "calls", calls);
+    jox_json_digits(json, "seconds", seconds, 6);
+    jox_json_digits(json, "share", wall > 0.0 ? seconds / wall : 0.0, 6);
+    jox_json_end(json);
 }
 
 char *jo_scene_lua_profile(const JoScene *scene) {
@@ -169,46 +144,48 @@ char *jo_scene_lua_profile(const JoScene *scene) {
     return jox_disown(out.data);
 }
 
-static void add_file(JoxText *out, const char *path, const char *sha256, bool first) {
-    jox_text_add(out, first ? "\n  {\"path\": " : ",\n  {\"path\": ");
-    jox_text_json(out, path);
-    jox_text_printf(out, ", \"sha256\": \"%s\"}", sha256);
+static void add_file(JoxJson *json, const char *path, const char *sha256) {
+    jox_json_object(json, NULL);
+    jox_json_string(json, "path", path);
+    jox_json_string(json, "sha256", sha256);
+    jox_json_end(json);
 }
 
-static void add_inputs(JoxText *out, const JoScene *scene) {
-    jox_text_add(out, ",\n \"inputs\": [");
+static void add_inputs(JoxJson *json, const JoScene *scene) {
+    jox_json_array(json, "inputs");
     for (uint32_t f = 0; f < scene->spec->file_count; f++)
-        add_file(out, scene->spec->files[f].path, scene->spec->files[f].sha256, f == 0);
+        add_file(json, scene->spec->files[f].path, scene->spec->files[f].sha256);
     for (uint32_t m = 0; m < scene->world->mind.machine_count; m++) {
         uint32_t count;
         const JoxLuaFile *files = jox_lua_files(scene->lua, scene->world->mind.machines[m], &count);
         for (uint32_t f = 0; f < count; f++)
-            add_file(out, files[f].path, files[f].sha256, false);
+            add_file(json, files[f].path, files[f].sha256);
     }
     if (scene->input_path)
-        add_file(out, scene->input_path, scene->input_sha256, false);
-    jox_text_add(out, "\n ],\n \"mods\": [");
-    for (uint32_t m = 0; m < scene->mods->count; m++) {
-        jox_text_add(out, m ? ", " : "");
-        jox_text_printf(out, "\"%s %s\"", scene->mods->items[m].name,
+        add_file(json, scene->input_path, scene->input_sha256);
+    jox_json_end(json);
+    jox_json_array(json, "mods");
+    for (uint32_t m = 0; m < scene->mods->count; m++)
+        jox_json_format(json, NULL, "%s %s", scene->mods->items[m].name,
                         scene->mods->items[m].version);
-    }
-    jox_text_add(out, "]");
+    jox_json_end(json);
 }
 
 /* Of scenes in which people and bodies touched. */
-static void add_exchange(JoxText *out, const JoxStatistics *s) {
+static void add_exchange(JoxJson *json, const JoxStatistics *s) {
     const JoxExchange *e = &s->exchange;
     if (!(e->impulse > 0))
         return;
-    jox_text_printf(out,
-                    ",\n \"exchange\": {\"contacts\": %llu, \"impulse\": %.6g, \"residual\": %.3g}",
-                    (unsigned long long)e->contacts, e->impulse, e->residual / e->impulse);
+    jox_json_object(json, "exchange");
+    jox_json_whole(json, "contacts", e->contacts);
+    jox_json_digits(json, "impulse", e->impulse, 6);
+    jox_json_digits(json, "residual", e->residual / e->impulse, 3);
+    jox_json_end(json);
 }
 
 /* How far the first bonded body of the scene, or its greatest piece, has come, m, and turned, deg.
  */
-static void add_way(JoxText *out, const JoScene *scene, uint32_t body) {
+static void add_way(JoxJson *json, const JoScene *scene, uint32_t body) {
     const JoxBodyDef *def = &scene->spec->bodies[body].def;
     JoxPose pose; /* the bodies of the scene have the first ids, in their order */
     if (!jox_bodies_pose(scene->world->bodies, jox_bodies_find(scene->world->bodies, body), &pose))
@@ -219,11 +196,12 @@ static void add_way(JoxText *out, const JoScene *scene, uint32_t body) {
                            1 - 2 * ((double)q[1] * q[1] + (double)q[2] * q[2]));
     double turned = yaw - 2 * jox_atan2(def->turn[2], def->turn[3]);
     turned = (turned - 2 * PI * floor(turned / (2 * PI) + 0.5)) * 180 / PI;
-    jox_text_printf(out, ", \"moved\": %.4f, \"turned\": %.3f", sqrt(x * x + y * y), turned);
+    jox_json_digits(json, "moved", sqrt(x * x + y * y), 6);
+    jox_json_digits(json, "turned", turned, 6);
 }
 
 /* Of scenes with bonded blocks. */
-static void add_bonds(JoxText *out, const JoScene *scene) {
+static void add_bonds(JoxJson *json, const JoScene *scene) {
     const JoxBondStatistics *s = &scene->world->statistics.bonds;
     uint32_t body = 0, held = 0;
     while (body < scene->spec->body_count &&
@@ -236,20 +214,45 @@ static void add_bonds(JoxText *out, const JoScene *scene) {
         jox_bodies_bonds(scene->world->bodies, o, &bonds);
         held += bonds.bonds;
     }
-    jox_text_printf(out, ",\n \"bonds\": {\"held\": %u, \"broken\": %llu, \"pieces\": %u", held,
-                    (unsigned long long)s->broken, s->pieces + 1);
-    if (s->front)
-        jox_text_printf(out, ", \"front_people\": %u, \"front_speed\": %.4f", s->front,
-                        s->front_speed);
+    jox_json_object(json, "bonds");
+    jox_json_whole(json, "held", held);
+    jox_json_whole(json, "broken", s->broken);
+    jox_json_whole(json, "pieces", s->pieces + 1);
+    if (s->front) {
+        jox_json_whole(json, "front_people", s->front);
+        jox_json_digits(json, "front_speed", s->front_speed, 6);
+    }
     if (s->touched)
-        jox_text_printf(out, ", \"first_touch_s\": %.3f", s->touch_s);
-    if (s->broken)
-        jox_text_printf(out,
-                        ", \"first_break_s\": %.3f, \"rows_pressing\": %u, "
-                        "\"people_pressing\": %u",
-                        s->first_s, s->rows, s->people);
-    add_way(out, scene, body);
-    jox_text_add(out, "}");
+        jox_json_digits(json, "first_touch_s", s->touch_s, 6);
+    if (s->broken) {
+        jox_json_digits(json, "first_break_s", s->first_s, 6);
+        jox_json_whole(json, "rows_pressing", s->rows);
+        jox_json_whole(json, "people_pressing", s->people);
+    }
+    add_way(json, scene, body);
+    jox_json_end(json);
+}
+
+/* What the run was, and how fast. */
+static void add_run(JoxJson *json, const JoScene *scene, const JoStats *stats) {
+    jox_json_string(json, "scene", scene->spec->path);
+    jox_json_string(json, "version", jo_version());
+    jox_json_whole(json, "seed", scene->world->def.seed);
+    jox_json_whole(json, "agents", stats->agents);
+    jox_json_whole(json, "bodies", stats->bodies);
+    jox_json_number(json, "dt", stats->dt);
+    jox_json_whole(json, "steps", stats->steps);
+    jox_json_number(json, "simulated_s", stats->simulated_s);
+    jox_json_number(json, "wall_s", stats->wall_s);
+    jox_json_number(json, "cpu_s", stats->cpu_s);
+    jox_json_number(json, "steps_per_s",
+                    stats->wall_s > 0 ? (double)stats->steps / stats->wall_s : 0);
+    jox_json_number(json, "ns_per_agent_step",
+                    stats->agent_steps ? stats->wall_s * 1e9 / (double)stats->agent_steps : 0);
+    jox_json_object(json, "stage_ns");
+    for (int k = 0; k < JO_STAGE_COUNT; k++)
+        jox_json_digits(json, jo_stage_name(k), stats->stage_ns[k], 6);
+    jox_json_end(json);
 }
 
 char *jo_scene_summary(const JoScene *scene) {
@@ -260,44 +263,31 @@ char *jo_scene_summary(const JoScene *scene) {
         return NULL;
     const JoWorld *world = scene->world;
     const JoxStatistics *s = &world->statistics;
-    JoStats stats = jo_scene_stats(scene);
+    const JoStats stats = jo_scene_stats(scene);
     JoxText out = {0};
-    jox_text_add(&out, "{\n \"scene\": ");
-    jox_text_json(&out, scene->spec->path);
-    jox_text_printf(&out, ",\n \"version\": \"%s\",\n \"seed\": %llu", jo_version(),
-                    (unsigned long long)world->def.seed);
-    add_number(&out, "agents", stats.agents);
-    add_number(&out, "bodies", stats.bodies);
-    add_number(&out, "dt", stats.dt);
-    add_number(&out, "steps", (double)stats.steps);
-    add_number(&out, "simulated_s", stats.simulated_s);
-    add_number(&out, "wall_s", stats.wall_s);
-    add_number(&out, "cpu_s", stats.cpu_s);
-    add_number(&out, "steps_per_s", stats.wall_s > 0 ? (double)stats.steps / stats.wall_s : 0);
-    add_number(&out, "ns_per_agent_step",
-               stats.agent_steps ? stats.wall_s * 1e9 / (double)stats.agent_steps : 0);
-    jox_text_add(&out, ",\n \"stage_ns\": {");
-    for (int k = 0; k < JO_STAGE_COUNT; k++)
-        jox_text_printf(&out, "%s\"%s\": %.2f", k ? ", " : "", jo_stage_name(k), stats.stage_ns[k]);
-    jox_text_add(&out, "}");
-    add_number(&out, "lp_failure_share",
-               stats.agent_steps ? (double)s->failures / (double)stats.agent_steps : 0);
-    add_number(&out, "lp_failure_peak", s->failure_peak);
-    add_number(&out, "density_max", jox_run_density_max(scene));
-    add_number(&out, "overlap_p99", jox_statistics_overlap_p99(s));
-    add_states(&out, world);
-    add_transitions(&out, &world->mind);
-    add_regions(&out, scene);
-    add_events(&out, scene);
-    add_bonds(&out, scene);
-    add_exchange(&out, s);
-    add_danger(&out, scene);
-    add_lua(&out, scene);
-    jox_run_add_probes(scene, &out);
-    jox_text_printf(&out, ",\n \"hash\": \"%016llx\",\n \"isa\": \"scalar\",\n \"threads\": %u",
-                    (unsigned long long)jox_world_hash(world), jox_pool_threads(world->pool));
-    add_inputs(&out, scene);
-    jox_text_add(&out, "\n}\n");
+    JoxJson json = jox_json_begin(&out, 2);
+    jox_json_object(&json, NULL);
+    add_run(&json, scene, &stats);
+    jox_json_number(&json, "lp_failure_share",
+                    stats.agent_steps ? (double)s->failures / (double)stats.agent_steps : 0);
+    jox_json_number(&json, "lp_failure_peak", s->failure_peak);
+    jox_json_number(&json, "density_max", jox_run_density_max(scene));
+    jox_json_number(&json, "overlap_p99", jox_statistics_overlap_p99(s));
+    add_states(&json, world);
+    add_transitions(&json, &world->mind);
+    add_regions(&json, scene);
+    add_events(&json, scene);
+    add_bonds(&json, scene);
+    add_exchange(&json, s);
+    add_danger(&json, scene);
+    add_lua(&json, scene);
+    jox_run_add_probes(scene, &json);
+    jox_json_format(&json, "hash", "%016llx", (unsigned long long)jox_world_hash(world));
+    jox_json_string(&json, "isa", "scalar");
+    jox_json_whole(&json, "threads", jox_pool_threads(world->pool));
+    add_inputs(&json, scene);
+    jox_json_end(&json);
+    jox_text_append(&out, "\n", 1);
     return jox_disown(out.data);
 }
 

@@ -180,7 +180,6 @@ const JoxExample jox_scene_examples[] = {
      "optional: [signs]\n"
      "conflicts: [panic]\n"
      "load_after: [weather]\n"
-     "enabled: false\n"
      "settings:\n"
      "  patience: {value: 30, unit: s, least: 0, greatest: 600, meaning: waiting before people leave}\n"},
     {"setting",

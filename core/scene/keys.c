@@ -258,8 +258,6 @@ const JoxKey jox_scene_keys[] = {
     {"mod", "conflicts", NAMES, "", 0, 0, "", .meaning = "mods that it does not go together with"},
     {"mod", "load_after", NAMES, "", 0, 0, "",
      .meaning = "mods that come before it where they are taken"},
-    {"mod", "enabled", BOOL, "", 0, 0, "true",
-     .meaning = "whether it is taken because it lies in a folder of mods; else it must be named"},
     {"mod", "settings", TABLE, "", 0, 0, "", .of = "setting*",
      .meaning = "numbers that a scene may choose for it"},
     {"setting", "value", NUMBER, "", -1e12, 1e12, "!",

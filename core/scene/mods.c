@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "base/mem.h"
+#include "scene/mods_on.h"
 #include "scene/schema.h"
 
 enum { MOST_FILES = 256, LARGEST_FILE = 1 << 20, API = 1 };
@@ -28,6 +29,7 @@ typedef struct Find {
     JoxMods *mods;
     Needs needs[JOX_MOST_MODS];
     JoxReader reader;
+    char *on; /* the list of mods that are turned on */
 } Find;
 
 int32_t jox_mods_index(const JoxMods *mods, const char *name) {
@@ -205,7 +207,11 @@ static void read_mod(Find *f, const char *folder, bool wanted) {
                        "there are over %d mods: this is not looked at", JOX_MOST_MODS);
         return;
     }
-    if (!root || !jox_keys_check(r, root, "mod"))
+    if (root && jox_yaml_get(root, "enabled"))
+        jox_scene_error(r, jox_yaml_get(root, "enabled"), "unknown-key",
+                        "Take the line out. A person turns a mod on: jostle mod enable NAME",
+                        "'enabled' is no key of a mod: none turns itself on");
+    else if (!root || !jox_keys_check(r, root, "mod"))
         return;
     const char *name = jox_key_text(r, root, "mod", "name");
     const char *title = jox_key_text(r, root, "mod", "title");
@@ -226,7 +232,7 @@ static void read_mod(Find *f, const char *folder, bool wanted) {
                     .title = jox_arena_text(r->arena, title ? title : ""),
                     .version = jox_arena_text(r->arena, version ? version : "0"),
                     .folder = jox_arena_text(r->arena, folder),
-                    .enabled = jox_key_bool(r, root, "mod", "enabled")};
+                    .on = jox_mods_on_look(f->on, name ? name : "", folder)};
     jox_key_number(r, root, "mod", "api"); /* its range is its check */
     Needs *needs = &f->needs[mods->found_count++];
     *needs = (Needs){.root = root, .wanted = wanted};
@@ -297,7 +303,20 @@ static void missing(Find *f, JoxPosition at, const char *name, const char *whose
                    whose);
 }
 
-/* Mods that are named, by the command line or the scene, and those that lie ready. */
+/* Those that a person turned on. */
+static void choose_on(Find *f) {
+    JoxMods *mods = f->mods;
+    for (uint32_t m = 0; m < mods->found_count && !f->def->named_only; m++) {
+        const JoxMod *mod = &mods->found[m];
+        if (mod->on == JOX_MOD_CHANGED && !f->needs[m].wanted)
+            jox_diag_warn(f->reader.diagnostics, ((JoxPosition){mod->folder, 0, 0, 0}),
+                          "mod-changed", "See what it holds, then: jostle mod enable",
+                          "mod %s has changed since it was turned on: it is off", mod->name);
+        f->needs[m].wanted |= mod->on == JOX_MOD_ON;
+    }
+}
+
+/* Those that are named, by the command line or the scene. */
 static void choose(Find *f) {
     JoxMods *mods = f->mods;
     for (uint32_t n = 0; n < f->def->named_count; n++) {
@@ -307,8 +326,6 @@ static void choose(Find *f) {
         else if (m == -1)
             missing(f, (JoxPosition){"--mod", 0, 0, 0}, f->def->named[n], "");
     }
-    for (uint32_t m = 0; m < mods->found_count; m++)
-        f->needs[m].wanted |= mods->found[m].enabled && !f->def->named_only;
     if (!f->def->scene)
         return;
     JoxYamlFiles *files = jox_arena_take(f->reader.arena, 1, sizeof *files);
@@ -409,6 +426,11 @@ static bool link_mod(Find *f, uint32_t m) {
         int32_t other = jox_mods_index(mods, name);
         if (other < 0) {
             missing(f, n->depends[d]->position, name, mods->found[m].name);
+            good = false;
+        } else if (!f->needs[other].wanted && !f->def->needed_too) {
+            jox_diag_error(f->reader.diagnostics, n->depends[d]->position, "mod-off",
+                           "Turn it on: jostle mod enable; or name it for one run: --mod",
+                           "mod %s needs mod %s, which is off", mods->found[m].name, name);
             good = false;
         } else if (version && jox_mod_compare(mods->found[other].version, version) < 0) {
             jox_diag_error(f->reader.diagnostics, n->depends[d]->position, "old-mod", NULL,
@@ -559,9 +581,11 @@ JoxMods *jox_mods_find(const JoxModsDef *def, JoxDiagnostics *diagnostics) {
     mods->found = jox_arena_take(mods->memory, JOX_MOST_MODS, sizeof *mods->found);
     f->def = def;
     f->mods = mods;
+    f->on = jox_mods_on_read();
     f->reader = (JoxReader){mods->memory, diagnostics};
     look_everywhere(f);
     choose(f);
+    choose_on(f);
     set_settings(f);
     for (uint32_t m = 0; m < mods->found_count; m++)
         if (f->needs[m].wanted)
@@ -571,6 +595,7 @@ JoxMods *jox_mods_find(const JoxModsDef *def, JoxDiagnostics *diagnostics) {
     for (uint32_t m = 0; m < mods->found_count; m++)
         link_wishes(f, m);
     order(f);
+    jox_free(f->on);
     jox_free(f);
     return mods;
 }

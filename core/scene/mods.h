@@ -10,7 +10,8 @@ typedef struct JoxModsDef {
     const char *scene;       /* path of the scene: its mods/ is looked into, and its `mods` read */
     const char *const *sets; /* "mods.NAME.SETTING=VALUE" among others */
     uint32_t set_count;
-    bool named_only;  /* mods are not taken because they lie in a folder */
+    bool named_only;  /* mods that a person turned on are not taken for that */
+    bool needed_too;  /* what a named mod depends on is taken as if it were named */
     uint64_t without; /* bits of `found`: left out, with those that depend on them */
 } JoxModsDef;
 
@@ -23,9 +24,11 @@ typedef struct JoxMods {
     struct JoxArena *memory;
 } JoxMods;
 
-/* Finds, reads, chooses and orders mods: by depth of what they depend on, then by name. What is
-   wrong with one goes to `diagnostics`, and it and its dependents are left out; never NULL. Folders
-   looked into: the scene's mods/, and jostle/mods in the user's data directory. */
+/* Finds, reads, chooses and orders mods. Taken are those that are named, that the scene names, and
+   that a person turned on (mods_on.h), where all that they depend on is taken. The order: by depth
+   of what they depend on, then by name. What is wrong with one goes to `diagnostics`, and it and
+   its dependents are left out; never NULL. Folders looked into: the scene's mods/, and jostle/mods
+   in the user's data directory. */
 JoxMods *jox_mods_find(const JoxModsDef *def, JoxDiagnostics *diagnostics);
 void jox_mods_free(JoxMods *mods);
 /* Index in `found`, or -1. */

@@ -31,7 +31,7 @@ static void check_scene(const char *path, const char *mod, JoxDiagnostics *all) 
     def.message = keep_message;
     def.mods = &mod;
     def.mod_count = mod != NULL;
-    def.named_mods_only = mod != NULL;
+    def.named_mods_only = def.needed_mods_too = mod != NULL;
     JoScene *scene = jox_run_load(&def, all);
     if (scene)
         jox_diag_move(all, &scene->mod_problems);
@@ -128,7 +128,7 @@ static void check_mod(const char *folder, JoxDiagnostics *all) {
     def.path = beside;
     def.mods = &folder;
     def.mod_count = 1;
-    def.named_mods_only = true;
+    def.named_mods_only = def.needed_mods_too = true;
     JoxMods *mods = jox_run_find_mods(&def, 0, all);
     for (uint32_t m = 0; m < mods->count; m++)
         if (strcmp(mods->items[m].folder, folder) == 0)

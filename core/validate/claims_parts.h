@@ -2,7 +2,7 @@
 #ifndef JOX_VALIDATE_CLAIMS_PARTS_H
 #define JOX_VALIDATE_CLAIMS_PARTS_H
 
-#include "lua/internal.h"
+#include "lua/language/script.h"
 #include "validate/claims.h"
 
 struct JoxClaimCode {

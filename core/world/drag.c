@@ -1,15 +1,15 @@
-/* What people do to bodies while a world runs: boxes that they throw in, and bodies that they pull
-   along, as if by a hand. */
+/* What people do to bodies while a world runs: boxes that they throw in, and bodies that they
+   drag. */
 #include <math.h>
 #include <string.h>
 
 #include "world/world.h"
 
-/* A hand pulls as a critically damped spring does, at this rate, up to a speed and a force. */
-static const float HAND_RATE = 12.0f;  /* 1/s: how fast the body takes on the velocity wanted */
-static const float HAND_SPEED = 6.0f;  /* m/s */
-static const float HAND_FORCE = 4e3f;  /* N, besides the body's weight up to as much */
-static const float HAND_STEADY = 6.0f; /* 1/s: how fast it stops turning */
+/* A drag pulls as a critically damped spring does, at this rate, up to a speed and a force. */
+static const float DRAG_RATE = 12.0f;  /* 1/s: how fast the body takes on the velocity wanted */
+static const float DRAG_SPEED = 6.0f;  /* m/s */
+static const float DRAG_FORCE = 4e3f;  /* N, besides the body's weight up to as much */
+static const float DRAG_STEADY = 6.0f; /* 1/s: how fast it stops turning */
 
 uint32_t jox_world_add_box(JoWorld *w, const double at[3], const double velocity[3], double size,
                            double mass, JoxText *why) {
@@ -95,26 +95,37 @@ void jox_world_pull(JoWorld *w) {
             continue;
         }
         g++;
-        float near = HAND_RATE / 4.0f, most = pose.mass * HAND_RATE;
+        float near = DRAG_RATE / 4.0f, most = pose.mass * DRAG_RATE;
         JoxV3 wanted = at_most((JoxV3){(grab->to.x - pose.centre.x) * near,
                                        (grab->to.y - pose.centre.y) * near,
                                        (grab->to.z - pose.centre.z) * near},
-                               HAND_SPEED);
+                               DRAG_SPEED);
         JoxV3 force = at_most((JoxV3){most * (wanted.x - pose.velocity.x),
                                       most * (wanted.y - pose.velocity.y),
                                       most * (wanted.z - pose.velocity.z)},
-                              HAND_FORCE);
-        force.z += jox_minf(pose.mass * (float)w->def.gravity, HAND_FORCE);
-        float kept = jox_maxf(0.0f, 1.0f - HAND_STEADY * (float)w->part_dt);
+                              DRAG_FORCE);
+        force.z += jox_minf(pose.mass * (float)w->def.gravity, DRAG_FORCE);
+        float kept = jox_maxf(0.0f, 1.0f - DRAG_STEADY * (float)w->part_dt);
         JoxV3 spin = {pose.spin.x * kept, pose.spin.y * kept, pose.spin.z * kept};
         jox_bodies_set_velocity(w->bodies, grab->row, pose.velocity, spin);
         jox_bodies_force(w->bodies, grab->row, force);
     }
 }
 
-void jox_drags_hash(const JoxDrags *drags, JoxHash *hash) {
-    if (drags->box_count)
-        jox_hash_add(hash, drags->boxes, drags->box_count * sizeof *drags->boxes);
-    if (drags->grab_count)
-        jox_hash_add(hash, drags->grabs, drags->grab_count * sizeof *drags->grabs);
+/* Of an array of fixed size the cells in use. */
+static void list_used(JoxSections *s, const char *name, void *cells, size_t size, uint32_t *count,
+                      uint32_t most) {
+    const size_t used = jox_section_count(s, name, *count, size);
+    if (used > most)
+        jox_sections_fail(s, name, "there are more than there may be");
+    if (s->failed)
+        return;
+    *count = (uint32_t)used;
+    jox_section(s, name, cells, size, used);
+}
+
+void jox_drags_sections(JoxDrags *drags, JoxSections *s) {
+    jox_sections_module(s, "drags");
+    list_used(s, "boxes", drags->boxes, sizeof *drags->boxes, &drags->box_count, JOX_MOST_BOXES);
+    list_used(s, "grabs", drags->grabs, sizeof *drags->grabs, &drags->grab_count, JOX_MOST_GRABS);
 }

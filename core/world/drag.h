@@ -1,9 +1,9 @@
-/* Bodies in people's hands: boxes that they threw in, and what they pull along. State of a world
-   that is carried from step to step. */
+/* What people at the page do to bodies: boxes that they threw in, and bodies that they drag. State
+   of a world that is carried from step to step. */
 #ifndef JOX_WORLD_DRAG_H
 #define JOX_WORLD_DRAG_H
 
-#include "base/hash.h"
+#include "base/sections.h"
 #include "base/vec.h"
 
 enum { JOX_MOST_BOXES = 200, JOX_MOST_GRABS = 64 };
@@ -19,6 +19,7 @@ typedef struct JoxDrags {
     uint32_t grab_count;
 } JoxDrags;
 
-void jox_drags_hash(const JoxDrags *drags, JoxHash *hash);
+/* Lists them as state. */
+void jox_drags_sections(JoxDrags *drags, JoxSections *sections);
 
 #endif

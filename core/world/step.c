@@ -218,6 +218,8 @@ bool jox_world_step(JoWorld *w) {
         return false;
     double begin = jox_clock_wall(), cpu = jox_clock_cpu(), last = begin;
     jox_world_settle(w);
+    if (w->tick % JOX_BODIES_REINSERT_STEPS == 0) /* a state saved before this step goes on alike */
+        jox_bodies_reinsert(w->bodies);
     jox_inspect_expire(w);
     divide(w);
     w->gone_count = 0;

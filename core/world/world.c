@@ -146,7 +146,10 @@ uint64_t jox_world_hash(const JoWorld *world) {
     for (uint32_t rank = 0; rank < a->count; rank++)
         hash_agent(&hash, &world->mind, a->by_rank[rank]);
     jox_bodies_hash(world->bodies, &hash);
-    jox_drags_hash(&world->drags, &hash);
+    JoxSections drags = jox_sections_hash();
+    jox_drags_sections((JoxDrags *)&world->drags, &drags);
+    const uint64_t dragged = jox_hash_end(&drags.hash);
+    jox_hash_add(&hash, &dragged, sizeof dragged);
     if (world->mind.called_count) /* what will be heard in the next step */
         jox_hash_add(&hash, world->mind.called,
                      world->mind.called_count * sizeof *world->mind.called);

@@ -18,7 +18,7 @@ expect "zero step" 2 "0.001" "$JOSTLE" run scenes/circle.yaml --dt 0
 expect "missing scene" 3 "no-such.yaml" "$JOSTLE" run no-such.yaml
 expect "bad override" 3 "Did you mean 'crossing'" "$JOSTLE" run scenes/circle.yaml --set groups.crosing.count=3
 expect "negative mass" 3 "mass must be" "$JOSTLE" run scenes/running-through.yaml --set groups.runner.set.mass=-5
-expect "0 agents" 3 "count must be" "$JOSTLE" run scenes/circle.yaml --set groups.crossing.count=0
+expect "0 agents" 3 "0 agents" "$JOSTLE" run scenes/circle.yaml --set groups.crossing.count=0
 expect "unwritable recording" 1 "cannot record" "$JOSTLE" run scenes/running-through.yaml --quiet --record /proc/x/y
 expect "unwritable report" 1 "cannot make" "$JOSTLE" run scenes/running-through.yaml --quiet --report /proc/x/y
 expect "check finds nothing" 0 "nothing wrong" "$JOSTLE" check scenes behaviours

@@ -49,7 +49,7 @@ same_hash "a report changes nothing" "$(figure hash <"$work/run.json")" "$(hash_
 ! grep -q "half the step" "$work/err" && grep -q "not repeated at half the step: --no-half-step was given" "$work/once/index.html" && ! grep -q "<th>difference" "$work/once/index.html"; verdict "--no-half-step leaves it out, and the page says so" $?
 "$JOSTLE" run scenes/circle.yaml --for 1 --dt 0.0015 --quiet --report "$work/fine" >/dev/null 2>&1
 grep -q "not repeated at half the step: it would be below 0.001 s" "$work/fine/index.html"; verdict "a step that cannot be halved is said" $?
-for threads in 1 3; do "$JOSTLE" run scenes/evacuation.yaml --for 30 --quiet --threads $threads --data "$work/data$threads" --summary - 2>/dev/null | sed -n '/"danger"/,/^  }}/p' >"$work/danger.$threads"; done
+for threads in 1 3; do "$JOSTLE" run scenes/evacuation.yaml --for 30 --quiet --threads $threads --data "$work/data$threads" --summary - 2>/dev/null | sed -n '/"danger"/,/^ }/p' >"$work/danger.$threads"; done
 cmp -s "$work/danger.1" "$work/danger.3" && [ -s "$work/danger.1" ] && cmp -s "$work/data1/danger.csv" "$work/data3/danger.csv"; verdict "danger does not depend on threads" $?
 [ ! -e "$work/data1/danger.png" ] && [ ! -e "$work/data1/index.html" ]; verdict "--data draws nothing" $?
 

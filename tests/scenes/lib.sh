@@ -3,7 +3,7 @@ B=${B:-build/release}
 JOSTLE=${JOSTLE:-$B/jostle}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-export XDG_DATA_HOME=$work/data # no mods but those of the tree
+export XDG_DATA_HOME=$work/data XDG_CONFIG_HOME=$work/config # no mods but those of the tree, and none on
 
 verdict() { # NAME STATUS
     if [ "$2" = 0 ]; then echo "ok $1"; else echo "not ok $1"; fi

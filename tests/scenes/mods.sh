@@ -10,7 +10,7 @@ says() { # NAME STATUS TEXT COMMAND...
 }
 both=(--mod gentle-queue --mod rough)
 says "a mod beside the scenes is found by its name" 0 "1. gentle-queue 1.0.0" "$JOSTLE" mod list scenes/tawaf.yaml --mod gentle-queue
-says "those that must be asked for are not taken" 0 "not taken: rough" "$JOSTLE" mod list scenes/tawaf.yaml --mod gentle-queue
+says "those that must be asked for are not taken" 0 "off: rough" "$JOSTLE" mod list scenes/tawaf.yaml --mod gentle-queue
 says "order: by name where none depends on the other" 0 "2. rough" "$JOSTLE" mod list scenes/tawaf.yaml "${both[@]}"
 says "a conflict names the winner and its place" 3 "rough/patches/tawaf.lua:3:17: warning: mods gentle-queue and rough both set states.ToStone.push" bash -c "$JOSTLE run scenes/tawaf.yaml --steps 1 --set groups.pilgrims.count=100 --set sources.0.keep=100 --quiet ${both[*]}; exit 3"
 says "and the other's place" 3 "set before by mod gentle-queue at scenes/mods/gentle-queue/patches/tawaf.lua:13; mod rough comes later and wins" bash -c "$JOSTLE run scenes/tawaf.yaml --steps 1 --set groups.pilgrims.count=100 --set sources.0.keep=100 --quiet ${both[*]}; exit 3"
@@ -41,11 +41,41 @@ mod() { # NAME YAML [PATCH-FILE TEXT]
     printf 'name: %s\nversion: 1.0\napi: 1\n%s\n' "$1" "$2" >"$tree/scenes/mods/$1/mod.yaml"
     [ -z "$3" ] || printf '%s\n' "$4" >"$tree/scenes/mods/$1/patches/$3"
 }
-run() { (cd "$tree" && exec "$program" run scenes/yard.yaml --steps 3 --quiet --summary - "$@"); }
-export -f run 2>/dev/null; export tree program
+off() { (cd "$tree" && exec "$program" run scenes/yard.yaml --steps 3 --quiet --summary - "$@"); }
+on() { for folder in "$tree"/scenes/mods/*/; do "$program" mod enable "$folder" >/dev/null 2>&1; done; } # as they are now
+run() { on; off "$@"; }
+export -f run on off 2>/dev/null; export tree program
 plain=$(run | figure hash)
 mod alpha "" stander.lua 'return patch "stander" { defaults = { radius = 0.25 } }'
-says "what lies in the folder of mods is taken, and said" 0 "mods: alpha 1.0" bash -c run
+# What lies in a folder of mods is off until a person turns it on, and again when it changes.
+same_hash "a mod that merely lies there is not taken" "$plain" "$(off 2>/dev/null | figure hash)"
+says "but listed" 0 "off: alpha 1.0" "$program" mod list "$tree/scenes/yard.yaml"
+says "a mod that is not there is not turned on" 3 "there is no mod 'alpa' here; give its folder" "$program" mod enable alpa "$tree/scenes/yard.yaml"
+says "a person turns it on, by its name" 0 "mod alpha is on" bash -c 'cd "$tree" && "$program" mod enable alpha'
+says "then it is taken, and said" 0 "mods: alpha 1.0" bash -c off
+says "and listed as on" 0 "scenes/mods/alpha; on)" "$program" mod list "$tree/scenes/yard.yaml"
+cp -R "$tree/scenes/mods/alpha" "$work/alpha"; echo "-- more" >>"$tree/scenes/mods/alpha/patches/stander.lua"
+says "when its files change it is off, and that is said" 0 "warning: mod alpha has changed since it was turned on: it is off" bash -c off
+same_hash "  and not taken" "$plain" "$(off 2>/dev/null | figure hash)"
+says "  and listed so" 0 "off, as it has changed since it was turned on: alpha 1.0" "$program" mod list "$tree/scenes/yard.yaml"
+says "--mod takes it for one run" 0 '"mods": ["alpha 1.0"]' bash -c "off --mod alpha"
+same_hash "  and no longer" "$plain" "$(off 2>/dev/null | figure hash)"
+rm -r "$tree/scenes/mods/alpha"; mv "$work/alpha" "$tree/scenes/mods/alpha"
+says "the same files again: on" 0 '"mods": ["alpha 1.0"]' bash -c off
+echo x >"$tree/scenes/mods/alpha/patches/note.txt"
+says "a file that comes is a change" 0 '"mods": []' bash -c off
+rm "$tree/scenes/mods/alpha/patches/note.txt"
+says "turned off" 0 "alpha is off" "$program" mod disable "$tree/scenes/mods/alpha"
+same_hash "  it is" "$plain" "$(off 2>/dev/null | figure hash)"
+echo "enabled: true" >>"$tree/scenes/mods/alpha/mod.yaml"
+says "no mod turns itself on" 3 "alpha/mod.yaml:5:10: 'enabled' is no key of a mod: none turns itself on" "$program" mod check "$tree/scenes/mods/alpha"
+rm -r "$tree/scenes/mods/alpha"
+mod alpha "" stander.lua 'return patch "stander" { defaults = { radius = 0.25 } }'
+mod omega "depends: [alpha]"
+says "what a mod needs must be on or named, too" 3 "omega/mod.yaml:4:11: mod omega needs mod alpha, which is off. Turn it on: jostle mod enable" bash -c "off --mod omega"
+says "  as it is here" 0 '"mods": ["alpha 1.0", "omega 1.0"]' bash -c "off --mod omega --mod alpha"
+rm -r "$tree/scenes/mods/omega"
+says "all that is on is taken, and said" 0 "mods: alpha 1.0" bash -c run
 [ "$plain" != "$(run 2>/dev/null | figure hash)" ]; verdict "and changes the run" $?
 same_hash "--no-mods takes none" "$plain" "$(run --no-mods | figure hash)"
 mod beta "depends: [alpha]" stander.lua 'return patch "stander" { states = { Stand = { psh = 3 } } }'
@@ -67,7 +97,7 @@ mod later "conflicts: alpha"
 says "mods that exclude each other" 0 "mod later does not go together with alpha" bash -c run
 mod later "load_after: [zeta]" stander.lua 'return patch "stander" { defaults = { radius = 0.3 } }'
 mod zeta "" stander.lua 'return patch "stander" { defaults = { mass = 80 } }'
-(cd "$tree" && "$program" mod list scenes/yard.yaml) | grep -q '^3. later'; verdict "load_after comes after" $?
+on; (cd "$tree" && "$program" mod list scenes/yard.yaml) | grep -q '^3. later'; verdict "load_after comes after" $?
 mod later "apii: 1" ; says "a misspelt key of mod.yaml" 3 "later/mod.yaml:4:1: unknown key 'apii'" bash -c "cd $tree && $program mod check scenes/mods/later"
 printf 'name: later\nversion: 1.0\napi: 2\n' >"$tree/scenes/mods/later/mod.yaml"; says "another api" 3 "later/mod.yaml:3:6: api must be from 1 to 1" bash -c "cd $tree && $program mod check scenes/mods/later"
 rm -r "$tree/scenes/mods/later" "$tree/scenes/mods/zeta"
@@ -103,7 +133,7 @@ says "a mod includes nothing from elsewhere" 0 "states/patches/yard.yaml:2:10: a
 grep -q root: "$work/out"; [ $? = 1 ]; verdict "and shows nothing of it" $?
 printf 'patch: yard\ninput: ../../../../../../etc/passwd\n' >"$tree/scenes/mods/states/patches/yard.yaml"
 says "nor reads it" 0 "a mod cannot read" bash -c run
-sed -i 's/api: 1/api: 1\nenabled: false/' "$tree/scenes/mods/states/mod.yaml"
+"$program" mod disable "$tree/scenes/mods/states" >/dev/null
 (cd "$tree" && "$program" mod list scenes/named.yaml) | grep -q '. states 1.0'; verdict "a scene names its mods" $?
 
 printf 'jostle: 1\nmods: [states]\ngroups: {g: {behaviour: stander.lua, at: [[0, 0]]}}\n' >"$tree/scenes/named.yaml"
@@ -111,7 +141,9 @@ says "mods that are a list" 0 "scenes/named.yaml:2:7: mods maps names of mods to
 mkdir -p "$XDG_DATA_HOME/jostle/mods/mine/patches"
 printf 'name: mine\nversion: 3.1\napi: 1\n' >"$XDG_DATA_HOME/jostle/mods/mine/mod.yaml"
 echo 'return patch "stander" { defaults = { mass = 90 } }' >"$XDG_DATA_HOME/jostle/mods/mine/patches/stander.lua"
-says "a mod of the user's data directory is taken" 0 'mine 3.1' bash -c run
+says "a mod of the user's data directory is off, too" 0 "off: mine 3.1" "$program" mod list
+says "and can be turned on" 0 "mod mine is on" "$program" mod enable mine
+says "then it is taken" 0 'mine 3.1' bash -c run
 rm -r "$XDG_DATA_HOME/jostle"
 # Values of other kinds, items changed twice, and the ends of long lists.
 rm -rf "$tree/scenes/mods"/* "$tree/scenes/named.yaml"
@@ -157,21 +189,25 @@ mod one "" stander.lua 'return patch "stander" { states = {
 mod two "depends: one" stander.lua 'return patch "stander" { states = { Go = { push = 5 }, Stand = { remove = { "Go#2" } } } }'
 mod three "depends: two" stander.lua 'return patch "stander" { states = { Stand = { append = { to = "Go", when = after(4) } } } }'
 sed -i 's/turner.lua/stander.lua/' "$tree/scenes/yard.yaml"
+on
 says "why: in a state that another mod wrote" 0 "one/patches/stander.lua:3:18: after(5)   (mod one 1.0)" "$program" mod why stander.Go.Stand.when "$tree/scenes/yard.yaml"
 says "a removed transition's id is free" 0 "three/patches/stander.lua:1:69: after(4)   (mod three 1.0)" "$program" mod why "stander.Stand.Go#2.when" "$tree/scenes/yard.yaml"
 says "and the next one's stays" 0 "one/patches/stander.lua:4:100: after(3)   (mod one 1.0)" "$program" mod why "stander.Stand.Go#3.when" "$tree/scenes/yard.yaml"
 # Order, in large and in circles.
 rm -rf "$tree/scenes/mods"/*
 names=; for i in $(seq 10 49); do mod m$i "depends: [$names]"; names="$names${names:+, }m$i"; done
+on
 says "forty mods, each in need of all before" 0 "40. m49 1.0" timeout 10 "$program" mod list "$tree/scenes/yard.yaml"
 for i in $(seq 50 80); do mod m$i ""; done
 says "more mods than there may be" 0 "m74/mod.yaml:1:1: there are over 64 mods" "$program" mod list "$tree/scenes/yard.yaml"
 rm -rf "$tree/scenes/mods"/*
 mod aaa "depends: yy"; mod zz "load_after: yy"; mod yy "load_after: zz"
+on
 says "a circle of wishes is said, and depends still comes first" 0 "3. aaa 1.0" "$program" mod list "$tree/scenes/yard.yaml"
 grep -qF "zz/mod.yaml:4:13: warning: mod zz would come after yy, which comes after it: not heeded" "$work/out"; verdict "  with the place" $?
 rm -rf "$tree/scenes/mods"/*
 mod aaa "depends: 'bb <= 2'"; mod bb "settings: {x: {value: 5, least: 1, greatest: 8}}"
+on
 says "a comparison that is not known" 0 "aaa/mod.yaml:4:10: depends: 'bb <= 2' is no name of a mod" bash -c run
 sed -i '1a mods: {bb: {x: 99}}' "$tree/scenes/yard.yaml"
 says "a setting out of range by the scene: the scene's line" 0 "scenes/yard.yaml:2:16: setting 'x' of mod bb must be from 1 to 8, not 99" bash -c run

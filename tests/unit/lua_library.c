@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "lua/internal.h"
+#include "lua/language/script.h"
 #include "lua/vm/library.h"
 
 static JoxDiagnostics diagnostics;

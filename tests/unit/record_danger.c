@@ -151,8 +151,10 @@ static void recordings_without_forces_have_no_compression(void **state) {
                             .vy = crowd.vy};
     jox_danger_frame(danger, &frame, NULL);
     JoxText text = {0};
-    jox_text_add(&text, "{");
-    jox_danger_json(danger, &text);
+    JoxJson json = jox_json_begin(&text, 0);
+    jox_json_object(&json, NULL);
+    jox_danger_json(danger, &json);
+    jox_json_end(&json);
     assert_non_null(strstr(text.data, "\"compression_max\": null"));
     assert_null(strstr(text.data, "\"density_max\": null"));
     jox_text_free(&text);
@@ -169,13 +171,19 @@ static void exits_count_by_name(void **state) {
     exits.left = 6;
     exits.last = 12.5;
     assert_int_equal(exits.count, 2);
-    jox_exits_json(&exits, 0, &text);
-    assert_string_equal(text.data, "\"left\": 6, \"inside\": 0, \"last_left_s\": 12.5, "
+    JoxJson json = jox_json_begin(&text, 0);
+    jox_json_object(&json, NULL);
+    jox_exits_json(&exits, 0, &json);
+    jox_json_end(&json);
+    assert_string_equal(text.data, "{\"left\": 6, \"inside\": 0, \"last_left_s\": 12.5, "
                                    "\"clearance_s\": 12.5, \"exits\": {\"west\": "
                                    "{\"people\": 2, \"last_s\": null}, \"a \\\"door\\\"\": "
-                                   "{\"people\": 3, \"last_s\": null}}");
+                                   "{\"people\": 3, \"last_s\": null}}}");
     text.length = 0;
-    jox_exits_json(&exits, 53, &text); /* not cleared */
+    json = jox_json_begin(&text, 0);
+    jox_json_object(&json, NULL);
+    jox_exits_json(&exits, 53, &json); /* not cleared */
+    jox_json_end(&json);
     assert_non_null(strstr(text.data, "\"left\": 6, \"inside\": 53, \"last_left_s\": 12.5, "
                                       "\"clearance_s\": null"));
     jox_text_free(&text);

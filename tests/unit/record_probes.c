@@ -478,7 +478,8 @@ static void a_summary_is_json(void **state) {
     JoxProbeDef def = def_of(JOX_PROBE_TRANSIT, (const JoxV2[]){{0, 0}, {0, 1}, {1, 0}, {1, 1}}, 4);
     JoxProbe *p = jox_probe_create(&def);
     JoxText out = {0};
-    jox_probe_json(p, &out);
+    JoxJson json = jox_json_begin(&out, 0);
+    jox_probe_json(p, &json, NULL);
     assert_string_equal(out.data,
                         "{\"passages\": 0, \"under_way\": 0, \"mean\": null, \"median\": null, "
                         "\"p95\": null, \"least\": null, \"greatest\": null}");

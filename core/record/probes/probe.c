@@ -95,14 +95,12 @@ uint32_t jox_probe_passages(const JoxProbe *p) {
     return p->def.kind == JOX_PROBE_FLOW ? jox_flow_passages(p->state) : 0;
 }
 
-void jox_probe_json(const JoxProbe *p, JoxText *out) {
+void jox_probe_json(const JoxProbe *p, JoxJson *json, const char *key) {
     JoxFigures figures = jox_probe_figures(p);
-    jox_text_add(out, "{");
-    for (uint32_t f = 0; f < figures.count; f++) {
-        jox_text_printf(out, "%s\"%s\": ", f ? ", " : "", figures.items[f].name);
-        jox_text_json_number(out, figures.items[f].value);
-    }
-    jox_text_add(out, "}");
+    jox_json_object(json, key);
+    for (uint32_t f = 0; f < figures.count; f++)
+        jox_json_number(json, figures.items[f].name, figures.items[f].value);
+    jox_json_end(json);
 }
 
 void jox_probe_free(JoxProbe *p) {

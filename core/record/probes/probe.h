@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "base/json_writer.h"
 #include "base/text.h"
 #include "geom/walls.h"
 #include "record/frame.h"
@@ -34,7 +35,7 @@ JoxFigures jox_probe_figures(const JoxProbe *probe);
 /* Passages of a flow that stand so far; 0 of other kinds. */
 uint32_t jox_probe_passages(const JoxProbe *probe);
 /* Adds {"flow": 1.15, ...}. */
-void jox_probe_json(const JoxProbe *probe, JoxText *out);
+void jox_probe_json(const JoxProbe *probe, JoxJson *json, const char *key);
 /* Writes the table: a first line with names and units in brackets, then rows. */
 void jox_probe_csv(const JoxProbe *probe, FILE *out);
 /* Appends the gnuplot commands that draw NAME.csv, and gives the picture's size in pixels. With

@@ -5,7 +5,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "lua/vocabulary.h"
+#include "lua/language/vocabulary.h"
 
 static const char WORDS[] = "jostle words"; /* in the registry: what a file can name */
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "lua/internal.h"
+#include "lua/language/script.h"
 
 /* The text of a string value at a path, or "?". */
 static void value_at(const JoxSource *source, const char *path, char out[64]) {

@@ -6,7 +6,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "lua/internal.h"
+#include "lua/language/script.h"
 
 enum { MOST_LOOKS = 20000000, NOWHERE = -1 };
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "lua/vocabulary.h"
+#include "lua/language/vocabulary.h"
 
 static const char ME[] = "jostle me", VIEW[] = "jostle view";
 
@@ -156,29 +156,6 @@ static int push_neighbours(lua_State *L, JoxScript *script, uint32_t i) {
         lua_rawseti(L, -2, k + 1);
     }
     return 1;
-}
-
-void jox_lua_bracket(void *context, bool begins) {
-    JoxLua *lua = context;
-    JoxAgents *a = lua->mind->agents;
-    if (begins) {
-        JOX_RESERVE(lua->before_state, lua->before_capacity, a->count);
-        JOX_RESERVE(lua->before_memory, lua->before_memory_capacity,
-                    (size_t)a->count * a->memory_stride);
-        if (a->count)
-            memcpy(lua->before_state, a->state, a->count * sizeof *a->state);
-        if (a->count && a->memory_stride)
-            memcpy(lua->before_memory, a->memory,
-                   (size_t)a->count * a->memory_stride * sizeof *a->memory);
-        return;
-    }
-    for (uint32_t w = 0; w < lua->write_count; w++) {
-        const JoxWrite *write = &lua->writes[w];
-        uint32_t i = jox_agents_find(a, write->agent_id);
-        if (i != JOX_NO_INDEX)
-            a->memory[(size_t)i * a->memory_stride + write->slot] = write->value;
-    }
-    lua->write_count = 0;
 }
 
 /* ---- me ---- */

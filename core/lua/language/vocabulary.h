@@ -4,7 +4,7 @@
 #ifndef JOX_LUA_VOCABULARY_H
 #define JOX_LUA_VOCABULARY_H
 
-#include "lua/internal.h"
+#include "lua/language/script.h"
 
 /* What a word's arguments are, a letter each: p place, t target (a place by name, or a target
    value), n number (expression), d plain number, g tag, s name. '?' before a letter: may be left

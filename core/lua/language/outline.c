@@ -4,7 +4,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "lua/internal.h"
+#include "lua/language/script.h"
 
 /* Deeper or shallower by what a token opens or closes. */
 static int depth_change(const JoxToken *t) {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "lua/internal.h"
+#include "lua/language/script.h"
 
 /* Why a name of Lua's own libraries is missing; NULL for any other. */
 static const char *absent(const char *name) {

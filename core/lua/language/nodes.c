@@ -4,7 +4,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "lua/internal.h"
+#include "lua/language/script.h"
 
 static const char TYPE[] = "jostle value";
 

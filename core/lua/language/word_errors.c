@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "base/assert.h"
-#include "lua/internal.h"
+#include "lua/language/script.h"
 
 JoxPosition jox_word_position(lua_State *L, const char *word) {
     JoxScript *script = jox_script_of(L);

@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 
 #include "base/overlay.h"
-#include "lua/internal.h"
+#include "lua/language/script.h"
 
 enum { MOST_FILES = 64 };
 

@@ -6,7 +6,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "lua/vocabulary.h"
+#include "lua/language/vocabulary.h"
 
 /* orbit(place [, { inward, density_near, density_far, far, beyond }]) */
 static int make_orbit(lua_State *L) {

@@ -4,7 +4,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "lua/internal.h"
+#include "lua/language/script.h"
 
 static JoxNode *binary(lua_State *L, JoxNodeKind kind, int op, JoxNode *a, JoxNode *b) {
     JoxNode *node = jox_node_push(L, kind);

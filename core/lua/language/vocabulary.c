@@ -1,4 +1,4 @@
-#include "lua/vocabulary.h"
+#include "lua/language/vocabulary.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Scripts: a Lua state with the language of behaviours in it, and the owner of all of a run. */
+#include "lua/language/script.h"
 #include "base/assert.h"
 #include "base/mem.h"
-#include "lua/internal.h"
 
 static int open_language(lua_State *L) {
     jox_nodes_open(L, jox_operators);
@@ -67,10 +67,6 @@ void jox_lua_free(JoxLua *lua) {
     jox_free(lua);
 }
 
-const char *jox_lua_stalled(const JoxLua *lua) {
-    return lua->group.stalled[0] ? lua->group.stalled : NULL;
-}
-
 JoxScript *jox_script_detach(JoxLua *lua, const JoxMachine *machine) {
     if (!machine || machine->vm < 0 || (uint32_t)machine->vm >= lua->script_count)
         return NULL;
@@ -79,17 +75,7 @@ JoxScript *jox_script_detach(JoxLua *lua, const JoxMachine *machine) {
     return script;
 }
 
-void jox_lua_release(JoxLua *lua, const JoxMachine *machine) {
-    jox_script_free(jox_script_detach(lua, machine));
-}
-
 const JoxScript *jox_lua_script(const JoxLua *lua, const JoxMachine *machine) {
     JOX_ASSERT(machine->vm < (int32_t)lua->script_count);
     return machine->vm >= 0 ? lua->scripts[machine->vm] : NULL;
-}
-
-const JoxLuaFile *jox_lua_files(const JoxLua *lua, const JoxMachine *machine, uint32_t *count) {
-    const JoxScript *script = jox_lua_script(lua, machine);
-    *count = script ? script->vm.file_count : 0;
-    return script ? script->vm.files : NULL;
 }

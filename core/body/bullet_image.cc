@@ -1,0 +1,282 @@
+/* Bodies out of Bullet's world and into it again: the re-insertion at fixed steps, the image of all
+   that their future depends on, and the way back. */
+#include "body/bullet.h"
+
+#include <string.h>
+
+/* ---- re-insertion ---- */
+
+/* In one pass; as each object is removed Bullet would search all pairs for its own. */
+static void remove_pairs(JoxBodies *b) {
+    btOverlappingPairCache *pairs = b->broadphase->getOverlappingPairCache();
+    for (int n = pairs->getNumOverlappingPairs(); n > 0; n = pairs->getNumOverlappingPairs()) {
+        const btBroadphasePair &last = pairs->getOverlappingPairArray()[n - 1];
+        pairs->removeOverlappingPair(last.m_pProxy0, last.m_pProxy1, b->dispatcher);
+    }
+}
+
+void jox_bodies_reinsert(JoxBodies *b) {
+    if (!b->world)
+        return;
+    remove_pairs(b);
+    for (uint32_t k = b->live; k > 0; k--)
+        b->world->removeRigidBody(b->rows[b->order[k - 1]].body);
+    for (uint32_t n = b->wall_count; n > 0; n--)
+        b->world->removeRigidBody(b->walls[n - 1]);
+    if (b->ground)
+        b->world->removeRigidBody(b->ground);
+    b->broadphase->resetPool(b->dispatcher);
+    b->solver->reset();
+    if (b->ground)
+        b->world->addRigidBody(b->ground);
+    for (uint32_t n = 0; n < b->wall_count; n++)
+        b->world->addRigidBody(b->walls[n]);
+    for (uint32_t k = 0; k < b->live; k++) {
+        JoxRow *r = &b->rows[b->order[k]];
+        b->world->addRigidBody(r->body);
+        r->cold = r->shape.mass > 0;
+    }
+}
+
+/* ---- out ---- */
+
+static float *put_vector(float *to, const btVector3 &v) {
+    for (int i = 0; i < 3; i++)
+        *to++ = v[i];
+    return to;
+}
+
+static float *put_transform(float *to, const btTransform &t) {
+    for (int i = 0; i < 3; i++)
+        to = put_vector(to, t.getBasis()[i]);
+    return put_vector(to, t.getOrigin());
+}
+
+static void put_motion(JoxBodyRecord *record, const btRigidBody *body) {
+    float *to = put_transform(record->motion, body->getWorldTransform());
+    to = put_transform(to, body->getInterpolationWorldTransform());
+    to = put_vector(to, body->getLinearVelocity());
+    to = put_vector(to, body->getAngularVelocity());
+    to = put_vector(to, body->getInterpolationLinearVelocity());
+    put_vector(to, body->getInterpolationAngularVelocity());
+    record->activation = uint32_t(body->getActivationState());
+    record->deactivation_time = body->getDeactivationTime();
+}
+
+static void put_shape(JoxBodiesImage *image, JoxBodyRecord *record, const JoxBodyShape &shape) {
+    const uint32_t parts = shape.part_count, points = shape.source_point_count;
+    record->still = shape.still;
+    record->part_count = parts;
+    jox_reserve(image->parts, image->part_capacity, image->part_count + parts);
+    memcpy(image->parts + image->part_count, shape.source, parts * sizeof *image->parts);
+    image->part_count += parts;
+    jox_reserve(image->points, image->point_capacity, image->point_count + points);
+    if (points)
+        memcpy(image->points + image->point_count, shape.source_points, points * sizeof(double));
+    image->point_count += points;
+}
+
+static void put_row(JoxBodiesImage *image, uint32_t row, const JoxRow *r) {
+    jox_reserve(image->bodies, image->body_capacity, image->body_count + 1);
+    JoxBodyRecord *record = &image->bodies[image->body_count++];
+    *record = JoxBodyRecord();
+    record->row = row;
+    record->id = r->id;
+    record->tags[0] = uint32_t(r->tags);
+    record->tags[1] = uint32_t(r->tags >> 32);
+    record->held = r->held;
+    record->holder = r->held ? r->holder : 0;
+    record->grounded = r->grounded;
+    record->swept = r->swept;
+    const float material[4] = {r->material.friction, r->material.restitution, r->material.damping,
+                               r->material.spin_damping};
+    memcpy(record->material, material, sizeof material);
+    put_vector(record->force, jox_bt(r->force));
+    put_motion(record, r->body);
+    put_shape(image, record, r->shape);
+    if (r->bonds)
+        jox_bodies_image_add_bonds(image, record, r->bonds);
+    record->name_length = r->name ? uint32_t(strlen(r->name)) : 0;
+    jox_reserve(image->names, image->name_capacity, image->name_count + record->name_length);
+    if (record->name_length)
+        memcpy(image->names + image->name_count, r->name, record->name_length);
+    image->name_count += record->name_length;
+}
+
+void jox_bodies_capture(const JoxBodies *b, JoxBodiesImage *image) {
+    image->body_count = image->part_count = image->point_count = 0;
+    image->name_count = image->block_count = image->bond_count = 0;
+    image->counters = {b->next_id, b->count, 0, b->last_dt};
+    for (uint32_t k = 0; k < b->live; k++)
+        put_row(image, b->order[k], &b->rows[b->order[k]]);
+}
+
+/* ---- back ---- */
+
+static const float *take_vector(const float *from, btVector3 *v) {
+    *v = btVector3(from[0], from[1], from[2]);
+    return from + 3;
+}
+
+static const float *take_transform(const float *from, btTransform *t) {
+    btVector3 rows[3], origin;
+    for (btVector3 &row : rows)
+        from = take_vector(from, &row);
+    from = take_vector(from, &origin);
+    *t = btTransform(btMatrix3x3(rows[0][0], rows[0][1], rows[0][2], rows[1][0], rows[1][1],
+                                 rows[1][2], rows[2][0], rows[2][1], rows[2][2]),
+                     origin);
+    return from;
+}
+
+static void take_motion(const JoxBodyRecord *record, btRigidBody *body) {
+    btTransform world, interpolated;
+    btVector3 v[4];
+    const float *from = take_transform(record->motion, &world);
+    from = take_transform(from, &interpolated);
+    for (btVector3 &one : v)
+        from = take_vector(from, &one);
+    body->setWorldTransform(world);
+    body->updateInertiaTensor();
+    body->setLinearVelocity(v[0]);
+    body->setAngularVelocity(v[1]);
+    body->setInterpolationWorldTransform(interpolated);
+    body->setInterpolationLinearVelocity(v[2]);
+    body->setInterpolationAngularVelocity(v[3]);
+    body->forceActivationState(int(record->activation));
+    body->setDeactivationTime(record->deactivation_time);
+}
+
+/* The shape of a record whose parts and points begin at these indices. */
+static bool take_shape(const JoxBodiesImage *image, const JoxBodyRecord *record,
+                       uint32_t first_part, uint32_t first_point, JoxBodyShape *out) {
+    JoxBodyPart *parts =
+        static_cast<JoxBodyPart *>(jox_alloc(record->part_count, sizeof(JoxBodyPart)));
+    for (uint32_t p = 0; p < record->part_count; p++) {
+        const JoxBodyPartRecord *from = &image->parts[first_part + p];
+        parts[p].shape.kind = JoxShapeKind(from->kind);
+        parts[p].shape.points = image->points + first_point;
+        parts[p].shape.point_count = from->point_count;
+        memcpy(parts[p].shape.size, from->size, sizeof from->size);
+        memcpy(parts[p].position, from->position, sizeof from->position);
+        memcpy(parts[p].turn, from->turn, sizeof from->turn);
+        parts[p].mass = from->mass;
+        parts[p].density = from->density;
+        first_point += 3 * from->point_count;
+    }
+    JoxBodyDef def = jox_body_def();
+    def.shape.kind = JOX_SHAPE_COMPOUND;
+    def.shape.parts = parts;
+    def.shape.part_count = record->part_count;
+    bool made = jox_body_shape_make(&def, record->still != 0, out, nullptr);
+    jox_free(parts);
+    return made;
+}
+
+/* Where the next body's parts, points, names, blocks and bonds begin. */
+struct Cursor {
+    uint32_t part, point, name, block, bond;
+};
+
+static void advance(Cursor *at, const JoxBodiesImage *image, const JoxBodyRecord *record) {
+    for (uint32_t p = 0; p < record->part_count; p++)
+        at->point += 3 * image->parts[at->part + p].point_count;
+    at->part += record->part_count;
+    at->name += record->name_length;
+    at->block += record->block_count;
+    at->bond += record->bond_count;
+}
+
+static void take_row(JoxBodies *b, const JoxBodiesImage *image, const JoxBodyRecord *record,
+                     const Cursor &at, const JoxBodyShape &shape) {
+    JoxRow *r = &b->rows[record->row];
+    r->live = true;
+    r->id = record->id;
+    r->tags = uint64_t(record->tags[1]) << 32 | record->tags[0];
+    r->shape = shape;
+    r->grounded = record->grounded != 0;
+    r->swept = record->swept != 0;
+    r->force = JoxV3{record->force[0], record->force[1], record->force[2]};
+    if (record->name_length)
+        r->name = jox_strndup(image->names + at.name, record->name_length);
+    if (record->block_count) {
+        r->bonds = jox_bodies_image_bonds(image, record, at.block, at.bond);
+        b->bonded++;
+    }
+    const float *m = record->material;
+    jox_row_create_body(b, record->row, btTransform::getIdentity(),
+                        JoxMaterial{m[0], m[1], m[2], m[3]});
+    take_motion(record, r->body);
+    b->order[b->live++] = record->row;
+    if (record->held)
+        jox_bodies_hold(b, record->row, record->holder);
+}
+
+/* All shapes first: nothing has changed where one is refused. */
+static JoxBodyShape *take_shapes(const JoxBodiesImage *image) {
+    JoxBodyShape *shapes =
+        static_cast<JoxBodyShape *>(jox_alloc(size_t(image->body_count) + 1, sizeof(JoxBodyShape)));
+    Cursor at = {};
+    for (uint32_t n = 0; n < image->body_count; n++) {
+        const JoxBodyRecord *record = &image->bodies[n];
+        if (!take_shape(image, record, at.part, at.point, &shapes[n])) {
+            for (uint32_t made = 0; made < n; made++)
+                jox_body_shape_free(&shapes[made]);
+            jox_free(shapes);
+            return nullptr;
+        }
+        advance(&at, image, record);
+    }
+    return shapes;
+}
+
+bool jox_bodies_rebuild(JoxBodies *b, const JoxBodiesImage *image, JoxText *error) {
+    if (!jox_bodies_image_check(image, error))
+        return false;
+    JoxBodyShape *shapes = take_shapes(image);
+    if (!shapes) {
+        if (error)
+            jox_text_add(error, "a body's shape in the saved state makes no sense");
+        return false;
+    }
+    while (b->live)
+        jox_bodies_drop(b, b->order[b->live - 1]);
+    if (image->body_count)
+        jox_bodies_ensure(b);
+    b->next_id = image->counters.next_id;
+    b->last_dt = image->counters.last_dt;
+    b->count = image->counters.row_count;
+    jox_reserve(b->rows, b->capacity, b->count);
+    for (uint32_t row = 0; row < b->count; row++)
+        b->rows[row] = JoxRow();
+    jox_reserve(b->order, b->order_capacity, image->body_count);
+    Cursor at = {};
+    for (uint32_t n = 0; n < image->body_count; n++) {
+        take_row(b, image, &image->bodies[n], at, shapes[n]);
+        advance(&at, image, &image->bodies[n]);
+    }
+    jox_free(shapes);
+    jox_bodies_reinsert(b);
+    return true;
+}
+
+/* ---- sections ---- */
+
+void jox_bodies_sections(JoxBodies *b, JoxSections *s) {
+    if (b->visited) {
+        jox_bodies_image_sections(b->visited, s);
+        return;
+    }
+    JoxBodiesImage image = JoxBodiesImage();
+    if (s->mode != JOX_SECTIONS_RESTORE)
+        jox_bodies_capture(b, &image);
+    if (s->mode == JOX_SECTIONS_VISIT)
+        b->visited = &image;
+    jox_bodies_image_sections(&image, s);
+    b->visited = nullptr;
+    JoxText wrong = {};
+    if (s->mode == JOX_SECTIONS_RESTORE && !s->failed && !jox_bodies_rebuild(b, &image, &wrong))
+        jox_sections_fail(s, "bodies", wrong.data);
+    jox_text_free(&wrong);
+    jox_bodies_image_free(&image);
+}

@@ -1,0 +1,88 @@
+/* All that the future of bodies depends on, as flat arrays of plain cells without padding: what is
+   hashed, saved and compared. Bullet's objects are captured into an image and rebuilt from one
+   (bullet_image.cc). Rows of dead bodies, walls and the ground are not in it. */
+#ifndef JOX_BODY_IMAGE_H
+#define JOX_BODY_IMAGE_H
+
+#include "base/sections.h"
+#include "base/text.h"
+#include "body/body.h"
+#include "body/bonds.h"
+
+enum { JOX_BODY_MOTION = 36 };
+
+/* One live body. What it has of names, parts, blocks and bonds follows in the arrays of these in
+   the order of the bodies. */
+typedef struct JoxBodyRecord {
+    uint32_t row, id;
+    uint32_t tags[2]; /* low and high half */
+    uint32_t still;   /* static */
+    uint32_t held, holder;
+    uint32_t grounded, swept;
+    uint32_t activation;     /* Bullet's state of sleep */
+    float deactivation_time; /* s */
+    float material[4];       /* friction, restitution, damping, spin damping */
+    float force[3];          /* pending for the next step, N */
+    /* Of the centre of mass: transform (basis by rows, origin), the same interpolated, velocity,
+       spin, and both interpolated. */
+    float motion[JOX_BODY_MOTION];
+    uint32_t name_length, part_count;
+    uint32_t block_count, bond_count; /* 0: it cannot come apart */
+    uint32_t low[3], range[3];        /* the rest as of JoxBondGraph */
+    double block_size[3], origin[3], block_mass, peak_load;
+} JoxBodyRecord;
+
+typedef struct JoxBodyPartRecord {
+    uint32_t kind, point_count; /* JoxShapeKind; points of a hull */
+    double size[3], position[3], turn[4], mass, density;
+} JoxBodyPartRecord;
+
+typedef struct JoxBlockRecord {
+    uint32_t cell[3], reserved;
+    double impulse[3], load[3], displacement[3];
+} JoxBlockRecord;
+
+typedef struct JoxBondRecord {
+    uint32_t a, b, axis, reserved;
+    double strength;
+} JoxBondRecord;
+
+/* Zero-initialised is empty; the arrays are owned. */
+typedef struct JoxBodiesImage {
+    struct {
+        uint32_t next_id, row_count, reserved;
+        float last_dt; /* s */
+    } counters;
+    JoxBodyRecord *bodies; /* ascending by id */
+    uint32_t body_count, body_capacity;
+    JoxBodyPartRecord *parts;
+    uint32_t part_count, part_capacity;
+    double *points; /* three numbers each */
+    uint32_t point_count, point_capacity;
+    char *names; /* without their ends */
+    uint32_t name_count, name_capacity;
+    JoxBlockRecord *blocks;
+    uint32_t block_count, block_capacity;
+    JoxBondRecord *bonds;
+    uint32_t bond_count, bond_capacity;
+} JoxBodiesImage;
+
+void jox_bodies_image_free(JoxBodiesImage *image);
+/* Lists the arrays as sections of the module "bodies". */
+void jox_bodies_image_sections(JoxBodiesImage *image, JoxSections *sections);
+/* Whether an image can be rebuilt: it may come from a file that somebody changed. False with a
+   sentence in `error`. */
+bool jox_bodies_image_check(const JoxBodiesImage *image, JoxText *error);
+/* Writes all there is to an image, in place of what it held. */
+void jox_bodies_capture(const JoxBodies *bodies, JoxBodiesImage *image);
+/* Makes the bodies those of the image, whatever there were before; walls stay. False, and nothing
+   changed, with a sentence in `error` (which may be NULL) where the image makes no sense. */
+bool jox_bodies_rebuild(JoxBodies *bodies, const JoxBodiesImage *image, JoxText *error);
+/* Appends a graph's blocks and bonds, and writes its numbers to the record. */
+void jox_bodies_image_add_bonds(JoxBodiesImage *image, JoxBodyRecord *record,
+                                const JoxBondGraph *graph);
+/* The graph of a record whose blocks and bonds begin at these indices. */
+JoxBondGraph *jox_bodies_image_bonds(const JoxBodiesImage *image, const JoxBodyRecord *record,
+                                     uint32_t first_block, uint32_t first_bond);
+
+#endif

@@ -1,0 +1,190 @@
+#include "scene/mods_on.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/hash.h"
+#include "base/mem.h"
+
+enum { HASH = 64, MOST_FILES = 1024, LARGEST_FILE = 16 << 20, DEEPEST = 8, LARGEST_LIST = 1 << 20 };
+
+/* ---- the hash ---- */
+
+typedef struct Content {
+    JoxText list, *error; /* a line for each file: its hash and its path within the mod */
+    uint32_t files;
+} Content;
+
+static int by_name(const struct dirent **a, const struct dirent **b) {
+    return strcmp((*a)->d_name, (*b)->d_name);
+}
+
+static bool add_file(Content *c, const char *path, size_t root) {
+    char hash[HASH + 1];
+    size_t length;
+    char *data = ++c->files <= MOST_FILES ? jox_read_file(path, LARGEST_FILE, &length) : NULL;
+    if (!data) {
+        jox_text_printf(c->error, "'%s' cannot be read, or there is too much", path);
+        return false;
+    }
+    jox_sha256_hex(data, length, hash);
+    jox_text_printf(&c->list, "%s %zu %s\n", hash, strlen(path + root), path + root);
+    jox_free(data);
+    return true;
+}
+
+/* Adds the files of a folder, of whose path the first `root` bytes are the mod's. */
+static bool add_folder(Content *c, const char *folder, size_t root, int depth) {
+    struct dirent **entries;
+    int count = depth <= DEEPEST ? scandir(folder, &entries, NULL, by_name) : -1;
+    bool good = count >= 0;
+    if (!good)
+        jox_text_printf(c->error, "'%s' cannot be read, or lies too deep", folder);
+    for (int e = 0; e < count; e++) {
+        const char *name = entries[e]->d_name;
+        JoxText path = {0};
+        struct stat info;
+        jox_text_printf(&path, "%s/%s", folder, name);
+        bool skip = strcmp(name, ".") == 0 || strcmp(name, "..") == 0 || !good;
+        if (!skip && lstat(path.data, &info) == 0 && S_ISDIR(info.st_mode)) {
+            /* No file of a hidden folder is ever read: those are of version control. */
+            good = name[0] == '.' || add_folder(c, path.data, root, depth + 1);
+        } else if (!skip && lstat(path.data, &info) == 0 && S_ISREG(info.st_mode)) {
+            good = add_file(c, path.data, root);
+        } else if (!skip) {
+            jox_text_printf(c->error, "'%s' is no plain file", path.data);
+            good = false;
+        }
+        jox_text_free(&path);
+        free(entries[e]);
+    }
+    if (count >= 0)
+        free(entries);
+    return good;
+}
+
+bool jox_mods_on_hash(const char *folder, char out[65], JoxText *error) {
+    Content content = {.error = error};
+    bool good = add_folder(&content, folder, strlen(folder), 0);
+    if (good)
+        jox_sha256_hex(content.list.data ? content.list.data : "", content.list.length, out);
+    jox_text_free(&content.list);
+    return good;
+}
+
+/* ---- the list ---- */
+
+/* jostle/mods-on, or its folder alone; "" where the user has no home. */
+static void place_of(bool file, char *out, size_t size) {
+    const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
+    const char *end = file ? "/mods-on" : "";
+    *out = 0;
+    if (config && *config == '/') /* others are to be ignored, says the specification */
+        snprintf(out, size, "%.900s/jostle%s", config, end);
+    else if (home && *home)
+        snprintf(out, size, "%.900s/.config/jostle%s", home, end);
+}
+
+char *jox_mods_on_read(void) {
+    char path[1024];
+    size_t length;
+    place_of(true, path, sizeof path);
+    return *path ? jox_read_file(path, LARGEST_LIST, &length) : NULL;
+}
+
+/* A line of the list: HASH NAME FOLDER. */
+typedef struct Line {
+    const char *hash, *name, *folder;
+    size_t name_length, folder_length;
+} Line;
+
+/* Reads the next line that is one; false behind the last. */
+static bool next_line(const char **at, Line *line) {
+    while (*at && **at) {
+        const char *begin = *at, *end = begin + strcspn(begin, "\n");
+        *at = *end ? end + 1 : end;
+        if (end - begin < HASH + 4 || begin[HASH] != ' ')
+            continue;
+        const char *name = begin + HASH + 1, *space = memchr(name, ' ', (size_t)(end - name));
+        if (!space)
+            continue;
+        *line = (Line){begin, name, space + 1, (size_t)(space - name), (size_t)(end - space - 1)};
+        return true;
+    }
+    return false;
+}
+
+static bool is(const char *text, size_t length, const char *wanted) {
+    return length == strlen(wanted) && memcmp(text, wanted, length) == 0;
+}
+
+JoxModSwitch jox_mods_on_look(const char *list, const char *name, const char *folder) {
+    char hash[HASH + 1] = "", *real = realpath(folder, NULL);
+    JoxModSwitch found = JOX_MOD_OFF;
+    JoxText ignored = {0};
+    Line line;
+    for (const char *at = list; found != JOX_MOD_ON && next_line(&at, &line);) {
+        if (!is(line.name, line.name_length, name))
+            continue;
+        if (!*hash && !jox_mods_on_hash(folder, hash, &ignored))
+            hash[0] = '-'; /* like no other */
+        if (is(line.hash, HASH, hash))
+            found = JOX_MOD_ON;
+        else if (real && is(line.folder, line.folder_length, real))
+            found = JOX_MOD_CHANGED;
+    }
+    jox_text_free(&ignored);
+    free(real);
+    return found;
+}
+
+/* Writes the list anew, whole or not at all. */
+static bool write_list(const JoxText *list, JoxText *error) {
+    char path[1024], beside[1040], folder[1024];
+    place_of(true, path, sizeof path);
+    place_of(false, folder, sizeof folder);
+    if (!*path) {
+        jox_text_add(error, "there is no configuration of the user: HOME is not set");
+        return false;
+    }
+    char *slash = strrchr(folder, '/');
+    *slash = 0;
+    mkdir(folder, 0700); /* what fails here fails below */
+    *slash = '/';
+    mkdir(folder, 0700);
+    snprintf(beside, sizeof beside, "%s.new", path);
+    FILE *file = fopen(beside, "w");
+    bool good = file && fwrite(list->data ? list->data : "", 1, list->length, file) == list->length;
+    good = file && fclose(file) == 0 && good && rename(beside, path) == 0;
+    if (!good)
+        jox_text_printf(error, "cannot write '%s': %s", path, strerror(errno));
+    return good;
+}
+
+bool jox_mods_on_set(const char *name, const char *folder, bool on, JoxText *error) {
+    char hash[HASH + 1] = "", *list = jox_mods_on_read(), *real = realpath(folder, NULL);
+    JoxText out = {0};
+    Line line;
+    bool good = real && !strchr(real, '\n') && jox_mods_on_hash(folder, hash, error);
+    if (!real || strchr(real, '\n'))
+        jox_text_printf(error, "'%s' is no folder", folder);
+    good |= !on && real; /* what cannot be read can be turned off */
+    for (const char *at = list; good && next_line(&at, &line);) {
+        bool same = is(line.name, line.name_length, name) &&
+                    (is(line.hash, HASH, hash) || is(line.folder, line.folder_length, real));
+        if (!same) /* others stay as they are */
+            jox_text_printf(&out, "%.*s\n", (int)(line.folder + line.folder_length - line.hash),
+                            line.hash);
+    }
+    if (good && on)
+        jox_text_printf(&out, "%s %s %s\n", hash, name, real);
+    good = good && write_list(&out, error);
+    jox_text_free(&out);
+    jox_free(list);
+    free(real);
+    return good;
+}
