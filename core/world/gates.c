@@ -54,13 +54,13 @@ static void raise(JoWorld *world) {
     jox_bodies_set_walls(world->bodies, &world->walls, JOX_WALL_HEIGHT);
 }
 
-JoxSettled jox_world_settle(JoWorld *world) {
-    JoxSettled settled = {0};
+JoxPlacement jox_world_resolve_placement(JoWorld *world) {
+    JoxPlacement settled = {0};
     raise(world);
     if (world->settled && !world->walls_came)
         return settled;
     uint32_t first = world->settled ? world->agents.next_id : world->first_unsettled;
-    settled = jox_nav_settle(world->nav, &world->agents, first, world->walls_came);
+    settled = jox_nav_resolve_placement(world->nav, &world->agents, first, world->walls_came);
     world->statistics.moved_out += settled.moved;
     world->settled = true;
     world->walls_came = false;

@@ -90,10 +90,10 @@ void jox_inspect_solved(JoWorld *w) {
         if (i == JOX_NO_INDEX)
             continue;
         seen->plane_count =
-            jox_nav_planes(w->nav, a, &w->neighbours, &w->objects, w->plan, i, seen->planes);
+            jox_nav_constraints(w->nav, a, &w->neighbours, &w->objects, w->plan, i, seen->planes);
         seen->preferred = (JoxV2){a->pref_x[i], a->pref_y[i]};
         seen->chosen = (JoxV2){a->next_x[i], a->next_y[i]};
-        seen->most = a->disc[i];
+        seen->speed_limit = a->speed_limit[i];
         seen->failed = a->failed[i];
         seen->seen = true;
     }
