@@ -361,7 +361,7 @@ static void extremes_stay_finite(void **state) {
     }
     for (int i = 0; i < 20; i++) {
         assert_true(isfinite(c.agents.force_x[i]) && isfinite(c.agents.half_plane_offset[i]));
-        assert_true(isfinite(c.agents.inferred_x[i]) && isfinite(c.agents.disc[i]));
+        assert_true(isfinite(c.agents.inferred_x[i]) && isfinite(c.agents.speed_limit[i]));
     }
     close_crowd(&c);
 }
