@@ -1,5 +1,6 @@
 /* Lists that the stages of force hand on: forces between agents, and impulses on bodies. */
 #include "base/mem.h"
+#include "base/sort.h"
 #include "force/internal.h"
 
 void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t size) {
@@ -94,33 +95,22 @@ void jox_force_add_impulse(JoxForces *f, uint32_t agent_id, uint32_t object, Jox
                            JoxV3 point) {
     JOX_RESERVE(f->pending, f->pending_capacity, (size_t)f->pending_count + 1);
     uint64_t key = (uint64_t)agent_id << 32 | object;
-    f->pending[f->pending_count] =
-        (JoxPendingImpulse){key, f->pending_count, {object, impulse, point}};
+    f->pending[f->pending_count] = (JoxPendingImpulse){key, {object, impulse, point}};
     f->pending_count++;
 }
 
-static bool later(const JoxPendingImpulse *a, const JoxPendingImpulse *b) {
-    return a->key != b->key ? a->key > b->key : a->turn > b->turn;
-}
-
-/* Shell's sort: in place, and never of equals, so that there is one order. */
-static void sort_pending(JoxPendingImpulse *pending, uint32_t count) {
-    static const uint32_t gaps[] = {88573, 29524, 9841, 3280, 1093, 364, 121, 40, 13, 4, 1};
-    for (size_t g = 0; g < sizeof gaps / sizeof *gaps; g++) {
-        uint32_t gap = gaps[g];
-        for (uint32_t i = gap; i < count; i++) {
-            JoxPendingImpulse moved = pending[i];
-            uint32_t j = i;
-            for (; j >= gap && later(&pending[j - gap], &moved); j -= gap)
-                pending[j] = pending[j - gap];
-            pending[j] = moved;
-        }
-    }
+static int by_key(const void *a, const void *b, const void *context) {
+    const JoxPendingImpulse *x = a, *y = b;
+    (void)context;
+    return (x->key > y->key) - (x->key < y->key);
 }
 
 const JoxImpulse *jox_force_impulses(JoxForces *f, uint32_t *count) {
     if (f->pending_sorted != f->pending_count) {
-        sort_pending(f->pending, f->pending_count);
+        JOX_RESERVE(f->pending, f->pending_capacity,
+                    f->pending_count + JOX_SORT_SPARE(f->pending_count));
+        jox_sort(f->pending, f->pending_count, sizeof *f->pending, by_key, NULL,
+                 f->pending + f->pending_count);
         JOX_RESERVE(f->impulses, f->impulse_capacity, f->pending_count);
         for (uint32_t i = 0; i < f->pending_count; i++)
             f->impulses[i] = f->pending[i].impulse;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 #include "lua/language/vocabulary.h"
 #include "lua/loader.h"
 #include "lua/read.h"
@@ -46,10 +47,6 @@ static bool is_none(lua_State *L, int index) {
     return node && node->kind == JOX_NODE_NONE;
 }
 
-static int by_text(const void *a, const void *b) {
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
-}
-
 /* Pushes the string keys of the table at `index`, sorted, as a list; returns how many. Other keys
    are an error, but for a list's where there may be `items`. */
 static lua_Integer push_keys(const Patch *p, int index, const char *from, bool items) {
@@ -69,7 +66,7 @@ static lua_Integer push_keys(const Patch *p, int index, const char *from, bool i
     if (odd)
         fail(p, from, "bad-key", "Example: states = { Walk = { push = 5 } }",
              "this table of a patch takes names as keys%s", "");
-    qsort(keys, count, sizeof *keys, by_text);
+    jox_sort_texts(keys, count);
     lua_createtable(L, (int)count, 0);
     for (size_t k = 0; k < count; k++) {
         lua_pushstring(L, keys[k]);
