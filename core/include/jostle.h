@@ -5,7 +5,11 @@
  * Plain C17, clean in C++. One world must not be used from two threads at once; different worlds
  * may. Misuse (a null or stale handle, a field out of range in a Def made by hand) is reported
  * through the assertion handler and answered with a null handle, zero or false; bad files and
- * values give a JoError. The library never exits.
+ * values give a JoError. The library never exits and installs no signal handlers.
+ *
+ * Where memory is out, a call returns its error (JO_FAILED, "out of memory") or NULL, false or 0.
+ * The world or scene that it was changing has then failed: later calls answer the same way,
+ * jo_world_failure says why, and freeing it releases all that it held. Other worlds go on.
  */
 #ifndef JOSTLE_H
 #define JOSTLE_H
@@ -106,7 +110,7 @@ typedef struct JoAgentState {
     double x, y;        /* m */
     double vx, vy;      /* m/s */
     double fx, fy;      /* net force of the last step, N */
-    double compression; /* N per metre of girth */
+    double compression; /* N per metre of circumference */
     double radius;      /* m */
     const char *state;  /* of its machine; "" without one; valid until the next call on the world */
 } JoAgentState;

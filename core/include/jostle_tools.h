@@ -140,15 +140,16 @@ typedef struct JoReproduceDef {
     const char *folder;        /* of claim files */
     const char *const *claims; /* ids, or names of files; none: all */
     size_t claim_count;
-    const char *out;     /* folder for runs, pictures and the page */
-    const char *program; /* path of the command `jostle`, which runs the scenes */
-    uint32_t jobs;       /* processes at once */
-    uint32_t seeds;      /* per run that has several; 0: as the claim says */
-    bool quick;          /* the smaller runs of each claim */
-    bool fresh;          /* runs that are there already are done again */
-    bool list;           /* names the claims, runs nothing */
-    bool quiet;          /* no progress on stderr */
-    JoMessage *message;  /* NULL: to stdout */
+    const char *out;          /* folder for runs, pictures and the page */
+    const char *program;      /* path of the command `jostle`, which runs the scenes */
+    uint32_t jobs;            /* processes at once */
+    uint32_t seeds;           /* per run that has several; 0: as the claim says */
+    bool quick;               /* the smaller runs of each claim */
+    bool fresh;               /* runs that are there already are done again */
+    bool list;                /* names the claims, runs nothing */
+    bool quiet;               /* no progress on stderr */
+    const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
+    JoMessage *message;       /* NULL: to stdout */
     void *message_context;
 } JoReproduceDef;
 JO_API JoReproduceDef jo_default_reproduce_def(void);
