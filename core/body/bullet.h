@@ -13,6 +13,7 @@
 
 extern "C" {
 #include "base/mem.h"
+#include "base/sort.h"
 #include "body/body.h"
 #include "body/bonds.h"
 #include "body/footprint.h"
@@ -80,7 +81,6 @@ struct JoxRow {
 /* A contact of a bonded body; `key` orders them by body, then by what it touches. */
 struct JoxContactLoad {
     uint64_t key;
-    uint32_t number; /* in which they were found */
     uint32_t block;
     btVector3 point, impulse, normal;
 };

@@ -39,10 +39,10 @@ typedef struct JoxEnd {
     uint32_t pair;
 } JoxEnd;
 
-/* An impulse on a body with the key that sorts it: agent id, then row, then when it was given. */
+/* An impulse on a body with the key that sorts it: agent id, then row. Those of one key stay in the
+   order in which they were given. */
 typedef struct JoxOwed {
     uint64_t key;
-    uint32_t turn;
     JoxImpulse impulse;
 } JoxOwed;
 

@@ -1,5 +1,6 @@
 /* Lists that the stages of force hand on: forces between agents, and impulses on bodies. */
 #include "base/mem.h"
+#include "base/sort.h"
 #include "force/internal.h"
 
 void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t size) {
@@ -93,32 +94,20 @@ void jox_transfers_sum(JoxForces *f, float *x, float *y, float *squeeze) {
 void jox_force_owe(JoxForces *f, uint32_t agent_id, uint32_t object, JoxV3 impulse, JoxV3 point) {
     JOX_RESERVE(f->owed, f->owed_capacity, (size_t)f->owed_count + 1);
     uint64_t key = (uint64_t)agent_id << 32 | object;
-    f->owed[f->owed_count] = (JoxOwed){key, f->owed_count, {object, impulse, point}};
+    f->owed[f->owed_count] = (JoxOwed){key, {object, impulse, point}};
     f->owed_count++;
 }
 
-static bool later(const JoxOwed *a, const JoxOwed *b) {
-    return a->key != b->key ? a->key > b->key : a->turn > b->turn;
-}
-
-/* Shell's sort: in place, and never of equals, so that there is one order. */
-static void sort_owed(JoxOwed *owed, uint32_t count) {
-    static const uint32_t gaps[] = {88573, 29524, 9841, 3280, 1093, 364, 121, 40, 13, 4, 1};
-    for (size_t g = 0; g < sizeof gaps / sizeof *gaps; g++) {
-        uint32_t gap = gaps[g];
-        for (uint32_t i = gap; i < count; i++) {
-            JoxOwed moved = owed[i];
-            uint32_t j = i;
-            for (; j >= gap && later(&owed[j - gap], &moved); j -= gap)
-                owed[j] = owed[j - gap];
-            owed[j] = moved;
-        }
-    }
+static int by_key(const void *a, const void *b, const void *context) {
+    const JoxOwed *x = a, *y = b;
+    (void)context;
+    return (x->key > y->key) - (x->key < y->key);
 }
 
 const JoxImpulse *jox_force_impulses(JoxForces *f, uint32_t *count) {
     if (f->owed_sorted != f->owed_count) {
-        sort_owed(f->owed, f->owed_count);
+        JOX_RESERVE(f->owed, f->owed_capacity, f->owed_count + JOX_SORT_SPARE(f->owed_count));
+        jox_sort(f->owed, f->owed_count, sizeof *f->owed, by_key, NULL, f->owed + f->owed_count);
         JOX_RESERVE(f->impulses, f->impulse_capacity, f->owed_count);
         for (uint32_t i = 0; i < f->owed_count; i++)
             f->impulses[i] = f->owed[i].impulse;

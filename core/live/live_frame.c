@@ -17,22 +17,23 @@ static void cover_points(JoxLiveArea *area, const JoxV2 *points, uint32_t count,
 static void cover_scene(JoxLiveArea *area, const JoScene *scene) {
     const JoxSceneSpec *spec = scene->spec;
     const JoWorld *world = scene->world;
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     JoxLiveArea all = {0};
     if (spec->bounded)
         jox_live_cover(&all, spec->low, spec->high);
-    for (uint32_t v = 0; v < world->all_walls.count; v++)
-        cover_points(&all, &world->all_walls.vertices[v].point, 1, 0.0f);
-    for (uint32_t p = 0; p < scene->first_antipode && p < world->place_count; p++)
-        cover_points(&all, world->places[p].points, world->places[p].count,
-                     world->places[p].kind == JOX_PLACE_POINT ? world->places[p].radius : 0.0f);
+    for (uint32_t v = 0; v < world->model.all_walls.count; v++)
+        cover_points(&all, &world->model.all_walls.vertices[v].point, 1, 0.0f);
+    for (uint32_t p = 0; p < scene->first_antipode && p < world->model.place_count; p++)
+        cover_points(&all, world->model.places[p].points, world->model.places[p].count,
+                     world->model.places[p].kind == JOX_PLACE_POINT ? world->model.places[p].radius
+                                                                    : 0.0f);
     for (uint32_t g = 0; g < spec->group_count; g++)
         cover_points(&all, spec->groups[g].positions, spec->groups[g].count, 0.0f);
     for (uint32_t i = 0; i < a->count; i++)
         cover_points(&all, &(JoxV2){a->x[i], a->y[i]}, 1, 0.0f);
-    for (uint32_t o = 0; o < jox_bodies_rows(world->bodies); o++) {
+    for (uint32_t o = 0; o < jox_bodies_rows(world->state.bodies); o++) {
         JoxPose pose;
-        if (jox_bodies_pose(world->bodies, o, &pose))
+        if (jox_bodies_pose(world->state.bodies, o, &pose))
             cover_points(&all, &(JoxV2){pose.centre.x, pose.centre.y}, 1, 1.0f);
     }
     cover_points(&all, &(JoxV2){0.0f, 0.0f}, all.known ? 0 : 1, 1.0f);
@@ -118,20 +119,20 @@ static inline float colour_of(const JoxAgents *a, uint32_t i, JoxLiveColour colo
 static void put_bodies(const JoScene *scene, uint32_t slots, JoxBytes *out) {
     static const float STRAIGHT[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     static const JoxV3 NOWHERE = {0.0f, 0.0f, -1000.0f};
-    for (uint32_t o = 0; o < jox_bodies_rows(scene->world->bodies); o++) {
+    for (uint32_t o = 0; o < jox_bodies_rows(scene->world->state.bodies); o++) {
         JoxPose pose;
-        bool live = jox_bodies_pose(scene->world->bodies, o, &pose);
+        bool live = jox_bodies_pose(scene->world->state.bodies, o, &pose);
         jox_live_put_body(out, slots, o, live ? pose.position : NOWHERE,
                           live ? pose.turn : STRAIGHT);
     }
 }
 
 static void note_edges(JoxLive *live, const JoWorld *world) {
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     const size_t had = live->round_capacity;
-    if ((a->period.x <= 0.0f && a->period.y <= 0.0f) || live->came_round == world->tick + 1)
+    if ((a->period.x <= 0.0f && a->period.y <= 0.0f) || live->came_round == world->state.tick + 1)
         return;
-    live->came_round = world->tick + 1;
+    live->came_round = world->state.tick + 1;
     JOX_RESERVE(live->rounds, live->round_capacity, a->slot_count);
     if (live->round_capacity > had)
         memset(live->rounds + had, 0, (live->round_capacity - had) * sizeof *live->rounds);
@@ -151,17 +152,17 @@ static void note_edges(JoxLive *live, const JoWorld *world) {
 void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
     JoxLive *live = jox_live_of(scene);
     const JoWorld *world = scene->world;
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     uint32_t first[JOX_MOST_MACHINES + 1] = {0};
-    for (uint32_t m = 0; m < world->mind.machine_count; m++)
-        first[m + 1] = first[m] + world->mind.machines[m]->state_count;
+    for (uint32_t m = 0; m < world->model.machines.count; m++)
+        first[m + 1] = first[m] + world->model.machines.items[m]->state_count;
     const uint32_t player = jox_live_player(scene);
     cover_people(&live->area, a);
     note_edges(live, world);
-    JoxLiveHead head = {.tick = (uint32_t)world->tick,
+    JoxLiveHead head = {.tick = (uint32_t)world->state.tick,
                         .time = jo_world_time(world),
                         .slots = a->slot_count,
-                        .bodies = jox_bodies_rows(world->bodies),
+                        .bodies = jox_bodies_rows(world->state.bodies),
                         .area = &live->area,
                         .most = jox_live_colours[colour].most};
     jox_live_begin_frame(out, &head);
@@ -184,7 +185,7 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
 }
 
 bool jox_live_people(JoScene *scene, JoxBytes *out) {
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     bool differs = false;
     size_t before = out->length;
     jox_live_begin_people(out, a->slot_count);
@@ -195,10 +196,10 @@ bool jox_live_people(JoScene *scene, JoxBytes *out) {
 
 void jox_live_spread_crowd(JoScene *scene, bool moves) {
     JoxLive *live = jox_live_of(scene);
-    const JoxAgents *a = &scene->world->agents;
-    if (live->spread == scene->world->tick + 1 && (live->moves || !moves))
+    const JoxAgents *a = &scene->world->state.agents;
+    if (live->spread == scene->world->state.tick + 1 && (live->moves || !moves))
         return;
-    live->spread = scene->world->tick + 1;
+    live->spread = scene->world->state.tick + 1;
     live->moves = moves;
     cover_people(&live->area, a);
     jox_live_spread(&live->grid, &live->area,

@@ -17,7 +17,7 @@ JoViewDef jo_default_view_def(void) {
 }
 
 static void pause_at_end(JoxViewing *v) {
-    if (jo_world_time(v->scene->world) + 0.5 * v->scene->world->def.dt < v->until)
+    if (jo_world_time(v->scene->world) + 0.5 * v->scene->world->model.def.dt < v->until)
         return;
     jox_run_say(v->scene, "%g s are over, and the scene waits; it can go on or be restarted\n",
                 v->until);
@@ -57,7 +57,7 @@ static void advance(JoxViewing *v) {
         return;
     }
     double earliest = now - LATE;
-    v->due = (v->due > earliest ? v->due : now) + v->scene->world->def.dt / v->session.speed;
+    v->due = (v->due > earliest ? v->due : now) + v->scene->world->model.def.dt / v->session.speed;
     v->steps -= single;
     step(v);
     jox_viewing_show(v, jox_clock_wall());

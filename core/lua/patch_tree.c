@@ -1,11 +1,10 @@
 /* Lua tables as trees for base/patch.h: the machine's table, whose transitions go by their ids.
    Tables are copied where they change, for a file may use one table in several places. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/mem.h"
+#include "base/sort.h"
 #include "lua/language/vocabulary.h"
 #include "lua/patch_tree.h"
 #include "lua/read.h"
@@ -88,10 +87,6 @@ static void *copy(void *c, void *node) {
     return pop_to(n, at - 1);
 }
 
-static int by_text(const void *a, const void *b) {
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
-}
-
 /* The string keys of a table, sorted. Others are an error, but for items where they may stand. */
 static uint32_t keys(void *c, void *map, const char *path, const char *from,
                      const char *const **names) {
@@ -113,7 +108,7 @@ static uint32_t keys(void *c, void *map, const char *path, const char *from,
     if (odd)
         fail(n, from, "bad-key", "Example: states = { Walk = { push = 5 } }",
              "this table of a patch takes names as keys%s", "");
-    qsort(found, count, sizeof *found, by_text);
+    jox_sort_texts(found, count);
     *names = found;
     pop_to(n, at - 1); /* kept with the nodes, as long as they */
     return (uint32_t)count;

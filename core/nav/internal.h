@@ -22,6 +22,8 @@ typedef struct JoxWallGrid {
 
 /* Makes the grid serve queries up to `reach` metres; does nothing if it already does. */
 void jox_wall_grid_fit(JoxWallGrid *grid, float reach);
+/* Makes it anew for queries up to exactly `reach` metres; empty for 0. */
+void jox_wall_grid_reset(JoxWallGrid *grid, float reach);
 /* Edges that may be within the grid's reach of a point. */
 const uint32_t *jox_wall_grid_at(const JoxWallGrid *grid, JoxV2 point, uint32_t *count);
 void jox_wall_grid_free(JoxWallGrid *grid);

@@ -15,6 +15,13 @@ void jox_nav_free(JoxNav *nav);
 /* The walls, not copied; call again when they change. NULL: none. */
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls);
 
+/* Lists what outlasts a step: how far the grid of walls reaches. The order of the agents is no
+   state, as all results are exact whatever it is. */
+void jox_nav_sections(JoxNav *nav, JoxSections *sections);
+/* The agents are no longer in the order in which they were sorted: the next step sorts them anew.
+ */
+void jox_nav_forget(JoxNav *nav);
+
 /* Every fourth tick, or when agents came or went: puts the agents in the order of the grid, which
    depends on positions and ids alone. All indices change. */
 void jox_nav_sort(JoxNav *nav, JoxAgents *agents, uint64_t tick);

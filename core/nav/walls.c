@@ -58,13 +58,13 @@ static void size_grid(JoxWallGrid *g) {
     g->rows = (uint32_t)((high.y - g->low.y) / g->cell) + 1;
 }
 
-void jox_wall_grid_fit(JoxWallGrid *g, float reach) {
-    if (!g->walls || g->walls->count == 0 || reach <= g->reach)
-        return;
+void jox_wall_grid_reset(JoxWallGrid *g, float reach) {
     const JoxWalls *walls = g->walls;
     jox_wall_grid_free(g);
     g->walls = walls;
-    g->reach = reach * 1.25f; /* room, so that growing demands do not rebuild it each step */
+    if (!walls || walls->count == 0 || !(reach > 0.0f))
+        return;
+    g->reach = reach;
     size_grid(g);
     size_t cells = (size_t)g->columns * g->rows;
     g->first = jox_alloc(cells + 1, sizeof *g->first);
@@ -89,6 +89,11 @@ void jox_wall_grid_fit(JoxWallGrid *g, float reach) {
             g->edges = jox_alloc(g->first[cells] + 1, sizeof *g->edges);
         }
     }
+}
+
+void jox_wall_grid_fit(JoxWallGrid *g, float reach) {
+    if (g->walls && g->walls->count > 0 && reach > g->reach)
+        jox_wall_grid_reset(g, reach * 1.25f); /* room, so that it is not rebuilt each step */
 }
 
 const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point, uint32_t *count) {

@@ -51,7 +51,7 @@ void jox_run_reload(JoScene *scene) {
     JoxReload *r = scene->reload;
     if (!r)
         return;
-    atomic_store(&r->next_id, scene->world->agents.next_id);
+    atomic_store(&r->next_id, scene->world->state.agents.next_id);
     JoxBatch *batch = (JoxBatch *)atomic_load(&r->ready);
     if (!batch)
         return;
@@ -69,14 +69,14 @@ static JoxReload *begin(JoScene *scene, JoxWatch *watch, int stop) {
     JoxReload *r = jox_alloc(1, sizeof *r);
     *r = (JoxReload){.scene = scene, .watch = watch, .stop = stop};
     pthread_mutex_init(&r->machines, NULL);
-    const JoxMind *mind = &scene->world->mind;
-    JoxAgents *a = &scene->world->agents;
+    const JoxMachineRun *machines = &scene->world->machines;
+    JoxAgents *a = &scene->world->state.agents;
     jox_agents_widen(a, a->own_stride + OWN_ROOM, a->memory_stride + MEMORY_ROOM);
     atomic_store(&r->next_id, a->next_id);
-    atomic_store(&r->machine_count, mind->machine_count);
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
+    atomic_store(&r->machine_count, machines->set->count);
+    for (uint32_t m = 0; m < machines->set->count; m++) {
         uint32_t count;
-        char *const *tried = jox_lua_tried(scene->lua, mind->machines[m], &count);
+        char *const *tried = jox_lua_tried(scene->lua, machines->set->items[m], &count);
         for (uint32_t f = 0; f < count; f++)
             use_first(r, m, tried[f]);
     }
@@ -92,7 +92,7 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
         return false;
     if (scene->reload && scene->reload->watch)
         return true;
-    const JoxInputLog *log = &scene->world->input;
+    const JoxInputLog *log = &scene->world->state.input;
     for (size_t e = 0; e < log->count; e++)
         if (log->entries[e].verb == JOX_INPUT_FILES) {
             jox_error(error, JO_INPUT,
@@ -127,7 +127,7 @@ bool jox_run_reload_now(JoScene *scene, const JoxInputEntry *files, JoError *err
     }
     for (uint32_t f = 0; f < files->number; f++)
         jox_changes_file(&r->changes, files->files[f].path, 0.0);
-    atomic_store(&r->next_id, scene->world->agents.next_id);
+    atomic_store(&r->next_id, scene->world->state.agents.next_id);
     while ((batch = jox_batch_prepare(r))) {
         live &= jox_batch_take(scene, batch);
         jox_reload_free_retired(r);

@@ -3,7 +3,7 @@
 #ifndef JOX_WORLD_INSPECTED_H
 #define JOX_WORLD_INSPECTED_H
 
-#include "machine/mind.h"
+#include "machine/run.h"
 #include "nav/nav.h"
 
 enum { JOX_MOST_INSPECTED = 8 };

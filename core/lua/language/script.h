@@ -9,7 +9,7 @@
 #include "base/patch.h"
 #include "lua/language/scope.h"
 #include "lua/vm/vm.h"
-#include "machine/mind.h"
+#include "machine/run.h"
 
 /* ---- what a file writes out: the keys of its table ---- */
 
@@ -139,7 +139,7 @@ struct JoxLua {
     JoxScript **scripts;
     uint32_t script_count;
     size_t script_capacity;
-    JoxMind *mind;
+    JoxMachineRun *machines;
     uint64_t failures;
     /* Agents as they were before the step, for hooks that look at others. */
     uint16_t *before_state;
