@@ -105,7 +105,7 @@ typedef struct JoAgentState {
     double x, y;        /* m */
     double vx, vy;      /* m/s */
     double fx, fy;      /* net force of the last step, N */
-    double compression; /* N per metre of girth */
+    double compression; /* N per metre of circumference */
     double radius;      /* m */
     const char *state;  /* of its machine; "" without one; valid until the next call on the world */
 } JoAgentState;

@@ -167,7 +167,7 @@ static void add_step(const JoxInspected *seen, double compression, JoxJson *json
                                                         "resistance", "external", "body"};
     jox_json_array(json, "planes");
     for (uint32_t p = 0; p < seen->plane_count; p++) {
-        const JoxPlaneSeen *plane = &seen->planes[p];
+        const JoxConstraint *plane = &seen->planes[p];
         jox_json_object(json, NULL);
         jox_json_string(json, "kind", PLANES[plane->kind]);
         add_vector(json, "point", jox_scale(plane->normal, plane->offset));
@@ -177,7 +177,7 @@ static void add_step(const JoxInspected *seen, double compression, JoxJson *json
     jox_json_end(json);
     add_vector(json, "preferred", seen->preferred);
     add_vector(json, "chosen", seen->chosen);
-    add_figure(json, "max_speed", (double)seen->most);
+    add_figure(json, "max_speed", (double)seen->speed_limit);
     jox_json_bool(json, "failed", seen->failed);
     jox_json_array(json, "forces");
     for (int f = 0; f < JOX_FORCE_PARTS; f++) {

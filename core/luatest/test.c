@@ -98,7 +98,7 @@ static void *load(void *context, const JoxTestScene *wanted, JoxText *why) {
         scene = NULL;
     }
     if (scene)
-        jox_world_settle(scene->world);
+        jox_world_resolve_placement(scene->world);
     jox_free(path);
     return scene;
 }

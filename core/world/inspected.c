@@ -91,11 +91,12 @@ void jox_inspect_solved(JoWorld *w) {
         uint32_t i = index_of(w, seen->id);
         if (i == JOX_NO_INDEX)
             continue;
-        seen->plane_count = jox_nav_planes(w->scratch.nav, a, &w->scratch.neighbours,
-                                           &w->scratch.objects, w->scratch.plan, i, seen->planes);
+        seen->plane_count =
+            jox_nav_constraints(w->scratch.nav, a, &w->scratch.neighbours, &w->scratch.objects,
+                                w->scratch.plan, i, seen->planes);
         seen->preferred = (JoxV2){a->pref_x[i], a->pref_y[i]};
         seen->chosen = (JoxV2){a->next_x[i], a->next_y[i]};
-        seen->most = a->disc[i];
+        seen->speed_limit = a->speed_limit[i];
         seen->failed = a->failed[i];
         seen->seen = true;
     }

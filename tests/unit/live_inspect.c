@@ -47,7 +47,7 @@ static void an_inspection_adds_up(void **state) {
         for (uint32_t p = 0; p < seen->plane_count && !seen->failed; p++)
             assert_true(jox_dot(seen->planes[p].normal, seen->chosen) >
                         seen->planes[p].offset - 1e-4f);
-        assert_true(jox_length(seen->chosen) <= seen->most + 1e-4f);
+        assert_true(jox_length(seen->chosen) <= seen->speed_limit + 1e-4f);
     }
     assert_true(most > 10.0); /* somebody did push */
     assert_true(jo_world_hash(scene->world) == jo_world_hash(plain->world));
