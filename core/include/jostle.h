@@ -4,7 +4,11 @@
  * Plain C17, clean in C++. One world must not be used from two threads at once; different worlds
  * may. Misuse (a null or stale handle, a field out of range in a Def made by hand) is reported
  * through the assertion handler and answered with a null handle, zero or false; bad files and
- * values give a JoError. The library never exits.
+ * values give a JoError. The library never exits and installs no signal handlers.
+ *
+ * Where memory is out, a call returns its error (JO_FAILED, "out of memory") or NULL, false or 0.
+ * The world or scene that it was changing has then failed: later calls answer the same way,
+ * jo_world_failure says why, and freeing it releases all that it held. Other worlds go on.
  */
 #ifndef JOSTLE_H
 #define JOSTLE_H
@@ -398,15 +402,16 @@ typedef struct JoReproduceDef {
     const char *folder;        /* of claim files */
     const char *const *claims; /* ids, or names of files; none: all */
     size_t claim_count;
-    const char *out;     /* folder for runs, pictures and the page */
-    const char *program; /* path of the command `jostle`, which runs the scenes */
-    uint32_t jobs;       /* processes at once */
-    uint32_t seeds;      /* per run that has several; 0: as the claim says */
-    bool quick;          /* the smaller runs of each claim */
-    bool fresh;          /* runs that are there already are done again */
-    bool list;           /* names the claims, runs nothing */
-    bool quiet;          /* no progress on stderr */
-    JoMessage *message;  /* NULL: to stdout */
+    const char *out;          /* folder for runs, pictures and the page */
+    const char *program;      /* path of the command `jostle`, which runs the scenes */
+    uint32_t jobs;            /* processes at once */
+    uint32_t seeds;           /* per run that has several; 0: as the claim says */
+    bool quick;               /* the smaller runs of each claim */
+    bool fresh;               /* runs that are there already are done again */
+    bool list;                /* names the claims, runs nothing */
+    bool quiet;               /* no progress on stderr */
+    const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
+    JoMessage *message;       /* NULL: to stdout */
     void *message_context;
 } JoReproduceDef;
 JO_API JoReproduceDef jo_default_reproduce_def(void);
