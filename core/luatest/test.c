@@ -11,6 +11,7 @@
 #include "base/guard.h"
 #include "base/json_writer.h"
 #include "base/mem.h"
+#include "jostle_tools.h"
 #include "luatest/testing.h"
 #include "run/run.h"
 

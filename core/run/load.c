@@ -486,11 +486,3 @@ double jo_scene_duration(const JoScene *scene) {
     JOX_REQUIRE(scene, 0.0);
     return scene->spec->duration;
 }
-
-char *jo_scene_reference(void) {
-    JOX_GUARD (NULL, NULL)
-        return NULL;
-    JoxText text = {0};
-    jox_scene_print_reference(&text);
-    return jox_disown(text.data);
-}
