@@ -264,10 +264,3 @@ void jox_population_sections(JoWorld *world, JoxSections *s) {
     JOX_SECTION(s, "next_party", p->next_party);
     list_points(world, s);
 }
-
-void jox_population_free(JoxPopulation *population) {
-    jox_free(population->made);
-    jox_free(population->party_left);
-    jox_free(population->party_team);
-    *population = (JoxPopulation){0};
-}

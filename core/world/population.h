@@ -79,6 +79,5 @@ void jox_world_sources(JoWorld *world);
 uint32_t jox_world_machine(const JoWorld *world, const char *path);
 /* Lists counts, parties and the places of single agents as state. */
 void jox_population_sections(JoWorld *world, JoxSections *sections);
-void jox_population_free(JoxPopulation *population);
 
 #endif

@@ -56,7 +56,9 @@ static void free_world(JoWorld *world) {
     jox_free(world->scratch.discs);
     jox_free(world->scratch.disc_agents);
     free_places(world);
-    jox_population_free(&world->state.population);
+    jox_free(world->state.population.made);
+    jox_free(world->state.population.party_left);
+    jox_free(world->state.population.party_team);
     jox_exits_free(&world->state.exits);
     jox_text_free(&world->scratch.event_errors);
     for (uint32_t i = 0; i < world->model.tag_count; i++)
