@@ -49,22 +49,22 @@
     X(STATE, float, inferred_y)                                                                    \
     X(STATE, float, force_x) /* net force of this step, equation 10, N */                          \
     X(STATE, float, force_y)                                                                       \
-    X(STATE, float, compression) /* sum of |f.n| of contacts over girth, N/m */                    \
-    X(SCRATCH, float, plane_x)   /* force half-plane: unit normal; (0, 0) means none */            \
-    X(SCRATCH, float, plane_y)                                                                     \
-    X(SCRATCH, float, plane_offset) /* (v . normal) >= offset, m/s */                              \
-    X(SCRATCH, float, disc)         /* radius of the speed disc of this step, m/s */               \
-    X(SCRATCH, float, density)      /* from the distance of the farthest neighbour kept, 1/m2 */   \
-    X(SCRATCH, float, search)       /* radius that held the neighbours last time; 0 unknown */     \
-    X(SCRATCH, uint8_t, failed)     /* 1 where the 2-D program was infeasible this step */         \
-    X(STATE, uint8_t, contacts)     /* agents and bodies touched this step */                      \
-    X(STATE, uint8_t, removed)      /* 1: leaves the world at the end of the step */               \
-    X(STATE, uint32_t, entered)     /* tick at which the state was entered */                      \
-    X(STATE, float, lasts)          /* drawn duration of the state, s; INFINITY if none */         \
-    X(STATE, uint32_t, was_true)    /* bit per transition: its `when` held last step */            \
-    X(STATE, int32_t, goal)         /* place index aimed at, or -1 */                              \
-    X(STATE, float, still)          /* seconds since it last moved 0.25 m */                       \
-    X(STATE, float, still_x)        /* where that was */                                           \
+    X(STATE, float, compression)    /* sum of |f.n| of contacts over circumference, N/m */         \
+    X(SCRATCH, float, half_plane_x) /* force half-plane: unit normal; (0, 0) means none */         \
+    X(SCRATCH, float, half_plane_y)                                                                \
+    X(SCRATCH, float, half_plane_offset) /* (v . normal) >= offset, m/s */                         \
+    X(SCRATCH, float, speed_limit)       /* greatest speed in this step, m/s */                    \
+    X(SCRATCH, float, density)   /* from the distance of the farthest neighbour kept, 1/m2 */      \
+    X(SCRATCH, float, search)    /* radius that held the neighbours last time; 0 unknown */        \
+    X(SCRATCH, uint8_t, failed)  /* 1 where the 2-D program was infeasible this step */            \
+    X(STATE, uint8_t, contacts)  /* agents and bodies touched this step */                         \
+    X(STATE, uint8_t, removed)   /* 1: leaves the world at the end of the step */                  \
+    X(STATE, uint32_t, entered)  /* tick at which the state was entered */                         \
+    X(STATE, float, lasts)       /* drawn duration of the state, s; INFINITY if none */            \
+    X(STATE, uint32_t, was_true) /* bit per transition: its `when` held last step */               \
+    X(STATE, int32_t, goal)      /* place index aimed at, or -1 */                                 \
+    X(STATE, float, still)       /* seconds since it last moved 0.25 m */                          \
+    X(STATE, float, still_x)     /* where that was */                                              \
     X(STATE, float, still_y)                                                                       \
     X(STATE, int32_t, queue_at)    /* place whose queue it stands in, or -1 */                     \
     X(STATE, uint32_t, queued)     /* tick at which it joined that queue */                        \

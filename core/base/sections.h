@@ -41,6 +41,7 @@ typedef struct JoxSections {
     JoxSectionsMode mode;
     JoxHash hash;                  /* hash: the result, for jox_hash_end */
     JoxText *out;                  /* save */
+    size_t start;                  /* save: where it began in `out` */
     const unsigned char *at, *end; /* restore, compare: what is still to be read */
     const unsigned char *begin;
     JoxCellVisit *visit;
@@ -68,8 +69,8 @@ bool jox_sections_end(JoxSections *sections);
 void jox_sections_fail(JoxSections *sections, const char *name, const char *why);
 /* Names the module whose sections follow; a string that outlives the walk. */
 void jox_sections_module(JoxSections *sections, const char *module);
-/* From here on: whether sections are left out of the hash, because no step reads them (figures of
-   the run) or because they follow from the history of a run and not from its state. */
+/* From here on: whether sections are left out of hash and comparison, because no step reads them
+   (figures of the run) or because they follow from the history of a run and not from its state. */
 void jox_sections_unhashed(JoxSections *sections, bool unhashed);
 
 /* `count` cells of `size` bytes each. `count` is the same in the state that is read back. */
@@ -87,6 +88,9 @@ void jox_section_rows(JoxSections *sections, const char *name, double *rows, siz
 size_t jox_section_count(JoxSections *sections, const char *name, size_t count, size_t size);
 /* A string made by jox_strdup, or NULL; restoring frees the one that is there. */
 void jox_section_string(JoxSections *sections, const char *name, char **string);
+/* What the state belongs to, as a number made of it: saved but not hashed; restoring a state of
+   something else is refused. */
+void jox_section_model(JoxSections *sections, const char *name, uint64_t digest);
 
 /* A variable. */
 #define JOX_SECTION(sections, name, variable)                                                      \

@@ -40,7 +40,7 @@ void jox_forces_free(JoxForces *f) {
                      f->work_y,
                      f->grid.starts,
                      f->grid.members,
-                     f->owed,
+                     f->pending,
                      f->impulses,
                      f->old_x,
                      f->old_y,
@@ -69,7 +69,7 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     if (!(f->step.plan > 0.0))
         f->step.plan = step->dt;
     f->totals = (JoxForceTotals){0};
-    f->owed_count = f->owed_sorted = 0;
+    f->pending_count = f->pending_sorted = 0;
     f->touch_count = 0;
     JoxAgents *a = step->agents;
     uint32_t n = a->count;

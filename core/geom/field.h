@@ -3,6 +3,7 @@
 #ifndef JOX_GEOM_FIELD_H
 #define JOX_GEOM_FIELD_H
 
+#include "base/sections.h"
 #include "geom/place.h"
 #include "geom/walls.h"
 
@@ -23,6 +24,8 @@ float jox_field_distance(const JoxField *field, JoxV2 point);
    wall than the clearance it also leads off the wall; inside a solid it leads out. (0, 0) at the
    goal and where no way leads. */
 JoxV2 jox_field_direction(const JoxField *field, JoxV2 point);
+/* Lists a field as it was made; restoring, makes one in place of *field. */
+void jox_field_sections(JoxField **field, JoxSections *sections);
 void jox_field_free(JoxField *field);
 
 #endif

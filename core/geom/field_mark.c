@@ -71,7 +71,8 @@ static void sort_edges(JoxFieldWork *w, float reach) {
         enter(w, e, reach);
     for (int i = 0; i < w->count; i++)
         w->first[i + 1] += w->first[i];
-    f->refs = jox_alloc((size_t)w->first[w->count] + 1, sizeof *f->refs);
+    f->ref_count = w->first[w->count];
+    f->refs = jox_alloc((size_t)f->ref_count + 1, sizeof *f->refs);
     for (uint32_t e = f->edge_count; e-- > 0;) /* backwards, as each list fills from its end */
         enter(w, e, reach);
 }

@@ -27,7 +27,7 @@ typedef struct JoxFieldPatch {
 
 typedef struct JoxFieldEdge {
     JoxV2 a, b;
-    bool solid; /* matter on the left */
+    uint32_t solid; /* 1: matter on the left */
 } JoxFieldEdge;
 
 struct JoxField {
@@ -40,6 +40,7 @@ struct JoxField {
     JoxFieldEdge *edges;
     uint32_t edge_count;
     uint32_t *refs; /* edges about each cell, cell by cell */
+    uint32_t ref_count;
 };
 
 typedef struct JoxFieldWork {

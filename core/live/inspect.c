@@ -19,24 +19,24 @@ static void add_vector(JoxJson *json, const char *key, JoxV2 v) {
 /* ---- what the agent is ---- */
 
 static const JoxMachine *machine_of(const JoScene *scene, uint32_t i) {
-    const JoxMind *mind = &scene->world->mind;
-    const uint16_t machine = mind->agents->machine[i];
-    return machine == JOX_NO_MACHINE ? NULL : mind->machines[machine];
+    const JoxMachineRun *machines = &scene->world->machines;
+    const uint16_t machine = machines->agents->machine[i];
+    return machine == JOX_NO_MACHINE ? NULL : machines->set->items[machine];
 }
 
 static void add_agent(const JoScene *scene, uint32_t i, JoxJson *json) {
     const JoWorld *world = scene->world;
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     const JoxMachine *machine = machine_of(scene, i);
     bool grouped = a->group[i] < scene->spec->group_count;
-    uint64_t since = world->tick > a->entered[i] ? world->tick - a->entered[i] : 0;
+    uint64_t since = world->state.tick > a->entered[i] ? world->state.tick - a->entered[i] : 0;
     jox_json_object(json, "agent");
     jox_json_whole(json, "id", a->id[i]);
     jox_json_whole(json, "slot", a->slot[i]);
     jox_json_string(json, "group", grouped ? scene->spec->groups[a->group[i]].name : "");
     jox_json_string(json, "machine", machine ? machine->name : "");
     jox_json_string(json, "state", machine ? machine->states[a->state[i]].name : "");
-    add_figure(json, "since", (double)since * world->def.dt);
+    add_figure(json, "since", (double)since * world->model.def.dt);
     add_figure(json, "x", (double)a->x[i]);
     add_figure(json, "y", (double)a->y[i]);
     add_figure(json, "vx", (double)a->vx[i]);
@@ -49,7 +49,7 @@ static void add_agent(const JoScene *scene, uint32_t i, JoxJson *json) {
 /* What the agent's group in the scene sets of a name, or NULL. */
 static const JoxSceneSet *group_set(const JoScene *scene, uint32_t i, const char *name) {
     const JoxSceneSpec *spec = scene->spec;
-    const uint32_t group = scene->world->agents.group[i];
+    const uint32_t group = scene->world->state.agents.group[i];
     for (uint32_t s = 0; group < spec->group_count && s < spec->groups[group].set_count; s++)
         if (strcmp(spec->groups[group].set[s].name, name) == 0)
             return &spec->groups[group].set[s];
@@ -59,7 +59,7 @@ static const JoxSceneSet *group_set(const JoScene *scene, uint32_t i, const char
 /* Who set a parameter of the agent: its state, the defaults, its group, or a function since. */
 static void add_setter(const JoScene *scene, uint32_t i, const JoxMachine *machine, int p,
                        JoxJson *json) {
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     const JoxState *state = &machine->states[a->state[i]];
     bool own = state->param[p].kind == JOX_VALUE_UNSET;
     const JoxValue *value = own ? &machine->defaults[p] : &state->param[p];
@@ -87,7 +87,7 @@ static void add_setter(const JoScene *scene, uint32_t i, const JoxMachine *machi
 }
 
 static void add_parameters(const JoScene *scene, uint32_t i, JoxJson *json) {
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     const JoxMachine *machine = machine_of(scene, i);
     jox_json_array(json, "parameters");
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
@@ -105,7 +105,7 @@ static void add_parameters(const JoScene *scene, uint32_t i, JoxJson *json) {
 }
 
 static void add_memory(const JoScene *scene, uint32_t i, JoxJson *json) {
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     const JoxMachine *machine = machine_of(scene, i);
     jox_json_object(json, "memory");
     for (uint32_t s = 0; machine && s < machine->memory_count; s++) {
@@ -124,7 +124,7 @@ static void add_memory(const JoScene *scene, uint32_t i, JoxJson *json) {
 /* Own values that are no parameters, by name. */
 static void add_own_values(const JoScene *scene, uint32_t i, JoxJson *json) {
     const JoWorld *world = scene->world;
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     const JoxMachine *machine = machine_of(scene, i);
     jox_json_object(json, "own");
     for (uint32_t s = 0; machine && s < machine->own_count; s++) {
@@ -132,9 +132,9 @@ static void add_own_values(const JoScene *scene, uint32_t i, JoxJson *json) {
         double value = a->own[(size_t)i * a->own_stride + s];
         if (!*slot->name || jox_parameter_find(slot->name) >= 0)
             continue;
-        bool place = slot->is_place && value >= 0.0 && value < world->place_count;
-        if (place && world->places[(uint32_t)value].name)
-            jox_json_string(json, slot->name, world->places[(uint32_t)value].name);
+        bool place = slot->is_place && value >= 0.0 && value < world->model.place_count;
+        if (place && world->model.places[(uint32_t)value].name)
+            jox_json_string(json, slot->name, world->model.places[(uint32_t)value].name);
         else
             add_figure(json, slot->name, value);
     }
@@ -146,7 +146,7 @@ static void add_own_values(const JoScene *scene, uint32_t i, JoxJson *json) {
 static void add_last(const JoScene *scene, uint32_t i, const JoxWatched *watched, JoxJson *json) {
     const JoWorld *world = scene->world;
     const JoxMachine *machine = machine_of(scene, i);
-    const uint32_t entered = world->agents.entered[i];
+    const uint32_t entered = world->state.agents.entered[i];
     if (!machine) {
         jox_json_null(json, "last");
         return;
@@ -154,8 +154,9 @@ static void add_last(const JoScene *scene, uint32_t i, const JoxWatched *watched
     bool known = watched->took;
     jox_json_object(json, "last");
     jox_json_string(json, "from", known ? watched->from : NULL);
-    jox_json_string(json, "to", known ? watched->to : machine->states[world->agents.state[i]].name);
-    add_figure(json, "time", (known ? watched->tick : entered) * world->def.dt);
+    jox_json_string(json, "to",
+                    known ? watched->to : machine->states[world->state.agents.state[i]].name);
+    add_figure(json, "time", (known ? watched->tick : entered) * world->model.def.dt);
     jox_json_string(json, "why", known ? watched->why.data : NULL);
     jox_json_end(json);
 }
@@ -166,7 +167,7 @@ static void add_step(const JoxInspected *seen, double compression, JoxJson *json
                                                         "resistance", "external", "body"};
     jox_json_array(json, "planes");
     for (uint32_t p = 0; p < seen->plane_count; p++) {
-        const JoxPlaneSeen *plane = &seen->planes[p];
+        const JoxConstraint *plane = &seen->planes[p];
         jox_json_object(json, NULL);
         jox_json_string(json, "kind", PLANES[plane->kind]);
         add_vector(json, "point", jox_scale(plane->normal, plane->offset));
@@ -176,7 +177,7 @@ static void add_step(const JoxInspected *seen, double compression, JoxJson *json
     jox_json_end(json);
     add_vector(json, "preferred", seen->preferred);
     add_vector(json, "chosen", seen->chosen);
-    add_figure(json, "max_speed", (double)seen->most);
+    add_figure(json, "max_speed", (double)seen->speed_limit);
     jox_json_bool(json, "failed", seen->failed);
     jox_json_array(json, "forces");
     for (int f = 0; f < JOX_FORCE_PARTS; f++) {
@@ -191,7 +192,7 @@ static void add_step(const JoxInspected *seen, double compression, JoxJson *json
 }
 
 bool jox_live_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     const JoxWatched *watched;
     const JoxInspected *seen = jox_world_inspect(scene->world, slot, &watched);
     if (!seen) {

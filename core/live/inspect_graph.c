@@ -150,10 +150,10 @@ static void add_machine(const JoScene *scene, const JoxMachine *machine, JoxJson
 }
 
 void jox_live_graph(const JoScene *scene, JoxJson *json, const char *key) {
-    const JoxMind *mind = &scene->world->mind;
+    const JoxMachineRun *machines = &scene->world->machines;
     jox_json_array(json, key);
-    for (uint32_t m = 0; m < mind->machine_count; m++)
-        add_machine(scene, mind->machines[m], json);
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        add_machine(scene, machines->set->items[m], json);
     jox_json_end(json);
 }
 
@@ -174,7 +174,7 @@ bool jox_live_lua_line(const JoScene *scene, const char *machine, const char *st
         jox_text_add(out, error.text);
         return false;
     }
-    const JoxMachine *found = scene->world->mind.machines[choice.machine];
+    const JoxMachine *found = scene->world->model.machines.items[choice.machine];
     char path[256], key[160];
     JoxWritten written = {0};
     snprintf(key, sizeof key, is_identifier(state) ? "%.120s" : "[\"%.120s\"]", state);

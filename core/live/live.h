@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "base/vec.h"
 #include "geom/walls.h"
-#include "jostle.h"
+#include "jostle_tools.h"
 
 /* Of the messages: a page of another number asks to be loaded anew. */
 enum { JOX_LIVE_PROTOCOL = 2 };

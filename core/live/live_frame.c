@@ -18,22 +18,23 @@ static void cover_points(JoxLiveArea *area, const JoxV2 *points, uint32_t count,
 static void cover_scene(JoxLiveArea *area, const JoScene *scene) {
     const JoxSceneSpec *spec = scene->spec;
     const JoWorld *world = scene->world;
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     JoxLiveArea all = {0};
     if (spec->bounded)
         jox_live_cover(&all, spec->low, spec->high);
-    for (uint32_t v = 0; v < world->all_walls.count; v++)
-        cover_points(&all, &world->all_walls.vertices[v].point, 1, 0.0f);
-    for (uint32_t p = 0; p < scene->first_antipode && p < world->place_count; p++)
-        cover_points(&all, world->places[p].points, world->places[p].count,
-                     world->places[p].kind == JOX_PLACE_POINT ? world->places[p].radius : 0.0f);
+    for (uint32_t v = 0; v < world->model.all_walls.count; v++)
+        cover_points(&all, &world->model.all_walls.vertices[v].point, 1, 0.0f);
+    for (uint32_t p = 0; p < scene->first_antipode && p < world->model.place_count; p++)
+        cover_points(&all, world->model.places[p].points, world->model.places[p].count,
+                     world->model.places[p].kind == JOX_PLACE_POINT ? world->model.places[p].radius
+                                                                    : 0.0f);
     for (uint32_t g = 0; g < spec->group_count; g++)
         cover_points(&all, spec->groups[g].positions, spec->groups[g].count, 0.0f);
     for (uint32_t i = 0; i < a->count; i++)
         cover_points(&all, &(JoxV2){a->x[i], a->y[i]}, 1, 0.0f);
-    for (uint32_t o = 0; o < jox_bodies_rows(world->bodies); o++) {
+    for (uint32_t o = 0; o < jox_bodies_rows(world->state.bodies); o++) {
         JoxPose pose;
-        if (jox_bodies_pose(world->bodies, o, &pose))
+        if (jox_bodies_pose(world->state.bodies, o, &pose))
             cover_points(&all, &(JoxV2){pose.centre.x, pose.centre.y}, 1, 1.0f);
     }
     cover_points(&all, &(JoxV2){0.0f, 0.0f}, all.known ? 0 : 1, 1.0f);
@@ -93,20 +94,20 @@ uint32_t jox_live_player(const JoScene *scene) {
 static void put_bodies(const JoScene *scene, uint32_t slots, JoxBytes *out) {
     static const float STRAIGHT[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     static const JoxV3 NOWHERE = {0.0f, 0.0f, -1000.0f};
-    for (uint32_t o = 0; o < jox_bodies_rows(scene->world->bodies); o++) {
+    for (uint32_t o = 0; o < jox_bodies_rows(scene->world->state.bodies); o++) {
         JoxPose pose;
-        bool live = jox_bodies_pose(scene->world->bodies, o, &pose);
+        bool live = jox_bodies_pose(scene->world->state.bodies, o, &pose);
         jox_live_put_body(out, slots, o, live ? pose.position : NOWHERE,
                           live ? pose.turn : STRAIGHT);
     }
 }
 
 static void note_edges(JoxLive *live, const JoWorld *world) {
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     const size_t had = live->round_capacity;
-    if ((a->period.x <= 0.0f && a->period.y <= 0.0f) || live->came_round == world->tick + 1)
+    if ((a->period.x <= 0.0f && a->period.y <= 0.0f) || live->came_round == world->state.tick + 1)
         return;
-    live->came_round = world->tick + 1;
+    live->came_round = world->state.tick + 1;
     JOX_RESERVE(live->rounds, live->round_capacity, a->slot_count);
     if (live->round_capacity > had)
         memset(live->rounds + had, 0, (live->round_capacity - had) * sizeof *live->rounds);
@@ -126,11 +127,11 @@ static void note_edges(JoxLive *live, const JoWorld *world) {
 /* Numbers of states in the scene message, and flags. */
 static void fill_states(JoxLive *live, const JoScene *scene) {
     const JoWorld *world = scene->world;
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     const uint32_t player = jox_live_player(scene);
     uint32_t first[JOX_MOST_MACHINES + 1] = {0};
-    for (uint32_t m = 0; m < world->mind.machine_count; m++)
-        first[m + 1] = first[m] + world->mind.machines[m]->state_count;
+    for (uint32_t m = 0; m < world->model.machines.count; m++)
+        first[m + 1] = first[m] + world->model.machines.items[m]->state_count;
     JOX_RESERVE(live->state, live->state_capacity, a->count + 1);
     JOX_RESERVE(live->flags, live->flag_capacity, a->count + 1);
     for (uint32_t i = 0; i < a->count; i++) {
@@ -155,7 +156,7 @@ static const float *fill_forces(JoxLive *live, const JoxAgents *a) {
 
 /* Everybody, without states, flags and values. */
 static JoxLiveCrowd crowd_of(const JoScene *scene) {
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     return (JoxLiveCrowd){.count = a->count,
                           .slots = a->slot_count,
                           .slot = a->slot,
@@ -173,7 +174,7 @@ static JoxLiveCrowd crowd_of(const JoScene *scene) {
 void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
     JoxLive *live = jox_live_of(scene);
     const JoWorld *world = scene->world;
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     JoxLiveCrowd crowd = crowd_of(scene);
     jox_live_cover_crowd(&live->area, &crowd);
     note_edges(live, world);
@@ -184,9 +185,9 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
                   : colour == JOX_LIVE_COLOUR_compression ? a->compression
                   : colour == JOX_LIVE_COLOUR_density     ? a->density
                                                           : NULL;
-    const JoxLiveHead head = {.tick = (uint32_t)world->tick,
+    const JoxLiveHead head = {.tick = (uint32_t)world->state.tick,
                               .time = jo_world_time(world),
-                              .bodies = jox_bodies_rows(world->bodies),
+                              .bodies = jox_bodies_rows(world->state.bodies),
                               .area = &live->area};
     jox_live_pack_frame(&head, &crowd, colour, out);
     put_bodies(scene, a->slot_count, out);
@@ -205,9 +206,9 @@ double jox_live_speed(const JoScene *scene) {
 void jox_live_spread_crowd(JoScene *scene, bool moves) {
     JoxLive *live = jox_live_of(scene);
     const JoxLiveCrowd crowd = crowd_of(scene);
-    if (live->spread == scene->world->tick + 1 && (live->moves || !moves))
+    if (live->spread == scene->world->state.tick + 1 && (live->moves || !moves))
         return;
-    live->spread = scene->world->tick + 1;
+    live->spread = scene->world->state.tick + 1;
     live->moves = moves;
     jox_live_spread(&live->grid, &live->area, &crowd, moves);
 }

@@ -47,7 +47,7 @@ struct JoxLive {
 /* Attached to the scene on first use. */
 JoxLive *jox_live_of(JoScene *scene);
 /* live_transitions.c: numbers the transitions anew where machines have changed. */
-void jox_live_renumber(JoxLive *live, const JoxMind *mind);
+void jox_live_renumber(JoxLive *live, const JoxMachineRun *machines);
 /* After each step: counts the transitions that were taken. */
 void jox_live_count(JoxLive *live, const JoScene *scene);
 /* Agent that the scene's player drives, by id; JOX_NO_INDEX: none. */

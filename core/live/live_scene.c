@@ -136,15 +136,15 @@ void jox_live_add_state(uint32_t machine, const char *name, JoxJson *json) {
 
 static void add_groups(JoxJson *json, const JoScene *scene) {
     const JoxSceneSpec *spec = scene->spec;
-    const JoxMind *mind = &scene->world->mind;
+    const JoxMachineRun *machines = &scene->world->machines;
     jox_json_array(json, "groups");
     for (uint32_t g = 0; g < spec->group_count; g++)
         jox_json_string(json, NULL, spec->groups[g].name);
     jox_json_end(json);
     jox_json_array(json, "states");
-    for (uint32_t m = 0; m < mind->machine_count; m++)
-        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++)
-            jox_live_add_state(m, mind->machines[m]->states[s].name, json);
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++)
+            jox_live_add_state(m, machines->set->items[m]->states[s].name, json);
     jox_json_end(json);
 }
 
@@ -181,20 +181,20 @@ static void add_tools(JoxJson *json, const JoScene *scene) {
     const uint32_t allowed = scene->spec->view.tools;
     const char *walls[MOST_NAMES], *signals[MOST_NAMES];
     uint32_t wall_count = 0, signal_count = 0;
-    for (uint32_t r = 0; r < world->all_walls.ring_count; r++)
-        if (world->all_walls.rings[r].name)
-            wall_count = add_unique(walls, wall_count, world->all_walls.rings[r].name);
-    for (uint32_t m = 0; m < world->mind.machine_count; m++)
-        for (uint32_t n = 0; n < world->mind.machines[m]->name_count; n++)
-            if (world->mind.machines[m]->names[n].uses & JOX_NAME_HEARD)
-                signal_count =
-                    add_unique(signals, signal_count, world->mind.machines[m]->names[n].text);
+    for (uint32_t r = 0; r < world->model.all_walls.ring_count; r++)
+        if (world->model.all_walls.rings[r].name)
+            wall_count = add_unique(walls, wall_count, world->model.all_walls.rings[r].name);
+    for (uint32_t m = 0; m < world->model.machines.count; m++)
+        for (uint32_t n = 0; n < world->model.machines.items[m]->name_count; n++)
+            if (world->model.machines.items[m]->names[n].uses & JOX_NAME_HEARD)
+                signal_count = add_unique(signals, signal_count,
+                                          world->model.machines.items[m]->names[n].text);
     const bool offered[JOX_TOOL_COUNT] = {
         [JOX_TOOL_THROW] = jox_bodies_available(),
-        [JOX_TOOL_DRAG] = jox_bodies_count(world->bodies) > 0,
+        [JOX_TOOL_DRAG] = jox_bodies_count(world->state.bodies) > 0,
         [JOX_TOOL_PUSH] = true,
         [JOX_TOOL_GATES] = wall_count > 0,
-        [JOX_TOOL_PARAMETERS] = world->mind.machine_count > 0,
+        [JOX_TOOL_PARAMETERS] = world->model.machines.count > 0,
         [JOX_TOOL_SIGNALS] = signal_count > 0,
         [JOX_TOOL_PLAYER] = jox_live_player(scene) != JOX_NO_INDEX,
     };
@@ -257,19 +257,19 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     const JoxLiveSceneHead head = {.session = "live",
                                    .title = spec->title && *spec->title ? spec->title : spec->path,
                                    .file = spec->path,
-                                   .dt = world->def.dt,
+                                   .dt = world->model.def.dt,
                                    .duration = spec->duration,
-                                   .seed = world->def.seed,
+                                   .seed = world->model.def.seed,
                                    .area = live->area};
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);
     jox_live_add_head(&head, &json);
-    jox_live_add_walls(&world->all_walls, JOX_WALL_HEIGHT, &json);
-    jox_live_add_places(world->places, scene->first_antipode, &json);
+    jox_live_add_walls(&world->model.all_walls, JOX_WALL_HEIGHT, &json);
+    jox_live_add_places(world->model.places, scene->first_antipode, &json);
     jox_live_add_regions(spec->regions, spec->region_count, &json);
     add_groups(&json, scene);
     jox_live_graph(scene, &json, "machines");
-    add_bodies(&json, world->bodies);
+    add_bodies(&json, world->state.bodies);
     add_tools(&json, scene);
     jox_live_add_camera(spec, &json);
     jox_live_add_colours(&json);
@@ -280,22 +280,23 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
 
 uint64_t jox_live_version(const JoScene *scene) {
     const JoWorld *world = scene->world;
-    const JoxWalls *walls = &world->all_walls;
+    const JoxWalls *walls = &world->model.all_walls;
     JoxHash hash = jox_hash_begin();
     jox_hash_add(&hash, &scene->spec->view, sizeof scene->spec->view);
     jox_hash_add(&hash, scene->spec->camera.position, sizeof scene->spec->camera.position);
     jox_hash_add(&hash, scene->spec->camera.target, sizeof scene->spec->camera.target);
-    for (uint32_t m = 0; m < world->mind.machine_count; m++)
-        jox_hash_add(&hash, &world->mind.machines[m], sizeof world->mind.machines[m]);
-    jox_hash_add(&hash, &world->mind.edits, sizeof world->mind.edits);
+    for (uint32_t m = 0; m < world->model.machines.count; m++)
+        jox_hash_add(&hash, &world->model.machines.items[m], sizeof world->model.machines.items[m]);
+    jox_hash_add(&hash, &world->machines.edits_made, sizeof world->machines.edits_made);
     for (uint32_t v = 0; v < walls->count; v++) /* opening and closing is in the status */
         jox_hash_add(&hash, &walls->vertices[v].point, sizeof(JoxV2));
-    for (uint32_t p = 0; p < world->place_count; p++)
-        jox_hash_add(&hash, world->places[p].points, world->places[p].count * sizeof(JoxV2));
-    for (uint32_t row = 0; row < jox_bodies_rows(world->bodies); row++) {
-        const uint32_t id = jox_bodies_id(world->bodies, row);
+    for (uint32_t p = 0; p < world->model.place_count; p++)
+        jox_hash_add(&hash, world->model.places[p].points,
+                     world->model.places[p].count * sizeof(JoxV2));
+    for (uint32_t row = 0; row < jox_bodies_rows(world->state.bodies); row++) {
+        const uint32_t id = jox_bodies_id(world->state.bodies, row);
         JoxBodyBonds bonds;
-        jox_bodies_bonds(world->bodies, row, &bonds);
+        jox_bodies_bonds(world->state.bodies, row, &bonds);
         jox_hash_add(&hash, &id, sizeof id);
         jox_hash_add(&hash, &bonds.blocks, sizeof bonds.blocks);
     }

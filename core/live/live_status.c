@@ -6,12 +6,12 @@
 #include "live/live_parts.h"
 
 /* "states": [[people in each state] of each machine], and "fired" alike by transition. */
-static void add_machines(JoxJson *json, JoxLive *live, const JoxMind *mind) {
+static void add_machines(JoxJson *json, JoxLive *live, const JoxMachineRun *machines) {
     jox_json_array(json, "states");
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
-        const uint32_t count = mind->machines[m]->state_count;
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        const uint32_t count = machines->set->items[m]->state_count;
         JOX_RESERVE(live->people, live->people_capacity, count);
-        jox_mind_census(mind, m, live->people);
+        jox_machines_people(machines, m, live->people);
         jox_json_array(json, NULL);
         for (uint32_t s = 0; s < count; s++)
             jox_json_whole(json, NULL, live->people[s]);
@@ -19,7 +19,7 @@ static void add_machines(JoxJson *json, JoxLive *live, const JoxMind *mind) {
     }
     jox_json_end(json);
     jox_json_array(json, "fired");
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
+    for (uint32_t m = 0; m < machines->set->count; m++) {
         jox_json_array(json, NULL);
         for (uint32_t t = live->begins[m]; t < live->begins[m + 1]; t++)
             jox_json_whole(json, NULL, live->fired[t]);
@@ -30,7 +30,7 @@ static void add_machines(JoxJson *json, JoxLive *live, const JoxMind *mind) {
 
 /* Passages of flow probes, and which walls of a name stand open. */
 static void add_doors(JoxJson *json, const JoScene *scene) {
-    const JoxWalls *walls = &scene->world->all_walls;
+    const JoxWalls *walls = &scene->world->model.all_walls;
     const JoxProbe *probe;
     jox_json_object(json, "flows");
     for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
@@ -52,7 +52,7 @@ static void add_doors(JoxJson *json, const JoScene *scene) {
    agent-step. Where there was none: since loading. */
 static void add_costs(JoxJson *json, JoxLive *live, const JoScene *scene) {
     const JoWorld *world = scene->world;
-    const JoxStatistics *s = &world->statistics;
+    const JoxStatistics *s = &world->state.statistics;
     const double wall = jox_clock_wall(), time = jo_world_time(world);
     const bool stepped = s->agent_steps > live->agent_steps;
     const double people = stepped ? (double)(s->agent_steps - live->agent_steps)
@@ -89,14 +89,14 @@ void jox_live_add_session(uint64_t tick, double time, const JoxLiveSession *sess
 void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out) {
     JoxLive *live = jox_live_of(scene);
     const JoWorld *world = scene->world;
-    jox_live_renumber(live, &world->mind);
+    jox_live_renumber(live, &world->machines);
     jox_live_spread_crowd(scene, false);
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);
-    jox_live_add_session(world->tick, jo_world_time(world), session, &json);
-    jox_json_whole(&json, "agents", world->agents.count);
-    jox_json_whole(&json, "bodies", jox_bodies_count(world->bodies));
-    add_machines(&json, live, &world->mind);
+    jox_live_add_session(world->state.tick, jo_world_time(world), session, &json);
+    jox_json_whole(&json, "agents", world->state.agents.count);
+    jox_json_whole(&json, "bodies", jox_bodies_count(world->state.bodies));
+    add_machines(&json, live, &world->machines);
     jox_json_number(&json, "mean_speed", jox_live_speed(scene));
     jox_json_number(&json, "density_max", live->grid.most);
     add_costs(&json, live, scene);

@@ -2,22 +2,22 @@
 #include "base/mem.h"
 #include "live/live_parts.h"
 
-static bool same_machines(const JoxLive *live, const JoxMind *mind) {
-    bool same = live->machine_count == mind->machine_count;
-    for (uint32_t m = 0; same && m < mind->machine_count; m++)
-        same = live->machines[m] == mind->machines[m];
+static bool same_machines(const JoxLive *live, const JoxMachineRun *machines) {
+    bool same = live->machine_count == machines->set->count;
+    for (uint32_t m = 0; same && m < machines->set->count; m++)
+        same = live->machines[m] == machines->set->items[m];
     return same;
 }
 
 /* Numbers the transitions of all machines; those that were counted under other numbers are
    forgotten. */
-static void number_transitions(JoxLive *live, const JoxMind *mind) {
+static void number_transitions(JoxLive *live, const JoxMachineRun *machines) {
     for (uint32_t m = 0; m < live->machine_count; m++)
         jox_free(live->state_begins[m]);
-    live->machine_count = mind->machine_count;
+    live->machine_count = machines->set->count;
     live->count = 0;
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
-        const JoxMachine *machine = mind->machines[m];
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        const JoxMachine *machine = machines->set->items[m];
         live->machines[m] = machine;
         live->state_begins[m] = jox_alloc(machine->state_count + 1, sizeof(uint32_t));
         uint32_t number = live->begins[m];
@@ -46,27 +46,27 @@ static void push_taken(JoxLive *live, JoxLiveTaken taken) {
     live->fired[taken.which]++;
 }
 
-void jox_live_renumber(JoxLive *live, const JoxMind *mind) {
-    if (!same_machines(live, mind) || !live->fired)
-        number_transitions(live, mind);
+void jox_live_renumber(JoxLive *live, const JoxMachineRun *machines) {
+    if (!same_machines(live, machines) || !live->fired)
+        number_transitions(live, machines);
 }
 
 void jox_live_count(JoxLive *live, const JoScene *scene) {
     const JoWorld *world = scene->world;
-    const JoxMind *mind = &world->mind;
-    jox_live_renumber(live, mind);
-    if (live->noted == world->tick)
+    const JoxMachineRun *machines = &world->machines;
+    jox_live_renumber(live, machines);
+    if (live->noted == world->state.tick)
         return;
-    live->noted = world->tick;
-    const uint64_t second = (uint64_t)(1.0 / world->def.dt + 0.5);
-    while (live->count && live->taken[live->first].tick + second <= world->tick) {
+    live->noted = world->state.tick;
+    const uint64_t second = (uint64_t)(1.0 / world->model.def.dt + 0.5);
+    while (live->count && live->taken[live->first].tick + second <= world->state.tick) {
         live->fired[live->taken[live->first].which]--;
         live->first = (live->first + 1) % live->capacity;
         live->count--;
     }
-    for (uint32_t n = 0; n < mind->taken_count; n++) {
-        const JoxTaken *taken = &mind->taken[n];
+    for (uint32_t n = 0; n < machines->taken_count; n++) {
+        const JoxTaken *taken = &machines->taken[n];
         const uint32_t which = live->state_begins[taken->machine][taken->from] + taken->transition;
-        push_taken(live, (JoxLiveTaken){world->tick, which});
+        push_taken(live, (JoxLiveTaken){world->state.tick, which});
     }
 }

@@ -18,7 +18,7 @@ JoViewDef jo_default_view_def(void) {
 /* ---- time ---- */
 
 static void pause_at_end(JoxScenePage *s) {
-    if (jo_world_time(s->scene->world) + 0.5 * s->scene->world->def.dt < s->until)
+    if (jo_world_time(s->scene->world) + 0.5 * s->scene->world->model.def.dt < s->until)
         return;
     jox_run_say(s->scene, "%g s are over, and the scene waits; it can go on or be restarted\n",
                 s->until);
@@ -45,7 +45,7 @@ static void step(JoxScenePage *s) {
 static double advance(void *self, double now) {
     JoxScenePage *s = self;
     const JoxLiveSession *session = &s->page.session;
-    const double due = s->began + s->scene->world->def.dt / session->speed;
+    const double due = s->began + s->scene->world->model.def.dt / session->speed;
     if (session->paused && s->steps == 0) {
         jox_run_reload(s->scene); /* files that were saved go live in a pause, too */
         return INFINITY;

@@ -12,8 +12,8 @@
 enum { MOST_FAILURES = 100 }; /* in a simulated second, before a function is suspended */
 enum { TIMED = 16 };          /* one call in so many is timed */
 
-void jox_lua_attach(JoxLua *lua, JoxMind *mind, JoxLuaComplain *complain, void *context) {
-    lua->mind = mind;
+void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *complain, void *context) {
+    lua->machines = machines;
     lua->group.say = complain;
     lua->group.say_context = context;
 }
@@ -65,9 +65,9 @@ static void new_second(JoxLua *lua, const JoxScript *script, JoxHook *hook, uint
 
 /* Says each new failure in full; the same again is counted and said once a second. */
 static void report(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *why, int line) {
-    const JoxMind *mind = lua->mind;
+    const JoxMachineRun *machines = lua->machines;
     char text[2600];
-    uint32_t second = (uint32_t)(mind->tick * mind->dt);
+    uint32_t second = (uint32_t)(machines->tick * machines->dt);
     if (second != hook->second)
         new_second(lua, script, hook, second);
     lua->failures++;
@@ -92,8 +92,8 @@ static void report(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *wh
     snprintf(text, sizeof text,
              "%.200s:%d: %.400s\n%s machine %.60s > %.200s; agent %u, step %u, seed %llu\n",
              script->vm.sources[script->vm.failed_source]->path, line, why, script->vm.traceback,
-             script->machine->name, hook->where, mind->agents->id[script->agent], mind->tick,
-             (unsigned long long)mind->seed);
+             script->machine->name, hook->where, machines->agents->id[script->agent],
+             machines->tick, (unsigned long long)machines->seed);
     say(lua, text);
 }
 
@@ -175,7 +175,7 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
 
 void jox_lua_bracket(void *context, bool begins) {
     JoxLua *lua = context;
-    JoxAgents *a = lua->mind->agents;
+    JoxAgents *a = lua->machines->agents;
     if (begins) {
         JOX_RESERVE(lua->before_state, lua->before_capacity, a->count);
         JOX_RESERVE(lua->before_memory, lua->before_memory_capacity,

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "lua/language/scope.h"
 #include "lua/vm/limits.h"
-#include "machine/mind.h"
+#include "machine/run.h"
 
 /* NULL if anything is wrong; every error (up to 20) is then in `diagnostics`, and nothing changed.
    The machine is the caller's; its hooks live until jox_lua_release or the end of `lua`. */
@@ -66,12 +66,13 @@ const char *jox_loaded_text(const JoxLoaded *loaded, uint32_t file, size_t *leng
 /* All files that were looked for when a machine was loaded. */
 char *const *jox_lua_tried(const JoxLua *lua, const JoxMachine *machine, uint32_t *count);
 
-/* Ready for JoxMind.call, with the JoxLua as context. `jox_lua_attach` says whose columns hooks
-   read and write, and where their errors go: each place and message in full once, then counted. */
-void jox_lua_attach(JoxLua *lua, JoxMind *mind, JoxLuaComplain *complain, void *context);
+/* Ready for JoxMachineRun.call, with the JoxLua as context. `jox_lua_attach` says whose columns
+   hooks read and write, and where their errors go: each place and message in full once, then
+   counted. */
+void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *complain, void *context);
 bool jox_lua_call(void *lua, const JoxMachine *machine, int32_t hook, JoxHookKind kind,
                   uint32_t agent, double result[2]);
-/* Ready for JoxMind.bracket. */
+/* Ready for JoxMachineRun.bracket. */
 void jox_lua_bracket(void *lua, bool begins);
 /* Time that a machine's functions took, s, estimated from one call in 16, and how many there were.
  */

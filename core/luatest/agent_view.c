@@ -13,13 +13,13 @@ void jox_test_set_number(lua_State *L, const char *name, double value) {
 }
 
 /* Pushes a table with all of an agent; a copy, not the agent. */
-void jox_test_push_agent(lua_State *L, const JoxMind *mind, uint32_t i) {
-    const JoxAgents *a = mind->agents;
+void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i) {
+    const JoxAgents *a = machines->agents;
     lua_newtable(L);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
         jox_test_set_number(L, jox_parameters[p].name, a->param[p][i]);
     if (a->machine[i] != JOX_NO_MACHINE) {
-        const JoxMachine *m = mind->machines[a->machine[i]];
+        const JoxMachine *m = machines->set->items[a->machine[i]];
         for (uint32_t s = 0; s < m->memory_count; s++) {
             double value = a->memory[(size_t)i * a->memory_stride + s];
             if (m->memory[s].kind == JOX_MEMORY_BOOLEAN) {

@@ -37,6 +37,6 @@ void jox_test_scene_yaml(lua_State *L, JoxTestRun *run, int index, JoxText *out)
 double jox_test_speed(const JoxAgents *agents, uint32_t i);
 void jox_test_set_number(lua_State *L, const char *name, double value);
 /* Pushes a table with all of an agent. */
-void jox_test_push_agent(lua_State *L, const JoxMind *mind, uint32_t i);
+void jox_test_push_agent(lua_State *L, const JoxMachineRun *machines, uint32_t i);
 
 #endif

@@ -29,13 +29,13 @@ static Scene *check(lua_State *L) {
     return t;
 }
 
-static const JoxMind *mind_of(lua_State *L, const Scene *t) {
+static const JoxMachineRun *machines_of(lua_State *L, const Scene *t) {
     const JoxTestDriver *driver = jox_test_run_of(L)->driver;
-    return driver->mind(driver->context, t->scene);
+    return driver->machines(driver->context, t->scene);
 }
 
-static double time_of(const JoxMind *mind) {
-    return mind->tick * mind->dt;
+static double time_of(const JoxMachineRun *machines) {
+    return machines->tick * machines->dt;
 }
 
 /* ---- who has been where ---- */
@@ -58,8 +58,8 @@ static void mark(Scene *t, const char *state, uint32_t id) {
         t->been[n][id] = 1;
 }
 
-static void note(const JoxMind *mind, Scene *t) {
-    const JoxAgents *a = mind->agents;
+static void note(const JoxMachineRun *machines, Scene *t) {
+    const JoxAgents *a = machines->agents;
     if (a->next_id > t->id_capacity) {
         uint32_t wider = a->next_id + a->next_id / 2 + 64;
         t->group = jox_realloc(t->group, wider, sizeof *t->group);
@@ -73,14 +73,14 @@ static void note(const JoxMind *mind, Scene *t) {
         uint32_t i = jox_agents_find(a, t->known);
         t->group[t->known] = i == JOX_NO_INDEX ? -1 : a->group[i];
         if (i != JOX_NO_INDEX && a->machine[i] != JOX_NO_MACHINE)
-            mark(t, mind->machines[a->machine[i]]->states[a->state[i]].name, t->known);
+            mark(t, machines->set->items[a->machine[i]]->states[a->state[i]].name, t->known);
     }
-    for (uint32_t k = 0; k < mind->taken_count; k++) {
-        const JoxTaken *taken = &mind->taken[k];
-        mark(t, mind->machines[taken->machine]->states[taken->to].name, taken->agent_id);
+    for (uint32_t k = 0; k < machines->taken_count; k++) {
+        const JoxTaken *taken = &machines->taken[k];
+        mark(t, machines->set->items[taken->machine]->states[taken->to].name, taken->agent_id);
         uint32_t i = jox_agents_find(a, taken->agent_id); /* it may have become another machine */
         if (i != JOX_NO_INDEX)
-            mark(t, mind->machines[a->machine[i]]->states[a->state[i]].name, taken->agent_id);
+            mark(t, machines->set->items[a->machine[i]]->states[a->state[i]].name, taken->agent_id);
     }
 }
 
@@ -91,9 +91,9 @@ static void step(lua_State *L, Scene *t) {
     double begun = jox_test_clock();
     bool good = driver->step(driver->context, t->scene, &why);
     run->stepping += jox_test_clock() - begun;
-    const JoxMind *mind = mind_of(L, t);
-    run->simulated += mind->dt;
-    note(mind, t);
+    const JoxMachineRun *machines = machines_of(L, t);
+    run->simulated += machines->dt;
+    note(machines, t);
     if (!good) {
         lua_pushfstring(L, "%s", why.data ? why.data : "the step failed");
         jox_text_free(&why);
@@ -158,14 +158,14 @@ static int32_t group_option(lua_State *L, const Scene *t, int index) {
 /* A state that some machine of the scene has. */
 static const char *check_state(lua_State *L, const Scene *t, int index) {
     const char *name = luaL_checkstring(L, index), *names[256];
-    const JoxMind *mind = mind_of(L, t);
+    const JoxMachineRun *machines = machines_of(L, t);
     size_t count = 0;
-    for (uint32_t m = 0; m < mind->machine_count; m++)
-        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++) {
-            if (strcmp(mind->machines[m]->states[s].name, name) == 0)
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
+            if (strcmp(machines->set->items[m]->states[s].name, name) == 0)
                 return name;
             if (count < 256)
-                names[count++] = mind->machines[m]->states[s].name;
+                names[count++] = machines->set->items[m]->states[s].name;
         }
     const char *near = jox_suggest(name, names, count);
     luaL_error(L, "no machine of the scene has a state '%s'%s%s", name,
@@ -175,14 +175,14 @@ static const char *check_state(lua_State *L, const Scene *t, int index) {
 
 /* ---- looking ---- */
 
-static uint32_t count_in(const JoxMind *mind, const char *state, int32_t group) {
-    const JoxAgents *a = mind->agents;
+static uint32_t count_in(const JoxMachineRun *machines, const char *state, int32_t group) {
+    const JoxAgents *a = machines->agents;
     uint32_t count = 0;
     for (uint32_t i = 0; i < a->count; i++)
-        count +=
-            (group < 0 || a->group[i] == group) &&
-            (!state || (a->machine[i] != JOX_NO_MACHINE &&
-                        !strcmp(mind->machines[a->machine[i]]->states[a->state[i]].name, state)));
+        count += (group < 0 || a->group[i] == group) &&
+                 (!state ||
+                  (a->machine[i] != JOX_NO_MACHINE &&
+                   !strcmp(machines->set->items[a->machine[i]]->states[a->state[i]].name, state)));
     return count;
 }
 
@@ -195,12 +195,12 @@ static uint32_t been_in(const Scene *t, const char *state, int32_t group) {
 }
 
 /* "Walk 3, Rest 2": where the agents are. */
-static void push_counts(lua_State *L, const JoxMind *mind, int32_t group) {
+static void push_counts(lua_State *L, const JoxMachineRun *machines, int32_t group) {
     JoxText text = {0};
-    for (uint32_t m = 0; m < mind->machine_count; m++)
-        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++) {
-            const char *name = mind->machines[m]->states[s].name;
-            uint32_t people = count_in(mind, name, group);
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
+            const char *name = machines->set->items[m]->states[s].name;
+            uint32_t people = count_in(machines, name, group);
             if (people)
                 jox_text_printf(&text, "%s%s %u", text.length ? ", " : "", name, people);
         }
@@ -211,7 +211,7 @@ static void push_counts(lua_State *L, const JoxMind *mind, int32_t group) {
 static int scene_count(lua_State *L) {
     Scene *t = check(L);
     const char *state = lua_isnoneornil(L, 2) ? NULL : check_state(L, t, 2);
-    lua_pushinteger(L, count_in(mind_of(L, t), state, group_option(L, t, 3)));
+    lua_pushinteger(L, count_in(machines_of(L, t), state, group_option(L, t, 3)));
     return 1;
 }
 
@@ -223,7 +223,7 @@ static int scene_entered(lua_State *L) {
 }
 
 static int scene_time(lua_State *L) {
-    lua_pushnumber(L, time_of(mind_of(L, check(L))));
+    lua_pushnumber(L, time_of(machines_of(L, check(L))));
     return 1;
 }
 
@@ -239,7 +239,7 @@ static int scene_hash(lua_State *L) {
 /* s:agents(["group"]): a list in order of id. */
 static int scene_agents(lua_State *L) {
     Scene *t = check(L);
-    const JoxMind *mind = mind_of(L, t);
+    const JoxMachineRun *machines = machines_of(L, t);
     const JoxTestDriver *driver = jox_test_run_of(L)->driver;
     int32_t group = -1;
     if (!lua_isnoneornil(L, 2) &&
@@ -247,11 +247,11 @@ static int scene_agents(lua_State *L) {
         return luaL_error(L, "the scene has no group '%s'", lua_tostring(L, 2));
     lua_newtable(L);
     lua_Integer n = 0;
-    for (uint32_t rank = 0; rank < mind->agents->count; rank++) {
-        uint32_t i = mind->agents->by_rank[rank];
-        if (group >= 0 && mind->agents->group[i] != group)
+    for (uint32_t rank = 0; rank < machines->agents->count; rank++) {
+        uint32_t i = machines->agents->by_rank[rank];
+        if (group >= 0 && machines->agents->group[i] != group)
             continue;
-        jox_test_push_agent(L, mind, i);
+        jox_test_push_agent(L, machines, i);
         lua_rawseti(L, -2, ++n);
     }
     return 1;
@@ -259,15 +259,15 @@ static int scene_agents(lua_State *L) {
 
 /* s:agent(id): nil where it has left. */
 static int scene_agent(lua_State *L) {
-    const JoxMind *mind = mind_of(L, check(L));
+    const JoxMachineRun *machines = machines_of(L, check(L));
     lua_Integer id = luaL_checkinteger(L, 2);
-    uint32_t i = id < 0 || id >= mind->agents->next_id
+    uint32_t i = id < 0 || id >= machines->agents->next_id
                      ? JOX_NO_INDEX
-                     : jox_agents_find(mind->agents, (uint32_t)id);
+                     : jox_agents_find(machines->agents, (uint32_t)id);
     if (i == JOX_NO_INDEX)
         lua_pushnil(L);
     else
-        jox_test_push_agent(L, mind, i);
+        jox_test_push_agent(L, machines, i);
     return 1;
 }
 
@@ -295,8 +295,8 @@ static int scene_step(lua_State *L) {
 
 static int scene_run(lua_State *L) {
     Scene *t = check(L);
-    const JoxMind *mind = mind_of(L, t);
-    double steps = luaL_checknumber(L, 2) / mind->dt;
+    const JoxMachineRun *machines = machines_of(L, t);
+    double steps = luaL_checknumber(L, 2) / machines->dt;
     for (double n = 0.5; n < steps; n += 1.0)
         step(L, t);
     return 0;
@@ -323,18 +323,18 @@ static int scene_reaches(lua_State *L) {
         lua_pop(L, 1);
     }
     jox_test_run_of(L)->assertions++;
-    const JoxMind *mind = mind_of(L, t);
-    double until = time_of(mind) + within - 0.5 * mind->dt;
-    while (been_in(t, state, group) < wanted && time_of(mind) < until)
+    const JoxMachineRun *machines = machines_of(L, t);
+    double until = time_of(machines) + within - 0.5 * machines->dt;
+    while (been_in(t, state, group) < wanted && time_of(machines) < until)
         step(L, t);
     uint32_t been = been_in(t, state, group);
     if (been >= wanted) {
-        lua_pushnumber(L, time_of(mind));
+        lua_pushnumber(L, time_of(machines));
         return 1;
     }
-    push_counts(L, mind, group);
+    push_counts(L, machines, group);
     return luaL_error(L, "%d of %d agents reached '%s' within %f s; now at t = %f s: %s", (int)been,
-                      (int)wanted, state, within, time_of(mind), lua_tostring(L, -1));
+                      (int)wanted, state, within, time_of(machines), lua_tostring(L, -1));
 }
 
 /* s:never(state, { during = s, agents = "group" }); what was before counts as well. */
@@ -344,16 +344,16 @@ static int scene_never(lua_State *L) {
     const char *state = check_state(L, t, 2);
     check_options(L, 3, OPTIONS, 2);
     int32_t group = group_option(L, t, 3);
-    const JoxMind *mind = mind_of(L, t);
-    double until = time_of(mind) + option(L, 3, "during", 0.0) - 0.5 * mind->dt;
+    const JoxMachineRun *machines = machines_of(L, t);
+    double until = time_of(machines) + option(L, 3, "during", 0.0) - 0.5 * machines->dt;
     jox_test_run_of(L)->assertions++;
     for (;;) {
         int n = find_name(t, state);
         for (uint32_t id = 0; n >= 0 && id < t->known; id++)
             if (t->been[n][id] && (group < 0 || t->group[id] == group))
                 return luaL_error(L, "agent %d has been in '%s', by t = %f s", (int)id, state,
-                                  time_of(mind));
-        if (time_of(mind) >= until)
+                                  time_of(machines));
+        if (time_of(machines) >= until)
             return 0;
         step(L, t);
     }
@@ -362,9 +362,9 @@ static int scene_never(lua_State *L) {
 /* The greatest speed and the mean of all agents during some seconds. */
 static void watch_speed(lua_State *L, Scene *t, double during, int32_t group, double most,
                         double *mean) {
-    const JoxMind *mind = mind_of(L, t);
-    const JoxAgents *a = mind->agents;
-    double until = time_of(mind) + during - 0.5 * mind->dt, sum = 0.0;
+    const JoxMachineRun *machines = machines_of(L, t);
+    const JoxAgents *a = machines->agents;
+    double until = time_of(machines) + during - 0.5 * machines->dt, sum = 0.0;
     uint64_t count = 0;
     do {
         step(L, t);
@@ -376,9 +376,9 @@ static void watch_speed(lua_State *L, Scene *t, double during, int32_t group, do
             count++;
             if (speed > most)
                 luaL_error(L, "agent %d moves at %f m/s at t = %f s, faster than %f", (int)a->id[i],
-                           speed, time_of(mind), most);
+                           speed, time_of(machines), most);
         }
-    } while (time_of(mind) < until);
+    } while (time_of(machines) < until);
     if (count == 0)
         luaL_error(L, "there is nobody whose speed could be measured");
     *mean = count ? sum / (double)count : 0.0;
@@ -510,7 +510,7 @@ static int word_scene(lua_State *L) {
     Scene *t = lua_newuserdatauv(L, sizeof *t, 0);
     *t = (Scene){.scene = scene};
     luaL_setmetatable(L, SCENE);
-    note(mind_of(L, t), t);
+    note(machines_of(L, t), t);
     return 1;
 }
 

@@ -11,6 +11,7 @@
 #include "base/guard.h"
 #include "base/json_writer.h"
 #include "base/mem.h"
+#include "jostle_tools.h"
 #include "luatest/testing.h"
 #include "run/run.h"
 
@@ -98,7 +99,7 @@ static void *load(void *context, const JoxTestScene *wanted, JoxText *why) {
         scene = NULL;
     }
     if (scene)
-        jox_world_settle(scene->world);
+        jox_world_resolve_placement(scene->world);
     jox_free(path);
     return scene;
 }
@@ -125,11 +126,11 @@ static bool step(void *context, void *scene, JoxText *why) {
     return false;
 }
 
-static const JoxMind *mind_of(void *context, void *scene) {
+static const JoxMachineRun *machines_of(void *context, void *scene) {
     (void)context;
     JoWorld *world = ((JoScene *)scene)->world;
-    world->mind.tick = (uint32_t)world->tick; /* steps done, as a test sees it */
-    return &world->mind;
+    world->machines.tick = (uint32_t)world->state.tick; /* steps done, as a test sees it */
+    return &world->machines;
 }
 
 static uint64_t hash(void *context, void *scene) {
@@ -148,7 +149,7 @@ static int32_t group(void *context, void *scene, const char *name) {
 
 static bool body(void *context, void *scene, const char *name, double out[6]) {
     (void)context;
-    const JoxBodies *bodies = ((JoScene *)scene)->world->bodies;
+    const JoxBodies *bodies = ((JoScene *)scene)->world->state.bodies;
     JoxPose pose;
     uint32_t row = jox_bodies_find_name(bodies, name);
     if (row == JOX_NO_BODY || !jox_bodies_pose(bodies, row, &pose))
@@ -220,7 +221,7 @@ static void run_file(Tests *tests, const char *path) {
     const JoxTestDriver driver = {.load = load,
                                   .free = free_scene,
                                   .step = step,
-                                  .mind = mind_of,
+                                  .machines = machines_of,
                                   .hash = hash,
                                   .group = group,
                                   .body = body,

@@ -23,7 +23,7 @@ typedef struct JoxTestDriver {
     void *(*load)(void *context, const JoxTestScene *scene, JoxText *why);
     void (*free)(void *context, void *scene);
     bool (*step)(void *context, void *scene, JoxText *why);
-    const JoxMind *(*mind)(void *context, void *scene);
+    const JoxMachineRun *(*machines)(void *context, void *scene);
     uint64_t (*hash)(void *context, void *scene);
     int32_t (*group)(void *context, void *scene, const char *name);
     /* Pose of a body by name: position and velocity, x y z; false if there is none. */

@@ -7,123 +7,124 @@
 
 static const double KICK_PAUSE = 0.3; /* s between two kicks of one agent */
 
-static void write_programs(const JoxMind *mind, const JoxBatchRange *batch,
+static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
                            JoxRegisters registers) {
-    const JoxMachine *machine = mind->machines[batch->machine];
+    const JoxMachine *machine = run->set->items[batch->machine];
     const JoxState *state = &machine->states[batch->state];
-    const uint32_t *agents = mind->scratch->grouped + batch->begin;
+    const uint32_t *agents = run->scratch->grouped + batch->begin;
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxValue *value = jox_state_parameter(machine, state, p);
         if (value->kind != JOX_VALUE_PROGRAM)
             continue;
-        jox_eval(mind, machine, &machine->programs[value->index], agents, batch->count, registers);
+        jox_eval(run, machine, &machine->programs[value->index], agents, batch->count, registers);
         for (uint32_t n = 0; n < batch->count; n++)
-            mind->agents->param[p][agents[n]] =
+            run->agents->param[p][agents[n]] =
                 jox_parameter_store((JoxParameter)p, registers[0][n]);
     }
 }
 
-static void write_pushing(const JoxMind *mind, const JoxBatchRange *batch, JoxRegisters registers) {
-    const JoxMachine *machine = mind->machines[batch->machine];
+static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
+                          JoxRegisters registers) {
+    const JoxMachine *machine = run->set->items[batch->machine];
     const JoxState *state = &machine->states[batch->state];
-    const uint32_t *agents = mind->scratch->grouped + batch->begin;
+    const uint32_t *agents = run->scratch->grouped + batch->begin;
     if (state->push_when >= 0)
-        jox_eval(mind, machine, &machine->programs[state->push_when], agents, batch->count,
+        jox_eval(run, machine, &machine->programs[state->push_when], agents, batch->count,
                  registers);
     for (uint32_t n = 0; n < batch->count; n++) {
         uint32_t i = agents[n];
-        mind->push_on[i] = state->push_when < 0 || registers[0][n] != 0.0;
-        mind->push_nearest[i] = state->push_nearest;
+        run->push_on[i] = state->push_when < 0 || registers[0][n] != 0.0;
+        run->push_nearest[i] = state->push_nearest;
         if (state->push_toward >= 0) {
-            JoxSpot spot = jox_target_find(mind, i, state->push_toward);
-            JoxV2 way = {spot.x - mind->agents->x[i], spot.y - mind->agents->y[i]};
+            JoxSpot spot = jox_target_find(run, i, state->push_toward);
+            JoxV2 way = {spot.x - run->agents->x[i], spot.y - run->agents->y[i]};
             way = spot.found ? jox_unit(way) : (JoxV2){0.0f, 0.0f};
-            mind->push_toward_x[i] = way.x;
-            mind->push_toward_y[i] = way.y;
+            run->push_toward_x[i] = way.x;
+            run->push_toward_y[i] = way.y;
         }
-        mind->agents->approach[i] =
-            state->approach >= 0 ? jox_target_find(mind, i, state->approach).object : -1;
+        run->agents->approach[i] =
+            state->approach >= 0 ? jox_target_find(run, i, state->approach).object : -1;
     }
 }
 
 static void act_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    const JoxMind *mind = context;
+    const JoxMachineRun *run = context;
     for (uint32_t b = begin; b < end; b++) {
-        write_programs(mind, &mind->scratch->batches[b], mind->scratch->registers[worker]);
-        write_pushing(mind, &mind->scratch->batches[b], mind->scratch->registers[worker]);
+        write_programs(run, &run->scratch->batches[b], run->scratch->registers[worker]);
+        write_pushing(run, &run->scratch->batches[b], run->scratch->registers[worker]);
     }
 }
 
 /* The impulse of a kick: through the body's centre, level, towards kick_at or straight ahead. */
-static void kick(JoxMind *mind, const JoxMachine *machine, const JoxState *state, uint32_t i) {
-    JoxAgents *a = mind->agents;
-    JoxSpot ball = jox_target_find(mind, i, state->kick);
-    if (ball.object < 0 || mind->tick < a->kick_ready[i] || jox_spot_gap(mind, i, &ball) >= 0.05f)
+static void kick(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state, uint32_t i) {
+    JoxAgents *a = run->agents;
+    JoxSpot ball = jox_target_find(run, i, state->kick);
+    if (ball.object < 0 || run->tick < a->kick_ready[i] || jox_spot_gap(run, i, &ball) >= 0.05f)
         return;
-    const JoxObject *object = &mind->objects->rows[ball.object];
+    const JoxObject *object = &run->objects->rows[ball.object];
     if (!object->moves || !object->in_band || object->held)
         return;
     JoxV2 way = {ball.x - a->x[i], ball.y - a->y[i]};
     if (state->kick_at >= 0) {
-        JoxSpot at = jox_target_find(mind, i, state->kick_at);
+        JoxSpot at = jox_target_find(run, i, state->kick_at);
         if (!at.found)
             return;
         way = (JoxV2){at.x - ball.x, at.y - ball.y};
     }
     way = jox_unit(way);
-    double change = jox_value(mind, machine, &state->kick_impulse, i);
+    double change = jox_value(run, machine, &state->kick_impulse, i);
     if (!(change > 0.0) || jox_length2(way) == 0.0f)
         return;
     float impulse = (float)(change < 50.0 ? change : 50.0) / object->inverse_mass;
-    JOX_RESERVE(mind->kicks, mind->kick_capacity, mind->kick_count + 1);
-    mind->kicks[mind->kick_count++] = (JoxImpulse){
+    JOX_RESERVE(run->kicks, run->kick_capacity, run->kick_count + 1);
+    run->kicks[run->kick_count++] = (JoxImpulse){
         (uint32_t)ball.object, {way.x * impulse, way.y * impulse, 0.0f}, object->position};
     a->kicked[i] = ball.object;
-    a->kick_ready[i] = mind->tick + (uint32_t)(KICK_PAUSE / mind->dt + 0.5);
+    a->kick_ready[i] = run->tick + (uint32_t)(KICK_PAUSE / run->dt + 0.5);
 }
 
 static const float REACH = 0.6f;       /* m: the gap over which a body is picked up */
 static const float CATCHABLE = 8.0f;   /* m/s: what is faster is not caught */
 static const float HAND_HEIGHT = 1.2f; /* m: where thrown bodies leave, and arrive */
 
-int32_t jox_holding(const JoxMind *mind, uint32_t i, int32_t target) {
-    const JoxTarget *t = &jox_machine_of(mind, i)->targets[target];
-    for (uint32_t o = 0; mind->objects && o < mind->objects->count; o++) {
-        const JoxObject *object = &mind->objects->rows[o];
-        if (object->live && object->held && object->holder == mind->agents->id[i] &&
+int32_t jox_holding(const JoxMachineRun *run, uint32_t i, int32_t target) {
+    const JoxTarget *t = &jox_machine_of(run, i)->targets[target];
+    for (uint32_t o = 0; run->objects && o < run->objects->count; o++) {
+        const JoxObject *object = &run->objects->rows[o];
+        if (object->live && object->held && object->holder == run->agents->id[i] &&
             (t->kind != JOX_TARGET_NEAREST || (object->tags >> t->arg & 1)))
             return (int32_t)o;
     }
     return -1;
 }
 
-static void add_grip(JoxMind *mind, JoxGrip grip) {
-    for (uint32_t g = 0; g < mind->grip_count; g++)
-        if (mind->grips[g].object == grip.object)
+static void add_grip(JoxMachineRun *run, JoxGrip grip) {
+    for (uint32_t g = 0; g < run->grip_count; g++)
+        if (run->grips[g].object == grip.object)
             return; /* who has the lower id was first */
-    JOX_RESERVE(mind->grips, mind->grip_capacity, mind->grip_count + 1);
-    mind->grips[mind->grip_count++] = grip;
+    JOX_RESERVE(run->grips, run->grip_capacity, run->grip_count + 1);
+    run->grips[run->grip_count++] = grip;
 }
 
-static void take(JoxMind *mind, const JoxState *state, uint32_t i) {
-    const JoxAgents *a = mind->agents;
-    JoxSpot spot = jox_target_find(mind, i, state->take);
-    if (spot.object < 0 || jox_holding(mind, i, state->take) >= 0)
+static void take(JoxMachineRun *run, const JoxState *state, uint32_t i) {
+    const JoxAgents *a = run->agents;
+    JoxSpot spot = jox_target_find(run, i, state->take);
+    if (spot.object < 0 || jox_holding(run, i, state->take) >= 0)
         return;
-    const JoxObject *object = &mind->objects->rows[spot.object];
+    const JoxObject *object = &run->objects->rows[spot.object];
     JoxV2 relative = {spot.vx - a->vx[i], spot.vy - a->vy[i]};
-    if (object->moves && !object->held && jox_spot_gap(mind, i, &spot) < REACH && spot.z < 2.0f &&
+    if (object->moves && !object->held && jox_spot_gap(run, i, &spot) < REACH && spot.z < 2.0f &&
         jox_length(relative) < CATCHABLE)
-        add_grip(mind,
+        add_grip(run,
                  (JoxGrip){.object = (uint32_t)spot.object, .agent_id = a->id[i], .takes = true});
 }
 
 /* Thrown at the target with a level speed, so high that it arrives at the height it left. */
-static void toss(JoxMind *mind, const JoxMachine *machine, const JoxState *state, uint32_t i) {
-    JoxAgents *a = mind->agents;
-    int32_t row = jox_holding(mind, i, state->toss);
-    JoxSpot at = jox_target_find(mind, i, state->toss_at);
-    double speed = jox_value(mind, machine, &state->toss_speed, i);
+static void toss(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state, uint32_t i) {
+    JoxAgents *a = run->agents;
+    int32_t row = jox_holding(run, i, state->toss);
+    JoxSpot at = jox_target_find(run, i, state->toss_at);
+    double speed = jox_value(run, machine, &state->toss_speed, i);
     if (row < 0 || !at.found || state->toss_at < 0 || !(speed > 0.1))
         return;
     JoxV2 way = {at.x - a->x[i], at.y - a->y[i]};
@@ -133,51 +134,51 @@ static void toss(JoxMind *mind, const JoxMachine *machine, const JoxState *state
     float flight = distance / level;
     /* A place lies on the ground, somebody is hit at the height of the hand. */
     float drop = at.place >= 0 ? HAND_HEIGHT : 0.0f;
-    float rise = 0.5f * (float)mind->gravity * flight - drop / flight;
+    float rise = 0.5f * (float)run->gravity * flight - drop / flight;
     way = jox_scale(way, level / distance);
-    add_grip(mind, (JoxGrip){.object = (uint32_t)row,
-                             .agent_id = a->id[i],
-                             .velocity = {way.x, way.y, jox_clampf(rise, -20.0f, 20.0f)}});
+    add_grip(run, (JoxGrip){.object = (uint32_t)row,
+                            .agent_id = a->id[i],
+                            .velocity = {way.x, way.y, jox_clampf(rise, -20.0f, 20.0f)}});
     a->kicked[i] = row;
 }
 
 /* All that is done to bodies, by id of who does it. */
-static void kick_all(JoxMind *mind) {
-    const JoxAgents *a = mind->agents;
-    JoxMindScratch *s = mind->scratch;
+static void kick_all(JoxMachineRun *run) {
+    const JoxAgents *a = run->agents;
+    JoxMachineScratch *s = run->scratch;
     s->list_count = 0;
     for (uint32_t b = 0; b < s->batch_count; b++) {
         const JoxBatchRange *batch = &s->batches[b];
-        const JoxState *state = &mind->machines[batch->machine]->states[batch->state];
+        const JoxState *state = &run->set->items[batch->machine]->states[batch->state];
         bool kicks = state->kick >= 0 || state->take >= 0 || state->toss >= 0;
         for (uint32_t n = 0; kicks && n < batch->count; n++)
             s->list[s->list_count++] = s->grouped[batch->begin + n];
     }
-    jox_sort_by_id(mind, s->list, s->list_count);
+    jox_sort_by_id(run, s->list, s->list_count);
     for (uint32_t n = 0; n < s->list_count; n++) {
         uint32_t i = s->list[n];
-        const JoxMachine *machine = jox_machine_of(mind, i);
+        const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *state = &machine->states[a->state[i]];
         if (state->kick >= 0)
-            kick(mind, machine, state, i);
+            kick(run, machine, state, i);
         if (state->toss >= 0)
-            toss(mind, machine, state, i);
+            toss(run, machine, state, i);
         if (state->take >= 0)
-            take(mind, state, i);
+            take(run, state, i);
     }
 }
 
-void jox_mind_act(JoxMind *mind, JoxPool *pool) {
-    JoxAgents *a = mind->agents;
+void jox_machines_act(JoxMachineRun *run, JoxPool *pool) {
+    JoxAgents *a = run->agents;
     if (a->count == 0)
         return;
-    memset(mind->push_on, 1, a->count);
-    memset(mind->push_nearest, 0, a->count);
-    memset(mind->push_toward_x, 0, a->count * sizeof(float));
-    memset(mind->push_toward_y, 0, a->count * sizeof(float));
+    memset(run->push_on, 1, a->count);
+    memset(run->push_nearest, 0, a->count);
+    memset(run->push_toward_x, 0, a->count * sizeof(float));
+    memset(run->push_toward_y, 0, a->count * sizeof(float));
     for (uint32_t i = 0; i < a->count; i++)
         a->kicked[i] = -1;
-    jox_parallel_for(pool, mind->scratch->batch_count, 1, act_range, mind);
-    if (mind->objects && mind->objects->count)
-        kick_all(mind);
+    jox_parallel_for(pool, run->scratch->batch_count, 1, act_range, run);
+    if (run->objects && run->objects->count)
+        kick_all(run);
 }

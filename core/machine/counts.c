@@ -1,31 +1,49 @@
 /* How often transitions were taken, over all versions of a machine that ran. */
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "machine/internal.h"
 
-void jox_machine_add_before(JoxMachine *machine, const char *from, const char *to, uint64_t taken) {
-    for (uint32_t b = 0; b < machine->before_count; b++)
-        if (!strcmp(machine->before[b].from, from) && !strcmp(machine->before[b].to, to)) {
-            machine->before[b].taken += taken;
-            return;
-        }
-    machine->before =
-        jox_realloc(machine->before, machine->before_count + 1, sizeof *machine->before);
-    machine->before[machine->before_count++] =
-        (JoxTakenBefore){jox_strdup(from), jox_strdup(to), taken};
+void jox_counts_begin(JoxMachineCounts *counts, const JoxMachine *machine) {
+    uint32_t count = 0;
+    for (uint32_t s = 0; s < machine->state_count; s++) {
+        JOX_ASSERT(machine->states[s].first_transition == count);
+        count += machine->states[s].transition_count;
+    }
+    JOX_RESERVE(counts->taken, counts->taken_capacity, count);
+    if (count)
+        memset(counts->taken, 0, count * sizeof *counts->taken);
+    counts->taken_count = count;
 }
 
-void jox_machine_carry_before(const JoxMachine *old, JoxMachine *next) {
-    for (uint32_t b = 0; b < old->before_count; b++)
-        jox_machine_add_before(next, old->before[b].from, old->before[b].to, old->before[b].taken);
+void jox_counts_add_before(JoxMachineCounts *counts, const char *from, const char *to,
+                           uint64_t taken) {
+    for (uint32_t b = 0; b < counts->before_count; b++)
+        if (!strcmp(counts->before[b].from, from) && !strcmp(counts->before[b].to, to)) {
+            counts->before[b].taken += taken;
+            return;
+        }
+    JOX_RESERVE(counts->before, counts->before_capacity, counts->before_count + 1);
+    counts->before[counts->before_count++] =
+        (struct JoxTakenBefore){jox_strdup(from), jox_strdup(to), taken};
+}
+
+void jox_counts_free(JoxMachineCounts *counts) {
+    for (uint32_t b = 0; b < counts->before_count; b++) {
+        jox_free(counts->before[b].from);
+        jox_free(counts->before[b].to);
+    }
+    jox_free(counts->before);
+    jox_free(counts->taken);
+    *counts = (JoxMachineCounts){0};
 }
 
 /* What older versions counted between two states. */
-static uint64_t before(const JoxMachine *machine, const char *from, const char *to) {
-    for (uint32_t b = 0; b < machine->before_count; b++)
-        if (!strcmp(machine->before[b].from, from) && !strcmp(machine->before[b].to, to))
-            return machine->before[b].taken;
+static uint64_t before(const JoxMachineCounts *counts, const char *from, const char *to) {
+    for (uint32_t b = 0; b < counts->before_count; b++)
+        if (!strcmp(counts->before[b].from, from) && !strcmp(counts->before[b].to, to))
+            return counts->before[b].taken;
     return 0;
 }
 
@@ -38,25 +56,26 @@ static bool leads(const JoxMachine *machine, const char *from, const char *to) {
     return false;
 }
 
-void jox_mind_taken(const JoxMind *mind, uint32_t index, JoxTakenVisit *visit, void *context) {
-    const JoxMachine *machine = mind->machines[index];
+void jox_machines_taken(const JoxMachineRun *run, uint32_t index, JoxTakenVisit *visit,
+                        void *context) {
+    const JoxMachine *machine = run->set->items[index];
+    const JoxMachineCounts *counts = &run->state->counts[index];
     for (uint32_t s = 0; s < machine->state_count; s++) {
         const JoxState *from = &machine->states[s];
         for (uint32_t k = 0; k < from->transition_count; k++) {
             const char *to = machine->states[from->transitions[k].to].name;
-            uint64_t sum = before(machine, from->name, to);
+            uint64_t sum = before(counts, from->name, to);
             bool first = true;
             for (uint32_t o = 0; o < from->transition_count; o++)
                 if (from->transitions[o].to == from->transitions[k].to) {
                     first &= o >= k;
-                    sum += from->transitions[o].taken;
+                    sum += counts->taken[from->first_transition + o];
                 }
             if (first) /* several may lead to the same state */
                 visit(context, from->name, to, sum);
         }
     }
-    for (uint32_t b = 0; b < machine->before_count; b++)
-        if (!leads(machine, machine->before[b].from, machine->before[b].to))
-            visit(context, machine->before[b].from, machine->before[b].to,
-                  machine->before[b].taken);
+    for (uint32_t b = 0; b < counts->before_count; b++)
+        if (!leads(machine, counts->before[b].from, counts->before[b].to))
+            visit(context, counts->before[b].from, counts->before[b].to, counts->before[b].taken);
 }

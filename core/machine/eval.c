@@ -3,8 +3,8 @@
 
 #include "machine/internal.h"
 
-static double now_of(const JoxMind *mind, uint32_t i, JoxNow what) {
-    const JoxAgents *a = mind->agents;
+static double now_of(const JoxMachineRun *run, uint32_t i, JoxNow what) {
+    const JoxAgents *a = run->agents;
     switch (what) {
     case JOX_NOW_speed:
         return jox_length((JoxV2){a->vx[i], a->vy[i]});
@@ -15,7 +15,7 @@ static double now_of(const JoxMind *mind, uint32_t i, JoxNow what) {
     case JOX_NOW_density:
         return a->density[i];
     case JOX_NOW_headway:
-        return jox_headway(mind, i);
+        return jox_headway(run, i);
     case JOX_NOW_pushed:
         return jox_length((JoxV2){a->force_x[i], a->force_y[i]});
     case JOX_NOW_compression:
@@ -23,19 +23,19 @@ static double now_of(const JoxMind *mind, uint32_t i, JoxNow what) {
     case JOX_NOW_contacts:
         return a->contacts[i];
     case JOX_NOW_neighbours:
-        return mind->neighbours->count[i];
+        return run->neighbours->count[i];
     case JOX_NOW_time_in_state:
-        return jox_time_in_state(mind, i);
+        return jox_time_in_state(run, i);
     case JOX_NOW_time:
-        return mind->tick * mind->dt;
+        return run->tick * run->dt;
     case JOX_NOW_COUNT:
         break;
     }
     return 0.0;
 }
 
-static double people_in(const JoxMind *mind, int32_t place) {
-    uint32_t people = mind->scratch->place_people[place];
+static double people_in(const JoxMachineRun *run, int32_t place) {
+    uint32_t people = run->scratch->place_people[place];
     return people == UINT32_MAX ? 0.0 : people;
 }
 
@@ -45,27 +45,27 @@ static double counted_area(const JoxPlace *place) {
                                             : 4.0 * 3.14159265358979;
 }
 
-static bool is_inside(const JoxMind *mind, uint32_t i, const JoxInstruction *in) {
-    int32_t place = jox_target_place(mind, i, in->place);
-    JoxSpot spot = jox_target_find(mind, i, in->target);
+static bool is_inside(const JoxMachineRun *run, uint32_t i, const JoxInstruction *in) {
+    int32_t place = jox_target_place(run, i, in->place);
+    JoxSpot spot = jox_target_find(run, i, in->target);
     return place >= 0 && spot.found &&
-           jox_place_contains(mind->places, (uint32_t)place, (JoxV2){spot.x, spot.y});
+           jox_place_contains(run->places, (uint32_t)place, (JoxV2){spot.x, spot.y});
 }
 
-static bool crosses(const JoxMind *mind, uint32_t i, const JoxInstruction *in) {
-    const JoxAgents *a = mind->agents;
-    int32_t index = jox_target_place(mind, i, in->place);
-    if (index < 0 || mind->places[index].kind != JOX_PLACE_LINE)
+static bool crosses(const JoxMachineRun *run, uint32_t i, const JoxInstruction *in) {
+    const JoxAgents *a = run->agents;
+    int32_t index = jox_target_place(run, i, in->place);
+    if (index < 0 || run->places[index].kind != JOX_PLACE_LINE)
         return false;
-    const JoxPlace *line = &mind->places[index];
+    const JoxPlace *line = &run->places[index];
     return jox_segment_crossing(line->points[0], line->points[1],
                                 (JoxV2){a->prev_x[i], a->prev_y[i]},
                                 (JoxV2){a->x[i], a->y[i]}) == 1;
 }
 
 /* Whether the spot, moving on evenly, comes within `reach` during the next 2 s. */
-static bool is_incoming(const JoxMind *mind, uint32_t i, const JoxSpot *spot, double reach) {
-    const JoxAgents *a = mind->agents;
+static bool is_incoming(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot, double reach) {
+    const JoxAgents *a = run->agents;
     if (!spot->found)
         return false;
     JoxV2 d = {spot->x - a->x[i], spot->y - a->y[i]};
@@ -78,52 +78,52 @@ static bool is_incoming(const JoxMind *mind, uint32_t i, const JoxSpot *spot, do
 }
 
 /* Words about something outside the agent; `a` is the first input. */
-static double sense(const JoxMind *mind, const JoxMachine *machine, uint32_t i,
+static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_t i,
                     const JoxInstruction *in, double a) {
     int32_t place;
     JoxSpot spot;
     switch ((JoxOp)in->op) {
     case JOX_OP_DISTANCE:
-        return jox_target_distance(mind, i, in->target);
+        return jox_target_distance(run, i, in->target);
     case JOX_OP_PLACE_DENSITY:
-        place = jox_target_place(mind, i, in->place);
-        return place < 0 ? 0.0 : people_in(mind, place) / counted_area(&mind->places[place]);
+        place = jox_target_place(run, i, in->place);
+        return place < 0 ? 0.0 : people_in(run, place) / counted_area(&run->places[place]);
     case JOX_OP_PLACE_COUNT:
-        place = jox_target_place(mind, i, in->place);
-        return place < 0 ? 0.0 : people_in(mind, place);
+        place = jox_target_place(run, i, in->place);
+        return place < 0 ? 0.0 : people_in(run, place);
     case JOX_OP_INSIDE:
-        return is_inside(mind, i, in);
+        return is_inside(run, i, in);
     case JOX_OP_NEAR:
-        return jox_target_distance(mind, i, in->target) < a;
+        return jox_target_distance(run, i, in->target) < a;
     case JOX_OP_CROSSES:
-        return crosses(mind, i, in);
+        return crosses(run, i, in);
     case JOX_OP_FIRST_IN:
-        return mind->scratch->rank[i] == 0;
+        return run->scratch->rank[i] == 0;
     case JOX_OP_TOUCHES:
-        spot = jox_target_find(mind, i, in->target);
-        return jox_spot_gap(mind, i, &spot) < 0.05f;
+        spot = jox_target_find(run, i, in->target);
+        return jox_spot_gap(run, i, &spot) < 0.05f;
     case JOX_OP_GROUNDED:
-        spot = jox_target_find(mind, i, in->target);
-        return spot.object >= 0 && mind->objects->rows[spot.object].grounded;
+        spot = jox_target_find(run, i, in->target);
+        return spot.object >= 0 && run->objects->rows[spot.object].grounded;
     case JOX_OP_KICKED:
-        spot = jox_target_find(mind, i, in->target);
-        return spot.object >= 0 && mind->agents->kicked[i] == spot.object;
+        spot = jox_target_find(run, i, in->target);
+        return spot.object >= 0 && run->agents->kicked[i] == spot.object;
     case JOX_OP_HIT_BY:
-        spot = jox_target_find(mind, i, in->target);
-        return jox_spot_gap(mind, i, &spot) < 0.1f && spot.vx * spot.vx + spot.vy * spot.vy > 1.0f;
+        spot = jox_target_find(run, i, in->target);
+        return jox_spot_gap(run, i, &spot) < 0.1f && spot.vx * spot.vx + spot.vy * spot.vy > 1.0f;
     case JOX_OP_INCOMING:
-        spot = jox_target_find(mind, i, in->target);
-        return is_incoming(mind, i, &spot, a);
+        spot = jox_target_find(run, i, in->target);
+        return is_incoming(run, i, &spot, a);
     case JOX_OP_SEES:
-        return jox_target_find(mind, i, in->target).found;
+        return jox_target_find(run, i, in->target).found;
     case JOX_OP_HAS:
-        return jox_holding(mind, i, in->target) >= 0;
+        return jox_holding(run, i, in->target) >= 0;
     case JOX_OP_HEARD:
-        return jox_heard(mind, i, machine->names[in->name].number, a);
+        return jox_heard(run, i, machine->names[in->name].number, a);
     case JOX_OP_TAGGED:
-        return jox_neighbours_of(mind, i, in->arg, -1);
+        return jox_neighbours_of(run, i, in->arg, -1);
     case JOX_OP_IN_STATE:
-        return jox_neighbours_of(mind, i, in->arg, (int32_t)machine->names[in->name].number);
+        return jox_neighbours_of(run, i, in->arg, (int32_t)machine->names[in->name].number);
     default:
         return 0.0;
     }
@@ -134,16 +134,16 @@ static double sense(const JoxMind *mind, const JoxMachine *machine, uint32_t i,
         to[n] = (expression);                                                                      \
     break
 
-static void run(const JoxMind *mind, const JoxMachine *machine, const JoxInstruction *in,
-                const uint32_t *agents, uint32_t count, JoxRegisters r) {
-    const JoxAgents *g = mind->agents;
+static void execute(const JoxMachineRun *run, const JoxMachine *machine, const JoxInstruction *in,
+                    const uint32_t *agents, uint32_t count, JoxRegisters r) {
+    const JoxAgents *g = run->agents;
     double *to = r[in->to];
     const double *a = r[in->a], *b = r[in->b], *c = r[in->c];
     switch ((JoxOp)in->op) {
     case JOX_OP_CONST:
         EACH(in->number);
     case JOX_OP_NOW:
-        EACH(now_of(mind, agents[n], (JoxNow)in->arg));
+        EACH(now_of(run, agents[n], (JoxNow)in->arg));
     case JOX_OP_OWN:
         EACH(g->own[(size_t)agents[n] * g->own_stride + (uint32_t)in->arg]);
     case JOX_OP_MEMORY:
@@ -185,32 +185,32 @@ static void run(const JoxMind *mind, const JoxMachine *machine, const JoxInstruc
     case JOX_OP_NOT:
         EACH(a[n] == 0.0);
     case JOX_OP_AFTER:
-        EACH(jox_time_in_state(mind, agents[n]) >= a[n] - 1e-9);
+        EACH(jox_time_in_state(run, agents[n]) >= a[n] - 1e-9);
     case JOX_OP_LASTED:
-        EACH(jox_time_in_state(mind, agents[n]) >= g->lasts[agents[n]] - 1e-6);
+        EACH(jox_time_in_state(run, agents[n]) >= g->lasts[agents[n]] - 1e-6);
     case JOX_OP_STUCK:
         EACH(g->still[agents[n]] >= a[n]);
     default:
-        EACH(sense(mind, machine, agents[n], in, a[n]));
+        EACH(sense(run, machine, agents[n], in, a[n]));
     }
 }
 
-void jox_eval(const JoxMind *mind, const JoxMachine *machine, const JoxProgram *program,
+void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxProgram *program,
               const uint32_t *agents, uint32_t count, JoxRegisters registers) {
     for (uint32_t i = 0; i < program->count; i++)
-        run(mind, machine, &program->code[i], agents, count, registers);
+        execute(run, machine, &program->code[i], agents, count, registers);
 }
 
-double jox_value(const JoxMind *mind, const JoxMachine *machine, const JoxValue *value,
+double jox_value(const JoxMachineRun *run, const JoxMachine *machine, const JoxValue *value,
                  uint32_t agent) {
     switch (value->kind) {
     case JOX_VALUE_CONST:
         return value->number;
     case JOX_VALUE_OWN:
-        return mind->agents->own[(size_t)agent * mind->agents->own_stride + (uint32_t)value->index];
+        return run->agents->own[(size_t)agent * run->agents->own_stride + (uint32_t)value->index];
     case JOX_VALUE_PROGRAM: {
         static _Thread_local JoxRegisters registers;
-        jox_eval(mind, machine, &machine->programs[value->index], &agent, 1, registers);
+        jox_eval(run, machine, &machine->programs[value->index], &agent, 1, registers);
         return registers[0][0];
     }
     case JOX_VALUE_UNSET:

@@ -13,13 +13,13 @@ static const char *const NOWS[] = {
 };
 
 /* One line per instruction: what it is, of what, and its value for the agent at present. */
-static void print_program(const JoxMind *mind, const JoxMachine *machine, const JoxProgram *program,
-                          uint32_t agent, JoxText *out) {
+static void print_program(const JoxMachineRun *run, const JoxMachine *machine,
+                          const JoxProgram *program, uint32_t agent, JoxText *out) {
     static _Thread_local JoxRegisters registers;
     for (uint32_t k = 0; k < program->count; k++) {
         const JoxInstruction *in = &program->code[k];
         JoxProgram one = {(JoxInstruction *)in, 1};
-        jox_eval(mind, machine, &one, &agent, 1, registers);
+        jox_eval(run, machine, &one, &agent, 1, registers);
         jox_text_printf(out, "      r%u = %s", in->to, OPS[in->op]);
         if (in->op == JOX_OP_NOW)
             jox_text_printf(out, " %s", NOWS[in->arg]);
@@ -37,16 +37,16 @@ static void print_program(const JoxMind *mind, const JoxMachine *machine, const 
     }
 }
 
-void jox_mind_explain(const JoxMind *mind, const JoxTaken *taken, JoxText *out) {
-    const JoxMachine *machine = mind->machines[taken->machine];
+void jox_machines_explain(const JoxMachineRun *run, const JoxTaken *taken, JoxText *out) {
+    const JoxMachine *machine = run->set->items[taken->machine];
     const JoxTransition *t = &machine->states[taken->from].transitions[taken->transition];
     jox_text_printf(out, "t=%.2f agent %u %s: %s -> %s (transition %u '%s', %s:%d)\n",
-                    mind->tick * mind->dt, taken->agent_id, machine->name,
+                    run->tick * run->dt, taken->agent_id, machine->name,
                     machine->states[taken->from].name, machine->states[taken->to].name,
                     taken->transition + 1u, t->id, machine->path, t->line);
-    uint32_t agent = jox_agents_find(mind->agents, taken->agent_id);
+    uint32_t agent = jox_agents_find(run->agents, taken->agent_id);
     if (t->when < 0 || agent == JOX_NO_INDEX)
         return;
     jox_text_add(out, "    its condition:\n");
-    print_program(mind, machine, &machine->programs[t->when], agent, out);
+    print_program(run, machine, &machine->programs[t->when], agent, out);
 }

@@ -1,40 +1,42 @@
-/* Scratch of the mind: agents grouped by state, ranks in queues, people counted in places. */
+/* Scratch of a step: agents grouped by state, ranks in queues, people counted in places. */
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 #include "machine/internal.h"
 
-static JoxMindScratch *scratch_of(JoxMind *mind) {
-    if (!mind->scratch)
-        mind->scratch = jox_alloc(1, sizeof *mind->scratch);
-    return mind->scratch;
+JoxMachineScratch *jox_machines_scratch(JoxMachineRun *run) {
+    if (!run->scratch)
+        run->scratch = jox_alloc(1, sizeof *run->scratch);
+    return run->scratch;
 }
 
-static void reserve(JoxMind *mind, JoxPool *pool) {
-    JoxMindScratch *s = scratch_of(mind);
+static void reserve(JoxMachineRun *run, JoxPool *pool) {
+    JoxMachineScratch *s = jox_machines_scratch(run);
     uint32_t workers = jox_pool_threads(pool);
     if (workers > s->workers) {
         s->registers = jox_realloc(s->registers, workers, sizeof *s->registers);
         s->workers = workers;
     }
-    if (mind->agents->count <= s->capacity)
+    if (run->agents->count <= s->capacity)
         return;
-    uint32_t n = s->capacity = mind->agents->count + mind->agents->count / 4 + 64;
+    uint32_t n = s->capacity = run->agents->count + run->agents->count / 4 + 64;
     s->grouped = jox_realloc(s->grouped, n, sizeof *s->grouped);
     s->fired = jox_realloc(s->fired, n, sizeof *s->fired);
     s->rank = jox_realloc(s->rank, n, sizeof *s->rank);
     s->heading = jox_realloc(s->heading, n, sizeof *s->heading);
     s->list = jox_realloc(s->list, n, sizeof *s->list);
+    s->spare = jox_realloc(s->spare, JOX_SORT_SPARE(n), sizeof *s->spare);
     s->queue = jox_realloc(s->queue, n, sizeof *s->queue);
-    JOX_RESERVE(mind->taken, mind->taken_capacity, n);
-    mind->push_on = jox_realloc(mind->push_on, n, 1);
-    mind->push_nearest = jox_realloc(mind->push_nearest, n, 1);
-    mind->push_toward_x = jox_realloc(mind->push_toward_x, n, sizeof(float));
-    mind->push_toward_y = jox_realloc(mind->push_toward_y, n, sizeof(float));
+    JOX_RESERVE(run->taken, run->taken_capacity, n);
+    run->push_on = jox_realloc(run->push_on, n, 1);
+    run->push_nearest = jox_realloc(run->push_nearest, n, 1);
+    run->push_toward_x = jox_realloc(run->push_toward_x, n, sizeof(float));
+    run->push_toward_y = jox_realloc(run->push_toward_y, n, sizeof(float));
 }
 
-void jox_mind_scratch_free(JoxMind *mind) {
-    JoxMindScratch *s = mind->scratch;
+void jox_machines_scratch_free(JoxMachineRun *run) {
+    JoxMachineScratch *s = run->scratch;
     if (!s)
         return;
     jox_free(s->grouped);
@@ -45,23 +47,25 @@ void jox_mind_scratch_free(JoxMind *mind) {
     jox_free(s->heading);
     jox_free(s->queue);
     jox_free(s->list);
-    jox_free(s->pending);
+    jox_free(s->spare);
+    jox_free(s->heard);
+    jox_free(s->everywhere);
     jox_free(s->place_people);
     jox_free(s->marks);
     jox_free(s->registers);
     jox_free(s);
-    mind->scratch = NULL;
+    run->scratch = NULL;
 }
 
 /* Number of a machine's first state in the list of all states. */
-static uint32_t first_state(const JoxMind *mind, uint32_t machine) {
+static uint32_t first_state(const JoxMachineRun *run, uint32_t machine) {
     uint32_t first = 0;
     for (uint32_t m = 0; m < machine; m++)
-        first += mind->machines[m]->state_count;
+        first += run->set->items[m]->state_count;
     return first;
 }
 
-static void add_batches(JoxMindScratch *s, uint16_t machine, uint16_t state, uint32_t begin,
+static void add_batches(JoxMachineScratch *s, uint16_t machine, uint16_t state, uint32_t begin,
                         uint32_t end) {
     for (; begin < end; begin += JOX_BATCH) {
         JOX_RESERVE(s->batches, s->batch_capacity, s->batch_count + 1);
@@ -79,50 +83,48 @@ int16_t jox_queue_target(const JoxState *state) {
     return -1;
 }
 
-/* Whether i comes before j: by queue, then who came first, then by id. */
-static bool stands_before(const JoxMindScratch *s, const JoxAgents *a, uint32_t i, uint32_t j) {
+/* Whether someone stands before another: by queue, then who came first, then by id. */
+static int by_turn(const void *first, const void *second, const void *context) {
+    const JoxMachineRun *run = context;
+    const JoxMachineScratch *s = run->scratch;
+    const JoxAgents *a = run->agents;
+    const uint32_t i = *(const uint32_t *)first, j = *(const uint32_t *)second;
     if (s->queue[i] != s->queue[j])
-        return s->queue[i] < s->queue[j];
+        return s->queue[i] < s->queue[j] ? -1 : 1;
     if (a->queued[i] != a->queued[j])
-        return a->queued[i] < a->queued[j];
-    return a->id[i] < a->id[j];
+        return a->queued[i] < a->queued[j] ? -1 : 1;
+    return (a->id[i] > a->id[j]) - (a->id[i] < a->id[j]);
 }
 
-/* Ranks those who queue: sorted (Shell) by queue and order of arrival, then numbered. */
-static void rank_queues(JoxMind *mind) {
-    JoxMindScratch *s = mind->scratch;
-    JoxAgents *a = mind->agents;
+/* Ranks those who queue: sorted by queue and order of arrival, then numbered. */
+static void rank_queues(JoxMachineRun *run) {
+    JoxMachineScratch *s = run->scratch;
+    JoxAgents *a = run->agents;
     uint32_t count = 0, *list = s->list;
     for (uint32_t b = 0; b < s->batch_count; b++) {
         const JoxBatchRange *batch = &s->batches[b];
-        int16_t target = jox_queue_target(&mind->machines[batch->machine]->states[batch->state]);
+        int16_t target = jox_queue_target(&run->set->items[batch->machine]->states[batch->state]);
         for (uint32_t n = 0; target >= 0 && n < batch->count; n++) {
             uint32_t i = s->grouped[batch->begin + n];
-            s->queue[i] = jox_target_place(mind, i, target);
+            s->queue[i] = jox_target_place(run, i, target);
             if (a->queue_at[i] != s->queue[i]) { /* from state to state it keeps its turn */
                 a->queue_at[i] = s->queue[i];
-                a->queued[i] = mind->tick;
+                a->queued[i] = run->tick;
             }
             list[count++] = i;
         }
     }
-    for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
-        for (uint32_t k = gap; k < count; k++) {
-            uint32_t moving = list[k], at = k;
-            for (; at >= gap && stands_before(s, a, moving, list[at - gap]); at -= gap)
-                list[at] = list[at - gap];
-            list[at] = moving;
-        }
+    jox_sort(list, count, sizeof *list, by_turn, run, s->spare);
     for (uint32_t k = 0; k < count; k++)
         s->rank[list[k]] =
             k > 0 && s->queue[list[k]] == s->queue[list[k - 1]] ? s->rank[list[k - 1]] + 1 : 0;
 }
 
-void jox_mind_group(JoxMind *mind, JoxPool *pool) {
-    reserve(mind, pool);
-    JoxMindScratch *s = mind->scratch;
-    const JoxAgents *a = mind->agents;
-    uint32_t states = first_state(mind, mind->machine_count);
+void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
+    reserve(run, pool);
+    JoxMachineScratch *s = run->scratch;
+    const JoxAgents *a = run->agents;
+    uint32_t states = first_state(run, run->set->count);
     if (states + 1 > s->state_capacity) {
         s->state_capacity = states + 65;
         s->state_first = jox_realloc(s->state_first, s->state_capacity, sizeof *s->state_first);
@@ -131,41 +133,41 @@ void jox_mind_group(JoxMind *mind, JoxPool *pool) {
     if (a->count)
         memset(s->rank, 0xff, a->count * sizeof *s->rank);
     uint32_t *first = s->state_first, bases[JOX_MOST_MACHINES] = {0};
-    for (uint32_t m = 0; m < mind->machine_count; m++)
-        bases[m] = first_state(mind, m);
+    for (uint32_t m = 0; m < run->set->count; m++)
+        bases[m] = first_state(run, m);
     for (uint32_t i = 0; i < a->count; i++)
         if (a->machine[i] != JOX_NO_MACHINE)
             first[bases[a->machine[i]] + a->state[i] + 1]++;
     for (uint32_t k = 0; k < states; k++)
         first[k + 1] += first[k];
     s->batch_count = 0;
-    for (uint32_t m = 0; m < mind->machine_count; m++)
-        for (uint32_t k = 0; k < mind->machines[m]->state_count; k++)
+    for (uint32_t m = 0; m < run->set->count; m++)
+        for (uint32_t k = 0; k < run->set->items[m]->state_count; k++)
             add_batches(s, (uint16_t)m, (uint16_t)k, first[bases[m] + k], first[bases[m] + k + 1]);
     for (uint32_t i = 0; i < a->count; i++)
         if (a->machine[i] != JOX_NO_MACHINE)
             s->grouped[first[bases[a->machine[i]] + a->state[i]]++] = i;
-    rank_queues(mind);
+    rank_queues(run);
 }
 
 /* Marks the places whose people some program asks for. */
-static void mark_asked(JoxMind *mind) {
-    JoxMindScratch *s = mind->scratch;
-    if (mind->place_count > s->place_capacity) {
-        s->place_capacity = mind->place_count + 16;
+static void mark_asked(JoxMachineRun *run) {
+    JoxMachineScratch *s = run->scratch;
+    if (run->place_count > s->place_capacity) {
+        s->place_capacity = run->place_count + 16;
         s->place_people = jox_realloc(s->place_people, s->place_capacity, sizeof(uint32_t));
     }
-    for (uint32_t p = 0; p < mind->place_count; p++)
+    for (uint32_t p = 0; p < run->place_count; p++)
         s->place_people[p] = UINT32_MAX;
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
-        const JoxMachine *machine = mind->machines[m];
+    for (uint32_t m = 0; m < run->set->count; m++) {
+        const JoxMachine *machine = run->set->items[m];
         for (uint32_t p = 0; p < machine->program_count; p++)
             for (uint32_t i = 0; i < machine->programs[p].count; i++) {
                 const JoxInstruction *in = &machine->programs[p].code[i];
                 if (in->op != JOX_OP_PLACE_DENSITY && in->op != JOX_OP_PLACE_COUNT)
                     continue;
                 const JoxTarget *target = &machine->targets[in->place];
-                for (uint32_t q = 0; q < mind->place_count;
+                for (uint32_t q = 0; q < run->place_count;
                      q++) /* a place of an agent's own may be any */
                     if (target->kind != JOX_TARGET_PLACE || target->arg == (int32_t)q)
                         s->place_people[q] = 0;
@@ -173,18 +175,18 @@ static void mark_asked(JoxMind *mind) {
     }
 }
 
-void jox_mind_count_places(JoxMind *mind) {
-    mark_asked(mind);
-    const JoxAgents *a = mind->agents;
-    for (uint32_t p = 0; p < mind->place_count; p++) {
-        uint32_t *people = &mind->scratch->place_people[p];
-        const JoxPlace *place = &mind->places[p];
+void jox_machines_count_places(JoxMachineRun *run) {
+    mark_asked(run);
+    const JoxAgents *a = run->agents;
+    for (uint32_t p = 0; p < run->place_count; p++) {
+        uint32_t *people = &run->scratch->place_people[p];
+        const JoxPlace *place = &run->places[p];
         for (uint32_t i = 0; *people != UINT32_MAX && i < a->count; i++) {
             JoxV2 at = {a->x[i], a->y[i]};
             if (place->kind == JOX_PLACE_POLYGON)
                 *people += jox_polygon_contains(place->points, place->count, at);
             else
-                *people += jox_place_distance(mind->places, p, at) <= 2.0f;
+                *people += jox_place_distance(run->places, p, at) <= 2.0f;
         }
     }
 }

@@ -2,7 +2,7 @@
 #ifndef JOX_MACHINE_INTERNAL_H
 #define JOX_MACHINE_INTERNAL_H
 
-#include "machine/mind.h"
+#include "machine/run.h"
 
 enum { JOX_BATCH = 256 };
 
@@ -14,28 +14,32 @@ typedef struct JoxBatchRange {
 
 typedef double JoxRegisters[JOX_MOST_REGISTERS][JOX_BATCH];
 
-typedef struct JoxMindScratch {
+typedef struct JoxMachineScratch {
     uint32_t capacity;
     uint32_t *grouped; /* indices of agents by machine and state */
     JoxBatchRange *batches;
     uint32_t batch_count, batch_capacity;
     uint32_t *state_first; /* per state of all machines */
     uint32_t state_capacity;
-    int16_t *fired; /* per agent: transition to take, -1 none */
-    uint32_t *rank; /* per agent: place in the queue it stands in */
-    int32_t *queue; /* per agent that queues: where */
-    JoxV2 *heading; /* per agent: the velocity it preferred in the step before */
-    uint32_t *list; /* agents that take something, by id */
+    int16_t *fired;  /* per agent: transition to take, -1 none */
+    uint32_t *rank;  /* per agent: place in the queue it stands in */
+    int32_t *queue;  /* per agent that queues: where */
+    JoxV2 *heading;  /* per agent: the velocity it preferred in the step before */
+    uint32_t *list;  /* agents that take something, by id */
+    uint32_t *spare; /* room to sort it */
     uint32_t list_count;
-    uint32_t *pending; /* ids whose on_enter has yet to run, ascending */
-    uint32_t pending_count, pending_capacity;
+    JoxSignal *heard; /* called in the last step, by name and x */
+    uint32_t heard_count;
+    uint32_t *everywhere; /* names called out to everybody in the last step */
+    uint32_t everywhere_count;
+    size_t heard_capacity, everywhere_capacity;
     uint64_t *marks; /* a bit per id */
     uint32_t mark_capacity;
     uint32_t *place_people; /* per place; UINT32_MAX: nobody asked */
     uint32_t place_capacity;
     JoxRegisters *registers; /* one set per worker */
     uint32_t workers;
-} JoxMindScratch;
+} JoxMachineScratch;
 
 /* Something a target resolves to. */
 typedef struct JoxSpot {
@@ -45,66 +49,79 @@ typedef struct JoxSpot {
     uint32_t agent;        /* JOX_NO_INDEX if none */
 } JoxSpot;
 
-static inline const JoxMachine *jox_machine_of(const JoxMind *mind, uint32_t agent) {
-    return mind->machines[mind->agents->machine[agent]];
+static inline const JoxMachine *jox_machine_of(const JoxMachineRun *run, uint32_t agent) {
+    return run->set->items[run->agents->machine[agent]];
 }
-static inline double jox_time_in_state(const JoxMind *mind, uint32_t agent) {
-    return (double)(mind->tick - mind->agents->entered[agent]) * mind->dt;
+static inline double jox_time_in_state(const JoxMachineRun *run, uint32_t agent) {
+    return (double)(run->tick - run->agents->entered[agent]) * run->dt;
 }
 
 /* Resolves target `index` of the agent's machine; index -1 is the agent itself. */
-JoxSpot jox_target_find(const JoxMind *mind, uint32_t agent, int32_t index);
+JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t agent, int32_t index);
 /* The place a target names for this agent, or -1. */
-int32_t jox_target_place(const JoxMind *mind, uint32_t agent, int32_t index);
+int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index);
 /* Gap between the agent's disc and a spot, m. */
-float jox_spot_gap(const JoxMind *mind, uint32_t agent, const JoxSpot *spot);
+float jox_spot_gap(const JoxMachineRun *run, uint32_t agent, const JoxSpot *spot);
 /* Distance from the agent's centre to a target, INFINITY if absent. */
-float jox_target_distance(const JoxMind *mind, uint32_t agent, int32_t index);
+float jox_target_distance(const JoxMachineRun *run, uint32_t agent, int32_t index);
 /* Free distance ahead, m. */
-float jox_headway(const JoxMind *mind, uint32_t agent);
+float jox_headway(const JoxMachineRun *run, uint32_t agent);
 
 /* Runs a program over `count` agents of one machine; results in registers[0]. */
-void jox_eval(const JoxMind *mind, const JoxMachine *machine, const JoxProgram *program,
+void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxProgram *program,
               const uint32_t *agents, uint32_t count, JoxRegisters registers);
 /* One agent's value: a constant, its own, or a program. */
-double jox_value(const JoxMind *mind, const JoxMachine *machine, const JoxValue *value,
+double jox_value(const JoxMachineRun *run, const JoxMachine *machine, const JoxValue *value,
                  uint32_t agent);
 
+/* The scratch, made on first use. */
+JoxMachineScratch *jox_machines_scratch(JoxMachineRun *run);
 /* Makes what was called in the last step audible. */
-void jox_mind_listen(JoxMind *mind);
+void jox_machines_listen(JoxMachineRun *run);
 /* Whether another agent within `reach` metres called the name. */
-bool jox_heard(const JoxMind *mind, uint32_t agent, uint32_t name, double reach);
+bool jox_heard(const JoxMachineRun *run, uint32_t agent, uint32_t name, double reach);
 /* Neighbours of a kind (a tag's bit or JoxKin), and, with a name, in states of that name. */
-uint32_t jox_neighbours_of(const JoxMind *mind, uint32_t agent, int32_t kind, int32_t name);
+uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t agent, int32_t kind, int32_t name);
 /* Row of the body that the agent holds and the target means, or -1. */
-int32_t jox_holding(const JoxMind *mind, uint32_t agent, int32_t target);
+int32_t jox_holding(const JoxMachineRun *run, uint32_t agent, int32_t target);
 /* Memory that is set and signals that are given on entering or taking something. */
-void jox_actions_do(JoxMind *mind, const JoxMachine *machine, const JoxActions *actions,
+void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActions *actions,
                     uint32_t agent);
 /* Signals that go on while a state lasts. */
-void jox_mind_repeat_signals(JoxMind *mind);
-/* Gives a machine's names their numbers. */
-void jox_mind_number_names(JoxMind *mind, JoxMachine *machine);
+void jox_machines_repeat_signals(JoxMachineRun *run);
 
 /* Sorts indices of agents by id. */
-void jox_sort_by_id(JoxMind *mind, uint32_t *list, uint32_t count);
+void jox_sort_by_id(JoxMachineRun *run, uint32_t *list, uint32_t count);
 /* Grows the scratch and groups agents by state; ranks the queues. */
-void jox_mind_group(JoxMind *mind, JoxPool *pool);
+void jox_machines_group(JoxMachineRun *run, JoxPool *pool);
 /* The target whose queue a state stands in, or -1. */
 int16_t jox_queue_target(const JoxState *state);
-void jox_mind_count_places(JoxMind *mind);
-void jox_mind_scratch_free(JoxMind *mind);
+void jox_machines_count_places(JoxMachineRun *run);
+void jox_machines_scratch_free(JoxMachineRun *run);
 /* Enters a state: clock, duration, goal, constant parameters. Hooks are the caller's. */
-void jox_mind_enter(JoxMind *mind, uint32_t agent, uint16_t state);
+void jox_machines_enter(JoxMachineRun *run, uint32_t agent, uint16_t state);
 /* Writes the parameters that are constant or own values in the agent's present state. */
-void jox_mind_write_parameters(JoxMind *mind, uint32_t agent);
+void jox_machines_write_parameters(JoxMachineRun *run, uint32_t agent);
 /* The parameter as the state, else the machine, sets it; UNSET if neither does. */
 const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *state,
                                     int parameter);
-/* Counts of transitions that a machine, or those before it, lack by now. */
-void jox_machine_add_before(JoxMachine *machine, const char *from, const char *to, uint64_t taken);
-void jox_machine_carry_before(const JoxMachine *old, JoxMachine *next);
+/* Clears the agent's own values and memory beyond those of the machine, so that what an older
+   machine left there is no part of the state. */
+void jox_rows_end(const JoxAgents *agents, uint32_t agent, const JoxMachine *machine);
+/* Puts a machine into a place of the set: numbers its names and transitions, widens the agents'
+   rows, begins its counts. From here on it does not change. */
+void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine);
+/* Room for the counts of a machine's transitions, with zeros. */
+void jox_counts_begin(JoxMachineCounts *counts, const JoxMachine *machine);
+/* Adds to what transitions between two states, by names, have counted that are no more. */
+void jox_counts_add_before(JoxMachineCounts *counts, const char *from, const char *to,
+                           uint64_t taken);
+void jox_counts_free(JoxMachineCounts *counts);
+/* Applies to a machine what people set of it; the machine as built where they set nothing. */
+void jox_edits_apply(JoxMachineRun *run, uint32_t machine);
+/* Forgets what people set of a machine, and its copy. */
+void jox_edits_end(JoxMachineRun *run, uint32_t machine);
 /* Parameters that are programs, pushing, approach and kicks, after the transitions. */
-void jox_mind_act(JoxMind *mind, JoxPool *pool);
+void jox_machines_act(JoxMachineRun *run, JoxPool *pool);
 
 #endif

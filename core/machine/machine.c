@@ -65,11 +65,6 @@ void jox_machine_free(JoxMachine *m) {
     }
     for (uint32_t n = 0; n < m->name_count; n++)
         jox_free(m->names[n].text);
-    for (uint32_t b = 0; b < m->before_count; b++) {
-        jox_free(m->before[b].from);
-        jox_free(m->before[b].to);
-    }
-    jox_free(m->before);
     jox_free(m->names);
     jox_free(m->states);
     jox_free(m->programs);

@@ -1,6 +1,7 @@
 /* A state machine as data: states, their parameters, their ordered transitions, and the programs
-   that their conditions and numeric expressions are compiled to. Immutable once built; lua/ builds
-   it, think and prefer run it. Knows no Lua. */
+   that their conditions and numeric expressions are compiled to. lua/ builds it; it is immutable
+   from when it is added to a set (run.h), except that run/ links it to those that it becomes. Think
+   and prefer run it. Knows no Lua. */
 #ifndef JOX_MACHINE_MACHINE_H
 #define JOX_MACHINE_MACHINE_H
 
@@ -22,7 +23,7 @@ enum { JOX_MOST_WEIGHT = 1000000 };
     X(density, "1/m2", "people per square metre, from the distance of the farthest neighbour")     \
     X(headway, "m", "free distance ahead, to the neighbour in the way; perception if none")        \
     X(pushed, "N", "magnitude of the net force on the agent")                                      \
-    X(compression, "N/m", "sum of contact force magnitudes over girth")                            \
+    X(compression, "N/m", "sum of contact force magnitudes over circumference")                    \
     X(contacts, "", "agents and bodies touched")                                                   \
     X(neighbours, "", "neighbours seen")                                                           \
     X(time_in_state, "s", "time since the state was entered")                                      \
@@ -168,12 +169,12 @@ typedef struct JoxTransition {
     JoxValue chance;   /* UNSET: certain */
     int32_t on_take;   /* hook or -1 */
     int32_t line;
-    uint64_t taken; /* how often, by all agents, since the start: what runs, not what it is */
 } JoxTransition;
 
 typedef struct JoxState {
     char *name;
-    uint32_t name_number; /* of the names that machines share; set when it is added to a mind */
+    uint32_t name_number;      /* of the names that machines share; set when it is added to a set */
+    uint32_t first_transition; /* number of its first among all transitions; likewise */
     JoxValue param[JOX_PARAM_COUNT]; /* UNSET: inherits the machine's default, then the engine's */
     JoxSteerTerm steer[JOX_MOST_TERMS];
     uint32_t steer_count;
@@ -231,14 +232,8 @@ typedef enum { JOX_NAME_STATE = 1, JOX_NAME_SIGNALLED = 2, JOX_NAME_HEARD = 4 } 
 typedef struct JoxName {
     char *text;
     uint32_t uses;   /* of JoxNameUse */
-    uint32_t number; /* equal for equal texts in all machines of a mind; set when it is added */
+    uint32_t number; /* equal for equal texts in all machines of a set; set when it is added */
 } JoxName;
-
-/* How often agents went from one state to another by transitions that a newer version lacks. */
-typedef struct JoxTakenBefore {
-    char *from, *to; /* names of states */
-    uint64_t taken;
-} JoxTakenBefore;
 
 typedef struct JoxMachine {
     char *name, *path;
@@ -264,8 +259,6 @@ typedef struct JoxMachine {
     } * renamed; /* states of an older version */
     uint32_t renamed_count;
     uint32_t hook_count;
-    JoxTakenBefore *before;
-    uint32_t before_count;
     bool views; /* hooks look at other agents: as they were before the step */
     int32_t vm; /* which Lua state owns the hooks; -1 none */
 } JoxMachine;

@@ -19,29 +19,29 @@ static JoxV2 arrive(JoxV2 from, JoxV2 to, float speed) {
 }
 
 /* Where on a place an agent aims: across a line at a point of its own, else the nearest point. */
-static JoxV2 aim(const JoxMind *mind, uint32_t i, const JoxSpot *spot) {
-    const JoxPlace *place = &mind->places[spot->place];
+static JoxV2 aim(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
+    const JoxPlace *place = &run->places[spot->place];
     if (place->kind != JOX_PLACE_LINE)
         return (JoxV2){spot->x, spot->y};
     double u =
-        jox_random_unit(mind->seed, mind->agents->id[i], (uint64_t)spot->place, JOX_DRAW_AIM, 0);
+        jox_random_unit(run->seed, run->agents->id[i], (uint64_t)spot->place, JOX_DRAW_AIM, 0);
     float t = 0.1f + 0.8f * (float)u;
     return jox_add(place->points[0], jox_scale(jox_sub(place->points[1], place->points[0]), t));
 }
 
-static JoxV2 seek(const JoxMind *mind, uint32_t i, int32_t target) {
-    const JoxAgents *a = mind->agents;
+static JoxV2 seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
+    const JoxAgents *a = run->agents;
     JoxV2 from = {a->x[i], a->y[i]};
-    JoxSpot spot = jox_target_find(mind, i, target);
+    JoxSpot spot = jox_target_find(run, i, target);
     if (!spot.found)
         return (JoxV2){0.0f, 0.0f};
     if (spot.place < 0) /* something that moves is run at, not arrived at */
         return jox_unit(jox_sub((JoxV2){spot.x, spot.y}, from));
-    const JoxPlace *place = &mind->places[spot.place];
-    JoxV2 to = aim(mind, i, &spot);
+    const JoxPlace *place = &run->places[spot.place];
+    JoxV2 to = aim(run, i, &spot);
     if (place->kind == JOX_PLACE_LINE) /* lines are passed, not stopped at */
         return jox_unit(jox_sub(to, from));
-    if (jox_place_contains(mind->places, (uint32_t)spot.place, from))
+    if (jox_place_contains(run->places, (uint32_t)spot.place, from))
         return place->kind == JOX_PLACE_POINT
                    ? arrive(from, place->centre, a->param[JOX_PARAM_speed][i])
                    : (JoxV2){0.0f, 0.0f};
@@ -51,12 +51,12 @@ static JoxV2 seek(const JoxMind *mind, uint32_t i, int32_t target) {
 
 /* Round a solid, counter-clockwise: T - w N with N outward from the stadium about it. The inward
    weight w makes the density follow a profile that falls from the wall outwards. */
-static JoxV2 orbit(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
-    const JoxAgents *a = mind->agents;
-    int32_t index = jox_target_place(mind, i, term->target);
+static JoxV2 orbit(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = run->agents;
+    int32_t index = jox_target_place(run, i, term->target);
     if (index < 0)
         return (JoxV2){0.0f, 0.0f};
-    const JoxPlace *place = &mind->places[index];
+    const JoxPlace *place = &run->places[index];
     JoxV2 p = {a->x[i], a->y[i]};
     JoxV2 out = jox_sub(p, jox_segment_nearest(place->axis_a, place->axis_b, p));
     float distance = jox_length(out) - place->axis_radius;
@@ -71,23 +71,23 @@ static JoxV2 orbit(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
     return jox_unit(jox_sub(jox_left(normal), jox_scale(normal, inward)));
 }
 
-static JoxV2 queue(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
-    const JoxAgents *a = mind->agents;
-    int32_t index = jox_target_place(mind, i, term->target);
-    uint32_t rank = mind->scratch->rank[i];
-    if (index < 0 || rank == UINT32_MAX || mind->places[index].kind != JOX_PLACE_QUEUE)
-        return seek(mind, i, term->target);
-    const JoxPlace *place = &mind->places[index];
+static JoxV2 queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = run->agents;
+    int32_t index = jox_target_place(run, i, term->target);
+    uint32_t rank = run->scratch->rank[i];
+    if (index < 0 || rank == UINT32_MAX || run->places[index].kind != JOX_PLACE_QUEUE)
+        return seek(run, i, term->target);
+    const JoxPlace *place = &run->places[index];
     JoxV2 spot = jox_place_queue_point(place, (float)rank * place->spacing);
     return arrive((JoxV2){a->x[i], a->y[i]}, spot, a->param[JOX_PARAM_speed][i]);
 }
 
-static JoxV2 along(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
-    int32_t index = jox_target_place(mind, i, term->target);
-    if (index < 0 || mind->places[index].count < 2)
+static JoxV2 along(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    int32_t index = jox_target_place(run, i, term->target);
+    if (index < 0 || run->places[index].count < 2)
         return (JoxV2){0.0f, 0.0f};
-    const JoxPlace *place = &mind->places[index];
-    JoxV2 p = {mind->agents->x[i], mind->agents->y[i]}, best = {0.0f, 0.0f};
+    const JoxPlace *place = &run->places[index];
+    JoxV2 p = {run->agents->x[i], run->agents->y[i]}, best = {0.0f, 0.0f};
     float least = INFINITY;
     for (uint32_t k = 0; k + 1 < place->count; k++) {
         JoxV2 a = place->points[k], b = place->points[k + 1];
@@ -100,12 +100,12 @@ static JoxV2 along(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
     return best;
 }
 
-static JoxV2 spread(const JoxMind *mind, uint32_t i) {
-    const JoxAgents *a = mind->agents;
+static JoxV2 spread(const JoxMachineRun *run, uint32_t i) {
+    const JoxAgents *a = run->agents;
     JoxV2 sum = {0.0f, 0.0f};
-    uint32_t count = mind->neighbours->count[i];
+    uint32_t count = run->neighbours->count[i];
     for (uint32_t k = 0; k < count; k++) {
-        uint32_t j = mind->neighbours->index[jox_neighbour_at(mind->neighbours, i, k)];
+        uint32_t j = run->neighbours->index[jox_neighbour_at(run->neighbours, i, k)];
         sum = jox_add(sum, jox_offset(a, j, i));
     }
     return jox_unit(sum);
@@ -114,10 +114,10 @@ static JoxV2 spread(const JoxMind *mind, uint32_t i) {
 /* People who meet pass each other on the right by custom (Moussaid et al. 2009 measured it), and
    who comes on one's right is let pass there. Counts more the nearer they are; headings of the step
    before, so that no order of agents matters. */
-static JoxV2 evade(const JoxMind *mind, uint32_t i, JoxV2 ahead) {
-    const JoxAgents *a = mind->agents;
-    const JoxNeighbours *n = mind->neighbours;
-    const JoxV2 *heading = mind->scratch->heading;
+static JoxV2 evade(const JoxMachineRun *run, uint32_t i, JoxV2 ahead) {
+    const JoxAgents *a = run->agents;
+    const JoxNeighbours *n = run->neighbours;
+    const JoxV2 *heading = run->scratch->heading;
     const float *radius = a->param[JOX_PARAM_radius];
     JoxV2 right = jox_scale(jox_left(ahead), -1.0f);
     float sum = 0.0f, reach = a->param[JOX_PARAM_perception][i];
@@ -135,48 +135,48 @@ static JoxV2 evade(const JoxMind *mind, uint32_t i, JoxV2 ahead) {
 
 /* The way's direction, (0, 0) where there is none, and *none says that none leads there; it is
    asked for again and again, as only ways that are wanted are renewed. */
-static JoxV2 way(const JoxMind *mind, uint32_t place, JoxWayKind kind, JoxV2 p, bool *none) {
-    const JoxField *field = mind->fields[place * JOX_WAY_KINDS + kind];
+static JoxV2 way(const JoxMachineRun *run, uint32_t place, JoxRouteKind kind, JoxV2 p, bool *none) {
+    const JoxField *field = run->fields[place * JOX_ROUTE_KINDS + kind];
     uint8_t bit = (uint8_t)(1 << kind);
     /* Whichever thread comes first: the result is the same. */
-    if (!(__atomic_load_n(&mind->wanted[place], __ATOMIC_RELAXED) & bit))
-        __atomic_fetch_or(&mind->wanted[place], bit, __ATOMIC_RELAXED);
+    if (!(__atomic_load_n(&run->wanted[place], __ATOMIC_RELAXED) & bit))
+        __atomic_fetch_or(&run->wanted[place], bit, __ATOMIC_RELAXED);
     JoxV2 direction = field ? jox_field_direction(field, p) : (JoxV2){0.0f, 0.0f};
     *none = field && jox_length2(direction) == 0.0f && !(jox_field_distance(field, p) < INFINITY);
     return direction;
 }
 
 /* Round walls and large bodies; where no way is known yet, or none leads there, straight on. */
-static JoxV2 field(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
-    const JoxAgents *a = mind->agents;
-    int32_t place = jox_target_place(mind, i, term->target);
+static JoxV2 field(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = run->agents;
+    int32_t place = jox_target_place(run, i, term->target);
     bool none;
     if (place < 0)
         return (JoxV2){0.0f, 0.0f};
     JoxV2 p = {a->x[i], a->y[i]};
-    if (!mind->fields || jox_place_contains(mind->places, (uint32_t)place, p))
-        return seek(mind, i, term->target);
-    JoxV2 direction = way(mind, (uint32_t)place, JOX_WAY_NOW, p, &none);
+    if (!run->fields || jox_place_contains(run->places, (uint32_t)place, p))
+        return seek(run, i, term->target);
+    JoxV2 direction = way(run, (uint32_t)place, JOX_ROUTE_NOW, p, &none);
     if (none)
-        direction = way(mind, (uint32_t)place, JOX_WAY_OPEN, p, &none);
-    return jox_length2(direction) > 0.0f ? direction : seek(mind, i, term->target);
+        direction = way(run, (uint32_t)place, JOX_ROUTE_OPEN, p, &none);
+    return jox_length2(direction) > 0.0f ? direction : seek(run, i, term->target);
 }
 
-void jox_mind_ask_ways(JoxMind *mind) {
-    const JoxAgents *a = mind->agents;
+void jox_machines_ask_routes(JoxMachineRun *run) {
+    const JoxAgents *a = run->agents;
     for (uint32_t i = 0; i < a->count; i++) {
         if (a->machine[i] == JOX_NO_MACHINE)
             continue;
-        const JoxState *state = &jox_machine_of(mind, i)->states[a->state[i]];
+        const JoxState *state = &jox_machine_of(run, i)->states[a->state[i]];
         for (uint32_t t = 0; t < state->steer_count; t++)
             if (state->steer[t].kind == JOX_STEER_FIELD)
-                field(mind, i, &state->steer[t]);
+                field(run, i, &state->steer[t]);
     }
 }
 
-static JoxV2 together(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
-    const JoxAgents *a = mind->agents;
-    const JoxNeighbours *n = mind->neighbours;
+static JoxV2 together(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = run->agents;
+    const JoxNeighbours *n = run->neighbours;
     JoxV2 sum = {0.0f, 0.0f};
     uint32_t mates = 0;
     for (uint32_t k = 0; a->team[i] && k < n->count[i]; k++) {
@@ -193,9 +193,9 @@ static JoxV2 together(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term)
     return jox_scale(to, jox_minf(1.0f, distance - ease) / distance);
 }
 
-static JoxV2 follow(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
-    const JoxAgents *a = mind->agents;
-    JoxSpot spot = jox_target_find(mind, i, term->target);
+static JoxV2 follow(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = run->agents;
+    JoxSpot spot = jox_target_find(run, i, term->target);
     JoxV2 from = {a->x[i], a->y[i]}, to = {spot.x, spot.y};
     if (!spot.found)
         return (JoxV2){0.0f, 0.0f};
@@ -203,44 +203,44 @@ static JoxV2 follow(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
     return arrive(from, jox_add(to, behind), a->param[JOX_PARAM_speed][i]);
 }
 
-static JoxV2 player(const JoxMind *mind, uint32_t i) {
-    float speed = jox_maxf(mind->agents->param[JOX_PARAM_speed][i], 1e-3f);
-    for (uint32_t k = 0; k < mind->input_count; k++)
-        if (mind->inputs[k].agent_id == mind->agents->id[i])
-            return jox_scale((JoxV2){mind->inputs[k].vx, mind->inputs[k].vy}, 1.0f / speed);
+static JoxV2 player(const JoxMachineRun *run, uint32_t i) {
+    float speed = jox_maxf(run->agents->param[JOX_PARAM_speed][i], 1e-3f);
+    for (uint32_t k = 0; k < run->input_count; k++)
+        if (run->inputs[k].agent_id == run->agents->id[i])
+            return jox_scale((JoxV2){run->inputs[k].vx, run->inputs[k].vy}, 1.0f / speed);
     return (JoxV2){0.0f, 0.0f};
 }
 
 /* What one term asks for, as a share of the wanted speed: of length 1 at most, drift and player
    aside. */
-static JoxV2 term_direction(const JoxMind *mind, uint32_t i, const JoxSteerTerm *term) {
-    const JoxAgents *a = mind->agents;
+static JoxV2 term_direction(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = run->agents;
     switch (term->kind) {
     case JOX_STEER_SEEK:
-        return seek(mind, i, term->target);
+        return seek(run, i, term->target);
     case JOX_STEER_AWAY_FROM: {
-        JoxSpot spot = jox_target_find(mind, i, term->target);
+        JoxSpot spot = jox_target_find(run, i, term->target);
         return spot.found ? jox_unit((JoxV2){a->x[i] - spot.x, a->y[i] - spot.y})
                           : (JoxV2){0.0f, 0.0f};
     }
     case JOX_STEER_ORBIT:
-        return orbit(mind, i, term);
+        return orbit(run, i, term);
     case JOX_STEER_QUEUE:
-        return queue(mind, i, term);
+        return queue(run, i, term);
     case JOX_STEER_FOLLOW:
-        return follow(mind, i, term);
+        return follow(run, i, term);
     case JOX_STEER_DRIFT:
         return (JoxV2){(float)term->args[0], (float)term->args[1]};
     case JOX_STEER_SPREAD:
-        return spread(mind, i);
+        return spread(run, i);
     case JOX_STEER_ALONG:
-        return along(mind, i, term);
+        return along(run, i, term);
     case JOX_STEER_FIELD:
-        return field(mind, i, term);
+        return field(run, i, term);
     case JOX_STEER_TOGETHER:
-        return together(mind, i, term);
+        return together(run, i, term);
     case JOX_STEER_PLAYER:
-        return player(mind, i);
+        return player(run, i);
     case JOX_STEER_HOLD:
     case JOX_STEER_EVADE: /* by the sum of the others */
     case JOX_STEER_FUNCTION:
@@ -249,12 +249,12 @@ static JoxV2 term_direction(const JoxMind *mind, uint32_t i, const JoxSteerTerm 
     return (JoxV2){0.0f, 0.0f};
 }
 
-static void face(const JoxMind *mind, const JoxState *state, uint32_t i) {
-    JoxAgents *a = mind->agents;
+static void face(const JoxMachineRun *run, const JoxState *state, uint32_t i) {
+    JoxAgents *a = run->agents;
     JoxV2 way = {a->vx[i], a->vy[i]};
     bool turns = jox_length2(way) > 0.0025f;
     if (state->face >= 0) {
-        JoxSpot spot = jox_target_find(mind, i, state->face);
+        JoxSpot spot = jox_target_find(run, i, state->face);
         way = (JoxV2){spot.x - a->x[i], spot.y - a->y[i]};
         turns = spot.found && jox_length2(way) > 0.0f;
     }
@@ -278,7 +278,7 @@ static bool is_function(const JoxState *state) {
 
 /* The weighted sum of a state's terms; those that evade come last, as they go by where the others
    lead. */
-static JoxV2 steering(const JoxMind *mind, const JoxMachine *machine, const JoxState *state,
+static JoxV2 steering(const JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
                       uint32_t i) {
     JoxV2 sum = {0.0f, 0.0f}, ahead = sum;
     for (int pass = 0; pass < 2; pass++) {
@@ -288,11 +288,11 @@ static JoxV2 steering(const JoxMind *mind, const JoxMachine *machine, const JoxS
                 continue;
             float by = term->weight.kind == JOX_VALUE_UNSET
                            ? 1.0f
-                           : (float)jox_value(mind, machine, &term->weight, i);
+                           : (float)jox_value(run, machine, &term->weight, i);
             /* A weight may come from a target that is not there: infinitely far. */
             if (by == 0.0f || !(fabsf(by) <= (float)JOX_MOST_WEIGHT))
                 continue;
-            JoxV2 way = bounded(pass ? evade(mind, i, ahead) : term_direction(mind, i, term));
+            JoxV2 way = bounded(pass ? evade(run, i, ahead) : term_direction(run, i, term));
             sum = jox_add(sum, jox_scale(way, by));
         }
         ahead = jox_unit(sum);
@@ -302,18 +302,18 @@ static JoxV2 steering(const JoxMind *mind, const JoxMachine *machine, const JoxS
 
 static void prefer_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
-    const JoxMind *mind = context;
-    JoxAgents *a = mind->agents;
+    const JoxMachineRun *run = context;
+    JoxAgents *a = run->agents;
     for (uint32_t b = begin; b < end; b++) {
-        const JoxBatchRange *batch = &mind->scratch->batches[b];
-        const JoxMachine *machine = mind->machines[batch->machine];
+        const JoxBatchRange *batch = &run->scratch->batches[b];
+        const JoxMachine *machine = run->set->items[batch->machine];
         const JoxState *state = &machine->states[batch->state];
         for (uint32_t n = 0; n < batch->count; n++) {
-            uint32_t i = mind->scratch->grouped[batch->begin + n];
-            face(mind, state, i);
+            uint32_t i = run->scratch->grouped[batch->begin + n];
+            face(run, state, i);
             if (is_function(state))
                 continue;
-            JoxV2 sum = steering(mind, machine, state, i);
+            JoxV2 sum = steering(run, machine, state, i);
             if (jox_length2(sum) > 1.0f)
                 sum = jox_unit(sum);
             float speed = jox_minf(a->param[JOX_PARAM_speed][i], a->param[JOX_PARAM_max_speed][i]);
@@ -324,35 +324,35 @@ static void prefer_range(void *context, uint32_t begin, uint32_t end, uint32_t w
 }
 
 /* Steering by plain Lua functions, by id. */
-static void ask_functions(JoxMind *mind) {
-    JoxAgents *a = mind->agents;
+static void ask_functions(JoxMachineRun *run) {
+    JoxAgents *a = run->agents;
     bool any = false;
-    for (uint32_t b = 0; b < mind->scratch->batch_count; b++) {
-        const JoxBatchRange *batch = &mind->scratch->batches[b];
-        any |= is_function(&mind->machines[batch->machine]->states[batch->state]);
+    for (uint32_t b = 0; b < run->scratch->batch_count; b++) {
+        const JoxBatchRange *batch = &run->scratch->batches[b];
+        any |= is_function(&run->set->items[batch->machine]->states[batch->state]);
     }
     for (uint32_t rank = 0; any && rank < a->count; rank++) {
         uint32_t i = a->by_rank[rank];
         if (a->machine[i] == JOX_NO_MACHINE)
             continue;
-        const JoxMachine *machine = jox_machine_of(mind, i);
+        const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *state = &machine->states[a->state[i]];
         if (!is_function(state))
             continue;
         double v[2] = {0.0, 0.0};
-        bool good = mind->call && mind->call(mind->call_context, machine, state->steer[0].hook,
-                                             JOX_HOOK_STEER, i, v);
+        bool good = run->call && run->call(run->call_context, machine, state->steer[0].hook,
+                                           JOX_HOOK_STEER, i, v);
         good = good && fabs(v[0]) <= 100.0 && fabs(v[1]) <= 100.0;
         a->pref_x[i] = good ? (float)v[0] : 0.0f;
         a->pref_y[i] = good ? (float)v[1] : 0.0f;
     }
 }
 
-void jox_mind_prefer(JoxMind *mind, JoxPool *pool) {
-    if (mind->machine_count == 0)
+void jox_machines_prefer(JoxMachineRun *run, JoxPool *pool) {
+    if (run->set->count == 0)
         return;
-    jox_parallel_for(pool, mind->scratch->batch_count, 1, prefer_range, mind);
-    ask_functions(mind);
-    if (mind->bracket)
-        mind->bracket(mind->call_context, false);
+    jox_parallel_for(pool, run->scratch->batch_count, 1, prefer_range, run);
+    ask_functions(run);
+    if (run->bracket)
+        run->bracket(run->call_context, false);
 }

@@ -207,21 +207,21 @@ void jox_replacement_free(JoxReplacement *r) {
     jox_free(r);
 }
 
-void jox_mind_census(const JoxMind *mind, uint32_t index, uint32_t *people) {
-    const JoxAgents *a = mind->agents;
-    memset(people, 0, mind->machines[index]->state_count * sizeof *people);
+void jox_machines_people(const JoxMachineRun *run, uint32_t index, uint32_t *people) {
+    const JoxAgents *a = run->agents;
+    memset(people, 0, run->set->items[index]->state_count * sizeof *people);
     for (uint32_t i = 0; i < a->count; i++)
         if (a->machine[i] == index)
             people[a->state[i]]++;
 }
 
-const char *jox_mind_refuses(const JoxMind *mind, uint32_t index, const JoxReplacement *r,
-                             char *why, uint32_t size) {
-    const JoxMachine *old = mind->machines[index];
+const char *jox_machines_refuses(const JoxMachineRun *run, uint32_t index, const JoxReplacement *r,
+                                 char *why, uint32_t size) {
+    const JoxMachine *old = run->set->items[index];
     uint32_t people[1000];
     if (old->state_count > 1000)
         return NULL;
-    jox_mind_census(mind, index, people);
+    jox_machines_people(run, index, people);
     for (uint32_t s = 0; s < old->state_count; s++) {
         if (r->state[s] >= 0 || people[s] == 0)
             continue;
@@ -245,8 +245,8 @@ static uint64_t given_now(const JoxReplacement *r, uint64_t given) {
 }
 
 /* The own values of an agent in their new slots. */
-static void carry_own(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
-    JoxAgents *a = mind->agents;
+static void carry_own(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
+    JoxAgents *a = run->agents;
     double *own = a->own + (size_t)i * a->own_stride, *before = r->before;
     memcpy(before, own, r->old->own_count * sizeof *own);
     for (uint32_t k = 0; k < r->moved_count; k++)
@@ -254,8 +254,8 @@ static void carry_own(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
 }
 
 /* Values drawn afresh, but for those that the agent was given. */
-static void draw_again(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
-    const JoxAgents *a = mind->agents;
+static void draw_again(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
+    const JoxAgents *a = run->agents;
     uint32_t id = a->id[i];
     uint64_t given = a->given[i];
     double *own = a->own + (size_t)i * a->own_stride;
@@ -266,20 +266,20 @@ static void draw_again(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
             continue;
         own[s] = id < r->drawn_count
                      ? drawn[d]
-                     : jox_dist_draw(&r->next->own[s].dist, mind->seed, id, 0, JOX_DRAW_OWN, s);
+                     : jox_dist_draw(&r->next->own[s].dist, run->seed, id, 0, JOX_DRAW_OWN, s);
     }
 }
 
-static void carry_memory(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
-    JoxAgents *a = mind->agents;
+static void carry_memory(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
+    JoxAgents *a = run->agents;
     double *memory = a->memory + (size_t)i * a->memory_stride;
     memcpy(r->before, memory, r->old->memory_count * sizeof *memory);
     for (uint32_t s = 0; s < r->next->memory_count; s++)
         memory[s] = r->memory[s] >= 0 ? r->before[r->memory[s]] : r->next->memory[s].initial;
 }
 
-static void carry_agent(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
-    JoxAgents *a = mind->agents;
+static void carry_agent(JoxMachineRun *run, const JoxReplacement *r, uint32_t i) {
+    JoxAgents *a = run->agents;
     uint16_t was = a->state[i];
     uint16_t is = r->state[was] >= 0 ? (uint16_t)r->state[was] : r->next->start;
     a->state[i] = is;
@@ -291,7 +291,7 @@ static void carry_agent(JoxMind *mind, const JoxReplacement *r, uint32_t i) {
         a->was_true[i] = truth;
     }
     if (r->memory_moves)
-        carry_memory(mind, r, i);
+        carry_memory(run, r, i);
     const JoxState *state = &r->next->states[is];
     const double *own = a->own + (size_t)i * a->own_stride;
     for (uint32_t k = 0; k < r->assign_count[was]; k++) {
@@ -317,38 +317,48 @@ static void fetch_ahead(const JoxAgents *a, const JoxReplacement *r, uint32_t i)
 }
 
 /* Counts of transitions that go on; what has no counterpart is kept by the names of its states. */
-static void carry_counts(const JoxReplacement *r, const JoxMachine *old) {
-    JoxMachine *next = r->next;
-    jox_machine_carry_before(old, next);
+static void carry_counts(const JoxReplacement *r, const JoxMachine *old, JoxMachineCounts *was,
+                         JoxMachineCounts *is) {
+    const JoxMachine *next = r->next;
     for (uint32_t s = 0; s < old->state_count; s++) {
-        const JoxState *was = &old->states[s];
-        const JoxState *is = r->state[s] < 0 ? NULL : &next->states[r->state[s]];
-        for (uint32_t o = 0; o < was->transition_count; o++) {
-            const JoxTransition *t = &was->transitions[o];
+        const JoxState *from = &old->states[s];
+        const JoxState *to = r->state[s] < 0 ? NULL : &next->states[r->state[s]];
+        for (uint32_t o = 0; o < from->transition_count; o++) {
+            const JoxTransition *t = &from->transitions[o];
+            uint64_t taken = was->taken[from->first_transition + o];
             uint32_t k = 0;
-            while (is && k < is->transition_count &&
-                   (r->truth[s][k] != (int8_t)o || is->transitions[k].to != r->state[t->to]))
+            while (to && k < to->transition_count &&
+                   (r->truth[s][k] != (int8_t)o || to->transitions[k].to != r->state[t->to]))
                 k++;
-            if (is && k < is->transition_count)
-                is->transitions[k].taken += t->taken;
-            else if (t->taken)
-                jox_machine_add_before(next, was->name, old->states[t->to].name, t->taken);
+            if (to && k < to->transition_count)
+                is->taken[to->first_transition + k] += taken;
+            else if (taken)
+                jox_counts_add_before(was, from->name, old->states[t->to].name, taken);
         }
     }
+    is->before = was->before;
+    is->before_count = was->before_count;
+    is->before_capacity = was->before_capacity;
+    was->before = NULL;
+    was->before_count = 0;
 }
 
-JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, const JoxReplacement *r) {
-    JoxMachine *old = mind->machines[index], *next = r->next;
-    JoxAgents *a = mind->agents;
-    jox_agents_widen(a, next->own_count, next->memory_count);
-    jox_mind_number_names(mind, next);
-    mind->machines[index] = next;
+JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxReplacement *r) {
+    const JoxMachine *old = run->set->items[index];
+    JoxMachine *built = run->set->built[index], *next = r->next;
+    JoxAgents *a = run->agents;
+    JoxMachineCounts *counts = &run->state->counts[index], was = *counts;
+    *counts = (JoxMachineCounts){0};
     next->version = old->version + 1;
-    carry_counts(r, old);
+    jox_machines_put(run, index, next);
+    carry_counts(r, old, &was, counts);
+    jox_counts_free(&was);
     bool any = r->memory_moves || r->states_move;
     for (uint32_t s = 0; s < old->state_count; s++)
         any |= r->assign_count[s] || r->truth_moves[s] || r->tags_change[s];
-    bool all = any || r->own_moves || r->redrawn_count, rows = r->moved_count || r->redrawn_count;
+    bool shorter = next->own_count < old->own_count || next->memory_count < old->memory_count;
+    bool all = any || shorter || r->own_moves || r->redrawn_count,
+         rows = r->moved_count || r->redrawn_count;
     uint64_t given = 0, now = 0; /* of the agent before: mostly the same */
     for (uint32_t i = 0; all && i < a->count; i++) {
         if (rows && i + AHEAD < a->count)
@@ -359,12 +369,15 @@ JoxMachine *jox_mind_replace(JoxMind *mind, uint32_t index, const JoxReplacement
             if (a->given[i] != given)
                 now = given_now(r, given = a->given[i]);
             a->given[i] = now;
-            carry_own(mind, r, i);
+            carry_own(run, r, i);
         }
         if (r->redrawn_count)
-            draw_again(mind, r, i);
+            draw_again(run, r, i);
         if (any)
-            carry_agent(mind, r, i);
+            carry_agent(run, r, i);
+        if (shorter)
+            jox_rows_end(a, i, next);
     }
-    return old;
+    jox_edits_end(run, index); /* frees the copy that `old` may be */
+    return built;
 }

@@ -5,31 +5,27 @@
 #include "base/mem.h"
 #include "machine/internal.h"
 
-uint32_t jox_mind_name(JoxMind *mind, const char *name) {
-    for (uint32_t n = 0; n < mind->name_count; n++)
-        if (strcmp(mind->names[n], name) == 0)
+uint32_t jox_machines_name(JoxMachineRun *run, const char *name) {
+    JoxMachineSet *set = run->set;
+    for (uint32_t n = 0; n < set->name_count; n++)
+        if (strcmp(set->names[n], name) == 0)
             return n;
-    JOX_RESERVE(mind->names, mind->name_capacity, mind->name_count + 1);
-    mind->names[mind->name_count] = jox_strdup(name);
-    return mind->name_count++;
+    JOX_RESERVE(set->names, set->name_capacity, set->name_count + 1);
+    set->names[set->name_count] = jox_strdup(name);
+    return set->name_count++;
 }
 
-void jox_mind_number_names(JoxMind *mind, JoxMachine *machine) {
-    for (uint32_t n = 0; n < machine->name_count; n++)
-        machine->names[n].number = jox_mind_name(mind, machine->names[n].text);
-    for (uint32_t s = 0; s < machine->state_count; s++)
-        machine->states[s].name_number = jox_mind_name(mind, machine->states[s].name);
+void jox_machines_call(JoxMachineRun *run, uint32_t agent, uint32_t name) {
+    const JoxAgents *a = run->agents;
+    JOX_RESERVE(run->state->called, run->state->called_capacity, run->state->called_count + 1);
+    run->state->called[run->state->called_count++] =
+        (JoxSignal){name, a->id[agent], a->x[agent], a->y[agent]};
 }
 
-void jox_mind_call(JoxMind *mind, uint32_t agent, uint32_t name) {
-    const JoxAgents *a = mind->agents;
-    JOX_RESERVE(mind->called, mind->called_capacity, mind->called_count + 1);
-    mind->called[mind->called_count++] = (JoxSignal){name, a->id[agent], a->x[agent], a->y[agent]};
-}
-
-void jox_mind_announce(JoxMind *mind, uint32_t name) {
-    JOX_RESERVE(mind->announced, mind->announced_capacity, mind->announced_count + 1);
-    mind->announced[mind->announced_count++] = name;
+void jox_machines_announce(JoxMachineRun *run, uint32_t name) {
+    JOX_RESERVE(run->state->announced, run->state->announced_capacity,
+                run->state->announced_count + 1);
+    run->state->announced[run->state->announced_count++] = name;
 }
 
 static bool comes_before(const JoxSignal *a, const JoxSignal *b) {
@@ -38,50 +34,46 @@ static bool comes_before(const JoxSignal *a, const JoxSignal *b) {
     return a->x != b->x ? a->x < b->x : a->agent_id < b->agent_id;
 }
 
-void jox_mind_listen(JoxMind *mind) {
-    JoxSignal *swap = mind->heard;
-    uint32_t capacity = mind->heard_capacity;
-    mind->heard = mind->called;
-    mind->heard_count = mind->called_count;
-    mind->heard_capacity = mind->called_capacity;
-    mind->called = swap;
-    mind->called_capacity = capacity;
-    mind->called_count = 0;
-    uint32_t *names = mind->everywhere, room = mind->everywhere_capacity;
-    mind->everywhere = mind->announced;
-    mind->everywhere_count = mind->announced_count;
-    mind->everywhere_capacity = mind->announced_capacity;
-    mind->announced = names;
-    mind->announced_capacity = room;
-    mind->announced_count = 0;
-    uint32_t count = mind->heard_count;
+void jox_machines_listen(JoxMachineRun *run) {
+    JoxMachineState *state = run->state;
+    JoxMachineScratch *s = run->scratch;
+    JOX_RESERVE(s->heard, s->heard_capacity, state->called_count);
+    JOX_RESERVE(s->everywhere, s->everywhere_capacity, state->announced_count);
+    uint32_t count = s->heard_count = state->called_count;
+    if (count)
+        memcpy(s->heard, state->called, count * sizeof *s->heard);
+    s->everywhere_count = state->announced_count;
+    if (s->everywhere_count)
+        memcpy(s->everywhere, state->announced, s->everywhere_count * sizeof *s->everywhere);
+    state->called_count = state->announced_count = 0;
     for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
         for (uint32_t k = gap; k < count; k++) {
-            JoxSignal moving = mind->heard[k];
+            JoxSignal moving = s->heard[k];
             uint32_t at = k;
-            for (; at >= gap && comes_before(&moving, &mind->heard[at - gap]); at -= gap)
-                mind->heard[at] = mind->heard[at - gap];
-            mind->heard[at] = moving;
+            for (; at >= gap && comes_before(&moving, &s->heard[at - gap]); at -= gap)
+                s->heard[at] = s->heard[at - gap];
+            s->heard[at] = moving;
         }
 }
 
-bool jox_heard(const JoxMind *mind, uint32_t i, uint32_t name, double reach) {
-    const JoxAgents *a = mind->agents;
-    for (uint32_t n = 0; n < mind->everywhere_count; n++)
-        if (mind->everywhere[n] == name)
+bool jox_heard(const JoxMachineRun *run, uint32_t i, uint32_t name, double reach) {
+    const JoxAgents *a = run->agents;
+    const JoxMachineScratch *heard = run->scratch;
+    for (uint32_t n = 0; n < heard->everywhere_count; n++)
+        if (heard->everywhere[n] == name)
             return true;
     float r = jox_minf((float)reach, a->param[JOX_PARAM_perception][i]), x = a->x[i], y = a->y[i];
     JoxSignal from = {.name = name, .x = x - r};
-    uint32_t low = 0, high = mind->heard_count;
+    uint32_t low = 0, high = heard->heard_count;
     while (low < high) {
         uint32_t middle = (low + high) / 2;
-        if (comes_before(&mind->heard[middle], &from))
+        if (comes_before(&heard->heard[middle], &from))
             low = middle + 1;
         else
             high = middle;
     }
-    for (; low < mind->heard_count; low++) {
-        const JoxSignal *s = &mind->heard[low];
+    for (; low < heard->heard_count; low++) {
+        const JoxSignal *s = &heard->heard[low];
         if (s->name != name || s->x > x + r)
             return false;
         float dx = s->x - x, dy = s->y - y;
@@ -91,33 +83,33 @@ bool jox_heard(const JoxMind *mind, uint32_t i, uint32_t name, double reach) {
     return false;
 }
 
-void jox_mind_repeat_signals(JoxMind *mind) {
-    JoxMindScratch *s = mind->scratch;
-    const JoxAgents *a = mind->agents;
+void jox_machines_repeat_signals(JoxMachineRun *run) {
+    JoxMachineScratch *s = run->scratch;
+    const JoxAgents *a = run->agents;
     s->list_count = 0;
     for (uint32_t b = 0; b < s->batch_count; b++) {
         const JoxBatchRange *batch = &s->batches[b];
-        const JoxState *state = &mind->machines[batch->machine]->states[batch->state];
+        const JoxState *state = &run->set->items[batch->machine]->states[batch->state];
         for (uint32_t n = 0; state->signal_every > 0.0 && n < batch->count; n++) {
             uint32_t i = s->grouped[batch->begin + n];
-            double time = jox_time_in_state(mind, i), every = state->signal_every;
-            if (floor(time / every + 1e-9) > floor((time - mind->dt) / every + 1e-9))
+            double time = jox_time_in_state(run, i), every = state->signal_every;
+            if (floor(time / every + 1e-9) > floor((time - run->dt) / every + 1e-9))
                 s->list[s->list_count++] = i;
         }
     }
-    jox_sort_by_id(mind, s->list, s->list_count);
+    jox_sort_by_id(run, s->list, s->list_count);
     for (uint32_t n = 0; n < s->list_count; n++) {
         uint32_t i = s->list[n];
-        const JoxMachine *machine = jox_machine_of(mind, i);
+        const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *state = &machine->states[a->state[i]];
-        if (jox_time_in_state(mind, i) > 0.0) /* entering has called already */
-            jox_mind_call(mind, i, machine->names[state->enters.signal].number);
+        if (jox_time_in_state(run, i) > 0.0) /* entering has called already */
+            jox_machines_call(run, i, machine->names[state->enters.signal].number);
     }
 }
 
-uint32_t jox_neighbours_of(const JoxMind *mind, uint32_t i, int32_t kind, int32_t name) {
-    const JoxAgents *a = mind->agents;
-    const JoxNeighbours *n = mind->neighbours;
+uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t i, int32_t kind, int32_t name) {
+    const JoxAgents *a = run->agents;
+    const JoxNeighbours *n = run->neighbours;
     uint32_t count = 0;
     for (uint32_t k = 0; k < n->count[i]; k++) {
         uint32_t j = n->index[jox_neighbour_at(n, i, k)];
@@ -129,20 +121,20 @@ uint32_t jox_neighbours_of(const JoxMind *mind, uint32_t i, int32_t kind, int32_
         if (!wanted || (name >= 0 && a->machine[j] == JOX_NO_MACHINE))
             continue;
         count +=
-            name < 0 || jox_machine_of(mind, j)->states[a->state[j]].name_number == (uint32_t)name;
+            name < 0 || jox_machine_of(run, j)->states[a->state[j]].name_number == (uint32_t)name;
     }
     return count;
 }
 
-void jox_actions_do(JoxMind *mind, const JoxMachine *machine, const JoxActions *actions,
+void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActions *actions,
                     uint32_t i) {
-    JoxAgents *a = mind->agents;
+    JoxAgents *a = run->agents;
     for (uint32_t n = 0; n < actions->set_count; n++) {
         const struct JoxAssign *assign = &actions->set[n];
-        double value = jox_value(mind, machine, &assign->value, i);
+        double value = jox_value(run, machine, &assign->value, i);
         if (isfinite(value))
             a->memory[(size_t)i * a->memory_stride + (uint32_t)assign->slot] = value;
     }
     if (actions->signal >= 0)
-        jox_mind_call(mind, i, machine->names[actions->signal].number);
+        jox_machines_call(run, i, machine->names[actions->signal].number);
 }

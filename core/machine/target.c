@@ -3,8 +3,8 @@
 
 #include "machine/internal.h"
 
-int32_t jox_target_place(const JoxMind *mind, uint32_t agent, int32_t index) {
-    const JoxMachine *machine = jox_machine_of(mind, agent);
+int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index) {
+    const JoxMachine *machine = jox_machine_of(run, agent);
     int32_t place = -1;
     if (index < 0)
         return -1;
@@ -14,16 +14,16 @@ int32_t jox_target_place(const JoxMind *mind, uint32_t agent, int32_t index) {
     else if (target->kind == JOX_TARGET_OWN_PLACE)
         place =
             (int32_t)
-                mind->agents->own[(size_t)agent * mind->agents->own_stride + (uint32_t)target->arg];
+                run->agents->own[(size_t)agent * run->agents->own_stride + (uint32_t)target->arg];
     else if (target->kind == JOX_TARGET_GOAL || target->kind == JOX_TARGET_ONE_OF ||
              target->kind == JOX_TARGET_ONE_OF_OWN)
-        place = mind->agents->goal[agent];
-    return place >= 0 && (uint32_t)place < mind->place_count ? place : -1;
+        place = run->agents->goal[agent];
+    return place >= 0 && (uint32_t)place < run->place_count ? place : -1;
 }
 
 /* Agent `other` as agent i sees it: across a periodic edge if that is nearer. */
-static JoxSpot agent_spot(const JoxMind *mind, uint32_t i, uint32_t other) {
-    const JoxAgents *a = mind->agents;
+static JoxSpot agent_spot(const JoxMachineRun *run, uint32_t i, uint32_t other) {
+    const JoxAgents *a = run->agents;
     JoxV2 offset = jox_offset(a, i, other);
     return (JoxSpot){.found = true,
                      .x = a->x[i] + offset.x,
@@ -69,9 +69,9 @@ static bool is_wanted(const JoxAgents *a, const JoxTarget *target, uint32_t i, u
    where the crowd is small enough for that to be cheap: a game's opponents, not a pilgrimage. */
 enum { SMALL_CROWD = 64 };
 
-static uint32_t nearest_agent(const JoxMind *mind, const JoxTarget *target, uint32_t i) {
-    const JoxAgents *a = mind->agents;
-    const JoxNeighbours *n = mind->neighbours;
+static uint32_t nearest_agent(const JoxMachineRun *run, const JoxTarget *target, uint32_t i) {
+    const JoxAgents *a = run->agents;
+    const JoxNeighbours *n = run->neighbours;
     for (uint32_t k = 0; k < n->count[i]; k++) {
         uint32_t j = n->index[jox_neighbour_at(n, i, k)];
         if (is_wanted(a, target, i, j))
@@ -91,14 +91,14 @@ static uint32_t nearest_agent(const JoxMind *mind, const JoxTarget *target, uint
     return best;
 }
 
-static int32_t nearest_object(const JoxMind *mind, const JoxTarget *target, uint32_t i,
+static int32_t nearest_object(const JoxMachineRun *run, const JoxTarget *target, uint32_t i,
                               float *distance2) {
-    const JoxAgents *a = mind->agents;
+    const JoxAgents *a = run->agents;
     float reach = a->param[JOX_PARAM_perception][i];
     int32_t best = -1;
     *distance2 = reach * reach;
-    for (uint32_t o = 0; mind->objects && o < mind->objects->count; o++) {
-        const JoxObject *object = &mind->objects->rows[o];
+    for (uint32_t o = 0; run->objects && o < run->objects->count; o++) {
+        const JoxObject *object = &run->objects->rows[o];
         if (!object->live || !(object->tags >> target->arg & 1))
             continue;
         float dx = object->position.x - a->x[i], dy = object->position.y - a->y[i];
@@ -111,54 +111,54 @@ static int32_t nearest_object(const JoxMind *mind, const JoxTarget *target, uint
     return best;
 }
 
-JoxSpot jox_target_find(const JoxMind *mind, uint32_t i, int32_t index) {
+JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
     JoxSpot none = {.place = -1, .object = -1, .agent = JOX_NO_INDEX};
-    const JoxAgents *a = mind->agents;
+    const JoxAgents *a = run->agents;
     if (index < 0)
-        return agent_spot(mind, i, i);
-    const JoxTarget *target = &jox_machine_of(mind, i)->targets[index];
+        return agent_spot(run, i, i);
+    const JoxTarget *target = &jox_machine_of(run, i)->targets[index];
     if (target->kind < JOX_TARGET_NEAREST) {
-        int32_t place = jox_target_place(mind, i, index);
+        int32_t place = jox_target_place(run, i, index);
         if (place < 0)
             return none;
-        JoxV2 p = jox_place_nearest(mind->places, (uint32_t)place, (JoxV2){a->x[i], a->y[i]});
+        JoxV2 p = jox_place_nearest(run->places, (uint32_t)place, (JoxV2){a->x[i], a->y[i]});
         return (JoxSpot){true, p.x, p.y, 0, 0, 0, 0, place, -1, JOX_NO_INDEX};
     }
     float object_d2 = INFINITY;
     int32_t object =
-        target->kind == JOX_TARGET_NEAREST ? nearest_object(mind, target, i, &object_d2) : -1;
-    uint32_t other = nearest_agent(mind, target, i);
+        target->kind == JOX_TARGET_NEAREST ? nearest_object(run, target, i, &object_d2) : -1;
+    uint32_t other = nearest_agent(run, target, i);
     if (other != JOX_NO_INDEX) {
         if (object < 0 || jox_length2(jox_offset(a, i, other)) < object_d2)
-            return agent_spot(mind, i, other);
+            return agent_spot(run, i, other);
     }
-    return object >= 0 ? object_spot(&mind->objects->rows[object], object) : none;
+    return object >= 0 ? object_spot(&run->objects->rows[object], object) : none;
 }
 
-float jox_target_distance(const JoxMind *mind, uint32_t i, int32_t index) {
-    JoxV2 p = {mind->agents->x[i], mind->agents->y[i]};
-    int32_t place = jox_target_place(mind, i, index);
+float jox_target_distance(const JoxMachineRun *run, uint32_t i, int32_t index) {
+    JoxV2 p = {run->agents->x[i], run->agents->y[i]};
+    int32_t place = jox_target_place(run, i, index);
     if (place >= 0)
-        return jox_place_distance(mind->places, (uint32_t)place, p);
-    JoxSpot spot = jox_target_find(mind, i, index);
+        return jox_place_distance(run->places, (uint32_t)place, p);
+    JoxSpot spot = jox_target_find(run, i, index);
     return spot.found ? jox_length((JoxV2){spot.x - p.x, spot.y - p.y}) : INFINITY;
 }
 
-float jox_spot_gap(const JoxMind *mind, uint32_t i, const JoxSpot *spot) {
+float jox_spot_gap(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
     if (!spot->found)
         return INFINITY;
-    const JoxAgents *a = mind->agents;
+    const JoxAgents *a = run->agents;
     float distance = jox_length((JoxV2){spot->x - a->x[i], spot->y - a->y[i]});
     return distance - spot->radius - a->param[JOX_PARAM_radius][i];
 }
 
 /* Who wants to go the other way is met, not followed: avoidance sees to that. If people waited for
    each other instead, both ways would come to rest face to face. */
-float jox_headway(const JoxMind *mind, uint32_t i) {
-    const JoxAgents *a = mind->agents;
-    const JoxNeighbours *n = mind->neighbours;
+float jox_headway(const JoxMachineRun *run, uint32_t i) {
+    const JoxAgents *a = run->agents;
+    const JoxNeighbours *n = run->neighbours;
     const float *radius = a->param[JOX_PARAM_radius];
-    const JoxV2 *heading = mind->scratch->heading;
+    const JoxV2 *heading = run->scratch->heading;
     JoxV2 ahead = jox_unit((JoxV2){a->pref_x[i], a->pref_y[i]});
     if (jox_length2(ahead) == 0.0f)
         ahead = (JoxV2){a->face_x[i], a->face_y[i]};

@@ -5,6 +5,7 @@
 
 #include "base/elementary.h"
 #include "base/mem.h"
+#include "base/sort.h"
 #include "machine/internal.h"
 
 static const double TURN = 6.283185307179586;
@@ -19,16 +20,16 @@ static double turned(JoxV2 a, JoxV2 b) {
     return t * (1.0 - t2 * (1.0 / 3 - t2 * (1.0 / 5 - t2 * (1.0 / 7 - t2 / 9))));
 }
 
-static void count_circuits(const JoxMind *mind, const JoxCounter *counter, uint32_t i) {
-    const JoxAgents *a = mind->agents;
+static void count_circuits(const JoxMachineRun *run, const JoxCounter *counter, uint32_t i) {
+    const JoxAgents *a = run->agents;
     double *memory = a->memory + (size_t)i * a->memory_stride;
-    int32_t index = jox_target_place(mind, i, counter->target);
+    int32_t index = jox_target_place(run, i, counter->target);
     if (index < 0)
         return;
-    const JoxPlace *place = &mind->places[index];
+    const JoxPlace *place = &run->places[index];
     JoxV2 from = {a->prev_x[i], a->prev_y[i]}, to = {a->x[i], a->y[i]};
     if (memory[counter->begun] == 0.0) {
-        const JoxPlace *line = place->start >= 0 ? &mind->places[place->start] : NULL;
+        const JoxPlace *line = place->start >= 0 ? &run->places[place->start] : NULL;
         if (line && jox_segment_crossing(line->points[0], line->points[1], from, to) != 1)
             return;
         memory[counter->begun] = 1.0;
@@ -43,38 +44,38 @@ static void count_circuits(const JoxMind *mind, const JoxCounter *counter, uint3
 }
 
 /* Whether a transition whose condition has just turned true is taken. */
-static bool roll(const JoxMind *mind, const JoxMachine *machine, const JoxTransition *t, uint32_t k,
-                 uint32_t i) {
+static bool roll(const JoxMachineRun *run, const JoxMachine *machine, const JoxTransition *t,
+                 uint32_t k, uint32_t i) {
     if (t->chance.kind == JOX_VALUE_UNSET)
         return true;
-    double chance = jox_value(mind, machine, &t->chance, i);
-    return jox_random_unit(mind->seed, mind->agents->id[i], mind->tick, JOX_DRAW_CHANCE, k) <
-           chance;
+    double chance = jox_value(run, machine, &t->chance, i);
+    return jox_random_unit(run->seed, run->agents->id[i], run->tick, JOX_DRAW_CHANCE, k) < chance;
 }
 
 typedef struct Think {
-    JoxMind *mind;
+    JoxMachineRun *run;
 } Think;
 
 /* Counters and compiled conditions of one batch; fills `fired`. */
-static void think_batch(const JoxMind *mind, const JoxBatchRange *batch, JoxRegisters registers) {
-    JoxAgents *a = mind->agents;
-    const JoxMachine *machine = mind->machines[batch->machine];
+static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
+                        JoxRegisters registers) {
+    JoxAgents *a = run->agents;
+    const JoxMachine *machine = run->set->items[batch->machine];
     const JoxState *state = &machine->states[batch->state];
-    const uint32_t *agents = mind->scratch->grouped + batch->begin;
+    const uint32_t *agents = run->scratch->grouped + batch->begin;
     for (uint32_t c = 0; c < machine->counter_count; c++)
         if (machine->counters[c].state < 0 || machine->counters[c].state == batch->state)
             for (uint32_t n = 0; n < batch->count; n++)
-                count_circuits(mind, &machine->counters[c], agents[n]);
+                count_circuits(run, &machine->counters[c], agents[n]);
     for (uint32_t n = 0; n < batch->count; n++)
-        mind->scratch->fired[agents[n]] = -1;
+        run->scratch->fired[agents[n]] = -1;
     int32_t known = -1; /* program whose result is in register 0 */
     for (uint32_t k = 0; k < state->transition_count; k++) {
         const JoxTransition *t = &state->transitions[k];
         if (t->when_hook >= 0)
             continue;
         if (t->when >= 0 && t->when != known) /* the same once more keeps its result */
-            jox_eval(mind, machine, &machine->programs[t->when], agents, batch->count, registers);
+            jox_eval(run, machine, &machine->programs[t->when], agents, batch->count, registers);
         known = t->when >= 0 ? t->when : known;
         uint32_t bit = 1u << k;
         for (uint32_t n = 0; n < batch->count; n++) {
@@ -82,24 +83,24 @@ static void think_batch(const JoxMind *mind, const JoxBatchRange *batch, JoxRegi
             bool holds = t->when < 0 || registers[0][n] != 0.0;
             bool rises = holds && !(a->was_true[i] & bit);
             /* A certain transition is taken whenever it holds; a chance is rolled once a rise. */
-            if (mind->scratch->fired[i] < 0 && holds &&
-                (t->chance.kind == JOX_VALUE_UNSET || rises) && roll(mind, machine, t, k, i))
-                mind->scratch->fired[i] = (int16_t)k;
+            if (run->scratch->fired[i] < 0 && holds &&
+                (t->chance.kind == JOX_VALUE_UNSET || rises) && roll(run, machine, t, k, i))
+                run->scratch->fired[i] = (int16_t)k;
             a->was_true[i] = holds ? a->was_true[i] | bit : a->was_true[i] & ~bit;
         }
     }
 }
 
 static void think_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    const JoxMind *mind = ((Think *)context)->mind;
+    const JoxMachineRun *run = ((Think *)context)->run;
     for (uint32_t b = begin; b < end; b++)
-        think_batch(mind, &mind->scratch->batches[b], mind->scratch->registers[worker]);
+        think_batch(run, &run->scratch->batches[b], run->scratch->registers[worker]);
 }
 
 /* Marks the ranks of a long list in a bitmap, and reads it from the front. */
-static void sort_by_marks(JoxMind *mind, uint32_t *list, uint32_t count) {
-    JoxMindScratch *s = mind->scratch;
-    const JoxAgents *a = mind->agents;
+static void sort_by_marks(JoxMachineRun *run, uint32_t *list, uint32_t count) {
+    JoxMachineScratch *s = run->scratch;
+    const JoxAgents *a = run->agents;
     uint32_t words = a->count / 64 + 1, n = 0;
     if (words > s->mark_capacity) {
         s->mark_capacity = words + words / 4;
@@ -113,20 +114,19 @@ static void sort_by_marks(JoxMind *mind, uint32_t *list, uint32_t count) {
             list[n++] = a->by_rank[w * 64 + (uint32_t)__builtin_ctzll(bits)];
 }
 
-/* Sorts indices by id (Shell): short lists mostly. */
-void jox_sort_by_id(JoxMind *mind, uint32_t *list, uint32_t count) {
-    const JoxAgents *a = mind->agents;
-    if (count > 256 && count > a->count / 256) {
-        sort_by_marks(mind, list, count);
-        return;
-    }
-    for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
-        for (uint32_t k = gap; k < count; k++) {
-            uint32_t moving = list[k], at = k;
-            for (; at >= gap && a->id[list[at - gap]] > a->id[moving]; at -= gap)
-                list[at] = list[at - gap];
-            list[at] = moving;
-        }
+/* `context`: the agents' ids. */
+static int by_id(const void *a, const void *b, const void *context) {
+    const uint32_t *id = context;
+    const uint32_t x = id[*(const uint32_t *)a], y = id[*(const uint32_t *)b];
+    return (x > y) - (x < y);
+}
+
+void jox_sort_by_id(JoxMachineRun *run, uint32_t *list, uint32_t count) {
+    const JoxAgents *a = run->agents;
+    if (count > 256 && count > a->count / 256)
+        sort_by_marks(run, list, count);
+    else
+        jox_sort(list, count, sizeof *list, by_id, a->id, run->scratch->spare);
 }
 
 static bool has_function_whens(const JoxState *state) {
@@ -137,22 +137,22 @@ static bool has_function_whens(const JoxState *state) {
 }
 
 /* Plain Lua conditions, for agents that no compiled transition takes, by id. */
-static void ask_functions(JoxMind *mind) {
-    JoxMindScratch *s = mind->scratch;
-    JoxAgents *a = mind->agents;
+static void ask_functions(JoxMachineRun *run) {
+    JoxMachineScratch *s = run->scratch;
+    JoxAgents *a = run->agents;
     s->list_count = 0;
-    for (uint32_t b = 0; b < s->batch_count && mind->call; b++) {
+    for (uint32_t b = 0; b < s->batch_count && run->call; b++) {
         const JoxBatchRange *batch = &s->batches[b];
-        if (!has_function_whens(&mind->machines[batch->machine]->states[batch->state]))
+        if (!has_function_whens(&run->set->items[batch->machine]->states[batch->state]))
             continue;
         for (uint32_t n = 0; n < batch->count; n++)
             if (s->fired[s->grouped[batch->begin + n]] < 0)
                 s->list[s->list_count++] = s->grouped[batch->begin + n];
     }
-    jox_sort_by_id(mind, s->list, s->list_count);
+    jox_sort_by_id(run, s->list, s->list_count);
     for (uint32_t n = 0; n < s->list_count; n++) {
         uint32_t i = s->list[n];
-        const JoxMachine *machine = jox_machine_of(mind, i);
+        const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *state = &machine->states[a->state[i]];
         for (uint32_t k = 0; k < state->transition_count && s->fired[i] < 0; k++) {
             const JoxTransition *t = &state->transitions[k];
@@ -160,26 +160,27 @@ static void ask_functions(JoxMind *mind) {
                 continue;
             double result[2] = {0.0, 0.0};
             bool holds =
-                mind->call(mind->call_context, machine, t->when_hook, JOX_HOOK_WHEN, i, result) &&
+                run->call(run->call_context, machine, t->when_hook, JOX_HOOK_WHEN, i, result) &&
                 result[0] != 0.0;
             bool rises = holds && !(a->was_true[i] >> k & 1);
             if (holds && (t->chance.kind == JOX_VALUE_UNSET || rises) &&
-                roll(mind, machine, t, k, i))
+                roll(run, machine, t, k, i))
                 s->fired[i] = (int16_t)k;
             a->was_true[i] = holds ? a->was_true[i] | 1u << k : a->was_true[i] & ~(1u << k);
         }
     }
 }
 
-static void call_hook(JoxMind *mind, int32_t hook, JoxHookKind kind, uint32_t agent) {
+static void call_hook(JoxMachineRun *run, int32_t hook, JoxHookKind kind, uint32_t agent) {
     double unused[2] = {0.0, 0.0};
-    if (hook >= 0 && mind->call)
-        mind->call(mind->call_context, jox_machine_of(mind, agent), hook, kind, agent, unused);
+    if (hook >= 0 && run->call)
+        run->call(run->call_context, jox_machine_of(run, agent), hook, kind, agent, unused);
 }
 
 /* A set's member for this entry, for targets of the state that ask for one. */
-static void pick_goal(JoxMind *mind, const JoxMachine *machine, const JoxState *state, uint32_t i) {
-    JoxAgents *a = mind->agents;
+static void pick_goal(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
+                      uint32_t i) {
+    JoxAgents *a = run->agents;
     int16_t asked[JOX_MOST_TERMS + 4];
     uint32_t count = 0;
     for (uint32_t t = 0; t < state->steer_count; t++)
@@ -195,10 +196,10 @@ static void pick_goal(JoxMind *mind, const JoxMachine *machine, const JoxState *
         int32_t set = target->kind == JOX_TARGET_ONE_OF
                           ? target->arg
                           : (int32_t)a->own[(size_t)i * a->own_stride + (uint32_t)target->arg];
-        if (set < 0 || (uint32_t)set >= mind->place_count || !mind->places[set].member_count)
+        if (set < 0 || (uint32_t)set >= run->place_count || !run->places[set].member_count)
             continue;
-        double u = jox_random_unit(mind->seed, a->id[i], mind->tick, JOX_DRAW_ONE_OF, 0);
-        a->goal[i] = mind->places[set].members[(uint32_t)(u * mind->places[set].member_count)];
+        double u = jox_random_unit(run->seed, a->id[i], run->tick, JOX_DRAW_ONE_OF, 0);
+        a->goal[i] = run->places[set].members[(uint32_t)(u * run->places[set].member_count)];
         return;
     }
 }
@@ -207,16 +208,16 @@ const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *s
     return state->param[p].kind != JOX_VALUE_UNSET ? &state->param[p] : &machine->defaults[p];
 }
 
-void jox_mind_write_parameters(JoxMind *mind, uint32_t i) {
-    JoxAgents *a = mind->agents;
-    const JoxMachine *machine = jox_machine_of(mind, i);
+void jox_machines_write_parameters(JoxMachineRun *run, uint32_t i) {
+    JoxAgents *a = run->agents;
+    const JoxMachine *machine = jox_machine_of(run, i);
     const JoxState *state = &machine->states[a->state[i]];
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxValue *value = jox_state_parameter(machine, state, p);
         if (value->kind == JOX_VALUE_PROGRAM)
             continue;
         double number = value->kind == JOX_VALUE_UNSET ? jox_parameters[p].value
-                                                       : jox_value(mind, machine, value, i);
+                                                       : jox_value(run, machine, value, i);
         a->param[p][i] = jox_parameter_store((JoxParameter)p, number);
     }
     a->ignore[i] = state->ignore;
@@ -224,147 +225,148 @@ void jox_mind_write_parameters(JoxMind *mind, uint32_t i) {
 }
 
 /* A duration that was computed, s: what is no number sets none. */
-static float computed_duration(const JoxMind *mind, const JoxMachine *machine,
+static float computed_duration(const JoxMachineRun *run, const JoxMachine *machine,
                                const JoxState *state, uint32_t i) {
     double value = jox_value(
-        mind, machine, &(JoxValue){.kind = JOX_VALUE_PROGRAM, .index = state->lasts_program}, i);
+        run, machine, &(JoxValue){.kind = JOX_VALUE_PROGRAM, .index = state->lasts_program}, i);
     return isnan(value) ? INFINITY : (float)value;
 }
 
-void jox_mind_enter(JoxMind *mind, uint32_t i, uint16_t to) {
-    JoxAgents *a = mind->agents;
-    const JoxMachine *machine = jox_machine_of(mind, i);
+void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
+    JoxAgents *a = run->agents;
+    const JoxMachine *machine = jox_machine_of(run, i);
     const JoxState *state = &machine->states[to];
     a->state[i] = to;
-    a->entered[i] = mind->tick;
+    a->entered[i] = run->tick;
     a->was_true[i] = 0;
     a->lasts[i] = INFINITY;
     if (jox_queue_target(state) < 0)
         a->queue_at[i] = -1;
     if (state->has_lasts)
-        a->lasts[i] = (float)jox_dist_draw(&state->lasts, mind->seed, a->id[i], mind->tick,
-                                           JOX_DRAW_LASTS, 0);
-    else if (state->lasts_program >= 0 && !mind->spawning)
-        a->lasts[i] = computed_duration(mind, machine, state, i);
-    pick_goal(mind, machine, state, i);
-    jox_mind_write_parameters(mind, i);
+        a->lasts[i] =
+            (float)jox_dist_draw(&state->lasts, run->seed, a->id[i], run->tick, JOX_DRAW_LASTS, 0);
+    else if (state->lasts_program >= 0 && !run->spawning)
+        a->lasts[i] = computed_duration(run, machine, state, i);
+    pick_goal(run, machine, state, i);
+    jox_machines_write_parameters(run, i);
     if (state->removes)
         a->removed[i] = 1;
 }
 
 /* Enters a state with what it does and calls, and goes on with another machine where it says so. */
-static void enter(JoxMind *mind, uint32_t i, uint16_t to) {
-    const JoxMachine *machine = jox_machine_of(mind, i);
+static void enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
+    const JoxMachine *machine = jox_machine_of(run, i);
     const JoxState *state = &machine->states[to];
-    jox_mind_enter(mind, i, to);
-    jox_actions_do(mind, machine, &state->enters, i);
-    call_hook(mind, state->on_enter, JOX_HOOK_ENTER, i);
+    jox_machines_enter(run, i, to);
+    jox_actions_do(run, machine, &state->enters, i);
+    call_hook(run, state->on_enter, JOX_HOOK_ENTER, i);
     if (state->become_machine < 0)
         return;
-    jox_mind_become(mind, i, (uint32_t)state->become_machine);
-    machine = jox_machine_of(mind, i); /* a start state cannot become anything at once */
-    jox_actions_do(mind, machine, &machine->states[machine->start].enters, i);
-    call_hook(mind, machine->states[machine->start].on_enter, JOX_HOOK_ENTER, i);
+    jox_machines_become(run, i, (uint32_t)state->become_machine);
+    machine = jox_machine_of(run, i); /* a start state cannot become anything at once */
+    jox_actions_do(run, machine, &machine->states[machine->start].enters, i);
+    call_hook(run, machine->states[machine->start].on_enter, JOX_HOOK_ENTER, i);
 }
 
-static void watch(const JoxMind *mind, const JoxTaken *taken) {
-    const JoxMachine *machine = mind->machines[taken->machine];
-    for (uint32_t n = 0; n < mind->watched_count; n++) {
-        JoxWatched *watched = &mind->watched[n];
+static void watch(const JoxMachineRun *run, const JoxTaken *taken) {
+    const JoxMachine *machine = run->set->items[taken->machine];
+    for (uint32_t n = 0; n < run->watched_count; n++) {
+        JoxWatched *watched = &run->watched[n];
         if (watched->agent_id != taken->agent_id)
             continue;
         watched->took = true;
-        watched->tick = mind->tick;
+        watched->tick = run->tick;
         snprintf(watched->from, sizeof watched->from, "%s", machine->states[taken->from].name);
         snprintf(watched->to, sizeof watched->to, "%s", machine->states[taken->to].name);
         watched->why.length = 0;
-        jox_mind_explain(mind, taken, &watched->why);
+        jox_machines_explain(run, taken, &watched->why);
     }
 }
 
 /* Takes the fired transitions, by id; hooks of leaving, taking and entering in that order. */
-static void take_transitions(JoxMind *mind) {
-    JoxMindScratch *s = mind->scratch;
-    JoxAgents *a = mind->agents;
+static void take_transitions(JoxMachineRun *run) {
+    JoxMachineScratch *s = run->scratch;
+    JoxAgents *a = run->agents;
     s->list_count = 0;
     for (uint32_t i = 0; i < a->count; i++)
         if (a->machine[i] != JOX_NO_MACHINE && s->fired[i] >= 0)
             s->list[s->list_count++] = i;
-    jox_sort_by_id(mind, s->list, s->list_count);
-    JOX_RESERVE(mind->taken, mind->taken_capacity, s->list_count);
+    jox_sort_by_id(run, s->list, s->list_count);
+    JOX_RESERVE(run->taken, run->taken_capacity, s->list_count);
     for (uint32_t n = 0; n < s->list_count; n++) {
         uint32_t i = s->list[n];
-        const JoxMachine *machine = jox_machine_of(mind, i);
+        const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *from = &machine->states[a->state[i]];
-        JoxTransition *t = &from->transitions[s->fired[i]];
-        t->taken++;
-        mind->taken[mind->taken_count++] =
+        const JoxTransition *t = &from->transitions[s->fired[i]];
+        run->state->counts[a->machine[i]].taken[from->first_transition + (uint32_t)s->fired[i]]++;
+        run->taken[run->taken_count++] =
             (JoxTaken){a->id[i], a->machine[i], a->state[i], t->to, (uint16_t)s->fired[i]};
-        if (mind->traces && a->id[i] == mind->trace_id)
-            jox_mind_explain(mind, &mind->taken[n], &mind->trace);
-        if (mind->watched_count)
-            watch(mind, &mind->taken[n]);
-        call_hook(mind, from->on_exit, JOX_HOOK_EXIT, i);
-        jox_actions_do(mind, machine, &t->does, i);
-        call_hook(mind, t->on_take, JOX_HOOK_TAKE, i);
-        enter(mind, i, t->to);
+        if (run->traces && a->id[i] == run->trace_id)
+            jox_machines_explain(run, &run->taken[n], &run->trace);
+        if (run->watched_count)
+            watch(run, &run->taken[n]);
+        call_hook(run, from->on_exit, JOX_HOOK_EXIT, i);
+        jox_actions_do(run, machine, &t->does, i);
+        call_hook(run, t->on_take, JOX_HOOK_TAKE, i);
+        enter(run, i, t->to);
     }
 }
 
 /* What agents that were spawned since the last step could not do yet: draw a duration that is an
    expression of what they sense, and run on_enter. */
-static void greet_spawned(JoxMind *mind) {
-    JoxMindScratch *s = mind->scratch;
-    JoxAgents *a = mind->agents;
-    for (uint32_t n = 0; n < s->pending_count; n++) {
-        uint32_t i = jox_agents_find(a, s->pending[n]);
+static void begin_spawned(JoxMachineRun *run) {
+    JoxMachineState *pending = run->state;
+    JoxAgents *a = run->agents;
+    for (uint32_t n = 0; n < pending->pending_count; n++) {
+        uint32_t i = jox_agents_find(a, pending->pending[n]);
         if (i == JOX_NO_INDEX)
             continue;
-        const JoxMachine *machine = jox_machine_of(mind, i);
+        const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *state = &machine->states[a->state[i]];
         if (state->lasts_program >= 0)
-            a->lasts[i] = computed_duration(mind, machine, state, i);
-        jox_actions_do(mind, machine, &state->enters, i);
-        call_hook(mind, state->on_enter, JOX_HOOK_ENTER, i);
+            a->lasts[i] = computed_duration(run, machine, state, i);
+        jox_actions_do(run, machine, &state->enters, i);
+        call_hook(run, state->on_enter, JOX_HOOK_ENTER, i);
     }
-    s->pending_count = 0;
+    pending->pending_count = 0;
 }
 
-static bool any_views(const JoxMind *mind) {
-    for (uint32_t m = 0; m < mind->machine_count; m++)
-        if (mind->machines[m]->views)
+static bool any_views(const JoxMachineRun *run) {
+    for (uint32_t m = 0; m < run->set->count; m++)
+        if (run->set->items[m]->views)
             return true;
     return false;
 }
 
 /* Kept apart, since the stage prefer writes new ones while agents look at each other's. */
-static void keep_headings(JoxMind *mind) {
-    const JoxAgents *a = mind->agents;
+static void keep_headings(JoxMachineRun *run) {
+    const JoxAgents *a = run->agents;
     for (uint32_t i = 0; i < a->count; i++)
-        mind->scratch->heading[i] = (JoxV2){a->pref_x[i], a->pref_y[i]};
+        run->scratch->heading[i] = (JoxV2){a->pref_x[i], a->pref_y[i]};
 }
 
-void jox_mind_think(JoxMind *mind, JoxPool *pool) {
-    mind->taken_count = mind->kick_count = mind->grip_count = 0;
-    mind->trace.length = 0;
-    jox_mind_listen(mind);
-    jox_mind_group(mind, pool);
-    keep_headings(mind);
-    if (mind->machine_count > 0) {
-        bool views = mind->bracket && any_views(mind);
+void jox_machines_think(JoxMachineRun *run, JoxPool *pool) {
+    run->taken_count = run->kick_count = run->grip_count = 0;
+    run->trace.length = 0;
+    jox_machines_scratch(run);
+    jox_machines_listen(run);
+    jox_machines_group(run, pool);
+    keep_headings(run);
+    if (run->set->count > 0) {
+        bool views = run->bracket && any_views(run);
         if (views)
-            mind->bracket(mind->call_context, true);
-        jox_mind_count_places(mind);
-        greet_spawned(mind);
-        Think think = {mind};
-        jox_parallel_for(pool, mind->scratch->batch_count, 1, think_range, &think);
-        ask_functions(mind);
-        take_transitions(mind);
+            run->bracket(run->call_context, true);
+        jox_machines_count_places(run);
+        begin_spawned(run);
+        Think think = {run};
+        jox_parallel_for(pool, run->scratch->batch_count, 1, think_range, &think);
+        ask_functions(run);
+        take_transitions(run);
         if (views)
-            mind->bracket(mind->call_context, false);
-        if (mind->taken_count > 0)
-            jox_mind_group(mind, pool);
-        jox_mind_repeat_signals(mind);
+            run->bracket(run->call_context, false);
+        if (run->taken_count > 0)
+            jox_machines_group(run, pool);
+        jox_machines_repeat_signals(run);
     }
-    jox_mind_act(mind, pool);
+    jox_machines_act(run, pool);
 }

@@ -19,6 +19,20 @@ void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
     nav->grid.walls = walls;
 }
 
+void jox_nav_sections(JoxNav *nav, JoxSections *s) {
+    float reach = nav->grid.reach;
+    jox_sections_module(s, "nav");
+    JOX_SECTION(s, "wall_reach", reach);
+    if (s->mode == JOX_SECTIONS_RESTORE)
+        jox_wall_grid_reset(&nav->grid, reach);
+}
+
+void jox_nav_forget(JoxNav *nav) {
+    nav->drift = INFINITY;
+    if (nav->capacity)
+        memset(nav->sorted_x, 0xff, nav->capacity * sizeof *nav->sorted_x);
+}
+
 void jox_nav_free(JoxNav *nav) {
     if (!nav)
         return;

@@ -24,7 +24,7 @@ static bool look_at_world(void *source, uint32_t row, uint32_t part, JoxBodyLook
 }
 
 static void add_all_of_world(JoxRender *r) {
-    JoxBodies *bodies = r->scene->world->bodies;
+    JoxBodies *bodies = r->scene->world->state.bodies;
     for (uint32_t row = 0; row < jox_bodies_rows(bodies); row++) {
         JoxPose pose;
         if (jox_bodies_pose(bodies, row, &pose))

@@ -259,7 +259,7 @@ static void follow_people(JoxRender *r) {
 }
 
 static void follow_bodies(JoxRender *r) {
-    const JoxObjects *objects = &r->scene->world->objects;
+    const JoxObjects *objects = &r->scene->world->scratch.objects;
     uint32_t count = 0;
     for (uint32_t o = 0; o < objects->count; o++) {
         const JoxObject *object = &objects->rows[o];
@@ -280,16 +280,16 @@ static void follow_bodies(JoxRender *r) {
 /* States by number as frames have them, called "machine: state" where there are several machines.
  */
 static void name_states(JoxRender *r) {
-    const JoxMind *mind = &r->scene->world->mind;
+    const JoxMachineRun *machines = &r->scene->world->machines;
     r->states = jox_alloc(r->frame.state_count + 1, sizeof *r->states);
     r->state_texts = jox_alloc(r->frame.state_count + 1, sizeof *r->state_texts);
     r->state_texts[r->state_count++] = jox_strdup("");
-    for (uint32_t m = 0; m < mind->machine_count; m++)
-        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++) {
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
             JoxText text = {0};
-            if (mind->machine_count > 1)
-                jox_text_printf(&text, "%s: ", mind->machines[m]->name);
-            jox_text_add(&text, mind->machines[m]->states[s].name);
+            if (machines->set->count > 1)
+                jox_text_printf(&text, "%s: ", machines->set->items[m]->name);
+            jox_text_add(&text, machines->set->items[m]->states[s].name);
             r->state_texts[r->state_count++] = text.data;
         }
     for (uint32_t s = 0; s < r->state_count; s++)
@@ -359,10 +359,10 @@ const JoxPicture *jox_render_picture(JoxRender *r) {
     JoxPicture *p = &r->picture;
     p->frame = &r->frame;
     if (r->scene) {
-        const JoxAgents *a = &r->scene->world->agents;
+        const JoxAgents *a = &r->scene->world->state.agents;
         p->face_x = a->face_x;
         p->face_y = a->face_y;
-        p->walls = &r->scene->world->all_walls;
+        p->walls = &r->scene->world->model.all_walls;
     } else if (r->crowd->face_x) {
         p->face_x = r->crowd->face_x + r->crowd->first[r->at];
         p->face_y = r->crowd->face_y + r->crowd->first[r->at];
@@ -425,8 +425,8 @@ static bool load_scene(JoxRender *r, JoError *error) {
     if (!r->scene)
         return false;
     r->last = INFINITY;
-    r->pace = r->scene->world->def.dt;
-    r->picture.walls = &r->scene->world->all_walls;
+    r->pace = r->scene->world->model.def.dt;
+    r->picture.walls = &r->scene->world->model.all_walls;
     return true;
 }
 

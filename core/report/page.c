@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/guard.h"
+#include "jostle_tools.h"
 #include "picture/html.h"
 #include "picture/paths.h"
 #include "picture/plot.h"
@@ -14,9 +15,9 @@
 
 /* The summary's figures, in an order that two runs of a scene share. */
 static JoxPageFigures collect(const JoScene *scene) {
-    const JoxStatistics *s = &scene->world->statistics;
+    const JoxStatistics *s = &scene->world->state.statistics;
     JoxPageFigures f = {0};
-    jox_page_add(&f, "", scene->world->agents.count, "people at the end");
+    jox_page_add(&f, "", scene->world->state.agents.count, "people at the end");
     const JoxRegions *regions = jox_run_regions(scene);
     jox_page_add(&f, "1/m2", jox_run_density_max(scene),
                  "greatest density (Gaussian kernel, R = 1.5 m)");
@@ -24,7 +25,7 @@ static JoxPageFigures collect(const JoScene *scene) {
                  "overlap that 99 %% stay below, share of a diameter");
     jox_page_add(&f, "", s->agent_steps ? (double)s->failures / (double)s->agent_steps : NAN,
                  "share of agent-steps whose 2-D program failed");
-    jox_page_add_exits(&f, &scene->exits, scene->world->agents.count);
+    jox_page_add_exits(&f, &scene->exits, scene->world->state.agents.count);
     jox_page_add_danger(&f, jox_run_danger(scene));
     for (uint32_t r = 0; regions && r < regions->count; r++)
         jox_page_add(&f, "m/s",
@@ -59,13 +60,13 @@ static void put_figures(FILE *out, const JoScene *scene, const JoScene *half, co
                  "The same run with the same seed was repeated at half the step, %g s. A figure is "
                  "worth no more digits than the two agree on; at another step chance falls "
                  "otherwise, too, so that single runs differ as two seeds do.",
-                 half->world->def.dt);
-        snprintf(heads, sizeof heads, "figure|step %g s|step %g s|difference", scene->world->def.dt,
-                 half->world->def.dt);
+                 half->world->model.def.dt);
+        snprintf(heads, sizeof heads, "figure|step %g s|step %g s|difference",
+                 scene->world->model.def.dt, half->world->model.def.dt);
     } else {
         snprintf(text, sizeof text, "The run was not repeated at half the step: %s.",
                  why ? why : "nobody asked for it");
-        snprintf(heads, sizeof heads, "figure|step %g s", scene->world->def.dt);
+        snprintf(heads, sizeof heads, "figure|step %g s", scene->world->model.def.dt);
     }
     jox_html_paragraph(out, text);
     jox_html_table(out, heads);
@@ -97,7 +98,7 @@ static void put_pictures(FILE *out, const JoScene *scene, const char *directory)
     jox_page_danger_pictures(out, directory);
     jox_page_picture(out, directory, "density", "Mean density (Gaussian kernel, R = 1.5 m)");
     jox_page_picture(out, directory, "regions", "Mean speed of the regions");
-    if (scene->world->agents.next_id <= JOX_MOST_PATHS)
+    if (scene->world->state.agents.next_id <= JOX_MOST_PATHS)
         jox_page_picture(out, directory, "paths", "Paths");
     for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
         jox_page_probe(out, directory, probe);
@@ -109,8 +110,8 @@ static void put_inputs(FILE *out, const JoScene *scene) {
     jox_html_heading(out, "How to repeat it");
     fputs("<p><code>jostle run ", out);
     jox_html_argument(out, def->path);
-    fprintf(out, " --seed %llu --dt %g --steps %llu", (unsigned long long)world->def.seed,
-            world->def.dt, (unsigned long long)world->statistics.steps);
+    fprintf(out, " --seed %llu --dt %g --steps %llu", (unsigned long long)world->model.def.seed,
+            world->model.def.dt, (unsigned long long)world->state.statistics.steps);
     for (size_t i = 0; i < def->override_count; i++) {
         fputs(" --set ", out);
         jox_html_argument(out, def->overrides[i]);
@@ -123,9 +124,9 @@ static void put_inputs(FILE *out, const JoScene *scene) {
         jox_html_cell(out, scene->spec->files[f].path);
         jox_html_cell(out, scene->spec->files[f].sha256);
     }
-    for (uint32_t m = 0; m < world->mind.machine_count; m++) {
+    for (uint32_t m = 0; m < world->model.machines.count; m++) {
         uint32_t count;
-        const JoxLuaFile *files = jox_lua_files(scene->lua, world->mind.machines[m], &count);
+        const JoxLuaFile *files = jox_lua_files(scene->lua, world->model.machines.items[m], &count);
         for (uint32_t f = 0; f < count; f++) {
             jox_html_row(out);
             jox_html_cell(out, files[f].path);
@@ -160,8 +161,8 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
         jox_html_begin(out, scene->spec->title ? scene->spec->title : scene->spec->path);
         snprintf(line, sizeof line,
                  "%.200s, %.1f s, seed %llu, step %g s, %u people at the end; Jostle %s.",
-                 scene->spec->path, jo_world_time(world), (unsigned long long)world->def.seed,
-                 world->def.dt, world->agents.count, jo_version());
+                 scene->spec->path, jo_world_time(world), (unsigned long long)world->model.def.seed,
+                 world->model.def.dt, world->state.agents.count, jo_version());
         jox_html_paragraph(out, line);
         put_pictures(out, scene, directory);
         jox_page_danger(out, jox_run_danger(scene));

@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "jostle_tools.h"
 #include "picture/paths.h"
 #include "picture/plot.h"
 #include "picture/probe_files.h"
@@ -41,11 +42,11 @@ static bool begin_with_pictures(void *self, JoScene *scene, const void *folder, 
 static bool sample_paths(void *self, JoScene *scene, JoError *error) {
     RunReport *r = self;
     const JoWorld *world = scene->world;
-    const JoxAgents *a = &world->agents;
-    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(PACE / world->def.dt + 0.5));
+    const JoxAgents *a = &world->state.agents;
+    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(PACE / world->model.def.dt + 0.5));
     float time = (float)jo_world_time(world);
     (void)error;
-    if (world->tick % every != 0)
+    if (world->state.tick % every != 0)
         return true;
     for (uint32_t rank = 0; rank < a->count; rank++) {
         uint32_t i = a->by_rank[rank];
@@ -53,8 +54,8 @@ static bool sample_paths(void *self, JoScene *scene, JoError *error) {
             break;
         jox_paths_add(r->paths, a->id[i], false, a->group[i], time, a->x[i], a->y[i]);
     }
-    for (uint32_t o = 0; o < world->objects.count; o++) {
-        const JoxObject *object = &world->objects.rows[o];
+    for (uint32_t o = 0; o < world->scratch.objects.count; o++) {
+        const JoxObject *object = &world->scratch.objects.rows[o];
         if (object->live && object->moves)
             jox_paths_add(r->paths, object->id, true, 0, time, object->position.x,
                           object->position.y);
@@ -75,17 +76,17 @@ static bool draw_paths(const RunReport *r, const JoScene *scene, const char *tit
             low = (JoxV2){jox_minf(low.x, point->x - 1), jox_minf(low.y, point->y - 1)};
             high = (JoxV2){jox_maxf(high.x, point->x + 1), jox_maxf(high.y, point->y + 1)};
         }
-    return jox_plot_paths(r->folder, r->paths, names, count, &scene->world->all_walls, low, high,
-                          title, why);
+    return jox_plot_paths(r->folder, r->paths, names, count, &scene->world->model.all_walls, low,
+                          high, title, why);
 }
 
 /* The files of probes and of danger; with a title, their pictures too. */
 static bool write_files(const RunReport *r, const JoScene *scene, const char *title, JoxText *why) {
-    const JoxWalls *walls = title ? &scene->world->all_walls : NULL;
+    const JoxWalls *walls = title ? &scene->world->model.all_walls : NULL;
     const JoxProbe *probe;
     bool good = true;
     for (uint32_t p = 0; good && (probe = jox_run_probe(scene, p)); p++)
-        good = jox_probe_write(probe, r->folder, &scene->world->all_walls, title, why);
+        good = jox_probe_write(probe, r->folder, &scene->world->model.all_walls, title, why);
     return good && jox_danger_write(jox_run_danger(scene), r->folder, walls, title, why);
 }
 
@@ -101,11 +102,11 @@ static bool draw(void *self, JoScene *scene, JoError *error) {
     const char *name = scene->spec->title ? scene->spec->title : scene->spec->path;
     const double until = jo_world_time(scene->world);
     const JoxRegions *regions = jox_run_regions(scene);
-    const bool paths = scene->world->agents.next_id <= JOX_MOST_PATHS && r->paths->count;
+    const bool paths = scene->world->state.agents.next_id <= JOX_MOST_PATHS && r->paths->count;
     snprintf(title, sizeof title, "%.120s: density, t = %.0f to %.0f s, %u agents", name,
-             scene->spec->heatmap_from, until, scene->world->agents.count);
+             scene->spec->heatmap_from, until, scene->world->state.agents.count);
     bool good = jox_plot_density(r->folder, jox_run_density(scene), jox_run_peak(scene),
-                                 &scene->world->all_walls, title, &why);
+                                 &scene->world->model.all_walls, title, &why);
     if (good && regions) {
         snprintf(title, sizeof title, "%.120s: mean speed per region, t = %.0f to %.0f s", name,
                  scene->spec->heatmap_from, until);

@@ -15,11 +15,11 @@ void jox_run_area(const JoScene *scene, JoxV2 *low, JoxV2 *high) {
     }
     *low = (JoxV2){INFINITY, INFINITY};
     *high = (JoxV2){-INFINITY, -INFINITY};
-    const JoxWalls *walls = &world->all_walls;
-    for (uint32_t i = 0; i < walls->count + world->agents.count; i++) {
+    const JoxWalls *walls = &world->model.all_walls;
+    for (uint32_t i = 0; i < walls->count + world->state.agents.count; i++) {
         JoxV2 p = i < walls->count ? walls->vertices[i].point
-                                   : (JoxV2){world->agents.x[i - walls->count],
-                                             world->agents.y[i - walls->count]};
+                                   : (JoxV2){world->state.agents.x[i - walls->count],
+                                             world->state.agents.y[i - walls->count]};
         *low = (JoxV2){jox_minf(low->x, p.x), jox_minf(low->y, p.y)};
         *high = (JoxV2){jox_maxf(high->x, p.x), jox_maxf(high->y, p.y)};
     }

@@ -15,9 +15,9 @@ static const double FAR = 10000.0;   /* m */
 
 static uint32_t wall_names(const JoWorld *world, const char *names[MOST_NAMES]) {
     uint32_t count = 0;
-    for (uint32_t r = 0; r < world->all_walls.ring_count && count < MOST_NAMES; r++)
-        if (world->all_walls.rings[r].name)
-            names[count++] = world->all_walls.rings[r].name;
+    for (uint32_t r = 0; r < world->model.all_walls.ring_count && count < MOST_NAMES; r++)
+        if (world->model.all_walls.rings[r].name)
+            names[count++] = world->model.all_walls.rings[r].name;
     return count;
 }
 
@@ -57,7 +57,7 @@ bool jox_run_throw(JoScene *scene, const char *body, const double from[3], const
         !within("velocity", v, FASTEST, "m/s", error) ||
         !within("spin", turn, FASTEST, "rad/s", error))
         return false;
-    uint32_t row = jox_bodies_find_name(world->bodies, body);
+    uint32_t row = jox_bodies_find_name(world->state.bodies, body);
     if (row == JOX_NO_BODY) {
         const char *names[MOST_NAMES];
         uint32_t count = body_names(scene->spec, names);
@@ -76,7 +76,7 @@ bool jox_run_open(JoScene *scene, const char *wall, bool open, JoError *error) {
         uint32_t count = wall_names(world, names);
         return unknown("wall", wall, names, count, error);
     }
-    *(open ? &world->statistics.opened : &world->statistics.closed) += 1;
+    *(open ? &world->state.statistics.opened : &world->state.statistics.closed) += 1;
     return true;
 }
 
@@ -85,9 +85,9 @@ bool jox_run_signal(JoScene *scene, const char *name, JoError *error) {
         jox_error(error, JO_INPUT, "a signal's name has from 1 to %d bytes", LONGEST_NAME);
         return false;
     }
-    JoxMind *mind = &scene->world->mind;
-    jox_mind_announce(mind, jox_mind_name(mind, name));
-    scene->world->statistics.announced++;
+    JoxMachineRun *machines = &scene->world->machines;
+    jox_machines_announce(machines, jox_machines_name(machines, name));
+    scene->world->state.statistics.announced++;
     return true;
 }
 
@@ -129,9 +129,10 @@ static double next_time(const JoxSceneEvent *event, double after) {
 /* What is due follows from the step's number alone, so that an edited list goes on from here. */
 void jox_run_events(JoScene *scene) {
     const JoxSceneSpec *spec = scene->spec;
-    const double dt = scene->world->def.dt;
-    const double now = (double)scene->world->tick * dt + NEARLY;
-    double after = scene->world->tick ? (double)(scene->world->tick - 1) * dt + NEARLY : -1.0;
+    const double dt = scene->world->model.def.dt;
+    const double now = (double)scene->world->state.tick * dt + NEARLY;
+    double after =
+        scene->world->state.tick ? (double)(scene->world->state.tick - 1) * dt + NEARLY : -1.0;
     uint32_t done = UINT32_MAX; /* at the time `after`: events up to this one */
     while (spec->event_count > 0) {
         double least = INFINITY;
@@ -153,12 +154,12 @@ void jox_run_events(JoScene *scene) {
 }
 
 void jox_run_name_events(JoScene *scene, JoxDiagnostics *diagnostics) {
-    JoxMind *mind = &scene->world->mind;
+    JoxMachineRun *machines = &scene->world->machines;
     const char *names[MOST_NAMES];
     uint32_t count = 0;
     bool hooks = false;
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
-        const JoxMachine *machine = mind->machines[m];
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        const JoxMachine *machine = machines->set->items[m];
         hooks |= machine->hook_count > 0;
         for (uint32_t n = 0; n < machine->name_count && count < MOST_NAMES; n++)
             if (machine->names[n].uses & JOX_NAME_HEARD)
@@ -168,7 +169,7 @@ void jox_run_name_events(JoScene *scene, JoxDiagnostics *diagnostics) {
         const JoxSceneEvent *event = &scene->spec->events[e];
         bool heard = event->kind != JOX_EVENT_SIGNAL || hooks;
         if (event->kind == JOX_EVENT_SIGNAL)
-            jox_mind_name(mind, event->name); /* steps then find it */
+            jox_machines_name(machines, event->name); /* steps then find it */
         for (uint32_t n = 0; n < count && !heard; n++)
             heard = strcmp(names[n], event->name) == 0;
         const char *near = heard ? NULL : jox_suggest(event->name, names, count);

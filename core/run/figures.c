@@ -16,9 +16,9 @@ static const float MOST_POINTS = 1e6f;
 /* Whether the frame of now is a sample. */
 static bool is_sample(const JoScene *scene) {
     const JoWorld *world = scene->world;
-    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(SAMPLE / world->def.dt + 0.5));
-    return world->tick % every == 0 &&
-           (double)world->tick * world->def.dt >= scene->spec->heatmap_from;
+    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(SAMPLE / world->model.def.dt + 0.5));
+    return world->state.tick % every == 0 &&
+           (double)world->state.tick * world->model.def.dt >= scene->spec->heatmap_from;
 }
 
 /* ---- regions: in every scene that has some ---- */
@@ -39,11 +39,11 @@ static bool regions_begin(void *self, JoScene *scene, const void *options, JoErr
 
 static bool regions_frame(void *self, JoScene *scene, JoError *error) {
     RegionSpeeds *r = self;
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     (void)error;
     if (is_sample(scene))
         jox_regions_frame(r->regions, a->x, a->y, a->prev_x, a->prev_y, a->count,
-                          scene->world->def.dt);
+                          scene->world->model.def.dt);
     return true;
 }
 
@@ -93,7 +93,7 @@ static bool peak_begin(void *self, JoScene *scene, const void *options, JoError 
 }
 
 static void add_density(DensityField *field, const JoScene *scene) {
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     jox_density_add(field->density, a->x, a->y, a->count, jo_world_time(scene->world));
 }
 
@@ -152,7 +152,7 @@ const JoxDensity *jox_run_peak(const JoScene *scene) {
 
 double jox_run_density_max(const JoScene *scene) {
     const JoxDensity *peak = jox_run_peak(scene);
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     if (!peak || peak->frames)
         return peak ? peak->most : NAN;
     /* no sample yet: that of the present */

@@ -15,45 +15,45 @@ struct JoxRunFrame {
 
 /* All states of all machines in one list, which a reload may change, and each person's. */
 static void list_states(JoxRunFrame *f, const JoWorld *world) {
-    const JoxMind *mind = &world->mind;
-    const JoxAgents *a = &world->agents;
+    const JoxMachineRun *machines = &world->machines;
+    const JoxAgents *a = &world->state.agents;
     uint32_t first[JOX_MOST_MACHINES + 1] = {1};
-    for (uint32_t k = 0; k < mind->machine_count; k++)
-        first[k + 1] = first[k] + mind->machines[k]->state_count;
-    f->state_count = first[mind->machine_count];
+    for (uint32_t k = 0; k < machines->set->count; k++)
+        first[k + 1] = first[k] + machines->set->items[k]->state_count;
+    f->state_count = first[machines->set->count];
     JOX_RESERVE(f->states, f->states_capacity, f->state_count);
     JOX_RESERVE(f->state, f->state_capacity, a->count + 1);
     f->states[0] = ""; /* of those without a machine */
-    for (uint32_t k = 0; k < mind->machine_count; k++)
-        for (uint32_t s = 0; s < mind->machines[k]->state_count; s++)
-            f->states[first[k] + s] = mind->machines[k]->states[s].name;
+    for (uint32_t k = 0; k < machines->set->count; k++)
+        for (uint32_t s = 0; s < machines->set->items[k]->state_count; s++)
+            f->states[first[k] + s] = machines->set->items[k]->states[s].name;
     for (uint32_t i = 0; i < a->count; i++)
         f->state[i] = a->machine[i] == JOX_NO_MACHINE ? 0 : first[a->machine[i]] + a->state[i];
 }
 
 const JoxFrame *jox_run_frame(JoScene *scene) {
     const JoWorld *world = scene->world;
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     if (!scene->frame)
         scene->frame = jox_alloc(1, sizeof *scene->frame);
     JoxRunFrame *f = scene->frame;
-    if (f->made == world->tick + 1)
+    if (f->made == world->state.tick + 1)
         return &f->frame;
-    f->made = world->tick + 1;
+    f->made = world->state.tick + 1;
     JOX_RESERVE(f->vx, f->vx_capacity, a->count + 1);
     JOX_RESERVE(f->vy, f->vy_capacity, a->count + 1);
     JOX_RESERVE(f->force, f->force_capacity, a->count + 1);
     JOX_RESERVE(f->names, f->name_capacity, scene->spec->group_count + 1);
     for (uint32_t g = 0; g < scene->spec->group_count; g++)
         f->names[g] = scene->spec->groups[g].name;
-    float rate = (float)(1.0 / world->def.dt);
+    float rate = (float)(1.0 / world->model.def.dt);
     for (uint32_t i = 0; i < a->count; i++) {
         f->vx[i] = (a->x[i] - a->prev_x[i]) * rate;
         f->vy[i] = (a->y[i] - a->prev_y[i]) * rate;
         f->force[i] = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
     }
     list_states(f, world);
-    f->frame = (JoxFrame){.time = (double)world->tick * world->def.dt,
+    f->frame = (JoxFrame){.time = (double)world->state.tick * world->model.def.dt,
                           .count = a->count,
                           .period = a->period,
                           .keys = a->next_id,
@@ -72,7 +72,7 @@ const JoxFrame *jox_run_frame(JoScene *scene) {
                           .state = f->state,
                           .states = f->states,
                           .state_count = f->state_count,
-                          .walls = &world->walls};
+                          .walls = &world->scratch.walls};
     return &f->frame;
 }
 

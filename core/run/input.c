@@ -12,7 +12,7 @@
 
 /* Index of the living agent with an id, or JOX_NO_INDEX with `error`. */
 static uint32_t find_agent(const JoScene *scene, uint32_t id, JoError *error) {
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     uint32_t i = jox_agents_find(a, id);
     if (i != JOX_NO_INDEX)
         return i;
@@ -25,7 +25,7 @@ static uint32_t find_agent(const JoScene *scene, uint32_t id, JoError *error) {
 }
 
 static bool push(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
-    JoxAgents *a = &scene->world->agents;
+    JoxAgents *a = &scene->world->state.agents;
     uint32_t i = find_agent(scene, entry->number, error);
     if (i == JOX_NO_INDEX)
         return false;
@@ -38,7 +38,7 @@ static bool push(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
 static bool drive(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
     if (entry->line == 0 && find_agent(scene, entry->number, error) == JOX_NO_INDEX)
         return false;
-    jox_input_player(&scene->world->input, entry->number, (float)entry->numbers[0],
+    jox_input_player(&scene->world->state.input, entry->number, (float)entry->numbers[0],
                      (float)entry->numbers[1]);
     return true;
 }
@@ -159,7 +159,7 @@ bool jo_scene_input(JoScene *scene, const char *line, JoError *error) {
 
 void jox_run_inputs(JoScene *scene) {
     const JoxInputEntry *next;
-    while ((next = jox_input_next(&scene->world->input, scene->world->tick))) {
+    while ((next = jox_input_next(&scene->world->state.input, scene->world->state.tick))) {
         JoxInputEntry entry = *next;
         JoError error = {0};
         if (!perform(scene, &entry, &error))

@@ -23,15 +23,15 @@ void jox_run_log_origin(JoScene *scene) {
     const JoWorld *world = scene->world;
     JoxFiles told = {0};
     char seed[32];
-    snprintf(seed, sizeof seed, "%llu", (unsigned long long)world->def.seed);
+    snprintf(seed, sizeof seed, "%llu", (unsigned long long)world->model.def.seed);
     JoxInputEntry began = {.verb = JOX_INPUT_BEGAN, .names = {seed}, .given = 1};
-    began.numbers[0] = world->def.dt;
+    began.numbers[0] = world->model.def.dt;
     jox_run_log(scene, &began);
     for (uint32_t f = 0; f < scene->spec->file_count; f++)
         log_made(scene, &told, scene->spec->files[f].path, scene->spec->files[f].sha256);
-    for (uint32_t m = 0; m < world->mind.machine_count; m++) {
+    for (uint32_t m = 0; m < world->model.machines.count; m++) {
         uint32_t count;
-        const JoxLuaFile *files = jox_lua_files(scene->lua, world->mind.machines[m], &count);
+        const JoxLuaFile *files = jox_lua_files(scene->lua, world->model.machines.items[m], &count);
         for (uint32_t f = 0; f < count; f++)
             log_made(scene, &told, files[f].path, files[f].sha256);
     }
@@ -57,8 +57,8 @@ bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
     }
     scene->log_path = jox_strdup(path);
     fprintf(scene->log, "# input log of jostle %s: scene %s, seed %llu, dt %.9g s%s\n",
-            jo_version(), scene->def.path, (unsigned long long)world->def.seed, world->def.dt,
-            world->tick ? ", begun in mid-run" : "");
+            jo_version(), scene->def.path, (unsigned long long)world->model.def.seed,
+            world->model.def.dt, world->state.tick ? ", begun in mid-run" : "");
     jox_run_log_origin(scene);
     return jox_run_logged(scene, error);
 }
@@ -79,14 +79,14 @@ static void add_file(JoxInputEntry *entry, const char *path, const char *text, s
 /* The live text of a file that machines are made of; NULL where none is. */
 static const char *live_text(const JoScene *scene, const char *path, const char **sha256,
                              size_t *length) {
-    const JoxMind *mind = &scene->world->mind;
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
+    const JoxMachineRun *machines = &scene->world->machines;
+    for (uint32_t m = 0; m < machines->set->count; m++) {
         uint32_t count;
-        const JoxLuaFile *files = jox_lua_files(scene->lua, mind->machines[m], &count);
+        const JoxLuaFile *files = jox_lua_files(scene->lua, machines->set->items[m], &count);
         for (uint32_t f = 0; f < count; f++)
             if (strcmp(files[f].path, path) == 0) {
                 *sha256 = files[f].sha256;
-                return jox_lua_text(scene->lua, mind->machines[m], f, length);
+                return jox_lua_text(scene->lua, machines->set->items[m], f, length);
             }
     }
     for (uint32_t f = 0; f < scene->spec->file_count; f++)
@@ -143,7 +143,7 @@ bool jox_run_is_live(const JoScene *scene, const JoxInputFile *file) {
 /* ---- playing ---- */
 
 static void check_began(const JoScene *scene, const JoxInputEntry *entry) {
-    const JoWorldDef *def = &scene->world->def;
+    const JoWorldDef *def = &scene->world->model.def;
     char seed[32];
     snprintf(seed, sizeof seed, "%llu", (unsigned long long)def->seed);
     if (strcmp(seed, entry->names[0]) != 0 || def->dt != entry->numbers[0])
@@ -160,7 +160,7 @@ static void check_began(const JoScene *scene, const JoxInputEntry *entry) {
 }
 
 void jox_run_check_log(const JoScene *scene) {
-    const JoxInputLog *log = &scene->world->input;
+    const JoxInputLog *log = &scene->world->state.input;
     for (size_t e = 0; e < log->count; e++) {
         const JoxInputEntry *entry = &log->entries[e];
         const char *sha256;

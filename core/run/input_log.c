@@ -12,7 +12,7 @@ void jox_run_log(JoScene *scene, JoxInputEntry *entry) {
     JoxText text = {0};
     if (!scene->log)
         return;
-    entry->tick = (uint32_t)scene->world->tick;
+    entry->tick = (uint32_t)scene->world->state.tick;
     jox_input_write(entry, &text);
     if (fwrite(text.data, 1, text.length, scene->log) != text.length || fflush(scene->log) != 0)
         scene->log_failed = true;

@@ -14,11 +14,12 @@ static bool unknown(const char *kind, const char *name, const char *const *names
     return false;
 }
 
-static bool choose_machine(const JoxMind *mind, const char *name, JoxChoice *out, JoError *error) {
+static bool choose_machine(const JoxMachineRun *machines, const char *name, JoxChoice *out,
+                           JoError *error) {
     const char *names[JOX_MOST_MACHINES];
     uint32_t found = 0;
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
-        const JoxMachine *machine = mind->machines[m];
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        const JoxMachine *machine = machines->set->items[m];
         names[m] = machine->name;
         if (strcmp(machine->path, name) == 0) { /* tells those of one name apart */
             out->machine = m;
@@ -30,10 +31,10 @@ static bool choose_machine(const JoxMind *mind, const char *name, JoxChoice *out
     if (found > 1) {
         jox_error(error, JO_INPUT,
                   "%u machines are named '%.60s'; name it by its file, as '%.200s'", found, name,
-                  mind->machines[out->machine]->path);
+                  machines->set->items[out->machine]->path);
         return false;
     }
-    return found == 1 || unknown("machine", name, names, mind->machine_count, error);
+    return found == 1 || unknown("machine", name, names, machines->set->count, error);
 }
 
 static bool choose_state(const JoxMachine *machine, const char *name, JoxChoice *out,
@@ -52,9 +53,9 @@ static bool choose_state(const JoxMachine *machine, const char *name, JoxChoice 
 
 bool jox_run_choose(const JoScene *scene, const char *machine, const char *state,
                     const char *parameter, double value, JoxChoice *out, JoError *error) {
-    const JoxMind *mind = &scene->world->mind;
-    if (!choose_machine(mind, machine, out, error) ||
-        !choose_state(mind->machines[out->machine], state, out, error))
+    const JoxMachineRun *machines = &scene->world->machines;
+    if (!choose_machine(machines, machine, out, error) ||
+        !choose_state(machines->set->items[out->machine], state, out, error))
         return false;
     out->parameter = jox_parameter_find(parameter);
     if (out->parameter < 0) {
@@ -77,8 +78,8 @@ bool jox_run_set(JoScene *scene, const char *machine, const char *state, const c
     if (!jox_run_choose(scene, machine, state, parameter, value, &choice, error))
         return false;
     jox_run_hold_machines(scene, choice.machine, true);
-    jox_mind_set_parameter(&scene->world->mind, choice.machine, choice.state, choice.parameter,
-                           value);
+    jox_machines_set_parameter(&scene->world->machines, choice.machine, choice.state,
+                               choice.parameter, value);
     jox_run_hold_machines(scene, choice.machine, false);
     return true;
 }

@@ -6,25 +6,25 @@
 #include "base/overlay.h"
 #include "run/run.h"
 
-static int32_t find_machine(const JoxMind *mind, const char *path) {
-    for (uint32_t m = 0; m < mind->machine_count; m++)
-        if (strcmp(mind->machines[m]->path, path) == 0)
+static int32_t find_machine(const JoxMachineRun *machines, const char *path) {
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        if (strcmp(machines->set->items[m]->path, path) == 0)
             return (int32_t)m;
     return -1;
 }
 
 int32_t jox_run_machine(JoScene *scene, const char *path, JoxDiagnostics *diagnostics) {
-    JoxMind *mind = &scene->world->mind;
-    int32_t known = find_machine(mind, path);
+    JoxMachineRun *machines = &scene->world->machines;
+    int32_t known = find_machine(machines, path);
     if (known >= 0)
         return known;
-    if (mind->machine_count == JOX_MOST_MACHINES) {
+    if (machines->set->count == JOX_MOST_MACHINES) {
         jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "too-many", NULL,
                        "a scene has at most %d behaviours", JOX_MOST_MACHINES);
         return -1;
     }
     JoxMachine *machine = jox_lua_load(scene->lua, path, &scene->scope, diagnostics);
-    return machine ? (int32_t)jox_mind_add(mind, machine) : -1;
+    return machine ? (int32_t)jox_machines_add(machines, machine) : -1;
 }
 
 /* The file of a behaviour that another one names: beside it, of the library, or of a mod. */
@@ -87,7 +87,7 @@ bool jox_run_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnosti
 
 bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
     const JoxSceneSpec *spec = scene->spec;
-    JoxMind *mind = &scene->world->mind;
+    JoxMachineRun *machines = &scene->world->machines;
     bool good = true;
     for (uint32_t g = 0; g < spec->group_count; g++)
         for (uint32_t m = 0; m < spec->groups[g].mix_count; m++) {
@@ -100,15 +100,15 @@ bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics) {
                 continue;
             good = false;
         }
-    for (uint32_t m = 0; m < mind->machine_count; m++) /* grows while it goes on */
-        good &= jox_run_link(scene, mind->machines[m], diagnostics);
+    for (uint32_t m = 0; m < machines->set->count; m++) /* grows while it goes on */
+        good &= jox_run_link(scene, machines->set->built[m], diagnostics);
     return good;
 }
 
 /* Whether some machine has a name in that use, or a state of that name. */
-static bool used(const JoxMind *mind, const char *text, uint32_t use) {
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
-        const JoxMachine *machine = mind->machines[m];
+static bool used(const JoxMachineRun *machines, const char *text, uint32_t use) {
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        const JoxMachine *machine = machines->set->items[m];
         for (uint32_t n = 0; n < machine->name_count; n++)
             if ((machine->names[n].uses & use) && strcmp(machine->names[n].text, text) == 0)
                 return true;
@@ -181,9 +181,9 @@ void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const Jo
 }
 
 void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
-    const JoxMind *mind = &scene->world->mind;
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
-        const JoxMachine *machine = mind->machines[m];
+    const JoxMachineRun *machines = &scene->world->machines;
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        const JoxMachine *machine = machines->set->items[m];
         const JoxPosition at = {machine->path, 0, 0, 0};
         uint32_t count;
         const JoxLuaFile *files = jox_lua_files(scene->lua, machine, &count);
@@ -192,11 +192,11 @@ void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics) {
         for (uint32_t n = 0; n < machine->name_count; n++) {
             const JoxName *name = &machine->names[n];
             bool heard = name->uses & JOX_NAME_HEARD, state = name->uses & JOX_NAME_STATE;
-            if (heard && !used(mind, name->text, JOX_NAME_SIGNALLED) && !machine->hook_count &&
+            if (heard && !used(machines, name->text, JOX_NAME_SIGNALLED) && !machine->hook_count &&
                 !announced(scene, name->text))
                 jox_diag_warn(diagnostics, at, "unheard-signal", NULL,
                               "no machine of the scene gives the signal '%s'", name->text);
-            if (state && !used(mind, name->text, JOX_NAME_STATE))
+            if (state && !used(machines, name->text, JOX_NAME_STATE))
                 jox_diag_warn(diagnostics, at, "unknown-state", NULL,
                               "no machine of the scene has a state '%s'", name->text);
         }

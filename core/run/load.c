@@ -34,7 +34,7 @@ static void add_bodies(JoScene *scene, JoxDiagnostics *diagnostics) {
         JoxText why = {0};
         body->def.tags =
             tag_mask(scene->world, body->tags, body->tag_count, body->position, diagnostics);
-        if (jox_bodies_add(scene->world->bodies, &body->def, &why) == JOX_NO_BODY)
+        if (jox_bodies_add(scene->world->state.bodies, &body->def, &why) == JOX_NO_BODY)
             jox_diag_error(diagnostics, body->position, "bad-body", NULL, "%s",
                            why.data ? why.data : "this body was refused");
         jox_text_free(&why);
@@ -70,8 +70,8 @@ static void add_places(JoScene *scene) {
     jox_world_set_places(scene->world, places, spec->place_count);
     scene->scope = (JoxScope){.places = places,
                               .place_count = spec->place_count,
-                              .tags = (const char *const *)scene->world->tags,
-                              .tag_count = scene->world->tag_count,
+                              .tags = (const char *const *)scene->world->model.tags,
+                              .tag_count = scene->world->model.tag_count,
                               .complete = true,
                               .mods = scene->mods->items,
                               .mod_count = scene->mods->count};
@@ -131,26 +131,26 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     scene->world = jox_world_create(&world);
     if (!def->input_log)
         load_input(scene, spec->input, diagnostics);
-    scene->world->input = scene->input; /* the world's from here on */
+    scene->world->state.input = scene->input; /* the world's from here on */
     scene->input = (JoxInputLog){0};
     if (spec->periodic_x || spec->periodic_y) {
         JoxV2 size = jox_sub(spec->high, spec->low);
-        scene->world->agents.origin = spec->low;
-        scene->world->agents.period =
+        scene->world->state.agents.origin = spec->low;
+        scene->world->state.agents.period =
             (JoxV2){spec->periodic_x ? size.x : 0.0f, spec->periodic_y ? size.y : 0.0f};
     }
     jox_world_set_walls(scene->world, &spec->walls);
     const JoxLuaLimits limits = script_limits(spec);
     scene->lua = jox_lua_create(&limits);
-    jox_lua_attach(scene->lua, &scene->world->mind, complain, scene); /* loading may print */
+    jox_lua_attach(scene->lua, &scene->world->machines, complain, scene); /* loading may print */
     add_bodies(scene, diagnostics);
     add_places(scene);
     if (!jox_run_load_machines(scene, diagnostics))
         return;
-    JoxMind *mind = &scene->world->mind;
-    mind->call = jox_lua_call;
-    mind->bracket = jox_lua_bracket;
-    mind->call_context = scene->lua;
+    JoxMachineRun *machines = &scene->world->machines;
+    machines->call = jox_lua_call;
+    machines->bracket = jox_lua_bracket;
+    machines->call_context = scene->lua;
     if (diagnostics->errors == 0) {
         jox_run_populate(scene, diagnostics);
         jox_run_check_names(scene, diagnostics);
@@ -347,7 +347,7 @@ static JoScene *load_and_tell(const JoSceneDef *def, JoxDiagnosed *diagnosed, vo
         jox_run_say(scene, "%s %s %s (%s)\n", m ? "     " : "mods:", scene->mods->items[m].name,
                     scene->mods->items[m].version, scene->mods->items[m].folder);
     jox_run_check_log(scene);
-    JoxSettled settled = jox_world_settle(scene->world);
+    JoxPlacement settled = jox_world_resolve_placement(scene->world);
     if (settled.moved || settled.stuck)
         jox_run_say(scene,
                     "%s: %u agents were born in a wall or in another and moved by up to "
@@ -392,13 +392,13 @@ JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
 /* Whether both were made of the same files, byte by byte. */
 static bool same_files(const JoScene *a, const JoScene *b) {
     bool same = a->spec->file_count == b->spec->file_count &&
-                a->world->mind.machine_count == b->world->mind.machine_count;
+                a->world->model.machines.count == b->world->model.machines.count;
     for (uint32_t f = 0; same && f < a->spec->file_count; f++)
         same = strcmp(a->spec->files[f].sha256, b->spec->files[f].sha256) == 0;
-    for (uint32_t m = 0; same && m < a->world->mind.machine_count; m++) {
+    for (uint32_t m = 0; same && m < a->world->model.machines.count; m++) {
         uint32_t count, others;
-        const JoxLuaFile *files = jox_lua_files(a->lua, a->world->mind.machines[m], &count);
-        const JoxLuaFile *other = jox_lua_files(b->lua, b->world->mind.machines[m], &others);
+        const JoxLuaFile *files = jox_lua_files(a->lua, a->world->model.machines.items[m], &count);
+        const JoxLuaFile *other = jox_lua_files(b->lua, b->world->model.machines.items[m], &others);
         same = count == others;
         for (uint32_t f = 0; same && f < count; f++)
             same = strcmp(files[f].sha256, other[f].sha256) == 0;
@@ -421,8 +421,8 @@ JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError
     }
     JoSceneDef half = *def;
     half.has_dt = half.has_seed = true;
-    half.dt = scene->world->def.dt / 2;
-    half.seed = scene->world->def.seed;
+    half.dt = scene->world->model.def.dt / 2;
+    half.seed = scene->world->model.def.seed;
     half.message = to_nobody; /* all has been said once */
     JoScene *other = scene->swap_seconds > 0.0 ? NULL : jo_scene_load(&half, error);
     if (scene->swap_seconds > 0.0 || (other && !same_files(scene, other))) {
@@ -485,12 +485,4 @@ JoWorld *jo_scene_world(JoScene *scene) {
 double jo_scene_duration(const JoScene *scene) {
     JOX_REQUIRE(scene, 0.0);
     return scene->spec->duration;
-}
-
-char *jo_scene_reference(void) {
-    JOX_GUARD (NULL, NULL)
-        return NULL;
-    JoxText text = {0};
-    jox_scene_print_reference(&text);
-    return jox_disown(text.data);
 }

@@ -167,10 +167,10 @@ bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *er
 static bool why_scene(const JoScene *scene, const char *path, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
     bool found = false;
-    for (uint32_t c = 0; c < spec->change_count; c++) {
-        const JoxSceneChange *change = &spec->changes[c];
-        size_t n = strlen(change->path);
-        if (strncmp(change->path, path, n) != 0 || (n && path[n] && path[n] != '.'))
+    for (uint32_t c = 0; c < spec->changes.count; c++) {
+        const JoxPatchChange *change = &spec->changes.items[c];
+        const char *rest;
+        if (!jox_patch_leads(change, path, &rest))
             continue;
         const JoxMod *mod = &scene->mods->items[change->mod];
         jox_text_printf(out, "  %s:%d:%d: %s   (mod %s %s)\n", change->position.file,
@@ -183,14 +183,14 @@ static bool why_scene(const JoScene *scene, const char *path, JoxText *out) {
 
 /* The behaviour that the first part of a path names: loaded by the scene, or a file beside it. */
 static const JoxMachine *find_behaviour(JoScene *scene, const char *name) {
-    const JoxMind *mind = &scene->world->mind;
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
-        const char *path = mind->machines[m]->path, *slash = strrchr(path, '/');
+    const JoxMachineRun *machines = &scene->world->machines;
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        const char *path = machines->set->items[m]->path, *slash = strrchr(path, '/');
         const char *stem = slash ? slash + 1 : path;
         size_t n = strlen(name);
-        if (strcmp(mind->machines[m]->name, name) == 0 ||
+        if (strcmp(machines->set->items[m]->name, name) == 0 ||
             (strncmp(stem, name, n) == 0 && stem[n] == '.'))
-            return mind->machines[m];
+            return machines->set->items[m];
     }
     return NULL;
 }
@@ -215,11 +215,11 @@ char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error) {
         machine ? path[n] && jox_lua_why(scene->lua, machine, path + n + 1, &scene->scope, &out)
                 : why_scene(scene, path, &out);
     if (!found) {
-        const JoxMind *mind = &scene->world->mind;
+        const JoxMachineRun *machines = &scene->world->machines;
         const char *names[JOX_MOST_MACHINES];
-        for (uint32_t m = 0; m < mind->machine_count; m++)
-            names[m] = mind->machines[m]->name;
-        const char *near = jox_suggest(name, names, mind->machine_count);
+        for (uint32_t m = 0; m < machines->set->count; m++)
+            names[m] = machines->set->items[m]->name;
+        const char *near = jox_suggest(name, names, machines->set->count);
         jox_error(error, JO_INPUT,
                   machine ? "nothing sets '%s'; write BEHAVIOUR.STATE.KEY, "
                             "BEHAVIOUR.STATE.TRANSITION.KEY or BEHAVIOUR.defaults.KEY%s%s"

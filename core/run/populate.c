@@ -9,29 +9,29 @@
 
 enum { AT_ONCE = 256 }; /* agents that one source makes in a step at most */
 
-static uint32_t machine_index(const JoxMind *mind, const char *path) {
-    for (uint32_t m = 0; m < mind->machine_count; m++)
-        if (strcmp(mind->machines[m]->path, path) == 0)
+static uint32_t machine_index(const JoxMachineRun *machines, const char *path) {
+    for (uint32_t m = 0; m < machines->set->count; m++)
+        if (strcmp(machines->set->items[m]->path, path) == 0)
             return m;
     return 0;
 }
 
 /* Which behaviour of a mix an agent gets. */
 static uint32_t pick_machine(const JoScene *scene, const JoxSceneGroup *group, uint32_t id) {
-    double u = jox_random_unit(scene->world->def.seed, id, 0, JOX_DRAW_MIX, 0);
+    double u = jox_random_unit(scene->world->model.def.seed, id, 0, JOX_DRAW_MIX, 0);
     for (uint32_t m = 0; m + 1 < group->mix_count; m++) {
         if (u < group->mix[m].weight)
-            return machine_index(&scene->world->mind, group->mix[m].behaviour);
+            return machine_index(&scene->world->machines, group->mix[m].behaviour);
         u -= group->mix[m].weight;
     }
-    return machine_index(&scene->world->mind, group->mix[group->mix_count - 1].behaviour);
+    return machine_index(&scene->world->machines, group->mix[group->mix_count - 1].behaviour);
 }
 
 /* A place of its own for an agent that is bound for the opposite side of its circle. */
 static int32_t add_antipode(JoScene *scene, const JoxSceneGroup *group, JoxV2 from) {
     JoWorld *world = scene->world;
-    JOX_ASSERT(world->place_count < scene->place_capacity);
-    JoxPlace *place = &world->places[world->place_count];
+    JOX_ASSERT(world->model.place_count < scene->place_capacity);
+    JoxPlace *place = &world->model.places[world->model.place_count];
     JoxV2 to = {2 * group->centre.x - from.x, 2 * group->centre.y - from.y};
     *place = (JoxPlace){.name = jox_strdup("antipode"),
                         .kind = JOX_PLACE_POINT,
@@ -41,7 +41,7 @@ static int32_t add_antipode(JoScene *scene, const JoxSceneGroup *group, JoxV2 fr
                         .start = -1};
     place->points[0] = to;
     jox_place_finish(place);
-    return (int32_t)world->place_count++;
+    return (int32_t)world->model.place_count++;
 }
 
 /* Values that a group sets, in the order of a machine's slots. */
@@ -114,7 +114,7 @@ static void spawn(JoScene *scene, uint32_t number, JoxV2 at, const JoxSceneSet *
     const JoxSceneGroup *group = &scene->spec->groups[number];
     JoWorld *world = scene->world;
     uint32_t i = jox_world_add_agent(world, at.x, at.y);
-    JoxAgents *a = &world->agents;
+    JoxAgents *a = &world->state.agents;
     a->group[i] = (uint16_t)number;
     a->team[i] = next_team(scene, number);
     for (uint32_t t = 0; t < group->tag_count; t++)
@@ -125,19 +125,20 @@ static void spawn(JoScene *scene, uint32_t number, JoxV2 at, const JoxSceneSet *
     }
     uint32_t index = pick_machine(scene, group, a->id[i]);
     Overrides *o = &(Overrides){0};
-    override(scene, group, memory, memory_count, world->mind.machines[index], at, o);
-    world->mind.tick = (uint32_t)world->tick;
-    world->mind.places = world->places;
-    world->mind.place_count = world->place_count;
-    jox_mind_spawn(&world->mind, i, index, o->own, o->memory);
+    override(scene, group, memory, memory_count, world->model.machines.items[index], at, o);
+    world->machines.tick = (uint32_t)world->state.tick;
+    world->machines.places = world->model.places;
+    world->machines.place_count = world->model.place_count;
+    jox_machines_spawn(&world->machines, i, index, o->own, o->memory);
 }
 
 /* Names that a group sets must be known to every behaviour of its mix. */
 static void check_names(const JoScene *scene, const JoxSceneGroup *group, const JoxSceneSet *sets,
                         uint32_t count, bool memory, JoxDiagnostics *diagnostics) {
     for (uint32_t m = 0; m < group->mix_count; m++) {
-        const JoxMind *mind = &scene->world->mind;
-        const JoxMachine *machine = mind->machines[machine_index(mind, group->mix[m].behaviour)];
+        const JoxMachineRun *machines = &scene->world->machines;
+        const JoxMachine *machine =
+            machines->set->items[machine_index(machines, group->mix[m].behaviour)];
         const char *names[256];
         uint32_t known = memory ? machine->memory_count : machine->own_count;
         known = known < 256 ? known : 256;
@@ -189,7 +190,7 @@ bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics) {
                     spec->sources[s].memory_count, true, diagnostics);
     if (diagnostics->errors)
         return false;
-    jox_agents_reserve(&scene->world->agents, total);
+    jox_agents_reserve(&scene->world->state.agents, total);
     scene->spawned = jox_alloc(spec->source_count + 1, sizeof *scene->spawned);
     name_exits(scene);
     for (uint32_t g = 0; g < spec->group_count; g++)
@@ -202,14 +203,16 @@ bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics) {
 /* A point of a place, drawn for a source. */
 static JoxV2 draw_point(const JoScene *scene, uint32_t source, uint32_t n) {
     const JoWorld *world = scene->world;
-    const JoxPlace *place = &world->places[scene->spec->sources[source].place];
+    const JoxPlace *place = &world->model.places[scene->spec->sources[source].place];
     JoxV2 low = place->centre, high = place->centre;
     if (place->kind != JOX_PLACE_POINT)
         jox_bounds(place->points, place->count, &low, &high);
     for (uint32_t attempt = 0; attempt < 64; attempt++) {
         uint32_t sub = (n * 64 + attempt) * 2;
-        double u = jox_random_unit(world->def.seed, source, world->tick, JOX_DRAW_SOURCE, sub);
-        double v = jox_random_unit(world->def.seed, source, world->tick, JOX_DRAW_SOURCE, sub + 1);
+        double u =
+            jox_random_unit(world->model.def.seed, source, world->state.tick, JOX_DRAW_SOURCE, sub);
+        double v = jox_random_unit(world->model.def.seed, source, world->state.tick,
+                                   JOX_DRAW_SOURCE, sub + 1);
         if (place->kind == JOX_PLACE_LINE || place->kind == JOX_PLACE_QUEUE)
             return jox_add(place->points[0],
                            jox_scale(jox_sub(place->points[1], place->points[0]), (float)u));
@@ -229,15 +232,15 @@ static JoxV2 draw_point(const JoScene *scene, uint32_t source, uint32_t n) {
 static uint32_t owed(JoScene *scene, uint32_t s) {
     const JoxSceneSource *source = &scene->spec->sources[s];
     const JoWorld *world = scene->world;
-    double time = (double)world->tick * world->def.dt;
+    double time = (double)world->state.tick * world->model.def.dt;
     if (time < source->from || time >= source->until)
         return 0;
     double due = floor(source->rate * (time - source->from)) - scene->spawned[s];
-    uint64_t second = (uint64_t)(1.0 / world->def.dt + 0.5);
-    if (source->keep > 0 && world->tick % second == 0) {
+    uint64_t second = (uint64_t)(1.0 / world->model.def.dt + 0.5);
+    if (source->keep > 0 && world->state.tick % second == 0) {
         uint32_t present = 0;
-        for (uint32_t i = 0; i < world->agents.count; i++)
-            present += world->agents.group[i] == source->like;
+        for (uint32_t i = 0; i < world->state.agents.count; i++)
+            present += world->state.agents.group[i] == source->like;
         due += present < source->keep ? source->keep - present : 0;
     }
     return due <= 0.0 ? 0 : due > AT_ONCE ? AT_ONCE : (uint32_t)due;
@@ -265,7 +268,7 @@ static void count_at(JoScene *scene, const JoxPlace *place) {
 
 /* Counts somebody who left at a point of a place: a set's member is the exit, not the set. */
 static void count_exit(JoScene *scene, uint32_t place, JoxV2 at) {
-    const JoxPlace *places = scene->world->places, *of = &places[place];
+    const JoxPlace *places = scene->world->model.places, *of = &places[place];
     for (uint32_t m = 0; of->kind == JOX_PLACE_SET && m < of->member_count; m++)
         if (jox_place_contains(places, (uint32_t)of->members[m], at)) {
             of = &places[of->members[m]];
@@ -291,32 +294,34 @@ static double size_of(const JoxPlace *place) {
 /* Who left where a behaviour said so left by the smallest place that they stood in. */
 void jox_run_leavers(JoScene *scene) {
     const JoWorld *world = scene->world;
-    for (uint32_t g = 0; g < world->gone_count; g++) {
+    for (uint32_t g = 0; g < world->scratch.gone_count; g++) {
         const JoxPlace *of = NULL;
         for (uint32_t p = 0; p < scene->spec->place_count; p++) {
-            const JoxPlace *place = &world->places[p];
-            if (isfinite(size_of(place)) && jox_place_contains(world->places, p, world->gone[g]) &&
+            const JoxPlace *place = &world->model.places[p];
+            if (isfinite(size_of(place)) &&
+                jox_place_contains(world->model.places, p, world->scratch.gone[g]) &&
                 (!of || size_of(place) < size_of(of)))
                 of = place;
         }
         if (of)
             count_at(scene, of);
     }
-    if (world->statistics.removed > scene->exits.left) {
-        scene->exits.left = world->statistics.removed;
+    if (world->state.statistics.removed > scene->exits.left) {
+        scene->exits.left = world->state.statistics.removed;
         scene->exits.last = jo_world_time(world);
     }
 }
 
 void jox_run_sinks(JoScene *scene) {
-    JoxAgents *a = &scene->world->agents;
+    JoxAgents *a = &scene->world->state.agents;
     bool any = false;
-    for (uint32_t s = 0; s < scene->spec->sink_count && scene->world->tick % 4 == 0; s++) {
+    for (uint32_t s = 0; s < scene->spec->sink_count && scene->world->state.tick % 4 == 0; s++) {
         const JoxSceneSink *sink = &scene->spec->sinks[s];
         for (uint32_t i = 0; i < a->count; i++) {
             if (a->removed[i] || (sink->group >= 0 && a->group[i] != sink->group))
                 continue;
-            if (!jox_place_contains(scene->world->places, sink->place, (JoxV2){a->x[i], a->y[i]}))
+            if (!jox_place_contains(scene->world->model.places, sink->place,
+                                    (JoxV2){a->x[i], a->y[i]}))
                 continue;
             count_exit(scene, sink->place, (JoxV2){a->x[i], a->y[i]});
             a->removed[i] = 1;
@@ -324,5 +329,5 @@ void jox_run_sinks(JoScene *scene) {
         }
     }
     if (any)
-        scene->world->statistics.removed += jox_agents_compact(a);
+        scene->world->state.statistics.removed += jox_agents_compact(a);
 }

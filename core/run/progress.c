@@ -31,19 +31,19 @@ static bool show(void *self, JoScene *scene, JoError *error) {
     p->tenth = tenth;
     fprintf(stderr, "%s%6.1f of %.1f s simulated, %.2f x real time, %.0f s left, %u agents%s",
             terminal ? "\r" : "", time, p->until, time / wall, last ? 0.0 : left,
-            scene->world->agents.count, !terminal || last ? "\n" : "   ");
+            scene->world->state.agents.count, !terminal || last ? "\n" : "   ");
     return true;
 }
 
 /* That plain functions ran, and what they cost: their authors should know without asking. */
 static bool say_costs(void *self, JoScene *scene, JoError *error) {
     const JoWorld *world = scene->world;
-    double seconds = 0.0, wall = world->statistics.wall_s;
+    double seconds = 0.0, wall = world->state.statistics.wall_s;
     uint64_t calls = 0;
     (void)self, (void)error;
-    for (uint32_t m = 0; m < world->mind.machine_count; m++) {
+    for (uint32_t m = 0; m < world->model.machines.count; m++) {
         uint64_t machine_calls;
-        seconds += jox_lua_seconds(scene->lua, world->mind.machines[m], &machine_calls);
+        seconds += jox_lua_seconds(scene->lua, world->model.machines.items[m], &machine_calls);
         calls += machine_calls;
     }
     if (calls > 0)
@@ -65,8 +65,8 @@ void jo_scene_show_progress(JoScene *scene, double until) {
 
 static bool say_trace(void *self, JoScene *scene, JoError *error) {
     (void)self, (void)error;
-    if (scene->world->mind.trace.length)
-        jox_run_tell(scene, scene->world->mind.trace.data);
+    if (scene->world->machines.trace.length)
+        jox_run_tell(scene, scene->world->machines.trace.data);
     return true;
 }
 
@@ -74,8 +74,8 @@ static const JoxListenerKind TRACE = {.name = "trace", .size = 1, .frame = say_t
 
 void jo_scene_trace(JoScene *scene, uint32_t agent_id) {
     JOX_REQUIRE(scene, );
-    scene->world->mind.traces = true;
-    scene->world->mind.trace_id = agent_id;
+    scene->world->machines.traces = true;
+    scene->world->machines.trace_id = agent_id;
     if (!jox_run_listener(scene, &TRACE))
         jox_run_listen(scene, &TRACE, NULL, NULL);
 }

@@ -26,7 +26,7 @@ static uint32_t state_number(const Recording *r, const JoxAgents *a, uint32_t i)
 /* A new version of a machine may have other states, so that it is given numbers of its own. */
 static void name_states(void *self, JoScene *scene, uint32_t index) {
     Recording *r = self;
-    const JoxMachine *machine = scene->world->mind.machines[index];
+    const JoxMachine *machine = scene->world->model.machines.items[index];
     r->base[index] = r->next;
     r->next += 1000;
     for (uint32_t s = 0; s < machine->state_count; s++)
@@ -37,18 +37,18 @@ static void name_states(void *self, JoScene *scene, uint32_t index) {
    it and come into being there; else the box about everything. */
 static void write_area(const JoScene *scene, JoxText *wkt) {
     const JoWorld *world = scene->world;
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     const uint32_t sources = scene->spec->source_count;
     JoxV2 low, high, *points = jox_alloc((size_t)a->count + sources + 1, sizeof *points);
     for (uint32_t i = 0; i < a->count; i++)
         points[i] = (JoxV2){a->x[i], a->y[i]};
     for (uint32_t s = 0; s < sources; s++)
-        points[a->count + s] = world->places[scene->spec->sources[s].place].centre;
+        points[a->count + s] = world->model.places[scene->spec->sources[s].place].centre;
     jox_run_area(scene, &low, &high);
-    if (jox_walls_outline_all(&world->walls, points, a->count + sources))
-        jox_wkt_outlines(&world->walls, wkt);
+    if (jox_walls_outline_all(&world->scratch.walls, points, a->count + sources))
+        jox_wkt_outlines(&world->scratch.walls, wkt);
     else
-        jox_wkt(&world->walls, low, high, wkt);
+        jox_wkt(&world->scratch.walls, low, high, wkt);
     jox_free(points);
 }
 
@@ -56,15 +56,15 @@ static bool begin(void *self, JoScene *scene, const void *path, JoError *error) 
     Recording *r = self;
     JoxText wkt = {0}, why = {0};
     write_area(scene, &wkt);
-    double dt = scene->world->def.dt;
+    double dt = scene->world->model.def.dt;
     r->every = dt >= FRAME ? 1 : (uint32_t)(FRAME / dt + 0.5);
     r->recorder = jox_recorder_open(path, 1.0 / (dt * r->every), wkt.data, &why);
     jox_text_free(&wkt);
     if (!r->recorder)
         return jox_run_failed(error, &why);
-    jox_recorder_walls(r->recorder, &scene->world->all_walls);
-    const JoxMind *mind = &scene->world->mind;
-    for (uint32_t m = 0; m < mind->machine_count; m++)
+    jox_recorder_walls(r->recorder, &scene->world->model.all_walls);
+    const JoxMachineRun *machines = &scene->world->machines;
+    for (uint32_t m = 0; m < machines->set->count; m++)
         name_states(r, scene, m);
     for (uint32_t g = 0; g < scene->spec->group_count; g++)
         jox_recorder_group(r->recorder, g, scene->spec->groups[g].name);
@@ -73,7 +73,7 @@ static bool begin(void *self, JoScene *scene, const void *path, JoError *error) 
 
 /* The parts of bodies that are new or came apart. */
 static void record_shapes(Recording *r, const JoScene *scene, uint32_t frame) {
-    const JoxBodies *bodies = scene->world->bodies;
+    const JoxBodies *bodies = scene->world->state.bodies;
     for (uint32_t row = 0; row < jox_bodies_rows(bodies); row++) {
         const uint32_t id = jox_bodies_id(bodies, row);
         const size_t had = r->shape_capacity;
@@ -95,13 +95,13 @@ static void record_shapes(Recording *r, const JoScene *scene, uint32_t frame) {
 
 static bool record_frame(void *self, JoScene *scene, JoError *error) {
     Recording *r = self;
-    if (scene->world->tick % r->every != 0)
+    if (scene->world->state.tick % r->every != 0)
         return true;
-    const JoxAgents *a = &scene->world->agents;
-    const JoxObjects *objects = &scene->world->objects;
+    const JoxAgents *a = &scene->world->state.agents;
+    const JoxObjects *objects = &scene->world->scratch.objects;
     JoxRecordBody *bodies;
-    uint32_t count = jox_bodies_count(scene->world->bodies), n = 0;
-    const uint32_t frame = (uint32_t)(scene->world->tick / r->every);
+    uint32_t count = jox_bodies_count(scene->world->state.bodies), n = 0;
+    const uint32_t frame = (uint32_t)(scene->world->state.tick / r->every);
     record_shapes(r, scene, frame);
     JoxRecordRow *rows = jox_recorder_take(r->recorder, a->count, count, &bodies);
     for (uint32_t rank = 0; rank < a->count; rank++) { /* whatever the order in memory */
@@ -114,7 +114,7 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
     n = 0;
     for (uint32_t o = 0; o < objects->count && n < count; o++) {
         JoxPose pose;
-        if (objects->rows[o].live && jox_bodies_pose(scene->world->bodies, o, &pose))
+        if (objects->rows[o].live && jox_bodies_pose(scene->world->state.bodies, o, &pose))
             bodies[n++] = (JoxRecordBody){objects->rows[o].id, pose.position.x, pose.position.y,
                                           pose.position.z,     pose.turn[0],    pose.turn[1],
                                           pose.turn[2],        pose.turn[3]};

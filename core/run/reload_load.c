@@ -73,8 +73,8 @@ static void place_beside(const char *from, const char *name, char path[1024]) {
 /* Machines that a new version becomes and that are not there yet join the batch. */
 static void add_becomes(JoxReload *r, JoxBatch *batch, uint32_t c, const JoxMachine *next) {
     JoScene *scene = r->scene;
-    const JoxMind *mind = &scene->world->mind;
-    uint32_t machines = atomic_load(&r->machine_count);
+    const JoxMachineSet *set = &scene->world->model.machines;
+    uint32_t count = atomic_load(&r->machine_count);
     for (uint32_t s = 0; s < next->state_count; s++) {
         char path[1024];
         if (!next->states[s].become)
@@ -86,13 +86,13 @@ static void add_becomes(JoxReload *r, JoxBatch *batch, uint32_t c, const JoxMach
         }
         bool known = false;
         uint32_t added = 0;
-        for (uint32_t m = 0; m < machines; m++)
-            known |= strcmp(mind->machines[m]->path, path) == 0;
+        for (uint32_t m = 0; m < count; m++)
+            known |= strcmp(set->items[m]->path, path) == 0;
         for (uint32_t o = 0; o < batch->count; o++) {
             known |= strcmp(batch->changes[o].path, path) == 0;
             added += batch->changes[o].added;
         }
-        if (!known && machines + added < JOX_MOST_MACHINES)
+        if (!known && count + added < JOX_MOST_MACHINES)
             add_change(batch, 0, path)->added = true;
         else if (!known)
             jox_diag_error(&batch->diagnostics,
@@ -138,20 +138,27 @@ static void load_plan(JoxReload *r, JoxBatch *batch) {
 
 /* Works out what it takes to put the new version in the place of the old. */
 void jox_batch_compare(JoxReload *r, JoxChange *change) {
-    const JoxMind *mind = &r->scene->world->mind;
+    const JoxMachineRun *machines = &r->scene->world->machines;
     jox_replacement_free(change->replacement);
+    JoxRecovery recovery;
     pthread_mutex_lock(&r->machines);
+    jox_recovery_push(&recovery);
+    if (setjmp(recovery.jump) != 0) { /* no lock is held where memory is out */
+        pthread_mutex_unlock(&r->machines);
+        jox_out_of_memory(0);
+    }
     change->edits = r->edits[change->index];
-    change->replacement =
-        jox_replacement_prepare(mind->machines[change->index], jox_loaded_machine(change->loaded),
-                                r->scene->world->def.seed, atomic_load(&r->next_id));
+    change->replacement = jox_replacement_prepare(
+        machines->set->items[change->index], jox_loaded_machine(change->loaded),
+        r->scene->world->model.def.seed, atomic_load(&r->next_id));
+    jox_recovery_pop(&recovery);
     pthread_mutex_unlock(&r->machines);
 }
 
 /* The next parts whose files have changed, loaded; NULL where there are none. */
 JoxBatch *jox_batch_prepare(JoxReload *r) {
     JoScene *scene = r->scene;
-    const JoxMind *mind = &scene->world->mind;
+    const JoxMachineRun *machines = &scene->world->machines;
     bool parts[JOX_PARTS];
     double written;
     if (!jox_changes_next(&r->changes, parts, &written))
@@ -161,7 +168,7 @@ JoxBatch *jox_batch_prepare(JoxReload *r) {
     batch->written = written;
     for (uint32_t m = 0; m < atomic_load(&r->machine_count); m++)
         if (parts[m])
-            add_change(batch, m, mind->machines[m]->path);
+            add_change(batch, m, machines->set->items[m]->path);
     for (uint32_t c = 0; c < batch->count; c++) /* grows by what others become */
         load_change(r, batch, c);
     if (parts[JOX_PART_PLAN])

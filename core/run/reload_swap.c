@@ -35,7 +35,7 @@ static double real_time(void) {
 
 /* Says why a batch is not taken, and which versions go on. */
 static void refuse(JoScene *scene, JoxBatch *batch, const char *path, const char *why) {
-    const JoxMind *mind = &scene->world->mind;
+    const JoxMachineRun *machines = &scene->world->machines;
     char number[16];
     if (why)
         jox_diag_error(&batch->diagnostics, ((JoxPosition){path, 0, 0, 0}), "cannot-swap", NULL,
@@ -47,10 +47,11 @@ static void refuse(JoScene *scene, JoxBatch *batch, const char *path, const char
     for (uint32_t c = 0; c < batch->count; c++) {
         if (batch->changes[c].added)
             continue;
-        const JoxMachine *machine = mind->machines[batch->changes[c].index];
+        const JoxMachine *machine = machines->set->items[batch->changes[c].index];
         jox_run_say(scene, " Version %u%s%s keeps running; %s agents unaffected.\n",
                     machine->version, batch->count > 1 ? " of " : "",
-                    batch->count > 1 ? machine->name : "", grouped(mind->agents->count, number));
+                    batch->count > 1 ? machine->name : "",
+                    grouped(machines->agents->count, number));
     }
     if (batch->count == 0)
         jox_run_say(scene, " The scene goes on as it was.\n");
@@ -58,19 +59,19 @@ static void refuse(JoScene *scene, JoxBatch *batch, const char *path, const char
 
 /* Machines that others become, and links to them. */
 static void link_batch(JoScene *scene, JoxBatch *batch) {
-    JoxMind *mind = &scene->world->mind;
+    JoxMachineRun *machines = &scene->world->machines;
     for (uint32_t c = 0; c < batch->count; c++) {
         JoxChange *change = &batch->changes[c];
         if (!change->added)
             continue;
         JoxMachine *machine = jox_loaded_machine(change->loaded);
         jox_lua_adopt(scene->lua, change->loaded);
-        change->index = jox_mind_add(mind, machine);
+        change->index = jox_machines_add(machines, machine);
         jox_run_tell_replaced(scene, change->index);
     }
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
+    for (uint32_t m = 0; m < machines->set->count; m++) {
         JoxDiagnostics none = {0};
-        jox_run_link(scene, mind->machines[m], &none);
+        jox_run_link(scene, machines->set->built[m], &none);
         jox_diag_free(&none);
     }
 }
@@ -100,7 +101,7 @@ static bool same_states(const JoxMachine *a, const JoxMachine *b) {
 
 /* Swaps the machines of a batch; the old ones go to `retired`. */
 static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
-    JoxMind *mind = &scene->world->mind;
+    JoxMachineRun *machines = &scene->world->machines;
     JoxText text = {0};
     uint32_t before[1000], after[1000];
     retired->machines = jox_alloc(batch->count + 1, sizeof *retired->machines);
@@ -109,13 +110,13 @@ static void swap(JoScene *scene, JoxBatch *batch, JoxRetired *retired) {
         if (change->added)
             continue;
         double begun = jox_clock_wall();
-        jox_mind_census(mind, change->index, before);
+        jox_machines_people(machines, change->index, before);
         JoxMachine *next = jox_loaded_machine(change->loaded);
-        JoxMachine *old = jox_mind_replace(mind, change->index, change->replacement);
+        JoxMachine *old = jox_machines_replace(machines, change->index, change->replacement);
         give_new(scene, change, old, next);
         retired->machines[retired->count++] = jox_lua_retire(scene->lua, old);
         jox_lua_adopt(scene->lua, change->loaded);
-        jox_mind_census(mind, change->index, after);
+        jox_machines_people(machines, change->index, after);
         if (!same_states(old, next)) /* the recording names those of the new version too */
             jox_run_tell_replaced(scene, change->index);
         double took = jox_clock_wall() - begun;
@@ -167,8 +168,8 @@ bool jox_batch_take(JoScene *scene, JoxBatch *batch) {
             path = batch->changes[c].path;
             if (batch->changes[c].edits != r->edits[batch->changes[c].index])
                 jox_batch_compare(r, &batch->changes[c]); /* a parameter was set meanwhile */
-            refused = jox_mind_refuses(&scene->world->mind, batch->changes[c].index,
-                                       batch->changes[c].replacement, why, sizeof why);
+            refused = jox_machines_refuses(&scene->world->machines, batch->changes[c].index,
+                                           batch->changes[c].replacement, why, sizeof why);
         }
     JoxRetired *retired = jox_alloc(1, sizeof *retired);
     retired->batch = batch;
@@ -187,7 +188,7 @@ bool jox_batch_take(JoScene *scene, JoxBatch *batch) {
             jox_run_rescene(scene, &batch->spec, batch->written);
         jox_run_log_files(scene, &reloaded);
     }
-    atomic_store(&r->machine_count, scene->world->mind.machine_count);
+    atomic_store(&r->machine_count, scene->world->model.machines.count);
     retired->next = (JoxRetired *)atomic_load(&r->retired);
     while (
         !atomic_compare_exchange_weak(&r->retired, (uintptr_t *)&retired->next, (uintptr_t)retired))

@@ -45,7 +45,7 @@ static void take_places(Rescene *r) {
     }
     for (uint32_t p = 0; p < r->new->place_count; p++) {
         const JoxPlace *from = &r->new->places[p];
-        JoxPlace *to = &world->places[p];
+        JoxPlace *to = &world->model.places[p];
         if (same_place(to, from)) /* the plan may lag behind: see below */
             continue;
         moved = true;
@@ -66,7 +66,7 @@ static void take_places(Rescene *r) {
         to->axis_radius = from->axis_radius;
     }
     if (moved) {
-        jox_world_renew_ways(world);
+        jox_world_renew_routes(world);
         note(&r->done, "places");
     }
 }
@@ -91,7 +91,7 @@ static bool same_walls(const JoxWalls *a, const JoxWalls *b) {
 
 static void take_walls(Rescene *r) {
     JoWorld *world = r->scene->world;
-    if (same_walls(&world->all_walls, &r->new->walls))
+    if (same_walls(&world->model.all_walls, &r->new->walls))
         return;
     jox_world_set_walls(world, &r->new->walls);
     note(&r->done, "walls");
@@ -106,20 +106,20 @@ static bool same_dist(const JoxDist *a, const JoxDist *b) {
 }
 
 void jox_run_give(JoScene *scene, int32_t which, uint32_t group, const JoxSceneSet *set) {
-    JoxMind *mind = &scene->world->mind;
-    JoxAgents *a = mind->agents;
+    JoxMachineRun *machines = &scene->world->machines;
+    JoxAgents *a = machines->agents;
     for (uint32_t i = 0; i < a->count; i++) {
         if (a->group[i] != group || a->machine[i] == JOX_NO_MACHINE ||
             (which >= 0 && a->machine[i] != which))
             continue;
-        const JoxMachine *machine = mind->machines[a->machine[i]];
+        const JoxMachine *machine = machines->set->items[a->machine[i]];
         for (uint32_t s = 0; s < machine->own_count; s++) {
             if (strcmp(machine->own[s].name, set->name) != 0)
                 continue;
             double value = set->kind == JOX_SET_PLACE ? set->place
-                                                      : jox_dist_draw(&set->dist, mind->seed,
+                                                      : jox_dist_draw(&set->dist, machines->seed,
                                                                       a->id[i], 0, JOX_DRAW_OWN, s);
-            jox_mind_set_own(mind, i, s, value);
+            jox_machines_set_own(machines, i, s, value);
         }
     }
 }

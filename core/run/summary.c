@@ -15,13 +15,13 @@ static const double PI = 3.14159265358979323846;
 JoStats jo_scene_stats(const JoScene *scene) {
     JOX_REQUIRE(scene, (JoStats){0});
     const JoWorld *world = scene->world;
-    const JoxStatistics *s = &world->statistics;
+    const JoxStatistics *s = &world->state.statistics;
     JoStats stats = {.steps = s->steps,
                      .agent_steps = s->agent_steps,
-                     .agents = world->agents.count,
-                     .bodies = jox_bodies_count(world->bodies),
-                     .dt = world->def.dt,
-                     .simulated_s = (double)s->steps * world->def.dt,
+                     .agents = world->state.agents.count,
+                     .bodies = jox_bodies_count(world->state.bodies),
+                     .dt = world->model.def.dt,
+                     .simulated_s = (double)s->steps * world->model.def.dt,
                      .wall_s = s->wall_s,
                      .cpu_s = s->cpu_s};
     for (int k = 0; k < JO_STAGE_COUNT && s->agent_steps; k++)
@@ -30,15 +30,15 @@ JoStats jo_scene_stats(const JoScene *scene) {
 }
 
 static void add_states(JoxJson *json, const JoWorld *world) {
-    const JoxMind *mind = &world->mind;
+    const JoxMachineRun *machines = &world->machines;
     jox_json_object(json, "states");
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
-        jox_json_object(json, mind->machines[m]->name);
-        for (uint32_t s = 0; s < mind->machines[m]->state_count; s++) {
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        jox_json_object(json, machines->set->items[m]->name);
+        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
             uint32_t people = 0;
-            for (uint32_t i = 0; i < world->agents.count; i++)
-                people += world->agents.machine[i] == m && world->agents.state[i] == s;
-            jox_json_whole(json, mind->machines[m]->states[s].name, people);
+            for (uint32_t i = 0; i < world->state.agents.count; i++)
+                people += world->state.agents.machine[i] == m && world->state.agents.state[i] == s;
+            jox_json_whole(json, machines->set->items[m]->states[s].name, people);
         }
         jox_json_end(json);
     }
@@ -53,18 +53,18 @@ static void add_taken(void *context, const char *from, const char *to, uint64_t 
 }
 
 /* "From>To": how often, by all agents. */
-static void add_transitions(JoxJson *json, const JoxMind *mind) {
+static void add_transitions(JoxJson *json, const JoxMachineRun *machines) {
     jox_json_object(json, "transitions");
-    for (uint32_t m = 0; m < mind->machine_count; m++) {
-        jox_json_object(json, mind->machines[m]->name);
-        jox_mind_taken(mind, m, add_taken, json);
+    for (uint32_t m = 0; m < machines->set->count; m++) {
+        jox_json_object(json, machines->set->items[m]->name);
+        jox_machines_taken(machines, m, add_taken, json);
         jox_json_end(json);
     }
     jox_json_end(json);
 }
 
 static void add_events(JoxJson *json, const JoScene *scene) {
-    const JoxStatistics *s = &scene->world->statistics;
+    const JoxStatistics *s = &scene->world->state.statistics;
     const struct {
         const char *name;
         uint64_t count;
@@ -100,7 +100,7 @@ static void add_regions(JoxJson *json, const JoScene *scene) {
 
 static void add_danger(JoxJson *json, const JoScene *scene) {
     jox_json_object(json, "danger");
-    jox_exits_json(&scene->exits, scene->world->agents.count, json);
+    jox_exits_json(&scene->exits, scene->world->state.agents.count, json);
     if (jox_run_danger(scene))
         jox_danger_json(jox_run_danger(scene), json);
     jox_json_end(json);
@@ -111,12 +111,12 @@ static void add_lua(JoxJson *json, const JoScene *scene) {
     const JoWorld *world = scene->world;
     double seconds = 0.0;
     uint64_t calls = 0;
-    for (uint32_t m = 0; m < world->mind.machine_count; m++) {
+    for (uint32_t m = 0; m < world->model.machines.count; m++) {
         uint64_t own;
-        seconds += jox_lua_seconds(scene->lua, world->mind.machines[m], &own);
+        seconds += jox_lua_seconds(scene->lua, world->model.machines.items[m], &own);
         calls += own;
     }
-    double wall = world->statistics.wall_s;
+    double wall = world->state.statistics.wall_s;
     jox_json_object(json, "lua");
     jox_json_whole(json, "calls", calls);
     jox_json_digits(json, "seconds", seconds, 6);
@@ -130,16 +130,17 @@ char *jo_scene_lua_profile(const JoScene *scene) {
         return NULL;
     const JoWorld *world = scene->world;
     JoxText out = {0};
-    for (uint32_t m = 0; m < world->mind.machine_count; m++) {
-        const JoxMachine *machine = world->mind.machines[m];
+    for (uint32_t m = 0; m < world->model.machines.count; m++) {
+        const JoxMachine *machine = world->model.machines.items[m];
         uint64_t calls;
         double seconds = jox_lua_seconds(scene->lua, machine, &calls);
         jox_text_printf(
             &out, "%s (%s): %u plain functions, %llu calls, %.2f ms, %.2f %% of the steps\n",
             machine->name, machine->path, machine->hook_count, (unsigned long long)calls,
             seconds * 1e3,
-            world->statistics.wall_s > 0 ? 100.0 * seconds / world->statistics.wall_s : 0.0);
-        jox_lua_profile(scene->lua, machine, world->statistics.wall_s, &out);
+            world->state.statistics.wall_s > 0 ? 100.0 * seconds / world->state.statistics.wall_s
+                                               : 0.0);
+        jox_lua_profile(scene->lua, machine, world->state.statistics.wall_s, &out);
     }
     return jox_disown(out.data);
 }
@@ -155,9 +156,10 @@ static void add_inputs(JoxJson *json, const JoScene *scene) {
     jox_json_array(json, "inputs");
     for (uint32_t f = 0; f < scene->spec->file_count; f++)
         add_file(json, scene->spec->files[f].path, scene->spec->files[f].sha256);
-    for (uint32_t m = 0; m < scene->world->mind.machine_count; m++) {
+    for (uint32_t m = 0; m < scene->world->model.machines.count; m++) {
         uint32_t count;
-        const JoxLuaFile *files = jox_lua_files(scene->lua, scene->world->mind.machines[m], &count);
+        const JoxLuaFile *files =
+            jox_lua_files(scene->lua, scene->world->model.machines.items[m], &count);
         for (uint32_t f = 0; f < count; f++)
             add_file(json, files[f].path, files[f].sha256);
     }
@@ -188,7 +190,8 @@ static void add_exchange(JoxJson *json, const JoxStatistics *s) {
 static void add_way(JoxJson *json, const JoScene *scene, uint32_t body) {
     const JoxBodyDef *def = &scene->spec->bodies[body].def;
     JoxPose pose; /* the bodies of the scene have the first ids, in their order */
-    if (!jox_bodies_pose(scene->world->bodies, jox_bodies_find(scene->world->bodies, body), &pose))
+    if (!jox_bodies_pose(scene->world->state.bodies,
+                         jox_bodies_find(scene->world->state.bodies, body), &pose))
         return;
     double x = pose.position.x - def->position[0], y = pose.position.y - def->position[1];
     const float *q = pose.turn;
@@ -202,16 +205,16 @@ static void add_way(JoxJson *json, const JoScene *scene, uint32_t body) {
 
 /* Of scenes with bonded blocks. */
 static void add_bonds(JoxJson *json, const JoScene *scene) {
-    const JoxBondStatistics *s = &scene->world->statistics.bonds;
+    const JoxBondStatistics *s = &scene->world->state.statistics.bonds;
     uint32_t body = 0, held = 0;
     while (body < scene->spec->body_count &&
            scene->spec->bodies[body].def.shape.kind != JOX_SHAPE_BLOCKS)
         body++;
     if (body == scene->spec->body_count)
         return;
-    for (uint32_t o = 0; o < scene->world->objects.count; o++) {
+    for (uint32_t o = 0; o < scene->world->scratch.objects.count; o++) {
         JoxBodyBonds bonds;
-        jox_bodies_bonds(scene->world->bodies, o, &bonds);
+        jox_bodies_bonds(scene->world->state.bodies, o, &bonds);
         held += bonds.bonds;
     }
     jox_json_object(json, "bonds");
@@ -237,7 +240,7 @@ static void add_bonds(JoxJson *json, const JoScene *scene) {
 static void add_run(JoxJson *json, const JoScene *scene, const JoStats *stats) {
     jox_json_string(json, "scene", scene->spec->path);
     jox_json_string(json, "version", jo_version());
-    jox_json_whole(json, "seed", scene->world->def.seed);
+    jox_json_whole(json, "seed", scene->world->model.def.seed);
     jox_json_whole(json, "agents", stats->agents);
     jox_json_whole(json, "bodies", stats->bodies);
     jox_json_number(json, "dt", stats->dt);
@@ -262,7 +265,7 @@ char *jo_scene_summary(const JoScene *scene) {
     JOX_GUARD (NULL, NULL)
         return NULL;
     const JoWorld *world = scene->world;
-    const JoxStatistics *s = &world->statistics;
+    const JoxStatistics *s = &world->state.statistics;
     const JoStats stats = jo_scene_stats(scene);
     JoxText out = {0};
     JoxJson json = jox_json_begin(&out, 2);
@@ -274,7 +277,7 @@ char *jo_scene_summary(const JoScene *scene) {
     jox_json_number(&json, "density_max", jox_run_density_max(scene));
     jox_json_number(&json, "overlap_p99", jox_statistics_overlap_p99(s));
     add_states(&json, world);
-    add_transitions(&json, &world->mind);
+    add_transitions(&json, &world->machines);
     add_regions(&json, scene);
     add_events(&json, scene);
     add_bonds(&json, scene);
@@ -284,7 +287,7 @@ char *jo_scene_summary(const JoScene *scene) {
     jox_run_add_probes(scene, &json);
     jox_json_format(&json, "hash", "%016llx", (unsigned long long)jox_world_hash(world));
     jox_json_string(&json, "isa", "scalar");
-    jox_json_whole(&json, "threads", jox_pool_threads(world->pool));
+    jox_json_whole(&json, "threads", jox_pool_threads(world->scratch.pool));
     add_inputs(&json, scene);
     jox_json_end(&json);
     jox_text_append(&out, "\n", 1);

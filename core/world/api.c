@@ -83,10 +83,10 @@ JoWorld *jo_world_create(const JoWorldDef *def, JoError *error) {
 /* Checks and converts points; NULL with `error` if something is wrong. The caller frees. */
 static JoxV2 *read_points(const JoWorld *world, const double *xy, size_t count, size_t least,
                           JoError *error) {
-    if (world->tick > 0 || count < least || count > 100000) {
+    if (world->state.tick > 0 || count < least || count > 100000) {
         jox_error(error, JO_INPUT,
-                  world->tick > 0 ? "walls cannot be added after the first step"
-                                  : "a wall needs at least %zu points",
+                  world->state.tick > 0 ? "walls cannot be added after the first step"
+                                        : "a wall needs at least %zu points",
                   least);
         return NULL;
     }
@@ -113,8 +113,8 @@ bool jo_world_add_solid(JoWorld *world, const double *xy, size_t count, JoError 
     bool good = !jox_polygon_self_crosses(points, (uint32_t)count, &a, &b) &&
                 jox_polygon_area(points, (uint32_t)count) != 0.0;
     if (good)
-        jox_walls_add_solid(&world->all_walls, points, (uint32_t)count, INFINITY);
-    world->walls_set = false;
+        jox_walls_add_solid(&world->model.all_walls, points, (uint32_t)count, INFINITY);
+    world->state.walls_set = false;
     if (!good)
         jox_error(error, JO_INPUT, "a solid must enclose an area and not cross itself");
     jox_free(points);
@@ -128,8 +128,8 @@ bool jo_world_add_line(JoWorld *world, const double *xy, size_t count, JoError *
     JoxV2 *points = read_points(world, xy, count, 2, error);
     if (!points)
         return false;
-    jox_walls_add_polyline(&world->all_walls, points, (uint32_t)count, false, INFINITY);
-    world->walls_set = false;
+    jox_walls_add_polyline(&world->model.all_walls, points, (uint32_t)count, false, INFINITY);
+    world->state.walls_set = false;
     jox_free(points);
     return true;
 }
@@ -166,8 +166,8 @@ static bool agent_parameters(const JoAgentDef *def, double values[JOX_PARAM_COUN
 }
 
 static JoAgent handle_of(const JoWorld *world, uint32_t index) {
-    uint32_t slot = world->agents.slot[index];
-    return (JoAgent){slot, world->agents.slot_generation[slot]};
+    uint32_t slot = world->state.agents.slot[index];
+    return (JoAgent){slot, world->state.agents.slot_generation[slot]};
 }
 
 JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error) {
@@ -179,12 +179,12 @@ JoAgent jo_world_add_agent(JoWorld *world, const JoAgentDef *def, JoError *error
         return (JoAgent){0};
     uint32_t i = jox_world_add_agent(world, (float)def->x, (float)def->y);
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
-        world->agents.param[p][i] = jox_parameter_store((JoxParameter)p, values[p]);
+        world->state.agents.param[p][i] = jox_parameter_store((JoxParameter)p, values[p]);
     return handle_of(world, i);
 }
 
 uint32_t jox_world_find(const JoWorld *world, JoAgent agent) {
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     if (jox_heap_has_failed(world->heap) || agent.generation == 0 || agent.slot >= a->slot_count ||
         a->slot_generation[agent.slot] != agent.generation)
         return JOX_NO_INDEX;
@@ -196,8 +196,8 @@ void jo_world_remove_agent(JoWorld *world, JoAgent agent) {
     uint32_t i = jox_world_find(world, agent);
     if (i == JOX_NO_INDEX)
         return;
-    world->agents.removed[i] = 1;
-    jox_agents_compact(&world->agents);
+    world->state.agents.removed[i] = 1;
+    jox_agents_compact(&world->state.agents);
 }
 
 bool jo_agent_is_live(const JoWorld *world, JoAgent agent) {
@@ -210,10 +210,10 @@ JoAgentState jo_agent_state(const JoWorld *world, JoAgent agent) {
     uint32_t i = jox_world_find(world, agent);
     if (i == JOX_NO_INDEX)
         return (JoAgentState){.state = ""};
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     const char *state = a->machine[i] == JOX_NO_MACHINE
                             ? ""
-                            : world->mind.machines[a->machine[i]]->states[a->state[i]].name;
+                            : world->model.machines.items[a->machine[i]]->states[a->state[i]].name;
     return (JoAgentState){.id = a->id[i],
                           .x = a->x[i],
                           .y = a->y[i],
@@ -231,8 +231,8 @@ void jo_agent_set_preferred(JoWorld *world, JoAgent agent, double vx, double vy)
     uint32_t i = jox_world_find(world, agent);
     if (i == JOX_NO_INDEX)
         return;
-    world->agents.pref_x[i] = (float)vx;
-    world->agents.pref_y[i] = (float)vy;
+    world->state.agents.pref_x[i] = (float)vx;
+    world->state.agents.pref_y[i] = (float)vy;
 }
 
 void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy) {
@@ -240,8 +240,8 @@ void jo_agent_apply_force(JoWorld *world, JoAgent agent, double fx, double fy) {
     uint32_t i = jox_world_find(world, agent);
     if (i == JOX_NO_INDEX)
         return;
-    world->agents.ext_x[i] += (float)fx;
-    world->agents.ext_y[i] += (float)fy;
+    world->state.agents.ext_x[i] += (float)fx;
+    world->state.agents.ext_y[i] += (float)fy;
 }
 
 bool jo_agent_set_parameter(JoWorld *world, JoAgent agent, const char *name, double value) {
@@ -251,7 +251,7 @@ bool jo_agent_set_parameter(JoWorld *world, JoAgent agent, const char *name, dou
     if (i == JOX_NO_INDEX || p < 0 ||
         !(value >= jox_parameters[p].least && value <= jox_parameters[p].greatest))
         return false;
-    world->agents.param[p][i] = jox_parameter_store((JoxParameter)p, value);
+    world->state.agents.param[p][i] = jox_parameter_store((JoxParameter)p, value);
     return true;
 }
 
@@ -284,23 +284,23 @@ JoBody jo_world_add_body(JoWorld *world, const JoBodyDef *def, JoError *error) {
     body.friction = def->friction;
     body.restitution = def->restitution;
     JoxText why = {0};
-    uint32_t row = jox_bodies_add(world->bodies, &body, &why);
+    uint32_t row = jox_bodies_add(world->state.bodies, &body, &why);
     if (row == JOX_NO_BODY) {
         jox_error(error, JO_INPUT, "%s", why.data ? why.data : "the body was refused");
         jox_text_free(&why);
         return (JoBody){0};
     }
-    jox_bodies_objects(world->bodies, &world->objects);
+    jox_bodies_objects(world->state.bodies, &world->scratch.objects);
     /* Ids of bodies are never reused, so that the id serves as the generation. */
-    return (JoBody){row, world->objects.rows[row].id + 1};
+    return (JoBody){row, world->scratch.objects.rows[row].id + 1};
 }
 
 JoBodyState jo_body_state(const JoWorld *world, JoBody body) {
     JOX_REQUIRE(world, (JoBodyState){0});
     JoxPose pose;
     if (jox_heap_has_failed(world->heap) || body.generation == 0 ||
-        jox_bodies_find(world->bodies, body.generation - 1) != body.slot ||
-        !jox_bodies_pose(world->bodies, body.slot, &pose))
+        jox_bodies_find(world->state.bodies, body.generation - 1) != body.slot ||
+        !jox_bodies_pose(world->state.bodies, body.slot, &pose))
         return (JoBodyState){0};
     return (JoBodyState){pose.centre.x,   pose.centre.y,  pose.centre.z, pose.turn[0],
                          pose.turn[1],    pose.turn[2],   pose.turn[3],  pose.velocity.x,
@@ -309,7 +309,7 @@ JoBodyState jo_body_state(const JoWorld *world, JoBody body) {
 
 uint32_t jo_world_body_count(const JoWorld *world) {
     JOX_REQUIRE(world, 0);
-    return jox_bodies_count(world->bodies);
+    return jox_bodies_count(world->state.bodies);
 }
 
 const char *jo_stage_name(int stage) {
@@ -335,22 +335,22 @@ const char *jo_world_failure(const JoWorld *world) {
 
 double jo_world_time(const JoWorld *world) {
     JOX_REQUIRE(world, 0.0);
-    return (double)world->tick * world->def.dt;
+    return (double)world->state.tick * world->model.def.dt;
 }
 
 uint64_t jo_world_tick(const JoWorld *world) {
     JOX_REQUIRE(world, 0);
-    return world->tick;
+    return world->state.tick;
 }
 
 uint32_t jo_world_agent_count(const JoWorld *world) {
     JOX_REQUIRE(world, 0);
-    return world->agents.count;
+    return world->state.agents.count;
 }
 
 uint32_t jo_world_agents(const JoWorld *world, JoAgent *out, uint32_t capacity) {
     JOX_REQUIRE(world && (out || capacity == 0), 0);
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     uint32_t n = 0;
     if (jox_heap_has_failed(world->heap))
         return 0;

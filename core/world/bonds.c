@@ -11,7 +11,7 @@ static const float FRONT = 0.30f; /* m: from the wall to the skin of those who a
 
 /* From an agent's skin to the footprint of a body, m. */
 static float gap_to(const JoWorld *w, const JoxObject *body, uint32_t i) {
-    const JoxAgents *a = &w->agents;
+    const JoxAgents *a = &w->state.agents;
     JoxV2 at = {a->x[i], a->y[i]};
     float least = INFINITY;
     if (body->footprint_count >= 3 &&
@@ -26,21 +26,21 @@ static float gap_to(const JoWorld *w, const JoxObject *body, uint32_t i) {
 }
 
 static double now(const JoWorld *w) {
-    return (double)w->tick * w->def.dt + (w->part + 1) * w->part_dt;
+    return (double)w->state.tick * w->model.def.dt + (w->scratch.part + 1) * w->scratch.part_dt;
 }
 
 /* Until somebody touches a bonded body: how slow those before it have become. */
 void jox_world_note_touch(JoWorld *w) {
-    JoxBondStatistics *s = &w->statistics.bonds;
-    const JoxAgents *a = &w->agents;
+    JoxBondStatistics *s = &w->state.statistics.bonds;
+    const JoxAgents *a = &w->state.agents;
     JoxBodyBonds bonds;
-    for (uint32_t o = 0; o < w->objects.count && !s->touched; o++) {
-        if (!jox_bodies_bonds(w->bodies, o, &bonds))
+    for (uint32_t o = 0; o < w->scratch.objects.count && !s->touched; o++) {
+        if (!jox_bodies_bonds(w->state.bodies, o, &bonds))
             continue;
         uint32_t front = 0;
         double sum = 0.0;
         for (uint32_t i = 0; i < a->count; i++) {
-            float gap = gap_to(w, &w->objects.rows[o], i);
+            float gap = gap_to(w, &w->scratch.objects.rows[o], i);
             if (gap > FRONT)
                 continue;
             s->touched = s->touched || gap <= 0.0f;
@@ -65,8 +65,8 @@ static bool presses(const JoxAgents *a, uint32_t i, float gap) {
 /* Agents in the order in which chains of people, each pressing on the one before, lead to them from
    the body: the rows are how far the last is, the people all that are reached. */
 static void count_rows(JoWorld *w, const JoxObject *body) {
-    const JoxAgents *a = &w->agents;
-    const JoxNeighbours *near = &w->neighbours;
+    const JoxAgents *a = &w->state.agents;
+    const JoxNeighbours *near = &w->scratch.neighbours;
     const float *radius = a->param[JOX_PARAM_radius];
     uint32_t *row = jox_alloc((size_t)a->count + 1, sizeof *row);
     uint32_t *queue = jox_alloc((size_t)a->count + 1, sizeof *queue), end = 0;
@@ -86,19 +86,19 @@ static void count_rows(JoWorld *w, const JoxObject *body) {
             queue[end++] = j;
         }
     }
-    w->statistics.bonds.people = end;
-    w->statistics.bonds.rows = end ? row[queue[end - 1]] : 0;
+    w->state.statistics.bonds.people = end;
+    w->state.statistics.bonds.rows = end ? row[queue[end - 1]] : 0;
     jox_free(row);
     jox_free(queue);
 }
 
 void jox_world_note_breaks(JoWorld *w, const JoxBodiesReport *report) {
-    JoxBondStatistics *s = &w->statistics.bonds;
+    JoxBondStatistics *s = &w->state.statistics.bonds;
     for (uint32_t k = 0; k < report->break_count; k++) {
         const JoxBodyBreak *broken = &report->breaks[k];
         if (s->broken == 0) {
             s->first_s = now(w);
-            count_rows(w, &w->objects.rows[broken->row]); /* as it was before the step */
+            count_rows(w, &w->scratch.objects.rows[broken->row]); /* as it was before the step */
         }
         s->broken += broken->bonds;
         s->pieces += broken->pieces - 1;

@@ -12,46 +12,47 @@ static JoxV3 before(const JoxAgents *a, uint32_t i, const JoxObject *object, Jox
 }
 
 static void carry_along(JoWorld *w) {
-    const JoxAgents *a = &w->agents;
-    for (uint32_t o = 0; o < w->objects.count; o++) {
-        const JoxObject *object = &w->objects.rows[o];
+    const JoxAgents *a = &w->state.agents;
+    for (uint32_t o = 0; o < w->scratch.objects.count; o++) {
+        const JoxObject *object = &w->scratch.objects.rows[o];
         if (!object->live || !object->held)
             continue;
         uint32_t i = jox_agents_find(a, object->holder);
         if (i == JOX_NO_INDEX || a->removed[i]) { /* who left lets it fall */
-            jox_bodies_let_go(w->bodies, o, (JoxV3){0.0f, 0.0f, 0.0f});
+            jox_bodies_let_go(w->state.bodies, o, (JoxV3){0.0f, 0.0f, 0.0f});
             continue;
         }
         JoxV2 face = {a->face_x[i], a->face_y[i]};
-        jox_bodies_carry(w->bodies, o, before(a, i, object, face),
+        jox_bodies_carry(w->state.bodies, o, before(a, i, object, face),
                          (JoxV3){a->vx[i], a->vy[i], 0.0f});
     }
 }
 
 void jox_world_carry(JoWorld *w) {
-    const JoxAgents *a = &w->agents;
+    const JoxAgents *a = &w->state.agents;
     carry_along(w);
-    for (uint32_t g = 0; g < w->mind.grip_count; g++) {
-        const JoxGrip *grip = &w->mind.grips[g];
+    for (uint32_t g = 0; g < w->machines.grip_count; g++) {
+        const JoxGrip *grip = &w->machines.grips[g];
         uint32_t i = jox_agents_find(a, grip->agent_id);
         if (i == JOX_NO_INDEX)
             continue;
-        const JoxObject *object = &w->objects.rows[grip->object];
+        const JoxObject *object = &w->scratch.objects.rows[grip->object];
         if (grip->takes) {
-            w->statistics.pickups += jox_bodies_hold(w->bodies, grip->object, grip->agent_id);
+            w->state.statistics.pickups +=
+                jox_bodies_hold(w->state.bodies, grip->object, grip->agent_id);
             continue;
         }
         JoxV2 way = jox_unit((JoxV2){grip->velocity.x, grip->velocity.y});
-        jox_bodies_carry(w->bodies, grip->object, before(a, i, object, way), grip->velocity);
-        jox_bodies_let_go(w->bodies, grip->object, grip->velocity);
-        w->statistics.throws++;
+        jox_bodies_carry(w->state.bodies, grip->object, before(a, i, object, way), grip->velocity);
+        jox_bodies_let_go(w->state.bodies, grip->object, grip->velocity);
+        w->state.statistics.throws++;
     }
 }
 
 bool jox_world_throw(JoWorld *w, uint32_t row, const double from[3], const double velocity[3],
                      const double spin[3]) {
     JoxPose pose;
-    if (!jox_bodies_pose(w->bodies, row, &pose) || !jox_bodies_hold(w->bodies, row, 0))
+    if (!jox_bodies_pose(w->state.bodies, row, &pose) || !jox_bodies_hold(w->state.bodies, row, 0))
         return false;
     JoxV3 v = {(float)velocity[0], (float)velocity[1], (float)velocity[2]};
     JoxV3 turn = {(float)spin[0], (float)spin[1], (float)spin[2]}, at = pose.centre;
@@ -59,9 +60,9 @@ bool jox_world_throw(JoWorld *w, uint32_t row, const double from[3], const doubl
         at = (JoxV3){(float)from[0] + pose.centre.x - pose.position.x,
                      (float)from[1] + pose.centre.y - pose.position.y,
                      (float)from[2] + pose.centre.z - pose.position.z};
-    jox_bodies_carry(w->bodies, row, at, v);
-    jox_bodies_let_go(w->bodies, row, v);
-    jox_bodies_set_velocity(w->bodies, row, v, turn);
-    w->statistics.throws++;
+    jox_bodies_carry(w->state.bodies, row, at, v);
+    jox_bodies_let_go(w->state.bodies, row, v);
+    jox_bodies_set_velocity(w->state.bodies, row, v, turn);
+    w->state.statistics.throws++;
     return true;
 }

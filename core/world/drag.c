@@ -13,7 +13,7 @@ static const float DRAG_STEADY = 6.0f; /* 1/s: how fast it stops turning */
 
 uint32_t jox_world_add_box(JoWorld *w, const double at[3], const double velocity[3], double size,
                            double mass, JoxText *why) {
-    JoxDrags *drags = &w->drags;
+    JoxDrags *drags = &w->state.drags;
     JoxBodyDef def = jox_body_def();
     memcpy(def.position, at, sizeof def.position);
     memcpy(def.velocity, velocity, sizeof def.velocity);
@@ -22,54 +22,54 @@ uint32_t jox_world_add_box(JoWorld *w, const double at[3], const double velocity
     if (def.position[2] < size / 2) /* it lies upon the ground, not in it */
         def.position[2] = size / 2;
     def.mass = mass;
-    uint32_t row = jox_bodies_add(w->bodies, &def, why);
+    uint32_t row = jox_bodies_add(w->state.bodies, &def, why);
     if (row == JOX_NO_BODY)
         return row;
-    jox_bodies_objects(w->bodies, &w->objects);
+    jox_bodies_objects(w->state.bodies, &w->scratch.objects);
     if (drags->box_count == JOX_MOST_BOXES) { /* the oldest goes */
-        jox_bodies_remove(w->bodies, jox_bodies_find(w->bodies, drags->boxes[0]));
-        jox_bodies_objects(w->bodies, &w->objects);
+        jox_bodies_remove(w->state.bodies, jox_bodies_find(w->state.bodies, drags->boxes[0]));
+        jox_bodies_objects(w->state.bodies, &w->scratch.objects);
         memmove(drags->boxes, drags->boxes + 1, --drags->box_count * sizeof *drags->boxes);
     }
-    drags->boxes[drags->box_count++] = w->objects.rows[row].id;
+    drags->boxes[drags->box_count++] = w->scratch.objects.rows[row].id;
     return row;
 }
 
 static int32_t find_grab(const JoWorld *w, uint32_t row) {
-    for (uint32_t g = 0; g < w->drags.grab_count; g++)
-        if (w->drags.grabs[g].row == row && row < w->objects.count &&
-            w->objects.rows[row].id == w->drags.grabs[g].id)
+    for (uint32_t g = 0; g < w->state.drags.grab_count; g++)
+        if (w->state.drags.grabs[g].row == row && row < w->scratch.objects.count &&
+            w->scratch.objects.rows[row].id == w->state.drags.grabs[g].id)
             return (int32_t)g;
     return -1;
 }
 
 static void drop(JoWorld *w, uint32_t g) {
-    w->drags.grabs[g] = w->drags.grabs[--w->drags.grab_count];
+    w->state.drags.grabs[g] = w->state.drags.grabs[--w->state.drags.grab_count];
 }
 
 JoxGrabbed jox_world_grab(JoWorld *w, uint32_t row, const double to[3], bool anew) {
     JoxPose pose;
-    jox_bodies_objects(w->bodies, &w->objects);
-    if (!jox_bodies_pose(w->bodies, row, &pose))
+    jox_bodies_objects(w->state.bodies, &w->scratch.objects);
+    if (!jox_bodies_pose(w->state.bodies, row, &pose))
         return JOX_GRAB_NONE;
     if (!(pose.mass > 0.0f))
         return JOX_GRAB_STATIC;
     int32_t g = find_grab(w, row);
     if (g < 0 && !anew)
         return JOX_GRAB_FREE;
-    if (g < 0 && w->drags.grab_count == JOX_MOST_GRABS)
+    if (g < 0 && w->state.drags.grab_count == JOX_MOST_GRABS)
         return JOX_GRAB_FULL;
     if (g < 0)
-        g = (int32_t)w->drags.grab_count++;
-    if (w->objects.rows[row].held) /* who carries it loses it */
-        jox_bodies_let_go(w->bodies, row, pose.velocity);
-    w->drags.grabs[g] =
-        (struct JoxGrab){row, w->objects.rows[row].id, {(float)to[0], (float)to[1], (float)to[2]}};
+        g = (int32_t)w->state.drags.grab_count++;
+    if (w->scratch.objects.rows[row].held) /* who carries it loses it */
+        jox_bodies_let_go(w->state.bodies, row, pose.velocity);
+    w->state.drags.grabs[g] = (struct JoxGrab){
+        row, w->scratch.objects.rows[row].id, {(float)to[0], (float)to[1], (float)to[2]}};
     return JOX_GRAB_DONE;
 }
 
 bool jox_world_release(JoWorld *w, uint32_t row) {
-    jox_bodies_objects(w->bodies, &w->objects);
+    jox_bodies_objects(w->state.bodies, &w->scratch.objects);
     int32_t g = find_grab(w, row);
     if (g >= 0)
         drop(w, (uint32_t)g);
@@ -86,11 +86,11 @@ static JoxV3 at_most(JoxV3 v, float most) {
 }
 
 void jox_world_pull(JoWorld *w) {
-    for (uint32_t g = 0; g < w->drags.grab_count;) {
-        const struct JoxGrab *grab = &w->drags.grabs[g];
+    for (uint32_t g = 0; g < w->state.drags.grab_count;) {
+        const struct JoxGrab *grab = &w->state.drags.grabs[g];
         JoxPose pose;
-        if (!jox_bodies_pose(w->bodies, grab->row, &pose) ||
-            w->objects.rows[grab->row].id != grab->id) {
+        if (!jox_bodies_pose(w->state.bodies, grab->row, &pose) ||
+            w->scratch.objects.rows[grab->row].id != grab->id) {
             drop(w, g); /* it is gone */
             continue;
         }
@@ -104,11 +104,11 @@ void jox_world_pull(JoWorld *w) {
                                       most * (wanted.y - pose.velocity.y),
                                       most * (wanted.z - pose.velocity.z)},
                               DRAG_FORCE);
-        force.z += jox_minf(pose.mass * (float)w->def.gravity, DRAG_FORCE);
-        float kept = jox_maxf(0.0f, 1.0f - DRAG_STEADY * (float)w->part_dt);
+        force.z += jox_minf(pose.mass * (float)w->model.def.gravity, DRAG_FORCE);
+        float kept = jox_maxf(0.0f, 1.0f - DRAG_STEADY * (float)w->scratch.part_dt);
         JoxV3 spin = {pose.spin.x * kept, pose.spin.y * kept, pose.spin.z * kept};
-        jox_bodies_set_velocity(w->bodies, grab->row, pose.velocity, spin);
-        jox_bodies_force(w->bodies, grab->row, force);
+        jox_bodies_set_velocity(w->state.bodies, grab->row, pose.velocity, spin);
+        jox_bodies_force(w->state.bodies, grab->row, force);
     }
 }
 

@@ -4,16 +4,16 @@
 #include "world/world.h"
 
 static void change(JoWorld *world) {
-    world->walls_set = false;
-    world->walls_version++;
+    world->state.walls_set = false;
+    world->state.walls_version++;
 }
 
 void jox_world_set_walls(JoWorld *world, JoxWalls *walls) {
-    JoxWalls old = world->all_walls;
-    world->all_walls = *walls;
+    JoxWalls old = world->model.all_walls;
+    world->model.all_walls = *walls;
     *walls = (JoxWalls){0};
-    for (uint32_t r = 0; r < world->all_walls.ring_count; r++) {
-        struct JoxWallRing *ring = &world->all_walls.rings[r];
+    for (uint32_t r = 0; r < world->model.all_walls.ring_count; r++) {
+        struct JoxWallRing *ring = &world->model.all_walls.rings[r];
         for (uint32_t o = 0; ring->name && o < old.ring_count; o++) {
             if (!old.rings[o].set || strcmp(old.rings[o].name, ring->name) != 0)
                 continue;
@@ -22,14 +22,14 @@ void jox_world_set_walls(JoWorld *world, JoxWalls *walls) {
         }
     }
     jox_walls_free(&old);
-    world->walls_came = true;
+    world->state.walls_came = true;
     change(world);
 }
 
 uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open) {
     uint32_t count = 0;
-    for (uint32_t r = 0; r < world->all_walls.ring_count; r++) {
-        struct JoxWallRing *ring = &world->all_walls.rings[r];
+    for (uint32_t r = 0; r < world->model.all_walls.ring_count; r++) {
+        struct JoxWallRing *ring = &world->model.all_walls.rings[r];
         if (!ring->name || strcmp(ring->name, name) != 0)
             continue;
         count++;
@@ -37,32 +37,34 @@ uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open) {
         if (ring->open == open)
             continue;
         ring->open = open;
-        world->walls_came |= !open;
+        world->state.walls_came |= !open;
         change(world);
     }
     return count;
 }
 
-static void raise(JoWorld *world) {
-    if (world->walls_set)
+void jox_world_raise_walls(JoWorld *world) {
+    if (world->state.walls_set)
         return;
-    world->walls_set = true;
-    if (world->all_walls.count == 0 && world->walls.count == 0)
+    world->state.walls_set = true;
+    if (world->model.all_walls.count == 0 && world->scratch.walls.count == 0)
         return;
-    jox_walls_standing(&world->walls, &world->all_walls, true);
-    jox_nav_set_walls(world->nav, &world->walls);
-    jox_bodies_set_walls(world->bodies, &world->walls, JOX_WALL_HEIGHT);
+    jox_walls_standing(&world->scratch.walls, &world->model.all_walls, true);
+    jox_nav_set_walls(world->scratch.nav, &world->scratch.walls);
+    jox_bodies_set_walls(world->state.bodies, &world->scratch.walls, JOX_WALL_HEIGHT);
 }
 
-JoxSettled jox_world_settle(JoWorld *world) {
-    JoxSettled settled = {0};
-    raise(world);
-    if (world->settled && !world->walls_came)
+JoxPlacement jox_world_resolve_placement(JoWorld *world) {
+    JoxPlacement settled = {0};
+    jox_world_raise_walls(world);
+    if (world->state.settled && !world->state.walls_came)
         return settled;
-    uint32_t first = world->settled ? world->agents.next_id : world->first_unsettled;
-    settled = jox_nav_settle(world->nav, &world->agents, first, world->walls_came);
-    world->statistics.moved_out += settled.moved;
-    world->settled = true;
-    world->walls_came = false;
+    uint32_t first =
+        world->state.settled ? world->state.agents.next_id : world->state.first_unsettled;
+    settled = jox_nav_resolve_placement(world->scratch.nav, &world->state.agents, first,
+                                        world->state.walls_came);
+    world->state.statistics.moved_out += settled.moved;
+    world->state.settled = true;
+    world->state.walls_came = false;
     return settled;
 }

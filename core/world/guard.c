@@ -45,25 +45,25 @@ static bool is_finite(const float *column, uint32_t count) {
 
 /* The agent of the least id whose number is not finite, and who it is. */
 static void blame(JoWorld *w, const Column *column) {
-    const JoxAgents *a = &w->agents;
+    const JoxAgents *a = &w->state.agents;
     uint32_t worst = JOX_NO_INDEX;
     for (uint32_t i = 0; i < a->count; i++)
         if (!isfinite(column->of[i]) && (worst == JOX_NO_INDEX || a->id[i] < a->id[worst]))
             worst = i;
     uint16_t number = a->machine[worst];
-    const JoxMachine *machine = number == JOX_NO_MACHINE ? NULL : w->mind.machines[number];
+    const JoxMachine *machine = number == JOX_NO_MACHINE ? NULL : w->model.machines.items[number];
     snprintf(w->failure, sizeof w->failure,
              "step %llu: the %s of agent %u is not finite (%s%.60s%s%.60s); the run cannot go on",
-             (unsigned long long)w->tick, column->what, a->id[worst],
+             (unsigned long long)w->state.tick, column->what, a->id[worst],
              machine ? "machine " : "no machine", machine ? machine->name : "",
              machine ? ", state " : "", machine ? machine->states[a->state[worst]].name : "");
 }
 
 bool jox_world_is_finite(JoWorld *w) {
     Column columns[COLUMNS];
-    list_columns(&w->agents, columns);
+    list_columns(&w->state.agents, columns);
     for (int c = 0; c < COLUMNS; c++)
-        if (!is_finite(columns[c].of, w->agents.count)) {
+        if (!is_finite(columns[c].of, w->state.agents.count)) {
             blame(w, &columns[c]);
             return false;
         }

@@ -7,7 +7,7 @@
 #define JOX_WORLD_INPUT_H
 
 #include "base/diag.h"
-#include "machine/mind.h"
+#include "machine/run.h"
 
 typedef enum JoxInputVerb {
     JOX_INPUT_PLAYER,

@@ -7,20 +7,20 @@
 static const double FORGOTTEN = 5.0; /* s, simulated, without a look */
 
 static uint32_t index_of(const JoWorld *w, uint32_t id) {
-    return jox_agents_find(&w->agents, id);
+    return jox_agents_find(&w->state.agents, id);
 }
 
 static void end(JoWorld *w, uint32_t n) {
-    JoxInspection *all = &w->inspection;
+    JoxInspection *all = &w->scratch.inspection;
     jox_text_free(&all->watched[n].why);
     all->count--;
     memmove(&all->agents[n], &all->agents[n + 1], (all->count - n) * sizeof *all->agents);
     memmove(&all->watched[n], &all->watched[n + 1], (all->count - n) * sizeof *all->watched);
-    w->mind.watched_count = all->count;
+    w->machines.watched_count = all->count;
 }
 
 static JoxInspected *begin(JoWorld *w, uint32_t slot, uint32_t id) {
-    JoxInspection *all = &w->inspection;
+    JoxInspection *all = &w->scratch.inspection;
     uint32_t oldest = 0;
     for (uint32_t n = 1; n < all->count; n++)
         if (all->agents[n].asked < all->agents[oldest].asked)
@@ -30,47 +30,49 @@ static JoxInspected *begin(JoWorld *w, uint32_t slot, uint32_t id) {
     uint32_t n = all->count++;
     all->agents[n] = (JoxInspected){.slot = slot, .id = id};
     all->watched[n] = (JoxWatched){.agent_id = id};
-    w->mind.watched = all->watched;
-    w->mind.watched_count = all->count;
+    w->machines.watched = all->watched;
+    w->machines.watched_count = all->count;
     return &all->agents[n];
 }
 
 JoxInspected *jox_world_inspect(JoWorld *w, uint32_t slot, const JoxWatched **watched) {
-    JoxInspection *all = &w->inspection;
-    uint32_t i = slot < w->agents.slot_count ? w->agents.slot_index[slot] : JOX_NO_INDEX;
+    JoxInspection *all = &w->scratch.inspection;
+    uint32_t i =
+        slot < w->state.agents.slot_count ? w->state.agents.slot_index[slot] : JOX_NO_INDEX;
     JoxInspected *found = NULL;
     for (uint32_t n = 0; n < all->count && !found; n++) {
         if (all->agents[n].slot != slot)
             continue;
-        if (i == JOX_NO_INDEX || w->agents.id[i] != all->agents[n].id) {
+        if (i == JOX_NO_INDEX || w->state.agents.id[i] != all->agents[n].id) {
             end(w, n);
             return NULL;
         }
         found = &all->agents[n];
     }
     if (!found && i != JOX_NO_INDEX)
-        found = begin(w, slot, w->agents.id[i]);
+        found = begin(w, slot, w->state.agents.id[i]);
     if (!found)
         return NULL;
-    found->asked = (uint32_t)w->tick;
+    found->asked = (uint32_t)w->state.tick;
     *watched = &all->watched[found - all->agents];
     return found;
 }
 
 void jox_inspect_expire(JoWorld *w) {
-    for (uint32_t n = w->inspection.count; n-- > 0;)
-        if ((double)(w->tick - w->inspection.agents[n].asked) * w->def.dt > FORGOTTEN)
+    for (uint32_t n = w->scratch.inspection.count; n-- > 0;)
+        if ((double)(w->state.tick - w->scratch.inspection.agents[n].asked) * w->model.def.dt >
+            FORGOTTEN)
             end(w, n);
 }
 
 void jox_inspect_pushed(JoWorld *w) {
-    const JoxAgents *a = &w->agents;
-    for (uint32_t n = 0; n < w->inspection.count; n++) {
-        JoxInspected *seen = &w->inspection.agents[n];
+    const JoxAgents *a = &w->state.agents;
+    for (uint32_t n = 0; n < w->scratch.inspection.count; n++) {
+        JoxInspected *seen = &w->scratch.inspection.agents[n];
         uint32_t i = index_of(w, seen->id);
         if (i == JOX_NO_INDEX)
             continue;
-        JoxV2 body = jox_force_of_bodies(w->forces, i);
+        JoxV2 body = jox_force_of_bodies(w->scratch.forces, i);
         seen->forces[JOX_FORCE_PUSH] = (JoxV2){a->push_x[i], a->push_y[i]};
         seen->forces[JOX_FORCE_CONTACT] = jox_sub((JoxV2){a->contact_x[i], a->contact_y[i]}, body);
         seen->forces[JOX_FORCE_DECELERATION] = seen->slowed;
@@ -83,32 +85,34 @@ void jox_inspect_pushed(JoWorld *w) {
 }
 
 void jox_inspect_solved(JoWorld *w) {
-    const JoxAgents *a = &w->agents;
-    for (uint32_t n = 0; n < w->inspection.count; n++) {
-        JoxInspected *seen = &w->inspection.agents[n];
+    const JoxAgents *a = &w->state.agents;
+    for (uint32_t n = 0; n < w->scratch.inspection.count; n++) {
+        JoxInspected *seen = &w->scratch.inspection.agents[n];
         uint32_t i = index_of(w, seen->id);
         if (i == JOX_NO_INDEX)
             continue;
         seen->plane_count =
-            jox_nav_planes(w->nav, a, &w->neighbours, &w->objects, w->plan, i, seen->planes);
+            jox_nav_constraints(w->scratch.nav, a, &w->scratch.neighbours, &w->scratch.objects,
+                                w->scratch.plan, i, seen->planes);
         seen->preferred = (JoxV2){a->pref_x[i], a->pref_y[i]};
         seen->chosen = (JoxV2){a->next_x[i], a->next_y[i]};
-        seen->most = a->disc[i];
+        seen->speed_limit = a->speed_limit[i];
         seen->failed = a->failed[i];
         seen->seen = true;
     }
 }
 
 void jox_inspect_inferred(JoWorld *w) {
-    for (uint32_t n = 0; n < w->inspection.count; n++) {
-        JoxInspected *seen = &w->inspection.agents[n];
+    for (uint32_t n = 0; n < w->scratch.inspection.count; n++) {
+        JoxInspected *seen = &w->scratch.inspection.agents[n];
         uint32_t i = index_of(w, seen->id);
         if (i == JOX_NO_INDEX)
             continue;
         float kept;
-        JoxV2 hit = jox_sub((JoxV2){w->agents.force_x[i], w->agents.force_y[i]}, seen->summed);
+        JoxV2 hit =
+            jox_sub((JoxV2){w->state.agents.force_x[i], w->state.agents.force_y[i]}, seen->summed);
         seen->forces[JOX_FORCE_BODY] = jox_add(seen->forces[JOX_FORCE_BODY], hit);
-        JoxV2 added = jox_force_slowed(w->forces, i, &kept);
+        JoxV2 added = jox_force_slowed(w->scratch.forces, i, &kept);
         seen->slowed = jox_add(jox_scale(seen->slowed, kept), added);
     }
 }

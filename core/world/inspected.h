@@ -3,7 +3,7 @@
 #ifndef JOX_WORLD_INSPECTED_H
 #define JOX_WORLD_INSPECTED_H
 
-#include "machine/mind.h"
+#include "machine/run.h"
 #include "nav/nav.h"
 
 enum { JOX_MOST_INSPECTED = 8 };
@@ -23,13 +23,13 @@ typedef struct JoxInspected {
     uint32_t slot, id;
     uint32_t asked; /* tick at which somebody looked last */
     bool seen;      /* a step was done since it is looked at */
-    JoxPlaneSeen planes[JOX_MOST_PLANES];
+    JoxConstraint planes[JOX_MOST_CONSTRAINTS];
     uint32_t plane_count;
     JoxV2 forces[JOX_FORCE_PARTS];
     JoxV2 summed; /* the net force before fast bodies hit, N */
     JoxV2 slowed; /* of its inferred force, what comes of equation 8 */
     JoxV2 preferred, chosen;
-    float most; /* m/s, of the disc that it was solved in */
+    float speed_limit; /* of that step, m/s */
     bool failed;
 } JoxInspected;
 

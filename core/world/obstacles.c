@@ -97,6 +97,14 @@ void jox_obstacles_add(const JoxObstacles *obstacles, bool movable, JoxWalls *wa
     }
 }
 
+void jox_obstacles_sections(JoxObstacles *obstacles, JoxSections *s) {
+    JOX_SECTION_ARRAY(s, "obstacles", obstacles->items, obstacles->count, obstacles->capacity);
+    JOX_SECTION(s, "obstacles_version", obstacles->version);
+    for (uint32_t i = 0; s->mode == JOX_SECTIONS_RESTORE && i < obstacles->count; i++)
+        if (obstacles->items[i].count > JOX_FOOTPRINT_POINTS)
+            jox_sections_fail(s, "obstacles", "an obstacle has too many corners");
+}
+
 void jox_obstacles_free(JoxObstacles *obstacles) {
     jox_free(obstacles->items);
     *obstacles = (JoxObstacles){0};

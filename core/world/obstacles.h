@@ -2,12 +2,13 @@
 #ifndef JOX_WORLD_OBSTACLES_H
 #define JOX_WORLD_OBSTACLES_H
 
+#include "base/sections.h"
 #include "geom/objects.h"
 #include "geom/walls.h"
 
 typedef struct JoxObstacle {
-    uint32_t id;  /* of the body */
-    bool movable; /* not static */
+    uint32_t id;      /* of the body */
+    uint32_t movable; /* 1: not static */
     uint32_t count;
     JoxV2 ring[JOX_FOOTPRINT_POINTS]; /* counter-clockwise, m */
 } JoxObstacle;
@@ -25,6 +26,7 @@ typedef struct JoxObstacles {
 void jox_obstacles_update(JoxObstacles *obstacles, const JoxObjects *objects);
 /* Adds them to walls as solids; `movable` too, or only those that never move. */
 void jox_obstacles_add(const JoxObstacles *obstacles, bool movable, JoxWalls *walls);
+void jox_obstacles_sections(JoxObstacles *obstacles, JoxSections *sections);
 void jox_obstacles_free(JoxObstacles *obstacles);
 
 #endif

@@ -13,44 +13,59 @@
 #include "geom/place.h"
 #include "geom/walls.h"
 #include "jostle.h"
-#include "machine/mind.h"
+#include "machine/run.h"
 #include "nav/nav.h"
 #include "world/drag.h"
 #include "world/input.h"
 #include "world/inspected.h"
+#include "world/routes.h"
 #include "world/statistics.h"
-#include "world/ways.h"
 
 enum { JOX_MOST_TAGS = 64 };
 /* m: height of walls that are given none, for bodies */
 #define JOX_WALL_HEIGHT 3.0f
 
-struct JoWorld {
-    JoxHeap *heap; /* that it allocates from: its own, or that of its scene */
-    bool owns_heap;
+/* What a world is: built once, and changed only by a reload, by people who set a parameter, and,
+   for the walls that open, by events. */
+typedef struct JoxWorldModel {
     JoWorldDef def;
-    uint64_t tick; /* steps done */
-    JoxPool *pool;
-
-    JoxAgents agents;
-    JoxNeighbours neighbours;
-    JoxWalls all_walls; /* all walls, with their names */
-    JoxWalls walls;     /* those of them that stand */
+    JoxWalls all_walls; /* with their names; whether one that opens is open now is state */
     JoxPlace *places;   /* owned; their indices never change */
     uint32_t place_count;
     char *tags[JOX_MOST_TAGS]; /* bit number -> name */
     uint32_t tag_count;
-    JoxMind mind;
+    JoxMachineSet machines;
+} JoxWorldModel;
+
+/* All that the future of a world depends on, besides the model: jox_world_sections lists it. */
+typedef struct JoxWorldState {
+    uint64_t tick; /* steps done */
+    JoxAgents agents;
+    JoxMachineState machines;
     JoxInputLog input;
+    JoxRoutes *routes;
+    JoxBodies *bodies;
+    JoxDrags drags;
+    uint32_t walls_version; /* counts the changes of the walls */
+    uint32_t
+        first_unsettled; /* unless settled: id of the first agent added since the last settling */
+    bool settled;
+    bool walls_set;           /* scratch.walls, nav and bodies are as all_walls says */
+    bool walls_came;          /* since the last settling: some agents may stand in them */
+    JoxStatistics statistics; /* figures of the run: no step reads them */
+} JoxWorldState;
+
+/* What a step may forget: it follows from the model and the state, or is written before it is read.
+   Between steps some of it says what the last step did. */
+typedef struct JoxWorldScratch {
+    JoxPool *pool;
+    JoxNeighbours neighbours;
     JoxNav *nav;
     JoxForces *forces;
-    JoxBodies *bodies;
+    JoxWalls walls;     /* those that stand */
+    bool walls_set;     /* `walls`, nav and bodies are as all_walls says */
     JoxObjects objects; /* what agents see of the bodies */
-    JoxDrags drags;
     JoxInspection inspection;
-
-    JoxWays *ways;
-
     /* A step longer than people plan ahead is done in equal parts; think and observe run once. */
     uint32_t part, parts;
     double part_dt, plan; /* s: of a part; how far ahead velocities are planned */
@@ -58,17 +73,18 @@ struct JoWorld {
     uint32_t walked_capacity;
     JoxV2 *gone; /* m: where those stood who left of their own accord in the last step */
     uint32_t gone_count, gone_capacity;
-
-    bool walls_set;           /* `walls`, nav and bodies are as the plan says */
-    uint32_t walls_version;   /* counts the changes */
-    bool walls_came;          /* since the last settling: some may stand in them */
-    bool settled;             /* no agent has been added since the last settling */
-    uint32_t first_unsettled; /* else: id of the first of those */
-    JoxDisc *discs;           /* people as fast bodies meet them, and their indices */
+    JoxDisc *discs; /* people as fast bodies meet them, and their indices */
     uint32_t *disc_agents, disc_capacity;
+} JoxWorldScratch;
 
-    JoxStatistics statistics;
-    char failure[256]; /* why no further step can be done; "" while none failed */
+struct JoWorld {
+    JoxHeap *heap; /* that it allocates from: its own, or that of its scene */
+    bool owns_heap;
+    JoxWorldModel model;
+    JoxWorldState state;
+    JoxWorldScratch scratch;
+    JoxMachineRun machines; /* joins the machines' parts of all three */
+    char failure[256];      /* why no further step can be done; "" while none failed */
 };
 
 /* Fills an error, which may be NULL, with a formatted text. */
@@ -85,7 +101,9 @@ void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count);
 uint32_t jox_world_add_agent(JoWorld *world, float x, float y);
 /* Brings walls into effect, moves agents that were born in them or in each other or that stand
    where walls came, and says how many. Runs by itself before a step. */
-JoxSettled jox_world_settle(JoWorld *world);
+JoxPlacement jox_world_resolve_placement(JoWorld *world);
+/* Brings the walls that stand into effect, unless they are. */
+void jox_world_raise_walls(JoWorld *world);
 /* Takes walls over, in place of all there are. Those whose names were opened or closed before stay
    so. Who stands in a new wall is moved out before the next step. */
 void jox_world_set_walls(JoWorld *world, JoxWalls *walls);
@@ -127,6 +145,20 @@ bool jox_world_step(JoWorld *world);
 bool jox_world_is_finite(JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX. */
 uint32_t jox_world_find(const JoWorld *world, JoAgent agent);
+/* Lists the state, in one order for all modes. */
+void jox_world_sections(JoWorld *world, JoxSections *sections);
 uint64_t jox_world_hash(const JoWorld *world);
+/* Whether a state that is saved now goes on to the bit: always without bodies, and with them where
+   the next step re-inserts them (JOX_BODIES_REINSERT_STEPS). Who wants a snapshot between steps on
+   until it is so. */
+bool jox_world_snapshot_is_exact(const JoWorld *world);
+/* Appends the whole state to a buffer. False, and nothing appended, where it would not be exact. */
+bool jox_world_snapshot(JoWorld *world, JoxText *out, JoError *error);
+/* Puts a world of the same model (machines, walls, places, seed, step) into the state of a
+   snapshot: from here on it does what the other did. A buffer that is none, or of another model, is
+   refused and leaves the world as it was. */
+bool jox_world_restore(JoWorld *world, const void *data, size_t size, JoError *error);
+/* Overwrites what a step may forget, with NaN where there are numbers: no later step may notice. */
+void jox_world_forget(JoWorld *world);
 
 #endif

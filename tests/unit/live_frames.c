@@ -5,14 +5,14 @@
 
 static Seen decode(const JoxBytes *frame, const JoWorld *world) {
     const Seen seen = decode_bytes(frame->data, frame->length);
-    assert_int_equal(seen.tick, world->tick);
-    assert_near(seen.time, (double)world->tick * world->def.dt, 1e-9);
+    assert_int_equal(seen.tick, world->state.tick);
+    assert_near(seen.time, (double)world->state.tick * world->model.def.dt, 1e-9);
     return seen;
 }
 
 /* Everybody is in the frame where they are, within half a unit, and nobody else is. */
 static void check_people(const JoScene *scene, const Seen *seen) {
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     uint32_t people = 0;
     assert_true(seen->sx < 0.01f && seen->sy < 0.01f);
     for (uint32_t s = 0; s < seen->slots; s++) {
@@ -52,22 +52,24 @@ static void scene_message_names_all_of_the_tawaf(void **state) {
     assert_near(number_at("dt", 0, 0, 0), 0.05, 1e-9);
     assert_near(number_at("duration", 0, 0, 0), 600, 0);
     for (uint32_t p = 0; p < scene->spec->place_count; p++) {
-        has_name(&text, world->places[p].name);
-        for (uint32_t i = 0; i < world->places[p].count; i++) {
+        has_name(&text, world->model.places[p].name);
+        for (uint32_t i = 0; i < world->model.places[p].count; i++) {
             assert_near(number_at("places.%d.points.%d.0", (int)p, (int)i, 0),
-                        world->places[p].points[i].x, 1e-4);
+                        world->model.places[p].points[i].x, 1e-4);
             assert_near(number_at("places.%d.points.%d.1", (int)p, (int)i, 0),
-                        world->places[p].points[i].y, 1e-4);
-            assert_true(number_at("area.0.0", 0, 0, 0) < (double)world->places[p].points[i].x);
-            assert_true(number_at("area.1.1", 0, 0, 0) > (double)world->places[p].points[i].y);
+                        world->model.places[p].points[i].y, 1e-4);
+            assert_true(number_at("area.0.0", 0, 0, 0) <
+                        (double)world->model.places[p].points[i].x);
+            assert_true(number_at("area.1.1", 0, 0, 0) >
+                        (double)world->model.places[p].points[i].y);
         }
     }
     for (uint32_t r = 0; r < scene->spec->region_count; r++)
         has_name(&text, scene->spec->regions[r].name);
-    for (uint32_t m = 0; m < world->mind.machine_count; m++) {
-        has_name(&text, world->mind.machines[m]->name);
-        for (uint32_t s = 0; s < world->mind.machines[m]->state_count; s++)
-            has_name(&text, world->mind.machines[m]->states[s].name);
+    for (uint32_t m = 0; m < world->model.machines.count; m++) {
+        has_name(&text, world->model.machines.items[m]->name);
+        for (uint32_t s = 0; s < world->model.machines.items[m]->state_count; s++)
+            has_name(&text, world->model.machines.items[m]->states[s].name);
     }
     has_name(&text, "pilgrims");
     /* Walls as the scene has them: a solid, a line of 13 points (not there and back), a solid. */
@@ -110,12 +112,14 @@ static void scene_message_of_bodies_and_a_player(void **state) {
     check_people(scene, &seen);
     assert_int_equal(seen.bodies, 1);
     JoxPose pose;
-    assert_true(jox_bodies_pose(scene->world->bodies, 0, &pose));
+    assert_true(jox_bodies_pose(scene->world->state.bodies, 0, &pose));
     assert_near(get_float(seen.body), pose.position.x, 1e-6);
     assert_near(get_float(seen.body + 8), pose.position.z, 1e-6);
     assert_near((int16_t)(seen.body[18] | seen.body[19] << 8) / 32767.0, pose.turn[3], 1e-4);
-    const uint32_t red = scene->world->agents.slot[jox_agents_find(&scene->world->agents, 0)];
-    const uint32_t blue = scene->world->agents.slot[jox_agents_find(&scene->world->agents, 1)];
+    const uint32_t red =
+        scene->world->state.agents.slot[jox_agents_find(&scene->world->state.agents, 0)];
+    const uint32_t blue =
+        scene->world->state.agents.slot[jox_agents_find(&scene->world->state.agents, 1)];
     assert_int_equal(seen.slot[8 * red + 7] & 4, 4);
     assert_int_equal(seen.slot[8 * blue + 7] & 4, 0);
     jox_bytes_free(&frame);
@@ -188,7 +192,7 @@ static void scene_message_with_odd_names(void **state) {
 static void slots_stay_with_their_people(void **state) {
     (void)state;
     JoScene *scene = load_own(COMING, EASTWARD);
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     JoxBytes frame = {0};
     static uint32_t owner[1000];
     static uint8_t parity[1000];
@@ -228,7 +232,7 @@ static void slots_stay_with_their_people(void **state) {
 static void nobody_flies_across(void **state) {
     (void)state;
     JoScene *scene = load("scenes/ring.yaml", NULL, 0);
-    const float period = scene->world->agents.period.x;
+    const float period = scene->world->state.agents.period.x;
     JoxBytes frame = {0};
     static double x[1000];
     static uint8_t parity[1000];
@@ -280,7 +284,7 @@ static void the_area_grows(void **state) {
 static void colours_measure(void **state) {
     (void)state;
     JoScene *scene = load("scenes/running-through.yaml", NULL, 0);
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     JoxBytes frame = {0};
     step(scene, 80);
     for (int c = 0; c < JOX_LIVE_COLOUR_COUNT; c++) {
@@ -310,7 +314,7 @@ static void colours_measure(void **state) {
 static void people_are_told_once(void **state) {
     (void)state;
     JoScene *scene = load_own(COMING, EASTWARD);
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     JoxBytes people = {0};
     assert_true(jox_live_people(scene, &people));
     assert_false(jox_live_people(scene, &people));
@@ -356,7 +360,7 @@ static void fields_add_up_to_the_people(void **state) {
     jox_live_field(scene, JOX_LIVE_DENSITY, &field);
     assert_int_equal(get32(field.data + 4), 0);
     const double people = field_sum(&field, &most);
-    assert_near(people, scene->world->agents.count, 0.01 * scene->world->agents.count);
+    assert_near(people, scene->world->state.agents.count, 0.01 * scene->world->state.agents.count);
     jox_live_status(scene, &(JoxLiveSession){0}, &text);
     parse(&text);
     assert_near(number_at("density_max", 0, 0, 0), most, 1e-3);
@@ -364,11 +368,11 @@ static void fields_add_up_to_the_people(void **state) {
     assert_int_equal(get32(field.data + 4), 1);
     assert_true(field_sum(&field, &most) > 0);
     /* When all walk alike there is no pressure, however dense they are. */
-    for (uint32_t i = 0; i < scene->world->agents.count; i++) {
-        scene->world->agents.vx[i] = 1.5f;
-        scene->world->agents.vy[i] = -0.5f;
+    for (uint32_t i = 0; i < scene->world->state.agents.count; i++) {
+        scene->world->state.agents.vx[i] = 1.5f;
+        scene->world->state.agents.vy[i] = -0.5f;
     }
-    scene->world->tick++;
+    scene->world->state.tick++;
     jox_live_field(scene, JOX_LIVE_PRESSURE, &field);
     field_sum(&field, &most);
     assert_near(most, 0, 1e-3);
@@ -392,7 +396,7 @@ static void transitions_of_a_second(void **state) {
                  " { to = \"B\", when = lasted, chance = 0.5 }, { to = \"C\", when = lasted } },"
                  "B = { steer = hold, { to = \"A\", when = after(0.4) } },"
                  "C = { steer = hold, { to = \"A\", when = after(0.7) } } } }\n");
-    const JoxStatistics *s = &scene->world->statistics;
+    const JoxStatistics *s = &scene->world->state.statistics;
     uint64_t at[400];
     JoxText text = {0};
     jox_live_status(scene, &(JoxLiveSession){0}, &text); /* from here on they are counted */
@@ -461,12 +465,12 @@ static void changes_ask_for_a_scene_message(void **state) {
     (void)state;
     JoScene *scene = load("scenes/wall-breaking.yaml", NULL, 0);
     uint64_t version = jox_live_version(scene);
-    const uint32_t bodies = jox_bodies_count(scene->world->bodies);
-    for (int t = 0; t < 600 && jox_bodies_count(scene->world->bodies) == bodies; t++) {
+    const uint32_t bodies = jox_bodies_count(scene->world->state.bodies);
+    for (int t = 0; t < 600 && jox_bodies_count(scene->world->state.bodies) == bodies; t++) {
         assert_true(jox_live_version(scene) == version);
         step(scene, 1);
     }
-    assert_true(jox_bodies_count(scene->world->bodies) > bodies);
+    assert_true(jox_bodies_count(scene->world->state.bodies) > bodies);
     assert_true(jox_live_version(scene) != version);
     JoxText text = {0};
     JoxBytes frame = {0};
@@ -482,7 +486,7 @@ static void changes_ask_for_a_scene_message(void **state) {
     scene = load("scenes/gates.yaml", NULL, 0);
     version = jox_live_version(scene);
     step(scene, 20 * 30);
-    assert_true(scene->world->statistics.opened > 0);
+    assert_true(scene->world->state.statistics.opened > 0);
     assert_true(jox_live_version(scene) == version);
     jo_scene_free(scene);
 }

@@ -23,7 +23,7 @@ static void an_inspection_adds_up(void **state) {
     JoScene *plain =
         load_own(TIGHT, HEAD
                  "\"A\", states = { A = { steer = seek \"yard\" + 0.3 * spread, push = 60 } } }\n");
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     double most = 0.0;
     for (int n = 0; n < 60; n++) {
         const JoxWatched *watched;
@@ -47,7 +47,7 @@ static void an_inspection_adds_up(void **state) {
         for (uint32_t p = 0; p < seen->plane_count && !seen->failed; p++)
             assert_true(jox_dot(seen->planes[p].normal, seen->chosen) >
                         seen->planes[p].offset - 1e-4f);
-        assert_true(jox_length(seen->chosen) <= seen->most + 1e-4f);
+        assert_true(jox_length(seen->chosen) <= seen->speed_limit + 1e-4f);
     }
     assert_true(most > 10.0); /* somebody did push */
     assert_true(jo_world_hash(scene->world) == jo_world_hash(plain->world));
@@ -86,11 +86,11 @@ static void an_inspection_says_why(void **state) {
     assert_non_null(strstr(json, "\"seen\": true"));
     jo_free(json);
     /* Who was inspected has left: said once, though another takes the slot. */
-    JoAgent agent = {1, scene->world->agents.slot_generation[1]};
+    JoAgent agent = {1, scene->world->state.agents.slot_generation[1]};
     jo_world_remove_agent(scene->world, agent);
     uint32_t i = jox_world_add_agent(scene->world, 9.0f, 9.0f);
-    jox_mind_spawn(&scene->world->mind, i, 0, NULL, NULL);
-    assert_int_equal(scene->world->agents.slot[i], 1);
+    jox_machines_spawn(&scene->world->machines, i, 0, NULL, NULL);
+    assert_int_equal(scene->world->state.agents.slot[i], 1);
     json = jo_scene_inspect(scene, 1);
     assert_string_equal(json, "{\"agent\": null}");
     jo_free(json);
@@ -106,7 +106,7 @@ static void an_inspection_says_why(void **state) {
 static void looking_ends_by_itself(void **state) {
     (void)state;
     JoScene *scene = begin();
-    JoxInspection *all = &scene->world->inspection;
+    JoxInspection *all = &scene->world->scratch.inspection;
     for (uint32_t slot = 0; slot < 4; slot++)
         jo_free(jo_scene_inspect(scene, slot));
     assert_int_equal(all->count, 4);
@@ -116,8 +116,8 @@ static void looking_ends_by_itself(void **state) {
     assert_int_equal(all->count, 1);
     assert_int_equal(all->agents[0].slot, 2);
     for (int n = 0; n < 8; n++)
-        jox_mind_spawn(&scene->world->mind, jox_world_add_agent(scene->world, 9.0f, (float)n), 0,
-                       NULL, NULL);
+        jox_machines_spawn(&scene->world->machines,
+                           jox_world_add_agent(scene->world, 9.0f, (float)n), 0, NULL, NULL);
     for (uint32_t slot = 3; slot < 12; slot++) /* one too many: the oldest goes */
         jo_free(jo_scene_inspect(scene, slot));
     assert_int_equal(all->count, JOX_MOST_INSPECTED);

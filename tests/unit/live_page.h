@@ -69,8 +69,8 @@ static void step(JoScene *scene, int steps) {
 /* What the watching thread and the step do with a file, in one go: true if the text is live. `why`
    then says nothing, else why it is not. */
 static bool reload(JoScene *scene, uint32_t index, const char *text, size_t length) {
-    JoxMind *mind = &scene->world->mind;
-    const JoxMachine *now = mind->machines[index];
+    JoxMachineRun *machines = &scene->world->machines;
+    const JoxMachine *now = machines->set->items[index];
     JoxDiagnostics diagnostics = {0};
     JoxLoaded *loaded =
         jox_lua_prepare(scene->lua, now->path, text, length, &scene->scope, &diagnostics);
@@ -80,11 +80,11 @@ static bool reload(JoScene *scene, uint32_t index, const char *text, size_t leng
     jox_diag_free(&diagnostics);
     bool live = false;
     if (next) {
-        JoxReplacement *replacement = jox_replacement_prepare(now, next, scene->world->def.seed,
-                                                              scene->world->agents.next_id);
-        live = !jox_mind_refuses(mind, index, replacement, why, sizeof why);
+        JoxReplacement *replacement = jox_replacement_prepare(
+            now, next, scene->world->model.def.seed, scene->world->state.agents.next_id);
+        live = !jox_machines_refuses(machines, index, replacement, why, sizeof why);
         if (live) {
-            JoxMachine *old = jox_mind_replace(mind, index, replacement);
+            JoxMachine *old = jox_machines_replace(machines, index, replacement);
             JoxLoaded *retired = jox_lua_retire(scene->lua, old);
             jox_lua_adopt(scene->lua, loaded);
             assert_true(jox_run_link(scene, next, &diagnostics));
@@ -111,7 +111,7 @@ static inline bool reload_text(JoScene *scene, uint32_t index, const char *text)
 
 /* Wanted speed of the agent at an index, m/s. */
 static inline double speed_of(const JoScene *scene, uint32_t agent) {
-    return (double)scene->world->agents.param[JOX_PARAM_speed][agent];
+    return (double)scene->world->state.agents.param[JOX_PARAM_speed][agent];
 }
 
 /* A sheet of one state with a wanted speed and what else the state says. */

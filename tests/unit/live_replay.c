@@ -53,7 +53,7 @@ static char path[300];
 
 static void note_frame(const JoScene *scene) {
     const JoWorld *world = scene->world;
-    const JoxAgents *a = &world->agents;
+    const JoxAgents *a = &world->state.agents;
     assert_true(recorded_count < MOST_FRAMES);
     struct Recorded *f = &recorded[recorded_count++];
     *f = (struct Recorded){.time = jo_world_time(world)};
@@ -66,11 +66,11 @@ static void note_frame(const JoScene *scene) {
         f->people[f->count].x = a->x[i];
         f->people[f->count].y = a->y[i];
         snprintf(f->people[f->count++].state, 32, "%s",
-                 world->mind.machines[a->machine[i]]->states[a->state[i]].name);
+                 world->model.machines.items[a->machine[i]]->states[a->state[i]].name);
     }
-    for (uint32_t row = 0; row < jox_bodies_rows(world->bodies) && f->bodies < 4; row++) {
+    for (uint32_t row = 0; row < jox_bodies_rows(world->state.bodies) && f->bodies < 4; row++) {
         JoxPose pose;
-        if (jox_bodies_pose(world->bodies, row, &pose))
+        if (jox_bodies_pose(world->state.bodies, row, &pose))
             f->body[f->bodies++] = pose.position;
     }
 }
@@ -85,7 +85,7 @@ static void record(void) {
         fail_msg("%s", error.text);
     for (int t = 0; t < 200; t++) {
         step(scene, 1);
-        if (scene->world->tick % 2 == 0)
+        if (scene->world->state.tick % 2 == 0)
             note_frame(scene);
     }
     assert_true(jo_scene_finish(scene, &error));

@@ -10,14 +10,16 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "machine/mind.h"
+#include "machine/run.h"
 
-/* A small world about a mind: agents without neighbours, places that a test gives. */
+/* A small world about machines: agents without neighbours, places that a test gives. */
 typedef struct Fixture {
     JoxAgents agents;
     JoxNeighbours neighbours;
     JoxObjects objects;
-    JoxMind mind;
+    JoxMachineSet set;
+    JoxMachineState state;
+    JoxMachineRun machines;
 } Fixture;
 
 static JoxMachine *new_machine(uint32_t states) {
@@ -62,31 +64,33 @@ static int16_t add_place_target(JoxMachine *m, int32_t place) {
 
 static void begin(Fixture *f, JoxMachine *machine, uint32_t agents) {
     *f = (Fixture){0};
-    f->mind = (JoxMind){.agents = &f->agents,
-                        .neighbours = &f->neighbours,
-                        .objects = &f->objects,
-                        .seed = 7,
-                        .dt = 0.1};
+    f->machines = (JoxMachineRun){.set = &f->set,
+                                  .state = &f->state,
+                                  .agents = &f->agents,
+                                  .neighbours = &f->neighbours,
+                                  .objects = &f->objects,
+                                  .seed = 7,
+                                  .dt = 0.1};
     f->neighbours = (JoxNeighbours){.agents = 4096,
                                     .stride = 1,
                                     .index = jox_alloc(4096, 4),
                                     .distance2 = jox_alloc(4096, 4),
                                     .count = jox_alloc(4096, 1)};
-    jox_mind_add(&f->mind, machine);
+    jox_machines_add(&f->machines, machine);
     for (uint32_t i = 0; i < agents; i++) {
         jox_agents_add(&f->agents);
-        jox_mind_spawn(&f->mind, i, 0, NULL, NULL);
+        jox_machines_spawn(&f->machines, i, 0, NULL, NULL);
     }
 }
 
 static void think(Fixture *f) {
-    jox_mind_think(&f->mind, NULL);
-    jox_mind_prefer(&f->mind, NULL);
-    f->mind.tick++;
+    jox_machines_think(&f->machines, NULL);
+    jox_machines_prefer(&f->machines, NULL);
+    f->machines.tick++;
 }
 
 static void end(Fixture *f) {
-    jox_mind_free(&f->mind);
+    jox_machines_free(&f->machines);
     jox_agents_free(&f->agents);
     jox_free(f->neighbours.index);
     jox_free(f->neighbours.distance2);
@@ -148,7 +152,7 @@ static void the_first_transition_that_holds_wins(void **state) {
     think(&f); /* 0.2 s in the state */
     for (uint32_t i = 0; i < 300; i++)
         assert_int_equal(f.agents.state[i], 2);
-    assert_int_equal(f.mind.taken_count, 300);
+    assert_int_equal(f.machines.taken_count, 300);
     end(&f);
 }
 
@@ -210,8 +214,8 @@ static void hooks_run_by_id_whatever_the_order_in_memory(void **state) {
     m->states[1].on_enter = 3;
     Fixture f;
     begin(&f, m, 4);
-    f.mind.call = note_call;
-    f.mind.call_context = &f.agents;
+    f.machines.call = note_call;
+    f.machines.call_context = &f.agents;
     const uint32_t order[] = {2, 0, 3, 1};
     jox_agents_permute(&f.agents, order);
     call_count = 0;
@@ -254,8 +258,8 @@ static void circuits_count_from_the_line_and_take_back(void **state) {
     m->counter_count = 1;
     Fixture f;
     begin(&f, m, 1);
-    f.mind.places = places;
-    f.mind.place_count = 2;
+    f.machines.places = places;
+    f.machines.place_count = 2;
     double angle = -1.0;
     f.agents.x[0] = (float)(5.0 * cos(angle));
     f.agents.y[0] = (float)(5.0 * sin(angle));
@@ -291,8 +295,8 @@ static void a_queue_keeps_its_order(void **state) {
     add_transition(m, 0, 1, add_program(m, near, 2));
     Fixture f;
     begin(&f, m, 3);
-    f.mind.places = &place;
-    f.mind.place_count = 1;
+    f.machines.places = &place;
+    f.machines.place_count = 1;
     const float away[] = {0.55f, 0.25f, 0.85f}; /* joins second, first, third */
     for (int i = 0; i < 3; i++)
         f.agents.y[i] = away[i];
@@ -321,14 +325,14 @@ static void a_reload_keeps_states_and_memory_by_name(void **state) {
     JoxMachine *lacking = new_machine(1);
     char why[128];
     JoxReplacement *replacement = jox_replacement_prepare(old, lacking, 7, f.agents.next_id);
-    assert_non_null(jox_mind_refuses(&f.mind, 0, replacement, why, sizeof why));
+    assert_non_null(jox_machines_refuses(&f.machines, 0, replacement, why, sizeof why));
     jox_replacement_free(replacement);
     assert_non_null(strstr(why, "5 agents are in 'B'"));
     lacking->renamed = jox_alloc(1, sizeof *lacking->renamed);
     lacking->renamed[0] = (struct JoxRenamed){jox_strdup("B"), jox_strdup("A")};
     lacking->renamed_count = 1;
     replacement = jox_replacement_prepare(old, lacking, 7, f.agents.next_id);
-    assert_null(jox_mind_refuses(&f.mind, 0, replacement, why, sizeof why));
+    assert_null(jox_machines_refuses(&f.machines, 0, replacement, why, sizeof why));
     jox_replacement_free(replacement);
     jox_machine_free(lacking);
 
@@ -339,13 +343,13 @@ static void a_reload_keeps_states_and_memory_by_name(void **state) {
     next->memory[1].name = jox_strdup("laps");
     next->memory_count = 2;
     replacement = jox_replacement_prepare(old, next, 7, f.agents.next_id);
-    jox_machine_free(jox_mind_replace(&f.mind, 0, replacement));
+    jox_machine_free(jox_machines_replace(&f.machines, 0, replacement));
     jox_replacement_free(replacement);
     const double *memory = f.agents.memory + 3 * f.agents.memory_stride;
     assert_true(memory[0] == 2.0 && memory[1] == 6.0);
     assert_int_equal(f.agents.state[3], 1);
     assert_int_equal(f.agents.entered[3], entered);
-    assert_int_equal(f.mind.machines[0]->version, 2);
+    assert_int_equal(f.set.items[0]->version, 2);
     end(&f);
 }
 
@@ -367,7 +371,7 @@ static void transitions_are_counted_over_all_versions(void **state) {
     for (int k = 0; k < 4; k++) /* in B from the second on, in A at the third, in B at the fourth */
         think(&f);
     char counts[256] = "";
-    jox_mind_taken(&f.mind, 0, list_counts, counts);
+    jox_machines_taken(&f.machines, 0, list_counts, counts);
     assert_string_equal(counts, "A>B=10 A>C=0 B>A=5 ");
 
     /* B is named K now, nothing leads back to A, and two transitions lead to it. */
@@ -381,11 +385,11 @@ static void transitions_are_counted_over_all_versions(void **state) {
     add_transition(next, 0, 1, after(next, 9));
     add_transition(next, 1, 2, after(next, 0.1));
     JoxReplacement *replacement = jox_replacement_prepare(old, next, 7, f.agents.next_id);
-    jox_machine_free(jox_mind_replace(&f.mind, 0, replacement));
+    jox_machine_free(jox_machines_replace(&f.machines, 0, replacement));
     jox_replacement_free(replacement);
     think(&f);
     counts[0] = 0;
-    jox_mind_taken(&f.mind, 0, list_counts, counts);
+    jox_machines_taken(&f.machines, 0, list_counts, counts);
     assert_string_equal(counts, "A>K=10 K>C=5 B>A=5 ");
     end(&f);
 }
@@ -409,8 +413,8 @@ static void a_kick_sends_the_ball_where_it_should(void **state) {
     m->states[0].kick_impulse = (JoxValue){JOX_VALUE_CONST, 3.0, 0, 0};
     Fixture f;
     begin(&f, m, 1);
-    f.mind.places = &place;
-    f.mind.place_count = 1;
+    f.machines.places = &place;
+    f.machines.place_count = 1;
     JoxObject ball = {.live = true,
                       .in_band = true,
                       .moves = true,
@@ -421,12 +425,12 @@ static void a_kick_sends_the_ball_where_it_should(void **state) {
                       .disc = 0.1f};
     f.objects = (JoxObjects){&ball, 1, 1};
     think(&f);
-    assert_int_equal(f.mind.kick_count, 1);
-    assert_true(fabsf(f.mind.kicks[0].impulse.x - 3.0f / 2.5f) < 1e-4f); /* 3 m/s on 0.4 kg */
-    assert_true(fabsf(f.mind.kicks[0].impulse.y) < 1e-4f);
+    assert_int_equal(f.machines.kick_count, 1);
+    assert_true(fabsf(f.machines.kicks[0].impulse.x - 3.0f / 2.5f) < 1e-4f); /* 3 m/s on 0.4 kg */
+    assert_true(fabsf(f.machines.kicks[0].impulse.y) < 1e-4f);
     assert_int_equal(f.agents.kicked[0], 0);
     think(&f); /* not again at once */
-    assert_int_equal(f.mind.kick_count, 0);
+    assert_int_equal(f.machines.kick_count, 0);
     assert_int_equal(f.agents.kicked[0], -1);
     end(&f);
 }

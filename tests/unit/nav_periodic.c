@@ -15,7 +15,7 @@ static JoWorld *make(float period_x, float shift, JoAgent *people) {
     JoWorldDef def = jo_default_world_def();
     def.dt = 0.05;
     JoWorld *w = jo_world_create(&def, NULL);
-    w->agents.period = (JoxV2){period_x, 0.0f};
+    w->state.agents.period = (JoxV2){period_x, 0.0f};
     for (int i = 0; i < PEOPLE; i++) {
         JoAgentDef a = jo_default_agent_def();
         a.x = fmod(8.0 + 0.5 * (i % 8) + 0.07 * (i / 8) + shift, period_x > 0 ? period_x : 1e9);
@@ -52,7 +52,7 @@ static void test_a_seam_matters(void **state) {
     (void)state;
     JoAgent middle[PEOPLE], open[PEOPLE];
     JoWorld *a = make(16.0f, 0.0f, middle), *b = make(16.0f, 6.0f, open);
-    b->agents.period = (JoxV2){0.0f, 0.0f};
+    b->state.agents.period = (JoxV2){0.0f, 0.0f};
     jo_world_step(a, 60);
     jo_world_step(b, 60);
     double farthest = 0.0;
@@ -71,7 +71,7 @@ static void test_a_walker_comes_round(void **state) {
     (void)state;
     JoWorldDef def = jo_default_world_def();
     JoWorld *w = jo_world_create(&def, NULL);
-    w->agents.period = (JoxV2){5.0f, 3.0f};
+    w->state.agents.period = (JoxV2){5.0f, 3.0f};
     JoAgentDef one = jo_default_agent_def();
     one.x = 1.0;
     one.y = 1.0;

@@ -25,8 +25,8 @@ static const char ISTILAM[] =
     "} }\n";
 
 static double memory_of(const JoScene *scene, uint32_t agent, const char *name) {
-    const JoxAgents *a = &scene->world->agents;
-    const JoxMachine *m = scene->world->mind.machines[a->machine[agent]];
+    const JoxAgents *a = &scene->world->state.agents;
+    const JoxMachine *m = scene->world->model.machines.items[a->machine[agent]];
     for (uint32_t s = 0; s < m->memory_count; s++)
         if (strcmp(m->memory[s].name, name) == 0)
             return a->memory[(size_t)agent * a->memory_stride + s];
@@ -35,8 +35,8 @@ static double memory_of(const JoScene *scene, uint32_t agent, const char *name) 
 }
 
 static const char *state_of(const JoScene *scene, uint32_t agent) {
-    const JoxAgents *a = &scene->world->agents;
-    return scene->world->mind.machines[a->machine[agent]]->states[a->state[agent]].name;
+    const JoxAgents *a = &scene->world->state.agents;
+    return scene->world->model.machines.items[a->machine[agent]]->states[a->state[agent]].name;
 }
 
 static void a_renamed_state_goes_on_where_it_was(void **state) {
@@ -44,10 +44,10 @@ static void a_renamed_state_goes_on_where_it_was(void **state) {
     JoScene *scene = load_own(PEOPLE(5), GREET);
     step(scene, 8); /* 0.1 s in Enter, and some 0.25 s in Greet */
     assert_string_equal(state_of(scene, 0), "Greet");
-    uint32_t entered = scene->world->agents.entered[0];
+    uint32_t entered = scene->world->state.agents.entered[0];
     assert_true(reload_text(scene, 0, ISTILAM));
     assert_string_equal(state_of(scene, 0), "Istilam");
-    assert_int_equal(scene->world->agents.entered[0], entered);
+    assert_int_equal(scene->world->state.agents.entered[0], entered);
     int steps = 0;
     for (; strcmp(state_of(scene, 0), "Istilam") == 0 && steps < 100; steps++)
         step(scene, 1);
@@ -72,7 +72,7 @@ static void a_state_with_people_cannot_disappear(void **state) {
     assert_non_null(strstr(why, "312 agents are in 'Greet', which this version lacks"));
     assert_non_null(strstr(why, "renamed"));
     assert_int_equal(jo_world_hash(scene->world), before);
-    assert_int_equal(scene->world->mind.machines[0]->version, 2);
+    assert_int_equal(scene->world->model.machines.items[0]->version, 2);
     step(scene, 8);
     assert_string_equal(state_of(scene, 311), "Greet");
     jo_scene_free(scene);
@@ -115,7 +115,7 @@ static void another_distribution_reaches_the_living(void **state) {
     JoScene *scene = load_own(TWO_GROUPS, FAST("uniform(1, 1.2)", ""));
     step(scene, 3);
     uint64_t before = jo_world_hash(scene->world);
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     assert_true(reload_text(scene, 0, FAST("uniform(1.4, 1.6)", "")));
     double low = 9, high = 0;
     for (uint32_t i = 0; i < a->count; i++) {
@@ -153,7 +153,7 @@ static void own_values_are_kept_by_name(void **state) {
     JoScene *scene = load_own(PEOPLE(40), BEFORE);
     step(scene, 2);
     double speed[40], push[40];
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     for (uint32_t i = 0; i < 40; i++) {
         speed[a->id[i]] = speed_of(scene, i);
         push[a->id[i]] = (double)a->param[JOX_PARAM_push][i];
@@ -179,7 +179,7 @@ static void values_that_move_are_carried(void **state) {
         load_own(SCENE("groups: {people: {behaviour: own.lua, count: 40, fill: grid, "
                        "in: yard, set: {zeal: \"uniform(1, 5)\", zest: 3, pace: 1}}}\n"),
                  TEXTS[0]);
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     double push[40];
     step(scene, 2);
     for (uint32_t i = 0; i < 40; i++)
@@ -190,7 +190,7 @@ static void values_that_move_are_carried(void **state) {
     uint32_t before = 0;
     for (size_t k = 0; k < sizeof ORDER / sizeof *ORDER; k++) {
         assert_true(reload_text(scene, 0, TEXTS[ORDER[k]]));
-        const JoxMachine *now = scene->world->mind.machines[0];
+        const JoxMachine *now = scene->world->model.machines.items[0];
         uint32_t slot = 0;
         while (strcmp(now->own[slot].name, "zeal") != 0)
             slot++;
@@ -217,7 +217,7 @@ static void chances_are_not_rolled_again(void **state) {
     JoScene *scene = load_own(PEOPLE(200), ROLL(""));
     step(scene, 8);
     uint32_t people[3];
-    jox_mind_census(&scene->world->mind, 0, people);
+    jox_machines_people(&scene->world->machines, 0, people);
     assert_in_range(people[0], 60, 140);
     uint32_t waiting = people[0];
     for (int i = 0; i < 10; i++) {
@@ -228,7 +228,7 @@ static void chances_are_not_rolled_again(void **state) {
         assert_true(reload_text(scene, 0, text));
         step(scene, 2);
     }
-    jox_mind_census(&scene->world->mind, 0, people);
+    jox_machines_people(&scene->world->machines, 0, people);
     assert_int_equal(people[0], waiting);
     jo_scene_free(scene);
 }
@@ -239,9 +239,9 @@ static void a_parameter_taken_out_falls_back(void **state) {
     JoScene *scene = load_own(PEOPLE(5), FAST("1.5", ", push = 80, ignore = {}"));
     step(scene, 2);
     float push = jox_parameter_store(JOX_PARAM_push, jox_parameters[JOX_PARAM_push].value);
-    assert_true(scene->world->agents.param[JOX_PARAM_push][2] == 80.0f);
+    assert_true(scene->world->state.agents.param[JOX_PARAM_push][2] == 80.0f);
     assert_true(reload_text(scene, 0, FAST("1.5", "")));
-    assert_true(scene->world->agents.param[JOX_PARAM_push][2] == push);
+    assert_true(scene->world->state.agents.param[JOX_PARAM_push][2] == push);
     jo_scene_free(scene);
 }
 

@@ -11,11 +11,11 @@
     "events:\n" list
 
 static JoxStatistics *figures(JoScene *scene) {
-    return &scene->world->statistics;
+    return &scene->world->state.statistics;
 }
 
 static bool is_open(const JoScene *scene) {
-    return scene->world->all_walls.rings[0].open;
+    return scene->world->model.all_walls.rings[0].open;
 }
 
 /* ---- when ---- */
@@ -79,7 +79,7 @@ static void everybody_hears(void **state) {
                  HEAD "\"Z\", defaults = { perception = 1 }, states = { Z = { steer = hold, "
                       "{ to = \"B\", when = heard(\"alarm\", 0.5) } }, B = { steer = hold, "
                       "{ to = \"Z\", when = heard \"alarm\" } } } }\n");
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     step(scene, 4);
     uint16_t waits = a->state[0];
     assert_int_equal(a->state[1], waits);
@@ -118,7 +118,7 @@ static void signals_that_nobody_hears_are_named(void **state) {
 static void nobody_passes_a_gate_that_is_shut(void **state) {
     (void)state;
     JoScene *scene = load_own(EVENTS("  - {at: 8, open: gate}\n"), WALK);
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     step(scene, 160);
     assert_float_equal(a->x[0], 4.8, 0.05);
     step(scene, 40);
@@ -136,8 +136,8 @@ static void walls_may_begin_open(void **state) {
                               "events: [{at: 2.6, close: b}]\n",
                               WALK);
     step(scene, 200);
-    assert_float_equal(scene->world->agents.x[0], 3.8, 0.05); /* one name shuts two walls */
-    assert_int_equal(scene->world->walls.ring_count, 2);
+    assert_float_equal(scene->world->state.agents.x[0], 3.8, 0.05); /* one name shuts two walls */
+    assert_int_equal(scene->world->scratch.walls.ring_count, 2);
     jo_scene_free(scene);
 }
 
@@ -150,7 +150,7 @@ static void who_stands_where_a_wall_comes_is_moved(void **state) {
                  "0], [3.8, 0]]}}\n"
                  "events: [{at: 0.2, close: block}]\n",
                  STAY);
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     step(scene, 4);
     assert_int_equal(figures(scene)->moved_out, 0);
     step(scene, 1);
@@ -175,8 +175,8 @@ static void who_is_moved_is_seen_at_once(void **state) {
         "groups: {people: {behaviour: own.lua, at: [[5, 0], [1.6, 0], [8.4, 0]]}}\n"
         "events: [{at: 0.25, close: block}]\n",
         HEAD "\"A\", defaults = { perception = 2.5 }, states = { A = { steer = hold } } }\n");
-    const JoxAgents *a = &scene->world->agents;
-    const JoxNeighbours *n = &scene->world->neighbours;
+    const JoxAgents *a = &scene->world->state.agents;
+    const JoxNeighbours *n = &scene->world->scratch.neighbours;
     step(scene, 5); /* every fourth step sorts anyway; the next does not */
     assert_int_equal(n->count[jox_agents_find(a, 1)] + n->count[jox_agents_find(a, 2)], 0);
     step(scene, 1);
@@ -197,7 +197,7 @@ static void nobody_is_moved_through_another_wall(void **state) {
                               "[5.7, 0], [6.1, 0], [4.68, 0], [4.3, 0], [3.9, 0]]}}\n"
                               "events: [{at: 0.1, close: gate}]\n",
                               STAY);
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     step(scene, 3);
     assert_int_equal(figures(scene)->moved_out, 1);
     assert_true(fabsf(a->x[jox_agents_find(a, 0)] - 5.0f) > 1.0f);
@@ -214,8 +214,8 @@ static void nobody_is_moved_through_another_wall(void **state) {
 
 static JoxPose pose_of(const JoScene *scene, const char *name) {
     JoxPose pose;
-    assert_true(jox_bodies_pose(scene->world->bodies,
-                                jox_bodies_find_name(scene->world->bodies, name), &pose));
+    assert_true(jox_bodies_pose(scene->world->state.bodies,
+                                jox_bodies_find_name(scene->world->state.bodies, name), &pose));
     return pose;
 }
 
@@ -304,7 +304,8 @@ static void who_picks_up_has_not_thrown(void **state) {
     assert_int_equal(figures(scene)->pickups, 1);
     assert_int_equal(figures(scene)->throws, 1);
     char *summary = jo_scene_summary(scene);
-    assert_non_null(strstr(summary, "\"throws\": 1, \"pickups\": 1,"));
+    assert_non_null(strstr(summary, "\"throws\": 1,"));
+    assert_non_null(strstr(summary, "\"pickups\": 1,"));
     jo_free(summary);
     jo_scene_free(scene);
 }
@@ -314,14 +315,14 @@ static void a_throw_takes_it_from_the_hand(void **state) {
     if (!jox_bodies_available())
         skip();
     JoScene *scene = load_own(EVENTS("  - {at: 60, signal: a}\n") BALL, STAY);
-    JoxBodies *bodies = scene->world->bodies;
+    JoxBodies *bodies = scene->world->state.bodies;
     const double up[3] = {0, 0, 3};
     step(scene, 1);
     assert_true(jox_bodies_hold(bodies, jox_bodies_find_name(bodies, "ball"), 0));
     step(scene, 1);
     assert_true(jo_scene_throw(scene, "ball", NULL, up, NULL, NULL));
     step(scene, 1);
-    const JoxObjects *objects = &scene->world->objects;
+    const JoxObjects *objects = &scene->world->scratch.objects;
     assert_false(objects->rows[jox_bodies_find_name(bodies, "ball")].held);
     assert_true(pose_of(scene, "ball").velocity.z > 2);
     jo_scene_free(scene);
@@ -366,7 +367,7 @@ static void what_cannot_happen_is_said(void **state) {
         skip();
     JoScene *scene =
         load_own(EVENTS("  - {at: 0.5, throw: ball, velocity: [1, 0, 0]}\n") BALL, STAY);
-    JoxBodies *bodies = scene->world->bodies;
+    JoxBodies *bodies = scene->world->state.bodies;
     step(scene, 1);
     assert_true(jox_bodies_remove(bodies, jox_bodies_find_name(bodies, "ball")));
     jox_text_free(&said);
@@ -409,7 +410,7 @@ static void an_edited_scene_keeps_what_events_did(void **state) {
     assert_non_null(strstr(said.data, "walls, events changed, live from t = 1.00 s"));
     step(scene, 1);
     assert_true(is_open(scene));
-    assert_int_equal(scene->world->walls.ring_count, 1);
+    assert_int_equal(scene->world->scratch.walls.ring_count, 1);
     assert_int_equal(figures(scene)->announced, 2);
     assert_int_equal(figures(scene)->opened, 1);
     /* Nothing but a title: nothing changes. */
@@ -423,7 +424,7 @@ static void an_edited_scene_keeps_what_events_did(void **state) {
     assert_true(is_open(scene));
     step(scene, 2);
     assert_false(is_open(scene));
-    assert_int_equal(scene->world->walls.ring_count, 2);
+    assert_int_equal(scene->world->scratch.walls.ring_count, 2);
     jo_scene_free(scene);
 }
 
@@ -438,7 +439,7 @@ static void an_edited_gate_follows_the_file(void **state) {
                 "groups: {people: {behaviour: own.lua, at: [[0, 0], [90, 90]]}}\n");
     step(scene, 1);
     assert_true(is_open(scene));
-    assert_int_equal(scene->world->walls.ring_count, 0);
+    assert_int_equal(scene->world->scratch.walls.ring_count, 0);
     jo_scene_free(scene);
 }
 

@@ -13,7 +13,7 @@
           "  odd: {behaviour: own.lua, at: [[20, 20], [20.1, 20.1]], team: a}\n")
 
 static bool all_finite(const JoScene *scene) {
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     for (uint32_t i = 0; i < a->count; i++)
         if (!isfinite(a->x[i]) || !isfinite(a->y[i]) || !isfinite(a->vx[i]) ||
             !isfinite(a->vy[i]) || !isfinite(a->pref_x[i]) || !isfinite(a->pref_y[i]))
@@ -88,7 +88,7 @@ static void computed_numbers_keep_everybody_finite(void **state) {
 static void a_number_that_is_not_finite_ends_the_run(void **state) {
     (void)state;
     JoScene *scene = load_own(CROWD, HEAD "\"Odd\", states = { Odd = { steer = hold } } }\n");
-    JoxAgents *a = &scene->world->agents;
+    JoxAgents *a = &scene->world->state.agents;
     JoError error = {0};
     step(scene, 1);
     for (uint32_t i = 0; i < a->count; i++)
@@ -113,7 +113,7 @@ static void a_failed_world_names_agents_without_a_machine(void **state) {
     JoAgentDef agent = jo_default_agent_def();
     jo_world_add_agent(world, &agent, NULL);
     jo_world_step(world, 1);
-    world->agents.inferred_y[0] = INFINITY;
+    world->state.agents.inferred_y[0] = INFINITY;
     jo_world_step(world, 5);
     assert_int_equal(jo_world_tick(world), 2);
     assert_non_null(strstr(jo_world_failure(world), "of agent 0 is not finite (no machine)"));
@@ -140,8 +140,8 @@ static void lua_may_look_at_agents_without_a_machine(void **state) {
     jo_world_add_agent(scene->world, &agent, NULL);
     step(scene, 5);
     assert_int_equal(jox_lua_failures(scene->lua), 0);
-    const JoxAgents *a = &scene->world->agents;
-    const JoxMachine *machine = scene->world->mind.machines[0];
+    const JoxAgents *a = &scene->world->state.agents;
+    const JoxMachine *machine = scene->world->model.machines.items[0];
     uint32_t slot = strcmp(machine->memory[0].name, "seen") ? 1 : 0, looked = 0;
     for (uint32_t i = 0; i < a->count; i++) {
         if (a->machine[i] == JOX_NO_MACHINE)
@@ -171,7 +171,7 @@ static void each_of_three_hundred_sources_counts_for_itself(void **state) {
     assert_int_equal(jo_world_agent_count(scene->world), 0);
     step(scene, 61); /* 3 s: three of each, and fifteen of one */
     uint32_t made[SOURCES] = {0};
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     for (uint32_t i = 0; i < a->count; i++) {
         int s = (int)(a->y[i] / 5 + 0.5f) * 20 + (int)(a->x[i] / 5 + 0.5f);
         assert_in_range(s, 0, SOURCES - 1);

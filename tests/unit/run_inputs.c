@@ -182,7 +182,7 @@ static void a_push_acts_for_one_step(void **state) {
     does(pushed, "push 3 800 0");
     step(pushed, 1);
     step(pair, 1);
-    const JoxAgents *a = &pushed->world->agents, *b = &pair->world->agents;
+    const JoxAgents *a = &pushed->world->state.agents, *b = &pair->world->state.agents;
     double gain = (double)(a->vx[jox_agents_find(a, 3)] - b->vx[jox_agents_find(b, 3)]);
     assert_true(gain > 0.35 && gain < 0.5); /* m/s: 800 N on 80 kg for 0.05 s, less damping */
     assert_true(a->ext_x[jox_agents_find(a, 3)] == 0.0f);
@@ -193,7 +193,7 @@ static void a_push_acts_for_one_step(void **state) {
 /* ---- parameters ---- */
 
 static double parameter(const JoScene *scene, uint32_t id, JoxParameter p) {
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     return (double)a->param[p][jox_agents_find(a, id)];
 }
 
@@ -215,7 +215,7 @@ static void a_parameter_is_set_for_all(void **state) {
     assert_true((float)parameter(scene, 0, JOX_PARAM_max_speed) == 0.7f);
     assert_true(fabs(parameter(scene, 0, JOX_PARAM_push_angle) - 0.8660254) < 1e-6);
     uint32_t i = jox_world_add_agent(scene->world, 9.0f, 9.0f); /* and who comes later */
-    jox_mind_spawn(&scene->world->mind, i, 0, NULL, NULL);
+    jox_machines_spawn(&scene->world->machines, i, 0, NULL, NULL);
     assert_true((float)parameter(scene, 4, JOX_PARAM_speed) == 0.9f);
     jo_scene_free(scene);
 }
@@ -304,7 +304,7 @@ static void the_graph_says_who_set_what(void **state) {
 
 static JoxPose pose_of(const JoScene *scene, uint32_t row) {
     JoxPose pose;
-    assert_true(jox_bodies_pose(scene->world->bodies, row, &pose));
+    assert_true(jox_bodies_pose(scene->world->state.bodies, row, &pose));
     return pose;
 }
 
@@ -351,13 +351,13 @@ static void the_oldest_box_goes(void **state) {
             step(scene, 1);
     }
     assert_int_equal(jo_world_body_count(world), before + JOX_MOST_BOXES);
-    assert_int_equal(world->drags.boxes[0], before + 7); /* ids are not used again */
-    assert_int_equal(jox_bodies_find(world->bodies, before + 6), JOX_NO_BODY);
+    assert_int_equal(world->state.drags.boxes[0], before + 7); /* ids are not used again */
+    assert_int_equal(jox_bodies_find(world->state.bodies, before + 6), JOX_NO_BODY);
     step(scene, 3);
-    JoxPose pose = pose_of(scene, jox_bodies_find(world->bodies, before + 7));
+    JoxPose pose = pose_of(scene, jox_bodies_find(world->state.bodies, before + 7));
     assert_true(fabsf(pose.centre.z - 0.15f) < 0.02f); /* lifted out of the ground */
     for (uint32_t o = 0; o < 2; o++)
-        assert_true(world->objects.rows[o].live); /* those of the scene stay */
+        assert_true(world->scratch.objects.rows[o].live); /* those of the scene stay */
     jo_scene_free(scene);
 }
 

@@ -17,7 +17,7 @@
 enum { STEPS = 40, MOST_PEOPLE = 200, LONG_FILE = 1500, LARGEST = 1 << 18 };
 
 static char *read_behaviour(const JoScene *scene, uint32_t index, size_t *length) {
-    char *text = jox_read_file(scene->world->mind.machines[index]->path, LARGEST, length);
+    char *text = jox_read_file(scene->world->model.machines.items[index]->path, LARGEST, length);
     assert_non_null(text);
     return text;
 }
@@ -85,7 +85,7 @@ static size_t tried, lived;
 static void try_prefixes(const char *path) {
     uint64_t alone = hash_alone(path);
     JoScene *scene = load_small(path);
-    for (uint32_t m = 0; m < scene->world->mind.machine_count; m++) {
+    for (uint32_t m = 0; m < scene->world->model.machines.count; m++) {
         size_t length, n = 0;
         char *text = read_behaviour(scene, m, &length);
         size_t all = prefixes_of(length), done = 0;
@@ -99,9 +99,9 @@ static void try_prefixes(const char *path) {
                 bool live = reload(scene, m, prefix, n);
                 if (live && n + 1 < length)
                     fail_msg("the first %zu bytes of %s are a machine", n,
-                             scene->world->mind.machines[m]->path);
+                             scene->world->model.machines.items[m]->path);
                 if (!live && n == length)
-                    fail_msg("%s: %s", scene->world->mind.machines[m]->path, why);
+                    fail_msg("%s: %s", scene->world->model.machines.items[m]->path, why);
                 jox_free(prefix);
                 lived += live;
                 tried++;
@@ -110,7 +110,7 @@ static void try_prefixes(const char *path) {
         }
         if (jo_world_hash(scene->world) != alone)
             fail_msg("%s: beginnings of %s change the hash", path,
-                     scene->world->mind.machines[m]->path);
+                     scene->world->model.machines.items[m]->path);
         jox_free(text);
     }
     jo_scene_free(scene);
@@ -155,19 +155,19 @@ static void every_beginning_of_a_behaviour_is_refused_but_the_last(void **state)
 static void reload_all_the_time(const char *path) {
     uint64_t alone = hash_alone(path);
     JoScene *scene = load_small(path);
-    uint32_t machines = scene->world->mind.machine_count;
+    uint32_t machines = scene->world->model.machines.count;
     for (int s = 0; s < STEPS; s++) {
         for (uint32_t m = 0; m < machines && s % 2 == 0; m++) {
             size_t length;
             char *text = read_behaviour(scene, m, &length);
             if (!reload(scene, m, text, length))
-                fail_msg("%s: %s", scene->world->mind.machines[m]->path, why);
+                fail_msg("%s: %s", scene->world->model.machines.items[m]->path, why);
             jox_free(text);
         }
         step(scene, 1);
     }
     for (uint32_t m = 0; m < machines; m++)
-        assert_int_equal(scene->world->mind.machines[m]->version, 1 + STEPS / 2);
+        assert_int_equal(scene->world->model.machines.items[m]->version, 1 + STEPS / 2);
     if (jo_world_hash(scene->world) != alone)
         fail_msg("%s: reloads that change nothing change the hash", path);
     jo_scene_free(scene);
@@ -228,7 +228,7 @@ static void ten_thousand_reloads_keep_nothing(void **state) {
     size_t after = mallinfo2().uordblks; /* zero under the sanitizers, which look for leaks */
     if (after > before + 1000000)
         fail_msg("%zu bytes more", after - before);
-    assert_int_equal(scene->world->mind.machines[0]->version, 1 + 6800);
+    assert_int_equal(scene->world->model.machines.items[0]->version, 1 + 6800);
     jo_scene_free(scene);
 }
 

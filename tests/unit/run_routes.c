@@ -23,7 +23,7 @@
 enum { DELAY = 10 }; /* steps of 0.05 s: half a second */
 
 static const JoxField *field(const JoScene *scene) {
-    return scene->world->mind.fields ? scene->world->mind.fields[0] : NULL;
+    return scene->world->machines.fields ? scene->world->machines.fields[0] : NULL;
 }
 
 /* The way from where the agent began: north is positive. */
@@ -37,7 +37,7 @@ static void known_from_the_first_step_on(void **state) {
     step(scene, 1);
     assert_non_null(field(scene));
     assert_float_equal(northward(scene), 0, 0.1);
-    assert_true(scene->world->agents.pref_x[0] > 0.5f);
+    assert_true(scene->world->state.agents.pref_x[0] > 0.5f);
     jo_scene_free(scene);
 }
 
@@ -45,8 +45,8 @@ static void used_from_a_fixed_step_on(void **state) {
     (void)state;
     JoScene *scene = load_own(COURT("", ""), WAITS);
     int waited = 0;
-    const JoxMind *mind = &scene->world->mind;
-    while (strcmp(mind->machines[0]->states[mind->agents->state[0]].name, "Go") != 0)
+    const JoxMachineRun *machines = &scene->world->machines;
+    while (strcmp(machines->set->items[0]->states[machines->agents->state[0]].name, "Go") != 0)
         step(scene, 1);
     for (; !field(scene) && waited < 100; waited++) /* asked for in the step that ended */
         step(scene, 1);
@@ -126,13 +126,13 @@ static void who_has_no_way_waits_at_the_gate(void **state) {
     JoScene *scene = load_own(
         COURT("  - {line: [[6, 2], [6, 4]]}\n  - {line: [[6, 8], [6, 10]], name: gate}\n", ""),
         GOES);
-    const JoxAgents *a = &scene->world->agents;
+    const JoxAgents *a = &scene->world->state.agents;
     step(scene, 300);
     assert_float_equal(a->x[0], 5.8, 0.15);
     assert_in_range(a->y[0] * 100, 750, 1020);
     assert_true(jo_scene_open_wall(scene, "gate", true, NULL));
     step(scene, 200);
-    assert_true(jox_place_contains(scene->world->places, 0, (JoxV2){a->x[0], a->y[0]}));
+    assert_true(jox_place_contains(scene->world->model.places, 0, (JoxV2){a->x[0], a->y[0]}));
     jo_scene_free(scene);
 }
 

@@ -83,11 +83,11 @@ static int env_newindex(lua_State *L) {
 /* From the agent's own stream: a function of seed, agent and tick. */
 static int math_random(lua_State *L) {
     JoxScript *script = jox_script_of(L);
-    if (script->vm.loading || !script->owner->mind)
+    if (script->vm.loading || !script->owner->machines)
         return luaL_error(L, "math.random works in functions of agents only; at load use normal, "
                              "uniform or choose");
-    const JoxMind *mind = script->owner->mind;
-    double u = jox_random_unit(mind->seed, mind->agents->id[script->agent], mind->tick,
+    const JoxMachineRun *machines = script->owner->machines;
+    double u = jox_random_unit(machines->seed, machines->agents->id[script->agent], machines->tick,
                                JOX_DRAW_LUA, script->draws++);
     if (lua_gettop(L) == 0) {
         lua_pushnumber(L, u);

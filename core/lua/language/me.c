@@ -35,17 +35,17 @@ static const float *short_name(const JoxAgents *a, uint32_t i, const char *name)
 }
 
 /* Pushes a number of the agent by name; false where it has none of that name. */
-static bool push_number(lua_State *L, const JoxMind *mind, uint32_t i, const char *name) {
-    const JoxAgents *a = mind->agents;
+static bool push_number(lua_State *L, const JoxMachineRun *machines, uint32_t i, const char *name) {
+    const JoxAgents *a = machines->agents;
     const float *at = short_name(a, i, name);
     if (at)
         return lua_pushnumber(L, *at), true;
     if (strcmp(name, "id") == 0)
         return lua_pushinteger(L, a->id[i]), true;
     if (strcmp(name, "time") == 0)
-        return lua_pushnumber(L, mind->tick * mind->dt), true;
+        return lua_pushnumber(L, machines->tick * machines->dt), true;
     if (strcmp(name, "time_in_state") == 0)
-        return lua_pushnumber(L, (mind->tick - a->entered[i]) * mind->dt), true;
+        return lua_pushnumber(L, (machines->tick - a->entered[i]) * machines->dt), true;
     if (strcmp(name, "density") == 0)
         return lua_pushnumber(L, a->density[i]), true;
     if (strcmp(name, "pushed") == 0)
@@ -59,8 +59,8 @@ static bool push_number(lua_State *L, const JoxMind *mind, uint32_t i, const cha
         return lua_pushnumber(L, a->param[parameter][i]), true;
     if (strcmp(name, "goal") != 0)
         return false;
-    if (a->goal[i] >= 0 && (uint32_t)a->goal[i] < mind->place_count)
-        lua_pushstring(L, mind->places[a->goal[i]].name);
+    if (a->goal[i] >= 0 && (uint32_t)a->goal[i] < machines->place_count)
+        lua_pushstring(L, machines->places[a->goal[i]].name);
     else
         lua_pushnil(L);
     return true;
@@ -100,9 +100,9 @@ static int view_index(lua_State *L) {
     JoxLua *lua = script->owner;
     uint32_t i = check_view(L, script);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
-    const JoxAgents *a = lua->mind->agents;
+    const JoxAgents *a = lua->machines->agents;
     if (a->machine[i] != JOX_NO_MACHINE) {
-        const JoxMachine *m = lua->mind->machines[a->machine[i]];
+        const JoxMachine *m = lua->machines->set->items[a->machine[i]];
         int32_t slot = memory_slot(m, name);
         uint16_t state = lua->before_state[i] < m->state_count ? lua->before_state[i] : m->start;
         if (strcmp(name, "state") == 0)
@@ -114,7 +114,7 @@ static int view_index(lua_State *L) {
                                lua->before_memory[(size_t)i * a->memory_stride + (uint32_t)slot]),
                    1;
     }
-    if (push_number(L, lua->mind, i, name))
+    if (push_number(L, lua->machines, i, name))
         return 1;
     /* One without a machine, whom a program moves, or with another machine. */
     bool lacks =
@@ -129,9 +129,9 @@ static int view_newindex(lua_State *L) {
     JoxLua *lua = script->owner;
     uint32_t i = check_view(L, script);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
-    const JoxAgents *a = lua->mind->agents;
+    const JoxAgents *a = lua->machines->agents;
     const JoxMachine *m =
-        a->machine[i] == JOX_NO_MACHINE ? NULL : lua->mind->machines[a->machine[i]];
+        a->machine[i] == JOX_NO_MACHINE ? NULL : lua->machines->set->items[a->machine[i]];
     int32_t slot = m ? memory_slot(m, name) : -1;
     if (slot < 0)
         return luaL_error(L, "only the memory of a neighbour can be set, and '%s' is not in it",
@@ -145,7 +145,7 @@ static int view_newindex(lua_State *L) {
 }
 
 static int push_neighbours(lua_State *L, JoxScript *script, uint32_t i) {
-    const JoxNeighbours *n = script->owner->mind->neighbours;
+    const JoxNeighbours *n = script->owner->machines->neighbours;
     if (!script->machine->views) /* nothing was kept of the others before the step */
         return luaL_error(L, "write me.neighbours as such, not by a name that is put together");
     lua_createtable(L, n->count[i], 0);
@@ -177,17 +177,20 @@ static int me_signal(lua_State *L) {
     if (lua_type(L, at) != LUA_TSTRING)
         return luaL_error(L, "a signal is a name");
     const char *name = lua_tostring(L, at);
-    jox_vm_charge(L, 20 + (script->machine->name_count + script->owner->mind->name_count) / 8);
-    if (script->owner->mind->called_count > 1000000)
+    jox_vm_charge(L, 20 + (script->machine->name_count + script->owner->machines->set->name_count) /
+                              8);
+    if (script->owner->machines->state->called_count > 1000000)
         return luaL_error(L, "too many signals are given in one step");
     for (uint32_t n = 0; n < script->machine->name_count; n++)
         if (strcmp(script->machine->names[n].text, name) == 0) {
-            jox_mind_call(script->owner->mind, script->agent, script->machine->names[n].number);
+            jox_machines_call(script->owner->machines, script->agent,
+                              script->machine->names[n].number);
             return 0;
         }
-    if (lua_rawlen(L, at) > 60 || script->owner->mind->name_count > 10000)
+    if (lua_rawlen(L, at) > 60 || script->owner->machines->set->name_count > 10000)
         return luaL_error(L, "a signal's name has at most 60 bytes, and there are not so many");
-    jox_mind_call(script->owner->mind, script->agent, jox_mind_name(script->owner->mind, name));
+    jox_machines_call(script->owner->machines, script->agent,
+                      jox_machines_name(script->owner->machines, name));
     return 0;
 }
 
@@ -195,8 +198,8 @@ static int me_index(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     uint32_t i = check_me(L, script);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
-    const JoxMind *mind = script->owner->mind;
-    const JoxAgents *a = mind->agents;
+    const JoxMachineRun *machines = script->owner->machines;
+    const JoxAgents *a = machines->agents;
     const JoxMachine *m = script->machine;
     int32_t slot = memory_slot(m, name);
     if (slot >= 0)
@@ -211,7 +214,7 @@ static int me_index(lua_State *L) {
         return push_neighbours(L, script, i);
     if (strcmp(name, "signal") == 0)
         return lua_pushcfunction(L, me_signal), 1;
-    if (push_number(L, mind, i, name))
+    if (push_number(L, machines, i, name))
         return 1;
     const char *names[96];
     size_t count = 0;
@@ -229,11 +232,11 @@ static int me_newindex(lua_State *L) {
     JoxScript *script = jox_script_of(L);
     uint32_t i = check_me(L, script);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
-    JoxMind *mind = script->owner->mind;
+    JoxMachineRun *machines = script->owner->machines;
     int32_t slot = memory_slot(script->machine, name);
     int parameter = jox_parameter_find(name);
     if (slot >= 0) {
-        const JoxAgents *a = mind->agents;
+        const JoxAgents *a = machines->agents;
         double value = check_memory(L, &script->machine->memory[slot], 3);
         a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = value;
     } else if (parameter >= 0) { /* the own slots begin with the parameters */
@@ -242,14 +245,15 @@ static int me_newindex(lua_State *L) {
         if (!(value >= info->least && value <= info->greatest))
             return luaL_error(L, "%s must be a number from %f to %f %s", name, info->least,
                               info->greatest, info->unit);
-        jox_mind_set_own(mind, i, (uint32_t)parameter, value);
+        jox_machines_set_own(machines, i, (uint32_t)parameter, value);
     } else if (strcmp(name, "goal") == 0) {
-        int32_t place = lua_type(L, 3) == LUA_TSTRING
-                            ? jox_place_find(mind->places, mind->place_count, lua_tostring(L, 3))
-                            : -1;
+        int32_t place =
+            lua_type(L, 3) == LUA_TSTRING
+                ? jox_place_find(machines->places, machines->place_count, lua_tostring(L, 3))
+                : -1;
         if (place < 0)
             return luaL_error(L, "goal must be the name of a place of the scene");
-        mind->agents->goal[i] = place;
+        machines->agents->goal[i] = place;
     } else {
         return luaL_error(
             L, "'%s' cannot be set; what an agent remembers is declared by memory { ... }", name);

@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "machine/mind.h"
+#include "machine/run.h"
 
 /* Parts are machines by their index, and the scene's plan. */
 enum { JOX_PART_PLAN = JOX_MOST_MACHINES, JOX_PARTS };

@@ -1,0 +1,51 @@
+/* A field as part of a world's state. */
+#include "base/mem.h"
+#include "geom/field_parts.h"
+
+/* Whether what was read can be sampled: all indices are within their arrays. */
+static void check(const JoxField *f, JoxSections *s) {
+    size_t count = (size_t)f->columns * (size_t)f->rows;
+    for (size_t c = 0; c < count && !s->failed; c++)
+        if (f->cells[c].patch >= (int32_t)f->patch_count || f->cells[c].patch < JOX_FIELD_PLAIN)
+            jox_sections_fail(s, "field_cells", "a cell has a patch that there is not");
+    for (uint32_t p = 0; p < f->patch_count && !s->failed; p++)
+        if (f->patches[p].first > f->ref_count ||
+            f->patches[p].count > f->ref_count - f->patches[p].first)
+            jox_sections_fail(s, "field_patches", "a patch has edges that there are not");
+    for (uint32_t r = 0; r < f->ref_count && !s->failed; r++)
+        if (f->refs[r] >= f->edge_count)
+            jox_sections_fail(s, "field_refs", "an edge is named that there is not");
+}
+
+void jox_field_sections(JoxField **field, JoxSections *s) {
+    const bool restores = s->mode == JOX_SECTIONS_RESTORE;
+    if (restores) {
+        jox_field_free(*field);
+        *field = jox_alloc(1, sizeof **field);
+    }
+    JoxField *f = *field;
+    float box[] = {f->low.x, f->low.y, f->size, f->clearance};
+    int32_t grid[] = {f->columns, f->rows};
+    jox_section(s, "field_box", box, sizeof *box, 4);
+    jox_section(s, "field_grid", grid, sizeof *grid, 2);
+    size_t cells = (size_t)f->columns * (size_t)f->rows, capacity = 0;
+    size_t edge_capacity = 0, ref_capacity = 0, patch_capacity = f->patch_capacity;
+    JOX_SECTION_ARRAY(s, "field_cells", f->cells, cells, capacity);
+    JOX_SECTION_ARRAY(s, "field_patches", f->patches, f->patch_count, patch_capacity);
+    JOX_SECTION_ARRAY(s, "field_edges", f->edges, f->edge_count, edge_capacity);
+    JOX_SECTION_ARRAY(s, "field_refs", f->refs, f->ref_count, ref_capacity);
+    if (!restores)
+        return;
+    *f = (JoxField){{box[0], box[1]}, box[2],     box[3],         grid[0],        grid[1],
+                    f->cells,         f->patches, f->patch_count, f->patch_count, f->edges,
+                    f->edge_count,    f->refs,    f->ref_count};
+    if (grid[0] < 1 || grid[1] < 1 || cells != (size_t)grid[0] * (size_t)grid[1] ||
+        !(box[2] > 0.0f))
+        jox_sections_fail(s, "field_grid", "the grid is none");
+    if (!s->failed)
+        check(f, s);
+    if (s->failed) {
+        jox_field_free(f);
+        *field = NULL;
+    }
+}

@@ -1,0 +1,125 @@
+/* Parameters that people set while a world runs. They are state; the machine that runs is a copy of
+   the one that was built, with them applied. */
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "machine/internal.h"
+
+/* The own slot that a machine's default of a parameter draws, or -1. */
+static int32_t slot_of(const JoxMachine *machine, int32_t state, int parameter) {
+    for (uint32_t s = 0; state < 0 && s < machine->own_count; s++)
+        if (strcmp(machine->own[s].name, jox_parameters[parameter].name) == 0)
+            return (int32_t)s;
+    return -1;
+}
+
+static void apply(JoxMachine *machine, const JoxParameterEdit *edit) {
+    const JoxValue set = {JOX_VALUE_CONST, edit->value, 0, JOX_LINE_LIVE};
+    int32_t slot = slot_of(machine, edit->state, edit->parameter);
+    JOX_ASSERT(edit->state < (int32_t)machine->state_count);
+    if (slot >= 0)
+        machine->own[slot].dist = jox_dist_constant(edit->value);
+    *(edit->state < 0 ? &machine->defaults[edit->parameter]
+                      : &machine->states[edit->state].param[edit->parameter]) = set;
+}
+
+/* The copy: its states and own slots are its own, all that they point to belongs to the built one.
+ */
+static JoxMachine *copy_of(JoxMachineSet *set, uint32_t index) {
+    const JoxMachine *built = set->built[index];
+    JoxMachine *copy = set->edited[index];
+    JoxState *states;
+    JoxOwnSlot *own;
+    if (!copy) {
+        copy = set->edited[index] = jox_alloc(1, sizeof *copy);
+        states = jox_alloc((size_t)built->state_count + 1, sizeof *states);
+        own = jox_alloc((size_t)built->own_count + 1, sizeof *own);
+    } else {
+        states = copy->states;
+        own = copy->own;
+    }
+    *copy = *built;
+    copy->states = memcpy(states, built->states, built->state_count * sizeof *states);
+    if (built->own_count)
+        memcpy(own, built->own, built->own_count * sizeof *own);
+    copy->own = own;
+    return copy;
+}
+
+void jox_edits_apply(JoxMachineRun *run, uint32_t index) {
+    JoxMachineSet *set = run->set;
+    const JoxMachineState *state = run->state;
+    JoxMachine *copy = NULL;
+    for (uint32_t e = 0; e < state->edit_count; e++) {
+        if (state->edits[e].machine != index)
+            continue;
+        copy = copy ? copy : copy_of(set, index);
+        apply(copy, &state->edits[e]);
+    }
+    set->items[index] = copy ? copy : set->built[index];
+}
+
+void jox_edits_end(JoxMachineRun *run, uint32_t index) {
+    JoxMachineState *state = run->state;
+    JoxMachineSet *set = run->set;
+    uint32_t kept = 0;
+    for (uint32_t e = 0; e < state->edit_count; e++)
+        if (state->edits[e].machine != index)
+            state->edits[kept++] = state->edits[e];
+    state->edit_count = kept;
+    set->items[index] = set->built[index];
+    if (!set->edited[index])
+        return;
+    jox_free(set->edited[index]->states);
+    jox_free(set->edited[index]->own);
+    jox_free(set->edited[index]);
+    set->edited[index] = NULL;
+}
+
+/* Adds an edit, in place of one of the same parameter. */
+static void keep(JoxMachineState *state, JoxParameterEdit edit) {
+    uint32_t kept = 0;
+    for (uint32_t e = 0; e < state->edit_count; e++) {
+        const JoxParameterEdit *old = &state->edits[e];
+        if (old->machine != edit.machine || old->state != edit.state ||
+            old->parameter != edit.parameter)
+            state->edits[kept++] = *old;
+    }
+    state->edit_count = kept;
+    JOX_RESERVE(state->edits, state->edit_capacity, kept + 1);
+    state->edits[state->edit_count++] = edit;
+}
+
+/* Writes what the agent's state says of a parameter, where it is a number or an own value. */
+static void write_parameter(JoxMachineRun *run, uint32_t i, int p) {
+    const JoxMachine *machine = jox_machine_of(run, i);
+    const JoxValue *value =
+        jox_state_parameter(machine, &machine->states[run->agents->state[i]], p);
+    if (value->kind == JOX_VALUE_CONST || value->kind == JOX_VALUE_OWN)
+        run->agents->param[p][i] =
+            jox_parameter_store((JoxParameter)p, jox_value(run, machine, value, i));
+}
+
+void jox_machines_set_parameter(JoxMachineRun *run, uint32_t index, int32_t number, int parameter,
+                                double value) {
+    JoxAgents *a = run->agents;
+    run->edits_made++;
+    keep(run->state, (JoxParameterEdit){index, number, parameter, 0, value});
+    jox_edits_apply(run, index);
+    const JoxMachine *machine = run->set->items[index];
+    int32_t slot = slot_of(machine, number, parameter);
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (a->machine[i] != index || (number >= 0 && a->state[i] != number))
+            continue;
+        bool follows = slot >= 0 && !(slot < 64 && (a->given[i] >> slot & 1));
+        if (follows)
+            a->own[(size_t)i * a->own_stride + (uint32_t)slot] = value;
+        for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+            const JoxState *state = &machine->states[a->state[i]];
+            const JoxValue *held = jox_state_parameter(machine, state, p);
+            if (p == parameter || (follows && held->kind == JOX_VALUE_OWN && held->index == slot))
+                write_parameter(run, i, p);
+        }
+    }
+}

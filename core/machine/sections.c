@@ -1,0 +1,125 @@
+/* The machines' state as sections, and the scratch, which a step may forget. */
+#include <math.h>
+#include <string.h>
+
+#include "machine/internal.h"
+
+static void add_text(JoxHash *hash, const char *text) {
+    jox_hash_add(hash, text, strlen(text) + 1);
+}
+
+/* What the columns and rows of a machine's agents mean: its states, transitions, own values and
+   memory, by their names. Parameters and conditions may differ. */
+static uint64_t shape_of(const JoxMachine *machine) {
+    JoxHash hash = jox_hash_begin();
+    add_text(&hash, machine->name);
+    for (uint32_t s = 0; s < machine->state_count; s++) {
+        add_text(&hash, machine->states[s].name);
+        for (uint32_t k = 0; k < machine->states[s].transition_count; k++)
+            add_text(&hash, machine->states[s].transitions[k].id);
+    }
+    jox_hash_add(&hash, &machine->own_count, sizeof machine->own_count);
+    for (uint32_t o = 0; o < machine->own_count; o++)
+        add_text(&hash, machine->own[o].name);
+    jox_hash_add(&hash, &machine->memory_count, sizeof machine->memory_count);
+    for (uint32_t m = 0; m < machine->memory_count; m++)
+        add_text(&hash, machine->memory[m].name);
+    return jox_hash_end(&hash);
+}
+
+static void list_counts(JoxMachineCounts *counts, JoxSections *s) {
+    jox_section(s, "taken", counts->taken, sizeof *counts->taken, counts->taken_count);
+    size_t count = jox_section_count(s, "before", counts->before_count, sizeof *counts->taken);
+    if (s->mode == JOX_SECTIONS_RESTORE) {
+        JOX_RESERVE_ZEROED(counts->before, counts->before_capacity, count);
+        for (size_t b = count; b < counts->before_count; b++) {
+            jox_free(counts->before[b].from);
+            jox_free(counts->before[b].to);
+            counts->before[b] = (struct JoxTakenBefore){0};
+        }
+        counts->before_count = (uint32_t)count;
+    }
+    for (size_t b = 0; b < count; b++) {
+        jox_section_string(s, "before_from", &counts->before[b].from);
+        jox_section_string(s, "before_to", &counts->before[b].to);
+        JOX_SECTION(s, "before_taken", counts->before[b].taken);
+    }
+}
+
+/* Whether all that was read names machines, states and names that there are. */
+static void check(const JoxMachineRun *run, JoxSections *s) {
+    const JoxAgents *a = run->agents;
+    const JoxMachineState *state = run->state;
+    const JoxMachineSet *set = run->set;
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->machine[i] != JOX_NO_MACHINE &&
+            (a->machine[i] >= set->count || a->state[i] >= set->built[a->machine[i]]->state_count))
+            jox_sections_fail(s, "state", "an agent is in a state that there is not");
+    for (uint32_t e = 0; e < state->edit_count; e++) {
+        const JoxParameterEdit *edit = &state->edits[e];
+        if (edit->machine >= set->count || edit->parameter < 0 ||
+            edit->parameter >= JOX_PARAM_COUNT ||
+            edit->state >= (int32_t)set->built[edit->machine]->state_count)
+            jox_sections_fail(s, "edits", "a parameter was set that there is not");
+    }
+    for (uint32_t n = 0; n < state->called_count; n++)
+        if (state->called[n].name >= set->name_count)
+            jox_sections_fail(s, "called", "a signal has no name");
+    for (uint32_t n = 0; n < state->announced_count; n++)
+        if (state->announced[n] >= set->name_count)
+            jox_sections_fail(s, "announced", "a signal has no name");
+}
+
+void jox_machines_sections(JoxMachineRun *run, JoxSections *s) {
+    JoxMachineSet *set = run->set;
+    JoxMachineState *state = run->state;
+    jox_sections_module(s, "machines");
+    jox_section_model(s, "count", set->count);
+    for (uint32_t m = 0; m < set->count; m++)
+        jox_section_model(s, set->built[m]->name, shape_of(set->built[m]));
+    JOX_SECTION(s, "tick", run->tick);
+    JOX_SECTION_ARRAY(s, "called", state->called, state->called_count, state->called_capacity);
+    JOX_SECTION_ARRAY(s, "announced", state->announced, state->announced_count,
+                      state->announced_capacity);
+    JOX_SECTION_ARRAY(s, "pending", state->pending, state->pending_count, state->pending_capacity);
+    JOX_SECTION_ARRAY(s, "edits", state->edits, state->edit_count, state->edit_capacity);
+    for (uint32_t m = 0; run->hook_sections && m < set->count; m++)
+        run->hook_sections(run->call_context, set->built[m], s);
+    jox_sections_module(s, "machines");
+    jox_sections_unhashed(s, true);
+    for (uint32_t m = 0; m < set->count; m++)
+        list_counts(&state->counts[m], s);
+    jox_sections_unhashed(s, false);
+    if (s->mode != JOX_SECTIONS_RESTORE)
+        return;
+    if (!s->failed)
+        check(run, s);
+    for (uint32_t m = 0; m < set->count && !s->failed; m++)
+        jox_edits_apply(run, m);
+}
+
+void jox_machines_forget(JoxMachineRun *run) {
+    JoxMachineScratch *s = run->scratch;
+    uint32_t n = s ? s->capacity : 0;
+    run->taken_count = run->kick_count = run->grip_count = 0;
+    if (n == 0)
+        return;
+    s->batch_count = s->list_count = s->heard_count = s->everywhere_count = 0;
+    struct {
+        void *cells;
+        size_t size;
+    } all[] = {{s->grouped, sizeof *s->grouped},
+               {s->fired, sizeof *s->fired},
+               {s->rank, sizeof *s->rank},
+               {s->queue, sizeof *s->queue},
+               {s->heading, sizeof *s->heading},
+               {s->list, sizeof *s->list},
+               {run->push_on, 1},
+               {run->push_nearest, 1},
+               {run->push_toward_x, 4},
+               {run->push_toward_y, 4}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        memset(all[k].cells, 0xa5, n * all[k].size);
+    if (s->place_capacity)
+        memset(s->place_people, 0xa5, s->place_capacity * sizeof *s->place_people);
+}

@@ -1,0 +1,148 @@
+/* Machines come into a world, and agents begin to run them. */
+#include "machine/run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "machine/internal.h"
+
+/* Numbers what is numbered across all machines of the set and all states of the machine. */
+static void number(JoxMachineRun *run, JoxMachine *machine) {
+    uint32_t transitions = 0;
+    for (uint32_t n = 0; n < machine->name_count; n++)
+        machine->names[n].number = jox_machines_name(run, machine->names[n].text);
+    for (uint32_t s = 0; s < machine->state_count; s++) {
+        machine->states[s].name_number = jox_machines_name(run, machine->states[s].name);
+        machine->states[s].first_transition = transitions;
+        transitions += machine->states[s].transition_count;
+    }
+}
+
+void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine) {
+    number(run, machine);
+    jox_agents_widen(run->agents, machine->own_count, machine->memory_count);
+    run->set->items[index] = run->set->built[index] = machine;
+    jox_counts_begin(&run->state->counts[index], machine);
+}
+
+uint32_t jox_machines_add(JoxMachineRun *run, JoxMachine *machine) {
+    JOX_ASSERT(run->set->count < JOX_MOST_MACHINES);
+    jox_machines_put(run, run->set->count, machine);
+    return run->set->count++;
+}
+
+static void draw_own(const JoxMachineRun *run, uint32_t i, uint32_t slot, const JoxDist *dist) {
+    const JoxAgents *a = run->agents;
+    a->own[(size_t)i * a->own_stride + slot] =
+        jox_dist_draw(dist, run->seed, a->id[i], 0, JOX_DRAW_OWN, slot);
+}
+
+static void draw_values(JoxMachineRun *run, uint32_t agent, const JoxMachine *kind,
+                        const JoxDist *const *own, const JoxDist *const *memory) {
+    JoxAgents *a = run->agents;
+    for (uint32_t s = 0; s < kind->own_count; s++)
+        draw_own(run, agent, s, own && own[s] ? own[s] : &kind->own[s].dist);
+    for (uint32_t s = 0; s < kind->memory_count; s++) {
+        double value = kind->memory[s].initial;
+        if (memory && memory[s])
+            value = jox_dist_draw(memory[s], run->seed, a->id[agent], 0, JOX_DRAW_MEMORY, s);
+        a->memory[(size_t)agent * a->memory_stride + s] = value;
+    }
+}
+
+void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
+                        const JoxDist *const *own, const JoxDist *const *memory) {
+    JoxAgents *a = run->agents;
+    const JoxMachine *kind = run->set->items[machine];
+    a->machine[agent] = (uint16_t)machine;
+    draw_values(run, agent, kind, own, memory);
+    for (uint32_t s = 0; own && s < kind->own_count && s < 64; s++)
+        a->given[agent] |= own[s] ? (uint64_t)1 << s : 0;
+    run->spawning = true; /* it has no neighbours yet */
+    jox_machines_enter(run, agent, kind->start);
+    run->spawning = false;
+    const JoxState *start = &kind->states[kind->start];
+    const JoxActions *does = &start->enters;
+    if (start->on_enter < 0 && start->lasts_program < 0 && !does->set_count && does->signal < 0)
+        return;
+    JoxMachineState *state = run->state;
+    JOX_RESERVE(state->pending, state->pending_capacity, state->pending_count + 1);
+    state->pending[state->pending_count++] = a->id[agent];
+}
+
+/* Whether an own value goes along when an agent becomes another machine: its body and what is no
+   parameter (a goal, a court), and whatever the scene gave it. */
+static bool goes_along(const JoxAgents *a, uint32_t i, const JoxOwnSlot *slot, uint32_t number) {
+    int parameter = jox_parameter_find(slot->name);
+    bool given = number < 64 && (a->given[i] >> number & 1);
+    return *slot->name &&
+           (given || parameter < 0 || parameter == JOX_PARAM_radius || parameter == JOX_PARAM_mass);
+}
+
+void jox_machines_set_own(JoxMachineRun *run, uint32_t i, uint32_t slot, double value) {
+    JoxAgents *a = run->agents;
+    a->own[(size_t)i * a->own_stride + slot] = value;
+    a->given[i] |= slot < 64 ? (uint64_t)1 << slot : 0;
+    jox_machines_write_parameters(run, i);
+}
+
+void jox_rows_end(const JoxAgents *a, uint32_t i, const JoxMachine *machine) {
+    double *own = a->own + (size_t)i * a->own_stride;
+    double *memory = a->memory + (size_t)i * a->memory_stride;
+    for (uint32_t s = machine->own_count; s < a->own_stride; s++)
+        own[s] = 0.0;
+    for (uint32_t s = machine->memory_count; s < a->memory_stride; s++)
+        memory[s] = 0.0;
+}
+
+void jox_machines_become(JoxMachineRun *run, uint32_t i, uint32_t machine) {
+    enum { MOST = 256 };
+    JoxAgents *a = run->agents;
+    const JoxMachine *old = run->set->items[a->machine[i]], *next = run->set->items[machine];
+    JoxDist kept[MOST], remembered[MOST];
+    const JoxDist *own[MOST] = {0}, *memory[MOST] = {0};
+    uint64_t given = 0;
+    for (uint32_t n = 0; n < next->own_count && n < MOST; n++)
+        for (uint32_t o = 0; o < old->own_count; o++)
+            if (strcmp(old->own[o].name, next->own[n].name) == 0 &&
+                goes_along(a, i, &old->own[o], o)) {
+                kept[n] = jox_dist_constant(a->own[(size_t)i * a->own_stride + o]);
+                own[n] = &kept[n];
+                given |= n < 64 ? (uint64_t)1 << n : 0;
+            }
+    for (uint32_t n = 0; n < next->memory_count && n < MOST; n++)
+        for (uint32_t o = 0; o < old->memory_count; o++)
+            if (*next->memory[n].name && !strcmp(old->memory[o].name, next->memory[n].name) &&
+                old->memory[o].kind == next->memory[n].kind) {
+                remembered[n] = jox_dist_constant(a->memory[(size_t)i * a->memory_stride + o]);
+                memory[n] = &remembered[n];
+            }
+    a->machine[i] = (uint16_t)machine;
+    draw_values(run, i, next, own, memory);
+    jox_rows_end(a, i, next);
+    a->given[i] = given;
+    jox_machines_enter(run, i, next->start);
+}
+
+void jox_machines_free(JoxMachineRun *run) {
+    JoxMachineSet *set = run->set;
+    JoxMachineState *state = run->state;
+    for (uint32_t m = 0; m < set->count; m++) {
+        jox_edits_end(run, m);
+        jox_machine_free(set->built[m]);
+        jox_counts_free(&state->counts[m]);
+    }
+    for (uint32_t n = 0; n < set->name_count; n++)
+        jox_free(set->names[n]);
+    jox_free(set->names);
+    void *const owned[] = {state->called,     state->announced,   state->pending,    state->edits,
+                           run->taken,        run->kicks,         run->grips,        run->push_on,
+                           run->push_nearest, run->push_toward_x, run->push_toward_y};
+    for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
+        jox_free(owned[i]);
+    jox_text_free(&run->trace);
+    jox_machines_scratch_free(run);
+}

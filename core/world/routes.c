@@ -1,0 +1,330 @@
+#include "world/routes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "task/worker.h"
+#include "world/obstacles.h"
+#include "world/world.h"
+
+enum { MOST_FIELDS = 64 };
+/* m: the smallest that gives few enough cells to be done within DELAY; the largest still shows
+   doors of half a metre. */
+static const float CELLS[] = {0.125f, 0.18f, 0.25f, 0.3f};
+static const float MOST_CELLS = 400000.0f;
+static const float CLEARANCE = 0.15f; /* m: half of a person who turns sideways */
+static const float MARGIN = 3.0f;     /* m about all walls and agents */
+static const double DELAY = 0.5;      /* s from asking to use */
+static const double PAUSE = 2.0;      /* s between renewals for bodies that move */
+static const double LOOK = 0.25;      /* s between looks at bodies */
+
+/* One field to be made, with copies of all that it is made of. */
+typedef struct Making {
+    JoxWorkItem item; /* first */
+    JoxWalls walls;
+    JoxPlace *places; /* the place, and behind it its members */
+    uint32_t place_count;
+    JoxV2 low, high;
+    float cell; /* m */
+    JoxField *field;
+} Making;
+
+typedef struct Route {
+    Making *making;            /* or NULL */
+    uint64_t asked, due;       /* ticks: when the last making began, when its field is used */
+    uint32_t walls, obstacles; /* versions of what it was made of */
+} Route;
+
+struct JoxRoutes {
+    JoxWorker *worker;
+    JoxObstacles obstacles;
+    uint32_t walls; /* version, as a Route's */
+    uint32_t seen;  /* world->state.walls_version */
+    bool begun;
+    uint32_t capacity; /* places */
+    /* By place and kind of field, as the mind sees them: [place * JOX_ROUTE_KINDS + kind]. */
+    JoxField **fields;
+    Route *items;
+    uint8_t *wanted; /* by place */
+    uint32_t count;  /* fields that are there or under way */
+};
+
+JoxRoutes *jox_routes_create(void) {
+    JoxRoutes *routes = jox_alloc(1, sizeof *routes);
+    routes->worker = jox_worker_create();
+    return routes;
+}
+
+/* ---- making one ---- */
+
+static void free_making(Making *making) {
+    for (uint32_t p = 0; p < making->place_count; p++) {
+        jox_free(making->places[p].points);
+        jox_free(making->places[p].members);
+    }
+    jox_free(making->places);
+    jox_walls_free(&making->walls);
+    jox_field_free(making->field);
+    jox_free(making);
+}
+
+static void make(JoxWorkItem *item) {
+    Making *m = (Making *)item;
+    m->field = jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, CLEARANCE);
+}
+
+static void make_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    Making **makings = context;
+    for (uint32_t i = begin; i < end; i++)
+        make(&makings[i]->item);
+}
+
+static void copy_place(JoxPlace *to, const JoxPlace *from) {
+    *to = *from;
+    to->name = NULL;
+    to->points = jox_alloc(from->count + 1, sizeof *to->points);
+    to->members = jox_alloc(from->member_count + 1, sizeof *to->members);
+    if (from->count)
+        memcpy(to->points, from->points, from->count * sizeof *to->points);
+}
+
+static void copy_places(const JoWorld *w, uint32_t place, Making *making) {
+    const JoxPlace *from = &w->model.places[place];
+    making->place_count = 1 + from->member_count;
+    making->places = jox_alloc(making->place_count, sizeof *making->places);
+    copy_place(&making->places[0], from);
+    for (uint32_t m = 0; m < from->member_count; m++) {
+        copy_place(&making->places[m + 1], &w->model.places[from->members[m]]);
+        making->places[0].members[m] = (int32_t)m + 1;
+    }
+}
+
+/* The box about all walls, open ones too, and agents. Its corner lies on the grid of cells, so that
+   fields that are made anew judge narrow gaps alike. */
+static void lay_out(const JoWorld *w, Making *making) {
+    const JoxWalls *walls = &w->model.all_walls;
+    JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < walls->count + w->state.agents.count; i++) {
+        JoxV2 p = i < walls->count ? walls->vertices[i].point
+                                   : (JoxV2){w->state.agents.x[i - walls->count],
+                                             w->state.agents.y[i - walls->count]};
+        low = (JoxV2){jox_minf(low.x, p.x), jox_minf(low.y, p.y)};
+        high = (JoxV2){jox_maxf(high.x, p.x), jox_maxf(high.y, p.y)};
+    }
+    low = jox_sub(low, (JoxV2){MARGIN, MARGIN});
+    high = jox_add(high, (JoxV2){MARGIN, MARGIN});
+    int c = 0;
+    while (c < 3 && (high.x - low.x) * (high.y - low.y) > MOST_CELLS * CELLS[c] * CELLS[c])
+        c++;
+    float cell = CELLS[c];
+    making->cell = cell;
+    making->low = (JoxV2){floorf(low.x / cell) * cell, floorf(low.y / cell) * cell};
+    making->high = high;
+}
+
+/* Begins to make a field from what stands where now. */
+static Making *begin(JoWorld *w, uint32_t place, JoxRouteKind kind, double delay) {
+    JoxRoutes *routes = w->state.routes;
+    Route *route = &routes->items[place * JOX_ROUTE_KINDS + kind];
+    Making *making = jox_alloc(1, sizeof *making);
+    making->item.run = make;
+    jox_walls_standing(&making->walls, &w->model.all_walls, kind == JOX_ROUTE_NOW);
+    jox_obstacles_add(&routes->obstacles, kind == JOX_ROUTE_NOW, &making->walls);
+    copy_places(w, place, making);
+    lay_out(w, making);
+    *route = (Route){.making = making,
+                     .asked = w->state.tick,
+                     .due = w->state.tick + (uint64_t)ceil(delay / w->model.def.dt - 1e-9),
+                     .walls = routes->walls,
+                     .obstacles = routes->obstacles.version};
+    return making;
+}
+
+/* The field that was made comes into use. */
+static void take(JoxRoutes *routes, uint32_t at) {
+    Making *making = routes->items[at].making;
+    jox_field_free(routes->fields[at]);
+    routes->fields[at] = making->field;
+    making->field = NULL;
+    free_making(making);
+    routes->items[at].making = NULL;
+}
+
+/* ---- which ones ---- */
+
+/* Whether routes could lead elsewhere if what can go away were not there. */
+static bool is_shut(const JoWorld *w) {
+    for (uint32_t r = 0; r < w->model.all_walls.ring_count; r++)
+        if (w->model.all_walls.rings[r].name && !w->model.all_walls.rings[r].open)
+            return true;
+    for (uint32_t o = 0; o < w->state.routes->obstacles.count; o++)
+        if (w->state.routes->obstacles.items[o].movable)
+            return true;
+    return false;
+}
+
+static bool is_due(const JoWorld *w, uint32_t place, JoxRouteKind kind) {
+    const JoxRoutes *routes = w->state.routes;
+    uint32_t at = place * JOX_ROUTE_KINDS + kind;
+    const Route *route = &routes->items[at];
+    if (!(routes->wanted[place] >> kind & 1) || route->making)
+        return false;
+    if (!routes->fields[at])
+        return routes->count < MOST_FIELDS && (kind == JOX_ROUTE_NOW || is_shut(w));
+    if (route->walls != routes->walls)
+        return true;
+    return kind == JOX_ROUTE_NOW && route->obstacles != routes->obstacles.version &&
+           (double)(w->state.tick - route->asked) * w->model.def.dt >= PAUSE - 1e-9;
+}
+
+static void make_room(JoWorld *w) {
+    JoxRoutes *routes = w->state.routes;
+    if (w->model.place_count > routes->capacity) {
+        uint32_t had = routes->capacity, has = w->model.place_count;
+        routes->fields = jox_realloc(routes->fields, has * JOX_ROUTE_KINDS, sizeof *routes->fields);
+        routes->items = jox_realloc(routes->items, has * JOX_ROUTE_KINDS, sizeof *routes->items);
+        routes->wanted = jox_realloc(routes->wanted, has, 1);
+        for (uint32_t at = had * JOX_ROUTE_KINDS; at < has * JOX_ROUTE_KINDS; at++) {
+            routes->fields[at] = NULL;
+            routes->items[at] = (Route){0};
+        }
+        memset(routes->wanted + had, 0, has - had);
+        routes->capacity = has;
+    }
+    w->machines.fields = routes->fields;
+    w->machines.wanted = routes->wanted;
+}
+
+/* What is asked for in the first step, at once and on all threads. */
+static void make_first(JoWorld *w) {
+    JoxRoutes *routes = w->state.routes;
+    for (JoxRouteKind kind = JOX_ROUTE_NOW; kind < JOX_ROUTE_KINDS; kind++) {
+        Making *makings[MOST_FIELDS];
+        uint32_t count = 0, at[MOST_FIELDS];
+        jox_machines_ask_routes(&w->machines); /* who finds no route asks for the other kind */
+        for (uint32_t p = 0; p < routes->capacity; p++) {
+            if (!is_due(w, p, kind))
+                continue;
+            at[count] = p * JOX_ROUTE_KINDS + kind;
+            makings[count++] = begin(w, p, kind, 0.0);
+            routes->count++;
+        }
+        jox_parallel_for(w->scratch.pool, count, 1, make_range, makings);
+        for (uint32_t n = 0; n < count; n++)
+            take(routes, at[n]);
+    }
+}
+
+void jox_world_routes(JoWorld *w) {
+    JoxRoutes *routes = w->state.routes;
+    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)floor(LOOK / w->model.def.dt + 0.5));
+    make_room(w);
+    if (routes->seen != w->state.walls_version) {
+        routes->seen = w->state.walls_version;
+        routes->walls++;
+    }
+    bool any = false;
+    for (uint32_t p = 0; p < routes->capacity; p++)
+        any |= routes->wanted[p] != 0;
+    if (!routes->begun || (routes->count > 0 ? w->state.tick % every == 0 : any))
+        jox_obstacles_update(&routes->obstacles, &w->scratch.objects);
+    if (!routes->begun) {
+        make_first(w);
+        if (routes->capacity)
+            memset(routes->wanted, 0, routes->capacity);
+    }
+    routes->begun = true;
+    for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS && routes->count > 0; at++) {
+        if (!routes->items[at].making || routes->items[at].due > w->state.tick)
+            continue;
+        jox_worker_wait(routes->worker, &routes->items[at].making->item);
+        take(routes, at);
+    }
+    for (uint32_t p = 0; any && p < routes->capacity; p++) {
+        for (JoxRouteKind kind = JOX_ROUTE_NOW; routes->wanted[p] && kind < JOX_ROUTE_KINDS;
+             kind++) {
+            if (!is_due(w, p, kind))
+                continue;
+            routes->count += !routes->fields[p * JOX_ROUTE_KINDS + kind];
+            jox_worker_give(routes->worker, &begin(w, p, kind, DELAY)->item);
+        }
+        routes->wanted[p] = 0;
+    }
+}
+
+void jox_world_renew_routes(JoWorld *w) {
+    w->state.routes->walls++;
+}
+
+/* ---- state ---- */
+
+/* Fields under way are finished first: what they will be does not depend on when. */
+static void finish(JoxRoutes *routes) {
+    for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS; at++)
+        if (routes->items[at].making)
+            jox_worker_wait(routes->worker, &routes->items[at].making->item);
+}
+
+static void clear(JoxRoutes *routes) {
+    for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS; at++) {
+        jox_field_free(routes->fields[at]);
+        routes->fields[at] = NULL;
+        if (routes->items[at].making)
+            free_making(routes->items[at].making);
+        routes->items[at] = (Route){0};
+    }
+}
+
+/* The field in use, and the one that will be. */
+static void list_route(JoxRoutes *routes, uint32_t at, JoxSections *s) {
+    Route *route = &routes->items[at];
+    uint64_t times[] = {route->asked, route->due};
+    uint32_t versions[] = {route->walls, route->obstacles};
+    uint32_t there[] = {routes->fields[at] != NULL, route->making != NULL};
+    jox_section(s, "times", times, sizeof *times, 2);
+    jox_section(s, "versions", versions, sizeof *versions, 2);
+    jox_section(s, "there", there, sizeof *there, 2);
+    if (s->mode == JOX_SECTIONS_RESTORE) {
+        *route = (Route){NULL, times[0], times[1], versions[0], versions[1]};
+        if (there[1] && !s->failed) {
+            route->making = jox_alloc(1, sizeof *route->making);
+            route->making->item.done = true;
+        }
+    }
+    if (there[0])
+        jox_field_sections(&routes->fields[at], s);
+    if (there[1] && route->making)
+        jox_field_sections(&route->making->field, s);
+}
+
+void jox_routes_sections(JoWorld *w, JoxSections *s) {
+    JoxRoutes *routes = w->state.routes;
+    make_room(w);
+    finish(routes);
+    jox_sections_module(s, "routes");
+    if (s->mode == JOX_SECTIONS_RESTORE)
+        clear(routes);
+    jox_obstacles_sections(&routes->obstacles, s);
+    jox_section_model(s, "places", routes->capacity);
+    JOX_SECTION(s, "walls", routes->walls);
+    JOX_SECTION(s, "seen", routes->seen);
+    JOX_SECTION(s, "begun", routes->begun);
+    JOX_SECTION(s, "count", routes->count);
+    jox_section(s, "wanted", routes->wanted, 1, routes->capacity);
+    for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS; at++)
+        list_route(routes, at, s);
+}
+
+void jox_routes_free(JoxRoutes *routes) {
+    if (!routes)
+        return;
+    jox_worker_free(routes->worker);
+    clear(routes);
+    jox_obstacles_free(&routes->obstacles);
+    jox_free(routes->fields);
+    jox_free(routes->items);
+    jox_free(routes->wanted);
+    jox_free(routes);
+}

@@ -1,0 +1,132 @@
+/* The state of a world as sections: what is hashed, saved, restored and compared. */
+#include <string.h>
+
+#include "base/mem.h"
+#include "world/world.h"
+
+/* Which walls that open are open: state of the model's walls. */
+static void list_walls(JoWorld *w, JoxSections *s) {
+    JoxWalls *walls = &w->model.all_walls;
+    JoxHash shape = jox_hash_begin();
+    for (uint32_t v = 0; v < walls->count; v++)
+        jox_hash_add(&shape, &walls->vertices[v].point, sizeof walls->vertices[v].point);
+    jox_section_model(s, "walls", jox_hash_end(&shape));
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        struct JoxWallRing *ring = &walls->rings[r];
+        if (!ring->name)
+            continue;
+        uint8_t gate[] = {ring->open, ring->set};
+        jox_section(s, "gate", gate, 1, 2);
+        ring->open = gate[0];
+        ring->set = gate[1];
+    }
+    JOX_SECTION(s, "walls_version", w->state.walls_version);
+    JOX_SECTION(s, "walls_set", w->state.walls_set);
+    JOX_SECTION(s, "walls_came", w->state.walls_came);
+    JOX_SECTION(s, "settled", w->state.settled);
+    JOX_SECTION(s, "first_unsettled", w->state.first_unsettled);
+    if (s->mode == JOX_SECTIONS_RESTORE && !s->failed && w->state.walls_set) {
+        w->state.walls_set = false;
+        jox_world_raise_walls(w);
+    }
+}
+
+/* What players want at present, and how far the log has been read. */
+static void list_input(JoxInputLog *log, JoxSections *s) {
+    jox_sections_module(s, "input");
+    JOX_SECTION_ARRAY(s, "present", log->present, log->present_count, log->present_capacity);
+    jox_sections_unhashed(s, true); /* the same people did the same, from a log or live */
+    JOX_SECTION(s, "next", log->next);
+    jox_sections_unhashed(s, false);
+    if (s->mode == JOX_SECTIONS_RESTORE && log->next > log->count)
+        jox_sections_fail(s, "next", "the log is shorter");
+}
+
+/* Two worlds whose seeds or steps differ have different futures from the same state. */
+static void list_def(const JoWorldDef *def, JoxSections *s) {
+    jox_section_model(s, "seed", def->seed);
+    jox_section_model(s, "forces", def->forces);
+    jox_section_model(s, "literal", def->literal);
+    uint64_t bits;
+    memcpy(&bits, &def->dt, sizeof bits);
+    jox_section_model(s, "dt", bits);
+    memcpy(&bits, &def->gravity, sizeof bits);
+    jox_section_model(s, "gravity", bits);
+}
+
+void jox_world_sections(JoWorld *w, JoxSections *s) {
+    jox_sections_module(s, "world");
+    list_def(&w->model.def, s);
+    JOX_SECTION(s, "tick", w->state.tick);
+    list_walls(w, s);
+    jox_agents_sections(&w->state.agents, s);
+    jox_machines_sections(&w->machines, s);
+    list_input(&w->state.input, s);
+    jox_routes_sections(w, s);
+    jox_nav_sections(w->scratch.nav, s);
+    jox_drags_sections(&w->state.drags, s);
+    jox_bodies_sections(w->state.bodies, s);
+    jox_sections_module(s, "figures");
+    jox_sections_unhashed(s, true);
+    JOX_SECTION(s, "statistics", w->state.statistics);
+    jox_sections_unhashed(s, false);
+}
+
+bool jox_world_snapshot_is_exact(const JoWorld *world) {
+    return jox_bodies_count(world->state.bodies) == 0 ||
+           world->state.tick % JOX_BODIES_REINSERT_STEPS == 0;
+}
+
+static void save(JoWorld *world, JoxText *out) {
+    JoxSections s = jox_sections_save(out);
+    jox_world_sections(world, &s);
+    jox_sections_end(&s);
+}
+
+bool jox_world_snapshot(JoWorld *world, JoxText *out, JoError *error) {
+    if (!jox_world_snapshot_is_exact(world)) {
+        jox_error(error, JO_INPUT,
+                  "with bodies a state can be saved after every %d steps, not after %llu",
+                  JOX_BODIES_REINSERT_STEPS, (unsigned long long)world->state.tick);
+        return false;
+    }
+    save(world, out);
+    return true;
+}
+
+/* Reads the sections, and what follows from them. */
+static bool restore(JoWorld *w, const void *data, size_t size, JoError *error) {
+    JoxSections s = jox_sections_restore(data, size);
+    if (!s.failed)
+        jox_world_sections(w, &s);
+    if (!jox_sections_end(&s)) {
+        jox_error(error, JO_INPUT, "the state cannot be restored: %s", s.wrong);
+        return false;
+    }
+    w->scratch.gone_count = 0;
+    jox_world_forget(w);
+    return true;
+}
+
+bool jox_world_restore(JoWorld *world, const void *data, size_t size, JoError *error) {
+    JoxText before = {0};
+    save(world, &before);
+    bool good = restore(world, data, size, error);
+    if (!good)
+        restore(world, before.data, before.length, NULL);
+    jox_text_free(&before);
+    return good;
+}
+
+void jox_world_forget(JoWorld *w) {
+    jox_agents_forget(&w->state.agents);
+    jox_machines_forget(&w->machines);
+    jox_nav_forget(w->scratch.nav);
+    jox_bodies_objects(w->state.bodies, &w->scratch.objects);
+}
+
+uint64_t jox_world_hash(const JoWorld *world) {
+    JoxSections s = jox_sections_hash();
+    jox_world_sections((JoWorld *)world, &s); /* in this mode nothing is written */
+    return jox_hash_end(&s.hash);
+}
