@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/path.h"
 #include "base/sort.h"
 #include "lua/language/vocabulary.h"
 #include "lua/loader.h"
@@ -474,9 +475,8 @@ bool jox_lua_patch_target(const char *text, size_t length, char target[128], boo
    by "mod:file" for one of a mod. */
 static bool is_target(JoxScript *script, int index, const char *target) {
     lua_State *L = script->vm.L;
-    const char *path = script->vm.sources[0]->path, *slash = strrchr(path, '/');
-    const char *stem = slash ? slash + 1 : path;
-    size_t n = strcspn(stem, ".");
+    const char *path = script->vm.sources[0]->path, *stem = jox_path_name(path);
+    size_t n = jox_path_stem(stem);
     bool is =
         jox_read_field(L, index, "name") == LUA_TSTRING && !strcmp(lua_tostring(L, -1), target);
     lua_pop(L, 1);

@@ -7,6 +7,8 @@
 
 #include "scene/internal.h"
 
+#include "base/path.h"
+
 enum { DEEPEST = 12 };
 
 typedef struct Patch {
@@ -162,8 +164,7 @@ static JoxYaml *merge(const Patch *p, const JoxYaml *base, const JoxYaml *change
 
 /* Whether a patch's target is this scene: by its file, or by "mod:file" for one of a mod. */
 static bool is_target(const JoxLoad *l, const char *target) {
-    const char *path = l->scene->path, *slash = strrchr(path, '/');
-    const char *stem = slash ? slash + 1 : path, *dot = strrchr(stem, '.');
+    const char *path = l->scene->path, *stem = jox_path_name(path), *dot = strrchr(stem, '.');
     size_t n = dot ? (size_t)(dot - stem) : strlen(stem);
     for (uint32_t m = 0; m < l->options->mod_count; m++) {
         const JoxMod *mod = &l->options->mods[m];
