@@ -85,7 +85,13 @@ struct JoxContactLoad {
     btVector3 point, impulse, normal;
 };
 
+/* Has Bullet allocate so that it meets no null pointer. */
+void jox_bullet_use_memory();
+/* Frees what Bullet allocated while the heap was in use. */
+void jox_bullet_free_heap(const JoxHeap *heap);
+
 struct JoxBodies {
+    JoxHeap *heap; /* in use where it was made */
     JoxBodiesDef def;
     btDefaultCollisionConfiguration *configuration;
     btCollisionDispatcher *dispatcher;

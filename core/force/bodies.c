@@ -219,7 +219,7 @@ static void reset_motions(JoxForces *f) {
     }
 }
 
-void jox_touches_settle(JoxForces *f, bool literal) {
+void jox_touches_prepare(JoxForces *f, bool literal) {
     const JoxAgents *a = f->step.agents;
     reset_motions(f);
     for (uint32_t i = 0; i < f->touch_count; i++) {
@@ -276,12 +276,14 @@ void jox_touches_finish(JoxForces *f) {
         uint32_t i = t->agent;
         a->contact_x[i] += impulse.x * per_second;
         a->contact_y[i] += impulse.y * per_second;
-        a->compression[i] += t->impulse * per_second / jox_girth(a->param[JOX_PARAM_radius][i]);
+        a->compression[i] +=
+            t->impulse * per_second / jox_circumference(a->param[JOX_PARAM_radius][i]);
         if (!(f->step.objects->rows[t->object].inverse_mass > 0.0f))
             continue;
         totals->touched_x += (double)(impulse.x * per_second) * f->step.dt;
         totals->touched_y += (double)(impulse.y * per_second) * f->step.dt;
         totals->touched += t->impulse;
-        jox_force_owe(f, a->id[i], t->object, (JoxV3){-impulse.x, -impulse.y, 0.0f}, t->point);
+        jox_force_add_impulse(f, a->id[i], t->object, (JoxV3){-impulse.x, -impulse.y, 0.0f},
+                              t->point);
     }
 }

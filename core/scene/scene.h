@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "base/diag.h"
-#include "base/mod.h"
+#include "base/patch.h"
 #include "base/random.h"
 #include "body/body.h"
 #include "geom/place.h"
@@ -123,14 +123,6 @@ typedef struct JoxSceneEvent {
     JoxPosition position;
 } JoxSceneEvent;
 
-/* A path of the scene that a mod set. */
-typedef struct JoxSceneChange {
-    char *path; /* "groups.red.count" */
-    JoxPosition position;
-    uint32_t mod;
-    bool removes;
-} JoxSceneChange;
-
 typedef struct JoxSceneFile {
     char *path;
     char sha256[65];
@@ -188,9 +180,8 @@ typedef struct JoxSceneSpec {
     double heatmap_from; /* s; averages begin there */
     JoxSceneFile *files; /* scene and included files */
     uint32_t file_count;
-    JoxSceneChange *changes; /* in the order in which they were made */
-    uint32_t change_count;
-    void *memory; /* owns every text and array above but `walls` */
+    JoxPatchChanges changes; /* that mods made */
+    void *memory;            /* owns every text and array above but `walls` and `changes` */
 } JoxSceneSpec;
 
 /* `sets` are "PATH=VALUE", as "groups.pilgrims.count=5000". */
