@@ -4,7 +4,7 @@
 
 #include "base/assert.h"
 #include "base/guard.h"
-#include "run/run.h"
+#include "live/inspect.h"
 
 enum { DIGITS = 6 };
 
@@ -78,9 +78,9 @@ static void add_setter(const JoScene *scene, uint32_t i, const JoxMachine *machi
     } else if (given) {
         jox_text_add(&text, "function");
     } else {
-        JoxSetBy by = jox_run_set_by(scene, machine, state, p);
+        JoxLiveSetBy by = jox_live_set_by(scene, machine, state, p);
         jox_text_add(&text, by.where.data);
-        jox_set_by_free(&by);
+        jox_live_set_by_free(&by);
     }
     jox_json_string(json, "set", text.data);
     jox_text_free(&text);
@@ -189,7 +189,7 @@ static void add_step(const JoxInspected *seen, double compression, JoxJson *json
     add_figure(json, "compression", compression);
 }
 
-bool jox_run_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
+bool jox_live_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxWatched *watched;
     const JoxInspected *seen = jox_world_inspect(scene->world, slot, &watched);
@@ -215,7 +215,7 @@ char *jo_scene_inspect(JoScene *scene, uint32_t slot) {
     JoxText out = {0};
     JoxJson json = jox_json_begin(&out, 0);
     jox_json_object(&json, NULL);
-    jox_run_inspect(scene, slot, &json);
+    jox_live_inspect(scene, slot, &json);
     jox_json_end(&json);
     return jox_disown(out.data);
 }
