@@ -210,7 +210,8 @@ void jox_build(JoxScript *script, const JoxSource *source) {
         m->memory[slot].initial = script->memory[i].initial;
     }
     const char *known[16];
-    jox_read_check(&build, table, "", known, jox_sheet_names("machine", false, known, 16), false);
+    jox_read_check(&build, table, "", known, jox_table_key_names("machine", false, known, 16),
+                   false);
     jox_read_field(L, table, "name");
     m->name = jox_strdup(is_name(L, -1) ? lua_tostring(L, -1) : "machine");
     if (lua_type(L, -1) == LUA_TSTRING && !is_name(L, -1))
