@@ -12,6 +12,19 @@
 
 #define JOX_NO_INDEX UINT32_MAX
 
+/* The terms of the net force, equation 10, N: each row gives two columns, NAME_x and NAME_y, and a
+   part of what is shown of an agent that is inspected. ROW(X, keep, name, label): STATE carries
+   over from step to step, SCRATCH starts every step at zero. A new term is a row here, a stage in
+   force/ that fills its columns, and the call of that stage in the step. The order is that of the
+   sum. */
+#define JOX_FORCE_TERMS(ROW, X)                                                                    \
+    ROW(X, STATE, ext, "external")        /* given from outside for this step */                   \
+    ROW(X, STATE, inferred, "resistance") /* filtered deceleration and resistance, eq. 8, 9 */     \
+    ROW(X, SCRATCH, push, "push")         /* pushes received, eq. 5 */                             \
+    ROW(X, SCRATCH, contact, "contact")   /* contacts with agents and bodies, eq. 6, 7 */
+#define JOX_FORCE_TERM_COLUMNS(X, keep, name, label)                                               \
+    X(keep, float, name##_x) X(keep, float, name##_y)
+
 /* X(keep, type, name): what it is. Units: m, m/s, N, s.
    STATE: carried from step to step, so it is hashed and saved. SCRATCH: every step writes it before
    it reads it; between steps it holds figures of the last step, which a restored world lacks until
@@ -39,14 +52,7 @@
     X(STATE, float, pref_y)                                                                        \
     X(SCRATCH, float, next_x) /* new velocity, written by `solve` */                               \
     X(SCRATCH, float, next_y)                                                                      \
-    X(STATE, float, ext_x) /* external force given by the host this step, N */                     \
-    X(STATE, float, ext_y)                                                                         \
-    X(SCRATCH, float, push_x) /* sum of pushes received, N */                                      \
-    X(SCRATCH, float, push_y)                                                                      \
-    X(SCRATCH, float, contact_x) /* sum of contact forces received, N */                           \
-    X(SCRATCH, float, contact_y)                                                                   \
-    X(STATE, float, inferred_x) /* filtered deceleration and resistance, for the next step, N */   \
-    X(STATE, float, inferred_y)                                                                    \
+    JOX_FORCE_TERMS(JOX_FORCE_TERM_COLUMNS, X)                                                     \
     X(STATE, float, force_x) /* net force of this step, equation 10, N */                          \
     X(STATE, float, force_y)                                                                       \
     X(STATE, float, compression)    /* sum of |f.n| of contacts over circumference, N/m */         \

@@ -32,6 +32,15 @@ static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, fl
     a->speed_limit[i] = jox_maxf(most, jox_minf(hit, jox_length(forced)));
 }
 
+/* (10) The net force. */
+static inline JoxV2 sum_of_terms(const JoxAgents *a, uint32_t i) {
+#define PLUS_X(X, keep, name, label) +a->name##_x[i]
+#define PLUS_Y(X, keep, name, label) +a->name##_y[i]
+    return (JoxV2){JOX_FORCE_TERMS(PLUS_X, ), JOX_FORCE_TERMS(PLUS_Y, )};
+#undef PLUS_X
+#undef PLUS_Y
+}
+
 static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
@@ -43,8 +52,7 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         f->old_y[i] = a->vy[i];
         a->speed_limit[i] = a->param[JOX_PARAM_max_speed][i];
         a->half_plane_x[i] = a->half_plane_y[i] = a->half_plane_offset[i] = 0.0f;
-        JoxV2 force = {a->ext_x[i] + a->inferred_x[i] + a->push_x[i] + a->contact_x[i],
-                       a->ext_y[i] + a->inferred_y[i] + a->push_y[i] + a->contact_y[i]};
+        JoxV2 force = sum_of_terms(a, i);
         a->force_x[i] = force.x;
         a->force_y[i] = force.y;
         if (force.x == 0.0f && force.y == 0.0f)

@@ -4,7 +4,7 @@
 
 #include "base/assert.h"
 #include "base/guard.h"
-#include "run/run.h"
+#include "live/inspect.h"
 
 enum { DIGITS = 6 };
 
@@ -78,9 +78,9 @@ static void add_setter(const JoScene *scene, uint32_t i, const JoxMachine *machi
     } else if (given) {
         jox_text_add(&text, "function");
     } else {
-        JoxSetBy by = jox_run_set_by(scene, machine, state, p);
+        JoxLiveSetBy by = jox_live_set_by(scene, machine, state, p);
         jox_text_add(&text, by.where.data);
-        jox_set_by_free(&by);
+        jox_live_set_by_free(&by);
     }
     jox_json_string(json, "set", text.data);
     jox_text_free(&text);
@@ -163,8 +163,6 @@ static void add_last(const JoScene *scene, uint32_t i, const JoxWatched *watched
 
 static void add_step(const JoxInspected *seen, double compression, JoxJson *json) {
     static const char *const PLANES[] = {"wall", "agent", "body", "force"};
-    static const char *const FORCES[JOX_FORCE_PARTS] = {"push",       "contact",  "deceleration",
-                                                        "resistance", "external", "body"};
     jox_json_array(json, "planes");
     for (uint32_t p = 0; p < seen->plane_count; p++) {
         const JoxConstraint *plane = &seen->planes[p];
@@ -182,7 +180,7 @@ static void add_step(const JoxInspected *seen, double compression, JoxJson *json
     jox_json_array(json, "forces");
     for (int f = 0; f < JOX_FORCE_PARTS; f++) {
         jox_json_object(json, NULL);
-        jox_json_string(json, "kind", FORCES[f]);
+        jox_json_string(json, "kind", jox_force_part_names[f]);
         add_figure(json, "fx", (double)seen->forces[f].x);
         add_figure(json, "fy", (double)seen->forces[f].y);
         jox_json_end(json);
@@ -191,7 +189,7 @@ static void add_step(const JoxInspected *seen, double compression, JoxJson *json
     add_figure(json, "compression", compression);
 }
 
-bool jox_run_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
+bool jox_live_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxWatched *watched;
     const JoxInspected *seen = jox_world_inspect(scene->world, slot, &watched);
@@ -217,7 +215,7 @@ char *jo_scene_inspect(JoScene *scene, uint32_t slot) {
     JoxText out = {0};
     JoxJson json = jox_json_begin(&out, 0);
     jox_json_object(&json, NULL);
-    jox_run_inspect(scene, slot, &json);
+    jox_live_inspect(scene, slot, &json);
     jox_json_end(&json);
     return jox_disown(out.data);
 }

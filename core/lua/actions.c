@@ -79,9 +79,11 @@ static void read_signal(JoxBuild *b, int index, const char *path, JoxActions *ac
         jox_read_check(b, top, full, KEYS, 1, true);
         if (jox_read_field(L, top, "every") == LUA_TNUMBER)
             *every = lua_tonumber(L, -1);
-        if (!lua_isnil(L, -1) && !(*every >= 0.01 && *every <= 1e6))
+        const JoxParameterInfo info = jox_table_key_number("signal", "every");
+        if (!lua_isnil(L, -1) && !(*every >= info.least && *every <= info.greatest))
             jox_build_error(b, jox_read_at(b, full), "out-of-range", NULL,
-                            "every must be a plain number from 0.01 to 1e6 s");
+                            "every must be a plain number from %g to %g %s", info.least,
+                            info.greatest, info.unit);
         lua_rawgeti(L, top, 1);
         type = lua_type(L, -1);
     }
@@ -157,13 +159,13 @@ static void read_become(JoxBuild *b, int index, const char *path, JoxState *stat
 }
 
 void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *state) {
-    static const JoxParameterInfo IMPULSE = {"impulse", "m/s", "", 0, 50, 0},
-                                  SPEED = {"speed", "m/s", "", 0.1, 40, 5};
+    const JoxParameterInfo impulse = jox_table_key_number("kick", "impulse"),
+                           speed = jox_table_key_number("throw", "speed");
     char full[256];
     state->kick =
-        read_body_action(b, index, path, "kick", &IMPULSE, &state->kick_at, &state->kick_impulse);
+        read_body_action(b, index, path, "kick", &impulse, &state->kick_at, &state->kick_impulse);
     state->toss =
-        read_body_action(b, index, path, "throw", &SPEED, &state->toss_at, &state->toss_speed);
+        read_body_action(b, index, path, "throw", &speed, &state->toss_at, &state->toss_speed);
     jox_read_join(full, path, "throw");
     if (state->toss >= 0 && state->toss_at < 0)
         jox_build_error(b, jox_read_at(b, full), "missing-key",

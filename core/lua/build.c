@@ -156,7 +156,7 @@ static void judge_states(JoxBuild *b) {
         const char *names[64], *near = NULL;
         size_t count = 0;
         jox_read_join(path, "states", m->states[s].name);
-        const JoxOrigin *origin = jox_origin_of(b->script, path);
+        const JoxPatchChange *origin = jox_patch_leading(&b->script->changes, path);
         bool added = origin && origin->mod >= 0 && strcmp(origin->path, path) == 0;
         for (uint32_t o = 0; added && o < m->state_count && count < 64; o++)
             if (o != s)
@@ -210,7 +210,8 @@ void jox_build(JoxScript *script, const JoxSource *source) {
         m->memory[slot].initial = script->memory[i].initial;
     }
     const char *known[16];
-    jox_read_check(&build, table, "", known, jox_sheet_names("machine", false, known, 16), false);
+    jox_read_check(&build, table, "", known, jox_table_key_names("machine", false, known, 16),
+                   false);
     jox_read_field(L, table, "name");
     m->name = jox_strdup(is_name(L, -1) ? lua_tostring(L, -1) : "machine");
     if (lua_type(L, -1) == LUA_TSTRING && !is_name(L, -1))

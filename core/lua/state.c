@@ -56,7 +56,7 @@ static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state
 }
 
 static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state) {
-    static const JoxParameterInfo LASTS = {"lasts", "s", "", 0, 1e6, 0};
+    const JoxParameterInfo lasts = jox_table_key_number("state", "lasts");
     lua_State *L = b->script->vm.L;
     char full[256];
     jox_read_join(full, path, "lasts");
@@ -72,7 +72,7 @@ static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state
     }
     bool is_dist;
     JoxDist dist;
-    JoxValue value = jox_read_value(b, full, &LASTS, &is_dist, &dist);
+    JoxValue value = jox_read_value(b, full, &lasts, &is_dist, &dist);
     state->has_lasts = is_dist || value.kind == JOX_VALUE_CONST;
     state->lasts = is_dist ? dist : jox_dist_constant(value.number);
     state->lasts_program = value.kind == JOX_VALUE_PROGRAM ? value.index : -1;
@@ -143,13 +143,14 @@ static uint16_t read_to(JoxBuild *b, int index, const char *path) {
 
 static void read_transition(JoxBuild *b, int index, const char *path, const char *id,
                             JoxTransition *t) {
-    static const JoxParameterInfo CHANCE = {"chance", "", "", 0, 1, 1};
+    const JoxParameterInfo chance = jox_table_key_number("transition", "chance");
     lua_State *L = b->script->vm.L;
     const char *known[16];
     char full[256];
     *t = jox_transition_blank(jox_strdup(id));
     t->line = jox_read_at(b, path).line;
-    jox_read_check(b, index, path, known, jox_sheet_names("transition", false, known, 16), false);
+    jox_read_check(b, index, path, known, jox_table_key_names("transition", false, known, 16),
+                   false);
     t->to = read_to(b, index, path);
     jox_read_join(full, path, "when");
     jox_read_field(L, index, "when");
@@ -158,7 +159,7 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
     if (jox_read_field(L, index, "chance") == LUA_TNIL)
         lua_pop(L, 1);
     else
-        t->chance = jox_read_parameter(b, full, &CHANCE);
+        t->chance = jox_read_parameter(b, full, &chance);
     jox_read_actions(b, index, path, &t->does, NULL);
     t->on_take = jox_read_hook(b, index, path, "on_take");
 }
@@ -189,11 +190,11 @@ static void read_transitions(JoxBuild *b, int index, const char *path, JoxState 
             jox_read_id(L, lua_gettop(L), nth++, id);
         while (id_taken(state, t, id));
         snprintf(item, sizeof item, "@%.60s", id); /* how patches know it */
-        if (b->script->origin_count > 0) {
+        if (b->script->changes.count > 0) {
             char canonical[256];
             jox_read_join(canonical, path, item);
-            for (size_t o = 0; o < b->script->origin_count; o++)
-                if (strcmp(b->script->origins[o].path, canonical) == 0)
+            for (size_t o = 0; o < b->script->changes.count; o++)
+                if (strcmp(b->script->changes.items[o].path, canonical) == 0)
                     memcpy(full, canonical, sizeof full);
         }
         read_transition(b, lua_gettop(L), full, id, t);
@@ -207,7 +208,7 @@ void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     lua_State *L = b->script->vm.L;
     char path[256], full[256];
     snprintf(path, sizeof path, "states.%.200s", state->name);
-    jox_read_check(b, index, path, known, jox_sheet_names("state", true, known, 96), true);
+    jox_read_check(b, index, path, known, jox_table_key_names("state", true, known, 96), true);
     state->line = jox_read_at(b, path).line;
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         jox_read_join(full, path, jox_parameters[p].name);

@@ -139,6 +139,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     JoxMachineRun *machines = &scene->world->machines;
     machines->call = jox_lua_call;
     machines->bracket = jox_lua_bracket;
+    machines->hook_sections = jox_lua_sections;
     machines->call_context = scene->lua;
     if (diagnostics->errors == 0) {
         jox_run_populate(scene, diagnostics);
@@ -470,12 +471,4 @@ JoWorld *jo_scene_world(JoScene *scene) {
 double jo_scene_duration(const JoScene *scene) {
     JOX_REQUIRE(scene, 0.0);
     return scene->spec->duration;
-}
-
-char *jo_scene_reference(void) {
-    JOX_GUARD (NULL, NULL)
-        return NULL;
-    JoxText text = {0};
-    jox_scene_print_reference(&text);
-    return jox_disown(text.data);
 }

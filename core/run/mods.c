@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "base/path.h"
 #include "run/run.h"
 #include "scene/mods_on.h"
 
@@ -167,10 +168,10 @@ bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *er
 static bool why_scene(const JoScene *scene, const char *path, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
     bool found = false;
-    for (uint32_t c = 0; c < spec->change_count; c++) {
-        const JoxSceneChange *change = &spec->changes[c];
-        size_t n = strlen(change->path);
-        if (strncmp(change->path, path, n) != 0 || (n && path[n] && path[n] != '.'))
+    for (uint32_t c = 0; c < spec->changes.count; c++) {
+        const JoxPatchChange *change = &spec->changes.items[c];
+        const char *rest;
+        if (!jox_patch_leads(change, path, &rest))
             continue;
         const JoxMod *mod = &scene->mods->items[change->mod];
         jox_text_printf(out, "  %s:%d:%d: %s   (mod %s %s)\n", change->position.file,
@@ -185,8 +186,7 @@ static bool why_scene(const JoScene *scene, const char *path, JoxText *out) {
 static const JoxMachine *find_behaviour(JoScene *scene, const char *name) {
     const JoxMachineRun *machines = &scene->world->machines;
     for (uint32_t m = 0; m < machines->set->count; m++) {
-        const char *path = machines->set->items[m]->path, *slash = strrchr(path, '/');
-        const char *stem = slash ? slash + 1 : path;
+        const char *stem = jox_path_name(machines->set->items[m]->path);
         size_t n = strlen(name);
         if (strcmp(machines->set->items[m]->name, name) == 0 ||
             (strncmp(stem, name, n) == 0 && stem[n] == '.'))

@@ -133,26 +133,6 @@ void jox_run_log_origin(JoScene *scene);
 void jox_run_check_log(const JoScene *scene);
 /* What files were when the run began that a log tells of. */
 void jox_run_before(JoxOverlay *overlay, const JoxInputLog *log);
-/* inspect_graph.c: who set a parameter of a state (NULL: of the defaults), and to what. */
-typedef struct JoxSetBy {
-    JoxText
-        where; /* "state Circle behaviours/tawaf.lua:21", "mod calm ...", "live page", "engine" */
-    JoxText text;  /* the value as written */
-    double number; /* NAN where it differs between agents or in time */
-    int line;
-} JoxSetBy;
-JoxSetBy jox_run_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
-                        int parameter);
-void jox_set_by_free(JoxSetBy *by);
-/* Writes the scene's machines, an array: name, path, version, start; defaults and states with their
-   parameters; transitions with their conditions as written. */
-void jox_run_graph(const JoScene *scene, JoxJson *json, const char *key);
-/* Adds what jo_scene_inspect tells of an agent to an open object; false if there is nobody. */
-bool jox_run_inspect(JoScene *scene, uint32_t slot, JoxJson *json);
-/* Appends the line of Lua that would set a parameter for good, and where it belongs; false with
-   why not. */
-bool jox_run_lua_line(const JoScene *scene, const char *machine, const char *state,
-                      const char *parameter, double value, JoxText *out);
 /* Appends to the log that is written, if one is, as of the step that comes. */
 void jox_run_log(JoScene *scene, JoxInputEntry *entry);
 /* False with `error` if it cannot be written. */

@@ -30,7 +30,7 @@ static bool load_plan(JoxLoad *l, const JoxYaml *map, float height) {
     const JoxYaml *name = jox_yaml_get(map, "file");
     if (!jox_key_text(r, map, "wall", "file"))
         return false;
-    char *path = jox_path_beside(r->arena, name->position.file, name->text);
+    char *path = jox_arena_beside(r->arena, name->position.file, name->text);
     JoxWallFileOptions options = {.unit = jox_key_number(r, map, "wall", "unit"), .height = height};
     double origin[2] = {0, 0};
     if (jox_yaml_get(map, "origin") && !jox_key_vector(r, map, "wall", "origin", origin, 2))

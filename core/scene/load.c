@@ -7,6 +7,7 @@
 #include "base/elementary.h"
 #include "base/mem.h"
 #include "base/overlay.h"
+#include "base/path.h"
 #include "scene/internal.h"
 
 static const double DEGREE = 3.14159265358979323846 / 180.0;
@@ -183,30 +184,14 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
     JoxArena *arena = l->reader.arena;
     /* Overrides are of no file: the scene's folder is meant. */
     const char *from = strcmp(position.file, JOX_LOAD_OVERRIDE) ? position.file : l->scene->path;
-    char relative[512];
-    const char *colon = strchr(name, ':');
-    const char *lua = strlen(name) > 4 && !strcmp(name + strlen(name) - 4, ".lua") ? "" : ".lua";
-    for (uint32_t m = 0; colon && l->options && m < l->options->mod_count; m++) {
-        const JoxMod *mod = &l->options->mods[m]; /* "mod:name" */
-        if (strncmp(mod->name, name, (size_t)(colon - name)) || mod->name[colon - name])
-            continue;
-        snprintf(relative, sizeof relative, "%.300s/behaviours/%.150s%s", mod->folder, colon + 1,
-                 lua);
-        if (!strstr(colon, "..") && jox_is_file(relative))
-            return jox_arena_text(arena, relative);
-    }
-    const char *forms[] = {"%.400s%s", "../behaviours/%.400s%s", "%s/behaviours/%.300s%s"};
-    for (int i = 0; i < 3; i++) {
-        if (i < 2)
-            snprintf(relative, sizeof relative, forms[i], name, lua);
-        else
-            snprintf(relative, sizeof relative, "%s/behaviours/%.300s%s",
-                     l->datadir ? l->datadir : JOX_DATADIR, name, lua);
-        char *path = jox_path_beside(arena, from, relative);
-        if (jox_is_file(path)) {
-            jox_path_clean(path);
-            return path;
-        }
+    char path[JOX_LONGEST_PATH], installed[JOX_LONGEST_PATH];
+    const char *const folders[] = {"", "../behaviours/", installed, NULL};
+    snprintf(installed, sizeof installed, "%s/behaviours/", l->datadir ? l->datadir : JOX_DATADIR);
+    if (l->options && jox_mod_find(l->options->mods, l->options->mod_count, name, path))
+        return jox_arena_text(arena, path);
+    if (jox_path_find(from, name, ".lua", folders, path)) {
+        jox_path_clean(path);
+        return jox_arena_text(arena, path);
     }
     jox_diag_error(l->reader.diagnostics, position, "missing-file",
                    "Looked beside the scene, in ../behaviours and in the installed ones",
@@ -487,7 +472,7 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
         jox_scene_error(r, jox_yaml_get(root, "input"), "bad-value",
                         "A plain name, of a file beside it", "a mod cannot read '%.100s'", input);
     else if (input)
-        s->input = jox_path_beside(r->arena, jox_yaml_get(root, "input")->position.file, input);
+        s->input = jox_arena_beside(r->arena, jox_yaml_get(root, "input")->position.file, input);
     const JoxYaml *map = jox_yaml_get(root, "forces");
     s->forces = true;
     if (map && jox_keys_check(r, map, "forces")) {
@@ -585,6 +570,7 @@ void jox_scene_free(JoxSceneSpec *scene) {
     if (!scene)
         return;
     jox_walls_free(&scene->walls);
+    jox_patch_changes_free(&scene->changes);
     jox_arena_free(scene->memory);
     jox_free(scene);
 }

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "base/diag.h"
-#include "base/mod.h"
+#include "base/patch.h"
 #include "base/random.h"
 #include "body/body.h"
 #include "geom/place.h"
@@ -46,14 +46,6 @@ typedef enum JoxTool {
         JOX_TOOL_COUNT
 } JoxTool;
 extern const char *const jox_scene_tools[JOX_TOOL_COUNT]; /* names */
-
-/* A path of the scene that a mod set. */
-typedef struct JoxSceneChange {
-    char *path; /* "groups.red.count" */
-    JoxPosition position;
-    uint32_t mod;
-    bool removes;
-} JoxSceneChange;
 
 typedef struct JoxSceneFile {
     char *path;
@@ -112,9 +104,8 @@ typedef struct JoxSceneSpec {
     double heatmap_from; /* s; averages begin there */
     JoxSceneFile *files; /* scene and included files */
     uint32_t file_count;
-    JoxSceneChange *changes; /* in the order in which they were made */
-    uint32_t change_count;
-    void *memory; /* owns every text and array above but `walls` */
+    JoxPatchChanges changes; /* that mods made */
+    void *memory;            /* owns every text and array above but `walls` and `changes` */
 } JoxSceneSpec;
 
 /* `sets` are "PATH=VALUE", as "groups.pilgrims.count=5000". */

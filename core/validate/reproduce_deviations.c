@@ -5,6 +5,7 @@
 
 #include "agents/parameters.h"
 #include "base/mem.h"
+#include "base/path.h"
 #include "base/quote.h"
 #include "picture/html.h"
 #include "validate/reproduce.h"

@@ -1,5 +1,5 @@
-/* Which part of the sheet an error is in: "machine tawaf > state ToStone > transition 2 (to
- * Circle)". */
+/* Which part of the machine's table an error is in: "machine tawaf > state ToStone > transition 2
+ * (to Circle)". */
 #include <stdio.h>
 #include <string.h>
 

@@ -11,7 +11,7 @@ static const char TYPE[] = "jostle value";
 JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind) {
     JoxScript *script = jox_script_of(L);
     if (script->vm.running && !script->vm.loading)
-        luaL_error(L, "values of the sheet are made while the file loads, not in functions");
+        luaL_error(L, "values of the language are made while the file loads, not in functions");
     jox_vm_charge(L, 8);
     script->node_bytes += sizeof(JoxNode);
     if (script->node_bytes > script->owner->group.limits.memory)

@@ -248,8 +248,9 @@ static JoxNode *assemble(lua_State *L, const JoxWord *word, JoxNode *const *argu
 static int make_word(lua_State *L) {
     const JoxWord *word = lua_touserdata(L, lua_upvalueindex(1));
     if (!jox_script_of(L)->vm.loading)
-        return luaL_error(L, "'%s' makes a value of the sheet and cannot be used in a function",
-                          word->name);
+        return luaL_error(
+            L, "'%s' makes a value of the machine's table and cannot be used in a function",
+            word->name);
     JoxNode *arguments[3] = {NULL, NULL, NULL};
     int count = 0, given = lua_gettop(L); /* reading arguments pushes more */
     uint32_t numbers = 0;
