@@ -36,6 +36,19 @@ void jox_lua_suspended(const JoxLua *lua, JoxText *out) {
     }
 }
 
+void jox_lua_sections(void *context, const JoxMachine *machine, JoxSections *s) {
+    JoxLua *lua = context;
+    JoxScript *script = machine->vm >= 0 ? lua->scripts[machine->vm] : NULL;
+    jox_sections_module(s, "hooks");
+    jox_section_model(s, machine->name, script ? script->hook_count : 0);
+    for (uint32_t h = 0; script && h < script->hook_count; h++) {
+        JoxHook *hook = &script->hooks[h];
+        JOX_SECTION(s, "second", hook->second);
+        JOX_SECTION(s, "second_failures", hook->second_failures);
+        JOX_SECTION(s, "suspended", hook->suspended);
+    }
+}
+
 /* Names and messages are a script's: none may command a terminal. */
 static void say(JoxLua *lua, char *text) {
     for (char *line = text; *line;) {

@@ -150,6 +150,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     JoxMachineRun *machines = &scene->world->machines;
     machines->call = jox_lua_call;
     machines->bracket = jox_lua_bracket;
+    machines->hook_sections = jox_lua_sections;
     machines->call_context = scene->lua;
     if (diagnostics->errors == 0) {
         jox_run_populate(scene, diagnostics);

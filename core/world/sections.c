@@ -15,10 +15,8 @@ static void list_walls(JoWorld *w, JoxSections *s) {
         struct JoxWallRing *ring = &walls->rings[r];
         if (!ring->name)
             continue;
-        uint8_t gate[] = {ring->open, ring->set};
-        jox_section(s, "gate", gate, 1, 2);
-        ring->open = gate[0];
-        ring->set = gate[1];
+        JOX_SECTION(s, "open", ring->open);
+        JOX_SECTION(s, "set", ring->set);
     }
     JOX_SECTION(s, "walls_version", w->state.walls_version);
     JOX_SECTION(s, "walls_set", w->state.walls_set);
