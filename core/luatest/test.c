@@ -1,5 +1,4 @@
 /* jo_test: scenes for tests that are written in Lua, and what comes of them. */
-#include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -237,32 +236,25 @@ static void run_file(Tests *tests, const char *path) {
         jox_run_report(tests->message, tests->context, &diagnostics, NULL);
 }
 
-static int by_name(const struct dirent **a, const struct dirent **b) {
-    return strcmp((*a)->d_name, (*b)->d_name);
-}
-
 static bool is_test(const char *name) {
     size_t n = strlen(name);
-    return n > 9 && strcmp(name + n - 9, "_test.lua") == 0 && *name != '.';
+    return n > 9 && strcmp(name + n - 9, "_test.lua") == 0;
 }
 
 static void run_path(Tests *tests, const char *path) {
     struct stat info;
-    struct dirent **entries;
     if (stat(path, &info) != 0 || !S_ISDIR(info.st_mode)) {
         run_file(tests, path);
         return;
     }
-    int count = scandir(path, &entries, NULL, by_name);
-    for (int e = 0; e < count; e++) {
+    char **names = jox_folder_names(path, false);
+    for (char **name = names; name && *name; name++) {
         char inner[1024];
-        snprintf(inner, sizeof inner, "%s/%s", path, entries[e]->d_name);
-        if (is_test(entries[e]->d_name))
+        snprintf(inner, sizeof inner, "%s/%s", path, *name);
+        if (is_test(*name))
             run_file(tests, inner);
-        free(entries[e]);
     }
-    if (count >= 0)
-        free(entries);
+    jox_free(names);
 }
 
 static bool test_all(const char *const *paths, size_t count, const char *only, bool json,

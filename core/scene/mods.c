@@ -161,7 +161,7 @@ static void read_folder(Find *f, JoxMod *mod, const char *name, JoxPosition from
         is_sound(f, folder, from);
         return;
     }
-    char **names = is_folder(folder) ? jox_folder_names(folder) : NULL;
+    char **names = is_folder(folder) ? jox_folder_names(folder, false) : NULL;
     int count = 0;
     while (names && names[count])
         count++;
@@ -250,7 +250,7 @@ static void read_mod(Find *f, const char *folder, bool wanted) {
 /* ---- which ---- */
 
 static void look_into(Find *f, const char *folder) {
-    char **names = is_folder(folder) ? jox_folder_names(folder) : NULL;
+    char **names = is_folder(folder) ? jox_folder_names(folder, false) : NULL;
     int count = 0;
     while (names && names[count])
         count++;
