@@ -292,11 +292,9 @@ static bool test_all(const char *const *paths, size_t count, const char *only, b
 }
 
 bool jo_test(const char *const *paths, size_t count, const char *only, bool json,
-             JoMessage *message, void *context, size_t *passed, size_t *failed) {
+             JoMessage *message, void *context, size_t *passed, size_t *failed, JoError *error) {
     JOX_REQUIRE(paths && message && passed && failed, false);
-    JOX_GUARD (NULL, NULL) {
-        message(context, "out of memory\n");
+    JOX_GUARD (NULL, error)
         return false;
-    }
     return test_all(paths, count, only, json, message, context, passed, failed);
 }

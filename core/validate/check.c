@@ -199,11 +199,9 @@ static size_t check_all(const char *const *paths, size_t count, bool json, JoMes
 }
 
 size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
-                void *context) {
+                void *context, JoError *error) {
     JOX_REQUIRE(paths && message, 0);
-    JOX_GUARD (NULL, NULL) {
-        message(context, "out of memory\n");
-        return 1;
-    }
+    JOX_GUARD (NULL, error)
+        return SIZE_MAX;
     return check_all(paths, count, json, message, context);
 }
