@@ -137,7 +137,7 @@ static bool run(JoxScenePage *s, JoError *error) {
     if (!jox_scene_page_load(s, error))
         return false;
     if (def->opened)
-        def->opened(def->opened_context, jox_view_address(s->page.server));
+        jox_run_message(def->opened, def->opened_context, jox_view_address(s->page.server));
     jox_live_page_run(&s->page, def->stop);
     if (def->summary)
         *def->summary = jo_scene_summary(s->scene);

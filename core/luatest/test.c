@@ -200,14 +200,14 @@ static void report(void *context, const JoxTestResult *result) {
     jox_text_printf(&text, "%s %s (%.1f s simulated in %.2f s)\n", result->passed ? "ok" : "not ok",
                     result->name, result->simulated, result->seconds);
     jox_text_add(&text, result->message);
-    tests->message(tests->context, text.data);
+    jox_run_message(tests->message, tests->context, text.data);
     jox_text_free(&text);
 }
 
 static void print(void *context, const char *text) {
     const Tests *tests = context;
     if (!tests->json)
-        tests->message(tests->context, text);
+        jox_run_message(tests->message, tests->context, text);
 }
 
 static void run_file(Tests *tests, const char *path) {
@@ -265,13 +265,14 @@ static bool test_all(const char *const *paths, size_t count, const char *only, b
     for (size_t p = 0; p < count; p++)
         run_path(&tests, paths[p]);
     if (!json && tests.passed + tests.failed == 0 && !tests.broken) {
-        message(context, "no tests found: files that end with _test.lua hold them\n");
+        jox_run_message(message, context,
+                        "no tests found: files that end with _test.lua hold them\n");
         tests.broken = true;
     }
     if (json) {
         jox_json_end(&tests.array);
         jox_text_append(&tests.results, "\n", 1);
-        message(context, tests.results.data);
+        jox_run_message(message, context, tests.results.data);
     }
     for (size_t k = 0; k < tests.kept_count; k++) {
         unlink(tests.kept[k]);

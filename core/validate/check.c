@@ -191,7 +191,7 @@ static size_t check_all(const char *const *paths, size_t count, bool json, JoMes
     else
         jox_diag_print(&all, &text);
     if (text.length)
-        message(context, text.data);
+        jox_run_message(message, context, text.data);
     size_t errors = all.errors;
     jox_text_free(&text);
     jox_diag_free(&all);

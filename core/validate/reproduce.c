@@ -206,7 +206,7 @@ static void measure(const JoxReproduction *all, JoxOutcome *outcome) {
 
 static void say(const JoReproduceDef *def, const char *text) {
     if (def->message)
-        def->message(def->message_context, text);
+        jox_run_message(def->message, def->message_context, text);
     else
         fputs(text, stdout);
 }
