@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 
 struct JoxWorker {
@@ -19,6 +20,7 @@ static bool take(JoxWorker *worker, JoxWorkItem *item) {
         at = &(*at)->next;
     if (!*at)
         return false;
+    JOX_ASSERT(!item->done);
     *at = item->next;
     item->next = NULL;
     return true;
@@ -73,8 +75,10 @@ void jox_worker_give(JoxWorker *worker, JoxWorkItem *item) {
         worker->begun = pthread_create(&worker->thread, NULL, work, worker) == 0;
     pthread_mutex_lock(&worker->lock);
     JoxWorkItem **end = &worker->first;
-    while (*end)
+    while (*end) {
+        JOX_ASSERT(*end != item);
         end = &(*end)->next;
+    }
     *end = item;
     item->next = NULL;
     item->done = item->starved = false;
@@ -93,6 +97,7 @@ void jox_worker_wait(JoxWorker *worker, JoxWorkItem *item) {
         run(item);
         item->done = true;
     }
+    JOX_ASSERT(item->done && !item->next);
     if (item->starved)
         jox_out_of_memory(0);
 }
