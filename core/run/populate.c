@@ -294,12 +294,12 @@ static double size_of(const JoxPlace *place) {
 /* Who left where a behaviour said so left by the smallest place that they stood in. */
 void jox_run_leavers(JoScene *scene) {
     const JoWorld *world = scene->world;
-    for (uint32_t g = 0; g < world->scratch.gone_count; g++) {
+    for (uint32_t g = 0; g < world->scratch.gone.count; g++) {
         const JoxPlace *of = NULL;
         for (uint32_t p = 0; p < scene->spec->place_count; p++) {
             const JoxPlace *place = &world->model.places[p];
             if (isfinite(size_of(place)) &&
-                jox_place_contains(world->model.places, p, world->scratch.gone[g]) &&
+                jox_place_contains(world->model.places, p, world->scratch.gone.items[g]) &&
                 (!of || size_of(place) < size_of(of)))
                 of = place;
         }

@@ -66,7 +66,7 @@ static void take_places(Rescene *r) {
         to->axis_radius = from->axis_radius;
     }
     if (moved) {
-        jox_world_renew_routes(world);
+        jox_routes_renew(world->state.routes);
         note(&r->done, "places");
     }
 }
