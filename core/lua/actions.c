@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
 #include "lua/read.h"
@@ -11,6 +12,7 @@
 static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxAssign *assign) {
     static const JoxParameterInfo ANY = {"this", "", "", -1e12, 1e12, 0};
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(slot >= 0 && (uint32_t)slot < b->machine->memory_count);
     JoxNode *node = jox_node_get(L, -1);
     *assign = (struct JoxAssign){.slot = slot};
     if (b->machine->memory[slot].kind == JOX_MEMORY_NUMBER) {
@@ -40,6 +42,7 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
 
 static void read_set(JoxBuild *b, int index, const char *path, JoxActions *actions) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index) && !actions->set);
     char full[256], part[256];
     jox_read_join(full, path, "set");
     int type = jox_read_field(L, index, "set"), table = lua_gettop(L);
@@ -105,6 +108,7 @@ void jox_read_actions(JoxBuild *b, int index, const char *path, JoxActions *acti
 static int16_t read_body_action(JoxBuild *b, int index, const char *path, const char *action,
                                 const JoxParameterInfo *info, int16_t *at, JoxValue *value) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index) && info->least < info->greatest);
     const char *keys[] = {"at", info->name};
     char full[256], part[256], hint[96];
     int16_t what = -1;
@@ -141,6 +145,7 @@ static int16_t read_body_action(JoxBuild *b, int index, const char *path, const 
 
 static void read_become(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index) && !state->become);
     char full[256];
     jox_read_join(full, path, "become");
     int type = jox_read_field(L, index, "become");
@@ -179,6 +184,7 @@ void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *s
 
 /* One thing that counts by itself. */
 static void read_counter(JoxBuild *b, const char *path, uint32_t slot, int32_t state) {
+    JOX_ASSERT(slot < b->machine->memory_count);
     JoxMachine *m = b->machine;
     JoxNode *node = jox_node_get(b->script->vm.L, -1);
     if (node && node->kind == JOX_NODE_CIRCUITS) {

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/script.h"
 #include "lua/loader.h"
@@ -13,6 +14,7 @@ enum { MOST_FAILURES = 100 }; /* in a simulated second, before a function is sus
 enum { TIMED = 16 };          /* one call in so many is timed */
 
 void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *complain, void *context) {
+    JOX_ASSERT(!machines || machines->agents);
     lua->machines = machines;
     lua->group.say = complain;
     lua->group.say_context = context;
@@ -78,6 +80,7 @@ static void new_second(JoxLua *lua, const JoxScript *script, JoxHook *hook, uint
 
 /* Says each new failure in full; the same again is counted and said once a second. */
 static void report(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *why, int line) {
+    JOX_ASSERT(why && line >= 0);
     const JoxMachineRun *machines = lua->machines;
     char text[2600];
     uint32_t second = (uint32_t)(machines->tick * machines->dt);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
 #include "lua/read.h"
@@ -26,6 +27,7 @@ static JoxValue read_weight(JoxBuild *b, JoxNode *weight, JoxPosition position) 
 
 static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index) && state->steer_count == 0);
     char full[256];
     jox_read_join(full, path, "steer");
     int type = jox_read_field(L, index, "steer");
@@ -58,6 +60,7 @@ static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state
 static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state) {
     const JoxParameterInfo lasts = jox_table_key_number("state", "lasts");
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index));
     char full[256];
     jox_read_join(full, path, "lasts");
     if (jox_read_field(L, index, "lasts") == LUA_TNIL) {
@@ -80,6 +83,7 @@ static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state
 
 static void read_flags(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index));
     char full[256];
     int type = jox_read_field(L, index, "removes");
     jox_read_join(full, path, "removes");
@@ -145,6 +149,7 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
                             JoxTransition *t) {
     const JoxParameterInfo chance = jox_table_key_number("transition", "chance");
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index) && *id);
     const char *known[16];
     char full[256];
     *t = jox_transition_blank(jox_strdup(id));
@@ -166,6 +171,7 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
 
 static void read_transitions(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(!state->transitions);
     uint32_t count = (uint32_t)lua_rawlen(L, index);
     if (count > JOX_MOST_TRANSITIONS) {
         jox_build_error(b, jox_read_at(b, path), "too-many", "Split the state",
@@ -206,6 +212,8 @@ static void read_transitions(JoxBuild *b, int index, const char *path, JoxState 
 void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     const char *known[96];
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index) && state->name);
+    JOX_ASSERT(number >= 0 && (uint32_t)number < b->machine->state_count);
     char path[256], full[256];
     snprintf(path, sizeof path, "states.%.200s", state->name);
     jox_read_check(b, index, path, known, jox_table_key_names("state", true, known, 96), true);

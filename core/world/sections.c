@@ -57,6 +57,7 @@ void jox_world_sections(JoWorld *w, JoxSections *s) {
     list_def(&w->model.def, s);
     JOX_SECTION(s, "tick", w->state.tick);
     list_walls(w, s);
+    jox_population_sections(w, s);
     jox_agents_sections(&w->state.agents, s);
     jox_machines_sections(&w->machines, s);
     list_input(&w->state.input, s);
@@ -65,6 +66,7 @@ void jox_world_sections(JoWorld *w, JoxSections *s) {
     jox_nav_sections(w->scratch.nav, s);
     jox_drags_sections(&w->state.drags, s);
     jox_bodies_sections(w->state.bodies, s);
+    jox_exits_sections(&w->state.exits, s);
     jox_sections_module(s, "figures");
     jox_sections_unhashed(s, true);
     JOX_SECTION(s, "statistics", w->state.statistics);

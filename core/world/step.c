@@ -153,6 +153,8 @@ bool jox_world_step(JoWorld *w) {
         [JOX_STAGE_BODIES] = bodies,     [JOX_STAGE_INFER] = infer, [JOX_STAGE_OBSERVE] = observe};
     if (w->failure[0])
         return false;
+    jox_world_events(w);
+    jox_world_sources(w);
     double begin = jox_clock_wall(), cpu = jox_clock_cpu(), last = begin;
     jox_world_resolve_placement(w);
     if (w->state.tick % JOX_BODIES_REINSERT_STEPS == 0) /* a state saved now goes on alike */
@@ -174,5 +176,7 @@ bool jox_world_step(JoWorld *w) {
     w->state.tick++;
     w->state.statistics.wall_s += last - begin;
     w->state.statistics.cpu_s += jox_clock_cpu() - cpu;
+    if (good)
+        jox_world_exits(w);
     return good;
 }
