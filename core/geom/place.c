@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "base/mem.h"
+
 static const float LINE_REACH = 0.5f; /* m: a line counts as entered within this distance */
 
 /* Principal direction of a ring's corners about `centre`: the eigenvector of the larger eigenvalue
@@ -154,4 +156,22 @@ int jox_place_find(const JoxPlace *places, uint32_t count, const char *name) {
         if (strcmp(places[i].name, name) == 0)
             return (int)i;
     return -1;
+}
+
+void jox_place_copy(JoxPlace *to, const JoxPlace *from) {
+    *to = *from;
+    to->name = jox_strdup(from->name);
+    to->points = jox_alloc((size_t)from->count + 1, sizeof *to->points);
+    to->members = jox_alloc((size_t)from->member_count + 1, sizeof *to->members);
+    if (from->count)
+        memcpy(to->points, from->points, from->count * sizeof *to->points);
+    if (from->member_count)
+        memcpy(to->members, from->members, from->member_count * sizeof *to->members);
+}
+
+void jox_place_free(JoxPlace *place) {
+    jox_free(place->name);
+    jox_free(place->points);
+    jox_free(place->members);
+    *place = (JoxPlace){0};
 }

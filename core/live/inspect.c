@@ -47,7 +47,7 @@ static void add_agent(const JoScene *scene, uint32_t i, JoxJson *json) {
 }
 
 /* What the agent's group in the scene sets of a name, or NULL. */
-static const JoxSceneSet *group_set(const JoScene *scene, uint32_t i, const char *name) {
+static const JoxGroupValue *group_set(const JoScene *scene, uint32_t i, const char *name) {
     const JoxSceneSpec *spec = scene->spec;
     const uint32_t group = scene->world->state.agents.group[i];
     for (uint32_t s = 0; group < spec->group_count && s < spec->groups[group].set_count; s++)
@@ -67,7 +67,7 @@ static void add_setter(const JoScene *scene, uint32_t i, const JoxMachine *machi
     bool slot = value->kind == JOX_VALUE_OWN && (uint32_t)value->index < a->own_stride;
     double meant = value->kind == JOX_VALUE_CONST ? value->number : slot ? row[value->index] : NAN;
     bool given = own && slot && value->index < 64 && (a->given[i] >> value->index & 1);
-    const JoxSceneSet *set = given ? group_set(scene, i, jox_parameters[p].name) : NULL;
+    const JoxGroupValue *set = given ? group_set(scene, i, jox_parameters[p].name) : NULL;
     JoxText text = {0};
     if (!isnan(meant) && jox_parameter_store((JoxParameter)p, meant) != a->param[p][i]) {
         jox_text_add(&text, "function");

@@ -24,7 +24,7 @@ static void cover_scene(JoxLiveArea *area, const JoScene *scene) {
         jox_live_cover(&all, spec->low, spec->high);
     for (uint32_t v = 0; v < world->model.all_walls.count; v++)
         cover_points(&all, &world->model.all_walls.vertices[v].point, 1, 0.0f);
-    for (uint32_t p = 0; p < scene->first_antipode && p < world->model.place_count; p++)
+    for (uint32_t p = 0; p < scene->world->model.scene_places && p < world->model.place_count; p++)
         cover_points(&all, world->model.places[p].points, world->model.places[p].count,
                      world->model.places[p].kind == JOX_PLACE_POINT ? world->model.places[p].radius
                                                                     : 0.0f);

@@ -265,7 +265,7 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     jox_json_object(&json, NULL);
     jox_live_add_head(&head, &json);
     jox_live_add_walls(&world->model.all_walls, JOX_WALL_HEIGHT, &json);
-    jox_live_add_places(world->model.places, scene->first_antipode, &json);
+    jox_live_add_places(world->model.places, scene->world->model.scene_places, &json);
     jox_live_add_regions(spec->regions, spec->region_count, &json);
     add_groups(&json, scene);
     jox_live_graph(scene, &json, "machines");

@@ -4,6 +4,8 @@
 
 #include "live/replay_parts.h"
 
+#include "base/path.h"
+
 static const float BODY_SIZE = 0.4f; /* m: of a body whose shape nothing says */
 
 /* A machine of which only the states' names are known. */
@@ -100,15 +102,13 @@ static void add_tools(JoxJson *json) {
 
 void jox_replay_scene(const JoxReplay *r, JoxText *out) {
     const JoxSceneSpec *spec = r->spec;
-    const char *slash = strrchr(r->path, '/');
-    const JoxLiveSceneHead head = {.session = "replay",
-                                   .title = spec && spec->title && *spec->title ? spec->title
-                                            : slash                             ? slash + 1
-                                                                                : r->path,
-                                   .file = r->path,
-                                   .dt = 1.0 / r->info.fps,
-                                   .duration = jox_replay_time(r, r->info.frames - 1),
-                                   .area = r->area};
+    const JoxLiveSceneHead head = {
+        .session = "replay",
+        .title = spec && spec->title && *spec->title ? spec->title : jox_path_name(r->path),
+        .file = r->path,
+        .dt = 1.0 / r->info.fps,
+        .duration = jox_replay_time(r, r->info.frames - 1),
+        .area = r->area};
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);
     jox_live_add_head(&head, &json);

@@ -30,7 +30,7 @@ static bool load_plan(JoxLoad *l, const JoxYaml *map, float height) {
     const JoxYaml *name = jox_yaml_get(map, "file");
     if (!jox_key_text(r, map, "wall", "file"))
         return false;
-    char *path = jox_path_beside(r->arena, name->position.file, name->text);
+    char *path = jox_arena_beside(r->arena, name->position.file, name->text);
     JoxWallFileOptions options = {.unit = jox_key_number(r, map, "wall", "unit"), .height = height};
     double origin[2] = {0, 0};
     if (jox_yaml_get(map, "origin") && !jox_key_vector(r, map, "wall", "origin", origin, 2))
@@ -156,7 +156,7 @@ static void check_body(const JoxLoad *l, const JoxYaml *name) {
 }
 
 /* What an event does, and to what; NULL with an error. */
-static const JoxYaml *read_deed(const JoxLoad *l, const JoxYaml *map, JoxSceneEvent *event) {
+static const JoxYaml *read_deed(const JoxLoad *l, const JoxYaml *map, JoxEvent *event) {
     static const char *const KINDS[] = {"throw", "open", "close", "signal"};
     const JoxYaml *name = NULL;
     int kinds = 0;
@@ -166,7 +166,7 @@ static const JoxYaml *read_deed(const JoxLoad *l, const JoxYaml *map, JoxSceneEv
             continue;
         kinds++;
         name = node;
-        event->kind = (JoxSceneEventKind)k;
+        event->kind = (JoxEventKind)k;
     }
     if (kinds != 1) {
         jox_scene_error(&l->reader, map, "bad-event", "{at: 20, open: gate}",
@@ -188,7 +188,7 @@ static const JoxYaml *read_deed(const JoxLoad *l, const JoxYaml *map, JoxSceneEv
     return name;
 }
 
-static void read_throw(const JoxLoad *l, const JoxYaml *map, JoxSceneEvent *event) {
+static void read_throw(const JoxLoad *l, const JoxYaml *map, JoxEvent *event) {
     static const char *const KEYS[] = {"from", "velocity", "spin"};
     double *const values[] = {event->from, event->velocity, event->spin};
     bool any = false;
@@ -205,7 +205,7 @@ static void read_throw(const JoxLoad *l, const JoxYaml *map, JoxSceneEvent *even
                         "a throw needs a velocity, a spin or a point that it is from");
 }
 
-static void read_times(const JoxLoad *l, const JoxYaml *map, JoxSceneEvent *event) {
+static void read_times(const JoxLoad *l, const JoxYaml *map, JoxEvent *event) {
     const JoxYaml *until = jox_yaml_get(map, "until");
     double every = jox_key_number(&l->reader, map, "event", "every");
     event->at = jox_key_number(&l->reader, map, "event", "at");
@@ -227,7 +227,7 @@ void jox_load_events(JoxLoad *l, const JoxYaml *list) {
     l->scene->events = jox_arena_take(l->reader.arena, count, sizeof *l->scene->events);
     for (uint32_t i = 0; i < count; i++) {
         const JoxYaml *map = list->items[i];
-        JoxSceneEvent *event = &l->scene->events[l->scene->event_count];
+        JoxEvent *event = &l->scene->events[l->scene->event_count];
         if (!jox_keys_check(&l->reader, map, "event"))
             continue;
         read_times(l, map, event);

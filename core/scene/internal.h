@@ -19,14 +19,13 @@ typedef struct JoxLoad {
 /* Index by name, or -1 with an error that suggests one. */
 int32_t jox_load_place(const JoxLoad *load, const JoxYaml *name);
 int32_t jox_load_group(const JoxLoad *load, const JoxYaml *name);
-JoxSceneSet *jox_load_sets(const JoxLoad *load, const JoxYaml *map, bool numbers_only,
-                           uint32_t *count);
+JoxGroupValue *jox_load_sets(const JoxLoad *load, const JoxYaml *map, bool numbers_only,
+                             uint32_t *count);
 /* The text of a key that is a name; "" where it is missing, an error where it can be none. */
 char *jox_load_name(const JoxLoad *load, const JoxYaml *map, const char *owner, const char *key);
 char **jox_load_tags(const JoxLoad *load, const JoxYaml *node, uint32_t *count);
 /* populate.c: where a group's agents stand. */
-void jox_load_positions(const JoxLoad *load, const JoxYaml *map, JoxSceneGroup *group,
-                        uint32_t number);
+void jox_load_positions(const JoxLoad *load, const JoxYaml *map, JoxGroup *group, uint32_t number);
 /* override.c: sets PATH=VALUE; what is wrong with it is reported at this name in place of a file.
  */
 #define JOX_LOAD_OVERRIDE "--set"

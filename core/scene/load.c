@@ -7,6 +7,7 @@
 #include "base/elementary.h"
 #include "base/mem.h"
 #include "base/overlay.h"
+#include "base/path.h"
 #include "scene/internal.h"
 
 static const double DEGREE = 3.14159265358979323846 / 180.0;
@@ -183,30 +184,14 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
     JoxArena *arena = l->reader.arena;
     /* Overrides are of no file: the scene's folder is meant. */
     const char *from = strcmp(position.file, JOX_LOAD_OVERRIDE) ? position.file : l->scene->path;
-    char relative[512];
-    const char *colon = strchr(name, ':');
-    const char *lua = strlen(name) > 4 && !strcmp(name + strlen(name) - 4, ".lua") ? "" : ".lua";
-    for (uint32_t m = 0; colon && l->options && m < l->options->mod_count; m++) {
-        const JoxMod *mod = &l->options->mods[m]; /* "mod:name" */
-        if (strncmp(mod->name, name, (size_t)(colon - name)) || mod->name[colon - name])
-            continue;
-        snprintf(relative, sizeof relative, "%.300s/behaviours/%.150s%s", mod->folder, colon + 1,
-                 lua);
-        if (!strstr(colon, "..") && jox_is_file(relative))
-            return jox_arena_text(arena, relative);
-    }
-    const char *forms[] = {"%.400s%s", "../behaviours/%.400s%s", "%s/behaviours/%.300s%s"};
-    for (int i = 0; i < 3; i++) {
-        if (i < 2)
-            snprintf(relative, sizeof relative, forms[i], name, lua);
-        else
-            snprintf(relative, sizeof relative, "%s/behaviours/%.300s%s",
-                     l->datadir ? l->datadir : JOX_DATADIR, name, lua);
-        char *path = jox_path_beside(arena, from, relative);
-        if (jox_is_file(path)) {
-            jox_path_clean(path);
-            return path;
-        }
+    char path[JOX_LONGEST_PATH], installed[JOX_LONGEST_PATH];
+    const char *const folders[] = {"", "../behaviours/", installed, NULL};
+    snprintf(installed, sizeof installed, "%s/behaviours/", l->datadir ? l->datadir : JOX_DATADIR);
+    if (l->options && jox_mod_find(l->options->mods, l->options->mod_count, name, path))
+        return jox_arena_text(arena, path);
+    if (jox_path_find(from, name, ".lua", folders, path)) {
+        jox_path_clean(path);
+        return jox_arena_text(arena, path);
     }
     jox_diag_error(l->reader.diagnostics, position, "missing-file",
                    "Looked beside the scene, in ../behaviours and in the installed ones",
@@ -214,7 +199,7 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
     return NULL;
 }
 
-static void read_mix(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group) {
+static void read_mix(const JoxLoad *l, const JoxYaml *map, JoxGroup *group) {
     const JoxYaml *one = name_at(l, map, "behaviour"), *mix = jox_yaml_get(map, "mix");
     if (mix && mix->kind != JOX_YAML_MAP) {
         jox_scene_error(&l->reader, mix, "bad-type", "mix: {walker.lua: 3, runner.lua: 1}",
@@ -232,7 +217,7 @@ static void read_mix(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group)
     double sum = 0;
     group->mix = jox_arena_take(l->reader.arena, count, sizeof *group->mix);
     for (uint32_t i = 0; i < count; i++) {
-        JoxSceneMix *entry = &group->mix[group->mix_count];
+        JoxGroupMix *entry = &group->mix[group->mix_count];
         entry->weight = 1;
         entry->position = one ? one->position : mix->key_positions[i];
         if (!one && !jox_read_number(&l->reader, mix->items[i], "", &entry->weight))
@@ -251,7 +236,7 @@ static void read_mix(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group)
 }
 
 /* Whether all that a distribution gives lies in its parameter's range (a normal one: its mean). */
-static bool parameter_fits(const JoxLoad *l, const JoxSceneSet *set, const JoxYaml *value) {
+static bool parameter_fits(const JoxLoad *l, const JoxGroupValue *set, const JoxYaml *value) {
     int parameter = jox_parameter_find(set->name);
     const JoxDist *dist = &set->dist;
     if (parameter < 0 || set->kind != JOX_SET_NUMBER)
@@ -278,8 +263,8 @@ static bool looks_numeric(const char *text) {
     return end != text && (*end == 0 || text[strcspn(text, "0123456789")] != 0);
 }
 
-JoxSceneSet *jox_load_sets(const JoxLoad *l, const JoxYaml *map, bool numbers_only,
-                           uint32_t *count) {
+JoxGroupValue *jox_load_sets(const JoxLoad *l, const JoxYaml *map, bool numbers_only,
+                             uint32_t *count) {
     *count = 0;
     if (!map)
         return NULL;
@@ -287,13 +272,13 @@ JoxSceneSet *jox_load_sets(const JoxLoad *l, const JoxYaml *map, bool numbers_on
         jox_scene_error(&l->reader, map, "bad-type", NULL, "this maps names to values");
         return NULL;
     }
-    JoxSceneSet *sets = jox_arena_take(l->reader.arena, map->count, sizeof *sets);
+    JoxGroupValue *sets = jox_arena_take(l->reader.arena, map->count, sizeof *sets);
     for (uint32_t i = 0; i < map->count; i++) {
         const JoxYaml *value = map->items[i];
         const size_t errors = l->reader.diagnostics->errors;
-        JoxSceneSet *set = &sets[*count];
-        *set = (JoxSceneSet){.name = jox_arena_text(l->reader.arena, map->keys[i]),
-                             .position = map->key_positions[i]};
+        JoxGroupValue *set = &sets[*count];
+        *set = (JoxGroupValue){.name = jox_arena_text(l->reader.arena, map->keys[i]),
+                               .position = map->key_positions[i]};
         bool flag = value->kind == JOX_YAML_SCALAR &&
                     (!strcmp(value->text, "true") || !strcmp(value->text, "false"));
         if (flag) {
@@ -336,7 +321,7 @@ char **jox_load_tags(const JoxLoad *l, const JoxYaml *node, uint32_t *count) {
     return tags;
 }
 
-static void read_group(JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group, uint32_t number) {
+static void read_group(JoxLoad *l, const JoxYaml *map, JoxGroup *group, uint32_t number) {
     group->fill = JOX_FILL_AT;
     group->facing = NAN;
     if (!jox_keys_check(&l->reader, map, "group"))
@@ -371,7 +356,7 @@ static void read_groups(JoxLoad *l, const JoxYaml *map) {
 /* ---- sources and sinks ---- */
 
 /* The point opposite on the circle is that of agents who stand on it at the start. */
-static void refuse_antipode(const JoxLoad *l, const JoxYaml *like, const JoxSceneGroup *group) {
+static void refuse_antipode(const JoxLoad *l, const JoxYaml *like, const JoxGroup *group) {
     for (uint32_t s = 0; s < group->set_count; s++)
         if (group->set[s].kind == JOX_SET_ANTIPODE) {
             jox_scene_error(&l->reader, like, "bad-value",
@@ -392,7 +377,7 @@ static void read_sources(JoxLoad *l, const JoxYaml *list) {
         const JoxYaml *map = list->items[i];
         if (!jox_keys_check(&l->reader, map, "source"))
             continue;
-        JoxSceneSource *source = &l->scene->sources[l->scene->source_count];
+        JoxAgentSource *source = &l->scene->sources[l->scene->source_count];
         const JoxYaml *place = name_at(l, map, "at"), *like = name_at(l, map, "like");
         int32_t at = place ? jox_load_place(l, place) : -1;
         int32_t group = like ? jox_load_group(l, like) : -1;
@@ -429,7 +414,7 @@ static void read_sinks(JoxLoad *l, const JoxYaml *list) {
         int32_t at = place ? jox_load_place(l, place) : -1;
         if (at >= 0)
             l->scene->sinks[l->scene->sink_count++] =
-                (JoxSceneSink){(uint32_t)at, group ? jox_load_group(l, group) : -1};
+                (JoxAgentSink){(uint32_t)at, group ? jox_load_group(l, group) : -1};
     }
 }
 
@@ -487,7 +472,7 @@ static void read_settings(JoxLoad *l, const JoxYaml *root) {
         jox_scene_error(r, jox_yaml_get(root, "input"), "bad-value",
                         "A plain name, of a file beside it", "a mod cannot read '%.100s'", input);
     else if (input)
-        s->input = jox_path_beside(r->arena, jox_yaml_get(root, "input")->position.file, input);
+        s->input = jox_arena_beside(r->arena, jox_yaml_get(root, "input")->position.file, input);
     const JoxYaml *map = jox_yaml_get(root, "forces");
     s->forces = true;
     if (map && jox_keys_check(r, map, "forces")) {

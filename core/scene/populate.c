@@ -23,7 +23,7 @@ static uint32_t read_places(const JoxLoad *l, const JoxYaml *node, uint32_t **ou
 }
 
 static void circle(const JoxLoad *l, const JoxYaml *map, const uint32_t *in, uint32_t in_count,
-                   JoxSceneGroup *group) {
+                   JoxGroup *group) {
     const JoxPlace *place = in_count == 1 ? &l->scene->places[in[0]] : NULL;
     if (!place || place->kind != JOX_PLACE_POINT) {
         jox_scene_error(&l->reader, map, "bad-fill", "in: a place with point and radius",
@@ -42,7 +42,7 @@ static void circle(const JoxLoad *l, const JoxYaml *map, const uint32_t *in, uin
 /* Along one line, each in the middle of an equal share of it: where the line's ends are joined by
    periodic edges, nobody stands closer there than elsewhere. */
 static void line(const JoxLoad *l, const JoxYaml *map, const uint32_t *in, uint32_t in_count,
-                 JoxSceneGroup *group) {
+                 JoxGroup *group) {
     const JoxPlace *place = in_count == 1 ? &l->scene->places[in[0]] : NULL;
     if (!place || place->kind != JOX_PLACE_LINE) {
         jox_scene_error(&l->reader, map, "bad-fill", "in: a place with line",
@@ -56,10 +56,10 @@ static void line(const JoxLoad *l, const JoxYaml *map, const uint32_t *in, uint3
             jox_add(from, jox_scale(way, (float)((i + 0.5) / (double)group->count)));
 }
 
-static void area(const JoxLoad *l, const JoxYaml *map, const JoxArea *a, JoxSpread spread,
-                 float spacing, uint32_t number, JoxSceneGroup *group) {
+static void area(const JoxLoad *l, const JoxYaml *map, const JoxArea *a, JoxFillMode mode,
+                 float spacing, uint32_t number, JoxGroup *group) {
     JoxV2 *positions = NULL;
-    uint32_t fit = jox_fill(a, spread, group->count, spacing, l->scene->seed, number, &positions);
+    uint32_t fit = jox_fill(a, mode, group->count, spacing, l->scene->seed, number, &positions);
     if (fit < group->count)
         jox_scene_error(&l->reader, map, "too-many", "Lower count or spacing, or widen the area",
                         "%u of %u agents fit", fit, group->count);
@@ -71,7 +71,7 @@ static void area(const JoxLoad *l, const JoxYaml *map, const JoxArea *a, JoxSpre
 }
 
 /* Whether a source makes agents like a group. */
-static bool has_source(const JoxLoad *l, const JoxSceneGroup *group) {
+static bool has_source(const JoxLoad *l, const JoxGroup *group) {
     const JoxYaml *list = jox_yaml_get(l->root, "sources");
     for (uint32_t s = 0; list && list->kind == JOX_YAML_LIST && s < list->count; s++) {
         const JoxYaml *like = jox_yaml_get(list->items[s], "like");
@@ -82,7 +82,7 @@ static bool has_source(const JoxLoad *l, const JoxSceneGroup *group) {
 }
 
 /* `node`: the group, or the list of its agents' points. */
-static void check_bounds(const JoxLoad *l, const JoxYaml *node, const JoxSceneGroup *group) {
+static void check_bounds(const JoxLoad *l, const JoxYaml *node, const JoxGroup *group) {
     const JoxSceneSpec *s = l->scene;
     for (uint32_t i = 0; s->bounded && group->positions && i < group->count; i++) {
         JoxV2 p = group->positions[i];
@@ -96,8 +96,7 @@ static void check_bounds(const JoxLoad *l, const JoxYaml *node, const JoxSceneGr
     }
 }
 
-void jox_load_positions(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *group,
-                        uint32_t number) {
+void jox_load_positions(const JoxLoad *l, const JoxYaml *map, JoxGroup *group, uint32_t number) {
     const JoxYaml *at = jox_yaml_get(map, "at"), *count = jox_yaml_get(map, "count");
     const JoxYaml *density = jox_yaml_get(map, "density");
     if (at) {
@@ -152,7 +151,6 @@ void jox_load_positions(const JoxLoad *l, const JoxYaml *map, JoxSceneGroup *gro
     else if (group->fill == JOX_FILL_LINE)
         line(l, map, in, in_count, group);
     else if (fill >= 0)
-        area(l, map, &a, (JoxSpread)group->fill, isfinite(spacing) ? (float)spacing : 0.0f, number,
-             group);
+        area(l, map, &a, group->fill, isfinite(spacing) ? (float)spacing : 0.0f, number, group);
     check_bounds(l, map, group);
 }

@@ -7,6 +7,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "task/thread.h"
 
 enum { MOST_THREADS = 64, SPINS = 2000 };
 
@@ -38,6 +39,7 @@ static void take_chunks(JoxPool *pool, uint32_t worker) {
         if (chunk >= pool->chunks)
             return;
         uint32_t begin = chunk * pool->grain;
+        JOX_ASSERT(begin < pool->count && worker < pool->threads);
         uint32_t left = pool->count - begin;
         pool->task(pool->context, begin, begin + (left < pool->grain ? left : pool->grain), worker);
     }
@@ -95,7 +97,7 @@ JoxPool *jox_pool_create(uint32_t threads) {
     threads = threads < 1 ? 1 : threads > MOST_THREADS ? MOST_THREADS : threads;
     for (uint32_t i = 1; i < threads; i++) {
         pool->worker[i] = (struct Worker){pool, i};
-        if (pthread_create(&pool->thread[i], NULL, worker_main, &pool->worker[i]) != 0)
+        if (!jox_thread_start(&pool->thread[i], worker_main, &pool->worker[i]))
             break; /* fewer threads give the same results */
         pool->threads++;
     }
@@ -135,6 +137,7 @@ void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *ta
             task(context, begin, count - begin < grain ? count : begin + grain, 0);
         return;
     }
+    JOX_ASSERT(atomic_load(&pool->busy) == 0); /* one loop at a time */
     pool->count = count;
     pool->grain = grain;
     pool->chunks = (count + grain - 1) / grain;
@@ -150,6 +153,7 @@ void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *ta
     while (atomic_load(&pool->busy) > 0)
         pthread_cond_wait(&pool->done, &pool->lock);
     pthread_mutex_unlock(&pool->lock);
+    JOX_ASSERT(atomic_load(&pool->next) >= pool->chunks);
     if (atomic_exchange(&pool->starved, false))
         jox_out_of_memory(0);
 }

@@ -15,10 +15,8 @@ static void list_walls(JoWorld *w, JoxSections *s) {
         struct JoxWallRing *ring = &walls->rings[r];
         if (!ring->name)
             continue;
-        uint8_t gate[] = {ring->open, ring->set};
-        jox_section(s, "gate", gate, 1, 2);
-        ring->open = gate[0];
-        ring->set = gate[1];
+        JOX_SECTION(s, "open", ring->open);
+        JOX_SECTION(s, "set", ring->set);
     }
     JOX_SECTION(s, "walls_version", w->state.walls_version);
     JOX_SECTION(s, "walls_set", w->state.walls_set);
@@ -59,13 +57,16 @@ void jox_world_sections(JoWorld *w, JoxSections *s) {
     list_def(&w->model.def, s);
     JOX_SECTION(s, "tick", w->state.tick);
     list_walls(w, s);
+    jox_population_sections(w, s);
     jox_agents_sections(&w->state.agents, s);
     jox_machines_sections(&w->machines, s);
     list_input(&w->state.input, s);
-    jox_routes_sections(w, s);
+    const JoxRouteStage route = jox_world_route_stage(w);
+    jox_routes_sections(&route, s);
     jox_nav_sections(w->scratch.nav, s);
     jox_drags_sections(&w->state.drags, s);
     jox_bodies_sections(w->state.bodies, s);
+    jox_exits_sections(&w->state.exits, s);
     jox_sections_module(s, "figures");
     jox_sections_unhashed(s, true);
     JOX_SECTION(s, "statistics", w->state.statistics);
@@ -103,7 +104,8 @@ static bool restore(JoWorld *w, const void *data, size_t size, JoError *error) {
         jox_error(error, JO_INPUT, "the state cannot be restored: %s", s.wrong);
         return false;
     }
-    w->scratch.gone_count = 0;
+    w->scratch.gone.count = 0;
+    w->failure[0] = 0;
     jox_world_forget(w);
     return true;
 }

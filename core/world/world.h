@@ -16,9 +16,13 @@
 #include "machine/run.h"
 #include "nav/nav.h"
 #include "world/drag.h"
+#include "world/events.h"
+#include "world/exits.h"
 #include "world/input.h"
 #include "world/inspected.h"
+#include "world/population.h"
 #include "world/routes.h"
+#include "world/stages.h"
 #include "world/statistics.h"
 
 enum { JOX_MOST_TAGS = 64 };
@@ -30,8 +34,16 @@ enum { JOX_MOST_TAGS = 64 };
 typedef struct JoxWorldModel {
     JoWorldDef def;
     JoxWalls all_walls; /* with their names; whether one that opens is open now is state */
-    JoxPlace *places;   /* owned; their indices never change */
-    uint32_t place_count;
+    /* Owned; their indices never change. Behind the places of the scene stand those of single
+       agents, which are state. */
+    JoxPlace *places;
+    uint32_t place_count, scene_places, place_capacity;
+    /* Who enters, who leaves and what happens when; borrowed. */
+    const JoxGroup *groups;
+    const JoxAgentSource *sources;
+    const JoxAgentSink *sinks;
+    const JoxEvent *events;
+    uint32_t group_count, source_count, sink_count, event_count;
     char *tags[JOX_MOST_TAGS]; /* bit number -> name */
     uint32_t tag_count;
     JoxMachineSet machines;
@@ -46,13 +58,15 @@ typedef struct JoxWorldState {
     JoxRoutes *routes;
     JoxBodies *bodies;
     JoxDrags drags;
+    JoxPopulation population;
     uint32_t walls_version; /* counts the changes of the walls */
     uint32_t
         first_unsettled; /* unless settled: id of the first agent added since the last settling */
     bool settled;
     bool walls_set;           /* scratch.walls, nav and bodies are as all_walls says */
     bool walls_came;          /* since the last settling: some agents may stand in them */
-    JoxStatistics statistics; /* figures of the run: no step reads them */
+    JoxExits exits;           /* figures of the run, which no step reads */
+    JoxStatistics statistics; /* likewise */
 } JoxWorldState;
 
 /* What a step may forget: it follows from the model and the state, or is written before it is read.
@@ -66,15 +80,11 @@ typedef struct JoxWorldScratch {
     bool walls_set;     /* `walls`, nav and bodies are as all_walls says */
     JoxObjects objects; /* what agents see of the bodies */
     JoxInspection inspection;
-    /* A step longer than people plan ahead is done in equal parts; think and observe run once. */
-    uint32_t part, parts;
-    double part_dt, plan; /* s: of a part; how far ahead velocities are planned */
-    JoxV2 *walked;        /* per agent, m: during the parts so far; only where there are several */
+    JoxV2 *walked; /* per agent, m: during the parts of the step so far; where it is divided */
     uint32_t walked_capacity;
-    JoxV2 *gone; /* m: where those stood who left of their own accord in the last step */
-    uint32_t gone_count, gone_capacity;
-    JoxDisc *discs; /* people as fast bodies meet them, and their indices */
-    uint32_t *disc_agents, disc_capacity;
+    JoxGone gone; /* who left in the last step */
+    JoxDiscList discs;
+    JoxText event_errors; /* what events could not do, a line each; whoever reads it empties it */
 } JoxWorldScratch;
 
 struct JoWorld {
@@ -94,8 +104,9 @@ void jox_error(JoError *error, JoCode code, const char *format, ...)
 JoWorld *jox_world_create(const JoWorldDef *def);
 /* Bit number of a tag, added if new; -1 when all 64 are taken. */
 int jox_world_tag(JoWorld *world, const char *name);
-/* Takes the places over, once, before agents are spawned. */
-void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count);
+/* Takes the places over, once, before agents are spawned. The array has room for `capacity` of
+   them: for those of single agents too. */
+void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count, uint32_t capacity);
 /* Adds an agent at (x, y), m, with the parameters' defaults; it is settled before the next step.
    Returns its index, valid until then. */
 uint32_t jox_world_add_agent(JoWorld *world, float x, float y);
@@ -109,8 +120,6 @@ void jox_world_raise_walls(JoWorld *world);
 void jox_world_set_walls(JoWorld *world, JoxWalls *walls);
 /* Opens or closes the walls of a name; says how many there are. */
 uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open);
-/* Bodies that are picked up, carried and thrown in this step. */
-void jox_world_carry(JoWorld *world);
 /* Throws a body, from a point (of its shape's own frame, m) or, with NULL, from where it is; m/s
    and rad/s. Who carries it loses it. False for a static body or none. */
 bool jox_world_throw(JoWorld *world, uint32_t row, const double from[3], const double velocity[3],
@@ -132,11 +141,6 @@ typedef enum JoxGrabbed {
 JoxGrabbed jox_world_grab(JoWorld *world, uint32_t row, const double to[3], bool anew);
 /* False where it is not pulled. */
 bool jox_world_release(JoWorld *world, uint32_t row);
-/* In a step: gives the bodies that are pulled their forces. */
-void jox_world_pull(JoWorld *world);
-/* In a step: who is before a bonded body or touches it; what broke. */
-void jox_world_note_touch(JoWorld *world);
-void jox_world_note_breaks(JoWorld *world, const JoxBodiesReport *report);
 /* One step. False, with the reason in `failure`, where a number of an agent is not finite after it;
    from then on nothing is done. */
 bool jox_world_step(JoWorld *world);
@@ -145,6 +149,8 @@ bool jox_world_step(JoWorld *world);
 bool jox_world_is_finite(JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX. */
 uint32_t jox_world_find(const JoWorld *world, JoAgent agent);
+/* What routes are made of, in this world. */
+JoxRouteStage jox_world_route_stage(JoWorld *world);
 /* Lists the state, in one order for all modes. */
 void jox_world_sections(JoWorld *world, JoxSections *sections);
 uint64_t jox_world_hash(const JoWorld *world);
