@@ -1,4 +1,5 @@
-/* Expression values of the language are compiled: a register per level of nesting. */
+/* Compiles expressions to code of a register machine: the inputs of an operation are computed
+   into its own register and those after it. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -134,7 +135,7 @@ int32_t jox_build_expression(JoxBuild *build, const JoxNode *node, JoxPosition p
     JoxMachine *m = build->machine;
     if (node->kind == JOX_NODE_ERROR)
         return -1;
-    if (node->compiled > 0) /* a local that several places use */
+    if (node->compiled > 0) /* the value is used in several places: it is compiled once */
         return node->compiled - 1;
     Code code = {.build = build};
     emit(&code, node, 0, 0);
