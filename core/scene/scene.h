@@ -14,13 +14,18 @@
 #include "geom/walls.h"
 #include "world/probe.h"
 
+/* How the agents of a group stand; JOX_FILL_AT: at given points. */
+#define JOX_FILLS(X)                                                                               \
+    X(HEX, "hex")                                                                                  \
+    X(GRID, "grid")                                                                                \
+    X(RANDOM, "random")                                                                            \
+    X(CIRCLE, "circle")                                                                            \
+    X(LINE, "line")
 typedef enum {
-    JOX_FILL_HEX,
-    JOX_FILL_GRID,
-    JOX_FILL_RANDOM,
-    JOX_FILL_CIRCLE,
-    JOX_FILL_LINE,
-    JOX_FILL_AT
+#define X(fill, name) JOX_FILL_##fill,
+    JOX_FILLS(X)
+#undef X
+        JOX_FILL_AT
 } JoxFillMode;
 
 /* A parameter or own name that a group sets: a distribution of numbers, a place, or a rule. */
@@ -47,6 +52,10 @@ typedef struct JoxSceneGroup {
     JoxFillMode fill;
     JoxV2 *positions; /* filled, from the scene's seed */
     uint32_t count;
+    uint32_t *in, *outside; /* places to fill, and to keep out of */
+    uint32_t in_count, outside_count;
+    double density; /* 1/m2, in place of count; NAN: not given */
+    float spacing;  /* m, least; NAN: not given */
     float facing;   /* rad, anti-clockwise from +x; NAN: not given */
     JoxV2 centre;   /* of a circle fill, and the mirror of `antipode` */
     char *team;     /* or NULL */
@@ -138,6 +147,26 @@ typedef struct JoxSceneFile {
     size_t length;
 } JoxSceneFile;
 
+typedef struct JoxSceneCamera {
+    double position[3], target[3]; /* m */
+    bool given;
+} JoxSceneCamera;
+
+typedef struct JoxSceneView {
+    uint32_t tools;         /* bit per JoxTool */
+    uint32_t colour, field; /* which of the keys' choices, in their order */
+} JoxSceneView;
+
+/* What a script may use. */
+typedef struct JoxSceneLimits {
+    double instructions, step_instructions; /* of a call, of all calls in a step */
+    double load_instructions;
+    double memory, block; /* MB: of a behaviour, of one allocation */
+    double source;        /* KB of a file */
+    double print;         /* lines in a second */
+} JoxSceneLimits;
+
+/* A scene's file as it was read: everything that a world is built from, as plain data. */
 typedef struct JoxSceneSpec {
     char *path, *title;
     char *input; /* path of the input log, or NULL */
@@ -166,23 +195,9 @@ typedef struct JoxSceneSpec {
     int32_t player_group;  /* -1: none */
     uint32_t player_agent; /* index within that group */
     bool forces, literal;
-    struct {
-        double position[3], target[3];
-        bool given;
-    } camera;
-    struct {
-        uint32_t tools; /* bit per JoxTool */
-        int colour;     /* which of the key's choices, in their order */
-        int field;
-    } view;
-    struct {
-        bool given;                             /* else the host's defaults hold */
-        double instructions, step_instructions; /* of a call, of all calls in a step */
-        double load_instructions;
-        double memory, block; /* MB: of a behaviour, of one allocation */
-        double source;        /* KB of a file */
-        double print;         /* lines in a second */
-    } limits;
+    JoxSceneCamera camera;
+    JoxSceneView view;
+    JoxSceneLimits limits;
     bool heatmap; /* the area was given */
     JoxV2 heatmap_low, heatmap_high;
     double heatmap_from; /* s; averages begin there */
@@ -190,6 +205,7 @@ typedef struct JoxSceneSpec {
     uint32_t file_count;
     JoxSceneChange *changes; /* in the order in which they were made */
     uint32_t change_count;
+    const struct JoxYaml *tree; /* as it was read, with includes and mods merged */
     void *memory; /* owns every text and array above but `walls` */
 } JoxSceneSpec;
 

@@ -1,10 +1,12 @@
-/* The scene format, once: every key with its type, unit, range, default and meaning. */
+/* The format of scenes and of the files that describe mods, as one table: each key has one row, with
+   its type, unit, range, default and meaning, where its value goes, and what a reload does with it.
+   Values are read by walking the table, so that a key cannot be documented and not read. */
 #ifndef JOX_SCENE_SCHEMA_H
 #define JOX_SCENE_SCHEMA_H
 
-#include "base/random.h"
-#include "base/vec.h"
-#include "scene/yaml.h"
+#include <stddef.h>
+
+#include "scene/values.h"
 
 typedef enum {
     JOX_TYPE_NUMBER, /* SI, or text with a unit of the key's kind */
@@ -20,7 +22,27 @@ typedef enum {
     JOX_TYPE_VALUES  /* a map of names to distributions or places */
 } JoxKeyType;
 
-typedef struct JoxKey {
+/* How a key's value is kept. In braces: what stands there where the key is missing and has no
+   default, or is wrong. */
+typedef enum {
+    JOX_STORE_UNSET,   /* a mistake in the table */
+    JOX_STORE_CHECKED, /* not at all: that it is in its range is all that matters */
+    JOX_STORE_EARLIER, /* not here: by the file `by`, before the tree is whole */
+    JOX_STORE_READ,    /* by the function `read` */
+    JOX_STORE_ITEMS,   /* an array of the structs of the owner `of`, and their number */
+    JOX_STORE_STRUCT,  /* a TABLE in a struct of its own, or in the same */
+    JOX_STORE_BOOL,    /* of a text with two choices: whether it is the second */
+    JOX_STORE_FLOAT,   /* {NAN} */
+    JOX_STORE_DOUBLE,  /* {NAN} */
+    JOX_STORE_UINT32,  /* {0}; of names with choices: a bit for each; of a text: the choice */
+    JOX_STORE_UINT64,  /* {0} */
+    JOX_STORE_TEXT,    /* {NULL} */
+    JOX_STORE_DOUBLES2,
+    JOX_STORE_DOUBLES3 /* {as it was} */
+} JoxStore;
+
+typedef struct JoxKey JoxKey;
+struct JoxKey {
     const char *owner, *name; /* owner: "scene", "place", ... */
     JoxKeyType type;
     const char *unit;
@@ -32,19 +54,57 @@ typedef struct JoxKey {
        place); behind it, read from the left, "*": a map of names to it, "[n]": a list of n or more.
      */
     const char *of;
-    const char *choices; /* of a TEXT with fixed values: "this|that" */
-} JoxKey;
+    const char *choices; /* of a TEXT or NAMES with fixed values: "this|that" */
+    JoxStore store;
+    size_t offset;  /* of the member in the struct of the owner */
+    size_t counter; /* of the member that holds how many there are */
+    /* Called for JOX_STORE_READ, with node NULL where the key is missing. `item` is the struct of
+       the owner. */
+    void (*read)(const JoxReader *reader, const JoxKey *key, const JoxYaml *node, void *item);
+    const char *by; /* the file that reads it */
+    /* 1 and an enumerator: this key says of what kind its owner is, which has exactly one such. */
+    int kind;
+    const char *later;   /* NULL: a reload takes it over; else why it waits for the next start */
+    const char *example; /* of a probe: a line of the example that shows all kinds */
+};
 
-extern const JoxKey jox_scene_keys[];
-extern const size_t jox_scene_key_count;
-#define JOX_FARTHEST 10000 /* m: floats still resolve a millimetre */
+#define JOX_STORE_OF(lvalue)                                                                       \
+    _Generic(&(lvalue), bool *: JOX_STORE_BOOL, float *: JOX_STORE_FLOAT,                          \
+             double *: JOX_STORE_DOUBLE, uint32_t *: JOX_STORE_UINT32,                             \
+             uint64_t *: JOX_STORE_UINT64, char **: JOX_STORE_TEXT, const char **: JOX_STORE_TEXT, \
+             double (*)[2]: JOX_STORE_DOUBLES2, double (*)[3]: JOX_STORE_DOUBLES3,                 \
+             default: JOX_STORE_STRUCT)
+/* Columns of a row that say where its value goes. */
+#define JOX_TO(Struct, member)                                                                     \
+    .store = JOX_STORE_OF(((Struct *)0)->member), .offset = offsetof(Struct, member)
+#define JOX_TO_ITEMS(Struct, member, number)                                                       \
+    .store = JOX_STORE_ITEMS, .offset = offsetof(Struct, member),                                  \
+    .counter = offsetof(Struct, number)
+#define JOX_READ(function) .store = JOX_STORE_READ, .read = function
+#define JOX_READ_TO(function, Struct, member, number)                                              \
+    .store = JOX_STORE_READ, .read = function, .offset = offsetof(Struct, member),                 \
+    .counter = offsetof(Struct, number)
+#define JOX_SAME_STRUCT .store = JOX_STORE_STRUCT, .offset = 0
+#define JOX_EARLIER(file) .store = JOX_STORE_EARLIER, .by = file
+#define JOX_CHECKED .store = JOX_STORE_CHECKED
+#define JOX_KIND(enumerator) .kind = 1 + (enumerator)
+/* The member of `item` in which a key's value, or the number of them, is kept. */
+#define JOX_MEMBER(Type, item, offset) ((Type *)(void *)((char *)(item) + (offset)))
 
 /* What has keys, in the order of the reference. */
 typedef struct JoxOwner {
     const char *name, *heading, *text;
+    size_t size;     /* of its struct; 0: its keys stand in the struct of another owner */
+    size_t kind;     /* 1 and the offset of its kind; 0: it has none */
+    size_t name_at;  /* 1 and the offset of its name, of what a map names */
+    size_t place_at; /* 1 and the offset of the JoxPosition where it is written */
+    const char *hint;
+    /* Checks what several keys say together. `good`: each of them is right. False: it is not kept.
+     */
+    bool (*finish)(const JoxReader *reader, const JoxYaml *map, void *item, bool good);
+    /* Called when all of a map or list have been read: looks up what they say of each other. */
+    void (*link)(const JoxReader *reader, const JoxYaml *map, void *item);
 } JoxOwner;
-extern const JoxOwner jox_scene_owners[];
-extern const size_t jox_scene_owner_count;
 
 /* Keys of which an owner has so many. */
 typedef struct JoxAlternative {
@@ -54,60 +114,41 @@ typedef struct JoxAlternative {
 extern const JoxAlternative jox_scene_alternatives[];
 extern const size_t jox_scene_alternative_count;
 
-/* Units that may be written, each with the SI unit of its kind and the factor to it. */
-typedef struct JoxUnit {
-    const char *name, *kind;
-    double factor;
-} JoxUnit;
-extern const JoxUnit jox_scene_units[];
-extern const size_t jox_scene_unit_count;
+typedef struct JoxFormat {
+    const JoxKey *keys;
+    size_t key_count;
+    const JoxOwner *owners;
+    size_t owner_count;
+} JoxFormat;
 
-/* Reading context: where errors go. */
-typedef struct JoxReader {
-    JoxArena *arena;
-    JoxDiagnostics *diagnostics;
-} JoxReader;
+/* keys.c: the format of scenes, and of the mod.yaml of mods. */
+extern const JoxFormat jox_scene_format;
+
+/* NULL if there is none. */
+const JoxKey *jox_key_find(const JoxFormat *format, const char *owner, const char *name);
+const JoxOwner *jox_owner_find(const JoxFormat *format, const char *name, size_t length);
+/* Item `n` of "this|that", copied to `out`, cut where it is too long; false behind the last. */
+bool jox_choice_name(const char *choices, int n, char *out, size_t size);
+/* Index of `word` in "this|that", or -1. */
+int jox_choice_find(const char *choices, const char *word);
+/* Appends the keys that say of what kind an owner is, as "this|that"; nothing where it has none. */
+void jox_owner_kinds(const JoxFormat *format, const char *owner, JoxText *out);
+/* "this, that or those". */
+void jox_choices_text(const char *choices, JoxText *out);
 
 /* Reports keys of the map that the owner lacks, and required keys that are missing; false if
    `map` is no map. */
 bool jox_keys_check(const JoxReader *reader, const JoxYaml *map, const char *owner);
-/* NULL if the owner has no such key. */
-const JoxKey *jox_key_find(const char *owner, const char *name);
-/* Item `n` of "this|that", copied to `out`, cut where it is too long; false behind the last. */
-bool jox_choice_name(const char *choices, int n, char *out, size_t size);
-/* "this, that or those". */
-void jox_choices_text(const char *choices, JoxText *out);
-/* Whether the key holds a map of further keys. */
-bool jox_key_is_table(const char *owner, const char *name);
-/* Values by owner and key, checked against the table; the default where the key is missing. */
-double jox_key_number(const JoxReader *reader, const JoxYaml *map, const char *owner,
-                      const char *name);
-bool jox_key_bool(const JoxReader *reader, const JoxYaml *map, const char *owner, const char *name);
-const char *jox_key_text(const JoxReader *reader, const JoxYaml *map, const char *owner,
-                         const char *name);
-/* Which of the key's choices the text is (the default where it is missing); -1 with an error. */
-int jox_key_choice(const JoxReader *reader, const JoxYaml *map, const char *owner,
-                   const char *name);
-/* Two or three numbers; false (with an error if it is there but wrong) when there are none. */
-bool jox_key_vector(const JoxReader *reader, const JoxYaml *map, const char *owner,
-                    const char *name, double *out, int count);
-/* Points of a list; NULL if missing or wrong (reported). */
-JoxV2 *jox_read_points(const JoxReader *reader, const JoxYaml *list, uint32_t least,
-                       uint32_t *count);
-/* Names of a list or of a single scalar. */
-uint32_t jox_read_names(const JoxReader *reader, const JoxYaml *node, const JoxYaml *const **out);
-/* A number in SI, of text like "2 m", "5 min", "90 deg"; false with an error. */
-bool jox_read_number(const JoxReader *reader, const JoxYaml *node, const char *unit, double *out);
-/* A number, or "normal(1, 0.1 [, least, greatest])", "uniform(a, b)", "choose(a, b, ...)". Quiet
-   false if the text is none of these. */
-bool jox_read_dist(const JoxReader *reader, const JoxYaml *node, JoxDist *out);
-void jox_scene_error(const JoxReader *reader, const JoxYaml *node, const char *code,
-                     const char *hint, const char *format, ...)
-    __attribute__((format(printf, 5, 6)));
-/* Whether `name` can be that of a `what` ("group"); false with an error. */
-bool jox_scene_name(const JoxReader *reader, JoxPosition at, const char *what, const char *name);
-/* "Did you mean 'x'?" in a buffer of the arena, or NULL. */
-const char *jox_scene_suggest(const JoxReader *reader, const char *word, const char *const *names,
-                              size_t count);
+/* Fills `item`, the struct of an owner, with what a map says of each key, or with the default;
+   everything wrong is reported. NULL is a map without keys. False if the item is not to be kept. */
+bool jox_keys_fill(const JoxReader *reader, const JoxYaml *map, const char *owner, void *item);
+/* Reads the map or list of a key with JOX_STORE_ITEMS into `item`. */
+void jox_items_fill(const JoxReader *reader, const JoxKey *key, const JoxYaml *node, void *item);
+/* A number within the key's range; where it is missing, or wrong with an error, the default, or NAN
+   where there is none. */
+double jox_key_number(const JoxReader *reader, const JoxKey *key, const JoxYaml *node);
+/* Two or three numbers within the key's range; false, with an error, if they are not that. */
+bool jox_key_vector(const JoxReader *reader, const JoxKey *key, const JoxYaml *node, double *out,
+                    int count);
 
 #endif
