@@ -157,7 +157,7 @@ install:
 	install -m 755 $(INSTALL_B)/libjostle.so.$(VERSION) $(D)/lib/
 	ln -sf libjostle.so.$(VERSION) $(D)/lib/libjostle.so.0
 	ln -sf libjostle.so.0 $(D)/lib/libjostle.so
-	install -m 644 core/include/jostle.h $(D)/include/
+	install -m 644 core/include/jostle.h core/include/jostle_tools.h $(D)/include/
 	install -m 644 core/cli/jostle.1 $(D)/share/man/man1/
 	printf 'prefix=%s\nName: jostle\nDescription: Dense crowds that push, scripted in Lua\nVersion: %s\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -ljostle\nRequires.private: %s\nLibs.private: -lstdc++ -lm -pthread\n' '$(PREFIX)' '$(VERSION)' '$(PKGS)' > $(D)/lib/pkgconfig/jostle.pc
 	install -d $(D)/share/jostle/page
@@ -165,7 +165,7 @@ install:
 	for d in scripts behaviours scenes; do install -d $(D)/share/jostle/$$d; cp -R $$d/. $(D)/share/jostle/$$d; done
 uninstall:
 	rm -rf $(D)/share/jostle
-	rm -f $(D)/bin/jostle $(D)/lib/libjostle.a $(D)/lib/libjostle.so* $(D)/include/jostle.h
+	rm -f $(D)/bin/jostle $(D)/lib/libjostle.a $(D)/lib/libjostle.so* $(D)/include/jostle.h $(D)/include/jostle_tools.h
 	rm -f $(D)/lib/pkgconfig/jostle.pc $(D)/share/man/man1/jostle.1
 clean:
 	rm -rf build

@@ -125,7 +125,7 @@ uint32_t jox_agents_add(JoxAgents *a) {
     a->lasts[i] = INFINITY;
     a->goal[i] = a->kicked[i] = a->approach[i] = a->queue_at[i] = -1;
     a->machine[i] = JOX_NO_MACHINE;
-    a->disc[i] = a->param[JOX_PARAM_max_speed][i];
+    a->speed_limit[i] = a->param[JOX_PARAM_max_speed][i];
     return i;
 }
 

@@ -12,6 +12,19 @@
 
 #define JOX_NO_INDEX UINT32_MAX
 
+/* The terms of the net force, equation 10, N: each row gives two columns, NAME_x and NAME_y, and a
+   part of what is shown of an agent that is inspected. ROW(X, keep, name, label): STATE carries
+   over from step to step, SCRATCH starts every step at zero. A new term is a row here, a stage in
+   force/ that fills its columns, and the call of that stage in the step. The order is that of the
+   sum. */
+#define JOX_FORCE_TERMS(ROW, X)                                                                    \
+    ROW(X, STATE, ext, "external")        /* given from outside for this step */                   \
+    ROW(X, STATE, inferred, "resistance") /* filtered deceleration and resistance, eq. 8, 9 */     \
+    ROW(X, SCRATCH, push, "push")         /* pushes received, eq. 5 */                             \
+    ROW(X, SCRATCH, contact, "contact")   /* contacts with agents and bodies, eq. 6, 7 */
+#define JOX_FORCE_TERM_COLUMNS(X, keep, name, label)                                               \
+    X(keep, float, name##_x) X(keep, float, name##_y)
+
 /* X(keep, type, name): what it is. Units: m, m/s, N, s.
    STATE: carried from step to step, so it is hashed and saved. SCRATCH: every step writes it before
    it reads it; between steps it holds figures of the last step, which a restored world lacks until
@@ -39,32 +52,25 @@
     X(STATE, float, pref_y)                                                                        \
     X(SCRATCH, float, next_x) /* new velocity, written by `solve` */                               \
     X(SCRATCH, float, next_y)                                                                      \
-    X(STATE, float, ext_x) /* external force given by the host this step, N */                     \
-    X(STATE, float, ext_y)                                                                         \
-    X(SCRATCH, float, push_x) /* sum of pushes received, N */                                      \
-    X(SCRATCH, float, push_y)                                                                      \
-    X(SCRATCH, float, contact_x) /* sum of contact forces received, N */                           \
-    X(SCRATCH, float, contact_y)                                                                   \
-    X(STATE, float, inferred_x) /* filtered deceleration and resistance, for the next step, N */   \
-    X(STATE, float, inferred_y)                                                                    \
+    JOX_FORCE_TERMS(JOX_FORCE_TERM_COLUMNS, X)                                                     \
     X(STATE, float, force_x) /* net force of this step, equation 10, N */                          \
     X(STATE, float, force_y)                                                                       \
-    X(STATE, float, compression) /* sum of |f.n| of contacts over girth, N/m */                    \
-    X(SCRATCH, float, plane_x)   /* force half-plane: unit normal; (0, 0) means none */            \
-    X(SCRATCH, float, plane_y)                                                                     \
-    X(SCRATCH, float, plane_offset) /* (v . normal) >= offset, m/s */                              \
-    X(SCRATCH, float, disc)         /* radius of the speed disc of this step, m/s */               \
-    X(SCRATCH, float, density)      /* from the distance of the farthest neighbour kept, 1/m2 */   \
-    X(SCRATCH, float, search)       /* radius that held the neighbours last time; 0 unknown */     \
-    X(SCRATCH, uint8_t, failed)     /* 1 where the 2-D program was infeasible this step */         \
-    X(STATE, uint8_t, contacts)     /* agents and bodies touched this step */                      \
-    X(STATE, uint8_t, removed)      /* 1: leaves the world at the end of the step */               \
-    X(STATE, uint32_t, entered)     /* tick at which the state was entered */                      \
-    X(STATE, float, lasts)          /* drawn duration of the state, s; INFINITY if none */         \
-    X(STATE, uint32_t, was_true)    /* bit per transition: its `when` held last step */            \
-    X(STATE, int32_t, goal)         /* place index aimed at, or -1 */                              \
-    X(STATE, float, still)          /* seconds since it last moved 0.25 m */                       \
-    X(STATE, float, still_x)        /* where that was */                                           \
+    X(STATE, float, compression)    /* sum of |f.n| of contacts over circumference, N/m */         \
+    X(SCRATCH, float, half_plane_x) /* force half-plane: unit normal; (0, 0) means none */         \
+    X(SCRATCH, float, half_plane_y)                                                                \
+    X(SCRATCH, float, half_plane_offset) /* (v . normal) >= offset, m/s */                         \
+    X(SCRATCH, float, speed_limit)       /* greatest speed in this step, m/s */                    \
+    X(SCRATCH, float, density)   /* from the distance of the farthest neighbour kept, 1/m2 */      \
+    X(SCRATCH, float, search)    /* radius that held the neighbours last time; 0 unknown */        \
+    X(SCRATCH, uint8_t, failed)  /* 1 where the 2-D program was infeasible this step */            \
+    X(STATE, uint8_t, contacts)  /* agents and bodies touched this step */                         \
+    X(STATE, uint8_t, removed)   /* 1: leaves the world at the end of the step */                  \
+    X(STATE, uint32_t, entered)  /* tick at which the state was entered */                         \
+    X(STATE, float, lasts)       /* drawn duration of the state, s; INFINITY if none */            \
+    X(STATE, uint32_t, was_true) /* bit per transition: its `when` held last step */               \
+    X(STATE, int32_t, goal)      /* place index aimed at, or -1 */                                 \
+    X(STATE, float, still)       /* seconds since it last moved 0.25 m */                          \
+    X(STATE, float, still_x)     /* where that was */                                              \
     X(STATE, float, still_y)                                                                       \
     X(STATE, int32_t, queue_at)    /* place whose queue it stands in, or -1 */                     \
     X(STATE, uint32_t, queued)     /* tick at which it joined that queue */                        \

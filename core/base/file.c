@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 
 static void release_file(void *file) {
     fclose(file);
@@ -23,10 +24,6 @@ int jox_file_close(FILE *file) {
 
 static void release_folder(void *folder) {
     closedir(folder);
-}
-
-static int by_bytes(const void *a, const void *b) {
-    return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
 char **jox_folder_names(const char *path) {
@@ -56,6 +53,6 @@ char **jox_folder_names(const char *path) {
     jox_free(text);
     for (size_t n = 0; n < count; n++, at += strlen(at) + 1)
         names[n] = at;
-    qsort(names, count, sizeof *names, by_bytes);
+    jox_sort_texts((const char **)names, count);
     return names;
 }

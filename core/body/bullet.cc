@@ -1,12 +1,20 @@
 /* Bullet's world: bodies come and go, are pushed, and are read. */
 #include "body/bullet.h"
 
+#include <new>
 #include <string.h>
 
 static const float REACH = 10000.0f;
 
+static void release_bodies(void *bodies) {
+    jox_bullet_free_heap(static_cast<JoxBodies *>(bodies)->heap);
+}
+
 JoxBodies *jox_bodies_create(const JoxBodiesDef *def) {
+    jox_bullet_use_memory();
     JoxBodies *b = static_cast<JoxBodies *>(jox_alloc(1, sizeof(JoxBodies)));
+    b->heap = jox_heap_used();
+    jox_hold(b, release_bodies);
     b->def = *def;
     b->last_dt = 0.05f;
     return b;
@@ -24,15 +32,25 @@ static btRigidBody *add_static(JoxBodies *b, btCollisionShape *shape, const btTr
     return body;
 }
 
+/* Classes of Bullet that would otherwise be allocated past its own functions. */
+template <typename T, typename... Arguments> static T *make(Arguments... arguments) {
+    return new (btAlignedAlloc(sizeof(T), 16)) T(arguments...);
+}
+
+template <typename T> static void unmake(T *object) {
+    object->~T();
+    btAlignedFree(object);
+}
+
 void jox_bodies_ensure(JoxBodies *b) {
     if (b->world)
         return;
     btDefaultCollisionConstructionInfo info;
     info.m_defaultMaxPersistentManifoldPoolSize = 512;
     info.m_defaultMaxCollisionAlgorithmPoolSize = 512;
-    b->configuration = new btDefaultCollisionConfiguration(info);
-    b->dispatcher = new btCollisionDispatcher(b->configuration);
-    b->broadphase = new btDbvtBroadphase();
+    b->configuration = make<btDefaultCollisionConfiguration>(info);
+    b->dispatcher = make<btCollisionDispatcher>(b->configuration);
+    b->broadphase = make<btDbvtBroadphase>();
     b->solver = new btSequentialImpulseConstraintSolver();
     b->world =
         new btDiscreteDynamicsWorld(b->dispatcher, b->broadphase, b->solver, b->configuration);
@@ -109,6 +127,7 @@ void jox_bodies_drop(JoxBodies *b, uint32_t row) {
 void jox_bodies_free(JoxBodies *b) {
     if (!b)
         return;
+    jox_let_go(b);
     while (b->live)
         jox_bodies_drop(b, b->order[b->live - 1]);
     if (b->world) {
@@ -118,9 +137,9 @@ void jox_bodies_free(JoxBodies *b) {
         delete b->ground_shape;
         delete b->world;
         delete b->solver;
-        delete b->broadphase;
-        delete b->dispatcher;
-        delete b->configuration;
+        unmake(b->broadphase);
+        unmake(b->dispatcher);
+        unmake(b->configuration);
     }
     void *owned[] = {b->walls, b->rows,    b->order,         b->objects,  b->hits,
                      b->gone,  b->corners, b->contact_loads, b->contacts, b->breaks};

@@ -13,6 +13,7 @@
 
 extern "C" {
 #include "base/mem.h"
+#include "base/sort.h"
 #include "body/body.h"
 #include "body/bonds.h"
 #include "body/footprint.h"
@@ -80,12 +81,17 @@ struct JoxRow {
 /* A contact of a bonded body; `key` orders them by body, then by what it touches. */
 struct JoxContactLoad {
     uint64_t key;
-    uint32_t number; /* in which they were found */
     uint32_t block;
     btVector3 point, impulse, normal;
 };
 
+/* Has Bullet allocate so that it meets no null pointer. */
+void jox_bullet_use_memory();
+/* Frees what Bullet allocated while the heap was in use. */
+void jox_bullet_free_heap(const JoxHeap *heap);
+
 struct JoxBodies {
+    JoxHeap *heap; /* in use where it was made */
     JoxBodiesDef def;
     btDefaultCollisionConfiguration *configuration;
     btCollisionDispatcher *dispatcher;

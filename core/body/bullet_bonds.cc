@@ -87,32 +87,16 @@ static void add_contact_loads(JoxBodies *b, const btPersistentManifold *manifold
         uint32_t block = child >= 0 && uint32_t(child) < b->rows[row].bonds->count ? child : 0;
         jox_reserve(b->contact_loads, b->contact_load_capacity, b->contact_load_count + 1);
         b->contact_loads[b->contact_load_count] =
-            JoxContactLoad{key,
-                           b->contact_load_count,
-                           block,
-                           sign > 0 ? p.getPositionWorldOnA() : p.getPositionWorldOnB(),
-                           impulse * sign,
-                           p.m_normalWorldOnB * sign};
+            JoxContactLoad{key, block, sign > 0 ? p.getPositionWorldOnA() : p.getPositionWorldOnB(),
+                           impulse * sign, p.m_normalWorldOnB * sign};
         b->contact_load_count++;
     }
 }
 
-/* Shell's sort by key, then by number. */
-static void sort_contact_loads(JoxContactLoad *contact_loads, uint32_t count) {
-    static const uint32_t gaps[] = {9841, 3280, 1093, 364, 121, 40, 13, 4, 1};
-    for (uint32_t gap : gaps)
-        for (uint32_t i = gap; i < count; i++) {
-            JoxContactLoad moved = contact_loads[i];
-            uint32_t j = i;
-            for (; j >= gap; j -= gap) {
-                const JoxContactLoad &before = contact_loads[j - gap];
-                if (before.key < moved.key ||
-                    (before.key == moved.key && before.number < moved.number))
-                    break;
-                contact_loads[j] = before;
-            }
-            contact_loads[j] = moved;
-        }
+static int by_key(const void *a, const void *b, const void *) {
+    const JoxContactLoad *x = static_cast<const JoxContactLoad *>(a);
+    const JoxContactLoad *y = static_cast<const JoxContactLoad *>(b);
+    return (x->key > y->key) - (x->key < y->key);
 }
 
 void jox_bodies_gather_contacts(JoxBodies *b) {
@@ -123,7 +107,11 @@ void jox_bodies_gather_contacts(JoxBodies *b) {
         add_contact_loads(b, manifold, one, two, 1);
         add_contact_loads(b, manifold, two, one, -1);
     }
-    sort_contact_loads(b->contact_loads, b->contact_load_count);
+    const uint32_t count = b->contact_load_count;
+    jox_reserve(b->contact_loads, b->contact_load_capacity,
+                count + uint32_t(JOX_SORT_SPARE(count)));
+    jox_sort(b->contact_loads, count, sizeof *b->contact_loads, by_key, nullptr,
+             b->contact_loads + count);
     jox_reserve(b->contacts, b->contact_capacity, b->contact_load_count);
     for (uint32_t first = 0, last; first < b->contact_load_count; first = last) {
         JoxRow *r = &b->rows[b->contact_loads[first].key >> 32];

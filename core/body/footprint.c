@@ -4,6 +4,7 @@
 
 #include "base/elementary.h"
 #include "base/mem.h"
+#include "base/sort.h"
 
 void jox_footprint_begin(JoxFootprint *footprint) {
     footprint->count = 0;
@@ -60,7 +61,8 @@ void jox_footprint_add_sphere(JoxFootprint *footprint, JoxV3 centre, float radiu
     }
 }
 
-static int by_x(const void *a, const void *b) {
+static int by_x(const void *a, const void *b, const void *context) {
+    (void)context;
     const JoxV2 *p = a, *q = b;
     if (p->x != q->x)
         return p->x < q->x ? -1 : 1;
@@ -117,8 +119,8 @@ void jox_footprint_end(JoxFootprint *footprint, JoxObject *object) {
     if (!object->in_band)
         return;
     JOX_RESERVE(footprint->points, footprint->capacity, 2 * n + 2);
-    qsort(footprint->points, n, sizeof *footprint->points, by_x);
-    JoxV2 *ring = footprint->points + n;
+    JoxV2 *ring = footprint->points + n; /* spare room, then the hull */
+    jox_sort(footprint->points, n, sizeof *footprint->points, by_x, NULL, ring);
     uint32_t corners = thin(ring, hull(footprint->points, n, ring));
     /* A sliver without area cannot be touched. */
     object->in_band = corners >= 3;

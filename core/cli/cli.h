@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "jostle.h"
+#include "jostle_tools.h"
 
 /* In the order of `jostle --help`. */
 #define CLI_COMMANDS(X)                                                                            \

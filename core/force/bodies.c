@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 #include "force/equations.h"
 #include "force/internal.h"
 
@@ -161,22 +162,13 @@ void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
     }
 }
 
-/* Shell's sort by agent id, then row. */
-static void sort_touches(const JoxAgents *a, JoxTouch *t, uint32_t count) {
-    static const uint32_t gaps[] = {88573, 29524, 9841, 3280, 1093, 364, 121, 40, 13, 4, 1};
-    for (size_t g = 0; g < sizeof gaps / sizeof *gaps; g++)
-        for (uint32_t gap = gaps[g], i = gap; i < count; i++) {
-            JoxTouch moved = t[i];
-            uint64_t key = (uint64_t)a->id[moved.agent] << 32 | moved.object;
-            uint32_t j = i;
-            for (; j >= gap; j -= gap) {
-                const JoxTouch *before = &t[j - gap];
-                if (((uint64_t)a->id[before->agent] << 32 | before->object) <= key)
-                    break;
-                t[j] = *before;
-            }
-            t[j] = moved;
-        }
+/* By agent id, then row. `context`: the agents. */
+static int by_agent(const void *a, const void *b, const void *context) {
+    const JoxTouch *x = a, *y = b;
+    const uint32_t *id = ((const JoxAgents *)context)->id;
+    if (x->agent != y->agent)
+        return id[x->agent] < id[y->agent] ? -1 : 1;
+    return (x->object > y->object) - (x->object < y->object);
 }
 
 void jox_touches_collect(JoxForces *f) {
@@ -184,7 +176,7 @@ void jox_touches_collect(JoxForces *f) {
     uint32_t count = 0;
     for (uint32_t c = 0; c < f->chunks; c++)
         count += f->touches.counts[c];
-    JOX_RESERVE(f->touch, f->touch_capacity, count);
+    JOX_RESERVE(f->touch, f->touch_capacity, count + JOX_SORT_SPARE(count));
     f->touch_count = 0;
     for (uint32_t c = 0; c < f->chunks; c++) {
         const JoxTouch *list = (const JoxTouch *)f->touches.items + (size_t)c * f->touches.room;
@@ -192,7 +184,7 @@ void jox_touches_collect(JoxForces *f) {
             memcpy(f->touch + f->touch_count, list, f->touches.counts[c] * sizeof *list);
         f->touch_count += f->touches.counts[c];
     }
-    sort_touches(a, f->touch, count);
+    jox_sort(f->touch, count, sizeof *f->touch, by_agent, a, f->touch + count);
     f->totals.touches = count;
     if (!count)
         return;
@@ -227,7 +219,7 @@ static void reset_motions(JoxForces *f) {
     }
 }
 
-void jox_touches_settle(JoxForces *f, bool literal) {
+void jox_touches_prepare(JoxForces *f, bool literal) {
     const JoxAgents *a = f->step.agents;
     reset_motions(f);
     for (uint32_t i = 0; i < f->touch_count; i++) {
@@ -284,12 +276,14 @@ void jox_touches_finish(JoxForces *f) {
         uint32_t i = t->agent;
         a->contact_x[i] += impulse.x * per_second;
         a->contact_y[i] += impulse.y * per_second;
-        a->compression[i] += t->impulse * per_second / jox_girth(a->param[JOX_PARAM_radius][i]);
+        a->compression[i] +=
+            t->impulse * per_second / jox_circumference(a->param[JOX_PARAM_radius][i]);
         if (!(f->step.objects->rows[t->object].inverse_mass > 0.0f))
             continue;
         totals->touched_x += (double)(impulse.x * per_second) * f->step.dt;
         totals->touched_y += (double)(impulse.y * per_second) * f->step.dt;
         totals->touched += t->impulse;
-        jox_force_owe(f, a->id[i], t->object, (JoxV3){-impulse.x, -impulse.y, 0.0f}, t->point);
+        jox_force_add_impulse(f, a->id[i], t->object, (JoxV3){-impulse.x, -impulse.y, 0.0f},
+                              t->point);
     }
 }

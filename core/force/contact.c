@@ -107,7 +107,7 @@ static void join_ends(JoxForces *f) {
 }
 
 /* Before the first pass: restitution, split masses; printed, the whole impulse. */
-static void settle_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void prepare_pairs(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     (void)end;
     JoxForces *f = context;
@@ -149,7 +149,7 @@ static void start_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
         f->work_y[i] = a->vy[i];
         order_ends(f->ends + f->starts[i], f->starts[i + 1] - f->starts[i]);
     }
-    settle_chunk(context, begin, end, worker);
+    prepare_pairs(context, begin, end, worker);
 }
 
 static void pass_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -165,17 +165,17 @@ static void pass_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     }
 }
 
-/* Sum of the impulses that agent i has received so far from agents; their sizes in *squeeze. */
-static JoxV2 received(const JoxForces *f, uint32_t i, float *squeeze) {
+/* Sum of the impulses that agent i has received so far from agents; their sizes in *size. */
+static JoxV2 received(const JoxForces *f, uint32_t i, float *size) {
     JoxV2 sum = {0.0f, 0.0f};
     const JoxPair *pairs = f->pairs.items;
-    *squeeze = 0.0f;
+    *size = 0.0f;
     for (uint32_t k = f->starts[i]; k < f->starts[i + 1]; k++) {
         const JoxPair *p = &pairs[f->ends[k].pair];
         float signed_impulse = p->first == i ? p->impulse : -p->impulse;
         sum.x += signed_impulse * p->nx;
         sum.y += signed_impulse * p->ny;
-        *squeeze += p->impulse;
+        *size += p->impulse;
     }
     return sum;
 }
@@ -188,8 +188,8 @@ static void move_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     for (uint32_t i = begin; i < end; i++) {
         if (!a->contacts[i])
             continue;
-        float squeeze;
-        JoxV2 sum = received(f, i, &squeeze);
+        float size;
+        JoxV2 sum = received(f, i, &size);
         if (f->touch_count)
             for (uint32_t t = 0; t < f->touch_number[i]; t++) {
                 const JoxTouch *touch = &f->touch[f->first_touch[i] + t];
@@ -209,11 +209,11 @@ static void finish_chunk(void *context, uint32_t begin, uint32_t end, uint32_t w
     for (uint32_t i = begin; i < end; i++) {
         if (!a->contacts[i])
             continue;
-        float squeeze;
-        JoxV2 sum = received(f, i, &squeeze);
+        float size;
+        JoxV2 sum = received(f, i, &size);
         a->contact_x[i] = sum.x * per_second;
         a->contact_y[i] = sum.y * per_second;
-        a->compression[i] += squeeze * per_second / jox_girth(a->param[JOX_PARAM_radius][i]);
+        a->compression[i] += size * per_second / jox_circumference(a->param[JOX_PARAM_radius][i]);
     }
 }
 
@@ -252,7 +252,7 @@ void jox_force_contact(JoxForces *f) {
     if (!approaching && !f->touch_count)
         return;
     each_chunk(f, start_chunk);
-    jox_touches_settle(f, f->options.literal);
+    jox_touches_prepare(f, f->options.literal);
     for (uint32_t pass = 0; !f->options.literal && pass < f->options.iterations; pass++) {
         each_chunk(f, pass_chunk);
         jox_touches_pass(f);

@@ -66,9 +66,9 @@ void jox_force_push(JoxForces *forces);
 /* Equations 6 and 7: contact_x, contact_y, contacts, compression (received pushes count in it, for
    they squeeze as well); impulses on bodies. */
 void jox_force_contact(JoxForces *forces);
-/* Equations 10 to 12: force_x, force_y, plane_x, plane_y, plane_offset, disc. The disc is
-   `max_speed`; only a contact impulse widens it, to the speed that it gives. Keeps the velocities
-   for infer. Begin and sum alone give a step without forces. */
+/* Equations 10 to 12: force_x, force_y, half_plane_x, half_plane_y, half_plane_offset, speed_limit.
+   The limit is `max_speed`; only a contact impulse raises it, to the speed that it gives. Keeps the
+   velocities for infer. Begin and sum alone give a step without forces. */
 void jox_force_sum(JoxForces *forces);
 /* Equations 8 and 9, once vx, vy hold the new velocities: inferred_x, inferred_y. */
 void jox_force_infer(JoxForces *forces);

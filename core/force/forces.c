@@ -40,7 +40,7 @@ void jox_forces_free(JoxForces *f) {
                      f->work_y,
                      f->grid.starts,
                      f->grid.members,
-                     f->owed,
+                     f->pending,
                      f->impulses,
                      f->old_x,
                      f->old_y,
@@ -63,13 +63,24 @@ static float widest_reach(JoxForces *f) {
     return reach;
 }
 
+/* The terms that do not carry over from the last step. */
+static void zero_terms(JoxAgents *a) {
+#define ZERO_STATE(column)
+#define ZERO_SCRATCH(column) memset(column, 0, a->count * sizeof *column);
+#define ZERO(X, keep, name, label) ZERO_##keep(a->name##_x) ZERO_##keep(a->name##_y)
+    JOX_FORCE_TERMS(ZERO, )
+#undef ZERO
+#undef ZERO_SCRATCH
+#undef ZERO_STATE
+}
+
 void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_ASSERT(step && step->agents && step->neighbours && step->dt > 0.0);
     f->step = *step;
     if (!(f->step.plan > 0.0))
         f->step.plan = step->dt;
     f->totals = (JoxForceTotals){0};
-    f->owed_count = f->owed_sorted = 0;
+    f->pending_count = f->pending_sorted = 0;
     f->touch_count = 0;
     JoxAgents *a = step->agents;
     uint32_t n = a->count;
@@ -80,11 +91,11 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_RESERVE(f->old_y, f->old_y_capacity, n);
     if (f->chunks)
         memset(f->chunk, 0, f->chunks * sizeof *f->chunk);
-    float *zeroed[] = {a->push_x, a->push_y, a->contact_x, a->contact_y, a->compression};
-    for (size_t i = 0; n && i < sizeof zeroed / sizeof *zeroed; i++)
-        memset(zeroed[i], 0, n * sizeof(float));
-    if (n)
+    if (n) {
+        zero_terms(a);
+        memset(a->compression, 0, n * sizeof *a->compression);
         memset(a->contacts, 0, n);
+    }
     f->grid.columns = 0;
     float reach = widest_reach(f);
     if (n && step->objects && step->objects->count)

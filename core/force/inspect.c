@@ -19,7 +19,7 @@ JoxV2 jox_force_slowed(const JoxForces *f, uint32_t agent, float *kept) {
     for (uint32_t k = f->starts[agent]; k < f->starts[agent + 1]; k++) {
         const JoxTransfer *t = &f->sorted[k];
         uint32_t giver = jox_agents_find(a, t->from_id);
-        if (a->plane_x[giver] == 0.0f && a->plane_y[giver] == 0.0f)
+        if (a->half_plane_x[giver] == 0.0f && a->half_plane_y[giver] == 0.0f)
             sum = jox_add(sum, (JoxV2){t->x, t->y});
     }
     return sum;

@@ -39,12 +39,12 @@ typedef struct JoxEnd {
     uint32_t pair;
 } JoxEnd;
 
-/* An impulse on a body with the key that sorts it: agent id, then row, then when it was given. */
-typedef struct JoxOwed {
+/* An impulse on a body with the key that sorts it: agent id, then row. Those of one key stay in the
+   order in which they were given. */
+typedef struct JoxPendingImpulse {
     uint64_t key;
-    uint32_t turn;
     JoxImpulse impulse;
-} JoxOwed;
+} JoxPendingImpulse;
 
 /* Lists written chunk by chunk: chunk c owns the items from c * room on. The memory is touched
    only as far as it is used. */
@@ -99,9 +99,9 @@ struct JoxForces {
 
     float widest; /* greatest radius, m */
     JoxBodyGrid grid;
-    JoxOwed *owed;
-    size_t owed_capacity;
-    uint32_t owed_count, owed_sorted;
+    JoxPendingImpulse *pending;
+    size_t pending_capacity;
+    uint32_t pending_count, pending_sorted;
     JoxImpulse *impulses;
     size_t impulse_capacity;
 
@@ -121,13 +121,13 @@ void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t
    Returns how many there are; with none, nothing is written. */
 uint32_t jox_transfers_sort(JoxForces *forces);
 /* Adds the transfers of all agents, in ascending id of the giver, into two columns, and their
-   magnitudes, over the girth, into a third unless it is NULL. */
-void jox_transfers_sum(JoxForces *forces, float *x, float *y, float *squeeze);
-void jox_force_owe(JoxForces *forces, uint32_t agent_id, uint32_t object, JoxV3 impulse,
-                   JoxV3 point);
+   magnitudes, over the circumference, into a third unless it is NULL. */
+void jox_transfers_sum(JoxForces *forces, float *x, float *y, float *compression);
+void jox_force_add_impulse(JoxForces *forces, uint32_t agent_id, uint32_t object, JoxV3 impulse,
+                           JoxV3 point);
 
 /* Length of the agent's outline, over which forces are spread, m. */
-static inline float jox_girth(float radius) {
+static inline float jox_circumference(float radius) {
     return 6.28318531f * radius;
 }
 
@@ -159,7 +159,7 @@ float jox_touch_height(const JoxObject *body);
 /* Contacts with bodies, for the passes of jox_force_contact. */
 void jox_touches_find(JoxForces *forces, uint32_t begin, uint32_t end);
 void jox_touches_collect(JoxForces *forces);
-void jox_touches_settle(JoxForces *forces, bool literal);
+void jox_touches_prepare(JoxForces *forces, bool literal);
 void jox_touches_pass(JoxForces *forces);
 void jox_touches_finish(JoxForces *forces);
 

@@ -167,8 +167,9 @@ void jox_force_push(JoxForces *f) {
             bool moves = f->step.objects->rows[t[k].object].inverse_mass > 0.0f;
             f->totals.pushed_x += moves ? (double)(t[k].normal.x * dt) : 0.0;
             f->totals.pushed_y += moves ? (double)(t[k].normal.y * dt) : 0.0;
-            jox_force_owe(f, a->id[t[k].agent], t[k].object,
-                          (JoxV3){t[k].normal.x * dt, t[k].normal.y * dt, 0.0f}, t[k].point);
+            jox_force_add_impulse(f, a->id[t[k].agent], t[k].object,
+                                  (JoxV3){t[k].normal.x * dt, t[k].normal.y * dt, 0.0f},
+                                  t[k].point);
         }
     }
     f->totals.ground_x = (double)ground_x / 1048576.0;

@@ -15,21 +15,30 @@ static float decay_of(Decay *decay, float damping, double dt) {
     return decay->value;
 }
 
-/* The half-plane of the force over the time planned for, and the disc it is solved in. */
+/* The half-plane of the force over the time planned for, and the speed limit of this step. */
 static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, float decay,
                            float dt) {
     float mass = a->param[JOX_PARAM_mass][i], most = a->param[JOX_PARAM_max_speed][i];
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
     JoxV2 normal = jox_scale(force, 1.0f / size);
-    a->plane_x[i] = normal.x;
-    a->plane_y[i] = normal.y;
-    a->plane_offset[i] = jox_forced_speed(velocity, normal, size, mass, decay, dt);
+    a->half_plane_x[i] = normal.x;
+    a->half_plane_y[i] = normal.y;
+    a->half_plane_offset[i] = jox_forced_speed(velocity, normal, size, mass, decay, dt);
     if (contact.x == 0.0f && contact.y == 0.0f)
         return;
     /* Being hit may carry someone faster than they can go; nothing else may. */
     JoxV2 forced = jox_forced_velocity(velocity, force, mass, decay, dt);
     float hit = jox_length(jox_forced_velocity(velocity, contact, mass, decay, dt));
-    a->disc[i] = jox_maxf(most, jox_minf(hit, jox_length(forced)));
+    a->speed_limit[i] = jox_maxf(most, jox_minf(hit, jox_length(forced)));
+}
+
+/* (10) The net force. */
+static inline JoxV2 sum_of_terms(const JoxAgents *a, uint32_t i) {
+#define PLUS_X(X, keep, name, label) +a->name##_x[i]
+#define PLUS_Y(X, keep, name, label) +a->name##_y[i]
+    return (JoxV2){JOX_FORCE_TERMS(PLUS_X, ), JOX_FORCE_TERMS(PLUS_Y, )};
+#undef PLUS_X
+#undef PLUS_Y
 }
 
 static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -41,10 +50,9 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
     for (uint32_t i = begin; i < end; i++) {
         f->old_x[i] = a->vx[i];
         f->old_y[i] = a->vy[i];
-        a->disc[i] = a->param[JOX_PARAM_max_speed][i];
-        a->plane_x[i] = a->plane_y[i] = a->plane_offset[i] = 0.0f;
-        JoxV2 force = {a->ext_x[i] + a->inferred_x[i] + a->push_x[i] + a->contact_x[i],
-                       a->ext_y[i] + a->inferred_y[i] + a->push_y[i] + a->contact_y[i]};
+        a->speed_limit[i] = a->param[JOX_PARAM_max_speed][i];
+        a->half_plane_x[i] = a->half_plane_y[i] = a->half_plane_offset[i] = 0.0f;
+        JoxV2 force = sum_of_terms(a, i);
         a->force_x[i] = force.x;
         a->force_y[i] = force.y;
         if (force.x == 0.0f && force.y == 0.0f)
@@ -86,8 +94,9 @@ static void give(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 fo
 /* (9) Someone under force whose plan falls short of where it would take them. */
 static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
     const JoxAgents *a = f->step.agents;
-    JoxV2 unit = {a->plane_x[i], a->plane_y[i]};
-    float shortfall = jox_shortfall(jox_v2(a->next_x[i], a->next_y[i]), unit, a->plane_offset[i]);
+    JoxV2 unit = {a->half_plane_x[i], a->half_plane_y[i]};
+    float shortfall =
+        jox_shortfall(jox_v2(a->next_x[i], a->next_y[i]), unit, a->half_plane_offset[i]);
     float absorb = a->param[JOX_PARAM_absorb][i];
     if (!(shortfall > 0.0f) || !(absorb > 0.0f))
         return;
@@ -129,7 +138,7 @@ static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     const JoxAgents *a = f->step.agents;
     uint32_t chunk = begin / JOX_FORCE_GRAIN;
     for (uint32_t i = begin; i < end; i++) {
-        if (a->plane_x[i] != 0.0f || a->plane_y[i] != 0.0f)
+        if (a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f)
             pass_resistance(f, chunk, i);
         else if (f->old_x[i] != 0.0f || f->old_y[i] != 0.0f)
             pass_deceleration(f, chunk, i);

@@ -1,5 +1,6 @@
 /* Lists that the stages of force hand on: forces between agents, and impulses on bodies. */
 #include "base/mem.h"
+#include "base/sort.h"
 #include "force/internal.h"
 
 void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t size) {
@@ -57,7 +58,7 @@ static void order_by_giver(JoxTransfer *t, uint32_t count) {
 
 typedef struct SumTask {
     JoxForces *forces;
-    float *x, *y, *squeeze;
+    float *x, *y, *compression;
 } SumTask;
 
 static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -75,55 +76,46 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         for (uint32_t k = 0; k < count; k++) {
             x += t[k].x;
             y += t[k].y;
-            if (task->squeeze)
+            if (task->compression)
                 size += sqrtf(t[k].x * t[k].x + t[k].y * t[k].y);
         }
         task->x[i] += x;
         task->y[i] += y;
-        if (task->squeeze)
-            task->squeeze[i] += size / jox_girth(radius[i]);
+        if (task->compression)
+            task->compression[i] += size / jox_circumference(radius[i]);
     }
 }
 
-void jox_transfers_sum(JoxForces *f, float *x, float *y, float *squeeze) {
-    SumTask task = {f, x, y, squeeze};
+void jox_transfers_sum(JoxForces *f, float *x, float *y, float *compression) {
+    SumTask task = {f, x, y, compression};
     jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, sum_chunk, &task);
 }
 
-void jox_force_owe(JoxForces *f, uint32_t agent_id, uint32_t object, JoxV3 impulse, JoxV3 point) {
-    JOX_RESERVE(f->owed, f->owed_capacity, (size_t)f->owed_count + 1);
+void jox_force_add_impulse(JoxForces *f, uint32_t agent_id, uint32_t object, JoxV3 impulse,
+                           JoxV3 point) {
+    JOX_RESERVE(f->pending, f->pending_capacity, (size_t)f->pending_count + 1);
     uint64_t key = (uint64_t)agent_id << 32 | object;
-    f->owed[f->owed_count] = (JoxOwed){key, f->owed_count, {object, impulse, point}};
-    f->owed_count++;
+    f->pending[f->pending_count] = (JoxPendingImpulse){key, {object, impulse, point}};
+    f->pending_count++;
 }
 
-static bool later(const JoxOwed *a, const JoxOwed *b) {
-    return a->key != b->key ? a->key > b->key : a->turn > b->turn;
-}
-
-/* Shell's sort: in place, and never of equals, so that there is one order. */
-static void sort_owed(JoxOwed *owed, uint32_t count) {
-    static const uint32_t gaps[] = {88573, 29524, 9841, 3280, 1093, 364, 121, 40, 13, 4, 1};
-    for (size_t g = 0; g < sizeof gaps / sizeof *gaps; g++) {
-        uint32_t gap = gaps[g];
-        for (uint32_t i = gap; i < count; i++) {
-            JoxOwed moved = owed[i];
-            uint32_t j = i;
-            for (; j >= gap && later(&owed[j - gap], &moved); j -= gap)
-                owed[j] = owed[j - gap];
-            owed[j] = moved;
-        }
-    }
+static int by_key(const void *a, const void *b, const void *context) {
+    const JoxPendingImpulse *x = a, *y = b;
+    (void)context;
+    return (x->key > y->key) - (x->key < y->key);
 }
 
 const JoxImpulse *jox_force_impulses(JoxForces *f, uint32_t *count) {
-    if (f->owed_sorted != f->owed_count) {
-        sort_owed(f->owed, f->owed_count);
-        JOX_RESERVE(f->impulses, f->impulse_capacity, f->owed_count);
-        for (uint32_t i = 0; i < f->owed_count; i++)
-            f->impulses[i] = f->owed[i].impulse;
-        f->owed_sorted = f->owed_count;
+    if (f->pending_sorted != f->pending_count) {
+        JOX_RESERVE(f->pending, f->pending_capacity,
+                    f->pending_count + JOX_SORT_SPARE(f->pending_count));
+        jox_sort(f->pending, f->pending_count, sizeof *f->pending, by_key, NULL,
+                 f->pending + f->pending_count);
+        JOX_RESERVE(f->impulses, f->impulse_capacity, f->pending_count);
+        for (uint32_t i = 0; i < f->pending_count; i++)
+            f->impulses[i] = f->pending[i].impulse;
+        f->pending_sorted = f->pending_count;
     }
-    *count = f->owed_count;
+    *count = f->pending_count;
     return f->impulses;
 }

@@ -1,10 +1,15 @@
-/* Jostle: dense crowds that push, with bodies and behaviours. The only installed header.
+/* Jostle: dense crowds that push, with bodies and behaviours. What a program that embeds it may
+ * call.
  *
  * Units are SI throughout: metres, seconds, kilograms, newtons, radians; x east, y north, z up.
  * Plain C17, clean in C++. One world must not be used from two threads at once; different worlds
  * may. Misuse (a null or stale handle, a field out of range in a Def made by hand) is reported
  * through the assertion handler and answered with a null handle, zero or false; bad files and
- * values give a JoError. The library never exits.
+ * values give a JoError. The library never exits and installs no signal handlers.
+ *
+ * Where memory is out, a call returns its error (JO_FAILED, "out of memory") or NULL, false or 0.
+ * The world or scene that it was changing has then failed: later calls answer the same way,
+ * jo_world_failure says why, and freeing it releases all that it held. Other worlds go on.
  */
 #ifndef JOSTLE_H
 #define JOSTLE_H
@@ -105,7 +110,7 @@ typedef struct JoAgentState {
     double x, y;        /* m */
     double vx, vy;      /* m/s */
     double fx, fy;      /* net force of the last step, N */
-    double compression; /* N per metre of girth */
+    double compression; /* N per metre of circumference */
     double radius;      /* m */
     const char *state;  /* of its machine; "" without one; valid until the next call on the world */
 } JoAgentState;
@@ -227,17 +232,6 @@ JO_API char *jo_scene_inspect(JoScene *scene, uint32_t slot);
 JO_API bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error);
 /* Writes trajectories to an SQLite file from here on (JuPedSim format, version 2). */
 JO_API bool jo_scene_record(JoScene *scene, const char *path, JoError *error);
-/* Collects density and regional speeds from here on; jo_scene_finish draws them, and what the
-   scene's probes measured, into `directory` (made if it is missing). */
-JO_API bool jo_scene_report(JoScene *scene, const char *directory, JoError *error);
-/* After jo_scene_finish: writes index.html into the report's `directory`, with the figures of the
-   run and, beside each, those of `half`, the same run at half the step. NULL: the page says that
-   there was none, because `why`. False with `error` if it cannot be written. */
-JO_API bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
-                          const char *directory, JoError *error);
-/* At jo_scene_finish only the probes' CSV files are written, into `directory` (made if it is
-   missing). */
-JO_API bool jo_scene_data(JoScene *scene, const char *directory, JoError *error);
 /* From here on files are watched: behaviours, what they require, patches of mods and the scene
    itself. A thread of its own loads what was edited; between two steps all of it is swapped, or
    nothing, and `message` says so. */
@@ -269,103 +263,6 @@ JO_API char *jo_scene_summary(const JoScene *scene);
    coordinates and texts are not. Free with jo_free. */
 JO_API char *jo_summaries_aggregate(const char *const *summaries, size_t count, JoError *error);
 
-/* A scene on a live page: a browser on this machine shows it and lets people act on it. */
-typedef struct JoViewDef {
-    JoSceneDef scene;
-    const char *address;      /* to listen at; NULL: 127.0.0.1, for this machine alone */
-    int port;                 /* 0: 8730, or the next that is free */
-    const char *page;         /* folder of the page's files; NULL: where they were installed */
-    const char *three;        /* folder of three.js; NULL: Debian's */
-    bool fast;                /* as fast as it can go, not in real time */
-    bool watch;               /* files that are edited are reloaded; on by default */
-    double seconds;           /* simulated, after which it pauses; 0: the scene's duration */
-    const char *record;       /* file for trajectories, or NULL; a restart begins it anew */
-    const char *log_input;    /* file for what people do, or NULL; a restart begins it anew */
-    const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
-    JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
-    void *opened_context;
-    char **summary; /* NULL, or for the figures of the run as it ended; free with jo_free */
-    uint32_t cookie;
-} JoViewDef;
-JO_API JoViewDef jo_default_view_def(void);
-/* Returns when it was stopped. False with `error` if the page cannot be served or the scene does
-   not load; every error of the scene went to its `message`. */
-JO_API bool jo_view(const JoViewDef *def, JoError *error);
-
-/* Shows a recording on that page: any that jo_report takes. */
-typedef struct JoViewRecordingDef {
-    const char *recording;
-    const char *scene;   /* whose walls, places and bodies are drawn; NULL: the recording's walls */
-    double fps;          /* frames a second; 0: as the recording says */
-    double unit;         /* m, of its lengths; 0: as it says */
-    const char *address; /* these three and the port as in JoViewDef */
-    const char *page;
-    const char *three;
-    int port;
-    const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
-    JoMessage *opened;        /* NULL, or told the page's address once it can be opened */
-    void *opened_context;
-    JoMessage *message; /* NULL: to stderr */
-    void *message_context;
-    uint32_t cookie;
-} JoViewRecordingDef;
-JO_API JoViewRecordingDef jo_default_view_recording_def(void);
-/* Returns when it was stopped. False with `error` if the page cannot be served or there is no such
-   recording; all that is wrong with it went to `message`. */
-JO_API bool jo_view_recording(const JoViewRecordingDef *def, JoError *error);
-
-/* What is measured of a recording: an SQLite file of jo_scene_record or of JuPedSim, or text with
-   the columns id, frame, x, y as PeTrack writes it, or CSV with a line of names. */
-typedef struct JoReportDef {
-    const char *recording;
-    const char *scene; /* whose probes measure and whose walls are drawn; NULL, or without probes:
-                          a map of all and densities and speeds over time */
-    const char *directory; /* for CSV files and pictures, made if it is missing; NULL: none */
-    double fps;            /* frames a second; 0: as the recording says */
-    double unit;           /* m, of its lengths: 1, or 0.01 for centimetres; 0: as it says */
-    JoMessage *message;    /* NULL: to stderr */
-    void *message_context;
-    uint32_t cookie;
-} JoReportDef;
-JO_API JoReportDef jo_default_report_def(void);
-/* Shows every frame to the probes and returns their figures as one JSON object; free with jo_free.
-   NULL if anything is wrong: every error went to `message`, the first is in `error`. */
-JO_API char *jo_report(const JoReportDef *def, JoError *error);
-
-/* A top view, as a picture, as frames or as a video: of a scene, which is run for it, or of a
-   recording (as for JoReportDef). */
-typedef struct JoRenderDef {
-    const JoSceneDef *scene; /* runs this, */
-    const char *recording;   /* or reads this; */
-    const char *plan;        /* then the walls and places of this scene are drawn; or NULL */
-    double recorded_fps;     /* frames a second of the recording; 0: as it says */
-    double unit;             /* m, of its lengths; 0: as it says */
-    const char *out;         /* FILE.svg or FILE.png: one picture; FILE.mp4, .mkv or .webm: a video
-                                (needs ffmpeg); else a folder for frame-000001.png, ... */
-    double at;               /* s, of a picture; default NAN: the beginning */
-    double from, until;      /* s, of frames and videos; default NAN: from beginning to end */
-    double fps;              /* of frames and videos; 0: as of the steps or the recording, but at
-                                most 30 a second */
-    uint32_t width, height;  /* pixels, 320 to 8192; 0: what suits the area */
-    const double *area;      /* x0, y0, x1, y1, m; NULL: all */
-    const char *colour;      /* "state", "group", "speed", "force", "compression", "density" or
-                                "none", or as "speed:1.5" with the value at the bar's end; NULL:
-                                state or, where none is known, group or speed */
-    const char *field;       /* "density" or "pressure", or with a value; NULL: a bare floor */
-    bool paths;              /* draws where people went until then */
-    bool progress;           /* on stderr, as jo_scene_show_progress */
-    JoMessage *message;      /* NULL: to stderr */
-    void *message_context;
-    uint32_t cookie;
-} JoRenderDef;
-JO_API JoRenderDef jo_default_render_def(void);
-/* What was written goes to `message`, and everything that is wrong with a scene or a recording.
-   False with `error` if anything failed: JO_USAGE if the def makes no sense, JO_INPUT if the scene
-   or recording is wrong or has no such time, JO_FAILED if writing failed. */
-JO_API bool jo_render(const JoRenderDef *def, JoError *error);
-/* Whether this build makes images and videos; else SVG alone. */
-JO_API bool jo_render_has_images(void);
-
 /* The mods that a run of the scene would take (path NULL: of the user's data directory alone), in
    order, and the others that were found, on or off, as text; free with jo_free. */
 JO_API char *jo_mods_list(const JoSceneDef *def);
@@ -383,43 +280,6 @@ JO_API char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error
 JO_API char *jo_scene_suspended(const JoScene *scene);
 /* What plain Lua functions cost so far: a line for each, by behaviour; free with jo_free. */
 JO_API char *jo_scene_lua_profile(const JoScene *scene);
-/* Checks scenes and behaviours (or folders of them) without running; everything wrong goes to
-   `message`, as text or as one JSON array. Returns the number of errors. */
-JO_API size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
-                       void *context);
-/* Runs tests of behaviours: files, or folders with files that end with _test.lua. `only`, if not
-   NULL, is part of a test's name. Each result goes to `message`, as text or, at the end, as one
-   JSON array. Counts what passed and failed; false with what is wrong sent to `message` if a file
-   cannot be run. */
-JO_API bool jo_test(const char *const *paths, size_t count, const char *only, bool json,
-                    JoMessage *message, void *context, size_t *passed, size_t *failed);
-/* What a claim file says is measured and compared (scenes/claims/README.md). */
-typedef struct JoReproduceDef {
-    const char *folder;        /* of claim files */
-    const char *const *claims; /* ids, or names of files; none: all */
-    size_t claim_count;
-    const char *out;     /* folder for runs, pictures and the page */
-    const char *program; /* path of the command `jostle`, which runs the scenes */
-    uint32_t jobs;       /* processes at once */
-    uint32_t seeds;      /* per run that has several; 0: as the claim says */
-    bool quick;          /* the smaller runs of each claim */
-    bool fresh;          /* runs that are there already are done again */
-    bool list;           /* names the claims, runs nothing */
-    bool quiet;          /* no progress on stderr */
-    JoMessage *message;  /* NULL: to stdout */
-    void *message_context;
-} JoReproduceDef;
-JO_API JoReproduceDef jo_default_reproduce_def(void);
-/* Runs what claims need, measures, sends a table to `message` and writes index.html, table.md and
-   results.json into `out`. *missed counts the claims out of band. False with `error` if it could
-   not be done; what is wrong with claim files went to `message`. */
-JO_API bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error);
-/* A generated page or file by name, as `jostle reference` lists them: "behaviours", "scenes",
-   "lua-ls", "luacheck", "scene-schema", "mod-schema", "inputs". NULL if there is none; free with
-   jo_free. */
-JO_API char *jo_reference(const char *what);
-/* The reference of the scene format, as text; free with jo_free. */
-JO_API char *jo_scene_reference(void);
 
 #ifdef __cplusplus
 }

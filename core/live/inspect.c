@@ -163,11 +163,9 @@ static void add_last(const JoScene *scene, uint32_t i, const JoxWatched *watched
 
 static void add_step(const JoxInspected *seen, double compression, JoxJson *json) {
     static const char *const PLANES[] = {"wall", "agent", "body", "force"};
-    static const char *const FORCES[JOX_FORCE_PARTS] = {"push",       "contact",  "deceleration",
-                                                        "resistance", "external", "body"};
     jox_json_array(json, "planes");
     for (uint32_t p = 0; p < seen->plane_count; p++) {
-        const JoxPlaneSeen *plane = &seen->planes[p];
+        const JoxConstraint *plane = &seen->planes[p];
         jox_json_object(json, NULL);
         jox_json_string(json, "kind", PLANES[plane->kind]);
         add_vector(json, "point", jox_scale(plane->normal, plane->offset));
@@ -177,12 +175,12 @@ static void add_step(const JoxInspected *seen, double compression, JoxJson *json
     jox_json_end(json);
     add_vector(json, "preferred", seen->preferred);
     add_vector(json, "chosen", seen->chosen);
-    add_figure(json, "max_speed", (double)seen->most);
+    add_figure(json, "max_speed", (double)seen->speed_limit);
     jox_json_bool(json, "failed", seen->failed);
     jox_json_array(json, "forces");
     for (int f = 0; f < JOX_FORCE_PARTS; f++) {
         jox_json_object(json, NULL);
-        jox_json_string(json, "kind", FORCES[f]);
+        jox_json_string(json, "kind", jox_force_part_names[f]);
         add_figure(json, "fx", (double)seen->forces[f].x);
         add_figure(json, "fy", (double)seen->forces[f].y);
         jox_json_end(json);

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "base/vec.h"
 #include "geom/walls.h"
-#include "jostle.h"
+#include "jostle_tools.h"
 
 /* Growing bytes; zero-initialise, `length = 0` to use again, free by jox_bytes_free. */
 typedef struct JoxBytes {

@@ -156,7 +156,7 @@ static void judge_states(JoxBuild *b) {
         const char *names[64], *near = NULL;
         size_t count = 0;
         jox_read_join(path, "states", m->states[s].name);
-        const JoxOrigin *origin = jox_origin_of(b->script, path);
+        const JoxPatchChange *origin = jox_patch_leading(&b->script->changes, path);
         bool added = origin && origin->mod >= 0 && strcmp(origin->path, path) == 0;
         for (uint32_t o = 0; added && o < m->state_count && count < 64; o++)
             if (o != s)

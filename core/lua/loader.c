@@ -51,7 +51,7 @@ static void check_upvalues(lua_State *L, int index, void *context) {
 
 static int build_protected(lua_State *L) {
     JoxScript *script = jox_script_of(L);
-    if (!jox_patch_apply(script))
+    if (!jox_patch_behaviour(script))
         return 0;
     jox_build(script, script->vm.sources[0]);
     for (uint32_t h = 0; h < script->hook_count;

@@ -25,7 +25,7 @@ void jox_build_error(JoxBuild *build, JoxPosition position, const char *code, co
 
 /* Runs the patches that the scope's mods have for the machine on top of the stack, and puts the
    changed one in its place. False with diagnostics. */
-bool jox_patch_apply(JoxScript *script);
+bool jox_patch_behaviour(JoxScript *script);
 /* Makes script->built of the machine on top of the stack; what is wrong goes to the diagnostics. */
 void jox_build(JoxScript *script, const JoxSource *source);
 
@@ -70,14 +70,8 @@ uint64_t jox_read_tags(JoxBuild *build, int index, const char *path, const char 
 /* Fills a state, whose name is set, from the table at `index`. */
 void jox_read_state(JoxBuild *build, int index, JoxState *state, int32_t number);
 
-/* Keeps that a path of the machine now stands elsewhere (texts are copied); says so where two mods
-   set one path without knowing each other. */
-void jox_origin_set(JoxScript *script, JoxOrigin origin);
 /* Keeps where the transition with this number in the state at `path` stands, unless that is known:
    in the behaviour's file, or in that of a mod that wrote the whole state. */
 void jox_origin_keep(JoxScript *script, const char *path, const char *number,
                      const char *canonical);
-/* The last of what was set that leads to the path, NULL if none does. */
-const JoxOrigin *jox_origin_of(const JoxScript *script, const char *path);
-
 #endif

@@ -189,11 +189,11 @@ static void read_transitions(JoxBuild *b, int index, const char *path, JoxState 
             jox_read_id(L, lua_gettop(L), nth++, id);
         while (id_taken(state, t, id));
         snprintf(item, sizeof item, "@%.60s", id); /* how patches know it */
-        if (b->script->origin_count > 0) {
+        if (b->script->changes.count > 0) {
             char canonical[256];
             jox_read_join(canonical, path, item);
-            for (size_t o = 0; o < b->script->origin_count; o++)
-                if (strcmp(b->script->origins[o].path, canonical) == 0)
+            for (size_t o = 0; o < b->script->changes.count; o++)
+                if (strcmp(b->script->changes.items[o].path, canonical) == 0)
                     memcpy(full, canonical, sizeof full);
         }
         read_transition(b, lua_gettop(L), full, id, t);

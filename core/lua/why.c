@@ -89,23 +89,22 @@ static int take_all(const JoxScript *script, const JoxMachine *machine, const ch
                     Settings *to) {
     char own[256];
     int count = 0;
-    bool named = false; /* the file's own place is among the origins */
-    for (size_t o = 0; o < script->origin_count; o++)
-        named |=
-            script->origins[o].mod < 0 && strstr(canonical, script->origins[o].path) == canonical;
+    bool named = false; /* the file's own place is among the changes */
+    for (size_t o = 0; o < script->changes.count; o++)
+        named |= script->changes.items[o].mod < 0 &&
+                 strstr(canonical, script->changes.items[o].path) == canonical;
     by_number(machine, canonical, own);
     if (!named)
         count += take_place(script, 0, own, -1, false, to);
-    for (size_t o = 0; o < script->origin_count; o++) {
-        const JoxOrigin *origin = &script->origins[o];
-        size_t n = strlen(origin->path);
-        if (strncmp(origin->path, canonical, n) != 0 || (n && canonical[n] && canonical[n] != '.'))
-            continue;
+    for (size_t o = 0; o < script->changes.count; o++) {
+        const JoxPatchChange *change = &script->changes.items[o];
         char path[512];
-        const char *rest = canonical + n + (n && canonical[n] == '.');
-        snprintf(path, sizeof path, "%.250s%s%.250s", origin->from,
-                 *rest && *origin->from ? "." : "", rest);
-        count += take_place(script, origin->source, path, origin->mod, origin->removes, to);
+        const char *rest;
+        if (!jox_patch_leads(change, canonical, &rest))
+            continue;
+        snprintf(path, sizeof path, "%.250s%s%.250s", change->from,
+                 *rest && *change->from ? "." : "", rest);
+        count += take_place(script, change->source, path, change->mod, change->removes, to);
     }
     return count;
 }

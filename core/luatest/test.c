@@ -11,6 +11,7 @@
 #include "base/guard.h"
 #include "base/json_writer.h"
 #include "base/mem.h"
+#include "jostle_tools.h"
 #include "luatest/testing.h"
 #include "run/run.h"
 
@@ -98,7 +99,7 @@ static void *load(void *context, const JoxTestScene *wanted, JoxText *why) {
         scene = NULL;
     }
     if (scene)
-        jox_world_settle(scene->world);
+        jox_world_resolve_placement(scene->world);
     jox_free(path);
     return scene;
 }

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 #include "machine/internal.h"
 
 JoxMachineScratch *jox_machines_scratch(JoxMachineRun *run) {
@@ -25,6 +26,7 @@ static void reserve(JoxMachineRun *run, JoxPool *pool) {
     s->rank = jox_realloc(s->rank, n, sizeof *s->rank);
     s->heading = jox_realloc(s->heading, n, sizeof *s->heading);
     s->list = jox_realloc(s->list, n, sizeof *s->list);
+    s->spare = jox_realloc(s->spare, JOX_SORT_SPARE(n), sizeof *s->spare);
     s->queue = jox_realloc(s->queue, n, sizeof *s->queue);
     JOX_RESERVE(run->taken, run->taken_capacity, n);
     run->push_on = jox_realloc(run->push_on, n, 1);
@@ -45,6 +47,7 @@ void jox_machines_scratch_free(JoxMachineRun *run) {
     jox_free(s->heading);
     jox_free(s->queue);
     jox_free(s->list);
+    jox_free(s->spare);
     jox_free(s->heard);
     jox_free(s->everywhere);
     jox_free(s->place_people);
@@ -80,16 +83,20 @@ int16_t jox_queue_target(const JoxState *state) {
     return -1;
 }
 
-/* Whether i comes before j: by queue, then who came first, then by id. */
-static bool stands_before(const JoxMachineScratch *s, const JoxAgents *a, uint32_t i, uint32_t j) {
+/* Whether someone stands before another: by queue, then who came first, then by id. */
+static int by_turn(const void *first, const void *second, const void *context) {
+    const JoxMachineRun *run = context;
+    const JoxMachineScratch *s = run->scratch;
+    const JoxAgents *a = run->agents;
+    const uint32_t i = *(const uint32_t *)first, j = *(const uint32_t *)second;
     if (s->queue[i] != s->queue[j])
-        return s->queue[i] < s->queue[j];
+        return s->queue[i] < s->queue[j] ? -1 : 1;
     if (a->queued[i] != a->queued[j])
-        return a->queued[i] < a->queued[j];
-    return a->id[i] < a->id[j];
+        return a->queued[i] < a->queued[j] ? -1 : 1;
+    return (a->id[i] > a->id[j]) - (a->id[i] < a->id[j]);
 }
 
-/* Ranks those who queue: sorted (Shell) by queue and order of arrival, then numbered. */
+/* Ranks those who queue: sorted by queue and order of arrival, then numbered. */
 static void rank_queues(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
     JoxAgents *a = run->agents;
@@ -107,13 +114,7 @@ static void rank_queues(JoxMachineRun *run) {
             list[count++] = i;
         }
     }
-    for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
-        for (uint32_t k = gap; k < count; k++) {
-            uint32_t moving = list[k], at = k;
-            for (; at >= gap && stands_before(s, a, moving, list[at - gap]); at -= gap)
-                list[at] = list[at - gap];
-            list[at] = moving;
-        }
+    jox_sort(list, count, sizeof *list, by_turn, run, s->spare);
     for (uint32_t k = 0; k < count; k++)
         s->rank[list[k]] =
             k > 0 && s->queue[list[k]] == s->queue[list[k - 1]] ? s->rank[list[k - 1]] + 1 : 0;

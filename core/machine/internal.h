@@ -21,11 +21,12 @@ typedef struct JoxMachineScratch {
     uint32_t batch_count, batch_capacity;
     uint32_t *state_first; /* per state of all machines */
     uint32_t state_capacity;
-    int16_t *fired; /* per agent: transition to take, -1 none */
-    uint32_t *rank; /* per agent: place in the queue it stands in */
-    int32_t *queue; /* per agent that queues: where */
-    JoxV2 *heading; /* per agent: the velocity it preferred in the step before */
-    uint32_t *list; /* agents that take something, by id */
+    int16_t *fired;  /* per agent: transition to take, -1 none */
+    uint32_t *rank;  /* per agent: place in the queue it stands in */
+    int32_t *queue;  /* per agent that queues: where */
+    JoxV2 *heading;  /* per agent: the velocity it preferred in the step before */
+    uint32_t *list;  /* agents that take something, by id */
+    uint32_t *spare; /* room to sort it */
     uint32_t list_count;
     JoxSignal *heard; /* called in the last step, by name and x */
     uint32_t heard_count;

@@ -23,7 +23,7 @@ enum { JOX_MOST_WEIGHT = 1000000 };
     X(density, "1/m2", "people per square metre, from the distance of the farthest neighbour")     \
     X(headway, "m", "free distance ahead, to the neighbour in the way; perception if none")        \
     X(pushed, "N", "magnitude of the net force on the agent")                                      \
-    X(compression, "N/m", "sum of contact force magnitudes over girth")                            \
+    X(compression, "N/m", "sum of contact force magnitudes over circumference")                    \
     X(contacts, "", "agents and bodies touched")                                                   \
     X(neighbours, "", "neighbours seen")                                                           \
     X(time_in_state, "s", "time since the state was entered")                                      \

@@ -5,6 +5,7 @@
 
 #include "base/elementary.h"
 #include "base/mem.h"
+#include "base/sort.h"
 #include "machine/internal.h"
 
 static const double TURN = 6.283185307179586;
@@ -113,20 +114,19 @@ static void sort_by_marks(JoxMachineRun *run, uint32_t *list, uint32_t count) {
             list[n++] = a->by_rank[w * 64 + (uint32_t)__builtin_ctzll(bits)];
 }
 
-/* Sorts indices by id (Shell): short lists mostly. */
+/* `context`: the agents' ids. */
+static int by_id(const void *a, const void *b, const void *context) {
+    const uint32_t *id = context;
+    const uint32_t x = id[*(const uint32_t *)a], y = id[*(const uint32_t *)b];
+    return (x > y) - (x < y);
+}
+
 void jox_sort_by_id(JoxMachineRun *run, uint32_t *list, uint32_t count) {
     const JoxAgents *a = run->agents;
-    if (count > 256 && count > a->count / 256) {
+    if (count > 256 && count > a->count / 256)
         sort_by_marks(run, list, count);
-        return;
-    }
-    for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
-        for (uint32_t k = gap; k < count; k++) {
-            uint32_t moving = list[k], at = k;
-            for (; at >= gap && a->id[list[at - gap]] > a->id[moving]; at -= gap)
-                list[at] = list[at - gap];
-            list[at] = moving;
-        }
+    else
+        jox_sort(list, count, sizeof *list, by_id, a->id, run->scratch->spare);
 }
 
 static bool has_function_whens(const JoxState *state) {

@@ -5,10 +5,10 @@
 #include "nav/nav.h"
 
 /* n . v >= offset, n a unit vector: the velocities that a constraint allows, m/s. */
-typedef struct JoxPlane {
+typedef struct JoxHalfPlane {
     JoxV2 normal;
     float offset;
-} JoxPlane;
+} JoxHalfPlane;
 
 /* Edges of walls by cell: each cell lists all edges within `reach` of any of its points. */
 typedef struct JoxWallGrid {
@@ -38,7 +38,7 @@ struct JoxNav {
     uint32_t *row_first; /* rows + 1 */
     float *sorted_x;     /* x when last sorted */
     uint32_t sorted_count, sorted_next_id;
-    float drift; /* m, the farthest that any agent moved since, m */
+    float drift; /* m, the farthest that any agent may have moved since */
     uint64_t *keys[2];
     uint32_t *order[2];
     uint32_t capacity;
@@ -55,16 +55,17 @@ enum { JOX_NAV_GRAIN = 256 };
    other, relative velocity v = own - other (m/s), summed radii R (m), horizon tau (s), own velocity
    and the share of the correction taken. Overlapping discs are to part within dt. `away` is the
    direction taken where the centres coincide. */
-JoxPlane jox_orca_plane(JoxV2 p, JoxV2 v, float radius, float tau, float dt, JoxV2 own, float share,
-                        JoxV2 away);
+JoxHalfPlane jox_orca_half_plane(JoxV2 p, JoxV2 v, float radius, float tau, float dt, JoxV2 own,
+                                 float share, JoxV2 away);
 /* Half-planes of the wall edges near an agent; returns how many, at most `most`. */
 uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity, float radius,
-                        float tau, float range, JoxPlane *out, uint32_t most);
+                        float tau, float range, JoxHalfPlane *out, uint32_t most);
 
-/* The velocity within the disc nearest to `wanted` that meets all planes. The first `hard` planes
-   are walls. Returns true if there is one; otherwise *velocity minimises the greatest violation of
-   the others with the walls kept, and *relaxed tells if even the walls had to give. */
-bool jox_program_solve(const JoxPlane *planes, uint32_t count, uint32_t hard, float disc,
-                       JoxV2 wanted, JoxV2 *velocity, bool *relaxed);
+/* The velocity of at most `speed_limit` nearest to `wanted` that meets all half-planes. The first
+   `hard` half-planes are walls. Returns true if there is one; otherwise *velocity minimises the
+   greatest violation of the others with the walls kept, and *relaxed tells if even the walls had to
+   give. */
+bool jox_linear_program_solve(const JoxHalfPlane *half_planes, uint32_t count, uint32_t hard,
+                              float speed_limit, JoxV2 wanted, JoxV2 *velocity, bool *relaxed);
 
 #endif

@@ -99,7 +99,7 @@ static JoxV2 stop_at_walls(const JoxWallGrid *grid, JoxV2 p, JoxV2 q) {
 }
 
 /* Who left at a periodic edge comes in at the other side, with the step's start beyond the edge. */
-static bool come_round(JoxAgents *a, uint32_t i) {
+static bool wrap_position(JoxAgents *a, uint32_t i) {
     JoxV2 before = {a->x[i], a->y[i]};
     if (a->period.x > 0.0f) {
         float turns = floorf((a->x[i] - a->origin.x) / a->period.x);
@@ -136,7 +136,7 @@ static JoxV2 keep_clear(const JoxWallGrid *grid, JoxV2 p, float radius) {
     return p;
 }
 
-static void settle_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void apply_positions(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     Move *m = context;
     JoxAgents *a = m->agents;
@@ -155,7 +155,7 @@ static void settle_range(void *context, uint32_t begin, uint32_t end, uint32_t w
         a->x[i] = q.x;
         a->y[i] = q.y;
         farthest2 = jox_maxf(farthest2, jox_length2(jox_sub(q, p)));
-        if (come_round(a, i))
+        if (wrap_position(a, i))
             farthest2 = INFINITY; /* the order in memory no longer follows space */
         JoxV2 rest = {a->x[i] - a->still_x[i], a->y[i] - a->still_y[i]};
         a->still[i] += m->dt;
@@ -177,7 +177,7 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
         jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, sweep, &move);
         move.from = !move.from;
     }
-    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, settle_range, &move);
+    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, apply_positions, &move);
     float farthest2 = 0.0f;
     for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)
         farthest2 = jox_maxf(farthest2, nav->chunk_drift[chunk]);

@@ -33,37 +33,38 @@ void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPoo
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                        const JoxObjects *objects, double plan, JoxPool *pool);
 /* One of an agent's half-planes: it allows the velocities v with normal . v >= offset, m/s. */
-typedef enum JoxPlaneKind {
-    JOX_PLANE_WALL,
-    JOX_PLANE_AGENT,
-    JOX_PLANE_BODY,
-    JOX_PLANE_FORCE
-} JoxPlaneKind;
-typedef struct JoxPlaneSeen {
-    JoxPlaneKind kind;
+typedef enum JoxConstraintKind {
+    JOX_CONSTRAINT_WALL,
+    JOX_CONSTRAINT_AGENT,
+    JOX_CONSTRAINT_BODY,
+    JOX_CONSTRAINT_FORCE
+} JoxConstraintKind;
+typedef struct JoxConstraint {
+    JoxConstraintKind kind;
     JoxV2 normal; /* unit */
     float offset;
-} JoxPlaneSeen;
-enum { JOX_MOST_PLANES = 57 };
+} JoxConstraint;
+enum { JOX_MOST_CONSTRAINTS = 57 };
 /* The half-planes that solve gave the agent at an index, in the order of solving, between solve and
    move. Returns how many. */
-uint32_t jox_nav_planes(const JoxNav *nav, const JoxAgents *agents, const JoxNeighbours *neighbours,
-                        const JoxObjects *objects, double plan, uint32_t agent,
-                        JoxPlaneSeen out[JOX_MOST_PLANES]);
+uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
+                             const JoxNeighbours *neighbours, const JoxObjects *objects,
+                             double plan, uint32_t agent, JoxConstraint out[JOX_MOST_CONSTRAINTS]);
 /* move: velocity += (next - velocity) dt / plan, position += velocity dt, weak projection of
    overlaps, never through a wall; prev_x, prev_y keep the old position; updates still, still_x,
    still_y. */
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, double dt,
                   double plan, JoxPool *pool);
 
-typedef struct JoxSettled {
+typedef struct JoxPlacement {
     uint32_t moved; /* agents put elsewhere */
     uint32_t stuck; /* agents for which no free spot was found within 25 m */
     float farthest; /* m, the longest way an agent was moved */
-} JoxSettled;
+} JoxPlacement;
 /* Moves agents with id >= first_id out of walls and out of agents that they overlap by more than a
    quarter of the smaller diameter, in ascending id, to the nearest free spot of a spiral. Where
    `walls_came`, also older ones that stand in a wall or deep within its reach. */
-JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *agents, uint32_t first_id, bool walls_came);
+JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *agents, uint32_t first_id,
+                                       bool walls_came);
 
 #endif

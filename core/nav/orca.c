@@ -1,22 +1,23 @@
 /* Half-planes of optimal reciprocal collision avoidance between discs. */
 #include "nav/internal.h"
 
-/* The plane whose border passes through own + share * u with outward normal n. */
-static JoxPlane plane_through(JoxV2 normal, JoxV2 own, JoxV2 u, float share) {
+/* The half-plane whose border passes through own + share * u with outward normal n. */
+static JoxHalfPlane half_plane_through(JoxV2 normal, JoxV2 own, JoxV2 u, float share) {
     JoxV2 point = jox_add(own, jox_scale(u, share));
-    return (JoxPlane){normal, jox_dot(normal, point)};
+    return (JoxHalfPlane){normal, jox_dot(normal, point)};
 }
 
 /* Outward from a disc of the velocity obstacle: its centre is at `centre` in velocity space. */
-static JoxPlane from_disc(JoxV2 v, JoxV2 centre, float radius, JoxV2 own, float share, JoxV2 away) {
+static JoxHalfPlane from_disc(JoxV2 v, JoxV2 centre, float radius, JoxV2 own, float share,
+                              JoxV2 away) {
     JoxV2 w = jox_sub(v, centre);
     float length = jox_length(w);
     JoxV2 normal = length > 1e-6f ? jox_scale(w, 1.0f / length) : away;
-    return plane_through(normal, own, jox_scale(normal, radius - length), share);
+    return half_plane_through(normal, own, jox_scale(normal, radius - length), share);
 }
 
-JoxPlane jox_orca_plane(JoxV2 p, JoxV2 v, float radius, float tau, float dt, JoxV2 own, float share,
-                        JoxV2 away) {
+JoxHalfPlane jox_orca_half_plane(JoxV2 p, JoxV2 v, float radius, float tau, float dt, JoxV2 own,
+                                 float share, JoxV2 away) {
     float d2 = jox_length2(p), r2 = radius * radius;
     if (d2 <= r2) /* overlapping: apart within one step */
         return from_disc(v, jox_scale(p, 1.0f / dt), radius / dt, own, share, away);
@@ -32,5 +33,5 @@ JoxPlane jox_orca_plane(JoxV2 p, JoxV2 v, float radius, float tau, float dt, Jox
                            : (JoxV2){-p.x * leg - p.y * radius, p.x * radius - p.y * leg};
     direction = jox_scale(direction, by);
     JoxV2 u = jox_sub(jox_scale(direction, jox_dot(v, direction)), v);
-    return plane_through(jox_left(direction), own, u, share);
+    return half_plane_through(jox_left(direction), own, u, share);
 }

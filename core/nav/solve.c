@@ -27,7 +27,7 @@ static JoxV2 parting(uint32_t id, uint32_t other) {
     return jox_unit(id < other ? d : jox_scale(d, -1.0f));
 }
 
-static uint32_t agent_planes(const Solve *s, uint32_t i, JoxPlane *out) {
+static uint32_t agent_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *out) {
     const JoxAgents *a = s->agents;
     const float *radius = a->param[JOX_PARAM_radius];
     JoxV2 velocity = {a->vx[i], a->vy[i]};
@@ -43,7 +43,7 @@ static uint32_t agent_planes(const Solve *s, uint32_t i, JoxPlane *out) {
         if (p.x == 0.0f && p.y == 0.0f)
             away = parting(a->id[i], a->id[j]);
         out[made++] =
-            jox_orca_plane(p, v, radius[i] + radius[j], tau, s->plan, velocity, share, away);
+            jox_orca_half_plane(p, v, radius[i] + radius[j], tau, s->plan, velocity, share, away);
     }
     return made;
 }
@@ -67,8 +67,8 @@ static JoxV2 footprint_nearest(const JoxObject *o, JoxV2 at, bool *inside) {
 
 /* An object: its bounding disc from outside; within that disc, the nearest side of its true
    footprint, so that one can walk along a long wall. Objects never reciprocate: share 1. */
-static bool object_plane(const Solve *s, uint32_t i, const JoxObject *o, bool approached,
-                         JoxPlane *out) {
+static bool object_half_plane(const Solve *s, uint32_t i, const JoxObject *o, bool approached,
+                              JoxHalfPlane *out) {
     const JoxAgents *a = s->agents;
     JoxV2 at = {a->x[i], a->y[i]}, own = {a->vx[i], a->vy[i]};
     JoxV2 p = {o->position.x - at.x, o->position.y - at.y};
@@ -80,7 +80,8 @@ static bool object_plane(const Solve *s, uint32_t i, const JoxObject *o, bool ap
     float tau = approached ? s->plan : a->param[JOX_PARAM_horizon][i];
     if (d2 > sum * sum || o->footprint_count == 0) {
         float disc = o->footprint_count == 0 ? o->round : o->disc;
-        *out = jox_orca_plane(p, v, radius + disc, tau, s->plan, own, 1.0f, (JoxV2){1.0f, 0.0f});
+        *out =
+            jox_orca_half_plane(p, v, radius + disc, tau, s->plan, own, 1.0f, (JoxV2){1.0f, 0.0f});
         return true;
     }
     bool inside;
@@ -90,58 +91,59 @@ static bool object_plane(const Solve *s, uint32_t i, const JoxObject *o, bool ap
                                     : jox_unit(jox_scale(p, -1.0f));
     float gap = (inside ? -distance : distance) - radius;
     float time = gap < 0.0f ? s->plan : tau;
-    *out = (JoxPlane){normal, jox_dot(moving, normal) - gap / time};
+    *out = (JoxHalfPlane){normal, jox_dot(moving, normal) - gap / time};
     return jox_length2(normal) > 0.0f;
 }
 
-static uint32_t object_planes(const Solve *s, uint32_t i, JoxPlane *out) {
+static uint32_t object_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *out) {
     const JoxAgents *a = s->agents;
     uint32_t made = 0;
     for (uint32_t o = 0; o < s->objects->count && made < MOST_OBJECTS; o++) {
         const JoxObject *object = &s->objects->rows[o];
         if (object->live && object->in_band && !(object->tags & a->ignore[i]))
-            made += object_plane(s, i, object, a->approach[i] == (int32_t)o, &out[made]);
+            made += object_half_plane(s, i, object, a->approach[i] == (int32_t)o, &out[made]);
     }
     return made;
 }
 
-/* How many half-planes of each kind, in their order, which is that of JoxPlaneKind. */
+/* How many half-planes of each kind, in their order, which is that of JoxConstraintKind. */
 typedef struct Counts {
     uint32_t walls, agents, objects, force;
 } Counts;
 
-static inline Counts make_planes(const Solve *s, uint32_t i, JoxPlane *planes) {
+static inline Counts make_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *half_planes) {
     const JoxAgents *a = s->agents;
     float tau = a->param[JOX_PARAM_wall_horizon][i], radius = a->param[JOX_PARAM_radius][i];
     Counts made = {0};
     if (s->nav->grid.first)
         made.walls = jox_orca_walls(
             &s->nav->grid, (JoxV2){a->x[i], a->y[i]}, (JoxV2){a->vx[i], a->vy[i]}, radius, tau,
-            tau * a->param[JOX_PARAM_max_speed][i] + radius, planes, MOST_WALLS);
-    made.agents = agent_planes(s, i, planes + made.walls);
+            tau * a->param[JOX_PARAM_max_speed][i] + radius, half_planes, MOST_WALLS);
+    made.agents = agent_half_planes(s, i, half_planes + made.walls);
     if (s->objects && s->objects->count)
-        made.objects = object_planes(s, i, planes + made.walls + made.agents);
-    made.force = a->plane_x[i] != 0.0f || a->plane_y[i] != 0.0f;
+        made.objects = object_half_planes(s, i, half_planes + made.walls + made.agents);
+    made.force = a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f;
     if (made.force)
-        planes[made.walls + made.agents + made.objects] =
-            (JoxPlane){{a->plane_x[i], a->plane_y[i]}, a->plane_offset[i]};
+        half_planes[made.walls + made.agents + made.objects] =
+            (JoxHalfPlane){{a->half_plane_x[i], a->half_plane_y[i]}, a->half_plane_offset[i]};
     return made;
 }
 
-uint32_t jox_nav_planes(const JoxNav *nav, const JoxAgents *agents, const JoxNeighbours *neighbours,
-                        const JoxObjects *objects, double plan, uint32_t agent,
-                        JoxPlaneSeen out[JOX_MOST_PLANES]) {
-    static_assert((int)MOST == (int)JOX_MOST_PLANES, "room for all");
+uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
+                             const JoxNeighbours *neighbours, const JoxObjects *objects,
+                             double plan, uint32_t agent, JoxConstraint out[JOX_MOST_CONSTRAINTS]) {
+    static_assert((int)MOST == (int)JOX_MOST_CONSTRAINTS, "room for all");
     const Solve solve = {(JoxNav *)nav, (JoxAgents *)agents, neighbours, objects, (float)plan};
-    JoxPlane planes[MOST];
-    Counts made = make_planes(&solve, agent, planes);
+    JoxHalfPlane half_planes[MOST];
+    Counts made = make_half_planes(&solve, agent, half_planes);
     const uint32_t ends[] = {made.walls, made.walls + made.agents,
                              made.walls + made.agents + made.objects, UINT32_MAX};
     uint32_t count = ends[2] + made.force, kind = 0;
     for (uint32_t p = 0; p < count; p++) {
         while (p >= ends[kind])
             kind++;
-        out[p] = (JoxPlaneSeen){(JoxPlaneKind)kind, planes[p].normal, planes[p].offset};
+        out[p] =
+            (JoxConstraint){(JoxConstraintKind)kind, half_planes[p].normal, half_planes[p].offset};
     }
     return count;
 }
@@ -152,14 +154,14 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxAgents *a = s->agents;
     uint32_t relaxations = 0;
     for (uint32_t i = begin; i < end; i++) {
-        JoxPlane planes[MOST];
-        Counts made = make_planes(s, i, planes);
+        JoxHalfPlane half_planes[MOST];
+        Counts made = make_half_planes(s, i, half_planes);
         uint32_t hard = made.walls, count = hard + made.agents + made.objects + made.force;
         JoxV2 velocity;
         bool relaxed;
         a->failed[i] |=
-            !jox_program_solve(planes, count, hard, a->disc[i], (JoxV2){a->pref_x[i], a->pref_y[i]},
-                               &velocity, &relaxed);
+            !jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i],
+                                      (JoxV2){a->pref_x[i], a->pref_y[i]}, &velocity, &relaxed);
         relaxations += relaxed;
         a->next_x[i] = velocity.x;
         a->next_y[i] = velocity.y;
@@ -174,7 +176,7 @@ static float wall_reach(const JoxAgents *a, float plan) {
     for (uint32_t i = 0; i < a->count; i++) {
         float radius = a->param[JOX_PARAM_radius][i];
         float planned = a->param[JOX_PARAM_wall_horizon][i] * a->param[JOX_PARAM_max_speed][i];
-        reach = jox_maxf(reach, radius + jox_maxf(planned, a->disc[i] * plan + 0.5f));
+        reach = jox_maxf(reach, radius + jox_maxf(planned, a->speed_limit[i] * plan + 0.5f));
     }
     return reach;
 }

@@ -138,15 +138,15 @@ static JoxV2 right_leg(JoxV2 p, float radius, float d2) {
 }
 
 /* Out of the disc of `radius` about `centre`, through the point nearest to v. */
-static JoxPlane round_plane(JoxV2 v, JoxV2 centre, float radius) {
+static JoxHalfPlane round_half_plane(JoxV2 v, JoxV2 centre, float radius) {
     JoxV2 normal = jox_unit(jox_sub(v, centre));
-    return (JoxPlane){normal, jox_dot(normal, centre) + radius};
+    return (JoxHalfPlane){normal, jox_dot(normal, centre) + radius};
 }
 
 /* Beyond the line through `point` along `direction`, `radius` to its left. */
-static JoxPlane straight_plane(JoxV2 point, JoxV2 direction, float radius) {
+static JoxHalfPlane straight_half_plane(JoxV2 point, JoxV2 direction, float radius) {
     JoxV2 normal = jox_left(direction);
-    return (JoxPlane){normal, jox_dot(normal, point) + radius};
+    return (JoxHalfPlane){normal, jox_dot(normal, point) + radius};
 }
 
 /* The edge seen from the agent: its two ends, which coincide where it is seen along its length. */
@@ -157,23 +157,24 @@ typedef struct View {
 } View;
 
 /* Planes of touching walls pass through zero velocity; true if the edge is settled by that. */
-static bool touching_plane(const JoxWallVertex *a, const JoxWallVertex *b, JoxV2 p1, JoxV2 p2,
-                           float s, float line2, float r2, JoxPlane *plane, bool *made) {
+static bool touching_half_plane(const JoxWallVertex *a, const JoxWallVertex *b, JoxV2 p1, JoxV2 p2,
+                                float s, float line2, float r2, JoxHalfPlane *half_plane,
+                                bool *made) {
     *made = false;
     if (s < 0.0f && jox_length2(p1) <= r2) {
         *made = a->convex;
-        *plane = (JoxPlane){jox_unit(jox_scale(p1, -1.0f)), 0.0f};
+        *half_plane = (JoxHalfPlane){jox_unit(jox_scale(p1, -1.0f)), 0.0f};
         return true;
     }
     if (s > 1.0f && jox_length2(p2) <= r2) {
         /* The next edge takes care unless the agent is past its start. */
         *made = b->convex && jox_det(p2, b->direction) >= 0.0f;
-        *plane = (JoxPlane){jox_unit(jox_scale(p2, -1.0f)), 0.0f};
+        *half_plane = (JoxHalfPlane){jox_unit(jox_scale(p2, -1.0f)), 0.0f};
         return true;
     }
     if (s >= 0.0f && s <= 1.0f && line2 <= r2) {
         *made = true;
-        *plane = (JoxPlane){jox_left(jox_scale(a->direction, -1.0f)), 0.0f};
+        *half_plane = (JoxHalfPlane){jox_left(jox_scale(a->direction, -1.0f)), 0.0f};
         return true;
     }
     return false;
@@ -203,10 +204,12 @@ static bool make_view(const JoxWallVertex *a, const JoxWallVertex *b, JoxV2 p1, 
     return true;
 }
 
-/* The plane of the part of the velocity obstacle nearest to v; false if it is another edge's. */
-static bool view_plane(const JoxWalls *walls, View *w, JoxV2 v, float inverse, float radius,
-                       JoxPlane *plane) {
-    /* A leg that points into a neighbouring edge is cut by that edge, whose own plane counts. */
+/* The half-plane of the part of the velocity obstacle nearest to v; false if it is another edge's.
+ */
+static bool view_half_plane(const JoxWalls *walls, View *w, JoxV2 v, float inverse, float radius,
+                            JoxHalfPlane *half_plane) {
+    /* A leg that points into a neighbouring edge is cut by that edge, whose own half-plane counts.
+     */
     JoxV2 before = jox_scale(walls->vertices[w->left->previous].direction, -1.0f);
     bool foreign_left = w->left->convex && jox_det(w->left_leg, before) >= 0.0f;
     bool foreign_right = w->right->convex && jox_det(w->right_leg, w->right->direction) <= 0.0f;
@@ -220,11 +223,11 @@ static bool view_plane(const JoxWalls *walls, View *w, JoxV2 v, float inverse, f
     float t = point ? 0.5f : jox_dot(from_left, span) / jox_length2(span);
     float t_left = jox_dot(from_left, w->left_leg), t_right = jox_dot(from_right, w->right_leg);
     if ((t < 0.0f && t_left < 0.0f) || (point && t_left < 0.0f && t_right < 0.0f)) {
-        *plane = round_plane(v, left, radius * inverse);
+        *half_plane = round_half_plane(v, left, radius * inverse);
         return true;
     }
     if (t > 1.0f && t_right < 0.0f) {
-        *plane = round_plane(v, right, radius * inverse);
+        *half_plane = round_half_plane(v, right, radius * inverse);
         return true;
     }
     JoxV2 on_cut = jox_add(left, jox_scale(span, t));
@@ -234,22 +237,24 @@ static bool view_plane(const JoxWalls *walls, View *w, JoxV2 v, float inverse, f
     float to_left = t_left < 0.0f ? INFINITY : jox_length2(jox_sub(v, on_left));
     float to_right = t_right < 0.0f ? INFINITY : jox_length2(jox_sub(v, on_right));
     if (to_cut <= to_left && to_cut <= to_right) {
-        *plane = straight_plane(left, jox_scale(w->left->direction, -1.0f), radius * inverse);
+        *half_plane =
+            straight_half_plane(left, jox_scale(w->left->direction, -1.0f), radius * inverse);
         return true;
     }
     bool use_left = to_left <= to_right;
-    *plane = use_left ? straight_plane(left, w->left_leg, radius * inverse)
-                      : straight_plane(right, jox_scale(w->right_leg, -1.0f), radius * inverse);
+    *half_plane =
+        use_left ? straight_half_plane(left, w->left_leg, radius * inverse)
+                 : straight_half_plane(right, jox_scale(w->right_leg, -1.0f), radius * inverse);
     return use_left ? !foreign_left : !foreign_right;
 }
 
-/* True if planes made for nearer edges already keep clear of this whole edge. */
-static bool is_covered(const JoxPlane *planes, uint32_t count, JoxV2 p1, JoxV2 p2, float inverse,
-                       float radius) {
+/* True if half-planes made for nearer edges already keep clear of this whole edge. */
+static bool is_covered(const JoxHalfPlane *half_planes, uint32_t count, JoxV2 p1, JoxV2 p2,
+                       float inverse, float radius) {
     for (uint32_t i = 0; i < count; i++) {
-        float need = planes[i].offset - radius * inverse + 1e-5f;
-        if (jox_dot(planes[i].normal, p1) * inverse <= need &&
-            jox_dot(planes[i].normal, p2) * inverse <= need)
+        float need = half_planes[i].offset - radius * inverse + 1e-5f;
+        if (jox_dot(half_planes[i].normal, p1) * inverse <= need &&
+            jox_dot(half_planes[i].normal, p2) * inverse <= need)
             return true;
     }
     return false;
@@ -287,7 +292,7 @@ static uint32_t near_edges(const JoxWallGrid *grid, JoxV2 position, float range,
 }
 
 uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity, float radius,
-                        float tau, float range, JoxPlane *out, uint32_t most) {
+                        float tau, float range, JoxHalfPlane *out, uint32_t most) {
     NearEdge near[16];
     uint32_t edges = near_edges(grid, position, range, near, 16), made = 0;
     float inverse = 1.0f / tau, r2 = radius * radius;
@@ -302,10 +307,10 @@ uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity,
         float line2 = jox_length2(jox_add(p1, jox_scale(edge, s)));
         bool add;
         View view;
-        if (touching_plane(a, b, p1, p2, s, line2, r2, &out[made], &add))
+        if (touching_half_plane(a, b, p1, p2, s, line2, r2, &out[made], &add))
             made += add;
         else if (make_view(a, b, p1, p2, s, line2, radius, &view))
-            made += view_plane(grid->walls, &view, velocity, inverse, radius, &out[made]);
+            made += view_half_plane(grid->walls, &view, velocity, inverse, radius, &out[made]);
     }
     return made;
 }

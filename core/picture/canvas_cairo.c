@@ -159,9 +159,15 @@ static bool write_png(JoxCanvas *c, const char *path, JoxText *error) {
     return status == CAIRO_STATUS_SUCCESS;
 }
 
+static void release_image(void *canvas) {
+    Image *image = canvas;
+    cairo_destroy(image->cairo);
+    cairo_surface_destroy(image->surface);
+}
+
 static void free_image(JoxCanvas *c) {
-    cairo_destroy(((Image *)c)->cairo);
-    cairo_surface_destroy(((Image *)c)->surface);
+    jox_let_go(c);
+    release_image(c);
     jox_free(c);
 }
 
@@ -183,6 +189,7 @@ JoxCanvas *jox_canvas_image(uint32_t width, uint32_t height) {
     image->canvas.height = height;
     image->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)width, (int)height);
     image->cairo = cairo_create(image->surface);
+    jox_hold(image, release_image);
     return &image->canvas;
 }
 

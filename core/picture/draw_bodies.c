@@ -3,6 +3,8 @@
 #include <stdlib.h>
 
 #include "body/footprint.h"
+
+#include "base/sort.h"
 #include "picture/draw_parts.h"
 
 enum { RIM = 16, MOST_CORNERS = 256 };
@@ -41,7 +43,8 @@ static uint32_t corners_of(const JoxBodyLook *look, JoxV3 out[MOST_CORNERS]) {
     return count;
 }
 
-static int by_x(const void *a, const void *b) {
+static int by_x(const void *a, const void *b, const void *context) {
+    (void)context;
     const JoxV2 *p = a, *q = b;
     if (p->x != q->x)
         return p->x < q->x ? -1 : 1;
@@ -51,7 +54,7 @@ static int by_x(const void *a, const void *b) {
 /* Convex hull, counter-clockwise (A. M. Andrew, 1979), of points that are sorted here. */
 static uint32_t hull(JoxV2 *points, uint32_t count, JoxV2 out[2 * MOST_CORNERS]) {
     uint32_t n = 0;
-    qsort(points, count, sizeof *points, by_x);
+    jox_sort(points, count, sizeof *points, by_x, NULL, NULL);
     for (int side = 0; side < 2; side++) {
         uint32_t least = n + 1;
         for (uint32_t i = 0; i < count; i++) {

@@ -58,6 +58,14 @@ static int spawn(JoxVideo *video, int input, uint32_t width, uint32_t height, do
     return failure;
 }
 
+/* Ends ffmpeg; the video is as long as it is. */
+static void abandon(void *opened) {
+    JoxVideo *video = opened;
+    close(video->pipe);
+    while (waitpid(video->child, NULL, 0) < 0 && errno == EINTR)
+        continue;
+}
+
 JoxVideo *jox_video_open(const char *path, uint32_t width, uint32_t height, double fps,
                          JoxText *error) {
     int ends[2];
@@ -74,7 +82,7 @@ JoxVideo *jox_video_open(const char *path, uint32_t width, uint32_t height, doub
             close(ends[0]);
     }
     if (!failure)
-        return video;
+        return jox_hold(video, abandon);
     jox_text_printf(error, "cannot run ffmpeg: %s", strerror(failure));
     jox_free(video->path);
     jox_free(video);
@@ -99,6 +107,7 @@ bool jox_video_frame(JoxVideo *video, const uint8_t *pixels, JoxText *error) {
 bool jox_video_close(JoxVideo *video, JoxText *error) {
     int status = 0;
     pid_t ended;
+    jox_let_go(video);
     close(video->pipe);
     do
         ended = waitpid(video->child, &status, 0);

@@ -8,6 +8,7 @@
 #include "base/json.h"
 #include "base/json_writer.h"
 #include "base/mem.h"
+#include "base/sort.h"
 
 /* What a number of a summary is, by its path; the first row that fits holds. Figures are statistics
    of a run, of which a mean makes sense. All else is listed: what the run was given, texts, and
@@ -77,11 +78,6 @@ static bool add_item(void *context, const JoxJsonItem *item) {
 
 /* ---- writing ---- */
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Between the ranks about share * (count - 1). */
 static double quantile(const double *values, size_t count, double share) {
     double at = share * (double)(count - 1);
@@ -97,7 +93,7 @@ static void put_figure(JoxJson *json, const Entry *entry, size_t count, double *
             return;
         sum += numbers[k] = entry->values[k].number;
     }
-    qsort(numbers, count, sizeof *numbers, ascending);
+    jox_sort_doubles(numbers, count);
     jox_json_object(json, entry->path);
     jox_json_number(json, "mean", sum / (double)count);
     jox_json_number(json, "p5", quantile(numbers, count, 0.05));

@@ -21,11 +21,12 @@ const char *const jox_danger_names[] = {"density", "pressure", "compression"};
 const char *const jox_danger_units[] = {"1/m2", "1/s2", "N/m"};
 
 /* N/m on somebody who is held between a load of so many newtons and what bears against it: felt on
-   two sides, over the girth of the default radius. */
+   two sides, over the circumference of the default radius. */
 #define HELD_BY(newtons) (2.0 * (newtons) / (2.0 * 3.14159265358979323846 * 0.20))
 const char jox_danger_conversion[] =
     "Published loads are forces in newtons on somebody held between the load and what bears "
-    "against it. The engine adds the magnitudes of all contact forces and divides by the girth, so "
+    "against it. The engine adds the magnitudes of all contact forces and divides by the "
+    "circumference, so "
     "that a load F reads as 2 F over 2 pi 0.20 m = 1.26 m: 1000 N are 1592 N/m.";
 
 const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS] = {

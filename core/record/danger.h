@@ -7,9 +7,9 @@
                   the same kernel and velocities over 0.5 s. Means over time are exponential, 10 s.
                   Read only where the mean density is over the first limit of density (sparse crowds
                   vary freely) and from 10 s on; the first 5 s, when all start, are left out.
-     compression  sum of the contact forces' magnitudes on a person over the girth, N/m, as an
-                  exponential mean over 1 s of each person: what is held, not a knock of one step.
-   Exits: who left where, and when the last did. */
+     compression  sum of the contact forces' magnitudes on a person over the circumference, N/m, as
+   an exponential mean over 1 s of each person: what is held, not a knock of one step. Exits: who
+   left where, and when the last did. */
 #ifndef JOX_RECORD_DANGER_H
 #define JOX_RECORD_DANGER_H
 
@@ -31,7 +31,7 @@ extern const char *const jox_danger_names[JOX_DANGER_MEASURES]; /* "density", ..
 extern const char *const jox_danger_units[JOX_DANGER_MEASURES]; /* "1/m2", ... */
 
 /* A published limit. Loads in newtons are converted: somebody held between a load F and what bears
-   against it feels F on both sides, 2 F over a girth of 2 pi 0.20 m. */
+   against it feels F on both sides, 2 F over a circumference of 2 pi 0.20 m. */
 typedef struct JoxDangerLimit {
     const char *key; /* in summaries */
     JoxDangerMeasure measure;

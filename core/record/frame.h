@@ -19,7 +19,7 @@ typedef struct JoxFrame {
     /* NULL where they are not known, as in a recording made by others. */
     const float *radius;       /* m */
     const float *force;        /* magnitude of the net force, N */
-    const float *compression;  /* sum of contact force magnitudes over girth, N/m */
+    const float *compression;  /* sum of contact force magnitudes over circumference, N/m */
     const uint8_t *failed;     /* 1 where the 2-D program had no solution */
     const uint16_t *group;     /* index of the scene's group */
     const char *const *groups; /* their names */

@@ -11,6 +11,7 @@
 
 #include "base/mem.h"
 #include "geom/polygon.h"
+#include "record/database.h"
 
 enum { FRAMES = 4 };
 
@@ -207,11 +208,7 @@ static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
 }
 
 static void release(JoxRecorder *r) {
-    sqlite3_finalize(r->row);
-    sqlite3_finalize(r->agent);
-    sqlite3_finalize(r->body);
-    sqlite3_finalize(r->frame);
-    sqlite3_close(r->db);
+    jox_database_close(r->db); /* and its statements */
     for (int i = 0; i < FRAMES; i++) {
         jox_free(r->frames[i].rows);
         jox_free(r->frames[i].bodies);
@@ -220,6 +217,20 @@ static void release(JoxRecorder *r) {
     pthread_cond_destroy(&r->filled);
     pthread_cond_destroy(&r->emptied);
     jox_free(r);
+}
+
+/* Ends the writing thread; what it has not written is lost. */
+static void stop(JoxRecorder *r) {
+    pthread_mutex_lock(&r->lock);
+    r->ending = true;
+    pthread_cond_signal(&r->filled);
+    pthread_mutex_unlock(&r->lock);
+    pthread_join(r->thread, NULL);
+}
+
+static void abandon(void *recorder) {
+    stop(recorder);
+    release(recorder);
 }
 
 JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, JoxText *error) {
@@ -254,17 +265,23 @@ JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, Jo
         snprintf(r->why, sizeof r->why, "no thread can be started");
     }
     if (good)
-        return r;
+        return jox_hold(r, abandon);
     jox_text_printf(error, "cannot record to '%s': %s", path, r->why);
     release(r);
     return NULL;
 }
 
+/* The writing thread uses the file while there are frames; afterwards it sleeps until the next. */
+static void wait_for_writer(JoxRecorder *r) {
+    pthread_mutex_lock(&r->lock);
+    while (r->count > 0)
+        pthread_cond_wait(&r->emptied, &r->lock);
+    pthread_mutex_unlock(&r->lock);
+}
+
 void jox_recorder_state(JoxRecorder *r, uint32_t number, const char *machine, const char *state) {
     sqlite3_stmt *statement;
-    pthread_mutex_lock(&r->lock);
-    while (r->count > 0) /* the writer owns the file while there are frames */
-        pthread_cond_wait(&r->emptied, &r->lock);
+    wait_for_writer(r);
     if (prepare(r, &statement, "INSERT OR REPLACE INTO jostle_state VALUES(?, ?, ?)")) {
         sqlite3_bind_int64(statement, 1, number);
         sqlite3_bind_text(statement, 2, machine, -1, SQLITE_STATIC);
@@ -272,29 +289,23 @@ void jox_recorder_state(JoxRecorder *r, uint32_t number, const char *machine, co
         put(r, statement);
         sqlite3_finalize(statement);
     }
-    pthread_mutex_unlock(&r->lock);
 }
 
 void jox_recorder_group(JoxRecorder *r, uint32_t number, const char *name) {
     sqlite3_stmt *statement;
-    pthread_mutex_lock(&r->lock);
-    while (r->count > 0)
-        pthread_cond_wait(&r->emptied, &r->lock);
+    wait_for_writer(r);
     if (prepare(r, &statement, "INSERT OR REPLACE INTO jostle_group VALUES(?, ?)")) {
         sqlite3_bind_int64(statement, 1, number);
         sqlite3_bind_text(statement, 2, name, -1, SQLITE_STATIC);
         put(r, statement);
         sqlite3_finalize(statement);
     }
-    pthread_mutex_unlock(&r->lock);
 }
 
 void jox_recorder_walls(JoxRecorder *r, const JoxWalls *walls) {
     sqlite3_stmt *statement;
     JoxText points = {0};
-    pthread_mutex_lock(&r->lock);
-    while (r->count > 0)
-        pthread_cond_wait(&r->emptied, &r->lock);
+    wait_for_writer(r);
     bool good = prepare(r, &statement, "INSERT INTO jostle_wall VALUES(?, ?, ?, ?, ?, ?)");
     for (uint32_t w = 0; good && w < walls->ring_count; w++) {
         const struct JoxWallRing *ring = &walls->rings[w];
@@ -316,7 +327,6 @@ void jox_recorder_walls(JoxRecorder *r, const JoxWalls *walls) {
     }
     if (statement)
         sqlite3_finalize(statement);
-    pthread_mutex_unlock(&r->lock);
     jox_text_free(&points);
 }
 
@@ -330,9 +340,7 @@ void jox_recorder_part(JoxRecorder *r, uint32_t frame, uint32_t body, uint32_t p
         jox_text_printf(&corners, "%s%.6g %.6g %.6g", c ? ", " : "", (double)look->corners[c].x,
                         (double)look->corners[c].y, (double)look->corners[c].z);
     sqlite3_stmt *statement;
-    pthread_mutex_lock(&r->lock);
-    while (r->count > 0)
-        pthread_cond_wait(&r->emptied, &r->lock);
+    wait_for_writer(r);
     if (prepare(r, &statement,
                 "INSERT OR REPLACE INTO jostle_part VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")) {
         const uint32_t whole[] = {frame, body, part, (uint32_t)look->kind};
@@ -344,7 +352,6 @@ void jox_recorder_part(JoxRecorder *r, uint32_t frame, uint32_t body, uint32_t p
         put(r, statement);
         sqlite3_finalize(statement);
     }
-    pthread_mutex_unlock(&r->lock);
     jox_text_free(&corners);
 }
 
@@ -368,19 +375,16 @@ bool jox_recorder_put(JoxRecorder *r, uint32_t frame, JoxText *error) {
     r->frames[(r->first + r->count) % FRAMES].number = frame;
     r->count++;
     bool good = !r->failed;
-    if (!good)
-        jox_text_printf(error, "recording failed: %s", r->why);
     pthread_cond_signal(&r->filled);
     pthread_mutex_unlock(&r->lock);
+    if (!good)
+        jox_text_printf(error, "recording failed: %s", r->why);
     return good;
 }
 
 bool jox_recorder_close(JoxRecorder *r, JoxText *error) {
-    pthread_mutex_lock(&r->lock);
-    r->ending = true;
-    pthread_cond_signal(&r->filled);
-    pthread_mutex_unlock(&r->lock);
-    pthread_join(r->thread, NULL);
+    jox_let_go(r);
+    stop(r);
     bool good = !r->failed && write_bounds(r);
     if (good && !sqlite3_get_autocommit(r->db))
         good = run(r, "COMMIT");

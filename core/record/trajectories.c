@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/mem.h"
+#include "base/sort.h"
 
 static const double REACH = 0.2;            /* s: velocities are displacements over +- this */
 static const double LONGEST = 1e9;          /* s */
@@ -21,14 +22,16 @@ typedef struct Place {
     size_t row;
 } Place;
 
-static int by_frame(const void *a, const void *b) {
+static int by_frame(const void *a, const void *b, const void *context) {
+    (void)context;
     const Place *p = a, *q = b;
     if (p->frame != q->frame)
         return p->frame < q->frame ? -1 : 1;
     return (p->id > q->id) - (p->id < q->id);
 }
 
-static int by_id(const void *a, const void *b) {
+static int by_id(const void *a, const void *b, const void *context) {
+    (void)context;
     const Place *p = a, *q = b;
     if (p->id != q->id)
         return p->id < q->id ? -1 : 1;
@@ -79,7 +82,7 @@ static bool check_times(const JoxTrajectories *t, const char *path, JoxDiagnosti
 static bool sort(JoxTrajectories *t, Place *places, const char *path, JoxDiagnostics *diagnostics) {
     for (size_t i = 0; i < t->count; i++)
         places[i] = (Place){t->number[i], t->id[i], i};
-    qsort(places, t->count, sizeof *places, by_frame);
+    jox_sort(places, t->count, sizeof *places, by_frame, NULL, NULL);
     permute(t, places);
     t->first = jox_alloc(t->count + 1, sizeof *t->first);
     for (size_t i = 0; i < t->count; i++) {
@@ -104,7 +107,7 @@ static bool sort(JoxTrajectories *t, Place *places, const char *path, JoxDiagnos
 static void number_people(JoxTrajectories *t, Place *places) {
     for (size_t i = 0; i < t->count; i++)
         places[i] = (Place){t->number[i], t->id[i], i};
-    qsort(places, t->count, sizeof *places, by_id);
+    jox_sort(places, t->count, sizeof *places, by_id, NULL, NULL);
     bool plain = places[0].id >= 0 && places[t->count - 1].id < LARGEST_KEY;
     t->key = jox_alloc(t->count, sizeof *t->key);
     for (size_t i = 0; i < t->count; i++) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "record/database.h"
 #include "record/trajectories.h"
 
 enum { MOST_RING = 5000 };
@@ -178,7 +179,7 @@ static bool read_rows(JoxTrajectories *t, sqlite3 *db, JoxDiagnostics *diagnosti
 bool jox_trajectories_sqlite(JoxTrajectories *t, const char *path,
                              const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
     sqlite3 *db = NULL;
-    bool good = sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK;
+    bool good = jox_database_open(path, &db);
     if (!good)
         fail(diagnostics, path, NULL, sqlite3_errmsg(db));
     good = good && read_rows(t, db, diagnostics, path);
@@ -192,6 +193,6 @@ bool jox_trajectories_sqlite(JoxTrajectories *t, const char *path,
         t->last = (int64_t)ask_number(db, "SELECT MAX(frame) FROM frame_data");
         jox_trajectories_plan(t, db);
     }
-    sqlite3_close(db);
+    jox_database_close(db);
     return good;
 }

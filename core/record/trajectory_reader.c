@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "record/database.h"
 #include "record/trajectory_reader_parts.h"
 
 JoxTrajectoryReaderInfo jox_trajectory_reader_info(const JoxTrajectoryReader *r) {
@@ -258,7 +259,7 @@ void jox_trajectory_reader_close(JoxTrajectoryReader *r) {
     sqlite3_finalize(r->rows);
     sqlite3_finalize(r->body_at);
     sqlite3_finalize(r->bodies);
-    sqlite3_close(r->db);
+    jox_database_close(r->db);
     jox_trajectories_free(r->all);
     for (uint32_t g = 0; g < r->outlines.group_count; g++)
         jox_free(r->outlines.groups[g]);

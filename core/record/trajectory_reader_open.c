@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "record/database.h"
 #include "record/trajectory_reader_parts.h"
 
 enum { MOST_FRAMES = 10000000, MOST_POINTS = 100000 };
@@ -207,7 +208,7 @@ static bool open_sqlite(JoxTrajectoryReader *r, const char *path,
                         JoxDiagnostics *diagnostics) {
     static const char *const HINT = "It must be of the JuPedSim format: a table trajectory_data";
     double found;
-    if (sqlite3_open_v2(path, &r->db, SQLITE_OPEN_READONLY, NULL) != SQLITE_OK)
+    if (!jox_database_open(path, &r->db))
         return wrong(diagnostics, path, NULL, sqlite3_errmsg(r->db));
     sqlite3_stmt *probe = prepare(r->db, "SELECT frame, id, pos_x, pos_y FROM trajectory_data "
                                          "LIMIT 1");

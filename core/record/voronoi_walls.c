@@ -6,6 +6,8 @@
 
 #include "record/voronoi.h"
 
+#include "base/sort.h"
+
 enum { MOST_EDGES = 512, MOST_DIRECTIONS = 4096 };
 static const double SAME = 1e-9; /* rad: directions nearer than this are one */
 
@@ -23,11 +25,6 @@ typedef struct View {
 static void add_direction(View *v, double x, double y) {
     if (v->direction_count < MOST_DIRECTIONS)
         v->directions[v->direction_count++] = atan2(y, x);
-}
-
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 /* Where two edges cross, if they do. */
@@ -92,7 +89,7 @@ void jox_cell_seen(const JoxCell *cell, JoxV2 at, const JoxBars *bars, const Jox
         return;
     }
     *whole = *within = 0.0;
-    qsort(v.directions, v.direction_count, sizeof *v.directions, ascending);
+    jox_sort_doubles(v.directions, v.direction_count);
     for (uint32_t d = 0; d < v.direction_count; d++) {
         bool last = d + 1 == v.direction_count;
         double from = v.directions[d];

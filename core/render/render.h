@@ -2,6 +2,7 @@
 #ifndef JOX_RENDER_RENDER_H
 #define JOX_RENDER_RENDER_H
 
+#include "jostle_tools.h"
 #include "picture/draw.h"
 #include "record/trajectories.h"
 #include "record/trajectory_reader.h"

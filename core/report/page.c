@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/guard.h"
+#include "jostle_tools.h"
 #include "picture/html.h"
 #include "picture/paths.h"
 #include "picture/plot.h"

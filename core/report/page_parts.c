@@ -94,10 +94,10 @@ void jox_page_danger(FILE *out, const JoxDanger *danger) {
         "is read only where the mean density is over 5 per m2, from 10 s on, and without the "
         "first 5 s, when everybody starts.");
     if (jox_danger_reads(danger, JOX_DANGER_COMPRESSION)) {
-        jox_html_paragraph(out,
-                           "Compression is the sum of the magnitudes of the contact forces on a "
-                           "person over the girth, held on average for a second: a knock of one "
-                           "step counts little.");
+        jox_html_paragraph(
+            out, "Compression is the sum of the magnitudes of the contact forces on a "
+                 "person over the circumference, held on average for a second: a knock of one "
+                 "step counts little.");
         jox_html_paragraph(out, jox_danger_conversion);
     } else {
         jox_html_paragraph(out, "Compression was not measured: this recording has positions, and "

@@ -2,6 +2,7 @@
 #ifndef JOX_REPORT_REPORT_H
 #define JOX_REPORT_REPORT_H
 
+#include "jostle_tools.h"
 #include "record/trajectories.h"
 #include "run/run.h"
 

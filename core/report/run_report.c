@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "jostle_tools.h"
 #include "picture/paths.h"
 #include "picture/plot.h"
 #include "picture/probe_files.h"

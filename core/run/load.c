@@ -347,7 +347,7 @@ static JoScene *load_and_tell(const JoSceneDef *def, JoxDiagnosed *diagnosed, vo
         jox_run_say(scene, "%s %s %s (%s)\n", m ? "     " : "mods:", scene->mods->items[m].name,
                     scene->mods->items[m].version, scene->mods->items[m].folder);
     jox_run_check_log(scene);
-    JoxSettled settled = jox_world_settle(scene->world);
+    JoxPlacement settled = jox_world_resolve_placement(scene->world);
     if (settled.moved || settled.stuck)
         jox_run_say(scene,
                     "%s: %u agents were born in a wall or in another and moved by up to "
@@ -485,12 +485,4 @@ JoWorld *jo_scene_world(JoScene *scene) {
 double jo_scene_duration(const JoScene *scene) {
     JOX_REQUIRE(scene, 0.0);
     return scene->spec->duration;
-}
-
-char *jo_scene_reference(void) {
-    JOX_GUARD (NULL, NULL)
-        return NULL;
-    JoxText text = {0};
-    jox_scene_print_reference(&text);
-    return jox_disown(text.data);
 }

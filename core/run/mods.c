@@ -167,10 +167,10 @@ bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoError *er
 static bool why_scene(const JoScene *scene, const char *path, JoxText *out) {
     const JoxSceneSpec *spec = scene->spec;
     bool found = false;
-    for (uint32_t c = 0; c < spec->change_count; c++) {
-        const JoxSceneChange *change = &spec->changes[c];
-        size_t n = strlen(change->path);
-        if (strncmp(change->path, path, n) != 0 || (n && path[n] && path[n] != '.'))
+    for (uint32_t c = 0; c < spec->changes.count; c++) {
+        const JoxPatchChange *change = &spec->changes.items[c];
+        const char *rest;
+        if (!jox_patch_leads(change, path, &rest))
             continue;
         const JoxMod *mod = &scene->mods->items[change->mod];
         jox_text_printf(out, "  %s:%d:%d: %s   (mod %s %s)\n", change->position.file,

@@ -3,6 +3,7 @@
 
 #include "base/assert.h"
 #include "base/guard.h"
+#include "jostle_tools.h"
 #include "lua/reference.h"
 #include "run/run.h"
 #include "world/verbs.h"
@@ -30,4 +31,12 @@ char *jo_reference(const char *what) {
         if (!strcmp(PAGES[p].name, what))
             PAGES[p].print(&out);
     return jox_disown(out.data);
+}
+
+char *jo_scene_reference(void) {
+    JOX_GUARD (NULL, NULL)
+        return NULL;
+    JoxText text = {0};
+    jox_scene_print_reference(&text);
+    return jox_disown(text.data);
 }

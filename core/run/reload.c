@@ -22,8 +22,7 @@ static void changed(void *context, const char *path, double written) {
     jox_changes_file(&r->changes, path, written);
 }
 
-static void *load_for_ever(void *context) {
-    JoxReload *r = context;
+static void load_until_stopped(JoxReload *r) {
     uint64_t signal;
     while (read(r->stop, &signal, sizeof signal) != (ssize_t)sizeof signal) {
         jox_watch_wait(r->watch, r->stop, jox_changes_fresh(&r->changes) ? 0.002 : 1.0, changed, r);
@@ -32,7 +31,34 @@ static void *load_for_ever(void *context) {
         if (!busy)
             atomic_store(&r->ready, (uintptr_t)jox_batch_prepare(r));
     }
+}
+
+static void *load_for_ever(void *context) {
+    JoxReload *r = context;
+    JoxRecovery recovery;
+    jox_heap_use(r->scene->heap);
+    jox_recovery_push(&recovery);
+    if (setjmp(recovery.jump) != 0)
+        atomic_store(&r->starved, true); /* the next step says so */
+    else
+        load_until_stopped(r);
+    jox_recovery_pop(&recovery);
     return NULL;
+}
+
+static void stop_thread(JoxReload *r) {
+    uint64_t one = 1;
+    if (r->edited) /* memory ran out meanwhile */
+        pthread_mutex_unlock(&r->machines);
+    if (r->running && write(r->stop, &one, sizeof one) == (ssize_t)sizeof one)
+        pthread_join(r->thread, NULL);
+    if (r->stop >= 0)
+        close(r->stop);
+    pthread_mutex_destroy(&r->machines);
+}
+
+static void release_reload(void *reload) {
+    stop_thread(reload);
 }
 
 void jox_run_hold_machines(JoScene *scene, uint32_t machine, bool hold) {
@@ -41,8 +67,10 @@ void jox_run_hold_machines(JoScene *scene, uint32_t machine, bool hold) {
         return;
     if (hold) {
         pthread_mutex_lock(&r->machines);
+        r->edited = true;
         r->edits[machine]++;
     } else {
+        r->edited = false;
         pthread_mutex_unlock(&r->machines);
     }
 }
@@ -51,6 +79,8 @@ void jox_run_reload(JoScene *scene) {
     JoxReload *r = scene->reload;
     if (!r)
         return;
+    if (atomic_load(&r->starved))
+        jox_out_of_memory(0);
     atomic_store(&r->next_id, scene->world->state.agents.next_id);
     JoxBatch *batch = (JoxBatch *)atomic_load(&r->ready);
     if (!batch)
@@ -65,10 +95,11 @@ static void use_first(JoxReload *r, uint32_t part, const char *path) {
 }
 
 /* What the running scene is made of. */
-static JoxReload *begin(JoScene *scene, JoxWatch *watch, int stop) {
+static JoxReload *begin(JoScene *scene, JoxWatch *watch) {
     JoxReload *r = jox_alloc(1, sizeof *r);
-    *r = (JoxReload){.scene = scene, .watch = watch, .stop = stop};
+    *r = (JoxReload){.scene = scene, .watch = watch, .stop = -1};
     pthread_mutex_init(&r->machines, NULL);
+    jox_hold(r, release_reload);
     const JoxMachineRun *machines = &scene->world->machines;
     JoxAgents *a = &scene->world->state.agents;
     jox_agents_widen(a, a->own_stride + OWN_ROOM, a->memory_stride + MEMORY_ROOM);
@@ -102,23 +133,20 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
             return false;
         }
     JoxWatch *watch = jox_watch_create();
-    int stop = watch ? eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK) : -1;
-    if (stop >= 0) {
-        JoxReload *r = begin(scene, watch, stop);
-        if (pthread_create(&r->thread, NULL, load_for_ever, r) == 0)
+    if (watch) {
+        JoxReload *r = begin(scene, watch);
+        r->stop = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+        r->running = r->stop >= 0 && pthread_create(&r->thread, NULL, load_for_ever, r) == 0;
+        if (r->running)
             return true;
-        close(stop);
-        r->stop = -1;
         jox_run_unwatch(scene);
-    } else {
-        jox_watch_free(watch);
     }
     jox_error(error, JO_FAILED, "the system does not let files be watched");
     return false;
 }
 
 bool jox_run_reload_now(JoScene *scene, const JoxInputEntry *files, JoError *error) {
-    JoxReload *r = scene->reload ? scene->reload : begin(scene, NULL, -1);
+    JoxReload *r = scene->reload ? scene->reload : begin(scene, NULL);
     bool live = true;
     JoxBatch *batch;
     if (r->watch) {
@@ -145,19 +173,14 @@ void jox_run_unwatch(JoScene *scene) {
     JoxReload *r = scene->reload;
     if (!r)
         return;
-    if (r->stop >= 0) {
-        uint64_t one = 1;
-        if (write(r->stop, &one, sizeof one) == (ssize_t)sizeof one)
-            pthread_join(r->thread, NULL);
-        close(r->stop);
-    }
+    jox_let_go(r);
+    stop_thread(r);
     JoxBatch *batch = (JoxBatch *)atomic_load(&r->ready);
     if (batch)
         jox_batch_free(batch);
     jox_reload_free_retired(r);
     jox_changes_free(&r->changes);
     jox_watch_free(r->watch);
-    pthread_mutex_destroy(&r->machines);
     jox_free(r);
     scene->reload = NULL;
 }

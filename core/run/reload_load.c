@@ -140,11 +140,18 @@ static void load_plan(JoxReload *r, JoxBatch *batch) {
 void jox_batch_compare(JoxReload *r, JoxChange *change) {
     const JoxMachineRun *machines = &r->scene->world->machines;
     jox_replacement_free(change->replacement);
+    JoxRecovery recovery;
     pthread_mutex_lock(&r->machines);
+    jox_recovery_push(&recovery);
+    if (setjmp(recovery.jump) != 0) { /* no lock is held where memory is out */
+        pthread_mutex_unlock(&r->machines);
+        jox_out_of_memory(0);
+    }
     change->edits = r->edits[change->index];
     change->replacement = jox_replacement_prepare(
         machines->set->items[change->index], jox_loaded_machine(change->loaded),
         r->scene->world->model.def.seed, atomic_load(&r->next_id));
+    jox_recovery_pop(&recovery);
     pthread_mutex_unlock(&r->machines);
 }
 

@@ -36,10 +36,13 @@ struct JoxReload {
     JoScene *scene;
     JoxWatch *watch;
     pthread_t thread;
+    bool running;             /* the thread */
+    bool edited;              /* the stepping thread holds `machines` */
     int stop;                 /* eventfd */
     atomic_uintptr_t ready;   /* JoxBatch *, to the stepping thread */
     atomic_uintptr_t retired; /* JoxRetired *, back */
     atomic_uint next_id, machine_count;
+    atomic_bool starved;      /* memory ran out in the thread, which has ended */
     JoxChanges changes;       /* the loading thread's own */
     pthread_mutex_t machines; /* held while they are compared, or changed in place */
     uint32_t edits[JOX_MOST_MACHINES];

@@ -13,7 +13,6 @@ typedef struct JoxLoad {
     const JoxSceneOptions *options; /* or NULL */
     const char *datadir;
     JoxYamlFiles *files; /* read for the scene */
-    uint32_t change_capacity;
     const JoxYaml *root; /* of the whole scene, merged */
     bool walls_wrong;    /* some could not be read: their names are not known */
     double block_mass;   /* kg, of the blocks of the body that is being read; NAN: not given */

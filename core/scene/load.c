@@ -72,6 +72,7 @@ void jox_scene_free(JoxSceneSpec *scene) {
     if (!scene)
         return;
     jox_walls_free(&scene->walls);
+    jox_patch_changes_free(&scene->changes);
     jox_arena_free(scene->memory);
     jox_free(scene);
 }

@@ -1,12 +1,12 @@
 #include "scene/mods.h"
 
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/file.h"
 #include "base/mem.h"
 #include "scene/mods_on.h"
 #include "scene/schema.h"
@@ -112,10 +112,6 @@ static void read_settings(Find *f, JoxMod *mod, const JoxYaml *map) {
     }
 }
 
-static int by_name(const struct dirent **a, const struct dirent **b) {
-    return strcmp((*a)->d_name, (*b)->d_name);
-}
-
 static bool ends_with(const char *path, const char *ending) {
     size_t n = strlen(path), m = strlen(ending);
     return n >= m && strcmp(path + n - m, ending) == 0;
@@ -160,31 +156,31 @@ static bool is_sound(Find *f, const char *path, JoxPosition from) {
 static void read_folder(Find *f, JoxMod *mod, const char *name, JoxPosition from) {
     char *folder = join(f->reader.arena, mod->folder, name);
     bool patches = strcmp(name, "patches") == 0;
-    struct dirent **entries;
     struct stat info;
     if (lstat(folder, &info) == 0 && S_ISLNK(info.st_mode)) {
         is_sound(f, folder, from);
         return;
     }
-    int count = is_folder(folder) ? scandir(folder, &entries, NULL, by_name) : -1;
+    char **names = is_folder(folder) ? jox_folder_names(folder) : NULL;
+    int count = 0;
+    while (names && names[count])
+        count++;
     if (count > MOST_FILES)
         jox_diag_error(f->reader.diagnostics, from, "bad-mod", NULL, "'%s' has more than %d files",
                        folder, MOST_FILES);
     if (patches && count > 0)
         mod->patches = jox_arena_take(f->reader.arena, (size_t)count, sizeof *mod->patches);
     for (int e = 0; e < count; e++) {
-        char *path = join(f->reader.arena, folder, entries[e]->d_name);
+        char *path = join(f->reader.arena, folder, names[e]);
         bool lua = ends_with(path, ".lua"), yaml = ends_with(path, ".yaml");
-        if (entries[e]->d_name[0] != '.' && is_sound(f, path, from) && patches && (lua || yaml)) {
+        if (is_sound(f, path, from) && patches && (lua || yaml)) {
             JoxModPatch *patch = &mod->patches[mod->patch_count++];
             *patch = (JoxModPatch){.path = path, .lua = lua};
             if (yaml)
                 read_target(f, patch);
         }
-        free(entries[e]);
     }
-    if (count >= 0)
-        free(entries);
+    jox_free(names);
 }
 
 static void read_mod(Find *f, const char *folder, bool wanted) {
@@ -254,19 +250,19 @@ static void read_mod(Find *f, const char *folder, bool wanted) {
 /* ---- which ---- */
 
 static void look_into(Find *f, const char *folder) {
-    struct dirent **entries;
-    int count = is_folder(folder) ? scandir(folder, &entries, NULL, by_name) : -1;
+    char **names = is_folder(folder) ? jox_folder_names(folder) : NULL;
+    int count = 0;
+    while (names && names[count])
+        count++;
     for (int e = 0; e < count; e++) {
-        char *path = join(f->reader.arena, folder, entries[e]->d_name);
+        char *path = join(f->reader.arena, folder, names[e]);
         struct stat info;
         char *sheet = join(f->reader.arena, path, "mod.yaml");
         bool link = lstat(path, &info) == 0 && S_ISLNK(info.st_mode);
-        if (entries[e]->d_name[0] != '.' && !link && stat(sheet, &info) == 0)
+        if (!link && stat(sheet, &info) == 0)
             read_mod(f, path, false);
-        free(entries[e]);
     }
-    if (count >= 0)
-        free(entries);
+    jox_free(names);
 }
 
 static void look_everywhere(Find *f) {

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "base/diag.h"
-#include "base/mod.h"
+#include "base/patch.h"
 #include "base/random.h"
 #include "body/body.h"
 #include "geom/place.h"
@@ -132,14 +132,6 @@ typedef struct JoxSceneEvent {
     JoxPosition position;
 } JoxSceneEvent;
 
-/* A path of the scene that a mod set. */
-typedef struct JoxSceneChange {
-    char *path; /* "groups.red.count" */
-    JoxPosition position;
-    uint32_t mod;
-    bool removes;
-} JoxSceneChange;
-
 typedef struct JoxSceneFile {
     char *path;
     char sha256[65];
@@ -203,10 +195,9 @@ typedef struct JoxSceneSpec {
     double heatmap_from; /* s; averages begin there */
     JoxSceneFile *files; /* scene and included files */
     uint32_t file_count;
-    JoxSceneChange *changes; /* in the order in which they were made */
-    uint32_t change_count;
     const struct JoxYaml *tree; /* as it was read, with includes and mods merged */
-    void *memory; /* owns every text and array above but `walls` */
+    JoxPatchChanges changes; /* that mods made */
+    void *memory;            /* owns every text and array above but `walls` and `changes` */
 } JoxSceneSpec;
 
 /* `sets` are "PATH=VALUE", as "groups.pilgrims.count=5000". */

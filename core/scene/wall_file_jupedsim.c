@@ -328,19 +328,30 @@ static void XMLCALL refuse_doctype(void *context, const char *name, const char *
     wrong(context, "Take the <!DOCTYPE> out", "a plan has no document type%s", "");
 }
 
+static void release_parser(void *parser) {
+    XML_ParserFree(parser);
+}
+
 bool jox_wall_file_read_xml(const char *path, const char *text, size_t length,
                             const JoxWallFileOptions *options, JoxWalls *walls,
                             JoxDiagnostics *diagnostics) {
     Geometry g = {.path = path, .options = options, .walls = walls, .diagnostics = diagnostics};
     g.parser = XML_ParserCreate(NULL);
+    if (!g.parser)
+        jox_out_of_memory(0);
+    jox_hold(g.parser, release_parser);
     XML_SetUserData(g.parser, &g);
     XML_SetElementHandler(g.parser, begin_element, end_element);
     XML_SetStartDoctypeDeclHandler(g.parser, refuse_doctype);
-    if (XML_Parse(g.parser, text, (int)length, 1) != XML_STATUS_OK)
+    const bool parsed = XML_Parse(g.parser, text, (int)length, 1) == XML_STATUS_OK;
+    if (!parsed && XML_GetErrorCode(g.parser) == XML_ERROR_NO_MEMORY)
+        jox_out_of_memory(0);
+    if (!parsed)
         wrong(&g, NULL, "this is no XML: %s", XML_ErrorString(XML_GetErrorCode(g.parser)));
     else if (!g.any)
         wrong(&g, "<geometry><rooms><room><subroom><polygon>...",
               "there are no walls in this plan%s", "");
+    jox_let_go(g.parser);
     XML_ParserFree(g.parser);
     jox_free(g.points);
     jox_free(g.sides);

@@ -186,6 +186,7 @@ typedef struct Parse {
     JoxArena *arena;
     JoxDiagnostics *diagnostics;
     yaml_parser_t parser;
+    yaml_event_t events[DEEPEST + 3]; /* by depth; one that is not in use is all zero */
     const char *path;
     Anchor anchors[256];
     uint32_t anchor_count;
@@ -207,6 +208,8 @@ static void fail(Parse *p, JoxPosition at, const char *code, const char *text, c
 static bool next_event(Parse *p, yaml_event_t *event) {
     if (yaml_parser_parse(&p->parser, event))
         return true;
+    if (p->parser.error == YAML_MEMORY_ERROR)
+        jox_out_of_memory(0);
     yaml_mark_t at = p->parser.problem_mark;
     JoxPosition position = {p->path, (int)at.line + 1, (int)at.column + 1, (int)at.column + 2};
     fail(p, position, "bad-yaml", p->parser.problem ? p->parser.problem : "this is not YAML",
@@ -243,25 +246,25 @@ static JoxYaml *resolve_alias(Parse *p, const char *name, JoxPosition at) {
 }
 
 static void parse_map_items(Parse *p, JoxYaml *map, int depth) {
-    yaml_event_t event;
+    yaml_event_t *event = &p->events[depth + 1];
     JoxYaml *bases[8];
     uint32_t base_count = 0;
-    while (!p->failed && next_event(p, &event)) {
-        if (event.type == YAML_MAPPING_END_EVENT) {
-            yaml_event_delete(&event);
+    while (!p->failed && next_event(p, event)) {
+        if (event->type == YAML_MAPPING_END_EVENT) {
+            yaml_event_delete(event);
             break;
         }
-        JoxPosition at = mark(p, event.start_mark, event.end_mark);
-        if (event.type != YAML_SCALAR_EVENT) {
+        JoxPosition at = mark(p, event->start_mark, event->end_mark);
+        if (event->type != YAML_SCALAR_EVENT) {
             fail(p, at, "bad-key", "keys must be plain names", NULL);
-            yaml_event_delete(&event);
+            yaml_event_delete(event);
             break;
         }
-        char *key = jox_arena_text(p->arena, (const char *)event.data.scalar.value);
-        yaml_event_delete(&event);
-        if (!next_event(p, &event))
+        char *key = jox_arena_text(p->arena, (const char *)event->data.scalar.value);
+        yaml_event_delete(event);
+        if (!next_event(p, event))
             break;
-        JoxYaml *value = parse_node(p, &event, depth + 1);
+        JoxYaml *value = parse_node(p, event, depth + 1);
         if (!value)
             break;
         if (map->count >= MOST_KEYS) {
@@ -305,13 +308,13 @@ static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth) {
             remember(p, event->data.scalar.anchor, node);
         } else if (event->type == YAML_SEQUENCE_START_EVENT) {
             node->kind = JOX_YAML_LIST;
-            yaml_event_t item;
-            while (!p->failed && next_event(p, &item)) {
-                if (item.type == YAML_SEQUENCE_END_EVENT) {
-                    yaml_event_delete(&item);
+            yaml_event_t *item = &p->events[depth + 1];
+            while (!p->failed && next_event(p, item)) {
+                if (item->type == YAML_SEQUENCE_END_EVENT) {
+                    yaml_event_delete(item);
                     break;
                 }
-                JoxYaml *child = parse_node(p, &item, depth + 1);
+                JoxYaml *child = parse_node(p, item, depth + 1);
                 if (child)
                     add_item(p->arena, node, NULL, at, child);
             }
@@ -326,26 +329,36 @@ static JoxYaml *parse_node(Parse *p, yaml_event_t *event, int depth) {
     return p->failed ? NULL : node;
 }
 
+static void release_parse(void *parse) {
+    Parse *p = parse;
+    for (size_t e = 0; e < sizeof p->events / sizeof *p->events; e++)
+        yaml_event_delete(&p->events[e]);
+    yaml_parser_delete(&p->parser);
+}
+
 static JoxYaml *parse_text(Parse *p, const char *text, size_t length) {
-    yaml_parser_initialize(&p->parser);
+    if (!yaml_parser_initialize(&p->parser))
+        jox_out_of_memory(0);
+    jox_hold(p, release_parse);
     yaml_parser_set_input_string(&p->parser, (const unsigned char *)text, length);
-    yaml_event_t event;
+    yaml_event_t *event = &p->events[0];
     JoxYaml *root = NULL;
-    while (!p->failed && next_event(p, &event)) {
-        bool end = event.type == YAML_STREAM_END_EVENT;
-        bool starts = event.type == YAML_MAPPING_START_EVENT ||
-                      event.type == YAML_SEQUENCE_START_EVENT || event.type == YAML_SCALAR_EVENT;
+    while (!p->failed && next_event(p, event)) {
+        bool end = event->type == YAML_STREAM_END_EVENT;
+        bool starts = event->type == YAML_MAPPING_START_EVENT ||
+                      event->type == YAML_SEQUENCE_START_EVENT || event->type == YAML_SCALAR_EVENT;
         if (starts && root)
-            fail(p, mark(p, event.start_mark, event.end_mark), "bad-yaml",
+            fail(p, mark(p, event->start_mark, event->end_mark), "bad-yaml",
                  "a scene is one document; this is a second", NULL);
         if (starts && !p->failed)
-            root = parse_node(p, &event, 0);
+            root = parse_node(p, event, 0);
         else
-            yaml_event_delete(&event);
+            yaml_event_delete(event);
         if (end)
             break;
     }
-    yaml_parser_delete(&p->parser);
+    jox_let_go(p);
+    release_parse(p);
     if (!p->failed && (!root || root->kind != JOX_YAML_MAP)) {
         fail(p, (JoxPosition){p->path, 1, 1, 2}, "bad-yaml",
              root ? "a scene must be a map of keys" : "the scene is empty",

@@ -8,6 +8,7 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "jostle_tools.h"
 #include "run/run.h"
 #include "validate/claims.h"
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 #include "validate/claims_parts.h"
 
 static bool bool_of(lua_State *L, const char *key) {
@@ -12,10 +13,6 @@ static bool bool_of(lua_State *L, const char *key) {
     bool value = lua_toboolean(L, -1);
     lua_pop(L, 1);
     return value;
-}
-
-static int ascending(const void *a, const void *b) {
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
 /* Keys of the table on top in ascending order. They are the table's own; their list is left below
@@ -31,7 +28,7 @@ static const char **keys_of(lua_State *L, uint32_t *count) {
         if (lua_type(L, -2) == LUA_TSTRING)
             keys[(*count)++] = lua_tostring(L, -2);
     if (*count)
-        qsort(keys, *count, sizeof *keys, ascending);
+        jox_sort_texts(keys, *count);
     return keys;
 }
 

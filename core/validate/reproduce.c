@@ -14,6 +14,7 @@
 #include "base/guard.h"
 #include "base/hash.h"
 #include "base/mem.h"
+#include "base/sort.h"
 
 JoReproduceDef jo_default_reproduce_def(void) {
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
@@ -36,10 +37,6 @@ static bool is_wanted(const JoReproduceDef *def, const JoxClaim *claim) {
     return def->claim_count == 0;
 }
 
-static int by_name(const void *a, const void *b) {
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
 static char **list_files(const char *folder, size_t *count) {
     char **files = NULL;
     size_t capacity = 0;
@@ -57,12 +54,13 @@ static char **list_files(const char *folder, size_t *count) {
     if (dir)
         closedir(dir);
     if (*count)
-        qsort(files, *count, sizeof *files, by_name);
+        jox_sort_texts((const char **)files, *count);
     return files;
 }
 
 /* The paper's claims by number first, then others by letter and number. */
-static int by_id(const void *left, const void *right) {
+static int by_id(const void *left, const void *right, const void *context) {
+    (void)context;
     const char *a = ((const JoxOutcome *)left)->claim->id;
     const char *b = ((const JoxOutcome *)right)->claim->id;
     if (isdigit((unsigned char)*a) != isdigit((unsigned char)*b))
@@ -94,7 +92,7 @@ static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
     }
     jox_free(files);
     if (all->outcome_count)
-        qsort(all->outcomes, all->outcome_count, sizeof *all->outcomes, by_id);
+        jox_sort(all->outcomes, all->outcome_count, sizeof *all->outcomes, by_id, NULL, NULL);
     if (count == 0)
         jox_diag_error(diagnostics, ((JoxPosition){all->def->folder, 0, 0, 0}), "no-claims",
                        "Run it in the project's folder, or name one: --claims DIR",

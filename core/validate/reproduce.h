@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <sys/types.h>
 
+#include "jostle_tools.h"
 #include "run/run.h"
 #include "validate/claims.h"
 

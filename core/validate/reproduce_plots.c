@@ -6,6 +6,7 @@
 
 #include "base/mem.h"
 #include "base/quote.h"
+#include "base/sort.h"
 #include "picture/plot.h"
 #include "validate/reproduce.h"
 
@@ -114,18 +115,13 @@ static void draw_curves(const JoxClaim *claim, const JoxClaimPlot *plot, const c
 
 /* ---- maps ---- */
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The different values of an axis, in order; at most MOST_CELLS. */
 static uint32_t values_of(const JoxClaimCurve *map, bool y, double out[MOST_CELLS]) {
     uint32_t n = 0;
     double *all = jox_alloc(map->count, sizeof *all);
     for (uint32_t p = 0; p < map->count; p++)
         all[p] = y ? map->points[p].y : map->points[p].x;
-    qsort(all, map->count, sizeof *all, ascending);
+    jox_sort_doubles(all, map->count);
     for (uint32_t p = 0; p < map->count; p++)
         if ((n == 0 || all[p] > out[n - 1]) && n < MOST_CELLS)
             out[n++] = all[p];

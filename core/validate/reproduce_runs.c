@@ -21,11 +21,9 @@
 
 enum { MOST_ARGUMENTS = 200 };
 
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int number) {
-    (void)number;
-    interrupted = 1;
+static bool interrupted(const JoxReproduction *all) {
+    const volatile int *stop = all->def->stop;
+    return stop && __atomic_load_n(stop, __ATOMIC_RELAXED);
 }
 
 static char *path_in(const JoxJob *job, const char *name) {
@@ -209,9 +207,11 @@ static JoxJob *next_job(JoxReproduction *all) {
     return next;
 }
 
-static JoxJob *job_of(JoxReproduction *all, pid_t process) {
+/* A job whose process has ended, or NULL; the program's other processes are not waited for. */
+static JoxJob *ended_job(JoxReproduction *all, int *status) {
     for (uint32_t j = 0; j < all->job_count; j++)
-        if (all->jobs[j].state == JOX_JOB_RUNS && all->jobs[j].process == process)
+        if (all->jobs[j].state == JOX_JOB_RUNS &&
+            waitpid(all->jobs[j].process, status, WNOHANG) == all->jobs[j].process)
             return &all->jobs[j];
     return NULL;
 }
@@ -221,8 +221,10 @@ static void stop_all(JoxReproduction *all) {
     for (uint32_t j = 0; j < all->job_count; j++)
         if (all->jobs[j].state == JOX_JOB_RUNS)
             kill(-all->jobs[j].process, SIGKILL);
-    while (wait(NULL) > 0 || errno == EINTR) {
-    }
+    for (uint32_t j = 0; j < all->job_count; j++)
+        while (all->jobs[j].state == JOX_JOB_RUNS && waitpid(all->jobs[j].process, NULL, 0) < 0 &&
+               errno == EINTR)
+            continue;
 }
 
 static void look_for_old(JoxReproduction *all) {
@@ -242,14 +244,10 @@ static void look_for_old(JoxReproduction *all) {
 }
 
 bool jox_reproduce_run(JoxReproduction *all) {
-    struct sigaction action = {.sa_handler = interrupt}, old_int, old_term;
     double begun = jox_clock_wall();
-    interrupted = 0;
-    sigaction(SIGINT, &action, &old_int);
-    sigaction(SIGTERM, &action, &old_term);
     look_for_old(all);
     uint32_t running = 0;
-    while (!interrupted) {
+    while (!interrupted(all)) {
         JoxJob *job = running < all->def->jobs ? next_job(all) : NULL;
         if (job) {
             start(all, job);
@@ -262,8 +260,7 @@ bool jox_reproduce_run(JoxReproduction *all) {
         if (running == 0)
             break;
         int status;
-        pid_t process = waitpid(-1, &status, WNOHANG);
-        job = process > 0 ? job_of(all, process) : NULL;
+        job = ended_job(all, &status);
         if (job) {
             end(job, status);
             running--;
@@ -272,9 +269,8 @@ bool jox_reproduce_run(JoxReproduction *all) {
         }
     }
     show_progress(all, begun, true);
-    if (interrupted)
+    const bool whole = !interrupted(all);
+    if (!whole)
         stop_all(all);
-    sigaction(SIGINT, &old_int, NULL);
-    sigaction(SIGTERM, &old_term, NULL);
-    return !interrupted;
+    return whole;
 }

@@ -28,8 +28,10 @@ JoxMessage *jox_post_take(JoxPost *post) {
     return ordered;
 }
 
-JoxMessage *jox_message_create(size_t length) {
+JoxMessage *jox_message_create(const JoxView *view, size_t length) {
+    JoxHeap *before = jox_heap_use(view->heap);
     JoxMessage *message = jox_realloc(NULL, 1, sizeof *message + length + 1);
+    jox_heap_use(before);
     *message = (JoxMessage){.length = length, .capacity = length};
     message->data[length] = 0;
     return message;
@@ -37,6 +39,7 @@ JoxMessage *jox_message_create(size_t length) {
 
 JoxView *jox_view_create(void) {
     JoxView *view = jox_alloc(1, sizeof *view);
+    view->heap = jox_heap_used();
     view->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     return view;
 }
@@ -83,7 +86,7 @@ void jox_view_drop(JoxView *view) {
 }
 
 /* A message of the channel with room for `length` bytes: steady streams reuse three. */
-static JoxMessage *find_room(JoxChannel *channel, size_t length) {
+static JoxMessage *find_room(const JoxView *view, JoxChannel *channel, size_t length) {
     JoxMessage *back = jox_post_take(&channel->used);
     while (back) {
         JoxMessage *next = back->next;
@@ -99,7 +102,7 @@ static JoxMessage *find_room(JoxChannel *channel, size_t length) {
         message = NULL;
     }
     if (!message)
-        message = jox_message_create(length);
+        message = jox_message_create(view, length);
     message->length = length;
     message->channel = channel;
     return message;
@@ -109,7 +112,7 @@ void jox_view_publish(JoxView *view, uint32_t channel, const void *bytes, size_t
     if (channel >= JOX_VIEW_CHANNELS || !jox_view_clients(view))
         return;
     JoxChannel *to = &view->channels[channel];
-    JoxMessage *message = find_room(to, length);
+    JoxMessage *message = find_room(view, to, length);
     memcpy(message->data, bytes, length);
     message->epoch = view->epoch;
     JoxMessage *unseen = atomic_exchange(&to->fresh, message);
@@ -122,7 +125,7 @@ void jox_view_publish(JoxView *view, uint32_t channel, const void *bytes, size_t
 
 static void post(JoxView *view, JoxRequest request, uint32_t client, uint32_t mask,
                  const void *data, size_t length) {
-    JoxMessage *message = jox_message_create(length);
+    JoxMessage *message = jox_message_create(view, length);
     if (length)
         memcpy(message->data, data, length);
     message->what = request;
@@ -162,7 +165,7 @@ void jox_view_forget(JoxView *view) {
 /* The serving thread calls this. */
 void jox_view_tell(JoxView *view, uint32_t client, JoxViewTaken what, const char *text,
                    size_t length) {
-    JoxMessage *message = jox_message_create(length);
+    JoxMessage *message = jox_message_create(view, length);
     if (length)
         memcpy(message->data, text, length);
     message->what = what;

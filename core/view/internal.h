@@ -6,6 +6,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
+#include "base/mem.h"
 #include "view/view.h"
 
 enum {
@@ -66,6 +67,7 @@ typedef struct JoxClient {
 } JoxClient;
 
 struct JoxView {
+    JoxHeap *heap; /* that what it holds and sends is allocated from */
     JoxChannel channels[JOX_VIEW_CHANNELS];
     JoxPost out, in;
     JoxMessage *taken; /* the stepping thread's: from `in`, in order */
@@ -88,7 +90,7 @@ struct JoxView {
 /* hub.c */
 JoxView *jox_view_create(void);
 void jox_view_free(JoxView *view);
-JoxMessage *jox_message_create(size_t length);
+JoxMessage *jox_message_create(const JoxView *view, size_t length);
 void jox_view_tell(JoxView *view, uint32_t client, JoxViewTaken what, const char *text,
                    size_t length);
 /* serving.c: the serving thread's side, without the transport. */

@@ -71,8 +71,8 @@ static int join(JoxView *view, struct lws *wsi, JoxSession *session) {
     return session->client ? 0 : -1;
 }
 
-static int callback(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in,
-                    size_t length) {
+static int answer(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in,
+                  size_t length) {
     JoxSession *session = user;
     JoxView *view = wsi ? lws_context_user(lws_get_context(wsi)) : NULL;
     JoxClient *client = session ? session->client : NULL;
@@ -109,6 +109,18 @@ static int callback(struct lws *wsi, enum lws_callback_reasons reason, void *use
     }
 }
 
+/* Where memory is out, the connection ends; the others go on. */
+static int callback(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in,
+                    size_t length) {
+    JoxRecovery recovery;
+    jox_recovery_push(&recovery);
+    if (setjmp(recovery.jump) != 0)
+        return -1;
+    int result = answer(wsi, reason, user, in, length);
+    jox_recovery_pop(&recovery);
+    return result;
+}
+
 static const struct lws_protocols PROTOCOLS[] = {{.name = "jostle",
                                                   .callback = callback,
                                                   .per_session_data_size = sizeof(JoxSession),
@@ -121,6 +133,7 @@ static const lws_retry_bo_t LIVENESS = {.secs_since_valid_ping = PING,
 
 static void *serve(void *argument) {
     JoxView *view = argument;
+    jox_heap_use(view->heap);
     while (!atomic_load(&view->stop) && lws_service(view->transport->context, 0) >= 0)
         ;
     return NULL;
@@ -235,11 +248,27 @@ static bool open_transport(JoxView *view, const char *address, double patience) 
     return transport->running;
 }
 
+/* Ends the serving thread and its connections. */
+static void stop(void *opened) {
+    JoxView *view = opened;
+    JoxTransport *transport = view->transport;
+    if (transport && transport->running) {
+        atomic_store(&view->stop, true);
+        lws_cancel_service(transport->context);
+        pthread_join(transport->thread, NULL);
+    }
+    if (transport && transport->context)
+        lws_context_destroy(transport->context);
+    if (view->wake >= 0)
+        close(view->wake);
+    view->wake = -1;
+}
+
 JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
     const char *address = options->address ? options->address : "127.0.0.1";
     if (!check(options, address, why))
         return NULL;
-    JoxView *view = jox_view_create();
+    JoxView *view = jox_hold(jox_view_create(), stop);
     view->transport = jox_alloc(1, sizeof *view->transport);
     view->wake_transport = wake;
     view->any_host = options->address != NULL;
@@ -268,15 +297,9 @@ JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
 void jox_view_close(JoxView *view) {
     if (!view)
         return;
-    JoxTransport *transport = view->transport;
-    if (transport->running) {
-        atomic_store(&view->stop, true);
-        lws_cancel_service(transport->context);
-        pthread_join(transport->thread, NULL);
-    }
-    if (transport->context)
-        lws_context_destroy(transport->context);
-    jox_free(transport);
+    jox_let_go(view);
+    stop(view);
+    jox_free(view->transport);
     view->transport = NULL;
     jox_view_free(view);
 }

@@ -39,8 +39,8 @@ static void queue(JoxClient *client, JoxMessage *message) {
     client->bad |= client->unread > JOX_VIEW_MOST_UNREAD;
 }
 
-static JoxMessage *copy(const JoxMessage *message) {
-    JoxMessage *other = jox_message_create(message->length);
+static JoxMessage *copy(const JoxView *view, const JoxMessage *message) {
+    JoxMessage *other = jox_message_create(view, message->length);
     memcpy(other->data, message->data, message->length);
     other->what = message->what;
     return other;
@@ -63,7 +63,7 @@ static void do_deed(JoxView *view, JoxMessage *message) {
     case JOX_REQUEST_BYTES:
         for (uint32_t c = 0; c < JOX_VIEW_CLIENTS && message->client == JOX_VIEW_ALL; c++)
             if (view->connected[c])
-                queue(view->connected[c], copy(message));
+                queue(view->connected[c], copy(view, message));
         if (client) {
             queue(client, message);
             return;

@@ -54,15 +54,15 @@ void jox_world_raise_walls(JoWorld *world) {
     jox_bodies_set_walls(world->state.bodies, &world->scratch.walls, JOX_WALL_HEIGHT);
 }
 
-JoxSettled jox_world_settle(JoWorld *world) {
-    JoxSettled settled = {0};
+JoxPlacement jox_world_resolve_placement(JoWorld *world) {
+    JoxPlacement settled = {0};
     jox_world_raise_walls(world);
     if (world->state.settled && !world->state.walls_came)
         return settled;
     uint32_t first =
         world->state.settled ? world->state.agents.next_id : world->state.first_unsettled;
-    settled =
-        jox_nav_settle(world->scratch.nav, &world->state.agents, first, world->state.walls_came);
+    settled = jox_nav_resolve_placement(world->scratch.nav, &world->state.agents, first,
+                                        world->state.walls_came);
     world->state.statistics.moved_out += settled.moved;
     world->state.settled = true;
     world->state.walls_came = false;

@@ -4,6 +4,14 @@
 
 #include "world/world.h"
 
+const char *const jox_force_part_names[JOX_FORCE_PARTS] = {[JOX_FORCE_PART_body] = "body",
+                                                           [JOX_FORCE_PART_deceleration] =
+                                                               "deceleration",
+#define NAME(X, keep, name, label) [JOX_FORCE_PART_##name] = label,
+                                                           JOX_FORCE_TERMS(NAME, )
+#undef NAME
+};
+
 static const double FORGOTTEN = 5.0; /* s, simulated, without a look */
 
 static uint32_t index_of(const JoWorld *w, uint32_t id) {
@@ -72,14 +80,15 @@ void jox_inspect_pushed(JoWorld *w) {
         uint32_t i = index_of(w, seen->id);
         if (i == JOX_NO_INDEX)
             continue;
-        JoxV2 body = jox_force_of_bodies(w->scratch.forces, i);
-        seen->forces[JOX_FORCE_PUSH] = (JoxV2){a->push_x[i], a->push_y[i]};
-        seen->forces[JOX_FORCE_CONTACT] = jox_sub((JoxV2){a->contact_x[i], a->contact_y[i]}, body);
-        seen->forces[JOX_FORCE_DECELERATION] = seen->slowed;
-        seen->forces[JOX_FORCE_RESISTANCE] =
-            jox_sub((JoxV2){a->inferred_x[i], a->inferred_y[i]}, seen->slowed);
-        seen->forces[JOX_FORCE_EXTERNAL] = (JoxV2){a->ext_x[i], a->ext_y[i]};
-        seen->forces[JOX_FORCE_BODY] = body;
+        JoxV2 *forces = seen->forces, body = jox_force_of_bodies(w->scratch.forces, i);
+#define PART(X, keep, name, label)                                                                 \
+    forces[JOX_FORCE_PART_##name] = (JoxV2){a->name##_x[i], a->name##_y[i]};
+        JOX_FORCE_TERMS(PART, )
+#undef PART
+        forces[JOX_FORCE_PART_contact] = jox_sub(forces[JOX_FORCE_PART_contact], body);
+        forces[JOX_FORCE_PART_body] = body;
+        forces[JOX_FORCE_PART_inferred] = jox_sub(forces[JOX_FORCE_PART_inferred], seen->slowed);
+        forces[JOX_FORCE_PART_deceleration] = seen->slowed;
         seen->summed = (JoxV2){a->force_x[i], a->force_y[i]};
     }
 }
@@ -91,11 +100,12 @@ void jox_inspect_solved(JoWorld *w) {
         uint32_t i = index_of(w, seen->id);
         if (i == JOX_NO_INDEX)
             continue;
-        seen->plane_count = jox_nav_planes(w->scratch.nav, a, &w->scratch.neighbours,
-                                           &w->scratch.objects, w->scratch.plan, i, seen->planes);
+        seen->plane_count =
+            jox_nav_constraints(w->scratch.nav, a, &w->scratch.neighbours, &w->scratch.objects,
+                                w->scratch.plan, i, seen->planes);
         seen->preferred = (JoxV2){a->pref_x[i], a->pref_y[i]};
         seen->chosen = (JoxV2){a->next_x[i], a->next_y[i]};
-        seen->most = a->disc[i];
+        seen->speed_limit = a->speed_limit[i];
         seen->failed = a->failed[i];
         seen->seen = true;
     }
@@ -110,7 +120,7 @@ void jox_inspect_inferred(JoWorld *w) {
         float kept;
         JoxV2 hit =
             jox_sub((JoxV2){w->state.agents.force_x[i], w->state.agents.force_y[i]}, seen->summed);
-        seen->forces[JOX_FORCE_BODY] = jox_add(seen->forces[JOX_FORCE_BODY], hit);
+        seen->forces[JOX_FORCE_PART_body] = jox_add(seen->forces[JOX_FORCE_PART_body], hit);
         JoxV2 added = jox_force_slowed(w->scratch.forces, i, &kept);
         seen->slowed = jox_add(jox_scale(seen->slowed, kept), added);
     }

@@ -8,28 +8,28 @@
 
 enum { JOX_MOST_INSPECTED = 8 };
 
-/* The parts of a net force, N. */
+/* What is shown of a net force, N: a part for each of its terms, and parts that are told apart
+   within a term, so that all parts add up to the net force. */
 typedef enum JoxForcePart {
-    JOX_FORCE_PUSH,
-    JOX_FORCE_CONTACT, /* with agents */
-    JOX_FORCE_DECELERATION,
-    JOX_FORCE_RESISTANCE,
-    JOX_FORCE_EXTERNAL,
-    JOX_FORCE_BODY, /* contact with bodies, and hits by fast ones */
-    JOX_FORCE_PARTS
+    JOX_FORCE_PART_body,         /* of contact: with bodies, and hits by fast ones */
+    JOX_FORCE_PART_deceleration, /* of inferred: equation 8 */
+#define PART(X, keep, name, label) JOX_FORCE_PART_##name,
+    JOX_FORCE_TERMS(PART, ) JOX_FORCE_PARTS
+#undef PART
 } JoxForcePart;
+extern const char *const jox_force_part_names[JOX_FORCE_PARTS];
 
 typedef struct JoxInspected {
     uint32_t slot, id;
     uint32_t asked; /* tick at which somebody looked last */
     bool seen;      /* a step was done since it is looked at */
-    JoxPlaneSeen planes[JOX_MOST_PLANES];
+    JoxConstraint planes[JOX_MOST_CONSTRAINTS];
     uint32_t plane_count;
     JoxV2 forces[JOX_FORCE_PARTS];
     JoxV2 summed; /* the net force before fast bodies hit, N */
     JoxV2 slowed; /* of its inferred force, what comes of equation 8 */
     JoxV2 preferred, chosen;
-    float most; /* m/s, of the disc that it was solved in */
+    float speed_limit; /* of that step, m/s */
     bool failed;
 } JoxInspected;
 

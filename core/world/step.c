@@ -225,7 +225,7 @@ bool jox_world_step(JoWorld *w) {
     if (w->failure[0])
         return false;
     double begin = jox_clock_wall(), cpu = jox_clock_cpu(), last = begin;
-    jox_world_settle(w);
+    jox_world_resolve_placement(w);
     if (w->state.tick % JOX_BODIES_REINSERT_STEPS ==
         0) /* a state saved before this step goes on alike */
         jox_bodies_reinsert(w->state.bodies);

@@ -101,7 +101,7 @@ void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count);
 uint32_t jox_world_add_agent(JoWorld *world, float x, float y);
 /* Brings walls into effect, moves agents that were born in them or in each other or that stand
    where walls came, and says how many. Runs by itself before a step. */
-JoxSettled jox_world_settle(JoWorld *world);
+JoxPlacement jox_world_resolve_placement(JoWorld *world);
 /* Brings the walls that stand into effect, unless they are. */
 void jox_world_raise_walls(JoWorld *world);
 /* Takes walls over, in place of all there are. Those whose names were opened or closed before stay

@@ -105,7 +105,7 @@ function Number:in_state(state) end
 ---@field time_in_state number since the state was entered, s
 ---@field density number people per square metre about it, 1/m2
 ---@field pushed number magnitude of the net force, N
----@field compression number sum of contact force magnitudes over girth, N/m
+---@field compression number sum of contact force magnitudes over circumference, N/m
 ---@field team number 0 is none
 ---@field state string name of its state; nil of a neighbour without a machine
 ---@field machine string name of its machine; nil of a neighbour without one
@@ -224,7 +224,7 @@ headway = nil
 ---@type jostle.Number
 pushed = nil
 
---- `compression` in N/m: sum of contact force magnitudes over girth
+--- `compression` in N/m: sum of contact force magnitudes over circumference
 ---@type jostle.Number
 compression = nil
 

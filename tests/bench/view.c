@@ -8,7 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "jostle.h"
+#include "jostle_tools.h"
 #include "unit/view_client.h"
 
 enum { ROUNDS = 5 };

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "jostle.h"
+#include "jostle_tools.h"
 
 static int reports;
 

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "jostle.h"
+#include "jostle_tools.h"
 
 static char folder[] = "/tmp/jostle-half-XXXXXX", path[64];
 

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "jostle.h"
+#include "jostle_tools.h"
 
 static void quiet(void *context, const char *text) {
     (void)context;

@@ -44,17 +44,17 @@ static double energy_share(bool literal, float mass, float thin, float restituti
     begin(&c);
     jox_force_contact(c.forces);
     uint32_t count;
-    const JoxImpulse *owed = jox_force_impulses(c.forces, &count);
+    const JoxImpulse *pending = jox_force_impulses(c.forces, &count);
     assert_int_equal(count, 1);
-    double j = -owed[0].impulse.y;
-    assert_true(j > 0 && owed[0].impulse.x == 0 && owed[0].impulse.z == 0);
+    double j = -pending[0].impulse.y;
+    assert_true(j > 0 && pending[0].impulse.x == 0 && pending[0].impulse.z == 0);
     /* Equal and opposite, at the point of contact. */
     assert_near(c.agents.contact_y[0] * 0.05, j, 1e-5 * j);
-    assert_near(owed[0].point.x, 0.8, 1e-6);
-    assert_near(owed[0].point.y, 0.5, 1e-6);
-    assert_near(owed[0].point.z, 1.1, 1e-6);
+    assert_near(pending[0].point.x, 0.8, 1e-6);
+    assert_near(pending[0].point.y, 0.5, 1e-6);
+    assert_near(pending[0].point.z, 1.1, 1e-6);
     assert_int_equal(c.agents.contacts[0], 1);
-    JoxV3 spin = spun(&box, &owed[0]);
+    JoxV3 spin = spun(&box, &pending[0]);
     double vy = -2 + j / 70, by = -j / mass;
     /* Angular momentum about the vertical through the origin, where the box is. */
     double before = 70 * 0.8 * -2, after = 70 * 0.8 * vy + spin.z / box.inverse_inertia[8];
@@ -138,11 +138,11 @@ static void a_ball_and_the_height_of_contact(void **state) {
     begin(&c);
     jox_force_contact(c.forces);
     uint32_t count;
-    const JoxImpulse *owed = jox_force_impulses(c.forces, &count);
+    const JoxImpulse *pending = jox_force_impulses(c.forces, &count);
     assert_int_equal(count, 1);
-    assert_true(owed[0].impulse.x < 0 && c.agents.contact_x[0] > 0);
-    assert_near(owed[0].point.z, 0.6, 1e-6);
-    assert_near(owed[0].point.x, 0.3, 1e-6);
+    assert_true(pending[0].impulse.x < 0 && c.agents.contact_x[0] > 0);
+    assert_near(pending[0].point.z, 0.6, 1e-6);
+    assert_near(pending[0].point.x, 0.3, 1e-6);
     assert_true(c.agents.contact_x[1] == 0 && c.agents.contact_x[2] == 0);
     close_crowd(&c);
 }
@@ -164,13 +164,13 @@ static void many_on_one_body_share_it(void **state) {
     begin(&c);
     jox_force_contact(c.forces);
     uint32_t count;
-    const JoxImpulse *owed = jox_force_impulses(c.forces, &count);
+    const JoxImpulse *pending = jox_force_impulses(c.forces, &count);
     assert_int_equal(count, 4);
     double sum = 0, given = 0;
     for (uint32_t k = 0; k < 4; k++) {
-        sum += owed[k].impulse.y;
+        sum += pending[k].impulse.y;
         given += c.agents.contact_y[k] * 0.05;
-        assert_near(owed[k].point.x, -0.75 + 0.5 * k, 1e-6); /* in ascending id */
+        assert_near(pending[k].point.x, -0.75 + 0.5 * k, 1e-6); /* in ascending id */
         assert_true(1 + c.agents.contact_y[k] * 0.05 / 70 > 0.5);
     }
     assert_near(sum, -given, 1e-5 * sum);
@@ -178,7 +178,7 @@ static void many_on_one_body_share_it(void **state) {
     close_crowd(&c);
 }
 
-static void static_bodies_stop_people_and_are_owed_nothing(void **state) {
+static void static_bodies_stop_people_and_receive_nothing(void **state) {
     (void)state;
     Crowd c;
     open_crowd(&c, 0.05);
@@ -215,11 +215,11 @@ static void bodies_are_pushed_where_they_are_touched(void **state) {
     jox_force_push(c.forces);
     jox_force_contact(c.forces);
     uint32_t count;
-    const JoxImpulse *owed = jox_force_impulses(c.forces, &count);
+    const JoxImpulse *pending = jox_force_impulses(c.forces, &count);
     assert_int_equal(count, 1);
-    assert_near(owed[0].impulse.y, 10, 1e-5);
-    assert_near(owed[0].impulse.x, 0, 1e-5);
-    assert_near(owed[0].point.x, 0.8, 1e-6);
+    assert_near(pending[0].impulse.y, 10, 1e-5);
+    assert_near(pending[0].impulse.x, 0, 1e-5);
+    assert_near(pending[0].point.x, 0.8, 1e-6);
     assert_true(c.agents.contact_y[0] == 0);
     c.agents.push_only[0] = 1; /* the box has another tag */
     begin(&c);
@@ -250,9 +250,9 @@ static void far_and_broken_bodies_are_passed_over(void **state) {
     jox_force_sum(c.forces);
     jox_force_infer(c.forces);
     uint32_t count;
-    const JoxImpulse *owed = jox_force_impulses(c.forces, &count);
+    const JoxImpulse *pending = jox_force_impulses(c.forces, &count);
     assert_int_equal(count, 1);
-    assert_int_equal(owed[0].object, 3);
+    assert_int_equal(pending[0].object, 3);
     close_crowd(&c);
 }
 
@@ -263,7 +263,7 @@ int main(void) {
         cmocka_unit_test(footprints_have_sides_corners_and_insides),
         cmocka_unit_test(a_ball_and_the_height_of_contact),
         cmocka_unit_test(many_on_one_body_share_it),
-        cmocka_unit_test(static_bodies_stop_people_and_are_owed_nothing),
+        cmocka_unit_test(static_bodies_stop_people_and_receive_nothing),
         cmocka_unit_test(bodies_are_pushed_where_they_are_touched),
         cmocka_unit_test(far_and_broken_bodies_are_passed_over),
     };

@@ -148,16 +148,16 @@ static void the_plane_asks_for_the_forced_velocity(void **state) {
     a->ext_y[1] = 70 * 0.049f; /* too little to matter */
     a->contact_x[2] = 70 * 30; /* 3 m/s in a step */
     jox_force_sum(c.forces);
-    assert_true(a->plane_x[0] == 0 && a->plane_y[0] == 1);
-    assert_near(a->plane_offset[0], 0.1, 1e-6);
-    assert_true(a->plane_x[1] == 0 && a->plane_y[1] == 0);
-    assert_near(a->plane_offset[2], exp(-0.25) + 3, 1e-5);
-    assert_true(a->disc[0] == a->param[JOX_PARAM_max_speed][0]);
-    assert_near(a->disc[2], exp(-0.25) + 3, 1e-5);
+    assert_true(a->half_plane_x[0] == 0 && a->half_plane_y[0] == 1);
+    assert_near(a->half_plane_offset[0], 0.1, 1e-6);
+    assert_true(a->half_plane_x[1] == 0 && a->half_plane_y[1] == 0);
+    assert_near(a->half_plane_offset[2], exp(-0.25) + 3, 1e-5);
+    assert_true(a->speed_limit[0] == a->param[JOX_PARAM_max_speed][0]);
+    assert_near(a->speed_limit[2], exp(-0.25) + 3, 1e-5);
     a->ext_x[2] = a->contact_x[2]; /* the same by other means is capped */
     a->contact_x[2] = 0;
     jox_force_sum(c.forces);
-    assert_true(a->disc[2] == a->param[JOX_PARAM_max_speed][2]);
+    assert_true(a->speed_limit[2] == a->param[JOX_PARAM_max_speed][2]);
     close_crowd(&c);
 }
 
@@ -267,11 +267,11 @@ static void assert_same(const Crowd *c, const Crowd *d) {
         const float left[] = {c->agents.x[i],          c->agents.vy[i],
                               c->agents.force_x[i],    c->agents.contact_y[i],
                               c->agents.inferred_x[i], c->agents.compression[i],
-                              c->agents.push_x[i],     c->agents.plane_offset[i]};
+                              c->agents.push_x[i],     c->agents.half_plane_offset[i]};
         const float right[] = {d->agents.x[k],          d->agents.vy[k],
                                d->agents.force_x[k],    d->agents.contact_y[k],
                                d->agents.inferred_x[k], d->agents.compression[k],
-                               d->agents.push_x[k],     d->agents.plane_offset[k]};
+                               d->agents.push_x[k],     d->agents.half_plane_offset[k]};
         assert_memory_equal(left, right, sizeof left);
         assert_true(isfinite(left[0]) && isfinite(left[2]) && isfinite(left[4]));
     }
@@ -360,8 +360,8 @@ static void extremes_stay_finite(void **state) {
         jox_force_infer(c.forces);
     }
     for (int i = 0; i < 20; i++) {
-        assert_true(isfinite(c.agents.force_x[i]) && isfinite(c.agents.plane_offset[i]));
-        assert_true(isfinite(c.agents.inferred_x[i]) && isfinite(c.agents.disc[i]));
+        assert_true(isfinite(c.agents.force_x[i]) && isfinite(c.agents.half_plane_offset[i]));
+        assert_true(isfinite(c.agents.inferred_x[i]) && isfinite(c.agents.speed_limit[i]));
     }
     close_crowd(&c);
 }

@@ -41,13 +41,13 @@ static void an_inspection_adds_up(void **state) {
         for (int f = 0; f < JOX_FORCE_PARTS; f++)
             sum = jox_add(sum, seen->forces[f]);
         assert_true(fabsf(sum.x - a->force_x[i]) < 0.01f && fabsf(sum.y - a->force_y[i]) < 0.01f);
-        assert_true((seen->forces[JOX_FORCE_EXTERNAL].x == 90.0f) == (n % 7 == 3));
-        most = fmax(most, (double)jox_length(seen->forces[JOX_FORCE_PUSH]));
+        assert_true((seen->forces[JOX_FORCE_PART_ext].x == 90.0f) == (n % 7 == 3));
+        most = fmax(most, (double)jox_length(seen->forces[JOX_FORCE_PART_push]));
         assert_true(seen->plane_count >= 5);
         for (uint32_t p = 0; p < seen->plane_count && !seen->failed; p++)
             assert_true(jox_dot(seen->planes[p].normal, seen->chosen) >
                         seen->planes[p].offset - 1e-4f);
-        assert_true(jox_length(seen->chosen) <= seen->most + 1e-4f);
+        assert_true(jox_length(seen->chosen) <= seen->speed_limit + 1e-4f);
     }
     assert_true(most > 10.0); /* somebody did push */
     assert_true(jo_world_hash(scene->world) == jo_world_hash(plain->world));

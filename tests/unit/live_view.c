@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "base/text.h"
-#include "jostle.h"
+#include "jostle_tools.h"
 #include "unit/view_client.h"
 
 static char folder[] = "/tmp/jostle-live-XXXXXX";

@@ -51,7 +51,7 @@ static void step(Fixture *f, const JoxV2 *goals, float speed, double dt, JoxPool
         JoxV2 way = jox_unit((JoxV2){goals[a->id[i]].x - a->x[i], goals[a->id[i]].y - a->y[i]});
         a->pref_x[i] = way.x * speed;
         a->pref_y[i] = way.y * speed;
-        a->disc[i] = jox_maxf(a->param[JOX_PARAM_max_speed][i], speed);
+        a->speed_limit[i] = jox_maxf(a->param[JOX_PARAM_max_speed][i], speed);
     }
     jox_nav_solve(f->nav, a, &f->neighbours, NULL, dt, pool);
     jox_nav_move(f->nav, a, &f->neighbours, dt, dt, pool);
@@ -227,13 +227,13 @@ static void the_program_finds_the_nearest_velocity(void **state) {
     (void)state;
     int feasible = 0;
     for (uint32_t trial = 0; trial < 800; trial++) {
-        JoxPlane planes[8];
+        JoxHalfPlane half_planes[8];
         uint32_t count = 1 + trial % 8;
         for (uint32_t k = 0; k < count; k++) {
             double angle = 6.283185 * jox_random_unit(trial, k, 1, JOX_DRAW_FILL, 0);
-            planes[k] =
-                (JoxPlane){{(float)cos(angle), (float)sin(angle)},
-                           (float)(1.6 * jox_random_unit(trial, k, 1, JOX_DRAW_FILL, 1) - 1.2)};
+            half_planes[k] =
+                (JoxHalfPlane){{(float)cos(angle), (float)sin(angle)},
+                               (float)(1.6 * jox_random_unit(trial, k, 1, JOX_DRAW_FILL, 1) - 1.2)};
         }
         JoxV2 wanted = {(float)(3 * jox_random_unit(trial, 9, 1, JOX_DRAW_FILL, 0) - 1.5),
                         (float)(3 * jox_random_unit(trial, 9, 1, JOX_DRAW_FILL, 1) - 1.5)};
@@ -245,18 +245,18 @@ static void the_program_finds_the_nearest_velocity(void **state) {
                 if (x * x + y * y > disc * disc)
                     continue;
                 for (uint32_t k = 0; k < count; k++)
-                    worst = fmax(worst, planes[k].offset - planes[k].normal.x * x -
-                                            planes[k].normal.y * y);
+                    worst = fmax(worst, half_planes[k].offset - half_planes[k].normal.x * x -
+                                            half_planes[k].normal.y * y);
                 least = fmin(least, worst);
                 if (worst <= 0)
                     best = fmin(best, hypot(x - wanted.x, y - wanted.y));
             }
         JoxV2 v;
         bool relaxed;
-        bool found = jox_program_solve(planes, count, 0, disc, wanted, &v, &relaxed);
+        bool found = jox_linear_program_solve(half_planes, count, 0, disc, wanted, &v, &relaxed);
         double worst = 0;
         for (uint32_t k = 0; k < count; k++)
-            worst = fmax(worst, planes[k].offset - jox_dot(planes[k].normal, v));
+            worst = fmax(worst, half_planes[k].offset - jox_dot(half_planes[k].normal, v));
         assert_true(jox_length(v) <= disc + 1e-4f);
         if (found) {
             feasible++;

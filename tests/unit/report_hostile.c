@@ -15,6 +15,7 @@
 
 #include <cmocka.h>
 
+#include "base/mem.h"
 #include "base/quote.h"
 #include "picture/canvas.h"
 #include "picture/html.h"
@@ -76,7 +77,7 @@ static void is_svg(const char *path) {
         fail_msg("%s:%lu: %s", path, XML_GetCurrentLineNumber(parser),
                  XML_ErrorString(XML_GetErrorCode(parser)));
     XML_ParserFree(parser);
-    free(text);
+    jox_free(text);
 }
 
 static bool ends_with(const char *name, const char *ending) {
@@ -319,7 +320,7 @@ static void the_page_has_the_same_classes(void **state) {
     JoxInk light = jox_palette_class(7); /* the first, 45 % of the way to white */
     assert_int_equal(light.r, lround(0x00 + 0.45 * (255 - 0x00)));
     assert_int_equal(light.g, lround(0x72 + 0.45 * (255 - 0x72)));
-    free(script);
+    jox_free(script);
 }
 
 static int begin(void **state) {

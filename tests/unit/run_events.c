@@ -304,7 +304,8 @@ static void who_picks_up_has_not_thrown(void **state) {
     assert_int_equal(figures(scene)->pickups, 1);
     assert_int_equal(figures(scene)->throws, 1);
     char *summary = jo_scene_summary(scene);
-    assert_non_null(strstr(summary, "\"throws\": 1, \"pickups\": 1,"));
+    assert_non_null(strstr(summary, "\"throws\": 1,"));
+    assert_non_null(strstr(summary, "\"pickups\": 1,"));
     jo_free(summary);
     jo_scene_free(scene);
 }

@@ -33,15 +33,11 @@ void jox_script_free(JoxScript *script) {
         jox_free(script->nodes[i]);
     for (uint32_t i = 0; i < script->memory_count; i++)
         jox_free(script->memory[i].name);
-    for (size_t o = 0; o < script->origin_count; o++) {
-        jox_free(script->origins[o].path);
-        jox_free(script->origins[o].from);
-    }
+    jox_patch_changes_free(&script->changes);
     for (uint32_t h = 0; h < script->hook_count; h++) {
         jox_free(script->hooks[h].where);
         jox_free(script->hooks[h].complaint);
     }
-    jox_free(script->origins);
     jox_free(script->nodes);
     jox_free(script->memory);
     jox_free(script->hooks);

@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "base/assert.h"
+#include "base/patch.h"
 #include "lua/language/scope.h"
 #include "lua/vm/vm.h"
 #include "machine/run.h"
@@ -87,16 +88,6 @@ struct JoxNode {
 
 /* ---- one Lua state with its load ---- */
 
-/* Where a part of the machine was written, in place of the behaviour's own file: everything at and
-   below `path` stands at `from` in a source. In the order in which it was set. */
-typedef struct JoxOrigin {
-    char *path; /* "states.Circle.push"; a transition by its id: "states.Circle.@Exit.chance" */
-    uint32_t source;
-    char *from;
-    int32_t mod; /* index, or -1: the behaviour itself */
-    bool removes;
-} JoxOrigin;
-
 /* A plain function of the behaviour. */
 typedef struct JoxHook {
     int ref;                               /* in the registry */
@@ -120,9 +111,8 @@ typedef struct JoxScript {
     const JoxScope *scope;       /* while loading */
     JoxDiagnostics *diagnostics; /* while loading */
     const JoxMod *mod;           /* whose file is running; NULL: the script's own */
-    JoxOrigin *origins;
-    size_t origin_count, origin_capacity;
-    JoxUpvalues upvalues; /* those of each hook in one piece */
+    JoxPatchChanges changes;     /* that mods made */
+    JoxUpvalues upvalues;        /* those of each hook in one piece */
     JoxHook *hooks;
     uint32_t hook_count;
     uint32_t hook_walked; /* while loading: whose upvalues are looked at */

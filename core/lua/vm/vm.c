@@ -64,7 +64,7 @@ static void *allocate(void *context, void *memory, size_t old, size_t size) {
     uint64_t cost = size > old ? (size - old) >> 2 : 0; /* a few instructions can copy megabytes */
     void *result = NULL;
     if (size <= old || (size <= most && vm->used - old + size <= limits->memory))
-        result = realloc(memory, size);
+        vm->no_memory = !(result = jox_try_realloc(memory, size));
     if (result)
         vm->used = vm->used - old + size;
     else
@@ -192,23 +192,37 @@ JoxVm *jox_vm_of(lua_State *L) {
     return *(JoxVm **)lua_getextraspace(L);
 }
 
+static void release_state(void *state) {
+    lua_close(state);
+}
+
+/* An error outside of any protected call: only memory can run out there. */
+static int panic(lua_State *L) {
+    (void)L;
+    jox_out_of_memory(0);
+}
+
 bool jox_vm_open(JoxVm *vm, JoxVmGroup *group, lua_CFunction open) {
     JOX_ASSERT(!vm->L && !vm->group);
     vm->group = group;
     vm->L = lua_newstate(allocate, vm);
     if (!vm->L)
-        return false;
+        jox_out_of_memory(0);
+    jox_hold(vm->L, release_state);
+    lua_atpanic(vm->L, panic);
     *(JoxVm **)lua_getextraspace(vm->L) = vm;
     lua_pushcfunction(vm->L, open);
     bool good = lua_pcall(vm->L, 0, 0, 0) == LUA_OK;
+    if (!good && vm->no_memory)
+        jox_out_of_memory(0);
     JOX_ASSERT(!good || lua_gettop(vm->L) == 0);
     return good;
 }
 
 void jox_vm_close(JoxVm *vm) {
     JOX_ASSERT(!vm->running);
-    if (vm->L)
-        lua_close(vm->L);
+    jox_let_go(vm->L);
+    lua_close(vm->L);
     JOX_ASSERT(vm->used == 0);
     for (size_t i = 0; i < vm->name_count; i++)
         jox_free(vm->names[i]);
@@ -371,6 +385,8 @@ bool jox_vm_call(JoxVm *vm, int arguments, int results, uint64_t instructions, c
         lua_remove(vm->L, handler);
         return true;
     }
+    if (vm->no_memory)
+        jox_out_of_memory(0);
     static _Thread_local char text[512];
     *line = 0;
     *why = text;

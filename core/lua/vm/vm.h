@@ -25,6 +25,7 @@ typedef struct JoxVm {
     uint64_t left;      /* instructions until it is stopped */
     bool over;          /* sticky: every further instruction fails */
     bool starved;       /* it is over for want of memory; sticky too */
+    bool no_memory;     /* the machine had none when it last asked for more */
     bool running;       /* within jox_vm_call */
     bool loading;       /* a file is loaded: a clock counts besides the instructions */
     bool untimed;       /* no budget is shared by the calls of a step, and no clock looks on */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/mem.h"
+#include "base/sort.h"
 #include "record/probes/probe_parts.h"
 
 static const double TAIL = 0.2; /* share of the passages left out at either end */
@@ -115,7 +116,8 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_free(lapses);
 }
 
-static int by_time(const void *a, const void *b) {
+static int by_time(const void *a, const void *b, const void *context) {
+    (void)context;
     const Crossing *x = a, *y = b;
     if (x->time != y->time)
         return x->time < y->time ? -1 : 1;
@@ -128,7 +130,7 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     Crossing *sorted = jox_alloc(f->count + 1, sizeof *sorted);
     for (uint32_t c = 0; c < f->count; c++)
         sorted[c] = f->crossings[c];
-    qsort(sorted, f->count, sizeof *sorted, by_time);
+    jox_sort(sorted, f->count, sizeof *sorted, by_time, NULL, NULL);
     fputs("time [s],person,direction,passages,lapse [s]\n", out);
     double before = NAN;
     uint32_t passed = 0;

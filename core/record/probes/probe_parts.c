@@ -4,6 +4,8 @@
 
 #include "record/probes/probe_parts.h"
 
+#include "base/sort.h"
+
 void jox_figure_add(JoxFigures *figures, const char *name, const char *unit, double value) {
     if (figures->count < JOX_MOST_FIGURES)
         figures->items[figures->count++] = (struct JoxFigure){name, unit, value};
@@ -16,15 +18,10 @@ void jox_plot_nothing(JoxText *out, const char *why) {
                     why);
 }
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 double jox_quantile(double *values, size_t count, double q) {
     if (count == 0)
         return NAN;
-    qsort(values, count, sizeof *values, ascending);
+    jox_sort_doubles(values, count);
     double rank = q * (double)(count - 1);
     size_t below = (size_t)rank;
     if (below + 1 >= count)

@@ -46,13 +46,19 @@ static void digest_file(const char *path, char digest[65]) {
     jox_free(text);
 }
 
+static void release(void *watch) {
+    close(((JoxWatch *)watch)->inotify);
+}
+
 JoxWatch *jox_watch_create(void) {
-    int inotify = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
-    if (inotify < 0)
-        return NULL;
     JoxWatch *watch = jox_alloc(1, sizeof *watch);
+    int inotify = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    if (inotify < 0) {
+        jox_free(watch);
+        return NULL;
+    }
     watch->inotify = inotify;
-    return watch;
+    return jox_hold(watch, release);
 }
 
 static bool is_folder(const char *path) {
@@ -197,7 +203,8 @@ void jox_watch_wait(JoxWatch *watch, int other, double seconds, JoxChanged *chan
 void jox_watch_free(JoxWatch *watch) {
     if (!watch)
         return;
-    close(watch->inotify);
+    jox_let_go(watch);
+    release(watch);
     for (size_t i = 0; i < watch->count; i++)
         jox_free(watch->files[i].path);
     jox_free(watch->files);

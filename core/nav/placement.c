@@ -14,23 +14,23 @@ static const float STANDING = 0.7f;  /* the same of those whom the next step doe
 static const float FARTHEST = 25.0f; /* m: how far a free spot is looked for */
 
 /* A hash of cells to the agents that already have their spot. */
-typedef struct Taken {
+typedef struct Occupied {
     const JoxAgents *agents;
     float cell;
     uint32_t mask;
     uint32_t *head, *next; /* by bucket; by agent index */
-} Taken;
+} Occupied;
 
-static uint32_t bucket_of(const Taken *t, int32_t x, int32_t y) {
+static uint32_t bucket_of(const Occupied *t, int32_t x, int32_t y) {
     uint32_t h = (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u;
     return (h ^ h >> 15) & t->mask;
 }
 
-static int32_t cell_of(const Taken *t, float at) {
+static int32_t cell_of(const Occupied *t, float at) {
     return (int32_t)floorf(at / t->cell);
 }
 
-static void take(Taken *t, uint32_t i) {
+static void occupy(Occupied *t, uint32_t i) {
     uint32_t b = bucket_of(t, cell_of(t, t->agents->x[i]), cell_of(t, t->agents->y[i]));
     t->next[i] = t->head[b];
     t->head[b] = i;
@@ -51,7 +51,7 @@ static bool in_wall(const JoxWallGrid *grid, JoxV2 p, float clear) {
     return jox_walls_contain(grid->walls, p);
 }
 
-static bool is_free(const Taken *t, const JoxWallGrid *grid, JoxV2 p, float radius) {
+static bool is_free(const Occupied *t, const JoxWallGrid *grid, JoxV2 p, float radius) {
     const JoxAgents *a = t->agents;
     int32_t cx = cell_of(t, p.x), cy = cell_of(t, p.y);
     for (int32_t y = cy - 1; y <= cy + 1; y++)
@@ -78,8 +78,8 @@ static bool sees(const JoxWalls *walls, JoxV2 p, JoxV2 q, float near) {
 
 /* Spots on a spiral about p, half a radius apart, the first free one; `in_sight`: not beyond walls
    other than those that p stands in. */
-static bool find_spot(const Taken *t, const JoxWallGrid *grid, JoxV2 p, float radius, bool in_sight,
-                      JoxV2 *spot) {
+static bool find_spot(const Occupied *t, const JoxWallGrid *grid, JoxV2 p, float radius,
+                      bool in_sight, JoxV2 *spot) {
     float step = jox_maxf(radius * 0.5f, 0.05f);
     float angle = 0.0f, distance = step;
     while (distance < FARTHEST) {
@@ -95,8 +95,8 @@ static bool find_spot(const Taken *t, const JoxWallGrid *grid, JoxV2 p, float ra
 }
 
 /* Looks for a free spot for an agent that has none where it is. */
-static void put(Taken *t, JoxNav *nav, JoxAgents *a, uint32_t i, bool in_sight,
-                JoxSettled *result) {
+static void relocate(Occupied *t, JoxNav *nav, JoxAgents *a, uint32_t i, bool in_sight,
+                     JoxPlacement *result) {
     JoxV2 p = {a->x[i], a->y[i]}, spot;
     float radius = a->param[JOX_PARAM_radius][i];
     if (!(in_sight && find_spot(t, &nav->grid, p, radius, true, &spot)) &&
@@ -111,19 +111,20 @@ static void put(Taken *t, JoxNav *nav, JoxAgents *a, uint32_t i, bool in_sight,
     nav->drift = INFINITY; /* the order in memory no longer follows space */
 }
 
-static void begin_at(JoxAgents *a, uint32_t i) {
+static void start_at(JoxAgents *a, uint32_t i) {
     a->prev_x[i] = a->still_x[i] = a->x[i];
     a->prev_y[i] = a->still_y[i] = a->y[i];
 }
 
-JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *a, uint32_t first_id, bool walls_came) {
-    JoxSettled result = {0};
+JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *a, uint32_t first_id,
+                                       bool walls_came) {
+    JoxPlacement result = {0};
     float widest = 0.0f;
     for (uint32_t i = 0; i < a->count; i++)
         widest = jox_maxf(widest, a->param[JOX_PARAM_radius][i]);
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, jox_maxf(widest, 1.0f));
-    Taken t = {.agents = a, .cell = 2.0f * jox_maxf(widest, 0.1f), .mask = 1023};
+    Occupied t = {.agents = a, .cell = 2.0f * jox_maxf(widest, 0.1f), .mask = 1023};
     while (t.mask < a->count)
         t.mask = t.mask * 2 + 1;
     t.head = jox_alloc((size_t)t.mask + 1, sizeof *t.head);
@@ -136,7 +137,7 @@ JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *a, uint32_t first_id, bool wal
         if (walls_came && !moves[i])
             moves[i] = in_wall(&nav->grid, p, STANDING * a->param[JOX_PARAM_radius][i]);
         if (!moves[i])
-            take(&t, i);
+            occupy(&t, i);
     }
     for (uint32_t rank = 0; rank < a->count; rank++) {
         uint32_t i = a->by_rank[rank], id = a->id[i];
@@ -144,9 +145,9 @@ JoxSettled jox_nav_settle(JoxNav *nav, JoxAgents *a, uint32_t first_id, bool wal
             continue;
         JoxV2 p = {a->x[i], a->y[i]};
         if (id < first_id || !is_free(&t, &nav->grid, p, a->param[JOX_PARAM_radius][i]))
-            put(&t, nav, a, i, id < first_id, &result);
-        begin_at(a, i);
-        take(&t, i);
+            relocate(&t, nav, a, i, id < first_id, &result);
+        start_at(a, i);
+        occupy(&t, i);
     }
     jox_free(t.head);
     jox_free(t.next);

@@ -1,0 +1,394 @@
+/* Lua tables as trees for base/patch.h: the machine's table, whose transitions go by their ids.
+   Tables are copied where they change, for a file may use one table in several places. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/sort.h"
+#include "lua/language/vocabulary.h"
+#include "lua/patch_tree.h"
+#include "lua/read.h"
+
+int jox_nodes_push_value(JoxLuaNodes *n, void *node) {
+    JOX_ASSERT((intptr_t)node >= 1 && (intptr_t)node <= n->count);
+    jox_vm_charge(n->L, 5);
+    lua_rawgeti(n->L, n->list, (intptr_t)node);
+    return lua_gettop(n->L);
+}
+
+void *jox_nodes_pop_value(JoxLuaNodes *n) {
+    if (lua_isnil(n->L, -1)) {
+        lua_pop(n->L, 1);
+        return NULL;
+    }
+    lua_rawseti(n->L, n->list, ++n->count);
+    return (void *)(intptr_t)n->count;
+}
+
+static void *pop_to(JoxLuaNodes *n, int top) {
+    void *node = jox_nodes_pop_value(n);
+    lua_settop(n->L, top);
+    return node;
+}
+
+static void fail(JoxLuaNodes *n, const char *from, const char *code, const char *hint,
+                 const char *message, const char *name) {
+    JoxPosition at = jox_outline_at(n->script->vm.sources[n->source], from);
+    jox_diag_error(n->script->diagnostics, at, code, hint, message, name);
+}
+
+/* Pushes a copy of the table at `index`, its items shared. */
+static void push_copy(lua_State *L, int index) {
+    lua_newtable(L);
+    int copy = lua_gettop(L);
+    lua_pushnil(L);
+    while (lua_next(L, index)) {
+        jox_vm_charge(L, 5);
+        lua_pushvalue(L, -2);
+        lua_insert(L, -2);
+        lua_rawset(L, copy);
+    }
+}
+
+/* Whether the table at `index` is a list and nothing else. */
+static bool is_list(lua_State *L, int index) {
+    bool list = lua_type(L, index) == LUA_TTABLE && lua_rawlen(L, index) > 0;
+    if (!list)
+        return false;
+    for (lua_pushnil(L); list && lua_next(L, index); lua_pop(L, 1)) {
+        jox_vm_charge(L, 1);
+        list = lua_isinteger(L, -2) != 0;
+        if (!list) {
+            lua_pop(L, 2);
+            break;
+        }
+    }
+    return list;
+}
+
+/* ---- the operations of a tree ---- */
+
+static JoxPatchKind kind(void *c, void *node) {
+    JoxLuaNodes *n = c;
+    const int at = jox_nodes_push_value(n, node);
+    const JoxNode *value = jox_node_get(n->L, at);
+    const JoxPatchKind result = value && value->kind == JOX_NODE_NONE ? JOX_PATCH_NOTHING
+                                : lua_type(n->L, at) != LUA_TTABLE    ? JOX_PATCH_LEAF
+                                : is_list(n->L, at)                   ? JOX_PATCH_LIST
+                                                                      : JOX_PATCH_MAP;
+    lua_settop(n->L, at - 1);
+    return result;
+}
+
+static void *copy(void *c, void *node) {
+    JoxLuaNodes *n = c;
+    const int at = jox_nodes_push_value(n, node);
+    push_copy(n->L, at);
+    return pop_to(n, at - 1);
+}
+
+/* The string keys of a table, sorted. Others are an error, but for items where they may stand. */
+static uint32_t keys(void *c, void *map, const char *path, const char *from,
+                     const char *const **names) {
+    JoxLuaNodes *n = c;
+    lua_State *L = n->L;
+    const int at = jox_nodes_push_value(n, map);
+    const bool items = path && *path && strcmp(path, "states") != 0;
+    size_t count = 0, most = 0;
+    bool odd = false;
+    for (lua_pushnil(L); lua_next(L, at); lua_pop(L, 1))
+        most++;
+    jox_vm_charge(L, 50 * most);
+    const char **found = lua_newuserdatauv(L, (most + 1) * sizeof *found, 0);
+    for (lua_pushnil(L); lua_next(L, at); lua_pop(L, 1))
+        if (lua_type(L, -2) == LUA_TSTRING)
+            found[count++] = lua_tostring(L, -2); /* the table holds it */
+        else
+            odd |= !items || !lua_isinteger(L, -2);
+    if (odd)
+        fail(n, from, "bad-key", "Example: states = { Walk = { push = 5 } }",
+             "this table of a patch takes names as keys%s", "");
+    jox_sort_texts(found, count);
+    *names = found;
+    pop_to(n, at - 1); /* kept with the nodes, as long as they */
+    return (uint32_t)count;
+}
+
+static void *get(void *c, void *map, const char *key) {
+    JoxLuaNodes *n = c;
+    const int at = jox_nodes_push_value(n, map);
+    jox_read_field(n->L, at, key);
+    return pop_to(n, at - 1);
+}
+
+static void set(void *c, void *map, const char *key, const JoxPatchPlace *place, void *value) {
+    (void)place;
+    JoxLuaNodes *n = c;
+    const int at = jox_nodes_push_value(n, map);
+    lua_pushstring(n->L, key);
+    jox_nodes_push_value(n, value);
+    lua_rawset(n->L, at);
+    lua_settop(n->L, at - 1);
+}
+
+static void remove_key(void *c, void *map, const char *key) {
+    JoxLuaNodes *n = c;
+    const int at = jox_nodes_push_value(n, map);
+    lua_pushstring(n->L, key);
+    lua_pushnil(n->L);
+    lua_rawset(n->L, at);
+    lua_settop(n->L, at - 1);
+}
+
+static uint32_t count(void *c, void *node) {
+    JoxLuaNodes *n = c;
+    const int at = jox_nodes_push_value(n, node);
+    const uint32_t items = lua_istable(n->L, at) ? (uint32_t)lua_rawlen(n->L, at) : 0;
+    lua_settop(n->L, at - 1);
+    return items;
+}
+
+static void *item(void *c, void *node, uint32_t i) {
+    JoxLuaNodes *n = c;
+    const int at = jox_nodes_push_value(n, node);
+    lua_rawgeti(n->L, at, (lua_Integer)i + 1);
+    return pop_to(n, at - 1);
+}
+
+/* What is taken away is `false` until it is swept. */
+static void put(void *c, void *node, uint32_t i, void *value) {
+    JoxLuaNodes *n = c;
+    const int at = jox_nodes_push_value(n, node);
+    if (value)
+        jox_nodes_push_value(n, value);
+    else
+        lua_pushboolean(n->L, 0);
+    lua_rawseti(n->L, at, (lua_Integer)i + 1);
+    lua_settop(n->L, at - 1);
+}
+
+static void insert(void *c, void *node, uint32_t i, void *value) {
+    JoxLuaNodes *n = c;
+    const int at = jox_nodes_push_value(n, node);
+    const lua_Integer length = (lua_Integer)lua_rawlen(n->L, at), place = (lua_Integer)i + 1;
+    JOX_ASSERT(place <= length + 1);
+    for (lua_Integer k = length; k >= place; k--) {
+        jox_vm_charge(n->L, 2);
+        lua_rawgeti(n->L, at, k);
+        lua_rawseti(n->L, at, k + 1);
+    }
+    jox_nodes_push_value(n, value);
+    lua_rawseti(n->L, at, place);
+    lua_settop(n->L, at - 1);
+}
+
+static void sweep(void *c, void *node) {
+    JoxLuaNodes *n = c;
+    const int at = jox_nodes_push_value(n, node);
+    const lua_Integer length = (lua_Integer)lua_rawlen(n->L, at);
+    lua_Integer kept = 0;
+    for (lua_Integer k = 1; k <= length; k++) {
+        jox_vm_charge(n->L, 2);
+        if (lua_rawgeti(n->L, at, k) == LUA_TBOOLEAN)
+            lua_pop(n->L, 1);
+        else
+            lua_rawseti(n->L, at, ++kept);
+    }
+    for (lua_Integer k = kept + 1; k <= length; k++) {
+        lua_pushnil(n->L);
+        lua_rawseti(n->L, at, k);
+    }
+    lua_settop(n->L, at - 1);
+}
+
+static const char *text(void *c, void *leaf) {
+    JoxLuaNodes *n = c;
+    const int at = jox_nodes_push_value(n, leaf);
+    const char *result = lua_type(n->L, at) == LUA_TSTRING ? lua_tostring(n->L, at) : NULL;
+    lua_settop(n->L, at - 1); /* the list holds it */
+    return result;
+}
+
+/* The id of a transition, pushed; NULL where the item is none. */
+static const char *push_id(JoxLuaNodes *n, int state, lua_Integer i) {
+    jox_vm_charge(n->L, 10);
+    const bool table = lua_rawgeti(n->L, state, i) == LUA_TTABLE;
+    if (!table || jox_read_field(n->L, lua_gettop(n->L), "id") != LUA_TSTRING)
+        return NULL;
+    return lua_tostring(n->L, -1);
+}
+
+static bool is_item(void *c, void *node, uint32_t i, const char *id) {
+    JoxLuaNodes *n = c;
+    const int at = jox_nodes_push_value(n, node);
+    const char *own = push_id(n, at, (lua_Integer)i + 1);
+    const bool is = own && strcmp(own, id) == 0;
+    lua_settop(n->L, at - 1);
+    return is;
+}
+
+static bool is_taken(JoxLuaNodes *n, int state, const char *id) {
+    const int top = lua_gettop(n->L);
+    bool taken = false;
+    for (lua_Integer i = 1; i <= (lua_Integer)lua_rawlen(n->L, state) && !taken; i++) {
+        const char *own = push_id(n, state, i);
+        taken = own && strcmp(own, id) == 0;
+        lua_settop(n->L, top);
+    }
+    return taken;
+}
+
+/* A copy of a transition with an id of its own: the first that is free. */
+static void *admit(void *c, void *node, void *value, const char *path, const char *keep,
+                   const JoxPatchPlace *place, char id[JOX_PATCH_ID]) {
+    JoxLuaNodes *n = c;
+    lua_State *L = n->L;
+    const int state = jox_nodes_push_value(n, node), at = jox_nodes_push_value(n, value);
+    if (lua_type(L, at) != LUA_TTABLE)
+        fail(n, place->from, "bad-value", "Example: { to = \"Exit\", when = after(5) }",
+             "a transition must be a table, not %s", luaL_typename(L, at));
+    else if (lua_rawlen(L, state) >= 2 * JOX_MOST_TRANSITIONS)
+        fail(n, place->from, "too-many", "Split the state", "%s has too many transitions", path);
+    if (lua_type(L, at) != LUA_TTABLE || lua_rawlen(L, state) >= 2 * JOX_MOST_TRANSITIONS) {
+        lua_settop(L, state - 1);
+        return NULL;
+    }
+    push_copy(L, at);
+    if (keep)
+        snprintf(id, JOX_PATCH_ID, "%s", keep);
+    else
+        for (int nth = 1; jox_read_id(L, at, nth, id), is_taken(n, state, id);)
+            nth++;
+    lua_pushstring(L, id);
+    lua_setfield(L, at + 1, "id");
+    lua_pushvalue(L, at + 1);
+    return pop_to(n, state - 1);
+}
+
+static JoxPosition position(void *c, const JoxPatchPlace *at) {
+    const JoxLuaNodes *n = c;
+    return jox_outline_at(n->script->vm.sources[n->source], at->from);
+}
+
+/* Gives every transition of the state its id, as a copy of its own, and keeps where it stands. */
+static void name_transitions(JoxLuaNodes *n, int state, const char *path) {
+    lua_State *L = n->L;
+    const lua_Integer length = (lua_Integer)lua_rawlen(L, state);
+    char ids[JOX_MOST_TRANSITIONS][128];
+    for (lua_Integer i = 1; i <= length && i <= JOX_MOST_TRANSITIONS; i++) {
+        ids[i - 1][0] = 0;
+        if (lua_rawgeti(L, state, i) == LUA_TTABLE) {
+            bool taken = true;
+            for (int nth = 1; taken; nth++) { /* as without patches */
+                taken = false;
+                jox_read_id(L, lua_gettop(L), nth, ids[i - 1]);
+                for (lua_Integer o = 1; o < i; o++)
+                    taken |= strcmp(ids[o - 1], ids[i - 1]) == 0;
+            }
+            push_copy(L, lua_gettop(L));
+            lua_pushstring(L, ids[i - 1]);
+            lua_setfield(L, -2, "id");
+            lua_rawseti(L, state, i);
+            char mark[160], canonical[256], number[24];
+            snprintf(mark, sizeof mark, "@%.60s", ids[i - 1]);
+            snprintf(number, sizeof number, "%lld", (long long)i);
+            jox_read_join(canonical, path, mark);
+            jox_origin_keep(n->script, path, number, canonical);
+        }
+        lua_pop(L, 1);
+    }
+}
+
+/* A state is the one table whose items go by ids: its transitions. */
+static bool enter(void *c, void *node, void *change, const char *path, const char *from,
+                  int depth) {
+    JoxLuaNodes *n = c;
+    if (depth != 2 || strncmp(path, "states.", 7) != 0)
+        return false;
+    if (count(c, change) > 0)
+        fail(n, from, "bad-patch",
+             "Say where: insert_before = { ID = {...} }, insert_after, replace, change, append, "
+             "or remove = { \"ID\" }",
+             "%s: transitions of a patch need a place", path);
+    const int state = jox_nodes_push_value(n, node);
+    name_transitions(n, state, path);
+    lua_settop(n->L, state - 1);
+    return true;
+}
+
+/* Reports a patch of a state that is not there, where it is one and not a new state: it has verbs.
+ */
+static bool skips(void *c, void *node, const JoxPatchPlace *at, int depth) {
+    JoxLuaNodes *n = c;
+    bool verbs = false;
+    if (depth != 1 || strncmp(at->from, "states.", 7) != 0 || get(c, node, at->key))
+        return false;
+    const JoxPatchKind is = kind(c, at->value);
+    for (int v = 0; (is == JOX_PATCH_MAP || is == JOX_PATCH_LIST) && v < JOX_PATCH_VERBS; v++)
+        verbs |= get(c, at->value, jox_patch_verbs[v]) != NULL;
+    if (!verbs)
+        return false;
+    const char *const *names;
+    char hint[96];
+    const uint32_t known = keys(c, node, "states", at->from, &names);
+    fail(n, at->from, "unknown-state",
+         jox_did_you_mean(at->key, names, known < 64 ? known : 64, hint),
+         "there is no state '%s' to change", at->key);
+    return true;
+}
+
+static void missing(void *c, void *node, const char *name, const JoxPatchPlace *at,
+                    bool transition) {
+    JoxLuaNodes *n = c;
+    if (!transition) {
+        fail(n, at->from, "unknown-key", NULL, "there is no '%s' to take away", name);
+        return;
+    }
+    const char *names[JOX_MOST_TRANSITIONS];
+    char hint[96];
+    size_t known = 0;
+    const int state = jox_nodes_push_value(n, node);
+    for (lua_Integer i = 1; i <= (lua_Integer)lua_rawlen(n->L, state); i++) {
+        const char *id = push_id(n, state, i);
+        if (id && known < JOX_MOST_TRANSITIONS)
+            names[known++] = jox_vm_intern(&n->script->vm, id);
+        lua_settop(n->L, state);
+    }
+    lua_settop(n->L, state - 1);
+    fail(n, at->from, "unknown-transition", jox_did_you_mean(name, names, known, hint),
+         "this state has no transition '%s'", name);
+}
+
+static void misused(void *c, JoxPatchVerb verb, const JoxPatchPlace *at) {
+    if (strcmp(at->key, jox_patch_verbs[verb]) == 0)
+        fail(c, at->from, "bad-value",
+             "Example: remove = { \"Exit\" }, change = { Exit = { ... } }", "'%s' must be a table",
+             at->key);
+    else
+        fail(c, at->from, "bad-value", "Example: change = { Exit = { chance = 0.5 } }",
+             "the change of '%s' must be a table", at->key);
+}
+
+const JoxPatchTree jox_lua_tree = {.kind = kind,
+                                   .copy = copy,
+                                   .keys = keys,
+                                   .get = get,
+                                   .set = set,
+                                   .remove = remove_key,
+                                   .count = count,
+                                   .item = item,
+                                   .put = put,
+                                   .insert = insert,
+                                   .sweep = sweep,
+                                   .text = text,
+                                   .is_item = is_item,
+                                   .admit = admit,
+                                   .position = position,
+                                   .enter = enter,
+                                   .skips = skips,
+                                   .missing = missing,
+                                   .misused = misused,
+                                   .item_mark = "@",
+                                   .verbs = (1u << JOX_PATCH_VERBS) - 1,
+                                   .lists_merge = true,
+                                   .deepest = 8};

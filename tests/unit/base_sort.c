@@ -1,0 +1,86 @@
+/* The sort: order, stability, spare room. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/mem.h"
+#include "base/sort.h"
+
+enum { MOST = 1000 };
+
+typedef struct Item {
+    uint32_t key, place;
+} Item;
+
+static int by_key(const void *a, const void *b, const void *context) {
+    const Item *x = a, *y = b;
+    const int sign = *(const int *)context;
+    return sign * ((x->key > y->key) - (x->key < y->key));
+}
+
+static void fill(Item *items, uint32_t count, uint32_t form) {
+    uint32_t random = 1;
+    for (uint32_t i = 0; i < count; i++) {
+        random = random * 1664525u + 1013904223u;
+        const uint32_t keys[] = {random >> 28, i, count - i, 7, random >> 12};
+        items[i] = (Item){keys[form], i};
+    }
+}
+
+static void equal_items_keep_their_order(void **state) {
+    (void)state;
+    static Item items[MOST], spare[JOX_SORT_SPARE(MOST) + 1];
+    for (uint32_t count = 0; count <= MOST; count += count < 40 ? 1 : 191)
+        for (uint32_t form = 0; form < 5; form++)
+            for (int sign = -1; sign <= 1; sign += 2) {
+                fill(items, count, form);
+                spare[JOX_SORT_SPARE(count)] = (Item){4711, 4712}; /* beyond the room */
+                jox_sort(items, count, sizeof *items, by_key, &sign, form % 2 ? spare : NULL);
+                for (uint32_t i = 1; i < count; i++) {
+                    int order = by_key(&items[i - 1], &items[i], &sign);
+                    assert_true(order < 0 || (order == 0 && items[i - 1].place < items[i].place));
+                }
+                assert_int_equal(spare[JOX_SORT_SPARE(count)].place, 4712);
+                uint64_t sum = 0; /* nothing is lost or doubled */
+                for (uint32_t i = 0; i < count; i++)
+                    sum += (uint64_t)items[i].place * items[i].place;
+                assert_true(count == 0 ||
+                            sum == (uint64_t)(count - 1) * count * (2 * count - 1) / 6);
+            }
+}
+
+static void a_step_allocates_nothing(void **state) {
+    (void)state;
+    static Item items[MOST], spare[JOX_SORT_SPARE(MOST)];
+    const int sign = 1;
+    fill(items, MOST, 4);
+    uint64_t before = jox_alloc_count();
+    jox_sort(items, MOST, sizeof *items, by_key, &sign, spare);
+    assert_true(jox_alloc_count() == before);
+}
+
+static void numbers_and_texts(void **state) {
+    (void)state;
+    double values[] = {NAN, 2, -INFINITY, NAN, 1, 0.5};
+    const char *texts[] = {"b", "", "ab", "a"};
+    jox_sort_doubles(values, 6);
+    assert_true(values[0] < 0 && values[1] == 0.5 && values[2] == 1 && values[3] == 2);
+    assert_true(isnan(values[4]) && isnan(values[5]));
+    jox_sort_texts(texts, 4);
+    assert_string_equal(texts[0], "");
+    assert_string_equal(texts[1], "a");
+    assert_string_equal(texts[2], "ab");
+    assert_string_equal(texts[3], "b");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(equal_items_keep_their_order),
+                                       cmocka_unit_test(a_step_allocates_nothing),
+                                       cmocka_unit_test(numbers_and_texts)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
