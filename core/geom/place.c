@@ -185,7 +185,7 @@ static const JoxPlaceKindInfo *kind_of(const JoxPlace *place) {
     return &jox_place_kinds[place->kind];
 }
 
-JoxOutline jox_place_outline(const JoxPlace *place) {
+JoxPlaceOutline jox_place_outline(const JoxPlace *place) {
     return kind_of(place)->outline;
 }
 

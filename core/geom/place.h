@@ -30,18 +30,18 @@ typedef struct JoxPlace {
 } JoxPlace;
 
 /* How a place is drawn, and which of its points are a goal. */
-typedef enum JoxOutline {
+typedef enum JoxPlaceOutline {
     JOX_OUTLINE_NONE,   /* nothing of its own */
     JOX_OUTLINE_CIRCLE, /* of `radius` about points[0] */
     JOX_OUTLINE_OPEN,   /* a polyline */
     JOX_OUTLINE_RING    /* a closed one */
-} JoxOutline;
+} JoxPlaceOutline;
 
 /* What a kind of place is: a scene is read, and places are drawn, by this. */
 typedef struct JoxPlaceKindInfo {
     const char *name; /* its key in a scene */
     uint32_t least_points, most_points;
-    JoxOutline outline;
+    JoxPlaceOutline outline;
     uint32_t goal_points; /* points[0 .. n - 1] are walked to; 0: all of them */
     JoxV2 (*centre)(const JoxPlace *place);
     bool (*contains)(const JoxPlace *places, const JoxPlace *place, JoxV2 point);
@@ -50,7 +50,7 @@ typedef struct JoxPlaceKindInfo {
 } JoxPlaceKindInfo;
 extern const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS];
 
-JoxOutline jox_place_outline(const JoxPlace *place);
+JoxPlaceOutline jox_place_outline(const JoxPlace *place);
 /* How many of its points, from the first, are walked to. */
 uint32_t jox_place_goal_points(const JoxPlace *place);
 /* Its radius in metres where it has one, else 0. */

@@ -55,17 +55,8 @@ static void add_places(JoScene *scene) {
                 extra += spec->groups[g].count;
     scene->place_capacity = spec->place_count + extra;
     JoxPlace *places = jox_alloc(scene->place_capacity + 1, sizeof *places);
-    for (uint32_t i = 0; i < spec->place_count; i++) {
-        const JoxPlace *from = &spec->places[i];
-        places[i] = *from;
-        places[i].name = jox_strdup(from->name);
-        places[i].points = jox_alloc(from->count + 1, sizeof *from->points);
-        if (from->count)
-            memcpy(places[i].points, from->points, from->count * sizeof *from->points);
-        places[i].members = jox_alloc(from->member_count + 1, sizeof *from->members);
-        if (from->member_count)
-            memcpy(places[i].members, from->members, from->member_count * sizeof *from->members);
-    }
+    for (uint32_t i = 0; i < spec->place_count; i++)
+        places[i] = jox_place_copy(&spec->places[i]);
     scene->first_antipode = spec->place_count;
     jox_world_set_places(scene->world, places, spec->place_count);
     scene->scope = (JoxScope){.places = places,
@@ -101,8 +92,6 @@ static void complain(void *context, const char *text) {
 
 static JoxLuaLimits script_limits(const JoxSceneSpec *spec) {
     JoxLuaLimits limits = jox_lua_default_limits();
-    if (!spec->limits.given)
-        return limits;
     limits.hook_instructions = (uint64_t)spec->limits.instructions;
     limits.step_instructions = (uint64_t)spec->limits.step_instructions;
     limits.load_instructions = (uint64_t)spec->limits.load_instructions;
@@ -113,7 +102,7 @@ static JoxLuaLimits script_limits(const JoxSceneSpec *spec) {
     return limits;
 }
 
-/* Plan and world, with the first `count` mods. */
+/* Specification and world, with the first `count` mods. */
 static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
                   JoxDiagnostics *diagnostics) {
     if (def->input_log)
@@ -174,10 +163,10 @@ static void keep_def(JoScene *scene, const JoSceneDef *def) {
     own->text = NULL; /* what stands in memory is not edited */
     own->mods = NULL; /* found already */
     own->mod_count = 0;
-    scene->plan_file_count = scene->spec->file_count;
-    scene->plan_files = jox_alloc(scene->plan_file_count + 1, sizeof *scene->plan_files);
-    for (uint32_t f = 0; f < scene->plan_file_count; f++)
-        scene->plan_files[f] = jox_strdup(scene->spec->files[f].path);
+    scene->spec_file_count = scene->spec->file_count;
+    scene->spec_files = jox_alloc(scene->spec_file_count + 1, sizeof *scene->spec_files);
+    for (uint32_t f = 0; f < scene->spec_file_count; f++)
+        scene->spec_files[f] = jox_strdup(scene->spec->files[f].path);
 }
 
 static void free_def(JoScene *scene) {
@@ -186,9 +175,9 @@ static void free_def(JoScene *scene) {
     for (size_t i = 0; scene->def.overrides && i < scene->def.override_count; i++)
         jox_free((char *)scene->def.overrides[i]);
     jox_free((char **)scene->def.overrides);
-    for (uint32_t f = 0; f < scene->plan_file_count; f++)
-        jox_free(scene->plan_files[f]);
-    jox_free(scene->plan_files);
+    for (uint32_t f = 0; f < scene->spec_file_count; f++)
+        jox_free(scene->spec_files[f]);
+    jox_free(scene->spec_files);
 }
 
 static void to_nobody(void *context, const char *text) {

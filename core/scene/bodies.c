@@ -54,8 +54,8 @@ static bool read_counts(const JoxReader *r, const JoxKey *key, const JoxYaml *no
         }
     if (count[0] * count[1] * count[2] <= MOST_COPIES)
         return true;
-    jox_scene_error(r, node, "out-of-range", NULL, "a body has at most %d %s, not %.0f", MOST_COPIES,
-                    what, count[0] * count[1] * count[2]);
+    jox_scene_error(r, node, "out-of-range", NULL, "a body has at most %d %s, not %.0f",
+                    MOST_COPIES, what, count[0] * count[1] * count[2]);
     return false;
 }
 
@@ -78,15 +78,14 @@ void jox_key_block_mass(const JoxReader *r, const JoxKey *key, const JoxYaml *no
     r->load->block_mass = jox_key_number(r, key, node);
 }
 
-bool jox_finish_part(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
-    const JoxBodyPart *part = item;
-    const bool compound = part->shape.kind == JOX_SHAPE_COMPOUND;
-    if (good && (compound || part->shape.kind == JOX_SHAPE_BLOCKS)) {
-        jox_scene_error(r, jox_yaml_get(map, "shape"), "bad-shape", NULL, "a part cannot be %s",
+/* A part is a simple shape: this ends the recursion. */
+void jox_key_part_shape(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    const bool compound = jox_yaml_get(node, "compound") != NULL;
+    if (compound || jox_yaml_get(node, "blocks"))
+        jox_scene_error(r, node, "bad-shape", NULL, "a part cannot be %s",
                         compound ? "a compound" : "glued blocks");
-        return false;
-    }
-    return good;
+    else
+        jox_keys_fill(r, node, key->of, &((JoxBodyPart *)item)->shape);
 }
 
 /* The whole has a mass or a density, or each block has a mass. */
@@ -101,9 +100,9 @@ static void set_mass(const JoxReader *r, const JoxYaml *map, JoxLoadBody *load) 
     if (def->shape.kind != JOX_SHAPE_BLOCKS || !isfinite(each))
         return;
     if (jox_yaml_get(map, "mass") || jox_yaml_get(map, "density"))
-        jox_scene_error(r, jox_yaml_get(jox_yaml_get(jox_yaml_get(map, "shape"), "blocks"), "block_mass"),
-                        "bad-body", NULL,
-                        "the body has a mass or a density, or its blocks have: not both");
+        jox_scene_error(
+            r, jox_yaml_get(jox_yaml_get(jox_yaml_get(map, "shape"), "blocks"), "block_mass"),
+            "bad-body", NULL, "the body has a mass or a density, or its blocks have: not both");
     def->density = 0;
     def->mass = each * def->shape.count[0] * def->shape.count[1] * def->shape.count[2];
 }

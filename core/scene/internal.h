@@ -5,7 +5,7 @@
 #define JOX_SCENE_INTERNAL_H
 
 #include "scene/scene.h"
-#include "scene/schema.h"
+#include "scene/format/schema.h"
 
 typedef struct JoxLoad {
     JoxReader reader;
@@ -43,7 +43,8 @@ typedef struct JoxLoadBody {
 /* names.c. Index by name, or -1 with an error that suggests one. */
 int32_t jox_load_place(const JoxReader *reader, const JoxYaml *name);
 int32_t jox_load_group(const JoxReader *reader, const JoxYaml *name);
-/* An index in an int32_t, -1 where the key is missing or wrong; a text that must be a name; tags. */
+/* An index in an int32_t, -1 where the key is missing or wrong; a text that must be a name; tags.
+ */
 JoxKeyRead jox_key_place, jox_key_group, jox_key_name, jox_key_tags;
 
 /* outlines.c. A polygon's corners, counter-clockwise; NULL, and no points, with an error. */
@@ -68,8 +69,9 @@ JoxOwnerFinish jox_finish_camera;
 JoxKeyRead jox_key_walls, jox_key_wall_points, jox_key_wall_file;
 
 /* bodies.c */
-JoxKeyRead jox_key_bodies, jox_key_turn, jox_key_hull, jox_key_block_count, jox_key_block_mass, jox_key_copies;
-JoxOwnerFinish jox_finish_part;
+JoxKeyRead jox_key_bodies, jox_key_turn, jox_key_hull, jox_key_block_count, jox_key_block_mass,
+    jox_key_copies;
+JoxKeyRead jox_key_part_shape;
 
 /* groups.c, sets.c, populate.c */
 JoxKeyRead jox_key_behaviour, jox_key_mix, jox_key_values, jox_key_facing, jox_key_fills;

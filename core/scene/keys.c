@@ -46,7 +46,7 @@
 /* clang-format off */
 static const JoxKey KEYS[] = {
     {"scene", "jostle", WHOLE, "", 1, 1, "!", CHECKED, .meaning = "version of the format"},
-    {"scene", "include", NAMES, "", 0, 0, "", EARLIER("scene/yaml.c"),
+    {"scene", "include", NAMES, "", 0, 0, "", EARLIER("scene/format/yaml.c"),
      .meaning = "scenes beside this one that give what it lacks; maps are joined key by key, and a map in place of a list changes its items by their `name`"},
     {"scene", "title", TEXT, "", 0, 0, "", TO(JoxSceneSpec, title), .meaning = "what people see"},
     {"scene", "seed", WHOLE, "", 0, 9e15, "1", TO(JoxSceneSpec, seed), .meaning = "of all random numbers"},
@@ -86,8 +86,8 @@ static const JoxKey KEYS[] = {
     {"scene", "sinks", LIST, "", 0, 0, "", ITEMS(JoxSceneSpec, sinks, sink_count), .of = "sink[]", .meaning = "where agents leave"},
     {"scene", "player", TEXT, "", 0, 0, "", READ_TO(jox_key_group, JoxSceneSpec, player_group, player_group),
      .meaning = "group whose first agent a person drives"},
-    {"scene", "probes", TABLE, "", 0, 0, "", ITEMS(JoxSceneSpec, probes, probe_count), .of = "probe*", .meaning = "what is measured"},
-    {"scene", "events", LIST, "", 0, 0, "", ITEMS(JoxSceneSpec, events, event_count), .of = "event[]", .meaning = "what happens at given times"},
+    {"scene", "probes", TABLE, "", 0, 0, "", ITEMS(JoxSceneSpec, probes, probe_count), .example = "probes: {door: {flow: [[0, 0], [1, 0]]}}", .of = "probe*", .meaning = "what is measured"},
+    {"scene", "events", LIST, "", 0, 0, "", ITEMS(JoxSceneSpec, events, event_count), .example = "events: [{at: 20, open: gate}]", .of = "event[]", .meaning = "what happens at given times"},
 
     {"forces", "enabled", BOOL, "", 0, 0, "true", TO(JoxSceneSpec, forces), .meaning = "false: collision avoidance alone"},
     {"forces", "mode", TEXT, "", 0, 0, "physical", TO(JoxSceneSpec, literal), .choices = "physical|literal",
@@ -184,7 +184,7 @@ static const JoxKey KEYS[] = {
     {"blocks", "bond", NUMBER, "N", 0.001, 1e9, "!", TO(JoxShape, bond),
      .meaning = "force that breaks the glue between two blocks: tension and shear together; pressure never does"},
     {"blocks", "block_mass", NUMBER, "kg", 0.001, 1e6, "", READ(jox_key_block_mass), .meaning = "of one block, in place of the body's mass"},
-    {"part", "shape", TABLE, "", 0, 0, "!", TO(JoxBodyPart, shape), .of = "shape",
+    {"part", "shape", TABLE, "", 0, 0, "!", READ(jox_key_part_shape), .of = "shape",
      .meaning = "as of a body, but no compound"},
     {"part", "at", POINT3, "m", -FAR, FAR, "", TO(JoxBodyPart, position), .meaning = "in the body's frame"},
     {"part", "mass", NUMBER, "kg", 0.001, 1e7, "1", TO(JoxBodyPart, mass), .meaning = "of this part"},
@@ -290,10 +290,10 @@ static const JoxOwner OWNERS[] = {
      "usual. Names of groups, places and all else have letters of any script, digits, spaces, _, - and . (no space, "
      "- or . at the beginning).",
      .size = sizeof(JoxSceneSpec)},
-    {"forces", "forces", "What pushes between agents do."},
+    {"forces", "forces", "What pushes between agents do.", .size = 0},
     {"limits", "limits", "A script that needs more is stopped and named; the run goes on.",
      .size = sizeof(JoxSceneLimits)},
-    {"heatmap", "heatmap", "What the density map of a report shows."},
+    {"heatmap", "heatmap", "What the density map of a report shows.", .size = 0},
     {"camera", "camera", "Of the live page and of pictures; the simulation does not use it.",
      .size = sizeof(JoxSceneCamera), .finish = jox_finish_camera},
     {"view", "view", "Of the live page, `jostle run SCENE --view`; the simulation does not use it. A tool is "
@@ -310,17 +310,17 @@ static const JoxOwner OWNERS[] = {
      .size = sizeof(JoxLoadWall), .kind = AT(JoxLoadWall, kind)},
     {"body", "Bodies", "Each body of the list `bodies` is simulated by Bullet, and pushed by people.",
      .size = sizeof(JoxLoadBody)},
-    {"repeat", "repeat", "The first stands at the body's `at`. Copies of a body with a name are `NAME-1`, `NAME-2` and so on, along x first, then y, then z."},
+    {"repeat", "repeat", "The first stands at the body's `at`. Copies of a body with a name are `NAME-1`, `NAME-2` and so on, along x first, then y, then z.", .size = 0},
     {"shape", "Shapes", "A shape is a map with one key, its kind.",
      .size = sizeof(JoxShape), .kind = AT(JoxShape, kind), .hint = "{sphere: {radius: 0.1}}"},
-    {"box", "box", ""},
-    {"sphere", "sphere", ""},
-    {"cylinder", "cylinder", ""},
-    {"hull", "hull", ""},
+    {"box", "box", "", .size = 0},
+    {"sphere", "sphere", "", .size = 0},
+    {"cylinder", "cylinder", "", .size = 0},
+    {"hull", "hull", "", .size = 0},
     {"blocks", "blocks", "Blocks stand side by side and are glued face to face. While they hold they are one rigid body; "
-     "what people, ground and other bodies do to it loads the glue, and what comes apart goes on as bodies of their own, with the same tags."},
+     "what people, ground and other bodies do to it loads the glue, and what comes apart goes on as bodies of their own, with the same tags.", .size = 0},
     {"part", "part", "Each part stands at its own place of the body's frame.",
-     .size = sizeof(JoxBodyPart), .finish = jox_finish_part},
+     .size = sizeof(JoxBodyPart)},
     {"group", "Groups", "`groups` maps names to groups: agents that are made alike, so many (`count`, `density`) in "
      "some places (`in`), or `at` given points.",
      .size = sizeof(JoxSceneGroup), .name_at = AT(JoxSceneGroup, name),
@@ -333,9 +333,10 @@ static const JoxOwner OWNERS[] = {
     {"probe", "Probes", "`probes` maps names to probes; one key of each says what it measures. Their figures stand in the summary under `probes`; `--report DIR` adds DIR/NAME.csv, NAME.png and "
      "NAME.svg. `jostle report` measures recordings by them, those of real crowds too.",
      .size = sizeof(JoxProbeDef), .kind = AT(JoxProbeDef, kind), .name_at = AT(JoxProbeDef, name),
-     .hint = "{flow: [[0, 0], [1, 0]]}", .finish = jox_finish_probe},
-    {"map", "map", ""},
-    {"lanes", "lanes", "The ways are two groups where the probe names two; else the sign of the velocity."},
+     .hint = "{flow: [[0, 0], [1, 0]]}", .taken = "density|paths|regions|walls|danger|danger-map", /* of reports */
+     .finish = jox_finish_probe},
+    {"map", "map", "", .size = 0},
+    {"lanes", "lanes", "The ways are two groups where the probe names two; else the sign of the velocity.", .size = 0},
     {"event", "Events", "Each event of the list `events` does one thing at its time, once or again and again. Those of the "
      "same time are done in the order of the list.",
      .size = sizeof(JoxSceneEvent), .kind = AT(JoxSceneEvent, kind), .hint = "{at: 20, open: gate}",
@@ -359,6 +360,5 @@ const size_t jox_scene_alternative_count =
     sizeof jox_scene_alternatives / sizeof *jox_scene_alternatives;
 /* clang-format on */
 
-const JoxFormat jox_scene_format = {KEYS, sizeof KEYS / sizeof *KEYS,
-                                    OWNERS,
+const JoxFormat jox_scene_format = {KEYS, sizeof KEYS / sizeof *KEYS, OWNERS,
                                     sizeof OWNERS / sizeof *OWNERS};

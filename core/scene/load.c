@@ -26,11 +26,11 @@ JoxSceneSpec *jox_scene_load_text(const char *name, const char *text, size_t len
                                   const JoxSceneOptions *options, JoxDiagnostics *diagnostics) {
     JoxArena *arena = jox_arena_create();
     JoxYamlFiles *files = jox_arena_take(arena, 1, sizeof *files);
-    JoxLoad load = {.reader = {.arena = arena, .diagnostics = diagnostics,
-                               .format = &jox_scene_format},
-                    .scene = jox_alloc(1, sizeof(JoxSceneSpec)),
-                    .options = options,
-                    .files = files};
+    JoxLoad load = {
+        .reader = {.arena = arena, .diagnostics = diagnostics, .format = &jox_scene_format},
+        .scene = jox_alloc(1, sizeof(JoxSceneSpec)),
+        .options = options,
+        .files = files};
     const size_t errors = diagnostics->errors;
     load.reader.load = &load;
     load.scene->memory = arena;

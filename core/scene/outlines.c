@@ -101,7 +101,7 @@ void jox_key_lines(const JoxReader *r, const JoxKey *key, const JoxYaml *node, v
     JoxV2 *points = jox_arena_take(r->arena, 4, sizeof *points);
     bool good = node && node->kind == JOX_YAML_LIST && node->count == 2;
     if (node && !good)
-        jox_scene_error(r, node, "bad-type", "[[[0, 0], [0, 2]], [[5, 0], [5, 2]]]",
+        jox_scene_error(r, node, "bad-type", "transit: [[[0, 0], [0, 2]], [[5, 0], [5, 2]]]",
                         "%s is a list of two lines", key->name);
     for (uint32_t i = 0; node && i < 2 && node->kind == JOX_YAML_LIST && i < node->count; i++)
         good = read_line(r, node->items[i], points + 2 * i) && good;
@@ -109,7 +109,8 @@ void jox_key_lines(const JoxReader *r, const JoxKey *key, const JoxYaml *node, v
 }
 
 void jox_key_box(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
-    JoxV2 *low = JOX_MEMBER(JoxV2, item, key->offset), *high = JOX_MEMBER(JoxV2, item, key->counter);
+    JoxV2 *low = JOX_MEMBER(JoxV2, item, key->offset),
+          *high = JOX_MEMBER(JoxV2, item, key->counter);
     *low = jox_v2(INFINITY, INFINITY);
     *high = jox_v2(-INFINITY, -INFINITY);
     jox_load_box(r, node, low, high);

@@ -53,7 +53,8 @@ static void link_start(const JoxReader *r, const JoxYaml *start, JoxPlace *place
 static void link_members(const JoxReader *r, const JoxYaml *map, JoxPlace *place) {
     const JoxPlace *places = r->load->scene->places;
     const JoxYaml *const *names;
-    uint32_t count = jox_read_names(r, jox_yaml_get(map, jox_place_kinds[place->kind].name), &names);
+    uint32_t count =
+        jox_read_names(r, jox_yaml_get(map, jox_place_kinds[place->kind].name), &names);
     place->members = jox_arena_take(r->arena, count, sizeof *place->members);
     for (uint32_t n = 0; n < count; n++) {
         int32_t member = jox_load_place(r, names[n]);
@@ -63,8 +64,7 @@ static void link_members(const JoxReader *r, const JoxYaml *map, JoxPlace *place
             place->members[place->member_count++] = member;
     }
     if (count == 0)
-        jox_scene_error(r, map, "bad-place", "set: [NAME, NAME]",
-                        "a set names at least one place");
+        jox_scene_error(r, map, "bad-place", "set: [NAME, NAME]", "a set names at least one place");
 }
 
 void jox_link_place(const JoxReader *r, const JoxYaml *map, void *item) {

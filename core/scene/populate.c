@@ -19,8 +19,8 @@ void jox_key_fills(const JoxReader *r, const JoxKey *key, const JoxYaml *node, v
     for (uint32_t i = 0; i < count; i++) {
         int32_t place = jox_load_place(r, names[i]);
         /* One that was wrong has no points; that is reported already. */
-        if (place >= 0 && (r->load->scene->places[place].count ||
-                           r->load->scene->places[place].member_count))
+        if (place >= 0 &&
+            (r->load->scene->places[place].count || r->load->scene->places[place].member_count))
             out[n++] = (uint32_t)place;
     }
     JOX_ASSERT(n <= count);
@@ -63,7 +63,8 @@ static void line(const JoxReader *r, const JoxYaml *map, JoxSceneGroup *group) {
 static void area(const JoxReader *r, const JoxYaml *map, const JoxArea *a, JoxSpread spread,
                  float spacing, uint32_t number, JoxSceneGroup *group) {
     JoxV2 *positions = NULL;
-    uint32_t fit = jox_fill(a, spread, group->count, spacing, r->load->scene->seed, number, &positions);
+    uint32_t fit =
+        jox_fill(a, spread, group->count, spacing, r->load->scene->seed, number, &positions);
     if (fit < group->count)
         jox_scene_error(r, map, "too-many", "Lower count or spacing, or widen the area",
                         "%u of %u agents fit", fit, group->count);
@@ -158,8 +159,8 @@ void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxSceneGroup *g
         group->count = 0;
         return;
     }
-    JoxArea a = {s->places,        group->in, group->outside, group->in_count,
-                 group->outside_count, &s->walls, 0.2f};
+    JoxArea a = {s->places, group->in, group->outside, group->in_count, group->outside_count,
+                 &s->walls, 0.2f};
     group->count = number_of(r, map, &a, group);
     if (group->count == 0)
         return;
@@ -168,8 +169,8 @@ void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxSceneGroup *g
     else if (group->fill == JOX_FILL_LINE)
         line(r, map, group);
     else
-        area(r, map, &a, (JoxSpread)group->fill,
-             isfinite(group->spacing) ? group->spacing : 0.0f, s->group_count, group);
+        area(r, map, &a, (JoxSpread)group->fill, isfinite(group->spacing) ? group->spacing : 0.0f,
+             s->group_count, group);
     JOX_ASSERT(group->positions || r->diagnostics->errors > 0);
     check_bounds(r, map, group);
 }

@@ -5,9 +5,6 @@
 #include "base/assert.h"
 #include "scene/internal.h"
 
-/* Files of a report that have these names already. */
-static const char TAKEN[] = "density|paths|regions|walls|danger|danger-map";
-
 /* The keys that a kind takes besides those of all probes: "this|that". */
 static const char *const OPTIONS[JOX_PROBE_KINDS] = {
 #define X(kind, name, form, options, example, meaning) [JOX_PROBE_##kind] = options,
@@ -69,9 +66,6 @@ static void check_options(const JoxReader *r, const JoxYaml *map, JoxProbeKind k
 
 bool jox_finish_probe(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
     JoxProbeDef *probe = item;
-    if (jox_choice_find(TAKEN, probe->name) >= 0)
-        jox_scene_error(r, map, "bad-name", "Choose another",
-                        "a report has a file of the name '%.60s' already", probe->name);
     const JoxYaml *until = jox_yaml_get(map, "until"), *along = jox_yaml_get(map, "along");
     probe->until = until ? probe->until : (double)INFINITY;
     if (until && probe->until <= probe->from)

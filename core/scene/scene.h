@@ -196,8 +196,8 @@ typedef struct JoxSceneSpec {
     JoxSceneFile *files; /* scene and included files */
     uint32_t file_count;
     const struct JoxYaml *tree; /* as it was read, with includes and mods merged */
-    JoxPatchChanges changes; /* that mods made */
-    void *memory;            /* owns every text and array above but `walls` and `changes` */
+    JoxPatchChanges changes;    /* that mods made */
+    void *memory;               /* owns every text and array above but `walls` and `changes` */
 } JoxSceneSpec;
 
 /* `sets` are "PATH=VALUE", as "groups.pilgrims.count=5000". */

@@ -19,9 +19,8 @@ static bool parameter_fits(const JoxReader *r, const JoxSceneSet *set, const Jox
         double v = choose ? dist->values[i] : i ? dist->b : dist->a;
         if (v >= info->least && v <= info->greatest)
             continue;
-        jox_scene_error(r, value, "out-of-range", NULL,
-                        "%s must be from %g to %g %s, not %g", set->name, info->least,
-                        info->greatest, info->unit, v);
+        jox_scene_error(r, value, "out-of-range", NULL, "%s must be from %g to %g %s, not %g",
+                        set->name, info->least, info->greatest, info->unit, v);
         return false;
     }
     return true;
@@ -74,8 +73,8 @@ void jox_key_values(const JoxReader *r, const JoxKey *key, const JoxYaml *map, v
         JoxSceneSet *set = &sets[*count];
         *set = (JoxSceneSet){.name = jox_arena_text(r->arena, map->keys[i]),
                              .position = map->key_positions[i]};
-        *count += read_set(r, map->items[i], numbers_only, set) &&
-                  parameter_fits(r, set, map->items[i]);
+        *count +=
+            read_set(r, map->items[i], numbers_only, set) && parameter_fits(r, set, map->items[i]);
     }
     JOX_ASSERT(*count <= map->count);
 }

@@ -66,3 +66,9 @@ bool jox_finish_camera(const JoxReader *r, const JoxYaml *map, void *item, bool 
     camera->given = good && jox_yaml_get(map, "position") && jox_yaml_get(map, "target");
     return good;
 }
+
+const char *const jox_scene_tools[JOX_TOOL_COUNT] = {
+#define X(tool, name) name,
+    JOX_TOOLS(X)
+#undef X
+};

@@ -7,7 +7,7 @@
 #include "base/hash.h"
 #include "base/mem.h"
 #include "scene/internal.h"
-#include "scene/wall_file.h"
+#include "scene/walls/wall_file.h"
 
 enum { LARGEST_FILE = 64 << 20 };
 

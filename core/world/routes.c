@@ -59,10 +59,8 @@ JoxRoutes *jox_routes_create(void) {
 /* ---- making one ---- */
 
 static void free_making(Making *making) {
-    for (uint32_t p = 0; p < making->place_count; p++) {
-        jox_free(making->places[p].points);
-        jox_free(making->places[p].members);
-    }
+    for (uint32_t p = 0; p < making->place_count; p++)
+        jox_place_free(&making->places[p]);
     jox_free(making->places);
     jox_walls_free(&making->walls);
     jox_field_free(making->field);
@@ -81,22 +79,13 @@ static void make_range(void *context, uint32_t begin, uint32_t end, uint32_t wor
         make(&makings[i]->item);
 }
 
-static void copy_place(JoxPlace *to, const JoxPlace *from) {
-    *to = *from;
-    to->name = NULL;
-    to->points = jox_alloc(from->count + 1, sizeof *to->points);
-    to->members = jox_alloc(from->member_count + 1, sizeof *to->members);
-    if (from->count)
-        memcpy(to->points, from->points, from->count * sizeof *to->points);
-}
-
 static void copy_places(const JoWorld *w, uint32_t place, Making *making) {
     const JoxPlace *from = &w->model.places[place];
     making->place_count = 1 + from->member_count;
     making->places = jox_alloc(making->place_count, sizeof *making->places);
-    copy_place(&making->places[0], from);
+    jox_place_assign(&making->places[0], from);
     for (uint32_t m = 0; m < from->member_count; m++) {
-        copy_place(&making->places[m + 1], &w->model.places[from->members[m]]);
+        jox_place_assign(&making->places[m + 1], &w->model.places[from->members[m]]);
         making->places[0].members[m] = (int32_t)m + 1;
     }
 }

@@ -31,11 +31,8 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
 }
 
 static void free_places(JoWorld *world) {
-    for (uint32_t i = 0; i < world->model.place_count; i++) {
-        jox_free(world->model.places[i].name);
-        jox_free(world->model.places[i].points);
-        jox_free(world->model.places[i].members);
-    }
+    for (uint32_t i = 0; i < world->model.place_count; i++)
+        jox_place_free(&world->model.places[i]);
     jox_free(world->model.places);
 }
 

@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 #include "base/vec.h"
-#include "scene/reader.h"
+#include "scene/format/reader.h"
 
 #define JOX_FARTHEST 10000 /* m: floats still resolve a millimetre */
 

@@ -3,7 +3,7 @@
 #ifndef JOX_SCENE_READER_H
 #define JOX_SCENE_READER_H
 
-#include "scene/yaml.h"
+#include "scene/format/yaml.h"
 
 typedef struct JoxReader {
     JoxArena *arena;

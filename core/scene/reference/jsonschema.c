@@ -5,8 +5,8 @@
 
 #include "agents/parameters.h"
 #include "base/json_writer.h"
+#include "scene/format/schema.h"
 #include "scene/scene.h"
-#include "scene/schema.h"
 
 #define DECIMAL "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?"
 #define LIST_OF_DECIMALS(least, most) " *" DECIMAL "( *,? *" DECIMAL "){" #least "," #most "} *"
@@ -348,7 +348,7 @@ static void object(const char *owner, JoxJson *json) {
     json->lines = json->depth + 1; /* a line for each property */
     jox_json_object(json, "properties");
     for (size_t i = 0; i < jox_scene_format.key_count; i++)
-        if (!strcmp(jox_scene_keys[i].owner, owner))
+        if (!strcmp(jox_scene_format.keys[i].owner, owner))
             property(&jox_scene_format.keys[i], json);
     jox_json_end(json);
     json->lines = lines;

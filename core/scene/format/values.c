@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "scene/values.h"
+#include "scene/format/values.h"
 
 enum { MOST_POINTS = 5000 };
 

@@ -1,8 +1,8 @@
 /* The reference of the scene format: for a terminal, and as a page of Markdown. */
 #include <string.h>
 
+#include "scene/format/schema.h"
 #include "scene/scene.h"
-#include "scene/schema.h"
 
 static bool has_range(const JoxKey *key) {
     return key->least != key->greatest || key->least != 0;
@@ -166,8 +166,8 @@ void jox_scene_reference_markdown(JoxText *out) {
             jox_text_add(out, "\n");
         }
         for (int p = 0; !strcmp(owner->name, "place") && p < JOX_PLACE_KINDS; p++)
-            jox_text_printf(out, "- `%s`: %s%s", jox_place_kinds[p].name, jox_place_kinds[p].meaning,
-                            p + 1 < JOX_PLACE_KINDS ? "\n" : "\n\n");
+            jox_text_printf(out, "- `%s`: %s%s", jox_place_kinds[p].name,
+                            jox_place_kinds[p].meaning, p + 1 < JOX_PLACE_KINDS ? "\n" : "\n\n");
         table(owner->name, out);
         alternatives(owner->name, out);
         for (size_t e = 0; e < jox_scene_example_count; e++)

@@ -1,4 +1,4 @@
-#include "scene/schema.h"
+#include "scene/format/schema.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -105,10 +105,10 @@ static const JoxKey *kind_key(const JoxReader *reader, const JoxYaml *map, const
     if (count == 1)
         return found;
     JoxText kinds = {0}, list = {0};
-    char code[40];
+    char *code = jox_arena_take(reader->arena, strlen(owner->name) + 8, 1);
     jox_owner_kinds(reader->format, owner->name, &kinds);
     jox_choices_text(kinds.data, &list);
-    snprintf(code, sizeof code, "bad-%s", owner->name);
+    sprintf(code, "bad-%s", owner->name);
     jox_scene_error(reader, map, code, owner->hint, "%s %s has one of %s, not %s",
                     article(owner->name), owner->name, list.data, count ? "several" : "none");
     jox_text_free(&kinds);
@@ -168,8 +168,7 @@ static void refuse_choice(const JoxReader *reader, const JoxKey *key, const JoxY
     for (; count < 16 && jox_choice_name(key->choices, (int)count, names[count], 64); count++)
         list[count] = names[count];
     jox_choices_text(key->choices, &known);
-    jox_scene_error(reader, node, "bad-value",
-                    jox_scene_suggest(reader, node->text, list, count),
+    jox_scene_error(reader, node, "bad-value", jox_scene_suggest(reader, node->text, list, count),
                     key->type == JOX_TYPE_NAMES ? "each of %s is %s" : "%s is %s", key->name,
                     known.data);
     jox_text_free(&known);
@@ -254,8 +253,8 @@ static void fill_key(const JoxReader *reader, const JoxKey *key, const JoxYaml *
     case JOX_STORE_EARLIER:
         return;
     case JOX_STORE_BOOL:
-        *JOX_MEMBER(bool, item, key->offset) = key->choices ? read_choice(reader, key, node) == 1
-                                                            : read_bool(reader, key, node);
+        *JOX_MEMBER(bool, item, key->offset) =
+            key->choices ? read_choice(reader, key, node) == 1 : read_bool(reader, key, node);
         return;
     case JOX_STORE_FLOAT:
         *JOX_MEMBER(float, item, key->offset) = (float)jox_key_number(reader, key, node);
@@ -320,15 +319,23 @@ static bool holds_items(const JoxReader *reader, const JoxKey *key, const JoxYam
     if (!node)
         return false;
     if (node->kind != (map ? JOX_YAML_MAP : JOX_YAML_LIST)) {
-        jox_scene_error(reader, node, "bad-type", owner->hint,
+        jox_scene_error(reader, node, "bad-type", key->example,
                         map ? "%s maps names to %ss" : "%s is a list", key->name, owner->name);
         return false;
     }
     if (node->count >= least_items(key))
         return true;
-    jox_scene_error(reader, node, "bad-type", owner->hint, "%s is a list of at least %u %s%s",
+    jox_scene_error(reader, node, "bad-type", key->example, "%s is a list of at least %u %s%s",
                     key->name, least_items(key), owner->name, least_items(key) == 1 ? "" : "s");
     return false;
+}
+
+static void check_name(const JoxReader *reader, const JoxOwner *owner, JoxPosition at,
+                       const char *name) {
+    if (jox_scene_name(reader, at, owner->name, name) && owner->taken &&
+        jox_choice_find(owner->taken, name) >= 0)
+        jox_diag_error(reader->diagnostics, at, "bad-name", "Choose another",
+                       "'%.60s' is the name of something else already", name);
 }
 
 void jox_items_fill(const JoxReader *reader, const JoxKey *key, const JoxYaml *node, void *item) {
@@ -349,7 +356,7 @@ void jox_items_fill(const JoxReader *reader, const JoxKey *key, const JoxYaml *n
         if (map && owner->name_at) {
             *JOX_MEMBER(char *, one, owner->name_at - 1) =
                 jox_arena_text(reader->arena, node->keys[i]);
-            jox_scene_name(reader, node->key_positions[i], owner->name, node->keys[i]);
+            check_name(reader, owner, node->key_positions[i], node->keys[i]);
         }
         if (owner->place_at)
             *JOX_MEMBER(JoxPosition, one, owner->place_at - 1) =

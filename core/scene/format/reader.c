@@ -1,4 +1,4 @@
-#include "scene/reader.h"
+#include "scene/format/reader.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,12 +1,13 @@
-/* The format of scenes and of the files that describe mods, as one table: each key has one row, with
-   its type, unit, range, default and meaning, where its value goes, and what a reload does with it.
-   Values are read by walking the table, so that a key cannot be documented and not read. */
+/* The format of scenes and of the files that describe mods, as one table: each key has one row,
+   with its type, unit, range, default and meaning, where its value goes, and what a reload does
+   with it. Values are read by walking the table, so that a key cannot be documented and not read.
+ */
 #ifndef JOX_SCENE_SCHEMA_H
 #define JOX_SCENE_SCHEMA_H
 
 #include <stddef.h>
 
-#include "scene/values.h"
+#include "scene/format/values.h"
 
 typedef enum {
     JOX_TYPE_NUMBER, /* SI, or text with a unit of the key's kind */
@@ -65,7 +66,7 @@ struct JoxKey {
     /* 1 and an enumerator: this key says of what kind its owner is, which has exactly one such. */
     int kind;
     const char *later;   /* NULL: a reload takes it over; else why it waits for the next start */
-    const char *example; /* of a probe: a line of the example that shows all kinds */
+    const char *example; /* how it is written, for errors */
 };
 
 #define JOX_STORE_OF(lvalue)                                                                       \
@@ -94,11 +95,12 @@ struct JoxKey {
 /* What has keys, in the order of the reference. */
 typedef struct JoxOwner {
     const char *name, *heading, *text;
-    size_t size;     /* of its struct; 0: its keys stand in the struct of another owner */
-    size_t kind;     /* 1 and the offset of its kind; 0: it has none */
-    size_t name_at;  /* 1 and the offset of its name, of what a map names */
-    size_t place_at; /* 1 and the offset of the JoxPosition where it is written */
-    const char *hint;
+    size_t size;       /* of its struct; 0: its keys stand in the struct of another owner */
+    size_t kind;       /* 1 and the offset of its kind; 0: it has none */
+    size_t name_at;    /* 1 and the offset of its name, of what a map names */
+    size_t place_at;   /* 1 and the offset of the JoxPosition where it is written */
+    const char *hint;  /* how one is written, for errors */
+    const char *taken; /* names that it cannot have: "this|that" */
     /* Checks what several keys say together. `good`: each of them is right. False: it is not kept.
      */
     bool (*finish)(const JoxReader *reader, const JoxYaml *map, void *item, bool good);
