@@ -22,6 +22,22 @@ void jox_mod_conflict(JoxDiagnostics *diagnostics, const JoxMod *later, JoxPosit
                  *path ? path : "all of it");
 }
 
+bool jox_mod_find(const JoxMod *mods, uint32_t count, const char *name,
+                  char path[JOX_LONGEST_PATH]) {
+    const char *colon = strchr(name, ':');
+    const size_t n = colon ? (size_t)(colon - name) : 0;
+    for (uint32_t m = 0; colon && m < count; m++) {
+        char folder[JOX_LONGEST_PATH];
+        if (strncmp(mods[m].name, name, n) != 0 || mods[m].name[n])
+            continue;
+        snprintf(folder, sizeof folder, "%s/", mods[m].folder);
+        return !strstr(colon, "..") && colon[1] != '/' &&
+               jox_path_find(folder, colon + 1, ".lua", (const char *const[]){"behaviours/", NULL},
+                             path);
+    }
+    return false;
+}
+
 void jox_mod_need(const char *text, char name[64], const char **version) {
     size_t n = strcspn(text, " >=");
     const char *at = strstr(text, ">=");

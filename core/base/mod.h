@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "base/diag.h"
+#include "base/path.h"
 
 enum { JOX_MOST_MODS = 64 };
 
@@ -47,6 +48,11 @@ bool jox_mod_overlaps(const char *a, const char *b);
 /* Warns that mod `later` sets at `at` what mod `earlier` has set at `before`, and wins. */
 void jox_mod_conflict(JoxDiagnostics *diagnostics, const JoxMod *later, JoxPosition at,
                       const JoxMod *earlier, JoxPosition before, const char *path);
+
+/* The file of the behaviour "mod:name" of one of the mods; ".lua" may be left out. False where it
+   names none, or no file below the mod's behaviours. */
+bool jox_mod_find(const JoxMod *mods, uint32_t count, const char *name,
+                  char path[JOX_LONGEST_PATH]);
 
 /* "NAME" or "NAME >= 1.2": the name, and the version that is asked for, or NULL. */
 void jox_mod_need(const char *text, char name[64], const char **version);

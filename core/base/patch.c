@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "base/path.h"
 #include "base/text.h"
 
 enum { MOST_CHANGES = 4096 };
@@ -77,7 +78,7 @@ void jox_patch_join(char path[JOX_PATCH_PATH], const char *prefix, const char *k
 
 bool jox_patch_is_target(const char *target, const char *path, const JoxMod *mods,
                          uint32_t mod_count) {
-    const char *slash = strrchr(path, '/'), *stem = slash ? slash + 1 : path;
+    const char *stem = jox_path_name(path);
     const char *dot = strrchr(stem, '.');
     const size_t n = dot ? (size_t)(dot - stem) : strlen(stem);
     for (uint32_t m = 0; m < mod_count; m++) {

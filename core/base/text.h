@@ -35,10 +35,4 @@ const char *jox_suggest(const char *word, const char *const *names, size_t count
  * (EFBIG when over `limit` bytes). Ends with a NUL. */
 char *jox_read_file(const char *path, size_t limit, size_t *length);
 
-/* Takes "folder/.." and "." out of a path, in place, where that is the same file: two ways to write
-   a file's path become one. */
-void jox_path_clean(char *path);
-/* Whether a file, with every link on its way followed, lies below a folder; both must be there. */
-bool jox_path_below(const char *path, const char *folder);
-
 #endif

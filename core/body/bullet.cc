@@ -410,6 +410,14 @@ bool jox_bodies_force(JoxBodies *b, uint32_t row, JoxV3 force) {
     return true;
 }
 
+void jox_row_add_impulse(JoxRow *r, const btVector3 &point, const btVector3 &impulse) {
+    btTransform frame = jox_row_frame(r);
+    const btVector3 own_point = frame.invXform(point), own_impulse = impulse * frame.getBasis();
+    const double at[3] = {own_point.x(), own_point.y(), own_point.z()};
+    const double p[3] = {own_impulse.x(), own_impulse.y(), own_impulse.z()};
+    jox_bonds_add_impulse(r->bonds, at, p);
+}
+
 uint32_t jox_bodies_impulses(JoxBodies *b, const JoxImpulse *impulses, uint32_t count) {
     uint32_t odd = 0;
     for (uint32_t i = 0; i < count; i++) {

@@ -156,12 +156,14 @@ uint32_t jox_row_add(JoxBodies *bodies, const JoxBodyShape *shape, const btTrans
 /* Bullet's body of a row whose shape is there: `frame` is that of the shape. */
 void jox_row_create_body(JoxBodies *bodies, uint32_t row, const btTransform &frame,
                          const JoxMaterial &material);
-/* bullet_bonds.cc. The shape of bonded blocks; NULL with a sentence in `error`. */
+/* The shape of bonded blocks; NULL with a sentence in `error`. */
 JoxBondGraph *jox_row_bonds(const JoxBodyDef *def, JoxText *error);
 bool jox_body_shape_of_blocks(const JoxBondGraph *bonds, bool still, JoxBodyShape *out,
                               JoxText *error);
 /* The shape's own frame in the world. */
-btTransform jox_row_frame(const JoxRow *row);
+static inline btTransform jox_row_frame(const JoxRow *row) {
+    return row->body->getWorldTransform() * row->shape.frame.inverse();
+}
 /* An impulse upon a bonded body, at a point of the world. */
 void jox_row_add_impulse(JoxRow *row, const btVector3 &point, const btVector3 &impulse);
 /* After a substep: what ground, walls and bodies did to bonded ones. After a step: what broke. */

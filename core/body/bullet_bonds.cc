@@ -16,54 +16,6 @@ const float TOUCHING = 0.005f; /* m: nearer points of contact are taken for touc
 
 } // namespace
 
-JoxBondGraph *jox_row_bonds(const JoxBodyDef *def, JoxText *error) {
-    const JoxShape *shape = &def->shape;
-    double blocks = double(shape->count[0]) * shape->count[1] * shape->count[2], volume = blocks;
-    bool good = blocks >= 1 && blocks <= JOX_BONDS_MOST_BLOCKS;
-    for (double size : shape->size) {
-        good = good && size >= 0.001 && size <= 1000;
-        volume *= size;
-    }
-    double mass = def->mass > 0 ? def->mass : def->density * volume;
-    /* A body that never moves has no mass, and needs none. */
-    double each = mass > 0 && mass <= 1e9 ? mass / blocks : 1.0;
-    JoxBondGraph *bonds =
-        good ? jox_bonds_create(shape->count, shape->size, each, shape->bond) : nullptr;
-    if (!bonds && error)
-        jox_text_add(error, "glued blocks are 1 to 4096 of 0.001 to 1000 m, with bonds of more "
-                            "than 0 N");
-    return bonds;
-}
-
-bool jox_body_shape_of_blocks(const JoxBondGraph *bonds, bool still, JoxBodyShape *out,
-                              JoxText *error) {
-    JoxBodyPart *parts = static_cast<JoxBodyPart *>(jox_alloc(bonds->count, sizeof(JoxBodyPart)));
-    for (uint32_t n = 0; n < bonds->count; n++) {
-        parts[n].shape.kind = JOX_SHAPE_BOX;
-        for (int i = 0; i < 3; i++)
-            parts[n].shape.size[i] = bonds->size[i];
-        jox_bonds_block_centre(bonds, n, parts[n].position);
-        parts[n].mass = bonds->block_mass;
-    }
-    JoxBodyDef def = jox_body_def();
-    def.shape.kind = JOX_SHAPE_COMPOUND;
-    def.shape.parts = parts;
-    def.shape.part_count = bonds->count;
-    bool made = jox_body_shape_make(&def, still, out, error);
-    jox_free(parts);
-    return made;
-}
-
-btTransform jox_row_frame(const JoxRow *r) {
-    return r->body->getWorldTransform() * r->shape.frame.inverse();
-}
-
-void jox_row_add_impulse(JoxRow *r, const btVector3 &point, const btVector3 &impulse) {
-    btTransform frame = jox_row_frame(r);
-    Triple at = triple(frame.invXform(point)), p = triple(impulse * frame.getBasis());
-    jox_bonds_add_impulse(r->bonds, at.at, p.at);
-}
-
 /* ---- contacts ---- */
 
 /* `sign` is 1 where the bonded body is the first of the manifold. */

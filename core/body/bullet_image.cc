@@ -280,3 +280,11 @@ void jox_bodies_sections(JoxBodies *b, JoxSections *s) {
     jox_text_free(&wrong);
     jox_bodies_image_free(&image);
 }
+
+void jox_bodies_hash(const JoxBodies *bodies, JoxHash *hash) {
+    JoxSections sections = jox_sections_hash();
+    jox_bodies_sections(const_cast<JoxBodies *>(bodies),
+                        &sections); /* which a hash does not change */
+    const uint64_t sum = jox_hash_end(&sections.hash);
+    jox_hash_add(hash, &sum, sizeof sum);
+}

@@ -33,13 +33,6 @@ void jox_bodies_image_sections(JoxBodiesImage *i, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "bonds", i->bonds, i->bond_count, i->bond_capacity);
 }
 
-void jox_bodies_hash(const JoxBodies *bodies, JoxHash *hash) {
-    JoxSections sections = jox_sections_hash();
-    jox_bodies_sections((JoxBodies *)bodies, &sections); /* which a hash does not change */
-    const uint64_t sum = jox_hash_end(&sections.hash);
-    jox_hash_add(hash, &sum, sizeof sum);
-}
-
 /* ---- bonds ---- */
 
 void jox_bodies_image_add_bonds(JoxBodiesImage *image, JoxBodyRecord *record,

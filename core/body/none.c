@@ -114,6 +114,12 @@ void jox_bodies_sections(JoxBodies *bodies, JoxSections *sections) {
     jox_text_free(&wrong);
     jox_bodies_image_free(&image);
 }
+void jox_bodies_hash(const JoxBodies *bodies, JoxHash *hash) {
+    JoxSections sections = jox_sections_hash();
+    jox_bodies_sections((JoxBodies *)bodies, &sections); /* which a hash does not change */
+    const uint64_t sum = jox_hash_end(&sections.hash);
+    jox_hash_add(hash, &sum, sizeof sum);
+}
 bool jox_bodies_available(void) {
     return false;
 }

@@ -5,6 +5,8 @@
 
 #include "cli/cli.h"
 
+#include "base/path.h"
+
 typedef struct Wanted {
     JoRenderDef def;
     JoSceneDef scene;
@@ -99,7 +101,7 @@ static bool ends(const char *text, const char *end) {
 
 /* NAME.png, or NAME-frames, in the present folder. */
 static void usual_out(const Wanted *w, char out[512]) {
-    const char *slash = strrchr(w->path, '/'), *name = slash ? slash + 1 : w->path;
+    const char *name = jox_path_name(w->path);
     const char *dot = strrchr(name, '.');
     int length = dot && dot > name ? (int)(dot - name) : (int)strlen(name);
     snprintf(out, 512, "%.*s%s", length < 400 ? length : 400, name,

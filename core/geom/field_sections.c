@@ -24,10 +24,11 @@ void jox_field_sections(JoxField **field, JoxSections *s) {
         *field = jox_alloc(1, sizeof **field);
     }
     JoxField *f = *field;
-    float box[] = {f->low.x, f->low.y, f->size, f->clearance};
-    int32_t grid[] = {f->columns, f->rows};
-    jox_section(s, "field_box", box, sizeof *box, 4);
-    jox_section(s, "field_grid", grid, sizeof *grid, 2);
+    size_t columns = jox_section_count(s, "field_columns", (size_t)f->columns, 1);
+    size_t rows = jox_section_count(s, "field_rows", (size_t)f->rows, 1);
+    JOX_SECTION(s, "field_low", f->low);
+    JOX_SECTION(s, "field_size", f->size);
+    JOX_SECTION(s, "field_clearance", f->clearance);
     size_t cells = (size_t)f->columns * (size_t)f->rows, capacity = 0;
     size_t edge_capacity = 0, ref_capacity = 0, patch_capacity = f->patch_capacity;
     JOX_SECTION_ARRAY(s, "field_cells", f->cells, cells, capacity);
@@ -36,12 +37,11 @@ void jox_field_sections(JoxField **field, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "field_refs", f->refs, f->ref_count, ref_capacity);
     if (!restores)
         return;
-    *f = (JoxField){{box[0], box[1]}, box[2],     box[3],         grid[0],        grid[1],
-                    f->cells,         f->patches, f->patch_count, f->patch_count, f->edges,
-                    f->edge_count,    f->refs,    f->ref_count};
-    if (grid[0] < 1 || grid[1] < 1 || cells != (size_t)grid[0] * (size_t)grid[1] ||
-        !(box[2] > 0.0f))
-        jox_sections_fail(s, "field_grid", "the grid is none");
+    f->columns = (int)columns;
+    f->rows = (int)rows;
+    f->patch_capacity = f->patch_count;
+    if (columns < 1 || rows < 1 || cells / columns != rows || cells % columns || !(f->size > 0.0f))
+        jox_sections_fail(s, "field_columns", "the grid is none");
     if (!s->failed)
         check(f, s);
     if (s->failed) {

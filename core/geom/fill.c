@@ -100,13 +100,13 @@ static uint32_t lattice(const JoxArea *area, bool hex, double step, JoxV2 **out)
     return count;
 }
 
-uint32_t jox_fill(const JoxArea *area, JoxSpread spread, uint32_t count, float spacing,
+uint32_t jox_fill(const JoxArea *area, JoxFillMode mode, uint32_t count, float spacing,
                   uint64_t seed, uint32_t stream, JoxV2 **positions) {
-    bool hex = spread != JOX_SPREAD_GRID;
+    bool hex = mode != JOX_FILL_GRID;
     double step = spacing;
     if (!(step > 0) && count > 0)
         step = sqrt(jox_area_size(area) / count * (hex ? 1.1547005383792515 : 1.0));
-    double apart = spread == JOX_SPREAD_RANDOM && spacing > 0 ? step / 0.75 : step;
+    double apart = mode == JOX_FILL_RANDOM && spacing > 0 ? step / 0.75 : step;
     uint32_t have = lattice(area, hex, apart, positions);
     /* A border may cost a row, and few points may all miss a narrow area: close up until the count
        fits. A spacing that was asked for is kept, but by one agent, who has nobody to keep it from.
@@ -120,7 +120,7 @@ uint32_t jox_fill(const JoxArea *area, JoxSpread spread, uint32_t count, float s
         have = lattice(area, hex, apart, positions);
     }
     JoxV2 *p = *positions;
-    if (have <= count && spread != JOX_SPREAD_RANDOM)
+    if (have <= count && mode != JOX_FILL_RANDOM)
         return have;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < have && kept < count; i++) {
@@ -129,7 +129,7 @@ uint32_t jox_fill(const JoxArea *area, JoxSpread spread, uint32_t count, float s
         if (u * (have - i) >= count - kept)
             continue;
         p[kept] = p[i];
-        if (spread == JOX_SPREAD_RANDOM) {
+        if (mode == JOX_FILL_RANDOM) {
             double ux = jox_random_unit(seed, i, stream, JOX_DRAW_FILL, 1) * 2 - 1;
             double uy = jox_random_unit(seed, i, stream, JOX_DRAW_FILL, 2) * 2 - 1;
             float most = (float)(apart * 0.0883883); /* an eighth, over the root of two */

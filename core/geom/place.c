@@ -251,23 +251,15 @@ int jox_place_find(const JoxPlace *places, uint32_t count, const char *name) {
 
 /* ---- copies ---- */
 
-void jox_place_assign(JoxPlace *to, const JoxPlace *from) {
-    JoxPlace copy = *from;
-    JOX_ASSERT(to != from);
-    copy.name = to->name;
-    copy.points = jox_realloc(to->points, from->count + 1, sizeof *copy.points);
-    copy.members = jox_realloc(to->members, from->member_count + 1, sizeof *copy.members);
+void jox_place_copy(JoxPlace *to, const JoxPlace *from) {
+    *to = *from;
+    to->name = jox_strdup(from->name);
+    to->points = jox_alloc((size_t)from->count + 1, sizeof *to->points);
+    to->members = jox_alloc((size_t)from->member_count + 1, sizeof *to->members);
     if (from->count)
-        memcpy(copy.points, from->points, from->count * sizeof *copy.points);
+        memcpy(to->points, from->points, from->count * sizeof *to->points);
     if (from->member_count)
-        memcpy(copy.members, from->members, from->member_count * sizeof *copy.members);
-    *to = copy;
-}
-
-JoxPlace jox_place_copy(const JoxPlace *from) {
-    JoxPlace copy = {.name = jox_strdup(from->name)};
-    jox_place_assign(&copy, from);
-    return copy;
+        memcpy(to->members, from->members, from->member_count * sizeof *to->members);
 }
 
 void jox_place_free(JoxPlace *place) {

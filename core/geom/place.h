@@ -55,15 +55,12 @@ JoxPlaceOutline jox_place_outline(const JoxPlace *place);
 uint32_t jox_place_goal_points(const JoxPlace *place);
 /* Its radius in metres where it has one, else 0. */
 float jox_place_radius(const JoxPlace *place);
-/* `to` becomes a copy of all but the name. Its arrays, which it owns, are allocated again. */
-void jox_place_assign(JoxPlace *to, const JoxPlace *from);
-/* A copy with a name and arrays of its own; to be freed by jox_place_free. */
-JoxPlace jox_place_copy(const JoxPlace *from);
-void jox_place_free(JoxPlace *place);
-
 /* Fills centre, axis_a, axis_b and axis_radius from kind and points. The axis is the polygon's
    principal direction through its centroid, shortened at both ends by half its width. */
 void jox_place_finish(JoxPlace *place);
+/* A place with memory of its own; `to` needs not be initialised. The name of a copy may be NULL. */
+void jox_place_copy(JoxPlace *to, const JoxPlace *from);
+void jox_place_free(JoxPlace *place);
 /* Inside a polygon, within a point's radius, within half a spacing of a queue's head, within 0.5 m
    of a line; a set: inside any member. `places` is the table that members index. */
 bool jox_place_contains(const JoxPlace *places, uint32_t place, JoxV2 point);

@@ -4,7 +4,7 @@
 
 #include "base/assert.h"
 #include "base/guard.h"
-#include "run/run.h"
+#include "live/inspect.h"
 
 enum { DIGITS = 6 };
 
@@ -47,7 +47,7 @@ static void add_agent(const JoScene *scene, uint32_t i, JoxJson *json) {
 }
 
 /* What the agent's group in the scene sets of a name, or NULL. */
-static const JoxSceneSet *group_set(const JoScene *scene, uint32_t i, const char *name) {
+static const JoxGroupValue *group_set(const JoScene *scene, uint32_t i, const char *name) {
     const JoxSceneSpec *spec = scene->spec;
     const uint32_t group = scene->world->state.agents.group[i];
     for (uint32_t s = 0; group < spec->group_count && s < spec->groups[group].set_count; s++)
@@ -67,7 +67,7 @@ static void add_setter(const JoScene *scene, uint32_t i, const JoxMachine *machi
     bool slot = value->kind == JOX_VALUE_OWN && (uint32_t)value->index < a->own_stride;
     double meant = value->kind == JOX_VALUE_CONST ? value->number : slot ? row[value->index] : NAN;
     bool given = own && slot && value->index < 64 && (a->given[i] >> value->index & 1);
-    const JoxSceneSet *set = given ? group_set(scene, i, jox_parameters[p].name) : NULL;
+    const JoxGroupValue *set = given ? group_set(scene, i, jox_parameters[p].name) : NULL;
     JoxText text = {0};
     if (!isnan(meant) && jox_parameter_store((JoxParameter)p, meant) != a->param[p][i]) {
         jox_text_add(&text, "function");
@@ -78,9 +78,9 @@ static void add_setter(const JoScene *scene, uint32_t i, const JoxMachine *machi
     } else if (given) {
         jox_text_add(&text, "function");
     } else {
-        JoxSetBy by = jox_run_set_by(scene, machine, state, p);
+        JoxLiveSetBy by = jox_live_set_by(scene, machine, state, p);
         jox_text_add(&text, by.where.data);
-        jox_set_by_free(&by);
+        jox_live_set_by_free(&by);
     }
     jox_json_string(json, "set", text.data);
     jox_text_free(&text);
@@ -189,7 +189,7 @@ static void add_step(const JoxInspected *seen, double compression, JoxJson *json
     add_figure(json, "compression", compression);
 }
 
-bool jox_run_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
+bool jox_live_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
     const JoxAgents *a = &scene->world->state.agents;
     const JoxWatched *watched;
     const JoxInspected *seen = jox_world_inspect(scene->world, slot, &watched);
@@ -215,7 +215,7 @@ char *jo_scene_inspect(JoScene *scene, uint32_t slot) {
     JoxText out = {0};
     JoxJson json = jox_json_begin(&out, 0);
     jox_json_object(&json, NULL);
-    jox_run_inspect(scene, slot, &json);
+    jox_live_inspect(scene, slot, &json);
     jox_json_end(&json);
     return jox_disown(out.data);
 }

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "run/run.h"
+#include "live/inspect.h"
 
 /* ---- who set a value ---- */
 
@@ -17,9 +17,9 @@ static void print_setting(const char *kind, const JoxWritten *written, JoxText *
         jox_text_printf(out, "%s %s:%d", kind, written->file, written->line);
 }
 
-JoxSetBy jox_run_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
-                        int p) {
-    JoxSetBy by = {0};
+JoxLiveSetBy jox_live_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
+                             int p) {
+    JoxLiveSetBy by = {0};
     char path[256], kind[160] = "defaults";
     JoxWritten written = {0};
     const JoxValue *value = &machine->defaults[p];
@@ -58,7 +58,7 @@ JoxSetBy jox_run_set_by(const JoScene *scene, const JoxMachine *machine, const J
     return by;
 }
 
-void jox_set_by_free(JoxSetBy *by) {
+void jox_live_set_by_free(JoxLiveSetBy *by) {
     jox_text_free(&by->where);
     jox_text_free(&by->text);
 }
@@ -70,7 +70,7 @@ static void add_parameters(const JoScene *scene, const JoxMachine *machine, cons
     jox_json_array(json, key);
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxParameterInfo *info = &jox_parameters[p];
-        JoxSetBy by = jox_run_set_by(scene, machine, state, p);
+        JoxLiveSetBy by = jox_live_set_by(scene, machine, state, p);
         jox_json_object(json, NULL);
         jox_json_string(json, "name", info->name);
         jox_json_number(json, "value", by.number);
@@ -80,7 +80,7 @@ static void add_parameters(const JoScene *scene, const JoxMachine *machine, cons
         jox_json_number(json, "most", info->greatest);
         jox_json_string(json, "unit", info->unit);
         jox_json_end(json);
-        jox_set_by_free(&by);
+        jox_live_set_by_free(&by);
     }
     jox_json_end(json);
 }
@@ -149,7 +149,7 @@ static void add_machine(const JoScene *scene, const JoxMachine *machine, JoxJson
     jox_json_end(json);
 }
 
-void jox_run_graph(const JoScene *scene, JoxJson *json, const char *key) {
+void jox_live_graph(const JoScene *scene, JoxJson *json, const char *key) {
     const JoxMachineRun *machines = &scene->world->machines;
     jox_json_array(json, key);
     for (uint32_t m = 0; m < machines->set->count; m++)
@@ -166,8 +166,8 @@ static bool is_identifier(const char *name) {
     return good;
 }
 
-bool jox_run_lua_line(const JoScene *scene, const char *machine, const char *state,
-                      const char *parameter, double value, JoxText *out) {
+bool jox_live_lua_line(const JoScene *scene, const char *machine, const char *state,
+                       const char *parameter, double value, JoxText *out) {
     JoError error;
     JoxChoice choice;
     if (!jox_run_choose(scene, machine, state, parameter, value, &choice, &error)) {

@@ -10,6 +10,9 @@
 #include "geom/walls.h"
 #include "jostle_tools.h"
 
+/* Of the messages: a page of another number asks to be loaded anew. */
+enum { JOX_LIVE_PROTOCOL = 2 };
+
 /* Growing bytes; zero-initialise, `length = 0` to use again, free by jox_bytes_free. */
 typedef struct JoxBytes {
     uint8_t *data;
@@ -57,9 +60,9 @@ typedef struct JoxLiveSession {
 } JoxLiveSession;
 
 typedef struct JoxLive JoxLive;
-/* {"type": "hello", ...}: all that stays as it is for a while. */
+/* {"type": "scene", ...}: all that stays as it is for a while. */
 void jox_live_scene(JoScene *scene, JoxText *out);
-/* Another number whenever a new hello is due: machines, walls, places or bodies changed. */
+/* Another number whenever that message is due again: machines, walls, places or bodies changed. */
 uint64_t jox_live_version(const JoScene *scene);
 /* {"type": "status", ...}. `fired`, times and failures are those since the last second or status.
  */
@@ -73,7 +76,7 @@ void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out);
 /* ---- packing, from whatever source ---- */
 
 enum { JOX_LIVE_HEAD = 48, JOX_LIVE_SLOT = 8, JOX_LIVE_BODY = 20, JOX_LIVE_NOBODY = 255 };
-/* State of those who are in none of the hello's list. */
+/* State of those who are none of the scene message's list names. */
 enum { JOX_LIVE_OTHER_STATE = 254 };
 enum { JOX_LIVE_PARITY = 1, JOX_LIVE_FAILED = 2, JOX_LIVE_PLAYER = 4 };
 
@@ -89,27 +92,34 @@ void jox_live_cover(JoxLiveArea *area, JoxV2 low, JoxV2 high);
 typedef struct JoxLiveHead {
     uint32_t tick;
     double time; /* s */
-    uint32_t slots, bodies;
+    uint32_t bodies;
     const JoxLiveArea *area;
-    float most; /* value that 255 stands for */
 } JoxLiveHead;
-/* Sizes `out` for the frame, writes its head, and makes every slot empty. */
-void jox_live_begin_frame(JoxBytes *out, const JoxLiveHead *head);
-typedef struct JoxLivePerson {
-    float x, y;           /* m */
-    float face_x, face_y; /* the way they look, of any length */
-    float value;          /* 0 to 1 */
-    uint8_t state, flags;
-} JoxLivePerson;
-void jox_live_put_person(JoxBytes *frame, const JoxLiveArea *area, uint32_t slot,
-                         const JoxLivePerson *person);
+/* People as columns, in any order. Those that may be NULL are not known then. */
+typedef struct JoxLiveCrowd {
+    uint32_t count, slots; /* slots: one more than the greatest that anybody had */
+    const uint32_t *slot;
+    const float *x, *y, *vx, *vy; /* m, m/s */
+    const float *face_x, *face_y; /* the way they look, of any length; 0 or NULL: as they go */
+    const float *value;           /* of the colours that are not made of the other columns */
+    const float *radius;          /* m; or NULL */
+    const uint16_t *group;        /* or NULL */
+    const uint8_t *state, *flags; /* number in the scene message's list; JOX_LIVE_PARITY ... */
+    JoxV2 period;                 /* m: of periodic edges; 0 without */
+} JoxLiveCrowd;
+/* Makes the area hold everybody. */
+void jox_live_cover_crowd(JoxLiveArea *area, const JoxLiveCrowd *crowd);
+/* m/s; 0 of nobody. */
+double jox_live_mean_speed(const JoxLiveCrowd *crowd);
+/* Sizes `out` for the frame and its head's bodies, writes the head and the people; slots that
+   nobody has are empty. */
+void jox_live_pack_frame(const JoxLiveHead *head, const JoxLiveCrowd *crowd, JoxLiveColour colour,
+                         JoxBytes *out);
 /* `slots`: as of the frame's head. */
 void jox_live_put_body(JoxBytes *frame, uint32_t slots, uint32_t row, JoxV3 at,
                        const float turn[4]);
-/* Head of a `people` message; room for so many slots. */
-void jox_live_begin_people(JoxBytes *out, uint32_t slots);
-/* True if that changed the bytes. */
-bool jox_live_put_people(JoxBytes *people, uint32_t slot, float radius, uint32_t group);
+/* True if that changed the bytes: radii and groups. */
+bool jox_live_pack_people(const JoxLiveCrowd *crowd, JoxBytes *out);
 
 /* Fields of a crowd over an area. Zero-initialise. */
 typedef struct JoxLiveGrid {
@@ -119,14 +129,9 @@ typedef struct JoxLiveGrid {
     JoxV2 low, high;
     float most; /* greatest density of the last crowd, 1/m2 */
 } JoxLiveGrid;
-typedef struct JoxLiveCrowd {
-    uint32_t count;
-    const float *x, *y, *vx, *vy; /* m, m/s */
-    JoxV2 period;                 /* m: of periodic edges; 0 without */
-} JoxLiveCrowd;
-/* Without `moves` only densities can be read. */
-void jox_live_spread(JoxLiveGrid *grid, const JoxLiveArea *area, const JoxLiveCrowd *crowd,
-                     bool moves);
+/* Spreads the crowd, which the area is made to hold. Without `moves` only densities can be read.
+ */
+void jox_live_spread(JoxLiveGrid *grid, JoxLiveArea *area, const JoxLiveCrowd *crowd, bool moves);
 /* Density at a point as last spread, 1/m2. */
 float jox_live_density_at(const JoxLiveGrid *grid, float x, float y);
 void jox_live_pack_field(const JoxLiveGrid *grid, JoxLiveField field, JoxBytes *out);

@@ -50,9 +50,9 @@ static void make(JoxLiveGrid *g, const JoxLiveArea *area) {
         g->fields[f] = jox_alloc(g->cells, sizeof(float));
 }
 
-void jox_live_spread(JoxLiveGrid *g, const JoxLiveArea *area, const JoxLiveCrowd *crowd,
-                     bool moves) {
+void jox_live_spread(JoxLiveGrid *g, JoxLiveArea *area, const JoxLiveCrowd *crowd, bool moves) {
     const int sums = moves ? SUMS : 1;
+    jox_live_cover_crowd(area, crowd);
     make(g, area);
     for (int f = 0; f < sums; f++)
         memset(g->fields[f], 0, g->cells * sizeof(float));

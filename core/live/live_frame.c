@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "live/live_parts.h"
 
@@ -23,7 +24,7 @@ static void cover_scene(JoxLiveArea *area, const JoScene *scene) {
         jox_live_cover(&all, spec->low, spec->high);
     for (uint32_t v = 0; v < world->model.all_walls.count; v++)
         cover_points(&all, &world->model.all_walls.vertices[v].point, 1, 0.0f);
-    for (uint32_t p = 0; p < scene->first_antipode && p < world->model.place_count; p++)
+    for (uint32_t p = 0; p < scene->world->model.scene_places && p < world->model.place_count; p++)
         cover_points(&all, world->model.places[p].points, world->model.places[p].count,
                      jox_place_radius(&world->model.places[p]));
     for (uint32_t g = 0; g < spec->group_count; g++)
@@ -63,6 +64,9 @@ static void release(void *self) {
     jox_free(live->fired);
     jox_free(live->people);
     jox_free(live->rounds);
+    jox_free(live->state);
+    jox_free(live->flags);
+    jox_free(live->force);
 }
 
 static const JoxListenerKind LIVE = {.name = "live page",
@@ -76,18 +80,6 @@ JoxLive *jox_live_of(JoScene *scene) {
     return live ? live : jox_run_listen(scene, &LIVE, NULL, NULL);
 }
 
-/* Who went beyond the area makes it grow. */
-static void cover_people(JoxLiveArea *area, const JoxAgents *a) {
-    JoxV2 low = area->low, high = area->high;
-    for (uint32_t i = 0; i < a->count; i++) {
-        low.x = jox_minf(low.x, a->x[i]);
-        low.y = jox_minf(low.y, a->y[i]);
-        high.x = jox_maxf(high.x, a->x[i]);
-        high.y = jox_maxf(high.y, a->y[i]);
-    }
-    jox_live_cover(area, low, high);
-}
-
 uint32_t jox_live_player(const JoScene *scene) {
     const JoxSceneSpec *spec = scene->spec;
     if (spec->player_group < 0)
@@ -96,23 +88,6 @@ uint32_t jox_live_player(const JoScene *scene) {
     for (int32_t g = 0; g < spec->player_group; g++)
         id += spec->groups[g].count;
     return id;
-}
-
-static inline float colour_of(const JoxAgents *a, uint32_t i, JoxLiveColour colour) {
-    switch (colour) {
-    case JOX_LIVE_COLOUR_speed:
-        return sqrtf(a->vx[i] * a->vx[i] + a->vy[i] * a->vy[i]);
-    case JOX_LIVE_COLOUR_force:
-        return sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
-    case JOX_LIVE_COLOUR_compression:
-        return a->compression[i];
-    case JOX_LIVE_COLOUR_density:
-        return a->density[i];
-    case JOX_LIVE_COLOUR_group:
-        return a->group[i];
-    default:
-        return 0.0f;
-    }
 }
 
 static void put_bodies(const JoScene *scene, uint32_t slots, JoxBytes *out) {
@@ -148,61 +123,93 @@ static void note_edges(JoxLive *live, const JoWorld *world) {
     }
 }
 
+/* Numbers of states in the scene message, and flags. */
+static void fill_states(JoxLive *live, const JoScene *scene) {
+    const JoWorld *world = scene->world;
+    const JoxAgents *a = &world->state.agents;
+    const uint32_t player = jox_live_player(scene);
+    uint32_t first[JOX_MOST_MACHINES + 1] = {0};
+    for (uint32_t m = 0; m < world->model.machines.count; m++)
+        first[m + 1] = first[m] + world->model.machines.items[m]->state_count;
+    JOX_RESERVE(live->state, live->state_capacity, a->count + 1);
+    JOX_RESERVE(live->flags, live->flag_capacity, a->count + 1);
+    for (uint32_t i = 0; i < a->count; i++) {
+        const uint32_t slot = a->slot[i];
+        const uint32_t state = a->machine[i] == JOX_NO_MACHINE ? JOX_LIVE_OTHER_STATE
+                                                               : first[a->machine[i]] + a->state[i];
+        const uint32_t flips = slot < live->round_capacity ? live->rounds[slot].flips : 0;
+        JOX_ASSERT(a->slot_index[slot] == i);
+        live->state[i] = (uint8_t)(state < JOX_LIVE_OTHER_STATE ? state : JOX_LIVE_OTHER_STATE);
+        live->flags[i] = (uint8_t)(((a->slot_generation[slot] ^ flips) & JOX_LIVE_PARITY) |
+                                   (a->failed[i] ? JOX_LIVE_FAILED : 0u) |
+                                   (a->id[i] == player ? JOX_LIVE_PLAYER : 0u));
+    }
+}
+
+static const float *fill_forces(JoxLive *live, const JoxAgents *a) {
+    JOX_RESERVE(live->force, live->force_capacity, a->count + 1);
+    for (uint32_t i = 0; i < a->count; i++)
+        live->force[i] = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
+    return live->force;
+}
+
+/* Everybody, without states, flags and values. */
+static JoxLiveCrowd crowd_of(const JoScene *scene) {
+    const JoxAgents *a = &scene->world->state.agents;
+    return (JoxLiveCrowd){.count = a->count,
+                          .slots = a->slot_count,
+                          .slot = a->slot,
+                          .x = a->x,
+                          .y = a->y,
+                          .vx = a->vx,
+                          .vy = a->vy,
+                          .face_x = a->face_x,
+                          .face_y = a->face_y,
+                          .radius = a->param[JOX_PARAM_radius],
+                          .group = a->group,
+                          .period = a->period};
+}
+
 void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
     JoxLive *live = jox_live_of(scene);
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
-    uint32_t first[JOX_MOST_MACHINES + 1] = {0};
-    for (uint32_t m = 0; m < world->model.machines.count; m++)
-        first[m + 1] = first[m] + world->model.machines.items[m]->state_count;
-    const uint32_t player = jox_live_player(scene);
-    cover_people(&live->area, a);
+    JoxLiveCrowd crowd = crowd_of(scene);
+    jox_live_cover_crowd(&live->area, &crowd);
     note_edges(live, world);
-    JoxLiveHead head = {.tick = (uint32_t)world->state.tick,
-                        .time = jo_world_time(world),
-                        .slots = a->slot_count,
-                        .bodies = jox_bodies_rows(world->state.bodies),
-                        .area = &live->area,
-                        .most = jox_live_colours[colour].most};
-    jox_live_begin_frame(out, &head);
-    float scale = head.most > 0.0f ? 1.0f / head.most : 0.0f;
-    for (uint32_t i = 0; i < a->count; i++) {
-        uint32_t state = a->machine[i] == JOX_NO_MACHINE ? JOX_LIVE_OTHER_STATE
-                                                         : first[a->machine[i]] + a->state[i];
-        uint32_t slot = a->slot[i];
-        const uint32_t flips = slot < live->round_capacity ? live->rounds[slot].flips : 0;
-        uint8_t flags = (uint8_t)(((a->slot_generation[slot] ^ flips) & JOX_LIVE_PARITY) |
-                                  (a->failed[i] ? JOX_LIVE_FAILED : 0u) |
-                                  (a->id[i] == player ? JOX_LIVE_PLAYER : 0u));
-        jox_live_put_person(
-            out, &live->area, slot,
-            &(JoxLivePerson){
-                a->x[i], a->y[i], a->face_x[i], a->face_y[i], colour_of(a, i, colour) * scale,
-                (uint8_t)(state < JOX_LIVE_OTHER_STATE ? state : JOX_LIVE_OTHER_STATE), flags});
-    }
+    fill_states(live, scene);
+    crowd.state = live->state;
+    crowd.flags = live->flags;
+    crowd.value = colour == JOX_LIVE_COLOUR_force         ? fill_forces(live, a)
+                  : colour == JOX_LIVE_COLOUR_compression ? a->compression
+                  : colour == JOX_LIVE_COLOUR_density     ? a->density
+                                                          : NULL;
+    const JoxLiveHead head = {.tick = (uint32_t)world->state.tick,
+                              .time = jo_world_time(world),
+                              .bodies = jox_bodies_rows(world->state.bodies),
+                              .area = &live->area};
+    jox_live_pack_frame(&head, &crowd, colour, out);
     put_bodies(scene, a->slot_count, out);
 }
 
 bool jox_live_people(JoScene *scene, JoxBytes *out) {
-    const JoxAgents *a = &scene->world->state.agents;
-    bool differs = false;
-    size_t before = out->length;
-    jox_live_begin_people(out, a->slot_count);
-    for (uint32_t i = 0; i < a->count; i++)
-        differs |= jox_live_put_people(out, a->slot[i], a->param[JOX_PARAM_radius][i], a->group[i]);
-    return differs || out->length != before;
+    const JoxLiveCrowd crowd = crowd_of(scene);
+    return jox_live_pack_people(&crowd, out);
+}
+
+double jox_live_speed(const JoScene *scene) {
+    const JoxLiveCrowd crowd = crowd_of(scene);
+    return jox_live_mean_speed(&crowd);
 }
 
 void jox_live_spread_crowd(JoScene *scene, bool moves) {
     JoxLive *live = jox_live_of(scene);
-    const JoxAgents *a = &scene->world->state.agents;
+    const JoxLiveCrowd crowd = crowd_of(scene);
     if (live->spread == scene->world->state.tick + 1 && (live->moves || !moves))
         return;
     live->spread = scene->world->state.tick + 1;
     live->moves = moves;
-    cover_people(&live->area, a);
-    jox_live_spread(&live->grid, &live->area,
-                    &(JoxLiveCrowd){a->count, a->x, a->y, a->vx, a->vy, a->period}, moves);
+    jox_live_spread(&live->grid, &live->area, &crowd, moves);
 }
 
 void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out) {

@@ -2,10 +2,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "live/live.h"
 
 enum { STEPS = 65535, PEOPLE_HEAD = 16, FRAME = 1, PEOPLE = 2 };
+static const float RADIUS = 0.2f; /* m, of people whose radius is not known */
 
 const JoxLiveColourInfo jox_live_colours[JOX_LIVE_COLOUR_COUNT] = {
 #define X(name, most, unit) {#name, unit, most},
@@ -79,20 +81,30 @@ void jox_live_cover(JoxLiveArea *area, JoxV2 low, JoxV2 high) {
                           STEPS / jox_maxf(area->high.y - area->low.y, 1.0f)};
 }
 
+void jox_live_cover_crowd(JoxLiveArea *area, const JoxLiveCrowd *crowd) {
+    JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < crowd->count; i++) {
+        low = jox_v2(jox_minf(low.x, crowd->x[i]), jox_minf(low.y, crowd->y[i]));
+        high = jox_v2(jox_maxf(high.x, crowd->x[i]), jox_maxf(high.y, crowd->y[i]));
+    }
+    jox_live_cover(area, low, high);
+}
+
 /* ---- frames ---- */
 
-void jox_live_begin_frame(JoxBytes *out, const JoxLiveHead *head) {
+/* Writes the head, and makes every slot empty. `most`: value that 255 stands for. */
+static void begin_frame(JoxBytes *out, const JoxLiveHead *head, uint32_t slots, float most) {
     const JoxLiveArea *area = head->area;
-    size_t people = (size_t)head->slots * JOX_LIVE_SLOT;
+    size_t people = (size_t)slots * JOX_LIVE_SLOT;
     resize(out, JOX_LIVE_HEAD + people + (size_t)head->bodies * JOX_LIVE_BODY);
     uint8_t *at = put32(put32(out->data, FRAME), head->tick);
     at = put_double(at, head->time);
-    at = put32(put32(at, head->slots), head->bodies);
+    at = put32(put32(at, slots), head->bodies);
     at = put_float(put_float(at, area->low.x), area->low.y);
     at = put_float(put_float(at, 1.0f / area->steps.x), 1.0f / area->steps.y);
-    at = put32(put_float(at, head->most), 0);
+    at = put32(put_float(at, most), 0);
     static const uint8_t NOBODY[JOX_LIVE_SLOT] = {[5] = JOX_LIVE_NOBODY};
-    for (uint32_t s = 0; s < head->slots; s++, at += JOX_LIVE_SLOT)
+    for (uint32_t s = 0; s < slots; s++, at += JOX_LIVE_SLOT)
         memcpy(at, NOBODY, JOX_LIVE_SLOT);
 }
 
@@ -113,15 +125,47 @@ static inline uint16_t steps(float away, float per_metre) {
     return (uint16_t)jox_clampf(away * per_metre + 0.5f, 0.0f, STEPS);
 }
 
-void jox_live_put_person(JoxBytes *frame, const JoxLiveArea *area, uint32_t slot,
-                         const JoxLivePerson *person) {
-    uint8_t *at = frame->data + JOX_LIVE_HEAD + (size_t)slot * JOX_LIVE_SLOT;
-    at = put16(at, steps(person->x - area->low.x, area->steps.x));
-    at = put16(at, steps(person->y - area->low.y, area->steps.y));
-    at[0] = heading(person->face_x, person->face_y);
-    at[1] = person->state;
-    at[2] = (uint8_t)(jox_clampf(person->value, 0.0f, 1.0f) * 255.0f + 0.5f);
-    at[3] = person->flags;
+static inline float speed_of(const JoxLiveCrowd *crowd, uint32_t i) {
+    return sqrtf(crowd->vx[i] * crowd->vx[i] + crowd->vy[i] * crowd->vy[i]);
+}
+
+double jox_live_mean_speed(const JoxLiveCrowd *crowd) {
+    double sum = 0.0;
+    for (uint32_t i = 0; i < crowd->count; i++)
+        sum += (double)speed_of(crowd, i);
+    return crowd->count ? sum / crowd->count : 0.0;
+}
+
+static inline float value_of(const JoxLiveCrowd *crowd, uint32_t i, JoxLiveColour colour) {
+    switch (colour) {
+    case JOX_LIVE_COLOUR_speed:
+        return speed_of(crowd, i);
+    case JOX_LIVE_COLOUR_group:
+        return crowd->group ? crowd->group[i] : 0.0f;
+    default:
+        return crowd->value ? crowd->value[i] : 0.0f;
+    }
+}
+
+void jox_live_pack_frame(const JoxLiveHead *head, const JoxLiveCrowd *crowd, JoxLiveColour colour,
+                         JoxBytes *out) {
+    const JoxLiveArea *area = head->area;
+    const float most = jox_live_colours[colour].most, scale = most > 0.0f ? 1.0f / most : 0.0f;
+    JOX_ASSERT(area->known && area->steps.x > 0.0f && area->steps.y > 0.0f);
+    begin_frame(out, head, crowd->slots, most);
+    for (uint32_t i = 0; i < crowd->count; i++) {
+        JOX_ASSERT(crowd->slot[i] < crowd->slots && crowd->state[i] != JOX_LIVE_NOBODY);
+        uint8_t *at = out->data + JOX_LIVE_HEAD + (size_t)crowd->slot[i] * JOX_LIVE_SLOT;
+        const bool faces = crowd->face_x && (crowd->face_x[i] != 0.0f || crowd->face_y[i] != 0.0f);
+        const float value = value_of(crowd, i, colour) * scale;
+        at = put16(at, steps(crowd->x[i] - area->low.x, area->steps.x));
+        at = put16(at, steps(crowd->y[i] - area->low.y, area->steps.y));
+        at[0] = faces ? heading(crowd->face_x[i], crowd->face_y[i])
+                      : heading(crowd->vx[i], crowd->vy[i]);
+        at[1] = crowd->state[i];
+        at[2] = (uint8_t)(jox_clampf(value, 0.0f, 1.0f) * 255.0f + 0.5f);
+        at[3] = crowd->flags[i];
+    }
 }
 
 void jox_live_put_body(JoxBytes *frame, uint32_t slots, uint32_t row, JoxV3 position,
@@ -135,20 +179,29 @@ void jox_live_put_body(JoxBytes *frame, uint32_t slots, uint32_t row, JoxV3 posi
 
 /* ---- people ---- */
 
-void jox_live_begin_people(JoxBytes *out, uint32_t slots) {
+/* Makes room for so many slots; who was there already is compared. */
+static void begin_people(JoxBytes *out, uint32_t slots) {
     size_t before = out->length, length = PEOPLE_HEAD + 2 * (size_t)slots;
     resize(out, length);
-    if (length > before) /* who was there already is compared */
+    if (length > before)
         memset(out->data + before, 0, length - before);
     put32(put32(put32(put32(out->data, PEOPLE), 0), slots), 0);
 }
 
-bool jox_live_put_people(JoxBytes *people, uint32_t slot, float radius, uint32_t group) {
-    uint8_t *at = people->data + PEOPLE_HEAD + 2 * (size_t)slot;
-    uint8_t r = (uint8_t)(jox_clampf(radius, 0.0f, 2.55f) * 100.0f + 0.5f);
-    uint8_t g = (uint8_t)(group < 255 ? group : 255);
-    bool differs = at[0] != r || at[1] != g;
-    at[0] = r;
-    at[1] = g;
+bool jox_live_pack_people(const JoxLiveCrowd *crowd, JoxBytes *out) {
+    const size_t before = out->length;
+    begin_people(out, crowd->slots);
+    bool differs = out->length != before;
+    for (uint32_t i = 0; i < crowd->count; i++) {
+        JOX_ASSERT(crowd->slot[i] < crowd->slots);
+        uint8_t *at = out->data + PEOPLE_HEAD + 2 * (size_t)crowd->slot[i];
+        const float radius = crowd->radius ? crowd->radius[i] : RADIUS;
+        const uint32_t group = crowd->group ? crowd->group[i] : 0;
+        const uint8_t r = (uint8_t)(jox_clampf(radius, 0.0f, 2.55f) * 100.0f + 0.5f);
+        const uint8_t g = (uint8_t)(group < 255 ? group : 255);
+        differs |= at[0] != r || at[1] != g;
+        at[0] = r;
+        at[1] = g;
+    }
     return differs;
 }

@@ -37,9 +37,11 @@ struct JoxLive {
     } * rounds;
     size_t round_capacity;
     uint64_t came_round; /* tick of that frame, plus 1 */
-    /* Scratch. */
+    /* Scratch: people by state; states, flags and forces of a frame's people. */
     uint32_t *people;
-    size_t people_capacity;
+    uint8_t *state, *flags;
+    float *force;
+    size_t people_capacity, state_capacity, flag_capacity, force_capacity;
 };
 
 /* Attached to the scene on first use. */
@@ -52,6 +54,9 @@ void jox_live_count(JoxLive *live, const JoScene *scene);
 uint32_t jox_live_player(const JoScene *scene);
 /* Brings the grid up to date; with `moves`, velocities too. */
 void jox_live_spread_crowd(JoScene *scene, bool moves);
+
+/* m/s, of everybody. */
+double jox_live_speed(const JoScene *scene);
 
 /* live_scene.c. What a live scene and a recording begin with. */
 typedef struct JoxLiveSceneHead {

@@ -1,8 +1,9 @@
-/* The hello: all of a scene that stays as it is for a while. */
+/* The scene message: all of a scene that stays as it is for a while. */
 #include <math.h>
 #include <string.h>
 
 #include "base/hash.h"
+#include "live/inspect.h"
 #include "live/live_parts.h"
 
 enum { DIGITS = 7 }; /* of positions and sizes, which are floats */
@@ -210,8 +211,8 @@ static void add_tools(JoxJson *json, const JoScene *scene) {
 /* ---- the whole ---- */
 
 void jox_live_add_head(const JoxLiveSceneHead *head, JoxJson *json) {
-    jox_json_string(json, "type", "hello");
-    jox_json_whole(json, "protocol", 1);
+    jox_json_string(json, "type", "scene");
+    jox_json_whole(json, "protocol", JOX_LIVE_PROTOCOL);
     jox_json_string(json, "session", head->session);
     jox_json_string(json, "title", head->title);
     jox_json_string(json, "file", head->file);
@@ -262,10 +263,10 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     jox_json_object(&json, NULL);
     jox_live_add_head(&head, &json);
     jox_live_add_walls(&world->model.all_walls, JOX_WALL_HEIGHT, &json);
-    jox_live_add_places(world->model.places, scene->first_antipode, &json);
+    jox_live_add_places(world->model.places, scene->world->model.scene_places, &json);
     jox_live_add_regions(spec->regions, spec->region_count, &json);
     add_groups(&json, scene);
-    jox_run_graph(scene, &json, "machines");
+    jox_live_graph(scene, &json, "machines");
     add_bodies(&json, world->state.bodies);
     add_tools(&json, scene);
     jox_live_add_camera(spec, &json);

@@ -5,9 +5,9 @@
 #include "base/mem.h"
 #include "live/live_parts.h"
 
-/* "census": [[people in each state] of each machine], and "fired" alike by transition. */
+/* "states": [[people in each state] of each machine], and "fired" alike by transition. */
 static void add_machines(JoxJson *json, JoxLive *live, const JoxMachineRun *machines) {
-    jox_json_array(json, "census");
+    jox_json_array(json, "states");
     for (uint32_t m = 0; m < machines->set->count; m++) {
         const uint32_t count = machines->set->items[m]->state_count;
         JOX_RESERVE(live->people, live->people_capacity, count);
@@ -26,13 +26,6 @@ static void add_machines(JoxJson *json, JoxLive *live, const JoxMachineRun *mach
         jox_json_end(json);
     }
     jox_json_end(json);
-}
-
-static double mean_speed(const JoxAgents *a) {
-    double sum = 0.0;
-    for (uint32_t i = 0; i < a->count; i++)
-        sum += sqrtf(a->vx[i] * a->vx[i] + a->vy[i] * a->vy[i]);
-    return a->count ? sum / a->count : 0.0;
 }
 
 /* Passages of flow probes, and which walls of a name stand open. */
@@ -104,7 +97,7 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
     jox_json_whole(&json, "agents", world->state.agents.count);
     jox_json_whole(&json, "bodies", jox_bodies_count(world->state.bodies));
     add_machines(&json, live, &world->machines);
-    jox_json_number(&json, "mean_speed", mean_speed(&world->state.agents));
+    jox_json_number(&json, "mean_speed", jox_live_speed(scene));
     jox_json_number(&json, "density_max", live->grid.most);
     add_costs(&json, live, scene);
     add_doors(&json, scene);

@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "live/replay_parts.h"
 
 enum { MOST_BODIES = 1 << 20 };
-static const float RADIUS = 0.2f;  /* m: recordings do not say it */
 static const double LONGEST = 0.3; /* s over which displacements are taken for velocities */
 static const float MARGIN = 2.0f;  /* m about everything */
 
@@ -78,8 +78,9 @@ JoxReplay *jox_replay_open(const JoxReplayDef *def, JoxDiagnostics *diagnostics)
     bool good = !def->scene || (r->spec = jox_scene_load(def->scene, NULL, diagnostics));
     if (r->spec && (r->spec->periodic_x || r->spec->periodic_y)) {
         JoxV2 size = jox_sub(r->spec->high, r->spec->low);
-        options.period =
+        r->period =
             (JoxV2){r->spec->periodic_x ? size.x : 0.0f, r->spec->periodic_y ? size.y : 0.0f};
+        options.period = r->period;
     }
     good = good && (r->reader = jox_trajectory_reader_open(def->recording, &options, diagnostics));
     if (!good) {
@@ -109,82 +110,6 @@ uint32_t jox_replay_find(const JoxReplay *r, double time) {
 
 /* ---- frames ---- */
 
-static void widen(JoxReplay *r, uint32_t need) {
-    if (need <= r->capacity)
-        return;
-    r->capacity = (size_t)need + need / 2 + 64;
-    r->id = jox_realloc(r->id, r->capacity, sizeof *r->id);
-    r->old_id = jox_realloc(r->old_id, r->capacity, sizeof *r->old_id);
-    r->slot = jox_realloc(r->slot, r->capacity, sizeof *r->slot);
-    r->old_slot = jox_realloc(r->old_slot, r->capacity, sizeof *r->old_slot);
-    float **columns[] = {&r->vx, &r->vy, &r->x, &r->y};
-    for (int c = 0; c < 4; c++)
-        *columns[c] = jox_realloc(*columns[c], r->capacity, sizeof(float));
-}
-
-/* A slot for somebody new. */
-static uint32_t take_slot(JoxReplay *r) {
-    if (r->spare_count) {
-        uint32_t slot = r->spare[--r->spare_count];
-        r->parity[slot] ^= JOX_LIVE_PARITY;
-        return slot;
-    }
-    if (r->slot_count == r->slot_capacity) {
-        r->slot_capacity = r->slot_capacity ? 2 * r->slot_capacity : 256;
-        r->parity = jox_realloc(r->parity, r->slot_capacity, sizeof *r->parity);
-        r->spare = jox_realloc(r->spare, r->slot_capacity, sizeof *r->spare);
-        r->last_x = jox_realloc(r->last_x, r->slot_capacity, sizeof *r->last_x);
-        r->last_y = jox_realloc(r->last_y, r->slot_capacity, sizeof *r->last_y);
-    }
-    r->parity[r->slot_count] = JOX_LIVE_PARITY;
-    return r->slot_count++;
-}
-
-static float shortest(float d, float period) {
-    return period > 0.0f ? remainderf(d, period) : d;
-}
-
-/* Gives everybody of the frame a slot: that of the frame before, of which both lists ascend by id.
-   `spent`: s since then; 0 where the frames are not neighbours. */
-static void give_slots(JoxReplay *r, const JoxTrajectoryReaderFrame *f, double spent) {
-    JoxV2 period = {0};
-    if (r->spec && r->spec->periodic_x)
-        period.x = r->spec->high.x - r->spec->low.x;
-    if (r->spec && r->spec->periodic_y)
-        period.y = r->spec->high.y - r->spec->low.y;
-    int64_t *ids = r->old_id;
-    uint32_t *slots = r->old_slot, before = r->count, k = 0;
-    r->old_id = r->id;
-    r->old_slot = r->slot;
-    r->id = ids;
-    r->slot = slots;
-    for (uint32_t i = 0; i < f->count; i++) { /* who left frees the slot before anyone takes it */
-        while (k < before && r->old_id[k] < f->id[i])
-            r->spare[r->spare_count++] = r->old_slot[k++];
-        bool stays = k < before && r->old_id[k] == f->id[i];
-        r->slot[i] = stays ? r->old_slot[k++] : JOX_REPLAY_NOBODY;
-    }
-    while (k < before)
-        r->spare[r->spare_count++] = r->old_slot[k++];
-    for (uint32_t i = 0; i < f->count; i++) {
-        bool fresh = r->slot[i] == JOX_REPLAY_NOBODY;
-        if (fresh)
-            r->slot[i] = take_slot(r);
-        const uint32_t s = r->slot[i];
-        bool moved = !fresh && spent > 0.0;
-        bool round = fabsf(f->x[i] - r->last_x[s]) > 0.5f * period.x && period.x > 0.0f;
-        round |= fabsf(f->y[i] - r->last_y[s]) > 0.5f * period.y && period.y > 0.0f;
-        if (!fresh && round) /* an edge: nobody flies across */
-            r->parity[s] ^= JOX_LIVE_PARITY;
-        r->vx[i] = moved ? shortest(f->x[i] - r->last_x[s], period.x) / (float)spent : 0.0f;
-        r->vy[i] = moved ? shortest(f->y[i] - r->last_y[s], period.y) / (float)spent : 0.0f;
-        r->last_x[s] = r->x[i] = f->x[i];
-        r->last_y[s] = r->y[i] = f->y[i];
-        r->id[i] = f->id[i];
-    }
-    r->count = f->count;
-}
-
 static void note_bodies(JoxReplay *r, const JoxTrajectoryReaderFrame *f) {
     for (uint32_t b = 0; b < f->body_count; b++) {
         const uint32_t id = f->bodies[b].id;
@@ -204,7 +129,7 @@ static void note_bodies(JoxReplay *r, const JoxTrajectoryReaderFrame *f) {
 
 void jox_replay_forget(JoxReplay *r) {
     r->frame = (JoxTrajectoryReaderFrame){.time = r->frame.time};
-    give_slots(r, &r->frame, 0.0);
+    jox_replay_give_slots(r, &r->frame, 0.0);
     r->timed = false;
     r->shown = JOX_REPLAY_NOBODY;
     r->spread = false;
@@ -225,8 +150,8 @@ static bool take(JoxReplay *r, uint32_t frame, JoxText *why) {
         jox_replay_forget(r);
         return false;
     }
-    widen(r, r->frame.count);
-    give_slots(r, &r->frame, spent);
+    jox_replay_widen(r, r->frame.count);
+    jox_replay_give_slots(r, &r->frame, spent);
     note_bodies(r, &r->frame);
     r->shown = frame;
     r->timed = spent > 0.0;
@@ -241,86 +166,89 @@ bool jox_replay_show(JoxReplay *r, uint32_t frame, JoxText *why) {
     return take(r, frame, why);
 }
 
+/* Everybody, without states, flags and values. */
+static JoxLiveCrowd crowd_of(const JoxReplay *r) {
+    return (JoxLiveCrowd){.count = r->count,
+                          .slots = r->slot_count,
+                          .slot = r->slot,
+                          .x = r->x,
+                          .y = r->y,
+                          .vx = r->vx,
+                          .vy = r->vy,
+                          .face_x = r->frame.face_x,
+                          .face_y = r->frame.face_y,
+                          .group = r->frame.group,
+                          .period = r->period};
+}
+
 void jox_replay_spread(JoxReplay *r, bool moves) {
+    const JoxLiveCrowd crowd = crowd_of(r);
     if (r->spread && (r->moves || !moves))
         return;
-    JoxV2 low = r->area.low, high = r->area.high;
-    for (uint32_t i = 0; i < r->count; i++) {
-        low = (JoxV2){jox_minf(low.x, r->x[i]), jox_minf(low.y, r->y[i])};
-        high = (JoxV2){jox_maxf(high.x, r->x[i]), jox_maxf(high.y, r->y[i])};
-    }
-    jox_live_cover(&r->area, low, high);
-    const JoxLiveCrowd crowd = {.count = r->count, .x = r->x, .y = r->y, .vx = r->vx, .vy = r->vy};
     jox_live_spread(&r->grid, &r->area, &crowd, moves);
     r->spread = true;
     r->moves = moves;
 }
 
-static float colour_of(const JoxReplay *r, uint32_t i, JoxLiveColour colour) {
-    const JoxTrajectoryReaderFrame *f = &r->frame;
-    switch (colour) {
-    case JOX_LIVE_COLOUR_speed:
-        return sqrtf(r->vx[i] * r->vx[i] + r->vy[i] * r->vy[i]);
-    case JOX_LIVE_COLOUR_force:
-        return f->force ? f->force[i] : 0.0f;
-    case JOX_LIVE_COLOUR_compression:
-        return f->compression ? f->compression[i] : 0.0f;
-    case JOX_LIVE_COLOUR_density:
-        return jox_live_density_at(&r->grid, r->x[i], r->y[i]);
-    case JOX_LIVE_COLOUR_group:
-        return f->group ? f->group[i] : 0.0f;
-    default:
-        return 0.0f;
-    }
+double jox_replay_speed(const JoxReplay *r) {
+    const JoxLiveCrowd crowd = crowd_of(r);
+    return r->timed && r->count ? jox_live_mean_speed(&crowd) : NAN;
 }
 
 uint32_t jox_replay_state(const JoxReplay *r, uint32_t i) {
     const JoxTrajectoryReaderFrame *f = &r->frame;
     const uint32_t row = f->state ? f->state[i] : JOX_REEL_NO_STATE;
+    JOX_ASSERT(i < r->count && (row == JOX_REEL_NO_STATE || row < r->info.state_count));
     return row == JOX_REEL_NO_STATE ? UINT32_MAX : r->names.state_of[row];
 }
 
-void jox_replay_frame(JoxReplay *r, JoxLiveColour colour, JoxBytes *out) {
+static const float *fill_densities(JoxReplay *r) {
+    for (uint32_t i = 0; i < r->count; i++)
+        r->density[i] = jox_live_density_at(&r->grid, r->x[i], r->y[i]);
+    return r->density;
+}
+
+static void put_bodies(const JoxReplay *r, JoxBytes *out) {
     static const float STRAIGHT[4] = {0.0f, 0.0f, 0.0f, 1.0f};
     const JoxTrajectoryReaderFrame *f = &r->frame;
-    jox_replay_spread(r, false);
-    JoxLiveHead head = {.tick = r->shown == JOX_REPLAY_NOBODY ? 0 : r->shown,
-                        .time = f->time,
-                        .slots = r->slot_count,
-                        .bodies = r->row_count,
-                        .area = &r->area,
-                        .most = jox_live_colours[colour].most};
-    jox_live_begin_frame(out, &head);
-    const float scale = head.most > 0.0f ? 1.0f / head.most : 0.0f;
-    for (uint32_t i = 0; i < r->count; i++) {
-        bool faces = f->face_x && (f->face_x[i] != 0.0f || f->face_y[i] != 0.0f);
-        uint32_t state = jox_replay_state(r, i);
-        jox_live_put_person(
-            out, &r->area, r->slot[i],
-            &(JoxLivePerson){r->x[i], r->y[i], faces ? f->face_x[i] : r->vx[i],
-                             faces ? f->face_y[i] : r->vy[i], colour_of(r, i, colour) * scale,
-                             (uint8_t)(state < JOX_LIVE_OTHER_STATE ? state : JOX_LIVE_OTHER_STATE),
-                             r->parity[r->slot[i]]});
-    }
     for (uint32_t row = 0; row < r->row_count; row++)
         jox_live_put_body(out, r->slot_count, row, (JoxV3){0.0f, 0.0f, -1000.0f}, STRAIGHT);
     for (uint32_t b = 0; b < f->body_count; b++) {
         const JoxRecordBody *body = &f->bodies[b];
         const float turn[4] = {body->qx, body->qy, body->qz, body->qw};
-        if (body->id < MOST_BODIES)
-            jox_live_put_body(out, r->slot_count, r->row_of[body->id],
-                              (JoxV3){body->x, body->y, body->z}, turn);
+        if (body->id >= MOST_BODIES)
+            continue;
+        JOX_ASSERT(r->row_of[body->id] < r->row_count);
+        jox_live_put_body(out, r->slot_count, r->row_of[body->id],
+                          (JoxV3){body->x, body->y, body->z}, turn);
     }
 }
 
+void jox_replay_frame(JoxReplay *r, JoxLiveColour colour, JoxBytes *out) {
+    JoxLiveCrowd crowd = crowd_of(r);
+    jox_replay_spread(r, false);
+    for (uint32_t i = 0; i < r->count; i++) {
+        const uint32_t state = jox_replay_state(r, i);
+        r->state[i] = (uint8_t)(state < JOX_LIVE_OTHER_STATE ? state : JOX_LIVE_OTHER_STATE);
+        r->flags[i] = r->parity[r->slot[i]];
+    }
+    crowd.state = r->state;
+    crowd.flags = r->flags;
+    crowd.value = colour == JOX_LIVE_COLOUR_force         ? r->frame.force
+                  : colour == JOX_LIVE_COLOUR_compression ? r->frame.compression
+                  : colour == JOX_LIVE_COLOUR_density     ? fill_densities(r)
+                                                          : NULL;
+    const JoxLiveHead head = {.tick = r->shown == JOX_REPLAY_NOBODY ? 0 : r->shown,
+                              .time = r->frame.time,
+                              .bodies = r->row_count,
+                              .area = &r->area};
+    jox_live_pack_frame(&head, &crowd, colour, out);
+    put_bodies(r, out);
+}
+
 bool jox_replay_people(const JoxReplay *r, JoxBytes *out) {
-    bool differs = false;
-    size_t before = out->length;
-    jox_live_begin_people(out, r->slot_count);
-    for (uint32_t i = 0; i < r->count; i++)
-        differs |=
-            jox_live_put_people(out, r->slot[i], RADIUS, r->frame.group ? r->frame.group[i] : 0u);
-    return differs || out->length != before;
+    const JoxLiveCrowd crowd = crowd_of(r);
+    return jox_live_pack_people(&crowd, out);
 }
 
 void jox_replay_field(JoxReplay *r, JoxLiveField field, JoxBytes *out) {
@@ -358,6 +286,9 @@ void jox_replay_close(JoxReplay *r) {
                      r->vy,
                      r->x,
                      r->y,
+                     r->density,
+                     r->state,
+                     r->flags,
                      r->parity,
                      r->spare,
                      r->last_x,

@@ -26,7 +26,7 @@ bool jox_replay_show(JoxReplay *replay, uint32_t frame, JoxText *why);
 /* Nobody is shown: whoever comes next has a slot of its own. */
 void jox_replay_forget(JoxReplay *replay);
 void jox_replay_scene(const JoxReplay *replay, JoxText *out);
-/* Another number whenever a new hello is due: other bodies came. */
+/* Another number whenever the scene message is due again: other bodies came. */
 uint64_t jox_replay_version(const JoxReplay *replay);
 /* `factor`: simulated seconds in a second, as measured. */
 void jox_replay_status(JoxReplay *replay, const JoxLiveSession *session, double factor,

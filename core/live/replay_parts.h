@@ -27,6 +27,7 @@ struct JoxReplay {
     JoxSceneSpec *spec; /* or NULL */
     JoxBodies *bodies;  /* of the scene, or NULL */
     JoxReplayNames names;
+    JoxV2 period; /* m: of periodic edges; 0 without */
     JoxLiveArea area;
     JoxLiveGrid grid;
     uint32_t shown; /* frame, or JOX_REPLAY_NOBODY */
@@ -37,6 +38,8 @@ struct JoxReplay {
     int64_t *id, *old_id;
     uint32_t *slot, *old_slot;
     float *vx, *vy, *x, *y;
+    float *density;         /* these three are scratch of a frame that is packed */
+    uint8_t *state, *flags; /* likewise */
     uint32_t count;
     size_t capacity;
     uint8_t *parity;        /* by slot */
@@ -54,8 +57,15 @@ struct JoxReplay {
 
 /* Of the scene, else those that the recording has. */
 const JoxWalls *jox_replay_walls(const JoxReplay *replay);
-/* Number of a person's state in the hello's list; UINT32_MAX: it has none. */
+/* Number of a person's state in the scene message's list; UINT32_MAX: it has none. */
 uint32_t jox_replay_state(const JoxReplay *replay, uint32_t person);
+/* m/s, of everybody; NAN where the frame before is not known. */
+double jox_replay_speed(const JoxReplay *replay);
+/* replay_slots.c: makes room for so many people; gives everybody of the frame a slot: that of the
+   frame before, of which both lists ascend by id. `spent`: s since then; 0 where the frames are not
+   neighbours. */
+void jox_replay_widen(JoxReplay *replay, uint32_t need);
+void jox_replay_give_slots(JoxReplay *replay, const JoxTrajectoryReaderFrame *frame, double spent);
 /* Brings the grid up to date; with `moves`, velocities too. */
 void jox_replay_spread(JoxReplay *replay, bool moves);
 

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
 #include "lua/read.h"
@@ -11,6 +12,7 @@
 static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxAssign *assign) {
     static const JoxParameterInfo ANY = {"this", "", "", -1e12, 1e12, 0};
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(slot >= 0 && (uint32_t)slot < b->machine->memory_count);
     JoxNode *node = jox_node_get(L, -1);
     *assign = (struct JoxAssign){.slot = slot};
     if (b->machine->memory[slot].kind == JOX_MEMORY_NUMBER) {
@@ -40,6 +42,7 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
 
 static void read_set(JoxBuild *b, int index, const char *path, JoxActions *actions) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index) && !actions->set);
     char full[256], part[256];
     jox_read_join(full, path, "set");
     int type = jox_read_field(L, index, "set"), table = lua_gettop(L);
@@ -79,9 +82,11 @@ static void read_signal(JoxBuild *b, int index, const char *path, JoxActions *ac
         jox_read_check(b, top, full, KEYS, 1, true);
         if (jox_read_field(L, top, "every") == LUA_TNUMBER)
             *every = lua_tonumber(L, -1);
-        if (!lua_isnil(L, -1) && !(*every >= 0.01 && *every <= 1e6))
+        const JoxParameterInfo info = jox_table_key_number("signal", "every");
+        if (!lua_isnil(L, -1) && !(*every >= info.least && *every <= info.greatest))
             jox_build_error(b, jox_read_at(b, full), "out-of-range", NULL,
-                            "every must be a plain number from 0.01 to 1e6 s");
+                            "every must be a plain number from %g to %g %s", info.least,
+                            info.greatest, info.unit);
         lua_rawgeti(L, top, 1);
         type = lua_type(L, -1);
     }
@@ -103,6 +108,7 @@ void jox_read_actions(JoxBuild *b, int index, const char *path, JoxActions *acti
 static int16_t read_body_action(JoxBuild *b, int index, const char *path, const char *action,
                                 const JoxParameterInfo *info, int16_t *at, JoxValue *value) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index) && info->least < info->greatest);
     const char *keys[] = {"at", info->name};
     char full[256], part[256], hint[96];
     int16_t what = -1;
@@ -139,6 +145,7 @@ static int16_t read_body_action(JoxBuild *b, int index, const char *path, const 
 
 static void read_become(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index) && !state->become);
     char full[256];
     jox_read_join(full, path, "become");
     int type = jox_read_field(L, index, "become");
@@ -157,13 +164,13 @@ static void read_become(JoxBuild *b, int index, const char *path, JoxState *stat
 }
 
 void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *state) {
-    static const JoxParameterInfo IMPULSE = {"impulse", "m/s", "", 0, 50, 0},
-                                  SPEED = {"speed", "m/s", "", 0.1, 40, 5};
+    const JoxParameterInfo impulse = jox_table_key_number("kick", "impulse"),
+                           speed = jox_table_key_number("throw", "speed");
     char full[256];
     state->kick =
-        read_body_action(b, index, path, "kick", &IMPULSE, &state->kick_at, &state->kick_impulse);
+        read_body_action(b, index, path, "kick", &impulse, &state->kick_at, &state->kick_impulse);
     state->toss =
-        read_body_action(b, index, path, "throw", &SPEED, &state->toss_at, &state->toss_speed);
+        read_body_action(b, index, path, "throw", &speed, &state->toss_at, &state->toss_speed);
     jox_read_join(full, path, "throw");
     if (state->toss >= 0 && state->toss_at < 0)
         jox_build_error(b, jox_read_at(b, full), "missing-key",
@@ -177,6 +184,7 @@ void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *s
 
 /* One thing that counts by itself. */
 static void read_counter(JoxBuild *b, const char *path, uint32_t slot, int32_t state) {
+    JOX_ASSERT(slot < b->machine->memory_count);
     JoxMachine *m = b->machine;
     JoxNode *node = jox_node_get(b->script->vm.L, -1);
     if (node && node->kind == JOX_NODE_CIRCUITS) {

@@ -11,6 +11,7 @@
 /* Every parameter has a slot of its own name, so that a scene's group can set any of them. */
 static void read_defaults(JoxBuild *b, int index) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index) && b->machine->own_count == 0);
     const char *known[JOX_PARAM_COUNT];
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxParameterInfo *info = &jox_parameters[p];
@@ -58,6 +59,7 @@ static bool is_name(lua_State *L, int index) {
 /* The states' names, ascending: tables have no order of their own. */
 static void name_states(JoxBuild *b, int table) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, table) && b->machine->state_count == 0);
     JoxMachine *m = b->machine;
     lua_pushnil(L);
     while (lua_next(L, table)) {
@@ -107,6 +109,7 @@ static void read_states(JoxBuild *b, int index) {
 
 static void read_start(JoxBuild *b, int index) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(b->machine->start == 0);
     JoxMachine *m = b->machine;
     const char *start =
         jox_read_field(L, index, "start") == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
@@ -210,7 +213,8 @@ void jox_build(JoxScript *script, const JoxSource *source) {
         m->memory[slot].initial = script->memory[i].initial;
     }
     const char *known[16];
-    jox_read_check(&build, table, "", known, jox_sheet_names("machine", false, known, 16), false);
+    jox_read_check(&build, table, "", known, jox_table_key_names("machine", false, known, 16),
+                   false);
     jox_read_field(L, table, "name");
     m->name = jox_strdup(is_name(L, -1) ? lua_tostring(L, -1) : "machine");
     if (lua_type(L, -1) == LUA_TSTRING && !is_name(L, -1))

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/read.h"
 
@@ -18,6 +19,7 @@ void jox_build_error(JoxBuild *build, JoxPosition position, const char *code, co
 }
 
 int32_t jox_build_own(JoxBuild *build, const char *name) {
+    JOX_ASSERT(name);
     JoxMachine *m = build->machine;
     for (uint32_t i = 0; i < m->own_count; i++)
         if (*name && strcmp(m->own[i].name, name) == 0)
@@ -50,6 +52,7 @@ int32_t jox_build_memory(JoxBuild *build, const char *name) {
 }
 
 int16_t jox_build_name(JoxBuild *build, const char *name, JoxNameUse use) {
+    JOX_ASSERT(*name);
     JoxMachine *m = build->machine;
     for (uint32_t n = 0; n < m->name_count; n++)
         if (strcmp(m->names[n].text, name) == 0) {
@@ -93,6 +96,7 @@ typedef struct Code {
 enum { LONGEST = 1000, DEEPEST = 200 };
 
 static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
+    JOX_ASSERT(node->kind >= JOX_NODE_NUMBER && node->kind <= JOX_NODE_ERROR);
     if (to + 3 >= JOX_MOST_REGISTERS || code->count >= LONGEST || depth > DEEPEST) {
         code->too_deep = true;
         return;

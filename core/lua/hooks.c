@@ -5,6 +5,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/script.h"
 #include "lua/loader.h"
@@ -13,6 +14,7 @@ enum { MOST_FAILURES = 100 }; /* in a simulated second, before a function is sus
 enum { TIMED = 16 };          /* one call in so many is timed */
 
 void jox_lua_attach(JoxLua *lua, JoxMachineRun *machines, JoxLuaComplain *complain, void *context) {
+    JOX_ASSERT(!machines || machines->agents);
     lua->machines = machines;
     lua->group.say = complain;
     lua->group.say_context = context;
@@ -31,6 +33,19 @@ void jox_lua_suspended(const JoxLua *lua, JoxText *out) {
                     out, "%sbehaviour %.200s was suspended: %.200s failed %d times within a second",
                     out->length ? "; " : "", script->vm.sources[0]->path, script->hooks[h].where,
                     MOST_FAILURES);
+    }
+}
+
+void jox_lua_sections(void *context, const JoxMachine *machine, JoxSections *s) {
+    JoxLua *lua = context;
+    JoxScript *script = machine->vm >= 0 ? lua->scripts[machine->vm] : NULL;
+    jox_sections_module(s, "hooks");
+    jox_section_model(s, machine->name, script ? script->hook_count : 0);
+    for (uint32_t h = 0; script && h < script->hook_count; h++) {
+        JoxHook *hook = &script->hooks[h];
+        JOX_SECTION(s, "second", hook->second);
+        JOX_SECTION(s, "second_failures", hook->second_failures);
+        JOX_SECTION(s, "suspended", hook->suspended);
     }
 }
 
@@ -65,6 +80,7 @@ static void new_second(JoxLua *lua, const JoxScript *script, JoxHook *hook, uint
 
 /* Says each new failure in full; the same again is counted and said once a second. */
 static void report(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *why, int line) {
+    JOX_ASSERT(why && line >= 0);
     const JoxMachineRun *machines = lua->machines;
     char text[2600];
     uint32_t second = (uint32_t)(machines->tick * machines->dt);

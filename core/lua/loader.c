@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/loader.h"
 #include "lua/read.h"
@@ -24,6 +25,7 @@ static void report_failure(JoxScript *script, const char *why, int line) {
 /* What a function remembers outside memory would be lost at a reload, and run apart at a resume.
    What the source does not show of it is found when the function runs. */
 static void check_upvalues(lua_State *L, int index, void *context) {
+    JOX_ASSERT(lua_type(L, index) == LUA_TFUNCTION && !lua_iscfunction(L, index));
     enum { MOST_UPVALUES = 256 };
     JoxScript *script = context;
     const char *names[MOST_UPVALUES];
@@ -159,6 +161,7 @@ const JoxLuaFile *jox_loaded_files(const JoxLoaded *loaded, uint32_t *count) {
 
 /* Files and sources are added together. */
 static const char *text_of(const JoxScript *script, uint32_t file, size_t *length) {
+    JOX_ASSERT(!script || script->vm.source_count == script->vm.file_count);
     *length = script && file < script->vm.source_count ? script->vm.sources[file]->length : 0;
     return *length ? script->vm.sources[file]->text : "";
 }
@@ -179,6 +182,7 @@ const char *jox_loaded_said(const JoxLoaded *loaded) {
 }
 
 void jox_lua_adopt(JoxLua *lua, JoxLoaded *loaded) {
+    JOX_ASSERT(loaded->script && loaded->machine && loaded->machine->vm < 0);
     JoxScript *script = loaded->script;
     int32_t place = -1;
     loaded->script = NULL;

@@ -74,6 +74,9 @@ bool jox_lua_call(void *lua, const JoxMachine *machine, int32_t hook, JoxHookKin
                   uint32_t agent, double result[2]);
 /* Ready for JoxMachineRun.bracket. */
 void jox_lua_bracket(void *lua, bool begins);
+/* Ready for JoxMachineRun.hook_sections: which functions of a machine are suspended, and how often
+   they have failed in the present second. */
+void jox_lua_sections(void *lua, const JoxMachine *machine, JoxSections *sections);
 /* Time that a machine's functions took, s, estimated from one call in 16, and how many there were.
  */
 double jox_lua_seconds(const JoxLua *lua, const JoxMachine *machine, uint64_t *calls);

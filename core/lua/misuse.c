@@ -4,12 +4,14 @@
  */
 #include <string.h>
 
+#include "base/assert.h"
 #include "lua/read.h"
 
 enum { MOST_LOOKS = 20000000 };
 
 /* Operators that Lua takes for its own between conditions, in the tokens of a value. */
 static bool scan_operators(JoxBuild *b, const JoxSource *source, uint32_t first, uint32_t last) {
+    JOX_ASSERT(first <= last && last <= source->token_count);
     static const struct {
         const char *sign, *instead;
     } MISUSED[] = {{"and", "Use & between conditions"},

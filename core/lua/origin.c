@@ -2,11 +2,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/read.h"
 
 void jox_origin_keep(JoxScript *script, const char *path, const char *number,
                      const char *canonical) {
+    JOX_ASSERT(*path && *number && *canonical);
     const JoxPatchChange *whole = jox_patch_leading(&script->changes, canonical);
     char from[512];
     if (whole && strcmp(whole->path, canonical) == 0)

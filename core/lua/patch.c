@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "base/path.h"
 #include "lua/loader.h"
 #include "lua/patch_tree.h"
 #include "lua/read.h"

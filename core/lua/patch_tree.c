@@ -157,6 +157,7 @@ static void *item(void *c, void *node, uint32_t i) {
 
 /* What is taken away is `false` until it is swept. */
 static void put(void *c, void *node, uint32_t i, void *value) {
+    JOX_ASSERT(i <= count(c, node));
     JoxLuaNodes *n = c;
     const int at = jox_nodes_push_value(n, node);
     if (value)
@@ -241,6 +242,7 @@ static bool is_taken(JoxLuaNodes *n, int state, const char *id) {
 /* A copy of a transition with an id of its own: the first that is free. */
 static void *admit(void *c, void *node, void *value, const char *path, const char *keep,
                    const JoxPatchPlace *place, char id[JOX_PATCH_ID]) {
+    JOX_ASSERT(!keep || *keep);
     JoxLuaNodes *n = c;
     lua_State *L = n->L;
     const int state = jox_nodes_push_value(n, node), at = jox_nodes_push_value(n, value);
@@ -302,6 +304,7 @@ static void name_transitions(JoxLuaNodes *n, int state, const char *path) {
 /* A state is the one table whose items go by ids: its transitions. */
 static bool enter(void *c, void *node, void *change, const char *path, const char *from,
                   int depth) {
+    JOX_ASSERT(depth >= 0 && depth <= jox_lua_tree.deepest);
     JoxLuaNodes *n = c;
     if (depth != 2 || strncmp(path, "states.", 7) != 0)
         return false;

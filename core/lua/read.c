@@ -26,6 +26,8 @@ static void unknown_key(JoxBuild *b, const char *path, const char *key, const ch
 void jox_read_check(JoxBuild *b, int index, const char *path, const char *const *known,
                     size_t count, bool items) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index));
+    JOX_ASSERT(count <= 0 || known);
     const char *wrong[KEYS_MOST];
     size_t n = 0;
     lua_pushnil(L);
@@ -54,6 +56,7 @@ void jox_read_check(JoxBuild *b, int index, const char *path, const char *const 
 
 /* Pushes table[key] by raw access; its type. */
 int jox_read_field(lua_State *L, int index, const char *key) {
+    JOX_ASSERT(lua_istable(L, index));
     lua_pushstring(L, key);
     return lua_rawget(L, index);
 }
@@ -92,6 +95,7 @@ int32_t jox_read_add_hook(JoxBuild *b, const char *path) { /* takes the function
 
 int32_t jox_read_hook(JoxBuild *b, int index, const char *path, const char *key) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(index > 0 && lua_istable(L, index));
     char full[256];
     jox_read_join(full, path, key);
     int type = jox_read_field(L, index, key);
@@ -108,6 +112,7 @@ int32_t jox_read_hook(JoxBuild *b, int index, const char *path, const char *key)
 JoxValue jox_read_value(JoxBuild *b, const char *path, const JoxParameterInfo *info, bool *is_dist,
                         JoxDist *dist) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(info->least <= info->greatest && lua_gettop(L) > 0);
     JoxPosition position = jox_read_at(b, path);
     JoxValue value = {.kind = JOX_VALUE_UNSET, .line = position.line};
     JoxNode *node = jox_node_get(L, -1);
@@ -154,6 +159,7 @@ JoxValue jox_read_parameter(JoxBuild *b, const char *path, const JoxParameterInf
 /* A condition's program; -1 for none. Pops the value. A function becomes *hook where allowed. */
 int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_gettop(L) > 0);
     JoxNode *node = jox_node_get(L, -1);
     int type = lua_type(L, -1);
     int32_t program = -1;
@@ -181,6 +187,7 @@ int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
 /* A target named by a key (a place's name or a target value), or -1. */
 int16_t jox_read_target(JoxBuild *b, int index, const char *path, const char *key) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(index > 0 && lua_istable(L, index));
     char full[256];
     jox_read_join(full, path, key);
     int type = jox_read_field(L, index, key);
@@ -210,6 +217,7 @@ int16_t jox_read_target(JoxBuild *b, int index, const char *path, const char *ke
 /* Adds the bit of the tag on the stack. */
 static void add_tag(JoxBuild *b, const char *path, uint64_t *mask) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_gettop(L) > 0);
     const JoxScope *scope = b->script->scope;
     const char *name = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
     for (uint32_t i = 0; name && i < scope->tag_count; i++)
@@ -230,6 +238,7 @@ static void add_tag(JoxBuild *b, const char *path, uint64_t *mask) {
 
 uint64_t jox_read_tags(JoxBuild *b, int index, const char *path, const char *key) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(index > 0 && lua_istable(L, index));
     char full[256];
     uint64_t mask = 0;
     jox_read_join(full, path, key);

@@ -19,7 +19,7 @@ static const struct Section {
     {"Steering", "Weighted sums: `0.8 * seek(goal) + 0.2 * spread`.", JOX_NODE_STEER},
     {"Drawn values", "For `defaults`, parameters and `lasts`.", JOX_NODE_DIST},
     {"Counting", "", JOX_NODE_CIRCUITS},
-    {"The sheet, and others", "", 0},
+    {"The machine's table, and others", "", 0},
 };
 
 /* Text in a cell of a table: | would end it. */
@@ -57,8 +57,8 @@ static void print_keys(JoxText *out, const char *owner, const char *title, const
     jox_text_printf(
         out, "\n### %s\n\n%s%s| key | what | unit | meaning | example |\n|---|---|---|---|---|\n",
         title, intro, *intro ? "\n\n" : "");
-    for (size_t k = 0; k < jox_sheet_key_count; k++) {
-        const JoxSheetKey *key = &jox_sheet_keys[k];
+    for (size_t k = 0; k < jox_table_key_count; k++) {
+        const JoxTableKey *key = &jox_table_keys[k];
         if (strcmp(key->owner, owner) != 0)
             continue;
         jox_text_printf(out, "| `%s` | ", key->name);
@@ -214,11 +214,11 @@ static const char *editor_type(const char *type) {
 
 static void define_table(JoxText *out, const char *class, const char *owner, bool parameters) {
     jox_text_printf(out, "\n---@class %s\n", class);
-    for (size_t k = 0; k < jox_sheet_key_count; k++)
-        if (!strcmp(jox_sheet_keys[k].owner, owner))
-            jox_text_printf(out, "---@field %s? %s %s%s%s\n", jox_sheet_keys[k].name,
-                            editor_type(jox_sheet_keys[k].type), jox_sheet_keys[k].meaning,
-                            *jox_sheet_keys[k].unit ? ", " : "", jox_sheet_keys[k].unit);
+    for (size_t k = 0; k < jox_table_key_count; k++)
+        if (!strcmp(jox_table_keys[k].owner, owner))
+            jox_text_printf(out, "---@field %s? %s %s%s%s\n", jox_table_keys[k].name,
+                            editor_type(jox_table_keys[k].type), jox_table_keys[k].meaning,
+                            *jox_table_keys[k].unit ? ", " : "", jox_table_keys[k].unit);
     for (int p = 0; parameters && p < JOX_PARAM_COUNT; p++) {
         const JoxParameterInfo *info = &jox_parameters[p];
         jox_text_printf(
@@ -290,7 +290,8 @@ void jox_lua_luacheck(JoxText *out) {
 
 static const char MEMORY[] = "local mine = memory { laps = 0, touched = false }\n";
 
-static void sheet(JoxText *out, const char *top, const char *state, const char *transition) {
+static void example_behaviour(JoxText *out, const char *top, const char *state,
+                              const char *transition) {
     jox_text_printf(
         out,
         "%sreturn machine {\n  name = \"example\", version = 1, start = \"Start\",%s\n"
@@ -307,27 +308,27 @@ static void word_example(const JoxWord *word, JoxText *out, bool *of_mod) {
     switch (word->makes) {
     case JOX_NODE_CONDITION:
         snprintf(part, sizeof part, ", when = %s | after(1)", e);
-        sheet(out, "", "", part);
+        example_behaviour(out, "", "", part);
         return;
     case JOX_NODE_NUMBER:
         snprintf(part, sizeof part, "speed = clamp(%s, 0, 2), steer = drift(1, 0),", e);
-        sheet(out, "", part, ", when = after(1)");
+        example_behaviour(out, "", part, ", when = after(1)");
         return;
     case JOX_NODE_TARGET:
         snprintf(part, sizeof part, "steer = seek(%s), face = %s,", e, e);
-        sheet(out, "", part, ", when = after(1)");
+        example_behaviour(out, "", part, ", when = after(1)");
         return;
     case JOX_NODE_STEER:
         snprintf(part, sizeof part, "steer = %s,", e);
-        sheet(out, "", part, ", when = after(1)");
+        example_behaviour(out, "", part, ", when = after(1)");
         return;
     case JOX_NODE_DIST:
         snprintf(part, sizeof part, " defaults = { speed = %s },", e);
-        sheet(out, part, "", ", when = after(1)");
+        example_behaviour(out, part, "", ", when = after(1)");
         return;
     case JOX_NODE_CIRCUITS:
         snprintf(part, sizeof part, " counts = { laps = %s },", e);
-        sheet(out, part, "", ", when = after(1)");
+        example_behaviour(out, part, "", ", when = after(1)");
         return;
     default:
         break;
@@ -338,17 +339,17 @@ static void word_example(const JoxWord *word, JoxText *out, bool *of_mod) {
     } else if (!strncmp(e, "machine", 7)) {
         jox_text_printf(out, "return %s\n", e);
     } else if (!strncmp(e, "memory", 6)) {
-        sheet(out, "", "", ", when = mine.laps:is(0)");
+        example_behaviour(out, "", "", ", when = mine.laps:is(0)");
     } else if (!strncmp(e, "require", 7) || !strncmp(e, "print", 5)) {
         jox_text_printf(out, "%s%s\n", strncmp(e, "require", 7) ? "" : "local library = ", e);
-        sheet(out, "", "", ", when = after(1)");
+        example_behaviour(out, "", "", ", when = after(1)");
     } else {
         snprintf(part, sizeof part, "push = 10 * %s,", e);
-        sheet(out, "", part, ", when = after(1)");
+        example_behaviour(out, "", part, ", when = after(1)");
     }
 }
 
-static void key_example(const JoxSheetKey *key, JoxText *out) {
+static void key_example(const JoxTableKey *key, JoxText *out) {
     char part[512];
     bool become = !strcmp(key->name, "become");
     if (!strcmp(key->owner, "machine")) {
@@ -364,25 +365,26 @@ static void key_example(const JoxSheetKey *key, JoxText *out) {
                             strcmp(key->name, "start") ? ", start = \"Start\"" : "");
         else {
             snprintf(part, sizeof part, " %s,", key->example);
-            sheet(out, part, "", ", when = after(1)");
+            example_behaviour(out, part, "", ", when = after(1)");
         }
     } else if (!strcmp(key->owner, "state")) {
         snprintf(part, sizeof part, "%s,", key->example);
-        sheet(out, "", part, become ? ", when = after(1)" : ", when = after(1) | lasted");
+        example_behaviour(out, "", part,
+                          become ? ", when = after(1)" : ", when = after(1) | lasted");
     } else if (!strcmp(key->owner, "transition")) {
         bool to = !strcmp(key->name, "to");
         snprintf(part, sizeof part, "%s%s", to ? "" : ", ", to ? "" : key->example);
-        sheet(out, "", "", part);
+        example_behaviour(out, "", "", part);
     } else if (!strcmp(key->owner, "signal")) {
         snprintf(part, sizeof part, "signal = { \"alarm\", %s },", key->example);
-        sheet(out, "", part, ", when = after(1)");
+        example_behaviour(out, "", part, ", when = after(1)");
     } else {
         bool kick = !strcmp(key->owner, "kick"), at = !strcmp(key->name, "at");
         snprintf(part, sizeof part, "%s = { nearest \"ball\", %s%s },", key->owner, key->example,
                  at     ? (kick ? ", impulse = 3" : ", speed = 5")
                  : kick ? ""
                         : ", at = \"post\"");
-        sheet(out, "", part, ", when = after(1)");
+        example_behaviour(out, "", part, ", when = after(1)");
     }
 }
 
@@ -394,17 +396,17 @@ bool jox_lua_example(size_t n, JoxText *name, JoxText *out, bool *of_mod) {
         return true;
     }
     n -= jox_word_count;
-    if (n < jox_sheet_key_count) {
-        jox_text_printf(name, "%s.%s", jox_sheet_keys[n].owner, jox_sheet_keys[n].name);
-        key_example(&jox_sheet_keys[n], out);
+    if (n < jox_table_key_count) {
+        jox_text_printf(name, "%s.%s", jox_table_keys[n].owner, jox_table_keys[n].name);
+        key_example(&jox_table_keys[n], out);
         return true;
     }
-    n -= jox_sheet_key_count;
+    n -= jox_table_key_count;
     if (n >= JOX_PARAM_COUNT)
         return false;
     char part[128];
     jox_text_add(name, jox_parameters[n].name);
     snprintf(part, sizeof part, "%s = %g,", jox_parameters[n].name, sample(&jox_parameters[n]));
-    sheet(out, "", part, ", when = after(1)");
+    example_behaviour(out, "", part, ", when = after(1)");
     return true;
 }

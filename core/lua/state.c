@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
 #include "lua/read.h"
@@ -26,6 +27,7 @@ static JoxValue read_weight(JoxBuild *b, JoxNode *weight, JoxPosition position) 
 
 static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index) && state->steer_count == 0);
     char full[256];
     jox_read_join(full, path, "steer");
     int type = jox_read_field(L, index, "steer");
@@ -56,8 +58,9 @@ static void read_steer(JoxBuild *b, int index, const char *path, JoxState *state
 }
 
 static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state) {
-    static const JoxParameterInfo LASTS = {"lasts", "s", "", 0, 1e6, 0};
+    const JoxParameterInfo lasts = jox_table_key_number("state", "lasts");
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index));
     char full[256];
     jox_read_join(full, path, "lasts");
     if (jox_read_field(L, index, "lasts") == LUA_TNIL) {
@@ -72,7 +75,7 @@ static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state
     }
     bool is_dist;
     JoxDist dist;
-    JoxValue value = jox_read_value(b, full, &LASTS, &is_dist, &dist);
+    JoxValue value = jox_read_value(b, full, &lasts, &is_dist, &dist);
     state->has_lasts = is_dist || value.kind == JOX_VALUE_CONST;
     state->lasts = is_dist ? dist : jox_dist_constant(value.number);
     state->lasts_program = value.kind == JOX_VALUE_PROGRAM ? value.index : -1;
@@ -80,6 +83,7 @@ static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state
 
 static void read_flags(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index));
     char full[256];
     int type = jox_read_field(L, index, "removes");
     jox_read_join(full, path, "removes");
@@ -143,13 +147,15 @@ static uint16_t read_to(JoxBuild *b, int index, const char *path) {
 
 static void read_transition(JoxBuild *b, int index, const char *path, const char *id,
                             JoxTransition *t) {
-    static const JoxParameterInfo CHANCE = {"chance", "", "", 0, 1, 1};
+    const JoxParameterInfo chance = jox_table_key_number("transition", "chance");
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index) && *id);
     const char *known[16];
     char full[256];
     *t = jox_transition_blank(jox_strdup(id));
     t->line = jox_read_at(b, path).line;
-    jox_read_check(b, index, path, known, jox_sheet_names("transition", false, known, 16), false);
+    jox_read_check(b, index, path, known, jox_table_key_names("transition", false, known, 16),
+                   false);
     t->to = read_to(b, index, path);
     jox_read_join(full, path, "when");
     jox_read_field(L, index, "when");
@@ -158,13 +164,14 @@ static void read_transition(JoxBuild *b, int index, const char *path, const char
     if (jox_read_field(L, index, "chance") == LUA_TNIL)
         lua_pop(L, 1);
     else
-        t->chance = jox_read_parameter(b, full, &CHANCE);
+        t->chance = jox_read_parameter(b, full, &chance);
     jox_read_actions(b, index, path, &t->does, NULL);
     t->on_take = jox_read_hook(b, index, path, "on_take");
 }
 
 static void read_transitions(JoxBuild *b, int index, const char *path, JoxState *state) {
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(!state->transitions);
     uint32_t count = (uint32_t)lua_rawlen(L, index);
     if (count > JOX_MOST_TRANSITIONS) {
         jox_build_error(b, jox_read_at(b, path), "too-many", "Split the state",
@@ -205,9 +212,11 @@ static void read_transitions(JoxBuild *b, int index, const char *path, JoxState 
 void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     const char *known[96];
     lua_State *L = b->script->vm.L;
+    JOX_ASSERT(lua_istable(L, index) && state->name);
+    JOX_ASSERT(number >= 0 && (uint32_t)number < b->machine->state_count);
     char path[256], full[256];
     snprintf(path, sizeof path, "states.%.200s", state->name);
-    jox_read_check(b, index, path, known, jox_sheet_names("state", true, known, 96), true);
+    jox_read_check(b, index, path, known, jox_table_key_names("state", true, known, 96), true);
     state->line = jox_read_at(b, path).line;
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         jox_read_join(full, path, jox_parameters[p].name);

@@ -2,12 +2,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
 #include "lua/loader.h"
 
 /* The text of a value as written, on one line and without comments; cut after `most` bytes. */
 static void print_value(const JoxSource *source, const JoxPath *path, size_t most, JoxText *out) {
+    JOX_ASSERT(path->first <= path->last && path->last <= source->token_count);
     size_t begin = out->length;
     const char *before = NULL; /* where the last token ended */
     for (uint32_t t = path->first; t < path->last && t < source->token_count; t++) {

@@ -33,6 +33,11 @@ void jox_test_scene_words(lua_State *L);
 /* Appends the table at `index` as a YAML scene (JSON is YAML). Raises errors. */
 void jox_test_scene_yaml(lua_State *L, JoxTestRun *run, int index, JoxText *out);
 
+/* Texts of a list, or "KEY=VALUE" of a table, kept by the Lua table that is pushed; returns how
+   many. */
+size_t jox_test_read_texts(lua_State *L, int index, const char *name, bool pairs,
+                           const char *out[64]);
+
 /* Present speed, m/s. */
 double jox_test_speed(const JoxAgents *agents, uint32_t i);
 void jox_test_set_number(lua_State *L, const char *name, double value);

@@ -6,20 +6,16 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "luatest/history.h"
 
 static const char SCENE[] = "jostle scene";
 static const double MOST_STEPPING = 60.0; /* s of processor time in one test */
 static const double WITHIN = 60.0;        /* s, where a test gives no time */
-enum { MOST_NAMES = 1024 };
 
 /* A scene of a test, and who has been in which state. */
 typedef struct Scene {
     void *scene; /* NULL once freed */
-    char *names[MOST_NAMES];
-    uint8_t *been[MOST_NAMES]; /* by agent id */
-    uint32_t name_count, id_capacity;
-    int32_t *group; /* by agent id */
-    uint32_t known; /* ids whose group is known */
+    JoxTestHistory history;
 } Scene;
 
 static Scene *check(lua_State *L) {
@@ -34,54 +30,10 @@ static const JoxMachineRun *machines_of(lua_State *L, const Scene *t) {
     return driver->machines(driver->context, t->scene);
 }
 
-static double time_of(const JoxMachineRun *machines) {
-    return machines->tick * machines->dt;
-}
-
-/* ---- who has been where ---- */
-
-static int find_name(const Scene *t, const char *name) {
-    for (uint32_t n = 0; n < t->name_count; n++)
-        if (strcmp(t->names[n], name) == 0)
-            return (int)n;
-    return -1;
-}
-
-static void mark(Scene *t, const char *state, uint32_t id) {
-    int n = find_name(t, state);
-    if (n < 0 && t->name_count < MOST_NAMES) {
-        n = (int)t->name_count++;
-        t->names[n] = jox_strdup(state);
-        t->been[n] = jox_alloc(t->id_capacity + 1, 1);
-    }
-    if (n >= 0 && id < t->id_capacity)
-        t->been[n][id] = 1;
-}
-
-static void note(const JoxMachineRun *machines, Scene *t) {
-    const JoxAgents *a = machines->agents;
-    if (a->next_id > t->id_capacity) {
-        uint32_t wider = a->next_id + a->next_id / 2 + 64;
-        t->group = jox_realloc(t->group, wider, sizeof *t->group);
-        for (uint32_t n = 0; n < t->name_count; n++) {
-            t->been[n] = jox_realloc(t->been[n], wider + 1, 1);
-            memset(t->been[n] + t->id_capacity, 0, wider + 1 - t->id_capacity);
-        }
-        t->id_capacity = wider;
-    }
-    for (; t->known < a->next_id; t->known++) {
-        uint32_t i = jox_agents_find(a, t->known);
-        t->group[t->known] = i == JOX_NO_INDEX ? -1 : a->group[i];
-        if (i != JOX_NO_INDEX && a->machine[i] != JOX_NO_MACHINE)
-            mark(t, machines->set->items[a->machine[i]]->states[a->state[i]].name, t->known);
-    }
-    for (uint32_t k = 0; k < machines->taken_count; k++) {
-        const JoxTaken *taken = &machines->taken[k];
-        mark(t, machines->set->items[taken->machine]->states[taken->to].name, taken->agent_id);
-        uint32_t i = jox_agents_find(a, taken->agent_id); /* it may have become another machine */
-        if (i != JOX_NO_INDEX)
-            mark(t, machines->set->items[a->machine[i]]->states[a->state[i]].name, taken->agent_id);
-    }
+/* Simulated time, s. */
+static double time_of(lua_State *L, const Scene *t) {
+    const JoxTestDriver *driver = jox_test_run_of(L)->driver;
+    return driver->time(driver->context, t->scene);
 }
 
 static void step(lua_State *L, Scene *t) {
@@ -93,7 +45,7 @@ static void step(lua_State *L, Scene *t) {
     run->stepping += jox_test_clock() - begun;
     const JoxMachineRun *machines = machines_of(L, t);
     run->simulated += machines->dt;
-    note(machines, t);
+    jox_test_history_note(&t->history, machines);
     if (!good) {
         lua_pushfstring(L, "%s", why.data ? why.data : "the step failed");
         jox_text_free(&why);
@@ -186,14 +138,6 @@ static uint32_t count_in(const JoxMachineRun *machines, const char *state, int32
     return count;
 }
 
-static uint32_t been_in(const Scene *t, const char *state, int32_t group) {
-    int n = find_name(t, state);
-    uint32_t count = 0;
-    for (uint32_t id = 0; n >= 0 && id < t->known; id++)
-        count += t->been[n][id] && (group < 0 || t->group[id] == group);
-    return count;
-}
-
 /* "Walk 3, Rest 2": where the agents are. */
 static void push_counts(lua_State *L, const JoxMachineRun *machines, int32_t group) {
     JoxText text = {0};
@@ -218,12 +162,12 @@ static int scene_count(lua_State *L) {
 static int scene_entered(lua_State *L) {
     Scene *t = check(L);
     const char *state = check_state(L, t, 2);
-    lua_pushinteger(L, been_in(t, state, group_option(L, t, 3)));
+    lua_pushinteger(L, jox_test_history_been(&t->history, state, group_option(L, t, 3)));
     return 1;
 }
 
 static int scene_time(lua_State *L) {
-    lua_pushnumber(L, time_of(machines_of(L, check(L))));
+    lua_pushnumber(L, time_of(L, check(L)));
     return 1;
 }
 
@@ -311,8 +255,8 @@ static int scene_reaches(lua_State *L) {
     int32_t group = group_option(L, t, 3);
     double within = option(L, 3, "within", WITHIN);
     uint32_t all = 0;
-    for (uint32_t id = 0; id < t->known; id++)
-        all += group < 0 || t->group[id] == group;
+    for (uint32_t id = 0; id < t->history.known; id++)
+        all += group < 0 || t->history.group[id] == group;
     uint32_t wanted = (uint32_t)option(L, 3, "count", all);
     if (wanted == 0)
         return luaL_error(L, "there is nobody who could reach anything");
@@ -324,17 +268,17 @@ static int scene_reaches(lua_State *L) {
     }
     jox_test_run_of(L)->assertions++;
     const JoxMachineRun *machines = machines_of(L, t);
-    double until = time_of(machines) + within - 0.5 * machines->dt;
-    while (been_in(t, state, group) < wanted && time_of(machines) < until)
+    double until = time_of(L, t) + within - 0.5 * machines->dt;
+    while (jox_test_history_been(&t->history, state, group) < wanted && time_of(L, t) < until)
         step(L, t);
-    uint32_t been = been_in(t, state, group);
+    uint32_t been = jox_test_history_been(&t->history, state, group);
     if (been >= wanted) {
-        lua_pushnumber(L, time_of(machines));
+        lua_pushnumber(L, time_of(L, t));
         return 1;
     }
     push_counts(L, machines, group);
     return luaL_error(L, "%d of %d agents reached '%s' within %f s; now at t = %f s: %s", (int)been,
-                      (int)wanted, state, within, time_of(machines), lua_tostring(L, -1));
+                      (int)wanted, state, within, time_of(L, t), lua_tostring(L, -1));
 }
 
 /* s:never(state, { during = s, agents = "group" }); what was before counts as well. */
@@ -345,15 +289,15 @@ static int scene_never(lua_State *L) {
     check_options(L, 3, OPTIONS, 2);
     int32_t group = group_option(L, t, 3);
     const JoxMachineRun *machines = machines_of(L, t);
-    double until = time_of(machines) + option(L, 3, "during", 0.0) - 0.5 * machines->dt;
+    double until = time_of(L, t) + option(L, 3, "during", 0.0) - 0.5 * machines->dt;
     jox_test_run_of(L)->assertions++;
     for (;;) {
-        int n = find_name(t, state);
-        for (uint32_t id = 0; n >= 0 && id < t->known; id++)
-            if (t->been[n][id] && (group < 0 || t->group[id] == group))
+        int n = jox_test_history_find(&t->history, state);
+        for (uint32_t id = 0; n >= 0 && id < t->history.known; id++)
+            if (t->history.been[n][id] && (group < 0 || t->history.group[id] == group))
                 return luaL_error(L, "agent %d has been in '%s', by t = %f s", (int)id, state,
-                                  time_of(machines));
-        if (time_of(machines) >= until)
+                                  time_of(L, t));
+        if (time_of(L, t) >= until)
             return 0;
         step(L, t);
     }
@@ -364,7 +308,7 @@ static void watch_speed(lua_State *L, Scene *t, double during, int32_t group, do
                         double *mean) {
     const JoxMachineRun *machines = machines_of(L, t);
     const JoxAgents *a = machines->agents;
-    double until = time_of(machines) + during - 0.5 * machines->dt, sum = 0.0;
+    double until = time_of(L, t) + during - 0.5 * machines->dt, sum = 0.0;
     uint64_t count = 0;
     do {
         step(L, t);
@@ -376,9 +320,9 @@ static void watch_speed(lua_State *L, Scene *t, double during, int32_t group, do
             count++;
             if (speed > most)
                 luaL_error(L, "agent %d moves at %f m/s at t = %f s, faster than %f", (int)a->id[i],
-                           speed, time_of(machines), most);
+                           speed, time_of(L, t), most);
         }
-    } while (time_of(machines) < until);
+    } while (time_of(L, t) < until);
     if (count == 0)
         luaL_error(L, "there is nobody whose speed could be measured");
     *mean = count ? sum / (double)count : 0.0;
@@ -411,61 +355,18 @@ static int scene_faster_than(lua_State *L) {
 
 /* ---- making scenes ---- */
 
-static void free_trial(lua_State *L, Scene *t) {
+static void free_scene(lua_State *L, Scene *t) {
     if (t->scene) {
         const JoxTestDriver *driver = jox_test_run_of(L)->driver;
         driver->free(driver->context, t->scene);
     }
-    for (uint32_t n = 0; n < t->name_count; n++) {
-        jox_free(t->names[n]);
-        jox_free(t->been[n]);
-    }
-    jox_free(t->group);
+    jox_test_history_free(&t->history);
     *t = (Scene){0};
 }
 
 static int scene_gc(lua_State *L) {
-    free_trial(L, luaL_checkudata(L, 1, SCENE));
+    free_scene(L, luaL_checkudata(L, 1, SCENE));
     return 0;
-}
-
-/* Texts of a list, or "KEY=VALUE" of a table, kept by the Lua table that is pushed; returns how
-   many. */
-static size_t read_texts(lua_State *L, int index, const char *name, bool pairs,
-                         const char *out[64]) {
-    size_t count = 0;
-    if (lua_type(L, index) != LUA_TTABLE)
-        return 0;
-    lua_pushstring(L, name);
-    int type = lua_rawget(L, index);
-    if (type == LUA_TNIL)
-        return 0;
-    if (type != LUA_TTABLE)
-        luaL_error(L, "option '%s' must be a table", name);
-    int from = lua_gettop(L);
-    lua_newtable(L);
-    lua_pushnil(L);
-    while (lua_next(L, from)) {
-        int key = lua_type(L, -2);
-        if (count == 64 || (pairs ? key != LUA_TSTRING : key != LUA_TNUMBER) ||
-            (lua_type(L, -1) != LUA_TSTRING && lua_type(L, -1) != LUA_TNUMBER &&
-             lua_type(L, -1) != LUA_TBOOLEAN))
-            luaL_error(L,
-                       pairs ? "'%s' maps at most 64 paths to values"
-                             : "'%s' is a list of at most 64 names",
-                       name);
-        luaL_tolstring(L, -1, NULL);
-        if (pairs)
-            lua_pushfstring(L, "%s=%s", lua_tostring(L, -3), lua_tostring(L, -1));
-        const char *text = lua_tostring(L, -1);
-        size_t at = count++; /* in ascending order, whatever the table's own */
-        for (; pairs && at > 0 && strcmp(out[at - 1], text) > 0; at--)
-            out[at] = out[at - 1];
-        out[at] = text;
-        lua_rawseti(L, from + 1, (lua_Integer)count);
-        lua_settop(L, from + 2);
-    }
-    return count;
 }
 
 /* Loads what arguments 1 and 2 of `scene` say; NULL with the reason in `why`. */
@@ -481,8 +382,8 @@ static void *load(lua_State *L, JoxText *why) {
     scene.seed = (uint64_t)option(L, 2, "seed", 0);
     scene.has_dt = scene.dt > 0.0;
     scene.has_seed = lua_type(L, 2) == LUA_TTABLE && option(L, 2, "seed", -1) >= 0;
-    scene.set_count = read_texts(L, 2, "set", true, sets);
-    scene.mod_count = read_texts(L, 2, "mods", false, mods);
+    scene.set_count = jox_test_read_texts(L, 2, "set", true, sets);
+    scene.mod_count = jox_test_read_texts(L, 2, "mods", false, mods);
     if (lua_type(L, 1) == LUA_TTABLE) {
         run->yaml.length = 0;
         jox_test_scene_yaml(L, run, 1, &run->yaml);
@@ -510,7 +411,7 @@ static int word_scene(lua_State *L) {
     Scene *t = lua_newuserdatauv(L, sizeof *t, 0);
     *t = (Scene){.scene = scene};
     luaL_setmetatable(L, SCENE);
-    note(machines_of(L, t), t);
+    jox_test_history_note(&t->history, machines_of(L, t));
     return 1;
 }
 

@@ -116,3 +116,40 @@ void jox_test_scene_yaml(lua_State *L, JoxTestRun *run, int index, JoxText *out)
     write_members(L, run, index, "scene", &json);
     jox_json_end(&json);
 }
+
+size_t jox_test_read_texts(lua_State *L, int index, const char *name, bool pairs,
+                           const char *out[64]) {
+    size_t count = 0;
+    if (lua_type(L, index) != LUA_TTABLE)
+        return 0;
+    lua_pushstring(L, name);
+    int type = lua_rawget(L, index);
+    if (type == LUA_TNIL)
+        return 0;
+    if (type != LUA_TTABLE)
+        luaL_error(L, "option '%s' must be a table", name);
+    int from = lua_gettop(L);
+    lua_newtable(L);
+    lua_pushnil(L);
+    while (lua_next(L, from)) {
+        int key = lua_type(L, -2);
+        if (count == 64 || (pairs ? key != LUA_TSTRING : key != LUA_TNUMBER) ||
+            (lua_type(L, -1) != LUA_TSTRING && lua_type(L, -1) != LUA_TNUMBER &&
+             lua_type(L, -1) != LUA_TBOOLEAN))
+            luaL_error(L,
+                       pairs ? "'%s' maps at most 64 paths to values"
+                             : "'%s' is a list of at most 64 names",
+                       name);
+        luaL_tolstring(L, -1, NULL);
+        if (pairs)
+            lua_pushfstring(L, "%s=%s", lua_tostring(L, -3), lua_tostring(L, -1));
+        const char *text = lua_tostring(L, -1);
+        size_t at = count++; /* in ascending order, whatever the table's own */
+        for (; pairs && at > 0 && strcmp(out[at - 1], text) > 0; at--)
+            out[at] = out[at - 1];
+        out[at] = text;
+        lua_rawseti(L, from + 1, (lua_Integer)count);
+        lua_settop(L, from + 2);
+    }
+    return count;
+}

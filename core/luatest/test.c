@@ -11,6 +11,7 @@
 #include "base/guard.h"
 #include "base/json_writer.h"
 #include "base/mem.h"
+#include "base/path.h"
 #include "jostle_tools.h"
 #include "luatest/testing.h"
 #include "run/run.h"
@@ -42,18 +43,12 @@ static void keep_message(void *context, const char *text) {
 
 /* A scene's file: as named, beside the test, or in the scenes of the tree. */
 static char *find_scene(const JoxTestScene *scene, const char *test) {
-    char path[1024];
-    struct stat info;
-    const char *slash = strrchr(test, '/');
-    int folder = slash ? (int)(slash - test) + 1 : 0;
-    const char *const forms[] = {"%.*s%s", "%.*s../scenes/%s", "%.*s../../scenes/%s"};
-    for (int f = 0; f < 3; f++) {
-        snprintf(path, sizeof path, forms[f], folder, test, scene->path);
-        if (stat(path, &info) == 0)
-            return jox_strdup(path);
-    }
-    snprintf(path, sizeof path, "scenes/%s", scene->path);
-    return jox_strdup(stat(path, &info) == 0 ? path : scene->path);
+    static const char *const FOLDERS[] = {"", "../scenes/", "../../scenes/", NULL};
+    static const char *const TREE[] = {"scenes/", NULL};
+    char path[JOX_LONGEST_PATH];
+    const bool found = jox_path_find(test, scene->path, "", FOLDERS, path) ||
+                       jox_path_find("", scene->path, "", TREE, path);
+    return jox_strdup(found ? path : scene->path);
 }
 
 typedef struct TestContext {
@@ -128,9 +123,12 @@ static bool step(void *context, void *scene, JoxText *why) {
 
 static const JoxMachineRun *machines_of(void *context, void *scene) {
     (void)context;
-    JoWorld *world = ((JoScene *)scene)->world;
-    world->machines.tick = (uint32_t)world->state.tick; /* steps done, as a test sees it */
-    return &world->machines;
+    return &((JoScene *)scene)->world->machines;
+}
+
+static double time_of(void *context, void *scene) {
+    (void)context;
+    return jo_world_time(((JoScene *)scene)->world);
 }
 
 static uint64_t hash(void *context, void *scene) {
@@ -222,6 +220,7 @@ static void run_file(Tests *tests, const char *path) {
                                   .free = free_scene,
                                   .step = step,
                                   .machines = machines_of,
+                                  .time = time_of,
                                   .hash = hash,
                                   .group = group,
                                   .body = body,

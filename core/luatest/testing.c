@@ -62,7 +62,7 @@ static void run_one(JoxScript *script, JoxTestRun *run, JoxTest *test, JoxTestRe
     lua_gc(script->vm.L, LUA_GCCOLLECT); /* scenes are freed with their handles */
 }
 
-/* The words of a test file in place of those of sheets. */
+/* The words of a test file in place of those of behaviours. */
 static int open_words(lua_State *L) {
     static const luaL_Reg WORDS[] = {{"test", word_test}, {NULL, NULL}};
     lua_newtable(L);

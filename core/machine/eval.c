@@ -6,28 +6,11 @@
 static double now_of(const JoxMachineRun *run, uint32_t i, JoxNow what) {
     const JoxAgents *a = run->agents;
     switch (what) {
-    case JOX_NOW_speed:
-        return jox_length((JoxV2){a->vx[i], a->vy[i]});
-    case JOX_NOW_x:
-        return a->x[i];
-    case JOX_NOW_y:
-        return a->y[i];
-    case JOX_NOW_density:
-        return a->density[i];
-    case JOX_NOW_headway:
-        return jox_headway(run, i);
-    case JOX_NOW_pushed:
-        return jox_length((JoxV2){a->force_x[i], a->force_y[i]});
-    case JOX_NOW_compression:
-        return a->compression[i];
-    case JOX_NOW_contacts:
-        return a->contacts[i];
-    case JOX_NOW_neighbours:
-        return run->neighbours->count[i];
-    case JOX_NOW_time_in_state:
-        return jox_time_in_state(run, i);
-    case JOX_NOW_time:
-        return run->tick * run->dt;
+#define X(name, word, unit, meaning, value)                                                        \
+    case JOX_NOW_##name:                                                                           \
+        return value;
+        JOX_MEASURED(X)
+#undef X
     case JOX_NOW_COUNT:
         break;
     }

@@ -7,8 +7,8 @@ static const char *const OPS[] = {
 #undef X
 };
 static const char *const NOWS[] = {
-#define X(name, unit, meaning) #name,
-    JOX_NOW(X)
+#define X(name, ...) #name,
+    JOX_MEASURED(X)
 #undef X
 };
 

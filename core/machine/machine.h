@@ -15,23 +15,34 @@ enum { JOX_MOST_TRANSITIONS = 32, JOX_MOST_REGISTERS = 32, JOX_MOST_TERMS = 8 };
 /* Greatest weight of a steering term, of either sign. */
 enum { JOX_MOST_WEIGHT = 1000000 };
 
-/* What a word measures of the agent itself. */
-#define JOX_NOW(X)                                                                                 \
-    X(speed, "m/s", "present speed")                                                               \
-    X(x, "m", "position east")                                                                     \
-    X(y, "m", "position north")                                                                    \
-    X(density, "1/m2", "people per square metre, from the distance of the farthest neighbour")     \
-    X(headway, "m", "free distance ahead, to the neighbour in the way; perception if none")        \
-    X(pushed, "N", "magnitude of the net force on the agent")                                      \
-    X(compression, "N/m", "sum of contact force magnitudes over circumference")                    \
-    X(contacts, "", "agents and bodies touched")                                                   \
-    X(neighbours, "", "neighbours seen")                                                           \
-    X(time_in_state, "s", "time since the state was entered")                                      \
-    X(time, "s", "simulated time")
+/* What is measured of the agent itself. A row is all there is to one: its name (`now.NAME`), its
+   unit, what it means, and its value for agent `i` of a run, whose columns are `a`. Those of
+   JOX_MEASURED_WORDS are also words by themselves, given in the second place. */
+/* clang-format off */
+#define JOX_MEASURED_WORDS(X)                                                                      \
+    X(density, density_here, "1/m2",                                                               \
+      "people per square metre about the agent, from its neighbours' distances", a->density[i])    \
+    X(headway, headway, "m",                                                                       \
+      "free way ahead to the neighbour in it who does not come the other way; perception where "   \
+      "nobody is", jox_headway(run, i))                                                            \
+    X(pushed, pushed, "N", "magnitude of the net force on the agent",                              \
+      jox_length((JoxV2){a->force_x[i], a->force_y[i]}))                                           \
+    X(compression, compression, "N/m", "sum of contact force magnitudes over circumference",       \
+      a->compression[i])                                                                           \
+    X(contacts, contacts, "", "agents and bodies touched", a->contacts[i])                         \
+    X(time_in_state, time_in_state, "s", "since the state was entered", jox_time_in_state(run, i))
+#define JOX_MEASURED_OTHERS(X)                                                                     \
+    X(speed, , "m/s", "present speed", jox_length((JoxV2){a->vx[i], a->vy[i]}))                    \
+    X(x, , "m", "position east", a->x[i])                                                          \
+    X(y, , "m", "position north", a->y[i])                                                         \
+    X(neighbours, , "", "neighbours seen", run->neighbours->count[i])                              \
+    X(time, , "s", "simulated time", run->tick * run->dt)
+#define JOX_MEASURED(X) JOX_MEASURED_OTHERS(X) JOX_MEASURED_WORDS(X)
+/* clang-format on */
 
 typedef enum JoxNow {
-#define X(name, unit, meaning) JOX_NOW_##name,
-    JOX_NOW(X)
+#define X(name, ...) JOX_NOW_##name,
+    JOX_MEASURED(X)
 #undef X
         JOX_NOW_COUNT
 } JoxNow;

@@ -20,11 +20,10 @@ void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
 }
 
 void jox_nav_sections(JoxNav *nav, JoxSections *s) {
-    float reach = nav->grid.reach;
     jox_sections_module(s, "nav");
-    JOX_SECTION(s, "wall_reach", reach);
+    JOX_SECTION(s, "wall_reach", nav->grid.reach);
     if (s->mode == JOX_SECTIONS_RESTORE)
-        jox_wall_grid_reset(&nav->grid, reach);
+        jox_wall_grid_reset(&nav->grid, nav->grid.reach);
 }
 
 void jox_nav_forget(JoxNav *nav) {

@@ -57,23 +57,6 @@ const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS] = {
 
 /* ---- exits ---- */
 
-struct JoxExit *jox_exits_get(JoxExits *exits, const char *name) {
-    for (uint32_t e = 0; e < exits->count; e++)
-        if (strcmp(exits->items[e].name, name) == 0)
-            return &exits->items[e];
-    JOX_RESERVE(exits->items, exits->capacity, exits->count + 1);
-    struct JoxExit *exit = &exits->items[exits->count++];
-    *exit = (struct JoxExit){.name = jox_strdup(name), .last = NAN};
-    return exit;
-}
-
-void jox_exits_free(JoxExits *exits) {
-    for (uint32_t e = 0; e < exits->count; e++)
-        jox_free(exits->items[e].name);
-    jox_free(exits->items);
-    *exits = (JoxExits){0};
-}
-
 double jox_exits_clearance(const JoxExits *exits, uint32_t inside) {
     return exits->left && inside == 0 ? exits->last : NAN;
 }

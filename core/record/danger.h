@@ -20,6 +20,7 @@
 #include "geom/walls.h"
 #include "record/density.h"
 #include "record/frame.h"
+#include "world/exits.h"
 
 typedef enum JoxDangerMeasure {
     JOX_DANGER_DENSITY,
@@ -44,20 +45,6 @@ extern const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS];
 /* The conversion in words, for reports. */
 extern const char jox_danger_conversion[];
 
-/* Who left, and where. */
-typedef struct JoxExits {
-    struct JoxExit {
-        char *name;
-        uint32_t people;
-        double last; /* s */
-    } * items;
-    uint32_t count, capacity;
-    uint64_t left; /* everyone, through these or otherwise */
-    double last;   /* s; when the last of all left */
-} JoxExits;
-/* The exit of a name, made where there is none. */
-struct JoxExit *jox_exits_get(JoxExits *exits, const char *name);
-void jox_exits_free(JoxExits *exits);
 /* When the last of all left, s; NAN while `inside` people are still there, or where nobody left. */
 double jox_exits_clearance(const JoxExits *exits, uint32_t inside);
 /* Adds "left": ..., "inside": ..., "last_left_s": ..., "clearance_s": ..., "exits": {...}. */

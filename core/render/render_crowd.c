@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "base/path.h"
 #include "render/render.h"
 
 enum { MOST_FOLLOWED = 500, MOST_TRAILS = 2000, MOST_BODY_TRAILS = 200 };
@@ -435,11 +436,9 @@ bool jox_render_load(JoxRender *r, JoError *error) {
     if (!(def->scene ? load_scene(r, error) : load_recording(r, error)))
         return false;
     const JoxSceneSpec *spec = r->scene ? r->scene->spec : r->spec;
-    const char *path = def->scene ? def->scene->path : def->recording, *slash = strrchr(path, '/');
+    const char *path = def->scene ? def->scene->path : def->recording;
     snprintf(r->title, sizeof r->title, "%.250s",
-             spec && spec->title ? spec->title
-             : slash             ? slash + 1
-                                 : path);
+             spec && spec->title ? spec->title : jox_path_name(path));
     r->picture.title = r->title;
     r->picture.radius = RADIUS;
     if (spec) {

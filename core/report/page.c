@@ -25,7 +25,7 @@ static JoxPageFigures collect(const JoScene *scene) {
                  "overlap that 99 %% stay below, share of a diameter");
     jox_page_add(&f, "", s->agent_steps ? (double)s->failures / (double)s->agent_steps : NAN,
                  "share of agent-steps whose 2-D program failed");
-    jox_page_add_exits(&f, &scene->exits, scene->world->state.agents.count);
+    jox_page_add_exits(&f, &scene->world->state.exits, scene->world->state.agents.count);
     jox_page_add_danger(&f, jox_run_danger(scene));
     for (uint32_t r = 0; regions && r < regions->count; r++)
         jox_page_add(&f, "m/s",

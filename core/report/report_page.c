@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/hash.h"
+#include "base/path.h"
 #include "picture/html.h"
 #include "picture/plot.h"
 #include "report/page_parts.h"
@@ -135,6 +136,5 @@ const JoxWalls *jox_report_walls(const JoxReport *r) {
 }
 
 const char *jox_report_title(const JoxReport *r) {
-    const char *slash = strrchr(r->def->recording, '/');
-    return r->spec && r->spec->title ? r->spec->title : slash ? slash + 1 : r->def->recording;
+    return r->spec && r->spec->title ? r->spec->title : jox_path_name(r->def->recording);
 }

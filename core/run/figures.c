@@ -185,7 +185,8 @@ static bool danger_begin(void *self, JoScene *scene, const void *options, JoErro
 
 static bool danger_frame(void *self, JoScene *scene, JoError *error) {
     (void)error;
-    jox_danger_frame(((DangerFigures *)self)->danger, jox_run_frame(scene), &scene->exits);
+    jox_danger_frame(((DangerFigures *)self)->danger, jox_run_frame(scene),
+                     &scene->world->state.exits);
     return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/mem.h"
 #include "base/overlay.h"
+#include "base/path.h"
 #include "run/run.h"
 
 static int32_t find_machine(const JoxMachineRun *machines, const char *path) {
@@ -30,24 +31,9 @@ int32_t jox_run_machine(JoScene *scene, const char *path, JoxDiagnostics *diagno
 /* The file of a behaviour that another one names: beside it, of the library, or of a mod. */
 static bool find_behaviour(const JoScene *scene, const char *from, const char *name,
                            char path[1024]) {
-    const char *slash = strrchr(from, '/'), *colon = strchr(name, ':');
-    size_t n = strlen(name);
-    const char *lua = n > 4 && !strcmp(name + n - 4, ".lua") ? "" : ".lua";
-    if (strstr(name, "..") &&
-        !scene->spec) /* plain names alone, but where a scene stands for them */
-        return false;
-    for (uint32_t m = 0; colon && m < scene->mods->count; m++) {
-        const JoxMod *mod = &scene->mods->items[m];
-        if (strncmp(mod->name, name, (size_t)(colon - name)) || mod->name[colon - name])
-            continue;
-        snprintf(path, 1024, "%.500s/behaviours/%.200s%s", mod->folder, colon + 1, lua);
-        return jox_is_file(path);
-    }
-    snprintf(path, 1024, "%.*s%.200s%s", slash ? (int)(slash - from) + 1 : 0, from, name, lua);
-    if (jox_is_file(path))
-        return true;
-    snprintf(path, 1024, "%s/behaviours/%.200s%s", JOX_DATADIR, name, lua);
-    return jox_is_file(path);
+    static const char *const FOLDERS[] = {"", JOX_DATADIR "/behaviours/", NULL};
+    return jox_mod_find(scene->mods->items, scene->mods->count, name, path) ||
+           jox_path_find(from, name, ".lua", FOLDERS, path);
 }
 
 bool jox_run_find_become(const JoScene *scene, const JoxMachine *machine, uint32_t number,

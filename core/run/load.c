@@ -53,12 +53,10 @@ static void add_places(JoScene *scene) {
         for (uint32_t s = 0; s < spec->groups[g].set_count; s++)
             if (spec->groups[g].set[s].kind == JOX_SET_ANTIPODE)
                 extra += spec->groups[g].count;
-    scene->place_capacity = spec->place_count + extra;
-    JoxPlace *places = jox_alloc(scene->place_capacity + 1, sizeof *places);
+    JoxPlace *places = jox_alloc((size_t)spec->place_count + extra + 1, sizeof *places);
     for (uint32_t i = 0; i < spec->place_count; i++)
-        places[i] = jox_place_copy(&spec->places[i]);
-    scene->first_antipode = spec->place_count;
-    jox_world_set_places(scene->world, places, spec->place_count);
+        jox_place_copy(&places[i], &spec->places[i]);
+    jox_world_set_places(scene->world, places, spec->place_count, spec->place_count + extra);
     scene->scope = (JoxScope){.places = places,
                               .place_count = spec->place_count,
                               .tags = (const char *const *)scene->world->model.tags,
@@ -139,6 +137,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     JoxMachineRun *machines = &scene->world->machines;
     machines->call = jox_lua_call;
     machines->bracket = jox_lua_bracket;
+    machines->hook_sections = jox_lua_sections;
     machines->call_context = scene->lua;
     if (diagnostics->errors == 0) {
         jox_run_populate(scene, diagnostics);
@@ -436,10 +435,6 @@ static void free_scene(JoScene *scene) {
     jox_scene_free(scene->spec);
     jox_mods_free(scene->mods);
     jox_diag_free(&scene->mod_problems);
-    jox_free(scene->spawned);
-    jox_free(scene->party_left);
-    jox_free(scene->party_team);
-    jox_exits_free(&scene->exits);
     jox_free(scene->input_path);
     jox_input_free(&scene->input);
     jox_files_free(&scene->logged_files);

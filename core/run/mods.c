@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "base/path.h"
 #include "run/run.h"
 #include "scene/mods_on.h"
 
@@ -185,8 +186,7 @@ static bool why_scene(const JoScene *scene, const char *path, JoxText *out) {
 static const JoxMachine *find_behaviour(JoScene *scene, const char *name) {
     const JoxMachineRun *machines = &scene->world->machines;
     for (uint32_t m = 0; m < machines->set->count; m++) {
-        const char *path = machines->set->items[m]->path, *slash = strrchr(path, '/');
-        const char *stem = slash ? slash + 1 : path;
+        const char *stem = jox_path_name(machines->set->items[m]->path);
         size_t n = strlen(name);
         if (strcmp(machines->set->items[m]->name, name) == 0 ||
             (strncmp(stem, name, n) == 0 && stem[n] == '.'))

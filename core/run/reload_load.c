@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/path.h"
 #include "run/reload_parts.h"
 
 void jox_batch_free(JoxBatch *batch) {
@@ -62,12 +63,11 @@ static JoxChange *add_change(JoxBatch *batch, uint32_t index, const char *path) 
 
 /* Where a machine that is missing would be: beside the one that becomes it. */
 static void place_beside(const char *from, const char *name, char path[1024]) {
-    const char *slash = strrchr(from, '/');
-    size_t n = strlen(name);
-    if (n > 4 && !strcmp(name + n - 4, ".lua"))
-        n -= 4;
-    snprintf(path, 1024, "%.*s%.*s.lua", slash ? (int)(slash - from) + 1 : 0, from,
-             n < 200 ? (int)n : 200, name);
+    const size_t n = strlen(name);
+    const bool has_ending = n > 4 && !strcmp(name + n - 4, ".lua");
+    char file[JOX_LONGEST_PATH];
+    snprintf(file, sizeof file, "%.200s%s", name, has_ending ? "" : ".lua");
+    jox_path_beside(from, file, path);
 }
 
 /* Machines that a new version becomes and that are not there yet join the batch. */

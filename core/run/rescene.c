@@ -42,7 +42,8 @@ static void take_places(Rescene *r) {
         if (jox_place_same(to, from)) /* the old specification may lag behind: see below */
             continue;
         moved = true;
-        jox_place_assign(to, from);
+        jox_place_free(to);
+        jox_place_copy(to, from);
     }
     if (moved) {
         jox_world_renew_routes(world);
@@ -84,7 +85,7 @@ static bool same_dist(const JoxDist *a, const JoxDist *b) {
            !memcmp(a->values, b->values, (size_t)a->choices * sizeof *a->values);
 }
 
-void jox_run_give(JoScene *scene, int32_t which, uint32_t group, const JoxSceneSet *set) {
+void jox_run_give(JoScene *scene, int32_t which, uint32_t group, const JoxGroupValue *set) {
     JoxMachineRun *machines = &scene->world->machines;
     JoxAgents *a = machines->agents;
     for (uint32_t i = 0; i < a->count; i++) {
@@ -113,14 +114,14 @@ static bool take_groups(Rescene *r) {
         return false;
     }
     for (uint32_t g = 0; g < r->new->group_count; g++) {
-        const JoxSceneGroup *was = &r->old->groups[g], *is = &r->new->groups[g];
+        const JoxGroup *was = &r->old->groups[g], *is = &r->new->groups[g];
         counts |= was->count != is->count || was->mix_count != is->mix_count ||
                   !same_points(was->positions, was->positions ? was->count : 0, is->positions,
                                is->positions ? is->count : 0);
         for (uint32_t m = 0; m < is->mix_count && m < was->mix_count; m++)
             counts |= strcmp(was->mix[m].behaviour, is->mix[m].behaviour) != 0;
         for (uint32_t s = 0; s < is->set_count; s++) {
-            const JoxSceneSet *set = &is->set[s], *before = NULL;
+            const JoxGroupValue *set = &is->set[s], *before = NULL;
             for (uint32_t o = 0; o < was->set_count; o++)
                 if (strcmp(was->set[o].name, set->name) == 0)
                     before = &was->set[o];
@@ -145,7 +146,7 @@ static bool same_sources(const JoxSceneSpec *a, const JoxSceneSpec *b) {
     if (a->source_count != b->source_count || a->sink_count != b->sink_count)
         return false;
     for (uint32_t s = 0; s < a->source_count; s++) {
-        const JoxSceneSource *x = &a->sources[s], *y = &b->sources[s];
+        const JoxAgentSource *x = &a->sources[s], *y = &b->sources[s];
         if (x->place != y->place || x->rate != y->rate || x->keep != y->keep ||
             x->like != y->like || x->from != y->from || x->until != y->until)
             return false;
@@ -156,25 +157,18 @@ static bool same_sources(const JoxSceneSpec *a, const JoxSceneSpec *b) {
     return true;
 }
 
-/* Sources go on from what they have given: a new rate counts from now. */
-static void take_sources(Rescene *r) {
-    double time = jo_world_time(r->scene->world);
+/* Whether there are others; they go on from what they have given: a new rate counts from now. */
+static bool take_sources(Rescene *r) {
     if (same_sources(r->old, r->new))
-        return;
-    r->scene->spawned =
-        jox_realloc(r->scene->spawned, r->new->source_count + 1, sizeof *r->scene->spawned);
-    for (uint32_t s = 0; s < r->new->source_count; s++) {
-        const JoxSceneSource *source = &r->new->sources[s];
-        r->scene->spawned[s] =
-            time > source->from ? floor(source->rate * (time - source->from)) : 0.0;
-    }
+        return false;
     note(&r->done, "sources and sinks");
+    return true;
 }
 
 static bool same_events(const JoxSceneSpec *a, const JoxSceneSpec *b) {
     bool same = a->event_count == b->event_count;
     for (uint32_t e = 0; same && e < a->event_count; e++) {
-        const JoxSceneEvent *x = &a->events[e], *y = &b->events[e];
+        const JoxEvent *x = &a->events[e], *y = &b->events[e];
         same = x->kind == y->kind && x->at == y->at && x->every == y->every &&
                x->until == y->until && same_text(x->name, y->name) && x->placed == y->placed &&
                !memcmp(x->from, y->from, sizeof x->from) &&
@@ -248,12 +242,13 @@ void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
     struct timespec t;
     double begun = jox_clock_wall();
     take_places(&r);
+    bool sources = false;
     bool groups = r.later.length == 0; /* places of other names: their numbers mean others */
     take_walls(&r);
     if (groups) {
         groups = take_groups(&r);
         if (groups)
-            take_sources(&r);
+            sources = take_sources(&r);
     }
     if (!same_events(r.old, r.new))
         note(groups ? &r.done : &r.later, "events");
@@ -274,6 +269,7 @@ void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
         *spec = scene->spec;
         scene->spec = r.new;
         r.new->duration = r.old->duration;
+        jox_run_set_schedule(scene, sources);
         jox_run_name_events(scene, NULL);
     }
     jox_text_free(&r.done);

@@ -31,15 +31,9 @@ struct JoScene {
     JoxSceneSpec *spec;
     JoxMods *mods;
     JoxDiagnostics mod_problems; /* of mods that were left out, and conflicts */
-    uint32_t *party_left;        /* per group: places left in the party that fills up */
-    uint16_t *party_team;        /* and its team */
-    uint32_t next_party;
     JoWorld *world;
     JoxLua *lua;
     JoxScope scope;
-    uint32_t first_antipode; /* places from here on belong to single agents */
-    uint32_t place_capacity; /* of the world's places, those included */
-    double *spawned;         /* per source: agents so far by rate */
     JoMessage *message;
     void *message_context;
 
@@ -50,7 +44,6 @@ struct JoScene {
     JoSceneDef def;      /* as it was loaded, with copies of its texts */
     char **spec_files;   /* the scene's file and what it includes */
     uint32_t spec_file_count;
-    JoxExits exits;            /* who left, and where */
     JoxListeners listeners;    /* who collects what happens */
     struct JoxRunFrame *frame; /* the present frame; NULL until it is asked for */
     bool finished;
@@ -101,15 +94,11 @@ void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const Jo
 int32_t jox_run_machine(JoScene *scene, const char *path, JoxDiagnostics *diagnostics);
 /* Finds the machines that states of machine become; false with diagnostics. */
 bool jox_run_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics);
-/* populate.c: groups at the start; sources and sinks as time goes on. */
+/* populate.c: checks what groups set, and makes the agents that stand there at the start. */
 bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics);
-void jox_run_sources(JoScene *scene);
-void jox_run_sinks(JoScene *scene);
-/* Counts who left in the step, and where; after the sinks. */
-void jox_run_leavers(JoScene *scene);
-/* events.c: what is due in the step that begins. */
-void jox_run_events(JoScene *scene);
-/* As jo_scene_throw, _open_wall and _signal, which write the input log besides. */
+/* Gives the world the spec's groups, sources, sinks and events; `anew`: sources count from now. */
+void jox_run_set_schedule(JoScene *scene, bool anew);
+/* events.c: as jo_scene_throw, _open_wall and _signal, which write the input log besides. */
 bool jox_run_throw(JoScene *scene, const char *body, const double from[3], const double velocity[3],
                    const double spin[3], JoError *error);
 bool jox_run_open(JoScene *scene, const char *wall, bool open, JoError *error);
@@ -144,26 +133,6 @@ void jox_run_log_origin(JoScene *scene);
 void jox_run_check_log(const JoScene *scene);
 /* What files were when the run began that a log tells of. */
 void jox_run_before(JoxOverlay *overlay, const JoxInputLog *log);
-/* inspect_graph.c: who set a parameter of a state (NULL: of the defaults), and to what. */
-typedef struct JoxSetBy {
-    JoxText
-        where; /* "state Circle behaviours/tawaf.lua:21", "mod calm ...", "live page", "engine" */
-    JoxText text;  /* the value as written */
-    double number; /* NAN where it differs between agents or in time */
-    int line;
-} JoxSetBy;
-JoxSetBy jox_run_set_by(const JoScene *scene, const JoxMachine *machine, const JoxState *state,
-                        int parameter);
-void jox_set_by_free(JoxSetBy *by);
-/* Writes the scene's machines, an array: name, path, version, start; defaults and states with their
-   parameters; transitions with their conditions as written. */
-void jox_run_graph(const JoScene *scene, JoxJson *json, const char *key);
-/* Adds what jo_scene_inspect tells of an agent to an open object; false if there is nobody. */
-bool jox_run_inspect(JoScene *scene, uint32_t slot, JoxJson *json);
-/* Appends the line of Lua that would set a parameter for good, and where it belongs; false with
-   why not. */
-bool jox_run_lua_line(const JoScene *scene, const char *machine, const char *state,
-                      const char *parameter, double value, JoxText *out);
 /* Appends to the log that is written, if one is, as of the step that comes. */
 void jox_run_log(JoScene *scene, JoxInputEntry *entry);
 /* False with `error` if it cannot be written. */
@@ -186,7 +155,7 @@ void jox_run_hold_machines(JoScene *scene, uint32_t machine, bool hold);
 void jox_run_unwatch(JoScene *scene);
 /* rescene.c: gives the living of a group a value that their scene sets, in one machine or (-1) in
    whichever they are. */
-void jox_run_give(JoScene *scene, int32_t machine, uint32_t group, const JoxSceneSet *set);
+void jox_run_give(JoScene *scene, int32_t machine, uint32_t group, const JoxGroupValue *set);
 /* Takes over from a new specification of the scene what can change while it runs, and says what
    cannot. *spec is then the old one. */
 void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written);

@@ -10,14 +10,15 @@ bool jo_scene_step(JoScene *scene, JoError *error) {
         return false;
     jox_run_inputs(scene);
     jox_run_reload(scene);
-    jox_run_events(scene);
-    jox_run_sources(scene);
-    if (!jox_world_step(scene->world)) {
+    const bool stepped = jox_world_step(scene->world);
+    JoxText *said = &scene->world->scratch.event_errors;
+    if (said->length)
+        jox_run_tell(scene, said->data);
+    jox_text_free(said);
+    if (!stepped) {
         jox_error(error, JO_FAILED, "%s", scene->world->failure);
         return false;
     }
-    jox_run_sinks(scene);
-    jox_run_leavers(scene);
     const char *stalled = jox_lua_stalled(scene->lua);
     if (stalled) {
         jox_error(error, JO_FAILED,

@@ -100,7 +100,7 @@ static void add_regions(JoxJson *json, const JoScene *scene) {
 
 static void add_danger(JoxJson *json, const JoScene *scene) {
     jox_json_object(json, "danger");
-    jox_exits_json(&scene->exits, scene->world->state.agents.count, json);
+    jox_exits_json(&scene->world->state.exits, scene->world->state.agents.count, json);
     if (jox_run_danger(scene))
         jox_danger_json(jox_run_danger(scene), json);
     jox_json_end(json);

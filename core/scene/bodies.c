@@ -72,12 +72,6 @@ void jox_key_copies(const JoxReader *r, const JoxKey *key, const JoxYaml *node, 
         copies[0] = copies[1] = copies[2] = 0; /* wrong: none */
 }
 
-/* The mass of each block, in place of the body's: kept until the body is whole. */
-void jox_key_block_mass(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
-    (void)item;
-    r->load->block_mass = jox_key_number(r, key, node);
-}
-
 /* A part is a simple shape: this ends the recursion. */
 void jox_key_part_shape(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
     const bool compound = jox_yaml_get(node, "compound") != NULL;

@@ -54,7 +54,7 @@ static void check_body(const JoxReader *r, const JoxYaml *name) {
 
 /* What an event does something to, or the signal that it gives. */
 void jox_key_event_name(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
-    JoxSceneEvent *event = item;
+    JoxEvent *event = item;
     if (node->kind != JOX_YAML_SCALAR) {
         jox_scene_error(r, node, "bad-type", NULL, "%s must be a name", key->name);
         return;
@@ -70,7 +70,7 @@ void jox_key_event_name(const JoxReader *r, const JoxKey *key, const JoxYaml *no
     event->position = node->position;
 }
 
-static void check_throw(const JoxReader *r, const JoxYaml *map, const JoxSceneEvent *event) {
+static void check_throw(const JoxReader *r, const JoxYaml *map, const JoxEvent *event) {
     static const char *const KEYS[] = {"from", "velocity", "spin"};
     bool any = false;
     for (int k = 0; k < 3; k++) {
@@ -85,7 +85,7 @@ static void check_throw(const JoxReader *r, const JoxYaml *map, const JoxSceneEv
 }
 
 bool jox_finish_event(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
-    JoxSceneEvent *event = item;
+    JoxEvent *event = item;
     const JoxYaml *until = jox_yaml_get(map, "until");
     (void)good;
     if (!event->name)

@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "base/overlay.h"
+#include "base/path.h"
 #include "base/text.h"
 #include "scene/internal.h"
 
@@ -15,30 +16,14 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
     JoxArena *arena = l->reader.arena;
     /* Overrides are of no file: the scene's folder is meant. */
     const char *from = strcmp(position.file, JOX_LOAD_OVERRIDE) ? position.file : l->scene->path;
-    char relative[512];
-    const char *colon = strchr(name, ':');
-    const char *lua = strlen(name) > 4 && !strcmp(name + strlen(name) - 4, ".lua") ? "" : ".lua";
-    for (uint32_t m = 0; colon && l->options && m < l->options->mod_count; m++) {
-        const JoxMod *mod = &l->options->mods[m]; /* "mod:name" */
-        if (strncmp(mod->name, name, (size_t)(colon - name)) || mod->name[colon - name])
-            continue;
-        snprintf(relative, sizeof relative, "%.300s/behaviours/%.150s%s", mod->folder, colon + 1,
-                 lua);
-        if (!strstr(colon, "..") && jox_is_file(relative))
-            return jox_arena_text(arena, relative);
-    }
-    const char *forms[] = {"%.400s%s", "../behaviours/%.400s%s", "%s/behaviours/%.300s%s"};
-    for (int i = 0; i < 3; i++) {
-        if (i < 2)
-            snprintf(relative, sizeof relative, forms[i], name, lua);
-        else
-            snprintf(relative, sizeof relative, "%s/behaviours/%.300s%s",
-                     l->datadir ? l->datadir : JOX_DATADIR, name, lua);
-        char *path = jox_path_beside(arena, from, relative);
-        if (jox_is_file(path)) {
-            jox_path_clean(path);
-            return path;
-        }
+    char path[JOX_LONGEST_PATH], installed[JOX_LONGEST_PATH];
+    const char *const folders[] = {"", "../behaviours/", installed, NULL};
+    snprintf(installed, sizeof installed, "%s/behaviours/", l->datadir ? l->datadir : JOX_DATADIR);
+    if (l->options && jox_mod_find(l->options->mods, l->options->mod_count, name, path))
+        return jox_arena_text(arena, path);
+    if (jox_path_find(from, name, ".lua", folders, path)) {
+        jox_path_clean(path);
+        return jox_arena_text(arena, path);
     }
     jox_diag_error(l->reader.diagnostics, position, "missing-file",
                    "Looked beside the scene, in ../behaviours and in the installed ones",
@@ -47,19 +32,19 @@ static char *find_behaviour(const JoxLoad *l, const char *name, JoxPosition posi
 }
 
 void jox_key_behaviour(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
-    JoxSceneGroup *group = item;
+    JoxGroup *group = item;
     if (node && node->kind != JOX_YAML_SCALAR)
         jox_scene_error(r, node, "bad-type", NULL, "%s must be a name", key->name);
     if (!node || node->kind != JOX_YAML_SCALAR)
         return;
     group->mix = jox_arena_take(r->arena, 1, sizeof *group->mix);
-    *group->mix = (JoxSceneMix){.weight = 1, .position = node->position};
+    *group->mix = (JoxGroupMix){.weight = 1, .position = node->position};
     group->mix->behaviour = find_behaviour(r->load, node->text, node->position);
     group->mix_count = group->mix->behaviour != NULL;
 }
 
 void jox_key_mix(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void *item) {
-    JoxSceneGroup *group = item;
+    JoxGroup *group = item;
     double sum = 0;
     if (map && (map->kind != JOX_YAML_MAP || map->count == 0))
         jox_scene_error(r, map, "bad-type", "mix: {walker.lua: 3, runner.lua: 1}",
@@ -69,8 +54,8 @@ void jox_key_mix(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void
     group->mix = jox_arena_take(r->arena, map->count, sizeof *group->mix);
     group->mix_count = 0;
     for (uint32_t i = 0; i < map->count; i++) {
-        JoxSceneMix *entry = &group->mix[group->mix_count];
-        *entry = (JoxSceneMix){.position = map->key_positions[i]};
+        JoxGroupMix *entry = &group->mix[group->mix_count];
+        *entry = (JoxGroupMix){.position = map->key_positions[i]};
         if (!jox_read_number(r, map->items[i], "", &entry->weight))
             continue;
         if (!(entry->weight > 0 && entry->weight <= 1e6)) {
@@ -92,7 +77,7 @@ void jox_key_facing(const JoxReader *r, const JoxKey *key, const JoxYaml *node, 
 }
 
 bool jox_finish_group(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
-    JoxSceneGroup *group = item;
+    JoxGroup *group = item;
     const JoxYaml *one = jox_yaml_get(map, "behaviour"), *mix = jox_yaml_get(map, "mix");
     (void)good;
     if (!one == !mix)

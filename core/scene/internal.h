@@ -4,8 +4,8 @@
 #ifndef JOX_SCENE_INTERNAL_H
 #define JOX_SCENE_INTERNAL_H
 
-#include "scene/scene.h"
 #include "scene/format/schema.h"
+#include "scene/scene.h"
 
 typedef struct JoxLoad {
     JoxReader reader;
@@ -15,7 +15,14 @@ typedef struct JoxLoad {
     JoxYamlFiles *files; /* read for the scene */
     const JoxYaml *root; /* of the whole scene, merged */
     bool walls_wrong;    /* some could not be read: their names are not known */
-    double block_mass;   /* kg, of the blocks of the body that is being read; NAN: not given */
+    /* Of what is being read, until it is whole. */
+    double block_mass; /* kg, of the blocks of a body; NAN: not given */
+    struct JoxLoadFill {
+        uint32_t *in, *outside; /* places to fill, and to keep out of */
+        uint32_t in_count, outside_count;
+        double density; /* 1/m2; NAN: not given */
+        float spacing;  /* m, least; NAN: not given */
+    } fill;             /* of a group */
 } JoxLoad;
 
 typedef void JoxKeyRead(const JoxReader *reader, const JoxKey *key, const JoxYaml *node,
@@ -77,7 +84,7 @@ JoxKeyRead jox_key_part_shape;
 JoxKeyRead jox_key_behaviour, jox_key_mix, jox_key_values, jox_key_facing, jox_key_fills;
 JoxOwnerFinish jox_finish_group;
 /* Where a group's agents stand; the groups before it have been read. */
-void jox_load_positions(const JoxReader *reader, const JoxYaml *map, JoxSceneGroup *group);
+void jox_load_positions(const JoxReader *reader, const JoxYaml *map, JoxGroup *group);
 
 /* sources.c, events.c, probes.c */
 JoxOwnerFinish jox_finish_source, jox_finish_sink, jox_finish_event, jox_finish_probe;

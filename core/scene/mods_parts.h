@@ -2,8 +2,8 @@
 #ifndef JOX_SCENE_MODS_PARTS_H
 #define JOX_SCENE_MODS_PARTS_H
 
-#include "scene/mods.h"
 #include "scene/format/schema.h"
+#include "scene/mods.h"
 
 /* What a mod.yaml says of others, until the order is known. */
 typedef struct JoxModNeeds {

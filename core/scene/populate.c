@@ -28,8 +28,9 @@ void jox_key_fills(const JoxReader *r, const JoxKey *key, const JoxYaml *node, v
     *JOX_MEMBER(uint32_t, item, key->counter) = n;
 }
 
-static void circle(const JoxReader *r, const JoxYaml *map, JoxSceneGroup *group) {
-    const JoxPlace *place = group->in_count == 1 ? &r->load->scene->places[group->in[0]] : NULL;
+static void circle(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
+    const JoxPlace *place =
+        r->load->fill.in_count == 1 ? &r->load->scene->places[r->load->fill.in[0]] : NULL;
     if (!place || place->kind != JOX_PLACE_POINT) {
         jox_scene_error(r, map, "bad-fill", "in: a place with point and radius",
                         "a circle is filled about one point");
@@ -46,8 +47,9 @@ static void circle(const JoxReader *r, const JoxYaml *map, JoxSceneGroup *group)
 
 /* Along one line, each in the middle of an equal share of it: where the line's ends are joined by
    periodic edges, nobody stands closer there than elsewhere. */
-static void line(const JoxReader *r, const JoxYaml *map, JoxSceneGroup *group) {
-    const JoxPlace *place = group->in_count == 1 ? &r->load->scene->places[group->in[0]] : NULL;
+static void line(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
+    const JoxPlace *place =
+        r->load->fill.in_count == 1 ? &r->load->scene->places[r->load->fill.in[0]] : NULL;
     if (!place || place->kind != JOX_PLACE_LINE) {
         jox_scene_error(r, map, "bad-fill", "in: a place with line",
                         "`fill: line` goes along one line");
@@ -60,8 +62,8 @@ static void line(const JoxReader *r, const JoxYaml *map, JoxSceneGroup *group) {
             jox_add(from, jox_scale(way, (float)((i + 0.5) / (double)group->count)));
 }
 
-static void area(const JoxReader *r, const JoxYaml *map, const JoxArea *a, JoxSpread spread,
-                 float spacing, uint32_t number, JoxSceneGroup *group) {
+static void area(const JoxReader *r, const JoxYaml *map, const JoxArea *a, JoxFillMode spread,
+                 float spacing, uint32_t number, JoxGroup *group) {
     JoxV2 *positions = NULL;
     uint32_t fit =
         jox_fill(a, spread, group->count, spacing, r->load->scene->seed, number, &positions);
@@ -76,7 +78,7 @@ static void area(const JoxReader *r, const JoxYaml *map, const JoxArea *a, JoxSp
 }
 
 /* Whether a source makes agents like a group. */
-static bool has_source(const JoxReader *r, const JoxSceneGroup *group) {
+static bool has_source(const JoxReader *r, const JoxGroup *group) {
     const JoxYaml *list = jox_yaml_get(r->load->root, "sources");
     for (uint32_t s = 0; list && list->kind == JOX_YAML_LIST && s < list->count; s++) {
         const JoxYaml *like = jox_yaml_get(list->items[s], "like");
@@ -87,7 +89,7 @@ static bool has_source(const JoxReader *r, const JoxSceneGroup *group) {
 }
 
 /* `node`: the group, or the list of its agents' points. */
-static void check_bounds(const JoxReader *r, const JoxYaml *node, const JoxSceneGroup *group) {
+static void check_bounds(const JoxReader *r, const JoxYaml *node, const JoxGroup *group) {
     const JoxSceneSpec *s = r->load->scene;
     for (uint32_t i = 0; s->bounded && group->positions && i < group->count; i++) {
         JoxV2 p = group->positions[i];
@@ -109,11 +111,11 @@ static bool is_zero(const JoxYaml *count) {
 
 /* How many agents a group has at the start; 0, with an error, if that is impossible. */
 static uint32_t number_of(const JoxReader *r, const JoxYaml *map, const JoxArea *area,
-                          const JoxSceneGroup *group) {
+                          const JoxGroup *group) {
     const JoxYaml *density = jox_yaml_get(map, "density");
     const JoxYaml *from = density ? density : jox_yaml_get(map, "count");
     const double number =
-        density ? floor(group->density * jox_area_size(area) + 0.5) : (double)group->count;
+        density ? floor(r->load->fill.density * jox_area_size(area) + 0.5) : (double)group->count;
     if (!(number >= 1 && number <= MOST_AGENTS)) {
         jox_scene_error(r, from, "out-of-range",
                         "A group may begin empty, with count: 0, where a source is like it",
@@ -131,15 +133,16 @@ static uint32_t number_of(const JoxReader *r, const JoxYaml *map, const JoxArea 
 }
 
 /* Points that were given one by one. */
-static void take_points(const JoxReader *r, const JoxYaml *at, JoxSceneGroup *group) {
+static void take_points(const JoxReader *r, const JoxYaml *at, JoxGroup *group) {
     group->fill = JOX_FILL_AT;
     check_bounds(r, at, group);
 }
 
-void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxSceneGroup *group) {
+void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
     const JoxYaml *at = jox_yaml_get(map, "at"), *count = jox_yaml_get(map, "count");
     const JoxYaml *density = jox_yaml_get(map, "density");
     const JoxSceneSpec *s = r->load->scene;
+    const struct JoxLoadFill *fill = &r->load->fill;
     if (at) {
         take_points(r, at, group);
         return;
@@ -149,18 +152,18 @@ void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxSceneGroup *g
                         "a group needs one of count, density and at");
         return;
     }
-    if (density ? !isfinite(group->density) : group->count == 0 && !is_zero(count))
+    if (density ? !isfinite(r->load->fill.density) : group->count == 0 && !is_zero(count))
         return; /* wrong, and reported */
     if (count && group->count == 0 && has_source(r, group))
         return; /* nobody is there at the start */
-    if (group->in_count == 0) {
+    if (fill->in_count == 0) {
         if (!jox_yaml_get(map, "in"))
             jox_scene_error(r, map, "missing-key", "in: NAME", "a group needs `in`, places");
         group->count = 0;
         return;
     }
-    JoxArea a = {s->places, group->in, group->outside, group->in_count, group->outside_count,
-                 &s->walls, 0.2f};
+    JoxArea a = {s->places,           fill->in,  fill->outside, fill->in_count,
+                 fill->outside_count, &s->walls, 0.2f};
     group->count = number_of(r, map, &a, group);
     if (group->count == 0)
         return;
@@ -169,7 +172,7 @@ void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxSceneGroup *g
     else if (group->fill == JOX_FILL_LINE)
         line(r, map, group);
     else
-        area(r, map, &a, (JoxSpread)group->fill, isfinite(group->spacing) ? group->spacing : 0.0f,
+        area(r, map, &a, group->fill, isfinite(fill->spacing) ? fill->spacing : 0.0f,
              s->group_count, group);
     JOX_ASSERT(group->positions || r->diagnostics->errors > 0);
     check_bounds(r, map, group);

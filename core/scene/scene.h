@@ -12,77 +12,10 @@
 #include "body/body.h"
 #include "geom/place.h"
 #include "geom/walls.h"
+#include "world/events.h"
+#include "world/exits.h"
+#include "world/population.h"
 #include "world/probe.h"
-
-/* How the agents of a group stand; JOX_FILL_AT: at given points. */
-#define JOX_FILLS(X)                                                                               \
-    X(HEX, "hex")                                                                                  \
-    X(GRID, "grid")                                                                                \
-    X(RANDOM, "random")                                                                            \
-    X(CIRCLE, "circle")                                                                            \
-    X(LINE, "line")
-typedef enum {
-#define X(fill, name) JOX_FILL_##fill,
-    JOX_FILLS(X)
-#undef X
-        JOX_FILL_AT
-} JoxFillMode;
-
-/* A parameter or own name that a group sets: a distribution of numbers, a place, or a rule. */
-typedef struct JoxSceneSet {
-    char *name;
-    enum { JOX_SET_NUMBER, JOX_SET_PLACE, JOX_SET_ANTIPODE } kind;
-    JoxDist dist;
-    int32_t place; /* index of places; JOX_SET_PLACE only */
-    JoxPosition position;
-} JoxSceneSet;
-
-typedef struct JoxSceneMix {
-    char *behaviour; /* the path as found on disk */
-    double weight;   /* share; the weights of a group sum to 1 */
-    JoxPosition position;
-} JoxSceneMix;
-
-/* Agents made alike. */
-typedef struct JoxSceneGroup {
-    char *name;
-    JoxPosition position;
-    JoxSceneMix *mix;
-    uint32_t mix_count;
-    JoxFillMode fill;
-    JoxV2 *positions; /* filled, from the scene's seed */
-    uint32_t count;
-    uint32_t *in, *outside; /* places to fill, and to keep out of */
-    uint32_t in_count, outside_count;
-    double density; /* 1/m2, in place of count; NAN: not given */
-    float spacing;  /* m, least; NAN: not given */
-    float facing;   /* rad, anti-clockwise from +x; NAN: not given */
-    JoxV2 centre;   /* of a circle fill, and the mirror of `antipode` */
-    char *team;     /* or NULL */
-    uint32_t party; /* agents in a row that are a team of their own; 1: none */
-    char **tags;
-    uint32_t tag_count;
-    JoxSceneSet *set;
-    uint32_t set_count;
-    JoxSceneSet *memory; /* initial memory; numbers only */
-    uint32_t memory_count;
-} JoxSceneGroup;
-
-typedef struct JoxSceneSource {
-    uint32_t place;
-    double rate;         /* agents a second; 0: none by rate */
-    uint32_t keep;       /* tops the group up to so many; 0: no */
-    uint32_t like;       /* index of the group that they belong to */
-    JoxSceneSet *memory; /* in place of the group's, where given */
-    uint32_t memory_count;
-    double from, until; /* s; until INFINITY unless given */
-    JoxPosition position;
-} JoxSceneSource;
-
-typedef struct JoxSceneSink {
-    uint32_t place;
-    int32_t group; /* -1: everyone */
-} JoxSceneSink;
 
 typedef struct JoxSceneRegion {
     char *name;
@@ -113,24 +46,6 @@ typedef enum JoxTool {
         JOX_TOOL_COUNT
 } JoxTool;
 extern const char *const jox_scene_tools[JOX_TOOL_COUNT]; /* names */
-
-typedef enum JoxSceneEventKind {
-    JOX_EVENT_THROW,
-    JOX_EVENT_OPEN,
-    JOX_EVENT_CLOSE,
-    JOX_EVENT_SIGNAL
-} JoxSceneEventKind;
-
-/* What happens at given times. */
-typedef struct JoxSceneEvent {
-    JoxSceneEventKind kind;
-    double at, every, until;     /* s; `every` 0: once */
-    char *name;                  /* of the body or walls, or what is called out */
-    bool placed;                 /* the body is thrown from `from`; else from where it lies */
-    double from[3];              /* of the shape's own frame, m */
-    double velocity[3], spin[3]; /* m/s, rad/s */
-    JoxPosition position;
-} JoxSceneEvent;
 
 typedef struct JoxSceneFile {
     char *path;
@@ -174,15 +89,15 @@ typedef struct JoxSceneSpec {
     JoxWalls walls;
     JoxSceneBody *bodies;
     uint32_t body_count;
-    JoxSceneGroup *groups;
+    JoxGroup *groups;
     uint32_t group_count;
-    JoxSceneSource *sources;
+    JoxAgentSource *sources;
     uint32_t source_count;
-    JoxSceneSink *sinks;
+    JoxAgentSink *sinks;
     uint32_t sink_count;
     JoxProbeDef *probes;
     uint32_t probe_count;
-    JoxSceneEvent *events;
+    JoxEvent *events;
     uint32_t event_count;
     int32_t player_group;  /* -1: none */
     uint32_t player_agent; /* index within that group */

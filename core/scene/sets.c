@@ -7,7 +7,7 @@
 #include "scene/internal.h"
 
 /* Whether all that a distribution gives lies in its parameter's range (a normal one: its mean). */
-static bool parameter_fits(const JoxReader *r, const JoxSceneSet *set, const JoxYaml *value) {
+static bool parameter_fits(const JoxReader *r, const JoxGroupValue *set, const JoxYaml *value) {
     int parameter = jox_parameter_find(set->name);
     const JoxDist *dist = &set->dist;
     if (parameter < 0 || set->kind != JOX_SET_NUMBER)
@@ -35,7 +35,7 @@ static bool looks_numeric(const char *text) {
 
 /* One value of a map; false with an error. */
 static bool read_set(const JoxReader *r, const JoxYaml *value, bool numbers_only,
-                     JoxSceneSet *set) {
+                     JoxGroupValue *set) {
     const JoxSceneSpec *s = r->load->scene;
     const size_t errors = r->diagnostics->errors;
     bool flag = value->kind == JOX_YAML_SCALAR &&
@@ -67,12 +67,12 @@ void jox_key_values(const JoxReader *r, const JoxKey *key, const JoxYaml *map, v
         jox_scene_error(r, map, "bad-type", NULL, "%s maps names to values", key->name);
     if (!map || map->kind != JOX_YAML_MAP)
         return;
-    JoxSceneSet *sets = jox_arena_take(r->arena, map->count, sizeof *sets);
-    *JOX_MEMBER(JoxSceneSet *, item, key->offset) = sets;
+    JoxGroupValue *sets = jox_arena_take(r->arena, map->count, sizeof *sets);
+    *JOX_MEMBER(JoxGroupValue *, item, key->offset) = sets;
     for (uint32_t i = 0; i < map->count; i++) {
-        JoxSceneSet *set = &sets[*count];
-        *set = (JoxSceneSet){.name = jox_arena_text(r->arena, map->keys[i]),
-                             .position = map->key_positions[i]};
+        JoxGroupValue *set = &sets[*count];
+        *set = (JoxGroupValue){.name = jox_arena_text(r->arena, map->keys[i]),
+                               .position = map->key_positions[i]};
         *count +=
             read_set(r, map->items[i], numbers_only, set) && parameter_fits(r, set, map->items[i]);
     }

@@ -57,7 +57,7 @@ void jox_key_input(const JoxReader *r, const JoxKey *key, const JoxYaml *node, v
         jox_scene_error(r, node, "bad-value", "A plain name, of a file beside it",
                         "a mod cannot read '%.100s'", node->text);
     else
-        s->input = jox_path_beside(r->arena, node->position.file, node->text);
+        s->input = jox_arena_beside(r->arena, node->position.file, node->text);
 }
 
 bool jox_finish_camera(const JoxReader *r, const JoxYaml *map, void *item, bool good) {

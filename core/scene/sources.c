@@ -3,7 +3,7 @@
 #include "scene/internal.h"
 
 /* The point opposite on the circle is that of agents who stand on it at the start. */
-static void refuse_antipode(const JoxReader *r, const JoxYaml *like, const JoxSceneGroup *group) {
+static void refuse_antipode(const JoxReader *r, const JoxYaml *like, const JoxGroup *group) {
     for (uint32_t s = 0; s < group->set_count; s++)
         if (group->set[s].kind == JOX_SET_ANTIPODE) {
             jox_scene_error(r, like, "bad-value",
@@ -16,7 +16,7 @@ static void refuse_antipode(const JoxReader *r, const JoxYaml *like, const JoxSc
 }
 
 bool jox_finish_source(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
-    JoxSceneSource *source = item;
+    JoxAgentSource *source = item;
     const JoxSceneSpec *s = r->load->scene;
     (void)good;
     if (source->rate == 0 && source->keep == 0)
@@ -35,5 +35,5 @@ bool jox_finish_source(const JoxReader *r, const JoxYaml *map, void *item, bool 
 
 bool jox_finish_sink(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
     (void)r, (void)map, (void)good;
-    return (int32_t)((const JoxSceneSink *)item)->place >= 0; /* -1: there is none of the name */
+    return (int32_t)((const JoxAgentSink *)item)->place >= 0; /* -1: there is none of the name */
 }

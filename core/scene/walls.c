@@ -28,7 +28,7 @@ static bool is_allowed(const JoxLoad *l, const JoxYaml *name, const char *path) 
 static bool load_file(JoxLoad *l, const JoxLoadWall *wall) {
     const JoxReader *r = &l->reader;
     const JoxYaml *name = wall->file;
-    char *path = jox_path_beside(r->arena, name->position.file, name->text);
+    char *path = jox_arena_beside(r->arena, name->position.file, name->text);
     JoxWallFileOptions options = {.unit = wall->unit, .height = wall->height};
     options.origin_x = wall->origin[0], options.origin_y = wall->origin[1];
     size_t length = 0;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/path.h"
 #include "base/sort.h"
 #include "validate/claims_parts.h"
 
@@ -65,13 +66,10 @@ static void read_run(lua_State *L, const JoxClaim *claim, const JoxClaimRun *bas
         luaL_error(L, "%s is a table", what);
     jox_claim_known(L, what, KEYS, sizeof KEYS / sizeof *KEYS);
     char *scene = jox_claim_text(L, what, "scene", !base);
-    const char *slash = strrchr(claim->path, '/');
-    JoxText path = {0};
-    jox_text_printf(&path, "%.*s%s", slash && *scene != '/' ? (int)(slash - claim->path) + 1 : 0,
-                    claim->path, scene);
-    run->scene = *scene || !base ? path.data : jox_strdup(base->scene);
-    if (run->scene != path.data)
-        jox_text_free(&path);
+    char path[JOX_LONGEST_PATH];
+    if (!jox_path_beside(claim->path, scene, path))
+        luaL_error(L, "the path of the scene of %s is too long", what);
+    run->scene = jox_strdup(*scene || !base ? path : base->scene);
     jox_free(scene);
     jox_path_clean(run->scene);
     run->seeds = (uint32_t)jox_claim_number(L, what, "seeds", base ? base->seeds : 3);

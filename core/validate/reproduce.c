@@ -14,6 +14,7 @@
 #include "base/guard.h"
 #include "base/hash.h"
 #include "base/mem.h"
+#include "base/path.h"
 #include "base/sort.h"
 
 JoReproduceDef jo_default_reproduce_def(void) {
@@ -27,8 +28,8 @@ JoReproduceDef jo_default_reproduce_def(void) {
 
 static bool is_wanted(const JoReproduceDef *def, const JoxClaim *claim) {
     for (size_t c = 0; c < def->claim_count; c++) {
-        const char *slash = strrchr(claim->path, '/'), *file = slash ? slash + 1 : claim->path;
-        size_t stem = strcspn(file, ".");
+        const char *file = jox_path_name(claim->path);
+        size_t stem = jox_path_stem(file);
         if (strcmp(def->claims[c], claim->id) == 0 ||
             (strncmp(def->claims[c], file, stem) == 0 && def->claims[c][stem] == 0) ||
             strcmp(def->claims[c], claim->path) == 0)
@@ -130,8 +131,8 @@ static uint32_t add_job(JoxReproduction *all, const JoxClaim *claim, const JoxCl
         }
     /* The program is not part of the folder's name: a new one writes over what an old one left. */
     jox_sha256_hex(key.data + 64, key.length - 64, hash);
-    const char *slash = strrchr(run->scene, '/'), *file = slash ? slash + 1 : run->scene;
-    jox_text_printf(&folder, "%s/runs/%.*s-%.10s-%llu", all->def->out, (int)strcspn(file, "."),
+    const char *file = jox_path_name(run->scene);
+    jox_text_printf(&folder, "%s/runs/%.*s-%.10s-%llu", all->def->out, (int)jox_path_stem(file),
                     file, hash, (unsigned long long)seed);
     JOX_RESERVE(all->jobs, all->job_capacity, all->job_count + 1);
     all->jobs[all->job_count] = (JoxJob){

@@ -5,6 +5,7 @@
 
 #include "agents/parameters.h"
 #include "base/mem.h"
+#include "base/path.h"
 #include "base/quote.h"
 #include "picture/html.h"
 #include "validate/reproduce.h"
@@ -148,13 +149,13 @@ static void look_at_behaviour(Deviations *d, const char *path) {
 
 /* ---- scenes ---- */
 
-static void look_at_group(Deviations *d, const char *scene, const JoxSceneGroup *group) {
+static void look_at_group(Deviations *d, const char *scene, const JoxGroup *group) {
     char where[700];
     snprintf(where, sizeof where, "%s, group %.100s", scene, group->name);
     for (uint32_t m = 0; m < group->mix_count; m++)
         look_at_behaviour(d, group->mix[m].behaviour);
     for (uint32_t s = 0; s < group->set_count; s++) {
-        const JoxSceneSet *set = &group->set[s];
+        const JoxGroupValue *set = &group->set[s];
         int p = jox_parameter_find(set->name);
         JoxText text = {0};
         if (p < 0 || set->kind != JOX_SET_NUMBER ||

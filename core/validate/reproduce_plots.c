@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/path.h"
 #include "base/quote.h"
 #include "base/sort.h"
 #include "picture/plot.h"
@@ -14,8 +15,8 @@ enum { MOST_CELLS = 40 }; /* of a map along an axis */
 
 void jox_reproduce_plot_name(const JoxClaim *claim, const JoxClaimPlot *plot, char *out,
                              size_t size) {
-    const char *slash = strrchr(claim->path, '/'), *file = slash ? slash + 1 : claim->path;
-    snprintf(out, size, "%.*s-%s", (int)strcspn(file, "."), file, plot->name);
+    const char *file = jox_path_name(claim->path);
+    snprintf(out, size, "%.*s-%s", (int)jox_path_stem(file), file, plot->name);
 }
 
 /* A number for gnuplot, which knows NaN and no infinity. */

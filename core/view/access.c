@@ -1,5 +1,7 @@
 #include "view/access.h"
 
+#include "base/path.h"
+
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -71,14 +73,11 @@ bool jox_access_file(const char *folder, const char *path, char file[4096]) {
     if (*path != '/' || strstr(path, "/.") || strchr(path, '\\') ||
         snprintf(whole, sizeof whole, "%s%s", folder, path) >= (int)sizeof whole)
         return false;
-    char *real = realpath(whole, NULL), *root = realpath(folder, NULL);
-    size_t n = root ? strlen(root) : 0;
-    bool inside = real && root && strncmp(real, root, n) == 0 && real[n] == '/' &&
-                  strlen(real) < 4096 && stat(real, &info) == 0 && S_ISREG(info.st_mode);
+    char *real = jox_path_real_below(whole, folder);
+    bool inside = real && strlen(real) < 4096 && stat(real, &info) == 0 && S_ISREG(info.st_mode);
     if (inside)
         strcpy(file, real);
     free(real);
-    free(root);
     return inside;
 }
 

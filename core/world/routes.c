@@ -83,9 +83,9 @@ static void copy_places(const JoWorld *w, uint32_t place, Making *making) {
     const JoxPlace *from = &w->model.places[place];
     making->place_count = 1 + from->member_count;
     making->places = jox_alloc(making->place_count, sizeof *making->places);
-    jox_place_assign(&making->places[0], from);
+    jox_place_copy(&making->places[0], from);
     for (uint32_t m = 0; m < from->member_count; m++) {
-        jox_place_assign(&making->places[m + 1], &w->model.places[from->members[m]]);
+        jox_place_copy(&making->places[m + 1], &w->model.places[from->members[m]]);
         making->places[0].members[m] = (int32_t)m + 1;
     }
 }
@@ -266,25 +266,22 @@ static void clear(JoxRoutes *routes) {
     }
 }
 
-/* The field in use, and the one that will be. */
+/* When a route was asked for and comes into use; the field in use, and the one that will be. */
 static void list_route(JoxRoutes *routes, uint32_t at, JoxSections *s) {
     Route *route = &routes->items[at];
-    uint64_t times[] = {route->asked, route->due};
-    uint32_t versions[] = {route->walls, route->obstacles};
-    uint32_t there[] = {routes->fields[at] != NULL, route->making != NULL};
-    jox_section(s, "times", times, sizeof *times, 2);
-    jox_section(s, "versions", versions, sizeof *versions, 2);
-    jox_section(s, "there", there, sizeof *there, 2);
-    if (s->mode == JOX_SECTIONS_RESTORE) {
-        *route = (Route){NULL, times[0], times[1], versions[0], versions[1]};
-        if (there[1] && !s->failed) {
-            route->making = jox_alloc(1, sizeof *route->making);
-            route->making->item.done = true;
-        }
+    bool used = jox_section_count(s, "used", routes->fields[at] != NULL, 1) > 0;
+    bool made = jox_section_count(s, "made", route->making != NULL, 1) > 0;
+    JOX_SECTION(s, "asked", route->asked);
+    JOX_SECTION(s, "due", route->due);
+    JOX_SECTION(s, "of_walls", route->walls);
+    JOX_SECTION(s, "of_obstacles", route->obstacles);
+    if (s->mode == JOX_SECTIONS_RESTORE && made) {
+        route->making = jox_alloc(1, sizeof *route->making);
+        route->making->item.done = true;
     }
-    if (there[0])
+    if (used)
         jox_field_sections(&routes->fields[at], s);
-    if (there[1] && route->making)
+    if (made)
         jox_field_sections(&route->making->field, s);
 }
 

@@ -15,10 +15,8 @@ static void list_walls(JoWorld *w, JoxSections *s) {
         struct JoxWallRing *ring = &walls->rings[r];
         if (!ring->name)
             continue;
-        uint8_t gate[] = {ring->open, ring->set};
-        jox_section(s, "gate", gate, 1, 2);
-        ring->open = gate[0];
-        ring->set = gate[1];
+        JOX_SECTION(s, "open", ring->open);
+        JOX_SECTION(s, "set", ring->set);
     }
     JOX_SECTION(s, "walls_version", w->state.walls_version);
     JOX_SECTION(s, "walls_set", w->state.walls_set);
@@ -59,6 +57,7 @@ void jox_world_sections(JoWorld *w, JoxSections *s) {
     list_def(&w->model.def, s);
     JOX_SECTION(s, "tick", w->state.tick);
     list_walls(w, s);
+    jox_population_sections(w, s);
     jox_agents_sections(&w->state.agents, s);
     jox_machines_sections(&w->machines, s);
     list_input(&w->state.input, s);
@@ -66,6 +65,7 @@ void jox_world_sections(JoWorld *w, JoxSections *s) {
     jox_nav_sections(w->scratch.nav, s);
     jox_drags_sections(&w->state.drags, s);
     jox_bodies_sections(w->state.bodies, s);
+    jox_exits_sections(&w->state.exits, s);
     jox_sections_module(s, "figures");
     jox_sections_unhashed(s, true);
     JOX_SECTION(s, "statistics", w->state.statistics);

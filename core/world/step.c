@@ -224,6 +224,8 @@ bool jox_world_step(JoWorld *w) {
         perceive, think, prefer, push, solve, move, bodies, infer, observe};
     if (w->failure[0])
         return false;
+    jox_world_events(w);
+    jox_world_sources(w);
     double begin = jox_clock_wall(), cpu = jox_clock_cpu(), last = begin;
     jox_world_resolve_placement(w);
     if (w->state.tick % JOX_BODIES_REINSERT_STEPS ==
@@ -245,5 +247,7 @@ bool jox_world_step(JoWorld *w) {
     w->state.tick++;
     w->state.statistics.wall_s += last - begin;
     w->state.statistics.cpu_s += jox_clock_cpu() - cpu;
+    if (good)
+        jox_world_exits(w);
     return good;
 }

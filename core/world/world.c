@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
 
@@ -55,6 +56,11 @@ static void free_world(JoWorld *world) {
     jox_free(world->scratch.discs);
     jox_free(world->scratch.disc_agents);
     free_places(world);
+    jox_free(world->state.population.made);
+    jox_free(world->state.population.party_left);
+    jox_free(world->state.population.party_team);
+    jox_exits_free(&world->state.exits);
+    jox_text_free(&world->scratch.event_errors);
     for (uint32_t i = 0; i < world->model.tag_count; i++)
         jox_free(world->model.tags[i]);
     jox_pool_free(world->scratch.pool);
@@ -89,10 +95,12 @@ int jox_world_tag(JoWorld *world, const char *name) {
     return (int)world->model.tag_count++;
 }
 
-void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count) {
+void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count, uint32_t capacity) {
+    JOX_ASSERT(count <= capacity);
     free_places(world);
     world->model.places = places;
-    world->model.place_count = count;
+    world->model.place_count = world->model.scene_places = count;
+    world->model.place_capacity = capacity;
 }
 
 uint32_t jox_world_add_agent(JoWorld *world, float x, float y) {

@@ -16,8 +16,11 @@
 #include "machine/run.h"
 #include "nav/nav.h"
 #include "world/drag.h"
+#include "world/events.h"
+#include "world/exits.h"
 #include "world/input.h"
 #include "world/inspected.h"
+#include "world/population.h"
 #include "world/routes.h"
 #include "world/statistics.h"
 
@@ -30,8 +33,16 @@ enum { JOX_MOST_TAGS = 64 };
 typedef struct JoxWorldModel {
     JoWorldDef def;
     JoxWalls all_walls; /* with their names; whether one that opens is open now is state */
-    JoxPlace *places;   /* owned; their indices never change */
-    uint32_t place_count;
+    /* Owned; their indices never change. Behind the places of the scene stand those of single
+       agents, which are state. */
+    JoxPlace *places;
+    uint32_t place_count, scene_places, place_capacity;
+    /* Who enters, who leaves and what happens when; borrowed. */
+    const JoxGroup *groups;
+    const JoxAgentSource *sources;
+    const JoxAgentSink *sinks;
+    const JoxEvent *events;
+    uint32_t group_count, source_count, sink_count, event_count;
     char *tags[JOX_MOST_TAGS]; /* bit number -> name */
     uint32_t tag_count;
     JoxMachineSet machines;
@@ -46,13 +57,15 @@ typedef struct JoxWorldState {
     JoxRoutes *routes;
     JoxBodies *bodies;
     JoxDrags drags;
+    JoxPopulation population;
     uint32_t walls_version; /* counts the changes of the walls */
     uint32_t
         first_unsettled; /* unless settled: id of the first agent added since the last settling */
     bool settled;
     bool walls_set;           /* scratch.walls, nav and bodies are as all_walls says */
     bool walls_came;          /* since the last settling: some agents may stand in them */
-    JoxStatistics statistics; /* figures of the run: no step reads them */
+    JoxExits exits;           /* figures of the run, which no step reads */
+    JoxStatistics statistics; /* likewise */
 } JoxWorldState;
 
 /* What a step may forget: it follows from the model and the state, or is written before it is read.
@@ -75,6 +88,7 @@ typedef struct JoxWorldScratch {
     uint32_t gone_count, gone_capacity;
     JoxDisc *discs; /* people as fast bodies meet them, and their indices */
     uint32_t *disc_agents, disc_capacity;
+    JoxText event_errors; /* what events could not do, a line each; whoever reads it empties it */
 } JoxWorldScratch;
 
 struct JoWorld {
@@ -94,8 +108,9 @@ void jox_error(JoError *error, JoCode code, const char *format, ...)
 JoWorld *jox_world_create(const JoWorldDef *def);
 /* Bit number of a tag, added if new; -1 when all 64 are taken. */
 int jox_world_tag(JoWorld *world, const char *name);
-/* Takes the places over, once, before agents are spawned. */
-void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count);
+/* Takes the places over, once, before agents are spawned. The array has room for `capacity` of
+   them: for those of single agents too. */
+void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count, uint32_t capacity);
 /* Adds an agent at (x, y), m, with the parameters' defaults; it is settled before the next step.
    Returns its index, valid until then. */
 uint32_t jox_world_add_agent(JoWorld *world, float x, float y);

@@ -265,7 +265,7 @@ function sqrt(a1) end
 ---@return jostle.Number
 function clamp(a1, a2, a3) end
 
---- `now.NAME`: what is measured of the agent now: speed, x, y, density, headway, pushed, compression, contacts, neighbours, time_in_state, time
+--- `now.NAME`: what is measured of the agent now; NAME is one of speed x y neighbours time density headway pushed compression contacts time_in_state
 ---@type table<string, jostle.Number>
 now = {}
 
@@ -370,17 +370,17 @@ function circuits(a1) end
 ---@return any
 function memory(...) end
 
---- `machine { ... }`: the sheet that a behaviour returns
+--- `machine { ... }`: the table that a behaviour returns
 ---@param sheet jostle.Machine
 ---@return any
 function machine(sheet) end
 
---- `patch "behaviour" { ... }`: in a mod: changes a behaviour's sheet, key by key; returned by the file
+--- `patch "behaviour" { ... }`: in a mod: changes a behaviour's table, key by key; returned by the file
 ---@param behaviour string
 ---@return fun(sheet: table): any
 function patch(behaviour) end
 
---- `replace "behaviour" { ... }`: in a mod: takes the place of a behaviour's whole sheet; returned by the file
+--- `replace "behaviour" { ... }`: in a mod: takes the place of a behaviour's whole table; returned by the file
 ---@param behaviour string
 ---@return fun(sheet: table): any
 function replace(behaviour) end

@@ -98,7 +98,7 @@ class Browser:
         self.driver.get("about:blank")  # the page before would try the new server, with its old token
         self.driver.get_log("browser")
         self.driver.get(session.address)
-        self.wait("return window.page && page.hello && page.crowd.next && page.crowd.next.slots > 0", "no frame reached the page")
+        self.wait("return window.page && page.scene && page.crowd.next && page.crowd.next.slots > 0", "no frame reached the page")
 
     def run(self, script, *arguments):
         return self.driver.execute_script(script, *arguments)

@@ -93,7 +93,7 @@ def pauses(browser):
     seed.clear()
     seed.send_keys("7")
     browser.button("Restart").click()
-    browser.wait("return page.hello.seed === 7 && page.crowd.next.time < 5", "no new start with seed 7")
+    browser.wait("return page.scene.seed === 7 && page.crowd.next.time < 5", "no new start with seed 7")
 
 
 STEP = "page.connection.send({do: 'step', n: arguments[0]})"
@@ -144,13 +144,13 @@ def throws(browser):
     step_to(browser, 60)
     alone = browser.run(PLACES)
     start_stopped(browser)
-    bodies = browser.run("return page.hello.bodies.length")
+    bodies = browser.run("return page.scene.bodies.length")
     browser.run("page.act.size.value = 1; page.act.mass.value = 300")
     for _ in draw(browser, "Throw", (14, 12, 0), (18, 12, 0), 0.1):
         expect(browser.run("return page.tools.gesture && page.tools.gesture.kind") == "throw", "no throw is under way")
         browser.picture("throw")
     step_to(browser, 60)
-    browser.wait("return page.hello.bodies.length === arguments[0]", "no box more", bodies + 1)
+    browser.wait("return page.scene.bodies.length === arguments[0]", "no box more", bodies + 1)
     place = browser.run("return page.crowd.bodyPosition(arguments[0])", bodies)
     expect(10 < place[0] < 30 and 4 < place[1] < 20, f"the box is at {place}")
     hit = browser.run(PLACES)
@@ -281,15 +281,15 @@ def edits(browser, _):
     number.clear()
     number.send_keys("0.2", Keys.ENTER)
     # The server tells all pages of it, and the panel is built anew.
-    browser.wait("""const walk = page.hello.machines[0].states.find((s) => s.name === 'Walk');
-        return walk.parameters.find((p) => p.name === 'speed').value === 0.2""", "no hello tells of the new value")
-    # Another page's change arrives as a new hello; who types here goes on typing.
-    browser.run("""const hello = JSON.parse(JSON.stringify(page.hello)), walk = hello.machines[0].states.find((s) => s.name === 'Walk');
+    browser.wait("""const walk = page.scene.machines[0].states.find((s) => s.name === 'Walk');
+        return walk.parameters.find((p) => p.name === 'speed').value === 0.2""", "no scene message tells of the new value")
+    # Another page's change arrives as a new scene message; who types here goes on typing.
+    browser.run("""const scene = JSON.parse(JSON.stringify(page.scene)), walk = scene.machines[0].states.find((s) => s.name === 'Walk');
         walk.parameters.find((p) => p.name === 'push').value = 33;
-        page.takeHello(hello);""")
-    expect(browser.find("[data-parameter=push] input[type=number]").get_attribute("value") == "33", "a new hello is not shown")
+        page.takeScene(scene);""")
+    expect(browser.find("[data-parameter=push] input[type=number]").get_attribute("value") == "33", "a new scene message is not shown")
     kept = browser.run("return document.activeElement.matches('[data-parameter=speed] input[type=number]')")
-    expect(kept, "the focus is lost when a hello comes")
+    expect(kept, "the focus is lost when a scene message comes")
     browser.wait("const v = page.charts.speed.values.get(''); return v.slice(-1)[0] < 0.3", "speed 0.2 has no effect")
     expect(browser.run(mean) > 0.05, "people stand still at speed 0.2")
     browser.find("[data-parameter=speed] button").click()
@@ -313,7 +313,7 @@ def gates(browser, _):
     browser.wait("return page.view.ground.open.gate && document.querySelector('#page-act button').textContent === 'Close'",
                  "the gate does not open")
     browser.button("rest").click()
-    browser.wait("return page.machine.status.census[0].some((n, i) => page.hello.machines[0].states[i].name === 'Rest' && n === 60)",
+    browser.wait("return page.machine.status.states[0].some((n, i) => page.scene.machines[0].states[i].name === 'Rest' && n === 60)",
                  "nobody rests")
     browser.picture("gates")
 
@@ -410,11 +410,11 @@ def replays(browser):
         bar.send_keys(Keys.PAGE_DOWN, Keys.ARROW_RIGHT)
         browser.wait("return page.crowd.next.time < 2.6", "the keys do not move the bar")
         # Charts after jumps: points in the order of time, those of before kept, and no line over what nobody saw.
-        browser.run("for (const s of [...page.charts.census, page.charts.speed, page.charts.dense]) s.clear()")
+        browser.run("for (const s of [...page.charts.states, page.charts.speed, page.charts.dense]) s.clear()")
         for time in (9, 4, 6):
             browser.run(f"page.replay.seek({time})")
             browser.wait(f"return page.charts.dense.times.some((t) => Math.abs(t - {time}) < 0.2)", f"no point at {time} s")
-        for series in ("census[0]", "speed", "dense"):
+        for series in ("states[0]", "speed", "dense"):
             times, seen = browser.run(f"return [page.charts.{series}.times, page.charts.{series}.seen]")
             expect(len(times) >= 3 and times == sorted(times), f"{series}: points lie at {times}")
             expect(not any(seen), f"{series}: a line leads over a jump")

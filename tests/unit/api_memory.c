@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "jostle.h"
+#include "jostle_tools.h"
 
 static const char SCENE[] =
     "jostle: 1\n"

@@ -21,10 +21,10 @@ static void counts_and_spacing_are_kept(void **state) {
     uint32_t in = 0;
     JoxArea area = {&place, &in, NULL, 1, 0, &walls, 0.2f};
     assert_true(fabs(jox_area_size(&area) - (400 - 19.2)) < 4);
-    for (int spread = 0; spread <= JOX_SPREAD_RANDOM; spread++) {
+    for (int spread = 0; spread <= JOX_FILL_RANDOM; spread++) {
         JoxV2 *p, *q;
-        assert_int_equal(jox_fill(&area, (JoxSpread)spread, 300, 0.6f, 7, 1, &p), 300);
-        assert_int_equal(jox_fill(&area, (JoxSpread)spread, 300, 0.6f, 7, 1, &q), 300);
+        assert_int_equal(jox_fill(&area, (JoxFillMode)spread, 300, 0.6f, 7, 1, &p), 300);
+        assert_int_equal(jox_fill(&area, (JoxFillMode)spread, 300, 0.6f, 7, 1, &q), 300);
         assert_memory_equal(p, q, 300 * sizeof *p);
         for (int i = 0; i < 300; i++) {
             assert_false(p[i].x > 7.8f && p[i].x < 12.2f && p[i].y > 7.99f && p[i].y < 12.01f);
@@ -32,9 +32,9 @@ static void counts_and_spacing_are_kept(void **state) {
                 assert_true(jox_length(jox_sub(p[i], p[j])) > 0.599f);
         }
         jox_free(p), jox_free(q);
-        assert_int_equal(jox_fill(&area, (JoxSpread)spread, 1500, 0, 7, 1, &p), 1500);
+        assert_int_equal(jox_fill(&area, (JoxFillMode)spread, 1500, 0, 7, 1, &p), 1500);
         jox_free(p);
-        assert_true(jox_fill(&area, (JoxSpread)spread, 100000, 0.6f, 7, 1, &p) < 1400);
+        assert_true(jox_fill(&area, (JoxFillMode)spread, 100000, 0.6f, 7, 1, &p) < 1400);
         jox_free(p);
     }
     jox_walls_free(&walls);
@@ -51,14 +51,14 @@ static void few_fit_wherever_there_is_room(void **state) {
             .kind = JOX_PLACE_POLYGON, .points = corridors[c], .count = 4, .start = -1};
         uint32_t in = 0;
         JoxArea area = {&place, &in, NULL, 1, 0, NULL, 0.2f};
-        for (int spread = 0; spread <= JOX_SPREAD_RANDOM; spread++)
+        for (int spread = 0; spread <= JOX_FILL_RANDOM; spread++)
             for (uint32_t count = 1; count <= (c < 2 ? 3 : 1); count++) {
                 JoxV2 *p;
-                assert_int_equal(jox_fill(&area, (JoxSpread)spread, count, 0, 7, 1, &p), count);
+                assert_int_equal(jox_fill(&area, (JoxFillMode)spread, count, 0, 7, 1, &p), count);
                 for (uint32_t i = 0; i < count; i++)
                     assert_true(jox_place_contains(&place, 0, p[i]));
                 jox_free(p);
-                assert_int_equal(jox_fill(&area, (JoxSpread)spread, 1, 1.0f, 7, 1, &p), 1);
+                assert_int_equal(jox_fill(&area, (JoxFillMode)spread, 1, 1.0f, 7, 1, &p), 1);
                 jox_free(p);
             }
     }

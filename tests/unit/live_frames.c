@@ -1,5 +1,5 @@
-/* What a live page is shown of a running scene: the hello names everything, frames say who is
-   where, fields add up to the people, and showing changes nothing. Frames are decoded here as a
+/* What a live page is shown of a running scene: the scene message names everything, frames say who
+   is where, fields add up to the people, and showing changes nothing. Frames are decoded here as a
    page would, from the bytes alone. */
 #include "live_bytes.h"
 
@@ -39,16 +39,16 @@ static JoScene *load_tawaf(const char *count) {
     return load("scenes/tawaf.yaml", sets, 2);
 }
 
-/* ---- the hello ---- */
+/* ---- the scene message ---- */
 
-static void hello_names_all_of_the_tawaf(void **state) {
+static void scene_message_names_all_of_the_tawaf(void **state) {
     (void)state;
     JoScene *scene = load_tawaf("300");
     const JoWorld *world = scene->world;
     JoxText text = {0};
     jox_live_scene(scene, &text);
     parse(&text);
-    assert_near(number_at("protocol", 0, 0, 0), 1, 0);
+    assert_near(number_at("protocol", 0, 0, 0), JOX_LIVE_PROTOCOL, 0);
     assert_near(number_at("dt", 0, 0, 0), 0.05, 1e-9);
     assert_near(number_at("duration", 0, 0, 0), 600, 0);
     for (uint32_t p = 0; p < scene->spec->place_count; p++) {
@@ -88,7 +88,7 @@ static void hello_names_all_of_the_tawaf(void **state) {
     jo_scene_free(scene);
 }
 
-static void hello_of_bodies_and_a_player(void **state) {
+static void scene_message_of_bodies_and_a_player(void **state) {
     (void)state;
     JoScene *scene = load("scenes/dodgeball.yaml", NULL, 0);
     JoxText text = {0};
@@ -127,8 +127,8 @@ static void hello_of_bodies_and_a_player(void **state) {
     jo_scene_free(scene);
 }
 
-/* Names come from files: whatever stands in them, the hello is JSON. */
-static void hello_with_odd_names(void **state) {
+/* Names come from files: whatever stands in them, the scene message is JSON. */
+static void scene_message_with_odd_names(void **state) {
     (void)state;
     JoScene *scene =
         load_own("jostle: 1\n"
@@ -164,7 +164,7 @@ static void hello_with_odd_names(void **state) {
         jox_live_status(scene, &(JoxLiveSession){.speed = 1, .dropped = 7}, &status);
         parse(&status);
         assert_near(number_at("agents", 0, 0, 0), 4, 0);
-        assert_near(number_at("census.0.0", 0, 0, 0), 4, 0);
+        assert_near(number_at("states.0.0", 0, 0, 0), 4, 0);
         assert_near(number_at("dropped", 0, 0, 0), 7, 0);
         assert_near(number_at("time", 0, 0, 0), 0.05 * k, 1e-9);
         jox_text_free(&status);
@@ -410,7 +410,7 @@ static void transitions_of_a_second(void **state) {
         for (int k = 0; k < 4; k++)
             fired += number_at("fired.0.%d", k, 0, 0);
         for (int k = 0; k < 3; k++)
-            people += number_at("census.0.%d", k, 0, 0);
+            people += number_at("states.0.%d", k, 0, 0);
         assert_true(isnan(number_at("fired.0.4", 0, 0, 0)));
         assert_near(fired, s->transitions - at[t < 19 ? 0 : t - 19], 0);
         assert_near(people, 200, 0);
@@ -460,8 +460,8 @@ static void showing_changes_nothing(void **state) {
     }
 }
 
-/* Bodies that come apart and walls that are set anew ask for a new hello; gates do not. */
-static void changes_ask_for_a_hello(void **state) {
+/* Bodies that come apart and walls that are set anew ask for a new one; gates do not. */
+static void changes_ask_for_a_scene_message(void **state) {
     (void)state;
     JoScene *scene = load("scenes/wall-breaking.yaml", NULL, 0);
     uint64_t version = jox_live_version(scene);
@@ -493,9 +493,9 @@ static void changes_ask_for_a_hello(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hello_names_all_of_the_tawaf),
-        cmocka_unit_test(hello_of_bodies_and_a_player),
-        cmocka_unit_test(hello_with_odd_names),
+        cmocka_unit_test(scene_message_names_all_of_the_tawaf),
+        cmocka_unit_test(scene_message_of_bodies_and_a_player),
+        cmocka_unit_test(scene_message_with_odd_names),
         cmocka_unit_test(slots_stay_with_their_people),
         cmocka_unit_test(nobody_flies_across),
         cmocka_unit_test(the_area_grows),
@@ -504,7 +504,7 @@ int main(void) {
         cmocka_unit_test(fields_add_up_to_the_people),
         cmocka_unit_test(transitions_of_a_second),
         cmocka_unit_test(showing_changes_nothing),
-        cmocka_unit_test(changes_ask_for_a_hello),
+        cmocka_unit_test(changes_ask_for_a_scene_message),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -205,7 +205,7 @@ static void what_is_measured(void **state) {
     assert_near(number_at("mean_speed", 0, 0, 0), speed, 1e-6);
     assert_near(number_at("agents", 0, 0, 0), recorded[29].count, 0);
     assert_near(number_at("time", 0, 0, 0), recorded[29].time, 1e-6);
-    assert_near(number_at("census.0.0", 0, 0, 0) + number_at("census.0.1", 0, 0, 0),
+    assert_near(number_at("states.0.0", 0, 0, 0) + number_at("states.0.1", 0, 0, 0),
                 recorded[29].count, 0);
     const double most = number_at("density_max", 0, 0, 0);
     jox_replay_field(replay, JOX_LIVE_DENSITY, &bytes);
@@ -224,7 +224,7 @@ static void what_is_measured(void **state) {
     jox_replay_close(other);
 }
 
-static void hello_of_a_recording(void **state) {
+static void scene_message_of_a_recording(void **state) {
     (void)state;
     char scene[300];
     snprintf(scene, sizeof scene, "%s/scene.yaml", folder);
@@ -500,7 +500,7 @@ static void a_page_plays_and_seeks(void **state) {
     int fd = open_socket(port, token);
     assert_true(fd >= 0);
     size_t length;
-    char *message = wait_for(fd, "hello", &length);
+    char *message = wait_for(fd, "scene", &length);
     assert_non_null(strstr(message, "\"session\": \"replay\""));
     free(message);
     double first = NAN, last = NAN; /* it plays */
@@ -530,7 +530,7 @@ static void a_page_plays_and_seeks(void **state) {
     assert_non_null(strstr(message, "has happened"));
     free(message);
     put_text(fd, "{\"do\": \"speed\", \"factor\": 100}");
-    put_text(fd, "{\"do\": \"play\", \"on\": true}"); /* from the beginning, to the end */
+    put_text(fd, "{\"do\": \"pause\", \"on\": false}"); /* from the beginning, to the end */
     wait_for_number(fd, "status", "speed", 100);
     wait_for_number(fd, "time", "at", 10);
     stop = 1;
@@ -554,7 +554,7 @@ static int remove_more(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_are_those_recorded),      cmocka_unit_test(what_is_measured),
-        cmocka_unit_test(hello_of_a_recording),           cmocka_unit_test(recordings_of_others),
+        cmocka_unit_test(scene_message_of_a_recording),   cmocka_unit_test(recordings_of_others),
         cmocka_unit_test(damaged_recordings_give_errors), cmocka_unit_test(a_page_plays_and_seeks),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_more);

@@ -224,7 +224,7 @@ static void pages_are_greeted_and_shown_the_run(void **state) {
     assert_non_null(message);
     assert_int_equal(kind, FRAME_TEXT); /* before anything else */
     assert_non_null(
-        strstr(message, "{\"type\": \"hello\", \"protocol\": 1, \"session\": \"live\""));
+        strstr(message, "{\"type\": \"scene\", \"protocol\": 2, \"session\": \"live\""));
     free(message);
     hear("\"type\": \"errors\"", "\"errors\": []");
     uint32_t first = see();
@@ -285,7 +285,7 @@ static void colours_and_fields_are_as_asked(void **state) {
     (void)state;
     begin(0);
     join();
-    hear("\"hello\"", NULL);
+    hear("\"type\": \"scene\"", NULL);
     say("{\"do\": \"field\", \"of\": \"pressure\"}");
     int kind;
     size_t length;
@@ -325,7 +325,7 @@ static void a_scene_that_is_over_waits_and_is_restarted(void **state) {
     hear("\"status\"", "\"paused\": true");
     assert_true(number_of(last, "tick") == 10);
     say("{\"do\": \"restart\", \"seed\": 77}");
-    hear("\"hello\"", "\"seed\": 77");
+    hear("\"type\": \"scene\"", "\"seed\": 77");
     hear("\"say\"", "0.5 s are over");
     say("{\"do\": \"restart\", \"seed\": 0.5}");
     hear("\"refused\"", "\"do\": \"restart\"");

@@ -2,6 +2,7 @@
    the same state. */
 #include <math.h>
 
+#include "live/inspect.h"
 #include "unit/run_acted.h"
 
 static void path_of(const char *name, char path[300]) {
@@ -264,7 +265,7 @@ static void the_graph_says_who_set_what(void **state) {
     char wanted[400];
     does(scene, "set m Wait max_speed 0.7");
     JoxJson json = jox_json_begin(&text, 0);
-    jox_run_graph(scene, &json, NULL);
+    jox_live_graph(scene, &json, NULL);
     snprintf(wanted, sizeof wanted,
              "{\"name\": \"speed\", \"value\": null, \"text\": \"0.5 * now.speed + 0.4\", "
              "\"set\": \"state Walk %s/own.lua:3\", \"least\": 0, \"most\": 20, \"unit\": \"m/s\"}",
@@ -284,16 +285,16 @@ static void the_graph_says_who_set_what(void **state) {
                "\\\"stop\\\" & ~mine.met & mine.laps:above(1)\", \"line\": 4, \"chance\": null}"));
     assert_non_null(strstr(text.data, "\"text\": \"after(60)\", \"line\": 6, \"chance\": 0.5}"));
     jox_text_free(&text);
-    assert_true(jox_run_lua_line(scene, "m", "Wait", "max_speed", 0.7, &text));
+    assert_true(jox_live_lua_line(scene, "m", "Wait", "max_speed", 0.7, &text));
     snprintf(wanted, sizeof wanted,
              "Wait = { max_speed = 0.7, ... },   -- %s/own.lua:5, where it is 1", folder);
     assert_string_equal(text.data, wanted);
     jox_text_free(&text);
-    assert_true(jox_run_lua_line(scene, "m", "defaults", "horizon", 1, &text));
+    assert_true(jox_live_lua_line(scene, "m", "defaults", "horizon", 1, &text));
     assert_non_null(strstr(text.data, "defaults = { horizon = 1, ... },   -- "));
     assert_non_null(strstr(text.data, "own.lua:2"));
     jox_text_free(&text);
-    assert_false(jox_run_lua_line(scene, "m", "Wait", "max_speed", 70, &text));
+    assert_false(jox_live_lua_line(scene, "m", "Wait", "max_speed", 70, &text));
     assert_string_equal(text.data, "max_speed must be from 0 to 30 m/s, not 70");
     jox_text_free(&text);
     jo_scene_free(scene);

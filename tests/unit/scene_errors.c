@@ -362,7 +362,7 @@ static void errors_are_reported_together(void **state) {
     jox_diag_free(&d);
 }
 
-static const JoxSceneSet *find_set(const JoxSceneGroup *group, const char *name) {
+static const JoxGroupValue *find_set(const JoxGroup *group, const char *name) {
     for (uint32_t i = 0; i < group->set_count; i++)
         if (!strcmp(group->set[i].name, name))
             return &group->set[i];
@@ -432,7 +432,7 @@ static void anchors_and_merge_keys(void **state) {
     if (!scene)
         show(&d, text);
     assert_non_null(scene);
-    const JoxSceneGroup *g = scene->groups;
+    const JoxGroup *g = scene->groups;
     assert_int_equal(scene->group_count, 4);
     assert_int_equal(g[0].set_count, 2); /* untouched by what d merges into the same map */
     assert_true(find_set(&g[0], "mass")->dist.a == 60);

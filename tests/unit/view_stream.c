@@ -136,7 +136,7 @@ static void pages_come_and_go(void **state) {
         double from = clock_now();
         int fd = join(&client), kind;
         size_t length;
-        jox_view_send(view, client, "{\"type\": \"hello\"}");
+        jox_view_send(view, client, "{\"type\": \"scene\"}");
         jox_view_listen(view, client, 1u << JOX_VIEW_FRAMES);
         jox_view_publish(view, JOX_VIEW_FRAMES, frame, sizeof frame);
         char *message = get_message(fd, &kind, &length, 10.0);

@@ -1,8 +1,9 @@
-/* Which part of the sheet an error is in: "machine tawaf > state ToStone > transition 2 (to
- * Circle)". */
+/* Which part of the machine's table an error is in: "machine tawaf > state ToStone > transition 2
+ * (to Circle)". */
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/script.h"
 
@@ -39,6 +40,7 @@ static const JoxPath *path_about(const JoxSource *source, int line, int column) 
 }
 
 static char *describe(const JoxSource *source, const JoxPath *path) {
+    JOX_ASSERT(path->path && *path->path);
     char name[64], state[64], to[64], full[256];
     JoxText out = {0};
     const JoxToken *patches = jox_outline_of(source)->patches;

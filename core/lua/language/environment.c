@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "lua/language/script.h"
 
 /* Why a name of Lua's own libraries is missing; NULL for any other. */
@@ -38,6 +39,7 @@ static const char *absent(const char *name) {
 }
 
 static int env_index(lua_State *L) {
+    JOX_ASSERT(lua_istable(L, lua_upvalueindex(1)));
     JoxScript *script = jox_script_of(L);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     lua_pushvalue(L, 2);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "lua/language/vocabulary.h"
 
@@ -36,6 +37,7 @@ static const float *short_name(const JoxAgents *a, uint32_t i, const char *name)
 
 /* Pushes a number of the agent by name; false where it has none of that name. */
 static bool push_number(lua_State *L, const JoxMachineRun *machines, uint32_t i, const char *name) {
+    JOX_ASSERT(i < machines->agents->count);
     const JoxAgents *a = machines->agents;
     const float *at = short_name(a, i, name);
     if (at)
@@ -145,6 +147,7 @@ static int view_newindex(lua_State *L) {
 }
 
 static int push_neighbours(lua_State *L, JoxScript *script, uint32_t i) {
+    JOX_ASSERT(script->machine);
     const JoxNeighbours *n = script->owner->machines->neighbours;
     if (!script->machine->views) /* nothing was kept of the others before the step */
         return luaL_error(L, "write me.neighbours as such, not by a name that is put together");

@@ -9,9 +9,10 @@
 static const char TYPE[] = "jostle value";
 
 JoxNode *jox_node_push(lua_State *L, JoxNodeKind kind) {
+    JOX_ASSERT(kind >= JOX_NODE_NUMBER && kind <= JOX_NODE_ERROR);
     JoxScript *script = jox_script_of(L);
     if (script->vm.running && !script->vm.loading)
-        luaL_error(L, "values of the sheet are made while the file loads, not in functions");
+        luaL_error(L, "values of the language are made while the file loads, not in functions");
     jox_vm_charge(L, 8);
     script->node_bytes += sizeof(JoxNode);
     if (script->node_bytes > script->owner->group.limits.memory)
@@ -38,6 +39,7 @@ JoxNode *jox_node_get(lua_State *L, int index) {
 }
 
 void jox_node_repush(lua_State *L, JoxNode *node) {
+    JOX_ASSERT(node && node->kind != 0);
     JoxNode **slot = lua_newuserdatauv(L, sizeof *slot, 0);
     luaL_setmetatable(L, TYPE);
     *slot = node;

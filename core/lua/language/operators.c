@@ -7,6 +7,7 @@
 #include "lua/language/script.h"
 
 static JoxNode *binary(lua_State *L, JoxNodeKind kind, int op, JoxNode *a, JoxNode *b) {
+    JOX_ASSERT(a && (kind == JOX_NODE_NUMBER || kind == JOX_NODE_CONDITION));
     JoxNode *node = jox_node_push(L, kind);
     node->op = op;
     node->a = a;
@@ -25,6 +26,7 @@ static int summands(const JoxNode *steer) {
 
 /* A copy of a steering sum with every weight multiplied. */
 static JoxNode *scaled(lua_State *L, JoxNode *steer, JoxNode *by) {
+    JOX_ASSERT(steer->kind == JOX_NODE_STEER && by);
     JoxNode *node = jox_node_push(L, JOX_NODE_STEER);
     JoxPosition position = node->position;
     *node = *steer;

@@ -20,6 +20,7 @@ static int depth_change(const JoxToken *t) {
 }
 
 static void add_path(JoxOutline *outline, const char *path, size_t key, size_t first, size_t last) {
+    JOX_ASSERT(key < last && first <= last);
     JOX_RESERVE(outline->paths, outline->path_capacity, outline->path_count + 1);
     outline->paths[outline->path_count++] =
         (JoxPath){jox_strdup(path), (uint32_t)key, (uint32_t)first, (uint32_t)last};

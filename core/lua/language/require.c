@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "base/overlay.h"
+#include "base/path.h"
 #include "lua/language/script.h"
 
 enum { MOST_FILES = 64 };

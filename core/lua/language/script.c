@@ -64,6 +64,7 @@ void jox_lua_free(JoxLua *lua) {
 }
 
 JoxScript *jox_script_detach(JoxLua *lua, const JoxMachine *machine) {
+    JOX_ASSERT(machine == NULL || machine->vm < (int32_t)lua->script_count);
     if (!machine || machine->vm < 0 || (uint32_t)machine->vm >= lua->script_count)
         return NULL;
     JoxScript *script = lua->scripts[machine->vm];

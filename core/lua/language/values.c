@@ -1,4 +1,5 @@
-/* Words with a syntax of their own: distributions, orbits, memory, now, own, and the sheet itself.
+/* Words with a syntax of their own: distributions, orbits, memory, now, own, and the machine's
+ * table itself.
  */
 #include <math.h>
 #include <stdio.h>
@@ -145,8 +146,8 @@ static int memory_index(lua_State *L) {
 
 static int now_index(lua_State *L) {
     static const char *const NAMES[] = {
-#define X(name, unit, meaning) #name,
-        JOX_NOW(X)
+#define X(name, ...) #name,
+        JOX_MEASURED(X)
 #undef X
     };
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";

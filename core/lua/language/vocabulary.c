@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
+
 #define CONDITION JOX_NODE_CONDITION
 #define NUMBER JOX_NODE_NUMBER
 #define TARGET JOX_NODE_TARGET
@@ -54,18 +56,10 @@ const JoxWord jox_words[] = {
      "neighbours seen that bear a tag, or are \"anyone\", \"teammates\", \"opponents\"; "
      "neighbours(tag):in_state(name) counts those of them in a state",
      "neighbours(\"people\"):in_state(\"Start\")"},
-    {"density_here", NULL, NUMBER, NOW, JOX_NOW_density, "density_here", "1/m2",
-     "people per square metre about the agent, from its neighbours' distances", "density_here"},
-    {"headway", NULL, NUMBER, NOW, JOX_NOW_headway, "headway", "m",
-     "free way ahead to the neighbour in it who does not come the other way; perception where nobody is", "headway"},
-    {"pushed", NULL, NUMBER, NOW, JOX_NOW_pushed, "pushed", "N",
-     "magnitude of the net force on the agent", "pushed"},
-    {"compression", NULL, NUMBER, NOW, JOX_NOW_compression, "compression", "N/m",
-     "sum of contact force magnitudes over circumference", "compression"},
-    {"contacts", NULL, NUMBER, NOW, JOX_NOW_contacts, "contacts", "",
-     "agents and bodies touched", "contacts"},
-    {"time_in_state", NULL, NUMBER, NOW, JOX_NOW_time_in_state, "time_in_state", "s",
-     "since the state was entered", "time_in_state"},
+#define X(name, word, unit, meaning, value) \
+    {#word, NULL, NUMBER, NOW, JOX_NOW_##name, #word, unit, meaning, #word},
+    JOX_MEASURED_WORDS(X)
+#undef X
     {"min", "nn", NUMBER, JOX_OP_MIN, 0, "min(a, b)", "", "the lesser", "min(1.2, 2 - density_here)"},
     {"max", "nn", NUMBER, JOX_OP_MAX, 0, "max(a, b)", "", "the greater", "max(now.speed, own.speed)"},
     {"abs", "n", NUMBER, JOX_OP_ABS, 0, "abs(a)", "", "without its sign", "abs(now.x)"},
@@ -74,8 +68,11 @@ const JoxWord jox_words[] = {
     {"clamp", "nnn", NUMBER, JOX_OP_CLAMP, 0, "clamp(a, least, greatest)", "",
      "kept between two bounds", "clamp(headway / 0.95, 0.2, own.speed)"},
     {"now", NULL, 0, 0, 0, "now.NAME", "",
-     "what is measured of the agent now: speed, x, y, density, headway, pushed, compression, "
-     "contacts, neighbours, time_in_state, time", "now.speed"},
+     "what is measured of the agent now; NAME is one of"
+#define X(name, ...) " " #name
+     JOX_MEASURED(X),
+#undef X
+     "now.speed"},
     {"own", NULL, 0, 0, 0, "own.NAME", "",
      "the agent's own value: drawn from `defaults`, or given by the scene's group, which may be a "
      "place too", "own.speed"},
@@ -122,20 +119,20 @@ const JoxWord jox_words[] = {
      "even between two bounds", "uniform(0.8, 1.2)"},
     {"choose", "*", JOX_NODE_DIST, JOX_DIST_CHOOSE, 0, "choose(a, b, ...)", "",
      "one of up to 8 values, all alike", "choose(0.8, 1, 1.2)"},
-    /* the sheet */
+    /* the machine's table */
     {"circuits", "p", JOX_NODE_CIRCUITS, 0, 0, "circuits(place)", "",
      "for `counts`: net counter-clockwise turns about a place since its start line was first "
      "crossed; what is walked back is taken back", "circuits \"yard\""},
     {"memory", "*", 0, 0, 0, "memory { name = value, ... }", "",
      "what each agent remembers: numbers and booleans, kept through reloads; the result gives the "
      "values as expressions", "memory { laps = 0, touched = false }"},
-    {"machine", "*", 0, 0, 0, "machine { ... }", "", "the sheet that a behaviour returns",
+    {"machine", "*", 0, 0, 0, "machine { ... }", "", "the table that a behaviour returns",
      "machine { name = \"m\", start = \"A\", states = { A = {} } }"},
     {"patch", "*", 0, 0, 0, "patch \"behaviour\" { ... }", "",
-     "in a mod: changes a behaviour's sheet, key by key; returned by the file",
+     "in a mod: changes a behaviour's table, key by key; returned by the file",
      "patch \"stander\" { defaults = { perception = 2 } }"},
     {"replace", "*", 0, 0, 0, "replace \"behaviour\" { ... }", "",
-     "in a mod: takes the place of a behaviour's whole sheet; returned by the file",
+     "in a mod: takes the place of a behaviour's whole table; returned by the file",
      "replace \"stander\" { name = \"stander\", start = \"Stand\", states = { Stand = {} } }"},
     {"none", NULL, 0, 0, 0, "none", "", "in a patch: takes a key or a state away",
      "patch \"stander\" { defaults = { perception = none } }"},
@@ -162,54 +159,54 @@ const JoxWordNumber jox_word_numbers[] = {
 };
 const size_t jox_word_number_count = sizeof jox_word_numbers / sizeof *jox_word_numbers;
 
-const JoxSheetKey jox_sheet_keys[] = {
-    {"machine", "name", "text", "", "how messages and mods call it", "name = \"walker\""},
-    {"machine", "version", "number", "", "the author's; informs people", "version = 1"},
-    {"machine", "start", "name of a state", "", "where agents begin", "start = \"Start\""},
+const JoxTableKey jox_table_keys[] = {
+    {"machine", "name", "text", "", "how messages and mods call it", "name = \"walker\"", 0, 0},
+    {"machine", "version", "number", "", "the author's; informs people", "version = 1", 0, 0},
+    {"machine", "start", "name of a state", "", "where agents begin", "start = \"Start\"", 0, 0},
     {"machine", "defaults", "table of parameters", "", "values for all states, drawn once per agent",
-     "defaults = { speed = normal(1.3, 0.2), radius = 0.2 }"},
+     "defaults = { speed = normal(1.3, 0.2), radius = 0.2 }", 0, 0},
     {"machine", "counts", "table", "", "memory that counts by itself, in all states",
-     "counts = { laps = circuits \"yard\" }"},
+     "counts = { laps = circuits \"yard\" }", 0, 0},
     {"machine", "renamed", "table of names", "", "old state = new state, for agents alive at a reload",
-     "renamed = { Old = \"Start\" }"},
-    {"machine", "states", "table of states", "", "name = state", "states = { Start = { steer = hold } }"},
+     "renamed = { Old = \"Start\" }", 0, 0},
+    {"machine", "states", "table of states", "", "name = state", "states = { Start = { steer = hold } }", 0, 0},
     {"state", "steer", "steering or function", "", "where the agent wants to go: a value, a weighted sum, or function(me) that returns vx, vy in m/s",
-     "steer = 0.8 * seek(\"post\") + 0.2 * spread"},
-    {"state", "lasts", "number, distribution", "s", "drawn on entering; see `lasted`", "lasts = uniform(1, 3)"},
-    {"state", "removes", "true or false", "", "the agent leaves the world on entering", "removes = false"},
+     "steer = 0.8 * seek(\"post\") + 0.2 * spread", 0, 0},
+    {"state", "lasts", "number, distribution", "s", "drawn on entering; see `lasted`", "lasts = uniform(1, 3)", 0, 1e6},
+    {"state", "removes", "true or false", "", "the agent leaves the world on entering", "removes = false", 0, 0},
     {"state", "become", "name of a behaviour", "", "on entering, goes on with another machine, from its start; keeps its body, what the scene gave it, and memory by name",
-     "become = \"stander\""},
-    {"state", "push_when", "condition", "", "pushes only while this holds", "push_when = stuck(2)"},
-    {"state", "push_toward", "target", "", "pushes that way; else the way it wants to go", "push_toward = \"post\""},
+     "become = \"stander\"", 0, 0},
+    {"state", "push_when", "condition", "", "pushes only while this holds", "push_when = stuck(2)", 0, 0},
+    {"state", "push_toward", "target", "", "pushes that way; else the way it wants to go", "push_toward = \"post\"", 0, 0},
     {"state", "push_weight", "\"equal\" or \"nearest\"", "", "shares the push among all in the way, or gives it to the nearest",
-     "push_weight = \"nearest\""},
-    {"state", "push_only", "tag or list of tags", "", "pushes those alone", "push_only = \"people\""},
-    {"state", "ignore", "tag or list of tags", "", "does not avoid those", "ignore = { \"people\" }"},
-    {"state", "face", "target", "", "looks at; else where it walks", "face = \"post\""},
-    {"state", "approach", "target", "", "a body that is not anticipated, only not overlapped", "approach = nearest \"ball\""},
-    {"state", "kick", "table", "", "kicks a body that it touches", "kick = { nearest \"ball\", at = \"post\", impulse = 4 }"},
-    {"state", "take", "target", "", "picks up a body within 0.6 m that is slower than 8 m/s", "take = nearest \"ball\""},
-    {"state", "throw", "table", "", "throws the body that it carries", "throw = { nearest \"ball\", at = \"post\", speed = 6 }"},
+     "push_weight = \"nearest\"", 0, 0},
+    {"state", "push_only", "tag or list of tags", "", "pushes those alone", "push_only = \"people\"", 0, 0},
+    {"state", "ignore", "tag or list of tags", "", "does not avoid those", "ignore = { \"people\" }", 0, 0},
+    {"state", "face", "target", "", "looks at; else where it walks", "face = \"post\"", 0, 0},
+    {"state", "approach", "target", "", "a body that is not anticipated, only not overlapped", "approach = nearest \"ball\"", 0, 0},
+    {"state", "kick", "table", "", "kicks a body that it touches", "kick = { nearest \"ball\", at = \"post\", impulse = 4 }", 0, 0},
+    {"state", "take", "target", "", "picks up a body within 0.6 m that is slower than 8 m/s", "take = nearest \"ball\"", 0, 0},
+    {"state", "throw", "table", "", "throws the body that it carries", "throw = { nearest \"ball\", at = \"post\", speed = 6 }", 0, 0},
     {"state", "signal", "name, or table", "", "calls out on entering, and every so often with { name, every = seconds }",
-     "signal = { \"alarm\", every = 1 }"},
-    {"state", "set", "table", "", "on entering, memory = number, condition or true/false", "set = { laps = mine.laps + 1 }"},
-    {"state", "counts", "table", "", "memory that counts while in this state", "counts = { laps = circuits \"yard\" }"},
-    {"state", "on_enter", "function(me)", "", "called on entering", "on_enter = function(me) me.laps = 1 end"},
-    {"state", "on_exit", "function(me)", "", "called on leaving", "on_exit = function(me) me.laps = 2 end"},
-    {"transition", "to", "name of a state", "", "where it leads", "to = \"Next\""},
-    {"transition", "when", "condition or function(me)", "", "absent: always; the first that holds wins", "when = after(1)"},
-    {"transition", "chance", "number", "", "rolled each time `when` turns true", "chance = 0.5"},
-    {"transition", "set", "table", "", "memory = number, condition or true/false", "set = { touched = true }"},
-    {"transition", "signal", "name", "", "calls out", "signal = \"alarm\""},
-    {"transition", "on_take", "function(me)", "", "called when it is taken", "on_take = function(me) me.touched = true end"},
-    {"transition", "id", "text", "", "how mods name it; else its target, with #2, #3 for repeats", "id = \"leave\""},
-    {"kick", "at", "target", "", "whereto; else straight ahead", "at = \"post\""},
-    {"kick", "impulse", "number", "m/s", "N s per kg of the body: the change of its velocity", "impulse = 2 + 2 * now.speed"},
-    {"throw", "at", "target", "", "whereto", "at = nearest \"people\""},
-    {"throw", "speed", "number", "m/s", "level speed", "speed = 6"},
-    {"signal", "every", "plain number", "s", "between two calls", "every = 0.5"},
+     "signal = { \"alarm\", every = 1 }", 0, 0},
+    {"state", "set", "table", "", "on entering, memory = number, condition or true/false", "set = { laps = mine.laps + 1 }", 0, 0},
+    {"state", "counts", "table", "", "memory that counts while in this state", "counts = { laps = circuits \"yard\" }", 0, 0},
+    {"state", "on_enter", "function(me)", "", "called on entering", "on_enter = function(me) me.laps = 1 end", 0, 0},
+    {"state", "on_exit", "function(me)", "", "called on leaving", "on_exit = function(me) me.laps = 2 end", 0, 0},
+    {"transition", "to", "name of a state", "", "where it leads", "to = \"Next\"", 0, 0},
+    {"transition", "when", "condition or function(me)", "", "absent: always; the first that holds wins", "when = after(1)", 0, 0},
+    {"transition", "chance", "number", "", "rolled each time `when` turns true", "chance = 0.5", 0, 1},
+    {"transition", "set", "table", "", "memory = number, condition or true/false", "set = { touched = true }", 0, 0},
+    {"transition", "signal", "name", "", "calls out", "signal = \"alarm\"", 0, 0},
+    {"transition", "on_take", "function(me)", "", "called when it is taken", "on_take = function(me) me.touched = true end", 0, 0},
+    {"transition", "id", "text", "", "how mods name it; else its target, with #2, #3 for repeats", "id = \"leave\"", 0, 0},
+    {"kick", "at", "target", "", "whereto; else straight ahead", "at = \"post\"", 0, 0},
+    {"kick", "impulse", "number", "m/s", "N s per kg of the body: the change of its velocity", "impulse = 2 + 2 * now.speed", 0, 50},
+    {"throw", "at", "target", "", "whereto", "at = nearest \"people\"", 0, 0},
+    {"throw", "speed", "number", "m/s", "level speed", "speed = 6", 0.1, 40},
+    {"signal", "every", "plain number", "s", "between two calls", "every = 0.5", 0.01, 1e6},
 };
-const size_t jox_sheet_key_count = sizeof jox_sheet_keys / sizeof *jox_sheet_keys;
+const size_t jox_table_key_count = sizeof jox_table_keys / sizeof *jox_table_keys;
 
 const JoxMeKey jox_me_keys[] = {
     {"id", "number", "", "the agent's number, never used again"},
@@ -232,11 +229,12 @@ const JoxMeKey jox_me_keys[] = {
 const size_t jox_me_key_count = sizeof jox_me_keys / sizeof *jox_me_keys;
 /* clang-format on */
 
-size_t jox_sheet_names(const char *owner, bool parameters, const char **names, size_t capacity) {
+size_t jox_table_key_names(const char *owner, bool parameters, const char **names,
+                           size_t capacity) {
     size_t n = 0;
-    for (size_t k = 0; k < jox_sheet_key_count && n < capacity; k++)
-        if (strcmp(jox_sheet_keys[k].owner, owner) == 0)
-            names[n++] = jox_sheet_keys[k].name;
+    for (size_t k = 0; k < jox_table_key_count && n < capacity; k++)
+        if (strcmp(jox_table_keys[k].owner, owner) == 0)
+            names[n++] = jox_table_keys[k].name;
     for (int p = 0; parameters && p < JOX_PARAM_COUNT && n < capacity; p++)
         names[n++] = jox_parameters[p].name;
     return n;
@@ -247,4 +245,15 @@ const JoxWordNumber *jox_word_number(const char *word, uint32_t n) {
         if (strcmp(jox_word_numbers[i].word, word) == 0 && n-- == 0)
             return &jox_word_numbers[i];
     return NULL;
+}
+
+JoxParameterInfo jox_table_key_number(const char *owner, const char *name) {
+    for (size_t k = 0; k < jox_table_key_count; k++) {
+        const JoxTableKey *key = &jox_table_keys[k];
+        if (strcmp(key->owner, owner) == 0 && strcmp(key->name, name) == 0)
+            return (JoxParameterInfo){key->name,  key->unit,     key->meaning,
+                                      key->least, key->greatest, 0};
+    }
+    JOX_ASSERT(!"a key with a row");
+    return (JoxParameterInfo){name, "", "", 0, 0, 0};
 }

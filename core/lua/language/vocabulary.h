@@ -1,8 +1,8 @@
-/* The language of behaviours, once: every word and every key of a sheet, with what it takes, makes
-   and means, and an example. Drives the loader, the suggestions, the reference page and the
-   definitions for editors. */
-#ifndef JOX_LUA_VOCABULARY_H
-#define JOX_LUA_VOCABULARY_H
+/* The language of behaviours, once: every word and every key of a machine's tables, with what it
+   takes, makes and means, and an example. Drives the loader, the suggestions, the reference page
+   and the definitions for editors. */
+#ifndef JOX_LUA_LANGUAGE_VOCABULARY_H
+#define JOX_LUA_LANGUAGE_VOCABULARY_H
 
 #include "lua/language/script.h"
 
@@ -11,7 +11,7 @@
    out. NULL: a word that is no call; "*": reads its arguments itself. */
 typedef struct JoxWord {
     const char *name, *takes;
-    JoxNodeKind makes; /* 0: something of the sheet itself */
+    JoxNodeKind makes; /* 0: something of the table itself */
     int op;            /* JoxOp, JoxSteerKind or JoxTargetKind */
     int arg;           /* JoxNow */
     const char *signature, *unit, *meaning;
@@ -34,18 +34,22 @@ extern const size_t jox_word_number_count;
 /* The n-th number of a word, from 0; NULL behind the last. */
 const JoxWordNumber *jox_word_number(const char *word, uint32_t n);
 
-/* A key of a table of the sheet; parameters are further keys of states and of `defaults`. */
-typedef struct JoxSheetKey {
+/* A key of one of the machine's tables; parameters are further keys of states and of `defaults`. */
+typedef struct JoxTableKey {
     const char *owner; /* "machine", "state", "transition", "kick", "throw", "signal" */
     const char *name, *type, *unit, *meaning;
-    const char *example; /* as it stands in its table */
-} JoxSheetKey;
+    const char *example;    /* as it stands in its table */
+    double least, greatest; /* of plain numbers; both 0: of no number, or checked elsewhere */
+} JoxTableKey;
 
-extern const JoxSheetKey jox_sheet_keys[];
-extern const size_t jox_sheet_key_count;
+extern const JoxTableKey jox_table_keys[];
+extern const size_t jox_table_key_count;
 
 /* Names of an owner's keys, written to `names`; with `parameters` those too. Returns how many. */
-size_t jox_sheet_names(const char *owner, bool parameters, const char **names, size_t capacity);
+size_t jox_table_key_names(const char *owner, bool parameters, const char **names, size_t capacity);
+
+/* Name, unit and range of a key that holds a number. */
+JoxParameterInfo jox_table_key_number(const char *owner, const char *name);
 
 /* What `me` knows besides memory and parameters, and what it can be asked to do. */
 typedef struct JoxMeKey {

@@ -25,6 +25,7 @@ JoxPosition jox_word_position(lua_State *L, const char *word) {
 
 int jox_word_error(lua_State *L, const char *word, const char *code, const char *hint,
                    const char *format, ...) {
+    JOX_ASSERT(*code);
     char text[512];
     va_list arguments;
     va_start(arguments, format);

@@ -98,6 +98,7 @@ static const JoxWord *find_word(const char *name) {
 
 /* Reads argument `index` of a word as its letter asks; NULL with an error (or poison) pushed. */
 JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char letter) {
+    JOX_ASSERT(index >= 1 && letter);
     static const struct {
         char letter;
         const char *what;
@@ -166,6 +167,7 @@ static bool too_many(lua_State *L, const JoxWord *word, int given, int most) {
 /* Puts the arguments of a condition or number where its program looks for them. */
 static void place_arguments(JoxNode *node, const JoxWord *word, JoxNode *const *arguments,
                             int count) {
+    JOX_ASSERT(count >= 0 && count <= 3);
     const char *letter = word->takes;
     for (int i = 0; i < count; i++, letter++) {
         letter += *letter == '?';
@@ -247,9 +249,11 @@ static JoxNode *assemble(lua_State *L, const JoxWord *word, JoxNode *const *argu
 
 static int make_word(lua_State *L) {
     const JoxWord *word = lua_touserdata(L, lua_upvalueindex(1));
+    JOX_ASSERT(word && word->takes);
     if (!jox_script_of(L)->vm.loading)
-        return luaL_error(L, "'%s' makes a value of the sheet and cannot be used in a function",
-                          word->name);
+        return luaL_error(
+            L, "'%s' makes a value of the machine's table and cannot be used in a function",
+            word->name);
     JoxNode *arguments[3] = {NULL, NULL, NULL};
     int count = 0, given = lua_gettop(L); /* reading arguments pushes more */
     uint32_t numbers = 0;
@@ -288,6 +292,7 @@ bool jox_word_lookup(lua_State *L, const char *name) {
 
 /* A word that is a value by itself. */
 static void push_value(lua_State *L, const JoxWord *word) {
+    JOX_ASSERT(!word->takes && word->makes);
     JoxNode *node = jox_node_push(L, word->makes);
     node->op = word->op;
     node->arg = word->arg;

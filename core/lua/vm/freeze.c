@@ -1,5 +1,6 @@
 /* Tables that nothing can change once a file is loaded. The contents move to a table of their own,
    behind a metatable that reads there and refuses to write. */
+#include "base/assert.h"
 #include "lua/vm/vm.h"
 
 /* The metatable of a frozen table holds its contents under this key's address. */
@@ -43,6 +44,7 @@ typedef struct Walk {
 
 /* Notes the value on top of the stack, which stays, to be looked at once. */
 static void reach(Walk *w) {
+    JOX_ASSERT(lua_gettop(w->L) >= w->work);
     int type = lua_type(w->L, -1);
     if (type != LUA_TTABLE && type != LUA_TFUNCTION)
         return;
@@ -74,6 +76,7 @@ static void walk_frozen(Walk *w) {
 
 /* Freezes the table on top of the stack, which stays. */
 static void freeze_table(Walk *w) {
+    JOX_ASSERT(lua_istable(w->L, -1));
     lua_State *L = w->L;
     const int table = lua_gettop(L), shadow = table + 1;
     if (lua_getmetatable(L, table)) { /* frozen already, or the engine's */
@@ -112,6 +115,7 @@ static void freeze_table(Walk *w) {
 
 /* Looks through the upvalues of the function on top of the stack, which stays. */
 static void walk_function(Walk *w, JoxFreezeFunction *function, void *context) {
+    JOX_ASSERT(lua_isfunction(w->L, -1));
     lua_State *L = w->L;
     const int at = lua_gettop(L);
     for (int i = 1; lua_getupvalue(L, at, i); i++) {

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "lua/vm/library.h"
 
 enum { MOST_KEYS = 65536, LONGEST_LINE = 400, LOAD_LINES = 5 /* times the limit of a second */ };
@@ -90,6 +91,7 @@ static void sort_keys(Key *keys, Key *spare, size_t count) {
 
 /* Pushes a table with the keys of the table on top of the stack, in order. */
 static void push_sorted(lua_State *L) {
+    JOX_ASSERT(lua_istable(L, -1));
     size_t count = 0, bytes = 0, at = 0;
     const int table = lua_gettop(L);
     for (lua_pushnil(L); lua_next(L, table); lua_pop(L, 1))

@@ -1,6 +1,7 @@
 /* Text of values, and text that is put together in C. */
 #include <string.h>
 
+#include "base/assert.h"
 #include "lua/vm/library.h"
 
 enum { LONGEST = 1 << 20 };
@@ -37,6 +38,7 @@ void jox_scratch_open(JoxScratch *s, lua_State *L, size_t capacity) {
 }
 
 void jox_scratch_add(JoxScratch *s, const char *text, size_t length) {
+    JOX_ASSERT(s->length <= s->capacity && lua_gettop(s->L) >= s->slot);
     if (s->length + length > LONGEST)
         luaL_error(s->L, "the result would be over 1 MB");
     if (s->length + length > s->capacity) {
@@ -54,6 +56,7 @@ void jox_scratch_add(JoxScratch *s, const char *text, size_t length) {
 }
 
 void jox_scratch_push(JoxScratch *s) {
+    JOX_ASSERT(s->length <= s->capacity);
     lua_pushlstring(s->L, s->data, s->length);
 }
 

@@ -15,6 +15,7 @@ typedef struct Scan {
 
 static void add_token(Scan *s, JoxTokenKind kind, const char *text, size_t length, const char *from,
                       int line, const char *line_start) {
+    JOX_ASSERT(from >= line_start && s->at <= s->end && line >= 1);
     JoxSource *source = s->source;
     JOX_RESERVE(source->tokens, source->token_capacity, source->token_count + 1);
     int column = (int)(from - line_start) + 1;

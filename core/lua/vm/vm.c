@@ -54,6 +54,7 @@ static void *allocate(void *context, void *memory, size_t old, size_t size) {
     JoxVm *vm = context;
     if (!memory)
         old = 0; /* Lua then passes a type here */
+    JOX_ASSERT(vm->used >= old);
     if (size == 0) {
         vm->used -= old;
         free(memory);
@@ -179,6 +180,7 @@ static void count_hook(lua_State *L, lua_Debug *debug) {
 
 void jox_vm_charge(lua_State *L, uint64_t steps) {
     JoxVm *vm = jox_vm_of(L);
+    JOX_ASSERT(vm->L == L);
     if (!vm->running)
         return; /* the engine's own */
     bool late = vm->loading && vm->charges++ % CHARGES_TIMED == 0 &&

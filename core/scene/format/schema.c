@@ -237,6 +237,7 @@ static void fill_uint32(const JoxReader *reader, const JoxKey *key, const JoxYam
 
 static void fill_key(const JoxReader *reader, const JoxKey *key, const JoxYaml *node, void *item) {
     double value;
+    item = key->aside ? (void *)reader->load : item;
     switch (key->store) {
     case JOX_STORE_READ:
         key->read(reader, key, node, item);

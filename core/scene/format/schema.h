@@ -59,6 +59,7 @@ struct JoxKey {
     JoxStore store;
     size_t offset;  /* of the member in the struct of the owner */
     size_t counter; /* of the member that holds how many there are */
+    bool aside;     /* it is kept in the JoxLoad of the reader, until the item is whole */
     /* Called for JOX_STORE_READ, with node NULL where the key is missing. `item` is the struct of
        the owner. */
     void (*read)(const JoxReader *reader, const JoxKey *key, const JoxYaml *node, void *item);

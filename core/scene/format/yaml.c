@@ -9,6 +9,7 @@
 
 #include "base/hash.h"
 #include "base/mem.h"
+#include "base/path.h"
 
 enum {
     LARGEST = 10 << 20,
@@ -43,13 +44,10 @@ void jox_arena_free(JoxArena *h) {
     jox_free(h);
 }
 
-char *jox_path_beside(JoxArena *arena, const char *file, const char *name) {
-    const char *slash = strrchr(file, '/');
-    size_t folder = slash && *name != '/' ? (size_t)(slash - file) + 1 : 0;
-    char *path = jox_arena_take(arena, folder + strlen(name) + 1, 1);
-    memcpy(path, file, folder);
-    strcpy(path + folder, name);
-    return path;
+char *jox_arena_beside(JoxArena *arena, const char *file, const char *name) {
+    char path[JOX_LONGEST_PATH];
+    jox_path_beside(file, name, path); /* one that is too long is not found, and said so */
+    return jox_arena_text(arena, path);
 }
 
 /* ---- trees ---- */
@@ -384,7 +382,7 @@ static void include(JoxArena *arena, JoxYaml *root, const char *path, JoxYamlFil
                            "include names files");
             continue;
         }
-        char *beside = jox_path_beside(arena, path, name->text);
+        char *beside = jox_arena_beside(arena, path, name->text);
         struct stat info;
         if (files->plain && (*name->text == '/' || strstr(name->text, "..") ||
                              (lstat(beside, &info) == 0 && S_ISLNK(info.st_mode)))) {

@@ -53,6 +53,6 @@ void jox_yaml_append(JoxArena *arena, JoxYaml *list, JoxYaml *item);
    several places of a tree, so copy before changing one of them. */
 JoxYaml *jox_yaml_copy(JoxArena *arena, const JoxYaml *node);
 /* A path beside another file: absolute paths stay as they are. */
-char *jox_path_beside(JoxArena *arena, const char *file, const char *name);
+char *jox_arena_beside(JoxArena *arena, const char *file, const char *name);
 
 #endif

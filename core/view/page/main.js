@@ -1,28 +1,29 @@
 // The page: joins the connection, the picture and the panels, and keeps the loop.
-import { ActPage } from "./act.js";
-import { AgentPage, announce } from "./agent.js";
-import { ChartsPage } from "./charts.js";
-import { Connection } from "./connection.js";
-import { bindKeys, Figures, TimeBar, ToolBar } from "./controls.js";
-import { Crowd, FLAG, NOBODY, readField } from "./crowd.js";
+import { ActPage } from "./panels/act.js";
+import { AgentPage, announce } from "./panels/agent.js";
+import { ChartsPage } from "./panels/charts.js";
+import { Connection } from "./net/connection.js";
+import { bindKeys, Figures, TimeBar, ToolBar } from "./controls/controls.js";
+import { Crowd, FLAG, NOBODY, readField } from "./net/crowd.js";
 import { byId, el, say, typing } from "./dom.js";
-import { Help, Meter } from "./help.js";
-import { Legend } from "./legend.js";
-import { MachinePage } from "./machine.js";
-import { Messages } from "./messages.js";
-import { describe, Overlay } from "./overlay.js";
-import { COLOURS, FIELDS } from "./palette.js";
-import { Panel } from "./panel.js";
-import { ParametersPage } from "./parameters.js";
-import { savePicture } from "./picture.js";
-import { Player } from "./player.js";
-import { Replay } from "./replay.js";
-import { Tools, TOOLS } from "./tools.js";
-import { View } from "./view.js";
+import { Help, Meter } from "./panels/help.js";
+import { Legend } from "./panels/legend.js";
+import { MachinePage } from "./panels/machine.js";
+import { Messages } from "./panels/messages.js";
+import { describe, Overlay } from "./draw/overlay.js";
+import { COLOURS, FIELDS } from "./draw/palette.js";
+import { Panel } from "./panels/panel.js";
+import { ParametersPage } from "./panels/parameters.js";
+import { savePicture } from "./draw/picture.js";
+import { Player } from "./controls/player.js";
+import { Replay } from "./controls/replay.js";
+import { Tools, TOOLS } from "./controls/tools.js";
+import { View } from "./draw/view.js";
 
 const LINKS = { connecting: "connecting", open: "connected", lost: "not connected, trying again" };
 const LOST = ["The connection is lost. The page tries again by itself.",
     "The connection is lost. If the program was started anew, open the address that it prints."];
+const PROTOCOL = 2; // of the messages, as the program counts it
 const NEAR = 14; // m, from which a person is followed
 const MOVE = 0.08; // of the distance to what is looked at, for one press of an arrow key
 
@@ -44,7 +45,7 @@ class Page {
         this.theme();
         this.resize();
         new ResizeObserver(() => this.resize()).observe(byId("stage"));
-        requestAnimationFrame((now) => this.loop(now));
+        requestAnimationFrame(() => this.loop());
     }
 
     makeParts() {
@@ -66,7 +67,7 @@ class Page {
         this.toolBar = new ToolBar({
             tool: (name) => this.tool(name), colour: (by) => this.colourBy(by), field: (of) => this.fieldOf(of),
             top: () => this.top(), home: () => this.view.goHome(), follow: () => this.follow(),
-            picture: () => savePicture(this.view, this.overlay, this.hello?.title ?? "Jostle"),
+            picture: () => savePicture(this.view, this.overlay, this.scene?.title ?? "Jostle"),
             names: () => this.names(), help: () => this.help.toggle(),
         });
         this.help = new Help({ meter: this.meter, view: this.view, connection: this.connection });
@@ -93,7 +94,7 @@ class Page {
         bindKeys({
             " ": () => (this.bar.toggle(), true), ".": () => (this.bar.stepOnce(), true),
             t: () => (this.top(), true), f: () => (this.follow(), true), h: () => (this.view.goHome(), true),
-            n: () => (this.names(), true), p: () => (savePicture(this.view, this.overlay, this.hello?.title ?? "Jostle"), true),
+            n: () => (this.names(), true), p: () => (savePicture(this.view, this.overlay, this.scene?.title ?? "Jostle"), true),
             c: () => (this.colourBy(next(COLOURS, this.colour)), true), d: () => (this.fieldOf(next(FIELDS, this.field)), true),
             "?": () => (this.help.toggle(), true), Escape: () => this.escape(),
             ArrowLeft: step(-1, 0), ArrowRight: step(1, 0), ArrowUp: step(0, 1), ArrowDown: step(0, -1),
@@ -140,7 +141,7 @@ class Page {
     again() {
         this.crowd.snap = true;
         this.charts.lost();
-        if (!this.hello) return; // the scene says how it begins
+        if (!this.scene) return; // the scene says how it begins
         this.connection.send({ do: "colour", by: this.colour === "failed" ? "state" : this.colour });
         if (this.field !== "none") this.connection.send({ do: "field", of: this.field });
         if (this.slot !== null && !this.recorded()) this.connection.send({ do: "inspect", slot: this.slot });
@@ -148,7 +149,7 @@ class Page {
 
     take(message) {
         const taken = {
-            hello: () => this.takeHello(message), status: () => this.takeStatus(message),
+            scene: () => this.takeScene(message), status: () => this.takeStatus(message),
             errors: () => this.messages.showErrors(message.errors ?? []),
             say: () => this.messages.say(message.text, message.level),
             inspect: () => this.takePerson(message), lua: () => this.parameters.takeLua(message.text),
@@ -157,21 +158,21 @@ class Page {
         if (taken) taken();
     }
 
-    takeHello(hello) {
-        if (hello.protocol !== 1) return this.messages.stand("protocol", "This page is of another version than the program. Reload it.");
-        const first = !this.hello;
-        this.hello = hello;
-        say(byId("title"), hello.title || hello.file || "Jostle");
-        document.title = `${hello.title || hello.file || "Jostle"} – Jostle`;
-        for (const part of [this.bar, this.replay, this.view, this.overlay, this.legend, this.machine, this.parameters, this.charts, this.toolBar]) part.set(hello);
-        this.panel.offer("act", this.act.set(hello));
-        const live = hello.session !== "replay";
-        this.panel.offer("machine", (hello.machines ?? []).length > 0);
-        this.panel.offer("parameters", live && (hello.machines ?? []).length > 0);
+    takeScene(scene) {
+        if (scene.protocol !== PROTOCOL) return this.messages.stand("protocol", "This page is of another version than the program. Reload it.");
+        const first = !this.scene;
+        this.scene = scene;
+        say(byId("title"), scene.title || scene.file || "Jostle");
+        document.title = `${scene.title || scene.file || "Jostle"} – Jostle`;
+        for (const part of [this.bar, this.replay, this.view, this.overlay, this.legend, this.machine, this.parameters, this.charts, this.toolBar]) part.set(scene);
+        this.panel.offer("act", this.act.set(scene));
+        const live = scene.session !== "replay";
+        this.panel.offer("machine", (scene.machines ?? []).length > 0);
+        this.panel.offer("parameters", live && (scene.machines ?? []).length > 0);
         if (first || !this.toolBar.tools[this.view.tool]) this.tool("select");
         else this.toolBar.show(this.view.tool);
-        if (first && COLOURS[hello.view?.colour]) this.colourBy(hello.view.colour);
-        if (first && FIELDS[hello.view?.field]) this.fieldOf(hello.view.field);
+        if (first && COLOURS[scene.view?.colour]) this.colourBy(scene.view.colour);
+        if (first && FIELDS[scene.view?.field]) this.fieldOf(scene.view.field);
         this.redraw();
         return undefined;
     }
@@ -229,7 +230,7 @@ class Page {
 
     /** Slots of players, where the scene has any. */
     findPlayers() {
-        if (!this.hello?.tools?.players?.length) return;
+        if (!this.scene?.tools?.players?.length) return;
         const { bytes, slots } = this.crowd.next;
         this.overlay.players = [];
         for (let slot = 0; slot < slots && this.overlay.players.length < 16; slot++) {
@@ -250,7 +251,7 @@ class Page {
     }
 
     recorded() {
-        return this.hello?.session === "replay";
+        return this.scene?.session === "replay";
     }
 
     /** What the frames of a recording tell of the chosen person. */
@@ -262,7 +263,7 @@ class Page {
         this.agentPage.takeSeen({
             slot, x: at[0], y: at[1], radius: crowd.radius(slot),
             speed: passed > 0 ? Math.hypot(at[0] - from[0], at[1] - from[1]) / passed : NaN,
-            state: this.hello.states?.[crowd.next.bytes[8 * slot + 5]]?.name, group: this.hello.groups?.[crowd.person[2 * slot + 1]],
+            state: this.scene.states?.[crowd.next.bytes[8 * slot + 5]]?.name, group: this.scene.groups?.[crowd.person[2 * slot + 1]],
         });
     }
 
@@ -337,7 +338,7 @@ class Page {
         this.view.dirty = true;
     }
 
-    loop(now) {
+    loop() {
         const begun = performance.now();
         const share = this.crowd.share(begun);
         if (this.following) this.keepUp(share);
@@ -346,7 +347,7 @@ class Page {
             this.meter.add(performance.now() - begun);
             this.drawn = begun;
         } else this.drawn = undefined;
-        requestAnimationFrame((next) => this.loop(next));
+        requestAnimationFrame(() => this.loop());
     }
 
     /** The eye goes where the chosen person goes. */

@@ -1,0 +1,182 @@
+/* The live page's loop: what browsers ask is done, the source advances, and what is due is sent:
+   frames as they come, figures and fields four times a second. */
+#include "live/page.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "world/world.h"
+
+static const double FRAME = 1.0 / 65.0; /* s, least time between frames */
+static const double STATUS = 0.25;      /* s between figures */
+static const double IDLE = 0.05;        /* s, after which it is seen that it is to end */
+
+/* ---- what browsers are shown ---- */
+
+/* The scene message describes everything: whatever was sent before is of another scene. */
+static void send_scene(JoxLivePage *page, uint32_t client) {
+    page->text.length = 0;
+    page->source->scene(page->self, &page->text);
+    jox_view_send(page->server, client, page->text.data);
+    if (page->source->greet)
+        page->source->greet(page->self, client);
+    page->people_sent = false;
+    page->changed = true;
+}
+
+void jox_live_page_begin(JoxLivePage *page) {
+    page->version = page->source->version(page->self);
+    page->last_frame = page->last_status = 0.0;
+    page->people.length = 0;
+    jox_view_forget(page->server);
+    if (jox_view_clients(page->server))
+        send_scene(page, JOX_VIEW_ALL);
+}
+
+/* Frames in every colour that somebody wants. */
+static void publish_frames(JoxLivePage *page) {
+    bool wanted[JOX_LIVE_COLOUR_COUNT] = {false};
+    for (uint32_t w = 0; w < JOX_VIEW_CLIENTS; w++)
+        if (page->watchers[w].client)
+            wanted[page->watchers[w].colour] = true;
+    for (uint32_t c = 0; c < JOX_LIVE_COLOUR_COUNT; c++) {
+        if (!wanted[c])
+            continue;
+        page->source->pack_frame(page->self, (JoxLiveColour)c, &page->bytes);
+        jox_view_publish(page->server, JOX_VIEW_FRAMES + c, page->bytes.data, page->bytes.length);
+    }
+}
+
+static void publish_people(JoxLivePage *page) {
+    const bool differs = page->source->pack_people(page->self, &page->people);
+    if (differs || !page->people_sent)
+        jox_view_publish(page->server, JOX_LIVE_PEOPLE_CHANNEL, page->people.data,
+                         page->people.length);
+    page->people_sent = true;
+}
+
+static void publish_fields(JoxLivePage *page) {
+    for (uint32_t f = 0; f < JOX_LIVE_FIELDS; f++) {
+        bool wanted = false;
+        for (uint32_t w = 0; w < JOX_VIEW_CLIENTS; w++)
+            wanted |= page->watchers[w].client && page->watchers[w].field == (JoxLiveField)f;
+        if (!wanted)
+            continue;
+        page->source->pack_field(page->self, (JoxLiveField)f, &page->bytes);
+        jox_view_publish(page->server, JOX_VIEW_FIELDS + f, page->bytes.data, page->bytes.length);
+    }
+}
+
+static void publish_status(JoxLivePage *page, double now) {
+    page->session.dropped = jox_view_dropped(page->server);
+    page->text.length = 0;
+    page->source->status(page->self, now, &page->text);
+    jox_view_publish(page->server, JOX_VIEW_STATUS, page->text.data, page->text.length);
+}
+
+static void show(JoxLivePage *page) {
+    const double now = jox_clock_wall();
+    if (!jox_view_clients(page->server))
+        return;
+    const bool status = now - page->last_status >= STATUS;
+    if (status && page->source->version(page->self) != page->version) {
+        page->version = page->source->version(page->self);
+        send_scene(page, JOX_VIEW_ALL);
+    }
+    if (page->changed && now - page->last_frame >= FRAME) {
+        publish_frames(page);
+        page->last_frame = now;
+        page->changed = false;
+    }
+    if (!status)
+        return;
+    publish_people(page);
+    publish_status(page, now);
+    publish_fields(page);
+    if (page->source->report)
+        page->source->report(page->self);
+    page->last_status = now;
+}
+
+/* ---- what browsers ask ---- */
+
+/* Row of a client, or of none (0: a free row); NULL if there is no such. */
+static JoxLiveWatcher *find_watcher(JoxLivePage *page, uint32_t client) {
+    for (uint32_t w = 0; w < JOX_VIEW_CLIENTS; w++)
+        if (page->watchers[w].client == client)
+            return &page->watchers[w];
+    return NULL;
+}
+
+static void add_watcher(JoxLivePage *page, uint32_t client) {
+    JoxLiveWatcher *watcher = find_watcher(page, 0);
+    JOX_ASSERT(client && watcher); /* the server admits no more than there are rows */
+    *watcher = (JoxLiveWatcher){.client = client,
+                                .colour = page->source->colour(page->self),
+                                .field = page->source->field(page->self)};
+    send_scene(page, client);
+    jox_live_listen(page, watcher);
+    page->last_status = 0.0;
+}
+
+static void remove_watcher(JoxLivePage *page, JoxLiveWatcher *watcher) {
+    if (page->source->left)
+        page->source->left(page->self, watcher->client);
+    *watcher = (JoxLiveWatcher){0};
+    if (jox_view_clients(page->server) == 0)
+        jox_view_forget(page->server); /* who comes next is not shown what was */
+}
+
+static void take_commands(JoxLivePage *page) {
+    char text[JOX_VIEW_MOST_COMMAND + 1];
+    uint32_t client;
+    JoxViewTaken what;
+    while ((what = jox_view_take(page->server, &client, text, sizeof text)) != JOX_VIEW_NOTHING) {
+        JoxLiveWatcher *watcher = find_watcher(page, client);
+        JOX_ASSERT((what == JOX_VIEW_JOINED) == !watcher);
+        if (what == JOX_VIEW_JOINED)
+            add_watcher(page, client);
+        else if (what == JOX_VIEW_LEFT && watcher)
+            remove_watcher(page, watcher);
+        else if (what == JOX_VIEW_COMMAND && watcher)
+            jox_live_do(page, watcher, text);
+    }
+}
+
+/* ---- the whole ---- */
+
+bool jox_live_page_open(JoxLivePage *page, const char *address, int port, const char *folder,
+                        const char *three, JoError *error) {
+    const JoxViewOptions options = {.address = address,
+                                    .port = port,
+                                    .page = folder ? folder : JOX_PAGEDIR,
+                                    .three = three ? three : JOX_THREEDIR};
+    JoxText why = {0};
+    page->session.speed = 1.0;
+    page->server = jox_view_open(&options, &why);
+    if (!page->server)
+        jox_error(error, JO_FAILED, "%s", why.data);
+    jox_text_free(&why);
+    return page->server != NULL;
+}
+
+void jox_live_page_close(JoxLivePage *page) {
+    jox_view_close(page->server);
+    jox_bytes_free(&page->bytes);
+    jox_bytes_free(&page->people);
+    jox_text_free(&page->text);
+}
+
+void jox_live_page_run(JoxLivePage *page, const volatile int *stop) {
+    while (!stop || !__atomic_load_n(stop, __ATOMIC_RELAXED)) {
+        take_commands(page);
+        double wait = fmin(page->source->advance(page->self, jox_clock_wall()), IDLE);
+        JOX_ASSERT(wait >= 0.0 && page->session.speed > 0.0);
+        show(page);
+        if (page->changed && jox_view_clients(page->server)) /* a frame is to be sent */
+            wait = fmin(wait, fmax(page->last_frame + FRAME - jox_clock_wall(), 0.001));
+        jox_view_wait(page->server, wait);
+    }
+}

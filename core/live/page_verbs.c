@@ -1,0 +1,83 @@
+/* Commands of live pages: those that every source has in the same way, and the way to the others.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "live/page.h"
+
+static const double SLOWEST = 0.01, FASTEST = 1000.0; /* of real time */
+
+static const struct {
+    const char *name, *needs;
+} VERBS[JOX_LIVE_VERB_COUNT] = {
+#define X(verb, needs) [JOX_LIVE_VERB_##verb] = {#verb, needs},
+    JOX_LIVE_VERBS(X)
+#undef X
+};
+
+void jox_live_listen(JoxLivePage *page, const JoxLiveWatcher *watcher) {
+    uint32_t channels = 1u << JOX_LIVE_PEOPLE_CHANNEL | 1u << JOX_VIEW_STATUS |
+                        1u << JOX_LIVE_TIME_CHANNEL | 1u << (JOX_VIEW_FRAMES + watcher->colour);
+    if (watcher->field < JOX_LIVE_FIELDS)
+        channels |= 1u << (JOX_VIEW_FIELDS + watcher->field);
+    jox_view_listen(page->server, watcher->client, channels);
+}
+
+static void do_colour(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
+    const int colour = jox_live_colour(jox_command_text(request->command, "by", ""));
+    if (colour < 0) {
+        jox_live_refuse(request, "by is state, speed, force, compression, density or group");
+        return;
+    }
+    watcher->colour = (JoxLiveColour)colour;
+    request->page->changed = true;
+    jox_live_listen(request->page, watcher);
+}
+
+static void do_field(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
+    const int field = jox_live_field_named(jox_command_text(request->command, "of", ""));
+    if (field < 0) {
+        jox_live_refuse(request, "of is density, pressure or none");
+        return;
+    }
+    watcher->field = (JoxLiveField)field;
+    request->page->last_status = 0.0;
+    jox_live_listen(request->page, watcher);
+}
+
+static void do_speed(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
+    const double factor = jox_command_number(request->command, "factor", NAN);
+    (void)watcher;
+    if (factor >= SLOWEST && factor <= FASTEST)
+        request->page->session.speed = factor;
+    else
+        jox_live_refuse(request, "factor is from 0.01 to 1,000 seconds shown in a second");
+    request->page->last_status = 0.0;
+}
+
+/* The same for every source. */
+static void (*const COMMON[JOX_LIVE_VERB_COUNT])(JoxLiveWatcher *, const JoxLiveRequest *) = {
+    [JOX_LIVE_VERB_colour] = do_colour,
+    [JOX_LIVE_VERB_field] = do_field,
+    [JOX_LIVE_VERB_speed] = do_speed,
+};
+
+void jox_live_do(JoxLivePage *page, JoxLiveWatcher *watcher, const char *json) {
+    JoxCommand command = {0};
+    if (!jox_command_read(json, &command))
+        return; /* the server has dropped those */
+    const JoxLiveRequest request = {page, watcher->client, &command};
+    int verb = 0;
+    while (verb < JOX_LIVE_VERB_COUNT && strcmp(VERBS[verb].name, command.verb) != 0)
+        verb++;
+    if (verb == JOX_LIVE_VERB_COUNT) {
+        jox_view_drop(page->server);
+        jox_live_refuse(&request, "there is no such command");
+    } else if (COMMON[verb]) {
+        COMMON[verb](watcher, &request);
+    } else if (page->source->verbs[verb]) {
+        page->source->verbs[verb](page->self, &request);
+    } else {
+        jox_live_refuse(&request, VERBS[verb].needs);
+    }
+}

@@ -1,0 +1,180 @@
+/* What a live page is told of a recording. */
+#include <math.h>
+#include <string.h>
+
+#include "live/replay_parts.h"
+
+#include "base/path.h"
+
+static const float BODY_SIZE = 0.4f; /* m: of a body whose shape nothing says */
+
+/* A machine of which only the states' names are known. */
+static void add_machine(JoxJson *json, const JoxReplayNames *n, uint32_t machine) {
+    static const char *const EMPTY[] = {"defaults", "transitions"};
+    jox_json_object(json, NULL);
+    jox_json_string(json, "name", n->machines[machine]);
+    jox_json_string(json, "path", "");
+    jox_json_whole(json, "version", 0);
+    jox_json_null(json, "start");
+    for (int e = 0; e < 2; e++) {
+        jox_json_array(json, EMPTY[e]);
+        jox_json_end(json);
+    }
+    jox_json_array(json, "states");
+    for (uint32_t s = 0; s < n->state_count; s++) {
+        if (n->states[s].machine != machine)
+            continue;
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", n->states[s].name);
+        jox_json_whole(json, "line", 0);
+        jox_json_array(json, "parameters");
+        jox_json_end(json);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+    jox_json_end(json);
+}
+
+static void add_names(JoxJson *json, const JoxReplay *r) {
+    const JoxReplayNames *n = &r->names;
+    jox_json_array(json, "groups");
+    for (uint32_t g = 0; g < r->info.group_count; g++)
+        jox_json_string(json, NULL, r->info.groups[g]);
+    jox_json_end(json);
+    jox_json_array(json, "states");
+    for (uint32_t s = 0; s < n->state_count; s++)
+        jox_live_add_state(n->states[s].machine, n->states[s].name, json);
+    jox_json_end(json);
+    jox_json_array(json, "machines");
+    for (uint32_t m = 0; m < n->machine_count; m++)
+        add_machine(json, n, m);
+    jox_json_end(json);
+}
+
+/* A body as the recording has it in the frame that is shown; a box where nothing is known but where
+   it is. */
+static void add_recorded(JoxJson *json, const JoxReplay *r, uint32_t id, bool known) {
+    JoxBodyLook look = {.kind = JOX_SHAPE_BOX,
+                        .size = {BODY_SIZE, BODY_SIZE, BODY_SIZE},
+                        .turn = {0.0f, 0.0f, 0.0f, 1.0f}};
+    jox_json_object(json, NULL);
+    jox_json_null(json, "name");
+    jox_json_whole(json, "mass", 0);
+    jox_json_array(json, "parts");
+    for (uint32_t part = 0;
+         known && jox_trajectory_reader_part(r->reader, r->shown, id, part, &look); part++)
+        jox_live_add_part(&look, json);
+    if (!known)
+        jox_live_add_part(&look, json);
+    jox_json_end(json);
+    jox_json_end(json);
+}
+
+/* By the recording, else by the scene. */
+static void add_bodies(JoxJson *json, const JoxReplay *r) {
+    jox_json_array(json, "bodies");
+    for (uint32_t row = 0; row < r->row_count; row++) {
+        const uint32_t id = r->body_id[row];
+        const uint32_t of_scene = r->bodies ? jox_bodies_find(r->bodies, id) : JOX_NO_BODY;
+        JoxBodyLook look;
+        bool recorded = r->shown != JOX_REPLAY_NOBODY &&
+                        jox_trajectory_reader_part(r->reader, r->shown, id, 0, &look);
+        if (!recorded && of_scene != JOX_NO_BODY)
+            jox_live_add_body(r->bodies, of_scene, json);
+        else
+            add_recorded(json, r, id, recorded);
+    }
+    jox_json_end(json);
+}
+
+/* Nothing can be done in a recording. */
+static void add_tools(JoxJson *json) {
+    static const char *const EMPTY[] = {"players", "walls", "signal_names"};
+    jox_json_object(json, "tools");
+    for (int t = 0; t < JOX_TOOL_COUNT; t++)
+        jox_json_bool(json, jox_scene_tools[t], false);
+    for (int e = 0; e < 3; e++) {
+        jox_json_array(json, EMPTY[e]);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+}
+
+void jox_replay_scene(const JoxReplay *r, JoxText *out) {
+    const JoxSceneSpec *spec = r->spec;
+    const JoxLiveSceneHead head = {
+        .session = "replay",
+        .title = spec && spec->title && *spec->title ? spec->title : jox_path_name(r->path),
+        .file = r->path,
+        .dt = 1.0 / r->info.fps,
+        .duration = jox_replay_time(r, r->info.frames - 1),
+        .area = r->area};
+    JoxJson json = jox_json_begin(out, 0);
+    jox_json_object(&json, NULL);
+    jox_live_add_head(&head, &json);
+    jox_live_add_walls(jox_replay_walls(r), JOX_WALL_HEIGHT, &json);
+    jox_live_add_places(spec ? spec->places : NULL, spec ? spec->place_count : 0, &json);
+    jox_live_add_regions(spec ? spec->regions : NULL, spec ? spec->region_count : 0, &json);
+    add_names(&json, r);
+    add_bodies(&json, r);
+    add_tools(&json);
+    jox_live_add_camera(spec, &json);
+    jox_live_add_colours(&json);
+    jox_live_add_view(jox_replay_colour(r), jox_replay_first_field(r), &json);
+    jox_json_array(&json, "charts");
+    jox_json_end(&json);
+    jox_json_end(&json);
+}
+
+uint64_t jox_replay_version(const JoxReplay *r) {
+    const uint32_t changes =
+        r->shown == JOX_REPLAY_NOBODY ? 0 : jox_trajectory_reader_changes(r->reader, r->shown);
+    return (uint64_t)changes << 32 | r->row_count;
+}
+
+static void add_machines(JoxJson *json, JoxReplay *r) {
+    const JoxReplayNames *n = &r->names;
+    memset(r->people, 0, n->state_count * sizeof *r->people);
+    for (uint32_t i = 0; i < r->count; i++) {
+        const uint32_t state = jox_replay_state(r, i);
+        if (state < n->state_count)
+            r->people[state]++;
+    }
+    jox_json_array(json, "states");
+    for (uint32_t m = 0; m < n->machine_count; m++) {
+        jox_json_array(json, NULL);
+        for (uint32_t s = 0; s < n->state_count && r->shown != JOX_REPLAY_NOBODY; s++)
+            if (n->states[s].machine == m)
+                jox_json_whole(json, NULL, r->people[s]);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+    jox_json_array(json, "fired");
+    for (uint32_t m = 0; m < n->machine_count; m++) {
+        jox_json_array(json, NULL);
+        jox_json_end(json);
+    }
+    jox_json_end(json);
+}
+
+void jox_replay_status(JoxReplay *r, const JoxLiveSession *session, double factor, JoxText *out) {
+    static const char *const UNKNOWN[] = {"stage_ns", "flows", "walls"};
+    const bool shown = r->shown != JOX_REPLAY_NOBODY; /* else the frame could not be read */
+    jox_replay_spread(r, false);
+    JoxJson json = jox_json_begin(out, 0);
+    jox_json_object(&json, NULL);
+    jox_live_add_session(shown ? r->shown : 0, r->frame.time, session, &json);
+    jox_json_whole(&json, "jumps", session->jumps);
+    jox_json_digits(&json, "real_time_factor", factor, 6);
+    jox_json_whole(&json, "agents", r->count);
+    jox_json_whole(&json, "bodies", r->frame.body_count);
+    add_machines(&json, r);
+    jox_json_digits(&json, "mean_speed", jox_replay_speed(r), 6);
+    jox_json_digits(&json, "density_max", shown ? (double)r->grid.most : NAN, 6);
+    jox_json_null(&json, "failures");
+    for (int u = 0; u < 3; u++) {
+        jox_json_object(&json, UNKNOWN[u]);
+        jox_json_end(&json);
+    }
+    jox_json_end(&json);
+}

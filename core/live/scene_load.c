@@ -1,0 +1,58 @@
+/* Beginning and end of a scene on its live page. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "live/scene_page.h"
+
+/* What the scene says goes to the terminal, and to the pages unless they were sent it as data. */
+static void message(void *context, const char *text) {
+    JoxScenePage *s = context;
+    const JoSceneDef *def = &s->def->scene;
+    (def->message ? def->message : jox_run_to_stderr)(def->message_context, text);
+    if (s->reported)
+        return;
+    size_t n = strlen(text);
+    char *line = jox_strndup(text, n && text[n - 1] == '\n' ? n - 1 : n);
+    jox_live_say(&s->page, JOX_VIEW_ALL, strstr(text, "warning: ") ? "warning" : "info", line);
+    jox_free(line);
+}
+
+bool jox_scene_page_end(JoxScenePage *s, JoError *error) {
+    bool good = !s->scene || jo_scene_finish(s->scene, error);
+    jo_scene_free(s->scene);
+    s->scene = NULL;
+    return good;
+}
+
+/* Everything of a run that is written, and the files that are watched. */
+static bool begin(JoxScenePage *s, JoError *error) {
+    const JoViewDef *def = s->def;
+    return (!def->record || jo_scene_record(s->scene, def->record, error)) &&
+           (!def->log_input || jo_scene_log_input(s->scene, def->log_input, error)) &&
+           (!def->watch || jo_scene_watch(s->scene, error));
+}
+
+bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
+    s->scene_def.message = message;
+    s->scene_def.message_context = s;
+    JoScene *next = jox_run_load_told(&s->scene_def, jox_scene_page_diagnosed, s, error);
+    if (!next)
+        return false;
+    JoError ending = {0};
+    if (!jox_scene_page_end(s, &ending))
+        jox_live_say(&s->page, JOX_VIEW_ALL, "error", ending.text);
+    s->scene = next;
+    s->failed = false;
+    s->page.session.paused = s->failed = !begin(s, error);
+    if (s->failed) {
+        snprintf(s->failure, sizeof s->failure, "%s", error->text);
+        jox_live_say(&s->page, JOX_VIEW_ALL, "error", error->text);
+    }
+    s->steps = 0;
+    s->until = s->def->seconds > 0.0 ? s->def->seconds : jo_scene_duration(next);
+    s->began = 0.0;
+    s->inspector = 0;
+    jox_live_page_begin(&s->page);
+    return !s->failed;
+}

@@ -1,0 +1,173 @@
+/* A running scene on its live page: it is stepped at the pace people want. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/guard.h"
+#include "base/mem.h"
+#include "live/scene_page.h"
+
+enum { VIEW_COOKIE = 0x4a4f5644 };
+static const double LATE = 0.1; /* s that are caught up with */
+
+JoViewDef jo_default_view_def(void) {
+    return (JoViewDef){.scene = jo_default_scene_def(), .watch = true, .cookie = VIEW_COOKIE};
+}
+
+/* ---- time ---- */
+
+static void pause_at_end(JoxScenePage *s) {
+    if (jo_world_time(s->scene->world) + 0.5 * s->scene->world->model.def.dt < s->until)
+        return;
+    jox_run_say(s->scene, "%g s are over, and the scene waits; it can go on or be restarted\n",
+                s->until);
+    s->until = INFINITY;
+    s->page.session.paused = true;
+    s->steps = 0;
+    s->page.last_status = 0.0;
+}
+
+static void step(JoxScenePage *s) {
+    JoError error = {0};
+    if (jo_scene_step(s->scene, &error)) {
+        pause_at_end(s);
+    } else {
+        s->failed = s->page.session.paused = true;
+        snprintf(s->failure, sizeof s->failure, "%s", error.text);
+        s->steps = 0;
+        jox_run_say(s->scene, "%s\n", error.text);
+        jox_live_say(&s->page, JOX_VIEW_ALL, "error", error.text);
+    }
+    s->page.changed = true;
+}
+
+static double advance(void *self, double now) {
+    JoxScenePage *s = self;
+    const JoxLiveSession *session = &s->page.session;
+    const double due = s->began + s->scene->world->model.def.dt / session->speed;
+    if (session->paused && s->steps == 0) {
+        jox_run_reload(s->scene); /* files that were saved go live in a pause, too */
+        return INFINITY;
+    }
+    if (session->paused) {
+        s->steps--;
+    } else if (!s->def->fast && due > now) {
+        return due - now;
+    }
+    s->began = due > now - LATE && due <= now ? due : now;
+    step(s);
+    return 0.0;
+}
+
+/* ---- the source ---- */
+
+static JoxLiveColour first_colour(const void *self) {
+    const JoxScenePage *s = self;
+    return (JoxLiveColour)s->scene->spec->view.colour;
+}
+
+static JoxLiveField first_field(const void *self) {
+    const JoxScenePage *s = self;
+    return (JoxLiveField)s->scene->spec->view.field;
+}
+
+static void describe(void *self, JoxText *out) {
+    JoxScenePage *s = self;
+    jox_live_scene(s->scene, out);
+}
+
+static uint64_t version(const void *self) {
+    const JoxScenePage *s = self;
+    return jox_live_version(s->scene);
+}
+
+static void add_status(void *self, double now, JoxText *out) {
+    JoxScenePage *s = self;
+    (void)now;
+    jox_live_status(s->scene, &s->page.session, out);
+}
+
+static void pack_frame(void *self, JoxLiveColour colour, JoxBytes *out) {
+    JoxScenePage *s = self;
+    jox_live_frame(s->scene, colour, out);
+}
+
+static bool pack_people(void *self, JoxBytes *out) {
+    JoxScenePage *s = self;
+    return jox_live_people(s->scene, out);
+}
+
+static void pack_field(void *self, JoxLiveField field, JoxBytes *out) {
+    JoxScenePage *s = self;
+    jox_live_field(s->scene, field, out);
+}
+
+static void client_left(void *self, uint32_t client) {
+    JoxScenePage *s = self;
+    if (s->inspector == client)
+        s->inspector = 0;
+}
+
+static const JoxLiveSource SCENE = {
+    .colour = first_colour,
+    .field = first_field,
+    .scene = describe,
+    .version = version,
+    .status = add_status,
+    .pack_frame = pack_frame,
+    .pack_people = pack_people,
+    .pack_field = pack_field,
+    .greet = jox_scene_page_send_errors,
+    .report = jox_scene_page_send_inspected,
+    .left = client_left,
+    .advance = advance,
+    .verbs = {[JOX_LIVE_VERB_pause] = jox_scene_page_pause,
+              [JOX_LIVE_VERB_step] = jox_scene_page_step,
+              [JOX_LIVE_VERB_restart] = jox_scene_page_restart,
+              [JOX_LIVE_VERB_input] = jox_scene_page_input,
+              [JOX_LIVE_VERB_lua] = jox_scene_page_lua,
+              [JOX_LIVE_VERB_inspect] = jox_scene_page_inspect},
+};
+
+/* ---- the whole ---- */
+
+static bool run(JoxScenePage *s, JoError *error) {
+    const JoViewDef *def = s->def;
+    if (!jox_scene_page_load(s, error))
+        return false;
+    if (def->opened)
+        def->opened(def->opened_context, jox_view_address(s->page.server));
+    jox_live_page_run(&s->page, def->stop);
+    if (def->summary)
+        *def->summary = jo_scene_summary(s->scene);
+    char *suspended = jo_scene_suspended(s->scene);
+    if (s->failed)
+        jox_error(error, JO_FAILED, "%s", s->failure);
+    else if (suspended)
+        jox_error(error, JO_FAILED, "%s", suspended);
+    bool good = !s->failed && !suspended;
+    jo_free(suspended);
+    return good;
+}
+
+static bool view(const JoViewDef *def, JoError *error) {
+    JoxScenePage s = {.def = def, .scene_def = def->scene};
+    s.page.source = &SCENE;
+    s.page.self = &s;
+    if (!jox_live_page_open(&s.page, def->address, def->port, def->page, def->three, error))
+        return false;
+    JoError ending = {0};
+    bool good = run(&s, error), ended = jox_scene_page_end(&s, good ? error : &ending);
+    jox_live_page_close(&s.page);
+    jox_scene_page_forget_errors(&s);
+    jox_free(s.errors);
+    return good && ended;
+}
+
+bool jo_view(const JoViewDef *def, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == VIEW_COOKIE && def->scene.path, false);
+    JOX_GUARD (NULL, error)
+        return false;
+    return view(def, error);
+}

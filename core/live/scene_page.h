@@ -1,0 +1,51 @@
+/* What the files scene_*.c share: a scene that runs on its live page. */
+#ifndef JOX_LIVE_SCENE_PAGE_H
+#define JOX_LIVE_SCENE_PAGE_H
+
+#include "live/page.h"
+#include "run/run.h"
+
+/* Files that were saved and could not be loaded. */
+typedef struct JoxLiveFileErrors {
+    bool parts[JOX_PARTS]; /* what the files are parts of; none: a scene that was to begin anew */
+    JoxDiagnostics errors;
+} JoxLiveFileErrors;
+
+typedef struct JoxScenePage {
+    JoxLivePage page;
+    const JoViewDef *def;
+    JoSceneDef scene_def; /* with the seed of the present run */
+    JoScene *scene;
+    uint64_t steps; /* to be done while paused */
+    double until;   /* s of simulated time, at which it pauses by itself */
+    double began;   /* s of wall time at which the last step was due */
+    bool failed;    /* the run cannot go on, for this reason: */
+    char failure[1024];
+    bool reported;      /* errors that pages were sent as data are being printed */
+    uint32_t inspector; /* the client who inspects an agent; 0: nobody */
+    uint32_t inspected; /* the slot of that agent */
+    JoxLiveFileErrors *errors;
+    size_t error_count, error_capacity;
+} JoxScenePage;
+
+/* scene_load.c: loads the scene, with everything that is written of it; false with `error`, and
+   the scene that ran before goes on. */
+bool jox_scene_page_load(JoxScenePage *scene, JoError *error);
+/* Ends the scene and what is written of it. */
+bool jox_scene_page_end(JoxScenePage *scene, JoError *error);
+/* scene_errors.c: a JoxDiagnosed whose context is the JoxScenePage. */
+void jox_scene_page_diagnosed(void *scene, const bool *parts, const JoxDiagnostics *diagnostics);
+/* Sends a client, or all, what is wrong with files. */
+void jox_scene_page_send_errors(void *scene, uint32_t client);
+void jox_scene_page_forget_errors(JoxScenePage *scene);
+/* scene_verbs.c: what people do, by verb; and the agent that a page inspects, told with each
+   status. */
+void jox_scene_page_pause(void *scene, const JoxLiveRequest *request);
+void jox_scene_page_step(void *scene, const JoxLiveRequest *request);
+void jox_scene_page_restart(void *scene, const JoxLiveRequest *request);
+void jox_scene_page_input(void *scene, const JoxLiveRequest *request);
+void jox_scene_page_lua(void *scene, const JoxLiveRequest *request);
+void jox_scene_page_inspect(void *scene, const JoxLiveRequest *request);
+void jox_scene_page_send_inspected(void *scene);
+
+#endif

@@ -1,0 +1,155 @@
+/* What people do with a scene on its live page. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "live/inspect.h"
+#include "live/scene_page.h"
+
+enum { MOST_STEPS = 100000 };
+
+void jox_scene_page_pause(void *self, const JoxLiveRequest *request) {
+    JoxScenePage *s = self;
+    bool on = jox_command_bool(request->command, "on", true);
+    if (!on && s->failed) {
+        jox_live_refuse(request, "this run cannot go on; restart it");
+        return;
+    }
+    if (!on && s->page.session.paused && jo_world_time(s->scene->world) >= s->until)
+        s->until = INFINITY; /* on beyond the scene's end */
+    s->page.session.paused = on;
+    s->steps = 0;
+    s->page.last_status = 0.0; /* the status says so at once */
+}
+
+void jox_scene_page_step(void *self, const JoxLiveRequest *request) {
+    JoxScenePage *s = self;
+    double n = jox_command_number(request->command, "n", 1.0);
+    if (s->failed)
+        jox_live_refuse(request, "this run cannot go on; restart it");
+    else if (!(n >= 1.0 && n <= MOST_STEPS))
+        jox_live_refuse(request, "n is from 1 to 100,000 steps");
+    else
+        s->steps += (uint64_t)n;
+    s->page.session.paused = true;
+    s->steps = s->steps < MOST_STEPS ? s->steps : MOST_STEPS;
+}
+
+void jox_scene_page_restart(void *self, const JoxLiveRequest *request) {
+    JoxScenePage *s = self;
+    double seed = jox_command_number(request->command, "seed", NAN);
+    if (seed == seed && !(seed >= 0.0 && seed < 9007199254740992.0 && seed == floor(seed))) {
+        jox_live_refuse(request, "a seed is a whole number from 0 to 9007199254740991");
+        return;
+    }
+    JoSceneDef before = s->scene_def;
+    if (seed == seed) {
+        s->scene_def.has_seed = true;
+        s->scene_def.seed = (uint64_t)seed;
+    }
+    JoError error = {0};
+    if (!jox_scene_page_load(s, &error)) {
+        s->scene_def = before;
+        jox_live_refuse(request, error.text);
+    }
+}
+
+void jox_scene_page_send_inspected(void *self) {
+    JoxScenePage *s = self;
+    if (!s->inspector)
+        return;
+    s->page.text.length = 0;
+    JoxJson json = jox_json_begin(&s->page.text, 0);
+    jox_json_object(&json, NULL);
+    jox_json_string(&json, "type", "inspect");
+    const bool there = jox_live_inspect(s->scene, s->inspected, &json);
+    jox_json_end(&json);
+    jox_view_send(s->page.server, s->inspector, s->page.text.data);
+    if (!there)
+        s->inspector = 0;
+}
+
+/* One page at a time: what an agent met is kept of one alone. */
+void jox_scene_page_inspect(void *self, const JoxLiveRequest *request) {
+    static const char NOBODY[] = "{\"type\": \"inspect\", \"agent\": null}";
+    JoxScenePage *s = self;
+    double slot = jox_command_number(request->command, "slot", -1.0);
+    uint32_t me = request->client, other = s->inspector != me ? s->inspector : 0;
+    if (!(slot >= 0.0)) {
+        s->inspector = other;
+        jox_view_send(s->page.server, me, NOBODY);
+        return;
+    }
+    if (other) {
+        jox_view_send(s->page.server, other, NOBODY);
+        jox_live_say(&s->page, other, "info", "another page inspects somebody now");
+    }
+    s->inspector = me;
+    s->inspected = slot < 4294967295.0 ? (uint32_t)slot : UINT32_MAX;
+    jox_scene_page_send_inspected(s);
+}
+
+/* The tool that the first word of a line needs, or -1. */
+static int find_tool(const char *line) {
+    static const struct {
+        const char *verb;
+        JoxTool tool;
+    } NEEDS[] = {
+        {"throw", JOX_TOOL_THROW},    {"box", JOX_TOOL_THROW},    {"grab", JOX_TOOL_DRAG},
+        {"drag", JOX_TOOL_DRAG},      {"release", JOX_TOOL_DRAG}, {"push", JOX_TOOL_PUSH},
+        {"open", JOX_TOOL_GATES},     {"close", JOX_TOOL_GATES},  {"signal", JOX_TOOL_SIGNALS},
+        {"set", JOX_TOOL_PARAMETERS}, {"player", JOX_TOOL_PLAYER}};
+    line += strspn(line, " \t");
+    size_t n = strcspn(line, " \t");
+    for (size_t i = 0; i < sizeof NEEDS / sizeof *NEEDS; i++)
+        if (strlen(NEEDS[i].verb) == n && strncmp(line, NEEDS[i].verb, n) == 0)
+            return (int)NEEDS[i].tool;
+    return -1;
+}
+
+void jox_scene_page_input(void *self, const JoxLiveRequest *request) {
+    JoxScenePage *s = self;
+    const char *line = jox_command_text(request->command, "line", "");
+    int tool = find_tool(line);
+    char text[256];
+    JoError error = {0};
+    if (tool < 0) {
+        jox_live_refuse(
+            request, "a line is throw, box, grab, drag, release, push, open, close, signal, set or "
+                     "player, and what belongs to it");
+    } else if (!(s->scene->spec->view.tools >> tool & 1)) {
+        snprintf(text, sizeof text, "this scene does not offer it; view: {tools: [%s]} would",
+                 jox_scene_tools[tool]);
+        jox_live_refuse(request, text);
+    } else if (s->failed) {
+        jox_live_refuse(request, "this run cannot go on; restart it");
+    } else if (!jo_scene_input(s->scene, line, &error)) {
+        jox_live_refuse(request, error.text);
+    } else {
+        s->page.changed = true;
+        if (tool != JOX_TOOL_DRAG && tool != JOX_TOOL_PUSH && tool != JOX_TOOL_PLAYER)
+            s->page.last_status = 0.0; /* gates, bodies and parameters are shown at once */
+    }
+}
+
+void jox_scene_page_lua(void *self, const JoxLiveRequest *request) {
+    JoxScenePage *s = self;
+    const JoxCommand *c = request->command;
+    JoxText line = {0}, text = {0};
+    bool good = jox_live_lua_line(
+        s->scene, jox_command_text(c, "machine", ""), jox_command_text(c, "state", ""),
+        jox_command_text(c, "parameter", ""), jox_command_number(c, "value", NAN), &line);
+    if (good) {
+        JoxJson json = jox_json_begin(&text, 0);
+        jox_json_object(&json, NULL);
+        jox_json_string(&json, "type", "lua");
+        jox_json_string(&json, "text", line.data ? line.data : "");
+        jox_json_end(&json);
+        jox_view_send(s->page.server, request->client, text.data);
+    } else {
+        jox_live_refuse(request, line.data ? line.data : "there is no such parameter");
+    }
+    jox_text_free(&line);
+    jox_text_free(&text);
+}

@@ -1,0 +1,117 @@
+// Bodies: all parts of all bodies in one mesh and one draw call; their poses are a texture.
+import * as THREE from "/three/build/three.module.js";
+import { ConvexBufferGeometry } from "/three/examples/jsm/geometries/ConvexGeometry.js";
+import { readPoses } from "../net/crowd.js";
+import { BODY_FRAGMENT, BODY_VERTEX } from "./shaders.js";
+
+const ROW = 1024; // texels of the texture's rows: 256 bodies
+// Wood, cloth, metal and such, told apart by their lightness too.
+const TINTS = [0xb08a5b, 0x8fa3ad, 0xc9b79c, 0x7d8a6a, 0x9c6b5a, 0xd8cfc0];
+
+/** One part's geometry in its body's frame: sizes in m, `turn` a quaternion. */
+function makePart(part) {
+    const geometry = shapeOf(part).toNonIndexed();
+    const turn = part.turn ?? [0, 0, 0, 1];
+    geometry.applyMatrix(new THREE.Matrix4().compose(
+        new THREE.Vector3(...(part.at ?? [0, 0, 0])), new THREE.Quaternion(...turn), new THREE.Vector3(1, 1, 1)));
+    return geometry;
+}
+
+function shapeOf({ shape, size = [], points = [] }) {
+    if (shape === "sphere") return new THREE.SphereBufferGeometry(size[0], 14, 10);
+    if (shape === "cylinder") { // along z; three.js has it along y
+        return new THREE.CylinderBufferGeometry(size[0], size[0], size[1], 14).rotateX(Math.PI / 2);
+    }
+    if (shape === "hull" && points.length >= 4) {
+        const hull = new ConvexBufferGeometry(points.map((p) => new THREE.Vector3(...p)));
+        // Points of one plane have no hull.
+        if (hull.attributes.position.count >= 12) return { toNonIndexed: () => hull }; // already without an index
+    }
+    const [x, y, z] = size.length === 3 ? size : [0.3, 0.3, 0.3];
+    return new THREE.BoxBufferGeometry(x, y, z);
+}
+
+export class Bodies {
+    constructor() {
+        this.uniforms = {
+            poses: { value: null }, size: { value: new THREE.Vector2(ROW, 1) },
+            share: { value: 1 }, chosen: { value: -1 },
+        };
+        this.material = new THREE.RawShaderMaterial({
+            uniforms: this.uniforms, vertexShader: BODY_VERTEX, fragmentShader: BODY_FRAGMENT, side: THREE.DoubleSide,
+        });
+        this.group = new THREE.Group();
+        this.radii = []; // m, of a sphere around each body
+        this.names = [];
+    }
+
+    /** Builds the mesh of the bodies of a scene message; keeps none of the old one. */
+    set(list) {
+        for (const mesh of [...this.group.children]) {
+            this.group.remove(mesh);
+            mesh.geometry.dispose();
+        }
+        this.names = list.map((body) => body.name);
+        this.radii = [];
+        this.seen = null;
+        if (list.length === 0) return;
+        const parts = list.map((body) => body.parts.map(makePart));
+        const kinds = [...new Set(list.map(kindOf))];
+        const total = parts.flat().reduce((n, g) => n + g.attributes.position.count, 0);
+        const position = new Float32Array(3 * total), normal = new Float32Array(3 * total), tint = new Float32Array(4 * total);
+        let at = 0;
+        parts.forEach((geometries, row) => {
+            const colour = new THREE.Color(TINTS[kinds.indexOf(kindOf(list[row])) % TINTS.length]);
+            let reach = 0;
+            for (const g of geometries) {
+                position.set(g.attributes.position.array, 3 * at);
+                normal.set(g.attributes.normal.array, 3 * at);
+                for (let i = 0; i < g.attributes.position.count; i++, at++) {
+                    tint.set([colour.r, colour.g, colour.b, row], 4 * at);
+                    reach = Math.max(reach, Math.hypot(...position.subarray(3 * at, 3 * at + 3)));
+                }
+                g.dispose?.();
+            }
+            this.radii.push(reach);
+        });
+        const geometry = new THREE.BufferGeometry();
+        geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
+        geometry.setAttribute("normal", new THREE.BufferAttribute(normal, 3));
+        geometry.setAttribute("tint", new THREE.BufferAttribute(tint, 4));
+        const mesh = new THREE.Mesh(geometry, this.material);
+        mesh.frustumCulled = false;
+        this.group.add(mesh);
+        this.makeTexture(list.length);
+    }
+
+    makeTexture(count) {
+        this.uniforms.poses.value?.dispose();
+        const rows = Math.max(1, Math.ceil((4 * count) / ROW));
+        this.poses = new Float32Array(4 * ROW * rows);
+        for (let row = 0; row < count; row++) this.poses[16 * row + 2] = this.poses[16 * row + 10] = -1000; // until known
+        const texture = new THREE.DataTexture(this.poses, ROW, rows, THREE.RGBAFormat, THREE.FloatType);
+        texture.magFilter = texture.minFilter = THREE.NearestFilter;
+        texture.generateMipmaps = false;
+        texture.needsUpdate = true;
+        this.uniforms.poses.value = texture;
+        this.uniforms.size.value.set(ROW, rows);
+        this.known = count;
+    }
+
+    /** Takes the poses of the last two frames. */
+    upload(crowd) {
+        if (this.radii.length === 0) return;
+        readPoses(crowd.previous, this.poses, 0, 16, this.known);
+        readPoses(crowd.next, this.poses, 8, 16, this.known);
+        // A body that was not there before does not slide.
+        for (let row = crowd.previous.bodies; row < Math.min(this.known, crowd.next.bodies); row++) {
+            this.poses.copyWithin(16 * row, 16 * row + 8, 16 * row + 16);
+        }
+        this.uniforms.poses.value.needsUpdate = true;
+    }
+}
+
+/** The kind of a body: "desk" of "desk-1"; bodies of one kind look alike. */
+function kindOf(body) {
+    return (body.name ?? "thrown").replace(/[-_ ]?\d+$/, "");
+}

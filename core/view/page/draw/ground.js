@@ -1,0 +1,220 @@
+// What stands still: the floor with its field, walls, gates, places and regions.
+import * as THREE from "/three/build/three.module.js";
+import { table } from "./palette.js";
+import { FLOOR_FRAGMENT, FLOOR_VERTEX } from "./shaders.js";
+
+const THIN = 0.08; // m, drawn thickness of walls that have none
+const OPEN = 0.04; // m, drawn height of an open gate
+
+const THEMES = {
+    light: { base: 0xf1f2f4, line: 0xd3d7dd, wall: 0x5b6573, edge: 0x2b333d, place: 0x0072b2, region: 0x8a94a3, sky: 0xe6e9ed },
+    dark: { base: 0x20242a, line: 0x353b44, wall: 0x8b97a8, edge: 0xc4cdd8, place: 0x56b4e9, region: 0x5d6774, sky: 0x15181c },
+};
+const GATE = 0xd55e00;
+
+/** Corners of walls as triangles: {position, normal: number[]}. */
+class Prism {
+    constructor() {
+        this.position = [];
+        this.normal = [];
+        this.edges = [];
+    }
+
+    quad(a, b, low, high) {
+        const nx = b[1] - a[1], ny = a[0] - b[0], l = Math.hypot(nx, ny) || 1;
+        this.position.push(...a, low, ...b, low, ...b, high, ...a, low, ...b, high, ...a, high);
+        for (let i = 0; i < 6; i++) this.normal.push(nx / l, ny / l, 0);
+        this.edges.push(...a, high, ...b, high);
+    }
+
+    /** An upright block on a polygon, from the floor to `high` m. */
+    block(points, high) {
+        const shape = points.map((p) => new THREE.Vector2(p[0], p[1]));
+        const ring = THREE.ShapeUtils.isClockWise(shape) ? [...points].reverse() : points;
+        ring.forEach((p, i) => this.quad(p, ring[(i + 1) % ring.length], 0, high));
+        const corners = ring.map((p) => new THREE.Vector2(p[0], p[1]));
+        for (const face of THREE.ShapeUtils.triangulateShape(corners, [])) {
+            for (const i of face) {
+                this.position.push(...ring[i], high);
+                this.normal.push(0, 0, 1);
+            }
+        }
+    }
+
+    /** A wall as the scene has it: solid, or a line that gets a thickness to be seen. */
+    wall({ solid, points, closed }, high) {
+        if (solid && points.length > 2) return this.block(points, high);
+        const ends = points.length - (closed ? 0 : 1);
+        for (let i = 0; i < ends; i++) {
+            const a = points[i], b = points[(i + 1) % points.length];
+            const length = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1;
+            const ux = ((b[0] - a[0]) / length) * (THIN / 2), uy = ((b[1] - a[1]) / length) * (THIN / 2);
+            this.block([[a[0] - ux - uy, a[1] - uy + ux], [a[0] - ux + uy, a[1] - uy - ux],
+                [b[0] + ux + uy, b[1] + uy - ux], [b[0] + ux - uy, b[1] + uy + ux]], high);
+        }
+    }
+
+    geometry() {
+        const geometry = new THREE.BufferGeometry();
+        geometry.setAttribute("position", new THREE.Float32BufferAttribute(this.position, 3));
+        geometry.setAttribute("normal", new THREE.Float32BufferAttribute(this.normal, 3));
+        return geometry;
+    }
+}
+
+function circle([x, y], radius, sides = 40) {
+    return Array.from({ length: sides }, (_, i) => {
+        const a = (2 * Math.PI * i) / sides;
+        return [x + radius * Math.cos(a), y + radius * Math.sin(a)];
+    });
+}
+
+/** Line segments of an outline, a little above the floor. */
+function outline(points, closed, z = 0.02) {
+    const out = [];
+    for (let i = 0; i + (closed ? 0 : 1) < points.length; i++) {
+        out.push(...points[i].slice(0, 2), z, ...points[(i + 1) % points.length].slice(0, 2), z);
+    }
+    return out;
+}
+
+function placeLines(place) {
+    const points = place.points ?? [];
+    if (place.kind === "point" && points.length) return outline(circle(points[0], place.radius || 0.5), true);
+    if (place.kind === "polygon") return outline(points, true);
+    if (place.kind === "line" || place.kind === "queue") return outline(points, false);
+    return [];
+}
+
+export class Ground {
+    constructor() {
+        this.group = new THREE.Group();
+        this.uniforms = {
+            base: { value: new THREE.Color() }, line: { value: new THREE.Color() }, spacing: { value: 1 },
+            field: { value: null }, ramp: { value: texture(table("heat"), 256, 1, THREE.RGBAFormat) },
+            cover: { value: new THREE.Vector4() },
+        };
+        const material = new THREE.ShaderMaterial({
+            uniforms: this.uniforms, vertexShader: FLOOR_VERTEX, fragmentShader: FLOOR_FRAGMENT,
+            extensions: { derivatives: true }, depthWrite: false,
+        });
+        this.floor = new THREE.Mesh(new THREE.PlaneBufferGeometry(1, 1), material);
+        this.floor.frustumCulled = false;
+        this.floor.renderOrder = -1;
+        this.walls = [];
+        this.theme("light");
+    }
+
+    theme(name) {
+        this.colours = THEMES[name];
+        this.uniforms.base.value.set(this.colours.base);
+        this.uniforms.line.value.set(this.colours.line);
+        if (this.scene) this.set(this.scene);
+    }
+
+    /** Builds everything of a scene message. */
+    set(scene) {
+        this.scene = scene;
+        this.clear();
+        this.walls = scene.walls ?? [];
+        this.open = Object.fromEntries(this.walls.filter((w) => w.name).map((w) => [w.name, Boolean(w.open)]));
+        const [[x0, y0], [x1, y1]] = scene.area;
+        const margin = 3 * Math.max(x1 - x0, y1 - y0);
+        this.floor.geometry.dispose();
+        this.floor.geometry = new THREE.PlaneBufferGeometry(x1 - x0 + 2 * margin, y1 - y0 + 2 * margin);
+        this.floor.geometry.translate((x0 + x1) / 2, (y0 + y1) / 2, 0);
+        this.uniforms.spacing.value = Math.max(x1 - x0, y1 - y0) > 80 ? 10 : 1;
+        this.group.add(this.floor);
+        const fixed = new Prism();
+        for (const wall of this.walls) if (!wall.name) fixed.wall(wall, wall.height || 2);
+        this.addPrism(fixed, this.colours.wall, this.colours.edge, 0.55);
+        const places = (scene.places ?? []).flatMap(placeLines);
+        const regions = Object.values(scene.regions ?? {}).flatMap((points) => outline(points, true, 0.015));
+        this.addLines(places, this.colours.place, 0.9);
+        this.addLines(regions, this.colours.region, 0.6);
+        this.gates();
+    }
+
+    /** Named walls: closed ones stand, open ones are a strip on the floor. */
+    gates() {
+        this.gateParts?.forEach((part) => this.drop(part));
+        const gates = new Prism();
+        for (const wall of this.walls) {
+            if (wall.name) gates.wall(wall, this.open[wall.name] ? OPEN : wall.height || 2);
+        }
+        this.gateParts = this.addPrism(gates, GATE, GATE, 0.75);
+    }
+
+    /** Takes which gates are open; true if that changed. */
+    setOpen(open) {
+        let changed = false;
+        for (const [name, value] of Object.entries(open ?? {})) {
+            if (name in this.open && this.open[name] !== Boolean(value)) changed = true;
+            this.open[name] = Boolean(value);
+        }
+        if (changed) this.gates();
+        return changed;
+    }
+
+    addPrism(prism, colour, edge, opacity) {
+        if (prism.position.length === 0) return [];
+        const material = new THREE.ShaderMaterial({
+            uniforms: { colour: { value: new THREE.Color(colour) }, opacity: { value: opacity } },
+            vertexShader: `varying vec3 n; void main() { n = normal;
+                gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0); }`,
+            fragmentShader: `uniform vec3 colour; uniform float opacity; varying vec3 n; void main() {
+                gl_FragColor = vec4(colour * (0.75 + 0.25 * n.z + 0.1 * n.x), n.z > 0.5 ? 0.9 : opacity); }`,
+            transparent: true, side: THREE.DoubleSide, depthWrite: false,
+        });
+        const mesh = new THREE.Mesh(prism.geometry(), material);
+        mesh.renderOrder = 2;
+        mesh.frustumCulled = false;
+        this.group.add(mesh);
+        return [mesh, this.addLines(prism.edges, edge, 0.9)];
+    }
+
+    addLines(positions, colour, opacity) {
+        const geometry = new THREE.BufferGeometry();
+        geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
+        const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colour, opacity, transparent: true }));
+        lines.frustumCulled = false;
+        lines.visible = positions.length > 0;
+        this.group.add(lines);
+        return lines;
+    }
+
+    drop(part) {
+        this.group.remove(part);
+        part.geometry.dispose();
+        part.material.dispose();
+    }
+
+    clear() {
+        for (const part of [...this.group.children]) if (part !== this.floor) this.drop(part);
+        this.gateParts = null;
+    }
+
+    /** Shows a field over the floor; null hides it. */
+    setField(field) {
+        if (!field) return this.uniforms.cover.value.set(0, 0, 0, 0);
+        const old = this.uniforms.field.value;
+        if (old && old.image.width === field.columns && old.image.height === field.rows) {
+            old.image.data = field.cells;
+            old.needsUpdate = true;
+        } else {
+            old?.dispose();
+            this.uniforms.field.value = texture(field.cells, field.columns, field.rows, THREE.LuminanceFormat);
+        }
+        this.uniforms.cover.value.set(field.x0, field.y0, field.columns * field.cell, field.rows * field.cell);
+        return undefined;
+    }
+}
+
+function texture(data, columns, rows, format) {
+    const made = new THREE.DataTexture(data, columns, rows, format, THREE.UnsignedByteType);
+    made.magFilter = made.minFilter = THREE.LinearFilter;
+    made.generateMipmaps = false;
+    made.unpackAlignment = 1;
+    made.needsUpdate = true;
+    return made;
+}

@@ -1,0 +1,186 @@
+// What is written and drawn over the picture in two dimensions: names, the chosen person, arrows of
+// forces, the path of a throw. One canvas, so that it costs the 3-D picture no draw call.
+import { say } from "../dom.js";
+
+export const FORCE_COLOURS = {
+    push: "#e69f00", contact: "#d55e00", deceleration: "#56b4e9", resistance: "#cc79a7",
+    external: "#f0e442", body: "#009e73",
+};
+const METRES_OF_NEWTON = 1 / 150; // an arrow of 1 m is 150 N
+const FONT = "600 12px system-ui, sans-serif";
+
+export class Overlay {
+    constructor(canvas, view, crowd) {
+        this.canvas = canvas;
+        this.view = view;
+        this.crowd = crowd;
+        this.pen = canvas.getContext("2d");
+        this.labels = [];
+        this.names = true;
+        this.chosen = null; // slot
+        this.forces = null; // of the chosen person
+        this.players = []; // slots
+        this.sketch = null; // what a tool shows: function(pen, project)
+        this.cross = false; // in the middle, for work by keys
+    }
+
+    set(scene) {
+        this.labels = [];
+        for (const place of scene.places ?? []) {
+            if (place.kind !== "set" && place.points?.length) this.labels.push({ text: place.name, at: middle(place) });
+        }
+        for (const [name, points] of Object.entries(scene.regions ?? {})) {
+            this.labels.push({ text: name, at: middle({ points, kind: "polygon" }), faint: true });
+        }
+        for (const wall of scene.walls ?? []) {
+            if (wall.name) this.labels.push({ text: wall.name, at: [...middle({ points: wall.points, kind: "line" }), wall.height || 2], gate: true });
+        }
+    }
+
+    theme(dark) {
+        this.dark = dark;
+    }
+
+    resize() {
+        this.canvas.width = Math.round(this.view.wide * this.view.ratio);
+        this.canvas.height = Math.round(this.view.high * this.view.ratio);
+    }
+
+    draw(share) {
+        const pen = this.pen, ratio = this.view.ratio;
+        pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+        pen.clearRect(0, 0, this.view.wide, this.view.high);
+        pen.font = FONT;
+        pen.textAlign = "center";
+        pen.textBaseline = "middle";
+        if (this.names) this.drawLabels();
+        for (const slot of this.players) if (slot !== this.chosen) this.drawRing(slot, share, this.dark ? "#ffffff" : "#0072b2", "player");
+        if (this.chosen !== null) this.drawChosen(share);
+        this.sketch?.(pen, (x, y, z) => this.view.project(x, y, z));
+        if (this.cross) this.drawCross();
+    }
+
+    drawLabels() {
+        const taken = [];
+        for (const label of this.labels) {
+            const spot = this.view.project(label.at[0], label.at[1], label.at[2] ?? 0);
+            if (!spot || spot[0] < 0 || spot[1] < 0 || spot[0] > this.view.wide || spot[1] > this.view.high) continue;
+            const wide = this.pen.measureText(label.text).width / 2 + 6;
+            const box = [spot[0] - wide, spot[1] - 10, spot[0] + wide, spot[1] + 10];
+            if (taken.some((b) => b[0] < box[2] && b[2] > box[0] && b[1] < box[3] && b[3] > box[1])) continue;
+            taken.push(box);
+            this.tag(label.text, spot, this.nameColour(label));
+        }
+    }
+
+    nameColour(label) {
+        if (label.gate) return this.dark ? "#ffab73" : "#a63d00";
+        if (label.faint) return this.dark ? "#a5afbc" : "#5a6370";
+        return this.dark ? "#6cc0f5" : "#0062a0";
+    }
+
+    /** A word on a plate. */
+    tag(text, [x, y], colour = this.dark ? "#e8ecf1" : "#20242a") {
+        const pen = this.pen, wide = pen.measureText(text).width + 10;
+        pen.fillStyle = this.dark ? "rgb(18 21 25 / 78%)" : "rgb(255 255 255 / 84%)";
+        roundRect(pen, x - wide / 2, y - 9, wide, 18, 4);
+        pen.fill();
+        pen.fillStyle = colour;
+        pen.fillText(text, x, y + 0.5);
+    }
+
+    drawRing(slot, share, colour, text) {
+        const at = this.crowd.position(slot, share);
+        if (!at) return null;
+        const r = this.crowd.radius(slot) + 0.15;
+        const path = Array.from({ length: 33 }, (_, i) => [at[0] + r * Math.cos((i * Math.PI) / 16), at[1] + r * Math.sin((i * Math.PI) / 16), 0.03]);
+        stroke(this.pen, path.map((p) => this.view.project(...p)), "#000000a0", 5);
+        stroke(this.pen, path.map((p) => this.view.project(...p)), colour, 2.5);
+        const head = this.view.project(at[0], at[1], 2.1);
+        if (head && text) this.tag(text, [head[0], head[1] - 24]);
+        return at;
+    }
+
+    drawChosen(share) {
+        const at = this.drawRing(this.chosen, share, "#ffd21f", null);
+        const spot = at && this.view.project(at[0], at[1], 1.9);
+        if (spot) { // so that one person is found in a crowd seen from afar
+            stroke(this.pen, [[spot[0] - 7, spot[1] - 16], [spot[0], spot[1] - 5], [spot[0] + 7, spot[1] - 16]], "#000000a0", 6);
+            stroke(this.pen, [[spot[0] - 7, spot[1] - 16], [spot[0], spot[1] - 5], [spot[0] + 7, spot[1] - 16]], "#ffd21f", 3);
+        }
+        if (!at || !this.forces) return;
+        for (const force of this.forces) {
+            const size = Math.hypot(force.fx, force.fy);
+            if (size < 1) continue;
+            const k = METRES_OF_NEWTON * Math.min(1, 600 / size);
+            this.arrow([at[0], at[1], 1.2], [at[0] + k * force.fx, at[1] + k * force.fy, 1.2], FORCE_COLOURS[force.kind] ?? "#999999");
+        }
+    }
+
+    /** An arrow between two points of the scene, m. */
+    arrow(from, to, colour) {
+        const a = this.view.project(...from), b = this.view.project(...to);
+        if (!a || !b) return;
+        const angle = Math.atan2(b[1] - a[1], b[0] - a[0]), head = Math.min(10, 0.6 * Math.hypot(b[0] - a[0], b[1] - a[1]));
+        const wing = (turn) => [b[0] - head * Math.cos(angle + turn), b[1] - head * Math.sin(angle + turn)];
+        for (const [style, wide] of [["#000000b0", 5], [colour, 3]]) {
+            stroke(this.pen, [a, b], style, wide);
+            stroke(this.pen, [wing(0.5), b, wing(-0.5)], style, wide);
+        }
+    }
+
+    drawCross() {
+        const x = this.view.wide / 2, y = this.view.high / 2;
+        for (const [style, wide] of [["#000000b0", 4], ["#ffffff", 2]]) {
+            stroke(this.pen, [[x - 12, y], [x + 12, y]], style, wide);
+            stroke(this.pen, [[x, y - 12], [x, y + 12]], style, wide);
+        }
+    }
+}
+
+/** A line through points of the screen; where one is null, the line is interrupted. */
+export function stroke(pen, points, style, width) {
+    pen.strokeStyle = style;
+    pen.lineWidth = width;
+    pen.lineCap = pen.lineJoin = "round";
+    pen.beginPath();
+    let down = false;
+    for (const p of points) {
+        if (!p) down = false;
+        else if (down) pen.lineTo(p[0], p[1]);
+        else {
+            pen.moveTo(p[0], p[1]);
+            down = true;
+        }
+    }
+    pen.stroke();
+}
+
+function roundRect(pen, x, y, wide, high, r) {
+    pen.beginPath();
+    pen.moveTo(x + r, y);
+    pen.arcTo(x + wide, y, x + wide, y + high, r);
+    pen.arcTo(x + wide, y + high, x, y + high, r);
+    pen.arcTo(x, y + high, x, y, r);
+    pen.arcTo(x, y, x + wide, y, r);
+    pen.closePath();
+}
+
+/** Where a place's name is written: inside a polygon, at the middle of a line. */
+function middle({ points, kind }) {
+    if (kind === "line" || kind === "queue") {
+        const a = points[0], b = points[points.length - 1];
+        return kind === "queue" ? a.slice(0, 2) : [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+    }
+    let x = 0, y = 0;
+    for (const p of points) {
+        x += p[0] / points.length;
+        y += p[1] / points.length;
+    }
+    return [x, y];
+}
+
+/** Says in words what the picture shows, for those who do not see it. */
+export function describe(node, status) {
+    say(node, `${status.agents} agents and ${status.bodies} bodies at ${status.time.toFixed(0)} seconds`);
+}

@@ -1,0 +1,298 @@
+// The picture: renderer, cameras, what is drawn when, and where things are on the screen.
+import { OrbitControls } from "/three/examples/jsm/controls/OrbitControls.js";
+import * as THREE from "/three/build/three.module.js";
+import { Bodies } from "./bodies.js";
+import { Ground } from "./ground.js";
+import { table } from "./palette.js";
+import { People } from "./people.js";
+
+const FIELD_OF_VIEW = 40; // degrees
+const SLOW = 60; // ms a picture: then fewer figures are drawn
+
+export class View {
+    constructor(canvas, crowd) {
+        this.canvas = canvas;
+        this.crowd = crowd;
+        this.renderer = makeRenderer(canvas);
+        this.scene = new THREE.Scene();
+        this.people = new People();
+        this.bodies = new Bodies();
+        this.ground = new Ground();
+        this.scene.add(this.ground.group, this.people.group, this.bodies.group);
+        this.scene.autoUpdate = false; // everything is placed by shaders
+        this.perspective = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, 0.1, 5000);
+        this.flat = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 5000);
+        this.perspective.up.set(0, 0, 1);
+        this.flat.up.set(0, 1, 0);
+        this.orbit = this.makeControls(this.perspective);
+        this.slide = this.makeControls(this.flat);
+        this.slide.enableRotate = false;
+        this.top = false;
+        this.tool = "select";
+        this.classTable = smallTexture(table("class"));
+        this.valueTable = smallTexture(table("value"));
+        this.colourBy("state");
+        this.dirty = true;
+        this.slow = 0;
+        this.useControls();
+    }
+
+    makeControls(camera) {
+        const controls = new OrbitControls(camera, this.canvas);
+        controls.enableKeys = false; // keys are the page's own
+        controls.screenSpacePanning = camera === this.flat;
+        if (camera === this.perspective) controls.maxPolarAngle = 0.495 * Math.PI; // not below the floor
+        controls.minDistance = 0.5;
+        controls.zoomSpeed = 1.2;
+        controls.addEventListener("change", () => this.moved());
+        controls.addEventListener("start", () => (this.handled = true));
+        return controls;
+    }
+
+    /** The eye is elsewhere: places on the screen change, and the picture. */
+    moved() {
+        this.camera?.updateMatrixWorld();
+        this.dirty = true;
+    }
+
+    get camera() {
+        return this.top ? this.flat : this.perspective;
+    }
+
+    get controls() {
+        return this.top ? this.slide : this.orbit;
+    }
+
+    /** With a tool in hand the left button is the tool's; the right one turns, or slides from above. */
+    useControls() {
+        this.orbit.enabled = !this.top;
+        this.slide.enabled = this.top;
+        const free = this.tool === "select";
+        this.orbit.mouseButtons = free ? { LEFT: 0, MIDDLE: 2, RIGHT: 2 } : { LEFT: -1, MIDDLE: 2, RIGHT: 0 };
+        this.slide.mouseButtons = free ? { LEFT: 2, MIDDLE: 2, RIGHT: 2 } : { LEFT: -1, MIDDLE: 2, RIGHT: 2 };
+        this.orbit.touches = free ? { ONE: 0, TWO: 2 } : { ONE: -1, TWO: 2 };
+        this.slide.touches = free ? { ONE: 1, TWO: 2 } : { ONE: -1, TWO: 2 };
+        this.dirty = true;
+    }
+
+    /** Takes a scene message; the camera stays where it is when the scene is the same. */
+    set(scene) {
+        this.ground.set(scene);
+        this.bodies.set(scene.bodies ?? []);
+        if (this.crowd.next) this.bodies.upload(this.crowd);
+        const name = `${scene.file} ${scene.session}`;
+        if (this.named !== name) {
+            this.named = name;
+            this.area = boundsOf(scene);
+            this.home = scene.camera;
+            this.goHome();
+        }
+        this.dirty = true;
+    }
+
+    /** Where the scene's camera is, or from the south onto everything. */
+    goHome() {
+        if (!this.area) return;
+        const [[x0, y0], [x1, y1]] = this.area;
+        const middle = new THREE.Vector3((x0 + x1) / 2, (y0 + y1) / 2, 0);
+        const wide = x1 - x0, deep = y1 - y0, aspect = this.wide / this.high;
+        const size = Math.max(4, 1.1 * Math.max(wide, deep));
+        // Seen slantingly, depth is shortened; what is near is larger than what is at the middle.
+        const across = Math.max(4, wide / aspect + 0.25 * deep, 0.95 * deep);
+        const away = (0.55 * across) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180));
+        this.orbit.target.copy(this.home ? new THREE.Vector3(...this.home.look) : middle);
+        this.perspective.position.copy(this.home ? new THREE.Vector3(...this.home.at)
+            : new THREE.Vector3(middle.x, middle.y - 0.75 * away, 0.66 * away));
+        this.orbit.maxDistance = this.slide.maxDistance = 8 * size;
+        this.lookDown(middle, Math.max(4, 1.1 * Math.max(wide / aspect, deep)));
+        this.flat.zoom = 1;
+        this.dirty = true;
+        this.orbit.update();
+        this.slide.update();
+        this.moved();
+    }
+
+    lookDown(at, size) {
+        if (size) this.flatSize = size;
+        this.slide.target.set(at.x, at.y, 0);
+        this.flat.position.set(at.x, at.y, 1000);
+        this.resize();
+    }
+
+    /** From above, or back; both look at the same spot. */
+    setTop(top) {
+        if (top === this.top) return;
+        const target = this.controls.target.clone();
+        this.top = top;
+        if (top) {
+            this.lookDown(target);
+            const away = this.perspective.position.distanceTo(target);
+            this.flat.zoom = this.flatSize / (2 * away * Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180)));
+            this.flat.updateProjectionMatrix();
+        } else {
+            this.perspective.position.add(target.clone().sub(this.orbit.target));
+            this.orbit.target.copy(target);
+        }
+        this.useControls();
+        this.controls.update();
+        this.moved();
+    }
+
+    /** Moves the eye and what it looks at, m. */
+    moveBy(dx, dy) {
+        for (const v of [this.camera.position, this.controls.target]) {
+            v.x += dx;
+            v.y += dy;
+        }
+        this.controls.update();
+        this.moved();
+    }
+
+    /** Turns around the target (rad), climbs (rad) and nears (factor). */
+    turnBy(turn, climb, nearer) {
+        if (this.top) {
+            this.flat.zoom *= nearer;
+            this.flat.updateProjectionMatrix();
+        } else {
+            const offset = this.perspective.position.clone().sub(this.orbit.target);
+            const s = new THREE.Spherical().setFromVector3(new THREE.Vector3(offset.x, offset.z, -offset.y));
+            s.theta += turn;
+            s.phi = Math.max(0.02, Math.min(0.495 * Math.PI, s.phi - climb));
+            s.radius /= nearer;
+            const v = new THREE.Vector3().setFromSpherical(s);
+            this.perspective.position.copy(this.orbit.target).add(new THREE.Vector3(v.x, -v.z, v.y));
+        }
+        this.controls.update();
+        this.moved();
+    }
+
+    /** By what people are coloured: one of palette.js. */
+    colourBy(by) {
+        const u = this.people.uniforms;
+        u.classes.value = { state: 1, group: 2, failed: 3 }[by] ?? 0;
+        u.colours.value = u.classes.value ? this.classTable : this.valueTable;
+        this.dirty = true;
+    }
+
+    theme(dark) {
+        this.ground.theme(dark ? "dark" : "light");
+        this.renderer.setClearColor(this.ground.colours.sky);
+        this.dirty = true;
+    }
+
+    resize() {
+        const box = this.canvas.parentElement.getBoundingClientRect();
+        const wide = Math.max(1, Math.round(box.width)), high = Math.max(1, Math.round(box.height));
+        this.wide = wide;
+        this.high = high;
+        this.ratio = Math.min(2, window.devicePixelRatio || 1);
+        this.renderer.setPixelRatio(this.ratio);
+        this.renderer.setSize(wide, high, false);
+        this.perspective.aspect = wide / high;
+        this.perspective.updateProjectionMatrix();
+        const half = (this.flatSize ?? 10) / 2;
+        this.flat.left = (-half * wide) / high;
+        this.flat.right = -this.flat.left;
+        this.flat.top = half;
+        this.flat.bottom = -half;
+        this.flat.updateProjectionMatrix();
+        this.dirty = true;
+    }
+
+    /** Takes the newest frame of the crowd; `kind` as Crowd.take says. */
+    takeFrame(kind) {
+        this.people.upload(this.crowd, kind);
+        this.bodies.upload(this.crowd);
+        this.dirty = true;
+    }
+
+    /** Screen pixels (not CSS pixels) of a metre at distance 1 m, or of a metre from above. */
+    pixelsOfMetre() {
+        const high = this.high * this.ratio;
+        return 0.5 * high * this.camera.projectionMatrix.elements[5];
+    }
+
+    /** Draws if anything moved since the last time; true if it did. */
+    draw(now, drawn) {
+        const share = this.crowd.share(now);
+        const moving = this.people.uniforms.share.value !== share;
+        if (!this.dirty && !moving) return false;
+        this.dirty = false;
+        this.people.uniforms.share.value = this.bodies.uniforms.share.value = share;
+        const camera = this.camera;
+        camera.updateMatrixWorld();
+        if (this.crowd.next) {
+            const pixels = this.pixelsOfMetre();
+            this.people.uniforms.pixels.value = pixels;
+            const look = camera.getWorldDirection(new THREE.Vector3());
+            this.people.uniforms.tall.value = Math.sqrt(Math.max(0, 1 - look.z * look.z));
+            this.people.chooseNear(this.crowd, camera.position, pixels, this.top);
+        }
+        this.renderer.render(this.scene, camera);
+        this.spare(now, drawn);
+        return true;
+    }
+
+    /** Where pictures are slow to draw, fewer figures; where they are fast again, more. */
+    spare(now, drawn) {
+        const took = now - (drawn ?? now);
+        if (took <= 0 || took > 500) return;
+        this.slow += 0.1 * (took - this.slow);
+        if (this.slow > SLOW) this.people.most = Math.max(800, Math.floor(0.9 * this.people.most));
+        else if (this.slow < 25) this.people.most = Math.min(4096, Math.ceil(1.02 * this.people.most));
+    }
+
+    /** CSS pixels of a point (m): [x, y, depth]; null behind the eye. */
+    project(x, y, z) {
+        const v = new THREE.Vector3(x, y, z).applyMatrix4(this.camera.matrixWorldInverse);
+        if (!this.top && v.z > -this.camera.near) return null;
+        const depth = -v.z;
+        v.applyMatrix4(this.camera.projectionMatrix);
+        return [(0.5 + 0.5 * v.x) * this.wide, (0.5 - 0.5 * v.y) * this.high, depth];
+    }
+
+    /** Where the line through a CSS pixel meets the height z (m): [x, y], or null. */
+    floorAt(px, py, z = 0) {
+        const ndc = new THREE.Vector2((2 * px) / this.wide - 1, 1 - (2 * py) / this.high);
+        const ray = new THREE.Raycaster();
+        ray.setFromCamera(ndc, this.camera);
+        const { origin, direction } = ray.ray;
+        const t = (z - origin.z) / direction.z;
+        return Number.isFinite(t) && t > 0 ? [origin.x + t * direction.x, origin.y + t * direction.y] : null;
+    }
+}
+
+/** Two corners around walls, places and regions, m; the area of a scene that has none. */
+function boundsOf(scene) {
+    const points = [...(scene.walls ?? []), ...(scene.places ?? [])].flatMap((p) => p.points ?? [])
+        .concat(Object.values(scene.regions ?? {}).flat());
+    if (points.length < 2) return scene.area;
+    const x = points.map((p) => p[0]), y = points.map((p) => p[1]);
+    const box = [[Math.min(...x), Math.min(...y)], [Math.max(...x), Math.max(...y)]];
+    return Math.max(box[1][0] - box[0][0], box[1][1] - box[0][1]) < 2 ? scene.area : box;
+}
+
+/** Whether pictures are drawn by the processor: then edges are not smoothed, which would cost it much. */
+function drawsSlowly() {
+    const probe = document.createElement("canvas").getContext("webgl");
+    const known = probe?.getExtension("WEBGL_debug_renderer_info");
+    const name = known ? probe.getParameter(known.UNMASKED_RENDERER_WEBGL) : "";
+    probe?.getExtension("WEBGL_lose_context")?.loseContext();
+    return /swiftshader|llvmpipe|softpipe|software/i.test(name);
+}
+
+function makeRenderer(canvas) {
+    const wanted = { antialias: !drawsSlowly(), alpha: false, powerPreference: "high-performance" };
+    const context = canvas.getContext("webgl2", wanted) || canvas.getContext("webgl", wanted);
+    if (!context) throw new Error("This browser shows no 3-D graphics (WebGL). Turn on hardware acceleration, or try another browser.");
+    const renderer = new THREE.WebGLRenderer({ canvas, context });
+    context.getExtension("OES_texture_float");
+    return renderer;
+}
+
+function smallTexture(data) {
+    const made = new THREE.DataTexture(data, 256, 1, THREE.RGBAFormat, THREE.UnsignedByteType);
+    made.magFilter = made.minFilter = THREE.NearestFilter;
+    made.needsUpdate = true;
+    return made;
+}

@@ -1,0 +1,108 @@
+// One person: state, parameters and who set them, memory, why it came here, forces, velocities.
+import { clock, el, figure, fill, say, svg } from "../dom.js";
+import { FORCE_COLOURS } from "../draw/overlay.js";
+import { drawVelocities, PLANE_COLOURS } from "./velocity.js";
+
+const KINDS = { agent: "other people", wall: "walls", body: "bodies", force: "forces" };
+
+function swatch(colour) {
+    const node = el("span", { className: "swatch" });
+    node.style.background = colour;
+    return node;
+}
+
+/** Rows of names and values. */
+function pairs(list) {
+    return el("dl", { className: "pairs" }, list.map(([name, value]) => [el("dt", {}, name), el("dd", {}, value)]));
+}
+
+export class AgentPage {
+    /** `page`: {letGo()} */
+    constructor(node, page) {
+        this.node = node;
+        this.page = page;
+        this.id = null;
+        this.none();
+    }
+
+    none(text = "Click a person in the picture, or give the picture the focus and press Enter.") {
+        this.id = null;
+        fill(this.node, el("p", { className: "faint" }, text));
+    }
+
+    /** Takes an `inspect` message. */
+    take(message) {
+        const agent = message.agent;
+        if (!agent) {
+            if (this.id !== null) this.none("This person is gone. Click another one.");
+            return;
+        }
+        if (this.id !== agent.id) this.build(agent);
+        const speed = Math.hypot(agent.vx, agent.vy);
+        fill(this.state, pairs([
+            ["state", `${agent.state}, for ${figure(agent.since)} s`],
+            ["machine", agent.machine],
+            ["group", agent.group ?? "–"],
+            ["place", `${figure(agent.x)}, ${figure(agent.y)} m`],
+            ["speed", `${figure(speed)} m/s`],
+            ["radius, mass", `${figure(agent.radius)} m, ${figure(agent.mass)} kg`],
+            ["compression", `${figure(message.compression)} N/m`],
+        ]));
+        this.failed.hidden = !message.failed;
+        fill(this.last, message.last ? [
+            el("p", {}, el("strong", {}, message.last.from ? `${message.last.from} → ${message.last.to}` : `began as ${message.last.to}`),
+                ` at ${clock(message.last.time)}`),
+            message.last.why ? el("code", { className: "code" }, message.last.why) : null,
+        ] : el("p", { className: "faint" }, "None since it is looked at."));
+        drawVelocities(this.picture, message);
+        this.unseen.hidden = message.max_speed > 0 || (message.planes ?? []).length > 0;
+        fill(this.planes, Object.entries(KINDS).map(([kind, name]) => {
+            const n = (message.planes ?? []).filter((p) => p.kind === kind).length;
+            return n ? el("li", {}, swatch(PLANE_COLOURS[kind]), `${name}: ${n}`) : null;
+        }));
+        fill(this.forces, (message.forces ?? []).map((f) => el("li", {}, swatch(FORCE_COLOURS[f.kind] ?? "#999999"),
+            `${f.kind} ${figure(Math.hypot(f.fx, f.fy))} N`)));
+        this.noForce.hidden = (message.forces ?? []).length > 0;
+        fill(this.parameters, (message.parameters ?? []).map((p) => [
+            el("dt", {}, p.name), el("dd", {}, `${figure(p.value)} `, el("span", { className: "faint" }, p.set ?? ""))]));
+        const memory = Object.entries(message.memory ?? {});
+        this.memoryPart.hidden = memory.length === 0;
+        fill(this.memory, memory.map(([name, value]) => [el("dt", {}, name), el("dd", {}, typeof value === "number" ? figure(value) : String(value))]));
+    }
+
+    /** What a recording tells of a person: {slot, state, group, x, y, speed, radius}. */
+    takeSeen(seen) {
+        this.id = `slot ${seen.slot}`;
+        fill(this.node, el("div", { className: "row" }, el("h2", {}, "Person"), el("button", { type: "button", onclick: () => this.page.letGo() }, "Let go")),
+            pairs([["state", seen.state ?? "–"], ["group", seen.group ?? "–"], ["place", `${figure(seen.x)}, ${figure(seen.y)} m`],
+                ["speed", `${figure(seen.speed)} m/s`], ["radius", `${figure(seen.radius)} m`]]));
+    }
+
+    build(agent) {
+        this.id = agent.id;
+        this.state = el("div");
+        this.failed = el("p", { hidden: true, className: "warning" },
+            "No velocity satisfies all half-planes: the one that breaks them least was taken.");
+        this.last = el("div");
+        this.picture = svg("svg", { class: "velocity", role: "img", "aria-label": "Velocities: forbidden half-planes, the preferred and the chosen one" });
+        this.unseen = el("p", { className: "faint" }, "Seen from the next step on.");
+        this.planes = el("ul", { className: "key" });
+        this.forces = el("ul", { className: "key" });
+        this.noForce = el("p", { className: "faint" }, "No force acts.");
+        this.parameters = el("dl", { className: "pairs" });
+        this.memory = el("dl", { className: "pairs" });
+        this.memoryPart = el("div", {}, el("h2", {}, "Memory"), this.memory);
+        fill(this.node,
+            el("div", { className: "row" }, el("h2", {}, `Agent ${agent.id}`), el("button", { type: "button", onclick: () => this.page.letGo() }, "Let go")),
+            this.state, this.failed,
+            el("h2", {}, "Last transition"), this.last,
+            el("h2", {}, "Velocities, m/s"), this.picture, this.unseen,
+            el("p", { className: "faint" }, "Shaded: forbidden. Dashed: preferred, and the greatest speed. Solid: chosen."), this.planes,
+            el("h2", {}, "Forces"), this.forces, this.noForce, el("h2", {}, "Parameters"), this.parameters, this.memoryPart);
+    }
+}
+
+/** The line of a screen reader when a person is chosen. */
+export function announce(node, agent) {
+    say(node, agent ? `Agent ${agent.id}, ${agent.state}` : "");
+}

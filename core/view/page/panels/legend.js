@@ -1,0 +1,93 @@
+// The legend: what the colours of people and of the floor mean, with units.
+import { byId, el, figure, fill, say } from "../dom.js";
+import { COLOURS, classColour, css, FIELDS, unitText, valueColour } from "../draw/palette.js";
+
+function ramp(heat) {
+    const canvas = el("canvas", { width: 128, height: 1, "aria-hidden": "true" });
+    const pen = canvas.getContext("2d");
+    for (let i = 0; i < 128; i++) {
+        pen.fillStyle = css(valueColour(i / 127, heat));
+        pen.fillRect(i, 0, 1, 1);
+    }
+    return canvas;
+}
+
+export class Legend {
+    constructor() {
+        this.node = byId("legend");
+        this.by = "state";
+        this.of = "none";
+        this.most = 0;
+        this.fieldMost = 0;
+        this.scene = null;
+    }
+
+    set(scene) {
+        this.scene = scene;
+        this.build();
+    }
+
+    colourBy(by) {
+        this.by = by;
+        this.build();
+    }
+
+    fieldOf(of) {
+        this.of = of;
+        this.build();
+    }
+
+    build() {
+        this.counts = null;
+        const people = COLOURS[this.by].classes ? this.classes() : this.values();
+        fill(this.node, people, this.of === "none" ? null : this.floor());
+        this.numbers();
+    }
+
+    classes() {
+        const several = (this.scene?.machines?.length ?? 0) > 1;
+        const names = this.by === "group" ? this.scene?.groups ?? []
+            : COLOURS[this.by].names ?? (this.scene?.states ?? []).map((s) => (several ? `${this.scene.machines[s.machine]?.name} ${s.name}` : s.name));
+        this.counts = names.map(() => el("span", { className: "faint" }));
+        return el("ul", { "aria-label": `People by ${this.by}` }, names.map((name, i) => {
+            const swatch = el("span", { className: "swatch" });
+            swatch.style.background = css(classColour(COLOURS[this.by].at?.[i] ?? i));
+            return el("li", {}, swatch, name, " ", this.counts[i]);
+        }));
+    }
+
+    values() {
+        const colour = COLOURS[this.by], unit = unitText(this.scene?.colours?.[this.by]?.unit ?? colour.unit);
+        this.high = el("span");
+        return el("span", { className: "ramp" }, `People: ${colour.name}`, el("span", {}, "0"), ramp(false), this.high, unit);
+    }
+
+    floor() {
+        this.fieldHigh = el("span");
+        return el("span", { className: "ramp" }, `Floor: ${FIELDS[this.of].name}`, el("span", {}, "0"), ramp(true), this.fieldHigh, FIELDS[this.of].unit);
+    }
+
+    numbers() {
+        if (this.high) say(this.high, figure(this.most));
+        if (this.fieldHigh) say(this.fieldHigh, figure(this.fieldMost));
+    }
+
+    /** Takes what 255 stands for: of people, or of the floor where `field`. */
+    setMost(value, field = false) {
+        if (field) this.fieldMost = value;
+        else this.most = value;
+        this.numbers();
+    }
+
+    take(status) {
+        if (this.by !== "state" || !this.counts) return;
+        // Counts are by machine; the legend has the global list of states.
+        const at = {};
+        (this.scene.states ?? []).forEach((state, i) => {
+            const k = at[state.machine] ?? 0;
+            at[state.machine] = k + 1;
+            const n = status.states?.[state.machine]?.[k];
+            if (this.counts[i]) say(this.counts[i], n === undefined ? "" : figure(n));
+        });
+    }
+}

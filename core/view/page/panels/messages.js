@@ -1,0 +1,51 @@
+// What the server says: short words that go away, errors of a reload that stay until they are mended.
+import { byId, el, fill } from "../dom.js";
+
+const SHOWN = { info: 4000, warning: 7000, error: 10000 }; // ms
+
+export class Messages {
+    constructor() {
+        this.node = byId("messages");
+        this.errors = byId("errors");
+        this.standing = new Map();
+    }
+
+    /** A line for a few seconds. The same line again only lasts longer. */
+    say(text, level = "info") {
+        let line = [...this.node.children].find((p) => p.textContent === text);
+        if (!line) {
+            line = el("p", { className: level }, text);
+            this.node.append(line);
+            while (this.node.children.length > 5) this.node.firstChild.remove();
+        }
+        clearTimeout(line.timer);
+        line.timer = setTimeout(() => line.remove(), SHOWN[level] ?? 5000);
+    }
+
+    /** A line that stays until it is taken back with an empty text. */
+    stand(key, text) {
+        this.standing.get(key)?.remove();
+        this.standing.delete(key);
+        if (!text) return;
+        const line = el("p", { className: "warning" }, text);
+        this.standing.set(key, line);
+        this.node.prepend(line);
+    }
+
+    /** Errors of files that were saved; none hides them. */
+    showErrors(errors) {
+        this.errors.hidden = errors.length === 0;
+        if (errors.length === 0) return fill(this.errors);
+        const plural = errors.length === 1 ? "An error" : `${errors.length} errors`;
+        return fill(this.errors, el("h2", {}, `${plural} in what was saved. The version before keeps running.`),
+            el("ol", {}, errors.map(errorItem)));
+    }
+}
+
+function errorItem({ file, line, column, text, source, hint }) {
+    const place = [file, line || null, line ? column || null : null].filter((part) => part !== null && part !== undefined).join(":");
+    const number = String(line ?? "");
+    const mark = source && column ? `\n${" ".repeat(number.length + 3)}${source.slice(0, column - 1).replace(/[^\t]/g, " ")}^` : "";
+    return el("li", {}, el("strong", {}, place), ` ${text ?? ""} ${hint ?? ""}`,
+        source ? el("code", { className: "code" }, `${number} | ${source}${mark}`) : null);
+}

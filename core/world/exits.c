@@ -1,0 +1,137 @@
+#include "world/exits.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "geom/polygon.h"
+#include "world/world.h"
+
+struct JoxExit *jox_exits_get(JoxExits *exits, const char *name) {
+    for (uint32_t e = 0; e < exits->count; e++)
+        if (strcmp(exits->items[e].name, name) == 0)
+            return &exits->items[e];
+    JOX_RESERVE(exits->items, exits->capacity, exits->count + 1);
+    struct JoxExit *exit = &exits->items[exits->count++];
+    *exit = (struct JoxExit){.name = jox_strdup(name), .last = NAN};
+    return exit;
+}
+
+void jox_exits_free(JoxExits *exits) {
+    for (uint32_t e = 0; e < exits->count; e++)
+        jox_free(exits->items[e].name);
+    jox_free(exits->items);
+    *exits = (JoxExits){0};
+}
+
+static double now(const JoWorld *world) {
+    return (double)world->state.tick * world->model.def.dt;
+}
+
+void jox_world_set_sinks(JoWorld *world, const JoxAgentSink *sinks, uint32_t count) {
+    world->model.sinks = sinks;
+    world->model.sink_count = count;
+    for (uint32_t s = 0; s < count; s++) {
+        const JoxPlace *of = &world->model.places[sinks[s].place];
+        for (uint32_t m = 0; m < (of->kind == JOX_PLACE_SET ? of->member_count : 1); m++)
+            jox_exits_get(&world->state.exits, of->kind == JOX_PLACE_SET
+                                                   ? world->model.places[of->members[m]].name
+                                                   : of->name);
+    }
+}
+
+static void count_at(JoWorld *world, const JoxPlace *place) {
+    struct JoxExit *exit = jox_exits_get(&world->state.exits, place->name);
+    exit->people++;
+    exit->last = now(world);
+}
+
+/* Counts somebody who left at a point of a place: a set's member is the exit, not the set. */
+static void count_exit(JoWorld *world, uint32_t place, JoxV2 at) {
+    const JoxPlace *places = world->model.places, *of = &places[place];
+    for (uint32_t m = 0; of->kind == JOX_PLACE_SET && m < of->member_count; m++)
+        if (jox_place_contains(places, (uint32_t)of->members[m], at)) {
+            of = &places[of->members[m]];
+            break;
+        }
+    count_at(world, of);
+}
+
+/* Roughly, m2; what cannot be an exit: infinite. */
+static double size_of(const JoxPlace *place) {
+    switch (place->kind) {
+    case JOX_PLACE_POINT:
+        return 3.14159 * (double)place->radius * place->radius;
+    case JOX_PLACE_LINE:
+        return jox_length(jox_sub(place->points[1], place->points[0]));
+    case JOX_PLACE_POLYGON:
+        return fabs(jox_polygon_area(place->points, place->count));
+    default:
+        return INFINITY;
+    }
+}
+
+/* Who left where a behaviour said so left by the smallest place that they stood in. */
+static void count_leavers(JoWorld *world) {
+    for (uint32_t g = 0; g < world->scratch.gone_count; g++) {
+        const JoxPlace *of = NULL;
+        for (uint32_t p = 0; p < world->model.scene_places; p++) {
+            const JoxPlace *place = &world->model.places[p];
+            if (isfinite(size_of(place)) &&
+                jox_place_contains(world->model.places, p, world->scratch.gone[g]) &&
+                (!of || size_of(place) < size_of(of)))
+                of = place;
+        }
+        if (of)
+            count_at(world, of);
+    }
+    if (world->state.statistics.removed > world->state.exits.left) {
+        world->state.exits.left = world->state.statistics.removed;
+        world->state.exits.last = now(world);
+    }
+}
+
+static void empty_sinks(JoWorld *world) {
+    JoxAgents *a = &world->state.agents;
+    bool any = false;
+    for (uint32_t s = 0; s < world->model.sink_count && world->state.tick % 4 == 0; s++) {
+        const JoxAgentSink *sink = &world->model.sinks[s];
+        for (uint32_t i = 0; i < a->count; i++) {
+            if (a->removed[i] || (sink->group >= 0 && a->group[i] != sink->group))
+                continue;
+            if (!jox_place_contains(world->model.places, sink->place, (JoxV2){a->x[i], a->y[i]}))
+                continue;
+            count_exit(world, sink->place, (JoxV2){a->x[i], a->y[i]});
+            a->removed[i] = 1;
+            any = true;
+        }
+    }
+    if (any)
+        world->state.statistics.removed += jox_agents_compact(a);
+}
+
+void jox_world_exits(JoWorld *world) {
+    empty_sinks(world);
+    count_leavers(world);
+}
+
+void jox_exits_sections(JoxExits *exits, JoxSections *s) {
+    jox_sections_module(s, "exits");
+    jox_sections_unhashed(s, true);
+    JOX_SECTION(s, "left", exits->left);
+    JOX_SECTION(s, "last", exits->last);
+    const size_t count = jox_section_count(s, "count", exits->count, 1);
+    if (s->mode == JOX_SECTIONS_RESTORE && !s->failed) {
+        while (exits->count > count)
+            jox_free(exits->items[--exits->count].name);
+        JOX_RESERVE_ZEROED(exits->items, exits->capacity, count);
+        while (exits->count < count)
+            exits->items[exits->count++] = (struct JoxExit){0};
+    }
+    for (uint32_t e = 0; e < exits->count; e++) {
+        jox_section_string(s, "name", &exits->items[e].name);
+        JOX_SECTION(s, "people", exits->items[e].people);
+        JOX_SECTION(s, "last_here", exits->items[e].last);
+    }
+    jox_sections_unhashed(s, false);
+}

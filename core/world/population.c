@@ -1,0 +1,266 @@
+#include "world/population.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/elementary.h"
+#include "base/mem.h"
+#include "geom/polygon.h"
+#include "world/world.h"
+
+enum { AT_ONCE = 256 }; /* agents that one source makes in a step at most */
+
+uint32_t jox_world_machine(const JoWorld *world, const char *path) {
+    const JoxMachineSet *set = &world->model.machines;
+    for (uint32_t m = 0; m < set->count; m++)
+        if (strcmp(set->items[m]->path, path) == 0)
+            return m;
+    return 0;
+}
+
+/* ---- one agent ---- */
+
+/* Which behaviour of a mix an agent gets. */
+static uint32_t pick_machine(const JoWorld *world, const JoxGroup *group, uint32_t id) {
+    double u = jox_random_unit(world->model.def.seed, id, 0, JOX_DRAW_MIX, 0);
+    for (uint32_t m = 0; m + 1 < group->mix_count; m++) {
+        if (u < group->mix[m].weight)
+            return jox_world_machine(world, group->mix[m].behaviour);
+        u -= group->mix[m].weight;
+    }
+    return jox_world_machine(world, group->mix[group->mix_count - 1].behaviour);
+}
+
+static int32_t add_point(JoWorld *world, JoxV2 at) {
+    JOX_ASSERT(world->model.place_count < world->model.place_capacity);
+    JoxPlace *place = &world->model.places[world->model.place_count];
+    *place = (JoxPlace){.name = jox_strdup("antipode"),
+                        .kind = JOX_PLACE_POINT,
+                        .points = jox_alloc(1, sizeof *place->points),
+                        .count = 1,
+                        .radius = 0.5f,
+                        .start = -1};
+    place->points[0] = at;
+    jox_place_finish(place);
+    return (int32_t)world->model.place_count++;
+}
+
+/* A place of its own for an agent that is bound for the opposite side of its circle. */
+static int32_t add_antipode(JoWorld *world, const JoxGroup *group, JoxV2 from) {
+    return add_point(world, (JoxV2){2 * group->centre.x - from.x, 2 * group->centre.y - from.y});
+}
+
+/* Values that a group sets, in the order of a machine's slots. */
+typedef struct Overrides {
+    const JoxDist *own[256], *memory[256];
+    JoxDist place; /* of an antipode */
+    JoxDist places[16];
+} Overrides;
+
+static void remember(const JoxGroupValue *memory, uint32_t count, const JoxMachine *machine,
+                     Overrides *o) {
+    for (uint32_t s = 0; s < count; s++)
+        for (uint32_t k = 0; k < machine->memory_count && k < 256; k++)
+            if (strcmp(machine->memory[k].name, memory[s].name) == 0)
+                o->memory[k] = &memory[s].dist;
+}
+
+static void override(JoWorld *world, const JoxGroup *group, const JoxGroupValue *memory,
+                     uint32_t memory_count, const JoxMachine *machine, JoxV2 at, Overrides *o) {
+    uint32_t places = 0;
+    memset(o->own, 0, sizeof o->own);
+    memset(o->memory, 0, sizeof o->memory);
+    for (uint32_t s = 0; s < group->set_count; s++)
+        for (uint32_t k = 0; k < machine->own_count && k < 256; k++) {
+            const JoxGroupValue *set = &group->set[s];
+            if (strcmp(machine->own[k].name, set->name) != 0)
+                continue;
+            o->own[k] = &set->dist;
+            if (set->kind != JOX_SET_NUMBER && places < 16) {
+                int32_t place =
+                    set->kind == JOX_SET_PLACE ? set->place : add_antipode(world, group, at);
+                o->places[places] = jox_dist_constant(place);
+                o->own[k] = &o->places[places++];
+            }
+        }
+    remember(group->memory, group->memory_count, machine, o);
+    remember(memory, memory_count, machine, o); /* a source's, where it gives some */
+}
+
+static uint16_t team_number(const JoWorld *world, const char *team) {
+    if (!team)
+        return 0;
+    for (uint32_t g = 0; g < world->model.group_count; g++)
+        if (world->model.groups[g].team && strcmp(world->model.groups[g].team, team) == 0)
+            return (uint16_t)(g + 1); /* the first group of the team gives its number */
+    return 0;
+}
+
+/* The team of a group's next agent: the group's, or its party's own. */
+static uint32_t next_team(JoWorld *world, uint32_t number) {
+    JoxPopulation *population = &world->state.population;
+    const JoxWorldModel *model = &world->model;
+    const JoxGroup *group = &model->groups[number];
+    if (group->party < 2)
+        return team_number(world, group->team);
+    if (population->party_left[number] == 0) {
+        uint32_t first = model->group_count + 1; /* teams of groups come before */
+        population->party_team[number] = (first + population->next_party++ % (65535 - first));
+        population->party_left[number] = group->party;
+    }
+    population->party_left[number]--;
+    return population->party_team[number];
+}
+
+static void spawn(JoWorld *world, uint32_t number, JoxV2 at, const JoxGroupValue *memory,
+                  uint32_t memory_count) {
+    const JoxGroup *group = &world->model.groups[number];
+    uint32_t i = jox_world_add_agent(world, at.x, at.y);
+    JoxAgents *a = &world->state.agents;
+    a->group[i] = (uint16_t)number;
+    a->team[i] = (uint16_t)next_team(world, number);
+    for (uint32_t t = 0; t < group->tag_count; t++)
+        a->tags[i] |= (uint64_t)1 << jox_world_tag(world, group->tags[t]);
+    if (isfinite(group->facing)) {
+        a->face_x[i] = (float)jox_cos(group->facing);
+        a->face_y[i] = (float)jox_sin(group->facing);
+    }
+    uint32_t index = pick_machine(world, group, a->id[i]);
+    Overrides *o = &(Overrides){0};
+    override(world, group, memory, memory_count, world->model.machines.items[index], at, o);
+    world->machines.tick = (uint32_t)world->state.tick;
+    world->machines.places = world->model.places;
+    world->machines.place_count = world->model.place_count;
+    jox_machines_spawn(&world->machines, i, index, o->own, o->memory);
+}
+
+/* ---- sources ---- */
+
+/* A point of a place, drawn for a source. */
+static JoxV2 draw_point(const JoWorld *world, uint32_t source, uint32_t n) {
+    const JoxPlace *place = &world->model.places[world->model.sources[source].place];
+    JoxV2 low = place->centre, high = place->centre;
+    if (place->kind != JOX_PLACE_POINT)
+        jox_bounds(place->points, place->count, &low, &high);
+    for (uint32_t attempt = 0; attempt < 64; attempt++) {
+        uint32_t sub = (n * 64 + attempt) * 2;
+        double u =
+            jox_random_unit(world->model.def.seed, source, world->state.tick, JOX_DRAW_SOURCE, sub);
+        double v = jox_random_unit(world->model.def.seed, source, world->state.tick,
+                                   JOX_DRAW_SOURCE, sub + 1);
+        if (place->kind == JOX_PLACE_LINE || place->kind == JOX_PLACE_QUEUE)
+            return jox_add(place->points[0],
+                           jox_scale(jox_sub(place->points[1], place->points[0]), (float)u));
+        JoxV2 p = {low.x + (high.x - low.x) * (float)u, low.y + (high.y - low.y) * (float)v};
+        if (place->kind == JOX_PLACE_POINT) {
+            double angle = 6.283185307179586 * u, r = place->radius * sqrt(v);
+            return (JoxV2){place->centre.x + (float)(r * jox_cos(angle)),
+                           place->centre.y + (float)(r * jox_sin(angle))};
+        }
+        if (jox_polygon_contains(place->points, place->count, p))
+            return p;
+    }
+    return place->centre;
+}
+
+/* How many agents a source is due to make now. A kept number is topped up once a second. */
+static uint32_t due_now(JoWorld *world, uint32_t s) {
+    const JoxAgentSource *source = &world->model.sources[s];
+    double time = (double)world->state.tick * world->model.def.dt;
+    if (time < source->from || time >= source->until)
+        return 0;
+    double due = floor(source->rate * (time - source->from)) - world->state.population.made[s];
+    uint64_t second = (uint64_t)(1.0 / world->model.def.dt + 0.5);
+    if (source->keep > 0 && world->state.tick % second == 0) {
+        uint32_t present = 0;
+        for (uint32_t i = 0; i < world->state.agents.count; i++)
+            present += world->state.agents.group[i] == source->like;
+        due += present < source->keep ? source->keep - present : 0;
+    }
+    return due <= 0.0 ? 0 : due > AT_ONCE ? AT_ONCE : (uint32_t)due;
+}
+
+void jox_world_sources(JoWorld *world) {
+    for (uint32_t s = 0; s < world->model.source_count; s++) {
+        const JoxAgentSource *source = &world->model.sources[s];
+        const JoxGroup *group = &world->model.groups[source->like];
+        uint32_t count = due_now(world, s);
+        for (uint32_t n = 0; n < count; n++)
+            spawn(world, source->like, draw_point(world, s, n),
+                  source->memory_count ? source->memory : group->memory,
+                  source->memory_count ? source->memory_count : group->memory_count);
+        if (source->rate > 0)
+            world->state.population.made[s] += count;
+    }
+}
+
+/* ---- model and state ---- */
+
+void jox_world_set_population(JoWorld *world, const JoxGroup *groups, uint32_t group_count,
+                              const JoxAgentSource *sources, uint32_t source_count, bool anew) {
+    JoxWorldModel *model = &world->model;
+    JoxPopulation *p = &world->state.population;
+    const double time = (double)world->state.tick * world->model.def.dt;
+    JOX_ASSERT(!model->groups || group_count == model->group_count);
+    JOX_ASSERT(anew || !model->sources || source_count == model->source_count);
+    if (!p->party_left) {
+        p->party_left = jox_alloc((size_t)group_count + 1, sizeof *p->party_left);
+        p->party_team = jox_alloc((size_t)group_count + 1, sizeof *p->party_team);
+    }
+    if (anew) {
+        jox_free(p->made);
+        p->made = jox_alloc((size_t)source_count + 1, sizeof *p->made);
+    }
+    for (uint32_t s = 0; anew && s < source_count; s++)
+        if (time > sources[s].from)
+            p->made[s] = floor(sources[s].rate * (time - sources[s].from));
+    model->groups = groups;
+    model->group_count = group_count;
+    model->sources = sources;
+    model->source_count = source_count;
+}
+
+void jox_world_populate(JoWorld *world) {
+    const JoxWorldModel *p = &world->model;
+    uint32_t total = 0;
+    for (uint32_t g = 0; g < p->group_count; g++)
+        total += p->groups[g].count;
+    jox_agents_reserve(&world->state.agents, total);
+    for (uint32_t g = 0; g < p->group_count; g++)
+        for (uint32_t i = 0; i < p->groups[g].count; i++)
+            spawn(world, g, p->groups[g].positions[i], p->groups[g].memory,
+                  p->groups[g].memory_count);
+}
+
+/* Places of single agents follow from where they are. */
+static void list_points(JoWorld *world, JoxSections *s) {
+    const uint32_t first = world->model.scene_places;
+    const size_t count =
+        jox_section_count(s, "points", world->model.place_count - first, sizeof(JoxV2));
+    if (count > world->model.place_capacity - first)
+        jox_sections_fail(s, "points", "there are more places of single agents than agents");
+    if (s->failed)
+        return;
+    JoxV2 *points = jox_alloc(count + 1, sizeof *points);
+    for (uint32_t p = 0; p < count && first + p < world->model.place_count; p++)
+        points[p] = world->model.places[first + p].points[0];
+    jox_section(s, "points", points, sizeof *points, count);
+    if (s->mode == JOX_SECTIONS_RESTORE && !s->failed) {
+        while (world->model.place_count > first)
+            jox_place_free(&world->model.places[--world->model.place_count]);
+        for (uint32_t p = 0; p < count; p++)
+            add_point(world, points[p]);
+    }
+    jox_free(points);
+}
+
+void jox_population_sections(JoWorld *world, JoxSections *s) {
+    JoxPopulation *p = &world->state.population;
+    jox_sections_module(s, "population");
+    jox_section(s, "made", p->made, sizeof *p->made, world->model.source_count);
+    jox_section(s, "party_left", p->party_left, sizeof *p->party_left, world->model.group_count);
+    jox_section(s, "party_team", p->party_team, sizeof *p->party_team, world->model.group_count);
+    JOX_SECTION(s, "next_party", p->next_party);
+    list_points(world, s);
+}

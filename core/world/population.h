@@ -1,0 +1,83 @@
+/* Who is in a world and who enters it: groups of agents made alike, and sources that make more of
+   them as time goes on. The descriptions are part of the model: plain data that whoever loads a
+   scene fills and owns. */
+#ifndef JOX_WORLD_POPULATION_H
+#define JOX_WORLD_POPULATION_H
+
+#include "base/diag.h"
+#include "base/random.h"
+#include "base/sections.h"
+#include "geom/fill.h"
+
+typedef struct JoWorld JoWorld;
+
+/* A parameter or own name that a group sets: a distribution of numbers, a place, or a rule. */
+typedef struct JoxGroupValue {
+    char *name;
+    enum { JOX_SET_NUMBER, JOX_SET_PLACE, JOX_SET_ANTIPODE } kind;
+    JoxDist dist;
+    int32_t place; /* index of places; JOX_SET_PLACE only */
+    JoxPosition position;
+} JoxGroupValue;
+
+typedef struct JoxGroupMix {
+    char *behaviour; /* the path as found on disk */
+    double weight;   /* share; the weights of a group sum to 1 */
+    JoxPosition position;
+} JoxGroupMix;
+
+/* Agents made alike. */
+typedef struct JoxGroup {
+    char *name;
+    JoxPosition position;
+    JoxGroupMix *mix;
+    uint32_t mix_count;
+    JoxFillMode fill;
+    JoxV2 *positions; /* where they stand at the start, m */
+    uint32_t count;
+    float facing;   /* rad, anti-clockwise from +x; NAN: not given */
+    JoxV2 centre;   /* of a circle fill, and the mirror of `antipode` */
+    char *team;     /* or NULL */
+    uint32_t party; /* agents in a row that are a team of their own; 1: none */
+    char **tags;
+    uint32_t tag_count;
+    JoxGroupValue *set;
+    uint32_t set_count;
+    JoxGroupValue *memory; /* initial memory; numbers only */
+    uint32_t memory_count;
+} JoxGroup;
+
+typedef struct JoxAgentSource {
+    uint32_t place;
+    double rate;           /* agents a second; 0: none by rate */
+    uint32_t keep;         /* tops the group up to so many; 0: no */
+    uint32_t like;         /* index of the group that they belong to */
+    JoxGroupValue *memory; /* in place of the group's, where given */
+    uint32_t memory_count;
+    double from, until; /* s; until INFINITY unless given */
+    JoxPosition position;
+} JoxAgentSource;
+
+/* State. Zero-initialised is nobody. */
+typedef struct JoxPopulation {
+    double *made;         /* per source: agents so far by rate */
+    uint32_t *party_left; /* per group: places left in the party that fills up, */
+    uint32_t *party_team; /* and its team */
+    uint32_t next_party;
+} JoxPopulation;
+
+/* Groups and sources of a world, in place of those before; they stay the caller's, and have to stay
+   until they are replaced. The groups must be as many as before, if there were some. Sources go on
+   with the counts that they have, or, `anew`, as if they had given so far what they are due. */
+void jox_world_set_population(JoWorld *world, const JoxGroup *groups, uint32_t group_count,
+                              const JoxAgentSource *sources, uint32_t source_count, bool anew);
+/* Makes the agents of all groups that stand there at the start. */
+void jox_world_populate(JoWorld *world);
+/* Before a step: makes the agents that sources are due. */
+void jox_world_sources(JoWorld *world);
+/* Index of the machine that was loaded from a path; 0 where there is none. */
+uint32_t jox_world_machine(const JoWorld *world, const char *path);
+/* Lists counts, parties and the places of single agents as state. */
+void jox_population_sections(JoWorld *world, JoxSections *sections);
+
+#endif

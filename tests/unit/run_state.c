@@ -1,0 +1,262 @@
+/* The state of a world: what is restored goes on to the bit, each cell of it is hashed, and what is
+   no part of it may be forgotten at every step. */
+#include <math.h>
+
+#include "unit/run_acted.h"
+
+enum { BEFORE = 130, AFTER = 120 };
+
+/* People who queue, find their way round walls, call, remember, draw durations and push; a gate
+   between them and the goal. */
+#define TOWN                                                                                       \
+    "jostle: 1\n"                                                                                  \
+    "places:\n"                                                                                    \
+    "  goal: {point: [14, 3], radius: 0.6}\n"                                                      \
+    "  desk: {queue: [[3, 9], [0.5, 9]], spacing: 0.6}\n"                                          \
+    "  east: {point: [13, 9]}\n"                                                                   \
+    "  west: {point: [1, 1]}\n"                                                                    \
+    "  ends: {set: [east, west]}\n"                                                                \
+    "  square: {polygon: [[1, 1], [5, 1], [5, 8], [1, 8]]}\n"                                      \
+    "walls:\n"                                                                                     \
+    "  - {line: [[0, 0], [16, 0], [16, 11], [0, 11]], closed: true}\n"                             \
+    "  - {line: [[6, 0], [6, 2]]}\n"                                                               \
+    "  - {line: [[6, 4], [6, 8]]}\n"                                                               \
+    "  - {line: [[6, 10], [6, 11]]}\n"                                                             \
+    "  - {line: [[6, 2], [6, 4]], name: gate}\n"                                                   \
+    "groups: {people: {behaviour: own.lua, count: 60, fill: random, in: square}}\n"
+#define TOWNSFOLK(wait)                                                                            \
+    "local mine = memory { turns = 0, waited = false }\n" HEAD "\"Come\",\n"                       \
+    "  defaults = { speed = normal(1.3, 0.2), push = uniform(0, 60), perception = 3 },\n"          \
+    "  states = {\n"                                                                               \
+    "  Come = { steer = field \"goal\", lasts = normal(2, 0.6),\n"                                 \
+    "    on_enter = function(me) me.turns = me.turns + 1 end,\n"                                   \
+    "    { to = \"Queue\", when = lasted, chance = 0.7 },\n"                                       \
+    "    { to = \"Roam\", when = pushed:above(60) } },\n"                                          \
+    "  Queue = { steer = queue \"desk\", signal = { \"room\", every = 0.3 }, speed = 1,\n"         \
+    "    { to = \"Roam\", when = first_in \"desk\" & after(" wait ") },\n"                         \
+    "    { to = \"Roam\", when = stuck(0.4) } },\n"                                                \
+    "  Roam = { steer = seek(one_of \"ends\") + 0.3 * evade, lasts = uniform(1, 3),\n"             \
+    "    perception = 12, max_speed = clamp(headway, 0.4, 2),\n"                                   \
+    "    { to = \"Come\", when = heard \"crowd\" },\n"                                             \
+    "    { to = \"Come\", when = heard \"room\", chance = 0.3 },\n"                                \
+    "    { to = \"Come\", when = lasted, set = { waited = true } } } } }\n"
+
+static JoScene *town(void) {
+    return load_own(TOWN, TOWNSFOLK("1"));
+}
+
+static void snapshot(JoScene *scene, JoxText *out) {
+    JoError error = {0};
+    out->length = 0;
+    if (!jox_world_snapshot(scene->world, out, &error))
+        fail_msg("%s", error.text);
+}
+
+static void restore(JoScene *scene, const JoxText *from) {
+    JoError error = {0};
+    if (!jox_world_restore(scene->world, from->data, from->length, &error))
+        fail_msg("%s", error.text);
+}
+
+/* To a moment in which something of each kind is under way: signals called and announced, an entry
+   hook that has yet to run, a parameter that was set, a route that is being made. */
+static void begin_all(JoScene *scene, int steps, bool announces) {
+    JoWorld *world = scene->world;
+    const JoxMachineState *machines = &world->state.machines;
+    step(scene, steps);
+    does(scene, "set m Queue speed 0.5");
+    does(scene, "open gate");
+    step(scene, 2);
+    for (int n = 0; n < 40 && machines->called_count == 0; n++)
+        step(scene, 1);
+    if (announces) /* everybody heeds it, and not what the others call */
+        does(scene, "signal crowd");
+    jox_machines_spawn(&world->machines, jox_world_add_agent(world, 2.0f, 2.0f), 0, NULL, NULL);
+    jox_world_resolve_placement(world);
+    assert_true(machines->called_count > 0 && machines->announced_count == announces);
+    assert_true(machines->pending_count > 0 && machines->edit_count > 0);
+}
+
+/* What people do in the steps behind the snapshot; the same each time. */
+static void meddle(JoScene *scene, int step_number) {
+    switch (step_number) {
+    case 10:
+        does(scene, "open gate");
+        break;
+    case 20:
+        does(scene, "set m defaults speed 0.7");
+        break;
+    case 30:
+        does(scene, "signal room");
+        break;
+    case 40:
+        assert_true(reload_text(scene, 0, TOWNSFOLK("0.5")));
+        break;
+    case 70:
+        does(scene, "close gate");
+        break;
+    case 90:
+        assert_true(reload_text(scene, 0, TOWNSFOLK("1")));
+        break;
+    }
+}
+
+static void run_on(JoScene *scene, uint64_t hashes[AFTER], bool meddles) {
+    for (int n = 0; n < AFTER; n++) {
+        if (meddles)
+            meddle(scene, n);
+        step(scene, 1);
+        hashes[n] = jo_world_hash(scene->world);
+    }
+}
+
+static void expect_same(const uint64_t a[AFTER], const uint64_t b[AFTER]) {
+    for (int n = 0; n < AFTER; n++)
+        if (a[n] != b[n])
+            fail_msg("the hashes differ from step %d behind the snapshot on", n);
+}
+
+static void a_restored_world_goes_on_to_the_bit(void **state) {
+    (void)state;
+    for (int meddles = 0; meddles < 2; meddles++) {
+        JoScene *scene = town();
+        JoxText saved = {0}, again = {0};
+        uint64_t first[AFTER], second[AFTER];
+        begin_all(scene, BEFORE + meddles, meddles); /* sorted at another step */
+        snapshot(scene, &saved);
+        uint64_t then = jo_world_hash(scene->world);
+        run_on(scene, first, meddles);
+        restore(scene, &saved);
+        assert_true(jo_world_hash(scene->world) == then);
+        snapshot(scene, &again);
+        JoxSections compared = jox_sections_compare(again.data, again.length);
+        jox_world_sections(scene->world, &compared);
+        assert_true(jox_sections_end(&compared));
+        run_on(scene, second, meddles);
+        expect_same(first, second);
+        restore(scene, &saved);
+        run_on(scene, second, meddles);
+        expect_same(first, second);
+        jox_text_free(&saved);
+        jox_text_free(&again);
+        jo_scene_free(scene);
+    }
+}
+
+/* Another world of the same model, in the same process, too. */
+static void another_world_takes_the_state_over(void **state) {
+    (void)state;
+    JoScene *scene = town(), *other = town();
+    JoxText saved = {0};
+    uint64_t first[AFTER], second[AFTER];
+    begin_all(scene, BEFORE, true);
+    step(other, 37);
+    snapshot(scene, &saved);
+    run_on(scene, first, false);
+    restore(other, &saved);
+    run_on(other, second, false);
+    expect_same(first, second);
+    jox_text_free(&saved);
+    jo_scene_free(scene);
+    jo_scene_free(other);
+}
+
+typedef struct Flips {
+    JoScene *scene;
+    uint64_t hash;
+    size_t cells, flipped;
+    char last[120];
+    size_t last_flipped;
+} Flips;
+
+static void flip(void *context, const char *section, size_t index, void *cell, size_t size,
+                 bool hashed) {
+    Flips *f = context;
+    bool anew = strcmp(f->last, section) != 0;
+    f->cells++;
+    snprintf(f->last, sizeof f->last, "%s", section);
+    f->last_flipped = anew ? 0 : f->last_flipped + 1;
+    /* Of large sections the first cells and then fewer and fewer. */
+    if (!hashed || (f->last_flipped > 8 && f->last_flipped % 997 != 0))
+        return;
+    for (size_t byte = 0; byte<size; byte += size> 64 ? 61 : 1) {
+        ((unsigned char *)cell)[byte] ^= 1;
+        if (jo_world_hash(f->scene->world) == f->hash)
+            fail_msg("cell %zu, byte %zu of %s is not hashed", index, byte, section);
+        ((unsigned char *)cell)[byte] ^= 1;
+        f->flipped++;
+    }
+}
+
+static void each_cell_is_hashed(void **state) {
+    (void)state;
+    JoScene *scene = town();
+    begin_all(scene, BEFORE, true);
+    Flips f = {.scene = scene, .hash = jo_world_hash(scene->world)};
+    JoxSections s = jox_sections_visit(flip, &f);
+    jox_world_sections(scene->world, &s);
+    assert_true(jo_world_hash(scene->world) == f.hash);
+    assert_true(f.flipped > 2000);
+    jo_scene_free(scene);
+}
+
+/* Scratch that held something from step to step would show. */
+static void scratch_may_be_forgotten_at_every_step(void **state) {
+    (void)state;
+    uint64_t plain[AFTER], forgetful[AFTER];
+    JoScene *scene = town();
+    run_on(scene, plain, true);
+    jo_scene_free(scene);
+    scene = town();
+    for (int n = 0; n < AFTER; n++) {
+        jox_world_forget(scene->world);
+        meddle(scene, n);
+        step(scene, 1);
+        forgetful[n] = jo_world_hash(scene->world);
+    }
+    expect_same(plain, forgetful);
+    jo_scene_free(scene);
+}
+
+static void expect_refused(JoScene *scene, const JoxText *saved, const char *reason) {
+    JoError error = {0};
+    uint64_t before = jo_world_hash(scene->world);
+    assert_false(jox_world_restore(scene->world, saved->data, saved->length, &error));
+    if (!strstr(error.text, reason))
+        fail_msg("'%s' does not say '%s'", error.text, reason);
+    assert_true(jo_world_hash(scene->world) == before);
+    step(scene, 3);
+}
+
+static void what_does_not_fit_is_refused(void **state) {
+    (void)state;
+    JoScene *scene = town();
+    JoxText saved = {0}, damaged = {0};
+    step(scene, 20);
+    snapshot(scene, &saved);
+    jox_text_append(&damaged, saved.data, saved.length);
+    damaged.data[saved.length / 2] ^= 1;
+    expect_refused(scene, &damaged, "checksum");
+    damaged.length = 100;
+    expect_refused(scene, &damaged, "damaged");
+    jo_scene_free(scene);
+    scene = load_own(TOWN, HEAD "\"A\", states = { A = { steer = hold } } }\n");
+    expect_refused(scene, &saved, "machines.m: it is another");
+    jo_scene_free(scene);
+    scene = load_own(TOWN "seed: 9\n", TOWNSFOLK("1"));
+    expect_refused(scene, &saved, "world.seed: it is another");
+    jo_scene_free(scene);
+    jox_text_free(&saved);
+    jox_text_free(&damaged);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_restored_world_goes_on_to_the_bit),
+        cmocka_unit_test(another_world_takes_the_state_over),
+        cmocka_unit_test(each_cell_is_hashed),
+        cmocka_unit_test(scratch_may_be_forgotten_at_every_step),
+        cmocka_unit_test(what_does_not_fit_is_refused),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
