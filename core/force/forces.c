@@ -97,6 +97,7 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
         memset(a->contacts, 0, n);
     }
     f->grid.columns = 0;
+    JOX_ASSERT(step->neighbours->agents >= n || n == 0);
     float reach = widest_reach(f);
     if (n && step->objects && step->objects->count)
         jox_body_grid_fill(&f->grid, step->objects, reach);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "base/random.h"
 
@@ -95,6 +96,7 @@ static uint32_t lattice(const JoxArea *area, bool hex, double step, JoxV2 **out)
             if (!inside(area, p))
                 continue;
             JOX_RESERVE(*out, capacity, count + 1);
+            JOX_ASSERT(count < capacity);
             (*out)[count++] = p;
         }
     return count;
@@ -120,6 +122,7 @@ uint32_t jox_fill(const JoxArea *area, JoxFillMode mode, uint32_t count, float s
         have = lattice(area, hex, apart, positions);
     }
     JoxV2 *p = *positions;
+    JOX_ASSERT(have == 0 || p);
     if (have <= count && mode != JOX_FILL_RANDOM)
         return have;
     uint32_t kept = 0;
@@ -139,5 +142,6 @@ uint32_t jox_fill(const JoxArea *area, JoxFillMode mode, uint32_t count, float s
         }
         kept++;
     }
+    JOX_ASSERT(kept <= count && kept <= have);
     return kept;
 }

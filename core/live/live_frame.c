@@ -114,6 +114,7 @@ static void note_edges(JoxLive *live, const JoWorld *world) {
         struct JoxLiveRound *r = &live->rounds[a->slot[i]];
         const uint32_t generation = a->slot_generation[a->slot[i]];
         const JoxV2 now = {a->x[i], a->y[i]}, way = jox_sub(now, r->at);
+        JOX_ASSERT(a->slot[i] < a->slot_count && isfinite(now.x) && isfinite(now.y));
         const bool far = (a->period.x > 0.0f && fabsf(way.x) > 0.5f * a->period.x) ||
                          (a->period.y > 0.0f && fabsf(way.y) > 0.5f * a->period.y);
         if (far && r->generation == generation)

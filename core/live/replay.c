@@ -122,6 +122,7 @@ static void note_bodies(JoxReplay *r, const JoxTrajectoryReaderFrame *f) {
         if (r->row_of[id] != JOX_REPLAY_NOBODY)
             continue;
         JOX_RESERVE(r->body_id, r->body_capacity, r->row_count + 1);
+        JOX_ASSERT(r->row_count < r->body_capacity);
         r->body_id[r->row_count] = id;
         r->row_of[id] = r->row_count++;
     }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "live/inspect.h"
 #include "live/scene_page.h"
@@ -85,6 +86,7 @@ void jox_scene_page_inspect(void *self, const JoxLiveRequest *request) {
         jox_view_send(s->page.server, other, NOBODY);
         jox_live_say(&s->page, other, "info", "another page inspects somebody now");
     }
+    JOX_ASSERT(me != JOX_VIEW_ALL);
     s->inspector = me;
     s->inspected = slot < 4294967295.0 ? (uint32_t)slot : UINT32_MAX;
     jox_scene_page_send_inspected(s);

@@ -1,6 +1,7 @@
 /* The stage solve: every agent's half-planes, and the best velocity that they leave. */
 #include <assert.h>
 
+#include "base/assert.h"
 #include "base/random.h"
 #include "geom/polygon.h"
 #include "nav/internal.h"
@@ -126,6 +127,9 @@ static inline Counts make_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *
     if (made.force)
         half_planes[made.walls + made.agents + made.objects] =
             (JoxHalfPlane){{a->half_plane_x[i], a->half_plane_y[i]}, a->half_plane_offset[i]};
+    JOX_ASSERT(made.walls <= MOST_WALLS && made.agents <= JOX_MOST_NEIGHBOURS);
+    JOX_CHECK(
+        jox_half_planes_check(half_planes, made.walls + made.agents + made.objects + made.force));
     return made;
 }
 
@@ -133,6 +137,7 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                              const JoxNeighbours *neighbours, const JoxObjects *objects,
                              double plan, uint32_t agent, JoxConstraint out[JOX_MOST_CONSTRAINTS]) {
     static_assert((int)MOST == (int)JOX_MOST_CONSTRAINTS, "room for all");
+    JOX_ASSERT(agent < agents->count);
     const Solve solve = {(JoxNav *)nav, (JoxAgents *)agents, neighbours, objects, (float)plan};
     JoxHalfPlane half_planes[MOST];
     Counts made = make_half_planes(&solve, agent, half_planes);

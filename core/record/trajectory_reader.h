@@ -1,6 +1,6 @@
 /* A recording frame by frame, in any order. SQLite files are read on demand, by their index or,
-   where they have none, by the rows at which frames begin: they need not fit into memory. Text, and
-   files whose rows are in no order, are read whole (trajectories.h). */
+   where they have none, by the rows at which frames begin: they need not fit into memory. Where the
+   rows are in no order, SQLite sorts a copy of them. Text is read whole (trajectories.h). */
 #ifndef JOX_RECORD_TRAJECTORY_READER_H
 #define JOX_RECORD_TRAJECTORY_READER_H
 
