@@ -1,4 +1,5 @@
-/* Expression values become programs: a register per level of the expression. */
+/* Compiles expressions to programs of a register machine: the inputs of an operation are computed
+   into its own register and those after it. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -134,7 +135,7 @@ int32_t jox_build_program(JoxBuild *build, const JoxNode *node, JoxPosition posi
     JoxMachine *m = build->machine;
     if (node->kind == JOX_NODE_ERROR)
         return -1;
-    if (node->program > 0) /* a local that several places use */
+    if (node->program > 0) /* the value is used in several places: one program serves all */
         return node->program - 1;
     Code code = {.build = build};
     emit(&code, node, 0, 0);

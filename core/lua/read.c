@@ -82,7 +82,7 @@ static void describe(const char *path, JoxText *out) {
     }
 }
 
-int32_t jox_read_add_hook(JoxBuild *b, const char *path) { /* takes the function from the stack */
+int32_t jox_read_add_hook(JoxBuild *b, const char *path) { /* pops the function */
     JoxScript *script = b->script;
     JoxText where = {0};
     describe(path, &where);

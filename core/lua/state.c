@@ -195,7 +195,7 @@ static void read_transitions(JoxBuild *b, int index, const char *path, JoxState 
         do
             jox_read_id(L, lua_gettop(L), nth++, id);
         while (id_taken(state, t, id));
-        snprintf(item, sizeof item, "@%.60s", id); /* how patches know it */
+        snprintf(item, sizeof item, "@%.60s", id); /* patches name a transition by its id */
         if (b->script->changes.count > 0) {
             char canonical[256];
             jox_read_join(canonical, path, item);
