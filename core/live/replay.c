@@ -198,9 +198,9 @@ double jox_replay_speed(const JoxReplay *r) {
 
 uint32_t jox_replay_state(const JoxReplay *r, uint32_t i) {
     const JoxTrajectoryReaderFrame *f = &r->frame;
-    const uint32_t row = f->state ? f->state[i] : JOX_REEL_NO_STATE;
-    JOX_ASSERT(i < r->count && (row == JOX_REEL_NO_STATE || row < r->info.state_count));
-    return row == JOX_REEL_NO_STATE ? UINT32_MAX : r->names.state_of[row];
+    const uint32_t row = f->state ? f->state[i] : JOX_NO_RECORDED_STATE;
+    JOX_ASSERT(i < r->count && (row == JOX_NO_RECORDED_STATE || row < r->info.state_count));
+    return row == JOX_NO_RECORDED_STATE ? UINT32_MAX : r->names.state_of[row];
 }
 
 static const float *fill_densities(JoxReplay *r) {

@@ -61,7 +61,7 @@ static void add_person(JoxTrajectories *t, const JoxTrajectoryReader *r, uint32_
     t->face_x[row] = f->face_x[i];
     t->face_y[row] = f->face_y[i];
     if (t->state)
-        t->state[row] = f->state[i] == JOX_REEL_NO_STATE ? 0 : f->state[i] + 1;
+        t->state[row] = f->state[i] == JOX_NO_RECORDED_STATE ? 0 : f->state[i] + 1;
 }
 
 static bool read_frames(JoxTrajectories *t, JoxTrajectoryReader *r, const char *path,

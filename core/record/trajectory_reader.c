@@ -68,7 +68,7 @@ static uint32_t state_row(const JoxTrajectoryReader *r, int64_t number) {
         else
             high = middle;
     }
-    return low < r->state_count && r->states[low].number == number ? low : JOX_REEL_NO_STATE;
+    return low < r->state_count && r->states[low].number == number ? low : JOX_NO_RECORDED_STATE;
 }
 
 static void take_row(JoxTrajectoryReader *r, uint32_t n) {
@@ -83,7 +83,7 @@ static void take_row(JoxTrajectoryReader *r, uint32_t n) {
     if (!r->ours)
         return;
     const bool known = sqlite3_column_type(r->rows, 5) != SQLITE_NULL;
-    r->state[n] = known ? state_row(r, sqlite3_column_int64(r->rows, 5)) : JOX_REEL_NO_STATE;
+    r->state[n] = known ? state_row(r, sqlite3_column_int64(r->rows, 5)) : JOX_NO_RECORDED_STATE;
     r->force[n] = (float)sqlite3_column_double(r->rows, 6);
     r->compression[n] = (float)sqlite3_column_double(r->rows, 7);
     r->group[n] = (uint16_t)sqlite3_column_int64(r->rows, 8);

@@ -16,13 +16,13 @@ typedef struct JoxTrajectoryReaderFrame {
     const int64_t *id;  /* ascending; the same person's in every frame */
     const float *x, *y; /* m */
     const float *face_x, *face_y;
-    const uint32_t *state;            /* row of jox_trajectory_reader_state, or JOX_REEL_NO_STATE */
+    const uint32_t *state; /* row of jox_trajectory_reader_state, or JOX_NO_RECORDED_STATE */
     const float *force, *compression; /* N, N/m */
     const uint16_t *group;
     uint32_t body_count;
     const JoxRecordBody *bodies; /* ascending ids */
 } JoxTrajectoryReaderFrame;
-#define JOX_REEL_NO_STATE UINT32_MAX
+#define JOX_NO_RECORDED_STATE UINT32_MAX
 
 /* What a recording says of itself. */
 typedef struct JoxTrajectoryReaderInfo {

@@ -239,7 +239,7 @@ static bool open_sqlite(JoxTrajectoryReader *r, const char *path,
                        "SELECT 1 FROM pragma_index_list('trajectory_data') l, "
                        "pragma_index_info(l.name) i WHERE i.seqno = 0 AND i.name = 'frame'",
                        &found);
-    r->way = indexed ? JOX_REEL_BY_INDEX : JOX_REEL_BY_ROW;
+    r->way = indexed ? JOX_READ_BY_INDEX : JOX_READ_BY_ROW;
     if (!(indexed ? list_by_index(r) : list_by_row(r) || sort_rows(r)))
         return wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db));
     r->fps = options->fps;
@@ -266,7 +266,7 @@ static bool open_sqlite(JoxTrajectoryReader *r, const char *path,
 
 static bool open_whole(JoxTrajectoryReader *r, const char *path,
                        const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
-    r->way = JOX_REEL_WHOLE;
+    r->way = JOX_READ_WHOLE;
     r->all = jox_trajectories_read_text(path, options, diagnostics);
     if (!r->all)
         return false;
