@@ -1,5 +1,6 @@
 #include "base/guard.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 
 static _Thread_local JoxGuard *innermost;
@@ -59,4 +60,14 @@ JoxOutside jox_guard_leave(void) {
 void jox_guard_return(JoxOutside outside) {
     innermost = outside.guard;
     jox_heap_use(outside.heap);
+}
+
+void jox_error(JoError *error, JoCode code, const char *format, ...) {
+    if (!error)
+        return;
+    *error = (JoError){.code = code};
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error->text, sizeof error->text, format, arguments);
+    va_end(arguments);
 }

@@ -53,6 +53,9 @@ typedef struct JoxOutside {
 JoxOutside jox_guard_leave(void);
 void jox_guard_return(JoxOutside outside);
 
+/* Fills an error, which may be NULL, with a formatted text. */
+void jox_error(JoError *error, JoCode code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 /* Fills `error`, unless NULL, with JO_FAILED and "out of memory". */
 void jox_memory_error(JoError *error);
 

@@ -74,7 +74,6 @@ static double advance(void *self, double now) {
         return INFINITY;
     p->at = fmin(p->at + (now - p->wall) * session->speed, p->until);
     p->wall = now;
-    JOX_ASSERT(p->at >= p->from && p->at <= p->until);
     show_present(p);
     if (p->at >= p->until)
         pause(p, true);

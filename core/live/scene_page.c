@@ -55,6 +55,7 @@ static double advance(void *self, double now) {
     } else if (!s->def->fast && due > now) {
         return due - now;
     }
+    JOX_ASSERT(!s->failed && s->scene->world->model.def.dt > 0.0);
     s->began = due > now - LATE && due <= now ? due : now;
     step(s);
     return 0.0;

@@ -2,6 +2,7 @@
 #ifndef JOX_LIVE_SCENE_PAGE_H
 #define JOX_LIVE_SCENE_PAGE_H
 
+#include "base/mem.h"
 #include "live/page.h"
 #include "run/run.h"
 
