@@ -30,8 +30,10 @@ static const JoxMachineRun *machines_of(lua_State *L, const Scene *t) {
     return driver->machines(driver->context, t->scene);
 }
 
-static double time_of(const JoxMachineRun *machines) {
-    return machines->tick * machines->dt;
+/* Simulated time, s. */
+static double time_of(lua_State *L, const Scene *t) {
+    const JoxTestDriver *driver = jox_test_run_of(L)->driver;
+    return driver->time(driver->context, t->scene);
 }
 
 static void step(lua_State *L, Scene *t) {
@@ -165,7 +167,7 @@ static int scene_entered(lua_State *L) {
 }
 
 static int scene_time(lua_State *L) {
-    lua_pushnumber(L, time_of(machines_of(L, check(L))));
+    lua_pushnumber(L, time_of(L, check(L)));
     return 1;
 }
 
@@ -266,17 +268,17 @@ static int scene_reaches(lua_State *L) {
     }
     jox_test_run_of(L)->assertions++;
     const JoxMachineRun *machines = machines_of(L, t);
-    double until = time_of(machines) + within - 0.5 * machines->dt;
-    while (jox_test_history_been(&t->history, state, group) < wanted && time_of(machines) < until)
+    double until = time_of(L, t) + within - 0.5 * machines->dt;
+    while (jox_test_history_been(&t->history, state, group) < wanted && time_of(L, t) < until)
         step(L, t);
     uint32_t been = jox_test_history_been(&t->history, state, group);
     if (been >= wanted) {
-        lua_pushnumber(L, time_of(machines));
+        lua_pushnumber(L, time_of(L, t));
         return 1;
     }
     push_counts(L, machines, group);
     return luaL_error(L, "%d of %d agents reached '%s' within %f s; now at t = %f s: %s", (int)been,
-                      (int)wanted, state, within, time_of(machines), lua_tostring(L, -1));
+                      (int)wanted, state, within, time_of(L, t), lua_tostring(L, -1));
 }
 
 /* s:never(state, { during = s, agents = "group" }); what was before counts as well. */
@@ -287,15 +289,15 @@ static int scene_never(lua_State *L) {
     check_options(L, 3, OPTIONS, 2);
     int32_t group = group_option(L, t, 3);
     const JoxMachineRun *machines = machines_of(L, t);
-    double until = time_of(machines) + option(L, 3, "during", 0.0) - 0.5 * machines->dt;
+    double until = time_of(L, t) + option(L, 3, "during", 0.0) - 0.5 * machines->dt;
     jox_test_run_of(L)->assertions++;
     for (;;) {
         int n = jox_test_history_find(&t->history, state);
         for (uint32_t id = 0; n >= 0 && id < t->history.known; id++)
             if (t->history.been[n][id] && (group < 0 || t->history.group[id] == group))
                 return luaL_error(L, "agent %d has been in '%s', by t = %f s", (int)id, state,
-                                  time_of(machines));
-        if (time_of(machines) >= until)
+                                  time_of(L, t));
+        if (time_of(L, t) >= until)
             return 0;
         step(L, t);
     }
@@ -306,7 +308,7 @@ static void watch_speed(lua_State *L, Scene *t, double during, int32_t group, do
                         double *mean) {
     const JoxMachineRun *machines = machines_of(L, t);
     const JoxAgents *a = machines->agents;
-    double until = time_of(machines) + during - 0.5 * machines->dt, sum = 0.0;
+    double until = time_of(L, t) + during - 0.5 * machines->dt, sum = 0.0;
     uint64_t count = 0;
     do {
         step(L, t);
@@ -318,9 +320,9 @@ static void watch_speed(lua_State *L, Scene *t, double during, int32_t group, do
             count++;
             if (speed > most)
                 luaL_error(L, "agent %d moves at %f m/s at t = %f s, faster than %f", (int)a->id[i],
-                           speed, time_of(machines), most);
+                           speed, time_of(L, t), most);
         }
-    } while (time_of(machines) < until);
+    } while (time_of(L, t) < until);
     if (count == 0)
         luaL_error(L, "there is nobody whose speed could be measured");
     *mean = count ? sum / (double)count : 0.0;

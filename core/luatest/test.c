@@ -123,9 +123,12 @@ static bool step(void *context, void *scene, JoxText *why) {
 
 static const JoxMachineRun *machines_of(void *context, void *scene) {
     (void)context;
-    JoWorld *world = ((JoScene *)scene)->world;
-    world->machines.tick = (uint32_t)world->state.tick; /* steps done, as a test sees it */
-    return &world->machines;
+    return &((JoScene *)scene)->world->machines;
+}
+
+static double time_of(void *context, void *scene) {
+    (void)context;
+    return jo_world_time(((JoScene *)scene)->world);
 }
 
 static uint64_t hash(void *context, void *scene) {
@@ -217,6 +220,7 @@ static void run_file(Tests *tests, const char *path) {
                                   .free = free_scene,
                                   .step = step,
                                   .machines = machines_of,
+                                  .time = time_of,
                                   .hash = hash,
                                   .group = group,
                                   .body = body,

@@ -24,6 +24,7 @@ typedef struct JoxTestDriver {
     void (*free)(void *context, void *scene);
     bool (*step)(void *context, void *scene, JoxText *why);
     const JoxMachineRun *(*machines)(void *context, void *scene);
+    double (*time)(void *context, void *scene); /* simulated, s */
     uint64_t (*hash)(void *context, void *scene);
     int32_t (*group)(void *context, void *scene, const char *name);
     /* Pose of a body by name: position and velocity, x y z; false if there is none. */

@@ -12,6 +12,7 @@
 #include "base/mem.h"
 #include "geom/polygon.h"
 #include "record/database.h"
+#include "task/thread.h"
 
 enum { FRAMES = 4 };
 
@@ -260,7 +261,7 @@ JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, Jo
     if (!good)
         snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
     good = good && start_file(r, fps, wkt);
-    if (good && pthread_create(&r->thread, NULL, writer, r) != 0) {
+    if (good && !jox_thread_start(&r->thread, writer, r)) {
         good = false;
         snprintf(r->why, sizeof r->why, "no thread can be started");
     }

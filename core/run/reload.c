@@ -11,6 +11,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "run/reload_parts.h"
+#include "task/thread.h"
 
 enum {
     OWN_ROOM = 12,
@@ -136,7 +137,7 @@ bool jo_scene_watch(JoScene *scene, JoError *error) {
     if (watch) {
         JoxReload *r = begin(scene, watch);
         r->stop = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-        r->running = r->stop >= 0 && pthread_create(&r->thread, NULL, load_for_ever, r) == 0;
+        r->running = r->stop >= 0 && jox_thread_start(&r->thread, load_for_ever, r);
         if (r->running)
             return true;
         jox_run_unwatch(scene);

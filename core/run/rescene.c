@@ -53,7 +53,7 @@ static void take_places(Rescene *r) {
         jox_place_copy(to, from);
     }
     if (moved) {
-        jox_world_renew_routes(world);
+        jox_routes_renew(world->state.routes);
         note(&r->done, "places");
     }
 }

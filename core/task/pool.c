@@ -7,6 +7,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "task/thread.h"
 
 enum { MOST_THREADS = 64, SPINS = 2000 };
 
@@ -95,7 +96,7 @@ JoxPool *jox_pool_create(uint32_t threads) {
     threads = threads < 1 ? 1 : threads > MOST_THREADS ? MOST_THREADS : threads;
     for (uint32_t i = 1; i < threads; i++) {
         pool->worker[i] = (struct Worker){pool, i};
-        if (pthread_create(&pool->thread[i], NULL, worker_main, &pool->worker[i]) != 0)
+        if (!jox_thread_start(&pool->thread[i], worker_main, &pool->worker[i]))
             break; /* fewer threads give the same results */
         pool->threads++;
     }

@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include "base/mem.h"
+#include "task/thread.h"
 
 struct JoxWorker {
     pthread_t thread;
@@ -70,7 +71,7 @@ JoxWorker *jox_worker_create(void) {
 
 void jox_worker_give(JoxWorker *worker, JoxWorkItem *item) {
     if (!worker->begun) /* without a thread, who waits does the work */
-        worker->begun = pthread_create(&worker->thread, NULL, work, worker) == 0;
+        worker->begun = jox_thread_start(&worker->thread, work, worker);
     pthread_mutex_lock(&worker->lock);
     JoxWorkItem **end = &worker->first;
     while (*end)

@@ -13,6 +13,7 @@
 #include <arpa/inet.h>
 
 #include "base/mem.h"
+#include "task/thread.h"
 #include "view/access.h"
 #include "view/lws_server.h"
 
@@ -236,15 +237,14 @@ static bool open_transport(JoxView *view, const char *address, double patience) 
         .options = LWS_SERVER_OPTION_EXPLICIT_VHOSTS | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND |
                    LWS_SERVER_OPTION_VALIDATE_UTF8 | (six ? 0 : LWS_SERVER_OPTION_DISABLE_IPV6)};
     lws_set_log_level(0, NULL);
+    struct sigaction before; /* creating a context ignores SIGPIPE; lws sends with MSG_NOSIGNAL */
+    sigaction(SIGPIPE, NULL, &before);
     transport->context = lws_create_context(&info);
+    sigaction(SIGPIPE, &before, NULL);
     transport->vhost = transport->context ? lws_create_vhost(transport->context, &info) : NULL;
     if (!transport->vhost)
         return false;
-    sigset_t all, before; /* signals are the other threads' */
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before);
-    transport->running = pthread_create(&transport->thread, NULL, serve, view) == 0;
-    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    transport->running = jox_thread_start(&transport->thread, serve, view);
     return transport->running;
 }
 

@@ -4,14 +4,13 @@
 
 #include "base/mem.h"
 #include "geom/polygon.h"
-#include "world/world.h"
+#include "world/stages.h"
 
 static const float SKIN = 0.02f;  /* m: people nearer than this touch */
 static const float FRONT = 0.30f; /* m: from the wall to the skin of those who are in front */
 
 /* From an agent's skin to the footprint of a body, m. */
-static float gap_to(const JoWorld *w, const JoxObject *body, uint32_t i) {
-    const JoxAgents *a = &w->state.agents;
+static float gap_to(const JoxAgents *a, const JoxObject *body, uint32_t i) {
     JoxV2 at = {a->x[i], a->y[i]};
     float least = INFINITY;
     if (body->footprint_count >= 3 &&
@@ -25,22 +24,18 @@ static float gap_to(const JoWorld *w, const JoxObject *body, uint32_t i) {
     return sqrtf(least) - a->param[JOX_PARAM_radius][i];
 }
 
-static double now(const JoWorld *w) {
-    return (double)w->state.tick * w->model.def.dt + (w->scratch.part + 1) * w->scratch.part_dt;
-}
-
 /* Until somebody touches a bonded body: how slow those before it have become. */
-void jox_world_note_touch(JoWorld *w) {
-    JoxBondStatistics *s = &w->state.statistics.bonds;
-    const JoxAgents *a = &w->state.agents;
+void jox_bonds_note_touch(const JoxBodyStage *stage) {
+    JoxBondStatistics *s = &stage->statistics->bonds;
+    const JoxAgents *a = stage->agents;
     JoxBodyBonds bonds;
-    for (uint32_t o = 0; o < w->scratch.objects.count && !s->touched; o++) {
-        if (!jox_bodies_bonds(w->state.bodies, o, &bonds))
+    for (uint32_t o = 0; o < stage->objects->count && !s->touched; o++) {
+        if (!jox_bodies_bonds(stage->bodies, o, &bonds))
             continue;
         uint32_t front = 0;
         double sum = 0.0;
         for (uint32_t i = 0; i < a->count; i++) {
-            float gap = gap_to(w, &w->scratch.objects.rows[o], i);
+            float gap = gap_to(a, &stage->objects->rows[o], i);
             if (gap > FRONT)
                 continue;
             s->touched = s->touched || gap <= 0.0f;
@@ -48,7 +43,7 @@ void jox_world_note_touch(JoWorld *w) {
             sum += sqrt((double)a->vx[i] * a->vx[i] + (double)a->vy[i] * a->vy[i]);
         }
         if (s->touched)
-            s->touch_s = now(w);
+            s->touch_s = stage->part->end;
         else if (front && (s->front == 0 || sum / front < s->front_speed))
             s->front_speed = sum / front;
         s->front = front > s->front ? front : s->front;
@@ -64,14 +59,14 @@ static bool presses(const JoxAgents *a, uint32_t i, float gap) {
 
 /* Agents in the order in which chains of people, each pressing on the one before, lead to them from
    the body: the rows are how far the last is, the people all that are reached. */
-static void count_rows(JoWorld *w, const JoxObject *body) {
-    const JoxAgents *a = &w->state.agents;
-    const JoxNeighbours *near = &w->scratch.neighbours;
+static void count_rows(const JoxBodyStage *stage, const JoxObject *body) {
+    const JoxAgents *a = stage->agents;
+    const JoxNeighbours *near = stage->neighbours;
     const float *radius = a->param[JOX_PARAM_radius];
     uint32_t *row = jox_alloc((size_t)a->count + 1, sizeof *row);
     uint32_t *queue = jox_alloc((size_t)a->count + 1, sizeof *queue), end = 0;
     for (uint32_t i = 0; i < a->count; i++)
-        if (presses(a, i, gap_to(w, body, i))) {
+        if (presses(a, i, gap_to(a, body, i))) {
             row[i] = 1;
             queue[end++] = i;
         }
@@ -86,19 +81,19 @@ static void count_rows(JoWorld *w, const JoxObject *body) {
             queue[end++] = j;
         }
     }
-    w->state.statistics.bonds.people = end;
-    w->state.statistics.bonds.rows = end ? row[queue[end - 1]] : 0;
+    stage->statistics->bonds.people = end;
+    stage->statistics->bonds.rows = end ? row[queue[end - 1]] : 0;
     jox_free(row);
     jox_free(queue);
 }
 
-void jox_world_note_breaks(JoWorld *w, const JoxBodiesReport *report) {
-    JoxBondStatistics *s = &w->state.statistics.bonds;
+void jox_bonds_note_breaks(const JoxBodyStage *stage, const JoxBodiesReport *report) {
+    JoxBondStatistics *s = &stage->statistics->bonds;
     for (uint32_t k = 0; k < report->break_count; k++) {
         const JoxBodyBreak *broken = &report->breaks[k];
         if (s->broken == 0) {
-            s->first_s = now(w);
-            count_rows(w, &w->scratch.objects.rows[broken->row]); /* as it was before the step */
+            s->first_s = stage->part->end;
+            count_rows(stage, &stage->objects->rows[broken->row]); /* as it was before the step */
         }
         s->broken += broken->bonds;
         s->pieces += broken->pieces - 1;

@@ -1,6 +1,7 @@
 /* Bodies that agents carry: picked up, carried along, thrown. */
 #include <math.h>
 
+#include "world/stages.h"
 #include "world/world.h"
 
 static const float CARRY_HEIGHT = 1.2f; /* m: of the hand */
@@ -11,41 +12,40 @@ static JoxV3 before(const JoxAgents *a, uint32_t i, const JoxObject *object, Jox
     return (JoxV3){a->x[i] + way.x * gap, a->y[i] + way.y * gap, CARRY_HEIGHT};
 }
 
-static void carry_along(JoWorld *w) {
-    const JoxAgents *a = &w->state.agents;
-    for (uint32_t o = 0; o < w->scratch.objects.count; o++) {
-        const JoxObject *object = &w->scratch.objects.rows[o];
+static void carry_along(const JoxBodyStage *s) {
+    const JoxAgents *a = s->agents;
+    for (uint32_t o = 0; o < s->objects->count; o++) {
+        const JoxObject *object = &s->objects->rows[o];
         if (!object->live || !object->held)
             continue;
         uint32_t i = jox_agents_find(a, object->holder);
         if (i == JOX_NO_INDEX || a->removed[i]) { /* who left lets it fall */
-            jox_bodies_let_go(w->state.bodies, o, (JoxV3){0.0f, 0.0f, 0.0f});
+            jox_bodies_let_go(s->bodies, o, (JoxV3){0.0f, 0.0f, 0.0f});
             continue;
         }
         JoxV2 face = {a->face_x[i], a->face_y[i]};
-        jox_bodies_carry(w->state.bodies, o, before(a, i, object, face),
+        jox_bodies_carry(s->bodies, o, before(a, i, object, face),
                          (JoxV3){a->vx[i], a->vy[i], 0.0f});
     }
 }
 
-void jox_world_carry(JoWorld *w) {
-    const JoxAgents *a = &w->state.agents;
-    carry_along(w);
-    for (uint32_t g = 0; g < w->machines.grip_count; g++) {
-        const JoxGrip *grip = &w->machines.grips[g];
+void jox_bodies_carried(const JoxBodyStage *s) {
+    const JoxAgents *a = s->agents;
+    carry_along(s);
+    for (uint32_t g = 0; g < s->machines->grip_count; g++) {
+        const JoxGrip *grip = &s->machines->grips[g];
         uint32_t i = jox_agents_find(a, grip->agent_id);
         if (i == JOX_NO_INDEX)
             continue;
-        const JoxObject *object = &w->scratch.objects.rows[grip->object];
+        const JoxObject *object = &s->objects->rows[grip->object];
         if (grip->takes) {
-            w->state.statistics.pickups +=
-                jox_bodies_hold(w->state.bodies, grip->object, grip->agent_id);
+            s->statistics->pickups += jox_bodies_hold(s->bodies, grip->object, grip->agent_id);
             continue;
         }
         JoxV2 way = jox_unit((JoxV2){grip->velocity.x, grip->velocity.y});
-        jox_bodies_carry(w->state.bodies, grip->object, before(a, i, object, way), grip->velocity);
-        jox_bodies_let_go(w->state.bodies, grip->object, grip->velocity);
-        w->state.statistics.throws++;
+        jox_bodies_carry(s->bodies, grip->object, before(a, i, object, way), grip->velocity);
+        jox_bodies_let_go(s->bodies, grip->object, grip->velocity);
+        s->statistics->throws++;
     }
 }
 

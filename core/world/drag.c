@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "world/stages.h"
 #include "world/world.h"
 
 /* A drag pulls as a critically damped spring does, at this rate, up to a speed and a force. */
@@ -43,8 +44,8 @@ static int32_t find_grab(const JoWorld *w, uint32_t row) {
     return -1;
 }
 
-static void drop(JoWorld *w, uint32_t g) {
-    w->state.drags.grabs[g] = w->state.drags.grabs[--w->state.drags.grab_count];
+static void drop(JoxDrags *drags, uint32_t g) {
+    drags->grabs[g] = drags->grabs[--drags->grab_count];
 }
 
 JoxGrabbed jox_world_grab(JoWorld *w, uint32_t row, const double to[3], bool anew) {
@@ -72,7 +73,7 @@ bool jox_world_release(JoWorld *w, uint32_t row) {
     jox_bodies_objects(w->state.bodies, &w->scratch.objects);
     int32_t g = find_grab(w, row);
     if (g >= 0)
-        drop(w, (uint32_t)g);
+        drop(&w->state.drags, (uint32_t)g);
     return g >= 0;
 }
 
@@ -85,13 +86,13 @@ static JoxV3 at_most(JoxV3 v, float most) {
     return (JoxV3){v.x * k, v.y * k, v.z * k};
 }
 
-void jox_world_pull(JoWorld *w) {
-    for (uint32_t g = 0; g < w->state.drags.grab_count;) {
-        const struct JoxGrab *grab = &w->state.drags.grabs[g];
+void jox_bodies_dragged(const JoxBodyStage *s) {
+    for (uint32_t g = 0; g < s->drags->grab_count;) {
+        const struct JoxGrab *grab = &s->drags->grabs[g];
         JoxPose pose;
-        if (!jox_bodies_pose(w->state.bodies, grab->row, &pose) ||
-            w->scratch.objects.rows[grab->row].id != grab->id) {
-            drop(w, g); /* it is gone */
+        if (!jox_bodies_pose(s->bodies, grab->row, &pose) ||
+            s->objects->rows[grab->row].id != grab->id) {
+            drop(s->drags, g); /* it is gone */
             continue;
         }
         g++;
@@ -104,11 +105,11 @@ void jox_world_pull(JoWorld *w) {
                                       most * (wanted.y - pose.velocity.y),
                                       most * (wanted.z - pose.velocity.z)},
                               DRAG_FORCE);
-        force.z += jox_minf(pose.mass * (float)w->model.def.gravity, DRAG_FORCE);
-        float kept = jox_maxf(0.0f, 1.0f - DRAG_STEADY * (float)w->scratch.part_dt);
+        force.z += jox_minf(pose.mass * (float)s->gravity, DRAG_FORCE);
+        float kept = jox_maxf(0.0f, 1.0f - DRAG_STEADY * (float)s->part->dt);
         JoxV3 spin = {pose.spin.x * kept, pose.spin.y * kept, pose.spin.z * kept};
-        jox_bodies_set_velocity(w->state.bodies, grab->row, pose.velocity, spin);
-        jox_bodies_force(w->state.bodies, grab->row, force);
+        jox_bodies_set_velocity(s->bodies, grab->row, pose.velocity, spin);
+        jox_bodies_force(s->bodies, grab->row, force);
     }
 }
 

@@ -73,12 +73,12 @@ static double size_of(const JoxPlace *place) {
 
 /* Who left where a behaviour said so left by the smallest place that they stood in. */
 static void count_leavers(JoWorld *world) {
-    for (uint32_t g = 0; g < world->scratch.gone_count; g++) {
+    for (uint32_t g = 0; g < world->scratch.gone.count; g++) {
         const JoxPlace *of = NULL;
         for (uint32_t p = 0; p < world->model.scene_places; p++) {
             const JoxPlace *place = &world->model.places[p];
             if (isfinite(size_of(place)) &&
-                jox_place_contains(world->model.places, p, world->scratch.gone[g]) &&
+                jox_place_contains(world->model.places, p, world->scratch.gone.items[g]) &&
                 (!of || size_of(place) < size_of(of)))
                 of = place;
         }

@@ -14,10 +14,6 @@ const char *const jox_force_part_names[JOX_FORCE_PARTS] = {[JOX_FORCE_PART_body]
 
 static const double FORGOTTEN = 5.0; /* s, simulated, without a look */
 
-static uint32_t index_of(const JoWorld *w, uint32_t id) {
-    return jox_agents_find(&w->state.agents, id);
-}
-
 static void end(JoWorld *w, uint32_t n) {
     JoxInspection *all = &w->scratch.inspection;
     jox_text_free(&all->watched[n].why);
@@ -73,14 +69,13 @@ void jox_inspect_expire(JoWorld *w) {
             end(w, n);
 }
 
-void jox_inspect_pushed(JoWorld *w) {
-    const JoxAgents *a = &w->state.agents;
-    for (uint32_t n = 0; n < w->scratch.inspection.count; n++) {
-        JoxInspected *seen = &w->scratch.inspection.agents[n];
-        uint32_t i = index_of(w, seen->id);
+void jox_inspect_pushed(JoxInspection *all, const JoxAgents *a, const JoxForces *forces_of) {
+    for (uint32_t n = 0; n < all->count; n++) {
+        JoxInspected *seen = &all->agents[n];
+        uint32_t i = jox_agents_find(a, seen->id);
         if (i == JOX_NO_INDEX)
             continue;
-        JoxV2 *forces = seen->forces, body = jox_force_of_bodies(w->scratch.forces, i);
+        JoxV2 *forces = seen->forces, body = jox_force_of_bodies(forces_of, i);
 #define PART(X, keep, name, label)                                                                 \
     forces[JOX_FORCE_PART_##name] = (JoxV2){a->name##_x[i], a->name##_y[i]};
         JOX_FORCE_TERMS(PART, )
@@ -93,16 +88,14 @@ void jox_inspect_pushed(JoWorld *w) {
     }
 }
 
-void jox_inspect_solved(JoWorld *w) {
-    const JoxAgents *a = &w->state.agents;
-    for (uint32_t n = 0; n < w->scratch.inspection.count; n++) {
-        JoxInspected *seen = &w->scratch.inspection.agents[n];
-        uint32_t i = index_of(w, seen->id);
+void jox_inspect_solved(JoxInspection *all, const JoxAgents *a, const JoxNav *nav,
+                        const JoxNeighbours *neighbours, const JoxObjects *objects, double plan) {
+    for (uint32_t n = 0; n < all->count; n++) {
+        JoxInspected *seen = &all->agents[n];
+        uint32_t i = jox_agents_find(a, seen->id);
         if (i == JOX_NO_INDEX)
             continue;
-        seen->plane_count =
-            jox_nav_constraints(w->scratch.nav, a, &w->scratch.neighbours, &w->scratch.objects,
-                                w->scratch.plan, i, seen->planes);
+        seen->plane_count = jox_nav_constraints(nav, a, neighbours, objects, plan, i, seen->planes);
         seen->preferred = (JoxV2){a->pref_x[i], a->pref_y[i]};
         seen->chosen = (JoxV2){a->next_x[i], a->next_y[i]};
         seen->speed_limit = a->speed_limit[i];
@@ -111,17 +104,16 @@ void jox_inspect_solved(JoWorld *w) {
     }
 }
 
-void jox_inspect_inferred(JoWorld *w) {
-    for (uint32_t n = 0; n < w->scratch.inspection.count; n++) {
-        JoxInspected *seen = &w->scratch.inspection.agents[n];
-        uint32_t i = index_of(w, seen->id);
+void jox_inspect_inferred(JoxInspection *all, const JoxAgents *a, const JoxForces *forces_of) {
+    for (uint32_t n = 0; n < all->count; n++) {
+        JoxInspected *seen = &all->agents[n];
+        uint32_t i = jox_agents_find(a, seen->id);
         if (i == JOX_NO_INDEX)
             continue;
         float kept;
-        JoxV2 hit =
-            jox_sub((JoxV2){w->state.agents.force_x[i], w->state.agents.force_y[i]}, seen->summed);
+        JoxV2 hit = jox_sub((JoxV2){a->force_x[i], a->force_y[i]}, seen->summed);
         seen->forces[JOX_FORCE_PART_body] = jox_add(seen->forces[JOX_FORCE_PART_body], hit);
-        JoxV2 added = jox_force_slowed(w->scratch.forces, i, &kept);
+        JoxV2 added = jox_force_slowed(forces_of, i, &kept);
         seen->slowed = jox_add(jox_scale(seen->slowed, kept), added);
     }
 }

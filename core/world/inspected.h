@@ -3,6 +3,7 @@
 #ifndef JOX_WORLD_INSPECTED_H
 #define JOX_WORLD_INSPECTED_H
 
+#include "force/force.h"
 #include "machine/run.h"
 #include "nav/nav.h"
 
@@ -46,9 +47,12 @@ struct JoWorld;
    gone: that inspection then ends. */
 JoxInspected *jox_world_inspect(struct JoWorld *world, uint32_t slot, const JoxWatched **watched);
 /* In a step, behind the stages push, solve and infer. */
-void jox_inspect_pushed(struct JoWorld *world);
-void jox_inspect_solved(struct JoWorld *world);
-void jox_inspect_inferred(struct JoWorld *world);
+void jox_inspect_pushed(JoxInspection *inspection, const JoxAgents *agents,
+                        const JoxForces *forces);
+void jox_inspect_solved(JoxInspection *inspection, const JoxAgents *agents, const JoxNav *nav,
+                        const JoxNeighbours *neighbours, const JoxObjects *objects, double plan);
+void jox_inspect_inferred(JoxInspection *inspection, const JoxAgents *agents,
+                          const JoxForces *forces);
 /* Nobody has looked for a while: ends what is old. */
 void jox_inspect_expire(struct JoWorld *world);
 void jox_inspection_free(JoxInspection *inspection);

@@ -6,7 +6,6 @@
 #include "base/mem.h"
 #include "task/worker.h"
 #include "world/obstacles.h"
-#include "world/world.h"
 
 enum { MOST_FIELDS = 64 };
 /* m: the smallest that gives few enough cells to be done within DELAY; the largest still shows
@@ -79,26 +78,26 @@ static void make_range(void *context, uint32_t begin, uint32_t end, uint32_t wor
         make(&makings[i]->item);
 }
 
-static void copy_places(const JoWorld *w, uint32_t place, Making *making) {
-    const JoxPlace *from = &w->model.places[place];
+static void copy_places(const JoxRouteStage *w, uint32_t place, Making *making) {
+    const JoxPlace *from = &w->places[place];
     making->place_count = 1 + from->member_count;
     making->places = jox_alloc(making->place_count, sizeof *making->places);
     jox_place_copy(&making->places[0], from);
     for (uint32_t m = 0; m < from->member_count; m++) {
-        jox_place_copy(&making->places[m + 1], &w->model.places[from->members[m]]);
+        jox_place_copy(&making->places[m + 1], &w->places[from->members[m]]);
         making->places[0].members[m] = (int32_t)m + 1;
     }
 }
 
 /* The box about all walls, open ones too, and agents. Its corner lies on the grid of cells, so that
    fields that are made anew judge narrow gaps alike. */
-static void lay_out(const JoWorld *w, Making *making) {
-    const JoxWalls *walls = &w->model.all_walls;
+static void lay_out(const JoxRouteStage *w, Making *making) {
+    const JoxWalls *walls = w->all_walls;
     JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
-    for (uint32_t i = 0; i < walls->count + w->state.agents.count; i++) {
-        JoxV2 p = i < walls->count ? walls->vertices[i].point
-                                   : (JoxV2){w->state.agents.x[i - walls->count],
-                                             w->state.agents.y[i - walls->count]};
+    for (uint32_t i = 0; i < walls->count + w->agents->count; i++) {
+        JoxV2 p = i < walls->count
+                      ? walls->vertices[i].point
+                      : (JoxV2){w->agents->x[i - walls->count], w->agents->y[i - walls->count]};
         low = (JoxV2){jox_minf(low.x, p.x), jox_minf(low.y, p.y)};
         high = (JoxV2){jox_maxf(high.x, p.x), jox_maxf(high.y, p.y)};
     }
@@ -114,18 +113,18 @@ static void lay_out(const JoWorld *w, Making *making) {
 }
 
 /* Begins to make a field from what stands where now. */
-static Making *begin(JoWorld *w, uint32_t place, JoxRouteKind kind, double delay) {
-    JoxRoutes *routes = w->state.routes;
+static Making *begin(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind, double delay) {
+    JoxRoutes *routes = w->routes;
     Route *route = &routes->items[place * JOX_ROUTE_KINDS + kind];
     Making *making = jox_alloc(1, sizeof *making);
     making->item.run = make;
-    jox_walls_standing(&making->walls, &w->model.all_walls, kind == JOX_ROUTE_NOW);
+    jox_walls_standing(&making->walls, w->all_walls, kind == JOX_ROUTE_NOW);
     jox_obstacles_add(&routes->obstacles, kind == JOX_ROUTE_NOW, &making->walls);
     copy_places(w, place, making);
     lay_out(w, making);
     *route = (Route){.making = making,
-                     .asked = w->state.tick,
-                     .due = w->state.tick + (uint64_t)ceil(delay / w->model.def.dt - 1e-9),
+                     .asked = w->tick,
+                     .due = w->tick + (uint64_t)ceil(delay / w->dt - 1e-9),
                      .walls = routes->walls,
                      .obstacles = routes->obstacles.version};
     return making;
@@ -144,18 +143,18 @@ static void take(JoxRoutes *routes, uint32_t at) {
 /* ---- which ones ---- */
 
 /* Whether routes could lead elsewhere if what can go away were not there. */
-static bool is_shut(const JoWorld *w) {
-    for (uint32_t r = 0; r < w->model.all_walls.ring_count; r++)
-        if (w->model.all_walls.rings[r].name && !w->model.all_walls.rings[r].open)
+static bool is_shut(const JoxRouteStage *w) {
+    for (uint32_t r = 0; r < w->all_walls->ring_count; r++)
+        if (w->all_walls->rings[r].name && !w->all_walls->rings[r].open)
             return true;
-    for (uint32_t o = 0; o < w->state.routes->obstacles.count; o++)
-        if (w->state.routes->obstacles.items[o].movable)
+    for (uint32_t o = 0; o < w->routes->obstacles.count; o++)
+        if (w->routes->obstacles.items[o].movable)
             return true;
     return false;
 }
 
-static bool is_due(const JoWorld *w, uint32_t place, JoxRouteKind kind) {
-    const JoxRoutes *routes = w->state.routes;
+static bool is_due(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind) {
+    const JoxRoutes *routes = w->routes;
     uint32_t at = place * JOX_ROUTE_KINDS + kind;
     const Route *route = &routes->items[at];
     if (!(routes->wanted[place] >> kind & 1) || route->making)
@@ -165,13 +164,13 @@ static bool is_due(const JoWorld *w, uint32_t place, JoxRouteKind kind) {
     if (route->walls != routes->walls)
         return true;
     return kind == JOX_ROUTE_NOW && route->obstacles != routes->obstacles.version &&
-           (double)(w->state.tick - route->asked) * w->model.def.dt >= PAUSE - 1e-9;
+           (double)(w->tick - route->asked) * w->dt >= PAUSE - 1e-9;
 }
 
-static void make_room(JoWorld *w) {
-    JoxRoutes *routes = w->state.routes;
-    if (w->model.place_count > routes->capacity) {
-        uint32_t had = routes->capacity, has = w->model.place_count;
+static void make_room(const JoxRouteStage *w) {
+    JoxRoutes *routes = w->routes;
+    if (w->place_count > routes->capacity) {
+        uint32_t had = routes->capacity, has = w->place_count;
         routes->fields = jox_realloc(routes->fields, has * JOX_ROUTE_KINDS, sizeof *routes->fields);
         routes->items = jox_realloc(routes->items, has * JOX_ROUTE_KINDS, sizeof *routes->items);
         routes->wanted = jox_realloc(routes->wanted, has, 1);
@@ -182,17 +181,17 @@ static void make_room(JoWorld *w) {
         memset(routes->wanted + had, 0, has - had);
         routes->capacity = has;
     }
-    w->machines.fields = routes->fields;
-    w->machines.wanted = routes->wanted;
+    w->machines->fields = routes->fields;
+    w->machines->wanted = routes->wanted;
 }
 
 /* What is asked for in the first step, at once and on all threads. */
-static void make_first(JoWorld *w) {
-    JoxRoutes *routes = w->state.routes;
+static void make_first(const JoxRouteStage *w) {
+    JoxRoutes *routes = w->routes;
     for (JoxRouteKind kind = JOX_ROUTE_NOW; kind < JOX_ROUTE_KINDS; kind++) {
         Making *makings[MOST_FIELDS];
         uint32_t count = 0, at[MOST_FIELDS];
-        jox_machines_ask_routes(&w->machines); /* who finds no route asks for the other kind */
+        jox_machines_ask_routes(w->machines); /* who finds no route asks for the other kind */
         for (uint32_t p = 0; p < routes->capacity; p++) {
             if (!is_due(w, p, kind))
                 continue;
@@ -200,25 +199,25 @@ static void make_first(JoWorld *w) {
             makings[count++] = begin(w, p, kind, 0.0);
             routes->count++;
         }
-        jox_parallel_for(w->scratch.pool, count, 1, make_range, makings);
+        jox_parallel_for(w->pool, count, 1, make_range, makings);
         for (uint32_t n = 0; n < count; n++)
             take(routes, at[n]);
     }
 }
 
-void jox_world_routes(JoWorld *w) {
-    JoxRoutes *routes = w->state.routes;
-    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)floor(LOOK / w->model.def.dt + 0.5));
+void jox_routes_update(const JoxRouteStage *w) {
+    JoxRoutes *routes = w->routes;
+    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)floor(LOOK / w->dt + 0.5));
     make_room(w);
-    if (routes->seen != w->state.walls_version) {
-        routes->seen = w->state.walls_version;
+    if (routes->seen != w->walls_version) {
+        routes->seen = w->walls_version;
         routes->walls++;
     }
     bool any = false;
     for (uint32_t p = 0; p < routes->capacity; p++)
         any |= routes->wanted[p] != 0;
-    if (!routes->begun || (routes->count > 0 ? w->state.tick % every == 0 : any))
-        jox_obstacles_update(&routes->obstacles, &w->scratch.objects);
+    if (!routes->begun || (routes->count > 0 ? w->tick % every == 0 : any))
+        jox_obstacles_update(&routes->obstacles, w->objects);
     if (!routes->begun) {
         make_first(w);
         if (routes->capacity)
@@ -226,7 +225,7 @@ void jox_world_routes(JoWorld *w) {
     }
     routes->begun = true;
     for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS && routes->count > 0; at++) {
-        if (!routes->items[at].making || routes->items[at].due > w->state.tick)
+        if (!routes->items[at].making || routes->items[at].due > w->tick)
             continue;
         jox_worker_wait(routes->worker, &routes->items[at].making->item);
         take(routes, at);
@@ -243,8 +242,8 @@ void jox_world_routes(JoWorld *w) {
     }
 }
 
-void jox_world_renew_routes(JoWorld *w) {
-    w->state.routes->walls++;
+void jox_routes_renew(JoxRoutes *routes) {
+    routes->walls++;
 }
 
 /* ---- state ---- */
@@ -285,8 +284,8 @@ static void list_route(JoxRoutes *routes, uint32_t at, JoxSections *s) {
         jox_field_sections(&route->making->field, s);
 }
 
-void jox_routes_sections(JoWorld *w, JoxSections *s) {
-    JoxRoutes *routes = w->state.routes;
+void jox_routes_sections(const JoxRouteStage *w, JoxSections *s) {
+    JoxRoutes *routes = w->routes;
     make_room(w);
     finish(routes);
     jox_sections_module(s, "routes");

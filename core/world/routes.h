@@ -4,9 +4,26 @@
 #define JOX_WORLD_ROUTES_H
 
 #include "base/sections.h"
+#include "geom/objects.h"
+#include "geom/walls.h"
+#include "machine/run.h"
 
 typedef struct JoxRoutes JoxRoutes;
-typedef struct JoWorld JoWorld;
+
+/* What routes are made of, and where they are found. */
+typedef struct JoxRouteStage {
+    const JoxPlace *places;
+    uint32_t place_count;
+    const JoxWalls *all_walls;
+    uint32_t walls_version; /* counts their changes */
+    const JoxAgents *agents;
+    const JoxObjects *objects;
+    uint64_t tick;
+    double dt; /* s */
+    JoxPool *pool;
+    JoxMachineRun *machines; /* is given the fields; marks which it wants */
+    JoxRoutes *routes;
+} JoxRouteStage;
 
 JoxRoutes *jox_routes_create(void);
 void jox_routes_free(JoxRoutes *routes);
@@ -14,11 +31,11 @@ void jox_routes_free(JoxRoutes *routes);
    they are in. Later: what was asked for at a tick is used from half a second of simulated time
    after it on, however long it takes to make. A field is renewed where walls went up or down; where
    large bodies moved (see obstacles.h), at most every 2 s; and only if somebody still asks. */
-void jox_world_routes(JoWorld *world);
+void jox_routes_update(const JoxRouteStage *stage);
 /* Places moved: all fields are renewed. */
-void jox_world_renew_routes(JoWorld *world);
+void jox_routes_renew(JoxRoutes *routes);
 /* Lists the fields in use, those under way, which are finished first, and when they come into use.
  */
-void jox_routes_sections(JoWorld *world, JoxSections *sections);
+void jox_routes_sections(const JoxRouteStage *stage, JoxSections *sections);
 
 #endif

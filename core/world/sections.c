@@ -61,7 +61,8 @@ void jox_world_sections(JoWorld *w, JoxSections *s) {
     jox_agents_sections(&w->state.agents, s);
     jox_machines_sections(&w->machines, s);
     list_input(&w->state.input, s);
-    jox_routes_sections(w, s);
+    const JoxRouteStage route = jox_world_route_stage(w);
+    jox_routes_sections(&route, s);
     jox_nav_sections(w->scratch.nav, s);
     jox_drags_sections(&w->state.drags, s);
     jox_bodies_sections(w->state.bodies, s);
@@ -103,7 +104,8 @@ static bool restore(JoWorld *w, const void *data, size_t size, JoError *error) {
         jox_error(error, JO_INPUT, "the state cannot be restored: %s", s.wrong);
         return false;
     }
-    w->scratch.gone_count = 0;
+    w->scratch.gone.count = 0;
+    w->failure[0] = 0;
     jox_world_forget(w);
     return true;
 }

@@ -52,9 +52,9 @@ static void free_world(JoWorld *world) {
     jox_free(world->scratch.neighbours.distance2);
     jox_free(world->scratch.neighbours.count);
     jox_free(world->scratch.walked);
-    jox_free(world->scratch.gone);
-    jox_free(world->scratch.discs);
-    jox_free(world->scratch.disc_agents);
+    jox_free(world->scratch.gone.items);
+    jox_free(world->scratch.discs.discs);
+    jox_free(world->scratch.discs.agents);
     free_places(world);
     jox_free(world->state.population.made);
     jox_free(world->state.population.party_left);

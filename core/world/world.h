@@ -22,6 +22,7 @@
 #include "world/inspected.h"
 #include "world/population.h"
 #include "world/routes.h"
+#include "world/stages.h"
 #include "world/statistics.h"
 
 enum { JOX_MOST_TAGS = 64 };
@@ -79,15 +80,10 @@ typedef struct JoxWorldScratch {
     bool walls_set;     /* `walls`, nav and bodies are as all_walls says */
     JoxObjects objects; /* what agents see of the bodies */
     JoxInspection inspection;
-    /* A step longer than people plan ahead is done in equal parts; think and observe run once. */
-    uint32_t part, parts;
-    double part_dt, plan; /* s: of a part; how far ahead velocities are planned */
-    JoxV2 *walked;        /* per agent, m: during the parts so far; only where there are several */
+    JoxV2 *walked; /* per agent, m: during the parts of the step so far; where it is divided */
     uint32_t walked_capacity;
-    JoxV2 *gone; /* m: where those stood who left of their own accord in the last step */
-    uint32_t gone_count, gone_capacity;
-    JoxDisc *discs; /* people as fast bodies meet them, and their indices */
-    uint32_t *disc_agents, disc_capacity;
+    JoxGone gone; /* who left in the last step */
+    JoxDiscList discs;
     JoxText event_errors; /* what events could not do, a line each; whoever reads it empties it */
 } JoxWorldScratch;
 
@@ -124,8 +120,6 @@ void jox_world_raise_walls(JoWorld *world);
 void jox_world_set_walls(JoWorld *world, JoxWalls *walls);
 /* Opens or closes the walls of a name; says how many there are. */
 uint32_t jox_world_open_walls(JoWorld *world, const char *name, bool open);
-/* Bodies that are picked up, carried and thrown in this step. */
-void jox_world_carry(JoWorld *world);
 /* Throws a body, from a point (of its shape's own frame, m) or, with NULL, from where it is; m/s
    and rad/s. Who carries it loses it. False for a static body or none. */
 bool jox_world_throw(JoWorld *world, uint32_t row, const double from[3], const double velocity[3],
@@ -147,11 +141,6 @@ typedef enum JoxGrabbed {
 JoxGrabbed jox_world_grab(JoWorld *world, uint32_t row, const double to[3], bool anew);
 /* False where it is not pulled. */
 bool jox_world_release(JoWorld *world, uint32_t row);
-/* In a step: gives the bodies that are pulled their forces. */
-void jox_world_pull(JoWorld *world);
-/* In a step: who is before a bonded body or touches it; what broke. */
-void jox_world_note_touch(JoWorld *world);
-void jox_world_note_breaks(JoWorld *world, const JoxBodiesReport *report);
 /* One step. False, with the reason in `failure`, where a number of an agent is not finite after it;
    from then on nothing is done. */
 bool jox_world_step(JoWorld *world);
@@ -160,6 +149,8 @@ bool jox_world_step(JoWorld *world);
 bool jox_world_is_finite(JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX. */
 uint32_t jox_world_find(const JoWorld *world, JoAgent agent);
+/* What routes are made of, in this world. */
+JoxRouteStage jox_world_route_stage(JoWorld *world);
 /* Lists the state, in one order for all modes. */
 void jox_world_sections(JoWorld *world, JoxSections *sections);
 uint64_t jox_world_hash(const JoWorld *world);

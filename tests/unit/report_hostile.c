@@ -308,7 +308,7 @@ static void each_target_has_its_own_quotes(void **state) {
 static void the_page_has_the_same_classes(void **state) {
     (void)state;
     size_t length;
-    char *script = slurp(JOX_PAGEDIR "/palette.js", &length), list[256] = "const CLASSES = [";
+    char *script = slurp(JOX_PAGEDIR "/draw/palette.js", &length), list[256] = "const CLASSES = [";
     for (uint32_t n = 0; n < 7; n++) {
         JoxInk ink = jox_palette_class(n);
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s\"#%02x%02x%02x\"",

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "jostle_tools.h"
 #include "run/run.h"
 
 static char folder[] = "/tmp/jostle-examples-XXXXXX";

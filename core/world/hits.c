@@ -1,0 +1,85 @@
+/* What people and bodies do to each other in a step: impulses of pushes, contacts and kicks on
+   bodies, and fast bodies that hit people. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "world/stages.h"
+
+/* People as fast bodies meet them, in ascending id: where they were and how they moved. */
+static uint32_t list_discs(const JoxAgents *a, JoxDiscList *list) {
+    if (a->count > list->capacity) {
+        list->capacity = a->count + a->count / 4 + 16;
+        list->discs = jox_realloc(list->discs, list->capacity, sizeof *list->discs);
+        list->agents = jox_realloc(list->agents, list->capacity, sizeof *list->agents);
+    }
+    jox_agents_by_id(a, list->agents);
+    for (uint32_t n = 0; n < a->count; n++) {
+        uint32_t i = list->agents[n];
+        list->discs[n] = (JoxDisc){.id = a->id[i],
+                                   .x = a->prev_x[i],
+                                   .y = a->prev_y[i],
+                                   .move_x = a->x[i] - a->prev_x[i],
+                                   .move_y = a->y[i] - a->prev_y[i],
+                                   .radius = a->param[JOX_PARAM_radius][i],
+                                   .mass = a->param[JOX_PARAM_mass][i],
+                                   .vx = a->vx[i],
+                                   .vy = a->vy[i]};
+    }
+    return a->count;
+}
+
+/* What fast bodies did to people: a change of velocity now, a contact force in the columns. */
+static void take_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
+    JoxAgents *a = s->agents;
+    float dt = (float)s->part->dt;
+    for (uint32_t h = 0; h < report->hit_count; h++) {
+        const JoxDiscHit *hit = &report->hits[h];
+        JOX_ASSERT(hit->disc < a->count);
+        uint32_t i = s->discs->agents[hit->disc];
+        float mass = a->param[JOX_PARAM_mass][i];
+        a->vx[i] += hit->impulse.x / mass;
+        a->vy[i] += hit->impulse.y / mass;
+        a->force_x[i] += hit->impulse.x / dt;
+        a->force_y[i] += hit->impulse.y / dt;
+        a->compression[i] +=
+            jox_length(hit->impulse) / dt / (6.2831853f * a->param[JOX_PARAM_radius][i]);
+        a->contacts[i] += a->contacts[i] < 255;
+    }
+    JoxExchange *exchange = &s->statistics->exchange;
+    exchange->contacts += report->hit_count;
+    exchange->impulse += report->hit_impulse;
+    exchange->residual += report->hit_residual;
+    s->statistics->hits += report->hit_count;
+}
+
+/* People's pushes and contacts, and whether contacts give bodies what they take from people. */
+static void give_impulses(const JoxBodyStage *s, const JoxImpulse *impulses, uint32_t count) {
+    JoxExchange *exchange = &s->statistics->exchange;
+    JoxForceTotals totals = jox_force_totals(s->forces_of);
+    double before[3], after[3];
+    if (count == 0)
+        return;
+    jox_bodies_momentum(s->bodies, before);
+    jox_bodies_impulses(s->bodies, impulses, count);
+    jox_bodies_momentum(s->bodies, after);
+    double x = totals.touched_x + (after[0] - before[0] - totals.pushed_x);
+    double y = totals.touched_y + (after[1] - before[1] - totals.pushed_y);
+    exchange->contacts += totals.touches;
+    exchange->impulse += totals.touched;
+    exchange->residual += sqrt(x * x + y * y);
+}
+
+JoxBodiesReport jox_bodies_advance(const JoxBodyStage *s) {
+    uint32_t count;
+    float dt = (float)s->part->dt;
+    const JoxImpulse *impulses = jox_force_impulses(s->forces_of, &count);
+    give_impulses(s, impulses, count);
+    if (s->part->first)
+        jox_bodies_impulses(s->bodies, s->machines->kicks, s->machines->kick_count);
+    bool fast = s->forces && jox_bodies_any_fast(s->bodies, dt);
+    uint32_t discs = fast ? list_discs(s->agents, s->discs) : 0;
+    JoxBodiesReport report = jox_bodies_step(s->bodies, dt, fast ? s->discs->discs : NULL, discs);
+    take_hits(s, &report);
+    return report;
+}

@@ -1,0 +1,105 @@
+/* The stages of a step, each over what its context names. */
+#include "world/stages.h"
+
+#include <string.h>
+
+#include "base/mem.h"
+
+void jox_stage_perceive(const JoxPerceiveStage *s) {
+    if (s->part->first) {
+        jox_nav_sort(s->nav, s->agents, s->tick);
+        if (s->agents->count)
+            memset(s->agents->failed, 0, s->agents->count);
+    }
+    jox_nav_perceive(s->nav, s->agents, s->neighbours, s->pool);
+    jox_bodies_objects(s->bodies, s->objects);
+}
+
+void jox_stage_think(const JoxThinkStage *s) {
+    if (!s->part->first)
+        return;
+    jox_routes_update(s->route);
+    jox_machines_think(s->machines, s->pool);
+    s->statistics->transitions += s->machines->taken_count;
+    s->statistics->kicks += s->machines->kick_count;
+}
+
+void jox_stage_prefer(const JoxPreferStage *s) {
+    jox_machines_prefer(s->machines, s->pool);
+}
+
+void jox_stage_push(const JoxPushStage *s) {
+    JoxForceStep step = {.agents = s->agents,
+                         .neighbours = s->neighbours,
+                         .objects = s->objects,
+                         .pool = s->pool,
+                         .dt = s->part->dt,
+                         .plan = s->part->plan,
+                         .push_on = s->machines->push_on,
+                         .push_nearest = s->machines->push_nearest,
+                         .push_toward_x = s->machines->push_toward_x,
+                         .push_toward_y = s->machines->push_toward_y};
+    jox_force_begin(s->forces_of, &step);
+    if (s->forces) {
+        jox_force_push(s->forces_of);
+        jox_force_contact(s->forces_of);
+    }
+    jox_force_sum(s->forces_of);
+    jox_inspect_pushed(s->inspection, s->agents, s->forces_of);
+    if (!s->part->last || s->agents->count == 0)
+        return;
+    memset(s->agents->ext_x, 0, s->agents->count * sizeof(float)); /* given for this step alone */
+    memset(s->agents->ext_y, 0, s->agents->count * sizeof(float));
+}
+
+void jox_stage_solve(const JoxSolveStage *s) {
+    s->statistics->walls_relaxed +=
+        jox_nav_solve(s->nav, s->agents, s->neighbours, s->objects, s->part->plan, s->pool);
+    jox_inspect_solved(s->inspection, s->agents, s->nav, s->neighbours, s->objects, s->part->plan);
+}
+
+void jox_stage_move(const JoxMoveStage *s) {
+    JoxAgents *a = s->agents;
+    jox_nav_move(s->nav, a, s->neighbours, s->part->dt, s->part->plan, s->pool);
+    for (uint32_t i = 0; !s->part->only && i < a->count; i++) {
+        JoxV2 way = {a->x[i] - a->prev_x[i], a->y[i] - a->prev_y[i]};
+        s->walked[i] = s->part->first ? way : jox_add(s->walked[i], way);
+    }
+}
+
+void jox_stage_bodies(const JoxBodyStage *s) {
+    if (jox_bodies_count(s->bodies) == 0)
+        return;
+    if (s->part->first)
+        jox_bodies_carried(s);
+    jox_bodies_dragged(s);
+    if (!s->statistics->bonds.touched)
+        jox_bonds_note_touch(s);
+    JoxBodiesReport report = jox_bodies_advance(s);
+    jox_bonds_note_breaks(s, &report);
+    s->statistics->bodies_lost += report.gone_count;
+}
+
+void jox_stage_infer(const JoxInferStage *s) {
+    if (s->forces)
+        jox_force_infer(s->forces_of);
+    jox_inspect_inferred(s->inspection, s->agents, s->forces_of);
+}
+
+void jox_stage_observe(const JoxObserveStage *s) {
+    JoxAgents *a = s->agents;
+    if (!s->part->last)
+        return;
+    for (uint32_t i = 0; !s->part->only && i < a->count; i++) { /* where the whole step began */
+        a->prev_x[i] = a->x[i] - s->walked[i].x;
+        a->prev_y[i] = a->y[i] - s->walked[i].y;
+    }
+    jox_statistics_observe(s->statistics, a, s->neighbours, s->tick, s->dt);
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (!a->removed[i])
+            continue;
+        JOX_RESERVE(s->gone->items, s->gone->capacity, s->gone->count + 1);
+        s->gone->items[s->gone->count++] = (JoxV2){a->x[i], a->y[i]};
+    }
+    s->statistics->removed += jox_agents_compact(a);
+}

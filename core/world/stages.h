@@ -1,0 +1,145 @@
+/* The nine stages of a step. Each is given what it may touch, and nothing else: what it reads is
+   const in its context, what it writes is not. step.c fills the contexts from the world. */
+#ifndef JOX_WORLD_STAGES_H
+#define JOX_WORLD_STAGES_H
+
+#include "agents/agents.h"
+#include "agents/neighbours.h"
+#include "body/body.h"
+#include "force/force.h"
+#include "machine/run.h"
+#include "nav/nav.h"
+#include "world/drag.h"
+#include "world/inspected.h"
+#include "world/routes.h"
+#include "world/statistics.h"
+
+/* A step longer than people plan ahead is done in equal parts; think and observe run once. */
+typedef struct JoxStepPart {
+    bool first, last, only; /* only: the step is not divided */
+    double dt, plan;        /* s: of the part; how far ahead velocities are planned */
+    double end;             /* s: simulated time at its end */
+} JoxStepPart;
+
+typedef struct JoxPerceiveStage {
+    const JoxStepPart *part;
+    uint64_t tick;
+    JoxPool *pool;
+    JoxBodies *bodies; /* their objects are told, nothing is changed */
+    JoxNav *nav;
+    JoxAgents *agents; /* their order; search, density, failed */
+    JoxNeighbours *neighbours;
+    JoxObjects *objects;
+} JoxPerceiveStage;
+void jox_stage_perceive(const JoxPerceiveStage *stage);
+
+typedef struct JoxThinkStage {
+    const JoxStepPart *part;
+    JoxPool *pool;
+    const JoxRouteStage *route;
+    JoxMachineRun *machines; /* which says what machines read and write */
+    JoxStatistics *statistics;
+} JoxThinkStage;
+void jox_stage_think(const JoxThinkStage *stage);
+
+typedef struct JoxPreferStage {
+    JoxPool *pool;
+    JoxMachineRun *machines;
+} JoxPreferStage;
+void jox_stage_prefer(const JoxPreferStage *stage);
+
+typedef struct JoxPushStage {
+    const JoxStepPart *part;
+    bool forces; /* else people feel none */
+    JoxPool *pool;
+    const JoxNeighbours *neighbours;
+    const JoxObjects *objects;
+    const JoxMachineRun *machines; /* who pushes, and whereto */
+    JoxForces *forces_of;
+    JoxAgents
+        *agents; /* push, contact, force, plane, disc, compression, contacts; ext is used up */
+    JoxInspection *inspection;
+} JoxPushStage;
+void jox_stage_push(const JoxPushStage *stage);
+
+typedef struct JoxSolveStage {
+    const JoxStepPart *part;
+    JoxPool *pool;
+    const JoxNeighbours *neighbours;
+    const JoxObjects *objects;
+    JoxNav *nav;
+    JoxAgents *agents; /* next, failed */
+    JoxInspection *inspection;
+    JoxStatistics *statistics;
+} JoxSolveStage;
+void jox_stage_solve(const JoxSolveStage *stage);
+
+typedef struct JoxMoveStage {
+    const JoxStepPart *part;
+    JoxPool *pool;
+    const JoxNeighbours *neighbours;
+    JoxNav *nav;
+    JoxAgents *agents; /* position, velocity, prev, still */
+    JoxV2 *walked;     /* per agent, m: during the parts so far; only where there are several */
+} JoxMoveStage;
+void jox_stage_move(const JoxMoveStage *stage);
+
+/* People as fast bodies meet them, and their indices. Scratch. */
+typedef struct JoxDiscList {
+    JoxDisc *discs;
+    uint32_t *agents;
+    uint32_t capacity;
+} JoxDiscList;
+
+typedef struct JoxBodyStage {
+    const JoxStepPart *part;
+    bool forces;
+    double gravity; /* m/s2 */
+    const JoxNeighbours *neighbours;
+    const JoxObjects *objects;     /* as they were before the step */
+    const JoxMachineRun *machines; /* kicks, and what is picked up and thrown */
+    JoxForces *forces_of;          /* whose impulses on bodies are sorted */
+    JoxDiscList *discs;
+    JoxAgents *agents; /* velocity, force, compression, contacts of those who are hit */
+    JoxBodies *bodies;
+    JoxDrags *drags;
+    JoxStatistics *statistics;
+} JoxBodyStage;
+void jox_stage_bodies(const JoxBodyStage *stage);
+/* Its steps: bodies that are picked up, carried and thrown; forces on those that are dragged; who
+   is before a bonded body or touches it; the step of the bodies with what they do to people; what
+   broke. */
+void jox_bodies_carried(const JoxBodyStage *stage);
+void jox_bodies_dragged(const JoxBodyStage *stage);
+void jox_bonds_note_touch(const JoxBodyStage *stage);
+JoxBodiesReport jox_bodies_advance(const JoxBodyStage *stage);
+void jox_bonds_note_breaks(const JoxBodyStage *stage, const JoxBodiesReport *report);
+
+typedef struct JoxInferStage {
+    bool forces;
+    JoxForces *forces_of;
+    JoxAgents *agents; /* inferred */
+    JoxInspection *inspection;
+} JoxInferStage;
+void jox_stage_infer(const JoxInferStage *stage);
+
+/* Where those stood who left of their own accord in the last step, m. */
+typedef struct JoxGone {
+    JoxV2 *items;
+    uint32_t count;
+    size_t capacity;
+} JoxGone;
+
+typedef struct JoxObserveStage {
+    const JoxStepPart *part;
+    uint64_t tick;
+    double dt; /* s, of the whole step */
+    const JoxNeighbours *neighbours;
+    const JoxV2 *walked;
+    JoxAgents *agents; /* prev; those who leave are taken out */
+    JoxGone *gone;
+    JoxStatistics *statistics;
+} JoxObserveStage;
+void jox_stage_observe(const JoxObserveStage *stage);
+
+#endif
