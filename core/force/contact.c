@@ -2,6 +2,7 @@
    passes converge with every contact solved at once, so that no order of contacts exists. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "force/equations.h"
 #include "force/internal.h"
@@ -24,6 +25,8 @@ static JoxPair make_pair(const JoxAgents *a, uint32_t i, uint32_t k) {
     JoxV2 normal = jox_unit(jox_offset(a, second, first));
     if (normal.x == 0.0f && normal.y == 0.0f)
         normal.x = 1.0f;
+    JOX_ASSERT(first != second && a->id[first] < a->id[second]);
+    JOX_ASSERT(jox_is_unit(normal));
     return (JoxPair){.first = first, .second = second, .nx = normal.x, .ny = normal.y};
 }
 
@@ -56,6 +59,7 @@ static void find_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
             count++;
         }
     }
+    JOX_ASSERT(count <= f->pairs.room && approaching <= count);
     f->pairs.counts[chunk] = count;
     f->chunk[chunk].approaching = approaching;
     if (f->grid.columns)
@@ -104,6 +108,8 @@ static void join_ends(JoxForces *f) {
         8 * f->step.agents->count; /* a dense crowd's, so that no steady step grows it */
     JOX_RESERVE(f->ends, f->end_capacity, sum > room ? sum : room);
     visit_pairs(f, enter_ends);
+    JOX_ASSERT(sum == 2 * f->totals.pairs);
+    JOX_ASSERT(f->starts[0] == 0 && f->starts[a->count] == sum);
 }
 
 /* Before the first pass: restitution, split masses; printed, the whole impulse. */
@@ -126,6 +132,7 @@ static void prepare_pairs(void *context, uint32_t begin, uint32_t end, uint32_t 
             p->stiff = 1.0f / ((float)a->contacts[p->first] / mass[p->first] +
                                (float)a->contacts[p->second] / mass[p->second]);
             p->bounce = speed < 0.0f ? -restitution * speed : 0.0f;
+            JOX_ASSERT(p->stiff > 0.0f && a->contacts[p->first] && a->contacts[p->second]);
         }
     }
 }
@@ -172,6 +179,7 @@ static JoxV2 received(const JoxForces *f, uint32_t i, float *size) {
     *size = 0.0f;
     for (uint32_t k = f->starts[i]; k < f->starts[i + 1]; k++) {
         const JoxPair *p = &pairs[f->ends[k].pair];
+        JOX_ASSERT(p->first == i || p->second == i);
         float signed_impulse = p->first == i ? p->impulse : -p->impulse;
         sum.x += signed_impulse * p->nx;
         sum.y += signed_impulse * p->ny;
@@ -259,5 +267,6 @@ void jox_force_contact(JoxForces *f) {
         each_chunk(f, move_chunk);
     }
     each_chunk(f, finish_chunk);
+    JOX_CHECK(jox_contacts_check(f));
     jox_touches_finish(f);
 }

@@ -1,8 +1,10 @@
 /* What one agent's forces are made of, for who looks at it. */
+#include "base/assert.h"
 #include "force/equations.h"
 #include "force/internal.h"
 
 JoxV2 jox_force_of_bodies(const JoxForces *f, uint32_t agent) {
+    JOX_ASSERT(agent < f->step.agents->count);
     JoxV2 sum = {0.0f, 0.0f};
     for (uint32_t k = 0; k < f->touch_count; k++)
         if (f->touch[k].agent == agent)
@@ -19,6 +21,7 @@ JoxV2 jox_force_slowed(const JoxForces *f, uint32_t agent, float *kept) {
     for (uint32_t k = f->starts[agent]; k < f->starts[agent + 1]; k++) {
         const JoxTransfer *t = &f->sorted[k];
         uint32_t giver = jox_agents_find(a, t->from_id);
+        JOX_ASSERT(giver < a->count && t->to == agent);
         if (a->half_plane_x[giver] == 0.0f && a->half_plane_y[giver] == 0.0f)
             sum = jox_add(sum, (JoxV2){t->x, t->y});
     }

@@ -163,4 +163,10 @@ void jox_touches_prepare(JoxForces *forces, bool literal);
 void jox_touches_pass(JoxForces *forces);
 void jox_touches_finish(JoxForces *forces);
 
+/* Assertions: transfers lie sorted by receiver, from givers that live; the contacts between agents
+   add up to no force; the cells of the grid of bodies list live ones, ascending. */
+void jox_transfers_check(const JoxForces *forces);
+void jox_contacts_check(const JoxForces *forces);
+void jox_body_grid_check(const JoxBodyGrid *grid, const JoxObjects *objects);
+
 #endif

@@ -1,6 +1,7 @@
 /* Equation 5: deliberate pushes. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "force/equations.h"
 #include "force/internal.h"
 
@@ -72,6 +73,7 @@ static uint32_t bodies_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
 
 /* Only the nearest is left: of equals the first found, which is the one of least id. */
 static uint32_t keep_nearest(Target *targets, uint32_t n) {
+    JOX_ASSERT(n > 0);
     uint32_t best = 0;
     for (uint32_t k = 1; k < n; k++)
         if (targets[k].gap < targets[best].gap)
@@ -96,6 +98,7 @@ static JoxV2 push_on(const JoxForces *f, uint32_t i, JoxV2 aim, const Target *ta
 static void wait_for_body(JoxForces *f, uint32_t chunk, uint32_t i, const Target *target,
                           JoxV2 force) {
     JoxTouch *list = (JoxTouch *)f->touches.items + (size_t)chunk * f->touches.room;
+    JOX_ASSERT(chunk < f->chunks && f->touches.counts[chunk] < f->touches.room);
     list[f->touches.counts[chunk]++] =
         (JoxTouch){.agent = i, .object = target->index, .normal = force, .point = target->point};
 }
@@ -114,6 +117,7 @@ static void push_by(JoxForces *f, uint32_t chunk, uint32_t i) {
     uint32_t n = people_ahead(f, i, aim, targets);
     if (f->grid.columns)
         n += bodies_ahead(f, i, aim, targets + n);
+    JOX_ASSERT(n <= MOST_TARGETS);
     if (!n)
         return;
     if (f->step.push_nearest && f->step.push_nearest[i])
@@ -122,6 +126,7 @@ static void push_by(JoxForces *f, uint32_t chunk, uint32_t i) {
     JoxV2 sum = {0.0f, 0.0f};
     for (uint32_t k = 0; k < n; k++) {
         JoxV2 force = push_on(f, i, aim, &targets[k], n);
+        JOX_ASSERT(targets[k].is_body || targets[k].index != i);
         sum = jox_add(sum, force);
         if (targets[k].is_body)
             wait_for_body(f, chunk, i, &targets[k], force);

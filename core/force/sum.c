@@ -1,6 +1,7 @@
 /* Equations 10 to 12, and what braced and slowing people pass on: equations 8 and 9. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "force/equations.h"
 #include "force/internal.h"
 
@@ -21,6 +22,8 @@ static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, fl
     float mass = a->param[JOX_PARAM_mass][i], most = a->param[JOX_PARAM_max_speed][i];
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
     JoxV2 normal = jox_scale(force, 1.0f / size);
+    JOX_ASSERT(mass > 0.0f && decay <= 1.0f);
+    JOX_ASSERT(jox_is_unit(normal));
     a->half_plane_x[i] = normal.x;
     a->half_plane_y[i] = normal.y;
     a->half_plane_offset[i] = jox_forced_speed(velocity, normal, size, mass, decay, dt);
@@ -59,8 +62,8 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
             continue;
         float size = jox_length(force);
         if (size >= f->options.least * mass[i] && isfinite(size))
-            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], f->step.plan),
-                           (float)f->step.plan);
+            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], f->step.planning_time),
+                           (float)f->step.planning_time);
     }
 }
 
@@ -83,11 +86,14 @@ static uint32_t in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t *fo
         found[n] = other; /* kept only if it counts; no branch that would be guessed wrong */
         n += near_enough & jox_cone_holds(offset, axis, cosine);
     }
+    JOX_ASSERT(n <= near->count[i]);
     return n;
 }
 
 static void give(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force) {
     JoxTransfer *list = (JoxTransfer *)f->transfers.items + (size_t)chunk * f->transfers.room;
+    JOX_ASSERT(to < f->step.agents->count);
+    JOX_ASSERT(chunk < f->chunks && f->transfers.counts[chunk] < f->transfers.room);
     list[f->transfers.counts[chunk]++] = (JoxTransfer){to, f->step.agents->id[i], force.x, force.y};
 }
 
@@ -104,7 +110,7 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
     for (uint32_t k = 0; k < n; k++)
         give(f, chunk, i, found[k],
              jox_resistance(unit, shortfall, absorb, a->param[JOX_PARAM_mass][i], n,
-                            (float)f->step.plan));
+                            (float)f->step.planning_time));
 }
 
 /* (8) Someone under no force who slowed down. */
@@ -129,7 +135,7 @@ static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
     if (n)
         return;
     JoxV2 own = jox_deceleration(change, absorb, mass, 1, dt, literal);
-    give(f, chunk, i, i, jox_keep_from_reversing(own, after, mass, (float)f->step.plan));
+    give(f, chunk, i, i, jox_keep_from_reversing(own, after, mass, (float)f->step.planning_time));
 }
 
 static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -166,6 +172,7 @@ static void scale_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     (void)worker;
     JoxForces *f = context;
     float share = f->options.literal ? 1.0f : jox_filter_share(f->step.dt, f->options.filter);
+    JOX_ASSERT(share > 0.0f && share <= 1.0f);
     JoxTransfer *sorted = f->sorted;
     for (uint32_t i = f->starts[begin]; i < f->starts[end]; i++) {
         sorted[i].x *= share;

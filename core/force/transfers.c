@@ -1,4 +1,5 @@
 /* Lists that the stages of force hand on: forces between agents, and impulses on bodies. */
+#include "base/assert.h"
 #include "base/mem.h"
 #include "base/sort.h"
 #include "force/internal.h"
@@ -13,6 +14,7 @@ void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t
     }
     JOX_RESERVE(list->counts, list->chunk_capacity, chunks);
     list->room = room;
+    JOX_ASSERT(!need || (list->items && list->capacity >= need));
     if (chunks)
         memset(list->counts, 0, chunks * sizeof *list->counts);
 }
@@ -43,6 +45,8 @@ uint32_t jox_transfers_sort(JoxForces *f) {
         for (uint32_t i = 0; i < f->transfers.counts[c]; i++)
             f->sorted[--f->starts[t[i].to]] = t[i];
     }
+    JOX_ASSERT(f->starts[0] == 0 && f->starts[n] == total);
+    JOX_CHECK(jox_transfers_check(f));
     return total;
 }
 
@@ -72,8 +76,10 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
             continue;
         JoxTransfer *t = f->sorted + first;
         order_by_giver(t, count);
+        JOX_ASSERT(t[0].to == i && t[count - 1].to == i);
         float x = 0.0f, y = 0.0f, size = 0.0f;
         for (uint32_t k = 0; k < count; k++) {
+            JOX_ASSERT(k == 0 || t[k - 1].from_id <= t[k].from_id);
             x += t[k].x;
             y += t[k].y;
             if (task->compression)
@@ -94,6 +100,7 @@ void jox_transfers_sum(JoxForces *f, float *x, float *y, float *compression) {
 void jox_force_add_impulse(JoxForces *f, uint32_t agent_id, uint32_t object, JoxV3 impulse,
                            JoxV3 point) {
     JOX_RESERVE(f->pending, f->pending_capacity, (size_t)f->pending_count + 1);
+    JOX_ASSERT(object < f->step.objects->count && agent_id < f->step.agents->next_id);
     uint64_t key = (uint64_t)agent_id << 32 | object;
     f->pending[f->pending_count] = (JoxPendingImpulse){key, {object, impulse, point}};
     f->pending_count++;

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "geom/field_parts.h"
 
@@ -10,27 +11,26 @@ static const float LEAST_CELL = 0.1f, MOST_CELL = 2.0f; /* m */
 static const float LEAST_CLEARANCE = 0.05f;             /* m */
 static const float FARTHEST = 1e6f;                     /* m: no plan is larger */
 
-static void hold(const JoxPlace *places, uint32_t index, JoxV2 *low, JoxV2 *high) {
+static void include_place(const JoxPlace *places, uint32_t index, JoxV2 *low, JoxV2 *high) {
     const JoxPlace *place = &places[index];
-    for (uint32_t k = 0; place->kind == JOX_PLACE_SET && k < place->member_count; k++)
-        hold(places, (uint32_t)place->members[k], low, high);
-    uint32_t count =
-        place->kind == JOX_PLACE_POINT || place->kind == JOX_PLACE_QUEUE ? 1 : place->count;
-    for (uint32_t k = 0; place->kind != JOX_PLACE_SET && k < count; k++) {
+    for (uint32_t k = 0; k < place->member_count; k++)
+        include_place(places, (uint32_t)place->members[k], low, high);
+    for (uint32_t k = 0; k < jox_place_goal_points(place); k++) {
         JoxV2 p = place->points[k];
         *low = (JoxV2){jox_minf(low->x, p.x), jox_minf(low->y, p.y)};
         *high = (JoxV2){jox_maxf(high->x, p.x), jox_maxf(high->y, p.y)};
     }
 }
 
-/* A box that is one: ordered, finite, not beyond all measure, and about the place too. */
-static void lay(JoxField *f, const JoxPlace *places, uint32_t place, JoxV2 low, JoxV2 high,
-                float cell) {
+/* The box and its cells: ordered, finite, of a size that can be computed, and about the place too.
+ */
+static void set_grid(JoxField *f, const JoxPlace *places, uint32_t place, JoxV2 low, JoxV2 high,
+                     float cell) {
     if (!(high.x >= low.x && high.y >= low.y)) {
         low = (JoxV2){INFINITY, INFINITY};
         high = (JoxV2){-INFINITY, -INFINITY};
     }
-    hold(places, place, &low, &high);
+    include_place(places, place, &low, &high);
     low = (JoxV2){jox_clampf(low.x, -FARTHEST, FARTHEST), jox_clampf(low.y, -FARTHEST, FARTHEST)};
     high = (JoxV2){jox_clampf(high.x, low.x, FARTHEST), jox_clampf(high.y, low.y, FARTHEST)};
     cell = jox_clampf(cell > 0.0f ? cell : LEAST_CELL, LEAST_CELL, MOST_CELL);
@@ -41,12 +41,13 @@ static void lay(JoxField *f, const JoxPlace *places, uint32_t place, JoxV2 low, 
     f->size = cell;
     f->columns = (int)ceilf(width / cell);
     f->rows = (int)ceilf(height / cell);
+    JOX_ASSERT(f->columns > 0 && f->rows > 0);
 }
 
 JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
                            JoxV2 high, float cell, float clearance) {
     JoxField *f = jox_alloc(1, sizeof *f);
-    lay(f, places, place, low, high, cell);
+    set_grid(f, places, place, low, high, cell);
     f->clearance = clearance > LEAST_CLEARANCE ? clearance : LEAST_CLEARANCE;
     size_t count = (size_t)f->columns * (size_t)f->rows;
     f->cells = jox_alloc(count, sizeof *f->cells);
@@ -55,8 +56,8 @@ JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32
                          .first = jox_alloc(count + 1, sizeof(uint32_t)),
                          .solid = jox_alloc(count, sizeof(uint16_t)),
                          .time = jox_alloc(count, sizeof(float)),
-                         .slow = jox_alloc(count, sizeof(float)),
-                         .knot = jox_alloc(count, 1),
+                         .slowness = jox_alloc(count, sizeof(float)),
+                         .node = jox_alloc(count, 1),
                          .links = jox_alloc(count, 1),
                          .corners = jox_alloc(count, 1)};
     jox_field_mark(&work, walls);
@@ -65,8 +66,8 @@ JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32
     jox_free(work.first);
     jox_free(work.solid);
     jox_free(work.time);
-    jox_free(work.slow);
-    jox_free(work.knot);
+    jox_free(work.slowness);
+    jox_free(work.node);
     jox_free(work.links);
     jox_free(work.corners);
     return f;
@@ -75,16 +76,16 @@ JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32
 /* ---- sampling ---- */
 
 /* Where a point lies in the grid, in cells; the box's nearest point for one outside. */
-typedef struct Spot {
+typedef struct GridPoint {
     float x, y;
     int column, row;
     const JoxFieldCell *cell;
     JoxV2 point, beyond; /* the point within the box, and what leads there from outside */
-} Spot;
+} GridPoint;
 
-static Spot find(const JoxField *f, JoxV2 p) {
+static GridPoint find(const JoxField *f, JoxV2 p) {
     float x = (p.x - f->low.x) / f->size, y = (p.y - f->low.y) / f->size;
-    Spot s = {.point = p};
+    GridPoint s = {.point = p};
     s.x = x > 0.0f ? jox_minf(x, (float)f->columns) : 0.0f; /* not a number: 0 */
     s.y = y > 0.0f ? jox_minf(y, (float)f->rows) : 0.0f;
     if (s.x != x || s.y != y) {
@@ -93,12 +94,14 @@ static Spot find(const JoxField *f, JoxV2 p) {
     }
     s.column = s.x < (float)f->columns ? (int)s.x : f->columns - 1;
     s.row = s.y < (float)f->rows ? (int)s.y : f->rows - 1;
+    JOX_ASSERT(s.column >= 0 && s.column < f->columns && s.row >= 0 && s.row < f->rows);
     s.cell = &f->cells[s.row * f->columns + s.column];
     return s;
 }
 
 /* The four centres about a spot and their weights. */
-static void corners(const JoxField *f, const Spot *s, const JoxFieldCell **cells, float *weights) {
+static void corners(const JoxField *f, const GridPoint *s, const JoxFieldCell **cells,
+                    float *weights) {
     float x = jox_clampf(s->x - 0.5f, 0.0f, (float)(f->columns - 1));
     float y = jox_clampf(s->y - 0.5f, 0.0f, (float)(f->rows - 1));
     int c = (int)x, r = (int)y;
@@ -112,9 +115,10 @@ static void corners(const JoxField *f, const Spot *s, const JoxFieldCell **cells
     weights[1] = u * (1.0f - v);
     weights[2] = (1.0f - u) * v;
     weights[3] = u * v;
+    JOX_ASSERT(u >= 0.0f && u <= 1.0f && v >= 0.0f && v <= 1.0f);
 }
 
-static int nearest_sample(const JoxField *f, const Spot *s, JoxV2 *sample) {
+static int nearest_sample(const JoxField *f, const GridPoint *s, JoxV2 *sample) {
     int x = (int)((s->x - (float)s->column) * (float)JOX_FIELD_SIDE);
     int y = (int)((s->y - (float)s->row) * (float)JOX_FIELD_SIDE);
     int k = (y < JOX_FIELD_SIDE ? y : JOX_FIELD_SIDE - 1) * JOX_FIELD_SIDE +
@@ -123,14 +127,15 @@ static int nearest_sample(const JoxField *f, const Spot *s, JoxV2 *sample) {
     return k;
 }
 
-/* A sample and what it says. */
-typedef struct Said {
+/* A sample: where it lies, the direction of the way from it and its length, m. */
+typedef struct Sampled {
     JoxV2 at, way;
     float length;
-} Said;
+} Sampled;
 
-static bool parted(const JoxField *f, const JoxFieldPatch *patch, JoxV2 p, JoxV2 sample) {
+static bool is_separated(const JoxField *f, const JoxFieldPatch *patch, JoxV2 p, JoxV2 sample) {
     for (uint32_t k = patch->first; k < patch->first + patch->count; k++) {
+        JOX_ASSERT(f->refs[k] < f->edge_count);
         const JoxFieldEdge *e = &f->edges[f->refs[k]];
         if (jox_segment_crossing(e->a, e->b, p, sample) != 0)
             return true;
@@ -139,52 +144,55 @@ static bool parted(const JoxField *f, const JoxFieldPatch *patch, JoxV2 p, JoxV2
 }
 
 /* The nearest sample of one patch that no edge parts from a point; false if there is none. */
-static bool ask(const JoxField *f, const JoxFieldPatch *about, int cell, JoxV2 p, Said *said) {
+static bool nearest_visible_sample(const JoxField *f, const JoxFieldPatch *about, int cell, JoxV2 p,
+                                   Sampled *sampled) {
+    JOX_ASSERT((uint32_t)f->cells[cell].patch < f->patch_count);
     const JoxFieldPatch *patch = &f->patches[f->cells[cell].patch];
     float least = INFINITY;
     for (int k = 0; k < JOX_FIELD_SAMPLES; k++) {
         JoxV2 at = jox_field_sample(f, cell, k);
         float d2 = jox_length2(jox_sub(at, p));
-        if (d2 >= least || patch->upon >> k & 1 || parted(f, about, p, at))
+        if (d2 >= least || patch->on_edge >> k & 1 || is_separated(f, about, p, at))
             continue;
         least = d2;
-        *said = (Said){at, {patch->x[k], patch->y[k]}, patch->length[k]};
+        *sampled = (Sampled){at, {patch->x[k], patch->y[k]}, patch->length[k]};
     }
     return least < INFINITY;
 }
 
-/* What a point at a wall is told: by the sample of its ninth of the cell; where an edge passes
-   that, by the nearest one on its own side. False if none is. */
-static bool listen(const JoxField *f, const Spot *s, Said *said) {
+/* The sample that holds at a point near a wall: that of its ninth of the cell; where an edge passes
+   through that ninth, the nearest sample on the point's side. False if there is none. */
+static bool sample_at_wall(const JoxField *f, const GridPoint *s, Sampled *sampled) {
     int cell = s->row * f->columns + s->column;
     const JoxFieldPatch *patch = &f->patches[s->cell->patch];
-    int k = nearest_sample(f, s, &said->at);
-    said->way = (JoxV2){patch->x[k], patch->y[k]};
-    said->length = patch->length[k];
+    int k = nearest_sample(f, s, &sampled->at);
+    sampled->way = (JoxV2){patch->x[k], patch->y[k]};
+    sampled->length = patch->length[k];
     if (!(patch->cut >> k & 1))
         return true;
-    if (!(patch->upon >> k & 1) && !parted(f, patch, s->point, said->at))
+    if (!(patch->on_edge >> k & 1) && !is_separated(f, patch, s->point, sampled->at))
         return true;
-    if (ask(f, patch, cell, s->point, said))
+    if (nearest_visible_sample(f, patch, cell, s->point, sampled))
         return true;
     for (int n = 0; n < 8; n++) {
         int other = jox_field_next(f, cell, n);
-        if (other >= 0 && f->cells[other].patch >= 0 && ask(f, patch, other, s->point, said))
+        if (other >= 0 && f->cells[other].patch >= 0 &&
+            nearest_visible_sample(f, patch, other, s->point, sampled))
             return true;
     }
     return false;
 }
 
 float jox_field_distance(const JoxField *f, JoxV2 p) {
-    Spot s = find(f, p);
+    GridPoint s = find(f, p);
     float beyond = jox_length(s.beyond);
     if (s.cell->patch == JOX_FIELD_PLAIN)
         return s.cell->length + beyond;
     if (s.cell->patch >= 0) {
-        Said said;
-        if (!listen(f, &s, &said) || !(said.length < INFINITY))
+        Sampled sampled;
+        if (!sample_at_wall(f, &s, &sampled) || !(sampled.length < INFINITY))
             return INFINITY;
-        float on = said.length - jox_dot(said.way, jox_sub(s.point, said.at));
+        float on = sampled.length - jox_dot(sampled.way, jox_sub(s.point, sampled.at));
         return jox_maxf(0.0f, on) + beyond;
     }
     const JoxFieldCell *cells[4];
@@ -196,7 +204,8 @@ float jox_field_distance(const JoxField *f, JoxV2 p) {
         const JoxFieldCell *cell = cells[k];
         if (!(cell->length < INFINITY))
             return INFINITY;
-        /* Slopes alone say a little too little, and centres alone as much too much. */
+        /* Lengths extrapolated by the slope come out a little short and those of the centres as
+           much too long, so half the slope is taken. */
         JoxV2 off = jox_sub(s.point, jox_field_sample(f, (int)(cell - f->cells), JOX_FIELD_MIDDLE));
         sum += weights[k] * (cell->length - 0.5f * jox_field_slope(cell, off));
         ways = jox_add(ways, (JoxV2){weights[k] * cell->x, weights[k] * cell->y});
@@ -207,28 +216,29 @@ float jox_field_distance(const JoxField *f, JoxV2 p) {
     return jox_maxf(0.0f, sum) + beyond;
 }
 
-static JoxV2 at_wall(const JoxField *f, const Spot *s) {
+static JoxV2 at_wall(const JoxField *f, const GridPoint *s) {
     const JoxFieldPatch *patch = &f->patches[s->cell->patch];
-    Said said;
-    bool told = listen(f, s, &said);
+    Sampled sampled;
+    bool found = sample_at_wall(f, s, &sampled);
     JoxV2 ignored, at = s->point;
-    if (told && (!(said.length < INFINITY) || !(patch->cut >> nearest_sample(f, s, &ignored) & 1)))
-        return said.way;
+    if (found &&
+        (!(sampled.length < INFINITY) || !(patch->cut >> nearest_sample(f, s, &ignored) & 1)))
+        return sampled.way;
     /* So close to a wall that samples do not tell how close: also off it, or out of it. */
     uint32_t e = 0;
     float near = jox_field_nearest(f, patch->first, patch->first + patch->count, s->point, &at, &e);
     if (near >= f->clearance || near <= 0.0f)
-        return told ? said.way : (JoxV2){0.0f, 0.0f};
+        return found ? sampled.way : (JoxV2){0.0f, 0.0f};
     JoxV2 off = jox_scale(jox_sub(s->point, at), (1.0f - near / f->clearance) / near);
-    if (told)
-        return jox_unit(jox_add(said.way, off));
+    if (found)
+        return jox_unit(jox_add(sampled.way, off));
     JoxV2 along = jox_sub(f->edges[e].b, f->edges[e].a);
     bool within = f->edges[e].solid && jox_det(along, jox_sub(s->point, at)) > 0.0f;
     return jox_unit(jox_scale(off, within ? -1.0f : 1.0f));
 }
 
 JoxV2 jox_field_direction(const JoxField *f, JoxV2 p) {
-    Spot s = find(f, p);
+    GridPoint s = find(f, p);
     JoxV2 way = {s.cell->x, s.cell->y};
     if (s.cell->patch >= 0) {
         way = at_wall(f, &s);
@@ -243,7 +253,7 @@ JoxV2 jox_field_direction(const JoxField *f, JoxV2 p) {
         if (length2 > JOX_FIELD_ARRIVED * JOX_FIELD_ARRIVED)
             way = jox_scale(sum, 1.0f / sqrtf(length2));
         else if (s.cell->length < f->size)
-            way = (JoxV2){0.0f, 0.0f}; /* else ways part here: one of them is taken */
+            way = (JoxV2){0.0f, 0.0f}; /* else two ways are as good here: one of them is taken */
     }
     if (s.beyond.x == 0.0f && s.beyond.y == 0.0f)
         return way;

@@ -1,7 +1,8 @@
-/* The marching: times from the goal outwards, each knot from the triangles of its finished
+/* The marching: times from the goal outwards, each node from the triangles of its finished
    neighbours (Sethian 1999, as for unstructured meshes). */
 #include <math.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "geom/field_parts.h"
 
@@ -9,7 +10,8 @@ static const float SEED_CELLS = 4.5f; /* so near the goal, ways are straight and
 static const float STRAIGHT = 0.97f;  /* cosine of how far two slopes may differ */
 static const float SEED_MOST = 5.0f;  /* m: a goal in a wall is reached from so far */
 
-/* ---- a heap of cells by time; equal times by number, so that the order is one ---- */
+/* ---- a heap of cells by time; of equal times the lesser cell first, so that there is one order
+   ---- */
 
 typedef struct Heap {
     const float *time;
@@ -28,6 +30,7 @@ static void put(Heap *h, int at, int cell) {
 }
 
 static void rise(Heap *h, int cell) {
+    JOX_ASSERT(h->place[cell] != -2);
     if (h->place[cell] < 0)
         put(h, h->count++, cell);
     int at = h->place[cell];
@@ -51,6 +54,7 @@ static int pop(Heap *h) {
     if (h->count > 0)
         put(h, at, last);
     h->place[top] = -2;
+    JOX_ASSERT(h->count == 0 || !sooner(h, h->items[0], top));
     return top;
 }
 
@@ -59,6 +63,7 @@ static int pop(Heap *h) {
 static void offer(JoxFieldWork *w, Heap *h, int cell, float time, float length, JoxV2 way) {
     if (!(time < w->time[cell]))
         return;
+    JOX_ASSERT(w->node[cell] < JOX_FIELD_BLOCKED && time >= 0.0f && length >= 0.0f);
     w->time[cell] = time;
     w->f->cells[cell].length = length;
     w->f->cells[cell].x = way.x;
@@ -66,29 +71,27 @@ static void offer(JoxFieldWork *w, Heap *h, int cell, float time, float length, 
     rise(h, cell);
 }
 
-/* Seeds the knots within `reach` of a place that is no set; returns how many see it. Those that do
+/* Seeds the nodes within `reach` of a place that is no set; returns how many see it. Those that do
    not are seeded too once `blindly`. */
 static int seed_within(JoxFieldWork *w, Heap *h, const JoxPlace *place, float reach, bool blindly) {
     JoxField *f = w->f;
     JoxV2 low, high;
-    jox_bounds(place->points,
-               place->kind == JOX_PLACE_POINT || place->kind == JOX_PLACE_QUEUE ? 1 : place->count,
-               &low, &high);
+    jox_bounds(place->points, jox_place_goal_points(place), &low, &high);
     int c0, c1, r0, r1, seeds = 0;
     jox_field_span(low.x - reach, high.x + reach, f->low.x, f->size, f->columns, &c0, &c1);
     jox_field_span(low.y - reach, high.y + reach, f->low.y, f->size, f->rows, &r0, &r1);
     for (int r = r0; r <= r1; r++)
         for (int c = c0; c <= c1; c++) {
             int cell = r * f->columns + c;
-            if (w->knot[cell] == JOX_FIELD_BLOCKED)
+            if (w->node[cell] == JOX_FIELD_BLOCKED)
                 continue;
-            JoxV2 p = jox_field_knot(w, cell), goal = jox_place_nearest(place, 0, p);
+            JoxV2 p = jox_field_node(w, cell), goal = jox_place_nearest(place, 0, p);
             float distance = jox_length(jox_sub(goal, p));
             if (distance > reach || (!blindly && !jox_field_sees(w, goal, p, 0.85f * f->clearance)))
                 continue;
             seeds++;
             float scale = 1.0f / jox_maxf(distance, JOX_FIELD_CLOSE * f->size);
-            offer(w, h, cell, distance * w->slow[cell], distance,
+            offer(w, h, cell, distance * w->slowness[cell], distance,
                   jox_scale(jox_sub(goal, p), scale));
         }
     return seeds;
@@ -96,9 +99,9 @@ static int seed_within(JoxFieldWork *w, Heap *h, const JoxPlace *place, float re
 
 static void seed(JoxFieldWork *w, Heap *h, const JoxPlace *places, uint32_t index) {
     const JoxPlace *place = &places[index];
-    for (uint32_t k = 0; k < place->member_count && place->kind == JOX_PLACE_SET; k++)
+    for (uint32_t k = 0; k < place->member_count; k++)
         seed(w, h, places, (uint32_t)place->members[k]);
-    if (place->kind == JOX_PLACE_SET || place->count == 0)
+    if (place->count == 0)
         return;
     float least = SEED_CELLS * w->f->size, most = jox_maxf(SEED_MOST, 2.0f * least);
     for (int blindly = 0; blindly < 2; blindly++)
@@ -109,14 +112,15 @@ static void seed(JoxFieldWork *w, Heap *h, const JoxPlace *places, uint32_t inde
 
 /* ---- marching ---- */
 
-/* The soonest way from knot p by a point between two finished knots a and b. */
+/* The soonest way from node p by a point between two finished nodes a and b. */
 static void by_side(JoxFieldWork *w, Heap *h, int cell, JoxV2 p, int a, int b) {
-    JoxV2 from = jox_field_knot(w, a), to = jox_field_knot(w, b);
+    JoxV2 from = jox_field_node(w, a), to = jox_field_node(w, b);
     JoxV2 side = jox_sub(to, from), out = jox_sub(p, from);
-    float long2 = jox_length2(side), slow = w->slow[cell];
+    float long2 = jox_length2(side), slowness = w->slowness[cell];
     float rise_ab = w->time[b] - w->time[a];
-    /* Along the side, times rise by `slope`; across it, way is lost by `slow`. */
-    float rest2 = slow * slow * long2 - rise_ab * rise_ab;
+    /* The time rises linearly along the side; away from it, the way costs `slowness` a metre. The
+       point of least time splits the side where the two balance. */
+    float rest2 = slowness * slowness * long2 - rise_ab * rise_ab;
     if (!(rest2 > 0.0f))
         return;
     float t = (jox_dot(out, side) - fabsf(jox_det(out, side)) * rise_ab / sqrtf(rest2)) / long2;
@@ -125,7 +129,7 @@ static void by_side(JoxFieldWork *w, Heap *h, int cell, JoxV2 p, int a, int b) {
     JoxV2 way = jox_sub(jox_add(from, jox_scale(side, t)), p);
     float far = jox_length(way);
     float la = w->f->cells[a].length, lb = w->f->cells[b].length;
-    offer(w, h, cell, w->time[a] + t * rise_ab + slow * far, la + t * (lb - la) + far,
+    offer(w, h, cell, w->time[a] + t * rise_ab + slowness * far, la + t * (lb - la) + far,
           jox_scale(way, 1.0f / far));
 }
 
@@ -136,14 +140,15 @@ static void march(JoxFieldWork *w, Heap *h) {
         steps[k] = JOX_FIELD_RING[k][1] * f->columns + JOX_FIELD_RING[k][0];
     while (h->count > 0) {
         int i = pop(h);
-        JoxV2 from = jox_field_knot(w, i);
+        JoxV2 from = jox_field_node(w, i);
         for (int k = 0; k < 8; k++) {
             int j = i + steps[k];
             if (!(w->links[i] >> k & 1) || h->place[j] == -2)
                 continue;
-            JoxV2 p = jox_field_knot(w, j), way = jox_sub(from, p);
+            JOX_ASSERT(j >= 0 && j < w->count && w->links[j] >> ((k + 4) & 7) & 1);
+            JoxV2 p = jox_field_node(w, j), way = jox_sub(from, p);
             float far = jox_length(way);
-            offer(w, h, j, w->time[i] + w->slow[j] * far, f->cells[i].length + far,
+            offer(w, h, j, w->time[i] + w->slowness[j] * far, f->cells[i].length + far,
                   jox_scale(way, 1.0f / far));
             int back = (k + 4) & 7, left = (back + 1) & 7, right = (back + 7) & 7;
             if (w->corners[j] >> back & 1 && h->place[j + steps[left]] == -2)
@@ -154,8 +159,9 @@ static void march(JoxFieldWork *w, Heap *h) {
     }
 }
 
-/* Where nothing is near, slopes over both sides are straighter than those over one; not where ways
-   from two sides meet, which the slopes over both sides do not see. */
+/* Away from walls, directions become central differences of the times, which are more exact than
+   the one-sided ones of the marching; not where ways from two sides meet, as a central difference
+   there points at neither. */
 static void straighten(JoxFieldWork *w) {
     JoxField *f = w->f;
     const float *t = w->time;

@@ -1,6 +1,7 @@
-/* What walls do to a field: edges by cell, samples inside solids, knots and what they see. */
+/* What walls do to a field: edges by cell, samples inside solids, nodes and what they see. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "geom/field_parts.h"
 
@@ -9,7 +10,7 @@ const int JOX_FIELD_RING[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
 
 static const float NEAR = 0.5f;    /* m: walls slow people down within this */
 static const float SLOWING = 0.5f; /* more s/m right at a wall */
-/* A way round a corner cuts a little into the clearance between two knots. */
+/* A way round a corner cuts a little into the clearance between two nodes. */
 static const float CORNER = 0.85f;
 
 void jox_field_span(float from, float to, float low, float size, int most, int *first, int *last) {
@@ -29,6 +30,7 @@ static void collect(JoxField *f, const JoxWalls *walls) {
             bool back = b.x < a.x || (!(a.x < b.x) && b.y < a.y);
             if (back && !walls->rings[r].solid)
                 continue; /* thin walls run there and back: once is enough */
+            JOX_ASSERT(f->edge_count < walls->count);
             f->edges[f->edge_count++] = (JoxFieldEdge){a, b, walls->rings[r].solid};
         }
 }
@@ -75,6 +77,7 @@ static void sort_edges(JoxFieldWork *w, float reach) {
     f->refs = jox_alloc((size_t)f->ref_count + 1, sizeof *f->refs);
     for (uint32_t e = f->edge_count; e-- > 0;) /* backwards, as each list fills from its end */
         enter(w, e, reach);
+    JOX_ASSERT(w->first[0] == 0);
 }
 
 /* ---- solids ---- */
@@ -119,6 +122,7 @@ static void fill_solid(JoxFieldWork *w, const JoxWalls *walls, const struct JoxW
                 x[n] = x[n - 1];
             x[n] = at;
         }
+        JOX_ASSERT(crossings % 2 == 0); /* a ring is left as often as it is entered */
         fill_row(w, r, x, crossings);
     }
 }
@@ -187,14 +191,14 @@ bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least) {
     return true;
 }
 
-/* ---- knots and links ---- */
+/* ---- nodes and links ---- */
 
 /* The centre where it will do, else the sample that is freest. */
-static void tie(JoxFieldWork *w, int cell) {
+static void place_node(JoxFieldWork *w, int cell) {
     JoxField *f = w->f;
     uint32_t first = w->first[cell], last = w->first[cell + 1];
     float best = -1.0f;
-    w->knot[cell] = JOX_FIELD_BLOCKED;
+    w->node[cell] = JOX_FIELD_BLOCKED;
     for (int k = 0; k < JOX_FIELD_SAMPLES; k++) {
         int s = k == 0 ? JOX_FIELD_MIDDLE : k <= JOX_FIELD_MIDDLE ? k - 1 : k;
         if (w->solid[cell] >> s & 1)
@@ -203,23 +207,23 @@ static void tie(JoxFieldWork *w, int cell) {
         if (d < f->clearance || d <= best)
             continue;
         best = d;
-        w->knot[cell] = (uint8_t)s;
+        w->node[cell] = (uint8_t)s;
         if (s == JOX_FIELD_MIDDLE)
             break;
     }
     float lack = 1.0f - jox_clampf(best / NEAR, 0.0f, 1.0f);
-    w->slow[cell] = 1.0f + SLOWING * lack * lack;
+    w->slowness[cell] = 1.0f + SLOWING * lack * lack;
 }
 
 static void link_cell(JoxFieldWork *w, int cell) {
-    if (w->knot[cell] == JOX_FIELD_BLOCKED)
+    if (w->node[cell] == JOX_FIELD_BLOCKED)
         return;
     for (int k = 0; k < 4; k++) {
         int other = jox_field_next(w->f, cell, k);
-        if (other < 0 || w->knot[other] == JOX_FIELD_BLOCKED)
+        if (other < 0 || w->node[other] == JOX_FIELD_BLOCKED)
             continue;
         if ((jox_field_has_edges(w, cell) || jox_field_has_edges(w, other)) &&
-            !jox_field_sees(w, jox_field_knot(w, cell), jox_field_knot(w, other),
+            !jox_field_sees(w, jox_field_node(w, cell), jox_field_node(w, other),
                             CORNER * w->f->clearance))
             continue;
         w->links[cell] |= (uint8_t)(1 << k);
@@ -241,7 +245,7 @@ static void span_corners(JoxFieldWork *w, int cell) {
         int one = jox_field_next(w->f, cell, t), two = jox_field_next(w->f, cell, next);
         if (!(w->links[one] >> across & 1))
             continue;
-        JoxV2 a = jox_field_knot(w, cell), b = jox_field_knot(w, one), c = jox_field_knot(w, two);
+        JoxV2 a = jox_field_node(w, cell), b = jox_field_node(w, one), c = jox_field_node(w, two);
         bool empty = true; /* nothing crosses the sides: look for walls wholly within */
         for (uint32_t k = w->first[cell]; empty && k < w->first[cell + 1]; k++)
             empty = !in_triangle(a, b, c, w->f->edges[w->f->refs[k]].a);
@@ -257,7 +261,7 @@ void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls) {
     sort_edges(w, reach);
     fill_solids(w, walls);
     for (int i = 0; i < w->count; i++)
-        tie(w, i);
+        place_node(w, i);
     for (int i = 0; i < w->count; i++)
         link_cell(w, i);
     for (int i = 0; i < w->count; i++)

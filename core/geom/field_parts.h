@@ -1,8 +1,9 @@
 /* The parts of a field and of the work of making one; for the files field*.c alone.
-   Each cell away from walls has one direction, at its centre, and points between four centres blend
-   them. Cells at walls have a patch of 3 x 3 samples instead, each judged by what it sees, so that
-   sampling needs no more judging. While a field is made, every cell that can be walked has a knot:
-   that one of its samples (the centre where it will do) which the marching starts from. */
+   A cell away from walls has one direction, at its centre; points between four centres interpolate
+   them. A cell near a wall has a patch of 3 x 3 samples instead. What each sample can see is found
+   when the field is made, so that looking up a direction needs no test of sight. While a field is
+   made, every cell that can be walked has a node: the sample (its centre, if that keeps the
+   clearance) at which fast marching computes the time to the goal. */
 #ifndef JOX_GEOM_FIELD_PARTS_H
 #define JOX_GEOM_FIELD_PARTS_H
 
@@ -10,10 +11,10 @@
 
 enum { JOX_FIELD_SIDE = 3, JOX_FIELD_SAMPLES = 9, JOX_FIELD_MIDDLE = 4 };
 enum { JOX_FIELD_CLEAR = -1, JOX_FIELD_PLAIN = -2 }; /* instead of a patch: blend; do not */
-enum { JOX_FIELD_BLOCKED = 9 };                      /* instead of a knot */
+enum { JOX_FIELD_BLOCKED = 9 };                      /* instead of a node */
 
 typedef struct JoxFieldCell {
-    float length; /* of the way from the knot, m; INFINITY: none */
+    float length; /* of the way from the node, m; INFINITY: none */
     float x, y;   /* the way's direction there; shorter than 1 within JOX_FIELD_CLOSE of the goal */
     int32_t patch;
 } JoxFieldCell;
@@ -22,7 +23,7 @@ typedef struct JoxFieldPatch {
     float x[JOX_FIELD_SAMPLES], y[JOX_FIELD_SAMPLES], length[JOX_FIELD_SAMPLES];
     uint32_t first, count; /* edges about the cell, in refs */
     uint16_t cut;          /* bits: samples whose ninth of the cell an edge passes */
-    uint16_t upon;         /* bits: samples upon an edge, on neither side, which say nothing */
+    uint16_t on_edge;      /* bits: samples on an edge, on neither side of it, which are not used */
 } JoxFieldPatch;
 
 typedef struct JoxFieldEdge {
@@ -48,14 +49,14 @@ typedef struct JoxFieldWork {
     int count;        /* cells */
     uint32_t *first;  /* refs of cell i: first[i] to first[i + 1] */
     uint16_t *solid;  /* bits: samples inside solids */
-    float *time;      /* of the way from the knot at 1 m/s in the open, s */
-    float *slow;      /* s/m at the knot */
-    uint8_t *knot;    /* sample, or JOX_FIELD_BLOCKED */
-    uint8_t *links;   /* bits: neighbours on the ring whose knot is seen from here */
+    float *time;      /* of the way from the node at 1 m/s in the open, s */
+    float *slowness;  /* s/m at the node */
+    uint8_t *node;    /* sample, or JOX_FIELD_BLOCKED */
+    uint8_t *links;   /* bits: neighbours on the ring whose node is seen from here */
     uint8_t *corners; /* bit t: no wall in the triangle with neighbours t and t + 1 */
 } JoxFieldWork;
 
-/* So close to the goal, in cells, the ways of knots are as long as their share of it: four of them
+/* So close to the goal, in cells, the ways of nodes are as long as their share of it: four of them
    blend to exactly the way there, and to nothing at the goal. More than a cell's diagonal. */
 #define JOX_FIELD_CLOSE 1.5f
 /* Blends this short are of points within a tenth of a cell of the goal. */
@@ -69,8 +70,8 @@ static inline JoxV2 jox_field_sample(const JoxField *f, int cell, int sample) {
     float y = (float)(cell / f->columns) + ((float)(sample / JOX_FIELD_SIDE) + 0.5f) / 3.0f;
     return (JoxV2){f->low.x + x * f->size, f->low.y + y * f->size};
 }
-static inline JoxV2 jox_field_knot(const JoxFieldWork *w, int cell) {
-    return jox_field_sample(w->f, cell, w->knot[cell]);
+static inline JoxV2 jox_field_node(const JoxFieldWork *w, int cell) {
+    return jox_field_sample(w->f, cell, w->node[cell]);
 }
 /* The neighbour on the ring, or -1 beyond the border. */
 static inline int jox_field_next(const JoxField *f, int cell, int ring) {
@@ -82,7 +83,7 @@ static inline bool jox_field_has_edges(const JoxFieldWork *w, int cell) {
     return w->first[cell] != w->first[cell + 1];
 }
 
-/* How much shorter the way is `off` from a knot than from it, by the slope there. */
+/* How much shorter the way is `off` from a node than from it, by the slope there. */
 static inline float jox_field_slope(const JoxFieldCell *cell, JoxV2 off) {
     return jox_dot(jox_unit((JoxV2){cell->x, cell->y}), off);
 }
@@ -96,9 +97,9 @@ float jox_field_nearest(const JoxField *f, uint32_t first, uint32_t last, JoxV2 
    itself is close to nine tenths of that. With least = 0 it must cross none. */
 bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least);
 
-/* Edges by cell, solids, knots, links. */
+/* Edges by cell, solids, nodes, links. */
 void jox_field_mark(JoxFieldWork *work, const JoxWalls *walls);
-/* Times, lengths and directions of all knots. */
+/* Times, lengths and directions of all nodes. */
 void jox_field_march(JoxFieldWork *work, const JoxPlace *places, uint32_t place);
 /* Patches of the cells at walls. */
 void jox_field_patch(JoxFieldWork *work);

@@ -2,14 +2,15 @@
    nothing (in crevices) follow a neighbour that does; those in solids lead out. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "geom/field_parts.h"
 
-static const float KEEP = 0.85f;  /* of the clearance, as between knots */
+static const float KEEP = 0.85f;  /* of the clearance, as between nodes */
 static const float TOUCH = 1e-3f; /* m: samples so near an edge lie upon it, on neither side */
 
-/* OPEN: not known yet; BARRED: no way leads from there; UPON: on an edge, and says nothing. */
-typedef enum { OPEN, FOUND, BARRED, SOLID, UPON } State;
+/* UNREACHABLE: no way leads from there; ON_EDGE: lies on an edge, on neither side of it. */
+typedef enum { UNKNOWN, FOUND, UNREACHABLE, SOLID, ON_EDGE } State;
 
 typedef struct Patching {
     JoxFieldWork *w;
@@ -19,12 +20,12 @@ typedef struct Patching {
 } Patching;
 
 static bool is_clear(const JoxFieldWork *w, int cell) {
-    if (w->knot[cell] != JOX_FIELD_MIDDLE)
+    if (w->node[cell] != JOX_FIELD_MIDDLE)
         return false;
     for (int k = 0; k < 8; k++) {
         int other = jox_field_next(w->f, cell, k);
         int after = jox_field_next(w->f, cell, (k + 1) & 7);
-        if (other >= 0 && (!(w->links[cell] >> k & 1) || w->knot[other] != JOX_FIELD_MIDDLE))
+        if (other >= 0 && (!(w->links[cell] >> k & 1) || w->node[other] != JOX_FIELD_MIDDLE))
             return false;
         if (other >= 0 && after >= 0 && !(w->corners[cell] >> k & 1))
             return false;
@@ -34,34 +35,34 @@ static bool is_clear(const JoxFieldWork *w, int cell) {
 
 /* ---- one sample ---- */
 
-typedef struct Mix {
+typedef struct Blend {
     JoxV2 way;
     float length, weight;
-    bool barred; /* sees a knot whence no way leads */
-} Mix;
+    bool unreachable; /* it sees a node from which no way leads */
+} Blend;
 
-/* What the knots about a point say that it sees, weighted as between four centres. */
-static Mix mix(const JoxFieldWork *w, JoxV2 p) {
+/* The way from a point, blended from the nodes of the four cells about it that it sees. */
+static Blend blend(const JoxFieldWork *w, JoxV2 p) {
     const JoxField *f = w->f;
     float x = (p.x - f->low.x) / f->size - 0.5f, y = (p.y - f->low.y) / f->size - 0.5f;
     int column = (int)floorf(x), row = (int)floorf(y);
-    Mix m = {.barred = false};
+    Blend m = {.unreachable = false};
     for (int k = 0; k < 4; k++) {
         int c = column + (k & 1), r = row + (k >> 1), cell = r * f->columns + c;
-        if (c < 0 || r < 0 || c >= f->columns || r >= f->rows || w->knot[cell] == JOX_FIELD_BLOCKED)
+        if (c < 0 || r < 0 || c >= f->columns || r >= f->rows || w->node[cell] == JOX_FIELD_BLOCKED)
             continue;
-        JoxV2 knot = jox_field_knot(w, cell);
+        JoxV2 node = jox_field_node(w, cell);
         float weight = (1.0f - fabsf(x - (float)c)) * (1.0f - fabsf(y - (float)r));
-        if (weight <= 1e-4f || !jox_field_sees(w, p, knot, KEEP * f->clearance))
+        if (weight <= 1e-4f || !jox_field_sees(w, p, node, KEEP * f->clearance))
             continue;
         if (!(w->time[cell] < INFINITY)) {
-            m.barred = true;
+            m.unreachable = true;
             continue;
         }
         JoxV2 way = {f->cells[cell].x, f->cells[cell].y};
         m.way = jox_add(m.way, jox_scale(way, weight));
         m.length +=
-            weight * (f->cells[cell].length - jox_field_slope(&f->cells[cell], jox_sub(p, knot)));
+            weight * (f->cells[cell].length - jox_field_slope(&f->cells[cell], jox_sub(p, node)));
         m.weight += weight;
     }
     if (m.weight > 0.0f) {
@@ -71,21 +72,21 @@ static Mix mix(const JoxFieldWork *w, JoxV2 p) {
     return m;
 }
 
-/* The soonest way by one of the knots about a cell that a point sees; false if it sees none. */
-static bool by_a_knot(const JoxFieldWork *w, int cell, JoxV2 p, Mix *m) {
+/* The soonest way by one of the nodes about a cell that a point sees; false if it sees none. */
+static bool by_a_node(const JoxFieldWork *w, int cell, JoxV2 p, Blend *m) {
     const JoxField *f = w->f;
     float best = INFINITY;
     for (int k = -1; k < 8; k++) {
         int other = k < 0 ? cell : jox_field_next(f, cell, k);
-        if (other < 0 || w->knot[other] == JOX_FIELD_BLOCKED)
+        if (other < 0 || w->node[other] == JOX_FIELD_BLOCKED)
             continue;
-        JoxV2 way = jox_sub(jox_field_knot(w, other), p);
-        float far = jox_length(way), time = w->time[other] + far * w->slow[other];
+        JoxV2 way = jox_sub(jox_field_node(w, other), p);
+        float far = jox_length(way), time = w->time[other] + far * w->slowness[other];
         bool reached = time < INFINITY;
-        if ((reached && time >= best) || (!reached && m->barred) ||
-            !jox_field_sees(w, p, jox_field_knot(w, other), KEEP * f->clearance))
+        if ((reached && time >= best) || (!reached && m->unreachable) ||
+            !jox_field_sees(w, p, jox_field_node(w, other), KEEP * f->clearance))
             continue;
-        m->barred = m->barred || !reached;
+        m->unreachable = m->unreachable || !reached;
         if (!reached)
             continue;
         best = time;
@@ -121,15 +122,15 @@ static State judge(const JoxFieldWork *w, JoxFieldPatch *patch, int cell, int s)
     set(patch, s, (JoxV2){0.0f, 0.0f}, INFINITY);
     if (w->solid[cell] >> s & 1) {
         if (patch->count == 0)
-            return OPEN; /* deep in it: follows a neighbour out */
+            return UNKNOWN; /* no edge near: it follows a neighbour later */
         set(patch, s, out_of_solid(f, p, at, edge), INFINITY);
         return SOLID;
     }
     if (near < TOUCH) {
-        patch->upon |= (uint16_t)(1 << s);
-        return UPON;
+        patch->on_edge |= (uint16_t)(1 << s);
+        return ON_EDGE;
     }
-    Mix m = mix(w, p);
+    Blend m = blend(w, p);
     float along = jox_length(m.way), goal = f->clearance + f->size;
     if (m.weight > 0.0f && along < JOX_FIELD_ARRIVED && m.length < f->size) {
         set(patch, s, (JoxV2){0.0f, 0.0f}, m.length);
@@ -141,8 +142,8 @@ static State judge(const JoxFieldWork *w, JoxFieldPatch *patch, int cell, int s)
         JoxV2 ahead = jox_add(p, jox_scale(m.way, look / along));
         fits = jox_field_sees(w, p, ahead, m.length < goal ? 0.0f : KEEP * f->clearance);
     }
-    if (!fits && !by_a_knot(w, cell, p, &m))
-        return m.barred ? BARRED : OPEN;
+    if (!fits && !by_a_node(w, cell, p, &m))
+        return m.unreachable ? UNREACHABLE : UNKNOWN;
     m.way = jox_unit(m.way);
     if (near < f->clearance && m.length > goal) /* and off the wall */
         m.way = jox_unit(
@@ -189,10 +190,11 @@ static void follow(Patching *g, int32_t j, int32_t i) {
         to = i;
     g->towards[j] = to;
     g->states[j] = g->states[i];
-    if (g->states[i] == BARRED)
+    if (g->states[i] == UNREACHABLE)
         return;
     JoxV2 way = jox_sub(place_of(g, to), p);
     float far = jox_length(way);
+    JOX_ASSERT(far > 0.0f);
     const JoxFieldPatch *led = &f->patches[to / JOX_FIELD_SAMPLES];
     JoxFieldPatch *patch = &f->patches[j / JOX_FIELD_SAMPLES];
     way = jox_scale(way, 1.0f / far);
@@ -208,18 +210,20 @@ static void follow_all(Patching *g) {
     int32_t *queue = jox_alloc((size_t)count + 1, sizeof *queue);
     for (int32_t i = 0; i < count; i++) {
         g->towards[i] = i;
-        if (g->states[i] == FOUND || g->states[i] == BARRED || g->states[i] == SOLID)
+        if (g->states[i] == FOUND || g->states[i] == UNREACHABLE || g->states[i] == SOLID)
             queue[filled++] = i;
     }
     for (int32_t k = 0; k < filled; k++)
         for (int side = 0; side < 4; side++) {
             int32_t i = queue[k], j = beside(g, i, side);
-            if (j < 0 || g->states[j] != OPEN)
+            if (j < 0 || g->states[j] != UNKNOWN)
                 continue;
-            /* Air follows air, and does not look through walls; matter follows matter. */
+            /* Samples outside solids follow such samples that they see; samples inside follow those
+             * inside. */
             if (is_matter(g, j) != is_matter(g, i) ||
                 (!is_matter(g, j) && !jox_field_sees(g->w, place_of(g, j), place_of(g, i), 0.0f)))
                 continue;
+            JOX_ASSERT(filled < count);
             follow(g, j, i);
             queue[filled++] = j;
         }
@@ -274,6 +278,7 @@ void jox_field_patch(JoxFieldWork *w) {
         for (int s = 0; s < JOX_FIELD_SAMPLES; s++)
             g.states[p * JOX_FIELD_SAMPLES + s] = (uint8_t)judge(w, &f->patches[p], i, s);
     }
+    JOX_ASSERT(f->patch_count <= (uint32_t)w->count);
     follow_all(&g);
     if (deep)
         lead_out(w);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "base/random.h"
 
@@ -33,7 +34,7 @@ static bool inside(const JoxArea *area, JoxV2 p) {
 }
 
 static void widen(const JoxPlace *place, JoxV2 *low, JoxV2 *high) {
-    float r = place->kind == JOX_PLACE_POINT ? place->radius : 0.5f;
+    float r = jox_place_outline(place) == JOX_OUTLINE_CIRCLE ? place->radius : 0.5f;
     for (uint32_t i = 0; i < place->count; i++) {
         low->x = jox_minf(low->x, place->points[i].x - r);
         low->y = jox_minf(low->y, place->points[i].y - r);
@@ -95,6 +96,7 @@ static uint32_t lattice(const JoxArea *area, bool hex, double step, JoxV2 **out)
             if (!inside(area, p))
                 continue;
             JOX_RESERVE(*out, capacity, count + 1);
+            JOX_ASSERT(count < capacity);
             (*out)[count++] = p;
         }
     return count;
@@ -120,6 +122,7 @@ uint32_t jox_fill(const JoxArea *area, JoxFillMode mode, uint32_t count, float s
         have = lattice(area, hex, apart, positions);
     }
     JoxV2 *p = *positions;
+    JOX_ASSERT(have == 0 || p);
     if (have <= count && mode != JOX_FILL_RANDOM)
         return have;
     uint32_t kept = 0;
@@ -139,5 +142,6 @@ uint32_t jox_fill(const JoxArea *area, JoxFillMode mode, uint32_t count, float s
         }
         kept++;
     }
+    JOX_ASSERT(kept <= count && kept <= have);
     return kept;
 }

@@ -1,5 +1,7 @@
 #include "geom/polygon.h"
 
+#include "base/assert.h"
+
 double jox_polygon_area(const JoxV2 *ring, uint32_t count) {
     double sum = 0.0;
     for (uint32_t i = 0; i < count; i++) {
@@ -10,6 +12,7 @@ double jox_polygon_area(const JoxV2 *ring, uint32_t count) {
 }
 
 bool jox_polygon_contains(const JoxV2 *ring, uint32_t count, JoxV2 p) {
+    JOX_ASSERT(count > 0);
     bool inside = false;
     for (uint32_t i = 0, j = count - 1; i < count; j = i++) {
         JoxV2 a = ring[i], b = ring[j];
@@ -23,6 +26,7 @@ JoxV2 jox_segment_nearest(JoxV2 a, JoxV2 b, JoxV2 p) {
     JoxV2 ab = jox_sub(b, a);
     float l2 = jox_length2(ab);
     float t = l2 > 0.0f ? jox_clampf(jox_dot(jox_sub(p, a), ab) / l2, 0.0f, 1.0f) : 0.0f;
+    JOX_ASSERT(!(t < 0.0f || t > 1.0f));
     return jox_add(a, jox_scale(ab, t));
 }
 
@@ -77,6 +81,7 @@ bool jox_polygon_self_crosses(const JoxV2 *ring, uint32_t count, uint32_t *edge_
 }
 
 JoxV2 jox_polygon_centroid(const JoxV2 *ring, uint32_t count) {
+    JOX_ASSERT(count > 0);
     double area = 0.0, x = 0.0, y = 0.0;
     JoxV2 o = ring[0]; /* about the first corner: far from the origin precision would be lost */
     for (uint32_t i = 0; i < count; i++) {

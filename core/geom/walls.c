@@ -1,10 +1,12 @@
 #include "geom/walls.h"
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
 
 static void add_ring(JoxWalls *walls, const JoxV2 *points, uint32_t count, bool solid,
                      float height) {
+    JOX_ASSERT(count >= 2);
     uint32_t first = walls->count;
     JOX_RESERVE(walls->vertices, walls->capacity, first + count);
     for (uint32_t i = 0; i < count; i++) {
@@ -47,6 +49,7 @@ void jox_walls_add_polyline(JoxWalls *walls, const JoxV2 *points, uint32_t count
         jox_free(ring);
         return;
     }
+    JOX_ASSERT(count >= 2);
     uint32_t length = 2 * count - 2; /* there and back */
     JoxV2 *ring = jox_alloc(length, sizeof *ring);
     for (uint32_t i = 0; i < length; i++)
@@ -62,6 +65,7 @@ void jox_walls_add_outline(JoxWalls *walls, const JoxV2 *points, uint32_t count,
 }
 
 JoxV2 *jox_walls_ring_points(const JoxWalls *walls, uint32_t ring) {
+    JOX_ASSERT(ring < walls->ring_count);
     const struct JoxWallRing *r = &walls->rings[ring];
     JoxV2 *points = jox_alloc(r->count, sizeof *points);
     for (uint32_t i = 0; i < r->count; i++)
@@ -103,6 +107,7 @@ void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates) {
     JOX_RESERVE(out->rings, out->ring_capacity, all->ring_count);
     for (uint32_t r = 0; r < all->ring_count; r++) {
         const struct JoxWallRing *ring = &all->rings[r];
+        JOX_ASSERT(ring->first >= out->count && ring->first + ring->count <= all->count);
         if (ring->open || (ring->name && !gates))
             continue;
         uint32_t back = ring->first - out->count; /* rings lie one behind the other */
@@ -121,6 +126,7 @@ void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates) {
 }
 
 uint32_t jox_walls_given(const JoxWalls *walls, uint32_t ring, bool *closed, bool *twin) {
+    JOX_ASSERT(ring < walls->ring_count);
     const struct JoxWallRing *r = &walls->rings[ring];
     const JoxWallVertex *v = walls->vertices + r->first;
     const uint32_t n = r->count;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "live/live.h"
 #include "record/density.h"
@@ -46,6 +47,7 @@ static void make(JoxLiveGrid *g, const JoxLiveArea *area) {
     JoxV2 edge = {3.5f * kernel, 3.5f * kernel}; /* all of everybody is on it */
     g->grid = jox_density_create(jox_sub(area->low, edge), jox_add(area->high, edge), cell, kernel);
     g->cells = (size_t)g->grid->columns * g->grid->rows;
+    JOX_ASSERT(g->cells > 0);
     for (int f = 0; f < SUMS; f++)
         g->fields[f] = jox_alloc(g->cells, sizeof(float));
 }
@@ -102,6 +104,7 @@ static uint8_t *put(uint8_t *at, const void *number) {
 void jox_live_pack_field(const JoxLiveGrid *g, JoxLiveField field, JoxBytes *out) {
     const JoxDensity *d = g->grid;
     float most = 0.0f;
+    JOX_ASSERT(field < JOX_LIVE_FIELDS && d);
     for (size_t c = 0; c < g->cells; c++)
         most = jox_maxf(most, value(g, field, c));
     most = most > 0.0f ? most : 1.0f;

@@ -1,4 +1,5 @@
 /* Transitions of the last second, counted for the live page. */
+#include "base/assert.h"
 #include "base/mem.h"
 #include "live/live_parts.h"
 
@@ -42,6 +43,7 @@ static void push_taken(JoxLive *live, JoxLiveTaken taken) {
         live->capacity = wider;
         live->first = 0;
     }
+    JOX_ASSERT(live->count < live->capacity && taken.which < live->begins[live->machine_count]);
     live->taken[(live->first + live->count++) % live->capacity] = taken;
     live->fired[taken.which]++;
 }
@@ -60,12 +62,15 @@ void jox_live_count(JoxLive *live, const JoScene *scene) {
     live->noted = world->state.tick;
     const uint64_t second = (uint64_t)(1.0 / world->model.def.dt + 0.5);
     while (live->count && live->taken[live->first].tick + second <= world->state.tick) {
+        JOX_ASSERT(live->fired[live->taken[live->first].which] > 0);
         live->fired[live->taken[live->first].which]--;
         live->first = (live->first + 1) % live->capacity;
         live->count--;
     }
     for (uint32_t n = 0; n < machines->taken_count; n++) {
         const JoxTaken *taken = &machines->taken[n];
+        JOX_ASSERT(taken->machine < live->machine_count &&
+                   taken->from < live->machines[taken->machine]->state_count);
         const uint32_t which = live->state_begins[taken->machine][taken->from] + taken->transition;
         push_taken(live, (JoxLiveTaken){world->state.tick, which});
     }

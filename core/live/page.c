@@ -2,6 +2,7 @@
    frames as they come, figures and fields four times a second. */
 #include "live/page.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -12,6 +13,9 @@
 static const double FRAME = 1.0 / 65.0; /* s, least time between frames */
 static const double STATUS = 0.25;      /* s between figures */
 static const double IDLE = 0.05;        /* s, after which it is seen that it is to end */
+
+static_assert(JOX_VIEW_FRAMES + JOX_LIVE_COLOUR_COUNT <= JOX_VIEW_FIELDS, "a channel a colour");
+static_assert(JOX_VIEW_FIELDS + JOX_LIVE_FIELDS <= JOX_LIVE_PEOPLE_CHANNEL, "and a field");
 
 /* ---- what browsers are shown ---- */
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "live/page.h"
 
 static const double SLOWEST = 0.01, FASTEST = 1000.0; /* of real time */
@@ -16,6 +17,7 @@ static const struct {
 };
 
 void jox_live_listen(JoxLivePage *page, const JoxLiveWatcher *watcher) {
+    JOX_ASSERT(watcher->client && watcher->colour < JOX_LIVE_COLOUR_COUNT);
     uint32_t channels = 1u << JOX_LIVE_PEOPLE_CHANNEL | 1u << JOX_VIEW_STATUS |
                         1u << JOX_LIVE_TIME_CHANNEL | 1u << (JOX_VIEW_FRAMES + watcher->colour);
     if (watcher->field < JOX_LIVE_FIELDS)

@@ -122,6 +122,7 @@ static void note_bodies(JoxReplay *r, const JoxTrajectoryReaderFrame *f) {
         if (r->row_of[id] != JOX_REPLAY_NOBODY)
             continue;
         JOX_RESERVE(r->body_id, r->body_capacity, r->row_count + 1);
+        JOX_ASSERT(r->row_count < r->body_capacity);
         r->body_id[r->row_count] = id;
         r->row_of[id] = r->row_count++;
     }
@@ -197,9 +198,9 @@ double jox_replay_speed(const JoxReplay *r) {
 
 uint32_t jox_replay_state(const JoxReplay *r, uint32_t i) {
     const JoxTrajectoryReaderFrame *f = &r->frame;
-    const uint32_t row = f->state ? f->state[i] : JOX_REEL_NO_STATE;
-    JOX_ASSERT(i < r->count && (row == JOX_REEL_NO_STATE || row < r->info.state_count));
-    return row == JOX_REEL_NO_STATE ? UINT32_MAX : r->names.state_of[row];
+    const uint32_t row = f->state ? f->state[i] : JOX_NO_RECORDED_STATE;
+    JOX_ASSERT(i < r->count && (row == JOX_NO_RECORDED_STATE || row < r->info.state_count));
+    return row == JOX_NO_RECORDED_STATE ? UINT32_MAX : r->names.state_of[row];
 }
 
 static const float *fill_densities(JoxReplay *r) {

@@ -74,7 +74,6 @@ static double advance(void *self, double now) {
         return INFINITY;
     p->at = fmin(p->at + (now - p->wall) * session->speed, p->until);
     p->wall = now;
-    JOX_ASSERT(p->at >= p->from && p->at <= p->until);
     show_present(p);
     if (p->at >= p->until)
         pause(p, true);
@@ -229,7 +228,7 @@ static bool view_recording(const JoViewRecordingDef *def, JoError *error) {
         open_recording(&p, error) &&
         jox_live_page_open(&p.page, def->address, def->port, def->page, def->three, error);
     if (good && def->opened)
-        def->opened(def->opened_context, jox_view_address(p.page.server));
+        jox_run_message(def->opened, def->opened_context, jox_view_address(p.page.server));
     if (good) {
         seek(&p, p.from);
         jox_live_page_begin(&p.page);

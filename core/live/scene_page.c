@@ -55,6 +55,7 @@ static double advance(void *self, double now) {
     } else if (!s->def->fast && due > now) {
         return due - now;
     }
+    JOX_ASSERT(!s->failed && s->scene->world->model.def.dt > 0.0);
     s->began = due > now - LATE && due <= now ? due : now;
     step(s);
     return 0.0;
@@ -137,7 +138,7 @@ static bool run(JoxScenePage *s, JoError *error) {
     if (!jox_scene_page_load(s, error))
         return false;
     if (def->opened)
-        def->opened(def->opened_context, jox_view_address(s->page.server));
+        jox_run_message(def->opened, def->opened_context, jox_view_address(s->page.server));
     jox_live_page_run(&s->page, def->stop);
     if (def->summary)
         *def->summary = jo_scene_summary(s->scene);
@@ -151,8 +152,8 @@ static bool run(JoxScenePage *s, JoError *error) {
     return good;
 }
 
-static bool view(const JoViewDef *def, JoError *error) {
-    JoxScenePage s = {.def = def, .scene_def = def->scene};
+static bool view(const JoViewDef *def, JoxHeap *program_heap, JoError *error) {
+    JoxScenePage s = {.def = def, .scene_def = def->scene, .program_heap = program_heap};
     s.page.source = &SCENE;
     s.page.self = &s;
     if (!jox_live_page_open(&s.page, def->address, def->port, def->page, def->three, error))
@@ -167,7 +168,8 @@ static bool view(const JoViewDef *def, JoError *error) {
 
 bool jo_view(const JoViewDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == VIEW_COOKIE && def->scene.path, false);
+    JoxHeap *program_heap = jox_heap_used();
     JOX_GUARD (NULL, error)
         return false;
-    return view(def, error);
+    return view(def, program_heap, error);
 }

@@ -2,6 +2,7 @@
 #ifndef JOX_LIVE_SCENE_PAGE_H
 #define JOX_LIVE_SCENE_PAGE_H
 
+#include "base/mem.h"
 #include "live/page.h"
 #include "run/run.h"
 
@@ -14,6 +15,8 @@ typedef struct JoxLiveFileErrors {
 typedef struct JoxScenePage {
     JoxLivePage page;
     const JoViewDef *def;
+    JoxHeap *
+        program_heap; /* in use where jo_view was called: what calls back into the program has it */
     JoSceneDef scene_def; /* with the seed of the present run */
     JoScene *scene;
     uint64_t steps; /* to be done while paused */

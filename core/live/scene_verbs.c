@@ -3,9 +3,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "live/inspect.h"
 #include "live/scene_page.h"
+#include "world/verbs.h"
 
 enum { MOST_STEPS = 100000 };
 
@@ -85,27 +87,35 @@ void jox_scene_page_inspect(void *self, const JoxLiveRequest *request) {
         jox_view_send(s->page.server, other, NOBODY);
         jox_live_say(&s->page, other, "info", "another page inspects somebody now");
     }
+    JOX_ASSERT(me != JOX_VIEW_ALL);
     s->inspector = me;
     s->inspected = slot < 4294967295.0 ? (uint32_t)slot : UINT32_MAX;
     jox_scene_page_send_inspected(s);
 }
 
-/* The tool that the first word of a line needs, or -1. */
+/* The tool that the first word of a line needs, or -1: it is no verb that people have. */
 static int find_tool(const char *line) {
-    static const struct {
-        const char *verb;
-        JoxTool tool;
-    } NEEDS[] = {
-        {"throw", JOX_TOOL_THROW},    {"box", JOX_TOOL_THROW},    {"grab", JOX_TOOL_DRAG},
-        {"drag", JOX_TOOL_DRAG},      {"release", JOX_TOOL_DRAG}, {"push", JOX_TOOL_PUSH},
-        {"open", JOX_TOOL_GATES},     {"close", JOX_TOOL_GATES},  {"signal", JOX_TOOL_SIGNALS},
-        {"set", JOX_TOOL_PARAMETERS}, {"player", JOX_TOOL_PLAYER}};
     line += strspn(line, " \t");
-    size_t n = strcspn(line, " \t");
-    for (size_t i = 0; i < sizeof NEEDS / sizeof *NEEDS; i++)
-        if (strlen(NEEDS[i].verb) == n && strncmp(line, NEEDS[i].verb, n) == 0)
-            return (int)NEEDS[i].tool;
+    const size_t n = strcspn(line, " \t");
+    const char *name = NULL;
+    for (size_t v = 0; v < JOX_INPUT_VERBS; v++)
+        if (strlen(jox_input_verbs[v].name) == n && !strncmp(line, jox_input_verbs[v].name, n))
+            name = jox_input_verbs[v].tool;
+    for (int tool = 0; name && tool < JOX_TOOL_COUNT; tool++)
+        if (!strcmp(jox_scene_tools[tool], name))
+            return tool;
+    JOX_ASSERT(!name); /* the tables agree */
     return -1;
+}
+
+static void refuse_verb(const JoxLiveRequest *request) {
+    JoxText why = {0};
+    jox_text_add(&why, "a line begins with one of:");
+    for (size_t v = 0; v < JOX_INPUT_VERBS; v++)
+        if (jox_input_verbs[v].tool)
+            jox_text_printf(&why, " %s", jox_input_verbs[v].name);
+    jox_live_refuse(request, why.data);
+    jox_text_free(&why);
 }
 
 void jox_scene_page_input(void *self, const JoxLiveRequest *request) {
@@ -115,9 +125,7 @@ void jox_scene_page_input(void *self, const JoxLiveRequest *request) {
     char text[256];
     JoError error = {0};
     if (tool < 0) {
-        jox_live_refuse(
-            request, "a line is throw, box, grab, drag, release, push, open, close, signal, set or "
-                     "player, and what belongs to it");
+        refuse_verb(request);
     } else if (!(s->scene->spec->view.tools >> tool & 1)) {
         snprintf(text, sizeof text, "this scene does not offer it; view: {tools: [%s]} would",
                  jox_scene_tools[tool]);

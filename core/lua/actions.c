@@ -8,7 +8,7 @@
 #include "lua/language/vocabulary.h"
 #include "lua/read.h"
 
-/* What a name of memory is set to. */
+/* Reads the value that a name of memory is set to; pops it. */
 static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxAssign *assign) {
     static const JoxParameterInfo ANY = {"this", "", "", -1e12, 1e12, 0};
     lua_State *L = b->script->vm.L;
@@ -29,7 +29,7 @@ static void read_assign(JoxBuild *b, const char *path, int32_t slot, struct JoxA
         assign->value = (JoxValue){JOX_VALUE_CONST, lua_toboolean(L, -1), 0, 0};
         lua_pop(L, 1);
     } else if (node && node->kind == JOX_NODE_CONDITION) {
-        assign->value = (JoxValue){JOX_VALUE_PROGRAM, 0.0, jox_read_condition(b, path, NULL), 0};
+        assign->value = (JoxValue){JOX_VALUE_EXPRESSION, 0.0, jox_read_condition(b, path, NULL), 0};
         if (assign->value.index < 0)
             assign->value.kind = JOX_VALUE_UNSET;
     } else {
@@ -182,7 +182,7 @@ void jox_read_body_actions(JoxBuild *b, int index, const char *path, JoxState *s
 
 /* ---- what counts by itself ---- */
 
-/* One thing that counts by itself. */
+/* Reads one entry of `counts`: the memory slot and what is counted into it; pops nothing. */
 static void read_counter(JoxBuild *b, const char *path, uint32_t slot, int32_t state) {
     JOX_ASSERT(slot < b->machine->memory_count);
     JoxMachine *m = b->machine;

@@ -171,7 +171,7 @@ static void judge_states(JoxBuild *b) {
     }
 }
 
-/* States without a way out, where others have one: agents stay there for ever. */
+/* Warns of states that no transition leaves: agents would stay in them for ever. */
 static void warn_dead_ends(JoxBuild *b) {
     const JoxMachine *m = b->machine;
     for (uint32_t s = 0; s < m->state_count && m->state_count > 1; s++) {

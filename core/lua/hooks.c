@@ -49,7 +49,8 @@ void jox_lua_sections(void *context, const JoxMachine *machine, JoxSections *s) 
     }
 }
 
-/* Names and messages are a script's: none may command a terminal. */
+/* Reports text that a script may have written: control characters, which a terminal would obey, are
+   removed from each line. */
 static void say(JoxLua *lua, char *text) {
     for (char *line = text; *line;) {
         char *end = strchr(line, '\n');
@@ -65,7 +66,8 @@ static void say(JoxLua *lua, char *text) {
         lua->group.say(lua->group.say_context, text);
 }
 
-/* A new second begins for a hook: what was not said of the last is summed up. */
+/* A new simulated second begins for a hook: failures of the last one that were only counted are
+   reported as a number. */
 static void new_second(JoxLua *lua, const JoxScript *script, JoxHook *hook, uint32_t second) {
     char text[1024];
     if (hook->repeated > 0) {
@@ -78,7 +80,8 @@ static void new_second(JoxLua *lua, const JoxScript *script, JoxHook *hook, uint
     hook->repeated = 0;
 }
 
-/* Says each new failure in full; the same again is counted and said once a second. */
+/* Reports a new failure in full. One with the same message as the last is only counted, and the
+   count is reported once a simulated second. */
 static void report(JoxLua *lua, JoxScript *script, JoxHook *hook, const char *why, int line) {
     JOX_ASSERT(why && line >= 0);
     const JoxMachineRun *machines = lua->machines;

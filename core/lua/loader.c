@@ -82,7 +82,7 @@ static JoxMachine *run(JoxScript *script) {
     }
     if (!jox_vm_call(&script->vm, 0, 1, script->owner->group.limits.load_instructions, &why,
                      &line)) {
-        /* What follows an error already reported is only its echo. */
+        /* A failure after an error that is already reported is a consequence of it. */
         if (script->diagnostics->errors == errors)
             report_failure(script, why, line);
         return NULL;
@@ -106,7 +106,7 @@ static JoxMachine *run(JoxScript *script) {
 
 struct JoxLoaded {
     JoxMachine *machine; /* NULL where it failed */
-    JoxScript *script;   /* kept in either case: it knows which files were tried */
+    JoxScript *script;   /* kept where it failed too: it lists the files that were looked for */
 };
 
 JoxLoaded *jox_lua_prepare(JoxLua *lua, const char *path, const char *text, size_t length,
@@ -159,7 +159,7 @@ const JoxLuaFile *jox_loaded_files(const JoxLoaded *loaded, uint32_t *count) {
     return loaded->script ? loaded->script->vm.files : NULL;
 }
 
-/* Files and sources are added together. */
+/* A file and its source have the same index. */
 static const char *text_of(const JoxScript *script, uint32_t file, size_t *length) {
     JOX_ASSERT(!script || script->vm.source_count == script->vm.file_count);
     *length = script && file < script->vm.source_count ? script->vm.sources[file]->length : 0;

@@ -9,7 +9,7 @@
 
 enum { MOST_LOOKS = 20000000 };
 
-/* Operators that Lua takes for its own between conditions, in the tokens of a value. */
+/* Reports Lua operators that are evaluated at load, where one between conditions was meant. */
 static bool scan_operators(JoxBuild *b, const JoxSource *source, uint32_t first, uint32_t last) {
     JOX_ASSERT(first <= last && last <= source->token_count);
     static const struct {
@@ -40,7 +40,7 @@ static bool scan_operators(JoxBuild *b, const JoxSource *source, uint32_t first,
     return found;
 }
 
-/* The same in the definitions of the locals that a condition uses. */
+/* Scans the value at a path and the definitions of the local variables that it uses. */
 bool jox_read_misuse(JoxBuild *b, const char *path) {
     const JoxSource *source;
     const JoxPath *span = jox_read_span(b, path, &source);
@@ -63,7 +63,7 @@ bool jox_read_misuse(JoxBuild *b, const char *path) {
             while (end < span->first && !jox_token_is(&t[end], "local") &&
                    !jox_token_is(&t[end], "return"))
                 end++;
-            source->tokens[i].used = true; /* once per local */
+            source->tokens[i].used = true; /* its definition is scanned only once */
             found |= scan_operators(b, source, i + 3, end);
         }
     }

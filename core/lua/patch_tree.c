@@ -110,7 +110,7 @@ static uint32_t keys(void *c, void *map, const char *path, const char *from,
              "this table of a patch takes names as keys%s", "");
     jox_sort_texts(found, count);
     *names = found;
-    pop_to(n, at - 1); /* kept with the nodes, as long as they */
+    pop_to(n, at - 1); /* the list of nodes keeps the names alive */
     return (uint32_t)count;
 }
 

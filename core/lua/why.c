@@ -36,18 +36,19 @@ typedef struct Setting {
     const JoxSource *source;
     const JoxPath *path;
     const JoxToken *key;
-    int32_t mod; /* index, or -1 */
+    int32_t mod; /* index of the mod, or -1: the behaviour itself */
     bool removes;
 } Setting;
 
-/* Where all of them go: lines of text, or the last alone. */
+/* What is done with the places that are found: each is printed to `out` where that is given, and
+   the last one is kept. */
 typedef struct Settings {
     const JoxScope *scope;
     JoxText *out;
     Setting last;
 } Settings;
 
-/* Takes the place of a path in a source. False where it does not stand there. */
+/* Adds the place where a path is written in a source. False if it is not written there. */
 static bool take_place(const JoxScript *script, uint32_t source, const char *path, int32_t mod,
                        bool removes, Settings *to) {
     const JoxPath *found = jox_outline_find(script->vm.sources[source], path);
@@ -86,7 +87,7 @@ static void by_number(const JoxMachine *machine, const char *canonical, char pat
             snprintf(path, 256, "states.%.100s.%u%.100s", state, t + 1, at + 2 + n);
 }
 
-/* Everything that set one canonical path, in order; how many. */
+/* Finds every place that set one canonical path, in the order in which they were set; how many. */
 static int take_all(const JoxScript *script, const JoxMachine *machine, const char *canonical,
                     Settings *to) {
     char own[256];

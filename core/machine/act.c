@@ -14,9 +14,10 @@ static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
     const uint32_t *agents = run->scratch->grouped + batch->begin;
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxValue *value = jox_state_parameter(machine, state, p);
-        if (value->kind != JOX_VALUE_PROGRAM)
+        if (value->kind != JOX_VALUE_EXPRESSION)
             continue;
-        jox_eval(run, machine, &machine->programs[value->index], agents, batch->count, registers);
+        jox_eval(run, machine, &machine->expressions[value->index], agents, batch->count,
+                 registers);
         for (uint32_t n = 0; n < batch->count; n++)
             run->agents->param[p][agents[n]] =
                 jox_parameter_store((JoxParameter)p, registers[0][n]);
@@ -29,7 +30,7 @@ static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
     const JoxState *state = &machine->states[batch->state];
     const uint32_t *agents = run->scratch->grouped + batch->begin;
     if (state->push_when >= 0)
-        jox_eval(run, machine, &machine->programs[state->push_when], agents, batch->count,
+        jox_eval(run, machine, &machine->expressions[state->push_when], agents, batch->count,
                  registers);
     for (uint32_t n = 0; n < batch->count; n++) {
         uint32_t i = agents[n];

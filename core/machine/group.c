@@ -150,7 +150,7 @@ void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {
     rank_queues(run);
 }
 
-/* Marks the places whose people some program asks for. */
+/* Marks the places whose people some expression asks for. */
 static void mark_asked(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
     if (run->place_count > s->place_capacity) {
@@ -161,9 +161,9 @@ static void mark_asked(JoxMachineRun *run) {
         s->place_people[p] = UINT32_MAX;
     for (uint32_t m = 0; m < run->set->count; m++) {
         const JoxMachine *machine = run->set->items[m];
-        for (uint32_t p = 0; p < machine->program_count; p++)
-            for (uint32_t i = 0; i < machine->programs[p].count; i++) {
-                const JoxInstruction *in = &machine->programs[p].code[i];
+        for (uint32_t p = 0; p < machine->expression_count; p++)
+            for (uint32_t i = 0; i < machine->expressions[p].count; i++) {
+                const JoxInstruction *in = &machine->expressions[p].code[i];
                 if (in->op != JOX_OP_PLACE_DENSITY && in->op != JOX_OP_PLACE_COUNT)
                     continue;
                 const JoxTarget *target = &machine->targets[in->place];

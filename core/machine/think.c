@@ -69,13 +69,13 @@ static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
                 count_circuits(run, &machine->counters[c], agents[n]);
     for (uint32_t n = 0; n < batch->count; n++)
         run->scratch->fired[agents[n]] = -1;
-    int32_t known = -1; /* program whose result is in register 0 */
+    int32_t known = -1; /* expression whose result is in register 0 */
     for (uint32_t k = 0; k < state->transition_count; k++) {
         const JoxTransition *t = &state->transitions[k];
         if (t->when_hook >= 0)
             continue;
         if (t->when >= 0 && t->when != known) /* the same once more keeps its result */
-            jox_eval(run, machine, &machine->programs[t->when], agents, batch->count, registers);
+            jox_eval(run, machine, &machine->expressions[t->when], agents, batch->count, registers);
         known = t->when >= 0 ? t->when : known;
         uint32_t bit = 1u << k;
         for (uint32_t n = 0; n < batch->count; n++) {
@@ -214,7 +214,7 @@ void jox_machines_write_parameters(JoxMachineRun *run, uint32_t i) {
     const JoxState *state = &machine->states[a->state[i]];
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxValue *value = jox_state_parameter(machine, state, p);
-        if (value->kind == JOX_VALUE_PROGRAM)
+        if (value->kind == JOX_VALUE_EXPRESSION)
             continue;
         double number = value->kind == JOX_VALUE_UNSET ? jox_parameters[p].value
                                                        : jox_value(run, machine, value, i);
@@ -227,8 +227,9 @@ void jox_machines_write_parameters(JoxMachineRun *run, uint32_t i) {
 /* A duration that was computed, s: what is no number sets none. */
 static float computed_duration(const JoxMachineRun *run, const JoxMachine *machine,
                                const JoxState *state, uint32_t i) {
-    double value = jox_value(
-        run, machine, &(JoxValue){.kind = JOX_VALUE_PROGRAM, .index = state->lasts_program}, i);
+    double value =
+        jox_value(run, machine,
+                  &(JoxValue){.kind = JOX_VALUE_EXPRESSION, .index = state->lasts_expression}, i);
     return isnan(value) ? INFINITY : (float)value;
 }
 
@@ -245,7 +246,7 @@ void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
     if (state->has_lasts)
         a->lasts[i] =
             (float)jox_dist_draw(&state->lasts, run->seed, a->id[i], run->tick, JOX_DRAW_LASTS, 0);
-    else if (state->lasts_program >= 0 && !run->spawning)
+    else if (state->lasts_expression >= 0 && !run->spawning)
         a->lasts[i] = computed_duration(run, machine, state, i);
     pick_goal(run, machine, state, i);
     jox_machines_write_parameters(run, i);
@@ -323,7 +324,7 @@ static void begin_spawned(JoxMachineRun *run) {
             continue;
         const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *state = &machine->states[a->state[i]];
-        if (state->lasts_program >= 0)
+        if (state->lasts_expression >= 0)
             a->lasts[i] = computed_duration(run, machine, state, i);
         jox_actions_do(run, machine, &state->enters, i);
         call_hook(run, state->on_enter, JOX_HOOK_ENTER, i);

@@ -3,64 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "nav/internal.h"
 
 static const float ROW_HEIGHT = 0.8f; /* m: about the distance of the tenth neighbour */
 static const float SLACK = 0.03f;     /* m: growth of the last search radius that is tried first */
 enum { SORT_EVERY = 4, MOST_ROWS = 1 << 15 };
-
-JoxNav *jox_nav_create(void) {
-    return jox_alloc(1, sizeof(JoxNav));
-}
-
-void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
-    jox_wall_grid_free(&nav->grid);
-    nav->grid.walls = walls;
-}
-
-void jox_nav_sections(JoxNav *nav, JoxSections *s) {
-    jox_sections_module(s, "nav");
-    JOX_SECTION(s, "wall_reach", nav->grid.reach);
-    if (s->mode == JOX_SECTIONS_RESTORE)
-        jox_wall_grid_reset(&nav->grid, nav->grid.reach);
-}
-
-void jox_nav_forget(JoxNav *nav) {
-    nav->drift = INFINITY;
-    if (nav->capacity)
-        memset(nav->sorted_x, 0xff, nav->capacity * sizeof *nav->sorted_x);
-}
-
-void jox_nav_free(JoxNav *nav) {
-    if (!nav)
-        return;
-    jox_wall_grid_free(&nav->grid);
-    jox_free(nav->row_first);
-    jox_free(nav->sorted_x);
-    jox_free(nav->chunk_drift);
-    jox_free(nav->chunk_relaxed);
-    for (int i = 0; i < 2; i++) {
-        jox_free(nav->keys[i]);
-        jox_free(nav->order[i]);
-        jox_free(nav->position[i]);
-    }
-    jox_free(nav);
-}
-
-static void reserve(JoxNav *nav, uint32_t count) {
-    if (count <= nav->capacity)
-        return;
-    uint32_t n = nav->capacity = count + count / 4 + 64;
-    nav->sorted_x = jox_realloc(nav->sorted_x, n, sizeof(float));
-    nav->chunk_drift = jox_realloc(nav->chunk_drift, n / JOX_NAV_GRAIN + 1, sizeof(float));
-    nav->chunk_relaxed = jox_realloc(nav->chunk_relaxed, n / JOX_NAV_GRAIN + 1, sizeof(uint32_t));
-    for (int i = 0; i < 2; i++) {
-        nav->keys[i] = jox_realloc(nav->keys[i], n, sizeof(uint64_t));
-        nav->order[i] = jox_realloc(nav->order[i], n, sizeof(uint32_t));
-        nav->position[i] = jox_realloc(nav->position[i], n, sizeof(JoxV2));
-    }
-}
 
 /* Bits of a float in an order that unsigned comparison understands. */
 static uint32_t ordered_bits(float x) {
@@ -118,7 +67,7 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
         nav->sorted_count = a->count;
         return;
     }
-    reserve(nav, a->count);
+    jox_nav_reserve(nav, a->count);
     fit_rows(nav, a);
     jox_agents_by_id(a, nav->order[0]); /* a stable sort from here breaks ties by id */
     for (uint32_t i = 0; i < a->count; i++) {
@@ -137,6 +86,7 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
     nav->sorted_count = a->count;
     nav->sorted_next_id = a->next_id;
     nav->drift = 0.0f;
+    JOX_CHECK(jox_nav_rows_check(nav, a));
 }
 
 /* A candidate as one number that sorts by distance, then id: bits of the squared distance (which is
@@ -165,6 +115,7 @@ typedef struct Nearest {
 
 /* Sorts the waiting in. Without branches: each key sinks through all slots, the greater goes on. */
 static void sort_in(Nearest *n) {
+    JOX_ASSERT(n->waits <= BUFFER && n->most <= JOX_MOST_NEIGHBOURS);
     for (uint32_t w = 0; w < n->waits; w++) {
         uint64_t key = n->waiting[w];
         for (uint32_t k = 0; k < n->most; k++) {
@@ -180,6 +131,7 @@ static void sort_in(Nearest *n) {
 /* First agent of a row whose x when sorted is at least `x`. Walks from a hint: neighbours in memory
    ask for nearly the same place, and the answer does not depend on the hint. */
 static inline uint32_t row_from(const JoxNav *nav, uint32_t row, float x, uint32_t hint) {
+    JOX_ASSERT(row < nav->rows);
     uint32_t first = nav->row_first[row], end = nav->row_first[row + 1];
     const float *sx = nav->sorted_x;
     if (hint < first || hint > end || (hint > first + 32 && sx[hint - 32] >= x) ||
@@ -217,6 +169,7 @@ static void search_about(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV
     const uint32_t *rank = a->rank;
     float wide = radius + nav->drift;
     uint32_t low = row_of(nav, y - wide), high = row_of(nav, y + wide);
+    JOX_ASSERT(low <= high && high < nav->rows);
     for (uint32_t row = low; row <= high; row++) {
         uint32_t end = nav->row_first[row + 1], *hint = &hints[row % HINTS];
         uint32_t j = *hint = row_from(nav, row, x - wide, *hint);
@@ -320,4 +273,5 @@ void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPoo
     reserve_neighbours(out, agents);
     Perceive perceive = {nav, agents, out};
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, perceive_range, &perceive);
+    JOX_CHECK(jox_neighbours_check(out, agents));
 }

@@ -48,6 +48,8 @@ struct JoxNav {
     JoxWallGrid grid;
 };
 
+void jox_nav_reserve(JoxNav *nav, uint32_t agents);
+
 /* Grain of every loop over agents: fixed, so that chunks are the same for any number of threads. */
 enum { JOX_NAV_GRAIN = 256 };
 
@@ -67,5 +69,15 @@ uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity,
    give. */
 bool jox_linear_program_solve(const JoxHalfPlane *half_planes, uint32_t count, uint32_t hard,
                               float speed_limit, JoxV2 wanted, JoxV2 *velocity, bool *relaxed);
+
+/* Assertions about the grid of walls, the sorted rows, the neighbours (each agent's ascend by
+   distance, then id, are within its perception, and it is none of them), half-planes (normals are
+   unit vectors), and a solution of the linear program. */
+void jox_wall_grid_check(const JoxWallGrid *grid);
+void jox_nav_rows_check(const JoxNav *nav, const JoxAgents *agents);
+void jox_neighbours_check(const JoxNeighbours *neighbours, const JoxAgents *agents);
+void jox_half_planes_check(const JoxHalfPlane *half_planes, uint32_t count);
+void jox_linear_program_check(const JoxHalfPlane *half_planes, uint32_t count, float speed_limit,
+                              JoxV2 velocity);
 
 #endif

@@ -1,5 +1,6 @@
 /* The two-dimensional linear program over half-planes and a disc of velocities (de Berg et al.,
    Computational Geometry, ch. 4; van den Berg et al. 2011 for the fallback in three dimensions). */
+#include "base/assert.h"
 #include "nav/internal.h"
 
 static const float EPSILON = 1e-5f;
@@ -77,6 +78,7 @@ static uint32_t incremental(const JoxHalfPlane *half_planes, uint32_t count, flo
    from the first that failed. */
 static void least_violation(const JoxHalfPlane *half_planes, uint32_t count, uint32_t hard,
                             uint32_t begin, float speed_limit, JoxV2 wanted, JoxV2 *result) {
+    JOX_ASSERT(hard <= begin && begin < count);
     JoxHalfPlane projected[MOST_HALF_PLANES];
     float violation = 0.0f;
     for (uint32_t i = 0; i < hard; i++)
@@ -95,6 +97,7 @@ static void least_violation(const JoxHalfPlane *half_planes, uint32_t count, uin
                 continue; /* the same direction: whichever is farther out decides by itself */
             projected[n++] = (JoxHalfPlane){jox_scale(difference, 1.0f / length),
                                             (half_planes[j].offset - worst.offset) / length};
+            JOX_ASSERT(jox_is_unit(projected[n - 1].normal));
         }
         JoxV2 before = *result;
         Objective objective = {wanted, worst.normal, true};
@@ -106,11 +109,15 @@ static void least_violation(const JoxHalfPlane *half_planes, uint32_t count, uin
 
 bool jox_linear_program_solve(const JoxHalfPlane *half_planes, uint32_t count, uint32_t hard,
                               float speed_limit, JoxV2 wanted, JoxV2 *velocity, bool *relaxed) {
+    JOX_ASSERT(hard <= count && count <= MOST_HALF_PLANES);
+    JOX_ASSERT(!(speed_limit < 0.0f));
     *relaxed = false;
     Objective objective = {.wanted = wanted};
     uint32_t met = incremental(half_planes, count, speed_limit, &objective, velocity);
-    if (met == count)
+    if (met == count) {
+        JOX_CHECK(jox_linear_program_check(half_planes, count, speed_limit, *velocity));
         return true;
+    }
     if (met < hard) { /* the walls alone leave nothing: the deepest offset that can be met */
         *relaxed = true;
         least_violation(half_planes, hard, 0, met, speed_limit, wanted, velocity);

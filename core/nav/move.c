@@ -1,6 +1,7 @@
 /* The stage move: integration, weak projection of overlaps, and walls that nobody passes. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "geom/polygon.h"
 #include "nav/internal.h"
 
@@ -46,6 +47,7 @@ static void sweep(void *context, uint32_t begin, uint32_t end, uint32_t worker) 
         for (uint32_t k = 0; k < m->neighbours->count[i]; k++) {
             size_t at = jox_neighbour_at(m->neighbours, i, k);
             uint32_t j = m->neighbours->index[at];
+            JOX_ASSERT(j < a->count && j != i);
             JoxV2 d = jox_wrap(a, jox_sub(from[i], from[j]));
             float sum = radius[i] + radius[j], d2 = jox_length2(d);
             if (d2 >= sum * sum || d2 == 0.0f)
@@ -90,6 +92,7 @@ static JoxV2 stop_at_walls(const JoxWallGrid *grid, JoxV2 p, JoxV2 q) {
         float t;
         if (!first_passed(grid, p, q, &edge, &t))
             return q;
+        JOX_ASSERT(edge < grid->walls->count && t >= 0.0f && t <= 1.0f);
         JoxV2 normal = jox_scale(jox_left(grid->walls->vertices[edge].direction), -1.0f);
         JoxV2 a = grid->walls->vertices[edge].point;
         float outside = jox_dot(jox_sub(q, a), normal);
@@ -109,6 +112,8 @@ static bool wrap_position(JoxAgents *a, uint32_t i) {
         float turns = floorf((a->y[i] - a->origin.y) / a->period.y);
         a->y[i] -= turns * a->period.y;
     }
+    JOX_ASSERT(!(a->period.x > 0.0f && fabsf(a->x[i] - a->origin.x) > 1.001f * a->period.x));
+    JOX_ASSERT(!(a->period.y > 0.0f && fabsf(a->y[i] - a->origin.y) > 1.001f * a->period.y));
     JoxV2 shift = jox_sub((JoxV2){a->x[i], a->y[i]}, before);
     a->prev_x[i] += shift.x;
     a->prev_y[i] += shift.y;
@@ -169,8 +174,9 @@ static void apply_positions(void *context, uint32_t begin, uint32_t end, uint32_
 }
 
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, double dt,
-                  double plan, JoxPool *pool) {
-    Move move = {nav, agents, neighbours, (float)dt, (float)(dt / plan), 0.0f, 0};
+                  double planning_time, JoxPool *pool) {
+    JOX_ASSERT(dt > 0.0 && planning_time >= dt * 0.999);
+    Move move = {nav, agents, neighbours, (float)dt, (float)(dt / planning_time), 0.0f, 0};
     move.stiffness = STIFFNESS * jox_minf(1.0f, (float)dt / STIFF_STEP);
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate, &move);
     for (int i = 0; i < SWEEPS; i++) {

@@ -1,8 +1,10 @@
 /* Half-planes of optimal reciprocal collision avoidance between discs. */
+#include "base/assert.h"
 #include "nav/internal.h"
 
 /* The half-plane whose border passes through own + share * u with outward normal n. */
 static JoxHalfPlane half_plane_through(JoxV2 normal, JoxV2 own, JoxV2 u, float share) {
+    JOX_ASSERT(jox_is_unit(normal));
     JoxV2 point = jox_add(own, jox_scale(u, share));
     return (JoxHalfPlane){normal, jox_dot(normal, point)};
 }
@@ -18,6 +20,7 @@ static JoxHalfPlane from_disc(JoxV2 v, JoxV2 centre, float radius, JoxV2 own, fl
 
 JoxHalfPlane jox_orca_half_plane(JoxV2 p, JoxV2 v, float radius, float tau, float dt, JoxV2 own,
                                  float share, JoxV2 away) {
+    JOX_ASSERT(tau > 0.0f && dt > 0.0f && radius >= 0.0f);
     float d2 = jox_length2(p), r2 = radius * radius;
     if (d2 <= r2) /* overlapping: apart within one step */
         return from_disc(v, jox_scale(p, 1.0f / dt), radius / dt, own, share, away);

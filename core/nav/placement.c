@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/elementary.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
@@ -32,6 +33,7 @@ static int32_t cell_of(const Occupied *t, float at) {
 
 static void occupy(Occupied *t, uint32_t i) {
     uint32_t b = bucket_of(t, cell_of(t, t->agents->x[i]), cell_of(t, t->agents->y[i]));
+    JOX_ASSERT(b <= t->mask && t->head[b] != i);
     t->next[i] = t->head[b];
     t->head[b] = i;
 }
@@ -149,6 +151,8 @@ JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *a, uint32_t first
         start_at(a, i);
         occupy(&t, i);
     }
+    JOX_ASSERT(result.moved + result.stuck <= a->count);
+    JOX_ASSERT(result.farthest <= FARTHEST * 1.001f);
     jox_free(t.head);
     jox_free(t.next);
     jox_free(moves);

@@ -1,138 +1,24 @@
-/* Walls: a grid of edges for queries, and their half-planes (van den Berg et al. 2011). */
+/* The half-planes of walls (van den Berg et al. 2011). */
 #include <math.h>
 
-#include "base/mem.h"
+#include "base/assert.h"
 #include "geom/polygon.h"
 #include "nav/internal.h"
-
-enum { MOST_CELLS = 1 << 20 };
 
 static const JoxWallVertex *end_of(const JoxWalls *walls, uint32_t edge) {
     return &walls->vertices[walls->vertices[edge].next];
 }
 
-void jox_wall_grid_free(JoxWallGrid *grid) {
-    jox_free(grid->first);
-    jox_free(grid->edges);
-    *grid = (JoxWallGrid){0};
-}
-
-typedef struct CellRange {
-    uint32_t x0, x1, y0, y1;
-} CellRange;
-
-static uint32_t clamp_cell(float at, uint32_t count) {
-    return at <= 0.0f ? 0 : at >= (float)(count - 1) ? count - 1 : (uint32_t)at;
-}
-
-static CellRange cells_near_edge(const JoxWallGrid *g, uint32_t edge) {
-    JoxV2 a = g->walls->vertices[edge].point, b = end_of(g->walls, edge)->point;
-    return (CellRange){
-        clamp_cell(floorf((jox_minf(a.x, b.x) - g->reach - g->low.x) / g->cell), g->columns),
-        clamp_cell(floorf((jox_maxf(a.x, b.x) + g->reach - g->low.x) / g->cell), g->columns),
-        clamp_cell(floorf((jox_minf(a.y, b.y) - g->reach - g->low.y) / g->cell), g->rows),
-        clamp_cell(floorf((jox_maxf(a.y, b.y) + g->reach - g->low.y) / g->cell), g->rows)};
-}
-
-static bool cell_is_near(const JoxWallGrid *g, uint32_t x, uint32_t y, uint32_t edge) {
-    JoxV2 centre = {g->low.x + ((float)x + 0.5f) * g->cell, g->low.y + ((float)y + 0.5f) * g->cell};
-    JoxV2 near =
-        jox_segment_nearest(g->walls->vertices[edge].point, end_of(g->walls, edge)->point, centre);
-    float limit = g->reach + 0.7072f * g->cell;
-    return jox_length2(jox_sub(near, centre)) <= limit * limit;
-}
-
-static void size_grid(JoxWallGrid *g) {
-    JoxV2 high = {-INFINITY, -INFINITY};
-    g->low = (JoxV2){INFINITY, INFINITY};
-    for (uint32_t i = 0; i < g->walls->count; i++) {
-        JoxV2 p = g->walls->vertices[i].point;
-        g->low = (JoxV2){jox_minf(g->low.x, p.x), jox_minf(g->low.y, p.y)};
-        high = (JoxV2){jox_maxf(high.x, p.x), jox_maxf(high.y, p.y)};
-    }
-    g->low = jox_sub(g->low, (JoxV2){g->reach, g->reach});
-    high = jox_add(high, (JoxV2){g->reach, g->reach});
-    g->cell = jox_maxf(1.0f, sqrtf((high.x - g->low.x) * (high.y - g->low.y) / MOST_CELLS));
-    g->cell = jox_maxf(g->cell, jox_maxf(high.x - g->low.x, high.y - g->low.y) / 32768.0f);
-    g->columns = (uint32_t)((high.x - g->low.x) / g->cell) + 1;
-    g->rows = (uint32_t)((high.y - g->low.y) / g->cell) + 1;
-}
-
-void jox_wall_grid_reset(JoxWallGrid *g, float reach) {
-    const JoxWalls *walls = g->walls;
-    jox_wall_grid_free(g);
-    g->walls = walls;
-    if (!walls || walls->count == 0 || !(reach > 0.0f))
-        return;
-    g->reach = reach;
-    size_grid(g);
-    size_t cells = (size_t)g->columns * g->rows;
-    g->first = jox_alloc(cells + 1, sizeof *g->first);
-    /* First pass counts, second pass fills. */
-    for (int pass = 0; pass < 2; pass++) {
-        for (uint32_t e = walls->count; e-- > 0;) {
-            CellRange r = cells_near_edge(g, e);
-            for (uint32_t y = r.y0; y <= r.y1; y++)
-                for (uint32_t x = r.x0; x <= r.x1; x++) {
-                    size_t c = (size_t)y * g->columns + x;
-                    if (!cell_is_near(g, x, y, e))
-                        continue;
-                    if (pass == 0)
-                        g->first[c]++;
-                    else
-                        g->edges[--g->first[c]] = e;
-                }
-        }
-        if (pass == 0) {
-            for (size_t c = 1; c <= cells; c++)
-                g->first[c] += g->first[c - 1];
-            g->edges = jox_alloc(g->first[cells] + 1, sizeof *g->edges);
-        }
-    }
-}
-
-void jox_wall_grid_fit(JoxWallGrid *g, float reach) {
-    if (g->walls && g->walls->count > 0 && reach > g->reach)
-        jox_wall_grid_reset(g, reach * 1.25f); /* room, so that it is not rebuilt each step */
-}
-
-const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point, uint32_t *count) {
-    *count = 0;
-    if (!g->first)
-        return NULL;
-    float x = (point.x - g->low.x) / g->cell, y = (point.y - g->low.y) / g->cell;
-    if (!(x >= 0.0f && y >= 0.0f && x < (float)g->columns && y < (float)g->rows))
-        return NULL;
-    size_t c = (size_t)(uint32_t)y * g->columns + (uint32_t)x;
-    *count = g->first[c + 1] - g->first[c];
-    return g->edges + g->first[c];
-}
-
-bool jox_walls_contain(const JoxWalls *walls, JoxV2 p) {
-    bool inside = false;
-    for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
-        if (!walls->rings[r].solid)
-            continue;
-        bool in_ring = false;
-        for (uint32_t i = 0; i < walls->rings[r].count; i++) {
-            JoxV2 a = walls->vertices[walls->rings[r].first + i].point;
-            JoxV2 b = end_of(walls, walls->rings[r].first + i)->point;
-            if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
-                in_ring = !in_ring;
-        }
-        inside |= in_ring;
-    }
-    return inside;
-}
-
 /* Tangent directions from the origin to the disc of `radius` about p, at distance^2 d2 > radius^2:
    the leg that leaves the disc on its left, or on its right. */
 static JoxV2 left_leg(JoxV2 p, float radius, float d2) {
+    JOX_ASSERT(!(d2 < radius * radius));
     float leg = sqrtf(d2 - radius * radius);
     return jox_scale((JoxV2){p.x * leg - p.y * radius, p.x * radius + p.y * leg}, 1.0f / d2);
 }
 
 static JoxV2 right_leg(JoxV2 p, float radius, float d2) {
+    JOX_ASSERT(!(d2 < radius * radius));
     float leg = sqrtf(d2 - radius * radius);
     return jox_scale((JoxV2){p.x * leg + p.y * radius, -p.x * radius + p.y * leg}, 1.0f / d2);
 }
@@ -162,13 +48,13 @@ static bool touching_half_plane(const JoxWallVertex *a, const JoxWallVertex *b, 
                                 bool *made) {
     *made = false;
     if (s < 0.0f && jox_length2(p1) <= r2) {
-        *made = a->convex;
+        *made = a->convex && jox_length2(p1) > 0.0f;
         *half_plane = (JoxHalfPlane){jox_unit(jox_scale(p1, -1.0f)), 0.0f};
         return true;
     }
     if (s > 1.0f && jox_length2(p2) <= r2) {
         /* The next edge takes care unless the agent is past its start. */
-        *made = b->convex && jox_det(p2, b->direction) >= 0.0f;
+        *made = b->convex && jox_det(p2, b->direction) >= 0.0f && jox_length2(p2) > 0.0f;
         *half_plane = (JoxHalfPlane){jox_unit(jox_scale(p2, -1.0f)), 0.0f};
         return true;
     }
@@ -271,6 +157,7 @@ static uint32_t near_edges(const JoxWallGrid *grid, JoxV2 position, float range,
     uint32_t count, n = 0;
     const uint32_t *edges = jox_wall_grid_at(grid, position, &count);
     for (uint32_t i = 0; i < count; i++) {
+        JOX_ASSERT(edges[i] < grid->walls->count);
         const JoxWallVertex *a = &grid->walls->vertices[edges[i]];
         JoxV2 b = end_of(grid->walls, edges[i])->point;
         if (jox_det(a->direction, jox_sub(position, a->point)) >= 0.0f)
@@ -293,6 +180,7 @@ static uint32_t near_edges(const JoxWallGrid *grid, JoxV2 position, float range,
 
 uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity, float radius,
                         float tau, float range, JoxHalfPlane *out, uint32_t most) {
+    JOX_ASSERT(tau > 0.0f && radius > 0.0f);
     NearEdge near[16];
     uint32_t edges = near_edges(grid, position, range, near, 16), made = 0;
     float inverse = 1.0f / tau, r2 = radius * radius;

@@ -147,15 +147,6 @@ static void measure_velocities(JoxTrajectories *t, const Place *places) {
     }
 }
 
-bool jox_is_sqlite(const char *path) {
-    char start[16] = "";
-    FILE *file = jox_file_open(path, "rb");
-    size_t got = file ? fread(start, 1, sizeof start, file) : 0;
-    if (file)
-        jox_file_close(file);
-    return got == sizeof start && memcmp(start, "SQLite format 3", 16) == 0;
-}
-
 static bool read_text(JoxTrajectories *t, const char *path, const JoxTrajectoryOptions *options,
                       JoxDiagnostics *diagnostics) {
     size_t length;
@@ -172,15 +163,11 @@ static bool read_text(JoxTrajectories *t, const char *path, const JoxTrajectoryO
     return good;
 }
 
-JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOptions *options,
-                                       JoxDiagnostics *diagnostics) {
-    JoxTrajectories *t = jox_alloc(1, sizeof *t);
-    t->period = options->period;
-    bool good = jox_is_sqlite(path) ? jox_trajectories_sqlite(t, path, options, diagnostics)
-                                    : read_text(t, path, options, diagnostics);
-    good = good && check_times(t, path, diagnostics);
-    Place *places = good ? jox_alloc(t->count, sizeof *places) : NULL;
-    good = good && sort(t, places, path, diagnostics);
+bool jox_trajectories_finish(JoxTrajectories *t, const char *path, JoxDiagnostics *diagnostics) {
+    if (!check_times(t, path, diagnostics))
+        return false;
+    Place *places = jox_alloc(t->count, sizeof *places);
+    const bool good = sort(t, places, path, diagnostics);
     if (good) {
         number_people(t, places);
         if (t->last < t->number[t->count - 1] || (double)t->last / t->fps > LONGEST)
@@ -198,7 +185,14 @@ JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOpti
     jox_free(t->line);
     t->id = NULL;
     t->line = NULL;
-    if (good)
+    return good;
+}
+
+JoxTrajectories *jox_trajectories_read_text(const char *path, const JoxTrajectoryOptions *options,
+                                            JoxDiagnostics *diagnostics) {
+    JoxTrajectories *t = jox_alloc(1, sizeof *t);
+    t->period = options->period;
+    if (read_text(t, path, options, diagnostics) && jox_trajectories_finish(t, path, diagnostics))
         return t;
     jox_trajectories_free(t);
     return NULL;

@@ -52,12 +52,15 @@ JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOpti
 bool jox_trajectories_frame(const JoxTrajectories *trajectories, uint32_t f, JoxFrame *out);
 void jox_trajectories_free(JoxTrajectories *trajectories);
 
-/* trajectories_text.c, trajectories_sqlite.c: rows as they come; false with errors. */
+/* trajectories.c: the same of a text; and of rows as they came: sorts them by frame, numbers
+   people, measures velocities. */
+JoxTrajectories *jox_trajectories_read_text(const char *path, const JoxTrajectoryOptions *options,
+                                            JoxDiagnostics *diagnostics);
+bool jox_trajectories_finish(JoxTrajectories *t, const char *path, JoxDiagnostics *diagnostics);
+/* trajectories_text.c: rows as they come; false with errors. */
 bool jox_trajectories_text(JoxTrajectories *t, const char *path, const char *text, size_t length,
                            const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics);
-bool jox_trajectories_sqlite(JoxTrajectories *t, const char *path,
-                             const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics);
-/* Walls and groups alone, of an open file (sqlite3 *). */
+/* trajectory_plan.c: walls and groups alone, of an open file. */
 struct sqlite3;
 void jox_trajectories_plan(JoxTrajectories *t, struct sqlite3 *db);
 /* Whether a file begins as SQLite files do. */

@@ -68,7 +68,7 @@ static uint32_t state_row(const JoxTrajectoryReader *r, int64_t number) {
         else
             high = middle;
     }
-    return low < r->state_count && r->states[low].number == number ? low : JOX_REEL_NO_STATE;
+    return low < r->state_count && r->states[low].number == number ? low : JOX_NO_RECORDED_STATE;
 }
 
 static void take_row(JoxTrajectoryReader *r, uint32_t n) {
@@ -83,16 +83,17 @@ static void take_row(JoxTrajectoryReader *r, uint32_t n) {
     if (!r->ours)
         return;
     const bool known = sqlite3_column_type(r->rows, 5) != SQLITE_NULL;
-    r->state[n] = known ? state_row(r, sqlite3_column_int64(r->rows, 5)) : JOX_REEL_NO_STATE;
+    r->state[n] = known ? state_row(r, sqlite3_column_int64(r->rows, 5)) : JOX_NO_RECORDED_STATE;
     r->force[n] = (float)sqlite3_column_double(r->rows, 6);
     r->compression[n] = (float)sqlite3_column_double(r->rows, 7);
     r->group[n] = (uint16_t)sqlite3_column_int64(r->rows, 8);
 }
 
-static bool read_people(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryReaderFrame *out,
-                        JoxText *why) {
+bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
+                                       JoxTrajectoryReaderFrame *out, JoxText *why) {
     uint32_t n = 0;
     int status;
+    *out = (JoxTrajectoryReaderFrame){.time = jox_trajectory_reader_time(r, frame)};
     sqlite3_reset(r->rows);
     sqlite3_bind_int64(r->rows, 1, r->number[frame]);
     sqlite3_bind_int64(r->rows, 2, r->from[frame]);
@@ -101,8 +102,11 @@ static bool read_people(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryRea
         take_row(r, n);
         if (!(fabsf(r->x[n]) < 1e6f && fabsf(r->y[n]) < 1e6f))
             return damaged(why, "%s is more than 1000 km from the origin", "somebody");
-        if (n > 0 && r->id[n] == r->id[n - 1])
-            return damaged(why, "%s is in a frame twice", "somebody");
+        if (n > 0 && r->id[n] <= r->id[n - 1]) { /* smaller: of a damaged index */
+            jox_text_printf(why, "person %lld is in frame %lld twice", (long long)r->id[n],
+                            (long long)r->number[frame]);
+            return false;
+        }
         n++;
     }
     if (status != SQLITE_DONE)
@@ -173,6 +177,7 @@ static bool read_bodies(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryRea
 
 static bool read_whole(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryReaderFrame *out) {
     JoxFrame all;
+    *out = (JoxTrajectoryReaderFrame){.time = jox_trajectory_reader_time(r, frame)};
     jox_trajectories_frame(r->all, frame, &all);
     widen(r, all.count);
     for (uint32_t i = 0; i < all.count; i++)
@@ -191,10 +196,9 @@ static bool read_whole(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryRead
 
 bool jox_trajectory_reader_read(JoxTrajectoryReader *r, uint32_t frame,
                                 JoxTrajectoryReaderFrame *out, JoxText *why) {
-    *out = (JoxTrajectoryReaderFrame){.time = jox_trajectory_reader_time(r, frame)};
     if (r->all)
         return read_whole(r, frame, out);
-    return read_people(r, frame, out, why) && read_bodies(r, frame, out, why);
+    return jox_trajectory_reader_read_people(r, frame, out, why) && read_bodies(r, frame, out, why);
 }
 
 /* ---- shapes ---- */

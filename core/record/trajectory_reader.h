@@ -1,6 +1,6 @@
 /* A recording frame by frame, in any order. SQLite files are read on demand, by their index or,
-   where they have none, by the rows at which frames begin: they need not fit into memory. Text, and
-   files whose rows are in no order, are read whole (trajectories.h). */
+   where they have none, by the rows at which frames begin: they need not fit into memory. Where the
+   rows are in no order, SQLite sorts a copy of them. Text is read whole (trajectories.h). */
 #ifndef JOX_RECORD_TRAJECTORY_READER_H
 #define JOX_RECORD_TRAJECTORY_READER_H
 
@@ -16,13 +16,13 @@ typedef struct JoxTrajectoryReaderFrame {
     const int64_t *id;  /* ascending; the same person's in every frame */
     const float *x, *y; /* m */
     const float *face_x, *face_y;
-    const uint32_t *state;            /* row of jox_trajectory_reader_state, or JOX_REEL_NO_STATE */
+    const uint32_t *state; /* row of jox_trajectory_reader_state, or JOX_NO_RECORDED_STATE */
     const float *force, *compression; /* N, N/m */
     const uint16_t *group;
     uint32_t body_count;
     const JoxRecordBody *bodies; /* ascending ids */
 } JoxTrajectoryReaderFrame;
-#define JOX_REEL_NO_STATE UINT32_MAX
+#define JOX_NO_RECORDED_STATE UINT32_MAX
 
 /* What a recording says of itself. */
 typedef struct JoxTrajectoryReaderInfo {

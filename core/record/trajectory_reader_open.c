@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/mem.h"
 #include "record/database.h"
 #include "record/trajectory_reader_parts.h"
@@ -44,27 +45,24 @@ static void add_frame(JoxTrajectoryReader *r, int64_t number, int64_t from) {
     r->from[++r->frames] = from;
 }
 
-/* Numbers of frames by the index, one look-up each; those without anybody too, where a table lists
-   them. */
+/* Numbers of frames by the index, one look-up each, and those without anybody, which a table lists.
+ */
 static bool list_by_index(JoxTrajectoryReader *r) {
-    sqlite3_stmt *list = prepare(r->db, "SELECT DISTINCT frame FROM frame_data ORDER BY frame");
-    while (list && r->frames < MOST_FRAMES && sqlite3_step(list) == SQLITE_ROW)
-        add_frame(r, sqlite3_column_int64(list, 0), 0);
-    sqlite3_finalize(list);
-    if (r->frames)
-        return true;
-    sqlite3_stmt *next =
-        prepare(r->db, "SELECT frame FROM trajectory_data WHERE frame > ? ORDER BY frame LIMIT 1");
-    int64_t last = INT64_MIN;
-    while (next && r->frames < MOST_FRAMES) {
-        sqlite3_bind_int64(next, 1, last);
-        if (sqlite3_step(next) != SQLITE_ROW)
-            break;
-        last = sqlite3_column_int64(next, 0);
-        sqlite3_reset(next);
-        add_frame(r, last, 0);
+#define WITH_PEOPLE                                                                                \
+    "WITH RECURSIVE f(n) AS (SELECT MIN(frame) FROM trajectory_data UNION ALL SELECT (SELECT "     \
+    "MIN(frame) FROM trajectory_data WHERE frame > n) FROM f WHERE n IS NOT NULL) "                \
+    "SELECT n FROM f WHERE n IS NOT NULL "
+    sqlite3_stmt *list =
+        prepare(r->db, WITH_PEOPLE "UNION SELECT frame FROM frame_data ORDER BY 1");
+    if (!list)
+        list = prepare(r->db, WITH_PEOPLE "ORDER BY 1");
+#undef WITH_PEOPLE
+    while (list && r->frames < MOST_FRAMES && sqlite3_step(list) == SQLITE_ROW) {
+        const int64_t number = sqlite3_column_int64(list, 0);
+        if (r->frames == 0 || number > r->number[r->frames - 1])
+            add_frame(r, number, 0);
     }
-    sqlite3_finalize(next);
+    sqlite3_finalize(list);
     return r->frames > 0;
 }
 
@@ -76,7 +74,8 @@ static bool list_by_row(JoxTrajectoryReader *r) {
     while (ordered && sqlite3_step(rows) == SQLITE_ROW) {
         int64_t frame = sqlite3_column_int64(rows, 1);
         row = sqlite3_column_int64(rows, 0);
-        ordered = (r->frames == 0 || frame >= r->number[r->frames - 1]) && r->frames < MOST_FRAMES;
+        ordered = sqlite3_column_type(rows, 0) != SQLITE_NULL &&
+                  (r->frames == 0 || frame >= r->number[r->frames - 1]) && r->frames < MOST_FRAMES;
         if (ordered && (r->frames == 0 || frame > r->number[r->frames - 1]))
             add_frame(r, frame, row);
     }
@@ -86,6 +85,22 @@ static bool list_by_row(JoxTrajectoryReader *r) {
     if (!ordered)
         r->frames = 0;
     return ordered && r->frames > 0;
+}
+
+/* Where the rows are in no order: a copy of them in order, which takes the place of the table. */
+static bool sort_rows(JoxTrajectoryReader *r) {
+    static const char *const WAYS[] = {", rowid AS source",
+                                       ""}; /* some tables have no row numbers */
+    for (int w = 0; w < 2 && !r->sorted; w++) {
+        JoxText sql = {0};
+        jox_text_printf(&sql,
+                        "CREATE TEMP TABLE trajectory_data AS SELECT *%s FROM "
+                        "main.trajectory_data ORDER BY frame, id",
+                        WAYS[w]);
+        r->sorted = sqlite3_exec(r->db, sql.data, NULL, NULL, NULL) == SQLITE_OK;
+        jox_text_free(&sql);
+    }
+    return r->sorted && list_by_row(r);
 }
 
 /* ---- opening ---- */
@@ -111,13 +126,14 @@ static bool prepare_rows(JoxTrajectoryReader *r) {
                                        "WHERE d.rowid >= ?2 AND d.rowid < ?3 ORDER BY d.id"};
     static const char *const COLUMNS[] = {
         "SELECT d.id, d.pos_x, d.pos_y, d.ori_x, d.ori_y, a.state, a.force, a.compression, a.member"
-        " FROM trajectory_data d LEFT JOIN jostle_agent a ON a.rowid = d.rowid AND a.id = d.id"
+        " FROM trajectory_data d LEFT JOIN jostle_agent a ON a.rowid = d.%s AND a.id = d.id"
         " AND a.frame = d.frame",
         "SELECT d.id, d.pos_x, d.pos_y, d.ori_x, d.ori_y FROM trajectory_data d",
         "SELECT d.id, d.pos_x, d.pos_y FROM trajectory_data d"};
     for (int c = 0; c < 3 && !r->rows; c++) {
         JoxText sql = {0};
-        jox_text_printf(&sql, "%s %s", COLUMNS[c], WAYS[r->way]);
+        jox_text_printf(&sql, COLUMNS[c], r->sorted ? "source" : "rowid");
+        jox_text_printf(&sql, " %s", WAYS[r->way]);
         r->rows = prepare(r->db, sql.data);
         r->ours = c == 0;
         r->facing = c < 2;
@@ -202,10 +218,9 @@ static void read_bounds(JoxTrajectoryReader *r) {
     }
 }
 
-/* False with an error; *whole: the rows are in no order, so that all must be read. */
+/* False with an error. */
 static bool open_sqlite(JoxTrajectoryReader *r, const char *path,
-                        const JoxTrajectoryOptions *options, bool *whole,
-                        JoxDiagnostics *diagnostics) {
+                        const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
     static const char *const HINT = "It must be of the JuPedSim format: a table trajectory_data";
     double found;
     if (!jox_database_open(path, &r->db))
@@ -224,17 +239,15 @@ static bool open_sqlite(JoxTrajectoryReader *r, const char *path,
                        "SELECT 1 FROM pragma_index_list('trajectory_data') l, "
                        "pragma_index_info(l.name) i WHERE i.seqno = 0 AND i.name = 'frame'",
                        &found);
-    r->way = indexed ? JOX_REEL_BY_INDEX : JOX_REEL_BY_ROW;
-    if (!(indexed ? list_by_index(r) : list_by_row(r))) {
-        *whole = true;
-        return true;
-    }
+    r->way = indexed ? JOX_READ_BY_INDEX : JOX_READ_BY_ROW;
+    if (!(indexed ? list_by_index(r) : list_by_row(r) || sort_rows(r)))
+        return wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db));
     r->fps = options->fps;
     if (r->fps <= 0.0 &&
         !ask(r->db, "SELECT CAST(value AS REAL) FROM metadata WHERE key = 'fps'", &r->fps))
         r->fps = 0.0;
     if (!(r->fps > 0.0 && r->fps <= 1e5))
-        return wrong(diagnostics, path, "--fps 25",
+        return wrong(diagnostics, path, options->fps_option ? options->fps_option : "--fps 25",
                      "this recording does not say how many frames a second it has");
     if (!prepare_rows(r))
         return wrong(diagnostics, path, HINT, sqlite3_errmsg(r->db));
@@ -242,6 +255,8 @@ static bool open_sqlite(JoxTrajectoryReader *r, const char *path,
         if (!(fabs((double)r->number[f]) / r->fps <= 1e9))
             return wrong(diagnostics, path, "Are id and frame exchanged?",
                          "a frame is more than 30 years from the first");
+    if (ask(r->db, "SELECT MAX(frame) FROM frame_data", &found))
+        r->last = (int64_t)found;
     read_bounds(r);
     read_states(r);
     jox_trajectories_plan(&r->outlines, r->db);
@@ -251,8 +266,8 @@ static bool open_sqlite(JoxTrajectoryReader *r, const char *path,
 
 static bool open_whole(JoxTrajectoryReader *r, const char *path,
                        const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
-    r->way = JOX_REEL_WHOLE;
-    r->all = jox_trajectories_read(path, options, diagnostics);
+    r->way = JOX_READ_WHOLE;
+    r->all = jox_trajectories_read_text(path, options, diagnostics);
     if (!r->all)
         return false;
     r->fps = r->all->fps;
@@ -263,16 +278,21 @@ static bool open_whole(JoxTrajectoryReader *r, const char *path,
     return true;
 }
 
+bool jox_is_sqlite(const char *path) {
+    char start[16] = "";
+    FILE *file = jox_file_open(path, "rb");
+    size_t got = file ? fread(start, 1, sizeof start, file) : 0;
+    if (file)
+        jox_file_close(file);
+    return got == sizeof start && memcmp(start, "SQLite format 3", 16) == 0;
+}
+
 JoxTrajectoryReader *jox_trajectory_reader_open(const char *path,
                                                 const JoxTrajectoryOptions *options,
                                                 JoxDiagnostics *diagnostics) {
     JoxTrajectoryReader *r = jox_alloc(1, sizeof *r);
-    bool whole = !jox_is_sqlite(path), good = true;
-    if (!whole)
-        good = open_sqlite(r, path, options, &whole, diagnostics);
-    if (good && whole)
-        good = open_whole(r, path, options, diagnostics);
-    if (good)
+    if (jox_is_sqlite(path) ? open_sqlite(r, path, options, diagnostics)
+                            : open_whole(r, path, options, diagnostics))
         return r;
     jox_trajectory_reader_close(r);
     return NULL;

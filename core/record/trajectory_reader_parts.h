@@ -7,7 +7,7 @@
 #include "record/trajectory_reader.h"
 
 /* How the rows of a frame are found. */
-typedef enum { JOX_REEL_BY_INDEX, JOX_REEL_BY_ROW, JOX_REEL_WHOLE } JoxTrajectoryReaderWay;
+typedef enum { JOX_READ_BY_INDEX, JOX_READ_BY_ROW, JOX_READ_WHOLE } JoxTrajectoryReaderWay;
 
 struct JoxTrajectoryReader {
     JoxTrajectoryReaderWay way;
@@ -17,9 +17,11 @@ struct JoxTrajectoryReader {
     bool ours;   /* with states, forces and groups */
     bool facing; /* with the way people look */
     int64_t *number,
-        *from; /* of each frame; JOX_REEL_BY_ROW: its first row, and one more at the end */
+        *from; /* of each frame; JOX_READ_BY_ROW: its first row, and one more at the end */
     uint32_t frames;
     size_t number_capacity, from_capacity;
+    int64_t last;      /* number of the last frame that is listed, in which nobody may be */
+    bool sorted;       /* the rows are those of a copy in order */
     int64_t last_body; /* row */
     sqlite3_stmt *part;
     int64_t *changes; /* numbers of the frames in which shapes changed */
@@ -41,5 +43,9 @@ struct JoxTrajectoryReader {
     JoxRecordBody *body;
     size_t capacity, body_capacity;
 };
+
+/* As jox_trajectory_reader_read, of a file that is not read whole, without bodies. */
+bool jox_trajectory_reader_read_people(JoxTrajectoryReader *reader, uint32_t frame,
+                                       JoxTrajectoryReaderFrame *out, JoxText *why);
 
 #endif

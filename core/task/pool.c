@@ -39,6 +39,7 @@ static void take_chunks(JoxPool *pool, uint32_t worker) {
         if (chunk >= pool->chunks)
             return;
         uint32_t begin = chunk * pool->grain;
+        JOX_ASSERT(begin < pool->count && worker < pool->threads);
         uint32_t left = pool->count - begin;
         pool->task(pool->context, begin, begin + (left < pool->grain ? left : pool->grain), worker);
     }
@@ -136,6 +137,7 @@ void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *ta
             task(context, begin, count - begin < grain ? count : begin + grain, 0);
         return;
     }
+    JOX_ASSERT(atomic_load(&pool->busy) == 0); /* one loop at a time */
     pool->count = count;
     pool->grain = grain;
     pool->chunks = (count + grain - 1) / grain;
@@ -151,6 +153,7 @@ void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *ta
     while (atomic_load(&pool->busy) > 0)
         pthread_cond_wait(&pool->done, &pool->lock);
     pthread_mutex_unlock(&pool->lock);
+    JOX_ASSERT(atomic_load(&pool->next) >= pool->chunks);
     if (atomic_exchange(&pool->starved, false))
         jox_out_of_memory(0);
 }

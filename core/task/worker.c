@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "task/thread.h"
 
@@ -20,6 +21,7 @@ static bool take(JoxWorker *worker, JoxWorkItem *item) {
         at = &(*at)->next;
     if (!*at)
         return false;
+    JOX_ASSERT(!item->done);
     *at = item->next;
     item->next = NULL;
     return true;
@@ -74,8 +76,10 @@ void jox_worker_give(JoxWorker *worker, JoxWorkItem *item) {
         worker->begun = jox_thread_start(&worker->thread, work, worker);
     pthread_mutex_lock(&worker->lock);
     JoxWorkItem **end = &worker->first;
-    while (*end)
+    while (*end) {
+        JOX_ASSERT(*end != item);
         end = &(*end)->next;
+    }
     *end = item;
     item->next = NULL;
     item->done = item->starved = false;
@@ -94,6 +98,7 @@ void jox_worker_wait(JoxWorker *worker, JoxWorkItem *item) {
         run(item);
         item->done = true;
     }
+    JOX_ASSERT(item->done && !item->next);
     if (item->starved)
         jox_out_of_memory(0);
 }

@@ -30,14 +30,14 @@ static char *keep(Reading *r, const char *text) {
 }
 
 static bool add_value(void *context, const JoxJsonItem *item) {
-    static const JoxSaidKind KINDS[] = {[JOX_JSON_NULL] = JOX_SAID_NULL,
-                                        [JOX_JSON_BOOL] = JOX_SAID_BOOL,
-                                        [JOX_JSON_NUMBER] = JOX_SAID_NUMBER,
-                                        [JOX_JSON_TEXT] = JOX_SAID_TEXT};
+    static const JoxCommandKind KINDS[] = {[JOX_JSON_NULL] = JOX_COMMAND_NULL,
+                                           [JOX_JSON_BOOL] = JOX_COMMAND_BOOL,
+                                           [JOX_JSON_NUMBER] = JOX_COMMAND_NUMBER,
+                                           [JOX_JSON_TEXT] = JOX_COMMAND_TEXT};
     Reading *r = context;
     JoxCommand *command = r->command;
     if (item->kind == JOX_JSON_OBJECT || item->kind == JOX_JSON_ARRAY ||
-        command->count == JOX_COMMAND_KEYS)
+        command->count == JOX_COMMAND_MOST_KEYS)
         return false;
     const int i = command->count++;
     command->values[i].kind = KINDS[item->kind];
@@ -48,7 +48,7 @@ static bool add_value(void *context, const JoxJsonItem *item) {
 }
 
 /* Index of a key, or -1. */
-static int find(const JoxCommand *command, const char *key, JoxSaidKind kind) {
+static int find(const JoxCommand *command, const char *key, JoxCommandKind kind) {
     for (int i = 0; i < command->count; i++)
         if (!strcmp(command->values[i].key, key))
             return command->values[i].kind == kind ? i : -1;
@@ -57,13 +57,13 @@ static int find(const JoxCommand *command, const char *key, JoxSaidKind kind) {
 
 bool jox_command_read(const char *json, JoxCommand *command) {
     static const JoxJsonLimits FLAT = {
-        .length = 8 * sizeof command->store, .items = JOX_COMMAND_KEYS + 1, .depth = 1};
+        .length = 8 * sizeof command->store, .items = JOX_COMMAND_MOST_KEYS + 1, .depth = 1};
     Reading reading = {.command = command};
     command->count = 0;
     command->verb = NULL;
     if (!jox_json_read(json, FLAT, add_value, &reading))
         return false;
-    int verb = find(command, "do", JOX_SAID_TEXT);
+    int verb = find(command, "do", JOX_COMMAND_TEXT);
     if (verb < 0)
         return false;
     command->verb = command->values[verb].text;
@@ -71,16 +71,16 @@ bool jox_command_read(const char *json, JoxCommand *command) {
 }
 
 const char *jox_command_text(const JoxCommand *command, const char *key, const char *otherwise) {
-    int i = find(command, key, JOX_SAID_TEXT);
+    int i = find(command, key, JOX_COMMAND_TEXT);
     return i < 0 ? otherwise : command->values[i].text;
 }
 
 double jox_command_number(const JoxCommand *command, const char *key, double otherwise) {
-    int i = find(command, key, JOX_SAID_NUMBER);
+    int i = find(command, key, JOX_COMMAND_NUMBER);
     return i < 0 ? otherwise : command->values[i].number;
 }
 
 bool jox_command_bool(const JoxCommand *command, const char *key, bool otherwise) {
-    int i = find(command, key, JOX_SAID_BOOL);
+    int i = find(command, key, JOX_COMMAND_BOOL);
     return i < 0 ? otherwise : command->values[i].number > 0.0;
 }

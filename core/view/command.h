@@ -5,16 +5,21 @@
 
 #include <stdbool.h>
 
-enum { JOX_COMMAND_KEYS = 16 };
+enum { JOX_COMMAND_MOST_KEYS = 16 };
 
-typedef enum { JOX_SAID_NULL, JOX_SAID_BOOL, JOX_SAID_NUMBER, JOX_SAID_TEXT } JoxSaidKind;
+typedef enum {
+    JOX_COMMAND_NULL,
+    JOX_COMMAND_BOOL,
+    JOX_COMMAND_NUMBER,
+    JOX_COMMAND_TEXT
+} JoxCommandKind;
 
 typedef struct JoxCommand {
     struct {
-        JoxSaidKind kind;
+        JoxCommandKind kind;
         double number; /* 1 and 0 for true and false */
         char *key, *text;
-    } values[JOX_COMMAND_KEYS];
+    } values[JOX_COMMAND_MOST_KEYS];
     int count;
     char *verb;       /* the text of "do" */
     char store[4200]; /* where keys and texts lie */
@@ -23,7 +28,7 @@ typedef struct JoxCommand {
 /* False if it is no such object, or a text of it has control characters or is not UTF-8: what is
    read may be shown on a terminal and written into a log of lines. */
 bool jox_command_read(const char *json, JoxCommand *command);
-/* The value of a key, or what is said `otherwise` where there is none of this kind. */
+/* The value of a key, or `otherwise` where there is none of this kind. */
 const char *jox_command_text(const JoxCommand *command, const char *key, const char *otherwise);
 double jox_command_number(const JoxCommand *command, const char *key, double otherwise);
 bool jox_command_bool(const JoxCommand *command, const char *key, bool otherwise);

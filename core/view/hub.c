@@ -5,6 +5,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "view/internal.h"
 
@@ -103,6 +104,7 @@ static JoxMessage *find_room(const JoxView *view, JoxChannel *channel, size_t le
     }
     if (!message)
         message = jox_message_create(view, length);
+    JOX_ASSERT(message->capacity >= length);
     message->length = length;
     message->channel = channel;
     return message;
@@ -147,6 +149,7 @@ void jox_view_send_bytes(JoxView *view, uint32_t client, const void *bytes, size
 }
 
 void jox_view_listen(JoxView *view, uint32_t client, uint32_t channels) {
+    JOX_ASSERT(client != JOX_VIEW_ALL && channels >> JOX_VIEW_CHANNELS == 0);
     post(view, JOX_REQUEST_LISTEN, client, channels, NULL, 0);
 }
 
@@ -185,6 +188,8 @@ JoxViewTaken jox_view_take(JoxView *view, uint32_t *client, char *text, size_t c
     view->taken = message->next;
     JoxViewTaken what = (JoxViewTaken)message->what;
     *client = message->client;
+    JOX_ASSERT(capacity > message->length &&
+               *client > 0); /* commands are as long as a client may send */
     size_t n = message->length < capacity ? message->length : capacity - 1;
     memcpy(text, message->data, n);
     text[n] = 0;

@@ -1,6 +1,7 @@
 /* The serving thread's side: who is connected, what each is sent next, what each may say. */
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "view/command.h"
 #include "view/internal.h"
@@ -14,6 +15,7 @@ static JoxClient *find(JoxView *view, uint32_t id) {
 
 /* One holder fewer; what nobody holds goes back to who makes it, or is freed. */
 static void release(JoxMessage *message) {
+    JOX_ASSERT(!message || message->refs > 0);
     if (!message || --message->refs > 0)
         return;
     if (message->channel)
@@ -28,6 +30,7 @@ static void queue(JoxClient *client, JoxMessage *message) {
         jox_free(message);
         return;
     }
+    JOX_ASSERT(!message->channel); /* what is published is shared, not queued */
     message->next = NULL;
     message->refs = 1;
     if (client->last)
@@ -56,7 +59,7 @@ static void forget(JoxView *view, uint32_t epoch) {
     }
 }
 
-static void do_deed(JoxView *view, JoxMessage *message) {
+static void do_request(JoxView *view, JoxMessage *message) {
     JoxClient *client = find(view, message->client);
     switch ((JoxRequest)message->what) {
     case JOX_REQUEST_TEXT:
@@ -95,7 +98,7 @@ void jox_serving_gather(JoxView *view) {
     JoxMessage *message = jox_post_take(&view->out);
     while (message) {
         JoxMessage *next = message->next;
-        do_deed(view, message);
+        do_request(view, message);
         message = next;
     }
 }
@@ -140,6 +143,8 @@ bool jox_serving_choose(JoxView *view, JoxClient *client) {
 
 void jox_serving_sent(JoxView *view, JoxClient *client) {
     (void)view;
+    JOX_ASSERT(client->sending && client->sent <= client->sending->length);
+    JOX_ASSERT(client->sending->channel || client->unread >= client->sending->length);
     if (!client->sending->channel)
         client->unread -= client->sending->length;
     release(client->sending);
@@ -203,6 +208,7 @@ void jox_serving_receive(JoxView *view, JoxClient *client, const void *data, siz
         return;
     bool fits = client->length <= JOX_VIEW_MOST_COMMAND;
     size_t n = fits ? client->length : 0;
+    JOX_ASSERT(n < sizeof client->command);
     client->length = 0;
     client->command[n] = 0;
     JoxCommand command = {0};

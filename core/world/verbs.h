@@ -27,6 +27,8 @@ typedef struct JoxVerb {
     JoxInputWord words[10];
     uint32_t least, most; /* words that it takes: so many or so many */
     const char *example, *meaning;
+    const char
+        *tool; /* of the live page that people need for it, a name of view: {tools}; or NULL */
 } JoxVerb;
 
 extern const JoxVerb jox_input_verbs[JOX_INPUT_VERBS];

@@ -112,4 +112,40 @@ static inline double y_of(const Seen *seen, uint32_t slot) {
     return (double)seen->y0 + (double)seen->sy * (at[2] | at[3] << 8);
 }
 
+static inline Seen decode(const JoxBytes *frame, const JoWorld *world) {
+    const Seen seen = decode_bytes(frame->data, frame->length);
+    assert_int_equal(seen.tick, world->state.tick);
+    assert_near(seen.time, (double)world->state.tick * world->model.def.dt, 1e-9);
+    return seen;
+}
+
+/* Everybody is in the frame where they are, within half a unit, and nobody else is. */
+static inline void check_people(const JoScene *scene, const Seen *seen) {
+    const JoxAgents *a = &scene->world->state.agents;
+    uint32_t people = 0;
+    assert_true(seen->sx < 0.01f && seen->sy < 0.01f);
+    for (uint32_t s = 0; s < seen->slots; s++) {
+        const uint8_t *at = seen->slot + 8 * (size_t)s;
+        if (at[5] == 255)
+            continue;
+        people++;
+        const uint32_t i = a->slot_index[s];
+        assert_int_not_equal(i, JOX_NO_INDEX);
+        assert_near(x_of(seen, s), a->x[i], 0.501 * (double)seen->sx + 1e-5);
+        assert_near(y_of(seen, s), a->y[i], 0.501 * (double)seen->sy + 1e-5);
+        double turned = at[4] * 2 * M_PI / 256 - atan2(a->face_y[i], a->face_x[i]);
+        assert_near(remainder(turned, 2 * M_PI), 0, 0.51 * 2 * M_PI / 256);
+        assert_int_equal(at[7] >> 1 & 1, a->failed[i]);
+    }
+    assert_int_equal(people, a->count);
+}
+
+static inline JoScene *load_tawaf(const char *count) {
+    char people[64], keep[64];
+    snprintf(people, sizeof people, "groups.pilgrims.count=%s", count);
+    snprintf(keep, sizeof keep, "sources.0.keep=%s", count);
+    const char *sets[] = {people, keep};
+    return load("scenes/tawaf.yaml", sets, 2);
+}
+
 #endif

@@ -285,6 +285,37 @@ static void both_versions_of_jupedsim(void **state) {
     jox_text_free(&said);
 }
 
+/* Whatever an index, a list of frames or the order of rows say, everybody who is in the file is
+   read. */
+static void sqlite_in_any_order(void **state) {
+    (void)state;
+    static const char *const CASES[] = {
+        "CREATE INDEX i ON trajectory_data(frame)",
+        "CREATE INDEX i ON trajectory_data(frame); CREATE TABLE frame_data(frame INTEGER, "
+        "geometry_hash INTEGER); INSERT INTO frame_data VALUES(11,0),(12,0)",
+        "CREATE TABLE t AS SELECT * FROM trajectory_data ORDER BY id DESC, frame DESC; DROP TABLE "
+        "trajectory_data; ALTER TABLE t RENAME TO trajectory_data",
+        "CREATE TABLE t(frame INTEGER, id INTEGER, pos_x REAL, pos_y REAL, PRIMARY KEY(id, frame)) "
+        "WITHOUT ROWID; INSERT INTO t SELECT frame, id, pos_x, pos_y FROM trajectory_data; DROP "
+        "TABLE trajectory_data; ALTER TABLE t RENAME TO trajectory_data"};
+    for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
+        JoxText sql = {0};
+        jox_text_printf(&sql, "%sINSERT INTO metadata VALUES('fps','10');%s", TRAJECTORIES,
+                        CASES[c]);
+        make_database(sql.data);
+        jox_text_free(&sql);
+        JoxTrajectories *t = read_file(0, 0, NULL);
+        assert_non_null(t);
+        check_walk(t);
+    }
+    JoxText said = {0};
+    make_database(TRAJECTORIES "INSERT INTO metadata VALUES('fps','10');"
+                               "INSERT INTO trajectory_data VALUES(12,3,5,5,1,0)");
+    assert_null(read_file(0, 0, &said));
+    assert_non_null(strstr(said.data, "person 3 is in frame 12 twice"));
+    jox_text_free(&said);
+}
+
 static void our_recordings_keep_more(void **state) {
     (void)state;
     JoxText error = {0};
@@ -327,6 +358,7 @@ int main(void) {
         cmocka_unit_test(velocity_is_displacement),  cmocka_unit_test(any_ids_will_do),
         cmocka_unit_test(errors_have_places),        cmocka_unit_test(bent_files_do_no_harm),
         cmocka_unit_test(both_versions_of_jupedsim), cmocka_unit_test(our_recordings_keep_more),
+        cmocka_unit_test(sqlite_in_any_order),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -161,6 +161,89 @@ static void another_world_takes_the_state_over(void **state) {
     jo_scene_free(other);
 }
 
+/* People come in parties, some carry a ball and throw it, others press a wall of blocks down, and
+   leave; a gate opens and a ball comes flying at given times. */
+#define YARD                                                                                       \
+    "jostle: 1\n"                                                                                  \
+    "places:\n"                                                                                    \
+    "  door: {line: [[1, 1], [1, 7]]}\n"                                                           \
+    "  court: {polygon: [[2, 1], [5, 1], [5, 7], [2, 7]]}\n"                                       \
+    "  goal: {polygon: [[13, 1], [15, 1], [15, 7], [13, 7]]}\n"                                    \
+    "walls:\n"                                                                                     \
+    "  - {line: [[0, 0], [16, 0], [16, 8], [0, 8]], closed: true}\n"                               \
+    "  - {line: [[11, 0], [11, 8]], name: gate}\n"                                                 \
+    "bodies:\n"                                                                                    \
+    "  - {name: blocks, at: [7, 4, 0.5], shape: {blocks: {size: [0.3, 0.5, 0.25],"                 \
+    " count: [1, 16, 4], bond: 30 N, block_mass: 3 kg}}}\n"                                        \
+    "  - {name: ball, at: [2, 4, 0.2], shape: {sphere: {radius: 0.12}}, mass: 0.5, tags: "         \
+    "[ball]}\n"                                                                                    \
+    "  - {name: crate, at: [9, 2, 0.4], shape: {box: {size: [0.8, 0.8, 0.8]}}, mass: 20}\n"        \
+    "groups: {people: {behaviour: own.lua, count: 40, fill: random, party: 3,"                     \
+    " in: court}}\n"                                                                               \
+    "sources: [{at: door, like: people, rate: 3}, {at: door, like: people, keep: 50}]\n"           \
+    "sinks: [{at: goal}]\n"                                                                        \
+    "events: [{at: 7, open: gate}, {at: 8, every: 1.5, throw: ball, from: [12, 4, 2],"             \
+    " velocity: [-9, 1, 0]}, {at: 9, signal: press}]\n"
+#define YARDFOLK                                                                                   \
+    "local ball = nearest \"ball\"\n" HEAD                                                         \
+    "\"Walk\", defaults = { speed = normal(1.2, 0.2), perception = 3 }, states = {\n"              \
+    "  Walk = { steer = field \"goal\" + 0.1 * together(1), push = 150, take = ball,\n"            \
+    "    { to = \"Aim\", when = has(ball) },\n"                                                    \
+    "    { to = \"Rest\", when = heard \"press\" | stuck(4), chance = 0.5 } },\n"                  \
+    "  Aim = { steer = hold, lasts = uniform(0.2, 0.8), { to = \"Throw\", when = lasted } },\n"    \
+    "  Throw = { steer = hold, throw = { ball, at = \"goal\", speed = 8 },\n"                      \
+    "    { to = \"Walk\", when = ~has(ball) | after(1) } },\n"                                     \
+    "  Rest = { steer = hold, lasts = 1, { to = \"Walk\", when = lasted } } } }\n"
+
+/* The second half of what happens is new: boxes are thrown in, the crate is dragged. */
+static void meddle_in_yard(JoScene *scene, int step_number) {
+    if (step_number == 15)
+        does(scene, "box 12 4 2 -6 0 0 0.4 10");
+    if (step_number == 25)
+        does(scene, "grab 2 9 5 1");
+    if (step_number == 60)
+        does(scene, "release 2");
+}
+
+static void in_yard(JoScene *scene, uint64_t hashes[AFTER]) {
+    for (int n = 0; n < AFTER; n++) {
+        meddle_in_yard(scene, n);
+        step(scene, 1);
+        hashes[n] = jo_world_hash(scene->world);
+    }
+}
+
+static void bodies_sources_and_events_go_on_to_the_bit(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoScene *scene = load_own(YARD, YARDFOLK), *other = load_own(YARD, YARDFOLK);
+    JoxText saved = {0};
+    JoError error = {0};
+    uint64_t first[AFTER], second[AFTER];
+    const JoxStatistics *did = &scene->world->state.statistics;
+    step(scene, JOX_BODIES_REINSERT_STEPS - 1);
+    assert_false(jox_world_snapshot(scene->world, &saved, &error));
+    assert_non_null(strstr(error.text, "after every 128 steps"));
+    step(scene, 1);
+    snapshot(scene, &saved);
+    const JoxStatistics before = *did;
+    in_yard(scene, first);
+    assert_true(did->spawned > before.spawned && did->removed > before.removed);
+    assert_true(did->bonds.broken > before.bonds.broken);
+    assert_true(did->throws > before.throws && before.pickups > 0 && did->opened > before.opened);
+    restore(scene, &saved);
+    in_yard(scene, second);
+    expect_same(first, second);
+    step(other, 40);
+    restore(other, &saved);
+    in_yard(other, second);
+    expect_same(first, second);
+    jox_text_free(&saved);
+    jo_scene_free(scene);
+    jo_scene_free(other);
+}
+
 typedef struct Flips {
     JoScene *scene;
     uint64_t hash;
@@ -188,34 +271,52 @@ static void flip(void *context, const char *section, size_t index, void *cell, s
     }
 }
 
-static void each_cell_is_hashed(void **state) {
-    (void)state;
-    JoScene *scene = town();
-    begin_all(scene, BEFORE, true);
+static void flip_all(JoScene *scene, size_t least) {
     Flips f = {.scene = scene, .hash = jo_world_hash(scene->world)};
     JoxSections s = jox_sections_visit(flip, &f);
     jox_world_sections(scene->world, &s);
     assert_true(jo_world_hash(scene->world) == f.hash);
-    assert_true(f.flipped > 2000);
+    assert_true(f.flipped > least);
     jo_scene_free(scene);
 }
 
-/* Scratch that held something from step to step would show. */
-static void scratch_may_be_forgotten_at_every_step(void **state) {
+static void each_cell_is_hashed(void **state) {
     (void)state;
-    uint64_t plain[AFTER], forgetful[AFTER];
     JoScene *scene = town();
-    run_on(scene, plain, true);
-    jo_scene_free(scene);
-    scene = town();
-    for (int n = 0; n < AFTER; n++) {
-        jox_world_forget(scene->world);
-        meddle(scene, n);
-        step(scene, 1);
-        forgetful[n] = jo_world_hash(scene->world);
+    begin_all(scene, BEFORE, true);
+    flip_all(scene, 2000);
+    if (!jox_bodies_available())
+        return;
+    scene = load_own(YARD, YARDFOLK);
+    step(scene, JOX_BODIES_REINSERT_STEPS);
+    does(scene, "box 12 4 2 -6 0 0 0.4 10");
+    does(scene, "grab 2 9 5 1");
+    flip_all(scene, 4000);
+}
+
+/* Scratch that held something from step to step would show. */
+static void forget_often(const char *scene_text, const char *behaviour,
+                         void meddles(JoScene *scene, int step_number)) {
+    uint64_t plain[AFTER], forgetful[AFTER];
+    for (int forgets = 0; forgets < 2; forgets++) {
+        JoScene *scene = load_own(scene_text, behaviour);
+        for (int n = 0; n < AFTER; n++) {
+            if (forgets)
+                jox_world_forget(scene->world);
+            meddles(scene, n);
+            step(scene, 1);
+            (forgets ? forgetful : plain)[n] = jo_world_hash(scene->world);
+        }
+        jo_scene_free(scene);
     }
     expect_same(plain, forgetful);
-    jo_scene_free(scene);
+}
+
+static void scratch_may_be_forgotten_at_every_step(void **state) {
+    (void)state;
+    forget_often(TOWN, TOWNSFOLK("1"), meddle);
+    if (jox_bodies_available())
+        forget_often(YARD, YARDFOLK, meddle_in_yard);
 }
 
 static void expect_refused(JoScene *scene, const JoxText *saved, const char *reason) {
@@ -254,6 +355,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_restored_world_goes_on_to_the_bit),
         cmocka_unit_test(another_world_takes_the_state_over),
+        cmocka_unit_test(bodies_sources_and_events_go_on_to_the_bit),
         cmocka_unit_test(each_cell_is_hashed),
         cmocka_unit_test(scratch_may_be_forgotten_at_every_step),
         cmocka_unit_test(what_does_not_fit_is_refused),

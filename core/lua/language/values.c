@@ -47,31 +47,31 @@ static int make_orbit(lua_State *L) {
 
 /* normal(mean, deviation [, least, greatest]), uniform(a, b), choose(a, b, ...) */
 static int make_dist(lua_State *L) {
-    static const char *const NAMES[] = {"normal", "uniform", "choose"};
-    int which = (int)lua_tointeger(L, lua_upvalueindex(1)), count = lua_gettop(L);
+    const JoxWord *word = lua_touserdata(L, lua_upvalueindex(1));
+    const JoxDistKind kind = (JoxDistKind)word->op;
+    const int count = lua_gettop(L);
+    JOX_ASSERT(word->makes == JOX_NODE_DIST);
     double v[JOX_DIST_CHOICES];
     for (int i = 0; i < count && i < JOX_DIST_CHOICES; i++) {
         if (lua_type(L, i + 1) != LUA_TNUMBER || !(fabs(lua_tonumber(L, i + 1)) < 1e9))
-            return jox_word_error(L, NAMES[which], "bad-argument", NULL,
-                                  "argument %d of %s must be a plain number", i + 1, NAMES[which]);
+            return jox_word_error(L, word->name, "bad-argument", NULL,
+                                  "argument %d of %s must be a plain number", i + 1, word->name);
         v[i] = lua_tonumber(L, i + 1);
     }
-    bool good = which == 0   ? (count == 2 || count == 4) && v[1] >= 0 && (count < 4 || v[2] < v[3])
-                : which == 1 ? count == 2 && v[0] <= v[1]
-                             : count >= 1 && count <= JOX_DIST_CHOICES;
+    bool good = kind == JOX_DIST_NORMAL
+                    ? (count == 2 || count == 4) && v[1] >= 0 && (count < 4 || v[2] < v[3])
+                : kind == JOX_DIST_UNIFORM ? count == 2 && v[0] <= v[1]
+                                           : count >= 1 && count <= JOX_DIST_CHOICES;
     if (!good)
-        return jox_word_error(L, NAMES[which], "bad-argument",
+        return jox_word_error(L, word->name, "bad-argument",
                               "normal(mean, deviation [, least, greatest]), uniform(least, "
                               "greatest), choose(a, b, ...) with at most 8",
-                              "wrong arguments of %s", NAMES[which]);
+                              "wrong arguments of %s", word->name);
     JoxNode *node = jox_node_push(L, JOX_NODE_DIST);
-    node->dist = (JoxDist){.kind = (JoxDistKind)(JOX_DIST_NORMAL), .lo = -INFINITY, .hi = INFINITY};
-    node->dist.kind = which == 0   ? JOX_DIST_NORMAL
-                      : which == 1 ? JOX_DIST_UNIFORM
-                                   : JOX_DIST_CHOOSE;
+    node->dist = (JoxDist){.kind = kind, .lo = -INFINITY, .hi = INFINITY};
     node->dist.a = v[0];
     node->dist.b = count > 1 ? v[1] : 0.0;
-    if (which == 0 && count == 4) {
+    if (kind == JOX_DIST_NORMAL && count == 4) {
         node->dist.lo = v[2];
         node->dist.hi = v[3];
     }
@@ -242,15 +242,15 @@ static void add_object(lua_State *L, const char *name, const char *type, lua_CFu
 
 void jox_values_add(lua_State *L) {
     JOX_ASSERT(lua_istable(L, -1));
-    static const char *const DISTS[] = {"normal", "uniform", "choose"};
     static const luaL_Reg MAKERS[] = {
         {"orbit", make_orbit}, {"machine", make_machine}, {"memory", make_memory}, {NULL, NULL}};
     luaL_setfuncs(L, MAKERS, 0);
-    for (int i = 0; i < 3; i++) {
-        lua_pushinteger(L, i);
-        lua_pushcclosure(L, make_dist, 1);
-        lua_setfield(L, -2, DISTS[i]);
-    }
+    for (size_t i = 0; i < jox_word_count; i++)
+        if (jox_words[i].makes == JOX_NODE_DIST) {
+            lua_pushlightuserdata(L, (void *)&jox_words[i]);
+            lua_pushcclosure(L, make_dist, 1);
+            lua_setfield(L, -2, jox_words[i].name);
+        }
     lua_pushinteger(L, JOX_NODE_PATCH);
     lua_pushcclosure(L, make_verb, 1);
     lua_setfield(L, -2, "patch");

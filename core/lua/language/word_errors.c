@@ -34,7 +34,8 @@ int jox_word_error(lua_State *L, const char *word, const char *code, const char 
     JoxScript *script = jox_script_of(L);
     jox_vm_charge(L, 2000); /* a suggestion compares with every word */
     if (!script->vm.loading)
-        return luaL_error(L, "%s", text); /* inside a hook: words make nothing there */
+        return luaL_error(
+            L, "%s", text); /* in a hook: there is no load whose diagnostics could take the error */
     JoxPosition position = jox_word_position(L, word);
     jox_diag_error(script->diagnostics, position, code, hint, "%s", text);
     jox_node_push(L, JOX_NODE_ERROR);

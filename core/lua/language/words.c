@@ -96,7 +96,8 @@ static const JoxWord *find_word(const char *name) {
     return NULL;
 }
 
-/* Reads argument `index` of a word as its letter asks; NULL with an error (or poison) pushed. */
+/* Reads argument `index` of a word as the kind that its letter stands for; NULL with an error value
+ * pushed. */
 JoxNode *jox_word_argument(lua_State *L, const char *word, int index, char letter) {
     JOX_ASSERT(index >= 1 && letter);
     static const struct {
@@ -164,7 +165,7 @@ static bool too_many(lua_State *L, const JoxWord *word, int given, int most) {
     return true;
 }
 
-/* Puts the arguments of a condition or number where its program looks for them. */
+/* Puts the arguments of a condition or number where the compiled expression looks for them. */
 static void place_arguments(JoxNode *node, const JoxWord *word, JoxNode *const *arguments,
                             int count) {
     JOX_ASSERT(count >= 0 && count <= 3);

@@ -11,7 +11,7 @@
 #include "base/overlay.h"
 #include "lua/vm/vm.h"
 
-/* What names mean in a file is not to be changed, neither for the reader nor for the checks. */
+/* Refuses a file that names _ENV: assigning it would change what every other name means. */
 static bool refuse_env(const JoxSource *source, JoxDiagnostics *diagnostics) {
     for (size_t i = 0; i < source->token_count; i++) {
         const JoxToken *t = &source->tokens[i];

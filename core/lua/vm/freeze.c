@@ -38,11 +38,12 @@ void jox_frozen_check_writable(lua_State *L, int index) {
 /* Where the walk stands: two tables on the stack, and how many are still to be looked at. */
 typedef struct Walk {
     lua_State *L;
-    int seen, work; /* what was met; what is to be looked at, a list */
+    int seen, work; /* stack indices: the set of values met, and the list of those still to visit */
     lua_Integer count;
 } Walk;
 
-/* Notes the value on top of the stack, which stays, to be looked at once. */
+/* Adds the value on top of the stack, which stays, to the values to visit, unless it was met
+ * before. */
 static void reach(Walk *w) {
     JOX_ASSERT(lua_gettop(w->L) >= w->work);
     int type = lua_type(w->L, -1);
@@ -59,7 +60,7 @@ static void reach(Walk *w) {
     lua_pop(w->L, 1);
 }
 
-/* Looks through the contents of a table that is frozen already; the engine's are left alone. */
+/* Visits the contents of a table that is frozen already; tables of the engine are left alone. */
 static void walk_frozen(Walk *w) {
     lua_State *L = w->L;
     const int table = lua_gettop(L);
@@ -113,7 +114,7 @@ static void freeze_table(Walk *w) {
     lua_settop(L, table);
 }
 
-/* Looks through the upvalues of the function on top of the stack, which stays. */
+/* Visits the upvalues of the function on top of the stack, which stays. */
 static void walk_function(Walk *w, JoxFreezeFunction *function, void *context) {
     JOX_ASSERT(lua_isfunction(w->L, -1));
     lua_State *L = w->L;

@@ -100,7 +100,8 @@ static void push_sorted(lua_State *L) {
     jox_vm_charge(L, count / 2 + 4);
     Key *keys = lua_newuserdatauv(L, (count + 1) * sizeof *keys, 0);
     Key *spare = lua_newuserdatauv(L, (count + 1) * sizeof *spare, 0);
-    lua_createtable(L, (int)count, 0); /* nothing below lets the script run, so none vanishes */
+    lua_createtable(L, (int)count,
+                    0); /* no script code runs below, so that no key can be removed meanwhile */
     for (lua_pushnil(L); at < count && lua_next(L, table); lua_pop(L, 1)) {
         keys[at] = read_key(L, lua_gettop(L) - 1);
         bytes += keys[at].kind == KEY_TEXT ? keys[at].length : 0;
@@ -133,7 +134,7 @@ static int next_pair(lua_State *L) {
         if (lua_rawgeti(L, lua_upvalueindex(2), ++at) == LUA_TNIL)
             return 1;
         lua_pushvalue(L, -1);
-        if (lua_rawget(L, 1) != LUA_TNIL) /* else removed meanwhile */
+        if (lua_rawget(L, 1) != LUA_TNIL) /* a key that was removed since is left out */
             break;
         lua_settop(L, 1);
     }
@@ -294,7 +295,7 @@ static int base_assert(lua_State *L) {
     return lua_error(L);
 }
 
-/* What stops a script for good passes through: neither its budget nor its memory comes back. */
+/* pcall does not catch a spent budget or exhausted memory: those end the script. */
 static int base_pcall(lua_State *L) {
     JoxVm *vm = jox_vm_of(L);
     luaL_checkany(L, 1);
@@ -314,7 +315,7 @@ static int base_pcall(lua_State *L) {
 
 /* ---- print ---- */
 
-/* Whether one more line may be said; the last one says that no more follow. */
+/* Whether one more line may be printed in this second; *last: it only says that no more follow. */
 static bool may_print(JoxVm *vm, bool *last) {
     uint32_t most = vm->group->limits.print_lines;
     const uint32_t second = vm->loading ? 0 : vm->second;
@@ -360,7 +361,8 @@ static int base_print(lua_State *L) {
     line[at] = 0;
     jox_text_clean(line);
     memcpy(line + at, "\n", 2);
-    if (vm->loading) /* perhaps on a thread of its own: said when the file is adopted */
+    if (vm->loading) /* it may be on a thread of its own: the text is passed on when the file is
+                        adopted */
         jox_text_add(&vm->printed_text, line);
     else
         vm->group->say(vm->group->say_context, line);

@@ -21,10 +21,24 @@ static void push_list(lua_State *L) {
     lua_rawsetp(L, LUA_REGISTRYINDEX, &LIST);
 }
 
+static void note_value(lua_State *L, int index, JoxUpvalue *u) {
+    u->type = lua_type(L, index);
+    u->is_integer = lua_isinteger(L, index);
+    if (u->type == LUA_TBOOLEAN)
+        u->value.boolean = lua_toboolean(L, index);
+    else if (u->is_integer)
+        u->value.integer = lua_tointeger(L, index);
+    else if (u->type == LUA_TNUMBER)
+        u->value.number = lua_tonumber(L, index);
+    else
+        u->value.pointer = lua_topointer(L, index);
+}
+
 void jox_upvalues_add(lua_State *L, int index, JoxUpvalues *all, uint32_t first) {
     JOX_ASSERT(lua_type(L, index) == LUA_TFUNCTION && !lua_iscfunction(L, index));
     JOX_ASSERT(first <= all->count);
     const char *name;
+    bool added = false;
     luaL_checkstack(L, 4, NULL);
     for (int u = 1; (name = lua_getupvalue(L, index, u)) != NULL; u++) {
         const void *id = lua_upvalueid(L, index, u);
@@ -34,7 +48,9 @@ void jox_upvalues_add(lua_State *L, int index, JoxUpvalues *all, uint32_t first)
             known = all->items[k].id == id;
         if (!known) {
             JOX_RESERVE(all->items, all->capacity, all->count + 1);
-            all->items[all->count++] = (JoxUpvalue){id, u};
+            all->items[all->count++] = (JoxUpvalue){.id = id, .number = u, .next = added};
+            note_value(L, lua_gettop(L), &all->items[all->count - 1]);
+            added = true;
             push_list(L);
             lua_pushvalue(L, index);
             lua_rawseti(L, -2, 2 * (lua_Integer)all->count - 1);
@@ -46,14 +62,29 @@ void jox_upvalues_add(lua_State *L, int index, JoxUpvalues *all, uint32_t first)
     }
 }
 
-/* Whether two values are one and the same: also 1 and 1.0 differ, and nan is nan. */
-static bool same(lua_State *L, int a, int b) {
-    if (lua_type(L, a) != LUA_TNUMBER || lua_type(L, b) != LUA_TNUMBER)
-        return lua_rawequal(L, a, b);
-    if (lua_isinteger(L, a) || lua_isinteger(L, b))
-        return lua_isinteger(L, a) && lua_isinteger(L, b) && lua_rawequal(L, a, b);
-    const lua_Number x = lua_tonumber(L, a), y = lua_tonumber(L, b);
-    return memcmp(&x, &y, sizeof x) == 0;
+/* Whether the value at `index` is the one that was noted, which stands at place `k` of the list:
+   also 1 and 1.0 differ, and nan is nan. */
+static bool is_same(lua_State *L, int index, const JoxUpvalue *u, int list, lua_Integer k) {
+    if (lua_type(L, index) != u->type)
+        return false;
+    if (u->type == LUA_TNIL)
+        return true;
+    if (u->type == LUA_TBOOLEAN)
+        return lua_toboolean(L, index) == u->value.boolean;
+    if (u->type == LUA_TNUMBER) {
+        const lua_Number number = lua_tonumber(L, index);
+        return lua_isinteger(L, index) != u->is_integer ? false
+               : u->is_integer ? lua_tointeger(L, index) == u->value.integer
+                               : memcmp(&number, &u->value.number, sizeof number) == 0;
+    }
+    if (lua_topointer(L, index) == u->value.pointer)
+        return true;
+    if (u->type != LUA_TSTRING)
+        return false;
+    lua_rawgeti(L, list, k); /* an equal text may stand elsewhere */
+    const bool equal = lua_rawequal(L, index, -1);
+    lua_pop(L, 1);
+    return equal;
 }
 
 bool jox_upvalues_restore(lua_State *L, const JoxUpvalues *all, uint32_t first, uint32_t count,
@@ -62,24 +93,31 @@ bool jox_upvalues_restore(lua_State *L, const JoxUpvalues *all, uint32_t first, 
     bool changed = false;
     if (count == 0)
         return false;
-    const int list = lua_gettop(L) + 1, function = list + 1, now = list + 2, before = list + 3;
+    enum { LEFT = 12 }; /* values that are left on the stack until it is cleared */
+    const int list = lua_gettop(L) + 1, function = list + 1;
+    int now = function;
     push_list(L);
     for (uint32_t k = first; k < first + count; k++) {
-        lua_rawgeti(L, list, 2 * (lua_Integer)k + 1);
-        const char *called = lua_getupvalue(L, function, all->items[k].number);
-        lua_rawgeti(L, list, 2 * (lua_Integer)k + 2);
-        JOX_ASSERT(called && lua_gettop(L) == before);
-        if (!same(L, now, before)) {
-            lua_setupvalue(L, function, all->items[k].number); /* pops it */
-            if (!changed) {
-                changed = true;
-                strncpy(name, called, 63);
-                name[63] = 0;
-                lua_pushvalue(L, function);
-                lua_getinfo(L, ">S", where);
-            }
+        const JoxUpvalue *u = &all->items[k];
+        if (k == first || !u->next || now == function + LEFT) {
+            lua_settop(L, list);
+            lua_rawgeti(L, list, 2 * (lua_Integer)k + 1);
+            now = function;
         }
-        lua_settop(L, list);
+        const char *called = lua_getupvalue(L, function, u->number);
+        now++;
+        JOX_ASSERT(called && lua_gettop(L) == now);
+        if (is_same(L, now, u, list, 2 * (lua_Integer)k + 2))
+            continue;
+        lua_rawgeti(L, list, 2 * (lua_Integer)k + 2);
+        lua_setupvalue(L, function, u->number); /* pops it */
+        if (!changed) {
+            changed = true;
+            strncpy(name, called, 63);
+            name[63] = 0;
+            lua_pushvalue(L, function);
+            lua_getinfo(L, ">S", where);
+        }
     }
     lua_settop(L, list - 1);
     return changed;

@@ -35,7 +35,7 @@ JoxLuaLimits jox_lua_default_limits(void) {
 
 static void count_hook(lua_State *L, lua_Debug *debug);
 
-/* Has the very next instruction stopped, not one of the next thousand. */
+/* Makes the count hook run at the very next instruction, instead of within the next thousand. */
 static void stop_soon(JoxVm *vm) {
     vm->left = 0;
     if (vm->running)
@@ -118,7 +118,8 @@ typedef struct Piece {
     size_t length;
 } Piece;
 
-/* Gives the compiler a little at a time: names in deeply nested functions take it long. */
+/* Gives the compiler the source in small pieces, so that the time can be checked between them:
+   names in deeply nested functions make it slow. */
 static const char *next_piece(lua_State *L, void *context, size_t *size) {
     enum { PIECE = 512 };
     Piece *p = context;

@@ -120,10 +120,19 @@ void jox_frozen_contents(lua_State *L, int index);
 void jox_frozen_check_writable(lua_State *L, int index);
 
 /* A variable that a Lua function shares with the code around it: Lua's name of the variable itself,
-   and its number in the function that stands for it. */
+   its number in the function that stands for it, and the value that it had. */
 typedef struct JoxUpvalue {
     const void *id;
     int number;
+    bool next; /* of the same function as the one before it */
+    int type;  /* of Lua */
+    union {
+        const void *pointer; /* of tables, functions, userdata and texts, which are kept alive */
+        lua_Number number;
+        lua_Integer integer;
+        bool boolean;
+    } value;
+    bool is_integer;
 } JoxUpvalue;
 typedef struct JoxUpvalues {
     JoxUpvalue *items;

@@ -1,0 +1,67 @@
+/* Checks of what the stages of navigation hand on; builds with assertions call them. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "nav/internal.h"
+
+void jox_wall_grid_check(const JoxWallGrid *g) {
+    size_t cells = (size_t)g->columns * g->rows;
+    JOX_ASSERT(cells > 0 && g->cell > 0.0f && g->reach > 0.0f);
+    JOX_ASSERT(g->first[0] == 0);
+    for (size_t c = 0; c < cells; c++) {
+        JOX_ASSERT(g->first[c] <= g->first[c + 1]);
+        for (uint32_t k = g->first[c]; k < g->first[c + 1]; k++) {
+            JOX_ASSERT(g->edges[k] < g->walls->count);
+            JOX_ASSERT(k == g->first[c] || g->edges[k - 1] < g->edges[k]);
+        }
+    }
+}
+
+void jox_nav_rows_check(const JoxNav *nav, const JoxAgents *a) {
+    JOX_ASSERT(nav->rows > 0 && nav->height > 0.0f);
+    JOX_ASSERT(nav->row_first[0] == 0 && nav->row_first[nav->rows] == a->count);
+    for (uint32_t row = 0; row < nav->rows; row++) {
+        uint32_t first = nav->row_first[row], end = nav->row_first[row + 1];
+        JOX_ASSERT(first <= end);
+        for (uint32_t i = first; i + 1 < end; i++) {
+            JOX_ASSERT(!(nav->sorted_x[i] > nav->sorted_x[i + 1]));
+            JOX_ASSERT(nav->sorted_x[i] != nav->sorted_x[i + 1] || a->id[i] < a->id[i + 1]);
+        }
+    }
+}
+
+void jox_neighbours_check(const JoxNeighbours *n, const JoxAgents *a) {
+    JOX_ASSERT(n->agents >= a->count);
+    for (uint32_t i = 0; i < a->count; i++) {
+        const uint32_t count = n->count[i];
+        const float perception = a->param[JOX_PARAM_perception][i];
+        JOX_ASSERT(count <= n->stride && count <= (uint32_t)a->param[JOX_PARAM_neighbours][i]);
+        JOX_ASSERT(a->density[i] >= 0.0f && a->search[i] > 0.0f);
+        for (uint32_t k = 0; k < count; k++) {
+            size_t at = jox_neighbour_at(n, i, k);
+            JOX_ASSERT(n->index[at] < a->count && n->index[at] != i);
+            JOX_ASSERT(sqrtf(n->distance2[at]) <= perception * 1.0001f);
+            if (k == 0)
+                continue;
+            size_t before = jox_neighbour_at(n, i, k - 1);
+            JOX_ASSERT(n->distance2[before] <= n->distance2[at]);
+            JOX_ASSERT(n->distance2[before] < n->distance2[at] ||
+                       a->id[n->index[before]] < a->id[n->index[at]]);
+        }
+    }
+}
+
+void jox_half_planes_check(const JoxHalfPlane *half_planes, uint32_t count) {
+    JOX_ASSERT(count <= JOX_MOST_CONSTRAINTS);
+    for (uint32_t k = 0; k < count; k++)
+        JOX_ASSERT(jox_is_unit(half_planes[k].normal));
+}
+
+void jox_linear_program_check(const JoxHalfPlane *half_planes, uint32_t count, float speed_limit,
+                              JoxV2 velocity) {
+    /* Borders that are nearly parallel meet where rounding errors are greatest. */
+    const float tolerance = 1e-3f * (1.0f + speed_limit);
+    JOX_ASSERT(!(jox_length(velocity) > speed_limit + tolerance));
+    for (uint32_t k = 0; k < count; k++)
+        JOX_ASSERT(!(half_planes[k].offset - jox_dot(half_planes[k].normal, velocity) > tolerance));
+}

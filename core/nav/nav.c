@@ -1,0 +1,58 @@
+/* What navigation keeps between steps, and room for it. */
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "nav/internal.h"
+
+JoxNav *jox_nav_create(void) {
+    return jox_alloc(1, sizeof(JoxNav));
+}
+
+void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
+    jox_wall_grid_free(&nav->grid);
+    nav->grid.walls = walls;
+}
+
+void jox_nav_sections(JoxNav *nav, JoxSections *s) {
+    jox_sections_module(s, "nav");
+    JOX_SECTION(s, "wall_reach", nav->grid.reach);
+    if (s->mode == JOX_SECTIONS_RESTORE)
+        jox_wall_grid_reset(&nav->grid, nav->grid.reach);
+}
+
+void jox_nav_forget(JoxNav *nav) {
+    nav->drift = INFINITY;
+    if (nav->capacity)
+        memset(nav->sorted_x, 0xff, nav->capacity * sizeof *nav->sorted_x);
+}
+
+void jox_nav_free(JoxNav *nav) {
+    if (!nav)
+        return;
+    jox_wall_grid_free(&nav->grid);
+    jox_free(nav->row_first);
+    jox_free(nav->sorted_x);
+    jox_free(nav->chunk_drift);
+    jox_free(nav->chunk_relaxed);
+    for (int i = 0; i < 2; i++) {
+        jox_free(nav->keys[i]);
+        jox_free(nav->order[i]);
+        jox_free(nav->position[i]);
+    }
+    jox_free(nav);
+}
+
+void jox_nav_reserve(JoxNav *nav, uint32_t count) {
+    if (count <= nav->capacity)
+        return;
+    uint32_t n = nav->capacity = count + count / 4 + 64;
+    nav->sorted_x = jox_realloc(nav->sorted_x, n, sizeof(float));
+    nav->chunk_drift = jox_realloc(nav->chunk_drift, n / JOX_NAV_GRAIN + 1, sizeof(float));
+    nav->chunk_relaxed = jox_realloc(nav->chunk_relaxed, n / JOX_NAV_GRAIN + 1, sizeof(uint32_t));
+    for (int i = 0; i < 2; i++) {
+        nav->keys[i] = jox_realloc(nav->keys[i], n, sizeof(uint64_t));
+        nav->order[i] = jox_realloc(nav->order[i], n, sizeof(uint32_t));
+        nav->position[i] = jox_realloc(nav->position[i], n, sizeof(JoxV2));
+    }
+}

@@ -1,0 +1,130 @@
+/* A grid over the edges of walls, which tells the edges near a point. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "geom/polygon.h"
+#include "nav/internal.h"
+
+enum { MOST_CELLS = 1 << 20 };
+
+static const JoxWallVertex *end_of(const JoxWalls *walls, uint32_t edge) {
+    return &walls->vertices[walls->vertices[edge].next];
+}
+
+void jox_wall_grid_free(JoxWallGrid *grid) {
+    jox_free(grid->first);
+    jox_free(grid->edges);
+    *grid = (JoxWallGrid){0};
+}
+
+typedef struct CellRange {
+    uint32_t x0, x1, y0, y1;
+} CellRange;
+
+static uint32_t clamp_cell(float at, uint32_t count) {
+    return at <= 0.0f ? 0 : at >= (float)(count - 1) ? count - 1 : (uint32_t)at;
+}
+
+static CellRange cells_near_edge(const JoxWallGrid *g, uint32_t edge) {
+    JoxV2 a = g->walls->vertices[edge].point, b = end_of(g->walls, edge)->point;
+    return (CellRange){
+        clamp_cell(floorf((jox_minf(a.x, b.x) - g->reach - g->low.x) / g->cell), g->columns),
+        clamp_cell(floorf((jox_maxf(a.x, b.x) + g->reach - g->low.x) / g->cell), g->columns),
+        clamp_cell(floorf((jox_minf(a.y, b.y) - g->reach - g->low.y) / g->cell), g->rows),
+        clamp_cell(floorf((jox_maxf(a.y, b.y) + g->reach - g->low.y) / g->cell), g->rows)};
+}
+
+static bool cell_is_near(const JoxWallGrid *g, uint32_t x, uint32_t y, uint32_t edge) {
+    JoxV2 centre = {g->low.x + ((float)x + 0.5f) * g->cell, g->low.y + ((float)y + 0.5f) * g->cell};
+    JoxV2 near =
+        jox_segment_nearest(g->walls->vertices[edge].point, end_of(g->walls, edge)->point, centre);
+    float limit = g->reach + 0.7072f * g->cell;
+    return jox_length2(jox_sub(near, centre)) <= limit * limit;
+}
+
+static void size_grid(JoxWallGrid *g) {
+    JoxV2 high = {-INFINITY, -INFINITY};
+    g->low = (JoxV2){INFINITY, INFINITY};
+    for (uint32_t i = 0; i < g->walls->count; i++) {
+        JoxV2 p = g->walls->vertices[i].point;
+        g->low = (JoxV2){jox_minf(g->low.x, p.x), jox_minf(g->low.y, p.y)};
+        high = (JoxV2){jox_maxf(high.x, p.x), jox_maxf(high.y, p.y)};
+    }
+    g->low = jox_sub(g->low, (JoxV2){g->reach, g->reach});
+    high = jox_add(high, (JoxV2){g->reach, g->reach});
+    g->cell = jox_maxf(1.0f, sqrtf((high.x - g->low.x) * (high.y - g->low.y) / MOST_CELLS));
+    g->cell = jox_maxf(g->cell, jox_maxf(high.x - g->low.x, high.y - g->low.y) / 32768.0f);
+    g->columns = (uint32_t)((high.x - g->low.x) / g->cell) + 1;
+    g->rows = (uint32_t)((high.y - g->low.y) / g->cell) + 1;
+}
+
+/* Puts an edge into the cells that it comes near; counts them as long as there is no list. */
+static void enter_edge(JoxWallGrid *g, uint32_t edge) {
+    CellRange r = cells_near_edge(g, edge);
+    JOX_ASSERT(r.x0 <= r.x1 && r.x1 < g->columns && r.y0 <= r.y1 && r.y1 < g->rows);
+    for (uint32_t y = r.y0; y <= r.y1; y++)
+        for (uint32_t x = r.x0; x <= r.x1; x++) {
+            uint32_t *first = &g->first[(size_t)y * g->columns + x];
+            if (!cell_is_near(g, x, y, edge))
+                continue;
+            if (g->edges)
+                g->edges[--*first] = edge;
+            else
+                ++*first;
+        }
+}
+
+void jox_wall_grid_reset(JoxWallGrid *g, float reach) {
+    const JoxWalls *walls = g->walls;
+    jox_wall_grid_free(g);
+    g->walls = walls;
+    if (!walls || walls->count == 0 || !(reach > 0.0f))
+        return;
+    g->reach = reach;
+    size_grid(g);
+    size_t cells = (size_t)g->columns * g->rows;
+    g->first = jox_alloc(cells + 1, sizeof *g->first);
+    for (uint32_t e = 0; e < walls->count; e++)
+        enter_edge(g, e);
+    for (size_t c = 1; c <= cells; c++)
+        g->first[c] += g->first[c - 1];
+    g->edges = jox_alloc(g->first[cells] + 1, sizeof *g->edges);
+    for (uint32_t e = walls->count; e-- > 0;) /* backwards, as each list fills from its end */
+        enter_edge(g, e);
+    JOX_CHECK(jox_wall_grid_check(g));
+}
+
+void jox_wall_grid_fit(JoxWallGrid *g, float reach) {
+    if (g->walls && g->walls->count > 0 && reach > g->reach)
+        jox_wall_grid_reset(g, reach * 1.25f); /* room, so that it is not rebuilt each step */
+}
+
+const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point, uint32_t *count) {
+    *count = 0;
+    if (!g->first)
+        return NULL;
+    float x = (point.x - g->low.x) / g->cell, y = (point.y - g->low.y) / g->cell;
+    if (!(x >= 0.0f && y >= 0.0f && x < (float)g->columns && y < (float)g->rows))
+        return NULL;
+    size_t c = (size_t)(uint32_t)y * g->columns + (uint32_t)x;
+    *count = g->first[c + 1] - g->first[c];
+    return g->edges + g->first[c];
+}
+
+bool jox_walls_contain(const JoxWalls *walls, JoxV2 p) {
+    bool inside = false;
+    for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
+        if (!walls->rings[r].solid)
+            continue;
+        bool in_ring = false;
+        for (uint32_t i = 0; i < walls->rings[r].count; i++) {
+            JoxV2 a = walls->vertices[walls->rings[r].first + i].point;
+            JoxV2 b = end_of(walls, walls->rings[r].first + i)->point;
+            if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
+                in_ring = !in_ring;
+        }
+        inside |= in_ring;
+    }
+    return inside;
+}

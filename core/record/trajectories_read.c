@@ -1,0 +1,107 @@
+/* A whole recording in memory: text, or all frames of a file that is read frame by frame. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "record/trajectories.h"
+#include "record/trajectory_reader_parts.h"
+
+static bool fail(JoxDiagnostics *diagnostics, const char *path, const char *what) {
+    JoxPosition at = {path, 0, 0, 0};
+    jox_diag_error(diagnostics, at, "bad-recording", NULL, "%s", what);
+    return false;
+}
+
+/* Names of states: the first, "", is that of people without a machine; the machine's name stands
+   before a state's where there are several machines. */
+static void name_states(JoxTrajectories *t, const JoxTrajectoryReader *r) {
+    bool several = false;
+    if (r->state_count == 0)
+        return;
+    t->states = jox_alloc(r->state_count + 1, sizeof *t->states);
+    t->states[t->state_count++] = jox_strdup("");
+    for (uint32_t s = 1; s < r->state_count; s++)
+        several |= strcmp(r->states[s].machine, r->states[0].machine) != 0;
+    for (uint32_t s = 0; s < r->state_count; s++) {
+        JoxText name = {0};
+        if (several)
+            jox_text_printf(&name, "%s: ", r->states[s].machine);
+        jox_text_add(&name, r->states[s].name);
+        t->states[t->state_count++] = name.data ? name.data : jox_strdup("");
+    }
+}
+
+/* Room for one more row in the columns that only our own recordings have. */
+static void widen_own(JoxTrajectories *t, size_t capacities[6], size_t need) {
+    JOX_RESERVE(t->force, capacities[0], need);
+    JOX_RESERVE(t->compression, capacities[1], need);
+    JOX_RESERVE(t->group, capacities[2], need);
+    JOX_RESERVE(t->face_x, capacities[3], need);
+    JOX_RESERVE(t->face_y, capacities[4], need);
+    if (t->state_count)
+        JOX_RESERVE(t->state, capacities[5], need);
+}
+
+static void add_person(JoxTrajectories *t, const JoxTrajectoryReader *r, uint32_t frame,
+                       const JoxTrajectoryReaderFrame *f, uint32_t i, size_t capacities[6]) {
+    const size_t row = jox_trajectories_add(t);
+    t->number[row] = r->number[frame];
+    t->id[row] = f->id[i];
+    t->line[row] = 0;
+    t->x[row] = f->x[i];
+    t->y[row] = f->y[i];
+    t->vx[row] = t->vy[row] = 0.0f;
+    if (!r->ours)
+        return;
+    widen_own(t, capacities, row + 1);
+    t->force[row] = f->force[i];
+    t->compression[row] = f->compression[i];
+    t->group[row] = f->group[i];
+    t->face_x[row] = f->face_x[i];
+    t->face_y[row] = f->face_y[i];
+    if (t->state)
+        t->state[row] = f->state[i] == JOX_NO_RECORDED_STATE ? 0 : f->state[i] + 1;
+}
+
+static bool read_frames(JoxTrajectories *t, JoxTrajectoryReader *r, const char *path,
+                        JoxDiagnostics *diagnostics) {
+    size_t capacities[6] = {0};
+    JoxText why = {0};
+    bool good = true;
+    for (uint32_t frame = 0; good && frame < r->frames; frame++) {
+        JoxTrajectoryReaderFrame f;
+        good = jox_trajectory_reader_read_people(r, frame, &f, &why);
+        for (uint32_t i = 0; good && i < f.count; i++)
+            add_person(t, r, frame, &f, i, capacities);
+    }
+    if (!good)
+        fail(diagnostics, path, why.data);
+    jox_text_free(&why);
+    return good && (t->count > 0 || fail(diagnostics, path, "nobody is in this recording"));
+}
+
+JoxTrajectories *jox_trajectories_read(const char *path, const JoxTrajectoryOptions *options,
+                                       JoxDiagnostics *diagnostics) {
+    if (!jox_is_sqlite(path))
+        return jox_trajectories_read_text(path, options, diagnostics);
+    JoxTrajectoryReader *r = jox_trajectory_reader_open(path, options, diagnostics);
+    if (!r)
+        return NULL;
+    JOX_ASSERT(!r->all && r->frames > 0 && r->fps > 0.0);
+    JoxTrajectories *t = jox_alloc(1, sizeof *t);
+    t->period = options->period;
+    t->fps = r->fps;
+    t->last = r->last;
+    name_states(t, r);
+    bool good = read_frames(t, r, path, diagnostics);
+    if (good) {
+        jox_trajectories_plan(t, r->db);
+        good = jox_trajectories_finish(t, path, diagnostics);
+    }
+    jox_trajectory_reader_close(r);
+    if (good)
+        return t;
+    jox_trajectories_free(t);
+    return NULL;
+}

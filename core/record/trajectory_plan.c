@@ -1,0 +1,67 @@
+/* Walkable area and groups of a recording in the JuPedSim format. Versions 1 and 2 differ in how
+   they keep the area; its text is in `geometry.wkt` in both. */
+#include <math.h>
+#include <sqlite3.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "record/database.h"
+#include "record/trajectories.h"
+
+enum { MOST_RING = 5000 };
+
+static sqlite3_stmt *ask(sqlite3 *db, const char *sql) {
+    sqlite3_stmt *statement = NULL;
+    if (sqlite3_prepare_v2(db, sql, -1, &statement, NULL) != SQLITE_OK) {
+        sqlite3_finalize(statement);
+        return NULL;
+    }
+    return statement;
+}
+
+/* Every ring of points in a WKT text, whatever it is a part of, becomes a closed line. */
+static void read_outlines(JoxTrajectories *t, const char *wkt) {
+    JoxV2 ring[MOST_RING];
+    while ((wkt = strchr(wkt, '('))) {
+        uint32_t count = 0;
+        const char *at = ++wkt;
+        bool good = true;
+        while (good && *at && *at != '(' && *at != ')') {
+            char *end;
+            double x = strtod(at, &end), y = end != at ? strtod(at = end, &end) : 0.0;
+            good = end != at && isfinite(x) && isfinite(y) && count < MOST_RING;
+            if (!good)
+                break;
+            ring[count++] = (JoxV2){(float)x, (float)y};
+            at = end + strspn(end, " ,");
+        }
+        if (count > 1 && ring[0].x == ring[count - 1].x && ring[0].y == ring[count - 1].y)
+            count--;
+        if (good && count >= 3)
+            jox_walls_add_polyline(&t->walls, ring, count, true, INFINITY);
+    }
+}
+
+static void read_geometry(JoxTrajectories *t, sqlite3 *db) {
+    sqlite3_stmt *statement = ask(db, "SELECT wkt FROM geometry LIMIT 1");
+    if (statement && sqlite3_step(statement) == SQLITE_ROW && sqlite3_column_text(statement, 0))
+        read_outlines(t, (const char *)sqlite3_column_text(statement, 0));
+    sqlite3_finalize(statement);
+}
+
+static void read_groups(JoxTrajectories *t, sqlite3 *db) {
+    sqlite3_stmt *statement = ask(db, "SELECT name FROM jostle_group ORDER BY number");
+    uint32_t capacity = 0;
+    while (statement && t->group_count < UINT16_MAX && sqlite3_step(statement) == SQLITE_ROW) {
+        const char *name = (const char *)sqlite3_column_text(statement, 0);
+        JOX_RESERVE(t->groups, capacity, t->group_count + 1);
+        t->groups[t->group_count++] = jox_strdup(name ? name : "");
+    }
+    sqlite3_finalize(statement);
+}
+
+void jox_trajectories_plan(JoxTrajectories *t, sqlite3 *db) {
+    read_geometry(t, db);
+    read_groups(t, db);
+}

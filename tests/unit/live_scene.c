@@ -1,0 +1,177 @@
+/* The scene message: it names everything of a running scene, and is sent again when that changes.
+ */
+#include "live_bytes.h"
+
+static void scene_message_names_all_of_the_tawaf(void **state) {
+    (void)state;
+    JoScene *scene = load_tawaf("300");
+    const JoWorld *world = scene->world;
+    JoxText text = {0};
+    jox_live_scene(scene, &text);
+    parse(&text);
+    assert_near(number_at("protocol", 0, 0, 0), JOX_LIVE_PROTOCOL, 0);
+    assert_near(number_at("dt", 0, 0, 0), 0.05, 1e-9);
+    assert_near(number_at("duration", 0, 0, 0), 600, 0);
+    for (uint32_t p = 0; p < scene->spec->place_count; p++) {
+        has_name(&text, world->model.places[p].name);
+        for (uint32_t i = 0; i < world->model.places[p].count; i++) {
+            assert_near(number_at("places.%d.points.%d.0", (int)p, (int)i, 0),
+                        world->model.places[p].points[i].x, 1e-4);
+            assert_near(number_at("places.%d.points.%d.1", (int)p, (int)i, 0),
+                        world->model.places[p].points[i].y, 1e-4);
+            assert_true(number_at("area.0.0", 0, 0, 0) <
+                        (double)world->model.places[p].points[i].x);
+            assert_true(number_at("area.1.1", 0, 0, 0) >
+                        (double)world->model.places[p].points[i].y);
+        }
+    }
+    for (uint32_t r = 0; r < scene->spec->region_count; r++)
+        has_name(&text, scene->spec->regions[r].name);
+    for (uint32_t m = 0; m < world->model.machines.count; m++) {
+        has_name(&text, world->model.machines.items[m]->name);
+        for (uint32_t s = 0; s < world->model.machines.items[m]->state_count; s++)
+            has_name(&text, world->model.machines.items[m]->states[s].name);
+    }
+    has_name(&text, "pilgrims");
+    /* Walls as the scene has them: a solid, a line of 13 points (not there and back), a solid. */
+    static const int POINTS[] = {4, 13, 4};
+    for (int w = 0; w < 3; w++) {
+        assert_false(isnan(number_at("walls.%d.points.%d.1", w, POINTS[w] - 1, 0)));
+        assert_true(isnan(number_at("walls.%d.points.%d.1", w, POINTS[w], 0)));
+    }
+    assert_true(isnan(number_at("walls.3.height", 0, 0, 0)));
+    assert_near(number_at("walls.1.height", 0, 0, 0), 1.31, 1e-4);
+    assert_near(number_at("walls.1.points.12.0", 0, 0, 0), -5.91, 1e-5);
+    assert_near(number_at("colours.density.most", 0, 0, 0), 8, 0);
+    assert_non_null(strstr(text.data, "\"gates\": false"));
+    assert_non_null(strstr(text.data, "\"parameters\": true"));
+    jox_text_free(&text);
+    jo_scene_free(scene);
+}
+
+static void scene_message_of_bodies_and_a_player(void **state) {
+    (void)state;
+    JoScene *scene = load("scenes/dodgeball.yaml", NULL, 0);
+    JoxText text = {0};
+    jox_live_scene(scene, &text);
+    parse(&text);
+    has_name(&text, "ball");
+    assert_near(number_at("bodies.0.mass", 0, 0, 0), 0.4, 1e-6);
+    assert_near(number_at("bodies.0.parts.0.size.0", 0, 0, 0), 0.11, 1e-6);
+    assert_near(number_at("bodies.0.parts.0.turn.3", 0, 0, 0), 1, 1e-6);
+    assert_non_null(strstr(text.data, "\"shape\": \"sphere\""));
+    assert_near(number_at("tools.players.0", 0, 0, 0), 0, 0);
+    /* A closed wall is one line whose end is its beginning. */
+    for (int k = 0; k < 2; k++)
+        assert_near(number_at("walls.0.points.4.%d", k, 0, 0),
+                    number_at("walls.0.points.0.%d", k, 0, 0), 0);
+    assert_true(isnan(number_at("walls.1.height", 0, 0, 0)));
+    step(scene, 3);
+    JoxBytes frame = {0};
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    Seen seen = decode(&frame, scene->world);
+    check_people(scene, &seen);
+    assert_int_equal(seen.bodies, 1);
+    JoxPose pose;
+    assert_true(jox_bodies_pose(scene->world->state.bodies, 0, &pose));
+    assert_near(get_float(seen.body), pose.position.x, 1e-6);
+    assert_near(get_float(seen.body + 8), pose.position.z, 1e-6);
+    assert_near((int16_t)(seen.body[18] | seen.body[19] << 8) / 32767.0, pose.turn[3], 1e-4);
+    const uint32_t red =
+        scene->world->state.agents.slot[jox_agents_find(&scene->world->state.agents, 0)];
+    const uint32_t blue =
+        scene->world->state.agents.slot[jox_agents_find(&scene->world->state.agents, 1)];
+    assert_int_equal(seen.slot[8 * red + 7] & 4, 4);
+    assert_int_equal(seen.slot[8 * blue + 7] & 4, 0);
+    jox_bytes_free(&frame);
+    jox_text_free(&text);
+    jo_scene_free(scene);
+}
+
+/* Names come from files: whatever stands in them, the scene message is JSON. */
+static void scene_message_with_odd_names(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own("jostle: 1\n"
+                 "title: \"a \\\"title\\\" \\\\ with\\ttab, \\x01, \xC3\xA9 and \xE2\x82\xAC\"\n"
+                 "view: {tools: [throw, gates, push], colour: speed, field: pressure}\n"
+                 "camera: {position: [1, -2, 3], target: [0, 0.5, 0]}\n"
+                 "places: {\"y\xC3\xA4rd 1.b\": {polygon: [[0, 0], [9, 0], [9, 9], [0, 9]]}}\n"
+                 "walls:\n"
+                 "  - {line: [[0, 0], [0, 5], [3, 5]], name: \"g\xC3\xA4-te\", open: true}\n"
+                 "  - {line: [[5, 0], [5, 5]], name: \"g\xC3\xA4-te\"}\n"
+                 "probes: {out: {flow: [[0, 0], [0, 4]]}}\n"
+                 "groups: {\"p\xC3\xA9 ople\": {behaviour: own.lua, count: 4, fill: grid, in: "
+                 "\"y\xC3\xA4rd 1.b\"}}\n",
+                 FAST("1", ""));
+    JoxText text = {0};
+    jox_live_scene(scene, &text);
+    parse(&text);
+    has_name(&text, scene->spec->title);
+    has_name(&text, "g\xC3\xA4-te");
+    has_name(&text, "p\xC3\xA9 ople");
+    assert_non_null(
+        strstr(text.data, "\"view\": {\"colour\": \"speed\", \"field\": \"pressure\"}"));
+    assert_non_null(strstr(text.data, "\"throw\": true"));
+    assert_non_null(strstr(text.data, "\"gates\": true"));
+    assert_non_null(strstr(text.data, "\"parameters\": false"));
+    assert_non_null(strstr(text.data, "\"walls\": [\"g\xC3\xA4-te\"]"));
+    assert_non_null(strstr(text.data, "\"charts\": [\"out\"]"));
+    assert_near(number_at("camera.at.1", 0, 0, 0), -2, 0);
+    assert_near(number_at("camera.look.1", 0, 0, 0), 0.5, 0);
+    /* The status too, before the first step and after. */
+    for (int k = 0; k < 2; k++) {
+        JoxText status = {0};
+        jox_live_status(scene, &(JoxLiveSession){.speed = 1, .dropped = 7}, &status);
+        parse(&status);
+        assert_near(number_at("agents", 0, 0, 0), 4, 0);
+        assert_near(number_at("states.0.0", 0, 0, 0), 4, 0);
+        assert_near(number_at("dropped", 0, 0, 0), 7, 0);
+        assert_near(number_at("time", 0, 0, 0), 0.05 * k, 1e-9);
+        jox_text_free(&status);
+        step(scene, 1);
+    }
+    jox_text_free(&text);
+    jo_scene_free(scene);
+}
+
+/* Bodies that come apart and walls that are set anew ask for a new one; gates do not. */
+static void changes_ask_for_a_scene_message(void **state) {
+    (void)state;
+    JoScene *scene = load("scenes/wall-breaking.yaml", NULL, 0);
+    uint64_t version = jox_live_version(scene);
+    const uint32_t bodies = jox_bodies_count(scene->world->state.bodies);
+    for (int t = 0; t < 600 && jox_bodies_count(scene->world->state.bodies) == bodies; t++) {
+        assert_true(jox_live_version(scene) == version);
+        step(scene, 1);
+    }
+    assert_true(jox_bodies_count(scene->world->state.bodies) > bodies);
+    assert_true(jox_live_version(scene) != version);
+    JoxText text = {0};
+    JoxBytes frame = {0};
+    jox_live_scene(scene, &text);
+    parse(&text);
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    Seen seen = decode(&frame, scene->world);
+    assert_false(isnan(number_at("bodies.%d.mass", (int)seen.bodies - 1, 0, 0)));
+    assert_true(isnan(number_at("bodies.%d.mass", (int)seen.bodies, 0, 0)));
+    jox_bytes_free(&frame);
+    jox_text_free(&text);
+    jo_scene_free(scene);
+    scene = load("scenes/gates.yaml", NULL, 0);
+    version = jox_live_version(scene);
+    step(scene, 20 * 30);
+    assert_true(scene->world->state.statistics.opened > 0);
+    assert_true(jox_live_version(scene) == version);
+    jo_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(scene_message_names_all_of_the_tawaf),
+        cmocka_unit_test(scene_message_of_bodies_and_a_player),
+        cmocka_unit_test(scene_message_with_odd_names),
+        cmocka_unit_test(changes_ask_for_a_scene_message),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
