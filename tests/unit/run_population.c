@@ -36,7 +36,10 @@
 enum { SAVED = JOX_BODIES_REINSERT_STEPS, AFTER = 200 };
 
 static JoScene *crowd(void) {
-    return load_own(jox_bodies_available() ? CROWD(CRATE, THROW) : CROWD("", ""), WALKER_TO);
+    JoScene *scene =
+        load_own(jox_bodies_available() ? CROWD(CRATE, THROW) : CROWD("", ""), WALKER_TO);
+    scene->world->model.reinserts_bodies = true;
+    return scene;
 }
 
 /* jo_scene_load, jo_scene_world, jo_world_step, and nothing else. */
