@@ -34,7 +34,7 @@ typedef struct JoxForceStep {
     const JoxObjects *objects;
     JoxPool *pool;
     double dt;              /* s, above 0 */
-    double plan;            /* s: how far ahead velocities are planned; 0: dt */
+    double planning_time;   /* s: how far ahead velocities are planned; 0: dt */
     const uint8_t *push_on; /* per agent, 0: does not push now; NULL: all push */
     const uint8_t
         *push_nearest; /* per agent, 1: the whole push goes to the nearest; NULL: shared */

@@ -77,8 +77,8 @@ static void zero_terms(JoxAgents *a) {
 void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_ASSERT(step && step->agents && step->neighbours && step->dt > 0.0);
     f->step = *step;
-    if (!(f->step.plan > 0.0))
-        f->step.plan = step->dt;
+    if (!(f->step.planning_time > 0.0))
+        f->step.planning_time = step->dt;
     f->totals = (JoxForceTotals){0};
     f->pending_count = f->pending_sorted = 0;
     f->touch_count = 0;

@@ -62,8 +62,8 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
             continue;
         float size = jox_length(force);
         if (size >= f->options.least * mass[i] && isfinite(size))
-            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], f->step.plan),
-                           (float)f->step.plan);
+            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], f->step.planning_time),
+                           (float)f->step.planning_time);
     }
 }
 
@@ -110,7 +110,7 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
     for (uint32_t k = 0; k < n; k++)
         give(f, chunk, i, found[k],
              jox_resistance(unit, shortfall, absorb, a->param[JOX_PARAM_mass][i], n,
-                            (float)f->step.plan));
+                            (float)f->step.planning_time));
 }
 
 /* (8) Someone under no force who slowed down. */
@@ -135,7 +135,7 @@ static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
     if (n)
         return;
     JoxV2 own = jox_deceleration(change, absorb, mass, 1, dt, literal);
-    give(f, chunk, i, i, jox_keep_from_reversing(own, after, mass, (float)f->step.plan));
+    give(f, chunk, i, i, jox_keep_from_reversing(own, after, mass, (float)f->step.planning_time));
 }
 
 static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {

@@ -13,11 +13,9 @@ static const float FARTHEST = 1e6f;                     /* m: no plan is larger 
 
 static void include_place(const JoxPlace *places, uint32_t index, JoxV2 *low, JoxV2 *high) {
     const JoxPlace *place = &places[index];
-    for (uint32_t k = 0; place->kind == JOX_PLACE_SET && k < place->member_count; k++)
+    for (uint32_t k = 0; k < place->member_count; k++)
         include_place(places, (uint32_t)place->members[k], low, high);
-    uint32_t count =
-        place->kind == JOX_PLACE_POINT || place->kind == JOX_PLACE_QUEUE ? 1 : place->count;
-    for (uint32_t k = 0; place->kind != JOX_PLACE_SET && k < count; k++) {
+    for (uint32_t k = 0; k < jox_place_goal_points(place); k++) {
         JoxV2 p = place->points[k];
         *low = (JoxV2){jox_minf(low->x, p.x), jox_minf(low->y, p.y)};
         *high = (JoxV2){jox_maxf(high->x, p.x), jox_maxf(high->y, p.y)};

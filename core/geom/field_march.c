@@ -76,9 +76,7 @@ static void offer(JoxFieldWork *w, Heap *h, int cell, float time, float length, 
 static int seed_within(JoxFieldWork *w, Heap *h, const JoxPlace *place, float reach, bool blindly) {
     JoxField *f = w->f;
     JoxV2 low, high;
-    jox_bounds(place->points,
-               place->kind == JOX_PLACE_POINT || place->kind == JOX_PLACE_QUEUE ? 1 : place->count,
-               &low, &high);
+    jox_bounds(place->points, jox_place_goal_points(place), &low, &high);
     int c0, c1, r0, r1, seeds = 0;
     jox_field_span(low.x - reach, high.x + reach, f->low.x, f->size, f->columns, &c0, &c1);
     jox_field_span(low.y - reach, high.y + reach, f->low.y, f->size, f->rows, &r0, &r1);
@@ -101,9 +99,9 @@ static int seed_within(JoxFieldWork *w, Heap *h, const JoxPlace *place, float re
 
 static void seed(JoxFieldWork *w, Heap *h, const JoxPlace *places, uint32_t index) {
     const JoxPlace *place = &places[index];
-    for (uint32_t k = 0; k < place->member_count && place->kind == JOX_PLACE_SET; k++)
+    for (uint32_t k = 0; k < place->member_count; k++)
         seed(w, h, places, (uint32_t)place->members[k]);
-    if (place->kind == JOX_PLACE_SET || place->count == 0)
+    if (place->count == 0)
         return;
     float least = SEED_CELLS * w->f->size, most = jox_maxf(SEED_MOST, 2.0f * least);
     for (int blindly = 0; blindly < 2; blindly++)

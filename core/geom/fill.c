@@ -34,7 +34,7 @@ static bool inside(const JoxArea *area, JoxV2 p) {
 }
 
 static void widen(const JoxPlace *place, JoxV2 *low, JoxV2 *high) {
-    float r = place->kind == JOX_PLACE_POINT ? place->radius : 0.5f;
+    float r = jox_place_outline(place) == JOX_OUTLINE_CIRCLE ? place->radius : 0.5f;
     for (uint32_t i = 0; i < place->count; i++) {
         low->x = jox_minf(low->x, place->points[i].x - r);
         low->y = jox_minf(low->y, place->points[i].y - r);

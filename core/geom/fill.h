@@ -8,14 +8,19 @@
 #include "geom/place.h"
 #include "geom/walls.h"
 
-/* How the agents of a group stand at the start. The first three spread over an area. */
+/* How the agents of a group stand at the start, with the words of scenes; JOX_FILL_AT: at given
+   points. The first three spread over an area. */
+#define JOX_FILLS(X)                                                                               \
+    X(HEX, "hex")                                                                                  \
+    X(GRID, "grid")                                                                                \
+    X(RANDOM, "random")                                                                            \
+    X(CIRCLE, "circle")                                                                            \
+    X(LINE, "line")
 typedef enum JoxFillMode {
-    JOX_FILL_HEX,
-    JOX_FILL_GRID,
-    JOX_FILL_RANDOM,
-    JOX_FILL_CIRCLE,
-    JOX_FILL_LINE,
-    JOX_FILL_AT
+#define X(fill, name) JOX_FILL_##fill,
+    JOX_FILLS(X)
+#undef X
+        JOX_FILL_AT
 } JoxFillMode;
 
 /* An area: inside any of `in`, outside all of `out` (indices of places), `clear` m from walls. */

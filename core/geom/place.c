@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 
 static const float LINE_REACH = 0.5f; /* m: a line counts as entered within this distance */
@@ -48,47 +49,170 @@ static void finish_axis(JoxPlace *place) {
     place->axis_radius = radius;
 }
 
-void jox_place_finish(JoxPlace *place) {
-    switch (place->kind) {
-    case JOX_PLACE_POLYGON:
-        place->centre = jox_polygon_centroid(place->points, place->count);
-        break;
-    case JOX_PLACE_LINE:
-        place->centre = jox_scale(jox_add(place->points[0], place->points[1]), 0.5f);
-        break;
-    case JOX_PLACE_POINT:
-    case JOX_PLACE_QUEUE:
-        place->centre = place->points[0];
-        break;
-    case JOX_PLACE_SET:
-        return;
+/* ---- the kinds ---- */
+
+static JoxV2 first_point(const JoxPlace *place) {
+    return place->points[0];
+}
+
+static bool in_point(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+    (void)places;
+    return jox_length(jox_sub(point, place->centre)) <= place->radius;
+}
+
+static JoxV2 to_centre(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+    (void)places, (void)point;
+    return place->centre;
+}
+
+static JoxV2 middle_of_line(const JoxPlace *place) {
+    return jox_scale(jox_add(place->points[0], place->points[1]), 0.5f);
+}
+
+static JoxV2 to_line(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+    (void)places;
+    return jox_segment_nearest(place->points[0], place->points[1], point);
+}
+
+static bool near_line(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+    return jox_length(jox_sub(point, to_line(places, place, point))) <= LINE_REACH;
+}
+
+static JoxV2 centroid(const JoxPlace *place) {
+    return jox_polygon_centroid(place->points, place->count);
+}
+
+static bool in_polygon(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+    (void)places;
+    return jox_polygon_contains(place->points, place->count, point);
+}
+
+static JoxV2 to_polygon(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+    JoxV2 best = place->centre;
+    float least = INFINITY;
+    if (in_polygon(places, place, point))
+        return point;
+    for (uint32_t i = 0; i < place->count; i++) {
+        JoxV2 q =
+            jox_segment_nearest(place->points[i], place->points[(i + 1) % place->count], point);
+        float d = jox_length2(jox_sub(point, q));
+        if (d < least) {
+            least = d;
+            best = q;
+        }
     }
+    return best;
+}
+
+static bool at_head(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+    (void)places;
+    return jox_length(jox_sub(point, place->centre)) <= place->spacing / 2.0f;
+}
+
+static bool in_member(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+    for (uint32_t i = 0; i < place->member_count; i++)
+        if (jox_place_contains(places, (uint32_t)place->members[i], point))
+            return true;
+    return false;
+}
+
+static JoxV2 to_member(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+    JoxV2 best = place->centre;
+    float least = INFINITY;
+    for (uint32_t i = 0; i < place->member_count; i++) {
+        JoxV2 q = jox_place_nearest(places, (uint32_t)place->members[i], point);
+        float d = jox_length2(jox_sub(point, q));
+        if (d < least) {
+            least = d;
+            best = q;
+        }
+    }
+    return best;
+}
+
+const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS] = {
+    [JOX_PLACE_POINT] = {.name = "point",
+                         .least_points = 1,
+                         .most_points = 1,
+                         .outline = JOX_OUTLINE_CIRCLE,
+                         .goal_points = 1,
+                         .centre = first_point,
+                         .contains = in_point,
+                         .nearest = to_centre,
+                         .meaning = "a spot with a `radius`. Agents are inside while they are "
+                                    "nearer than that."},
+    [JOX_PLACE_LINE] = {.name = "line",
+                        .least_points = 2,
+                        .most_points = 2,
+                        .outline = JOX_OUTLINE_OPEN,
+                        .centre = middle_of_line,
+                        .contains = near_line,
+                        .nearest = to_line,
+                        .meaning =
+                            "two points. `crosses` is true in the step in which an agent passes "
+                            "from the right of the line to its left, looking from the first point "
+                            "to the second."},
+    [JOX_PLACE_POLYGON] = {.name = "polygon",
+                           .least_points = 3,
+                           .most_points = UINT32_MAX,
+                           .outline = JOX_OUTLINE_RING,
+                           .centre = centroid,
+                           .contains = in_polygon,
+                           .nearest = to_polygon,
+                           .meaning = "an area. Agents go about it (`orbit`), and with a `start` "
+                                      "line their circuits are counted, anti-clockwise."},
+    [JOX_PLACE_QUEUE] = {.name = "queue",
+                         .least_points = 2,
+                         .most_points = UINT32_MAX,
+                         .outline = JOX_OUTLINE_OPEN,
+                         .goal_points = 1,
+                         .centre = first_point,
+                         .contains = at_head,
+                         .nearest = to_centre,
+                         .meaning = "a line with bends in which people stand one behind the "
+                                    "other, `spacing` apart; its first point is the head."},
+    [JOX_PLACE_SET] = {.name = "set",
+                       .contains = in_member,
+                       .nearest = to_member,
+                       .meaning = "several places under one name: to be in one of them is to be "
+                                  "in the set."},
+};
+
+/* ---- calls ---- */
+
+static const JoxPlaceKindInfo *kind_of(const JoxPlace *place) {
+    JOX_ASSERT(place->kind < JOX_PLACE_KINDS && jox_place_kinds[place->kind].name);
+    return &jox_place_kinds[place->kind];
+}
+
+JoxPlaceOutline jox_place_outline(const JoxPlace *place) {
+    return kind_of(place)->outline;
+}
+
+uint32_t jox_place_goal_points(const JoxPlace *place) {
+    const uint32_t goals = kind_of(place)->goal_points;
+    return goals && goals < place->count ? goals : place->count;
+}
+
+float jox_place_radius(const JoxPlace *place) {
+    return kind_of(place)->outline == JOX_OUTLINE_CIRCLE ? place->radius : 0.0f;
+}
+
+void jox_place_finish(JoxPlace *place) {
+    if (!kind_of(place)->centre)
+        return;
+    JOX_ASSERT(place->count >= kind_of(place)->least_points);
+    place->centre = kind_of(place)->centre(place);
     finish_axis(place);
 }
 
 bool jox_place_contains(const JoxPlace *places, uint32_t index, JoxV2 point) {
-    const JoxPlace *place = &places[index];
-    switch (place->kind) {
-    case JOX_PLACE_POLYGON:
-        return jox_polygon_contains(place->points, place->count, point);
-    case JOX_PLACE_SET:
-        for (uint32_t i = 0; i < place->member_count; i++)
-            if (jox_place_contains(places, (uint32_t)place->members[i], point))
-                return true;
-        return false;
-    case JOX_PLACE_LINE:
-        return jox_place_distance(places, index, point) <= LINE_REACH;
-    case JOX_PLACE_QUEUE:
-        return jox_place_distance(places, index, point) <= place->spacing / 2.0f;
-    case JOX_PLACE_POINT:
-        return jox_length(jox_sub(point, place->centre)) <= place->radius;
-    }
-    return false;
+    return kind_of(&places[index])->contains(places, &places[index], point);
 }
 
 float jox_place_distance(const JoxPlace *places, uint32_t index, JoxV2 point) {
     const JoxPlace *place = &places[index];
-    if (place->kind == JOX_PLACE_SET) {
+    if (place->kind == JOX_PLACE_SET) { /* the nearest member: it may be a polygon with the point */
         float best = INFINITY;
         for (uint32_t i = 0; i < place->member_count; i++)
             best = jox_minf(best, jox_place_distance(places, (uint32_t)place->members[i], point));
@@ -100,40 +224,7 @@ float jox_place_distance(const JoxPlace *places, uint32_t index, JoxV2 point) {
 }
 
 JoxV2 jox_place_nearest(const JoxPlace *places, uint32_t index, JoxV2 point) {
-    const JoxPlace *place = &places[index];
-    JoxV2 best = place->centre;
-    float least = INFINITY;
-    switch (place->kind) {
-    case JOX_PLACE_LINE:
-        return jox_segment_nearest(place->points[0], place->points[1], point);
-    case JOX_PLACE_POLYGON:
-        if (jox_polygon_contains(place->points, place->count, point))
-            return point;
-        for (uint32_t i = 0; i < place->count; i++) {
-            JoxV2 q =
-                jox_segment_nearest(place->points[i], place->points[(i + 1) % place->count], point);
-            float d = jox_length2(jox_sub(point, q));
-            if (d < least) {
-                least = d;
-                best = q;
-            }
-        }
-        return best;
-    case JOX_PLACE_SET:
-        for (uint32_t i = 0; i < place->member_count; i++) {
-            JoxV2 q = jox_place_nearest(places, (uint32_t)place->members[i], point);
-            float d = jox_length2(jox_sub(point, q));
-            if (d < least) {
-                least = d;
-                best = q;
-            }
-        }
-        return best;
-    case JOX_PLACE_POINT:
-    case JOX_PLACE_QUEUE:
-        break;
-    }
-    return best;
+    return kind_of(&places[index])->nearest(places, &places[index], point);
 }
 
 JoxV2 jox_place_queue_point(const JoxPlace *place, float distance) {
@@ -158,6 +249,8 @@ int jox_place_find(const JoxPlace *places, uint32_t count, const char *name) {
     return -1;
 }
 
+/* ---- copies ---- */
+
 void jox_place_copy(JoxPlace *to, const JoxPlace *from) {
     *to = *from;
     to->name = jox_strdup(from->name);
@@ -174,4 +267,12 @@ void jox_place_free(JoxPlace *place) {
     jox_free(place->points);
     jox_free(place->members);
     *place = (JoxPlace){0};
+}
+
+bool jox_place_same(const JoxPlace *a, const JoxPlace *b) {
+    return a->kind == b->kind && a->count == b->count && a->radius == b->radius &&
+           a->spacing == b->spacing && a->start == b->start && a->member_count == b->member_count &&
+           (!a->count || !memcmp(a->points, b->points, a->count * sizeof *a->points)) &&
+           (!a->member_count ||
+            !memcmp(a->members, b->members, a->member_count * sizeof *a->members));
 }

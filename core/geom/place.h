@@ -9,7 +9,8 @@ typedef enum JoxPlaceKind {
     JOX_PLACE_LINE,    /* points[0] -> points[1]; crossing counts from its right to its left */
     JOX_PLACE_POLYGON, /* a closed ring, counter-clockwise */
     JOX_PLACE_QUEUE,   /* a polyline, points[0] is the head; `spacing` metres a person */
-    JOX_PLACE_SET      /* several places, one_of picks among `members` */
+    JOX_PLACE_SET,     /* several places, one_of picks among `members` */
+    JOX_PLACE_KINDS
 } JoxPlaceKind;
 
 typedef struct JoxPlace {
@@ -28,6 +29,32 @@ typedef struct JoxPlace {
     float axis_radius;
 } JoxPlace;
 
+/* How a place is drawn, and which of its points are a goal. */
+typedef enum JoxPlaceOutline {
+    JOX_OUTLINE_NONE,   /* nothing of its own */
+    JOX_OUTLINE_CIRCLE, /* of `radius` about points[0] */
+    JOX_OUTLINE_OPEN,   /* a polyline */
+    JOX_OUTLINE_RING    /* a closed one */
+} JoxPlaceOutline;
+
+/* What a kind of place is: a scene is read, and places are drawn, by this. */
+typedef struct JoxPlaceKindInfo {
+    const char *name; /* its key in a scene */
+    uint32_t least_points, most_points;
+    JoxPlaceOutline outline;
+    uint32_t goal_points; /* points[0 .. n - 1] are walked to; 0: all of them */
+    JoxV2 (*centre)(const JoxPlace *place);
+    bool (*contains)(const JoxPlace *places, const JoxPlace *place, JoxV2 point);
+    JoxV2 (*nearest)(const JoxPlace *places, const JoxPlace *place, JoxV2 point);
+    const char *meaning; /* for the reference */
+} JoxPlaceKindInfo;
+extern const JoxPlaceKindInfo jox_place_kinds[JOX_PLACE_KINDS];
+
+JoxPlaceOutline jox_place_outline(const JoxPlace *place);
+/* How many of its points, from the first, are walked to. */
+uint32_t jox_place_goal_points(const JoxPlace *place);
+/* Its radius in metres where it has one, else 0. */
+float jox_place_radius(const JoxPlace *place);
 /* Fills centre, axis_a, axis_b and axis_radius from kind and points. The axis is the polygon's
    principal direction through its centroid, shortened at both ends by half its width. */
 void jox_place_finish(JoxPlace *place);
@@ -44,5 +71,8 @@ JoxV2 jox_place_nearest(const JoxPlace *places, uint32_t place, JoxV2 point);
 /* Point of a queue's polyline `distance` metres behind its head (extended straight at its end). */
 JoxV2 jox_place_queue_point(const JoxPlace *place, float distance);
 int jox_place_find(const JoxPlace *places, uint32_t count, const char *name);
+
+/* Whether two are of one kind and have the same points, members and measures. */
+bool jox_place_same(const JoxPlace *a, const JoxPlace *b);
 
 #endif

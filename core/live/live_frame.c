@@ -26,8 +26,7 @@ static void cover_scene(JoxLiveArea *area, const JoScene *scene) {
         cover_points(&all, &world->model.all_walls.vertices[v].point, 1, 0.0f);
     for (uint32_t p = 0; p < scene->world->model.scene_places && p < world->model.place_count; p++)
         cover_points(&all, world->model.places[p].points, world->model.places[p].count,
-                     world->model.places[p].kind == JOX_PLACE_POINT ? world->model.places[p].radius
-                                                                    : 0.0f);
+                     jox_place_radius(&world->model.places[p]));
     for (uint32_t g = 0; g < spec->group_count; g++)
         cover_points(&all, spec->groups[g].positions, spec->groups[g].count, 0.0f);
     for (uint32_t i = 0; i < a->count; i++)

@@ -63,15 +63,13 @@ void jox_live_add_walls(const JoxWalls *walls, float height, JoxJson *json) {
 }
 
 void jox_live_add_places(const JoxPlace *places, uint32_t count, JoxJson *json) {
-    static const char *const KINDS[] = {"point", "line", "polygon", "queue", "set"};
     jox_json_array(json, "places");
     for (uint32_t p = 0; p < count; p++) {
         const JoxPlace *place = &places[p];
         jox_json_object(json, NULL);
         jox_json_string(json, "name", place->name);
-        jox_json_string(json, "kind", KINDS[place->kind]);
-        jox_json_digits(json, "radius",
-                        place->kind == JOX_PLACE_POINT ? (double)place->radius : 0.0, DIGITS);
+        jox_json_string(json, "kind", jox_place_kinds[place->kind].name);
+        jox_json_digits(json, "radius", (double)jox_place_radius(place), DIGITS);
         jox_json_whole(json, "height", 0);
         add_points(json, "points", place->points, place->count);
         jox_json_end(json);

@@ -1,4 +1,4 @@
-/* Compiles expressions to programs of a register machine: the inputs of an operation are computed
+/* Compiles expressions to code of a register machine: the inputs of an operation are computed
    into its own register and those after it. */
 #include <math.h>
 #include <stdarg.h>
@@ -131,12 +131,12 @@ static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
     code->items[code->count++] = in;
 }
 
-int32_t jox_build_program(JoxBuild *build, const JoxNode *node, JoxPosition position) {
+int32_t jox_build_expression(JoxBuild *build, const JoxNode *node, JoxPosition position) {
     JoxMachine *m = build->machine;
     if (node->kind == JOX_NODE_ERROR)
         return -1;
-    if (node->program > 0) /* the value is used in several places: one program serves all */
-        return node->program - 1;
+    if (node->compiled > 0) /* the value is used in several places: it is compiled once */
+        return node->compiled - 1;
     Code code = {.build = build};
     emit(&code, node, 0, 0);
     if (code.too_deep) {
@@ -145,8 +145,8 @@ int32_t jox_build_program(JoxBuild *build, const JoxNode *node, JoxPosition posi
         jox_free(code.items);
         return -1;
     }
-    JOX_RESERVE(m->programs, build->program_capacity, m->program_count + 1);
-    m->programs[m->program_count] = (JoxProgram){code.items, (uint32_t)code.count};
-    ((JoxNode *)node)->program = (int32_t)m->program_count + 1;
-    return (int32_t)m->program_count++;
+    JOX_RESERVE(m->expressions, build->expression_capacity, m->expression_count + 1);
+    m->expressions[m->expression_count] = (JoxExpression){code.items, (uint32_t)code.count};
+    ((JoxNode *)node)->compiled = (int32_t)m->expression_count + 1;
+    return (int32_t)m->expression_count++;
 }

@@ -131,8 +131,8 @@ JoxValue jox_read_value(JoxBuild *b, const char *path, const JoxParameterInfo *i
         value.kind = JOX_VALUE_OWN;
         value.index = jox_build_own_at(b, node);
     } else if (node && node->kind == JOX_NODE_NUMBER) {
-        value.kind = JOX_VALUE_PROGRAM;
-        value.index = jox_build_program(b, node, position);
+        value.kind = JOX_VALUE_EXPRESSION;
+        value.index = jox_build_expression(b, node, position);
         if (value.index < 0)
             value.kind = JOX_VALUE_UNSET;
     } else if (!node || node->kind != JOX_NODE_ERROR) {
@@ -156,20 +156,21 @@ JoxValue jox_read_parameter(JoxBuild *b, const char *path, const JoxParameterInf
     return value;
 }
 
-/* A condition's program; -1 for none. Pops the value. A function becomes *hook where allowed. */
+/* A condition, compiled: the index of its expression; -1 for none. Pops the value. A function
+ * becomes *hook where allowed. */
 int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
     lua_State *L = b->script->vm.L;
     JOX_ASSERT(lua_gettop(L) > 0);
     JoxNode *node = jox_node_get(L, -1);
     int type = lua_type(L, -1);
-    int32_t program = -1;
+    int32_t expression = -1;
     if (hook && type == LUA_TFUNCTION) {
         *hook = jox_read_add_hook(b, path);
         return -1;
     }
     bool trapped = type != LUA_TNIL && jox_read_misuse(b, path);
     if (node && node->kind == JOX_NODE_CONDITION) {
-        program = jox_build_program(b, node, jox_read_at(b, path));
+        expression = jox_build_expression(b, node, jox_read_at(b, path));
     } else if (type != LUA_TNIL && !trapped && !(node && node->kind == JOX_NODE_ERROR)) {
         const char *hint = type == LUA_TBOOLEAN ? "Leave `when` out for always; compare with :is, "
                                                   ":above, ... and join with & | ~"
@@ -181,7 +182,7 @@ int32_t jox_read_condition(JoxBuild *b, const char *path, int32_t *hook) {
                         node ? "a number" : lua_typename(L, type));
     }
     lua_pop(L, 1);
-    return program;
+    return expression;
 }
 
 /* A target named by a key (a place's name or a target value), or -1. */

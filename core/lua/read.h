@@ -9,7 +9,7 @@ typedef struct JoxBuild {
     JoxScript *script;
     const JoxSource *source;
     JoxMachine *machine;
-    size_t program_capacity, target_capacity, own_capacity, memory_capacity, counter_capacity,
+    size_t expression_capacity, target_capacity, own_capacity, memory_capacity, counter_capacity,
         state_capacity, name_capacity;
 } JoxBuild;
 int16_t jox_build_target(JoxBuild *build, const JoxNode *node);
@@ -19,7 +19,7 @@ int32_t jox_build_own(JoxBuild *build, const char *name);
 /* The same for an own value that was written out: keeps where. */
 int32_t jox_build_own_at(JoxBuild *build, const JoxNode *node);
 int32_t jox_build_memory(JoxBuild *build, const char *name);
-int32_t jox_build_program(JoxBuild *build, const JoxNode *node, JoxPosition position);
+int32_t jox_build_expression(JoxBuild *build, const JoxNode *node, JoxPosition position);
 void jox_build_error(JoxBuild *build, JoxPosition position, const char *code, const char *hint,
                      const char *format, ...) __attribute__((format(printf, 5, 6)));
 
@@ -61,7 +61,8 @@ JoxValue jox_read_value(JoxBuild *build, const char *path, const JoxParameterInf
                         bool *is_dist, JoxDist *dist);
 /* The same where a distribution is drawn once per agent, into a slot of its own. */
 JoxValue jox_read_parameter(JoxBuild *build, const char *path, const JoxParameterInfo *info);
-/* A condition's program, -1 for none; a function becomes *hook where `hook` is given. Popped. */
+/* A condition, compiled: the index of its expression, -1 for none; a function becomes *hook where
+ * `hook` is given. Popped. */
 int32_t jox_read_condition(JoxBuild *build, const char *path, int32_t *hook);
 /* A target named by a key, or -1. */
 int16_t jox_read_target(JoxBuild *build, int index, const char *path, const char *key);

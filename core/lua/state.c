@@ -18,7 +18,7 @@ static JoxValue read_weight(JoxBuild *b, JoxNode *weight, JoxPosition position) 
                             "a weight must be from %d to %d, not %g", -JOX_MOST_WEIGHT,
                             JOX_MOST_WEIGHT, weight->number);
     } else if (weight) {
-        value = (JoxValue){JOX_VALUE_PROGRAM, 0.0, jox_build_program(b, weight, position), 0};
+        value = (JoxValue){JOX_VALUE_EXPRESSION, 0.0, jox_build_expression(b, weight, position), 0};
         if (value.index < 0)
             value = (JoxValue){.kind = JOX_VALUE_UNSET};
     }
@@ -69,7 +69,7 @@ static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state
     }
     JoxNode *node = jox_node_get(L, -1);
     if (node && node->kind == JOX_NODE_OWN) {
-        state->lasts_program = jox_build_program(b, node, jox_read_at(b, full));
+        state->lasts_expression = jox_build_expression(b, node, jox_read_at(b, full));
         lua_pop(L, 1);
         return;
     }
@@ -78,7 +78,7 @@ static void read_lasts(JoxBuild *b, int index, const char *path, JoxState *state
     JoxValue value = jox_read_value(b, full, &lasts, &is_dist, &dist);
     state->has_lasts = is_dist || value.kind == JOX_VALUE_CONST;
     state->lasts = is_dist ? dist : jox_dist_constant(value.number);
-    state->lasts_program = value.kind == JOX_VALUE_PROGRAM ? value.index : -1;
+    state->lasts_expression = value.kind == JOX_VALUE_EXPRESSION ? value.index : -1;
 }
 
 static void read_flags(JoxBuild *b, int index, const char *path, JoxState *state) {

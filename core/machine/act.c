@@ -14,9 +14,10 @@ static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
     const uint32_t *agents = run->scratch->grouped + batch->begin;
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxValue *value = jox_state_parameter(machine, state, p);
-        if (value->kind != JOX_VALUE_PROGRAM)
+        if (value->kind != JOX_VALUE_EXPRESSION)
             continue;
-        jox_eval(run, machine, &machine->programs[value->index], agents, batch->count, registers);
+        jox_eval(run, machine, &machine->expressions[value->index], agents, batch->count,
+                 registers);
         for (uint32_t n = 0; n < batch->count; n++)
             run->agents->param[p][agents[n]] =
                 jox_parameter_store((JoxParameter)p, registers[0][n]);
@@ -29,7 +30,7 @@ static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
     const JoxState *state = &machine->states[batch->state];
     const uint32_t *agents = run->scratch->grouped + batch->begin;
     if (state->push_when >= 0)
-        jox_eval(run, machine, &machine->programs[state->push_when], agents, batch->count,
+        jox_eval(run, machine, &machine->expressions[state->push_when], agents, batch->count,
                  registers);
     for (uint32_t n = 0; n < batch->count; n++) {
         uint32_t i = agents[n];
@@ -86,17 +87,6 @@ static void kick(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
 static const float REACH = 0.6f;       /* m: the gap over which a body is picked up */
 static const float CATCHABLE = 8.0f;   /* m/s: what is faster is not caught */
 static const float HAND_HEIGHT = 1.2f; /* m: where thrown bodies leave, and arrive */
-
-int32_t jox_holding(const JoxMachineRun *run, uint32_t i, int32_t target) {
-    const JoxTarget *t = &jox_machine_of(run, i)->targets[target];
-    for (uint32_t o = 0; run->objects && o < run->objects->count; o++) {
-        const JoxObject *object = &run->objects->rows[o];
-        if (object->live && object->held && object->holder == run->agents->id[i] &&
-            (t->kind != JOX_TARGET_NEAREST || (object->tags >> t->arg & 1)))
-            return (int32_t)o;
-    }
-    return -1;
-}
 
 static void add_grip(JoxMachineRun *run, JoxGrip grip) {
     for (uint32_t g = 0; g < run->grip_count; g++)

@@ -178,10 +178,10 @@ static void execute(const JoxMachineRun *run, const JoxMachine *machine, const J
     }
 }
 
-void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxProgram *program,
+void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxExpression *expression,
               const uint32_t *agents, uint32_t count, JoxRegisters registers) {
-    for (uint32_t i = 0; i < program->count; i++)
-        execute(run, machine, &program->code[i], agents, count, registers);
+    for (uint32_t i = 0; i < expression->count; i++)
+        execute(run, machine, &expression->code[i], agents, count, registers);
 }
 
 double jox_value(const JoxMachineRun *run, const JoxMachine *machine, const JoxValue *value,
@@ -191,9 +191,9 @@ double jox_value(const JoxMachineRun *run, const JoxMachine *machine, const JoxV
         return value->number;
     case JOX_VALUE_OWN:
         return run->agents->own[(size_t)agent * run->agents->own_stride + (uint32_t)value->index];
-    case JOX_VALUE_PROGRAM: {
+    case JOX_VALUE_EXPRESSION: {
         static _Thread_local JoxRegisters registers;
-        jox_eval(run, machine, &machine->programs[value->index], &agent, 1, registers);
+        jox_eval(run, machine, &machine->expressions[value->index], &agent, 1, registers);
         return registers[0][0];
     }
     case JOX_VALUE_UNSET:

@@ -13,12 +13,12 @@ static const char *const NOWS[] = {
 };
 
 /* One line per instruction: what it is, of what, and its value for the agent at present. */
-static void print_program(const JoxMachineRun *run, const JoxMachine *machine,
-                          const JoxProgram *program, uint32_t agent, JoxText *out) {
+static void print_expression(const JoxMachineRun *run, const JoxMachine *machine,
+                             const JoxExpression *expression, uint32_t agent, JoxText *out) {
     static _Thread_local JoxRegisters registers;
-    for (uint32_t k = 0; k < program->count; k++) {
-        const JoxInstruction *in = &program->code[k];
-        JoxProgram one = {(JoxInstruction *)in, 1};
+    for (uint32_t k = 0; k < expression->count; k++) {
+        const JoxInstruction *in = &expression->code[k];
+        JoxExpression one = {(JoxInstruction *)in, 1};
         jox_eval(run, machine, &one, &agent, 1, registers);
         jox_text_printf(out, "      r%u = %s", in->to, OPS[in->op]);
         if (in->op == JOX_OP_NOW)
@@ -48,5 +48,5 @@ void jox_machines_explain(const JoxMachineRun *run, const JoxTaken *taken, JoxTe
     if (t->when < 0 || agent == JOX_NO_INDEX)
         return;
     jox_text_add(out, "    its condition:\n");
-    print_program(run, machine, &machine->programs[t->when], agent, out);
+    print_expression(run, machine, &machine->expressions[t->when], agent, out);
 }

@@ -67,10 +67,10 @@ float jox_target_distance(const JoxMachineRun *run, uint32_t agent, int32_t inde
 /* Free distance ahead, m. */
 float jox_headway(const JoxMachineRun *run, uint32_t agent);
 
-/* Runs a program over `count` agents of one machine; results in registers[0]. */
-void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxProgram *program,
+/* Runs an expression over `count` agents of one machine; results in registers[0]. */
+void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxExpression *expression,
               const uint32_t *agents, uint32_t count, JoxRegisters registers);
-/* One agent's value: a constant, its own, or a program. */
+/* One agent's value: a constant, its own, or an expression. */
 double jox_value(const JoxMachineRun *run, const JoxMachine *machine, const JoxValue *value,
                  uint32_t agent);
 
@@ -98,6 +98,9 @@ void jox_machines_group(JoxMachineRun *run, JoxPool *pool);
 int16_t jox_queue_target(const JoxState *state);
 void jox_machines_count_places(JoxMachineRun *run);
 void jox_machines_scratch_free(JoxMachineRun *run);
+/* The duration that a state computes for an agent, s: what is no number sets none. */
+float jox_duration_of(const JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
+                      uint32_t agent);
 /* Enters a state: clock, duration, goal, constant parameters. Hooks are the caller's. */
 void jox_machines_enter(JoxMachineRun *run, uint32_t agent, uint16_t state);
 /* Writes the parameters that are constant or own values in the agent's present state. */
@@ -121,7 +124,7 @@ void jox_counts_free(JoxMachineCounts *counts);
 void jox_edits_apply(JoxMachineRun *run, uint32_t machine);
 /* Forgets what people set of a machine, and its copy. */
 void jox_edits_end(JoxMachineRun *run, uint32_t machine);
-/* Parameters that are programs, pushing, approach and kicks, after the transitions. */
+/* Parameters that are expressions, pushing, approach and kicks, after the transitions. */
 void jox_machines_act(JoxMachineRun *run, JoxPool *pool);
 
 #endif

@@ -13,7 +13,7 @@ int jox_machine_state(const JoxMachine *machine, const char *name) {
 
 JoxState jox_state_blank(char *name) {
     return (JoxState){.name = name,
-                      .lasts_program = -1,
+                      .lasts_expression = -1,
                       .push_when = -1,
                       .push_toward = -1,
                       .face = -1,
@@ -51,8 +51,8 @@ void jox_machine_free(JoxMachine *m) {
         return;
     for (uint32_t s = 0; s < m->state_count; s++)
         free_state(&m->states[s]);
-    for (uint32_t p = 0; p < m->program_count; p++)
-        jox_free(m->programs[p].code);
+    for (uint32_t p = 0; p < m->expression_count; p++)
+        jox_free(m->expressions[p].code);
     for (uint32_t t = 0; t < m->target_count; t++)
         jox_free(m->targets[t].name);
     for (uint32_t o = 0; o < m->own_count; o++)
@@ -67,7 +67,7 @@ void jox_machine_free(JoxMachine *m) {
         jox_free(m->names[n].text);
     jox_free(m->names);
     jox_free(m->states);
-    jox_free(m->programs);
+    jox_free(m->expressions);
     jox_free(m->targets);
     jox_free(m->own);
     jox_free(m->memory);

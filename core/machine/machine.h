@@ -1,5 +1,5 @@
-/* A state machine as data: states, their parameters, their ordered transitions, and the programs
-   that their conditions and numeric expressions are compiled to. lua/ builds it; it is immutable
+/* A state machine as data: states, their parameters, their ordered transitions, and the expressions
+   that their conditions and computed numbers are compiled to. lua/ builds it; it is immutable
    from when it is added to a set (run.h), except that run/ links it to those that it becomes. Think
    and prefer run it. Knows no Lua. */
 #ifndef JOX_MACHINE_MACHINE_H
@@ -89,11 +89,11 @@ typedef struct JoxInstruction {
     double number;
 } JoxInstruction;
 
-/* Straight-line code; the result is in register 0. */
-typedef struct JoxProgram {
+/* A compiled condition or number: straight-line code that leaves its result in register 0. */
+typedef struct JoxExpression {
     JoxInstruction *code;
     uint32_t count;
-} JoxProgram;
+} JoxExpression;
 
 typedef enum JoxTargetKind {
     JOX_TARGET_PLACE,      /* arg: place index of the world, -1 while unresolved */
@@ -117,12 +117,12 @@ typedef enum JoxValueKind {
     JOX_VALUE_UNSET,
     JOX_VALUE_CONST,
     JOX_VALUE_OWN,
-    JOX_VALUE_PROGRAM
+    JOX_VALUE_EXPRESSION
 } JoxValueKind;
 typedef struct JoxValue {
     JoxValueKind kind;
     double number; /* CONST */
-    int32_t index; /* own slot, or program */
+    int32_t index; /* own slot, or expression */
     int32_t line;  /* where it was set; 0 default; JOX_LINE_LIVE: by a person, in a run */
 } JoxValue;
 enum { JOX_LINE_LIVE = -1 };
@@ -175,7 +175,7 @@ typedef struct JoxTransition {
     char *id;
     uint16_t to;
     JoxActions does;
-    int32_t when;      /* program; -1: always (unless when_hook) */
+    int32_t when;      /* expression; -1: always (unless when_hook) */
     int32_t when_hook; /* a plain function; -1 none */
     JoxValue chance;   /* UNSET: certain */
     int32_t on_take;   /* hook or -1 */
@@ -192,13 +192,13 @@ typedef struct JoxState {
     JoxTransition *transitions;
     uint32_t transition_count;
     bool has_lasts;
-    JoxDist lasts;          /* s, drawn on entry */
-    int32_t lasts_program;  /* or an expression evaluated on entry; -1 none */
-    bool removes;           /* the agent leaves the world on entering */
-    int32_t push_when;      /* program; -1 always */
-    int16_t push_toward;    /* target; -1: along the preferred velocity */
-    bool push_nearest;      /* push_weight "nearest" instead of "equal" */
-    int16_t face, approach; /* targets; -1 none */
+    JoxDist lasts;            /* s, drawn on entry */
+    int32_t lasts_expression; /* or an expression evaluated on entry; -1 none */
+    bool removes;             /* the agent leaves the world on entering */
+    int32_t push_when;        /* expression; -1 always */
+    int16_t push_toward;      /* target; -1: along the preferred velocity */
+    bool push_nearest;        /* push_weight "nearest" instead of "equal" */
+    int16_t face, approach;   /* targets; -1 none */
     uint64_t ignore, push_only;
     int16_t kick, kick_at; /* targets; -1 none */
     JoxValue kick_impulse; /* N s per kg of the body: the velocity change, m/s */
@@ -253,8 +253,8 @@ typedef struct JoxMachine {
     JoxValue defaults[JOX_PARAM_COUNT];
     JoxState *states;
     uint32_t state_count;
-    JoxProgram *programs;
-    uint32_t program_count;
+    JoxExpression *expressions;
+    uint32_t expression_count;
     JoxTarget *targets;
     uint32_t target_count;
     JoxOwnSlot *own;

@@ -130,7 +130,7 @@ static bool same_value(const JoxReplacement *r, const JoxValue *a, const JoxValu
         return a->number == b->number;
     if (b->kind == JOX_VALUE_OWN)
         return r->own[b->index] == a->index && !r->is_redrawn[b->index];
-    return true; /* programs are computed each step */
+    return true; /* expressions are computed each step */
 }
 
 static void map_state(JoxReplacement *r, uint32_t from) {
@@ -144,7 +144,7 @@ static void map_state(JoxReplacement *r, uint32_t from) {
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxValue *value = jox_state_parameter(r->next, is, p);
         if (same_value(r, jox_state_parameter(r->old, was, p), value) ||
-            value->kind == JOX_VALUE_PROGRAM)
+            value->kind == JOX_VALUE_EXPRESSION)
             continue;
         Assignment *assign = &r->assign[from][r->assign_count[from]++];
         double number = value->kind == JOX_VALUE_CONST ? value->number : jox_parameters[p].value;

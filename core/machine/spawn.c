@@ -66,7 +66,7 @@ void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
     run->spawning = false;
     const JoxState *start = &kind->states[kind->start];
     const JoxActions *does = &start->enters;
-    if (start->on_enter < 0 && start->lasts_program < 0 && !does->set_count && does->signal < 0)
+    if (start->on_enter < 0 && start->lasts_expression < 0 && !does->set_count && does->signal < 0)
         return;
     JoxMachineState *state = run->state;
     JOX_RESERVE(state->pending, state->pending_capacity, state->pending_count + 1);

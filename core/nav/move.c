@@ -174,9 +174,9 @@ static void apply_positions(void *context, uint32_t begin, uint32_t end, uint32_
 }
 
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, double dt,
-                  double plan, JoxPool *pool) {
-    JOX_ASSERT(dt > 0.0 && plan >= dt * 0.999);
-    Move move = {nav, agents, neighbours, (float)dt, (float)(dt / plan), 0.0f, 0};
+                  double planning_time, JoxPool *pool) {
+    JOX_ASSERT(dt > 0.0 && planning_time >= dt * 0.999);
+    Move move = {nav, agents, neighbours, (float)dt, (float)(dt / planning_time), 0.0f, 0};
     move.stiffness = STIFFNESS * jox_minf(1.0f, (float)dt / STIFF_STEP);
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate, &move);
     for (int i = 0; i < SWEEPS; i++) {

@@ -28,10 +28,10 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *agents, uint64_t tick);
 /* perceive: exactly the `neighbours` nearest within each agent's own `perception`, nearest first,
    ties by id; also writes `search` and `density`. Grows `out` as needed. */
 void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool);
-/* solve: next_x, next_y, the velocity to have `plan` seconds from now; sets failed where there is
-   none that meets all half-planes. Returns how many agents had a wall relaxed. */
+/* solve: next_x, next_y, the velocity to have `planning_time` seconds from now; sets failed where
+   there is none that meets all half-planes. Returns how many agents had a wall relaxed. */
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
-                       const JoxObjects *objects, double plan, JoxPool *pool);
+                       const JoxObjects *objects, double planning_time, JoxPool *pool);
 /* One of an agent's half-planes: it allows the velocities v with normal . v >= offset, m/s. */
 typedef enum JoxConstraintKind {
     JOX_CONSTRAINT_WALL,
@@ -49,12 +49,13 @@ enum { JOX_MOST_CONSTRAINTS = 57 };
    move. Returns how many. */
 uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                              const JoxNeighbours *neighbours, const JoxObjects *objects,
-                             double plan, uint32_t agent, JoxConstraint out[JOX_MOST_CONSTRAINTS]);
-/* move: velocity += (next - velocity) dt / plan, position += velocity dt, weak projection of
-   overlaps, never through a wall; prev_x, prev_y keep the old position; updates still, still_x,
+                             double planning_time, uint32_t agent,
+                             JoxConstraint out[JOX_MOST_CONSTRAINTS]);
+/* move: velocity += (next - velocity) dt / planning_time, position += velocity dt, weak projection
+   of overlaps, never through a wall; prev_x, prev_y keep the old position; updates still, still_x,
    still_y. */
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, double dt,
-                  double plan, JoxPool *pool);
+                  double planning_time, JoxPool *pool);
 
 typedef struct JoxPlacement {
     uint32_t moved; /* agents put elsewhere */

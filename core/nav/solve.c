@@ -17,7 +17,7 @@ typedef struct Solve {
     JoxAgents *agents;
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
-    float plan; /* s */
+    float planning_time; /* s */
 } Solve;
 
 /* Where two centres coincide they part in opposite directions that depend on their ids alone. */
@@ -43,8 +43,8 @@ static uint32_t agent_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *out)
         JoxV2 away = {1.0f, 0.0f};
         if (p.x == 0.0f && p.y == 0.0f)
             away = parting(a->id[i], a->id[j]);
-        out[made++] =
-            jox_orca_half_plane(p, v, radius[i] + radius[j], tau, s->plan, velocity, share, away);
+        out[made++] = jox_orca_half_plane(p, v, radius[i] + radius[j], tau, s->planning_time,
+                                          velocity, share, away);
     }
     return made;
 }
@@ -78,11 +78,11 @@ static bool object_half_plane(const Solve *s, uint32_t i, const JoxObject *o, bo
     float d2 = jox_length2(p), sum = radius + o->disc;
     if (d2 > (reach + o->disc) * (reach + o->disc))
         return false;
-    float tau = approached ? s->plan : a->param[JOX_PARAM_horizon][i];
+    float tau = approached ? s->planning_time : a->param[JOX_PARAM_horizon][i];
     if (d2 > sum * sum || o->footprint_count == 0) {
         float disc = o->footprint_count == 0 ? o->round : o->disc;
-        *out =
-            jox_orca_half_plane(p, v, radius + disc, tau, s->plan, own, 1.0f, (JoxV2){1.0f, 0.0f});
+        *out = jox_orca_half_plane(p, v, radius + disc, tau, s->planning_time, own, 1.0f,
+                                   (JoxV2){1.0f, 0.0f});
         return true;
     }
     bool inside;
@@ -91,7 +91,7 @@ static bool object_half_plane(const Solve *s, uint32_t i, const JoxObject *o, bo
     JoxV2 normal = distance > 1e-6f ? jox_scale(out_way, (inside ? -1.0f : 1.0f) / distance)
                                     : jox_unit(jox_scale(p, -1.0f));
     float gap = (inside ? -distance : distance) - radius;
-    float time = gap < 0.0f ? s->plan : tau;
+    float time = gap < 0.0f ? s->planning_time : tau;
     *out = (JoxHalfPlane){normal, jox_dot(moving, normal) - gap / time};
     return jox_length2(normal) > 0.0f;
 }
@@ -135,10 +135,12 @@ static inline Counts make_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *
 
 uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                              const JoxNeighbours *neighbours, const JoxObjects *objects,
-                             double plan, uint32_t agent, JoxConstraint out[JOX_MOST_CONSTRAINTS]) {
+                             double planning_time, uint32_t agent,
+                             JoxConstraint out[JOX_MOST_CONSTRAINTS]) {
     static_assert((int)MOST == (int)JOX_MOST_CONSTRAINTS, "room for all");
     JOX_ASSERT(agent < agents->count);
-    const Solve solve = {(JoxNav *)nav, (JoxAgents *)agents, neighbours, objects, (float)plan};
+    const Solve solve = {(JoxNav *)nav, (JoxAgents *)agents, neighbours, objects,
+                         (float)planning_time};
     JoxHalfPlane half_planes[MOST];
     Counts made = make_half_planes(&solve, agent, half_planes);
     const uint32_t ends[] = {made.walls, made.walls + made.agents,
@@ -176,21 +178,22 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
 
 /* The farthest that any agent may have to look for walls, m: as far as it plans ahead, and as far
    as it can get in a step, thrown or shifted. */
-static float wall_reach(const JoxAgents *a, float plan) {
+static float wall_reach(const JoxAgents *a, float planning_time) {
     float reach = 0.0f;
     for (uint32_t i = 0; i < a->count; i++) {
         float radius = a->param[JOX_PARAM_radius][i];
         float planned = a->param[JOX_PARAM_wall_horizon][i] * a->param[JOX_PARAM_max_speed][i];
-        reach = jox_maxf(reach, radius + jox_maxf(planned, a->speed_limit[i] * plan + 0.5f));
+        reach =
+            jox_maxf(reach, radius + jox_maxf(planned, a->speed_limit[i] * planning_time + 0.5f));
     }
     return reach;
 }
 
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
-                       const JoxObjects *objects, double plan, JoxPool *pool) {
-    Solve solve = {nav, agents, neighbours, objects, (float)plan};
+                       const JoxObjects *objects, double planning_time, JoxPool *pool) {
+    Solve solve = {nav, agents, neighbours, objects, (float)planning_time};
     if (nav->grid.walls)
-        jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)plan));
+        jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)planning_time));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);
     uint32_t relaxed = 0;
     for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)

@@ -70,12 +70,13 @@ static void draw_places(JoxDrawing *d) {
     jox_canvas_open(c, "places", NULL, area);
     for (uint32_t i = 0; i < p->place_count; i++) {
         const JoxPlace *place = &p->places[i];
-        bool open = place->kind == JOX_PLACE_LINE || place->kind == JOX_PLACE_QUEUE;
-        if (place->count == 0 || place->kind == JOX_PLACE_SET)
+        const JoxPlaceOutline outline = jox_place_outline(place);
+        bool open = outline == JOX_OUTLINE_OPEN;
+        if (place->count == 0 || outline == JOX_OUTLINE_NONE)
             continue;
         if (open)
             jox_canvas_open(c, NULL, "line", line);
-        if (place->kind == JOX_PLACE_POINT)
+        if (outline == JOX_OUTLINE_CIRCLE)
             jox_canvas_disc(c, jox_draw_at(d, place->points[0]),
                             jox_maxf(place->radius * d->scale, 3 * u), NULL);
         else
@@ -243,7 +244,7 @@ static void name(JoxDrawing *d, JoxV2 at, const char *text) {
 static JoxV2 name_at(const JoxDrawing *d, const JoxPlace *place) {
     JoxV2 low, high;
     float line = 10 * d->unit / d->scale; /* m: to the middle of a line at an edge */
-    if (place->kind != JOX_PLACE_POLYGON)
+    if (jox_place_outline(place) != JOX_OUTLINE_RING)
         return place->centre;
     jox_bounds(place->points, place->count, &low, &high);
     JoxV2 at = {place->centre.x, high.y - line};
@@ -282,7 +283,7 @@ static void draw_names(JoxDrawing *d) {
     jox_canvas_open(d->canvas, NULL, "places", style);
     for (uint32_t i = 0; i < p->place_count; i++) {
         const JoxPlace *place = &p->places[i];
-        if (place->kind != JOX_PLACE_SET && place->count && place->name)
+        if (place->count && place->name)
             name(d, name_at(d, place), place->name);
     }
     jox_canvas_close(d->canvas);

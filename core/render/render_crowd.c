@@ -40,7 +40,7 @@ static void widen_by_places(Box *box, const JoxPlace *places, uint32_t count, bo
     for (uint32_t p = 0; p < count; p++)
         for (uint32_t i = 0; i < places[p].count; i++) {
             JoxV2 at = places[p].points[i];
-            float around = places[p].kind == JOX_PLACE_POINT ? places[p].radius : 0.0f;
+            float around = jox_place_radius(&places[p]);
             if (at.x < near.low.x || at.y < near.low.y || at.x > near.high.x || at.y > near.high.y)
                 continue;
             widen(box, jox_sub(at, jox_v2(around, around)));

@@ -90,8 +90,6 @@ static void complain(void *context, const char *text) {
 
 static JoxLuaLimits script_limits(const JoxSceneSpec *spec) {
     JoxLuaLimits limits = jox_lua_default_limits();
-    if (!spec->limits.given)
-        return limits;
     limits.hook_instructions = (uint64_t)spec->limits.instructions;
     limits.step_instructions = (uint64_t)spec->limits.step_instructions;
     limits.load_instructions = (uint64_t)spec->limits.load_instructions;
@@ -102,7 +100,7 @@ static JoxLuaLimits script_limits(const JoxSceneSpec *spec) {
     return limits;
 }
 
-/* Plan and world, with the first `count` mods. */
+/* Specification and world, with the first `count` mods. */
 static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
                   JoxDiagnostics *diagnostics) {
     if (def->input_log)
@@ -164,10 +162,10 @@ static void keep_def(JoScene *scene, const JoSceneDef *def) {
     own->text = NULL; /* what stands in memory is not edited */
     own->mods = NULL; /* found already */
     own->mod_count = 0;
-    scene->plan_file_count = scene->spec->file_count;
-    scene->plan_files = jox_alloc(scene->plan_file_count + 1, sizeof *scene->plan_files);
-    for (uint32_t f = 0; f < scene->plan_file_count; f++)
-        scene->plan_files[f] = jox_strdup(scene->spec->files[f].path);
+    scene->spec_file_count = scene->spec->file_count;
+    scene->spec_files = jox_alloc(scene->spec_file_count + 1, sizeof *scene->spec_files);
+    for (uint32_t f = 0; f < scene->spec_file_count; f++)
+        scene->spec_files[f] = jox_strdup(scene->spec->files[f].path);
 }
 
 static void free_def(JoScene *scene) {
@@ -176,9 +174,9 @@ static void free_def(JoScene *scene) {
     for (size_t i = 0; scene->def.overrides && i < scene->def.override_count; i++)
         jox_free((char *)scene->def.overrides[i]);
     jox_free((char **)scene->def.overrides);
-    for (uint32_t f = 0; f < scene->plan_file_count; f++)
-        jox_free(scene->plan_files[f]);
-    jox_free(scene->plan_files);
+    for (uint32_t f = 0; f < scene->spec_file_count; f++)
+        jox_free(scene->spec_files[f]);
+    jox_free(scene->spec_files);
 }
 
 static void to_nobody(void *context, const char *text) {

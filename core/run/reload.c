@@ -112,8 +112,8 @@ static JoxReload *begin(JoScene *scene, JoxWatch *watch) {
         for (uint32_t f = 0; f < count; f++)
             use_first(r, m, tried[f]);
     }
-    for (uint32_t f = 0; f < scene->plan_file_count; f++)
-        use_first(r, JOX_PART_PLAN, scene->plan_files[f]);
+    for (uint32_t f = 0; f < scene->spec_file_count; f++)
+        use_first(r, JOX_PART_SCENE, scene->spec_files[f]);
     scene->reload = r;
     return r;
 }

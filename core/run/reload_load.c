@@ -16,7 +16,7 @@ void jox_batch_free(JoxBatch *batch) {
     }
     jox_free(batch->changes);
     jox_scene_free(batch->spec);
-    jox_files_free(&batch->plan_files);
+    jox_files_free(&batch->spec_files);
     jox_diag_free(&batch->diagnostics);
     jox_text_free(&batch->said);
     jox_free(batch);
@@ -36,8 +36,8 @@ static void settle(JoxReload *r, const JoxBatch *batch, bool live) {
         for (uint32_t f = 0; f < change->files.count && (live || !change->added); f++)
             jox_reload_use(r, change->index, change->files.paths[f]);
     }
-    for (uint32_t f = 0; batch->plan_files.count > f; f++)
-        jox_reload_use(r, JOX_PART_PLAN, batch->plan_files.paths[f]);
+    for (uint32_t f = 0; batch->spec_files.count > f; f++)
+        jox_reload_use(r, JOX_PART_SCENE, batch->spec_files.paths[f]);
 }
 
 void jox_reload_free_retired(JoxReload *r) {
@@ -133,7 +133,7 @@ static void load_plan(JoxReload *r, JoxBatch *batch) {
         jox_run_load_spec(&scene->def, scene->mods, scene->mods->count, &batch->diagnostics);
     batch->failed |= !batch->spec;
     for (uint32_t f = 0; batch->spec && f < batch->spec->file_count; f++)
-        jox_files_add(&batch->plan_files, batch->spec->files[f].path);
+        jox_files_add(&batch->spec_files, batch->spec->files[f].path);
 }
 
 /* Works out what it takes to put the new version in the place of the old. */
@@ -171,7 +171,7 @@ JoxBatch *jox_batch_prepare(JoxReload *r) {
             add_change(batch, m, machines->set->items[m]->path);
     for (uint32_t c = 0; c < batch->count; c++) /* grows by what others become */
         load_change(r, batch, c);
-    if (parts[JOX_PART_PLAN])
+    if (parts[JOX_PART_SCENE])
         load_plan(r, batch);
     if (batch->diagnostics.errors)
         batch->failed = true;

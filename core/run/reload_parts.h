@@ -18,16 +18,17 @@ typedef struct JoxChange {
     uint32_t edits; /* of the machine, when they were compared */
 } JoxChange;
 
-/* What the loading thread hands over: machines, a new plan of the scene, or only what is wrong. */
+/* What the loading thread hands over: machines, a new specification of the scene, or only what is
+ * wrong. */
 typedef struct JoxBatch {
     JoxChange *changes;
     uint32_t count;
     size_t capacity;
     JoxSceneSpec *spec; /* of the scene's own files; NULL: they did not change */
-    JoxFiles plan_files;
+    JoxFiles spec_files;
     JoxDiagnostics diagnostics;
     JoxText said;
-    bool parts[JOX_PARTS]; /* machines and plan that it is about */
+    bool parts[JOX_PARTS]; /* machines and the scene that it is about */
     double written;        /* seconds since 1970 */
     bool failed;
 } JoxBatch;

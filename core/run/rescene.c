@@ -26,13 +26,6 @@ static bool same_text(const char *a, const char *b) {
 
 /* ---- places: geometry of those of the same names ---- */
 
-static bool same_place(const JoxPlace *a, const JoxPlace *b) {
-    return same_points(a->points, a->count, b->points, b->count) && a->radius == b->radius &&
-           a->spacing == b->spacing && a->start == b->start && a->member_count == b->member_count &&
-           (!a->member_count ||
-            !memcmp(a->members, b->members, a->member_count * sizeof *a->members));
-}
-
 static void take_places(Rescene *r) {
     JoWorld *world = r->scene->world;
     bool moved = false, names = r->old->place_count == r->new->place_count;
@@ -46,7 +39,7 @@ static void take_places(Rescene *r) {
     for (uint32_t p = 0; p < r->new->place_count; p++) {
         const JoxPlace *from = &r->new->places[p];
         JoxPlace *to = &world->model.places[p];
-        if (same_place(to, from)) /* the plan may lag behind: see below */
+        if (jox_place_same(to, from)) /* the old specification may lag behind: see below */
             continue;
         moved = true;
         jox_place_free(to);
@@ -272,7 +265,7 @@ void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
     if (r.later.length)
         jox_run_say(scene, "%s: %s: takes effect at the next start\n", scene->spec->path,
                     r.later.data);
-    if (groups) { /* the old plan goes where the new one came from */
+    if (groups) { /* the old specification goes where the new one came from */
         *spec = scene->spec;
         scene->spec = r.new;
         r.new->duration = r.old->duration;

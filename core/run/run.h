@@ -42,8 +42,8 @@ struct JoScene {
     void *diagnosed_context;
     double swap_seconds; /* the longest that a swap has held a step up */
     JoSceneDef def;      /* as it was loaded, with copies of its texts */
-    char **plan_files;   /* the scene's file and what it includes */
-    uint32_t plan_file_count;
+    char **spec_files;   /* the scene's file and what it includes */
+    uint32_t spec_file_count;
     JoxListeners listeners;    /* who collects what happens */
     struct JoxRunFrame *frame; /* the present frame; NULL until it is asked for */
     bool finished;
@@ -156,7 +156,7 @@ void jox_run_unwatch(JoScene *scene);
 /* rescene.c: gives the living of a group a value that their scene sets, in one machine or (-1) in
    whichever they are. */
 void jox_run_give(JoScene *scene, int32_t machine, uint32_t group, const JoxGroupValue *set);
-/* Takes over from a new plan of the scene what can change while it runs, and says what
+/* Takes over from a new specification of the scene what can change while it runs, and says what
    cannot. *spec is then the old one. */
 void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written);
 /* step.c: the area that pictures and recordings show. */

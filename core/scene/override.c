@@ -49,7 +49,8 @@ void jox_load_override(const JoxLoad *l, JoxYaml *root, const char *set) {
         }
         slot = find_slot(map, key);
         JoxYaml *next = slot ? *slot : NULL;
-        if (!next && map == root && jox_key_is_table("scene", key)) {
+        const JoxKey *known = map == root ? jox_key_find(l->reader.format, "scene", key) : NULL;
+        if (!next && known && known->type == JOX_TYPE_TABLE) {
             /* A table left at its defaults. */
             next = jox_arena_take(l->reader.arena, 1, sizeof *next);
             *next = (JoxYaml){.kind = JOX_YAML_MAP, .position = at};

@@ -54,6 +54,26 @@ typedef struct JoxSceneFile {
     size_t length;
 } JoxSceneFile;
 
+typedef struct JoxSceneCamera {
+    double position[3], target[3]; /* m */
+    bool given;
+} JoxSceneCamera;
+
+typedef struct JoxSceneView {
+    uint32_t tools;         /* bit per JoxTool */
+    uint32_t colour, field; /* which of the keys' choices, in their order */
+} JoxSceneView;
+
+/* What a script may use. */
+typedef struct JoxSceneLimits {
+    double instructions, step_instructions; /* of a call, of all calls in a step */
+    double load_instructions;
+    double memory, block; /* MB: of a behaviour, of one allocation */
+    double source;        /* KB of a file */
+    double print;         /* lines in a second */
+} JoxSceneLimits;
+
+/* A scene's file as it was read: everything that a world is built from, as plain data. */
 typedef struct JoxSceneSpec {
     char *path, *title;
     char *input; /* path of the input log, or NULL */
@@ -82,30 +102,17 @@ typedef struct JoxSceneSpec {
     int32_t player_group;  /* -1: none */
     uint32_t player_agent; /* index within that group */
     bool forces, literal;
-    struct {
-        double position[3], target[3];
-        bool given;
-    } camera;
-    struct {
-        uint32_t tools; /* bit per JoxTool */
-        int colour;     /* which of the key's choices, in their order */
-        int field;
-    } view;
-    struct {
-        bool given;                             /* else the host's defaults hold */
-        double instructions, step_instructions; /* of a call, of all calls in a step */
-        double load_instructions;
-        double memory, block; /* MB: of a behaviour, of one allocation */
-        double source;        /* KB of a file */
-        double print;         /* lines in a second */
-    } limits;
+    JoxSceneCamera camera;
+    JoxSceneView view;
+    JoxSceneLimits limits;
     bool heatmap; /* the area was given */
     JoxV2 heatmap_low, heatmap_high;
     double heatmap_from; /* s; averages begin there */
     JoxSceneFile *files; /* scene and included files */
     uint32_t file_count;
-    JoxPatchChanges changes; /* that mods made */
-    void *memory;            /* owns every text and array above but `walls` and `changes` */
+    const struct JoxYaml *tree; /* as it was read, with includes and mods merged */
+    JoxPatchChanges changes;    /* that mods made */
+    void *memory;               /* owns every text and array above but `walls` and `changes` */
 } JoxSceneSpec;
 
 /* `sets` are "PATH=VALUE", as "groups.pilgrims.count=5000". */

@@ -7,17 +7,40 @@
 
 #include "base/vec.h"
 
+/* The kinds, a row each: enumerator; key in a scene, and jox_probe_KEY of record/probes; how its
+   value is written (a LINE, two LINES, a RING, a POINT, FLAG: true, SECONDS, two STATES, or a TABLE
+   whose keys stand under this name in scene/keys.c); the keys that it takes besides those of all
+   probes; a line of an example; what it measures. */
+/* clang-format off */
+#define JOX_PROBES(X)                                                                               \
+    X(FLOW, flow, LINE, "", "door:    {flow: [[4, -2], [4, 2]], from: 2, until: 60}",               \
+      "a line of two points: passages from its right to its left, N(t), lapses between them")       \
+    X(MEASURE, measure, RING, "every|cutoff",                                                       \
+      "front:   {measure: [[0, 0], [2, 0], [2, 2], [0, 2]], every: 0.5, cutoff: 1.5}",              \
+      "a polygon: people, classical and Voronoi density, mean speed and specific flow in it")       \
+    X(TRANSIT, transit, LINES, "",                                                                  \
+      "passage: {transit: [[[0, -2], [0, 2]], [[3, -2], [3, 2]]], group: runner}",                  \
+      "two lines: the time that people take from the first to the second")                          \
+    X(DISPLACEMENT, displacement, FLAG, "onset|rest|along",                                         \
+      "block:   {displacement: true, group: standing, onset: 5 cm, rest: 0.2, along: [1, 0]}",      \
+      "true: how far each person is from where first seen, and how fast a push travels")            \
+    X(MAP, map, TABLE, "every", "fields:  {map: {}, every: 2}",                                     \
+      "fields: density, speed, crowd pressure, compression")                                        \
+    X(WINDING, winding, POINT, "", "laps:    {winding: [0, 0]}",                                    \
+      "turns of each person about this point, anti-clockwise")                                      \
+    X(FAILURES, failures, SECONDS, "", "solved:  {failures: 1}",                                    \
+      "share of agent-steps whose 2-D program failed, in bins of this length")                      \
+    X(LANES, lanes, TABLE, "every", "order:   {lanes: {area: [[-2, -2], [4, 2]]}}",                 \
+      "order parameter of lanes between opposite ways")                                             \
+    X(VISIT, visit, STATES, "", "arrival: {visit: [Run, Arrived]}",                                 \
+      "two states: the time that people take from entering the first to entering the second, and whether they keep their order")
+/* clang-format on */
+
 typedef enum JoxProbeKind {
-    JOX_PROBE_FLOW,         /* crossings of a line: points[0..1], + from its right to its left */
-    JOX_PROBE_MEASURE,      /* people, density, speed and flow within a polygon */
-    JOX_PROBE_TRANSIT,      /* time from the line points[0..1] to the line points[2..3] */
-    JOX_PROBE_DISPLACEMENT, /* from where first seen; along points[0], if given */
-    JOX_PROBE_MAP,          /* fields on a grid between low and high */
-    JOX_PROBE_WINDING,      /* turns of each person about points[0] */
-    JOX_PROBE_FAILURES,     /* share of agent-steps whose 2-D program failed */
-    JOX_PROBE_LANES,        /* order parameter of lanes between low and high */
-    JOX_PROBE_VISIT,        /* time from entering states[0] to entering states[1] */
-    JOX_PROBE_KINDS
+#define X(kind, name, form, options, example, meaning) JOX_PROBE_##kind,
+    JOX_PROBES(X)
+#undef X
+        JOX_PROBE_KINDS
 } JoxProbeKind;
 
 typedef struct JoxProbeDef {
@@ -26,7 +49,8 @@ typedef struct JoxProbeDef {
     const uint16_t *groups; /* indices of the scene's groups that are measured */
     uint32_t group_count;   /* 0: everyone */
     double from, until;     /* s; INFINITY unless given */
-    const JoxV2 *points;    /* m */
+    const JoxV2 *points;    /* m: corners of a line, two lines or a polygon; winding: the point;
+                               displacement: the direction, if one is given */
     uint32_t count;
     const JoxV2
         *walkable; /* measure: cells end at this polygon's edge; NULL: at the cutoff alone */

@@ -34,7 +34,7 @@ void jox_stage_push(const JoxPushStage *s) {
                          .objects = s->objects,
                          .pool = s->pool,
                          .dt = s->part->dt,
-                         .plan = s->part->plan,
+                         .planning_time = s->part->planning_time,
                          .push_on = s->machines->push_on,
                          .push_nearest = s->machines->push_nearest,
                          .push_toward_x = s->machines->push_toward_x,
@@ -53,14 +53,15 @@ void jox_stage_push(const JoxPushStage *s) {
 }
 
 void jox_stage_solve(const JoxSolveStage *s) {
-    s->statistics->walls_relaxed +=
-        jox_nav_solve(s->nav, s->agents, s->neighbours, s->objects, s->part->plan, s->pool);
-    jox_inspect_solved(s->inspection, s->agents, s->nav, s->neighbours, s->objects, s->part->plan);
+    s->statistics->walls_relaxed += jox_nav_solve(s->nav, s->agents, s->neighbours, s->objects,
+                                                  s->part->planning_time, s->pool);
+    jox_inspect_solved(s->inspection, s->agents, s->nav, s->neighbours, s->objects,
+                       s->part->planning_time);
 }
 
 void jox_stage_move(const JoxMoveStage *s) {
     JoxAgents *a = s->agents;
-    jox_nav_move(s->nav, a, s->neighbours, s->part->dt, s->part->plan, s->pool);
+    jox_nav_move(s->nav, a, s->neighbours, s->part->dt, s->part->planning_time, s->pool);
     for (uint32_t i = 0; !s->part->only && i < a->count; i++) {
         JoxV2 way = {a->x[i] - a->prev_x[i], a->y[i] - a->prev_y[i]};
         s->walked[i] = s->part->first ? way : jox_add(s->walked[i], way);

@@ -16,9 +16,9 @@
 
 /* A step longer than people plan ahead is done in equal parts; think and observe run once. */
 typedef struct JoxStepPart {
-    bool first, last, only; /* only: the step is not divided */
-    double dt, plan;        /* s: of the part; how far ahead velocities are planned */
-    double end;             /* s: simulated time at its end */
+    bool first, last, only;   /* only: the step is not divided */
+    double dt, planning_time; /* s: of the part; how far ahead velocities are planned */
+    double end;               /* s: simulated time at its end */
 } JoxStepPart;
 
 typedef struct JoxPerceiveStage {

@@ -1,17 +1,18 @@
 /* The step: nine stages, and what each may read and write (stages.h).
 
-   People plan the velocity that they will have PLAN seconds later: the linear program, the velocity
-   that a force gives (equation 11) and the parting of overlaps look that far ahead, and within a
-   shorter step velocities go the corresponding part of the way. A longer step is done in parts. So
-   the size of the step is not a property of people, and what they do hardly depends on it. As
-   printed, everything happens within one step of whatever length: with `literal` it does here. */
+   People plan the velocity that they will have PLANNING_TIME seconds later: the linear program, the
+   velocity that a force gives (equation 11) and the parting of overlaps look that far ahead, and
+   within a shorter step velocities go the corresponding part of the way. A longer step is done in
+   parts. So the size of the step is not a property of people, and what they do hardly depends on
+   it. As printed, everything happens within one step of whatever length: with `literal` it does
+   here. */
 #include <math.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "world/world.h"
 
-static const double PLAN = 0.05; /* s */
+static const double PLANNING_TIME = 0.05; /* s */
 
 static void perceive(JoWorld *w, const JoxStepPart *part) {
     jox_stage_perceive(&(JoxPerceiveStage){.part = part,
@@ -129,7 +130,8 @@ static void observe(JoWorld *w, const JoxStepPart *part) {
 /* Into how many parts the step is cut. */
 static uint32_t divide(JoWorld *w) {
     double dt = w->model.def.dt;
-    uint32_t parts = w->model.def.literal || dt <= PLAN ? 1 : (uint32_t)ceil(dt / PLAN - 1e-6);
+    uint32_t parts =
+        w->model.def.literal || dt <= PLANNING_TIME ? 1 : (uint32_t)ceil(dt / PLANNING_TIME - 1e-6);
     if (parts > 1)
         JOX_RESERVE(w->scratch.walked, w->scratch.walked_capacity, w->state.agents.count);
     return parts;
@@ -142,7 +144,7 @@ static JoxStepPart part_of(const JoWorld *w, uint32_t part, uint32_t parts) {
                          .last = part + 1 == parts,
                          .only = parts == 1,
                          .dt = dt,
-                         .plan = def->literal ? def->dt : PLAN,
+                         .planning_time = def->literal ? def->dt : PLANNING_TIME,
                          .end = (double)w->state.tick * def->dt + (part + 1) * dt};
 }
 

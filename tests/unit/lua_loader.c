@@ -114,7 +114,7 @@ static void expect_code(JoxLua *lua, const char *when, const JoxOp *ops, uint32_
     JoxMachine *m = load_in(lua, NULL, text);
     if (!m)
         fail_msg("%s: %s", when, diagnostics.items[0].message);
-    const JoxProgram *p = &m->programs[m->states[0].transitions[0].when];
+    const JoxExpression *p = &m->expressions[m->states[0].transitions[0].when];
     assert_int_equal(p->count, count);
     for (uint32_t i = 0; i < count; i++)
         if (p->code[i].op != ops[i])

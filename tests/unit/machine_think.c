@@ -37,13 +37,13 @@ static JoxMachine *new_machine(uint32_t states) {
     return m;
 }
 
-static int32_t add_program(JoxMachine *m, const JoxInstruction *code, uint32_t count) {
-    m->programs = jox_realloc(m->programs, m->program_count + 1, sizeof *m->programs);
-    JoxProgram *p = &m->programs[m->program_count];
+static int32_t add_expression(JoxMachine *m, const JoxInstruction *code, uint32_t count) {
+    m->expressions = jox_realloc(m->expressions, m->expression_count + 1, sizeof *m->expressions);
+    JoxExpression *p = &m->expressions[m->expression_count];
     p->code = jox_alloc(count, sizeof *code);
     memcpy(p->code, code, count * sizeof *code);
     p->count = count;
-    return (int32_t)m->program_count++;
+    return (int32_t)m->expression_count++;
 }
 
 static JoxTransition *add_transition(JoxMachine *m, uint16_t from, uint16_t to, int32_t when) {
@@ -102,7 +102,7 @@ static int32_t after(JoxMachine *m, double seconds) {
     const JoxInstruction code[] = {
         {.op = JOX_OP_CONST, .number = seconds, .target = -1, .place = -1},
         {.op = JOX_OP_AFTER, .target = -1, .place = -1}};
-    return add_program(m, code, 2);
+    return add_expression(m, code, 2);
 }
 
 static void operators_compute(void **state) {
@@ -129,7 +129,7 @@ static void operators_compute(void **state) {
             {.op = JOX_OP_CONST, .to = 1, .number = 10, .target = -1, .place = -1},
             {.op = JOX_OP_ADD, .a = 0, .b = 1, .target = -1, .place = -1}};
         m->states[0].param[JOX_PARAM_push] =
-            (JoxValue){JOX_VALUE_PROGRAM, 0, add_program(m, code, 6), 0};
+            (JoxValue){JOX_VALUE_EXPRESSION, 0, add_expression(m, code, 6), 0};
         Fixture f;
         begin(&f, m, 1);
         think(&f);
@@ -177,7 +177,7 @@ static void a_drawn_duration_ends_the_state(void **state) {
     m->states[0].has_lasts = true;
     m->states[0].lasts = (JoxDist){.kind = JOX_DIST_UNIFORM, .a = 1.0, .b = 2.0};
     const JoxInstruction lasted[] = {{.op = JOX_OP_LASTED, .target = -1, .place = -1}};
-    add_transition(m, 0, 1, add_program(m, lasted, 1));
+    add_transition(m, 0, 1, add_expression(m, lasted, 1));
     Fixture f;
     begin(&f, m, 200);
     for (int step = 0; step < 30; step++) {
@@ -292,7 +292,7 @@ static void a_queue_keeps_its_order(void **state) {
     const JoxInstruction near[] = {
         {.op = JOX_OP_NOW, .arg = JOX_NOW_time, .target = -1, .place = -1},
         {.op = JOX_OP_NEAR, .target = target, .place = -1}};
-    add_transition(m, 0, 1, add_program(m, near, 2));
+    add_transition(m, 0, 1, add_expression(m, near, 2));
     Fixture f;
     begin(&f, m, 3);
     f.machines.places = &place;

@@ -11,84 +11,7 @@
 
 #include <cmocka.h>
 
-#include "base/mem.h"
-#include "picture/probe_files.h"
-#include "record/probes/probe.h"
-
-enum { MOST = 1000 };
-
-/* A crowd that the tests move. */
-static struct {
-    uint32_t count, key[MOST];
-    float x[MOST], y[MOST], vx[MOST], vy[MOST], compression[MOST];
-    uint8_t failed[MOST];
-    uint16_t group[MOST];
-    uint32_t state[MOST];
-    JoxV2 period;
-    JoxWalls walls;
-} crowd;
-
-static void nobody(uint32_t count) {
-    memset(&crowd, 0, sizeof crowd);
-    crowd.count = count;
-    for (uint32_t i = 0; i < count; i++)
-        crowd.key[i] = i;
-}
-
-static const char *const STATES[] = {"Walk", "Wait", "Served"};
-
-static void show(JoxProbe *probe, double t) {
-    const JoxFrame frame = {.time = t,
-                            .count = crowd.count,
-                            .period = crowd.period,
-                            .keys = crowd.count,
-                            .key = crowd.key,
-                            .x = crowd.x,
-                            .y = crowd.y,
-                            .vx = crowd.vx,
-                            .vy = crowd.vy,
-                            .compression = crowd.compression,
-                            .failed = crowd.failed,
-                            .group = crowd.group,
-                            .state = crowd.state,
-                            .states = STATES,
-                            .state_count = 3,
-                            .walls = &crowd.walls};
-    jox_probe_frame(probe, &frame);
-}
-
-static double figure(const JoxProbe *probe, const char *name) {
-    JoxFigures figures = jox_probe_figures(probe);
-    for (uint32_t f = 0; f < figures.count; f++)
-        if (!strcmp(figures.items[f].name, name))
-            return figures.items[f].value;
-    fail_msg("there is no figure %s", name);
-    return NAN;
-}
-
-#define assert_near(value, wanted, within)                                                         \
-    do {                                                                                           \
-        double was = (value), right = (wanted);                                                    \
-        if (!(fabs(was - right) <= (within)))                                                      \
-            fail_msg("%s is %.9g, not %.9g", #value, was, right);                                  \
-    } while (0)
-
-static JoxProbeDef def_of(JoxProbeKind kind, const JoxV2 *points, uint32_t count) {
-    return (JoxProbeDef){.name = "probe",
-                         .kind = kind,
-                         .until = INFINITY,
-                         .points = points,
-                         .count = count,
-                         .states = {"Wait", "Served"},
-                         .every = 1,
-                         .cutoff = 1,
-                         .onset = 0.05,
-                         .low = {-5, -5},
-                         .high = {5, 5},
-                         .cell = 0.1,
-                         .kernel = 0.5,
-                         .rows = 0.4};
-}
+#include "record_crowd.h"
 
 /* ---- flow ---- */
 
@@ -415,112 +338,6 @@ static void lanes_have_an_order(void **state) {
     }
 }
 
-/* ---- files ---- */
-
-static bool holds(const char *path, const char *first) {
-    char start[256] = "";
-    FILE *file = fopen(path, "rb");
-    size_t got = file ? fread(start, 1, sizeof start - 1, file) : 0;
-    if (file)
-        fclose(file);
-    return got > 0 && strncmp(start, first, strlen(first)) == 0;
-}
-
-/* Every kind writes its files, whether anyone was there or not. */
-static void every_kind_writes(void **state) {
-    (void)state;
-    static const JoxV2 POINTS[] = {{0, 1}, {0, -1}, {2, -1}, {2, 1}};
-    static const char *const ENDS[] = {"csv", "png", "svg", "plt"};
-    char folder[] = "/tmp/jostle-probes-XXXXXX", path[128];
-    assert_non_null(mkdtemp(folder));
-    JoxWalls walls = {0};
-    jox_walls_add_polyline(&walls, POINTS, 4, false, INFINITY);
-    for (int kind = 0; kind < JOX_PROBE_KINDS; kind++)
-        for (uint32_t people = 0; people < 3; people++) {
-            JoxProbeDef def =
-                def_of((JoxProbeKind)kind, POINTS, kind == JOX_PROBE_DISPLACEMENT ? 0 : 4);
-            JoxProbe *p = jox_probe_create(&def);
-            JoxText error = {0};
-            nobody(people);
-            for (int step = 0; step < 30; step++) {
-                for (uint32_t i = 0; i < people; i++) {
-                    crowd.x[i] = 0.1f * (float)step - 0.95f * (float)(i + 1);
-                    crowd.vx[i] = 1;
-                }
-                show(p, 0.1 * step);
-            }
-            assert_true(
-                jox_probe_write(p, folder, &walls, "it's a \"test\" `of` $(titles)", &error));
-            assert_null(error.data);
-            for (int e = 0; e < 4; e++) {
-                static const char *const STARTS[] = {"", "\x89PNG", "<?xml", "reset"};
-                snprintf(path, sizeof path, "%s/probe.%s", folder, ENDS[e]);
-                assert_true(holds(path, STARTS[e]));
-                assert_int_equal(unlink(path), 0);
-            }
-            jox_probe_free(p);
-        }
-    JoxProbeDef def = def_of(JOX_PROBE_FLOW, POINTS, 2);
-    JoxProbe *p = jox_probe_create(&def);
-    JoxText error = {0};
-    assert_false(jox_probe_write(p, "/proc/none", &walls, "", &error));
-    assert_non_null(strstr(error.data, "cannot write"));
-    jox_text_free(&error);
-    jox_probe_free(p);
-    jox_walls_free(&walls);
-    snprintf(path, sizeof path, "%s/walls.dat", folder);
-    unlink(path);
-    assert_int_equal(rmdir(folder), 0);
-}
-
-static void a_summary_is_json(void **state) {
-    (void)state;
-    JoxProbeDef def = def_of(JOX_PROBE_TRANSIT, (const JoxV2[]){{0, 0}, {0, 1}, {1, 0}, {1, 1}}, 4);
-    JoxProbe *p = jox_probe_create(&def);
-    JoxText out = {0};
-    JoxJson json = jox_json_begin(&out, 0);
-    jox_probe_json(p, &json, NULL);
-    assert_string_equal(out.data,
-                        "{\"passages\": 0, \"under_way\": 0, \"mean\": null, \"median\": null, "
-                        "\"p95\": null, \"least\": null, \"greatest\": null}");
-    jox_text_free(&out);
-    jox_probe_free(p);
-}
-
-/* A number within [0, 1) of a counter. */
-static double drawn(uint32_t n) {
-    n = (n ^ 61u) ^ (n >> 16);
-    n *= 9u;
-    n ^= n >> 4;
-    n *= 0x27d4eb2du;
-    return (double)((n ^ (n >> 15)) >> 8) / 16777216.0;
-}
-
-static void steady_frames_allocate_nothing(void **state) {
-    (void)state;
-    static const JoxV2 POINTS[] = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
-    for (int kind = 0; kind < JOX_PROBE_KINDS; kind++) {
-        JoxProbeDef def =
-            def_of((JoxProbeKind)kind, POINTS, kind == JOX_PROBE_DISPLACEMENT ? 0 : 4);
-        def.every = 100; /* else lists of intervals grow, now and then */
-        def.until = 99;
-        JoxProbe *p = jox_probe_create(&def);
-        nobody(200);
-        uint64_t before = 0;
-        for (int step = 0; step < 100; step++) {
-            for (uint32_t i = 0; i < 200; i++) {
-                crowd.x[i] = (float)(4 * drawn(i) - 2 + 0.001 * step);
-                crowd.y[i] = (float)(3 * drawn(i + 5000) - 5);
-            }
-            show(p, 0.1 * step);
-            if (step == 50)
-                before = jox_alloc_count();
-        }
-        assert_true(jox_alloc_count() == before);
-        jox_probe_free(p);
-    }
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ten_walkers_pass_a_second_apart),
@@ -537,9 +354,6 @@ int main(void) {
         cmocka_unit_test(turns_are_counted),
         cmocka_unit_test(failures_are_shares),
         cmocka_unit_test(lanes_have_an_order),
-        cmocka_unit_test(every_kind_writes),
-        cmocka_unit_test(a_summary_is_json),
-        cmocka_unit_test(steady_frames_allocate_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,7 +24,7 @@ static const char *next(JoxChanges *c) {
     if (jox_changes_next(c, parts, &written))
         for (uint32_t p = 0; p < JOX_PARTS; p++)
             if (parts[p])
-                text[n++] = p == JOX_PART_PLAN ? 'p' : (char)('0' + p);
+                text[n++] = p == JOX_PART_SCENE ? 'p' : (char)('0' + p);
     text[n] = 0;
     return text;
 }
@@ -32,7 +32,7 @@ static const char *next(JoxChanges *c) {
 static void live(JoxChanges *c, const char *which) {
     bool parts[JOX_PARTS] = {false};
     for (; *which; which++)
-        parts[*which == 'p' ? JOX_PART_PLAN : *which - '0'] = true;
+        parts[*which == 'p' ? JOX_PART_SCENE : *which - '0'] = true;
     jox_changes_live(c, parts);
 }
 
@@ -43,7 +43,7 @@ static JoxChanges four(void) {
     JoxChanges c = {0};
     for (size_t i = 0; i < sizeof USES / sizeof *USES; i++)
         jox_changes_uses(&c, (uint32_t)(USES[i][0][0] - '0'), USES[i][1]);
-    jox_changes_uses(&c, JOX_PART_PLAN, "scene");
+    jox_changes_uses(&c, JOX_PART_SCENE, "scene");
     return c;
 }
 

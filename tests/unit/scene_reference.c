@@ -12,8 +12,8 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
+#include "scene/format/schema.h"
 #include "scene/scene.h"
-#include "scene/schema.h"
 
 static void show(const JoxDiagnostics *d, const char *what) {
     JoxText text = {0};
@@ -23,9 +23,9 @@ static void show(const JoxDiagnostics *d, const char *what) {
 }
 
 static bool is_owner(const char *name, size_t length) {
-    for (size_t i = 0; i < jox_scene_owner_count; i++)
-        if (strlen(jox_scene_owners[i].name) == length &&
-            !strncmp(jox_scene_owners[i].name, name, length))
+    for (size_t i = 0; i < jox_scene_format.owner_count; i++)
+        if (strlen(jox_scene_format.owners[i].name) == length &&
+            !strncmp(jox_scene_format.owners[i].name, name, length))
             return true;
     return false;
 }
@@ -45,9 +45,9 @@ static void walk(const JoxReader *reader, const JoxYaml *node, const char *of, s
         snprintf(owner, sizeof owner, "%.*s", (int)length, of);
         assert_true(jox_keys_check(reader, node, owner));
         for (uint32_t i = 0; i < node->count; i++) {
-            const JoxKey *key = jox_key_find(owner, node->keys[i]);
+            const JoxKey *key = jox_key_find(&jox_scene_format, owner, node->keys[i]);
             assert_non_null(key);
-            seen[key - jox_scene_keys] = true;
+            seen[key - jox_scene_format.keys] = true;
             if (key->of)
                 walk(reader, node->items[i], key->of, strlen(key->of), seen);
         }
@@ -61,9 +61,9 @@ static bool of_mods(const char *owner) {
 static void examples_show_every_key(void **state) {
     (void)state;
     int missing = 0;
-    for (size_t o = 0; o < jox_scene_owner_count; o++) {
-        const char *owner = jox_scene_owners[o].name;
-        bool *seen = calloc(jox_scene_key_count, sizeof *seen);
+    for (size_t o = 0; o < jox_scene_format.owner_count; o++) {
+        const char *owner = jox_scene_format.owners[o].name;
+        bool *seen = calloc(jox_scene_format.key_count, sizeof *seen);
         for (size_t e = 0; e < jox_scene_example_count; e++) {
             if (strcmp(jox_scene_examples[e].owner, owner) != 0)
                 continue;
@@ -81,14 +81,15 @@ static void examples_show_every_key(void **state) {
                 if (!strcmp(root->keys[k], "without"))
                     root->keys[k] = "include";
             const char *of = of_mods(owner) ? "mod" : "scene";
-            walk(&(JoxReader){arena, &d}, root, of, strlen(of), seen);
+            walk(&(JoxReader){.arena = arena, .diagnostics = &d, .format = &jox_scene_format}, root,
+                 of, strlen(of), seen);
             if (d.count)
                 show(&d, yaml);
             assert_int_equal(d.count, 0);
             jox_arena_free(arena);
         }
-        for (size_t k = 0; k < jox_scene_key_count; k++) {
-            const JoxKey *key = &jox_scene_keys[k];
+        for (size_t k = 0; k < jox_scene_format.key_count; k++) {
+            const JoxKey *key = &jox_scene_format.keys[k];
             bool of_mod = !strcmp(key->name, "mods") || !strcmp(key->name, "patch") ||
                           !strcmp(key->name, "replace");
             if (strcmp(key->owner, owner) != 0 || seen[k] || (!strcmp(owner, "scene") && of_mod))
@@ -121,23 +122,23 @@ static void examples_load_without_a_word(void **state) {
 
 static void the_table_is_whole(void **state) {
     (void)state;
-    for (size_t k = 0; k < jox_scene_key_count; k++) {
-        const JoxKey *key = &jox_scene_keys[k];
+    for (size_t k = 0; k < jox_scene_format.key_count; k++) {
+        const JoxKey *key = &jox_scene_format.keys[k];
         bool holds = key->type == JOX_TYPE_TABLE || key->type == JOX_TYPE_LIST ||
                      key->type == JOX_TYPE_VALUES || key->type == JOX_TYPE_POINTS;
         if (!is_owner(key->owner, strlen(key->owner)) || holds != (key->of != NULL) ||
             !key->meaning || !*key->meaning || !key->standard || !key->unit)
             fail_msg("the row %s.%s", key->owner, key->name);
         for (size_t other = 0; other < k; other++)
-            if (!strcmp(jox_scene_keys[other].owner, key->owner))
-                assert_string_not_equal(jox_scene_keys[other].name, key->name);
+            if (!strcmp(jox_scene_format.keys[other].owner, key->owner))
+                assert_string_not_equal(jox_scene_format.keys[other].name, key->name);
         bool known = !*key->unit;
         for (size_t u = 0; u < jox_scene_unit_count; u++)
             known |= !strcmp(jox_scene_units[u].kind, key->unit);
         assert_true(known);
     }
     char name[64]; /* choices that are enumerations stand in their order */
-    const char *fills = jox_key_find("group", "fill")->choices;
+    const char *fills = jox_key_find(&jox_scene_format, "group", "fill")->choices;
     assert_true(jox_choice_name(fills, JOX_FILL_HEX, name, sizeof name) && !strcmp(name, "hex"));
     assert_true(jox_choice_name(fills, JOX_FILL_GRID, name, sizeof name) && !strcmp(name, "grid"));
     assert_true(jox_choice_name(fills, JOX_FILL_RANDOM, name, sizeof name) &&
@@ -147,7 +148,47 @@ static void the_table_is_whole(void **state) {
     assert_false(jox_choice_name(fills, JOX_FILL_AT, name, sizeof name));
     for (size_t a = 0; a < jox_scene_alternative_count; a++)
         for (int i = 0; jox_choice_name(jox_scene_alternatives[a].keys, i, name, sizeof name); i++)
-            assert_non_null(jox_key_find(jox_scene_alternatives[a].owner, name));
+            assert_non_null(jox_key_find(&jox_scene_format, jox_scene_alternatives[a].owner, name));
+}
+
+/* Each row says where its value goes, and what says so fits the type: a key that is documented and
+   read by nobody is not possible. */
+static void every_key_has_a_destination(void **state) {
+    (void)state;
+    for (size_t k = 0; k < jox_scene_format.key_count; k++) {
+        const JoxKey *key = &jox_scene_format.keys[k];
+        const JoxOwner *owner = jox_owner_find(&jox_scene_format, key->owner, strlen(key->owner));
+        bool good =
+            key->store != JOX_STORE_UNSET && (key->store == JOX_STORE_READ) == !!key->read &&
+            (key->store == JOX_STORE_EARLIER) == !!key->by && (!key->kind || owner->kind != 0);
+        if (key->store == JOX_STORE_ITEMS)
+            good &= key->of && jox_owner_find(&jox_scene_format, key->of, strcspn(key->of, "*["));
+        if (key->store == JOX_STORE_STRUCT)
+            good &= key->type == JOX_TYPE_TABLE && key->of;
+        if (key->store == JOX_STORE_BOOL)
+            good &= key->type == JOX_TYPE_BOOL || key->choices;
+        if (key->store == JOX_STORE_TEXT)
+            good &= key->type == JOX_TYPE_TEXT && !key->choices;
+        if (key->store == JOX_STORE_DOUBLES3)
+            good &= key->type == JOX_TYPE_POINT3;
+        if (key->choices && *key->standard && key->type == JOX_TYPE_TEXT)
+            good &= jox_choice_find(key->choices, key->standard) >= 0;
+        /* The store of a pointer or an enumeration of another width would be a struct's. */
+        if (key->type == JOX_TYPE_NUMBER || key->type == JOX_TYPE_WHOLE)
+            good &= key->store != JOX_STORE_STRUCT && key->store != JOX_STORE_TEXT;
+        if (!good)
+            fail_msg("the row %s.%s", key->owner, key->name);
+    }
+}
+
+/* Kinds of places are keys of a place by the same name. */
+static void kinds_of_places_are_keys(void **state) {
+    (void)state;
+    for (int p = 0; p < JOX_PLACE_KINDS; p++) {
+        const JoxKey *key = jox_key_find(&jox_scene_format, "place", jox_place_kinds[p].name);
+        assert_non_null(key);
+        assert_int_equal(key->kind, 1 + p);
+    }
 }
 
 /* JSON is YAML: the schema as a tree. */
@@ -184,8 +225,8 @@ static void schemas_know_every_key(void **state) {
         const JoxYaml *root = schema_tree(arena, ROOTS[r]);
         const JoxYaml *definitions = jox_yaml_get(root, "definitions");
         check_references(root, definitions);
-        for (size_t k = 0; k < jox_scene_key_count; k++) {
-            const JoxKey *key = &jox_scene_keys[k];
+        for (size_t k = 0; k < jox_scene_format.key_count; k++) {
+            const JoxKey *key = &jox_scene_format.keys[k];
             if (of_mods(key->owner) != (r == 1))
                 continue;
             const JoxYaml *owner =
@@ -273,6 +314,8 @@ int main(int argc, char **argv) {
         return write_files();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_table_is_whole),
+        cmocka_unit_test(every_key_has_a_destination),
+        cmocka_unit_test(kinds_of_places_are_keys),
         cmocka_unit_test(examples_show_every_key),
         cmocka_unit_test(examples_load_without_a_word),
         cmocka_unit_test(schemas_know_every_key),

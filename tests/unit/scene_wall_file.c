@@ -13,7 +13,7 @@
 
 #include "base/mem.h"
 #include "scene/scene.h"
-#include "scene/wall_file.h"
+#include "scene/walls/wall_file.h"
 
 static bool read_plan(const char *text, JoxWalls *walls, JoxDiagnostics *diagnostics) {
     JoxWallFileOptions options = {.unit = 1.0, .height = 3.0f};

@@ -79,9 +79,9 @@ struct JoxNode {
     JoxDist dist;
     JoxSteerTerm term; /* one term; its target and weight are nodes here */
     JoxNode *weight;
-    JoxNode *next;   /* further terms of a sum */
-    int32_t program; /* that it was compiled to, plus 1; 0: not yet */
-    int hook;        /* registry reference of a function or table, or LUA_NOREF */
+    JoxNode *next;    /* further terms of a sum */
+    int32_t compiled; /* expression of the machine that it was compiled to, plus 1; 0: not yet */
+    int hook;         /* registry reference of a function or table, or LUA_NOREF */
     JoxPosition position;
     uint32_t source; /* number of the source that position is in */
 };

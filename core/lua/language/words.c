@@ -165,7 +165,7 @@ static bool too_many(lua_State *L, const JoxWord *word, int given, int most) {
     return true;
 }
 
-/* Puts the arguments of a condition or number where its program looks for them. */
+/* Puts the arguments of a condition or number where the compiled expression looks for them. */
 static void place_arguments(JoxNode *node, const JoxWord *word, JoxNode *const *arguments,
                             int count) {
     JOX_ASSERT(count >= 0 && count <= 3);

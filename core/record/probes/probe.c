@@ -20,11 +20,9 @@ struct JoxProbe {
 };
 
 static const JoxProbeCalls *const KINDS[JOX_PROBE_KINDS] = {
-    [JOX_PROBE_FLOW] = &jox_probe_flow,         [JOX_PROBE_MEASURE] = &jox_probe_measure,
-    [JOX_PROBE_TRANSIT] = &jox_probe_transit,   [JOX_PROBE_DISPLACEMENT] = &jox_probe_displacement,
-    [JOX_PROBE_MAP] = &jox_probe_map,           [JOX_PROBE_WINDING] = &jox_probe_winding,
-    [JOX_PROBE_FAILURES] = &jox_probe_failures, [JOX_PROBE_LANES] = &jox_probe_lanes,
-    [JOX_PROBE_VISIT] = &jox_probe_visit,
+#define X(kind, name, form, options, example, meaning) [JOX_PROBE_##kind] = &jox_probe_##name,
+    JOX_PROBES(X)
+#undef X
 };
 
 static JoxV2 *copy_points(const JoxV2 *points, uint32_t count) {

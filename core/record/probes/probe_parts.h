@@ -33,9 +33,9 @@ typedef struct JoxProbeCalls {
     .height = high
 #define JOX_OWNED(State, member) (offsetof(State, member) + 1) /* 0: none */
 
-extern const JoxProbeCalls jox_probe_flow, jox_probe_measure, jox_probe_transit,
-    jox_probe_displacement, jox_probe_map, jox_probe_winding, jox_probe_failures, jox_probe_lanes,
-    jox_probe_visit;
+#define X(kind, name, form, options, example, meaning) extern const JoxProbeCalls jox_probe_##name;
+JOX_PROBES(X)
+#undef X
 
 /* probe_flow.c: passages that stand so far, of a flow's state. */
 uint32_t jox_flow_passages(const void *state);

@@ -9,8 +9,8 @@
 
 #include "machine/run.h"
 
-/* Parts are machines by their index, and the scene's plan. */
-enum { JOX_PART_PLAN = JOX_MOST_MACHINES, JOX_PARTS };
+/* Parts are machines by their index, and the scene's specification. */
+enum { JOX_PART_SCENE = JOX_MOST_MACHINES, JOX_PARTS };
 
 typedef struct JoxFiles {
     char **paths;

@@ -2,7 +2,7 @@
 #ifndef JOX_SCENE_WALL_FILE_PARTS_H
 #define JOX_SCENE_WALL_FILE_PARTS_H
 
-#include "scene/wall_file.h"
+#include "scene/walls/wall_file.h"
 
 /* Points of a file; points of a ring that is tested against itself (every edge with every other).
  */

@@ -5,8 +5,8 @@
 
 #include "agents/parameters.h"
 #include "base/json_writer.h"
+#include "scene/format/schema.h"
 #include "scene/scene.h"
-#include "scene/schema.h"
 
 #define DECIMAL "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?"
 #define LIST_OF_DECIMALS(least, most) " *" DECIMAL "( *,? *" DECIMAL "){" #least "," #most "} *"
@@ -156,13 +156,18 @@ static void contents(const JoxKey *key, size_t length, JoxJson *json) {
     }
 }
 
-/* The key's fixed values. */
-static void choices(const JoxKey *key, JoxJson *json) {
+/* An array of the texts of "this|that". */
+static void listed(JoxJson *json, const char *key, const char *texts) {
     char name[64];
-    jox_json_array(json, "enum");
-    for (int i = 0; jox_choice_name(key->choices, i, name, sizeof name); i++)
+    jox_json_array(json, key);
+    for (int i = 0; jox_choice_name(texts, i, name, sizeof name); i++)
         jox_json_string(json, NULL, name);
     jox_json_end(json);
+}
+
+/* The key's fixed values. */
+static void choices(const JoxKey *key, JoxJson *json) {
+    listed(json, "enum", key->choices);
 }
 
 /* One of the choices, or one name; or a list of them. */
@@ -225,6 +230,8 @@ static void standard(const JoxKey *key, JoxJson *json) {
         jox_json_bool(json, "default", !strcmp(key->standard, "true"));
     else if (key->type != JOX_TYPE_TEXT && end != key->standard && !*end)
         jox_json_number(json, "default", number);
+    else if (key->type == JOX_TYPE_NAMES)
+        listed(json, "default", key->standard);
     else
         jox_json_string(json, "default", key->standard);
 }
@@ -241,6 +248,8 @@ static void property(const JoxKey *key, JoxJson *json) {
         jox_text_printf(&meaning, "; %.9g to %.9g", key->least, key->greatest);
     if (has_standard)
         jox_text_printf(&meaning, "%s default %s", ranged ? "," : ";", key->standard);
+    for (size_t i = 0; key->type == JOX_TYPE_NAMES && has_standard && i < meaning.length; i++)
+        meaning.data[i] = meaning.data[i] == '|' ? ' ' : meaning.data[i];
     jox_json_object(json, key->name);
     jox_json_string(json, "description", meaning.data);
     jox_text_free(&meaning);
@@ -293,8 +302,8 @@ static void alternative(const JoxAlternative *a, JoxJson *json) {
 /* What must be there: the members "required" and "allOf". */
 static void demands(const char *owner, JoxJson *json) {
     bool any = false;
-    for (size_t i = 0; i < jox_scene_key_count; i++) {
-        const JoxKey *key = &jox_scene_keys[i];
+    for (size_t i = 0; i < jox_scene_format.key_count; i++) {
+        const JoxKey *key = &jox_scene_format.keys[i];
         if (strcmp(key->owner, owner) != 0 || *key->standard != '!')
             continue;
         if (!any)
@@ -304,7 +313,14 @@ static void demands(const char *owner, JoxJson *json) {
     }
     if (any)
         jox_json_end(json);
-    any = false;
+    JoxText kinds = {0};
+    jox_owner_kinds(&jox_scene_format, owner, &kinds);
+    any = kinds.length > 0;
+    if (any) {
+        jox_json_array(json, "allOf");
+        alternative(&(JoxAlternative){owner, kinds.data, JOX_EXACTLY_ONE}, json);
+    }
+    jox_text_free(&kinds);
     for (size_t i = 0; i < jox_scene_alternative_count; i++) {
         if (strcmp(jox_scene_alternatives[i].owner, owner) != 0)
             continue;
@@ -331,9 +347,9 @@ static void object(const char *owner, JoxJson *json) {
     const int lines = json->lines;
     json->lines = json->depth + 1; /* a line for each property */
     jox_json_object(json, "properties");
-    for (size_t i = 0; i < jox_scene_key_count; i++)
-        if (!strcmp(jox_scene_keys[i].owner, owner))
-            property(&jox_scene_keys[i], json);
+    for (size_t i = 0; i < jox_scene_format.key_count; i++)
+        if (!strcmp(jox_scene_format.keys[i].owner, owner))
+            property(&jox_scene_format.keys[i], json);
     jox_json_end(json);
     json->lines = lines;
 }
@@ -433,11 +449,11 @@ void jox_scene_json_schema(const char *root_owner, JoxText *out) {
     json.lines = 2;
     jox_json_object(&json, "definitions");
     shared_definitions(&json);
-    for (size_t i = 0; i < jox_scene_owner_count; i++) {
-        if (!belongs(jox_scene_owners[i].name, root_owner))
+    for (size_t i = 0; i < jox_scene_format.owner_count; i++) {
+        if (!belongs(jox_scene_format.owners[i].name, root_owner))
             continue;
-        jox_json_object(&json, jox_scene_owners[i].name);
-        object(jox_scene_owners[i].name, &json);
+        jox_json_object(&json, jox_scene_format.owners[i].name);
+        object(jox_scene_format.owners[i].name, &json);
         jox_json_end(&json);
     }
     jox_json_end(&json);

@@ -1,13 +1,26 @@
 /* Numbers, points, names and distributions of a scene. */
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/schema.h"
+#include "base/assert.h"
+#include "scene/format/values.h"
 
 enum { MOST_POINTS = 5000 };
+
+/* clang-format off */
+const JoxUnit jox_scene_units[] = {
+    {"m", "m", 1}, {"cm", "m", 0.01}, {"mm", "m", 0.001}, {"km", "m", 1000},
+    {"s", "s", 1}, {"ms", "s", 0.001}, {"min", "s", 60}, {"h", "s", 3600},
+    {"m/s", "m/s", 1}, {"km/h", "m/s", 1 / 3.6},
+    {"rad/s", "rad/s", 1}, {"deg/s", "rad/s", 0.017453292519943295},
+    {"deg", "deg", 1}, {"rad", "deg", 57.29577951308232},
+    {"N", "N", 1}, {"kN", "N", 1000},
+    {"kg", "kg", 1}, {"g", "kg", 0.001}, {"t", "kg", 1000},
+    {"m/s2", "m/s2", 1}, {"kg/m3", "kg/m3", 1}, {"1/m2", "1/m2", 1}, {"1/s", "1/s", 1}, {"MB", "MB", 1}, {"KB", "KB", 1},
+};
+const size_t jox_scene_unit_count = sizeof jox_scene_units / sizeof *jox_scene_units;
+/* clang-format on */
 
 bool jox_read_number(const JoxReader *reader, const JoxYaml *node, const char *unit, double *out) {
     char *end;

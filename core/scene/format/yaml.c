@@ -1,4 +1,4 @@
-#include "scene/yaml.h"
+#include "scene/format/yaml.h"
 
 #include <errno.h>
 #include <stdint.h>

@@ -145,15 +145,10 @@ const JoxExample jox_scene_examples[] = {
     {"probe", OPENING
      "include: running-through.yaml\n"
      "probes:\n"
-     "  door:    {flow: [[4, -2], [4, 2]], from: 2, until: 60}\n"
-     "  front:   {measure: [[0, 0], [2, 0], [2, 2], [0, 2]], every: 0.5, cutoff: 1.5}\n"
-     "  passage: {transit: [[[0, -2], [0, 2]], [[3, -2], [3, 2]]], group: runner}\n"
-     "  block:   {displacement: true, group: standing, onset: 5 cm, rest: 0.2, along: [1, 0]}\n"
-     "  fields:  {map: {}, every: 2}\n"
-     "  laps:    {winding: [0, 0]}\n"
-     "  solved:  {failures: 1}\n"
-     "  arrival: {visit: [Run, Arrived]}\n"
-     "  order:   {lanes: {area: [[-2, -2], [4, 2]]}}\n"},
+#define X(kind, name, form, options, example, meaning) "  " example "\n"
+     JOX_PROBES(X)
+#undef X
+    },
     {"map", OPENING
      "include: running-through.yaml\n"
      "probes: {fields: {map: {area: [[-2, -2], [6, 6]], cell: 0.1, kernel: 0.7}}}\n"},

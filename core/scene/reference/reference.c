@@ -1,11 +1,19 @@
 /* The reference of the scene format: for a terminal, and as a page of Markdown. */
 #include <string.h>
 
+#include "scene/format/schema.h"
 #include "scene/scene.h"
-#include "scene/schema.h"
 
 static bool has_range(const JoxKey *key) {
     return key->least != key->greatest || key->least != 0;
+}
+
+/* "this, that" of "this|that". */
+static void listed(JoxText *out, const char *before, const char *texts, const char *after) {
+    jox_text_add(out, before);
+    for (; *texts; texts++)
+        jox_text_append(out, *texts == '|' ? ", " : texts, *texts == '|' ? 2 : 1);
+    jox_text_add(out, after);
 }
 
 void jox_scene_print_reference(JoxText *out) {
@@ -13,8 +21,8 @@ void jox_scene_print_reference(JoxText *out) {
                                         "[x, y]", "[x, y, z]",    "[[x, y], ...]", "name or names",
                                         "map",    "list",         "map of values"};
     const char *owner = "";
-    for (size_t i = 0; i < jox_scene_key_count; i++) {
-        const JoxKey *k = &jox_scene_keys[i];
+    for (size_t i = 0; i < jox_scene_format.key_count; i++) {
+        const JoxKey *k = &jox_scene_format.keys[i];
         if (strcmp(owner, k->owner) != 0)
             jox_text_printf(out, "%s%s\n", i ? "\n" : "", k->owner);
         owner = k->owner;
@@ -24,7 +32,7 @@ void jox_scene_print_reference(JoxText *out) {
         if (*k->standard == '!')
             jox_text_add(out, "required; ");
         else if (*k->standard)
-            jox_text_printf(out, "default %s; ", k->standard);
+            listed(out, "default ", k->standard, "; ");
         if (k->choices) {
             jox_choices_text(k->choices, out);
             jox_text_add(out, "; ");
@@ -34,18 +42,6 @@ void jox_scene_print_reference(JoxText *out) {
 }
 
 /* ---- Markdown ---- */
-
-/* The kinds of places, one by one; the first word is the key. */
-static const char *const PLACES[][2] = {
-    {"point", "a spot with a `radius`. Agents are inside while they are nearer than that."},
-    {"line", "two points. `crosses` is true in the step in which an agent passes from the right of "
-             "the line to its left, looking from the first point to the second."},
-    {"polygon", "an area. Agents go about it (`orbit`), and with a `start` line their circuits are "
-                "counted, anti-clockwise."},
-    {"queue", "a line with bends in which people stand one behind the other, `spacing` apart; its "
-              "first point is the head."},
-    {"set", "several places under one name: to be in one of them is to be in the set."},
-};
 
 static void type_name(const JoxKey *key, JoxText *out) {
     static const char *const TYPES[] = {"number", "whole number", "true or false",  "text",
@@ -72,8 +68,8 @@ static void type_name(const JoxKey *key, JoxText *out) {
         return;
     }
     size_t base = strcspn(of, "*[");
-    for (size_t i = 0; i < jox_scene_owner_count; i++) {
-        const JoxOwner *owner = &jox_scene_owners[i];
+    for (size_t i = 0; i < jox_scene_format.owner_count; i++) {
+        const JoxOwner *owner = &jox_scene_format.owners[i];
         if (strlen(owner->name) != base || strncmp(of, owner->name, base) != 0)
             continue;
         jox_text_add(out, of[base] == '*' ? "map: name to [" : of[base] ? "list of [" : "[");
@@ -89,8 +85,8 @@ static void type_name(const JoxKey *key, JoxText *out) {
 static void table(const char *owner, JoxText *out) {
     jox_text_add(out, "| key | type | unit | range | default | meaning |\n"
                       "|---|---|---|---|---|---|\n");
-    for (size_t i = 0; i < jox_scene_key_count; i++) {
-        const JoxKey *key = &jox_scene_keys[i];
+    for (size_t i = 0; i < jox_scene_format.key_count; i++) {
+        const JoxKey *key = &jox_scene_format.keys[i];
         if (strcmp(key->owner, owner) != 0)
             continue;
         jox_text_printf(out, "| `%s` | ", key->name);
@@ -101,31 +97,45 @@ static void table(const char *owner, JoxText *out) {
         if (*key->standard == '!')
             jox_text_add(out, " | required");
         else if (*key->standard)
-            jox_text_printf(out, " | `%s`", key->standard);
+            listed(out, " | `", key->standard, "`");
         else
             jox_text_add(out, " | ");
         jox_text_printf(out, " | %s |\n", key->meaning);
     }
 }
 
+/* "`this`, `that` and `those`" */
+static void marked(const char *keys, JoxText *out) {
+    char name[64], next[64];
+    for (int i = 0; jox_choice_name(keys, i, name, sizeof name); i++) {
+        bool last = !jox_choice_name(keys, i + 1, next, sizeof next);
+        jox_text_printf(out, "%s`%s`", i == 0 ? "" : last ? " and " : ", ", name);
+    }
+}
+
 static void alternatives(const char *owner, JoxText *out) {
     static const char *const RULES[] = {"Exactly one of ", "At most one of ", "At least one of "};
-    char name[64], next[64];
+    JoxText kinds = {0};
     bool any = false;
+    jox_owner_kinds(&jox_scene_format, owner, &kinds);
+    if (kinds.length) {
+        jox_text_printf(out, "\n%s", RULES[JOX_EXACTLY_ONE]);
+        marked(kinds.data, out);
+        jox_text_add(out, " is given.");
+        any = true;
+    }
     for (size_t a = 0; a < jox_scene_alternative_count; a++) {
         const JoxAlternative *rule = &jox_scene_alternatives[a];
         if (strcmp(rule->owner, owner) != 0)
             continue;
         jox_text_printf(out, "%s%s", any ? " " : "\n", RULES[rule->rule]);
-        for (int i = 0; jox_choice_name(rule->keys, i, name, sizeof name); i++) {
-            bool last = !jox_choice_name(rule->keys, i + 1, next, sizeof next);
-            jox_text_printf(out, "%s`%s`", i == 0 ? "" : last ? " and " : ", ", name);
-        }
+        marked(rule->keys, out);
         jox_text_add(out, " is given.");
         any = true;
     }
     if (any)
         jox_text_add(out, "\n");
+    jox_text_free(&kinds);
 }
 
 static void units(JoxText *out) {
@@ -145,8 +155,8 @@ static void units(JoxText *out) {
 }
 
 void jox_scene_reference_markdown(JoxText *out) {
-    for (size_t i = 0; i < jox_scene_owner_count; i++) {
-        const JoxOwner *owner = &jox_scene_owners[i];
+    for (size_t i = 0; i < jox_scene_format.owner_count; i++) {
+        const JoxOwner *owner = &jox_scene_format.owners[i];
         bool inner = owner->heading[0] >= 'a' && owner->heading[0] <= 'z';
         jox_text_printf(out, "%s %s\n\n", inner ? "###" : "##", owner->heading);
         if (*owner->text)
@@ -155,15 +165,15 @@ void jox_scene_reference_markdown(JoxText *out) {
             units(out);
             jox_text_add(out, "\n");
         }
-        for (size_t p = 0; !strcmp(owner->name, "place") && p < sizeof PLACES / sizeof *PLACES; p++)
-            jox_text_printf(out, "- `%s`: %s%s", PLACES[p][0], PLACES[p][1],
-                            p + 1 < sizeof PLACES / sizeof *PLACES ? "\n" : "\n\n");
+        for (int p = 0; !strcmp(owner->name, "place") && p < JOX_PLACE_KINDS; p++)
+            jox_text_printf(out, "- `%s`: %s%s", jox_place_kinds[p].name,
+                            jox_place_kinds[p].meaning, p + 1 < JOX_PLACE_KINDS ? "\n" : "\n\n");
         table(owner->name, out);
         alternatives(owner->name, out);
         for (size_t e = 0; e < jox_scene_example_count; e++)
             if (!strcmp(jox_scene_examples[e].owner, owner->name))
                 jox_text_printf(out, "\n```yaml\n%s```\n", jox_scene_examples[e].yaml);
-        if (i + 1 < jox_scene_owner_count)
+        if (i + 1 < jox_scene_format.owner_count)
             jox_text_add(out, "\n");
     }
 }

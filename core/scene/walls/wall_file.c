@@ -1,4 +1,4 @@
-#include "scene/wall_file_parts.h"
+#include "scene/walls/wall_file_parts.h"
 
 #include <ctype.h>
 #include <math.h>

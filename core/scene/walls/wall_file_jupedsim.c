@@ -10,7 +10,7 @@
 #include "base/mem.h"
 #include "base/name.h"
 #include "geom/polygon.h"
-#include "scene/wall_file_parts.h"
+#include "scene/walls/wall_file_parts.h"
 
 enum { DEEPEST = 32 }; /* elements in each other */
 

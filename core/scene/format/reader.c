@@ -1,0 +1,40 @@
+#include "scene/format/reader.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/name.h"
+#include "base/text.h"
+
+void jox_scene_error(const JoxReader *reader, const JoxYaml *node, const char *code,
+                     const char *hint, const char *format, ...) {
+    char text[512];
+    va_list arguments;
+    JOX_ASSERT(node && code);
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    jox_diag_error(reader->diagnostics, node->position, code, hint, "%s", text);
+}
+
+bool jox_scene_name(const JoxReader *reader, JoxPosition at, const char *what, const char *name) {
+    if (jox_name_is_plain(name))
+        return true;
+    jox_diag_error(reader->diagnostics, at, "bad-name", JOX_NAME_RULE,
+                   "'%.60s' is no name for a %s", name, what);
+    return false;
+}
+
+const char *jox_scene_suggest(const JoxReader *reader, const char *word, const char *const *names,
+                              size_t count) {
+    if (!jox_diag_has_room(reader->diagnostics, JOX_SEVERITY_ERROR))
+        return NULL;
+    const char *near = jox_suggest(word, names, count);
+    if (!near)
+        return NULL;
+    char *hint = jox_arena_take(reader->arena, strlen(near) + 24, 1);
+    sprintf(hint, "Did you mean '%s'?", near);
+    return hint;
+}

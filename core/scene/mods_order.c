@@ -1,0 +1,182 @@
+/* Which mods are taken, by what they say of each other, and in what order. */
+#include <string.h>
+
+#include "base/assert.h"
+#include "scene/mods_parts.h"
+
+/* Follows what a mod depends on; false with an error if that is missing, too old, or a circle. */
+static bool link_mod(JoxModsFind *f, uint32_t m) {
+    JoxMods *mods = f->mods;
+    JoxModNeeds *n = &f->needs[m];
+    bool good = !n->broken;
+    if (n->link == JOX_MOD_SOUND)
+        return good;
+    n->link = JOX_MOD_ON_THE_WAY;
+    for (uint32_t d = 0; d < n->depend_count && good; d++) {
+        char name[64];
+        const char *version;
+        jox_mod_need(n->depends[d]->text, name, &version);
+        int32_t other = jox_mods_index(mods, name);
+        if (other < 0) {
+            jox_mods_missing(f, n->depends[d]->position, name, mods->found[m].name);
+            good = false;
+        } else if (!f->needs[other].wanted && !f->def->needed_too) {
+            jox_diag_error(f->reader.diagnostics, n->depends[d]->position, "mod-off",
+                           "Turn it on: jostle mod enable; or name it for one run: --mod",
+                           "mod %s needs mod %s, which is off", mods->found[m].name, name);
+            good = false;
+        } else if (version && jox_mod_compare(mods->found[other].version, version) < 0) {
+            jox_diag_error(f->reader.diagnostics, n->depends[d]->position, "old-mod", NULL,
+                           "mod %s needs %s %s or later; %s is there", mods->found[m].name, name,
+                           version, mods->found[other].version);
+            good = false;
+        } else if (f->needs[other].link == JOX_MOD_ON_THE_WAY) {
+            jox_diag_error(f->reader.diagnostics, n->depends[d]->position, "mod-circle", NULL,
+                           "mods %s and %s depend on each other", mods->found[m].name, name);
+            good = false;
+        } else {
+            good = link_mod(f, (uint32_t)other);
+            n->before |= (uint64_t)1 << other;
+        }
+    }
+    n->broken |= !good;
+    n->link = JOX_MOD_SOUND; /* or broken: once is enough */
+    return good;
+}
+
+/* Whether mod `m` comes after mod `other` by what is known so far, through others too. */
+static bool comes_after(const JoxModsFind *f, uint32_t m, uint32_t other) {
+    uint64_t before = f->needs[m].before;
+    for (uint64_t known = 0; known != before;) {
+        known = before;
+        for (uint32_t k = 0; k < f->mods->found_count; k++)
+            if (known >> k & 1)
+                before |= f->needs[k].before;
+    }
+    return before >> other & 1;
+}
+
+/* Optional ones and load_after count where the other is taken too, and does not itself come after
+   this one. */
+static void link_wishes(JoxModsFind *f, uint32_t m) {
+    JoxModNeeds *n = &f->needs[m];
+    for (uint32_t k = 0; k < n->optional_count + n->after_count; k++) {
+        const JoxYaml *name =
+            k < n->optional_count ? n->optional[k] : n->load_after[k - n->optional_count];
+        char plain[64];
+        const char *version;
+        jox_mod_need(name->text, plain, &version);
+        int32_t other = jox_mods_index(f->mods, plain);
+        if (other < 0 || !f->needs[other].wanted || f->needs[other].broken || !n->wanted ||
+            n->broken)
+            continue;
+        if (other == (int32_t)m || comes_after(f, (uint32_t)other, m))
+            jox_diag_warn(f->reader.diagnostics, name->position, "mod-circle", NULL,
+                          "mod %s would come after %s, which comes after it: not heeded",
+                          f->mods->found[m].name, f->mods->found[other].name);
+        else
+            n->before |= (uint64_t)1 << other;
+    }
+}
+
+static void want_all(JoxModsFind *f) {
+    for (bool more = true; more;) {
+        more = false;
+        for (uint32_t m = 0; m < f->mods->found_count; m++)
+            for (uint32_t d = 0;
+                 f->needs[m].wanted && !f->needs[m].broken && d < f->needs[m].depend_count; d++) {
+                char name[64];
+                const char *version;
+                jox_mod_need(f->needs[m].depends[d]->text, name, &version);
+                int32_t other = jox_mods_index(f->mods, name);
+                if (other >= 0 && !f->needs[other].wanted)
+                    f->needs[other].wanted = more = true;
+            }
+    }
+}
+
+static void exclude(JoxModsFind *f) {
+    JoxMods *mods = f->mods;
+    for (uint32_t m = 0; m < mods->found_count; m++) {
+        if (f->def->without >> m & 1)
+            f->needs[m].broken = true;
+        for (uint32_t c = 0; f->needs[m].wanted && c < f->needs[m].conflict_count; c++) {
+            const JoxYaml *name = f->needs[m].conflicts[c];
+            int32_t other = jox_mods_index(mods, name->text);
+            if (other < 0 || !f->needs[other].wanted || f->needs[other].broken ||
+                f->needs[m].broken)
+                continue;
+            jox_diag_error(f->reader.diagnostics, name->position, "mods-exclude",
+                           "Take one of them away", "mod %s does not go together with %s",
+                           mods->found[m].name, name->text);
+            f->needs[m].broken = true;
+        }
+    }
+    for (bool more = true; more;) { /* who needs what is left out is left out too */
+        more = false;
+        for (uint32_t m = 0; m < mods->found_count; m++)
+            for (uint32_t d = 0; !f->needs[m].broken && d < f->needs[m].depend_count; d++) {
+                char name[64];
+                const char *version;
+                jox_mod_need(f->needs[m].depends[d]->text, name, &version);
+                int32_t other = jox_mods_index(mods, name);
+                if (other < 0 || f->needs[other].broken)
+                    f->needs[m].broken = more = true;
+            }
+    }
+}
+
+/* Longest chain of mods that come before each. There are no circles. */
+static void measure_depths(JoxModsFind *f) {
+    uint32_t count = f->mods->found_count;
+    for (uint32_t round = 0; round < count; round++)
+        for (uint32_t m = 0; m < count; m++)
+            for (uint32_t o = 0; o < count; o++)
+                if (o != m && (f->needs[m].before >> o & 1) &&
+                    f->needs[m].depth <= f->needs[o].depth)
+                    f->needs[m].depth = f->needs[o].depth + 1;
+}
+
+static bool comes_before(const JoxModsFind *f, uint32_t a, uint32_t b) {
+    if (f->needs[a].depth != f->needs[b].depth)
+        return f->needs[a].depth < f->needs[b].depth;
+    return strcmp(f->mods->found[a].name, f->mods->found[b].name) < 0;
+}
+
+static void put_in_order(JoxModsFind *f) {
+    JoxMods *mods = f->mods;
+    uint32_t list[JOX_MOST_MODS], count = 0;
+    measure_depths(f);
+    for (uint32_t m = 0; m < mods->found_count; m++) {
+        if (!f->needs[m].wanted || f->needs[m].broken)
+            continue;
+        uint32_t at = count++;
+        for (; at > 0 && comes_before(f, m, list[at - 1]); at--)
+            list[at] = list[at - 1];
+        list[at] = m;
+    }
+    mods->items = jox_arena_take(f->reader.arena, count + 1, sizeof *mods->items);
+    mods->number = jox_arena_take(f->reader.arena, count + 1, sizeof *mods->number);
+    mods->count = count;
+    for (uint32_t k = 0; k < count; k++) {
+        mods->number[k] = list[k];
+        mods->items[k] = mods->found[list[k]];
+        for (uint32_t o = 0; o < k; o++)
+            if (f->needs[list[k]].before >> list[o] & 1)
+                mods->items[k].after |= (uint64_t)1 << o | mods->items[o].after;
+    }
+}
+
+void jox_mods_order(JoxModsFind *f) {
+    JoxMods *mods = f->mods;
+    JOX_ASSERT(mods->found_count <= JOX_MOST_MODS);
+    for (uint32_t m = 0; m < mods->found_count; m++)
+        if (f->needs[m].wanted)
+            link_mod(f, m);
+    want_all(f);
+    exclude(f);
+    for (uint32_t m = 0; m < mods->found_count; m++)
+        link_wishes(f, m);
+    put_in_order(f);
+    JOX_ASSERT(mods->count <= mods->found_count);
+}

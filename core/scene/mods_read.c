@@ -1,0 +1,237 @@
+/* Reading a mod: its mod.yaml, and what lies in its folders. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/assert.h"
+#include "base/file.h"
+#include "base/mem.h"
+#include "scene/internal.h"
+#include "scene/mods_on.h"
+#include "scene/mods_parts.h"
+
+enum { MOST_FILES = 256, LARGEST_FILE = 1 << 20, MOST_SETTINGS = 64 };
+
+int32_t jox_mods_index(const JoxMods *mods, const char *name) {
+    for (uint32_t m = 0; m < mods->found_count; m++)
+        if (strcmp(mods->found[m].name, name) == 0)
+            return (int32_t)m;
+    return -1;
+}
+
+bool jox_mods_is_folder(const char *path) {
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+static bool same_folder(const char *a, const char *b) {
+    struct stat x, y;
+    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+char *jox_mods_join(JoxArena *arena, const char *folder, const char *name) {
+    char *path = jox_arena_take(arena, strlen(folder) + strlen(name) + 2, 1);
+    sprintf(path, "%s/%s", folder, name);
+    return path;
+}
+
+/* ---- reading one ---- */
+
+/* Names of other mods, with a version where `versions`. */
+static uint32_t read_others(const JoxReader *r, const JoxYaml *root, const char *key, bool versions,
+                            const JoxYaml *const **names) {
+    uint32_t count = jox_read_names(r, jox_yaml_get(root, key), names);
+    for (uint32_t k = 0; k < count; k++) {
+        const char *text = (*names)[k]->text, *rest = text + strcspn(text, " >=<");
+        rest += strspn(rest, " ");
+        bool asks = versions && strncmp(rest, ">=", 2) == 0;
+        rest += asks ? 2 + strspn(rest + 2, " ") : 0;
+        size_t digits = asks ? strspn(rest, "0123456789.") : 0;
+        if (*text && strcspn(text, " >=<") < 64 && rest[digits] == 0 &&
+            (!asks || (digits && *rest != '.')))
+            continue;
+        jox_scene_error(r, (*names)[k], "bad-value",
+                        versions ? "Example: 'gentle-queue >= 1.2'" : "Example: gentle-queue",
+                        "%s: '%.60s' is no name of a mod", key, text);
+    }
+    return count;
+}
+
+static bool plain_name(const char *name) {
+    size_t n = strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-_");
+    return n > 0 && n <= 60 && !name[n];
+}
+
+/* At most 64 settings. */
+void jox_key_settings(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void *item) {
+    if (map && (map->kind != JOX_YAML_MAP || map->count > MOST_SETTINGS)) {
+        jox_scene_error(r, map, "bad-type", "settings: {weight: {value: 80}}",
+                        "%s maps at most %d names to settings", key->name, MOST_SETTINGS);
+        return;
+    }
+    const JoxKey items = {.name = key->name,
+                          .of = key->of,
+                          .offset = offsetof(JoxMod, settings),
+                          .counter = offsetof(JoxMod, setting_count)};
+    jox_items_fill(r, &items, map, item);
+}
+
+bool jox_finish_setting(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
+    JoxModSetting *setting = item;
+    setting->unit = setting->unit ? setting->unit : jox_arena_text(r->arena, "");
+    setting->meaning = setting->meaning ? setting->meaning : jox_arena_text(r->arena, "");
+    if (good && !(setting->value >= setting->least && setting->value <= setting->greatest))
+        jox_scene_error(r, map, "out-of-range", NULL, "setting '%s' must be from %g to %g",
+                        setting->name, setting->least, setting->greatest);
+    return good;
+}
+
+static bool ends_with(const char *path, const char *ending) {
+    size_t n = strlen(path), m = strlen(ending);
+    return n >= m && strcmp(path + n - m, ending) == 0;
+}
+
+/* The target of a scene's patch: the top-level key `patch` or `replace`. */
+static void read_target(JoxModsFind *f, JoxModPatch *patch) {
+    JoxYamlFiles *files = jox_arena_take(f->reader.arena, 1, sizeof *files);
+    files->plain = true;
+    JoxYaml *root =
+        jox_yaml_load(f->reader.arena, patch->path, NULL, 0, files, f->reader.diagnostics);
+    const JoxYaml *target = jox_yaml_get(root, "patch");
+    patch->replaces = !target;
+    target = target ? target : jox_yaml_get(root, "replace");
+    if (root && (!target || target->kind != JOX_YAML_SCALAR)) {
+        jox_diag_error(f->reader.diagnostics, root->position, "no-patch", "patch: NAME",
+                       "this file must say which scene it changes");
+        return;
+    }
+    if (target) {
+        patch->target = jox_arena_text(f->reader.arena, target->text);
+        patch->position = target->position;
+    }
+}
+
+/* Files of a mod are plain files of its own, and not too large. */
+static bool is_sound(JoxModsFind *f, const char *path, JoxPosition from) {
+    struct stat info;
+    const char *wrong = lstat(path, &info) != 0       ? "it cannot be read"
+                        : S_ISLNK(info.st_mode)       ? "symbolic links are not followed"
+                        : S_ISDIR(info.st_mode)       ? "" /* looked into elsewhere */
+                        : !S_ISREG(info.st_mode)      ? "it is no plain file"
+                        : info.st_size > LARGEST_FILE ? "it is over 1 MB"
+                                                      : NULL;
+    if (wrong && *wrong)
+        jox_diag_error(f->reader.diagnostics, from, "bad-mod", NULL, "cannot use '%s': %s", path,
+                       wrong);
+    return !wrong;
+}
+
+/* Looks at all files of one of a mod's folders; those of patches/ become patches. */
+static void read_folder(JoxModsFind *f, JoxMod *mod, const char *name, JoxPosition from) {
+    char *folder = jox_mods_join(f->reader.arena, mod->folder, name);
+    bool patches = strcmp(name, "patches") == 0;
+    struct stat info;
+    if (lstat(folder, &info) == 0 && S_ISLNK(info.st_mode)) {
+        is_sound(f, folder, from);
+        return;
+    }
+    char **names = jox_mods_is_folder(folder) ? jox_folder_names(folder) : NULL;
+    int count = 0;
+    while (names && names[count])
+        count++;
+    if (count > MOST_FILES)
+        jox_diag_error(f->reader.diagnostics, from, "bad-mod", NULL, "'%s' has more than %d files",
+                       folder, MOST_FILES);
+    if (patches && count > 0)
+        mod->patches = jox_arena_take(f->reader.arena, (size_t)count, sizeof *mod->patches);
+    for (int e = 0; e < count; e++) {
+        char *path = jox_mods_join(f->reader.arena, folder, names[e]);
+        bool lua = ends_with(path, ".lua"), yaml = ends_with(path, ".yaml");
+        if (is_sound(f, path, from) && patches && (lua || yaml)) {
+            JoxModPatch *patch = &mod->patches[mod->patch_count++];
+            *patch = (JoxModPatch){.path = path, .lua = lua};
+            if (yaml)
+                read_target(f, patch);
+        }
+    }
+    jox_free(names);
+}
+
+/* ---- the whole ---- */
+
+void jox_mods_read_folder(JoxModsFind *f, const char *folder, bool wanted) {
+    JoxMods *mods = f->mods;
+    const JoxReader *r = &f->reader;
+    for (uint32_t m = 0; m < mods->found_count; m++)
+        if (same_folder(mods->found[m].folder, folder)) {
+            f->needs[m].wanted |= wanted;
+            return;
+        }
+    char *path = jox_mods_join(r->arena, folder, "mod.yaml");
+    JoxYamlFiles *files = jox_arena_take(r->arena, 1, sizeof *files);
+    files->plain = true;
+    size_t errors = r->diagnostics->errors;
+    JoxYaml *root = is_sound(f, path, (JoxPosition){path, 0, 0, 0})
+                        ? jox_yaml_load(r->arena, path, NULL, 0, files, r->diagnostics)
+                        : NULL;
+    if (root && mods->found_count == JOX_MOST_MODS) {
+        jox_diag_error(r->diagnostics, root->position, "too-many", "Take some out of the folder",
+                       "there are over %d mods: this is not looked at", JOX_MOST_MODS);
+        return;
+    }
+    if (!root || root->kind != JOX_YAML_MAP) {
+        if (root)
+            jox_keys_check(r, root, "mod"); /* says so */
+        return;
+    }
+    if (jox_yaml_get(root, "enabled")) {
+        jox_scene_error(r, jox_yaml_get(root, "enabled"), "unknown-key",
+                        "Take the line out. A person turns a mod on: jostle mod enable NAME",
+                        "'enabled' is no key of a mod: none turns itself on");
+        jox_yaml_remove(root, "enabled");
+    }
+    JoxMod *mod = &mods->found[mods->found_count];
+    *mod = (JoxMod){0};
+    jox_keys_fill(r, root, "mod", mod);
+    const char *name = mod->name;
+    JoxPosition at = name ? jox_yaml_get(root, "name")->position : root->position;
+    if (name && !plain_name(name))
+        jox_diag_error(r->diagnostics, at, "bad-mod", "Example: gentle-queue",
+                       "a mod's name has lower-case letters, digits, - and _ only");
+    int32_t same = name ? jox_mods_index(mods, name) : -1;
+    if (same >= 0) {
+        jox_diag_error(r->diagnostics, at, "bad-mod", NULL,
+                       "there is another mod '%s' in %s, which is taken", name,
+                       mods->found[same].folder);
+        return;
+    }
+    mod->name = name ? mod->name : jox_arena_text(r->arena, folder);
+    mod->title = mod->title ? mod->title : jox_arena_text(r->arena, "");
+    mod->version = mod->version ? mod->version : jox_arena_text(r->arena, "0");
+    mod->folder = jox_arena_text(r->arena, folder);
+    mod->on = jox_mods_on_look(f->on, name ? name : "", folder);
+    JoxModNeeds *needs = &f->needs[mods->found_count++];
+    *needs = (JoxModNeeds){.root = root, .wanted = wanted};
+    needs->depend_count = read_others(r, root, "depends", true, &needs->depends);
+    needs->optional_count = read_others(r, root, "optional", true, &needs->optional);
+    needs->conflict_count = read_others(r, root, "conflicts", false, &needs->conflicts);
+    needs->after_count = read_others(r, root, "load_after", true, &needs->load_after);
+    read_folder(f, mod, "behaviours", at);
+    read_folder(f, mod, "scenes", at);
+    read_folder(f, mod, "patches", at);
+    needs->broken = r->diagnostics->errors > errors;
+    for (uint32_t i = 0; i < files->count; i++)
+        jox_diag_attach_source(r->diagnostics, files->items[i].path, files->items[i].text,
+                               files->items[i].length);
+}
+
+void jox_mods_missing(JoxModsFind *f, JoxPosition at, const char *name, const char *whose) {
+    const char *names[JOX_MOST_MODS];
+    for (uint32_t m = 0; m < f->mods->found_count; m++)
+        names[m] = f->mods->found[m].name;
+    jox_diag_error(f->reader.diagnostics, at, "missing-mod",
+                   jox_scene_suggest(&f->reader, name, names, f->mods->found_count),
+                   "there is no mod '%.60s'%s%s", name, *whose ? ", which is needed by " : "",
+                   whose);
+}

@@ -1,0 +1,96 @@
+/* Places and regions of a scene. What a kind of place is made of, its row in geom/place.c says. */
+#include <string.h>
+
+#include "base/assert.h"
+#include "scene/internal.h"
+
+/* The points of a place, as its kind has them. */
+void jox_key_place_points(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    JoxPlace *place = item;
+    const JoxPlaceKindInfo *kind = &jox_place_kinds[place->kind];
+    JOX_ASSERT(strcmp(kind->name, key->name) == 0);
+    double v[2];
+    if (kind->most_points == 0)
+        return; /* its members are looked up when all places are known */
+    if (kind->most_points == 1) {
+        if (!jox_key_vector(r, key, node, v, 2))
+            return;
+        place->points = jox_arena_take(r->arena, 1, sizeof *place->points);
+        place->points[0] = jox_v2((float)v[0], (float)v[1]);
+        place->count = 1;
+    } else {
+        place->points = kind->outline == JOX_OUTLINE_RING
+                            ? jox_load_ring(r, node, &place->count)
+                            : jox_read_points(r, node, kind->least_points, &place->count);
+    }
+    if (place->points && place->count > kind->most_points)
+        jox_scene_error(r, node, "bad-place", "A polyline is a queue or a wall",
+                        "a %s has %u points", kind->name, kind->most_points);
+}
+
+bool jox_finish_place(const JoxReader *r, const JoxYaml *map, void *item, bool good) {
+    JoxPlace *place = item;
+    (void)r, (void)map, (void)good;
+    if (place->points && place->count)
+        jox_place_finish(place);
+    return true; /* a wrong one is known by its name */
+}
+
+/* Which line it is, is looked up when all places are known. */
+void jox_key_place_start(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    if (node && node->kind != JOX_YAML_SCALAR)
+        jox_scene_error(r, node, "bad-type", NULL, "%s must be a name", key->name);
+    ((JoxPlace *)item)->start = -1;
+}
+
+static void link_start(const JoxReader *r, const JoxYaml *start, JoxPlace *place) {
+    const JoxPlace *places = r->load->scene->places;
+    place->start = jox_load_place(r, start);
+    if (place->start >= 0 && places[place->start].kind != JOX_PLACE_LINE)
+        jox_scene_error(r, start, "bad-place", NULL, "circuits start at a line");
+}
+
+static void link_members(const JoxReader *r, const JoxYaml *map, JoxPlace *place) {
+    const JoxPlace *places = r->load->scene->places;
+    const JoxYaml *const *names;
+    uint32_t count =
+        jox_read_names(r, jox_yaml_get(map, jox_place_kinds[place->kind].name), &names);
+    place->members = jox_arena_take(r->arena, count, sizeof *place->members);
+    for (uint32_t n = 0; n < count; n++) {
+        int32_t member = jox_load_place(r, names[n]);
+        if (member >= 0 && places[member].kind == JOX_PLACE_SET)
+            jox_scene_error(r, names[n], "bad-place", NULL, "a set cannot hold another set");
+        else if (member >= 0 && places[member].count > 0)
+            place->members[place->member_count++] = member;
+    }
+    if (count == 0)
+        jox_scene_error(r, map, "bad-place", "set: [NAME, NAME]", "a set names at least one place");
+}
+
+void jox_link_place(const JoxReader *r, const JoxYaml *map, void *item) {
+    JoxPlace *place = item;
+    const JoxYaml *start = jox_yaml_get(map, "start");
+    JOX_ASSERT(place->start == -1);
+    if (start && start->kind == JOX_YAML_SCALAR)
+        link_start(r, start, place);
+    if (place->kind == JOX_PLACE_SET)
+        link_members(r, map, place);
+}
+
+void jox_key_regions(const JoxReader *r, const JoxKey *key, const JoxYaml *map, void *item) {
+    JoxSceneSpec *s = item;
+    if (!map || map->kind != JOX_YAML_MAP) {
+        if (map)
+            jox_scene_error(r, map, "bad-type", NULL, "%s maps names to polygons", key->name);
+        return;
+    }
+    s->regions = jox_arena_take(r->arena, map->count, sizeof *s->regions);
+    for (uint32_t i = 0; i < map->count; i++) {
+        JoxSceneRegion *region = &s->regions[s->region_count];
+        region->name = jox_arena_text(r->arena, map->keys[i]);
+        jox_scene_name(r, map->key_positions[i], "region", region->name);
+        region->points = jox_load_ring(r, map->items[i], &region->count);
+        s->region_count += region->points != NULL;
+    }
+    JOX_ASSERT(s->region_count <= map->count);
+}

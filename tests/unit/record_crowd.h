@@ -1,0 +1,96 @@
+/* A crowd that the tests of probes move, and figures of it. */
+#ifndef JOSTLE_TESTS_RECORD_CROWD_H
+#define JOSTLE_TESTS_RECORD_CROWD_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "base/mem.h"
+#include "picture/probe_files.h"
+#include "record/probes/probe.h"
+
+enum { MOST = 1000 };
+
+/* A crowd that the tests move. */
+static struct {
+    uint32_t count, key[MOST];
+    float x[MOST], y[MOST], vx[MOST], vy[MOST], compression[MOST];
+    uint8_t failed[MOST];
+    uint16_t group[MOST];
+    uint32_t state[MOST];
+    JoxV2 period;
+    JoxWalls walls;
+} crowd;
+
+static inline void nobody(uint32_t count) {
+    memset(&crowd, 0, sizeof crowd);
+    crowd.count = count;
+    for (uint32_t i = 0; i < count; i++)
+        crowd.key[i] = i;
+}
+
+static const char *const STATES[] = {"Walk", "Wait", "Served"};
+
+static inline void show(JoxProbe *probe, double t) {
+    const JoxFrame frame = {.time = t,
+                            .count = crowd.count,
+                            .period = crowd.period,
+                            .keys = crowd.count,
+                            .key = crowd.key,
+                            .x = crowd.x,
+                            .y = crowd.y,
+                            .vx = crowd.vx,
+                            .vy = crowd.vy,
+                            .compression = crowd.compression,
+                            .failed = crowd.failed,
+                            .group = crowd.group,
+                            .state = crowd.state,
+                            .states = STATES,
+                            .state_count = 3,
+                            .walls = &crowd.walls};
+    jox_probe_frame(probe, &frame);
+}
+
+static inline double figure(const JoxProbe *probe, const char *name) {
+    JoxFigures figures = jox_probe_figures(probe);
+    for (uint32_t f = 0; f < figures.count; f++)
+        if (!strcmp(figures.items[f].name, name))
+            return figures.items[f].value;
+    fail_msg("there is no figure %s", name);
+    return NAN;
+}
+
+#define assert_near(value, wanted, within)                                                         \
+    do {                                                                                           \
+        double was = (value), right = (wanted);                                                    \
+        if (!(fabs(was - right) <= (within)))                                                      \
+            fail_msg("%s is %.9g, not %.9g", #value, was, right);                                  \
+    } while (0)
+
+static inline JoxProbeDef def_of(JoxProbeKind kind, const JoxV2 *points, uint32_t count) {
+    return (JoxProbeDef){.name = "probe",
+                         .kind = kind,
+                         .until = INFINITY,
+                         .points = points,
+                         .count = count,
+                         .states = {"Wait", "Served"},
+                         .every = 1,
+                         .cutoff = 1,
+                         .onset = 0.05,
+                         .low = {-5, -5},
+                         .high = {5, 5},
+                         .cell = 0.1,
+                         .kernel = 0.5,
+                         .rows = 0.4};
+}
+
+#endif

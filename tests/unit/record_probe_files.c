@@ -1,0 +1,129 @@
+/* What probes write: files, summaries, and no memory in steady frames. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "record_crowd.h"
+
+/* ---- files ---- */
+
+static bool holds(const char *path, const char *first) {
+    char start[256] = "";
+    FILE *file = fopen(path, "rb");
+    size_t got = file ? fread(start, 1, sizeof start - 1, file) : 0;
+    if (file)
+        fclose(file);
+    return got > 0 && strncmp(start, first, strlen(first)) == 0;
+}
+
+/* Every kind writes its files, whether anyone was there or not. */
+static void every_kind_writes(void **state) {
+    (void)state;
+    static const JoxV2 POINTS[] = {{0, 1}, {0, -1}, {2, -1}, {2, 1}};
+    static const char *const ENDS[] = {"csv", "png", "svg", "plt"};
+    char folder[] = "/tmp/jostle-probes-XXXXXX", path[128];
+    assert_non_null(mkdtemp(folder));
+    JoxWalls walls = {0};
+    jox_walls_add_polyline(&walls, POINTS, 4, false, INFINITY);
+    for (int kind = 0; kind < JOX_PROBE_KINDS; kind++)
+        for (uint32_t people = 0; people < 3; people++) {
+            JoxProbeDef def =
+                def_of((JoxProbeKind)kind, POINTS, kind == JOX_PROBE_DISPLACEMENT ? 0 : 4);
+            JoxProbe *p = jox_probe_create(&def);
+            JoxText error = {0};
+            nobody(people);
+            for (int step = 0; step < 30; step++) {
+                for (uint32_t i = 0; i < people; i++) {
+                    crowd.x[i] = 0.1f * (float)step - 0.95f * (float)(i + 1);
+                    crowd.vx[i] = 1;
+                }
+                show(p, 0.1 * step);
+            }
+            assert_true(
+                jox_probe_write(p, folder, &walls, "it's a \"test\" `of` $(titles)", &error));
+            assert_null(error.data);
+            for (int e = 0; e < 4; e++) {
+                static const char *const STARTS[] = {"", "\x89PNG", "<?xml", "reset"};
+                snprintf(path, sizeof path, "%s/probe.%s", folder, ENDS[e]);
+                assert_true(holds(path, STARTS[e]));
+                assert_int_equal(unlink(path), 0);
+            }
+            jox_probe_free(p);
+        }
+    JoxProbeDef def = def_of(JOX_PROBE_FLOW, POINTS, 2);
+    JoxProbe *p = jox_probe_create(&def);
+    JoxText error = {0};
+    assert_false(jox_probe_write(p, "/proc/none", &walls, "", &error));
+    assert_non_null(strstr(error.data, "cannot write"));
+    jox_text_free(&error);
+    jox_probe_free(p);
+    jox_walls_free(&walls);
+    snprintf(path, sizeof path, "%s/walls.dat", folder);
+    unlink(path);
+    assert_int_equal(rmdir(folder), 0);
+}
+
+static void a_summary_is_json(void **state) {
+    (void)state;
+    JoxProbeDef def = def_of(JOX_PROBE_TRANSIT, (const JoxV2[]){{0, 0}, {0, 1}, {1, 0}, {1, 1}}, 4);
+    JoxProbe *p = jox_probe_create(&def);
+    JoxText out = {0};
+    JoxJson json = jox_json_begin(&out, 0);
+    jox_probe_json(p, &json, NULL);
+    assert_string_equal(out.data,
+                        "{\"passages\": 0, \"under_way\": 0, \"mean\": null, \"median\": null, "
+                        "\"p95\": null, \"least\": null, \"greatest\": null}");
+    jox_text_free(&out);
+    jox_probe_free(p);
+}
+
+/* A number within [0, 1) of a counter. */
+static double drawn(uint32_t n) {
+    n = (n ^ 61u) ^ (n >> 16);
+    n *= 9u;
+    n ^= n >> 4;
+    n *= 0x27d4eb2du;
+    return (double)((n ^ (n >> 15)) >> 8) / 16777216.0;
+}
+
+static void steady_frames_allocate_nothing(void **state) {
+    (void)state;
+    static const JoxV2 POINTS[] = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+    for (int kind = 0; kind < JOX_PROBE_KINDS; kind++) {
+        JoxProbeDef def =
+            def_of((JoxProbeKind)kind, POINTS, kind == JOX_PROBE_DISPLACEMENT ? 0 : 4);
+        def.every = 100; /* else lists of intervals grow, now and then */
+        def.until = 99;
+        JoxProbe *p = jox_probe_create(&def);
+        nobody(200);
+        uint64_t before = 0;
+        for (int step = 0; step < 100; step++) {
+            for (uint32_t i = 0; i < 200; i++) {
+                crowd.x[i] = (float)(4 * drawn(i) - 2 + 0.001 * step);
+                crowd.y[i] = (float)(3 * drawn(i + 5000) - 5);
+            }
+            show(p, 0.1 * step);
+            if (step == 50)
+                before = jox_alloc_count();
+        }
+        assert_true(jox_alloc_count() == before);
+        jox_probe_free(p);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_kind_writes),
+        cmocka_unit_test(a_summary_is_json),
+        cmocka_unit_test(steady_frames_allocate_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,48 @@
+/* Texts of scenes, loaded. */
+#ifndef JOSTLE_TESTS_SCENE_TEXTS_H
+#define JOSTLE_TESTS_SCENE_TEXTS_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "scene/scene.h"
+
+#define GROUP "groups: {g: {behaviour: stander, at: [[0, 0]]}}\n"
+#define SQUARE "places: {box: {polygon: [[0, 0], [2, 0], [2, 2], [0, 2]]}}\n"
+#define WITH(x) "groups: {g: {behaviour: stander, " x "}}\n"
+
+#define GATE "walls: [{line: [[0, 3], [2, 3]], name: gate}]\n"
+#define CRATE                                                                                      \
+    "bodies:\n"                                                                                    \
+    "  - {name: crate, shape: {box: {size: [1, 1, 1]}}, mass: 9, at: [5, 5, 1]}\n"                 \
+    "  - {name: rock, shape: {box: {size: [1, 1, 1]}}, mass: 0, at: [8, 5, 1]}\n"
+
+static inline JoxSceneSpec *load(const char *text, const char *const *sets, uint32_t count,
+                                 JoxDiagnostics *diagnostics) {
+    JoxSceneOptions options = {.sets = sets, .set_count = count};
+    return jox_scene_load_text("scenes/test.yaml", text, strlen(text), &options, diagnostics);
+}
+
+static inline void show(const JoxDiagnostics *d, const char *what) {
+    JoxText text = {0};
+    jox_diag_print(d, &text);
+    print_message("%s\n%s", what, text.data ? text.data : "(none)\n");
+    jox_text_free(&text);
+}
+
+static inline bool matches(const JoxDiagnostic *d, const char *code, int line, int column,
+                           const char *hint) {
+    return !strcmp(d->code, code) && d->line == line && d->column == column &&
+           (!hint || (d->hint && strstr(d->hint, hint)));
+}
+
+#endif
