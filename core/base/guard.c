@@ -1,5 +1,6 @@
 #include "base/guard.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 
 static _Thread_local JoxGuard *innermost;
@@ -52,4 +53,14 @@ void jox_guard_close(JoxGuard *guard) {
 
 JoxHeap *jox_guard_leave(void) {
     return jox_heap_use(innermost ? innermost->heap_before : NULL);
+}
+
+void jox_error(JoError *error, JoCode code, const char *format, ...) {
+    if (!error)
+        return;
+    *error = (JoError){.code = code};
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error->text, sizeof error->text, format, arguments);
+    va_end(arguments);
 }

@@ -47,6 +47,9 @@ void jox_guard_close(JoxGuard *guard);
    public call was made, which jox_heap_use puts back. Returns the heap of that call. */
 JoxHeap *jox_guard_leave(void);
 
+/* Fills an error, which may be NULL, with a formatted text. */
+void jox_error(JoError *error, JoCode code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 /* Fills `error`, unless NULL, with JO_FAILED and "out of memory". */
 void jox_memory_error(JoError *error);
 

@@ -88,17 +88,6 @@ static const float REACH = 0.6f;       /* m: the gap over which a body is picked
 static const float CATCHABLE = 8.0f;   /* m/s: what is faster is not caught */
 static const float HAND_HEIGHT = 1.2f; /* m: where thrown bodies leave, and arrive */
 
-int32_t jox_holding(const JoxMachineRun *run, uint32_t i, int32_t target) {
-    const JoxTarget *t = &jox_machine_of(run, i)->targets[target];
-    for (uint32_t o = 0; run->objects && o < run->objects->count; o++) {
-        const JoxObject *object = &run->objects->rows[o];
-        if (object->live && object->held && object->holder == run->agents->id[i] &&
-            (t->kind != JOX_TARGET_NEAREST || (object->tags >> t->arg & 1)))
-            return (int32_t)o;
-    }
-    return -1;
-}
-
 static void add_grip(JoxMachineRun *run, JoxGrip grip) {
     for (uint32_t g = 0; g < run->grip_count; g++)
         if (run->grips[g].object == grip.object)

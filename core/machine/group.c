@@ -83,6 +83,38 @@ int16_t jox_queue_target(const JoxState *state) {
     return -1;
 }
 
+/* Marks the ranks of a long list in a bitmap, and reads it from the front. */
+static void sort_by_marks(JoxMachineRun *run, uint32_t *list, uint32_t count) {
+    JoxMachineScratch *s = run->scratch;
+    const JoxAgents *a = run->agents;
+    uint32_t words = a->count / 64 + 1, n = 0;
+    if (words > s->mark_capacity) {
+        s->mark_capacity = words + words / 4;
+        s->marks = jox_realloc(s->marks, s->mark_capacity, sizeof *s->marks);
+    }
+    memset(s->marks, 0, words * sizeof *s->marks);
+    for (uint32_t k = 0; k < count; k++)
+        s->marks[a->rank[list[k]] / 64] |= (uint64_t)1 << a->rank[list[k]] % 64;
+    for (uint32_t w = 0; w < words; w++)
+        for (uint64_t bits = s->marks[w]; bits; bits &= bits - 1)
+            list[n++] = a->by_rank[w * 64 + (uint32_t)__builtin_ctzll(bits)];
+}
+
+/* `context`: the agents' ids. */
+static int by_id(const void *a, const void *b, const void *context) {
+    const uint32_t *id = context;
+    const uint32_t x = id[*(const uint32_t *)a], y = id[*(const uint32_t *)b];
+    return (x > y) - (x < y);
+}
+
+void jox_sort_by_id(JoxMachineRun *run, uint32_t *list, uint32_t count) {
+    const JoxAgents *a = run->agents;
+    if (count > 256 && count > a->count / 256)
+        sort_by_marks(run, list, count);
+    else
+        jox_sort(list, count, sizeof *list, by_id, a->id, run->scratch->spare);
+}
+
 /* Whether someone stands before another: by queue, then who came first, then by id. */
 static int by_turn(const void *first, const void *second, const void *context) {
     const JoxMachineRun *run = context;

@@ -98,6 +98,9 @@ void jox_machines_group(JoxMachineRun *run, JoxPool *pool);
 int16_t jox_queue_target(const JoxState *state);
 void jox_machines_count_places(JoxMachineRun *run);
 void jox_machines_scratch_free(JoxMachineRun *run);
+/* The duration that a state computes for an agent, s: what is no number sets none. */
+float jox_duration_of(const JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
+                      uint32_t agent);
 /* Enters a state: clock, duration, goal, constant parameters. Hooks are the caller's. */
 void jox_machines_enter(JoxMachineRun *run, uint32_t agent, uint16_t state);
 /* Writes the parameters that are constant or own values in the agent's present state. */

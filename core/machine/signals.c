@@ -1,4 +1,4 @@
-/* What agents call out, and who hears it; names that machines share. */
+/* What agents call out; names that machines share; what entering and taking do besides. */
 #include <math.h>
 #include <string.h>
 
@@ -28,61 +28,6 @@ void jox_machines_announce(JoxMachineRun *run, uint32_t name) {
     run->state->announced[run->state->announced_count++] = name;
 }
 
-static bool comes_before(const JoxSignal *a, const JoxSignal *b) {
-    if (a->name != b->name)
-        return a->name < b->name;
-    return a->x != b->x ? a->x < b->x : a->agent_id < b->agent_id;
-}
-
-void jox_machines_listen(JoxMachineRun *run) {
-    JoxMachineState *state = run->state;
-    JoxMachineScratch *s = run->scratch;
-    JOX_RESERVE(s->heard, s->heard_capacity, state->called_count);
-    JOX_RESERVE(s->everywhere, s->everywhere_capacity, state->announced_count);
-    uint32_t count = s->heard_count = state->called_count;
-    if (count)
-        memcpy(s->heard, state->called, count * sizeof *s->heard);
-    s->everywhere_count = state->announced_count;
-    if (s->everywhere_count)
-        memcpy(s->everywhere, state->announced, s->everywhere_count * sizeof *s->everywhere);
-    state->called_count = state->announced_count = 0;
-    for (uint32_t gap = count / 2; gap > 0; gap = gap == 2 ? 1 : gap * 5 / 11)
-        for (uint32_t k = gap; k < count; k++) {
-            JoxSignal moving = s->heard[k];
-            uint32_t at = k;
-            for (; at >= gap && comes_before(&moving, &s->heard[at - gap]); at -= gap)
-                s->heard[at] = s->heard[at - gap];
-            s->heard[at] = moving;
-        }
-}
-
-bool jox_heard(const JoxMachineRun *run, uint32_t i, uint32_t name, double reach) {
-    const JoxAgents *a = run->agents;
-    const JoxMachineScratch *heard = run->scratch;
-    for (uint32_t n = 0; n < heard->everywhere_count; n++)
-        if (heard->everywhere[n] == name)
-            return true;
-    float r = jox_minf((float)reach, a->param[JOX_PARAM_perception][i]), x = a->x[i], y = a->y[i];
-    JoxSignal from = {.name = name, .x = x - r};
-    uint32_t low = 0, high = heard->heard_count;
-    while (low < high) {
-        uint32_t middle = (low + high) / 2;
-        if (comes_before(&heard->heard[middle], &from))
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    for (; low < heard->heard_count; low++) {
-        const JoxSignal *s = &heard->heard[low];
-        if (s->name != name || s->x > x + r)
-            return false;
-        float dx = s->x - x, dy = s->y - y;
-        if (s->agent_id != a->id[i] && dx * dx + dy * dy <= r * r)
-            return true;
-    }
-    return false;
-}
-
 void jox_machines_repeat_signals(JoxMachineRun *run) {
     JoxMachineScratch *s = run->scratch;
     const JoxAgents *a = run->agents;
@@ -105,25 +50,6 @@ void jox_machines_repeat_signals(JoxMachineRun *run) {
         if (jox_time_in_state(run, i) > 0.0) /* entering has called already */
             jox_machines_call(run, i, machine->names[state->enters.signal].number);
     }
-}
-
-uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t i, int32_t kind, int32_t name) {
-    const JoxAgents *a = run->agents;
-    const JoxNeighbours *n = run->neighbours;
-    uint32_t count = 0;
-    for (uint32_t k = 0; k < n->count[i]; k++) {
-        uint32_t j = n->index[jox_neighbour_at(n, i, k)];
-        bool wanted = kind == JOX_KIN_ALL         ? true
-                      : kind == JOX_KIN_TEAMMATES ? a->team[j] && a->team[j] == a->team[i]
-                      : kind == JOX_KIN_OPPONENTS
-                          ? a->team[j] && a->team[i] && a->team[j] != a->team[i]
-                          : (a->tags[j] >> kind & 1) != 0;
-        if (!wanted || (name >= 0 && a->machine[j] == JOX_NO_MACHINE))
-            continue;
-        count +=
-            name < 0 || jox_machine_of(run, j)->states[a->state[j]].name_number == (uint32_t)name;
-    }
-    return count;
 }
 
 void jox_actions_do(JoxMachineRun *run, const JoxMachine *machine, const JoxActions *actions,

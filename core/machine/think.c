@@ -5,7 +5,6 @@
 
 #include "base/elementary.h"
 #include "base/mem.h"
-#include "base/sort.h"
 #include "machine/internal.h"
 
 static const double TURN = 6.283185307179586;
@@ -97,38 +96,6 @@ static void think_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
         think_batch(run, &run->scratch->batches[b], run->scratch->registers[worker]);
 }
 
-/* Marks the ranks of a long list in a bitmap, and reads it from the front. */
-static void sort_by_marks(JoxMachineRun *run, uint32_t *list, uint32_t count) {
-    JoxMachineScratch *s = run->scratch;
-    const JoxAgents *a = run->agents;
-    uint32_t words = a->count / 64 + 1, n = 0;
-    if (words > s->mark_capacity) {
-        s->mark_capacity = words + words / 4;
-        s->marks = jox_realloc(s->marks, s->mark_capacity, sizeof *s->marks);
-    }
-    memset(s->marks, 0, words * sizeof *s->marks);
-    for (uint32_t k = 0; k < count; k++)
-        s->marks[a->rank[list[k]] / 64] |= (uint64_t)1 << a->rank[list[k]] % 64;
-    for (uint32_t w = 0; w < words; w++)
-        for (uint64_t bits = s->marks[w]; bits; bits &= bits - 1)
-            list[n++] = a->by_rank[w * 64 + (uint32_t)__builtin_ctzll(bits)];
-}
-
-/* `context`: the agents' ids. */
-static int by_id(const void *a, const void *b, const void *context) {
-    const uint32_t *id = context;
-    const uint32_t x = id[*(const uint32_t *)a], y = id[*(const uint32_t *)b];
-    return (x > y) - (x < y);
-}
-
-void jox_sort_by_id(JoxMachineRun *run, uint32_t *list, uint32_t count) {
-    const JoxAgents *a = run->agents;
-    if (count > 256 && count > a->count / 256)
-        sort_by_marks(run, list, count);
-    else
-        jox_sort(list, count, sizeof *list, by_id, a->id, run->scratch->spare);
-}
-
 static bool has_function_whens(const JoxState *state) {
     for (uint32_t k = 0; k < state->transition_count; k++)
         if (state->transitions[k].when_hook >= 0)
@@ -175,83 +142,6 @@ static void call_hook(JoxMachineRun *run, int32_t hook, JoxHookKind kind, uint32
     double unused[2] = {0.0, 0.0};
     if (hook >= 0 && run->call)
         run->call(run->call_context, jox_machine_of(run, agent), hook, kind, agent, unused);
-}
-
-/* A set's member for this entry, for targets of the state that ask for one. */
-static void pick_goal(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
-                      uint32_t i) {
-    JoxAgents *a = run->agents;
-    int16_t asked[JOX_MOST_TERMS + 4];
-    uint32_t count = 0;
-    for (uint32_t t = 0; t < state->steer_count; t++)
-        asked[count++] = state->steer[t].target;
-    asked[count++] = state->face;
-    asked[count++] = state->kick_at;
-    asked[count++] = state->toss_at;
-    asked[count++] = state->push_toward;
-    for (uint32_t k = 0; k < count; k++) {
-        const JoxTarget *target = asked[k] < 0 ? NULL : &machine->targets[asked[k]];
-        if (!target || (target->kind != JOX_TARGET_ONE_OF && target->kind != JOX_TARGET_ONE_OF_OWN))
-            continue;
-        int32_t set = target->kind == JOX_TARGET_ONE_OF
-                          ? target->arg
-                          : (int32_t)a->own[(size_t)i * a->own_stride + (uint32_t)target->arg];
-        if (set < 0 || (uint32_t)set >= run->place_count || !run->places[set].member_count)
-            continue;
-        double u = jox_random_unit(run->seed, a->id[i], run->tick, JOX_DRAW_ONE_OF, 0);
-        a->goal[i] = run->places[set].members[(uint32_t)(u * run->places[set].member_count)];
-        return;
-    }
-}
-
-const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *state, int p) {
-    return state->param[p].kind != JOX_VALUE_UNSET ? &state->param[p] : &machine->defaults[p];
-}
-
-void jox_machines_write_parameters(JoxMachineRun *run, uint32_t i) {
-    JoxAgents *a = run->agents;
-    const JoxMachine *machine = jox_machine_of(run, i);
-    const JoxState *state = &machine->states[a->state[i]];
-    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
-        const JoxValue *value = jox_state_parameter(machine, state, p);
-        if (value->kind == JOX_VALUE_EXPRESSION)
-            continue;
-        double number = value->kind == JOX_VALUE_UNSET ? jox_parameters[p].value
-                                                       : jox_value(run, machine, value, i);
-        a->param[p][i] = jox_parameter_store((JoxParameter)p, number);
-    }
-    a->ignore[i] = state->ignore;
-    a->push_only[i] = state->push_only;
-}
-
-/* A duration that was computed, s: what is no number sets none. */
-static float computed_duration(const JoxMachineRun *run, const JoxMachine *machine,
-                               const JoxState *state, uint32_t i) {
-    double value =
-        jox_value(run, machine,
-                  &(JoxValue){.kind = JOX_VALUE_EXPRESSION, .index = state->lasts_expression}, i);
-    return isnan(value) ? INFINITY : (float)value;
-}
-
-void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
-    JoxAgents *a = run->agents;
-    const JoxMachine *machine = jox_machine_of(run, i);
-    const JoxState *state = &machine->states[to];
-    a->state[i] = to;
-    a->entered[i] = run->tick;
-    a->was_true[i] = 0;
-    a->lasts[i] = INFINITY;
-    if (jox_queue_target(state) < 0)
-        a->queue_at[i] = -1;
-    if (state->has_lasts)
-        a->lasts[i] =
-            (float)jox_dist_draw(&state->lasts, run->seed, a->id[i], run->tick, JOX_DRAW_LASTS, 0);
-    else if (state->lasts_expression >= 0 && !run->spawning)
-        a->lasts[i] = computed_duration(run, machine, state, i);
-    pick_goal(run, machine, state, i);
-    jox_machines_write_parameters(run, i);
-    if (state->removes)
-        a->removed[i] = 1;
 }
 
 /* Enters a state with what it does and calls, and goes on with another machine where it says so. */
@@ -325,7 +215,7 @@ static void begin_spawned(JoxMachineRun *run) {
         const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *state = &machine->states[a->state[i]];
         if (state->lasts_expression >= 0)
-            a->lasts[i] = computed_duration(run, machine, state, i);
+            a->lasts[i] = jox_duration_of(run, machine, state, i);
         jox_actions_do(run, machine, &state->enters, i);
         call_hook(run, state->on_enter, JOX_HOOK_ENTER, i);
     }

@@ -142,99 +142,13 @@ static bool take_groups(Rescene *r) {
 
 /* ---- the rest ---- */
 
-static bool same_sources(const JoxSceneSpec *a, const JoxSceneSpec *b) {
-    if (a->source_count != b->source_count || a->sink_count != b->sink_count)
-        return false;
-    for (uint32_t s = 0; s < a->source_count; s++) {
-        const JoxAgentSource *x = &a->sources[s], *y = &b->sources[s];
-        if (x->place != y->place || x->rate != y->rate || x->keep != y->keep ||
-            x->like != y->like || x->from != y->from || x->until != y->until)
-            return false;
-    }
-    for (uint32_t s = 0; s < a->sink_count; s++)
-        if (a->sinks[s].place != b->sinks[s].place || a->sinks[s].group != b->sinks[s].group)
-            return false;
-    return true;
-}
-
 /* Whether there are others; they go on from what they have given: a new rate counts from now. */
 static bool take_sources(Rescene *r) {
-    if (same_sources(r->old, r->new))
+    if (!jox_scene_differs(r->old, r->new, "sources") &&
+        !jox_scene_differs(r->old, r->new, "sinks"))
         return false;
     note(&r->done, "sources and sinks");
     return true;
-}
-
-static bool same_events(const JoxSceneSpec *a, const JoxSceneSpec *b) {
-    bool same = a->event_count == b->event_count;
-    for (uint32_t e = 0; same && e < a->event_count; e++) {
-        const JoxEvent *x = &a->events[e], *y = &b->events[e];
-        same = x->kind == y->kind && x->at == y->at && x->every == y->every &&
-               x->until == y->until && same_text(x->name, y->name) && x->placed == y->placed &&
-               !memcmp(x->from, y->from, sizeof x->from) &&
-               !memcmp(x->velocity, y->velocity, sizeof x->velocity) &&
-               !memcmp(x->spin, y->spin, sizeof x->spin);
-    }
-    return same;
-}
-
-static bool same_regions(const JoxSceneSpec *a, const JoxSceneSpec *b) {
-    bool same = a->region_count == b->region_count;
-    for (uint32_t i = 0; same && i < a->region_count; i++)
-        same = same_text(a->regions[i].name, b->regions[i].name) &&
-               same_points(a->regions[i].points, a->regions[i].count, b->regions[i].points,
-                           b->regions[i].count);
-    return same;
-}
-
-static bool same_probes(const JoxSceneSpec *a, const JoxSceneSpec *b) {
-    bool same = a->probe_count == b->probe_count;
-    for (uint32_t i = 0; same && i < a->probe_count; i++) {
-        const JoxProbeDef *p = &a->probes[i], *q = &b->probes[i];
-        same = same_text(p->name, q->name) && p->kind == q->kind &&
-               p->group_count == q->group_count &&
-               !memcmp(p->groups, q->groups, p->group_count * sizeof *p->groups) &&
-               p->from == q->from && p->until == q->until && p->every == q->every &&
-               p->cutoff == q->cutoff && p->onset == q->onset && p->rest == q->rest &&
-               p->cell == q->cell && p->kernel == q->kernel && p->rows == q->rows &&
-               p->along_y == q->along_y && !memcmp(&p->low, &q->low, sizeof p->low) &&
-               !memcmp(&p->high, &q->high, sizeof p->high) &&
-               same_points(p->points, p->count, q->points, q->count);
-    }
-    return same;
-}
-
-static void name_the_rest(Rescene *r) {
-    const JoxSceneSpec *a = r->old, *b = r->new;
-    const struct {
-        const char *what;
-        bool differs;
-    } REST[] = {{"seed", a->seed != b->seed},
-                {"step", a->step != b->step},
-                {"gravity", a->gravity != b->gravity},
-                {"periodic", a->periodic_x != b->periodic_x || a->periodic_y != b->periodic_y},
-                {"bodies", a->body_count != b->body_count},
-                {"forces", a->forces != b->forces || a->literal != b->literal},
-                {"limits", memcmp(&a->limits, &b->limits, sizeof a->limits) != 0},
-                {"input", !same_text(a->input, b->input)},
-                {"regions", !same_regions(a, b)},
-                {"probes", !same_probes(a, b)}};
-    for (size_t k = 0; k < sizeof REST / sizeof *REST; k++)
-        if (REST[k].differs)
-            note(&r->later, REST[k].what);
-    for (uint32_t i = 0; i < a->body_count && a->body_count == b->body_count; i++) {
-        const JoxBodyDef *x = &a->bodies[i].def, *y = &b->bodies[i].def;
-        if (x->mass == y->mass && !memcmp(x->position, y->position, sizeof x->position) &&
-            !memcmp(x->velocity, y->velocity, sizeof x->velocity) &&
-            !memcmp(x->shape.size, y->shape.size, sizeof x->shape.size) &&
-            !memcmp(x->shape.count, y->shape.count, sizeof x->shape.count) &&
-            x->shape.bond == y->shape.bond)
-            continue;
-        note(&r->later, "bodies");
-        break;
-    }
-    if (a->duration != b->duration)
-        note(&r->later, "duration");
 }
 
 void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
@@ -250,9 +164,9 @@ void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written) {
         if (groups)
             sources = take_sources(&r);
     }
-    if (!same_events(r.old, r.new))
+    if (jox_scene_differs(r.old, r.new, "events"))
         note(groups ? &r.done : &r.later, "events");
-    name_the_rest(&r);
+    jox_scene_later(r.old, r.new, &r.later);
     clock_gettime(CLOCK_REALTIME, &t);
     double age = (double)t.tv_sec + (double)t.tv_nsec * 1e-9 - written;
     char ago[40] = "";

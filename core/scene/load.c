@@ -76,3 +76,16 @@ void jox_scene_free(JoxSceneSpec *scene) {
     jox_arena_free(scene->memory);
     jox_free(scene);
 }
+
+bool jox_scene_differs(const JoxSceneSpec *a, const JoxSceneSpec *b, const char *key) {
+    JOX_ASSERT(jox_key_find(&jox_scene_format, "scene", key));
+    return !jox_yaml_same(jox_yaml_get(a->tree, key), jox_yaml_get(b->tree, key));
+}
+
+void jox_scene_later(const JoxSceneSpec *a, const JoxSceneSpec *b, JoxText *out) {
+    for (size_t k = 0; k < jox_scene_format.key_count; k++) {
+        const JoxKey *key = &jox_scene_format.keys[k];
+        if (key->later && !strcmp(key->owner, "scene") && jox_scene_differs(a, b, key->name))
+            jox_text_printf(out, "%s%s (%s)", out->length ? ", " : "", key->name, key->later);
+    }
+}

@@ -132,6 +132,11 @@ JoxSceneSpec *jox_scene_load(const char *path, const JoxSceneOptions *options,
 JoxSceneSpec *jox_scene_load_text(const char *name, const char *text, size_t length,
                                   const JoxSceneOptions *options, JoxDiagnostics *diagnostics);
 void jox_scene_free(JoxSceneSpec *scene);
+/* Whether two versions of a scene hold other things under one of its keys. */
+bool jox_scene_differs(const JoxSceneSpec *a, const JoxSceneSpec *b, const char *key);
+/* Appends the keys that differ and that a run cannot take over, each with why: "seed (...), ...".
+ */
+void jox_scene_later(const JoxSceneSpec *a, const JoxSceneSpec *b, JoxText *out);
 /* Every key with type, unit, range, default and meaning, as plain text. */
 void jox_scene_print_reference(JoxText *out);
 /* The same as a page of Markdown, with examples. */

@@ -1,6 +1,5 @@
 /* The public jo_world_*: checks what comes in, then calls the world. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -24,16 +23,6 @@ void jo_set_assert_handler(JoAssertHandler *handler) {
 
 void jo_free(void *text) {
     jox_free(text);
-}
-
-void jox_error(JoError *error, JoCode code, const char *format, ...) {
-    if (!error)
-        return;
-    *error = (JoError){.code = code};
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(error->text, sizeof error->text, format, arguments);
-    va_end(arguments);
 }
 
 /* False, with an error that names the field and its range, if `value` is outside it or NaN. */

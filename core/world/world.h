@@ -5,6 +5,7 @@
 
 #include "agents/agents.h"
 #include "agents/neighbours.h"
+#include "base/guard.h"
 #include "base/hash.h"
 #include "base/mem.h"
 #include "body/body.h"
@@ -100,9 +101,6 @@ struct JoWorld {
     char failure[256];      /* why no further step can be done; "" while none failed */
 };
 
-/* Fills an error, which may be NULL, with a formatted text. */
-void jox_error(JoError *error, JoCode code, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
 /* As jo_world_create, without checking the def. */
 JoWorld *jox_world_create(const JoWorldDef *def);
 /* Bit number of a tag, added if new; -1 when all 64 are taken. */

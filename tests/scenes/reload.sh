@@ -191,7 +191,7 @@ expect "a place that is moved in an included file" "places changed, live from"
 sed -i 's/20, 20\], \[0/22, 20], [0/' "$dir/scene.yaml"
 expect "a place that is moved in the scene" "places changed, live from" 2
 echo 'seed: 5' >>"$dir/scene.yaml"
-expect "what cannot change says so" "seed: takes effect at the next start"
+expect "what cannot change says so" "seed (all random numbers follow from it): takes effect at the next start"
 echo 'seeed: 5' >>"$dir/scene.yaml"
 expect "a scene that is broken" "The scene goes on as it was"
 sed -i '/seeed/d; s/behaviour: /set: {speed: 0.4}, behaviour: /' "$dir/scene.yaml"

@@ -161,10 +161,40 @@ static void included_files_give_what_is_lacking(void **state) {
     jox_diag_free(&d);
 }
 
+/* What a reload cannot take over is named, with why; what it takes over is not. */
+static void edits_that_wait_are_named(void **state) {
+    (void)state;
+    JoxDiagnostics d = {0};
+    JoxText later = {0};
+    JoxSceneSpec *a =
+        load("jostle: 1\ntitle: one\nseed: 1\nregions: {r: [[0, 0], [1, 0], [0, 1]]}\n" GROUP, NULL,
+             0, &d);
+    JoxSceneSpec *b =
+        load("jostle: 1\ntitle: two\n# moved\n\nregions: {r: [[0, 0], [1, 0], [0, 2]]}\n"
+             "seed: 2\n" GROUP,
+             NULL, 0, &d);
+    if (!a)
+        show(&d, "a");
+    assert_non_null(a);
+    assert_non_null(b);
+    jox_scene_later(a, a, &later);
+    assert_int_equal(later.length, 0);
+    jox_scene_later(a, b, &later);
+    assert_string_equal(later.data, "seed (all random numbers follow from it), regions (they are "
+                                    "measured from the start on)");
+    assert_true(jox_scene_differs(a, b, "title"));
+    assert_false(jox_scene_differs(a, b, "groups"));
+    jox_text_free(&later);
+    jox_scene_free(a);
+    jox_scene_free(b);
+    jox_diag_free(&d);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(overrides_change_what_they_name_alone),
         cmocka_unit_test(anchors_and_merge_keys),
+        cmocka_unit_test(edits_that_wait_are_named),
         cmocka_unit_test(included_files_give_what_is_lacking),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -52,6 +52,17 @@ char *jox_arena_beside(JoxArena *arena, const char *file, const char *name) {
 
 /* ---- trees ---- */
 
+bool jox_yaml_same(const JoxYaml *a, const JoxYaml *b) {
+    if (a == b || !a || !b)
+        return a == b;
+    bool same = a->kind == b->kind && a->count == b->count && a->quoted == b->quoted &&
+                (a->kind != JOX_YAML_SCALAR || strcmp(a->text, b->text) == 0);
+    for (uint32_t i = 0; same && a->kind != JOX_YAML_SCALAR && i < a->count; i++)
+        same = (a->kind == JOX_YAML_LIST || strcmp(a->keys[i], b->keys[i]) == 0) &&
+               jox_yaml_same(a->items[i], b->items[i]);
+    return same;
+}
+
 JoxYaml *jox_yaml_get(const JoxYaml *map, const char *key) {
     for (uint32_t i = 0; map && map->kind == JOX_YAML_MAP && i < map->count; i++)
         if (strcmp(map->keys[i], key) == 0)

@@ -42,6 +42,8 @@ typedef struct JoxYamlFiles {
 /* Reads a file, or `text` under the name `path`; NULL with diagnostics. Files read are listed. */
 JoxYaml *jox_yaml_load(JoxArena *arena, const char *path, const char *text, size_t length,
                        JoxYamlFiles *files, JoxDiagnostics *diagnostics);
+/* Whether two trees hold the same, wherever they stand. Both may be NULL. */
+bool jox_yaml_same(const JoxYaml *a, const JoxYaml *b);
 JoxYaml *jox_yaml_get(const JoxYaml *map, const char *key);
 /* Sets `map[key]`, new or not. */
 void jox_yaml_set(JoxArena *arena, JoxYaml *map, const char *key, JoxYaml *value);

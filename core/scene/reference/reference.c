@@ -100,7 +100,10 @@ static void table(const char *owner, JoxText *out) {
             listed(out, " | `", key->standard, "`");
         else
             jox_text_add(out, " | ");
-        jox_text_printf(out, " | %s |\n", key->meaning);
+        jox_text_printf(out, " | %s", key->meaning);
+        if (key->later)
+            jox_text_printf(out, "; edited during a run, from the next start on (%s)", key->later);
+        jox_text_add(out, " |\n");
     }
 }
 

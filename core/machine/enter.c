@@ -1,0 +1,80 @@
+/* An agent enters a state: its clock, its duration, a goal and the parameters that are constant. */
+#include <math.h>
+
+#include "machine/internal.h"
+
+/* A set's member for this entry, for targets of the state that ask for one. */
+static void pick_goal(JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
+                      uint32_t i) {
+    JoxAgents *a = run->agents;
+    int16_t asked[JOX_MOST_TERMS + 4];
+    uint32_t count = 0;
+    for (uint32_t t = 0; t < state->steer_count; t++)
+        asked[count++] = state->steer[t].target;
+    asked[count++] = state->face;
+    asked[count++] = state->kick_at;
+    asked[count++] = state->toss_at;
+    asked[count++] = state->push_toward;
+    for (uint32_t k = 0; k < count; k++) {
+        const JoxTarget *target = asked[k] < 0 ? NULL : &machine->targets[asked[k]];
+        if (!target || (target->kind != JOX_TARGET_ONE_OF && target->kind != JOX_TARGET_ONE_OF_OWN))
+            continue;
+        int32_t set = target->kind == JOX_TARGET_ONE_OF
+                          ? target->arg
+                          : (int32_t)a->own[(size_t)i * a->own_stride + (uint32_t)target->arg];
+        if (set < 0 || (uint32_t)set >= run->place_count || !run->places[set].member_count)
+            continue;
+        double u = jox_random_unit(run->seed, a->id[i], run->tick, JOX_DRAW_ONE_OF, 0);
+        a->goal[i] = run->places[set].members[(uint32_t)(u * run->places[set].member_count)];
+        return;
+    }
+}
+
+const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *state, int p) {
+    return state->param[p].kind != JOX_VALUE_UNSET ? &state->param[p] : &machine->defaults[p];
+}
+
+void jox_machines_write_parameters(JoxMachineRun *run, uint32_t i) {
+    JoxAgents *a = run->agents;
+    const JoxMachine *machine = jox_machine_of(run, i);
+    const JoxState *state = &machine->states[a->state[i]];
+    for (int p = 0; p < JOX_PARAM_COUNT; p++) {
+        const JoxValue *value = jox_state_parameter(machine, state, p);
+        if (value->kind == JOX_VALUE_EXPRESSION)
+            continue;
+        double number = value->kind == JOX_VALUE_UNSET ? jox_parameters[p].value
+                                                       : jox_value(run, machine, value, i);
+        a->param[p][i] = jox_parameter_store((JoxParameter)p, number);
+    }
+    a->ignore[i] = state->ignore;
+    a->push_only[i] = state->push_only;
+}
+
+float jox_duration_of(const JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
+                      uint32_t i) {
+    double value =
+        jox_value(run, machine,
+                  &(JoxValue){.kind = JOX_VALUE_EXPRESSION, .index = state->lasts_expression}, i);
+    return isnan(value) ? INFINITY : (float)value;
+}
+
+void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
+    JoxAgents *a = run->agents;
+    const JoxMachine *machine = jox_machine_of(run, i);
+    const JoxState *state = &machine->states[to];
+    a->state[i] = to;
+    a->entered[i] = run->tick;
+    a->was_true[i] = 0;
+    a->lasts[i] = INFINITY;
+    if (jox_queue_target(state) < 0)
+        a->queue_at[i] = -1;
+    if (state->has_lasts)
+        a->lasts[i] =
+            (float)jox_dist_draw(&state->lasts, run->seed, a->id[i], run->tick, JOX_DRAW_LASTS, 0);
+    else if (state->lasts_expression >= 0 && !run->spawning)
+        a->lasts[i] = jox_duration_of(run, machine, state, i);
+    pick_goal(run, machine, state, i);
+    jox_machines_write_parameters(run, i);
+    if (state->removes)
+        a->removed[i] = 1;
+}
