@@ -1,5 +1,5 @@
 -- expects: run A
--- Makes values of the sheet in every call, as if memory had no end.
+-- Makes values of the language in every call, as if memory had no end.
 local kept = now
 return machine { name = "m", start = "A", states = { A = { steer = hold,
   { to = "A", when = function()
