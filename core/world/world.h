@@ -19,7 +19,7 @@
 #include "world/drag.h"
 #include "world/events.h"
 #include "world/exits.h"
-#include "world/input.h"
+#include "world/input/input.h"
 #include "world/inspected.h"
 #include "world/population.h"
 #include "world/routes.h"

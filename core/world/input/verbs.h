@@ -4,7 +4,7 @@
 #define JOX_WORLD_VERBS_H
 
 #include "base/text.h"
-#include "world/input.h"
+#include "world/input/input.h"
 
 typedef enum JoxInputWordKind {
     JOX_WORD_NUMBER,

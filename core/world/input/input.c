@@ -1,4 +1,4 @@
-#include "world/input.h"
+#include "world/input/input.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "world/verbs.h"
+#include "world/input/verbs.h"
 
 enum { LONGEST_LINE = 1200 };
 

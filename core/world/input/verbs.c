@@ -1,4 +1,4 @@
-#include "world/verbs.h"
+#include "world/input/verbs.h"
 
 /* clang-format off */
 #define METRES(axis)      {axis, JOX_WORD_NUMBER, -1e4, 1e4, "m"}
