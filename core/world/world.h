@@ -48,6 +48,9 @@ typedef struct JoxWorldModel {
     char *tags[JOX_MOST_TAGS]; /* bit number -> name */
     uint32_t tag_count;
     JoxMachineSet machines;
+    bool
+        reinserts_bodies; /* at each JOX_BODIES_REINSERT_STEPS-th step: then a state with bodies can
+                             be saved; off, as the order in which Bullet solves contacts changes */
 } JoxWorldModel;
 
 /* All that the future of a world depends on, besides the model: jox_world_sections lists it. */
@@ -153,8 +156,8 @@ JoxRouteStage jox_world_route_stage(JoWorld *world);
 void jox_world_sections(JoWorld *world, JoxSections *sections);
 uint64_t jox_world_hash(const JoWorld *world);
 /* Whether a state that is saved now goes on to the bit: always without bodies, and with them where
-   the next step re-inserts them (JOX_BODIES_REINSERT_STEPS). Who wants a snapshot between steps on
-   until it is so. */
+   the next step re-inserts them (model.reinserts_bodies, JOX_BODIES_REINSERT_STEPS). Who wants a
+   snapshot between steps on until it is so. */
 bool jox_world_snapshot_is_exact(const JoWorld *world);
 /* Appends the whole state to a buffer. False, and nothing appended, where it would not be exact. */
 bool jox_world_snapshot(JoWorld *world, JoxText *out, JoError *error);

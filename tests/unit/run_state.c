@@ -222,6 +222,7 @@ static void bodies_sources_and_events_go_on_to_the_bit(void **state) {
     JoError error = {0};
     uint64_t first[AFTER], second[AFTER];
     const JoxStatistics *did = &scene->world->state.statistics;
+    scene->world->model.reinserts_bodies = other->world->model.reinserts_bodies = true;
     step(scene, JOX_BODIES_REINSERT_STEPS - 1);
     assert_false(jox_world_snapshot(scene->world, &saved, &error));
     assert_non_null(strstr(error.text, "after every 128 steps"));
