@@ -7,7 +7,7 @@
 #include "base/mem.h"
 #include "live/inspect.h"
 #include "live/scene_page.h"
-#include "world/verbs.h"
+#include "world/input/verbs.h"
 
 enum { MOST_STEPS = 100000 };
 

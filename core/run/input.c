@@ -7,7 +7,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
-#include "world/verbs.h"
+#include "world/input/verbs.h"
 
 /* ---- actions ---- */
 

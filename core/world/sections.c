@@ -130,7 +130,12 @@ void jox_world_forget(JoWorld *w) {
 }
 
 uint64_t jox_world_hash(const JoWorld *world) {
+    return jox_world_hash_without(world, NULL);
+}
+
+uint64_t jox_world_hash_without(const JoWorld *world, const char *module) {
     JoxSections s = jox_sections_hash();
+    s.skipped = module;
     jox_world_sections((JoWorld *)world, &s); /* in this mode nothing is written */
     return jox_hash_end(&s.hash);
 }

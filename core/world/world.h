@@ -19,7 +19,7 @@
 #include "world/drag.h"
 #include "world/events.h"
 #include "world/exits.h"
-#include "world/input.h"
+#include "world/input/input.h"
 #include "world/inspected.h"
 #include "world/population.h"
 #include "world/routes.h"
@@ -155,6 +155,8 @@ JoxRouteStage jox_world_route_stage(JoWorld *world);
 /* Lists the state, in one order for all modes. */
 void jox_world_sections(JoWorld *world, JoxSections *sections);
 uint64_t jox_world_hash(const JoWorld *world);
+/* The same without the sections of a module, as jox_sections_module names it. */
+uint64_t jox_world_hash_without(const JoWorld *world, const char *module);
 /* Whether a state that is saved now goes on to the bit: always without bodies, and with them where
    the next step re-inserts them (model.reinserts_bodies, JOX_BODIES_REINSERT_STEPS). Who wants a
    snapshot between steps on until it is so. */

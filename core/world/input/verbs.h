@@ -4,7 +4,7 @@
 #define JOX_WORLD_VERBS_H
 
 #include "base/text.h"
-#include "world/input.h"
+#include "world/input/input.h"
 
 typedef struct JoWorld JoWorld;
 

@@ -1,4 +1,4 @@
-#include "world/verbs.h"
+#include "world/input/verbs.h"
 
 #include <assert.h>
 

@@ -7,7 +7,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "world/verbs.h"
+#include "world/input/verbs.h"
 
 enum { LONGEST_LINE = 1200 };
 

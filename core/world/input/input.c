@@ -1,5 +1,5 @@
 /* The entries of an input log, and how far it has been played. */
-#include "world/input.h"
+#include "world/input/input.h"
 
 #include "base/mem.h"
 
