@@ -130,6 +130,10 @@ static bool read_head(JoxSections *s, const char *name, size_t size, uint64_t *c
     return true;
 }
 
+static bool is_hashed(const JoxSections *s) {
+    return !s->unhashed && !(s->skipped && strcmp(s->skipped, s->module) == 0);
+}
+
 static const unsigned char *cell_at(const void *cells, size_t size, size_t k,
                                     const uint32_t *order) {
     return (const unsigned char *)cells + size * (order ? order[k] : k);
@@ -139,7 +143,7 @@ static void hash_cells(JoxSections *s, const void *cells, size_t size, size_t co
                        const uint32_t *order) {
     unsigned char chunk[CHUNK];
     size_t used = 0;
-    if (s->unhashed || count == 0)
+    if (!is_hashed(s) || count == 0)
         return;
     if (!order || size > CHUNK) {
         for (size_t k = 0; order && k < count; k++)
@@ -229,7 +233,7 @@ void jox_section_rows(JoxSections *s, const char *name, double *rows, size_t str
         return;
     }
     static const double ZERO = 0.0;
-    for (size_t k = 0; k < count && !s->unhashed; k++) {
+    for (size_t k = 0; k < count && is_hashed(s); k++) {
         const double *row = rows + stride * (order ? order[k] : k);
         size_t used = stride;
         while (used && memcmp(&row[used - 1], &ZERO, sizeof ZERO) == 0)

@@ -47,6 +47,7 @@ typedef struct JoxSections {
     JoxCellVisit *visit;
     void *context;
     const char *module;
+    const char *skipped; /* hash: a module that is left out, or NULL; may be set at the start */
     bool unhashed;
     bool failed;  /* restore, compare: the buffer does not fit; `wrong` says why */
     bool differs; /* compare: `wrong` names the first section and cell that differ */

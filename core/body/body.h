@@ -188,10 +188,12 @@ JoxBodiesReport jox_bodies_step(JoxBodies *bodies, float dt, JoxDisc *discs, uin
 /* True if the next step would sweep any body: only then are discs needed. */
 bool jox_bodies_any_fast(const JoxBodies *bodies, float dt);
 
-/* Bullet keeps contacts and its search tree from step to step, and what it computes depends on
-   them. At fixed steps everything is taken out of Bullet's world and put back in order of id, which
-   leaves nothing but the bodies' own state (image.h): a state saved just before goes on as the run
-   itself does. Costs about a step of these bodies. Contacts start anew; stacks keep still. */
+/* Bullet keeps contacts, a search tree and counters from step to step, and what it computes depends
+   on them. At fixed steps everything is taken out of Bullet's world and put back in order of id,
+   with the contacts that there were: what is left is the bodies' own state (image.h), and a state
+   that was saved just before goes on as the run itself does. Costs less than one step of these
+   bodies. What stands moves by less than half a millimetre, but the order in which Bullet solves
+   contacts changes, and with that how the load of a wall is spread over its feet. */
 enum { JOX_BODIES_REINSERT_STEPS = 128 };
 void jox_bodies_reinsert(JoxBodies *bodies);
 

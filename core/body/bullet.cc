@@ -141,8 +141,8 @@ void jox_bodies_free(JoxBodies *b) {
         unmake(b->dispatcher);
         unmake(b->configuration);
     }
-    void *owned[] = {b->walls, b->rows,    b->order,         b->objects,  b->hits,
-                     b->gone,  b->corners, b->contact_loads, b->contacts, b->breaks};
+    void *owned[] = {b->walls,   b->rows,          b->order,    b->objects, b->hits, b->gone,
+                     b->corners, b->contact_loads, b->contacts, b->breaks,  b->kept};
     for (void *memory : owned)
         jox_free(memory);
     jox_disc_grid_free(&b->grid);

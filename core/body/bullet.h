@@ -61,7 +61,7 @@ struct JoxMaterial {
     float friction, restitution, damping, spin_damping;
 };
 
-/* Everything of a live row but `shape`, `body` and `cold` is state; see image.h. */
+/* Everything of a live row but `shape`, `body` and `activation` is state; see image.h. */
 struct JoxRow {
     bool live;
     uint32_t id;
@@ -72,7 +72,7 @@ struct JoxRow {
     btRigidBody *body;
     JoxV3 force; /* over the next step, N */
     bool grounded, swept;
-    bool cold;           /* has not moved since it was put back: Bullet has no contacts of it */
+    int activation;      /* scratch: Bullet's state of sleep */
     JoxBondGraph *bonds; /* of blocks that can come apart, or NULL; its frame is the shape's own */
     bool held;           /* by an agent */
     uint32_t holder;
@@ -121,7 +121,12 @@ struct JoxBodies {
     uint32_t contact_capacity;
     JoxBodyBreak *breaks;
     uint32_t break_count, break_capacity;
-    uint32_t bonded;         /* bodies that can come apart */
+    uint32_t bonded; /* bodies that can come apart */
+    /* What the solver begins from after the next re-insertion: noted there, or, `restored`, from a
+       saved state. */
+    JoxContactRecord *kept;
+    uint32_t kept_count, kept_capacity;
+    bool restored;
     JoxBodiesImage *visited; /* while a test changes its cells: then it is what is hashed */
     JoxDiscGrid grid;
     JoxFootprint footprint;
@@ -170,6 +175,11 @@ void jox_row_add_impulse(JoxRow *row, const btVector3 &point, const btVector3 &i
 void jox_bodies_gather_contacts(JoxBodies *bodies);
 void jox_bodies_break(JoxBodies *bodies, float dt);
 void jox_bodies_drop_walls(JoxBodies *bodies);
+/* bullet_contacts.cc. Writes what the solver would begin from, and says how many; gives it to the
+   contacts that are found in a world into which everything was just put. */
+uint32_t jox_bodies_note_contacts(const JoxBodies *bodies, JoxContactRecord *&contacts,
+                                  uint32_t &capacity);
+void jox_bodies_renew_contacts(JoxBodies *bodies, const JoxContactRecord *contacts, uint32_t count);
 /* Whether a body at this speed is to be swept in a step of dt. */
 bool jox_row_fast(const JoxRow *row, float dt);
 

@@ -18,6 +18,8 @@ static void remove_pairs(JoxBodies *b) {
 void jox_bodies_reinsert(JoxBodies *b) {
     if (!b->world)
         return;
+    if (!b->restored)
+        b->kept_count = jox_bodies_note_contacts(b, b->kept, b->kept_capacity);
     remove_pairs(b);
     for (uint32_t k = b->live; k > 0; k--)
         b->world->removeRigidBody(b->rows[b->order[k - 1]].body);
@@ -31,11 +33,9 @@ void jox_bodies_reinsert(JoxBodies *b) {
         b->world->addRigidBody(b->ground);
     for (uint32_t n = 0; n < b->wall_count; n++)
         b->world->addRigidBody(b->walls[n]);
-    for (uint32_t k = 0; k < b->live; k++) {
-        JoxRow *r = &b->rows[b->order[k]];
-        b->world->addRigidBody(r->body);
-        r->cold = r->shape.mass > 0;
-    }
+    for (uint32_t k = 0; k < b->live; k++)
+        b->world->addRigidBody(b->rows[b->order[k]].body);
+    jox_bodies_renew_contacts(b, b->kept, b->kept_count);
 }
 
 /* ---- out ---- */
@@ -109,6 +109,15 @@ void jox_bodies_capture(const JoxBodies *b, JoxBodiesImage *image) {
     image->counters = {b->next_id, b->count, 0, b->last_dt};
     for (uint32_t k = 0; k < b->live; k++)
         put_row(image, b->order[k], &b->rows[b->order[k]]);
+    if (!b->restored) {
+        image->contact_count =
+            jox_bodies_note_contacts(b, image->contacts, image->contact_capacity);
+        return;
+    }
+    jox_reserve(image->contacts, image->contact_capacity, b->kept_count);
+    image->contact_count = b->kept_count;
+    if (b->kept_count)
+        memcpy(image->contacts, b->kept, b->kept_count * sizeof *b->kept);
 }
 
 /* ---- back ---- */
@@ -256,6 +265,11 @@ bool jox_bodies_rebuild(JoxBodies *b, const JoxBodiesImage *image, JoxText *erro
         advance(&at, image, &image->bodies[n]);
     }
     jox_free(shapes);
+    jox_reserve(b->kept, b->kept_capacity, image->contact_count);
+    b->kept_count = image->contact_count;
+    if (b->kept_count)
+        memcpy(b->kept, image->contacts, b->kept_count * sizeof *b->kept);
+    b->restored = true; /* until the next step */
     jox_bodies_reinsert(b);
     return true;
 }

@@ -1,11 +1,6 @@
 /* A step in substeps, with the sweep of fast bodies against people; and what agents see. */
 #include "body/bullet.h"
 
-/* Bullet's solver begins from the last substep's impulses; the first substep after a re-insertion
-   has none to begin from, and needs more iterations for the same accuracy. */
-static const int ITERATIONS = 10; /* as is Bullet's default */
-static const int COLD_ITERATIONS = 150;
-
 bool jox_row_fast(const JoxRow *r, float dt) {
     return !r->held && r->shape.mass > 0 && r->shape.bound <= 0.75f &&
            r->body->getLinearVelocity().length() * dt > 0.1f;
@@ -138,23 +133,11 @@ static void push_on(JoxBodies *b, bool last) {
     }
 }
 
-/* Whether a body moves in the substep that begins for the first time since it was put back. */
-static bool any_cold(JoxBodies *b) {
-    bool any = false;
-    for (uint32_t k = 0; k < b->live; k++) {
-        JoxRow *r = &b->rows[b->order[k]];
-        if (!r->cold || !r->body->isActive())
-            continue;
-        any = true;
-        r->cold = false;
-    }
-    return any;
-}
-
 JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t disc_count) {
     JoxBodiesReport report = {};
     b->hit_count = b->gone_count = b->break_count = 0;
     b->hit_impulse = b->hit_residual = 0;
+    b->restored = false;
     if (!b->world || !b->live || !(dt > 0 && dt <= 1))
         return report;
     b->last_dt = dt;
@@ -170,7 +153,6 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
         if (people)
             sweep_all(b, discs, h * float(s), h, dt);
         push_on(b, s + 1 == n);
-        b->world->getSolverInfo().m_numIterations = any_cold(b) ? COLD_ITERATIONS : ITERATIONS;
         b->world->stepSimulation(h, 0);
         if (b->bonded)
             jox_bodies_gather_contacts(b);

@@ -8,6 +8,7 @@
 _Static_assert(sizeof(JoxBodyRecord) == 320, "a body's record has no padding");
 _Static_assert(sizeof(JoxBodyPartRecord) == 104, "a part's record has no padding");
 _Static_assert(sizeof(JoxBlockRecord) == 88, "a block's record has no padding");
+_Static_assert(sizeof(JoxContactRecord) == 64, "a contact's record has no padding");
 _Static_assert(sizeof(JoxBondRecord) == 24, "a bond's record has no padding");
 
 enum { MOST_ROWS = 1 << 24, MOST_POINTS = 256, LAST_ACTIVATION = 5 };
@@ -19,6 +20,7 @@ void jox_bodies_image_free(JoxBodiesImage *image) {
     jox_free(image->names);
     jox_free(image->blocks);
     jox_free(image->bonds);
+    jox_free(image->contacts);
     *image = (JoxBodiesImage){0};
 }
 
@@ -31,6 +33,7 @@ void jox_bodies_image_sections(JoxBodiesImage *i, JoxSections *s) {
     JOX_SECTION_ARRAY(s, "names", i->names, i->name_count, i->name_capacity);
     JOX_SECTION_ARRAY(s, "blocks", i->blocks, i->block_count, i->block_capacity);
     JOX_SECTION_ARRAY(s, "bonds", i->bonds, i->bond_count, i->bond_capacity);
+    JOX_SECTION_ARRAY(s, "contacts", i->contacts, i->contact_count, i->contact_capacity);
 }
 
 /* ---- bonds ---- */
@@ -182,10 +185,20 @@ static bool bodies_are_sound(const JoxBodiesImage *image) {
            t.bonds == image->bond_count;
 }
 
+static bool contacts_are_sound(const JoxBodiesImage *image) {
+    for (uint32_t n = 0; n < image->contact_count; n++) {
+        const JoxContactRecord *c = &image->contacts[n];
+        if (!all_finite(c->points[0], 3) || !all_finite(c->points[1], 3) ||
+            !all_finite(c->normal, 3) || !all_finite(c->impulse, 3))
+            return false;
+    }
+    return true;
+}
+
 bool jox_bodies_image_check(const JoxBodiesImage *image, JoxText *error) {
-    bool sound = image->counters.row_count <= MOST_ROWS &&
-                 image->body_count <= image->counters.row_count &&
-                 isfinite(image->counters.last_dt) && bodies_are_sound(image);
+    bool sound =
+        image->counters.row_count <= MOST_ROWS && image->body_count <= image->counters.row_count &&
+        isfinite(image->counters.last_dt) && contacts_are_sound(image) && bodies_are_sound(image);
     if (!sound && error)
         jox_text_add(error, "the bodies of the saved state contradict each other");
     return sound;

@@ -47,6 +47,15 @@ typedef struct JoxBondRecord {
     double strength;
 } JoxBondRecord;
 
+/* A point of contact, and what the solver begins from there. */
+typedef struct JoxContactRecord {
+    int32_t who[4];     /* ids of both bodies (negative: ground and walls), the lower first; of each
+                           the part that touches */
+    float points[2][3]; /* in the frame of either, m */
+    float normal[3];    /* of the second body's surface */
+    float impulse[3];   /* along the normal, and across it twice, N s */
+} JoxContactRecord;
+
 /* Zero-initialised is empty; the arrays are owned. */
 typedef struct JoxBodiesImage {
     struct {
@@ -65,6 +74,8 @@ typedef struct JoxBodiesImage {
     uint32_t block_count, block_capacity;
     JoxBondRecord *bonds;
     uint32_t bond_count, bond_capacity;
+    JoxContactRecord *contacts; /* ascending by `who` */
+    uint32_t contact_count, contact_capacity;
 } JoxBodiesImage;
 
 void jox_bodies_image_free(JoxBodiesImage *image);

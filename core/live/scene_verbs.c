@@ -7,7 +7,7 @@
 #include "base/mem.h"
 #include "live/inspect.h"
 #include "live/scene_page.h"
-#include "world/verbs.h"
+#include "world/input/verbs.h"
 
 enum { MOST_STEPS = 100000 };
 
@@ -98,7 +98,7 @@ static int find_tool(const char *line) {
     line += strspn(line, " \t");
     const size_t n = strcspn(line, " \t");
     const char *name = NULL;
-    for (size_t v = 0; v < JOX_INPUT_VERBS; v++)
+    for (uint32_t v = 0; v < jox_input_verb_count; v++)
         if (strlen(jox_input_verbs[v].name) == n && !strncmp(line, jox_input_verbs[v].name, n))
             name = jox_input_verbs[v].tool;
     for (int tool = 0; name && tool < JOX_TOOL_COUNT; tool++)
@@ -111,7 +111,7 @@ static int find_tool(const char *line) {
 static void refuse_verb(const JoxLiveRequest *request) {
     JoxText why = {0};
     jox_text_add(&why, "a line begins with one of:");
-    for (size_t v = 0; v < JOX_INPUT_VERBS; v++)
+    for (uint32_t v = 0; v < jox_input_verb_count; v++)
         if (jox_input_verbs[v].tool)
             jox_text_printf(&why, " %s", jox_input_verbs[v].name);
     jox_live_refuse(request, why.data);

@@ -1,32 +1,9 @@
-/* What people do to a scene while it runs, by names; and the names that its events use. */
+/* The names that the events of a scene use. */
 #include <string.h>
 
 #include "run/run.h"
 
 enum { MOST_NAMES = 256 };
-
-static bool done(bool good, JoxText *why, JoError *error) {
-    if (!good)
-        jox_error(error, JO_INPUT, "%s", why->data);
-    jox_text_free(why);
-    return good;
-}
-
-bool jox_run_throw(JoScene *scene, const char *body, const double from[3], const double velocity[3],
-                   const double spin[3], JoError *error) {
-    JoxText why = {0};
-    return done(jox_event_throw(scene->world, body, from, velocity, spin, &why), &why, error);
-}
-
-bool jox_run_open(JoScene *scene, const char *wall, bool open, JoError *error) {
-    JoxText why = {0};
-    return done(jox_event_open(scene->world, wall, open, &why), &why, error);
-}
-
-bool jox_run_signal(JoScene *scene, const char *name, JoError *error) {
-    JoxText why = {0};
-    return done(jox_event_signal(scene->world, name, &why), &why, error);
-}
 
 void jox_run_name_events(JoScene *scene, JoxDiagnostics *diagnostics) {
     JoxMachineRun *machines = &scene->world->machines;

@@ -7,80 +7,9 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
+#include "world/input/verbs.h"
 
 /* ---- actions ---- */
-
-/* Index of the living agent with an id, or JOX_NO_INDEX with `error`. */
-static uint32_t find_agent(const JoScene *scene, uint32_t id, JoError *error) {
-    const JoxAgents *a = &scene->world->state.agents;
-    uint32_t i = jox_agents_find(a, id);
-    if (i != JOX_NO_INDEX)
-        return i;
-    if (id < a->next_id)
-        jox_error(error, JO_INPUT, "agent %u has left", id);
-    else
-        jox_error(error, JO_INPUT, "there is no agent %u; ids go up to %u", id,
-                  a->next_id ? a->next_id - 1 : 0);
-    return JOX_NO_INDEX;
-}
-
-static bool push(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
-    JoxAgents *a = &scene->world->state.agents;
-    uint32_t i = find_agent(scene, entry->number, error);
-    if (i == JOX_NO_INDEX)
-        return false;
-    a->ext_x[i] += (float)entry->numbers[0];
-    a->ext_y[i] += (float)entry->numbers[1];
-    return true;
-}
-
-/* A log may speak of players who are yet to come. */
-static bool drive(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
-    if (entry->line == 0 && find_agent(scene, entry->number, error) == JOX_NO_INDEX)
-        return false;
-    jox_input_player(&scene->world->state.input, entry->number, (float)entry->numbers[0],
-                     (float)entry->numbers[1]);
-    return true;
-}
-
-static bool add_box(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
-    const double *v = entry->numbers;
-    JoxText why = {0};
-    bool good = jox_world_add_box(scene->world, v, v + 3, v[6], v[7], &why) != JOX_NO_BODY;
-    if (!good)
-        jox_error(error, JO_INPUT, "%s", why.data ? why.data : "the box was refused");
-    jox_text_free(&why);
-    return good;
-}
-
-static bool grab(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
-    JoWorld *world = scene->world;
-    const unsigned row = entry->number;
-    switch (jox_world_grab(world, row, entry->numbers, entry->verb == JOX_INPUT_GRAB)) {
-    case JOX_GRAB_DONE:
-        return true;
-    case JOX_GRAB_NONE:
-        jox_error(error, JO_INPUT, "there is no body %u", row);
-        break;
-    case JOX_GRAB_STATIC:
-        jox_error(error, JO_INPUT, "body %u is static: it cannot be moved", row);
-        break;
-    case JOX_GRAB_FREE:
-        jox_error(error, JO_INPUT, "body %u is not held; grab it first", row);
-        break;
-    case JOX_GRAB_FULL:
-        jox_error(error, JO_INPUT, "%d bodies are held already; release one first", JOX_MOST_GRABS);
-        break;
-    }
-    return false;
-}
-
-static bool release(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
-    bool good = jox_world_release(scene->world, entry->number);
-    if (!good)
-        jox_error(error, JO_INPUT, "body %u is not held", entry->number);
-    return good;
-}
 
 /* Swaps files as a log tells. */
 static bool reload(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
@@ -95,38 +24,22 @@ static bool reload(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
 }
 
 static bool do_entry(JoScene *scene, const JoxInputEntry *entry, JoError *error) {
-    const double *v = entry->numbers;
-    switch (entry->verb) {
-    case JOX_INPUT_PLAYER:
-        return drive(scene, entry, error);
-    case JOX_INPUT_THROW:
-        return jox_run_throw(scene, entry->names[0], entry->here ? NULL : v, v + 3, v + 6, error);
-    case JOX_INPUT_BOX:
-        return add_box(scene, entry, error);
-    case JOX_INPUT_GRAB:
-    case JOX_INPUT_DRAG:
-        return grab(scene, entry, error);
-    case JOX_INPUT_RELEASE:
-        return release(scene, entry, error);
-    case JOX_INPUT_PUSH:
-        return push(scene, entry, error);
-    case JOX_INPUT_OPEN:
-    case JOX_INPUT_CLOSE:
-        return jox_run_open(scene, entry->names[0], entry->verb == JOX_INPUT_OPEN, error);
-    case JOX_INPUT_SIGNAL:
-        return jox_run_signal(scene, entry->names[0], error);
-    case JOX_INPUT_SET:
-        return jox_run_set(scene, entry->names[0], entry->names[1], entry->names[2], v[0], error);
-    case JOX_INPUT_BEGAN: /* were looked at when the scene was loaded */
-    case JOX_INPUT_MADE:
-    case JOX_INPUT_BEFORE:
-        return true;
-    case JOX_INPUT_FILES:
-        return reload(scene, entry, error);
-    case JOX_INPUT_VERBS:
-        break;
+    const JoxVerb *verb = &jox_input_verbs[entry->verb];
+    JOX_ASSERT(entry->verb < jox_input_verb_count);
+    if (verb->perform) {
+        JoxText why = {0};
+        bool good = verb->perform(scene->world, entry, &why);
+        if (!good)
+            jox_error(error, JO_INPUT, "%s", why.data ? why.data : verb->name);
+        jox_text_free(&why);
+        return good;
     }
-    return false;
+    if (entry->verb == JOX_INPUT_SET)
+        return jox_run_set(scene, entry->names[0], entry->names[1], entry->names[2],
+                           entry->numbers[0], error);
+    if (entry->verb == JOX_INPUT_FILES)
+        return reload(scene, entry, error);
+    return true; /* the others were looked at when the scene was loaded */
 }
 
 /* ---- what comes in ---- */
@@ -135,7 +48,7 @@ static bool perform(JoScene *scene, JoxInputEntry *entry, JoError *error) {
     if (!do_entry(scene, entry, error))
         return false;
     scene->acted_on |= entry->line == 0;
-    if (entry->verb < JOX_INPUT_BEGAN) /* a reload is logged as it goes live */
+    if (jox_input_verbs[entry->verb].tool) /* a reload is logged as it goes live */
         jox_run_log(scene, entry);
     return true;
 }

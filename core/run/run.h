@@ -98,11 +98,6 @@ bool jox_run_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnosti
 bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics);
 /* Gives the world the spec's groups, sources, sinks and events; `anew`: sources count from now. */
 void jox_run_set_schedule(JoScene *scene, bool anew);
-/* events.c: as jo_scene_throw, _open_wall and _signal, which write the input log besides. */
-bool jox_run_throw(JoScene *scene, const char *body, const double from[3], const double velocity[3],
-                   const double spin[3], JoError *error);
-bool jox_run_open(JoScene *scene, const char *wall, bool open, JoError *error);
-bool jox_run_signal(JoScene *scene, const char *name, JoError *error);
 /* input.c: what the log that is played says of the step that begins. */
 void jox_run_inputs(JoScene *scene);
 /* input_set.c: a parameter by the names that a line gives. `state` -1: the machine's defaults.

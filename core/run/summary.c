@@ -286,6 +286,9 @@ char *jo_scene_summary(const JoScene *scene) {
     add_lua(&json, scene);
     jox_run_add_probes(scene, &json);
     jox_json_format(&json, "hash", "%016llx", (unsigned long long)jox_world_hash(world));
+    /* Without how often functions failed: what they did to the crowd, or did not. */
+    jox_json_format(&json, "hash_without_hooks", "%016llx",
+                    (unsigned long long)jox_world_hash_without(world, "hooks"));
     jox_json_string(&json, "isa", "scalar");
     jox_json_whole(&json, "threads", jox_pool_threads(world->scratch.pool));
     add_inputs(&json, scene);

@@ -46,6 +46,7 @@ static bool link_mod(JoxModsFind *f, uint32_t m) {
 
 /* Whether mod `m` comes after mod `other` by what is known so far, through others too. */
 static bool comes_after(const JoxModsFind *f, uint32_t m, uint32_t other) {
+    JOX_ASSERT(m < f->mods->found_count && other < f->mods->found_count);
     uint64_t before = f->needs[m].before;
     for (uint64_t known = 0; known != before;) {
         known = before;

@@ -75,7 +75,7 @@ void jox_world_sections(JoWorld *w, JoxSections *s) {
 
 bool jox_world_snapshot_is_exact(const JoWorld *world) {
     return jox_bodies_count(world->state.bodies) == 0 ||
-           world->state.tick % JOX_BODIES_REINSERT_STEPS == 0;
+           (world->model.reinserts_bodies && world->state.tick % JOX_BODIES_REINSERT_STEPS == 0);
 }
 
 static void save(JoWorld *world, JoxText *out) {
@@ -86,9 +86,11 @@ static void save(JoWorld *world, JoxText *out) {
 
 bool jox_world_snapshot(JoWorld *world, JoxText *out, JoError *error) {
     if (!jox_world_snapshot_is_exact(world)) {
-        jox_error(error, JO_INPUT,
-                  "with bodies a state can be saved after every %d steps, not after %llu",
-                  JOX_BODIES_REINSERT_STEPS, (unsigned long long)world->state.tick);
+        jox_error(
+            error, JO_INPUT,
+            "with bodies a state can be saved after every %d steps, not after %llu, of a world "
+            "that re-inserts them",
+            JOX_BODIES_REINSERT_STEPS, (unsigned long long)world->state.tick);
         return false;
     }
     save(world, out);
@@ -128,7 +130,12 @@ void jox_world_forget(JoWorld *w) {
 }
 
 uint64_t jox_world_hash(const JoWorld *world) {
+    return jox_world_hash_without(world, NULL);
+}
+
+uint64_t jox_world_hash_without(const JoWorld *world, const char *module) {
     JoxSections s = jox_sections_hash();
+    s.skipped = module;
     jox_world_sections((JoWorld *)world, &s); /* in this mode nothing is written */
     return jox_hash_end(&s.hash);
 }

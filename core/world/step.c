@@ -159,7 +159,8 @@ bool jox_world_step(JoWorld *w) {
     jox_world_sources(w);
     double begin = jox_clock_wall(), cpu = jox_clock_cpu(), last = begin;
     jox_world_resolve_placement(w);
-    if (w->state.tick % JOX_BODIES_REINSERT_STEPS == 0) /* a state saved now goes on alike */
+    if (w->model.reinserts_bodies &&
+        w->state.tick % JOX_BODIES_REINSERT_STEPS == 0) /* a state saved now goes on alike */
         jox_bodies_reinsert(w->state.bodies);
     jox_inspect_expire(w);
     w->scratch.gone.count = 0;

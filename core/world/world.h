@@ -19,7 +19,7 @@
 #include "world/drag.h"
 #include "world/events.h"
 #include "world/exits.h"
-#include "world/input.h"
+#include "world/input/input.h"
 #include "world/inspected.h"
 #include "world/population.h"
 #include "world/routes.h"
@@ -48,6 +48,9 @@ typedef struct JoxWorldModel {
     char *tags[JOX_MOST_TAGS]; /* bit number -> name */
     uint32_t tag_count;
     JoxMachineSet machines;
+    bool
+        reinserts_bodies; /* at each JOX_BODIES_REINSERT_STEPS-th step: then a state with bodies can
+                             be saved; off, as the order in which Bullet solves contacts changes */
 } JoxWorldModel;
 
 /* All that the future of a world depends on, besides the model: jox_world_sections lists it. */
@@ -152,9 +155,11 @@ JoxRouteStage jox_world_route_stage(JoWorld *world);
 /* Lists the state, in one order for all modes. */
 void jox_world_sections(JoWorld *world, JoxSections *sections);
 uint64_t jox_world_hash(const JoWorld *world);
+/* The same without the sections of a module, as jox_sections_module names it. */
+uint64_t jox_world_hash_without(const JoWorld *world, const char *module);
 /* Whether a state that is saved now goes on to the bit: always without bodies, and with them where
-   the next step re-inserts them (JOX_BODIES_REINSERT_STEPS). Who wants a snapshot between steps on
-   until it is so. */
+   the next step re-inserts them (model.reinserts_bodies, JOX_BODIES_REINSERT_STEPS). Who wants a
+   snapshot between steps on until it is so. */
 bool jox_world_snapshot_is_exact(const JoWorld *world);
 /* Appends the whole state to a buffer. False, and nothing appended, where it would not be exact. */
 bool jox_world_snapshot(JoWorld *world, JoxText *out, JoError *error);

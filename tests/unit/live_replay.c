@@ -193,6 +193,39 @@ static void scene_message_of_a_recording(void **state) {
 
 /* ---- other files ---- */
 
+/* Two people on both sides of a periodic edge are as near to each other in a recording as in the
+   run that it is of. */
+static void densities_over_a_periodic_edge(void **state) {
+    (void)state;
+    JoScene *scene = load_own("jostle: 1\n"
+                              "bounds: [[0, 0], [20, 6]]\n"
+                              "periodic: x\n"
+                              "groups: {people: {behaviour: own.lua, at: [[0.3, 3], [19.7, "
+                              "3]]}}\n",
+                              HEAD "\"A\", states = { A = { steer = hold } } }\n");
+    JoError error = {0};
+    JoxText text = {0}, told = {0};
+    char file[300], plan[300];
+    snprintf(file, sizeof file, "%s/other.sqlite", folder);
+    snprintf(plan, sizeof plan, "%s/scene.yaml", folder);
+    unlink(file);
+    assert_true(jo_scene_record(scene, file, &error));
+    step(scene, 4);
+    jox_live_status(scene, &(JoxLiveSession){.speed = 1}, &text);
+    parse(&text);
+    const double most = number_at("density_max", 0, 0, 0);
+    assert_true(jo_scene_finish(scene, &error));
+    jo_scene_free(scene);
+    JoxReplay *replay = open_replay(file, plan, 0);
+    assert_true(jox_replay_show(replay, 1, &told));
+    text.length = 0;
+    jox_replay_status(replay, &(JoxLiveSession){.speed = 1}, 1, &text);
+    parse(&text);
+    assert_near(number_at("density_max", 0, 0, 0), most, 0.05 * most);
+    jox_replay_close(replay);
+    jox_text_free(&text);
+}
+
 static void run_sql(const char *file, const char *sql) {
     sqlite3 *db;
     char *wrong = NULL;
@@ -340,8 +373,11 @@ static void damaged_recordings_give_errors(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_are_those_recorded),      cmocka_unit_test(what_is_measured),
-        cmocka_unit_test(scene_message_of_a_recording),   cmocka_unit_test(recordings_of_others),
+        cmocka_unit_test(frames_are_those_recorded),
+        cmocka_unit_test(what_is_measured),
+        cmocka_unit_test(scene_message_of_a_recording),
+        cmocka_unit_test(recordings_of_others),
+        cmocka_unit_test(densities_over_a_periodic_edge),
         cmocka_unit_test(damaged_recordings_give_errors),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_more);

@@ -174,7 +174,7 @@ static void another_world_takes_the_state_over(void **state) {
     "  - {line: [[11, 0], [11, 8]], name: gate}\n"                                                 \
     "bodies:\n"                                                                                    \
     "  - {name: blocks, at: [7, 4, 0.5], shape: {blocks: {size: [0.3, 0.5, 0.25],"                 \
-    " count: [1, 16, 4], bond: 30 N, block_mass: 3 kg}}}\n"                                        \
+    " count: [1, 16, 4], bond: 400 N, block_mass: 3 kg}}}\n"                                       \
     "  - {name: ball, at: [2, 4, 0.2], shape: {sphere: {radius: 0.12}}, mass: 0.5, tags: "         \
     "[ball]}\n"                                                                                    \
     "  - {name: crate, at: [9, 2, 0.4], shape: {box: {size: [0.8, 0.8, 0.8]}}, mass: 20}\n"        \
@@ -198,7 +198,7 @@ static void another_world_takes_the_state_over(void **state) {
 /* The second half of what happens is new: boxes are thrown in, the crate is dragged. */
 static void meddle_in_yard(JoScene *scene, int step_number) {
     if (step_number == 15)
-        does(scene, "box 12 4 2 -6 0 0 0.4 10");
+        does(scene, "box 10 4 0.6 -9 0 0 0.4 60");
     if (step_number == 25)
         does(scene, "grab 2 9 5 1");
     if (step_number == 60)
@@ -222,6 +222,7 @@ static void bodies_sources_and_events_go_on_to_the_bit(void **state) {
     JoError error = {0};
     uint64_t first[AFTER], second[AFTER];
     const JoxStatistics *did = &scene->world->state.statistics;
+    scene->world->model.reinserts_bodies = other->world->model.reinserts_bodies = true;
     step(scene, JOX_BODIES_REINSERT_STEPS - 1);
     assert_false(jox_world_snapshot(scene->world, &saved, &error));
     assert_non_null(strstr(error.text, "after every 128 steps"));

@@ -13,7 +13,7 @@
 
 #include "base/mem.h"
 #include "base/random.h"
-#include "world/verbs.h"
+#include "world/input/verbs.h"
 
 static const char ALL[] = "# a comment\n"
                           "\n"
@@ -67,7 +67,7 @@ static void each_verb_is_read(void **state) {
     assert_int_equal(wrong.errors, 0);
     assert_int_equal(log.count, IN_ALL);
     const JoxInputEntry *e = log.entries;
-    for (int v = 0; v < JOX_INPUT_VERBS; v++) { /* none is left out above */
+    for (uint32_t v = 0; v < jox_input_verb_count; v++) { /* none is left out above */
         bool there = false;
         for (int k = 0; k < IN_ALL; k++)
             there |= e[k].verb == (JoxInputVerb)v;
@@ -94,7 +94,7 @@ static void each_verb_is_read(void **state) {
 
 static void each_example_is_right(void **state) {
     (void)state;
-    for (int v = 0; v < JOX_INPUT_VERBS; v++) {
+    for (uint32_t v = 0; v < jox_input_verb_count; v++) {
         JoxText text = {0};
         jox_text_printf(&text, "0 %s\n", jox_input_verbs[v].example);
         if (jox_input_verbs[v].words[0].kind == JOX_WORD_FILES)

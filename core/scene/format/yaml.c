@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <yaml.h>
 
+#include "base/assert.h"
 #include "base/hash.h"
 #include "base/mem.h"
 #include "base/path.h"
@@ -99,6 +100,7 @@ static void add_item(JoxArena *arena, JoxYaml *node, const char *key, JoxPositio
 }
 
 void jox_yaml_set(JoxArena *arena, JoxYaml *map, const char *key, JoxYaml *value) {
+    JOX_ASSERT(map->kind == JOX_YAML_MAP && value);
     for (uint32_t i = 0; i < map->count; i++)
         if (strcmp(map->keys[i], key) == 0) {
             map->items[i] = value;
@@ -108,6 +110,7 @@ void jox_yaml_set(JoxArena *arena, JoxYaml *map, const char *key, JoxYaml *value
 }
 
 void jox_yaml_put(JoxArena *arena, JoxYaml *map, const char *key, JoxPosition at, JoxYaml *value) {
+    JOX_ASSERT(map->kind == JOX_YAML_MAP && value);
     jox_yaml_set(arena, map, key, value);
     for (uint32_t i = 0; i < map->count; i++)
         if (strcmp(map->keys[i], key) == 0)
@@ -127,10 +130,12 @@ void jox_yaml_remove(JoxYaml *map, const char *key) {
 }
 
 void jox_yaml_append(JoxArena *arena, JoxYaml *list, JoxYaml *item) {
+    JOX_ASSERT(list->kind == JOX_YAML_LIST && item);
     add_item(arena, list, NULL, item->position, item);
 }
 
 JoxYaml *jox_yaml_copy(JoxArena *arena, const JoxYaml *node) {
+    JOX_ASSERT(node);
     JoxYaml *copy = jox_arena_take(arena, 1, sizeof *copy);
     *copy = *node;
     copy->items = NULL, copy->keys = NULL, copy->key_positions = NULL;

@@ -4,7 +4,9 @@
 #define JOX_WORLD_VERBS_H
 
 #include "base/text.h"
-#include "world/input.h"
+#include "world/input/input.h"
+
+typedef struct JoWorld JoWorld;
 
 typedef enum JoxInputWordKind {
     JOX_WORD_NUMBER,
@@ -29,9 +31,13 @@ typedef struct JoxVerb {
     const char *example, *meaning;
     const char
         *tool; /* of the live page that people need for it, a name of view: {tools}; or NULL */
+    /* Does it, before a step; false with a sentence in `why`. NULL: what a run does, or nothing. */
+    bool (*perform)(JoWorld *world, const JoxInputEntry *entry, JoxText *why);
 } JoxVerb;
 
-extern const JoxVerb jox_input_verbs[JOX_INPUT_VERBS];
+enum { JOX_INPUT_MOST_VERBS = 32 };
+extern const JoxVerb jox_input_verbs[];
+extern const uint32_t jox_input_verb_count;
 
 /* "push AGENT FX FY" */
 void jox_input_usage(const JoxVerb *verb, JoxText *out);

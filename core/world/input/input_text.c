@@ -1,13 +1,13 @@
-#include "world/input.h"
-
+/* The text of input logs: read by the rows of verbs.c, and written. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
-#include "world/verbs.h"
+#include "world/input/verbs.h"
 
 enum { LONGEST_LINE = 1200 };
 
@@ -119,21 +119,24 @@ static bool read_word(Reader *r, const JoxInputWord *word, JoxInputEntry *entry)
 /* The verb and what it takes. */
 static bool read_verb(Reader *r, JoxInputEntry *entry) {
     const JoxVerb *verb = NULL;
-    const char *names[JOX_INPUT_VERBS];
+    const char *names[JOX_INPUT_MOST_VERBS];
     JoxText usage = {0};
     if (!next_word(r))
         return r->wrong->length ? false : refuse(r, "Example: player 0 1.5 0", "there is no verb");
-    for (int v = 0; v < JOX_INPUT_VERBS; v++) {
+    for (uint32_t v = 0; v < jox_input_verb_count; v++) {
         names[v] = jox_input_verbs[v].name;
         if (strcmp(r->word, jox_input_verbs[v].name) == 0) {
             verb = &jox_input_verbs[v];
-            entry->verb = (JoxInputVerb)v;
+            entry->verb = v;
         }
     }
     if (!verb) {
-        const char *near = jox_suggest(r->word, names, JOX_INPUT_VERBS);
-        char hint[200] = "One of player, throw, box, grab, drag, release, push, open, close, "
-                         "signal, set, files";
+        const char *near = jox_suggest(r->word, names, jox_input_verb_count);
+        char hint[300] = "One of";
+        for (uint32_t v = 0; v < jox_input_verb_count; v++)
+            if (jox_input_verbs[v].tool || v == JOX_INPUT_FILES)
+                snprintf(hint + strlen(hint), sizeof hint - strlen(hint), "%s %s", v ? "," : "",
+                         names[v]);
         if (near)
             snprintf(hint, sizeof hint, "Did you mean '%s'?", near);
         return refuse(r, hint, "there is no verb '%.40s'", r->word);
@@ -171,7 +174,7 @@ bool jox_input_read(const char *line, JoxInputEntry *entry, JoxText *wrong) {
     bool good = n <= LONGEST_LINE
                     ? read_verb(&r, entry)
                     : refuse(&r, NULL, "the line is longer than %d bytes", LONGEST_LINE);
-    if (good && entry->verb >= JOX_INPUT_BEGAN)
+    if (good && !jox_input_verbs[entry->verb].tool)
         good = refuse(&r, NULL, "%s stands in logs alone; files come by being saved",
                       jox_input_verbs[entry->verb].name);
     if (!good && hint.length)
@@ -364,46 +367,4 @@ void jox_input_write(const JoxInputEntry *entry, JoxText *out) {
         jox_text_add(out, "\n");
         jox_text_free(&path);
     }
-}
-
-/* ---- playing ---- */
-
-void jox_input_add(JoxInputLog *log, JoxInputEntry entry) {
-    JOX_RESERVE(log->entries, log->capacity, log->count + 1);
-    log->entries[log->count++] = entry;
-}
-
-const JoxInputEntry *jox_input_next(JoxInputLog *log, uint64_t tick) {
-    bool due = log->next < log->count && log->entries[log->next].tick <= tick;
-    return due ? &log->entries[log->next++] : NULL;
-}
-
-void jox_input_player(JoxInputLog *log, uint32_t agent_id, float vx, float vy) {
-    uint32_t i = 0;
-    while (i < log->present_count && log->present[i].agent_id != agent_id)
-        i++;
-    if (i == log->present_count) {
-        JOX_RESERVE(log->present, log->present_capacity, i + 1);
-        log->present_count++;
-    }
-    log->present[i] = (struct JoxPlayerInput){agent_id, vx, vy};
-}
-
-void jox_input_entry_free(JoxInputEntry *entry) {
-    for (int n = 0; n < JOX_INPUT_NAMES; n++)
-        jox_free(entry->names[n]);
-    for (uint32_t f = 0; entry->files && f < entry->number; f++) {
-        jox_free(entry->files[f].path);
-        jox_free(entry->files[f].text);
-    }
-    jox_free(entry->files);
-    *entry = (JoxInputEntry){0};
-}
-
-void jox_input_free(JoxInputLog *log) {
-    for (size_t e = 0; e < log->count; e++)
-        jox_input_entry_free(&log->entries[e]);
-    jox_free(log->entries);
-    jox_free(log->present);
-    *log = (JoxInputLog){0};
 }

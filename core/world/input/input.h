@@ -9,6 +9,7 @@
 #include "base/diag.h"
 #include "machine/run.h"
 
+/* Rows of jox_input_verbs that the code names; there may be more behind them. */
 typedef enum JoxInputVerb {
     JOX_INPUT_PLAYER,
     JOX_INPUT_THROW,
@@ -24,8 +25,7 @@ typedef enum JoxInputVerb {
     JOX_INPUT_BEGAN,
     JOX_INPUT_MADE,
     JOX_INPUT_BEFORE,
-    JOX_INPUT_FILES,
-    JOX_INPUT_VERBS
+    JOX_INPUT_FILES
 } JoxInputVerb;
 
 /* Bytes of one file. */
@@ -47,7 +47,7 @@ typedef struct JoxInputFile {
 
 typedef struct JoxInputEntry {
     uint32_t tick;
-    JoxInputVerb verb;
+    uint32_t verb;                     /* row of jox_input_verbs */
     uint32_t number;                   /* of an agent, the row of a body, or how many files */
     char *names[JOX_INPUT_NAMES];      /* in the order of the line; NULL: none */
     double numbers[JOX_INPUT_NUMBERS]; /* likewise */

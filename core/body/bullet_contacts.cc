@@ -1,0 +1,131 @@
+/* Contacts over a re-insertion. Bullet gathers the points at which two bodies touch over several
+   steps, and its solver begins from their last impulses. They are noted before everything is taken
+   out and put into the contacts that are found anew: what stands needs not come to rest again. */
+#include "body/bullet.h"
+
+#include "base/sort.h"
+
+/* Id of a body; of ground and walls, the negative number that they have. */
+static int32_t name_of(const JoxBodies *b, const btCollisionObject *object) {
+    const int index = object->getUserIndex();
+    return index < 0 ? index : int32_t(b->rows[index].id);
+}
+
+static float *put(float *to, const btVector3 &v) {
+    for (int i = 0; i < 3; i++)
+        *to++ = v[i];
+    return to;
+}
+
+static btVector3 vector(const float *v) {
+    return btVector3(v[0], v[1], v[2]);
+}
+
+/* A point of a manifold as a record; the body of the lower name is the first. */
+static JoxContactRecord record_of(const JoxBodies *b, const btPersistentManifold *manifold,
+                                  const btManifoldPoint &p) {
+    const int32_t one = name_of(b, manifold->getBody0()), two = name_of(b, manifold->getBody1());
+    const bool swap = two < one;
+    JoxContactRecord record = JoxContactRecord();
+    record.who[0] = swap ? two : one;
+    record.who[1] = swap ? one : two;
+    record.who[2] = swap ? p.m_index1 : p.m_index0;
+    record.who[3] = swap ? p.m_index0 : p.m_index1;
+    put(record.points[0], swap ? p.m_localPointB : p.m_localPointA);
+    put(record.points[1], swap ? p.m_localPointA : p.m_localPointB);
+    put(record.normal, swap ? -p.m_normalWorldOnB : p.m_normalWorldOnB);
+    record.impulse[0] = p.m_appliedImpulse;
+    record.impulse[1] = p.m_appliedImpulseLateral1;
+    record.impulse[2] = p.m_appliedImpulseLateral2;
+    return record;
+}
+
+static int by_who(const void *a, const void *b, const void *context) {
+    (void)context;
+    const JoxContactRecord *one = static_cast<const JoxContactRecord *>(a);
+    const JoxContactRecord *two = static_cast<const JoxContactRecord *>(b);
+    for (int k = 0; k < 4; k++)
+        if (one->who[k] != two->who[k])
+            return one->who[k] < two->who[k] ? -1 : 1;
+    return 0;
+}
+
+uint32_t jox_bodies_note_contacts(const JoxBodies *b, JoxContactRecord *&contacts,
+                                  uint32_t &capacity) {
+    uint32_t count = 0;
+    for (int m = 0; b->world && m < b->dispatcher->getNumManifolds(); m++) {
+        const btPersistentManifold *manifold = b->dispatcher->getManifoldByIndexInternal(m);
+        for (int c = 0; c < manifold->getNumContacts(); c++) {
+            jox_reserve(contacts, capacity, count + 1);
+            contacts[count++] = record_of(b, manifold, manifold->getContactPoint(c));
+        }
+    }
+    jox_sort(contacts, count, sizeof *contacts, by_who, nullptr, nullptr);
+    return count;
+}
+
+/* The first record that is not before this one, among `count`. */
+static uint32_t find_first(const JoxContactRecord *contacts, uint32_t count,
+                           const JoxContactRecord *record) {
+    uint32_t low = 0, high = count;
+    while (low < high) {
+        const uint32_t middle = (low + high) / 2;
+        if (by_who(&contacts[middle], record, nullptr) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Puts the points that were noted in the place of those found between the same parts; what follows
+   from both bodies, such as their friction, is taken over from a point that was found. */
+static void refill(const JoxBodies *b, btPersistentManifold *manifold,
+                   const JoxContactRecord *contacts, uint32_t count) {
+    const btManifoldPoint found = manifold->getContactPoint(0);
+    const JoxContactRecord like = record_of(b, manifold, found);
+    const bool swap = name_of(b, manifold->getBody1()) < name_of(b, manifold->getBody0());
+    uint32_t k = find_first(contacts, count, &like);
+    if (k == count || by_who(&contacts[k], &like, nullptr) != 0)
+        return;
+    manifold->clearManifold();
+    for (; k < count && by_who(&contacts[k], &like, nullptr) == 0 &&
+           manifold->getNumContacts() < MANIFOLD_CACHE_SIZE;
+         k++) {
+        btManifoldPoint p = found;
+        p.m_localPointA = vector(contacts[k].points[swap]);
+        p.m_localPointB = vector(contacts[k].points[!swap]);
+        p.m_normalWorldOnB = swap ? -vector(contacts[k].normal) : vector(contacts[k].normal);
+        p.m_appliedImpulse = contacts[k].impulse[0];
+        p.m_appliedImpulseLateral1 = contacts[k].impulse[1];
+        p.m_appliedImpulseLateral2 = contacts[k].impulse[2];
+        manifold->addManifoldPoint(p);
+    }
+    manifold->refreshContactPoints(manifold->getBody0()->getWorldTransform(),
+                                   manifold->getBody1()->getWorldTransform());
+}
+
+/* Bullet looks for contacts of what is awake alone, so that all wakes for a moment. */
+static void find_contacts(JoxBodies *b) {
+    for (uint32_t k = 0; k < b->live; k++) {
+        JoxRow *r = &b->rows[b->order[k]];
+        r->activation = r->body->getActivationState();
+        if (r->shape.mass > 0)
+            r->body->forceActivationState(ACTIVE_TAG);
+    }
+    b->world->getDispatchInfo().m_timeStep = 0;
+    b->world->performDiscreteCollisionDetection();
+    for (uint32_t k = 0; k < b->live; k++) {
+        JoxRow *r = &b->rows[b->order[k]];
+        r->body->forceActivationState(r->activation);
+    }
+}
+
+void jox_bodies_renew_contacts(JoxBodies *b, const JoxContactRecord *contacts, uint32_t count) {
+    find_contacts(b);
+    for (int m = 0; m < b->dispatcher->getNumManifolds(); m++) {
+        btPersistentManifold *manifold = b->dispatcher->getManifoldByIndexInternal(m);
+        if (manifold->getNumContacts() > 0)
+            refill(b, manifold, contacts, count);
+    }
+}
