@@ -1,6 +1,6 @@
 #include <stdio.h>
 
-#include "base/json_writer.h"
+#include "base/format/json_writer.h"
 #include "cli/cli.h"
 
 static const char *const STANDARD[] = {"scenes/tawaf.yaml", "scenes/dodgeball.yaml",

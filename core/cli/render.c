@@ -5,7 +5,7 @@
 
 #include "cli/cli.h"
 
-#include "base/path.h"
+#include "base/format/path.h"
 
 typedef struct Wanted {
     JoRenderDef def;

@@ -4,7 +4,7 @@
 #ifndef JOX_LIVE_LIVE_H
 #define JOX_LIVE_LIVE_H
 
-#include "base/json_writer.h"
+#include "base/format/json_writer.h"
 #include "base/text.h"
 #include "base/vec.h"
 #include "geom/walls.h"

@@ -1,5 +1,5 @@
 /* Lines for people who look at a live page, and refusals. */
-#include "base/json_writer.h"
+#include "base/format/json_writer.h"
 #include "live/page.h"
 
 /* Sends an object of texts: its type, and two members. */

@@ -2,7 +2,7 @@
 #ifndef JOX_LIVE_REPLAY_H
 #define JOX_LIVE_REPLAY_H
 
-#include "base/diag.h"
+#include "base/format/diag.h"
 #include "live/live.h"
 #include "record/trajectories.h"
 

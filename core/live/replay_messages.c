@@ -4,7 +4,7 @@
 
 #include "live/replay_parts.h"
 
-#include "base/path.h"
+#include "base/format/path.h"
 
 static const float BODY_SIZE = 0.4f; /* m: of a body whose shape nothing says */
 

@@ -1,7 +1,7 @@
 /* Files that were saved and could not go live, as pages are sent them. */
 #include <string.h>
 
-#include "base/json_writer.h"
+#include "base/format/json_writer.h"
 #include "base/mem.h"
 #include "live/scene_page.h"
 

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/name.h"
 #include "base/mem.h"
-#include "base/name.h"
 #include "lua/language/vocabulary.h"
 #include "lua/read.h"
 

@@ -2,7 +2,7 @@
 #ifndef JOX_LUA_LOADER_H
 #define JOX_LUA_LOADER_H
 
-#include "base/diag.h"
+#include "base/format/diag.h"
 #include "base/text.h"
 #include "lua/language/scope.h"
 #include "lua/vm/limits.h"

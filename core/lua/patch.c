@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/path.h"
 #include "base/mem.h"
-#include "base/path.h"
 #include "lua/loader.h"
 #include "lua/patch_tree.h"
 #include "lua/read.h"

@@ -2,7 +2,7 @@
 #ifndef JOX_LUA_PATCH_TREE_H
 #define JOX_LUA_PATCH_TREE_H
 
-#include "base/patch.h"
+#include "base/format/patch.h"
 #include "lua/language/script.h"
 
 /* Values of Lua as nodes: a node is the number of a value in a list on the stack. */

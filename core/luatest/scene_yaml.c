@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/json_writer.h"
+#include "base/format/json_writer.h"
 #include "base/mem.h"
 #include "luatest/internal.h"
 

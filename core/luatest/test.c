@@ -7,10 +7,10 @@
 
 #include "base/assert.h"
 #include "base/file.h"
+#include "base/format/json_writer.h"
+#include "base/format/path.h"
 #include "base/guard.h"
-#include "base/json_writer.h"
 #include "base/mem.h"
-#include "base/path.h"
 #include "jostle_tools.h"
 #include "luatest/testing.h"
 #include "run/run.h"

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/format/quote.h"
 #include "base/mem.h"
-#include "base/quote.h"
 #include "picture/canvas.h"
 
 typedef struct Svg {

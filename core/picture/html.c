@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/quote.h"
+#include "base/format/quote.h"
 
 static const char STYLE[] =
     "body{font:16px/1.5 system-ui,sans-serif;max-width:72rem;margin:2rem auto;padding:0 1rem;"

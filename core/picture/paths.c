@@ -2,8 +2,8 @@
 
 #include <stdio.h>
 
+#include "base/format/quote.h"
 #include "base/mem.h"
-#include "base/quote.h"
 #include "picture/palette.h"
 #include "picture/plot.h"
 

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
-#include "base/quote.h"
+#include "base/format/quote.h"
 
 extern char **environ;
 

@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-#include "base/quote.h"
+#include "base/format/quote.h"
 #include "picture/plot.h"
 
 /* Writes NAME.plt: the same commands for both terminals. */

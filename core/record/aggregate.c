@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/json.h"
-#include "base/json_writer.h"
+#include "base/format/json.h"
+#include "base/format/json_writer.h"
 #include "base/mem.h"
 #include "base/sort.h"
 

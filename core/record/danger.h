@@ -15,7 +15,7 @@
 
 #include <stdbool.h>
 
-#include "base/json_writer.h"
+#include "base/format/json_writer.h"
 #include "base/text.h"
 #include "geom/walls.h"
 #include "record/density.h"

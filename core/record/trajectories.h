@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/diag.h"
+#include "base/format/diag.h"
 #include "geom/walls.h"
 #include "record/frame.h"
 

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/path.h"
 #include "base/mem.h"
-#include "base/path.h"
 #include "render/render.h"
 
 enum { MOST_FOLLOWED = 500, MOST_TRAILS = 2000, MOST_BODY_TRAILS = 200 };

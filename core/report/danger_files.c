@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/quote.h"
+#include "base/format/quote.h"
 #include "picture/plot.h"
 #include "record/danger_parts.h"
 #include "report/danger_files.h"

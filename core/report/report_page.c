@@ -7,8 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/format/path.h"
 #include "base/hash.h"
-#include "base/path.h"
 #include "picture/html.h"
 #include "picture/plot.h"
 #include "report/page_parts.h"

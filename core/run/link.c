@@ -2,9 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/format/path.h"
 #include "base/mem.h"
 #include "base/overlay.h"
-#include "base/path.h"
 #include "run/run.h"
 
 static int32_t find_machine(const JoxMachineRun *machines, const char *path) {

@@ -4,9 +4,9 @@
 #include <sys/stat.h>
 
 #include "base/assert.h"
+#include "base/format/path.h"
 #include "base/guard.h"
 #include "base/mem.h"
-#include "base/path.h"
 #include "run/run.h"
 #include "scene/mods_on.h"
 

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/format/path.h"
 #include "base/mem.h"
-#include "base/path.h"
 #include "run/reload_parts.h"
 
 void jox_batch_free(JoxBatch *batch) {

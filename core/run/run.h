@@ -4,8 +4,8 @@
 
 #include <stdio.h>
 
-#include "base/diag.h"
-#include "base/json_writer.h"
+#include "base/format/diag.h"
+#include "base/format/json_writer.h"
 #include "base/overlay.h"
 #include "jostle.h"
 #include "lua/loader.h"

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/path.h"
 #include "base/overlay.h"
-#include "base/path.h"
 #include "base/text.h"
 #include "scene/internal.h"
 

@@ -2,7 +2,7 @@
 #ifndef JOX_SCENE_MODS_H
 #define JOX_SCENE_MODS_H
 
-#include "base/mod.h"
+#include "base/format/mod.h"
 
 typedef struct JoxModsDef {
     const char *const *named; /* folders, or names of mods in the folders below */

@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-#include "base/mod.h"
+#include "base/format/mod.h"
 #include "base/text.h"
 
 /* The file's text; NULL where there is none. To be freed. */

@@ -1,7 +1,7 @@
 /* Mods change a scene's tree before it is read: base/patch.h with nodes of YAML. `~` takes a key
    away. A list is changed by a map: `append` adds items, `remove` takes some away, and an item's
    name or number changes it. */
-#include "base/patch.h"
+#include "base/format/patch.h"
 
 #include <stdio.h>
 #include <stdlib.h>

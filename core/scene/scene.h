@@ -6,8 +6,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/diag.h"
-#include "base/patch.h"
+#include "base/format/diag.h"
+#include "base/format/patch.h"
 #include "base/random.h"
 #include "body/body.h"
 #include "geom/place.h"

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/json.h"
+#include "base/format/json.h"
 #include "base/mem.h"
 
 static const uint64_t BUDGET = 200000000; /* instructions of a measure */

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/diag.h"
+#include "base/format/diag.h"
 #include "base/text.h"
 
 typedef struct JoxClaimRun {

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/format/path.h"
 #include "base/mem.h"
-#include "base/path.h"
 #include "base/sort.h"
 #include "validate/claims_parts.h"
 

@@ -11,10 +11,10 @@
 
 #include "base/assert.h"
 #include "base/file.h"
+#include "base/format/path.h"
 #include "base/guard.h"
 #include "base/hash.h"
 #include "base/mem.h"
-#include "base/path.h"
 #include "base/sort.h"
 
 JoReproduceDef jo_default_reproduce_def(void) {

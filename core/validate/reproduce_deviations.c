@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "agents/parameters.h"
+#include "base/format/path.h"
+#include "base/format/quote.h"
 #include "base/mem.h"
-#include "base/path.h"
-#include "base/quote.h"
 #include "picture/html.h"
 #include "validate/reproduce.h"
 

@@ -8,9 +8,9 @@
 
 #include "agents/parameters.h"
 #include "base/file.h"
-#include "base/json_writer.h"
+#include "base/format/json_writer.h"
+#include "base/format/quote.h"
 #include "base/mem.h"
-#include "base/quote.h"
 #include "force/force.h"
 #include "picture/html.h"
 #include "picture/plot.h"

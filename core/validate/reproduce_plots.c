@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/format/path.h"
+#include "base/format/quote.h"
 #include "base/mem.h"
-#include "base/path.h"
-#include "base/quote.h"
 #include "base/sort.h"
 #include "picture/plot.h"
 #include "validate/reproduce.h"

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
-#include "base/json.h"
+#include "base/format/json.h"
 #include "base/mem.h"
 #include "picture/plot.h"
 #include "validate/reproduce.h"

@@ -1,6 +1,6 @@
 #include "view/access.h"
 
-#include "base/path.h"
+#include "base/format/path.h"
 
 #include <limits.h>
 #include <stdio.h>

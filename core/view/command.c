@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "base/json.h"
+#include "base/format/json.h"
 
 /* What is being read: a command, and how much of its store is in use. */
 typedef struct Reading {

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "base/diag.h"
+#include "base/format/diag.h"
 #include "base/text.h"
 
 typedef struct JoWorld JoWorld;

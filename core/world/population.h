@@ -4,7 +4,7 @@
 #ifndef JOX_WORLD_POPULATION_H
 #define JOX_WORLD_POPULATION_H
 
-#include "base/diag.h"
+#include "base/format/diag.h"
 #include "base/random.h"
 #include "base/sections.h"
 #include "geom/fill.h"

@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "base/json.h"
-#include "base/json_writer.h"
+#include "base/format/json.h"
+#include "base/format/json_writer.h"
 
 static void a_document_on_one_line(void **state) {
     (void)state;

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "base/patch.h"
+#include "base/format/patch.h"
 
 static JoxPatchChange change(const char *path, int32_t mod, int line) {
     return (JoxPatchChange){

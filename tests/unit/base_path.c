@@ -11,8 +11,8 @@
 
 #include <cmocka.h>
 
-#include "base/mod.h"
-#include "base/path.h"
+#include "base/format/mod.h"
+#include "base/format/path.h"
 
 static char root[64];
 

@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "base/diag.h"
-#include "base/name.h"
+#include "base/format/diag.h"
+#include "base/format/name.h"
 #include "base/text.h"
 
 static void json_escapes_whatever_comes(void **state) {

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "base/json.h"
+#include "base/format/json.h"
 #include "live/live.h"
 #include "live_page.h"
 

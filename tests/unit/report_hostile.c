@@ -15,8 +15,8 @@
 
 #include <cmocka.h>
 
+#include "base/format/quote.h"
 #include "base/mem.h"
-#include "base/quote.h"
 #include "picture/canvas.h"
 #include "picture/html.h"
 #include "picture/palette.h"

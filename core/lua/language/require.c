@@ -3,8 +3,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/format/path.h"
 #include "base/overlay.h"
-#include "base/path.h"
 #include "lua/language/script.h"
 
 enum { MOST_FILES = 64 };

@@ -2,7 +2,7 @@
 #ifndef JOX_LUA_LANGUAGE_SCOPE_H
 #define JOX_LUA_LANGUAGE_SCOPE_H
 
-#include "base/mod.h"
+#include "base/format/mod.h"
 #include "geom/place.h"
 #include "lua/vm/limits.h"
 

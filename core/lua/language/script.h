@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #include "base/assert.h"
-#include "base/patch.h"
+#include "base/format/patch.h"
 #include "lua/language/scope.h"
 #include "lua/vm/vm.h"
 #include "machine/run.h"

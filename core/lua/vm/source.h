@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/diag.h"
+#include "base/format/diag.h"
 
 typedef enum { JOX_TOKEN_NAME, JOX_TOKEN_STRING, JOX_TOKEN_NUMBER, JOX_TOKEN_SYMBOL } JoxTokenKind;
 typedef struct JoxToken {

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "base/json_writer.h"
+#include "base/format/json_writer.h"
 #include "base/text.h"
 #include "geom/walls.h"
 #include "record/frame.h"

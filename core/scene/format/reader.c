@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/name.h"
+#include "base/format/name.h"
 #include "base/text.h"
 
 void jox_scene_error(const JoxReader *reader, const JoxYaml *node, const char *code,

@@ -8,9 +8,9 @@
 #include <yaml.h>
 
 #include "base/assert.h"
+#include "base/format/path.h"
 #include "base/hash.h"
 #include "base/mem.h"
-#include "base/path.h"
 
 enum {
     LARGEST = 10 << 20,

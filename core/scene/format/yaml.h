@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "base/diag.h"
+#include "base/format/diag.h"
 
 /* Memory that lives and dies with a scene. */
 typedef struct JoxArena JoxArena;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "agents/parameters.h"
-#include "base/json_writer.h"
+#include "base/format/json_writer.h"
 #include "scene/format/schema.h"
 #include "scene/scene.h"
 

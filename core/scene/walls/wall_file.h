@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "base/diag.h"
+#include "base/format/diag.h"
 #include "geom/walls.h"
 
 typedef struct JoxWallFileOptions {

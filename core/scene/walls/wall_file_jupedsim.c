@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/format/name.h"
 #include "base/mem.h"
-#include "base/name.h"
 #include "geom/polygon.h"
 #include "scene/walls/wall_file_parts.h"
 

@@ -6,7 +6,7 @@
 #ifndef JOX_WORLD_INPUT_H
 #define JOX_WORLD_INPUT_H
 
-#include "base/diag.h"
+#include "base/format/diag.h"
 #include "machine/run.h"
 
 /* Rows of jox_input_verbs that the code names; there may be more behind them. */

@@ -1,10 +1,10 @@
-#include "base/diag.h"
+#include "base/format/diag.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/json_writer.h"
+#include "base/format/json_writer.h"
 #include "base/mem.h"
 
 enum { KEPT = 20, SOURCE_SHOWN = 200 };

@@ -3,8 +3,8 @@
    arrays in arrays stand on a line each. Texts are escaped, bytes that are not UTF-8 become U+FFFD,
    numbers that are not finite become null. Each value takes the key that it has in an object, or
    NULL in an array and at the outermost. */
-#ifndef JOX_BASE_JSON_WRITER_H
-#define JOX_BASE_JSON_WRITER_H
+#ifndef JOX_BASE_FORMAT_JSON_WRITER_H
+#define JOX_BASE_FORMAT_JSON_WRITER_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,11 +1,11 @@
-#include "base/patch.h"
+#include "base/format/patch.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/path.h"
 #include "base/mem.h"
-#include "base/path.h"
 #include "base/text.h"
 
 enum { MOST_CHANGES = 4096 };

@@ -1,6 +1,6 @@
 /* Paths of files, and where a file is that another one names. */
-#ifndef JOX_BASE_PATH_H
-#define JOX_BASE_PATH_H
+#ifndef JOX_BASE_FORMAT_PATH_H
+#define JOX_BASE_FORMAT_PATH_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-#include "base/quote.h"
+#include "base/format/quote.h"
 
 #include <string.h>
 

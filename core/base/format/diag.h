@@ -1,6 +1,6 @@
 /* Diagnostics: every error and warning about a user's file, with its place, kept until shown. */
-#ifndef JOX_BASE_DIAG_H
-#define JOX_BASE_DIAG_H
+#ifndef JOX_BASE_FORMAT_DIAG_H
+#define JOX_BASE_FORMAT_DIAG_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-#include "base/path.h"
+#include "base/format/path.h"
 
 #include <stdio.h>
 #include <stdlib.h>

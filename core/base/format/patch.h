@@ -1,12 +1,12 @@
 /* Patches of trees: what a mod changes in a scene (YAML) or in a behaviour (Lua tables). One engine
    merges both; a tree gives the operations on its nodes. Every path that is set is kept with where
    it was set, and two mods that set one path without knowing each other are named. */
-#ifndef JOX_BASE_PATCH_H
-#define JOX_BASE_PATCH_H
+#ifndef JOX_BASE_FORMAT_PATCH_H
+#define JOX_BASE_FORMAT_PATCH_H
 
 #include <stddef.h>
 
-#include "base/mod.h"
+#include "base/format/mod.h"
 
 enum { JOX_PATCH_PATH = 512, JOX_PATCH_ID = 128 }; /* bytes of paths and of ids of items */
 

@@ -1,4 +1,4 @@
-#include "base/json.h"
+#include "base/format/json.h"
 
 #include <cJSON.h>
 #include <math.h>

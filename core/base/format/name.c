@@ -1,4 +1,4 @@
-#include "base/name.h"
+#include "base/format/name.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-#include "base/mod.h"
+#include "base/format/mod.h"
 
 #include <stdio.h>
 #include <stdlib.h>

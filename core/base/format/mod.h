@@ -1,12 +1,12 @@
 /* A mod as data: found and ordered by scene/, applied by scene/ (scenes) and lua/ (behaviours). */
-#ifndef JOX_BASE_MOD_H
-#define JOX_BASE_MOD_H
+#ifndef JOX_BASE_FORMAT_MOD_H
+#define JOX_BASE_FORMAT_MOD_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/diag.h"
-#include "base/path.h"
+#include "base/format/diag.h"
+#include "base/format/path.h"
 
 enum { JOX_MOST_MODS = 64 };
 

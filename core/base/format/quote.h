@@ -1,7 +1,7 @@
 /* Text that another program interprets: one function for each language. They take any bytes, and
    what comes out is one harmless token of that language. SQL has none: its values are bound. */
-#ifndef JOX_BASE_QUOTE_H
-#define JOX_BASE_QUOTE_H
+#ifndef JOX_BASE_FORMAT_QUOTE_H
+#define JOX_BASE_FORMAT_QUOTE_H
 
 #include <stdio.h>
 

@@ -1,7 +1,7 @@
 /* What names may look like that people give: of groups, places, regions, states, teams, tags,
    probes, bodies and walls. They appear in files, pictures and pages. */
-#ifndef JOX_BASE_NAME_H
-#define JOX_BASE_NAME_H
+#ifndef JOX_BASE_FORMAT_NAME_H
+#define JOX_BASE_FORMAT_NAME_H
 
 #include <stdbool.h>
 

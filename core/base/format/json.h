@@ -1,7 +1,7 @@
 /* Reading JSON (RFC 8259) by cJSON, with limits that hold before anything is allocated, so that
    what a browser or a file says can neither exhaust memory nor the stack. */
-#ifndef JOX_BASE_JSON_H
-#define JOX_BASE_JSON_H
+#ifndef JOX_BASE_FORMAT_JSON_H
+#define JOX_BASE_FORMAT_JSON_H
 
 #include <stdbool.h>
 #include <stddef.h>

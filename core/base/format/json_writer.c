@@ -1,4 +1,4 @@
-#include "base/json_writer.h"
+#include "base/format/json_writer.h"
 
 #include <math.h>
 #include <stdarg.h>
