@@ -26,7 +26,11 @@ static void release_folder(void *folder) {
     closedir(folder);
 }
 
-char **jox_folder_names(const char *path) {
+static bool is_listed(const char *name, bool hidden) {
+    return *name != '.' || (hidden && strcmp(name, ".") != 0 && strcmp(name, "..") != 0);
+}
+
+char **jox_folder_names(const char *path, bool hidden) {
     DIR *folder = opendir(path);
     if (!folder)
         return NULL;
@@ -36,7 +40,7 @@ char **jox_folder_names(const char *path) {
     const struct dirent *entry;
     while ((entry = readdir(folder))) {
         const size_t size = strlen(entry->d_name) + 1;
-        if (*entry->d_name == '.')
+        if (!is_listed(entry->d_name, hidden))
             continue;
         JOX_RESERVE(text, capacity, length + size);
         memcpy(text + length, entry->d_name, size);

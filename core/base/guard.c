@@ -51,8 +51,15 @@ void jox_guard_close(JoxGuard *guard) {
         jox_heap_end(&guard->own);
 }
 
-JoxHeap *jox_guard_leave(void) {
-    return jox_heap_use(innermost ? innermost->heap_before : NULL);
+JoxOutside jox_guard_leave(void) {
+    JoxGuard *guard = innermost;
+    innermost = guard ? guard->outer : NULL;
+    return (JoxOutside){guard, jox_heap_use(guard ? guard->heap_before : NULL)};
+}
+
+void jox_guard_return(JoxOutside outside) {
+    innermost = outside.guard;
+    jox_heap_use(outside.heap);
 }
 
 void jox_error(JoError *error, JoCode code, const char *format, ...) {

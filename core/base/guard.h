@@ -43,9 +43,15 @@ void jox_guard_open(JoxGuard *guard, JoxHeap *heap, JoError *error);
 void jox_guard_fail(JoxGuard *guard);
 void jox_guard_close(JoxGuard *guard);
 
-/* Around a call back into the program: it runs with the heap that was in use where the innermost
-   public call was made, which jox_heap_use puts back. Returns the heap of that call. */
-JoxHeap *jox_guard_leave(void);
+/* Around a call back into the program, which runs as outside the innermost public call: with the
+   heap that was in use where that was made. A callback that stands in a public call itself may
+   leave that one too. */
+typedef struct JoxOutside {
+    JoxGuard *guard;
+    JoxHeap *heap;
+} JoxOutside;
+JoxOutside jox_guard_leave(void);
+void jox_guard_return(JoxOutside outside);
 
 /* Fills an error, which may be NULL, with a formatted text. */
 void jox_error(JoError *error, JoCode code, const char *format, ...)

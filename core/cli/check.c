@@ -15,7 +15,10 @@ static const CliOption OPTIONS[] = {
 static int check(const CliList *paths, bool json) {
     if (paths->count == 0)
         return cli_misused(&cli_check, "no path given");
-    size_t errors = jo_check(paths->items, paths->count, json, cli_print, stdout);
+    JoError error;
+    size_t errors = jo_check(paths->items, paths->count, json, cli_print, stdout, &error);
+    if (errors == SIZE_MAX)
+        return cli_failed(&cli_check, &error, false);
     if (!json)
         printf(errors ? "%zu error%s\n" : "nothing wrong\n", errors, errors == 1 ? "" : "s");
     return errors ? JO_INPUT : JO_OK;
@@ -27,9 +30,8 @@ static int run(int argc, char **argv) {
     int status = cli_parse(&cli_check, argc, argv, &options, &paths);
     if (status == CLI_GO_ON && options.reference) {
         char *text = jo_scene_reference();
-        fputs(text, stdout);
+        status = text && fputs(text, stdout) >= 0 ? JO_OK : JO_FAILED;
         jo_free(text);
-        status = JO_OK;
     } else if (status == CLI_GO_ON) {
         status = check(&paths, options.json);
     }
@@ -43,7 +45,7 @@ const CliCommand cli_check = {
     .usage = "PATH... [--json]",
     .about = "Reports every error of scenes (.yaml), behaviours (.lua) and folders of them; runs "
              "nothing.",
-    .notes = "exit status: 0 nothing wrong, 2 wrong usage, 3 errors found",
+    .notes = "exit status: 0 nothing wrong, 1 it could not be done, 2 wrong usage, 3 errors found",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "path",

@@ -41,7 +41,10 @@ static int enable(const JoSceneDef *def, const char *mod, bool on) {
 }
 
 static int check(const char *const *folders, size_t count) {
-    size_t errors = jo_check(folders, count, false, cli_print, stdout);
+    JoError error;
+    size_t errors = jo_check(folders, count, false, cli_print, stdout, &error);
+    if (errors == SIZE_MAX)
+        return cli_failed(&cli_mod, &error, false);
     if (!errors)
         puts("nothing wrong");
     return errors ? JO_INPUT : JO_OK;
@@ -87,7 +90,8 @@ const CliCommand cli_mod = {
              "  why     who set a value, e.g. tawaf.Circle.push or groups.red.count: every place, "
              "the last counts\n"
              "  check   every error of mods, without running",
-    .notes = "exit status: 0 done, 2 wrong usage, 3 errors found or no such path",
+    .notes = "exit status: 0 done, 1 it could not be done, 2 wrong usage, 3 errors found or no "
+             "such path",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "verb",

@@ -31,10 +31,15 @@ static int run(int argc, char **argv) {
     if (status == CLI_GO_ON) {
         const char *usual = usual_place();
         size_t passed = 0, failed = 0;
-        bool good = jo_test(paths.count ? paths.items : &usual, paths.count ? paths.count : 1,
-                            options.only, options.json, cli_print, stdout, &passed, &failed);
-        status = !good ? JO_INPUT : failed ? JO_FAILED : JO_OK;
-        if (!options.json)
+        JoError error = {0};
+        bool good =
+            jo_test(paths.count ? paths.items : &usual, paths.count ? paths.count : 1, options.only,
+                    options.json, cli_print, stdout, &passed, &failed, &error);
+        status = error.code ? cli_failed(&cli_test, &error, false)
+                 : !good    ? JO_INPUT
+                 : failed   ? JO_FAILED
+                            : JO_OK;
+        if (!options.json && !error.code)
             printf("%zu passed, %zu failed\n", passed, failed);
     }
     cli_free(&cli_test, &options, &paths);
@@ -61,7 +66,8 @@ const CliCommand cli_test = {
              "agents(group), agent(id), body(name). And equal(a, b), near(a, b, by), truthy(x), "
              "fails(function, text), refused(table, text).\n"
              "\n"
-             "exit status: 0 all passed, 1 a test failed, 2 wrong usage, 3 a file could not be run",
+             "exit status: 0 all passed, 1 a test failed or could not be run, 2 wrong usage, 3 a "
+             "file could not be loaded",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "path",

@@ -5,8 +5,8 @@
  * Plain C17, clean in C++. One world must not be used from two threads at once; different worlds
  * may. Misuse (a null or stale handle, a field out of range in a Def made by hand) is reported
  * through the assertion handler and answered with a null handle, zero or false; bad files and
- * values give a JoError. The library never exits, leaves signals as the program set them, and blocks
- * them in its own threads.
+ * values give a JoError. The library never exits, leaves signals as the program set them, and
+ * blocks them in its own threads.
  *
  * Where memory is out, a call returns its error (JO_FAILED, "out of memory") or NULL, false or 0.
  * The world or scene that it was changing has then failed: later calls answer the same way,

@@ -126,15 +126,17 @@ JO_API bool jo_render_has_images(void);
 /* ---- checks, tests, claims, references --------------------------------------------------- */
 
 /* Checks scenes and behaviours (or folders of them) without running; everything wrong goes to
-   `message`, as text or as one JSON array. Returns the number of errors. */
+   `message`, as text or as one JSON array. Returns the number of errors, or SIZE_MAX with `error`
+   if it could not be done. */
 JO_API size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
-                       void *context);
+                       void *context, JoError *error);
 /* Runs tests of behaviours: files, or folders with files that end with _test.lua. `only`, if not
    NULL, is part of a test's name. Each result goes to `message`, as text or, at the end, as one
    JSON array. Counts what passed and failed; false with what is wrong sent to `message` if a file
-   cannot be run. */
+   cannot be run, or with `error` if nothing more can be done. */
 JO_API bool jo_test(const char *const *paths, size_t count, const char *only, bool json,
-                    JoMessage *message, void *context, size_t *passed, size_t *failed);
+                    JoMessage *message, void *context, size_t *passed, size_t *failed,
+                    JoError *error);
 /* What a claim file says is measured and compared (scenes/claims/README.md). */
 typedef struct JoReproduceDef {
     const char *folder;        /* of claim files */

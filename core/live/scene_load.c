@@ -9,9 +9,7 @@
 static void message(void *context, const char *text) {
     JoxScenePage *s = context;
     const JoSceneDef *def = &s->def->scene;
-    JoxHeap *own = jox_heap_use(s->program_heap);
-    (def->message ? def->message : jox_run_to_stderr)(def->message_context, text);
-    jox_heap_use(own);
+    jox_run_message(def->message, def->message_context, text);
     if (s->reported)
         return;
     size_t n = strlen(text);

@@ -152,8 +152,8 @@ static bool run(JoxScenePage *s, JoError *error) {
     return good;
 }
 
-static bool view(const JoViewDef *def, JoxHeap *program_heap, JoError *error) {
-    JoxScenePage s = {.def = def, .scene_def = def->scene, .program_heap = program_heap};
+static bool view(const JoViewDef *def, JoError *error) {
+    JoxScenePage s = {.def = def, .scene_def = def->scene};
     s.page.source = &SCENE;
     s.page.self = &s;
     if (!jox_live_page_open(&s.page, def->address, def->port, def->page, def->three, error))
@@ -168,8 +168,7 @@ static bool view(const JoViewDef *def, JoxHeap *program_heap, JoError *error) {
 
 bool jo_view(const JoViewDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == VIEW_COOKIE && def->scene.path, false);
-    JoxHeap *program_heap = jox_heap_used();
     JOX_GUARD (NULL, error)
         return false;
-    return view(def, program_heap, error);
+    return view(def, error);
 }

@@ -15,8 +15,6 @@ typedef struct JoxLiveFileErrors {
 typedef struct JoxScenePage {
     JoxLivePage page;
     const JoViewDef *def;
-    JoxHeap *
-        program_heap; /* in use where jo_view was called: what calls back into the program has it */
     JoSceneDef scene_def; /* with the seed of the present run */
     JoScene *scene;
     uint64_t steps; /* to be done while paused */

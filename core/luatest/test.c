@@ -1,5 +1,4 @@
 /* jo_test: scenes for tests that are written in Lua, and what comes of them. */
-#include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -204,14 +203,14 @@ static void report(void *context, const JoxTestResult *result) {
     jox_text_printf(&text, "%s %s (%.1f s simulated in %.2f s)\n", result->passed ? "ok" : "not ok",
                     result->name, result->simulated, result->seconds);
     jox_text_add(&text, result->message);
-    tests->message(tests->context, text.data);
+    jox_run_message(tests->message, tests->context, text.data);
     jox_text_free(&text);
 }
 
 static void print(void *context, const char *text) {
     const Tests *tests = context;
     if (!tests->json)
-        tests->message(tests->context, text);
+        jox_run_message(tests->message, tests->context, text);
 }
 
 static void run_file(Tests *tests, const char *path) {
@@ -241,32 +240,25 @@ static void run_file(Tests *tests, const char *path) {
         jox_run_report(tests->message, tests->context, &diagnostics, NULL);
 }
 
-static int by_name(const struct dirent **a, const struct dirent **b) {
-    return strcmp((*a)->d_name, (*b)->d_name);
-}
-
 static bool is_test(const char *name) {
     size_t n = strlen(name);
-    return n > 9 && strcmp(name + n - 9, "_test.lua") == 0 && *name != '.';
+    return n > 9 && strcmp(name + n - 9, "_test.lua") == 0;
 }
 
 static void run_path(Tests *tests, const char *path) {
     struct stat info;
-    struct dirent **entries;
     if (stat(path, &info) != 0 || !S_ISDIR(info.st_mode)) {
         run_file(tests, path);
         return;
     }
-    int count = scandir(path, &entries, NULL, by_name);
-    for (int e = 0; e < count; e++) {
+    char **names = jox_folder_names(path, false);
+    for (char **name = names; name && *name; name++) {
         char inner[1024];
-        snprintf(inner, sizeof inner, "%s/%s", path, entries[e]->d_name);
-        if (is_test(entries[e]->d_name))
+        snprintf(inner, sizeof inner, "%s/%s", path, *name);
+        if (is_test(*name))
             run_file(tests, inner);
-        free(entries[e]);
     }
-    if (count >= 0)
-        free(entries);
+    jox_free(names);
 }
 
 static bool test_all(const char *const *paths, size_t count, const char *only, bool json,
@@ -277,13 +269,14 @@ static bool test_all(const char *const *paths, size_t count, const char *only, b
     for (size_t p = 0; p < count; p++)
         run_path(&tests, paths[p]);
     if (!json && tests.passed + tests.failed == 0 && !tests.broken) {
-        message(context, "no tests found: files that end with _test.lua hold them\n");
+        jox_run_message(message, context,
+                        "no tests found: files that end with _test.lua hold them\n");
         tests.broken = true;
     }
     if (json) {
         jox_json_end(&tests.array);
         jox_text_append(&tests.results, "\n", 1);
-        message(context, tests.results.data);
+        jox_run_message(message, context, tests.results.data);
     }
     for (size_t k = 0; k < tests.kept_count; k++) {
         unlink(tests.kept[k]);
@@ -304,11 +297,9 @@ static bool test_all(const char *const *paths, size_t count, const char *only, b
 }
 
 bool jo_test(const char *const *paths, size_t count, const char *only, bool json,
-             JoMessage *message, void *context, size_t *passed, size_t *failed) {
+             JoMessage *message, void *context, size_t *passed, size_t *failed, JoError *error) {
     JOX_REQUIRE(paths && message && passed && failed, false);
-    JOX_GUARD (NULL, NULL) {
-        message(context, "out of memory\n");
+    JOX_GUARD (NULL, error)
         return false;
-    }
     return test_all(paths, count, only, json, message, context, passed, failed);
 }

@@ -47,10 +47,7 @@ static bool fail(JoError *error, JoxText *why) {
 static void say(const JoRenderDef *def, const char *format, const char *what) {
     char text[1200];
     snprintf(text, sizeof text, format, what);
-    if (def->message)
-        def->message(def->message_context, text);
-    else
-        fputs(text, stderr);
+    jox_run_message(def->message, def->message_context, text);
 }
 
 static bool ends(const char *text, const char *end) {

@@ -15,9 +15,9 @@ void jox_run_to_stderr(void *context, const char *text) {
 }
 
 void jox_run_message(JoMessage *message, void *context, const char *text) {
-    JoxHeap *own = jox_guard_leave();
+    const JoxOutside outside = jox_guard_leave();
     (message ? message : jox_run_to_stderr)(context, text);
-    jox_heap_use(own);
+    jox_guard_return(outside);
 }
 
 void jox_run_tell(const JoScene *scene, const char *text) {
@@ -26,10 +26,10 @@ void jox_run_tell(const JoScene *scene, const char *text) {
 
 void jox_run_tell_diagnosed(JoxDiagnosed *diagnosed, void *context, const bool *parts,
                             const JoxDiagnostics *diagnostics) {
-    JoxHeap *own = jox_guard_leave();
+    const JoxOutside outside = jox_guard_leave();
     if (diagnosed)
         diagnosed(context, parts, diagnostics);
-    jox_heap_use(own);
+    jox_guard_return(outside);
 }
 
 void jox_run_say(const JoScene *scene, const char *format, ...) {

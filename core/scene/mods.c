@@ -12,7 +12,7 @@
 #include "scene/mods_parts.h"
 
 static void look_into(JoxModsFind *f, const char *folder) {
-    char **names = jox_mods_is_folder(folder) ? jox_folder_names(folder) : NULL;
+    char **names = jox_mods_is_folder(folder) ? jox_folder_names(folder, false) : NULL;
     int count = 0;
     while (names && names[count])
         count++;

@@ -1,12 +1,13 @@
 #include "scene/mods_on.h"
 
-#include <dirent.h>
 #include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/file.h"
 #include "base/hash.h"
 #include "base/mem.h"
 
@@ -18,10 +19,6 @@ typedef struct Content {
     JoxText list, *error; /* a line for each file: its hash and its path within the mod */
     uint32_t files;
 } Content;
-
-static int by_name(const struct dirent **a, const struct dirent **b) {
-    return strcmp((*a)->d_name, (*b)->d_name);
-}
 
 static bool add_file(Content *c, const char *path, size_t root) {
     char hash[HASH + 1];
@@ -39,31 +36,26 @@ static bool add_file(Content *c, const char *path, size_t root) {
 
 /* Adds the files of a folder, of whose path the first `root` bytes are the mod's. */
 static bool add_folder(Content *c, const char *folder, size_t root, int depth) {
-    struct dirent **entries;
-    int count = depth <= DEEPEST ? scandir(folder, &entries, NULL, by_name) : -1;
-    bool good = count >= 0;
+    char **names = depth <= DEEPEST ? jox_folder_names(folder, true) : NULL;
+    bool good = names;
     if (!good)
         jox_text_printf(c->error, "'%s' cannot be read, or lies too deep", folder);
-    for (int e = 0; e < count; e++) {
-        const char *name = entries[e]->d_name;
+    for (char **name = names; good && *name; name++) {
         JoxText path = {0};
         struct stat info;
-        jox_text_printf(&path, "%s/%s", folder, name);
-        bool skip = strcmp(name, ".") == 0 || strcmp(name, "..") == 0 || !good;
-        if (!skip && lstat(path.data, &info) == 0 && S_ISDIR(info.st_mode)) {
+        jox_text_printf(&path, "%s/%s", folder, *name);
+        if (lstat(path.data, &info) == 0 && S_ISDIR(info.st_mode)) {
             /* No file of a hidden folder is ever read: those are of version control. */
-            good = name[0] == '.' || add_folder(c, path.data, root, depth + 1);
-        } else if (!skip && lstat(path.data, &info) == 0 && S_ISREG(info.st_mode)) {
+            good = **name == '.' || add_folder(c, path.data, root, depth + 1);
+        } else if (lstat(path.data, &info) == 0 && S_ISREG(info.st_mode)) {
             good = add_file(c, path.data, root);
-        } else if (!skip) {
+        } else {
             jox_text_printf(c->error, "'%s' is no plain file", path.data);
             good = false;
         }
         jox_text_free(&path);
-        free(entries[e]);
     }
-    if (count >= 0)
-        free(entries);
+    jox_free(names);
     return good;
 }
 
@@ -123,7 +115,8 @@ static bool is(const char *text, size_t length, const char *wanted) {
 }
 
 JoxModSwitch jox_mods_on_look(const char *list, const char *name, const char *folder) {
-    char hash[HASH + 1] = "", *real = realpath(folder, NULL);
+    char hash[HASH + 1] = "", room[PATH_MAX];
+    const char *real = realpath(folder, room);
     JoxModSwitch found = JOX_MOD_OFF;
     JoxText ignored = {0};
     Line line;
@@ -138,7 +131,6 @@ JoxModSwitch jox_mods_on_look(const char *list, const char *name, const char *fo
             found = JOX_MOD_CHANGED;
     }
     jox_text_free(&ignored);
-    free(real);
     return found;
 }
 
@@ -166,7 +158,8 @@ static bool write_list(const JoxText *list, JoxText *error) {
 }
 
 bool jox_mods_on_set(const char *name, const char *folder, bool on, JoxText *error) {
-    char hash[HASH + 1] = "", *list = jox_mods_on_read(), *real = realpath(folder, NULL);
+    char hash[HASH + 1] = "", room[PATH_MAX], *list = jox_mods_on_read();
+    const char *real = realpath(folder, room);
     JoxText out = {0};
     Line line;
     bool good = real && !strchr(real, '\n') && jox_mods_on_hash(folder, hash, error);
@@ -185,6 +178,5 @@ bool jox_mods_on_set(const char *name, const char *folder, bool on, JoxText *err
     good = good && write_list(&out, error);
     jox_text_free(&out);
     jox_free(list);
-    free(real);
     return good;
 }

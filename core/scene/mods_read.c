@@ -136,7 +136,7 @@ static void read_folder(JoxModsFind *f, JoxMod *mod, const char *name, JoxPositi
         is_sound(f, folder, from);
         return;
     }
-    char **names = jox_mods_is_folder(folder) ? jox_folder_names(folder) : NULL;
+    char **names = jox_mods_is_folder(folder) ? jox_folder_names(folder, false) : NULL;
     int count = 0;
     while (names && names[count])
         count++;

@@ -1,11 +1,11 @@
 /* jo_check: every error of scenes, behaviours and folders of them; nothing is run. */
-#include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "base/assert.h"
+#include "base/file.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
@@ -137,10 +137,6 @@ static void check_mod(const char *folder, JoxDiagnostics *all) {
     jox_mods_free(mods);
 }
 
-static int by_name(const struct dirent **a, const struct dirent **b) {
-    return strcmp((*a)->d_name, (*b)->d_name);
-}
-
 /* `mod`: the folder of the mod that the path lies in, or NULL. */
 static void check_path(const char *path, bool named, int depth, const char *mod,
                        JoxDiagnostics *all) {
@@ -150,24 +146,21 @@ static void check_path(const char *path, bool named, int depth, const char *mod,
         jox_diag_error(&own, ((JoxPosition){path, 0, 0, 0}), "unreadable-file", NULL,
                        "there is no such file");
     } else if (S_ISDIR(info.st_mode) && depth < DEEPEST) {
-        struct dirent **entries;
         char sheet[1024];
         snprintf(sheet, sizeof sheet, "%.900s/mod.yaml", path);
         if (!mod && is_file(sheet)) {
             mod = path;
             check_mod(path, &own);
         }
-        int count = scandir(path, &entries, NULL, by_name);
-        for (int e = 0; e < count; e++) {
+        char **names = jox_folder_names(path, false);
+        for (char **name = names; name && *name; name++) {
             char inner[1024];
-            snprintf(inner, sizeof inner, "%s/%s", path, entries[e]->d_name);
-            bool patches = mod && strcmp(entries[e]->d_name, "patches") == 0; /* looked at above */
-            if (entries[e]->d_name[0] != '.' && !patches)
+            snprintf(inner, sizeof inner, "%s/%s", path, *name);
+            bool patches = mod && strcmp(*name, "patches") == 0; /* looked at above */
+            if (!patches)
                 check_path(inner, false, depth + 1, mod, all);
-            free(entries[e]);
         }
-        if (count >= 0)
-            free(entries);
+        jox_free(names);
     } else if (ends_with(path, "/mod.yaml")) {
         char folder[1024];
         snprintf(folder, sizeof folder, "%.*s", (int)(strlen(path) - 9), path);
@@ -198,7 +191,7 @@ static size_t check_all(const char *const *paths, size_t count, bool json, JoMes
     else
         jox_diag_print(&all, &text);
     if (text.length)
-        message(context, text.data);
+        jox_run_message(message, context, text.data);
     size_t errors = all.errors;
     jox_text_free(&text);
     jox_diag_free(&all);
@@ -206,11 +199,9 @@ static size_t check_all(const char *const *paths, size_t count, bool json, JoMes
 }
 
 size_t jo_check(const char *const *paths, size_t count, bool json, JoMessage *message,
-                void *context) {
+                void *context, JoError *error) {
     JOX_REQUIRE(paths && message, 0);
-    JOX_GUARD (NULL, NULL) {
-        message(context, "out of memory\n");
-        return 1;
-    }
+    JOX_GUARD (NULL, error)
+        return SIZE_MAX;
     return check_all(paths, count, json, message, context);
 }

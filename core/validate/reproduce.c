@@ -2,7 +2,6 @@
 #include "validate/reproduce.h"
 
 #include <ctype.h>
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/assert.h"
+#include "base/file.h"
 #include "base/guard.h"
 #include "base/hash.h"
 #include "base/mem.h"
@@ -42,20 +42,17 @@ static char **list_files(const char *folder, size_t *count) {
     char **files = NULL;
     size_t capacity = 0;
     *count = 0;
-    DIR *dir = opendir(folder);
-    for (struct dirent *entry; dir && (entry = readdir(dir)) != NULL;) {
-        const char *dot = strrchr(entry->d_name, '.');
-        if (!dot || strcmp(dot, ".lua") != 0 || entry->d_name[0] == '.')
+    char **names = jox_folder_names(folder, false);
+    for (char **name = names; name && *name; name++) {
+        const char *dot = strrchr(*name, '.');
+        if (!dot || strcmp(dot, ".lua") != 0)
             continue;
         JoxText path = {0};
-        jox_text_printf(&path, "%s/%s", folder, entry->d_name);
+        jox_text_printf(&path, "%s/%s", folder, *name);
         JOX_RESERVE(files, capacity, *count + 1);
         files[(*count)++] = path.data;
     }
-    if (dir)
-        closedir(dir);
-    if (*count)
-        jox_sort_texts((const char **)files, *count);
+    jox_free(names);
     return files;
 }
 
@@ -209,7 +206,7 @@ static void measure(const JoxReproduction *all, JoxOutcome *outcome) {
 
 static void say(const JoReproduceDef *def, const char *text) {
     if (def->message)
-        def->message(def->message_context, text);
+        jox_run_message(def->message, def->message_context, text);
     else
         fputs(text, stdout);
 }

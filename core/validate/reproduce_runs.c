@@ -1,6 +1,5 @@
 /* Runs of scenes as processes of their own: several at once, the long ones first, and none that is
    there already. */
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -86,15 +85,21 @@ static bool is_there(const JoxJob *job) {
 /* What an earlier run left: a probe that is gone must not be measured, nor half a run taken for a
    whole one. */
 static void clear(const JoxJob *job) {
-    DIR *folder = opendir(job->folder);
-    for (struct dirent *entry; folder && (entry = readdir(folder)) != NULL;) {
-        char *path = path_in(job, entry->d_name);
-        if (entry->d_name[0] != '.')
-            remove(path);
+    char **names = jox_folder_names(job->folder, false);
+    for (char **name = names; name && *name; name++) {
+        char *path = path_in(job, *name);
+        remove(path);
         jox_free(path);
     }
-    if (folder)
-        closedir(folder);
+    jox_free(names);
+}
+
+/* Ends its process, with what that started itself (gnuplot): half a run is of no use. */
+static void stop(void *running) {
+    JoxJob *job = running;
+    kill(-job->process, SIGKILL);
+    while (waitpid(job->process, NULL, 0) < 0 && errno == EINTR)
+        continue;
 }
 
 static void start(const JoxReproduction *all, JoxJob *job) {
@@ -135,13 +140,16 @@ static void start(const JoxReproduction *all, JoxJob *job) {
         execv(all->def->program, (char **)(uintptr_t)arguments);
         _exit(127);
     }
-    if (job->process > 0)
+    if (job->process > 0) {
         setpgid(job->process, job->process); /* whoever comes first */
+        jox_hold(job, stop);
+    }
     jox_free(summary);
     jox_free(log);
 }
 
 static void end(JoxJob *job, int status) {
+    jox_let_go(job);
     job->state = JOX_JOB_DONE;
     job->process = 0;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
@@ -216,15 +224,12 @@ static JoxJob *ended_job(JoxReproduction *all, int *status) {
     return NULL;
 }
 
-/* With what they started themselves (gnuplot); half a run is of no use. */
 static void stop_all(JoxReproduction *all) {
     for (uint32_t j = 0; j < all->job_count; j++)
-        if (all->jobs[j].state == JOX_JOB_RUNS)
-            kill(-all->jobs[j].process, SIGKILL);
-    for (uint32_t j = 0; j < all->job_count; j++)
-        while (all->jobs[j].state == JOX_JOB_RUNS && waitpid(all->jobs[j].process, NULL, 0) < 0 &&
-               errno == EINTR)
-            continue;
+        if (all->jobs[j].state == JOX_JOB_RUNS) {
+            jox_let_go(&all->jobs[j]);
+            stop(&all->jobs[j]);
+        }
 }
 
 static void look_for_old(JoxReproduction *all) {

@@ -58,3 +58,19 @@ for fill in random hex grid; do
     scene "groups: {g: {behaviour: stander.lua, count: 1, fill: $fill, in: corridor}}"
     says "one agent fits into a corridor, fill: $fill" 0 '"agents": 1' "$program" run scene.yaml --steps 1 --quiet --summary -
 done
+
+# ---- memory that runs out ----
+# LIMIT COMMAND...: with so many KiB of address space; 127 is the loader's, which has no libraries then
+limited() { local limit=$1; shift; (ulimit -v "$limit"; "$program" "$@") >"$work/out" 2>&1 </dev/null; }
+failures=0 wrong=
+for limit in 40000 50000 60000 70000 80000 90000 100000 110000 130000; do
+    for command in "run scenes/tawaf.yaml --steps 3 --quiet --no-mods --set groups.pilgrims.count=20000" \
+        "check scenes/tawaf.yaml behaviours/pedestrian.lua" "test tests/lua/customer_test.lua"; do
+        limited $limit $command
+        status=$?
+        grep -q 'out of memory' "$work/out" && [ $status = 1 ] && failures=$((failures + 1)) && continue
+        [ $status = 0 ] || [ $status = 127 ] || wrong="$wrong $limit:$status"
+    done
+done
+[ $failures -ge 2 ] && [ -z "$wrong" ]
+verdict "little memory: 'out of memory' and status 1 ($failures times${wrong:+, but$wrong})" $?

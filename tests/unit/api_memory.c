@@ -174,8 +174,7 @@ static bool report(JoError *error) {
 static bool check(JoError *error) {
     const char *paths[] = {"behaviours/pedestrian.lua", "scenes/circle.yaml"};
     *told = 0;
-    return jo_check(paths, 2, false, keep, NULL) == 0 ||
-           (strstr(told, "out of memory") ? no_memory(error) : false);
+    return jo_check(paths, 2, false, keep, NULL, error) == 0;
 }
 
 static bool pages(JoError *error) {

@@ -229,7 +229,7 @@ static void errors_of_other_files_show_their_line(void **state) {
 
 static size_t check(const char *name, bool json, JoxText *said) {
     const char *paths[] = {in_folder(name)};
-    return jo_check(paths, 1, json, keep, said);
+    return jo_check(paths, 1, json, keep, said, NULL);
 }
 
 static int count_of(const char *text, const char *word) {
