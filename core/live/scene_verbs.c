@@ -7,7 +7,7 @@
 #include "base/mem.h"
 #include "live/inspect.h"
 #include "live/scene_page.h"
-#include "world/input/verbs.h"
+#include "world/verbs/verbs.h"
 
 enum { MOST_STEPS = 100000 };
 

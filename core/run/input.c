@@ -7,7 +7,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
-#include "world/input/verbs.h"
+#include "world/verbs/verbs.h"
 
 /* ---- actions ---- */
 

@@ -6,7 +6,7 @@
 #include "jostle_tools.h"
 #include "lua/reference.h"
 #include "run/run.h"
-#include "world/input/verbs.h"
+#include "world/verbs/verbs.h"
 
 static void scene_schema(JoxText *out) {
     jox_scene_json_schema("scene", out);

@@ -13,7 +13,7 @@
 
 #include "base/mem.h"
 #include "base/random.h"
-#include "world/input/verbs.h"
+#include "world/verbs/verbs.h"
 
 static const char ALL[] = "# a comment\n"
                           "\n"

@@ -1,8 +1,8 @@
 /* The input log: what people did to a running scene, with the step in which it took effect. Played
    back, it drives a run to the same state. Text, one entry a line: TICK VERB ..., with the verbs of
-   verbs.c; '#' starts a comment; a name with blanks stands in double quotes, where \" and \\ are a
-   quote and a backslash. Ticks count steps from 0 and never decrease. Behind `before N` and
-   `files N` follow N files: a line PATH BYTES, the bytes, the end of a line. */
+   world/verbs; '#' starts a comment; a name with blanks stands in double quotes, where \" and
+   \\ are a quote and a backslash. Ticks count steps from 0 and never decrease. Behind `before N`
+   and `files N` follow N files: a line PATH BYTES, the bytes, the end of a line. */
 #ifndef JOX_WORLD_INPUT_H
 #define JOX_WORLD_INPUT_H
 

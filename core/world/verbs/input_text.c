@@ -7,7 +7,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "world/input/verbs.h"
+#include "world/verbs/verbs.h"
 
 enum { LONGEST_LINE = 1200 };
 

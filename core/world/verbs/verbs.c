@@ -1,4 +1,4 @@
-#include "world/input/verbs.h"
+#include "world/verbs/verbs.h"
 
 #include <assert.h>
 
