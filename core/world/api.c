@@ -156,6 +156,8 @@ static bool agent_parameters(const JoAgentDef *def, double values[JOX_PARAM_COUN
 
 static JoAgent handle_of(const JoWorld *world, uint32_t index) {
     uint32_t slot = world->state.agents.slot[index];
+    JOX_ASSERT(world->state.agents.slot_index[slot] == index);
+    JOX_ASSERT(world->state.agents.slot_generation[slot] > 0); /* 0 is no agent */
     return (JoAgent){slot, world->state.agents.slot_generation[slot]};
 }
 

@@ -2,6 +2,7 @@
    press when it does. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
 #include "world/stages.h"
@@ -32,6 +33,7 @@ void jox_bonds_note_touch(const JoxBodyStage *stage) {
     for (uint32_t o = 0; o < stage->objects->count && !s->touched; o++) {
         if (!jox_bodies_bonds(stage->bodies, o, &bonds))
             continue;
+        JOX_ASSERT(stage->objects->rows[o].live);
         uint32_t front = 0;
         double sum = 0.0;
         for (uint32_t i = 0; i < a->count; i++) {
@@ -43,7 +45,7 @@ void jox_bonds_note_touch(const JoxBodyStage *stage) {
             sum += sqrt((double)a->vx[i] * a->vx[i] + (double)a->vy[i] * a->vy[i]);
         }
         if (s->touched)
-            s->touch_s = stage->part->end;
+            s->touch_s = stage->substep->end;
         else if (front && (s->front == 0 || sum / front < s->front_speed))
             s->front_speed = sum / front;
         s->front = front > s->front ? front : s->front;
@@ -77,10 +79,12 @@ static void count_rows(const JoxBodyStage *stage, const JoxObject *body) {
             float gap = jox_length(jox_offset(a, i, j)) - radius[i] - radius[j];
             if (row[j] || !presses(a, j, gap))
                 continue;
+            JOX_ASSERT(row[i] > 0); /* only those whom a chain reached are in the queue */
             row[j] = row[i] + 1;
             queue[end++] = j;
         }
     }
+    JOX_ASSERT(end <= a->count);
     stage->statistics->bonds.people = end;
     stage->statistics->bonds.rows = end ? row[queue[end - 1]] : 0;
     jox_free(row);
@@ -91,8 +95,11 @@ void jox_bonds_note_breaks(const JoxBodyStage *stage, const JoxBodiesReport *rep
     JoxBondStatistics *s = &stage->statistics->bonds;
     for (uint32_t k = 0; k < report->break_count; k++) {
         const JoxBodyBreak *broken = &report->breaks[k];
+        JOX_ASSERT(broken->row < stage->objects->count);
+        JOX_ASSERT(broken->bonds > 0 && broken->pieces > 0);
+        JOX_ASSERT(k == 0 || report->breaks[k - 1].id < broken->id);
         if (s->broken == 0) {
-            s->first_s = stage->part->end;
+            s->first_s = stage->substep->end;
             count_rows(stage, &stage->objects->rows[broken->row]); /* as it was before the step */
         }
         s->broken += broken->bonds;

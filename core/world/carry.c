@@ -1,6 +1,7 @@
 /* Bodies that agents carry: picked up, carried along, thrown. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "world/stages.h"
 #include "world/world.h"
 
@@ -18,6 +19,7 @@ static void carry_along(const JoxBodyStage *s) {
         const JoxObject *object = &s->objects->rows[o];
         if (!object->live || !object->held)
             continue;
+        JOX_ASSERT(object->holder < a->next_id && object->moves);
         uint32_t i = jox_agents_find(a, object->holder);
         if (i == JOX_NO_INDEX || a->removed[i]) { /* who left lets it fall */
             jox_bodies_let_go(s->bodies, o, (JoxV3){0.0f, 0.0f, 0.0f});
@@ -37,6 +39,8 @@ void jox_bodies_carried(const JoxBodyStage *s) {
         uint32_t i = jox_agents_find(a, grip->agent_id);
         if (i == JOX_NO_INDEX)
             continue;
+        JOX_ASSERT(grip->object < s->objects->count);
+        JOX_ASSERT(g == 0 || s->machines->grips[g - 1].agent_id <= grip->agent_id);
         const JoxObject *object = &s->objects->rows[grip->object];
         if (grip->takes) {
             s->statistics->pickups += jox_bodies_hold(s->bodies, grip->object, grip->agent_id);

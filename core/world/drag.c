@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "world/stages.h"
 #include "world/world.h"
 
@@ -45,6 +46,7 @@ static int32_t find_grab(const JoWorld *w, uint32_t row) {
 }
 
 static void drop(JoxDrags *drags, uint32_t g) {
+    JOX_ASSERT(g < drags->grab_count);
     drags->grabs[g] = drags->grabs[--drags->grab_count];
 }
 
@@ -95,6 +97,7 @@ void jox_bodies_dragged(const JoxBodyStage *s) {
             drop(s->drags, g); /* it is gone */
             continue;
         }
+        JOX_ASSERT(pose.mass > 0.0f); /* what is static cannot be grabbed */
         g++;
         float near = DRAG_RATE / 4.0f, most = pose.mass * DRAG_RATE;
         JoxV3 wanted = at_most((JoxV3){(grab->to.x - pose.centre.x) * near,
@@ -106,7 +109,7 @@ void jox_bodies_dragged(const JoxBodyStage *s) {
                                       most * (wanted.z - pose.velocity.z)},
                               DRAG_FORCE);
         force.z += jox_minf(pose.mass * (float)s->gravity, DRAG_FORCE);
-        float kept = jox_maxf(0.0f, 1.0f - DRAG_STEADY * (float)s->part->dt);
+        float kept = jox_maxf(0.0f, 1.0f - DRAG_STEADY * (float)s->substep->dt);
         JoxV3 spin = {pose.spin.x * kept, pose.spin.y * kept, pose.spin.z * kept};
         jox_bodies_set_velocity(s->bodies, grab->row, pose.velocity, spin);
         jox_bodies_force(s->bodies, grab->row, force);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "world/world.h"
 
 enum { MOST_NAMES = 256, LONGEST_NAME = 60 };
@@ -118,6 +119,7 @@ static double next_time(const JoxEvent *event, double after) {
         return event->at;
     if (!(event->every > 0.0))
         return INFINITY;
+    JOX_ASSERT(isfinite(after) && event->at <= after);
     double n = floor((after - event->at) / event->every), time = event->at + n * event->every;
     while (!(time > after)) /* division rounds */
         time = event->at + ++n * event->every;
@@ -144,6 +146,7 @@ void jox_world_events(JoWorld *world) {
         }
         if (!(least <= now))
             break;
+        JOX_ASSERT(least > after || (least == after && next > done)); /* each happens once */
         happen(world, &world->model.events[next]);
         after = least;
         done = next;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
 #include "world/world.h"
@@ -41,6 +42,7 @@ void jox_world_set_sinks(JoWorld *world, const JoxAgentSink *sinks, uint32_t cou
 }
 
 static void count_at(JoWorld *world, const JoxPlace *place) {
+    JOX_ASSERT(place->name);
     struct JoxExit *exit = jox_exits_get(&world->state.exits, place->name);
     exit->people++;
     exit->last = now(world);
@@ -82,6 +84,7 @@ static void count_leavers(JoWorld *world) {
                 (!of || size_of(place) < size_of(of)))
                 of = place;
         }
+        JOX_ASSERT(!of || of->kind != JOX_PLACE_SET); /* a member is the exit */
         if (of)
             count_at(world, of);
     }
@@ -96,6 +99,7 @@ static void empty_sinks(JoWorld *world) {
     bool any = false;
     for (uint32_t s = 0; s < world->model.sink_count && world->state.tick % 4 == 0; s++) {
         const JoxAgentSink *sink = &world->model.sinks[s];
+        JOX_ASSERT(sink->place < world->model.scene_places);
         for (uint32_t i = 0; i < a->count; i++) {
             if (a->removed[i] || (sink->group >= 0 && a->group[i] != sink->group))
                 continue;

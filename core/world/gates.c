@@ -1,6 +1,7 @@
 /* Walls that come and go: opened, closed, or edited while the crowd runs. */
 #include <string.h>
 
+#include "base/assert.h"
 #include "world/world.h"
 
 static void change(JoWorld *world) {
@@ -50,6 +51,7 @@ void jox_world_raise_walls(JoWorld *world) {
     if (world->model.all_walls.count == 0 && world->scratch.walls.count == 0)
         return;
     jox_walls_standing(&world->scratch.walls, &world->model.all_walls, true);
+    JOX_ASSERT(world->scratch.walls.count <= world->model.all_walls.count);
     jox_nav_set_walls(world->scratch.nav, &world->scratch.walls);
     jox_bodies_set_walls(world->state.bodies, &world->scratch.walls, JOX_WALL_HEIGHT);
 }
@@ -63,6 +65,8 @@ JoxPlacement jox_world_resolve_placement(JoWorld *world) {
         world->state.settled ? world->state.agents.next_id : world->state.first_unsettled;
     settled = jox_nav_resolve_placement(world->scratch.nav, &world->state.agents, first,
                                         world->state.walls_came);
+    JOX_ASSERT(first <= world->state.agents.next_id);
+    JOX_ASSERT(settled.moved <= world->state.agents.count);
     world->state.statistics.moved_out += settled.moved;
     world->state.settled = true;
     world->state.walls_came = false;

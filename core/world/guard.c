@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "world/world.h"
 
 /* Columns that are looked at, causes before effects: an agent whose preferred velocity is no number
@@ -50,6 +51,7 @@ static void blame(JoWorld *w, const Column *column) {
     for (uint32_t i = 0; i < a->count; i++)
         if (!isfinite(column->of[i]) && (worst == JOX_NO_INDEX || a->id[i] < a->id[worst]))
             worst = i;
+    JOX_ASSERT(worst != JOX_NO_INDEX); /* is_finite found one */
     uint16_t number = a->machine[worst];
     const JoxMachine *machine = number == JOX_NO_MACHINE ? NULL : w->model.machines.items[number];
     snprintf(w->failure, sizeof w->failure,

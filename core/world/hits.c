@@ -6,6 +6,14 @@
 #include "base/mem.h"
 #include "world/stages.h"
 
+static void check_discs(const JoxDiscList *list, uint32_t count) {
+    for (uint32_t n = 0; n < count; n++) {
+        JOX_ASSERT(list->agents[n] < count);
+        JOX_ASSERT(n == 0 || list->discs[n - 1].id < list->discs[n].id);
+        JOX_ASSERT(list->discs[n].radius > 0.0f && list->discs[n].mass > 0.0f);
+    }
+}
+
 /* People as fast bodies meet them, in ascending id: where they were and how they moved. */
 static uint32_t list_discs(const JoxAgents *a, JoxDiscList *list) {
     if (a->count > list->capacity) {
@@ -26,17 +34,20 @@ static uint32_t list_discs(const JoxAgents *a, JoxDiscList *list) {
                                    .vx = a->vx[i],
                                    .vy = a->vy[i]};
     }
+    JOX_CHECK(check_discs(list, a->count));
     return a->count;
 }
 
 /* What fast bodies did to people: a change of velocity now, a contact force in the columns. */
 static void take_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
     JoxAgents *a = s->agents;
-    float dt = (float)s->part->dt;
+    float dt = (float)s->substep->dt;
     for (uint32_t h = 0; h < report->hit_count; h++) {
         const JoxDiscHit *hit = &report->hits[h];
         JOX_ASSERT(hit->disc < a->count);
         uint32_t i = s->discs->agents[hit->disc];
+        JOX_ASSERT(a->id[i] == s->discs->discs[hit->disc].id);
+        JOX_ASSERT(hit->object < s->objects->count && isfinite(jox_length(hit->impulse)));
         float mass = a->param[JOX_PARAM_mass][i];
         a->vx[i] += hit->impulse.x / mass;
         a->vy[i] += hit->impulse.y / mass;
@@ -46,6 +57,7 @@ static void take_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
             jox_length(hit->impulse) / dt / (6.2831853f * a->param[JOX_PARAM_radius][i]);
         a->contacts[i] += a->contacts[i] < 255;
     }
+    JOX_ASSERT(!(report->hit_residual > 0.01 + 1e-3 * report->hit_impulse));
     JoxExchange *exchange = &s->statistics->exchange;
     exchange->contacts += report->hit_count;
     exchange->impulse += report->hit_impulse;
@@ -61,10 +73,12 @@ static void give_impulses(const JoxBodyStage *s, const JoxImpulse *impulses, uin
     if (count == 0)
         return;
     jox_bodies_momentum(s->bodies, before);
-    jox_bodies_impulses(s->bodies, impulses, count);
+    const uint32_t refused = jox_bodies_impulses(s->bodies, impulses, count);
     jox_bodies_momentum(s->bodies, after);
     double x = totals.touched_x + (after[0] - before[0] - totals.pushed_x);
     double y = totals.touched_y + (after[1] - before[1] - totals.pushed_y);
+    /* What people take bodies give, but for what was clamped. */
+    JOX_ASSERT(refused > 0 || !(sqrt(x * x + y * y) > 0.1 + 1e-3 * totals.touched));
     exchange->contacts += totals.touches;
     exchange->impulse += totals.touched;
     exchange->residual += sqrt(x * x + y * y);
@@ -72,10 +86,10 @@ static void give_impulses(const JoxBodyStage *s, const JoxImpulse *impulses, uin
 
 JoxBodiesReport jox_bodies_advance(const JoxBodyStage *s) {
     uint32_t count;
-    float dt = (float)s->part->dt;
+    float dt = (float)s->substep->dt;
     const JoxImpulse *impulses = jox_force_impulses(s->forces_of, &count);
     give_impulses(s, impulses, count);
-    if (s->part->first)
+    if (s->substep->first)
         jox_bodies_impulses(s->bodies, s->machines->kicks, s->machines->kick_count);
     bool fast = s->forces && jox_bodies_any_fast(s->bodies, dt);
     uint32_t discs = fast ? list_discs(s->agents, s->discs) : 0;

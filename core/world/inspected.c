@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/assert.h"
 #include "world/world.h"
 
 const char *const jox_force_part_names[JOX_FORCE_PARTS] = {[JOX_FORCE_PART_body] = "body",
@@ -16,6 +17,7 @@ static const double FORGOTTEN = 5.0; /* s, simulated, without a look */
 
 static void end(JoWorld *w, uint32_t n) {
     JoxInspection *all = &w->scratch.inspection;
+    JOX_ASSERT(n < all->count);
     jox_text_free(&all->watched[n].why);
     all->count--;
     memmove(&all->agents[n], &all->agents[n + 1], (all->count - n) * sizeof *all->agents);
@@ -31,6 +33,7 @@ static JoxInspected *begin(JoWorld *w, uint32_t slot, uint32_t id) {
             oldest = n;
     if (all->count == JOX_MOST_INSPECTED)
         end(w, oldest);
+    JOX_ASSERT(all->count < JOX_MOST_INSPECTED);
     uint32_t n = all->count++;
     all->agents[n] = (JoxInspected){.slot = slot, .id = id};
     all->watched[n] = (JoxWatched){.agent_id = id};
@@ -69,6 +72,17 @@ void jox_inspect_expire(JoWorld *w) {
             end(w, n);
 }
 
+/* All that is shown of a net force adds up to it. */
+static void check_sum(const JoxInspected *seen, JoxV2 force) {
+    JoxV2 left = force;
+    float size = jox_length(force);
+    for (int part = 0; part < JOX_FORCE_PARTS; part++) {
+        left = jox_sub(left, seen->forces[part]);
+        size += jox_length(seen->forces[part]);
+    }
+    JOX_ASSERT(!(jox_length(left) > 1e-2f + 1e-4f * size));
+}
+
 void jox_inspect_pushed(JoxInspection *all, const JoxAgents *a, const JoxForces *forces_of) {
     for (uint32_t n = 0; n < all->count; n++) {
         JoxInspected *seen = &all->agents[n];
@@ -85,6 +99,7 @@ void jox_inspect_pushed(JoxInspection *all, const JoxAgents *a, const JoxForces 
         forces[JOX_FORCE_PART_inferred] = jox_sub(forces[JOX_FORCE_PART_inferred], seen->slowed);
         forces[JOX_FORCE_PART_deceleration] = seen->slowed;
         seen->summed = (JoxV2){a->force_x[i], a->force_y[i]};
+        JOX_CHECK(check_sum(seen, seen->summed));
     }
 }
 
@@ -98,6 +113,7 @@ void jox_inspect_solved(JoxInspection *all, const JoxAgents *a, const JoxNav *na
             continue;
         seen->plane_count =
             jox_nav_constraints(nav, a, neighbours, objects, planning_time, i, seen->planes);
+        JOX_ASSERT(seen->plane_count <= JOX_MOST_CONSTRAINTS);
         seen->preferred = (JoxV2){a->pref_x[i], a->pref_y[i]};
         seen->chosen = (JoxV2){a->next_x[i], a->next_y[i]};
         seen->speed_limit = a->speed_limit[i];
@@ -115,6 +131,7 @@ void jox_inspect_inferred(JoxInspection *all, const JoxAgents *a, const JoxForce
         float kept;
         JoxV2 hit = jox_sub((JoxV2){a->force_x[i], a->force_y[i]}, seen->summed);
         seen->forces[JOX_FORCE_PART_body] = jox_add(seen->forces[JOX_FORCE_PART_body], hit);
+        JOX_CHECK(check_sum(seen, (JoxV2){a->force_x[i], a->force_y[i]}));
         JoxV2 added = jox_force_slowed(forces_of, i, &kept);
         seen->slowed = jox_add(jox_scale(seen->slowed, kept), added);
     }

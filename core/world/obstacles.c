@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/assert.h"
 #include "base/elementary.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
@@ -40,6 +41,17 @@ static void look(const JoxObject *o, JoxObstacle *out) {
         float r = o->round * 1.035f; /* 1 / cos(pi / 12) */
         out->ring[i] = (JoxV2){o->position.x + r * (float)jox_cos(angle),
                                o->position.y + r * (float)jox_sin(angle)};
+    }
+}
+
+static void check(const JoxObstacles *obstacles) {
+    for (uint32_t i = 0; i < obstacles->count; i++) {
+        const JoxObstacle *o = &obstacles->items[i];
+        JOX_ASSERT(o->count > 0 && o->count <= JOX_FOOTPRINT_POINTS);
+        for (uint32_t k = 0; k < o->count; k++)
+            JOX_ASSERT(isfinite(o->ring[k].x) && isfinite(o->ring[k].y));
+        for (uint32_t k = 0; k < i; k++)
+            JOX_ASSERT(obstacles->items[k].id != o->id);
     }
 }
 
@@ -87,6 +99,7 @@ void jox_obstacles_update(JoxObstacles *obstacles, const JoxObjects *objects) {
         look(&objects->rows[row], &obstacles->items[obstacles->count++]);
     }
     obstacles->version++;
+    JOX_CHECK(check(obstacles));
 }
 
 void jox_obstacles_add(const JoxObstacles *obstacles, bool movable, JoxWalls *walls) {

@@ -24,6 +24,7 @@ uint32_t jox_world_machine(const JoWorld *world, const char *path) {
 /* Which behaviour of a mix an agent gets. */
 static uint32_t pick_machine(const JoWorld *world, const JoxGroup *group, uint32_t id) {
     double u = jox_random_unit(world->model.def.seed, id, 0, JOX_DRAW_MIX, 0);
+    JOX_ASSERT(group->mix_count > 0);
     for (uint32_t m = 0; m + 1 < group->mix_count; m++) {
         if (u < group->mix[m].weight)
             return jox_world_machine(world, group->mix[m].behaviour);
@@ -109,6 +110,7 @@ static uint32_t next_team(JoWorld *world, uint32_t number) {
         population->party_team[number] = (first + population->next_party++ % (65535 - first));
         population->party_left[number] = group->party;
     }
+    JOX_ASSERT(population->party_team[number] > model->group_count);
     population->party_left[number]--;
     return population->party_team[number];
 }
@@ -120,13 +122,17 @@ static void spawn(JoWorld *world, uint32_t number, JoxV2 at, const JoxGroupValue
     JoxAgents *a = &world->state.agents;
     a->group[i] = (uint16_t)number;
     a->team[i] = (uint16_t)next_team(world, number);
-    for (uint32_t t = 0; t < group->tag_count; t++)
-        a->tags[i] |= (uint64_t)1 << jox_world_tag(world, group->tags[t]);
+    for (uint32_t t = 0; t < group->tag_count; t++) {
+        int tag = jox_world_tag(world, group->tags[t]);
+        JOX_ASSERT(tag >= 0); /* whoever loads a scene has counted them */
+        a->tags[i] |= (uint64_t)1 << tag;
+    }
     if (isfinite(group->facing)) {
         a->face_x[i] = (float)jox_cos(group->facing);
         a->face_y[i] = (float)jox_sin(group->facing);
     }
     uint32_t index = pick_machine(world, group, a->id[i]);
+    JOX_ASSERT(index < world->model.machines.count);
     Overrides *o = &(Overrides){0};
     override(world, group, memory, memory_count, world->model.machines.items[index], at, o);
     world->machines.tick = (uint32_t)world->state.tick;
@@ -231,6 +237,7 @@ void jox_world_populate(JoWorld *world) {
         for (uint32_t i = 0; i < p->groups[g].count; i++)
             spawn(world, g, p->groups[g].positions[i], p->groups[g].memory,
                   p->groups[g].memory_count);
+    JOX_ASSERT(world->state.agents.count >= total);
 }
 
 /* Places of single agents follow from where they are. */

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "task/worker.h"
 #include "world/obstacles.h"
@@ -55,6 +56,21 @@ JoxRoutes *jox_routes_create(void) {
     return routes;
 }
 
+/* Only fields that are there or under way are counted, and none was asked for in the future. */
+static void check(const JoxRouteStage *w) {
+    const JoxRoutes *routes = w->routes;
+    uint32_t count = 0;
+    for (uint32_t at = 0; at < routes->capacity * JOX_ROUTE_KINDS; at++) {
+        const Route *route = &routes->items[at];
+        count += routes->fields[at] || route->making;
+        JOX_ASSERT(route->asked <= w->tick && route->asked <= route->due);
+        JOX_ASSERT(route->walls <= routes->walls);
+        JOX_ASSERT(route->obstacles <= routes->obstacles.version);
+    }
+    JOX_ASSERT(count == routes->count && count <= MOST_FIELDS);
+    JOX_ASSERT(routes->capacity >= w->place_count);
+}
+
 /* ---- making one ---- */
 
 static void free_making(Making *making) {
@@ -84,6 +100,7 @@ static void copy_places(const JoxRouteStage *w, uint32_t place, Making *making) 
     making->places = jox_alloc(making->place_count, sizeof *making->places);
     jox_place_copy(&making->places[0], from);
     for (uint32_t m = 0; m < from->member_count; m++) {
+        JOX_ASSERT((uint32_t)from->members[m] < w->place_count);
         jox_place_copy(&making->places[m + 1], &w->places[from->members[m]]);
         making->places[0].members[m] = (int32_t)m + 1;
     }
@@ -107,6 +124,7 @@ static void lay_out(const JoxRouteStage *w, Making *making) {
     while (c < 3 && (high.x - low.x) * (high.y - low.y) > MOST_CELLS * CELLS[c] * CELLS[c])
         c++;
     float cell = CELLS[c];
+    JOX_ASSERT(low.x < high.x && low.y < high.y); /* there are walls or agents */
     making->cell = cell;
     making->low = (JoxV2){floorf(low.x / cell) * cell, floorf(low.y / cell) * cell};
     making->high = high;
@@ -117,6 +135,7 @@ static Making *begin(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind, 
     JoxRoutes *routes = w->routes;
     Route *route = &routes->items[place * JOX_ROUTE_KINDS + kind];
     Making *making = jox_alloc(1, sizeof *making);
+    JOX_ASSERT(!route->making); /* it would be lost */
     making->item.run = make;
     jox_walls_standing(&making->walls, w->all_walls, kind == JOX_ROUTE_NOW);
     jox_obstacles_add(&routes->obstacles, kind == JOX_ROUTE_NOW, &making->walls);
@@ -134,6 +153,7 @@ static Making *begin(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind, 
 static void take(JoxRoutes *routes, uint32_t at) {
     Making *making = routes->items[at].making;
     jox_field_free(routes->fields[at]);
+    JOX_ASSERT(making->field);
     routes->fields[at] = making->field;
     making->field = NULL;
     free_making(making);
@@ -195,6 +215,7 @@ static void make_first(const JoxRouteStage *w) {
         for (uint32_t p = 0; p < routes->capacity; p++) {
             if (!is_due(w, p, kind))
                 continue;
+            JOX_ASSERT(count < MOST_FIELDS);
             at[count] = p * JOX_ROUTE_KINDS + kind;
             makings[count++] = begin(w, p, kind, 0.0);
             routes->count++;
@@ -240,6 +261,7 @@ void jox_routes_update(const JoxRouteStage *w) {
         }
         routes->wanted[p] = 0;
     }
+    JOX_CHECK(check(w));
 }
 
 void jox_routes_renew(JoxRoutes *routes) {

@@ -3,23 +3,35 @@
 
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 
+/* A step that is not divided has one substep, which is the first and the last. */
+static void check_substep(const JoxSubstep *s) {
+    JOX_ASSERT(s->only == (s->first && s->last));
+    JOX_ASSERT(s->dt > 0.0 && s->planning_time > 0.0 && s->end > 0.0);
+}
+
 void jox_stage_perceive(const JoxPerceiveStage *s) {
-    if (s->part->first) {
+    JOX_CHECK(check_substep(s->substep));
+    if (s->substep->first) {
         jox_nav_sort(s->nav, s->agents, s->tick);
         if (s->agents->count)
             memset(s->agents->failed, 0, s->agents->count);
     }
     jox_nav_perceive(s->nav, s->agents, s->neighbours, s->pool);
     jox_bodies_objects(s->bodies, s->objects);
+    JOX_ASSERT(s->objects->count == jox_bodies_rows(s->bodies));
+    JOX_ASSERT(s->neighbours->agents >= s->agents->count);
 }
 
 void jox_stage_think(const JoxThinkStage *s) {
-    if (!s->part->first)
+    if (!s->substep->first)
         return;
     jox_routes_update(s->route);
     jox_machines_think(s->machines, s->pool);
+    JOX_ASSERT(s->machines->taken_count <= s->machines->agents->count);
+    JOX_ASSERT(s->machines->kick_count <= s->machines->agents->count);
     s->statistics->transitions += s->machines->taken_count;
     s->statistics->kicks += s->machines->kick_count;
 }
@@ -33,8 +45,8 @@ void jox_stage_push(const JoxPushStage *s) {
                          .neighbours = s->neighbours,
                          .objects = s->objects,
                          .pool = s->pool,
-                         .dt = s->part->dt,
-                         .planning_time = s->part->planning_time,
+                         .dt = s->substep->dt,
+                         .planning_time = s->substep->planning_time,
                          .push_on = s->machines->push_on,
                          .push_nearest = s->machines->push_nearest,
                          .push_toward_x = s->machines->push_toward_x,
@@ -46,7 +58,7 @@ void jox_stage_push(const JoxPushStage *s) {
     }
     jox_force_sum(s->forces_of);
     jox_inspect_pushed(s->inspection, s->agents, s->forces_of);
-    if (!s->part->last || s->agents->count == 0)
+    if (!s->substep->last || s->agents->count == 0)
         return;
     memset(s->agents->ext_x, 0, s->agents->count * sizeof(float)); /* given for this step alone */
     memset(s->agents->ext_y, 0, s->agents->count * sizeof(float));
@@ -54,24 +66,25 @@ void jox_stage_push(const JoxPushStage *s) {
 
 void jox_stage_solve(const JoxSolveStage *s) {
     s->statistics->walls_relaxed += jox_nav_solve(s->nav, s->agents, s->neighbours, s->objects,
-                                                  s->part->planning_time, s->pool);
+                                                  s->substep->planning_time, s->pool);
     jox_inspect_solved(s->inspection, s->agents, s->nav, s->neighbours, s->objects,
-                       s->part->planning_time);
+                       s->substep->planning_time);
 }
 
 void jox_stage_move(const JoxMoveStage *s) {
     JoxAgents *a = s->agents;
-    jox_nav_move(s->nav, a, s->neighbours, s->part->dt, s->part->planning_time, s->pool);
-    for (uint32_t i = 0; !s->part->only && i < a->count; i++) {
+    JOX_ASSERT(s->substep->only || a->count == 0 || s->walked);
+    jox_nav_move(s->nav, a, s->neighbours, s->substep->dt, s->substep->planning_time, s->pool);
+    for (uint32_t i = 0; !s->substep->only && i < a->count; i++) {
         JoxV2 way = {a->x[i] - a->prev_x[i], a->y[i] - a->prev_y[i]};
-        s->walked[i] = s->part->first ? way : jox_add(s->walked[i], way);
+        s->walked[i] = s->substep->first ? way : jox_add(s->walked[i], way);
     }
 }
 
 void jox_stage_bodies(const JoxBodyStage *s) {
     if (jox_bodies_count(s->bodies) == 0)
         return;
-    if (s->part->first)
+    if (s->substep->first)
         jox_bodies_carried(s);
     jox_bodies_dragged(s);
     if (!s->statistics->bonds.touched)
@@ -89,9 +102,9 @@ void jox_stage_infer(const JoxInferStage *s) {
 
 void jox_stage_observe(const JoxObserveStage *s) {
     JoxAgents *a = s->agents;
-    if (!s->part->last)
+    if (!s->substep->last)
         return;
-    for (uint32_t i = 0; !s->part->only && i < a->count; i++) { /* where the whole step began */
+    for (uint32_t i = 0; !s->substep->only && i < a->count; i++) { /* where the whole step began */
         a->prev_x[i] = a->x[i] - s->walked[i].x;
         a->prev_y[i] = a->y[i] - s->walked[i].y;
     }
@@ -102,5 +115,6 @@ void jox_stage_observe(const JoxObserveStage *s) {
         JOX_RESERVE(s->gone->items, s->gone->capacity, s->gone->count + 1);
         s->gone->items[s->gone->count++] = (JoxV2){a->x[i], a->y[i]};
     }
+    JOX_ASSERT(s->gone->count <= a->count);
     s->statistics->removed += jox_agents_compact(a);
 }

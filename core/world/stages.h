@@ -14,15 +14,15 @@
 #include "world/routes.h"
 #include "world/statistics.h"
 
-/* A step longer than people plan ahead is done in equal parts; think and observe run once. */
-typedef struct JoxStepPart {
+/* A step longer than people plan ahead is done in equal substeps; think and observe run once. */
+typedef struct JoxSubstep {
     bool first, last, only;   /* only: the step is not divided */
-    double dt, planning_time; /* s: of the part; how far ahead velocities are planned */
+    double dt, planning_time; /* s: of the substep; how far ahead velocities are planned */
     double end;               /* s: simulated time at its end */
-} JoxStepPart;
+} JoxSubstep;
 
 typedef struct JoxPerceiveStage {
-    const JoxStepPart *part;
+    const JoxSubstep *substep;
     uint64_t tick;
     JoxPool *pool;
     JoxBodies *bodies; /* their objects are told, nothing is changed */
@@ -34,7 +34,7 @@ typedef struct JoxPerceiveStage {
 void jox_stage_perceive(const JoxPerceiveStage *stage);
 
 typedef struct JoxThinkStage {
-    const JoxStepPart *part;
+    const JoxSubstep *substep;
     JoxPool *pool;
     const JoxRouteStage *route;
     JoxMachineRun *machines; /* which says what machines read and write */
@@ -49,7 +49,7 @@ typedef struct JoxPreferStage {
 void jox_stage_prefer(const JoxPreferStage *stage);
 
 typedef struct JoxPushStage {
-    const JoxStepPart *part;
+    const JoxSubstep *substep;
     bool forces; /* else people feel none */
     JoxPool *pool;
     const JoxNeighbours *neighbours;
@@ -63,7 +63,7 @@ typedef struct JoxPushStage {
 void jox_stage_push(const JoxPushStage *stage);
 
 typedef struct JoxSolveStage {
-    const JoxStepPart *part;
+    const JoxSubstep *substep;
     JoxPool *pool;
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
@@ -75,12 +75,12 @@ typedef struct JoxSolveStage {
 void jox_stage_solve(const JoxSolveStage *stage);
 
 typedef struct JoxMoveStage {
-    const JoxStepPart *part;
+    const JoxSubstep *substep;
     JoxPool *pool;
     const JoxNeighbours *neighbours;
     JoxNav *nav;
     JoxAgents *agents; /* position, velocity, prev, still */
-    JoxV2 *walked;     /* per agent, m: during the parts so far; only where there are several */
+    JoxV2 *walked;     /* per agent, m: during the substeps so far; only where there are several */
 } JoxMoveStage;
 void jox_stage_move(const JoxMoveStage *stage);
 
@@ -92,7 +92,7 @@ typedef struct JoxDiscList {
 } JoxDiscList;
 
 typedef struct JoxBodyStage {
-    const JoxStepPart *part;
+    const JoxSubstep *substep;
     bool forces;
     double gravity; /* m/s2 */
     const JoxNeighbours *neighbours;
@@ -131,7 +131,7 @@ typedef struct JoxGone {
 } JoxGone;
 
 typedef struct JoxObserveStage {
-    const JoxStepPart *part;
+    const JoxSubstep *substep;
     uint64_t tick;
     double dt; /* s, of the whole step */
     const JoxNeighbours *neighbours;

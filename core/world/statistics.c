@@ -3,6 +3,8 @@
 #include <math.h>
 #include <time.h>
 
+#include "base/assert.h"
+
 static double read_clock(clockid_t clock) {
     struct timespec t;
     clock_gettime(clock, &t);
@@ -27,6 +29,7 @@ static void sample_overlaps(JoxStatistics *s, const JoxAgents *a, const JoxNeigh
             float gap = jox_length(jox_offset(a, i, j)) - radius[i] - radius[j];
             deepest = -gap > deepest ? -gap : deepest;
         }
+        JOX_ASSERT(deepest >= 0.0f && radius[i] > 0.0f);
         int bin = (int)(deepest / (2.0f * radius[i]) * JOX_OVERLAP_BINS);
         s->overlap[bin < JOX_OVERLAP_BINS ? bin : JOX_OVERLAP_BINS - 1]++;
     }
@@ -38,6 +41,7 @@ void jox_statistics_observe(JoxStatistics *s, const JoxAgents *a, const JoxNeigh
     uint64_t failed = 0;
     for (uint32_t i = 0; i < a->count; i++)
         failed += a->failed[i];
+    JOX_ASSERT(failed <= a->count);
     s->steps++;
     s->agent_steps += a->count;
     s->failures += failed;
@@ -49,6 +53,7 @@ void jox_statistics_observe(JoxStatistics *s, const JoxAgents *a, const JoxNeigh
     sample_overlaps(s, a, n);
     double share =
         s->second_agent_steps ? (double)s->second_failures / (double)s->second_agent_steps : 0.0;
+    JOX_ASSERT(share >= 0.0 && share <= 1.0);
     s->failure_peak = share > s->failure_peak ? share : s->failure_peak;
     s->second_failures = s->second_agent_steps = 0;
 }

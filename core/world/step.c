@@ -3,19 +3,20 @@
    People plan the velocity that they will have PLANNING_TIME seconds later: the linear program, the
    velocity that a force gives (equation 11) and the parting of overlaps look that far ahead, and
    within a shorter step velocities go the corresponding part of the way. A longer step is done in
-   parts. So the size of the step is not a property of people, and what they do hardly depends on
+   substeps. So the size of the step is not a property of people, and what they do hardly depends on
    it. As printed, everything happens within one step of whatever length: with `literal` it does
    here. */
 #include <math.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "world/check.h"
 #include "world/world.h"
 
 static const double PLANNING_TIME = 0.05; /* s */
 
-static void perceive(JoWorld *w, const JoxStepPart *part) {
-    jox_stage_perceive(&(JoxPerceiveStage){.part = part,
+static void perceive(JoWorld *w, const JoxSubstep *substep) {
+    jox_stage_perceive(&(JoxPerceiveStage){.substep = substep,
                                            .tick = w->state.tick,
                                            .pool = w->scratch.pool,
                                            .bodies = w->state.bodies,
@@ -39,7 +40,7 @@ JoxRouteStage jox_world_route_stage(JoWorld *w) {
                            .routes = w->state.routes};
 }
 
-static void think(JoWorld *w, const JoxStepPart *part) {
+static void think(JoWorld *w, const JoxSubstep *substep) {
     const JoxRouteStage route = jox_world_route_stage(w);
     JoxMachineRun *machines = &w->machines;
     machines->neighbours = &w->scratch.neighbours;
@@ -49,20 +50,20 @@ static void think(JoWorld *w, const JoxStepPart *part) {
     machines->tick = (uint32_t)w->state.tick;
     machines->inputs = w->state.input.present;
     machines->input_count = w->state.input.present_count;
-    jox_stage_think(&(JoxThinkStage){.part = part,
+    jox_stage_think(&(JoxThinkStage){.substep = substep,
                                      .pool = w->scratch.pool,
                                      .route = &route,
                                      .machines = machines,
                                      .statistics = &w->state.statistics});
 }
 
-static void prefer(JoWorld *w, const JoxStepPart *part) {
-    (void)part;
+static void prefer(JoWorld *w, const JoxSubstep *substep) {
+    (void)substep;
     jox_stage_prefer(&(JoxPreferStage){.pool = w->scratch.pool, .machines = &w->machines});
 }
 
-static void push(JoWorld *w, const JoxStepPart *part) {
-    jox_stage_push(&(JoxPushStage){.part = part,
+static void push(JoWorld *w, const JoxSubstep *substep) {
+    jox_stage_push(&(JoxPushStage){.substep = substep,
                                    .forces = w->model.def.forces,
                                    .pool = w->scratch.pool,
                                    .neighbours = &w->scratch.neighbours,
@@ -73,8 +74,8 @@ static void push(JoWorld *w, const JoxStepPart *part) {
                                    .inspection = &w->scratch.inspection});
 }
 
-static void solve(JoWorld *w, const JoxStepPart *part) {
-    jox_stage_solve(&(JoxSolveStage){.part = part,
+static void solve(JoWorld *w, const JoxSubstep *substep) {
+    jox_stage_solve(&(JoxSolveStage){.substep = substep,
                                      .pool = w->scratch.pool,
                                      .neighbours = &w->scratch.neighbours,
                                      .objects = &w->scratch.objects,
@@ -84,8 +85,8 @@ static void solve(JoWorld *w, const JoxStepPart *part) {
                                      .statistics = &w->state.statistics});
 }
 
-static void move(JoWorld *w, const JoxStepPart *part) {
-    jox_stage_move(&(JoxMoveStage){.part = part,
+static void move(JoWorld *w, const JoxSubstep *substep) {
+    jox_stage_move(&(JoxMoveStage){.substep = substep,
                                    .pool = w->scratch.pool,
                                    .neighbours = &w->scratch.neighbours,
                                    .nav = w->scratch.nav,
@@ -93,8 +94,8 @@ static void move(JoWorld *w, const JoxStepPart *part) {
                                    .walked = w->scratch.walked});
 }
 
-static void bodies(JoWorld *w, const JoxStepPart *part) {
-    jox_stage_bodies(&(JoxBodyStage){.part = part,
+static void bodies(JoWorld *w, const JoxSubstep *substep) {
+    jox_stage_bodies(&(JoxBodyStage){.substep = substep,
                                      .forces = w->model.def.forces,
                                      .gravity = w->model.def.gravity,
                                      .neighbours = &w->scratch.neighbours,
@@ -108,16 +109,16 @@ static void bodies(JoWorld *w, const JoxStepPart *part) {
                                      .statistics = &w->state.statistics});
 }
 
-static void infer(JoWorld *w, const JoxStepPart *part) {
-    (void)part;
+static void infer(JoWorld *w, const JoxSubstep *substep) {
+    (void)substep;
     jox_stage_infer(&(JoxInferStage){.forces = w->model.def.forces,
                                      .forces_of = w->scratch.forces,
                                      .agents = &w->state.agents,
                                      .inspection = &w->scratch.inspection});
 }
 
-static void observe(JoWorld *w, const JoxStepPart *part) {
-    jox_stage_observe(&(JoxObserveStage){.part = part,
+static void observe(JoWorld *w, const JoxSubstep *substep) {
+    jox_stage_observe(&(JoxObserveStage){.substep = substep,
                                          .tick = w->state.tick,
                                          .dt = w->model.def.dt,
                                          .neighbours = &w->scratch.neighbours,
@@ -127,29 +128,30 @@ static void observe(JoWorld *w, const JoxStepPart *part) {
                                          .statistics = &w->state.statistics});
 }
 
-/* Into how many parts the step is cut. */
+/* Into how many substeps the step is cut. */
 static uint32_t divide(JoWorld *w) {
     double dt = w->model.def.dt;
-    uint32_t parts =
+    uint32_t substeps =
         w->model.def.literal || dt <= PLANNING_TIME ? 1 : (uint32_t)ceil(dt / PLANNING_TIME - 1e-6);
-    if (parts > 1)
+    if (substeps > 1)
         JOX_RESERVE(w->scratch.walked, w->scratch.walked_capacity, w->state.agents.count);
-    return parts;
+    JOX_ASSERT(substeps > 0 && (w->model.def.literal || dt / substeps <= PLANNING_TIME + 1e-6));
+    return substeps;
 }
 
-static JoxStepPart part_of(const JoWorld *w, uint32_t part, uint32_t parts) {
+static JoxSubstep substep_of(const JoWorld *w, uint32_t number, uint32_t substeps) {
     const JoWorldDef *def = &w->model.def;
-    double dt = def->dt / parts;
-    return (JoxStepPart){.first = part == 0,
-                         .last = part + 1 == parts,
-                         .only = parts == 1,
-                         .dt = dt,
-                         .planning_time = def->literal ? def->dt : PLANNING_TIME,
-                         .end = (double)w->state.tick * def->dt + (part + 1) * dt};
+    double dt = def->dt / substeps;
+    return (JoxSubstep){.first = number == 0,
+                        .last = number + 1 == substeps,
+                        .only = substeps == 1,
+                        .dt = dt,
+                        .planning_time = def->literal ? def->dt : PLANNING_TIME,
+                        .end = (double)w->state.tick * def->dt + (number + 1) * dt};
 }
 
 bool jox_world_step(JoWorld *w) {
-    static void (*const STAGES[JO_STAGE_COUNT])(JoWorld *, const JoxStepPart *) = {
+    static void (*const STAGES[JO_STAGE_COUNT])(JoWorld *, const JoxSubstep *) = {
         [JOX_STAGE_PERCEIVE] = perceive, [JOX_STAGE_THINK] = think, [JOX_STAGE_PREFER] = prefer,
         [JOX_STAGE_PUSH] = push,         [JOX_STAGE_SOLVE] = solve, [JOX_STAGE_MOVE] = move,
         [JOX_STAGE_BODIES] = bodies,     [JOX_STAGE_INFER] = infer, [JOX_STAGE_OBSERVE] = observe};
@@ -157,6 +159,8 @@ bool jox_world_step(JoWorld *w) {
         return false;
     jox_world_events(w);
     jox_world_sources(w);
+    JOX_CHECK(jox_world_model_check(w));
+    JOX_CHECK(jox_world_agents_check(w));
     double begin = jox_clock_wall(), cpu = jox_clock_cpu(), last = begin;
     jox_world_resolve_placement(w);
     if (w->model.reinserts_bodies &&
@@ -165,11 +169,11 @@ bool jox_world_step(JoWorld *w) {
     jox_inspect_expire(w);
     w->scratch.gone.count = 0;
     bool good = true;
-    const uint32_t parts = divide(w);
-    for (uint32_t number = 0; number < parts && good; number++) {
-        const JoxStepPart part = part_of(w, number, parts);
+    const uint32_t substeps = divide(w);
+    for (uint32_t number = 0; number < substeps && good; number++) {
+        const JoxSubstep substep = substep_of(w, number, substeps);
         for (int stage = 0; stage < JO_STAGE_COUNT; stage++) {
-            STAGES[stage](w, &part);
+            STAGES[stage](w, &substep);
             double now = jox_clock_wall();
             w->state.statistics.stage_s[stage] += now - last;
             last = now;
@@ -179,7 +183,10 @@ bool jox_world_step(JoWorld *w) {
     w->state.tick++;
     w->state.statistics.wall_s += last - begin;
     w->state.statistics.cpu_s += jox_clock_cpu() - cpu;
-    if (good)
-        jox_world_exits(w);
-    return good;
+    if (!good)
+        return false;
+    jox_world_exits(w);
+    JOX_CHECK(jox_world_agents_check(w));
+    JOX_CHECK(jox_world_lists_check(w));
+    return true;
 }

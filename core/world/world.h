@@ -84,7 +84,7 @@ typedef struct JoxWorldScratch {
     bool walls_set;     /* `walls`, nav and bodies are as all_walls says */
     JoxObjects objects; /* what agents see of the bodies */
     JoxInspection inspection;
-    JoxV2 *walked; /* per agent, m: during the parts of the step so far; where it is divided */
+    JoxV2 *walked; /* per agent, m: during the substeps of the step so far; where it is divided */
     uint32_t walked_capacity;
     JoxGone gone; /* who left in the last step */
     JoxDiscList discs;

@@ -1,6 +1,7 @@
 /* The entries of an input log, and how far it has been played. */
 #include "world/input/input.h"
 
+#include "base/assert.h"
 #include "base/mem.h"
 
 void jox_input_add(JoxInputLog *log, JoxInputEntry entry) {
@@ -9,6 +10,7 @@ void jox_input_add(JoxInputLog *log, JoxInputEntry entry) {
 }
 
 const JoxInputEntry *jox_input_next(JoxInputLog *log, uint64_t tick) {
+    JOX_ASSERT(log->next <= log->count);
     bool due = log->next < log->count && log->entries[log->next].tick <= tick;
     return due ? &log->entries[log->next++] : NULL;
 }

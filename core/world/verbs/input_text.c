@@ -67,6 +67,7 @@ static bool next_word(Reader *r) {
         if ((unsigned char)*r->at < 0x20 || *r->at == 0x7f)
             return refuse(r, "Write it without", "a control character stands in the line");
     }
+    JOX_ASSERT(r->at <= r->end);
     r->end_column = (int)(r->at - r->line) + 1;
     r->word[n < sizeof r->word ? n : sizeof r->word - 1] = 0;
     if (!closed)
@@ -109,6 +110,7 @@ static bool read_word(Reader *r, const JoxInputWord *word, JoxInputEntry *entry)
     }
     if (!read_number(r, word, &value))
         return false;
+    JOX_ASSERT(entry->given < JOX_INPUT_NUMBERS);
     if (word->kind == JOX_WORD_NUMBER)
         entry->numbers[entry->given++] = value;
     else
@@ -241,6 +243,7 @@ static bool read_file(Parser *p, Reader *r, JoxInputFile *file) {
     for (size_t i = 0; i < file->length; i++)
         p->number += p->at[i] == '\n';
     p->at += file->length;
+    JOX_ASSERT(p->at <= p->end);
     if (p->at < p->end && *p->at == '\n') {
         p->at++;
         p->number++;
@@ -342,12 +345,14 @@ static void write_number(double number, JoxText *out) {
 }
 
 void jox_input_write(const JoxInputEntry *entry, JoxText *out) {
+    JOX_ASSERT(entry->verb < jox_input_verb_count);
     const JoxVerb *verb = &jox_input_verbs[entry->verb];
     uint32_t name = 0, number = 0;
     jox_text_printf(out, "%u %s", entry->tick, verb->name);
     for (uint32_t w = 0; w < verb->most; w++) {
         const JoxInputWord *word = &verb->words[w];
         if (word->kind == JOX_WORD_NAME || word->kind == JOX_WORD_PATH) {
+            JOX_ASSERT(name < JOX_INPUT_NAMES && entry->names[name]);
             write_name(entry->names[name++], out);
         } else if (word->kind != JOX_WORD_NUMBER) {
             jox_text_printf(out, " %u", entry->number);

@@ -2,6 +2,7 @@
 
 #include <assert.h>
 
+#include "base/assert.h"
 #include "world/world.h"
 
 /* ---- what the verbs do ---- */
@@ -164,7 +165,21 @@ const uint32_t jox_input_verb_count = sizeof jox_input_verbs / sizeof *jox_input
 static_assert(sizeof jox_input_verbs / sizeof *jox_input_verbs <= JOX_INPUT_MOST_VERBS,
               "JOX_INPUT_MOST_VERBS");
 
+/* What a verb takes has room in an entry. */
+static void check_words(const JoxVerb *verb) {
+    uint32_t numbers = 0, names = 0;
+    JOX_ASSERT(verb->least <= verb->most);
+    JOX_ASSERT(verb->most <= sizeof verb->words / sizeof *verb->words);
+    for (uint32_t w = 0; w < verb->most; w++) {
+        JOX_ASSERT(verb->words[w].name && verb->words[w].least <= verb->words[w].most);
+        numbers += verb->words[w].kind == JOX_WORD_NUMBER;
+        names += verb->words[w].kind == JOX_WORD_NAME || verb->words[w].kind == JOX_WORD_PATH;
+    }
+    JOX_ASSERT(numbers <= JOX_INPUT_NUMBERS && names <= JOX_INPUT_NAMES);
+}
+
 void jox_input_usage(const JoxVerb *verb, JoxText *out) {
+    JOX_CHECK(check_words(verb));
     jox_text_add(out, verb->name);
     for (uint32_t w = 0; w < verb->most; w++)
         jox_text_printf(out, " %s%s%s", w == verb->least ? "[" : "", verb->words[w].name,
