@@ -10,7 +10,6 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "world/check.h"
 #include "world/world.h"
 
 static const double PLANNING_TIME = 0.05; /* s */

@@ -148,6 +148,12 @@ bool jox_world_step(JoWorld *world);
 /* Whether all numbers of agents that the next step reads are finite; else `failure` names the
    agent, its machine and its state. */
 bool jox_world_is_finite(JoWorld *world);
+/* For JOX_CHECK, between steps: ids, ranks, slots and indices of the agents agree with each other
+   and with the model; places, groups, sources and sinks name things that there are; what people
+   want, inspect and drag is listed once each, and figures add up. */
+void jox_world_agents_check(const JoWorld *world);
+void jox_world_model_check(const JoWorld *world);
+void jox_world_lists_check(const JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX. */
 uint32_t jox_world_find(const JoWorld *world, JoAgent agent);
 /* What routes are made of, in this world. */
