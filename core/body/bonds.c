@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 
 static const uint32_t NONE = UINT32_MAX;
@@ -89,6 +90,7 @@ void jox_bonds_index(JoxBondGraph *g) {
     for (uint32_t n = 0; n < g->count; n++)
         *cell_entry(g, g->cell[n]) = n;
     weigh(g);
+    JOX_CHECK(jox_bonds_check(g));
 }
 
 JoxBondGraph *jox_bonds_create(const uint32_t count[3], const double size[3], double block_mass,
@@ -120,6 +122,7 @@ JoxBondGraph *jox_bonds_create(const uint32_t count[3], const double size[3], do
                 g->bonds[g->bond_count++] = (JoxBond){n, n + stride[axis], axis, strength};
     }
     weigh(g);
+    JOX_CHECK(jox_bonds_check(g));
     return g;
 }
 
@@ -145,6 +148,7 @@ uint32_t jox_bonds_block_at(const JoxBondGraph *g, const double point[3]) {
             found = n;
         }
     }
+    JOX_ASSERT(found < g->count);
     return found;
 }
 
@@ -165,6 +169,7 @@ uint32_t jox_bonds_label_pieces(JoxBondGraph *g) {
     uint32_t pieces = 0;
     for (uint32_t n = 0; n < g->count; n++)
         g->label[n] = g->label[n] == n ? pieces++ : g->label[g->label[n]];
+    JOX_CHECK(jox_bonds_pieces_check(g, pieces));
     return pieces;
 }
 
@@ -184,6 +189,7 @@ static void copy_blocks(const JoxBondGraph *g, JoxBondGraph *part, uint32_t labe
             high[i] = c > high[i] ? c : high[i];
         }
     }
+    JOX_ASSERT(part->count > 0);
     for (int i = 0; i < 3; i++)
         part->range[i] = high[i] - part->low[i] + 1;
     make_columns(part);
@@ -223,5 +229,6 @@ JoxBondGraph *jox_bonds_extract(const JoxBondGraph *g, uint32_t label, bool own_
         }
         weigh(part);
     }
+    JOX_CHECK(jox_bonds_check(part));
     return part;
 }

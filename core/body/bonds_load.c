@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/elementary.h"
 #include "body/bonds.h"
 
@@ -120,6 +121,7 @@ void jox_bonds_add_contacts(JoxBondGraph *g, JoxBondContact *c, uint32_t n,
         }
     }
     n = join_contacts(g, c, n, normal);
+    JOX_ASSERT(n <= g->count);
     for (int drops = 0; n > 0; drops++) {
         spread(c, n, force, moment);
         uint32_t pushing = 0;
@@ -133,6 +135,7 @@ void jox_bonds_add_contacts(JoxBondGraph *g, JoxBondContact *c, uint32_t n,
                 c[kept++] = c[k];
         n = kept;
     }
+    JOX_CHECK(jox_bonds_contacts_check(g, c, n, force));
     for (uint32_t k = 0; k < n; k++)
         for (int i = 0; i < 3; i++)
             g->impulse[c[k].block][i] += c[k].impulse[i];
@@ -273,6 +276,7 @@ static uint32_t cut_worst(JoxBondGraph *g) {
     for (uint32_t k = 0; k < all; k++)
         if (load_ratio(g, &g->bonds[k]) <= limit)
             g->bonds[kept++] = g->bonds[k];
+    JOX_ASSERT(kept < all); /* the worst at least is cut */
     g->bond_count = kept;
     return all - kept;
 }
@@ -280,12 +284,14 @@ static uint32_t cut_worst(JoxBondGraph *g) {
 uint32_t jox_bonds_step(JoxBondGraph *g, double dt, const double spin[3]) {
     Three *f = g->scratch + 3 * (size_t)g->count;
     double weakest = INFINITY;
-    uint32_t cut = 0;
+    uint32_t cut = 0, bonds = g->bond_count;
     take_in(g, dt);
     for (uint32_t k = 0; k < g->bond_count; k++)
         weakest = g->bonds[k].strength < weakest ? g->bonds[k].strength : weakest;
     g->peak_load = 0.0;
-    if (!(relieve(g, spin, f) > weakest))
+    const double most = relieve(g, spin, f);
+    JOX_CHECK(jox_bonds_relieved_check(g, f));
+    if (!(most > weakest))
         return 0;
     for (int round = 0; round < MOST_ROUNDS; round++) {
         equilibrium(g, f);
@@ -294,5 +300,7 @@ uint32_t jox_bonds_step(JoxBondGraph *g, double dt, const double spin[3]) {
         if (now == 0 || jox_bonds_label_pieces(g) > 1)
             break;
     }
+    JOX_ASSERT(cut + g->bond_count == bonds);
+    JOX_CHECK(jox_bonds_check(g));
     return cut;
 }

@@ -111,6 +111,7 @@ void jox_bodies_drop(JoxBodies *b, uint32_t row) {
     delete r->body;
     jox_body_shape_free(&r->shape);
     jox_free(r->name);
+    JOX_ASSERT(!r->bonds || b->bonded > 0);
     b->bonded -= r->bonds ? 1 : 0;
     jox_bonds_free(r->bonds);
     r->bonds = nullptr;
@@ -118,8 +119,10 @@ void jox_bodies_drop(JoxBodies *b, uint32_t row) {
     r->name = nullptr;
     r->body = nullptr;
     uint32_t k = 0;
-    while (b->order[k] != row)
+    while (b->order[k] != row) {
         k++;
+        JOX_ASSERT(k < b->live);
+    }
     for (b->live--; k < b->live; k++)
         b->order[k] = b->order[k + 1];
 }
@@ -134,6 +137,8 @@ void jox_bodies_free(JoxBodies *b) {
         jox_bodies_drop_walls(b);
         if (b->ground)
             drop_static(b, b->ground);
+        JOX_ASSERT(b->world->getNumCollisionObjects() == 0);
+        JOX_ASSERT(b->dispatcher->getNumManifolds() == 0);
         delete b->ground_shape;
         delete b->world;
         delete b->solver;
@@ -220,6 +225,7 @@ uint32_t jox_row_add(JoxBodies *b, const JoxBodyShape *shape, const btTransform 
     jox_row_create_body(b, at, frame, material);
     jox_reserve(b->order, b->order_capacity, b->live + 1);
     b->order[b->live++] = at;
+    JOX_ASSERT(b->live == 1 || b->rows[b->order[b->live - 2]].id < b->rows[at].id);
     return at;
 }
 
@@ -257,12 +263,13 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
         r->body->setLinearVelocity(vector(def->velocity));
         r->body->setAngularVelocity(vector(def->spin));
     }
-    if (still) {
-        jox_bonds_free(bonds); /* what never moves never breaks */
-    } else if (bonds) {
+    if (bonds && !still && bonds->bond_count > 0) {
         r->bonds = bonds;
         b->bonded++;
+    } else {
+        jox_bonds_free(bonds); /* what never moves never breaks, nor does a single block */
     }
+    JOX_CHECK(jox_bodies_check(b));
     return at;
 }
 
@@ -276,6 +283,7 @@ bool jox_bodies_remove(JoxBodies *b, uint32_t row) {
     jox_bodies_drop(b, row);
     for (uint32_t k = 0; k < b->live; k++) /* what leant on it falls */
         b->rows[b->order[k]].body->activate();
+    JOX_CHECK(jox_bodies_check(b));
     return true;
 }
 

@@ -12,6 +12,7 @@
 #pragma GCC diagnostic pop
 
 extern "C" {
+#include "base/assert.h"
 #include "base/mem.h"
 #include "base/sort.h"
 #include "body/body.h"
@@ -182,5 +183,12 @@ uint32_t jox_bodies_note_contacts(const JoxBodies *bodies, JoxContactRecord *&co
 void jox_bodies_renew_contacts(JoxBodies *bodies, const JoxContactRecord *contacts, uint32_t count);
 /* Whether a body at this speed is to be swept in a step of dt. */
 bool jox_row_fast(const JoxRow *row, float dt);
+
+/* bullet_check.cc: a shape that was just made; rows against Bullet's world; what a step hands out;
+   the sorted contacts of bonded bodies. */
+void jox_body_shape_check(const JoxBodyShape *shape);
+void jox_bodies_check(const JoxBodies *bodies);
+void jox_bodies_report_check(const JoxBodies *bodies, uint32_t disc_count);
+void jox_contact_loads_check(const JoxBodies *bodies);
 
 #endif

@@ -64,6 +64,7 @@ void jox_bodies_gather_contacts(JoxBodies *b) {
                 count + uint32_t(JOX_SORT_SPARE(count)));
     jox_sort(b->contact_loads, count, sizeof *b->contact_loads, by_key, nullptr,
              b->contact_loads + count);
+    JOX_CHECK(jox_contact_loads_check(b));
     jox_reserve(b->contacts, b->contact_capacity, b->contact_load_count);
     for (uint32_t first = 0, last; first < b->contact_load_count; first = last) {
         JoxRow *r = &b->rows[b->contact_loads[first].key >> 32];
@@ -136,6 +137,10 @@ static void fall_apart(JoxBodies *b, uint32_t row, uint32_t pieces) {
     const JoxMaterial material = r->material;
     const uint64_t tags = r->tags;
     uint32_t keeps = greatest_piece(bonds, pieces);
+    const float mass = r->shape.mass;
+    btVector3 momentum(0, 0, 0);
+    uint32_t blocks = 0;
+    float sum = 0;
     b->world->removeRigidBody(r->body);
     delete r->body;
     jox_body_shape_free(&r->shape);
@@ -159,8 +164,14 @@ static void fall_apart(JoxBodies *b, uint32_t row, uint32_t pieces) {
             b->rows[at].tags = tags;
         }
         set_going(b->rows[at].body, whole);
+        momentum += b->rows[at].body->getLinearVelocity() * shape.mass;
+        sum += shape.mass;
+        blocks += part->count;
         set_bonds(b, at, part);
     }
+    JOX_ASSERT(blocks == bonds->count && std::fabs(sum - mass) <= 1e-4f * mass);
+    JOX_ASSERT((momentum - whole.velocity * mass).length() <=
+               1e-4f * mass * (1 + whole.velocity.length() + whole.spin.length()));
     jox_bonds_free(bonds);
 }
 

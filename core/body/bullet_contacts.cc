@@ -8,6 +8,7 @@
 /* Id of a body; of ground and walls, the negative number that they have. */
 static int32_t name_of(const JoxBodies *b, const btCollisionObject *object) {
     const int index = object->getUserIndex();
+    JOX_ASSERT(index < 0 ? index >= -1 - int(b->wall_count) : b->rows[index].body == object);
     return index < 0 ? index : int32_t(b->rows[index].id);
 }
 
@@ -101,6 +102,7 @@ static void refill(const JoxBodies *b, btPersistentManifold *manifold,
         p.m_appliedImpulseLateral2 = contacts[k].impulse[2];
         manifold->addManifoldPoint(p);
     }
+    JOX_ASSERT(manifold->getNumContacts() > 0);
     manifold->refreshContactPoints(manifold->getBody0()->getWorldTransform(),
                                    manifold->getBody1()->getWorldTransform());
 }

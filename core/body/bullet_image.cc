@@ -27,6 +27,8 @@ void jox_bodies_reinsert(JoxBodies *b) {
         b->world->removeRigidBody(b->walls[n - 1]);
     if (b->ground)
         b->world->removeRigidBody(b->ground);
+    JOX_ASSERT(b->world->getNumCollisionObjects() == 0);
+    JOX_ASSERT(b->dispatcher->getNumManifolds() == 0);
     b->broadphase->resetPool(b->dispatcher);
     b->solver->reset();
     if (b->ground)
@@ -36,6 +38,7 @@ void jox_bodies_reinsert(JoxBodies *b) {
     for (uint32_t k = 0; k < b->live; k++)
         b->world->addRigidBody(b->rows[b->order[k]].body);
     jox_bodies_renew_contacts(b, b->kept, b->kept_count);
+    JOX_CHECK(jox_bodies_check(b));
 }
 
 /* ---- out ---- */
@@ -109,15 +112,16 @@ void jox_bodies_capture(const JoxBodies *b, JoxBodiesImage *image) {
     image->counters = {b->next_id, b->count, 0, b->last_dt};
     for (uint32_t k = 0; k < b->live; k++)
         put_row(image, b->order[k], &b->rows[b->order[k]]);
-    if (!b->restored) {
+    if (b->restored) {
+        jox_reserve(image->contacts, image->contact_capacity, b->kept_count);
+        image->contact_count = b->kept_count;
+        if (b->kept_count)
+            memcpy(image->contacts, b->kept, b->kept_count * sizeof *b->kept);
+    } else {
         image->contact_count =
             jox_bodies_note_contacts(b, image->contacts, image->contact_capacity);
-        return;
     }
-    jox_reserve(image->contacts, image->contact_capacity, b->kept_count);
-    image->contact_count = b->kept_count;
-    if (b->kept_count)
-        memcpy(image->contacts, b->kept, b->kept_count * sizeof *b->kept);
+    JOX_ASSERT(jox_bodies_image_check(image, nullptr)); /* what is saved can be restored */
 }
 
 /* ---- back ---- */

@@ -49,6 +49,7 @@ static bool grow() {
     table = wider;
     capacity = size;
     used = live;
+    JOX_ASSERT((capacity & (capacity - 1)) == 0 && 2 * (used + 1) <= capacity);
     return true;
 }
 

@@ -164,6 +164,7 @@ btCollisionShape *make_hull(const JoxShape *shape, JoxConvexPart *part, Solid *s
     hull_solid(hull, solid);
     if (!(solid->volume > 1e-9))
         return nullptr;
+    JOX_ASSERT(hull.edges.size() % 2 == 0); /* each one forth and back */
     uint32_t edges = 0;
     corners_of(part, uint32_t(hull.vertices.size()), uint32_t(hull.edges.size()) / 2 + 1);
     for (int i = 0; i < hull.vertices.size(); i++)
@@ -245,6 +246,7 @@ struct Total {
 };
 
 void add_part(Total *total, const Solid &solid, const btTransform &frame, double mass) {
+    JOX_ASSERT(solid.volume > 0 && mass > 0);
     double scale = mass / solid.volume, at[3];
     const btMatrix3x3 &r = frame.getBasis();
     for (int i = 0; i < 3; i++)
@@ -409,6 +411,7 @@ bool jox_body_shape_make(const JoxBodyDef *def, bool still, JoxBodyShape *out, J
         out->mass = 0;
         out->inertia = btVector3(0, 0, 0);
     }
+    JOX_CHECK(jox_body_shape_check(out));
     return true;
 }
 

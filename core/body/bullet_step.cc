@@ -55,9 +55,12 @@ static void hit_person(JoxBodies *b, uint32_t row, JoxDisc *discs, const JoxSwee
     d->vy -= j * n.y() / d->mass;
     btVector3 change = r->body->getLinearVelocity() - before;
     b->hit_impulse += j;
-    b->hit_residual +=
+    const double residual =
         hypot(double(r->shape.mass) * change.x() + double(d->mass) * (d->vx - was_x),
               double(r->shape.mass) * change.y() + double(d->mass) * (d->vy - was_y));
+    JOX_ASSERT(!(residual > 1e-5 * (j + r->shape.mass * before.length() +
+                                    d->mass * jox_length(jox_v2(was_x, was_y)))));
+    b->hit_residual += residual;
     jox_reserve(b->hits, b->hit_capacity, b->hit_count + 1);
     b->hits[b->hit_count++] =
         JoxDiscHit{hit->disc, row, jox_v3(at.getOrigin() + arm), JoxV2{-j * n.x(), -j * n.y()}};
@@ -95,8 +98,10 @@ static void mark_grounded(JoxBodies *b) {
         for (int c = 0; c < manifold->getNumContacts(); c++) {
             const btManifoldPoint &p = manifold->getContactPoint(c);
             if (p.getDistance() < 0.01f && sign * p.m_normalWorldOnB.z() > 0.5f &&
-                mover->getUserIndex() >= 0)
+                mover->getUserIndex() >= 0) {
+                JOX_ASSERT(b->rows[mover->getUserIndex()].body == mover);
                 b->rows[mover->getUserIndex()].grounded = true;
+            }
         }
     }
 }
@@ -161,6 +166,8 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
     }
     if (b->bonded)
         jox_bodies_break(b, dt);
+    JOX_CHECK(jox_bodies_check(b));
+    JOX_CHECK(jox_bodies_report_check(b, disc_count));
     report.hits = b->hits;
     report.hit_count = b->hit_count;
     report.gone = b->gone;

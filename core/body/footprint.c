@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include "base/assert.h"
 #include "base/elementary.h"
 #include "base/mem.h"
 #include "base/sort.h"
@@ -22,6 +23,7 @@ static void cut(JoxFootprint *f, JoxV3 a, JoxV3 b, float height) {
     if ((a.z < height) == (b.z < height))
         return;
     float t = (height - a.z) / (b.z - a.z);
+    JOX_ASSERT(t >= 0.0f && t <= 1.0f);
     put(f, a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t);
 }
 
@@ -86,6 +88,7 @@ static uint32_t hull(const JoxV2 *points, uint32_t count, JoxV2 *ring) {
             n--;
         ring[n++] = points[i];
     }
+    JOX_ASSERT(n <= count + 1);
     return n > 1 ? n - 1 : n;
 }
 
@@ -127,6 +130,7 @@ void jox_footprint_end(JoxFootprint *footprint, JoxObject *object) {
     object->footprint_count = corners >= 3 ? corners : 0;
     for (uint32_t i = 0; i < object->footprint_count; i++)
         object->footprint[i] = ring[i];
+    JOX_CHECK(jox_footprint_check(object));
 }
 
 void jox_footprint_free(JoxFootprint *footprint) {

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 
 enum { MOST_CELLS_A_SIDE = 512 };
@@ -54,6 +55,7 @@ void jox_disc_grid_build(JoxDiscGrid *grid, const JoxDisc *discs, uint32_t count
         grid->starts[c] += grid->starts[c - 1];
     for (uint32_t i = 0; i < count; i++)
         grid->items[grid->starts[cell_at(grid, halfway(&discs[i])) + 1]++] = i;
+    JOX_CHECK(jox_disc_grid_check(grid, discs, count));
 }
 
 void jox_disc_grid_free(JoxDiscGrid *grid) {
@@ -136,6 +138,7 @@ bool jox_sweep(const JoxDiscGrid *grid, const JoxDisc *discs, const JoxSweep *sw
             JoxSweepHit h = {.disc = grid->items[k]};
             if (!meets(sweep, &discs[h.disc], &h))
                 continue;
+            JOX_CHECK(jox_sweep_hit_check(sweep, &h));
             if (!found || h.time < hit->time ||
                 (h.time == hit->time && discs[h.disc].id < discs[hit->disc].id))
                 *hit = h;
