@@ -106,6 +106,7 @@ static uint32_t take_slot(JoxAgents *a, uint32_t index) {
         slot = a->slot_count++;
         a->slot_generation[slot] = 1;
     }
+    JOX_ASSERT(slot < a->slot_count && index < a->capacity);
     a->slot_index[slot] = index;
     return slot;
 }
@@ -158,13 +159,27 @@ static void reindex(JoxAgents *a) {
     }
 }
 
+void jox_agents_check(const JoxAgents *a) {
+    JOX_ASSERT(a->count <= a->capacity && a->slot_count <= a->slot_capacity);
+    JOX_ASSERT(a->count + a->free_count == a->slot_count); /* every slot is held or free */
+    for (uint32_t i = 0; i < a->count; i++) {
+        JOX_ASSERT(a->slot[i] < a->slot_count && a->slot_index[a->slot[i]] == i);
+        JOX_ASSERT(a->by_rank[a->rank[i]] == i && a->id[i] < a->next_id);
+        JOX_ASSERT(i == 0 || a->rank_id[i - 1] < a->rank_id[i]);
+    }
+    for (uint32_t k = 0; k < a->free_count; k++)
+        JOX_ASSERT(a->slot_index[a->free_slots[k]] == JOX_NO_INDEX);
+}
+
 void jox_agents_permute(JoxAgents *a, const uint32_t *order) {
     Gather gather = {order, a->count, a->scratch};
     visit_columns(a, gather_column, &gather);
     reindex(a);
+    JOX_CHECK(jox_agents_check(a)); /* fails if the order is no permutation */
 }
 
 static void release_slot(JoxAgents *a, uint32_t slot) {
+    JOX_ASSERT(a->slot_index[slot] != JOX_NO_INDEX); /* nothing is released twice */
     a->slot_index[slot] = JOX_NO_INDEX;
     a->slot_generation[slot]++;
     a->free_slots[a->free_count++] = slot;
@@ -199,6 +214,7 @@ uint32_t jox_agents_compact(JoxAgents *a) {
         visit_columns(a, gather_column, &gather);
         a->count = kept;
         reindex(a);
+        JOX_CHECK(jox_agents_check(a));
     }
     return gone;
 }

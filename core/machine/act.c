@@ -2,6 +2,7 @@
    approaching, kicking. */
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "machine/internal.h"
 
@@ -50,6 +51,7 @@ static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
 
 static void act_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     const JoxMachineRun *run = context;
+    JOX_ASSERT(worker < run->scratch->workers);
     for (uint32_t b = begin; b < end; b++) {
         write_programs(run, &run->scratch->batches[b], run->scratch->registers[worker]);
         write_pushing(run, &run->scratch->batches[b], run->scratch->registers[worker]);
@@ -76,6 +78,7 @@ static void kick(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
     double change = jox_value(run, machine, &state->kick_impulse, i);
     if (!(change > 0.0) || jox_length2(way) == 0.0f)
         return;
+    JOX_ASSERT(object->inverse_mass > 0.0f); /* what moves has a finite mass */
     float impulse = (float)(change < 50.0 ? change : 50.0) / object->inverse_mass;
     JOX_RESERVE(run->kicks, run->kick_capacity, run->kick_count + 1);
     run->kicks[run->kick_count++] = (JoxImpulse){
@@ -162,6 +165,7 @@ void jox_machines_act(JoxMachineRun *run, JoxPool *pool) {
     JoxAgents *a = run->agents;
     if (a->count == 0)
         return;
+    JOX_CHECK(jox_groups_check(run));
     memset(run->push_on, 1, a->count);
     memset(run->push_nearest, 0, a->count);
     memset(run->push_toward_x, 0, a->count * sizeof(float));
@@ -171,4 +175,5 @@ void jox_machines_act(JoxMachineRun *run, JoxPool *pool) {
     jox_parallel_for(pool, run->scratch->batch_count, 1, act_range, run);
     if (run->objects && run->objects->count)
         kick_all(run);
+    JOX_CHECK(jox_acts_check(run));
 }

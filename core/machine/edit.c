@@ -51,6 +51,7 @@ void jox_edits_apply(JoxMachineRun *run, uint32_t index) {
     JoxMachineSet *set = run->set;
     const JoxMachineState *state = run->state;
     JoxMachine *copy = NULL;
+    JOX_CHECK(jox_edits_check(run));
     for (uint32_t e = 0; e < state->edit_count; e++) {
         if (state->edits[e].machine != index)
             continue;

@@ -1,6 +1,7 @@
 /* An agent enters a state: its clock, its duration, a goal and the parameters that are constant. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "machine/internal.h"
 
 /* A set's member for this entry, for targets of the state that ask for one. */
@@ -26,6 +27,7 @@ static void pick_goal(JoxMachineRun *run, const JoxMachine *machine, const JoxSt
             continue;
         double u = jox_random_unit(run->seed, a->id[i], run->tick, JOX_DRAW_ONE_OF, 0);
         a->goal[i] = run->places[set].members[(uint32_t)(u * run->places[set].member_count)];
+        JOX_ASSERT((uint32_t)a->goal[i] < run->place_count);
         return;
     }
 }
@@ -62,6 +64,7 @@ void jox_machines_enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
     JoxAgents *a = run->agents;
     const JoxMachine *machine = jox_machine_of(run, i);
     const JoxState *state = &machine->states[to];
+    JOX_ASSERT(to < machine->state_count && i < a->count);
     a->state[i] = to;
     a->entered[i] = run->tick;
     a->was_true[i] = 0;

@@ -1,6 +1,7 @@
 /* Programs over batches: one dispatch per instruction for up to 256 agents. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "machine/internal.h"
 
 static double now_of(const JoxMachineRun *run, uint32_t i, JoxNow what) {
@@ -180,12 +181,14 @@ static void execute(const JoxMachineRun *run, const JoxMachine *machine, const J
 
 void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxExpression *expression,
               const uint32_t *agents, uint32_t count, JoxRegisters registers) {
+    JOX_ASSERT(count <= JOX_BATCH);
     for (uint32_t i = 0; i < expression->count; i++)
         execute(run, machine, &expression->code[i], agents, count, registers);
 }
 
 double jox_value(const JoxMachineRun *run, const JoxMachine *machine, const JoxValue *value,
                  uint32_t agent) {
+    JOX_ASSERT(agent < run->agents->count);
     switch (value->kind) {
     case JOX_VALUE_CONST:
         return value->number;

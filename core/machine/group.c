@@ -1,6 +1,7 @@
 /* Scratch of a step: agents grouped by state, ranks in queues, people counted in places. */
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "base/sort.h"
 #include "machine/internal.h"
@@ -98,6 +99,7 @@ static void sort_by_marks(JoxMachineRun *run, uint32_t *list, uint32_t count) {
     for (uint32_t w = 0; w < words; w++)
         for (uint64_t bits = s->marks[w]; bits; bits &= bits - 1)
             list[n++] = a->by_rank[w * 64 + (uint32_t)__builtin_ctzll(bits)];
+    JOX_ASSERT(n == count); /* nobody was listed twice */
 }
 
 /* `context`: the agents' ids. */
@@ -113,6 +115,7 @@ void jox_sort_by_id(JoxMachineRun *run, uint32_t *list, uint32_t count) {
         sort_by_marks(run, list, count);
     else
         jox_sort(list, count, sizeof *list, by_id, a->id, run->scratch->spare);
+    JOX_CHECK(jox_by_id_check(a, list, count));
 }
 
 /* Whether someone stands before another: by queue, then who came first, then by id. */
@@ -150,6 +153,7 @@ static void rank_queues(JoxMachineRun *run) {
     for (uint32_t k = 0; k < count; k++)
         s->rank[list[k]] =
             k > 0 && s->queue[list[k]] == s->queue[list[k - 1]] ? s->rank[list[k - 1]] + 1 : 0;
+    JOX_CHECK(jox_queues_check(run, list, count));
 }
 
 void jox_machines_group(JoxMachineRun *run, JoxPool *pool) {

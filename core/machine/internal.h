@@ -74,6 +74,22 @@ void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxExpr
 double jox_value(const JoxMachineRun *run, const JoxMachine *machine, const JoxValue *value,
                  uint32_t agent);
 
+/* Checks, called through JOX_CHECK (check.c): a machine as it is put into a set; the batches; ranks
+   in queues, of a list sorted by turn; a list by id; signals heard; agents' states and rows; what
+   is done to bodies and of pushing; transitions taken; preferred velocities; what people set; and
+   counts of transitions that a new version took over. */
+void jox_machine_check(const JoxMachine *machine);
+void jox_groups_check(const JoxMachineRun *run);
+void jox_queues_check(const JoxMachineRun *run, const uint32_t *list, uint32_t count);
+void jox_by_id_check(const JoxAgents *agents, const uint32_t *list, uint32_t count);
+void jox_heard_check(const JoxMachineRun *run);
+void jox_states_check(const JoxMachineRun *run);
+void jox_acts_check(const JoxMachineRun *run);
+void jox_taken_check(const JoxMachineRun *run);
+void jox_preferred_check(const JoxMachineRun *run);
+void jox_edits_check(const JoxMachineRun *run);
+void jox_counts_carried_check(const JoxMachineCounts *was, const JoxMachineCounts *is);
+
 /* The scratch, made on first use. */
 JoxMachineScratch *jox_machines_scratch(JoxMachineRun *run);
 /* Makes what was called in the last step audible. */

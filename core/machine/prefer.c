@@ -1,6 +1,7 @@
 /* The stage prefer: the velocity that the state's steering asks for, and where the agent looks. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "machine/internal.h"
 
 static const float SLOWING = 0.5f; /* s: who arrives slows to stop within this time */
@@ -317,6 +318,7 @@ static void prefer_range(void *context, uint32_t begin, uint32_t end, uint32_t w
             if (jox_length2(sum) > 1.0f)
                 sum = jox_unit(sum);
             float speed = jox_minf(a->param[JOX_PARAM_speed][i], a->param[JOX_PARAM_max_speed][i]);
+            JOX_ASSERT(jox_length2(sum) < 1.001f && speed >= 0.0f);
             a->pref_x[i] = sum.x * speed;
             a->pref_y[i] = sum.y * speed;
         }
@@ -351,8 +353,10 @@ static void ask_functions(JoxMachineRun *run) {
 void jox_machines_prefer(JoxMachineRun *run, JoxPool *pool) {
     if (run->set->count == 0)
         return;
+    JOX_CHECK(jox_groups_check(run));
     jox_parallel_for(pool, run->scratch->batch_count, 1, prefer_range, run);
     ask_functions(run);
+    JOX_CHECK(jox_preferred_check(run));
     if (run->bracket)
         run->bracket(run->call_context, false);
 }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "machine/internal.h"
 
@@ -99,6 +100,7 @@ static void map_slots(JoxReplacement *r, uint64_t seed) {
     r->own_moves = false;
     for (uint32_t s = 0; s < next->own_count; s++) {
         r->own[s] = own_before(old, next, s);
+        JOX_ASSERT(r->own[s] < (int32_t)old->own_count);
         r->own_moves |= r->own[s] != (int32_t)s;
         if (r->own[s] >= 0 && r->own[s] != (int32_t)s)
             r->moved[r->moved_count++] = s;
@@ -282,6 +284,7 @@ static void carry_agent(JoxMachineRun *run, const JoxReplacement *r, uint32_t i)
     JoxAgents *a = run->agents;
     uint16_t was = a->state[i];
     uint16_t is = r->state[was] >= 0 ? (uint16_t)r->state[was] : r->next->start;
+    JOX_ASSERT(was < r->old->state_count && is < r->next->state_count);
     a->state[i] = is;
     if (r->truth_moves[was]) {
         uint32_t truth = 0;
@@ -348,10 +351,12 @@ JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxRe
     JoxMachine *built = run->set->built[index], *next = r->next;
     JoxAgents *a = run->agents;
     JoxMachineCounts *counts = &run->state->counts[index], was = *counts;
+    JOX_ASSERT(r->old == old || r->old == built); /* prepared for what runs */
     *counts = (JoxMachineCounts){0};
     next->version = old->version + 1;
     jox_machines_put(run, index, next);
     carry_counts(r, old, &was, counts);
+    JOX_CHECK(jox_counts_carried_check(&was, counts));
     jox_counts_free(&was);
     bool any = r->memory_moves || r->states_move;
     for (uint32_t s = 0; s < old->state_count; s++)
@@ -379,5 +384,6 @@ JoxMachine *jox_machines_replace(JoxMachineRun *run, uint32_t index, const JoxRe
             jox_rows_end(a, i, next);
     }
     jox_edits_end(run, index); /* frees the copy that `old` may be */
+    JOX_CHECK(jox_states_check(run));
     return built;
 }

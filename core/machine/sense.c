@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "machine/internal.h"
 
@@ -31,6 +32,7 @@ void jox_machines_listen(JoxMachineRun *run) {
                 s->heard[at] = s->heard[at - gap];
             s->heard[at] = moving;
         }
+    JOX_CHECK(jox_heard_check(run));
 }
 
 bool jox_heard(const JoxMachineRun *run, uint32_t i, uint32_t name, double reach) {
@@ -80,6 +82,7 @@ uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t i, int32_t kind, i
 }
 
 int32_t jox_holding(const JoxMachineRun *run, uint32_t i, int32_t target) {
+    JOX_ASSERT(target >= 0 && target < (int32_t)jox_machine_of(run, i)->target_count);
     const JoxTarget *t = &jox_machine_of(run, i)->targets[target];
     for (uint32_t o = 0; run->objects && o < run->objects->count; o++) {
         const JoxObject *object = &run->objects->rows[o];

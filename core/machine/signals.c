@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "machine/internal.h"
 
@@ -17,6 +18,7 @@ uint32_t jox_machines_name(JoxMachineRun *run, const char *name) {
 
 void jox_machines_call(JoxMachineRun *run, uint32_t agent, uint32_t name) {
     const JoxAgents *a = run->agents;
+    JOX_ASSERT(name < run->set->name_count && agent < a->count);
     JOX_RESERVE(run->state->called, run->state->called_capacity, run->state->called_count + 1);
     run->state->called[run->state->called_count++] =
         (JoxSignal){name, a->id[agent], a->x[agent], a->y[agent]};

@@ -22,6 +22,8 @@ static void number(JoxMachineRun *run, JoxMachine *machine) {
 }
 
 void jox_machines_put(JoxMachineRun *run, uint32_t index, JoxMachine *machine) {
+    JOX_ASSERT(index <= run->set->count && index < JOX_MOST_MACHINES);
+    JOX_CHECK(jox_machine_check(machine));
     number(run, machine);
     jox_agents_widen(run->agents, machine->own_count, machine->memory_count);
     run->set->items[index] = run->set->built[index] = machine;
@@ -57,6 +59,7 @@ void jox_machines_spawn(JoxMachineRun *run, uint32_t agent, uint32_t machine,
                         const JoxDist *const *own, const JoxDist *const *memory) {
     JoxAgents *a = run->agents;
     const JoxMachine *kind = run->set->items[machine];
+    JOX_ASSERT(machine < run->set->count && a->machine[agent] == JOX_NO_MACHINE);
     a->machine[agent] = (uint16_t)machine;
     draw_values(run, agent, kind, own, memory);
     for (uint32_t s = 0; own && s < kind->own_count && s < 64; s++)
@@ -84,6 +87,7 @@ static bool goes_along(const JoxAgents *a, uint32_t i, const JoxOwnSlot *slot, u
 
 void jox_machines_set_own(JoxMachineRun *run, uint32_t i, uint32_t slot, double value) {
     JoxAgents *a = run->agents;
+    JOX_ASSERT(slot < jox_machine_of(run, i)->own_count);
     a->own[(size_t)i * a->own_stride + slot] = value;
     a->given[i] |= slot < 64 ? (uint64_t)1 << slot : 0;
     jox_machines_write_parameters(run, i);

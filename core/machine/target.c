@@ -1,6 +1,7 @@
 /* What a target is for one agent, now. */
 #include <math.h>
 
+#include "base/assert.h"
 #include "machine/internal.h"
 
 int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index) {
@@ -8,6 +9,7 @@ int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index
     int32_t place = -1;
     if (index < 0)
         return -1;
+    JOX_ASSERT((uint32_t)index < machine->target_count);
     const JoxTarget *target = &machine->targets[index];
     if (target->kind == JOX_TARGET_PLACE)
         place = target->arg;
@@ -116,6 +118,7 @@ JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
     const JoxAgents *a = run->agents;
     if (index < 0)
         return agent_spot(run, i, i);
+    JOX_ASSERT((uint32_t)index < jox_machine_of(run, i)->target_count);
     const JoxTarget *target = &jox_machine_of(run, i)->targets[index];
     if (target->kind < JOX_TARGET_NEAREST) {
         int32_t place = jox_target_place(run, i, index);

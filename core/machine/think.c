@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/elementary.h"
 #include "base/mem.h"
 #include "machine/internal.h"
@@ -92,6 +93,7 @@ static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
 
 static void think_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     const JoxMachineRun *run = ((Think *)context)->run;
+    JOX_ASSERT(worker < run->scratch->workers);
     for (uint32_t b = begin; b < end; b++)
         think_batch(run, &run->scratch->batches[b], run->scratch->registers[worker]);
 }
@@ -153,6 +155,7 @@ static void enter(JoxMachineRun *run, uint32_t i, uint16_t to) {
     call_hook(run, state->on_enter, JOX_HOOK_ENTER, i);
     if (state->become_machine < 0)
         return;
+    JOX_ASSERT((uint32_t)state->become_machine < run->set->count);
     jox_machines_become(run, i, (uint32_t)state->become_machine);
     machine = jox_machine_of(run, i); /* a start state cannot become anything at once */
     jox_actions_do(run, machine, &machine->states[machine->start].enters, i);
@@ -188,6 +191,7 @@ static void take_transitions(JoxMachineRun *run) {
         uint32_t i = s->list[n];
         const JoxMachine *machine = jox_machine_of(run, i);
         const JoxState *from = &machine->states[a->state[i]];
+        JOX_ASSERT((uint32_t)s->fired[i] < from->transition_count && run->taken_count == n);
         const JoxTransition *t = &from->transitions[s->fired[i]];
         run->state->counts[a->machine[i]].taken[from->first_transition + (uint32_t)s->fired[i]]++;
         run->taken[run->taken_count++] =
@@ -253,11 +257,13 @@ void jox_machines_think(JoxMachineRun *run, JoxPool *pool) {
         jox_parallel_for(pool, run->scratch->batch_count, 1, think_range, &think);
         ask_functions(run);
         take_transitions(run);
+        JOX_CHECK(jox_taken_check(run));
         if (views)
             run->bracket(run->call_context, false);
         if (run->taken_count > 0)
             jox_machines_group(run, pool);
         jox_machines_repeat_signals(run);
     }
+    JOX_CHECK(jox_states_check(run));
     jox_machines_act(run, pool);
 }

@@ -184,6 +184,13 @@ static void to_nobody(void *context, const char *text) {
     (void)text;
 }
 
+/* Frees a scene that did not load: it has no end that anybody waits for. */
+static void discard(JoScene *scene) {
+    if (scene)
+        scene->finished = true;
+    jo_scene_free(scene);
+}
+
 /* Of the mods found, the first with which, and with those before it, the scene does not load; -1:
    it does not load without mods either. Whatever went wrong: the spec, a behaviour, what they
    expect of each other. */
@@ -191,6 +198,7 @@ static int32_t blame(const JoSceneDef *def, uint64_t without) {
     for (uint32_t count = 0;; count++) {
         JoxDiagnostics ignored = {0}, now = {0};
         JoScene *scene = jox_alloc(1, sizeof *scene);
+        scene->heap = jox_heap_used();
         scene->message = to_nobody;
         scene->mods = jox_run_find_mods(def, without, &ignored);
         const uint32_t all = scene->mods->count;
@@ -205,7 +213,7 @@ static int32_t blame(const JoSceneDef *def, uint64_t without) {
         int32_t culprit = fails && count > 0 ? (int32_t)scene->mods->number[count - 1] : -1;
         jox_diag_free(&ignored);
         jox_diag_free(&now);
-        jo_scene_free(scene);
+        discard(scene);
         if (fails)
             return culprit;
     }
@@ -232,7 +240,7 @@ static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culpri
         return scene;
     }
     bool blames = scene->mods->count > 0;
-    jo_scene_free(scene);
+    discard(scene);
     *culprit = blames ? blame(def, without) : -1;
     return NULL;
 }
@@ -309,7 +317,7 @@ JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
                 return scene;
             }
             jox_diag_move(diagnostics, &problems);
-            jo_scene_free(scene);
+            discard(scene);
             return NULL;
         }
         jox_diag_free(&found);

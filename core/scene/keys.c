@@ -302,19 +302,19 @@ static const JoxOwner OWNERS[] = {
      "offered where there is something to use it on: gates that have names, signals that somebody hears, a `player`.",
      .size = sizeof(JoxSceneView)},
     {"place", "Places", "`places` maps names to places. Their kinds are told apart by their key:",
-     .size = sizeof(JoxPlace), .kind = AT(JoxPlace, kind), .name_at = AT(JoxPlace, name),
+     .size = sizeof(JoxPlace), .kind = AT(JoxPlace, kind), .wrong_kind = "bad-place", .name_at = AT(JoxPlace, name),
      .finish = jox_finish_place, .link = jox_link_place},
     {"wall", "Walls", "Each wall of the list `walls` is a `solid`, a `line` or a `file`. In a file, a "
      "POLYGON is what can be walked: its outer ring and its holes become walls; so do MULTIPOLYGON, LINESTRING, "
      "MULTILINESTRING and GEOMETRYCOLLECTION. In an XML geometry of JuPedSim (rooms, subrooms) polygons are thin walls "
      "and obstacles are solid; each transition is a door, a wall named `door-ID` by its id: it is open until an event "
      "closes it. Crossings are gaps.",
-     .size = sizeof(JoxLoadWall), .kind = AT(JoxLoadWall, kind)},
+     .size = sizeof(JoxLoadWall), .kind = AT(JoxLoadWall, kind), .wrong_kind = "bad-wall"},
     {"body", "Bodies", "Each body of the list `bodies` is simulated by Bullet, and pushed by people.",
      .size = sizeof(JoxLoadBody)},
     {"repeat", "repeat", "The first stands at the body's `at`. Copies of a body with a name are `NAME-1`, `NAME-2` and so on, along x first, then y, then z.", .size = 0},
     {"shape", "Shapes", "A shape is a map with one key, its kind.",
-     .size = sizeof(JoxShape), .kind = AT(JoxShape, kind), .hint = "{sphere: {radius: 0.1}}"},
+     .size = sizeof(JoxShape), .kind = AT(JoxShape, kind), .wrong_kind = "bad-shape", .hint = "{sphere: {radius: 0.1}}"},
     {"box", "box", "", .size = 0},
     {"sphere", "sphere", "", .size = 0},
     {"cylinder", "cylinder", "", .size = 0},
@@ -334,14 +334,14 @@ static const JoxOwner OWNERS[] = {
      .size = sizeof(JoxAgentSink), .finish = jox_finish_sink},
     {"probe", "Probes", "`probes` maps names to probes; one key of each says what it measures. Their figures stand in the summary under `probes`; `--report DIR` adds DIR/NAME.csv, NAME.png and "
      "NAME.svg. `jostle report` measures recordings by them, those of real crowds too.",
-     .size = sizeof(JoxProbeDef), .kind = AT(JoxProbeDef, kind), .name_at = AT(JoxProbeDef, name),
+     .size = sizeof(JoxProbeDef), .kind = AT(JoxProbeDef, kind), .wrong_kind = "bad-probe", .name_at = AT(JoxProbeDef, name),
      .hint = "{flow: [[0, 0], [1, 0]]}", .taken = "density|paths|regions|walls|danger|danger-map", /* of reports */
      .finish = jox_finish_probe},
     {"map", "map", "", .size = 0},
     {"lanes", "lanes", "The ways are two groups where the probe names two; else the sign of the velocity.", .size = 0},
     {"event", "Events", "Each event of the list `events` does one thing at its time, once or again and again. Those of the "
      "same time are done in the order of the list.",
-     .size = sizeof(JoxEvent), .kind = AT(JoxEvent, kind), .hint = "{at: 20, open: gate}",
+     .size = sizeof(JoxEvent), .kind = AT(JoxEvent, kind), .wrong_kind = "bad-event", .hint = "{at: 20, open: gate}",
      .finish = jox_finish_event},
     {"mod", "Mods", "A mod is a folder; its file `mod.yaml` has these keys. A scene takes it, and chooses "
      "its settings, by `mods: {calm: {patience: 60}}`.",

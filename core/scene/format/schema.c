@@ -104,12 +104,11 @@ static const JoxKey *kind_key(const JoxReader *reader, const JoxYaml *map, const
     }
     if (count == 1)
         return found;
+    JOX_ASSERT(owner->wrong_kind);
     JoxText kinds = {0}, list = {0};
-    char *code = jox_arena_take(reader->arena, strlen(owner->name) + 8, 1);
     jox_owner_kinds(reader->format, owner->name, &kinds);
     jox_choices_text(kinds.data, &list);
-    sprintf(code, "bad-%s", owner->name);
-    jox_scene_error(reader, map, code, owner->hint, "%s %s has one of %s, not %s",
+    jox_scene_error(reader, map, owner->wrong_kind, owner->hint, "%s %s has one of %s, not %s",
                     article(owner->name), owner->name, list.data, count ? "several" : "none");
     jox_text_free(&kinds);
     jox_text_free(&list);

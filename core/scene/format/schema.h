@@ -96,12 +96,13 @@ struct JoxKey {
 /* What has keys, in the order of the reference. */
 typedef struct JoxOwner {
     const char *name, *heading, *text;
-    size_t size;       /* of its struct; 0: its keys stand in the struct of another owner */
-    size_t kind;       /* 1 and the offset of its kind; 0: it has none */
-    size_t name_at;    /* 1 and the offset of its name, of what a map names */
-    size_t place_at;   /* 1 and the offset of the JoxPosition where it is written */
-    const char *hint;  /* how one is written, for errors */
-    const char *taken; /* names that it cannot have: "this|that" */
+    size_t size;            /* of its struct; 0: its keys stand in the struct of another owner */
+    size_t kind;            /* 1 and the offset of its kind; 0: it has none */
+    const char *wrong_kind; /* code of the error of one that has no kind, or several */
+    size_t name_at;         /* 1 and the offset of its name, of what a map names */
+    size_t place_at;        /* 1 and the offset of the JoxPosition where it is written */
+    const char *hint;       /* how one is written, for errors */
+    const char *taken;      /* names that it cannot have: "this|that" */
     /* Checks what several keys say together. `good`: each of them is right. False: it is not kept.
      */
     bool (*finish)(const JoxReader *reader, const JoxYaml *map, void *item, bool good);

@@ -1,0 +1,271 @@
+/* Checks of machines and of what their stages hand on; builds with assertions call them. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "machine/internal.h"
+
+/* Whether an index is -1 or below `count`. */
+static bool is_index(int64_t index, uint32_t count) {
+    return index >= -1 && index < (int64_t)count;
+}
+
+/* How many of the registers a, b, c an operation reads. */
+static uint32_t inputs_of(JoxOp op) {
+    if (op == JOX_OP_CLAMP)
+        return 3;
+    if (op == JOX_OP_NEG || op == JOX_OP_ABS || op == JOX_OP_SQRT || op == JOX_OP_NOT)
+        return 1;
+    if (op >= JOX_OP_ADD && op <= JOX_OP_OR)
+        return 2;
+    return op == JOX_OP_NEAR || op == JOX_OP_AFTER || op == JOX_OP_STUCK || op == JOX_OP_INCOMING ||
+           op == JOX_OP_HEARD;
+}
+
+static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
+    const JoxOp op = (JoxOp)in->op;
+    JOX_ASSERT(is_index(in->target, m->target_count) && is_index(in->place, m->target_count));
+    JOX_ASSERT(op != JOX_OP_NOW || (in->arg >= 0 && in->arg < JOX_NOW_COUNT));
+    JOX_ASSERT(op != JOX_OP_OWN || (uint32_t)in->arg < m->own_count);
+    JOX_ASSERT(op != JOX_OP_MEMORY || (uint32_t)in->arg < m->memory_count);
+    JOX_ASSERT((op != JOX_OP_PLACE_DENSITY && op != JOX_OP_PLACE_COUNT) || in->place >= 0);
+    JOX_ASSERT((op != JOX_OP_HEARD && op != JOX_OP_IN_STATE) ||
+               (in->name >= 0 && (uint32_t)in->name < m->name_count));
+    JOX_ASSERT((op != JOX_OP_TAGGED && op != JOX_OP_IN_STATE) ||
+               (in->arg >= JOX_KIN_OPPONENTS && in->arg < 64));
+}
+
+/* Straight-line code reads what it wrote before, and its last instruction writes register 0. */
+static void check_expression(const JoxMachine *m, const JoxExpression *expression) {
+    uint64_t written = 0;
+    JOX_ASSERT(expression->count > 0 && expression->code[expression->count - 1].to == 0);
+    for (uint32_t k = 0; k < expression->count; k++) {
+        const JoxInstruction *in = &expression->code[k];
+        const uint8_t inputs[3] = {in->a, in->b, in->c};
+        JOX_ASSERT(in->op < JOX_OP_COUNT && in->to < JOX_MOST_REGISTERS);
+        for (uint32_t n = 0; n < inputs_of((JoxOp)in->op); n++)
+            JOX_ASSERT(inputs[n] < JOX_MOST_REGISTERS && (written >> inputs[n] & 1));
+        check_operands(m, in);
+        written |= (uint64_t)1 << in->to;
+    }
+}
+
+static void check_value(const JoxMachine *m, const JoxValue *value) {
+    JOX_ASSERT(value->kind != JOX_VALUE_OWN || (uint32_t)value->index < m->own_count);
+    JOX_ASSERT(value->kind != JOX_VALUE_EXPRESSION || (uint32_t)value->index < m->expression_count);
+}
+
+static void check_actions(const JoxMachine *m, const JoxActions *actions) {
+    JOX_ASSERT(is_index(actions->signal, m->name_count));
+    for (uint32_t n = 0; n < actions->set_count; n++) {
+        JOX_ASSERT((uint32_t)actions->set[n].slot < m->memory_count);
+        check_value(m, &actions->set[n].value);
+    }
+}
+
+static void check_transitions(const JoxMachine *m, const JoxState *state) {
+    JOX_ASSERT(state->transition_count <= JOX_MOST_TRANSITIONS);
+    for (uint32_t k = 0; k < state->transition_count; k++) {
+        const JoxTransition *t = &state->transitions[k];
+        JOX_ASSERT(t->to < m->state_count && is_index(t->when, m->expression_count));
+        JOX_ASSERT(t->when < 0 || t->when_hook < 0); /* one condition, compiled or a function */
+        check_value(m, &t->chance);
+        check_actions(m, &t->does);
+    }
+}
+
+static void check_state(const JoxMachine *m, const JoxState *state) {
+    const int16_t targets[] = {state->push_toward, state->face, state->approach, state->kick,
+                               state->kick_at,     state->take, state->toss,     state->toss_at};
+    for (size_t n = 0; n < sizeof targets / sizeof *targets; n++)
+        JOX_ASSERT(is_index(targets[n], m->target_count));
+    JOX_ASSERT(is_index(state->push_when, m->expression_count));
+    JOX_ASSERT(is_index(state->lasts_expression, m->expression_count));
+    JOX_ASSERT(!(state->has_lasts && state->lasts_expression >= 0));
+    JOX_ASSERT(!(state->signal_every > 0.0) || state->enters.signal >= 0);
+    JOX_ASSERT(state->steer_count <= JOX_MOST_TERMS);
+    for (uint32_t t = 0; t < state->steer_count; t++) {
+        JOX_ASSERT(is_index(state->steer[t].target, m->target_count));
+        check_value(m, &state->steer[t].weight);
+    }
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        check_value(m, &state->param[p]);
+    check_actions(m, &state->enters);
+    check_transitions(m, state);
+}
+
+void jox_machine_check(const JoxMachine *m) {
+    JOX_ASSERT(m->start < m->state_count);
+    for (uint32_t e = 0; e < m->expression_count; e++)
+        check_expression(m, &m->expressions[e]);
+    for (uint32_t s = 0; s < m->state_count; s++)
+        check_state(m, &m->states[s]);
+    for (int p = 0; p < JOX_PARAM_COUNT; p++)
+        check_value(m, &m->defaults[p]);
+    for (uint32_t t = 0; t < m->target_count; t++) {
+        const JoxTarget *target = &m->targets[t];
+        JOX_ASSERT(
+            (target->kind != JOX_TARGET_OWN_PLACE && target->kind != JOX_TARGET_ONE_OF_OWN) ||
+            (uint32_t)target->arg < m->own_count);
+        JOX_ASSERT(target->kind != JOX_TARGET_NEAREST || (target->arg >= 0 && target->arg < 64));
+    }
+    for (uint32_t c = 0; c < m->counter_count; c++) {
+        const JoxCounter *counter = &m->counters[c];
+        JOX_ASSERT(is_index(counter->target, m->target_count));
+        JOX_ASSERT(is_index(counter->state, m->state_count));
+        JOX_ASSERT((uint32_t)counter->value < m->memory_count);
+        JOX_ASSERT((uint32_t)counter->angle < m->memory_count);
+        JOX_ASSERT((uint32_t)counter->begun < m->memory_count);
+    }
+}
+
+void jox_groups_check(const JoxMachineRun *run) {
+    const JoxMachineScratch *s = run->scratch;
+    const JoxAgents *a = run->agents;
+    uint32_t grouped = 0, running = 0;
+    JOX_ASSERT(s->capacity >= a->count);
+    for (uint32_t i = 0; i < a->count; i++)
+        running += a->machine[i] != JOX_NO_MACHINE;
+    for (uint32_t b = 0; b < s->batch_count; b++) {
+        const JoxBatchRange *batch = &s->batches[b];
+        JOX_ASSERT(batch->begin == grouped && batch->count > 0 && batch->count <= JOX_BATCH);
+        grouped += batch->count;
+        for (uint32_t n = 0; n < batch->count; n++) {
+            const uint32_t *i = &s->grouped[batch->begin + n];
+            JOX_ASSERT(*i < a->count && (n == 0 || i[-1] < *i));
+            JOX_ASSERT(a->machine[*i] == batch->machine && a->state[*i] == batch->state);
+        }
+    }
+    JOX_ASSERT(grouped == running); /* everybody who runs a machine is in one batch */
+}
+
+void jox_queues_check(const JoxMachineRun *run, const uint32_t *list, uint32_t count) {
+    const JoxMachineScratch *s = run->scratch;
+    const JoxAgents *a = run->agents;
+    JOX_ASSERT(count <= a->count);
+    for (uint32_t k = 0; k < count; k++) {
+        const uint32_t i = list[k];
+        JOX_ASSERT(s->rank[i] <= k && a->queued[i] <= run->tick);
+        JOX_ASSERT(is_index(a->queue_at[i], run->place_count));
+        if (s->rank[i] == 0)
+            continue;
+        JOX_ASSERT(s->queue[list[k - 1]] == s->queue[i]);
+        JOX_ASSERT(s->rank[list[k - 1]] + 1 == s->rank[i]);
+        JOX_ASSERT(a->queued[list[k - 1]] <= a->queued[i]); /* who came first stands first */
+    }
+}
+
+void jox_by_id_check(const JoxAgents *a, const uint32_t *list, uint32_t count) {
+    for (uint32_t k = 0; k < count; k++) {
+        JOX_ASSERT(list[k] < a->count);
+        JOX_ASSERT(k == 0 || a->id[list[k - 1]] < a->id[list[k]]);
+    }
+}
+
+void jox_heard_check(const JoxMachineRun *run) {
+    const JoxMachineScratch *s = run->scratch;
+    for (uint32_t k = 0; k < s->heard_count; k++) {
+        const JoxSignal *is = &s->heard[k], *was = is - (k > 0);
+        JOX_ASSERT(is->name < run->set->name_count && is->agent_id < run->agents->next_id);
+        JOX_ASSERT(was->name < is->name || (was->name == is->name && !(was->x > is->x)));
+    }
+    for (uint32_t k = 0; k < s->everywhere_count; k++)
+        JOX_ASSERT(s->everywhere[k] < run->set->name_count);
+}
+
+/* Rows end with the slots of the machine: what lies beyond is hashed, and must not differ. */
+static void check_rows(const JoxAgents *a, uint32_t i, const JoxMachine *machine) {
+    JOX_ASSERT(machine->own_count <= a->own_stride && machine->memory_count <= a->memory_stride);
+    JOX_ASSERT(machine->own_count >= 64 || a->given[i] >> machine->own_count == 0);
+    for (uint32_t s = machine->own_count; s < a->own_stride; s++)
+        JOX_ASSERT(a->own[(size_t)i * a->own_stride + s] == 0.0);
+    for (uint32_t s = machine->memory_count; s < a->memory_stride; s++)
+        JOX_ASSERT(a->memory[(size_t)i * a->memory_stride + s] == 0.0);
+}
+
+void jox_states_check(const JoxMachineRun *run) {
+    const JoxAgents *a = run->agents;
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (a->machine[i] == JOX_NO_MACHINE)
+            continue;
+        JOX_ASSERT(a->machine[i] < run->set->count);
+        const JoxMachine *machine = jox_machine_of(run, i);
+        JOX_ASSERT(a->state[i] < machine->state_count);
+        const uint32_t conditions = machine->states[a->state[i]].transition_count;
+        JOX_ASSERT(conditions >= 32 || a->was_true[i] >> conditions == 0);
+        JOX_ASSERT(a->entered[i] <= run->tick && !isnan(a->lasts[i]));
+        check_rows(a, i, machine);
+    }
+}
+
+static void check_bodies(const JoxMachineRun *run) {
+    const uint32_t objects = run->objects ? run->objects->count : 0;
+    for (uint32_t k = 0; k < run->kick_count; k++) {
+        JOX_ASSERT(run->kicks[k].object < objects && run->objects->rows[run->kicks[k].object].live);
+        JOX_ASSERT(run->kicks[k].impulse.z == 0.0f); /* kicks are level */
+    }
+    for (uint32_t k = 0; k < run->grip_count; k++) {
+        const JoxGrip *grip = &run->grips[k];
+        JOX_ASSERT(grip->object < objects && run->objects->rows[grip->object].live);
+        JOX_ASSERT(grip->takes != run->objects->rows[grip->object].held);
+        JOX_ASSERT(k == 0 || grip[-1].agent_id <= grip->agent_id);
+    }
+    for (uint32_t i = 0; i < run->agents->count; i++) {
+        JOX_ASSERT(is_index(run->agents->kicked[i], objects));
+        JOX_ASSERT(is_index(run->agents->approach[i], objects));
+    }
+}
+
+void jox_acts_check(const JoxMachineRun *run) {
+    const JoxAgents *a = run->agents;
+    check_bodies(run);
+    for (uint32_t i = 0; i < a->count; i++) {
+        const JoxV2 way = {run->push_toward_x[i], run->push_toward_y[i]};
+        JOX_ASSERT((way.x == 0.0f && way.y == 0.0f) || jox_is_unit(way));
+        for (int p = 0; p < JOX_PARAM_COUNT; p++)
+            JOX_ASSERT(isfinite(a->param[p][i]));
+    }
+}
+
+void jox_taken_check(const JoxMachineRun *run) {
+    for (uint32_t n = 0; n < run->taken_count; n++) {
+        const JoxTaken *taken = &run->taken[n];
+        JOX_ASSERT(n == 0 || taken[-1].agent_id < taken->agent_id); /* one an agent, by id */
+        const JoxState *from = &run->set->items[taken->machine]->states[taken->from];
+        JOX_ASSERT(taken->transition < from->transition_count);
+        JOX_ASSERT(from->transitions[taken->transition].to == taken->to);
+    }
+}
+
+void jox_preferred_check(const JoxMachineRun *run) {
+    const JoxAgents *a = run->agents;
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (a->machine[i] == JOX_NO_MACHINE)
+            continue;
+        JOX_ASSERT(isfinite(a->pref_x[i]) && isfinite(a->pref_y[i]));
+        JOX_ASSERT(jox_is_unit((JoxV2){a->face_x[i], a->face_y[i]}));
+    }
+}
+
+void jox_edits_check(const JoxMachineRun *run) {
+    const JoxMachineState *state = run->state;
+    for (uint32_t e = 0; e < state->edit_count; e++) {
+        const JoxParameterEdit *edit = &state->edits[e];
+        JOX_ASSERT(edit->machine < run->set->count);
+        JOX_ASSERT(edit->parameter >= 0 && edit->parameter < JOX_PARAM_COUNT);
+        for (uint32_t o = 0; o < e; o++) /* one for each parameter */
+            JOX_ASSERT(edit->machine != state->edits[o].machine ||
+                       edit->state != state->edits[o].state ||
+                       edit->parameter != state->edits[o].parameter);
+    }
+}
+
+void jox_counts_carried_check(const JoxMachineCounts *was, const JoxMachineCounts *is) {
+    uint64_t before = 0, now = 0, given = 0;
+    for (uint32_t k = 0; k < was->taken_count; k++)
+        before += was->taken[k];
+    for (uint32_t k = 0; k < is->taken_count; k++)
+        now += is->taken[k];
+    for (uint32_t b = 0; b < is->before_count; b++)
+        given += is->before[b].taken;
+    JOX_ASSERT(now <= before && before - now <= given); /* what does not go on is kept by names */
+}
