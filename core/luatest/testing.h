@@ -4,7 +4,7 @@
 
 #include "lua/loader.h"
 
-/* What a test asks of a scene; the host implements it. Handles are its own. */
+/* What a test asks of a scene; test.c implements it. Handles are its own. */
 typedef struct JoxTestScene {
     const char *text; /* YAML, or NULL: the file `path` */
     size_t length;

@@ -1,4 +1,4 @@
-/* Scenes: a YAML file becomes a plain description, from which the host builds a world.
+/* Scenes: a YAML file becomes a plain description, from which core/run builds a world.
    Metres, seconds, kilograms; angles in radians. The format itself is the table in keys.c. */
 #ifndef JOX_SCENE_SCENE_H
 #define JOX_SCENE_SCENE_H
