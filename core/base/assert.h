@@ -11,7 +11,7 @@ void jox_assert_set_handler(JoxAssertHandler *handler);
 
 /* Internal invariants: compiled out of release builds. */
 #ifdef NDEBUG
-#define JOX_ASSERT(condition) ((void)sizeof((condition) ? 1 : 0)) /* never evaluated */
+#define JOX_ASSERT(condition) ((void)(0 && (condition))) /* never evaluated */
 #else
 #define JOX_ASSERT(condition)                                                                      \
     ((condition) ? (void)0 : jox_assert_failed(#condition, __FILE__, __LINE__))
@@ -19,7 +19,7 @@ void jox_assert_set_handler(JoxAssertHandler *handler);
 
 /* Calls a function of checks, which may be slow, in builds with assertions alone. */
 #ifdef NDEBUG
-#define JOX_CHECK(call) ((void)sizeof(((call), 1))) /* never evaluated */
+#define JOX_CHECK(call) ((void)(0 && ((call), 1))) /* never evaluated */
 #else
 #define JOX_CHECK(call) (call)
 #endif
