@@ -1,7 +1,6 @@
 #include "base/text.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -91,13 +90,6 @@ void jox_text_json(JoxText *text, const char *string) {
         s += n;
     }
     jox_text_append(text, "\"", 1);
-}
-
-void jox_text_json_number(JoxText *text, double number) {
-    if (isfinite(number))
-        jox_text_printf(text, "%.9g", number);
-    else
-        jox_text_add(text, "null");
 }
 
 void jox_text_free(JoxText *text) {

@@ -21,8 +21,6 @@ void jox_text_vprintf(JoxText *text, const char *format, va_list arguments);
 size_t jox_utf8_length(const char *string);
 /* Appends `string` as a JSON string with its quotes; bytes that are not UTF-8 become U+FFFD. */
 void jox_text_json(JoxText *text, const char *string);
-/* Appends a number as JSON: %.9g, or null where it is not finite. */
-void jox_text_json_number(JoxText *text, double number);
 void jox_text_free(JoxText *text);
 /* Makes text fit for a terminal and for one line, in place: control characters and bytes that are
    not UTF-8 become '?', ends of lines blanks. */

@@ -143,11 +143,6 @@ void jox_view_send(JoxView *view, uint32_t client, const char *text) {
         post(view, JOX_REQUEST_TEXT, client, 0, text, strlen(text));
 }
 
-void jox_view_send_bytes(JoxView *view, uint32_t client, const void *bytes, size_t length) {
-    if (jox_view_clients(view))
-        post(view, JOX_REQUEST_BYTES, client, 0, bytes, length);
-}
-
 void jox_view_listen(JoxView *view, uint32_t client, uint32_t channels) {
     JOX_ASSERT(client != JOX_VIEW_ALL && channels >> JOX_VIEW_CHANNELS == 0);
     post(view, JOX_REQUEST_LISTEN, client, channels, NULL, 0);

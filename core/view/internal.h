@@ -18,7 +18,6 @@ enum {
 
 typedef enum JoxRequest { /* what a message asks of the serving thread */
                           JOX_REQUEST_TEXT,
-                          JOX_REQUEST_BYTES,
                           JOX_REQUEST_LISTEN,
                           JOX_REQUEST_FORGET
 } JoxRequest;

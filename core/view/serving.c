@@ -63,7 +63,6 @@ static void do_request(JoxView *view, JoxMessage *message) {
     JoxClient *client = find(view, message->client);
     switch ((JoxRequest)message->what) {
     case JOX_REQUEST_TEXT:
-    case JOX_REQUEST_BYTES:
         for (uint32_t c = 0; c < JOX_VIEW_CLIENTS && message->client == JOX_VIEW_ALL; c++)
             if (view->connected[c])
                 queue(view->connected[c], copy(view, message));

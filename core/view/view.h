@@ -54,10 +54,9 @@ void jox_view_drop(JoxView *view);
 
 /* What a channel shows from here on, copied; it takes the place of what was not sent yet. */
 void jox_view_publish(JoxView *view, uint32_t channel, const void *bytes, size_t length);
-/* Sends JSON or bytes to one client or JOX_VIEW_ALL, in order, and before what is published after
+/* Sends JSON to one client or JOX_VIEW_ALL, in order, and before what is published after
    it. A client that leaves more than 32 MiB unread is cut off. */
 void jox_view_send(JoxView *view, uint32_t client, const char *text);
-void jox_view_send_bytes(JoxView *view, uint32_t client, const void *bytes, size_t length);
 /* From here on this client gets the channels of a mask (1 << channel); none at first. */
 void jox_view_listen(JoxView *view, uint32_t client, uint32_t channels);
 /* Forgets what was published: another scene begins. */

@@ -81,7 +81,6 @@ typedef struct JoxWorldScratch {
     JoxNav *nav;
     JoxForces *forces;
     JoxWalls walls;     /* those that stand */
-    bool walls_set;     /* `walls`, nav and bodies are as all_walls says */
     JoxObjects objects; /* what agents see of the bodies */
     JoxInspection inspection;
     JoxV2 *walked; /* per agent, m: during the substeps of the step so far; where it is divided */
