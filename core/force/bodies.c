@@ -143,27 +143,49 @@ JoxFootprintPoint jox_footprint_nearest(const JoxObject *body, JoxV2 point) {
     return (JoxFootprintPoint){jox_scale(away, 1.0f / gap), on_border, gap};
 }
 
+/* Body `row` as agent i touches it: false where the gap cannot close within the step. */
+static bool touches(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *touch, float *gap) {
+    const JoxAgents *a = f->step.agents;
+    const JoxObject *body = &f->step.objects->rows[row];
+    JoxFootprintPoint at = jox_footprint_nearest(body, jox_v2(a->x[i], a->y[i]));
+    JoxV2 towards = {a->vx[i] - body->velocity.x, a->vy[i] - body->velocity.y};
+    float closing = jox_length(towards) * (float)f->step.dt;
+    *gap = at.gap - a->param[JOX_PARAM_radius][i];
+    if (!(*gap < JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing)))
+        return false;
+    JOX_ASSERT(jox_is_unit(at.normal));
+    JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};
+    /* The gap waits in the target until velocities are known. */
+    *touch =
+        (JoxTouch){.agent = i, .object = row, .normal = at.normal, .point = point, .target = *gap};
+    return true;
+}
+
 void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
-    JoxAgents *a = f->step.agents;
-    const float *radius = a->param[JOX_PARAM_radius];
+    const JoxAgents *a = f->step.agents;
     uint32_t chunk = begin / JOX_FORCE_GRAIN;
     JoxTouch *list = (JoxTouch *)f->touches.items + (size_t)chunk * f->touches.room;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t *members = NULL;
         uint32_t count = jox_body_grid_near(&f->grid, a->x[i], a->y[i], &members), found = 0;
-        for (uint32_t m = 0; m < count && found < JOX_FORCE_MOST_TOUCHES; m++) {
-            const JoxObject *body = &f->step.objects->rows[members[m]];
-            JoxFootprintPoint at = jox_footprint_nearest(body, jox_v2(a->x[i], a->y[i]));
-            if (!(at.gap < radius[i]))
+        JoxTouch *own = list + f->touches.counts[chunk];
+        for (uint32_t m = 0; m < count; m++) { /* the nearest, of equals the lower row */
+            JoxTouch touch;
+            float gap;
+            if (!touches(f, i, members[m], &touch, &gap))
                 continue;
-            JOX_ASSERT(jox_is_unit(at.normal));
-            JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};
-            list[f->touches.counts[chunk]++] =
-                (JoxTouch){.agent = i, .object = members[m], .normal = at.normal, .point = point};
-            found++;
+            uint32_t at = found < JOX_MOST_BODIES_TOUCHED ? found++ : found;
+            if (at == JOX_MOST_BODIES_TOUCHED) {
+                if (!(gap < own[at - 1].target))
+                    continue;
+                at--;
+            }
+            for (; at > 0 && own[at - 1].target > gap; at--)
+                own[at] = own[at - 1];
+            own[at] = touch;
         }
-        JOX_ASSERT(found <= JOX_FORCE_MOST_TOUCHES && f->touches.counts[chunk] <= f->touches.room);
-        a->contacts[i] = (uint8_t)(a->contacts[i] + found);
+        f->touches.counts[chunk] += found;
+        JOX_ASSERT(f->touches.counts[chunk] <= f->touches.room);
         f->touch_number[i] = (uint8_t)found;
     }
 }
@@ -192,106 +214,164 @@ void jox_touches_collect(JoxForces *f) {
     }
     jox_sort(f->touch, count, sizeof *f->touch, by_agent, a, f->touch + count);
     f->totals.touches = count;
-    if (!count)
-        return;
-    JOX_RESERVE(f->motions, f->motion_capacity, f->step.objects->count);
-    for (uint32_t t = count; t-- > 0;) {
-        f->first_touch[f->touch[t].agent] = t;
-        f->motions[f->touch[t].object].touches = 0;
-    }
-    for (uint32_t t = 0; t < count; t++)
-        f->motions[f->touch[t].object].touches++;
+    for (uint32_t t = count; t-- > 0;)
+        f->touch_first[f->touch[t].agent] = t;
 }
 
-static JoxV3 arm_of(const JoxObject *body, JoxV3 point) {
+JoxV3 jox_arm_of(const JoxObject *body, JoxV3 point) {
     return (JoxV3){point.x - body->position.x, point.y - body->position.y,
                    point.z - body->position.z};
 }
 
-/* Normal velocity of the agent relative to the body at the point of contact. */
-static float approach(const JoxForces *f, const JoxTouch *t) {
-    const JoxBodyMotion *motion = &f->motions[t->object];
-    JoxV3 turning = jox_cross3(motion->spin, arm_of(&f->step.objects->rows[t->object], t->point));
-    float x = f->work_x[t->agent] - (motion->velocity.x + turning.x);
-    float y = f->work_y[t->agent] - (motion->velocity.y + turning.y);
-    return x * t->normal.x + y * t->normal.y;
+/* Velocity of a body at a point along a level direction, m/s. */
+static float speed_at(const JoxBodyMotion *motion, const JoxObject *body, JoxV3 point,
+                      JoxV2 along) {
+    JoxV3 turning = jox_cross3(motion->spin, jox_arm_of(body, point));
+    return (motion->velocity.x + turning.x) * along.x + (motion->velocity.y + turning.y) * along.y;
+}
+
+float jox_touch_body_speed(const JoxForces *f, const JoxTouch *t) {
+    return speed_at(&f->motions[t->object], &f->step.objects->rows[t->object], t->point, t->normal);
+}
+
+/* How much of what its contacts asked of a body in the last step it did: all where it is free,
+   nothing where a wall or the floor's friction holds it. */
+static float yields(const JoxForces *f, uint32_t row) {
+    const JoxObject *body = &f->step.objects->rows[row];
+    for (size_t k = 0; k < f->pressed.count; k++) {
+        const JoxPressedBody *p = &f->pressed.items[k];
+        if (p->row != row || p->id != body->id)
+            continue;
+        JoxV3 faster = {body->velocity.x - p->velocity.x, body->velocity.y - p->velocity.y,
+                        body->velocity.z - p->velocity.z};
+        JoxV3 spun = {body->spin.x - p->spin.x, body->spin.y - p->spin.y, body->spin.z - p->spin.z};
+        float work = jox_dot3(p->impulse, faster) + jox_dot3(p->angular, spun);
+        return jox_clampf(work / p->work, 0.0f, 1.0f);
+    }
+    return 1.0f;
+}
+
+static void add_impulse(JoxForces *f, const JoxTouch *t, float impulse) {
+    const JoxObject *body = &f->step.objects->rows[t->object];
+    JoxBodyMotion *motion = &f->motions[t->object];
+    float lightness = f->lightness[t->agent], give = motion->yields;
+    f->work[t->agent].x += t->normal.x * impulse * lightness;
+    f->work[t->agent].y += t->normal.y * impulse * lightness;
+    JoxV3 on_body = {-t->normal.x * impulse, -t->normal.y * impulse, 0.0f};
+    JoxV3 turn = jox_turn3(body->inverse_inertia, jox_cross3(jox_arm_of(body, t->point), on_body));
+    motion->velocity.x += on_body.x * body->inverse_mass * give;
+    motion->velocity.y += on_body.y * body->inverse_mass * give;
+    motion->spin.x += turn.x * give;
+    motion->spin.y += turn.y * give;
+    motion->spin.z += turn.z * give;
 }
 
 static void reset_motions(JoxForces *f) {
+    JOX_RESERVE(f->motions, f->motion_capacity, f->step.objects->count);
     for (uint32_t t = 0; t < f->touch_count; t++) {
-        const JoxObject *body = &f->step.objects->rows[f->touch[t].object];
-        f->motions[f->touch[t].object].velocity = body->velocity;
-        f->motions[f->touch[t].object].spin = body->spin;
+        uint32_t row = f->touch[t].object;
+        const JoxObject *body = &f->step.objects->rows[row];
+        f->motions[row] = (JoxBodyMotion){.velocity = body->velocity,
+                                          .spin = body->spin,
+                                          .yields = yields(f, row)};
     }
 }
 
-void jox_touches_prepare(JoxForces *f, bool literal) {
+void jox_touches_begin(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
+    size_t kept = 0;
+    if (!f->touch_count)
+        return;
     reset_motions(f);
-    for (uint32_t i = 0; i < f->touch_count; i++) {
-        JoxTouch *t = &f->touch[i];
+    for (uint32_t k = 0; k < f->touch_count; k++) {
+        JoxTouch *t = &f->touch[k];
         const JoxObject *body = &f->step.objects->rows[t->object];
-        float people = 1.0f / a->param[JOX_PARAM_mass][t->agent];
+        float give = jox_body_inverse_mass(body, t->point, t->normal, false);
         float restitution = jox_minf(a->param[JOX_PARAM_restitution][t->agent], body->restitution);
-        float own = jox_body_inverse_mass(body, t->point, t->normal, literal);
-        float speed = approach(f, t);
-        t->impulse = 0.0f;
-        if (literal) {
-            t->impulse = jox_contact_impulse(speed, restitution, people + own);
-            continue;
-        }
-        /* Each share of a mass that is split over its contacts. */
-        t->give =
-            people * (float)a->contacts[t->agent] + own * (float)f->motions[t->object].touches;
-        t->bounce = speed < 0.0f ? -restitution * speed : 0.0f;
-        JOX_ASSERT(t->give > 0.0f);
+        float speed = jox_dot(jox_v2(a->vx[t->agent], a->vy[t->agent]), t->normal) -
+                      speed_at(&(JoxBodyMotion){.velocity = body->velocity, .spin = body->spin},
+                               body, t->point, t->normal);
+        t->mass = 1.0f / (1.0f / a->param[JOX_PARAM_mass][t->agent] +
+                          give * f->motions[t->object].yields);
+        t->target = jox_contact_target(t->target, speed, restitution, (float)f->step.dt);
+        t->impulse = jox_kept_impulse(&f->kept_touches, &kept, a->id[t->agent], t->object);
+        JOX_ASSERT(t->mass > 0.0f);
     }
+    for (uint32_t k = 0; k < f->touch_count; k++)
+        add_impulse(f, &f->touch[k], f->touch[k].impulse);
 }
 
-/* One pass over the touches, then the bodies' motion with all impulses so far; in ascending agent
-   id, on one thread: touches are few. */
-void jox_touches_pass(JoxForces *f) {
-    for (uint32_t i = 0; i < f->touch_count; i++) {
-        JoxTouch *t = &f->touch[i];
-        t->impulse = jox_maxf(0.0f, t->impulse + (t->bounce - approach(f, t)) / t->give);
+/* In ascending agent id, on one thread: touches are few. */
+float jox_touches_pass(JoxForces *f) {
+    float most = 0.0f;
+    for (uint32_t k = 0; k < f->touch_count; k++) {
+        JoxTouch *t = &f->touch[k];
+        float speed = jox_dot(f->work[t->agent], t->normal) - jox_touch_body_speed(f, t);
+        float before = t->impulse;
+        t->impulse = jox_maxf(0.0f, before + (t->target - speed) * t->mass);
+        most = jox_maxf(most, fabsf(t->impulse - before));
+        add_impulse(f, t, t->impulse - before);
     }
-    reset_motions(f);
-    for (uint32_t i = 0; i < f->touch_count; i++) {
-        const JoxTouch *t = &f->touch[i];
-        const JoxObject *body = &f->step.objects->rows[t->object];
-        JoxBodyMotion *motion = &f->motions[t->object];
-        JoxV3 impulse = {-t->normal.x * t->impulse, -t->normal.y * t->impulse, 0.0f};
-        JoxV3 turn = jox_turn3(body->inverse_inertia, jox_cross3(arm_of(body, t->point), impulse));
-        motion->velocity.x += impulse.x * body->inverse_mass;
-        motion->velocity.y += impulse.y * body->inverse_mass;
-        motion->spin.x += turn.x;
-        motion->spin.y += turn.y;
-        motion->spin.z += turn.z;
-    }
+    return most;
 }
 
-/* Forces on the agents, impulses for the bodies: the same numbers with opposite signs. */
-void jox_touches_finish(JoxForces *f) {
-    JoxAgents *a = f->step.agents;
-    JoxForceTotals *totals = &f->totals;
-    float per_second = 1.0f / (float)f->step.dt;
+static JoxPressedBody *pressed_record(JoxForces *f, uint32_t row) {
+    const JoxObject *body = &f->step.objects->rows[row];
+    for (size_t k = 0; k < f->pressed.count; k++)
+        if (f->pressed.items[k].row == row)
+            return &f->pressed.items[k];
+    JOX_RESERVE(f->pressed.items, f->pressed.capacity, f->pressed.count + 1);
+    JoxPressedBody *record = &f->pressed.items[f->pressed.count++];
+    *record = (JoxPressedBody){
+        .row = row, .id = body->id, .velocity = body->velocity, .spin = body->spin};
+    return record;
+}
+
+/* What this step's contacts give bodies, for yields in the next. */
+static void note_pressed(JoxForces *f) {
+    f->pressed.count = 0;
     for (uint32_t k = 0; k < f->touch_count; k++) {
         const JoxTouch *t = &f->touch[k];
-        if (!(t->impulse > 0.0f))
+        const JoxObject *body = &f->step.objects->rows[t->object];
+        if (!(t->impulse > 0.0f) || !(body->inverse_mass > 0.0f))
+            continue;
+        JoxPressedBody *p = pressed_record(f, t->object);
+        JoxV3 impulse = {-t->normal.x * t->impulse, -t->normal.y * t->impulse, 0.0f};
+        JoxV3 angular = jox_cross3(jox_arm_of(body, t->point), impulse);
+        p->impulse = (JoxV3){p->impulse.x + impulse.x, p->impulse.y + impulse.y, 0.0f};
+        p->angular = (JoxV3){p->angular.x + angular.x, p->angular.y + angular.y,
+                             p->angular.z + angular.z};
+    }
+    size_t kept = 0;
+    for (size_t k = 0; k < f->pressed.count; k++) {
+        JoxPressedBody *p = &f->pressed.items[k];
+        const JoxObject *body = &f->step.objects->rows[p->row];
+        p->work = jox_dot3(p->impulse, p->impulse) * body->inverse_mass +
+                  jox_dot3(p->angular, jox_turn3(body->inverse_inertia, p->angular));
+        if (p->work > 0.0f)
+            f->pressed.items[kept++] = *p;
+    }
+    f->pressed.count = kept;
+}
+
+/* Impulses for the bodies: what people got, with the opposite sign. */
+void jox_touches_finish(JoxForces *f) {
+    const JoxAgents *a = f->step.agents;
+    JoxForceTotals *totals = &f->totals;
+    JOX_RESERVE(f->kept_touches.items, f->kept_touches.capacity, f->touch_count);
+    f->kept_touches.count = f->touch_count;
+    for (uint32_t k = 0; k < f->touch_count; k++) {
+        const JoxTouch *t = &f->touch[k];
+        f->kept_touches.items[k] = (JoxKeptImpulse){a->id[t->agent], t->object, t->impulse};
+        if (!(t->impulse > 0.0f) || !(f->step.objects->rows[t->object].inverse_mass > 0.0f))
             continue;
         JOX_ASSERT(jox_is_unit(t->normal) && t->agent < a->count);
         JoxV2 impulse = jox_scale(t->normal, t->impulse);
-        uint32_t i = t->agent;
-        a->contact_x[i] += impulse.x * per_second;
-        a->contact_y[i] += impulse.y * per_second;
-        a->compression[i] +=
-            t->impulse * per_second / jox_circumference(a->param[JOX_PARAM_radius][i]);
-        if (!(f->step.objects->rows[t->object].inverse_mass > 0.0f))
-            continue;
-        totals->touched_x += (double)(impulse.x * per_second) * f->step.dt;
-        totals->touched_y += (double)(impulse.y * per_second) * f->step.dt;
+        totals->touched_x += (double)impulse.x;
+        totals->touched_y += (double)impulse.y;
         totals->touched += t->impulse;
-        jox_force_add_impulse(f, a->id[i], t->object, (JoxV3){-impulse.x, -impulse.y, 0.0f},
-                              t->point);
+        jox_force_add_impulse(f, a->id[t->agent], t->object,
+                              (JoxV3){-impulse.x, -impulse.y, 0.0f}, t->point);
     }
+    note_pressed(f);
 }
