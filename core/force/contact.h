@@ -49,7 +49,7 @@ typedef struct JoxTouch {
     uint32_t agent, object;
     JoxV2 normal;
     JoxV3 point;
-    float target, mass, impulse;
+    float gap, target, mass, impulse; /* m, m/s, kg, N s */
 } JoxTouch;
 
 /* An agent's end of a contact with another. */

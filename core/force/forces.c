@@ -7,7 +7,7 @@
 #include "force/internal.h"
 
 JoxForceOptions jox_force_default_options(void) {
-    return (JoxForceOptions){.iterations = 4, .reach = 0.6f, .filter = 0.13f, .least = 0.05f};
+    return (JoxForceOptions){.iterations = 60, .tolerance = 1.0f, .reach = 0.6f, .filter = 0.13f, .least = 0.05f};
 }
 
 void jox_forces_set_options(JoxForces *f, const JoxForceOptions *options) {
@@ -27,17 +27,48 @@ void jox_forces_free(JoxForces *f) {
                      f->transfers.counts,
                      f->starts,
                      f->sorted,
-                     f->pairs.items,
-                     f->pairs.counts,
+                     f->found.items,
+                     f->found.counts,
+                     f->found_walls.items,
+                     f->found_walls.counts,
                      f->touches.items,
                      f->touches.counts,
+                     f->found_first,
+                     f->wall_first,
+                     f->found_number,
+                     f->wall_number,
+                     f->pairs.first,
+                     f->pairs.second,
+                     f->pairs.nx,
+                     f->pairs.ny,
+                     f->pairs.target,
+                     f->pairs.mass,
+                     f->pairs.impulse,
+                     f->pairs.place,
+                     f->colours_of,
                      f->ends,
+                     f->end_starts,
+                     f->wall,
+                     f->wall_group,
                      f->touch,
-                     f->first_touch,
+                     f->touch_first,
                      f->touch_number,
                      f->motions,
-                     f->work_x,
-                     f->work_y,
+                     f->work,
+                     f->lightness,
+                     f->residuals,
+                     f->braced,
+                     f->forced,
+                     f->planes.starts,
+                     f->planes.people,
+                     f->planes.bodies,
+                     f->planes.planes,
+                     f->pieces,
+                     f->piece_first,
+                     f->kept_pairs.items,
+                     f->kept_walls.items,
+                     f->kept_touches.items,
+                     f->pressed.items,
                      f->grid.starts,
                      f->grid.members,
                      f->pending,
@@ -56,8 +87,9 @@ static float widest_reach(JoxForces *f) {
     float reach = 0.0f;
     f->widest = 0.0f;
     for (uint32_t i = 0; i < a->count; i++) {
-        float own = a->param[JOX_PARAM_radius][i] + a->param[JOX_PARAM_push_reach][i];
-        reach = jox_maxf(reach, own);
+        float least = JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
+        float own = a->param[JOX_PARAM_radius][i];
+        reach = jox_maxf(reach, own + jox_maxf(least, a->param[JOX_PARAM_push_reach][i]));
         f->widest = jox_maxf(f->widest, a->param[JOX_PARAM_radius][i]);
     }
     return reach;
@@ -81,7 +113,8 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
         f->step.planning_time = step->dt;
     f->totals = (JoxForceTotals){0};
     f->pending_count = f->pending_sorted = 0;
-    f->touch_count = 0;
+    f->touch_count = f->wall_count = f->pairs.count = 0;
+    f->pushed = f->contacts_known = false;
     JoxAgents *a = step->agents;
     uint32_t n = a->count;
     f->chunks = (n + JOX_FORCE_GRAIN - 1) / JOX_FORCE_GRAIN;
@@ -91,9 +124,12 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_RESERVE(f->old_y, f->old_y_capacity, n);
     if (f->chunks)
         memset(f->chunk, 0, f->chunks * sizeof *f->chunk);
+    JOX_RESERVE(f->braced, f->braced_capacity, n);
     if (n) {
         zero_terms(a);
+        memset(f->braced, 0, n * sizeof *f->braced);
         memset(a->compression, 0, n * sizeof *a->compression);
+        memset(a->load, 0, n * sizeof *a->load);
         memset(a->contacts, 0, n);
     }
     f->grid.columns = 0;
@@ -101,6 +137,18 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     float reach = widest_reach(f);
     if (n && step->objects && step->objects->count)
         jox_body_grid_fill(&f->grid, step->objects, reach);
+}
+
+static void list_kept(JoxSections *s, const char *name, JoxKeptImpulses *kept) {
+    JOX_SECTION_ARRAY(s, name, kept->items, kept->count, kept->capacity);
+}
+
+void jox_forces_sections(JoxForces *f, JoxSections *s) {
+    jox_sections_module(s, "force");
+    list_kept(s, "pairs", &f->kept_pairs);
+    list_kept(s, "walls", &f->kept_walls);
+    list_kept(s, "touches", &f->kept_touches);
+    JOX_SECTION_ARRAY(s, "pressed", f->pressed.items, f->pressed.count, f->pressed.capacity);
 }
 
 JoxForceTotals jox_force_totals(const JoxForces *f) {

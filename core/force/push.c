@@ -13,7 +13,7 @@ typedef struct Target {
     float gap;
 } Target;
 
-enum { MOST_TARGETS = JOX_MOST_NEIGHBOURS + JOX_FORCE_MOST_TOUCHES };
+enum { MOST_TARGETS = JOX_MOST_NEIGHBOURS + JOX_MOST_BODIES_TOUCHED };
 
 static JoxV2 aim_of(const JoxForceStep *step, uint32_t i) {
     const JoxAgents *a = step->agents;
@@ -57,7 +57,7 @@ static uint32_t bodies_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
     uint64_t only = a->push_only[i];
     const uint32_t *members = NULL;
     uint32_t count = jox_body_grid_near(&f->grid, a->x[i], a->y[i], &members), n = 0;
-    for (uint32_t m = 0; m < count && n < JOX_FORCE_MOST_TOUCHES; m++) {
+    for (uint32_t m = 0; m < count && n < JOX_MOST_BODIES_TOUCHED; m++) {
         const JoxObject *body = &f->step.objects->rows[members[m]];
         if (only && !(body->tags & only))
             continue;
@@ -136,6 +136,7 @@ static void push_by(JoxForces *f, uint32_t chunk, uint32_t i) {
     }
     struct JoxForceChunk *totals = &f->chunk[chunk];
     totals->pushers++;
+    f->braced[i] = jox_scale(sum, -1.0f);
     if (f->options.react) {
         list[f->transfers.counts[chunk]++] = (JoxTransfer){i, a->id[i], -sum.x, -sum.y};
     } else {
@@ -159,7 +160,7 @@ void jox_force_push(JoxForces *f) {
     float dt = (float)f->step.dt;
     uint32_t room = JOX_FORCE_GRAIN * (f->step.neighbours->stride + 1);
     jox_chunks_begin(&f->transfers, f->chunks, room, sizeof(JoxTransfer));
-    jox_chunks_begin(&f->touches, f->chunks, JOX_FORCE_GRAIN * JOX_FORCE_MOST_TOUCHES,
+    jox_chunks_begin(&f->touches, f->chunks, JOX_FORCE_GRAIN * JOX_MOST_BODIES_TOUCHED,
                      sizeof(JoxTouch));
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, push_chunk, f);
     int64_t ground_x = 0, ground_y = 0;
@@ -179,6 +180,7 @@ void jox_force_push(JoxForces *f) {
     }
     f->totals.ground_x = (double)ground_x / 1048576.0;
     f->totals.ground_y = (double)ground_y / 1048576.0;
-    if (jox_transfers_sort(f))
-        jox_transfers_sum(f, a->push_x, a->push_y, a->compression);
+    f->pushed = jox_transfers_sort(f) > 0;
+    if (f->pushed)
+        jox_transfers_sum(f, a->push_x, a->push_y);
 }

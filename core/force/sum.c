@@ -69,6 +69,7 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
 
 void jox_force_sum(JoxForces *f) {
     jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, sum_chunk, f);
+    jox_contact_planes_make(f);
 }
 
 /* Those in reach within the cone about `axis`: their indices, in the order of nearness. */
@@ -190,5 +191,5 @@ void jox_force_infer(JoxForces *f) {
     if (!f->totals.passed)
         return;
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, scale_chunk, f);
-    jox_transfers_sum(f, a->inferred_x, a->inferred_y, NULL);
+    jox_transfers_sum(f, a->inferred_x, a->inferred_y);
 }

@@ -50,12 +50,38 @@ static bool half_plane_of(const JoxAgents *a, uint32_t i, const JoxObject *o, fl
     return jox_length2(normal) > 0.0f;
 }
 
+static bool is_touched(const JoxContactPlanes *t, uint32_t i, uint32_t row) {
+    const JoxContactPlane *planes = t ? t->planes + t->starts[i] + t->people[i] : NULL;
+    for (uint32_t k = 0; t && k < t->bodies[i]; k++)
+        if (planes[k].other == row)
+            return true;
+    return false;
+}
+
+float jox_object_overlap(const JoxObject *o, JoxV2 at, float radius, JoxV2 *normal) {
+    JoxV2 p = {o->position.x - at.x, o->position.y - at.y};
+    float sum = radius + (o->footprint_count ? o->disc : o->round), d2 = jox_length2(p);
+    if (!o->live || !o->in_band || d2 > sum * sum)
+        return 0.0f;
+    bool inside = false;
+    JoxV2 side = o->footprint_count ? footprint_nearest(o, at, &inside) : at;
+    JoxV2 out_way = o->footprint_count ? jox_sub(at, side) : jox_scale(p, -1.0f);
+    float distance = jox_length(out_way);
+    *normal = distance > 1e-6f ? jox_scale(out_way, (inside ? -1.0f : 1.0f) / distance)
+                               : jox_unit(jox_scale(p, -1.0f));
+    if (!o->footprint_count)
+        return jox_maxf(0.0f, sum - distance);
+    return jox_maxf(0.0f, radius - (inside ? -distance : distance));
+}
+
 uint32_t jox_orca_objects(const JoxAgents *a, uint32_t i, const JoxObjects *objects,
-                          float planning_time, JoxHalfPlane *out, uint32_t most) {
+                          const JoxContactPlanes *touched, float planning_time, JoxHalfPlane *out,
+                          uint32_t most) {
     uint32_t made = 0;
     for (uint32_t o = 0; o < objects->count && made < most; o++) {
         const JoxObject *object = &objects->rows[o];
-        if (object->live && object->in_band && !(object->tags & a->ignore[i]))
+        if (object->live && object->in_band && !(object->tags & a->ignore[i]) &&
+            !is_touched(touched, i, o))
             made += half_plane_of(a, i, object, planning_time, a->approach[i] == (int32_t)o,
                                   &out[made]);
     }

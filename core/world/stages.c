@@ -44,6 +44,7 @@ void jox_stage_push(const JoxPushStage *s) {
     JoxForceStep step = {.agents = s->agents,
                          .neighbours = s->neighbours,
                          .objects = s->objects,
+                         .walls = jox_nav_touching_walls(s->nav, s->neighbours, s->agents),
                          .pool = s->pool,
                          .dt = s->substep->dt,
                          .planning_time = s->substep->planning_time,
@@ -66,15 +67,17 @@ void jox_stage_push(const JoxPushStage *s) {
 
 void jox_stage_solve(const JoxSolveStage *s) {
     s->statistics->walls_relaxed += jox_nav_solve(s->nav, s->agents, s->neighbours, s->objects,
+                                                  jox_force_contact_planes(s->forces_of),
                                                   s->substep->planning_time, s->pool);
     jox_inspect_solved(s->inspection, s->agents, s->nav, s->neighbours, s->objects,
-                       s->substep->planning_time);
+                       jox_force_contact_planes(s->forces_of), s->substep->planning_time);
 }
 
 void jox_stage_move(const JoxMoveStage *s) {
     JoxAgents *a = s->agents;
     JOX_ASSERT(s->substep->only || a->count == 0 || s->walked);
-    jox_nav_move(s->nav, a, s->neighbours, s->substep->dt, s->substep->planning_time, s->pool);
+    jox_nav_move(s->nav, a, s->neighbours, s->objects, jox_force_contact_planes(s->forces_of),
+                 s->substep->dt, s->substep->planning_time, s->pool);
     for (uint32_t i = 0; !s->substep->only && i < a->count; i++) {
         JoxV2 way = {a->x[i] - a->prev_x[i], a->y[i] - a->prev_y[i]};
         s->walked[i] = s->substep->first ? way : jox_add(s->walked[i], way);

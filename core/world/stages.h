@@ -54,10 +54,11 @@ typedef struct JoxPushStage {
     JoxPool *pool;
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
+    JoxNav *nav; /* its grid of walls */
     const JoxMachineRun *machines; /* who pushes, and whereto */
     JoxForces *forces_of;
     JoxAgents
-        *agents; /* push, contact, force, plane, disc, compression, contacts; ext is used up */
+        *agents; /* push, contact, force, plane, disc, compression, load, contacts; ext is used up */
     JoxInspection *inspection;
 } JoxPushStage;
 void jox_stage_push(const JoxPushStage *stage);
@@ -67,6 +68,7 @@ typedef struct JoxSolveStage {
     JoxPool *pool;
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
+    const JoxForces *forces_of; /* half-planes of what is touched */
     JoxNav *nav;
     JoxAgents *agents; /* next, failed */
     JoxInspection *inspection;
@@ -78,6 +80,8 @@ typedef struct JoxMoveStage {
     const JoxSubstep *substep;
     JoxPool *pool;
     const JoxNeighbours *neighbours;
+    const JoxObjects *objects;
+    const JoxForces *forces_of; /* who touches whom */
     JoxNav *nav;
     JoxAgents *agents; /* position, velocity, prev, still */
     JoxV2 *walked;     /* per agent, m: during the substeps so far; only where there are several */

@@ -1,0 +1,97 @@
+/* The half-planes of what agents touch, from the velocities that the forces alone would give all of
+   them over the time planned for: two that touch may move in the normal direction as their mean
+   does, so that neither plans to move into the other. What is being pushed may brake by its feet;
+   what follows another that recedes need not. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "force/equations.h"
+#include "force/internal.h"
+
+/* Velocity that forces alone give agent i over the time planned for, without feet, m/s. */
+static void forced_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    const JoxAgents *a = f->step.agents;
+    const float time = (float)f->step.planning_time, *mass = a->param[JOX_PARAM_mass];
+    for (uint32_t i = begin; i < end; i++)
+        f->forced[i] = jox_v2(a->vx[i] + a->force_x[i] * time / mass[i],
+                              a->vy[i] + a->force_y[i] * time / mass[i]);
+}
+
+static inline float braked(float speed, float damping, float time) {
+    return speed > 0.0f ? speed * jox_maxf(0.0f, 1.0f - damping * time) : speed;
+}
+
+/* The agents that i touches: those that press on it or that it overlaps. */
+static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out) {
+    const JoxAgents *a = f->step.agents;
+    const JoxPairs *p = &f->pairs;
+    const float time = (float)f->step.planning_time, damping = a->param[JOX_PARAM_damping][i];
+    uint32_t n = 0;
+    for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1]; k++) {
+        uint32_t at = f->ends[k].pair, j = f->ends[k].other;
+        if (!(p->impulse[at] > 0.0f || p->target[at] >= 0.0f) || n == JOX_MOST_TOUCHED)
+            continue;
+        float sign = p->first[at] == i ? 1.0f : -1.0f;
+        JoxV2 normal = {sign * p->nx[at], sign * p->ny[at]};
+        JoxV2 mean = jox_scale(jox_add(f->forced[i], f->forced[j]), 0.5f);
+        float gap = p->target[at] < 0.0f ? -p->target[at] * (float)f->step.dt : 0.0f;
+        float speed = jox_dot(mean, normal) - 0.5f * gap / time;
+        out[n++] = (JoxContactPlane){normal, braked(speed, damping, time), j};
+    }
+    return n;
+}
+
+static uint32_t body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out) {
+    const float time = (float)f->step.planning_time, share = time / (float)f->step.dt;
+    const float damping = f->step.agents->param[JOX_PARAM_damping][i];
+    uint32_t n = 0;
+    for (uint32_t k = 0; k < jox_touches_of(f, i); k++) {
+        const JoxTouch *t = &f->touch[f->touch_first[i] + k];
+        if (!(t->impulse > 0.0f || t->gap <= 0.0f))
+            continue;
+        float before = jox_touch_speed_before(f, t);
+        float speed = before + (jox_touch_speed_after(f, t) - before) * share;
+        speed -= jox_maxf(t->gap, 0.0f) / time;
+        out[n++] = (JoxContactPlane){t->normal, braked(speed, damping, time), t->object};
+    }
+    return n;
+}
+
+static void plane_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    JoxContactPlanes *planes = &f->planes;
+    for (uint32_t i = begin; i < end; i++) {
+        JoxContactPlane *own = planes->planes + planes->starts[i];
+        planes->people[i] = (uint8_t)people_planes(f, i, own);
+        planes->bodies[i] = (uint8_t)body_planes(f, i, own + planes->people[i]);
+    }
+}
+
+void jox_contact_planes_make(JoxForces *f) {
+    uint32_t n = f->step.agents->count;
+    JoxContactPlanes *planes = &f->planes;
+    planes->agents = 0;
+    if (!f->contacts_known || f->options.literal || n == 0)
+        return;
+    JOX_RESERVE(planes->starts, planes->starts_capacity, n);
+    JOX_RESERVE(planes->people, planes->people_capacity, n);
+    JOX_RESERVE(planes->bodies, planes->bodies_capacity, n);
+    JOX_RESERVE(f->forced, f->forced_capacity, n);
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        planes->starts[i] = most;
+        most += f->end_starts[i + 1] - f->end_starts[i] + jox_touches_of(f, i);
+    }
+    JOX_RESERVE(planes->planes, planes->plane_capacity, most > 8 * n ? most : 8 * n);
+    planes->agents = n;
+    jox_parallel_for(f->step.pool, n, JOX_FORCE_GRAIN, forced_chunk, f);
+    jox_parallel_for(f->step.pool, n, JOX_FORCE_GRAIN, plane_chunk, f);
+}
+
+const JoxContactPlanes *jox_force_contact_planes(const JoxForces *f) {
+    return &f->planes;
+}
