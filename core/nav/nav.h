@@ -34,9 +34,12 @@ void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPoo
 const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neighbours,
                                           const JoxAgents *agents);
 /* solve: next_x, next_y, the velocity to have `planning_time` seconds from now; sets failed where
-   there is none that meets all half-planes. Returns how many agents had a wall relaxed. */
+   there is none that meets all half-planes. What agents touch is solved by its contact planes,
+   which are hard as walls are, where `touched` has them. Returns how many agents had a hard
+   half-plane relaxed. */
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
-                       const JoxObjects *objects, double planning_time, JoxPool *pool);
+                       const JoxObjects *objects, const JoxContactPlanes *touched,
+                       double planning_time, JoxPool *pool);
 /* One of an agent's half-planes: it allows the velocities v with normal . v >= offset, m/s. */
 typedef enum JoxConstraintKind {
     JOX_CONSTRAINT_WALL,
