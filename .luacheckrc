@@ -24,6 +24,7 @@ std = {
     "headway",
     "pushed",
     "compression",
+    "load",
     "contacts",
     "time_in_state",
     "min",

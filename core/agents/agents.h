@@ -55,7 +55,10 @@
     JOX_FORCE_TERMS(JOX_FORCE_TERM_COLUMNS, X)                                                     \
     X(STATE, float, force_x) /* net force of this step, equation 10, N */                          \
     X(STATE, float, force_y)                                                                       \
-    X(STATE, float, compression)    /* sum of |f.n| of contacts over circumference, N/m */         \
+    X(STATE, float, compression) /* sum of |f.n| of contacts over circumference, N/m */            \
+    /* Greatest push borne from any one direction, N: over directions d, the sum of the positive   \
+       parts of f.d over the contacts. */                                                          \
+    X(STATE, float, load)                                                                          \
     X(SCRATCH, float, half_plane_x) /* force half-plane: unit normal; (0, 0) means none */         \
     X(SCRATCH, float, half_plane_y)                                                                \
     X(SCRATCH, float, half_plane_offset) /* (v . normal) >= offset, m/s */                         \

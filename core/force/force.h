@@ -59,7 +59,7 @@ JoxForces *jox_forces_create(const JoxForceOptions *options);
 void jox_forces_free(JoxForces *forces);
 void jox_forces_set_options(JoxForces *forces, const JoxForceOptions *options);
 
-/* Starts a step: push, contact, compression and contacts become zero, the impulses empty. */
+/* Starts a step: push, contact, compression, load and contacts become zero, the impulses empty. */
 void jox_force_begin(JoxForces *forces, const JoxForceStep *step);
 /* Equation 5: push_x, push_y of those that are pushed; impulses on bodies. */
 void jox_force_push(JoxForces *forces);

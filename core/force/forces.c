@@ -94,6 +94,7 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     if (n) {
         zero_terms(a);
         memset(a->compression, 0, n * sizeof *a->compression);
+        memset(a->load, 0, n * sizeof *a->load);
         memset(a->contacts, 0, n);
     }
     f->grid.columns = 0;

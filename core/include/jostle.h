@@ -111,7 +111,9 @@ typedef struct JoAgentState {
     double x, y;        /* m */
     double vx, vy;      /* m/s */
     double fx, fy;      /* net force of the last step, N */
-    double compression; /* N per metre of circumference */
+    double compression; /* sum of the contact forces' magnitudes over the circumference, N/m */
+    double load;        /* greatest push borne from any one direction, N: over directions d, the
+                           greatest sum of the positive parts of f.d over the contacts f */
     double radius;      /* m */
     const char *state;  /* of its machine; "" without one; valid until the next call on the world */
 } JoAgentState;

@@ -105,9 +105,9 @@ typedef struct JoRenderDef {
                                 most 30 a second */
     uint32_t width, height;  /* pixels, 320 to 8192; 0: what suits the area */
     const double *area;      /* x0, y0, x1, y1, m; NULL: all */
-    const char *colour;      /* "state", "group", "speed", "force", "compression", "density" or
-                                "none", or as "speed:1.5" with the value at the bar's end; NULL:
-                                state or, where none is known, group or speed */
+    const char *colour;      /* "state", "group", "speed", "force", "compression", "load",
+                                "density" or "none", or as "speed:1.5" with the value at the bar's end;
+                                NULL:      state or, where none is known, group or speed */
     const char *field;       /* "density" or "pressure", or with a value; NULL: a bare floor */
     bool paths;              /* draws where people went until then */
     bool progress;           /* on stderr, as jo_scene_show_progress */

@@ -161,7 +161,7 @@ static void add_last(const JoScene *scene, uint32_t i, const JoxWatched *watched
     jox_json_end(json);
 }
 
-static void add_step(const JoxInspected *seen, double compression, JoxJson *json) {
+static void add_step(const JoxInspected *seen, double compression, double load, JoxJson *json) {
     static const char *const PLANES[] = {"wall", "agent", "body", "force"};
     jox_json_array(json, "planes");
     for (uint32_t p = 0; p < seen->plane_count; p++) {
@@ -187,6 +187,7 @@ static void add_step(const JoxInspected *seen, double compression, JoxJson *json
     }
     jox_json_end(json);
     add_figure(json, "compression", compression);
+    add_figure(json, "load", load);
 }
 
 bool jox_live_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
@@ -204,7 +205,7 @@ bool jox_live_inspect(JoScene *scene, uint32_t slot, JoxJson *json) {
     add_own_values(scene, i, json);
     add_last(scene, i, watched, json);
     jox_json_bool(json, "seen", seen->seen);
-    add_step(seen, (double)a->compression[i], json);
+    add_step(seen, (double)a->compression[i], (double)a->load[i], json);
     return true;
 }
 

@@ -26,6 +26,7 @@ void jox_bytes_free(JoxBytes *bytes);
     X(speed, 2, "m/s")                                                                             \
     X(force, 500, "N") /* magnitude of the net force */                                            \
     X(compression, 1000, "N/m")                                                                    \
+    X(load, 1112, "N") /* greatest push from any one direction */                                  \
     X(density, 8, "1/m2")                                                                          \
     X(group, 255, "") /* value is the number of the group */
 typedef enum JoxLiveColour {

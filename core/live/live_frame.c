@@ -183,6 +183,7 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
     crowd.flags = live->flags;
     crowd.value = colour == JOX_LIVE_COLOUR_force         ? fill_forces(live, a)
                   : colour == JOX_LIVE_COLOUR_compression ? a->compression
+                  : colour == JOX_LIVE_COLOUR_load        ? a->load
                   : colour == JOX_LIVE_COLOUR_density     ? a->density
                                                           : NULL;
     const JoxLiveHead head = {.tick = (uint32_t)world->state.tick,

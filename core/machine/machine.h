@@ -15,6 +15,10 @@ enum { JOX_MOST_TRANSITIONS = 32, JOX_MOST_REGISTERS = 32, JOX_MOST_TERMS = 8 };
 /* Greatest weight of a steering term, of either sign. */
 enum { JOX_MOST_WEIGHT = 1000000 };
 
+#define JOX_LOAD_MEANING                                                                           \
+    "greatest push borne from any one direction: over directions d, the greatest sum of the "      \
+    "positive parts of f.d over its contacts f"
+
 /* What is measured of the agent itself. A row is all there is to one: its name (`now.NAME`), its
    unit, what it means, and its value for agent `i` of a run, whose columns are `a`. Those of
    JOX_MEASURED_WORDS are also words by themselves, given in the second place. */
@@ -29,6 +33,7 @@ enum { JOX_MOST_WEIGHT = 1000000 };
       jox_length((JoxV2){a->force_x[i], a->force_y[i]}))                                           \
     X(compression, compression, "N/m", "sum of contact force magnitudes over circumference",       \
       a->compression[i])                                                                           \
+    X(load, load, "N", JOX_LOAD_MEANING, a->load[i])                                               \
     X(contacts, contacts, "", "agents and bodies touched", a->contacts[i])                         \
     X(time_in_state, time_in_state, "s", "since the state was entered", jox_time_in_state(run, i))
 #define JOX_MEASURED_OTHERS(X)                                                                     \

@@ -3,7 +3,6 @@
 
 #include "base/assert.h"
 #include "base/random.h"
-#include "geom/polygon.h"
 #include "nav/internal.h"
 
 enum {
@@ -49,64 +48,6 @@ static uint32_t agent_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *out)
     return made;
 }
 
-/* Nearest point of an object's footprint, and whether `at` is inside it. */
-static JoxV2 footprint_nearest(const JoxObject *o, JoxV2 at, bool *inside) {
-    *inside = o->footprint_count > 0 && jox_polygon_contains(o->footprint, o->footprint_count, at);
-    JoxV2 best = {o->position.x, o->position.y};
-    float least = INFINITY;
-    for (uint32_t i = 0; i < o->footprint_count; i++) {
-        JoxV2 q =
-            jox_segment_nearest(o->footprint[i], o->footprint[(i + 1) % o->footprint_count], at);
-        float d = jox_length2(jox_sub(at, q));
-        if (d < least) {
-            least = d;
-            best = q;
-        }
-    }
-    return best;
-}
-
-/* An object: its bounding disc from outside; within that disc, the nearest side of its true
-   footprint, so that one can walk along a long wall. Objects never reciprocate: share 1. */
-static bool object_half_plane(const Solve *s, uint32_t i, const JoxObject *o, bool approached,
-                              JoxHalfPlane *out) {
-    const JoxAgents *a = s->agents;
-    JoxV2 at = {a->x[i], a->y[i]}, own = {a->vx[i], a->vy[i]};
-    JoxV2 p = {o->position.x - at.x, o->position.y - at.y};
-    JoxV2 moving = {o->velocity.x, o->velocity.y}, v = jox_sub(own, moving);
-    float radius = a->param[JOX_PARAM_radius][i], reach = a->param[JOX_PARAM_perception][i];
-    float d2 = jox_length2(p), sum = radius + o->disc;
-    if (d2 > (reach + o->disc) * (reach + o->disc))
-        return false;
-    float tau = approached ? s->planning_time : a->param[JOX_PARAM_horizon][i];
-    if (d2 > sum * sum || o->footprint_count == 0) {
-        float disc = o->footprint_count == 0 ? o->round : o->disc;
-        *out = jox_orca_half_plane(p, v, radius + disc, tau, s->planning_time, own, 1.0f,
-                                   (JoxV2){1.0f, 0.0f});
-        return true;
-    }
-    bool inside;
-    JoxV2 side = footprint_nearest(o, at, &inside), out_way = jox_sub(at, side);
-    float distance = jox_length(out_way);
-    JoxV2 normal = distance > 1e-6f ? jox_scale(out_way, (inside ? -1.0f : 1.0f) / distance)
-                                    : jox_unit(jox_scale(p, -1.0f));
-    float gap = (inside ? -distance : distance) - radius;
-    float time = gap < 0.0f ? s->planning_time : tau;
-    *out = (JoxHalfPlane){normal, jox_dot(moving, normal) - gap / time};
-    return jox_length2(normal) > 0.0f;
-}
-
-static uint32_t object_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *out) {
-    const JoxAgents *a = s->agents;
-    uint32_t made = 0;
-    for (uint32_t o = 0; o < s->objects->count && made < MOST_OBJECTS; o++) {
-        const JoxObject *object = &s->objects->rows[o];
-        if (object->live && object->in_band && !(object->tags & a->ignore[i]))
-            made += object_half_plane(s, i, object, a->approach[i] == (int32_t)o, &out[made]);
-    }
-    return made;
-}
-
 /* How many half-planes of each kind, in their order, which is that of JoxConstraintKind. */
 typedef struct Counts {
     uint32_t walls, agents, objects, force;
@@ -122,7 +63,8 @@ static inline Counts make_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *
             tau * a->param[JOX_PARAM_max_speed][i] + radius, half_planes, MOST_WALLS);
     made.agents = agent_half_planes(s, i, half_planes + made.walls);
     if (s->objects && s->objects->count)
-        made.objects = object_half_planes(s, i, half_planes + made.walls + made.agents);
+        made.objects = jox_orca_objects(a, i, s->objects, s->planning_time,
+                                        half_planes + made.walls + made.agents, MOST_OBJECTS);
     made.force = a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f;
     if (made.force)
         half_planes[made.walls + made.agents + made.objects] =

@@ -18,6 +18,7 @@ typedef enum JoxShow {
     JOX_SHOW_SPEED,
     JOX_SHOW_FORCE,
     JOX_SHOW_COMPRESSION,
+    JOX_SHOW_LOAD,
     JOX_SHOW_DENSITY,
     JOX_SHOW_PRESSURE, /* of the floor alone */
     JOX_SHOWS

@@ -49,6 +49,9 @@ static float share(const JoxPicture *p, uint32_t i) {
     case JOX_SHOW_COMPRESSION:
         value = frame->compression[i];
         break;
+    case JOX_SHOW_LOAD:
+        value = frame->load[i];
+        break;
     case JOX_SHOW_DENSITY:
         value = p->density[i];
         break;

@@ -12,6 +12,7 @@ const struct JoxShown jox_shown[JOX_SHOWS] = {
     {"speed", "Speed, m/s", 2},
     {"force", "Net force, N", 500},
     {"compression", "Compression, N/m", 2000},
+    {"load", "Load from one side, N", 1112},
     {"density", "Density, 1/m\xc2\xb2", 8},
     {"pressure", "Crowd pressure, 1/s\xc2\xb2", 0.04f},
 };

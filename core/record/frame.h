@@ -20,6 +20,7 @@ typedef struct JoxFrame {
     const float *radius;       /* m */
     const float *force;        /* magnitude of the net force, N */
     const float *compression;  /* sum of contact force magnitudes over circumference, N/m */
+    const float *load;         /* greatest push borne from any one direction, N */
     const uint8_t *failed;     /* 1 where the 2-D program had no solution */
     const uint16_t *group;     /* index of the scene's group */
     const char *const *groups; /* their names */

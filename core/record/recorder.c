@@ -105,6 +105,7 @@ static bool write_rows(JoxRecorder *r, const Frame *f) {
         sqlite3_bind_double(r->agent, 4, row->force);
         sqlite3_bind_double(r->agent, 5, row->compression);
         sqlite3_bind_int64(r->agent, 6, row->group);
+        sqlite3_bind_double(r->agent, 7, row->load);
         if (!put(r, r->row) || !put(r, r->agent))
             return false;
         r->low_x = fmin(r->low_x, row->x), r->high_x = fmax(r->high_x, row->x);
@@ -179,7 +180,7 @@ static const char SCHEMA[] =
     "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"
     "CREATE INDEX frame_id_idx ON trajectory_data(frame, id);"
     "CREATE TABLE jostle_agent(frame INTEGER, id INTEGER, state INTEGER, force REAL,"
-    " compression REAL, member INTEGER);"
+    " compression REAL, member INTEGER, load REAL);"
     "CREATE TABLE jostle_group(number INTEGER PRIMARY KEY, name TEXT);"
     "CREATE TABLE jostle_state(number INTEGER PRIMARY KEY, machine TEXT, state TEXT);"
     "CREATE TABLE jostle_body(frame INTEGER, id INTEGER, x REAL, y REAL, z REAL, qx REAL, qy REAL,"
@@ -203,7 +204,7 @@ static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
     sqlite3_finalize(geometry);
     return good && run(r, "COMMIT") &&
            prepare(r, &r->row, "INSERT INTO trajectory_data VALUES(?, ?, ?, ?, ?, ?)") &&
-           prepare(r, &r->agent, "INSERT INTO jostle_agent VALUES(?, ?, ?, ?, ?, ?)") &&
+           prepare(r, &r->agent, "INSERT INTO jostle_agent VALUES(?, ?, ?, ?, ?, ?, ?)") &&
            prepare(r, &r->body, "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
            prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
 }

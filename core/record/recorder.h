@@ -20,6 +20,7 @@ typedef struct JoxRecordRow {
     uint32_t state;     /* number in jostle_state */
     float force;        /* N */
     float compression;  /* N/m */
+    float load;         /* N */
     uint16_t group;     /* number in jostle_group */
 } JoxRecordRow;
 typedef struct JoxRecordBody {

@@ -58,6 +58,7 @@ static void permute(JoxTrajectories *t, const Place *places) {
     PERMUTE(vy)
     PERMUTE(force)
     PERMUTE(compression)
+    PERMUTE(load)
     PERMUTE(group)
     PERMUTE(state)
     PERMUTE(face_x)

@@ -24,9 +24,9 @@ typedef struct JoxTrajectories {
     int64_t *number; /* of each row: its frame */
     uint32_t *key;   /* the file's ids, or their ranks where these are not numbers below 2^22 */
     float *x, *y, *vx, *vy;
-    float *force, *compression; /* NULL unless recorded */
-    uint16_t *group;            /* NULL unless recorded */
-    char **groups;              /* names */
+    float *force, *compression, *load; /* NULL unless recorded */
+    uint16_t *group;                   /* NULL unless recorded */
+    char **groups;                     /* names */
     uint32_t group_count;
     uint32_t *state; /* rows of `states`; NULL unless recorded */
     char **states;   /* names; the first, "", is of who has no machine */

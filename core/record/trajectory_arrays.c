@@ -36,6 +36,7 @@ bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out)
                       .vy = t->vy + first,
                       .force = t->force ? t->force + first : NULL,
                       .compression = t->compression ? t->compression + first : NULL,
+                      .load = t->load ? t->load + first : NULL,
                       .group = t->group ? t->group + first : NULL,
                       .groups = (const char *const *)t->groups,
                       .group_count = t->group_count,
@@ -48,9 +49,9 @@ bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out)
 void jox_trajectories_free(JoxTrajectories *t) {
     if (!t)
         return;
-    void *columns[] = {t->number, t->id,    t->line,  t->key,    t->x,
-                       t->y,      t->vx,    t->vy,    t->force,  t->compression,
-                       t->group,  t->first, t->state, t->face_x, t->face_y};
+    void *columns[] = {t->number, t->id,    t->line,   t->key,         t->x,    t->y,
+                       t->vx,     t->vy,    t->force,  t->compression, t->load, t->group,
+                       t->first,  t->state, t->face_x, t->face_y};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         jox_free(columns[c]);
     for (uint32_t g = 0; g < t->group_count; g++)

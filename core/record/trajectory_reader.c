@@ -52,8 +52,9 @@ static void widen(JoxTrajectoryReader *r, size_t need) {
         return;
     r->capacity = need + need / 2 + 64;
     r->id = jox_realloc(r->id, r->capacity, sizeof *r->id);
-    float **columns[] = {&r->x, &r->y, &r->face_x, &r->face_y, &r->force, &r->compression};
-    for (int c = 0; c < 6; c++)
+    float **columns[] = {&r->x,     &r->y,           &r->face_x, &r->face_y,
+                         &r->force, &r->compression, &r->load};
+    for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         *columns[c] = jox_realloc(*columns[c], r->capacity, sizeof(float));
     r->state = jox_realloc(r->state, r->capacity, sizeof *r->state);
     r->group = jox_realloc(r->group, r->capacity, sizeof *r->group);
@@ -87,6 +88,8 @@ static void take_row(JoxTrajectoryReader *r, uint32_t n) {
     r->force[n] = (float)sqlite3_column_double(r->rows, 6);
     r->compression[n] = (float)sqlite3_column_double(r->rows, 7);
     r->group[n] = (uint16_t)sqlite3_column_int64(r->rows, 8);
+    if (r->loads)
+        r->load[n] = (float)sqlite3_column_double(r->rows, 9);
 }
 
 bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
@@ -120,6 +123,7 @@ bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
     out->state = r->ours && r->state_count ? r->state : NULL;
     out->force = r->ours ? r->force : NULL;
     out->compression = r->ours ? r->compression : NULL;
+    out->load = r->loads ? r->load : NULL;
     out->group = r->ours ? r->group : NULL;
     return true;
 }
@@ -190,6 +194,7 @@ static bool read_whole(JoxTrajectoryReader *r, uint32_t frame, JoxTrajectoryRead
     out->face_y = all.vy;
     out->force = all.force;
     out->compression = all.compression;
+    out->load = all.load;
     out->group = all.group;
     return true;
 }
@@ -274,9 +279,9 @@ void jox_trajectory_reader_close(JoxTrajectoryReader *r) {
         jox_free(r->states[s].name);
     }
     jox_free(r->states);
-    void *columns[] = {r->number, r->from,   r->id,      r->x,           r->y,
-                       r->face_x, r->face_y, r->force,   r->compression, r->state,
-                       r->group,  r->body,   r->changes, r->corners};
+    void *columns[] = {r->number, r->from,   r->id,    r->x,           r->y,
+                       r->face_x, r->face_y, r->force, r->compression, r->load,
+                       r->state,  r->group,  r->body,  r->changes,     r->corners};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         jox_free(columns[c]);
     jox_free(r);

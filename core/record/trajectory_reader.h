@@ -17,7 +17,7 @@ typedef struct JoxTrajectoryReaderFrame {
     const float *x, *y; /* m */
     const float *face_x, *face_y;
     const uint32_t *state; /* row of jox_trajectory_reader_state, or JOX_NO_RECORDED_STATE */
-    const float *force, *compression; /* N, N/m */
+    const float *force, *compression, *load; /* N, N/m, N */
     const uint16_t *group;
     uint32_t body_count;
     const JoxRecordBody *bodies; /* ascending ids */

@@ -155,6 +155,7 @@ static bool known(const JoxRender *r, JoxShow show, JoError *error) {
                  : show == JOX_SHOW_GROUP       ? f->group != NULL
                  : show == JOX_SHOW_FORCE       ? f->force != NULL
                  : show == JOX_SHOW_COMPRESSION ? f->compression != NULL
+                 : show == JOX_SHOW_LOAD        ? f->load != NULL
                                                 : true;
     if (!there)
         jox_error(error, JO_INPUT,
@@ -171,8 +172,8 @@ bool jox_render_choose(JoxRender *r, JoError *error) {
         return false;
     if (def->colour)
         return read_show("colour", def->colour,
-                         "state, group, speed, force, compression, density or none", &p->colour,
-                         &p->colour_most, error) &&
+                         "state, group, speed, force, compression, load, density or none",
+                         &p->colour, &p->colour_most, error) &&
                known(r, p->colour, error);
     /* On a coloured floor people are rings. */
     const JoxFrame *f = &r->frame;

@@ -65,6 +65,7 @@ const JoxFrame *jox_run_frame(JoScene *scene) {
                           .radius = a->param[JOX_PARAM_radius],
                           .force = f->force,
                           .compression = a->compression,
+                          .load = a->load,
                           .failed = a->failed,
                           .group = a->group,
                           .groups = f->names,

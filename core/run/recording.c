@@ -107,9 +107,9 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
     for (uint32_t rank = 0; rank < a->count; rank++) { /* whatever the order in memory */
         const uint32_t i = a->by_rank[rank], id = a->id[i];
         float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
-        rows[n++] = (JoxRecordRow){id,           a->x[i],           a->y[i],
-                                   a->face_x[i], a->face_y[i],      state_number(r, a, i),
-                                   force,        a->compression[i], a->group[i]};
+        rows[n++] = (JoxRecordRow){
+            id,    a->x[i],           a->y[i],    a->face_x[i], a->face_y[i], state_number(r, a, i),
+            force, a->compression[i], a->load[i], a->group[i]};
     }
     n = 0;
     for (uint32_t o = 0; o < objects->count && n < count; o++) {

@@ -213,6 +213,7 @@ JoAgentState jo_agent_state(const JoWorld *world, JoAgent agent) {
                           .fx = a->force_x[i],
                           .fy = a->force_y[i],
                           .compression = a->compression[i],
+                          .load = a->load[i],
                           .radius = a->param[JOX_PARAM_radius][i],
                           .state = state};
 }

@@ -106,6 +106,7 @@ function Number:in_state(state) end
 ---@field density number people per square metre about it, 1/m2
 ---@field pushed number magnitude of the net force, N
 ---@field compression number sum of contact force magnitudes over circumference, N/m
+---@field load number greatest push borne from any one direction: over directions d, the greatest sum of the positive parts of f.d over its contacts f, N
 ---@field team number 0 is none
 ---@field state string name of its state; nil of a neighbour without a machine
 ---@field machine string name of its machine; nil of a neighbour without one
@@ -228,6 +229,10 @@ pushed = nil
 ---@type jostle.Number
 compression = nil
 
+--- `load` in N: greatest push borne from any one direction: over directions d, the greatest sum of the positive parts of f.d over its contacts f
+---@type jostle.Number
+load = nil
+
 --- `contacts`: agents and bodies touched
 ---@type jostle.Number
 contacts = nil
@@ -265,7 +270,7 @@ function sqrt(a1) end
 ---@return jostle.Number
 function clamp(a1, a2, a3) end
 
---- `now.NAME`: what is measured of the agent now; NAME is one of speed x y neighbours time density headway pushed compression contacts time_in_state
+--- `now.NAME`: what is measured of the agent now; NAME is one of speed x y neighbours time density headway pushed compression load contacts time_in_state
 ---@type table<string, jostle.Number>
 now = {}
 

@@ -40,7 +40,7 @@ sed -n '/<g id="field"/,/<\/g>/p' "$work/floor.svg" | grep -q '<path fill="#'; v
 render scenes/circle.yaml --area -1,-1,1,1 --size 400x320 --out "$work/none.svg" 2>/dev/null
 same "nobody is in a part where nobody is" "$(people "$work/none.svg")" 0
 grep -q 'width="400" height="320"' "$work/none.svg"; verdict "--size" $?
-for colour in state group speed force compression density none speed:1.5; do
+for colour in state group speed force compression load density none speed:1.5; do
     render scenes/dodgeball.yaml --at 1 --colour $colour --out "$work/$colour.svg" 2>/dev/null || { echo "not ok --colour $colour"; false; }
     same "--colour $colour draws everyone" "$(people "$work/$colour.svg")" 2
 done

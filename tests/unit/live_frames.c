@@ -116,6 +116,8 @@ static void colours_measure(void **state) {
     const JoxAgents *a = &scene->world->state.agents;
     JoxBytes frame = {0};
     step(scene, 80);
+    for (uint32_t i = 0; i < a->count; i++)
+        a->load[i] = (float)(10 * i);
     for (int c = 0; c < JOX_LIVE_COLOUR_COUNT; c++) {
         jox_live_frame(scene, (JoxLiveColour)c, &frame);
         Seen seen = decode(&frame, scene->world);
@@ -125,6 +127,7 @@ static void colours_measure(void **state) {
                                     hypotf(a->vx[i], a->vy[i]),
                                     hypotf(a->force_x[i], a->force_y[i]),
                                     a->compression[i],
+                                    a->load[i],
                                     a->density[i],
                                     a->group[i]};
             const double shown = seen.slot[8 * (size_t)a->slot[i] + 6] / 255.0 * (double)seen.most;

@@ -23,7 +23,7 @@ enum { MOST = 1000 };
 /* A crowd that the tests move. */
 static struct {
     uint32_t count, key[MOST];
-    float x[MOST], y[MOST], vx[MOST], vy[MOST], compression[MOST];
+    float x[MOST], y[MOST], vx[MOST], vy[MOST], compression[MOST], load[MOST];
     uint8_t failed[MOST];
     uint16_t group[MOST];
     uint32_t state[MOST];
@@ -51,6 +51,7 @@ static inline void show(JoxProbe *probe, double t) {
                             .vx = crowd.vx,
                             .vy = crowd.vy,
                             .compression = crowd.compression,
+                            .load = crowd.load,
                             .failed = crowd.failed,
                             .group = crowd.group,
                             .state = crowd.state,

@@ -332,6 +332,7 @@ static void our_recordings_keep_more(void **state) {
                                      .x = 0.1f * (float)f,
                                      .force = (float)(10 * i + f),
                                      .compression = (float)(100 * i + f),
+                                     .load = (float)(1000 * i + f),
                                      .group = (uint16_t)i};
         assert_true(jox_recorder_put(r, f, &error));
     }
@@ -347,7 +348,21 @@ static void our_recordings_keep_more(void **state) {
     assert_near(frame.force[0], 12, 0);
     assert_near(frame.compression[0], 102, 0);
     assert_near(frame.compression[1], 2, 0);
+    assert_near(frame.load[0], 1002, 0);
+    assert_near(frame.load[1], 2, 0);
     assert_near(frame.vx[1], 1, 1e-5);
+    jox_trajectories_free(t);
+    /* As older versions wrote them: of loads nothing is known, of the rest all. */
+    sqlite3 *db;
+    assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
+    assert_int_equal(
+        sqlite3_exec(db, "ALTER TABLE jostle_agent DROP COLUMN load", NULL, NULL, NULL), SQLITE_OK);
+    sqlite3_close(db);
+    t = read_file(0, 0, NULL);
+    assert_non_null(t);
+    assert_true(jox_trajectories_frame(t, 2, &frame));
+    assert_null(frame.load);
+    assert_near(frame.compression[0], 102, 0);
     jox_trajectories_free(t);
     jox_text_free(&error);
 }

@@ -17,7 +17,6 @@ static const char *absent(const char *name) {
         {"debug", "Behaviours cannot look into the engine"},
         {"package", "require \"name\" loads a file beside this one"},
         {"coroutine", "A state of the machine is what a coroutine would remember"},
-        {"load", "Code is not made from texts; require \"name\" loads a file beside this one"},
         {"loadstring", "Code is not made from texts"},
         {"loadfile", "require \"name\" loads a file beside this one"},
         {"dofile", "require \"name\" loads a file beside this one"},

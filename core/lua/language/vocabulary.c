@@ -219,6 +219,7 @@ const JoxMeKey jox_me_keys[] = {
     {"density", "number", "1/m2", "people per square metre about it"},
     {"pushed", "number", "N", "magnitude of the net force"},
     {"compression", "number", "N/m", "sum of contact force magnitudes over circumference"},
+    {"load", "number", "N", JOX_LOAD_MEANING},
     {"team", "number", "", "0 is none"},
     {"state", "text", "", "name of its state; nil of a neighbour without a machine"},
     {"machine", "text", "", "name of its machine; nil of a neighbour without one"},

@@ -159,7 +159,7 @@ test("no clock", function()
   os.time() --> unknown name 'os'
 end)
 test("no code from texts", function()
-  load("return 1")() --> unknown name 'load'
+  loadstring("return 1")() --> unknown name 'loadstring'
 end)
 test("no metatables", function()
   getmetatable(scene(standing())) --> unknown name 'getmetatable'

@@ -48,6 +48,7 @@ export const COLOURS = {
     speed: { name: "speed", unit: "m/s" },
     force: { name: "net force", unit: "N" },
     compression: { name: "compression", unit: "N/m" },
+    load: { name: "load from one side", unit: "N" },
     density: { name: "density", unit: "1/m²" },
     failed: { name: "solved programs", classes: true, names: ["solved", "no velocity satisfies all"], at: [4, 3] },
 };

@@ -47,6 +47,7 @@ export class AgentPage {
             ["speed", `${figure(speed)} m/s`],
             ["radius, mass", `${figure(agent.radius)} m, ${figure(agent.mass)} kg`],
             ["compression", `${figure(message.compression)} N/m`],
+            ["load from one side", `${figure(message.load)} N`],
         ]));
         this.failed.hidden = !message.failed;
         fill(this.last, message.last ? [
