@@ -12,7 +12,7 @@
 #include "base/vec.h"
 
 /* What one agent can touch at a time: people, and bodies. */
-enum { JOX_MOST_TOUCHED = 16, JOX_MOST_BODIES_TOUCHED = 4 };
+enum { JOX_MOST_TOUCHED = 32, JOX_MOST_BODIES_TOUCHED = 4 };
 
 /* normal . v >= offset, with a unit normal that points to the agent; m/s. */
 typedef struct JoxContactPlane {

@@ -10,7 +10,7 @@
 #include "geom/wall_grid.h"
 
 enum {
-    JOX_CONTACT_MOST_COLOURS = 32, /* at most twice JOX_MOST_TOUCHED are in use */
+    JOX_CONTACT_MOST_COLOURS = 64, /* so many contacts with others has an agent at most */
     JOX_CONTACT_MOST_WALLS = 6     /* edges that one agent touches at a time */
 };
 
@@ -24,16 +24,18 @@ typedef struct JoxFoundContact {
 
 /* Contacts between agents in columns, sorted by colour: no agent occurs twice in a colour, so that
    the contacts of one colour may be solved in any order, at once. The normal points to the first,
-   which has the lesser id. */
+   which has found the contact. */
 typedef struct JoxPairs {
     uint32_t count, colours;
+    uint32_t listed; /* found: entries of `place` */
     uint32_t starts[JOX_CONTACT_MOST_COLOURS + 1]; /* of each colour */
     uint32_t *first, *second;
     float *nx, *ny;
     float *target;   /* least normal velocity of the first relative to the second, m/s */
     float *mass;     /* reduced mass, kg */
     float *impulse;  /* accumulated, at least 0, N s */
-    uint32_t *place; /* of the contacts in ascending ids of first, then second */
+    uint32_t *place; /* of the contacts in ascending ids of first, then second;
+                        JOX_NO_INDEX: left out */
     size_t capacities[8];
 } JoxPairs;
 

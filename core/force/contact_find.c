@@ -20,7 +20,7 @@ static bool is_cut(const JoxNeighbours *near, uint32_t i) {
     return near->touch_count && near->touch_count[i] == JOX_MOST_NEIGHBOURS;
 }
 
-/* Two agents, if the gap between them may close within the step; the one of lesser id finds. */
+/* Two agents, if the gap between them may close within the step. */
 static bool touches(const JoxForces *f, uint32_t i, uint32_t other, bool walls,
                     JoxFoundContact *out) {
     const JoxAgents *a = f->step.agents;
@@ -48,7 +48,8 @@ static bool touches(const JoxForces *f, uint32_t i, uint32_t other, bool walls,
     return true;
 }
 
-/* Those of greater id that agent i touches, by ascending id. */
+/* Those that agent i touches and it is for i to find, by ascending id: the one of lesser id finds a
+   contact, or, in a heap of people where its list is cut, the other. */
 static uint32_t find_people(const JoxForces *f, uint32_t i, bool walls, JoxFoundContact *out) {
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
@@ -61,10 +62,7 @@ static uint32_t find_people(const JoxForces *f, uint32_t i, bool walls, JoxFound
             break; /* nearest first: no one further on can touch */
         uint32_t other =
             seen ? near->index[at] : near->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k];
-        if (a->id[other] < a->id[i])
-            continue;
-        /* In a heap of people lists are cut, and a contact is one of both or none. */
-        if (is_cut(near, other) && !lists(near, other, i))
+        if (a->id[other] < a->id[i] && (!is_cut(near, other) || lists(near, other, i)))
             continue;
         JoxFoundContact contact;
         if (!touches(f, i, other, walls, &contact))

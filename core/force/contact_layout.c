@@ -47,18 +47,21 @@ static void colour_pairs(JoxForces *f) {
         const JoxFoundContact *found = found_of(f, i);
         for (uint32_t k = 0; k < f->found_number[i]; k++) {
             uint32_t j = found[k].other;
-            uint32_t open = ~(f->colours_of[i] | f->colours_of[j]);
-            JOX_ASSERT(open != 0);
-            uint32_t colour = (uint32_t)__builtin_ctz(open);
-            f->colours_of[i] |= 1u << colour;
-            f->colours_of[j] |= 1u << colour;
+            uint64_t open = ~(f->colours_of[i] | f->colours_of[j]);
+            if (open == 0) { /* in a heap of hundreds */
+                p->place[n++] = JOX_NO_INDEX;
+                continue;
+            }
+            uint32_t colour = (uint32_t)__builtin_ctzll(open);
+            f->colours_of[i] |= (uint64_t)1 << colour;
+            f->colours_of[j] |= (uint64_t)1 << colour;
             f->end_starts[i]++;
             f->end_starts[j]++;
             sizes[colour]++;
             p->place[n++] = colour;
         }
     }
-    JOX_ASSERT(n == p->count);
+    JOX_ASSERT(n == p->listed);
     p->colours = 0;
     uint32_t sum = 0;
     for (uint32_t c = 0; c < JOX_CONTACT_MOST_COLOURS; c++) {
@@ -67,7 +70,7 @@ static void colour_pairs(JoxForces *f) {
         if (sizes[c])
             p->colours = c + 1;
     }
-    p->starts[JOX_CONTACT_MOST_COLOURS] = sum;
+    p->starts[JOX_CONTACT_MOST_COLOURS] = p->count = sum;
     for (uint32_t i = 0, ends = 0; i <= a->count; i++) { /* to where the agent's ends begin */
         uint32_t number = i < a->count ? f->end_starts[i] : 0;
         f->end_starts[i] = ends;
@@ -103,13 +106,13 @@ static void fill_pair(JoxForces *f, uint32_t i, const JoxFoundContact *found, ui
 void jox_contacts_lay_pairs(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     JoxPairs *p = &f->pairs;
-    p->count = p->colours = 0;
+    p->count = p->listed = 0;
     for (uint32_t c = 0; c < f->chunks; c++)
-        p->count += f->found.counts[c];
+        p->listed += f->found.counts[c];
     JOX_RESERVE(f->colours_of, f->colours_of_capacity, a->count);
     JOX_RESERVE(f->end_starts, f->end_start_capacity, (size_t)a->count + 1);
     /* Room for a dense crowd from the start, so that no steady step grows it. */
-    uint32_t room = p->count > 4 * a->count ? p->count : 4 * a->count;
+    uint32_t room = p->listed > 4 * a->count ? p->listed : 4 * a->count;
     reserve_pairs(p, room);
     JOX_RESERVE(f->ends, f->end_capacity, 2 * (size_t)room);
     colour_pairs(f);
@@ -120,6 +123,8 @@ void jox_contacts_lay_pairs(JoxForces *f) {
         uint32_t i = a->by_rank[r];
         const JoxFoundContact *found = found_of(f, i);
         for (uint32_t k = 0; k < f->found_number[i]; k++, n++) {
+            if (p->place[n] == JOX_NO_INDEX)
+                continue;
             uint32_t at = fill[p->place[n]]++, j = found[k].other;
             p->place[n] = at;
             fill_pair(f, i, &found[k], at);
@@ -179,12 +184,14 @@ void jox_contacts_keep(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     const JoxPairs *p = &f->pairs;
     JOX_RESERVE(f->kept_pairs.items, f->kept_pairs.capacity, p->count);
-    f->kept_pairs.count = p->count;
-    for (uint32_t n = 0; n < p->count; n++) {
+    f->kept_pairs.count = 0;
+    for (uint32_t n = 0; n < p->listed; n++) {
         uint32_t at = p->place[n];
-        f->kept_pairs.items[n] =
-            (JoxKeptImpulse){a->id[p->first[at]], a->id[p->second[at]], p->impulse[at]};
+        if (at != JOX_NO_INDEX)
+            f->kept_pairs.items[f->kept_pairs.count++] =
+                (JoxKeptImpulse){a->id[p->first[at]], a->id[p->second[at]], p->impulse[at]};
     }
+    JOX_ASSERT(f->kept_pairs.count == p->count);
     JOX_RESERVE(f->kept_walls.items, f->kept_walls.capacity, f->wall_count);
     f->kept_walls.count = f->wall_count;
     for (uint32_t k = 0; k < f->wall_count; k++)

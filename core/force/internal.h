@@ -62,7 +62,7 @@ struct JoxForces {
     uint8_t *found_number, *wall_number;
     size_t found_first_capacity, found_number_capacity, wall_first_capacity, wall_number_capacity;
     JoxPairs pairs;
-    uint32_t *colours_of; /* per agent: bit per colour of a pair that it is in */
+    uint64_t *colours_of; /* per agent: bit per colour of a pair that it is in */
     size_t colours_of_capacity;
     JoxEnd *ends; /* of agent i: end_starts[i] to end_starts[i + 1], by ascending id of the other */
     uint32_t *end_starts;

@@ -255,7 +255,7 @@ static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t
         bool full = found.most > 0 && found.count == found.most;
         float reach = full ? sqrtf(distance2_of(found.keys[found.count - 1])) : perception;
         a->search[i] = jox_maxf(reach, 0.01f);
-        find_touching(p, i, reach, hints);
+        find_touching(p, i, found.most > 0 ? reach : 0.0f, hints);
         /* people per square metre of the disc that holds the neighbours kept */
         float area = 3.14159265f * jox_maxf(reach * reach, 0.0025f);
         a->density[i] = (float)found.count / area;

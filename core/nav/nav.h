@@ -53,7 +53,7 @@ typedef struct JoxConstraint {
     JoxV2 normal; /* unit */
     float offset;
 } JoxConstraint;
-enum { JOX_MOST_CONSTRAINTS = 77 };
+enum { JOX_MOST_CONSTRAINTS = 93 };
 /* The half-planes that solve gave the agent at an index, in the order of solving, between solve and
    move. Returns how many. */
 uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
