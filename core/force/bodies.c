@@ -225,7 +225,7 @@ static void reset_motions(JoxForces *f) {
     }
 }
 
-void jox_touches_prepare(JoxForces *f, bool literal) {
+void jox_touches_prepare(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     reset_motions(f);
     for (uint32_t i = 0; i < f->touch_count; i++) {
@@ -233,13 +233,9 @@ void jox_touches_prepare(JoxForces *f, bool literal) {
         const JoxObject *body = &f->step.objects->rows[t->object];
         float people = 1.0f / a->param[JOX_PARAM_mass][t->agent];
         float restitution = jox_minf(a->param[JOX_PARAM_restitution][t->agent], body->restitution);
-        float own = jox_body_inverse_mass(body, t->point, t->normal, literal);
+        float own = jox_body_inverse_mass(body, t->point, t->normal);
         float speed = approach(f, t);
         t->impulse = 0.0f;
-        if (literal) {
-            t->impulse = jox_contact_impulse(speed, restitution, people + own);
-            continue;
-        }
         /* Each share of a mass that is split over its contacts. */
         t->give =
             people * (float)a->contacts[t->agent] + own * (float)f->motions[t->object].touches;

@@ -159,9 +159,12 @@ float jox_touch_height(const JoxObject *body);
 /* Contacts with bodies, for the passes of jox_force_contact. */
 void jox_touches_find(JoxForces *forces, uint32_t begin, uint32_t end);
 void jox_touches_collect(JoxForces *forces);
-void jox_touches_prepare(JoxForces *forces, bool literal);
+void jox_touches_prepare(JoxForces *forces);
 void jox_touches_pass(JoxForces *forces);
 void jox_touches_finish(JoxForces *forces);
+
+/* Impulses of all pairs and touches as equation 6 is printed. */
+void jox_literal_contacts(JoxForces *forces);
 
 /* Assertions: transfers lie sorted by receiver, from givers that live; the contacts between agents
    add up to no force; the cells of the grid of bodies list live ones, ascending. */
