@@ -3,7 +3,7 @@
 #define JOX_RECORD_DANGER_PARTS_H
 
 #include "record/danger.h"
-#include "record/density.h"
+#include "record/fields/density.h"
 #include "record/track.h"
 
 enum { JOX_DANGER_EXITS = 16 }; /* that have a column of their own over time */
