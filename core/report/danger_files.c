@@ -5,7 +5,7 @@
 
 #include "base/format/quote.h"
 #include "picture/plot.h"
-#include "record/danger_parts.h"
+#include "record/danger/danger_parts.h"
 #include "report/danger_files.h"
 
 enum { MOST_CELLS_DRAWN = 250000, STRIP = 260, PANEL = 620 };

@@ -2,7 +2,7 @@
 #ifndef JOX_REPORT_DANGER_FILES_H
 #define JOX_REPORT_DANGER_FILES_H
 
-#include "record/danger.h"
+#include "record/danger/danger.h"
 
 /* danger.csv (over time) and danger-map.csv into a folder that is there; with a title, both also as
    PNG and SVG. False with a sentence in `error`. */

@@ -9,7 +9,7 @@
 #include "base/overlay.h"
 #include "jostle.h"
 #include "lua/loader.h"
-#include "record/danger.h"
+#include "record/danger/danger.h"
 #include "record/fields/density.h"
 #include "record/probes/probe.h"
 #include "record/regions.h"

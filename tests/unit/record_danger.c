@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "picture/html.h"
-#include "record/danger.h"
+#include "record/danger/danger.h"
 
 enum { SIDE = 25, MOST = SIDE * SIDE };
 static const float SPACING = 0.4f; /* m: 6.25 people per m2 */

@@ -2,7 +2,7 @@
 #ifndef JOX_RECORD_DANGER_PARTS_H
 #define JOX_RECORD_DANGER_PARTS_H
 
-#include "record/danger.h"
+#include "record/danger/danger.h"
 #include "record/fields/density.h"
 #include "record/track.h"
 

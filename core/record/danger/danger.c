@@ -1,4 +1,4 @@
-#include "record/danger.h"
+#include "record/danger/danger.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -6,7 +6,7 @@
 
 #include "base/elementary.h"
 #include "base/mem.h"
-#include "record/danger_parts.h"
+#include "record/danger/danger_parts.h"
 
 static const double PACE = 0.5;                /* s between samples of the fields */
 static const double HOLD = 1.0;                /* s: time constant of a person's compression */
