@@ -10,7 +10,7 @@
 #include "jostle.h"
 #include "lua/loader.h"
 #include "record/danger/danger.h"
-#include "record/density.h"
+#include "record/fields/density.h"
 #include "record/probes/probe.h"
 #include "record/regions.h"
 #include "run/listener.h"

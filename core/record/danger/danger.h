@@ -21,7 +21,7 @@
 #include "base/format/json_writer.h"
 #include "base/text.h"
 #include "geom/walls.h"
-#include "record/density.h"
+#include "record/fields/density.h"
 #include "record/frame.h"
 #include "world/exits.h"
 

@@ -3,7 +3,7 @@
 #define JOX_RECORD_DANGER_PARTS_H
 
 #include "record/danger/danger.h"
-#include "record/density.h"
+#include "record/fields/density.h"
 #include "record/track.h"
 
 enum {
