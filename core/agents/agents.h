@@ -59,6 +59,8 @@
     /* Greatest push borne from any one direction, N: over directions d, the sum of the positive   \
        parts of f.d over the contacts. */                                                          \
     X(STATE, float, load)                                                                          \
+    X(SCRATCH, float, forced_x) /* velocity that the force gives by the end of the step, m/s */    \
+    X(SCRATCH, float, forced_y)                                                                    \
     X(SCRATCH, float, half_plane_x) /* force half-plane: unit normal; (0, 0) means none */         \
     X(SCRATCH, float, half_plane_y)                                                                \
     X(SCRATCH, float, half_plane_offset) /* (v . normal) >= offset, m/s */                         \

@@ -55,7 +55,7 @@ void jox_force_contact(JoxForces *f) {
     jox_contacts_find(f);
     jox_contacts_lay_pairs(f);
     jox_contacts_lay_walls(f);
-    if (f->grid.columns)
+    if (f->bodies)
         jox_touches_collect(f);
     f->contacts_known = true;
     if (f->options.literal)

@@ -156,7 +156,7 @@ static void find_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
         f->wall_number[i] = edges ? (uint8_t)find_walls(f, i, edge, edges, found) : 0;
         keep(&f->found_walls, chunk, found, f->wall_number[i]);
     }
-    if (f->grid.columns)
+    if (f->bodies)
         jox_touches_find(f, begin, end);
 }
 
@@ -170,7 +170,7 @@ void jox_contacts_find(JoxForces *f) {
     JOX_RESERVE(f->found_number, f->found_number_capacity, n);
     JOX_RESERVE(f->wall_first, f->wall_first_capacity, n);
     JOX_RESERVE(f->wall_number, f->wall_number_capacity, n);
-    if (f->grid.columns) {
+    if (f->bodies) {
         jox_chunks_begin(&f->touches, f->chunks, JOX_FORCE_GRAIN * JOX_MOST_BODIES_TOUCHED,
                          sizeof(JoxTouch));
         JOX_RESERVE(f->touch_first, f->touch_first_capacity, n);

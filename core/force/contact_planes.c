@@ -1,5 +1,5 @@
-/* The half-planes of what agents touch, from the velocities that the forces alone would give all of
-   them over the time planned for: two that touch may move in the normal direction as their mean
+/* The half-planes of what agents touch, from the velocities that the forces give all of them by the
+   end of the step: two that touch may move in the normal direction as their mean
    does, so that neither plans to move into the other. What is being pushed may brake by its feet;
    what follows another that recedes need not. */
 #include <math.h>
@@ -8,17 +8,6 @@
 #include "base/mem.h"
 #include "force/equations.h"
 #include "force/internal.h"
-
-/* Velocity that forces alone give agent i over the time planned for, without feet, m/s. */
-static void forced_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    (void)worker;
-    JoxForces *f = context;
-    const JoxAgents *a = f->step.agents;
-    const float time = (float)f->step.planning_time, *mass = a->param[JOX_PARAM_mass];
-    for (uint32_t i = begin; i < end; i++)
-        f->forced[i] = jox_v2(a->vx[i] + a->force_x[i] * time / mass[i],
-                              a->vy[i] + a->force_y[i] * time / mass[i]);
-}
 
 static inline float braked(float speed, float damping, float time) {
     return speed > 0.0f ? speed * jox_maxf(0.0f, 1.0f - damping * time) : speed;
@@ -36,7 +25,8 @@ static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *o
             continue;
         float sign = p->first[at] == i ? 1.0f : -1.0f;
         JoxV2 normal = {sign * p->nx[at], sign * p->ny[at]};
-        JoxV2 mean = jox_scale(jox_add(f->forced[i], f->forced[j]), 0.5f);
+        JoxV2 mean = {0.5f * (a->forced_x[i] + a->forced_x[j]),
+                      0.5f * (a->forced_y[i] + a->forced_y[j])};
         float gap = p->target[at] < 0.0f ? -p->target[at] * (float)f->step.dt : 0.0f;
         float speed = jox_dot(mean, normal) - 0.5f * gap / time;
         out[n++] = (JoxContactPlane){normal, braked(speed, damping, time), j};
@@ -45,16 +35,14 @@ static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *o
 }
 
 static uint32_t body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out) {
-    const float time = (float)f->step.planning_time, share = time / (float)f->step.dt;
+    const float time = (float)f->step.planning_time;
     const float damping = f->step.agents->param[JOX_PARAM_damping][i];
     uint32_t n = 0;
     for (uint32_t k = 0; k < jox_touches_of(f, i); k++) {
         const JoxTouch *t = &f->touch[f->touch_first[i] + k];
         if (!(t->impulse > 0.0f || t->gap <= 0.0f))
             continue;
-        float before = jox_touch_speed_before(f, t);
-        float speed = before + (jox_touch_speed_after(f, t) - before) * share;
-        speed -= jox_maxf(t->gap, 0.0f) / time;
+        float speed = jox_touch_speed_after(f, t) - jox_maxf(t->gap, 0.0f) / time;
         out[n++] = (JoxContactPlane){t->normal, braked(speed, damping, time), t->object};
     }
     return n;
@@ -80,7 +68,6 @@ void jox_contact_planes_make(JoxForces *f) {
     JOX_RESERVE(planes->starts, planes->starts_capacity, n);
     JOX_RESERVE(planes->people, planes->people_capacity, n);
     JOX_RESERVE(planes->bodies, planes->bodies_capacity, n);
-    JOX_RESERVE(f->forced, f->forced_capacity, n);
     uint32_t most = 0;
     for (uint32_t i = 0; i < n; i++) {
         planes->starts[i] = most;
@@ -88,7 +75,6 @@ void jox_contact_planes_make(JoxForces *f) {
     }
     JOX_RESERVE(planes->planes, planes->plane_capacity, most > 8 * n ? most : 8 * n);
     planes->agents = n;
-    jox_parallel_for(f->step.pool, n, JOX_FORCE_GRAIN, forced_chunk, f);
     jox_parallel_for(f->step.pool, n, JOX_FORCE_GRAIN, plane_chunk, f);
 }
 

@@ -58,7 +58,6 @@ void jox_forces_free(JoxForces *f) {
                      f->lightness,
                      f->residuals,
                      f->braced,
-                     f->forced,
                      f->planes.starts,
                      f->planes.people,
                      f->planes.bodies,
@@ -69,8 +68,6 @@ void jox_forces_free(JoxForces *f) {
                      f->kept_walls.items,
                      f->kept_touches.items,
                      f->pressed.items,
-                     f->grid.starts,
-                     f->grid.members,
                      f->pending,
                      f->impulses,
                      f->old_x,
@@ -81,18 +78,11 @@ void jox_forces_free(JoxForces *f) {
     jox_free(f);
 }
 
-/* How far from a body someone may act on it; also keeps the greatest radius. */
-static float widest_reach(JoxForces *f) {
-    const JoxAgents *a = f->step.agents;
-    float reach = 0.0f;
-    f->widest = 0.0f;
-    for (uint32_t i = 0; i < a->count; i++) {
-        float least = JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
-        float own = a->param[JOX_PARAM_radius][i];
-        reach = jox_maxf(reach, own + jox_maxf(least, a->param[JOX_PARAM_push_reach][i]));
-        f->widest = jox_maxf(f->widest, a->param[JOX_PARAM_radius][i]);
-    }
-    return reach;
+static float widest_radius(const JoxAgents *a) {
+    float widest = 0.0f;
+    for (uint32_t i = 0; i < a->count; i++)
+        widest = jox_maxf(widest, a->param[JOX_PARAM_radius][i]);
+    return widest;
 }
 
 /* The terms that do not carry over from the last step. */
@@ -132,11 +122,9 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
         memset(a->load, 0, n * sizeof *a->load);
         memset(a->contacts, 0, n);
     }
-    f->grid.columns = 0;
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
-    float reach = widest_reach(f);
-    if (n && step->objects && step->objects->count)
-        jox_body_grid_fill(&f->grid, step->objects, reach);
+    f->widest = widest_radius(a);
+    f->bodies = n && step->objects && step->objects->grid.columns;
 }
 
 static void list_kept(JoxSections *s, const char *name, JoxKeptImpulses *kept) {

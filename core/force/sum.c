@@ -16,17 +16,21 @@ static float decay_of(Decay *decay, float damping, double dt) {
     return decay->value;
 }
 
-/* The half-plane of the force over the time planned for, and the speed limit of this step. */
+/* (11), (12): the half-plane of the force, and the speed limit of this step. By the end of the step
+   the velocity is to have the part along the force that (11) says; people plan the velocity that
+   they will have at the end of the time planned for, of which the step is a share. */
 static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, float decay,
-                           float dt) {
+                           float dt, float planning_time) {
     float mass = a->param[JOX_PARAM_mass][i], most = a->param[JOX_PARAM_max_speed][i];
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
     JoxV2 normal = jox_scale(force, 1.0f / size);
     JOX_ASSERT(mass > 0.0f && decay <= 1.0f);
     JOX_ASSERT(jox_is_unit(normal));
+    float undamped = jox_dot((JoxV2){a->forced_x[i], a->forced_y[i]}, normal);
+    float lost = undamped - jox_forced_speed(velocity, normal, size, mass, decay, dt);
     a->half_plane_x[i] = normal.x;
     a->half_plane_y[i] = normal.y;
-    a->half_plane_offset[i] = jox_forced_speed(velocity, normal, size, mass, decay, dt);
+    a->half_plane_offset[i] = undamped - lost * planning_time / dt;
     if (contact.x == 0.0f && contact.y == 0.0f)
         return;
     /* Being hit may carry someone faster than they can go; nothing else may. */
@@ -49,6 +53,7 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
     JoxForces *f = context;
     JoxAgents *a = f->step.agents;
     const float *mass = a->param[JOX_PARAM_mass], *damping = a->param[JOX_PARAM_damping];
+    const float dt = (float)f->step.dt;
     Decay decay = {-1.0f, 0.0f};
     for (uint32_t i = begin; i < end; i++) {
         f->old_x[i] = a->vx[i];
@@ -58,11 +63,13 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         JoxV2 force = sum_of_terms(a, i);
         a->force_x[i] = force.x;
         a->force_y[i] = force.y;
+        a->forced_x[i] = a->vx[i] + force.x * dt / mass[i];
+        a->forced_y[i] = a->vy[i] + force.y * dt / mass[i];
         if (force.x == 0.0f && force.y == 0.0f)
             continue;
         float size = jox_length(force);
         if (size >= f->options.least * mass[i] && isfinite(size))
-            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], f->step.planning_time),
+            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], f->step.dt), dt,
                            (float)f->step.planning_time);
     }
 }

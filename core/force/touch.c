@@ -9,6 +9,12 @@
 #include "force/equations.h"
 #include "force/internal.h"
 
+static const float CHEST = 1.1f; /* m; people push and are hit there */
+
+float jox_touch_height(const JoxObject *body) {
+    return jox_minf(jox_maxf(CHEST, body->low), body->high);
+}
+
 /* Body `row` as agent i touches it: false where the gap cannot close within the step. */
 static bool touches(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *touch) {
     const JoxAgents *a = f->step.agents;
@@ -31,26 +37,23 @@ void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
     uint32_t chunk = begin / JOX_FORCE_GRAIN;
     JoxTouch *list = (JoxTouch *)f->touches.items + (size_t)chunk * f->touches.room;
     for (uint32_t i = begin; i < end; i++) {
-        const uint32_t *members = NULL;
-        uint32_t count = jox_body_grid_near(&f->grid, a->x[i], a->y[i], &members), found = 0;
-        JoxTouch *own = list + f->touches.counts[chunk];
-        for (uint32_t m = 0; m < count; m++) { /* the nearest, of equals the lower row */
-            JoxTouch touch;
-            if (!touches(f, i, members[m], &touch))
-                continue;
-            uint32_t at = found < JOX_MOST_BODIES_TOUCHED ? found++ : found;
-            if (at == JOX_MOST_BODIES_TOUCHED) {
-                if (!(touch.gap < own[at - 1].gap))
-                    continue;
-                at--;
-            }
-            for (; at > 0 && own[at - 1].gap > touch.gap; at--)
-                own[at] = own[at - 1];
-            own[at] = touch;
+        JoxV2 at = {a->x[i], a->y[i]};
+        float reach = a->param[JOX_PARAM_radius][i] + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
+        JoxNearest nearest = {.most = JOX_MOST_BODIES_TOUCHED};
+        JoxObjectWalk walk = jox_objects_near(f->step.objects, at, reach);
+        JoxTouch touch;
+        uint32_t row;
+        while (jox_objects_next(&walk, &row)) {
+            const JoxObject *body = &f->step.objects->rows[row];
+            if (!body->swept && jox_object_reaches(body, at, reach) && touches(f, i, row, &touch))
+                jox_nearest_offer(&nearest, touch.gap, row);
         }
-        f->touches.counts[chunk] += found;
+        f->touch_number[i] = (uint8_t)nearest.count;
+        for (uint32_t k = 0; k < nearest.count; k++) {
+            touches(f, i, nearest.rows[k], &touch);
+            list[f->touches.counts[chunk]++] = touch;
+        }
         JOX_ASSERT(f->touches.counts[chunk] <= f->touches.room);
-        f->touch_number[i] = (uint8_t)found;
     }
 }
 

@@ -48,8 +48,6 @@ uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity,
 uint32_t jox_orca_objects(const JoxAgents *a, uint32_t i, const JoxObjects *objects,
                           const JoxContactPlanes *touched, float planning_time, JoxHalfPlane *out,
                           uint32_t most);
-/* By how much a disc lies within a body's footprint, m, 0 if it does not; and the way out. */
-float jox_object_overlap(const JoxObject *object, JoxV2 at, float radius, JoxV2 *normal);
 
 /* The velocity of at most `speed_limit` nearest to `wanted` that meets all half-planes. The first
    `hard` half-planes are walls. Returns true if there is one; otherwise *velocity minimises the

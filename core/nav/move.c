@@ -29,8 +29,8 @@ static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t work
     for (uint32_t i = begin; i < end; i++) {
         a->prev_x[i] = a->x[i];
         a->prev_y[i] = a->y[i];
-        a->vx[i] += (a->next_x[i] - a->vx[i]) * m->share;
-        a->vy[i] += (a->next_y[i] - a->vy[i]) * m->share;
+        a->vx[i] = a->forced_x[i] + (a->next_x[i] - a->forced_x[i]) * m->share;
+        a->vy[i] = a->forced_y[i] + (a->next_y[i] - a->forced_y[i]) * m->share;
         m->nav->position[0][i] = (JoxV2){a->x[i] + a->vx[i] * m->dt, a->y[i] + a->vy[i] * m->dt};
     }
 }
@@ -76,14 +76,14 @@ static void sweep_touched(void *context, uint32_t begin, uint32_t end, uint32_t 
     JoxV2 *to = m->nav->position[!m->from];
     for (uint32_t i = begin; i < end; i++) {
         const JoxContactPlane *planes = t->planes + t->starts[i];
-        JoxV2 shift = {0.0f, 0.0f}, normal = {0.0f, 0.0f};
+        JoxV2 shift = {0.0f, 0.0f};
         for (uint32_t k = 0; k < t->people[i]; k++)
             shift = jox_add(shift, part_from(m, from, i, planes[k].other));
         for (uint32_t k = 0; k < t->bodies[i]; k++) {
             const JoxObject *body = &m->objects->rows[planes[t->people[i] + k].other];
-            float radius = m->agents->param[JOX_PARAM_radius][i];
-            float overlap = jox_object_overlap(body, from[i], radius, &normal);
-            shift = jox_add(shift, jox_scale(normal, m->stiffness * overlap));
+            JoxFootprintPoint side = jox_footprint_nearest(body, from[i]);
+            float overlap = m->agents->param[JOX_PARAM_radius][i] - side.gap;
+            shift = jox_add(shift, jox_scale(side.normal, m->stiffness * jox_maxf(0.0f, overlap)));
         }
         to[i] = jox_add(from[i], shift);
     }
