@@ -9,15 +9,30 @@
 #include "force/equations.h"
 #include "force/internal.h"
 
-static inline float braked(float speed, float damping, float time) {
-    return speed > 0.0f ? speed * jox_maxf(0.0f, 1.0f - damping * time) : speed;
+/* How much of a speed the feet can take away by the end of the step; more in the plan, of which the
+   step does a share. */
+static inline float braking(const JoxForceStep *step, float speed, float damping) {
+    float lost = (1.0f - (float)jox_exp(-(double)damping * step->dt)) / (float)step->response;
+    return speed * jox_minf(1.0f, lost);
+}
+
+/* Least normal speed of agent i, away from j, where both together move at `speed`: who is pushed
+   may brake; who follows one that wants to be slower makes allowance for that. */
+static float bound_of(const JoxForceStep *step, uint32_t i, uint32_t j, JoxV2 normal, float speed) {
+    const JoxAgents *a = step->agents;
+    const float *damping = a->param[JOX_PARAM_damping];
+    if (speed > 0.0f)
+        return speed - braking(step, speed, damping[i]);
+    float wanted = -jox_dot((JoxV2){a->pref_x[j], a->pref_y[j]}, normal);
+    float brakes = jox_clampf(-speed - wanted, 0.0f, braking(step, -speed, damping[j]));
+    return speed + brakes;
 }
 
 /* The agents that i touches: those that press on it or that it overlaps. */
 static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out) {
     const JoxAgents *a = f->step.agents;
     const JoxPairs *p = &f->pairs;
-    const float time = (float)f->step.planning_time, damping = a->param[JOX_PARAM_damping][i];
+    const float time = (float)f->step.planning_time;
     uint32_t n = 0;
     for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1]; k++) {
         uint32_t at = f->ends[k].pair, j = f->ends[k].other;
@@ -28,8 +43,8 @@ static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *o
         JoxV2 mean = {0.5f * (a->forced_x[i] + a->forced_x[j]),
                       0.5f * (a->forced_y[i] + a->forced_y[j])};
         float gap = p->target[at] < 0.0f ? -p->target[at] * (float)f->step.dt : 0.0f;
-        float speed = jox_dot(mean, normal) - 0.5f * gap / time;
-        out[n++] = (JoxContactPlane){normal, braked(speed, damping, time), j};
+        float least = bound_of(&f->step, i, j, normal, jox_dot(mean, normal));
+        out[n++] = (JoxContactPlane){normal, least - 0.5f * gap / time, j};
     }
     return n;
 }
@@ -42,8 +57,11 @@ static uint32_t body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out
         const JoxTouch *t = &f->touch[f->touch_first[i] + k];
         if (!(t->impulse > 0.0f || t->gap <= 0.0f))
             continue;
-        float speed = jox_touch_speed_after(f, t) - jox_maxf(t->gap, 0.0f) / time;
-        out[n++] = (JoxContactPlane){t->normal, braked(speed, damping, time), t->object};
+        float speed = jox_touch_speed_after(f, t), least = speed;
+        if (speed > 0.0f)
+            least -= braking(&f->step, speed, damping);
+        least -= jox_maxf(t->gap, 0.0f) / time;
+        out[n++] = (JoxContactPlane){t->normal, least, t->object};
     }
     return n;
 }

@@ -39,6 +39,7 @@ typedef struct JoxForceStep {
     JoxPool *pool;
     double dt;              /* s, above 0 */
     double planning_time;   /* s: how far ahead velocities are planned; 0: dt */
+    double response;        /* share of the way to the planned velocity gone in dt; 0: all */
     const uint8_t *push_on; /* per agent, 0: does not push now; NULL: all push */
     const uint8_t
         *push_nearest; /* per agent, 1: the whole push goes to the nearest; NULL: shared */

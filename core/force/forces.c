@@ -101,6 +101,8 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     f->step = *step;
     if (!(f->step.planning_time > 0.0))
         f->step.planning_time = step->dt;
+    if (!(f->step.response > 0.0))
+        f->step.response = 1.0;
     f->totals = (JoxForceTotals){0};
     f->pending_count = f->pending_sorted = 0;
     f->touch_count = f->wall_count = f->pairs.count = 0;

@@ -17,10 +17,10 @@ static float decay_of(Decay *decay, float damping, double dt) {
 }
 
 /* (11), (12): the half-plane of the force, and the speed limit of this step. By the end of the step
-   the velocity is to have the part along the force that (11) says; people plan the velocity that
-   they will have at the end of the time planned for, of which the step is a share. */
+   the velocity is to have the part along the force that (11) says; it goes the share `response` of
+   the way from what the force gives to what is planned. */
 static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, float decay,
-                           float dt, float planning_time) {
+                           float dt, float response) {
     float mass = a->param[JOX_PARAM_mass][i], most = a->param[JOX_PARAM_max_speed][i];
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
     JoxV2 normal = jox_scale(force, 1.0f / size);
@@ -30,13 +30,11 @@ static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, fl
     float lost = undamped - jox_forced_speed(velocity, normal, size, mass, decay, dt);
     a->half_plane_x[i] = normal.x;
     a->half_plane_y[i] = normal.y;
-    a->half_plane_offset[i] = undamped - lost * planning_time / dt;
+    a->half_plane_offset[i] = undamped - lost / response;
     if (contact.x == 0.0f && contact.y == 0.0f)
         return;
-    /* Being hit may carry someone faster than they can go; nothing else may. */
-    JoxV2 forced = jox_forced_velocity(velocity, force, mass, decay, dt);
-    float hit = jox_length(jox_forced_velocity(velocity, contact, mass, decay, dt));
-    a->speed_limit[i] = jox_maxf(most, jox_minf(hit, jox_length(forced)));
+    /* Being hit or squeezed may carry someone faster than they can go; nothing else may. */
+    a->speed_limit[i] = jox_maxf(most, jox_length((JoxV2){a->forced_x[i], a->forced_y[i]}));
 }
 
 /* (10) The net force. */
@@ -70,7 +68,7 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         float size = jox_length(force);
         if (size >= f->options.least * mass[i] && isfinite(size))
             bound_by_force(a, i, force, size, decay_of(&decay, damping[i], f->step.dt), dt,
-                           (float)f->step.planning_time);
+                           (float)f->step.response);
     }
 }
 
@@ -118,7 +116,7 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
     for (uint32_t k = 0; k < n; k++)
         give(f, chunk, i, found[k],
              jox_resistance(unit, shortfall, absorb, a->param[JOX_PARAM_mass][i], n,
-                            (float)f->step.planning_time));
+                            (float)(f->step.dt / f->step.response)));
 }
 
 /* (8) Someone under no force who slowed down. */

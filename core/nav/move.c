@@ -17,7 +17,7 @@ typedef struct Move {
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
     const JoxContactPlanes *touched; /* NULL: contacts were not looked for */
-    float dt, share; /* s; of the way from the old velocity to the planned one */
+    float dt, response; /* s; share of the way to the planned velocity */
     float stiffness; /* share of an overlap removed by one sweep */
     int from;        /* which position buffer a sweep reads */
 } Move;
@@ -29,8 +29,8 @@ static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t work
     for (uint32_t i = begin; i < end; i++) {
         a->prev_x[i] = a->x[i];
         a->prev_y[i] = a->y[i];
-        a->vx[i] = a->forced_x[i] + (a->next_x[i] - a->forced_x[i]) * m->share;
-        a->vy[i] = a->forced_y[i] + (a->next_y[i] - a->forced_y[i]) * m->share;
+        a->vx[i] = a->forced_x[i] + (a->next_x[i] - a->forced_x[i]) * m->response;
+        a->vy[i] = a->forced_y[i] + (a->next_y[i] - a->forced_y[i]) * m->response;
         m->nav->position[0][i] = (JoxV2){a->x[i] + a->vx[i] * m->dt, a->y[i] + a->vy[i] * m->dt};
     }
 }
@@ -204,15 +204,15 @@ static void apply_positions(void *context, uint32_t begin, uint32_t end, uint32_
 
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                   const JoxObjects *objects, const JoxContactPlanes *touched, double dt,
-                  double planning_time, JoxPool *pool) {
-    JOX_ASSERT(dt > 0.0 && planning_time >= dt * 0.999);
+                  double response, JoxPool *pool) {
+    JOX_ASSERT(dt > 0.0 && response > 0.0 && response <= 1.0);
     Move move = {.nav = nav,
                  .agents = agents,
                  .neighbours = neighbours,
                  .objects = objects,
                  .touched = touched && touched->agents ? touched : NULL,
                  .dt = (float)dt,
-                 .share = (float)(dt / planning_time)};
+                 .response = (float)response};
     move.stiffness = STIFFNESS * jox_minf(1.0f, (float)dt / STIFF_STEP);
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate, &move);
     for (int i = 0; i < SWEEPS; i++) {

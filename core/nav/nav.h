@@ -60,12 +60,12 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                              const JoxNeighbours *neighbours, const JoxObjects *objects,
                              const JoxContactPlanes *touched, double planning_time, uint32_t agent,
                              JoxConstraint out[JOX_MOST_CONSTRAINTS]);
-/* move: velocity = forced + (next - forced) dt / planning_time, position += velocity dt, weak projection
+/* move: velocity = forced + (next - forced) * response, position += velocity dt, weak projection
    of overlaps (of what is touched, where `touched` has it, else of neighbours), never through a wall; prev_x, prev_y keep the old position; updates still, still_x,
    still_y. */
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                   const JoxObjects *objects, const JoxContactPlanes *touched, double dt,
-                  double planning_time, JoxPool *pool);
+                  double response, JoxPool *pool);
 
 typedef struct JoxPlacement {
     uint32_t moved; /* agents put elsewhere */

@@ -135,6 +135,14 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
     return count;
 }
 
+/* Who is carried towards a wall by others may come as near as they do: the wall itself stops them
+   in the contacts. With that the velocity that the forces give meets every hard half-plane. */
+static void give_way_at_walls(const Solve *s, uint32_t i, JoxHalfPlane *walls, uint32_t count) {
+    JoxV2 carried = {s->agents->forced_x[i], s->agents->forced_y[i]};
+    for (uint32_t k = 0; k < count; k++)
+        walls[k].offset = jox_minf(walls[k].offset, jox_dot(walls[k].normal, carried));
+}
+
 static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     Solve *s = context;
@@ -147,9 +155,15 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
         uint32_t count = hard + made.agents + made.objects + made.force;
         JoxV2 velocity;
         bool relaxed;
-        a->failed[i] |=
-            !jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i],
-                                      (JoxV2){a->pref_x[i], a->pref_y[i]}, &velocity, &relaxed);
+        const JoxV2 wanted = {a->pref_x[i], a->pref_y[i]};
+        bool met = jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted,
+                                            &velocity, &relaxed);
+        if (relaxed && made.contacts) {
+            give_way_at_walls(s, i, half_planes, made.walls);
+            jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
+                                     &relaxed);
+        }
+        a->failed[i] |= !met;
         relaxations += relaxed;
         a->next_x[i] = velocity.x;
         a->next_y[i] = velocity.y;

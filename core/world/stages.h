@@ -18,6 +18,7 @@
 typedef struct JoxSubstep {
     bool first, last, only;   /* only: the step is not divided */
     double dt, planning_time; /* s: of the substep; how far ahead velocities are planned */
+    double response;          /* share of the way to the planned velocity gone in dt */
     double end;               /* s: simulated time at its end */
 } JoxSubstep;
 

@@ -1,14 +1,14 @@
 /* The step: nine stages, and what each may read and write (stages.h).
 
-   People plan the velocity that they will have PLANNING_TIME seconds later: the linear program, the
-   velocity that a force gives (equation 11) and the parting of overlaps look that far ahead, and
-   within a shorter step velocities go the corresponding part of the way. A longer step is done in
-   substeps. So the size of the step is not a property of people, and what they do hardly depends on
-   it. As printed, everything happens within one step of whatever length: with `literal` it does
+   Forces change velocities at once; the velocity that people plan beyond that they approach with the
+   time constant PLANNING_TIME, so that neither the size of the step nor how often they plan is a
+   property of people, and what they do hardly depends on it. A step that is longer is done in
+   substeps. As printed, everything happens within one step of whatever length: with `literal` it does
    here. */
 #include <math.h>
 
 #include "base/assert.h"
+#include "base/elementary.h"
 #include "base/mem.h"
 #include "world/world.h"
 
@@ -150,6 +150,7 @@ static JoxSubstep substep_of(const JoWorld *w, uint32_t number, uint32_t substep
                         .only = substeps == 1,
                         .dt = dt,
                         .planning_time = def->literal ? def->dt : PLANNING_TIME,
+                        .response = def->literal ? 1.0 : 1.0 - jox_exp(-dt / PLANNING_TIME),
                         .end = (double)w->state.tick * def->dt + (number + 1) * dt};
 }
 
