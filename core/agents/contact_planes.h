@@ -19,6 +19,7 @@ typedef struct JoxContactPlane {
     JoxV2 normal;
     float offset;
     uint32_t other; /* index of an agent, or row of a body */
+    float apart;    /* least distance of the centres of two agents, m */
 } JoxContactPlane;
 
 typedef struct JoxContactPlanes {

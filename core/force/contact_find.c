@@ -24,9 +24,9 @@ static bool is_cut(const JoxNeighbours *near, uint32_t i) {
 static bool touches(const JoxForces *f, uint32_t i, uint32_t other, bool walls,
                     JoxFoundContact *out) {
     const JoxAgents *a = f->step.agents;
-    const float *radius = a->param[JOX_PARAM_radius];
     JoxV2 offset = jox_offset(a, other, i);
-    float distance2 = jox_length2(offset), sum = radius[i] + radius[other];
+    float distance2 = jox_length2(offset);
+    float sum = jox_touch_radius(a, i) + jox_touch_radius(a, other);
     float most = sum + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
     if (!(distance2 < most * most))
         return false;
@@ -107,7 +107,7 @@ static uint32_t find_walls(const JoxForces *f, uint32_t i, const uint32_t *edges
                            JoxFoundContact out[JOX_CONTACT_MOST_WALLS]) {
     const JoxAgents *a = f->step.agents;
     JoxV2 at = {a->x[i], a->y[i]};
-    float radius = a->param[JOX_PARAM_radius][i];
+    float radius = jox_touch_radius(a, i);
     float closing = jox_length(jox_v2(a->vx[i], a->vy[i])) * (float)f->step.dt;
     float most = JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing);
     uint32_t found = 0;

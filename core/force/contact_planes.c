@@ -11,20 +11,21 @@
 
 /* How much of a speed the feet can take away by the end of the step; more in the plan, of which the
    step does a share. */
-static inline float braking(const JoxForceStep *step, float speed, float damping) {
-    float lost = (1.0f - (float)jox_exp(-(double)damping * step->dt)) / (float)step->response;
-    return speed * jox_minf(1.0f, lost);
+static inline float braking(const JoxForceStep *step, uint32_t i, float speed) {
+    const JoxPlanning plan = jox_planning_of(step, i);
+    float damping = step->agents->param[JOX_PARAM_damping][i];
+    float lost = 1.0f - (float)jox_exp(-(double)(damping * plan.interval));
+    return speed * jox_minf(1.0f, lost / plan.response);
 }
 
 /* Least normal speed of agent i, away from j, where both together move at `speed`: who is pushed
    may brake; who follows one that wants to be slower makes allowance for that. */
 static float bound_of(const JoxForceStep *step, uint32_t i, uint32_t j, JoxV2 normal, float speed) {
     const JoxAgents *a = step->agents;
-    const float *damping = a->param[JOX_PARAM_damping];
     if (speed > 0.0f)
-        return speed - braking(step, speed, damping[i]);
+        return speed - braking(step, i, speed);
     float wanted = -jox_dot((JoxV2){a->pref_x[j], a->pref_y[j]}, normal);
-    float brakes = jox_clampf(-speed - wanted, 0.0f, braking(step, -speed, damping[j]));
+    float brakes = jox_clampf(-speed - wanted, 0.0f, braking(step, j, -speed));
     return speed + brakes;
 }
 
@@ -44,7 +45,8 @@ static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *o
                       0.5f * (a->forced_y[i] + a->forced_y[j])};
         float gap = p->target[at] < 0.0f ? -p->target[at] * (float)f->step.dt : 0.0f;
         float least = bound_of(&f->step, i, j, normal, jox_dot(mean, normal));
-        out[n++] = (JoxContactPlane){normal, least - 0.5f * gap / time, j};
+        float radii = jox_touch_radius(a, i) + jox_touch_radius(a, j);
+        out[n++] = (JoxContactPlane){normal, least - 0.5f * gap / time, j, radii};
     }
     return n;
 }
@@ -59,9 +61,9 @@ static uint32_t body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out
             continue;
         float speed = jox_touch_speed_after(f, t), least = speed;
         if (speed > 0.0f)
-            least -= braking(&f->step, speed, damping);
+            least -= braking(&f->step, i, speed);
         least -= jox_maxf(t->gap, 0.0f) / time;
-        out[n++] = (JoxContactPlane){t->normal, least, t->object};
+        out[n++] = (JoxContactPlane){t->normal, least, t->object, 0.0f};
     }
     return n;
 }

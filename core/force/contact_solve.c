@@ -28,9 +28,8 @@ static void start_velocities(void *context, uint32_t begin, uint32_t end, uint32
     for (uint32_t i = begin; i < end; i++) {
         float lightness = 1.0f / mass[i];
         f->lightness[i] = lightness;
-        f->work[i] =
-            jox_v2(a->vx[i] + (a->ext_x[i] + a->inferred_x[i] + a->push_x[i]) * lightness * dt,
-                   a->vy[i] + (a->ext_y[i] + a->inferred_y[i] + a->push_y[i]) * lightness * dt);
+        JoxV2 force = jox_moving_force(a, i);
+        f->work[i] = jox_v2(a->vx[i] + force.x * lightness * dt, a->vy[i] + force.y * lightness * dt);
     }
 }
 

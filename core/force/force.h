@@ -40,6 +40,8 @@ typedef struct JoxForceStep {
     double dt;              /* s, above 0 */
     double planning_time;   /* s: how far ahead velocities are planned; 0: dt */
     double response;        /* share of the way to the planned velocity gone in dt; 0: all */
+    double interval;        /* s: between plans of those who want to get on; 0: dt */
+    double interval_response; /* the share gone in that time */
     const uint8_t *push_on; /* per agent, 0: does not push now; NULL: all push */
     const uint8_t
         *push_nearest; /* per agent, 1: the whole push goes to the nearest; NULL: shared */

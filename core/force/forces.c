@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "base/random.h"
 #include "force/internal.h"
 
 JoxForceOptions jox_force_default_options(void) {
@@ -96,6 +97,17 @@ static void zero_terms(JoxAgents *a) {
 #undef ZERO_STATE
 }
 
+static float breadth_of(const JoxAgents *a, uint32_t i, double time) {
+    float radius = a->param[JOX_PARAM_radius][i];
+    if (jox_stands(a, i))
+        return radius;
+    double phase = time + jox_random_unit(0, a->id[i], 0, JOX_DRAW_AIM, 0), knot = floor(phase);
+    float from = (float)jox_random_unit(0, a->id[i], (uint64_t)knot, JOX_DRAW_AIM, 1);
+    float to = (float)jox_random_unit(0, a->id[i], (uint64_t)knot + 1, JOX_DRAW_AIM, 1);
+    float turned = from + (to - from) * (float)(phase - knot);
+    return radius * (1.0f - turned * a->param[JOX_PARAM_turn][i]);
+}
+
 void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_ASSERT(step && step->agents && step->neighbours && step->dt > 0.0);
     f->step = *step;
@@ -103,6 +115,10 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
         f->step.planning_time = step->dt;
     if (!(f->step.response > 0.0))
         f->step.response = 1.0;
+    if (!(f->step.interval > 0.0)) {
+        f->step.interval = step->dt;
+        f->step.interval_response = f->step.response;
+    }
     f->totals = (JoxForceTotals){0};
     f->pending_count = f->pending_sorted = 0;
     f->touch_count = f->wall_count = f->pairs.count = 0;
@@ -117,6 +133,9 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     if (f->chunks)
         memset(f->chunk, 0, f->chunks * sizeof *f->chunk);
     JOX_RESERVE(f->braced, f->braced_capacity, n);
+    static double hack; hack += step->dt;
+    for (uint32_t i = 0; i < n; i++)
+        a->breadth[i] = breadth_of(a, i, hack);
     if (n) {
         zero_terms(a);
         memset(f->braced, 0, n * sizeof *f->braced);

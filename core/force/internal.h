@@ -123,6 +123,31 @@ static inline float jox_circumference(float radius) {
 /* Height at which an agent meets a body: the chest's, kept within what the body covers. */
 float jox_touch_height(const JoxObject *body);
 
+/* How long an agent goes on with what it plans, s, and the share of the way gone in that time. */
+typedef struct JoxPlanning {
+    float interval, response;
+} JoxPlanning;
+static inline JoxPlanning jox_planning_of(const JoxForceStep *step, uint32_t i) {
+    bool stands = jox_stands(step->agents, i);
+    return (JoxPlanning){(float)(stands ? step->dt : step->interval),
+                         (float)(stands ? step->response : step->interval_response)};
+}
+
+/* Force that moves an agent, contacts apart, N: from outside, and what of the others' pushes the feet
+   do not hold. */
+static inline JoxV2 jox_moving_force(const JoxAgents *a, uint32_t i) {
+    JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
+    float size = jox_length(others), held = jox_stands(a, i) ? 0.0f : a->param[JOX_PARAM_brace][i];
+    float left = size > held ? (size - held) / size : 0.0f;
+    return (JoxV2){a->ext_x[i] + left * others.x, a->ext_y[i] + left * others.y};
+}
+
+/* Radius at which an agent touches, m: who wants to get on turns a shoulder to others and to what is
+   in its way, who stands does not. */
+static inline float jox_touch_radius(const JoxAgents *a, uint32_t i) {
+    return a->breadth[i];
+}
+
 /* contact_find.c: what each agent touches. */
 void jox_contacts_find(JoxForces *forces);
 /* contact_layout.c: the contacts found, in the order of ids, with the impulses of the last step. */

@@ -7,12 +7,12 @@
 
 /* exp(-damping dt), computed once as long as the damping stays the same. */
 typedef struct Decay {
-    float damping, value;
+    float damping, dt, value;
 } Decay;
 
-static float decay_of(Decay *decay, float damping, double dt) {
-    if (damping != decay->damping)
-        *decay = (Decay){damping, (float)jox_exp(-(double)damping * dt)};
+static float decay_of(Decay *decay, float damping, float dt) {
+    if (damping != decay->damping || dt != decay->dt)
+        *decay = (Decay){damping, dt, (float)jox_exp(-(double)damping * (double)dt)};
     return decay->value;
 }
 
@@ -20,17 +20,20 @@ static float decay_of(Decay *decay, float damping, double dt) {
    the velocity is to have the part along the force that (11) says; it goes the share `response` of
    the way from what the force gives to what is planned. */
 static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, float decay,
-                           float dt, float response) {
+                           JoxPlanning plan) {
+    float dt = plan.interval;
     float mass = a->param[JOX_PARAM_mass][i], most = a->param[JOX_PARAM_max_speed][i];
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
     JoxV2 normal = jox_scale(force, 1.0f / size);
     JOX_ASSERT(mass > 0.0f && decay <= 1.0f);
     JOX_ASSERT(jox_is_unit(normal));
-    float undamped = jox_dot((JoxV2){a->forced_x[i], a->forced_y[i]}, normal);
-    float lost = undamped - jox_forced_speed(velocity, normal, size, mass, decay, dt);
+    JoxV2 moving = jox_moving_force(a, i);
+    moving = jox_add(moving, contact);
+    float moved = jox_dot(velocity, normal) + jox_dot(moving, normal) * dt / mass;
+    float wanted = jox_forced_speed(velocity, normal, size, mass, decay, dt);
     a->half_plane_x[i] = normal.x;
     a->half_plane_y[i] = normal.y;
-    a->half_plane_offset[i] = undamped - lost / response;
+    a->half_plane_offset[i] = moved + (wanted - moved) / plan.response;
     if (contact.x == 0.0f && contact.y == 0.0f)
         return;
     /* Being hit or squeezed may carry someone faster than they can go; nothing else may. */
@@ -52,7 +55,7 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
     JoxAgents *a = f->step.agents;
     const float *mass = a->param[JOX_PARAM_mass], *damping = a->param[JOX_PARAM_damping];
     const float dt = (float)f->step.dt;
-    Decay decay = {-1.0f, 0.0f};
+    Decay decay = {-1.0f, 0.0f, 0.0f};
     for (uint32_t i = begin; i < end; i++) {
         f->old_x[i] = a->vx[i];
         f->old_y[i] = a->vy[i];
@@ -61,14 +64,15 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         JoxV2 force = sum_of_terms(a, i);
         a->force_x[i] = force.x;
         a->force_y[i] = force.y;
-        a->forced_x[i] = a->vx[i] + force.x * dt / mass[i];
-        a->forced_y[i] = a->vy[i] + force.y * dt / mass[i];
+        JoxV2 moving = jox_moving_force(a, i);
+        a->forced_x[i] = a->vx[i] + (moving.x + a->contact_x[i]) * dt / mass[i];
+        a->forced_y[i] = a->vy[i] + (moving.y + a->contact_y[i]) * dt / mass[i];
         if (force.x == 0.0f && force.y == 0.0f)
             continue;
         float size = jox_length(force);
+        const JoxPlanning plan = jox_planning_of(&f->step, i);
         if (size >= f->options.least * mass[i] && isfinite(size))
-            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], f->step.dt), dt,
-                           (float)f->step.response);
+            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], plan.interval), plan);
     }
 }
 
@@ -116,7 +120,7 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
     for (uint32_t k = 0; k < n; k++)
         give(f, chunk, i, found[k],
              jox_resistance(unit, shortfall, absorb, a->param[JOX_PARAM_mass][i], n,
-                            (float)(f->step.dt / f->step.response)));
+                            jox_planning_of(&f->step, i).interval / jox_planning_of(&f->step, i).response));
 }
 
 /* (8) Someone under no force who slowed down. */

@@ -36,16 +36,17 @@ static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t work
 }
 
 /* Agent i's part of its overlap with j, by mass. */
-static inline JoxV2 part_from(const Move *m, const JoxV2 *from, uint32_t i, uint32_t j) {
+static inline JoxV2 part_from(const Move *m, const JoxV2 *from, uint32_t i, uint32_t j,
+                              float apart) {
     const JoxAgents *a = m->agents;
-    const float *radius = a->param[JOX_PARAM_radius], *mass = a->param[JOX_PARAM_mass];
+    const float *mass = a->param[JOX_PARAM_mass];
     JOX_ASSERT(j < a->count && j != i);
     JoxV2 d = jox_wrap(a, jox_sub(from[i], from[j]));
-    float sum = radius[i] + radius[j], d2 = jox_length2(d);
-    if (d2 >= sum * sum || d2 == 0.0f)
+    float d2 = jox_length2(d);
+    if (d2 >= apart * apart || d2 == 0.0f)
         return (JoxV2){0.0f, 0.0f};
     float distance = sqrtf(d2);
-    float part = m->stiffness * (sum - distance) * mass[j] / (mass[i] + mass[j]);
+    float part = m->stiffness * (apart - distance) * mass[j] / (mass[i] + mass[j]);
     return jox_scale(d, part / distance);
 }
 
@@ -54,14 +55,15 @@ static inline JoxV2 part_from(const Move *m, const JoxV2 *from, uint32_t i, uint
 static void sweep_seen(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     Move *m = context;
+    const float *radius = m->agents->param[JOX_PARAM_radius];
     const JoxV2 *from = m->nav->position[m->from];
     JoxV2 *to = m->nav->position[!m->from];
     for (uint32_t i = begin; i < end; i++) {
         JoxV2 shift = {0.0f, 0.0f};
-        for (uint32_t k = 0; k < m->neighbours->count[i]; k++)
-            shift = jox_add(shift, part_from(m, from, i,
-                                             m->neighbours->index[jox_neighbour_at(m->neighbours, i,
-                                                                                   k)]));
+        for (uint32_t k = 0; k < m->neighbours->count[i]; k++) {
+            uint32_t j = m->neighbours->index[jox_neighbour_at(m->neighbours, i, k)];
+            shift = jox_add(shift, part_from(m, from, i, j, radius[i] + radius[j]));
+        }
         to[i] = jox_add(from[i], shift);
     }
 }
@@ -78,7 +80,7 @@ static void sweep_touched(void *context, uint32_t begin, uint32_t end, uint32_t 
         const JoxContactPlane *planes = t->planes + t->starts[i];
         JoxV2 shift = {0.0f, 0.0f};
         for (uint32_t k = 0; k < t->people[i]; k++)
-            shift = jox_add(shift, part_from(m, from, i, planes[k].other));
+            shift = jox_add(shift, part_from(m, from, i, planes[k].other, planes[k].apart));
         for (uint32_t k = 0; k < t->bodies[i]; k++) {
             const JoxObject *body = &m->objects->rows[planes[t->people[i] + k].other];
             JoxFootprintPoint side = jox_footprint_nearest(body, from[i]);
@@ -183,7 +185,7 @@ static void apply_positions(void *context, uint32_t begin, uint32_t end, uint32_
             jox_wall_grid_at(grid, p, &near);
         if (near > 0) {
             JoxV2 clear =
-                keep_clear(grid, stop_at_walls(grid, p, q), a->param[JOX_PARAM_radius][i]);
+                keep_clear(grid, stop_at_walls(grid, p, q), a->breadth[i]);
             q = stop_at_walls(grid, p, clear);
         }
         a->x[i] = q.x;

@@ -39,7 +39,7 @@ const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neig
    half-plane relaxed. */
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                        const JoxObjects *objects, const JoxContactPlanes *touched,
-                       double planning_time, JoxPool *pool);
+                       double planning_time, bool plans, JoxPool *pool);
 /* One of an agent's half-planes: it allows the velocities v with normal . v >= offset, m/s. */
 typedef enum JoxConstraintKind {
     JOX_CONSTRAINT_WALL,

@@ -19,6 +19,7 @@ typedef struct Solve {
     const JoxObjects *objects;
     const JoxContactPlanes *touched; /* NULL: contacts were not looked for */
     float planning_time;             /* s */
+    bool plans; /* else those who want to get on go on with what they planned */
 } Solve;
 
 /* Where two centres coincide they part in opposite directions that depend on their ids alone. */
@@ -87,7 +88,7 @@ typedef struct Counts {
 
 static inline Counts make_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *half_planes) {
     const JoxAgents *a = s->agents;
-    float tau = a->param[JOX_PARAM_wall_horizon][i], radius = a->param[JOX_PARAM_radius][i];
+    float tau = a->param[JOX_PARAM_wall_horizon][i], radius = a->breadth[i];
     Counts made = {0};
     if (s->nav->grid.first)
         made.walls = jox_orca_walls(
@@ -119,7 +120,7 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
     static_assert((int)MOST == (int)JOX_MOST_CONSTRAINTS, "room for all");
     JOX_ASSERT(agent < agents->count);
     const Solve solve = {(JoxNav *)nav,      (JoxAgents *)agents,  neighbours, objects,
-                         in_force(touched), (float)planning_time};
+                         in_force(touched), (float)planning_time, true};
     JoxHalfPlane half_planes[MOST];
     Counts made = make_half_planes(&solve, agent, half_planes);
     const uint32_t hard = made.walls + made.contacts;
@@ -149,6 +150,11 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxAgents *a = s->agents;
     uint32_t relaxations = 0;
     for (uint32_t i = begin; i < end; i++) {
+        if (!s->plans && !jox_stands(a, i)) {
+            a->next_x[i] = a->plan_x[i];
+            a->next_y[i] = a->plan_y[i];
+            continue;
+        }
         JoxHalfPlane half_planes[MOST];
         Counts made = make_half_planes(s, i, half_planes);
         uint32_t hard = made.walls + made.contacts;
@@ -165,8 +171,8 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
         }
         a->failed[i] |= !met;
         relaxations += relaxed;
-        a->next_x[i] = velocity.x;
-        a->next_y[i] = velocity.y;
+        a->next_x[i] = a->plan_x[i] = velocity.x;
+        a->next_y[i] = a->plan_y[i] = velocity.y;
     }
     s->nav->chunk_relaxed[begin / JOX_NAV_GRAIN] = relaxations;
 }
@@ -186,8 +192,8 @@ static float wall_reach(const JoxAgents *a, float planning_time) {
 
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                        const JoxObjects *objects, const JoxContactPlanes *touched,
-                       double planning_time, JoxPool *pool) {
-    Solve solve = {nav, agents, neighbours, objects, in_force(touched), (float)planning_time};
+                       double planning_time, bool plans, JoxPool *pool) {
+    Solve solve = {nav, agents, neighbours, objects, in_force(touched), (float)planning_time, plans};
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)planning_time));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);

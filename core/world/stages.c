@@ -50,6 +50,8 @@ void jox_stage_push(const JoxPushStage *s) {
                          .dt = s->substep->dt,
                          .planning_time = s->substep->planning_time,
                          .response = s->substep->response,
+                         .interval = s->substep->interval,
+                         .interval_response = s->substep->interval_response,
                          .push_on = s->machines->push_on,
                          .push_nearest = s->machines->push_nearest,
                          .push_toward_x = s->machines->push_toward_x,
@@ -70,7 +72,8 @@ void jox_stage_push(const JoxPushStage *s) {
 void jox_stage_solve(const JoxSolveStage *s) {
     s->statistics->walls_relaxed += jox_nav_solve(s->nav, s->agents, s->neighbours, s->objects,
                                                   jox_force_contact_planes(s->forces_of),
-                                                  s->substep->planning_time, s->pool);
+                                                  s->substep->planning_time, s->substep->plans,
+                                                  s->pool);
     jox_inspect_solved(s->inspection, s->agents, s->nav, s->neighbours, s->objects,
                        jox_force_contact_planes(s->forces_of), s->substep->planning_time);
 }

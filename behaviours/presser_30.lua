@@ -1,0 +1,12 @@
+-- Presses towards a goal round the walls; pushes whoever is ahead while it is slower than it wants to be.
+return machine {
+  name = "presser_30", version = 1, start = "Walk",
+  defaults = { speed = normal(1.3, 0.15, 0.8, 1.8), perception = 3, horizon = 0.5 },
+
+  states = {
+    Walk = { steer = field(own.goal), push = 30 * max(now.speed, own.speed),
+      { to = "Gone", when = inside(own.goal) } },
+
+    Gone = { removes = true },
+  },
+}
