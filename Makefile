@@ -17,7 +17,7 @@ B       ?= build/$(MODE)$(WITHOUT)
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
-FOLDERS := $(if $(ONLY),$(ONLY),base base/format task geom agents nav force body machine world/input world world/verbs scene/format scene/walls scene scene/reference lua/vm lua/language lua record record/probes view picture run/watch run live report render validate luatest)
+FOLDERS := $(if $(ONLY),$(ONLY),base base/format task geom agents nav force body machine world/input world world/verbs scene/format scene/walls scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run live report render validate luatest)
 SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))
 SRC_CC  := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.cc)))
 ifeq ($(BULLET),0)

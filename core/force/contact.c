@@ -62,7 +62,7 @@ static void find_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     JOX_ASSERT(count <= f->pairs.room && approaching <= count);
     f->pairs.counts[chunk] = count;
     f->chunk[chunk].approaching = approaching;
-    if (f->grid.columns)
+    if (f->bodies)
         jox_touches_find(f, begin, end);
 }
 
@@ -112,28 +112,18 @@ static void join_ends(JoxForces *f) {
     JOX_ASSERT(f->starts[0] == 0 && f->starts[a->count] == sum);
 }
 
-/* Before the first pass: restitution, split masses; printed, the whole impulse. */
-static void prepare_pairs(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    (void)worker;
-    (void)end;
-    JoxForces *f = context;
+/* Before the first pass: restitution, split masses. */
+static void prepare_pairs(JoxForces *f, uint32_t chunk) {
     const JoxAgents *a = f->step.agents;
     const float *mass = a->param[JOX_PARAM_mass], *e = a->param[JOX_PARAM_restitution];
-    uint32_t chunk = begin / JOX_FORCE_GRAIN;
     JoxPair *list = (JoxPair *)f->pairs.items + (size_t)chunk * f->pairs.room;
     for (uint32_t k = 0; k < f->pairs.counts[chunk]; k++) {
         JoxPair *p = &list[k];
-        float restitution = jox_minf(e[p->first], e[p->second]);
         float speed = pair_speed(p, a->vx, a->vy);
-        if (f->options.literal) {
-            float inverse_mass = 1.0f / mass[p->first] + 1.0f / mass[p->second];
-            p->impulse = jox_contact_impulse(speed, restitution, inverse_mass);
-        } else {
-            p->stiff = 1.0f / ((float)a->contacts[p->first] / mass[p->first] +
-                               (float)a->contacts[p->second] / mass[p->second]);
-            p->bounce = speed < 0.0f ? -restitution * speed : 0.0f;
-            JOX_ASSERT(p->stiff > 0.0f && a->contacts[p->first] && a->contacts[p->second]);
-        }
+        p->stiff = 1.0f / ((float)a->contacts[p->first] / mass[p->first] +
+                           (float)a->contacts[p->second] / mass[p->second]);
+        p->bounce = speed < 0.0f ? -jox_minf(e[p->first], e[p->second]) * speed : 0.0f;
+        JOX_ASSERT(p->stiff > 0.0f && a->contacts[p->first] && a->contacts[p->second]);
     }
 }
 
@@ -156,7 +146,7 @@ static void start_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
         f->work_y[i] = a->vy[i];
         order_ends(f->ends + f->starts[i], f->starts[i + 1] - f->starts[i]);
     }
-    prepare_pairs(context, begin, end, worker);
+    prepare_pairs(f, begin / JOX_FORCE_GRAIN);
 }
 
 static void pass_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -232,7 +222,7 @@ static void prepare(JoxForces *f) {
                      sizeof(JoxPair));
     JOX_RESERVE(f->work_x, f->work_x_capacity, n);
     JOX_RESERVE(f->work_y, f->work_y_capacity, n);
-    if (!f->grid.columns)
+    if (!f->bodies)
         return;
     jox_chunks_begin(&f->touches, f->chunks, JOX_FORCE_GRAIN * JOX_FORCE_MOST_TOUCHES,
                      sizeof(JoxTouch));
@@ -244,6 +234,15 @@ static void each_chunk(JoxForces *f, JoxTask *task) {
     jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, task, f);
 }
 
+static void solve_contacts(JoxForces *f) {
+    jox_touches_prepare(f);
+    for (uint32_t pass = 0; pass < f->options.iterations; pass++) {
+        each_chunk(f, pass_chunk);
+        jox_touches_pass(f);
+        each_chunk(f, move_chunk);
+    }
+}
+
 void jox_force_contact(JoxForces *f) {
     prepare(f);
     each_chunk(f, find_chunk);
@@ -252,7 +251,7 @@ void jox_force_contact(JoxForces *f) {
         f->totals.pairs += f->pairs.counts[c];
         approaching += f->chunk[c].approaching;
     }
-    if (f->grid.columns)
+    if (f->bodies)
         jox_touches_collect(f);
     if (!f->totals.pairs && !f->touch_count)
         return;
@@ -260,12 +259,10 @@ void jox_force_contact(JoxForces *f) {
     if (!approaching && !f->touch_count)
         return;
     each_chunk(f, start_chunk);
-    jox_touches_prepare(f, f->options.literal);
-    for (uint32_t pass = 0; !f->options.literal && pass < f->options.iterations; pass++) {
-        each_chunk(f, pass_chunk);
-        jox_touches_pass(f);
-        each_chunk(f, move_chunk);
-    }
+    if (f->options.literal)
+        jox_literal_contacts(f);
+    else
+        solve_contacts(f);
     each_chunk(f, finish_chunk);
     JOX_CHECK(jox_contacts_check(f));
     jox_touches_finish(f);

@@ -45,9 +45,8 @@ static inline JoxV3 jox_turn3(const float m[9], JoxV3 v) {
 /* (7) Inverse of the mass that a body opposes to an impulse along the level unit vector `normal`
    at `point`. Printed, it is the body's alone; it is the rotation that keeps energy from growing
    off the centre. */
-static inline float jox_body_inverse_mass(const JoxObject *body, JoxV3 point, JoxV2 normal,
-                                          bool literal) {
-    if (literal || !(body->inverse_mass > 0.0f))
+static inline float jox_body_inverse_mass(const JoxObject *body, JoxV3 point, JoxV2 normal) {
+    if (!(body->inverse_mass > 0.0f))
         return body->inverse_mass;
     JoxV3 arm = {point.x - body->position.x, point.y - body->position.y,
                  point.z - body->position.z};

@@ -1,13 +1,14 @@
-/* Fields for the floor: people spread by the Gaussian kernel of record/density.h with R = 0.7 m, on
-   cells of 0.5 m, or wider where the area is large. Pressure is density times the local variance of
-   velocity, as of the probe `map` (Helbing, Johansson and Al-Abideen 2007), of one moment. */
+/* Fields for the floor: people spread by the Gaussian kernel of record/fields/density.h with R =
+   0.7 m, on cells of 0.5 m, or wider where the area is large. Pressure is density times the local
+   variance of velocity, as of the probe `map` (Helbing, Johansson and Al-Abideen 2007), of one
+   moment. */
 #include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "live/live.h"
-#include "record/density.h"
+#include "record/fields/density.h"
 
 enum { W, VX, VY, SQUARE, SUMS, MOST_CELLS = 65536, HEAD = 32, FIELD = 3 };
 static const float KERNEL = 0.7f, CELL = 0.5f; /* m */

@@ -7,7 +7,7 @@
 #include "body/body.h"
 #include "geom/place.h"
 #include "picture/canvas.h"
-#include "record/density.h"
+#include "record/fields/density.h"
 #include "record/frame.h"
 
 /* What colours tell of people, or of the floor. */

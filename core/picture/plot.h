@@ -7,7 +7,7 @@
 
 #include "base/text.h"
 #include "geom/walls.h"
-#include "record/density.h"
+#include "record/fields/density.h"
 #include "record/regions.h"
 
 /* Makes the folder, and those above it. False with a sentence in `error`. */

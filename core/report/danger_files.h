@@ -2,10 +2,11 @@
 #ifndef JOX_REPORT_DANGER_FILES_H
 #define JOX_REPORT_DANGER_FILES_H
 
-#include "record/danger.h"
+#include "record/danger/danger.h"
 
-/* danger.csv (over time) and danger-map.csv into a folder that is there; with a title, both also as
-   PNG and SVG. False with a sentence in `error`. */
+/* danger.csv (over time), danger-map.csv, danger-limits.csv and danger-people.csv (who bore what)
+   into a folder that is there; with a title, the first two also as PNG and SVG. False with a
+   sentence in `error`. */
 bool jox_danger_write(const JoxDanger *danger, const char *folder, const JoxWalls *walls,
                       const char *title, JoxText *error);
 

@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "record/danger.h"
+#include "record/danger/danger.h"
 #include "record/probes/probe.h"
 
 /* Figures in order, by name. */

@@ -17,7 +17,7 @@
 #include <sqlite3.h>
 
 #include "record/aggregate.h"
-#include "record/density.h"
+#include "record/fields/density.h"
 #include "record/recorder.h"
 #include "record/regions.h"
 

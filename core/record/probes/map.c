@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/mem.h"
-#include "record/density.h"
+#include "record/fields/density.h"
 #include "record/probes/probe_parts.h"
 
 enum { DENSITY, SPEED, VX, VY, SQUARE, COMPRESSION, FIELDS };

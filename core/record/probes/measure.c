@@ -7,8 +7,8 @@
 
 #include "base/mem.h"
 #include "geom/polygon.h"
+#include "record/fields/voronoi.h"
 #include "record/probes/probe_parts.h"
-#include "record/voronoi.h"
 
 typedef struct Interval {
     int64_t number;

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "geom/polygon.h"
-#include "record/voronoi.h"
+#include "record/fields/voronoi.h"
 
 #define assert_near(value, wanted, within)                                                         \
     do {                                                                                           \

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "record/voronoi.h"
+#include "record/fields/voronoi.h"
 
 #include "base/sort.h"
 

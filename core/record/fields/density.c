@@ -1,4 +1,4 @@
-#include "record/density.h"
+#include "record/fields/density.h"
 
 #include <math.h>
 #include <string.h>

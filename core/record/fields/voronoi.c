@@ -1,4 +1,4 @@
-#include "record/voronoi.h"
+#include "record/fields/voronoi.h"
 
 #include <math.h>
 

@@ -1,0 +1,67 @@
+/* What the files of danger share. */
+#ifndef JOX_RECORD_DANGER_PARTS_H
+#define JOX_RECORD_DANGER_PARTS_H
+
+#include "record/danger/danger.h"
+#include "record/fields/density.h"
+#include "record/track.h"
+
+enum {
+    JOX_DANGER_EXITS = 16,                          /* that have a column of their own over time */
+    JOX_DANGER_FIRST_BORNE = JOX_DANGER_COMPRESSION /* from here on: of each person, every frame */
+};
+/* N: loads after which death is estimated within 300 s and 15 s. */
+#define JOX_DOSE_LOW 1112.0
+#define JOX_DOSE_HIGH 6227.0
+/* 1/s: share of a dose that a load gives in a second. */
+double jox_danger_dose_rate(double load);
+
+typedef struct JoxDangerPerson {
+    float compression, load; /* N/m, N: means of the last second */
+    double dose;
+    double seconds[JOX_DANGER_LIMITS]; /* over each limit */
+    float most;                        /* N: greatest load */
+    double most_time;
+    JoxV2 most_at;
+    uint8_t over; /* bits of the limits that were ever passed */
+} JoxDangerPerson;
+
+/* One line of danger.csv: a sample, and what was borne until the next. */
+typedef struct JoxDangerRow {
+    double time; /* s */
+    uint32_t people;
+    float most[JOX_DANGER_MEASURES]; /* NAN: not read */
+    uint32_t over[JOX_DANGER_LIMITS];
+    uint32_t left, exits[JOX_DANGER_EXITS];
+} JoxDangerRow;
+
+struct JoxDanger {
+    JoxDensity *grid;
+    /* By cell: the sample's density and density times velocity; means over time of density, of
+       velocity and of its square, with the weight that the latter have. */
+    float *density, *flow_x, *flow_y;
+    float *mean_density, *mean_vx, *mean_vy, *mean_square, *weight;
+    float *pressure; /* as it is now; 0 where it is not read */
+    /* By cell, for the map: sum over samples (what is borne: over people) and greatest. */
+    double *sum[JOX_DANGER_MAPPED];
+    float *greatest[JOX_DANGER_MAPPED];
+    uint32_t *stood; /* people whose compression and load were summed */
+    uint32_t samples, pressure_samples;
+    JoxTrack track;        /* from sample to sample */
+    double density_weight; /* of mean_density */
+
+    JoxDangerPerson *people; /* by key */
+    uint32_t people_capacity;
+    bool has_compression, has_load;
+
+    double begun, last_frame, last_sample; /* s */
+    int64_t stretch;                       /* of the last sample */
+    JoxDangerCount counts[JOX_DANGER_LIMITS];
+    JoxDangerMost most[JOX_DANGER_MEASURES];
+    JoxDangerRow *rows;
+    uint32_t row_count, row_capacity;
+    char *exit_names[JOX_DANGER_EXITS];
+    uint32_t exit_count;
+};
+
+#endif
