@@ -159,6 +159,7 @@ static void add_people(Encounter *e, uint64_t number, Kind kind) {
         uint32_t own = 100 + 20 * i;
         double angle = TURN * draw(number, own), far = within * sqrt(draw(number, own + 1));
         double speed = between(number, own + 2, 0.0, 2.5) * (draw(number, own + 3) < 0.8);
+        speed *= draw(number, 22) > 0.15; /* else all lie still in each other */
         double way = angle + TURN / 2 + between(number, own + 4, -1.0, 1.0);
         JoAgentDef def = jo_default_agent_def();
         def.x = far * cos(angle);
@@ -187,6 +188,7 @@ static void add_things(Encounter *e, uint64_t number, Kind kind) {
         uint32_t own = 200 + 20 * i;
         double side = i ? 1.0 : -1.0, way = TURN * draw(number, own);
         double speed = between(number, own + 1, 0.0, 2.0) * (draw(number, own + 2) < 0.8);
+        speed *= draw(number, 22) > 0.15;
         JoBodyDef def = jo_default_body_def();
         def.shape = (JoShape)(3.0 * draw(number, own + 3));
         def.size[0] = between(number, own + 4, 0.1, 0.3);
@@ -208,7 +210,7 @@ static void add_things(Encounter *e, uint64_t number, Kind kind) {
         if (!body.generation)
             fail_msg("%s", error.text);
         JoxV3 spin = {0.0f, 0.0f, (float)between(number, own + 12, -3.0, 3.0)};
-        if (draw(number, own + 13) < 0.5)
+        if (draw(number, 22) > 0.15 && draw(number, own + 13) < 0.5)
             jox_bodies_set_velocity(e->world->state.bodies, body.slot,
                                     (JoxV3){(float)def.vx, (float)def.vy, 0.0f}, spin);
     }
