@@ -166,7 +166,7 @@ static void add_people(Encounter *e, uint64_t number, Kind kind) {
         def.y = far * sin(angle);
         def.radius = between(number, own + 5, 0.15, 0.3);
         def.mass = between(number, own + 6, 40.0, 100.0);
-        def.max_speed = 3.0;
+        def.max_speed = 20.0;
         def.perception = kind == SEEING ? 3.0 : 0.0;
         add_person(e, def, speed * cos(way), speed * sin(way));
     }
@@ -220,7 +220,8 @@ static Encounter open_encounter(uint64_t number, bool people) {
     Kind kind = (Kind)(number % KINDS);
     Encounter e = {.coasting = kind == COASTING};
     JoWorldDef def = jo_default_world_def();
-    def.dt = STEPS[(uint32_t)(4.0 * draw(number, 20))];
+    /* Within a step of .1 s, which is done in two, the wish of who coasts would be that before. */
+    def.dt = STEPS[(uint32_t)between(number, 20, kind == COASTING ? 1.0 : 0.0, 4.0)];
     def.seed = number;
     def.gravity = draw(number, 21) < 0.5 ? 0.0 : 9.81; /* without it, energy is motion alone */
     e.world = jo_world_create(&def, NULL);
