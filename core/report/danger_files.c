@@ -95,7 +95,7 @@ static bool has_left(const JoxDanger *d) {
 }
 
 static void leavers(const JoxDanger *d, FILE *script) {
-    int column = 3 + JOX_DANGER_MEASURES + JOX_DANGER_LIMITS;
+    const int column = 3 + JOX_DANGER_MEASURES + JOX_DANGER_LIMITS + JOX_LEVELS + 1;
     fputs(
         "unset label\nset yrange [0:*]\nset title 'people who have left'\nplot 'danger.csv' skip 1 "
         "using 1:",
