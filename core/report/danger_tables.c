@@ -170,14 +170,14 @@ static bool write_lines(const JoxDanger *d, const char *folder, JoxText *error) 
     FILE *out = jox_plot_open(folder, "danger-lines.csv", error);
     if (!out)
         return false;
-    fputs("line,time [s],forward,back,waiting,flow [1/(m s)],density_before [1/m2],gain "
+    fputs("line,time [s],width [m],forward,back,waiting,flow [1/(m s)],density_before [1/m2],gain "
           "[1/s],level,stop_and_go,congestion\n",
           out);
     for (uint32_t l = 0; l < d->lines.count; l++)
         for (uint32_t r = 0; r < d->lines.items[l].row_count; r++) {
             const JoxDangerLineRow *row = &d->lines.items[l].rows[r];
             jox_quote_put(out, jox_quote_csv, d->lines.items[l].name);
-            fprintf(out, ",%.9g,%u,%u,%u", row->time, row->forward, row->back,
+            fprintf(out, ",%.9g,%.9g,%u,%u,%u", row->time, row->width, row->forward, row->back,
                     row->waiting[row->side]);
             put(out, row->flow);
             put(out, row->density);

@@ -17,8 +17,8 @@ static void add_lines(JoxPageFigures *f, const JoxDanger *danger) {
         jox_page_add(f, "1/(m s)", line->flow_most, "danger: greatest flow over %.60s", line->name);
         jox_page_add(f, "s", known ? line->stop_and_go.seconds : NAN,
                      "danger: stop-and-go at %.60s", line->name);
-        jox_page_add(f, "s", known ? line->congestion.seconds : NAN,
-                     "danger: congestion at %.60s", line->name);
+        jox_page_add(f, "s", known ? line->congestion.seconds : NAN, "danger: congestion at %.60s",
+                     line->name);
     }
 }
 
@@ -120,10 +120,11 @@ static void put_most(FILE *out, const JoxDanger *danger) {
 /* Fruin's levels: of everybody by area, and of lines by flow and area. */
 static void put_levels(FILE *out, const JoxDanger *danger) {
     jox_html_heading(out, "Levels of service");
-    jox_html_paragraph(out,
-                       "Of queues: by the area that each person has, 1 / density where they stand, "
-                       "in person-seconds. The maps of density have the same levels on their "
-                       "scales. Of walkways, at lines: the worse of flow and area before the line.");
+    jox_html_paragraph(
+        out, "Of queues: by the area that each person has, 1 / density where they stand, "
+             "in person-seconds. The maps of density have the same levels on their "
+             "scales. Of walkways, at lines: by flow, but E or F where the area before the line is "
+             "that of E or F, since a small flow may mean that nobody can move.");
     jox_html_table(out, "level|queue, m2 each from|person-seconds|walkway, m2 each from|walkway, "
                         "per m min to|in queues");
     for (int k = 0; k < JOX_LEVELS; k++) {
@@ -162,18 +163,19 @@ static void put_lines(FILE *out, const JoxDanger *danger) {
         return;
     }
     jox_html_paragraph(
-        out, "Of the ten seconds before each moment; nothing is known of the first ten. Density is "
+        out, "What lies of a line between walls about its middle is measured. Of the ten seconds "
+             "before each moment; nothing is known of the first ten. Density is "
              "that of the people within 2 m of the line on the side that most come from; those "
              "who wait are the people in sight of its middle within 10 m there. Levels are the "
              "seconds that the walkway over the line was at A / B / C / D / E / F.");
-    jox_html_table(out, "line|length|passed, back|greatest flow|worst level|seconds at "
+    jox_html_table(out, "line|clear width|passed, back|greatest flow|worst level|seconds at "
                         "levels|stop-and-go|first|congestion|first");
     for (uint32_t l = 0; l < lines->count; l++) {
         const JoxDangerLine *line = &lines->items[l];
         const bool known = line->worst >= 0;
         jox_html_row(out);
         jox_html_cell(out, line->name);
-        jox_html_cell_number(out, line->length, "m");
+        jox_html_cell_number(out, line->width, "m");
         fprintf(out, "<td class=n>%u, %u", line->forward, line->back);
         jox_html_cell_number(out, line->flow_most, "1/(m s)");
         jox_html_cell(out, known ? jox_levels[line->worst].name : "not measured");
@@ -198,10 +200,11 @@ static void put_walls(FILE *out, const JoxDanger *danger) {
         return;
     }
     char text[400];
-    snprintf(text, sizeof text,
-             "Forces of people across each piece of a wall, at most 1 m long, held on average for a "
-             "second. The limit is %g N on a rail: %s (%s). %u of %u pieces were ever over it.",
-             JOX_RAIL_LIMIT, jox_rail_what, jox_rail_source, walls->over, walls->count);
+    snprintf(
+        text, sizeof text,
+        "Forces of people across each piece of a wall, at most 1 m long, held on average for a "
+        "second. The limit is %g N on a rail: %s (%s). %u of %u pieces were ever over it.",
+        JOX_RAIL_LIMIT, jox_rail_what, jox_rail_source, walls->over, walls->count);
     jox_html_paragraph(out, text);
     jox_html_table(out, "from|to|now|greatest|greatest, per metre|when|over 4500 N|first");
     uint32_t order[SHOWN], shown = 0;

@@ -301,7 +301,7 @@ void jox_danger_free(JoxDanger *d) {
     jox_free(d->track.items);
     void *fields[] = {d->density, d->flow_x,      d->flow_y, d->mean_density, d->mean_vx,
                       d->mean_vy, d->mean_square, d->weight, d->pressure,     d->stood,
-                      d->people,  d->rows,        d->here,   d->walls.items};
+                      d->people,  d->rows,        d->here};
     for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
         jox_free(fields[f]);
     for (int m = 0; m < JOX_DANGER_MAPPED; m++) {
@@ -311,5 +311,6 @@ void jox_danger_free(JoxDanger *d) {
     for (uint32_t e = 0; e < d->exit_count; e++)
         jox_free(d->exit_names[e]);
     jox_danger_lines_free(&d->lines);
+    jox_danger_walls_free(&d->walls);
     jox_free(d);
 }

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+enum { CROWDED = 4 }; /* E */
+
 /* Areas of walkways are 35, 25, 15, 10 and 5 square feet, flows 7, 10, 15, 20 and 25 people a foot
    and minute; areas of queues 13, 10, 7, 3 and 2 square feet. */
 const JoxLevel jox_levels[JOX_LEVELS] = {
@@ -24,8 +26,10 @@ int jox_level_of_queue(double density) {
 
 int jox_level_of_walkway(double flow, double density) {
     int level = 0;
-    while (level < JOX_LEVELS - 1 && (flow * 60.0 > jox_levels[level].walk_flow ||
-                                      density * jox_levels[level].walk_area > 1.0))
+    while (level < JOX_LEVELS - 1 && flow * 60.0 > jox_levels[level].walk_flow)
         level++;
+    for (int k = CROWDED; k < JOX_LEVELS; k++)
+        if (level < k && density * jox_levels[k - 1].walk_area > 1.0)
+            level = k;
     return level;
 }

@@ -16,8 +16,8 @@ extern const char jox_levels_source[];
 
 /* Of a queue with so many people per m2. */
 int jox_level_of_queue(double density);
-/* Of a walkway: the worse of the two, since a flow that is small because nobody can move is no good
-   one. Flow in 1/(m s); NAN of a density where nobody is. */
+/* Of a walkway: by flow, 1/(m s); but E or F where the area alone says so, since a flow that is
+   small because nobody can move is no good one. NAN of a density where nobody is. */
 int jox_level_of_walkway(double flow, double density);
 
 #endif

@@ -7,13 +7,12 @@
 #include "base/sort.h"
 #include "geom/polygon.h"
 
-static const double WINDOW = 10.0;       /* s that flow and gain are taken over */
-static const float NEAR = 2.0f;          /* m: before a line */
-static const float FAR = 10.0f;          /* m: of those who wait before it */
-static const double STOP_FLOW = 0.8;     /* 1/(m s) */
-static const double DENSE = 3.5;         /* 1/m2 */
-static const double GAIN = 1.5;          /* 1/s */
-static const double HAIR = 1e-6;         /* s: times are sums of steps */
+static const double WINDOW = 10.0; /* s that flow and gain are taken over */
+static const float NEAR = 2.0f;    /* m: before a line */
+static const float FAR = 10.0f;    /* m: of those who wait before it */
+static const double DENSE = 3.5;   /* 1/m2 */
+static const double GAIN = 1.5;    /* 1/s */
+static const double HAIR = 1e-6;   /* s: times are sums of steps */
 
 const char jox_stop_and_go_source[] =
     "outflow below 0.8 per m s: Helbing, Johansson, Al-Abideen, Phys. Rev. E 75, 046109, 2007; the "
@@ -25,16 +24,17 @@ const char jox_congestion_source[] =
 void jox_danger_lines_add(JoxDangerLines *lines, const char *name, JoxV2 a, JoxV2 b) {
     const double length = (double)jox_length(jox_sub(b, a));
     for (uint32_t l = 0; l < lines->count; l++)
-        if (jox_length(jox_sub(lines->items[l].a, a)) == 0.0f &&
-            jox_length(jox_sub(lines->items[l].b, b)) == 0.0f)
+        if (jox_length(jox_sub(lines->items[l].given[0], a)) == 0.0f &&
+            jox_length(jox_sub(lines->items[l].given[1], b)) == 0.0f)
             return;
     if (length <= 0.0)
         return;
     JOX_RESERVE(lines->items, lines->capacity, lines->count + 1);
     lines->items[lines->count++] = (JoxDangerLine){.name = jox_strdup(name),
+                                                   .given = {a, b},
                                                    .a = a,
                                                    .b = b,
-                                                   .length = length,
+                                                   .width = length,
                                                    .flow_most = NAN,
                                                    .flow_most_time = NAN,
                                                    .worst = -1,
@@ -111,6 +111,58 @@ static bool is_hidden(const JoxWalls *walls, JoxV2 from, JoxV2 to) {
     return false;
 }
 
+/* The part of a wall's edge within a hair of a line, as shares of the line's length; false of none.
+ */
+static bool on_line(JoxV2 from, JoxV2 along, JoxV2 p, JoxV2 q, float *first, float *last) {
+    const float length = jox_length(along), hair = 0.01f;
+    const JoxV2 unit = jox_scale(along, 1.0f / length);
+    const float beside_p = jox_det(unit, jox_sub(p, from));
+    const float by = jox_det(unit, jox_sub(q, from)) - beside_p;
+    float low = 0.0f, high = 1.0f; /* of the edge */
+    if (by == 0.0f) {
+        if (fabsf(beside_p) > hair)
+            return false;
+    } else {
+        const float in = (-hair - beside_p) / by, out = (hair - beside_p) / by;
+        low = jox_maxf(low, jox_minf(in, out));
+        high = jox_minf(high, jox_maxf(in, out));
+    }
+    if (low > high)
+        return false;
+    const JoxV2 edge = jox_sub(q, p);
+    const float one = jox_dot(unit, jox_sub(jox_add(p, jox_scale(edge, low)), from)) / length;
+    const float two = jox_dot(unit, jox_sub(jox_add(p, jox_scale(edge, high)), from)) / length;
+    *first = jox_minf(one, two);
+    *last = jox_maxf(one, two);
+    return true;
+}
+
+/* What walls leave of the line about its middle; all of it where they stand in the middle. */
+static void clear(JoxDangerLine *line, const JoxWalls *walls) {
+    const JoxV2 along = jox_sub(line->given[1], line->given[0]);
+    float low = 0.0f, high = 1.0f, first, last;
+    bool blocked = false;
+    for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &walls->rings[r];
+        for (uint32_t v = ring->first; !ring->open && v < ring->first + ring->count; v++) {
+            const JoxWallVertex *vertex = &walls->vertices[v];
+            if (!on_line(line->given[0], along, vertex->point, walls->vertices[vertex->next].point,
+                         &first, &last))
+                continue;
+            blocked |= first < 0.5f && last > 0.5f;
+            if (last <= 0.5f)
+                low = jox_maxf(low, last);
+            if (first >= 0.5f)
+                high = jox_minf(high, first);
+        }
+    }
+    if (blocked || low >= high)
+        low = 0.0f, high = 1.0f;
+    line->a = jox_add(line->given[0], jox_scale(along, low));
+    line->b = jox_add(line->given[0], jox_scale(along, high));
+    line->width = (double)jox_length(jox_sub(line->b, line->a));
+}
+
 static float distance(const JoxDangerLine *line, JoxV2 point) {
     const JoxV2 along = jox_sub(line->b, line->a), from = jox_sub(point, line->a);
     const float t = jox_clampf(jox_dot(from, along) / jox_dot(along, along), 0.0f, 1.0f);
@@ -161,7 +213,7 @@ static void count_spell(JoxDangerSpell *spell, bool now, double time, double dur
 static void judge(JoxDangerLine *line, JoxDangerLineRow *row, double duration) {
     const bool dense = row->density >= DENSE;
     row->level = jox_level_of_walkway(row->flow, row->density);
-    row->stop_and_go = dense && row->flow < STOP_FLOW;
+    row->stop_and_go = dense && row->flow < JOX_STOP_FLOW;
     row->congested = dense && row->gain > GAIN;
     line->level_s[row->level] += duration;
     line->worst = row->level > line->worst ? row->level : line->worst;
@@ -177,7 +229,9 @@ static void sample(JoxDangerLine *line, const JoxFrame *frame, const float *dens
                    double duration) {
     uint32_t forward, back;
     double mean[2];
+    clear(line, frame->walls);
     JoxDangerLineRow row = {.time = frame->time,
+                            .width = line->width,
                             .forward = line->forward,
                             .back = line->back,
                             .flow = NAN,
@@ -195,9 +249,9 @@ static void sample(JoxDangerLine *line, const JoxFrame *frame, const float *dens
     row.density = mean[row.side];
     const JoxDangerLineRow *before = row_before(line, frame->time);
     if (before) {
-        row.flow = (forward + back) / (WINDOW * line->length);
-        row.gain = ((double)row.waiting[row.side] - before->waiting[row.side]) /
-                   (row.time - before->time);
+        row.flow = (forward + back) / (WINDOW * line->width);
+        row.gain =
+            ((double)row.waiting[row.side] - before->waiting[row.side]) / (row.time - before->time);
         judge(line, &row, duration);
     }
     JOX_RESERVE(line->rows, line->row_capacity, line->row_count + 1);
@@ -224,7 +278,7 @@ static void add_spell(JoxJson *json, const char *name, const JoxDangerSpell *spe
 static void add_line(const JoxDangerLine *line, double end, JoxJson *json) {
     const bool known = line->worst >= 0;
     jox_json_object(json, line->name);
-    jox_json_number(json, "length", line->length);
+    jox_json_number(json, "width", line->width);
     jox_json_whole(json, "forward", line->forward);
     jox_json_whole(json, "back", line->back);
     jox_json_number(json, "flow_max", line->flow_most);

@@ -1,6 +1,7 @@
 #include "record/danger/walls.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/mem.h"
 
@@ -11,18 +12,22 @@ static bool is_same(JoxV2 a, JoxV2 b) {
     return a.x == b.x && a.y == b.y;
 }
 
-/* The piece of a load: in the order of the frames unless walls changed, else a new one. */
-static uint32_t piece_of(JoxDangerWalls *walls, const JoxWallLoad *load, uint32_t at) {
-    for (uint32_t k = 0; k <= walls->count; k++) {
-        const uint32_t p = k == 0 ? at : k - 1;
-        if (p < walls->count && is_same(walls->items[p].from, load->from) &&
-            is_same(walls->items[p].to, load->to))
-            return p;
+/* The piece of load k: that of the frame before unless walls changed, else sought or new. */
+static JoxDangerPiece *piece_of(JoxDangerWalls *walls, const JoxWallLoad *load, uint32_t k) {
+    uint32_t p = walls->order[k];
+    if (p < walls->count && is_same(walls->items[p].from, load->from) &&
+        is_same(walls->items[p].to, load->to))
+        return &walls->items[p];
+    for (p = 0; p < walls->count; p++)
+        if (is_same(walls->items[p].from, load->from) && is_same(walls->items[p].to, load->to))
+            break;
+    if (p == walls->count) {
+        JOX_RESERVE(walls->items, walls->capacity, walls->count + 1);
+        walls->items[walls->count++] =
+            (JoxDangerPiece){.from = load->from, .to = load->to, .most_time = NAN, .first = NAN};
     }
-    JOX_RESERVE(walls->items, walls->capacity, walls->count + 1);
-    walls->items[walls->count] =
-        (JoxDangerPiece){.from = load->from, .to = load->to, .most_time = NAN, .first = NAN};
-    return walls->count++;
+    walls->order[k] = p;
+    return &walls->items[p];
 }
 
 static void judge(JoxDangerWalls *walls, uint32_t p, double time, double duration) {
@@ -52,10 +57,9 @@ void jox_danger_walls_frame(JoxDangerWalls *walls, const JoxFrame *frame, double
     walls->known = true;
     for (uint32_t p = 0; p < walls->count; p++)
         walls->items[p].load *= 1.0f - share; /* those that a gate took away bear nothing */
-    for (uint32_t k = 0; k < frame->wall_load_count; k++) {
-        const JoxWallLoad *load = &frame->wall_loads[k];
-        walls->items[piece_of(walls, load, k)].load += share * load->load;
-    }
+    JOX_RESERVE_ZEROED(walls->order, walls->order_capacity, frame->wall_load_count);
+    for (uint32_t k = 0; k < frame->wall_load_count; k++)
+        piece_of(walls, &frame->wall_loads[k], k)->load += share * frame->wall_loads[k].load;
     for (uint32_t p = 0; p < walls->count; p++)
         judge(walls, p, frame->time, duration);
 }
@@ -99,4 +103,9 @@ void jox_danger_walls_json(const JoxDangerWalls *walls, double end, JoxJson *jso
     jox_json_number(json, "since_min", first ? (end - first->first) / 60.0 : NAN);
     jox_json_end(json);
     jox_json_end(json);
+}
+
+void jox_danger_walls_free(JoxDangerWalls *walls) {
+    jox_free(walls->items);
+    jox_free(walls->order);
 }

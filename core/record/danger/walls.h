@@ -22,6 +22,8 @@ typedef struct JoxDangerPiece {
 typedef struct JoxDangerWalls {
     JoxDangerPiece *items;
     uint32_t count, capacity;
+    uint32_t *order; /* by load of the frame before: its piece */
+    uint32_t order_capacity;
     bool known;    /* some frame had loads of walls */
     uint32_t over; /* pieces that were ever over the limit */
     double piece_s, longest;
@@ -37,5 +39,6 @@ double jox_danger_walls_now(const JoxDangerWalls *walls);
 double jox_danger_piece_line_load(const JoxDangerPiece *piece);
 /* Adds "walls": {...}; null where no loads of walls are known. `end`: of what was measured, s. */
 void jox_danger_walls_json(const JoxDangerWalls *walls, double end, JoxJson *json);
+void jox_danger_walls_free(JoxDangerWalls *walls);
 
 #endif
