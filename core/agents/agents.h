@@ -63,7 +63,7 @@
     X(STATE, float, load)                                                                          \
     X(SCRATCH, float, forced_x) /* velocity that the force gives by the end of the step, m/s */    \
     X(SCRATCH, float, forced_y)                                                                    \
-    X(SCRATCH, float, breadth) /* radius at which it touches, m */                                 \
+    X(SCRATCH, float, breadth)      /* radius at which it touches, m */                            \
     X(SCRATCH, float, half_plane_x) /* force half-plane: unit normal; (0, 0) means none */         \
     X(SCRATCH, float, half_plane_y)                                                                \
     X(SCRATCH, float, half_plane_offset) /* (v . normal) >= offset, m/s */                         \

@@ -27,7 +27,7 @@ typedef struct JoxFoundContact {
    which has found the contact. */
 typedef struct JoxPairs {
     uint32_t count, colours;
-    uint32_t listed; /* found: entries of `place` */
+    uint32_t listed;                               /* found: entries of `place` */
     uint32_t starts[JOX_CONTACT_MOST_COLOURS + 1]; /* of each colour */
     uint32_t *first, *second;
     float *nx, *ny;
@@ -77,8 +77,8 @@ typedef struct JoxPressedBody {
     uint32_t row, id;
     JoxV3 velocity, spin;   /* before, m/s and rad/s */
     JoxV3 impulse, angular; /* N s, N m s */
-    float work;             /* sum over the contacts of impulse times velocity that a free body gains
-                               along it, J */
+    float work; /* sum over the contacts of impulse times velocity that a free body gains
+                   along it, J */
 } JoxPressedBody;
 typedef struct JoxPressedBodies {
     JoxPressedBody *items;

@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "geom/polygon.h"
 #include "force/internal.h"
+#include "geom/polygon.h"
 
 static bool lists(const JoxNeighbours *near, uint32_t i, uint32_t other) {
     const uint32_t *index = near->touch_index + (size_t)i * JOX_MOST_NEIGHBOURS;

@@ -98,8 +98,7 @@ static void fill_pair(JoxForces *f, uint32_t i, const JoxFoundContact *found, ui
     p->ny[at] = found->normal.y;
     p->mass[at] = mass[i] * mass[j] / (mass[i] + mass[j]);
     float speed = (a->vx[i] - a->vx[j]) * found->normal.x + (a->vy[i] - a->vy[j]) * found->normal.y;
-    p->target[at] =
-        jox_contact_target(found->gap, speed, jox_minf(e[i], e[j]), (float)f->step.dt);
+    p->target[at] = jox_contact_target(found->gap, speed, jox_minf(e[i], e[j]), (float)f->step.dt);
     f->totals.pairs += found->gap < 0.0f;
 }
 

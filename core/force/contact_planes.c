@@ -9,6 +9,9 @@
 #include "force/equations.h"
 #include "force/internal.h"
 
+/* m/s: what is left of the solve of contacts must not make planes contradict each other. */
+static const float SLACK = 1e-3f;
+
 /* How much of a speed the feet can take away by the end of the step; more in the plan, of which the
    step does a share. */
 static inline float braking(const JoxForceStep *step, uint32_t i, float speed) {
@@ -44,7 +47,9 @@ static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *o
         JoxV2 mean = {0.5f * (a->forced_x[i] + a->forced_x[j]),
                       0.5f * (a->forced_y[i] + a->forced_y[j])};
         float gap = p->target[at] < 0.0f ? -p->target[at] * (float)f->step.dt : 0.0f;
-        float least = bound_of(&f->step, i, j, normal, jox_dot(mean, normal));
+        float own = jox_dot((JoxV2){a->forced_x[i], a->forced_y[i]}, normal);
+        float both = jox_minf(jox_dot(mean, normal), own);
+        float least = bound_of(&f->step, i, j, normal, both) - SLACK;
         float radii = jox_touch_radius(a, i) + jox_touch_radius(a, j);
         out[n++] = (JoxContactPlane){normal, least - 0.5f * gap / time, j, radii};
     }
@@ -53,16 +58,17 @@ static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *o
 
 static uint32_t body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out) {
     const float time = (float)f->step.planning_time;
-    const float damping = f->step.agents->param[JOX_PARAM_damping][i];
     uint32_t n = 0;
     for (uint32_t k = 0; k < jox_touches_of(f, i); k++) {
         const JoxTouch *t = &f->touch[f->touch_first[i] + k];
         if (!(t->impulse > 0.0f || t->gap <= 0.0f))
             continue;
-        float speed = jox_touch_speed_after(f, t), least = speed;
+        JoxV2 forced = {f->step.agents->forced_x[i], f->step.agents->forced_y[i]};
+        float speed = jox_minf(jox_touch_speed_after(f, t), jox_dot(forced, t->normal));
+        float least = speed;
         if (speed > 0.0f)
             least -= braking(&f->step, i, speed);
-        least -= jox_maxf(t->gap, 0.0f) / time;
+        least -= jox_maxf(t->gap, 0.0f) / time + SLACK;
         out[n++] = (JoxContactPlane){t->normal, least, t->object, 0.0f};
     }
     return n;

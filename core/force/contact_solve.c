@@ -1,7 +1,8 @@
 /* The impulses of all contacts at once: velocities start from what the other forces give, and
-   Gauss-Seidel passes over the contacts (sequential impulses with accumulated clamping, as E. Catto,
-   Game Developers Conference 2006) go on until a pass changes no force by more than the tolerance.
-   Contacts of one colour share no agent, so that threads and the order in memory change no bit. */
+   Gauss-Seidel passes over the contacts (sequential impulses with accumulated clamping, as E.
+   Catto, Game Developers Conference 2006) go on until a pass changes no force by more than the
+   tolerance. Contacts of one colour share no agent, so that threads and the order in memory change
+   no bit. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -29,7 +30,8 @@ static void start_velocities(void *context, uint32_t begin, uint32_t end, uint32
         float lightness = 1.0f / mass[i];
         f->lightness[i] = lightness;
         JoxV2 force = jox_moving_force(a, i);
-        f->work[i] = jox_v2(a->vx[i] + force.x * lightness * dt, a->vy[i] + force.y * lightness * dt);
+        f->work[i] =
+            jox_v2(a->vx[i] + force.x * lightness * dt, a->vy[i] + force.y * lightness * dt);
     }
 }
 

@@ -37,24 +37,17 @@ typedef struct JoxForceStep {
     const JoxObjects *objects;
     const JoxWallGrid *walls; /* serving jox_touch_reach; NULL: none */
     JoxPool *pool;
-    double dt;              /* s, above 0 */
-    double planning_time;   /* s: how far ahead velocities are planned; 0: dt */
-    double response;        /* share of the way to the planned velocity gone in dt; 0: all */
-    double interval;        /* s: between plans of those who want to get on; 0: dt */
+    double dt;                /* s, above 0 */
+    double planning_time;     /* s: how far ahead velocities are planned; 0: dt */
+    double response;          /* share of the way to the planned velocity gone in dt; 0: all */
+    double interval;          /* s: between plans of those who want to get on; 0: dt */
     double interval_response; /* the share gone in that time */
-    const uint8_t *push_on; /* per agent, 0: does not push now; NULL: all push */
+    const uint8_t *push_on;   /* per agent, 0: does not push now; NULL: all push */
     const uint8_t
         *push_nearest; /* per agent, 1: the whole push goes to the nearest; NULL: shared */
     /* Direction of the push per agent, of any length; (0, 0) or NULL: the preferred velocity. */
     const float *push_toward_x, *push_toward_y;
 } JoxForceStep;
-
-/* A piece of the edge of a wall, at most a metre long, and what contacts press on it, N. */
-typedef struct JoxWallLoad {
-    uint32_t edge;
-    JoxV2 from, to;
-    float load;
-} JoxWallLoad;
 
 typedef struct JoxForceTotals {
     uint32_t pushers; /* agents that pushed something this step */

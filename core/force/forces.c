@@ -8,7 +8,8 @@
 #include "force/internal.h"
 
 JoxForceOptions jox_force_default_options(void) {
-    return (JoxForceOptions){.iterations = 60, .tolerance = 1.0f, .reach = 0.6f, .filter = 0.13f, .least = 0.05f};
+    return (JoxForceOptions){
+        .iterations = 60, .tolerance = 1.0f, .reach = 0.6f, .filter = 0.13f, .least = 0.05f};
 }
 
 void jox_forces_set_options(JoxForces *f, const JoxForceOptions *options) {
@@ -133,7 +134,8 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     if (f->chunks)
         memset(f->chunk, 0, f->chunks * sizeof *f->chunk);
     JOX_RESERVE(f->braced, f->braced_capacity, n);
-    static double hack; hack += step->dt;
+    static double hack;
+    hack += step->dt;
     for (uint32_t i = 0; i < n; i++)
         a->breadth[i] = breadth_of(a, i, hack);
     if (n) {

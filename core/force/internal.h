@@ -107,6 +107,11 @@ struct JoxForces {
 
 /* Makes room for `room` items of `size` bytes in every chunk and empties the list. */
 void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t size);
+/* Agents in reach of agent i within its cone about `axis`: their indices, in the order of nearness.
+ */
+uint32_t jox_people_in_cone(const JoxForces *forces, uint32_t i, JoxV2 axis, uint32_t *found);
+/* Lists a force that agent i, of that chunk, gives agent `to`. */
+void jox_transfer_give(JoxForces *forces, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force);
 /* Sorts the transfers by receiver: those of agent i are sorted[starts[i]] to sorted[starts[i + 1]].
    Returns how many there are; with none, nothing is written. */
 uint32_t jox_transfers_sort(JoxForces *forces);
@@ -133,8 +138,8 @@ static inline JoxPlanning jox_planning_of(const JoxForceStep *step, uint32_t i) 
                          (float)(stands ? step->response : step->interval_response)};
 }
 
-/* Force that moves an agent, contacts apart, N: from outside, and what of the others' pushes the feet
-   do not hold. */
+/* Force that moves an agent, contacts apart, N: from outside, and what of the others' pushes the
+   feet do not hold. */
 static inline JoxV2 jox_moving_force(const JoxAgents *a, uint32_t i) {
     JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
     float size = jox_length(others), held = jox_stands(a, i) ? 0.0f : a->param[JOX_PARAM_brace][i];
@@ -142,8 +147,8 @@ static inline JoxV2 jox_moving_force(const JoxAgents *a, uint32_t i) {
     return (JoxV2){a->ext_x[i] + left * others.x, a->ext_y[i] + left * others.y};
 }
 
-/* Radius at which an agent touches, m: who wants to get on turns a shoulder to others and to what is
-   in its way, who stands does not. */
+/* Radius at which an agent touches, m: who wants to get on turns a shoulder to others and to what
+   is in its way, who stands does not. */
 static inline float jox_touch_radius(const JoxAgents *a, uint32_t i) {
     return a->breadth[i];
 }
@@ -168,7 +173,8 @@ void jox_contact_planes_make(JoxForces *forces);
 void jox_loads_measure(JoxForces *forces);
 
 /* touch.c: contacts with bodies. begin: velocities of bodies, first impulses; pass: one over all
-   touches, which returns the greatest change of an impulse, N s; finish: impulses for the bodies. */
+   touches, which returns the greatest change of an impulse, N s; finish: impulses for the bodies.
+ */
 void jox_touches_find(JoxForces *forces, uint32_t begin, uint32_t end);
 void jox_touches_collect(JoxForces *forces);
 void jox_touches_begin(JoxForces *forces);
@@ -183,8 +189,24 @@ JoxV3 jox_arm_of(const JoxObject *body, JoxV3 point);
 float jox_touch_speed_before(const JoxForces *forces, const JoxTouch *touch);
 float jox_touch_speed_after(const JoxForces *forces, const JoxTouch *touch);
 
-/* Impulses of all pairs and touches as equation 6 is printed. */
+/* Equations as they are printed, literal.c. (5): from where the pusher will be to the one pushed.
+ */
+JoxV2 jox_literal_push_offset(const JoxForces *forces, uint32_t pusher, JoxV2 to_centre);
+/* (6): impulses of all pairs and touches. */
 void jox_literal_contacts(JoxForces *forces);
+/* (11), (12): the half-plane of agent i's net force, and its speed limit. */
+void jox_literal_bound(JoxForces *forces, uint32_t i);
+/* (8), (9): what agent i, of that chunk, passes on. */
+void jox_literal_pass_on(JoxForces *forces, uint32_t chunk, uint32_t i);
+
+/* Whether agent i was under force in this step: then its neighbours feel its resistance, otherwise
+   its slowing down. */
+bool jox_literal_under_force(const JoxForces *forces, uint32_t i);
+static inline bool jox_under_force(const JoxForces *f, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    return f->options.literal ? jox_literal_under_force(f, i)
+                              : a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f;
+}
 
 /* Assertions: transfers lie sorted by receiver, from givers that live; the contacts between agents
    add up to no force. */

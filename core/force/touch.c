@@ -27,8 +27,7 @@ static bool touches(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *touc
         return false;
     JOX_ASSERT(jox_is_unit(at.normal));
     JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};
-    *touch =
-        (JoxTouch){.agent = i, .object = row, .normal = at.normal, .point = point, .gap = gap};
+    *touch = (JoxTouch){.agent = i, .object = row, .normal = at.normal, .point = point, .gap = gap};
     return true;
 }
 
@@ -144,9 +143,8 @@ static void reset_motions(JoxForces *f) {
     for (uint32_t t = 0; t < f->touch_count; t++) {
         uint32_t row = f->touch[t].object;
         const JoxObject *body = &f->step.objects->rows[row];
-        f->motions[row] = (JoxBodyMotion){.velocity = body->velocity,
-                                          .spin = body->spin,
-                                          .yields = yields(f, row)};
+        f->motions[row] = (JoxBodyMotion){
+            .velocity = body->velocity, .spin = body->spin, .yields = yields(f, row)};
     }
 }
 
@@ -163,8 +161,8 @@ void jox_touches_begin(JoxForces *f) {
         float restitution = jox_minf(a->param[JOX_PARAM_restitution][t->agent], body->restitution);
         float speed = jox_dot(jox_v2(a->vx[t->agent], a->vy[t->agent]), t->normal) -
                       jox_touch_speed_before(f, t);
-        t->mass = 1.0f / (1.0f / a->param[JOX_PARAM_mass][t->agent] +
-                          give * f->motions[t->object].yields);
+        t->mass = 1.0f /
+                  (1.0f / a->param[JOX_PARAM_mass][t->agent] + give * f->motions[t->object].yields);
         t->target = jox_contact_target(t->gap, speed, restitution, (float)f->step.dt);
         t->impulse = jox_kept_impulse(&f->kept_touches, &kept, a->id[t->agent], t->object);
         JOX_ASSERT(t->mass > 0.0f);
@@ -211,8 +209,8 @@ static void note_pressed(JoxForces *f) {
         JoxV3 impulse = {-t->normal.x * t->impulse, -t->normal.y * t->impulse, 0.0f};
         JoxV3 angular = jox_cross3(jox_arm_of(body, t->point), impulse);
         p->impulse = (JoxV3){p->impulse.x + impulse.x, p->impulse.y + impulse.y, 0.0f};
-        p->angular = (JoxV3){p->angular.x + angular.x, p->angular.y + angular.y,
-                             p->angular.z + angular.z};
+        p->angular =
+            (JoxV3){p->angular.x + angular.x, p->angular.y + angular.y, p->angular.z + angular.z};
     }
     size_t kept = 0;
     for (size_t k = 0; k < f->pressed.count; k++) {
@@ -242,8 +240,8 @@ void jox_touches_finish(JoxForces *f) {
         totals->touched_x += (double)impulse.x;
         totals->touched_y += (double)impulse.y;
         totals->touched += t->impulse;
-        jox_force_add_impulse(f, a->id[t->agent], t->object,
-                              (JoxV3){-impulse.x, -impulse.y, 0.0f}, t->point);
+        jox_force_add_impulse(f, a->id[t->agent], t->object, (JoxV3){-impulse.x, -impulse.y, 0.0f},
+                              t->point);
     }
     note_pressed(f);
 }

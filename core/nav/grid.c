@@ -233,8 +233,7 @@ static void find_touching(const Perceive *p, uint32_t i, float reach, uint32_t h
     search(p->nav, a, i, range, &found, hints);
     out->touch_count[i] = (uint8_t)found.count;
     for (uint32_t k = 0; k < found.count; k++)
-        out->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k] =
-            a->by_rank[(uint32_t)found.keys[k]];
+        out->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k] = a->by_rank[(uint32_t)found.keys[k]];
 }
 
 static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {

@@ -17,9 +17,9 @@ typedef struct Move {
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
     const JoxContactPlanes *touched; /* NULL: contacts were not looked for */
-    float dt, response; /* s; share of the way to the planned velocity */
-    float stiffness; /* share of an overlap removed by one sweep */
-    int from;        /* which position buffer a sweep reads */
+    float dt, response;              /* s; share of the way to the planned velocity */
+    float stiffness;                 /* share of an overlap removed by one sweep */
+    int from;                        /* which position buffer a sweep reads */
 } Move;
 
 static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -184,8 +184,7 @@ static void apply_positions(void *context, uint32_t begin, uint32_t end, uint32_
         if (grid->first)
             jox_wall_grid_at(grid, p, &near);
         if (near > 0) {
-            JoxV2 clear =
-                keep_clear(grid, stop_at_walls(grid, p, q), a->breadth[i]);
+            JoxV2 clear = keep_clear(grid, stop_at_walls(grid, p, q), a->breadth[i]);
             q = stop_at_walls(grid, p, clear);
         }
         a->x[i] = q.x;
@@ -217,7 +216,7 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
                  .response = (float)response};
     move.stiffness = STIFFNESS * jox_minf(1.0f, (float)dt / STIFF_STEP);
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate, &move);
-    for (int i = 0; i < SWEEPS; i++) {
+    for (int i = 0; i < SWEEPS && !nav->literal; i++) {
         jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN,
                          move.touched ? sweep_touched : sweep_seen, &move);
         move.from = !move.from;

@@ -14,6 +14,8 @@ typedef struct JoxNav JoxNav;
 
 JoxNav *jox_nav_create(void);
 void jox_nav_free(JoxNav *nav);
+/* Equations 3 and 4 as they are printed, and no projection of overlaps. */
+void jox_nav_set_literal(JoxNav *nav, bool literal);
 /* The walls, not copied; call again when they change. NULL: none. */
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls);
 
@@ -61,8 +63,8 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                              const JoxContactPlanes *touched, double planning_time, uint32_t agent,
                              JoxConstraint out[JOX_MOST_CONSTRAINTS]);
 /* move: velocity = forced + (next - forced) * response, position += velocity dt, weak projection
-   of overlaps (of what is touched, where `touched` has it, else of neighbours), never through a wall; prev_x, prev_y keep the old position; updates still, still_x,
-   still_y. */
+   of overlaps (of what is touched, where `touched` has it, else of neighbours), never through a
+   wall; prev_x, prev_y keep the old position; updates still, still_x, still_y. */
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                   const JoxObjects *objects, const JoxContactPlanes *touched, double dt,
                   double response, JoxPool *pool);

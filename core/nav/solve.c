@@ -62,7 +62,8 @@ static uint32_t agent_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *out)
     const JoxAgents *a = s->agents;
     const float *radius = a->param[JOX_PARAM_radius];
     JoxV2 velocity = {a->vx[i], a->vy[i]};
-    float tau = a->param[JOX_PARAM_horizon][i], share = a->param[JOX_PARAM_yield][i];
+    float tau = a->param[JOX_PARAM_horizon][i];
+    float share = s->nav->literal ? 0.5f : a->param[JOX_PARAM_yield][i]; /* (3) prints u/2 */
     uint32_t made = 0;
     for (uint32_t k = 0; k < s->neighbours->count[i]; k++) {
         uint32_t j = s->neighbours->index[jox_neighbour_at(s->neighbours, i, k)];
@@ -98,7 +99,7 @@ static inline Counts make_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *
     n += made.contacts = contact_half_planes(s, i, half_planes + n);
     n += made.agents = agent_half_planes(s, i, half_planes + n);
     if (s->objects && s->objects->count)
-        n += made.objects = jox_orca_objects(a, i, s->objects, s->touched, s->planning_time,
+        n += made.objects = jox_orca_objects(s->nav, a, i, s->objects, s->touched, s->planning_time,
                                              half_planes + n, MOST_OBJECTS);
     made.force = a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f;
     if (made.force)
@@ -119,7 +120,7 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                              JoxConstraint out[JOX_MOST_CONSTRAINTS]) {
     static_assert((int)MOST == (int)JOX_MOST_CONSTRAINTS, "room for all");
     JOX_ASSERT(agent < agents->count);
-    const Solve solve = {(JoxNav *)nav,      (JoxAgents *)agents,  neighbours, objects,
+    const Solve solve = {(JoxNav *)nav,     (JoxAgents *)agents,  neighbours, objects,
                          in_force(touched), (float)planning_time, true};
     JoxHalfPlane half_planes[MOST];
     Counts made = make_half_planes(&solve, agent, half_planes);
@@ -193,7 +194,8 @@ static float wall_reach(const JoxAgents *a, float planning_time) {
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                        const JoxObjects *objects, const JoxContactPlanes *touched,
                        double planning_time, bool plans, JoxPool *pool) {
-    Solve solve = {nav, agents, neighbours, objects, in_force(touched), (float)planning_time, plans};
+    Solve solve = {nav,  agents, neighbours, objects, in_force(touched), (float)planning_time,
+                   plans};
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)planning_time));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);

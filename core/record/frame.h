@@ -28,7 +28,9 @@ typedef struct JoxFrame {
     const uint32_t *state;     /* row of the person's state in `states` */
     const char *const *states; /* their names, of all machines */
     uint32_t state_count;
-    const JoxWalls *walls; /* as they stand now */
+    const JoxWalls *walls;         /* as they stand now */
+    const JoxWallLoad *wall_loads; /* by piece; NULL where they are not known */
+    uint32_t wall_load_count;
 } JoxFrame;
 
 #endif

@@ -70,10 +70,9 @@ void jox_stage_push(const JoxPushStage *s) {
 }
 
 void jox_stage_solve(const JoxSolveStage *s) {
-    s->statistics->walls_relaxed += jox_nav_solve(s->nav, s->agents, s->neighbours, s->objects,
-                                                  jox_force_contact_planes(s->forces_of),
-                                                  s->substep->planning_time, s->substep->plans,
-                                                  s->pool);
+    s->statistics->walls_relaxed += jox_nav_solve(
+        s->nav, s->agents, s->neighbours, s->objects, jox_force_contact_planes(s->forces_of),
+        s->substep->planning_time, s->substep->plans, s->pool);
     jox_inspect_solved(s->inspection, s->agents, s->nav, s->neighbours, s->objects,
                        jox_force_contact_planes(s->forces_of), s->substep->planning_time);
 }

@@ -58,11 +58,11 @@ typedef struct JoxPushStage {
     JoxPool *pool;
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
-    JoxNav *nav; /* its grid of walls */
+    JoxNav *nav;                   /* its grid of walls */
     const JoxMachineRun *machines; /* who pushes, and whereto */
     JoxForces *forces_of;
-    JoxAgents
-        *agents; /* push, contact, force, plane, disc, compression, load, contacts; ext is used up */
+    JoxAgents *
+        agents; /* push, contact, force, plane, disc, compression, load, contacts; ext is used up */
     JoxInspection *inspection;
 } JoxPushStage;
 void jox_stage_push(const JoxPushStage *stage);

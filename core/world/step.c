@@ -1,10 +1,10 @@
 /* The step: nine stages, and what each may read and write (stages.h).
 
-   Forces change velocities at once; the velocity that people plan beyond that they approach with the
-   time constant PLANNING_TIME, so that neither the size of the step nor how often they plan is a
-   property of people, and what they do hardly depends on it. A step that is longer is done in
-   substeps. As printed, everything happens within one step of whatever length: with `literal` it does
-   here. */
+   Forces change velocities at once; the velocity that people plan beyond that they approach with
+   the time constant PLANNING_TIME, so that neither the size of the step nor how often they plan is
+   a property of people, and what they do hardly depends on it. A step that is longer is done in
+   substeps. As printed, everything happens within one step of whatever length: with `literal` it
+   does here. */
 #include <math.h>
 
 #include "base/assert.h"

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/elementary.h"
 #include "base/mem.h"
 #include "record/danger/danger_parts.h"
@@ -75,7 +76,7 @@ static void judge(JoxDanger *d, const JoxFrame *frame, uint32_t i, JoxDangerMeas
     }
 }
 
-/* Every frame: what person i bears now, and the dose of it until now. */
+/* What person i bears now, and the dose of it until now. */
 static void bear(JoxDanger *d, const JoxFrame *frame, uint32_t i, double duration, float share) {
     JoxDangerPerson *p = &d->people[frame->key[i]];
     if (frame->compression) {
@@ -95,6 +96,7 @@ static void bear(JoxDanger *d, const JoxFrame *frame, uint32_t i, double duratio
     judge(d, frame, i, JOX_DANGER_DOSE, p->dose, duration);
 }
 
+/* Every frame: what people and walls bear. */
 static void press(JoxDanger *d, const JoxFrame *frame) {
     double duration = isnan(d->last_frame) ? 0.0 : frame->time - d->last_frame;
     float share = (float)(1.0 - jox_exp(-duration / HOLD));
@@ -103,6 +105,7 @@ static void press(JoxDanger *d, const JoxFrame *frame) {
     d->has_load |= frame->load != NULL;
     for (uint32_t i = 0; (frame->compression || frame->load) && i < frame->count; i++)
         bear(d, frame, i, duration, share);
+    jox_danger_walls_frame(&d->walls, frame, duration, share);
 }
 
 /* Velocity of person i over the last sample interval: that of one step shakes with its contacts. */
@@ -189,6 +192,9 @@ static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     JOX_RESERVE(d->rows, d->row_capacity, d->row_count + 1);
     JoxDangerRow *row = &d->rows[d->row_count++];
     *row = (JoxDangerRow){.time = frame->time, .people = frame->count};
+    for (uint32_t i = 0; i < frame->count; i++)
+        if (!isnan(d->here[i]))
+            row->levels[jox_level_of_queue((double)d->here[i])]++;
     for (uint32_t i = 0; i < frame->count; i++) {
         size_t cell;
         const JoxDangerPerson *p = &d->people[frame->key[i]];
@@ -226,6 +232,9 @@ static void keep_most(JoxDanger *d, const JoxFrame *frame) {
                 d->greatest[m][cell] = jox_maxf(d->greatest[m][cell], value);
         }
     }
+    row->wall_most = fmaxf(row->wall_most, (float)jox_danger_walls_now(&d->walls));
+    if (!d->walls.known)
+        row->wall_most = NAN;
     if (!frame->compression)
         row->most[JOX_DANGER_COMPRESSION] = NAN;
     if (!frame->load)
@@ -240,20 +249,37 @@ static void sample(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     d->last_sample = frame->time;
     spread(d, frame);
     agitate(d, frame->time, duration > 0.0 ? duration : PACE);
+    JOX_RESERVE(d->here, d->here_capacity, frame->count);
     for (uint32_t i = 0; i < frame->count; i++) {
         size_t cell;
-        if (!cell_of(d->grid, frame->x[i], frame->y[i], &cell))
+        const bool inside = cell_of(d->grid, frame->x[i], frame->y[i], &cell);
+        d->here[i] = inside ? d->density[cell] : NAN;
+        if (!inside)
             continue;
+        d->level_s[jox_level_of_queue((double)d->here[i])] += duration;
         judge(d, frame, i, JOX_DANGER_DENSITY, (double)d->density[cell], duration);
         judge(d, frame, i, JOX_DANGER_PRESSURE, (double)d->pressure[cell], duration);
     }
     chart(d, frame);
     note(d, frame, exits);
+    jox_danger_lines_sample(&d->lines, frame, d->here, duration);
+}
+
+void jox_danger_add_line(JoxDanger *d, const char *name, JoxV2 a, JoxV2 b) {
+    JOX_ASSERT(isnan(d->last_frame) && name);
+    jox_danger_lines_add(&d->lines, name, a, b);
+}
+
+void jox_danger_add_flows(JoxDanger *d, const JoxProbeDef *probes, uint32_t count) {
+    for (uint32_t p = 0; p < count; p++)
+        if (probes[p].kind == JOX_PROBE_FLOW)
+            jox_danger_add_line(d, probes[p].name, probes[p].points[0], probes[p].points[1]);
 }
 
 void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     JOX_RESERVE_ZEROED(d->people, d->people_capacity, frame->keys);
     press(d, frame);
+    jox_danger_lines_cross(&d->lines, frame);
     /* Times are multiples of a step, whose sum may fall short of them by a hair. */
     int64_t stretch = (int64_t)floor(frame->time / PACE + 1e-6);
     if (stretch != d->stretch)
@@ -273,9 +299,9 @@ void jox_danger_free(JoxDanger *d) {
         return;
     jox_density_free(d->grid);
     jox_free(d->track.items);
-    void *fields[] = {d->density,  d->flow_x,  d->flow_y,      d->mean_density,
-                      d->mean_vx,  d->mean_vy, d->mean_square, d->weight,
-                      d->pressure, d->stood,   d->people,      d->rows};
+    void *fields[] = {d->density, d->flow_x,      d->flow_y, d->mean_density, d->mean_vx,
+                      d->mean_vy, d->mean_square, d->weight, d->pressure,     d->stood,
+                      d->people,  d->rows,        d->here};
     for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
         jox_free(fields[f]);
     for (int m = 0; m < JOX_DANGER_MAPPED; m++) {
@@ -284,5 +310,7 @@ void jox_danger_free(JoxDanger *d) {
     }
     for (uint32_t e = 0; e < d->exit_count; e++)
         jox_free(d->exit_names[e]);
+    jox_danger_lines_free(&d->lines);
+    jox_danger_walls_free(&d->walls);
     jox_free(d);
 }

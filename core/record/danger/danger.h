@@ -24,6 +24,7 @@
 #include "record/fields/density.h"
 #include "record/frame.h"
 #include "world/exits.h"
+#include "world/probe.h"
 
 typedef enum JoxDangerMeasure {
     JOX_DANGER_DENSITY,
@@ -72,6 +73,11 @@ typedef struct JoxDangerMost {
 typedef struct JoxDanger JoxDanger;
 /* `low` to `high`: the area of fields and maps. */
 JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high);
+/* A line that people pass, for flow, levels of service, stop-and-go and congestion; before the
+   first frame. */
+void jox_danger_add_line(JoxDanger *danger, const char *name, JoxV2 a, JoxV2 b);
+/* Those of probes that measure flow. */
+void jox_danger_add_flows(JoxDanger *danger, const JoxProbeDef *probes, uint32_t count);
 /* Frames in ascending time; `exits` as they are then, or NULL. */
 void jox_danger_frame(JoxDanger *danger, const JoxFrame *frame, const JoxExits *exits);
 /* The field of density or pressure at the last sample, and its grid. */
@@ -84,7 +90,8 @@ JoxDangerMost jox_danger_most(const JoxDanger *danger, JoxDangerMeasure measure)
 /* Whether there was anything to read it from: compression and load are in our own recordings alone,
    crowd pressure takes ten seconds. What is over its limits is not known otherwise. */
 bool jox_danger_reads(const JoxDanger *danger, JoxDangerMeasure measure);
-/* Adds "density_max": ..., "limits": {...}; null where it was not read. */
+/* Adds "density_max": ..., "limits": {...}, "levels": {...}, "lines": {...}, "walls": {...}; null
+   where it was not read. */
 void jox_danger_json(const JoxDanger *danger, JoxJson *json);
 void jox_danger_free(JoxDanger *danger);
 
