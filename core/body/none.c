@@ -84,7 +84,8 @@ bool jox_bodies_any_fast(const JoxBodies *bodies, float dt) {
 }
 void jox_bodies_objects(JoxBodies *bodies, JoxObjects *objects) {
     (void)bodies;
-    *objects = (JoxObjects){0};
+    objects->rows = NULL;
+    objects->count = objects->capacity = 0;
 }
 bool jox_bodies_bonds(const JoxBodies *bodies, uint32_t row, JoxBodyBonds *bonds) {
     (void)bodies, (void)row;

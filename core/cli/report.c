@@ -16,7 +16,7 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Wanted, def.scene)},
     {"out", "DIR",
      "a page, index.html; CSV files and pictures, NAME.csv, NAME.png and NAME.svg, of each probe "
-     "and of danger: density, crowd pressure and, in recordings of `jostle run`, compression",
+     "and of danger: density, crowd pressure and, in recordings of `jostle run`, loads",
      CLI_TO(Wanted, def.directory)},
     {"summary", "FILE", "write the figures as JSON; '-' is standard output",
      CLI_TO(Wanted, summary)},

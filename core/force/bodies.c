@@ -9,138 +9,26 @@
 #include "force/internal.h"
 
 static const float CHEST = 1.1f; /* m; people push and are hit there */
-enum { MOST_CELLS = 1 << 16 };
-
-/* Bounds of what a body covers in the plane; false where agents cannot touch it. */
-static bool body_bounds(const JoxObject *body, float margin, JoxV2 *low, JoxV2 *high) {
-    if (!body->live || !body->in_band || body->swept)
-        return false;
-    JoxV2 centre = {body->position.x, body->position.y};
-    *low = jox_v2(centre.x - body->round, centre.y - body->round);
-    *high = jox_v2(centre.x + body->round, centre.y + body->round);
-    for (uint32_t i = 0; i < body->footprint_count; i++) {
-        JoxV2 p = body->footprint[i];
-        *low = i ? jox_v2(jox_minf(low->x, p.x), jox_minf(low->y, p.y)) : p;
-        *high = i ? jox_v2(jox_maxf(high->x, p.x), jox_maxf(high->y, p.y)) : p;
-    }
-    *low = jox_v2(low->x - margin, low->y - margin);
-    *high = jox_v2(high->x + margin, high->y + margin);
-    /* False for bodies thrown to where numbers end, too. */
-    return low->x > -1e7f && low->y > -1e7f && high->x < 1e7f && high->y < 1e7f;
-}
-
-/* Lays the grid over all bodies with cells of at least a metre, and not too many of them. */
-static bool lay_grid(JoxBodyGrid *g, const JoxObjects *objects, float margin) {
-    JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY}, a, b;
-    for (uint32_t i = 0; i < objects->count; i++) {
-        if (!body_bounds(&objects->rows[i], margin, &a, &b))
-            continue;
-        low = jox_v2(jox_minf(low.x, a.x), jox_minf(low.y, a.y));
-        high = jox_v2(jox_maxf(high.x, b.x), jox_maxf(high.y, b.y));
-    }
-    if (!(low.x <= high.x))
-        return false;
-    float cell = 1.0f, width = high.x - low.x, height = high.y - low.y;
-    while ((floorf(width / cell) + 1.0f) * (floorf(height / cell) + 1.0f) > (float)MOST_CELLS)
-        cell *= 2.0f;
-    g->low = low;
-    g->cell = cell;
-    g->columns = (uint32_t)(width / cell) + 1;
-    g->rows = (uint32_t)(height / cell) + 1;
-    JOX_ASSERT((size_t)g->columns * g->rows <= MOST_CELLS);
-    return true;
-}
-
-/* Counts (members NULL) or enters the body into the cells it covers. */
-static void enter_cells(JoxBodyGrid *g, uint32_t row, JoxV2 low, JoxV2 high, bool enter) {
-    uint32_t x0 = (uint32_t)((low.x - g->low.x) / g->cell);
-    uint32_t y0 = (uint32_t)((low.y - g->low.y) / g->cell);
-    uint32_t x1 = (uint32_t)((high.x - g->low.x) / g->cell);
-    uint32_t y1 = (uint32_t)((high.y - g->low.y) / g->cell);
-    x1 = x1 < g->columns ? x1 : g->columns - 1;
-    y1 = y1 < g->rows ? y1 : g->rows - 1;
-    JOX_ASSERT(x0 <= x1 && y0 <= y1);
-    for (uint32_t y = y0; y <= y1; y++)
-        for (uint32_t x = x0; x <= x1; x++) {
-            uint32_t *at = &g->starts[y * g->columns + x];
-            if (enter)
-                g->members[--*at] = row;
-            else
-                ++*at;
-        }
-}
-
-void jox_body_grid_fill(JoxBodyGrid *g, const JoxObjects *objects, float margin) {
-    g->columns = g->rows = 0;
-    JoxV2 low, high;
-    if (!lay_grid(g, objects, margin))
-        return;
-    uint32_t cells = g->columns * g->rows;
-    JOX_RESERVE(g->starts, g->start_capacity, (size_t)cells + 1);
-    memset(g->starts, 0, ((size_t)cells + 1) * sizeof *g->starts);
-    for (uint32_t i = 0; i < objects->count; i++)
-        if (body_bounds(&objects->rows[i], margin, &low, &high))
-            enter_cells(g, i, low, high, false);
-    uint32_t sum = 0;
-    for (uint32_t c = 0; c <= cells; c++) {
-        sum += g->starts[c];
-        g->starts[c] = sum;
-    }
-    JOX_RESERVE(g->members, g->member_capacity, sum);
-    /* Backwards, so that rows ascend within a cell. */
-    for (uint32_t i = objects->count; i-- > 0;)
-        if (body_bounds(&objects->rows[i], margin, &low, &high))
-            enter_cells(g, i, low, high, true);
-    JOX_CHECK(jox_body_grid_check(g, objects));
-}
 
 float jox_touch_height(const JoxObject *body) {
     return jox_minf(jox_maxf(CHEST, body->low), body->high);
 }
 
-/* Nearest point of a disc about the body's centre; from the centre itself, +x leads out. */
-static JoxFootprintPoint disc_nearest(const JoxObject *body, JoxV2 point) {
-    JoxV2 centre = {body->position.x, body->position.y};
-    JoxV2 offset = jox_sub(point, centre);
-    float distance = jox_length(offset);
-    JoxV2 normal = distance > 0.0f ? jox_scale(offset, 1.0f / distance) : jox_v2(1.0f, 0.0f);
-    return (JoxFootprintPoint){normal, jox_add(centre, jox_scale(normal, body->round)),
-                               distance - body->round};
-}
-
-JoxFootprintPoint jox_footprint_nearest(const JoxObject *body, JoxV2 point) {
-    uint32_t count = body->footprint_count;
-    if (count < 2)
-        return disc_nearest(body, point);
-    float nearest2 = INFINITY, deepest = -INFINITY;
-    JoxFootprintPoint inside = {{1.0f, 0.0f}, point, 0.0f};
-    JoxV2 on_border = point;
-    for (uint32_t i = 0; i < count; i++) {
-        JoxV2 a = body->footprint[i], edge = jox_sub(body->footprint[(i + 1) % count], a);
-        JoxV2 to = jox_sub(point, a);
-        float length2 = jox_length2(edge);
-        if (!(length2 > 0.0f))
+/* The nearest bodies whose footprints come nearer than `reach` to a point, in ascending row. */
+static JoxNearest nearest_bodies(const JoxForces *f, JoxV2 point, float reach) {
+    JoxNearest nearest = {.most = JOX_FORCE_MOST_TOUCHES};
+    JoxObjectWalk walk = jox_objects_near(f->step.objects, point, reach);
+    uint32_t row;
+    while (jox_objects_next(&walk, &row)) {
+        const JoxObject *body = &f->step.objects->rows[row];
+        if (body->swept || !jox_object_reaches(body, point, reach))
             continue;
-        float along = jox_clampf(jox_dot(to, edge) / length2, 0.0f, 1.0f);
-        JoxV2 at = jox_add(a, jox_scale(edge, along));
-        float away2 = jox_length2(jox_sub(point, at));
-        if (away2 < nearest2) {
-            nearest2 = away2;
-            on_border = at;
-        }
-        JoxV2 outward = jox_scale(jox_v2(edge.y, -edge.x), 1.0f / sqrtf(length2));
-        float height = jox_dot(to, outward);
-        if (height > deepest) {
-            deepest = height;
-            inside =
-                (JoxFootprintPoint){outward, jox_sub(point, jox_scale(outward, height)), height};
-        }
+        float gap = jox_footprint_nearest(body, point).gap;
+        if (gap < reach)
+            jox_nearest_offer(&nearest, gap, row);
     }
-    JoxV2 away = jox_sub(point, on_border);
-    float gap = jox_length(away);
-    if (!(deepest > 0.0f) || !(gap > 0.0f)) /* within the ring, or on it */
-        return inside;
-    return (JoxFootprintPoint){jox_scale(away, 1.0f / gap), on_border, gap};
+    jox_nearest_by_row(&nearest);
+    return nearest;
 }
 
 void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
@@ -149,22 +37,19 @@ void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
     uint32_t chunk = begin / JOX_FORCE_GRAIN;
     JoxTouch *list = (JoxTouch *)f->touches.items + (size_t)chunk * f->touches.room;
     for (uint32_t i = begin; i < end; i++) {
-        const uint32_t *members = NULL;
-        uint32_t count = jox_body_grid_near(&f->grid, a->x[i], a->y[i], &members), found = 0;
-        for (uint32_t m = 0; m < count && found < JOX_FORCE_MOST_TOUCHES; m++) {
-            const JoxObject *body = &f->step.objects->rows[members[m]];
-            JoxFootprintPoint at = jox_footprint_nearest(body, jox_v2(a->x[i], a->y[i]));
-            if (!(at.gap < radius[i]))
-                continue;
+        JoxV2 centre = {a->x[i], a->y[i]};
+        JoxNearest nearest = nearest_bodies(f, centre, radius[i]);
+        for (uint32_t n = 0; n < nearest.count; n++) {
+            const JoxObject *body = &f->step.objects->rows[nearest.rows[n]];
+            JoxFootprintPoint at = jox_footprint_nearest(body, centre);
             JOX_ASSERT(jox_is_unit(at.normal));
             JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};
-            list[f->touches.counts[chunk]++] =
-                (JoxTouch){.agent = i, .object = members[m], .normal = at.normal, .point = point};
-            found++;
+            list[f->touches.counts[chunk]++] = (JoxTouch){
+                .agent = i, .object = nearest.rows[n], .normal = at.normal, .point = point};
         }
-        JOX_ASSERT(found <= JOX_FORCE_MOST_TOUCHES && f->touches.counts[chunk] <= f->touches.room);
-        a->contacts[i] = (uint8_t)(a->contacts[i] + found);
-        f->touch_number[i] = (uint8_t)found;
+        JOX_ASSERT(f->touches.counts[chunk] <= f->touches.room);
+        a->contacts[i] = (uint8_t)(a->contacts[i] + nearest.count);
+        f->touch_number[i] = (uint8_t)nearest.count;
     }
 }
 

@@ -33,15 +33,3 @@ void jox_contacts_check(const JoxForces *f) {
     }
     JOX_ASSERT(!(fabs(x) + fabs(y) > 1e-3 + 1e-4 * size)); /* what one gets another gives */
 }
-
-void jox_body_grid_check(const JoxBodyGrid *g, const JoxObjects *objects) {
-    uint32_t cells = g->columns * g->rows;
-    JOX_ASSERT(cells > 0 && g->starts[0] == 0);
-    for (uint32_t c = 0; c < cells; c++) {
-        JOX_ASSERT(g->starts[c] <= g->starts[c + 1]);
-        for (uint32_t k = g->starts[c]; k < g->starts[c + 1]; k++) {
-            JOX_ASSERT(g->members[k] < objects->count && objects->rows[g->members[k]].live);
-            JOX_ASSERT(k == g->starts[c] || g->members[k - 1] < g->members[k]);
-        }
-    }
-}

@@ -62,7 +62,7 @@ static void find_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     JOX_ASSERT(count <= f->pairs.room && approaching <= count);
     f->pairs.counts[chunk] = count;
     f->chunk[chunk].approaching = approaching;
-    if (f->grid.columns)
+    if (f->bodies)
         jox_touches_find(f, begin, end);
 }
 
@@ -222,7 +222,7 @@ static void prepare(JoxForces *f) {
                      sizeof(JoxPair));
     JOX_RESERVE(f->work_x, f->work_x_capacity, n);
     JOX_RESERVE(f->work_y, f->work_y_capacity, n);
-    if (!f->grid.columns)
+    if (!f->bodies)
         return;
     jox_chunks_begin(&f->touches, f->chunks, JOX_FORCE_GRAIN * JOX_FORCE_MOST_TOUCHES,
                      sizeof(JoxTouch));
@@ -251,7 +251,7 @@ void jox_force_contact(JoxForces *f) {
         f->totals.pairs += f->pairs.counts[c];
         approaching += f->chunk[c].approaching;
     }
-    if (f->grid.columns)
+    if (f->bodies)
         jox_touches_collect(f);
     if (!f->totals.pairs && !f->touch_count)
         return;

@@ -23,44 +23,21 @@ JoxForces *jox_forces_create(const JoxForceOptions *options) {
 void jox_forces_free(JoxForces *f) {
     if (!f)
         return;
-    void *owned[] = {f->transfers.items,
-                     f->transfers.counts,
-                     f->starts,
-                     f->sorted,
-                     f->pairs.items,
-                     f->pairs.counts,
-                     f->touches.items,
-                     f->touches.counts,
-                     f->ends,
-                     f->touch,
-                     f->first_touch,
-                     f->touch_number,
-                     f->motions,
-                     f->work_x,
-                     f->work_y,
-                     f->grid.starts,
-                     f->grid.members,
-                     f->pending,
-                     f->impulses,
-                     f->old_x,
-                     f->old_y,
-                     f->chunk};
+    void *owned[] = {
+        f->transfers.items, f->transfers.counts, f->starts,         f->sorted, f->pairs.items,
+        f->pairs.counts,    f->touches.items,    f->touches.counts, f->ends,   f->touch,
+        f->first_touch,     f->touch_number,     f->motions,        f->work_x, f->work_y,
+        f->pending,         f->impulses,         f->old_x,          f->old_y,  f->chunk};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
         jox_free(owned[i]);
     jox_free(f);
 }
 
-/* How far from a body someone may act on it; also keeps the greatest radius. */
-static float widest_reach(JoxForces *f) {
-    const JoxAgents *a = f->step.agents;
-    float reach = 0.0f;
-    f->widest = 0.0f;
-    for (uint32_t i = 0; i < a->count; i++) {
-        float own = a->param[JOX_PARAM_radius][i] + a->param[JOX_PARAM_push_reach][i];
-        reach = jox_maxf(reach, own);
-        f->widest = jox_maxf(f->widest, a->param[JOX_PARAM_radius][i]);
-    }
-    return reach;
+static float widest_radius(const JoxAgents *a) {
+    float widest = 0.0f;
+    for (uint32_t i = 0; i < a->count; i++)
+        widest = jox_maxf(widest, a->param[JOX_PARAM_radius][i]);
+    return widest;
 }
 
 /* The terms that do not carry over from the last step. */
@@ -97,11 +74,9 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
         memset(a->load, 0, n * sizeof *a->load);
         memset(a->contacts, 0, n);
     }
-    f->grid.columns = 0;
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
-    float reach = widest_reach(f);
-    if (n && step->objects && step->objects->count)
-        jox_body_grid_fill(&f->grid, step->objects, reach);
+    f->widest = widest_radius(a);
+    f->bodies = n && step->objects && step->objects->grid.columns;
 }
 
 JoxForceTotals jox_force_totals(const JoxForces *f) {

@@ -55,16 +55,6 @@ typedef struct JoxChunkList {
     size_t capacity, chunk_capacity;
 } JoxChunkList;
 
-/* Coarse grid of the bodies that agents can touch. */
-typedef struct JoxBodyGrid {
-    JoxV2 low;
-    float cell;
-    uint32_t columns, rows; /* 0: no bodies */
-    uint32_t *starts;       /* per cell, and one more */
-    uint32_t *members;      /* rows of objects, ascending within a cell */
-    size_t start_capacity, member_capacity;
-} JoxBodyGrid;
-
 /* Velocity and spin of a body while contacts are solved. */
 typedef struct JoxBodyMotion {
     JoxV3 velocity, spin;
@@ -98,7 +88,7 @@ struct JoxForces {
     size_t work_x_capacity, work_y_capacity;
 
     float widest; /* greatest radius, m */
-    JoxBodyGrid grid;
+    bool bodies;  /* some can be met */
     JoxPendingImpulse *pending;
     size_t pending_capacity;
     uint32_t pending_count, pending_sorted;
@@ -131,28 +121,6 @@ static inline float jox_circumference(float radius) {
     return 6.28318531f * radius;
 }
 
-void jox_body_grid_fill(JoxBodyGrid *grid, const JoxObjects *objects, float margin);
-/* Rows of the bodies whose bounding box is within the margin of a point: at least those. */
-static inline uint32_t jox_body_grid_near(const JoxBodyGrid *grid, float x, float y,
-                                          const uint32_t **members) {
-    if (!grid->columns)
-        return 0;
-    float u = (x - grid->low.x) / grid->cell, v = (y - grid->low.y) / grid->cell;
-    if (!(u >= 0.0f && v >= 0.0f && u < (float)grid->columns && v < (float)grid->rows))
-        return 0;
-    uint32_t at = (uint32_t)v * grid->columns + (uint32_t)u;
-    *members = grid->members + grid->starts[at];
-    return grid->starts[at + 1] - grid->starts[at];
-}
-
-typedef struct JoxFootprintPoint {
-    JoxV2 normal; /* unit, from the footprint to the point asked for */
-    JoxV2 point;  /* on the border */
-    float gap;    /* negative inside, m */
-} JoxFootprintPoint;
-
-/* Nearest point of a body's footprint. A point inside is led out by the nearest edge. */
-JoxFootprintPoint jox_footprint_nearest(const JoxObject *body, JoxV2 point);
 /* Height at which an agent meets a body: the chest's, kept within what the body covers. */
 float jox_touch_height(const JoxObject *body);
 
@@ -167,9 +135,8 @@ void jox_touches_finish(JoxForces *forces);
 void jox_literal_contacts(JoxForces *forces);
 
 /* Assertions: transfers lie sorted by receiver, from givers that live; the contacts between agents
-   add up to no force; the cells of the grid of bodies list live ones, ascending. */
+   add up to no force. */
 void jox_transfers_check(const JoxForces *forces);
 void jox_contacts_check(const JoxForces *forces);
-void jox_body_grid_check(const JoxBodyGrid *grid, const JoxObjects *objects);
 
 #endif

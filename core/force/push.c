@@ -55,18 +55,26 @@ static uint32_t bodies_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
     float radius = a->param[JOX_PARAM_radius][i], reach = a->param[JOX_PARAM_push_reach][i];
     float cosine = a->param[JOX_PARAM_push_angle][i];
     uint64_t only = a->push_only[i];
-    const uint32_t *members = NULL;
-    uint32_t count = jox_body_grid_near(&f->grid, a->x[i], a->y[i], &members), n = 0;
-    for (uint32_t m = 0; m < count && n < JOX_FORCE_MOST_TOUCHES; m++) {
-        const JoxObject *body = &f->step.objects->rows[members[m]];
-        if (only && !(body->tags & only))
+    JoxV2 centre = {a->x[i], a->y[i]};
+    JoxNearest nearest = {.most = JOX_FORCE_MOST_TOUCHES};
+    JoxObjectWalk walk = jox_objects_near(f->step.objects, centre, radius + reach);
+    uint32_t row, n = 0;
+    while (jox_objects_next(&walk, &row)) {
+        const JoxObject *body = &f->step.objects->rows[row];
+        if (body->swept || (only && !(body->tags & only)) ||
+            !jox_object_reaches(body, centre, radius + reach))
             continue;
-        JoxFootprintPoint at = jox_footprint_nearest(body, jox_v2(a->x[i], a->y[i]));
-        JoxV2 into = jox_scale(at.normal, -1.0f);
-        if (!(at.gap - radius < reach) || !jox_cone_holds(into, aim, cosine))
-            continue;
+        JoxFootprintPoint at = jox_footprint_nearest(body, centre);
+        if (at.gap - radius < reach && jox_cone_holds(jox_scale(at.normal, -1.0f), aim, cosine))
+            jox_nearest_offer(&nearest, at.gap, row);
+    }
+    jox_nearest_by_row(&nearest);
+    for (uint32_t k = 0; k < nearest.count; k++) {
+        const JoxObject *body = &f->step.objects->rows[nearest.rows[k]];
+        JoxFootprintPoint at = jox_footprint_nearest(body, centre);
         JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};
-        targets[n++] = (Target){true, members[m], into, point, at.gap - radius};
+        targets[n++] =
+            (Target){true, nearest.rows[k], jox_scale(at.normal, -1.0f), point, at.gap - radius};
     }
     return n;
 }
@@ -115,7 +123,7 @@ static void push_by(JoxForces *f, uint32_t chunk, uint32_t i) {
         return;
     Target targets[MOST_TARGETS];
     uint32_t n = people_ahead(f, i, aim, targets);
-    if (f->grid.columns)
+    if (f->bodies)
         n += bodies_ahead(f, i, aim, targets + n);
     JOX_ASSERT(n <= MOST_TARGETS);
     if (!n)

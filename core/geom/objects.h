@@ -4,11 +4,15 @@
 #define JOX_GEOM_OBJECTS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/vec.h"
 
-enum { JOX_FOOTPRINT_POINTS = 16 };
+enum {
+    JOX_FOOTPRINT_POINTS = 16,
+    JOX_MOST_NEAREST = 24 /* bodies that one agent minds at a time */
+};
 
 typedef struct JoxObject {
     uint32_t id;     /* of the body, never reused */
@@ -41,9 +45,98 @@ typedef struct JoxImpulse {
     JoxV3 impulse, point;
 } JoxImpulse;
 
+/* Which bodies are where: cells that list the rows of those whose bounds reach into them. */
+typedef struct JoxObjectGrid {
+    JoxV2 low, high;
+    float cell;
+    uint32_t laid;          /* rows that there were when it was laid */
+    uint32_t columns, rows; /* 0: no body can be met */
+    uint32_t *starts;       /* per cell, and one more */
+    uint32_t *members;      /* rows of bodies, ascending within a cell */
+    uint32_t *first;        /* per row of bodies: the least column and row of its cells */
+    size_t start_capacity, member_capacity, first_capacity;
+} JoxObjectGrid;
+
 typedef struct JoxObjects {
     JoxObject *rows;
     uint32_t count, capacity;
+    JoxObjectGrid grid;
 } JoxObjects;
+
+/* Lays the grid over the bodies that are live and in the agents' band; call it again when they have
+   moved. */
+void jox_objects_lay(JoxObjects *objects);
+void jox_objects_free_grid(JoxObjects *objects);
+
+/* A walk over the bodies whose bounds come within reach of a point along both axes: at least over
+   those, each once, in an order that depends on the bodies and the point alone. */
+typedef struct JoxObjectWalk {
+    const JoxObjectGrid *grid;
+    uint32_t left, bottom, right, top; /* cells, all inclusive */
+    uint32_t column, row;
+    uint32_t at, end; /* members of the present cell that are left */
+} JoxObjectWalk;
+
+JoxObjectWalk jox_objects_near(const JoxObjects *objects, JoxV2 point, float reach);
+
+/* The next row; false at the end. */
+static inline bool jox_objects_next(JoxObjectWalk *walk, uint32_t *row) {
+    const JoxObjectGrid *g = walk->grid;
+    for (;;) {
+        while (walk->at < walk->end) {
+            uint32_t found = g->members[walk->at++];
+            /* A body that is in several of the cells counts in the first of them. */
+            uint32_t column = g->first[2 * found], line = g->first[2 * found + 1];
+            if ((column > walk->left ? column : walk->left) == walk->column &&
+                (line > walk->bottom ? line : walk->bottom) == walk->row) {
+                *row = found;
+                return true;
+            }
+        }
+        if (walk->column < walk->right) {
+            walk->column++;
+        } else if (walk->row < walk->top) {
+            walk->column = walk->left;
+            walk->row++;
+        } else {
+            return false;
+        }
+        const uint32_t *starts = g->starts + (size_t)walk->row * g->columns + walk->column;
+        walk->at = starts[0];
+        walk->end = starts[1];
+    }
+}
+
+/* Whether a body's bounding disc comes within reach of a point. */
+static inline bool jox_object_reaches(const JoxObject *body, JoxV2 point, float reach) {
+    float most = reach + jox_maxf(body->disc, body->round);
+    return jox_length2(jox_v2(body->position.x - point.x, body->position.y - point.y)) <=
+           most * most;
+}
+
+/* The nearest of the bodies that are offered, at most `most` (JOX_MOST_NEAREST). Zero-initialised
+   but for `most` it is empty. */
+typedef struct JoxNearest {
+    uint32_t most, count;
+    uint32_t rows[JOX_MOST_NEAREST];
+    float gaps[JOX_MOST_NEAREST]; /* ascending; of equals the lesser row is first */
+} JoxNearest;
+
+void jox_nearest_offer(JoxNearest *nearest, float gap, uint32_t row);
+/* Whether something that is at least `gap` away might still be among them. */
+static inline bool jox_nearest_takes(const JoxNearest *nearest, float gap) {
+    return nearest->count < nearest->most || gap <= nearest->gaps[nearest->count - 1];
+}
+/* Puts the rows in ascending order, so that the gaps no longer belong to them. */
+void jox_nearest_by_row(JoxNearest *nearest);
+
+typedef struct JoxFootprintPoint {
+    JoxV2 normal; /* unit, from the footprint to the point asked for */
+    JoxV2 point;  /* on the border */
+    float gap;    /* negative inside, m */
+} JoxFootprintPoint;
+
+/* Nearest point of a body's footprint. A point inside is led out by the nearest edge. */
+JoxFootprintPoint jox_footprint_nearest(const JoxObject *body, JoxV2 point);
 
 #endif

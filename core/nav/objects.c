@@ -1,63 +1,63 @@
 /* Half-planes of rigid bodies: equation 4. */
-#include <math.h>
-
-#include "geom/polygon.h"
+#include "base/assert.h"
 #include "nav/internal.h"
 
-/* Nearest point of an object's footprint, and whether `at` is inside it. */
-static JoxV2 footprint_nearest(const JoxObject *o, JoxV2 at, bool *inside) {
-    *inside = o->footprint_count > 0 && jox_polygon_contains(o->footprint, o->footprint_count, at);
-    JoxV2 best = {o->position.x, o->position.y};
-    float least = INFINITY;
-    for (uint32_t i = 0; i < o->footprint_count; i++) {
-        JoxV2 q =
-            jox_segment_nearest(o->footprint[i], o->footprint[(i + 1) % o->footprint_count], at);
-        float d = jox_length2(jox_sub(at, q));
-        if (d < least) {
-            least = d;
-            best = q;
-        }
-    }
-    return best;
-}
-
-/* An object: its bounding disc from outside; within that disc, the nearest side of its true
-   footprint, so that one can walk along a long wall. Objects never reciprocate: share 1. */
-static bool half_plane_of(const JoxAgents *a, uint32_t i, const JoxObject *o, float planning_time,
-                          bool approached, JoxHalfPlane *out) {
+/* A body: its bounding disc from outside; within that disc, the nearest side of its true footprint,
+   so that one can walk along a long wall. Bodies never reciprocate: share 1. */
+static JoxHalfPlane half_plane_of(const JoxAgents *a, uint32_t i, const JoxObject *o,
+                                  float planning_time, float tau) {
     JoxV2 at = {a->x[i], a->y[i]}, own = {a->vx[i], a->vy[i]};
     JoxV2 p = {o->position.x - at.x, o->position.y - at.y};
     JoxV2 moving = {o->velocity.x, o->velocity.y}, v = jox_sub(own, moving);
-    float radius = a->param[JOX_PARAM_radius][i], reach = a->param[JOX_PARAM_perception][i];
-    float d2 = jox_length2(p), sum = radius + o->disc;
-    if (d2 > (reach + o->disc) * (reach + o->disc))
-        return false;
-    float tau = approached ? planning_time : a->param[JOX_PARAM_horizon][i];
-    if (d2 > sum * sum || o->footprint_count == 0) {
+    float radius = a->param[JOX_PARAM_radius][i], sum = radius + o->disc;
+    if (jox_length2(p) > sum * sum || o->footprint_count == 0) {
         float disc = o->footprint_count == 0 ? o->round : o->disc;
-        *out = jox_orca_half_plane(p, v, radius + disc, tau, planning_time, own, 1.0f,
+        return jox_orca_half_plane(p, v, radius + disc, tau, planning_time, own, 1.0f,
                                    (JoxV2){1.0f, 0.0f});
-        return true;
     }
-    bool inside;
-    JoxV2 side = footprint_nearest(o, at, &inside), out_way = jox_sub(at, side);
-    float distance = jox_length(out_way);
-    JoxV2 normal = distance > 1e-6f ? jox_scale(out_way, (inside ? -1.0f : 1.0f) / distance)
-                                    : jox_unit(jox_scale(p, -1.0f));
-    float gap = (inside ? -distance : distance) - radius;
-    float time = gap < 0.0f ? planning_time : tau;
-    *out = (JoxHalfPlane){normal, jox_dot(moving, normal) - gap / time};
-    return jox_length2(normal) > 0.0f;
+    JoxFootprintPoint side = jox_footprint_nearest(o, at);
+    float gap = side.gap - radius, time = gap < 0.0f ? planning_time : tau;
+    return (JoxHalfPlane){side.normal, jox_dot(moving, side.normal) - gap / time};
+}
+
+/* Whether agent i minds a body; *apart: the least gap that there can be between its centre and the
+   footprint. */
+static bool minds(const JoxAgents *a, uint32_t i, const JoxObject *o, float *apart) {
+    float away = jox_length(jox_v2(o->position.x - a->x[i], o->position.y - a->y[i]));
+    *apart = away - jox_maxf(o->disc, o->round);
+    return away <= a->param[JOX_PARAM_perception][i] + o->disc && !(o->tags & a->ignore[i]);
+}
+
+/* Rows of the bodies that agent i minds, ascending; of more than `most` the nearest. */
+static uint32_t rows_of(const JoxAgents *a, uint32_t i, const JoxObjects *objects,
+                        JoxNearest *nearest) {
+    JoxV2 at = {a->x[i], a->y[i]};
+    float sight = a->param[JOX_PARAM_perception][i], apart;
+    JoxObjectWalk walk = jox_objects_near(objects, at, sight), again = walk;
+    uint32_t row, count = 0;
+    while (jox_objects_next(&walk, &row))
+        if (minds(a, i, &objects->rows[row], &apart) && count++ < nearest->most)
+            nearest->rows[count - 1] = row;
+    nearest->count = count;
+    if (count > nearest->most) { /* only then their gaps matter */
+        nearest->count = 0;
+        while (jox_objects_next(&again, &row))
+            if (minds(a, i, &objects->rows[row], &apart) && jox_nearest_takes(nearest, apart))
+                jox_nearest_offer(nearest, jox_footprint_nearest(&objects->rows[row], at).gap, row);
+    }
+    jox_nearest_by_row(nearest);
+    return nearest->count;
 }
 
 uint32_t jox_orca_objects(const JoxAgents *a, uint32_t i, const JoxObjects *objects,
                           float planning_time, JoxHalfPlane *out, uint32_t most) {
-    uint32_t made = 0;
-    for (uint32_t o = 0; o < objects->count && made < most; o++) {
-        const JoxObject *object = &objects->rows[o];
-        if (object->live && object->in_band && !(object->tags & a->ignore[i]))
-            made += half_plane_of(a, i, object, planning_time, a->approach[i] == (int32_t)o,
-                                  &out[made]);
+    JOX_ASSERT(most <= JOX_MOST_NEAREST);
+    JoxNearest nearest = {.most = most};
+    uint32_t count = rows_of(a, i, objects, &nearest);
+    for (uint32_t k = 0; k < count; k++) {
+        bool approached = a->approach[i] == (int32_t)nearest.rows[k];
+        out[k] = half_plane_of(a, i, &objects->rows[nearest.rows[k]], planning_time,
+                               approached ? planning_time : a->param[JOX_PARAM_horizon][i]);
     }
-    return made;
+    return count;
 }

@@ -1,84 +1,30 @@
-/* What danger leaves: danger.csv and danger-map.csv, and both as pictures. */
+/* What danger leaves, as pictures. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/format/quote.h"
 #include "picture/plot.h"
-#include "record/danger/danger_parts.h"
-#include "report/danger_files.h"
+#include "report/danger_files_parts.h"
 
-enum { MOST_CELLS_DRAWN = 250000, STRIP = 260, PANEL = 620 };
+enum { STRIP = 260, PANEL = 620 };
 
 static const char *const WHAT[] = {"density (1/m^2)", "crowd pressure (1/s^2)",
-                                   "compression held for 1 s (N/m)"};
+                                   "compression held for 1 s (N/m)",
+                                   "load from one side, held for 1 s (N)", "dose of load"};
 
-static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) {
-    FILE *out = jox_plot_open(folder, "danger.csv", error);
-    if (!out)
-        return false;
-    fputs("time [s],people", out);
-    for (int m = 0; m < JOX_DANGER_MEASURES; m++)
-        fprintf(out, ",%s_max [%s]", jox_danger_names[m], jox_danger_units[m]);
-    for (int l = 0; l < JOX_DANGER_LIMITS; l++)
-        fprintf(out, ",over_%s", jox_danger_limits[l].key);
-    fputs(",left", out);
-    for (uint32_t e = 0; e < d->exit_count; e++) {
-        JoxText head = {0};
-        jox_text_printf(&head, "left_%s", d->exit_names[e]);
-        fputc(',', out);
-        jox_quote_put(out, jox_quote_csv, head.data);
-        jox_text_free(&head);
-    }
-    fputc('\n', out);
-    for (uint32_t r = 0; r < d->row_count; r++) {
-        const JoxDangerRow *row = &d->rows[r];
-        fprintf(out, "%.9g,%u", row->time, row->people);
-        for (int m = 0; m < JOX_DANGER_MEASURES; m++)
-            fprintf(out, ",%.5g", (double)row->most[m]);
-        for (int l = 0; l < JOX_DANGER_LIMITS; l++)
-            fprintf(out, ",%u", row->over[l]);
-        fprintf(out, ",%u", row->left);
-        for (uint32_t e = 0; e < d->exit_count; e++)
-            fprintf(out, ",%u", row->exits[e]);
-        fputc('\n', out);
-    }
-    return jox_plot_close(out, "danger.csv", error);
+/* Whether a measure is drawn: compression only where it stands in for load, in older recordings. */
+static bool is_drawn(const JoxDanger *d, int measure) {
+    return measure == JOX_DANGER_COMPRESSION ? d->has_compression && !d->has_load
+           : measure == JOX_DANGER_LOAD || measure == JOX_DANGER_DOSE ? d->has_load
+                                                                      : true;
 }
 
-/* Means are over samples, of compression over the people who stood in the cell. */
-static double mean_of(const JoxDanger *d, int measure, size_t cell) {
-    double n = measure == JOX_DANGER_COMPRESSION ? d->stood[cell]
-               : measure == JOX_DANGER_PRESSURE  ? d->pressure_samples
-                                                 : d->samples;
-    return n > 0.0 ? d->sum[measure][cell] / n : 0.0;
-}
-
-static bool write_map(const JoxDanger *d, const char *folder, JoxText *error) {
-    const JoxDensity *g = d->grid;
-    uint32_t skip = 1;
-    while ((g->columns / skip) * (g->rows / skip) > MOST_CELLS_DRAWN)
-        skip++;
-    FILE *out = jox_plot_open(folder, "danger-map.csv", error);
-    if (!out)
-        return false;
-    fputs("x [m],y [m]", out);
-    for (int m = 0; m < JOX_DANGER_MEASURES; m++)
-        fprintf(out, ",%s_mean [%s],%s_max [%s]", jox_danger_names[m], jox_danger_units[m],
-                jox_danger_names[m], jox_danger_units[m]);
-    fputc('\n', out);
-    for (uint32_t row = 0; row < g->rows; row += skip) {
-        for (uint32_t column = 0; column < g->columns; column += skip) {
-            size_t cell = (size_t)row * g->columns + column;
-            fprintf(out, "%.3f,%.3f", g->low.x + ((float)column + 0.5f) * g->cell,
-                    g->low.y + ((float)row + 0.5f) * g->cell);
-            for (int m = 0; m < JOX_DANGER_MEASURES; m++)
-                fprintf(out, ",%.4g,%.4g", mean_of(d, m, cell), (double)d->greatest[m][cell]);
-            fputc('\n', out);
-        }
-        fputc('\n', out);
-    }
-    return jox_plot_close(out, "danger-map.csv", error);
+static int drawn(const JoxDanger *d, int measures) {
+    int count = 0;
+    for (int m = 0; m < measures; m++)
+        count += is_drawn(d, m);
+    return count;
 }
 
 /* Opens a script and says, for PNG and SVG, how large and under which title. */
@@ -96,11 +42,10 @@ static void strip(const JoxDanger *d, JoxDangerMeasure measure, FILE *script) {
     for (uint32_t r = 0; r < d->row_count; r++)
         top = fmax(top, d->rows[r].most[measure]);
     fprintf(script, "set ylabel '%s'\nunset arrow\nunset label\n", jox_danger_units[measure]);
-    int first = 0;
-    while (jox_danger_limits[first].measure != measure)
-        first++;
-    fprintf(script, "set title 'greatest %s of anyone; first limit: %.4g'\n", WHAT[measure],
-            jox_danger_limits[first].value);
+    fprintf(script, "set title 'greatest %s of anyone", WHAT[measure]);
+    if (isfinite(jox_danger_least(measure)))
+        fprintf(script, "; first limit: %.4g", jox_danger_least(measure));
+    fputs("'\n", script);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         double limit = jox_danger_limits[l].value;
         if ((int)jox_danger_limits[l].measure != (int)measure ||
@@ -170,7 +115,7 @@ static bool draw_times(const JoxDanger *d, const char *folder, const char *title
         return false;
     /* A run begins at 0, though its first sample lies a step behind; a recording anywhere. */
     double begun = d->begun > 1.0 ? d->begun : 0.0;
-    int strips = 3 + d->has_compression + has_left(d);
+    const int strips = drawn(d, JOX_DANGER_MEASURES) + 1 + has_left(d);
     for (int svg = 0; svg < 2; svg++) {
         begin_picture(script, "danger", svg, 1200, 60 + strips * STRIP, title);
         fprintf(script,
@@ -179,7 +124,7 @@ static bool draw_times(const JoxDanger *d, const char *folder, const char *title
                 strips, begun,
                 d->row_count ? fmax(d->rows[d->row_count - 1].time, begun + 1.0) : begun + 1.0);
         for (int m = 0; m < JOX_DANGER_MEASURES; m++)
-            if (m != JOX_DANGER_COMPRESSION || d->has_compression)
+            if (is_drawn(d, m))
                 strip(d, (JoxDangerMeasure)m, script);
         counts(d, script);
         if (has_left(d))
@@ -196,7 +141,7 @@ static void panel(const JoxDanger *d, int measure, bool greatest, const JoxWalls
     size_t cells = (size_t)d->grid->columns * d->grid->rows;
     double top = 0.0;
     for (size_t c = 0; c < cells; c++)
-        top = fmax(top, greatest ? d->greatest[measure][c] : mean_of(d, measure, c));
+        top = fmax(top, greatest ? d->greatest[measure][c] : jox_danger_mean(d, measure, c));
     if (top <= 0.0) { /* else one would look for it */
         fprintf(script, "set title '%s'\nset label 1 '%s' at graph 0.5,0.5 center front\n",
                 WHAT[measure],
@@ -219,7 +164,7 @@ static bool draw_map(const JoxDanger *d, const char *folder, const JoxWalls *wal
                      const char *title, JoxText *error) {
     const JoxDensity *g = d->grid;
     float width = (float)g->columns * g->cell, height = (float)g->rows * g->cell;
-    int columns = 2 + d->has_compression;
+    const int columns = drawn(d, JOX_DANGER_MAPPED);
     int tall = (int)(PANEL * jox_clampf(height / width, 0.35f, 1.6f));
     FILE *script = jox_plot_open(folder, "danger-map.plt", error);
     if (!script)
@@ -234,8 +179,9 @@ static bool draw_map(const JoxDanger *d, const char *folder, const JoxWalls *wal
                 "[%g:%g]\n",
                 columns, g->low.x, g->low.x + width, g->low.y, g->low.y + height);
         for (int greatest = 0; greatest < 2; greatest++)
-            for (int m = 0; m < columns; m++)
-                panel(d, m, greatest, walls, script);
+            for (int m = 0; m < JOX_DANGER_MAPPED; m++)
+                if (is_drawn(d, m))
+                    panel(d, m, greatest, walls, script);
         fputs("unset multiplot\nset output\n", script);
     }
     return jox_plot_close(script, "danger-map.plt", error) &&
@@ -245,14 +191,14 @@ static bool draw_map(const JoxDanger *d, const char *folder, const JoxWalls *wal
 bool jox_danger_write(const JoxDanger *d, const char *folder, const JoxWalls *walls,
                       const char *title, JoxText *error) {
     char heading[400];
-    if (!write_times(d, folder, error) || !write_map(d, folder, error))
+    if (!jox_danger_write_tables(d, folder, error))
         return false;
     if (!title || d->row_count == 0)
         return true;
-    bool drawn = walls && walls->ring_count > 0;
-    if (drawn && !jox_plot_walls(folder, walls, error))
+    const bool walled = walls && walls->ring_count > 0;
+    if (walled && !jox_plot_walls(folder, walls, error))
         return false;
     snprintf(heading, sizeof heading, "%.200s: where people are squeezed", title);
     return draw_times(d, folder, heading, error) &&
-           draw_map(d, folder, drawn ? walls : NULL, heading, error);
+           draw_map(d, folder, walled ? walls : NULL, heading, error);
 }

@@ -172,7 +172,7 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
             out,
             "None of that validates this scenario. Its geometry, numbers of people, behaviours and "
             "parameters are what its author gave; nothing on this page was compared with a crowd "
-            "that did this here. Compression in particular is a model's: forces inside real crowds "
+            "that did this here. Load in particular is a model's: forces inside real crowds "
             "of this size have hardly been measured, the contacts are those of discs, and the "
             "limits come from single persons and from what was found after disasters. Read the "
             "limits as places and times to look at, not as a count of injured; run several seeds "

@@ -59,6 +59,8 @@ void jox_page_add_danger(JoxPageFigures *f, const JoxDanger *danger) {
                      jox_danger_limits[l].key);
         jox_page_add(f, "s", read ? count.person_s : NAN, "danger: person-seconds over %s",
                      jox_danger_limits[l].key);
+        jox_page_add(f, "s", read ? count.longest : NAN, "danger: longest of one person over %s",
+                     jox_danger_limits[l].key);
     }
 }
 
@@ -93,19 +95,28 @@ void jox_page_danger(FILE *out, const JoxDanger *danger) {
         "the variance over time of the local velocity, by the same kernel, means over 10 s; it "
         "is read only where the mean density is over 5 per m2, from 10 s on, and without the "
         "first 5 s, when everybody starts.");
-    if (jox_danger_reads(danger, JOX_DANGER_COMPRESSION)) {
+    if (jox_danger_reads(danger, JOX_DANGER_LOAD)) {
         jox_html_paragraph(
-            out, "Compression is the sum of the magnitudes of the contact forces on a "
-                 "person over the circumference, held on average for a second: a knock of one "
-                 "step counts little.");
-        jox_html_paragraph(out, jox_danger_conversion);
+            out, "Load is the greatest push that a person bears from any one direction: over "
+                 "directions, the greatest sum of the positive parts of the contact forces along "
+                 "it, in newtons, held on average for a second; a knock of one step counts little. "
+                 "Limits for chests are forces of that kind.");
+        jox_html_paragraph(out, jox_danger_dose_text);
     } else {
-        jox_html_paragraph(out, "Compression was not measured: this recording has positions, and "
-                                "no forces. Its limits have dashes.");
+        jox_html_paragraph(out, "Load was not measured: this recording does not know the push that "
+                                "people bear. Its limits, and those of dose, have dashes.");
     }
+    if (jox_danger_reads(danger, JOX_DANGER_COMPRESSION))
+        jox_html_paragraph(
+            out, "Compression is another quantity: the sum of the magnitudes of all contact forces "
+                 "over the girth 2 pi r, held likewise. It cannot be turned into a load and is "
+                 "compared with no limit.");
+    else
+        jox_html_paragraph(out, "Compression was not measured.");
     if (!jox_danger_reads(danger, JOX_DANGER_PRESSURE))
         jox_html_paragraph(out, "Crowd pressure was not read: the time measured is too short.");
-    jox_html_table(out, "limit|value|people ever over it|person-seconds|first|meaning|source");
+    jox_html_table(out, "limit|value|people ever over it|person-seconds|longest of one "
+                        "person|first|minutes since|meaning|source");
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         const JoxDangerLimit *limit = &jox_danger_limits[l];
         JoxDangerCount count = jox_danger_count(danger, l);
@@ -115,7 +126,9 @@ void jox_page_danger(FILE *out, const JoxDanger *danger) {
         bool read = jox_danger_reads(danger, limit->measure);
         jox_html_cell_number(out, read ? count.people : NAN, "");
         jox_html_cell_number(out, read ? count.person_s : NAN, "s");
+        jox_html_cell_number(out, read ? count.longest : NAN, "s");
         put_place(out, count.first, count.first_at);
+        jox_html_cell_number(out, jox_danger_since(danger, count.first), "min");
         jox_html_cell(out, limit->what);
         jox_html_cell(out, limit->source);
     }

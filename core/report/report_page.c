@@ -48,13 +48,13 @@ static void put_figures(FILE *out, const JoxReport *r) {
 }
 
 static void put_worth(FILE *out, const JoxReport *r) {
-    bool forces = jox_danger_reads(r->danger, JOX_DANGER_COMPRESSION);
+    bool forces = jox_danger_reads(r->danger, JOX_DANGER_LOAD);
     jox_page_validation(out);
     jox_html_paragraph(
         out, forces
                  ? "None of that validates this recording. It is a simulated crowd; its geometry, "
                    "numbers of people, behaviours and parameters are what its author gave. "
-                   "Compression in particular is a model's: forces inside real crowds of this size "
+                   "Load in particular is a model's: forces inside real crowds of this size "
                    "have hardly been measured, and the limits come from single persons and from "
                    "what was found after disasters. Read the limits as places and times to look "
                    "at, not as a count of injured."

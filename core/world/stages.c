@@ -21,6 +21,7 @@ void jox_stage_perceive(const JoxPerceiveStage *s) {
     }
     jox_nav_perceive(s->nav, s->agents, s->neighbours, s->pool);
     jox_bodies_objects(s->bodies, s->objects);
+    jox_objects_lay(s->objects);
     JOX_ASSERT(s->objects->count == jox_bodies_rows(s->bodies));
     JOX_ASSERT(s->neighbours->agents >= s->agents->count);
 }

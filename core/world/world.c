@@ -51,6 +51,7 @@ static void free_world(JoWorld *world) {
     jox_free(world->scratch.neighbours.index);
     jox_free(world->scratch.neighbours.distance2);
     jox_free(world->scratch.neighbours.count);
+    jox_objects_free_grid(&world->scratch.objects);
     jox_free(world->scratch.walked);
     jox_free(world->scratch.gone.items);
     jox_free(world->scratch.discs.discs);

@@ -19,8 +19,19 @@ static JoxObject make_box(float mass, float thin) {
 }
 
 static void put_bodies(Crowd *c, JoxObjects *objects, JoxObject *rows, uint32_t count) {
-    *objects = (JoxObjects){rows, count, count};
+    *objects = (JoxObjects){.rows = rows, .count = count, .capacity = count};
     c->step.objects = objects;
+}
+
+/* Starts a step once the bodies are as they shall be. */
+static void begin_with(Crowd *c, JoxObjects *objects) {
+    jox_objects_lay(objects);
+    begin(c);
+}
+
+static void close_with(Crowd *c, JoxObjects *objects) {
+    jox_objects_free_grid(objects);
+    close_crowd(c);
 }
 
 static JoxV3 spun(const JoxObject *box, const JoxImpulse *impulse) {
@@ -41,7 +52,7 @@ static double energy_share(bool literal, float mass, float thin, float restituti
     put_bodies(&c, &objects, &box, 1);
     add_agent(&c, 0.8f, 0.65f, 0.3f, -2);
     set_param(&c, 0, JOX_PARAM_restitution, restitution);
-    begin(&c);
+    begin_with(&c, &objects);
     jox_force_contact(c.forces);
     uint32_t count;
     const JoxImpulse *pending = jox_force_impulses(c.forces, &count);
@@ -67,7 +78,7 @@ static double energy_share(bool literal, float mass, float thin, float restituti
         double point = by + spin.z * 0.8 - spin.x * 0.1;
         assert_near(vy - point, 2 * restitution, 1e-4);
     }
-    close_crowd(&c);
+    close_with(&c, &objects);
     return (70 * vy * vy + mass * by * by + rotation) / (70 * 4);
 }
 
@@ -106,14 +117,14 @@ static void footprints_have_sides_corners_and_insides(void **state) {
         JoxObjects objects;
         put_bodies(&c, &objects, &box, 1);
         add_agent(&c, cases[k].at.x, cases[k].at.y, -cases[k].normal.x, -cases[k].normal.y);
-        begin(&c);
+        begin_with(&c, &objects);
         jox_force_contact(c.forces);
         JoxV2 f = jox_unit(jox_v2(c.agents.contact_x[0], c.agents.contact_y[0]));
         JoxV2 wanted = jox_unit(cases[k].normal);
         assert_int_equal(c.agents.contacts[0], cases[k].hit);
         assert_near(f.x, wanted.x, 1e-5);
         assert_near(f.y, wanted.y, 1e-5);
-        close_crowd(&c);
+        close_with(&c, &objects);
     }
 }
 
@@ -135,7 +146,7 @@ static void a_ball_and_the_height_of_contact(void **state) {
     }
     balls[1].in_band = false;
     balls[2].live = false;
-    begin(&c);
+    begin_with(&c, &objects);
     jox_force_contact(c.forces);
     uint32_t count;
     const JoxImpulse *pending = jox_force_impulses(c.forces, &count);
@@ -144,7 +155,7 @@ static void a_ball_and_the_height_of_contact(void **state) {
     assert_near(pending[0].point.z, 0.6, 1e-6);
     assert_near(pending[0].point.x, 0.3, 1e-6);
     assert_true(c.agents.contact_x[1] == 0 && c.agents.contact_x[2] == 0);
-    close_crowd(&c);
+    close_with(&c, &objects);
 }
 
 static void many_on_one_body_share_it(void **state) {
@@ -161,7 +172,7 @@ static void many_on_one_body_share_it(void **state) {
     put_bodies(&c, &objects, &box, 1);
     for (int k = 0; k < 4; k++)
         add_agent(&c, -0.75f + 0.5f * (float)k, -0.65f, 0, 1);
-    begin(&c);
+    begin_with(&c, &objects);
     jox_force_contact(c.forces);
     uint32_t count;
     const JoxImpulse *pending = jox_force_impulses(c.forces, &count);
@@ -175,7 +186,45 @@ static void many_on_one_body_share_it(void **state) {
     }
     assert_near(sum, -given, 1e-5 * sum);
     assert_true(sum / 10 > 0.5 && sum / 10 < 1.001);
-    close_crowd(&c);
+    close_with(&c, &objects);
+}
+
+static void the_nearest_bodies_are_touched_and_pushed(void **state) {
+    (void)state;
+    /* Nine balls within reach of one agent, the farthest in the first row. */
+    Crowd c;
+    open_crowd(&c, 0.05);
+    JoxObject balls[9];
+    for (int k = 0; k < 9; k++) {
+        float away = 0.29f - 0.01f * (float)k, angle = 0.1f * (float)(k - 4);
+        balls[k] = make_box(1, 1);
+        balls[k].footprint_count = 0;
+        balls[k].disc = balls[k].round = 0.1f;
+        balls[k].position = (JoxV3){away * cosf(angle), away * sinf(angle), 1.0f};
+        balls[k].velocity.x = -1;
+    }
+    balls[8].position.x *= -1; /* the very nearest is behind */
+    JoxObjects objects;
+    put_bodies(&c, &objects, balls, 9);
+    add_agent(&c, 0, 0, 0, 0);
+    set_param(&c, 0, JOX_PARAM_push, 100);
+    c.agents.pref_x[0] = 1;
+    begin_with(&c, &objects);
+    jox_force_push(c.forces);
+    uint32_t count;
+    const JoxImpulse *pending = jox_force_impulses(c.forces, &count);
+    assert_int_equal(count, 4);
+    for (uint32_t k = 0; k < 4; k++)
+        assert_int_equal(pending[k].object, 4 + k);
+    begin_with(&c, &objects);
+    jox_force_contact(c.forces);
+    pending = jox_force_impulses(c.forces, &count);
+    uint32_t hit = 0;
+    for (uint32_t k = 0; k < count; k++)
+        hit |= 1u << pending[k].object;
+    assert_int_equal(hit & 0xe0, 0xe0); /* those that approach, of the nearest */
+    assert_true(c.agents.contacts[0] >= 4);
+    close_with(&c, &objects);
 }
 
 static void static_bodies_stop_people_and_receive_nothing(void **state) {
@@ -188,13 +237,13 @@ static void static_bodies_stop_people_and_receive_nothing(void **state) {
     JoxObjects objects;
     put_bodies(&c, &objects, &box, 1);
     add_agent(&c, 0.8f, 0.65f, 0, -2);
-    begin(&c);
+    begin_with(&c, &objects);
     jox_force_contact(c.forces);
     uint32_t count;
     jox_force_impulses(c.forces, &count);
     assert_int_equal(count, 0);
     assert_near(c.agents.contact_y[0] * 0.05, 140, 1e-3);
-    close_crowd(&c);
+    close_with(&c, &objects);
 }
 
 static void bodies_are_pushed_where_they_are_touched(void **state) {
@@ -211,7 +260,7 @@ static void bodies_are_pushed_where_they_are_touched(void **state) {
         set_param(&c, i, JOX_PARAM_push, 200);
         c.agents.pref_y[i] = 1;
     }
-    begin(&c);
+    begin_with(&c, &objects);
     jox_force_push(c.forces);
     jox_force_contact(c.forces);
     uint32_t count;
@@ -222,11 +271,11 @@ static void bodies_are_pushed_where_they_are_touched(void **state) {
     assert_near(pending[0].point.x, 0.8, 1e-6);
     assert_true(c.agents.contact_y[0] == 0);
     c.agents.push_only[0] = 1; /* the box has another tag */
-    begin(&c);
+    begin_with(&c, &objects);
     jox_force_push(c.forces);
     jox_force_impulses(c.forces, &count);
     assert_int_equal(count, 0);
-    close_crowd(&c);
+    close_with(&c, &objects);
 }
 
 static void far_and_broken_bodies_are_passed_over(void **state) {
@@ -244,7 +293,7 @@ static void far_and_broken_bodies_are_passed_over(void **state) {
     put_bodies(&c, &objects, boxes, 4);
     add_agent(&c, 0.8f, 0.65f, 0, -2);
     add_agent(&c, -1e9f, NAN, 0, -2);
-    begin(&c);
+    begin_with(&c, &objects);
     jox_force_push(c.forces);
     jox_force_contact(c.forces);
     jox_force_sum(c.forces);
@@ -253,7 +302,7 @@ static void far_and_broken_bodies_are_passed_over(void **state) {
     const JoxImpulse *pending = jox_force_impulses(c.forces, &count);
     assert_int_equal(count, 1);
     assert_int_equal(pending[0].object, 3);
-    close_crowd(&c);
+    close_with(&c, &objects);
 }
 
 int main(void) {
@@ -263,6 +312,7 @@ int main(void) {
         cmocka_unit_test(footprints_have_sides_corners_and_insides),
         cmocka_unit_test(a_ball_and_the_height_of_contact),
         cmocka_unit_test(many_on_one_body_share_it),
+        cmocka_unit_test(the_nearest_bodies_are_touched_and_pushed),
         cmocka_unit_test(static_bodies_stop_people_and_receive_nothing),
         cmocka_unit_test(bodies_are_pushed_where_they_are_touched),
         cmocka_unit_test(far_and_broken_bodies_are_passed_over),

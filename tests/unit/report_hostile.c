@@ -160,7 +160,7 @@ static void paths(void **state) {
 
 static JoxFrame frame_of(int f) {
     static const uint32_t key[PEOPLE] = {0, 1, 2, 3, 4, 5};
-    static float v[PEOPLE], compression[PEOPLE] = {9000, 9000, 0, 0, 0, 0};
+    static float v[PEOPLE], compression[PEOPLE] = {9000, 9000}, load[PEOPLE] = {3000, 3000};
     return (JoxFrame){.time = 20.0 * f,
                       .count = PEOPLE,
                       .keys = PEOPLE,
@@ -169,7 +169,8 @@ static JoxFrame frame_of(int f) {
                       .y = Y,
                       .vx = v,
                       .vy = v,
-                      .compression = compression};
+                      .compression = compression,
+                      .load = load};
 }
 
 static void probes(void **state) {

@@ -9,72 +9,13 @@
 #include "record/danger/danger_parts.h"
 
 static const double PACE = 0.5;                /* s between samples of the fields */
-static const double HOLD = 1.0;                /* s: time constant of a person's compression */
+static const double HOLD = 1.0;                /* s: time constant of what a person bears */
 static const double START = 5.0;               /* s at first whose velocities are left out, */
 static const double CALM = 10.0;               /* s: time constant of means at a place */
 static const float FINE = 0.2f, COARSE = 0.4f; /* m: of cells */
 static const float FEW = 1e5f;                 /* cells: areas of more have coarser ones */
 static const float KERNEL = 0.70710678f;       /* m: R / sqrt 2, R = 1 m, of exp(-d2 / R2) */
 static const float LEAST = 0.02f; /* 1/m2: below this nobody is there to have a velocity */
-
-const char *const jox_danger_names[] = {"density", "pressure", "compression"};
-const char *const jox_danger_units[] = {"1/m2", "1/s2", "N/m"};
-
-/* N/m on somebody who is held between a load of so many newtons and what bears against it: felt on
-   two sides, over the circumference of the default radius. */
-#define HELD_BY(newtons) (2.0 * (newtons) / (2.0 * 3.14159265358979323846 * 0.20))
-const char jox_danger_conversion[] =
-    "Published loads are forces in newtons on somebody held between the load and what bears "
-    "against it. The engine adds the magnitudes of all contact forces and divides by the "
-    "circumference, so "
-    "that a load F reads as 2 F over 2 pi 0.20 m = 1.26 m: 1000 N are 1592 N/m.";
-
-const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS] = {
-    {"density_5", JOX_DANGER_DENSITY, 5.0,
-     "anything more crowded can become dangerous; dangerous crowd forces begin at 5.55",
-     "G. K. Still, in the press, 30 October 2022; Fruin, in Wirz et al., EPJ Data Science 2, 5, "
-     "2013"},
-    {"density_7", JOX_DANGER_DENSITY, 7.0,
-     "the crowd becomes almost a fluid mass; shock waves run through it",
-     "J. J. Fruin, The causes and prevention of crowd disasters, 1993"},
-    {"pressure_002", JOX_DANGER_PRESSURE, 0.02, "crowd turbulence sets in",
-     "Helbing, Johansson, Al-Abideen, Phys. Rev. E 75, 046109, 2007"},
-    /* Men pushed against a flat bar 100 mm wide; 800 N where they could brace themselves. */
-    {"load_623", JOX_DANGER_COMPRESSION, HELD_BY(623.0),
-     "623 N: the most that men bore against a bar 100 mm wide; women bore less",
-     "Evans and Hayden 1971, in Lee and Hughes, Accid. Anal. Prev. 38, 2006, 712-722"},
-    {"load_1112", JOX_DANGER_COMPRESSION, HELD_BY(1112.0),
-     "1112 N: death estimated within 4 to 6 minutes",
-     "Hopkins et al. 1993, in Lee and Hughes, Accid. Anal. Prev. 38, 2006, 712-722"},
-    /* A force on a rail, not on one chest: what bent steel railings after disasters tell. */
-    {"load_4500", JOX_DANGER_COMPRESSION, HELD_BY(4500.0),
-     "4500 N: steel railings bent in fatal crowds: on a rail, not on one chest",
-     "J. J. Fruin, The causes and prevention of crowd disasters, 1993"},
-    {"load_6227", JOX_DANGER_COMPRESSION, HELD_BY(6227.0),
-     "6227 N: death estimated within 15 seconds",
-     "Hopkins et al. 1993, in Lee and Hughes, Accid. Anal. Prev. 38, 2006, 712-722"},
-};
-
-/* ---- exits ---- */
-
-double jox_exits_clearance(const JoxExits *exits, uint32_t inside) {
-    return exits->left && inside == 0 ? exits->last : NAN;
-}
-
-void jox_exits_json(const JoxExits *exits, uint32_t inside, JoxJson *json) {
-    jox_json_whole(json, "left", exits->left);
-    jox_json_whole(json, "inside", inside);
-    jox_json_number(json, "last_left_s", exits->left ? exits->last : NAN);
-    jox_json_number(json, "clearance_s", jox_exits_clearance(exits, inside));
-    jox_json_object(json, "exits");
-    for (uint32_t e = 0; e < exits->count; e++) {
-        jox_json_object(json, exits->items[e].name);
-        jox_json_whole(json, "people", exits->items[e].people);
-        jox_json_number(json, "last_s", exits->items[e].last);
-        jox_json_end(json);
-    }
-    jox_json_end(json);
-}
 
 /* ---- measuring ---- */
 
@@ -87,11 +28,12 @@ JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high) {
                         &d->mean_vy, &d->mean_square, &d->weight, &d->pressure};
     for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
         *fields[f] = jox_alloc(cells, sizeof(float));
-    for (int m = 0; m < JOX_DANGER_MEASURES; m++) {
+    for (int m = 0; m < JOX_DANGER_MAPPED; m++) {
         d->sum[m] = jox_alloc(cells, sizeof(double));
         d->greatest[m] = jox_alloc(cells, sizeof(float));
-        d->most[m] = (JoxDangerMost){.value = NAN, .time = NAN};
     }
+    for (int m = 0; m < JOX_DANGER_MEASURES; m++)
+        d->most[m] = (JoxDangerMost){.value = NAN, .time = NAN};
     d->stood = jox_alloc(cells, sizeof *d->stood);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++)
         d->counts[l].first = NAN;
@@ -114,6 +56,7 @@ static void judge(JoxDanger *d, const JoxFrame *frame, uint32_t i, JoxDangerMeas
                   double value, double duration) {
     JoxV2 at = {frame->x[i], frame->y[i]};
     JoxDangerMost *most = &d->most[measure];
+    JoxDangerPerson *person = &d->people[frame->key[i]];
     if (value > (isnan(most->value) ? 0.0 : most->value))
         *most = (JoxDangerMost){value, frame->time, at};
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
@@ -121,26 +64,45 @@ static void judge(JoxDanger *d, const JoxFrame *frame, uint32_t i, JoxDangerMeas
         if (jox_danger_limits[l].measure != measure || value < jox_danger_limits[l].value)
             continue;
         count->person_s += duration;
+        person->seconds[l] += duration;
+        count->longest = fmax(count->longest, person->seconds[l]);
         if (isnan(count->first)) {
             count->first = frame->time;
             count->first_at = at;
         }
-        count->people += !(d->over[frame->key[i]] >> l & 1);
-        d->over[frame->key[i]] |= (uint8_t)(1 << l);
+        count->people += !(person->over >> l & 1);
+        person->over |= (uint8_t)(1 << l);
     }
 }
 
-/* Every frame: who is held how hard. */
+/* Every frame: what person i bears now, and the dose of it until now. */
+static void bear(JoxDanger *d, const JoxFrame *frame, uint32_t i, double duration, float share) {
+    JoxDangerPerson *p = &d->people[frame->key[i]];
+    if (frame->compression) {
+        p->compression += share * (frame->compression[i] - p->compression);
+        judge(d, frame, i, JOX_DANGER_COMPRESSION, p->compression, duration);
+    }
+    if (!frame->load)
+        return;
+    p->load += share * (frame->load[i] - p->load);
+    p->dose += duration * jox_danger_dose_rate(p->load);
+    if (p->load > p->most) {
+        p->most = p->load;
+        p->most_time = frame->time;
+        p->most_at = (JoxV2){frame->x[i], frame->y[i]};
+    }
+    judge(d, frame, i, JOX_DANGER_LOAD, p->load, duration);
+    judge(d, frame, i, JOX_DANGER_DOSE, p->dose, duration);
+}
+
 static void press(JoxDanger *d, const JoxFrame *frame) {
     double duration = isnan(d->last_frame) ? 0.0 : frame->time - d->last_frame;
     float share = (float)(1.0 - jox_exp(-duration / HOLD));
     d->last_frame = frame->time;
     d->has_compression |= frame->compression != NULL;
-    for (uint32_t i = 0; frame->compression && i < frame->count; i++) {
-        float *held = &d->held[frame->key[i]];
-        *held += share * (frame->compression[i] - *held);
-        judge(d, frame, i, JOX_DANGER_COMPRESSION, *held, duration);
-    }
+    d->has_load |= frame->load != NULL;
+    for (uint32_t i = 0; (frame->compression || frame->load) && i < frame->count; i++)
+        bear(d, frame, i, duration, share);
 }
 
 /* Velocity of person i over the last sample interval: that of one step shakes with its contacts. */
@@ -212,12 +174,12 @@ static void chart(JoxDanger *d, const JoxFrame *frame) {
             d->sum[m][c] += fields[m][c];
             d->greatest[m][c] = jox_maxf(d->greatest[m][c], fields[m][c]);
         }
-    for (uint32_t i = 0; frame->compression && i < frame->count; i++)
+    for (uint32_t i = 0; (frame->compression || frame->load) && i < frame->count; i++)
         if (cell_of(d->grid, frame->x[i], frame->y[i], &cell)) {
-            float held = d->held[frame->key[i]], *most = &d->greatest[JOX_DANGER_COMPRESSION][cell];
-            d->sum[JOX_DANGER_COMPRESSION][cell] += held;
+            const JoxDangerPerson *p = &d->people[frame->key[i]];
+            d->sum[JOX_DANGER_COMPRESSION][cell] += p->compression;
+            d->sum[JOX_DANGER_LOAD][cell] += p->load;
             d->stood[cell]++;
-            *most = jox_maxf(*most, held);
         }
     d->samples++;
 }
@@ -226,19 +188,20 @@ static void chart(JoxDanger *d, const JoxFrame *frame) {
 static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     JOX_RESERVE(d->rows, d->row_capacity, d->row_count + 1);
     JoxDangerRow *row = &d->rows[d->row_count++];
-    *row = (JoxDangerRow){.time = frame->time, .people = frame->count, .most = {0, 0, 0}};
+    *row = (JoxDangerRow){.time = frame->time, .people = frame->count};
     for (uint32_t i = 0; i < frame->count; i++) {
         size_t cell;
+        const JoxDangerPerson *p = &d->people[frame->key[i]];
         bool inside = cell_of(d->grid, frame->x[i], frame->y[i], &cell);
-        float values[] = {inside ? d->density[cell] : 0.0f, inside ? d->pressure[cell] : 0.0f,
-                          d->held[frame->key[i]]};
-        for (int m = 0; m < JOX_DANGER_MEASURES; m++)
+        const float values[JOX_DANGER_MEASURES] = {inside ? d->density[cell] : 0.0f,
+                                                   inside ? d->pressure[cell] : 0.0f,
+                                                   p->compression, p->load, (float)p->dose};
+        for (int m = 0; m < JOX_DANGER_FIRST_BORNE; m++)
             row->most[m] = jox_maxf(row->most[m], values[m]);
         for (int l = 0; l < JOX_DANGER_LIMITS; l++)
-            row->over[l] += values[jox_danger_limits[l].measure] >= jox_danger_limits[l].value;
+            row->over[l] +=
+                (double)values[jox_danger_limits[l].measure] >= jox_danger_limits[l].value;
     }
-    if (!frame->compression)
-        row->most[JOX_DANGER_COMPRESSION] = NAN;
     row->left = exits ? (uint32_t)exits->left : 0;
     for (uint32_t e = 0; exits && e < exits->count && e < JOX_DANGER_EXITS; e++) {
         if (e >= d->exit_count)
@@ -247,15 +210,30 @@ static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     }
 }
 
-void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
-    JOX_RESERVE_ZEROED(d->held, d->held_capacity, frame->keys);
-    JOX_RESERVE_ZEROED(d->over, d->over_capacity, frame->keys);
-    press(d, frame);
-    /* Times are multiples of a step, whose sum may fall short of them by a hair. */
-    int64_t stretch = (int64_t)floor(frame->time / PACE + 1e-6);
-    if (stretch == d->stretch)
-        return;
-    d->stretch = stretch;
+/* Every frame: what is borne most, in the line of the sample that it follows and in the cells. The
+   greatest of the lines and of the cells are so the greatest of all. */
+static void keep_most(JoxDanger *d, const JoxFrame *frame) {
+    JoxDangerRow *row = &d->rows[d->row_count - 1];
+    for (uint32_t i = 0; (frame->compression || frame->load) && i < frame->count; i++) {
+        size_t cell;
+        const JoxDangerPerson *p = &d->people[frame->key[i]];
+        const float values[] = {p->compression, p->load, (float)p->dose};
+        const bool inside = cell_of(d->grid, frame->x[i], frame->y[i], &cell);
+        for (int m = JOX_DANGER_FIRST_BORNE; m < JOX_DANGER_MEASURES; m++) {
+            const float value = values[m - JOX_DANGER_FIRST_BORNE];
+            row->most[m] = jox_maxf(row->most[m], value);
+            if (inside && m < JOX_DANGER_MAPPED)
+                d->greatest[m][cell] = jox_maxf(d->greatest[m][cell], value);
+        }
+    }
+    if (!frame->compression)
+        row->most[JOX_DANGER_COMPRESSION] = NAN;
+    if (!frame->load)
+        row->most[JOX_DANGER_LOAD] = row->most[JOX_DANGER_DOSE] = NAN;
+}
+
+/* Every PACE: fields, and who stands where they are over a limit. */
+static void sample(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     if (isnan(d->last_sample))
         d->begun = frame->time;
     double duration = isnan(d->last_sample) ? 0.0 : frame->time - d->last_sample;
@@ -266,14 +244,23 @@ void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits
         size_t cell;
         if (!cell_of(d->grid, frame->x[i], frame->y[i], &cell))
             continue;
-        judge(d, frame, i, JOX_DANGER_DENSITY, d->density[cell], duration);
-        judge(d, frame, i, JOX_DANGER_PRESSURE, d->pressure[cell], duration);
+        judge(d, frame, i, JOX_DANGER_DENSITY, (double)d->density[cell], duration);
+        judge(d, frame, i, JOX_DANGER_PRESSURE, (double)d->pressure[cell], duration);
     }
     chart(d, frame);
     note(d, frame, exits);
 }
 
-/* ---- figures ---- */
+void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
+    JOX_RESERVE_ZEROED(d->people, d->people_capacity, frame->keys);
+    press(d, frame);
+    /* Times are multiples of a step, whose sum may fall short of them by a hair. */
+    int64_t stretch = (int64_t)floor(frame->time / PACE + 1e-6);
+    if (stretch != d->stretch)
+        sample(d, frame, exits);
+    d->stretch = stretch;
+    keep_most(d, frame);
+}
 
 const float *jox_danger_field(const JoxDanger *d, JoxDangerMeasure measure,
                               const JoxDensity **grid) {
@@ -281,68 +268,17 @@ const float *jox_danger_field(const JoxDanger *d, JoxDangerMeasure measure,
     return measure == JOX_DANGER_PRESSURE ? d->pressure : d->density;
 }
 
-JoxDangerCount jox_danger_count(const JoxDanger *d, int limit) {
-    return d->counts[limit];
-}
-
-JoxDangerMost jox_danger_most(const JoxDanger *d, JoxDangerMeasure measure) {
-    JoxDangerMost most = d->most[measure];
-    bool read = (measure == JOX_DANGER_PRESSURE ? d->pressure_samples : d->samples) > 0 &&
-                (measure != JOX_DANGER_COMPRESSION || d->has_compression);
-    if (isnan(most.value) && read) /* nobody was ever pressed, say */
-        most.value = 0.0;
-    return most;
-}
-
-bool jox_danger_reads(const JoxDanger *d, JoxDangerMeasure measure) {
-    return isfinite(jox_danger_most(d, measure).value);
-}
-
-/* "NAMESUFFIX": VALUE */
-static void add(JoxJson *json, const char *name, const char *suffix, double value) {
-    char key[64];
-    snprintf(key, sizeof key, "%s%s", name, suffix);
-    jox_json_number(json, key, value);
-}
-
-void jox_danger_json(const JoxDanger *d, JoxJson *json) {
-    jox_json_whole(json, "samples", d->samples);
-    for (int m = 0; m < JOX_DANGER_MEASURES; m++) {
-        JoxDangerMost most = jox_danger_most(d, (JoxDangerMeasure)m);
-        bool read = isfinite(most.time);
-        add(json, jox_danger_names[m], "_max", most.value);
-        add(json, jox_danger_names[m], "_max_s", most.time);
-        add(json, jox_danger_names[m], "_max_x", read ? most.at.x : NAN);
-        add(json, jox_danger_names[m], "_max_y", read ? most.at.y : NAN);
-    }
-    jox_json_object(json, "limits");
-    for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
-        const JoxDangerCount *count = &d->counts[l];
-        bool seen = isfinite(count->first);
-        bool read = jox_danger_reads(d, jox_danger_limits[l].measure);
-        jox_json_object(json, jox_danger_limits[l].key);
-        jox_json_number(json, "people", read ? count->people : NAN);
-        jox_json_number(json, "limit", jox_danger_limits[l].value);
-        jox_json_number(json, "person_s", read ? count->person_s : NAN);
-        jox_json_number(json, "first_s", count->first);
-        jox_json_number(json, "first_x", seen ? count->first_at.x : NAN);
-        jox_json_number(json, "first_y", seen ? count->first_at.y : NAN);
-        jox_json_end(json);
-    }
-    jox_json_end(json);
-}
-
 void jox_danger_free(JoxDanger *d) {
     if (!d)
         return;
     jox_density_free(d->grid);
     jox_free(d->track.items);
-    void *fields[] = {d->density, d->flow_x,      d->flow_y, d->mean_density, d->mean_vx,
-                      d->mean_vy, d->mean_square, d->weight, d->pressure,     d->stood,
-                      d->held,    d->over,        d->rows};
+    void *fields[] = {d->density,  d->flow_x,  d->flow_y,      d->mean_density,
+                      d->mean_vx,  d->mean_vy, d->mean_square, d->weight,
+                      d->pressure, d->stood,   d->people,      d->rows};
     for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
         jox_free(fields[f]);
-    for (int m = 0; m < JOX_DANGER_MEASURES; m++) {
+    for (int m = 0; m < JOX_DANGER_MAPPED; m++) {
         jox_free(d->sum[m]);
         jox_free(d->greatest[m]);
     }

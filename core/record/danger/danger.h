@@ -7,9 +7,12 @@
                   the same kernel and velocities over 0.5 s. Means over time are exponential, 10 s.
                   Read only where the mean density is over the first limit of density (sparse crowds
                   vary freely) and from 10 s on; the first 5 s, when all start, are left out.
-     compression  sum of the contact forces' magnitudes on a person over the circumference, N/m, as
-   an exponential mean over 1 s of each person: what is held, not a knock of one step. Exits: who
-   left where, and when the last did. */
+     compression  sum of the contact forces' magnitudes on a person over the girth, N/m
+     load         the greatest push that a person bears from any one direction, N: over directions
+   d, the greatest sum of the positive parts of f.d over the contacts f. That is what published
+   limits for chests are forces of dose         of load: the share of the time after which death is
+   estimated (jox_danger_dose_text) Compression and load are exponential means over 1 s of each
+   person: what is held, not a knock of one step. Exits: who left where, and when the last did. */
 #ifndef JOX_RECORD_DANGER_H
 #define JOX_RECORD_DANGER_H
 
@@ -26,13 +29,15 @@ typedef enum JoxDangerMeasure {
     JOX_DANGER_DENSITY,
     JOX_DANGER_PRESSURE,
     JOX_DANGER_COMPRESSION,
+    JOX_DANGER_LOAD,
+    JOX_DANGER_MAPPED, /* those before are drawn on maps */
+    JOX_DANGER_DOSE = JOX_DANGER_MAPPED,
     JOX_DANGER_MEASURES
 } JoxDangerMeasure;
 extern const char *const jox_danger_names[JOX_DANGER_MEASURES]; /* "density", ... */
 extern const char *const jox_danger_units[JOX_DANGER_MEASURES]; /* "1/m2", ... */
 
-/* A published limit. Loads in newtons are converted: somebody held between a load F and what bears
-   against it feels F on both sides, 2 F over a circumference of 2 pi 0.20 m. */
+/* A published limit. */
 typedef struct JoxDangerLimit {
     const char *key; /* in summaries */
     JoxDangerMeasure measure;
@@ -42,8 +47,10 @@ typedef struct JoxDangerLimit {
 } JoxDangerLimit;
 enum { JOX_DANGER_LIMITS = 7 };
 extern const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS];
-/* The conversion in words, for reports. */
-extern const char jox_danger_conversion[];
+/* The least limit of a measure; NAN without one. */
+double jox_danger_least(JoxDangerMeasure measure);
+/* What a dose is, in words, for reports. */
+extern const char jox_danger_dose_text[];
 
 /* When the last of all left, s; NAN while `inside` people are still there, or where nobody left. */
 double jox_exits_clearance(const JoxExits *exits, uint32_t inside);
@@ -53,6 +60,7 @@ void jox_exits_json(const JoxExits *exits, uint32_t inside, JoxJson *json);
 typedef struct JoxDangerCount {
     uint32_t people; /* who were ever over the limit */
     double person_s; /* sum of the times over it */
+    double longest;  /* s; time over it of the person who was longest, all in all */
     double first;    /* s; NAN: never */
     JoxV2 first_at;  /* m */
 } JoxDangerCount;
@@ -70,9 +78,11 @@ void jox_danger_frame(JoxDanger *danger, const JoxFrame *frame, const JoxExits *
 const float *jox_danger_field(const JoxDanger *danger, JoxDangerMeasure measure,
                               const JoxDensity **grid);
 JoxDangerCount jox_danger_count(const JoxDanger *danger, int limit);
+/* Minutes from a first time until the last frame; NAN of NAN. */
+double jox_danger_since(const JoxDanger *danger, double first);
 JoxDangerMost jox_danger_most(const JoxDanger *danger, JoxDangerMeasure measure);
-/* Whether there was anything to read it from: compression is in our own recordings alone, crowd
-   pressure takes ten seconds. What is over its limits is not known otherwise. */
+/* Whether there was anything to read it from: compression and load are in our own recordings alone,
+   crowd pressure takes ten seconds. What is over its limits is not known otherwise. */
 bool jox_danger_reads(const JoxDanger *danger, JoxDangerMeasure measure);
 /* Adds "density_max": ..., "limits": {...}; null where it was not read. */
 void jox_danger_json(const JoxDanger *danger, JoxJson *json);

@@ -6,9 +6,27 @@
 #include "record/fields/density.h"
 #include "record/track.h"
 
-enum { JOX_DANGER_EXITS = 16 }; /* that have a column of their own over time */
+enum {
+    JOX_DANGER_EXITS = 16,                          /* that have a column of their own over time */
+    JOX_DANGER_FIRST_BORNE = JOX_DANGER_COMPRESSION /* from here on: of each person, every frame */
+};
+/* N: loads after which death is estimated within 300 s and 15 s. */
+#define JOX_DOSE_LOW 1112.0
+#define JOX_DOSE_HIGH 6227.0
+/* 1/s: share of a dose that a load gives in a second. */
+double jox_danger_dose_rate(double load);
 
-/* One line of danger.csv. */
+typedef struct JoxDangerPerson {
+    float compression, load; /* N/m, N: means of the last second */
+    double dose;
+    double seconds[JOX_DANGER_LIMITS]; /* over each limit */
+    float most;                        /* N: greatest load */
+    double most_time;
+    JoxV2 most_at;
+    uint8_t over; /* bits of the limits that were ever passed */
+} JoxDangerPerson;
+
+/* One line of danger.csv: a sample, and what was borne until the next. */
 typedef struct JoxDangerRow {
     double time; /* s */
     uint32_t people;
@@ -24,18 +42,17 @@ struct JoxDanger {
     float *density, *flow_x, *flow_y;
     float *mean_density, *mean_vx, *mean_vy, *mean_square, *weight;
     float *pressure; /* as it is now; 0 where it is not read */
-    /* By cell, for the map: sum over samples (compression: over people) and greatest. */
-    double *sum[JOX_DANGER_MEASURES];
-    float *greatest[JOX_DANGER_MEASURES];
-    uint32_t *stood; /* people whose compression was summed */
+    /* By cell, for the map: sum over samples (what is borne: over people) and greatest. */
+    double *sum[JOX_DANGER_MAPPED];
+    float *greatest[JOX_DANGER_MAPPED];
+    uint32_t *stood; /* people whose compression and load were summed */
     uint32_t samples, pressure_samples;
     JoxTrack track;        /* from sample to sample */
     double density_weight; /* of mean_density */
 
-    float *held;   /* by key: compression, mean of the last second */
-    uint8_t *over; /* by key: bits of the limits that were ever passed */
-    uint32_t held_capacity, over_capacity;
-    bool has_compression;
+    JoxDangerPerson *people; /* by key */
+    uint32_t people_capacity;
+    bool has_compression, has_load;
 
     double begun, last_frame, last_sample; /* s */
     int64_t stretch;                       /* of the last sample */

@@ -1,0 +1,241 @@
+/* The grid of bodies, those nearest to a point, and the nearest point of one. */
+#include "geom/objects.h"
+
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+
+/* Bounds of what a body covers in the plane; false where agents cannot meet it. */
+static bool bounds_of(const JoxObject *body, JoxV2 *low, JoxV2 *high) {
+    if (!body->live || !body->in_band)
+        return false;
+    float reach = jox_maxf(body->disc, body->round);
+    *low = jox_v2(body->position.x - reach, body->position.y - reach);
+    *high = jox_v2(body->position.x + reach, body->position.y + reach);
+    for (uint32_t i = 0; i < body->footprint_count; i++) {
+        JoxV2 p = body->footprint[i];
+        *low = jox_v2(jox_minf(low->x, p.x), jox_minf(low->y, p.y));
+        *high = jox_v2(jox_maxf(high->x, p.x), jox_maxf(high->y, p.y));
+    }
+    /* False for bodies thrown to where numbers end, too. */
+    return low->x > -1e7f && low->y > -1e7f && high->x < 1e7f && high->y < 1e7f;
+}
+
+/* The column or row of a place, kept within the grid. */
+static uint32_t cell_at(float place, float low, float cell, uint32_t count) {
+    float at = (place - low) / cell;
+    return !(at > 0.0f) ? 0 : at >= (float)count ? count - 1 : (uint32_t)at;
+}
+
+typedef struct Range {
+    uint32_t left, bottom, right, top;
+} Range;
+
+static Range range_of(const JoxObjectGrid *g, JoxV2 low, JoxV2 high) {
+    return (Range){cell_at(low.x, g->low.x, g->cell, g->columns),
+                   cell_at(low.y, g->low.y, g->cell, g->rows),
+                   cell_at(high.x, g->low.x, g->cell, g->columns),
+                   cell_at(high.y, g->low.y, g->cell, g->rows)};
+}
+
+/* Entries of all bodies in cells of the present size. */
+static size_t count_entries(const JoxObjects *objects) {
+    size_t count = 0;
+    JoxV2 low, high;
+    for (uint32_t i = 0; i < objects->count; i++) {
+        if (!bounds_of(&objects->rows[i], &low, &high))
+            continue;
+        Range r = range_of(&objects->grid, low, high);
+        count += (size_t)(r.right - r.left + 1) * (r.top - r.bottom + 1);
+    }
+    return count;
+}
+
+/* Cells of at least a metre, and neither many more cells than bodies nor a body in too many: so a
+   walk over all of them costs little more than one over the bodies. Returns the number of entries.
+ */
+static size_t choose_cells(JoxObjects *objects, uint32_t bodies) {
+    JoxObjectGrid *g = &objects->grid;
+    float width = g->high.x - g->low.x, height = g->high.y - g->low.y;
+    for (g->cell = 1.0f;; g->cell *= 2.0f) {
+        float columns = floorf(width / g->cell) + 1.0f, rows = floorf(height / g->cell) + 1.0f;
+        if (columns * rows > 4.0f * (float)bodies + 16.0f)
+            continue;
+        g->columns = (uint32_t)columns;
+        g->rows = (uint32_t)rows;
+        size_t entries = count_entries(objects);
+        if (entries <= 16 * (size_t)bodies)
+            return entries;
+    }
+}
+
+/* Counts, or enters backwards, each body in the cells that it covers. */
+static void enter(JoxObjects *objects, bool count) {
+    JoxObjectGrid *g = &objects->grid;
+    JoxV2 low, high;
+    for (uint32_t i = objects->count; i-- > 0;) { /* so that rows ascend within a cell */
+        if (!bounds_of(&objects->rows[i], &low, &high))
+            continue;
+        Range r = range_of(g, low, high);
+        g->first[2 * i] = r.left;
+        g->first[2 * i + 1] = r.bottom;
+        for (uint32_t row = r.bottom; row <= r.top; row++)
+            for (uint32_t column = r.left; column <= r.right; column++) {
+                uint32_t *at = &g->starts[(size_t)row * g->columns + column];
+                if (count)
+                    ++*at;
+                else
+                    g->members[--*at] = i;
+            }
+    }
+}
+
+/* Assertion: cells list live bodies, ascending. */
+static void check_grid(const JoxObjects *objects) {
+    const JoxObjectGrid *g = &objects->grid;
+    JOX_ASSERT(g->columns > 0 && g->starts[0] == 0);
+    for (uint32_t c = 0; c < g->columns * g->rows; c++) {
+        JOX_ASSERT(g->starts[c] <= g->starts[c + 1]);
+        for (uint32_t k = g->starts[c]; k < g->starts[c + 1]; k++) {
+            JOX_ASSERT(g->members[k] < objects->count && objects->rows[g->members[k]].live);
+            JOX_ASSERT(k == g->starts[c] || g->members[k - 1] < g->members[k]);
+        }
+    }
+}
+
+void jox_objects_lay(JoxObjects *objects) {
+    JoxObjectGrid *g = &objects->grid;
+    JoxV2 low, high;
+    uint32_t bodies = 0;
+    g->laid = objects->count;
+    g->columns = g->rows = 0;
+    g->low = (JoxV2){INFINITY, INFINITY};
+    g->high = (JoxV2){-INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < objects->count; i++) {
+        if (!bounds_of(&objects->rows[i], &low, &high))
+            continue;
+        g->low = jox_v2(jox_minf(g->low.x, low.x), jox_minf(g->low.y, low.y));
+        g->high = jox_v2(jox_maxf(g->high.x, high.x), jox_maxf(g->high.y, high.y));
+        bodies++;
+    }
+    if (!bodies)
+        return;
+    size_t entries = choose_cells(objects, bodies);
+    uint32_t cells = g->columns * g->rows;
+    /* Room for what there may be, so that bodies that only move need no more. */
+    JOX_RESERVE(g->starts, g->start_capacity, 4 * (size_t)objects->count + 17);
+    JOX_RESERVE(g->first, g->first_capacity, 2 * (size_t)objects->count);
+    JOX_RESERVE(g->members, g->member_capacity, 16 * (size_t)objects->count);
+    JOX_ASSERT(cells < g->start_capacity && entries <= g->member_capacity);
+    memset(g->starts, 0, ((size_t)cells + 1) * sizeof *g->starts);
+    enter(objects, true);
+    uint32_t sum = 0;
+    for (uint32_t c = 0; c <= cells; c++) {
+        sum += g->starts[c];
+        g->starts[c] = sum; /* the end; entering backwards makes it the start */
+    }
+    JOX_ASSERT(sum == entries);
+    enter(objects, false);
+    JOX_CHECK(check_grid(objects));
+}
+
+void jox_objects_free_grid(JoxObjects *objects) {
+    jox_free(objects->grid.starts);
+    jox_free(objects->grid.members);
+    jox_free(objects->grid.first);
+    objects->grid = (JoxObjectGrid){0};
+}
+
+JoxObjectWalk jox_objects_near(const JoxObjects *objects, JoxV2 point, float reach) {
+    const JoxObjectGrid *g = &objects->grid;
+    JOX_ASSERT(g->laid == objects->count);
+    JoxObjectWalk walk = {.grid = g};
+    JoxV2 low = {point.x - reach, point.y - reach}, high = {point.x + reach, point.y + reach};
+    if (!g->columns ||
+        !(low.x <= g->high.x && low.y <= g->high.y && high.x >= g->low.x && high.y >= g->low.y))
+        return walk; /* one cell, without a member that is left */
+    Range r = range_of(g, low, high);
+    walk.left = walk.column = r.left;
+    walk.bottom = walk.row = r.bottom;
+    walk.right = r.right;
+    walk.top = r.top;
+    walk.at = g->starts[(size_t)walk.row * g->columns + walk.column];
+    walk.end = g->starts[(size_t)walk.row * g->columns + walk.column + 1];
+    return walk;
+}
+
+static bool comes_before(float gap, uint32_t row, float other_gap, uint32_t other_row) {
+    return gap < other_gap || (gap == other_gap && row < other_row);
+}
+
+void jox_nearest_offer(JoxNearest *n, float gap, uint32_t row) {
+    JOX_ASSERT(n->most > 0 && n->most <= JOX_MOST_NEAREST && n->count <= n->most);
+    uint32_t at = n->count;
+    if (isnan(gap) || (at == n->most && !comes_before(gap, row, n->gaps[at - 1], n->rows[at - 1])))
+        return;
+    if (at == n->most)
+        at--;
+    else
+        n->count++;
+    for (; at > 0 && comes_before(gap, row, n->gaps[at - 1], n->rows[at - 1]); at--) {
+        n->gaps[at] = n->gaps[at - 1];
+        n->rows[at] = n->rows[at - 1];
+    }
+    n->gaps[at] = gap;
+    n->rows[at] = row;
+}
+
+void jox_nearest_by_row(JoxNearest *n) {
+    for (uint32_t i = 1; i < n->count; i++) {
+        uint32_t row = n->rows[i], j = i;
+        for (; j > 0 && n->rows[j - 1] > row; j--)
+            n->rows[j] = n->rows[j - 1];
+        n->rows[j] = row;
+    }
+}
+
+/* Nearest point of a disc about the body's centre; from the centre itself, +x leads out. */
+static JoxFootprintPoint disc_nearest(const JoxObject *body, JoxV2 point) {
+    JoxV2 centre = {body->position.x, body->position.y};
+    JoxV2 offset = jox_sub(point, centre);
+    float distance = jox_length(offset);
+    JoxV2 normal = distance > 0.0f ? jox_scale(offset, 1.0f / distance) : jox_v2(1.0f, 0.0f);
+    return (JoxFootprintPoint){normal, jox_add(centre, jox_scale(normal, body->round)),
+                               distance - body->round};
+}
+
+JoxFootprintPoint jox_footprint_nearest(const JoxObject *body, JoxV2 point) {
+    uint32_t count = body->footprint_count;
+    if (count < 2)
+        return disc_nearest(body, point);
+    float nearest2 = INFINITY, deepest = -INFINITY;
+    JoxFootprintPoint inside = {{1.0f, 0.0f}, point, 0.0f};
+    JoxV2 on_border = point;
+    for (uint32_t i = 0; i < count; i++) {
+        JoxV2 a = body->footprint[i], edge = jox_sub(body->footprint[(i + 1) % count], a);
+        JoxV2 to = jox_sub(point, a);
+        float length2 = jox_length2(edge);
+        if (!(length2 > 0.0f))
+            continue;
+        float along = jox_clampf(jox_dot(to, edge) / length2, 0.0f, 1.0f);
+        JoxV2 at = jox_add(a, jox_scale(edge, along));
+        float away2 = jox_length2(jox_sub(point, at));
+        if (away2 < nearest2) {
+            nearest2 = away2;
+            on_border = at;
+        }
+        JoxV2 outward = jox_scale(jox_v2(edge.y, -edge.x), 1.0f / sqrtf(length2));
+        float height = jox_dot(to, outward);
+        if (height > deepest) {
+            deepest = height;
+            inside =
+                (JoxFootprintPoint){outward, jox_sub(point, jox_scale(outward, height)), height};
+        }
+    }
+    JoxV2 away = jox_sub(point, on_border);
+    float gap = jox_length(away);
+    if (!(deepest > 0.0f) || !(gap > 0.0f)) /* within the ring, or on it */
+        return inside;
+    return (JoxFootprintPoint){jox_scale(away, 1.0f / gap), on_border, gap};
+}

@@ -1,0 +1,13 @@
+/* What the tables of danger and its pictures share. */
+#ifndef JOX_REPORT_DANGER_FILES_PARTS_H
+#define JOX_REPORT_DANGER_FILES_PARTS_H
+
+#include "record/danger/danger_parts.h"
+#include "report/danger_files.h"
+
+/* Of a cell: over samples, of what is borne over the people who stood there. */
+double jox_danger_mean(const JoxDanger *danger, int measure, size_t cell);
+/* danger.csv, danger-map.csv, danger-limits.csv and, where loads are known, danger-people.csv. */
+bool jox_danger_write_tables(const JoxDanger *danger, const char *folder, JoxText *error);
+
+#endif

@@ -1,0 +1,139 @@
+/* Tables of danger: over time, by place, by limit and by person. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/format/quote.h"
+#include "picture/plot.h"
+#include "report/danger_files_parts.h"
+
+enum { MOST_CELLS_DRAWN = 250000 };
+static const double WORTH = 0.01; /* doses of less are not listed */
+
+static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) {
+    FILE *out = jox_plot_open(folder, "danger.csv", error);
+    if (!out)
+        return false;
+    fputs("time [s],people", out);
+    for (int m = 0; m < JOX_DANGER_MEASURES; m++)
+        fprintf(out, ",%s_max [%s]", jox_danger_names[m], jox_danger_units[m]);
+    for (int l = 0; l < JOX_DANGER_LIMITS; l++)
+        fprintf(out, ",over_%s", jox_danger_limits[l].key);
+    fputs(",left", out);
+    for (uint32_t e = 0; e < d->exit_count; e++) {
+        JoxText head = {0};
+        jox_text_printf(&head, "left_%s", d->exit_names[e]);
+        fputc(',', out);
+        jox_quote_put(out, jox_quote_csv, head.data);
+        jox_text_free(&head);
+    }
+    fputc('\n', out);
+    for (uint32_t r = 0; r < d->row_count; r++) {
+        const JoxDangerRow *row = &d->rows[r];
+        fprintf(out, "%.9g,%u", row->time, row->people);
+        for (int m = 0; m < JOX_DANGER_MEASURES; m++)
+            fprintf(out, ",%.9g", (double)row->most[m]);
+        for (int l = 0; l < JOX_DANGER_LIMITS; l++)
+            fprintf(out, ",%u", row->over[l]);
+        fprintf(out, ",%u", row->left);
+        for (uint32_t e = 0; e < d->exit_count; e++)
+            fprintf(out, ",%u", row->exits[e]);
+        fputc('\n', out);
+    }
+    return jox_plot_close(out, "danger.csv", error);
+}
+
+double jox_danger_mean(const JoxDanger *d, int measure, size_t cell) {
+    double n = measure >= JOX_DANGER_FIRST_BORNE  ? d->stood[cell]
+               : measure == JOX_DANGER_PRESSURE ? d->pressure_samples
+                                                : d->samples;
+    return n > 0.0 ? d->sum[measure][cell] / n : 0.0;
+}
+
+static bool write_map(const JoxDanger *d, const char *folder, JoxText *error) {
+    const JoxDensity *g = d->grid;
+    uint32_t skip = 1;
+    while ((g->columns / skip) * (g->rows / skip) > MOST_CELLS_DRAWN)
+        skip++;
+    FILE *out = jox_plot_open(folder, "danger-map.csv", error);
+    if (!out)
+        return false;
+    fputs("x [m],y [m]", out);
+    for (int m = 0; m < JOX_DANGER_MAPPED; m++)
+        fprintf(out, ",%s_mean [%s],%s_max [%s]", jox_danger_names[m], jox_danger_units[m],
+                jox_danger_names[m], jox_danger_units[m]);
+    fputc('\n', out);
+    for (uint32_t row = 0; row < g->rows; row += skip) {
+        for (uint32_t column = 0; column < g->columns; column += skip) {
+            size_t cell = (size_t)row * g->columns + column;
+            fprintf(out, "%.3f,%.3f", g->low.x + ((float)column + 0.5f) * g->cell,
+                    g->low.y + ((float)row + 0.5f) * g->cell);
+            for (int m = 0; m < JOX_DANGER_MAPPED; m++)
+                fprintf(out, ",%.4g,%.4g", jox_danger_mean(d, m, cell), (double)d->greatest[m][cell]);
+            fputc('\n', out);
+        }
+        fputc('\n', out);
+    }
+    return jox_plot_close(out, "danger-map.csv", error);
+}
+
+/* A number of a table, or nothing where it is not known. */
+static void put(FILE *out, double value) {
+    fputc(',', out);
+    if (isfinite(value))
+        fprintf(out, "%.9g", value);
+}
+
+static bool write_limits(const JoxDanger *d, const char *folder, JoxText *error) {
+    FILE *out = jox_plot_open(folder, "danger-limits.csv", error);
+    if (!out)
+        return false;
+    fputs("limit,measure,value,unit,people,person_s [s],longest [s],first [s],x [m],y [m],since "
+          "[min]\n",
+          out);
+    for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
+        const JoxDangerLimit *limit = &jox_danger_limits[l];
+        const JoxDangerCount count = jox_danger_count(d, l);
+        const bool read = jox_danger_reads(d, limit->measure), seen = isfinite(count.first);
+        fprintf(out, "%s,%s,%.9g,%s", limit->key, jox_danger_names[limit->measure], limit->value,
+                jox_danger_units[limit->measure]);
+        put(out, read ? count.people : NAN);
+        put(out, read ? count.person_s : NAN);
+        put(out, read ? count.longest : NAN);
+        put(out, count.first);
+        put(out, seen ? (double)count.first_at.x : NAN);
+        put(out, seen ? (double)count.first_at.y : NAN);
+        put(out, jox_danger_since(d, count.first));
+        fputc('\n', out);
+    }
+    return jox_plot_close(out, "danger-limits.csv", error);
+}
+
+/* Those who bore a load that counts. */
+static bool write_people(const JoxDanger *d, const char *folder, JoxText *error) {
+    FILE *out = jox_plot_open(folder, "danger-people.csv", error);
+    if (!out)
+        return false;
+    fputs("person,load_max [N],at [s],x [m],y [m],dose", out);
+    for (int l = 0; l < JOX_DANGER_LIMITS; l++)
+        if (jox_danger_limits[l].measure == JOX_DANGER_LOAD)
+            fprintf(out, ",over_%s [s]", jox_danger_limits[l].key);
+    fputc('\n', out);
+    for (uint32_t k = 0; k < d->people_capacity; k++) {
+        const JoxDangerPerson *p = &d->people[k];
+        if ((double)p->most < jox_danger_least(JOX_DANGER_LOAD) && p->dose < WORTH)
+            continue;
+        fprintf(out, "%u,%.9g,%.9g,%.4f,%.4f,%.9g", k, (double)p->most, p->most_time,
+                (double)p->most_at.x, (double)p->most_at.y, p->dose);
+        for (int l = 0; l < JOX_DANGER_LIMITS; l++)
+            if (jox_danger_limits[l].measure == JOX_DANGER_LOAD)
+                fprintf(out, ",%.9g", p->seconds[l]);
+        fputc('\n', out);
+    }
+    return jox_plot_close(out, "danger-people.csv", error);
+}
+
+bool jox_danger_write_tables(const JoxDanger *d, const char *folder, JoxText *error) {
+    return write_times(d, folder, error) && write_map(d, folder, error) &&
+           write_limits(d, folder, error) &&
+           (!d->has_load || write_people(d, folder, error));
+}

@@ -1,0 +1,54 @@
+/* Half-planes of bodies: whichever the rows, the nearest bodies have one each. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "base/mem.h"
+#include "nav/internal.h"
+
+enum { PILLARS = 40 };
+
+static void of_many_bodies_the_nearest_are_avoided(void **state) {
+    (void)state;
+    /* Pillars 0.5 to 2.45 m away all round, the farthest first; two are ignored, one is gone. */
+    JoxObject rows[PILLARS];
+    for (int k = 0; k < PILLARS; k++) {
+        float away = 0.5f + 0.05f * (float)(PILLARS - 1 - k), angle = 2.4f * (float)k;
+        rows[k] = (JoxObject){.live = k != 37, .in_band = true, .disc = 0.1f, .round = 0.1f};
+        rows[k].position = (JoxV3){away * cosf(angle), away * sinf(angle), 1.0f};
+        rows[k].tags = k == 33 || k == 38 ? 2 : 1;
+    }
+    JoxObjects objects = {.rows = rows, .count = PILLARS};
+    jox_objects_lay(&objects);
+    JoxAgents agents = {0};
+    uint32_t i = jox_agents_add(&agents);
+    agents.ignore[i] = 2;
+    JoxHalfPlane planes[JOX_MOST_NEAREST];
+    for (uint32_t most = 1; most <= JOX_MOST_NEAREST; most++) {
+        uint32_t made = jox_orca_objects(&agents, i, &objects, 0.05f, planes, most), at = most;
+        assert_int_equal(made, most);
+        for (int k = PILLARS - 1; at > 0; k--) { /* the nearest, which are the last */
+            if (k == 33 || k == 37 || k == 38)
+                continue;
+            /* At rest: no faster towards it than what closes the gap within the horizon. */
+            float away = jox_length(jox_v2(rows[k].position.x, rows[k].position.y));
+            const JoxHalfPlane *plane = &planes[--at];
+            assert_true(fabsf(plane->normal.x + rows[k].position.x / away) < 1e-5f);
+            assert_true(fabsf(plane->normal.y + rows[k].position.y / away) < 1e-5f);
+            assert_true(fabsf(plane->offset + (away - 0.3f) / 0.5f) < 1e-4f);
+        }
+    }
+    jox_objects_free_grid(&objects);
+    jox_agents_free(&agents);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(of_many_bodies_the_nearest_are_avoided),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
