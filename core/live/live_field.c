@@ -11,7 +11,7 @@
 #include "record/fields/density.h"
 
 enum { W, VX, VY, SQUARE, SUMS, MOST_CELLS = 65536, HEAD = 32, FIELD = 3 };
-static const float KERNEL = 0.7f, CELL = 0.5f; /* m */
+static const float KERNEL = JOX_DENSITY_KERNEL, CELL = 0.5f; /* m */
 static const float LEAST = 0.02f; /* 1/m2: below this there is nobody to have a velocity */
 
 static const char *const NAMES[] = {"density", "pressure", "none"};

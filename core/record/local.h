@@ -1,5 +1,5 @@
-/* Local density, flow and crowd pressure over the frames of a run or of a recording, on one grid: what
-   maps, tables and summaries take them from (fields/density.h, fields/pressure.h). */
+/* Local density, flow and crowd pressure over the frames of a run or of a recording, on one grid:
+   what maps, tables and summaries take them from (fields/density.h, fields/pressure.h). */
 #ifndef JOX_RECORD_LOCAL_H
 #define JOX_RECORD_LOCAL_H
 
@@ -28,8 +28,8 @@ JoxLocal *jox_local_create(JoxV2 low, JoxV2 high);
 void jox_local_want_pressure(JoxLocal *local);
 /* Whether a frame of time t, s, would be a sample. */
 bool jox_local_is_due(const JoxLocal *local, double t);
-/* Frames in ascending time, of everyone or (not NULL) of those for whom `seen` is 1. True if this one
-   is a sample: one in each half second is. */
+/* Frames in ascending time, of everyone or (not NULL) of those for whom `seen` is 1. True if this
+   one is a sample: one in each half second is. */
 bool jox_local_frame(JoxLocal *local, const JoxFrame *frame, const uint8_t *seen);
 /* Of a cell, 1/s2; NAN: not measured. */
 float jox_local_pressure(const JoxLocal *local, size_t cell);

@@ -10,8 +10,8 @@
 #include "render/render.h"
 
 enum { MOST_FOLLOWED = 500, MOST_TRAILS = 2000, MOST_BODY_TRAILS = 200 };
-static const float STRIDE = 0.1f;              /* m between points of a trail */
-static const float RADIUS = 0.2f;              /* m: of people whose recording does not say */
+static const float STRIDE = 0.1f; /* m between points of a trail */
+static const float RADIUS = 0.2f; /* m: of people whose recording does not say */
 
 /* ---- what is shown ---- */
 

@@ -138,8 +138,8 @@ typedef struct DangerArea {
 static bool danger_begin(void *self, JoScene *scene, const void *options, JoError *error) {
     const DangerArea *area = options;
     (void)error;
-    ((DangerFigures *)self)->danger = area ? jox_danger_create(area->low, area->high)
-                                           : jox_danger_create_on(local_of(scene));
+    ((DangerFigures *)self)->danger =
+        area ? jox_danger_create(area->low, area->high) : jox_danger_create_on(local_of(scene));
     return true;
 }
 

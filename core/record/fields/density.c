@@ -45,34 +45,35 @@ static bool locate(const JoxDensity *d, float x, float y, int *column, int *row)
     return true;
 }
 
-/* Moves to the nearest node that is seen from (x, y), or if none is, as within a wall, to the nearest
-   of any floor. False: no floor is near. */
-static bool find_node(const JoxDensity *d, float x, float y, int *column, int *row) {
+JoxDensityNode jox_density_node(const JoxDensity *d, float x, float y, int *column, int *row) {
     const JoxDensityFloor *f = d->floor;
     float nearest = INFINITY;
     const int c0 = *column, r0 = *row;
+    const size_t own = (size_t)r0 * (size_t)d->wide + (size_t)c0;
     bool seen = false;
-    for (int r = r0 - 1; r <= r0 + 1; r++)
-        for (int c = c0 - 1; c <= c0 + 1; c++) {
+    if (f->per[own] > 0.0f && !jox_density_hidden(d, jox_v2(x, y), f->node[own]))
+        return JOX_DENSITY_SEEN;
+    for (int r = r0 > 0 ? r0 - 1 : 0; r <= r0 + 1 && r < d->high; r++)
+        for (int c = c0 > 0 ? c0 - 1 : 0; c <= c0 + 1 && c < d->wide; c++) {
             size_t n = (size_t)r * (size_t)d->wide + (size_t)c;
             float away = jox_length2(jox_sub(f->node[n], jox_v2(x, y)));
-            if (f->per[n] <= 0.0f || (away >= nearest && seen))
+            if (f->per[n] <= 0.0f || (seen && away >= nearest))
                 continue;
             bool sees = !jox_density_hidden(d, jox_v2(x, y), f->node[n]);
-            if (seen ? !sees : !sees && away >= nearest)
+            if (!sees && (seen || away >= nearest))
                 continue;
             nearest = away;
             seen = sees;
             *column = c;
             *row = r;
         }
-    return nearest < INFINITY;
+    return seen ? JOX_DENSITY_SEEN : nearest < INFINITY ? JOX_DENSITY_HIDDEN : JOX_DENSITY_NO_NODE;
 }
 
 /* Shares between the nearest node and those beside it, of which some may be behind walls. */
 static int share_near(const JoxDensity *d, float x, float y, int column, int row, uint32_t nodes[4],
                       float shares[4]) {
-    if (!find_node(d, x, y, &column, &row))
+    if (jox_density_node(d, x, y, &column, &row) == JOX_DENSITY_NO_NODE)
         return 0;
     const JoxDensityFloor *f = d->floor;
     const JoxV2 low = corner(d);
@@ -86,8 +87,8 @@ static int share_near(const JoxDensity *d, float x, float y, int column, int row
     const int beside = n + x_step, over = n + y_step, across = over + x_step;
     const int left = x_step < 0 ? -1 : 0, below = y_step < 0 ? -wide : 0;
     bool to_side = f->open_x[n + left] > 0.0f, to_over = f->open_y[n + below] > 0.0f;
-    bool to_across = (to_side && f->open_y[beside + below] > 0.0f) ||
-                     (to_over && f->open_x[over + left] > 0.0f);
+    bool to_across =
+        (to_side && f->open_y[beside + below] > 0.0f) || (to_over && f->open_x[over + left] > 0.0f);
     nodes[0] = (uint32_t)n, nodes[1] = (uint32_t)beside;
     nodes[2] = (uint32_t)over, nodes[3] = (uint32_t)across;
     shares[1] = to_side ? right * (1.0f - above) : 0.0f;
@@ -163,7 +164,7 @@ void jox_density_end(JoxDensity *d, float *const *out) {
             size_t from = inner(d, (size_t)row * d->columns);
             float *to = out[f] + (size_t)row * d->columns;
             for (uint32_t c = 0; c < d->columns; c++)
-                to[c] = d->mass[f][from + c] * (d->floor ? d->floor->per[from + c] : per);
+                to[c] = d->mass[f][from + c] * per;
         }
     }
 }
@@ -196,7 +197,7 @@ bool jox_density_cell_of(const JoxDensity *d, float x, float y, size_t *cell) {
     if (!locate(d, x, y, &column, &row))
         return false;
     if (d->floor && d->floor->near[row * d->wide + column])
-        (void)find_node(d, x, y, &column, &row); /* who stands in a wall: their own cell */
+        (void)jox_density_node(d, x, y, &column, &row); /* who stands in a wall: their own cell */
     column -= d->edge;
     row -= d->edge;
     if (column < 0 || row < 0 || column >= (int)d->columns || row >= (int)d->rows)

@@ -1,17 +1,18 @@
 /* People per square metre on a grid: the one density of maps, tables, summaries and levels of
    service. Each person is spread by the Gaussian exp(-d2 / R2) / (pi R2), R = 1 m, of Helbing,
-   Johansson and Al-Abideen (Phys. Rev. E 75, 046109, 2007), as heat would spread over the floor that
-   can be walked on: walls let nothing through and give back what comes to them. So
+   Johansson and Al-Abideen (Phys. Rev. E 75, 046109, 2007), as heat would spread over the floor
+   that can be walked on: walls let nothing through and give back what comes to them. So
    - far from walls it is that Gaussian;
    - the integral over the floor is the number of people, wherever they stand;
    - people who stand evenly read the same density in the open, at a wall and in a corner;
    - those behind a wall, however thin, do not count, but round its end and through its doors.
-   Walls are solids, thin lines and closed gates. Without walls (through which a kernel passes, as in
-   Curtis et al.'s study of the Mataf) it is the Gaussian alone. */
+   Walls are solids, thin lines and closed gates. Without walls (through which a kernel passes, as
+   in Curtis et al.'s study of the Mataf) it is the Gaussian alone. */
 #ifndef JOX_RECORD_FIELDS_DENSITY_H
 #define JOX_RECORD_FIELDS_DENSITY_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/vec.h"

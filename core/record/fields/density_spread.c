@@ -1,8 +1,8 @@
-/* The kernel. With walls: diffusion by steps from node to node, each of which leaves the whole as it
-   is and makes even what is uneven (the matrix of a step is symmetric, and its rows sum to one). A
-   step that moves the share l across each side adds 2 l cells2 to the variance along each axis.
-   Without: the Gaussian itself, along x and then along y. Sharing somebody among the nodes around has
-   added 1/6 cells2 already, in the mean over where one can stand. */
+/* The kernel. With walls: diffusion by steps from node to node, as in finite volumes. In a step the
+   share l of the difference of two nodes' densities goes over each whole side between them. So what
+   one loses the other gets, what is even stays even, and the variance along each axis grows by 2 l
+   cells2. Without walls: the Gaussian itself, along x and then along y. Sharing somebody among the
+   nodes around has added 1/6 cells2 already, in the mean over where one can stand. */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +10,6 @@
 #include "base/mem.h"
 #include "record/fields/density_parts.h"
 
-static const float MOST_SHARE = 0.2f; /* across a side in a step: more than 1/4 would overshoot */
 enum { MOST_TAPS = 512 };
 
 /* Variance that is left to add, cells2. */
@@ -27,13 +26,21 @@ static size_t at(const JoxDensity *d, int column, int row) {
 static void step(const JoxDensity *d, float share, const float *from, float *to, const int box[4]) {
     const JoxDensityFloor *f = d->floor;
     for (int row = box[1]; row <= box[3]; row++) {
-        size_t line = at(d, 0, row);
+        const size_t line = at(d, 0, row);
         const float *u = from + line, *up = u + d->wide, *down = u - d->wide;
         const float *x = f->open_x + line, *y = f->open_y + line, *y_down = y - d->wide;
+        const float *per = f->per + line;
         float *restrict out = to + line;
         for (int c = box[0]; c <= box[2]; c++)
-            out[c] = u[c] + share * (x[c] * (u[c + 1] - u[c]) - x[c - 1] * (u[c] - u[c - 1]) +
-                                     y[c] * (up[c] - u[c]) - y_down[c] * (u[c] - down[c]));
+            out[c] = u[c] + share * per[c] *
+                                (x[c] * (u[c + 1] - u[c]) - x[c - 1] * (u[c] - u[c - 1]) +
+                                 y[c] * (up[c] - u[c]) - y_down[c] * (u[c] - down[c]));
+    }
+    for (uint32_t s = 0; s < f->slant_count; s++) {
+        const uint32_t a = f->slants[s].a, b = f->slants[s].b;
+        const float moved = share * f->slants[s].open * (from[b] - from[a]);
+        to[a] += f->per[a] * moved;
+        to[b] -= f->per[b] * moved;
     }
 }
 
@@ -44,15 +51,15 @@ static int grown(int value, int by, int limit) {
 
 static void diffuse(JoxDensity *d, int field) {
     float whole = 0.5f * variance(d);
-    int steps = (int)ceilf(whole / MOST_SHARE);
-    int last[4] = {grown(d->from_x, -steps, 1), grown(d->from_y, -steps, 1),
-                   grown(d->to_x, steps, d->wide - 2), grown(d->to_y, steps, d->high - 2)};
-    for (int row = last[1] - 1; row <= last[3] + 1; row++)
-        memset(d->spare + at(d, last[0] - 1, row), 0,
-               (size_t)(last[2] - last[0] + 3) * sizeof(float));
+    int steps = (int)ceilf(whole / JOX_DENSITY_SHARE);
+    memset(d->spare, 0, (size_t)d->wide * (size_t)d->high * sizeof *d->spare);
+    for (int row = d->from_y; row <= d->to_y; row++)
+        for (int c = d->from_x; c <= d->to_x; c++)
+            d->mass[field][at(d, c, row)] *= d->floor->per[at(d, c, row)];
     for (int s = 1; s <= steps; s++) {
-        int box[4] = {grown(d->from_x, -s, 1), grown(d->from_y, -s, 1),
-                      grown(d->to_x, s, d->wide - 2), grown(d->to_y, s, d->high - 2)};
+        const int by = 2 * s; /* as far as a slant reaches */
+        int box[4] = {grown(d->from_x, -by, 1), grown(d->from_y, -by, 1),
+                      grown(d->to_x, by, d->wide - 2), grown(d->to_y, by, d->high - 2)};
         step(d, whole / (float)steps, d->mass[field], d->spare, box);
         float *swap = d->mass[field];
         d->mass[field] = d->spare;

@@ -1,6 +1,7 @@
-/* The floor that walls leave: the nodes of cells, where one can go from one to the next, and the area
-   that belongs to each. */
+/* The floor that walls leave: the nodes of cells, where one can go from one to the next, and the
+   area that belongs to each. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/hash.h"
@@ -9,10 +10,11 @@
 #include "record/fields/density_parts.h"
 
 typedef struct JoxDensityBar Bar;
-enum { FINE = 8 };                        /* points along each side of a cell by which it is judged */
+/* Points by which a cell is judged, a lattice of Fibonacci: along every axis all different. */
+enum { FINE = 89, TURN = 55, SIDE = 16 }; /* SIDE: along a side of it */
 static const double TOUCHES = 1e-9;       /* of a length: as near as that is on it */
 static const float OFF = 0.02f;           /* of a cell: nodes are at least so far from walls */
-static const float LEAST_AREA = 0.05f;    /* of a cell: what is less belongs to nobody */
+static const float LEAST_AREA = 0.1f; /* of a cell: of a node that has less, those beside take it */
 
 /* A solid, so that one can ask what lies within. */
 typedef struct Solid {
@@ -128,8 +130,8 @@ static bool within(const Solid *solids, uint32_t count, JoxV2 p) {
 
 static JoxV2 fine_point(const JoxDensity *d, int column, int row, int k) {
     const JoxV2 low = corner(d);
-    return jox_v2(low.x + ((float)column + ((float)(k % FINE) + 0.5f) / FINE) * d->cell,
-                  low.y + ((float)row + ((float)(k / FINE) + 0.5f) / FINE) * d->cell);
+    return jox_v2(low.x + ((float)column + ((float)k + 0.5f) / FINE) * d->cell,
+                  low.y + ((float)row + ((float)(k * TURN % FINE) + 0.5f) / FINE) * d->cell);
 }
 
 /* Whether a node can stand at p: on the floor, and not on a wall. */
@@ -163,7 +165,7 @@ static void place_nodes(JoxDensity *d, const Solid *solids, uint32_t count) {
             }
             f->per[cell] = stands(d, cell, middle, solids, count) ? 1.0f : 0.0f;
             float nearest = INFINITY;
-            for (int k = 0; k < FINE * FINE && has_wall(f, cell) && f->per[cell] == 0.0f; k++) {
+            for (int k = 0; k < FINE && has_wall(f, cell) && f->per[cell] == 0.0f; k++) {
                 JoxV2 p = fine_point(d, column, row, k);
                 float away = jox_length2(jox_sub(p, middle));
                 if (away < nearest && stands(d, cell, p, solids, count)) {
@@ -176,18 +178,86 @@ static void place_nodes(JoxDensity *d, const Solid *solids, uint32_t count) {
         }
 }
 
-/* Where one can go, and which cells' people have walls or solids between them and the nodes around. */
-static void open_ways(JoxDensity *d) {
+/* The node to which a point of the floor belongs; false: none that is seen from there. */
+static bool owner_of(const JoxDensity *d, JoxV2 p, const Solid *solids, uint32_t count, int *node) {
+    const JoxDensityFloor *f = d->floor;
+    const JoxV2 low = corner(d);
+    int column = clamped((p.x - low.x) / d->cell, d->wide - 1);
+    int row = clamped((p.y - low.y) / d->cell, d->high - 1);
+    const int cell = row * d->wide + column;
+    *node = cell;
+    if (!f->near[cell])
+        return true;
+    if ((!has_wall(f, (size_t)cell) && f->per[cell] <= 0.0f) || within(solids, count, p) ||
+        jox_density_node(d, p.x, p.y, &column, &row) != JOX_DENSITY_SEEN)
+        return false;
+    *node = row * d->wide + column;
+    return true;
+}
+
+/* People go from node a to node b over so much of a side. */
+static void link(JoxDensity *d, int a, int b, float side) {
+    JoxDensityFloor *f = d->floor;
+    const int first = a < b ? a : b, away = abs(b - a);
+    if (away == 1)
+        f->open_x[first] += side;
+    else if (away == d->wide)
+        f->open_y[first] += side;
+    else if (away > 0) { /* aslant: they are farther from each other */
+        JOX_RESERVE(f->slants, f->slant_capacity, f->slant_count + 1);
+        f->slants[f->slant_count++] = (struct JoxDensitySlant){
+            (uint32_t)a, (uint32_t)b,
+            side * d->cell / jox_maxf(jox_length(jox_sub(f->node[a], f->node[b])), d->cell)};
+    }
+}
+
+/* The ways over the side from `from` by `along` between the cell and the one beyond. */
+static void link_side(JoxDensity *d, int cell, int beyond, JoxV2 from, JoxV2 along,
+                      const Solid *solids, uint32_t count) {
+    const JoxDensityFloor *f = d->floor;
+    const JoxV2 off = {along.y * 1e-3f, along.x * 1e-3f}; /* to the cell beyond */
+    if (!f->near[cell] && !f->near[beyond]) {
+        link(d, cell, beyond, 1.0f);
+        return;
+    }
+    for (int k = 0; k < SIDE; k++) {
+        int a, b;
+        JoxV2 p = jox_add(from, jox_scale(along, ((float)k + 0.5f) / SIDE));
+        JoxV2 before = jox_sub(p, off), behind = jox_add(p, off);
+        if (owner_of(d, before, solids, count, &a) && owner_of(d, behind, solids, count, &b) &&
+            a != b && !jox_density_hidden(d, before, behind))
+            link(d, a, b, 1.0f / SIDE);
+    }
+}
+
+/* Where one can go. Nothing goes beyond the outermost cells but one. */
+static void open_ways(JoxDensity *d, const Solid *solids, uint32_t count) {
+    JoxDensityFloor *f = d->floor;
+    const JoxV2 low = corner(d);
+    const int wide = d->wide;
+    const size_t size = (size_t)wide * (size_t)d->high * sizeof(float);
+    memset(f->open_x, 0, size);
+    memset(f->open_y, 0, size);
+    f->slant_count = 0;
+    for (int row = 1; row < d->high - 1; row++)
+        for (int column = 1; column < wide - 1; column++) {
+            const int cell = row * wide + column;
+            const float x = low.x + (float)column * d->cell, y = low.y + (float)row * d->cell;
+            if (column + 2 < wide)
+                link_side(d, cell, cell + 1, jox_v2(x + d->cell, y), jox_v2(0, d->cell), solids,
+                          count);
+            if (row + 2 < d->high)
+                link_side(d, cell, cell + wide, jox_v2(x, y + d->cell), jox_v2(d->cell, 0), solids,
+                          count);
+        }
+}
+
+/* Which cells' people have walls or solids between them and the nodes around. */
+static void mark_near(JoxDensity *d) {
     JoxDensityFloor *f = d->floor;
     for (int row = 0; row < d->high; row++)
         for (int column = 0; column < d->wide; column++) {
             size_t cell = (size_t)row * (size_t)d->wide + (size_t)column;
-            size_t right = cell + 1, above = cell + (size_t)d->wide;
-            f->open_x[cell] = f->open_y[cell] = 0.0f;
-            if (column + 1 < d->wide && f->per[cell] > 0.0f && f->per[right] > 0.0f)
-                f->open_x[cell] = !jox_density_hidden(d, f->node[cell], f->node[right]);
-            if (row + 1 < d->high && f->per[cell] > 0.0f && f->per[above] > 0.0f)
-                f->open_y[cell] = !jox_density_hidden(d, f->node[cell], f->node[above]);
             if (!has_wall(f, cell) && f->per[cell] > 0.0f)
                 continue;
             for (int r = row - 1; r <= row + 1; r++)
@@ -212,7 +282,7 @@ static void share_area(JoxDensity *d, int column, int row, const Solid *solids, 
     }
     if (!has_wall(f, cell) && f->per[cell] <= 0.0f)
         return;
-    for (int k = 0; k < FINE * FINE; k++) {
+    for (int k = 0; k < FINE; k++) {
         uint32_t nodes[4];
         float shares[4];
         JoxV2 p = fine_point(d, column, row, k);
@@ -220,27 +290,55 @@ static void share_area(JoxDensity *d, int column, int row, const Solid *solids, 
             continue;
         int n = jox_density_share(d, p.x, p.y, nodes, shares);
         for (int s = 0; s < n; s++)
-            f->area[nodes[s]] += shares[s] / (FINE * FINE);
+            f->area[nodes[s]] += shares[s] / FINE;
     }
 }
 
 static void measure(JoxDensity *d, const Solid *solids, uint32_t count) {
     JoxDensityFloor *f = d->floor;
-    const size_t cells = (size_t)d->wide * (size_t)d->high;
-    memset(f->area, 0, cells * sizeof *f->area);
+    memset(f->area, 0, (size_t)d->wide * (size_t)d->high * sizeof *f->area);
     for (int row = 1; row < d->high - 1; row++)
         for (int column = 1; column < d->wide - 1; column++)
             share_area(d, column, row, solids, count);
-    jox_density_begin(d, 1); /* spread as people are: what is even stays even */
-    memcpy(d->mass[0], f->area, cells * sizeof *f->area);
-    d->from_x = d->from_y = 1;
-    d->to_x = d->wide - 2;
-    d->to_y = d->high - 2;
-    jox_density_spread(d, 0);
-    for (size_t c = 0; c < cells; c++)
-        f->per[c] = f->per[c] > 0.0f && d->mass[0][c] >= LEAST_AREA
-                        ? 1.0f / (d->mass[0][c] * d->cell * d->cell)
-                        : 0.0f;
+}
+
+/* Narrows the ways of nodes with little area, so that no more leaves in a step than is there. */
+static void narrow_ways(JoxDensity *d) {
+    JoxDensityFloor *f = d->floor;
+    const int wide = d->wide, last = wide * (d->high - 1);
+    float *room = f->room; /* at first the ways from a node, then how much of them can be used */
+    for (int c = wide; c < last; c++)
+        room[c] = f->open_x[c] + f->open_x[c - 1] + f->open_y[c] + f->open_y[c - wide];
+    for (uint32_t s = 0; s < f->slant_count; s++) {
+        room[f->slants[s].a] += f->slants[s].open;
+        room[f->slants[s].b] += f->slants[s].open;
+    }
+    for (int c = wide; c < last; c++) {
+        float area = jox_maxf(f->area[c], LEAST_AREA);
+        room[c] = jox_minf(1.0f, area / jox_maxf(JOX_DENSITY_SHARE * room[c], 1e-6f));
+        f->per[c] = f->per[c] > 0.0f ? 1.0f / area : 0.0f;
+    }
+    for (int c = wide; c < last - wide; c++) {
+        f->open_x[c] *= jox_minf(room[c], room[c + 1]);
+        f->open_y[c] *= jox_minf(room[c], room[c + wide]);
+    }
+    for (uint32_t s = 0; s < f->slant_count; s++)
+        f->slants[s].open *= jox_minf(room[f->slants[s].a], room[f->slants[s].b]);
+}
+
+/* Twice: nodes with next to no area of their own leave it to those beside. */
+static void make_ways(JoxDensity *d, const Solid *solids, uint32_t count) {
+    JoxDensityFloor *f = d->floor;
+    mark_near(d);
+    open_ways(d, solids, count);
+    measure(d, solids, count);
+    for (int cell = 0; cell < d->wide * d->high; cell++)
+        if (f->area[cell] < LEAST_AREA)
+            f->per[cell] = 0.0f;
+    mark_near(d);
+    open_ways(d, solids, count);
+    measure(d, solids, count);
+    narrow_ways(d);
 }
 
 static uint32_t list_solids(const JoxWalls *walls, Solid **solids) {
@@ -265,6 +363,7 @@ static void make_floor(JoxDensity *d) {
     f->near = jox_alloc(cells, sizeof *f->near);
     f->area = jox_alloc(cells, sizeof *f->area);
     f->per = jox_alloc(cells, sizeof *f->per);
+    f->room = jox_alloc(cells, sizeof *f->room);
     f->first = jox_alloc(cells + 1, sizeof *f->first);
 }
 
@@ -296,8 +395,7 @@ void jox_density_walls(JoxDensity *d, const JoxWalls *walls) {
     uint32_t count = list_solids(walls, &solids);
     list_bars(d, walls);
     place_nodes(d, solids, count);
-    open_ways(d);
-    measure(d, solids, count);
+    make_ways(d, solids, count);
     for (uint32_t s = 0; s < count; s++)
         jox_free(solids[s].points);
     jox_free(solids);
@@ -306,8 +404,8 @@ void jox_density_walls(JoxDensity *d, const JoxWalls *walls) {
 void jox_density_free_floor(JoxDensityFloor *f) {
     if (!f)
         return;
-    void *arrays[] = {f->node, f->open_x, f->open_y, f->near,   f->area,
-                      f->per,  f->bars,   f->first,  f->passing};
+    void *arrays[] = {f->node, f->open_x, f->open_y, f->slants, f->near,   f->area,
+                      f->per,  f->room,   f->bars,   f->first,  f->passing};
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         jox_free(arrays[a]);
     jox_free(f);

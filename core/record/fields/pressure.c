@@ -8,8 +8,9 @@
 #include "base/vec.h"
 
 enum { QUARTERS = 4 };
-static const float STEADY = 0.125f; /* of the variance is within a quarter, unless the flow changed */
-static const float NOBODY = 0.02f;  /* 1/m2: below this there is no velocity */
+static const float STEADY =
+    0.125f; /* of the variance is within a quarter, unless the flow changed */
+static const float NOBODY = 0.02f; /* 1/m2: below this there is no velocity */
 
 /* Sums of a cell over the samples of a quarter. */
 typedef struct Sums {
@@ -21,7 +22,7 @@ struct JoxPressure {
     Sums *quarters[QUARTERS]; /* the last is being filled */
     float *now;
     int samples[QUARTERS], filled; /* of each; quarters that are whole */
-    double begun, last;  /* s: of the last quarter; the last sample */
+    double begun, last;            /* s: of the last quarter; the last sample */
 };
 
 JoxPressure *jox_pressure_create(size_t cells) {

@@ -1,11 +1,10 @@
 /* Fields on a grid.
-     density             people per m2, mean over the samples: by fields/density.h, R = 1 m and within
-                         walls, unless the scene gives another kernel, or lets it pass through walls
-     speed               sum of w |v| over sum of w by the same weights, over all samples, m/s
-     pressure            crowd pressure by fields/pressure.h, 1/s2: mean over the times at which it
-                         was measured, each half second whatever the time between samples; else none
-     compression         sum of w c over sum of w, over all samples, N/m
-     compression_most    greatest of anyone who stood in the cell, N/m */
+     density             people per m2, mean over the samples: by fields/density.h, R = 1 m and
+   within walls, unless the scene gives another kernel, or lets it pass through walls speed sum of w
+   |v| over sum of w by the same weights, over all samples, m/s pressure            crowd pressure
+   by fields/pressure.h, 1/s2: mean over the times at which it was measured, each half second
+   whatever the time between samples; else none compression         sum of w c over sum of w, over
+   all samples, N/m compression_most    greatest of anyone who stood in the cell, N/m */
 #include <math.h>
 #include <string.h>
 
@@ -238,9 +237,10 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
     panel(walls, 3, what, density, out);
     panel(walls, 4, "speed (m/s)", speed, out);
     if (isnan(m->pressure_most))
-        jox_text_printf(out, "set title 'crowd pressure was measured nowhere:\\nless than %g per m^2, "
-                             "or no steady flow for %g s'\nunset colorbox\nplot NaN notitle\n"
-                             "set colorbox\n",
+        jox_text_printf(out,
+                        "set title 'crowd pressure was measured nowhere:\\nless than %g per m^2, "
+                        "or no steady flow for %g s'\nunset colorbox\nplot NaN notitle\n"
+                        "set colorbox\n",
                         (double)JOX_PRESSURE_LEAST, JOX_PRESSURE_SPAN);
     else
         panel(walls, 5, "crowd pressure (1/s^2), where it was measured", pressure, out);
