@@ -183,7 +183,7 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
 static void write_footprint(JoxBodies *b, const JoxRow *r, JoxObject *o) {
     const btTransform &at = r->body->getWorldTransform();
     const JoxConvexPart *first = &r->shape.parts[0];
-    float reach2 = 0;
+    float reach2 = 0, sphere2 = 0;
     jox_footprint_begin(&b->footprint);
     for (uint32_t p = 0; p < r->shape.part_count; p++) {
         const JoxConvexPart *part = &r->shape.parts[p];
@@ -191,6 +191,8 @@ static void write_footprint(JoxBodies *b, const JoxRow *r, JoxObject *o) {
             btVector3 c = at * part->frame.getOrigin();
             float away = jox_length(jox_v2(c.x() - o->position.x, c.y() - o->position.y));
             reach2 = jox_maxf(reach2, (away + part->radius) * (away + part->radius));
+            float apart = (c - at.getOrigin()).length() + part->radius;
+            sphere2 = jox_maxf(sphere2, apart * apart);
             jox_footprint_add_sphere(&b->footprint, jox_v3(c), part->radius);
             continue;
         }
@@ -198,12 +200,15 @@ static void write_footprint(JoxBodies *b, const JoxRow *r, JoxObject *o) {
         for (uint32_t i = 0; i < part->corner_count; i++) {
             b->corners[i] = jox_v3(at * jox_bt(part->corners[i]));
             JoxV2 away = jox_v2(b->corners[i].x - o->position.x, b->corners[i].y - o->position.y);
+            float above = b->corners[i].z - o->position.z;
             reach2 = jox_maxf(reach2, jox_length2(away));
+            sphere2 = jox_maxf(sphere2, jox_length2(away) + above * above);
         }
         jox_footprint_add(&b->footprint, b->corners, part->corner_count, part->edges,
                           part->edge_count);
     }
     o->disc = sqrtf(reach2);
+    o->sphere = sqrtf(sphere2);
     jox_footprint_end(&b->footprint, o);
     bool upright = first->kind == JOX_SHAPE_CYLINDER &&
                    fabsf((at.getBasis() * first->frame.getBasis())[2][2]) > 0.9999f;

@@ -82,20 +82,16 @@ static inline JoxV2 jox_resistance(JoxV2 force_unit, float shortfall, float abso
 
 /* (8) Change of a velocity, no longer than the old velocity: else a turn would count as a stop
    harder than a full one. */
-static inline JoxV2 jox_slowing(JoxV2 before, JoxV2 after, bool literal) {
+static inline JoxV2 jox_slowing(JoxV2 before, JoxV2 after) {
     JoxV2 change = jox_sub(after, before);
     float size = jox_length(change), most = jox_length(before);
-    if (literal || !(size > most))
-        return change;
-    return jox_scale(change, most / size);
+    return size > most ? jox_scale(change, most / size) : change;
 }
 
 /* (8) What each of n people ahead gets from someone who slowed by `change`: forward, as their
    momentum goes. The printed sign pulls them back. */
-static inline JoxV2 jox_deceleration(JoxV2 change, float absorb, float mass, uint32_t n, float dt,
-                                     bool literal) {
-    float size = absorb * mass / ((float)n * dt);
-    return jox_scale(change, literal ? size : -size);
+static inline JoxV2 jox_deceleration(JoxV2 change, float absorb, float mass, uint32_t n, float dt) {
+    return jox_scale(change, -absorb * mass / ((float)n * dt));
 }
 
 /* (8) The same upon oneself, with nobody ahead: kept from reversing the motion. */

@@ -22,7 +22,7 @@ JoxV2 jox_force_slowed(const JoxForces *f, uint32_t agent, float *kept) {
         const JoxTransfer *t = &f->sorted[k];
         uint32_t giver = jox_agents_find(a, t->from_id);
         JOX_ASSERT(giver < a->count && t->to == agent);
-        if (a->half_plane_x[giver] == 0.0f && a->half_plane_y[giver] == 0.0f)
+        if (!jox_under_force(f, giver))
             sum = jox_add(sum, (JoxV2){t->x, t->y});
     }
     return sum;

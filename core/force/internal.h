@@ -107,6 +107,11 @@ struct JoxForces {
 
 /* Makes room for `room` items of `size` bytes in every chunk and empties the list. */
 void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t size);
+/* Agents in reach of agent i within its cone about `axis`: their indices, in the order of nearness.
+ */
+uint32_t jox_people_in_cone(const JoxForces *forces, uint32_t i, JoxV2 axis, uint32_t *found);
+/* Lists a force that agent i, of that chunk, gives agent `to`. */
+void jox_transfer_give(JoxForces *forces, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force);
 /* Sorts the transfers by receiver: those of agent i are sorted[starts[i]] to sorted[starts[i + 1]].
    Returns how many there are; with none, nothing is written. */
 uint32_t jox_transfers_sort(JoxForces *forces);
@@ -131,8 +136,24 @@ void jox_touches_prepare(JoxForces *forces);
 void jox_touches_pass(JoxForces *forces);
 void jox_touches_finish(JoxForces *forces);
 
-/* Impulses of all pairs and touches as equation 6 is printed. */
+/* Equations as they are printed, literal.c. (5): from where the pusher will be to the one pushed.
+ */
+JoxV2 jox_literal_push_offset(const JoxForces *forces, uint32_t pusher, JoxV2 to_centre);
+/* (6): impulses of all pairs and touches. */
 void jox_literal_contacts(JoxForces *forces);
+/* (11), (12): the half-plane of agent i's net force, and its speed limit. */
+void jox_literal_bound(JoxForces *forces, uint32_t i);
+/* (8), (9): what agent i, of that chunk, passes on. */
+void jox_literal_pass_on(JoxForces *forces, uint32_t chunk, uint32_t i);
+
+/* Whether agent i was under force in this step: then its neighbours feel its resistance, otherwise
+   its slowing down. */
+bool jox_literal_under_force(const JoxForces *forces, uint32_t i);
+static inline bool jox_under_force(const JoxForces *f, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    return f->options.literal ? jox_literal_under_force(f, i)
+                              : a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f;
+}
 
 /* Assertions: transfers lie sorted by receiver, from givers that live; the contacts between agents
    add up to no force. */

@@ -3,6 +3,15 @@
 #include "force/equations.h"
 #include "force/internal.h"
 
+/* m/s: a force that changes a velocity by less in a step is rounding, and none. */
+static const float ROUNDING = 1e-5f;
+
+JoxV2 jox_literal_push_offset(const JoxForces *f, uint32_t pusher, JoxV2 to_centre) {
+    const JoxAgents *a = f->step.agents;
+    JoxV2 way = {a->vx[pusher], a->vy[pusher]};
+    return jox_sub(to_centre, jox_scale(way, (float)f->step.dt));
+}
+
 /* (6) Each pair by itself, at the velocities that the step began with. */
 static void pairs_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
@@ -42,4 +51,66 @@ void jox_literal_contacts(JoxForces *f) {
     JOX_ASSERT(f->options.literal);
     jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, pairs_chunk, f);
     touch_bodies(f);
+}
+
+bool jox_literal_under_force(const JoxForces *f, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    float impulse = jox_length(jox_v2(a->force_x[i], a->force_y[i])) * (float)f->step.dt;
+    return impulse >= ROUNDING * a->param[JOX_PARAM_mass][i] && isfinite(impulse);
+}
+
+/* (11) From the velocity that the step began with. */
+static JoxV2 forced_velocity(const JoxForces *f, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    return jox_forced_velocity(jox_v2(f->old_x[i], f->old_y[i]),
+                               jox_v2(a->force_x[i], a->force_y[i]), a->param[JOX_PARAM_mass][i],
+                               1.0f, (float)f->step.dt);
+}
+
+/* The greatest speed of ORCA never keeps the forced velocity out. */
+void jox_literal_bound(JoxForces *f, uint32_t i) {
+    JoxAgents *a = f->step.agents;
+    if (!jox_literal_under_force(f, i))
+        return;
+    JoxV2 normal = jox_unit(jox_v2(a->force_x[i], a->force_y[i])), forced = forced_velocity(f, i);
+    JOX_ASSERT(jox_is_unit(normal));
+    a->half_plane_x[i] = normal.x;
+    a->half_plane_y[i] = normal.y;
+    a->half_plane_offset[i] = jox_dot(forced, normal);
+    a->speed_limit[i] = jox_maxf(a->speed_limit[i], jox_length(forced));
+}
+
+/* (8) Whether the change of a velocity points against the new one, within the angle. */
+static bool decelerates(JoxV2 change, JoxV2 velocity, float cosine) {
+    return jox_dot(jox_unit(change), jox_unit(velocity)) < -cosine;
+}
+
+/* Shares a force among the people in the cone; with nobody there its giver has all of it. */
+static void share(JoxForces *f, uint32_t chunk, uint32_t i, JoxV2 axis, JoxV2 force) {
+    uint32_t found[JOX_MOST_NEIGHBOURS], n = 0;
+    if (axis.x != 0.0f || axis.y != 0.0f)
+        n = jox_people_in_cone(f, i, jox_unit(axis), found);
+    for (uint32_t k = 0; k < n; k++)
+        jox_transfer_give(f, chunk, i, found[k], jox_scale(force, 1.0f / (float)n));
+    if (!n)
+        jox_transfer_give(f, chunk, i, i, force);
+}
+
+/* (8), (9) k m dv/dt about the old velocity, k m (v - v_f)/dt about the forced one. */
+void jox_literal_pass_on(JoxForces *f, uint32_t chunk, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    float size = a->param[JOX_PARAM_absorb][i] * a->param[JOX_PARAM_mass][i] / (float)f->step.dt;
+    JoxV2 before = {f->old_x[i], f->old_y[i]}, after = {a->vx[i], a->vy[i]};
+    if (!(size > 0.0f))
+        return;
+    if (jox_literal_under_force(f, i)) {
+        JoxV2 forced = forced_velocity(f, i), change = jox_sub(after, forced);
+        if ((forced.x != 0.0f || forced.y != 0.0f) && jox_length(change) > ROUNDING)
+            share(f, chunk, i, forced, jox_scale(change, size));
+        return;
+    }
+    JoxV2 change = jox_sub(after, before);
+    if (jox_length(change) > ROUNDING &&
+        decelerates(change, after, a->param[JOX_PARAM_brace_angle][i]))
+        share(f, chunk, i, before, jox_scale(change, size));
 }

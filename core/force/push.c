@@ -8,8 +8,9 @@
 typedef struct Target {
     bool is_body;
     uint32_t index;
-    JoxV2 offset; /* from the pusher */
-    JoxV3 point;  /* where a body is pushed */
+    JoxV2 offset;    /* from the pusher */
+    JoxV2 to_centre; /* from the pusher to the middle of what is pushed */
+    JoxV3 point;     /* where a body is pushed */
     float gap;
 } Target;
 
@@ -44,8 +45,10 @@ static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
             continue;
         if (only && !(a->tags[other] & only))
             continue;
-        targets[n++] = (Target){
-            .index = other, .offset = offset, .gap = sqrtf(d2) - radius[i] - radius[other]};
+        targets[n++] = (Target){.index = other,
+                                .offset = offset,
+                                .to_centre = offset,
+                                .gap = sqrtf(d2) - radius[i] - radius[other]};
     }
     return n;
 }
@@ -73,8 +76,9 @@ static uint32_t bodies_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
         const JoxObject *body = &f->step.objects->rows[nearest.rows[k]];
         JoxFootprintPoint at = jox_footprint_nearest(body, centre);
         JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};
-        targets[n++] =
-            (Target){true, nearest.rows[k], jox_scale(at.normal, -1.0f), point, at.gap - radius};
+        JoxV2 to_centre = {body->position.x - centre.x, body->position.y - centre.y};
+        targets[n++] = (Target){true,      nearest.rows[k], jox_scale(at.normal, -1.0f),
+                                to_centre, point,           at.gap - radius};
     }
     return n;
 }
@@ -94,9 +98,8 @@ static JoxV2 push_on(const JoxForces *f, uint32_t i, JoxV2 aim, const Target *ta
     const JoxAgents *a = f->step.agents;
     float newtons = a->param[JOX_PARAM_push][i];
     JoxV2 offset = target->offset;
-    /* Printed, the push starts where the pusher will be, which may be beyond the one pushed. */
-    if (f->options.literal && !target->is_body)
-        offset = jox_sub(offset, jox_scale(jox_v2(a->vx[i], a->vy[i]), (float)f->step.dt));
+    if (f->options.literal)
+        offset = jox_literal_push_offset(f, i, target->to_centre);
     if (offset.x == 0.0f && offset.y == 0.0f)
         offset = aim; /* in the same place */
     return jox_push_share(offset, newtons, n);

@@ -61,7 +61,9 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         if (force.x == 0.0f && force.y == 0.0f)
             continue;
         float size = jox_length(force);
-        if (size >= f->options.least * mass[i] && isfinite(size))
+        if (f->options.literal)
+            jox_literal_bound(f, i);
+        else if (size >= f->options.least * mass[i] && isfinite(size))
             bound_by_force(a, i, force, size, decay_of(&decay, damping[i], f->step.planning_time),
                            (float)f->step.planning_time);
     }
@@ -69,32 +71,6 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
 
 void jox_force_sum(JoxForces *f) {
     jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, sum_chunk, f);
-}
-
-/* Those in reach within the cone about `axis`: their indices, in the order of nearness. */
-static uint32_t in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t *found) {
-    const JoxAgents *a = f->step.agents;
-    const JoxNeighbours *near = f->step.neighbours;
-    const float *radius = a->param[JOX_PARAM_radius];
-    float cosine = a->param[JOX_PARAM_brace_angle][i];
-    uint32_t n = 0;
-    for (uint32_t k = 0; k < near->count[i]; k++) {
-        uint32_t other = near->index[jox_neighbour_at(near, i, k)];
-        JoxV2 offset = jox_offset(a, i, other);
-        float most = radius[i] + radius[other] + f->options.reach;
-        bool near_enough = f->options.literal | (jox_length2(offset) <= most * most);
-        found[n] = other; /* kept only if it counts; no branch that would be guessed wrong */
-        n += near_enough & jox_cone_holds(offset, axis, cosine);
-    }
-    JOX_ASSERT(n <= near->count[i]);
-    return n;
-}
-
-static void give(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force) {
-    JoxTransfer *list = (JoxTransfer *)f->transfers.items + (size_t)chunk * f->transfers.room;
-    JOX_ASSERT(to < f->step.agents->count);
-    JOX_ASSERT(chunk < f->chunks && f->transfers.counts[chunk] < f->transfers.room);
-    list[f->transfers.counts[chunk]++] = (JoxTransfer){to, f->step.agents->id[i], force.x, force.y};
 }
 
 /* (9) Someone under force whose plan falls short of where it would take them. */
@@ -106,36 +82,32 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
     float absorb = a->param[JOX_PARAM_absorb][i];
     if (!(shortfall > 0.0f) || !(absorb > 0.0f))
         return;
-    uint32_t found[JOX_MOST_NEIGHBOURS], n = in_cone(f, i, unit, found);
+    uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_people_in_cone(f, i, unit, found);
     for (uint32_t k = 0; k < n; k++)
-        give(f, chunk, i, found[k],
-             jox_resistance(unit, shortfall, absorb, a->param[JOX_PARAM_mass][i], n,
-                            (float)f->step.planning_time));
+        jox_transfer_give(f, chunk, i, found[k],
+                          jox_resistance(unit, shortfall, absorb, a->param[JOX_PARAM_mass][i], n,
+                                         (float)f->step.planning_time));
 }
 
 /* (8) Someone under no force who slowed down. */
 static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
     const JoxAgents *a = f->step.agents;
-    bool literal = f->options.literal;
     float dt = (float)f->step.dt, mass = a->param[JOX_PARAM_mass][i];
     float absorb = a->param[JOX_PARAM_absorb][i];
     JoxV2 before = {f->old_x[i], f->old_y[i]}, after = {a->vx[i], a->vy[i]};
     if (!(jox_length2(after) < jox_length2(before)) || !(absorb > 0.0f))
         return;
-    JoxV2 change = jox_slowing(before, after, literal);
+    JoxV2 change = jox_slowing(before, after);
     if (!(jox_length(change) * absorb >= f->options.least * dt))
         return; /* no one would feel it */
-    /* Printed, the cone is about the new velocity, which a full stop leaves without direction. */
-    JoxV2 axis = jox_unit(literal ? after : before);
-    uint32_t found[JOX_MOST_NEIGHBOURS], n = 0;
-    if (axis.x != 0.0f || axis.y != 0.0f)
-        n = in_cone(f, i, axis, found);
+    uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_people_in_cone(f, i, jox_unit(before), found);
     for (uint32_t k = 0; k < n; k++)
-        give(f, chunk, i, found[k], jox_deceleration(change, absorb, mass, n, dt, literal));
+        jox_transfer_give(f, chunk, i, found[k], jox_deceleration(change, absorb, mass, n, dt));
     if (n)
         return;
-    JoxV2 own = jox_deceleration(change, absorb, mass, 1, dt, literal);
-    give(f, chunk, i, i, jox_keep_from_reversing(own, after, mass, (float)f->step.planning_time));
+    JoxV2 own = jox_deceleration(change, absorb, mass, 1, dt);
+    jox_transfer_give(f, chunk, i, i,
+                      jox_keep_from_reversing(own, after, mass, (float)f->step.planning_time));
 }
 
 static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -144,7 +116,9 @@ static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     const JoxAgents *a = f->step.agents;
     uint32_t chunk = begin / JOX_FORCE_GRAIN;
     for (uint32_t i = begin; i < end; i++) {
-        if (a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f)
+        if (f->options.literal)
+            jox_literal_pass_on(f, chunk, i);
+        else if (a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f)
             pass_resistance(f, chunk, i);
         else if (f->old_x[i] != 0.0f || f->old_y[i] != 0.0f)
             pass_deceleration(f, chunk, i);

@@ -2,6 +2,7 @@
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/sort.h"
+#include "force/equations.h"
 #include "force/internal.h"
 
 void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t size) {
@@ -17,6 +18,31 @@ void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t
     JOX_ASSERT(!need || (list->items && list->capacity >= need));
     if (chunks)
         memset(list->counts, 0, chunks * sizeof *list->counts);
+}
+
+uint32_t jox_people_in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t *found) {
+    const JoxAgents *a = f->step.agents;
+    const JoxNeighbours *near = f->step.neighbours;
+    const float *radius = a->param[JOX_PARAM_radius];
+    float cosine = a->param[JOX_PARAM_brace_angle][i];
+    uint32_t n = 0;
+    for (uint32_t k = 0; k < near->count[i]; k++) {
+        uint32_t other = near->index[jox_neighbour_at(near, i, k)];
+        JoxV2 offset = jox_offset(a, i, other);
+        float most = radius[i] + radius[other] + f->options.reach;
+        bool near_enough = f->options.literal | (jox_length2(offset) <= most * most);
+        found[n] = other; /* kept only if it counts; no branch that would be guessed wrong */
+        n += near_enough & jox_cone_holds(offset, axis, cosine);
+    }
+    JOX_ASSERT(n <= near->count[i]);
+    return n;
+}
+
+void jox_transfer_give(JoxForces *f, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force) {
+    JoxTransfer *list = (JoxTransfer *)f->transfers.items + (size_t)chunk * f->transfers.room;
+    JOX_ASSERT(to < f->step.agents->count);
+    JOX_ASSERT(chunk < f->chunks && f->transfers.counts[chunk] < f->transfers.room);
+    list[f->transfers.counts[chunk]++] = (JoxTransfer){to, f->step.agents->id[i], force.x, force.y};
 }
 
 uint32_t jox_transfers_sort(JoxForces *f) {

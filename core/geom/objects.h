@@ -28,6 +28,7 @@ typedef struct JoxObject {
     JoxV3 velocity;           /* m/s */
     JoxV3 spin;               /* angular velocity, rad/s */
     float disc;               /* radius of the projected bounding disc about position.xy, m */
+    float sphere;             /* radius of the bounding sphere about position, m */
     float inverse_mass;       /* 1/kg; 0 static */
     float inverse_inertia[9]; /* world frame, row major, 1/(kg m2) */
     /* Footprint within the height band: a convex ring, counter-clockwise, or, with count 0, the

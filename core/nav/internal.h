@@ -46,6 +46,7 @@ struct JoxNav {
     JoxV2 *position[2]; /* for projection */
     uint32_t *chunk_relaxed;
     JoxWallGrid grid;
+    bool literal;
 };
 
 void jox_nav_reserve(JoxNav *nav, uint32_t agents);
@@ -63,8 +64,9 @@ JoxHalfPlane jox_orca_half_plane(JoxV2 p, JoxV2 v, float radius, float tau, floa
 uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity, float radius,
                         float tau, float range, JoxHalfPlane *out, uint32_t most);
 /* Half-planes of the bodies that agent i sees; returns how many, at most `most`. */
-uint32_t jox_orca_objects(const JoxAgents *a, uint32_t i, const JoxObjects *objects,
-                          float planning_time, JoxHalfPlane *out, uint32_t most);
+uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
+                          const JoxObjects *objects, float planning_time, JoxHalfPlane *out,
+                          uint32_t most);
 
 /* The velocity of at most `speed_limit` nearest to `wanted` that meets all half-planes. The first
    `hard` half-planes are walls. Returns true if there is one; otherwise *velocity minimises the

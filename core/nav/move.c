@@ -179,7 +179,7 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
     Move move = {nav, agents, neighbours, (float)dt, (float)(dt / planning_time), 0.0f, 0};
     move.stiffness = STIFFNESS * jox_minf(1.0f, (float)dt / STIFF_STEP);
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate, &move);
-    for (int i = 0; i < SWEEPS; i++) {
+    for (int i = 0; i < SWEEPS && !nav->literal; i++) {
         jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, sweep, &move);
         move.from = !move.from;
     }

@@ -9,6 +9,10 @@ JoxNav *jox_nav_create(void) {
     return jox_alloc(1, sizeof(JoxNav));
 }
 
+void jox_nav_set_literal(JoxNav *nav, bool literal) {
+    nav->literal = literal;
+}
+
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
     jox_wall_grid_free(&nav->grid);
     nav->grid.walls = walls;

@@ -12,6 +12,8 @@ typedef struct JoxNav JoxNav;
 
 JoxNav *jox_nav_create(void);
 void jox_nav_free(JoxNav *nav);
+/* Equations 3 and 4 as they are printed, and no projection of overlaps. */
+void jox_nav_set_literal(JoxNav *nav, bool literal);
 /* The walls, not copied; call again when they change. NULL: none. */
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls);
 

@@ -20,6 +20,16 @@ static JoxHalfPlane half_plane_of(const JoxAgents *a, uint32_t i, const JoxObjec
     return (JoxHalfPlane){side.normal, jox_dot(moving, side.normal) - gap / time};
 }
 
+/* As printed: the disc of the body's bounding sphere, from outside and from within. */
+static JoxHalfPlane half_plane_of_sphere(const JoxAgents *a, uint32_t i, const JoxObject *o,
+                                         float planning_time, float tau) {
+    JoxV2 own = {a->vx[i], a->vy[i]};
+    return jox_orca_half_plane(jox_v2(o->position.x - a->x[i], o->position.y - a->y[i]),
+                               jox_sub(own, jox_v2(o->velocity.x, o->velocity.y)),
+                               a->param[JOX_PARAM_radius][i] + o->sphere, tau, planning_time, own,
+                               1.0f, jox_v2(1.0f, 0.0f));
+}
+
 /* Whether agent i minds a body; *apart: the least gap that there can be between its centre and the
    footprint. */
 static bool minds(const JoxAgents *a, uint32_t i, const JoxObject *o, float *apart) {
@@ -49,15 +59,18 @@ static uint32_t rows_of(const JoxAgents *a, uint32_t i, const JoxObjects *object
     return nearest->count;
 }
 
-uint32_t jox_orca_objects(const JoxAgents *a, uint32_t i, const JoxObjects *objects,
-                          float planning_time, JoxHalfPlane *out, uint32_t most) {
+uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
+                          const JoxObjects *objects, float planning_time, JoxHalfPlane *out,
+                          uint32_t most) {
     JOX_ASSERT(most <= JOX_MOST_NEAREST);
     JoxNearest nearest = {.most = most};
     uint32_t count = rows_of(a, i, objects, &nearest);
     for (uint32_t k = 0; k < count; k++) {
         bool approached = a->approach[i] == (int32_t)nearest.rows[k];
-        out[k] = half_plane_of(a, i, &objects->rows[nearest.rows[k]], planning_time,
-                               approached ? planning_time : a->param[JOX_PARAM_horizon][i]);
+        float tau = approached ? planning_time : a->param[JOX_PARAM_horizon][i];
+        const JoxObject *o = &objects->rows[nearest.rows[k]];
+        out[k] = nav->literal ? half_plane_of_sphere(a, i, o, planning_time, tau)
+                              : half_plane_of(a, i, o, planning_time, tau);
     }
     return count;
 }

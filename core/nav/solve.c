@@ -31,7 +31,8 @@ static uint32_t agent_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *out)
     const JoxAgents *a = s->agents;
     const float *radius = a->param[JOX_PARAM_radius];
     JoxV2 velocity = {a->vx[i], a->vy[i]};
-    float tau = a->param[JOX_PARAM_horizon][i], share = a->param[JOX_PARAM_yield][i];
+    float tau = a->param[JOX_PARAM_horizon][i];
+    float share = s->nav->literal ? 0.5f : a->param[JOX_PARAM_yield][i]; /* (3) prints u/2 */
     uint32_t made = 0;
     for (uint32_t k = 0; k < s->neighbours->count[i]; k++) {
         uint32_t j = s->neighbours->index[jox_neighbour_at(s->neighbours, i, k)];
@@ -63,7 +64,7 @@ static inline Counts make_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *
             tau * a->param[JOX_PARAM_max_speed][i] + radius, half_planes, MOST_WALLS);
     made.agents = agent_half_planes(s, i, half_planes + made.walls);
     if (s->objects && s->objects->count)
-        made.objects = jox_orca_objects(a, i, s->objects, s->planning_time,
+        made.objects = jox_orca_objects(s->nav, a, i, s->objects, s->planning_time,
                                         half_planes + made.walls + made.agents, MOST_OBJECTS);
     made.force = a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f;
     if (made.force)

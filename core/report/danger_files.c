@@ -106,11 +106,11 @@ static bool has_left(const JoxDanger *d) {
 }
 
 static void leavers(const JoxDanger *d, FILE *script) {
-    int column = 3 + JOX_DANGER_MEASURES + JOX_DANGER_LIMITS;
-    fputs(
-        "unset label\nset yrange [0:*]\nset title 'people who have left'\nplot 'danger.csv' skip 1 "
-        "using 1:",
-        script);
+    const int column = 3 + JOX_DANGER_MEASURES + JOX_DANGER_LIMITS + JOX_LEVELS + 1;
+    fputs("unset label\nset yrange [0:*]\nset ylabel 'people'\nset title 'people who have "
+          "left'\nplot 'danger.csv' skip 1 "
+          "using 1:",
+          script);
     fprintf(script, "%d with lines lw 2 lc 'black' title 'all'", column);
     for (uint32_t e = 0; e < d->exit_count; e++) {
         fprintf(script, ", '' skip 1 using 1:%d with lines lw 2 title ", column + 1 + (int)e);
@@ -120,13 +120,40 @@ static void leavers(const JoxDanger *d, FILE *script) {
     fputc('\n', script);
 }
 
+/* Flow over each line, with that below which people stop and go. */
+static void flows(const JoxDanger *d, FILE *script) {
+    double top = JOX_STOP_FLOW;
+    for (uint32_t l = 0; l < d->lines.count; l++)
+        top = fmax(top, d->lines.items[l].flow_most);
+    fprintf(script,
+            "unset arrow\nunset label\nset yrange [0:%g]\nset ylabel '1/(m s)'\nset key outside "
+            "right top\nset title 'flow over lines in ten seconds; crosses: stop-and-go'\nset "
+            "arrow from graph 0, first %g to graph 1, first %g nohead lc '#c00000' dt 2\nplot NaN "
+            "notitle",
+            1.2 * top, JOX_STOP_FLOW, JOX_STOP_FLOW);
+    for (uint32_t l = 0; l < d->lines.count; l++)
+        for (int stops = 0; stops < 2; stops++) {
+            fputs(", 'danger-lines.csv' skip 1 using (strcol(1) eq ", script);
+            jox_quote_put(script, jox_quote_gnuplot, d->lines.items[l].name);
+            fprintf(script, "%s ? $2 : NaN):7 with %s lc %u ", stops ? " && $11 == 1" : "",
+                    stops ? "points pt 2 ps 0.6" : "lines lw 2", l + 1);
+            fputs(stops ? "notitle" : "title ", script);
+            if (!stops) {
+                jox_quote_put(script, jox_quote_gnuplot, d->lines.items[l].name);
+                fputs(" noenhanced", script);
+            }
+        }
+    fputs("\nunset arrow\n", script);
+}
+
 static bool draw_times(const JoxDanger *d, const char *folder, const char *title, JoxText *error) {
     FILE *script = jox_plot_open(folder, "danger.plt", error);
     if (!script)
         return false;
     /* A run begins at 0, though its first sample lies a step behind; a recording anywhere. */
     double begun = d->begun > 1.0 ? d->begun : 0.0;
-    const int strips = drawn(d, JOX_DANGER_MEASURES) + 1 + has_left(d);
+    const bool passed = d->lines.count > 0 && d->row_count > 0;
+    const int strips = drawn(d, JOX_DANGER_MEASURES) + 1 + passed + has_left(d);
     for (int svg = 0; svg < 2; svg++) {
         begin_picture(script, "danger", svg, 1200, 60 + strips * STRIP, title);
         fprintf(script,
@@ -138,12 +165,39 @@ static bool draw_times(const JoxDanger *d, const char *folder, const char *title
             if (is_drawn(d, m))
                 strip(d, (JoxDangerMeasure)m, script);
         counts(d, script);
+        if (passed)
+            flows(d, script);
         if (has_left(d))
             leavers(d, script);
         fputs("unset multiplot\nset output\n", script);
     }
     return jox_plot_close(script, "danger.plt", error) &&
            jox_plot_draw(folder, "danger.plt", error);
+}
+
+/* Beside the scale of densities, from where on Fruin's levels for queues are; only what is apart
+   enough to be read. */
+static void level_scale(double top, FILE *script) {
+    bool any = false;
+    for (int k = 1; k < JOX_LEVELS; k++) {
+        const double from = 1.0 / jox_levels[k - 1].queue_area;
+        const double next = jox_levels[k].queue_area > 0.0 ? 1.0 / jox_levels[k].queue_area : top;
+        if (from > top || (k < JOX_LEVELS - 1 && next - from < 0.05 * top))
+            continue;
+        fprintf(script, "%s'      %s' %g", any ? ", " : "set cbtics add (", jox_levels[k].name,
+                from);
+        any = true;
+    }
+    fputs(any ? ")\n" : "", script);
+}
+
+/* Pieces of walls, in the colours of loads. */
+static void wall_loads(const JoxDanger *d, bool greatest, FILE *script) {
+    if (d->walls.known && d->walls.count)
+        fprintf(script,
+                ", 'danger-walls.csv' skip 1 using 1:2:($3-$1):($4-$2):%d with vectors nohead lw 5 "
+                "lc palette notitle",
+                greatest ? 6 : 5);
 }
 
 /* One field; the range of colours is given, since gnuplot would warn where all is 0. */
@@ -154,17 +208,34 @@ static void panel(const JoxDanger *d, int measure, bool greatest, const JoxWalls
     for (size_t c = 0; c < cells; c++)
         top = fmax(top,
                    greatest ? jox_danger_greatest(d, measure, c) : jox_danger_mean(d, measure, c));
+    if (measure == JOX_DANGER_LOAD)
+        for (uint32_t p = 0; p < d->walls.count; p++)
+            top = fmax(top, (double)(greatest ? d->walls.items[p].most : d->walls.items[p].load));
     if (top <= 0.0) { /* else one would look for it */
         fprintf(script, "set title '%s'\nset label 1 '%s' at graph 0.5,0.5 center front\n",
                 WHAT[measure],
                 jox_danger_reads(d, (JoxDangerMeasure)measure) ? "nothing anywhere" : UNMEASURED);
-        fputs("unset colorbox\nplot NaN notitle\nset colorbox\nunset label 1\n", script);
+        fputs("unset colorbox\nplot NaN notitle", script);
+        if (walls)
+            jox_plot_wall_lines(script, walls, "1.2");
+        fputs("\nset colorbox\nunset label 1\n", script);
         return;
     }
-    fprintf(script,
-            "set title '%s %s'\nset cbrange [0:%g]\nplot 'danger-map.csv' skip 1 using 1:2:%d with "
-            "image notitle",
-            greatest ? "greatest" : "mean", WHAT[measure], top, 3 + 2 * measure + greatest);
+    const bool levels = measure == JOX_DANGER_DENSITY;
+    const bool loads = measure == JOX_DANGER_LOAD && d->walls.known;
+    fprintf(script, "set cbtics autofreq\nset title '%s %s%s'\nset cbrange [0:%g]\n",
+            greatest ? "greatest" : "mean", WHAT[measure],
+            levels     ? "; levels of service"
+            : !loads   ? ""
+            : greatest ? "; of walls too"
+                       : "; of walls at the end",
+            top);
+    if (levels)
+        level_scale(top, script);
+    fprintf(script, "plot 'danger-map.csv' skip 1 using 1:2:%d with image notitle",
+            3 + 2 * measure + greatest);
+    if (loads)
+        wall_loads(d, greatest, script);
     if (walls)
         jox_plot_wall_lines(script, walls, "1.2");
     else

@@ -138,8 +138,10 @@ typedef struct DangerArea {
 static bool danger_begin(void *self, JoScene *scene, const void *options, JoError *error) {
     const DangerArea *area = options;
     (void)error;
-    ((DangerFigures *)self)->danger =
+    JoxDanger *danger =
         area ? jox_danger_create(area->low, area->high) : jox_danger_create_on(local_of(scene));
+    jox_danger_add_flows(danger, scene->spec->probes, scene->spec->probe_count);
+    ((DangerFigures *)self)->danger = danger;
     return true;
 }
 

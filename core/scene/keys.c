@@ -337,7 +337,7 @@ static const JoxOwner OWNERS[] = {
     {"probe", "Probes", "`probes` maps names to probes; one key of each says what it measures. Their figures stand in the summary under `probes`; `--report DIR` adds DIR/NAME.csv, NAME.png and "
      "NAME.svg. `jostle report` measures recordings by them, those of real crowds too.",
      .size = sizeof(JoxProbeDef), .kind = AT(JoxProbeDef, kind), .wrong_kind = "bad-probe", .name_at = AT(JoxProbeDef, name),
-     .hint = "{flow: [[0, 0], [1, 0]]}", .taken = "density|paths|regions|walls|danger|danger-map|danger-limits|danger-people|danger-lines|danger-walls", /* of reports */
+     .hint = "{flow: [[0, 0], [1, 0]]}", .taken = "density|paths|regions|walls|danger|danger-map|danger-limits|danger-people|danger-levels|danger-lines|danger-walls", /* of reports */
      .finish = jox_finish_probe},
     {"map", "map", "", .size = 0},
     {"lanes", "lanes", "The ways are two groups where the probe names two; else the sign of the velocity.", .size = 0},

@@ -13,6 +13,7 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     world->heap = jox_heap_used();
     world->scratch.pool = jox_pool_create(def->threads);
     world->scratch.nav = jox_nav_create();
+    jox_nav_set_literal(world->scratch.nav, def->literal);
     JoxForceOptions options = jox_force_default_options();
     options.literal = def->literal;
     world->scratch.forces = jox_forces_create(&options);

@@ -278,6 +278,30 @@ static void bodies_are_pushed_where_they_are_touched(void **state) {
     close_with(&c, &objects);
 }
 
+static void a_printed_push_aims_at_the_middle(void **state) {
+    (void)state;
+    /* From (0.8, -0.75), that walks at (0, 1) and will be at (0.8, -0.7): the middle of the box is
+       (-0.8, 0.7) off, sqrt(1.13) m. 200 N for 0.05 s are 10 N s. */
+    Crowd c;
+    open_crowd(&c, 0.05);
+    set_literal(&c);
+    JoxObject box = make_box(40, 1);
+    JoxObjects objects;
+    put_bodies(&c, &objects, &box, 1);
+    add_agent(&c, 0.8f, -0.75f, 0, 1);
+    set_param(&c, 0, JOX_PARAM_push, 200);
+    c.agents.pref_y[0] = 1;
+    begin_with(&c, &objects);
+    jox_force_push(c.forces);
+    uint32_t count;
+    const JoxImpulse *pending = jox_force_impulses(c.forces, &count);
+    assert_int_equal(count, 1);
+    assert_near(pending[0].impulse.x, -10 * 0.8 / sqrt(1.13), 1e-4);
+    assert_near(pending[0].impulse.y, 10 * 0.7 / sqrt(1.13), 1e-4);
+    assert_near(pending[0].point.x, 0.8, 1e-6);
+    close_with(&c, &objects);
+}
+
 static void far_and_broken_bodies_are_passed_over(void **state) {
     (void)state;
     Crowd c;
@@ -315,6 +339,7 @@ int main(void) {
         cmocka_unit_test(the_nearest_bodies_are_touched_and_pushed),
         cmocka_unit_test(static_bodies_stop_people_and_receive_nothing),
         cmocka_unit_test(bodies_are_pushed_where_they_are_touched),
+        cmocka_unit_test(a_printed_push_aims_at_the_middle),
         cmocka_unit_test(far_and_broken_bodies_are_passed_over),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -25,11 +25,12 @@ static void of_many_bodies_the_nearest_are_avoided(void **state) {
     JoxObjects objects = {.rows = rows, .count = PILLARS};
     jox_objects_lay(&objects);
     JoxAgents agents = {0};
+    JoxNav *nav = jox_nav_create();
     uint32_t i = jox_agents_add(&agents);
     agents.ignore[i] = 2;
     JoxHalfPlane planes[JOX_MOST_NEAREST];
     for (uint32_t most = 1; most <= JOX_MOST_NEAREST; most++) {
-        uint32_t made = jox_orca_objects(&agents, i, &objects, 0.05f, planes, most), at = most;
+        uint32_t made = jox_orca_objects(nav, &agents, i, &objects, 0.05f, planes, most), at = most;
         assert_int_equal(made, most);
         for (int k = PILLARS - 1; at > 0; k--) { /* the nearest, which are the last */
             if (k == 33 || k == 37 || k == 38)
@@ -44,6 +45,7 @@ static void of_many_bodies_the_nearest_are_avoided(void **state) {
     }
     jox_objects_free_grid(&objects);
     jox_agents_free(&agents);
+    jox_nav_free(nav);
 }
 
 int main(void) {

@@ -1,5 +1,5 @@
-/* Densities against what can be worked out: integrals, even crowds, and a person between walls, whose
-   density is that of the images in them. */
+/* Densities against what can be worked out: integrals, even crowds, and a person between walls,
+   whose density is that of the images in them. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -131,7 +131,8 @@ static void a_narrow_corridor(void **state) {
                         assert_in_range(1000 * d->most / there, 950, cell < 0.25f ? 1200 : 1450);
                     else
                         assert_float_equal(d->most, there, 0.08 * there * cell * cell / 0.04);
-                    assert_float_equal(variance_along(d, c, s), S * S, (turned ? 0.35 : 0.04) * S * S);
+                    assert_float_equal(variance_along(d, c, s), S * S,
+                                       (turned ? 0.35 : 0.04) * S * S);
                     for (float beyond = -0.6f; beyond < 1.7f; beyond += 2.2f) /* nothing outside */
                         assert_float_equal(at(d, c * (shift + beyond), s * (shift + beyond)), 0.0,
                                            1e-9);
@@ -176,8 +177,8 @@ static void both_sides_of_a_thin_wall(void **state) {
     }
 }
 
-/* An even crowd in a room reads alike in the middle, at walls and in corners, thin or solid; half of
-   the room has none. */
+/* An even crowd in a room reads alike in the middle, at walls and in corners, thin or solid; half
+   of the room has none. */
 static void an_even_crowd_is_even_up_to_the_walls(void **state) {
     (void)state;
     enum { SIDE = 100 }; /* 25 per m2, so that chance is small */

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/elementary.h"
 #include "base/mem.h"
 #include "record/danger/danger_parts.h"
@@ -68,7 +69,7 @@ static void judge(JoxDanger *d, const JoxFrame *frame, uint32_t i, JoxDangerMeas
     }
 }
 
-/* Every frame: what person i bears now, and the dose of it until now. */
+/* What person i bears now, and the dose of it until now. */
 static void bear(JoxDanger *d, const JoxFrame *frame, uint32_t i, double duration, float share) {
     JoxDangerPerson *p = &d->people[frame->key[i]];
     if (frame->compression) {
@@ -88,6 +89,7 @@ static void bear(JoxDanger *d, const JoxFrame *frame, uint32_t i, double duratio
     judge(d, frame, i, JOX_DANGER_DOSE, p->dose, duration);
 }
 
+/* Every frame: what people and walls bear. */
 static void press(JoxDanger *d, const JoxFrame *frame) {
     double duration = isnan(d->last_frame) ? 0.0 : frame->time - d->last_frame;
     float share = (float)(1.0 - jox_exp(-duration / HOLD));
@@ -96,6 +98,7 @@ static void press(JoxDanger *d, const JoxFrame *frame) {
     d->has_load |= frame->load != NULL;
     for (uint32_t i = 0; (frame->compression || frame->load) && i < frame->count; i++)
         bear(d, frame, i, duration, share);
+    jox_danger_walls_frame(&d->walls, frame, duration, share);
 }
 
 /* Adds a sample's density or pressure to the map, and gives the greatest of any cell; NAN where it
@@ -142,6 +145,9 @@ static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
         const float *field = jox_danger_field(d, (JoxDangerMeasure)m, &grid);
         row->most[m] = chart_field(d, (JoxDangerMeasure)m, field, frame->time);
     }
+    for (uint32_t i = 0; i < frame->count; i++)
+        if (!isnan(d->here[i]))
+            row->levels[jox_level_of_queue((double)d->here[i])]++;
     for (uint32_t i = 0; i < frame->count; i++) {
         size_t cell;
         const JoxDangerPerson *p = &d->people[frame->key[i]];
@@ -178,6 +184,9 @@ static void keep_most(JoxDanger *d, const JoxFrame *frame) {
                 d->greatest[m][cell] = jox_maxf(d->greatest[m][cell], value);
         }
     }
+    row->wall_most = fmaxf(row->wall_most, (float)jox_danger_walls_now(&d->walls));
+    if (!d->walls.known)
+        row->wall_most = NAN;
     if (!frame->compression)
         row->most[JOX_DANGER_COMPRESSION] = NAN;
     if (!frame->load)
@@ -190,21 +199,38 @@ static void sample(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
         d->begun = frame->time;
     double duration = isnan(d->last_sample) ? 0.0 : frame->time - d->last_sample;
     d->last_sample = frame->time;
+    JOX_RESERVE(d->here, d->here_capacity, frame->count);
     for (uint32_t i = 0; i < frame->count; i++) {
         size_t cell;
-        if (!jox_density_cell_of(d->local->grid, frame->x[i], frame->y[i], &cell))
+        const bool inside = jox_density_cell_of(d->local->grid, frame->x[i], frame->y[i], &cell);
+        d->here[i] = inside ? d->local->grid->now[cell] : NAN;
+        if (!inside)
             continue;
-        judge(d, frame, i, JOX_DANGER_DENSITY, (double)d->local->grid->now[cell], duration);
+        d->level_s[jox_level_of_queue((double)d->here[i])] += duration;
+        judge(d, frame, i, JOX_DANGER_DENSITY, (double)d->here[i], duration);
         judge(d, frame, i, JOX_DANGER_PRESSURE, (double)jox_local_pressure(d->local, cell),
               duration);
     }
     chart(d, frame);
     note(d, frame, exits);
+    jox_danger_lines_sample(&d->lines, frame, d->here, duration);
+}
+
+void jox_danger_add_line(JoxDanger *d, const char *name, JoxV2 a, JoxV2 b) {
+    JOX_ASSERT(isnan(d->last_frame) && name);
+    jox_danger_lines_add(&d->lines, name, a, b);
+}
+
+void jox_danger_add_flows(JoxDanger *d, const JoxProbeDef *probes, uint32_t count) {
+    for (uint32_t p = 0; p < count; p++)
+        if (probes[p].kind == JOX_PROBE_FLOW)
+            jox_danger_add_line(d, probes[p].name, probes[p].points[0], probes[p].points[1]);
 }
 
 void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     JOX_RESERVE_ZEROED(d->people, d->people_capacity, frame->keys);
     press(d, frame);
+    jox_danger_lines_cross(&d->lines, frame);
     if (d->owns_local)
         jox_local_frame(d->local, frame, NULL);
     if (d->local->time == frame->time && d->last_sample != frame->time)
@@ -224,7 +250,7 @@ void jox_danger_free(JoxDanger *d) {
         return;
     if (d->owns_local)
         jox_local_free(d->local);
-    void *arrays[] = {d->measured, d->stood, d->people, d->rows};
+    void *arrays[] = {d->measured, d->stood, d->people, d->rows, d->here};
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         jox_free(arrays[a]);
     for (int m = 0; m < JOX_DANGER_MAPPED; m++) {
@@ -233,5 +259,7 @@ void jox_danger_free(JoxDanger *d) {
     }
     for (uint32_t e = 0; e < d->exit_count; e++)
         jox_free(d->exit_names[e]);
+    jox_danger_lines_free(&d->lines);
+    jox_danger_walls_free(&d->walls);
     jox_free(d);
 }

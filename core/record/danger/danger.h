@@ -18,6 +18,7 @@
 #include "record/frame.h"
 #include "record/local.h"
 #include "world/exits.h"
+#include "world/probe.h"
 
 typedef enum JoxDangerMeasure {
     JOX_DANGER_DENSITY,
@@ -68,6 +69,11 @@ typedef struct JoxDanger JoxDanger;
 JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high);
 /* The same on densities that someone else takes, of each frame before it comes here. */
 JoxDanger *jox_danger_create_on(JoxLocal *local);
+/* A line that people pass, for flow, levels of service, stop-and-go and congestion; before the
+   first frame. */
+void jox_danger_add_line(JoxDanger *danger, const char *name, JoxV2 a, JoxV2 b);
+/* Those of probes that measure flow. */
+void jox_danger_add_flows(JoxDanger *danger, const JoxProbeDef *probes, uint32_t count);
 /* Frames in ascending time; `exits` as they are then, or NULL. */
 void jox_danger_frame(JoxDanger *danger, const JoxFrame *frame, const JoxExits *exits);
 /* The field of density or pressure at the last sample, and its grid. */
@@ -80,7 +86,8 @@ JoxDangerMost jox_danger_most(const JoxDanger *danger, JoxDangerMeasure measure)
 /* Whether there was anything to read it from: compression and load are in our own recordings alone,
    crowd pressure takes ten seconds. What is over its limits is not known otherwise. */
 bool jox_danger_reads(const JoxDanger *danger, JoxDangerMeasure measure);
-/* Adds "density_max": ..., "limits": {...}; null where it was not read. */
+/* Adds "density_max": ..., "limits": {...}, "levels": {...}, "lines": {...}, "walls": {...}; null
+   where it was not read. */
 void jox_danger_json(const JoxDanger *danger, JoxJson *json);
 void jox_danger_free(JoxDanger *danger);
 

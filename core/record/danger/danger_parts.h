@@ -3,6 +3,8 @@
 #define JOX_RECORD_DANGER_PARTS_H
 
 #include "record/danger/danger.h"
+#include "record/danger/lines.h"
+#include "record/danger/walls.h"
 #include "record/local.h"
 
 enum {
@@ -31,6 +33,8 @@ typedef struct JoxDangerRow {
     uint32_t people;
     float most[JOX_DANGER_MEASURES]; /* NAN: not read */
     uint32_t over[JOX_DANGER_LIMITS];
+    uint32_t levels[JOX_LEVELS]; /* people at each level of service */
+    float wall_most;             /* N: of any piece of a wall; NAN: not known */
     uint32_t left, exits[JOX_DANGER_EXITS];
 } JoxDangerRow;
 
@@ -48,6 +52,12 @@ struct JoxDanger {
     JoxDangerPerson *people; /* by key */
     uint32_t people_capacity;
     bool has_compression, has_load;
+
+    JoxDangerLines lines;
+    JoxDangerWalls walls;
+    double level_s[JOX_LEVELS]; /* person-seconds at each level of service */
+    float *here;                /* by person of a sample: density; NAN outside of the area */
+    uint32_t here_capacity;
 
     double begun, last_frame, last_sample; /* s */
     JoxDangerCount counts[JOX_DANGER_LIMITS];

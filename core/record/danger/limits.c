@@ -115,4 +115,10 @@ void jox_danger_json(const JoxDanger *d, JoxJson *json) {
         jox_json_end(json);
     }
     jox_json_end(json);
+    jox_json_object(json, "level_person_s"); /* of service, Fruin's for queues */
+    for (int k = 0; k < JOX_LEVELS; k++)
+        jox_json_number(json, jox_levels[k].name, d->level_s[k]);
+    jox_json_end(json);
+    jox_danger_lines_json(&d->lines, d->last_frame, json);
+    jox_danger_walls_json(&d->walls, d->last_frame, json);
 }
