@@ -13,6 +13,10 @@ static const char *const WHAT[] = {"density (1/m^2)", "crowd pressure (1/s^2)",
                                    "compression held for 1 s (N/m)",
                                    "load from one side, held for 1 s (N)", "dose of load"};
 
+/* Why crowd pressure was measured nowhere (fields/pressure.h). */
+static const char UNMEASURED[] =
+    "measured nowhere: never 20 s at 5 per m^2 or more without a change of the flow";
+
 /* Whether a measure is drawn: compression only where it stands in for load, in older recordings. */
 static bool is_drawn(const JoxDanger *d, int measure) {
     return measure == JOX_DANGER_COMPRESSION ? d->has_compression && !d->has_load
@@ -42,7 +46,14 @@ static void strip(const JoxDanger *d, JoxDangerMeasure measure, FILE *script) {
     for (uint32_t r = 0; r < d->row_count; r++)
         top = fmax(top, d->rows[r].most[measure]);
     fprintf(script, "set ylabel '%s'\nunset arrow\nunset label\n", jox_danger_units[measure]);
-    fprintf(script, "set title 'greatest %s of anyone", WHAT[measure]);
+    if (!jox_danger_reads(d, measure)) {
+        fprintf(script,
+                "set title '%s'\nset label 1 '%s' at graph 0.5,0.5 center\nset yrange [0:1]\n"
+                "plot NaN notitle\nunset label 1\n",
+                WHAT[measure], UNMEASURED);
+        return;
+    }
+    fprintf(script, "set title 'greatest %s", WHAT[measure]);
     if (isfinite(jox_danger_least(measure)))
         fprintf(script, "; first limit: %.4g", jox_danger_least(measure));
     fputs("'\n", script);
@@ -192,19 +203,18 @@ static void wall_loads(const JoxDanger *d, bool greatest, FILE *script) {
 /* One field; the range of colours is given, since gnuplot would warn where all is 0. */
 static void panel(const JoxDanger *d, int measure, bool greatest, const JoxWalls *walls,
                   FILE *script) {
-    size_t cells = (size_t)d->grid->columns * d->grid->rows;
+    size_t cells = (size_t)d->local->grid->columns * d->local->grid->rows;
     double top = 0.0;
     for (size_t c = 0; c < cells; c++)
-        top =
-            fmax(top, greatest ? (double)d->greatest[measure][c] : jox_danger_mean(d, measure, c));
+        top = fmax(top,
+                   greatest ? jox_danger_greatest(d, measure, c) : jox_danger_mean(d, measure, c));
     if (measure == JOX_DANGER_LOAD)
         for (uint32_t p = 0; p < d->walls.count; p++)
             top = fmax(top, (double)(greatest ? d->walls.items[p].most : d->walls.items[p].load));
     if (top <= 0.0) { /* else one would look for it */
         fprintf(script, "set title '%s'\nset label 1 '%s' at graph 0.5,0.5 center front\n",
                 WHAT[measure],
-                measure == JOX_DANGER_PRESSURE ? "nowhere dense enough, or too short"
-                                               : "nobody was pressed");
+                jox_danger_reads(d, (JoxDangerMeasure)measure) ? "nothing anywhere" : UNMEASURED);
         fputs("unset colorbox\nplot NaN notitle", script);
         if (walls)
             jox_plot_wall_lines(script, walls, "1.2");
@@ -234,7 +244,7 @@ static void panel(const JoxDanger *d, int measure, bool greatest, const JoxWalls
 
 static bool draw_map(const JoxDanger *d, const char *folder, const JoxWalls *walls,
                      const char *title, JoxText *error) {
-    const JoxDensity *g = d->grid;
+    const JoxDensity *g = d->local->grid;
     float width = (float)g->columns * g->cell, height = (float)g->rows * g->cell;
     const int columns = drawn(d, JOX_DANGER_MAPPED);
     int tall = (int)(PANEL * jox_clampf(height / width, 0.35f, 1.6f));

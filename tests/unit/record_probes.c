@@ -262,11 +262,11 @@ static void fields_are_the_kernel(void **state) {
     assert_near(figure(p, "density_max"), peak, 0.02 * peak);
     assert_near(figure(p, "density_max_x"), 0.05, 0.01);
     assert_near(figure(p, "speed"), 0.6, 1e-6);
-    assert_near(figure(p, "pressure_max"), peak * 0.36, 0.02 * peak * 0.36);
+    assert_true(isnan(figure(p, "pressure_max"))); /* of a moment there is none */
     assert_near(figure(p, "compression_max"), 250, 0);
-    crowd.vx[1] = 0.6f; /* together: no variance, no pressure */
+    show(p, 0.5); /* between samples */
     show(p, 1);
-    assert_near(figure(p, "pressure_mean_max"), peak * 0.18, 0.02 * peak * 0.18);
+    assert_near(figure(p, "density_mean_max"), peak, 0.02 * peak);
     assert_near(figure(p, "samples"), 2, 0);
     jox_probe_free(p);
 }

@@ -67,7 +67,7 @@ JoxDangerMost jox_danger_most(const JoxDanger *d, JoxDangerMeasure measure) {
     JoxDangerMost most = d->most[measure];
     bool read = d->samples > 0;
     if (measure == JOX_DANGER_PRESSURE)
-        read = d->pressure_samples > 0;
+        read = isfinite(most.value); /* somewhere, some time */
     else if (measure == JOX_DANGER_COMPRESSION)
         read = d->has_compression;
     else if (measure == JOX_DANGER_LOAD || measure == JOX_DANGER_DOSE)
