@@ -117,6 +117,57 @@ static void put_most(FILE *out, const JoxDanger *danger) {
     jox_html_table_end(out);
 }
 
+enum { SHOWN = 10 }; /* of people and of pieces of walls: those that bore most */
+
+/* Those of the greatest values over 0, descending. */
+static uint32_t most_of(const JoxDanger *danger, uint32_t count,
+                        double (*value)(const JoxDanger *danger, uint32_t k),
+                        uint32_t order[SHOWN]) {
+    uint32_t shown = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        if (!(value(danger, k) > 0.0))
+            continue;
+        uint32_t at = shown < SHOWN ? shown++ : SHOWN;
+        for (; at > 0 && value(danger, order[at - 1]) < value(danger, k); at--)
+            if (at < SHOWN)
+                order[at] = order[at - 1];
+        if (at < SHOWN)
+            order[at] = k;
+    }
+    return shown;
+}
+
+static double dose_of_person(const JoxDanger *danger, uint32_t k) {
+    return danger->people[k].dose;
+}
+
+static double most_of_piece(const JoxDanger *danger, uint32_t k) {
+    return (double)danger->walls.items[k].most;
+}
+
+static void put_people(FILE *out, const JoxDanger *danger) {
+    uint32_t order[SHOWN];
+    const uint32_t shown = most_of(danger, danger->people_capacity, dose_of_person, order);
+    if (shown == 0)
+        return;
+    jox_html_paragraph(out, "The people of the greatest doses; danger-people.csv lists all whose "
+                            "dose is over 0.01 or whose load was over the first limit.");
+    jox_html_table(out, "person|dose|greatest load|when and where|over 623 N|over 1112 N|over 6227 "
+                        "N");
+    for (uint32_t s = 0; s < shown; s++) {
+        const JoxDangerPerson *person = &danger->people[order[s]];
+        jox_html_row(out);
+        fprintf(out, "<td class=n>%u", order[s]);
+        jox_html_cell_number(out, person->dose, "");
+        jox_html_cell_number(out, (double)person->most, "N");
+        put_place(out, person->most_time, person->most_at);
+        for (int l = 0; l < JOX_DANGER_LIMITS; l++)
+            if (jox_danger_limits[l].measure == JOX_DANGER_LOAD)
+                jox_html_cell_number(out, person->seconds[l], "s");
+    }
+    jox_html_table_end(out);
+}
+
 /* Fruin's levels: of everybody by area, and of lines by flow and area. */
 static void put_levels(FILE *out, const JoxDanger *danger) {
     jox_html_heading(out, "Levels of service");
@@ -192,7 +243,6 @@ static void put_lines(FILE *out, const JoxDanger *danger) {
 
 /* The pieces of walls that bore most. */
 static void put_walls(FILE *out, const JoxDanger *danger) {
-    enum { SHOWN = 10 };
     const JoxDangerWalls *walls = &danger->walls;
     jox_html_heading(out, "Walls: what pieces of them bore");
     if (!walls->known) {
@@ -207,15 +257,7 @@ static void put_walls(FILE *out, const JoxDanger *danger) {
         JOX_RAIL_LIMIT, jox_rail_what, jox_rail_source, walls->over, walls->count);
     jox_html_paragraph(out, text);
     jox_html_table(out, "from|to|now|greatest|greatest, per metre|when|over 4500 N|first");
-    uint32_t order[SHOWN], shown = 0;
-    for (uint32_t p = 0; p < walls->count; p++) { /* the greatest, descending */
-        uint32_t at = shown < SHOWN ? shown++ : SHOWN;
-        for (; at > 0 && walls->items[order[at - 1]].most < walls->items[p].most; at--)
-            if (at < SHOWN)
-                order[at] = order[at - 1];
-        if (at < SHOWN)
-            order[at] = p;
-    }
+    uint32_t order[SHOWN], shown = most_of(danger, walls->count, most_of_piece, order);
     for (uint32_t s = 0; s < shown; s++) {
         const JoxDangerPiece *piece = &walls->items[order[s]];
         jox_html_row(out);
@@ -236,6 +278,7 @@ void jox_page_danger(FILE *out, const JoxDanger *danger) {
     put_texts(out, danger);
     put_limits(out, danger);
     put_most(out, danger);
+    put_people(out, danger);
     put_levels(out, danger);
     put_lines(out, danger);
     put_walls(out, danger);

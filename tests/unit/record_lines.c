@@ -117,7 +117,7 @@ static void stepping_back_is_no_passage(void **state) {
     /* Nobody passes a full place: from 10 s on, to 30 s. */
     assert_float_equal(line->stop_and_go.first, 10.0, 1e-6);
     assert_float_equal(line->stop_and_go.seconds, 20.5, 0.01);
-    assert_int_equal(line->worst, JOX_LEVELS - 1); /* though hardly anybody passes */
+    assert_int_equal(line->worst, JOX_LEVELS - 1);          /* though hardly anybody passes */
     assert_float_equal(line->congestion.seconds, 0.0, 0.0); /* nobody comes */
     jox_danger_free(danger);
 }

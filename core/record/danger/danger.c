@@ -38,12 +38,12 @@ JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high) {
     return d;
 }
 
-/* `value` was there: the greatest is kept. */
+/* `value` was there, of a person or UINT32_MAX: the greatest is kept. */
 static void keep_greatest(JoxDanger *d, JoxDangerMeasure measure, double value, double time,
-                          JoxV2 at) {
+                          JoxV2 at, uint32_t person) {
     JoxDangerMost *most = &d->most[measure];
     if (value > (isnan(most->value) ? 0.0 : most->value))
-        *most = (JoxDangerMost){value, time, at};
+        *most = (JoxDangerMost){value, time, person, at};
 }
 
 /* Person i has `value` for `duration` seconds; marks the limits passed. */
@@ -52,7 +52,7 @@ static void judge(JoxDanger *d, const JoxFrame *frame, uint32_t i, JoxDangerMeas
     JoxV2 at = {frame->x[i], frame->y[i]};
     JoxDangerPerson *person = &d->people[frame->key[i]];
     if ((int)measure >= (int)JOX_DANGER_FIRST_BORNE)
-        keep_greatest(d, measure, value, frame->time, at);
+        keep_greatest(d, measure, value, frame->time, at, frame->key[i]);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         JoxDangerCount *count = &d->counts[l];
         if (jox_danger_limits[l].measure != measure || !(value >= jox_danger_limits[l].value))
@@ -115,7 +115,7 @@ static float chart_field(JoxDanger *d, JoxDangerMeasure measure, const float *fi
         if (field[c] <= most)
             continue;
         most = field[c];
-        keep_greatest(d, measure, most, time, jox_density_middle(g, c));
+        keep_greatest(d, measure, most, time, jox_density_middle(g, c), UINT32_MAX);
     }
     if (!isnan(most) && isnan(d->most[measure].value)) /* measured, and nothing there */
         d->most[measure].value = 0.0;

@@ -61,6 +61,7 @@ typedef struct JoxDangerCount {
 } JoxDangerCount;
 typedef struct JoxDangerMost {
     double value, time; /* s; NAN where nothing was read */
+    uint32_t person;    /* of what people bear: whose */
     JoxV2 at;           /* m */
 } JoxDangerMost;
 

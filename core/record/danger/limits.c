@@ -97,6 +97,8 @@ void jox_danger_json(const JoxDanger *d, JoxJson *json) {
         add(json, jox_danger_names[m], "_max_s", most.time);
         add(json, jox_danger_names[m], "_max_x", read ? most.at.x : NAN);
         add(json, jox_danger_names[m], "_max_y", read ? most.at.y : NAN);
+        if (m >= JOX_DANGER_FIRST_BORNE)
+            add(json, jox_danger_names[m], "_max_person", read ? most.person : NAN);
     }
     jox_json_object(json, "limits");
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
