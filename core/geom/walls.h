@@ -52,6 +52,9 @@ void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates);
 /* Points of a ring as they were given, from its first vertex on, and whether the last is joined to
    the first. A closed line is two rings, of which *twin says that the next repeats this one. */
 uint32_t jox_walls_given(const JoxWalls *walls, uint32_t ring, bool *closed, bool *twin);
+/* Ends of the part of a line that walls leave about its middle, in the line's direction; all of it
+   where they stand in the middle. */
+void jox_walls_clear(const JoxWalls *walls, const JoxV2 line[2], JoxV2 ends[2]);
 void jox_walls_free(JoxWalls *walls);
 
 #endif

@@ -107,6 +107,7 @@ typedef struct JoxLiveCrowd {
     const uint16_t *group;        /* or NULL */
     const uint8_t *state, *flags; /* number in the scene message's list; JOX_LIVE_PARITY ... */
     JoxV2 period;                 /* m: of periodic edges; 0 without */
+    const JoxWalls *walls;        /* as they stand; or NULL */
 } JoxLiveCrowd;
 /* Makes the area hold everybody. */
 void jox_live_cover_crowd(JoxLiveArea *area, const JoxLiveCrowd *crowd);

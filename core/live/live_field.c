@@ -11,7 +11,7 @@
 #include "record/fields/density.h"
 
 enum { W, VX, VY, SQUARE, SUMS, MOST_CELLS = 65536, HEAD = 32, FIELD = 3 };
-static const float KERNEL = 0.7f, CELL = 0.5f; /* m */
+static const float KERNEL = JOX_DENSITY_KERNEL, CELL = 0.5f; /* m */
 static const float LEAST = 0.02f; /* 1/m2: below this there is nobody to have a velocity */
 
 static const char *const NAMES[] = {"density", "pressure", "none"};
@@ -57,31 +57,22 @@ void jox_live_spread(JoxLiveGrid *g, JoxLiveArea *area, const JoxLiveCrowd *crow
     const int sums = moves ? SUMS : 1;
     jox_live_cover_crowd(area, crowd);
     make(g, area);
-    for (int f = 0; f < sums; f++)
-        memset(g->fields[f], 0, g->cells * sizeof(float));
-    const int across = crowd->period.x > 0.0f, up = crowd->period.y > 0.0f;
+    jox_density_walls(g->grid, crowd->walls);
+    jox_density_begin(g->grid, sums);
     for (uint32_t i = 0; i < crowd->count; i++) {
         float vx = crowd->vx[i], vy = crowd->vy[i];
         const float weights[SUMS] = {1.0f, vx, vy, vx * vx + vy * vy};
-        for (int c = -across; c <= across; c++) /* and the images over periodic edges */
-            for (int r = -up; r <= up; r++)
-                jox_density_spread(g->grid, g->fields, weights, sums,
-                                   crowd->x[i] + (float)c * crowd->period.x,
-                                   crowd->y[i] + (float)r * crowd->period.y);
+        jox_density_put(g->grid, crowd->period, crowd->x[i], crowd->y[i], weights);
     }
+    jox_density_end(g->grid, g->fields);
     g->most = 0.0f;
     for (size_t c = 0; c < g->cells; c++)
         g->most = jox_maxf(g->most, g->fields[W][c]);
 }
 
 float jox_live_density_at(const JoxLiveGrid *g, float x, float y) {
-    const JoxDensity *d = g->grid;
-    if (!d)
-        return 0.0f;
-    float column = floorf((x - d->low.x) / d->cell), row = floorf((y - d->low.y) / d->cell);
-    if (!(column >= 0.0f && column < (float)d->columns && row >= 0.0f && row < (float)d->rows))
-        return 0.0f;
-    return g->fields[W][(size_t)row * d->columns + (size_t)column];
+    size_t cell;
+    return g->grid && jox_density_cell_of(g->grid, x, y, &cell) ? g->fields[W][cell] : 0.0f;
 }
 
 static float value(const JoxLiveGrid *g, JoxLiveField field, size_t c) {

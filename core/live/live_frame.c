@@ -168,7 +168,8 @@ static JoxLiveCrowd crowd_of(const JoScene *scene) {
                           .face_y = a->face_y,
                           .radius = a->param[JOX_PARAM_radius],
                           .group = a->group,
-                          .period = a->period};
+                          .period = a->period,
+                          .walls = &scene->world->scratch.walls};
 }
 
 void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {

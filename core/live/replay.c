@@ -179,7 +179,8 @@ static JoxLiveCrowd crowd_of(const JoxReplay *r) {
                           .face_x = r->frame.face_x,
                           .face_y = r->frame.face_y,
                           .group = r->frame.group,
-                          .period = r->period};
+                          .period = r->period,
+                          .walls = jox_replay_walls(r)};
 }
 
 void jox_replay_spread(JoxReplay *r, bool moves) {

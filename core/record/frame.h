@@ -8,6 +8,12 @@
 #include "base/vec.h"
 #include "geom/walls.h"
 
+/* What people press on a piece of a wall. */
+typedef struct JoxWallLoad {
+    JoxV2 from, to; /* m: at most a metre apart */
+    float load;     /* N: sum of the magnitudes of the forces across the wall */
+} JoxWallLoad;
+
 typedef struct JoxFrame {
     double time; /* s */
     uint32_t count;
@@ -28,7 +34,9 @@ typedef struct JoxFrame {
     const uint32_t *state;     /* row of the person's state in `states` */
     const char *const *states; /* their names, of all machines */
     uint32_t state_count;
-    const JoxWalls *walls; /* as they stand now */
+    const JoxWalls *walls;         /* as they stand now */
+    const JoxWallLoad *wall_loads; /* by piece; NULL where they are not known */
+    uint32_t wall_load_count;
 } JoxFrame;
 
 #endif

@@ -7,7 +7,9 @@
 
 /* Of a cell: over samples, of what is borne over the people who stood there. */
 double jox_danger_mean(const JoxDanger *danger, int measure, size_t cell);
-/* danger.csv, danger-map.csv, danger-limits.csv and, where loads are known, danger-people.csv. */
+/* NAN where it was never measured. */
+double jox_danger_greatest(const JoxDanger *danger, int measure, size_t cell);
+/* danger.csv and danger-*.csv; those of what is not known are not written. */
 bool jox_danger_write_tables(const JoxDanger *danger, const char *folder, JoxText *error);
 
 #endif

@@ -18,7 +18,9 @@ static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) 
         fprintf(out, ",%s_max [%s]", jox_danger_names[m], jox_danger_units[m]);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++)
         fprintf(out, ",over_%s", jox_danger_limits[l].key);
-    fputs(",left", out);
+    for (int k = 0; k < JOX_LEVELS; k++)
+        fprintf(out, ",level_%s", jox_levels[k].name);
+    fputs(",wall_load_max [N],left", out);
     for (uint32_t e = 0; e < d->exit_count; e++) {
         JoxText head = {0};
         jox_text_printf(&head, "left_%s", d->exit_names[e]);
@@ -34,7 +36,9 @@ static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) 
             fprintf(out, ",%.9g", (double)row->most[m]);
         for (int l = 0; l < JOX_DANGER_LIMITS; l++)
             fprintf(out, ",%u", row->over[l]);
-        fprintf(out, ",%u", row->left);
+        for (int k = 0; k < JOX_LEVELS; k++)
+            fprintf(out, ",%u", row->levels[k]);
+        fprintf(out, ",%.9g,%u", (double)row->wall_most, row->left);
         for (uint32_t e = 0; e < d->exit_count; e++)
             fprintf(out, ",%u", row->exits[e]);
         fputc('\n', out);
@@ -43,14 +47,33 @@ static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) 
 }
 
 double jox_danger_mean(const JoxDanger *d, int measure, size_t cell) {
-    double n = measure >= JOX_DANGER_FIRST_BORNE  ? d->stood[cell]
-               : measure == JOX_DANGER_PRESSURE ? d->pressure_samples
-                                                : d->samples;
+    double n = measure >= JOX_DANGER_FIRST_BORNE ? d->stood[cell]
+               : measure == JOX_DANGER_PRESSURE  ? d->measured[cell]
+                                                 : d->samples;
+    if (measure == JOX_DANGER_PRESSURE && n == 0.0)
+        return NAN;
     return n > 0.0 ? d->sum[measure][cell] / n : 0.0;
 }
 
+double jox_danger_greatest(const JoxDanger *d, int measure, size_t cell) {
+    bool missing = measure == JOX_DANGER_PRESSURE && d->measured[cell] == 0;
+    return missing ? NAN : (double)d->greatest[measure][cell];
+}
+
+/* The mean at a cell, and the greatest of that and the skipped ones beside and above it. */
+static void put_cells(const JoxDanger *d, int measure, uint32_t column, uint32_t row, uint32_t skip,
+                      FILE *out) {
+    const JoxDensity *g = d->local->grid;
+    double most = NAN;
+    for (uint32_t r = row; r < row + skip && r < g->rows; r++)
+        for (uint32_t c = column; c < column + skip && c < g->columns; c++)
+            most = fmax(most, jox_danger_greatest(d, measure, (size_t)r * g->columns + c));
+    fprintf(out, ",%.4g,%.9g", jox_danger_mean(d, measure, (size_t)row * g->columns + column),
+            most);
+}
+
 static bool write_map(const JoxDanger *d, const char *folder, JoxText *error) {
-    const JoxDensity *g = d->grid;
+    const JoxDensity *g = d->local->grid;
     uint32_t skip = 1;
     while ((g->columns / skip) * (g->rows / skip) > MOST_CELLS_DRAWN)
         skip++;
@@ -64,11 +87,10 @@ static bool write_map(const JoxDanger *d, const char *folder, JoxText *error) {
     fputc('\n', out);
     for (uint32_t row = 0; row < g->rows; row += skip) {
         for (uint32_t column = 0; column < g->columns; column += skip) {
-            size_t cell = (size_t)row * g->columns + column;
             fprintf(out, "%.3f,%.3f", g->low.x + ((float)column + 0.5f) * g->cell,
                     g->low.y + ((float)row + 0.5f) * g->cell);
             for (int m = 0; m < JOX_DANGER_MAPPED; m++)
-                fprintf(out, ",%.4g,%.4g", jox_danger_mean(d, m, cell), (double)d->greatest[m][cell]);
+                put_cells(d, m, column, row, skip, out);
             fputc('\n', out);
         }
         fputc('\n', out);
@@ -132,8 +154,81 @@ static bool write_people(const JoxDanger *d, const char *folder, JoxText *error)
     return jox_plot_close(out, "danger-people.csv", error);
 }
 
+/* Levels of service: what they are, and how many person-seconds were spent at each. */
+static bool write_levels(const JoxDanger *d, const char *folder, JoxText *error) {
+    FILE *out = jox_plot_open(folder, "danger-levels.csv", error);
+    if (!out)
+        return false;
+    fputs("level,queue_area_from [m2],person_s [s],walkway_area_from [m2],walkway_flow_to [1/(m "
+          "min)]",
+          out);
+    for (uint32_t l = 0; l < d->lines.count; l++) {
+        JoxText head = {0};
+        jox_text_printf(&head, "at_%s [s]", d->lines.items[l].name);
+        fputc(',', out);
+        jox_quote_put(out, jox_quote_csv, head.data);
+        jox_text_free(&head);
+    }
+    fputc('\n', out);
+    for (int k = 0; k < JOX_LEVELS; k++) {
+        const JoxLevel *level = &jox_levels[k];
+        fprintf(out, "%s,%.9g,%.9g,%.9g", level->name, level->queue_area, d->level_s[k],
+                level->walk_area);
+        put(out, level->walk_flow);
+        for (uint32_t l = 0; l < d->lines.count; l++)
+            put(out, d->lines.items[l].worst < 0 ? NAN : d->lines.items[l].level_s[k]);
+        fputc('\n', out);
+    }
+    return jox_plot_close(out, "danger-levels.csv", error);
+}
+
+/* What was read at each line, sample by sample. */
+static bool write_lines(const JoxDanger *d, const char *folder, JoxText *error) {
+    FILE *out = jox_plot_open(folder, "danger-lines.csv", error);
+    if (!out)
+        return false;
+    fputs("line,time [s],width [m],forward,back,waiting,flow [1/(m s)],density_before [1/m2],gain "
+          "[1/s],level,stop_and_go,congestion\n",
+          out);
+    for (uint32_t l = 0; l < d->lines.count; l++)
+        for (uint32_t r = 0; r < d->lines.items[l].row_count; r++) {
+            const JoxDangerLineRow *row = &d->lines.items[l].rows[r];
+            jox_quote_put(out, jox_quote_csv, d->lines.items[l].name);
+            fprintf(out, ",%.9g,%.9g,%u,%u,%u", row->time, row->width, row->forward, row->back,
+                    row->waiting[row->side]);
+            put(out, row->flow);
+            put(out, row->density);
+            put(out, row->gain);
+            fprintf(out, ",%s,%d,%d\n", row->level < 0 ? "" : jox_levels[row->level].name,
+                    row->stop_and_go, row->congested);
+        }
+    return jox_plot_close(out, "danger-lines.csv", error);
+}
+
+static bool write_walls(const JoxDanger *d, const char *folder, JoxText *error) {
+    FILE *out = jox_plot_open(folder, "danger-walls.csv", error);
+    if (!out)
+        return false;
+    fputs("x0 [m],y0 [m],x1 [m],y1 [m],load [N],load_max [N],load_max [N/m],at [s],over_rail_4500 "
+          "[s],first [s]\n",
+          out);
+    for (uint32_t p = 0; p < d->walls.count; p++) {
+        const JoxDangerPiece *piece = &d->walls.items[p];
+        fprintf(out, "%.4f,%.4f,%.4f,%.4f,%.9g,%.9g", (double)piece->from.x, (double)piece->from.y,
+                (double)piece->to.x, (double)piece->to.y, (double)piece->load, (double)piece->most);
+        put(out, jox_danger_piece_line_load(piece));
+        put(out, piece->most_time);
+        put(out, piece->seconds);
+        put(out, piece->first);
+        fputc('\n', out);
+    }
+    return jox_plot_close(out, "danger-walls.csv", error);
+}
+
 bool jox_danger_write_tables(const JoxDanger *d, const char *folder, JoxText *error) {
     return write_times(d, folder, error) && write_map(d, folder, error) &&
-           write_limits(d, folder, error) &&
+           write_limits(d, folder, error) && write_levels(d, folder, error) &&
+           (d->lines.count == 0 || write_lines(d, folder, error)) &&
+           (!d->walls.known || write_walls(d, folder, error)) &&
            (!d->has_load || write_people(d, folder, error));
 }

@@ -48,22 +48,6 @@ void jox_page_add_exits(JoxPageFigures *f, const JoxExits *exits, uint32_t insid
         jox_page_add(f, "", (double)(exits->left - known), "people who left elsewhere");
 }
 
-void jox_page_add_danger(JoxPageFigures *f, const JoxDanger *danger) {
-    for (int m = 0; m < JOX_DANGER_MEASURES; m++)
-        jox_page_add(f, jox_danger_units[m], jox_danger_most(danger, (JoxDangerMeasure)m).value,
-                     "danger: greatest %s of anyone", jox_danger_names[m]);
-    for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
-        JoxDangerCount count = jox_danger_count(danger, l);
-        bool read = jox_danger_reads(danger, jox_danger_limits[l].measure);
-        jox_page_add(f, "", read ? count.people : NAN, "danger: people ever over %s",
-                     jox_danger_limits[l].key);
-        jox_page_add(f, "s", read ? count.person_s : NAN, "danger: person-seconds over %s",
-                     jox_danger_limits[l].key);
-        jox_page_add(f, "s", read ? count.longest : NAN, "danger: longest of one person over %s",
-                     jox_danger_limits[l].key);
-    }
-}
-
 void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe) {
     JoxFigures figures = jox_probe_figures(probe);
     for (uint32_t i = 0; i < figures.count; i++)
@@ -78,71 +62,6 @@ void jox_page_release(JoxPageFigures *f) {
 }
 
 /* ---- parts of the page ---- */
-
-static void put_place(FILE *out, double time, JoxV2 at) {
-    if (isfinite(time))
-        fprintf(out, "<td>%.1f&nbsp;s at (%.1f,&nbsp;%.1f)&nbsp;m", time, at.x, at.y);
-    else
-        fputs("<td>&ndash;", out);
-}
-
-void jox_page_danger(FILE *out, const JoxDanger *danger) {
-    jox_html_heading(out, "Danger: who was over which limit");
-    jox_html_paragraph(
-        out,
-        "Density is that of the Gaussian kernel exp(-d2/R2)/(pi R2), R = 1 m, where somebody "
-        "stands; it reads low within a metre of walls. Crowd pressure is mean density times "
-        "the variance over time of the local velocity, by the same kernel, means over 10 s; it "
-        "is read only where the mean density is over 5 per m2, from 10 s on, and without the "
-        "first 5 s, when everybody starts.");
-    if (jox_danger_reads(danger, JOX_DANGER_LOAD)) {
-        jox_html_paragraph(
-            out, "Load is the greatest push that a person bears from any one direction: over "
-                 "directions, the greatest sum of the positive parts of the contact forces along "
-                 "it, in newtons, held on average for a second; a knock of one step counts little. "
-                 "Limits for chests are forces of that kind.");
-        jox_html_paragraph(out, jox_danger_dose_text);
-    } else {
-        jox_html_paragraph(out, "Load was not measured: this recording does not know the push that "
-                                "people bear. Its limits, and those of dose, have dashes.");
-    }
-    if (jox_danger_reads(danger, JOX_DANGER_COMPRESSION))
-        jox_html_paragraph(
-            out, "Compression is another quantity: the sum of the magnitudes of all contact forces "
-                 "over the girth 2 pi r, held likewise. It cannot be turned into a load and is "
-                 "compared with no limit.");
-    else
-        jox_html_paragraph(out, "Compression was not measured.");
-    if (!jox_danger_reads(danger, JOX_DANGER_PRESSURE))
-        jox_html_paragraph(out, "Crowd pressure was not read: the time measured is too short.");
-    jox_html_table(out, "limit|value|people ever over it|person-seconds|longest of one "
-                        "person|first|minutes since|meaning|source");
-    for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
-        const JoxDangerLimit *limit = &jox_danger_limits[l];
-        JoxDangerCount count = jox_danger_count(danger, l);
-        jox_html_row(out);
-        jox_html_cell(out, limit->key);
-        jox_html_cell_number(out, limit->value, jox_danger_units[limit->measure]);
-        bool read = jox_danger_reads(danger, limit->measure);
-        jox_html_cell_number(out, read ? count.people : NAN, "");
-        jox_html_cell_number(out, read ? count.person_s : NAN, "s");
-        jox_html_cell_number(out, read ? count.longest : NAN, "s");
-        put_place(out, count.first, count.first_at);
-        jox_html_cell_number(out, jox_danger_since(danger, count.first), "min");
-        jox_html_cell(out, limit->what);
-        jox_html_cell(out, limit->source);
-    }
-    jox_html_table_end(out);
-    jox_html_table(out, "measure|greatest of anyone|when and where");
-    for (int m = 0; m < JOX_DANGER_MEASURES; m++) {
-        JoxDangerMost most = jox_danger_most(danger, (JoxDangerMeasure)m);
-        jox_html_row(out);
-        jox_html_cell(out, jox_danger_names[m]);
-        jox_html_cell_number(out, most.value, jox_danger_units[m]);
-        put_place(out, most.time, most.at);
-    }
-    jox_html_table_end(out);
-}
 
 static bool is_there(const char *directory, const char *file) {
     char path[1200];

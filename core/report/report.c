@@ -78,7 +78,7 @@ static void add_usual(JoxReport *r) {
                        .high = high,
                        .every = 1.0,
                        .cell = JOX_DENSITY_CELL,
-                       .kernel = 0.7};
+                       .kernel = JOX_DENSITY_KERNEL};
     JoxProbeDef all = {.name = "all",
                        .kind = JOX_PROBE_MEASURE,
                        .until = INFINITY,
@@ -169,6 +169,8 @@ static void measure(JoxReport *r) {
     uint32_t *left = count_leavers(t);
     JoxFrame frame;
     r->danger = begin_danger(r);
+    if (r->spec)
+        jox_danger_add_flows(r->danger, r->spec->probes, r->spec->probe_count);
     for (uint32_t f = 0; jox_trajectories_frame(t, f, &frame); f++) {
         frame.walls = jox_report_walls(r);
         leave(r, left[f], frame.time);

@@ -247,8 +247,10 @@ static const JoxKey KEYS[] = {
     {"map", "area", POINTS, "m", -FAR, FAR, "", READ_TO(jox_key_box, JoxProbeDef, low, high), .of = "xy[2]",
      .meaning = "two opposite corners; default: all of the scene"},
     {"map", "cell", NUMBER, "m", 0.02, 100, "0.2", TO(JoxProbeDef, cell), .meaning = "width of the grid's cells"},
-    {"map", "kernel", NUMBER, "m", 0.05, 50, "1.5", TO(JoxProbeDef, kernel),
-     .meaning = "R of the Gaussian by which people are spread"},
+    {"map", "kernel", NUMBER, "m", 0.05, 50, "0.70710678", TO(JoxProbeDef, kernel),
+     .meaning = "standard deviation of the Gaussian by which people are spread; unless given, as in all other densities: R / sqrt 2, R = 1 m"},
+    {"map", "through_walls", BOOL, "", 0, 0, "false", TO(JoxProbeDef, through_walls),
+     .meaning = "the Gaussian heeds no walls: what is near counts though it is behind one"},
     {"lanes", "area", POINTS, "m", -FAR, FAR, "!", READ_TO(jox_key_box, JoxProbeDef, low, high), .of = "xy[2]",
      .meaning = "two opposite corners"},
     {"lanes", "rows", NUMBER, "m", 0.05, 100, "0.4", TO(JoxProbeDef, rows), .meaning = "width of the rows"},
@@ -335,7 +337,7 @@ static const JoxOwner OWNERS[] = {
     {"probe", "Probes", "`probes` maps names to probes; one key of each says what it measures. Their figures stand in the summary under `probes`; `--report DIR` adds DIR/NAME.csv, NAME.png and "
      "NAME.svg. `jostle report` measures recordings by them, those of real crowds too.",
      .size = sizeof(JoxProbeDef), .kind = AT(JoxProbeDef, kind), .wrong_kind = "bad-probe", .name_at = AT(JoxProbeDef, name),
-     .hint = "{flow: [[0, 0], [1, 0]]}", .taken = "density|paths|regions|walls|danger|danger-map|danger-limits|danger-people|danger-lines|danger-walls", /* of reports */
+     .hint = "{flow: [[0, 0], [1, 0]]}", .taken = "density|paths|regions|walls|danger|danger-map|danger-limits|danger-people|danger-levels|danger-lines|danger-walls", /* of reports */
      .finish = jox_finish_probe},
     {"map", "map", "", .size = 0},
     {"lanes", "lanes", "The ways are two groups where the probe names two; else the sign of the velocity.", .size = 0},

@@ -1,12 +1,6 @@
 /* Where people are squeezed, over the frames of a run or of a recording. Three measures:
-     density      people per m2 by the Gaussian kernel exp(-d2 / R2) / (pi R2), R = 1 m, at the cell
-                  where somebody stands. It reads low within R of a wall.
-     pressure     the crowd pressure of Helbing, Johansson and Al-Abideen 2007 (Phys. Rev. E 75,
-                  046109, doi 10.1103/PhysRevE.75.046109), 1/s2: mean density of a place times the
-                  variance over time of the local velocity there, V = sum of w v over sum of w with
-                  the same kernel and velocities over 0.5 s. Means over time are exponential, 10 s.
-                  Read only where the mean density is over the first limit of density (sparse crowds
-                  vary freely) and from 10 s on; the first 5 s, when all start, are left out.
+     density      people per m2 by the Gaussian kernel, R = 1 m, within the walls (fields/density.h)
+     pressure     crowd pressure, 1/s2 (fields/pressure.h), where it was measured
      compression  sum of the contact forces' magnitudes on a person over the girth, N/m
      load         the greatest push that a person bears from any one direction, N: over directions
    d, the greatest sum of the positive parts of f.d over the contacts f. That is what published
@@ -21,9 +15,10 @@
 #include "base/format/json_writer.h"
 #include "base/text.h"
 #include "geom/walls.h"
-#include "record/fields/density.h"
 #include "record/frame.h"
+#include "record/local.h"
 #include "world/exits.h"
+#include "world/probe.h"
 
 typedef enum JoxDangerMeasure {
     JOX_DANGER_DENSITY,
@@ -66,12 +61,20 @@ typedef struct JoxDangerCount {
 } JoxDangerCount;
 typedef struct JoxDangerMost {
     double value, time; /* s; NAN where nothing was read */
+    uint32_t person;    /* of what people bear: whose */
     JoxV2 at;           /* m */
 } JoxDangerMost;
 
 typedef struct JoxDanger JoxDanger;
 /* `low` to `high`: the area of fields and maps. */
 JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high);
+/* The same on densities that someone else takes, of each frame before it comes here. */
+JoxDanger *jox_danger_create_on(JoxLocal *local);
+/* A line that people pass, for flow, levels of service, stop-and-go and congestion; before the
+   first frame. */
+void jox_danger_add_line(JoxDanger *danger, const char *name, JoxV2 a, JoxV2 b);
+/* Those of probes that measure flow. */
+void jox_danger_add_flows(JoxDanger *danger, const JoxProbeDef *probes, uint32_t count);
 /* Frames in ascending time; `exits` as they are then, or NULL. */
 void jox_danger_frame(JoxDanger *danger, const JoxFrame *frame, const JoxExits *exits);
 /* The field of density or pressure at the last sample, and its grid. */
@@ -84,7 +87,8 @@ JoxDangerMost jox_danger_most(const JoxDanger *danger, JoxDangerMeasure measure)
 /* Whether there was anything to read it from: compression and load are in our own recordings alone,
    crowd pressure takes ten seconds. What is over its limits is not known otherwise. */
 bool jox_danger_reads(const JoxDanger *danger, JoxDangerMeasure measure);
-/* Adds "density_max": ..., "limits": {...}; null where it was not read. */
+/* Adds "density_max": ..., "limits": {...}, "levels": {...}, "lines": {...}, "walls": {...}; null
+   where it was not read. */
 void jox_danger_json(const JoxDanger *danger, JoxJson *json);
 void jox_danger_free(JoxDanger *danger);
 

@@ -3,8 +3,9 @@
 #define JOX_RECORD_DANGER_PARTS_H
 
 #include "record/danger/danger.h"
-#include "record/fields/density.h"
-#include "record/track.h"
+#include "record/danger/lines.h"
+#include "record/danger/walls.h"
+#include "record/local.h"
 
 enum {
     JOX_DANGER_EXITS = 16,                          /* that have a column of their own over time */
@@ -32,30 +33,33 @@ typedef struct JoxDangerRow {
     uint32_t people;
     float most[JOX_DANGER_MEASURES]; /* NAN: not read */
     uint32_t over[JOX_DANGER_LIMITS];
+    uint32_t levels[JOX_LEVELS]; /* people at each level of service */
+    float wall_most;             /* N: of any piece of a wall; NAN: not known */
     uint32_t left, exits[JOX_DANGER_EXITS];
 } JoxDangerRow;
 
 struct JoxDanger {
-    JoxDensity *grid;
-    /* By cell: the sample's density and density times velocity; means over time of density, of
-       velocity and of its square, with the weight that the latter have. */
-    float *density, *flow_x, *flow_y;
-    float *mean_density, *mean_vx, *mean_vy, *mean_square, *weight;
-    float *pressure; /* as it is now; 0 where it is not read */
-    /* By cell, for the map: sum over samples (what is borne: over people) and greatest. */
+    JoxLocal *local; /* density and pressure */
+    bool owns_local;
+    /* By cell, for the map: sum over samples (of pressure those that measured it; what is borne:
+       over people) and greatest. */
     double *sum[JOX_DANGER_MAPPED];
     float *greatest[JOX_DANGER_MAPPED];
-    uint32_t *stood; /* people whose compression and load were summed */
-    uint32_t samples, pressure_samples;
-    JoxTrack track;        /* from sample to sample */
-    double density_weight; /* of mean_density */
+    uint32_t *measured; /* samples that measured pressure */
+    uint32_t *stood;    /* people whose compression and load were summed */
+    uint32_t samples;
 
     JoxDangerPerson *people; /* by key */
     uint32_t people_capacity;
     bool has_compression, has_load;
 
+    JoxDangerLines lines;
+    JoxDangerWalls walls;
+    double level_s[JOX_LEVELS]; /* person-seconds at each level of service */
+    float *here;                /* by person of a sample: density; NAN outside of the area */
+    uint32_t here_capacity;
+
     double begun, last_frame, last_sample; /* s */
-    int64_t stretch;                       /* of the last sample */
     JoxDangerCount counts[JOX_DANGER_LIMITS];
     JoxDangerMost most[JOX_DANGER_MEASURES];
     JoxDangerRow *rows;

@@ -1,0 +1,35 @@
+#include "record/danger/levels.h"
+
+#include <math.h>
+
+enum { CROWDED = 4 }; /* E */
+
+/* Areas of walkways are 35, 25, 15, 10 and 5 square feet, flows 7, 10, 15, 20 and 25 people a foot
+   and minute; areas of queues 13, 10, 7, 3 and 2 square feet. */
+const JoxLevel jox_levels[JOX_LEVELS] = {
+    {"A", 1.21, 3.25, 23.0, "people stand and pass freely"},
+    {"B", 0.93, 2.32, 33.0, "people stand freely, and pass with some care"},
+    {"C", 0.65, 1.39, 49.0, "people stand without touching; who passes disturbs others"},
+    {"D", 0.28, 0.93, 66.0, "people stand without touching; nobody passes, all move as a group"},
+    {"E", 0.19, 0.46, 82.0, "touching cannot be avoided; to be borne for short times only"},
+    {"F", 0.0, 0.0, INFINITY, "everybody is touched by those about; nobody can move"},
+};
+const char jox_levels_source[] =
+    "J. J. Fruin, Pedestrian planning and design, 1971, in SI units as commonly quoted";
+
+int jox_level_of_queue(double density) {
+    int level = 0;
+    while (level < JOX_LEVELS - 1 && density * jox_levels[level].queue_area > 1.0)
+        level++;
+    return level;
+}
+
+int jox_level_of_walkway(double flow, double density) {
+    int level = 0;
+    while (level < JOX_LEVELS - 1 && flow * 60.0 > jox_levels[level].walk_flow)
+        level++;
+    for (int k = CROWDED; k < JOX_LEVELS; k++)
+        if (level < k && density * jox_levels[k - 1].walk_area > 1.0)
+            level = k;
+    return level;
+}

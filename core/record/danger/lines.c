@@ -1,0 +1,275 @@
+#include "record/danger/lines.h"
+
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "base/sort.h"
+#include "geom/polygon.h"
+
+static const double WINDOW = 10.0; /* s that flow and gain are taken over */
+static const float NEAR = 2.0f;    /* m: before a line */
+static const float FAR = 10.0f;    /* m: of those who wait before it */
+static const double DENSE = 3.5;   /* 1/m2 */
+static const double GAIN = 1.5;    /* 1/s */
+static const double HAIR = 1e-6;   /* s: times are sums of steps */
+
+const char jox_stop_and_go_source[] =
+    "outflow below 0.8 per m s: Helbing, Johansson, Al-Abideen, Phys. Rev. E 75, 046109, 2007; the "
+    "density, 3.5 per m2, is that of IMO's rule";
+const char jox_congestion_source[] =
+    "IMO MSC.1/Circ.1533, annex 2, section 3: 3.5 per m2 or more, and inflow less outflow above "
+    "1.5 per s";
+
+void jox_danger_lines_add(JoxDangerLines *lines, const char *name, JoxV2 a, JoxV2 b) {
+    const double length = (double)jox_length(jox_sub(b, a));
+    for (uint32_t l = 0; l < lines->count; l++)
+        if (jox_length(jox_sub(lines->items[l].given[0], a)) == 0.0f &&
+            jox_length(jox_sub(lines->items[l].given[1], b)) == 0.0f)
+            return;
+    if (length <= 0.0)
+        return;
+    JOX_RESERVE(lines->items, lines->capacity, lines->count + 1);
+    lines->items[lines->count++] = (JoxDangerLine){.name = jox_strdup(name),
+                                                   .given = {a, b},
+                                                   .a = a,
+                                                   .b = b,
+                                                   .width = length,
+                                                   .flow_most = NAN,
+                                                   .flow_most_time = NAN,
+                                                   .worst = -1,
+                                                   .stop_and_go.first = NAN,
+                                                   .congestion.first = NAN};
+}
+
+static void add_crossing(JoxDangerLine *line, double time, uint32_t key, int direction) {
+    JOX_RESERVE(line->crossings, line->crossing_capacity, line->crossing_count + 1);
+    line->crossings[line->crossing_count++] = (struct JoxDangerCrossing){time, key, direction};
+    line->forward += direction > 0;
+    line->back += direction < 0;
+}
+
+void jox_danger_lines_cross(JoxDangerLines *lines, const JoxFrame *frame) {
+    if (lines->count == 0)
+        return;
+    jox_track_reserve(&lines->track, frame->keys);
+    for (uint32_t i = 0; i < frame->count; i++) {
+        JoxStretch stretch;
+        double time;
+        if (!jox_track_step(&lines->track, frame, i, &stretch))
+            continue;
+        for (uint32_t l = 0; l < lines->count; l++) {
+            const int direction =
+                jox_stretch_crosses(&stretch, lines->items[l].a, lines->items[l].b, &time);
+            if (direction)
+                add_crossing(&lines->items[l], time, frame->key[i], direction);
+        }
+    }
+}
+
+static int by_key(const void *a, const void *b, const void *context) {
+    const struct JoxDangerCrossing *x = a, *y = b;
+    (void)context;
+    return (x->key > y->key) - (x->key < y->key);
+}
+
+/* People who passed in the window, either way: each by the sum of what they did. */
+static void passed(JoxDangerLine *line, double since, uint32_t *forward, uint32_t *back) {
+    uint32_t kept = 0;
+    for (uint32_t c = 0; c < line->crossing_count; c++)
+        if (line->crossings[c].time > since + HAIR)
+            line->crossings[kept++] = line->crossings[c];
+    line->crossing_count = kept;
+    *forward = *back = 0;
+    if (kept == 0)
+        return;
+    struct JoxDangerCrossing *sorted = jox_alloc(kept, sizeof *sorted);
+    for (uint32_t c = 0; c < kept; c++)
+        sorted[c] = line->crossings[c];
+    jox_sort(sorted, kept, sizeof *sorted, by_key, NULL, NULL);
+    for (uint32_t c = 0; c < kept;) {
+        const uint32_t key = sorted[c].key;
+        int net = 0;
+        for (; c < kept && sorted[c].key == key; c++)
+            net += sorted[c].direction;
+        *forward += net > 0;
+        *back += net < 0;
+    }
+    jox_free(sorted);
+}
+
+/* Whether a wall stands between two points. */
+static bool is_hidden(const JoxWalls *walls, JoxV2 from, JoxV2 to) {
+    for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &walls->rings[r];
+        for (uint32_t v = ring->first; !ring->open && v < ring->first + ring->count; v++) {
+            const JoxWallVertex *vertex = &walls->vertices[v];
+            if (jox_segment_crossing(vertex->point, walls->vertices[vertex->next].point, from, to))
+                return true;
+        }
+    }
+    return false;
+}
+
+/* The line is what walls leave of it. */
+static void clear(JoxDangerLine *line, const JoxWalls *walls) {
+    JoxV2 ends[2];
+    jox_walls_clear(walls, line->given, ends);
+    line->a = ends[0];
+    line->b = ends[1];
+    line->width = (double)jox_length(jox_sub(line->b, line->a));
+}
+
+static float distance(const JoxDangerLine *line, JoxV2 point) {
+    const JoxV2 along = jox_sub(line->b, line->a), from = jox_sub(point, line->a);
+    const float t = jox_clampf(jox_dot(from, along) / jox_dot(along, along), 0.0f, 1.0f);
+    return jox_length(jox_sub(from, jox_scale(along, t)));
+}
+
+/* Who waits on either side, and the densities there. */
+static void look(const JoxDangerLine *line, const JoxFrame *frame, const float *density,
+                 uint32_t waiting[2], double mean[2]) {
+    const JoxV2 middle = jox_scale(jox_add(line->a, line->b), 0.5f);
+    double sum[2] = {0.0, 0.0};
+    uint32_t near[2] = {0, 0};
+    waiting[0] = waiting[1] = 0;
+    for (uint32_t i = 0; i < frame->count; i++) {
+        const JoxV2 at = {frame->x[i], frame->y[i]};
+        const float away = distance(line, at);
+        if (away > FAR || is_hidden(frame->walls, middle, at))
+            continue;
+        const int side = jox_det(jox_sub(line->b, line->a), jox_sub(at, line->a)) > 0.0f;
+        waiting[side]++;
+        if (away > NEAR || isnan(density[i]))
+            continue;
+        sum[side] += (double)density[i];
+        near[side]++;
+    }
+    for (int side = 0; side < 2; side++)
+        mean[side] = near[side] ? sum[side] / near[side] : NAN;
+}
+
+/* The row of WINDOW ago; NULL in the first. */
+static const JoxDangerLineRow *row_before(const JoxDangerLine *line, double now) {
+    const JoxDangerLineRow *found = NULL;
+    for (uint32_t r = line->row_count; r-- > 0 && !found;)
+        if (line->rows[r].time <= now - WINDOW + HAIR)
+            found = &line->rows[r];
+    return found;
+}
+
+static void count_spell(JoxDangerSpell *spell, bool now, double time, double duration) {
+    if (!now)
+        return;
+    spell->seconds += duration;
+    if (isnan(spell->first))
+        spell->first = time;
+}
+
+/* What follows for the line from its row of now. */
+static void judge(JoxDangerLine *line, JoxDangerLineRow *row, double duration) {
+    const bool dense = row->density >= DENSE;
+    row->level = jox_level_of_walkway(row->flow, row->density);
+    row->stop_and_go = dense && row->flow < JOX_STOP_FLOW;
+    row->congested = dense && row->gain > GAIN;
+    line->level_s[row->level] += duration;
+    line->worst = row->level > line->worst ? row->level : line->worst;
+    if (!(line->flow_most >= row->flow)) {
+        line->flow_most = row->flow;
+        line->flow_most_time = row->time;
+    }
+    count_spell(&line->stop_and_go, row->stop_and_go, row->time, duration);
+    count_spell(&line->congestion, row->congested, row->time, duration);
+}
+
+static void sample(JoxDangerLine *line, const JoxFrame *frame, const float *density,
+                   double duration) {
+    uint32_t forward, back;
+    double mean[2];
+    clear(line, frame->walls);
+    JoxDangerLineRow row = {.time = frame->time,
+                            .width = line->width,
+                            .forward = line->forward,
+                            .back = line->back,
+                            .flow = NAN,
+                            .gain = NAN,
+                            .level = -1};
+    passed(line, frame->time - WINDOW, &forward, &back);
+    look(line, frame, density, row.waiting, mean);
+    /* Where most come from: of late, else so far, else where more people are. */
+    int from = (forward > back) - (forward < back);
+    if (from == 0)
+        from = (line->forward > line->back) - (line->forward < line->back);
+    if (from == 0)
+        from = row.waiting[0] >= row.waiting[1] ? 1 : -1;
+    row.side = from < 0;
+    row.density = mean[row.side];
+    const JoxDangerLineRow *before = row_before(line, frame->time);
+    if (before) {
+        row.flow = (forward + back) / (WINDOW * line->width);
+        row.gain =
+            ((double)row.waiting[row.side] - before->waiting[row.side]) / (row.time - before->time);
+        judge(line, &row, duration);
+    }
+    JOX_RESERVE(line->rows, line->row_capacity, line->row_count + 1);
+    line->rows[line->row_count++] = row;
+}
+
+void jox_danger_lines_sample(JoxDangerLines *lines, const JoxFrame *frame, const float *density,
+                             double duration) {
+    for (uint32_t l = 0; l < lines->count; l++)
+        sample(&lines->items[l], frame, density, duration);
+}
+
+/* ---- figures ---- */
+
+static void add_spell(JoxJson *json, const char *name, const JoxDangerSpell *spell, bool known,
+                      double end) {
+    jox_json_object(json, name);
+    jox_json_number(json, "seconds", known ? spell->seconds : NAN);
+    jox_json_number(json, "first_s", spell->first);
+    jox_json_number(json, "since_min", (end - spell->first) / 60.0);
+    jox_json_end(json);
+}
+
+static void add_line(const JoxDangerLine *line, double end, JoxJson *json) {
+    const bool known = line->worst >= 0;
+    jox_json_object(json, line->name);
+    jox_json_number(json, "width", line->width);
+    jox_json_whole(json, "forward", line->forward);
+    jox_json_whole(json, "back", line->back);
+    jox_json_number(json, "flow_max", line->flow_most);
+    jox_json_number(json, "flow_max_s", line->flow_most_time);
+    if (known)
+        jox_json_string(json, "worst_level", jox_levels[line->worst].name);
+    else
+        jox_json_null(json, "worst_level");
+    jox_json_object(json, "level_s");
+    for (int k = 0; k < JOX_LEVELS; k++)
+        jox_json_number(json, jox_levels[k].name, known ? line->level_s[k] : NAN);
+    jox_json_end(json);
+    add_spell(json, "stop_and_go", &line->stop_and_go, known, end);
+    add_spell(json, "congestion", &line->congestion, known, end);
+    jox_json_end(json);
+}
+
+void jox_danger_lines_json(const JoxDangerLines *lines, double end, JoxJson *json) {
+    if (lines->count == 0) {
+        jox_json_null(json, "lines");
+        return;
+    }
+    jox_json_object(json, "lines");
+    for (uint32_t l = 0; l < lines->count; l++)
+        add_line(&lines->items[l], end, json);
+    jox_json_end(json);
+}
+
+void jox_danger_lines_free(JoxDangerLines *lines) {
+    for (uint32_t l = 0; l < lines->count; l++) {
+        jox_free(lines->items[l].name);
+        jox_free(lines->items[l].rows);
+        jox_free(lines->items[l].crossings);
+    }
+    jox_free(lines->items);
+    jox_free(lines->track.items);
+}
