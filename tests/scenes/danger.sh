@@ -93,7 +93,8 @@ for measure in density:1/m2 pressure:1/s2 compression:N/m load:N; do
     alike "the greatest $name over time is that of the summary" "$said" "$(greatest "${name}_max [$unit]" "$work/door/danger.csv")" 1e-6
     alike "and that of the page" "$said" "$(cells "$name" | sed -n '1s/ .*//p')" 6e-4
 done
-for name in compression load; do alike "the greatest $name of the map is that of the summary" "$(in_json "${name}_max" "$work/door.danger")" "$(greatest "${name}_max [$([ $name = load ] && echo N || echo N/m)]" "$work/door/danger-map.csv")" 1e-3; done
+alike "the greatest density of the summary and of its danger" "$(figure density_max <"$work/door.json")" "$(in_json density_max "$work/door.danger")" 1e-6
+for name in density compression load; do alike "the greatest $name of the map is that of the summary" "$(in_json "${name}_max" "$work/door.danger")" "$(greatest "${name}_max [$(case $name in density) echo 1/m2 ;; load) echo N ;; *) echo N/m ;; esac)]" "$work/door/danger-map.csv")" 1e-3; done
 alike "the greatest dose" "$(in_json dose_max "$work/door.danger")" "$(greatest 'dose_max []' "$work/door/danger.csv")" 1e-6
 for limit in density_5 density_7 pressure_002 load_623 load_1112 load_6227 dose_1; do
     object=$(grep -o "\"$limit\": {[^}]*}" "$work/door.danger")
