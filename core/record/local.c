@@ -27,7 +27,7 @@ void jox_local_want_pressure(JoxLocal *l) {
         return;
     l->flow_x = jox_alloc(cells, sizeof *l->flow_x);
     l->flow_y = jox_alloc(cells, sizeof *l->flow_y);
-    l->pressure = jox_pressure_create(cells);
+    l->pressure = jox_pressure_create(l->grid->columns, l->grid->rows, l->grid->cell);
 }
 
 /* Velocity of person i since the last sample: that of one step shakes with its contacts. */
@@ -66,7 +66,7 @@ bool jox_local_frame(JoxLocal *l, const JoxFrame *frame, const uint8_t *seen) {
     }
     jox_density_end(l->grid, (float *[3]){l->grid->now, l->flow_x, l->flow_y});
     jox_density_note(l->grid, frame->time, frame->time >= l->mean_from - 1e-9);
-    if (l->pressure)
+    if (l->pressure && l->samples > 1) /* at the first nobody's way since the last is known */
         jox_pressure_add(l->pressure, frame->time, l->grid->now, l->flow_x, l->flow_y);
     return true;
 }

@@ -9,6 +9,13 @@
 enum { MOST_CELLS_DRAWN = 250000 };
 static const double WORTH = 0.01; /* doses of less are not listed */
 
+/* A number of a table, or nothing where it is not known. */
+static void put(FILE *out, double value) {
+    fputc(',', out);
+    if (isfinite(value))
+        fprintf(out, "%.9g", value);
+}
+
 static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "danger.csv", error);
     if (!out)
@@ -33,7 +40,7 @@ static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) 
         const JoxDangerRow *row = &d->rows[r];
         fprintf(out, "%.9g,%u", row->time, row->people);
         for (int m = 0; m < JOX_DANGER_MEASURES; m++)
-            fprintf(out, ",%.9g", (double)row->most[m]);
+            put(out, (double)row->most[m]);
         for (int l = 0; l < JOX_DANGER_LIMITS; l++)
             fprintf(out, ",%u", row->over[l]);
         for (int k = 0; k < JOX_LEVELS; k++)
@@ -96,13 +103,6 @@ static bool write_map(const JoxDanger *d, const char *folder, JoxText *error) {
         fputc('\n', out);
     }
     return jox_plot_close(out, "danger-map.csv", error);
-}
-
-/* A number of a table, or nothing where it is not known. */
-static void put(FILE *out, double value) {
-    fputc(',', out);
-    if (isfinite(value))
-        fprintf(out, "%.9g", value);
 }
 
 static bool write_limits(const JoxDanger *d, const char *folder, JoxText *error) {

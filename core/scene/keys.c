@@ -93,7 +93,7 @@ static const JoxKey KEYS[] = {
 
     {"forces", "enabled", BOOL, "", 0, 0, "true", TO(JoxSceneSpec, forces), .meaning = "false: collision avoidance alone"},
     {"forces", "mode", TEXT, "", 0, 0, "physical", TO(JoxSceneSpec, literal), .choices = "physical|literal",
-     .meaning = "literal: the equations as they were printed"},
+     .meaning = "literal: the equations as they were printed (core/paper.md); `yield` and `damping` then have no effect"},
     {"limits", "instructions", WHOLE, "", 1000, 1e9, "100000", TO(JoxSceneLimits, instructions),
      .meaning = "of one call of a Lua function"},
     {"limits", "step_instructions", WHOLE, "", 10000, 1e12, "20000000", TO(JoxSceneLimits, step_instructions),

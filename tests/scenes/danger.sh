@@ -79,7 +79,7 @@ echo 'POLYGON ((0 0, 8 0, 8 6, 0 6))' >"$work/hall/plan.wkt"
 "$JOSTLE" run scenes/door-050.yaml --for 40 --quiet --no-half-step --report "$work/door" --summary "$work/door.json" >/dev/null 2>&1
 verdict "a run through a door" $?
 sed -n '/^ "danger"/,/^ }/p' "$work/door.json" >"$work/door.danger"
-column() { awk -F, -v name="$1" 'NR == 1 {for (i = 1; i <= NF; i++) if ($i == name) c = i; next} c && $c != "" {print $c}' "$2"; } # NAME FILE
+column() { awk -F, -v name="$1" 'NR == 1 {for (i = 1; i <= NF; i++) if ($i == name) c = i; next} c && $c != "" && $c != "nan" {print $c}' "$2"; } # NAME FILE
 greatest() { column "$1" "$2" | sort -g | tail -1; }
 # cells FIRST-CELL: the cells of a row of the page, a line each
 cells() { sed -n "s/^<tr><td>$1<td\(.*\)/<td\1/p" "$work/door/index.html" | sed 's/<td[^>]*>/\n/g; s/&nbsp;/ /g; s/&ndash;/-/g' | sed 1d; }
@@ -87,14 +87,15 @@ alike() { # NAME A B WITHIN: A = B but for the share WITHIN, or both are empty
     awk -v a="$2" -v b="$3" -v d="$4" 'BEGIN {e = a - b; m = a < 0 ? -a : a; exit !(a == b || (a != "" && b != "" && e <= d * m && -e <= d * m))}'
     verdict "$1 ($2, $3)" $?
 }
+[ -n "$(figure density_max <"$work/door.json")" ] && [ "$(figure density_max <"$work/door.json")" = "$(in_json density_max "$work/door.danger")" ]; verdict "density_max of the run is that of danger" $?
 for measure in density:1/m2 pressure:1/s2 compression:N/m load:N; do
     IFS=: read -r name unit <<<"$measure"
     said=$(in_json "${name}_max" "$work/door.danger")
     alike "the greatest $name over time is that of the summary" "$said" "$(greatest "${name}_max [$unit]" "$work/door/danger.csv")" 1e-6
+    alike "and that of the map" "$said" "$(greatest "${name}_max [$unit]" "$work/door/danger-map.csv")" 1e-3
     alike "and that of the page" "$said" "$(cells "$name" | sed -n '1s/ .*//p')" 6e-4
 done
 alike "the greatest density of the summary and of its danger" "$(figure density_max <"$work/door.json")" "$(in_json density_max "$work/door.danger")" 1e-6
-for name in density compression load; do alike "the greatest $name of the map is that of the summary" "$(in_json "${name}_max" "$work/door.danger")" "$(greatest "${name}_max [$(case $name in density) echo 1/m2 ;; load) echo N ;; *) echo N/m ;; esac)]" "$work/door/danger-map.csv")" 1e-3; done
 alike "the greatest dose" "$(in_json dose_max "$work/door.danger")" "$(greatest 'dose_max []' "$work/door/danger.csv")" 1e-6
 for limit in density_5 density_7 pressure_002 load_623 load_1112 load_6227 dose_1; do
     object=$(grep -o "\"$limit\": {[^}]*}" "$work/door.danger")
@@ -106,7 +107,7 @@ for limit in density_5 density_7 pressure_002 load_623 load_1112 load_6227 dose_
         n=$((n + 1))
     done
     page=$(cells "$limit")
-    alike "$limit on the page: people" "$(cut -d, -f5 <<<"$line")" "$(sed -n 2p <<<"$page")" 6e-4
+    alike "$limit on the page: people" "$(cut -d, -f5 <<<"$line")" "$(sed -n '2s/^-$//; 2p' <<<"$page")" 6e-4
     alike "$limit on the page: person-seconds" "$(cut -d, -f6 <<<"$line")" "$(sed -n '3s/ .*//p' <<<"$page")" 6e-4
     alike "$limit on the page: longest" "$(cut -d, -f7 <<<"$line")" "$(sed -n '4s/ .*//p' <<<"$page")" 6e-4
     alike "$limit on the page: minutes since" "$(cut -d, -f11 <<<"$line")" "$(sed -n '6s/ .*//p' <<<"$page" | sed 's/^-$//')" 6e-4
