@@ -256,11 +256,11 @@ static void put_walls(FILE *out, const JoxDanger *danger) {
         return;
     }
     char text[400];
-    snprintf(
-        text, sizeof text,
-        "Forces of people across each piece of a wall, at most 1 m long, held on average for a "
-        "second. The limit is %g N on a rail: %s (%s). %u of %u pieces were ever over it.",
-        JOX_RAIL_LIMIT, jox_rail_what, jox_rail_source, walls->over, walls->count);
+    snprintf(text, sizeof text,
+             "Forces of people across each piece of a side of a wall, at most 1 m long, held on "
+             "average for a "
+             "second. The limit is %g N on a rail: %s (%s). %u of %u pieces were ever over it.",
+             JOX_RAIL_LIMIT, jox_rail_what, jox_rail_source, walls->over, walls->count);
     jox_html_paragraph(out, text);
     jox_html_table(out, "from|to|now|greatest|greatest, per metre|when|over 4500 N|first");
     uint32_t order[SHOWN], shown = most_of(danger, walls->count, most_of_piece, order);
