@@ -95,6 +95,7 @@ for measure in density:1/m2 pressure:1/s2 compression:N/m load:N; do
     alike "and that of the map" "$said" "$(greatest "${name}_max [$unit]" "$work/door/danger-map.csv")" 1e-3
     alike "and that of the page" "$said" "$(cells "$name" | sed -n '1s/ .*//p')" 6e-4
 done
+alike "the greatest density of the summary and of its danger" "$(figure density_max <"$work/door.json")" "$(in_json density_max "$work/door.danger")" 1e-6
 alike "the greatest dose" "$(in_json dose_max "$work/door.danger")" "$(greatest 'dose_max []' "$work/door/danger.csv")" 1e-6
 for limit in density_5 density_7 pressure_002 load_623 load_1112 load_6227 dose_1; do
     object=$(grep -o "\"$limit\": {[^}]*}" "$work/door.danger")

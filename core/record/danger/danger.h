@@ -1,12 +1,16 @@
-/* Where people are squeezed, over the frames of a run or of a recording. Three measures:
-     density      people per m2 by the Gaussian kernel, R = 1 m, within the walls (fields/density.h)
-     pressure     crowd pressure, 1/s2 (fields/pressure.h), where it was measured
-     compression  sum of the contact forces' magnitudes on a person over the girth, N/m
-     load         the greatest push that a person bears from any one direction, N: over directions
-   d, the greatest sum of the positive parts of f.d over the contacts f. That is what published
-   limits for chests are forces of dose         of load: the share of the time after which death is
-   estimated (jox_danger_dose_text) Compression and load are exponential means over 1 s of each
-   person: what is held, not a knock of one step. Exits: who left where, and when the last did. */
+/* Where people are squeezed, over the frames of a run or of a recording:
+
+   - density: people per m2 by the Gaussian kernel, R = 1 m, within the walls (fields/density.h)
+   - pressure: crowd pressure, 1/s2 (fields/pressure.h), where it was measured
+   - compression: sum of the contact forces' magnitudes on a person over the girth, N/m
+   - load: the greatest push that a person bears from any one direction, N: over directions d, the
+     greatest sum of the positive parts of f.d over the contacts f. Published limits for chests are
+     forces of that kind
+   - dose: of load, the share of the time after which death is estimated (jox_danger_dose_text)
+
+   Compression and load are exponential means over 1 s of each person: what is held, not a knock of
+   one step. With levels of service (levels.h), lines that people pass (lines.h), what walls bear
+   (walls.h); exits: who left where, and when the last did. */
 #ifndef JOX_RECORD_DANGER_H
 #define JOX_RECORD_DANGER_H
 
