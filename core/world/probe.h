@@ -60,7 +60,8 @@ typedef struct JoxProbeDef {
     double rest;           /* s: displacement is from the mean place of this time */
     double onset;          /* m: displacement from which a person counts as moved */
     JoxV2 low, high;       /* map, lanes: the area; a map with low.x > high.x takes the scene's */
-    double cell, kernel;   /* m: width of a map's cells, R of its Gaussian */
+    double cell, kernel;   /* m: width of a map's cells, standard deviation of its Gaussian */
+    bool through_walls;    /* map: its Gaussian heeds no walls */
     double rows;           /* m: width of the rows that lanes are looked for in */
     bool along_y;          /* lanes run along y, not x */
     const char *states[2]; /* visit: names of states, of whatever machine */

@@ -25,7 +25,7 @@ return claim {
     one = { scene = "../dodgeball.yaml", seeds = 1 }, one_fine = { scene = "../dodgeball.yaml", dt = 0.02, seeds = 1 },
     many = { scene = "../dodgeball-500.yaml", seeds = 2 },
   },
-  quick = { many = { seeds = 1, duration = 20 } },
+  quick = { many = { seeds = 1, duration = 30 } },
   measure = function(run)
     local one, fine, many = run.one.summary, run.one_fine.summary, run.many.summary
     local played, played_many = judge(one), judge(many)
