@@ -32,6 +32,13 @@ typedef struct JoxWalls {
     uint32_t ring_count, ring_capacity;
 } JoxWalls;
 
+/* A piece of the edge of a wall, at most a metre long, and what contacts press on it. */
+typedef struct JoxWallLoad {
+    uint32_t edge;  /* its vertex */
+    JoxV2 from, to; /* m */
+    float load;     /* N: sum of the magnitudes of the forces across it */
+} JoxWallLoad;
+
 /* Adds a solid polygon (turned counter-clockwise if it is not) of at least 3 points. */
 void jox_walls_add_solid(JoxWalls *walls, const JoxV2 *ring, uint32_t count, float height);
 /* Adds a thin wall along a polyline of at least 2 points; `closed` joins the last to the first and

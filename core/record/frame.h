@@ -8,12 +8,6 @@
 #include "base/vec.h"
 #include "geom/walls.h"
 
-/* What people press on a piece of a wall. */
-typedef struct JoxWallLoad {
-    JoxV2 from, to; /* m: at most a metre apart */
-    float load;     /* N: sum of the magnitudes of the forces across the wall */
-} JoxWallLoad;
-
 typedef struct JoxFrame {
     double time; /* s */
     uint32_t count;

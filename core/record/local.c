@@ -34,7 +34,7 @@ void jox_local_want_pressure(JoxLocal *l) {
 static JoxV2 velocity(JoxLocal *l, const JoxFrame *frame, uint32_t i) {
     JoxStretch way;
     if (!jox_track_step(&l->track, frame, i, &way) ||
-        way.ended - way.begun > 2.0 * JOX_PRESSURE_PACE)
+        !(way.ended > way.begun && way.ended - way.begun <= 2.0 * JOX_PRESSURE_PACE))
         return (JoxV2){frame->vx[i], frame->vy[i]};
     return jox_scale(way.by, (float)(1.0 / (way.ended - way.begun)));
 }
@@ -66,8 +66,9 @@ bool jox_local_frame(JoxLocal *l, const JoxFrame *frame, const uint8_t *seen) {
     }
     jox_density_end(l->grid, (float *[3]){l->grid->now, l->flow_x, l->flow_y});
     jox_density_note(l->grid, frame->time, frame->time >= l->mean_from - 1e-9);
-    if (l->pressure && l->samples > 1) /* at the first nobody's way since the last is known */
+    if (l->tracked) /* else nobody's way since the last sample is known */
         jox_pressure_add(l->pressure, frame->time, l->grid->now, l->flow_x, l->flow_y);
+    l->tracked = l->pressure != NULL;
     return true;
 }
 

@@ -18,6 +18,7 @@ typedef struct JoxLocal {
     double mean_from;       /* s: means over time begin then */
     uint32_t samples;
     JoxTrack track; /* from sample to sample */
+    bool tracked;   /* at the last */
     int64_t stretch;
 } JoxLocal;
 

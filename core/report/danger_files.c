@@ -19,7 +19,7 @@ static const char *const NOTHING[] = {"nobody was here", "nothing anywhere", "no
 
 /* Why crowd pressure was measured nowhere (fields/pressure.h). */
 static const char UNMEASURED[] =
-    "measured nowhere: never 20 s at 5 per m^2\\nor more without a change of the flow";
+    "measured nowhere: never 20 s at 5 per m^2\\nor more on 12 m^2 without a change of the flow";
 
 /* Whether a measure is drawn: compression only where it stands in for load, in older recordings. */
 static bool is_drawn(const JoxDanger *d, int measure) {

@@ -109,6 +109,12 @@ const JoxLocal *jox_run_local(const JoScene *scene) {
     return local_of(scene);
 }
 
+const JoxLocal *jox_run_want_pressure(JoScene *scene) {
+    jox_run_collect_local(scene);
+    jox_local_want_pressure(local_of(scene));
+    return local_of(scene);
+}
+
 double jox_run_density_max(const JoScene *scene) {
     const JoxLocal *local = local_of(scene);
     const JoxAgents *a = &scene->world->state.agents;

@@ -171,6 +171,8 @@ void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high); /* m */
 const JoxRegions *jox_run_regions(const JoScene *scene);
 /* Local densities, which every run samples. */
 const JoxLocal *jox_run_local(const JoScene *scene);
+/* The same, with crowd pressure from here on. */
+const JoxLocal *jox_run_want_pressure(JoScene *scene);
 /* The greatest density of any place and sample, 1/m2: the figure density_max. */
 double jox_run_density_max(const JoScene *scene);
 const JoxDanger *jox_run_danger(const JoScene *scene);

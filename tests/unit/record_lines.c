@@ -202,8 +202,8 @@ static void rails_bend_at_4500_newtons(void **state) {
     (void)state;
     JoxDanger *danger = begin(1);
     crowd.load_count = 2;
-    crowd.loads[0] = (JoxWallLoad){{0, 0}, {0.5f, 0}, 0};
-    crowd.loads[1] = (JoxWallLoad){{0.5f, 0}, {1, 0}, 1000.0f};
+    crowd.loads[0] = (JoxWallLoad){.to = {0.5f, 0}};
+    crowd.loads[1] = (JoxWallLoad){.from = {0.5f, 0}, .to = {1, 0}, .load = 1000.0f};
     for (int step = 0; step <= 200; step++) {
         crowd.loads[0].load = step > 50 && step <= 150 ? 6000.0f : 0.0f;
         if (step == 120) { /* the list is made anew: pieces are known by their ends */

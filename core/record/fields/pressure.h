@@ -19,8 +19,9 @@
      starts: within at least three of the four quarters there is a quarter of it or more. So the
    swaying of a whole crowd in periods of more than 15 s or so is not seen, either;
    - where that holds for 12 m2 or more of the section, 60 people: not for a knot before a door.
-   Elsewhere it is NAN. Recorded queues of people who were in no danger read 0.010 and less at every
-   point: 75 before a door of 0.5 m, 348 before an opening of 3 m (Juelich archive). */
+   Elsewhere it is NAN. At single points, that last condition and the mean over a section left out,
+   recorded queues of people who were in no danger read 0.010 at most (75 before a door of 0.5 m,
+   348 before an opening of 3 m; Juelich archive), the engine's own before doors 0.02 to 0.06. */
 #ifndef JOX_RECORD_FIELDS_PRESSURE_H
 #define JOX_RECORD_FIELDS_PRESSURE_H
 
