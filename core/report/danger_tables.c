@@ -110,7 +110,7 @@ static bool write_limits(const JoxDanger *d, const char *folder, JoxText *error)
     if (!out)
         return false;
     fputs("limit,measure,value,unit,people,person_s [s],longest [s],first [s],x [m],y [m],since "
-          "[min]\n",
+          "[min],source\n",
           out);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         const JoxDangerLimit *limit = &jox_danger_limits[l];
@@ -125,6 +125,8 @@ static bool write_limits(const JoxDanger *d, const char *folder, JoxText *error)
         put(out, seen ? (double)count.first_at.x : NAN);
         put(out, seen ? (double)count.first_at.y : NAN);
         put(out, jox_danger_since(d, count.first));
+        fputc(',', out);
+        jox_quote_put(out, jox_quote_csv, limit->source);
         fputc('\n', out);
     }
     return jox_plot_close(out, "danger-limits.csv", error);
