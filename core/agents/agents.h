@@ -50,7 +50,9 @@
     X(STATE, float, face_y)                                                                        \
     X(STATE, float, pref_x) /* preferred velocity, written by `prefer` */                          \
     X(STATE, float, pref_y)                                                                        \
-    X(SCRATCH, float, next_x) /* new velocity, written by `solve` */                               \
+    X(STATE, float, plan_x) /* planned velocity, kept until people plan anew */                    \
+    X(STATE, float, plan_y)                                                                        \
+    X(SCRATCH, float, next_x) /* the same, as far as what is touched allows it; by `solve` */      \
     X(SCRATCH, float, next_y)                                                                      \
     JOX_FORCE_TERMS(JOX_FORCE_TERM_COLUMNS, X)                                                     \
     X(STATE, float, force_x) /* net force of this step, equation 10, N */                          \
@@ -59,6 +61,9 @@
     /* Greatest push borne from any one direction, N: over directions d, the sum of the positive   \
        parts of f.d over the contacts. */                                                          \
     X(STATE, float, load)                                                                          \
+    X(SCRATCH, float, forced_x) /* velocity that the force gives by the end of the step, m/s */    \
+    X(SCRATCH, float, forced_y)                                                                    \
+    X(SCRATCH, float, breadth)      /* radius at which it touches, m */                            \
     X(SCRATCH, float, half_plane_x) /* force half-plane: unit normal; (0, 0) means none */         \
     X(SCRATCH, float, half_plane_y)                                                                \
     X(SCRATCH, float, half_plane_offset) /* (v . normal) >= offset, m/s */                         \
@@ -117,6 +122,12 @@ static inline JoxV2 jox_wrap(const JoxAgents *agents, JoxV2 d) {
     if (period.y > 0.0f && fabsf(d.y) > 0.5f * period.y)
         d.y -= d.y > 0.0f ? period.y : -period.y;
     return d;
+}
+/* Whether an agent wants to stay where it is. */
+static inline bool jox_stands(const JoxAgents *agents, uint32_t i) {
+    const float least = 0.1f; /* m/s */
+    float x = agents->pref_x[i], y = agents->pref_y[i];
+    return x * x + y * y < least * least;
 }
 /* From agent i to agent j, m. */
 static inline JoxV2 jox_offset(const JoxAgents *agents, uint32_t i, uint32_t j) {

@@ -7,6 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/vec.h"
+
 enum { JOX_LANES = 16, JOX_MOST_NEIGHBOURS = 16 };
 
 typedef struct JoxNeighbours {
@@ -15,7 +17,25 @@ typedef struct JoxNeighbours {
     uint32_t *index;  /* index of the neighbour in this step's order */
     float *distance2; /* squared distance of the centres, m2 */
     uint8_t *count;   /* per agent */
+    float widest;     /* greatest radius of an agent, m */
+    /* Contact does not depend on who is perceived. Where the list above may lack someone within
+       touching range, the JOX_MOST_NEIGHBOURS nearest within that range stand here, from
+       i * JOX_MOST_NEIGHBOURS on, nearest first; elsewhere touch_count is JOX_TOUCH_IS_SEEN. NULL:
+       everywhere. */
+    uint32_t *touch_index;
+    uint8_t *touch_count;
 } JoxNeighbours;
+
+enum { JOX_TOUCH_IS_SEEN = 255 };
+/* m: gap between people above which no contact is looked for, however fast they approach; and the
+   gap below which it always is. */
+#define JOX_TOUCH_MOST 0.15f
+#define JOX_TOUCH_LEAST 0.02f
+
+/* Distance of the centres within which an agent may touch somebody in a step, m. */
+static inline float jox_touch_reach(const JoxNeighbours *n, float radius) {
+    return radius + n->widest + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
+}
 
 static inline size_t jox_neighbour_at(const JoxNeighbours *n, uint32_t agent, uint32_t k) {
     return ((size_t)(agent / JOX_LANES) * n->stride + k) * JOX_LANES + agent % JOX_LANES;

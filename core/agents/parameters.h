@@ -20,7 +20,10 @@
     X(radius, "m", 0.02, 5, 0.2, "radius of the agent's disc")                                     \
     X(mass, "kg", 1, 10000, 70, "mass")                                                            \
     X(restitution, "", 0, 1, 0, "restitution of contacts between agents")                          \
-    X(damping, "1/s", 0, 50, 2.5, "how fast the feet stop a velocity given by force")
+    X(damping, "1/s", 0, 50, 2.5, "how fast the feet stop a velocity given by force")              \
+    X(brace, "N", 0, 5000, 200, "force of others that who wants to get on holds with the feet")    \
+    X(turn, "", 0, 0.6, 0.3,                                                                       \
+      "share of the radius by which who wants to get on turns a shoulder in touching others")
 
 typedef enum JoxParameter {
 #define X(name, unit, least, greatest, value, meaning) JOX_PARAM_##name,

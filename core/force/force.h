@@ -10,8 +10,10 @@
 #include <stdint.h>
 
 #include "agents/agents.h"
+#include "agents/contact_planes.h"
 #include "agents/neighbours.h"
 #include "geom/objects.h"
+#include "geom/wall_grid.h"
 #include "task/pool.h"
 
 typedef struct JoxForces JoxForces;
@@ -19,7 +21,8 @@ typedef struct JoxForces JoxForces;
 typedef struct JoxForceOptions {
     bool literal; /* as printed in the paper, in place of the physical reading */
     bool react;   /* pushers feel the reaction of their pushes; otherwise the ground takes it */
-    uint32_t iterations; /* passes over the contacts of a step, physical mode */
+    uint32_t iterations; /* most passes over the contacts of a step, physical mode */
+    float tolerance;     /* N: passes end when none changes a contact force by more */
     float reach;         /* gap over which a braced person passes a force on, m; physical mode */
     float filter;        /* time over which passed-on forces arrive, s; 0 at once; physical mode */
     float least;         /* |f|/m below which no half-plane is made, m/s2 */
@@ -32,10 +35,14 @@ typedef struct JoxForceStep {
     JoxAgents *agents;
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
+    const JoxWallGrid *walls; /* serving jox_touch_reach; NULL: none */
     JoxPool *pool;
-    double dt;              /* s, above 0 */
-    double planning_time;   /* s: how far ahead velocities are planned; 0: dt */
-    const uint8_t *push_on; /* per agent, 0: does not push now; NULL: all push */
+    double dt;                /* s, above 0 */
+    double planning_time;     /* s: how far ahead velocities are planned; 0: dt */
+    double response;          /* share of the way to the planned velocity gone in dt; 0: all */
+    double interval;          /* s: between plans of those who want to get on; 0: dt */
+    double interval_response; /* the share gone in that time */
+    const uint8_t *push_on;   /* per agent, 0: does not push now; NULL: all push */
     const uint8_t
         *push_nearest; /* per agent, 1: the whole push goes to the nearest; NULL: shared */
     /* Direction of the push per agent, of any length; (0, 0) or NULL: the preferred velocity. */
@@ -47,6 +54,8 @@ typedef struct JoxForceTotals {
     uint32_t pairs;   /* overlapping pairs of agents */
     uint32_t touches; /* contacts of agents with bodies */
     uint32_t passed;  /* forces passed on by the last infer */
+    uint32_t passes;  /* over the contacts */
+    float residual;   /* N: by which the last pass still changed a contact force */
     /* Momentum of the step's pushes that came from the ground, N s: zero with `react`. */
     double ground_x, ground_y;
     /* N s: given to moving bodies by pushes; given to agents by contacts with such bodies, and the
@@ -59,17 +68,27 @@ JoxForces *jox_forces_create(const JoxForceOptions *options);
 void jox_forces_free(JoxForces *forces);
 void jox_forces_set_options(JoxForces *forces, const JoxForceOptions *options);
 
+/* The walls whose loads are told; not copied; call again when they change. NULL: none. */
+void jox_forces_set_walls(JoxForces *forces, const JoxWalls *walls);
+/* Lists what outlasts a step: the impulses from which the next solve of contacts starts. */
+void jox_forces_sections(JoxForces *forces, JoxSections *sections);
+
 /* Starts a step: push, contact, compression, load and contacts become zero, the impulses empty. */
 void jox_force_begin(JoxForces *forces, const JoxForceStep *step);
 /* Equation 5: push_x, push_y of those that are pushed; impulses on bodies. */
 void jox_force_push(JoxForces *forces);
-/* Equations 6 and 7: contact_x, contact_y, contacts, compression (received pushes count in it, for
-   they squeeze as well); impulses on bodies. */
+/* Equations 6 and 7: contact_x, contact_y, contacts, compression, load; impulses on bodies. In
+   physical mode all contacts with people, walls and bodies are solved together, from the
+   velocities that the other forces give. */
 void jox_force_contact(JoxForces *forces);
 /* Equations 10 to 12: force_x, force_y, half_plane_x, half_plane_y, half_plane_offset, speed_limit.
    The limit is `max_speed`; only a contact impulse raises it, to the speed that it gives. Keeps the
    velocities for infer. Begin and sum alone give a step without forces. */
 void jox_force_sum(JoxForces *forces);
+/* The half-planes of what agents touch, from sum to the next begin; none in the mode literal. */
+const JoxContactPlanes *jox_force_contact_planes(const JoxForces *forces);
+/* What each piece of the walls bears, from contact to the next begin. */
+const JoxWallLoad *jox_force_wall_loads(const JoxForces *forces, uint32_t *count);
 /* Equations 8 and 9, once vx, vy hold the new velocities: inferred_x, inferred_y. */
 void jox_force_infer(JoxForces *forces);
 

@@ -4,10 +4,12 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "base/random.h"
 #include "force/internal.h"
 
 JoxForceOptions jox_force_default_options(void) {
-    return (JoxForceOptions){.iterations = 4, .reach = 0.6f, .filter = 0.13f, .least = 0.05f};
+    return (JoxForceOptions){
+        .iterations = 60, .tolerance = 1.0f, .reach = 0.6f, .filter = 0.13f, .least = 0.05f};
 }
 
 void jox_forces_set_options(JoxForces *f, const JoxForceOptions *options) {
@@ -23,11 +25,56 @@ JoxForces *jox_forces_create(const JoxForceOptions *options) {
 void jox_forces_free(JoxForces *f) {
     if (!f)
         return;
-    void *owned[] = {
-        f->transfers.items, f->transfers.counts, f->starts,         f->sorted, f->pairs.items,
-        f->pairs.counts,    f->touches.items,    f->touches.counts, f->ends,   f->touch,
-        f->first_touch,     f->touch_number,     f->motions,        f->work_x, f->work_y,
-        f->pending,         f->impulses,         f->old_x,          f->old_y,  f->chunk};
+    void *owned[] = {f->transfers.items,
+                     f->transfers.counts,
+                     f->starts,
+                     f->sorted,
+                     f->found.items,
+                     f->found.counts,
+                     f->found_walls.items,
+                     f->found_walls.counts,
+                     f->touches.items,
+                     f->touches.counts,
+                     f->found_first,
+                     f->wall_first,
+                     f->found_number,
+                     f->wall_number,
+                     f->pairs.first,
+                     f->pairs.second,
+                     f->pairs.nx,
+                     f->pairs.ny,
+                     f->pairs.target,
+                     f->pairs.mass,
+                     f->pairs.impulse,
+                     f->pairs.place,
+                     f->colours_of,
+                     f->ends,
+                     f->end_starts,
+                     f->wall,
+                     f->wall_group,
+                     f->touch,
+                     f->touch_first,
+                     f->touch_number,
+                     f->motions,
+                     f->work,
+                     f->lightness,
+                     f->residuals,
+                     f->braced,
+                     f->planes.starts,
+                     f->planes.people,
+                     f->planes.bodies,
+                     f->planes.planes,
+                     f->pieces,
+                     f->piece_first,
+                     f->kept_pairs.items,
+                     f->kept_walls.items,
+                     f->kept_touches.items,
+                     f->pressed.items,
+                     f->pending,
+                     f->impulses,
+                     f->old_x,
+                     f->old_y,
+                     f->chunk};
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++)
         jox_free(owned[i]);
     jox_free(f);
@@ -51,14 +98,32 @@ static void zero_terms(JoxAgents *a) {
 #undef ZERO_STATE
 }
 
+static float breadth_of(const JoxAgents *a, uint32_t i, double time) {
+    float radius = a->param[JOX_PARAM_radius][i];
+    if (jox_stands(a, i))
+        return radius;
+    double phase = time + jox_random_unit(0, a->id[i], 0, JOX_DRAW_AIM, 0), knot = floor(phase);
+    float from = (float)jox_random_unit(0, a->id[i], (uint64_t)knot, JOX_DRAW_AIM, 1);
+    float to = (float)jox_random_unit(0, a->id[i], (uint64_t)knot + 1, JOX_DRAW_AIM, 1);
+    float turned = from + (to - from) * (float)(phase - knot);
+    return radius * (1.0f - turned * a->param[JOX_PARAM_turn][i]);
+}
+
 void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_ASSERT(step && step->agents && step->neighbours && step->dt > 0.0);
     f->step = *step;
     if (!(f->step.planning_time > 0.0))
         f->step.planning_time = step->dt;
+    if (!(f->step.response > 0.0))
+        f->step.response = 1.0;
+    if (!(f->step.interval > 0.0)) {
+        f->step.interval = step->dt;
+        f->step.interval_response = f->step.response;
+    }
     f->totals = (JoxForceTotals){0};
     f->pending_count = f->pending_sorted = 0;
-    f->touch_count = 0;
+    f->touch_count = f->wall_count = f->pairs.count = 0;
+    f->pushed = f->contacts_known = false;
     JoxAgents *a = step->agents;
     uint32_t n = a->count;
     f->chunks = (n + JOX_FORCE_GRAIN - 1) / JOX_FORCE_GRAIN;
@@ -68,8 +133,14 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_RESERVE(f->old_y, f->old_y_capacity, n);
     if (f->chunks)
         memset(f->chunk, 0, f->chunks * sizeof *f->chunk);
+    JOX_RESERVE(f->braced, f->braced_capacity, n);
+    static double hack;
+    hack += step->dt;
+    for (uint32_t i = 0; i < n; i++)
+        a->breadth[i] = breadth_of(a, i, hack);
     if (n) {
         zero_terms(a);
+        memset(f->braced, 0, n * sizeof *f->braced);
         memset(a->compression, 0, n * sizeof *a->compression);
         memset(a->load, 0, n * sizeof *a->load);
         memset(a->contacts, 0, n);
@@ -77,6 +148,18 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
     f->widest = widest_radius(a);
     f->bodies = n && step->objects && step->objects->grid.columns;
+}
+
+static void list_kept(JoxSections *s, const char *name, JoxKeptImpulses *kept) {
+    JOX_SECTION_ARRAY(s, name, kept->items, kept->count, kept->capacity);
+}
+
+void jox_forces_sections(JoxForces *f, JoxSections *s) {
+    jox_sections_module(s, "force");
+    list_kept(s, "pairs", &f->kept_pairs);
+    list_kept(s, "walls", &f->kept_walls);
+    list_kept(s, "touches", &f->kept_touches);
+    JOX_SECTION_ARRAY(s, "pressed", f->pressed.items, f->pressed.count, f->pressed.capacity);
 }
 
 JoxForceTotals jox_force_totals(const JoxForces *f) {

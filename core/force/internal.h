@@ -2,11 +2,11 @@
 #ifndef JOX_FORCE_INTERNAL_H
 #define JOX_FORCE_INTERNAL_H
 
+#include "force/contact.h"
 #include "force/force.h"
 
 enum {
-    JOX_FORCE_GRAIN = 256,     /* agents of a chunk; each chunk writes lists of its own */
-    JOX_FORCE_MOST_TOUCHES = 4 /* bodies that one agent pushes or touches at a time */
+    JOX_FORCE_GRAIN = 256 /* agents of a chunk; each chunk writes lists of its own */
 };
 
 /* A force that one agent gives another. */
@@ -14,30 +14,6 @@ typedef struct JoxTransfer {
     uint32_t to, from_id;
     float x, y;
 } JoxTransfer;
-
-/* Two overlapping agents, the one of lesser id first; the normal points to it. */
-typedef struct JoxPair {
-    uint32_t first, second;
-    float nx, ny;
-    float bounce;  /* normal velocity wanted at the end, m/s, at least 0 */
-    float stiff;   /* the split masses of both, as one, kg */
-    float impulse; /* accumulated, N s */
-} JoxPair;
-
-/* An agent on a body; the normal points to the agent. A push on a body uses the normal's place
-   for its force. */
-typedef struct JoxTouch {
-    uint32_t agent, object;
-    JoxV2 normal;
-    JoxV3 point;
-    float bounce, give, impulse;
-} JoxTouch;
-
-/* An agent's end of a pair. */
-typedef struct JoxEnd {
-    uint32_t other_id;
-    uint32_t pair;
-} JoxEnd;
 
 /* An impulse on a body with the key that sorts it: agent id, then row. Those of one key stay in the
    order in which they were given. */
@@ -55,12 +31,6 @@ typedef struct JoxChunkList {
     size_t capacity, chunk_capacity;
 } JoxChunkList;
 
-/* Velocity and spin of a body while contacts are solved. */
-typedef struct JoxBodyMotion {
-    JoxV3 velocity, spin;
-    uint32_t touches;
-} JoxBodyMotion;
-
 struct JoxForces {
     JoxForceOptions options;
     JoxForceStep step;
@@ -73,19 +43,49 @@ struct JoxForces {
     JoxTransfer *sorted;
     size_t sorted_capacity;
 
-    JoxChunkList pairs, touches;
-    JoxEnd *ends;
-    size_t end_capacity;
+    bool pushed; /* `sorted` holds this step's pushes */
+
+    /* Contacts: as found, by chunk, and where each agent's stand; then as they are solved. */
+    bool contacts_known; /* looked for in this step */
+    JoxChunkList found, found_walls, touches;
+    uint32_t *found_first, *wall_first; /* wall_first: once measured, in `wall` */
+    uint8_t *found_number, *wall_number;
+    size_t found_first_capacity, found_number_capacity, wall_first_capacity, wall_number_capacity;
+    JoxPairs pairs;
+    uint64_t *colours_of; /* per agent: bit per colour of a pair that it is in */
+    size_t colours_of_capacity;
+    JoxEnd *ends; /* of agent i: end_starts[i] to end_starts[i + 1], by ascending id of the other */
+    uint32_t *end_starts;
+    size_t end_capacity, end_start_capacity;
+    JoxWallContact *wall; /* by agent id, then edge */
+    uint32_t *wall_group; /* first of each agent that has any, and one more */
+    uint32_t wall_count, wall_groups;
+    size_t wall_capacity, wall_group_capacity;
     JoxTouch *touch; /* all touches, sorted by agent id, then row */
     size_t touch_capacity;
     uint32_t touch_count;
-    uint32_t *first_touch; /* per agent, valid where touch_number is not 0 */
+    uint32_t *touch_first; /* per agent, valid where touch_number is not 0 */
     uint8_t *touch_number;
-    size_t first_touch_capacity, touch_number_capacity;
+    size_t touch_first_capacity, touch_number_capacity;
     JoxBodyMotion *motions; /* per row of objects */
     size_t motion_capacity;
-    float *work_x, *work_y; /* velocities while contacts are solved */
-    size_t work_x_capacity, work_y_capacity;
+    JoxV2 *work;      /* velocities while contacts are solved */
+    float *lightness; /* 1 / mass */
+    float *residuals; /* per chunk of a pass */
+    size_t work_capacity, lightness_capacity, residual_capacity;
+    JoxV2 *braced; /* per agent: what its own pushes press it with, N */
+    size_t braced_capacity;
+    JoxContactPlanes planes;
+
+    const JoxWalls *walls;
+    JoxWallLoad *pieces;   /* of all edges */
+    uint32_t *piece_first; /* per edge, and one more */
+    uint32_t piece_count;
+    size_t piece_capacity, piece_first_capacity;
+
+    /* State: from which the next step's solve starts. */
+    JoxKeptImpulses kept_pairs, kept_walls, kept_touches;
+    JoxPressedBodies pressed;
 
     float widest; /* greatest radius, m */
     bool bodies;  /* some can be met */
@@ -99,7 +99,7 @@ struct JoxForces {
     size_t old_x_capacity, old_y_capacity;
 
     struct JoxForceChunk { /* totals of a chunk; momentum in 2^-20 N s, so that order is free */
-        uint32_t pushers, approaching;
+        uint32_t pushers;
         int64_t ground_x, ground_y;
     } * chunk;
     size_t chunk_capacity;
@@ -115,9 +115,8 @@ void jox_transfer_give(JoxForces *forces, uint32_t chunk, uint32_t i, uint32_t t
 /* Sorts the transfers by receiver: those of agent i are sorted[starts[i]] to sorted[starts[i + 1]].
    Returns how many there are; with none, nothing is written. */
 uint32_t jox_transfers_sort(JoxForces *forces);
-/* Adds the transfers of all agents, in ascending id of the giver, into two columns, and their
-   magnitudes, over the circumference, into a third unless it is NULL. */
-void jox_transfers_sum(JoxForces *forces, float *x, float *y, float *compression);
+/* Adds the transfers of all agents, in ascending id of the giver, into two columns. */
+void jox_transfers_sum(JoxForces *forces, float *x, float *y);
 void jox_force_add_impulse(JoxForces *forces, uint32_t agent_id, uint32_t object, JoxV3 impulse,
                            JoxV3 point);
 
@@ -129,12 +128,66 @@ static inline float jox_circumference(float radius) {
 /* Height at which an agent meets a body: the chest's, kept within what the body covers. */
 float jox_touch_height(const JoxObject *body);
 
-/* Contacts with bodies, for the passes of jox_force_contact. */
+/* How long an agent goes on with what it plans, s, and the share of the way gone in that time. */
+typedef struct JoxPlanning {
+    float interval, response;
+} JoxPlanning;
+static inline JoxPlanning jox_planning_of(const JoxForceStep *step, uint32_t i) {
+    bool stands = jox_stands(step->agents, i);
+    return (JoxPlanning){(float)(stands ? step->dt : step->interval),
+                         (float)(stands ? step->response : step->interval_response)};
+}
+
+/* Force that moves an agent, contacts apart, N: from outside, and what of the others' pushes the
+   feet do not hold. */
+static inline JoxV2 jox_moving_force(const JoxAgents *a, uint32_t i) {
+    JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
+    float size = jox_length(others), held = jox_stands(a, i) ? 0.0f : a->param[JOX_PARAM_brace][i];
+    float left = size > held ? (size - held) / size : 0.0f;
+    return (JoxV2){a->ext_x[i] + left * others.x, a->ext_y[i] + left * others.y};
+}
+
+/* Radius at which an agent touches, m: who wants to get on turns a shoulder to others and to what
+   is in its way, who stands does not. */
+static inline float jox_touch_radius(const JoxAgents *a, uint32_t i) {
+    return a->breadth[i];
+}
+
+/* contact_find.c: what each agent touches. */
+void jox_contacts_find(JoxForces *forces);
+/* contact_layout.c: the contacts found, in the order of ids, with the impulses of the last step. */
+void jox_contacts_lay_pairs(JoxForces *forces);
+void jox_contacts_lay_walls(JoxForces *forces);
+void jox_contacts_keep(JoxForces *forces);
+/* Impulse kept of a contact; asked for by ascending ids, with the place in the list that the last
+   question left. 0 where there was none. */
+float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uint32_t other);
+/* Least normal velocity after a contact, m/s: the gap (m) may close within the step, no more, and
+   what meets within it bounces. `speed`: normal velocity before. */
+float jox_contact_target(float gap, float speed, float restitution, float dt);
+/* contact_solve.c: all impulses. */
+void jox_contacts_solve(JoxForces *forces);
+/* contact_planes.c: half-planes of what is touched. */
+void jox_contact_planes_make(JoxForces *forces);
+/* load.c: compression and load of people and walls. */
+void jox_loads_measure(JoxForces *forces);
+
+/* touch.c: contacts with bodies. begin: velocities of bodies, first impulses; pass: one over all
+   touches, which returns the greatest change of an impulse, N s; finish: impulses for the bodies.
+ */
 void jox_touches_find(JoxForces *forces, uint32_t begin, uint32_t end);
 void jox_touches_collect(JoxForces *forces);
-void jox_touches_prepare(JoxForces *forces);
-void jox_touches_pass(JoxForces *forces);
+void jox_touches_begin(JoxForces *forces);
+float jox_touches_pass(JoxForces *forces);
 void jox_touches_finish(JoxForces *forces);
+static inline uint32_t jox_touches_of(const JoxForces *forces, uint32_t agent) {
+    return forces->touch_count ? forces->touch_number[agent] : 0;
+}
+/* From a body's centre of mass to a point, m. */
+JoxV3 jox_arm_of(const JoxObject *body, JoxV3 point);
+/* Normal velocity of a body where it is touched, m/s: before the contacts, and after them. */
+float jox_touch_speed_before(const JoxForces *forces, const JoxTouch *touch);
+float jox_touch_speed_after(const JoxForces *forces, const JoxTouch *touch);
 
 /* Equations as they are printed, literal.c. (5): from where the pusher will be to the one pushed.
  */

@@ -12,21 +12,23 @@ JoxV2 jox_literal_push_offset(const JoxForces *f, uint32_t pusher, JoxV2 to_cent
     return jox_sub(to_centre, jox_scale(way, (float)f->step.dt));
 }
 
-/* (6) Each pair by itself, at the velocities that the step began with. */
-static void pairs_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+/* (6) Each overlapping pair by itself, at the velocities that the step began with. */
+static void pair_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
-    (void)end;
     JoxForces *f = context;
     const JoxAgents *a = f->step.agents;
     const float *mass = a->param[JOX_PARAM_mass], *e = a->param[JOX_PARAM_restitution];
-    uint32_t chunk = begin / JOX_FORCE_GRAIN;
-    JoxPair *list = (JoxPair *)f->pairs.items + (size_t)chunk * f->pairs.room;
-    for (uint32_t k = 0; k < f->pairs.counts[chunk]; k++) {
-        JoxPair *p = &list[k];
-        float speed = (a->vx[p->first] - a->vx[p->second]) * p->nx +
-                      (a->vy[p->first] - a->vy[p->second]) * p->ny;
-        p->impulse = jox_contact_impulse(speed, jox_minf(e[p->first], e[p->second]),
-                                         1.0f / mass[p->first] + 1.0f / mass[p->second]);
+    const float *radius = a->param[JOX_PARAM_radius];
+    JoxPairs *p = &f->pairs;
+    for (uint32_t k = begin; k < end; k++) {
+        uint32_t i = p->first[k], j = p->second[k];
+        float touch = radius[i] + radius[j];
+        p->impulse[k] = 0.0f;
+        if (!(jox_length2(jox_offset(a, i, j)) < touch * touch))
+            continue;
+        float speed = (a->vx[i] - a->vx[j]) * p->nx[k] + (a->vy[i] - a->vy[j]) * p->ny[k];
+        p->impulse[k] =
+            jox_contact_impulse(speed, jox_minf(e[i], e[j]), 1.0f / mass[i] + 1.0f / mass[j]);
     }
 }
 
@@ -36,20 +38,20 @@ static void touch_bodies(JoxForces *f) {
     for (uint32_t k = 0; k < f->touch_count; k++) {
         JoxTouch *t = &f->touch[k];
         const JoxObject *body = &f->step.objects->rows[t->object];
-        JoxV3 arm = {t->point.x - body->position.x, t->point.y - body->position.y,
-                     t->point.z - body->position.z};
-        JoxV3 turning = jox_cross3(body->spin, arm);
+        JoxV3 turning = jox_cross3(body->spin, jox_arm_of(body, t->point));
         float speed = (a->vx[t->agent] - body->velocity.x - turning.x) * t->normal.x +
                       (a->vy[t->agent] - body->velocity.y - turning.y) * t->normal.y;
         float e = jox_minf(a->param[JOX_PARAM_restitution][t->agent], body->restitution);
-        t->impulse = jox_contact_impulse(
-            speed, e, 1.0f / a->param[JOX_PARAM_mass][t->agent] + body->inverse_mass);
+        t->impulse = t->gap < 0.0f ? jox_contact_impulse(speed, e,
+                                                         1.0f / a->param[JOX_PARAM_mass][t->agent] +
+                                                             body->inverse_mass)
+                                   : 0.0f;
     }
 }
 
 void jox_literal_contacts(JoxForces *f) {
     JOX_ASSERT(f->options.literal);
-    jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, pairs_chunk, f);
+    jox_parallel_for(f->step.pool, f->pairs.count, JOX_FORCE_GRAIN, pair_chunk, f);
     touch_bodies(f);
 }
 

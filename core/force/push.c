@@ -14,7 +14,7 @@ typedef struct Target {
     float gap;
 } Target;
 
-enum { MOST_TARGETS = JOX_MOST_NEIGHBOURS + JOX_FORCE_MOST_TOUCHES };
+enum { MOST_TARGETS = JOX_MOST_NEIGHBOURS + JOX_MOST_BODIES_TOUCHED };
 
 static JoxV2 aim_of(const JoxForceStep *step, uint32_t i) {
     const JoxAgents *a = step->agents;
@@ -59,7 +59,7 @@ static uint32_t bodies_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
     float cosine = a->param[JOX_PARAM_push_angle][i];
     uint64_t only = a->push_only[i];
     JoxV2 centre = {a->x[i], a->y[i]};
-    JoxNearest nearest = {.most = JOX_FORCE_MOST_TOUCHES};
+    JoxNearest nearest = {.most = JOX_MOST_BODIES_TOUCHED};
     JoxObjectWalk walk = jox_objects_near(f->step.objects, centre, radius + reach);
     uint32_t row, n = 0;
     while (jox_objects_next(&walk, &row)) {
@@ -147,6 +147,7 @@ static void push_by(JoxForces *f, uint32_t chunk, uint32_t i) {
     }
     struct JoxForceChunk *totals = &f->chunk[chunk];
     totals->pushers++;
+    f->braced[i] = jox_scale(sum, -1.0f);
     if (f->options.react) {
         list[f->transfers.counts[chunk]++] = (JoxTransfer){i, a->id[i], -sum.x, -sum.y};
     } else {
@@ -170,7 +171,7 @@ void jox_force_push(JoxForces *f) {
     float dt = (float)f->step.dt;
     uint32_t room = JOX_FORCE_GRAIN * (f->step.neighbours->stride + 1);
     jox_chunks_begin(&f->transfers, f->chunks, room, sizeof(JoxTransfer));
-    jox_chunks_begin(&f->touches, f->chunks, JOX_FORCE_GRAIN * JOX_FORCE_MOST_TOUCHES,
+    jox_chunks_begin(&f->touches, f->chunks, JOX_FORCE_GRAIN * JOX_MOST_BODIES_TOUCHED,
                      sizeof(JoxTouch));
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, push_chunk, f);
     int64_t ground_x = 0, ground_y = 0;
@@ -190,6 +191,7 @@ void jox_force_push(JoxForces *f) {
     }
     f->totals.ground_x = (double)ground_x / 1048576.0;
     f->totals.ground_y = (double)ground_y / 1048576.0;
-    if (jox_transfers_sort(f))
-        jox_transfers_sum(f, a->push_x, a->push_y, a->compression);
+    f->pushed = jox_transfers_sort(f) > 0;
+    if (f->pushed)
+        jox_transfers_sum(f, a->push_x, a->push_y);
 }

@@ -7,32 +7,37 @@
 
 /* exp(-damping dt), computed once as long as the damping stays the same. */
 typedef struct Decay {
-    float damping, value;
+    float damping, dt, value;
 } Decay;
 
-static float decay_of(Decay *decay, float damping, double dt) {
-    if (damping != decay->damping)
-        *decay = (Decay){damping, (float)jox_exp(-(double)damping * dt)};
+static float decay_of(Decay *decay, float damping, float dt) {
+    if (damping != decay->damping || dt != decay->dt)
+        *decay = (Decay){damping, dt, (float)jox_exp(-(double)damping * (double)dt)};
     return decay->value;
 }
 
-/* The half-plane of the force over the time planned for, and the speed limit of this step. */
+/* (11), (12): the half-plane of the force, and the speed limit of this step. By the end of the step
+   the velocity is to have the part along the force that (11) says; it goes the share `response` of
+   the way from what the force gives to what is planned. */
 static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, float decay,
-                           float dt) {
+                           JoxPlanning plan) {
+    float dt = plan.interval;
     float mass = a->param[JOX_PARAM_mass][i], most = a->param[JOX_PARAM_max_speed][i];
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
     JoxV2 normal = jox_scale(force, 1.0f / size);
     JOX_ASSERT(mass > 0.0f && decay <= 1.0f);
     JOX_ASSERT(jox_is_unit(normal));
+    JoxV2 moving = jox_moving_force(a, i);
+    moving = jox_add(moving, contact);
+    float moved = jox_dot(velocity, normal) + jox_dot(moving, normal) * dt / mass;
+    float wanted = jox_forced_speed(velocity, normal, size, mass, decay, dt);
     a->half_plane_x[i] = normal.x;
     a->half_plane_y[i] = normal.y;
-    a->half_plane_offset[i] = jox_forced_speed(velocity, normal, size, mass, decay, dt);
+    a->half_plane_offset[i] = moved + (wanted - moved) / plan.response;
     if (contact.x == 0.0f && contact.y == 0.0f)
         return;
-    /* Being hit may carry someone faster than they can go; nothing else may. */
-    JoxV2 forced = jox_forced_velocity(velocity, force, mass, decay, dt);
-    float hit = jox_length(jox_forced_velocity(velocity, contact, mass, decay, dt));
-    a->speed_limit[i] = jox_maxf(most, jox_minf(hit, jox_length(forced)));
+    /* Being hit or squeezed may carry someone faster than they can go; nothing else may. */
+    a->speed_limit[i] = jox_maxf(most, jox_length((JoxV2){a->forced_x[i], a->forced_y[i]}));
 }
 
 /* (10) The net force. */
@@ -49,7 +54,8 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
     JoxForces *f = context;
     JoxAgents *a = f->step.agents;
     const float *mass = a->param[JOX_PARAM_mass], *damping = a->param[JOX_PARAM_damping];
-    Decay decay = {-1.0f, 0.0f};
+    const float dt = (float)f->step.dt;
+    Decay decay = {-1.0f, 0.0f, 0.0f};
     for (uint32_t i = begin; i < end; i++) {
         f->old_x[i] = a->vx[i];
         f->old_y[i] = a->vy[i];
@@ -58,19 +64,23 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         JoxV2 force = sum_of_terms(a, i);
         a->force_x[i] = force.x;
         a->force_y[i] = force.y;
+        JoxV2 moving = jox_moving_force(a, i);
+        a->forced_x[i] = a->vx[i] + (moving.x + a->contact_x[i]) * dt / mass[i];
+        a->forced_y[i] = a->vy[i] + (moving.y + a->contact_y[i]) * dt / mass[i];
         if (force.x == 0.0f && force.y == 0.0f)
             continue;
         float size = jox_length(force);
+        const JoxPlanning plan = jox_planning_of(&f->step, i);
         if (f->options.literal)
             jox_literal_bound(f, i);
         else if (size >= f->options.least * mass[i] && isfinite(size))
-            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], f->step.planning_time),
-                           (float)f->step.planning_time);
+            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], plan.interval), plan);
     }
 }
 
 void jox_force_sum(JoxForces *f) {
     jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, sum_chunk, f);
+    jox_contact_planes_make(f);
 }
 
 /* (9) Someone under force whose plan falls short of where it would take them. */
@@ -82,11 +92,12 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
     float absorb = a->param[JOX_PARAM_absorb][i];
     if (!(shortfall > 0.0f) || !(absorb > 0.0f))
         return;
+    const JoxPlanning plan = jox_planning_of(&f->step, i);
     uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_people_in_cone(f, i, unit, found);
     for (uint32_t k = 0; k < n; k++)
         jox_transfer_give(f, chunk, i, found[k],
                           jox_resistance(unit, shortfall, absorb, a->param[JOX_PARAM_mass][i], n,
-                                         (float)f->step.planning_time));
+                                         plan.interval / plan.response));
 }
 
 /* (8) Someone under no force who slowed down. */
@@ -164,5 +175,5 @@ void jox_force_infer(JoxForces *f) {
     if (!f->totals.passed)
         return;
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, scale_chunk, f);
-    jox_transfers_sum(f, a->inferred_x, a->inferred_y, NULL);
+    jox_transfers_sum(f, a->inferred_x, a->inferred_y);
 }

@@ -88,14 +88,13 @@ static void order_by_giver(JoxTransfer *t, uint32_t count) {
 
 typedef struct SumTask {
     JoxForces *forces;
-    float *x, *y, *compression;
+    float *x, *y;
 } SumTask;
 
 static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const SumTask *task = context;
     JoxForces *f = task->forces;
-    const float *radius = f->step.agents->param[JOX_PARAM_radius];
     for (uint32_t i = begin; i < end; i++) {
         uint32_t first = f->starts[i], count = f->starts[i + 1] - first;
         if (!count)
@@ -103,23 +102,19 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         JoxTransfer *t = f->sorted + first;
         order_by_giver(t, count);
         JOX_ASSERT(t[0].to == i && t[count - 1].to == i);
-        float x = 0.0f, y = 0.0f, size = 0.0f;
+        float x = 0.0f, y = 0.0f;
         for (uint32_t k = 0; k < count; k++) {
             JOX_ASSERT(k == 0 || t[k - 1].from_id <= t[k].from_id);
             x += t[k].x;
             y += t[k].y;
-            if (task->compression)
-                size += sqrtf(t[k].x * t[k].x + t[k].y * t[k].y);
         }
         task->x[i] += x;
         task->y[i] += y;
-        if (task->compression)
-            task->compression[i] += size / jox_circumference(radius[i]);
     }
 }
 
-void jox_transfers_sum(JoxForces *f, float *x, float *y, float *compression) {
-    SumTask task = {f, x, y, compression};
+void jox_transfers_sum(JoxForces *f, float *x, float *y) {
+    SumTask task = {f, x, y};
     jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, sum_chunk, &task);
 }
 

@@ -4,19 +4,6 @@
 #include "base/assert.h"
 #include "nav/internal.h"
 
-void jox_wall_grid_check(const JoxWallGrid *g) {
-    size_t cells = (size_t)g->columns * g->rows;
-    JOX_ASSERT(cells > 0 && g->cell > 0.0f && g->reach > 0.0f);
-    JOX_ASSERT(g->first[0] == 0);
-    for (size_t c = 0; c < cells; c++) {
-        JOX_ASSERT(g->first[c] <= g->first[c + 1]);
-        for (uint32_t k = g->first[c]; k < g->first[c + 1]; k++) {
-            JOX_ASSERT(g->edges[k] < g->walls->count);
-            JOX_ASSERT(k == g->first[c] || g->edges[k - 1] < g->edges[k]);
-        }
-    }
-}
-
 void jox_nav_rows_check(const JoxNav *nav, const JoxAgents *a) {
     JOX_ASSERT(nav->rows > 0 && nav->height > 0.0f);
     JOX_ASSERT(nav->row_first[0] == 0 && nav->row_first[nav->rows] == a->count);

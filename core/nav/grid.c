@@ -220,6 +220,22 @@ static void search(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radi
     found->count = found->count < found->most ? found->count : found->most;
 }
 
+/* Those within touching range, where the neighbours that agent i perceives up to `reach` may lack
+   some. */
+static void find_touching(const Perceive *p, uint32_t i, float reach, uint32_t hints[HINTS]) {
+    const JoxAgents *a = p->agents;
+    JoxNeighbours *out = p->out;
+    float range = sight(a, jox_touch_reach(out, a->param[JOX_PARAM_radius][i]));
+    out->touch_count[i] = JOX_TOUCH_IS_SEEN;
+    if (reach >= range)
+        return;
+    Nearest found = {.most = JOX_MOST_NEIGHBOURS};
+    search(p->nav, a, i, range, &found, hints);
+    out->touch_count[i] = (uint8_t)found.count;
+    for (uint32_t k = 0; k < found.count; k++)
+        out->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k] = a->by_rank[(uint32_t)found.keys[k]];
+}
+
 static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     Perceive *p = context;
@@ -238,6 +254,7 @@ static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t
         bool full = found.most > 0 && found.count == found.most;
         float reach = full ? sqrtf(distance2_of(found.keys[found.count - 1])) : perception;
         a->search[i] = jox_maxf(reach, 0.01f);
+        find_touching(p, i, found.most > 0 ? reach : 0.0f, hints);
         /* people per square metre of the disc that holds the neighbours kept */
         float area = 3.14159265f * jox_maxf(reach * reach, 0.0025f);
         a->density[i] = (float)found.count / area;
@@ -252,9 +269,12 @@ static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t
 
 static void reserve_neighbours(JoxNeighbours *out, const JoxAgents *a) {
     uint32_t stride = 1;
-    for (uint32_t i = 0; i < a->count; i++)
+    out->widest = 0.0f;
+    for (uint32_t i = 0; i < a->count; i++) {
         if ((uint32_t)a->param[JOX_PARAM_neighbours][i] > stride)
             stride = (uint32_t)a->param[JOX_PARAM_neighbours][i];
+        out->widest = jox_maxf(out->widest, a->param[JOX_PARAM_radius][i]);
+    }
     if (a->count <= out->agents && stride <= out->stride)
         return;
     uint32_t agents = (a->count + a->count / 8 + JOX_LANES) / JOX_LANES * JOX_LANES;
@@ -264,9 +284,14 @@ static void reserve_neighbours(JoxNeighbours *out, const JoxAgents *a) {
     jox_free(out->index);
     jox_free(out->distance2);
     jox_free(out->count);
+    jox_free(out->touch_index);
+    jox_free(out->touch_count);
     out->index = jox_alloc_aligned(entries, sizeof *out->index);
     out->distance2 = jox_alloc_aligned(entries, sizeof *out->distance2);
     out->count = jox_alloc_aligned(out->agents, sizeof *out->count);
+    out->touch_index =
+        jox_alloc_aligned((size_t)out->agents * JOX_MOST_NEIGHBOURS, sizeof *out->touch_index);
+    out->touch_count = jox_alloc_aligned(out->agents, sizeof *out->touch_count);
 }
 
 void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool) {

@@ -2,6 +2,7 @@
 #ifndef JOX_NAV_INTERNAL_H
 #define JOX_NAV_INTERNAL_H
 
+#include "geom/wall_grid.h"
 #include "nav/nav.h"
 
 /* n . v >= offset, n a unit vector: the velocities that a constraint allows, m/s. */
@@ -9,26 +10,6 @@ typedef struct JoxHalfPlane {
     JoxV2 normal;
     float offset;
 } JoxHalfPlane;
-
-/* Edges of walls by cell: each cell lists all edges within `reach` of any of its points. */
-typedef struct JoxWallGrid {
-    const JoxWalls *walls;
-    float reach, cell; /* m */
-    JoxV2 low;
-    uint32_t columns, rows;
-    uint32_t *first; /* columns * rows + 1 */
-    uint32_t *edges;
-} JoxWallGrid;
-
-/* Makes the grid serve queries up to `reach` metres; does nothing if it already does. */
-void jox_wall_grid_fit(JoxWallGrid *grid, float reach);
-/* Makes it anew for queries up to exactly `reach` metres; empty for 0. */
-void jox_wall_grid_reset(JoxWallGrid *grid, float reach);
-/* Edges that may be within the grid's reach of a point. */
-const uint32_t *jox_wall_grid_at(const JoxWallGrid *grid, JoxV2 point, uint32_t *count);
-void jox_wall_grid_free(JoxWallGrid *grid);
-/* Point inside a solid (crossing number over the solid rings). */
-bool jox_walls_contain(const JoxWalls *walls, JoxV2 point);
 
 struct JoxNav {
     /* Grid of agents: rows of `height` metres, sorted along x within each. */
@@ -63,10 +44,11 @@ JoxHalfPlane jox_orca_half_plane(JoxV2 p, JoxV2 v, float radius, float tau, floa
 /* Half-planes of the wall edges near an agent; returns how many, at most `most`. */
 uint32_t jox_orca_walls(const JoxWallGrid *grid, JoxV2 position, JoxV2 velocity, float radius,
                         float tau, float range, JoxHalfPlane *out, uint32_t most);
-/* Half-planes of the bodies that agent i sees; returns how many, at most `most`. */
+/* Half-planes of the bodies that agent i sees, but for those that it touches (NULL: none); returns
+   how many, at most `most`. */
 uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
-                          const JoxObjects *objects, float planning_time, JoxHalfPlane *out,
-                          uint32_t most);
+                          const JoxObjects *objects, const JoxContactPlanes *touched,
+                          float planning_time, JoxHalfPlane *out, uint32_t most);
 
 /* The velocity of at most `speed_limit` nearest to `wanted` that meets all half-planes. The first
    `hard` half-planes are walls. Returns true if there is one; otherwise *velocity minimises the
@@ -75,10 +57,9 @@ uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
 bool jox_linear_program_solve(const JoxHalfPlane *half_planes, uint32_t count, uint32_t hard,
                               float speed_limit, JoxV2 wanted, JoxV2 *velocity, bool *relaxed);
 
-/* Assertions about the grid of walls, the sorted rows, the neighbours (each agent's ascend by
+/* Assertions about the sorted rows, the neighbours (each agent's ascend by
    distance, then id, are within its perception, and it is none of them), half-planes (normals are
    unit vectors), and a solution of the linear program. */
-void jox_wall_grid_check(const JoxWallGrid *grid);
 void jox_nav_rows_check(const JoxNav *nav, const JoxAgents *agents);
 void jox_neighbours_check(const JoxNeighbours *neighbours, const JoxAgents *agents);
 void jox_half_planes_check(const JoxHalfPlane *half_planes, uint32_t count);

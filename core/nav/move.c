@@ -15,9 +15,11 @@ typedef struct Move {
     JoxNav *nav;
     JoxAgents *agents;
     const JoxNeighbours *neighbours;
-    float dt, share; /* s; of the way from the old velocity to the planned one */
-    float stiffness; /* share of an overlap removed by one sweep */
-    int from;        /* which position buffer a sweep reads */
+    const JoxObjects *objects;
+    const JoxContactPlanes *touched; /* NULL: contacts were not looked for */
+    float dt, response;              /* s; share of the way to the planned velocity */
+    float stiffness;                 /* share of an overlap removed by one sweep */
+    int from;                        /* which position buffer a sweep reads */
 } Move;
 
 static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -27,34 +29,63 @@ static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t work
     for (uint32_t i = begin; i < end; i++) {
         a->prev_x[i] = a->x[i];
         a->prev_y[i] = a->y[i];
-        a->vx[i] += (a->next_x[i] - a->vx[i]) * m->share;
-        a->vy[i] += (a->next_y[i] - a->vy[i]) * m->share;
+        a->vx[i] = a->forced_x[i] + (a->next_x[i] - a->forced_x[i]) * m->response;
+        a->vy[i] = a->forced_y[i] + (a->next_y[i] - a->forced_y[i]) * m->response;
         m->nav->position[0][i] = (JoxV2){a->x[i] + a->vx[i] * m->dt, a->y[i] + a->vy[i] * m->dt};
     }
 }
 
+/* Agent i's part of its overlap with j, by mass. */
+static inline JoxV2 part_from(const Move *m, const JoxV2 *from, uint32_t i, uint32_t j,
+                              float apart) {
+    const JoxAgents *a = m->agents;
+    const float *mass = a->param[JOX_PARAM_mass];
+    JOX_ASSERT(j < a->count && j != i);
+    JoxV2 d = jox_wrap(a, jox_sub(from[i], from[j]));
+    float d2 = jox_length2(d);
+    if (d2 >= apart * apart || d2 == 0.0f)
+        return (JoxV2){0.0f, 0.0f};
+    float distance = sqrtf(d2);
+    float part = m->stiffness * (apart - distance) * mass[j] / (mass[i] + mass[j]);
+    return jox_scale(d, part / distance);
+}
+
 /* Each agent takes its own part of every overlap with its neighbours, all read from the old
    positions, so that no order matters. */
-static void sweep(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+static void sweep_seen(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     Move *m = context;
-    const JoxAgents *a = m->agents;
-    const float *radius = a->param[JOX_PARAM_radius], *mass = a->param[JOX_PARAM_mass];
+    const float *radius = m->agents->param[JOX_PARAM_radius];
     const JoxV2 *from = m->nav->position[m->from];
     JoxV2 *to = m->nav->position[!m->from];
     for (uint32_t i = begin; i < end; i++) {
         JoxV2 shift = {0.0f, 0.0f};
         for (uint32_t k = 0; k < m->neighbours->count[i]; k++) {
-            size_t at = jox_neighbour_at(m->neighbours, i, k);
-            uint32_t j = m->neighbours->index[at];
-            JOX_ASSERT(j < a->count && j != i);
-            JoxV2 d = jox_wrap(a, jox_sub(from[i], from[j]));
-            float sum = radius[i] + radius[j], d2 = jox_length2(d);
-            if (d2 >= sum * sum || d2 == 0.0f)
-                continue;
-            float distance = sqrtf(d2);
-            float part = m->stiffness * (sum - distance) * mass[j] / (mass[i] + mass[j]);
-            shift = jox_add(shift, jox_scale(d, part / distance));
+            uint32_t j = m->neighbours->index[jox_neighbour_at(m->neighbours, i, k)];
+            shift = jox_add(shift, part_from(m, from, i, j, radius[i] + radius[j]));
+        }
+        to[i] = jox_add(from[i], shift);
+    }
+}
+
+/* The same of those that it touches, and out of bodies. No velocity comes of it, so that overlap
+   gives no energy. */
+static void sweep_touched(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    Move *m = context;
+    const JoxContactPlanes *t = m->touched;
+    const JoxV2 *from = m->nav->position[m->from];
+    JoxV2 *to = m->nav->position[!m->from];
+    for (uint32_t i = begin; i < end; i++) {
+        const JoxContactPlane *planes = t->planes + t->starts[i];
+        JoxV2 shift = {0.0f, 0.0f};
+        for (uint32_t k = 0; k < t->people[i]; k++)
+            shift = jox_add(shift, part_from(m, from, i, planes[k].other, planes[k].apart));
+        for (uint32_t k = 0; k < t->bodies[i]; k++) {
+            const JoxObject *body = &m->objects->rows[planes[t->people[i] + k].other];
+            JoxFootprintPoint side = jox_footprint_nearest(body, from[i]);
+            float overlap = m->agents->param[JOX_PARAM_radius][i] - side.gap;
+            shift = jox_add(shift, jox_scale(side.normal, m->stiffness * jox_maxf(0.0f, overlap)));
         }
         to[i] = jox_add(from[i], shift);
     }
@@ -153,8 +184,7 @@ static void apply_positions(void *context, uint32_t begin, uint32_t end, uint32_
         if (grid->first)
             jox_wall_grid_at(grid, p, &near);
         if (near > 0) {
-            JoxV2 clear =
-                keep_clear(grid, stop_at_walls(grid, p, q), a->param[JOX_PARAM_radius][i]);
+            JoxV2 clear = keep_clear(grid, stop_at_walls(grid, p, q), a->breadth[i]);
             q = stop_at_walls(grid, p, clear);
         }
         a->x[i] = q.x;
@@ -173,14 +203,22 @@ static void apply_positions(void *context, uint32_t begin, uint32_t end, uint32_
     m->nav->chunk_drift[begin / JOX_NAV_GRAIN] = farthest2;
 }
 
-void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, double dt,
-                  double planning_time, JoxPool *pool) {
-    JOX_ASSERT(dt > 0.0 && planning_time >= dt * 0.999);
-    Move move = {nav, agents, neighbours, (float)dt, (float)(dt / planning_time), 0.0f, 0};
+void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
+                  const JoxObjects *objects, const JoxContactPlanes *touched, double dt,
+                  double response, JoxPool *pool) {
+    JOX_ASSERT(dt > 0.0 && response > 0.0 && response <= 1.0);
+    Move move = {.nav = nav,
+                 .agents = agents,
+                 .neighbours = neighbours,
+                 .objects = objects,
+                 .touched = touched && touched->agents ? touched : NULL,
+                 .dt = (float)dt,
+                 .response = (float)response};
     move.stiffness = STIFFNESS * jox_minf(1.0f, (float)dt / STIFF_STEP);
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate, &move);
     for (int i = 0; i < SWEEPS && !nav->literal; i++) {
-        jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, sweep, &move);
+        jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN,
+                         move.touched ? sweep_touched : sweep_seen, &move);
         move.from = !move.from;
     }
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, apply_positions, &move);

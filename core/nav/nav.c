@@ -18,6 +18,14 @@ void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
     nav->grid.walls = walls;
 }
 
+const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neighbours,
+                                          const JoxAgents *agents) {
+    if (!nav->grid.walls || nav->grid.walls->count == 0 || agents->count == 0)
+        return NULL;
+    jox_wall_grid_fit(&nav->grid, jox_touch_reach(neighbours, neighbours->widest));
+    return &nav->grid;
+}
+
 void jox_nav_sections(JoxNav *nav, JoxSections *s) {
     jox_sections_module(s, "nav");
     JOX_SECTION(s, "wall_reach", nav->grid.reach);

@@ -3,8 +3,10 @@
 #define JOX_NAV_NAV_H
 
 #include "agents/agents.h"
+#include "agents/contact_planes.h"
 #include "agents/neighbours.h"
 #include "geom/objects.h"
+#include "geom/wall_grid.h"
 #include "geom/walls.h"
 #include "task/pool.h"
 
@@ -30,13 +32,20 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *agents, uint64_t tick);
 /* perceive: exactly the `neighbours` nearest within each agent's own `perception`, nearest first,
    ties by id; also writes `search` and `density`. Grows `out` as needed. */
 void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool);
+/* The grid of walls, serving queries as far as anyone may touch; NULL without walls. */
+const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neighbours,
+                                          const JoxAgents *agents);
 /* solve: next_x, next_y, the velocity to have `planning_time` seconds from now; sets failed where
-   there is none that meets all half-planes. Returns how many agents had a wall relaxed. */
+   there is none that meets all half-planes. What agents touch is solved by its contact planes,
+   which are hard as walls are, where `touched` has them. Returns how many agents had a hard
+   half-plane relaxed. */
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
-                       const JoxObjects *objects, double planning_time, JoxPool *pool);
+                       const JoxObjects *objects, const JoxContactPlanes *touched,
+                       double planning_time, bool plans, JoxPool *pool);
 /* One of an agent's half-planes: it allows the velocities v with normal . v >= offset, m/s. */
 typedef enum JoxConstraintKind {
     JOX_CONSTRAINT_WALL,
+    JOX_CONSTRAINT_CONTACT,
     JOX_CONSTRAINT_AGENT,
     JOX_CONSTRAINT_BODY,
     JOX_CONSTRAINT_FORCE
@@ -46,18 +55,19 @@ typedef struct JoxConstraint {
     JoxV2 normal; /* unit */
     float offset;
 } JoxConstraint;
-enum { JOX_MOST_CONSTRAINTS = 57 };
+enum { JOX_MOST_CONSTRAINTS = 93 };
 /* The half-planes that solve gave the agent at an index, in the order of solving, between solve and
    move. Returns how many. */
 uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                              const JoxNeighbours *neighbours, const JoxObjects *objects,
-                             double planning_time, uint32_t agent,
+                             const JoxContactPlanes *touched, double planning_time, uint32_t agent,
                              JoxConstraint out[JOX_MOST_CONSTRAINTS]);
-/* move: velocity += (next - velocity) dt / planning_time, position += velocity dt, weak projection
-   of overlaps, never through a wall; prev_x, prev_y keep the old position; updates still, still_x,
-   still_y. */
-void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, double dt,
-                  double planning_time, JoxPool *pool);
+/* move: velocity = forced + (next - forced) * response, position += velocity dt, weak projection
+   of overlaps (of what is touched, where `touched` has it, else of neighbours), never through a
+   wall; prev_x, prev_y keep the old position; updates still, still_x, still_y. */
+void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
+                  const JoxObjects *objects, const JoxContactPlanes *touched, double dt,
+                  double response, JoxPool *pool);
 
 typedef struct JoxPlacement {
     uint32_t moved; /* agents put elsewhere */

@@ -62,18 +62,28 @@ static uint32_t rows_of(const JoxAgents *a, uint32_t i, const JoxObjects *object
     return nearest->count;
 }
 
+static bool is_touched(const JoxContactPlanes *t, uint32_t i, uint32_t row) {
+    const JoxContactPlane *planes = t ? t->planes + t->starts[i] + t->people[i] : NULL;
+    for (uint32_t k = 0; t && k < t->bodies[i]; k++)
+        if (planes[k].other == row)
+            return true;
+    return false;
+}
+
 uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
-                          const JoxObjects *objects, float planning_time, JoxHalfPlane *out,
-                          uint32_t most) {
+                          const JoxObjects *objects, const JoxContactPlanes *touched,
+                          float planning_time, JoxHalfPlane *out, uint32_t most) {
     JOX_ASSERT(most <= JOX_MOST_NEAREST);
     JoxNearest nearest = {.most = most};
-    uint32_t count = rows_of(a, i, objects, &nearest);
+    uint32_t count = rows_of(a, i, objects, &nearest), made = 0;
     for (uint32_t k = 0; k < count; k++) {
         bool approached = a->approach[i] == (int32_t)nearest.rows[k];
+        if (is_touched(touched, i, nearest.rows[k]))
+            continue;
         float tau = approached ? planning_time : a->param[JOX_PARAM_horizon][i];
         const JoxObject *o = &objects->rows[nearest.rows[k]];
-        out[k] = nav->literal ? half_plane_of_sphere(a, i, o, planning_time, tau)
-                              : half_plane_of(a, i, o, planning_time, tau);
+        out[made++] = nav->literal ? half_plane_of_sphere(a, i, o, planning_time, tau)
+                                   : half_plane_of(a, i, o, planning_time, tau);
     }
-    return count;
+    return made;
 }

@@ -8,7 +8,8 @@
 enum {
     MOST_WALLS = 16,
     MOST_OBJECTS = 24,
-    MOST = MOST_WALLS + JOX_MOST_NEIGHBOURS + MOST_OBJECTS + 1
+    MOST_CONTACTS = JOX_MOST_TOUCHED + JOX_MOST_BODIES_TOUCHED,
+    MOST = MOST_WALLS + MOST_CONTACTS + JOX_MOST_NEIGHBOURS + MOST_OBJECTS + 1
 };
 
 typedef struct Solve {
@@ -16,7 +17,9 @@ typedef struct Solve {
     JoxAgents *agents;
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
-    float planning_time; /* s */
+    const JoxContactPlanes *touched; /* NULL: contacts were not looked for */
+    float planning_time;             /* s */
+    bool plans; /* else those who want to get on go on with what they planned */
 } Solve;
 
 /* Where two centres coincide they part in opposite directions that depend on their ids alone. */
@@ -25,6 +28,34 @@ static JoxV2 parting(uint32_t id, uint32_t other) {
     uint64_t bits = jox_random_bits(0, low, high, JOX_DRAW_AIM, 0);
     JoxV2 d = {(float)(bits & 0xffff) - 32767.5f, (float)(bits >> 16 & 0xffff) - 32767.5f};
     return jox_unit(id < other ? d : jox_scale(d, -1.0f));
+}
+
+static uint32_t contact_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *out) {
+    const JoxContactPlanes *t = s->touched;
+    uint32_t count = t ? t->people[i] + t->bodies[i] : 0;
+    JOX_ASSERT(count <= MOST_CONTACTS);
+    for (uint32_t k = 0; k < count; k++) {
+        const JoxContactPlane *plane = &t->planes[t->starts[i] + k];
+        out[k] = (JoxHalfPlane){plane->normal, plane->offset};
+    }
+    return count;
+}
+
+/* Whether agent i touches j: then the plane of the contact stands for it. */
+static bool is_touched(const JoxContactPlanes *t, uint32_t i, uint32_t j) {
+    for (uint32_t k = 0; k < t->people[i]; k++)
+        if (t->planes[t->starts[i] + k].other == j)
+            return true;
+    return false;
+}
+
+/* Whether a wall stands between two who would else touch. */
+static bool is_hidden(const Solve *s, uint32_t i, JoxV2 offset, float radii) {
+    float near = radii + JOX_TOUCH_LEAST;
+    if (!s->touched || !s->nav->grid.first || jox_length2(offset) > near * near)
+        return false;
+    JoxV2 at = {s->agents->x[i], s->agents->y[i]};
+    return jox_wall_grid_separates(&s->nav->grid, at, jox_add(at, offset));
 }
 
 static uint32_t agent_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *out) {
@@ -36,9 +67,11 @@ static uint32_t agent_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *out)
     uint32_t made = 0;
     for (uint32_t k = 0; k < s->neighbours->count[i]; k++) {
         uint32_t j = s->neighbours->index[jox_neighbour_at(s->neighbours, i, k)];
-        if (a->tags[j] & a->ignore[i])
+        if ((a->tags[j] & a->ignore[i]) || (s->touched && is_touched(s->touched, i, j)))
             continue;
         JoxV2 p = jox_offset(a, i, j);
+        if (is_hidden(s, i, p, radius[i] + radius[j]))
+            continue;
         JoxV2 v = {velocity.x - a->vx[j], velocity.y - a->vy[j]};
         JoxV2 away = {1.0f, 0.0f};
         if (p.x == 0.0f && p.y == 0.0f)
@@ -51,44 +84,50 @@ static uint32_t agent_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *out)
 
 /* How many half-planes of each kind, in their order, which is that of JoxConstraintKind. */
 typedef struct Counts {
-    uint32_t walls, agents, objects, force;
+    uint32_t walls, contacts, agents, objects, force;
 } Counts;
 
 static inline Counts make_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *half_planes) {
     const JoxAgents *a = s->agents;
-    float tau = a->param[JOX_PARAM_wall_horizon][i], radius = a->param[JOX_PARAM_radius][i];
+    float tau = a->param[JOX_PARAM_wall_horizon][i], radius = a->breadth[i];
     Counts made = {0};
     if (s->nav->grid.first)
         made.walls = jox_orca_walls(
             &s->nav->grid, (JoxV2){a->x[i], a->y[i]}, (JoxV2){a->vx[i], a->vy[i]}, radius, tau,
             tau * a->param[JOX_PARAM_max_speed][i] + radius, half_planes, MOST_WALLS);
-    made.agents = agent_half_planes(s, i, half_planes + made.walls);
+    uint32_t n = made.walls;
+    n += made.contacts = contact_half_planes(s, i, half_planes + n);
+    n += made.agents = agent_half_planes(s, i, half_planes + n);
     if (s->objects && s->objects->count)
-        made.objects = jox_orca_objects(s->nav, a, i, s->objects, s->planning_time,
-                                        half_planes + made.walls + made.agents, MOST_OBJECTS);
+        n += made.objects = jox_orca_objects(s->nav, a, i, s->objects, s->touched, s->planning_time,
+                                             half_planes + n, MOST_OBJECTS);
     made.force = a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f;
     if (made.force)
-        half_planes[made.walls + made.agents + made.objects] =
+        half_planes[n++] =
             (JoxHalfPlane){{a->half_plane_x[i], a->half_plane_y[i]}, a->half_plane_offset[i]};
     JOX_ASSERT(made.walls <= MOST_WALLS && made.agents <= JOX_MOST_NEIGHBOURS);
-    JOX_CHECK(
-        jox_half_planes_check(half_planes, made.walls + made.agents + made.objects + made.force));
+    JOX_CHECK(jox_half_planes_check(half_planes, n));
     return made;
+}
+
+static const JoxContactPlanes *in_force(const JoxContactPlanes *touched) {
+    return touched && touched->agents ? touched : NULL;
 }
 
 uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                              const JoxNeighbours *neighbours, const JoxObjects *objects,
-                             double planning_time, uint32_t agent,
+                             const JoxContactPlanes *touched, double planning_time, uint32_t agent,
                              JoxConstraint out[JOX_MOST_CONSTRAINTS]) {
     static_assert((int)MOST == (int)JOX_MOST_CONSTRAINTS, "room for all");
     JOX_ASSERT(agent < agents->count);
-    const Solve solve = {(JoxNav *)nav, (JoxAgents *)agents, neighbours, objects,
-                         (float)planning_time};
+    const Solve solve = {(JoxNav *)nav,     (JoxAgents *)agents,  neighbours, objects,
+                         in_force(touched), (float)planning_time, true};
     JoxHalfPlane half_planes[MOST];
     Counts made = make_half_planes(&solve, agent, half_planes);
-    const uint32_t ends[] = {made.walls, made.walls + made.agents,
-                             made.walls + made.agents + made.objects, UINT32_MAX};
-    uint32_t count = ends[2] + made.force, kind = 0;
+    const uint32_t hard = made.walls + made.contacts;
+    const uint32_t ends[] = {made.walls, hard, hard + made.agents,
+                             hard + made.agents + made.objects, UINT32_MAX};
+    uint32_t count = ends[3] + made.force, kind = 0;
     for (uint32_t p = 0; p < count; p++) {
         while (p >= ends[kind])
             kind++;
@@ -98,23 +137,43 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
     return count;
 }
 
+/* Who is carried towards a wall by others may come as near as they do: the wall itself stops them
+   in the contacts. With that the velocity that the forces give meets every hard half-plane. */
+static void give_way_at_walls(const Solve *s, uint32_t i, JoxHalfPlane *walls, uint32_t count) {
+    JoxV2 carried = {s->agents->forced_x[i], s->agents->forced_y[i]};
+    for (uint32_t k = 0; k < count; k++)
+        walls[k].offset = jox_minf(walls[k].offset, jox_dot(walls[k].normal, carried));
+}
+
 static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     Solve *s = context;
     JoxAgents *a = s->agents;
     uint32_t relaxations = 0;
     for (uint32_t i = begin; i < end; i++) {
+        if (!s->plans && !jox_stands(a, i)) {
+            a->next_x[i] = a->plan_x[i];
+            a->next_y[i] = a->plan_y[i];
+            continue;
+        }
         JoxHalfPlane half_planes[MOST];
         Counts made = make_half_planes(s, i, half_planes);
-        uint32_t hard = made.walls, count = hard + made.agents + made.objects + made.force;
+        uint32_t hard = made.walls + made.contacts;
+        uint32_t count = hard + made.agents + made.objects + made.force;
         JoxV2 velocity;
         bool relaxed;
-        a->failed[i] |=
-            !jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i],
-                                      (JoxV2){a->pref_x[i], a->pref_y[i]}, &velocity, &relaxed);
+        const JoxV2 wanted = {a->pref_x[i], a->pref_y[i]};
+        bool met = jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted,
+                                            &velocity, &relaxed);
+        if (relaxed && made.contacts) {
+            give_way_at_walls(s, i, half_planes, made.walls);
+            jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
+                                     &relaxed);
+        }
+        a->failed[i] |= !met;
         relaxations += relaxed;
-        a->next_x[i] = velocity.x;
-        a->next_y[i] = velocity.y;
+        a->next_x[i] = a->plan_x[i] = velocity.x;
+        a->next_y[i] = a->plan_y[i] = velocity.y;
     }
     s->nav->chunk_relaxed[begin / JOX_NAV_GRAIN] = relaxations;
 }
@@ -133,8 +192,10 @@ static float wall_reach(const JoxAgents *a, float planning_time) {
 }
 
 uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
-                       const JoxObjects *objects, double planning_time, JoxPool *pool) {
-    Solve solve = {nav, agents, neighbours, objects, (float)planning_time};
+                       const JoxObjects *objects, const JoxContactPlanes *touched,
+                       double planning_time, bool plans, JoxPool *pool) {
+    Solve solve = {nav,  agents, neighbours, objects, in_force(touched), (float)planning_time,
+                   plans};
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, wall_reach(agents, (float)planning_time));
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, solve_range, &solve);

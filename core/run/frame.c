@@ -74,6 +74,7 @@ const JoxFrame *jox_run_frame(JoScene *scene) {
                           .states = f->states,
                           .state_count = f->state_count,
                           .walls = &world->scratch.walls};
+    f->frame.wall_loads = jox_force_wall_loads(world->scratch.forces, &f->frame.wall_load_count);
     return &f->frame;
 }
 

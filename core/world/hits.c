@@ -53,8 +53,9 @@ static void take_hits(const JoxBodyStage *s, const JoxBodiesReport *report) {
         a->vy[i] += hit->impulse.y / mass;
         a->force_x[i] += hit->impulse.x / dt;
         a->force_y[i] += hit->impulse.y / dt;
-        a->compression[i] +=
-            jox_length(hit->impulse) / dt / (6.2831853f * a->param[JOX_PARAM_radius][i]);
+        float force = jox_length(hit->impulse) / dt;
+        a->compression[i] += force / (6.2831853f * a->param[JOX_PARAM_radius][i]);
+        a->load[i] += force;
         a->contacts[i] += a->contacts[i] < 255;
     }
     JOX_ASSERT(!(report->hit_residual > 0.01 + 1e-3 * report->hit_impulse));

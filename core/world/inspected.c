@@ -105,14 +105,14 @@ void jox_inspect_pushed(JoxInspection *all, const JoxAgents *a, const JoxForces 
 
 void jox_inspect_solved(JoxInspection *all, const JoxAgents *a, const JoxNav *nav,
                         const JoxNeighbours *neighbours, const JoxObjects *objects,
-                        double planning_time) {
+                        const JoxContactPlanes *touched, double planning_time) {
     for (uint32_t n = 0; n < all->count; n++) {
         JoxInspected *seen = &all->agents[n];
         uint32_t i = jox_agents_find(a, seen->id);
         if (i == JOX_NO_INDEX)
             continue;
-        seen->plane_count =
-            jox_nav_constraints(nav, a, neighbours, objects, planning_time, i, seen->planes);
+        seen->plane_count = jox_nav_constraints(nav, a, neighbours, objects, touched, planning_time,
+                                                i, seen->planes);
         JOX_ASSERT(seen->plane_count <= JOX_MOST_CONSTRAINTS);
         seen->preferred = (JoxV2){a->pref_x[i], a->pref_y[i]};
         seen->chosen = (JoxV2){a->next_x[i], a->next_y[i]};

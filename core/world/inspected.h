@@ -51,7 +51,7 @@ void jox_inspect_pushed(JoxInspection *inspection, const JoxAgents *agents,
                         const JoxForces *forces);
 void jox_inspect_solved(JoxInspection *inspection, const JoxAgents *agents, const JoxNav *nav,
                         const JoxNeighbours *neighbours, const JoxObjects *objects,
-                        double planning_time);
+                        const JoxContactPlanes *touched, double planning_time);
 void jox_inspect_inferred(JoxInspection *inspection, const JoxAgents *agents,
                           const JoxForces *forces);
 /* Nobody has looked for a while: ends what is old. */

@@ -64,6 +64,7 @@ void jox_world_sections(JoWorld *w, JoxSections *s) {
     const JoxRouteStage route = jox_world_route_stage(w);
     jox_routes_sections(&route, s);
     jox_nav_sections(w->scratch.nav, s);
+    jox_forces_sections(w->scratch.forces, s);
     jox_drags_sections(&w->state.drags, s);
     jox_bodies_sections(w->state.bodies, s);
     jox_exits_sections(&w->state.exits, s);

@@ -45,9 +45,13 @@ void jox_stage_push(const JoxPushStage *s) {
     JoxForceStep step = {.agents = s->agents,
                          .neighbours = s->neighbours,
                          .objects = s->objects,
+                         .walls = jox_nav_touching_walls(s->nav, s->neighbours, s->agents),
                          .pool = s->pool,
                          .dt = s->substep->dt,
                          .planning_time = s->substep->planning_time,
+                         .response = s->substep->response,
+                         .interval = s->substep->interval,
+                         .interval_response = s->substep->interval_response,
                          .push_on = s->machines->push_on,
                          .push_nearest = s->machines->push_nearest,
                          .push_toward_x = s->machines->push_toward_x,
@@ -66,16 +70,18 @@ void jox_stage_push(const JoxPushStage *s) {
 }
 
 void jox_stage_solve(const JoxSolveStage *s) {
-    s->statistics->walls_relaxed += jox_nav_solve(s->nav, s->agents, s->neighbours, s->objects,
-                                                  s->substep->planning_time, s->pool);
+    s->statistics->walls_relaxed += jox_nav_solve(
+        s->nav, s->agents, s->neighbours, s->objects, jox_force_contact_planes(s->forces_of),
+        s->substep->planning_time, s->substep->plans, s->pool);
     jox_inspect_solved(s->inspection, s->agents, s->nav, s->neighbours, s->objects,
-                       s->substep->planning_time);
+                       jox_force_contact_planes(s->forces_of), s->substep->planning_time);
 }
 
 void jox_stage_move(const JoxMoveStage *s) {
     JoxAgents *a = s->agents;
     JOX_ASSERT(s->substep->only || a->count == 0 || s->walked);
-    jox_nav_move(s->nav, a, s->neighbours, s->substep->dt, s->substep->planning_time, s->pool);
+    jox_nav_move(s->nav, a, s->neighbours, s->objects, jox_force_contact_planes(s->forces_of),
+                 s->substep->dt, s->substep->response, s->pool);
     for (uint32_t i = 0; !s->substep->only && i < a->count; i++) {
         JoxV2 way = {a->x[i] - a->prev_x[i], a->y[i] - a->prev_y[i]};
         s->walked[i] = s->substep->first ? way : jox_add(s->walked[i], way);

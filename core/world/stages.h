@@ -18,6 +18,10 @@
 typedef struct JoxSubstep {
     bool first, last, only;   /* only: the step is not divided */
     double dt, planning_time; /* s: of the substep; how far ahead velocities are planned */
+    double response;          /* share of the way to the planned velocity gone in dt */
+    bool plans;               /* people plan anew; else they go on with what they planned */
+    double interval;          /* s, between plans */
+    double interval_response; /* the share gone in that time */
     double end;               /* s: simulated time at its end */
 } JoxSubstep;
 
@@ -54,10 +58,11 @@ typedef struct JoxPushStage {
     JoxPool *pool;
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
+    JoxNav *nav;                   /* its grid of walls */
     const JoxMachineRun *machines; /* who pushes, and whereto */
     JoxForces *forces_of;
-    JoxAgents
-        *agents; /* push, contact, force, plane, disc, compression, contacts; ext is used up */
+    JoxAgents *
+        agents; /* push, contact, force, plane, disc, compression, load, contacts; ext is used up */
     JoxInspection *inspection;
 } JoxPushStage;
 void jox_stage_push(const JoxPushStage *stage);
@@ -67,6 +72,7 @@ typedef struct JoxSolveStage {
     JoxPool *pool;
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
+    const JoxForces *forces_of; /* half-planes of what is touched */
     JoxNav *nav;
     JoxAgents *agents; /* next, failed */
     JoxInspection *inspection;
@@ -78,6 +84,8 @@ typedef struct JoxMoveStage {
     const JoxSubstep *substep;
     JoxPool *pool;
     const JoxNeighbours *neighbours;
+    const JoxObjects *objects;
+    const JoxForces *forces_of; /* who touches whom */
     JoxNav *nav;
     JoxAgents *agents; /* position, velocity, prev, still */
     JoxV2 *walked;     /* per agent, m: during the substeps so far; only where there are several */

@@ -1,14 +1,14 @@
 /* The step: nine stages, and what each may read and write (stages.h).
 
-   People plan the velocity that they will have PLANNING_TIME seconds later: the linear program, the
-   velocity that a force gives (equation 11) and the parting of overlaps look that far ahead, and
-   within a shorter step velocities go the corresponding part of the way. A longer step is done in
-   substeps. So the size of the step is not a property of people, and what they do hardly depends on
-   it. As printed, everything happens within one step of whatever length: with `literal` it does
-   here. */
+   Forces change velocities at once; the velocity that people plan beyond that they approach with
+   the time constant PLANNING_TIME, so that neither the size of the step nor how often they plan is
+   a property of people, and what they do hardly depends on it. A step that is longer is done in
+   substeps. As printed, everything happens within one step of whatever length: with `literal` it
+   does here. */
 #include <math.h>
 
 #include "base/assert.h"
+#include "base/elementary.h"
 #include "base/mem.h"
 #include "world/world.h"
 
@@ -67,6 +67,7 @@ static void push(JoWorld *w, const JoxSubstep *substep) {
                                    .pool = w->scratch.pool,
                                    .neighbours = &w->scratch.neighbours,
                                    .objects = &w->scratch.objects,
+                                   .nav = w->scratch.nav,
                                    .machines = &w->machines,
                                    .forces_of = w->scratch.forces,
                                    .agents = &w->state.agents,
@@ -78,6 +79,7 @@ static void solve(JoWorld *w, const JoxSubstep *substep) {
                                      .pool = w->scratch.pool,
                                      .neighbours = &w->scratch.neighbours,
                                      .objects = &w->scratch.objects,
+                                     .forces_of = w->scratch.forces,
                                      .nav = w->scratch.nav,
                                      .agents = &w->state.agents,
                                      .inspection = &w->scratch.inspection,
@@ -88,6 +90,8 @@ static void move(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_move(&(JoxMoveStage){.substep = substep,
                                    .pool = w->scratch.pool,
                                    .neighbours = &w->scratch.neighbours,
+                                   .objects = &w->scratch.objects,
+                                   .forces_of = w->scratch.forces,
                                    .nav = w->scratch.nav,
                                    .agents = &w->state.agents,
                                    .walked = w->scratch.walked});
@@ -140,12 +144,18 @@ static uint32_t divide(JoWorld *w) {
 
 static JoxSubstep substep_of(const JoWorld *w, uint32_t number, uint32_t substeps) {
     const JoWorldDef *def = &w->model.def;
-    double dt = def->dt / substeps;
+    double dt = def->dt / substeps, every = PLANNING_TIME / dt + 0.5;
+    uint32_t plan_every = def->literal || every < 2.0 ? 1 : (uint32_t)every;
     return (JoxSubstep){.first = number == 0,
                         .last = number + 1 == substeps,
                         .only = substeps == 1,
                         .dt = dt,
                         .planning_time = def->literal ? def->dt : PLANNING_TIME,
+                        .response = def->literal ? 1.0 : 1.0 - jox_exp(-dt / PLANNING_TIME),
+                        .plans = w->state.tick % plan_every == 0,
+                        .interval = dt * plan_every,
+                        .interval_response =
+                            def->literal ? 1.0 : 1.0 - jox_exp(-dt * plan_every / PLANNING_TIME),
                         .end = (double)w->state.tick * def->dt + (number + 1) * dt};
 }
 

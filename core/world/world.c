@@ -52,6 +52,8 @@ static void free_world(JoWorld *world) {
     jox_free(world->scratch.neighbours.index);
     jox_free(world->scratch.neighbours.distance2);
     jox_free(world->scratch.neighbours.count);
+    jox_free(world->scratch.neighbours.touch_index);
+    jox_free(world->scratch.neighbours.touch_count);
     jox_objects_free_grid(&world->scratch.objects);
     jox_free(world->scratch.walked);
     jox_free(world->scratch.gone.items);

@@ -53,8 +53,8 @@ static void step(Fixture *f, const JoxV2 *goals, float speed, double dt, JoxPool
         a->pref_y[i] = way.y * speed;
         a->speed_limit[i] = jox_maxf(a->param[JOX_PARAM_max_speed][i], speed);
     }
-    jox_nav_solve(f->nav, a, &f->neighbours, NULL, dt, pool);
-    jox_nav_move(f->nav, a, &f->neighbours, dt, dt, pool);
+    jox_nav_solve(f->nav, a, &f->neighbours, NULL, NULL, dt, true, pool);
+    jox_nav_move(f->nav, a, &f->neighbours, NULL, NULL, dt, 1.0, pool);
     f->tick++;
 }
 

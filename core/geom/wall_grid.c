@@ -1,10 +1,11 @@
 /* A grid over the edges of walls, which tells the edges near a point. */
+#include "geom/wall_grid.h"
+
 #include <math.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
-#include "nav/internal.h"
 
 enum { MOST_CELLS = 1 << 20 };
 
@@ -75,6 +76,19 @@ static void enter_edge(JoxWallGrid *g, uint32_t edge) {
         }
 }
 
+static void check_grid(const JoxWallGrid *g) {
+    size_t cells = (size_t)g->columns * g->rows;
+    JOX_ASSERT(cells > 0 && g->cell > 0.0f && g->reach > 0.0f);
+    JOX_ASSERT(g->first[0] == 0);
+    for (size_t c = 0; c < cells; c++) {
+        JOX_ASSERT(g->first[c] <= g->first[c + 1]);
+        for (uint32_t k = g->first[c]; k < g->first[c + 1]; k++) {
+            JOX_ASSERT(g->edges[k] < g->walls->count);
+            JOX_ASSERT(k == g->first[c] || g->edges[k - 1] < g->edges[k]);
+        }
+    }
+}
+
 void jox_wall_grid_reset(JoxWallGrid *g, float reach) {
     const JoxWalls *walls = g->walls;
     jox_wall_grid_free(g);
@@ -92,7 +106,7 @@ void jox_wall_grid_reset(JoxWallGrid *g, float reach) {
     g->edges = jox_alloc(g->first[cells] + 1, sizeof *g->edges);
     for (uint32_t e = walls->count; e-- > 0;) /* backwards, as each list fills from its end */
         enter_edge(g, e);
-    JOX_CHECK(jox_wall_grid_check(g));
+    JOX_CHECK(check_grid(g));
 }
 
 void jox_wall_grid_fit(JoxWallGrid *g, float reach) {
@@ -127,4 +141,21 @@ bool jox_walls_contain(const JoxWalls *walls, JoxV2 p) {
         inside |= in_ring;
     }
     return inside;
+}
+
+/* Whether the ways p -> q and a -> b cross. */
+static bool cross(JoxV2 p, JoxV2 q, JoxV2 a, JoxV2 b) {
+    JoxV2 way = jox_sub(q, p), edge = jox_sub(b, a);
+    float p_side = jox_det(edge, jox_sub(p, a)), q_side = jox_det(edge, jox_sub(q, a));
+    float a_side = jox_det(way, jox_sub(a, p)), b_side = jox_det(way, jox_sub(b, p));
+    return (p_side > 0.0f) != (q_side > 0.0f) && (a_side > 0.0f) != (b_side > 0.0f);
+}
+
+bool jox_wall_grid_separates(const JoxWallGrid *g, JoxV2 from, JoxV2 to) {
+    uint32_t count;
+    const uint32_t *edges = jox_wall_grid_at(g, from, &count);
+    for (uint32_t k = 0; k < count; k++)
+        if (cross(from, to, g->walls->vertices[edges[k]].point, end_of(g->walls, edges[k])->point))
+            return true;
+    return false;
 }

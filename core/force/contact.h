@@ -1,0 +1,95 @@
+/* Contacts of a step: who touches whom, which wall and which body, and the impulses that keep them
+   from moving into each other. Found, laid out, solved and read by the files contact_*.c. */
+#ifndef JOX_FORCE_CONTACT_H
+#define JOX_FORCE_CONTACT_H
+
+#include "agents/agents.h"
+#include "agents/contact_planes.h"
+#include "agents/neighbours.h"
+#include "geom/objects.h"
+#include "geom/wall_grid.h"
+
+enum {
+    JOX_CONTACT_MOST_COLOURS = 64, /* so many contacts with others has an agent at most */
+    JOX_CONTACT_MOST_WALLS = 6     /* edges that one agent touches at a time */
+};
+
+/* What one agent was found to touch; the normal points to the agent, the gap is in m. Of two agents
+   the one of lesser id has found it. */
+typedef struct JoxFoundContact {
+    uint32_t other; /* agent, edge of a wall, or row of a body */
+    JoxV2 normal;
+    float gap, along; /* along: of a wall, from the start of the edge, m */
+} JoxFoundContact;
+
+/* Contacts between agents in columns, sorted by colour: no agent occurs twice in a colour, so that
+   the contacts of one colour may be solved in any order, at once. The normal points to the first,
+   which has found the contact. */
+typedef struct JoxPairs {
+    uint32_t count, colours;
+    uint32_t listed;                               /* found: entries of `place` */
+    uint32_t starts[JOX_CONTACT_MOST_COLOURS + 1]; /* of each colour */
+    uint32_t *first, *second;
+    float *nx, *ny;
+    float *target;   /* least normal velocity of the first relative to the second, m/s */
+    float *mass;     /* reduced mass, kg */
+    float *impulse;  /* accumulated, at least 0, N s */
+    uint32_t *place; /* of the contacts in ascending ids of first, then second;
+                        JOX_NO_INDEX: left out */
+    size_t capacities[8];
+} JoxPairs;
+
+/* An agent at the edge of a wall. */
+typedef struct JoxWallContact {
+    uint32_t agent, edge;
+    JoxV2 normal;
+    float along, target, impulse;
+} JoxWallContact;
+
+/* An agent at a body. A push on a body uses the normal's place for its force. */
+typedef struct JoxTouch {
+    uint32_t agent, object;
+    JoxV2 normal;
+    JoxV3 point;
+    float gap, target, mass, impulse; /* m, m/s, kg, N s */
+} JoxTouch;
+
+/* An agent's end of a contact with another. */
+typedef struct JoxEnd {
+    uint32_t pair; /* index in the columns */
+    uint32_t other;
+} JoxEnd;
+
+/* The impulse of a contact of the step before, from which the next solve starts; by ascending ids.
+   `other`: id of an agent or a body, or edge. */
+typedef struct JoxKeptImpulse {
+    uint32_t id, other;
+    float impulse; /* N s */
+} JoxKeptImpulse;
+typedef struct JoxKeptImpulses {
+    JoxKeptImpulse *items;
+    size_t count, capacity;
+} JoxKeptImpulses;
+
+/* What the contacts of the last step gave a body, and how it would have answered on its own: with
+   how it did answer, that tells how much of it yields. A box at a wall does not. */
+typedef struct JoxPressedBody {
+    uint32_t row, id;
+    JoxV3 velocity, spin;   /* before, m/s and rad/s */
+    JoxV3 impulse, angular; /* N s, N m s */
+    float work; /* sum over the contacts of impulse times velocity that a free body gains
+                   along it, J */
+} JoxPressedBody;
+typedef struct JoxPressedBodies {
+    JoxPressedBody *items;
+    size_t count, capacity;
+} JoxPressedBodies;
+
+/* Velocity and spin of a body while contacts are solved. */
+typedef struct JoxBodyMotion {
+    JoxV3 velocity, spin;
+    float yields; /* share of its free answer, 0 to 1 */
+    uint32_t touches;
+} JoxBodyMotion;
+
+#endif

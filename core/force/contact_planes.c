@@ -1,0 +1,109 @@
+/* The half-planes of what agents touch, from the velocities that the forces give all of them by the
+   end of the step: two that touch may move in the normal direction as their mean
+   does, so that neither plans to move into the other. What is being pushed may brake by its feet;
+   what follows another that recedes need not. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "force/equations.h"
+#include "force/internal.h"
+
+/* m/s: what is left of the solve of contacts must not make planes contradict each other. */
+static const float SLACK = 1e-3f;
+
+/* How much of a speed the feet can take away by the end of the step; more in the plan, of which the
+   step does a share. */
+static inline float braking(const JoxForceStep *step, uint32_t i, float speed) {
+    const JoxPlanning plan = jox_planning_of(step, i);
+    float damping = step->agents->param[JOX_PARAM_damping][i];
+    float lost = 1.0f - (float)jox_exp(-(double)(damping * plan.interval));
+    return speed * jox_minf(1.0f, lost / plan.response);
+}
+
+/* Least normal speed of agent i, away from j, where both together move at `speed`: who is pushed
+   may brake; who follows one that wants to be slower makes allowance for that. */
+static float bound_of(const JoxForceStep *step, uint32_t i, uint32_t j, JoxV2 normal, float speed) {
+    const JoxAgents *a = step->agents;
+    if (speed > 0.0f)
+        return speed - braking(step, i, speed);
+    float wanted = -jox_dot((JoxV2){a->pref_x[j], a->pref_y[j]}, normal);
+    float brakes = jox_clampf(-speed - wanted, 0.0f, braking(step, j, -speed));
+    return speed + brakes;
+}
+
+/* The agents that i touches: those that press on it or that it overlaps. */
+static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out) {
+    const JoxAgents *a = f->step.agents;
+    const JoxPairs *p = &f->pairs;
+    const float time = (float)f->step.planning_time;
+    uint32_t n = 0;
+    for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1]; k++) {
+        uint32_t at = f->ends[k].pair, j = f->ends[k].other;
+        if (!(p->impulse[at] > 0.0f || p->target[at] >= 0.0f) || n == JOX_MOST_TOUCHED)
+            continue;
+        float sign = p->first[at] == i ? 1.0f : -1.0f;
+        JoxV2 normal = {sign * p->nx[at], sign * p->ny[at]};
+        JoxV2 mean = {0.5f * (a->forced_x[i] + a->forced_x[j]),
+                      0.5f * (a->forced_y[i] + a->forced_y[j])};
+        float gap = p->target[at] < 0.0f ? -p->target[at] * (float)f->step.dt : 0.0f;
+        float own = jox_dot((JoxV2){a->forced_x[i], a->forced_y[i]}, normal);
+        float both = jox_minf(jox_dot(mean, normal), own);
+        float least = bound_of(&f->step, i, j, normal, both) - SLACK;
+        float radii = jox_touch_radius(a, i) + jox_touch_radius(a, j);
+        out[n++] = (JoxContactPlane){normal, least - 0.5f * gap / time, j, radii};
+    }
+    return n;
+}
+
+static uint32_t body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out) {
+    const float time = (float)f->step.planning_time;
+    uint32_t n = 0;
+    for (uint32_t k = 0; k < jox_touches_of(f, i); k++) {
+        const JoxTouch *t = &f->touch[f->touch_first[i] + k];
+        if (!(t->impulse > 0.0f || t->gap <= 0.0f))
+            continue;
+        JoxV2 forced = {f->step.agents->forced_x[i], f->step.agents->forced_y[i]};
+        float speed = jox_minf(jox_touch_speed_after(f, t), jox_dot(forced, t->normal));
+        float least = speed;
+        if (speed > 0.0f)
+            least -= braking(&f->step, i, speed);
+        least -= jox_maxf(t->gap, 0.0f) / time + SLACK;
+        out[n++] = (JoxContactPlane){t->normal, least, t->object, 0.0f};
+    }
+    return n;
+}
+
+static void plane_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    JoxContactPlanes *planes = &f->planes;
+    for (uint32_t i = begin; i < end; i++) {
+        JoxContactPlane *own = planes->planes + planes->starts[i];
+        planes->people[i] = (uint8_t)people_planes(f, i, own);
+        planes->bodies[i] = (uint8_t)body_planes(f, i, own + planes->people[i]);
+    }
+}
+
+void jox_contact_planes_make(JoxForces *f) {
+    uint32_t n = f->step.agents->count;
+    JoxContactPlanes *planes = &f->planes;
+    planes->agents = 0;
+    if (!f->contacts_known || f->options.literal || n == 0)
+        return;
+    JOX_RESERVE(planes->starts, planes->starts_capacity, n);
+    JOX_RESERVE(planes->people, planes->people_capacity, n);
+    JOX_RESERVE(planes->bodies, planes->bodies_capacity, n);
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        planes->starts[i] = most;
+        most += f->end_starts[i + 1] - f->end_starts[i] + jox_touches_of(f, i);
+    }
+    JOX_RESERVE(planes->planes, planes->plane_capacity, most > 8 * n ? most : 8 * n);
+    planes->agents = n;
+    jox_parallel_for(f->step.pool, n, JOX_FORCE_GRAIN, plane_chunk, f);
+}
+
+const JoxContactPlanes *jox_force_contact_planes(const JoxForces *f) {
+    return &f->planes;
+}

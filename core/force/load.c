@@ -1,0 +1,145 @@
+/* What contacts press people and walls with.
+
+   Compression is the sum of |f.n| over all contacts of a person, with people, walls and bodies,
+   over the girth 2 pi r, N/m. The load is the greatest, over all directions d, of the sum of the
+   positive parts of f.d: the force that the person bears from one side, N; of somebody held between
+   two forces of 600 N it is 600 N. Pushes received, and given, are contacts; forces from outside,
+   and those that people pass on (equations 8 and 9), are none. */
+#include <math.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "force/equations.h"
+#include "force/internal.h"
+
+enum { MOST_FORCES = 64 };
+
+/* The greatest, over half-planes, of the length of the sum of the forces within: that is the
+   greatest sum of positive parts over directions. A border that passes through a force has it on
+   either side. */
+static float greatest_push(const JoxV2 *force, uint32_t count) {
+    if (count == 0)
+        return 0.0f;
+    if (count == 1)
+        return jox_length(force[0]);
+    float most2 = 0.0f;
+    for (uint32_t k = 0; k < count; k++) {
+        JoxV2 left = {0.0f, 0.0f}, right = {0.0f, 0.0f};
+        for (uint32_t m = 0; m < count; m++) {
+            float side = m == k ? 0.0f : jox_det(force[k], force[m]);
+            bool ahead = jox_dot(force[k], force[m]) > 0.0f;
+            if (side > 0.0f || (side == 0.0f && ahead))
+                left = jox_add(left, force[m]);
+            if (side < 0.0f || (side == 0.0f && ahead))
+                right = jox_add(right, force[m]);
+        }
+        most2 = jox_maxf(most2, jox_maxf(jox_length2(left), jox_length2(right)));
+    }
+    return sqrtf(most2);
+}
+
+/* All that presses on agent i, N, walls apart. */
+static uint32_t forces_on(const JoxForces *f, uint32_t i, JoxV2 *out, uint32_t most) {
+    const JoxPairs *p = &f->pairs;
+    const float per_second = 1.0f / (float)f->step.dt;
+    uint32_t n = 0;
+    for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1] && n < most; k++) {
+        uint32_t at = f->ends[k].pair;
+        float force = p->impulse[at] * per_second;
+        if (force > 0.0f)
+            out[n++] = jox_scale((JoxV2){p->nx[at], p->ny[at]}, p->first[at] == i ? force : -force);
+    }
+    for (uint32_t k = 0; k < jox_touches_of(f, i) && n < most; k++) {
+        const JoxTouch *t = &f->touch[f->touch_first[i] + k];
+        if (t->impulse > 0.0f)
+            out[n++] = jox_scale(t->normal, t->impulse * per_second);
+    }
+    for (uint32_t k = f->wall_first[i]; k < f->wall_first[i] + f->wall_number[i] && n < most; k++)
+        if (f->wall[k].impulse > 0.0f)
+            out[n++] = jox_scale(f->wall[k].normal, f->wall[k].impulse * per_second);
+    for (uint32_t k = f->pushed ? f->starts[i] : 0; f->pushed && k < f->starts[i + 1] && n < most;
+         k++)
+        if (f->sorted[k].from_id != f->step.agents->id[i])
+            out[n++] = (JoxV2){f->sorted[k].x, f->sorted[k].y};
+    if ((f->braced[i].x != 0.0f || f->braced[i].y != 0.0f) && n < most)
+        out[n++] = f->braced[i];
+    return n;
+}
+
+static void measure_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    JoxAgents *a = f->step.agents;
+    JoxV2 force[MOST_FORCES];
+    for (uint32_t i = begin; i < end; i++) {
+        uint32_t n = forces_on(f, i, force, MOST_FORCES);
+        float sum = 0.0f;
+        for (uint32_t k = 0; k < n; k++)
+            sum += jox_length(force[k]);
+        a->compression[i] = sum / jox_circumference(a->param[JOX_PARAM_radius][i]);
+        a->load[i] = greatest_push(force, n);
+        JOX_ASSERT(!(a->load[i] > sum * 1.001f + 1e-3f));
+    }
+}
+
+/* Where the contacts of agents with walls stand in the list of all; it has the order of ids. */
+static void index_walls(JoxForces *f) {
+    for (uint32_t k = f->wall_count; k-- > 0;)
+        f->wall_first[f->wall[k].agent] = k;
+}
+
+/* Pieces of an edge: none is longer than this. */
+static const float PIECE = 1.0f; /* m */
+
+static float edge_length(const JoxWalls *walls, uint32_t edge) {
+    const JoxWallVertex *v = &walls->vertices[edge];
+    return jox_length(jox_sub(walls->vertices[v->next].point, v->point));
+}
+
+void jox_forces_set_walls(JoxForces *f, const JoxWalls *walls) {
+    f->walls = walls;
+    uint32_t edges = walls ? walls->count : 0, pieces = 0;
+    JOX_RESERVE(f->piece_first, f->piece_first_capacity, (size_t)edges + 1);
+    for (uint32_t e = 0; e < edges; e++) {
+        f->piece_first[e] = pieces;
+        pieces += (uint32_t)ceilf(jox_maxf(edge_length(walls, e) / PIECE - 1e-3f, 1e-3f));
+    }
+    f->piece_first[edges] = pieces;
+    JOX_RESERVE(f->pieces, f->piece_capacity, pieces);
+    f->piece_count = pieces;
+    for (uint32_t e = 0; e < edges; e++) {
+        const JoxWallVertex *v = &walls->vertices[e];
+        uint32_t n = f->piece_first[e + 1] - f->piece_first[e];
+        float length = edge_length(walls, e) / (float)n;
+        for (uint32_t k = 0; k < n; k++)
+            f->pieces[f->piece_first[e] + k] = (JoxWallLoad){
+                .edge = e,
+                .from = jox_add(v->point, jox_scale(v->direction, (float)k * length)),
+                .to = jox_add(v->point, jox_scale(v->direction, (float)(k + 1) * length))};
+    }
+}
+
+static void measure_walls(JoxForces *f) {
+    for (uint32_t k = 0; k < f->piece_count; k++)
+        f->pieces[k].load = 0.0f;
+    for (uint32_t k = 0; k < f->wall_count && f->walls; k++) {
+        const JoxWallContact *w = &f->wall[k];
+        uint32_t first = f->piece_first[w->edge], n = f->piece_first[w->edge + 1] - first;
+        float length = edge_length(f->walls, w->edge) / (float)n;
+        uint32_t piece = length > 0.0f ? (uint32_t)(w->along / length) : 0;
+        JOX_ASSERT(w->edge < f->walls->count && n > 0);
+        f->pieces[first + (piece < n ? piece : n - 1)].load += w->impulse / (float)f->step.dt;
+    }
+}
+
+const JoxWallLoad *jox_force_wall_loads(const JoxForces *f, uint32_t *count) {
+    *count = f->piece_count;
+    return f->pieces;
+}
+
+void jox_loads_measure(JoxForces *f) {
+    index_walls(f);
+    jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, measure_chunk, f);
+    measure_walls(f);
+}

@@ -1,0 +1,247 @@
+/* Equation 7: contacts of agents with bodies. How a body answers is known from the step before:
+   what holds it there, walls, friction or other bodies, is Bullet's to know, not this solve's. */
+#include <math.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "base/sort.h"
+#include "force/equations.h"
+#include "force/internal.h"
+
+static const float CHEST = 1.1f; /* m; people push and are hit there */
+
+float jox_touch_height(const JoxObject *body) {
+    return jox_minf(jox_maxf(CHEST, body->low), body->high);
+}
+
+/* Body `row` as agent i touches it: false where the gap cannot close within the step. */
+static bool touches(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *touch) {
+    const JoxAgents *a = f->step.agents;
+    const JoxObject *body = &f->step.objects->rows[row];
+    JoxFootprintPoint at = jox_footprint_nearest(body, jox_v2(a->x[i], a->y[i]));
+    JoxV2 towards = {a->vx[i] - body->velocity.x, a->vy[i] - body->velocity.y};
+    float closing = jox_length(towards) * (float)f->step.dt;
+    float gap = at.gap - jox_touch_radius(a, i);
+    if (!(gap < JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing)))
+        return false;
+    JOX_ASSERT(jox_is_unit(at.normal));
+    JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};
+    *touch = (JoxTouch){.agent = i, .object = row, .normal = at.normal, .point = point, .gap = gap};
+    return true;
+}
+
+void jox_touches_find(JoxForces *f, uint32_t begin, uint32_t end) {
+    const JoxAgents *a = f->step.agents;
+    uint32_t chunk = begin / JOX_FORCE_GRAIN;
+    JoxTouch *list = (JoxTouch *)f->touches.items + (size_t)chunk * f->touches.room;
+    for (uint32_t i = begin; i < end; i++) {
+        JoxV2 at = {a->x[i], a->y[i]};
+        float reach = a->param[JOX_PARAM_radius][i] + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
+        JoxNearest nearest = {.most = JOX_MOST_BODIES_TOUCHED};
+        JoxObjectWalk walk = jox_objects_near(f->step.objects, at, reach);
+        JoxTouch touch;
+        uint32_t row;
+        while (jox_objects_next(&walk, &row)) {
+            const JoxObject *body = &f->step.objects->rows[row];
+            if (!body->swept && jox_object_reaches(body, at, reach) && touches(f, i, row, &touch))
+                jox_nearest_offer(&nearest, touch.gap, row);
+        }
+        f->touch_number[i] = (uint8_t)nearest.count;
+        for (uint32_t k = 0; k < nearest.count; k++) {
+            touches(f, i, nearest.rows[k], &touch);
+            list[f->touches.counts[chunk]++] = touch;
+        }
+        JOX_ASSERT(f->touches.counts[chunk] <= f->touches.room);
+    }
+}
+
+/* By agent id, then row. `context`: the agents. */
+static int by_agent(const void *a, const void *b, const void *context) {
+    const JoxTouch *x = a, *y = b;
+    const uint32_t *id = ((const JoxAgents *)context)->id;
+    if (x->agent != y->agent)
+        return id[x->agent] < id[y->agent] ? -1 : 1;
+    return (x->object > y->object) - (x->object < y->object);
+}
+
+void jox_touches_collect(JoxForces *f) {
+    const JoxAgents *a = f->step.agents;
+    uint32_t count = 0;
+    for (uint32_t c = 0; c < f->chunks; c++)
+        count += f->touches.counts[c];
+    JOX_RESERVE(f->touch, f->touch_capacity, count + JOX_SORT_SPARE(count));
+    f->touch_count = 0;
+    for (uint32_t c = 0; c < f->chunks; c++) {
+        const JoxTouch *list = (const JoxTouch *)f->touches.items + (size_t)c * f->touches.room;
+        if (f->touches.counts[c])
+            memcpy(f->touch + f->touch_count, list, f->touches.counts[c] * sizeof *list);
+        f->touch_count += f->touches.counts[c];
+    }
+    jox_sort(f->touch, count, sizeof *f->touch, by_agent, a, f->touch + count);
+    f->totals.touches = count;
+    for (uint32_t t = count; t-- > 0;)
+        f->touch_first[f->touch[t].agent] = t;
+}
+
+JoxV3 jox_arm_of(const JoxObject *body, JoxV3 point) {
+    return (JoxV3){point.x - body->position.x, point.y - body->position.y,
+                   point.z - body->position.z};
+}
+
+/* Velocity of a body at a point along a level direction, m/s. */
+static float speed_at(const JoxBodyMotion *motion, const JoxObject *body, JoxV3 point,
+                      JoxV2 along) {
+    JoxV3 turning = jox_cross3(motion->spin, jox_arm_of(body, point));
+    return (motion->velocity.x + turning.x) * along.x + (motion->velocity.y + turning.y) * along.y;
+}
+
+float jox_touch_speed_before(const JoxForces *f, const JoxTouch *t) {
+    const JoxObject *body = &f->step.objects->rows[t->object];
+    const JoxBodyMotion motion = {.velocity = body->velocity, .spin = body->spin};
+    return speed_at(&motion, body, t->point, t->normal);
+}
+
+float jox_touch_speed_after(const JoxForces *f, const JoxTouch *t) {
+    return speed_at(&f->motions[t->object], &f->step.objects->rows[t->object], t->point, t->normal);
+}
+
+/* How much of what its contacts asked of a body in the last step it did: all where it is free,
+   nothing where a wall or the floor's friction holds it. */
+static float yields(const JoxForces *f, uint32_t row) {
+    const JoxObject *body = &f->step.objects->rows[row];
+    for (size_t k = 0; k < f->pressed.count; k++) {
+        const JoxPressedBody *p = &f->pressed.items[k];
+        if (p->row != row || p->id != body->id)
+            continue;
+        JoxV3 faster = {body->velocity.x - p->velocity.x, body->velocity.y - p->velocity.y,
+                        body->velocity.z - p->velocity.z};
+        JoxV3 spun = {body->spin.x - p->spin.x, body->spin.y - p->spin.y, body->spin.z - p->spin.z};
+        float work = jox_dot3(p->impulse, faster) + jox_dot3(p->angular, spun);
+        return jox_clampf(work / p->work, 0.0f, 1.0f);
+    }
+    return 1.0f;
+}
+
+static void add_impulse(JoxForces *f, const JoxTouch *t, float impulse) {
+    const JoxObject *body = &f->step.objects->rows[t->object];
+    JoxBodyMotion *motion = &f->motions[t->object];
+    float lightness = f->lightness[t->agent], give = motion->yields;
+    f->work[t->agent].x += t->normal.x * impulse * lightness;
+    f->work[t->agent].y += t->normal.y * impulse * lightness;
+    JoxV3 on_body = {-t->normal.x * impulse, -t->normal.y * impulse, 0.0f};
+    JoxV3 turn = jox_turn3(body->inverse_inertia, jox_cross3(jox_arm_of(body, t->point), on_body));
+    motion->velocity.x += on_body.x * body->inverse_mass * give;
+    motion->velocity.y += on_body.y * body->inverse_mass * give;
+    motion->spin.x += turn.x * give;
+    motion->spin.y += turn.y * give;
+    motion->spin.z += turn.z * give;
+}
+
+static void reset_motions(JoxForces *f) {
+    JOX_RESERVE(f->motions, f->motion_capacity, f->step.objects->count);
+    for (uint32_t t = 0; t < f->touch_count; t++) {
+        uint32_t row = f->touch[t].object;
+        const JoxObject *body = &f->step.objects->rows[row];
+        f->motions[row] = (JoxBodyMotion){
+            .velocity = body->velocity, .spin = body->spin, .yields = yields(f, row)};
+    }
+}
+
+void jox_touches_begin(JoxForces *f) {
+    const JoxAgents *a = f->step.agents;
+    size_t kept = 0;
+    if (!f->touch_count)
+        return;
+    reset_motions(f);
+    for (uint32_t k = 0; k < f->touch_count; k++) {
+        JoxTouch *t = &f->touch[k];
+        const JoxObject *body = &f->step.objects->rows[t->object];
+        float give = jox_body_inverse_mass(body, t->point, t->normal);
+        float restitution = jox_minf(a->param[JOX_PARAM_restitution][t->agent], body->restitution);
+        float speed = jox_dot(jox_v2(a->vx[t->agent], a->vy[t->agent]), t->normal) -
+                      jox_touch_speed_before(f, t);
+        t->mass = 1.0f /
+                  (1.0f / a->param[JOX_PARAM_mass][t->agent] + give * f->motions[t->object].yields);
+        t->target = jox_contact_target(t->gap, speed, restitution, (float)f->step.dt);
+        t->impulse = jox_kept_impulse(&f->kept_touches, &kept, a->id[t->agent], t->object);
+        JOX_ASSERT(t->mass > 0.0f);
+    }
+    for (uint32_t k = 0; k < f->touch_count; k++)
+        add_impulse(f, &f->touch[k], f->touch[k].impulse);
+}
+
+/* In ascending agent id, on one thread: touches are few. */
+float jox_touches_pass(JoxForces *f) {
+    float most = 0.0f;
+    for (uint32_t k = 0; k < f->touch_count; k++) {
+        JoxTouch *t = &f->touch[k];
+        float speed = jox_dot(f->work[t->agent], t->normal) - jox_touch_speed_after(f, t);
+        float before = t->impulse;
+        t->impulse = jox_maxf(0.0f, before + (t->target - speed) * t->mass);
+        most = jox_maxf(most, fabsf(t->impulse - before));
+        add_impulse(f, t, t->impulse - before);
+    }
+    return most;
+}
+
+static JoxPressedBody *pressed_record(JoxForces *f, uint32_t row) {
+    const JoxObject *body = &f->step.objects->rows[row];
+    for (size_t k = 0; k < f->pressed.count; k++)
+        if (f->pressed.items[k].row == row)
+            return &f->pressed.items[k];
+    JOX_RESERVE(f->pressed.items, f->pressed.capacity, f->pressed.count + 1);
+    JoxPressedBody *record = &f->pressed.items[f->pressed.count++];
+    *record = (JoxPressedBody){
+        .row = row, .id = body->id, .velocity = body->velocity, .spin = body->spin};
+    return record;
+}
+
+/* What this step's contacts give bodies, for yields in the next. */
+static void note_pressed(JoxForces *f) {
+    f->pressed.count = 0;
+    for (uint32_t k = 0; k < f->touch_count; k++) {
+        const JoxTouch *t = &f->touch[k];
+        const JoxObject *body = &f->step.objects->rows[t->object];
+        if (!(t->impulse > 0.0f) || !(body->inverse_mass > 0.0f))
+            continue;
+        JoxPressedBody *p = pressed_record(f, t->object);
+        JoxV3 impulse = {-t->normal.x * t->impulse, -t->normal.y * t->impulse, 0.0f};
+        JoxV3 angular = jox_cross3(jox_arm_of(body, t->point), impulse);
+        p->impulse = (JoxV3){p->impulse.x + impulse.x, p->impulse.y + impulse.y, 0.0f};
+        p->angular =
+            (JoxV3){p->angular.x + angular.x, p->angular.y + angular.y, p->angular.z + angular.z};
+    }
+    size_t kept = 0;
+    for (size_t k = 0; k < f->pressed.count; k++) {
+        JoxPressedBody *p = &f->pressed.items[k];
+        const JoxObject *body = &f->step.objects->rows[p->row];
+        p->work = jox_dot3(p->impulse, p->impulse) * body->inverse_mass +
+                  jox_dot3(p->angular, jox_turn3(body->inverse_inertia, p->angular));
+        if (p->work > 0.0f)
+            f->pressed.items[kept++] = *p;
+    }
+    f->pressed.count = kept;
+}
+
+/* Impulses for the bodies: what people got, with the opposite sign. */
+void jox_touches_finish(JoxForces *f) {
+    const JoxAgents *a = f->step.agents;
+    JoxForceTotals *totals = &f->totals;
+    JOX_RESERVE(f->kept_touches.items, f->kept_touches.capacity, f->touch_count);
+    f->kept_touches.count = f->touch_count;
+    for (uint32_t k = 0; k < f->touch_count; k++) {
+        const JoxTouch *t = &f->touch[k];
+        f->kept_touches.items[k] = (JoxKeptImpulse){a->id[t->agent], t->object, t->impulse};
+        if (!(t->impulse > 0.0f) || !(f->step.objects->rows[t->object].inverse_mass > 0.0f))
+            continue;
+        JOX_ASSERT(jox_is_unit(t->normal) && t->agent < a->count);
+        JoxV2 impulse = jox_scale(t->normal, t->impulse);
+        totals->touched_x += (double)impulse.x;
+        totals->touched_y += (double)impulse.y;
+        totals->touched += t->impulse;
+        jox_force_add_impulse(f, a->id[t->agent], t->object, (JoxV3){-impulse.x, -impulse.y, 0.0f},
+                              t->point);
+    }
+    note_pressed(f);
+}

@@ -1,0 +1,33 @@
+/* A grid over the edges of walls, which tells the edges near a point. */
+#ifndef JOX_GEOM_WALL_GRID_H
+#define JOX_GEOM_WALL_GRID_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "geom/walls.h"
+
+/* Edges of walls by cell: each cell lists all edges within `reach` of any of its points. */
+typedef struct JoxWallGrid {
+    const JoxWalls *walls;
+    float reach, cell; /* m */
+    JoxV2 low;
+    uint32_t columns, rows;
+    uint32_t *first; /* columns * rows + 1 */
+    uint32_t *edges;
+} JoxWallGrid;
+
+/* Makes the grid serve queries up to `reach` metres; does nothing if it already does. */
+void jox_wall_grid_fit(JoxWallGrid *grid, float reach);
+/* Makes it anew for queries up to exactly `reach` metres; empty for 0. */
+void jox_wall_grid_reset(JoxWallGrid *grid, float reach);
+/* Edges that may be within the grid's reach of a point. */
+const uint32_t *jox_wall_grid_at(const JoxWallGrid *grid, JoxV2 point, uint32_t *count);
+/* Whether an edge that is within the grid's reach of `from` separates it from `to`: no one touches
+   another through a wall. Ends that lie on an edge are separated from those beyond it. */
+bool jox_wall_grid_separates(const JoxWallGrid *grid, JoxV2 from, JoxV2 to);
+void jox_wall_grid_free(JoxWallGrid *grid);
+/* Point inside a solid (crossing number over the solid rings). */
+bool jox_walls_contain(const JoxWalls *walls, JoxV2 point);
+
+#endif

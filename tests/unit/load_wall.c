@@ -1,0 +1,155 @@
+/* Nobody touches anybody through a wall: two people on either side of a thin one. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "world/world.h"
+
+static const double STEPS[] = {0.1, 0.05, 0.025, 0.0125, 0.00625};
+enum { STEP_COUNT = 5 };
+static const double GIRTH = 6.28318530717958648 * 0.2; /* m */
+
+/* A thin wall along x = 0, from low to high, or none where these are the same; a person to the left
+   of it and one to the right. */
+typedef struct Sides {
+    JoWorld *world;
+    JoAgent left, right;
+} Sides;
+
+static Sides open_sides(double dt, double low, double high, double gap, double perception) {
+    Sides s;
+    JoWorldDef def = jo_default_world_def();
+    def.dt = dt;
+    s.world = jo_world_create(&def, NULL);
+    const double line[] = {0.0, low, 0.0, high};
+    if (low < high)
+        assert_true(jo_world_add_line(s.world, line, 2, NULL));
+    JoAgentDef person = jo_default_agent_def();
+    person.perception = perception;
+    person.x = -0.2 - gap;
+    s.left = jo_world_add_agent(s.world, &person, NULL);
+    person.x = 0.2 + gap;
+    s.right = jo_world_add_agent(s.world, &person, NULL);
+    return s;
+}
+
+static void press(Sides *s, double seconds, double left, double right) {
+    double dt = s->world->model.def.dt;
+    for (int step = 0; step < (int)(seconds / dt + 0.5); step++) {
+        jo_agent_apply_force(s->world, s->left, left, 0.0);
+        jo_agent_apply_force(s->world, s->right, -right, 0.0);
+        jo_world_step(s->world, 1);
+    }
+    assert_null(jo_world_failure(s->world));
+}
+
+static void bears(const Sides *s, JoAgent who, double newtons, const char *what) {
+    JoAgentState a = jo_agent_state(s->world, who);
+    double off = fmax(fabs(a.load - newtons), fabs(a.compression * GIRTH - newtons));
+    if (!(off <= 0.03 * newtons + 1.0))
+        fail_msg("%s, at dt %g: %s bears %.0f N and %.0f N/m, not %.0f N and %.0f N/m", what,
+                 s->world->model.def.dt,
+                 who.slot == s->left.slot ? "the left one" : "the right one", a.load, a.compression,
+                 newtons, newtons / GIRTH);
+}
+
+/* 1 cm from the wall at first; pressed together by 600 N each, each bears the wall's 600 N, 477
+   N/m, and nothing of the other. */
+static void pressed_together(void **state) {
+    (void)state;
+    for (int k = 0; k < 2 * STEP_COUNT; k++) {
+        Sides s = open_sides(STEPS[k % STEP_COUNT], -2.0, 2.0, 0.01, k < STEP_COUNT ? 3.0 : 0.0);
+        press(&s, 3.0, 600.0, 600.0);
+        bears(&s, s.left, 600.0, "pressed together");
+        bears(&s, s.right, 600.0, "pressed together");
+        assert_true(jo_agent_state(s.world, s.left).x < -0.19);
+        assert_true(jo_agent_state(s.world, s.right).x > 0.19);
+        jo_world_free(s.world);
+    }
+}
+
+/* One who stands beside the wall bears nothing of what presses on the other side of it, and stays.
+ */
+static void one_pressed_and_one_standing(void **state) {
+    (void)state;
+    for (int k = 0; k < 2 * STEP_COUNT; k++)
+        for (int near = 0; near < 3; near++) {
+            double gap = near == 0 ? 0.0 : near == 1 ? 0.001 : 0.05;
+            Sides s = open_sides(STEPS[k % STEP_COUNT], -2.0, 2.0, gap, k < STEP_COUNT ? 3.0 : 0.0);
+            const JoxAgents *a = &s.world->state.agents;
+            for (int part = 0; part < 30; part++) {
+                press(&s, 0.1, 1000.0, 0.0);
+                uint32_t right = jox_world_find(s.world, s.right);
+                if (a->inferred_x[right] != 0.0f || a->contact_x[right] != 0.0f)
+                    fail_msg("at dt %g the one behind the wall gets %g N passed on and %g N by "
+                             "contact",
+                             s.world->model.def.dt, (double)a->inferred_x[right],
+                             (double)a->contact_x[right]);
+            }
+            bears(&s, s.left, 1000.0, "one pressed");
+            bears(&s, s.right, 0.0, "one standing");
+            assert_true(fabs(jo_agent_state(s.world, s.right).x - 0.2 - gap) < 0.005);
+            jo_world_free(s.world);
+        }
+}
+
+/* Who pushes towards a wall pushes nobody behind it; who runs into it throws nobody there. */
+static void pushes_and_runs_end_at_the_wall(void **state) {
+    (void)state;
+    for (int k = 0; k < STEP_COUNT; k++)
+        for (int run = 0; run < 2; run++) {
+            Sides s = open_sides(STEPS[k], -2.0, 2.0, 0.02, 3.0);
+            JoxAgents *a = &s.world->state.agents;
+            if (run) {
+                uint32_t left = jox_world_find(s.world, s.left);
+                a->vx[left] = 2.0f;
+            } else {
+                jo_agent_set_parameter(s.world, s.left, "push", 300.0);
+                jo_agent_set_preferred(s.world, s.left, 1.3, 0.0);
+            }
+            for (int step = 0; step < (int)(2.0 / STEPS[k]); step++) {
+                jo_world_step(s.world, 1);
+                uint32_t right = jox_world_find(s.world, s.right);
+                if (a->push_x[right] != 0.0f || a->inferred_x[right] != 0.0f)
+                    fail_msg("at dt %g the one behind the wall is pushed by %g N and gets %g N "
+                             "passed on",
+                             STEPS[k], (double)a->push_x[right], (double)a->inferred_x[right]);
+            }
+            bears(&s, s.right, 0.0, "behind the wall");
+            assert_true(fabs(jo_agent_state(s.world, s.right).x - 0.22) < 0.005);
+            jo_world_free(s.world);
+        }
+}
+
+/* Without the wall, or beyond its end, the same people touch: the tests above can fail. */
+static void beyond_its_end_they_touch(void **state) {
+    (void)state;
+    for (int k = 0; k < STEP_COUNT; k++)
+        for (int end = 0; end < 2; end++) {
+            Sides s = open_sides(STEPS[k], end ? -3.0 : 0.0, end ? -1.0 : 0.0, 0.01, 3.0);
+            press(&s, 3.0, 600.0, 600.0);
+            bears(&s, s.left, 600.0, "without a wall between");
+            bears(&s, s.right, 600.0, "without a wall between");
+            jo_world_free(s.world);
+            s = open_sides(STEPS[k], end ? -3.0 : 0.0, end ? -1.0 : 0.0, 0.02, 3.0);
+            jo_agent_set_parameter(s.world, s.left, "push", 300.0);
+            jo_agent_set_preferred(s.world, s.left, 1.3, 0.0);
+            jo_world_step(s.world, 1);
+            assert_true(s.world->state.agents.push_x[jox_world_find(s.world, s.right)] > 299.0f);
+            jo_world_free(s.world);
+        }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pressed_together),
+        cmocka_unit_test(one_pressed_and_one_standing),
+        cmocka_unit_test(pushes_and_runs_end_at_the_wall),
+        cmocka_unit_test(beyond_its_end_they_touch),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
