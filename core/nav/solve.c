@@ -49,9 +49,10 @@ static bool is_touched(const JoxContactPlanes *t, uint32_t i, uint32_t j) {
     return false;
 }
 
-/* Whether a wall stands between two who would else touch. */
+/* Whether a wall stands between two who would else touch, or soon could: then neither minds the
+   other. */
 static bool is_hidden(const Solve *s, uint32_t i, JoxV2 offset, float radii) {
-    float near = radii + JOX_TOUCH_LEAST;
+    float near = radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
     if (!s->touched || !s->nav->grid.first || jox_length2(offset) > near * near)
         return false;
     JoxV2 at = {s->agents->x[i], s->agents->y[i]};
