@@ -79,7 +79,12 @@ near() { # KEY WITHIN: in the run and in its recording
     awk -v a="$a" -v b="$b" -v d="$2" 'BEGIN {exit !(a != "" && a + 0 > 0 && a - b <= d && b - a <= d)}'
     verdict "danger: $1 is that of the run ($a, $b)" $?
 }
-near left 0; near clearance_s 0.11; near density_max 0.15; near density_max_s 0.6; near compression_max 12; near compression_max_s 0.31
+near left 0; near clearance_s 0.11; near density_max 0.15; near density_max_s 0.6; near compression_max 2; near compression_max_s 0.11
+for key in load_max dose_max; do # of the mean since the frame before, held over a second: as of every step
+    a=$(number $key "$work/evac.json") b=$(number $key "$work/evac-again.json")
+    awk -v a="$a" -v b="$b" 'BEGIN {exit !(a != "" && b != "" && a - b <= 0.04 * a && b - a <= 0.04 * a)}'
+    verdict "danger: $key is that of the run ($a, $b)" $?
+done
 for file in index.html danger.csv danger.png danger-map.svg; do [ -s "$work/evac-page/$file" ]; verdict "the report has $file" $?; done
 tail -1 "$work/evac-page/danger.csv" | awk -F, '{exit !($2 == 0 && $NF == 140)}'; verdict "danger.csv ends with nobody there and 140 who left" $?
 missing=0

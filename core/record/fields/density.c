@@ -25,95 +25,9 @@ JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel) 
     return d;
 }
 
-static JoxV2 corner(const JoxDensity *d) { /* of all cells */
-    return (JoxV2){d->low.x - (float)d->edge * d->cell, d->low.y - (float)d->edge * d->cell};
-}
-
 static size_t inner(const JoxDensity *d, size_t cell) { /* a cell that is read, among all */
     size_t row = cell / d->columns + (size_t)d->edge, column = cell % d->columns + (size_t)d->edge;
     return row * (size_t)d->wide + column;
-}
-
-/* The cell that (x, y) lies in, so that the cells around it exist too. */
-static bool locate(const JoxDensity *d, float x, float y, int *column, int *row) {
-    JoxV2 low = corner(d);
-    float c = floorf((x - low.x) / d->cell), r = floorf((y - low.y) / d->cell);
-    if (!(c >= 1.0f && r >= 1.0f && c < (float)(d->wide - 1) && r < (float)(d->high - 1)))
-        return false;
-    *column = (int)c;
-    *row = (int)r;
-    return true;
-}
-
-JoxDensityNode jox_density_node(const JoxDensity *d, float x, float y, int *column, int *row) {
-    const JoxDensityFloor *f = d->floor;
-    float nearest = INFINITY;
-    const int c0 = *column, r0 = *row;
-    const size_t own = (size_t)r0 * (size_t)d->wide + (size_t)c0;
-    bool seen = false;
-    if (f->per[own] > 0.0f && !jox_density_hidden(d, jox_v2(x, y), f->node[own]))
-        return JOX_DENSITY_SEEN;
-    for (int r = r0 > 0 ? r0 - 1 : 0; r <= r0 + 1 && r < d->high; r++)
-        for (int c = c0 > 0 ? c0 - 1 : 0; c <= c0 + 1 && c < d->wide; c++) {
-            size_t n = (size_t)r * (size_t)d->wide + (size_t)c;
-            float away = jox_length2(jox_sub(f->node[n], jox_v2(x, y)));
-            if (f->per[n] <= 0.0f || (seen && away >= nearest))
-                continue;
-            bool sees = !jox_density_hidden(d, jox_v2(x, y), f->node[n]);
-            if (!sees && (seen || away >= nearest))
-                continue;
-            nearest = away;
-            seen = sees;
-            *column = c;
-            *row = r;
-        }
-    return seen ? JOX_DENSITY_SEEN : nearest < INFINITY ? JOX_DENSITY_HIDDEN : JOX_DENSITY_NO_NODE;
-}
-
-/* Shares between the nearest node and those beside it, of which some may be behind walls. */
-static int share_near(const JoxDensity *d, float x, float y, int column, int row, uint32_t nodes[4],
-                      float shares[4]) {
-    if (jox_density_node(d, x, y, &column, &row) == JOX_DENSITY_NO_NODE)
-        return 0;
-    const JoxDensityFloor *f = d->floor;
-    const JoxV2 low = corner(d);
-    const int wide = d->wide;
-    float right = (x - low.x) / d->cell - (float)column - 0.5f;
-    float above = (y - low.y) / d->cell - (float)row - 0.5f;
-    const int n = row * wide + column, x_step = right < 0.0f ? -1 : 1;
-    const int y_step = above < 0.0f ? -wide : wide;
-    right = jox_minf(fabsf(right), 0.5f);
-    above = jox_minf(fabsf(above), 0.5f);
-    const int beside = n + x_step, over = n + y_step, across = over + x_step;
-    const int left = x_step < 0 ? -1 : 0, below = y_step < 0 ? -wide : 0;
-    bool to_side = f->open_x[n + left] > 0.0f, to_over = f->open_y[n + below] > 0.0f;
-    bool to_across =
-        (to_side && f->open_y[beside + below] > 0.0f) || (to_over && f->open_x[over + left] > 0.0f);
-    nodes[0] = (uint32_t)n, nodes[1] = (uint32_t)beside;
-    nodes[2] = (uint32_t)over, nodes[3] = (uint32_t)across;
-    shares[1] = to_side ? right * (1.0f - above) : 0.0f;
-    shares[2] = to_over ? above * (1.0f - right) : 0.0f;
-    shares[3] = to_across ? above * right : 0.0f;
-    shares[0] = 1.0f - shares[1] - shares[2] - shares[3];
-    return 4;
-}
-
-int jox_density_share(const JoxDensity *d, float x, float y, uint32_t nodes[4], float shares[4]) {
-    int column, row;
-    if (!locate(d, x, y, &column, &row))
-        return 0;
-    if (d->floor && d->floor->near[row * d->wide + column])
-        return share_near(d, x, y, column, row, nodes, shares);
-    const JoxV2 low = corner(d);
-    float right = (x - low.x) / d->cell - 0.5f, above = (y - low.y) / d->cell - 0.5f;
-    const int c = (int)floorf(right), r = (int)floorf(above);
-    right -= (float)c;
-    above -= (float)r;
-    for (int k = 0; k < 4; k++) {
-        nodes[k] = (uint32_t)((r + k / 2) * d->wide + c + k % 2);
-        shares[k] = (k % 2 ? right : 1.0f - right) * (k / 2 ? above : 1.0f - above);
-    }
-    return 4;
 }
 
 void jox_density_begin(JoxDensity *d, int fields) {
@@ -194,7 +108,7 @@ void jox_density_add(JoxDensity *d, JoxV2 period, const float *x, const float *y
 
 bool jox_density_cell_of(const JoxDensity *d, float x, float y, size_t *cell) {
     int column, row;
-    if (!locate(d, x, y, &column, &row))
+    if (!jox_density_locate(d, x, y, &column, &row))
         return false;
     if (d->floor && d->floor->near[row * d->wide + column])
         (void)jox_density_node(d, x, y, &column, &row); /* who stands in a wall: their own cell */

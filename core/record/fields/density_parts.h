@@ -32,15 +32,21 @@ struct JoxDensityFloor {
     uint32_t *first, *passing, passing_capacity;
 };
 
-/* The nodes that share somebody at (x, y), with their shares. 0: nowhere near the area. */
-int jox_density_share(const JoxDensity *density, float x, float y, uint32_t nodes[4],
-                      float shares[4]);
+/* density_nodes.c: the lowest corner of all cells; a whole number within 0..most. */
+JoxV2 jox_density_corner(const JoxDensity *density);
+int jox_density_clamped(double value, int most);
+/* The cell that (x, y) lies in, if there are cells around it too. */
+bool jox_density_locate(const JoxDensity *density, float x, float y, int *column, int *row);
+/* Whether a wall stands between two points that are at most two cells apart. */
+bool jox_density_hidden(const JoxDensity *density, JoxV2 a, JoxV2 b);
 /* From the cell of (x, y) to that of the node which holds for there: its own, if it is seen from
    there, or else the nearest that is, or if none is, as within a wall, the nearest of any floor. */
 typedef enum { JOX_DENSITY_NO_NODE, JOX_DENSITY_HIDDEN, JOX_DENSITY_SEEN } JoxDensityNode;
 JoxDensityNode jox_density_node(const JoxDensity *density, float x, float y, int *column, int *row);
-/* density_walls.c: whether a wall stands between two points that are at most two cells apart. */
-bool jox_density_hidden(const JoxDensity *density, JoxV2 a, JoxV2 b);
+/* The nodes that share somebody at (x, y), with their shares. 0: nowhere near the area. */
+int jox_density_share(const JoxDensity *density, float x, float y, uint32_t nodes[4],
+                      float shares[4]);
+/* density_walls.c */
 void jox_density_free_floor(JoxDensityFloor *floor);
 /* density_spread.c: makes a field's masses densities, in 1/cell, by the kernel. */
 void jox_density_spread(JoxDensity *density, int field);

@@ -22,28 +22,21 @@ typedef struct Solid {
     uint32_t count;
 } Solid;
 
-static JoxV2 corner(const JoxDensity *d) {
-    return (JoxV2){d->low.x - (float)d->edge * d->cell, d->low.y - (float)d->edge * d->cell};
-}
-static int clamped(double value, int most) {
-    return value < 0.0 ? 0 : value > most ? most : (int)value;
-}
-
 /* ---- which walls pass through which cells ---- */
 
 /* Shows each cell that a bar passes through to the count of `first`, or with `fill` to the list. */
 static void pass_through(JoxDensity *d, uint32_t bar, bool fill) {
     JoxDensityFloor *f = d->floor;
     const Bar *b = &f->bars[bar];
-    const JoxV2 low = corner(d);
+    const JoxV2 low = jox_density_corner(d);
     const double h = d->cell, e = 1e-3;
     double ax = (b->ax - low.x) / h, ay = (b->ay - low.y) / h;
     double bx = (b->bx - low.x) / h, by = (b->by - low.y) / h;
     if (fmax(ax, bx) < -e || fmax(ay, by) < -e || fmin(ax, bx) > d->wide + e ||
         fmin(ay, by) > d->high + e)
         return;
-    int last = clamped(fmax(ay, by) + e, d->high - 1);
-    for (int row = clamped(fmin(ay, by) - e, d->high - 1); row <= last; row++) {
+    int last = jox_density_clamped(fmax(ay, by) + e, d->high - 1);
+    for (int row = jox_density_clamped(fmin(ay, by) - e, d->high - 1); row <= last; row++) {
         double from = 0.0, to = 1.0; /* the stretch of the bar within the row */
         if (fabs(by - ay) > TOUCHES) {
             double s = (row - e - ay) / (by - ay), t = (row + 1 + e - ay) / (by - ay);
@@ -53,8 +46,8 @@ static void pass_through(JoxDensity *d, uint32_t bar, bool fill) {
         double x = ax + from * (bx - ax), y = ax + to * (bx - ax);
         if (from > to || fmax(x, y) < -e || fmin(x, y) > d->wide + e)
             continue;
-        int right = clamped(fmax(x, y) + e, d->wide - 1);
-        for (int c = clamped(fmin(x, y) - e, d->wide - 1); c <= right; c++) {
+        int right = jox_density_clamped(fmax(x, y) + e, d->wide - 1);
+        for (int c = jox_density_clamped(fmin(x, y) - e, d->wide - 1); c <= right; c++) {
             uint32_t *n = &f->first[row * d->wide + c];
             if (fill)
                 f->passing[--*n] = bar;
@@ -90,34 +83,6 @@ static bool has_wall(const JoxDensityFloor *f, size_t cell) {
     return f->first[cell] < f->first[cell + 1];
 }
 
-/* Whether a-b touches a bar, of which a length of `slack` is nothing. */
-static bool touches(const Bar *bar, double ax, double ay, double bx, double by) {
-    double wx = bar->bx - bar->ax, wy = bar->by - bar->ay, px = bx - ax, py = by - ay;
-    double a = wx * (ay - bar->ay) - wy * (ax - bar->ax);
-    double b = wx * (by - bar->ay) - wy * (bx - bar->ax);
-    double c = px * (bar->ay - ay) - py * (bar->ax - ax);
-    double e = px * (bar->by - ay) - py * (bar->bx - ax);
-    double slack = TOUCHES * (wx * wx + wy * wy + px * px + py * py);
-    return !((a > slack && b > slack) || (a < -slack && b < -slack) || (c > slack && e > slack) ||
-             (c < -slack && e < -slack));
-}
-
-bool jox_density_hidden(const JoxDensity *d, JoxV2 a, JoxV2 b) {
-    const JoxDensityFloor *f = d->floor;
-    const JoxV2 low = corner(d);
-    double ax = (a.x - low.x) / d->cell, ay = (a.y - low.y) / d->cell;
-    double bx = (b.x - low.x) / d->cell, by = (b.y - low.y) / d->cell;
-    int right = clamped(fmax(ax, bx), d->wide - 1), above = clamped(fmax(ay, by), d->high - 1);
-    for (int r = clamped(fmin(ay, by), d->high - 1); r <= above; r++)
-        for (int c = clamped(fmin(ax, bx), d->wide - 1); c <= right; c++) {
-            size_t cell = (size_t)r * (size_t)d->wide + (size_t)c;
-            for (uint32_t k = f->first[cell]; k < f->first[cell + 1]; k++)
-                if (touches(&f->bars[f->passing[k]], a.x, a.y, b.x, b.y))
-                    return true;
-        }
-    return false;
-}
-
 /* ---- nodes ---- */
 
 static bool within(const Solid *solids, uint32_t count, JoxV2 p) {
@@ -129,7 +94,7 @@ static bool within(const Solid *solids, uint32_t count, JoxV2 p) {
 }
 
 static JoxV2 fine_point(const JoxDensity *d, int column, int row, int k) {
-    const JoxV2 low = corner(d);
+    const JoxV2 low = jox_density_corner(d);
     return jox_v2(low.x + ((float)column + ((float)k + 0.5f) / FINE) * d->cell,
                   low.y + ((float)row + ((float)(k * TURN % FINE) + 0.5f) / FINE) * d->cell);
 }
@@ -151,7 +116,7 @@ static bool stands(const JoxDensity *d, size_t cell, JoxV2 p, const Solid *solid
    where there is one. Cells without walls are as the one before them in their row. */
 static void place_nodes(JoxDensity *d, const Solid *solids, uint32_t count) {
     JoxDensityFloor *f = d->floor;
-    const JoxV2 low = corner(d);
+    const JoxV2 low = jox_density_corner(d);
     for (int row = 0; row < d->high; row++)
         for (int column = 0; column < d->wide; column++) {
             size_t cell = (size_t)row * (size_t)d->wide + (size_t)column;
@@ -181,9 +146,9 @@ static void place_nodes(JoxDensity *d, const Solid *solids, uint32_t count) {
 /* The node to which a point of the floor belongs; false: none that is seen from there. */
 static bool owner_of(const JoxDensity *d, JoxV2 p, const Solid *solids, uint32_t count, int *node) {
     const JoxDensityFloor *f = d->floor;
-    const JoxV2 low = corner(d);
-    int column = clamped((p.x - low.x) / d->cell, d->wide - 1);
-    int row = clamped((p.y - low.y) / d->cell, d->high - 1);
+    const JoxV2 low = jox_density_corner(d);
+    int column = jox_density_clamped((p.x - low.x) / d->cell, d->wide - 1);
+    int row = jox_density_clamped((p.y - low.y) / d->cell, d->high - 1);
     const int cell = row * d->wide + column;
     *node = cell;
     if (!f->near[cell])
@@ -233,7 +198,7 @@ static void link_side(JoxDensity *d, int cell, int beyond, JoxV2 from, JoxV2 alo
 /* Where one can go. Nothing goes beyond the outermost cells but one. */
 static void open_ways(JoxDensity *d, const Solid *solids, uint32_t count) {
     JoxDensityFloor *f = d->floor;
-    const JoxV2 low = corner(d);
+    const JoxV2 low = jox_density_corner(d);
     const int wide = d->wide;
     const size_t size = (size_t)wide * (size_t)d->high * sizeof(float);
     memset(f->open_x, 0, size);
