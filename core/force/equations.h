@@ -108,8 +108,7 @@ static inline JoxV2 jox_deceleration(JoxV2 change, float absorb, float mass, uin
 
 /* (8) The greatest share, up to 1, of a momentum along a unit vector that gives a mass of `speed`
    along it no more than `energy`. N s, kg, m/s, J. */
-static inline float jox_share_within_energy(float momentum, float mass, float speed,
-                                            float energy) {
+static inline float jox_share_within_energy(float momentum, float mass, float speed, float energy) {
     float most = mass * (sqrtf(speed * speed + 2.0f * energy / mass) - speed);
     return momentum > most ? most / momentum : 1.0f;
 }

@@ -117,8 +117,8 @@ static float share_taken(const JoxForces *f, uint32_t to, JoxV2 force, float ene
     if (!(size > 0.0f))
         return 0.0f;
     JoxV2 direction = jox_scale(force, 1.0f / size);
-    JoxV2 coming = jox_scale((JoxV2){a->inferred_x[to], a->inferred_y[to]},
-                             f->options.filter / mass);
+    JoxV2 coming =
+        jox_scale((JoxV2){a->inferred_x[to], a->inferred_y[to]}, f->options.filter / mass);
     float speed = jox_dot((JoxV2){a->vx[to], a->vy[to]}, direction) +
                   jox_maxf(0.0f, jox_dot(coming, direction));
     return jox_share_within_energy(size * (float)f->step.dt, mass, speed, energy);

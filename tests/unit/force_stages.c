@@ -170,7 +170,7 @@ static void the_braced_pass_on_and_the_slowing_throw(void **state) {
     add_agent(&c, -0.5f, 0, 0, 0);
     add_agent(&c, 9, 9, 2, 0); /* nobody near */
     JoxAgents *a = &c.agents;
-    a->pref_x[3] = 1;          /* and wants to walk on */
+    a->pref_x[3] = 1;           /* and wants to walk on */
     add_agent(&c, -9, 9, 2, 0); /* nobody near, and wants to stand */
     double share = 1 - exp(-0.05 / 0.13);
     begin(&c);

@@ -24,8 +24,8 @@ static const double ARRIVED = 0.5; /* s, after which all but 2 % of a passed-on 
 static const double SECONDS = 1.2, TURN = 6.28318530717958648;
 static const double STEPS[] = {0.1, 0.05, 0.025, 0.0125};
 
-/* Who coasts wants the velocity that they have: their feet do nothing. That is so at steps of .05 s;
-   at finer ones people go on with the plan of up to .05 s ago, which is muscle work, and what
+/* Who coasts wants the velocity that they have: their feet do nothing. That is so at steps of .05
+   s; at finer ones people go on with the plan of up to .05 s ago, which is muscle work, and what
    contacts and bodies do is held against the step before. Who sees others passes forces
    on to them (equations 8 and 9), but steps aside for nobody: that is work of muscles, and no
    overlap; see those_at_rest_stay_so for it. */
