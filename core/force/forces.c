@@ -69,7 +69,7 @@ void jox_forces_free(JoxForces *f) {
                      f->kept_pairs.items,
                      f->kept_walls.items,
                      f->kept_touches.items,
-                     f->pressed.items,
+                     f->support,
                      f->pending,
                      f->impulses,
                      f->old_x,
@@ -159,7 +159,6 @@ void jox_forces_sections(JoxForces *f, JoxSections *s) {
     list_kept(s, "pairs", &f->kept_pairs);
     list_kept(s, "walls", &f->kept_walls);
     list_kept(s, "touches", &f->kept_touches);
-    JOX_SECTION_ARRAY(s, "pressed", f->pressed.items, f->pressed.count, f->pressed.capacity);
 }
 
 JoxForceTotals jox_force_totals(const JoxForces *f) {
