@@ -33,7 +33,7 @@ return machine {
       { to = "Walk",  when = crosses(own.far) | near(own.far, 0.1) },
       { to = "ToFar", when = ~near(own.far, 3) } },
 
-    Walk = { steer = seek(own.goal), speed = walks.speed, horizon = walks.horizon, push_when = walks.push_when,
+    Walk = { steer = field(own.goal), speed = walks.speed, horizon = walks.horizon, push_when = walks.push_when,
       { to = "Gone", when = inside(own.goal) } },
 
     Gone = { removes = true },

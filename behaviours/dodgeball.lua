@@ -4,14 +4,15 @@ local mine_to_kick = grounded(ball) & inside(ball, own.court)
 
 return machine {
   name = "dodgeball", version = 1, start = "Defense",
-  defaults = { speed = 2.5, max_speed = 4, perception = 20, horizon = 2, mass = 70 },
+  defaults = { speed = 2.5, max_speed = 4, perception = 30, horizon = 2, mass = 70 },
 
   states = {
     Defense = { steer = away_from(ball),
       { to = "Attack",  when = mine_to_kick } },
 
-    -- Approached, the ball is not avoided; the kick grows with the runner's speed.
-    Attack = { steer = seek(ball), approach = ball, speed = 3,
+    -- Approached, the ball is not avoided, and others in the way are run into; the kick grows with the
+    -- runner's speed.
+    Attack = { steer = seek(ball), approach = ball, ignore = "ball", speed = 3,
       kick = { ball, at = nearest "opponents", impulse = 2 + 2 * now.speed },
       { to = "Defense", when = kicked(ball) | grounded(ball) & ~inside(ball, own.court) } },
   },

@@ -78,8 +78,8 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Wanted, def.colour)},
     {"color", "WHAT[:MOST]", CLI_TO(Wanted, def.colour)},
     {"field", "WHAT[:MOST]",
-     "on the floor: density (people/m2) or pressure (crowd pressure, 1/s2, from 10 s on); people "
-     "are then rings",
+     "on the floor: density (people/m2) or pressure (crowd pressure, 1/s2, from 20 s on, where "
+     "it can be measured); people are then rings",
      CLI_TO(Wanted, def.field)},
     {"paths", NULL, "where people and bodies went until then (of many, 500)",
      CLI_TO(Wanted, def.paths)},

@@ -58,9 +58,10 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Run, data)},
     {"summary", "FILE",
      "write the run's figures as JSON; '-' is standard output. \"density_max\" is the greatest "
-     "density of any time, people per m2 by a Gaussian kernel of 1.5 m, sampled every 2 s from the "
-     "heat map's `from` on; \"clearance_s\" is when the last of all left, null while anybody is "
-     "inside",
+     "density of any place and time, people per m2 by a Gaussian of R = 1 m within the walls, "
+     "sampled every 0.5 s, as in all maps and tables; \"clearance_s\" is when the last of all "
+     "left, "
+     "null while anybody is inside",
      CLI_TO(Run, summary)},
     {"profile-lua", NULL, "list what each plain Lua function costs, by state",
      CLI_TO(Run, profile)},

@@ -80,6 +80,18 @@ static inline JoxV2 jox_resistance(JoxV2 force_unit, float shortfall, float abso
     return jox_scale(force_unit, absorb * mass * shortfall / ((float)n * dt));
 }
 
+/* (8) Whether someone slows down rather than turns: the change of velocity points against the way
+   travelled within the step, that is against the mean of both velocities, within an angle of this
+   cosine. Printed, it is the new velocity, which has no direction after a full stop. */
+static inline bool jox_slows(JoxV2 before, JoxV2 after, float cosine) {
+    JoxV2 change = jox_sub(after, before), way = jox_add(after, before);
+    float against = -jox_dot(change, way); /* |before|^2 - |after|^2 */
+    if (!(against > 0.0f))
+        return false;
+    return cosine <= 0.0f ||
+           against * against > cosine * cosine * jox_length2(change) * jox_length2(way);
+}
+
 /* (8) Change of a velocity, no longer than the old velocity: else a turn would count as a stop
    harder than a full one. */
 static inline JoxV2 jox_slowing(JoxV2 before, JoxV2 after) {

@@ -114,6 +114,7 @@ void jox_forces_set_walls(JoxForces *f, const JoxWalls *walls) {
         float length = edge_length(walls, e) / (float)n;
         for (uint32_t k = 0; k < n; k++)
             f->pieces[f->piece_first[e] + k] = (JoxWallLoad){
+                .edge = e,
                 .from = jox_add(v->point, jox_scale(v->direction, (float)k * length)),
                 .to = jox_add(v->point, jox_scale(v->direction, (float)(k + 1) * length))};
     }

@@ -106,7 +106,7 @@ static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
     float dt = (float)f->step.dt, mass = a->param[JOX_PARAM_mass][i];
     float absorb = a->param[JOX_PARAM_absorb][i];
     JoxV2 before = {f->old_x[i], f->old_y[i]}, after = {a->vx[i], a->vy[i]};
-    if (!(jox_length2(after) < jox_length2(before)) || !(absorb > 0.0f))
+    if (!(absorb > 0.0f) || !jox_slows(before, after, a->param[JOX_PARAM_brace_angle][i]))
         return;
     JoxV2 change = jox_slowing(before, after);
     if (!(jox_length(change) * absorb >= f->options.least * dt))

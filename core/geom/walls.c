@@ -144,3 +144,55 @@ void jox_walls_free(JoxWalls *walls) {
     jox_free(walls->rings);
     *walls = (JoxWalls){0};
 }
+
+/* ---- what is free between walls ---- */
+
+/* The part of a wall's edge within a hair of a line, as shares of the line's length; false of none.
+ */
+static bool on_line(JoxV2 from, JoxV2 along, JoxV2 p, JoxV2 q, float *first, float *last) {
+    const float length = jox_length(along), hair = 0.01f;
+    const JoxV2 unit = jox_scale(along, 1.0f / length);
+    const float beside_p = jox_det(unit, jox_sub(p, from));
+    const float by = jox_det(unit, jox_sub(q, from)) - beside_p;
+    float low = 0.0f, high = 1.0f; /* of the edge */
+    if (by == 0.0f) {
+        if (fabsf(beside_p) > hair)
+            return false;
+    } else {
+        const float in = (-hair - beside_p) / by, out = (hair - beside_p) / by;
+        low = jox_maxf(low, jox_minf(in, out));
+        high = jox_minf(high, jox_maxf(in, out));
+    }
+    if (low > high)
+        return false;
+    const JoxV2 edge = jox_sub(q, p);
+    const float one = jox_dot(unit, jox_sub(jox_add(p, jox_scale(edge, low)), from)) / length;
+    const float two = jox_dot(unit, jox_sub(jox_add(p, jox_scale(edge, high)), from)) / length;
+    *first = jox_minf(one, two);
+    *last = jox_maxf(one, two);
+    return true;
+}
+
+void jox_walls_clear(const JoxWalls *walls, const JoxV2 line[2], JoxV2 ends[2]) {
+    const JoxV2 along = jox_sub(line[1], line[0]);
+    float low = 0.0f, high = 1.0f, first, last;
+    bool blocked = jox_dot(along, along) == 0.0f;
+    for (uint32_t r = 0; walls && !blocked && r < walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &walls->rings[r];
+        for (uint32_t v = ring->first; !ring->open && v < ring->first + ring->count; v++) {
+            const JoxWallVertex *vertex = &walls->vertices[v];
+            if (!on_line(line[0], along, vertex->point, walls->vertices[vertex->next].point, &first,
+                         &last))
+                continue;
+            blocked |= first < 0.5f && last > 0.5f;
+            if (last <= 0.5f)
+                low = jox_maxf(low, last);
+            if (first >= 0.5f)
+                high = jox_minf(high, first);
+        }
+    }
+    if (blocked || low >= high)
+        low = 0.0f, high = 1.0f;
+    ends[0] = jox_add(line[0], jox_scale(along, low));
+    ends[1] = jox_add(line[0], jox_scale(along, high));
+}

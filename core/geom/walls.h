@@ -32,10 +32,11 @@ typedef struct JoxWalls {
     uint32_t ring_count, ring_capacity;
 } JoxWalls;
 
-/* A piece of the edge of a wall, at most a metre long, and what presses on it. */
+/* A piece of the edge of a wall, at most a metre long, and what contacts press on it. */
 typedef struct JoxWallLoad {
+    uint32_t edge;  /* its vertex */
     JoxV2 from, to; /* m */
-    float load;     /* N: sum of the magnitudes of the forces across the wall */
+    float load;     /* N: sum of the magnitudes of the forces across it */
 } JoxWallLoad;
 
 /* Adds a solid polygon (turned counter-clockwise if it is not) of at least 3 points. */
@@ -58,6 +59,9 @@ void jox_walls_standing(JoxWalls *out, const JoxWalls *all, bool gates);
 /* Points of a ring as they were given, from its first vertex on, and whether the last is joined to
    the first. A closed line is two rings, of which *twin says that the next repeats this one. */
 uint32_t jox_walls_given(const JoxWalls *walls, uint32_t ring, bool *closed, bool *twin);
+/* Ends of the part of a line that walls leave about its middle, in the line's direction; all of it
+   where they stand in the middle. */
+void jox_walls_clear(const JoxWalls *walls, const JoxV2 line[2], JoxV2 ends[2]);
 void jox_walls_free(JoxWalls *walls);
 
 #endif

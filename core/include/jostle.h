@@ -258,8 +258,9 @@ JO_API JoStats jo_scene_stats(const JoScene *scene);
 /* "perceive", "think", "prefer", "push", "solve", "move", "bodies", "infer", "observe". */
 JO_API const char *jo_stage_name(int stage);
 /* One JSON object with the figures of the run so far; free with jo_free. They do not depend on what
-   is reported or recorded, which may add some. "density_max" is the greatest density of any time,
-   people per m2 by a Gaussian kernel of 1.5 m, sampled every 2 simulated seconds. */
+   is reported or recorded, which may add some. "density_max" is the greatest density of any place
+   and time, people per m2 by a Gaussian of R = 1 m within the walls, sampled every 0.5 simulated s.
+ */
 JO_API char *jo_scene_summary(const JoScene *scene);
 /* From several summaries: {"runs", "given": {PATH: value, or a list by run where they differ},
    "figures": {PATH: {"mean", "p5", "p95"}}}. Figures are statistics of a run; what it was given,

@@ -107,6 +107,7 @@ typedef struct JoxLiveCrowd {
     const uint16_t *group;        /* or NULL */
     const uint8_t *state, *flags; /* number in the scene message's list; JOX_LIVE_PARITY ... */
     JoxV2 period;                 /* m: of periodic edges; 0 without */
+    const JoxWalls *walls;        /* as they stand; or NULL */
 } JoxLiveCrowd;
 /* Makes the area hold everybody. */
 void jox_live_cover_crowd(JoxLiveArea *area, const JoxLiveCrowd *crowd);
@@ -122,20 +123,19 @@ void jox_live_put_body(JoxBytes *frame, uint32_t slots, uint32_t row, JoxV3 at,
 /* True if that changed the bytes: radii and groups. */
 bool jox_live_pack_people(const JoxLiveCrowd *crowd, JoxBytes *out);
 
-/* Fields of a crowd over an area. Zero-initialise. */
+/* Densities of a crowd over an area. Zero-initialise. */
 typedef struct JoxLiveGrid {
     struct JoxDensity *grid;
-    float *fields[4]; /* sums of w, w vx, w vy, w v2 */
-    size_t cells;
     JoxV2 low, high;
-    float most; /* greatest density of the last crowd, 1/m2 */
 } JoxLiveGrid;
-/* Spreads the crowd, which the area is made to hold. Without `moves` only densities can be read.
- */
-void jox_live_spread(JoxLiveGrid *grid, JoxLiveArea *area, const JoxLiveCrowd *crowd, bool moves);
-/* Density at a point as last spread, 1/m2. */
+/* Spreads the crowd, which the area is made to hold. */
+void jox_live_spread(JoxLiveGrid *grid, JoxLiveArea *area, const JoxLiveCrowd *crowd);
+/* As last spread, 1/m2: at a point, and the greatest. */
 float jox_live_density_at(const JoxLiveGrid *grid, float x, float y);
-void jox_live_pack_field(const JoxLiveGrid *grid, JoxLiveField field, JoxBytes *out);
+float jox_live_density_max(const JoxLiveGrid *grid);
+/* Values of a grid's cells. */
+void jox_live_pack_field(const struct JoxDensity *grid, const float *values, JoxLiveField field,
+                         JoxBytes *out);
 void jox_live_free_grid(JoxLiveGrid *grid);
 
 /* Walls of a scene or a recording: the member "walls", a list. */

@@ -1,7 +1,5 @@
-/* Fields for the floor: people spread by the Gaussian kernel of record/fields/density.h with R =
-   0.7 m, on cells of 0.5 m, or wider where the area is large. Pressure is density times the local
-   variance of velocity, as of the probe `map` (Helbing, Johansson and Al-Abideen 2007), of one
-   moment. */
+/* Fields for the floor: densities of record/fields/density.h on cells of 0.5 m, or wider where the
+   area is large; and crowd pressure, of which whoever shows it has the samples. */
 #include <math.h>
 #include <string.h>
 
@@ -10,9 +8,8 @@
 #include "live/live.h"
 #include "record/fields/density.h"
 
-enum { W, VX, VY, SQUARE, SUMS, MOST_CELLS = 65536, HEAD = 32, FIELD = 3 };
-static const float KERNEL = 0.7f, CELL = 0.5f; /* m */
-static const float LEAST = 0.02f; /* 1/m2: below this there is nobody to have a velocity */
+enum { MOST_CELLS = 65536, MOST_SHOWN = 78000, HEAD = 32, FIELD = 3 };
+static const float KERNEL = JOX_DENSITY_KERNEL, CELL = 0.5f; /* m */
 
 static const char *const NAMES[] = {"density", "pressure", "none"};
 
@@ -28,8 +25,6 @@ int jox_live_field_named(const char *name) {
 }
 
 void jox_live_free_grid(JoxLiveGrid *g) {
-    for (int f = 0; f < SUMS; f++)
-        jox_free(g->fields[f]);
     jox_density_free(g->grid);
     *g = (JoxLiveGrid){0};
 }
@@ -47,51 +42,23 @@ static void make(JoxLiveGrid *g, const JoxLiveArea *area) {
     float kernel = jox_maxf(KERNEL, cell);
     JoxV2 edge = {3.5f * kernel, 3.5f * kernel}; /* all of everybody is on it */
     g->grid = jox_density_create(jox_sub(area->low, edge), jox_add(area->high, edge), cell, kernel);
-    g->cells = (size_t)g->grid->columns * g->grid->rows;
-    JOX_ASSERT(g->cells > 0);
-    for (int f = 0; f < SUMS; f++)
-        g->fields[f] = jox_alloc(g->cells, sizeof(float));
 }
 
-void jox_live_spread(JoxLiveGrid *g, JoxLiveArea *area, const JoxLiveCrowd *crowd, bool moves) {
-    const int sums = moves ? SUMS : 1;
+void jox_live_spread(JoxLiveGrid *g, JoxLiveArea *area, const JoxLiveCrowd *crowd) {
     jox_live_cover_crowd(area, crowd);
     make(g, area);
-    for (int f = 0; f < sums; f++)
-        memset(g->fields[f], 0, g->cells * sizeof(float));
-    const int across = crowd->period.x > 0.0f, up = crowd->period.y > 0.0f;
-    for (uint32_t i = 0; i < crowd->count; i++) {
-        float vx = crowd->vx[i], vy = crowd->vy[i];
-        const float weights[SUMS] = {1.0f, vx, vy, vx * vx + vy * vy};
-        for (int c = -across; c <= across; c++) /* and the images over periodic edges */
-            for (int r = -up; r <= up; r++)
-                jox_density_spread(g->grid, g->fields, weights, sums,
-                                   crowd->x[i] + (float)c * crowd->period.x,
-                                   crowd->y[i] + (float)r * crowd->period.y);
-    }
-    g->most = 0.0f;
-    for (size_t c = 0; c < g->cells; c++)
-        g->most = jox_maxf(g->most, g->fields[W][c]);
+    g->grid->most = 0.0f;
+    jox_density_walls(g->grid, crowd->walls);
+    jox_density_add(g->grid, crowd->period, crowd->x, crowd->y, crowd->count, 0.0);
 }
 
 float jox_live_density_at(const JoxLiveGrid *g, float x, float y) {
-    const JoxDensity *d = g->grid;
-    if (!d)
-        return 0.0f;
-    float column = floorf((x - d->low.x) / d->cell), row = floorf((y - d->low.y) / d->cell);
-    if (!(column >= 0.0f && column < (float)d->columns && row >= 0.0f && row < (float)d->rows))
-        return 0.0f;
-    return g->fields[W][(size_t)row * d->columns + (size_t)column];
+    size_t cell;
+    return g->grid && jox_density_cell_of(g->grid, x, y, &cell) ? g->grid->now[cell] : 0.0f;
 }
 
-static float value(const JoxLiveGrid *g, JoxLiveField field, size_t c) {
-    float density = g->fields[W][c];
-    if (field == JOX_LIVE_DENSITY)
-        return density;
-    if (density < LEAST)
-        return 0.0f;
-    float vx = g->fields[VX][c] / density, vy = g->fields[VY][c] / density;
-    return density * jox_maxf(g->fields[SQUARE][c] / density - vx * vx - vy * vy, 0.0f);
+float jox_live_density_max(const JoxLiveGrid *g) {
+    return g->grid ? g->grid->most : 0.0f;
 }
 
 static uint8_t *put(uint8_t *at, const void *number) {
@@ -102,22 +69,39 @@ static uint8_t *put(uint8_t *at, const void *number) {
     return at + 4;
 }
 
-void jox_live_pack_field(const JoxLiveGrid *g, JoxLiveField field, JoxBytes *out) {
-    const JoxDensity *d = g->grid;
+/* The greatest of `by` times `by` cells; 0 where nothing was measured. */
+static float block(const JoxDensity *d, const float *values, uint32_t column, uint32_t row,
+                   uint32_t by) {
     float most = 0.0f;
-    JOX_ASSERT(field < JOX_LIVE_FIELDS && d);
-    for (size_t c = 0; c < g->cells; c++)
-        most = jox_maxf(most, value(g, field, c));
+    for (uint32_t r = row * by; r < (row + 1) * by && r < d->rows; r++)
+        for (uint32_t c = column * by; c < (column + 1) * by && c < d->columns; c++) {
+            const float value = values[(size_t)r * d->columns + c];
+            most = value > most ? value : most;
+        }
+    return most;
+}
+
+void jox_live_pack_field(const JoxDensity *d, const float *values, JoxLiveField field,
+                         JoxBytes *out) {
+    uint32_t by = 1;
+    float most = 0.0f;
+    JOX_ASSERT(field < JOX_LIVE_FIELDS);
+    while ((d->columns / by) * (d->rows / by) > MOST_SHOWN)
+        by++;
+    const uint32_t columns = (d->columns + by - 1) / by, rows = (d->rows + by - 1) / by;
+    for (size_t c = 0; c < (size_t)d->columns * d->rows; c++)
+        most = values[c] > most ? values[c] : most;
     most = most > 0.0f ? most : 1.0f;
-    const uint32_t head[4] = {FIELD, (uint32_t)field, d->columns, d->rows};
-    const float more[4] = {d->low.x, d->low.y, d->cell, most};
-    JOX_RESERVE(out->data, out->capacity, HEAD + g->cells);
-    out->length = HEAD + g->cells;
+    const uint32_t head[4] = {FIELD, (uint32_t)field, columns, rows};
+    const float more[4] = {d->low.x, d->low.y, d->cell * (float)by, most};
+    out->length = HEAD + (size_t)columns * rows;
+    JOX_RESERVE(out->data, out->capacity, out->length);
     uint8_t *at = out->data;
     for (int i = 0; i < 4; i++)
         at = put(at, &head[i]);
     for (int i = 0; i < 4; i++)
         at = put(at, &more[i]);
-    for (size_t c = 0; c < g->cells; c++)
-        *at++ = (uint8_t)(value(g, field, c) / most * 255.0f + 0.5f);
+    for (uint32_t r = 0; r < rows; r++)
+        for (uint32_t c = 0; c < columns; c++)
+            *at++ = (uint8_t)(block(d, values, c, r, by) / most * 255.0f + 0.5f);
 }

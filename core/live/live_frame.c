@@ -168,7 +168,8 @@ static JoxLiveCrowd crowd_of(const JoScene *scene) {
                           .face_y = a->face_y,
                           .radius = a->param[JOX_PARAM_radius],
                           .group = a->group,
-                          .period = a->period};
+                          .period = a->period,
+                          .walls = &scene->world->scratch.walls};
 }
 
 void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
@@ -204,17 +205,22 @@ double jox_live_speed(const JoScene *scene) {
     return jox_live_mean_speed(&crowd);
 }
 
-void jox_live_spread_crowd(JoScene *scene, bool moves) {
+void jox_live_spread_crowd(JoScene *scene) {
     JoxLive *live = jox_live_of(scene);
     const JoxLiveCrowd crowd = crowd_of(scene);
-    if (live->spread == scene->world->state.tick + 1 && (live->moves || !moves))
+    if (live->spread == scene->world->state.tick + 1)
         return;
     live->spread = scene->world->state.tick + 1;
-    live->moves = moves;
-    jox_live_spread(&live->grid, &live->area, &crowd, moves);
+    jox_live_spread(&live->grid, &live->area, &crowd);
 }
 
 void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out) {
-    jox_live_spread_crowd(scene, field == JOX_LIVE_PRESSURE);
-    jox_live_pack_field(&jox_live_of(scene)->grid, field, out);
+    if (field == JOX_LIVE_PRESSURE) { /* the run's own, from here on */
+        const JoxLocal *local = jox_run_want_pressure(scene);
+        jox_live_pack_field(local->grid, jox_pressure_now(local->pressure), field, out);
+        return;
+    }
+    jox_live_spread_crowd(scene);
+    const JoxDensity *grid = jox_live_of(scene)->grid.grid;
+    jox_live_pack_field(grid, grid->now, field, out);
 }

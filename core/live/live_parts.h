@@ -15,7 +15,6 @@ struct JoxLive {
     JoxLiveArea area;
     JoxLiveGrid grid;
     uint64_t spread; /* tick of the crowd in the grid, plus 1 */
-    bool moves;      /* with its velocities */
     /* Transitions of the last second: a ring, the oldest at `first`. Those of machine m begin with
        number `begins[m]`; of state s of it with state_begins[m][s]. */
     JoxLiveTaken *taken;
@@ -52,8 +51,8 @@ void jox_live_renumber(JoxLive *live, const JoxMachineRun *machines);
 void jox_live_count(JoxLive *live, const JoScene *scene);
 /* Agent that the scene's player drives, by id; JOX_NO_INDEX: none. */
 uint32_t jox_live_player(const JoScene *scene);
-/* Brings the grid up to date; with `moves`, velocities too. */
-void jox_live_spread_crowd(JoScene *scene, bool moves);
+/* Brings the grid up to date. */
+void jox_live_spread_crowd(JoScene *scene);
 
 /* m/s, of everybody. */
 double jox_live_speed(const JoScene *scene);

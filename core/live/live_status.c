@@ -90,7 +90,7 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
     JoxLive *live = jox_live_of(scene);
     const JoWorld *world = scene->world;
     jox_live_renumber(live, &world->machines);
-    jox_live_spread_crowd(scene, false);
+    jox_live_spread_crowd(scene);
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);
     jox_live_add_session(world->state.tick, jo_world_time(world), session, &json);
@@ -98,7 +98,7 @@ void jox_live_status(JoScene *scene, const JoxLiveSession *session, JoxText *out
     jox_json_whole(&json, "bodies", jox_bodies_count(world->state.bodies));
     add_machines(&json, live, &world->machines);
     jox_json_number(&json, "mean_speed", jox_live_speed(scene));
-    jox_json_number(&json, "density_max", live->grid.most);
+    jox_json_number(&json, "density_max", jox_live_density_max(&live->grid));
     add_costs(&json, live, scene);
     add_doors(&json, scene);
     jox_json_end(&json);

@@ -7,7 +7,7 @@
 #include "base/mem.h"
 #include "live/replay_parts.h"
 
-enum { MOST_BODIES = 1 << 20 };
+enum { MOST_BODIES = 1 << 20, MOST_KEYS = 1 << 24 };
 static const double LONGEST = 0.3; /* s over which displacements are taken for velocities */
 static const float MARGIN = 2.0f;  /* m about everything */
 
@@ -179,16 +179,16 @@ static JoxLiveCrowd crowd_of(const JoxReplay *r) {
                           .face_x = r->frame.face_x,
                           .face_y = r->frame.face_y,
                           .group = r->frame.group,
-                          .period = r->period};
+                          .period = r->period,
+                          .walls = jox_replay_walls(r)};
 }
 
-void jox_replay_spread(JoxReplay *r, bool moves) {
+void jox_replay_spread(JoxReplay *r) {
     const JoxLiveCrowd crowd = crowd_of(r);
-    if (r->spread && (r->moves || !moves))
+    if (r->spread)
         return;
-    jox_live_spread(&r->grid, &r->area, &crowd, moves);
+    jox_live_spread(&r->grid, &r->area, &crowd);
     r->spread = true;
-    r->moves = moves;
 }
 
 double jox_replay_speed(const JoxReplay *r) {
@@ -227,7 +227,7 @@ static void put_bodies(const JoxReplay *r, JoxBytes *out) {
 
 void jox_replay_frame(JoxReplay *r, JoxLiveColour colour, JoxBytes *out) {
     JoxLiveCrowd crowd = crowd_of(r);
-    jox_replay_spread(r, false);
+    jox_replay_spread(r);
     for (uint32_t i = 0; i < r->count; i++) {
         const uint32_t state = jox_replay_state(r, i);
         r->state[i] = (uint8_t)(state < JOX_LIVE_OTHER_STATE ? state : JOX_LIVE_OTHER_STATE);
@@ -253,9 +253,40 @@ bool jox_replay_people(const JoxReplay *r, JoxBytes *out) {
     return jox_live_pack_people(&crowd, out);
 }
 
+/* Takes the frame that is shown, where it is a sample. Who has no small number is left out. */
+static void sample_pressure(JoxReplay *r) {
+    JoxFrame frame = {.time = r->frame.time,
+                      .period = r->period,
+                      .count = r->count,
+                      .x = r->x,
+                      .y = r->y,
+                      .vx = r->vx,
+                      .vy = r->vy,
+                      .walls = jox_replay_walls(r)};
+    if (!r->local) {
+        r->local = jox_local_create(r->area.low, r->area.high);
+        jox_local_want_pressure(r->local);
+    }
+    if (r->shown == JOX_REPLAY_NOBODY || !jox_local_is_due(r->local, frame.time))
+        return;
+    JOX_RESERVE(r->key, r->key_capacity, r->count + 1);
+    for (uint32_t i = 0; i < r->count; i++) {
+        r->flags[i] = r->id[i] >= 0 && r->id[i] < MOST_KEYS;
+        r->key[i] = r->flags[i] ? (uint32_t)r->id[i] : 0;
+        frame.keys = r->key[i] + 1 > frame.keys ? r->key[i] + 1 : frame.keys;
+    }
+    frame.key = r->key;
+    jox_local_frame(r->local, &frame, r->flags);
+}
+
 void jox_replay_field(JoxReplay *r, JoxLiveField field, JoxBytes *out) {
-    jox_replay_spread(r, field == JOX_LIVE_PRESSURE);
-    jox_live_pack_field(&r->grid, field, out);
+    if (field == JOX_LIVE_PRESSURE) {
+        sample_pressure(r);
+        jox_live_pack_field(r->local->grid, jox_pressure_now(r->local->pressure), field, out);
+        return;
+    }
+    jox_replay_spread(r);
+    jox_live_pack_field(r->grid.grid, r->grid.grid->now, field, out);
 }
 
 JoxLiveColour jox_replay_colour(const JoxReplay *r) {
@@ -276,6 +307,7 @@ void jox_replay_close(JoxReplay *r) {
     if (r->bodies)
         jox_bodies_free(r->bodies);
     jox_live_free_grid(&r->grid);
+    jox_local_free(r->local);
     void *owned[] = {r->path,
                      r->names.machines,
                      r->names.states,
@@ -291,6 +323,7 @@ void jox_replay_close(JoxReplay *r) {
                      r->density,
                      r->state,
                      r->flags,
+                     r->key,
                      r->parity,
                      r->spare,
                      r->last_x,

@@ -160,7 +160,7 @@ static void add_machines(JoxJson *json, JoxReplay *r) {
 void jox_replay_status(JoxReplay *r, const JoxLiveSession *session, double factor, JoxText *out) {
     static const char *const UNKNOWN[] = {"stage_ns", "flows", "walls"};
     const bool shown = r->shown != JOX_REPLAY_NOBODY; /* else the frame could not be read */
-    jox_replay_spread(r, false);
+    jox_replay_spread(r);
     JoxJson json = jox_json_begin(out, 0);
     jox_json_object(&json, NULL);
     jox_live_add_session(shown ? r->shown : 0, r->frame.time, session, &json);
@@ -170,7 +170,7 @@ void jox_replay_status(JoxReplay *r, const JoxLiveSession *session, double facto
     jox_json_whole(&json, "bodies", r->frame.body_count);
     add_machines(&json, r);
     jox_json_digits(&json, "mean_speed", jox_replay_speed(r), 6);
-    jox_json_digits(&json, "density_max", shown ? (double)r->grid.most : NAN, 6);
+    jox_json_digits(&json, "density_max", shown ? (double)jox_live_density_max(&r->grid) : NAN, 6);
     jox_json_null(&json, "failures");
     for (int u = 0; u < 3; u++) {
         jox_json_object(&json, UNKNOWN[u]);

@@ -31,7 +31,10 @@ struct JoxReplay {
     JoxLiveArea area;
     JoxLiveGrid grid;
     uint32_t shown; /* frame, or JOX_REPLAY_NOBODY */
-    bool spread, moves;
+    bool spread;
+    JoxLocal *local; /* for crowd pressure, from when it is first shown */
+    uint32_t *key;   /* scratch */
+    size_t key_capacity;
     bool timed; /* speeds are known: the frame before was read, too */
     JoxTrajectoryReaderFrame frame;
     /* Slots of the people shown, in their order; and of those in the frame before. */
@@ -66,7 +69,7 @@ double jox_replay_speed(const JoxReplay *replay);
    neighbours. */
 void jox_replay_widen(JoxReplay *replay, uint32_t need);
 void jox_replay_give_slots(JoxReplay *replay, const JoxTrajectoryReaderFrame *frame, double spent);
-/* Brings the grid up to date; with `moves`, velocities too. */
-void jox_replay_spread(JoxReplay *replay, bool moves);
+/* Brings the grid up to date. */
+void jox_replay_spread(JoxReplay *replay);
 
 #endif

@@ -30,12 +30,15 @@ static JoxHalfPlane half_plane_of_sphere(const JoxAgents *a, uint32_t i, const J
                                1.0f, jox_v2(1.0f, 0.0f));
 }
 
-/* Whether agent i minds a body; *apart: the least gap that there can be between its centre and the
-   footprint. */
-static bool minds(const JoxAgents *a, uint32_t i, const JoxObject *o, float *apart) {
+/* Whether agent i minds the body of a row; *apart: the least gap that there can be between its
+   centre and the footprint. A body that it approaches counts even where its kind is ignored. */
+static bool minds(const JoxAgents *a, uint32_t i, const JoxObjects *objects, uint32_t row,
+                  float *apart) {
+    const JoxObject *o = &objects->rows[row];
+    bool ignored = o->tags & a->ignore[i] && a->approach[i] != (int32_t)row;
     float away = jox_length(jox_v2(o->position.x - a->x[i], o->position.y - a->y[i]));
     *apart = away - jox_maxf(o->disc, o->round);
-    return away <= a->param[JOX_PARAM_perception][i] + o->disc && !(o->tags & a->ignore[i]);
+    return away <= a->param[JOX_PARAM_perception][i] + o->disc && !ignored;
 }
 
 /* Rows of the bodies that agent i minds, ascending; of more than `most` the nearest. */
@@ -46,13 +49,13 @@ static uint32_t rows_of(const JoxAgents *a, uint32_t i, const JoxObjects *object
     JoxObjectWalk walk = jox_objects_near(objects, at, sight), again = walk;
     uint32_t row, count = 0;
     while (jox_objects_next(&walk, &row))
-        if (minds(a, i, &objects->rows[row], &apart) && count++ < nearest->most)
+        if (minds(a, i, objects, row, &apart) && count++ < nearest->most)
             nearest->rows[count - 1] = row;
     nearest->count = count;
     if (count > nearest->most) { /* only then their gaps matter */
         nearest->count = 0;
         while (jox_objects_next(&again, &row))
-            if (minds(a, i, &objects->rows[row], &apart) && jox_nearest_takes(nearest, apart))
+            if (minds(a, i, objects, row, &apart) && jox_nearest_takes(nearest, apart))
                 jox_nearest_offer(nearest, jox_footprint_nearest(&objects->rows[row], at).gap, row);
     }
     jox_nearest_by_row(nearest);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "picture/draw_parts.h"
+#include "record/danger/levels.h"
 
 static const float ROW = 19, TEXT = 13, BAR = 160;
 enum { MOST_SHOWN = 10 }; /* classes: of more, only those that somebody is in */
@@ -135,6 +136,22 @@ static void bar(Legend *l, float most, bool floor) {
     l->y += ROW * u;
 }
 
+/* Below a bar of densities: from where on Fruin's levels of service for queues are. */
+static void levels(Legend *l, float most) {
+    const float u = l->d->unit, apart = 12 * u;
+    jox_canvas_open(l->d->canvas, NULL, "levels", (JoxStyle){.fill = jox_ink_text});
+    for (int k = 0; k < JOX_LEVELS; k++) {
+        const float from = k ? BAR * u / (float)jox_levels[k - 1].queue_area / most : 0.0f;
+        const float next = BAR * u / (float)jox_levels[k].queue_area / most;
+        if (from <= BAR * u && (k == JOX_LEVELS - 1 || next - from >= apart))
+            write(l, l->x + from, JOX_ANCHOR_START, false, jox_levels[k].name);
+    }
+    jox_canvas_close(l->d->canvas);
+    l->y += ROW * u;
+    write(l, l->x, JOX_ANCHOR_START, false, "Fruin's levels for queues");
+    l->y += ROW * u;
+}
+
 /* What lines and boxes mean; only of what is in the picture. */
 static void signs(Legend *l) {
     const JoxPicture *p = l->d->picture;
@@ -242,11 +259,15 @@ void jox_draw_legend(JoxDrawing *d) {
             classes(&l);
         else
             bar(&l, p->colour_most, false);
+        if (p->colour == JOX_SHOW_DENSITY)
+            levels(&l, p->colour_most);
     }
     if (p->grid) {
         heading(&l, p->floor == JOX_SHOW_DENSITY ? "Floor: density, 1/m\xc2\xb2"
                                                  : "Floor: pressure, 1/s\xc2\xb2");
         bar(&l, p->floor_most, true);
+        if (p->floor == JOX_SHOW_DENSITY)
+            levels(&l, p->floor_most);
     }
     signs(&l);
     scale_bar(&l);

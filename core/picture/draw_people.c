@@ -199,7 +199,8 @@ void jox_draw_field(JoxDrawing *d) {
     for (uint32_t r = 0; r < grid->rows; r++)
         for (uint32_t c = 0; c < grid->columns; c++) {
             float value = p->field[(size_t)(grid->rows - 1 - r) * grid->columns + c];
-            float part = jox_clampf(value / p->floor_most, 0.0f, 1.0f) * JOX_DRAW_BINS;
+            value = value > 0.0f ? value / p->floor_most : 0.0f; /* NAN: not measured */
+            float part = jox_minf(value, 1.0f) * JOX_DRAW_BINS;
             uint32_t bin = (uint32_t)jox_minf(part, JOX_DRAW_BINS - 1);
             levels[(size_t)r * grid->columns + c] = part < 0.5f ? 0 : (uint8_t)(bin + 1);
         }

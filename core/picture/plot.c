@@ -137,8 +137,8 @@ void jox_plot_wall_lines(FILE *script, const JoxWalls *walls, const char *width)
     fputs("\n", script);
 }
 
-bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxDensity *peak,
-                      const JoxWalls *walls, const char *title, JoxText *error) {
+bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *walls,
+                      const char *title, JoxText *error) {
     FILE *data = jox_plot_open(folder, "density.csv", error);
     if (!data)
         return false;
@@ -173,8 +173,8 @@ bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxDensity 
         " %g, %g, %g, %g) at graph 0, 0 offset 1, 0.8 front tc "
         "'#c00000'\n"
         "plot 'density.csv' skip 1 using 1:2:3 with image",
-        most > 0.0 ? most : 1.0, d->low.x, d->low.x + width, d->low.y, d->low.y + height,
-        peak->most, peak->most_at.x, peak->most_at.y, peak->most_time);
+        most > 0.0 ? most : 1.0, d->low.x, d->low.x + width, d->low.y, d->low.y + height, d->most,
+        d->most_at.x, d->most_at.y, d->most_time);
     jox_plot_wall_lines(data, walls, "1.5");
     return jox_plot_close(data, "density.plt", error) &&
            jox_plot_draw(folder, "density.plt", error);

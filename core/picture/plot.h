@@ -12,9 +12,9 @@
 
 /* Makes the folder, and those above it. False with a sentence in `error`. */
 bool jox_plot_folder(const char *folder, JoxText *error);
-/* density.png: mean density over the frames, walls drawn, the greatest value of `peak` named. */
-bool jox_plot_density(const char *folder, const JoxDensity *density, const JoxDensity *peak,
-                      const JoxWalls *walls, const char *title, JoxText *error);
+/* density.png: mean density over the frames, walls drawn, the greatest value of any named. */
+bool jox_plot_density(const char *folder, const JoxDensity *density, const JoxWalls *walls,
+                      const char *title, JoxText *error);
 /* regions.png: mean speed of each region as bars. */
 bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char *title,
                       JoxText *error);

@@ -19,8 +19,8 @@ typedef struct JoxRecordRow {
     float ori_x, ori_y; /* unit vector the agent looks along */
     uint32_t state;     /* number in jostle_state */
     float force;        /* N */
-    float compression;  /* N/m */
-    float load;         /* N */
+    float compression;  /* N/m: mean since the frame before */
+    float load;         /* N: likewise */
     uint16_t group;     /* number in jostle_group */
 } JoxRecordRow;
 typedef struct JoxRecordBody {

@@ -10,11 +10,8 @@
 #include "render/render.h"
 
 enum { MOST_FOLLOWED = 500, MOST_TRAILS = 2000, MOST_BODY_TRAILS = 200 };
-static const float STRIDE = 0.1f;              /* m between points of a trail */
-static const float RADIUS = 0.2f;              /* m: of people whose recording does not say */
-static const float CELL = 0.2f, COARSE = 0.4f; /* m */
-static const float KERNEL = 0.70710678f;       /* m: the kernel of JoxDanger */
-static const float FEW = 1e5f;                 /* cells: areas of more have coarser ones */
+static const float STRIDE = 0.1f; /* m between points of a trail */
+static const float RADIUS = 0.2f; /* m: of people whose recording does not say */
 
 /* ---- what is shown ---- */
 
@@ -46,12 +43,6 @@ static void widen_by_places(Box *box, const JoxPlace *places, uint32_t count, bo
             widen(box, jox_sub(at, jox_v2(around, around)));
             widen(box, jox_add(at, jox_v2(around, around)));
         }
-}
-
-static JoxDensity *make_grid(const JoxPicture *p) {
-    JoxV2 size = jox_sub(p->high, p->low);
-    float cell = jox_clampf(sqrtf(size.x * size.y / FEW), CELL, COARSE);
-    return jox_density_create(p->low, p->high, cell, KERNEL);
 }
 
 static void find_area(JoxRender *r) {
@@ -110,7 +101,7 @@ void jox_render_widen(JoxRender *r) {
     if (!r->grid)
         return;
     jox_density_free(r->grid);
-    r->grid = make_grid(p);
+    r->grid = jox_local_grid(p->low, p->high);
 }
 
 /* ---- colours ---- */
@@ -188,7 +179,7 @@ bool jox_render_choose(JoxRender *r, JoError *error) {
 static void make_fields(JoxRender *r) {
     JoxPicture *p = &r->picture;
     if (p->colour == JOX_SHOW_DENSITY || p->floor == JOX_SHOW_DENSITY)
-        r->grid = make_grid(p);
+        r->grid = jox_local_grid(p->low, p->high);
     if (p->floor != JOX_SHOW_PRESSURE)
         return;
     if (r->scene)
@@ -197,24 +188,17 @@ static void make_fields(JoxRender *r) {
         r->danger = jox_danger_create(p->low, p->high);
 }
 
-/* Density of now; images over periodic edges count too. */
+/* Density of now. */
 static void measure_density(JoxRender *r) {
     JoxDensity *g = r->grid;
     const JoxFrame *f = &r->frame;
-    const float one = 1.0f;
-    memset(g->now, 0, (size_t)g->columns * g->rows * sizeof *g->now);
-    int across = f->period.x > 0.0f, up = f->period.y > 0.0f;
-    for (uint32_t i = 0; i < f->count; i++)
-        for (int c = -across; c <= across; c++)
-            for (int k = -up; k <= up; k++)
-                jox_density_spread(g, &g->now, &one, 1, f->x[i] + (float)c * f->period.x,
-                                   f->y[i] + (float)k * f->period.y);
+    jox_density_walls(g, f->walls);
+    jox_density_add(g, f->period, f->x, f->y, f->count, f->time);
     JOX_RESERVE(r->density, r->density_capacity, f->count + 1);
     for (uint32_t i = 0; i < f->count; i++) {
-        float column = floorf((f->x[i] - g->low.x) / g->cell);
-        float row = floorf((f->y[i] - g->low.y) / g->cell);
-        bool inside = column >= 0 && row >= 0 && column < (float)g->columns && row < (float)g->rows;
-        r->density[i] = inside ? g->now[(size_t)row * g->columns + (size_t)column] : 0.0f;
+        size_t cell;
+        bool inside = jox_density_cell_of(g, f->x[i], f->y[i], &cell);
+        r->density[i] = inside ? g->now[cell] : 0.0f;
     }
 }
 

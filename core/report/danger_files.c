@@ -8,10 +8,18 @@
 #include "report/danger_files_parts.h"
 
 enum { STRIP = 260, PANEL = 620 };
+static const float FLAT = 0.4f; /* height of an area by its width */
 
 static const char *const WHAT[] = {"density (1/m^2)", "crowd pressure (1/s^2)",
                                    "compression held for 1 s (N/m)",
                                    "load from one side, held for 1 s (N)", "dose of load"};
+
+static const char *const NOTHING[] = {"nobody was here", "nothing anywhere", "nobody was pressed",
+                                      "nobody was pressed"};
+
+/* Why crowd pressure was measured nowhere (fields/pressure.h). */
+static const char UNMEASURED[] =
+    "measured nowhere: never 20 s at 5 per m^2\\nor more on 12 m^2 without a change of the flow";
 
 /* Whether a measure is drawn: compression only where it stands in for load, in older recordings. */
 static bool is_drawn(const JoxDanger *d, int measure) {
@@ -42,7 +50,14 @@ static void strip(const JoxDanger *d, JoxDangerMeasure measure, FILE *script) {
     for (uint32_t r = 0; r < d->row_count; r++)
         top = fmax(top, d->rows[r].most[measure]);
     fprintf(script, "set ylabel '%s'\nunset arrow\nunset label\n", jox_danger_units[measure]);
-    fprintf(script, "set title 'greatest %s of anyone", WHAT[measure]);
+    if (!jox_danger_reads(d, measure)) {
+        fprintf(script,
+                "set title '%s'\nset label 1 \"%s\" at graph 0.5,0.5 center\nset yrange [0:1]\n"
+                "plot NaN notitle\nunset label 1\n",
+                WHAT[measure], UNMEASURED);
+        return;
+    }
+    fprintf(script, "set title 'greatest %s", WHAT[measure]);
     if (isfinite(jox_danger_least(measure)))
         fprintf(script, "; first limit: %.4g", jox_danger_least(measure));
     fputs("'\n", script);
@@ -171,9 +186,9 @@ static void level_scale(double top, FILE *script) {
     for (int k = 1; k < JOX_LEVELS; k++) {
         const double from = 1.0 / jox_levels[k - 1].queue_area;
         const double next = jox_levels[k].queue_area > 0.0 ? 1.0 / jox_levels[k].queue_area : top;
-        if (from > top || (k < JOX_LEVELS - 1 && next - from < 0.05 * top))
+        if (from > top || (k < JOX_LEVELS - 1 && next - from < 0.06 * top))
             continue;
-        fprintf(script, "%s'      %s' %g", any ? ", " : "set cbtics add (", jox_levels[k].name,
+        fprintf(script, "%s'         %s' %g", any ? ", " : "set cbtics add (", jox_levels[k].name,
                 from);
         any = true;
     }
@@ -192,19 +207,18 @@ static void wall_loads(const JoxDanger *d, bool greatest, FILE *script) {
 /* One field; the range of colours is given, since gnuplot would warn where all is 0. */
 static void panel(const JoxDanger *d, int measure, bool greatest, const JoxWalls *walls,
                   FILE *script) {
-    size_t cells = (size_t)d->grid->columns * d->grid->rows;
+    size_t cells = (size_t)d->local->grid->columns * d->local->grid->rows;
     double top = 0.0;
     for (size_t c = 0; c < cells; c++)
-        top =
-            fmax(top, greatest ? (double)d->greatest[measure][c] : jox_danger_mean(d, measure, c));
+        top = fmax(top,
+                   greatest ? jox_danger_greatest(d, measure, c) : jox_danger_mean(d, measure, c));
     if (measure == JOX_DANGER_LOAD)
         for (uint32_t p = 0; p < d->walls.count; p++)
             top = fmax(top, (double)(greatest ? d->walls.items[p].most : d->walls.items[p].load));
     if (top <= 0.0) { /* else one would look for it */
-        fprintf(script, "set title '%s'\nset label 1 '%s' at graph 0.5,0.5 center front\n",
+        fprintf(script, "set title '%s'\nset label 1 \"%s\" at graph 0.5,0.5 center front\n",
                 WHAT[measure],
-                measure == JOX_DANGER_PRESSURE ? "nowhere dense enough, or too short"
-                                               : "nobody was pressed");
+                jox_danger_reads(d, (JoxDangerMeasure)measure) ? NOTHING[measure] : UNMEASURED);
         fputs("unset colorbox\nplot NaN notitle", script);
         if (walls)
             jox_plot_wall_lines(script, walls, "1.2");
@@ -234,22 +248,26 @@ static void panel(const JoxDanger *d, int measure, bool greatest, const JoxWalls
 
 static bool draw_map(const JoxDanger *d, const char *folder, const JoxWalls *walls,
                      const char *title, JoxText *error) {
-    const JoxDensity *g = d->grid;
+    const JoxDensity *g = d->local->grid;
     float width = (float)g->columns * g->cell, height = (float)g->rows * g->cell;
-    const int columns = drawn(d, JOX_DANGER_MAPPED);
-    int tall = (int)(PANEL * jox_clampf(height / width, 0.35f, 1.6f));
+    /* Panels of flat areas stand one below the other, as wide as the picture. */
+    const bool flat = height < FLAT * width;
+    const int fields = drawn(d, JOX_DANGER_MAPPED), columns = flat ? 1 : fields;
+    const int wide = flat ? 2 * PANEL : PANEL, rows = 2 * fields / columns;
+    const int tall =
+        (int)((float)wide * jox_clampf(height / width, 0.05f, 1.6f)) + (flat ? 110 : 0);
     FILE *script = jox_plot_open(folder, "danger-map.plt", error);
     if (!script)
         return false;
     for (int svg = 0; svg < 2; svg++) {
-        begin_picture(script, "danger-map", svg, columns * PANEL, 60 + 2 * tall, title);
+        begin_picture(script, "danger-map", svg, columns * wide, 60 + rows * tall, title);
         fprintf(script,
-                "set multiplot layout 2,%d title heading font ',14' noenhanced\nset size ratio "
+                "set multiplot layout %d,%d title heading font ',14' noenhanced\nset size ratio "
                 "-1\nset xlabel 'x (m)'\nset ylabel 'y (m)'\nunset key\n"
                 "set palette defined (0 '#ffffff', 0.02 '#440154', 0.27 '#3b528b', 0.52 "
                 "'#21918c', 0.77 '#5ec962', 1 '#fde725')\nset xrange [%g:%g]\nset yrange "
                 "[%g:%g]\n",
-                columns, g->low.x, g->low.x + width, g->low.y, g->low.y + height);
+                rows, columns, g->low.x, g->low.x + width, g->low.y, g->low.y + height);
         for (int greatest = 0; greatest < 2; greatest++)
             for (int m = 0; m < JOX_DANGER_MAPPED; m++)
                 if (is_drawn(d, m))

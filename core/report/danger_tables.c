@@ -9,6 +9,13 @@
 enum { MOST_CELLS_DRAWN = 250000 };
 static const double WORTH = 0.01; /* doses of less are not listed */
 
+/* A number of a table, or nothing where it is not known. */
+static void put(FILE *out, double value) {
+    fputc(',', out);
+    if (isfinite(value))
+        fprintf(out, "%.9g", value);
+}
+
 static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "danger.csv", error);
     if (!out)
@@ -33,7 +40,7 @@ static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) 
         const JoxDangerRow *row = &d->rows[r];
         fprintf(out, "%.9g,%u", row->time, row->people);
         for (int m = 0; m < JOX_DANGER_MEASURES; m++)
-            fprintf(out, ",%.9g", (double)row->most[m]);
+            put(out, (double)row->most[m]);
         for (int l = 0; l < JOX_DANGER_LIMITS; l++)
             fprintf(out, ",%u", row->over[l]);
         for (int k = 0; k < JOX_LEVELS; k++)
@@ -48,13 +55,32 @@ static bool write_times(const JoxDanger *d, const char *folder, JoxText *error) 
 
 double jox_danger_mean(const JoxDanger *d, int measure, size_t cell) {
     double n = measure >= JOX_DANGER_FIRST_BORNE ? d->stood[cell]
-               : measure == JOX_DANGER_PRESSURE  ? d->pressure_samples
+               : measure == JOX_DANGER_PRESSURE  ? d->measured[cell]
                                                  : d->samples;
+    if (measure == JOX_DANGER_PRESSURE && n == 0.0)
+        return NAN;
     return n > 0.0 ? d->sum[measure][cell] / n : 0.0;
 }
 
+double jox_danger_greatest(const JoxDanger *d, int measure, size_t cell) {
+    bool missing = measure == JOX_DANGER_PRESSURE && d->measured[cell] == 0;
+    return missing ? NAN : (double)d->greatest[measure][cell];
+}
+
+/* The mean at a cell, and the greatest of that and the skipped ones beside and above it. */
+static void put_cells(const JoxDanger *d, int measure, uint32_t column, uint32_t row, uint32_t skip,
+                      FILE *out) {
+    const JoxDensity *g = d->local->grid;
+    double most = NAN;
+    for (uint32_t r = row; r < row + skip && r < g->rows; r++)
+        for (uint32_t c = column; c < column + skip && c < g->columns; c++)
+            most = fmax(most, jox_danger_greatest(d, measure, (size_t)r * g->columns + c));
+    fprintf(out, ",%.4g,%.9g", jox_danger_mean(d, measure, (size_t)row * g->columns + column),
+            most);
+}
+
 static bool write_map(const JoxDanger *d, const char *folder, JoxText *error) {
-    const JoxDensity *g = d->grid;
+    const JoxDensity *g = d->local->grid;
     uint32_t skip = 1;
     while ((g->columns / skip) * (g->rows / skip) > MOST_CELLS_DRAWN)
         skip++;
@@ -68,12 +94,10 @@ static bool write_map(const JoxDanger *d, const char *folder, JoxText *error) {
     fputc('\n', out);
     for (uint32_t row = 0; row < g->rows; row += skip) {
         for (uint32_t column = 0; column < g->columns; column += skip) {
-            size_t cell = (size_t)row * g->columns + column;
             fprintf(out, "%.3f,%.3f", g->low.x + ((float)column + 0.5f) * g->cell,
                     g->low.y + ((float)row + 0.5f) * g->cell);
             for (int m = 0; m < JOX_DANGER_MAPPED; m++)
-                fprintf(out, ",%.4g,%.4g", jox_danger_mean(d, m, cell),
-                        (double)d->greatest[m][cell]);
+                put_cells(d, m, column, row, skip, out);
             fputc('\n', out);
         }
         fputc('\n', out);
@@ -81,19 +105,12 @@ static bool write_map(const JoxDanger *d, const char *folder, JoxText *error) {
     return jox_plot_close(out, "danger-map.csv", error);
 }
 
-/* A number of a table, or nothing where it is not known. */
-static void put(FILE *out, double value) {
-    fputc(',', out);
-    if (isfinite(value))
-        fprintf(out, "%.9g", value);
-}
-
 static bool write_limits(const JoxDanger *d, const char *folder, JoxText *error) {
     FILE *out = jox_plot_open(folder, "danger-limits.csv", error);
     if (!out)
         return false;
     fputs("limit,measure,value,unit,people,person_s [s],longest [s],first [s],x [m],y [m],since "
-          "[min]\n",
+          "[min],source\n",
           out);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         const JoxDangerLimit *limit = &jox_danger_limits[l];
@@ -108,6 +125,8 @@ static bool write_limits(const JoxDanger *d, const char *folder, JoxText *error)
         put(out, seen ? (double)count.first_at.x : NAN);
         put(out, seen ? (double)count.first_at.y : NAN);
         put(out, jox_danger_since(d, count.first));
+        fputc(',', out);
+        jox_quote_put(out, jox_quote_csv, limit->source);
         fputc('\n', out);
     }
     return jox_plot_close(out, "danger-limits.csv", error);

@@ -19,8 +19,6 @@ static JoxPageFigures collect(const JoScene *scene) {
     JoxPageFigures f = {0};
     jox_page_add(&f, "", scene->world->state.agents.count, "people at the end");
     const JoxRegions *regions = jox_run_regions(scene);
-    jox_page_add(&f, "1/m2", jox_run_density_max(scene),
-                 "greatest density (Gaussian kernel, R = 1.5 m)");
     jox_page_add(&f, "", jox_statistics_overlap_p99(s),
                  "overlap that 99 %% stay below, share of a diameter");
     jox_page_add(&f, "", s->agent_steps ? (double)s->failures / (double)s->agent_steps : NAN,
@@ -96,7 +94,7 @@ static void put_pictures(FILE *out, const JoScene *scene, const char *directory)
     const JoxProbe *probe;
     jox_html_heading(out, "Pictures");
     jox_page_danger_pictures(out, directory);
-    jox_page_picture(out, directory, "density", "Mean density (Gaussian kernel, R = 1.5 m)");
+    jox_page_picture(out, directory, "density", "Mean density");
     jox_page_picture(out, directory, "regions", "Mean speed of the regions");
     if (scene->world->state.agents.next_id <= JOX_MOST_PATHS)
         jox_page_picture(out, directory, "paths", "Paths");

@@ -29,7 +29,7 @@ static double walls_most(const JoxDanger *danger) {
 void jox_page_add_danger(JoxPageFigures *f, const JoxDanger *danger) {
     for (int m = 0; m < JOX_DANGER_MEASURES; m++)
         jox_page_add(f, jox_danger_units[m], jox_danger_most(danger, (JoxDangerMeasure)m).value,
-                     "danger: greatest %s of anyone", jox_danger_names[m]);
+                     "danger: greatest %s", jox_danger_names[m]);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         JoxDangerCount count = jox_danger_count(danger, l);
         bool read = jox_danger_reads(danger, jox_danger_limits[l].measure);
@@ -55,13 +55,27 @@ static void put_place(FILE *out, double time, JoxV2 at) {
 }
 
 static void put_texts(FILE *out, const JoxDanger *danger) {
+    char text[1024];
     jox_html_paragraph(
-        out,
-        "Density is that of the Gaussian kernel exp(-d2/R2)/(pi R2), R = 1 m, where somebody "
-        "stands; it reads low within a metre of walls. Crowd pressure is mean density times "
-        "the variance over time of the local velocity, by the same kernel, means over 10 s; it "
-        "is read only where the mean density is over 5 per m2, from 10 s on, and without the "
-        "first 5 s, when everybody starts.");
+        out, "Density is people per m2: each person is spread by a Gaussian of R = 1 m over the "
+             "floor within the walls, which let nothing through. Its greatest value is that of any "
+             "place; who is over a limit is told by the density where they stand.");
+    snprintf(
+        text, sizeof text,
+        "Crowd pressure is the mean density about a place times the variance over time of the "
+        "local velocity there, over %g s: how the crowd as a whole is shaken to and fro, not "
+        "how people walk past each other; the mean of %g m by %g m about the place. It is read "
+        "only where the crowd stood on %g m2 of these at %g per m2 or more all that time and "
+        "the variance does not come from one change of the flow: a knot before a door, a queue "
+        "that starts and a whole crowd that sways slower than every 15 s are not told. Its "
+        "authors' 0.02 per s2 is for a section of 20 m by 14 m; recorded queues of people who "
+        "were in no danger read 0.01 at most.%s",
+        (double)JOX_PRESSURE_SPAN, (double)JOX_PRESSURE_SECTION, (double)JOX_PRESSURE_SECTION,
+        (double)JOX_PRESSURE_FLOOR, (double)JOX_PRESSURE_LEAST,
+        jox_danger_reads(danger, JOX_DANGER_PRESSURE)
+            ? ""
+            : " Here it was measured nowhere: its limit has dashes.");
+    jox_html_paragraph(out, text);
     if (jox_danger_reads(danger, JOX_DANGER_LOAD)) {
         jox_html_paragraph(
             out, "Load is the greatest push that a person bears from any one direction: over "
@@ -80,8 +94,6 @@ static void put_texts(FILE *out, const JoxDanger *danger) {
                  "compared with no limit.");
     else
         jox_html_paragraph(out, "Compression was not measured.");
-    if (!jox_danger_reads(danger, JOX_DANGER_PRESSURE))
-        jox_html_paragraph(out, "Crowd pressure was not read: the time measured is too short.");
 }
 
 static void put_limits(FILE *out, const JoxDanger *danger) {
@@ -106,13 +118,64 @@ static void put_limits(FILE *out, const JoxDanger *danger) {
 }
 
 static void put_most(FILE *out, const JoxDanger *danger) {
-    jox_html_table(out, "measure|greatest of anyone|when and where");
+    jox_html_table(out, "measure|greatest|when and where");
     for (int m = 0; m < JOX_DANGER_MEASURES; m++) {
         JoxDangerMost most = jox_danger_most(danger, (JoxDangerMeasure)m);
         jox_html_row(out);
         jox_html_cell(out, jox_danger_names[m]);
         jox_html_cell_number(out, most.value, jox_danger_units[m]);
         put_place(out, most.time, most.at);
+    }
+    jox_html_table_end(out);
+}
+
+enum { SHOWN = 10 }; /* of people and of pieces of walls: those that bore most */
+
+/* Those of the greatest values over 0, descending. */
+static uint32_t most_of(const JoxDanger *danger, uint32_t count,
+                        double (*value)(const JoxDanger *danger, uint32_t k),
+                        uint32_t order[SHOWN]) {
+    uint32_t shown = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        if (!(value(danger, k) > 0.0))
+            continue;
+        uint32_t at = shown < SHOWN ? shown++ : SHOWN;
+        for (; at > 0 && value(danger, order[at - 1]) < value(danger, k); at--)
+            if (at < SHOWN)
+                order[at] = order[at - 1];
+        if (at < SHOWN)
+            order[at] = k;
+    }
+    return shown;
+}
+
+static double dose_of_person(const JoxDanger *danger, uint32_t k) {
+    return danger->people[k].dose;
+}
+
+static double most_of_piece(const JoxDanger *danger, uint32_t k) {
+    return (double)danger->walls.items[k].most;
+}
+
+static void put_people(FILE *out, const JoxDanger *danger) {
+    uint32_t order[SHOWN];
+    const uint32_t shown = most_of(danger, danger->people_capacity, dose_of_person, order);
+    if (shown == 0)
+        return;
+    jox_html_paragraph(out, "The people of the greatest doses; danger-people.csv lists all whose "
+                            "dose is over 0.01 or whose load was over the first limit.");
+    jox_html_table(out, "person|dose|greatest load|when and where|over 623 N|over 1112 N|over 6227 "
+                        "N");
+    for (uint32_t s = 0; s < shown; s++) {
+        const JoxDangerPerson *person = &danger->people[order[s]];
+        jox_html_row(out);
+        fprintf(out, "<td class=n>%u", order[s]);
+        jox_html_cell_number(out, person->dose, "");
+        jox_html_cell_number(out, (double)person->most, "N");
+        put_place(out, person->most_time, person->most_at);
+        for (int l = 0; l < JOX_DANGER_LIMITS; l++)
+            if (jox_danger_limits[l].measure == JOX_DANGER_LOAD)
+                jox_html_cell_number(out, person->seconds[l], "s");
     }
     jox_html_table_end(out);
 }
@@ -192,7 +255,6 @@ static void put_lines(FILE *out, const JoxDanger *danger) {
 
 /* The pieces of walls that bore most. */
 static void put_walls(FILE *out, const JoxDanger *danger) {
-    enum { SHOWN = 10 };
     const JoxDangerWalls *walls = &danger->walls;
     jox_html_heading(out, "Walls: what pieces of them bore");
     if (!walls->known) {
@@ -200,22 +262,14 @@ static void put_walls(FILE *out, const JoxDanger *danger) {
         return;
     }
     char text[400];
-    snprintf(
-        text, sizeof text,
-        "Forces of people across each piece of a wall, at most 1 m long, held on average for a "
-        "second. The limit is %g N on a rail: %s (%s). %u of %u pieces were ever over it.",
-        JOX_RAIL_LIMIT, jox_rail_what, jox_rail_source, walls->over, walls->count);
+    snprintf(text, sizeof text,
+             "Forces of people across each piece of a side of a wall, at most 1 m long, held on "
+             "average for a "
+             "second. The limit is %g N on a rail: %s (%s). %u of %u pieces were ever over it.",
+             JOX_RAIL_LIMIT, jox_rail_what, jox_rail_source, walls->over, walls->count);
     jox_html_paragraph(out, text);
     jox_html_table(out, "from|to|now|greatest|greatest, per metre|when|over 4500 N|first");
-    uint32_t order[SHOWN], shown = 0;
-    for (uint32_t p = 0; p < walls->count; p++) { /* the greatest, descending */
-        uint32_t at = shown < SHOWN ? shown++ : SHOWN;
-        for (; at > 0 && walls->items[order[at - 1]].most < walls->items[p].most; at--)
-            if (at < SHOWN)
-                order[at] = order[at - 1];
-        if (at < SHOWN)
-            order[at] = p;
-    }
+    uint32_t order[SHOWN], shown = most_of(danger, walls->count, most_of_piece, order);
     for (uint32_t s = 0; s < shown; s++) {
         const JoxDangerPiece *piece = &walls->items[order[s]];
         jox_html_row(out);
@@ -236,6 +290,7 @@ void jox_page_danger(FILE *out, const JoxDanger *danger) {
     put_texts(out, danger);
     put_limits(out, danger);
     put_most(out, danger);
+    put_people(out, danger);
     put_levels(out, danger);
     put_lines(out, danger);
     put_walls(out, danger);

@@ -78,7 +78,7 @@ static void add_usual(JoxReport *r) {
                        .high = high,
                        .every = 1.0,
                        .cell = JOX_DENSITY_CELL,
-                       .kernel = 0.7};
+                       .kernel = JOX_DENSITY_KERNEL};
     JoxProbeDef all = {.name = "all",
                        .kind = JOX_PROBE_MEASURE,
                        .until = INFINITY,

@@ -34,7 +34,6 @@ static bool begin_with_pictures(void *self, JoScene *scene, const void *folder, 
     if (!begin(self, scene, folder, error))
         return false;
     r->paths = jox_paths_create();
-    jox_run_collect_density(scene);
     return true;
 }
 
@@ -105,7 +104,7 @@ static bool draw(void *self, JoScene *scene, JoError *error) {
     const bool paths = scene->world->state.agents.next_id <= JOX_MOST_PATHS && r->paths->count;
     snprintf(title, sizeof title, "%.120s: density, t = %.0f to %.0f s, %u agents", name,
              scene->spec->heatmap_from, until, scene->world->state.agents.count);
-    bool good = jox_plot_density(r->folder, jox_run_density(scene), jox_run_peak(scene),
+    bool good = jox_plot_density(r->folder, jox_run_local(scene)->grid,
                                  &scene->world->model.all_walls, title, &why);
     if (good && regions) {
         snprintf(title, sizeof title, "%.120s: mean speed per region, t = %.0f to %.0f s", name,

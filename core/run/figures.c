@@ -6,13 +6,7 @@
 #include "base/mem.h"
 #include "run/run.h"
 
-static const double SAMPLE = 2.0; /* s between samples of density and of the regions' speeds */
-/* m between the points at which density_max is read, farther in areas of more than MOST_POINTS. The
-   kernel is smooth over that distance; a report's map has finer cells for its picture, and takes
-   six times as long. */
-static const float PEAK_CELL = 0.5f;
-static const float MOST_POINTS = 1e6f;
-
+static const double SAMPLE = 2.0; /* s between samples of the regions' speeds */
 /* Whether the frame of now is a sample. */
 static bool is_sample(const JoScene *scene) {
     const JoWorld *world = scene->world;
@@ -67,100 +61,70 @@ const JoxRegions *jox_run_regions(const JoScene *scene) {
     return r ? r->regions : NULL;
 }
 
-/* ---- density: of every run for its greatest value, and finer for a report's map ---- */
+/* ---- density: of every run ---- */
 
-typedef struct DensityField {
-    JoxDensity *density;
-} DensityField;
+typedef struct LocalFigures {
+    JoxLocal *local;
+} LocalFigures;
 
-static bool density_begin(void *self, JoScene *scene, const void *options, JoError *error) {
+static bool local_begin(void *self, JoScene *scene, const void *options, JoError *error) {
+    LocalFigures *figures = self;
     JoxV2 low, high;
     (void)options, (void)error;
     jox_run_area(scene, &low, &high);
-    ((DensityField *)self)->density =
-        jox_density_create(low, high, JOX_DENSITY_CELL, JOX_DENSITY_KERNEL);
+    figures->local = jox_local_create(low, high);
+    figures->local->mean_from = scene->spec->heatmap_from;
     return true;
 }
 
-static bool peak_begin(void *self, JoScene *scene, const void *options, JoError *error) {
-    JoxV2 low, high;
-    (void)options, (void)error;
-    jox_run_area(scene, &low, &high);
-    float cell = sqrtf((high.x - low.x) * (high.y - low.y) / MOST_POINTS);
-    ((DensityField *)self)->density =
-        jox_density_create(low, high, jox_maxf(cell, PEAK_CELL), JOX_DENSITY_KERNEL);
-    return true;
-}
-
-static void add_density(DensityField *field, const JoScene *scene) {
-    const JoxAgents *a = &scene->world->state.agents;
-    jox_density_add(field->density, a->x, a->y, a->count, jo_world_time(scene->world));
-}
-
-static bool density_frame(void *self, JoScene *scene, JoError *error) {
+static bool local_frame(void *self, JoScene *scene, JoError *error) {
+    JoxLocal *local = ((LocalFigures *)self)->local;
     (void)error;
-    if (is_sample(scene))
-        add_density(self, scene);
+    if (jox_local_is_due(local, jo_world_time(scene->world)))
+        jox_local_frame(local, jox_run_frame(scene), NULL);
     return true;
 }
 
-static bool density_end(void *self, JoScene *scene, JoError *error) {
-    DensityField *field = self;
-    (void)error;
-    if (field->density->frames == 0) /* a run shorter than the first sample */
-        add_density(field, scene);
-    return true;
+static void local_release(void *self) {
+    jox_local_free(((LocalFigures *)self)->local);
 }
 
-static void density_release(void *self) {
-    jox_density_free(((DensityField *)self)->density);
+static const JoxListenerKind LOCAL = {.name = "density",
+                                      .size = sizeof(LocalFigures),
+                                      .begin = local_begin,
+                                      .frame = local_frame,
+                                      .release = local_release};
+
+void jox_run_collect_local(JoScene *scene) {
+    if (!jox_run_listener(scene, &LOCAL))
+        jox_run_listen(scene, &LOCAL, NULL, NULL);
 }
 
-static const JoxListenerKind DENSITY = {.name = "density",
-                                        .size = sizeof(DensityField),
-                                        .begin = density_begin,
-                                        .frame = density_frame,
-                                        .end = density_end,
-                                        .release = density_release};
-
-void jox_run_collect_density(JoScene *scene) {
-    if (!jox_run_listener(scene, &DENSITY))
-        jox_run_listen(scene, &DENSITY, NULL, NULL);
+static JoxLocal *local_of(const JoScene *scene) {
+    LocalFigures *figures = jox_run_listener(scene, &LOCAL);
+    return figures ? figures->local : NULL;
 }
 
-const JoxDensity *jox_run_density(const JoScene *scene) {
-    const DensityField *field = jox_run_listener(scene, &DENSITY);
-    return field ? field->density : NULL;
+const JoxLocal *jox_run_local(const JoScene *scene) {
+    return local_of(scene);
 }
 
-static const JoxListenerKind PEAK = {.name = "greatest density",
-                                     .size = sizeof(DensityField),
-                                     .begin = peak_begin,
-                                     .frame = density_frame,
-                                     .end = density_end,
-                                     .release = density_release};
-
-void jox_run_collect_peak(JoScene *scene) {
-    if (!jox_run_listener(scene, &PEAK))
-        jox_run_listen(scene, &PEAK, NULL, NULL);
-}
-
-const JoxDensity *jox_run_peak(const JoScene *scene) {
-    const DensityField *field = jox_run_listener(scene, &PEAK);
-    return field ? field->density : NULL;
+const JoxLocal *jox_run_want_pressure(JoScene *scene) {
+    jox_run_collect_local(scene);
+    jox_local_want_pressure(local_of(scene));
+    return local_of(scene);
 }
 
 double jox_run_density_max(const JoScene *scene) {
-    const JoxDensity *peak = jox_run_peak(scene);
+    const JoxLocal *local = local_of(scene);
     const JoxAgents *a = &scene->world->state.agents;
-    if (!peak || peak->frames)
-        return peak ? peak->most : NAN;
-    /* no sample yet: that of the present */
-    JoxDensity *now = jox_density_create(
-        peak->low,
-        jox_add(peak->low, jox_scale((JoxV2){(float)peak->columns, (float)peak->rows}, peak->cell)),
-        peak->cell, JOX_DENSITY_KERNEL);
-    jox_density_add(now, a->x, a->y, a->count, jo_world_time(scene->world));
+    JoxV2 low, high;
+    if (!local || local->samples > 0)
+        return local ? local->grid->most : NAN;
+    jox_run_area(scene, &low, &high); /* no step yet: that of the present */
+    JoxDensity *now = jox_density_create(low, high, local->grid->cell, JOX_DENSITY_KERNEL);
+    jox_density_walls(now, &scene->world->scratch.walls);
+    jox_density_add(now, a->period, a->x, a->y, a->count, jo_world_time(scene->world));
     double most = now->most;
     jox_density_free(now);
     return most;
@@ -176,10 +140,12 @@ typedef struct DangerArea {
     JoxV2 low, high;
 } DangerArea;
 
+/* Of the run's own densities, unless an area is given. */
 static bool danger_begin(void *self, JoScene *scene, const void *options, JoError *error) {
     const DangerArea *area = options;
     (void)error;
-    JoxDanger *danger = jox_danger_create(area->low, area->high);
+    JoxDanger *danger =
+        area ? jox_danger_create(area->low, area->high) : jox_danger_create_on(local_of(scene));
     jox_danger_add_flows(danger, scene->spec->probes, scene->spec->probe_count);
     ((DangerFigures *)self)->danger = danger;
     return true;
@@ -209,9 +175,8 @@ void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high) {
 }
 
 void jox_run_collect_danger(JoScene *scene) {
-    JoxV2 low, high;
-    jox_run_area(scene, &low, &high);
-    jox_run_collect_danger_in(scene, low, high);
+    if (!jox_run_listener(scene, &DANGER))
+        jox_run_listen(scene, &DANGER, NULL, NULL);
 }
 
 const JoxDanger *jox_run_danger(const JoScene *scene) {

@@ -1,5 +1,6 @@
 /* Trajectories of a run, written to an SQLite file. */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
 #include "base/guard.h"
@@ -16,6 +17,12 @@ typedef struct Recording {
     uint32_t next;                    /* the first number that no machine has */
     uint32_t *shapes; /* per body id: blocks of the shape that was recorded, plus 1 */
     size_t shape_capacity;
+    /* By agent's id: sums over the steps since the recorded frame before. */
+    struct Borne {
+        float compression, load;
+        uint32_t steps;
+    } * borne;
+    size_t borne_capacity;
 } Recording;
 
 /* Number of an agent's state in jostle_state. */
@@ -93,8 +100,27 @@ static void record_shapes(Recording *r, const JoScene *scene, uint32_t frame) {
     }
 }
 
+/* What people bear changes from step to step: frames have the mean since the one before, so that no
+   part of it is lost between them. */
+static void add_borne(Recording *r, const JoxAgents *a) {
+    JOX_RESERVE_ZEROED(r->borne, r->borne_capacity, a->next_id);
+    for (uint32_t i = 0; i < a->count; i++) {
+        struct Borne *b = &r->borne[a->id[i]];
+        b->compression += a->compression[i];
+        b->load += a->load[i];
+        b->steps++;
+    }
+}
+
+static struct Borne take_borne(Recording *r, uint32_t id) {
+    const struct Borne b = r->borne[id];
+    r->borne[id] = (struct Borne){0};
+    return (struct Borne){b.compression / (float)b.steps, b.load / (float)b.steps, b.steps};
+}
+
 static bool record_frame(void *self, JoScene *scene, JoError *error) {
     Recording *r = self;
+    add_borne(r, &scene->world->state.agents);
     if (scene->world->state.tick % r->every != 0)
         return true;
     const JoxAgents *a = &scene->world->state.agents;
@@ -106,10 +132,11 @@ static bool record_frame(void *self, JoScene *scene, JoError *error) {
     JoxRecordRow *rows = jox_recorder_take(r->recorder, a->count, count, &bodies);
     for (uint32_t rank = 0; rank < a->count; rank++) { /* whatever the order in memory */
         const uint32_t i = a->by_rank[rank], id = a->id[i];
+        const struct Borne borne = take_borne(r, id);
         float force = sqrtf(a->force_x[i] * a->force_x[i] + a->force_y[i] * a->force_y[i]);
         rows[n++] = (JoxRecordRow){
             id,    a->x[i],           a->y[i],    a->face_x[i], a->face_y[i], state_number(r, a, i),
-            force, a->compression[i], a->load[i], a->group[i]};
+            force, borne.compression, borne.load, a->group[i]};
     }
     n = 0;
     for (uint32_t o = 0; o < objects->count && n < count; o++) {
@@ -136,6 +163,7 @@ static void release(void *self) {
     Recording *r = self;
     JOX_ASSERT(!r->recorder);
     jox_free(r->shapes);
+    jox_free(r->borne);
 }
 
 static const JoxListenerKind RECORDING = {.name = "recording",

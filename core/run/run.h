@@ -10,7 +10,7 @@
 #include "jostle.h"
 #include "lua/loader.h"
 #include "record/danger/danger.h"
-#include "record/fields/density.h"
+#include "record/local.h"
 #include "record/probes/probe.h"
 #include "record/regions.h"
 #include "run/listener.h"
@@ -165,15 +165,15 @@ void jox_run_free_frame(JoScene *scene);
 /* figures.c: attaches what collects figures, if it is not there yet, from here on; and what has
    been collected so far, or NULL. Regions and probes: of scenes that have some. */
 void jox_run_collect_regions(JoScene *scene);
-void jox_run_collect_density(JoScene *scene);
+void jox_run_collect_local(JoScene *scene);
 void jox_run_collect_danger(JoScene *scene);
 void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high); /* m */
 const JoxRegions *jox_run_regions(const JoScene *scene);
-const JoxDensity *jox_run_density(const JoScene *scene);
-/* Densities that every run samples, coarser than a report's map, and the greatest of any time,
-   1/m2: the figure density_max. */
-void jox_run_collect_peak(JoScene *scene);
-const JoxDensity *jox_run_peak(const JoScene *scene);
+/* Local densities, which every run samples. */
+const JoxLocal *jox_run_local(const JoScene *scene);
+/* The same, with crowd pressure from here on. */
+const JoxLocal *jox_run_want_pressure(JoScene *scene);
+/* The greatest density of any place and sample, 1/m2: the figure density_max. */
 double jox_run_density_max(const JoScene *scene);
 const JoxDanger *jox_run_danger(const JoScene *scene);
 /* probes.c: the same for probes. The n-th, or NULL behind the last. */

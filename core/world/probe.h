@@ -14,7 +14,8 @@
 /* clang-format off */
 #define JOX_PROBES(X)                                                                               \
     X(FLOW, flow, LINE, "", "door:    {flow: [[4, -2], [4, 2]], from: 2, until: 60}",               \
-      "a line of two points: passages from its right to its left, N(t), lapses between them")       \
+      "a line of two points: passages from its right to its left, N(t), lapses between them; in "    \
+      "reports also its level of service, stop-and-go and congestion")                               \
     X(MEASURE, measure, RING, "every|cutoff",                                                       \
       "front:   {measure: [[0, 0], [2, 0], [2, 2], [0, 2]], every: 0.5, cutoff: 1.5}",              \
       "a polygon: people, classical and Voronoi density, mean speed and specific flow in it")       \
@@ -60,7 +61,8 @@ typedef struct JoxProbeDef {
     double rest;           /* s: displacement is from the mean place of this time */
     double onset;          /* m: displacement from which a person counts as moved */
     JoxV2 low, high;       /* map, lanes: the area; a map with low.x > high.x takes the scene's */
-    double cell, kernel;   /* m: width of a map's cells, R of its Gaussian */
+    double cell, kernel;   /* m: width of a map's cells, standard deviation of its Gaussian */
+    bool through_walls;    /* map: its Gaussian heeds no walls */
     double rows;           /* m: width of the rows that lanes are looked for in */
     bool along_y;          /* lanes run along y, not x */
     const char *states[2]; /* visit: names of states, of whatever machine */

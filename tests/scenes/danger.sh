@@ -74,3 +74,63 @@ grep -q "$(sha256sum "$work/hall/plan.wkt" | cut -c1-64)" "$work/hall/plan.json"
 [ "$(in_json intervals "$work/hall/again.json")" = 0 ]; verdict "nor through the solid ones that a recording has" $?
 echo 'POLYGON ((0 0, 8 0, 8 6, 0 6))' >"$work/hall/plan.wkt"
 "$JOSTLE" check "$work/hall/plan.yaml" >"$work/out" 2>&1; [ $? = 1 ] || [ $? = 3 ]; grep -q 'plan.wkt:1:10: this ring does not end where it begins' "$work/out"; verdict "what is wrong in a plan is shown where it is" $?
+
+# Crowd pressure: of a free boarding queue there is none, of people who leave a hall it is far from
+# turbulence, of a crush at a bottleneck it is turbulence.
+shaken() { "$JOSTLE" run "scenes/$1.yaml" --for "$2" --quiet --data "$work/shaken" --summary "$work/shaken.json" >/dev/null 2>&1; in_json pressure_max "$work/shaken.json"; }
+[ -z "$(shaken station 60)" ] && grep -q '"pressure_max": null' "$work/shaken.json" && grep -q '"pressure_002": {"people": null' "$work/shaken.json"; verdict "a boarding queue: not measured" $?
+between "1,000 people who leave by four doors, 1/s2" "$(shaken rimea-09 60)" 0.001 0.02
+between "1,000 people who press through a bottleneck, 1/s2" "$(shaken two-bottlenecks 40)" 0.05 1
+
+# Each figure is one quantity: the same in the summary, in the tables and on the page.
+"$JOSTLE" run scenes/door-050.yaml --for 40 --quiet --no-half-step --report "$work/door" --summary "$work/door.json" >/dev/null 2>&1
+verdict "a run through a door" $?
+sed -n '/^ "danger"/,/^ }/p' "$work/door.json" >"$work/door.danger"
+column() { awk -F, -v name="$1" 'NR == 1 {for (i = 1; i <= NF; i++) if ($i == name) c = i; next} c && $c != "" && $c != "nan" {print $c}' "$2"; } # NAME FILE
+greatest() { column "$1" "$2" | sort -g | tail -1; }
+# cells FIRST-CELL: the cells of a row of the page, a line each
+cells() { sed -n "s/^<tr><td>$1<td\(.*\)/<td\1/p" "$work/door/index.html" | sed 's/<td[^>]*>/\n/g; s/&nbsp;/ /g; s/&ndash;/-/g' | sed 1d; }
+alike() { # NAME A B WITHIN: A = B but for the share WITHIN, or both are empty
+    awk -v a="$2" -v b="$3" -v d="$4" 'BEGIN {e = a - b; m = a < 0 ? -a : a; exit !(a == b || (a != "" && b != "" && e <= d * m && -e <= d * m))}'
+    verdict "$1 ($2, $3)" $?
+}
+[ -n "$(figure density_max <"$work/door.json")" ] && [ "$(figure density_max <"$work/door.json")" = "$(in_json density_max "$work/door.danger")" ]; verdict "density_max of the run is that of danger" $?
+for measure in density:1/m2 pressure:1/s2 compression:N/m load:N; do
+    IFS=: read -r name unit <<<"$measure"
+    said=$(in_json "${name}_max" "$work/door.danger")
+    alike "the greatest $name over time is that of the summary" "$said" "$(greatest "${name}_max [$unit]" "$work/door/danger.csv")" 1e-6
+    alike "and that of the map" "$said" "$(greatest "${name}_max [$unit]" "$work/door/danger-map.csv")" 1e-3
+    alike "and that of the page" "$said" "$(cells "$name" | sed -n '1s/ .*//p')" 6e-4
+done
+alike "the greatest density of the summary and of its danger" "$(figure density_max <"$work/door.json")" "$(in_json density_max "$work/door.danger")" 1e-6
+alike "the greatest dose" "$(in_json dose_max "$work/door.danger")" "$(greatest 'dose_max []' "$work/door/danger.csv")" 1e-6
+for limit in density_5 density_7 pressure_002 load_623 load_1112 load_6227 dose_1; do
+    object=$(grep -o "\"$limit\": {[^}]*}" "$work/door.danger")
+    line=$(grep "^$limit," "$work/door/danger-limits.csv")
+    n=5
+    for key in people person_s longest_s first_s first_x first_y since_min; do
+        want=$(sed "s/.*\"$key\": \([^,}]*\).*/\1/; s/null//" <<<"$object")
+        alike "$limit: $key" "$want" "$(cut -d, -f$n <<<"$line")" 1e-6
+        n=$((n + 1))
+    done
+    page=$(cells "$limit")
+    alike "$limit on the page: people" "$(cut -d, -f5 <<<"$line")" "$(sed -n '2s/^-$//; 2p' <<<"$page")" 6e-4
+    alike "$limit on the page: person-seconds" "$(cut -d, -f6 <<<"$line")" "$(sed -n '3s/ .*//p' <<<"$page")" 6e-4
+    alike "$limit on the page: longest" "$(cut -d, -f7 <<<"$line")" "$(sed -n '4s/ .*//p' <<<"$page")" 6e-4
+    alike "$limit on the page: minutes since" "$(cut -d, -f11 <<<"$line")" "$(sed -n '6s/ .*//p' <<<"$page" | sed 's/^-$//')" 6e-4
+done
+total=0
+for level in A B C D E F; do
+    said=$(grep -o '"level_person_s": {[^}]*}' "$work/door.danger" | sed "s/.*\"$level\": \([^,}]*\).*/\1/")
+    alike "level $level: person-seconds in the table" "$said" "$(grep "^$level," "$work/door/danger-levels.csv" | cut -d, -f3)" 1e-6
+    alike "level $level: person-seconds on the page" "$said" "$(cells $level | sed -n '2s/ .*//p')" 6e-4
+    total=$(awk -v a="$total" -v b="$said" 'BEGIN {print a + b}')
+done
+alike "the levels' person-seconds are those of the people over time" "$total" "$(awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) if ($i == "level_A") c = i} NR > 2 {for (k = c; k < c + 6; k++) s += $k * ($1 - t)} {t = $1} END {print s}' "$work/door/danger.csv")" 1e-6
+door=$(sed -n 's/.*"lines": {"door": \(.*\)/\1/p' "$work/door.danger")
+alike "the door is half a metre wide" "$(sed 's/.*"width": \([^,]*\).*/\1/' <<<"$door")" 0.5 1e-3
+alike "who passed it are the passages of the probe" "$(sed 's/.*"forward": \([^,]*\).*/\1/' <<<"$door")" "$(column forward "$work/door/danger-lines.csv" | tail -1)" 0
+alike "its greatest flow" "$(sed 's/.*"flow_max": \([^,]*\).*/\1/' <<<"$door")" "$(greatest 'flow [1/(m s)]' "$work/door/danger-lines.csv")" 1e-6
+alike "its greatest flow on the page" "$(sed 's/.*"flow_max": \([^,]*\).*/\1/' <<<"$door")" "$(cells door | sed -n '3s/ .*//p')" 6e-4
+stops=$(column stop_and_go "$work/door/danger-lines.csv" | grep -c 1)
+alike "its stop-and-go" "$(sed 's/.*"stop_and_go": {"seconds": \([^,]*\).*/\1/' <<<"$door")" "$(awk -v n="$stops" 'BEGIN {print n / 2}')" 1e-6

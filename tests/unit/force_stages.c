@@ -221,6 +221,42 @@ static void printed_deceleration_pulls_back(void **state) {
     }
 }
 
+/* From (1, 0) to `after`: what the one ahead gets, along x, or else the one who turned. */
+static double thrown(bool literal, bool alone, float x, float y) {
+    Crowd c;
+    open_crowd(&c, 0.05);
+    if (literal)
+        set_literal(&c);
+    add_agent(&c, 0, 0, 1, 0);
+    if (!alone)
+        add_agent(&c, 0.6f, 0, 0, 0);
+    begin(&c);
+    jox_force_sum(c.forces);
+    c.agents.vx[0] = x;
+    c.agents.vy[0] = y;
+    jox_force_infer(c.forces);
+    double force = c.agents.inferred_x[alone ? 0 : 1];
+    assert_true(alone || c.agents.inferred_x[0] == 0);
+    close_crowd(&c);
+    return force;
+}
+
+static void a_turn_throws_nobody(void **state) {
+    (void)state;
+    double share = 1 - exp(-0.05 / 0.13), whole = 0.8 * 70 / 0.05; /* for a change of 1 m/s */
+    for (int alone = 0; alone < 2; alone++) {
+        /* By 90 degrees, from 1 to 0.9. */
+        assert_true(thrown(false, alone, 0, 0.9f) == 0 && thrown(true, alone, 0, 0.9f) == 0);
+        assert_true(thrown(false, alone, 0, -0.9f) == 0 && thrown(true, alone, 0, -0.9f) == 0);
+        /* By 20 degrees, from 1 to 0.5: slowing. */
+        assert_near(thrown(false, alone, 0.469846f, 0.171010f), whole * 0.530154 * share, 0.1);
+        assert_near(thrown(true, alone, 0.469846f, 0.171010f), -whole * 0.530154, 0.1);
+    }
+    /* A full stop leaves the printed angle without a direction to be taken to. */
+    assert_near(thrown(false, false, 0, 0), whole * share, 0.1);
+    assert_true(thrown(true, false, 0, 0) == 0);
+}
+
 enum { MANY = 700, STEPS = 6 };
 
 static void fill(Crowd *c) {
@@ -282,22 +318,21 @@ static void assert_same(const Crowd *c, const Crowd *d) {
 
 static void order_and_threads_change_no_bit(void **state) {
     (void)state;
-    Crowd plain, other;
-    fill(&plain);
-    advance(&plain, false);
-    fill(&other);
-    advance(&other, true);
-    assert_same(&plain, &other);
-    close_crowd(&other);
-    for (uint32_t threads = 2; threads <= 4; threads += 2) {
-        fill(&other);
-        other.step.pool = jox_pool_create(threads);
-        advance(&other, threads == 4);
-        assert_same(&plain, &other);
-        jox_pool_free(other.step.pool);
-        close_crowd(&other);
+    for (int literal = 0; literal < 2; literal++) {
+        Crowd crowds[4]; /* as it is, shuffled, on two threads, on four and shuffled */
+        for (uint32_t k = 0; k < 4; k++) {
+            fill(&crowds[k]);
+            if (literal)
+                set_literal(&crowds[k]);
+            crowds[k].step.pool = k < 2 ? NULL : jox_pool_create(k == 2 ? 2 : 4);
+            advance(&crowds[k], k % 2);
+            assert_same(&crowds[0], &crowds[k]);
+        }
+        for (uint32_t k = 0; k < 4; k++) {
+            jox_pool_free(crowds[k].step.pool);
+            close_crowd(&crowds[k]);
+        }
     }
-    close_crowd(&plain);
 }
 
 static void contacts_keep_momentum(void **state) {
@@ -376,6 +411,7 @@ int main(void) {
         cmocka_unit_test(the_plane_asks_for_the_forced_velocity),
         cmocka_unit_test(the_braced_pass_on_and_the_slowing_throw),
         cmocka_unit_test(printed_deceleration_pulls_back),
+        cmocka_unit_test(a_turn_throws_nobody),
         cmocka_unit_test(order_and_threads_change_no_bit),
         cmocka_unit_test(contacts_keep_momentum),
         cmocka_unit_test(a_steady_step_allocates_nothing),

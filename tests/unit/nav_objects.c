@@ -48,9 +48,38 @@ static void of_many_bodies_the_nearest_are_avoided(void **state) {
     jox_nav_free(nav);
 }
 
+static void what_is_approached_counts_though_its_kind_is_ignored(void **state) {
+    (void)state;
+    /* Two balls at 1 m; the second is approached: not anticipated, but not run over within the
+       planning time either, 0.6 m in 0.05 s. */
+    JoxObject rows[2];
+    for (int k = 0; k < 2; k++) {
+        rows[k] = (JoxObject){.live = true, .in_band = true, .disc = 0.2f, .round = 0.2f};
+        rows[k].position = (JoxV3){0.0f, k ? 1.0f : -1.0f, 0.2f};
+        rows[k].tags = 2;
+    }
+    JoxObjects objects = {.rows = rows, .count = 2};
+    jox_objects_lay(&objects);
+    JoxAgents agents = {0};
+    JoxNav *nav = jox_nav_create();
+    uint32_t i = jox_agents_add(&agents);
+    agents.ignore[i] = 2;
+    agents.approach[i] = -1;
+    JoxHalfPlane planes[JOX_MOST_NEAREST];
+    assert_int_equal(jox_orca_objects(nav, &agents, i, &objects, 0.05f, planes, 24), 0);
+    agents.approach[i] = 1;
+    assert_int_equal(jox_orca_objects(nav, &agents, i, &objects, 0.05f, planes, 24), 1);
+    assert_true(fabsf(planes[0].normal.y + 1.0f) < 1e-5f);
+    assert_true(fabsf(planes[0].offset + 0.6f / 0.05f) < 1e-3f);
+    jox_objects_free_grid(&objects);
+    jox_agents_free(&agents);
+    jox_nav_free(nav);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(of_many_bodies_the_nearest_are_avoided),
+        cmocka_unit_test(what_is_approached_counts_though_its_kind_is_ignored),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

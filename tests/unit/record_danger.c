@@ -99,9 +99,9 @@ static void pressure_is_density_times_variance_over_time(void **state) {
     assert_float_equal(pressure_of(0.1, 0.0, SIDE), 6.25 * 0.01, 0.004);
     assert_float_equal(pressure_of(0.2, 0.0, SIDE), 6.25 * 0.04, 0.016);
     /* a common drift is no variance */
-    assert_float_equal(pressure_of(0.0, 0.05, SIDE), 0.0, 1e-4);
+    assert_true(pressure_of(0.0, 0.05, SIDE) < 1e-4);
     /* three people never are dense enough to be read */
-    assert_float_equal(pressure_of(0.5, 0.0, 2), 0.0, 1e-9);
+    assert_true(isnan(pressure_of(0.5, 0.0, 2)));
 }
 
 /* Person 0 is pressed from 2 s to 12 s, person 1 knocked in one step. */

@@ -126,9 +126,34 @@ static void walls_end_cells(void **state) {
     }
 }
 
+/* Nobody is a neighbour through a wall: a corridor 1 m wide has a person each half metre, and
+   others stand behind its walls. */
+static void who_is_behind_a_wall_is_no_neighbour(void **state) {
+    (void)state;
+    static struct JoxBar walls[] = {{{-9, 0}, {9, 0}}, {{-9, 1}, {9, 1}}};
+    const JoxBars bars = {walls, 2, 0};
+    const JoxV2 all[] = {{-20, -20}, {20, -20}, {20, 20}, {-20, 20}};
+    JoxSites sites = {0};
+    JoxCell cell;
+    double whole, within;
+    for (int i = -8; i <= 8; i++) {
+        jox_sites_add(&sites, jox_v2(0.5f * (float)i, 0.5f), 0);
+        jox_sites_add(&sites, jox_v2(0.5f * (float)i, -0.1f), 1);
+        jox_sites_add(&sites, jox_v2(0.5f * (float)i, 1.1f), 2);
+    }
+    jox_sites_sort(&sites, 1.0);
+    for (int with = 0; with < 2; with++) {
+        sites.bars = with ? &bars : NULL;
+        jox_sites_cell(&sites, 3 * 8, 1.0, &cell);
+        jox_cell_seen(&cell, sites.points[3 * 8], &bars, all, 4, &whole, &within);
+        assert_near(whole, with ? 0.5 : 0.3, 1e-6);
+    }
+    jox_sites_free(&sites);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_lattice_has_known_cells),
-                                       cmocka_unit_test(cells_are_what_is_nearest),
-                                       cmocka_unit_test(walls_end_cells)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_lattice_has_known_cells), cmocka_unit_test(cells_are_what_is_nearest),
+        cmocka_unit_test(walls_end_cells), cmocka_unit_test(who_is_behind_a_wall_is_no_neighbour)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

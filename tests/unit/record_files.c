@@ -195,9 +195,8 @@ static void density_is_that_of_the_people(void **state) {
         dice = dice * 1664525u + 1013904223u;
         y[i] = -8 + 9 * (float)(dice >> 8) / 16777216.0f;
     }
-    JoxDensity *d =
-        jox_density_create((JoxV2){-5, -15}, (JoxV2){20, 9}, JOX_DENSITY_CELL, JOX_DENSITY_KERNEL);
-    jox_density_add(d, x, y, PEOPLE, 3);
+    JoxDensity *d = jox_density_create((JoxV2){-5, -15}, (JoxV2){20, 9}, JOX_DENSITY_CELL, 1.5f);
+    jox_density_add(d, (JoxV2){0, 0}, x, y, PEOPLE, 3);
     const double R = 1.5, PI = 3.14159265358979323846;
     double whole = 0, most = 0, worst = 0;
     JoxV2 most_at = {0, 0};
@@ -222,7 +221,8 @@ static void density_is_that_of_the_people(void **state) {
     assert_true(fabsf(d->most_at.x - most_at.x) < 0.5f && fabsf(d->most_at.y - most_at.y) < 0.5f);
     assert_true(d->most_time == 3);
     float first = d->most, far_x[] = {NAN, INFINITY, 1e30f, -300}, far_y[] = {0, 0, 0, 0};
-    jox_density_add(d, far_x, far_y, 4, 4); /* nobody within reach: the mean halves */
+    jox_density_add(d, (JoxV2){0, 0}, far_x, far_y, 4,
+                    4); /* nobody within reach: the mean halves */
     assert_true(d->most == first && d->most_time == 3);
     uint32_t column = (uint32_t)((d->most_at.x + 5) / d->cell);
     uint32_t row = (uint32_t)((d->most_at.y + 15) / d->cell);

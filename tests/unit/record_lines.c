@@ -117,7 +117,7 @@ static void stepping_back_is_no_passage(void **state) {
     /* Nobody passes a full place: from 10 s on, to 30 s. */
     assert_float_equal(line->stop_and_go.first, 10.0, 1e-6);
     assert_float_equal(line->stop_and_go.seconds, 20.5, 0.01);
-    assert_int_equal(line->worst, JOX_LEVELS - 1); /* though hardly anybody passes */
+    assert_int_equal(line->worst, JOX_LEVELS - 1);          /* though hardly anybody passes */
     assert_float_equal(line->congestion.seconds, 0.0, 0.0); /* nobody comes */
     jox_danger_free(danger);
 }
@@ -202,8 +202,8 @@ static void rails_bend_at_4500_newtons(void **state) {
     (void)state;
     JoxDanger *danger = begin(1);
     crowd.load_count = 2;
-    crowd.loads[0] = (JoxWallLoad){{0, 0}, {0.5f, 0}, 0};
-    crowd.loads[1] = (JoxWallLoad){{0.5f, 0}, {1, 0}, 1000.0f};
+    crowd.loads[0] = (JoxWallLoad){.to = {0.5f, 0}};
+    crowd.loads[1] = (JoxWallLoad){.from = {0.5f, 0}, .to = {1, 0}, .load = 1000.0f};
     for (int step = 0; step <= 200; step++) {
         crowd.loads[0].load = step > 50 && step <= 150 ? 6000.0f : 0.0f;
         if (step == 120) { /* the list is made anew: pieces are known by their ends */

@@ -37,6 +37,13 @@ static void ten_walkers_pass_a_second_apart(void **state) {
     assert_near(figure(p, "specific_flow"), 0.5, 1e-4);
     assert_near(figure(p, "lapse_median"), 1, 1e-4);
     assert_near(figure(p, "lapse_max"), 1, 1e-4);
+    /* Walls that leave 0.8 m of it: the same people, through less. */
+    const JoxV2 jambs[2][2] = {{{0, -9}, {0, -0.4f}}, {{-3, 0.4f}, {3, 0.4f}}};
+    for (int w = 0; w < 2; w++)
+        jox_walls_add_polyline(&crowd.walls, jambs[w], 2, false, INFINITY);
+    show(p, 16);
+    assert_near(figure(p, "specific_flow"), 1 / 0.8, 0.05);
+    jox_walls_free(&crowd.walls);
     jox_probe_free(p);
 }
 
@@ -262,11 +269,11 @@ static void fields_are_the_kernel(void **state) {
     assert_near(figure(p, "density_max"), peak, 0.02 * peak);
     assert_near(figure(p, "density_max_x"), 0.05, 0.01);
     assert_near(figure(p, "speed"), 0.6, 1e-6);
-    assert_near(figure(p, "pressure_max"), peak * 0.36, 0.02 * peak * 0.36);
+    assert_true(isnan(figure(p, "pressure_max"))); /* of a moment there is none */
     assert_near(figure(p, "compression_max"), 250, 0);
-    crowd.vx[1] = 0.6f; /* together: no variance, no pressure */
+    show(p, 0.5); /* between samples */
     show(p, 1);
-    assert_near(figure(p, "pressure_mean_max"), peak * 0.18, 0.02 * peak * 0.18);
+    assert_near(figure(p, "density_mean_max"), peak, 0.02 * peak);
     assert_near(figure(p, "samples"), 2, 0);
     jox_probe_free(p);
 }

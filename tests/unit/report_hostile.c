@@ -128,10 +128,10 @@ static void densities_and_regions(void **state) {
         JoxText error = {0};
         JoxDensity *density = jox_density_create(jox_v2(0, 0), jox_v2(8, 4), 0.5f, 1.5f);
         JoxRegions *regions = jox_regions_create();
-        jox_density_add(density, X[0], Y, PEOPLE, 1.0);
+        jox_density_add(density, (JoxV2){0, 0}, X[0], Y, PEOPLE, 1.0);
         jox_regions_add(regions, HOSTILE[h], square, 4);
         jox_regions_frame(regions, X[1], Y, X[0], Y, PEOPLE, 1.0);
-        worked(jox_plot_density(folder, density, density, &walls, HOSTILE[h], &error), &error);
+        worked(jox_plot_density(folder, density, &walls, HOSTILE[h], &error), &error);
         worked(jox_plot_regions(folder, regions, HOSTILE[h], &error), &error);
         look_and_empty(2);
         jox_density_free(density);

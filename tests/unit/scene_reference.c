@@ -250,7 +250,8 @@ static void schemas_say_what_the_table_says(void **state) {
     JoxText text = {0};
     jox_scene_json_schema("scene", &text);
     expect_property(text.data, "\"mode\": {\"description\": \"literal: the equations as they were "
-                               "printed; default physical\", \"default\": \"physical\", "
+                               "printed (core/paper.md); `yield` and `damping` then have no "
+                               "effect; default physical\", \"default\": \"physical\", "
                                "\"enum\": [\"physical\", \"literal\"]}");
     expect_property(text.data,
                     "\"step\": {\"description\": \"time step, in s; 0.001 to 0.2, default 0.05\", "

@@ -9,60 +9,53 @@
 #include "base/mem.h"
 #include "record/danger/danger_parts.h"
 
-static const double PACE = 0.5;                /* s between samples of the fields */
-static const double HOLD = 1.0;                /* s: time constant of what a person bears */
-static const double START = 5.0;               /* s at first whose velocities are left out, */
-static const double CALM = 10.0;               /* s: time constant of means at a place */
-static const float FINE = 0.2f, COARSE = 0.4f; /* m: of cells */
-static const float FEW = 1e5f;                 /* cells: areas of more have coarser ones */
-static const float KERNEL = 0.70710678f;       /* m: R / sqrt 2, R = 1 m, of exp(-d2 / R2) */
-static const float LEAST = 0.02f; /* 1/m2: below this nobody is there to have a velocity */
+static const double HOLD = 1.0; /* s: time constant of what a person bears */
 
 /* ---- measuring ---- */
 
-JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high) {
+JoxDanger *jox_danger_create_on(JoxLocal *local) {
     JoxDanger *d = jox_alloc(1, sizeof *d);
-    float cell = sqrtf((high.x - low.x) * (high.y - low.y) / FEW);
-    d->grid = jox_density_create(low, high, jox_clampf(cell, FINE, COARSE), KERNEL);
-    size_t cells = (size_t)d->grid->columns * d->grid->rows;
-    float **fields[] = {&d->density, &d->flow_x,      &d->flow_y, &d->mean_density, &d->mean_vx,
-                        &d->mean_vy, &d->mean_square, &d->weight, &d->pressure};
-    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
-        *fields[f] = jox_alloc(cells, sizeof(float));
+    size_t cells = (size_t)local->grid->columns * local->grid->rows;
+    d->local = local;
+    jox_local_want_pressure(local);
     for (int m = 0; m < JOX_DANGER_MAPPED; m++) {
         d->sum[m] = jox_alloc(cells, sizeof(double));
         d->greatest[m] = jox_alloc(cells, sizeof(float));
     }
     for (int m = 0; m < JOX_DANGER_MEASURES; m++)
         d->most[m] = (JoxDangerMost){.value = NAN, .time = NAN};
+    d->measured = jox_alloc(cells, sizeof *d->measured);
     d->stood = jox_alloc(cells, sizeof *d->stood);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++)
         d->counts[l].first = NAN;
     d->last_frame = d->last_sample = NAN;
-    d->stretch = INT64_MIN;
     return d;
 }
 
-/* The cell of a point; false outside the area. */
-static bool cell_of(const JoxDensity *g, float x, float y, size_t *cell) {
-    float column = floorf((x - g->low.x) / g->cell), row = floorf((y - g->low.y) / g->cell);
-    if (!(column >= 0.0f && column < (float)g->columns && row >= 0.0f && row < (float)g->rows))
-        return false;
-    *cell = (size_t)row * g->columns + (size_t)column;
-    return true;
+JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high) {
+    JoxDanger *d = jox_danger_create_on(jox_local_create(low, high));
+    d->owns_local = true;
+    return d;
+}
+
+/* `value` was there, of a person or UINT32_MAX: the greatest is kept. */
+static void keep_greatest(JoxDanger *d, JoxDangerMeasure measure, double value, double time,
+                          JoxV2 at, uint32_t person) {
+    JoxDangerMost *most = &d->most[measure];
+    if (value > (isnan(most->value) ? 0.0 : most->value))
+        *most = (JoxDangerMost){value, time, person, at};
 }
 
 /* Person i has `value` for `duration` seconds; marks the limits passed. */
 static void judge(JoxDanger *d, const JoxFrame *frame, uint32_t i, JoxDangerMeasure measure,
                   double value, double duration) {
     JoxV2 at = {frame->x[i], frame->y[i]};
-    JoxDangerMost *most = &d->most[measure];
     JoxDangerPerson *person = &d->people[frame->key[i]];
-    if (value > (isnan(most->value) ? 0.0 : most->value))
-        *most = (JoxDangerMost){value, frame->time, at};
+    if ((int)measure >= (int)JOX_DANGER_FIRST_BORNE)
+        keep_greatest(d, measure, value, frame->time, at, frame->key[i]);
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
         JoxDangerCount *count = &d->counts[l];
-        if (jox_danger_limits[l].measure != measure || value < jox_danger_limits[l].value)
+        if (jox_danger_limits[l].measure != measure || !(value >= jox_danger_limits[l].value))
             continue;
         count->person_s += duration;
         person->seconds[l] += duration;
@@ -108,77 +101,32 @@ static void press(JoxDanger *d, const JoxFrame *frame) {
     jox_danger_walls_frame(&d->walls, frame, duration, share);
 }
 
-/* Velocity of person i over the last sample interval: that of one step shakes with its contacts. */
-static JoxV2 velocity(JoxDanger *d, const JoxFrame *frame, uint32_t i) {
-    JoxStretch way;
-    if (!jox_track_step(&d->track, frame, i, &way) || way.ended - way.begun > 2.0 * PACE)
-        return (JoxV2){frame->vx[i], frame->vy[i]};
-    return jox_scale(way.by, (float)(1.0 / (way.ended - way.begun)));
-}
-
-/* The fields of this sample; images over periodic edges count too. */
-static void spread(JoxDanger *d, const JoxFrame *frame) {
-    const JoxDensity *g = d->grid;
-    size_t cells = (size_t)g->columns * g->rows;
-    float *fields[3] = {d->density, d->flow_x, d->flow_y};
-    for (int f = 0; f < 3; f++)
-        memset(fields[f], 0, cells * sizeof(float));
-    int across = frame->period.x > 0.0f, up = frame->period.y > 0.0f;
-    float reach = ((float)g->reach + 1.0f) * g->cell;
-    jox_track_reserve(&d->track, frame->keys);
-    for (uint32_t i = 0; i < frame->count; i++) {
-        JoxV2 v = velocity(d, frame, i);
-        for (int c = -across; c <= across; c++)
-            for (int r = -up; r <= up; r++) {
-                float x = frame->x[i] + (float)c * frame->period.x;
-                float y = frame->y[i] + (float)r * frame->period.y;
-                if (x - g->low.x > -reach && y - g->low.y > -reach &&
-                    x - g->low.x < (float)g->columns * g->cell + reach &&
-                    y - g->low.y < (float)g->rows * g->cell + reach)
-                    jox_density_spread(g, fields, (float[3]){1.0f, v.x, v.y}, 3, x, y);
-            }
-    }
-}
-
-/* Crowd pressure of each cell, from means over time in which this sample has its share. */
-static void agitate(JoxDanger *d, double now, double duration) {
-    bool moving = now - d->begun >= START - 1e-6;
-    float enough = (float)(1.0 - jox_exp(-START / CALM)) * 0.999f;
-    d->pressure_samples += now - d->begun >= 2.0 * START - 1e-6;
-    size_t cells = (size_t)d->grid->columns * d->grid->rows;
-    float share = (float)(1.0 - jox_exp(-duration / CALM)), stay = 1.0f - share;
-    d->density_weight = stay * d->density_weight + share;
-    float dense = (float)(jox_danger_limits[0].value * d->density_weight);
-    for (size_t c = 0; c < cells; c++) {
-        float density = d->density[c];
-        d->mean_density[c] = stay * d->mean_density[c] + share * density;
-        d->pressure[c] = 0.0f;
-        if (density >= LEAST && moving) {
-            float vx = d->flow_x[c] / density, vy = d->flow_y[c] / density;
-            d->mean_vx[c] = stay * d->mean_vx[c] + share * vx;
-            d->mean_vy[c] = stay * d->mean_vy[c] + share * vy;
-            d->mean_square[c] = stay * d->mean_square[c] + share * (vx * vx + vy * vy);
-            d->weight[c] = stay * d->weight[c] + share;
-        }
-        if (!(d->mean_density[c] >= dense && d->weight[c] >= enough))
+/* Adds a sample's density or pressure to the map, and gives the greatest of any cell; NAN where it
+   was not measured. */
+static float chart_field(JoxDanger *d, JoxDangerMeasure measure, const float *field, double time) {
+    const JoxDensity *g = d->local->grid;
+    float most = NAN;
+    for (size_t c = 0; c < (size_t)g->columns * g->rows; c++) {
+        if (isnan(field[c]))
             continue;
-        float ux = d->mean_vx[c] / d->weight[c], uy = d->mean_vy[c] / d->weight[c];
-        float variance = d->mean_square[c] / d->weight[c] - ux * ux - uy * uy;
-        d->pressure[c] = d->mean_density[c] / (float)d->density_weight * jox_maxf(variance, 0.0f);
+        d->sum[measure][c] += field[c];
+        d->measured[c] += measure == JOX_DANGER_PRESSURE;
+        d->greatest[measure][c] = jox_maxf(d->greatest[measure][c], field[c]);
+        if (field[c] <= most)
+            continue;
+        most = field[c];
+        keep_greatest(d, measure, most, time, jox_density_middle(g, c), UINT32_MAX);
     }
+    if (!isnan(most) && isnan(d->most[measure].value)) /* measured, and nothing there */
+        d->most[measure].value = 0.0;
+    return most;
 }
 
-/* Adds the sample to the maps. */
+/* Adds what people bear to the map. */
 static void chart(JoxDanger *d, const JoxFrame *frame) {
-    size_t cells = (size_t)d->grid->columns * d->grid->rows, cell;
-    const float *fields[2] = {d->density, d->pressure};
-    for (int m = 0; m < 2; m++)
-        for (size_t c = 0; c < cells; c++) {
-            d->sum[m][c] += fields[m][c];
-            d->greatest[m][c] = jox_maxf(d->greatest[m][c], fields[m][c]);
-        }
+    size_t cell;
     for (uint32_t i = 0; (frame->compression || frame->load) && i < frame->count; i++)
-        if (cell_of(d->grid, frame->x[i], frame->y[i], &cell)) {
+        if (jox_density_cell_of(d->local->grid, frame->x[i], frame->y[i], &cell)) {
             const JoxDangerPerson *p = &d->people[frame->key[i]];
             d->sum[JOX_DANGER_COMPRESSION][cell] += p->compression;
             d->sum[JOX_DANGER_LOAD][cell] += p->load;
@@ -192,18 +140,22 @@ static void note(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     JOX_RESERVE(d->rows, d->row_capacity, d->row_count + 1);
     JoxDangerRow *row = &d->rows[d->row_count++];
     *row = (JoxDangerRow){.time = frame->time, .people = frame->count};
+    for (int m = 0; m < JOX_DANGER_FIRST_BORNE; m++) {
+        const JoxDensity *grid;
+        const float *field = jox_danger_field(d, (JoxDangerMeasure)m, &grid);
+        row->most[m] = chart_field(d, (JoxDangerMeasure)m, field, frame->time);
+    }
     for (uint32_t i = 0; i < frame->count; i++)
         if (!isnan(d->here[i]))
             row->levels[jox_level_of_queue((double)d->here[i])]++;
     for (uint32_t i = 0; i < frame->count; i++) {
         size_t cell;
         const JoxDangerPerson *p = &d->people[frame->key[i]];
-        bool inside = cell_of(d->grid, frame->x[i], frame->y[i], &cell);
-        const float values[JOX_DANGER_MEASURES] = {inside ? d->density[cell] : 0.0f,
-                                                   inside ? d->pressure[cell] : 0.0f,
+        bool inside = jox_density_cell_of(d->local->grid, frame->x[i], frame->y[i], &cell);
+        const float values[JOX_DANGER_MEASURES] = {inside ? d->local->grid->now[cell] : 0.0f,
+                                                   inside ? jox_local_pressure(d->local, cell)
+                                                          : NAN,
                                                    p->compression, p->load, (float)p->dose};
-        for (int m = 0; m < JOX_DANGER_FIRST_BORNE; m++)
-            row->most[m] = jox_maxf(row->most[m], values[m]);
         for (int l = 0; l < JOX_DANGER_LIMITS; l++)
             row->over[l] +=
                 (double)values[jox_danger_limits[l].measure] >= jox_danger_limits[l].value;
@@ -224,7 +176,7 @@ static void keep_most(JoxDanger *d, const JoxFrame *frame) {
         size_t cell;
         const JoxDangerPerson *p = &d->people[frame->key[i]];
         const float values[] = {p->compression, p->load, (float)p->dose};
-        const bool inside = cell_of(d->grid, frame->x[i], frame->y[i], &cell);
+        const bool inside = jox_density_cell_of(d->local->grid, frame->x[i], frame->y[i], &cell);
         for (int m = JOX_DANGER_FIRST_BORNE; m < JOX_DANGER_MEASURES; m++) {
             const float value = values[m - JOX_DANGER_FIRST_BORNE];
             row->most[m] = jox_maxf(row->most[m], value);
@@ -241,24 +193,23 @@ static void keep_most(JoxDanger *d, const JoxFrame *frame) {
         row->most[JOX_DANGER_LOAD] = row->most[JOX_DANGER_DOSE] = NAN;
 }
 
-/* Every PACE: fields, and who stands where they are over a limit. */
+/* Every sample of the fields: who stands where they are over a limit. */
 static void sample(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     if (isnan(d->last_sample))
         d->begun = frame->time;
     double duration = isnan(d->last_sample) ? 0.0 : frame->time - d->last_sample;
     d->last_sample = frame->time;
-    spread(d, frame);
-    agitate(d, frame->time, duration > 0.0 ? duration : PACE);
     JOX_RESERVE(d->here, d->here_capacity, frame->count);
     for (uint32_t i = 0; i < frame->count; i++) {
         size_t cell;
-        const bool inside = cell_of(d->grid, frame->x[i], frame->y[i], &cell);
-        d->here[i] = inside ? d->density[cell] : NAN;
+        const bool inside = jox_density_cell_of(d->local->grid, frame->x[i], frame->y[i], &cell);
+        d->here[i] = inside ? d->local->grid->now[cell] : NAN;
         if (!inside)
             continue;
         d->level_s[jox_level_of_queue((double)d->here[i])] += duration;
-        judge(d, frame, i, JOX_DANGER_DENSITY, (double)d->density[cell], duration);
-        judge(d, frame, i, JOX_DANGER_PRESSURE, (double)d->pressure[cell], duration);
+        judge(d, frame, i, JOX_DANGER_DENSITY, (double)d->here[i], duration);
+        judge(d, frame, i, JOX_DANGER_PRESSURE, (double)jox_local_pressure(d->local, cell),
+              duration);
     }
     chart(d, frame);
     note(d, frame, exits);
@@ -280,30 +231,28 @@ void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits
     JOX_RESERVE_ZEROED(d->people, d->people_capacity, frame->keys);
     press(d, frame);
     jox_danger_lines_cross(&d->lines, frame);
-    /* Times are multiples of a step, whose sum may fall short of them by a hair. */
-    int64_t stretch = (int64_t)floor(frame->time / PACE + 1e-6);
-    if (stretch != d->stretch)
+    if (d->owns_local)
+        jox_local_frame(d->local, frame, NULL);
+    if (d->local->time == frame->time && d->last_sample != frame->time)
         sample(d, frame, exits);
-    d->stretch = stretch;
     keep_most(d, frame);
 }
 
 const float *jox_danger_field(const JoxDanger *d, JoxDangerMeasure measure,
                               const JoxDensity **grid) {
-    *grid = d->grid;
-    return measure == JOX_DANGER_PRESSURE ? d->pressure : d->density;
+    *grid = d->local->grid;
+    return measure == JOX_DANGER_PRESSURE ? jox_pressure_now(d->local->pressure)
+                                          : d->local->grid->now;
 }
 
 void jox_danger_free(JoxDanger *d) {
     if (!d)
         return;
-    jox_density_free(d->grid);
-    jox_free(d->track.items);
-    void *fields[] = {d->density, d->flow_x,      d->flow_y, d->mean_density, d->mean_vx,
-                      d->mean_vy, d->mean_square, d->weight, d->pressure,     d->stood,
-                      d->people,  d->rows,        d->here};
-    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++)
-        jox_free(fields[f]);
+    if (d->owns_local)
+        jox_local_free(d->local);
+    void *arrays[] = {d->measured, d->stood, d->people, d->rows, d->here};
+    for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
+        jox_free(arrays[a]);
     for (int m = 0; m < JOX_DANGER_MAPPED; m++) {
         jox_free(d->sum[m]);
         jox_free(d->greatest[m]);

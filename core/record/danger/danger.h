@@ -1,18 +1,16 @@
-/* Where people are squeezed, over the frames of a run or of a recording. Three measures:
-     density      people per m2 by the Gaussian kernel exp(-d2 / R2) / (pi R2), R = 1 m, at the cell
-                  where somebody stands. It reads low within R of a wall.
-     pressure     the crowd pressure of Helbing, Johansson and Al-Abideen 2007 (Phys. Rev. E 75,
-                  046109, doi 10.1103/PhysRevE.75.046109), 1/s2: mean density of a place times the
-                  variance over time of the local velocity there, V = sum of w v over sum of w with
-                  the same kernel and velocities over 0.5 s. Means over time are exponential, 10 s.
-                  Read only where the mean density is over the first limit of density (sparse crowds
-                  vary freely) and from 10 s on; the first 5 s, when all start, are left out.
-     compression  sum of the contact forces' magnitudes on a person over the girth, N/m
-     load         the greatest push that a person bears from any one direction, N: over directions
-   d, the greatest sum of the positive parts of f.d over the contacts f. That is what published
-   limits for chests are forces of dose         of load: the share of the time after which death is
-   estimated (jox_danger_dose_text) Compression and load are exponential means over 1 s of each
-   person: what is held, not a knock of one step. Exits: who left where, and when the last did. */
+/* Where people are squeezed, over the frames of a run or of a recording:
+
+   - density: people per m2 by the Gaussian kernel, R = 1 m, within the walls (fields/density.h)
+   - pressure: crowd pressure, 1/s2 (fields/pressure.h), where it was measured
+   - compression: sum of the contact forces' magnitudes on a person over the girth, N/m
+   - load: the greatest push that a person bears from any one direction, N: over directions d, the
+     greatest sum of the positive parts of f.d over the contacts f. Published limits for chests are
+     forces of that kind
+   - dose: of load, the share of the time after which death is estimated (jox_danger_dose_text)
+
+   Compression and load are exponential means over 1 s of each person: what is held, not a knock of
+   one step. With levels of service (levels.h), lines that people pass (lines.h), what walls bear
+   (walls.h); exits: who left where, and when the last did. */
 #ifndef JOX_RECORD_DANGER_H
 #define JOX_RECORD_DANGER_H
 
@@ -21,8 +19,8 @@
 #include "base/format/json_writer.h"
 #include "base/text.h"
 #include "geom/walls.h"
-#include "record/fields/density.h"
 #include "record/frame.h"
+#include "record/local.h"
 #include "world/exits.h"
 #include "world/probe.h"
 
@@ -67,12 +65,15 @@ typedef struct JoxDangerCount {
 } JoxDangerCount;
 typedef struct JoxDangerMost {
     double value, time; /* s; NAN where nothing was read */
+    uint32_t person;    /* of what people bear: whose */
     JoxV2 at;           /* m */
 } JoxDangerMost;
 
 typedef struct JoxDanger JoxDanger;
 /* `low` to `high`: the area of fields and maps. */
 JoxDanger *jox_danger_create(JoxV2 low, JoxV2 high);
+/* The same on densities that someone else takes, of each frame before it comes here. */
+JoxDanger *jox_danger_create_on(JoxLocal *local);
 /* A line that people pass, for flow, levels of service, stop-and-go and congestion; before the
    first frame. */
 void jox_danger_add_line(JoxDanger *danger, const char *name, JoxV2 a, JoxV2 b);

@@ -5,8 +5,7 @@
 #include "record/danger/danger.h"
 #include "record/danger/lines.h"
 #include "record/danger/walls.h"
-#include "record/fields/density.h"
-#include "record/track.h"
+#include "record/local.h"
 
 enum {
     JOX_DANGER_EXITS = 16,                          /* that have a column of their own over time */
@@ -40,19 +39,15 @@ typedef struct JoxDangerRow {
 } JoxDangerRow;
 
 struct JoxDanger {
-    JoxDensity *grid;
-    /* By cell: the sample's density and density times velocity; means over time of density, of
-       velocity and of its square, with the weight that the latter have. */
-    float *density, *flow_x, *flow_y;
-    float *mean_density, *mean_vx, *mean_vy, *mean_square, *weight;
-    float *pressure; /* as it is now; 0 where it is not read */
-    /* By cell, for the map: sum over samples (what is borne: over people) and greatest. */
+    JoxLocal *local; /* density and pressure */
+    bool owns_local;
+    /* By cell, for the map: sum over samples (of pressure those that measured it; what is borne:
+       over people) and greatest. */
     double *sum[JOX_DANGER_MAPPED];
     float *greatest[JOX_DANGER_MAPPED];
-    uint32_t *stood; /* people whose compression and load were summed */
-    uint32_t samples, pressure_samples;
-    JoxTrack track;        /* from sample to sample */
-    double density_weight; /* of mean_density */
+    uint32_t *measured; /* samples that measured pressure */
+    uint32_t *stood;    /* people whose compression and load were summed */
+    uint32_t samples;
 
     JoxDangerPerson *people; /* by key */
     uint32_t people_capacity;
@@ -65,7 +60,6 @@ struct JoxDanger {
     uint32_t here_capacity;
 
     double begun, last_frame, last_sample; /* s */
-    int64_t stretch;                       /* of the last sample */
     JoxDangerCount counts[JOX_DANGER_LIMITS];
     JoxDangerMost most[JOX_DANGER_MEASURES];
     JoxDangerRow *rows;

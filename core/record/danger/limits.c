@@ -67,7 +67,7 @@ JoxDangerMost jox_danger_most(const JoxDanger *d, JoxDangerMeasure measure) {
     JoxDangerMost most = d->most[measure];
     bool read = d->samples > 0;
     if (measure == JOX_DANGER_PRESSURE)
-        read = d->pressure_samples > 0;
+        read = isfinite(most.value); /* somewhere, some time */
     else if (measure == JOX_DANGER_COMPRESSION)
         read = d->has_compression;
     else if (measure == JOX_DANGER_LOAD || measure == JOX_DANGER_DOSE)
@@ -97,6 +97,8 @@ void jox_danger_json(const JoxDanger *d, JoxJson *json) {
         add(json, jox_danger_names[m], "_max_s", most.time);
         add(json, jox_danger_names[m], "_max_x", read ? most.at.x : NAN);
         add(json, jox_danger_names[m], "_max_y", read ? most.at.y : NAN);
+        if (m >= JOX_DANGER_FIRST_BORNE)
+            add(json, jox_danger_names[m], "_max_person", read ? most.person : NAN);
     }
     jox_json_object(json, "limits");
     for (int l = 0; l < JOX_DANGER_LIMITS; l++) {

@@ -111,55 +111,12 @@ static bool is_hidden(const JoxWalls *walls, JoxV2 from, JoxV2 to) {
     return false;
 }
 
-/* The part of a wall's edge within a hair of a line, as shares of the line's length; false of none.
- */
-static bool on_line(JoxV2 from, JoxV2 along, JoxV2 p, JoxV2 q, float *first, float *last) {
-    const float length = jox_length(along), hair = 0.01f;
-    const JoxV2 unit = jox_scale(along, 1.0f / length);
-    const float beside_p = jox_det(unit, jox_sub(p, from));
-    const float by = jox_det(unit, jox_sub(q, from)) - beside_p;
-    float low = 0.0f, high = 1.0f; /* of the edge */
-    if (by == 0.0f) {
-        if (fabsf(beside_p) > hair)
-            return false;
-    } else {
-        const float in = (-hair - beside_p) / by, out = (hair - beside_p) / by;
-        low = jox_maxf(low, jox_minf(in, out));
-        high = jox_minf(high, jox_maxf(in, out));
-    }
-    if (low > high)
-        return false;
-    const JoxV2 edge = jox_sub(q, p);
-    const float one = jox_dot(unit, jox_sub(jox_add(p, jox_scale(edge, low)), from)) / length;
-    const float two = jox_dot(unit, jox_sub(jox_add(p, jox_scale(edge, high)), from)) / length;
-    *first = jox_minf(one, two);
-    *last = jox_maxf(one, two);
-    return true;
-}
-
-/* What walls leave of the line about its middle; all of it where they stand in the middle. */
+/* The line is what walls leave of it. */
 static void clear(JoxDangerLine *line, const JoxWalls *walls) {
-    const JoxV2 along = jox_sub(line->given[1], line->given[0]);
-    float low = 0.0f, high = 1.0f, first, last;
-    bool blocked = false;
-    for (uint32_t r = 0; walls && r < walls->ring_count; r++) {
-        const struct JoxWallRing *ring = &walls->rings[r];
-        for (uint32_t v = ring->first; !ring->open && v < ring->first + ring->count; v++) {
-            const JoxWallVertex *vertex = &walls->vertices[v];
-            if (!on_line(line->given[0], along, vertex->point, walls->vertices[vertex->next].point,
-                         &first, &last))
-                continue;
-            blocked |= first < 0.5f && last > 0.5f;
-            if (last <= 0.5f)
-                low = jox_maxf(low, last);
-            if (first >= 0.5f)
-                high = jox_minf(high, first);
-        }
-    }
-    if (blocked || low >= high)
-        low = 0.0f, high = 1.0f;
-    line->a = jox_add(line->given[0], jox_scale(along, low));
-    line->b = jox_add(line->given[0], jox_scale(along, high));
+    JoxV2 ends[2];
+    jox_walls_clear(walls, line->given, ends);
+    line->a = ends[0];
+    line->b = ends[1];
     line->width = (double)jox_length(jox_sub(line->b, line->a));
 }
 

@@ -3,62 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/elementary.h"
+#include "base/assert.h"
 #include "base/mem.h"
+#include "record/fields/density_parts.h"
 
-enum { MOST_CELLS = 4000000, WIDEST = 256, SHIFTS = 16 };
-
-/* The kernel along one axis of somebody who is at the share `inside` of a cell; sums to one over
-   its cells. */
-static void fill_kernel(const JoxDensity *d, float kernel, double inside, float *row) {
-    int wide = 2 * d->reach + 1;
-    double sum = 0.0;
-    for (int k = 0; k < wide; k++) {
-        double away = ((double)(k - d->reach) + 0.5 - inside) * d->cell;
-        row[k] = (float)jox_exp(-away * away / (2.0 * kernel * kernel));
-        sum += row[k];
-    }
-    for (int k = 0; k < wide; k++)
-        row[k] /= (float)(sum * d->cell);
-}
-
-/* The kernel along one axis, for SHIFTS positions within a cell; the two-dimensional kernel is the
-   product of two of these. */
-static void tabulate(JoxDensity *d, float kernel) {
-    d->reach = (int)jox_clampf(3.0f * kernel / d->cell, 1.0f, WIDEST);
-    int wide = 2 * d->reach + 1;
-    d->kernel = jox_alloc((size_t)SHIFTS * (size_t)wide, sizeof *d->kernel);
-    for (int shift = 0; shift < SHIFTS; shift++)
-        fill_kernel(d, kernel, (shift + 0.5) / SHIFTS, d->kernel + shift * wide);
-    d->centred = jox_alloc((size_t)wide, sizeof *d->centred);
-    fill_kernel(d, kernel, 0.5, d->centred);
-}
-
-/* The row of the table for a coordinate, and the first cell that it speaks of. */
-static const float *factors(const JoxDensity *d, float at, int *first) {
-    float cell = floorf(at / d->cell);
-    int shift = (int)((at / d->cell - cell) * SHIFTS);
-    *first = (int)cell - d->reach;
-    return d->kernel + (shift < SHIFTS ? shift : SHIFTS - 1) * (2 * d->reach + 1);
-}
-
-void jox_density_spread(const JoxDensity *d, float *const *fields, const float *weights, int count,
-                        float x, float y) {
-    if (!(fabsf(x) < 1e6f && fabsf(y) < 1e6f))
-        return;
-    int column, row, wide = 2 * d->reach + 1, high = wide;
-    const float *across = factors(d, x - d->low.x, &column), *up = factors(d, y - d->low.y, &row);
-    int from = column < 0 ? -column : 0;
-    int to = column + wide > (int)d->columns ? (int)d->columns - column : wide;
-    for (int f = 0; f < count; f++)
-        for (int r = 0; r < high; r++) {
-            if (row + r < 0 || row + r >= (int)d->rows)
-                continue;
-            float *line = fields[f] + (size_t)(row + r) * d->columns, share = weights[f] * up[r];
-            for (int c = from; c < to; c++)
-                line[column + c] += share * across[c];
-        }
-}
+enum { MOST_CELLS = 4000000, MOST_EDGE = 400 };
 
 JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel) {
     JoxDensity *d = jox_alloc(1, sizeof *d);
@@ -67,66 +16,117 @@ JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel) 
     d->cell = jox_maxf(cell, sqrtf(width * height / MOST_CELLS));
     d->columns = (uint32_t)ceilf(width / d->cell);
     d->rows = (uint32_t)ceilf(height / d->cell);
+    d->kernel = kernel;
+    d->edge = (int)jox_clampf(3.0f * kernel / d->cell + 2.0f, 2.0f, MOST_EDGE);
+    d->wide = (int)d->columns + 2 * d->edge;
+    d->high = (int)d->rows + 2 * d->edge;
     d->now = jox_alloc((size_t)d->columns * d->rows, sizeof *d->now);
     d->sum = jox_alloc((size_t)d->columns * d->rows, sizeof *d->sum);
-    tabulate(d, kernel);
     return d;
 }
 
-/* Spreads somebody along x in their row of `lines`. */
-static void spread_line(const JoxDensity *d, float x, float y) {
-    if (!(fabsf(x) < 1e6f && fabsf(y) < 1e6f))
-        return;
-    int column, line = (int)floorf((y - d->low.y) / d->cell) + d->reach;
-    const float *across = factors(d, x - d->low.x, &column);
-    int from = column < 0 ? 0 : column, to = column + 2 * d->reach + 1;
-    to = to > (int)d->columns ? (int)d->columns : to;
-    if (line < 0 || line >= (int)d->rows + 2 * d->reach || from >= to)
-        return;
-    float *cells = d->lines + (size_t)line * d->columns;
-    for (int c = from; c < to; c++)
-        cells[c] += across[c - column];
-    d->from[line] = (uint32_t)from < d->from[line] ? (uint32_t)from : d->from[line];
-    d->to[line] = (uint32_t)to > d->to[line] ? (uint32_t)to : d->to[line];
+static size_t inner(const JoxDensity *d, size_t cell) { /* a cell that is read, among all */
+    size_t row = cell / d->columns + (size_t)d->edge, column = cell % d->columns + (size_t)d->edge;
+    return row * (size_t)d->wide + column;
 }
 
-/* The frame's densities, of its lines. */
-static void spread_rows(const JoxDensity *d) {
-    memset(d->now, 0, (size_t)d->columns * d->rows * sizeof *d->now);
-    for (uint32_t row = 0; row < d->rows; row++)
-        for (int k = 0; k <= 2 * d->reach; k++) {
-            const uint32_t line = row + (uint32_t)k;
-            const float *from = d->lines + (size_t)line * d->columns;
-            float *to = d->now + (size_t)row * d->columns, share = d->centred[k];
-            for (uint32_t c = d->from[line]; c < d->to[line]; c++)
-                to[c] += share * from[c];
-        }
-}
-
-void jox_density_add(JoxDensity *d, const float *x, const float *y, uint32_t count, double t) {
-    size_t cells = (size_t)d->columns * d->rows, lines = d->rows + 2 * (size_t)d->reach;
-    if (!d->lines) { /* of those alone that are added to */
-        d->lines = jox_alloc(lines * d->columns, sizeof *d->lines);
-        d->from = jox_alloc(lines, sizeof *d->from);
-        d->to = jox_alloc(lines, sizeof *d->to);
+void jox_density_begin(JoxDensity *d, int fields) {
+    const size_t cells = (size_t)d->wide * (size_t)d->high;
+    JOX_ASSERT(fields > 0 && fields <= JOX_DENSITY_FIELDS);
+    if (!d->spare)
+        d->spare = jox_alloc(cells, sizeof *d->spare);
+    d->fields = fields;
+    for (int f = 0; f < fields; f++) {
+        if (!d->mass[f])
+            d->mass[f] = jox_alloc(cells, sizeof(float));
+        memset(d->mass[f], 0, cells * sizeof(float));
     }
-    memset(d->lines, 0, lines * d->columns * sizeof *d->lines);
-    memset(d->to, 0, lines * sizeof *d->to);
-    for (size_t line = 0; line < lines; line++)
-        d->from[line] = d->columns;
-    for (uint32_t i = 0; i < count; i++)
-        spread_line(d, x[i], y[i]);
-    spread_rows(d);
+    d->from_x = d->wide;
+    d->from_y = d->high;
+    d->to_x = d->to_y = -1;
+}
+
+static void put_once(JoxDensity *d, float x, float y, const float *weights) {
+    uint32_t nodes[4];
+    float shares[4];
+    int count = jox_density_share(d, x, y, nodes, shares);
+    for (int k = 0; k < count; k++) {
+        int column = (int)nodes[k] % d->wide, row = (int)nodes[k] / d->wide;
+        if (shares[k] == 0.0f)
+            continue;
+        for (int f = 0; f < d->fields; f++)
+            d->mass[f][nodes[k]] += shares[k] * weights[f];
+        d->from_x = column < d->from_x ? column : d->from_x;
+        d->to_x = column > d->to_x ? column : d->to_x;
+        d->from_y = row < d->from_y ? row : d->from_y;
+        d->to_y = row > d->to_y ? row : d->to_y;
+    }
+}
+
+void jox_density_put(JoxDensity *d, JoxV2 period, float x, float y, const float *weights) {
+    int across = period.x > 0.0f, up = period.y > 0.0f;
+    for (int c = -across; c <= across; c++)
+        for (int r = -up; r <= up; r++)
+            put_once(d, x + (float)c * period.x, y + (float)r * period.y, weights);
+}
+
+void jox_density_end(JoxDensity *d, float *const *out) {
+    const float per = 1.0f / (d->cell * d->cell);
+    for (int f = 0; f < d->fields; f++) {
+        jox_density_spread(d, f);
+        for (uint32_t row = 0; row < d->rows; row++) {
+            size_t from = inner(d, (size_t)row * d->columns);
+            float *to = out[f] + (size_t)row * d->columns;
+            for (uint32_t c = 0; c < d->columns; c++)
+                to[c] = d->mass[f][from + c] * per;
+        }
+    }
+}
+
+void jox_density_note(JoxDensity *d, double t, bool mean) {
+    size_t cells = (size_t)d->columns * d->rows;
     for (size_t c = 0; c < cells; c++) {
-        d->sum[c] += d->now[c];
+        d->sum[c] += mean ? d->now[c] : 0.0f;
         if (d->now[c] > d->most) {
             d->most = d->now[c];
             d->most_time = t;
-            d->most_at = (JoxV2){d->low.x + ((float)(c % d->columns) + 0.5f) * d->cell,
-                                 d->low.y + ((float)(c / d->columns) + 0.5f) * d->cell};
+            d->most_at = jox_density_middle(d, c);
         }
     }
-    d->frames++;
+    d->frames += mean;
+}
+
+void jox_density_add(JoxDensity *d, JoxV2 period, const float *x, const float *y, uint32_t count,
+                     double t) {
+    const float one = 1.0f;
+    jox_density_begin(d, 1);
+    for (uint32_t i = 0; i < count; i++)
+        jox_density_put(d, period, x[i], y[i], &one);
+    jox_density_end(d, &d->now);
+    jox_density_note(d, t, true);
+}
+
+bool jox_density_cell_of(const JoxDensity *d, float x, float y, size_t *cell) {
+    int column, row;
+    if (!jox_density_locate(d, x, y, &column, &row))
+        return false;
+    if (d->floor && d->floor->near[row * d->wide + column])
+        (void)jox_density_node(d, x, y, &column, &row); /* who stands in a wall: their own cell */
+    column -= d->edge;
+    row -= d->edge;
+    if (column < 0 || row < 0 || column >= (int)d->columns || row >= (int)d->rows)
+        return false;
+    *cell = (size_t)row * d->columns + (size_t)column;
+    return true;
+}
+
+JoxV2 jox_density_middle(const JoxDensity *d, size_t cell) {
+    return jox_v2(d->low.x + ((float)(cell % d->columns) + 0.5f) * d->cell,
+                  d->low.y + ((float)(cell / d->columns) + 0.5f) * d->cell);
+}
+
+float jox_density_area(const JoxDensity *d, size_t cell) {
+    return d->cell * d->cell * (d->floor ? d->floor->area[inner(d, cell)] : 1.0f);
 }
 
 double jox_density_mean(const JoxDensity *d, uint32_t column, uint32_t row) {
@@ -136,12 +136,11 @@ double jox_density_mean(const JoxDensity *d, uint32_t column, uint32_t row) {
 void jox_density_free(JoxDensity *d) {
     if (!d)
         return;
+    jox_density_free_floor(d->floor);
+    for (int f = 0; f < JOX_DENSITY_FIELDS; f++)
+        jox_free(d->mass[f]);
+    jox_free(d->spare);
     jox_free(d->now);
     jox_free(d->sum);
-    jox_free(d->kernel);
-    jox_free(d->centred);
-    jox_free(d->lines);
-    jox_free(d->from);
-    jox_free(d->to);
     jox_free(d);
 }

@@ -1,14 +1,28 @@
-/* People per square metre on a grid, by a Gaussian kernel: sum of exp(-d2 / 2R2) / (2 pi R2), cut
-   off at 3 R and normalised there. Averaged over frames. */
-#ifndef JOX_RECORD_DENSITY_H
-#define JOX_RECORD_DENSITY_H
+/* People per square metre on a grid: the one density of maps, tables, summaries and levels of
+   service. Each person is spread by the Gaussian exp(-d2 / R2) / (pi R2), R = 1 m, of Helbing,
+   Johansson and Al-Abideen (Phys. Rev. E 75, 046109, 2007), as heat would spread over the floor
+   that can be walked on: walls let nothing through and give back what comes to them. So
+   - far from walls it is that Gaussian;
+   - the integral over the floor is the number of people, wherever they stand;
+   - people who stand evenly read the same density in the open, at a wall and in a corner;
+   - those behind a wall, however thin, do not count, but round its end and through its doors.
+   Walls are solids, thin lines and closed gates. Without walls (through which a kernel passes, as
+   in Curtis et al.'s study of the Mataf) it is the Gaussian alone. */
+#ifndef JOX_RECORD_FIELDS_DENSITY_H
+#define JOX_RECORD_FIELDS_DENSITY_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "base/vec.h"
+#include "geom/walls.h"
 
-#define JOX_DENSITY_KERNEL 1.5f /* m: the R of Curtis et al.'s study of the Mataf */
-#define JOX_DENSITY_CELL 0.2f   /* m */
+#define JOX_DENSITY_KERNEL 0.70710678f /* m: R / sqrt 2, the Gaussian's standard deviation */
+#define JOX_DENSITY_CELL 0.2f          /* m */
+enum { JOX_DENSITY_FIELDS = 6 };       /* that can be spread at once */
+
+typedef struct JoxDensityFloor JoxDensityFloor; /* where the walls let people through */
 
 typedef struct JoxDensity {
     JoxV2 low;
@@ -17,25 +31,40 @@ typedef struct JoxDensity {
     float *now;  /* of the last frame, 1/m2, row by row from the lowest y */
     double *sum; /* over frames */
     uint32_t frames;
-    float *kernel;         /* along one axis, by position within a cell */
-    float *centred;        /* the same of somebody in the middle of a cell */
-    int reach;             /* cells */
-    float *lines;          /* of a frame: spread along x alone; `reach` more rows at either side */
-    uint32_t *from, *to;   /* by row of `lines`: the columns that are not empty */
-    float most, most_mean; /* greatest value of any frame */
+    float most; /* greatest value of any frame */
     JoxV2 most_at;
     double most_time; /* s */
+
+    /* The cells that are read and `edge` more at every side, for who stands outside. */
+    float kernel; /* m: the standard deviation */
+    int edge, wide, high;
+    float *mass[JOX_DENSITY_FIELDS], *spare; /* of who was put there; of a cell */
+    int fields;
+    int from_x, from_y, to_x, to_y; /* the cells in which there is anything, the last included */
+    JoxDensityFloor *floor;         /* NULL: no walls */
 } JoxDensity;
 
 /* Cells are widened where the area would take more than four million. */
 JoxDensity *jox_density_create(JoxV2 low, JoxV2 high, float cell, float kernel);
-/* Spreads somebody at (x, y) over `count` fields of the grid's size, each with a weight of its own.
- */
-void jox_density_spread(const JoxDensity *density, float *const *fields, const float *weights,
-                        int count, float x, float y);
-/* Adds a frame of `count` positions at time t, s. People are spread along x from where they stand,
-   then along y from the middle of their row of cells, which is quick. */
-void jox_density_add(JoxDensity *density, const float *x, const float *y, uint32_t count, double t);
+/* The walls as they stand now; NULL for none. Cheap where nothing has changed. */
+void jox_density_walls(JoxDensity *density, const JoxWalls *walls);
+/* A sample: begin, put each person with a weight for each of the fields, end. Who stands beyond a
+   periodic edge (period 0: none) is put there too. `out`: columns times rows values each, the sums
+   of the weights per m2. */
+void jox_density_begin(JoxDensity *density, int fields);
+void jox_density_put(JoxDensity *density, JoxV2 period, float x, float y, const float *weights);
+void jox_density_end(JoxDensity *density, float *const *out);
+/* Notes `now` as of time t, s, for the greatest value, and for the mean. */
+void jox_density_note(JoxDensity *density, double t, bool mean);
+/* A frame of `count` people: begin, put, end and note. */
+void jox_density_add(JoxDensity *density, JoxV2 period, const float *x, const float *y,
+                     uint32_t count, double t);
+/* The cell whose value holds for somebody at (x, y): the nearest on the same side of the walls.
+   False outside the area. */
+bool jox_density_cell_of(const JoxDensity *density, float x, float y, size_t *cell);
+JoxV2 jox_density_middle(const JoxDensity *density, size_t cell);
+/* Square metres of a cell that can be walked on. */
+float jox_density_area(const JoxDensity *density, size_t cell);
 /* Mean of all frames at a cell; 0 before the first. */
 double jox_density_mean(const JoxDensity *density, uint32_t column, uint32_t row);
 void jox_density_free(JoxDensity *density);

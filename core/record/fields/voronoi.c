@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/mem.h"
+#include "geom/polygon.h"
 
 static const double TURN = 6.283185307179586;
 enum { MOST_BINS = 1 << 20 };
@@ -159,6 +160,13 @@ void jox_sites_sort(JoxSites *s, double cutoff) {
     s->first[bins] = s->count;
 }
 
+static bool hidden(const JoxSites *s, JoxV2 a, JoxV2 b) {
+    bool crossed = false;
+    for (uint32_t k = 0; s->bars && k < s->bars->count && !crossed; k++)
+        crossed = jox_segment_crossing(s->bars->items[k].from, s->bars->items[k].to, a, b) != 0;
+    return crossed;
+}
+
 /* Cuts by those in the bins at `ring` bins from the person's, nearer ones first. */
 static void cut_ring(const JoxSites *s, uint32_t site, int ring, JoxCell *out) {
     JoxV2 at = s->points[site];
@@ -175,7 +183,7 @@ static void cut_ring(const JoxSites *s, uint32_t site, int ring, JoxCell *out) {
             for (uint32_t k = s->first[bin]; k < s->first[bin + 1]; k++) {
                 JoxV2 other = s->points[s->order[k]];
                 double x = (double)other.x - at.x, y = (double)other.y - at.y;
-                if (s->order[k] == site || x * x + y * y >= 4.0 * reach2)
+                if (s->order[k] == site || x * x + y * y >= 4.0 * reach2 || hidden(s, at, other))
                     continue;
                 jox_cell_cut(out, x, y);
                 reach2 = jox_cell_reach2(out);

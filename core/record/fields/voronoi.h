@@ -40,6 +40,7 @@ void jox_cell_seen(const JoxCell *cell, JoxV2 at, const JoxBars *bars, const Jox
 
 /* Points in bins, so that neighbours are found; zero-initialise, keep for the next frame. */
 typedef struct JoxSites {
+    const JoxBars *bars; /* who stands behind them is no neighbour; NULL: none */
     JoxV2 *points;
     uint32_t *who; /* the caller's number of each */
     uint32_t count, capacity, who_capacity;

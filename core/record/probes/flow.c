@@ -1,5 +1,6 @@
 /* Flow through a line: N(t), and the mean flow of the middle 60 % of the passages, which leaves out
-   how a crowd arrives at and runs out of a door. Who steps back over the line takes the latest
+   how a crowd arrives at and runs out of a door; specific flow is that by the clear width, which
+   walls leave of the line about its middle. Who steps back over the line takes the latest
    passage back: it never was one. */
 #include <math.h>
 #include <stdlib.h>
@@ -24,6 +25,7 @@ typedef struct Flow {
     uint32_t latest_capacity;
     Crossing *crossings;
     uint32_t count, capacity, forward, back, standing;
+    double width; /* m: what walls leave of the line about its middle; 0 before the first frame */
 } Flow;
 
 static void add(Flow *f, uint32_t key, int direction, double time) {
@@ -51,6 +53,9 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
     JoxStretch stretch;
     double time;
     uint32_t had = f->latest_capacity;
+    JoxV2 ends[2];
+    jox_walls_clear(frame->walls, def->points, ends);
+    f->width = (double)jox_length(jox_sub(ends[1], ends[0]));
     jox_track_reserve(&f->track, frame->keys);
     JOX_RESERVE(f->latest, f->latest_capacity, frame->keys);
     for (uint32_t k = had; k < f->latest_capacity; k++)
@@ -93,11 +98,11 @@ static double rate(const double *times, size_t first, size_t last) {
 }
 
 static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+    (void)def;
     const Flow *f = state;
     size_t count, first, last;
     double *times = passages(f, &count), *lapses = jox_alloc(count + 1, sizeof *lapses);
     double flow = middle(count, &first, &last) ? rate(times, first, last) : NAN;
-    double width = jox_length(jox_sub(def->points[1], def->points[0]));
     for (size_t i = 1; i < count; i++)
         lapses[i - 1] = times[i] - times[i - 1];
     size_t gaps = count ? count - 1 : 0;
@@ -106,7 +111,7 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "back", "", f->back);
     jox_figure_add(out, "flow", "1/s", flow);
     jox_figure_add(out, "flow_all", "1/s", count >= 2 ? rate(times, 0, count - 1) : NAN);
-    jox_figure_add(out, "specific_flow", "1/(m s)", flow / width);
+    jox_figure_add(out, "specific_flow", "1/(m s)", f->width > 0.0 ? flow / f->width : NAN);
     jox_figure_add(out, "lapse_median", "s", jox_quantile(lapses, gaps, 0.5));
     jox_figure_add(out, "lapse_max", "s", jox_quantile(lapses, gaps, 1.0));
     jox_figure_add(out, "first", "s", count ? times[0] : NAN);

@@ -1,137 +1,158 @@
-/* Fields on a grid, each by the Gaussian kernel w of density.h:
-     density             sum of w, mean over the samples, 1/m2
-     speed               sum of w |v| over sum of w, over all samples, m/s
-     pressure            density times the local variance of velocity, sum of w |v|2 over sum of w
-                         less |sum of w v over sum of w|2: the crowd pressure of Helbing, Johansson
-                         and Al-Abideen 2007 (doi 10.1103/PhysRevE.75.046109, equations 1 to 6),
-   1/s2; mean over the samples compression         sum of w c over sum of w, over all samples, N/m
-     compression_most    greatest of anyone who stood in the cell, N/m */
+/* Fields on a grid.
+     density             people per m2, mean over the samples: by fields/density.h, R = 1 m and
+   within walls, unless the scene gives another kernel, or lets it pass through walls speed sum of w
+   |v| over sum of w by the same weights, over all samples, m/s pressure            crowd pressure
+   by fields/pressure.h, 1/s2: mean over the times at which it was measured, each half second
+   whatever the time between samples; else none compression         sum of w c over sum of w, over
+   all samples, N/m compression_most    greatest of anyone who stood in the cell, N/m */
 #include <math.h>
 #include <string.h>
 
 #include "base/mem.h"
 #include "record/fields/density.h"
+#include "record/local.h"
 #include "record/probes/probe_parts.h"
 
-enum { DENSITY, SPEED, VX, VY, SQUARE, COMPRESSION, FIELDS };
+enum { DENSITY, SPEED, COMPRESSION, FIELDS };
 static const float LEAST = 0.02f; /* 1/m2: below this there is nobody to have a velocity */
 enum { MOST_CELLS_DRAWN = 250000 };
 
 typedef struct Map {
     JoxDensity *grid;
+    JoxLocal *local; /* for crowd pressure */
     float *now[FIELDS];
-    double *density, *speed, *pressure, *compression; /* sums over samples */
+    double *density, *speed, *compression; /* sums over samples */
     float *compression_most;
+    double *pressure; /* sum over the samples of `local` that measured it, by its cells */
+    uint32_t *measured;
     double density_most, pressure_most, density_time, pressure_time; /* of any cell at any time */
     JoxV2 density_at, pressure_at;
     double speed_sum, compression_greatest;
     uint64_t people;
+    int64_t stretch; /* of `every` seconds, in which the last sample was */
     uint32_t samples;
     bool has_compression;
 } Map;
 
+static size_t cells_of(const JoxDensity *g) {
+    return (size_t)g->columns * g->rows;
+}
+
 static void begin(const JoxProbeDef *def, void *state) {
     Map *m = state;
     m->grid = jox_density_create(def->low, def->high, (float)def->cell, (float)def->kernel);
-    size_t cells = (size_t)m->grid->columns * m->grid->rows;
+    m->local = jox_local_create(def->low, def->high);
+    jox_local_want_pressure(m->local);
+    size_t cells = cells_of(m->grid), local_cells = cells_of(m->local->grid);
     for (int f = 0; f < FIELDS; f++)
         m->now[f] = jox_alloc(cells, sizeof(float));
     m->density = jox_alloc(cells, sizeof(double));
     m->speed = jox_alloc(cells, sizeof(double));
-    m->pressure = jox_alloc(cells, sizeof(double));
     m->compression = jox_alloc(cells, sizeof(double));
     m->compression_most = jox_alloc(cells, sizeof(float));
+    m->pressure = jox_alloc(local_cells, sizeof(double));
+    m->measured = jox_alloc(local_cells, sizeof *m->measured);
+    m->density_most = m->pressure_most = NAN;
+    m->stretch = INT64_MIN;
 }
 
-static JoxV2 middle_of(const Map *m, size_t cell) {
-    const JoxDensity *g = m->grid;
-    return jox_v2(g->low.x + ((float)(cell % g->columns) + 0.5f) * g->cell,
-                  g->low.y + ((float)(cell / g->columns) + 0.5f) * g->cell);
+/* Times are multiples of a step, whose sum may fall short of them by a hair. */
+static int64_t stretch_of(const JoxProbeDef *def, double t) {
+    return (int64_t)floor(t / def->every + 1e-6);
 }
 
-/* One person and the images over periodic edges. */
-static void spread(Map *m, const JoxFrame *frame, uint32_t i, const float weights[FIELDS]) {
-    const JoxDensity *g = m->grid;
-    int across = frame->period.x > 0.0f, up = frame->period.y > 0.0f;
-    float reach = ((float)g->reach + 1.0f) * g->cell;
-    for (int c = -across; c <= across; c++)
-        for (int r = -up; r <= up; r++) {
-            float x = frame->x[i] + (float)c * frame->period.x - g->low.x;
-            float y = frame->y[i] + (float)r * frame->period.y - g->low.y;
-            if (x > -reach && x < (float)g->columns * g->cell + reach && y > -reach &&
-                y < (float)g->rows * g->cell + reach)
-                jox_density_spread(g, m->now, weights, FIELDS, x + g->low.x, y + g->low.y);
-        }
+static bool is_due(const JoxProbeDef *def, const void *state, double t) {
+    const Map *m = state;
+    return stretch_of(def, t) != m->stretch || jox_local_is_due(m->local, t);
 }
 
 static void note_compression(Map *m, const JoxFrame *frame, uint32_t i) {
-    const JoxDensity *g = m->grid;
-    float column = floorf((frame->x[i] - g->low.x) / g->cell);
-    float row = floorf((frame->y[i] - g->low.y) / g->cell);
-    if (!(column >= 0.0f && column < (float)g->columns && row >= 0.0f && row < (float)g->rows))
+    size_t cell;
+    if (!jox_density_cell_of(m->grid, frame->x[i], frame->y[i], &cell))
         return;
-    float *most = &m->compression_most[(size_t)row * g->columns + (size_t)column];
-    *most = jox_maxf(*most, frame->compression[i]);
+    m->compression_most[cell] = jox_maxf(m->compression_most[cell], frame->compression[i]);
     m->compression_greatest = fmax(m->compression_greatest, frame->compression[i]);
 }
 
 /* Adds the fields of this sample to the sums. */
 static void sum_up(Map *m, double t) {
-    size_t cells = (size_t)m->grid->columns * m->grid->rows;
-    for (size_t c = 0; c < cells; c++) {
+    for (size_t c = 0; c < cells_of(m->grid); c++) {
         double density = m->now[DENSITY][c];
         m->density[c] += density;
-        if (density > m->density_most) {
+        if (!(density <= m->density_most)) {
             m->density_most = density;
             m->density_time = t;
-            m->density_at = middle_of(m, c);
+            m->density_at = jox_density_middle(m->grid, c);
         }
         if (density < LEAST)
             continue;
-        double vx = m->now[VX][c] / density, vy = m->now[VY][c] / density;
-        double variance = fmax(m->now[SQUARE][c] / density - vx * vx - vy * vy, 0.0);
         m->speed[c] += m->now[SPEED][c];
         m->compression[c] += m->now[COMPRESSION][c];
-        m->pressure[c] += density * variance;
-        if (density * variance > m->pressure_most) {
-            m->pressure_most = density * variance;
-            m->pressure_time = t;
-            m->pressure_at = middle_of(m, c);
-        }
     }
     m->samples++;
 }
 
-static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
-    (void)def;
-    Map *m = state;
-    size_t cells = (size_t)m->grid->columns * m->grid->rows;
-    for (int f = 0; f < FIELDS; f++)
-        memset(m->now[f], 0, cells * sizeof(float));
+static void sum_up_pressure(Map *m, double t) {
+    for (size_t c = 0; c < cells_of(m->local->grid); c++) {
+        float pressure = jox_local_pressure(m->local, c);
+        if (isnan(pressure))
+            continue;
+        m->pressure[c] += pressure;
+        m->measured[c]++;
+        if (!(pressure <= m->pressure_most)) {
+            m->pressure_most = pressure;
+            m->pressure_time = t;
+            m->pressure_at = jox_density_middle(m->local->grid, c);
+        }
+    }
+}
+
+/* Mean crowd pressure at a point, 1/s2; NAN: never measured. */
+static double mean_pressure(const Map *m, JoxV2 at) {
+    size_t c;
+    bool known = jox_density_cell_of(m->local->grid, at.x, at.y, &c) && m->measured[c];
+    return known ? m->pressure[c] / m->measured[c] : NAN;
+}
+
+static void sample(const JoxProbeDef *def, Map *m, const JoxFrame *frame, const uint8_t *seen) {
+    jox_density_walls(m->grid, def->through_walls ? NULL : frame->walls);
+    jox_density_begin(m->grid, FIELDS);
     for (uint32_t i = 0; i < frame->count; i++) {
         if (!seen[i])
             continue;
-        float vx = frame->vx[i], vy = frame->vy[i], square = vx * vx + vy * vy;
+        float vx = frame->vx[i], vy = frame->vy[i], speed = sqrtf(vx * vx + vy * vy);
         float pressed = frame->compression ? frame->compression[i] : 0.0f;
-        spread(m, frame, i, (float[FIELDS]){1.0f, sqrtf(square), vx, vy, square, pressed});
+        jox_density_put(m->grid, frame->period, frame->x[i], frame->y[i],
+                        (float[FIELDS]){1.0f, speed, pressed});
         if (frame->compression)
             note_compression(m, frame, i);
-        m->speed_sum += sqrtf(square);
+        m->speed_sum += speed;
         m->people++;
     }
+    jox_density_end(m->grid, m->now);
     m->has_compression |= frame->compression != NULL;
     sum_up(m, frame->time);
+}
+
+static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+    Map *m = state;
+    if (jox_local_frame(m->local, frame, seen))
+        sum_up_pressure(m, frame->time);
+    if (stretch_of(def, frame->time) == m->stretch)
+        return;
+    m->stretch = stretch_of(def, frame->time);
+    sample(def, m, frame, seen);
 }
 
 static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     (void)def;
     const Map *m = state;
-    size_t cells = (size_t)m->grid->columns * m->grid->rows;
-    double density = 0.0, pressure = 0.0, n = m->samples ? m->samples : NAN;
-    for (size_t c = 0; c < cells; c++) {
+    double density = 0.0, pressure = NAN, n = m->samples ? m->samples : NAN;
+    bool pressed = !isnan(m->pressure_most);
+    for (size_t c = 0; c < cells_of(m->grid); c++)
         density = fmax(density, m->density[c]);
-        pressure = fmax(pressure, m->pressure[c]);
-    }
+    for (size_t c = 0; c < cells_of(m->local->grid); c++)
+        pressure = fmax(pressure, m->measured[c] ? m->pressure[c] / m->measured[c] : NAN);
     jox_figure_add(out, "samples", "", m->samples);
     jox_figure_add(out, "density_max", "1/m2", m->samples ? m->density_most : NAN);
     jox_figure_add(out, "density_max_x", "m", m->samples ? m->density_at.x : NAN);
@@ -139,11 +160,11 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "density_max_time", "s", m->samples ? m->density_time : NAN);
     jox_figure_add(out, "density_mean_max", "1/m2", density / n);
     jox_figure_add(out, "speed", "m/s", m->people ? m->speed_sum / (double)m->people : NAN);
-    jox_figure_add(out, "pressure_max", "1/s2", m->samples ? m->pressure_most : NAN);
-    jox_figure_add(out, "pressure_max_x", "m", m->samples ? m->pressure_at.x : NAN);
-    jox_figure_add(out, "pressure_max_y", "m", m->samples ? m->pressure_at.y : NAN);
-    jox_figure_add(out, "pressure_max_time", "s", m->samples ? m->pressure_time : NAN);
-    jox_figure_add(out, "pressure_mean_max", "1/s2", pressure / n);
+    jox_figure_add(out, "pressure_max", "1/s2", m->pressure_most);
+    jox_figure_add(out, "pressure_max_x", "m", pressed ? m->pressure_at.x : NAN);
+    jox_figure_add(out, "pressure_max_y", "m", pressed ? m->pressure_at.y : NAN);
+    jox_figure_add(out, "pressure_max_time", "s", pressed ? m->pressure_time : NAN);
+    jox_figure_add(out, "pressure_mean_max", "1/s2", pressure);
     jox_figure_add(out, "compression_max", "N/m",
                    m->has_compression ? m->compression_greatest : NAN);
 }
@@ -161,12 +182,12 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
         for (uint32_t column = 0; column < g->columns; column += skip) {
             size_t c = (size_t)row * g->columns + column;
             double weight = m->density[c];
-            JoxV2 at = middle_of(m, c);
+            JoxV2 at = jox_density_middle(g, c);
             fprintf(out, "%.3f,%.3f,%.4g,", at.x, at.y, weight / n);
             if (weight < LEAST * n)
-                fprintf(out, "nan,%.4g,", m->pressure[c] / n);
+                fprintf(out, "nan,%.4g,", mean_pressure(m, at));
             else
-                fprintf(out, "%.4g,%.4g,", m->speed[c] / weight, m->pressure[c] / n);
+                fprintf(out, "%.4g,%.4g,", m->speed[c] / weight, mean_pressure(m, at));
             if (m->has_compression)
                 fprintf(out, "%.4g,%.4g\n", weight < LEAST * n ? 0.0 : m->compression[c] / weight,
                         m->compression_most[c]);
@@ -190,13 +211,12 @@ static void panel(bool walls, int column, const char *what, double most, JoxText
 }
 
 static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
-    (void)def;
     const Map *m = state;
     const JoxDensity *g = m->grid;
     double density = 0.0, speed = 0.0, pressure = 0.0, n = m->samples;
-    for (size_t c = 0; c < (size_t)g->columns * g->rows; c++) {
+    for (size_t c = 0; c < cells_of(g); c++) {
         density = fmax(density, m->density[c] / n);
-        pressure = fmax(pressure, m->pressure[c] / n);
+        pressure = fmax(pressure, mean_pressure(m, jox_density_middle(g, c)));
         if (m->density[c] >= LEAST * n)
             speed = fmax(speed, m->speed[c] / m->density[c]);
     }
@@ -211,9 +231,19 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
         "unset grid\nset xrange [%g:%g]\nset yrange [%g:%g]\n",
         g->low.x, g->low.x + (float)g->columns * g->cell, g->low.y,
         g->low.y + (float)g->rows * g->cell);
-    panel(walls, 3, "density (1/m^2)", density, out);
+    char what[96];
+    snprintf(what, sizeof what, "density (1/m^2), Gaussian, R = %.3g m%s", def->kernel * sqrt(2.0),
+             def->through_walls ? ", through walls" : "");
+    panel(walls, 3, what, density, out);
     panel(walls, 4, "speed (m/s)", speed, out);
-    panel(walls, 5, "crowd pressure (1/s^2)", pressure, out);
+    if (isnan(m->pressure_most))
+        jox_text_printf(out,
+                        "set title 'crowd pressure was measured nowhere:\\nless than %g per m^2, "
+                        "or no steady flow for %g s'\nunset colorbox\nplot NaN notitle\n"
+                        "set colorbox\n",
+                        (double)JOX_PRESSURE_LEAST, JOX_PRESSURE_SPAN);
+    else
+        panel(walls, 5, "crowd pressure (1/s^2), where it was measured", pressure, out);
     if (m->has_compression)
         panel(walls, 7, "greatest compression (N/m)", m->compression_greatest, out);
 }
@@ -226,11 +256,13 @@ static void release(void *state) {
     jox_free(m->density);
     jox_free(m->speed);
     jox_free(m->pressure);
+    jox_free(m->measured);
+    jox_local_free(m->local);
     jox_free(m->compression);
     jox_free(m->compression_most);
 }
 
 const JoxProbeCalls jox_probe_map = {
-    JOX_PROBE_KIND(Map, 1300, 0), .frame = frame, .pace = JOX_PACE_EVERY, .begin = begin,
+    JOX_PROBE_KIND(Map, 1300, 0), .frame = frame, .is_due = is_due, .begin = begin,
     .release = release,
 };

@@ -1,8 +1,9 @@
 /* People in a polygon, per interval. Of each frame: their number; the classical density, number
    over area; the Voronoi density, the mean over the area of one over the cell's area (Steffen and
-   Seyfried 2010, equation 5); the mean speed of those inside; and the specific flow, Voronoi
-   density times mean speed. An interval has the mean of its frames, speed and flow of those with
-   anyone inside. Figures are means over the intervals in which anyone was inside. */
+   Seyfried 2010, equation 5), cells ending at walls, behind which nobody is a neighbour; the mean
+   speed of those inside; and the specific flow, Voronoi density times mean speed. An interval has
+   the mean of its frames, speed and flow of those with anyone inside. Figures are means over the
+   intervals in which anyone was inside. */
 #include <math.h>
 
 #include "base/mem.h"
@@ -107,6 +108,7 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
     }
     gather(def, m, frame);
     gather_walls(def, m, frame);
+    m->sites.bars = &m->bars;
     double density = voronoi_density(def, m, seen);
     row->frames++;
     row->people += people;

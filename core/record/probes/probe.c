@@ -66,6 +66,8 @@ static int64_t stretch_of(const JoxProbe *p, double t) {
 bool jox_probe_is_due(const JoxProbe *p, double t) {
     if (t < p->def.from - 1e-9 || t >= p->def.until)
         return false;
+    if (p->calls->is_due)
+        return p->calls->is_due(&p->def, p->state, t);
     return p->pace <= 0.0 || stretch_of(p, t) != p->last;
 }
 

@@ -15,6 +15,8 @@ typedef enum { JOX_PACE_TENTH, JOX_PACE_ALL, JOX_PACE_EVERY } JoxPace;
 typedef struct JoxProbeCalls {
     size_t size; /* of the state */
     JoxPace pace;
+    /* Whether it wants a frame of time t, instead of a pace; or NULL. */
+    bool (*is_due)(const JoxProbeDef *def, const void *state, double t);
     void (*begin)(const JoxProbeDef *def, void *state); /* or NULL */
     /* `seen[i]` is 1 for the people who are measured. */
     void (*frame)(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen);

@@ -61,5 +61,5 @@ export function unitText(unit) {
 export const FIELDS = {
     none: { name: "none" },
     density: { name: "density", unit: "1/m²" },
-    pressure: { name: "crowd pressure", unit: "1/s²" },
+    pressure: { name: "crowd pressure, where measured", unit: "1/s²" },
 };

@@ -1,0 +1,54 @@
+/* What the files of density share. Cells are counted with the edge about what is read. */
+#ifndef JOX_RECORD_FIELDS_DENSITY_PARTS_H
+#define JOX_RECORD_FIELDS_DENSITY_PARTS_H
+
+#include "record/fields/density.h"
+
+/* Of the difference of two nodes' densities, most that goes over a whole side in a step; more than
+   1/4 would overshoot. */
+#define JOX_DENSITY_SHARE 0.2f
+
+/* Each cell is a point of the floor, its node. Who stands between nodes is shared among those
+   around, and what is shared goes from node to node in steps. */
+struct JoxDensityFloor {
+    uint64_t hash; /* of the walls */
+    JoxV2 *node;   /* m: the middle, or a point of the cell that can be walked on */
+    float *open_x; /* how wide the way is from a node to the next along x, in cells; 0: none */
+    float *open_y;
+    struct JoxDensitySlant { /* ways to others, over floor that lies in cells between */
+        uint32_t a, b;
+        float open;
+    } * slants;
+    uint32_t slant_count, slant_capacity;
+    uint8_t *near; /* walls may stand between the cell's people and the nodes around */
+    float *area;   /* of the floor that belongs to a node, in cells */
+    float *per;    /* 1 / area; 0: no node, nobody can stand there */
+    float *room;   /* of the ways from a node: how much of them can be used at once, 0..1 */
+    /* Stretches of walls, and by cell those that pass through it. */
+    struct JoxDensityBar {
+        double ax, ay, bx, by;
+    } * bars;
+    uint32_t bar_count, bar_capacity;
+    uint32_t *first, *passing, passing_capacity;
+};
+
+/* density_nodes.c: the lowest corner of all cells; a whole number within 0..most. */
+JoxV2 jox_density_corner(const JoxDensity *density);
+int jox_density_clamped(double value, int most);
+/* The cell that (x, y) lies in, if there are cells around it too. */
+bool jox_density_locate(const JoxDensity *density, float x, float y, int *column, int *row);
+/* Whether a wall stands between two points that are at most two cells apart. */
+bool jox_density_hidden(const JoxDensity *density, JoxV2 a, JoxV2 b);
+/* From the cell of (x, y) to that of the node which holds for there: its own, if it is seen from
+   there, or else the nearest that is, or if none is, as within a wall, the nearest of any floor. */
+typedef enum { JOX_DENSITY_NO_NODE, JOX_DENSITY_HIDDEN, JOX_DENSITY_SEEN } JoxDensityNode;
+JoxDensityNode jox_density_node(const JoxDensity *density, float x, float y, int *column, int *row);
+/* The nodes that share somebody at (x, y), with their shares. 0: nowhere near the area. */
+int jox_density_share(const JoxDensity *density, float x, float y, uint32_t nodes[4],
+                      float shares[4]);
+/* density_walls.c */
+void jox_density_free_floor(JoxDensityFloor *floor);
+/* density_spread.c: makes a field's masses densities, in 1/cell, by the kernel. */
+void jox_density_spread(JoxDensity *density, int field);
+
+#endif

@@ -1,0 +1,121 @@
+/* The kernel. With walls: diffusion by steps from node to node, as in finite volumes. In a step the
+   share l of the difference of two nodes' densities goes over each whole side between them. So what
+   one loses the other gets, what is even stays even, and the variance along each axis grows by 2 l
+   cells2. Without walls: the Gaussian itself, along x and then along y. Sharing somebody among the
+   nodes around has added 1/6 cells2 already, in the mean over where one can stand. */
+#include <math.h>
+#include <string.h>
+
+#include "base/elementary.h"
+#include "base/mem.h"
+#include "record/fields/density_parts.h"
+
+enum { MOST_TAPS = 512 };
+
+/* Variance that is left to add, cells2. */
+static float variance(const JoxDensity *d) {
+    float wide = d->kernel / d->cell;
+    return jox_maxf(wide * wide - 1.0f / 6.0f, 0.0f);
+}
+
+static size_t at(const JoxDensity *d, int column, int row) {
+    return (size_t)row * (size_t)d->wide + (size_t)column;
+}
+
+/* One step over the given cells. */
+static void step(const JoxDensity *d, float share, const float *from, float *to, const int box[4]) {
+    const JoxDensityFloor *f = d->floor;
+    for (int row = box[1]; row <= box[3]; row++) {
+        const size_t line = at(d, 0, row);
+        const float *u = from + line, *up = u + d->wide, *down = u - d->wide;
+        const float *x = f->open_x + line, *y = f->open_y + line, *y_down = y - d->wide;
+        const float *per = f->per + line;
+        float *restrict out = to + line;
+        for (int c = box[0]; c <= box[2]; c++)
+            out[c] = u[c] + share * per[c] *
+                                (x[c] * (u[c + 1] - u[c]) - x[c - 1] * (u[c] - u[c - 1]) +
+                                 y[c] * (up[c] - u[c]) - y_down[c] * (u[c] - down[c]));
+    }
+    for (uint32_t s = 0; s < f->slant_count; s++) {
+        const uint32_t a = f->slants[s].a, b = f->slants[s].b;
+        const float moved = share * f->slants[s].open * (from[b] - from[a]);
+        to[a] += f->per[a] * moved;
+        to[b] -= f->per[b] * moved;
+    }
+}
+
+static int grown(int value, int by, int limit) {
+    return by < 0 ? (value + by > limit ? value + by : limit)
+                  : (value + by < limit ? value + by : limit);
+}
+
+static void diffuse(JoxDensity *d, int field) {
+    float whole = 0.5f * variance(d);
+    int steps = (int)ceilf(whole / JOX_DENSITY_SHARE);
+    memset(d->spare, 0, (size_t)d->wide * (size_t)d->high * sizeof *d->spare);
+    for (int row = d->from_y; row <= d->to_y; row++)
+        for (int c = d->from_x; c <= d->to_x; c++)
+            d->mass[field][at(d, c, row)] *= d->floor->per[at(d, c, row)];
+    for (int s = 1; s <= steps; s++) {
+        const int by = 2 * s; /* as far as a slant reaches */
+        int box[4] = {grown(d->from_x, -by, 1), grown(d->from_y, -by, 1),
+                      grown(d->to_x, by, d->wide - 2), grown(d->to_y, by, d->high - 2)};
+        step(d, whole / (float)steps, d->mass[field], d->spare, box);
+        float *swap = d->mass[field];
+        d->mass[field] = d->spare;
+        d->spare = swap;
+    }
+}
+
+/* The Gaussian along one axis, by distance in cells; its sum over both sides is one. */
+static int tabulate(const JoxDensity *d, float *taps) {
+    double v = variance(d), sum = 0.0;
+    int reach = (int)jox_clampf(3.0f * sqrtf((float)v) + 1.0f, 1.0f, MOST_TAPS - 1);
+    for (int k = 0; k <= reach; k++) {
+        taps[k] = v > 0.0 ? (float)jox_exp(-0.5 * k * k / v) : (k == 0);
+        sum += (k ? 2.0 : 1.0) * taps[k];
+    }
+    for (int k = 0; k <= reach; k++)
+        taps[k] /= (float)sum;
+    return reach;
+}
+
+static void convolve(JoxDensity *d, int field) {
+    float taps[MOST_TAPS];
+    int reach = tabulate(d, taps), last = d->wide - 1, top = d->high - 1;
+    int from = grown(d->from_x, -reach, 0), to = grown(d->to_x, reach, last);
+    float *mass = d->mass[field];
+    for (int row = d->from_y; row <= d->to_y; row++) {
+        const float *in = mass + at(d, 0, row);
+        float *restrict out = d->spare + at(d, 0, row);
+        memset(out + from, 0, (size_t)(to - from + 1) * sizeof *out);
+        for (int k = -reach; k <= reach; k++) {
+            int low = d->from_x > from - k ? d->from_x : from - k;
+            int high = d->to_x < to - k ? d->to_x : to - k;
+            float tap = taps[k < 0 ? -k : k];
+            for (int c = low; c <= high; c++)
+                out[c + k] += tap * in[c];
+        }
+    }
+    for (int row = grown(d->from_y, -reach, 0); row <= grown(d->to_y, reach, top); row++) {
+        float *restrict out = mass + at(d, 0, row);
+        memset(out + from, 0, (size_t)(to - from + 1) * sizeof *out);
+        for (int k = -reach; k <= reach; k++) {
+            if (row + k < d->from_y || row + k > d->to_y)
+                continue;
+            const float *in = d->spare + at(d, 0, row + k);
+            float tap = taps[k < 0 ? -k : k];
+            for (int c = from; c <= to; c++)
+                out[c] += tap * in[c];
+        }
+    }
+}
+
+void jox_density_spread(JoxDensity *d, int field) {
+    if (d->from_x > d->to_x)
+        return;
+    if (d->floor)
+        diffuse(d, field);
+    else
+        convolve(d, field);
+}

@@ -1,0 +1,174 @@
+#include "record/fields/pressure.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "base/vec.h"
+
+enum { QUARTERS = 4 };
+/* Share of the variance that is within a quarter, unless the flow changed. */
+static const float STEADY = 0.25f;
+static const float NOBODY = 0.02f; /* 1/m2: below this there is no velocity */
+
+/* Sums of a cell over the samples of a quarter. */
+typedef struct Sums {
+    float density, vx, vy, square;
+} Sums;
+
+struct JoxPressure {
+    uint32_t columns, rows;
+    size_t cells;
+    float cell; /* m */
+    /* Sums over all cells to the left and below, of pressures and of how many measured one; a
+       column and a row more than there are cells. */
+    double *sum;
+    uint32_t *count;
+    Sums *quarters[QUARTERS]; /* the last is being filled */
+    float *now;
+    int samples[QUARTERS], filled; /* of each; quarters that are whole */
+    double begun, last;            /* s: of the last quarter; the last sample */
+};
+
+JoxPressure *jox_pressure_create(uint32_t columns, uint32_t rows, float cell) {
+    JoxPressure *p = jox_alloc(1, sizeof *p);
+    const size_t cells = (size_t)columns * rows, corners = ((size_t)columns + 1) * (rows + 1);
+    p->columns = columns;
+    p->rows = rows;
+    p->cells = cells;
+    p->cell = cell;
+    p->sum = jox_alloc(corners, sizeof *p->sum);
+    p->count = jox_alloc(corners, sizeof *p->count);
+    for (int q = 0; q < QUARTERS; q++)
+        p->quarters[q] = jox_alloc(cells, sizeof(Sums));
+    p->now = jox_alloc(cells, sizeof *p->now);
+    for (size_t c = 0; c < cells; c++)
+        p->now[c] = NAN;
+    p->last = NAN;
+    return p;
+}
+
+static void begin_quarter(JoxPressure *p, double t) {
+    Sums *oldest = p->quarters[0];
+    memmove(p->quarters, p->quarters + 1, (QUARTERS - 1) * sizeof *p->quarters);
+    memmove(p->samples, p->samples + 1, (QUARTERS - 1) * sizeof *p->samples);
+    p->quarters[QUARTERS - 1] = oldest;
+    memset(oldest, 0, p->cells * sizeof *oldest);
+    p->samples[QUARTERS - 1] = 0;
+    p->begun = t;
+}
+
+/* The second smallest of the four. */
+static float second(const float v[QUARTERS]) {
+    float least = jox_minf(v[0], v[1]), next = jox_maxf(v[0], v[1]);
+    for (int q = 2; q < QUARTERS; q++) {
+        next = jox_minf(next, jox_maxf(v[q], least));
+        least = jox_minf(least, v[q]);
+    }
+    return next;
+}
+
+static float of_cell(const JoxPressure *p, size_t c) {
+    float density = 0.0f, vx = 0.0f, vy = 0.0f, square = 0.0f, within[QUARTERS];
+    for (int q = 0; q < QUARTERS; q++) {
+        const Sums *s = &p->quarters[q][c];
+        const float n = (float)p->samples[q], x = s->vx / n, y = s->vy / n;
+        if (s->density < JOX_PRESSURE_LEAST * n)
+            return NAN;
+        within[q] = s->square / n - x * x - y * y;
+        density += s->density / n;
+        vx += x;
+        vy += y;
+        square += s->square / n;
+    }
+    vx /= QUARTERS;
+    vy /= QUARTERS;
+    float variance = jox_maxf(square / QUARTERS - vx * vx - vy * vy, 0.0f);
+    if (second(within) < STEADY * variance)
+        return NAN;
+    return density / QUARTERS * variance;
+}
+
+static void sum_up(JoxPressure *p) {
+    const size_t wide = (size_t)p->columns + 1;
+    for (uint32_t r = 0; r < p->rows; r++)
+        for (uint32_t c = 0; c < p->columns; c++) {
+            const float here = p->now[(size_t)r * p->columns + c];
+            const size_t k = r * wide + c; /* the corner to the left and below */
+            p->sum[k + wide + 1] =
+                p->sum[k + 1] + p->sum[k + wide] - p->sum[k] + (isnan(here) ? 0.0 : (double)here);
+            p->count[k + wide + 1] =
+                p->count[k + 1] + p->count[k + wide] - p->count[k] + !isnan(here);
+        }
+}
+
+/* Means over what was measured within the section about each cell that did. */
+static void take_sections(JoxPressure *p) {
+    const size_t wide = (size_t)p->columns + 1;
+    const uint32_t half = (uint32_t)(0.5f * JOX_PRESSURE_SECTION / p->cell);
+    const double enough = (double)JOX_PRESSURE_FLOOR / ((double)p->cell * p->cell);
+    for (uint32_t r = 0; r < p->rows; r++)
+        for (uint32_t c = 0; c < p->columns; c++) {
+            float *here = &p->now[(size_t)r * p->columns + c];
+            const size_t left = c > half ? c - half : 0, low = r > half ? r - half : 0;
+            const size_t right = c + half + 1 < p->columns ? c + half + 1 : p->columns;
+            const size_t top = r + half + 1 < p->rows ? r + half + 1 : p->rows;
+            const size_t a = top * wide + right, b = top * wide + left, d = low * wide + right;
+            const size_t e = low * wide + left;
+            const uint32_t count = p->count[a] - p->count[b] - p->count[d] + p->count[e];
+            if (isnan(*here))
+                continue;
+            *here = count >= enough
+                        ? (float)((p->sum[a] - p->sum[b] - p->sum[d] + p->sum[e]) / count)
+                        : NAN;
+        }
+}
+
+void jox_pressure_add(JoxPressure *p, double t, const float *density, const float *flow_x,
+                      const float *flow_y) {
+    const double quarter = JOX_PRESSURE_SPAN / QUARTERS;
+    if (!(t > p->last && t - p->last <= 2.0 * JOX_PRESSURE_PACE)) {
+        p->filled = 0;
+        for (size_t c = 0; c < p->cells; c++)
+            p->now[c] = NAN;
+        begin_quarter(p, t);
+    }
+    p->last = t;
+    Sums *sums = p->quarters[QUARTERS - 1];
+    for (size_t c = 0; c < p->cells; c++) {
+        if (density[c] < NOBODY)
+            continue;
+        float vx = flow_x[c] / density[c], vy = flow_y[c] / density[c];
+        sums[c].density += density[c];
+        sums[c].vx += vx;
+        sums[c].vy += vy;
+        sums[c].square += vx * vx + vy * vy;
+    }
+    p->samples[QUARTERS - 1]++;
+    if (t - p->begun + JOX_PRESSURE_PACE < quarter - 1e-6)
+        return;
+    p->filled += p->filled < QUARTERS;
+    for (size_t c = 0; c < p->cells; c++)
+        p->now[c] = p->filled == QUARTERS ? of_cell(p, c) : NAN;
+    if (p->filled == QUARTERS) {
+        sum_up(p);
+        take_sections(p);
+    }
+    begin_quarter(p, t + JOX_PRESSURE_PACE);
+}
+
+const float *jox_pressure_now(const JoxPressure *p) {
+    return p->now;
+}
+
+void jox_pressure_free(JoxPressure *p) {
+    if (!p)
+        return;
+    for (int q = 0; q < QUARTERS; q++)
+        jox_free(p->quarters[q]);
+    jox_free(p->now);
+    jox_free(p->sum);
+    jox_free(p->count);
+    jox_free(p);
+}

@@ -1,0 +1,88 @@
+#include "record/local.h"
+
+#include <math.h>
+
+#include "base/mem.h"
+
+static const float COARSE = 0.4f; /* m: of cells */
+static const float FEW = 1e5f;    /* cells: areas of more have coarser ones */
+
+JoxDensity *jox_local_grid(JoxV2 low, JoxV2 high) {
+    float cell = sqrtf((high.x - low.x) * (high.y - low.y) / FEW);
+    return jox_density_create(low, high, jox_clampf(cell, JOX_DENSITY_CELL, COARSE),
+                              JOX_DENSITY_KERNEL);
+}
+
+JoxLocal *jox_local_create(JoxV2 low, JoxV2 high) {
+    JoxLocal *l = jox_alloc(1, sizeof *l);
+    l->grid = jox_local_grid(low, high);
+    l->time = NAN;
+    l->stretch = INT64_MIN;
+    return l;
+}
+
+void jox_local_want_pressure(JoxLocal *l) {
+    size_t cells = (size_t)l->grid->columns * l->grid->rows;
+    if (l->pressure)
+        return;
+    l->flow_x = jox_alloc(cells, sizeof *l->flow_x);
+    l->flow_y = jox_alloc(cells, sizeof *l->flow_y);
+    l->pressure = jox_pressure_create(l->grid->columns, l->grid->rows, l->grid->cell);
+}
+
+/* Velocity of person i since the last sample: that of one step shakes with its contacts. */
+static JoxV2 velocity(JoxLocal *l, const JoxFrame *frame, uint32_t i) {
+    JoxStretch way;
+    if (!jox_track_step(&l->track, frame, i, &way) ||
+        !(way.ended > way.begun && way.ended - way.begun <= 2.0 * JOX_PRESSURE_PACE))
+        return (JoxV2){frame->vx[i], frame->vy[i]};
+    return jox_scale(way.by, (float)(1.0 / (way.ended - way.begun)));
+}
+
+/* Times are multiples of a step, whose sum may fall short of them by a hair. */
+static int64_t stretch_of(double t) {
+    return (int64_t)floor(t / JOX_PRESSURE_PACE + 1e-6);
+}
+
+bool jox_local_is_due(const JoxLocal *l, double t) {
+    return stretch_of(t) != l->stretch;
+}
+
+bool jox_local_frame(JoxLocal *l, const JoxFrame *frame, const uint8_t *seen) {
+    if (!jox_local_is_due(l, frame->time))
+        return false;
+    l->stretch = stretch_of(frame->time);
+    l->time = frame->time;
+    l->samples++;
+    jox_track_reserve(&l->track, frame->keys);
+    jox_density_walls(l->grid, frame->walls);
+    jox_density_begin(l->grid, l->pressure ? 3 : 1);
+    for (uint32_t i = 0; i < frame->count; i++) {
+        if (seen && !seen[i])
+            continue;
+        JoxV2 v = l->pressure ? velocity(l, frame, i) : jox_v2(0, 0);
+        jox_density_put(l->grid, frame->period, frame->x[i], frame->y[i],
+                        (float[3]){1.0f, v.x, v.y});
+    }
+    jox_density_end(l->grid, (float *[3]){l->grid->now, l->flow_x, l->flow_y});
+    jox_density_note(l->grid, frame->time, frame->time >= l->mean_from - 1e-9);
+    if (l->tracked) /* else nobody's way since the last sample is known */
+        jox_pressure_add(l->pressure, frame->time, l->grid->now, l->flow_x, l->flow_y);
+    l->tracked = l->pressure != NULL;
+    return true;
+}
+
+float jox_local_pressure(const JoxLocal *l, size_t cell) {
+    return l->pressure ? jox_pressure_now(l->pressure)[cell] : NAN;
+}
+
+void jox_local_free(JoxLocal *l) {
+    if (!l)
+        return;
+    jox_density_free(l->grid);
+    jox_pressure_free(l->pressure);
+    jox_free(l->flow_x);
+    jox_free(l->flow_y);
+    jox_free(l->track.items);
+    jox_free(l);
+}

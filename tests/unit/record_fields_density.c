@@ -1,0 +1,301 @@
+/* Densities against what can be worked out: integrals, even crowds, and a person between walls,
+   whose density is that of the images in them. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/mem.h"
+#include "record/fields/density.h"
+
+/* Which NAN never is. */
+static void assert_near(double got, double expected, double tolerance) {
+    if (!(fabs(got - expected) <= tolerance))
+        fail_msg("%.9g is not %.9g +- %g", got, expected, tolerance);
+}
+
+static const double S = 0.70710678; /* m: standard deviation of R = 1 m */
+static const JoxV2 NO_PERIOD = {0, 0};
+
+static JoxDensity *grid(float low, float high, float cell) {
+    return jox_density_create((JoxV2){low, low}, (JoxV2){high, high}, cell, JOX_DENSITY_KERNEL);
+}
+
+static double at(const JoxDensity *d, float x, float y) {
+    size_t cell;
+    assert_true(jox_density_cell_of(d, x, y, &cell));
+    return d->now[cell];
+}
+
+/* People on the floor of the area. */
+static double whole(const JoxDensity *d) {
+    double sum = 0.0;
+    for (size_t c = 0; c < (size_t)d->columns * d->rows; c++)
+        sum += (double)d->now[c] * jox_density_area(d, c);
+    return sum;
+}
+
+/* Of the floor where inside(x, y). */
+static double part(const JoxDensity *d, bool (*inside)(JoxV2)) {
+    double sum = 0.0;
+    for (size_t c = 0; c < (size_t)d->columns * d->rows; c++)
+        if (inside(jox_density_middle(d, c)))
+            sum += (double)d->now[c] * jox_density_area(d, c);
+    return sum;
+}
+
+static void box(JoxWalls *walls, float x0, float y0, float x1, float y1) {
+    const JoxV2 ring[] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+    jox_walls_add_polyline(walls, ring, 4, true, 3);
+}
+
+static void line(JoxWalls *walls, float x0, float y0, float x1, float y1) {
+    const JoxV2 ends[] = {{x0, y0}, {x1, y1}};
+    jox_walls_add_polyline(walls, ends, 2, false, 3);
+}
+
+/* One of `count` people who stand evenly and at random in a box; always the same. */
+static float dice(uint32_t *state) {
+    *state = *state * 1664525u + 1013904223u;
+    return (float)(*state >> 8) / 16777216.0f;
+}
+
+static void in_the_open_it_is_the_gaussian(void **state) {
+    (void)state;
+    JoxWalls far = {0};
+    line(&far, -9, -9, -9, 9);
+    for (int walls = 0; walls < 2; walls++)
+        for (float cell = 0.2f; cell < 0.41f; cell += 0.1f) {
+            JoxDensity *d = grid(-10, 10, cell);
+            float x = 0.13f, y = -0.08f;
+            jox_density_walls(d, walls ? &far : NULL);
+            jox_density_add(d, NO_PERIOD, &x, &y, 1, 0);
+            for (size_t c = 0; c < (size_t)d->columns * d->rows; c++) {
+                JoxV2 p = jox_density_middle(d, c);
+                double d2 = (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y);
+                double gauss = exp(-d2) / 3.14159265358979;
+                assert_near(d->now[c], gauss, 0.08 * cell * cell / 0.09);
+            }
+            assert_near(whole(d), 1.0, 1e-3);
+            jox_density_free(d);
+        }
+    jox_walls_free(&far);
+}
+
+/* Density of one at (x, y) between walls at 0 and `wide`, by images in them. */
+static double between(double x, double from, double wide) {
+    double sum = 0.0;
+    for (int k = -20; k <= 20; k++) {
+        double a = x - from - 2 * k * wide, b = x + from - 2 * k * wide;
+        sum += exp(-a * a / (2 * S * S)) + exp(-b * b / (2 * S * S));
+    }
+    return sum / (S * sqrt(2 * 3.14159265358979));
+}
+static double along(double y) {
+    return exp(-y * y / (2 * S * S)) / (S * sqrt(2 * 3.14159265358979));
+}
+
+/* How far people are spread along (-s, c), m2. */
+static double variance_along(const JoxDensity *d, float c, float s) {
+    double sum = 0.0, first = 0.0, second = 0.0;
+    for (size_t i = 0; i < (size_t)d->columns * d->rows; i++) {
+        JoxV2 p = jox_density_middle(d, i);
+        double here = (double)d->now[i] * jox_density_area(d, i), way = -s * p.x + c * p.y;
+        sum += here;
+        first += here * way;
+        second += here * way * way;
+    }
+    return second / sum - first / sum * (first / sum);
+}
+
+/* A corridor 1 m wide, wherever it lies on the grid, along an axis or across the cells. */
+static void a_narrow_corridor(void **state) {
+    (void)state;
+    for (float shift = 0.0f; shift < 0.41f; shift += 0.05f)
+        for (float from = 0.1f; from < 0.95f; from += 0.2f)
+            for (float cell = 0.2f; cell < 0.31f; cell += 0.1f)
+                for (int turned = 0; turned < 2; turned++) {
+                    JoxWalls walls = {0};
+                    float c = turned ? 0.8f : 1.0f, s = turned ? 0.6f : 0.0f;
+                    JoxDensity *d = grid(-8, 8, cell);
+                    for (int side = 0; side < 2; side++) {
+                        float x = shift + (float)side;
+                        line(&walls, c * x + s * 7, s * x - c * 7, c * x - s * 7, s * x + c * 7);
+                    }
+                    float x = c * (shift + from), y = s * (shift + from);
+                    jox_density_walls(d, &walls);
+                    jox_density_add(d, NO_PERIOD, &x, &y, 1, 0);
+                    double there = between(from, from, 1) * along(0);
+                    assert_near(whole(d), 1.0, 0.01);
+                    if (turned) /* on stairs of cells one gets less far along */
+                        assert_in_range(1000 * d->most / there, 950, cell < 0.25f ? 1200 : 1450);
+                    else
+                        assert_near(d->most, there, 0.08 * there * cell * cell / 0.04);
+                    assert_near(variance_along(d, c, s), S * S, (turned ? 0.35 : 0.04) * S * S);
+                    for (float beyond = -0.6f; beyond < 1.7f; beyond += 2.2f) /* nothing outside */
+                        assert_near(at(d, c * (shift + beyond), s * (shift + beyond)), 0.0, 1e-9);
+                    jox_density_free(d);
+                    jox_walls_free(&walls);
+                }
+}
+
+static bool right_of_wall(JoxV2 p) {
+    return p.x > 0.07f;
+}
+
+/* Ten on one side of a thin wall, one on the other, each 0.2 m from it. */
+static void both_sides_of_a_thin_wall(void **state) {
+    (void)state;
+    for (int open = 0; open < 2; open++) {
+        JoxWalls all = {0}, walls = {0};
+        JoxDensity *d = grid(-5, 5, 0.2f);
+        float x[11], y[11];
+        line(&all, 0.07f, -6, 0.07f, 6);
+        jox_walls_name(&all, 0, "gate", open);
+        jox_walls_standing(&walls, &all, true);
+        for (int i = 0; i < 11; i++) {
+            x[i] = i < 10 ? -0.13f : 0.27f;
+            y[i] = 0;
+        }
+        jox_density_walls(d, &walls);
+        jox_density_add(d, NO_PERIOD, x, y, 11, 0);
+        assert_near(whole(d), 11.0, 0.01);
+        if (!open) { /* one image of each at the wall */
+            double own = 1 + exp(-0.4 * 0.4);
+            assert_near(at(d, -0.13f, 0), 10 * own / 3.14159265, 0.6);
+            assert_near(at(d, 0.27f, 0), own / 3.14159265, 0.05);
+            assert_near(part(d, right_of_wall), 1.0, 0.01);
+        } else {
+            assert_near(at(d, -0.13f, 0), (10 + exp(-0.16)) / 3.14159265, 0.1);
+            assert_near(at(d, 0.27f, 0), (1 + 10 * exp(-0.16)) / 3.14159265, 0.1);
+        }
+        jox_density_free(d);
+        jox_walls_free(&walls);
+        jox_walls_free(&all);
+    }
+}
+
+/* An even crowd in a room reads alike in the middle, at walls and in corners, thin or solid; half
+   of the room has none. */
+static void an_even_crowd_is_even_up_to_the_walls(void **state) {
+    (void)state;
+    enum { SIDE = 100 }; /* 25 per m2, so that chance is small */
+    static float x[SIDE * SIDE], y[SIDE * SIDE];
+    for (int solid = 0; solid < 2; solid++)
+        for (float cell = 0.2f; cell < 0.41f; cell += 0.2f) {
+            const float low = 0.13f, size = 20.0f * SIDE / 500.0f;
+            JoxWalls walls = {0};
+            JoxDensity *d = grid(-3, 8, cell);
+            double least = INFINITY, most = 0;
+            uint32_t chance = 7;
+            if (solid) {
+                for (int k = 0; k < 2; k++) {
+                    float a = k ? low + size : low - 1, b = k ? low + size + 1 : low;
+                    JoxV2 up[] = {{a, -1}, {b, -1}, {b, 6}, {a, 6}};
+                    JoxV2 flat[] = {{-1, a}, {6, a}, {6, b}, {-1, b}};
+                    jox_walls_add_solid(&walls, up, 4, 3);
+                    jox_walls_add_solid(&walls, flat, 4, 3);
+                }
+            } else
+                box(&walls, low, low, low + size, low + size);
+            for (int i = 0; i < SIDE * SIDE; i++) { /* a shaken lattice */
+                x[i] = low + size * ((float)(i % SIDE) + dice(&chance)) / SIDE;
+                y[i] = low + size * ((float)(i / SIDE) + dice(&chance)) / SIDE;
+            }
+            jox_density_walls(d, &walls);
+            jox_density_add(d, NO_PERIOD, x, y, SIDE * SIDE, 0);
+            assert_near(whole(d), SIDE * SIDE, 0.01 * SIDE * SIDE);
+            for (float py = 0.01f; py < size; py += 0.07f)
+                for (float px = 0.01f; px < size; px += 0.07f) {
+                    double here = at(d, low + px, low + py);
+                    least = fmin(least, here);
+                    most = fmax(most, here);
+                }
+            double even = SIDE * SIDE / (size * size);
+            assert_near(least, even, 0.03 * even);
+            assert_near(most, even, 0.03 * even);
+            jox_density_free(d);
+            jox_walls_free(&walls);
+        }
+}
+
+/* People anywhere in a plan of rooms, doors, posts and slanting walls: nobody is lost. */
+static void nobody_is_lost(void **state) {
+    (void)state;
+    enum { PEOPLE = 3000 };
+    static float x[PEOPLE], y[PEOPLE];
+    JoxWalls walls = {0};
+    const JoxV2 post[] = {{2, 2}, {2.4f, 2.1f}, {2.2f, 2.5f}};
+    uint32_t chance = 3, count = 0;
+    box(&walls, 0, 0, 12, 9);
+    line(&walls, 4, 0, 4, 4);
+    line(&walls, 4, 5, 4, 9);
+    line(&walls, 4, 3, 7, 0.5f);
+    line(&walls, 6, 9, 9.3f, 3.1f);
+    line(&walls, 9.3f, 3.1f, 12, 3.3f);
+    jox_walls_add_solid(&walls, post, 3, 3);
+    for (int k = 0; k < PEOPLE; k++) {
+        float px = 12 * dice(&chance), py = 9 * dice(&chance);
+        if (px > 1.9f && px < 2.5f && py > 1.9f && py < 2.6f)
+            continue;
+        x[count] = px;
+        y[count++] = py;
+    }
+    for (float cell = 0.2f; cell < 0.41f; cell += 0.1f) {
+        JoxDensity *d = grid(-2, 13, cell);
+        jox_density_walls(d, &walls);
+        jox_density_add(d, NO_PERIOD, x, y, count, 0);
+        assert_near(whole(d), count, 0.01 * count);
+        jox_density_free(d);
+    }
+    for (uint32_t i = 0; i < count; i += 37) { /* and one at a time */
+        JoxDensity *d = grid(-2, 13, 0.25f);
+        jox_density_walls(d, &walls);
+        jox_density_add(d, NO_PERIOD, x + i, y + i, 1, 0);
+        assert_near(whole(d), 1.0, 0.01);
+        jox_density_free(d);
+    }
+    jox_walls_free(&walls);
+}
+
+/* Over periodic edges; and walls that are taken away are gone. */
+static void edges_and_changes(void **state) {
+    (void)state;
+    JoxDensity *d = grid(0, 10, 0.2f);
+    JoxWalls walls = {0};
+    float x = 0.1f, y = 5.0f;
+    jox_density_add(d, (JoxV2){10, 0}, &x, &y, 1, 0);
+    assert_near(at(d, 9.9f, 5), exp(-0.04) / 3.14159265, 0.01);
+    assert_near(whole(d), 1.0, 1e-3);
+    line(&walls, 5, 0, 5, 10);
+    x = 4.9f;
+    jox_density_walls(d, &walls);
+    jox_density_add(d, NO_PERIOD, &x, &y, 1, 1);
+    assert_near(at(d, 5.1f, 5), 0.0, 1e-9);
+    walls.rings[0].open = true;
+    jox_density_walls(d, &walls);
+    jox_density_add(d, NO_PERIOD, &x, &y, 1, 2);
+    assert_near(at(d, 5.1f, 5), exp(-0.04) / 3.14159265, 0.01);
+    assert_int_equal(d->frames, 3);
+    assert_near(d->most_time, 1.0, 0.0);
+    jox_walls_free(&walls);
+    jox_density_free(d);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(in_the_open_it_is_the_gaussian),
+        cmocka_unit_test(a_narrow_corridor),
+        cmocka_unit_test(both_sides_of_a_thin_wall),
+        cmocka_unit_test(an_even_crowd_is_even_up_to_the_walls),
+        cmocka_unit_test(nobody_is_lost),
+        cmocka_unit_test(edges_and_changes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
