@@ -60,6 +60,9 @@ void jox_bodies_ensure(JoxBodies *b) {
     b->configuration->setPlaneConvexMultipointIterations(3, 3);
     /* Friction in one direction alone lets what is pressed on creep. */
     b->world->getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+    /* What touches overlaps by this much, m: where faces just meet, Bullet takes now their edges
+       and now the faces for what touches, and boxes that are pressed together rock. */
+    b->world->getSolverInfo().m_linearSlop = 0.002f;
     b->world->setGravity(btVector3(0, 0, float(-b->def.gravity)));
     if (!b->def.ground)
         return;
@@ -151,8 +154,9 @@ void jox_bodies_free(JoxBodies *b) {
         unmake(b->dispatcher);
         unmake(b->configuration);
     }
-    void *owned[] = {b->walls,   b->rows,          b->order,    b->objects, b->hits, b->gone,
-                     b->corners, b->contact_loads, b->contacts, b->breaks,  b->kept, b->object_contacts};
+    void *owned[] = {b->walls,    b->rows,   b->order,   b->objects,
+                     b->hits,     b->gone,   b->corners, b->contact_loads,
+                     b->contacts, b->breaks, b->kept,    b->object_contacts};
     for (void *memory : owned)
         jox_free(memory);
     jox_disc_grid_free(&b->grid);

@@ -71,7 +71,7 @@ struct JoxRow {
     JoxBodyShape shape;
     JoxMaterial material;
     btRigidBody *body;
-    JoxV3 force; /* over the next step, N */
+    JoxV3 force;                 /* over the next step, N */
     JoxV3 lasting, lasting_turn; /* impulse and angular impulse spread over the step that is next:
                                     scratch, N s and N m s */
     bool grounded, swept;

@@ -1,8 +1,8 @@
-/* What holds bodies while people press on them: weight, the floor and its friction, walls, and other
-   bodies that stand in the way. These contacts, as Bullet found them, are solved together with those
-   of people, so that a box at a wall bears what it is pressed with from the first step on, and
-   yields in the step in which the wall is gone. What comes of it here is only what people feel: the
-   bodies themselves move as Bullet says, from the same impulses. */
+/* What holds bodies while people press on them: weight, the floor and its friction, walls, and
+   other bodies that stand in the way. These contacts, as Bullet found them, are solved together
+   with those of people, so that a box at a wall bears what it is pressed with from the first step
+   on, and yields in the step in which the wall is gone. What comes of it here is only what people
+   feel: the bodies themselves move as Bullet says, from the same impulses. */
 #include <math.h>
 
 #include "base/assert.h"
@@ -110,7 +110,7 @@ static void add_support(JoxForces *f, const JoxObjectContact *c) {
                       .point = c->point,
                       .normal = c->normal,
                       .friction = c->friction,
-                      .target = jox_contact_target(c->gap, 0.0f, 0.0f, dt),
+                      .target = jox_contact_target(c->gap - JOX_BODY_SLACK, 0.0f, 0.0f, dt),
                       .impulse = jox_maxf(0.0f, c->force * dt),
                       .mass = mass_along(f, c, c->normal)};
     square_to(s->normal, s->across);
