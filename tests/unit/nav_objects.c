@@ -30,7 +30,8 @@ static void of_many_bodies_the_nearest_are_avoided(void **state) {
     agents.ignore[i] = 2;
     JoxHalfPlane planes[JOX_MOST_NEAREST];
     for (uint32_t most = 1; most <= JOX_MOST_NEAREST; most++) {
-        uint32_t made = jox_orca_objects(nav, &agents, i, &objects, 0.05f, planes, most), at = most;
+        uint32_t made = jox_orca_objects(nav, &agents, i, &objects, NULL, 0.05f, planes, most),
+                 at = most;
         assert_int_equal(made, most);
         for (int k = PILLARS - 1; at > 0; k--) { /* the nearest, which are the last */
             if (k == 33 || k == 37 || k == 38)
@@ -66,9 +67,9 @@ static void what_is_approached_counts_though_its_kind_is_ignored(void **state) {
     agents.ignore[i] = 2;
     agents.approach[i] = -1;
     JoxHalfPlane planes[JOX_MOST_NEAREST];
-    assert_int_equal(jox_orca_objects(nav, &agents, i, &objects, 0.05f, planes, 24), 0);
+    assert_int_equal(jox_orca_objects(nav, &agents, i, &objects, NULL, 0.05f, planes, 24), 0);
     agents.approach[i] = 1;
-    assert_int_equal(jox_orca_objects(nav, &agents, i, &objects, 0.05f, planes, 24), 1);
+    assert_int_equal(jox_orca_objects(nav, &agents, i, &objects, NULL, 0.05f, planes, 24), 1);
     assert_true(fabsf(planes[0].normal.y + 1.0f) < 1e-5f);
     assert_true(fabsf(planes[0].offset + 0.6f / 0.05f) < 1e-3f);
     jox_objects_free_grid(&objects);

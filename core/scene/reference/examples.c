@@ -151,7 +151,7 @@ const JoxExample jox_scene_examples[] = {
     },
     {"map", OPENING
      "include: running-through.yaml\n"
-     "probes: {fields: {map: {area: [[-2, -2], [6, 6]], cell: 0.1, kernel: 0.7}}}\n"},
+     "probes: {fields: {map: {area: [[-2, -2], [6, 6]], cell: 0.1, kernel: 0.7, through_walls: true}}}\n"},
     {"lanes", OPENING
      "include: running-through.yaml\n"
      "probes: {order: {lanes: {area: [[-2, -2], [6, 6]], rows: 40 cm, along: y}, group: [standing, runner]}}\n"},
