@@ -19,6 +19,7 @@ enum {
 typedef struct JoxFoundContact {
     uint32_t other; /* agent, edge of a wall, or row of a body */
     JoxV2 normal;
+    float squeeze;    /* N: of shoulders turned to each other */
     float gap, along; /* along: of a wall, from the start of the edge, m */
 } JoxFoundContact;
 
@@ -33,10 +34,11 @@ typedef struct JoxPairs {
     float *nx, *ny;
     float *target;   /* least normal velocity of the first relative to the second, m/s */
     float *mass;     /* reduced mass, kg */
+    float *squeeze;  /* N: of shoulders that are turned, within the radii; besides the impulse */
     float *impulse;  /* accumulated, at least 0, N s */
     uint32_t *place; /* of the contacts in ascending ids of first, then second;
                         JOX_NO_INDEX: left out */
-    size_t capacities[8];
+    size_t capacities[9];
 } JoxPairs;
 
 /* An agent at the edge of a wall. */

@@ -95,6 +95,9 @@ alike() { # NAME A B WITHIN: A = B but for the share WITHIN, or both are empty
     verdict "$1 ($2, $3)" $?
 }
 [ -n "$(figure density_max <"$work/door.json")" ] && [ "$(figure density_max <"$work/door.json")" = "$(in_json density_max "$work/door.danger")" ]; verdict "density_max of the run is that of danger" $?
+for table in danger.csv danger-map.csv; do
+    alike "a crush: crowd pressure of $table is that of the summary" "$(in_json pressure_max "$work/shaken.json")" "$(greatest 'pressure_max [1/s2]' "$work/shaken/$table")" 1e-6
+done
 for measure in density:1/m2 pressure:1/s2 compression:N/m load:N; do
     IFS=: read -r name unit <<<"$measure"
     said=$(in_json "${name}_max" "$work/door.danger")
