@@ -14,9 +14,10 @@ static JoxV2 received(const JoxForces *f, uint32_t i, uint32_t *contacts) {
     JoxV2 sum = {0.0f, 0.0f};
     for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1]; k++) {
         uint32_t at = f->ends[k].pair;
-        float impulse = p->first[at] == i ? p->impulse[at] : -p->impulse[at];
+        float size = p->impulse[at] + p->squeeze[at] * (float)f->step.dt;
+        float impulse = p->first[at] == i ? size : -size;
         sum = jox_add(sum, (JoxV2){p->nx[at] * impulse, p->ny[at] * impulse});
-        *contacts += impulse != 0.0f || p->target[at] >= 0.0f;
+        *contacts += size > 0.0f || p->target[at] >= 0.0f;
     }
     for (uint32_t k = 0; k < jox_touches_of(f, i); k++) {
         const JoxTouch *touch = &f->touch[f->touch_first[i] + k];

@@ -20,18 +20,24 @@ static bool is_cut(const JoxNeighbours *near, uint32_t i) {
     return near->touch_count && near->touch_count[i] == JOX_MOST_NEIGHBOURS;
 }
 
+/* N/m: what shoulders that are turned to each other press with, until the bodies themselves meet. */
+static const float SQUEEZE = 2000.0f;
+
 /* Two agents, if the gap between them may close within the step. */
 static bool touches(const JoxForces *f, uint32_t i, uint32_t other, bool walls,
                     JoxFoundContact *out) {
     const JoxAgents *a = f->step.agents;
     JoxV2 offset = jox_offset(a, other, i);
     float distance2 = jox_length2(offset);
+    const float *radius = a->param[JOX_PARAM_radius];
     float sum = jox_touch_radius(a, i) + jox_touch_radius(a, other);
-    float most = sum + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
+    float whole = radius[i] + radius[other];
+    float most = whole + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
     if (!(distance2 < most * most))
         return false;
-    float gap = sqrtf(distance2) - sum;
-    if (gap > JOX_TOUCH_LEAST) {
+    float distance = sqrtf(distance2), gap = distance - sum;
+    float squeeze = SQUEEZE * jox_clampf(whole - distance, 0.0f, whole - sum);
+    if (gap > JOX_TOUCH_LEAST && !(squeeze > 0.0f)) {
         JoxV2 towards = {a->vx[other] - a->vx[i], a->vy[other] - a->vy[i]};
         float closing = jox_length(towards) * (float)f->step.dt;
         if (gap > JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing))
@@ -44,7 +50,7 @@ static bool touches(const JoxForces *f, uint32_t i, uint32_t other, bool walls,
     if (normal.x == 0.0f && normal.y == 0.0f)
         normal.x = 1.0f; /* people in one place part along x */
     JOX_ASSERT(jox_is_unit(normal));
-    *out = (JoxFoundContact){.other = other, .normal = normal, .gap = gap};
+    *out = (JoxFoundContact){.other = other, .normal = normal, .squeeze = squeeze, .gap = gap};
     return true;
 }
 
@@ -98,7 +104,8 @@ static bool edge_contact(const JoxWalls *walls, uint32_t edge, JoxV2 p, JoxFound
     float distance = jox_length(out_of);
     JoxV2 normal = distance > 1e-6f ? jox_scale(out_of, 1.0f / distance)
                                     : jox_scale(jox_left(a->direction), -1.0f);
-    *out = (JoxFoundContact){edge, normal, distance, jox_maxf(along, 0.0f)};
+    *out = (JoxFoundContact){
+        .other = edge, .normal = normal, .gap = distance, .along = jox_maxf(along, 0.0f)};
     return true;
 }
 

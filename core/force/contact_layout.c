@@ -28,6 +28,7 @@ static void reserve_pairs(JoxPairs *p, uint32_t count) {
     JOX_RESERVE(p->mass, c[5], count);
     JOX_RESERVE(p->impulse, c[6], count);
     JOX_RESERVE(p->place, c[7], count);
+    JOX_RESERVE(p->squeeze, c[8], count);
 }
 
 static inline const JoxFoundContact *found_of(const JoxForces *f, uint32_t i) {
@@ -96,6 +97,7 @@ static void fill_pair(JoxForces *f, uint32_t i, const JoxFoundContact *found, ui
     p->second[at] = j;
     p->nx[at] = found->normal.x;
     p->ny[at] = found->normal.y;
+    p->squeeze[at] = found->squeeze;
     p->mass[at] = mass[i] * mass[j] / (mass[i] + mass[j]);
     float speed = (a->vx[i] - a->vx[j]) * found->normal.x + (a->vy[i] - a->vy[j]) * found->normal.y;
     p->target[at] = jox_contact_target(found->gap, speed, jox_minf(e[i], e[j]), (float)f->step.dt);

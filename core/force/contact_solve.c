@@ -47,11 +47,12 @@ static void warm_colour(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxForces *f = pass->forces;
     const JoxPairs *p = &f->pairs;
     for (uint32_t k = pass->first + begin; k < pass->first + end; k++) {
-        if (!(p->impulse[k] > 0.0f))
+        float impulse = p->impulse[k] + p->squeeze[k] * (float)f->step.dt;
+        if (!(impulse > 0.0f))
             continue;
         uint32_t i = p->first[k], j = p->second[k];
-        move_by(&f->work[i], p->nx[k], p->ny[k], p->impulse[k] * f->lightness[i]);
-        move_by(&f->work[j], p->nx[k], p->ny[k], -p->impulse[k] * f->lightness[j]);
+        move_by(&f->work[i], p->nx[k], p->ny[k], impulse * f->lightness[i]);
+        move_by(&f->work[j], p->nx[k], p->ny[k], -impulse * f->lightness[j]);
     }
 }
 

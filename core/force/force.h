@@ -37,6 +37,9 @@ typedef struct JoxForceStep {
     const JoxObjects *objects;
     const JoxWallGrid *walls; /* as far as jox_nav_touching_walls serves; NULL: none */
     JoxPool *pool;
+    double time;            /* s: simulated, at the beginning of the step */
+    uint64_t seed;
+    bool turning; /* people turn their shoulders among others: where contacts are solved */
     double dt;                /* s, above 0 */
     double planning_time;     /* s: how far ahead velocities are planned; 0: dt */
     double response;          /* share of the way to the planned velocity gone in dt; 0: all */

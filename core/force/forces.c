@@ -51,6 +51,7 @@ void jox_forces_free(JoxForces *f) {
                      f->pairs.mass,
                      f->pairs.impulse,
                      f->pairs.place,
+                     f->pairs.squeeze,
                      f->colours_of,
                      f->ends,
                      f->end_starts,
@@ -73,7 +74,7 @@ void jox_forces_free(JoxForces *f) {
                      f->kept_pairs.items,
                      f->kept_walls.items,
                      f->kept_touches.items,
-                     f->pressed.items,
+                     f->support,
                      f->pending,
                      f->impulses,
                      f->old_x,
@@ -102,15 +103,28 @@ static void zero_terms(JoxAgents *a) {
 #undef ZERO_STATE
 }
 
-static float breadth_of(const JoxAgents *a, uint32_t i, double time) {
-    float radius = a->param[JOX_PARAM_radius][i];
-    if (jox_stands(a, i))
+/* Radius at which an agent touches. Who wants to get on among others turns a shoulder to them, now
+   more and now less: a share of `turn` that goes evenly from one random value to the next within
+   TURNING seconds, a pure function of id and time. Who stands does not. */
+static float breadth_of(const JoxForceStep *step, uint32_t i) {
+    const double TURNING = 1.0; /* s */
+    const JoxAgents *a = step->agents;
+    const float radius = a->param[JOX_PARAM_radius][i], turn = a->param[JOX_PARAM_turn][i];
+    if (!step->turning || jox_stands(a, i))
         return radius;
-    double phase = time + jox_random_unit(0, a->id[i], 0, JOX_DRAW_AIM, 0), knot = floor(phase);
-    float from = (float)jox_random_unit(0, a->id[i], (uint64_t)knot, JOX_DRAW_AIM, 1);
-    float to = (float)jox_random_unit(0, a->id[i], (uint64_t)knot + 1, JOX_DRAW_AIM, 1);
-    float turned = from + (to - from) * (float)(phase - knot);
-    return radius * (1.0f - turned * a->param[JOX_PARAM_turn][i]);
+    double own = (double)a->id[i] * 0.6180339887498949; /* nobody turns in step with others */
+    double phase = step->time / TURNING + (own - floor(own)), knot = floor(phase);
+    uint64_t from = jox_random_bits(step->seed, a->id[i], (uint64_t)knot, JOX_DRAW_TURN, 0);
+    uint64_t to = jox_random_bits(step->seed, a->id[i], (uint64_t)knot + 1, JOX_DRAW_TURN, 0);
+    float first = (float)(from >> 40) * 0x1p-24f, second = (float)(to >> 40) * 0x1p-24f;
+    return radius * (1.0f - turn * (first + (second - first) * (float)(phase - knot)));
+}
+
+static void breadth_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const JoxForces *f = context;
+    for (uint32_t i = begin; i < end; i++)
+        f->step.agents->breadth[i] = breadth_of(&f->step, i);
 }
 
 void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
@@ -138,10 +152,6 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     if (f->chunks)
         memset(f->chunk, 0, f->chunks * sizeof *f->chunk);
     JOX_RESERVE(f->braced, f->braced_capacity, n);
-    static double hack;
-    hack += step->dt;
-    for (uint32_t i = 0; i < n; i++)
-        a->breadth[i] = breadth_of(a, i, hack);
     if (n) {
         zero_terms(a);
         memset(f->braced, 0, n * sizeof *f->braced);
@@ -151,6 +161,7 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     }
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
     f->widest = widest_radius(a);
+    jox_parallel_for(step->pool, n, JOX_FORCE_GRAIN, breadth_chunk, f);
     f->bodies = n && step->objects && step->objects->grid.columns;
 }
 
@@ -163,7 +174,6 @@ void jox_forces_sections(JoxForces *f, JoxSections *s) {
     list_kept(s, "pairs", &f->kept_pairs);
     list_kept(s, "walls", &f->kept_walls);
     list_kept(s, "touches", &f->kept_touches);
-    JOX_SECTION_ARRAY(s, "pressed", f->pressed.items, f->pressed.count, f->pressed.capacity);
 }
 
 JoxForceTotals jox_force_totals(const JoxForces *f) {

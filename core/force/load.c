@@ -50,7 +50,7 @@ static uint32_t forces_on(const JoxForces *f, uint32_t i, JoxV2 *out, uint32_t m
     uint32_t n = 0;
     for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1] && n < most; k++) {
         uint32_t at = f->ends[k].pair;
-        float force = p->impulse[at] * per_second;
+        float force = p->impulse[at] * per_second + p->squeeze[at];
         if (force > 0.0f)
             out[n++] = jox_scale((JoxV2){p->nx[at], p->ny[at]}, p->first[at] == i ? force : -force);
     }

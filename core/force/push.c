@@ -189,8 +189,8 @@ void jox_force_push(JoxForces *f) {
             f->totals.pushed_x += moves ? (double)(t[k].normal.x * dt) : 0.0;
             f->totals.pushed_y += moves ? (double)(t[k].normal.y * dt) : 0.0;
             jox_force_add_impulse(f, a->id[t[k].agent], t[k].object,
-                                  (JoxV3){t[k].normal.x * dt, t[k].normal.y * dt, 0.0f},
-                                  t[k].point);
+                                  (JoxV3){t[k].normal.x * dt, t[k].normal.y * dt, 0.0f}, t[k].point,
+                                  1.0f);
         }
     }
     f->totals.ground_x = (double)ground_x / 1048576.0;

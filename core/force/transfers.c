@@ -139,11 +139,11 @@ void jox_transfers_sum(JoxForces *f, float *x, float *y) {
 }
 
 void jox_force_add_impulse(JoxForces *f, uint32_t agent_id, uint32_t object, JoxV3 impulse,
-                           JoxV3 point) {
+                           JoxV3 point, float lasting) {
     JOX_RESERVE(f->pending, f->pending_capacity, (size_t)f->pending_count + 1);
     JOX_ASSERT(object < f->step.objects->count && agent_id < f->step.agents->next_id);
     uint64_t key = (uint64_t)agent_id << 32 | object;
-    f->pending[f->pending_count] = (JoxPendingImpulse){key, {object, impulse, point}};
+    f->pending[f->pending_count] = (JoxPendingImpulse){key, {object, impulse, point, lasting}};
     f->pending_count++;
 }
 

@@ -54,6 +54,8 @@ void jox_stage_prefer(const JoxPreferStage *stage);
 
 typedef struct JoxPushStage {
     const JoxSubstep *substep;
+    bool literal; /* forces as the paper prints them */
+    uint64_t seed;
     bool forces; /* else people feel none */
     JoxPool *pool;
     const JoxNeighbours *neighbours;

@@ -64,6 +64,8 @@ static void prefer(JoWorld *w, const JoxSubstep *substep) {
 static void push(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_push(&(JoxPushStage){.substep = substep,
                                    .forces = w->model.def.forces,
+                                   .literal = w->model.def.literal,
+                                   .seed = w->model.def.seed,
                                    .pool = w->scratch.pool,
                                    .neighbours = &w->scratch.neighbours,
                                    .objects = &w->scratch.objects,
