@@ -133,7 +133,7 @@ bool jox_bodies_force(JoxBodies *bodies, uint32_t row, JoxV3 force);
    passed over. Returns how many were passed over or clamped. */
 uint32_t jox_bodies_impulses(JoxBodies *bodies, const JoxImpulse *impulses, uint32_t count);
 
-/* Momentum of all moving bodies, kg m/s. */
+/* Momentum of all moving bodies, with what the next step is still to give them, kg m/s. */
 void jox_bodies_momentum(const JoxBodies *bodies, double out[3]);
 
 /* A person as a fast body meets it: an upright cylinder that moves evenly during the step. */

@@ -55,6 +55,14 @@ void jox_bodies_ensure(JoxBodies *b) {
     b->world =
         new btDiscreteDynamicsWorld(b->dispatcher, b->broadphase, b->solver, b->configuration);
     b->world->getDispatchInfo().m_deterministicOverlappingPairs = true;
+    /* What stands on the ground has all its contacts from the first step on, not one more in each,
+       on which it would rock. */
+    b->configuration->setPlaneConvexMultipointIterations(3, 3);
+    /* Friction in one direction alone lets what is pressed on creep. */
+    b->world->getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+    /* What touches overlaps by this much, m: where faces just meet, Bullet takes now their edges
+       and now the faces for what touches, and boxes that are pressed together rock. */
+    b->world->getSolverInfo().m_linearSlop = 0.002f;
     b->world->setGravity(btVector3(0, 0, float(-b->def.gravity)));
     if (!b->def.ground)
         return;
@@ -146,8 +154,9 @@ void jox_bodies_free(JoxBodies *b) {
         unmake(b->dispatcher);
         unmake(b->configuration);
     }
-    void *owned[] = {b->walls,   b->rows,          b->order,    b->objects, b->hits, b->gone,
-                     b->corners, b->contact_loads, b->contacts, b->breaks,  b->kept};
+    void *owned[] = {b->walls,    b->rows,   b->order,   b->objects,
+                     b->hits,     b->gone,   b->corners, b->contact_loads,
+                     b->contacts, b->breaks, b->kept,    b->object_contacts};
     for (void *memory : owned)
         jox_free(memory);
     jox_disc_grid_free(&b->grid);
@@ -442,8 +451,12 @@ uint32_t jox_bodies_impulses(JoxBodies *b, const JoxImpulse *impulses, uint32_t 
             p /= p.absolute()[p.absolute().maxAxis()];
             p *= most * r->shape.mass / p.length();
         }
+        btVector3 arm = at - r->body->getWorldTransform().getOrigin();
+        btVector3 lasting = p * impulses[i].lasting;
         r->body->activate(true);
-        r->body->applyImpulse(p, at - r->body->getWorldTransform().getOrigin());
+        r->body->applyImpulse(p - lasting, arm);
+        r->lasting = jox_v3(jox_bt(r->lasting) + lasting);
+        r->lasting_turn = jox_v3(jox_bt(r->lasting_turn) + arm.cross(lasting));
         if (r->bonds)
             jox_row_add_impulse(r, at, p);
     }
@@ -455,7 +468,8 @@ void jox_bodies_momentum(const JoxBodies *b, double out[3]) {
     for (uint32_t k = 0; k < b->live; k++) {
         const JoxRow *r = &b->rows[b->order[k]];
         for (int i = 0; i < 3; i++)
-            out[i] += double(r->shape.mass) * r->body->getLinearVelocity()[i];
+            out[i] += double(r->shape.mass) * r->body->getLinearVelocity()[i] +
+                      double(jox_bt(r->lasting)[i]);
     }
 }
 

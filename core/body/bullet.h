@@ -71,7 +71,9 @@ struct JoxRow {
     JoxBodyShape shape;
     JoxMaterial material;
     btRigidBody *body;
-    JoxV3 force; /* over the next step, N */
+    JoxV3 force;                 /* over the next step, N */
+    JoxV3 lasting, lasting_turn; /* impulse and angular impulse spread over the step that is next:
+                                    scratch, N s and N m s */
     bool grounded, swept;
     int activation;      /* scratch: Bullet's state of sleep */
     JoxBondGraph *bonds; /* of blocks that can come apart, or NULL; its frame is the shape's own */
@@ -111,6 +113,8 @@ struct JoxBodies {
     float last_dt;
     JoxObject *objects;
     uint32_t object_capacity;
+    JoxObjectContact *object_contacts;
+    uint32_t object_contact_count, object_contact_capacity;
     JoxDiscHit *hits;
     uint32_t hit_count, hit_capacity;
     double hit_impulse, hit_residual; /* N s, of the step */
@@ -181,6 +185,8 @@ void jox_bodies_drop_walls(JoxBodies *bodies);
 uint32_t jox_bodies_note_contacts(const JoxBodies *bodies, JoxContactRecord *&contacts,
                                   uint32_t &capacity);
 void jox_bodies_renew_contacts(JoxBodies *bodies, const JoxContactRecord *contacts, uint32_t count);
+/* Lists the contacts of moving bodies as others see them. */
+void jox_bodies_list_contacts(JoxBodies *bodies);
 /* Whether a body at this speed is to be swept in a step of dt. */
 bool jox_row_fast(const JoxRow *row, float dt);
 

@@ -131,3 +131,47 @@ void jox_bodies_renew_contacts(JoxBodies *b, const JoxContactRecord *contacts, u
             refill(b, manifold, contacts, count);
     }
 }
+
+/* ---- what holds bodies, for those who touch them ---- */
+
+/* The row of a body that can be moved, or JOX_NO_OBJECT. */
+static uint32_t moving_row(const JoxBodies *b, const btCollisionObject *object) {
+    const int index = object->getUserIndex();
+    return index >= 0 && b->rows[index].shape.mass > 0 ? uint32_t(index) : JOX_NO_OBJECT;
+}
+
+/* Bullet has measured the gaps before it moved the bodies for the last time. */
+static JoxObjectContact seen_contact(const JoxBodies *b, const btPersistentManifold *manifold,
+                                     const btManifoldPoint &p, float per_second) {
+    uint32_t one = moving_row(b, manifold->getBody0()), two = moving_row(b, manifold->getBody1());
+    const btVector3 on_one = manifold->getBody0()->getWorldTransform() * p.m_localPointA;
+    const btVector3 on_two = manifold->getBody1()->getWorldTransform() * p.m_localPointB;
+    const bool swap = one == JOX_NO_OBJECT;
+    JoxObjectContact contact;
+    contact.first = swap ? two : one;
+    contact.second = swap ? one : two;
+    contact.point = jox_v3((on_one + on_two) * 0.5f);
+    contact.normal = jox_v3(swap ? -p.m_normalWorldOnB : p.m_normalWorldOnB);
+    contact.gap = (on_one - on_two).dot(p.m_normalWorldOnB);
+    contact.friction = p.m_combinedFriction;
+    contact.force = p.m_appliedImpulse * per_second;
+    return contact;
+}
+
+void jox_bodies_list_contacts(JoxBodies *b) {
+    const float substeps = ceilf(b->last_dt * 60.0f - 1e-4f);
+    const float per_second = b->last_dt > 0 ? substeps / b->last_dt : 0;
+    uint32_t count = 0;
+    for (int m = 0; b->world && m < b->dispatcher->getNumManifolds(); m++) {
+        const btPersistentManifold *manifold = b->dispatcher->getManifoldByIndexInternal(m);
+        if (moving_row(b, manifold->getBody0()) == JOX_NO_OBJECT &&
+            moving_row(b, manifold->getBody1()) == JOX_NO_OBJECT)
+            continue;
+        for (int c = 0; c < manifold->getNumContacts(); c++) {
+            jox_reserve(b->object_contacts, b->object_contact_capacity, count + 1);
+            b->object_contacts[count++] =
+                seen_contact(b, manifold, manifold->getContactPoint(c), per_second);
+        }
+    }
+    b->object_contact_count = count;
+}

@@ -126,9 +126,16 @@ static void weed(JoxBodies *b) {
     }
 }
 
-static void push_on(JoxBodies *b, bool last) {
+/* Forces, and of the lasting impulses the share of one of n substeps. */
+static void push_on(JoxBodies *b, uint32_t n, bool last) {
     for (uint32_t k = 0; k < b->live; k++) {
         JoxRow *r = &b->rows[b->order[k]];
+        if (jox_bt(r->lasting).length2() > 0) {
+            r->body->applyCentralImpulse(jox_bt(r->lasting) / float(n));
+            r->body->applyTorqueImpulse(jox_bt(r->lasting_turn) / float(n));
+        }
+        if (last)
+            r->lasting = r->lasting_turn = JoxV3{0, 0, 0};
         if (jox_bt(r->force).length2() > 0) {
             r->body->activate(true);
             r->body->applyCentralForce(jox_bt(r->force));
@@ -157,7 +164,7 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
     for (uint32_t s = 0; s < n; s++) {
         if (people)
             sweep_all(b, discs, h * float(s), h, dt);
-        push_on(b, s + 1 == n);
+        push_on(b, n, s + 1 == n);
         b->world->stepSimulation(h, 0);
         if (b->bonded)
             jox_bodies_gather_contacts(b);
@@ -253,4 +260,8 @@ void jox_bodies_objects(JoxBodies *b, JoxObjects *objects) {
     objects->rows = b->objects;
     objects->count = b->count;
     objects->capacity = b->object_capacity;
+    jox_bodies_list_contacts(b);
+    objects->contacts = b->object_contacts;
+    objects->contact_count = b->object_contact_count;
+    objects->gravity = float(b->def.gravity);
 }

@@ -75,16 +75,22 @@ static float turn(JoxV2 a, JoxV2 b, JoxV2 c) {
     return jox_det(jox_sub(b, a), jox_sub(c, a));
 }
 
+/* Whether a, b, c turn left, exactly: with a tolerance, two points that all but coincide would hide
+   a corner between which they lie in the order of x. */
+static bool turns_left(JoxV2 a, JoxV2 b, JoxV2 c) {
+    return ((double)b.x - a.x) * ((double)c.y - a.y) > ((double)b.y - a.y) * ((double)c.x - a.x);
+}
+
 /* Monotone chains. `ring` has room for count + 1 points. */
 static uint32_t hull(const JoxV2 *points, uint32_t count, JoxV2 *ring) {
     uint32_t n = 0;
     for (uint32_t i = 0; i < count; i++) {
-        while (n >= 2 && turn(ring[n - 2], ring[n - 1], points[i]) <= 1e-6f)
+        while (n >= 2 && !turns_left(ring[n - 2], ring[n - 1], points[i]))
             n--;
         ring[n++] = points[i];
     }
     for (uint32_t i = count - 1, least = n + 1; i-- > 0;) {
-        while (n >= least && turn(ring[n - 2], ring[n - 1], points[i]) <= 1e-6f)
+        while (n >= least && !turns_left(ring[n - 2], ring[n - 1], points[i]))
             n--;
         ring[n++] = points[i];
     }

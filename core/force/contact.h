@@ -73,25 +73,21 @@ typedef struct JoxKeptImpulses {
     size_t count, capacity;
 } JoxKeptImpulses;
 
-/* What the contacts of the last step gave a body, and how it would have answered on its own: with
-   how it did answer, that tells how much of it yields. A box at a wall does not. */
-typedef struct JoxPressedBody {
-    uint32_t row, id;
-    JoxV3 velocity, spin;   /* before, m/s and rad/s */
-    JoxV3 impulse, angular; /* N s, N m s */
-    float work; /* sum over the contacts of impulse times velocity that a free body gains
-                   along it, J */
-} JoxPressedBody;
-typedef struct JoxPressedBodies {
-    JoxPressedBody *items;
-    size_t count, capacity;
-} JoxPressedBodies;
+/* A contact of a body with what holds it: solved along the normal and, for friction, across it. */
+typedef struct JoxSupport {
+    uint32_t first, second; /* rows; second may be JOX_NO_OBJECT, something static */
+    JoxV3 point, normal, across[2];
+    float mass, across_mass[2], target, friction; /* kg, m/s */
+    float impulse, across_impulse[2];             /* on the first, N s */
+} JoxSupport;
 
 /* Velocity and spin of a body while contacts are solved. */
 typedef struct JoxBodyMotion {
     JoxV3 velocity, spin;
-    float yields; /* share of its free answer, 0 to 1 */
-    uint32_t touches;
+    JoxV3 given, given_turn; /* by those who touch it, N s and N m s */
+    float held;              /* share of that which its supports took */
+    bool solved, touched;    /* else it goes on as it moves */
+    uint8_t link;            /* bodies between it and the nearest that is touched */
 } JoxBodyMotion;
 
 #endif

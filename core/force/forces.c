@@ -16,6 +16,10 @@ void jox_forces_set_options(JoxForces *f, const JoxForceOptions *options) {
     f->options = options ? *options : jox_force_default_options();
 }
 
+float jox_force_passing_reach(const JoxForces *f) {
+    return f->options.reach;
+}
+
 JoxForces *jox_forces_create(const JoxForceOptions *options) {
     JoxForces *f = jox_alloc(1, sizeof *f);
     jox_forces_set_options(f, options);
@@ -70,7 +74,7 @@ void jox_forces_free(JoxForces *f) {
                      f->kept_pairs.items,
                      f->kept_walls.items,
                      f->kept_touches.items,
-                     f->pressed.items,
+                     f->support,
                      f->pending,
                      f->impulses,
                      f->old_x,
@@ -170,7 +174,6 @@ void jox_forces_sections(JoxForces *f, JoxSections *s) {
     list_kept(s, "pairs", &f->kept_pairs);
     list_kept(s, "walls", &f->kept_walls);
     list_kept(s, "touches", &f->kept_touches);
-    JOX_SECTION_ARRAY(s, "pressed", f->pressed.items, f->pressed.count, f->pressed.capacity);
 }
 
 JoxForceTotals jox_force_totals(const JoxForces *f) {

@@ -69,6 +69,9 @@ struct JoxForces {
     size_t touch_first_capacity, touch_number_capacity;
     JoxBodyMotion *motions; /* per row of objects */
     size_t motion_capacity;
+    JoxSupport *support; /* in the order of the objects' contacts */
+    uint32_t support_count;
+    size_t support_capacity;
     JoxV2 *work;      /* velocities while contacts are solved */
     float *lightness; /* 1 / mass */
     float *residuals; /* per chunk of a pass */
@@ -85,7 +88,6 @@ struct JoxForces {
 
     /* State: from which the next step's solve starts. */
     JoxKeptImpulses kept_pairs, kept_walls, kept_touches;
-    JoxPressedBodies pressed;
 
     float widest; /* greatest radius, m */
     bool bodies;  /* some can be met */
@@ -110,6 +112,9 @@ void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t
 /* Agents in reach of agent i within its cone about `axis`: their indices, in the order of nearness.
  */
 uint32_t jox_people_in_cone(const JoxForces *forces, uint32_t i, JoxV2 axis, uint32_t *found);
+/* Whether a wall stands between two points of an agent's surroundings that are no farther apart
+   than the walls' grid serves: no force goes through it. */
+bool jox_force_is_walled_off(const JoxForces *forces, JoxV2 from, JoxV2 to);
 /* Lists a force that agent i, of that chunk, gives agent `to`. */
 void jox_transfer_give(JoxForces *forces, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force);
 /* Sorts the transfers by receiver: those of agent i are sorted[starts[i]] to sorted[starts[i + 1]].
@@ -118,7 +123,7 @@ uint32_t jox_transfers_sort(JoxForces *forces);
 /* Adds the transfers of all agents, in ascending id of the giver, into two columns. */
 void jox_transfers_sum(JoxForces *forces, float *x, float *y);
 void jox_force_add_impulse(JoxForces *forces, uint32_t agent_id, uint32_t object, JoxV3 impulse,
-                           JoxV3 point);
+                           JoxV3 point, float lasting);
 
 /* Length of the agent's outline, over which forces are spread, m. */
 static inline float jox_circumference(float radius) {
@@ -165,6 +170,9 @@ float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uin
 /* Least normal velocity after a contact, m/s: the gap (m) may close within the step, no more, and
    what meets within it bounces. `speed`: normal velocity before. */
 float jox_contact_target(float gap, float speed, float restitution, float dt);
+/* m: bodies that are nearer than this touch. They tremble in Bullet by tenths of a millimetre, which
+   in a short step would be a part of the force that presses people on them. */
+#define JOX_BODY_SLACK 1e-3f
 /* contact_solve.c: all impulses. */
 void jox_contacts_solve(JoxForces *forces);
 /* contact_planes.c: half-planes of what is touched. */
@@ -183,11 +191,18 @@ void jox_touches_finish(JoxForces *forces);
 static inline uint32_t jox_touches_of(const JoxForces *forces, uint32_t agent) {
     return forces->touch_count ? forces->touch_number[agent] : 0;
 }
-/* From a body's centre of mass to a point, m. */
-JoxV3 jox_arm_of(const JoxObject *body, JoxV3 point);
 /* Normal velocity of a body where it is touched, m/s: before the contacts, and after them. */
 float jox_touch_speed_before(const JoxForces *forces, const JoxTouch *touch);
 float jox_touch_speed_after(const JoxForces *forces, const JoxTouch *touch);
+
+/* support.c: what holds the bodies that are touched. begin: motions of all bodies, and first
+   impulses; pass: as of touches; finish: how much of what the touches gave was held. */
+void jox_supports_begin(JoxForces *forces);
+float jox_supports_pass(JoxForces *forces);
+void jox_supports_finish(JoxForces *forces);
+/* Velocity of a point of a body, m/s, and an impulse there, N s, while contacts are solved. */
+JoxV3 jox_body_velocity(const JoxForces *forces, uint32_t row, JoxV3 point);
+void jox_body_give(JoxForces *forces, uint32_t row, JoxV3 point, JoxV3 impulse);
 
 /* Equations as they are printed, literal.c. (5): from where the pusher will be to the one pushed.
  */

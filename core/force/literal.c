@@ -38,7 +38,9 @@ static void touch_bodies(JoxForces *f) {
     for (uint32_t k = 0; k < f->touch_count; k++) {
         JoxTouch *t = &f->touch[k];
         const JoxObject *body = &f->step.objects->rows[t->object];
-        JoxV3 turning = jox_cross3(body->spin, jox_arm_of(body, t->point));
+        JoxV3 turning = jox_cross3(body->spin, (JoxV3){t->point.x - body->position.x,
+                                                       t->point.y - body->position.y,
+                                                       t->point.z - body->position.z});
         float speed = (a->vx[t->agent] - body->velocity.x - turning.x) * t->normal.x +
                       (a->vy[t->agent] - body->velocity.y - turning.y) * t->normal.y;
         float e = jox_minf(a->param[JOX_PARAM_restitution][t->agent], body->restitution);

@@ -1,5 +1,5 @@
-/* Equation 7: contacts of agents with bodies. How a body answers is known from the step before:
-   what holds it there, walls, friction or other bodies, is Bullet's to know, not this solve's. */
+/* Equation 7: contacts of agents with bodies. What holds a body where it stands is solved with them
+   (support.c). */
 #include <math.h>
 #include <string.h>
 
@@ -84,68 +84,25 @@ void jox_touches_collect(JoxForces *f) {
         f->touch_first[f->touch[t].agent] = t;
 }
 
-JoxV3 jox_arm_of(const JoxObject *body, JoxV3 point) {
-    return (JoxV3){point.x - body->position.x, point.y - body->position.y,
-                   point.z - body->position.z};
-}
-
-/* Velocity of a body at a point along a level direction, m/s. */
-static float speed_at(const JoxBodyMotion *motion, const JoxObject *body, JoxV3 point,
-                      JoxV2 along) {
-    JoxV3 turning = jox_cross3(motion->spin, jox_arm_of(body, point));
-    return (motion->velocity.x + turning.x) * along.x + (motion->velocity.y + turning.y) * along.y;
-}
-
 float jox_touch_speed_before(const JoxForces *f, const JoxTouch *t) {
     const JoxObject *body = &f->step.objects->rows[t->object];
-    const JoxBodyMotion motion = {.velocity = body->velocity, .spin = body->spin};
-    return speed_at(&motion, body, t->point, t->normal);
+    const JoxV3 at = t->point, c = body->position;
+    JoxV3 turning = jox_cross3(body->spin, (JoxV3){at.x - c.x, at.y - c.y, at.z - c.z});
+    return (body->velocity.x + turning.x) * t->normal.x +
+           (body->velocity.y + turning.y) * t->normal.y;
 }
 
 float jox_touch_speed_after(const JoxForces *f, const JoxTouch *t) {
-    return speed_at(&f->motions[t->object], &f->step.objects->rows[t->object], t->point, t->normal);
-}
-
-/* How much of what its contacts asked of a body in the last step it did: all where it is free,
-   nothing where a wall or the floor's friction holds it. */
-static float yields(const JoxForces *f, uint32_t row) {
-    const JoxObject *body = &f->step.objects->rows[row];
-    for (size_t k = 0; k < f->pressed.count; k++) {
-        const JoxPressedBody *p = &f->pressed.items[k];
-        if (p->row != row || p->id != body->id)
-            continue;
-        JoxV3 faster = {body->velocity.x - p->velocity.x, body->velocity.y - p->velocity.y,
-                        body->velocity.z - p->velocity.z};
-        JoxV3 spun = {body->spin.x - p->spin.x, body->spin.y - p->spin.y, body->spin.z - p->spin.z};
-        float work = jox_dot3(p->impulse, faster) + jox_dot3(p->angular, spun);
-        return jox_clampf(work / p->work, 0.0f, 1.0f);
-    }
-    return 1.0f;
+    JoxV3 velocity = jox_body_velocity(f, t->object, t->point);
+    return velocity.x * t->normal.x + velocity.y * t->normal.y;
 }
 
 static void add_impulse(JoxForces *f, const JoxTouch *t, float impulse) {
-    const JoxObject *body = &f->step.objects->rows[t->object];
-    JoxBodyMotion *motion = &f->motions[t->object];
-    float lightness = f->lightness[t->agent], give = motion->yields;
+    float lightness = f->lightness[t->agent];
     f->work[t->agent].x += t->normal.x * impulse * lightness;
     f->work[t->agent].y += t->normal.y * impulse * lightness;
-    JoxV3 on_body = {-t->normal.x * impulse, -t->normal.y * impulse, 0.0f};
-    JoxV3 turn = jox_turn3(body->inverse_inertia, jox_cross3(jox_arm_of(body, t->point), on_body));
-    motion->velocity.x += on_body.x * body->inverse_mass * give;
-    motion->velocity.y += on_body.y * body->inverse_mass * give;
-    motion->spin.x += turn.x * give;
-    motion->spin.y += turn.y * give;
-    motion->spin.z += turn.z * give;
-}
-
-static void reset_motions(JoxForces *f) {
-    JOX_RESERVE(f->motions, f->motion_capacity, f->step.objects->count);
-    for (uint32_t t = 0; t < f->touch_count; t++) {
-        uint32_t row = f->touch[t].object;
-        const JoxObject *body = &f->step.objects->rows[row];
-        f->motions[row] = (JoxBodyMotion){
-            .velocity = body->velocity, .spin = body->spin, .yields = yields(f, row)};
-    }
+    jox_body_give(f, t->object, t->point,
+                  (JoxV3){-t->normal.x * impulse, -t->normal.y * impulse, 0.0f});
 }
 
 void jox_touches_begin(JoxForces *f) {
@@ -153,7 +110,7 @@ void jox_touches_begin(JoxForces *f) {
     size_t kept = 0;
     if (!f->touch_count)
         return;
-    reset_motions(f);
+    jox_supports_begin(f);
     for (uint32_t k = 0; k < f->touch_count; k++) {
         JoxTouch *t = &f->touch[k];
         const JoxObject *body = &f->step.objects->rows[t->object];
@@ -161,9 +118,8 @@ void jox_touches_begin(JoxForces *f) {
         float restitution = jox_minf(a->param[JOX_PARAM_restitution][t->agent], body->restitution);
         float speed = jox_dot(jox_v2(a->vx[t->agent], a->vy[t->agent]), t->normal) -
                       jox_touch_speed_before(f, t);
-        t->mass = 1.0f /
-                  (1.0f / a->param[JOX_PARAM_mass][t->agent] + give * f->motions[t->object].yields);
-        t->target = jox_contact_target(t->gap, speed, restitution, (float)f->step.dt);
+        t->mass = 1.0f / (1.0f / a->param[JOX_PARAM_mass][t->agent] + give);
+        t->target = jox_contact_target(t->gap - JOX_BODY_SLACK, speed, restitution, (float)f->step.dt);
         t->impulse = jox_kept_impulse(&f->kept_touches, &kept, a->id[t->agent], t->object);
         JOX_ASSERT(t->mass > 0.0f);
     }
@@ -173,7 +129,9 @@ void jox_touches_begin(JoxForces *f) {
 
 /* In ascending agent id, on one thread: touches are few. */
 float jox_touches_pass(JoxForces *f) {
-    float most = 0.0f;
+    if (!f->touch_count)
+        return 0.0f;
+    float most = jox_supports_pass(f);
     for (uint32_t k = 0; k < f->touch_count; k++) {
         JoxTouch *t = &f->touch[k];
         float speed = jox_dot(f->work[t->agent], t->normal) - jox_touch_speed_after(f, t);
@@ -185,51 +143,14 @@ float jox_touches_pass(JoxForces *f) {
     return most;
 }
 
-static JoxPressedBody *pressed_record(JoxForces *f, uint32_t row) {
-    const JoxObject *body = &f->step.objects->rows[row];
-    for (size_t k = 0; k < f->pressed.count; k++)
-        if (f->pressed.items[k].row == row)
-            return &f->pressed.items[k];
-    JOX_RESERVE(f->pressed.items, f->pressed.capacity, f->pressed.count + 1);
-    JoxPressedBody *record = &f->pressed.items[f->pressed.count++];
-    *record = (JoxPressedBody){
-        .row = row, .id = body->id, .velocity = body->velocity, .spin = body->spin};
-    return record;
-}
-
-/* What this step's contacts give bodies, for yields in the next. */
-static void note_pressed(JoxForces *f) {
-    f->pressed.count = 0;
-    for (uint32_t k = 0; k < f->touch_count; k++) {
-        const JoxTouch *t = &f->touch[k];
-        const JoxObject *body = &f->step.objects->rows[t->object];
-        if (!(t->impulse > 0.0f) || !(body->inverse_mass > 0.0f))
-            continue;
-        JoxPressedBody *p = pressed_record(f, t->object);
-        JoxV3 impulse = {-t->normal.x * t->impulse, -t->normal.y * t->impulse, 0.0f};
-        JoxV3 angular = jox_cross3(jox_arm_of(body, t->point), impulse);
-        p->impulse = (JoxV3){p->impulse.x + impulse.x, p->impulse.y + impulse.y, 0.0f};
-        p->angular =
-            (JoxV3){p->angular.x + angular.x, p->angular.y + angular.y, p->angular.z + angular.z};
-    }
-    size_t kept = 0;
-    for (size_t k = 0; k < f->pressed.count; k++) {
-        JoxPressedBody *p = &f->pressed.items[k];
-        const JoxObject *body = &f->step.objects->rows[p->row];
-        p->work = jox_dot3(p->impulse, p->impulse) * body->inverse_mass +
-                  jox_dot3(p->angular, jox_turn3(body->inverse_inertia, p->angular));
-        if (p->work > 0.0f)
-            f->pressed.items[kept++] = *p;
-    }
-    f->pressed.count = kept;
-}
-
 /* Impulses for the bodies: what people got, with the opposite sign. */
 void jox_touches_finish(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     JoxForceTotals *totals = &f->totals;
     JOX_RESERVE(f->kept_touches.items, f->kept_touches.capacity, f->touch_count);
     f->kept_touches.count = f->touch_count;
+    if (f->touch_count && !f->options.literal)
+        jox_supports_finish(f);
     for (uint32_t k = 0; k < f->touch_count; k++) {
         const JoxTouch *t = &f->touch[k];
         f->kept_touches.items[k] = (JoxKeptImpulse){a->id[t->agent], t->object, t->impulse};
@@ -241,7 +162,6 @@ void jox_touches_finish(JoxForces *f) {
         totals->touched_y += (double)impulse.y;
         totals->touched += t->impulse;
         jox_force_add_impulse(f, a->id[t->agent], t->object, (JoxV3){-impulse.x, -impulse.y, 0.0f},
-                              t->point);
+                              t->point, f->options.literal ? 0.0f : f->motions[t->object].held);
     }
-    note_pressed(f);
 }

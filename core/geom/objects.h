@@ -40,11 +40,24 @@ typedef struct JoxObject {
     float restitution, friction;
 } JoxObject;
 
-/* An impulse on a body at a point, both in world coordinates: N s and m. */
+/* An impulse on a body at a point, both in world coordinates: N s and m. The share `lasting` acts
+   evenly throughout the step, as the force of somebody who leans on what is held does; the rest at
+   its beginning. */
 typedef struct JoxImpulse {
     uint32_t object;
     JoxV3 impulse, point;
+    float lasting;
 } JoxImpulse;
+
+#define JOX_NO_OBJECT UINT32_MAX
+
+/* A point at which a moving body touches another, or ground, wall or a static body. */
+typedef struct JoxObjectContact {
+    uint32_t first, second; /* rows; second is JOX_NO_OBJECT where it is static */
+    JoxV3 point, normal;    /* m; unit, it points to the first */
+    float gap, friction;    /* m; coefficient of the two together */
+    float force;            /* along the normal in the step before, N */
+} JoxObjectContact;
 
 /* Which bodies are where: cells that list the rows of those whose bounds reach into them. */
 typedef struct JoxObjectGrid {
@@ -61,6 +74,9 @@ typedef struct JoxObjectGrid {
 typedef struct JoxObjects {
     JoxObject *rows;
     uint32_t count, capacity;
+    const JoxObjectContact *contacts; /* what holds bodies, in an order of Bullet's */
+    uint32_t contact_count;
+    float gravity; /* m/s2, downwards */
     JoxObjectGrid grid;
 } JoxObjects;
 

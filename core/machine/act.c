@@ -82,7 +82,7 @@ static void kick(JoxMachineRun *run, const JoxMachine *machine, const JoxState *
     float impulse = (float)(change < 50.0 ? change : 50.0) / object->inverse_mass;
     JOX_RESERVE(run->kicks, run->kick_capacity, run->kick_count + 1);
     run->kicks[run->kick_count++] = (JoxImpulse){
-        (uint32_t)ball.object, {way.x * impulse, way.y * impulse, 0.0f}, object->position};
+        (uint32_t)ball.object, {way.x * impulse, way.y * impulse, 0.0f}, object->position, 0.0f};
     a->kicked[i] = ball.object;
     a->kick_ready[i] = run->tick + (uint32_t)(KICK_PAUSE / run->dt + 0.5);
 }

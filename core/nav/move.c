@@ -84,7 +84,7 @@ static void sweep_touched(void *context, uint32_t begin, uint32_t end, uint32_t 
         for (uint32_t k = 0; k < t->bodies[i]; k++) {
             const JoxObject *body = &m->objects->rows[planes[t->people[i] + k].other];
             JoxFootprintPoint side = jox_footprint_nearest(body, from[i]);
-            float overlap = m->agents->param[JOX_PARAM_radius][i] - side.gap;
+            float overlap = m->agents->breadth[i] - side.gap;
             shift = jox_add(shift, jox_scale(side.normal, m->stiffness * jox_maxf(0.0f, overlap)));
         }
         to[i] = jox_add(from[i], shift);

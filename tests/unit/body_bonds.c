@@ -283,8 +283,8 @@ static void pieces_keep_momentum(void **state) {
     d.spin[2] = 0.3;
     d.tags = 5;
     uint32_t row = jox_bodies_add(b, &d, NULL);
-    JoxImpulse blows[2] = {{row, {0, 900, 0}, {1.1f, -0.4f, 100.2f}},
-                           {row, {0, -500, 0}, {-2.9f, 0.4f, 99.8f}}};
+    JoxImpulse blows[2] = {{row, {0, 900, 0}, {1.1f, -0.4f, 100.2f}, 0},
+                           {row, {0, -500, 0}, {-2.9f, 0.4f, 99.8f}, 0}};
     JoxBodiesReport report = {0};
     uint32_t cut = 0, pieces = 1;
     assert_int_equal(jox_bodies_impulses(b, blows, 2), 0);
@@ -321,7 +321,7 @@ static uint64_t broken(uint32_t *cut) {
     uint32_t row = jox_bodies_add(b, &d, NULL);
     *cut = 0;
     for (int i = 0; i < 100; i++) {
-        JoxImpulse push = {row, {0, 400, 0}, {0.2f, -0.4f, 0.6f}};
+        JoxImpulse push = {row, {0, 400, 0}, {0.2f, -0.4f, 0.6f}, 0};
         JoxPose p;
         jox_bodies_pose(b, row, &p);
         push.point.x += p.centre.x;

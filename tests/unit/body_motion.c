@@ -82,6 +82,63 @@ static void ball_hits_person(void **state) {
     jox_bodies_free(b);
 }
 
+/* Momentum is the same whether an impulse comes at the beginning or lasts; the way is not. */
+static void an_impulse_may_last(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoxBodiesDef def = jox_bodies_def();
+    def.gravity = 0;
+    for (int lasting = 0; lasting < 2; lasting++) {
+        JoxBodies *b = jox_bodies_create(&def);
+        JoxBodyDef d = jox_body_def();
+        d.position[2] = 5;
+        uint32_t row = jox_bodies_add(b, &d, NULL);
+        JoxImpulse push = {row, {20, 0, 0}, {0, 0.5f, 5}, (float)lasting};
+        double momentum[3];
+        assert_int_equal(jox_bodies_impulses(b, &push, 1), 0);
+        jox_bodies_momentum(b, momentum);
+        assert_float_equal(momentum[0], 20, 1e-4);
+        jox_bodies_step(b, 0.1f, NULL, 0); /* six substeps */
+        jox_bodies_momentum(b, momentum);
+        assert_float_equal(momentum[0], 20, 1e-4);
+        JoxPose p;
+        assert_true(jox_bodies_pose(b, row, &p));
+        assert_float_equal(p.velocity.x, 2, 1e-4);
+        assert_float_equal(p.position.x, lasting ? 0.2 * 7 / 12 : 0.2, 1e-4);
+        assert_float_equal(p.spin.z, -10 / (10 / 6.0), 0.05);
+        jox_bodies_step(b, 0.1f, NULL, 0); /* nothing is left */
+        assert_true(jox_bodies_pose(b, row, &p));
+        assert_float_equal(p.velocity.x, 2, 1e-4);
+        jox_bodies_free(b);
+    }
+}
+
+/* 200 kg with friction 0.6 on the ground stand against 600 N at their upper edge. */
+static void friction_holds_without_creep(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    JoxBodiesDef def = jox_bodies_def();
+    JoxBodies *b = jox_bodies_create(&def);
+    JoxBodyDef d = jox_body_def();
+    d.shape.size[2] = 0.8;
+    d.position[2] = 0.4;
+    d.mass = 200;
+    uint32_t row = jox_bodies_add(b, &d, NULL);
+    for (int i = 0; i < 100; i++) {
+        JoxImpulse push = {row, {30, 0, 0}, {-0.5f, 0, 0.8f}, 1};
+        jox_bodies_impulses(b, &push, 1);
+        jox_bodies_step(b, 0.05f, NULL, 0);
+    }
+    JoxPose p;
+    assert_true(jox_bodies_pose(b, row, &p));
+    assert_float_equal(p.position.x, 0, 1e-3);
+    assert_float_equal(p.position.y, 0, 1e-3);
+    assert_float_equal(p.velocity.x, 0, 1e-3);
+    jox_bodies_free(b);
+}
+
 static void refuses(void **state) {
     (void)state;
     JoxBodiesDef def = jox_bodies_def();
@@ -103,8 +160,11 @@ static void refuses(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(falls), cmocka_unit_test(stack_stands),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(falls),
+                                       cmocka_unit_test(stack_stands),
                                        cmocka_unit_test(ball_hits_person),
+                                       cmocka_unit_test(an_impulse_may_last),
+                                       cmocka_unit_test(friction_holds_without_creep),
                                        cmocka_unit_test(refuses)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

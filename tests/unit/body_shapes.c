@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "body/body.h"
+#include "body/footprint.h"
 
 static void need_bullet(void) {
     if (!jox_bodies_available())
@@ -65,7 +66,7 @@ static void an_impulse_off_the_centre_moves_and_turns(void **state) {
     double about_z = 12.0 * (2 * 2 + 1 * 1) / 12.0; /* m (a2 + b2) / 12 */
     near_to(before.inertia.z, about_z, 0.02 * about_z);
     JoxImpulse push = {
-        row, {0, 6, 0}, {(float)before.centre.x + 0.8f, before.centre.y, before.centre.z}};
+        row, {0, 6, 0}, {(float)before.centre.x + 0.8f, before.centre.y, before.centre.z}, 0};
     jox_bodies_impulses(bodies, &push, 1);
     JoxPose after = pose_of(bodies, row);
     near_to(after.velocity.y, 6.0 / 12.0, 1e-4);
@@ -171,6 +172,34 @@ static void footprints_follow_the_shape(void **state) {
     jox_bodies_free(bodies);
 }
 
+static bool has_corner(const JoxObject *o, float x, float y) {
+    for (uint32_t i = 0; i < o->footprint_count; i++)
+        if (fabsf(o->footprint[i].x - x) < 1e-3f && fabsf(o->footprint[i].y - y) < 1e-3f)
+            return true;
+    return false;
+}
+
+/* The upper and lower corners of an upright box lie within a millionth of a metre of each other, in
+   whatever order that puts them along x: no corner is lost. */
+static void a_hair_of_tilt_costs_no_corner(void **state) {
+    (void)state;
+    const uint32_t no_edges[2] = {0};
+    for (uint32_t order = 0; order < 256; order++) {
+        JoxV3 corners[8];
+        for (uint32_t k = 0; k < 8; k++)
+            corners[k] = (JoxV3){(k & 1 ? 0.2f : -0.2f) + 1e-6f * (float)(order >> k / 2 * 2 & 3),
+                                 k & 2 ? 0.3f : -0.3f, k & 4 ? 1.2f : 0.2f};
+        JoxFootprint footprint = {0};
+        JoxObject o = {0};
+        jox_footprint_begin(&footprint);
+        jox_footprint_add(&footprint, corners, 8, no_edges, 0);
+        jox_footprint_end(&footprint, &o);
+        for (uint32_t k = 0; k < 4; k++)
+            assert_true(has_corner(&o, k & 1 ? 0.2f : -0.2f, k & 2 ? 0.3f : -0.3f));
+        jox_footprint_free(&footprint);
+    }
+}
+
 static void what_falls_for_ever_is_taken_out(void **state) {
     (void)state;
     need_bullet();
@@ -225,10 +254,10 @@ static void static_bodies_stay_and_impulses_are_clamped(void **state) {
     uint32_t row = add(bodies, &def);
     def = sphere(0.2, 1, 5, 0, 0);
     uint32_t ball = add(bodies, &def);
-    JoxImpulse pushes[] = {{row, {1e6f, 0, 0}, {0, 0, 0}},
-                           {ball, {1e9f, 0, 0}, {5, 0, 0}},
-                           {ball, {NAN, 0, 0}, {5, 0, 0}},
-                           {12345, {1, 0, 0}, {0, 0, 0}}};
+    JoxImpulse pushes[] = {{row, {1e6f, 0, 0}, {0, 0, 0}, 0},
+                           {ball, {1e9f, 0, 0}, {5, 0, 0}, 0},
+                           {ball, {NAN, 0, 0}, {5, 0, 0}, 0},
+                           {12345, {1, 0, 0}, {0, 0, 0}, 0}};
     assert_int_equal(jox_bodies_impulses(bodies, pushes, 4), 4);
     assert_true(pose_of(bodies, row).velocity.x == 0.0f);
     near_to(pose_of(bodies, ball).velocity.x, jox_bodies_def().most_change, 1.0);
@@ -243,6 +272,7 @@ int main(void) {
         cmocka_unit_test(inertia_and_mass_of_the_shapes),
         cmocka_unit_test(a_ball_bounces_off_walls_and_does_not_pass_them),
         cmocka_unit_test(footprints_follow_the_shape),
+        cmocka_unit_test(a_hair_of_tilt_costs_no_corner),
         cmocka_unit_test(what_falls_for_ever_is_taken_out),
         cmocka_unit_test(equal_runs_have_equal_hashes),
         cmocka_unit_test(static_bodies_stay_and_impulses_are_clamped),

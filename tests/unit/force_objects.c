@@ -246,6 +246,69 @@ static void static_bodies_stop_people_and_receive_nothing(void **state) {
     close_with(&c, &objects);
 }
 
+/* Four points of a face of the box: the one at the far side from people, or the one on the ground.
+ */
+static void stand_at(JoxObjectContact out[4], bool ground, float friction) {
+    for (int k = 0; k < 4; k++) {
+        float x = k & 1 ? 1.0f : -1.0f, other = k & 2 ? 1.0f : -1.0f;
+        out[k] = (JoxObjectContact){.second = JOX_NO_OBJECT, .friction = friction};
+        out[k].point = ground ? (JoxV3){x, 0.5f * other, 0} : (JoxV3){x, -0.5f, 1 + other};
+        out[k].normal = ground ? (JoxV3){0, 0, 1} : (JoxV3){0, 1, 0};
+    }
+}
+
+/* Somebody walks at 2 m/s into the middle of the 40 kg box's long side. The impulse on the box. */
+static JoxImpulse walk_into(const JoxObjectContact *contacts, uint32_t count, float gravity) {
+    Crowd c;
+    open_crowd(&c, 0.05);
+    JoxObject box = make_box(40, 1);
+    JoxObjects objects;
+    put_bodies(&c, &objects, &box, 1);
+    objects.contacts = contacts;
+    objects.contact_count = count;
+    objects.gravity = gravity;
+    add_agent(&c, 0, 0.69f, 0, -2);
+    begin_with(&c, &objects);
+    jox_force_contact(c.forces);
+    uint32_t given;
+    JoxImpulse impulse = jox_force_impulses(c.forces, &given)[0];
+    assert_int_equal(given, 1);
+    assert_near(c.agents.contact_y[0] * 0.05, -impulse.impulse.y, 1e-3);
+    close_with(&c, &objects);
+    return impulse;
+}
+
+static void what_holds_a_body_is_felt_at_once(void **state) {
+    (void)state;
+    JoxObjectContact contacts[8];
+    JoxImpulse free = walk_into(NULL, 0, 0);
+    /* 1.1 m up is 0.1 m above the middle: inverse mass 1/40 + 0.1^2 12 / 200. */
+    assert_near(-free.impulse.y, 2 / (1 / 70.0 + 1 / 40.0 + 0.01 * 12 / 200), 0.01);
+    assert_near(free.lasting, 0, 1e-5);
+    /* At a wall it stops them, and all they give it lasts as long as they press. */
+    stand_at(contacts, false, 0);
+    JoxImpulse wall = walk_into(contacts, 4, 0);
+    assert_near(-wall.impulse.y, 140, 0.3);
+    assert_near(wall.lasting, 1, 0.01);
+    /* On the ground, which presses with 40 kg times 200 m/s2 times 0.05 s, 400 N s, friction of 0.5
+       takes all of it. */
+    stand_at(contacts, true, 0.5f);
+    JoxImpulse rough = walk_into(contacts, 4, 200.0f);
+    assert_near(-rough.impulse.y, 140, 0.3);
+    /* Of 0.1 times 19.62 N s it takes just that: (140 - 1.962) shared by 70 and 40 kg, and that. */
+    stand_at(contacts, true, 0.1f);
+    JoxImpulse slips = walk_into(contacts, 4, 9.81f);
+    assert_true(-slips.impulse.y > -free.impulse.y + 0.5);
+    assert_near(-slips.impulse.y, 140 - 70 * (140 - 1.962) / 110, 0.5);
+    double free_gain = 1 / 40.0 + 0.01 * 12 / 200; /* held share: by work, of a body free to turn */
+    assert_near(slips.lasting, 1 - 1.2549 / (52.16 * free_gain), 0.005);
+    /* A wall that is out of reach within the step changes nothing. */
+    stand_at(contacts, false, 0);
+    for (int k = 0; k < 4; k++)
+        contacts[k].gap = 0.2f;
+    assert_near(walk_into(contacts, 4, 0).impulse.y, free.impulse.y, 1e-3);
+}
+
 static void bodies_are_pushed_where_they_are_touched(void **state) {
     (void)state;
     Crowd c;
@@ -338,6 +401,7 @@ int main(void) {
         cmocka_unit_test(many_on_one_body_share_it),
         cmocka_unit_test(the_nearest_bodies_are_touched_and_pushed),
         cmocka_unit_test(static_bodies_stop_people_and_receive_nothing),
+        cmocka_unit_test(what_holds_a_body_is_felt_at_once),
         cmocka_unit_test(bodies_are_pushed_where_they_are_touched),
         cmocka_unit_test(a_printed_push_aims_at_the_middle),
         cmocka_unit_test(far_and_broken_bodies_are_passed_over),
