@@ -1,9 +1,9 @@
 /* The step: nine stages, and what each may read and write (stages.h).
 
-   Forces change velocities at once; the velocity that people plan beyond that they approach with
-   the time constant PLANNING_TIME, so that neither the size of the step nor how often they plan is
-   a property of people, and what they do hardly depends on it. A step that is longer is done in
-   substeps. As printed, everything happens within one step of whatever length: with `literal` it
+   Forces change velocities at once. Beyond that people plan: those who walk anew each PLANNING_TIME
+   or so, and they approach what they planned with the time constant RESPONSE_TIME. So the size of
+   the step is no property of people, and what they do and bear hardly depends on it. A step that is
+   longer than PLANNING_TIME is done in substeps. As printed, everything happens within one step of whatever length: with `literal` it
    does here. */
 #include <math.h>
 
@@ -12,8 +12,8 @@
 #include "base/mem.h"
 #include "world/world.h"
 
-static const double PLANNING_TIME = 0.05; /* s */
-static const double RESPONSE_TIME = 0.05; /* s */
+static const double PLANNING_TIME = 0.05; /* s: between the plans of those who walk */
+static const double RESPONSE_TIME = 0.05; /* s: in which 63 % of the way to the plan is gone */
 
 static void perceive(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_perceive(&(JoxPerceiveStage){.substep = substep,
