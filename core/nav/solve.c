@@ -195,6 +195,14 @@ static bool is_as_forced(const JoxAgents *a, uint32_t i, JoxV2 velocity) {
     return jox_length2(by_feet) < rounding * rounding;
 }
 
+static bool meets(const JoxHalfPlane *walls, uint32_t count, JoxV2 velocity) {
+    const float least = 1e-3f; /* m/s */
+    for (uint32_t k = 0; k < count; k++)
+        if (jox_dot(walls[k].normal, velocity) < walls[k].offset - least)
+            return false;
+    return true;
+}
+
 static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     Solve *s = context;
@@ -219,6 +227,7 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
             give_way_at_walls(s, i, half_planes, made.walls);
             jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
                                      &relaxed);
+            relaxed = relaxed && !meets(half_planes, made.walls, velocity);
         }
         if (made.contacts && keep_within_reach(s, i, &made, half_planes, wanted, velocity))
             jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,

@@ -88,6 +88,15 @@ static void add_events(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
 }
 
+/* How well the contacts between people, walls and bodies were solved. */
+static void add_contacts(JoxJson *json, const JoScene *scene) {
+    const JoxStatistics *s = &scene->world->state.statistics;
+    jox_json_object(json, "contacts");
+    jox_json_number(json, "passes", s->steps ? (double)s->contact_passes / (double)s->steps : 0.0);
+    jox_json_number(json, "residual_N", s->contact_residual);
+    jox_json_end(json);
+}
+
 static void add_regions(JoxJson *json, const JoScene *scene) {
     const JoxRegions *regions = jox_run_regions(scene);
     if (!regions)
@@ -278,6 +287,7 @@ char *jo_scene_summary(const JoScene *scene) {
     jox_json_number(&json, "overlap_p99", jox_statistics_overlap_p99(s));
     add_states(&json, world);
     add_transitions(&json, &world->machines);
+    add_contacts(&json, scene);
     add_regions(&json, scene);
     add_events(&json, scene);
     add_bonds(&json, scene);

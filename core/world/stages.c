@@ -74,6 +74,10 @@ void jox_stage_push(const JoxPushStage *s) {
 }
 
 void jox_stage_solve(const JoxSolveStage *s) {
+    JoxForceTotals totals = jox_force_totals(s->forces_of);
+    s->statistics->contact_passes += totals.passes;
+    if (totals.residual > s->statistics->contact_residual)
+        s->statistics->contact_residual = (double)totals.residual;
     s->statistics->walls_relaxed += jox_nav_solve(
         s->nav, s->agents, s->neighbours, s->objects, jox_force_contact_planes(s->forces_of),
         s->substep->planning_time, s->substep->plans, s->pool);
