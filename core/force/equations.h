@@ -106,6 +106,13 @@ static inline JoxV2 jox_deceleration(JoxV2 change, float absorb, float mass, uin
     return jox_scale(change, -absorb * mass / ((float)n * dt));
 }
 
+/* (8) The greatest share, up to 1, of a momentum along a unit vector that gives a mass of `speed`
+   along it no more than `energy`. N s, kg, m/s, J. */
+static inline float jox_share_within_energy(float momentum, float mass, float speed, float energy) {
+    float most = mass * (sqrtf(speed * speed + 2.0f * energy / mass) - speed);
+    return momentum > most ? most / momentum : 1.0f;
+}
+
 /* (8) The same upon oneself, with nobody ahead: kept from reversing the motion. */
 static inline JoxV2 jox_keep_from_reversing(JoxV2 force, JoxV2 velocity, float mass, float dt) {
     float against = -jox_dot(force, velocity), speed2 = jox_length2(velocity);

@@ -35,7 +35,7 @@ typedef struct JoxForceStep {
     JoxAgents *agents;
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
-    const JoxWallGrid *walls; /* serving jox_touch_reach; NULL: none */
+    const JoxWallGrid *walls; /* as far as jox_nav_touching_walls serves; NULL: none */
     JoxPool *pool;
     double time;            /* s: simulated, at the beginning of the step */
     uint64_t seed;
@@ -73,6 +73,8 @@ void jox_forces_set_options(JoxForces *forces, const JoxForceOptions *options);
 
 /* The walls whose loads are told; not copied; call again when they change. NULL: none. */
 void jox_forces_set_walls(JoxForces *forces, const JoxWalls *walls);
+/* The greatest gap over which a braced person passes a force on, m. */
+float jox_force_passing_reach(const JoxForces *forces);
 /* Lists what outlasts a step: the impulses from which the next solve of contacts starts. */
 void jox_forces_sections(JoxForces *forces, JoxSections *sections);
 

@@ -16,6 +16,10 @@ void jox_forces_set_options(JoxForces *f, const JoxForceOptions *options) {
     f->options = options ? *options : jox_force_default_options();
 }
 
+float jox_force_passing_reach(const JoxForces *f) {
+    return f->options.reach;
+}
+
 JoxForces *jox_forces_create(const JoxForceOptions *options) {
     JoxForces *f = jox_alloc(1, sizeof *f);
     jox_forces_set_options(f, options);

@@ -112,6 +112,9 @@ void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t
 /* Agents in reach of agent i within its cone about `axis`: their indices, in the order of nearness.
  */
 uint32_t jox_people_in_cone(const JoxForces *forces, uint32_t i, JoxV2 axis, uint32_t *found);
+/* Whether a wall stands between two points of an agent's surroundings that are no farther apart
+   than the walls' grid serves: no force goes through it. */
+bool jox_force_is_walled_off(const JoxForces *forces, JoxV2 from, JoxV2 to);
 /* Lists a force that agent i, of that chunk, gives agent `to`. */
 void jox_transfer_give(JoxForces *forces, uint32_t chunk, uint32_t i, uint32_t to, JoxV2 force);
 /* Sorts the transfers by receiver: those of agent i are sorted[starts[i]] to sorted[starts[i + 1]].

@@ -16,8 +16,8 @@
 enum { MOST_FORCES = 64 };
 
 /* The greatest, over half-planes, of the length of the sum of the forces within: that is the
-   greatest sum of positive parts over directions. A border that passes through a force has it on
-   either side. */
+   greatest sum of positive parts over directions. A border that passes through a force is tried
+   with it on either side and on neither: it may lie within or without the half-plane. */
 static float greatest_push(const JoxV2 *force, uint32_t count) {
     if (count == 0)
         return 0.0f;
@@ -25,15 +25,19 @@ static float greatest_push(const JoxV2 *force, uint32_t count) {
         return jox_length(force[0]);
     float most2 = 0.0f;
     for (uint32_t k = 0; k < count; k++) {
-        JoxV2 left = {0.0f, 0.0f}, right = {0.0f, 0.0f};
+        JoxV2 left = {0.0f, 0.0f}, right = {0.0f, 0.0f}, along = {0.0f, 0.0f};
         for (uint32_t m = 0; m < count; m++) {
             float side = m == k ? 0.0f : jox_det(force[k], force[m]);
-            bool ahead = jox_dot(force[k], force[m]) > 0.0f;
-            if (side > 0.0f || (side == 0.0f && ahead))
+            if (side > 0.0f)
                 left = jox_add(left, force[m]);
-            if (side < 0.0f || (side == 0.0f && ahead))
+            else if (side < 0.0f)
                 right = jox_add(right, force[m]);
+            else if (jox_dot(force[k], force[m]) > 0.0f)
+                along = jox_add(along, force[m]);
         }
+        most2 = jox_maxf(most2, jox_maxf(jox_length2(left), jox_length2(right)));
+        left = jox_add(left, along);
+        right = jox_add(right, along);
         most2 = jox_maxf(most2, jox_maxf(jox_length2(left), jox_length2(right)));
     }
     return sqrtf(most2);

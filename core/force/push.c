@@ -33,6 +33,7 @@ static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
     float cosine = a->param[JOX_PARAM_push_angle][i], reach = a->param[JOX_PARAM_push_reach][i];
     float widest = reach + radius[i] + f->widest;
     uint64_t only = a->push_only[i];
+    JoxV2 centre = {a->x[i], a->y[i]};
     uint32_t n = 0;
     for (uint32_t k = 0; k < near->count[i]; k++) {
         size_t at = jox_neighbour_at(near, i, k);
@@ -44,6 +45,8 @@ static uint32_t people_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
         if (!(d2 < most * most) || !jox_cone_holds(offset, aim, cosine))
             continue;
         if (only && !(a->tags[other] & only))
+            continue;
+        if (jox_force_is_walled_off(f, centre, jox_add(centre, offset)))
             continue;
         targets[n++] = (Target){.index = other,
                                 .offset = offset,
@@ -68,7 +71,8 @@ static uint32_t bodies_ahead(const JoxForces *f, uint32_t i, JoxV2 aim, Target *
             !jox_object_reaches(body, centre, radius + reach))
             continue;
         JoxFootprintPoint at = jox_footprint_nearest(body, centre);
-        if (at.gap - radius < reach && jox_cone_holds(jox_scale(at.normal, -1.0f), aim, cosine))
+        if (at.gap - radius < reach && jox_cone_holds(jox_scale(at.normal, -1.0f), aim, cosine) &&
+            !jox_force_is_walled_off(f, centre, at.point))
             jox_nearest_offer(&nearest, at.gap, row);
     }
     jox_nearest_by_row(&nearest);

@@ -49,6 +49,15 @@ static inline JoxV2 sum_of_terms(const JoxAgents *a, uint32_t i) {
 #undef PLUS_Y
 }
 
+/* Whether a net force of `size` newtons bounds agent i's plan. The faintest contact does: what the
+   feet took of it would be missing from the momentum of all. */
+static bool is_felt(const JoxForces *f, uint32_t i, float size) {
+    const JoxAgents *a = f->step.agents;
+    bool touched = a->contact_x[i] != 0.0f || a->contact_y[i] != 0.0f;
+    float least = touched ? 1e-6f : f->options.least;
+    return size >= least * a->param[JOX_PARAM_mass][i] && isfinite(size);
+}
+
 static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
@@ -73,7 +82,7 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         const JoxPlanning plan = jox_planning_of(&f->step, i);
         if (f->options.literal)
             jox_literal_bound(f, i);
-        else if (size >= f->options.least * mass[i] && isfinite(size))
+        else if (is_felt(f, i, size))
             bound_by_force(a, i, force, size, decay_of(&decay, damping[i], plan.interval), plan);
     }
 }
@@ -100,25 +109,44 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
                                          plan.interval / plan.response));
 }
 
+/* Share of a force that agent `to` takes of someone who slowed down and lost `energy` (J) by that:
+   who is faster already, or soon will be, is not driven by more than was lost. */
+static float share_taken(const JoxForces *f, uint32_t to, JoxV2 force, float energy) {
+    const JoxAgents *a = f->step.agents;
+    float size = jox_length(force), mass = a->param[JOX_PARAM_mass][to];
+    if (!(size > 0.0f))
+        return 0.0f;
+    JoxV2 direction = jox_scale(force, 1.0f / size);
+    JoxV2 coming =
+        jox_scale((JoxV2){a->inferred_x[to], a->inferred_y[to]}, f->options.filter / mass);
+    float speed = jox_dot((JoxV2){a->vx[to], a->vy[to]}, direction) +
+                  jox_maxf(0.0f, jox_dot(coming, direction));
+    return jox_share_within_energy(size * (float)f->step.dt, mass, speed, energy);
+}
+
 /* (8) Someone under no force who slowed down. */
 static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
     const JoxAgents *a = f->step.agents;
     float dt = (float)f->step.dt, mass = a->param[JOX_PARAM_mass][i];
     float absorb = a->param[JOX_PARAM_absorb][i];
-    JoxV2 before = {f->old_x[i], f->old_y[i]}, after = {a->vx[i], a->vy[i]};
+    /* What the feet took: contacts and other forces have their share already. */
+    JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
     if (!(absorb > 0.0f) || !jox_slows(before, after, a->param[JOX_PARAM_brace_angle][i]))
         return;
     JoxV2 change = jox_slowing(before, after);
     if (!(jox_length(change) * absorb >= f->options.least * dt))
         return; /* no one would feel it */
     uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_people_in_cone(f, i, jox_unit(before), found);
-    for (uint32_t k = 0; k < n; k++)
-        jox_transfer_give(f, chunk, i, found[k], jox_deceleration(change, absorb, mass, n, dt));
-    if (n)
-        return;
-    JoxV2 own = jox_deceleration(change, absorb, mass, 1, dt);
+    JoxV2 given = jox_deceleration(change, absorb, mass, n > 0 ? n : 1, dt);
+    float lost = 0.5f * mass * (jox_length2(before) - jox_length2(after));
+    for (uint32_t k = 0; k < n; k++) {
+        float share = share_taken(f, found[k], given, absorb * lost / (float)n);
+        jox_transfer_give(f, chunk, i, found[k], jox_scale(given, share));
+    }
+    if (n || jox_stands(a, i))
+        return; /* who wants to stand brakes as they plan: nothing carries them on */
     jox_transfer_give(f, chunk, i, i,
-                      jox_keep_from_reversing(own, after, mass, (float)f->step.planning_time));
+                      jox_keep_from_reversing(given, after, mass, (float)f->step.planning_time));
 }
 
 static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {

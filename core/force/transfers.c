@@ -20,6 +20,25 @@ void jox_chunks_begin(JoxChunkList *list, uint32_t chunks, uint32_t room, size_t
         memset(list->counts, 0, chunks * sizeof *list->counts);
 }
 
+bool jox_force_is_walled_off(const JoxForces *f, JoxV2 from, JoxV2 to) {
+    /* From either end: the grid knows the edges as far as half the way. */
+    const JoxWallGrid *walls = f->step.walls;
+    return walls &&
+           (jox_wall_grid_separates(walls, from, to) || jox_wall_grid_separates(walls, to, from));
+}
+
+/* Keeps those of `found` that no wall separates from agent i. */
+static uint32_t beyond_no_wall(const JoxForces *f, uint32_t i, uint32_t *found, uint32_t count) {
+    const JoxAgents *a = f->step.agents;
+    JoxV2 at = {a->x[i], a->y[i]};
+    uint32_t n = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        found[n] = found[k];
+        n += !jox_force_is_walled_off(f, at, jox_add(at, jox_offset(a, i, found[k])));
+    }
+    return n;
+}
+
 uint32_t jox_people_in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t *found) {
     const JoxAgents *a = f->step.agents;
     const JoxNeighbours *near = f->step.neighbours;
@@ -34,6 +53,7 @@ uint32_t jox_people_in_cone(const JoxForces *f, uint32_t i, JoxV2 axis, uint32_t
         found[n] = other; /* kept only if it counts; no branch that would be guessed wrong */
         n += near_enough & jox_cone_holds(offset, axis, cosine);
     }
+    n = f->options.literal ? n : beyond_no_wall(f, i, found, n);
     JOX_ASSERT(n <= near->count[i]);
     return n;
 }

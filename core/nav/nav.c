@@ -19,10 +19,15 @@ void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
 }
 
 const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neighbours,
-                                          const JoxAgents *agents) {
+                                          const JoxAgents *agents, float passing) {
     if (!nav->grid.walls || nav->grid.walls->count == 0 || agents->count == 0)
         return NULL;
-    jox_wall_grid_fit(&nav->grid, jox_touch_reach(neighbours, neighbours->widest));
+    float gap = passing;
+    for (uint32_t i = 0; i < agents->count; i++)
+        gap = jox_maxf(gap, agents->param[JOX_PARAM_push_reach][i]);
+    float halfway = neighbours->widest + 0.5f * gap;
+    jox_wall_grid_fit(&nav->grid,
+                      jox_maxf(jox_touch_reach(neighbours, neighbours->widest), halfway));
     return &nav->grid;
 }
 

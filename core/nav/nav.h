@@ -32,9 +32,10 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *agents, uint64_t tick);
 /* perceive: exactly the `neighbours` nearest within each agent's own `perception`, nearest first,
    ties by id; also writes `search` and `density`. Grows `out` as needed. */
 void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool);
-/* The grid of walls, serving queries as far as anyone may touch; NULL without walls. */
+/* The grid of walls, serving queries as far as anyone may touch and half as far as anyone pushes or
+   passes a force on, over a gap of at most `passing` metres; NULL without walls. */
 const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neighbours,
-                                          const JoxAgents *agents);
+                                          const JoxAgents *agents, float passing);
 /* solve: next_x, next_y, the velocity to have `planning_time` seconds from now; sets failed where
    there is none that meets all half-planes. What agents touch is solved by its contact planes,
    which are hard as walls are, where `touched` has them. Returns how many agents had a hard

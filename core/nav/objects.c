@@ -30,15 +30,19 @@ static JoxHalfPlane half_plane_of_sphere(const JoxAgents *a, uint32_t i, const J
                                1.0f, jox_v2(1.0f, 0.0f));
 }
 
-/* Whether agent i minds the body of a row; *apart: the least gap that there can be between its
-   centre and the footprint. A body that it approaches counts even where its kind is ignored. */
+/* Whether agent i minds the body of a row: its footprint must be within perception; *apart: the
+   least gap that there can be between its centre and the footprint. A body that it approaches
+   counts even where its kind is ignored. */
 static bool minds(const JoxAgents *a, uint32_t i, const JoxObjects *objects, uint32_t row,
                   float *apart) {
     const JoxObject *o = &objects->rows[row];
     bool ignored = o->tags & a->ignore[i] && a->approach[i] != (int32_t)row;
     float away = jox_length(jox_v2(o->position.x - a->x[i], o->position.y - a->y[i]));
     *apart = away - jox_maxf(o->disc, o->round);
-    return away <= a->param[JOX_PARAM_perception][i] + o->disc && !ignored;
+    float sight = a->param[JOX_PARAM_perception][i];
+    if (ignored || *apart > sight)
+        return false;
+    return away <= sight || jox_footprint_nearest(o, jox_v2(a->x[i], a->y[i])).gap <= sight;
 }
 
 /* Rows of the bodies that agent i minds, ascending; of more than `most` the nearest. */

@@ -1,5 +1,6 @@
 /* The stage solve: every agent's half-planes, and the best velocity that they leave. */
 #include <assert.h>
+#include <math.h>
 
 #include "base/assert.h"
 #include "base/random.h"
@@ -49,9 +50,10 @@ static bool is_touched(const JoxContactPlanes *t, uint32_t i, uint32_t j) {
     return false;
 }
 
-/* Whether a wall stands between two who would else touch. */
+/* Whether a wall stands between two who would else touch, or soon could: then neither minds the
+   other. */
 static bool is_hidden(const Solve *s, uint32_t i, JoxV2 offset, float radii) {
-    float near = radii + JOX_TOUCH_LEAST;
+    float near = radii + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
     if (!s->touched || !s->nav->grid.first || jox_length2(offset) > near * near)
         return false;
     JoxV2 at = {s->agents->x[i], s->agents->y[i]};
@@ -145,6 +147,54 @@ static void give_way_at_walls(const Solve *s, uint32_t i, JoxHalfPlane *walls, u
         walls[k].offset = jox_minf(walls[k].offset, jox_dot(walls[k].normal, carried));
 }
 
+/* The half-planes that an agent's surroundings and forces impose, those of avoidance apart. */
+static bool is_imposed(uint32_t k, const Counts *made) {
+    uint32_t hard = made->walls + made->contacts;
+    return k < hard || k >= hard + made->agents + made->objects;
+}
+
+/* What an agent is pressed by may leave only velocities far along a valley between half-planes that
+   are nearly opposite: then feet would throw people. Nobody's feet, avoidance apart, take them
+   farther from what they want than the forces do. Lowers what is imposed to the best that there is
+   as near as that. */
+static bool keep_within_reach(const Solve *s, uint32_t i, const Counts *made,
+                              JoxHalfPlane *half_planes, JoxV2 wanted, JoxV2 velocity) {
+    JoxV2 forced = {s->agents->forced_x[i], s->agents->forced_y[i]};
+    uint32_t hard = made->walls + made->contacts, n = 0;
+    uint32_t all = hard + made->agents + made->objects + made->force;
+    float reach2 = jox_length2(jox_sub(forced, wanted));
+    if (made->force) {
+        const JoxHalfPlane *force = &half_planes[all - 1];
+        float missing = jox_maxf(0.0f, force->offset - jox_dot(force->normal, wanted));
+        reach2 = jox_maxf(reach2, missing * missing);
+    }
+    if (jox_length2(jox_sub(velocity, wanted)) <= reach2)
+        return false;
+    JoxHalfPlane imposed[MOST];
+    for (uint32_t k = 0; k < all; k++)
+        if (is_imposed(k, made)) {
+            imposed[n] = half_planes[k];
+            imposed[n++].offset -= jox_dot(half_planes[k].normal, wanted);
+        }
+    JoxV2 change;
+    bool relaxed;
+    jox_linear_program_solve(imposed, n, hard, sqrtf(reach2), (JoxV2){0.0f, 0.0f}, &change,
+                             &relaxed);
+    JoxV2 best = jox_add(wanted, change);
+    for (uint32_t k = 0; k < all; k++)
+        if (is_imposed(k, made))
+            half_planes[k].offset =
+                jox_minf(half_planes[k].offset, jox_dot(half_planes[k].normal, best) - 1e-5f);
+    return true;
+}
+
+/* Whether feet do nothing but for the program's rounding: contact alone then keeps momentum. */
+static bool is_as_forced(const JoxAgents *a, uint32_t i, JoxV2 velocity) {
+    const float rounding = 2e-5f; /* m/s */
+    JoxV2 by_feet = {velocity.x - a->forced_x[i], velocity.y - a->forced_y[i]};
+    return jox_length2(by_feet) < rounding * rounding;
+}
+
 static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     Solve *s = context;
@@ -170,6 +220,11 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
             jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
                                      &relaxed);
         }
+        if (made.contacts && keep_within_reach(s, i, &made, half_planes, wanted, velocity))
+            jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
+                                     &relaxed);
+        if (made.contacts && is_as_forced(a, i, velocity))
+            velocity = jox_v2(a->forced_x[i], a->forced_y[i]);
         a->failed[i] |= !met;
         relaxations += relaxed;
         a->next_x[i] = a->plan_x[i] = velocity.x;

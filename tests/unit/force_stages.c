@@ -170,15 +170,18 @@ static void the_braced_pass_on_and_the_slowing_throw(void **state) {
     add_agent(&c, -0.5f, 0, 0, 0);
     add_agent(&c, 9, 9, 2, 0); /* nobody near */
     JoxAgents *a = &c.agents;
+    a->pref_x[3] = 1;           /* and wants to walk on */
+    add_agent(&c, -9, 9, 2, 0); /* nobody near, and wants to stand */
     double share = 1 - exp(-0.05 / 0.13);
     begin(&c);
     a->ext_x[0] = 700;
     jox_force_sum(c.forces);
-    a->vx[3] = 1;
+    a->vx[3] = a->vx[4] = 1;
     jox_force_infer(c.forces); /* agent 0 did not move: all of 0.5 m/s is short */
     assert_near(a->inferred_x[1], share * 0.8 * 700, 0.1);
     assert_true(a->inferred_x[2] == 0 && a->inferred_x[0] == 0);
     assert_near(a->inferred_x[3], share * 0.8 * 70 * 1 / 0.05, 0.1);
+    assert_true(a->inferred_x[4] == 0);
     assert_int_equal(jox_force_totals(c.forces).passed, 2);
     /* The rest arrives later, to the same impulse. */
     double sum = a->inferred_x[1] * 0.05;
@@ -228,6 +231,7 @@ static double thrown(bool literal, bool alone, float x, float y) {
     if (literal)
         set_literal(&c);
     add_agent(&c, 0, 0, 1, 0);
+    c.agents.pref_x[0] = alone ? 1.0f : 0.0f; /* who wants to stand is not carried on */
     if (!alone)
         add_agent(&c, 0.6f, 0, 0, 0);
     begin(&c);

@@ -15,19 +15,24 @@
 #include "base/random.h"
 #include "world/world.h"
 
-enum { ENCOUNTERS = 10000, KINDS = 4, MOST_PEOPLE = 40 };
+enum { ENCOUNTERS = 10000, KINDS = 4, MOST_PEOPLE = 40, MOST_STEPS = 400 };
 static const double GROWS = 1e-4;  /* of the energy at the start, or of 1 J where that is less */
 static const double TIPS = 1e-3;   /* the same in a step where Bullet lifts a tipping body off */
 static const double DRIFTS = 1e-5; /* of the sizes of all momenta at the start */
 static const double SINKS = 1e-3;  /* m: how far Bullet lets what rocks sink into the ground */
+static const double ARRIVED = 0.5; /* s, after which all but 2 % of a passed-on force is there */
 static const double SECONDS = 1.2, TURN = 6.28318530717958648;
 static const double STEPS[] = {0.1, 0.05, 0.025, 0.0125};
 
-/* Who coasts wants the velocity that they have: their feet do nothing. */
+/* Who coasts wants the velocity that they have: their feet do nothing. That is so at steps of .05
+   s; at finer ones people go on with the plan of up to .05 s ago, which is muscle work, and what
+   contacts and bodies do is held against the step before. Who sees others passes forces
+   on to them (equations 8 and 9), but steps aside for nobody: that is work of muscles, and no
+   overlap; see those_at_rest_stay_so for it. */
 typedef enum Kind { COASTING, BLIND, BLIND_IN_ROOM, SEEING } Kind;
 static const char *const kind_names[KINDS] = {
     "coasting, perception 0, no damping", "at rest by wish, perception 0", "the same between walls",
-    "at rest by wish, perception 3, between walls"};
+    "at rest by wish, perception 3, avoiding nobody, between walls"};
 
 typedef struct Encounter {
     JoWorld *world;
@@ -35,6 +40,7 @@ typedef struct Encounter {
     uint32_t count;
     bool coasting;
     bool rough; /* Bullet alone may take energy and give some of it back */
+    bool later; /* what people pass on arrives after they have braked: over .13 s */
 } Encounter;
 
 typedef struct Growth {
@@ -76,12 +82,15 @@ typedef struct Figures {
     double height, weight;     /* J: of the bodies' centres, by their weights; N: all of these */
 } Figures;
 
-static Figures figures_of(const JoWorld *w) {
+/* Of a world: at the end of a step, or `by_forces`, with people as the forces of the step, contacts
+   among them, left them before their feet did anything. */
+static Figures figures_of(const JoWorld *w, bool by_forces) {
     const JoxAgents *a = &w->state.agents;
     Figures f = {0};
     for (uint32_t i = 0; i < a->count; i++) {
-        double m = (double)a->param[JOX_PARAM_mass][i], vx = (double)a->vx[i];
-        double vy = (double)a->vy[i];
+        double m = (double)a->param[JOX_PARAM_mass][i];
+        double vx = (double)(by_forces ? a->forced_x[i] : a->vx[i]);
+        double vy = (double)(by_forces ? a->forced_y[i] : a->vy[i]);
         f.kinetic += 0.5 * m * (vx * vx + vy * vy);
         f.momentum[0] += m * vx;
         f.momentum[1] += m * vy;
@@ -101,23 +110,39 @@ static Figures figures_of(const JoWorld *w) {
     return f;
 }
 
+static void add_change(Figures *sum, const Figures *from, Figures to) {
+    sum->kinetic += to.kinetic - from->kinetic;
+    sum->height += to.height - from->height;
+    for (int k = 0; k < 2; k++)
+        sum->momentum[k] += to.momentum[k] - from->momentum[k];
+}
+
 /* Steps the world for `seconds`, with what each step adds. What rocks and tips trades height for
    motion, and Bullet parts bodies that sank into each other, into walls or the ground at some
    speed: where it may do so, all of the energy is held against the start, not against the step
    before. */
 static Growth watch(Encounter *e, double seconds, bool print) {
-    const Figures first = figures_of(e->world);
-    Figures last = first;
+    const Figures first = figures_of(e->world, false);
+    Figures last = first, contact = first; /* contact: the start and what contacts added */
+    double kinetic[MOST_STEPS];
     Growth g = {.things = jo_world_body_count(e->world) > 0, .energy = fmax(1.0, first.kinetic)};
-    int steps = (int)(seconds / e->world->model.def.dt + 0.5);
+    double dt = e->world->model.def.dt;
+    int steps = (int)(seconds / dt + 0.5), before = (int)(ARRIVED / dt + 0.5);
+    bool plans_rest = e->coasting && dt < 0.049;
+    assert_true(steps <= MOST_STEPS);
     for (int step = 0; step < steps; step++) {
         for (uint32_t i = 0; e->coasting && i < e->count; i++) {
             JoAgentState s = jo_agent_state(e->world, e->people[i]);
             jo_agent_set_preferred(e->world, e->people[i], s.vx, s.vy);
         }
         jo_world_step(e->world, 1);
-        const Figures now = figures_of(e->world);
-        double gain = now.kinetic - last.kinetic;
+        const Figures end = figures_of(e->world, false);
+        add_change(&contact, &last, plans_rest ? figures_of(e->world, true) : end);
+        const Figures now = contact;
+        double gain = now.kinetic - (step ? kinetic[step - 1] : first.kinetic);
+        kinetic[step] = now.kinetic;
+        if (e->later)
+            gain = step < before ? 0.0 : now.kinetic - kinetic[step - before];
         double above = now.kinetic - first.kinetic + now.height - first.height;
         double drift =
             hypot(now.momentum[0] - first.momentum[0], now.momentum[1] - first.momentum[1]);
@@ -130,7 +155,7 @@ static Growth watch(Encounter *e, double seconds, bool print) {
                    "by %.2e\n",
                    jo_world_time(e->world), now.kinetic, gain, above,
                    drift / fmax(1.0, first.sizes));
-        last = now;
+        last = end;
     }
     if (jo_world_failure(e->world))
         fail_msg("%s", jo_world_failure(e->world));
@@ -147,10 +172,18 @@ static JoAgent add_person(Encounter *e, JoAgentDef def, double vx, double vy) {
     uint32_t i = jox_world_find(e->world, one);
     e->world->state.agents.vx[i] = (float)vx;
     e->world->state.agents.vy[i] = (float)vy;
-    if (e->coasting)
+    if (e->coasting) {
         jo_agent_set_parameter(e->world, one, "damping", 0.0);
+        jo_agent_set_parameter(e->world, one, "absorb", 0.0);
+    }
     e->people[e->count++] = one;
     return one;
+}
+
+static void avoid_nobody(Encounter *e, JoAgent who) {
+    JoxAgents *a = &e->world->state.agents;
+    uint32_t i = jox_world_find(e->world, who);
+    a->tags[i] = a->ignore[i] = 1;
 }
 
 /* Near the middle and mostly on their way to it; a few lie deep within others. */
@@ -170,7 +203,9 @@ static void add_people(Encounter *e, uint64_t number, Kind kind) {
         def.mass = between(number, own + 6, 40.0, 100.0);
         def.max_speed = 20.0;
         def.perception = kind == SEEING ? 3.0 : 0.0;
-        add_person(e, def, speed * cos(way), speed * sin(way));
+        JoAgent one = add_person(e, def, speed * cos(way), speed * sin(way));
+        if (kind == SEEING)
+            avoid_nobody(e, one);
     }
     if (draw(number, 3) < 0.75)
         return;
@@ -220,7 +255,7 @@ static void add_things(Encounter *e, uint64_t number, Kind kind) {
 
 static Encounter open_encounter(uint64_t number, bool people) {
     Kind kind = (Kind)(number % KINDS);
-    Encounter e = {.coasting = kind == COASTING};
+    Encounter e = {.coasting = kind == COASTING, .later = kind == SEEING};
     JoWorldDef def = jo_default_world_def();
     /* Within a step of .1 s, which is done in two, the wish of who coasts would be that before. */
     def.dt = STEPS[(uint32_t)between(number, 20, kind == COASTING ? 1.0 : 0.0, 4.0)];
