@@ -1,7 +1,7 @@
 -- Runs to a goal through whoever stands in the way: looks a short way ahead and pushes with `push`, N for each m/s.
 return machine {
   name = "runner", version = 1, start = "Run",
-  defaults = { speed = 2, max_speed = 2.2, perception = 1.5, horizon = 0.2, push = 250 },
+  defaults = { speed = 2, max_speed = 2.2, perception = 1.5, horizon = 0.2, push = 300, turn = 0 },
 
   states = {
     Run = { steer = seek(own.goal), push = own.push * max(now.speed, own.speed),

@@ -22,7 +22,7 @@
     X(restitution, "", 0, 1, 0, "restitution of contacts between agents")                          \
     X(damping, "1/s", 0, 50, 2.5, "how fast the feet stop a velocity given by force")              \
     X(brace, "N", 0, 5000, 200, "force of others that who wants to get on holds with the feet")    \
-    X(turn, "", 0, 0.6, 0.35,                                                                       \
+    X(turn, "", 0, 0.6, 0.4,                                                                       \
       "share of the radius by which who wants to get on turns a shoulder in touching others")
 
 typedef enum JoxParameter {

@@ -20,7 +20,8 @@ static bool is_cut(const JoxNeighbours *near, uint32_t i) {
     return near->touch_count && near->touch_count[i] == JOX_MOST_NEIGHBOURS;
 }
 
-/* N/m: what shoulders that are turned to each other press with, until the bodies themselves meet. */
+/* N/m: what shoulders that are turned to each other press with, until the bodies themselves meet.
+ */
 static const float SQUEEZE = 2000.0f;
 
 /* Two agents, if the gap between them may close within the step. */

@@ -37,13 +37,13 @@ typedef struct JoxForceStep {
     const JoxObjects *objects;
     const JoxWallGrid *walls; /* as far as jox_nav_touching_walls serves; NULL: none */
     JoxPool *pool;
-    double time;            /* s: simulated, at the beginning of the step */
+    double time; /* s: simulated, at the beginning of the step */
     uint64_t seed;
-    bool turning; /* people turn their shoulders among others: where contacts are solved */
-    double dt;                /* s, above 0 */
-    double planning_time;     /* s: how far ahead velocities are planned; 0: dt */
-    double response;          /* share of the way to the planned velocity gone in dt; 0: all */
-    double interval;          /* s: between plans of those who want to get on; 0: dt */
+    bool turning;         /* people turn their shoulders among others: where contacts are solved */
+    double dt;            /* s, above 0 */
+    double planning_time; /* s: how far ahead velocities are planned; 0: dt */
+    double response;      /* share of the way to the planned velocity gone in dt; 0: all */
+    double interval;      /* s: between plans of those who want to get on; 0: dt */
     double interval_response; /* the share gone in that time */
     const uint8_t *push_on;   /* per agent, 0: does not push now; NULL: all push */
     const uint8_t

@@ -13,6 +13,7 @@
 #include "world/world.h"
 
 static const double PLANNING_TIME = 0.05; /* s */
+static const double RESPONSE_TIME = 0.05; /* s */
 
 static void perceive(JoWorld *w, const JoxSubstep *substep) {
     jox_stage_perceive(&(JoxPerceiveStage){.substep = substep,
@@ -153,11 +154,11 @@ static JoxSubstep substep_of(const JoWorld *w, uint32_t number, uint32_t substep
                         .only = substeps == 1,
                         .dt = dt,
                         .planning_time = def->literal ? def->dt : PLANNING_TIME,
-                        .response = def->literal ? 1.0 : 1.0 - jox_exp(-dt / PLANNING_TIME),
+                        .response = def->literal ? 1.0 : 1.0 - jox_exp(-dt / RESPONSE_TIME),
                         .plans = w->state.tick % plan_every == 0,
                         .interval = dt * plan_every,
                         .interval_response =
-                            def->literal ? 1.0 : 1.0 - jox_exp(-dt * plan_every / PLANNING_TIME),
+                            def->literal ? 1.0 : 1.0 - jox_exp(-dt * plan_every / RESPONSE_TIME),
                         .end = (double)w->state.tick * def->dt + (number + 1) * dt};
 }
 

@@ -86,7 +86,7 @@ function Number:in_state(state) end
 ---@field restitution? number|jostle.Number|jostle.Drawn restitution of contacts between agents; 0 to 1, default 0
 ---@field damping? number|jostle.Number|jostle.Drawn how fast the feet stop a velocity given by force, 1/s; 0 to 50, default 2.5
 ---@field brace? number|jostle.Number|jostle.Drawn force of others that who wants to get on holds with the feet, N; 0 to 5000, default 200
----@field turn? number|jostle.Number|jostle.Drawn share of the radius by which who wants to get on turns a shoulder in touching others; 0 to 0.6, default 0.3
+---@field turn? number|jostle.Number|jostle.Drawn share of the radius by which who wants to get on turns a shoulder in touching others; 0 to 0.6, default 0.4
 
 ---@class jostle.Transition
 ---@field to? string where it leads
