@@ -170,8 +170,8 @@ float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uin
 /* Least normal velocity after a contact, m/s: the gap (m) may close within the step, no more, and
    what meets within it bounces. `speed`: normal velocity before. */
 float jox_contact_target(float gap, float speed, float restitution, float dt);
-/* m: bodies that are nearer than this touch. They tremble in Bullet by tenths of a millimetre, which
-   in a short step would be a part of the force that presses people on them. */
+/* m: bodies that are nearer than this touch. They tremble in Bullet by tenths of a millimetre,
+   which in a short step would be a part of the force that presses people on them. */
 #define JOX_BODY_SLACK 1e-3f
 /* contact_solve.c: all impulses. */
 void jox_contacts_solve(JoxForces *forces);

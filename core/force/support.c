@@ -136,10 +136,10 @@ void jox_supports_begin(JoxForces *f) {
     }
     for (uint32_t k = 0; k < f->support_count; k++)
         give_both(f, &f->support[k], f->support[k].normal, f->support[k].impulse);
-    for (uint32_t k = 0; k < f->pending_count; k++) { /* people's pushes */
-        const JoxImpulse *push = &f->pending[k].impulse;
-        jox_body_give(f, push->object, push->point, push->impulse);
-    }
+    uint32_t pushes; /* sorted by who pushes: the order in memory changes no bit */
+    const JoxImpulse *push = jox_force_impulses(f, &pushes);
+    for (uint32_t k = 0; k < pushes; k++)
+        jox_body_give(f, push[k].object, push[k].point, push[k].impulse);
 }
 
 static JoxV3 slip(const JoxForces *f, const JoxSupport *s) {

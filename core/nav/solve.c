@@ -156,7 +156,8 @@ static bool is_imposed(uint32_t k, const Counts *made) {
 /* What an agent is pressed by may leave only velocities far along a valley between half-planes that
    are nearly opposite: then feet would throw people. Nobody's feet, avoidance apart, take them
    farther from what they want than the forces do. Lowers what is imposed to the best that there is
-   as near as that. */
+   as near as that, walls apart, which all allow to stand still; false where all that is imposed can
+   be met there. */
 static bool keep_within_reach(const Solve *s, uint32_t i, const Counts *made,
                               JoxHalfPlane *half_planes, JoxV2 wanted, JoxV2 velocity) {
     JoxV2 forced = {s->agents->forced_x[i], s->agents->forced_y[i]};
@@ -181,11 +182,15 @@ static bool keep_within_reach(const Solve *s, uint32_t i, const Counts *made,
     jox_linear_program_solve(imposed, n, hard, sqrtf(reach2), (JoxV2){0.0f, 0.0f}, &change,
                              &relaxed);
     JoxV2 best = jox_add(wanted, change);
-    for (uint32_t k = 0; k < all; k++)
-        if (is_imposed(k, made))
-            half_planes[k].offset =
-                jox_minf(half_planes[k].offset, jox_dot(half_planes[k].normal, best) - 1e-5f);
-    return true;
+    bool lowered = false;
+    for (uint32_t k = made->walls; k < all; k++) {
+        float least = jox_dot(half_planes[k].normal, best);
+        if (!is_imposed(k, made) || half_planes[k].offset <= least + 1e-5f)
+            continue;
+        half_planes[k].offset = least - 1e-5f;
+        lowered = true;
+    }
+    return lowered;
 }
 
 /* Whether feet do nothing but for the program's rounding: contact alone then keeps momentum. */
@@ -229,7 +234,8 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
                                      &relaxed);
             relaxed = relaxed && !meets(half_planes, made.walls, velocity);
         }
-        if (made.contacts && keep_within_reach(s, i, &made, half_planes, wanted, velocity))
+        if ((made.contacts || made.force) &&
+            keep_within_reach(s, i, &made, half_planes, wanted, velocity))
             jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
                                      &relaxed);
         if (made.contacts && is_as_forced(a, i, velocity))

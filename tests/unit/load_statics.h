@@ -18,7 +18,7 @@
 enum {
     MOST_DISCS = 26,
     MOST_CORNERS = 24,
-    MOST_WALLS = 4,
+    MOST_WALLS = 5,
     MOST_BODIES = 4,
     MOST_CONTACTS = 60,
     DIRECTIONS = 3600
