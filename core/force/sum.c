@@ -20,7 +20,7 @@ static float decay_of(Decay *decay, float damping, float dt) {
    the velocity is to have the part along the force that (11) says; it goes the share `response` of
    the way from what the force gives to what is planned. */
 static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, float decay,
-                           JoxPlanning plan) {
+                           JoxPlanning plan, float step) {
     float dt = plan.interval;
     float mass = a->param[JOX_PARAM_mass][i], most = a->param[JOX_PARAM_max_speed][i];
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
@@ -33,7 +33,9 @@ static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, fl
     float wanted = jox_forced_speed(velocity, normal, size, mass, decay, dt);
     a->half_plane_x[i] = normal.x;
     a->half_plane_y[i] = normal.y;
-    a->half_plane_offset[i] = moved + (wanted - moved) / plan.response;
+    /* Contacts act within this step, however long the plan is kept. */
+    float beyond = jox_dot(contact, normal) * (dt - step) / mass;
+    a->half_plane_offset[i] = moved - beyond + (wanted - moved) / plan.response;
     if (contact.x == 0.0f && contact.y == 0.0f)
         return;
     /* Being hit or squeezed may carry someone faster than they can go; nothing else may. */
@@ -83,7 +85,8 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         if (f->options.literal)
             jox_literal_bound(f, i);
         else if (is_felt(f, i, size))
-            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], plan.interval), plan);
+            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], plan.interval), plan,
+                           dt);
     }
 }
 
