@@ -51,9 +51,9 @@ typedef struct JoxStatistics {
     uint64_t failures;              /* agent-steps whose 2-D program was infeasible */
     double failure_peak;            /* greatest share of a second's agent-steps */
     uint64_t second_failures, second_agent_steps;
-    uint64_t walls_relaxed; /* agent-steps in which a wall had to give */
-    uint64_t contact_passes;  /* of the solve of contacts, over all steps */
-    double contact_residual;  /* N: the most by which a last pass still changed a force */
+    uint64_t walls_relaxed;  /* agent-steps in which a wall had to give */
+    uint64_t contact_passes; /* of the solve of contacts, over all steps */
+    double contact_residual; /* N: the most by which a last pass still changed a force */
     uint64_t transitions, kicks, throws, pickups, spawned, removed, moved_out, bodies_lost, hits;
     uint64_t opened, closed, announced; /* walls by name, and signals to everybody */
     /* Agents by their deepest overlap, as a share of their diameter, in bins of 0.1 %; sampled once

@@ -3,8 +3,8 @@
    Forces change velocities at once. Beyond that people plan: those who walk anew each PLANNING_TIME
    or so, and they approach what they planned with the time constant RESPONSE_TIME. So the size of
    the step is no property of people, and what they do and bear hardly depends on it. A step that is
-   longer than PLANNING_TIME is done in substeps. As printed, everything happens within one step of whatever length: with `literal` it
-   does here. */
+   longer than PLANNING_TIME is done in substeps. As printed, everything happens within one step of
+   whatever length: with `literal` it does here. */
 #include <math.h>
 
 #include "base/assert.h"

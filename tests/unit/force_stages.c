@@ -21,7 +21,9 @@ static void a_push_is_shared_by_those_ahead(void **state) {
     JoxForceTotals totals = jox_force_totals(c.forces);
     assert_int_equal(totals.pushers, 1);
     assert_near(totals.ground_x, (x[1] + x[2]) * 0.05, 1e-4);
-    assert_near(c.agents.compression[1], 50 / (6.283185 * 0.2), 1e-3);
+    jox_force_contact(c.forces); /* what is pushed, and what pushes, bears it */
+    assert_true(c.agents.compression[1] > 50 / (6.283185 * 0.2)); /* and they overlap */
+    assert_near(c.agents.load[0], 2 * 50 * 0.45 / hypot(0.45, 0.1), 1e-2);
 
     uint8_t nearest[5] = {1, 1, 1, 1, 1}, off[5] = {0};
     c.step.push_nearest = nearest;
@@ -153,7 +155,7 @@ static void the_plane_asks_for_the_forced_velocity(void **state) {
     assert_true(a->half_plane_x[1] == 0 && a->half_plane_y[1] == 0);
     assert_near(a->half_plane_offset[2], exp(-0.25) + 3, 1e-5);
     assert_true(a->speed_limit[0] == a->param[JOX_PARAM_max_speed][0]);
-    assert_near(a->speed_limit[2], exp(-0.25) + 3, 1e-5);
+    assert_near(a->speed_limit[2], 1 + 3, 1e-5);
     a->ext_x[2] = a->contact_x[2]; /* the same by other means is capped */
     a->contact_x[2] = 0;
     jox_force_sum(c.forces);

@@ -178,6 +178,8 @@ static JoAgent add_person(Encounter *e, JoAgentDef def, double vx, double vy) {
     if (e->coasting) {
         jo_agent_set_parameter(e->world, one, "damping", 0.0);
         jo_agent_set_parameter(e->world, one, "absorb", 0.0);
+        /* They have a wish, to go on: with turned shoulders they would part by elbows. */
+        jo_agent_set_parameter(e->world, one, "turn", 0.0);
     }
     e->people[e->count++] = one;
     return one;
