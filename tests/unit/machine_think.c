@@ -423,7 +423,7 @@ static void a_kick_sends_the_ball_where_it_should(void **state) {
                       .inverse_mass = 2.5f,
                       .round = 0.1f,
                       .disc = 0.1f};
-    f.objects = (JoxObjects){&ball, 1, 1};
+    f.objects = (JoxObjects){.rows = &ball, .count = 1, .capacity = 1};
     think(&f);
     assert_int_equal(f.machines.kick_count, 1);
     assert_true(fabsf(f.machines.kicks[0].impulse.x - 3.0f / 2.5f) < 1e-4f); /* 3 m/s on 0.4 kg */
