@@ -4,7 +4,7 @@ return machine {
   defaults = { speed = normal(1.3, 0.15, 0.8, 1.8), perception = 3, horizon = 0.5 },
 
   states = {
-    Walk = { steer = field(own.goal), push = 60 * max(now.speed, own.speed),
+    Walk = { steer = field(own.goal), push = 50 * max(now.speed, own.speed),
       { to = "Gone", when = inside(own.goal) } },
 
     Gone = { removes = true },

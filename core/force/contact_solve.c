@@ -30,8 +30,10 @@ static void start_velocities(void *context, uint32_t begin, uint32_t end, uint32
         float lightness = 1.0f / mass[i];
         f->lightness[i] = lightness;
         JoxV2 force = jox_moving_force(a, i);
-        f->work[i] =
-            jox_v2(a->vx[i] + force.x * lightness * dt, a->vy[i] + force.y * lightness * dt);
+        JoxV2 begins = {a->vx[i] + force.x * lightness * dt, a->vy[i] + force.y * lightness * dt};
+        /* What is no number stays with whom it came from, who is named when the step has ended. */
+        bool finite = isfinite(begins.x) && isfinite(begins.y);
+        f->work[i] = finite ? begins : jox_v2(0.0f, 0.0f);
     }
 }
 

@@ -50,6 +50,9 @@ uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
                           const JoxObjects *objects, const JoxContactPlanes *touched,
                           float planning_time, JoxHalfPlane *out, uint32_t most);
 
+/* Share of the wanted speed by which ties go to the right. */
+#define JOX_RIGHT_SHARE 0.25f
+
 /* The velocity of at most `speed_limit` nearest to `wanted` that meets all half-planes. The first
    `hard` half-planes are walls. Returns true if there is one; otherwise *velocity minimises the
    greatest violation of the others with the walls kept, and *relaxed tells if even the walls had to

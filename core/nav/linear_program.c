@@ -4,7 +4,6 @@
 #include "nav/internal.h"
 
 static const float EPSILON = 1e-5f;
-static const float SIDE = 0.25f; /* share of the wanted speed by which ties go to the right */
 enum { MOST_HALF_PLANES = 128 };
 
 /* What is optimised: the velocity nearest to `wanted`; or, where directed, the one farthest along
@@ -43,7 +42,7 @@ static bool along_border(const JoxHalfPlane *half_planes, uint32_t last, float s
     JoxV2 wanted = objective->wanted;
     /* Ties are broken somewhat to the right: two who meet head-on would else stand for ever. */
     if (objective->directed)
-        wanted = jox_sub(wanted, jox_scale(jox_left(wanted), SIDE));
+        wanted = jox_sub(wanted, jox_scale(jox_left(wanted), JOX_RIGHT_SHARE));
     float t = jox_clampf(jox_dot(direction, jox_sub(wanted, foot)), low, high);
     float gain = objective->directed ? jox_dot(objective->direction, direction) : 0.0f;
     if (gain > EPSILON || gain < -EPSILON)

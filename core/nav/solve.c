@@ -208,6 +208,20 @@ static bool meets(const JoxHalfPlane *walls, uint32_t count, JoxV2 velocity) {
     return true;
 }
 
+/* What agent i wants. Who has come to a stand before others wants to go somewhat more to the right,
+   or two who meet head-on would stand for ever. `others`: half-planes of people, touched or not. */
+static JoxV2 wish_of(const Solve *s, uint32_t i, const JoxHalfPlane *others, uint32_t count) {
+    const float slow = 0.2f; /* of the wanted speed */
+    JoxV2 wanted = {s->agents->pref_x[i], s->agents->pref_y[i]};
+    JoxV2 velocity = {s->agents->vx[i], s->agents->vy[i]};
+    if (jox_stands(s->agents, i) || jox_dot(velocity, wanted) > slow * jox_length2(wanted))
+        return wanted;
+    for (uint32_t k = 0; k < count; k++)
+        if (jox_dot(others[k].normal, wanted) < others[k].offset)
+            return jox_sub(wanted, jox_scale(jox_left(wanted), JOX_RIGHT_SHARE));
+    return wanted;
+}
+
 static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     Solve *s = context;
@@ -225,7 +239,7 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
         uint32_t count = hard + made.agents + made.objects + made.force;
         JoxV2 velocity;
         bool relaxed;
-        const JoxV2 wanted = {a->pref_x[i], a->pref_y[i]};
+        const JoxV2 wanted = wish_of(s, i, half_planes + made.walls, made.contacts + made.agents);
         bool met = jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted,
                                             &velocity, &relaxed);
         if (relaxed && made.contacts) {
