@@ -158,6 +158,41 @@ static JoxObjectContact seen_contact(const JoxBodies *b, const btPersistentManif
     return contact;
 }
 
+/* Of the rim upon which a cylinder stands, Bullet knows the side where it rocks at the moment; in
+   truth the whole rim keeps it from tipping, as far as its gap to the ground leaves it. Adds points
+   of the rim near the ground, which bore nothing so far, to the contacts. */
+static uint32_t add_rim(JoxBodies *b, const btPersistentManifold *manifold, uint32_t count) {
+    static const float near = 0.05f; /* m; what is farther away hardly meets it within a step */
+    static const float h = 0.70710678f;
+    static const float around[][2] = {{1, 0},  {h, h},   {0, 1},  {-h, h},
+                                      {-1, 0}, {-h, -h}, {0, -1}, {h, -h}};
+    const bool swap = manifold->getBody0() == b->ground;
+    const btCollisionObject *body = swap ? manifold->getBody1() : manifold->getBody0();
+    const btCollisionObject *other = swap ? manifold->getBody0() : manifold->getBody1();
+    const btCollisionShape *shape = body->getCollisionShape();
+    if (other != b->ground || shape->getShapeType() != CYLINDER_SHAPE_PROXYTYPE ||
+        manifold->getNumContacts() == 0)
+        return count;
+    const btVector3 half = static_cast<const btCylinderShape *>(shape)->getHalfExtentsWithMargin();
+    const btTransform at = body->getWorldTransform();
+    const float end = at.getBasis()[2][2] > 0 ? -half.z() : half.z();
+    for (const float *way : around) {
+        const btVector3 point = at * btVector3(way[0] * half.x(), way[1] * half.x(), end);
+        if (point.z() > near)
+            continue;
+        JoxObjectContact contact = JoxObjectContact();
+        contact.first = moving_row(b, body);
+        contact.second = JOX_NO_OBJECT;
+        contact.point = jox_v3(point);
+        contact.normal = jox_v3(btVector3(0, 0, 1));
+        contact.gap = point.z();
+        contact.friction = manifold->getContactPoint(0).m_combinedFriction;
+        jox_reserve(b->object_contacts, b->object_contact_capacity, count + 1);
+        b->object_contacts[count++] = contact;
+    }
+    return count;
+}
+
 void jox_bodies_list_contacts(JoxBodies *b) {
     const float substeps = ceilf(b->last_dt * 60.0f - 1e-4f);
     const float per_second = b->last_dt > 0 ? substeps / b->last_dt : 0;
@@ -172,6 +207,7 @@ void jox_bodies_list_contacts(JoxBodies *b) {
             b->object_contacts[count++] =
                 seen_contact(b, manifold, manifold->getContactPoint(c), per_second);
         }
+        count = add_rim(b, manifold, count);
     }
     b->object_contact_count = count;
 }

@@ -15,7 +15,8 @@ float jox_touch_height(const JoxObject *body) {
     return jox_minf(jox_maxf(CHEST, body->low), body->high);
 }
 
-/* Body `row` as agent i touches it: false where the gap cannot close within the step. */
+/* Body `row` as agent i touches it: false where the gap cannot close within the step, or
+   where a wall stands between them. */
 static bool touches(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *touch) {
     const JoxAgents *a = f->step.agents;
     const JoxObject *body = &f->step.objects->rows[row];
@@ -24,6 +25,9 @@ static bool touches(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *touc
     float closing = jox_length(towards) * (float)f->step.dt;
     float gap = at.gap - jox_touch_radius(a, i);
     if (!(gap < JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing)))
+        return false;
+    JoxV2 own = {a->x[i], a->y[i]};
+    if (at.gap > 0.0f && f->step.walls && jox_wall_grid_separates(f->step.walls, own, at.point))
         return false;
     JOX_ASSERT(jox_is_unit(at.normal));
     JoxV3 point = {at.point.x, at.point.y, jox_touch_height(body)};

@@ -45,6 +45,24 @@ static bool minds(const JoxAgents *a, uint32_t i, const JoxObjects *objects, uin
     return away <= sight || jox_footprint_nearest(o, jox_v2(a->x[i], a->y[i])).gap <= sight;
 }
 
+/* Whether agent i has to keep clear of a body by its feet: not of one that it touches, whose
+   contact plane stands for it, nor, where contacts are looked for, of one that reaches into it
+   without that: a fast one, which is swept, and one behind a wall. Feet would part them at once,
+   and throw people. */
+static bool is_clear(const JoxContactPlanes *touched, const JoxAgents *a, uint32_t i,
+                     const JoxObjects *objects, uint32_t row) {
+    if (!touched)
+        return true;
+    const JoxContactPlane *planes = touched->planes + touched->starts[i] + touched->people[i];
+    for (uint32_t k = 0; k < touched->bodies[i]; k++)
+        if (planes[k].other == row)
+            return false;
+    const JoxObject *o = &objects->rows[row];
+    JoxV2 at = {a->x[i], a->y[i]};
+    float radius = a->breadth[i];
+    return !jox_object_reaches(o, at, radius) || jox_footprint_nearest(o, at).gap >= radius;
+}
+
 /* Rows of the bodies that agent i minds, ascending; of more than `most` the nearest. */
 static uint32_t rows_of(const JoxAgents *a, uint32_t i, const JoxObjects *objects,
                         JoxNearest *nearest) {
@@ -66,14 +84,6 @@ static uint32_t rows_of(const JoxAgents *a, uint32_t i, const JoxObjects *object
     return nearest->count;
 }
 
-static bool is_touched(const JoxContactPlanes *t, uint32_t i, uint32_t row) {
-    const JoxContactPlane *planes = t ? t->planes + t->starts[i] + t->people[i] : NULL;
-    for (uint32_t k = 0; t && k < t->bodies[i]; k++)
-        if (planes[k].other == row)
-            return true;
-    return false;
-}
-
 uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
                           const JoxObjects *objects, const JoxContactPlanes *touched,
                           float planning_time, JoxHalfPlane *out, uint32_t most) {
@@ -82,7 +92,7 @@ uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
     uint32_t count = rows_of(a, i, objects, &nearest), made = 0;
     for (uint32_t k = 0; k < count; k++) {
         bool approached = a->approach[i] == (int32_t)nearest.rows[k];
-        if (is_touched(touched, i, nearest.rows[k]))
+        if (!is_clear(touched, a, i, objects, nearest.rows[k]))
             continue;
         float tau = approached ? planning_time : a->param[JOX_PARAM_horizon][i];
         const JoxObject *o = &objects->rows[nearest.rows[k]];

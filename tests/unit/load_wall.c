@@ -144,12 +144,50 @@ static void beyond_its_end_they_touch(void **state) {
         }
 }
 
+/* A box that runs to a wall, or lies at it, and who is pressed to the wall on the other side have
+   nothing to do with each other; without the wall the person is hit, and pushes the box away. */
+static void a_box_behind_the_wall(void **state) {
+    (void)state;
+    if (!jox_bodies_available())
+        skip();
+    for (int k = 0; k < 4 * STEP_COUNT; k++) {
+        bool wall = k / STEP_COUNT % 2 == 0, runs = k >= 2 * STEP_COUNT;
+        Sides s = open_sides(STEPS[k % STEP_COUNT], wall ? -2.0 : 0.0, wall ? 2.0 : 0.0, 0.0, 0.0);
+        jo_world_remove_agent(s.world, s.right);
+        JoBodyDef def = jo_default_body_def();
+        def.size[0] = def.size[1] = def.size[2] = 1.2;
+        def.x = runs ? 0.8 : 0.622;
+        def.z = 0.6;
+        def.vx = runs ? -1.0 : 0.0;
+        def.mass = 10.0;
+        def.friction = 0.0;
+        JoBody box = jo_world_add_body(s.world, &def, NULL);
+        double fastest = 0.0, pressed = runs ? 0.0 : 600.0;
+        for (int step = 0; step < (int)(1.0 / STEPS[k % STEP_COUNT] + 0.5); step++) {
+            jo_agent_apply_force(s.world, s.left, pressed, 0.0);
+            jo_world_step(s.world, 1);
+            fastest = fmax(fastest, fabs(jo_agent_state(s.world, s.left).vx));
+        }
+        double moved = jo_body_state(s.world, box).x - def.x;
+        if (wall && runs && fastest > 1e-6)
+            fail_msg("at dt %g a box throws someone behind a wall at %g m/s", STEPS[k % STEP_COUNT],
+                     fastest);
+        if (wall && !runs && fabs(moved) > 0.005)
+            fail_msg("at dt %g a box is pushed %g m through a wall", STEPS[k % STEP_COUNT], moved);
+        if (wall && !runs)
+            bears(&s, s.left, 600.0, "beside the box");
+        assert_true(wall || (runs ? fastest > 0.1 : moved > 0.1));
+        jo_world_free(s.world);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pressed_together),
         cmocka_unit_test(one_pressed_and_one_standing),
         cmocka_unit_test(pushes_and_runs_end_at_the_wall),
         cmocka_unit_test(beyond_its_end_they_touch),
+        cmocka_unit_test(a_box_behind_the_wall),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -168,7 +168,7 @@ static void another_world_takes_the_state_over(void **state) {
     "places:\n"                                                                                    \
     "  door: {line: [[1, 1], [1, 7]]}\n"                                                           \
     "  court: {polygon: [[2, 1], [5, 1], [5, 7], [2, 7]]}\n"                                       \
-    "  goal: {polygon: [[13, 1], [15, 1], [15, 7], [13, 7]]}\n"                                    \
+    "  goal: {polygon: [[11.5, 1], [15, 1], [15, 7], [11.5, 7]]}\n"                                \
     "walls:\n"                                                                                     \
     "  - {line: [[0, 0], [16, 0], [16, 8], [0, 8]], closed: true}\n"                               \
     "  - {line: [[11, 0], [11, 8]], name: gate}\n"                                                 \
