@@ -9,7 +9,7 @@
 
 JoxForceOptions jox_force_default_options(void) {
     return (JoxForceOptions){
-        .iterations = 60, .tolerance = 1.0f, .reach = 0.6f, .filter = 0.13f, .least = 0.05f};
+        .iterations = 60, .tolerance = 2.0f, .reach = 0.6f, .filter = 0.13f, .least = 0.05f};
 }
 
 void jox_forces_set_options(JoxForces *f, const JoxForceOptions *options) {
