@@ -1,2 +1,2 @@
--- expects: load-error unknown word 'load'
+-- expects: load-error a number cannot be called
 load("while true do end")()
