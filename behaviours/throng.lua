@@ -16,7 +16,7 @@ return machine {
     Wait = { steer = hold, lasts = uniform(6, 8),
       { to = "Press", when = lasted } },
 
-    Press = { steer = field(own.goal), horizon = 0.5, push = 40 * max(now.speed, own.speed),
+    Press = { steer = field(own.goal), horizon = 0.5, push = 80 * max(now.speed, own.speed),
       { to = "Gone",  when = there },
       { to = "Walk",  when = moves & after(2) } },
 
