@@ -162,7 +162,7 @@ static void add_last(const JoScene *scene, uint32_t i, const JoxWatched *watched
 }
 
 static void add_step(const JoxInspected *seen, double compression, double load, JoxJson *json) {
-    static const char *const PLANES[] = {"wall", "agent", "body", "force"};
+    static const char *const PLANES[] = {"wall", "contact", "agent", "body", "force"};
     jox_json_array(json, "planes");
     for (uint32_t p = 0; p < seen->plane_count; p++) {
         const JoxConstraint *plane = &seen->planes[p];

@@ -3,7 +3,7 @@ import { clock, el, figure, fill, say, svg } from "../dom.js";
 import { FORCE_COLOURS } from "../draw/overlay.js";
 import { drawVelocities, PLANE_COLOURS } from "./velocity.js";
 
-const KINDS = { agent: "other people", wall: "walls", body: "bodies", force: "forces" };
+const KINDS = { agent: "other people", wall: "walls", contact: "what it touches", body: "bodies", force: "forces" };
 
 function swatch(colour) {
     const node = el("span", { className: "swatch" });

@@ -3,7 +3,9 @@
 import { fill, svg } from "../dom.js";
 
 const SIDE = 300; // SVG units
-export const PLANE_COLOURS = { agent: "#56b4e9", wall: "#999999", body: "#009e73", force: "#e69f00" };
+export const PLANE_COLOURS = {
+    agent: "#56b4e9", wall: "#999999", contact: "#d55e00", body: "#009e73", force: "#e69f00",
+};
 
 /** Clips a convex polygon to the side of a half-plane that is forbidden: right of its direction. */
 function forbidden(polygon, [px, py], [dx, dy]) {
