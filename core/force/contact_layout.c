@@ -41,7 +41,8 @@ static void colour_pairs(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     JoxPairs *p = &f->pairs;
     uint32_t n = 0, sizes[JOX_CONTACT_MOST_COLOURS] = {0};
-    memset(f->colours_of, 0, a->count * sizeof *f->colours_of);
+    if (a->count)
+        memset(f->colours_of, 0, a->count * sizeof *f->colours_of);
     memset(f->end_starts, 0, ((size_t)a->count + 1) * sizeof *f->end_starts);
     for (uint32_t r = 0; r < a->count; r++) {
         uint32_t i = a->by_rank[r];
