@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "base/mem.h"
 #include "force/internal.h"
 
 void jox_transfers_check(const JoxForces *f) {
@@ -21,16 +20,21 @@ void jox_contacts_check(const JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     const JoxPairs *p = &f->pairs;
     double x = 0.0, y = 0.0, size = 0.0, per_second = 1.0 / f->step.dt;
-    uint32_t *seen = jox_alloc((size_t)a->count + 1, sizeof *seen);
-    for (uint32_t c = 0; c < p->colours; c++)
-        for (uint32_t k = p->starts[c]; k < p->starts[c + 1]; k++) {
-            JOX_ASSERT(p->first[k] < a->count && p->second[k] < a->count);
-            JOX_ASSERT(seen[p->first[k]] <= c && seen[p->second[k]] <= c);
-            JOX_ASSERT(!(p->impulse[k] < 0.0f));
-            seen[p->first[k]] = seen[p->second[k]] = c + 1;
-            size += (double)p->impulse[k] * per_second;
+    for (uint32_t k = 0; k < p->count; k++) {
+        JOX_ASSERT(p->first[k] < a->count && p->second[k] < a->count);
+        JOX_ASSERT(!(p->impulse[k] < 0.0f));
+        size += (double)p->impulse[k] * per_second;
+    }
+    for (uint32_t i = 0; i < a->count; i++) {
+        uint64_t colours = 0;
+        for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1]; k++) {
+            uint32_t c = 0;
+            while (f->ends[k].pair >= p->starts[c + 1])
+                c++;
+            JOX_ASSERT(!(colours >> c & 1));
+            colours |= (uint64_t)1 << c;
         }
-    jox_free(seen);
+    }
     for (uint32_t i = 0; i < a->count; i++) {
         x += (double)a->contact_x[i];
         y += (double)a->contact_y[i];
