@@ -52,6 +52,7 @@ static void step(Fixture *f, const JoxV2 *goals, float speed, double dt, JoxPool
         a->pref_x[i] = way.x * speed;
         a->pref_y[i] = way.y * speed;
         a->speed_limit[i] = jox_maxf(a->param[JOX_PARAM_max_speed][i], speed);
+        a->breadth[i] = a->param[JOX_PARAM_radius][i];
     }
     jox_nav_solve(f->nav, a, &f->neighbours, NULL, NULL, dt, true, pool);
     jox_nav_move(f->nav, a, &f->neighbours, NULL, NULL, dt, 1.0, pool);
