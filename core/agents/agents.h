@@ -50,10 +50,8 @@
     X(STATE, float, face_y)                                                                        \
     X(STATE, float, pref_x) /* preferred velocity, written by `prefer` */                          \
     X(STATE, float, pref_y)                                                                        \
-    X(STATE, float, plan_x) /* planned velocity, kept until people plan anew */                    \
-    X(STATE, float, plan_y)                                                                        \
-    X(SCRATCH, float, next_x) /* the same, as far as what is touched allows it; by `solve` */      \
-    X(SCRATCH, float, next_y)                                                                      \
+    X(STATE, float, next_x) /* planned velocity, by `solve`; kept until people plan anew */        \
+    X(STATE, float, next_y)                                                                        \
     JOX_FORCE_TERMS(JOX_FORCE_TERM_COLUMNS, X)                                                     \
     X(STATE, float, force_x) /* net force of this step, equation 10, N */                          \
     X(STATE, float, force_y)                                                                       \

@@ -1,7 +1,8 @@
 /* The half-planes of what an agent touches: `force` writes them after the forces of a step are
    known, `nav` solves them as hard constraints. They allow the velocities that do not approach what
-   is touched faster than contact lets the two move together; the velocity that the forces alone
-   give (equation 11 without feet) meets all of them. */
+   is touched faster than contact lets the two move together; the velocity that the forces
+   give by the end of the step meets all of them, but for what followers allow those ahead to brake.
+ */
 #ifndef JOX_AGENTS_CONTACT_PLANES_H
 #define JOX_AGENTS_CONTACT_PLANES_H
 

@@ -44,7 +44,7 @@ void jox_contacts_check(const JoxForces *f) {
         y -= (double)(f->touch[k].normal.y * f->touch[k].impulse) * per_second;
         size += (double)f->touch[k].impulse * per_second;
     }
-    for (uint32_t k = 0; k < f->wall_count && !f->options.literal; k++) {
+    for (uint32_t k = 0; k < f->wall_count; k++) {
         x -= (double)(f->wall[k].normal.x * f->wall[k].impulse) * per_second;
         y -= (double)(f->wall[k].normal.y * f->wall[k].impulse) * per_second;
         size += (double)f->wall[k].impulse * per_second;

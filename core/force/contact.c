@@ -1,11 +1,6 @@
 /* The stage contact, equations 6 and 7: finds what touches, solves all contacts together, and gives
    the agents their contact forces. */
-#include <math.h>
-#include <string.h>
-
 #include "base/assert.h"
-#include "base/mem.h"
-#include "force/equations.h"
 #include "force/internal.h"
 
 /* Sum of the impulses that agent i received, N s; counts those that touch or press. */
@@ -64,8 +59,7 @@ void jox_force_contact(JoxForces *f) {
     else if (f->pairs.count || f->wall_count || f->touch_count)
         jox_contacts_solve(f);
     jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, finish_chunk, f);
-    if (!f->options.literal)
-        finish_walls(f);
+    finish_walls(f); /* in the mode literal no wall presses */
     JOX_CHECK(jox_contacts_check(f));
     jox_contacts_keep(f);
     jox_touches_finish(f);

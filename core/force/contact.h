@@ -14,8 +14,8 @@ enum {
     JOX_CONTACT_MOST_WALLS = 6     /* edges that one agent touches at a time */
 };
 
-/* What one agent was found to touch; the normal points to the agent, the gap is in m. Of two agents
-   the one of lesser id has found it. */
+/* What one agent was found to touch; the normal points to the agent, the gap is in m. A contact
+   between two agents is found by one of them. */
 typedef struct JoxFoundContact {
     uint32_t other; /* agent, edge of a wall, or row of a body */
     JoxV2 normal;
@@ -63,7 +63,7 @@ typedef struct JoxEnd {
 } JoxEnd;
 
 /* The impulse of a contact of the step before, from which the next solve starts; by ascending ids.
-   `other`: id of an agent or a body, or edge. */
+   `other`: id of an agent, edge, or row of a body. */
 typedef struct JoxKeptImpulse {
     uint32_t id, other;
     float impulse; /* N s */

@@ -5,7 +5,6 @@
 
 #include "base/assert.h"
 #include "force/internal.h"
-#include "geom/polygon.h"
 
 static bool lists(const JoxNeighbours *near, uint32_t i, uint32_t other) {
     const uint32_t *index = near->touch_index + (size_t)i * JOX_MOST_NEIGHBOURS;
@@ -31,7 +30,7 @@ static bool touches(const JoxForces *f, uint32_t i, uint32_t other, bool walls,
     JoxV2 offset = jox_offset(a, other, i);
     float distance2 = jox_length2(offset);
     const float *radius = a->param[JOX_PARAM_radius];
-    float sum = jox_touch_radius(a, i) + jox_touch_radius(a, other);
+    float sum = a->breadth[i] + a->breadth[other];
     float whole = radius[i] + radius[other];
     float most = whole + JOX_TOUCH_LEAST + JOX_TOUCH_MOST;
     if (!(distance2 < most * most))
@@ -115,7 +114,7 @@ static uint32_t find_walls(const JoxForces *f, uint32_t i, const uint32_t *edges
                            JoxFoundContact out[JOX_CONTACT_MOST_WALLS]) {
     const JoxAgents *a = f->step.agents;
     JoxV2 at = {a->x[i], a->y[i]};
-    float radius = jox_touch_radius(a, i);
+    float radius = a->breadth[i];
     float closing = jox_length(jox_v2(a->vx[i], a->vy[i])) * (float)f->step.dt;
     float most = JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing);
     uint32_t found = 0;

@@ -4,7 +4,6 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "force/equations.h"
 #include "force/internal.h"
 
 /* Walks the impulses kept from the last step along with contacts that come by ascending ids: 0 for
@@ -36,7 +35,7 @@ static inline const JoxFoundContact *found_of(const JoxForces *f, uint32_t i) {
 }
 
 /* Gives each pair the first colour that neither of its agents has yet, in ascending ids, and counts
-   the ends of each agent. place[n] holds the colour of pair n for now. */
+   the ends of each agent. place[n] is left with the colour of pair n. */
 static void colour_pairs(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     JoxPairs *p = &f->pairs;
@@ -159,7 +158,7 @@ void jox_contacts_lay_walls(JoxForces *f) {
         uint32_t i = a->by_rank[r];
         JoxFoundContact *found = (JoxFoundContact *)f->found_walls.items + f->wall_first[i];
         if (f->wall_number[i])
-            f->wall_group[f->wall_groups++] = f->wall_count;
+            f->wall_first[i] = f->wall_group[f->wall_groups++] = f->wall_count;
         for (uint32_t k = 1; k < f->wall_number[i]; k++) { /* by ascending edge */
             JoxFoundContact moved = found[k];
             uint32_t at = k;

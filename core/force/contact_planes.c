@@ -50,7 +50,7 @@ static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *o
         float own = jox_dot((JoxV2){a->forced_x[i], a->forced_y[i]}, normal);
         float both = jox_minf(jox_dot(mean, normal), own);
         float least = bound_of(&f->step, i, j, normal, both) - SLACK;
-        float radii = jox_touch_radius(a, i) + jox_touch_radius(a, j);
+        float radii = a->breadth[i] + a->breadth[j];
         out[n++] = (JoxContactPlane){normal, least - 0.5f * gap / time, j, radii};
     }
     return n;

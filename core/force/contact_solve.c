@@ -7,7 +7,6 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "force/equations.h"
 #include "force/internal.h"
 
 enum { PAIR_GRAIN = 1024, WALL_GRAIN = 256 };

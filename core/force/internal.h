@@ -48,13 +48,13 @@ struct JoxForces {
     /* Contacts: as found, by chunk, and where each agent's stand; then as they are solved. */
     bool contacts_known; /* looked for in this step */
     JoxChunkList found, found_walls, touches;
-    uint32_t *found_first, *wall_first; /* wall_first: once measured, in `wall` */
+    uint32_t *found_first, *wall_first; /* wall_first: once laid out, in `wall` */
     uint8_t *found_number, *wall_number;
     size_t found_first_capacity, found_number_capacity, wall_first_capacity, wall_number_capacity;
     JoxPairs pairs;
     uint64_t *colours_of; /* per agent: bit per colour of a pair that it is in */
     size_t colours_of_capacity;
-    JoxEnd *ends; /* of agent i: end_starts[i] to end_starts[i + 1], by ascending id of the other */
+    JoxEnd *ends; /* of agent i: end_starts[i] to end_starts[i + 1], in an order of ids alone */
     uint32_t *end_starts;
     size_t end_capacity, end_start_capacity;
     JoxWallContact *wall; /* by agent id, then edge */
@@ -150,12 +150,6 @@ static inline JoxV2 jox_moving_force(const JoxAgents *a, uint32_t i) {
     float size = jox_length(others), held = jox_stands(a, i) ? 0.0f : a->param[JOX_PARAM_brace][i];
     float left = size > held ? (size - held) / size : 0.0f;
     return (JoxV2){a->ext_x[i] + left * others.x, a->ext_y[i] + left * others.y};
-}
-
-/* Radius at which an agent touches, m: who wants to get on turns a shoulder to others and to what
-   is in its way, who stands does not. */
-static inline float jox_touch_radius(const JoxAgents *a, uint32_t i) {
-    return a->breadth[i];
 }
 
 /* contact_find.c: what each agent touches. */

@@ -6,11 +6,9 @@
    two forces of 600 N it is 600 N. Pushes received, and given, are contacts; forces from outside,
    and those that people pass on (equations 8 and 9), are none. */
 #include <math.h>
-#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "force/equations.h"
 #include "force/internal.h"
 
 enum { MOST_FORCES = 64 };
@@ -43,7 +41,7 @@ static float greatest_push(const JoxV2 *force, uint32_t count) {
     return sqrtf(most2);
 }
 
-/* All that presses on agent i, N, walls apart. */
+/* All that presses on agent i, N. */
 static uint32_t forces_on(const JoxForces *f, uint32_t i, JoxV2 *out, uint32_t most) {
     const JoxPairs *p = &f->pairs;
     const float per_second = 1.0f / (float)f->step.dt;
@@ -85,12 +83,6 @@ static void measure_chunk(void *context, uint32_t begin, uint32_t end, uint32_t 
         a->load[i] = greatest_push(force, n);
         JOX_ASSERT(!(a->load[i] > sum * 1.001f + 1e-3f));
     }
-}
-
-/* Where the contacts of agents with walls stand in the list of all; it has the order of ids. */
-static void index_walls(JoxForces *f) {
-    for (uint32_t k = f->wall_count; k-- > 0;)
-        f->wall_first[f->wall[k].agent] = k;
 }
 
 /* Pieces of an edge: none is longer than this. */
@@ -143,7 +135,6 @@ const JoxWallLoad *jox_force_wall_loads(const JoxForces *f, uint32_t *count) {
 }
 
 void jox_loads_measure(JoxForces *f) {
-    index_walls(f);
     jox_parallel_for(f->step.pool, f->step.agents->count, JOX_FORCE_GRAIN, measure_chunk, f);
     measure_walls(f);
 }

@@ -19,17 +19,15 @@ static float decay_of(Decay *decay, float damping, float dt) {
 /* (11), (12): the half-plane of the force, and the speed limit of this step. By the end of the step
    the velocity is to have the part along the force that (11) says; it goes the share `response` of
    the way from what the force gives to what is planned. */
-static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, float size, float decay,
+static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, JoxV2 moving, float decay,
                            JoxPlanning plan, float step) {
-    float dt = plan.interval;
+    float dt = plan.interval, size = jox_length(force);
     float mass = a->param[JOX_PARAM_mass][i], most = a->param[JOX_PARAM_max_speed][i];
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
     JoxV2 normal = jox_scale(force, 1.0f / size);
     JOX_ASSERT(mass > 0.0f && decay <= 1.0f);
     JOX_ASSERT(jox_is_unit(normal));
-    JoxV2 moving = jox_moving_force(a, i);
-    moving = jox_add(moving, contact);
-    float moved = jox_dot(velocity, normal) + jox_dot(moving, normal) * dt / mass;
+    float moved = jox_dot(velocity, normal) + jox_dot(jox_add(moving, contact), normal) * dt / mass;
     float wanted = jox_forced_speed(velocity, normal, size, mass, decay, dt);
     a->half_plane_x[i] = normal.x;
     a->half_plane_y[i] = normal.y;
@@ -85,7 +83,7 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         if (f->options.literal)
             jox_literal_bound(f, i);
         else if (is_felt(f, i, size))
-            bound_by_force(a, i, force, size, decay_of(&decay, damping[i], plan.interval), plan,
+            bound_by_force(a, i, force, moving, decay_of(&decay, damping[i], plan.interval), plan,
                            dt);
     }
 }

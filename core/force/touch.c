@@ -23,7 +23,7 @@ static bool touches(const JoxForces *f, uint32_t i, uint32_t row, JoxTouch *touc
     JoxFootprintPoint at = jox_footprint_nearest(body, jox_v2(a->x[i], a->y[i]));
     JoxV2 towards = {a->vx[i] - body->velocity.x, a->vy[i] - body->velocity.y};
     float closing = jox_length(towards) * (float)f->step.dt;
-    float gap = at.gap - jox_touch_radius(a, i);
+    float gap = at.gap - a->breadth[i];
     if (!(gap < JOX_TOUCH_LEAST + jox_minf(JOX_TOUCH_MOST, closing)))
         return false;
     JoxV2 own = {a->x[i], a->y[i]};

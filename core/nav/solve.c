@@ -228,11 +228,8 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxAgents *a = s->agents;
     uint32_t relaxations = 0;
     for (uint32_t i = begin; i < end; i++) {
-        if (!s->plans && !jox_stands(a, i)) {
-            a->next_x[i] = a->plan_x[i];
-            a->next_y[i] = a->plan_y[i];
+        if (!s->plans && !jox_stands(a, i))
             continue;
-        }
         JoxHalfPlane half_planes[MOST];
         Counts made = make_half_planes(s, i, half_planes);
         uint32_t hard = made.walls + made.contacts;
@@ -248,16 +245,17 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
                                      &relaxed);
             relaxed = relaxed && !meets(half_planes, made.walls, velocity);
         }
+        bool still; /* whether a wall gives is settled above: nothing asks more of one here */
         if ((made.contacts || made.force) &&
             keep_within_reach(s, i, &made, half_planes, wanted, velocity))
             jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
-                                     &relaxed);
+                                     &still);
         if (made.contacts && is_as_forced(a, i, velocity))
             velocity = jox_v2(a->forced_x[i], a->forced_y[i]);
         a->failed[i] |= !met;
         relaxations += relaxed;
-        a->next_x[i] = a->plan_x[i] = velocity.x;
-        a->next_y[i] = a->plan_y[i] = velocity.y;
+        a->next_x[i] = velocity.x;
+        a->next_y[i] = velocity.y;
     }
     s->nav->chunk_relaxed[begin / JOX_NAV_GRAIN] = relaxations;
 }
