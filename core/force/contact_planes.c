@@ -14,26 +14,28 @@ static const float SLACK = 1e-3f;
 
 /* How much of a speed the feet can take away by the end of the step; more in the plan, of which the
    step does a share. */
-static inline float braking(const JoxForceStep *step, uint32_t i, float speed) {
+static inline float braking(const JoxForceStep *step, uint32_t i, float speed, JoxDecay *decay) {
     const JoxPlanning plan = jox_planning_of(step, i);
     float damping = step->agents->param[JOX_PARAM_damping][i];
-    float lost = 1.0f - (float)jox_exp(-(double)(damping * plan.interval));
+    float lost = 1.0f - jox_decay(decay, damping, plan.interval);
     return speed * jox_minf(1.0f, lost / plan.response);
 }
 
 /* Least normal speed of agent i, away from j, where both together move at `speed`: who is pushed
    may brake; who follows one that wants to be slower makes allowance for that. */
-static float bound_of(const JoxForceStep *step, uint32_t i, uint32_t j, JoxV2 normal, float speed) {
+static float bound_of(const JoxForceStep *step, uint32_t i, uint32_t j, JoxV2 normal, float speed,
+                      JoxDecay *decay) {
     const JoxAgents *a = step->agents;
     if (speed > 0.0f)
-        return speed - braking(step, i, speed);
+        return speed - braking(step, i, speed, decay);
     float wanted = -jox_dot((JoxV2){a->pref_x[j], a->pref_y[j]}, normal);
-    float brakes = jox_clampf(-speed - wanted, 0.0f, braking(step, j, -speed));
+    float brakes = jox_clampf(-speed - wanted, 0.0f, braking(step, j, -speed, decay));
     return speed + brakes;
 }
 
 /* The agents that i touches: those that press on it or that it overlaps. */
-static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out) {
+static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out,
+                              JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
     const JoxPairs *p = &f->pairs;
     const float time = (float)f->step.planning_time;
@@ -49,14 +51,14 @@ static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *o
         float gap = p->target[at] < 0.0f ? -p->target[at] * (float)f->step.dt : 0.0f;
         float own = jox_dot((JoxV2){a->forced_x[i], a->forced_y[i]}, normal);
         float both = jox_minf(jox_dot(mean, normal), own);
-        float least = bound_of(&f->step, i, j, normal, both) - SLACK;
+        float least = bound_of(&f->step, i, j, normal, both, decay) - SLACK;
         float radii = a->breadth[i] + a->breadth[j];
         out[n++] = (JoxContactPlane){normal, least - 0.5f * gap / time, j, radii};
     }
     return n;
 }
 
-static uint32_t body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out) {
+static uint32_t body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out, JoxDecay *decay) {
     const float time = (float)f->step.planning_time;
     uint32_t n = 0;
     for (uint32_t k = 0; k < jox_touches_of(f, i); k++) {
@@ -67,7 +69,7 @@ static uint32_t body_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out
         float speed = jox_minf(jox_touch_speed_after(f, t), jox_dot(forced, t->normal));
         float least = speed;
         if (speed > 0.0f)
-            least -= braking(&f->step, i, speed);
+            least -= braking(&f->step, i, speed, decay);
         least -= jox_maxf(t->gap, 0.0f) / time + SLACK;
         out[n++] = (JoxContactPlane){t->normal, least, t->object, 0.0f};
     }
@@ -78,10 +80,11 @@ static void plane_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     (void)worker;
     JoxForces *f = context;
     JoxContactPlanes *planes = &f->planes;
+    JoxDecay decay = {-1.0f, 0.0f, 0.0f};
     for (uint32_t i = begin; i < end; i++) {
         JoxContactPlane *own = planes->planes + planes->starts[i];
-        planes->people[i] = (uint8_t)people_planes(f, i, own);
-        planes->bodies[i] = (uint8_t)body_planes(f, i, own + planes->people[i]);
+        planes->people[i] = (uint8_t)people_planes(f, i, own, &decay);
+        planes->bodies[i] = (uint8_t)body_planes(f, i, own + planes->people[i], &decay);
     }
 }
 

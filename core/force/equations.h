@@ -54,6 +54,17 @@ static inline float jox_body_inverse_mass(const JoxObject *body, JoxV3 point, Jo
     return body->inverse_mass + jox_dot3(turn, jox_turn3(body->inverse_inertia, turn));
 }
 
+/* exp(-damping time), computed once as long as both stay the same; begins with damping -1. */
+typedef struct JoxDecay {
+    float damping, time, value;
+} JoxDecay;
+
+static inline float jox_decay(JoxDecay *decay, float damping, float time) {
+    if (damping != decay->damping || time != decay->time)
+        *decay = (JoxDecay){damping, time, (float)jox_exp(-(double)damping * (double)time)};
+    return decay->value;
+}
+
 /* (11) Velocity that the force alone would give; `decay` is exp(-damping dt). */
 static inline JoxV2 jox_forced_velocity(JoxV2 velocity, JoxV2 force, float mass, float decay,
                                         float dt) {

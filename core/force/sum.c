@@ -5,17 +5,6 @@
 #include "force/equations.h"
 #include "force/internal.h"
 
-/* exp(-damping dt), computed once as long as the damping stays the same. */
-typedef struct Decay {
-    float damping, dt, value;
-} Decay;
-
-static float decay_of(Decay *decay, float damping, float dt) {
-    if (damping != decay->damping || dt != decay->dt)
-        *decay = (Decay){damping, dt, (float)jox_exp(-(double)damping * (double)dt)};
-    return decay->value;
-}
-
 /* (11), (12): the half-plane of the force, and the speed limit of this step. By the end of the step
    the velocity is to have the part along the force that (11) says; it goes the share `response` of
    the way from what the force gives to what is planned. */
@@ -64,7 +53,7 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
     JoxAgents *a = f->step.agents;
     const float *mass = a->param[JOX_PARAM_mass], *damping = a->param[JOX_PARAM_damping];
     const float dt = (float)f->step.dt;
-    Decay decay = {-1.0f, 0.0f, 0.0f};
+    JoxDecay decay = {-1.0f, 0.0f, 0.0f};
     for (uint32_t i = begin; i < end; i++) {
         f->old_x[i] = a->vx[i];
         f->old_y[i] = a->vy[i];
@@ -83,7 +72,7 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         if (f->options.literal)
             jox_literal_bound(f, i);
         else if (is_felt(f, i, size))
-            bound_by_force(a, i, force, moving, decay_of(&decay, damping[i], plan.interval), plan,
+            bound_by_force(a, i, force, moving, jox_decay(&decay, damping[i], plan.interval), plan,
                            dt);
     }
 }
