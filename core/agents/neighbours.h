@@ -11,6 +11,7 @@
 
 enum { JOX_LANES = 16, JOX_MOST_NEIGHBOURS = 16 };
 
+/* All zero is a valid, empty one. */
 typedef struct JoxNeighbours {
     uint32_t agents;  /* how many agents the arrays hold room for, a multiple of JOX_LANES */
     uint32_t stride;  /* entries per agent: the greatest `neighbours` of all agents */
@@ -25,6 +26,9 @@ typedef struct JoxNeighbours {
     uint32_t *touch_index;
     uint8_t *touch_count;
 } JoxNeighbours;
+
+void jox_neighbours_reserve(JoxNeighbours *neighbours, uint32_t agents, uint32_t stride);
+void jox_neighbours_free(JoxNeighbours *neighbours);
 
 enum { JOX_TOUCH_IS_SEEN = 255 };
 /* m: gap between people above which no contact is looked for, however fast they approach; and the

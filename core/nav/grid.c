@@ -275,23 +275,7 @@ static void reserve_neighbours(JoxNeighbours *out, const JoxAgents *a) {
             stride = (uint32_t)a->param[JOX_PARAM_neighbours][i];
         out->widest = jox_maxf(out->widest, a->param[JOX_PARAM_radius][i]);
     }
-    if (a->count <= out->agents && stride <= out->stride)
-        return;
-    uint32_t agents = (a->count + a->count / 8 + JOX_LANES) / JOX_LANES * JOX_LANES;
-    out->agents = agents > out->agents ? agents : out->agents;
-    out->stride = stride > out->stride ? stride : out->stride;
-    size_t entries = (size_t)out->agents * out->stride;
-    jox_free(out->index);
-    jox_free(out->distance2);
-    jox_free(out->count);
-    jox_free(out->touch_index);
-    jox_free(out->touch_count);
-    out->index = jox_alloc_aligned(entries, sizeof *out->index);
-    out->distance2 = jox_alloc_aligned(entries, sizeof *out->distance2);
-    out->count = jox_alloc_aligned(out->agents, sizeof *out->count);
-    out->touch_index =
-        jox_alloc_aligned((size_t)out->agents * JOX_MOST_NEIGHBOURS, sizeof *out->touch_index);
-    out->touch_count = jox_alloc_aligned(out->agents, sizeof *out->touch_count);
+    jox_neighbours_reserve(out, a->count, stride);
 }
 
 void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool) {

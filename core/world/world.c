@@ -49,11 +49,7 @@ static void free_world(JoWorld *world) {
     jox_walls_free(&world->scratch.walls);
     jox_input_free(&world->state.input);
     jox_inspection_free(&world->scratch.inspection);
-    jox_free(world->scratch.neighbours.index);
-    jox_free(world->scratch.neighbours.distance2);
-    jox_free(world->scratch.neighbours.count);
-    jox_free(world->scratch.neighbours.touch_index);
-    jox_free(world->scratch.neighbours.touch_count);
+    jox_neighbours_free(&world->scratch.neighbours);
     jox_objects_free_grid(&world->scratch.objects);
     jox_free(world->scratch.walked);
     jox_free(world->scratch.gone.items);

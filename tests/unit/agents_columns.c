@@ -182,7 +182,7 @@ static void state_is_restored_whatever_the_order(void **state) {
     assert_true(jox_sections_end(&s));
     assert_int_equal(b.own_stride, 4);
     jox_agents_forget(&b);
-    assert_true(isnan(b.next_x[0]) && b.x[3] == 4 * 37 % 120);
+    assert_true(isnan(b.forced_x[0]) && b.x[3] == 4 * 37 % 120);
     assert_true(hash_of(&b) == hash);
     for (int round = 0; round < 3; round++) {
         for (uint32_t i = 0; i < a.count; i++)

@@ -92,9 +92,7 @@ static void think(Fixture *f) {
 static void end(Fixture *f) {
     jox_machines_free(&f->machines);
     jox_agents_free(&f->agents);
-    jox_free(f->neighbours.index);
-    jox_free(f->neighbours.distance2);
-    jox_free(f->neighbours.count);
+    jox_neighbours_free(&f->neighbours);
 }
 
 /* A condition that holds from `seconds` in the state on. */

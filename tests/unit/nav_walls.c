@@ -30,9 +30,7 @@ static void end(Fixture *f) {
     jox_nav_free(f->nav);
     jox_agents_free(&f->agents);
     jox_walls_free(&f->walls);
-    jox_free(f->neighbours.index);
-    jox_free(f->neighbours.distance2);
-    jox_free(f->neighbours.count);
+    jox_neighbours_free(&f->neighbours);
 }
 
 static uint32_t add(Fixture *f, float x, float y) {

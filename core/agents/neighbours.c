@@ -1,0 +1,31 @@
+#include "agents/neighbours.h"
+
+#include "base/mem.h"
+
+/* Room for so many agents with so many entries each; what stood there is gone when it grows. */
+void jox_neighbours_reserve(JoxNeighbours *n, uint32_t agents, uint32_t stride) {
+    if (agents <= n->agents && stride <= n->stride)
+        return;
+    uint32_t room = (agents + agents / 8 + JOX_LANES) / JOX_LANES * JOX_LANES;
+    JoxNeighbours larger = {.agents = room > n->agents ? room : n->agents,
+                            .stride = stride > n->stride ? stride : n->stride,
+                            .widest = n->widest};
+    jox_neighbours_free(n);
+    *n = larger;
+    size_t entries = (size_t)n->agents * n->stride;
+    n->index = jox_alloc_aligned(entries, sizeof *n->index);
+    n->distance2 = jox_alloc_aligned(entries, sizeof *n->distance2);
+    n->count = jox_alloc_aligned(n->agents, sizeof *n->count);
+    n->touch_index =
+        jox_alloc_aligned((size_t)n->agents * JOX_MOST_NEIGHBOURS, sizeof *n->touch_index);
+    n->touch_count = jox_alloc_aligned(n->agents, sizeof *n->touch_count);
+}
+
+void jox_neighbours_free(JoxNeighbours *n) {
+    jox_free(n->index);
+    jox_free(n->distance2);
+    jox_free(n->count);
+    jox_free(n->touch_index);
+    jox_free(n->touch_count);
+    *n = (JoxNeighbours){0};
+}
