@@ -29,6 +29,8 @@ static void cover_scene(JoxLiveArea *area, const JoScene *scene) {
                      jox_place_radius(&world->model.places[p]));
     for (uint32_t g = 0; g < spec->group_count; g++)
         cover_points(&all, spec->groups[g].positions, spec->groups[g].count, 0.0f);
+    for (uint32_t s = 0; s < world->model.start_count; s++)
+        cover_points(&all, &world->model.starts[s].at, 1, 0.0f);
     for (uint32_t i = 0; i < a->count; i++)
         cover_points(&all, &(JoxV2){a->x[i], a->y[i]}, 1, 0.0f);
     for (uint32_t o = 0; o < jox_bodies_rows(world->state.bodies); o++) {

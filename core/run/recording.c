@@ -45,14 +45,17 @@ static void name_states(void *self, JoScene *scene, uint32_t index) {
 static void write_area(const JoScene *scene, JoxText *wkt) {
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
-    const uint32_t sources = scene->spec->source_count;
-    JoxV2 low, high, *points = jox_alloc((size_t)a->count + sources + 1, sizeof *points);
+    const uint32_t sources = scene->spec->source_count, starts = world->model.start_count;
+    uint32_t count = 0;
+    JoxV2 low, high, *points = jox_alloc((size_t)a->count + sources + starts + 1, sizeof *points);
     for (uint32_t i = 0; i < a->count; i++)
-        points[i] = (JoxV2){a->x[i], a->y[i]};
+        points[count++] = (JoxV2){a->x[i], a->y[i]};
     for (uint32_t s = 0; s < sources; s++)
-        points[a->count + s] = world->model.places[scene->spec->sources[s].place].centre;
+        points[count++] = world->model.places[scene->spec->sources[s].place].centre;
+    for (uint32_t s = 0; s < starts; s++)
+        points[count++] = world->model.starts[s].at;
     jox_run_area(scene, &low, &high);
-    if (jox_walls_outline_all(&world->scratch.walls, points, a->count + sources))
+    if (jox_walls_outline_all(&world->scratch.walls, points, count))
         jox_wkt_outlines(&world->scratch.walls, wkt);
     else
         jox_wkt(&world->scratch.walls, low, high, wkt);

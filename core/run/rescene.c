@@ -104,6 +104,16 @@ void jox_run_give(JoScene *scene, int32_t which, uint32_t group, const JoxGroupV
     }
 }
 
+static bool same_starts(const JoxGroup *a, const JoxGroup *b) {
+    bool same = a->start_count == b->start_count;
+    for (uint32_t s = 0; same && s < a->start_count; s++) {
+        const JoxStart *x = &a->starts[s], *y = &b->starts[s];
+        same = x->time == y->time && x->at.x == y->at.x && x->at.y == y->at.y &&
+               memcmp(&x->velocity, &y->velocity, sizeof x->velocity) == 0;
+    }
+    return same;
+}
+
 /* False where the groups are others. */
 static bool take_groups(Rescene *r) {
     bool names = r->old->group_count == r->new->group_count, set_any = false, counts = false;
@@ -117,7 +127,8 @@ static bool take_groups(Rescene *r) {
         const JoxGroup *was = &r->old->groups[g], *is = &r->new->groups[g];
         counts |= was->count != is->count || was->mix_count != is->mix_count ||
                   !same_points(was->positions, was->positions ? was->count : 0, is->positions,
-                               is->positions ? is->count : 0);
+                               is->positions ? is->count : 0) ||
+                  !same_starts(was, is);
         for (uint32_t m = 0; m < is->mix_count && m < was->mix_count; m++)
             counts |= strcmp(was->mix[m].behaviour, is->mix[m].behaviour) != 0;
         for (uint32_t s = 0; s < is->set_count; s++) {

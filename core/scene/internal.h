@@ -80,11 +80,14 @@ JoxKeyRead jox_key_bodies, jox_key_turn, jox_key_hull, jox_key_block_count, jox_
     jox_key_copies;
 JoxKeyRead jox_key_part_shape;
 
-/* groups.c, sets.c, populate.c */
-JoxKeyRead jox_key_behaviour, jox_key_mix, jox_key_values, jox_key_facing, jox_key_fills;
+/* groups.c, sets.c, populate.c, starts.c */
+JoxKeyRead jox_key_behaviour, jox_key_mix, jox_key_values, jox_key_facing, jox_key_fills,
+    jox_key_starts;
 JoxOwnerFinish jox_finish_group;
 /* Where a group's agents stand; the groups before it have been read. */
 void jox_load_positions(const JoxReader *reader, const JoxYaml *map, JoxGroup *group);
+/* Those of a group that have starts: the first of them stand there. */
+void jox_load_starts(const JoxReader *reader, const JoxYaml *map, JoxGroup *group);
 
 /* sources.c, events.c, probes.c */
 JoxOwnerFinish jox_finish_source, jox_finish_sink, jox_finish_event, jox_finish_probe;

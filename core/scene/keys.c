@@ -199,6 +199,9 @@ static const JoxKey KEYS[] = {
     {"group", "density", NUMBER, "1/m2", 0.001, 20, "", ASIDE(fill.density), .meaning = "in place of count"},
     {"group", "at", POINTS, "m", -FAR, FAR, "", READ_TO(jox_key_points, JoxGroup, positions, count), .of = "xy[1]",
      .meaning = "in place of count: one agent at each point"},
+    {"group", "starts", LIST, "", 0, 0, "", READ(jox_key_starts), .of = "start[1]",
+     .example = "starts: [[0, 1, 2], [4.5, 1, 2, 1.3, 0]]",
+     .meaning = "in place of count, as a recording has them: for each agent [s, x, y] or [s, x, y, vx, vy], when it comes in, where, and how fast; at 0 it is there from the beginning, and who would stand in another waits"},
     {"group", "fill", TEXT, "", 0, 0, "random", TO(JoxGroup, fill), .choices = FILLS,
      .meaning = "how they stand; a circle goes about one point at its radius, a line along one line, evenly"},
     {"group", "in", NAMES, "", 0, 0, "", READ_TO(jox_key_fills, JoxLoad, fill.in, fill.in_count), .aside = true, .meaning = "places to fill; needed with count or density"},
@@ -326,7 +329,7 @@ static const JoxOwner OWNERS[] = {
     {"part", "part", "Each part stands at its own place of the body's frame.",
      .size = sizeof(JoxBodyPart)},
     {"group", "Groups", "`groups` maps names to groups: agents that are made alike, so many (`count`, `density`) in "
-     "some places (`in`), or `at` given points.",
+     "some places (`in`), `at` given points, or coming in as a recording has them (`starts`).",
      .size = sizeof(JoxGroup), .name_at = AT(JoxGroup, name),
      .place_at = AT(JoxGroup, position), .finish = jox_finish_group},
     {"source", "Sources", "Each source of the list `sources` brings agents in as time goes on.",
@@ -357,7 +360,7 @@ const JoxAlternative jox_scene_alternatives[] = {
     {"body", "mass|density", JOX_AT_MOST_ONE},
     {"group", "behaviour|mix", JOX_EXACTLY_ONE},
     {"group", "count|density", JOX_AT_MOST_ONE},
-    {"group", "count|density|at", JOX_AT_LEAST_ONE},
+    {"group", "count|density|at|starts", JOX_AT_LEAST_ONE},
     {"source", "rate|keep", JOX_AT_LEAST_ONE},
 };
 const size_t jox_scene_alternative_count =

@@ -147,9 +147,13 @@ void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxGroup *group)
         take_points(r, at, group);
         return;
     }
+    if (jox_yaml_get(map, "starts")) {
+        jox_load_starts(r, map, group);
+        return;
+    }
     if (!count == !density) {
         jox_scene_error(r, map, "missing-key", "count: 100, density: 2, or at: [[0, 0]]",
-                        "a group needs one of count, density and at");
+                        "a group needs one of count, density, at and starts");
         return;
     }
     if (density ? !isfinite(r->load->fill.density) : group->count == 0 && !is_zero(count))

@@ -7,6 +7,7 @@
 #include "base/elementary.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
+#include "world/starts.h"
 #include "world/world.h"
 
 enum { AT_ONCE = 256 }; /* agents that one source makes in a step at most */
@@ -115,8 +116,8 @@ static uint32_t next_team(JoWorld *world, uint32_t number) {
     return population->party_team[number];
 }
 
-static void spawn(JoWorld *world, uint32_t number, JoxV2 at, const JoxGroupValue *memory,
-                  uint32_t memory_count) {
+uint32_t jox_world_spawn(JoWorld *world, uint32_t number, JoxV2 at, const JoxGroupValue *memory,
+                         uint32_t memory_count) {
     const JoxGroup *group = &world->model.groups[number];
     uint32_t i = jox_world_add_agent(world, at.x, at.y);
     JoxAgents *a = &world->state.agents;
@@ -139,6 +140,7 @@ static void spawn(JoWorld *world, uint32_t number, JoxV2 at, const JoxGroupValue
     world->machines.places = world->model.places;
     world->machines.place_count = world->model.place_count;
     jox_machines_spawn(&world->machines, i, index, o->own, o->memory);
+    return i;
 }
 
 /* ---- sources ---- */
@@ -193,9 +195,9 @@ void jox_world_sources(JoWorld *world) {
         const JoxGroup *group = &world->model.groups[source->like];
         uint32_t count = due_now(world, s);
         for (uint32_t n = 0; n < count; n++)
-            spawn(world, source->like, draw_point(world, s, n),
-                  source->memory_count ? source->memory : group->memory,
-                  source->memory_count ? source->memory_count : group->memory_count);
+            jox_world_spawn(world, source->like, draw_point(world, s, n),
+                            source->memory_count ? source->memory : group->memory,
+                            source->memory_count ? source->memory_count : group->memory_count);
         if (source->rate > 0)
             world->state.population.made[s] += count;
     }
@@ -234,10 +236,14 @@ void jox_world_populate(JoWorld *world) {
         total += p->groups[g].count;
     jox_agents_reserve(&world->state.agents, total);
     for (uint32_t g = 0; g < p->group_count; g++)
-        for (uint32_t i = 0; i < p->groups[g].count; i++)
-            spawn(world, g, p->groups[g].positions[i], p->groups[g].memory,
-                  p->groups[g].memory_count);
+        for (uint32_t i = 0; i < p->groups[g].count; i++) {
+            uint32_t agent = jox_world_spawn(world, g, p->groups[g].positions[i],
+                                             p->groups[g].memory, p->groups[g].memory_count);
+            if (p->groups[g].starts)
+                jox_world_set_going(world, agent, p->groups[g].starts[i].velocity);
+        }
     JOX_ASSERT(world->state.agents.count >= total);
+    jox_world_list_starts(world);
 }
 
 /* Places of single agents follow from where they are. */
@@ -269,5 +275,7 @@ void jox_population_sections(JoWorld *world, JoxSections *s) {
     jox_section(s, "party_left", p->party_left, sizeof *p->party_left, world->model.group_count);
     jox_section(s, "party_team", p->party_team, sizeof *p->party_team, world->model.group_count);
     JOX_SECTION(s, "next_party", p->next_party);
+    jox_section(s, "entered", p->entered, sizeof *p->entered, world->model.start_count);
+    JOX_SECTION(s, "all_until", p->all_until);
     list_points(world, s);
 }

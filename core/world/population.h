@@ -26,6 +26,13 @@ typedef struct JoxGroupMix {
     JoxPosition position;
 } JoxGroupMix;
 
+/* When and where somebody comes in, and how: m/s, NAN where that is not given. */
+typedef struct JoxStart {
+    double time; /* s */
+    JoxV2 at, velocity;
+    uint32_t group;
+} JoxStart;
+
 /* Agents made alike. */
 typedef struct JoxGroup {
     char *name;
@@ -35,6 +42,9 @@ typedef struct JoxGroup {
     JoxFillMode fill;
     JoxV2 *positions; /* where they stand at the start, m */
     uint32_t count;
+    /* In order of time, or NULL; the first `count` are those of `positions`, at 0 s. */
+    JoxStart *starts;
+    uint32_t start_count;
     float facing;   /* rad, anti-clockwise from +x; NAN: not given */
     JoxV2 centre;   /* of a circle fill, and the mirror of `antipode` */
     char *team;     /* or NULL */
@@ -64,6 +74,8 @@ typedef struct JoxPopulation {
     uint32_t *party_left; /* per group: places left in the party that fills up, */
     uint32_t *party_team; /* and its team */
     uint32_t next_party;
+    uint8_t *entered;   /* per start of the model: whether that one is in */
+    uint32_t all_until; /* before this start all are */
 } JoxPopulation;
 
 /* Groups and sources of a world, in place of those before; they stay the caller's, and have to stay
@@ -73,11 +85,14 @@ void jox_world_set_population(JoWorld *world, const JoxGroup *groups, uint32_t g
                               const JoxAgentSource *sources, uint32_t source_count, bool anew);
 /* Makes the agents of all groups that stand there at the start. */
 void jox_world_populate(JoWorld *world);
+/* One agent of a group, which is returned as an index. */
+uint32_t jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at, const JoxGroupValue *memory,
+                         uint32_t memory_count);
 /* Before a step: makes the agents that sources are due. */
 void jox_world_sources(JoWorld *world);
 /* Index of the machine that was loaded from a path; 0 where there is none. */
 uint32_t jox_world_machine(const JoWorld *world, const char *path);
-/* Lists counts, parties and the places of single agents as state. */
+/* Lists counts, parties, who has come in and the places of single agents as state. */
 void jox_population_sections(JoWorld *world, JoxSections *sections);
 
 #endif

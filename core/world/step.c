@@ -10,6 +10,7 @@
 #include "base/assert.h"
 #include "base/elementary.h"
 #include "base/mem.h"
+#include "world/starts.h"
 #include "world/world.h"
 
 static const double PLANNING_TIME = 0.05; /* s: between the plans of those who walk */
@@ -171,6 +172,7 @@ bool jox_world_step(JoWorld *w) {
         return false;
     jox_world_events(w);
     jox_world_sources(w);
+    jox_world_starts(w);
     JOX_CHECK(jox_world_model_check(w));
     JOX_CHECK(jox_world_agents_check(w));
     double begin = jox_clock_wall(), cpu = jox_clock_cpu(), last = begin;

@@ -59,6 +59,8 @@ static void free_world(JoWorld *world) {
     jox_free(world->state.population.made);
     jox_free(world->state.population.party_left);
     jox_free(world->state.population.party_team);
+    jox_free(world->state.population.entered);
+    jox_free(world->model.starts);
     jox_exits_free(&world->state.exits);
     jox_text_free(&world->scratch.event_errors);
     for (uint32_t i = 0; i < world->model.tag_count; i++)

@@ -44,6 +44,8 @@ typedef struct JoxWorldModel {
     const JoxAgentSource *sources;
     const JoxAgentSink *sinks;
     const JoxEvent *events;
+    JoxStart *starts; /* owned: who comes in after the start, in order of time */
+    uint32_t start_count;
     uint32_t group_count, source_count, sink_count, event_count;
     char *tags[JOX_MOST_TAGS]; /* bit number -> name */
     uint32_t tag_count;

@@ -128,9 +128,107 @@ static void counts_of_sources_are_hashed(void **state) {
     jo_scene_free(scene);
 }
 
+/* ---- starts ---- */
+
+#define STARTS(rows)                                                                               \
+    "jostle: 1\n"                                                                                  \
+    "places: {far: {point: [50, 0], radius: 1}}\n"                                                 \
+    "groups: {people: {behaviour: own.lua, starts: " rows ", set: {goal: far}}}\n"
+#define STAND                                                                                      \
+    HEAD "\"Stand\", states = {\n"                                                                 \
+         "  Stand = { steer = hold, { to = \"Go\", when = heard \"go\" } },\n"                     \
+         "  Go = { steer = seek(own.goal) } } }\n"
+
+static bool is_at(const JoWorld *w, uint32_t i, float x, float y) {
+    return fabsf(w->state.agents.x[i] - x) < 1e-6f && fabsf(w->state.agents.y[i] - y) < 1e-6f;
+}
+
+/* Rows may be in any order; at 0 s people are there before the first step, others come in with the
+   step that begins at their time or after it. */
+static void each_comes_in_at_its_time_and_place(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own(STARTS("[[1.02, 3, 4], [0, 0, 0], [0.5, 9, 9, 0, -1.5], [0, 6, 0, 1, 0]]"), STAND);
+    JoWorld *w = scene->world;
+    const JoxAgents *a = &w->state.agents;
+    assert_int_equal(a->count, 2);
+    assert_true(is_at(w, 0, 0, 0) && is_at(w, 1, 6, 0));
+    assert_true(a->vx[1] == 1.0f && a->face_x[1] == 1.0f && a->vx[0] == 0.0f);
+    step(scene, 10); /* 0.5 s */
+    assert_int_equal(a->count, 2);
+    step(scene, 1);
+    assert_int_equal(a->count, 3);
+    const uint32_t third = a->slot_index[2];
+    assert_true(fabsf(a->x[third] - 9) < 0.01f && a->y[third] < 9 && a->y[third] > 8.9f);
+    assert_true(a->face_y[third] < -0.99f);
+    step(scene, 10); /* to 1.05 s: its step begins at 1.0 */
+    assert_int_equal(a->count, 3);
+    step(scene, 1);
+    assert_int_equal(a->count, 4);
+    step(scene, 100);
+    assert_int_equal(a->count, 4);
+    assert_int_equal(w->state.population.all_until, 2);
+    jo_scene_free(scene);
+}
+
+/* Who would stand in another waits; who comes in elsewhere does not wait for that one. */
+static void who_would_stand_in_another_waits(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own(STARTS("[[0, 0, 0], [0.5, 0.1, 0], [0.6, 5, 0], [0.7, 0.35, 0]]"), STAND);
+    JoWorld *w = scene->world;
+    const JoxAgents *a = &w->state.agents;
+    step(scene, 40);
+    assert_int_equal(a->count, 3);
+    assert_int_equal(w->state.statistics.moved_out, 0);
+    assert_int_equal(w->state.population.all_until, 0);
+    jo_scene_free(scene);
+
+    scene = load_own(STARTS("[[0, 0, 0], [0.5, 0.1, 0], [0.6, 5, 0]]"), STAND);
+    w = scene->world;
+    step(scene, 40);
+    assert_int_equal(w->state.agents.count, 2);
+    jo_world_remove_agent(w, (JoAgent){0, w->state.agents.slot_generation[0]});
+    step(scene, 1);
+    assert_int_equal(w->state.agents.count, 2);
+    assert_int_equal(w->state.population.all_until, 2);
+    jo_scene_free(scene);
+}
+
+/* A state that was saved with some still outside goes on to the bit, also in a world that has not
+   begun; who is in is hashed. */
+static void who_has_come_in_is_state(void **state) {
+    (void)state;
+    static const char ROWS[] = STARTS("[[0, 0, 0], [0.5, 0.1, 0], [1, 5, 0], [2.5, 8, 0], "
+                                      "[2.6, 9, 3, 1, 1], [30, 1, 1]]");
+    uint64_t first[AFTER], second[AFTER];
+    JoScene *scene = load_own(ROWS, WALKER_TO), *other = load_own(ROWS, WALKER_TO);
+    JoxText saved = {0};
+    JoError error = {0};
+    step(scene, 30);
+    assert_int_equal(scene->world->state.agents.count, 3);
+    assert_true(jox_world_snapshot(scene->world, &saved, &error));
+    const uint64_t before = jo_world_hash(scene->world);
+    scene->world->state.population.entered[2] ^= 1;
+    assert_true(jo_world_hash(scene->world) != before);
+    scene->world->state.population.entered[2] ^= 1;
+    note(scene, first);
+    if (!jox_world_restore(other->world, saved.data, saved.length, &error))
+        fail_msg("%s", error.text);
+    note(other, second);
+    assert_memory_equal(first, second, sizeof first);
+    assert_int_equal(other->world->state.agents.count, 5);
+    jox_text_free(&saved);
+    jo_scene_free(scene);
+    jo_scene_free(other);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_program_steps_the_world_of_a_scene),
                                        cmocka_unit_test(a_saved_crowd_goes_on_to_the_bit),
-                                       cmocka_unit_test(counts_of_sources_are_hashed)};
+                                       cmocka_unit_test(counts_of_sources_are_hashed),
+                                       cmocka_unit_test(each_comes_in_at_its_time_and_place),
+                                       cmocka_unit_test(who_would_stand_in_another_waits),
+                                       cmocka_unit_test(who_has_come_in_is_state)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

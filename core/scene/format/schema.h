@@ -50,9 +50,10 @@ struct JoxKey {
     double least, greatest;
     const char *standard; /* the default as text; "" none; "!" required */
     const char *meaning;
-    /* What a TABLE, LIST, POINTS or VALUES holds: an owner, or "xy", "xyz" (points), "quantity" (a
-       number with any unit), "weight", "draw" (a number or distribution), "value" (that, or a
-       place); behind it, read from the left, "*": a map of names to it, "[n]": a list of n or more.
+    /* What a TABLE, LIST, POINTS or VALUES holds: an owner, or "xy", "xyz" (points), "start" (a
+       time, a place, and it may be a velocity), "quantity" (a number with any unit), "weight",
+       "draw" (a number or distribution), "value" (that, or a place); behind it, read from the left,
+       "*": a map of names to it, "[n]": a list of n or more.
      */
     const char *of;
     const char *choices; /* of a TEXT or NAMES with fixed values: "this|that" */

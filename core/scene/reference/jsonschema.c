@@ -147,6 +147,13 @@ static void contents(const JoxKey *key, size_t length, JoxJson *json) {
         vector(key->type == JOX_TYPE_POINTS ? key : &metres, 2, json);
     } else if (length == 3 && !strncmp(of, "xyz", 3)) {
         vector(key, 3, json);
+    } else if (length == 5 && !strncmp(of, "start", 5)) {
+        type(json, "array");
+        jox_json_object(json, "items");
+        reference(json, "quantity", 8);
+        jox_json_end(json);
+        jox_json_integer(json, "minItems", 3);
+        jox_json_integer(json, "maxItems", 5);
     } else if (length == 6 && !strncmp(of, "weight", 6)) {
         type(json, "number");
         jox_json_integer(json, "exclusiveMinimum", 0);

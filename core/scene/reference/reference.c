@@ -53,6 +53,7 @@ static void type_name(const JoxKey *key, JoxText *out) {
         {"weight*", "map: Lua file to weight"},
         {"xy[3]*", "map: name to list of [x, y]"},
         {"xyz[4]", "list of [x, y, z]"},
+        {"start[1]", "list of [s, x, y] or [s, x, y, vx, vy]"},
         {"xy[2][2]", "two lists of [x, y]"},
         {"quantity**", "map: mod to map of values"}};
     const char *of = key->of ? key->of : "";
