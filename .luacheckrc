@@ -22,6 +22,7 @@ std = {
     "neighbours",
     "density_here",
     "headway",
+    "eagerness",
     "pushed",
     "compression",
     "load",

@@ -42,7 +42,7 @@ OPT     := $(OPT.$(MODE))
 $(if $(OPT),,$(error MODE=$(MODE) is not one of release, debug, asan, ubsan, tsan))
 WARN    := -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes -Wvla
 # No contraction, no fast-math: every build must compute the same bits.
-FP      := -ffp-contract=off
+FP      := -ffp-contract=off -fno-math-errno -fno-trapping-math
 CFLAGS  ?=
 CPPFLAGS_ALL := -Icore -Icore/include -DJOX_VERSION='"$(VERSION)"' -DJOX_BULLET=$(BULLET) \
            -DJOX_DATADIR='"$(DATADIR)"' -DJOX_PAGEDIR='"$(PAGEDIR)"' -DJOX_THREEDIR='"$(THREEDIR)"' -D_GNU_SOURCE
@@ -103,6 +103,8 @@ $(B)/%.o: %.c
 	@mkdir -p $(@D)
 	$(call say,CC,$<)
 	$(Q)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -c $< -o $@
+# Its loops over lanes become vector operations, of the same bits.
+$(B)/core/nav/walk.o: OPT += $(if $(filter release,$(MODE)),-O3)
 $(B)/%.o: %.cc
 	@mkdir -p $(@D)
 	$(call say,CXX,$<)

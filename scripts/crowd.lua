@@ -1,6 +1,10 @@
 -- How people slow down among others and push, as expressions that behaviours share.
 local crowd = {}
 
+-- Time kept to whoever walks ahead, s, by those who are not eager: what `time_gap` is to all who walk by the walking
+-- law (core/walking.md). A group's `haste` (calm, normal, keen) and the crowd itself shorten it.
+crowd.time_gap = 1.06
+
 -- Speed that leaves 0.88 s to whoever walks ahead, and does not close up where five stand on a square metre, m/s;
 -- never quite nothing. It gives the speeds and densities of people in single file (Seyfried and others 2005) and in
 -- wide corridors.

@@ -124,7 +124,7 @@ uint32_t jox_agents_add(JoxAgents *a) {
         a->param[p][i] = jox_parameter_store((JoxParameter)p, jox_parameters[p].value);
     a->face_x[i] = 1.0f;
     a->lasts[i] = INFINITY;
-    a->goal[i] = a->kicked[i] = a->approach[i] = a->queue_at[i] = -1;
+    a->goal[i] = a->kicked[i] = a->approach[i] = a->queue_at[i] = a->bound[i] = -1;
     a->machine[i] = JOX_NO_MACHINE;
     a->speed_limit[i] = a->param[JOX_PARAM_max_speed][i];
     return i;

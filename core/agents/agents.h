@@ -50,6 +50,15 @@
     X(STATE, float, face_y)                                                                        \
     X(STATE, float, pref_x) /* preferred velocity, written by `prefer` */                          \
     X(STATE, float, pref_y)                                                                        \
+    X(STATE, float, eager)    /* eagerness, 0 to 1: the crowd's, within the bounds of haste */     \
+    X(STATE, float, course_x) /* direction in which it has walked of late, unit or (0, 0) */       \
+    X(STATE, float, course_y)                                                                      \
+    X(STATE, int32_t, bound) /* place that it is bound for by a field, or -1 */                    \
+    X(SCRATCH, float, way)   /* way left to it, m */                                               \
+    X(SCRATCH, float, aim_x) /* direction of the preferred velocity, unit or (0, 0) */             \
+    X(SCRATCH, float, aim_y)                                                                       \
+    X(SCRATCH, float, walk_x) /* velocity that the walking law wants, where one plans */           \
+    X(SCRATCH, float, walk_y)                                                                      \
     X(STATE, float, next_x) /* planned velocity, by `solve`; kept until people plan anew */        \
     X(STATE, float, next_y)                                                                        \
     JOX_FORCE_TERMS(JOX_FORCE_TERM_COLUMNS, X)                                                     \

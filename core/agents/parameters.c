@@ -21,6 +21,19 @@ int jox_parameter_find(const char *name) {
     return -1;
 }
 
+bool jox_parameter_level(JoxParameter parameter, const char *word, double *value) {
+    static const struct {
+        const char *word;
+        double value;
+    } LEVELS[] = {{"calm", 0.0}, {"normal", 0.5}, {"keen", 1.0}};
+    for (size_t k = 0; parameter == JOX_PARAM_haste && k < sizeof LEVELS / sizeof *LEVELS; k++)
+        if (strcmp(LEVELS[k].word, word) == 0) {
+            *value = LEVELS[k].value;
+            return true;
+        }
+    return false;
+}
+
 float jox_parameter_store(JoxParameter parameter, double value) {
     const JoxParameterInfo *info = &jox_parameters[parameter];
     if (value != value)

@@ -2,6 +2,8 @@
 #ifndef JOX_AGENTS_PARAMETERS_H
 #define JOX_AGENTS_PARAMETERS_H
 
+#include <stdbool.h>
+
 /* X(name, unit, least, greatest, default, meaning). Angles are given in degrees and stored as
    their cosine. Defaults are those of people in a dense crowd. */
 #define JOX_PARAMETERS(X)                                                                          \
@@ -22,6 +24,9 @@
     X(restitution, "", 0, 1, 0, "restitution of contacts between agents")                          \
     X(damping, "1/s", 0, 50, 2.5, "how fast the feet stop a velocity given by force")              \
     X(brace, "N", 0, 5000, 200, "force of others that who wants to get on holds with the feet")    \
+    X(time_gap, "s", 0, 10, 0,                                                                     \
+      "time kept to those ahead, by the walking law; 0: velocities are chosen by ORCA")            \
+    X(haste, "", 0, 1, 0.5, "motivation: 0 calm, 0.5 normal, 1 keen; bounds eagerness")            \
     X(turn, "", 0, 0.6, 0.4,                                                                       \
       "share of the radius by which who wants to get on turns a shoulder in touching others")
 
@@ -41,6 +46,8 @@ extern const JoxParameterInfo jox_parameters[JOX_PARAM_COUNT];
 
 /* Index of a parameter by name, or -1. */
 int jox_parameter_find(const char *name);
+/* The value that a word stands for: haste is calm (0), normal (0.5) or keen (1). False: none. */
+bool jox_parameter_level(JoxParameter parameter, const char *word, double *value);
 /* What the column holds for a value in the parameter's unit: the value, an angle's cosine. The
    value is first kept within [least, greatest]; NaN becomes the default. */
 float jox_parameter_store(JoxParameter parameter, double value);

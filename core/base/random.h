@@ -16,7 +16,8 @@ typedef enum {
     JOX_DRAW_AIM,      /* where in a place to aim */
     JOX_DRAW_LUA,      /* math.random in hooks */
     JOX_DRAW_MIX,      /* which behaviour of a mix */
-    JOX_DRAW_TURN      /* how far a shoulder is turned */
+    JOX_DRAW_TURN,     /* how far a shoulder is turned */
+    JOX_DRAW_GAP       /* a walker's time gap */
 } JoxDraw;
 
 /* 64 independent bits. `sub` numbers the draws of one purpose. */

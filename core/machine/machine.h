@@ -29,6 +29,9 @@ enum { JOX_MOST_WEIGHT = 1000000 };
     X(headway, headway, "m",                                                                       \
       "free way ahead to the neighbour in it who does not come the other way; perception where "   \
       "nobody is", jox_headway(run, i))                                                            \
+    X(eagerness, eagerness, "",                                                                    \
+      "how eager the agent is to get on, 0 to 1: the crowd about it raises it, within the bounds " \
+      "of `haste`", a->eager[i])                                                                   \
     X(pushed, pushed, "N", "magnitude of the net force on the agent",                              \
       jox_length((JoxV2){a->force_x[i], a->force_y[i]}))                                           \
     X(compression, compression, "N/m", "sum of contact force magnitudes over circumference",       \

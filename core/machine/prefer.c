@@ -147,6 +147,16 @@ static JoxV2 way(const JoxMachineRun *run, uint32_t place, JoxRouteKind kind, Jo
     return direction;
 }
 
+/* Who walks by the law goes before those who have more way left to the same place. */
+static void bind(const JoxMachineRun *run, uint32_t i, uint32_t place, JoxRouteKind kind, JoxV2 p) {
+    JoxAgents *a = run->agents;
+    const JoxField *field = run->fields[place * JOX_ROUTE_KINDS + kind];
+    if (!(a->param[JOX_PARAM_time_gap][i] > 0.0f) || !field)
+        return;
+    a->bound[i] = (int32_t)place;
+    a->way[i] = jox_field_distance(field, p);
+}
+
 /* Round walls and large bodies; where no way is known yet, or none leads there, straight on. */
 static JoxV2 field(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
     const JoxAgents *a = run->agents;
@@ -157,9 +167,11 @@ static JoxV2 field(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *ter
     JoxV2 p = {a->x[i], a->y[i]};
     if (!run->fields || jox_place_contains(run->places, (uint32_t)place, p))
         return seek(run, i, term->target);
-    JoxV2 direction = way(run, (uint32_t)place, JOX_ROUTE_NOW, p, &none);
+    JoxRouteKind kind = JOX_ROUTE_NOW;
+    JoxV2 direction = way(run, (uint32_t)place, kind, p, &none);
     if (none)
-        direction = way(run, (uint32_t)place, JOX_ROUTE_OPEN, p, &none);
+        direction = way(run, (uint32_t)place, kind = JOX_ROUTE_OPEN, p, &none);
+    bind(run, i, (uint32_t)place, kind, p);
     return jox_length2(direction) > 0.0f ? direction : seek(run, i, term->target);
 }
 
@@ -312,6 +324,7 @@ static void prefer_range(void *context, uint32_t begin, uint32_t end, uint32_t w
         for (uint32_t n = 0; n < batch->count; n++) {
             uint32_t i = run->scratch->grouped[batch->begin + n];
             face(run, state, i);
+            a->bound[i] = -1;
             if (is_function(state))
                 continue;
             JoxV2 sum = steering(run, machine, state, i);

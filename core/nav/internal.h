@@ -28,6 +28,7 @@ struct JoxNav {
     uint32_t *chunk_relaxed;
     JoxWallGrid grid;
     bool literal;
+    JoxWalkLaw walk;
 };
 
 void jox_nav_reserve(JoxNav *nav, uint32_t agents);

@@ -6,11 +6,17 @@
 #include "nav/internal.h"
 
 JoxNav *jox_nav_create(void) {
-    return jox_alloc(1, sizeof(JoxNav));
+    JoxNav *nav = jox_alloc(1, sizeof *nav);
+    nav->walk = jox_walk_law();
+    return nav;
 }
 
 void jox_nav_set_literal(JoxNav *nav, bool literal) {
     nav->literal = literal;
+}
+
+void jox_nav_set_walk(JoxNav *nav, const JoxWalkLaw *law) {
+    nav->walk = *law;
 }
 
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {

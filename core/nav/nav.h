@@ -5,6 +5,7 @@
 #include "agents/agents.h"
 #include "agents/contact_planes.h"
 #include "agents/neighbours.h"
+#include "agents/walk_law.h"
 #include "geom/objects.h"
 #include "geom/wall_grid.h"
 #include "geom/walls.h"
@@ -16,6 +17,8 @@ JoxNav *jox_nav_create(void);
 void jox_nav_free(JoxNav *nav);
 /* Equations 3 and 4 as they are printed, and no projection of overlaps. */
 void jox_nav_set_literal(JoxNav *nav, bool literal);
+/* The constants of the walking law; until then they are its defaults. */
+void jox_nav_set_walk(JoxNav *nav, const JoxWalkLaw *law);
 /* The walls, not copied; call again when they change. NULL: none. */
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls);
 
@@ -36,6 +39,11 @@ void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPoo
    passes a force on, over a gap of at most `passing` metres; NULL without walls. */
 const JoxWallGrid *jox_nav_touching_walls(JoxNav *nav, const JoxNeighbours *neighbours,
                                           const JoxAgents *agents, float passing);
+/* The end of prefer: aim of everybody and, of those who keep a time gap and plan in this step,
+   walk: the velocity that the walking law wants among others and walls; their eagerness and course.
+   `time`: simulated, s; `interval`: since people planned last, s. */
+void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours, uint64_t seed,
+                  double time, double interval, bool plans, JoxPool *pool);
 /* solve: next_x, next_y, the velocity to have `planning_time` seconds from now; sets failed where
    there is none that meets all half-planes. What agents touch is solved by its contact planes,
    which are hard as walls are, where `touched` has them. Returns how many agents had a hard

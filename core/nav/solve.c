@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "base/random.h"
 #include "nav/internal.h"
+#include "nav/walk.h"
 
 enum {
     MOST_WALLS = 16,
@@ -84,6 +85,39 @@ static uint32_t agent_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *out)
     return made;
 }
 
+/* The half-planes of one who walks by the law, in place of ORCA's: those it minds are not
+   approached faster than uses up the gap within `close_time`, half of it where they cross. */
+static uint32_t walker_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *out) {
+    const JoxAgents *a = s->agents;
+    const JoxWalkLaw *law = &s->nav->walk;
+    const float *radius = a->param[JOX_PARAM_radius];
+    uint32_t made = 0;
+    for (uint32_t k = 0; k < s->neighbours->count[i]; k++) {
+        uint32_t j = s->neighbours->index[jox_neighbour_at(s->neighbours, i, k)];
+        if ((a->tags[j] & a->ignore[i]) || (s->touched && is_touched(s->touched, i, j)))
+            continue;
+        JoxV2 p = jox_offset(a, i, j);
+        JoxMinds minds = jox_minds(a, i, j, p);
+        if (minds == JOX_MINDS_NOT)
+            continue;
+        float distance = jox_length(p);
+        float gap = distance - jox_walk_width(law, a, i, j, minds);
+        if (gap >= (float)law->close || is_hidden(s, i, p, radius[i] + radius[j]))
+            continue;
+        JoxV2 towards = distance > 0.0f ? jox_scale(p, 1.0f / distance)
+                                        : jox_scale(parting(a->id[i], a->id[j]), -1.0f);
+        float share = minds == JOX_MINDS_CROSSING ? 0.5f : 1.0f;
+        float leaves = towards.x * a->vx[j] + towards.y * a->vy[j];
+        float most = jox_maxf(0.0f, leaves) + share * jox_maxf(gap, 0.0f) / (float)law->close_time;
+        out[made++] = (JoxHalfPlane){jox_scale(towards, -1.0f), -most};
+    }
+    return made;
+}
+
+static bool walks(const Solve *s, uint32_t i) {
+    return !s->nav->literal && jox_walks(s->agents, i);
+}
+
 /* How many half-planes of each kind, in their order, which is that of JoxConstraintKind. */
 typedef struct Counts {
     uint32_t walls, contacts, agents, objects, force;
@@ -99,7 +133,8 @@ static inline Counts make_half_planes(const Solve *s, uint32_t i, JoxHalfPlane *
             tau * a->param[JOX_PARAM_max_speed][i] + radius, half_planes, MOST_WALLS);
     uint32_t n = made.walls;
     n += made.contacts = contact_half_planes(s, i, half_planes + n);
-    n += made.agents = agent_half_planes(s, i, half_planes + n);
+    n += made.agents = walks(s, i) ? walker_half_planes(s, i, half_planes + n)
+                                   : agent_half_planes(s, i, half_planes + n);
     if (s->objects && s->objects->count)
         n += made.objects = jox_orca_objects(s->nav, a, i, s->objects, s->touched, s->planning_time,
                                              half_planes + n, MOST_OBJECTS);
@@ -214,6 +249,8 @@ static JoxV2 wish_of(const Solve *s, uint32_t i, const JoxHalfPlane *others, uin
     const float slow = 0.2f; /* of the wanted speed */
     JoxV2 wanted = {s->agents->pref_x[i], s->agents->pref_y[i]};
     JoxV2 velocity = {s->agents->vx[i], s->agents->vy[i]};
+    if (walks(s, i))
+        return (JoxV2){s->agents->walk_x[i], s->agents->walk_y[i]};
     if (jox_stands(s->agents, i) || jox_dot(velocity, wanted) > slow * jox_length2(wanted))
         return wanted;
     for (uint32_t k = 0; k < count; k++)
@@ -228,7 +265,7 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxAgents *a = s->agents;
     uint32_t relaxations = 0;
     for (uint32_t i = begin; i < end; i++) {
-        if (!s->plans && !jox_stands(a, i))
+        if (!s->plans && (walks(s, i) || !jox_stands(a, i)))
             continue;
         JoxHalfPlane half_planes[MOST];
         Counts made = make_half_planes(s, i, half_planes);

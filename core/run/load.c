@@ -116,6 +116,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     world.forces = spec->forces;
     world.literal = spec->literal;
     scene->world = jox_world_create(&world);
+    jox_world_set_walking(scene->world, &spec->walking);
     if (!def->input_log)
         load_input(scene, spec->input, diagnostics);
     scene->world->state.input = scene->input; /* the world's from here on */

@@ -69,6 +69,7 @@ static const JoxKey KEYS[] = {
     {"scene", "replace", TEXT, "", 0, 0, "", EARLIER("scene/mods_read.c"),
      .meaning = "in a mod's patches: the scene whose place this one takes"},
     {"scene", "forces", TABLE, "", 0, 0, "", SAME_STRUCT, .of = "forces", LATER("the world is made with them"), .meaning = "how forces act"},
+    {"scene", "walking", TABLE, "", 0, 0, "", TO(JoxSceneSpec, walking), .of = "walking", LATER("the world is made with them"), .meaning = "constants of the walking law"},
     {"scene", "limits", TABLE, "", 0, 0, "", TO(JoxSceneSpec, limits), .of = "limits", LATER("behaviours are loaded under them"), .meaning = "what scripts may use"},
     {"scene", "heatmap", TABLE, "", 0, 0, "", SAME_STRUCT, .of = "heatmap",
      .meaning = "area and time of the density map"},
@@ -94,6 +95,10 @@ static const JoxKey KEYS[] = {
     {"forces", "enabled", BOOL, "", 0, 0, "true", TO(JoxSceneSpec, forces), .meaning = "false: collision avoidance alone"},
     {"forces", "mode", TEXT, "", 0, 0, "physical", TO(JoxSceneSpec, literal), .choices = "physical|literal",
      .meaning = "literal: the equations as they were printed (core/paper.md); `yield` and `damping` then have no effect"},
+#define X(name, unit, least, greatest, value, meant) \
+    {"walking", #name, NUMBER, unit, least, greatest, #value, TO(JoxWalkLaw, name), .meaning = meant},
+    JOX_WALK_CONSTANTS(X)
+#undef X
     {"limits", "instructions", WHOLE, "", 1000, 1e9, "100000", TO(JoxSceneLimits, instructions),
      .meaning = "of one call of a Lua function"},
     {"limits", "step_instructions", WHOLE, "", 10000, 1e12, "20000000", TO(JoxSceneLimits, step_instructions),
@@ -298,6 +303,8 @@ static const JoxOwner OWNERS[] = {
      "- or . at the beginning).",
      .size = sizeof(JoxSceneSpec)},
     {"forces", "forces", "What pushes between agents do.", .size = 0},
+    {"walking", "walking", "One set of constants serves all crowds, and is the default (core/walking.md says what each does); to try others is research. R is the sum of two people's radii.",
+     .size = sizeof(JoxWalkLaw)},
     {"limits", "limits", "A script that needs more is stopped and named; the run goes on.",
      .size = sizeof(JoxSceneLimits)},
     {"heatmap", "heatmap", "What the density map of a report shows.", .size = 0},

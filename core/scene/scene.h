@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "agents/walk_law.h"
 #include "base/format/diag.h"
 #include "base/format/patch.h"
 #include "base/random.h"
@@ -105,6 +106,7 @@ typedef struct JoxSceneSpec {
     JoxSceneCamera camera;
     JoxSceneView view;
     JoxSceneLimits limits;
+    JoxWalkLaw walking;
     bool heatmap; /* the area was given */
     JoxV2 heatmap_low, heatmap_high;
     double heatmap_from; /* s; averages begin there */

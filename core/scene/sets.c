@@ -33,6 +33,17 @@ static bool looks_numeric(const char *text) {
     return end != text && (*end == 0 || text[strcspn(text, "0123456789")] != 0);
 }
 
+/* A word for a parameter's value: haste is calm, normal or keen. */
+static bool read_level(const JoxYaml *value, JoxGroupValue *set) {
+    double level;
+    int parameter = jox_parameter_find(set->name);
+    if (parameter < 0 || value->kind != JOX_YAML_SCALAR ||
+        !jox_parameter_level((JoxParameter)parameter, value->text, &level))
+        return false;
+    set->dist = jox_dist_constant(level);
+    return true;
+}
+
 /* One value of a map; false with an error. */
 static bool read_set(const JoxReader *r, const JoxYaml *value, bool numbers_only,
                      JoxGroupValue *set) {
@@ -42,6 +53,8 @@ static bool read_set(const JoxReader *r, const JoxYaml *value, bool numbers_only
                 (!strcmp(value->text, "true") || !strcmp(value->text, "false"));
     if (flag)
         set->dist = jox_dist_constant(!strcmp(value->text, "true"));
+    else if (read_level(value, set))
+        return true;
     else if (jox_read_dist(r, value, &set->dist))
         return r->diagnostics->errors == errors; /* else a malformed distribution */
     else if (numbers_only || value->kind != JOX_YAML_SCALAR ||

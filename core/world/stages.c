@@ -39,6 +39,9 @@ void jox_stage_think(const JoxThinkStage *s) {
 
 void jox_stage_prefer(const JoxPreferStage *s) {
     jox_machines_prefer(s->machines, s->pool);
+    if (!s->literal)
+        jox_nav_walk(s->nav, s->agents, s->neighbours, s->seed, s->substep->end - s->substep->dt,
+                     s->substep->interval, s->substep->plans, s->pool);
 }
 
 void jox_stage_push(const JoxPushStage *s) {

@@ -47,8 +47,14 @@ typedef struct JoxThinkStage {
 void jox_stage_think(const JoxThinkStage *stage);
 
 typedef struct JoxPreferStage {
+    const JoxSubstep *substep;
+    bool literal; /* then nobody walks by the law */
+    uint64_t seed;
     JoxPool *pool;
-    JoxMachineRun *machines;
+    const JoxNeighbours *neighbours;
+    JoxNav *nav;             /* its grid of walls */
+    JoxMachineRun *machines; /* which says what machines read and write */
+    JoxAgents *agents;       /* aim, walk, eager, course of those who walk by the law */
 } JoxPreferStage;
 void jox_stage_prefer(const JoxPreferStage *stage);
 

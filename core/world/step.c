@@ -59,8 +59,14 @@ static void think(JoWorld *w, const JoxSubstep *substep) {
 }
 
 static void prefer(JoWorld *w, const JoxSubstep *substep) {
-    (void)substep;
-    jox_stage_prefer(&(JoxPreferStage){.pool = w->scratch.pool, .machines = &w->machines});
+    jox_stage_prefer(&(JoxPreferStage){.substep = substep,
+                                       .literal = w->model.def.literal,
+                                       .seed = w->model.def.seed,
+                                       .pool = w->scratch.pool,
+                                       .neighbours = &w->scratch.neighbours,
+                                       .nav = w->scratch.nav,
+                                       .machines = &w->machines,
+                                       .agents = &w->state.agents});
 }
 
 static void push(JoWorld *w, const JoxSubstep *substep) {

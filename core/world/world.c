@@ -32,6 +32,11 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     return world;
 }
 
+void jox_world_set_walking(JoWorld *world, const JoxWalkLaw *law) {
+    JOX_ASSERT(world->state.tick == 0);
+    jox_nav_set_walk(world->scratch.nav, law);
+}
+
 static void free_places(JoWorld *world) {
     for (uint32_t i = 0; i < world->model.place_count; i++)
         jox_place_free(&world->model.places[i]);

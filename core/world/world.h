@@ -106,6 +106,8 @@ struct JoWorld {
 JoWorld *jox_world_create(const JoWorldDef *def);
 /* Bit number of a tag, added if new; -1 when all 64 are taken. */
 int jox_world_tag(JoWorld *world, const char *name);
+/* The constants of the walking law, before the first step; until then they are its defaults. */
+void jox_world_set_walking(JoWorld *world, const JoxWalkLaw *law);
 /* Takes the places over, once, before agents are spawned. The array has room for `capacity` of
    them: for those of single agents too. */
 void jox_world_set_places(JoWorld *world, JoxPlace *places, uint32_t count, uint32_t capacity);

@@ -86,6 +86,8 @@ function Number:in_state(state) end
 ---@field restitution? number|jostle.Number|jostle.Drawn restitution of contacts between agents; 0 to 1, default 0
 ---@field damping? number|jostle.Number|jostle.Drawn how fast the feet stop a velocity given by force, 1/s; 0 to 50, default 2.5
 ---@field brace? number|jostle.Number|jostle.Drawn force of others that who wants to get on holds with the feet, N; 0 to 5000, default 200
+---@field time_gap? number|jostle.Number|jostle.Drawn time kept to those ahead, by the walking law; 0: velocities are chosen by ORCA, s; 0 to 10, default 0
+---@field haste? number|jostle.Number|jostle.Drawn motivation: 0 calm, 0.5 normal, 1 keen; bounds eagerness; 0 to 1, default 0.5
 ---@field turn? number|jostle.Number|jostle.Drawn share of the radius by which who wants to get on turns a shoulder in touching others; 0 to 0.6, default 0.4
 
 ---@class jostle.Transition
@@ -223,6 +225,10 @@ density_here = nil
 ---@type jostle.Number
 headway = nil
 
+--- `eagerness`: how eager the agent is to get on, 0 to 1: the crowd about it raises it, within the bounds of `haste`
+---@type jostle.Number
+eagerness = nil
+
 --- `pushed` in N: magnitude of the net force on the agent
 ---@type jostle.Number
 pushed = nil
@@ -272,7 +278,7 @@ function sqrt(a1) end
 ---@return jostle.Number
 function clamp(a1, a2, a3) end
 
---- `now.NAME`: what is measured of the agent now; NAME is one of speed x y neighbours time density headway pushed compression load contacts time_in_state
+--- `now.NAME`: what is measured of the agent now; NAME is one of speed x y neighbours time density headway eagerness pushed compression load contacts time_in_state
 ---@type table<string, jostle.Number>
 now = {}
 

@@ -17,6 +17,7 @@ const JoxExample jox_scene_examples[] = {
      "player: runner\n"
      "input: dodgeball.input\n"
      "forces: {mode: physical}\n"
+     "walking: {start_time: 0.5}\n"
      "limits: {memory: 16 MB}\n"
      "heatmap: {from: 5}\n"
      "camera: {position: [0, -15, 12], target: [0, 0, 0]}\n"
@@ -32,6 +33,12 @@ const JoxExample jox_scene_examples[] = {
      "events: [{at: 5, signal: go}]\n"},
     {"forces", OPENING
      "forces: {enabled: true, mode: literal}\n"
+     STANDER},
+    {"walking", OPENING
+     "walking:\n"
+#define X(name, unit, least, greatest, value, meaning) "  " #name ": " #value "\n"
+     JOX_WALK_CONSTANTS(X)
+#undef X
      STANDER},
     {"limits", OPENING
      "limits: {instructions: 50000, step_instructions: 5000000, load_instructions: 5000000,\n"
