@@ -14,6 +14,9 @@ PAGEDIR ?= $(CURDIR)/core/view/page
 THREEDIR ?= /usr/share/javascript/three
 WITHOUT := $(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(CAIRO)),-nocairo)$(if $(filter 0,$(VIEW)),-noview)
 B       ?= build/$(MODE)$(WITHOUT)
+# Objects are shared by builds that differ in what they leave out or in where they are installed: the few
+# files that name a folder of the installation are compiled for each. A B that is given has its own.
+SHARED  := $(if $(filter file,$(origin B)),build/$(MODE),$(B))
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
@@ -35,17 +38,19 @@ PKGS    := lua5.4 yaml-0.1 sqlite3 expat libcjson $(if $(filter 0,$(BULLET)),,bu
 
 OPT.release := -O2 -DNDEBUG
 OPT.debug   := -O0 -g
-OPT.asan    := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-OPT.ubsan   := -O1 -g -fsanitize=undefined -fno-sanitize-recover=all
-OPT.tsan    := -O1 -g -fsanitize=thread
+OPT.asan    := -O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+OPT.ubsan   := -O1 -g1 -fsanitize=undefined -fno-sanitize-recover=all
+OPT.tsan    := -O1 -g1 -fsanitize=thread
 OPT     := $(OPT.$(MODE))
 $(if $(OPT),,$(error MODE=$(MODE) is not one of release, debug, asan, ubsan, tsan))
 WARN    := -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes -Wvla
 # No contraction, no fast-math: every build must compute the same bits.
 FP      := -ffp-contract=off -fno-math-errno -fno-trapping-math
 CFLAGS  ?=
-CPPFLAGS_ALL := -Icore -Icore/include -DJOX_VERSION='"$(VERSION)"' -DJOX_BULLET=$(BULLET) \
-           -DJOX_DATADIR='"$(DATADIR)"' -DJOX_PAGEDIR='"$(PAGEDIR)"' -DJOX_THREEDIR='"$(THREEDIR)"' -D_GNU_SOURCE
+CPPFLAGS_ALL := -Icore -Icore/include -DJOX_VERSION='"$(VERSION)"' -D_GNU_SOURCE
+# What differs between builds that share objects is known to the files that name it alone, and to tests.
+PLACES  := -DJOX_DATADIR='"$(DATADIR)"' -DJOX_PAGEDIR='"$(PAGEDIR)"' -DJOX_THREEDIR='"$(THREEDIR)"'
+PLACED  := $(shell grep -lE 'JOX_(DATADIR|PAGEDIR|THREEDIR)' $(SRC_C) $(SRC_CC) $(SRC_CLI))
 # Statics of inline functions must not become process-wide symbols.
 UNIQUE  := $(shell echo | $(CXX) -fno-gnu-unique -x c++ -E - >/dev/null 2>&1 && echo -fno-gnu-unique)
 CFLAGS_ALL  = -std=c17 $(OPT) $(WARN) $(FP) -fPIC -fvisibility=hidden -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
@@ -65,8 +70,9 @@ Q   := @
 say = @printf '  %-4s %s\n' $(1) $(2)
 endif
 
-OBJ     := $(SRC_C:%.c=$(B)/%.o) $(SRC_CC:%.cc=$(B)/%.o)
-OBJ_CLI := $(SRC_CLI:%.c=$(B)/%.o)
+objects  = $(foreach s,$(1),$(if $(filter $(s),$(PLACED)),$(B),$(SHARED))/$(basename $(s)).o)
+OBJ     := $(call objects,$(SRC_C) $(SRC_CC))
+OBJ_CLI := $(call objects,$(SRC_CLI))
 UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 
@@ -83,7 +89,7 @@ DURATION ?= 60
 test:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory all tests-built
-	@B=$(B) .ci/suite check units scenes install page
+	@B=$(B) SHARED=$(SHARED) .ci/suite check units scenes install page
 test-all: test
 	JOSTLE_VIEW_CYCLES=10000 $(B)/unit/view_stream
 	@.ci/sanitizers
@@ -96,20 +102,28 @@ bench:
 check:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory all
-	@B=$(B) .ci/suite check
+	@B=$(B) SHARED=$(SHARED) .ci/suite check
 tests-built: $(UNIT)
 
+define compile
+	@mkdir -p $(@D)
+	$(call say,$(1),$<)
+	$(Q)$(2) $(CPPFLAGS_ALL) $(if $(filter $<,$(PLACED)),$(PLACES)) $(3) -c $< -o $@
+endef
 $(B)/%.o: %.c
-	@mkdir -p $(@D)
-	$(call say,CC,$<)
-	$(Q)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -c $< -o $@
+	$(call compile,CC,$(CC),$(CFLAGS_ALL))
 # Its loops over lanes become vector operations, of the same bits.
-$(B)/core/nav/walk.o: OPT += $(if $(filter release,$(MODE)),-O3)
+$(SHARED)/core/nav/walk.o: OPT += $(if $(filter release,$(MODE)),-O3)
 $(B)/%.o: %.cc
-	@mkdir -p $(@D)
-	$(call say,CXX,$<)
-	$(Q)$(CXX) $(CPPFLAGS_ALL) $(CXXFLAGS_ALL) -c $< -o $@
+	$(call compile,CXX,$(CXX),$(CXXFLAGS_ALL))
+ifneq ($(SHARED),$(B))
+$(SHARED)/%.o: %.c
+	$(call compile,CC,$(CC),$(CFLAGS_ALL))
+$(SHARED)/%.o: %.cc
+	$(call compile,CXX,$(CXX),$(CXXFLAGS_ALL))
+endif
 $(B)/internal.a: $(OBJ)
+	@mkdir -p $(@D)
 	@rm -f $@
 	$(call say,AR,$@)
 	$(Q)ar rcs $@ $^
@@ -118,6 +132,7 @@ $(B)/jostle: $(OBJ_CLI) $(B)/internal.a
 	$(Q)$(LINK) $^ -o $@ $(LIBS)
 # What leaves the libraries: the public calls alone. Hidden symbols become local.
 $(B)/jostle.o: $(OBJ)
+	@mkdir -p $(@D)
 	$(call say,LD,$@)
 	$(Q)ld -r $^ -o $@
 	$(Q)objcopy --localize-hidden $@
@@ -131,12 +146,12 @@ $(B)/libjostle.so.$(VERSION): $(B)/jostle.o
 $(B)/unit/%: tests/unit/%.c $(B)/internal.a
 	@mkdir -p $(@D)
 	$(call say,TEST,$<)
-	$(Q)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
+	$(Q)$(CC) $(CPPFLAGS_ALL) $(PLACES) -DJOX_BULLET=$(BULLET) $(CFLAGS_ALL) -Itests -c $< -o $@.o
 	$(Q)$(LINK) $@.o $(B)/internal.a -o $@ -lcmocka $(LIBS)
 $(B)/bench/%: tests/bench/%.c $(B)/internal.a
 	@mkdir -p $(@D)
 	$(call say,TEST,$<)
-	$(Q)$(CC) $(CPPFLAGS_ALL) $(CFLAGS_ALL) -Itests -c $< -o $@.o
+	$(Q)$(CC) $(CPPFLAGS_ALL) $(PLACES) -DJOX_BULLET=$(BULLET) $(CFLAGS_ALL) -Itests -c $< -o $@.o
 	$(Q)$(LINK) $@.o $(B)/internal.a -o $@ $(LIBS)
 
 # Pages and files for editors, made of the tables of words and keys; `make check` compares them.
@@ -152,7 +167,7 @@ unit: $(UNIT)
 INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(WITHOUT)
 D          = $(DESTDIR)$(PREFIX)
 install:
-	@$(MAKE) --no-print-directory B=$(INSTALL_B) DATADIR=$(PREFIX)/share/jostle PAGEDIR=$(PREFIX)/share/jostle/page all
+	@$(MAKE) --no-print-directory B=$(INSTALL_B) SHARED=$(SHARED) DATADIR=$(PREFIX)/share/jostle PAGEDIR=$(PREFIX)/share/jostle/page all
 	install -d $(D)/bin $(D)/lib/pkgconfig $(D)/include $(D)/share/man/man1
 	install -m 755 $(INSTALL_B)/jostle $(D)/bin/jostle
 	install -m 644 $(INSTALL_B)/libjostle.a $(D)/lib/
@@ -174,4 +189,4 @@ clean:
 format:
 	clang-format -i $$(git ls-files 'core/*.[ch]' 'core/*.cc' 'tests/*.[ch]')
 
--include $(shell find $(B) -name '*.d' 2>/dev/null)
+-include $(shell find $(sort $(B) $(SHARED)) -name '*.d' 2>/dev/null)
