@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -14,7 +15,7 @@
 
 #include "unit/live_page.h"
 
-enum { STEPS = 40, MOST_PEOPLE = 200, LONG_FILE = 1500, LARGEST = 1 << 18 };
+enum { STEPS = 40, MOST_PEOPLE = 200, LONG_FILE = 1500, LARGEST = 1 << 18, COARSE = 11 };
 
 static char *read_behaviour(const JoScene *scene, uint32_t index, size_t *length) {
     char *text = jox_read_file(scene->world->model.machines.items[index]->path, LARGEST, length);
@@ -73,45 +74,77 @@ static size_t next_prefix(size_t n, size_t length) {
     return next > length && n < length ? length : next; /* the whole is always the last */
 }
 
-static size_t prefixes_of(size_t length) {
+/* A behaviour that an earlier scene has tried whole is cut at fewer places, unless
+ * JOSTLE_ALL_PREFIXES is set: other people are there, but the text is the same. */
+static size_t next_cut(size_t n, size_t length, bool known) {
+    size_t next = known ? n + COARSE : next_prefix(n, length);
+    return next > length && n < length ? length : next;
+}
+
+static size_t cuts_of(size_t length, bool known) {
     size_t count = 0;
-    for (size_t n = 0; n <= length; n = next_prefix(n, length))
+    for (size_t n = 0; n <= length; n = next_cut(n, length, known))
         count++;
     return count;
 }
 
+/* Whether an earlier scene has this file. */
+static bool is_known(const char *path) {
+    enum { MOST = 256 };
+    static char *paths[MOST];
+    static size_t count;
+    char *real = realpath(path, NULL);
+    assert_non_null(real);
+    for (size_t p = 0; p < count; p++)
+        if (!strcmp(paths[p], real)) {
+            free(real);
+            return !getenv("JOSTLE_ALL_PREFIXES");
+        }
+    assert_true(count < MOST);
+    paths[count++] = real;
+    return false;
+}
+
 static size_t tried, lived;
+
+/* Saves the beginnings of a behaviour, one after the other, during the steps of a run. */
+static void save_beginnings(JoScene *scene, uint32_t m) {
+    const char *path = scene->world->model.machines.items[m]->path;
+    size_t length, n = 0, done = 0;
+    char *text = read_behaviour(scene, m, &length);
+    bool known = is_known(path);
+    size_t all = cuts_of(length, known);
+    for (int s = 0; s < STEPS; s++) {
+        for (; done < all * ((size_t)s + 1) / STEPS; done++, n = next_cut(n, length, known)) {
+            /* a block of exactly this size, so that a read beyond it is seen */
+            char *prefix = jox_alloc(n + 1, 1);
+            memcpy(prefix, text, n);
+            bool live = reload(scene, m, prefix, n);
+            path = scene->world->model.machines.items[m]->path;
+            if (live && n + 1 < length)
+                fail_msg("the first %zu bytes of %s are a machine", n, path);
+            if (!live && n == length)
+                fail_msg("%s: %s", path, why);
+            jox_free(prefix);
+            lived += live;
+            tried++;
+        }
+        step(scene, 1);
+    }
+    jox_free(text);
+}
 
 static void try_prefixes(const char *path) {
     uint64_t alone = hash_alone(path);
     JoScene *scene = load_small(path);
-    for (uint32_t m = 0; m < scene->world->model.machines.count; m++) {
-        size_t length, n = 0;
-        char *text = read_behaviour(scene, m, &length);
-        size_t all = prefixes_of(length), done = 0;
+    uint32_t machines = scene->world->model.machines.count;
+    for (uint32_t m = 0; m < machines; m++) {
         jo_scene_free(scene);
         scene = load_small(path);
-        for (int s = 0; s < STEPS; s++) {
-            for (; done < all * ((size_t)s + 1) / STEPS; done++, n = next_prefix(n, length)) {
-                /* a block of exactly this size, so that a read beyond it is seen */
-                char *prefix = jox_alloc(n + 1, 1);
-                memcpy(prefix, text, n);
-                bool live = reload(scene, m, prefix, n);
-                if (live && n + 1 < length)
-                    fail_msg("the first %zu bytes of %s are a machine", n,
-                             scene->world->model.machines.items[m]->path);
-                if (!live && n == length)
-                    fail_msg("%s: %s", scene->world->model.machines.items[m]->path, why);
-                jox_free(prefix);
-                lived += live;
-                tried++;
-            }
-            step(scene, 1);
-        }
+        save_beginnings(scene, m);
         if (jo_world_hash(scene->world) != alone)
             fail_msg("%s: beginnings of %s change the hash", path,
                      scene->world->model.machines.items[m]->path);
-        jox_free(text);
     }
     jo_scene_free(scene);
 }
