@@ -246,6 +246,8 @@ static const JoxKey KEYS[] = {
      .meaning = "of measure: length of an interval; of map and lanes: time between samples"},
     {"probe", "cutoff", NUMBER, "m", 0.1, 100, "1", TO(JoxProbeDef, cutoff),
      .meaning = "of measure: how far a Voronoi cell reaches at most; walls end it before"},
+    {"probe", "during", POINTS, "m", -FAR, FAR, "", .of = "xy[2]", READ_TO(jox_key_line, JoxProbeDef, during, during_count),
+     .meaning = "of measure: a line; the figures are of the intervals while the middle 60 % of the passages over it were made"},
     {"probe", "onset", NUMBER, "m", 0.001, 100, "0.05", TO(JoxProbeDef, onset),
      .meaning = "of displacement: who is farther than this has moved"},
     {"probe", "rest", NUMBER, "s", 0, 1e6, "0", TO(JoxProbeDef, rest),

@@ -16,8 +16,8 @@
     X(FLOW, flow, LINE, "", "door:    {flow: [[4, -2], [4, 2]], from: 2, until: 60}",               \
       "a line of two points: passages from its right to its left, N(t), lapses between them; in "    \
       "reports also its level of service, stop-and-go and congestion")                               \
-    X(MEASURE, measure, RING, "every|cutoff",                                                       \
-      "front:   {measure: [[0, 0], [2, 0], [2, 2], [0, 2]], every: 0.5, cutoff: 1.5}",              \
+    X(MEASURE, measure, RING, "every|cutoff|during",                                                \
+      "front:   {measure: [[0, 0], [2, 0], [2, 2], [0, 2]], every: 0.5, cutoff: 1.5, during: [[2, 0], [2, 2]]}", \
       "a polygon: people, classical and Voronoi density, mean speed and specific flow in it")       \
     X(TRANSIT, transit, LINES, "",                                                                  \
       "passage: {transit: [[[0, -2], [0, 2]], [[3, -2], [3, 2]]], group: runner}",                  \
@@ -56,6 +56,8 @@ typedef struct JoxProbeDef {
     const JoxV2
         *walkable; /* measure: cells end at this polygon's edge; NULL: at the cutoff alone */
     uint32_t walkable_count;
+    const JoxV2 *during;   /* measure: two ends of a line, or NULL */
+    uint32_t during_count; /* 2, or 0 */
     double every;          /* s: measure, lanes: interval; map: between samples; failures: bin */
     double cutoff;         /* m: greatest reach of a Voronoi cell */
     double rest;           /* s: displacement is from the mean place of this time */

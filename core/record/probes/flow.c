@@ -121,6 +121,18 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_free(lapses);
 }
 
+bool jox_flow_middle(const void *state, double *from, double *to) {
+    size_t count, first, last;
+    double *times = passages(state, &count);
+    const bool any = middle(count, &first, &last);
+    if (any) {
+        *from = times[first];
+        *to = times[last];
+    }
+    jox_free(times);
+    return any;
+}
+
 static int by_time(const void *a, const void *b, const void *context) {
     (void)context;
     const Crossing *x = a, *y = b;

@@ -3,7 +3,8 @@
    Seyfried 2010, equation 5), cells ending at walls, behind which nobody is a neighbour; the mean
    speed of those inside; and the specific flow, Voronoi density times mean speed. An interval has
    the mean of its frames, speed and flow of those with anyone inside. Figures are means over the
-   intervals in which anyone was inside. */
+   intervals in which anyone was inside; of a probe with a line `during`, over those of them whose
+   middle lies within the time in which the middle 60 % of the passages over it were made. */
 #include <math.h>
 
 #include "base/mem.h"
@@ -24,12 +25,21 @@ typedef struct Measure {
     JoxBars bars; /* of walls that may cut a cell */
     Interval *rows;
     uint32_t count, capacity;
+    JoxProbe *line; /* the flow over the line `during`, or NULL */
 } Measure;
 
 static void begin(const JoxProbeDef *def, void *state) {
     Measure *m = state;
     jox_bounds(def->points, def->count, &m->low, &m->high);
     m->area = fabs(jox_polygon_area(def->points, def->count));
+    if (def->during_count == 2)
+        m->line = jox_probe_create(&(JoxProbeDef){.name = def->name,
+                                                  .kind = JOX_PROBE_FLOW,
+                                                  .groups = def->groups,
+                                                  .group_count = def->group_count,
+                                                  .until = INFINITY,
+                                                  .points = def->during,
+                                                  .count = def->during_count});
 }
 
 static bool is_near(const Measure *m, JoxV2 p, float reach) {
@@ -96,6 +106,8 @@ static Interval *interval_at(const JoxProbeDef *def, Measure *m, double t) {
 
 static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
     Measure *m = state;
+    if (m->line)
+        jox_probe_frame(m->line, frame);
     Interval *row = interval_at(def, m, frame->time);
     uint32_t people = 0;
     double speed = 0.0;
@@ -126,15 +138,22 @@ static double mean(double sum, uint32_t frames) {
     return frames ? sum / frames : NAN;
 }
 
+/* s */
+static double middle_of(const JoxProbeDef *def, const Interval *row) {
+    return def->from + ((double)row->number + 0.5) * def->every;
+}
+
 static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
-    (void)def;
     const Measure *m = state;
+    double begin = -INFINITY, end = INFINITY;
+    if (m->line && !jox_probe_middle(m->line, &begin, &end))
+        begin = INFINITY;
     double *densities = jox_alloc(m->count + 1, sizeof *densities);
     double people = 0, classical = 0, voronoi = 0, speed = 0, flow = 0;
     uint32_t n = 0;
     for (uint32_t r = 0; r < m->count; r++) {
         const Interval *row = &m->rows[r];
-        if (!row->walked)
+        if (!row->walked || middle_of(def, row) < begin || middle_of(def, row) > end)
             continue;
         people += row->people / row->frames;
         classical += row->classical / row->frames;
@@ -161,7 +180,7 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
           out);
     for (uint32_t r = 0; r < m->count; r++) {
         const Interval *row = &m->rows[r];
-        fprintf(out, "%.4f,%.4f,%.5g,%.5g,", def->from + ((double)row->number + 0.5) * def->every,
+        fprintf(out, "%.4f,%.4f,%.5g,%.5g,", middle_of(def, row),
                 mean(row->people, row->frames), mean(row->classical, row->frames),
                 mean(row->voronoi, row->frames));
         if (row->walked)
@@ -202,6 +221,7 @@ static void release(void *state) {
     jox_sites_free(&m->sites);
     jox_free(m->bars.items);
     jox_free(m->rows);
+    jox_probe_free(m->line);
 }
 
 const JoxProbeCalls jox_probe_measure = {

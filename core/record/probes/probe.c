@@ -43,6 +43,7 @@ JoxProbe *jox_probe_create(const JoxProbeDef *def) {
     for (int s = 0; s < 2; s++)
         p->def.states[s] = def->states[s] ? jox_strdup(def->states[s]) : NULL;
     p->def.points = copy_points(def->points, def->count);
+    p->def.during = copy_points(def->during, def->during_count);
     p->calls = KINDS[def->kind];
     p->state = jox_alloc(1, p->calls->size);
     p->pace = p->calls->pace == JOX_PACE_TENTH ? TENTH
@@ -95,6 +96,10 @@ uint32_t jox_probe_passages(const JoxProbe *p) {
     return p->def.kind == JOX_PROBE_FLOW ? jox_flow_passages(p->state) : 0;
 }
 
+bool jox_probe_middle(const JoxProbe *p, double *from, double *to) {
+    return p->def.kind == JOX_PROBE_FLOW && jox_flow_middle(p->state, from, to);
+}
+
 void jox_probe_json(const JoxProbe *p, JoxJson *json, const char *key) {
     JoxFigures figures = jox_probe_figures(p);
     jox_json_object(json, key);
@@ -119,6 +124,7 @@ void jox_probe_free(JoxProbe *p) {
     jox_free((void *)(uintptr_t)p->def.groups);
     for (int s = 0; s < 2; s++)
         jox_free((void *)(uintptr_t)p->def.states[s]);
+    jox_free((void *)(uintptr_t)p->def.during);
     jox_free((void *)(uintptr_t)p->def.points);
     jox_free(p->seen);
     jox_free(p);

@@ -41,6 +41,8 @@ JOX_PROBES(X)
 
 /* probe_flow.c: passages that stand so far, of a flow's state. */
 uint32_t jox_flow_passages(const void *state);
+/* When the middle 60 % of them were made, s; false of fewer than two. */
+bool jox_flow_middle(const void *state, double *from, double *to);
 void jox_figure_add(JoxFigures *figures, const char *name, const char *unit, double value);
 /* Linear between ranks; q within 0..1. Sorts the values. NAN of none. */
 double jox_quantile(double *values, size_t count, double q);
