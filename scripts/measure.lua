@@ -49,6 +49,9 @@ function measure.slope(x, y)
   return sxy / sxx
 end
 
+-- A band about a value: a share of it to either side.
+function measure.about(value, share) return { (1 - share) * value, (1 + share) * value } end
+
 -- Root of the mean square of a relative deviation from what is expected.
 function measure.rms(list, expected)
   local sum = 0

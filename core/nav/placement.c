@@ -78,17 +78,17 @@ static bool sees(const JoxWalls *walls, JoxV2 p, JoxV2 q, float near) {
     return true;
 }
 
-/* Spots on a spiral about p, half a radius apart, the first free one; `in_sight`: not beyond walls
-   other than those that p stands in. */
-static bool find_spot(const Occupied *t, const JoxWallGrid *grid, JoxV2 p, float radius,
-                      bool in_sight, JoxV2 *spot) {
+/* Spots on a spiral about p, half a radius apart, the first free one that is not beyond walls other
+   than those nearer to p than `near`; INFINITY: it may lie beyond any. */
+static bool find_spot(const Occupied *t, const JoxWallGrid *grid, JoxV2 p, float radius, float near,
+                      JoxV2 *spot) {
     float step = jox_maxf(radius * 0.5f, 0.05f);
     float angle = 0.0f, distance = step;
     while (distance < FARTHEST) {
         *spot =
             (JoxV2){p.x + distance * (float)jox_cos(angle), p.y + distance * (float)jox_sin(angle)};
         if (is_free(t, grid, *spot, radius) &&
-            (!in_sight || sees(grid->walls, p, *spot, TOUCHING * radius)))
+            (near == INFINITY || sees(grid->walls, p, *spot, near)))
             return true;
         angle += step / distance;
         distance += step * step / (6.2831853f * distance);
@@ -96,13 +96,14 @@ static bool find_spot(const Occupied *t, const JoxWallGrid *grid, JoxV2 p, float
     return false;
 }
 
-/* Looks for a free spot for an agent that has none where it is. */
-static void relocate(Occupied *t, JoxNav *nav, JoxAgents *a, uint32_t i, bool in_sight,
+/* Looks for a free spot for an agent that has none where it is. Who has been born stays on that
+   side of every wall; one that a wall came upon may go to either side of it. */
+static void relocate(Occupied *t, JoxNav *nav, JoxAgents *a, uint32_t i, bool born,
                      JoxPlacement *result) {
     JoxV2 p = {a->x[i], a->y[i]}, spot;
     float radius = a->param[JOX_PARAM_radius][i];
-    if (!(in_sight && find_spot(t, &nav->grid, p, radius, true, &spot)) &&
-        !find_spot(t, &nav->grid, p, radius, false, &spot)) {
+    if (!find_spot(t, &nav->grid, p, radius, born ? 0.0f : TOUCHING * radius, &spot) &&
+        !find_spot(t, &nav->grid, p, radius, INFINITY, &spot)) {
         result->stuck++;
         return;
     }
@@ -147,7 +148,7 @@ JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *a, uint32_t first
             continue;
         JoxV2 p = {a->x[i], a->y[i]};
         if (id < first_id || !is_free(&t, &nav->grid, p, a->param[JOX_PARAM_radius][i]))
-            relocate(&t, nav, a, i, id < first_id, &result);
+            relocate(&t, nav, a, i, id >= first_id, &result);
         start_at(a, i);
         occupy(&t, i);
     }

@@ -31,9 +31,8 @@ static bool read_start(const JoxReader *r, const JoxYaml *row, JoxStart *start) 
                         LEAST[k], GREATEST[k], UNITS[k]);
         return false;
     }
-    *start = (JoxStart){.time = v[0],
-                        .at = {(float)v[1], (float)v[2]},
-                        .velocity = {(float)v[3], (float)v[4]}};
+    *start = (JoxStart){
+        .time = v[0], .at = {(float)v[1], (float)v[2]}, .velocity = {(float)v[3], (float)v[4]}};
     return true;
 }
 

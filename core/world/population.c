@@ -6,8 +6,8 @@
 #include "base/assert.h"
 #include "base/elementary.h"
 #include "base/mem.h"
+#include "base/sort.h"
 #include "geom/polygon.h"
-#include "world/starts.h"
 #include "world/world.h"
 
 enum { AT_ONCE = 256 }; /* agents that one source makes in a step at most */
@@ -116,8 +116,8 @@ static uint32_t next_team(JoWorld *world, uint32_t number) {
     return population->party_team[number];
 }
 
-uint32_t jox_world_spawn(JoWorld *world, uint32_t number, JoxV2 at, const JoxGroupValue *memory,
-                         uint32_t memory_count) {
+static uint32_t spawn(JoWorld *world, uint32_t number, JoxV2 at, const JoxGroupValue *memory,
+                      uint32_t memory_count) {
     const JoxGroup *group = &world->model.groups[number];
     uint32_t i = jox_world_add_agent(world, at.x, at.y);
     JoxAgents *a = &world->state.agents;
@@ -195,12 +195,85 @@ void jox_world_sources(JoWorld *world) {
         const JoxGroup *group = &world->model.groups[source->like];
         uint32_t count = due_now(world, s);
         for (uint32_t n = 0; n < count; n++)
-            jox_world_spawn(world, source->like, draw_point(world, s, n),
-                            source->memory_count ? source->memory : group->memory,
-                            source->memory_count ? source->memory_count : group->memory_count);
+            spawn(world, source->like, draw_point(world, s, n),
+                  source->memory_count ? source->memory : group->memory,
+                  source->memory_count ? source->memory_count : group->memory_count);
         if (source->rate > 0)
             world->state.population.made[s] += count;
     }
+}
+
+/* ---- starts ---- */
+
+/* Radii of another within which nobody comes in, as nav/placement.c would move them aside. */
+static const float CLEAR = 1.5f;
+
+static int by_time(const void *left, const void *right, const void *context) {
+    const JoxStart *a = left, *b = right;
+    (void)context;
+    return a->time < b->time ? -1 : a->time > b->time;
+}
+
+/* Those of all groups that lie after 0 s, in order of time. */
+static void list_starts(JoWorld *world) {
+    JoxWorldModel *model = &world->model;
+    uint32_t count = 0;
+    JOX_ASSERT(!model->starts && model->start_count == 0);
+    for (uint32_t g = 0; g < model->group_count; g++)
+        if (model->groups[g].starts)
+            count += model->groups[g].start_count - model->groups[g].count;
+    if (count == 0)
+        return;
+    model->starts = jox_alloc(count, sizeof *model->starts);
+    for (uint32_t g = 0; g < model->group_count; g++)
+        for (uint32_t s = model->groups[g].count; s < model->groups[g].start_count; s++) {
+            model->starts[model->start_count] = model->groups[g].starts[s];
+            model->starts[model->start_count++].group = g;
+        }
+    JOX_ASSERT(model->start_count == count);
+    jox_sort(model->starts, count, sizeof *model->starts, by_time, NULL, NULL);
+    world->state.population.entered = jox_alloc(count, sizeof *world->state.population.entered);
+}
+
+/* Gives an agent a velocity, and has it look there; NAN leaves it as it is. */
+static void set_going(JoWorld *world, uint32_t agent, JoxV2 velocity) {
+    JoxAgents *a = &world->state.agents;
+    JOX_ASSERT(agent < a->count);
+    if (!isfinite(velocity.x))
+        return;
+    a->vx[agent] = velocity.x;
+    a->vy[agent] = velocity.y;
+    const float speed = jox_length(velocity);
+    if (speed < 1e-3f)
+        return;
+    a->face_x[agent] = velocity.x / speed;
+    a->face_y[agent] = velocity.y / speed;
+}
+
+static bool is_free(const JoxAgents *a, JoxV2 at) {
+    for (uint32_t i = 0; i < a->count; i++) {
+        const float least = CLEAR * a->param[JOX_PARAM_radius][i];
+        if (jox_length2(jox_sub(at, jox_v2(a->x[i], a->y[i]))) < least * least)
+            return false;
+    }
+    return true;
+}
+
+void jox_world_starts(JoWorld *world) {
+    const JoxWorldModel *model = &world->model;
+    JoxPopulation *p = &world->state.population;
+    const double time = (double)world->state.tick * model->def.dt + 1e-9;
+    for (uint32_t s = p->all_until; s < model->start_count && model->starts[s].time <= time; s++) {
+        const JoxStart *start = &model->starts[s];
+        if (p->entered[s] || !is_free(&world->state.agents, start->at))
+            continue;
+        const JoxGroup *group = &model->groups[start->group];
+        set_going(world, spawn(world, start->group, start->at, group->memory, group->memory_count),
+                  start->velocity);
+        p->entered[s] = 1;
+    }
+    while (p->all_until < model->start_count && p->entered[p->all_until])
+        p->all_until++;
 }
 
 /* ---- model and state ---- */
@@ -237,13 +310,13 @@ void jox_world_populate(JoWorld *world) {
     jox_agents_reserve(&world->state.agents, total);
     for (uint32_t g = 0; g < p->group_count; g++)
         for (uint32_t i = 0; i < p->groups[g].count; i++) {
-            uint32_t agent = jox_world_spawn(world, g, p->groups[g].positions[i],
-                                             p->groups[g].memory, p->groups[g].memory_count);
+            uint32_t agent = spawn(world, g, p->groups[g].positions[i], p->groups[g].memory,
+                                   p->groups[g].memory_count);
             if (p->groups[g].starts)
-                jox_world_set_going(world, agent, p->groups[g].starts[i].velocity);
+                set_going(world, agent, p->groups[g].starts[i].velocity);
         }
     JOX_ASSERT(world->state.agents.count >= total);
-    jox_world_list_starts(world);
+    list_starts(world);
 }
 
 /* Places of single agents follow from where they are. */

@@ -85,11 +85,11 @@ void jox_world_set_population(JoWorld *world, const JoxGroup *groups, uint32_t g
                               const JoxAgentSource *sources, uint32_t source_count, bool anew);
 /* Makes the agents of all groups that stand there at the start. */
 void jox_world_populate(JoWorld *world);
-/* One agent of a group, which is returned as an index. */
-uint32_t jox_world_spawn(JoWorld *world, uint32_t group, JoxV2 at, const JoxGroupValue *memory,
-                         uint32_t memory_count);
 /* Before a step: makes the agents that sources are due. */
 void jox_world_sources(JoWorld *world);
+/* Before a step: brings in whose start has come. Who would stand in another waits until that one
+   has gone on; those behind do not wait for it. */
+void jox_world_starts(JoWorld *world);
 /* Index of the machine that was loaded from a path; 0 where there is none. */
 uint32_t jox_world_machine(const JoWorld *world, const char *path);
 /* Lists counts, parties, who has come in and the places of single agents as state. */

@@ -10,7 +10,6 @@
 #include "base/assert.h"
 #include "base/elementary.h"
 #include "base/mem.h"
-#include "world/starts.h"
 #include "world/world.h"
 
 static const double PLANNING_TIME = 0.05; /* s: between the plans of those who walk */

@@ -39,8 +39,8 @@ summary single-file >"$work/s"
 between "single file: speed at 30 people in 26.84 m" "$(of ring speed <"$work/s")" 0.46 0.7
 summary ring >"$work/s"
 between "ring corridor: speed at 1.71 people a square metre" "$(of middle speed <"$work/s")" 0.42 0.7
-summary corridor-uo >"$work/s"
-between "corridor with entrance and exit: all 150 leave" "$(figure agents <"$work/s")" 0 0
+summary corridor-uo-180-180-070 >"$work/s"
+between "corridor with entrance and exit: all 148 come in and leave" "$(figure agents <"$work/s")" 0 0
 summary bidirectional >"$work/s"
 between "both ways: lanes form" "$(of lanes order <"$work/s")" 0.75 1
 between "both ways: and people walk" "$(of lanes speed <"$work/s")" 0.75 1.25

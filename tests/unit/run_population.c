@@ -195,6 +195,25 @@ static void who_would_stand_in_another_waits(void **state) {
     jo_scene_free(scene);
 }
 
+/* Beside a thin wall there is no room for a whole body. Who is born there is moved away from the
+   wall, not through it, also where others leave the nearest room on its far side. */
+static void nobody_is_born_through_a_wall(void **state) {
+    (void)state;
+    JoScene *scene =
+        load_own(STARTS("[[0, 0.6, -0.6], [0, 0.6, -0.3], [0, 0.6, 0], [0, 0.6, 0.3], "
+                        "[0, 0.6, 0.6], [0.1, 0.98, 0.05], [0.2, 1.02, 3]]") "walls: [{line: [[1, "
+                                                                             "-20], [1, 20]]}]\n",
+                 STAND);
+    const JoxAgents *a = &scene->world->state.agents;
+    step(scene, 10);
+    assert_int_equal(a->count, 7);
+    assert_int_equal(scene->world->state.statistics.moved_out, 2);
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->id[i] == 6 ? a->x[i] < 1.15f : a->x[i] > 0.85f)
+            fail_msg("person %u stands at x = %g", a->id[i], (double)a->x[i]);
+    jo_scene_free(scene);
+}
+
 /* A state that was saved with some still outside goes on to the bit, also in a world that has not
    begun; who is in is hashed. */
 static void who_has_come_in_is_state(void **state) {
@@ -229,6 +248,7 @@ int main(void) {
                                        cmocka_unit_test(counts_of_sources_are_hashed),
                                        cmocka_unit_test(each_comes_in_at_its_time_and_place),
                                        cmocka_unit_test(who_would_stand_in_another_waits),
+                                       cmocka_unit_test(nobody_is_born_through_a_wall),
                                        cmocka_unit_test(who_has_come_in_is_state)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

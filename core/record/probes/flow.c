@@ -48,13 +48,13 @@ static void add(Flow *f, uint32_t key, int direction, double time) {
     }
 }
 
-static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+void jox_flow_frame(const JoxV2 line[2], void *state, const JoxFrame *frame, const uint8_t *seen) {
     Flow *f = state;
     JoxStretch stretch;
     double time;
     uint32_t had = f->latest_capacity;
     JoxV2 ends[2];
-    jox_walls_clear(frame->walls, def->points, ends);
+    jox_walls_clear(frame->walls, line, ends);
     f->width = (double)jox_length(jox_sub(ends[1], ends[0]));
     jox_track_reserve(&f->track, frame->keys);
     JOX_RESERVE(f->latest, f->latest_capacity, frame->keys);
@@ -63,10 +63,28 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
     for (uint32_t i = 0; i < frame->count; i++) {
         if (!seen[i] || !jox_track_step(&f->track, frame, i, &stretch))
             continue;
-        int direction = jox_stretch_crosses(&stretch, def->points[0], def->points[1], &time);
+        int direction = jox_stretch_crosses(&stretch, line[0], line[1], &time);
         if (direction)
             add(f, frame->key[i], direction, time);
     }
+}
+
+static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+    jox_flow_frame(def->points, state, frame, seen);
+}
+
+void *jox_flow_create(void) {
+    return jox_alloc(1, sizeof(Flow));
+}
+
+void jox_flow_free(void *state) {
+    Flow *f = state;
+    if (!f)
+        return;
+    jox_free(f->track.items);
+    jox_free(f->latest);
+    jox_free(f->crossings);
+    jox_free(f);
 }
 
 uint32_t jox_flow_passages(const void *state) {

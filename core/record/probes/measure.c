@@ -25,7 +25,7 @@ typedef struct Measure {
     JoxBars bars; /* of walls that may cut a cell */
     Interval *rows;
     uint32_t count, capacity;
-    JoxProbe *line; /* the flow over the line `during`, or NULL */
+    void *line; /* the flow over the line `during`, or NULL */
 } Measure;
 
 static void begin(const JoxProbeDef *def, void *state) {
@@ -33,13 +33,7 @@ static void begin(const JoxProbeDef *def, void *state) {
     jox_bounds(def->points, def->count, &m->low, &m->high);
     m->area = fabs(jox_polygon_area(def->points, def->count));
     if (def->during_count == 2)
-        m->line = jox_probe_create(&(JoxProbeDef){.name = def->name,
-                                                  .kind = JOX_PROBE_FLOW,
-                                                  .groups = def->groups,
-                                                  .group_count = def->group_count,
-                                                  .until = INFINITY,
-                                                  .points = def->during,
-                                                  .count = def->during_count});
+        m->line = jox_flow_create();
 }
 
 static bool is_near(const Measure *m, JoxV2 p, float reach) {
@@ -107,7 +101,7 @@ static Interval *interval_at(const JoxProbeDef *def, Measure *m, double t) {
 static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
     Measure *m = state;
     if (m->line)
-        jox_probe_frame(m->line, frame);
+        jox_flow_frame(def->during, m->line, frame, seen);
     Interval *row = interval_at(def, m, frame->time);
     uint32_t people = 0;
     double speed = 0.0;
@@ -146,7 +140,7 @@ static double middle_of(const JoxProbeDef *def, const Interval *row) {
 static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     const Measure *m = state;
     double begin = -INFINITY, end = INFINITY;
-    if (m->line && !jox_probe_middle(m->line, &begin, &end))
+    if (m->line && !jox_flow_middle(m->line, &begin, &end))
         begin = INFINITY;
     double *densities = jox_alloc(m->count + 1, sizeof *densities);
     double people = 0, classical = 0, voronoi = 0, speed = 0, flow = 0;
@@ -180,9 +174,8 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
           out);
     for (uint32_t r = 0; r < m->count; r++) {
         const Interval *row = &m->rows[r];
-        fprintf(out, "%.4f,%.4f,%.5g,%.5g,", middle_of(def, row),
-                mean(row->people, row->frames), mean(row->classical, row->frames),
-                mean(row->voronoi, row->frames));
+        fprintf(out, "%.4f,%.4f,%.5g,%.5g,", middle_of(def, row), mean(row->people, row->frames),
+                mean(row->classical, row->frames), mean(row->voronoi, row->frames));
         if (row->walked)
             fprintf(out, "%.5g,%.5g\n", mean(row->speed, row->walked),
                     mean(row->flow, row->walked));
@@ -221,7 +214,7 @@ static void release(void *state) {
     jox_sites_free(&m->sites);
     jox_free(m->bars.items);
     jox_free(m->rows);
-    jox_probe_free(m->line);
+    jox_flow_free(m->line);
 }
 
 const JoxProbeCalls jox_probe_measure = {

@@ -96,10 +96,6 @@ uint32_t jox_probe_passages(const JoxProbe *p) {
     return p->def.kind == JOX_PROBE_FLOW ? jox_flow_passages(p->state) : 0;
 }
 
-bool jox_probe_middle(const JoxProbe *p, double *from, double *to) {
-    return p->def.kind == JOX_PROBE_FLOW && jox_flow_middle(p->state, from, to);
-}
-
 void jox_probe_json(const JoxProbe *p, JoxJson *json, const char *key) {
     JoxFigures figures = jox_probe_figures(p);
     jox_json_object(json, key);

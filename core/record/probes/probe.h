@@ -34,8 +34,6 @@ void jox_probe_frame(JoxProbe *probe, const JoxFrame *frame);
 JoxFigures jox_probe_figures(const JoxProbe *probe);
 /* Passages of a flow that stand so far; 0 of other kinds. */
 uint32_t jox_probe_passages(const JoxProbe *probe);
-/* When the middle 60 % of them were made, s; false where there are fewer than two. */
-bool jox_probe_middle(const JoxProbe *probe, double *from, double *to);
 /* Adds {"flow": 1.15, ...}. */
 void jox_probe_json(const JoxProbe *probe, JoxJson *json, const char *key);
 /* Writes the table: a first line with names and units in brackets, then rows. */

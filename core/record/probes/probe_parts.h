@@ -43,6 +43,10 @@ JOX_PROBES(X)
 uint32_t jox_flow_passages(const void *state);
 /* When the middle 60 % of them were made, s; false of fewer than two. */
 bool jox_flow_middle(const void *state, double *from, double *to);
+/* A flow within another probe: its state, and a frame of it. */
+void *jox_flow_create(void);
+void jox_flow_frame(const JoxV2 line[2], void *state, const JoxFrame *frame, const uint8_t *seen);
+void jox_flow_free(void *state);
 void jox_figure_add(JoxFigures *figures, const char *name, const char *unit, double value);
 /* Linear between ranks; q within 0..1. Sorts the values. NAN of none. */
 double jox_quantile(double *values, size_t count, double q);

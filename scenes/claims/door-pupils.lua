@@ -1,0 +1,22 @@
+local about = require("measure").about
+
+return claim {
+  id = "B4", title = "A door of 0.8 m, and pupils",
+  source = "46 pupils, archive of Juelich, measured with the scene's own probes",
+  text = "Pupils leave a room by a door of 0.8 m. More come through than grown-ups would; they are narrower, and press on.",
+  runs = { door = { scene = "../door-080.yaml", seeds = 10 } },
+  quick = { door = { seeds = 3 } },
+  measure = function(run)
+    local probes = run.door.summary.probes
+    return { flow = probes.line.flow, density = probes.front.density, speed = probes.front.speed,
+      lapse = probes.line.lapse_max }
+  end,
+  expect = {
+    { "flow", unit = "1/s", what = "people through per second, the middle 60 %", source = "2.97", band = about(2.97, 0.15) },
+    { "density", unit = "1/m2", what = "density in the square metre before the door", source = "4.7",
+      band = about(4.74, 0.25) },
+    { "speed", unit = "m/s", what = "speed there", source = "0.34", band = about(0.343, 0.25) },
+    { "lapse", unit = "s", what = "longest time that nobody came through", source = "1.0", reported = true },
+  },
+  pictures = { door = { "line.png", "paths.png" } },
+}

@@ -1,0 +1,28 @@
+local about = require("measure").about
+
+return claim {
+  id = "B3", title = "An opening of three metres",
+  source = "348 people, AO_300, HERMES 2009, archive of Juelich, measured with the scene's own probes",
+  text = "People who were told to hurry come through an opening 3 m wide, each from where and when the camera saw them "
+    .. "first.",
+  runs = { opening = { scene = "../opening-300.yaml", seeds = 10 } },
+  quick = { opening = { seeds = 3 } },
+  measure = function(run)
+    local probes = run.opening.summary.probes
+    return {
+      flow = probes.line.flow, density = probes.opening.density, speed = probes.opening.speed,
+      before = probes.front.density, pace = probes.front.speed,
+      median = probes.line.lapse_median, lapse = probes.line.lapse_max,
+    }
+  end,
+  expect = {
+    { "flow", unit = "1/s", what = "people through per second, the middle 60 %", source = "7.18", band = about(7.18, 0.15) },
+    { "density", unit = "1/m2", what = "density in the opening", source = "3.41", band = about(3.41, 0.25) },
+    { "speed", unit = "m/s", what = "speed there", source = "0.72", band = about(0.719, 0.25) },
+    { "before", unit = "1/m2", what = "density in 2 by 2 m before it", source = "5.32", band = about(5.32, 0.25) },
+    { "pace", unit = "m/s", what = "speed there", source = "0.38", band = about(0.381, 0.25) },
+    { "median", unit = "s", what = "median time between two", source = "0.11", reported = true },
+    { "lapse", unit = "s", what = "longest time that nobody came through", source = "1.0", reported = true },
+  },
+  pictures = { opening = { "line.png", "paths.png" } },
+}
