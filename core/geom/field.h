@@ -9,14 +9,22 @@
 
 typedef struct JoxField JoxField;
 
+/* People who are on their way and how far each is held up: 0 not at all, 1 at a stand. */
+typedef struct JoxFieldCrowd {
+    JoxV2 *at;   /* m */
+    float *held; /* 0 to 1 */
+    uint32_t count;
+} JoxFieldCrowd;
+
 /* The field to a place of any kind (a set: to its nearest member; a queue: its head) over the box
    low..high and the place, for people who keep `clearance` m (at least 0.05) off walls. They walk
-   more slowly within 0.5 m of walls, so that ways keep off where there is room. `cell` is 0.1 to 2
+   more slowly within 0.5 m of walls, so that ways keep off where there is room; and where a crowd is held up (NULL: there is none). `cell` is 0.1 to 2
    m, and grows so that at most 4,000,000 cells are made. Gaps are judged by their true width, not
    by the grid: a gap wider than 2 clearances and 0.6 cells is open, one narrower than 1.7
    clearances is shut; what lies between depends on how the grid falls. Never NULL. */
 JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
-                           JoxV2 high, float cell, float clearance);
+                           JoxV2 high, float cell, float clearance,
+                           const JoxFieldCrowd *crowd);
 /* Length of the way from a point, m: 0 inside a place that is a polygon; INFINITY where no way
    leads and inside solids. Outside the box: the straight way to it and on from there. */
 float jox_field_distance(const JoxField *field, JoxV2 point);
@@ -26,6 +34,7 @@ float jox_field_distance(const JoxField *field, JoxV2 point);
 JoxV2 jox_field_direction(const JoxField *field, JoxV2 point);
 /* Lists a field as it was made; restoring, makes one in place of *field. */
 void jox_field_sections(JoxField **field, JoxSections *sections);
+uint32_t jox_field_cells(const JoxField *field);
 void jox_field_free(JoxField *field);
 
 #endif

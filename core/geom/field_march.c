@@ -71,6 +71,16 @@ static void offer(JoxFieldWork *w, Heap *h, int cell, float time, float length, 
     rise(h, cell);
 }
 
+/* Whether a goal's nearest point is seen from p. A polygon may lie along a wall: then the point is
+   on it, and what counts is whether the polygon's inside is seen. */
+static bool sees_goal(const JoxFieldWork *w, const JoxPlace *place, JoxV2 goal, JoxV2 p) {
+    const float inside = 0.03f; /* m */
+    if (!jox_field_sees(w, goal, p, 0.85f * w->f->clearance))
+        return false;
+    JoxV2 beyond = jox_add(goal, jox_scale(jox_unit(jox_sub(goal, p)), inside));
+    return place->kind != JOX_PLACE_POLYGON || jox_field_sees(w, p, beyond, 0.0f);
+}
+
 /* Seeds the nodes within `reach` of a place that is no set; returns how many see it. Those that do
    not are seeded too once `blindly`. */
 static int seed_within(JoxFieldWork *w, Heap *h, const JoxPlace *place, float reach, bool blindly) {
@@ -87,7 +97,7 @@ static int seed_within(JoxFieldWork *w, Heap *h, const JoxPlace *place, float re
                 continue;
             JoxV2 p = jox_field_node(w, cell), goal = jox_place_nearest(place, 0, p);
             float distance = jox_length(jox_sub(goal, p));
-            if (distance > reach || (!blindly && !jox_field_sees(w, goal, p, 0.85f * f->clearance)))
+            if (distance > reach || (!blindly && !sees_goal(w, place, goal, p)))
                 continue;
             seeds++;
             float scale = 1.0f / jox_maxf(distance, JOX_FIELD_CLOSE * f->size);

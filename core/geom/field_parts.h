@@ -99,6 +99,8 @@ bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least);
 
 /* Edges by cell, solids, nodes, links. */
 void jox_field_mark(JoxFieldWork *work, const JoxWalls *walls);
+/* Slowness where people are held up; NULL: nobody. */
+void jox_field_crowd(JoxFieldWork *work, const JoxFieldCrowd *crowd);
 /* Times, lengths and directions of all nodes. */
 void jox_field_march(JoxFieldWork *work, const JoxPlace *places, uint32_t place);
 /* Patches of the cells at walls. */

@@ -17,7 +17,10 @@ static const float CLEARANCE = 0.15f; /* m: half of a person who turns sideways 
 static const float MARGIN = 3.0f;     /* m about all walls and agents */
 static const double DELAY = 0.5;      /* s from asking to use */
 static const double PAUSE = 2.0;      /* s between renewals for bodies that move */
-static const double LOOK = 0.25;      /* s between looks at bodies */
+static const double LOOK = 0.25;      /* s between looks at bodies and crowds */
+static const double CROWD_PAUSE = 1.0;    /* s between renewals for a crowd, */
+static const float CROWD_CELLS = 150000.0f; /* and for so many cells 1 s at least */
+enum { HELD = 256, FEW_HELD = 5 * HELD };   /* one person held up; fewer make no crowd */
 
 /* One field to be made, with copies of all that it is made of. */
 typedef struct Making {
@@ -27,6 +30,7 @@ typedef struct Making {
     uint32_t place_count;
     JoxV2 low, high;
     float cell; /* m */
+    JoxFieldCrowd crowd;
     JoxField *field;
 } Making;
 
@@ -47,6 +51,7 @@ struct JoxRoutes {
     JoxField **fields;
     Route *items;
     uint8_t *wanted; /* by place */
+    uint32_t *held;  /* by place: people bound there who are held up, in 1 / HELD; scratch */
     uint32_t count;  /* fields that are there or under way */
 };
 
@@ -78,13 +83,16 @@ static void free_making(Making *making) {
         jox_place_free(&making->places[p]);
     jox_free(making->places);
     jox_walls_free(&making->walls);
+    jox_free(making->crowd.at);
+    jox_free(making->crowd.held);
     jox_field_free(making->field);
     jox_free(making);
 }
 
 static void make(JoxWorkItem *item) {
     Making *m = (Making *)item;
-    m->field = jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, CLEARANCE);
+    m->field = jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, CLEARANCE,
+                                &m->crowd);
 }
 
 static void make_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -104,6 +112,48 @@ static void copy_places(const JoxRouteStage *w, uint32_t place, Making *making) 
         jox_place_copy(&making->places[m + 1], &w->places[from->members[m]]);
         making->places[0].members[m] = (int32_t)m + 1;
     }
+}
+
+/* ---- crowds ---- */
+
+/* How far an agent is held up on its way, in 1 / HELD. */
+static uint32_t held_up(const JoxAgents *a, uint32_t i) {
+    JoxV2 preferred = {a->pref_x[i], a->pref_y[i]}, velocity = {a->vx[i], a->vy[i]};
+    float speed2 = jox_length2(preferred);
+    if (!(speed2 > 0.0f))
+        return 0;
+    float share = 1.0f - jox_dot(velocity, preferred) / speed2;
+    return (uint32_t)(jox_clampf(share, 0.0f, 1.0f) * (float)HELD);
+}
+
+/* Whole numbers, so that the order of the agents does not matter. */
+static void count_held(const JoxRouteStage *w) {
+    JoxRoutes *routes = w->routes;
+    const JoxAgents *a = w->agents;
+    if (routes->capacity)
+        memset(routes->held, 0, routes->capacity * sizeof *routes->held);
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->bound[i] >= 0 && (uint32_t)a->bound[i] < routes->capacity)
+            routes->held[a->bound[i]] += held_up(a, i);
+}
+
+static void copy_crowd(const JoxRouteStage *w, uint32_t place, JoxFieldCrowd *crowd) {
+    const JoxAgents *a = w->agents;
+    crowd->at = jox_alloc(a->count + 1, sizeof *crowd->at);
+    crowd->held = jox_alloc(a->count + 1, sizeof *crowd->held);
+    for (uint32_t rank = 0; rank < a->count; rank++) { /* in ascending id */
+        uint32_t i = a->by_rank[rank], held = a->bound[i] == (int32_t)place ? held_up(a, i) : 0;
+        if (held == 0)
+            continue;
+        crowd->at[crowd->count] = (JoxV2){a->x[i], a->y[i]};
+        crowd->held[crowd->count++] = (float)held / (float)HELD;
+    }
+}
+
+/* s: fields of many cells are renewed less often. */
+static double crowd_pause(const JoxField *field) {
+    double cells = field ? (double)jox_field_cells(field) : 0.0;
+    return cells > CROWD_CELLS ? CROWD_PAUSE * cells / (double)CROWD_CELLS : CROWD_PAUSE;
 }
 
 /* The box about all walls, open ones too, and agents. Its corner lies on the grid of cells, so that
@@ -137,10 +187,12 @@ static Making *begin(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind, 
     Making *making = jox_alloc(1, sizeof *making);
     JOX_ASSERT(!route->making); /* it would be lost */
     making->item.run = make;
-    jox_walls_standing(&making->walls, w->all_walls, kind == JOX_ROUTE_NOW);
-    jox_obstacles_add(&routes->obstacles, kind == JOX_ROUTE_NOW, &making->walls);
+    jox_walls_standing(&making->walls, w->all_walls, kind != JOX_ROUTE_OPEN);
+    jox_obstacles_add(&routes->obstacles, kind != JOX_ROUTE_OPEN, &making->walls);
     copy_places(w, place, making);
     lay_out(w, making);
+    if (kind == JOX_ROUTE_CROWD)
+        copy_crowd(w, place, &making->crowd);
     *route = (Route){.making = making,
                      .asked = w->tick,
                      .due = w->tick + (uint64_t)ceil(delay / w->dt - 1e-9),
@@ -179,6 +231,9 @@ static bool is_due(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind) {
     const Route *route = &routes->items[at];
     if (!(routes->wanted[place] >> kind & 1) || route->making)
         return false;
+    if (kind == JOX_ROUTE_CROWD)
+        return routes->held[place] >= FEW_HELD && (routes->fields[at] || routes->count < MOST_FIELDS) &&
+               (double)(w->tick - route->asked) * w->dt >= crowd_pause(routes->fields[at]) - 1e-9;
     if (!routes->fields[at])
         return routes->count < MOST_FIELDS && (kind == JOX_ROUTE_NOW || is_shut(w));
     if (route->walls != routes->walls)
@@ -194,11 +249,13 @@ static void make_room(const JoxRouteStage *w) {
         routes->fields = jox_realloc(routes->fields, has * JOX_ROUTE_KINDS, sizeof *routes->fields);
         routes->items = jox_realloc(routes->items, has * JOX_ROUTE_KINDS, sizeof *routes->items);
         routes->wanted = jox_realloc(routes->wanted, has, 1);
+        routes->held = jox_realloc(routes->held, has, sizeof *routes->held);
         for (uint32_t at = had * JOX_ROUTE_KINDS; at < has * JOX_ROUTE_KINDS; at++) {
             routes->fields[at] = NULL;
             routes->items[at] = (Route){0};
         }
         memset(routes->wanted + had, 0, has - had);
+        memset(routes->held + had, 0, (has - had) * sizeof *routes->held);
         routes->capacity = has;
     }
     w->machines->fields = routes->fields;
@@ -223,6 +280,18 @@ static void make_first(const JoxRouteStage *w) {
         jox_parallel_for(w->pool, count, 1, make_range, makings);
         for (uint32_t n = 0; n < count; n++)
             take(routes, at[n]);
+    }
+}
+
+/* Where the crowd has gone, the way as all stands is as good. */
+static void drop_idle(JoxRoutes *routes) {
+    for (uint32_t p = 0; p < routes->capacity; p++) {
+        uint32_t at = p * JOX_ROUTE_KINDS + JOX_ROUTE_CROWD;
+        if (!routes->fields[at] || routes->items[at].making || routes->held[p] >= FEW_HELD)
+            continue;
+        jox_field_free(routes->fields[at]);
+        routes->fields[at] = NULL;
+        routes->count--;
     }
 }
 
@@ -251,10 +320,15 @@ void jox_routes_update(const JoxRouteStage *w) {
         jox_worker_wait(routes->worker, &routes->items[at].making->item);
         take(routes, at);
     }
+    bool looks = w->tick % every == 0;
+    if (looks && routes->count > 0) {
+        count_held(w);
+        drop_idle(routes);
+    }
     for (uint32_t p = 0; any && p < routes->capacity; p++) {
         for (JoxRouteKind kind = JOX_ROUTE_NOW; routes->wanted[p] && kind < JOX_ROUTE_KINDS;
              kind++) {
-            if (!is_due(w, p, kind))
+            if ((kind == JOX_ROUTE_CROWD && !looks) || !is_due(w, p, kind))
                 continue;
             routes->count += !routes->fields[p * JOX_ROUTE_KINDS + kind];
             jox_worker_give(routes->worker, &begin(w, p, kind, DELAY)->item);
@@ -333,5 +407,6 @@ void jox_routes_free(JoxRoutes *routes) {
     jox_free(routes->fields);
     jox_free(routes->items);
     jox_free(routes->wanted);
+    jox_free(routes->held);
     jox_free(routes);
 }

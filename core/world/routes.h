@@ -30,7 +30,9 @@ void jox_routes_free(JoxRoutes *routes);
 /* Before think of each step. In the first step: makes all fields that agents ask for in the states
    they are in. Later: what was asked for at a tick is used from half a second of simulated time
    after it on, however long it takes to make. A field is renewed where walls went up or down; where
-   large bodies moved (see obstacles.h), at most every 2 s; and only if somebody still asks. */
+   large bodies moved (see obstacles.h), at most every 2 s; and only if somebody still asks. While
+   people bound for a place are held up, who walks by the law has a field that is slow where they
+   stand, made anew each second. */
 void jox_routes_update(const JoxRouteStage *stage);
 /* Places moved: all fields are renewed. */
 void jox_routes_renew(JoxRoutes *routes);
