@@ -1,10 +1,11 @@
 -- Walks to a goal with its party: who is apart from it may wait, or walks to it first; who is close walks on.
+local crowd = require "crowd"
 local mate = nearest "teammates"
 local apart = distance(mate):above(2.5) & sees(mate)
 
 return machine {
-  name = "companion", version = 1, start = "Walk",
-  defaults = { speed = normal(1.2, 0.2, 0.8, 1.7), perception = 10 },
+  name = "companion", version = 2, start = "Walk",
+  defaults = { speed = normal(1.2, 0.2, 0.8, 1.7), time_gap = crowd.time_gap, perception = 10 },
 
   states = {
     Walk = { steer = seek(own.goal) + 0.6 * together(0.8),

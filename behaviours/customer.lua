@@ -1,7 +1,9 @@
 -- Stands in a queue, is served for a while at its head, and leaves. Who comes first is served first.
+local crowd = require "crowd"
+
 return machine {
-  name = "customer", version = 1, start = "Queue",
-  defaults = { speed = normal(1.2, 0.15, 0.7, 1.6), perception = 3, radius = 0.22 },
+  name = "customer", version = 2, start = "Queue",
+  defaults = { speed = normal(1.2, 0.15, 0.7, 1.6), time_gap = crowd.time_gap, perception = 3, radius = 0.22 },
 
   states = {
     Queue = { steer = queue(own.counter), max_speed = 1.2,

@@ -1,7 +1,9 @@
--- Hears the alarm, takes some time to believe it, passes it on, and leaves by the nearest exit, round the walls.
+-- Hears the alarm, takes some time to believe it, passes it on, and leaves by whatever exit is reached soonest.
+local crowd = require "crowd"
+
 return machine {
-  name = "evacuee", version = 1, start = "Work",
-  defaults = { speed = normal(1.3, 0.2, 0.7, 2), perception = 6, horizon = 0.6 },
+  name = "evacuee", version = 2, start = "Work",
+  defaults = { speed = normal(1.3, 0.2, 0.7, 2), time_gap = crowd.time_gap, perception = 6, radius = 0.19 },
 
   states = {
     Work = { steer = hold,
@@ -13,7 +15,7 @@ return machine {
       { to = "Leave",    when = lasted } },
 
     Leave = { steer = field(own.exits), signal = { "alarm", every = 1 },
-      push = 60 * max(now.speed, 0.5), push_when = stuck(2),
+      push = crowd.nudge, push_when = crowd.held_up,
       { to = "Out",      when = inside(own.exits) } },
 
     Out = { removes = true },

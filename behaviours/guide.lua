@@ -1,9 +1,10 @@
 -- Leads a tour: walks from stop to stop, tells its story at each, and waits for whoever falls behind.
+local crowd = require "crowd"
 local far_behind = neighbours("tourists"):below(4)
 
 return machine {
-  name = "guide", version = 1, start = "Walk",
-  defaults = { speed = 1.1, perception = 6 },
+  name = "guide", version = 2, start = "Walk",
+  defaults = { speed = 1.1, time_gap = crowd.time_gap, perception = 6 },
 
   states = {
     Walk = { steer = field(one_of(own.stops)),

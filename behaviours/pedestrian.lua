@@ -1,15 +1,15 @@
--- Walks to a goal and back home, for ever, more slowly where it is denser.
+-- Walks to a goal and back home, for ever.
 local crowd = require "crowd"
 
 return machine {
-  name = "pedestrian", version = 1, start = "There",
-  defaults = { speed = normal(1.34, 0.26, 0.6, 2.2), perception = 4, horizon = 1 },
+  name = "pedestrian", version = 2, start = "There",
+  defaults = { speed = normal(1.34, 0.26, 0.6, 2.2), time_gap = crowd.time_gap, perception = 4 },
 
   states = {
-    There = { steer = seek(own.goal), speed = crowd.weidmann,
+    There = { steer = seek(own.goal),
       { to = "Back",  when = inside(own.goal) } },
 
-    Back = { steer = seek(own.home), speed = crowd.weidmann,
+    Back = { steer = seek(own.home),
       { to = "There", when = inside(own.home) } },
   },
 }

@@ -1,7 +1,9 @@
 -- Goes from place to place as it likes, stays a while at each, round whatever walls there are.
+local crowd = require "crowd"
+
 return machine {
-  name = "wanderer", version = 1, start = "Choose",
-  defaults = { speed = normal(1, 0.2, 0.5, 1.6), perception = 4 },
+  name = "wanderer", version = 2, start = "Choose",
+  defaults = { speed = normal(1, 0.2, 0.5, 1.6), time_gap = crowd.time_gap, perception = 4 },
 
   states = {
     Choose = { steer = hold,

@@ -14,6 +14,7 @@ typedef struct JoxFieldCrowd {
     JoxV2 *at;   /* m */
     float *held; /* 0 to 1 */
     uint32_t count;
+    float slowing; /* m2: part of its free time that a way takes more for each person per m2 */
 } JoxFieldCrowd;
 
 /* The field to a place of any kind (a set: to its nearest member; a queue: its head) over the box

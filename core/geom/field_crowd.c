@@ -5,8 +5,7 @@
 #include "base/assert.h"
 #include "geom/field_parts.h"
 
-static const float SLOWING = 0.6f; /* s/m for each person held up on a square metre */
-static const float REACH = 0.6f;   /* m: a person is spread as a cone of this radius */
+static const float REACH = 1.5f;   /* m: a person is spread as a cone of this radius */
 
 void jox_field_crowd(JoxFieldWork *w, const JoxFieldCrowd *crowd) {
     const JoxField *f = w->f;
@@ -24,7 +23,7 @@ void jox_field_crowd(JoxFieldWork *w, const JoxFieldCrowd *crowd) {
                     continue;
                 float far = jox_length(jox_sub(jox_field_node(w, cell), at));
                 float share = jox_maxf(0.0f, 1.0f - far / REACH);
-                w->slowness[cell] += SLOWING * crowd->held[n] * peak * share;
+                w->slowness[cell] += crowd->slowing * crowd->held[n] * peak * share;
             }
     }
 }

@@ -174,10 +174,8 @@ static JoxV2 field(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *ter
     else if (a->param[JOX_PARAM_time_gap][i] > 0.0f) {
         bool ignored;
         JoxV2 round = way(run, (uint32_t)place, JOX_ROUTE_CROWD, p, &ignored);
-        if (jox_length2(round) > 0.0f) {
+        if (jox_length2(round) > 0.0f)
             direction = round;
-            kind = JOX_ROUTE_CROWD;
-        }
     }
     bind(run, i, (uint32_t)place, kind, p);
     return jox_length2(direction) > 0.0f ? direction : seek(run, i, term->target);

@@ -123,7 +123,7 @@ static uint32_t held_up(const JoxAgents *a, uint32_t i) {
     if (!(speed2 > 0.0f))
         return 0;
     float share = 1.0f - jox_dot(velocity, preferred) / speed2;
-    return (uint32_t)(jox_clampf(share, 0.0f, 1.0f) * (float)HELD);
+    return (uint32_t)(jox_clampf(2.0f * share - 1.0f, 0.0f, 1.0f) * (float)HELD);
 }
 
 /* Whole numbers, so that the order of the agents does not matter. */
@@ -139,6 +139,7 @@ static void count_held(const JoxRouteStage *w) {
 
 static void copy_crowd(const JoxRouteStage *w, uint32_t place, JoxFieldCrowd *crowd) {
     const JoxAgents *a = w->agents;
+    crowd->slowing = (float)w->crowd_slowing;
     crowd->at = jox_alloc(a->count + 1, sizeof *crowd->at);
     crowd->held = jox_alloc(a->count + 1, sizeof *crowd->held);
     for (uint32_t rank = 0; rank < a->count; rank++) { /* in ascending id */

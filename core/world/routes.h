@@ -20,6 +20,7 @@ typedef struct JoxRouteStage {
     const JoxObjects *objects;
     uint64_t tick;
     double dt; /* s */
+    double crowd_slowing; /* of the walking law, m2 */
     JoxPool *pool;
     JoxMachineRun *machines; /* is given the fields; marks which it wants */
     JoxRoutes *routes;

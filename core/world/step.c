@@ -35,6 +35,7 @@ JoxRouteStage jox_world_route_stage(JoWorld *w) {
                            .objects = &w->scratch.objects,
                            .tick = w->state.tick,
                            .dt = w->model.def.dt,
+                           .crowd_slowing = w->model.walking.crowd_slowing,
                            .pool = w->scratch.pool,
                            .machines = &w->machines,
                            .routes = w->state.routes};

@@ -10,6 +10,7 @@
 JoWorld *jox_world_create(const JoWorldDef *def) {
     JoWorld *world = jox_alloc(1, sizeof *world);
     world->model.def = *def;
+    world->model.walking = jox_walk_law();
     world->heap = jox_heap_used();
     world->scratch.pool = jox_pool_create(def->threads);
     world->scratch.nav = jox_nav_create();
@@ -34,6 +35,7 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
 
 void jox_world_set_walking(JoWorld *world, const JoxWalkLaw *law) {
     JOX_ASSERT(world->state.tick == 0);
+    world->model.walking = *law;
     jox_nav_set_walk(world->scratch.nav, law);
 }
 

@@ -34,6 +34,7 @@ enum { JOX_MOST_TAGS = 64 };
    for the walls that open, by events. */
 typedef struct JoxWorldModel {
     JoWorldDef def;
+    JoxWalkLaw walking;
     JoxWalls all_walls; /* with their names; whether one that opens is open now is state */
     /* Owned; their indices never change. Behind the places of the scene stand those of single
        agents, which are state. */
