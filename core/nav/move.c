@@ -17,7 +17,9 @@ typedef struct Move {
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;
     const JoxContactPlanes *touched; /* NULL: contacts were not looked for */
-    float dt, response;              /* s; share of the way to the planned velocity */
+    float dt;                        /* s */
+    float response, on_the_way;      /* share of the way to the planned velocity: by the end of the
+                                        step, and its mean over the step */
     float stiffness;                 /* share of an overlap removed by one sweep */
     int from;                        /* which position buffer a sweep reads */
 } Move;
@@ -29,9 +31,12 @@ static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t work
     for (uint32_t i = begin; i < end; i++) {
         a->prev_x[i] = a->x[i];
         a->prev_y[i] = a->y[i];
-        a->vx[i] = a->forced_x[i] + (a->next_x[i] - a->forced_x[i]) * m->response;
-        a->vy[i] = a->forced_y[i] + (a->next_y[i] - a->forced_y[i]) * m->response;
-        m->nav->position[0][i] = (JoxV2){a->x[i] + a->vx[i] * m->dt, a->y[i] + a->vy[i] * m->dt};
+        JoxV2 forced = {a->forced_x[i], a->forced_y[i]};
+        JoxV2 rest = jox_sub((JoxV2){a->next_x[i], a->next_y[i]}, forced);
+        JoxV2 mean = jox_add(forced, jox_scale(rest, m->on_the_way));
+        a->vx[i] = forced.x + rest.x * m->response;
+        a->vy[i] = forced.y + rest.y * m->response;
+        m->nav->position[0][i] = (JoxV2){a->x[i] + mean.x * m->dt, a->y[i] + mean.y * m->dt};
     }
 }
 
@@ -205,15 +210,17 @@ static void apply_positions(void *context, uint32_t begin, uint32_t end, uint32_
 
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                   const JoxObjects *objects, const JoxContactPlanes *touched, double dt,
-                  double response, JoxPool *pool) {
+                  double response, double on_the_way, JoxPool *pool) {
     JOX_ASSERT(dt > 0.0 && response > 0.0 && response <= 1.0);
+    JOX_ASSERT(on_the_way > 0.0 && on_the_way <= response);
     Move move = {.nav = nav,
                  .agents = agents,
                  .neighbours = neighbours,
                  .objects = objects,
                  .touched = touched && touched->agents ? touched : NULL,
                  .dt = (float)dt,
-                 .response = (float)response};
+                 .response = (float)response,
+                 .on_the_way = (float)on_the_way};
     move.stiffness = STIFFNESS * jox_minf(1.0f, (float)dt / STIFF_STEP);
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate, &move);
     for (int i = 0; i < SWEEPS && !nav->literal; i++) {

@@ -92,7 +92,7 @@ void jox_stage_move(const JoxMoveStage *s) {
     JoxAgents *a = s->agents;
     JOX_ASSERT(s->substep->only || a->count == 0 || s->walked);
     jox_nav_move(s->nav, a, s->neighbours, s->objects, jox_force_contact_planes(s->forces_of),
-                 s->substep->dt, s->substep->response, s->pool);
+                 s->substep->dt, s->substep->response, s->substep->on_the_way, s->pool);
     for (uint32_t i = 0; !s->substep->only && i < a->count; i++) {
         JoxV2 way = {a->x[i] - a->prev_x[i], a->y[i] - a->prev_y[i]};
         s->walked[i] = s->substep->first ? way : jox_add(s->walked[i], way);

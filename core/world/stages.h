@@ -19,6 +19,7 @@ typedef struct JoxSubstep {
     bool first, last, only;   /* only: the step is not divided */
     double dt, planning_time; /* s: of the substep; how far ahead velocities are planned */
     double response;          /* share of the way to the planned velocity gone in dt */
+    double on_the_way;        /* the mean of that share over dt */
     bool plans;               /* people plan anew; else they go on with what they planned */
     double interval;          /* s, between plans */
     double interval_response; /* the share gone in that time */

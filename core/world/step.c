@@ -155,13 +155,16 @@ static uint32_t divide(JoWorld *w) {
 static JoxSubstep substep_of(const JoWorld *w, uint32_t number, uint32_t substeps) {
     const JoWorldDef *def = &w->model.def;
     double dt = def->dt / substeps, every = PLANNING_TIME / dt + 0.5;
+    double response = def->literal ? 1.0 : 1.0 - jox_exp(-dt / RESPONSE_TIME);
     uint32_t plan_every = def->literal || every < 2.0 ? 1 : (uint32_t)every;
     return (JoxSubstep){.first = number == 0,
                         .last = number + 1 == substeps,
                         .only = substeps == 1,
                         .dt = dt,
                         .planning_time = def->literal ? def->dt : PLANNING_TIME,
-                        .response = def->literal ? 1.0 : 1.0 - jox_exp(-dt / RESPONSE_TIME),
+                        .response = response,
+                        .on_the_way =
+                            def->literal ? 1.0 : 1.0 - response * RESPONSE_TIME / dt,
                         .plans = w->state.tick % plan_every == 0,
                         .interval = dt * plan_every,
                         .interval_response =

@@ -53,7 +53,7 @@ static void step(Fixture *f, const JoxV2 *goals, float speed, double dt, JoxPool
         a->breadth[i] = a->param[JOX_PARAM_radius][i];
     }
     jox_nav_solve(f->nav, a, &f->neighbours, NULL, NULL, dt, true, pool);
-    jox_nav_move(f->nav, a, &f->neighbours, NULL, NULL, dt, 1.0, pool);
+    jox_nav_move(f->nav, a, &f->neighbours, NULL, NULL, dt, 1.0, 1.0, pool);
     f->tick++;
 }
 
