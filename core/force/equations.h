@@ -134,9 +134,10 @@ static inline JoxV2 jox_keep_from_reversing(JoxV2 force, JoxV2 velocity, float m
     return jox_add(force, jox_scale(velocity, surplus));
 }
 
-/* Share of a new passed-on force that arrives within a step; 1 without a filter. */
+/* Share of a new passed-on force that arrives within a step; 1 without a filter. It makes the mean
+   delay of what arrives `filter` seconds at any step that is not longer than that. */
 static inline float jox_filter_share(double dt, double filter) {
-    return filter > 0.0 ? (float)(1.0 - jox_exp(-dt / filter)) : 1.0f;
+    return filter > dt ? (float)(dt / filter) : 1.0f;
 }
 
 #endif

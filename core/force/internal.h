@@ -138,9 +138,9 @@ typedef struct JoxPlanning {
     float interval, response;
 } JoxPlanning;
 static inline JoxPlanning jox_planning_of(const JoxForceStep *step, uint32_t i) {
-    bool stands = jox_stands(step->agents, i);
-    return (JoxPlanning){(float)(stands ? step->dt : step->interval),
-                         (float)(stands ? step->response : step->interval_response)};
+    bool at_once = jox_stands_pressed(step->agents, i);
+    return (JoxPlanning){(float)(at_once ? step->dt : step->interval),
+                         (float)(at_once ? step->response : step->interval_response)};
 }
 
 /* Force that moves an agent, contacts apart, N: from outside, and what of the others' pushes the

@@ -82,9 +82,13 @@ void jox_force_sum(JoxForces *f) {
     jox_contact_planes_make(f);
 }
 
-/* (9) Someone under force whose plan falls short of where it would take them. */
+/* (9) Someone under force whose plan falls short of where it would take them. Only a plan of this
+   step is held against the force: what falls short in all of the time that it is kept for is passed
+   on at once. */
 static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
     const JoxAgents *a = f->step.agents;
+    if (f->step.goes_on && !jox_stands_pressed(a, i))
+        return;
     JoxV2 unit = {a->half_plane_x[i], a->half_plane_y[i]};
     float shortfall =
         jox_shortfall(jox_v2(a->next_x[i], a->next_y[i]), unit, a->half_plane_offset[i]);
@@ -96,7 +100,7 @@ static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
     for (uint32_t k = 0; k < n; k++)
         jox_transfer_give(f, chunk, i, found[k],
                           jox_resistance(unit, shortfall, absorb, a->param[JOX_PARAM_mass][i], n,
-                                         plan.interval / plan.response));
+                                         (float)f->step.dt / plan.response));
 }
 
 /* Share of a force that agent `to` takes of someone who slowed down and lost `energy` (J) by that:

@@ -243,18 +243,30 @@ static bool meets(const JoxHalfPlane *walls, uint32_t count, JoxV2 velocity) {
     return true;
 }
 
+/* Whether a half-plane keeps off what is wanted, straight against it. */
+static bool is_head_on(const JoxHalfPlane *other, JoxV2 wanted) {
+    const float tie = 0.02f; /* of the way ahead: as far aside is no tie */
+    float against = -jox_dot(other->normal, wanted);
+    return against > 0.0f && fabsf(jox_det(other->normal, wanted)) < tie * against;
+}
+
 /* What agent i wants. Who has come to a stand before others wants to go somewhat more to the right,
-   or two who meet head-on would stand for ever. `others`: half-planes of people, touched or not. */
+   or two who meet head-on would stand for ever; and so does who pushes somebody straight ahead, or
+   would push them along for ever. `others`: half-planes of people, touched or not. */
 static JoxV2 wish_of(const Solve *s, uint32_t i, const JoxHalfPlane *others, uint32_t count) {
     const float slow = 0.2f; /* of the wanted speed */
     JoxV2 wanted = {s->agents->pref_x[i], s->agents->pref_y[i]};
     JoxV2 velocity = {s->agents->vx[i], s->agents->vy[i]};
     if (walks(s, i))
         return (JoxV2){s->agents->walk_x[i], s->agents->walk_y[i]};
-    if (jox_stands(s->agents, i) || jox_dot(velocity, wanted) > slow * jox_length2(wanted))
+    if (jox_stands(s->agents, i))
+        return wanted;
+    bool gets_on = jox_dot(velocity, wanted) > slow * jox_length2(wanted);
+    if (gets_on && !(s->agents->param[JOX_PARAM_push][i] > 0.0f))
         return wanted;
     for (uint32_t k = 0; k < count; k++)
-        if (jox_dot(others[k].normal, wanted) < others[k].offset)
+        if (jox_dot(others[k].normal, wanted) < others[k].offset &&
+            (!gets_on || is_head_on(&others[k], wanted)))
             return jox_sub(wanted, jox_scale(jox_left(wanted), JOX_RIGHT_SHARE));
     return wanted;
 }
@@ -265,7 +277,7 @@ static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxAgents *a = s->agents;
     uint32_t relaxations = 0;
     for (uint32_t i = begin; i < end; i++) {
-        if (!s->plans && (walks(s, i) || !jox_stands(a, i)))
+        if (!s->plans && (walks(s, i) || !jox_stands_pressed(a, i)))
             continue;
         JoxHalfPlane half_planes[MOST];
         Counts made = make_half_planes(s, i, half_planes);

@@ -58,6 +58,7 @@ void jox_stage_push(const JoxPushStage *s) {
                          .planning_time = s->substep->planning_time,
                          .response = s->substep->response,
                          .interval = s->substep->interval,
+                         .goes_on = !s->substep->plans,
                          .interval_response = s->substep->interval_response,
                          .push_on = s->machines->push_on,
                          .push_nearest = s->machines->push_nearest,

@@ -105,15 +105,17 @@ static void ones_own_force_never_reverses(void **state) {
     assert_true(f.x == -10.0f);
 }
 
-static void the_filter_keeps_the_impulse(void **state) {
+static void the_filter_keeps_the_impulse_and_its_delay(void **state) {
     (void)state;
     for (double dt = 0.01; dt < 0.3; dt *= 2) {
-        double share = jox_filter_share(dt, 0.13), force = 0, sum = 0;
+        double share = jox_filter_share(dt, 0.13), force = 0, sum = 0, delay = 0;
         for (int i = 0; i < 2000; i++) {
             force += share * ((i == 0 ? 10 / dt : 0) - force);
             sum += force * dt;
+            delay += force * dt * (i + 1) * dt / 10; /* what is given in a step acts in the next */
         }
         assert_near(sum, 10.0, 1e-5);
+        assert_near(delay, dt > 0.13 ? dt : 0.13, 1e-5);
     }
     assert_true(jox_filter_share(0.05, 0) == 1.0f);
 }
@@ -129,7 +131,7 @@ int main(void) {
         cmocka_unit_test(slowing_is_told_from_turning),
         cmocka_unit_test(a_turn_is_no_harder_than_a_stop),
         cmocka_unit_test(ones_own_force_never_reverses),
-        cmocka_unit_test(the_filter_keeps_the_impulse),
+        cmocka_unit_test(the_filter_keeps_the_impulse_and_its_delay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
