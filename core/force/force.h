@@ -43,9 +43,12 @@ typedef struct JoxForceStep {
     double dt;            /* s, above 0 */
     double planning_time; /* s: how far ahead velocities are planned; 0: dt */
     double response;      /* share of the way to the planned velocity gone in dt; 0: all */
-    double interval;      /* s: between plans of those who are not pressed where they stand; 0: dt */
-    bool goes_on;         /* these go on with what they planned in an earlier step */
+    double interval; /* s: between plans of those who are not pressed where they stand; 0: dt */
+    bool goes_on;    /* these go on with what they planned in an earlier step */
     double interval_response; /* the share gone in that time */
+    double interval_forced;   /* s: a force that acted so long at the interval's beginning, all at
+                                 once,   would have the effect at its end that it has step by step; 0:
+                                 interval */
     const uint8_t *push_on;   /* per agent, 0: does not push now; NULL: all push */
     const uint8_t
         *push_nearest; /* per agent, 1: the whole push goes to the nearest; NULL: shared */

@@ -133,14 +133,16 @@ static inline float jox_circumference(float radius) {
 /* Height at which an agent meets a body: the chest's, kept within what the body covers. */
 float jox_touch_height(const JoxObject *body);
 
-/* How long an agent goes on with what it plans, s, and the share of the way gone in that time. */
+/* How long an agent goes on with what it plans, s, the share of the way gone in that time, and for
+   how long forces count that act meanwhile, s (interval_forced). */
 typedef struct JoxPlanning {
-    float interval, response;
+    float interval, response, forced;
 } JoxPlanning;
 static inline JoxPlanning jox_planning_of(const JoxForceStep *step, uint32_t i) {
-    bool at_once = jox_stands_pressed(step->agents, i);
-    return (JoxPlanning){(float)(at_once ? step->dt : step->interval),
-                         (float)(at_once ? step->response : step->interval_response)};
+    if (jox_stands_pressed(step->agents, i))
+        return (JoxPlanning){(float)step->dt, (float)step->response, (float)step->dt};
+    return (JoxPlanning){(float)step->interval, (float)step->interval_response,
+                         (float)step->interval_forced};
 }
 
 /* Force that moves an agent, contacts apart, N: from outside, and what of the others' pushes the

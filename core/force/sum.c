@@ -10,19 +10,20 @@
    the way from what the force gives to what is planned. */
 static void bound_by_force(JoxAgents *a, uint32_t i, JoxV2 force, JoxV2 moving, float decay,
                            JoxPlanning plan, float step) {
-    float dt = plan.interval, size = jox_length(force);
-    float mass = a->param[JOX_PARAM_mass][i], most = a->param[JOX_PARAM_max_speed][i];
+    float size = jox_length(force), mass = a->param[JOX_PARAM_mass][i];
+    float most = a->param[JOX_PARAM_max_speed][i];
     JoxV2 velocity = {a->vx[i], a->vy[i]}, contact = {a->contact_x[i], a->contact_y[i]};
     JoxV2 normal = jox_scale(force, 1.0f / size);
     JOX_ASSERT(mass > 0.0f && decay <= 1.0f);
     JOX_ASSERT(jox_is_unit(normal));
-    float moved = jox_dot(velocity, normal) + jox_dot(jox_add(moving, contact), normal) * dt / mass;
-    float wanted = jox_forced_speed(velocity, normal, size, mass, decay, dt);
+    float wanted = jox_forced_speed(velocity, normal, size, mass, decay, plan.interval);
+    float pressed = jox_dot(contact, normal) / mass, driven = jox_dot(moving, normal) / mass;
+    /* Contacts act within this step, however long the plan is kept. */
+    wanted -= pressed * (plan.interval - step);
+    float moved = jox_dot(velocity, normal) + pressed * step + driven * plan.forced;
     a->half_plane_x[i] = normal.x;
     a->half_plane_y[i] = normal.y;
-    /* Contacts act within this step, however long the plan is kept. */
-    float beyond = jox_dot(contact, normal) * (dt - step) / mass;
-    a->half_plane_offset[i] = moved - beyond + (wanted - moved) / plan.response;
+    a->half_plane_offset[i] = moved + (wanted - moved) / plan.response;
     if (contact.x == 0.0f && contact.y == 0.0f)
         return;
     /* Being hit or squeezed may carry someone faster than they can go; nothing else may. */

@@ -72,8 +72,9 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                              const JoxContactPlanes *touched, double planning_time, uint32_t agent,
                              JoxConstraint out[JOX_MOST_CONSTRAINTS]);
 /* move: velocity = forced + (next - forced) * response, the position goes by the mean of that
-   approach over the step, forced + (next - forced) * on_the_way, weak projection of overlaps (of what is touched, where `touched` has it, else of neighbours), never through a
-   wall; prev_x, prev_y keep the old position; updates still, still_x, still_y. */
+   approach over the step, forced + (next - forced) * on_the_way, weak projection of overlaps (of
+   what is touched, where `touched` has it, else of neighbours), never through a wall; prev_x,
+   prev_y keep the old position; updates still, still_x, still_y. */
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
                   const JoxObjects *objects, const JoxContactPlanes *touched, double dt,
                   double response, double on_the_way, JoxPool *pool);

@@ -60,6 +60,7 @@ void jox_stage_push(const JoxPushStage *s) {
                          .interval = s->substep->interval,
                          .goes_on = !s->substep->plans,
                          .interval_response = s->substep->interval_response,
+                         .interval_forced = s->substep->interval_forced,
                          .push_on = s->machines->push_on,
                          .push_nearest = s->machines->push_nearest,
                          .push_toward_x = s->machines->push_toward_x,

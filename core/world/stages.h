@@ -23,6 +23,7 @@ typedef struct JoxSubstep {
     bool plans;               /* people plan anew; else they go on with what they planned */
     double interval;          /* s, between plans */
     double interval_response; /* the share gone in that time */
+    double interval_forced;   /* s: as in JoxForceStep */
     double end;               /* s: simulated time at its end */
 } JoxSubstep;
 

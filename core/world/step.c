@@ -152,6 +152,15 @@ static uint32_t divide(JoWorld *w) {
     return substeps;
 }
 
+/* s: how long a force would have to act at the beginning of so many steps, all at once, for the
+   effect at their end that it has step by step. */
+static double forced_time(double dt, uint32_t steps) {
+    double kept = jox_exp(-dt / RESPONSE_TIME), time = 0.0;
+    for (uint32_t k = 0; k < steps; k++)
+        time = time / kept + dt;
+    return time;
+}
+
 static JoxSubstep substep_of(const JoWorld *w, uint32_t number, uint32_t substeps) {
     const JoWorldDef *def = &w->model.def;
     double dt = def->dt / substeps, every = PLANNING_TIME / dt + 0.5;
@@ -163,10 +172,10 @@ static JoxSubstep substep_of(const JoWorld *w, uint32_t number, uint32_t substep
                         .dt = dt,
                         .planning_time = def->literal ? def->dt : PLANNING_TIME,
                         .response = response,
-                        .on_the_way =
-                            def->literal ? 1.0 : 1.0 - response * RESPONSE_TIME / dt,
+                        .on_the_way = def->literal ? 1.0 : 1.0 - response * RESPONSE_TIME / dt,
                         .plans = w->state.tick % plan_every == 0,
                         .interval = dt * plan_every,
+                        .interval_forced = forced_time(dt, plan_every),
                         .interval_response =
                             def->literal ? 1.0 : 1.0 - jox_exp(-dt * plan_every / RESPONSE_TIME),
                         .end = (double)w->state.tick * def->dt + (number + 1) * dt};

@@ -84,7 +84,7 @@ static void a_box_against_something_static(void **state) {
     (void)state;
     const Figures hand[] = {{600.0, 477.46}};
     for (int wall = 0; wall < 2; wall++) {
-        Setup s = {.disc_count = 1, .body_count = 1, .loose_x = 0.01};
+        Setup s = {.disc_count = 1, .body_count = 1, .loose_x = 0.01, .trembles = true};
         s.discs[0] = (Disc){.x = -0.4 - RADIUS, .force_x = 600.0};
         s.bodies[0] = box(-0.2, 0.6);
         if (wall) {
@@ -101,7 +101,7 @@ static void two_boxes_in_a_row(void **state) {
     (void)state;
     const Figures hand[] = {{600.0, 477.46}};
     for (int friction = 0; friction < 2; friction++) {
-        Setup s = {.disc_count = 1, .body_count = 3, .loose_x = 0.01};
+        Setup s = {.disc_count = 1, .body_count = 3, .loose_x = 0.01, .trembles = friction};
         s.discs[0] = (Disc){.x = -0.8 - RADIUS, .force_x = 600.0};
         s.bodies[0] = box(-0.2, friction ? 0.6 : 0.0);
         s.bodies[1] = box(-0.6, friction ? 0.6 : 0.0);

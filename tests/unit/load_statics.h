@@ -25,6 +25,7 @@ enum {
 };
 static const double PI = 3.14159265358979323846, RADIUS = 0.2, MASS = 70.0;
 static const double SECONDS = 5.0, LAST = 1.0; /* s: how long, and what part is averaged */
+static const double SETTLED = 4.0;             /* s: that part where bodies tremble */
 static const double WITHIN = 0.03;             /* of the hand figure */
 static const double LENGTH_WITHIN = 0.01;      /* of a row's length, over the steps */
 static const double STEPS[] = {0.1, 0.05, 0.025, 0.0125, 0.00625};
@@ -51,6 +52,8 @@ typedef struct Setup {
     uint32_t body_count;
     double loose_x, loose_y; /* where people start: positions times 1 + these */
     bool central;            /* forces keep pointing to the first disc */
+    bool trembles;           /* rigid bodies that stand on friction at each other: what they bear
+                                changes from step to step, so only its mean is held, over longer */
 } Setup;
 
 /* What an engineer reads of a person. */
@@ -59,7 +62,7 @@ typedef struct Figures {
 } Figures;
 
 typedef struct Readings {
-    Figures mean[MOST_DISCS], last[MOST_DISCS]; /* over the last second; of the last step */
+    Figures mean[MOST_DISCS], last[MOST_DISCS]; /* over the last seconds; of the last step */
     double length;                              /* m, from the first disc to the last */
     double moved; /* m, the farthest that anybody is from where they belong */
 } Readings;
@@ -297,7 +300,12 @@ static inline Readings run_setup(const Setup *s, double dt, Sight sight) {
     JoAgent people[MOST_DISCS];
     Readings out = {0};
     JoWorld *world = open_setup(s, dt, sight, people);
-    int steps = (int)(SECONDS / dt + 0.5), first = (int)((SECONDS - LAST) / dt + 0.5);
+    double seconds = SECONDS, part = LAST;
+    if (s->trembles) {
+        seconds += SETTLED;
+        part = SETTLED;
+    }
+    int steps = (int)(seconds / dt + 0.5), first = (int)((seconds - part) / dt + 0.5);
     for (int step = 0; step < steps; step++) {
         apply_forces(s, world, people);
         jo_world_step(world, 1);
@@ -343,9 +351,9 @@ static inline int compare_run(const Setup *s, const Figures *hand, double dt, Si
         last = fmax(last, deviation(r.last[i], hand[i]));
     }
     *length = r.length;
-    if (mean <= WITHIN && last <= WITHIN)
+    if (mean <= WITHIN && (s->trembles || last <= WITHIN))
         return 0;
-    print_error("  dt %g, %s: off by %.1f %% over the last second, %.1f %% in the last step; "
+    print_error("  dt %g, %s: off by %.1f %% over the last seconds, %.1f %% in the last step; "
                 "moved %.1f mm\n",
                 dt, sight.name, 100.0 * mean, 100.0 * last, 1000.0 * r.moved);
     say_figures("wanted N and N/m", hand, s->disc_count);

@@ -1,0 +1,93 @@
+/* What people do hardly depends on the step of the world: the way that they go, when they plan, and
+   how who pushes gets past somebody straight ahead. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "world/world.h"
+
+static const double STEPS[] = {0.1, 0.05, 0.025, 0.0125, 0.00625};
+enum { STEP_COUNT = 5 };
+
+static JoWorld *make(double dt) {
+    JoWorldDef def = jo_default_world_def();
+    def.dt = dt;
+    return jo_world_create(&def, NULL);
+}
+
+static JoAgent add(JoWorld *w, double x, double y, double push) {
+    JoAgentDef def = jo_default_agent_def();
+    def.x = x;
+    def.y = y;
+    def.push = push;
+    return jo_world_add_agent(w, &def, NULL);
+}
+
+static void run(JoWorld *w, double seconds) {
+    jo_world_step(w, (uint32_t)(seconds / w->model.def.dt + 0.5));
+}
+
+/* Feet approach 1.3 m/s with a time constant of 0.05 s, so whoever starts from rest is behind by
+   1.3 * 0.05 m for good; and who stops goes on as far. */
+static void the_way_is_that_of_the_approach(void **state) {
+    (void)state;
+    for (int k = 0; k < STEP_COUNT; k++) {
+        JoWorld *w = make(STEPS[k]);
+        JoAgent one = add(w, 0, 0, 0);
+        jo_agent_set_preferred(w, one, 1.3, 0);
+        run(w, 1.0);
+        assert_true(fabs(jo_agent_state(w, one).x - 1.3 * 0.95) < 1e-4);
+        jo_agent_set_preferred(w, one, 0, 0);
+        run(w, 1.0);
+        assert_true(fabs(jo_agent_state(w, one).x - 1.3) < 1e-4);
+        jo_world_free(w);
+    }
+}
+
+/* Who stands, and is touched by who passes, steps aside by the same at any step. */
+static void who_stands_gives_way_alike(void **state) {
+    (void)state;
+    double aside[STEP_COUNT];
+    for (int k = 0; k < STEP_COUNT; k++) {
+        JoWorld *w = make(STEPS[k]);
+        JoAgent stands = add(w, 0, 0, 0), walks = add(w, -3, 0.1, 0);
+        jo_agent_set_preferred(w, walks, 1.3, 0);
+        run(w, 4.0);
+        aside[k] = jo_agent_state(w, stands).y;
+        assert_true(jo_agent_state(w, walks).x > 1.0); /* past */
+        assert_true(aside[k] < -0.1);
+        assert_true(fabs(aside[k] - aside[0]) < 0.015);
+        jo_world_free(w);
+    }
+}
+
+/* Straight behind somebody who stands, who pushes gets past on the right and does not drive them
+   along. */
+static void who_pushes_straight_on_gets_past(void **state) {
+    (void)state;
+    for (int k = 0; k < STEP_COUNT; k++) {
+        JoWorld *w = make(STEPS[k]);
+        JoAgent stands = add(w, 0, 0, 0), pushes = add(w, -2, 0, 250);
+        jo_agent_set_parameter(w, pushes, "horizon", 0.2);
+        jo_agent_set_parameter(w, stands, "horizon", 0.2);
+        jo_agent_set_preferred(w, pushes, 1.6, 0);
+        run(w, 8.0);
+        JoAgentState ahead = jo_agent_state(w, stands), past = jo_agent_state(w, pushes);
+        assert_true(past.x > ahead.x + 0.4 && past.y < ahead.y);
+        assert_true(ahead.x < 2.0); /* m; driven on for all of the eight seconds it were 11 */
+        jo_world_free(w);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_way_is_that_of_the_approach),
+        cmocka_unit_test(who_stands_gives_way_alike),
+        cmocka_unit_test(who_pushes_straight_on_gets_past),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
