@@ -268,6 +268,7 @@ static int run_scene(int argc, char **argv) {
         run.def.override_count = run.sets.count;
         run.def.mods = run.mods.items;
         run.def.mod_count = run.mods.count;
+        run.def.no_density = !run.summary && !run.seeds && !run.view && !run.report && !run.data;
         status = why ? cli_misused(&cli_run, why) : begin(&run);
     }
     cli_free(&cli_run, &run, &plain);

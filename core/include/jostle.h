@@ -189,6 +189,8 @@ typedef struct JoSceneDef {
     bool named_mods_only; /* mods that the user turned on (jo_mods_enable) are not taken for that,
                              but those of `mods` and those that the scene names */
     bool needed_mods_too; /* what these depend on is taken, too, without being named */
+    bool no_density;  /* densities are not sampled, which takes time, until a report asks for them:
+                         "density_max" of the summary is null */
     const char *text; /* of the scene, or NULL: it is read from `path`, which else only names it */
     size_t text_length;
     uint32_t cookie;
@@ -259,8 +261,8 @@ JO_API JoStats jo_scene_stats(const JoScene *scene);
 JO_API const char *jo_stage_name(int stage);
 /* One JSON object with the figures of the run so far; free with jo_free. They do not depend on what
    is reported or recorded, which may add some. "density_max" is the greatest density of any place
-   and time, people per m2 by a Gaussian of R = 1 m within the walls, sampled every 0.5 simulated s.
- */
+   and time, people per m2 by a Gaussian of R = 1 m within the walls, sampled every 0.5 simulated s
+   (JoSceneDef.no_density: null). */
 JO_API char *jo_scene_summary(const JoScene *scene);
 /* From several summaries: {"runs", "given": {PATH: value, or a list by run where they differ},
    "figures": {PATH: {"mean", "p5", "p95"}}}. Figures are statistics of a run; what it was given,

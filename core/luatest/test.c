@@ -68,6 +68,7 @@ static void *load(void *context, const JoxTestScene *wanted, JoxText *why) {
     def.mods = wanted->mods;
     def.mod_count = wanted->mod_count;
     def.named_mods_only = true;
+    def.no_density = true;
     def.has_seed = wanted->has_seed;
     def.seed = wanted->seed;
     def.has_dt = wanted->has_dt;

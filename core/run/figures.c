@@ -61,7 +61,7 @@ const JoxRegions *jox_run_regions(const JoScene *scene) {
     return r ? r->regions : NULL;
 }
 
-/* ---- density: of every run ---- */
+/* ---- density: of every run, unless it is told to do without ---- */
 
 typedef struct LocalFigures {
     JoxLocal *local;

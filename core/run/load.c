@@ -145,7 +145,8 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
         jox_run_check_names(scene, diagnostics);
         jox_run_name_events(scene, diagnostics);
         jox_run_collect_regions(scene);
-        jox_run_collect_local(scene);
+        if (!def->no_density)
+            jox_run_collect_local(scene);
         jox_run_collect_probes(scene);
     }
 }

@@ -169,7 +169,7 @@ void jox_run_collect_local(JoScene *scene);
 void jox_run_collect_danger(JoScene *scene);
 void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high); /* m */
 const JoxRegions *jox_run_regions(const JoScene *scene);
-/* Local densities, which every run samples. */
+/* Local densities, which every run samples that is not told to do without. */
 const JoxLocal *jox_run_local(const JoScene *scene);
 /* The same, with crowd pressure from here on. */
 const JoxLocal *jox_run_want_pressure(JoScene *scene);

@@ -18,19 +18,22 @@ verdict "all that should pass passes" $?
 [ "$(tail -1 "$work/passes")" = "$(grep -c '^test(' $self/passes_test.lua) passed, 0 failed" ]
 verdict "and is counted" $?
 
-"$JOSTLE" test $self/fails_test.lua >"$work/fails" 2>&1
-[ $? = 1 ]; verdict "a failure is exit status 1" $?
-[ "$(tail -1 "$work/fails")" = "0 passed, $(grep -c '^test(' $self/fails_test.lua) failed" ]
-verdict "all that should fail fails, and is counted" $?
-# Each arrow of the file: the message stands at its line, with its text.
-awk -v file="$self/fails_test.lua" '
-    FNR == NR { if (index($0, file ":") == 1) said[$0]; next }
-    / --> / {
-        wanted = substr($0, index($0, " --> ") + 5); place = file ":" FNR ": "; found = 0
-        for (line in said)
-            if (index(line, place) == 1 && index(line, wanted)) found = 1
-        print (found ? "ok " : "not ok ") "line " FNR " fails with: " wanted
-    }' "$work/fails" $self/fails_test.lua
+# Each arrow of a file: the message stands at its line, with its text.
+for file in $self/fails_test.lua $self/endless_test.lua; do
+    name=$(basename "$file")
+    "$JOSTLE" test "$file" >"$work/fails" 2>&1
+    [ $? = 1 ]; verdict "$name: a failure is exit status 1" $?
+    [ "$(tail -1 "$work/fails")" = "0 passed, $(grep -c '^test(' "$file") failed" ]
+    verdict "$name: all that should fail fails, and is counted" $?
+    awk -v file="$file" -v name="$name" '
+        FNR == NR { if (index($0, file ":") == 1) said[$0]; next }
+        / --> / {
+            wanted = substr($0, index($0, " --> ") + 5); place = file ":" FNR ": "; found = 0
+            for (line in said)
+                if (index(line, place) == 1 && index(line, wanted)) found = 1
+            print (found ? "ok " : "not ok ") name ", line " FNR " fails with: " wanted
+        }' "$work/fails" "$file"
+done
 
 cat >"$work/deep_test.lua" <<'END'
 local function holds(a)

@@ -33,6 +33,7 @@ static JoScene *load(const char *path, const char *const *sets, size_t count) {
     def.override_count = count;
     def.message = hear;
     def.named_mods_only = true;
+    def.no_density = true;
     JoError error = {0};
     jox_text_free(&said);
     JoScene *scene = jo_scene_load(&def, &error);

@@ -153,7 +153,8 @@ static bool owner_of(const JoxDensity *d, JoxV2 p, const Solid *solids, uint32_t
     *node = cell;
     if (!f->near[cell])
         return true;
-    if ((!has_wall(f, (size_t)cell) && f->per[cell] <= 0.0f) || within(solids, count, p) ||
+    /* Without a wall in it a cell lies within a solid, or outside, as its node does. */
+    if ((has_wall(f, (size_t)cell) ? within(solids, count, p) : f->per[cell] <= 0.0f) ||
         jox_density_node(d, p.x, p.y, &column, &row) != JOX_DENSITY_SEEN)
         return false;
     *node = row * d->wide + column;
@@ -291,18 +292,23 @@ static void narrow_ways(JoxDensity *d) {
         f->slants[s].open *= jox_minf(room[f->slants[s].a], room[f->slants[s].b]);
 }
 
-/* Twice: nodes with next to no area of their own leave it to those beside. */
+/* Once more where nodes have next to no area of their own, which they leave to those beside. */
 static void make_ways(JoxDensity *d, const Solid *solids, uint32_t count) {
     JoxDensityFloor *f = d->floor;
     mark_near(d);
     open_ways(d, solids, count);
     measure(d, solids, count);
+    bool fewer = false;
     for (int cell = 0; cell < d->wide * d->high; cell++)
-        if (f->area[cell] < LEAST_AREA)
+        if (f->per[cell] > 0.0f && f->area[cell] < LEAST_AREA) {
             f->per[cell] = 0.0f;
-    mark_near(d);
-    open_ways(d, solids, count);
-    measure(d, solids, count);
+            fewer = true;
+        }
+    if (fewer) {
+        mark_near(d);
+        open_ways(d, solids, count);
+        measure(d, solids, count);
+    }
     narrow_ways(d);
 }
 
