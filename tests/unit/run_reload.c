@@ -59,12 +59,22 @@ static void each_scene(void (*visit)(const char *path)) {
     globfree(&scenes);
 }
 
+/* The hash after so many steps with nothing else; each scene is run once for it. */
 static uint64_t hash_alone(const char *path) {
+    enum { MOST = 256 };
+    static char paths[MOST][200];
+    static uint64_t hashes[MOST];
+    static size_t count;
+    for (size_t p = 0; p < count; p++)
+        if (!strcmp(paths[p], path))
+            return hashes[p];
+    assert_true(count < MOST && strlen(path) < sizeof *paths);
     JoScene *scene = load_small(path);
     step(scene, STEPS);
-    uint64_t hash = jo_world_hash(scene->world);
+    strcpy(paths[count], path);
+    hashes[count] = jo_world_hash(scene->world);
     jo_scene_free(scene);
-    return hash;
+    return hashes[count++];
 }
 
 /* ---- every beginning of a file, saved while the crowd runs ---- */
@@ -139,8 +149,10 @@ static void try_prefixes(const char *path) {
     JoScene *scene = load_small(path);
     uint32_t machines = scene->world->model.machines.count;
     for (uint32_t m = 0; m < machines; m++) {
-        jo_scene_free(scene);
-        scene = load_small(path);
+        if (m > 0) {
+            jo_scene_free(scene);
+            scene = load_small(path);
+        }
         save_beginnings(scene, m);
         if (jo_world_hash(scene->world) != alone)
             fail_msg("%s: beginnings of %s change the hash", path,
