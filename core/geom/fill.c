@@ -7,6 +7,13 @@
 #include "base/mem.h"
 #include "base/random.h"
 
+/* Whether an edge is out of the way of p: neither nearer than `clear` nor on a ray to the right. */
+static bool is_away(JoxV2 a, JoxV2 b, JoxV2 p, float clear) {
+    const float far = clear + 1e-3f;
+    return p.y > jox_maxf(a.y, b.y) + far || p.y < jox_minf(a.y, b.y) - far ||
+           p.x > jox_maxf(a.x, b.x) + far;
+}
+
 static bool inside(const JoxArea *area, JoxV2 p) {
     bool in = false;
     for (uint32_t i = 0; i < area->in_count && !in; i++)
@@ -21,6 +28,8 @@ static bool inside(const JoxArea *area, JoxV2 p) {
         for (uint32_t v = ring->first; v < ring->first + ring->count; v++) {
             JoxV2 a = area->walls->vertices[v].point;
             JoxV2 b = area->walls->vertices[area->walls->vertices[v].next].point;
+            if (is_away(a, b, p, area->clear))
+                continue;
             JoxV2 d = jox_sub(p, jox_segment_nearest(a, b, p));
             if (jox_length2(d) < area->clear * area->clear)
                 return false;
