@@ -7,23 +7,42 @@
 
 static const float REACH = 1.5f;   /* m: a person is spread as a cone of this radius */
 
+/* The cells that a person is spread over. */
+typedef struct Span {
+    int c0, c1, r0, r1;
+} Span;
+
+static float share_at(const JoxFieldWork *w, int cell, JoxV2 at) {
+    if (w->node[cell] == JOX_FIELD_BLOCKED)
+        return 0.0f;
+    float far2 = jox_length2(jox_sub(jox_field_node(w, cell), at));
+    return far2 < REACH * REACH ? 1.0f - sqrtf(far2) / REACH : 0.0f;
+}
+
+/* A person is spread as a cone over the floor that can be walked, and nothing into walls: else the
+   floor along walls would seem free. */
+static void spread(JoxFieldWork *w, const Span *s, JoxV2 at, float slowing) {
+    const JoxField *f = w->f;
+    float sum = 0.0f, area = f->size * f->size;
+    for (int r = s->r0; r <= s->r1; r++)
+        for (int c = s->c0; c <= s->c1; c++)
+            sum += share_at(w, r * f->columns + c, at);
+    if (!(sum > 0.0f))
+        return;
+    for (int r = s->r0; r <= s->r1; r++)
+        for (int c = s->c0; c <= s->c1; c++)
+            w->slowness[r * f->columns + c] +=
+                slowing * share_at(w, r * f->columns + c, at) / (sum * area);
+}
+
 void jox_field_crowd(JoxFieldWork *w, const JoxFieldCrowd *crowd) {
     const JoxField *f = w->f;
-    const float peak = 3.0f / (3.14159265f * REACH * REACH); /* the cone's volume is 1 */
     for (uint32_t n = 0; crowd && n < crowd->count; n++) {
         JoxV2 at = crowd->at[n];
-        int c0, c1, r0, r1;
+        Span s;
         JOX_ASSERT(crowd->held[n] >= 0.0f && crowd->held[n] <= 1.0f);
-        jox_field_span(at.x - REACH, at.x + REACH, f->low.x, f->size, f->columns, &c0, &c1);
-        jox_field_span(at.y - REACH, at.y + REACH, f->low.y, f->size, f->rows, &r0, &r1);
-        for (int r = r0; r <= r1; r++)
-            for (int c = c0; c <= c1; c++) {
-                int cell = r * f->columns + c;
-                if (w->node[cell] == JOX_FIELD_BLOCKED)
-                    continue;
-                float far = jox_length(jox_sub(jox_field_node(w, cell), at));
-                float share = jox_maxf(0.0f, 1.0f - far / REACH);
-                w->slowness[cell] += crowd->slowing * crowd->held[n] * peak * share;
-            }
+        jox_field_span(at.x - REACH, at.x + REACH, f->low.x, f->size, f->columns, &s.c0, &s.c1);
+        jox_field_span(at.y - REACH, at.y + REACH, f->low.y, f->size, f->rows, &s.r0, &s.r1);
+        spread(w, &s, at, crowd->slowing * crowd->held[n]);
     }
 }

@@ -260,12 +260,14 @@ static int choose(const Walk *w, Walker *p) {
     return best;
 }
 
-/* People get up to a speed slowly, and slow down and turn fast. */
+/* People get up to a speed slowly, and slow down and turn fast; turning by up to 60 degrees costs
+   them no speed. */
 static JoxV2 approach(const Walk *w, JoxV2 velocity, JoxV2 e, float speed) {
-    float along = jox_dot(velocity, e);
+    float now = jox_length(velocity), along = jox_dot(velocity, e);
+    float kept = now > 0.0f ? now * clamp01(2.0f * along / now) : 0.0f;
     JoxV2 aside = jox_sub(velocity, jox_scale(e, along));
-    along += (speed - along) * (speed > along ? w->start : w->stop);
-    return jox_add(jox_scale(e, along), jox_scale(aside, 1.0f - w->stop));
+    kept += (speed - kept) * (speed > kept ? w->start : w->stop);
+    return jox_add(jox_scale(e, kept), jox_scale(aside, 1.0f - w->stop));
 }
 
 static void turn_course(const Walk *w, uint32_t i, JoxV2 e) {

@@ -123,7 +123,7 @@ static uint32_t held_up(const JoxAgents *a, uint32_t i) {
     if (!(speed2 > 0.0f))
         return 0;
     float share = 1.0f - jox_dot(velocity, preferred) / speed2;
-    return (uint32_t)(jox_clampf(2.0f * share - 1.0f, 0.0f, 1.0f) * (float)HELD);
+    return (uint32_t)(jox_clampf(share, 0.0f, 1.0f) * (float)HELD);
 }
 
 /* Whole numbers, so that the order of the agents does not matter. */
