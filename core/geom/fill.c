@@ -1,4 +1,4 @@
-/* Lattices over areas, and a drawn subset of their points. */
+/* Lattices over areas, and points thrown at random. */
 #include "geom/fill.h"
 
 #include <math.h>
@@ -111,13 +111,160 @@ static uint32_t lattice(const JoxArea *area, bool hex, double step, JoxV2 **out)
     return count;
 }
 
+/* ---- at random ---- */
+
+static const float BODY = 0.4f; /* m: the breadth of most people; who fits stands so far apart */
+/* Of the width of the square that each has: points so far apart still find room when they are
+   thrown at random, one after the other, as they cover 38 % of the area and jam at 54.7 %. */
+static const double LOOSE = 0.7;
+/* Throws in a row, for each point that is there and each time that the area goes into its extent,
+   after which there is no more room; times that points close up. */
+enum { IN_VAIN = 100, CLOSER = 80 };
+
+/* Points that are there, by cells as wide as they are apart. */
+typedef struct Thrown {
+    JoxV2 *points;
+    uint32_t count, capacity;
+    uint32_t *head, *next; /* by cell; by point */
+    uint32_t columns, rows, next_capacity;
+    JoxV2 low, period; /* period 0: the area's ends are not joined */
+    float cell, apart;
+} Thrown;
+
+/* Distance along one axis, the shorter way where its ends are joined. */
+static float between(float a, float b, float period) {
+    const float d = fabsf(a - b);
+    return period > 0.0f ? jox_minf(d, fabsf(period - d)) : d;
+}
+
+static uint32_t cell_of(const Thrown *t, float at, float low, uint32_t most) {
+    const float cell = floorf((at - low) / t->cell);
+    return cell <= 0.0f ? 0 : cell >= (float)most ? most - 1 : (uint32_t)cell;
+}
+
+static bool is_near_in(const Thrown *t, uint32_t column, uint32_t row, JoxV2 p) {
+    for (uint32_t i = t->head[row * t->columns + column]; i != UINT32_MAX; i = t->next[i]) {
+        const float dx = between(t->points[i].x, p.x, t->period.x);
+        const float dy = between(t->points[i].y, p.y, t->period.y);
+        if (dx * dx + dy * dy < t->apart * t->apart)
+            return true;
+    }
+    return false;
+}
+
+/* Whether one that is there is nearer than they are apart. Joined ends are looked at from both. */
+static bool is_near(const Thrown *t, JoxV2 p) {
+    for (int y = -1; y <= 1; y++)
+        for (int x = -1; x <= 1; x++) {
+            const JoxV2 image = {p.x + (float)x * t->period.x, p.y + (float)y * t->period.y};
+            if ((x && !(t->period.x > 0.0f)) || (y && !(t->period.y > 0.0f)))
+                continue;
+            const float cx = floorf((image.x - t->low.x) / t->cell);
+            const float cy = floorf((image.y - t->low.y) / t->cell);
+            for (float row = cy - 1; row <= cy + 1; row++)
+                for (float column = cx - 1; column <= cx + 1; column++)
+                    if (row >= 0 && column >= 0 && row < (float)t->rows &&
+                        column < (float)t->columns &&
+                        is_near_in(t, (uint32_t)column, (uint32_t)row, p))
+                        return true;
+        }
+    return false;
+}
+
+static void put(Thrown *t, JoxV2 p) {
+    JOX_RESERVE(t->points, t->capacity, t->count + 1);
+    JOX_RESERVE(t->next, t->next_capacity, t->count + 1);
+    JOX_ASSERT(t->count < t->capacity && t->count < t->next_capacity);
+    const uint32_t cell =
+        cell_of(t, p.y, t->low.y, t->rows) * t->columns + cell_of(t, p.x, t->low.x, t->columns);
+    t->points[t->count] = p;
+    t->next[t->count] = t->head[cell];
+    t->head[cell] = t->count++;
+}
+
+/* Sorts what is there, and others who stand there already, by cells for points `apart`. */
+static void spread_cells(Thrown *t, JoxV2 low, JoxV2 high, double apart) {
+    t->low = low;
+    t->apart = (float)apart;
+    t->cell = (float)fmax(apart, sqrt(((double)high.x - low.x) * ((double)high.y - low.y) / 4e6));
+    t->columns = (uint32_t)(((double)high.x - low.x) / t->cell) + 1;
+    t->rows = (uint32_t)(((double)high.y - low.y) / t->cell) + 1;
+    jox_free(t->head);
+    t->head = jox_alloc((size_t)t->columns * t->rows, sizeof *t->head);
+    for (size_t c = 0; c < (size_t)t->columns * t->rows; c++)
+        t->head[c] = UINT32_MAX;
+    const uint32_t count = t->count;
+    t->count = 0;
+    for (uint32_t i = 0; i < count; i++)
+        put(t, t->points[i]);
+}
+
+/* Throws until `whole` points are there, or `patience` throws in a row, times those there, found no
+   room. */
+static void throw_points(const JoxArea *area, Thrown *t, JoxV2 high, uint32_t whole,
+                         double patience, uint64_t seed, uint32_t stream, uint32_t round) {
+    double missed = 0;
+    for (uint64_t n = 0; t->count < whole && missed < patience * (t->count + 100.0); n++) {
+        const uint32_t draw = (uint32_t)(n >> 32) * 2 + round * 16;
+        const double u = jox_random_unit(seed, (uint32_t)n, stream, JOX_DRAW_FILL, draw);
+        const double v = jox_random_unit(seed, (uint32_t)n, stream, JOX_DRAW_FILL, draw + 1);
+        const JoxV2 p = {(float)(t->low.x + ((double)high.x - t->low.x) * u),
+                         (float)(t->low.y + ((double)high.y - t->low.y) * v)};
+        missed++;
+        if (is_near(t, p) || !inside(area, p))
+            continue;
+        put(t, p);
+        missed = 0;
+    }
+}
+
+/* Random sequential placement. Where no spacing is asked for, points that find no room close up;
+   those that stand already stay. */
+static uint32_t at_random(const JoxArea *area, uint32_t count, float spacing, uint64_t seed,
+                          uint32_t stream, JoxV2 **positions) {
+    JoxV2 low, high;
+    *positions = jox_alloc(count + 1, sizeof **positions);
+    if (!extent(area, &low, &high) || count == 0)
+        return 0;
+    const double size = fmax(jox_area_size(area), 1e-6),
+                 whole = ((double)high.x - low.x) * ((double)high.y - low.y);
+    const double patience = IN_VAIN * fmin(fmax(whole / size, 1.0), 1000.0);
+    double apart = spacing > 0 ? spacing : fmin(BODY, LOOSE * sqrt(size / count));
+    apart = fmax(apart, 1e-3);
+    Thrown t = {.period = area->period};
+    for (uint32_t i = 0; i < area->taken_count; i++) {
+        JOX_RESERVE(t.points, t.capacity, t.count + 1);
+        t.points[t.count++] = area->taken[i];
+    }
+    const uint32_t taken = t.count;
+    for (uint32_t round = 0; round < CLOSER && t.count < taken + count; round++) {
+        spread_cells(&t, low, high, apart);
+        throw_points(area, &t, high, taken + count, patience, seed, stream, round);
+        if (spacing > 0)
+            break;
+        apart *= 0.9;
+    }
+    const uint32_t have = t.count - taken;
+    JOX_ASSERT(have <= count);
+    for (uint32_t i = 0; i < have; i++)
+        (*positions)[i] = t.points[taken + i];
+    jox_free(t.points);
+    jox_free(t.head);
+    jox_free(t.next);
+    return have;
+}
+
+/* ---- lattices, and all ---- */
+
 uint32_t jox_fill(const JoxArea *area, JoxFillMode mode, uint32_t count, float spacing,
                   uint64_t seed, uint32_t stream, JoxV2 **positions) {
+    if (mode == JOX_FILL_RANDOM)
+        return at_random(area, count, spacing, seed, stream, positions);
     bool hex = mode != JOX_FILL_GRID;
     double step = spacing;
     if (!(step > 0) && count > 0)
         step = sqrt(jox_area_size(area) / count * (hex ? 1.1547005383792515 : 1.0));
-    double apart = mode == JOX_FILL_RANDOM && spacing > 0 ? step / 0.75 : step;
+    double apart = step;
     uint32_t have = lattice(area, hex, apart, positions);
     /* A border may cost a row, and few points may all miss a narrow area: close up until the count
        fits. A spacing that was asked for is kept, but by one agent, who has nobody to keep it from.
@@ -132,24 +279,14 @@ uint32_t jox_fill(const JoxArea *area, JoxFillMode mode, uint32_t count, float s
     }
     JoxV2 *p = *positions;
     JOX_ASSERT(have == 0 || p);
-    if (have <= count && mode != JOX_FILL_RANDOM)
+    if (have <= count)
         return have;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < have && kept < count; i++) {
         /* Selection sampling: each point with the share still wanted of those still to come. */
         double u = jox_random_unit(seed, i, stream, JOX_DRAW_FILL, 0);
-        if (u * (have - i) >= count - kept)
-            continue;
-        p[kept] = p[i];
-        if (mode == JOX_FILL_RANDOM) {
-            double ux = jox_random_unit(seed, i, stream, JOX_DRAW_FILL, 1) * 2 - 1;
-            double uy = jox_random_unit(seed, i, stream, JOX_DRAW_FILL, 2) * 2 - 1;
-            float most = (float)(apart * 0.0883883); /* an eighth, over the root of two */
-            JoxV2 moved = {p[i].x + (float)ux * most, p[i].y + (float)uy * most};
-            if (inside(area, moved))
-                p[kept] = moved;
-        }
-        kept++;
+        if (u * (have - i) < count - kept)
+            p[kept++] = p[i];
     }
     JOX_ASSERT(kept <= count && kept <= have);
     return kept;

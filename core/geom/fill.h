@@ -23,19 +23,25 @@ typedef enum JoxFillMode {
         JOX_FILL_AT
 } JoxFillMode;
 
-/* An area: inside any of `in`, outside all of `out` (indices of places), `clear` m from walls. */
+/* An area: inside any of `in`, outside all of `out` (indices of places), `clear` m from walls.
+   Points at random keep away from those `taken`, and where ends of the area are joined, after
+   `period` m, from each other across them. */
 typedef struct JoxArea {
     const JoxPlace *places;
     const uint32_t *in, *out;
     uint32_t in_count, out_count;
     const JoxWalls *walls;
     float clear;
+    JoxV2 period; /* 0: not joined */
+    const JoxV2 *taken;
+    uint32_t taken_count;
 } JoxArea;
 
-/* Writes `count` positions at least `spacing` metres apart (0: as wide as the count allows, from
-   the area). `mode` is hex, grid or random. Random is a hexagonal lattice, shaken by up to an
-   eighth of its spacing, of which `count` points are drawn by (seed, stream). Returns the number
-   that fit, `count` if all did; the array is allocated by jox_alloc. */
+/* Writes `count` positions at least `spacing` metres apart (0: lattices as wide as the count
+   allows, from the area; points at random 0.4 m, or less where they are many). `mode` is hex, grid
+   or random. Of a lattice with more points, `count` are drawn by (seed, stream). Random points are
+   drawn one after the other, each uniformly over what of the area is left by those before. Returns
+   the number that fit, `count` if all did; the array is allocated by jox_alloc. */
 uint32_t jox_fill(const JoxArea *area, JoxFillMode mode, uint32_t count, float spacing,
                   uint64_t seed, uint32_t stream, JoxV2 **positions);
 /* Square metres, by sampling a lattice of 0.1 m or coarser (at most a million samples). */

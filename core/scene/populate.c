@@ -68,7 +68,8 @@ static void area(const JoxReader *r, const JoxYaml *map, const JoxArea *a, JoxFi
     uint32_t fit =
         jox_fill(a, spread, group->count, spacing, r->load->scene->seed, number, &positions);
     if (fit < group->count)
-        jox_scene_error(r, map, "too-many", "Lower count or spacing, or widen the area",
+        jox_scene_error(r, map, "too-many",
+                        "Lower count or spacing, or widen the area; `fill: hex` packs closest",
                         "%u of %u agents fit", fit, group->count);
     group->count = fit < group->count ? fit : group->count;
     group->positions = jox_arena_take(r->arena, group->count, sizeof *group->positions);
@@ -132,6 +133,21 @@ static uint32_t number_of(const JoxReader *r, const JoxYaml *map, const JoxArea 
     return 0;
 }
 
+/* Where those of the groups before it stand. */
+static const JoxV2 *others(const JoxReader *r, uint32_t *count) {
+    const JoxSceneSpec *s = r->load->scene;
+    *count = 0;
+    for (uint32_t g = 0; g < s->group_count; g++)
+        *count += s->groups[g].positions ? s->groups[g].count : 0;
+    JoxV2 *points = jox_arena_take(r->arena, *count, sizeof *points);
+    uint32_t n = 0;
+    for (uint32_t g = 0; g < s->group_count; g++)
+        for (uint32_t i = 0; s->groups[g].positions && i < s->groups[g].count; i++)
+            points[n++] = s->groups[g].positions[i];
+    JOX_ASSERT(n == *count);
+    return points;
+}
+
 /* Points that were given one by one. */
 static void take_points(const JoxReader *r, const JoxYaml *at, JoxGroup *group) {
     group->fill = JOX_FILL_AT;
@@ -166,8 +182,19 @@ void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxGroup *group)
         group->count = 0;
         return;
     }
-    JoxArea a = {s->places,           fill->in,  fill->outside, fill->in_count,
-                 fill->outside_count, &s->walls, 0.2f};
+    uint32_t taken_count;
+    const JoxV2 *taken = others(r, &taken_count);
+    const JoxArea a = {.places = s->places,
+                       .in = fill->in,
+                       .out = fill->outside,
+                       .in_count = fill->in_count,
+                       .out_count = fill->outside_count,
+                       .walls = &s->walls,
+                       .clear = 0.2f,
+                       .period = {s->periodic_x ? s->high.x - s->low.x : 0.0f,
+                                  s->periodic_y ? s->high.y - s->low.y : 0.0f},
+                       .taken = taken,
+                       .taken_count = taken_count};
     group->count = number_of(r, map, &a, group);
     if (group->count == 0)
         return;

@@ -21,7 +21,7 @@ end
 local function glued(bond)
   return {
     name = "block",
-    shape = { blocks = { size = { 0.5, 0.38, 0.26 }, count = { 2, 10, 5 }, bond = bond } },
+    shape = { blocks = { size = { 0.5, 0.39, 0.26 }, count = { 2, 10, 5 }, bond = bond } },
     mass = 150,
     friction = 0.2,
     at = { 8, 0, 0.65 },

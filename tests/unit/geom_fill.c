@@ -19,7 +19,7 @@ static void counts_and_spacing_are_kept(void **state) {
     JoxWalls walls = {0};
     jox_walls_add_solid(&walls, pillar, 4, INFINITY);
     uint32_t in = 0;
-    JoxArea area = {&place, &in, NULL, 1, 0, &walls, 0.2f};
+    JoxArea area = {.places = &place, .in = &in, .in_count = 1, .walls = &walls, .clear = 0.2f};
     assert_true(fabs(jox_area_size(&area) - (400 - 19.2)) < 4);
     for (int spread = 0; spread <= JOX_FILL_RANDOM; spread++) {
         JoxV2 *p, *q;
@@ -50,7 +50,7 @@ static void few_fit_wherever_there_is_room(void **state) {
         JoxPlace place = {
             .kind = JOX_PLACE_POLYGON, .points = corridors[c], .count = 4, .start = -1};
         uint32_t in = 0;
-        JoxArea area = {&place, &in, NULL, 1, 0, NULL, 0.2f};
+        JoxArea area = {.places = &place, .in = &in, .in_count = 1, .clear = 0.2f};
         for (int spread = 0; spread <= JOX_FILL_RANDOM; spread++)
             for (uint32_t count = 1; count <= (c < 2 ? 3 : 1); count++) {
                 JoxV2 *p;
@@ -64,8 +64,107 @@ static void few_fit_wherever_there_is_room(void **state) {
     }
 }
 
+enum { MANY = 2000 };
+static JoxV2 hall_corners[] = {{0, 0}, {40, 0}, {40, 25}, {0, 25}};
+static JoxPlace hall_place = {
+    .kind = JOX_PLACE_POLYGON, .points = hall_corners, .count = 4, .start = -1};
+static uint32_t hall_index;
+
+static JoxArea hall(void) {
+    return (JoxArea){.places = &hall_place, .in = &hall_index, .in_count = 1};
+}
+
+/* Power of the points in a wave of a length along an axis, by their number: 1 on average of points
+   at random, their number for a lattice of that length. */
+static double power(const JoxV2 *p, uint32_t count, double length, bool y) {
+    double c = 0, s = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const double phase = 6.283185307179586 * (double)(y ? p[i].y : p[i].x) / length;
+        c += cos(phase);
+        s += sin(phase);
+    }
+    return (c * c + s * s) / count;
+}
+
+/* Two to the square metre: over the seeds, as many in each strip of either axis as chance gives,
+   and no wave along either that rows would have. A lattice shaken by an eighth has 400 and more. */
+static void random_is_uniform_along_both_axes(void **state) {
+    (void)state;
+    const JoxArea area = hall();
+    uint32_t strips[2][10] = {{0}};
+    for (uint64_t seed = 1; seed <= 5; seed++) {
+        JoxV2 *p;
+        assert_int_equal(jox_fill(&area, JOX_FILL_RANDOM, MANY, 0, seed, 3, &p), MANY);
+        for (uint32_t i = 0; i < MANY; i++) {
+            strips[0][(int)(p[i].x / 4.0f) % 10]++;
+            strips[1][(int)(p[i].y / 2.5f) % 10]++;
+            for (uint32_t j = 0; j < i; j++)
+                assert_true(jox_length(jox_sub(p[i], p[j])) >= 0.3999f);
+        }
+        for (int axis = 0; axis < 2; axis++)
+            for (double length = 0.3; length < 1.5; length *= 1.004) {
+                const double is = power(p, MANY, length, axis);
+                if (is > 20)
+                    fail_msg("a wave of %.3g m along %c has a power of %.3g", length, "xy"[axis],
+                             is);
+            }
+        jox_free(p);
+    }
+    for (int axis = 0; axis < 2; axis++)
+        for (int s = 0; s < 10; s++) /* 1000 +- 4 standard deviations of chance */
+            assert_in_range(strips[axis][s], 875, 1125);
+}
+
+/* Those who stand there keep their room, and ends that are joined count as one. */
+static void random_keeps_from_others_and_across_joined_ends(void **state) {
+    (void)state;
+    JoxArea area = hall();
+    JoxV2 *first, *second;
+    area.period = jox_v2(40, 25);
+    assert_int_equal(jox_fill(&area, JOX_FILL_RANDOM, 900, 0, 1, 1, &first), 900);
+    area.taken = first;
+    area.taken_count = 900;
+    assert_int_equal(jox_fill(&area, JOX_FILL_RANDOM, 900, 0, 1, 1, &second), 900);
+    for (uint32_t i = 0; i < 900; i++)
+        for (uint32_t j = 0; j < 900; j++) {
+            const JoxV2 *others[2] = {first, second};
+            for (int k = 0; k < 2; k++) {
+                float dx = fabsf(second[i].x - others[k][j].x),
+                      dy = fabsf(second[i].y - others[k][j].y);
+                dx = fminf(dx, 40 - dx), dy = fminf(dy, 25 - dy);
+                if (!(k == 1 && i == j))
+                    assert_true(dx * dx + dy * dy >= 0.3999f * 0.3999f);
+            }
+        }
+    jox_free(first);
+    jox_free(second);
+}
+
+/* A spacing that is asked for is kept: what does not fit is left out, and that is found out soon.
+ */
+static void a_spacing_that_does_not_fit_leaves_some_out(void **state) {
+    (void)state;
+    const JoxArea area = hall();
+    JoxV2 *p;
+    /* Discs thrown one after the other jam when they cover 54.7 %; the hall's edge adds a little.
+     */
+    const double jammed = 0.547 * 41 * 26 / (3.14159265 / 4);
+    const uint32_t fit = jox_fill(&area, JOX_FILL_RANDOM, 100000, 1.0f, 1, 1, &p);
+    assert_true(fit > 0.93 * jammed && fit < jammed);
+    jox_free(p);
+    assert_int_equal(jox_fill(&area, JOX_FILL_RANDOM, (uint32_t)(0.9 * jammed), 1.0f, 2, 1, &p),
+                     (uint32_t)(0.9 * jammed));
+    jox_free(p);
+    assert_int_equal(jox_fill(&area, JOX_FILL_RANDOM, 7000, 0, 1, 1, &p), 7000); /* 7 on a m2 */
+    jox_free(p);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(counts_and_spacing_are_kept),
-                                       cmocka_unit_test(few_fit_wherever_there_is_room)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(counts_and_spacing_are_kept),
+        cmocka_unit_test(random_is_uniform_along_both_axes),
+        cmocka_unit_test(random_keeps_from_others_and_across_joined_ends),
+        cmocka_unit_test(a_spacing_that_does_not_fit_leaves_some_out),
+        cmocka_unit_test(few_fit_wherever_there_is_room)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
