@@ -136,10 +136,11 @@ static inline bool jox_stands(const JoxAgents *agents, uint32_t i) {
     float x = agents->pref_x[i], y = agents->pref_y[i];
     return x * x + y * y < least * least;
 }
-/* Whether agent i stands and is pressed by contacts, which change in every step: then it plans in
-   every step. */
+/* Whether agent i stands and feels a force, which changes in every step: then it plans in every
+   step. Known once the forces are summed. */
 static inline bool jox_stands_pressed(const JoxAgents *agents, uint32_t i) {
-    return jox_stands(agents, i) && (agents->contact_x[i] != 0.0f || agents->contact_y[i] != 0.0f);
+    return jox_stands(agents, i) &&
+           (agents->half_plane_x[i] != 0.0f || agents->half_plane_y[i] != 0.0f);
 }
 /* From agent i to agent j, m. */
 static inline JoxV2 jox_offset(const JoxAgents *agents, uint32_t i, uint32_t j) {

@@ -138,11 +138,14 @@ float jox_touch_height(const JoxObject *body);
 typedef struct JoxPlanning {
     float interval, response, forced;
 } JoxPlanning;
-static inline JoxPlanning jox_planning_of(const JoxForceStep *step, uint32_t i) {
-    if (jox_stands_pressed(step->agents, i))
+static inline JoxPlanning jox_planning(const JoxForceStep *step, bool each_step) {
+    if (each_step)
         return (JoxPlanning){(float)step->dt, (float)step->response, (float)step->dt};
     return (JoxPlanning){(float)step->interval, (float)step->interval_response,
                          (float)step->interval_forced};
+}
+static inline JoxPlanning jox_planning_of(const JoxForceStep *step, uint32_t i) {
+    return jox_planning(step, jox_stands_pressed(step->agents, i));
 }
 
 /* Force that moves an agent, contacts apart, N: from outside, and what of the others' pushes the

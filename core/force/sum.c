@@ -69,7 +69,7 @@ static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t work
         if (force.x == 0.0f && force.y == 0.0f)
             continue;
         float size = jox_length(force);
-        const JoxPlanning plan = jox_planning_of(&f->step, i);
+        const JoxPlanning plan = jox_planning(&f->step, jox_stands(a, i));
         if (f->options.literal)
             jox_literal_bound(f, i);
         else if (is_felt(f, i, size))
