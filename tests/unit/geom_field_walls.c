@@ -71,7 +71,7 @@ static void a_thin_wall_is_never_crossed(void **state) {
         static const JoxV2 thin[] = {{-6, 0.07f}, {6, 0.07f}};
         add_line(&walls, thin, 2, angle);
         JoxV2 goal = turned((JoxV2){0, -2}, angle);
-        JoxField *field = to_point(&walls, goal, 10.0f, 0.25f, 0.2f, NULL);
+        JoxField *field = to_point(&walls, goal, 10.0f, 0.25f, 0.2f);
         for (uint32_t k = 0; k < 400; k++) {
             float off = 0.001f + 0.6f * (float)(draw(k, 8) * draw(k, 8));
             JoxV2 p = {-5.5f + 11.0f * (float)draw(k, 9), 0.07f + off};
@@ -103,7 +103,7 @@ static void a_solid_is_left_by_its_nearest_side(void **state) {
     JoxWalls walls = {0};
     static const JoxV2 block[] = {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}};
     add_solid(&walls, block, 4, 0.0);
-    JoxField *field = to_point(&walls, (JoxV2){9, 0}, 12.0f, 0.25f, 0.2f, NULL);
+    JoxField *field = to_point(&walls, (JoxV2){9, 0}, 12.0f, 0.25f, 0.2f);
     assert_true(isinf(jox_field_distance(field, (JoxV2){0.1f, 0.3f})));
     assert_true(isinf(jox_field_distance(field, (JoxV2){-3.9f, 0.3f})));
     assert_true(jox_field_direction(field, (JoxV2){-3.9f, 0.3f}).x < -0.9f);
@@ -127,8 +127,8 @@ static void a_solid_is_left_by_its_nearest_side(void **state) {
 /* ---- goals ---- */
 
 static float length_to(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 p) {
-    JoxField *field =
-        jox_field_create(walls, places, place, (JoxV2){-12, -12}, (JoxV2){12, 12}, 0.25f, 0.2f, NULL);
+    JoxField *field = jox_field_create(walls, places, place, (JoxV2){-12, -12}, (JoxV2){12, 12},
+                                       0.25f, 0.2f, NULL);
     float length = jox_field_distance(field, p);
     jox_field_free(field);
     return length;
@@ -208,8 +208,8 @@ static void goals_in_and_at_walls_are_reached(void **state) {
 static void the_same_plan_gives_the_same_bits(void **state) {
     (void)state;
     JoxWalls walls = room(0.2);
-    JoxField *a = to_point(&walls, (JoxV2){6, 6}, 11.0f, 0.25f, 0.2f, NULL);
-    JoxField *b = to_point(&walls, (JoxV2){6, 6}, 11.0f, 0.25f, 0.2f, NULL);
+    JoxField *a = to_point(&walls, (JoxV2){6, 6}, 11.0f, 0.25f, 0.2f);
+    JoxField *b = to_point(&walls, (JoxV2){6, 6}, 11.0f, 0.25f, 0.2f);
     for (uint32_t k = 0; k < 2000; k++) {
         JoxV2 p = {-11.0f + 22.0f * (float)draw(k, 13), -11.0f + 22.0f * (float)draw(k, 14)};
         JoxV2 va = jox_field_direction(a, p), vb = jox_field_direction(b, p);
