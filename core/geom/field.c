@@ -45,8 +45,7 @@ static void set_grid(JoxField *f, const JoxPlace *places, uint32_t place, JoxV2 
 }
 
 JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
-                           JoxV2 high, float cell, float clearance,
-                           const JoxFieldCrowd *crowd) {
+                           JoxV2 high, float cell, float clearance, const JoxFieldCrowd *crowd) {
     JoxField *f = jox_alloc(1, sizeof *f);
     set_grid(f, places, place, low, high, cell);
     f->clearance = clearance > LEAST_CLEARANCE ? clearance : LEAST_CLEARANCE;

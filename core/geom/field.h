@@ -19,13 +19,13 @@ typedef struct JoxFieldCrowd {
 
 /* The field to a place of any kind (a set: to its nearest member; a queue: its head) over the box
    low..high and the place, for people who keep `clearance` m (at least 0.05) off walls. They walk
-   more slowly within 0.5 m of walls, so that ways keep off where there is room; and where a crowd is held up (NULL: there is none). `cell` is 0.1 to 2
-   m, and grows so that at most 4,000,000 cells are made. Gaps are judged by their true width, not
-   by the grid: a gap wider than 2 clearances and 0.6 cells is open, one narrower than 1.7
-   clearances is shut; what lies between depends on how the grid falls. Never NULL. */
+   more slowly within 0.5 m of walls, so that ways keep off where there is room; and where a crowd
+   is held up (NULL: there is none). `cell` is 0.1 to 2 m, and grows so that at most 4,000,000 cells
+   are made. Gaps are judged by their true width, not by the grid: a gap wider than 2 clearances and
+   0.6 cells is open, one narrower than 1.7 clearances is shut; what lies between depends on how the
+   grid falls. Never NULL. */
 JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
-                           JoxV2 high, float cell, float clearance,
-                           const JoxFieldCrowd *crowd);
+                           JoxV2 high, float cell, float clearance, const JoxFieldCrowd *crowd);
 /* Length of the way from a point, m: 0 inside a place that is a polygon; INFINITY where no way
    leads and inside solids. Outside the box: the straight way to it and on from there. */
 float jox_field_distance(const JoxField *field, JoxV2 point);

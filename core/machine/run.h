@@ -56,9 +56,9 @@ typedef struct JoxGrip {
 
 /* Kinds of ways round walls and large bodies. */
 typedef enum JoxRouteKind {
-    JOX_ROUTE_NOW,  /* as all stands now */
-    JOX_ROUTE_OPEN, /* as if walls that open were open, and what can be moved were away: for those
-                     who have no other way, and wait at a gate */
+    JOX_ROUTE_NOW,   /* as all stands now */
+    JOX_ROUTE_OPEN,  /* as if walls that open were open, and what can be moved were away: for those
+                      who have no other way, and wait at a gate */
     JOX_ROUTE_CROWD, /* as all stands now, slower where people bound for the place are held up: for
                         those who walk by the law */
     JOX_ROUTE_KINDS

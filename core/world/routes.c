@@ -13,12 +13,12 @@ enum { MOST_FIELDS = 64 };
    doors of half a metre. */
 static const float CELLS[] = {0.125f, 0.18f, 0.25f, 0.3f};
 static const float MOST_CELLS = 400000.0f;
-static const float CLEARANCE = 0.15f; /* m: half of a person who turns sideways */
-static const float MARGIN = 3.0f;     /* m about all walls and agents */
-static const double DELAY = 0.5;      /* s from asking to use */
-static const double PAUSE = 2.0;      /* s between renewals for bodies that move */
-static const double LOOK = 0.25;      /* s between looks at bodies and crowds */
-static const double CROWD_PAUSE = 1.0;    /* s between renewals for a crowd, */
+static const float CLEARANCE = 0.15f;       /* m: half of a person who turns sideways */
+static const float MARGIN = 3.0f;           /* m about all walls and agents */
+static const double DELAY = 0.5;            /* s from asking to use */
+static const double PAUSE = 2.0;            /* s between renewals for bodies that move */
+static const double LOOK = 0.25;            /* s between looks at bodies and crowds */
+static const double CROWD_PAUSE = 1.0;      /* s between renewals for a crowd, */
 static const float CROWD_CELLS = 150000.0f; /* and for so many cells 1 s at least */
 enum { HELD = 256, FEW_HELD = 5 * HELD };   /* one person held up; fewer make no crowd */
 
@@ -91,8 +91,8 @@ static void free_making(Making *making) {
 
 static void make(JoxWorkItem *item) {
     Making *m = (Making *)item;
-    m->field = jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, CLEARANCE,
-                                &m->crowd);
+    m->field =
+        jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, CLEARANCE, &m->crowd);
 }
 
 static void make_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -233,7 +233,8 @@ static bool is_due(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind) {
     if (!(routes->wanted[place] >> kind & 1) || route->making)
         return false;
     if (kind == JOX_ROUTE_CROWD)
-        return routes->held[place] >= FEW_HELD && (routes->fields[at] || routes->count < MOST_FIELDS) &&
+        return routes->held[place] >= FEW_HELD &&
+               (routes->fields[at] || routes->count < MOST_FIELDS) &&
                (double)(w->tick - route->asked) * w->dt >= crowd_pause(routes->fields[at]) - 1e-9;
     if (!routes->fields[at])
         return routes->count < MOST_FIELDS && (kind == JOX_ROUTE_NOW || is_shut(w));

@@ -19,7 +19,7 @@ typedef struct JoxRouteStage {
     const JoxAgents *agents;
     const JoxObjects *objects;
     uint64_t tick;
-    double dt; /* s */
+    double dt;            /* s */
     double crowd_slowing; /* of the walking law, m2 */
     JoxPool *pool;
     JoxMachineRun *machines; /* is given the fields; marks which it wants */

@@ -4,7 +4,9 @@
    speed of those inside; and the specific flow, Voronoi density times mean speed. An interval has
    the mean of its frames, speed and flow of those with anyone inside. Figures are means over the
    intervals in which anyone was inside; of a probe with a line `during`, over those of them whose
-   middle lies within the time in which the middle 60 % of the passages over it were made. */
+   middle lies within the time in which the middle 60 % of the passages over it were made. The
+   deviation of speeds, and the share of those who stand, slower than 0.05 m/s, are over everybody
+   in every frame of these intervals: slow steps and sway, not only how people differ. */
 #include <math.h>
 
 #include "base/mem.h"
@@ -12,9 +14,12 @@
 #include "record/fields/voronoi.h"
 #include "record/probes/probe_parts.h"
 
+static const double STANDS = 0.05; /* m/s: who is slower */
+
 typedef struct Interval {
     int64_t number;
     double people, classical, voronoi, speed, flow; /* sums over frames */
+    double speeds, squares, standing;               /* sums over frames and people */
     uint32_t frames, walked;                        /* walked: with anyone inside */
 } Interval;
 
@@ -109,14 +114,19 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
         JoxV2 p = {frame->x[i], frame->y[i]};
         if (!seen[i] || !is_near(m, p, 0.0f) || !jox_polygon_contains(def->points, def->count, p))
             continue;
+        const double square =
+            (double)frame->vx[i] * frame->vx[i] + (double)frame->vy[i] * frame->vy[i];
         people++;
-        speed += sqrt((double)frame->vx[i] * frame->vx[i] + (double)frame->vy[i] * frame->vy[i]);
+        speed += sqrt(square);
+        row->squares += square;
+        row->standing += square < STANDS * STANDS;
     }
     gather(def, m, frame);
     gather_walls(def, m, frame);
     m->sites.bars = &m->bars;
     double density = voronoi_density(def, m, seen);
     row->frames++;
+    row->speeds += speed;
     row->people += people;
     row->classical += people / m->area;
     row->voronoi += density;
@@ -144,6 +154,7 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
         begin = INFINITY;
     double *densities = jox_alloc(m->count + 1, sizeof *densities);
     double people = 0, classical = 0, voronoi = 0, speed = 0, flow = 0;
+    double all = 0, speeds = 0, squares = 0, standing = 0;
     uint32_t n = 0;
     for (uint32_t r = 0; r < m->count; r++) {
         const Interval *row = &m->rows[r];
@@ -154,7 +165,12 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
         voronoi += densities[n++] = row->voronoi / row->frames;
         speed += row->speed / row->walked;
         flow += row->flow / row->walked;
+        all += row->people;
+        speeds += row->speeds;
+        squares += row->squares;
+        standing += row->standing;
     }
+    const double middle = all > 0 ? speeds / all : NAN;
     jox_figure_add(out, "intervals", "", n);
     jox_figure_add(out, "people", "", mean(people, n));
     jox_figure_add(out, "density_classical", "1/m2", mean(classical, n));
@@ -164,6 +180,9 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "density_max", "1/m2", jox_quantile(densities, n, 1.0));
     jox_figure_add(out, "speed", "m/s", mean(speed, n));
     jox_figure_add(out, "specific_flow", "1/(m s)", mean(flow, n));
+    jox_figure_add(out, "speed_deviation", "m/s",
+                   all > 0 ? sqrt(fmax(squares / all - middle * middle, 0.0)) : NAN);
+    jox_figure_add(out, "standing", "", all > 0 ? standing / all : NAN);
     jox_free(densities);
 }
 
