@@ -62,11 +62,29 @@ static void line(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
             jox_add(from, jox_scale(way, (float)((i + 0.5) / (double)group->count)));
 }
 
-static void area(const JoxReader *r, const JoxYaml *map, const JoxArea *a, JoxFillMode spread,
+/* Where those of the groups before it stand; the caller frees them. */
+static JoxV2 *others(const JoxSceneSpec *s, uint32_t *count) {
+    *count = 0;
+    for (uint32_t g = 0; g < s->group_count; g++)
+        *count += s->groups[g].positions ? s->groups[g].count : 0;
+    JoxV2 *points = jox_alloc((size_t)*count + 1, sizeof *points);
+    uint32_t n = 0;
+    for (uint32_t g = 0; g < s->group_count; g++)
+        for (uint32_t i = 0; s->groups[g].positions && i < s->groups[g].count; i++)
+            points[n++] = s->groups[g].positions[i];
+    JOX_ASSERT(n == *count);
+    return points;
+}
+
+static void area(const JoxReader *r, const JoxYaml *map, JoxArea *a, JoxFillMode spread,
                  float spacing, uint32_t number, JoxGroup *group) {
-    JoxV2 *positions = NULL;
+    JoxV2 *positions = NULL, *taken = NULL;
+    if (spread == JOX_FILL_RANDOM)
+        a->taken = taken = others(r->load->scene, &a->taken_count);
     uint32_t fit =
         jox_fill(a, spread, group->count, spacing, r->load->scene->seed, number, &positions);
+    jox_free(taken);
+    a->taken = NULL;
     if (fit < group->count)
         jox_scene_error(r, map, "too-many",
                         "Lower count or spacing, or widen the area; `fill: hex` packs closest",
@@ -133,21 +151,6 @@ static uint32_t number_of(const JoxReader *r, const JoxYaml *map, const JoxArea 
     return 0;
 }
 
-/* Where those of the groups before it stand. */
-static const JoxV2 *others(const JoxReader *r, uint32_t *count) {
-    const JoxSceneSpec *s = r->load->scene;
-    *count = 0;
-    for (uint32_t g = 0; g < s->group_count; g++)
-        *count += s->groups[g].positions ? s->groups[g].count : 0;
-    JoxV2 *points = jox_arena_take(r->arena, *count, sizeof *points);
-    uint32_t n = 0;
-    for (uint32_t g = 0; g < s->group_count; g++)
-        for (uint32_t i = 0; s->groups[g].positions && i < s->groups[g].count; i++)
-            points[n++] = s->groups[g].positions[i];
-    JOX_ASSERT(n == *count);
-    return points;
-}
-
 /* Points that were given one by one. */
 static void take_points(const JoxReader *r, const JoxYaml *at, JoxGroup *group) {
     group->fill = JOX_FILL_AT;
@@ -182,19 +185,15 @@ void jox_load_positions(const JoxReader *r, const JoxYaml *map, JoxGroup *group)
         group->count = 0;
         return;
     }
-    uint32_t taken_count;
-    const JoxV2 *taken = others(r, &taken_count);
-    const JoxArea a = {.places = s->places,
-                       .in = fill->in,
-                       .out = fill->outside,
-                       .in_count = fill->in_count,
-                       .out_count = fill->outside_count,
-                       .walls = &s->walls,
-                       .clear = 0.2f,
-                       .period = {s->periodic_x ? s->high.x - s->low.x : 0.0f,
-                                  s->periodic_y ? s->high.y - s->low.y : 0.0f},
-                       .taken = taken,
-                       .taken_count = taken_count};
+    JoxArea a = {.places = s->places,
+                 .in = fill->in,
+                 .out = fill->outside,
+                 .in_count = fill->in_count,
+                 .out_count = fill->outside_count,
+                 .walls = &s->walls,
+                 .clear = 0.2f,
+                 .period = {s->periodic_x ? s->high.x - s->low.x : 0.0f,
+                            s->periodic_y ? s->high.y - s->low.y : 0.0f}};
     group->count = number_of(r, map, &a, group);
     if (group->count == 0)
         return;
