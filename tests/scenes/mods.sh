@@ -3,7 +3,7 @@
 program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
 says() { # NAME STATUS TEXT COMMAND...
     local name=$1 status=$2 text=$3; shift 3
-    timeout 60 "$@" >"$work/out" 2>&1 </dev/null
+    timeout 300 "$@" >"$work/out" 2>&1 </dev/null
     local got=$?
     if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
         echo "not ok $name: status $got, wanted $status and '$text'"; head -8 "$work/out"; fi
