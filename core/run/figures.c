@@ -175,6 +175,7 @@ void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high) {
 }
 
 void jox_run_collect_danger(JoScene *scene) {
+    jox_run_collect_local(scene);
     if (!jox_run_listener(scene, &DANGER))
         jox_run_listen(scene, &DANGER, NULL, NULL);
 }

@@ -17,7 +17,7 @@ const JoxUnit jox_scene_units[] = {
     {"deg", "deg", 1}, {"rad", "deg", 57.29577951308232},
     {"N", "N", 1}, {"kN", "N", 1000},
     {"kg", "kg", 1}, {"g", "kg", 0.001}, {"t", "kg", 1000},
-    {"m/s2", "m/s2", 1}, {"kg/m3", "kg/m3", 1}, {"1/m2", "1/m2", 1}, {"1/s", "1/s", 1}, {"MB", "MB", 1}, {"KB", "KB", 1},
+    {"m/s2", "m/s2", 1}, {"m2", "m2", 1}, {"kg/m3", "kg/m3", 1}, {"1/m2", "1/m2", 1}, {"1/s", "1/s", 1}, {"MB", "MB", 1}, {"KB", "KB", 1},
 };
 const size_t jox_scene_unit_count = sizeof jox_scene_units / sizeof *jox_scene_units;
 /* clang-format on */
