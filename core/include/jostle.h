@@ -97,6 +97,9 @@ typedef struct JoAgentDef {
     double perception;       /* m; default 3 */
     double horizon;          /* s; default 0.5 */
     double push;             /* N; default 0 */
+    double time_gap; /* s kept to those ahead, by the walking law; default 0: velocities are chosen
+                        by ORCA, which is not fit for capacities */
+    double haste;    /* 0 calm, 0.5 normal (the default), 1 keen: of those who keep a time gap */
     uint32_t cookie;
 } JoAgentDef;
 JO_API JoAgentDef jo_default_agent_def(void);

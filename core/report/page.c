@@ -102,6 +102,17 @@ static void put_pictures(FILE *out, const JoScene *scene, const char *directory)
         jox_page_probe(out, directory, probe);
 }
 
+/* Whether the flows on the page are of people who walk by the walking law. */
+static void put_advice(FILE *out, const JoScene *scene) {
+    JoxDiagnostics notes = {0};
+    char text[1024];
+    if (jox_run_advise(scene, &notes)) {
+        snprintf(text, sizeof text, "Note: %s. %s.", notes.items[0].message, notes.items[0].hint);
+        jox_html_paragraph(out, text);
+    }
+    jox_diag_free(&notes);
+}
+
 static void put_inputs(FILE *out, const JoScene *scene) {
     const JoSceneDef *def = &scene->def;
     const JoWorld *world = scene->world;
@@ -175,6 +186,7 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
             "limits come from single persons and from what was found after disasters. Read the "
             "limits as places and times to look at, not as a count of injured; run several seeds "
             "before comparing plans.");
+        put_advice(out, scene);
         put_inputs(out, scene);
         jox_html_end(out);
     }

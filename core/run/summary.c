@@ -107,6 +107,22 @@ static void add_regions(JoxJson *json, const JoScene *scene) {
     jox_json_end(json);
 }
 
+/* Who wanted to get on and stood for the longest: a sign of somebody who is stuck. */
+static void add_standing(JoxJson *json, const JoScene *scene) {
+    const JoxStood *stood = jox_run_stood_longest(scene);
+    if (!stood)
+        return;
+    jox_json_object(json, "stood_longest");
+    jox_json_digits(json, "s", stood->seconds, 6);
+    if (stood->id != JOX_NO_INDEX) {
+        jox_json_digits(json, "until_s", stood->until, 6);
+        jox_json_digits(json, "x", (double)stood->at.x, 6);
+        jox_json_digits(json, "y", (double)stood->at.y, 6);
+        jox_json_whole(json, "agent", stood->id);
+    }
+    jox_json_end(json);
+}
+
 static void add_danger(JoxJson *json, const JoScene *scene) {
     jox_json_object(json, "danger");
     jox_exits_json(&scene->world->state.exits, scene->world->state.agents.count, json);
@@ -285,6 +301,7 @@ char *jo_scene_summary(const JoScene *scene) {
     jox_json_number(&json, "lp_failure_peak", s->failure_peak);
     jox_json_number(&json, "density_max", jox_run_density_max(scene));
     jox_json_number(&json, "overlap_p99", jox_statistics_overlap_p99(s));
+    add_standing(&json, scene);
     add_states(&json, world);
     add_transitions(&json, &world->machines);
     add_contacts(&json, scene);

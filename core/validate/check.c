@@ -34,8 +34,10 @@ static void check_scene(const char *path, const char *mod, JoxDiagnostics *all) 
     def.mod_count = mod != NULL;
     def.named_mods_only = def.needed_mods_too = mod != NULL;
     JoScene *scene = jox_run_load(&def, all);
-    if (scene)
+    if (scene) {
+        jox_run_advise(scene, all);
         jox_diag_move(all, &scene->mod_problems);
+    }
     jo_scene_free(scene);
 }
 

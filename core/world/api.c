@@ -130,6 +130,8 @@ JoAgentDef jo_default_agent_def(void) {
                         .max_speed = jox_parameters[JOX_PARAM_max_speed].value,
                         .perception = jox_parameters[JOX_PARAM_perception].value,
                         .horizon = jox_parameters[JOX_PARAM_horizon].value,
+                        .time_gap = jox_parameters[JOX_PARAM_time_gap].value,
+                        .haste = jox_parameters[JOX_PARAM_haste].value,
                         .cookie = AGENT_COOKIE};
 }
 
@@ -145,6 +147,8 @@ static bool agent_parameters(const JoAgentDef *def, double values[JOX_PARAM_COUN
     values[JOX_PARAM_perception] = def->perception;
     values[JOX_PARAM_horizon] = def->horizon;
     values[JOX_PARAM_push] = def->push;
+    values[JOX_PARAM_time_gap] = def->time_gap;
+    values[JOX_PARAM_haste] = def->haste;
     for (int p = 0; p < JOX_PARAM_COUNT; p++) {
         const JoxParameterInfo *info = &jox_parameters[p];
         if (!within(info->name, info->unit, values[p], info->least, info->greatest, error))

@@ -1,5 +1,6 @@
 -- strider.lua: walks on the way a line points; keeps its distance to those who walk the same way, and meets the others.
-local function corridor(groups, length)
+local function corridor(groups, length, half)
+  half = half or 1
   return {
     bounds = { { 0, -2 }, { length, 2 } },
     periodic = "x",
@@ -7,7 +8,7 @@ local function corridor(groups, length)
       east = { line = { { 0, 0 }, { length, 0 } } },
       west = { line = { { length, 0 }, { 0, 0 } } },
     },
-    walls = { { line = { { -1, 1 }, { length + 1, 1 } } }, { line = { { -1, -1 }, { length + 1, -1 } } } },
+    walls = { { line = { { -1, half }, { length + 1, half } } }, { line = { { -1, -half }, { length + 1, -half } } } },
     groups = groups,
   }
 end
@@ -16,7 +17,7 @@ local function file(count)
   return corridor({
     people = { behaviour = "strider.lua", count = count, fill = "line", ["in"] = "east",
       set = { way = "east", speed = 1.3 } },
-  }, 20)
+  }, 20, 0.25)
 end
 
 test("a file stands evenly along its line", function()
@@ -27,11 +28,20 @@ test("a file stands evenly along its line", function()
   end
 end)
 
-test("in single file people are as fast as their headway allows", function()
-  for _, count in ipairs { 12, 24, 32 } do
-    local s = scene(file(count))
-    s:run(20)
-    near(s:agents("people")[1].now, math.min(1.3, (20 / count - 2 * 0.19) / 0.88), 0.02)
+test("in single file people are slower the closer they are, and keep a time gap", function()
+  local before
+  for _, count in ipairs { 8, 20, 26, 34 } do
+    local s, sum = scene(file(count)), 0
+    s:run(40)
+    for _ = 1, 40 do
+      s:run(0.5)
+      for _, agent in ipairs(s:agents("people")) do sum = sum + agent.now end
+    end
+    local speed = sum / 40 / count
+    truthy(speed > 0.02 and (not before or speed < before - 0.02), count .. " people: " .. speed .. " m/s")
+    local gap = (20 / count - 2 * 0.19) / speed
+    truthy(count == 8 or gap > 0.3 and gap < 2, count .. " people: a time gap of " .. gap .. " s")
+    before = speed
   end
 end)
 

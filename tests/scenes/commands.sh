@@ -26,6 +26,21 @@ expect "trace" 0 "Run -> Arrived" "$JOSTLE" run scenes/running-through.yaml --qu
 expect "profile of functions" 0 "state Touch > on_exit" "$JOSTLE" run scenes/tawaf.yaml --steps 2 --quiet --profile-lua --set groups.pilgrims.count=50 --set sources.0.keep=50
 expect "reference of behaviours" 0 "### Conditions" "$JOSTLE" reference behaviours
 expect "reference: what?" 2 "there is no 'plants'" "$JOSTLE" reference plants
+cat >"$work/flow.yaml" <<'END'
+jostle: 1
+duration: 3
+places: {goal: {point: [8, 0], radius: 1}}
+probes: {line: {flow: [[4, -1], [4, 1]]}}
+groups: {people: {behaviour: presser.lua, at: [[0, 0]], set: {goal: goal}}}
+END
+expect "check says that flows by ORCA are no capacities" 0 "ORCA, which is not fit for capacities. Where capacities matter: walker.lua, or time_gap = crowd.time_gap" "$JOSTLE" check "$work/flow.yaml"
+"$JOSTLE" run "$work/flow.yaml" --quiet --no-half-step --report "$work/flow" >/dev/null 2>&1
+grep -q 'ORCA.*time_gap = crowd.time_gap' "$work/flow/index.html"; verdict "and so does the report" $?
+sed 's/presser/walker/' "$work/flow.yaml" >"$work/law.yaml"
+"$JOSTLE" run "$work/law.yaml" --quiet --no-half-step --report "$work/law" >/dev/null 2>&1
+! grep -q ORCA "$work/law/index.html" && ! "$JOSTLE" check "$work/law.yaml" | grep -q ORCA; verdict "but not of those who walk by the walking law" $?
+sed '/^probes/d' "$work/flow.yaml" >"$work/noflow.yaml"
+! "$JOSTLE" check "$work/noflow.yaml" | grep -q ORCA; verdict "nor where no flow is measured" $?
 expect "check --json" 3 '"code": "unreadable-file"' "$JOSTLE" check no-such.lua --json
 expect "view: no recording" 2 "no recording given" "$JOSTLE" view
 expect "view: missing recording" 3 "cannot be read" "$JOSTLE" view no-such.sqlite

@@ -99,6 +99,14 @@ static void numbers_out_of_range_are_refused_by_name(void **state) {
         assert_true(jo_world_add_agent(*state, &agent, &error).generation == 0);
         assert_non_null(strstr(error.text, "mass"));
         agent = jo_default_agent_def();
+        agent.time_gap = wrong[i];
+        assert_true(jo_world_add_agent(*state, &agent, &error).generation == 0);
+        assert_non_null(strstr(error.text, "time_gap"));
+        agent = jo_default_agent_def();
+        agent.haste = i == 0 ? 1.5 : wrong[i];
+        assert_true(jo_world_add_agent(*state, &agent, &error).generation == 0);
+        assert_non_null(strstr(error.text, "haste"));
+        agent = jo_default_agent_def();
         agent.x = i == 2 ? -1e9 : wrong[i];
         assert_true(jo_world_add_agent(*state, &agent, &error).generation == 0);
     }

@@ -117,7 +117,7 @@ static void colours_measure(void **state) {
     JoxBytes frame = {0};
     step(scene, 60); /* the runner is among those who stand */
     for (uint32_t i = 0; i < a->count; i++)
-        a->load[i] = (float)(10 * i);
+        a->load[i] = a->compression[i] = (float)(10 * i);
     for (int c = 0; c < JOX_LIVE_COLOUR_COUNT; c++) {
         jox_live_frame(scene, (JoxLiveColour)c, &frame);
         Seen seen = decode(&frame, scene->world);

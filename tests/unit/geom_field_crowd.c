@@ -1,0 +1,169 @@
+/* Ways round a crowd that is held up, and goals that lie along walls. */
+#include "geom/field_parts.h"
+#include "unit/geom_walk.h"
+
+enum { HELD = 60 };
+
+/* A square of 20 m, cut by a wall at y = 0 with doors of 1 m about x = -1.5 and x = 5. */
+static JoxWalls two_doors(double angle) {
+    static const JoxV2 parts[][2] = {
+        {{-10, 0}, {-2, 0}}, {{-1, 0}, {4.5f, 0}}, {{5.5f, 0}, {10, 0}}};
+    JoxWalls walls = {0};
+    for (int k = 0; k < 3; k++)
+        add_line(&walls, parts[k], 2, angle);
+    return walls;
+}
+
+/* People about a point, in rows of ten, 0.4 m apart. */
+static JoxFieldCrowd crowd_at(JoxV2 middle, double angle, float held, JoxV2 at[HELD],
+                              float share[HELD]) {
+    for (int k = 0; k < HELD; k++) {
+        at[k] = turned((JoxV2){middle.x + 0.4f * ((float)(k % 10) - 4.5f),
+                               middle.y + 0.4f * ((float)(k / 10) - 2.5f)},
+                       angle);
+        share[k] = held;
+    }
+    return (JoxFieldCrowd){.at = at, .held = share, .count = HELD, .slowing = 0.5f};
+}
+
+/* The door, of two, that the way of who stands at `from` leads through: its x before it is turned.
+ */
+static float door_taken(const JoxFieldCrowd *crowd, double angle, JoxV2 from) {
+    JoxWalls walls = two_doors(angle);
+    JoxV2 goal = turned((JoxV2){0, 6}, angle), p = turned(from, angle);
+    JoxPlace place = {.kind = JOX_PLACE_POINT, .points = &goal, .count = 1, .radius = 0.1f};
+    jox_place_finish(&place);
+    JoxField *field =
+        jox_field_create(&walls, &place, 0, (JoxV2){-15, -15}, (JoxV2){15, 15}, 0.2f, 0.15f, crowd);
+    float x = NAN;
+    for (int k = 0; k < 4000 && isnan(x); k++) {
+        JoxV2 q = jox_add(p, jox_scale(jox_field_direction(field, p), 0.02f));
+        JoxV2 before = turned(p, -angle), after = turned(q, -angle);
+        if (before.y < 0.0f && after.y >= 0.0f)
+            x = after.x;
+        p = q;
+    }
+    jox_field_free(field);
+    jox_walls_free(&walls);
+    return x;
+}
+
+static void a_crowd_makes_the_way_lead_by_the_other_door(void **state) {
+    (void)state;
+    const JoxV2 from = {1.0f, -5.0f}, front = {-1.5f, -1.5f};
+    JoxV2 at[HELD];
+    float share[HELD];
+    for (int k = 0; k < 3; k++) {
+        double angle = TURN * 37.0 / 360.0 * k;
+        JoxFieldCrowd stands = crowd_at(front, angle, 1.0f, at, share);
+        assert_true(door_taken(NULL, angle, from) < 0.0f);
+        assert_true(door_taken(&stands, angle, from) > 4.0f);
+        JoxFieldCrowd walks = crowd_at(front, angle, 0.0f, at, share); /* nobody is held up */
+        assert_true(door_taken(&walks, angle, from) < 0.0f);
+        JoxFieldCrowd elsewhere = crowd_at((JoxV2){5.0f, -1.5f}, angle, 1.0f, at, share);
+        assert_true(door_taken(&elsewhere, angle, from) < 0.0f);
+        JoxFieldCrowd nobody = {.slowing = 0.5f};
+        assert_true(door_taken(&nobody, angle, from) < 0.0f);
+    }
+    /* Who stands in it is led on by the nearer door: the other one is a long way off. */
+    JoxFieldCrowd stands = crowd_at(front, 0.0, 1.0f, at, share);
+    assert_true(door_taken(&stands, 0.0, (JoxV2){-1.5f, -0.5f}) < 0.0f);
+}
+
+/* The sum over the floor of the slowness that a person at `at` adds, times area. */
+static double spread_of(const JoxWalls *walls, JoxV2 at, float held) {
+    JoxField f = {.low = {-6, -6}, .size = 0.2f, .clearance = 0.15f, .columns = 60, .rows = 60};
+    enum { COUNT = 3600 };
+    static uint32_t first[COUNT + 1];
+    static uint16_t solid[COUNT];
+    static float slowness[COUNT], before[COUNT];
+    static uint8_t node[COUNT], links[COUNT], corners[COUNT];
+    memset(first, 0, sizeof first);
+    memset(solid, 0, sizeof solid);
+    memset(links, 0, sizeof links);
+    memset(corners, 0, sizeof corners);
+    JoxFieldWork w = {.f = &f,
+                      .count = COUNT,
+                      .first = first,
+                      .solid = solid,
+                      .slowness = slowness,
+                      .node = node,
+                      .links = links,
+                      .corners = corners};
+    jox_field_mark(&w, walls);
+    memcpy(before, slowness, sizeof before);
+    JoxFieldCrowd crowd = {.at = &at, .held = &held, .count = 1, .slowing = 0.7f};
+    jox_field_crowd(&w, &crowd);
+    double sum = 0.0;
+    for (int i = 0; i < COUNT; i++) {
+        assert_true(slowness[i] >= before[i]);
+        if (node[i] == JOX_FIELD_BLOCKED)
+            assert_true(slowness[i] == before[i]);
+        sum += (double)(slowness[i] - before[i]) * 0.04;
+    }
+    jox_free(f.edges);
+    jox_free(f.refs);
+    return sum;
+}
+
+/* In the open, along a wall, in a corner and in a passage a person slows the floor down by as much
+   in all. */
+static void what_a_person_adds_does_not_get_lost_in_walls(void **state) {
+    (void)state;
+    static const JoxV2 corner[] = {{-4, 3}, {3, 3}, {3, -4}}, other[] = {{3.8f, 3}, {3.8f, -4}};
+    static const JoxV2 block[] = {{-5, -5}, {-3, -5}, {-3, -3}, {-5, -3}};
+    JoxWalls walls = {0};
+    add_line(&walls, corner, 3, 0.0);
+    add_line(&walls, other, 2, 0.0);
+    add_solid(&walls, block, 4, 0.0);
+    const JoxV2 at[] = {{-1, -1},   {0, 2.75f},  {2.7f, 2.7f},
+                        {3.4f, -1}, {-2.8f, -4}, {-2.8f, -2.8f}};
+    for (int k = 0; k < 6; k++) {
+        assert_true(fabs(spread_of(&walls, at[k], 1.0f) - 0.7) < 0.002);
+        assert_true(fabs(spread_of(&walls, at[k], 0.25f) - 0.175) < 0.001);
+        assert_true(spread_of(&walls, at[k], 0.0f) == 0.0);
+    }
+    jox_walls_free(&walls);
+}
+
+/* The goal is a polygon with a side along a wall: from behind, the way leads round the wall. */
+static void a_goal_along_a_wall_is_not_reached_through_it(void **state) {
+    (void)state;
+    static const JoxV2 line[] = {{-5, 0}, {5, 0}};
+    for (int k = 0; k < 4; k++)
+        for (int thick = 0; thick < 2; thick++) {
+            double angle = TURN * 29.0 / 360.0 * k;
+            JoxV2 corners[] = {{-2, 0}, {2, 0}, {2, 1.5f}, {-2, 1.5f}};
+            static const JoxV2 slab[] = {{-5, -0.05f}, {5, -0.05f}, {5, 0}, {-5, 0}};
+            JoxWalls walls = {0};
+            if (thick)
+                add_solid(&walls, slab, 4, angle);
+            else
+                add_line(&walls, line, 2, angle);
+            for (int n = 0; n < 4; n++)
+                corners[n] = turned(corners[n], angle);
+            JoxPlace place = {
+                .kind = JOX_PLACE_POLYGON, .points = corners, .count = 4, .start = -1};
+            jox_place_finish(&place);
+            JoxField *field = jox_field_create(&walls, &place, 0, (JoxV2){-9, -9}, (JoxV2){9, 9},
+                                               0.2f, 0.15f, NULL);
+            for (int n = -4; n <= 4; n++) {
+                JoxV2 behind = turned((JoxV2){0.4f * (float)n, -0.5f}, angle);
+                JoxV2 before = turned((JoxV2){0.4f * (float)n, 3.0f}, angle);
+                float round = 5.0f - 0.4f * fabsf((float)n) + 3.0f; /* to an end and back */
+                assert_true(jox_field_distance(field, behind) > round - 0.6f);
+                assert_true(fabsf(jox_field_distance(field, before) - 1.5f) < 0.15f);
+            }
+            jox_field_free(field);
+            jox_walls_free(&walls);
+        }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_crowd_makes_the_way_lead_by_the_other_door),
+        cmocka_unit_test(what_a_person_adds_does_not_get_lost_in_walls),
+        cmocka_unit_test(a_goal_along_a_wall_is_not_reached_through_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

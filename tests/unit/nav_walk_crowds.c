@@ -1,0 +1,238 @@
+/* The walking law over crowds: turned and mirrored crowds do the same, people who keep no time gap
+   do what they did, threads change nothing, and nothing is ever not finite. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/elementary.h"
+#include "base/random.h"
+#include "nav/internal.h"
+#include "nav/walk.h"
+#include "world/world.h"
+
+enum { PEOPLE = 400 };
+static const double PI = 3.14159265358979323846;
+
+static float draw(uint32_t k, uint32_t sub) {
+    return (float)jox_random_unit(5, k, 0, JOX_DRAW_FILL, sub);
+}
+
+/* How a crowd is put before it is looked at: mirrored at the x axis, then turned. */
+typedef struct Frame {
+    double angle;
+    bool mirrored;
+} Frame;
+
+static JoxV2 put(Frame f, JoxV2 p) {
+    double c = jox_cos(f.angle), s = jox_sin(f.angle), y = f.mirrored ? -(double)p.y : (double)p.y;
+    return (JoxV2){(float)(c * (double)p.x - s * y), (float)(s * (double)p.x + c * y)};
+}
+
+typedef struct Crowd {
+    JoxAgents agents;
+    JoxNeighbours neighbours;
+    JoxWalls walls;
+    JoxNav *nav;
+} Crowd;
+
+static void end(Crowd *c) {
+    jox_nav_free(c->nav);
+    jox_agents_free(&c->agents);
+    jox_walls_free(&c->walls);
+    jox_neighbours_free(&c->neighbours);
+}
+
+/* People of several ways in a square with some walls. Half are bound for the same place. */
+static void add_people(Crowd *c, Frame f, float side) {
+    JoxAgents *a = &c->agents;
+    for (uint32_t k = 0; k < PEOPLE; k++) {
+        uint32_t i = jox_agents_add(a);
+        JoxV2 at = put(f, (JoxV2){side * draw(k, 0), side * draw(k, 1)});
+        double angle = floor(4.0 * (double)draw(k, 2)) * PI / 2 + 0.3 * (double)draw(k, 3);
+        JoxV2 way = {(float)jox_cos(angle), (float)jox_sin(angle)};
+        JoxV2 pref = put(f, jox_scale(way, 0.3f + 1.4f * draw(k, 4)));
+        JoxV2 v = put(f, jox_scale(way, 1.3f * draw(k, 5)));
+        a->x[i] = a->prev_x[i] = at.x;
+        a->y[i] = a->prev_y[i] = at.y;
+        a->pref_x[i] = draw(k, 6) < 0.1f ? 0.0f : pref.x;
+        a->pref_y[i] = draw(k, 6) < 0.1f ? 0.0f : pref.y;
+        a->vx[i] = v.x;
+        a->vy[i] = v.y;
+        a->bound[i] = k % 2 ? 0 : -1;
+        a->way[i] = 20.0f * draw(k, 7);
+        a->speed_limit[i] = 3.0f;
+        a->breadth[i] = a->param[JOX_PARAM_radius][i];
+        a->param[JOX_PARAM_time_gap][i] = 1.0f;
+        a->param[JOX_PARAM_haste][i] = draw(k, 8);
+    }
+}
+
+static void begin(Crowd *c, Frame f, const JoxWalkLaw *law, float side) {
+    *c = (Crowd){.nav = jox_nav_create()};
+    jox_nav_set_walk(c->nav, law);
+    for (uint32_t k = 0; k < 12; k++) {
+        JoxV2 from = {side * draw(k, 20), side * draw(k, 21)};
+        JoxV2 to = {from.x + 4.0f * draw(k, 22) - 2.0f, from.y + 4.0f * draw(k, 23) - 2.0f};
+        jox_walls_add_polyline(&c->walls, (JoxV2[]){put(f, from), put(f, to)}, 2, false, INFINITY);
+    }
+    jox_nav_set_walls(c->nav, &c->walls);
+    add_people(c, f, side);
+}
+
+static void plan(Crowd *c, JoxPool *pool, bool walks) {
+    jox_nav_sort(c->nav, &c->agents, 0);
+    jox_nav_perceive(c->nav, &c->agents, &c->neighbours, pool);
+    if (walks)
+        jox_nav_walk(c->nav, &c->agents, &c->neighbours, 3, 1.7, 0.05, true, pool);
+    jox_nav_solve(c->nav, &c->agents, &c->neighbours, NULL, NULL, 0.05, true, pool);
+}
+
+/* Index of the agent with an id. */
+static uint32_t find(const JoxAgents *a, uint32_t id) {
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->id[i] == id)
+            return i;
+    fail();
+    return 0;
+}
+
+/* How many want another velocity in the frame than outside of it: rounding decides between
+   directions that are nearly as good. */
+static uint32_t differing(Frame f, const JoxWalkLaw *law, float side) {
+    Crowd plain, other;
+    uint32_t differ = 0;
+    begin(&plain, (Frame){0}, law, side);
+    begin(&other, f, law, side);
+    plan(&plain, NULL, true);
+    plan(&other, NULL, true);
+    for (uint32_t id = 0; id < PEOPLE; id++) {
+        uint32_t i = find(&plain.agents, id), j = find(&other.agents, id);
+        JoxV2 v = put(f, (JoxV2){plain.agents.walk_x[i], plain.agents.walk_y[i]});
+        JoxV2 u = {other.agents.walk_x[j], other.agents.walk_y[j]};
+        differ += jox_length(jox_sub(u, v)) > 1e-3f;
+    }
+    end(&plain);
+    end(&other);
+    return differ;
+}
+
+static void a_turned_crowd_does_the_same(void **state) {
+    (void)state;
+    const JoxWalkLaw law = jox_walk_law();
+    for (int k = 0; k < 3; k++)
+        assert_true(differing((Frame){.angle = 37.0 / 180.0 * PI}, &law, 6.0f + 6.0f * (float)k) <=
+                    PEOPLE / 50);
+}
+
+/* Who finds both sides equally good takes the left one in either frame: few do. */
+static void a_mirrored_crowd_does_the_same_but_for_passing_on_the_right(void **state) {
+    (void)state;
+    const uint32_t few = PEOPLE / 16;
+    JoxWalkLaw law = jox_walk_law();
+    law.right = 0.0;
+    for (int k = 0; k < 3; k++)
+        assert_true(differing((Frame){.mirrored = true}, &law, 12.0f + 6.0f * (float)k) <= few);
+    law.right = 0.5;
+    assert_true(differing((Frame){.mirrored = true}, &law, 12.0f) > 2 * few);
+}
+
+/* What the law wants never exceeds what is wanted by more than is left of the present velocity, and
+   is finite; eagerness stays a share. */
+static void expect_sane(const JoxAgents *a) {
+    for (uint32_t i = 0; i < a->count; i++) {
+        float most = jox_maxf(jox_length((JoxV2){a->pref_x[i], a->pref_y[i]}),
+                              jox_length((JoxV2){a->vx[i], a->vy[i]}));
+        assert_true(isfinite(a->walk_x[i]) && isfinite(a->walk_y[i]));
+        assert_true(jox_length((JoxV2){a->walk_x[i], a->walk_y[i]}) <= 1.5f * most + 1e-3f);
+        assert_true(isfinite(a->next_x[i]) && isfinite(a->next_y[i]));
+        assert_true(a->eager[i] >= 0.0f && a->eager[i] <= 1.0f);
+        float course = jox_length((JoxV2){a->course_x[i], a->course_y[i]});
+        assert_true(course == 0.0f || fabsf(course - 1.0f) < 1e-4f);
+    }
+}
+
+static void people_in_one_place_stay_finite(void **state) {
+    (void)state;
+    const JoxWalkLaw law = jox_walk_law();
+    const float sides[] = {0.0f, 1e-6f, 0.5f, 3.0f, 40.0f};
+    for (int k = 0; k < 5; k++) {
+        Crowd c;
+        begin(&c, (Frame){0}, &law, sides[k]);
+        for (int n = 0; n < 3; n++)
+            plan(&c, NULL, true);
+        expect_sane(&c.agents);
+        end(&c);
+    }
+}
+
+/* Those who keep no time gap choose by ORCA to the bit, whatever the constants of the law. */
+static void without_a_time_gap_orca_is_unchanged(void **state) {
+    (void)state;
+    JoxWalkLaw law = jox_walk_law();
+    law.turn_cost = 0.0;
+    law.close = 3.0;
+    Crowd with, without;
+    begin(&with, (Frame){0}, &law, 10.0f);
+    begin(&without, (Frame){0}, &law, 10.0f);
+    for (uint32_t i = 0; i < PEOPLE; i++)
+        with.agents.param[JOX_PARAM_time_gap][i] = without.agents.param[JOX_PARAM_time_gap][i] =
+            0.0f;
+    plan(&with, NULL, true);
+    plan(&without, NULL, false);
+    assert_memory_equal(with.agents.next_x, without.agents.next_x, PEOPLE * sizeof(float));
+    assert_memory_equal(with.agents.next_y, without.agents.next_y, PEOPLE * sizeof(float));
+    /* The same people with a time gap do something else. */
+    for (uint32_t i = 0; i < PEOPLE; i++)
+        with.agents.param[JOX_PARAM_time_gap][i] = 1.0f;
+    plan(&with, NULL, true);
+    assert_memory_not_equal(with.agents.next_x, without.agents.next_x, PEOPLE * sizeof(float));
+    end(&with);
+    end(&without);
+}
+
+/* A world of people who walk to and fro; its hash after some seconds. */
+static uint64_t hash(int threads, double time_gap) {
+    JoWorldDef def = jo_default_world_def();
+    def.threads = threads;
+    JoWorld *world = jo_world_create(&def, NULL);
+    assert_true(jo_world_add_line(world, (double[]){0, 9, 12, 9}, 2, NULL));
+    JoAgent people[3 * PEOPLE];
+    for (uint32_t k = 0; k < 3 * PEOPLE; k++) {
+        JoAgentDef person = jo_default_agent_def();
+        person.x = 24.0 * (double)draw(k, 30);
+        person.y = 24.0 * (double)draw(k, 31);
+        person.time_gap = time_gap;
+        person.haste = (double)draw(k, 32);
+        people[k] = jo_world_add_agent(world, &person, NULL);
+        assert_true(people[k].generation > 0);
+        jo_agent_set_preferred(world, people[k], k % 3 == 0 ? 1.2 : -0.9, k % 3 == 1 ? 0.8 : 0.0);
+    }
+    jo_world_step(world, 100);
+    assert_null(jo_world_failure(world));
+    uint64_t result = jo_world_hash(world);
+    jo_world_free(world);
+    return result;
+}
+
+static void threads_change_nothing(void **state) {
+    (void)state;
+    uint64_t one = hash(1, 1.0);
+    assert_true(hash(2, 1.0) == one && hash(4, 1.0) == one);
+    assert_true(hash(1, 0.0) != one);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_turned_crowd_does_the_same),
+        cmocka_unit_test(a_mirrored_crowd_does_the_same_but_for_passing_on_the_right),
+        cmocka_unit_test(people_in_one_place_stay_finite),
+        cmocka_unit_test(without_a_time_gap_orca_is_unchanged),
+        cmocka_unit_test(threads_change_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

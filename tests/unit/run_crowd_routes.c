@@ -1,0 +1,156 @@
+/* Ways round a crowd while a scene runs: they come, are renewed and go, for those who walk by the
+   walking law alone; the same for any number of threads, and after a state is restored. */
+#include "unit/run_acted.h"
+
+/* A room with a narrow door (about y = 2) and a wide one (about y = 9) to the goal. */
+#define ROOM(slowing)                                                                              \
+    "jostle: 1\nwalking: {crowd_slowing: " slowing "}\n"                                           \
+    "places:\n"                                                                                    \
+    "  front: {polygon: [[2, 0.5], [5.5, 0.5], [5.5, 5], [2, 5]]}\n"                               \
+    "  goal: {polygon: [[9, 0], [11, 0], [11, 4], [9, 4]]}\n"                                      \
+    "walls:\n"                                                                                     \
+    "  - {line: [[12, 0], [0, 0], [0, 11], [12, 11]]}\n"                                           \
+    "  - {line: [[6, 0], [6, 1.6]]}\n"                                                             \
+    "  - {line: [[6, 2.4], [6, 8]]}\n"                                                             \
+    "  - {line: [[6, 10], [6, 11]]}\n"                                                             \
+    "groups: {people: {behaviour: own.lua, count: 60, fill: random, in: front}}\n"
+#define GOES(gap)                                                                                  \
+    HEAD "\"Go\", defaults = { time_gap = " gap ", speed = 1.3 }, states = {\n"                    \
+         "Go = { steer = field \"goal\", { to = \"Gone\", when = inside \"goal\" } },\n"           \
+         "Gone = { removes = true } } }\n"
+
+static const JoxField *crowd_field(const JoScene *scene) {
+    uint32_t goal = 1; /* in the order of the scene */
+    return scene->world->machines.fields[goal * JOX_ROUTE_KINDS + JOX_ROUTE_CROWD];
+}
+
+/* How many people got out through the wide door. */
+static int run_out(JoScene *scene, int *seen, int *steps) {
+    int wide = 0;
+    const JoxAgents *a = &scene->world->state.agents;
+    *seen = 0;
+    for (*steps = 0; *steps < 2400 && a->count > 0; ++*steps) {
+        step(scene, 1);
+        *seen += crowd_field(scene) != NULL;
+        for (uint32_t i = 0; i < a->count; i++)
+            wide += a->prev_x[i] < 6.0f && a->x[i] >= 6.0f && a->y[i] > 5.0f;
+    }
+    return wide;
+}
+
+static void a_way_round_the_crowd_comes_and_goes(void **state) {
+    (void)state;
+    int seen, steps;
+    JoScene *scene = load_own(ROOM("2"), GOES("1"));
+    step(scene, 1);
+    assert_null(crowd_field(scene)); /* nobody is held up yet */
+    assert_true(run_out(scene, &seen, &steps) > 5);
+    assert_int_equal(scene->world->state.agents.count, 0);
+    assert_true(seen > 60 && seen < steps - 10); /* it went before the last had left */
+    jo_scene_free(scene);
+}
+
+static void those_who_keep_no_time_gap_ask_for_none(void **state) {
+    (void)state;
+    JoScene *scene = load_own(ROOM("2"), GOES("0"));
+    for (int n = 0; n < 200; n++) {
+        step(scene, 1);
+        assert_null(crowd_field(scene));
+    }
+    for (uint32_t i = 0; i < scene->world->state.agents.count; i++)
+        assert_int_equal(scene->world->state.agents.bound[i], -1);
+    jo_scene_free(scene);
+}
+
+/* Where a crowd slows nobody down, nobody goes round it. */
+static void without_slowing_all_take_the_nearer_door(void **state) {
+    (void)state;
+    int seen, steps;
+    JoScene *scene = load_own(ROOM("0"), GOES("1"));
+    assert_int_equal(run_out(scene, &seen, &steps), 0);
+    assert_int_equal(scene->world->state.agents.count, 0);
+    jo_scene_free(scene);
+}
+
+/* The hashes of steps with a field that is in use and another one under way. */
+enum { STEPS = 200 };
+
+static void hashes_of(JoScene *scene, uint64_t hashes[STEPS]) {
+    for (int n = 0; n < STEPS; n++) {
+        step(scene, 1);
+        hashes[n] = jo_world_hash(scene->world);
+    }
+}
+
+static void threads_change_nothing(void **state) {
+    (void)state;
+    uint64_t one[STEPS], more[STEPS];
+    for (int threads = 1; threads <= 4; threads *= 2) {
+        JoScene *scene = load_own(ROOM("2"), GOES("1"));
+        jox_pool_free(scene->world->scratch.pool);
+        scene->world->scratch.pool = jox_pool_create(threads);
+        hashes_of(scene, threads == 1 ? one : more);
+        assert_non_null(crowd_field(scene));
+        if (threads > 1)
+            assert_memory_equal(one, more, sizeof one);
+        jo_scene_free(scene);
+    }
+}
+
+static uint32_t find(const JoxAgents *a, uint32_t id) {
+    for (uint32_t i = 0; i < a->count; i++)
+        if (a->id[i] == id)
+            return i;
+    fail();
+    return 0;
+}
+
+static void a_restored_crowd_goes_on_to_the_bit(void **state) {
+    (void)state;
+    for (int before = 60; before <= 72; before += 3) { /* between renewals, and while one is made */
+        JoScene *scene = load_own(ROOM("2"), GOES("1"));
+        JoxText saved = {0};
+        JoError error = {0};
+        uint64_t first[STEPS], second[STEPS];
+        step(scene, before);
+        assert_true(jox_world_snapshot(scene->world, &saved, &error));
+        JoxAgents *a = &scene->world->state.agents;
+        uint32_t one = find(a, 7); /* the order of the columns is no state */
+        int32_t bound = a->bound[one];
+        float eager = a->eager[one];
+        JoxV2 course = {a->course_x[one], a->course_y[one]};
+        assert_int_equal(bound, 1);
+        assert_true(eager > 0.0f && fabsf(jox_length(course) - 1.0f) < 1e-4f);
+        hashes_of(scene, first);
+        assert_true(jox_world_restore(scene->world, saved.data, saved.length, &error));
+        one = find(a, 7);
+        assert_int_equal(a->bound[one], bound);
+        assert_true(a->eager[one] == eager);
+        assert_true(a->course_x[one] == course.x && a->course_y[one] == course.y);
+        hashes_of(scene, second);
+        assert_memory_equal(first, second, sizeof first);
+        /* Each of them is state that the future depends on. */
+        uint64_t now = jo_world_hash(scene->world);
+        a->eager[0] += 0.25f;
+        assert_true(jo_world_hash(scene->world) != now);
+        a->eager[0] -= 0.25f;
+        a->course_x[0] += 0.25f;
+        assert_true(jo_world_hash(scene->world) != now);
+        a->course_x[0] -= 0.25f;
+        a->bound[0] = 0;
+        assert_true(jo_world_hash(scene->world) != now);
+        jox_text_free(&saved);
+        jo_scene_free(scene);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_way_round_the_crowd_comes_and_goes),
+        cmocka_unit_test(without_slowing_all_take_the_nearer_door),
+        cmocka_unit_test(those_who_keep_no_time_gap_ask_for_none),
+        cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(a_restored_crowd_goes_on_to_the_bit),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
