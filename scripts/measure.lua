@@ -1,6 +1,10 @@
 -- Arithmetic for claims: on lists of numbers, and on the columns that probes leave.
 local measure = {}
 
+-- What the constants of the walking law (core/walking.md) were chosen on, by the ids of claims; said by those as what
+-- they are calibrated on, and by all others of real crowds as what they were held out from.
+measure.walking_law = "the walking law's constants were chosen on B1, B2, B3, B4, C1, F2, F3b, L1 and R4"
+
 function measure.mean(list)
   local sum = 0
   for i = 1, #list do sum = sum + list[i] end

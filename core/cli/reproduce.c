@@ -6,8 +6,8 @@
 
 static const CliOption OPTIONS[] = {
     {"quick", NULL, "smaller runs with the same bands", CLI_TO(JoReproduceDef, quick)},
-    {"seeds", "N", "so many seeds in place of those that each claim asks for",
-     CLI_TO(JoReproduceDef, seeds), CLI_RANGE(1, 1000)},
+    {"seeds", "A-B", "these seeds, or A alone, in place of those of each claim",
+     CLI_TO(JoReproduceDef, seeds)},
     {"jobs", "N", "processes at once", "one for each processor", CLI_TO(JoReproduceDef, jobs),
      CLI_RANGE(1, 256)},
     {"out", "DIR", "for runs, pictures and index.html", "build/out/reproduce",
@@ -58,7 +58,8 @@ const CliCommand cli_reproduce = {
     .what = "run what papers and real crowds show, and compare",
     .usage = "[CLAIM...] [options]",
     .about = "Runs scenes, measures, and compares with what papers and real crowds say: all claims "
-             "of scenes/claims, or those named. Runs that are there already are not done again.",
+             "of scenes/claims, or those named; `paper`, `real` and `rimea` name several. Runs "
+             "that are there already are not done again.",
     .notes = "exit status: 0 all in band, 1 a claim misses, 2 wrong usage, 3 a claim file is wrong",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,

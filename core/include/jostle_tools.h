@@ -145,7 +145,7 @@ typedef struct JoReproduceDef {
     const char *out;          /* folder for runs, pictures and the page */
     const char *program;      /* path of the command `jostle`, which runs the scenes */
     uint32_t jobs;            /* processes at once */
-    uint32_t seeds;           /* per run that has several; 0: as the claim says */
+    const char *seeds;        /* "101" or "101-110", in place of those of each claim; or NULL */
     bool quick;               /* the smaller runs of each claim */
     bool fresh;               /* runs that are there already are done again */
     bool list;                /* names the claims, runs nothing */

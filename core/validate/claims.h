@@ -15,6 +15,7 @@ typedef struct JoxClaimRun {
     char *name, *scene; /* the scene's path, beside the claim's file */
     char **sets;        /* "PATH=VALUE" */
     uint32_t set_count, seeds;
+    uint64_t first_seed;
     double dt, duration; /* s; 0: the scene's */
     bool first;          /* takes long: begun before others */
 } JoxClaimRun;
@@ -52,6 +53,8 @@ typedef struct JoxClaimPlot {
 
 typedef struct JoxClaim {
     char *path, *id, *title, *source, *text;
+    char *level;                 /* haste of its people: calm, normal, keen; "" where none walk */
+    char *calibrated, *held_out; /* what constants were chosen on, and with it, or without; or "" */
     JoxClaimRun *runs;
     JoxClaimFigure *figures;
     JoxClaimPicture *pictures;

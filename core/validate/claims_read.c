@@ -8,6 +8,9 @@
 #include "base/mem.h"
 #include "base/sort.h"
 #include "validate/claims_parts.h"
+#include "validate/verdict.h"
+
+enum { FIRST_SEED = 101, FEW_SEEDS = 3 };
 
 static bool bool_of(lua_State *L, const char *key) {
     lua_getfield(L, -1, key);
@@ -56,6 +59,21 @@ static void read_sets(lua_State *L, JoxClaimRun *run) {
     lua_settop(L, top);
 }
 
+/* `seeds` of the table on top: "101-110", or how many from 101 on. */
+static void read_seeds(lua_State *L, const char *what, const JoxClaimRun *base, JoxClaimRun *run) {
+    int type = lua_getfield(L, -1, "seeds");
+    double number = lua_tonumber(L, -1);
+    run->first_seed = base ? base->first_seed : FIRST_SEED;
+    run->seeds = base ? base->seeds : FEW_SEEDS;
+    if (type == LUA_TNUMBER && number >= 1 && number <= 1000 && number == floor(number))
+        run->seeds = (uint32_t)number;
+    else if (type != LUA_TNIL &&
+             (type != LUA_TSTRING ||
+              !jox_seeds_read(lua_tostring(L, -1), &run->first_seed, &run->seeds)))
+        luaL_error(L, "%s: seeds = \"101-110\", or 1 to 1000: so many from 101 on", what);
+    lua_pop(L, 1);
+}
+
 /* The run on top of the stack; `base` gives what it leaves out (of `quick`), or is NULL. */
 static void read_run(lua_State *L, const JoxClaim *claim, const JoxClaimRun *base,
                      JoxClaimRun *run) {
@@ -72,12 +90,12 @@ static void read_run(lua_State *L, const JoxClaim *claim, const JoxClaimRun *bas
     run->scene = jox_strdup(*scene || !base ? path : base->scene);
     jox_free(scene);
     jox_path_clean(run->scene);
-    run->seeds = (uint32_t)jox_claim_number(L, what, "seeds", base ? base->seeds : 3);
+    read_seeds(L, what, base, run);
     run->duration = jox_claim_number(L, what, "duration", base ? base->duration : 0.0);
     run->dt = jox_claim_number(L, what, "dt", base ? base->dt : 0.0);
     run->first = bool_of(L, "first") || (base && base->first);
-    if (run->seeds < 1 || run->seeds > 1000 || run->duration < 0.0 || run->dt < 0.0)
-        luaL_error(L, "%s: seeds is 1 to 1000, duration and dt are not negative", what);
+    if (run->duration < 0.0 || run->dt < 0.0)
+        luaL_error(L, "%s: duration and dt are not negative", what);
     read_sets(L, run);
     if (!base || run->set_count || !base->set_count)
         return;
@@ -237,10 +255,26 @@ static void read_tried(lua_State *L, JoxClaim *claim) {
     lua_pop(L, 1);
 }
 
+/* How hurried its people are, and what its constants were chosen on. */
+static void read_standing(lua_State *L, JoxClaim *claim) {
+    static const char *const LEVELS[] = {"", "calm", "normal", "keen"};
+    bool known = false;
+    claim->level = jox_claim_text(L, "a claim", "level", false);
+    claim->calibrated = jox_claim_text(L, "a claim", "calibrated", false);
+    claim->held_out = jox_claim_text(L, "a claim", "held_out", false);
+    for (size_t l = 0; l < sizeof LEVELS / sizeof *LEVELS; l++)
+        known |= strcmp(claim->level, LEVELS[l]) == 0;
+    if (!known)
+        luaL_error(L, "level is calm, normal or keen, not '%s'", claim->level);
+    if (*claim->calibrated && *claim->held_out)
+        luaL_error(L, "a claim is calibrated, or held_out, not both");
+}
+
 /* claim { ... }: reads everything and keeps measure alone. */
 static int word_claim(lua_State *L) {
-    static const char *const KEYS[] = {"id",      "title",  "source", "text",     "runs", "quick",
-                                       "measure", "expect", "plots",  "pictures", "tried"};
+    static const char *const KEYS[] = {"id",         "title",    "source",   "text",  "level",
+                                       "calibrated", "held_out", "runs",     "quick", "measure",
+                                       "expect",     "plots",    "pictures", "tried"};
     lua_getfield(L, LUA_REGISTRYINDEX, "jostle claim");
     JoxClaim *claim = lua_touserdata(L, -1);
     lua_getfield(L, LUA_REGISTRYINDEX, "jostle quick");
@@ -255,6 +289,7 @@ static int word_claim(lua_State *L) {
     claim->title = jox_claim_text(L, "a claim", "title", true);
     claim->source = jox_claim_text(L, "a claim", "source", true);
     claim->text = jox_claim_text(L, "a claim", "text", false);
+    read_standing(L, claim);
     read_runs(L, claim);
     read_quick(L, claim, quick);
     read_figures(L, claim);

@@ -26,11 +26,17 @@ JoReproduceDef jo_default_reproduce_def(void) {
 
 /* ---- claims ---- */
 
+/* "paper" has claims with numbers, "rimea" those with an R, "real" the others. */
+static const char *group_of(const JoxClaim *claim) {
+    return isdigit((unsigned char)*claim->id) ? "paper" : *claim->id == 'R' ? "rimea" : "real";
+}
+
 static bool is_wanted(const JoReproduceDef *def, const JoxClaim *claim) {
     for (size_t c = 0; c < def->claim_count; c++) {
         const char *file = jox_path_name(claim->path);
         size_t stem = jox_path_stem(file);
         if (strcmp(def->claims[c], claim->id) == 0 ||
+            strcmp(def->claims[c], group_of(claim)) == 0 ||
             (strncmp(def->claims[c], file, stem) == 0 && def->claims[c][stem] == 0) ||
             strcmp(def->claims[c], claim->path) == 0)
             return true;
@@ -113,7 +119,7 @@ static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
  */
 static uint32_t add_job(JoxReproduction *all, const JoxClaim *claim, const JoxClaimRun *run,
                         uint64_t seed) {
-    bool pictures = seed == 1 && claim->picture_count > 0;
+    bool pictures = seed == run->first_seed && claim->picture_count > 0;
     JoxText key = {0}, folder = {0};
     char hash[65];
     jox_text_printf(&key, "%s\n%s\nseed %llu\ndt %.9g\nduration %.9g\npictures %d\n",
@@ -137,6 +143,14 @@ static uint32_t add_job(JoxReproduction *all, const JoxClaim *claim, const JoxCl
     return all->job_count++;
 }
 
+/* The seeds that were asked for in place of a run's own; a run that has one keeps to one. */
+static void choose_seeds(const JoxReproduction *all, JoxClaimRun *run) {
+    if (!all->seeds)
+        return;
+    run->first_seed = all->first_seed;
+    run->seeds = run->seeds > 1 ? all->seeds : 1;
+}
+
 static void plan_runs(JoxReproduction *all) {
     for (uint32_t o = 0; o < all->outcome_count; o++) {
         JoxOutcome *outcome = &all->outcomes[o];
@@ -145,12 +159,11 @@ static void plan_runs(JoxReproduction *all) {
         outcome->verdicts = jox_alloc(claim->figure_count, sizeof *outcome->verdicts);
         for (uint32_t r = 0; r < claim->run_count; r++) {
             JoxClaimRun *run = &claim->runs[r];
-            if (all->def->seeds && run->seeds > 1)
-                run->seeds = all->def->seeds;
+            choose_seeds(all, run);
             outcome->seeds = run->seeds > outcome->seeds ? run->seeds : outcome->seeds;
             outcome->jobs[r] = jox_alloc(run->seeds, sizeof **outcome->jobs);
             for (uint32_t s = 0; s < run->seeds; s++)
-                outcome->jobs[r][s] = add_job(all, claim, run, s + 1);
+                outcome->jobs[r][s] = add_job(all, claim, run, run->first_seed + s);
         }
     }
 }
@@ -169,10 +182,10 @@ static void measure(const JoxReproduction *all, JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
     const char *failure = failed_run(all, outcome);
     double *values = jox_alloc(claim->figure_count, sizeof *values);
+    double *all_values =
+        jox_alloc((size_t)claim->figure_count * outcome->seeds, sizeof *all_values);
     const char **folders = jox_alloc(claim->run_count, sizeof *folders);
     JoxText why = {0};
-    for (uint32_t f = 0; f < claim->figure_count; f++)
-        outcome->verdicts[f] = (JoxVerdict){0.0, INFINITY, -INFINITY, false};
     if (failure)
         jox_text_add(&why, failure);
     for (uint32_t s = 0; s < outcome->seeds && why.length == 0; s++) {
@@ -181,23 +194,21 @@ static void measure(const JoxReproduction *all, JoxOutcome *outcome) {
             folders[r] = all->jobs[outcome->jobs[r][s % own]].folder;
         }
         jox_claim_measure(claim, folders, values, &why);
-        for (uint32_t f = 0; f < claim->figure_count; f++) {
-            JoxVerdict *v = &outcome->verdicts[f];
-            v->mean += values[f] / outcome->seeds; /* NAN stays */
-            v->least = fmin(v->least, values[f]);
-            v->most = fmax(v->most, values[f]);
-        }
+        for (uint32_t f = 0; f < claim->figure_count; f++)
+            all_values[f * outcome->seeds + s] = values[f];
     }
     outcome->failure = why.data;
     outcome->inside = why.length == 0;
     for (uint32_t f = 0; f < claim->figure_count; f++) {
-        JoxVerdict *v = &outcome->verdicts[f];
         const JoxClaimFigure *figure = &claim->figures[f];
-        if (why.length)
-            v->mean = v->least = v->most = NAN;
-        v->inside = v->mean >= figure->low && v->mean <= figure->high;
-        outcome->inside &= v->inside || figure->reported;
+        double *of_figure = &all_values[f * outcome->seeds];
+        for (uint32_t s = 0; why.length && s < outcome->seeds; s++)
+            of_figure[s] = NAN;
+        outcome->verdicts[f] = jox_verdict(of_figure, outcome->seeds, figure->low, figure->high);
+        outcome->inside &= outcome->verdicts[f].inside || figure->reported;
+        outcome->thin |= outcome->verdicts[f].thin && !figure->reported;
     }
+    jox_free(all_values);
     jox_free(values);
     jox_free(folders);
 }
@@ -218,7 +229,8 @@ static void say_number(JoxText *out, double value) {
 static void list_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
     JoxText out = {0};
-    jox_text_printf(&out, "%s  %s (%s)%s\n", claim->id, claim->title, claim->source,
+    jox_text_printf(&out, "%s  %s (%s)%s%s%s\n", claim->id, claim->title, claim->source,
+                    *claim->level ? ", " : "", claim->level,
                     def->list         ? ""
                     : outcome->inside ? ": in band"
                                       : ": MISSES");
@@ -228,16 +240,18 @@ static void list_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) {
         jox_text_printf(&out, "   %-24s source %-12s measured ", figure->name,
                         *figure->expected ? figure->expected : "-");
         say_number(&out, v->mean);
+        if (isfinite(v->bound))
+            jox_text_printf(&out, " +- %.2g", v->bound);
         jox_text_add(&out, " (");
         say_number(&out, v->least);
         jox_text_add(&out, " to ");
         say_number(&out, v->most);
-        jox_text_printf(&out, ") %s", figure->unit);
+        jox_text_printf(&out, ", %u seed%s) %s", v->seeds, v->seeds == 1 ? "" : "s", figure->unit);
         if (figure->reported)
             jox_text_add(&out, ", reported\n");
         else
-            jox_text_printf(&out, ", band %.4g to %.4g: %s\n", figure->low, figure->high,
-                            v->inside ? "in" : "OUT");
+            jox_text_printf(&out, ", band %.4g to %.4g: %s%s\n", figure->low, figure->high,
+                            v->inside ? "in" : "OUT", v->thin ? ", thin" : "");
     }
     if (outcome->failure)
         jox_text_printf(&out, "   %s\n", outcome->failure);
@@ -310,6 +324,10 @@ static bool reproduce(const JoReproduceDef *def, size_t *missed, JoError *error)
         jox_error(error, JO_FAILED, "%s, which is to run the scenes, cannot be read", def->program);
         return false;
     }
+    if (def->seeds && !jox_seeds_read(def->seeds, &all.first_seed, &all.seeds))
+        jox_diag_error(&diagnostics, ((JoxPosition){"--seeds", 0, 0, 0}), "bad-seeds",
+                       "--seeds 101, or --seeds 101-110",
+                       "'%.60s' is no seed, and no range of up to 1000", def->seeds);
     load_claims(&all, &diagnostics);
     bool good = diagnostics.errors == 0;
     jox_run_report(def->message, def->message_context, &diagnostics, error);

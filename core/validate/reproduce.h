@@ -8,6 +8,7 @@
 #include "jostle_tools.h"
 #include "run/run.h"
 #include "validate/claims.h"
+#include "validate/verdict.h"
 
 typedef enum { JOX_JOB_WAITS, JOX_JOB_RUNS, JOX_JOB_DONE, JOX_JOB_FAILED } JoxJobState;
 
@@ -24,18 +25,13 @@ typedef struct JoxJob {
     char *failure; /* what it said, where it failed */
 } JoxJob;
 
-typedef struct JoxVerdict {
-    double mean, least, most; /* over seeds; NAN: not measured */
-    bool inside;              /* the band */
-} JoxVerdict;
-
 typedef struct JoxOutcome {
     JoxClaim *claim;
     uint32_t **jobs;      /* [run][seed], index of the job; rows are claim->runs[r].seeds long */
     uint32_t seeds;       /* the most of its runs */
     JoxVerdict *verdicts; /* by figure */
     char *failure;        /* why it could not be measured, or NULL */
-    bool inside;
+    bool inside, thin;    /* thin: of one of its figures */
 } JoxOutcome;
 
 typedef struct JoxReproduction {
@@ -46,6 +42,8 @@ typedef struct JoxReproduction {
     uint32_t job_count;
     size_t job_capacity;
     char program_sha256[65];
+    uint64_t first_seed;
+    uint32_t seeds;   /* in place of those of each claim; 0: those */
     double seconds;   /* wall time of all */
     JoxText left_out; /* ids of claims that have no quick runs */
 } JoxReproduction;

@@ -28,7 +28,11 @@ static void put_band(FILE *out, const JoxClaimFigure *figure, const char *dash) 
 }
 
 static const char *verdict_of(const JoxClaimFigure *figure, const JoxVerdict *verdict) {
-    return figure->reported ? "reported" : verdict->inside ? "in band" : "misses";
+    if (figure->reported)
+        return "reported";
+    if (verdict->thin)
+        return verdict->inside ? "in band, thin" : "misses, thin";
+    return verdict->inside ? "in band" : "misses";
 }
 
 /* ---- where and when ---- */
@@ -76,8 +80,9 @@ static void circumstances(const JoxReproduction *all, char *out, size_t size) {
 /* ---- the page ---- */
 
 static void put_figures(FILE *out, const JoxOutcome *outcome) {
-    fputs("<div class=scroll><table><tr><th>figure<th>source<th>measured<th>least to most of the "
-          "seeds<th>band<th>verdict</tr>\n",
+    fputs("<div class=scroll><table><tr><th>figure<th>source<th>mean<th>95&nbsp;% "
+          "bound<th>seeds<th>least "
+          "to most of them<th>band<th>verdict</tr>\n",
           out);
     for (uint32_t f = 0; f < outcome->claim->figure_count; f++) {
         const JoxClaimFigure *figure = &outcome->claim->figures[f];
@@ -91,6 +96,11 @@ static void put_figures(FILE *out, const JoxOutcome *outcome) {
         fputc(' ', out);
         jox_html_text(out, figure->unit);
         fputs("<td class=n>", out);
+        if (isfinite(v->bound)) {
+            fputs("&plusmn;&nbsp;", out);
+            jox_html_number(out, v->bound);
+        }
+        fprintf(out, "<td class=n>%u<td class=n>", v->seeds);
         jox_html_number(out, v->least);
         fputs(" to ", out);
         jox_html_number(out, v->most);
@@ -155,7 +165,8 @@ static void put_runs(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
             fputs(" --set ", out);
             jox_html_argument(out, run->sets[s]);
         }
-        fprintf(out, "</code>, seeds 1 to %u, ", run->seeds);
+        fprintf(out, "</code>, seeds %llu to %llu, ", (unsigned long long)run->first_seed,
+                (unsigned long long)(run->first_seed + run->seeds - 1));
         jox_html_text(out, job->folder);
         fputs("\n<pre>", out);
         char *text = jox_read_file(run->scene, (size_t)1 << 20, &length);
@@ -190,6 +201,12 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
     jox_html_text(out, claim->text);
     fputs("<br><small>Source: ", out);
     jox_html_text(out, claim->source);
+    if (*claim->level)
+        fprintf(out, "<br>Haste: %s.", claim->level);
+    if (*claim->calibrated || *claim->held_out) {
+        fputs(*claim->calibrated ? "<br>Calibrated: " : "<br>Held out: ", out);
+        jox_html_text(out, *claim->calibrated ? claim->calibrated : claim->held_out);
+    }
     fputs("</small></p>\n", out);
     if (outcome->failure) {
         fputs("<pre class=out>", out);
@@ -267,7 +284,8 @@ static bool write_table(const JoxReproduction *all, const char *when, JoxText *e
         return false;
     jox_quote_put(out, jox_quote_markdown, when);
     fputs(
-        ".\n\n| claim | figure | source | measured | band | verdict |\n|---|---|---|---|---|---|\n",
+        ".\n\n| claim | haste | constants | figure | source | mean | 95 % | seeds | band | verdict "
+        "|\n|---|---|---|---|---|---|---|---|---|---|\n",
         out);
     for (uint32_t o = 0; o < all->outcome_count; o++)
         for (uint32_t f = 0; f < all->outcomes[o].claim->figure_count; f++) {
@@ -278,12 +296,20 @@ static bool write_table(const JoxReproduction *all, const char *when, JoxText *e
             jox_quote_put(out, jox_quote_markdown, f ? "" : claim->id);
             fputc(' ', out);
             put_cell(out, f ? "" : claim->title);
+            put_cell(out, f ? "" : claim->level);
+            put_cell(out, f                    ? ""
+                          : *claim->calibrated ? "calibrated"
+                          : *claim->held_out   ? "held out"
+                                               : "");
             put_cell(out, *figure->what ? figure->what : figure->name);
             put_cell(out, figure->expected);
             if (isfinite(v->mean))
-                fprintf(out, "%.4g (%.4g to %.4g) %s | ", v->mean, v->least, v->most, figure->unit);
+                fprintf(out, "%.4g %s | ", v->mean, figure->unit);
             else
                 fputs("not measured | ", out);
+            if (isfinite(v->bound))
+                fprintf(out, "+- %.2g", v->bound);
+            fprintf(out, " | %u | ", v->seeds);
             put_band(out, figure, "");
             fprintf(out, " | %s |\n", verdict_of(figure, v));
         }
@@ -313,6 +339,9 @@ static bool write_json(const JoxReproduction *all, JoxText *error) {
             jox_json_number(&json, "mean", v->mean);
             jox_json_number(&json, "least", v->least);
             jox_json_number(&json, "most", v->most);
+            jox_json_number(&json, "bound", v->bound);
+            jox_json_integer(&json, "seeds", v->seeds);
+            jox_json_bool(&json, "thin", v->thin);
             jox_json_bool(&json, "inside", v->inside);
             jox_json_end(&json);
         }

@@ -1,8 +1,11 @@
+local measure = require "measure"
+
 return claim {
   id = "A", title = "An arena of 5,000 people and four exits",
   source = "four exits of 2.4 m: 275 s by 1.92 b, 381 s by 82 people per metre and minute (Green Guide), 451 s by SFPE with "
     .. "effective width",
   text = "Everybody leaves by the nearest of four exits, 2.4 m wide, one in the middle of each side of 60 by 40 m.",
+  level = "normal", held_out = measure.walking_law,
   runs = { arena = { scene = "../arena.yaml", seeds = 3, first = true } },
   quick = { arena = { seeds = 1 } },
   measure = function(run)

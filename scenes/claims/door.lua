@@ -1,11 +1,13 @@
-local about = require("measure").about
+local measure = require "measure"
+local about = measure.about
 
 return claim {
   id = "B1", title = "A door of half a metre",
   source = "75 people, Wuppertal 2018, experiment 040, doi 10.34735/ped.2018.1, measured with the scene's own probes",
   text = "People who want to leave a corridor of 5.6 m through an opening that narrows from 0.8 m to 0.5 m, standing at the "
     .. "beginning where they stood: how many a second, how dense they are before it, how long nobody comes through.",
-  runs = { door = { scene = "../door-050.yaml", seeds = 10 } },
+  level = "normal", calibrated = measure.walking_law,
+  runs = { door = { scene = "../door-050.yaml", seeds = "101-110" } },
   quick = { door = { seeds = 3 } },
   measure = function(run)
     local probes = run.door.summary.probes

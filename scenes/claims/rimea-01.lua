@@ -1,7 +1,10 @@
+local measure = require "measure"
+
 return claim {
   id = "R1", title = "RiMEA 1: keeping a speed along a corridor",
   source = "RiMEA guideline, test 1",
   text = "One person walks 40 m along a corridor of 2 m at 1.33 m/s. That takes 26 to 34 s.",
+  level = "normal", held_out = measure.walking_law,
   runs = {
     walk = { scene = "../rimea-01.yaml", seeds = 1 }, fine = { scene = "../rimea-01.yaml", dt = 0.01, seeds = 1 },
     coarse = { scene = "../rimea-01.yaml", dt = 0.2, seeds = 1 },

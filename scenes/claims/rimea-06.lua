@@ -1,11 +1,14 @@
+local measure = require "measure"
+
 return claim {
   id = "R6", title = "RiMEA 6: round a corner",
   source = "RiMEA guideline, test 6",
   text = "Twenty people turn left at the corner of a corridor of 2 m. All get round it, and none passes through a "
     .. "wall.",
+  level = "normal", held_out = measure.walking_law,
   runs = {
-    corner = { scene = "../rimea-06.yaml", seeds = 3 }, fine = { scene = "../rimea-06.yaml", dt = 0.01, seeds = 3 },
-    coarse = { scene = "../rimea-06.yaml", dt = 0.1, seeds = 3 },
+    corner = { scene = "../rimea-06.yaml", seeds = "101-110" }, fine = { scene = "../rimea-06.yaml", dt = 0.01, seeds = "101-110" },
+    coarse = { scene = "../rimea-06.yaml", dt = 0.1, seeds = "101-110" },
   },
   measure = function(run)
     local function walls(name)

@@ -15,7 +15,9 @@ return claim {
   source = "RiMEA guideline, test 7; Weidmann 1993; Bohannon and Andrews 2011, doi 10.1016/j.physio.2010.12.004",
   text = "Fifty adults walk as fast as Weidmann's normal distribution says, fifty of each decade as fast as their "
     .. "age. Bands: three standard errors of the mean of 150 people, 5 % for the older ones.",
-  runs = { walk = { scene = "../rimea-07.yaml", seeds = 3 } },
+  level = "normal", held_out = measure.walking_law,
+  runs = { walk = { scene = "../rimea-07.yaml", seeds = "101-110" } },
+  quick = { walk = { seeds = 3 } },
   measure = function(run)
     local figures, all = {}, 0
     for i = 1, #GROUPS do

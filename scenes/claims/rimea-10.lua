@@ -1,8 +1,11 @@
+local measure = require "measure"
+
 return claim {
   id = "R10", title = "RiMEA 10: assigned exits",
   source = "RiMEA guideline, test 10; IMO MSC.1/Circ.1533, test 10",
   text = "23 people in twelve rooms on a corridor: each leaves by the exit that was assigned, not by the nearer one.",
-  runs = { rooms = { scene = "../rimea-10.yaml", seeds = 3 } },
+  level = "normal", held_out = measure.walking_law,
+  runs = { rooms = { scene = "../rimea-10.yaml", seeds = "101-110" } },
   measure = function(run)
     local probes = run.rooms.summary.probes
     return {

@@ -1,9 +1,12 @@
+local measure = require "measure"
+
 return claim {
   id = "R11", title = "RiMEA 11: the nearer and the farther exit",
   source = "RiMEA guideline, test 11",
   text = "300 people in one half of a hall with two doors: they prefer the nearer one, but some give it up for the "
     .. "farther one when a crowd stands before it.",
-  runs = { hall = { scene = "../rimea-11.yaml", seeds = 3 } },
+  level = "normal", held_out = measure.walking_law,
+  runs = { hall = { scene = "../rimea-11.yaml", seeds = "101-110" } },
   quick = { hall = { seeds = 1 } },
   measure = function(run)
     local near, far = run.hall.summary.probes.near, run.hall.summary.probes.far

@@ -1,10 +1,13 @@
+local measure = require "measure"
+
 return claim {
   id = "R15", title = "RiMEA 15: the long and the short way round a corner",
   source = "RiMEA guideline, test 15",
   text = "A crowd goes round a corner. It needs longer than along a straight corridor as long as the inner way, and "
     .. "less long than along one as long as the outer way.",
-  runs = { corner = { scene = "../rimea-15.yaml", seeds = 8 },
-    straight = { scene = "../rimea-15-straight.yaml", seeds = 8 } },
+  level = "normal", held_out = measure.walking_law,
+  runs = { corner = { scene = "../rimea-15.yaml", seeds = "101-110" },
+    straight = { scene = "../rimea-15-straight.yaml", seeds = "101-110" } },
   measure = function(run)
     local corner, straight = run.corner.summary.probes.turned, run.straight.summary.probes
     return {

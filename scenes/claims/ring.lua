@@ -1,4 +1,5 @@
-local about = require("measure").about
+local measure = require "measure"
+local about = measure.about
 
 -- Density in the ring, 1/m2, and mean speed there, m/s.
 local points = {
@@ -11,7 +12,7 @@ local runs, quick, expect, measured = {}, {}, {}, {}
 for i = 1, #points do
   local density, speed = points[i][1], points[i][2]
   local name = string.format("d%03.0f", 100 * density)
-  runs[name] = { scene = "../ring.yaml", seeds = 10,
+  runs[name] = { scene = "../ring.yaml", seeds = "101-110",
     set = { ["groups.people.count"] = math.floor(density * area + 0.5) } }
   quick[name] = { seeds = 1 }
   expect[i] = { name, unit = "m/s", what = string.format("mean speed at %.2f people per square metre", density),
@@ -23,6 +24,7 @@ return claim {
   id = "F2", title = "Speed and density in a wide ring corridor, one way",
   source = "Juelich archive, ring corridor, unidirectional",
   text = "Everybody walks the same way round, from random places: a fundamental diagram over ten-fold density.",
+  level = "calm", calibrated = measure.walking_law,
   runs = runs, quick = quick,
   measure = function(run)
     local out = {}

@@ -131,7 +131,7 @@ for level in A B C D E F; do
 done
 alike "the levels' person-seconds are those of the people over time" "$total" "$(awk -F, 'NR == 1 {for (i = 1; i <= NF; i++) if ($i == "level_A") c = i} NR > 2 {for (k = c; k < c + 6; k++) s += $k * ($1 - t)} {t = $1} END {print s}' "$work/door/danger.csv")" 1e-6
 door=$(sed -n 's/.*"lines": {"door": \(.*\)/\1/p' "$work/door.danger")
-alike "the door is half a metre wide" "$(sed 's/.*"width": \([^,]*\).*/\1/' <<<"$door")" 0.5 1e-3
+alike "the line lies where the opening is 0.8 m wide still" "$(sed 's/.*"width": \([^,]*\).*/\1/' <<<"$door")" 0.8 0.03
 alike "who passed it are the passages of the probe" "$(sed 's/.*"forward": \([^,]*\).*/\1/' <<<"$door")" "$(column forward "$work/door/danger-lines.csv" | tail -1)" 0
 alike "its greatest flow" "$(sed 's/.*"flow_max": \([^,]*\).*/\1/' <<<"$door")" "$(greatest 'flow [1/(m s)]' "$work/door/danger-lines.csv")" 1e-6
 alike "its greatest flow on the page" "$(sed 's/.*"flow_max": \([^,]*\).*/\1/' <<<"$door")" "$(cells door | sed -n '3s/ .*//p')" 6e-4

@@ -48,3 +48,49 @@ for peak in 0.44 0.50 0.65 0.70 0.54; do
     between "push: greatest displacement of person $((n - 1)), m" "$(sed -n "${n}p" "$work/files/row.csv" | cut -d, -f7)" \
         "$(awk "BEGIN {print $peak - 0.015}")" "$(awk "BEGIN {print $peak + 0.015}")"
 done
+
+# The scenes of recorded crowds: their own probes over the recordings give what their claims compare with.
+recorded() { # SCENE RECORDING [OPTION...], then PROBE FIGURE LOW HIGH on each line of the input
+    local scene=$1 probe figure low high
+    measure "../../scenes/$scene.yaml" "${@:2}"
+    while read -r probe figure low high; do
+        between "$scene: $figure of $probe" "$(of "$probe" "$figure")" "$low" "$high"
+    done
+}
+recorded door-050 bottleneck/wuppertal_040_door050.txt --unit m <<'FIGURES'
+door flow 1.14 1.16
+door lapse_max 2.4 2.6
+front density 6.7 6.8
+front speed 0.125 0.135
+FIGURES
+recorded opening-300 bottleneck/ao_300.txt --unit m <<'FIGURES'
+line flow 7.17 7.20
+opening density 3.39 3.43
+opening speed 0.715 0.725
+front density 5.30 5.34
+front speed 0.376 0.386
+FIGURES
+recorded door-080 bottleneck/pupils_080.txt --unit m <<'FIGURES'
+line flow 2.95 2.99
+front density 4.70 4.78
+front speed 0.338 0.348
+FIGURES
+recorded corner-300 corner/corner_300.txt --unit m <<'FIGURES'
+line flow 3.17 3.19
+before density 0.98 1.00
+before speed 1.09 1.11
+corner density 0.57 0.59
+corner speed 1.11 1.13
+after density 0.96 0.98
+after speed 1.12 1.14
+FIGURES
+widths() { # WIDTHS, then low and high of specific flow, density and speed
+    recorded "corridor-uo-$1" "corridor/uo-$1.txt" --fps 16 --unit cm <<<"line specific_flow $2 $3
+middle density $4 $5
+middle speed $6 $7"
+}
+widths 100-180-180 1.31 1.33 1.11 1.13 1.20 1.22
+widths 180-180-120 1.33 1.35 2.03 2.05 0.67 0.69
+widths 180-180-070 0.94 0.96 2.97 2.99 0.365 0.375
+widths 050-180-180 0.65 0.67 0.52 0.54 1.34 1.36
+widths 180-180-095 1.01 1.03 2.35 2.37 0.45 0.46

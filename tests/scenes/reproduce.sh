@@ -54,7 +54,9 @@ run=("$JOSTLE" reproduce --claims "$work/claims" --out "$work/rep" --quiet)
 expect "a claim in band is exit status 0" 0 "1 of 1 claims in band" "${run[@]}"
 says "it says so" "nobody): in band"
 value() { grep -o "\"$1\": {\"mean\": [^,]*" "$work/rep/results.json" | sed 's/.* //'; }
-between "the mean over two seeds" "$(value seed)" 1.5 1.5
+between "the mean over two seeds, from 101 on" "$(value seed)" 101.5 101.5
+says "with its bound, 12.7 times the error of the mean, and how many they are" "measured 101.5 +- 6.4 (101 to 102, 2 seeds)"
+grep -q '101.5  | +- 6.4 | 2 |' "$work/rep/table.md" && grep -q '"bound": 6.35' "$work/rep/results.json"; verdict "so do the table and the figures" $?
 between "speeds are set by the claim" "$(value slow)" 19.5 20.5
 for file in index.html table.md results.json; do [ -s "$work/rep/$file" ]; verdict "it writes $file" $?; done
 grep -q 'src="runs/walk-[^"]*/paths.png"' "$work/rep/index.html"; verdict "the page shows the picture" $?
@@ -70,7 +72,7 @@ awk '$1 == 1.25 && NF == 6 && $2 > 7.9 && $3 <= $2 && $4 >= $2 && $5 == 7.9 && $
 [ "$(awk 'NF == 3 {print $1, $2, ($3 == "NaN" ? "none" : int($3 + 0.5))}' "$work/rep/plots/good-map.dat" | tr '\n' ';')" = "0 0 20;1 0 8;0 1 none;1 1 20;" ]; verdict "a map has a cell for each pair of values" $?
 ! grep -q "What was tried" "$work/rep/index.html" "$work/rep/table.md"; verdict "nothing was tried where nothing misses" $?
 deviation() { grep -o "<td>$1<td class=n>$2<td><code>$3</code><td>[^<]*$4<td><a href=\"#c0\">G</a>" "$work/rep/index.html" | grep -q .; }
-deviation speed "1.3&nbsp;m/s" 0.5 "walk.yaml, group walker" && deviation speed "1.3&nbsp;m/s" crowd.by_headway "behaviours/walker.lua, state Walk" && ! deviation mass ".*" ".*" ".*"; verdict "what scenes and behaviours set is in a table, and nothing else" $?
+deviation speed "1.3&nbsp;m/s" 0.5 "walk.yaml, group walker" && deviation time_gap "0&nbsp;s" crowd.time_gap "behaviours/walker.lua" && ! deviation mass ".*" ".*" ".*"; verdict "what scenes and behaviours set is in a table, and nothing else" $?
 
 # ---- what is done is not done again ----
 stamps() { stat -c '%Y.%y %n' "$work"/rep/runs/*/summary.json | sort; }
@@ -90,8 +92,17 @@ echo '  line: {flow: [[2, -3], [2, 3]]}' >>"$work/walk.yaml"
 expect "--quick" 1 "these miss: G" "${run[@]}" --quick
 between "--quick takes what quick says" "$(value length)" 15 15
 between "and its values, of runs that others share" "$(value slow)" 9.9 10.1
-expect "--seeds" 0 "in band" "${run[@]}" --seeds 4
-between "four seeds, where the claim has several" "$(value seed)" 2.5 2.5
+expect "--seeds A-B" 0 "in band" "${run[@]}" --seeds 7-10
+between "these seeds, where the claim has several" "$(value seed)" 8.5 8.5
+expect "--seeds A" 0 "1 seed)" "${run[@]}" --seeds 12
+between "that seed alone" "$(value seed)" 12 12
+expect "--seeds of nothing" 3 "is no seed, and no range" "${run[@]}" --seeds 9-3
+sed 's/seeds = 2/seeds = "55-57"/; s/source = "nobody"/source = "nobody", level = "keen", held_out = "on <others>"/' "$work/claims/good.lua" >"$work/claims/named.lua"
+sed -i 's/id = "G"/id = "R77"/' "$work/claims/named.lua"
+expect "a claim names its seeds, and a group its claims" 0 "1 of 1 claims in band" "${run[@]}" rimea
+between "the mean over them" "$(value seed)" 56 56
+grep -q 'Haste: keen' "$work/rep/index.html" && grep -q 'Held out: on &lt;others&gt;' "$work/rep/index.html" && grep -q '| R77 It walks | keen | held out |' "$work/rep/table.md"; verdict "the page says how hurried they are and what was held out" $?
+rm "$work/claims/named.lua"
 expect "--list names claims and runs nothing" 0 "G  It walks (nobody)" "${run[@]}" --list --out "$work/nothing"
 [ ! -e "$work/nothing" ]; verdict "and writes nothing" $?
 
@@ -136,7 +147,10 @@ refuse "no measure" "needs measure = function(run)" -e '/measure = function/,/^ 
 refuse "a band upside down" "'time' needs band" -e 's/7.9, 8.1/8.1, 7.9/'
 refuse "a figure without a band" "'rows' needs band" -e 's/"rows", band = { 1, 1 }/"rows"/'
 refuse "a figure twice" "'time' is expected twice" -e 's/"slow", unit/"time", unit/'
-refuse "no seeds" "seeds is 1 to 1000" -e 's/seeds = 2/seeds = 0/'
+refuse "no seeds" "or 1 to 1000" -e 's/seeds = 2/seeds = 0/'
+refuse "seeds that are none" "seeds = \"101-110\"" -e 's/seeds = 2/seeds = "3-1"/'
+refuse "a level that is none" "level is calm, normal or keen" -e 's/source = "nobody"/source = "nobody", level = "mad"/'
+refuse "calibrated and held out" "not both" -e 's/source = "nobody"/source = "nobody", calibrated = "a", held_out = "b"/'
 refuse "a duration that is a text" "duration is a number" -e 's/duration = 30/duration = "long"/'
 refuse "a value that is a table" "is set to a table" -e 's/speed"\] = 0.5/speed"] = {}/'
 refuse "quick of a run that is none" "quick: there is no run 'slwo'" -e 's/quick = { slow/quick = { slwo/'

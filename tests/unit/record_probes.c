@@ -163,6 +163,53 @@ static void a_lattice_is_measured(void **state) {
     jox_walls_free(&crowd.walls);
 }
 
+/* Ten pass the door at 0.55, 1.55, ... 9.55 s: the middle 60 % of them from 2.55 to 7.55 s. Within
+   that time two are in the square, of whom one stands; before and after it twenty run. */
+static void an_area_is_measured_during_the_middle_passages(void **state) {
+    (void)state;
+    static const JoxV2 SQUARE[] = {{20, 20}, {24, 20}, {24, 24}, {20, 24}};
+    for (int during = 0; during < 2; during++) {
+        JoxProbeDef def = def_of(JOX_PROBE_MEASURE, SQUARE, 4);
+        def.during = during ? DOOR : NULL;
+        def.during_count = during ? 2 : 0;
+        JoxProbe *p = jox_probe_create(&def);
+        nobody(30);
+        for (int step = 0; step <= 120; step++) {
+            const double t = 0.1 * step;
+            const bool within = t > 3.05 && t < 8.05; /* intervals are 1 s long */
+            for (uint32_t i = 0; i < 30; i++) {
+                crowd.x[i] = i < 10 ? (float)(t - i - 0.55) : 20.5f + 0.15f * (float)(i - 10);
+                crowd.y[i] = i < 10 ? 0.0f : within && i >= 12 ? 40.0f : 22.0f;
+                crowd.vx[i] = within ? i == 10 ? 0.02f : 0.1f : 1.0f;
+            }
+            show(p, t);
+        }
+        if (during) {
+            assert_near(figure(p, "intervals"), 5, 0);
+            assert_near(figure(p, "people"), 2, 1e-9);
+            assert_near(figure(p, "speed"), 0.06, 1e-6);
+            assert_near(figure(p, "speed_deviation"), 0.04, 1e-6);
+            assert_near(figure(p, "standing"), 0.5, 1e-9);
+        } else {
+            assert_true(figure(p, "people") > 10 && figure(p, "speed") > 0.4);
+        }
+        jox_probe_free(p);
+    }
+    JoxProbeDef def =
+        def_of(JOX_PROBE_MEASURE, SQUARE, 4); /* nobody passes: there is no such time */
+    def.during = DOOR;
+    def.during_count = 2;
+    JoxProbe *p = jox_probe_create(&def);
+    nobody(1);
+    crowd.x[0] = crowd.y[0] = 22;
+    for (int step = 0; step <= 50; step++)
+        show(p, 0.1 * step);
+    assert_near(figure(p, "intervals"), 0, 0);
+    assert_true(isnan(figure(p, "density")) && isnan(figure(p, "standing")) &&
+                isnan(figure(p, "speed_deviation")));
+    jox_probe_free(p);
+}
+
 static void cells_reach_over_joined_edges(void **state) {
     (void)state;
     static const JoxV2 AT_EDGE[] = {{0, 0.5f}, {2, 0.5f}, {2, 2.5f}, {0, 2.5f}};
@@ -353,6 +400,7 @@ int main(void) {
         cmocka_unit_test(times_and_groups_choose),
         cmocka_unit_test(edges_that_are_joined_count_once),
         cmocka_unit_test(a_lattice_is_measured),
+        cmocka_unit_test(an_area_is_measured_during_the_middle_passages),
         cmocka_unit_test(cells_reach_over_joined_edges),
         cmocka_unit_test(transit_is_from_line_to_line),
         cmocka_unit_test(visit_is_from_state_to_state),

@@ -1,0 +1,22 @@
+/* What a figure's values over seeds say about its band. */
+#ifndef JOX_VALIDATE_VERDICT_H
+#define JOX_VALIDATE_VERDICT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct JoxVerdict {
+    double mean, least, most; /* over seeds; NAN: not measured */
+    double bound;             /* the mean is so sure to 95 %, to either side; NAN of one seed */
+    uint32_t seeds;
+    bool inside; /* the mean lies in the band */
+    bool thin;   /* an edge of the band lies within the bound about the mean */
+} JoxVerdict;
+
+/* Student's t: |t| is below it with a probability of 95 %. */
+double jox_student_t(uint32_t degrees_of_freedom);
+JoxVerdict jox_verdict(const double *values, uint32_t count, double low, double high);
+/* Of "101" or "101-110", which is ten of them; at most 1000. False of anything else. */
+bool jox_seeds_read(const char *text, uint64_t *first, uint32_t *count);
+
+#endif
