@@ -32,7 +32,7 @@ between "station: nobody of the strollers boards" "$(($(people wanderer Walk <"$
 # of PROBE FIGURE < summary
 of() { sed -n "s/^  \"$1\": {.*\"$2\": \([-0-9.e+]*\).*/\1/p"; }
 summary bottleneck >"$work/s"
-between "bottleneck: all 180 come through 1.2 m" "$(of door forward <"$work/s")" 180 180
+between "bottleneck: all 180 come through 1.2 m" "$(of door passages <"$work/s")" 180 180
 between "bottleneck: 2.23 a second, within a fifth" "$(of door flow <"$work/s")" 1.78 2.68
 between "bottleneck: and are gone" "$(figure agents <"$work/s")" 0 0
 summary single-file >"$work/s"
