@@ -81,6 +81,15 @@ function measure.passed(flow, time)
   return count
 end
 
+-- A list without its straight trend: what is left over of a least-squares line through it.
+function measure.detrended(list)
+  local order, out = {}, {}
+  for i = 1, #list do order[i] = i end
+  local slope, middle, mean = measure.slope(order, list), (#list + 1) / 2, measure.mean(list)
+  for i = 1, #list do out[i] = list[i] - mean - slope * (i - middle) end
+  return out
+end
+
 -- Correlation of two lists, the second taken `lag` entries later.
 function measure.correlation(a, b, lag)
   local x, y = {}, {}

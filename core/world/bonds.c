@@ -7,8 +7,9 @@
 #include "geom/polygon.h"
 #include "world/stages.h"
 
-static const float SKIN = 0.02f;  /* m: people nearer than this touch */
-static const float FRONT = 0.30f; /* m: from the wall to the skin of those who are in front */
+static const float SKIN = 0.02f;      /* m: people nearer than this touch */
+static const float FRONT = 0.30f;     /* m: from the wall to the skin of those who are in front */
+static const double FRONT_TIME = 1.0; /* s: over which their speed is averaged */
 
 /* From an agent's skin to the footprint of a body, m. */
 static float gap_to(const JoxAgents *a, const JoxObject *body, uint32_t i) {
@@ -25,7 +26,7 @@ static float gap_to(const JoxAgents *a, const JoxObject *body, uint32_t i) {
     return sqrtf(least) - a->param[JOX_PARAM_radius][i];
 }
 
-/* Until somebody touches a bonded body: how slow those before it have become. */
+/* Until somebody touches a bonded body: how fast those before it were in the last second. */
 void jox_bonds_note_touch(const JoxBodyStage *stage) {
     JoxBondStatistics *s = &stage->statistics->bonds;
     const JoxAgents *a = stage->agents;
@@ -46,8 +47,9 @@ void jox_bonds_note_touch(const JoxBodyStage *stage) {
         }
         if (s->touched)
             s->touch_s = stage->substep->end;
-        else if (front && (s->front == 0 || sum / front < s->front_speed))
-            s->front_speed = sum / front;
+        else if (front)
+            s->front_speed += (sum / front - s->front_speed) *
+                              (s->front == 0 ? 1.0 : fmin(1.0, stage->substep->dt / FRONT_TIME));
         s->front = front > s->front ? front : s->front;
     }
 }
@@ -59,8 +61,24 @@ static bool presses(const JoxAgents *a, uint32_t i, float gap) {
            (gap < a->param[JOX_PARAM_push_reach][i] && a->param[JOX_PARAM_push][i] > 0.0f);
 }
 
+/* How many rows have at least half as many people as the first; `row`: of those in the queue, which
+   are in its order. */
+static uint32_t full_rows(const uint32_t *row, const uint32_t *queue, uint32_t count) {
+    uint32_t first = 0, rows = 0;
+    for (uint32_t begin = 0, end; begin < count; begin = end) {
+        for (end = begin; end < count && row[queue[end]] == row[queue[begin]]; end++)
+            ;
+        first = begin == 0 ? end : first;
+        if (2 * (end - begin) < first)
+            break;
+        rows++;
+    }
+    return rows;
+}
+
 /* Agents in the order in which chains of people, each pressing on the one before, lead to them from
-   the body: the rows are how far the last is, the people all that are reached. */
+   the body: the first row presses on it, the second on the first. The people are all that are
+   reached. */
 static void count_rows(const JoxBodyStage *stage, const JoxObject *body) {
     const JoxAgents *a = stage->agents;
     const JoxNeighbours *near = stage->neighbours;
@@ -86,7 +104,7 @@ static void count_rows(const JoxBodyStage *stage, const JoxObject *body) {
     }
     JOX_ASSERT(end <= a->count);
     stage->statistics->bonds.people = end;
-    stage->statistics->bonds.rows = end ? row[queue[end - 1]] : 0;
+    stage->statistics->bonds.rows = full_rows(row, queue, end);
     jox_free(row);
     jox_free(queue);
 }

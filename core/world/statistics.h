@@ -33,14 +33,14 @@ typedef struct JoxExchange {
 /* Of bonds between blocks. */
 typedef struct JoxBondStatistics {
     uint64_t broken;
-    uint32_t pieces;    /* bodies that came of it */
-    double first_s;     /* when the first broke */
-    uint32_t rows;      /* then: the longest of the shortest chains that lead from the body over
-                           people who each press on the one before */
-    uint32_t people;    /* then: in those chains */
-    bool touched;       /* anybody touched a bonded body; the first time: */
-    double touch_s;     /* when that was */
-    double front_speed; /* before: the least mean speed of those within 0.3 m of it, m/s */
+    uint32_t pieces; /* bodies that came of it */
+    double first_s;  /* when the first broke */
+    uint32_t rows;   /* then: rows that press, the first on the body, each on the one before; with
+                        at least half as many people as the first */
+    uint32_t people; /* then: in those chains */
+    bool touched;    /* anybody touched a bonded body; the first time: */
+    double touch_s;  /* when that was */
+    double front_speed; /* before: mean speed of those within 0.3 m of it, over a second, m/s */
     uint32_t front;     /* and the most there were */
 } JoxBondStatistics;
 
