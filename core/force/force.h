@@ -44,7 +44,6 @@ typedef struct JoxForceStep {
     double planning_time; /* s: how far ahead velocities are planned; 0: dt */
     double response;      /* share of the way to the planned velocity gone in dt; 0: all */
     double interval; /* s: between plans of those who are not pressed where they stand; 0: dt */
-    bool goes_on;    /* these go on with what they planned in an earlier step */
     double interval_response; /* the share gone in that time */
     double interval_forced;   /* s: a force that acted so long at the interval's beginning, all at
                                  once,   would have the effect at its end that it has step by step; 0:

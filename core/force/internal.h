@@ -148,13 +148,16 @@ static inline JoxPlanning jox_planning_of(const JoxForceStep *step, uint32_t i) 
     return jox_planning(step, jox_stands_pressed(step->agents, i));
 }
 
-/* Force that moves an agent, contacts apart, N: from outside, and what of the others' pushes the
-   feet do not hold. */
-static inline JoxV2 jox_moving_force(const JoxAgents *a, uint32_t i) {
+/* What of the others' pushes an agent's feet do not hold, N. */
+static inline JoxV2 jox_unheld_pushes(const JoxAgents *a, uint32_t i) {
     JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
     float size = jox_length(others), held = jox_stands(a, i) ? 0.0f : a->param[JOX_PARAM_brace][i];
-    float left = size > held ? (size - held) / size : 0.0f;
-    return (JoxV2){a->ext_x[i] + left * others.x, a->ext_y[i] + left * others.y};
+    return jox_scale(others, size > held ? (size - held) / size : 0.0f);
+}
+
+/* Force that moves an agent, contacts apart, N: from outside, and of the others' pushes. */
+static inline JoxV2 jox_moving_force(const JoxAgents *a, uint32_t i) {
+    return jox_add((JoxV2){a->ext_x[i], a->ext_y[i]}, jox_unheld_pushes(a, i));
 }
 
 /* contact_find.c: what each agent touches. */

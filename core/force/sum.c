@@ -83,25 +83,35 @@ void jox_force_sum(JoxForces *f) {
     jox_contact_planes_make(f);
 }
 
-/* (9) Someone under force whose plan falls short of where it would take them. Only a plan of this
-   step is held against the force: what falls short in all of the time that it is kept for is passed
-   on at once. */
+/* (9) By how much the feet keep agent i, in this step, below where the force along a unit vector
+   would take them, m/s: what they hold of others' pushes, and what they take of the velocity that
+   forces give, less what they wear down in any case. Counted step by step, it is the same at any
+   step and however long a plan is kept. */
+static float shortfall_of(const JoxForces *f, uint32_t i, JoxV2 unit) {
+    const JoxAgents *a = f->step.agents;
+    const float dt = (float)f->step.dt, response = (float)f->step.response;
+    float lightness = 1.0f / a->param[JOX_PARAM_mass][i];
+    float damping = a->param[JOX_PARAM_damping][i];
+    JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
+    JoxV2 held = jox_sub(others, jox_unheld_pushes(a, i));
+    JoxV2 taken = {a->forced_x[i] - a->next_x[i], a->forced_y[i] - a->next_y[i]};
+    float along = jox_maxf(0.0f, f->old_x[i] * unit.x + f->old_y[i] * unit.y);
+    float worn = along * (1.0f - (float)jox_exp(-(double)damping * (double)dt));
+    return jox_dot(held, unit) * dt * lightness + jox_dot(taken, unit) * response - worn;
+}
+
+/* (9) Someone under force who falls short of where it would take them. */
 static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
     const JoxAgents *a = f->step.agents;
-    if (f->step.goes_on && !jox_stands_pressed(a, i))
-        return;
     JoxV2 unit = {a->half_plane_x[i], a->half_plane_y[i]};
-    float shortfall =
-        jox_shortfall(jox_v2(a->next_x[i], a->next_y[i]), unit, a->half_plane_offset[i]);
-    float absorb = a->param[JOX_PARAM_absorb][i];
-    if (!(shortfall > 0.0f) || !(absorb > 0.0f))
+    float shortfall = shortfall_of(f, i, unit), absorb = a->param[JOX_PARAM_absorb][i];
+    if (!(shortfall > 1e-6f) || !(absorb > 0.0f))
         return;
-    const JoxPlanning plan = jox_planning_of(&f->step, i);
     uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_people_in_cone(f, i, unit, found);
     for (uint32_t k = 0; k < n; k++)
         jox_transfer_give(f, chunk, i, found[k],
                           jox_resistance(unit, shortfall, absorb, a->param[JOX_PARAM_mass][i], n,
-                                         (float)f->step.dt / plan.response));
+                                         (float)f->step.dt));
 }
 
 /* Share of a force that agent `to` takes of someone who slowed down and lost `energy` (J) by that:

@@ -58,7 +58,6 @@ void jox_stage_push(const JoxPushStage *s) {
                          .planning_time = s->substep->planning_time,
                          .response = s->substep->response,
                          .interval = s->substep->interval,
-                         .goes_on = !s->substep->plans,
                          .interval_response = s->substep->interval_response,
                          .interval_forced = s->substep->interval_forced,
                          .push_on = s->machines->push_on,
