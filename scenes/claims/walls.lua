@@ -35,7 +35,8 @@ return claim {
   expect = {
     { "front", unit = "m/s", what = "breaking: mean speed of the front row in the second before it first touches the wall",
       source = "stops", band = { 0, 0.1 } },
-    { "rows", what = "rows that press when the first bond breaks, each at least half as many people as the first", source = ">= 3", band = { 3 } },
+    { "rows", what = "rows that press when the first bond breaks, each at least half as many people as the first",
+      source = ">= 3", band = { 3 } },
     { "pieces", what = "pieces in the end", source = "broken", band = { 2 } },
     { "out", what = "people who got through", reported = true },
     { "tight_broken", what = "tight: bonds broken", source = "0", band = { 0, 0 } },

@@ -60,3 +60,14 @@ test("correlation finds a delay", function()
   near(measure.correlation(a, b, 3), 1, 0.02)
   truthy(measure.correlation(a, b, 1) < 0.5)
 end)
+
+test("a list without its trend keeps what sways about it", function()
+  local list = {}
+  for i = 1, 40 do list[i] = 3 + 0.5 * i + (i % 2 == 0 and 1 or -1) end
+  local rest = measure.detrended(list)
+  near(measure.mean(rest), 0, 1e-9)
+  local order = {}
+  for i = 1, 40 do order[i] = i end
+  near(measure.slope(order, rest), 0, 1e-9)
+  near(measure.deviation(rest), 1, 0.02)
+end)

@@ -189,7 +189,7 @@ static void crowd_pressure_is_that_of_the_run(void **state) {
     JoxBytes field = {0};
     double most, greatest = 0;
     jox_live_field(scene, JOX_LIVE_PRESSURE, &field);
-    step(scene, 620);
+    step(scene, 1620);
     jox_live_field(scene, JOX_LIVE_PRESSURE, &field);
     const JoxLocal *local = jox_run_local(scene);
     for (size_t c = 0; c < (size_t)local->grid->columns * local->grid->rows; c++)
