@@ -80,11 +80,6 @@ static inline float jox_forced_speed(JoxV2 velocity, JoxV2 force_unit, float siz
     return (along > 0.0f ? along * decay : along) + size * dt / mass;
 }
 
-/* (9) How far the new velocity fell short of the forced one along the force, m/s. */
-static inline float jox_shortfall(JoxV2 velocity, JoxV2 force_unit, float offset) {
-    return jox_maxf(0.0f, offset - jox_dot(velocity, force_unit));
-}
-
 /* (9) What each of n people ahead gets of a force that did not move its receiver. */
 static inline JoxV2 jox_resistance(JoxV2 force_unit, float shortfall, float absorb, float mass,
                                    uint32_t n, float dt) {
