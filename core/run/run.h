@@ -85,12 +85,12 @@ JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint
 /* link.c: machines of the scene's groups, and of those that they may become; false if one does not
    load. */
 bool jox_run_load_machines(JoScene *scene, JoxDiagnostics *diagnostics);
-/* link.c: what machines expect of each other and of the scene: signals, states, own values. */
+/* What machines expect of each other and of the scene: signals, states, own values. */
 void jox_run_check_names(const JoScene *scene, JoxDiagnostics *diagnostics);
-/* advice.c: a note where flows are measured of people who do not walk by the walking law: of the
+/* A note where flows are measured of people who do not walk by the walking law: of the
    first group that is so. False: none. */
 bool jox_run_advise(const JoScene *scene, JoxDiagnostics *diagnostics);
-/* link.c: of names, the own values of one machine that is made of the files. */
+/* Of names, the own values of one machine that is made of the files. */
 void jox_run_check_own(const JoScene *scene, const JoxMachine *machine, const JoxLuaFile *files,
                        uint32_t count, JoxDiagnostics *diagnostics);
 /* Index of the machine of a file, loaded where it is not there yet; -1 with diagnostics. */
@@ -179,7 +179,7 @@ const JoxLocal *jox_run_want_pressure(JoScene *scene);
 /* The greatest density of any place and sample, 1/m2: the figure density_max. */
 double jox_run_density_max(const JoScene *scene);
 const JoxDanger *jox_run_danger(const JoScene *scene);
-/* standing.c: the same for who wanted to get on and yet came no farther than 0.25 m for the
+/* The same for who wanted to get on and yet came no farther than 0.25 m for the
    longest; NULL while there was nobody. */
 typedef struct JoxStood {
     double seconds, until; /* s: how long, and when it ended or was last seen */
