@@ -1,9 +1,11 @@
 -- The Tawaf: seven circuits of the Kaaba, counter-clockwise, counted from the start line.
-local mine     = memory { laps = 0, touched = false, press = 0 } -- per agent; survives reloads
+local mine     = memory { laps = 0, touched = false, press = 0, way = 0 } -- per agent; survives reloads
 local at_line  = crosses "start_line"
 local crowded  = density("black_stone"):above(6)        -- people per square metre
-local shove    = 150 * max(now.speed, own.speed)         -- newtons; present speed alone cannot break a standstill
-local hurry    = mine.press * max(now.speed, own.speed)  -- of those who circle or leave: none, unless a scene says so
+local eager    = max(now.speed, own.speed)               -- present speed alone cannot break a standstill
+local shove    = (150 + mine.way) * eager                -- newtons, in the queue
+local hurry    = mine.press * eager                      -- of those who circle: none, unless a scene says so
+local make_way = max(mine.press, mine.way) * eager       -- of those on their way out: likewise
 local slowed   = now.speed:below(0.8 * own.speed)
 local pace     = own.speed * (1 - 0.4 * clamp((density_here - 1) / 7, 0, 1))
 local done     = mine.laps:at_least(7)
@@ -32,7 +34,7 @@ return machine {
     Edge = { steer = orbit("kaaba", { inward = 0 }), speed = pace, push = hurry, push_when = slowed,
       { to = "Leave",   when = done } },
 
-    Leave = { steer = orbit("kaaba", { inward = 0 }), speed = pace, push = hurry, push_when = slowed,
+    Leave = { steer = orbit("kaaba", { inward = 0 }), speed = pace, push = make_way, push_when = slowed,
       { to = "Exit",    when = near("gates", 22), chance = 0.5 },
       { to = "Exit",    when = after(120) } },
 
@@ -48,9 +50,9 @@ return machine {
 
     -- Facing the stone on passing it slows people down; only a hard cap does that in a stream.
     Istilam = { steer = orbit "kaaba", face = "black_stone", speed = pace, max_speed = 0.46, lasts = uniform(4, 10),
-      { to = "Circle",  when = lasted | pushed:above(120) } },
+      { to = "Circle",  when = lasted } },
 
-    Exit = { steer = seek "gates", push = hurry,
+    Exit = { steer = seek "gates", push = make_way,
       { to = "Gone",    when = inside "gates" } },
 
     Gone = { removes = true },
