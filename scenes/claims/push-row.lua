@@ -19,9 +19,9 @@ return claim {
   id = "P1", title = "A push travels along a row of people",
   source = "Feldmann and Adrian 2023, five in a row, 0.32 to 0.42 m apart, the last one pushed",
   text = "With nobody in front the push travels at 2.6 m/s and nobody is moved less than the one who was pushed; in "
-    .. "front of a wall it dies away. The shove goes over time as the measured one; its greatest force, 1600 N, is chosen "
-    .. "so that the five are moved as far as measured in the mean, 0.57 m. Calibrated on: that mean. Held out: how fast "
-    .. "it travels, and who is moved how far.",
+    .. "front of a wall it dies away. The shove goes over time as the measured one; its greatest force, 1600 N, is "
+    .. "chosen so that the five are moved as far as measured in the mean, 0.57 m. Calibrated on: that mean. Held out: "
+    .. "how fast it travels, and who is moved how far.",
   runs = {
     free = { scene = "../push-row.yaml", seeds = 1 }, fine = { scene = "../push-row.yaml", dt = 0.01, seeds = 1 },
     coarse = { scene = "../push-row.yaml", dt = 0.05, seeds = 1 },
@@ -32,7 +32,8 @@ return claim {
     return {
       front = front(run.free.csv("row")), front_fine = front(run.fine.csv("row")),
       front_coarse = front(run.coarse.csv("row")),
-      kept = (kept(run.free) + kept(run.fine) + kept(run.coarse)) / 3, moved = measure.mean(free), rises = measure.rises(wall, 2),
+      kept = (kept(run.free) + kept(run.fine) + kept(run.coarse)) / 3, moved = measure.mean(free),
+      rises = measure.rises(wall, 2),
       p1 = free[1], p2 = free[2], p3 = free[3], p4 = free[4], p5 = free[5],
       w1 = wall[1], w2 = wall[2], w3 = wall[3], w4 = wall[4], w5 = wall[5],
     }
@@ -41,11 +42,13 @@ return claim {
     { "front", unit = "m/s", what = "how fast the push travels, dt 0.02 s", source = "2.6", band = { 2.1, 3.1 } },
     { "front_fine", unit = "m/s", what = "the same, dt 0.01 s", source = "2.6", band = { 2.1, 3.1 } },
     { "front_coarse", unit = "m/s", what = "the same, dt 0.05 s", source = "2.6", band = { 2.1, 3.1 } },
-    { "kept", what = "displacement of the foremost over that of the one who was pushed, mean of the three", source = "1.2",
+    { "kept", what = "displacement of the foremost over that of the one who was pushed, mean of the three",
+      source = "1.2",
       band = { 0.9 } },
     { "rises", what = "people at the wall, of those whom others pushed, who are moved no less than the one behind",
       source = "0", band = { 0, 0 } },
-    { "moved", unit = "m", what = "mean of the five displacements, which set the shove", source = "0.57", reported = true },
+    { "moved", unit = "m", what = "mean of the five displacements, which set the shove", source = "0.57",
+      reported = true },
     { "p1", unit = "m", what = "greatest displacement, first", source = "0.44", reported = true },
     { "p2", unit = "m", what = "second", source = "0.50", reported = true },
     { "p3", unit = "m", what = "third", source = "0.65", reported = true },

@@ -32,7 +32,8 @@ return claim {
     }
   end,
   expect = {
-    { "leaving", what = "share of the 35,000 who have finished and not left (states Leave and Exit), at the end", source = "0.02", band = { 0.01, 0.04 } },
+    { "leaving", what = "share of the 35,000 who have finished and not left (states Leave and Exit), at the end",
+      source = "0.02", band = { 0.01, 0.04 } },
     { "exit", what = "of them, those who make for a gate (Exit)", reported = true },
     { "done", what = "people who came in during the run and have left", source = "-", band = { 10 } },
     { "fewer", what = "of them, who made fewer than seven", source = "0", band = { 0, 0 } },

@@ -31,7 +31,8 @@ return claim {
   expect = {
     { "queue_gain", what = "mean gain of the regions where queue and exit push harder", reported = true },
     { "queue_least", what = "gain of the region that gains least then", reported = true },
-    { "gain", what = "mean gain of the regions where slow people who circle push too", source = "0.2 to 0.4", band = { 0.15, 0.4 } },
+    { "gain", what = "mean gain of the regions where slow people who circle push too",
+      source = "0.2 to 0.4", band = { 0.15, 0.4 } },
     { "least", what = "gain of the region that gains least", source = "> 0", band = { 0 } },
     { "density", unit = "1/m2", what = "greatest density", reported = true },
   },

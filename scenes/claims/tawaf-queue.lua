@@ -30,7 +30,8 @@ return claim {
       band = { 0, 0.05 } },
     { "full_touched", what = "of the 35,000, people who touch it in ten minutes, with forces", reported = true },
     { "full_alone", what = "the same, without", reported = true },
-    { "ratio", what = "of the four thousand nearest: people who touch the stone, with forces over without (of whom at least one is counted)",
+    { "ratio", what = "of the four thousand nearest: people who touch the stone, with forces over without (of whom at "
+      .. "least one is counted)",
       source = "> 1", band = { 1.5 } },
     { "inversions", what = "share of the pairs in the queue that change order", source = "order kept",
       band = { 0, 0.05 } },

@@ -16,7 +16,8 @@ end
 return claim {
   id = "2", title = "Two bottlenecks: pushing resolves arches and jams",
   source = "Kim et al. 2014, Fig. 6",
-  text = "A thousand people, ten a second, press through a gap of two widths, then through one of barely one. Without forces "
+  text = "A thousand people, ten a second, press through a gap of two widths, then through one of barely one. "
+    .. "Without forces "
     .. "arches hold them up; with forces about twice as many get through, at any time step. A step of 0.1 s is cut "
     .. "into two.",
   runs = {

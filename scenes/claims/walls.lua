@@ -33,7 +33,8 @@ return claim {
     }
   end,
   expect = {
-    { "front", unit = "m/s", what = "breaking: mean speed of the front row in the second before it first touches the wall",
+    { "front", unit = "m/s",
+      what = "breaking: mean speed of the front row in the second before it first touches the wall",
       source = "stops", band = { 0, 0.1 } },
     { "rows", what = "rows that press when the first bond breaks, each at least half as many people as the first",
       source = ">= 3", band = { 3 } },
