@@ -5,7 +5,7 @@ local crowded  = density("black_stone"):above(6)        -- people per square met
 local eager    = max(now.speed, own.speed)               -- present speed alone cannot break a standstill
 local shove    = (150 + mine.way) * eager                -- newtons, in the queue
 local hurry    = mine.press * eager                      -- of those who circle: none, unless a scene says so
-local make_way = max(mine.press, mine.way) * eager       -- of those on their way out: likewise
+local make_way = max(40, max(mine.press, mine.way)) * eager -- of those who make for a gate
 local slowed   = now.speed:below(0.8 * own.speed)
 local pace     = own.speed * (1 - 0.4 * clamp((density_here - 1) / 7, 0, 1))
 local done     = mine.laps:at_least(7)
@@ -34,8 +34,8 @@ return machine {
     Edge = { steer = orbit("kaaba", { inward = 0 }), speed = pace, push = hurry, push_when = slowed,
       { to = "Leave",   when = done } },
 
-    Leave = { steer = orbit("kaaba", { inward = 0 }), speed = pace, push = make_way, push_when = slowed,
-      { to = "Exit",    when = near("gates", 22), chance = 0.5 },
+    Leave = { steer = orbit("kaaba", { inward = 0 }), speed = pace, push = hurry, push_when = slowed,
+      { to = "Exit",    when = near("gates", 26) },
       { to = "Exit",    when = after(120) } },
 
     ToStone = { steer = queue "black_stone", speed = 0.3 * own.speed, perception = 1, push = shove,
