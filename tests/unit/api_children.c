@@ -44,7 +44,7 @@ static const char PROGRAM[] = "#!/bin/sh\n"
                               "exit 1\n";
 static const char CLAIM[] = "return claim {\n"
                             "  id = 'C', title = 'It ends', source = 'nobody',\n"
-                            "  runs = { one = { scene = 'one.yaml', seeds = 2 } },\n"
+                            "  runs = { one = { scene = 'one.yaml', seeds = '1-2' } },\n"
                             "  measure = function(run) return { steps = 1 } end,\n"
                             "  expect = { { 'steps', band = { 1, 1 } } },\n"
                             "}\n";
