@@ -5,18 +5,18 @@
 
 /* X(name, unit, least, greatest, default, meaning). R: the sum of two people's radii. */
 #define JOX_WALK_CONSTANTS(X)                                                                      \
-    X(width, "", 0.1, 3, 1.1, "breadth of the way that one who follows needs free, in R")          \
-    X(width_eager, "", 0, 0.9, 0.3, "share of that breadth that the eager do without")             \
+    X(width, "", 0.1, 3, 1.15, "breadth of the way that one who follows needs free, in R")         \
+    X(room_eager, "", 0, 0.9, 0.33, "share of breadth and room that the eager do without")         \
     X(width_cross, "", 0.1, 3, 0.8, "distance at which ways that cross pass each other, in R")     \
-    X(length, "", 0.1, 3, 0.85, "room along the way that the one ahead takes, in R")               \
+    X(length, "", 0.1, 3, 1.1, "room along the way that the one ahead takes, in R")                \
     X(ahead_share, "", 0, 2, 0.8, "share of the time gap for which the one ahead is foreseen")     \
-    X(gap_eager, "", 0, 0.95, 0.6, "share of the time gap that the eager do without")              \
-    X(gap_side, "", 0, 0.95, 0.9, "share of it that the eager do without beside those ahead")      \
+    X(gap_eager, "", 0, 0.95, 0.15, "share of the time gap that the eager do without")             \
+    X(gap_side, "", 0, 0.95, 0.2, "share of it that the eager do without beside those ahead")      \
     X(gap_spread, "", 0, 0.9, 0.1, "greatest part by which people's time gaps differ")             \
     X(gap_noise, "", 0, 2, 0.15, "greatest logarithm by which a person's time gap wanders")        \
     X(crowded, "1/m2", 0, 20, 2.6, "density from which on people grow eager")                      \
-    X(eager_normal, "", 0, 1, 0.3, "least eagerness in a normal crowd: calm 0, keen 1")            \
-    X(eager_most, "", 0, 1, 0.55, "greatest eagerness in a calm or normal crowd: keen 1")          \
+    X(eager_normal, "", 0, 1, 0.5, "least eagerness in a normal crowd: calm 0, keen 1")            \
+    X(eager_most, "", 0, 1, 0.38, "greatest eagerness in a calm or normal crowd: keen 1")          \
     X(eager_rise, "s", 0.05, 60, 1, "time in which eagerness rises")                               \
     X(eager_fall, "s", 0.05, 60, 10, "time in which it falls")                                     \
     X(cross_time, "s", 0.05, 10, 0.35, "time kept to those who cross")                             \
@@ -26,11 +26,11 @@
     X(turn_cost, "", 0, 5, 0.3, "what turning from the course costs, in wanted speeds")            \
     X(right, "", -1, 1, 0.05, "what going aside to the right is worth, in wanted speeds")          \
     X(course_time, "s", 0.01, 10, 0.2, "time in which the course follows the way chosen")          \
-    X(start_time, "s", 0.01, 5, 0.6, "time in which people get up to a speed")                     \
+    X(start_time, "s", 0.01, 5, 0.2, "time in which people get up to a speed")                     \
     X(stop_time, "s", 0.01, 5, 0.075, "time in which they slow down and turn")                     \
     X(close, "m", 0, 5, 0.5, "gap below which others restrict velocities")                         \
     X(close_time, "s", 0.01, 5, 0.1, "time in which such a gap may be used up")                    \
-    X(crowd_slowing, "m2", 0, 20, 0.4, "cost of a way through people held up, a person per m2")
+    X(crowd_slowing, "m2", 0, 20, 0.6, "cost of a way through people held up, a person per m2")
 
 typedef struct JoxWalkLaw {
 #define X(name, unit, least, greatest, value, meaning) double name;

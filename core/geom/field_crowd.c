@@ -5,7 +5,7 @@
 #include "base/assert.h"
 #include "geom/field_parts.h"
 
-static const float REACH = 1.5f; /* m: a person is spread as a cone of this radius */
+static const float REACH = 2.0f; /* m: a person is spread as a cone of this radius */
 
 /* The cells that a person is spread over. */
 typedef struct Span {

@@ -115,7 +115,8 @@ static inline float follow_at(const Walker *p, float share, float width, float l
 static void follow(const Walk *w, Walker *p, uint32_t j, JoxV2 d, float width, int lanes) {
     const JoxAgents *a = w->agents;
     const float *radius = a->param[JOX_PARAM_radius];
-    const float length = (float)w->law->length * (radius[p->i] + radius[j]);
+    const float room = 1.0f - (float)w->law->room_eager * a->eager[p->i];
+    const float length = (float)w->law->length * room * (radius[p->i] + radius[j]);
     const float share = (float)w->law->ahead_share, vx = a->vx[j], vy = a->vy[j];
     float allowed[LANES];
     for (int k = 0; k < lanes; k++)

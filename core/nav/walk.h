@@ -41,7 +41,7 @@ static inline float jox_walk_width(const JoxWalkLaw *law, const JoxAgents *a, ui
     float radii = radius[i] + radius[j];
     if (minds == JOX_MINDS_CROSSING)
         return radii * (float)law->width_cross;
-    return radii * (float)law->width * (1.0f - (float)law->width_eager * a->eager[i]);
+    return radii * (float)law->width * (1.0f - (float)law->room_eager * a->eager[i]);
 }
 
 #endif
