@@ -249,7 +249,7 @@ static float follow(const JoxWalkLaw *law, double gap, double haste, float slow,
 static void who_follows_keeps_the_time_gap(void **state) {
     (void)state;
     JoxWalkLaw law = alike();
-    law.gap_eager = 0.0;
+    law.gap_eager = law.room_eager = 0.0;
     const float slow[] = {0.4f, 0.8f, 1.2f};
     for (int k = 0; k < 3; k++)
         for (double gap = 0.6; gap < 1.5; gap += 0.4) {
