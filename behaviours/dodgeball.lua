@@ -1,4 +1,4 @@
--- Dodge-ball: run from a ball that flies or lies in the other court; kick one that lies in one's own.
+-- Dodge-ball: run from a ball that flies; kick one that lies in one's own court. By ORCA: not fit for capacities.
 local ball = nearest "ball"
 local mine_to_kick = grounded(ball) & inside(ball, own.court)
 

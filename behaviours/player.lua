@@ -1,4 +1,4 @@
--- A person drives this agent; touching the ball kicks it at an opponent.
+-- A person drives this agent; touching the ball kicks it at an opponent. By ORCA: not fit for capacities.
 local ball = nearest "ball"
 
 return machine {

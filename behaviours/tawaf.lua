@@ -1,4 +1,4 @@
--- The Tawaf: seven circuits of the Kaaba, counter-clockwise, counted from the start line.
+-- The Tawaf: seven circuits of the Kaaba, counted from the start line. By ORCA: not fit for capacities.
 local mine     = memory { laps = 0, touched = false, press = 0, way = 0 } -- per agent; survives reloads
 local at_line  = crosses "start_line"
 local crowded  = density("black_stone"):above(6)        -- people per square metre

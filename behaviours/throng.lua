@@ -1,5 +1,5 @@
--- Heads for a goal round whatever stands, looks ahead and stops; held up for a while, presses until it moves again.
--- By ORCA: not fit for capacities.
+-- Heads for a goal round whatever stands, looks ahead and stops. By ORCA: not fit for capacities.
+-- Held up for a while, it presses until it moves again.
 local crowd = require "crowd"
 
 local moves = now.speed:above(0.5 * own.speed)

@@ -1,4 +1,4 @@
--- Dodge-ball by hand: fetch a ball that lies in one's own court, aim, and throw it at an opponent.
+-- Dodge-ball by hand: fetch a ball in one's own court, aim, throw it. By ORCA: not fit for capacities.
 local ball = nearest "ball"
 local foe  = nearest "opponents"
 local mine = memory { hits = 0, throws = 0 }

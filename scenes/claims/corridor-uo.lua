@@ -28,7 +28,7 @@ return claim {
   source = "Zhang et al. 2011, doi 10.1088/1742-5468/2011/06/P06004 (unidirectional, open; widths in cm), measured with the "
     .. "scenes' own probes",
   text = "A narrow entrance leaves the corridor free; a narrow exit fills it, and people shuffle. They come in where and when the camera saw them first.",
-  level = "calm", held_out = measure.walking_law,
+  level = "calm", calibrated = measure.walking_law,
   runs = runs, quick = quick,
   measure = function(run)
     local out = {}

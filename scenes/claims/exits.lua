@@ -53,7 +53,7 @@ return claim {
   source = "1.92 b (Seyfried et al. 2009), 82 people per metre and minute (Green Guide), SFPE with effective width; bends: "
     .. "3.18 1/s at 3 m (corner_300)",
   text = "What a metre of width lets through hardly depends on how many metres there are.",
-  level = "normal", held_out = measure.walking_law,
+  level = "normal", calibrated = measure.walking_law,
   runs = runs, quick = quick,
   measure = function(run)
     local out = {}

@@ -30,7 +30,7 @@ return claim {
   source = "RiMEA guideline, test 4; Weidmann 1993",
   text = "One-way flow in a corridor 10 m wide, from random places: people are the slower the denser they walk. "
     .. "Diagrams of the literature differ by a third; those of the Juelich archive (F2) lie below Weidmann's.",
-  level = "normal", calibrated = measure.walking_law,
+  level = "normal", held_out = measure.walking_law,
   runs = runs, quick = quick,
   measure = function(run)
     local out, speeds, flows = {}, {}, {}

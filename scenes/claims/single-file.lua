@@ -36,7 +36,7 @@ return claim {
   text = "People one behind the other in a ring of 26.84 m: the more, the slower, by the way ahead that each has. Sources "
     .. "follow heads, whose sway adds to slow speeds: in a set of 56 people 0.219 m/s of the head are 0.141 m/s along the "
     .. "way. Bands are a quarter to either side, but no narrower than that difference.",
-  level = "calm", held_out = measure.walking_law,
+  level = "calm", calibrated = measure.walking_law,
   runs = runs, quick = quick,
   measure = function(run)
     local out = {}

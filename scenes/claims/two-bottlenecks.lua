@@ -20,6 +20,7 @@ return claim {
     .. "Without forces "
     .. "arches hold them up; with forces about twice as many get through, at any time step. A step of 0.1 s is cut "
     .. "into two.",
+  level = "keen",
   runs = {
     with = run(0.05, true), without = run(0.05, false),
     fine = run(0.02, true), fine_without = run(0.02, false),

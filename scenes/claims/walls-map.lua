@@ -30,6 +30,7 @@ return claim {
   text = "The wall of 200 glued blocks and the crowd of 1200 people of claim 3, for a minute. Bonds that are weak "
     .. "break whatever the blocks weigh, strong ones hold; what holds lets people through only where it is light "
     .. "enough to be pushed aside.",
+  level = "keen",
   runs = runs, quick = false,
   measure = function(run)
     local out, shares = {}, {}

@@ -19,6 +19,7 @@ return claim {
   text = "1200 people stop before a wall of 200 glued blocks, press, and carry its pieces away. With glue that holds, "
     .. "the wall turns as a whole and a gap lets them out; too heavy, it hardly moves, and room runs through the "
     .. "crowd in waves.",
+  level = "keen",
   runs = { breaking = run("wall-breaking", 3), tight = run("wall-tight", 3), heavy = run("wall-heavy", 3) },
   quick = { breaking = { duration = 60 }, tight = { seeds = 1 }, heavy = { duration = 90 } },
   measure = function(run)
