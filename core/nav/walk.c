@@ -122,10 +122,12 @@ static void follow(const Walk *w, Walker *p, uint32_t j, JoxV2 d, float width, i
     for (int k = 0; k < lanes; k++)
         allowed[k] = follow_at(p, share, width, length, d.x * p->x[k] + d.y * p->y[k],
                                p->x[k] * d.y - p->y[k] * d.x, vx * p->x[k] + vy * p->y[k]);
-    if (lanes == LANES)
+    if (lanes == LANES) {
         take_least(p, allowed, allowed);
-    else
-        p->worth[0] = p->allowed[0] = jox_minf(p->allowed[0], allowed[0]);
+    } else {
+        p->allowed[0] = jox_minf(p->allowed[0], allowed[0]);
+        p->worth[0] = jox_minf(p->worth[0], allowed[0]);
+    }
 }
 
 /* Who crosses leaves a free path, and a direction in which the two would meet soon is worth less.

@@ -1,0 +1,285 @@
+/* The walking law against a plain reference, a direction at a time and in double precision: over
+   random neighbourhoods, with constants drawn anew for each. What is free before a wall is found by
+   walking there. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "base/elementary.h"
+#include "base/random.h"
+#include "geom/polygon.h"
+#include "nav/internal.h"
+#include "nav/walk.h"
+
+enum { OTHERS = 9, EDGES = 3, DIRECTIONS = 11, PACKETS = 3000 };
+static const double PI = 3.14159265358979323846, INTERVAL = 0.05;
+
+/* ---- neighbourhoods ---- */
+
+typedef struct Packet {
+    uint32_t number, drawn;
+    JoxWalkLaw law;
+    JoxAgents agents;
+    JoxNeighbours neighbours;
+    JoxWalls walls;
+    JoxV2 ends[EDGES][2];
+    JoxNav *nav;
+    uint32_t me;    /* index of the walker, with id 0 */
+    uint32_t edges; /* how many walls there are */
+} Packet;
+
+static double draw(Packet *p, double from, double to) {
+    return from + (to - from) * jox_random_unit(9, p->number, 0, JOX_DRAW_FILL, p->drawn++);
+}
+
+/* Constants within a third of their defaults; time gaps neither differ nor wander, and eagerness
+   keeps what it is given. */
+static void draw_law(Packet *p) {
+    p->law = jox_walk_law();
+#define X(name, unit, least, greatest, value, meaning)                                             \
+    p->law.name = fmin(fmax(p->law.name * draw(p, 0.67, 1.33), least), greatest);
+    JOX_WALK_CONSTANTS(X)
+#undef X
+    p->law.gap_spread = p->law.gap_noise = 0.0;
+    p->law.eager_rise = p->law.eager_fall = 60.0;
+}
+
+static void add(Packet *p, double x, double y) {
+    JoxAgents *a = &p->agents;
+    uint32_t i = jox_agents_add(a);
+    double angle = draw(p, 0.0, 2.0 * PI), speed = draw(p, 0.0, 1) < 0.2 ? 0.0 : draw(p, 0.3, 1.8);
+    double heading = angle + draw(p, -0.7, 0.7), moves = draw(p, 0.0, 1.4);
+    a->x[i] = a->prev_x[i] = (float)x;
+    a->y[i] = a->prev_y[i] = (float)y;
+    a->pref_x[i] = (float)(speed * jox_cos(angle));
+    a->pref_y[i] = (float)(speed * jox_sin(angle));
+    a->vx[i] = (float)(moves * jox_cos(heading));
+    a->vy[i] = (float)(moves * jox_sin(heading));
+    a->eager[i] = (float)draw(p, 0.0, 1.0);
+    a->course_x[i] = (float)jox_cos(heading);
+    a->course_y[i] = (float)jox_sin(heading);
+    a->bound[i] = draw(p, 0.0, 1.0) < 0.5 ? 1 : -1;
+    a->way[i] = (float)draw(p, 0.0, 9.0);
+    a->param[JOX_PARAM_radius][i] = (float)draw(p, 0.15, 0.25);
+    a->param[JOX_PARAM_time_gap][i] = (float)draw(p, 0.4, 1.6);
+}
+
+static void begin(Packet *p, uint32_t number) {
+    *p = (Packet){.number = number, .nav = jox_nav_create()};
+    draw_law(p);
+    jox_nav_set_walk(p->nav, &p->law);
+    add(p, 0.0, 0.0);
+    int others = 1 + (int)draw(p, 0.0, OTHERS);
+    for (int k = 0; k < others; k++) {
+        double far = draw(p, 0.35, 2.5), angle = draw(p, 0.0, 2.0 * PI);
+        add(p, far * jox_cos(angle), far * jox_sin(angle));
+    }
+    p->edges = draw(p, 0.0, 1.0) < 0.5 ? 0 : EDGES;
+    for (uint32_t k = 0; k < p->edges; k++) {
+        for (int e = 0; e < 2; e++)
+            p->ends[k][e] = (JoxV2){(float)draw(p, -1.0, 1.0), (float)draw(p, -1.0, 1.0)};
+        jox_walls_add_polyline(&p->walls, p->ends[k], 2, false, INFINITY);
+    }
+    if (p->edges)
+        jox_nav_set_walls(p->nav, &p->walls);
+    jox_nav_sort(p->nav, &p->agents, 0);
+    jox_nav_perceive(p->nav, &p->agents, &p->neighbours, NULL);
+    while (p->agents.id[p->me] != 0)
+        p->me++;
+}
+
+static void end(Packet *p) {
+    jox_nav_free(p->nav);
+    jox_agents_free(&p->agents);
+    jox_walls_free(&p->walls);
+    jox_neighbours_free(&p->neighbours);
+}
+
+/* ---- the reference ---- */
+
+typedef struct Way {
+    double x, y, allowed, worth; /* unit; m/s */
+} Way;
+
+static void lower(double *value, double to) {
+    *value = to < *value ? to : *value;
+}
+
+static double radii(const Packet *p, uint32_t j) {
+    const float *radius = p->agents.param[JOX_PARAM_radius];
+    return (double)radius[p->me] + (double)radius[j];
+}
+
+/* Behind one who goes first: the speed that keeps the time gap. */
+static void follow(const Packet *p, Way *w, uint32_t j) {
+    const JoxAgents *a = &p->agents;
+    const JoxWalkLaw *law = &p->law;
+    double eager = (double)a->eager[p->me], r = radii(p, j);
+    double width = law->width * r * (1.0 - law->width_eager * eager);
+    double along = (double)a->x[j] * w->x + (double)a->y[j] * w->y;
+    double q = fabs(w->x * (double)a->y[j] - w->y * (double)a->x[j]) / width;
+    if (q >= 1.0 || along <= 0.0)
+        return;
+    double gap = (double)a->param[JOX_PARAM_time_gap][p->me] * (1.0 - law->gap_eager * eager) *
+                 (1.0 - law->gap_side * eager * q);
+    double free = along - law->length * r * sqrt(1.0 - q * q * q * q * q * q);
+    double ahead = fmax(0.0, (double)a->vx[j] * w->x + (double)a->vy[j] * w->y);
+    double speed = (free + law->ahead_share * gap * ahead) / (gap + law->ahead_share * gap);
+    lower(&w->allowed, speed);
+    lower(&w->worth, speed);
+}
+
+/* Past one who crosses: the free path, and when the two would meet. */
+static void cross(const Packet *p, Way *w, uint32_t j, double speed) {
+    const JoxAgents *a = &p->agents;
+    double x = (double)a->x[j], y = (double)a->y[j], width = p->law.width_cross * radii(p, j);
+    double along = x * w->x + y * w->y, aside = w->x * y - w->y * x;
+    if (fabs(aside) < width && along > 0.0) {
+        double path = (along - sqrt(width * width - aside * aside)) / p->law.cross_time;
+        lower(&w->allowed, path);
+        lower(&w->worth, path);
+    }
+    double ux = speed * w->x - (double)a->vx[j], uy = speed * w->y - (double)a->vy[j];
+    double u2 = ux * ux + uy * uy, closing = x * ux + y * uy;
+    double apart2 = fmax(0.0, x * x + y * y - width * width);
+    double meets = closing * closing - u2 * apart2;
+    if (meets > 0.0 && closing > 0.0)
+        lower(&w->worth, (closing - sqrt(meets)) / u2 * speed / p->law.contact_time);
+}
+
+static double distance(const Packet *p, uint32_t edge, double x, double y) {
+    JoxV2 at = {(float)x, (float)y};
+    return (double)jox_length(
+        jox_sub(jox_segment_nearest(p->ends[edge][0], p->ends[edge][1], at), at));
+}
+
+/* Going aside: how far somebody gets before they are `keep` from a wall. */
+static void mind_wall(const Packet *p, Way *w, uint32_t edge, double speed) {
+    const double stride = 0.0005;
+    double keep = p->law.wall_radius * (double)p->agents.param[JOX_PARAM_radius][p->me], path = 0.0;
+    if (distance(p, edge, 0.0, 0.0) < keep) { /* so near, not towards it */
+        JoxV2 off = jox_segment_nearest(p->ends[edge][0], p->ends[edge][1], (JoxV2){0, 0});
+        path = (double)off.x * w->x + (double)off.y * w->y > 0.0 ? 0.0 : INFINITY;
+    } else {
+        while (path < speed * p->law.wall_time &&
+               distance(p, edge, path * w->x, path * w->y) >= keep)
+            path += stride;
+    }
+    lower(&w->allowed, path / p->law.wall_time);
+    lower(&w->worth, path / p->law.wall_time);
+}
+
+static bool is_hidden(const Packet *p, uint32_t j) {
+    JoxV2 at = {p->agents.x[j], p->agents.y[j]};
+    for (uint32_t k = 0; k < p->edges; k++)
+        if (jox_segment_crossing(p->ends[k][0], p->ends[k][1], (JoxV2){0, 0}, at))
+            return true;
+    return false;
+}
+
+static Way judge(const Packet *p, double degrees, double speed) {
+    const JoxAgents *a = &p->agents;
+    double angle = degrees / 180.0 * PI, c = jox_cos(angle), s = jox_sin(angle);
+    double ax = (double)a->aim_x[p->me], ay = (double)a->aim_y[p->me];
+    Way w = {c * ax - s * ay, c * ay + s * ax, speed, speed};
+    for (uint32_t j = 0; j < a->count; j++) {
+        JoxV2 offset = {a->x[j], a->y[j]};
+        if (j == p->me || is_hidden(p, j))
+            continue;
+        JoxMinds minds = jox_minds(a, p->me, j, offset);
+        if (minds == JOX_MINDS_AHEAD)
+            follow(p, &w, j);
+        else if (minds == JOX_MINDS_CROSSING)
+            cross(p, &w, j, speed);
+    }
+    for (uint32_t k = 0; k < p->edges && degrees != 0.0; k++)
+        mind_wall(p, &w, k, speed);
+    return w;
+}
+
+/* The direction that is worth most along the way; *lead: by how much more than the next best. */
+static Way choose(const Packet *p, double cx, double cy, double speed, double *lead) {
+    double most = -INFINITY;
+    Way best = judge(p, 0.0, speed);
+    *lead = fabs(best.worth - 0.98 * speed);
+    if (best.worth >= 0.98 * speed)
+        return best;
+    double margin = INFINITY;
+    for (int k = 0; k < DIRECTIONS; k++) {
+        double degrees = 15.0 * (k - DIRECTIONS / 2);
+        Way w = judge(p, degrees, speed);
+        double worth = fmax(w.worth, -0.2) * jox_cos(degrees / 180.0 * PI);
+        worth -= p->law.turn_cost * speed * (1.0 - (w.x * cx + w.y * cy));
+        worth += degrees < 0.0 ? p->law.right * speed : 0.0;
+        margin = worth > most ? worth - most : fmin(margin, most - worth);
+        if (worth > most) {
+            most = worth;
+            best = w;
+        }
+    }
+    *lead = fmin(*lead, margin);
+    return best;
+}
+
+/* What comes of the present velocity within the interval. */
+static void approach(const Packet *p, const Way *w, double *x, double *y) {
+    double vx = (double)p->agents.vx[p->me], vy = (double)p->agents.vy[p->me];
+    double start = fmin(1.0, INTERVAL / p->law.start_time);
+    double stop = fmin(1.0, INTERVAL / p->law.stop_time), speed = fmax(w->allowed, 0.0);
+    double now = sqrt(vx * vx + vy * vy), along = vx * w->x + vy * w->y;
+    double kept = now * fmin(1.0, fmax(0.0, now > 0.0 ? 2.0 * along / now : 0.0));
+    kept += (speed - kept) * (speed > kept ? start : stop);
+    *x = w->x * kept + (vx - w->x * along) * (1.0 - stop);
+    *y = w->y * kept + (vy - w->y * along) * (1.0 - stop);
+}
+
+/* ---- both ---- */
+
+/* By how much the engine's velocity is off, m/s; NAN where two directions are as good, or nobody
+   wants to go anywhere. */
+static double off(uint32_t number, bool *aside) {
+    Packet p;
+    double x, y, lead, result = NAN;
+    begin(&p, number);
+    JoxAgents *a = &p.agents;
+    double cx = (double)a->course_x[p.me], cy = (double)a->course_y[p.me];
+    jox_nav_walk(p.nav, a, &p.neighbours, 1, 0.0, INTERVAL, true, NULL);
+    double px = (double)a->pref_x[p.me], py = (double)a->pref_y[p.me];
+    double speed = sqrt(px * px + py * py);
+    if (speed > 0.0) {
+        Way w = choose(&p, cx, cy, speed, &lead);
+        approach(&p, &w, &x, &y);
+        *aside = w.x * px + w.y * py < 0.99 * speed;
+        if (lead > 0.004)
+            result = hypot(x - (double)a->walk_x[p.me], y - (double)a->walk_y[p.me]);
+    }
+    end(&p);
+    return result;
+}
+
+static void velocities_are_those_of_the_reference(void **state) {
+    (void)state;
+    int compared = 0, turned = 0;
+    for (uint32_t number = 0; number < PACKETS; number++) {
+        bool aside = false;
+        double error = off(number, &aside);
+        if (isnan(error))
+            continue;
+        if (!(error < 0.004)) /* steps of half a millimetre towards walls */
+            fail_msg("neighbourhood %u: %g m/s", number, error);
+        compared++;
+        turned += aside;
+    }
+    assert_true(compared > PACKETS / 2 && turned > PACKETS / 8);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(velocities_are_those_of_the_reference),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
