@@ -119,14 +119,14 @@ static void follow(const Packet *p, Way *w, uint32_t j) {
     const JoxAgents *a = &p->agents;
     const JoxWalkLaw *law = &p->law;
     double eager = (double)a->eager[p->me], r = radii(p, j);
-    double width = law->width * r * (1.0 - law->width_eager * eager);
+    double room = 1.0 - law->room_eager * eager, width = law->width * r * room;
     double along = (double)a->x[j] * w->x + (double)a->y[j] * w->y;
     double q = fabs(w->x * (double)a->y[j] - w->y * (double)a->x[j]) / width;
     if (q >= 1.0 || along <= 0.0)
         return;
     double gap = (double)a->param[JOX_PARAM_time_gap][p->me] * (1.0 - law->gap_eager * eager) *
                  (1.0 - law->gap_side * eager * q);
-    double free = along - law->length * r * sqrt(1.0 - q * q * q * q * q * q);
+    double free = along - law->length * r * room * sqrt(1.0 - q * q * q * q * q * q);
     double ahead = fmax(0.0, (double)a->vx[j] * w->x + (double)a->vy[j] * w->y);
     double speed = (free + law->ahead_share * gap * ahead) / (gap + law->ahead_share * gap);
     lower(&w->allowed, speed);
