@@ -6,11 +6,11 @@
 /* X(name, unit, least, greatest, default, meaning). R: the sum of two people's radii. */
 #define JOX_WALK_CONSTANTS(X)                                                                      \
     X(width, "", 0.1, 3, 1.15, "breadth of the way that one who follows needs free, in R")         \
-    X(room_eager, "", 0, 0.9, 0.33, "share of breadth and room that the eager do without")         \
+    X(room_eager, "", 0, 0.9, 0.26, "share of breadth and room that the eager do without")         \
     X(width_cross, "", 0.1, 3, 0.8, "distance at which ways that cross pass each other, in R")     \
-    X(length, "", 0.1, 3, 1.1, "room along the way that the one ahead takes, in R")                \
+    X(length, "", 0.1, 3, 1.05, "room along the way that the one ahead takes, in R")               \
     X(ahead_share, "", 0, 2, 0.8, "share of the time gap for which the one ahead is foreseen")     \
-    X(gap_eager, "", 0, 0.95, 0.15, "share of the time gap that the eager do without")             \
+    X(gap_eager, "", 0, 0.95, 0.18, "share of the time gap that the eager do without")             \
     X(gap_side, "", 0, 0.95, 0.2, "share of it that the eager do without beside those ahead")      \
     X(gap_spread, "", 0, 0.9, 0.1, "greatest part by which people's time gaps differ")             \
     X(gap_noise, "", 0, 2, 0.15, "greatest logarithm by which a person's time gap wanders")        \
@@ -23,7 +23,7 @@
     X(contact_time, "s", 0.05, 20, 2.2, "time to a contact from which on a way is worth less")     \
     X(wall_time, "s", 0.05, 10, 0.35, "time kept to walls when going aside")                       \
     X(wall_radius, "", 0, 3, 0.6, "distance kept to walls when going aside, in radii")             \
-    X(turn_cost, "", 0, 5, 0.3, "what turning from the course costs, in wanted speeds")            \
+    X(turn_cost, "", 0, 5, 0.5, "what turning from the course costs, in wanted speeds")            \
     X(right, "", -1, 1, 0.05, "what going aside to the right is worth, in wanted speeds")          \
     X(course_time, "s", 0.01, 10, 0.2, "time in which the course follows the way chosen")          \
     X(start_time, "s", 0.01, 5, 0.2, "time in which people get up to a speed")                     \
