@@ -3,7 +3,7 @@ local crowd = {}
 
 -- Time kept to whoever walks ahead, s, by those who are not eager: what `time_gap` is to all who walk by the walking
 -- law (core/walking.md). A group's `haste` (calm, normal, keen) and the crowd itself shorten it.
-crowd.time_gap = 0.94
+crowd.time_gap = 0.96
 
 -- Who is eager and hardly gets on leans on those ahead, N; who stands where others walk does so after 5 s.
 crowd.nudge = 25 * eagerness * own.speed
