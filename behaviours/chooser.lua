@@ -15,12 +15,12 @@ return machine {
   states = {
     ToNear = { steer = field(own.near), push_when = crowd.held_up, lasts = uniform(2, 6),
       { to = "Walk",   when = crosses(own.near) | near(own.near, 0.1) },
-      { to = "ToFar",  when = lasted & gain:above(10) & ~near(own.near, 2.5) },
+      { to = "ToFar",  when = lasted & gain:above(15) & ~near(own.near, 2.5) },
       { to = "ToNear", when = lasted, id = "again" } },
 
     ToFar = { steer = field(own.far), push_when = crowd.held_up, lasts = uniform(2, 6),
       { to = "Walk",   when = crosses(own.far) | near(own.far, 0.1) },
-      { to = "ToNear", when = lasted & gain:below(-10) & ~near(own.far, 2.5) },
+      { to = "ToNear", when = lasted & gain:below(-15) & ~near(own.far, 2.5) },
       { to = "ToFar",  when = lasted, id = "again" } },
 
     Walk = { steer = field(own.goal), push_when = crowd.held_up,
