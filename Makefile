@@ -20,8 +20,15 @@ SHARED  := $(if $(filter file,$(origin B)),build/$(MODE),$(B))
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
-FOLDERS := $(if $(ONLY),$(ONLY),base base/format task geom agents nav force body machine world/input world world/verbs scene/format scene/walls scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run live report render validate luatest)
+FOLDERS := $(if $(ONLY),$(ONLY),base base/format simd task geom agents nav force body machine world/input world world/verbs scene/format scene/walls scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run run/resume live report render validate luatest)
 SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))
+# Kernels: one source, compiled for each instruction set that core/simd has lanes for.
+SRC_WIDE := $(filter %_wide.c,$(SRC_C))
+SRC_C   := $(filter-out $(SRC_WIDE),$(SRC_C))
+ISAS    := scalar $(if $(findstring x86_64,$(shell $(CC) -dumpmachine)),sse2 avx2 avx512)
+ISA.sse2   := -msse2
+ISA.avx2   := -mavx2
+ISA.avx512 := -mavx512f
 SRC_CC  := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.cc)))
 ifeq ($(BULLET),0)
 SRC_CC  :=
@@ -44,6 +51,9 @@ OPT.tsan    := -O1 -g1 -fsanitize=thread
 OPT     := $(OPT.$(MODE))
 $(if $(OPT),,$(error MODE=$(MODE) is not one of release, debug, asan, ubsan, tsan))
 WARN    := -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes -Wvla
+# What an overrun of the stack, of a buffer or of the table of imports would need is not there; debug and
+# sanitised builds find more by themselves.
+HARD    := $(if $(filter release,$(MODE)),-fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
 # No contraction, no fast-math: every build must compute the same bits.
 FP      := -ffp-contract=off -fno-math-errno -fno-trapping-math
 CFLAGS  ?=
@@ -53,13 +63,13 @@ PLACES  := -DJOX_DATADIR='"$(DATADIR)"' -DJOX_PAGEDIR='"$(PAGEDIR)"' -DJOX_THREE
 PLACED  := $(shell grep -lE 'JOX_(DATADIR|PAGEDIR|THREEDIR)' $(SRC_C) $(SRC_CC) $(SRC_CLI))
 # Statics of inline functions must not become process-wide symbols.
 UNIQUE  := $(shell echo | $(CXX) -fno-gnu-unique -x c++ -E - >/dev/null 2>&1 && echo -fno-gnu-unique)
-CFLAGS_ALL  = -std=c17 $(OPT) $(WARN) $(FP) -fPIC -fvisibility=hidden -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
-CXXFLAGS_ALL = -std=c++17 $(OPT) -Wall -Wextra $(FP) -fPIC -fvisibility=hidden -fno-exceptions -fno-rtti $(UNIQUE) \
+CFLAGS_ALL  = -std=c17 $(OPT) $(HARD) $(WARN) $(FP) -fPIC -fvisibility=hidden -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
+CXXFLAGS_ALL = -std=c++17 $(OPT) $(HARD) -Wall -Wextra $(FP) -fPIC -fvisibility=hidden -fno-exceptions -fno-rtti $(UNIQUE) \
            -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
 PKG_CFLAGS := $(shell pkg-config --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isystem /g')
 PKG_LIBS   := $(shell pkg-config --libs $(PKGS) 2>/dev/null)
 LIBS       := $(PKG_LIBS) -lm -pthread
-LINK       := $(if $(filter 0,$(BULLET)),$(CC),$(CXX)) $(OPT) -pthread
+LINK       := $(if $(filter 0,$(BULLET)),$(CC),$(CXX)) $(OPT) -pthread -Wl,-z,relro,-z,now
 
 # One short line a file; V=1 shows the commands.
 ifeq ($(V),1)
@@ -71,7 +81,8 @@ say = @printf '  %-4s %s\n' $(1) $(2)
 endif
 
 objects  = $(foreach s,$(1),$(if $(filter $(s),$(PLACED)),$(B),$(SHARED))/$(basename $(s)).o)
-OBJ     := $(call objects,$(SRC_C) $(SRC_CC))
+OBJ_WIDE := $(foreach i,$(ISAS),$(SRC_WIDE:%.c=$(SHARED)/%.$(i).o))
+OBJ     := $(call objects,$(SRC_C) $(SRC_CC)) $(OBJ_WIDE)
 OBJ_CLI := $(call objects,$(SRC_CLI))
 UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
@@ -110,16 +121,21 @@ define compile
 	$(call say,$(1),$<)
 	$(Q)$(2) $(CPPFLAGS_ALL) $(if $(filter $<,$(PLACED)),$(PLACES)) $(3) -c $< -o $@
 endef
-$(B)/%.o: %.c
+$(B)/%.o: %.c Makefile
 	$(call compile,CC,$(CC),$(CFLAGS_ALL))
-# Its loops over lanes become vector operations, of the same bits.
-$(SHARED)/core/nav/walk.o: OPT += $(if $(filter release,$(MODE)),-O3)
-$(B)/%.o: %.cc
+# Their loops over numbers become vector operations, of the same bits.
+$(SHARED)/core/nav/walk_one.o $(SHARED)/core/machine/eval.o: OPT += $(if $(filter release,$(MODE)),-O3)
+define wide
+$(SHARED)/%_wide.$(1).o: %_wide.c Makefile
+	$$(call compile,CC,$$(CC),$$(CFLAGS_ALL) $(ISA.$(1)) -DJOX_ISA_$(1))
+endef
+$(foreach i,$(ISAS),$(eval $(call wide,$(i))))
+$(B)/%.o: %.cc Makefile
 	$(call compile,CXX,$(CXX),$(CXXFLAGS_ALL))
 ifneq ($(SHARED),$(B))
-$(SHARED)/%.o: %.c
+$(SHARED)/%.o: %.c Makefile
 	$(call compile,CC,$(CC),$(CFLAGS_ALL))
-$(SHARED)/%.o: %.cc
+$(SHARED)/%.o: %.cc Makefile
 	$(call compile,CXX,$(CXX),$(CXXFLAGS_ALL))
 endif
 $(B)/internal.a: $(OBJ)

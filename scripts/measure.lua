@@ -3,7 +3,12 @@ local measure = {}
 
 -- What the constants of the walking law (core/walking.md) were chosen on, by the ids of claims; said by those as what
 -- they are calibrated on, and by all others of real crowds as what they were held out from.
-measure.walking_law = "the walking law's constants were chosen on seed 101 of B1 to B4, C1, F1 to F3, F3b, L1 and W"
+measure.walking_law = "the walking law's constants were chosen on seeds 201 to 216 and 301 to 318 of B1 to B4, C1, "
+  .. "F1 to F3, F3b, L1 and W, and touched up once 101 to 110 were seen"
+
+-- What the Tawaf's behaviour was chosen on; it walks by ORCA, so that its claims have no level of haste.
+measure.tawaf = "the Tawaf's chances, durations, speeds and pushes were chosen on seed 1 of 6-7, 8, 9 and 10, "
+  .. "chances and gates on seed 101 of 6-7 and 10, too"
 
 function measure.mean(list)
   local sum = 0
@@ -55,6 +60,11 @@ end
 
 -- A band about a value: a share of it to either side.
 function measure.about(value, share) return { (1 - share) * value, (1 + share) * value } end
+
+-- A row of a claim's `expect`: a figure whose mean is to lie within a share of what the source has.
+function measure.expected(figure, unit, what, value, share)
+  return { figure, unit = unit, what = what, source = string.format("%.2f", value), band = measure.about(value, share) }
+end
 
 -- Root of the mean square of a relative deviation from what is expected.
 function measure.rms(list, expected)

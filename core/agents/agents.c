@@ -10,9 +10,13 @@ enum { PADDING = 16 }; /* whole packets may be read past the last agent */
 
 /* Every column with the size of its entries, so that growth and sorting are one loop. */
 typedef void ColumnVisitor(void *context, void **column, size_t size);
+enum { COLUMN_STATE, COLUMN_INDEX, COLUMN_HINT, COLUMN_SCRATCH }; /* the marks of columns */
 
-static void visit_columns(JoxAgents *a, ColumnVisitor *visit, void *context) {
-#define X(keep, type, name) visit(context, (void **)&a->name, sizeof(type));
+/* Those with marks up to `last`. */
+static inline void visit_columns(JoxAgents *a, int last, ColumnVisitor *visit, void *context) {
+#define X(keep, type, name)                                                                        \
+    if (COLUMN_##keep <= last)                                                                     \
+        visit(context, (void **)&a->name, sizeof(type));
     JOX_AGENT_COLUMNS(X)
 #undef X
     for (int p = 0; p < JOX_PARAM_COUNT; p++)
@@ -44,14 +48,16 @@ static size_t widest(const JoxAgents *a) {
 
 static void grow_scratch(JoxAgents *a) {
     jox_free(a->scratch);
+    jox_free(a->spare);
     a->scratch = jox_alloc_aligned((size_t)a->capacity + PADDING, widest(a));
+    a->spare = jox_alloc_aligned((size_t)a->capacity + PADDING, sizeof(uint32_t));
 }
 
 void jox_agents_reserve(JoxAgents *a, uint32_t capacity) {
     if (capacity <= a->capacity)
         return;
     Growth growth = {a->count, capacity};
-    visit_columns(a, grow_column, &growth);
+    visit_columns(a, COLUMN_SCRATCH, grow_column, &growth);
     a->capacity = capacity;
     grow_scratch(a);
     jox_free(a->order);
@@ -115,7 +121,7 @@ uint32_t jox_agents_add(JoxAgents *a) {
     if (a->count == a->capacity)
         jox_agents_reserve(a, a->capacity ? 2 * a->capacity : 64);
     uint32_t i = a->count++;
-    visit_columns(a, clear_row, &i);
+    visit_columns(a, COLUMN_SCRATCH, clear_row, &i);
     a->id[i] = a->rank_id[i] = a->next_id++; /* greater than any: the last by rank */
     a->rank[i] = i;
     a->by_rank[i] = i;
@@ -124,31 +130,41 @@ uint32_t jox_agents_add(JoxAgents *a) {
         a->param[p][i] = jox_parameter_store((JoxParameter)p, jox_parameters[p].value);
     a->face_x[i] = 1.0f;
     a->lasts[i] = INFINITY;
-    a->goal[i] = a->kicked[i] = a->approach[i] = a->queue_at[i] = a->bound[i] = -1;
+    a->goal[i] = a->kicked[i] = a->struck[i] = a->approach[i] = a->queue_at[i] = a->bound[i] = -1;
     a->machine[i] = JOX_NO_MACHINE;
     a->speed_limit[i] = a->param[JOX_PARAM_max_speed][i];
     return i;
 }
 
 typedef struct Gather {
+    JoxAgents *agents;
     const uint32_t *order;
-    uint32_t count;
-    char *scratch;
+    uint32_t count, before; /* agents afterwards, and until now */
 } Gather;
 
 static void gather_column(void *context, void **column, size_t size) {
     const Gather *gather = context;
     const char *from = *column;
-    char *to = gather->scratch;
     const uint32_t *order = gather->order;
-    if (size == 4) { /* nearly all columns */
+    if (memcmp(from, from + size, (gather->before - 1) * size) == 0)
+        return;                     /* the same of all agents, as most parameters are */
+    if (size == sizeof(uint32_t)) { /* nearly all columns */
+        uint32_t *to = gather->agents->spare;
         for (uint32_t i = 0; i < gather->count; i++)
-            ((uint32_t *)to)[i] = ((const uint32_t *)from)[order[i]];
+            to[i] = ((const uint32_t *)from)[order[i]];
+        gather->agents->spare = *column;
+        *column = to;
     } else {
+        char *to = gather->agents->scratch;
         for (uint32_t i = 0; i < gather->count; i++)
             memcpy(to + i * size, from + order[i] * size, size);
+        if (size == widest(gather->agents)) {
+            gather->agents->scratch = *column;
+            *column = to;
+        } else {
+            memcpy(*column, to, gather->count * size);
+        }
     }
-    memcpy(*column, to, gather->count * size);
 }
 
 static void reindex(JoxAgents *a) {
@@ -172,8 +188,9 @@ void jox_agents_check(const JoxAgents *a) {
 }
 
 void jox_agents_permute(JoxAgents *a, const uint32_t *order) {
-    Gather gather = {order, a->count, a->scratch};
-    visit_columns(a, gather_column, &gather);
+    Gather gather = {a, order, a->count, a->count};
+    if (a->count)
+        visit_columns(a, COLUMN_HINT, gather_column, &gather);
     reindex(a);
     JOX_CHECK(jox_agents_check(a)); /* fails if the order is no permutation */
 }
@@ -210,8 +227,8 @@ uint32_t jox_agents_compact(JoxAgents *a) {
     uint32_t gone = a->count - kept;
     if (gone) {
         close_ranks(a);
-        Gather gather = {a->order, kept, a->scratch};
-        visit_columns(a, gather_column, &gather);
+        Gather gather = {a, a->order, kept, a->count};
+        visit_columns(a, COLUMN_SCRATCH, gather_column, &gather);
         a->count = kept;
         reindex(a);
         JOX_CHECK(jox_agents_check(a));
@@ -248,13 +265,14 @@ static void free_column(void *context, void **column, size_t size) {
 }
 
 void jox_agents_free(JoxAgents *a) {
-    visit_columns(a, free_column, NULL);
+    visit_columns(a, COLUMN_SCRATCH, free_column, NULL);
     jox_free(a->slot_index);
     jox_free(a->slot_generation);
     jox_free(a->free_slots);
     jox_free(a->by_rank);
     jox_free(a->rank_id);
     jox_free(a->scratch);
+    jox_free(a->spare);
     jox_free(a->order);
     *a = (JoxAgents){0};
 }

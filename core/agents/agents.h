@@ -28,7 +28,8 @@
 /* X(keep, type, name): what it is. Units: m, m/s, N, s.
    STATE: carried from step to step, so it is hashed and saved. SCRATCH: every step writes it before
    it reads it; between steps it holds figures of the last step, which a restored world lacks until
-   the next. INDEX: follows from state, kept up by the functions below. */
+   the next, and agents are not sorted with it. HINT: scratch that says where to begin, and changes
+   no result; it follows its agent. INDEX: follows from state, kept up by the functions below. */
 #define JOX_AGENT_COLUMNS(X)                                                                       \
     X(STATE, uint32_t, id)      /* counts up from 0, never reused */                               \
     X(STATE, uint32_t, slot)    /* row of the handle table */                                      \
@@ -76,7 +77,7 @@
     X(SCRATCH, float, half_plane_offset) /* (v . normal) >= offset, m/s */                         \
     X(SCRATCH, float, speed_limit)       /* greatest speed in this step, m/s */                    \
     X(SCRATCH, float, density)   /* from the distance of the farthest neighbour kept, 1/m2 */      \
-    X(SCRATCH, float, search)    /* radius that held the neighbours last time; 0 unknown */        \
+    X(HINT, float, search)       /* radius that held the neighbours last time; 0 unknown */        \
     X(SCRATCH, uint8_t, failed)  /* 1 where the 2-D program was infeasible this step */            \
     X(STATE, uint8_t, contacts)  /* agents and bodies touched this step */                         \
     X(STATE, uint8_t, removed)   /* 1: leaves the world at the end of the step */                  \
@@ -90,6 +91,7 @@
     X(STATE, int32_t, queue_at)    /* place whose queue it stands in, or -1 */                     \
     X(STATE, uint32_t, queued)     /* tick at which it joined that queue */                        \
     X(STATE, int32_t, kicked)      /* body kicked last step, or -1 */                              \
+    X(STATE, int32_t, struck)      /* fast body that hit it last step, or -1 */                    \
     X(STATE, uint32_t, kick_ready) /* tick from which it may kick again */                         \
     X(STATE, uint64_t, ignore)     /* tags of agents and bodies that are not avoided */            \
     X(STATE, uint64_t, push_only)  /* tags that are pushed; 0 means all */                         \
@@ -117,7 +119,7 @@ typedef struct JoxAgents {
     /* Periodic edges: who leaves at one side comes in at the other. Lengths of the period, 0 along
        an axis without; positions are kept within [origin, origin + period). */
     JoxV2 origin, period;
-    void *scratch; /* one column wide, for permuting */
+    void *scratch, *spare; /* for permuting: the widest column, and one of 4 bytes an agent */
     uint32_t *order;
 } JoxAgents;
 
@@ -130,11 +132,14 @@ static inline JoxV2 jox_wrap(const JoxAgents *agents, JoxV2 d) {
         d.y -= d.y > 0.0f ? period.y : -period.y;
     return d;
 }
-/* Whether an agent wants to stay where it is. */
+/* Whether an agent walks by the walking law (core/walking.md): it keeps a time gap. */
+static inline bool jox_walks(const JoxAgents *agents, uint32_t i) {
+    return agents->param[JOX_PARAM_time_gap][i] > 0.0f;
+}
+#define JOX_STANDS 0.1f /* m/s: who wants to be slower wants to stay where they are */
 static inline bool jox_stands(const JoxAgents *agents, uint32_t i) {
-    const float least = 0.1f; /* m/s */
     float x = agents->pref_x[i], y = agents->pref_y[i];
-    return x * x + y * y < least * least;
+    return x * x + y * y < JOX_STANDS * JOX_STANDS;
 }
 /* Whether agent i stands and feels a force, which changes in every step: then it plans in every
    step. Known once the forces are summed. */
@@ -152,11 +157,13 @@ void jox_agents_reserve(JoxAgents *agents, uint32_t capacity);
 void jox_agents_reserve_slots(JoxAgents *agents, uint32_t capacity);
 void jox_agents_widen(JoxAgents *agents, uint32_t own_stride, uint32_t memory_stride);
 /* Adds one agent: all columns zero, parameters at their defaults, face +x, lasts infinite, goal,
-   kicked and approach -1, machine JOX_NO_MACHINE. Returns its index (valid until the next sort). */
+   kicked, struck and approach -1, machine JOX_NO_MACHINE. Returns its index (valid until the next
+   sort). */
 uint32_t jox_agents_add(JoxAgents *agents);
 /* Takes out all agents with `removed` set, keeping the order of the rest. Returns how many. */
 uint32_t jox_agents_compact(JoxAgents *agents);
-/* Puts the agents in the order given: new index i is what was at order[i]; a permutation. */
+/* Puts the agents in the order given: new index i is what was at order[i]; a permutation. Columns
+   marked SCRATCH hold nothing afterwards. */
 void jox_agents_permute(JoxAgents *agents, const uint32_t *order);
 /* Writes the indices of all agents in ascending id into `out` (count entries). One at a time they
    are agents->by_rank[0 .. count - 1]. */

@@ -8,6 +8,7 @@
 #define KEEP_STATE(s, a, name)                                                                     \
     jox_section_ordered(s, #name, (a)->name, sizeof *(a)->name, (a)->count, order);
 #define KEEP_SCRATCH(s, a, name)
+#define KEEP_HINT(s, a, name)
 #define KEEP_INDEX(s, a, name)
 
 static void list_columns(JoxAgents *a, JoxSections *s, const uint32_t *order) {
@@ -104,6 +105,7 @@ void jox_agents_sections(JoxAgents *a, JoxSections *s) {
 #define FORGET_STATE(a, name)
 #define FORGET_INDEX(a, name)
 #define FORGET_SCRATCH(a, name) memset((a)->name, 0xff, (a)->count * sizeof *(a)->name);
+#define FORGET_HINT(a, name) FORGET_SCRATCH(a, name)
 
 void jox_agents_forget(JoxAgents *a) {
     if (a->count == 0)

@@ -65,9 +65,25 @@ double jox_exp(double x) {
         return 0.0;
     double n = floor(x * 1.4426950408889634 + 0.5);
     double r = (x - n * 6.93147180369123816490e-01) - n * 1.90821492927058770002e-10;
-    double sum = 1.0;
-    for (int k = 18; k >= 1; k--)
-        sum = 1.0 + sum * r / k;
+    /* 1 / k! for k from 14 down: |r| is at most ln(2) / 2, so that the next term is below 1e-19. */
+    static const double TERMS[] = {1.1470745597729725e-11,
+                                   1.6059043836821613e-10,
+                                   2.0876756987868099e-9,
+                                   2.5052108385441719e-8,
+                                   2.7557319223985891e-7,
+                                   2.7557319223985891e-6,
+                                   2.4801587301587302e-5,
+                                   1.9841269841269841e-4,
+                                   1.3888888888888889e-3,
+                                   8.3333333333333332e-3,
+                                   4.1666666666666664e-2,
+                                   1.6666666666666666e-1,
+                                   0.5,
+                                   1.0,
+                                   1.0};
+    double sum = TERMS[0];
+    for (size_t k = 1; k < sizeof TERMS / sizeof *TERMS; k++)
+        sum = sum * r + TERMS[k];
     uint64_t bits = (uint64_t)((int64_t)n + 1023) << 52;
     double scale;
     memcpy(&scale, &bits, sizeof scale);

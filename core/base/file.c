@@ -2,25 +2,170 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/mem.h"
 #include "base/sort.h"
 
+/* ---- files that are being written under another name ---- */
+
+typedef struct Part {
+    struct Part *next;
+    FILE *file;
+    char *name; /* what it has until it is whole, and the path that it then takes, after a zero */
+    char text[];
+} Part;
+
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static Part *parts;
+
+static Part *take_part(const FILE *file) {
+    pthread_mutex_lock(&lock);
+    Part **at = &parts;
+    while (*at && (*at)->file != file)
+        at = &(*at)->next;
+    Part *part = *at;
+    if (part)
+        *at = part->next;
+    pthread_mutex_unlock(&lock);
+    return part;
+}
+
+/* Closes it; what was written whole takes its name, what was not is removed. */
+static int end_file(FILE *file, bool good) {
+    Part *part = take_part(file);
+    good = good && fflush(file) == 0 && !ferror(file);
+    if (part && good)
+        good = rename(part->text, part->name) == 0;
+    else if (part)
+        unlink(part->text);
+    free(part);
+    const int number = errno;
+    const bool closed = fclose(file) == 0;
+    if (!good)
+        errno = number;
+    return good && closed ? 0 : EOF;
+}
+
 static void release_file(void *file) {
-    fclose(file);
+    end_file(file, false);
+}
+
+/* ---- opening ---- */
+
+/* Without waiting for the other end of a pipe. For reading: regular files alone, as what is read
+   from a pipe or a terminal may never come. */
+static int open_now(const char *path, int flags, struct stat *info) {
+    const int file = open(path, flags | O_NONBLOCK | O_CLOEXEC, 0666);
+    if (file < 0)
+        return -1;
+    const bool good = fstat(file, info) == 0;
+    if (!good || (flags == O_RDONLY && !S_ISREG(info->st_mode))) {
+        close(file);
+        errno = !good ? EIO : S_ISDIR(info->st_mode) ? EISDIR : EINVAL;
+        return -1;
+    }
+    fcntl(file, F_SETFL, fcntl(file, F_GETFL) & ~O_NONBLOCK);
+    return file;
+}
+
+/* One writer at a time: the lock goes with the open file. EBUSY where another has it, or took its
+   name meanwhile. */
+static int open_to_write(const char *path, int flags) {
+    struct stat info, named;
+    const int file = open_now(path, O_WRONLY | O_CREAT | flags, &info);
+    if (file < 0 || !S_ISREG(info.st_mode))
+        return file;
+    if (flock(file, LOCK_EX | LOCK_NB) == 0 && stat(path, &named) == 0 &&
+        named.st_ino == info.st_ino && (flags == O_APPEND || ftruncate(file, 0) == 0))
+        return file;
+    close(file);
+    errno = EBUSY;
+    return -1;
+}
+
+static FILE *stream(int number, const char *mode) {
+    FILE *file = number >= 0 ? fdopen(number, mode) : NULL;
+    if (number >= 0 && !file)
+        close(number);
+    return file ? jox_hold(file, release_file) : NULL;
 }
 
 FILE *jox_file_open(const char *path, const char *mode) {
-    FILE *file = fopen(path, mode);
-    return file ? jox_hold(file, release_file) : NULL;
+    struct stat info;
+    return stream(*mode == 'r' ? open_now(path, O_RDONLY, &info)
+                               : open_to_write(path, *mode == 'a' ? O_APPEND : 0),
+                  mode);
+}
+
+FILE *jox_file_replace(const char *path) {
+    static const char ENDING[] = ".part";
+    const size_t length = strlen(path);
+    struct stat info;
+    if (lstat(path, &info) == 0 && S_ISDIR(info.st_mode)) {
+        errno = EISDIR;
+        return NULL;
+    }
+    if (lstat(path, &info) == 0 && !S_ISREG(info.st_mode)) /* a device, a pipe, a link */
+        return jox_file_open(path, "w");
+    Part *part =
+        malloc(sizeof *part + 2 * length + sizeof ENDING + 1); /* no heap's: see end_file */
+    if (!part)
+        jox_out_of_memory(sizeof *part);
+    memcpy(part->text, path, length);
+    memcpy(part->text + length, ENDING, sizeof ENDING);
+    part->name = memcpy(part->text + length + sizeof ENDING, path, length + 1);
+    const int number = open_to_write(part->text, 0);
+    part->file = number >= 0 ? fdopen(number, "w") : NULL;
+    if (!part->file) {
+        if (number >= 0)
+            close(number);
+        free(part);
+        return NULL;
+    }
+    FILE *file = part->file;
+    pthread_mutex_lock(&lock);
+    part->next = parts;
+    parts = part;
+    pthread_mutex_unlock(&lock);
+    return jox_hold(file, release_file);
+}
+
+FILE *jox_folder_claim(const char *path) {
+    const int number = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (number >= 0 && flock(number, LOCK_EX | LOCK_NB) != 0) {
+        close(number);
+        errno = EBUSY;
+        return NULL;
+    }
+    return stream(number, "r");
 }
 
 int jox_file_close(FILE *file) {
     jox_let_go(file);
-    return fclose(file);
+    return end_file(file, true);
 }
+
+int jox_file_drop(FILE *file) {
+    jox_let_go(file);
+    end_file(file, false);
+    return EOF;
+}
+
+const char *jox_file_why(int number) {
+    return number == EINVAL || number == EISDIR ? "it is no regular file"
+           : number == ENXIO                    ? "it is a pipe that nobody reads"
+           : number == EBUSY                    ? "another run writes it"
+                                                : strerror(number);
+}
+
+/* ---- folders ---- */
 
 static void release_folder(void *folder) {
     closedir(folder);

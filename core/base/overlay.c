@@ -41,6 +41,11 @@ const JoxOverlay *jox_overlay_use(const JoxOverlay *overlay) {
     return before;
 }
 
+void jox_overlay_keep(const char *path, const char *text, size_t length) {
+    if (used && used->tape)
+        jox_overlay_put(used->tape, path, text, length);
+}
+
 const JoxOverlayFile *jox_overlay_file(const char *path) {
     return jox_overlay_find(used, path);
 }

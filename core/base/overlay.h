@@ -15,6 +15,7 @@ typedef struct JoxOverlayFile {
 typedef struct JoxOverlay {
     JoxOverlayFile *files;
     size_t count, capacity;
+    struct JoxOverlay *tape; /* where what is read from the disk through it is kept, or NULL */
 } JoxOverlay;
 
 /* Holds a copy of the text at a path, in place of what was there. */
@@ -25,6 +26,8 @@ void jox_overlay_free(JoxOverlay *overlay);
 /* The calling thread reads through it from here on (NULL: from the disk); returns the one before,
    which is to be put back. */
 const JoxOverlay *jox_overlay_use(const JoxOverlay *overlay);
+/* What was read from the disk: kept by the tape of the overlay in use, if it has one. */
+void jox_overlay_keep(const char *path, const char *text, size_t length);
 /* The file of the overlay in use at a path, or NULL. */
 const JoxOverlayFile *jox_overlay_file(const char *path);
 /* Whether there is a regular file: in the overlay in use, or on the disk. */

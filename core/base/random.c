@@ -4,20 +4,6 @@
 
 #include "base/elementary.h"
 
-/* The finaliser of a 64-bit mixing hash (constants of David Stafford's variant 13). */
-static uint64_t mix(uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
-uint64_t jox_random_bits(uint64_t seed, uint32_t agent, uint64_t tick, JoxDraw purpose,
-                         uint32_t sub) {
-    uint64_t key = mix(seed + 0x9e3779b97f4a7c15u);
-    key = mix(key ^ ((uint64_t)agent << 32 | sub));
-    return mix(key ^ mix(tick * 64 + (uint64_t)purpose));
-}
-
 double jox_random_unit(uint64_t seed, uint32_t agent, uint64_t tick, JoxDraw purpose,
                        uint32_t sub) {
     return (double)(jox_random_bits(seed, agent, tick, purpose, sub) >> 11) * 0x1p-53;

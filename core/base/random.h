@@ -20,9 +20,20 @@ typedef enum {
     JOX_DRAW_GAP       /* a walker's time gap */
 } JoxDraw;
 
-/* 64 independent bits. `sub` numbers the draws of one purpose. */
-uint64_t jox_random_bits(uint64_t seed, uint32_t agent, uint64_t tick, JoxDraw purpose,
-                         uint32_t sub);
+/* The finaliser of a 64-bit mixing hash (constants of David Stafford's variant 13). */
+static inline uint64_t jox_random_mix(uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+/* 64 independent bits. `sub` numbers the draws of one purpose. Inline, as what does not change from
+   agent to agent is then computed once. */
+static inline uint64_t jox_random_bits(uint64_t seed, uint32_t agent, uint64_t tick,
+                                       JoxDraw purpose, uint32_t sub) {
+    uint64_t key = jox_random_mix(seed + 0x9e3779b97f4a7c15u);
+    key = jox_random_mix(key ^ ((uint64_t)agent << 32 | sub));
+    return jox_random_mix(key ^ jox_random_mix(tick * 64 + (uint64_t)purpose));
+}
 /* Uniform in [0, 1), 53 bits. */
 double jox_random_unit(uint64_t seed, uint32_t agent, uint64_t tick, JoxDraw purpose, uint32_t sub);
 

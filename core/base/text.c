@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/file.h"
 #include "base/mem.h"
@@ -151,12 +150,6 @@ char *jox_read_file(const char *path, size_t limit, size_t *length) {
     FILE *file = jox_file_open(path, "rb");
     if (!file)
         return NULL;
-    struct stat info;
-    if (fstat(fileno(file), &info) == 0 && !S_ISREG(info.st_mode)) {
-        jox_file_close(file);
-        errno = S_ISDIR(info.st_mode) ? EISDIR : EINVAL;
-        return NULL;
-    }
     JoxText text = {0};
     char block[65536];
     size_t got;
@@ -170,6 +163,7 @@ char *jox_read_file(const char *path, size_t limit, size_t *length) {
         return NULL;
     }
     jox_text_append(&text, "", 0);
+    jox_overlay_keep(path, text.data, text.length);
     if (length)
         *length = text.length;
     return text.data;

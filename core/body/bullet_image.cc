@@ -79,7 +79,8 @@ static void put_shape(JoxBodiesImage *image, JoxBodyRecord *record, const JoxBod
     image->point_count += points;
 }
 
-static void put_row(JoxBodiesImage *image, uint32_t row, const JoxRow *r) {
+static void put_row(const JoxBodies *b, JoxBodiesImage *image, uint32_t row) {
+    const JoxRow *r = &b->rows[row];
     jox_reserve(image->bodies, image->body_capacity, image->body_count + 1);
     JoxBodyRecord *record = &image->bodies[image->body_count++];
     *record = JoxBodyRecord();
@@ -90,7 +91,7 @@ static void put_row(JoxBodiesImage *image, uint32_t row, const JoxRow *r) {
     record->held = r->held;
     record->holder = r->held ? r->holder : 0;
     record->grounded = r->grounded;
-    record->swept = r->swept;
+    record->swept = jox_row_fast(r, b->last_dt); /* as the next step will find it */
     const float material[4] = {r->material.friction, r->material.restitution, r->material.damping,
                                r->material.spin_damping};
     memcpy(record->material, material, sizeof material);
@@ -111,7 +112,7 @@ void jox_bodies_capture(const JoxBodies *b, JoxBodiesImage *image) {
     image->name_count = image->block_count = image->bond_count = 0;
     image->counters = {b->next_id, b->count, 0, b->last_dt};
     for (uint32_t k = 0; k < b->live; k++)
-        put_row(image, b->order[k], &b->rows[b->order[k]]);
+        put_row(b, image, b->order[k]);
     if (b->restored) {
         jox_reserve(image->contacts, image->contact_capacity, b->kept_count);
         image->contact_count = b->kept_count;

@@ -12,6 +12,7 @@
 /* In the order of `jostle --help`. */
 #define CLI_COMMANDS(X)                                                                            \
     X(run)                                                                                         \
+    X(resume)                                                                                      \
     X(report)                                                                                      \
     X(render)                                                                                      \
     X(view)                                                                                        \
@@ -97,8 +98,22 @@ enum { CLI_GO_ON = -1 };
 int cli_parse(const CliCommand *command, int argc, char **argv, void *options, CliList *plain);
 void cli_free(const CliCommand *command, void *options, CliList *plain);
 
+/* From here on SIGINT and SIGTERM end the process at once, or, once it has files to finish, leave
+   their number in cli_signal the first time. */
+void cli_catch_signals(bool has_files);
+extern volatile int cli_signal;
+/* The exit status of a command that a signal ended: 128 and its number, as shells have it. */
+int cli_interrupted(int status);
+
+/* Finishes a run whose steps went well (`ok`) or ended with an error, which it prints; returns the
+   exit status. */
+int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error);
+
 /* Prints "jostle COMMAND: why" and where help is found; returns JO_USAGE. */
 int cli_misused(const CliCommand *command, const char *why);
+/* Whether a file can be written, found out before an hour of simulation; JO_FAILED with a message.
+ */
+int cli_writable(const CliCommand *command, const char *path);
 /* Writes text to a file, or to standard output for "-"; JO_FAILED with a message. */
 int cli_write(const CliCommand *command, const char *path, const char *text);
 /* Prints text to the FILE that `context` is: where jo_check and jo_test send theirs. */
@@ -114,6 +129,16 @@ char *cli_manual(void);
 
 /* "m" or "cm": metres of a unit. For a row of CLI_READ. */
 bool cli_unit(double *metres, const char *text, char why[160]);
+
+/* An instruction set that this machine runs; and its row, whose function calls this. */
+bool cli_isa(JoIsa *isa, const char *text, char why[160]);
+#define CLI_ISA_OPTION(function)                                                                   \
+    {                                                                                              \
+        "isa", "NAME",                                                                             \
+            "instruction set of the kernels: scalar, sse2, avx2 or avx512; never changes a "       \
+            "result",                                                                              \
+            "the widest that the machine runs", .kind = CLI_READ, .read = function                 \
+    }
 
 /* Of a scene: `def` is a member JoSceneDef; the options have CliLists `sets` and `mods`, and a bool
    `of_scene`: whether one of these rows was given (seed and dt: see def.has_seed, def.has_dt). */

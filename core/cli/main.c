@@ -1,3 +1,5 @@
+#include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -13,7 +15,20 @@ static void print_help(FILE *out) {
     fprintf(out, "\n'jostle COMMAND --help' lists a command's options.\n");
 }
 
+/* The status of a command, unless what it printed went nowhere. */
+static int end(int status) {
+    const bool printed = fflush(stdout) == 0 && !ferror(stdout);
+    if (printed)
+        return status;
+    fprintf(stderr, "jostle: cannot write to standard output: %s\n", strerror(errno));
+    return status == JO_OK ? JO_FAILED : status;
+}
+
 int main(int argc, char **argv) {
+    /* A pipe that was closed, or a file that became too large, is an error of one write, and no end
+       of a run whose other files are good. */
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
     if (argc < 2) {
         print_help(stderr);
         return JO_USAGE;
@@ -21,7 +36,7 @@ int main(int argc, char **argv) {
     const char *word = argv[1];
     if (!strcmp(word, "--help") || !strcmp(word, "-h") || !strcmp(word, "help")) {
         print_help(stdout);
-        return JO_OK;
+        return end(JO_OK);
     }
     if (!strcmp(word, "--version")) {
         printf("jostle %s\n", jo_version());
@@ -29,7 +44,7 @@ int main(int argc, char **argv) {
     }
     for (size_t c = 0; c < cli_command_count; c++)
         if (!strcmp(word, cli_commands[c]->name))
-            return cli_commands[c]->run(argc - 1, argv + 1);
+            return end(cli_commands[c]->run(argc - 1, argv + 1));
     fprintf(stderr, "jostle: unknown command '%s'\n\n", word);
     print_help(stderr);
     return JO_USAGE;

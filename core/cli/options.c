@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/text.h"
 #include "cli/cli.h"
@@ -105,6 +107,8 @@ static int store(const Reading *r, const CliOption *o, const char *text) {
         memcpy(r->options + o->at, &yes, sizeof yes);
         return CLI_GO_ON;
     case CLI_TEXT:
+        if (!*text)
+            return misused(r->command, o, "needs a value, not ''");
         memcpy(r->options + o->at, &text, sizeof text);
         return CLI_GO_ON;
     case CLI_LIST:
@@ -194,18 +198,48 @@ bool cli_unit(double *metres, const char *text, char why[160]) {
     return known;
 }
 
+bool cli_isa(JoIsa *isa, const char *text, char why[160]) {
+    JoError error;
+    bool known = jo_isa_find(text, isa, &error);
+    if (!known)
+        snprintf(why, 160, "is refused: %.140s", error.text);
+    return known;
+}
+
+static int not_written(const CliCommand *command, const char *path, const char *why) {
+    fprintf(stderr, "jostle %s: cannot write '%s': %s\n", command->name, path, why);
+    return JO_FAILED;
+}
+
+int cli_writable(const CliCommand *command, const char *path) {
+    struct stat info;
+    char folder[4096];
+    const char *slash = strrchr(path, '/');
+    if (!strcmp(path, "-"))
+        return JO_OK;
+    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
+        return not_written(command, path, strerror(EISDIR));
+    snprintf(folder, sizeof folder, "%.*s.", slash ? (int)(slash - path) + 1 : 0, path);
+    const bool there = access(path, F_OK) == 0;
+    return access(there ? path : folder, W_OK) == 0 ? JO_OK
+                                                    : not_written(command, path, strerror(errno));
+}
+
 int cli_write(const CliCommand *command, const char *path, const char *text) {
+    JoError error = {0};
     if (!strcmp(path, "-")) {
-        fputs(text, stdout);
+        fputs(text, stdout); /* main says where that fails */
         return JO_OK;
     }
-    FILE *file = fopen(path, "w");
-    bool good = file && fputs(text, file) >= 0;
-    if (file && fclose(file) != 0)
-        good = false;
-    if (!good)
-        fprintf(stderr, "jostle %s: cannot write '%s'\n", command->name, path);
-    return good ? JO_OK : JO_FAILED;
+    return jo_write(path, text, &error) ? JO_OK : not_written(command, path, error.text);
+}
+
+int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error) {
+    JoError ending = {0};
+    const bool ended = jo_scene_finish(scene, &ending); /* what was recorded until then is kept */
+    if (ok && !ended)
+        *error = ending;
+    return ok && ended ? JO_OK : cli_failed(command, error, false);
 }
 
 void cli_print(void *context, const char *text) {

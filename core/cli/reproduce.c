@@ -1,4 +1,3 @@
-#include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
 
@@ -18,13 +17,6 @@ static const CliOption OPTIONS[] = {
     {"quiet", NULL, "no progress", CLI_TO(JoReproduceDef, quiet)},
 };
 
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int number) {
-    (void)number;
-    interrupted = 1;
-}
-
 static int reproduce(JoReproduceDef *def) {
     char program[1024];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
@@ -32,9 +24,8 @@ static int reproduce(JoReproduceDef *def) {
     size_t missed = 0;
     program[length > 0 ? length : 0] = 0;
     def->program = program;
-    def->stop = &interrupted;
-    signal(SIGINT, interrupt);
-    signal(SIGTERM, interrupt);
+    def->stop = &cli_signal;
+    cli_catch_signals(true);
     if (!jo_reproduce(def, &missed, &error)) /* what is wrong with a file was sent as a message */
         return cli_failed(&cli_reproduce, &error, error.code == JO_INPUT);
     return missed ? JO_FAILED : JO_OK;

@@ -1,4 +1,3 @@
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +10,8 @@ typedef struct Run {
     JoViewDef live; /* of the page */
     CliList sets, mods;
     const char *record, *report, *data, *summary, *log;
-    double seconds;
+    const char *folder; /* for checkpoints */
+    double seconds, every;
     uint64_t steps, seeds, trace;
     bool view, of_scene, has_seconds, has_steps, watch, no_watch, has_trace, quiet, profile;
     bool no_half;
@@ -19,18 +19,8 @@ typedef struct Run {
 } Run;
 
 static const double LEAST_DT = 0.001; /* s, of --dt */
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int number) {
-    (void)number;
-    interrupted = 1;
-}
-
 static bool read_isa(void *options, const char *text, char why[160]) {
-    (void)options;
-    if (strcmp(text, "scalar") != 0)
-        snprintf(why, 160, "has no kernels for '%.60s'; this build has: scalar", text);
-    return !strcmp(text, "scalar");
+    return cli_isa(&((Run *)options)->def.isa, text, why);
 }
 
 static const CliOption OPTIONS[] = {
@@ -43,9 +33,15 @@ static const CliOption OPTIONS[] = {
      "or "
      "as a list, what is no statistic of a run: the seed, the step, coordinates",
      CLI_TO(Run, seeds), CLI_RANGE(1, 1000)},
-    {"isa", "NAME", "instruction set of the kernels: scalar", .kind = CLI_READ, .read = read_isa},
+    CLI_ISA_OPTION(read_isa),
     {"log-input", "FILE", "write an input log (replaces FILE)", CLI_TO(Run, log)},
     {"record", "FILE", "write trajectories (SQLite, JuPedSim format 2)", CLI_TO(Run, record)},
+    {"checkpoint", "S",
+     "every S simulated seconds, write all that the run's future depends on, with the text of each "
+     "file, for `jostle resume`: to latest.checkpoint, and the one before to before.checkpoint. "
+     "With bodies the state is exact, and saved, at each 128th step",
+     CLI_TO(Run, every), CLI_RANGE(0.001, 1e7)},
+    {"checkpoint-dir", "DIR", "folder for checkpoints", CLI_TO(Run, folder)},
     {"report", "DIR",
      "write a page, pictures and figures into DIR (index.html): where people are squeezed, against "
      "published limits; exits; density; what probes measure; of small scenes, all paths; inputs "
@@ -94,7 +90,7 @@ static int complain(const JoError *error, bool already) {
 /* The report's page, with the same run at half the step beside it. */
 static int write_page(const Run *run, const JoScene *scene, uint64_t steps) {
     JoError error = {0};
-    const char *why = interrupted                               ? "the run was interrupted"
+    const char *why = cli_signal                                ? "the run was interrupted"
                       : run->no_half                            ? "--no-half-step was given"
                       : jo_scene_stats(scene).dt / 2 < LEAST_DT ? "it would be below 0.001 s"
                                                                 : NULL;
@@ -106,10 +102,10 @@ static int write_page(const Run *run, const JoScene *scene, uint64_t steps) {
         jo_scene_show_progress(half, (double)(2 * steps) * jo_scene_stats(half).dt);
     }
     bool ok = true;
-    for (uint64_t i = 0; half && ok && i < 2 * steps && !interrupted; i++)
+    for (uint64_t i = 0; half && ok && i < 2 * steps && !cli_signal; i++)
         ok = jo_scene_step(half, &error);
-    if (half && (!ok || interrupted || !jo_scene_finish(half, &error))) {
-        why = interrupted ? "it was interrupted" : error.text;
+    if (half && (!ok || cli_signal || !jo_scene_finish(half, &error))) {
+        why = cli_signal ? "it was interrupted" : error.text;
         jo_scene_free(half);
         half = NULL;
     }
@@ -128,12 +124,33 @@ static bool tell_suspended(const JoScene *scene) {
     return which != NULL;
 }
 
+/* From here on. The note is what `jostle resume` needs besides the scene. */
+static bool write_checkpoints(const Run *run, JoScene *scene, uint64_t steps, JoError *error) {
+    const struct {
+        const char *key, *value;
+    } texts[] = {{"record", run->record}, {"log", run->log}, {"folder", run->folder}};
+    char note[16384];
+    int used = snprintf(note, sizeof note, "steps %llu\nevery %.17g\n", (unsigned long long)steps,
+                        run->every);
+    for (size_t t = 0; t < sizeof texts / sizeof *texts; t++)
+        if (texts[t].value)
+            used += snprintf(note + used, sizeof note - (size_t)used, "%s %.4096s\n", texts[t].key,
+                             texts[t].value);
+    return jo_scene_checkpoint(scene, run->folder, run->every, note, error);
+}
+
+/* Whether the summary can be written at the end; says why not. */
+static bool can_summarize(const Run *run) {
+    return !run->summary || cli_writable(&cli_run, run->summary) == JO_OK;
+}
+
 /* Loads and simulates once; *summary receives JSON when asked for. */
 static int simulate(Run *run, char **summary) {
     JoError error = {0};
     JoScene *scene = jo_scene_load(&run->def, &error);
     if (!scene)
         return complain(&error, true);
+    cli_catch_signals(true);
     double dt = jo_scene_stats(scene).dt;
     double seconds = run->has_seconds ? run->seconds : jo_scene_duration(scene);
     uint64_t steps = run->has_steps ? run->steps : (uint64_t)(seconds / dt + 0.5);
@@ -141,19 +158,19 @@ static int simulate(Run *run, char **summary) {
               (!run->report || jo_scene_report(scene, run->report, &error)) &&
               (!run->data || jo_scene_data(scene, run->data, &error)) &&
               (!run->log || jo_scene_log_input(scene, run->log, &error)) &&
-              (!run->watch || jo_scene_watch(scene, &error));
+              (!run->watch || jo_scene_watch(scene, &error)) &&
+              (!run->folder || write_checkpoints(run, scene, steps, &error));
+    if (ok && !can_summarize(run)) { /* in a folder that a report has made, too */
+        jo_scene_free(scene);
+        return JO_FAILED;
+    }
     if (run->has_trace)
         jo_scene_trace(scene, (uint32_t)run->trace);
     if (!run->quiet)
         jo_scene_show_progress(scene, (double)steps * dt);
-    for (uint64_t i = 0; ok && i < steps && !interrupted; i++)
+    for (uint64_t i = 0; ok && i < steps && !cli_signal; i++)
         ok = jo_scene_step(scene, &error);
-    /* What was recorded until a failure is kept: finish in any case, report the first error. */
-    JoError ending = {0};
-    bool ended = jo_scene_finish(scene, &ending);
-    if (ok && !ended)
-        error = ending;
-    int status = ok && ended ? JO_OK : complain(&error, false);
+    int status = cli_end(&cli_run, scene, ok, &error);
     if (status == JO_OK && run->report)
         status = write_page(run, scene, steps);
     if (run->summary || run->seeds)
@@ -183,7 +200,7 @@ static int show(Run *run, char **summary) {
     live->watch = !run->no_watch;
     live->record = run->record;
     live->log_input = run->log;
-    live->stop = &interrupted;
+    live->stop = &cli_signal;
     live->opened = print_address;
     live->summary = run->summary ? summary : NULL;
     live->seconds = run->has_seconds ? run->seconds : 0.0;
@@ -199,7 +216,7 @@ static int simulate_seeds(Run *run) {
     char folder[4096];
     int status = JO_OK;
     size_t done = 0;
-    for (uint64_t i = 0; i < run->seeds && status == JO_OK && !interrupted; i++) {
+    for (uint64_t i = 0; i < run->seeds && status == JO_OK && !cli_signal; i++) {
         run->def.seed = first + i;
         run->def.has_seed = true;
         if (data) { /* each seed its own files */
@@ -232,6 +249,9 @@ static const char *misuse(const Run *run) {
     return run->has_seconds && run->has_steps ? "--for and --steps exclude each other"
            : run->seeds && (run->record || run->report || run->watch || run->log)
                ? "--seeds cannot be combined with --record, --report, --log-input or --watch"
+           : (run->every > 0.0) != (run->folder != NULL) ? "--checkpoint goes with --checkpoint-dir"
+           : run->folder && (run->seeds || run->view || run->report || run->data)
+               ? "--checkpoint cannot be combined with --seeds, --view, --report or --data"
            : run->view && (run->seeds || run->report || run->data || run->has_trace || run->profile)
                ? "--view cannot be combined with --seeds, --report, --data, --trace or "
                  "--profile-lua"
@@ -243,9 +263,10 @@ static const char *misuse(const Run *run) {
 
 static int begin(Run *run) {
     run->watch |= isatty(2) && !run->no_watch && !run->seeds && !run->def.input_log;
-    signal(SIGINT, interrupt);
-    signal(SIGTERM, interrupt);
     char *summary = NULL;
+    if (run->view && !can_summarize(run))
+        return JO_FAILED;
+    cli_catch_signals(run->view);
     int status = run->view    ? show(run, &summary)
                  : run->seeds ? simulate_seeds(run)
                               : simulate(run, &summary);
@@ -254,7 +275,8 @@ static int begin(Run *run) {
         status = status ? status : written;
     }
     jo_free(summary);
-    return status == JO_OK && run->suspended ? JO_FAILED : status;
+    status = status == JO_OK && run->suspended ? JO_FAILED : status;
+    return run->view ? status : cli_interrupted(status);
 }
 
 static int run_scene(int argc, char **argv) {
@@ -268,6 +290,7 @@ static int run_scene(int argc, char **argv) {
         run.def.override_count = run.sets.count;
         run.def.mods = run.mods.items;
         run.def.mod_count = run.mods.count;
+        run.def.resumable = run.folder != NULL;
         run.def.no_density = !run.summary && !run.seeds && !run.view && !run.report && !run.data;
         status = why ? cli_misused(&cli_run, why) : begin(&run);
     }
@@ -282,7 +305,9 @@ const CliCommand cli_run = {
     .notes =
         "exit status: 0 done, 1 the run failed, or a behaviour was suspended by its own errors "
         "and not mended and reloaded (the run goes on to its end), 2 wrong usage, 3 bad input: "
-        "also a mod that is asked for and is not there, or does not load",
+        "also a mod that is asked for and is not there, or does not load; 130 and 143: SIGINT or "
+        "SIGTERM ended it early, its files and figures being whole up to there. The second of them "
+        "ends it at once",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,
     .takes = "scene",

@@ -1,14 +1,6 @@
-#include <signal.h>
 #include <stdio.h>
 
 #include "cli/cli.h"
-
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int number) {
-    (void)number;
-    interrupted = 1;
-}
 
 static void print_address(void *context, const char *address) {
     (void)context;
@@ -43,10 +35,9 @@ static int run(int argc, char **argv) {
     JoError error = {0};
     int status = cli_parse(&cli_view, argc, argv, &def, &plain);
     if (status == CLI_GO_ON) {
-        signal(SIGINT, interrupt);
-        signal(SIGTERM, interrupt);
+        cli_catch_signals(true);
         def.recording = plain.items[0];
-        def.stop = &interrupted;
+        def.stop = &cli_signal;
         def.opened = print_address;
         status = jo_view_recording(&def, &error)
                      ? JO_OK /* what is wrong with a file was sent as a message */

@@ -14,14 +14,26 @@ enum {
     JOX_CONTACT_MOST_WALLS = 6     /* edges that one agent touches at a time */
 };
 
-/* What one agent was found to touch; the normal points to the agent, the gap is in m. A contact
-   between two agents is found by one of them. */
-typedef struct JoxFoundContact {
-    uint32_t other; /* agent, edge of a wall, or row of a body */
+/* What one agent was found to touch; normals point to the agent. A contact between two agents is
+   found by one of them. */
+typedef struct JoxFoundPair {
+    uint32_t other, other_id;
     JoxV2 normal;
-    float squeeze;    /* N: of shoulders turned to each other */
-    float gap, along; /* along: of a wall, from the start of the edge, m */
-} JoxFoundContact;
+    float squeeze, target, mass; /* as in JoxPairs */
+} JoxFoundPair;
+typedef struct JoxFoundWall {
+    uint32_t edge;
+    JoxV2 normal;
+    float gap, along; /* m; along: from the start of the edge */
+} JoxFoundWall;
+
+/* An agent for those who look at many others: two loads fetch it. m, m/s, kg. */
+typedef struct JoxContactRecord {
+    float x, y, breadth, radius;
+    float vx, vy;
+    uint32_t id;
+    float unused;
+} JoxContactRecord;
 
 /* Contacts between agents in columns, sorted by colour: no agent occurs twice in a colour, so that
    the contacts of one colour may be solved in any order, at once. The normal points to the first,

@@ -30,8 +30,8 @@ static void reserve_pairs(JoxPairs *p, uint32_t count) {
     JOX_RESERVE(p->squeeze, c[8], count);
 }
 
-static inline const JoxFoundContact *found_of(const JoxForces *f, uint32_t i) {
-    return (const JoxFoundContact *)f->found.items + f->found_first[i];
+static inline const JoxFoundPair *found_of(const JoxForces *f, uint32_t i) {
+    return (const JoxFoundPair *)f->found.items + f->found_first[i];
 }
 
 /* Gives each pair the first colour that neither of its agents has yet, in ascending ids, and counts
@@ -45,7 +45,7 @@ static void colour_pairs(JoxForces *f) {
     memset(f->end_starts, 0, ((size_t)a->count + 1) * sizeof *f->end_starts);
     for (uint32_t r = 0; r < a->count; r++) {
         uint32_t i = a->by_rank[r];
-        const JoxFoundContact *found = found_of(f, i);
+        const JoxFoundPair *found = found_of(f, i);
         for (uint32_t k = 0; k < f->found_number[i]; k++) {
             uint32_t j = found[k].other;
             uint64_t open = ~(f->colours_of[i] | f->colours_of[j]);
@@ -79,29 +79,14 @@ static void colour_pairs(JoxForces *f) {
     }
 }
 
-/* Least normal velocity after the contact: the gap may close within the step, no more; what meets
-   in the step bounces as restitution has it. */
-float jox_contact_target(float gap, float speed, float restitution, float dt) {
-    float target = gap > 0.0f ? -gap / dt : 0.0f;
-    if (restitution > 0.0f && speed < target)
-        target = jox_maxf(target, -restitution * speed);
-    return target;
-}
-
-static void fill_pair(JoxForces *f, uint32_t i, const JoxFoundContact *found, uint32_t at) {
-    const JoxAgents *a = f->step.agents;
-    const float *mass = a->param[JOX_PARAM_mass], *e = a->param[JOX_PARAM_restitution];
-    JoxPairs *p = &f->pairs;
-    uint32_t j = found->other;
+static void fill_pair(JoxPairs *p, uint32_t i, const JoxFoundPair *found, uint32_t at) {
     p->first[at] = i;
-    p->second[at] = j;
+    p->second[at] = found->other;
     p->nx[at] = found->normal.x;
     p->ny[at] = found->normal.y;
     p->squeeze[at] = found->squeeze;
-    p->mass[at] = mass[i] * mass[j] / (mass[i] + mass[j]);
-    float speed = (a->vx[i] - a->vx[j]) * found->normal.x + (a->vy[i] - a->vy[j]) * found->normal.y;
-    p->target[at] = jox_contact_target(found->gap, speed, jox_minf(e[i], e[j]), (float)f->step.dt);
-    f->totals.pairs += found->gap < 0.0f;
+    p->mass[at] = found->mass;
+    p->target[at] = found->target;
 }
 
 void jox_contacts_lay_pairs(JoxForces *f) {
@@ -122,14 +107,15 @@ void jox_contacts_lay_pairs(JoxForces *f) {
     size_t kept = 0;
     for (uint32_t r = 0; r < a->count; r++) {
         uint32_t i = a->by_rank[r];
-        const JoxFoundContact *found = found_of(f, i);
+        const JoxFoundPair *found = found_of(f, i);
         for (uint32_t k = 0; k < f->found_number[i]; k++, n++) {
             if (p->place[n] == JOX_NO_INDEX)
                 continue;
             uint32_t at = fill[p->place[n]]++, j = found[k].other;
             p->place[n] = at;
-            fill_pair(f, i, &found[k], at);
-            p->impulse[at] = jox_kept_impulse(&f->kept_pairs, &kept, a->id[i], a->id[j]);
+            fill_pair(p, i, &found[k], at);
+            p->impulse[at] =
+                jox_kept_impulse(&f->kept_pairs, &kept, a->rank_id[r], found[k].other_id);
             f->ends[f->end_starts[i]++] = (JoxEnd){at, j};
             f->ends[f->end_starts[j]++] = (JoxEnd){at, i};
         }
@@ -156,13 +142,13 @@ void jox_contacts_lay_walls(JoxForces *f) {
     size_t kept = 0;
     for (uint32_t r = 0; r < a->count; r++) {
         uint32_t i = a->by_rank[r];
-        JoxFoundContact *found = (JoxFoundContact *)f->found_walls.items + f->wall_first[i];
+        JoxFoundWall *found = (JoxFoundWall *)f->found_walls.items + f->wall_first[i];
         if (f->wall_number[i])
             f->wall_first[i] = f->wall_group[f->wall_groups++] = f->wall_count;
         for (uint32_t k = 1; k < f->wall_number[i]; k++) { /* by ascending edge */
-            JoxFoundContact moved = found[k];
+            JoxFoundWall moved = found[k];
             uint32_t at = k;
-            for (; at > 0 && found[at - 1].other > moved.other; at--)
+            for (; at > 0 && found[at - 1].edge > moved.edge; at--)
                 found[at] = found[at - 1];
             found[at] = moved;
         }
@@ -170,11 +156,11 @@ void jox_contacts_lay_walls(JoxForces *f) {
             float speed = jox_dot(jox_v2(a->vx[i], a->vy[i]), found[k].normal);
             f->wall[f->wall_count++] = (JoxWallContact){
                 .agent = i,
-                .edge = found[k].other,
+                .edge = found[k].edge,
                 .normal = found[k].normal,
                 .along = found[k].along,
                 .target = jox_contact_target(found[k].gap, speed, e[i], dt),
-                .impulse = jox_kept_impulse(&f->kept_walls, &kept, a->id[i], found[k].other)};
+                .impulse = jox_kept_impulse(&f->kept_walls, &kept, a->id[i], found[k].edge)};
         }
     }
     JOX_ASSERT(f->wall_count == count);

@@ -14,6 +14,7 @@
 #include "agents/neighbours.h"
 #include "geom/objects.h"
 #include "geom/wall_grid.h"
+#include "jostle.h"
 #include "task/pool.h"
 
 typedef struct JoxForces JoxForces;
@@ -73,6 +74,8 @@ JoxForceOptions jox_force_default_options(void);
 JoxForces *jox_forces_create(const JoxForceOptions *options);
 void jox_forces_free(JoxForces *forces);
 void jox_forces_set_options(JoxForces *forces, const JoxForceOptions *options);
+/* The instruction set of the kernels, which changes no result; at first the widest that runs. */
+void jox_forces_set_isa(JoxForces *forces, JoIsa isa);
 
 /* The walls whose loads are told; not copied; call again when they change. NULL: none. */
 void jox_forces_set_walls(JoxForces *forces, const JoxWalls *walls);

@@ -1,11 +1,11 @@
 /* Scratch, transfers between agents, and the list of impulses on bodies. */
-#include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
 #include "base/random.h"
 #include "force/internal.h"
+#include "simd/isa.h"
 
 JoxForceOptions jox_force_default_options(void) {
     return (JoxForceOptions){
@@ -16,6 +16,11 @@ void jox_forces_set_options(JoxForces *f, const JoxForceOptions *options) {
     f->options = options ? *options : jox_force_default_options();
 }
 
+void jox_forces_set_isa(JoxForces *f, JoIsa isa) {
+    JOX_ASSERT(jox_isa_runs(isa));
+    f->isa = isa;
+}
+
 float jox_force_passing_reach(const JoxForces *f) {
     return f->options.reach;
 }
@@ -23,6 +28,7 @@ float jox_force_passing_reach(const JoxForces *f) {
 JoxForces *jox_forces_create(const JoxForceOptions *options) {
     JoxForces *f = jox_alloc(1, sizeof *f);
     jox_forces_set_options(f, options);
+    f->isa = jox_isa_resolve(JO_ISA_WIDEST);
     return f;
 }
 
@@ -32,6 +38,7 @@ void jox_forces_free(JoxForces *f) {
     void *owned[] = {f->transfers.items,
                      f->transfers.counts,
                      f->starts,
+                     f->records,
                      f->sorted,
                      f->found.items,
                      f->found.counts,
@@ -113,7 +120,8 @@ static float breadth_of(const JoxForceStep *step, uint32_t i) {
     if (!step->turning || jox_stands(a, i))
         return radius;
     double own = (double)a->id[i] * 0.6180339887498949; /* nobody turns in step with others */
-    double phase = step->time / TURNING + (own - floor(own)), knot = floor(phase);
+    double phase = step->time / TURNING + (own - (double)(int64_t)own);
+    int64_t knot = (int64_t)phase; /* neither is negative */
     uint64_t from = jox_random_bits(step->seed, a->id[i], (uint64_t)knot, JOX_DRAW_TURN, 0);
     uint64_t to = jox_random_bits(step->seed, a->id[i], (uint64_t)knot + 1, JOX_DRAW_TURN, 0);
     float first = (float)(from >> 40) * 0x1p-24f, second = (float)(to >> 40) * 0x1p-24f;
@@ -123,8 +131,13 @@ static float breadth_of(const JoxForceStep *step, uint32_t i) {
 static void breadth_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxForces *f = context;
-    for (uint32_t i = begin; i < end; i++)
-        f->step.agents->breadth[i] = breadth_of(&f->step, i);
+    for (uint32_t i = begin; i < end; i++) {
+        JoxAgents *a = f->step.agents;
+        a->breadth[i] = breadth_of(&f->step, i);
+        f->records[i] =
+            (JoxContactRecord){a->x[i],  a->y[i],  a->breadth[i], a->param[JOX_PARAM_radius][i],
+                               a->vx[i], a->vy[i], a->id[i],      0.0f};
+    }
 }
 
 void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
@@ -152,6 +165,7 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     if (f->chunks)
         memset(f->chunk, 0, f->chunks * sizeof *f->chunk);
     JOX_RESERVE(f->braced, f->braced_capacity, n);
+    JOX_RESERVE(f->records, f->record_capacity, n);
     if (n) {
         zero_terms(a);
         memset(f->braced, 0, n * sizeof *f->braced);

@@ -36,6 +36,9 @@ struct JoxForces {
     JoxForceStep step;
     JoxForceTotals totals;
     uint32_t chunks;
+    JoIsa isa;                 /* of the kernels */
+    JoxContactRecord *records; /* of all agents, as contacts are found */
+    size_t record_capacity;
 
     JoxChunkList transfers;
     uint32_t *starts; /* per receiver, and one more */
@@ -51,6 +54,7 @@ struct JoxForces {
     uint32_t *found_first, *wall_first; /* wall_first: once laid out, in `wall` */
     uint8_t *found_number, *wall_number;
     size_t found_first_capacity, found_number_capacity, wall_first_capacity, wall_number_capacity;
+    bool cut; /* a list of those within touching range is: contacts are found one by one */
     JoxPairs pairs;
     uint64_t *colours_of; /* per agent: bit per colour of a pair that it is in */
     size_t colours_of_capacity;
@@ -101,7 +105,7 @@ struct JoxForces {
     size_t old_x_capacity, old_y_capacity;
 
     struct JoxForceChunk { /* totals of a chunk; momentum in 2^-20 N s, so that order is free */
-        uint32_t pushers;
+        uint32_t pushers, overlaps;
         int64_t ground_x, ground_y;
     } * chunk;
     size_t chunk_capacity;
@@ -162,6 +166,25 @@ static inline JoxV2 jox_moving_force(const JoxAgents *a, uint32_t i) {
 
 /* contact_find.c: what each agent touches. */
 void jox_contacts_find(JoxForces *forces);
+/* contact_near.c: the same of one agent. Those that it touches and it is for it to find, by
+   ascending id: the one of lesser id finds a contact, or, in a heap of people where its list is
+   cut, the other. `walls`: some are near. */
+uint32_t jox_contacts_of(JoxForces *forces, uint32_t agent, bool walls, JoxFoundPair *out);
+/* Edges that it touches, the nearest of them. */
+uint32_t jox_contacts_walls_of(const JoxForces *forces, uint32_t agent,
+                               JoxFoundWall out[JOX_CONTACT_MOST_WALLS]);
+/* The contact of agent i and j, over that gap (m); a normal of (0, 0): they stand in one place. */
+JoxFoundPair jox_pair_found(const JoxForces *forces, uint32_t i, uint32_t j, JoxV2 normal,
+                            float gap, float squeeze);
+/* Puts a contact into a list of `count` by ascending ids. */
+static inline void jox_pair_insert(JoxFoundPair *list, uint32_t count, const JoxFoundPair *pair) {
+    for (; count > 0 && list[count - 1].other_id > pair->other_id; count--)
+        list[count] = list[count - 1];
+    list[count] = *pair;
+}
+/* N/m: what shoulders that are turned to each other press with, until the bodies themselves meet.
+ */
+#define JOX_SQUEEZE 2000.0f
 /* contact_layout.c: the contacts found, in the order of ids, with the impulses of the last step. */
 void jox_contacts_lay_pairs(JoxForces *forces);
 void jox_contacts_lay_walls(JoxForces *forces);

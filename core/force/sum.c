@@ -3,7 +3,11 @@
 
 #include "base/assert.h"
 #include "force/equations.h"
-#include "force/internal.h"
+#include "force/kernels.h"
+
+#define X(name, isa) [isa] = jox_sum_packets_##name,
+static JoxSumKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
 
 /* (11), (12): the half-plane of the force, and the speed limit of this step. By the end of the step
    the velocity is to have the part along the force that (11) says; it goes the share `response` of
@@ -48,34 +52,40 @@ static bool is_felt(const JoxForces *f, uint32_t i, float size) {
     return size >= least * a->param[JOX_PARAM_mass][i] && isfinite(size);
 }
 
+void jox_sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
+    JoxAgents *a = f->step.agents;
+    const float *mass = a->param[JOX_PARAM_mass], dt = (float)f->step.dt;
+    f->old_x[i] = a->vx[i];
+    f->old_y[i] = a->vy[i];
+    a->speed_limit[i] = a->param[JOX_PARAM_max_speed][i];
+    a->half_plane_x[i] = a->half_plane_y[i] = a->half_plane_offset[i] = 0.0f;
+    JoxV2 force = sum_of_terms(a, i);
+    a->force_x[i] = force.x;
+    a->force_y[i] = force.y;
+    JoxV2 moving = jox_moving_force(a, i);
+    a->forced_x[i] = a->vx[i] + (moving.x + a->contact_x[i]) * dt / mass[i];
+    a->forced_y[i] = a->vy[i] + (moving.y + a->contact_y[i]) * dt / mass[i];
+    if (force.x == 0.0f && force.y == 0.0f)
+        return;
+    float size = jox_length(force);
+    const JoxPlanning plan = jox_planning(&f->step, jox_stands(a, i));
+    if (f->options.literal)
+        jox_literal_bound(f, i);
+    else if (is_felt(f, i, size))
+        bound_by_force(a, i, force, moving,
+                       jox_decay(decay, a->param[JOX_PARAM_damping][i], plan.interval), plan, dt);
+}
+
+/* Whole packets by the kernel of the run's instruction set. As printed, each by itself. */
 static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
-    JoxAgents *a = f->step.agents;
-    const float *mass = a->param[JOX_PARAM_mass], *damping = a->param[JOX_PARAM_damping];
-    const float dt = (float)f->step.dt;
     JoxDecay decay = {-1.0f, 0.0f, 0.0f};
-    for (uint32_t i = begin; i < end; i++) {
-        f->old_x[i] = a->vx[i];
-        f->old_y[i] = a->vy[i];
-        a->speed_limit[i] = a->param[JOX_PARAM_max_speed][i];
-        a->half_plane_x[i] = a->half_plane_y[i] = a->half_plane_offset[i] = 0.0f;
-        JoxV2 force = sum_of_terms(a, i);
-        a->force_x[i] = force.x;
-        a->force_y[i] = force.y;
-        JoxV2 moving = jox_moving_force(a, i);
-        a->forced_x[i] = a->vx[i] + (moving.x + a->contact_x[i]) * dt / mass[i];
-        a->forced_y[i] = a->vy[i] + (moving.y + a->contact_y[i]) * dt / mass[i];
-        if (force.x == 0.0f && force.y == 0.0f)
-            continue;
-        float size = jox_length(force);
-        const JoxPlanning plan = jox_planning(&f->step, jox_stands(a, i));
-        if (f->options.literal)
-            jox_literal_bound(f, i);
-        else if (is_felt(f, i, size))
-            bound_by_force(a, i, force, moving, jox_decay(&decay, damping[i], plan.interval), plan,
-                           dt);
-    }
+    const uint32_t whole = f->options.literal ? begin : end - (end - begin) % JOX_LANES;
+    if (whole > begin)
+        KERNELS[f->isa](f, begin, whole);
+    for (uint32_t i = whole; i < end; i++)
+        jox_sum_one(f, i, &decay);
 }
 
 void jox_force_sum(JoxForces *f) {
@@ -87,7 +97,7 @@ void jox_force_sum(JoxForces *f) {
    would take them, m/s: what they hold of others' pushes, and what they take of the velocity that
    forces give, less what they wear down in any case. Counted step by step, it is the same at any
    step and however long a plan is kept. */
-static float shortfall_of(const JoxForces *f, uint32_t i, JoxV2 unit) {
+static float shortfall_of(const JoxForces *f, uint32_t i, JoxV2 unit, JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
     const float dt = (float)f->step.dt, response = (float)f->step.response;
     float lightness = 1.0f / a->param[JOX_PARAM_mass][i];
@@ -96,15 +106,15 @@ static float shortfall_of(const JoxForces *f, uint32_t i, JoxV2 unit) {
     JoxV2 held = jox_sub(others, jox_unheld_pushes(a, i));
     JoxV2 taken = {a->forced_x[i] - a->next_x[i], a->forced_y[i] - a->next_y[i]};
     float along = jox_maxf(0.0f, f->old_x[i] * unit.x + f->old_y[i] * unit.y);
-    float worn = along * (1.0f - (float)jox_exp(-(double)damping * (double)dt));
+    float worn = along * (1.0f - jox_decay(decay, damping, dt));
     return jox_dot(held, unit) * dt * lightness + jox_dot(taken, unit) * response - worn;
 }
 
 /* (9) Someone under force who falls short of where it would take them. */
-static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i) {
+static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
     JoxV2 unit = {a->half_plane_x[i], a->half_plane_y[i]};
-    float shortfall = shortfall_of(f, i, unit), absorb = a->param[JOX_PARAM_absorb][i];
+    float shortfall = shortfall_of(f, i, unit, decay), absorb = a->param[JOX_PARAM_absorb][i];
     if (!(shortfall > 1e-6f) || !(absorb > 0.0f))
         return;
     uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_people_in_cone(f, i, unit, found);
@@ -159,11 +169,12 @@ static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxForces *f = context;
     const JoxAgents *a = f->step.agents;
     uint32_t chunk = begin / JOX_FORCE_GRAIN;
+    JoxDecay decay = {-1.0f, 0.0f, 0.0f};
     for (uint32_t i = begin; i < end; i++) {
         if (f->options.literal)
             jox_literal_pass_on(f, chunk, i);
         else if (a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f)
-            pass_resistance(f, chunk, i);
+            pass_resistance(f, chunk, i, &decay);
         else if (f->old_x[i] != 0.0f || f->old_y[i] != 0.0f)
             pass_deceleration(f, chunk, i);
     }

@@ -33,6 +33,8 @@ float jox_field_distance(const JoxField *field, JoxV2 point);
    wall than the clearance it also leads off the wall; inside a solid it leads out. (0, 0) at the
    goal and where no way leads. */
 JoxV2 jox_field_direction(const JoxField *field, JoxV2 point);
+/* Has the memory fetched that a look-up at a point will read. Changes nothing. */
+void jox_field_prefetch(const JoxField *field, JoxV2 point);
 /* Lists a field as it was made; restoring, makes one in place of *field. */
 void jox_field_sections(JoxField **field, JoxSections *sections);
 uint32_t jox_field_cells(const JoxField *field);

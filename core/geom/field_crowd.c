@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/assert.h"
+#include "base/mem.h"
 #include "geom/field_parts.h"
 
 static const float REACH = 2.0f; /* m: a person is spread as a cone of this radius */
@@ -20,29 +21,35 @@ static float share_at(const JoxFieldWork *w, int cell, JoxV2 at) {
 }
 
 /* A person is spread as a cone over the floor that can be walked, and nothing into walls: else the
-   floor along walls would seem free. */
-static void spread(JoxFieldWork *w, const Span *s, JoxV2 at, float slowing) {
+   floor along walls would seem free. `shares`: room for the span's cells. */
+static void spread(JoxFieldWork *w, const Span *s, JoxV2 at, float slowing, float *shares) {
     const JoxField *f = w->f;
-    float sum = 0.0f, area = f->size * f->size;
+    float sum = 0.0f, area = f->size * f->size, *share = shares;
     for (int r = s->r0; r <= s->r1; r++)
         for (int c = s->c0; c <= s->c1; c++)
-            sum += share_at(w, r * f->columns + c, at);
+            sum += *share++ = share_at(w, r * f->columns + c, at);
     if (!(sum > 0.0f))
         return;
+    share = shares;
     for (int r = s->r0; r <= s->r1; r++)
         for (int c = s->c0; c <= s->c1; c++)
-            w->slowness[r * f->columns + c] +=
-                slowing * share_at(w, r * f->columns + c, at) / (sum * area);
+            w->slowness[r * f->columns + c] += slowing * *share++ / (sum * area);
 }
 
 void jox_field_crowd(JoxFieldWork *w, const JoxFieldCrowd *crowd) {
     const JoxField *f = w->f;
+    float *shares = NULL;
+    size_t capacity = 0;
     for (uint32_t n = 0; crowd && n < crowd->count; n++) {
         JoxV2 at = crowd->at[n];
         Span s;
         JOX_ASSERT(crowd->held[n] >= 0.0f && crowd->held[n] <= 1.0f);
         jox_field_span(at.x - REACH, at.x + REACH, f->low.x, f->size, f->columns, &s.c0, &s.c1);
         jox_field_span(at.y - REACH, at.y + REACH, f->low.y, f->size, f->rows, &s.r0, &s.r1);
-        spread(w, &s, at, crowd->slowing * crowd->held[n]);
+        if (s.c0 > s.c1 || s.r0 > s.r1)
+            continue;
+        JOX_RESERVE(shares, capacity, (size_t)(s.c1 - s.c0 + 1) * (size_t)(s.r1 - s.r0 + 1));
+        spread(w, &s, at, crowd->slowing * crowd->held[n], shares);
     }
+    jox_free(shares);
 }

@@ -7,90 +7,12 @@
 #include "base/mem.h"
 #include "base/random.h"
 
-/* Whether an edge is out of the way of p: neither nearer than `clear` nor on a ray to the right. */
-static bool is_away(JoxV2 a, JoxV2 b, JoxV2 p, float clear) {
-    const float far = clear + 1e-3f;
-    return p.y > jox_maxf(a.y, b.y) + far || p.y < jox_minf(a.y, b.y) - far ||
-           p.x > jox_maxf(a.x, b.x) + far;
-}
-
-static bool inside(const JoxArea *area, JoxV2 p) {
-    bool in = false;
-    for (uint32_t i = 0; i < area->in_count && !in; i++)
-        in = jox_place_contains(area->places, area->in[i], p);
-    for (uint32_t i = 0; i < area->out_count && in; i++)
-        in = !jox_place_contains(area->places, area->out[i], p);
-    if (!in || !area->walls)
-        return in;
-    for (uint32_t r = 0; r < area->walls->ring_count; r++) {
-        const struct JoxWallRing *ring = &area->walls->rings[r];
-        bool odd = false;
-        for (uint32_t v = ring->first; v < ring->first + ring->count; v++) {
-            JoxV2 a = area->walls->vertices[v].point;
-            JoxV2 b = area->walls->vertices[area->walls->vertices[v].next].point;
-            if (is_away(a, b, p, area->clear))
-                continue;
-            JoxV2 d = jox_sub(p, jox_segment_nearest(a, b, p));
-            if (jox_length2(d) < area->clear * area->clear)
-                return false;
-            if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x))
-                odd = !odd;
-        }
-        if (ring->solid && odd)
-            return false;
-    }
-    return true;
-}
-
-static void widen(const JoxPlace *place, JoxV2 *low, JoxV2 *high) {
-    float r = jox_place_outline(place) == JOX_OUTLINE_CIRCLE ? place->radius : 0.5f;
-    for (uint32_t i = 0; i < place->count; i++) {
-        low->x = jox_minf(low->x, place->points[i].x - r);
-        low->y = jox_minf(low->y, place->points[i].y - r);
-        high->x = jox_maxf(high->x, place->points[i].x + r);
-        high->y = jox_maxf(high->y, place->points[i].y + r);
-    }
-}
-
-/* False where the area is empty. */
-static bool extent(const JoxArea *area, JoxV2 *low, JoxV2 *high) {
-    *low = (JoxV2){INFINITY, INFINITY};
-    *high = (JoxV2){-INFINITY, -INFINITY};
-    for (uint32_t i = 0; i < area->in_count; i++) {
-        const JoxPlace *place = &area->places[area->in[i]];
-        widen(place, low, high);
-        for (uint32_t m = 0; m < place->member_count; m++)
-            widen(&area->places[place->members[m]], low, high);
-    }
-    return low->x < high->x && low->y < high->y;
-}
-
-/* m between the points by which an area is measured. */
-static double sampling(JoxV2 low, JoxV2 high) {
-    return fmax(0.1, sqrt(((double)high.x - low.x) * ((double)high.y - low.y) / 1e6));
-}
-
-double jox_area_size(const JoxArea *area) {
-    JoxV2 low, high;
-    if (!extent(area, &low, &high))
-        return 0;
-    double w = (double)high.x - low.x, h = (double)high.y - low.y;
-    double step = sampling(low, high);
-    double nx = floor(w / step) + 1, ny = floor(h / step) + 1, hits = 0;
-    if (!(nx * ny <= 4e6))
-        return 0; /* too thin or too large to sample */
-    for (double j = 0; j < ny; j++)
-        for (double i = 0; i < nx; i++)
-            hits += inside(area, (JoxV2){(float)(low.x + (i + 0.5) * w / nx),
-                                         (float)(low.y + (j + 0.5) * h / ny)});
-    return hits / (nx * ny) * w * h;
-}
-
 /* Points of a lattice inside the area, row by row; the caller frees them. */
-static uint32_t lattice(const JoxArea *area, bool hex, double step, JoxV2 **out) {
+static uint32_t lattice(const JoxArea *area, const JoxAreaIndex *index, bool hex, double step,
+                        JoxV2 **out) {
     JoxV2 low, high;
     *out = NULL;
-    if (!extent(area, &low, &high) || !(step > 0))
+    if (!jox_area_extent(area, &low, &high) || !(step > 0))
         return 0;
     double rise = hex ? step * 0.8660254037844386 : step;
     double nx = floor(((double)high.x - low.x) / step) + 2;
@@ -102,7 +24,7 @@ static uint32_t lattice(const JoxArea *area, bool hex, double step, JoxV2 **out)
         for (double i = 0; i < nx; i++) {
             double shift = hex && fmod(j, 2) > 0 ? 0 : 0.5;
             JoxV2 p = {(float)(low.x + (i + shift) * step), (float)(low.y + (j + 0.5) * rise)};
-            if (!inside(area, p))
+            if (!jox_area_contains(index, p))
                 continue;
             JOX_RESERVE(*out, capacity, count + 1);
             JOX_ASSERT(count < capacity);
@@ -120,6 +42,9 @@ static const double LOOSE = 0.7;
 /* Throws in a row, for each point that is there and each time that the area goes into its extent,
    after which there is no more room; times that points close up. */
 enum { IN_VAIN = 100, CLOSER = 80 };
+/* Throws in all for one group, whatever is asked for: a bound on the time that a narrow area takes,
+   most of whose extent lies outside of it. */
+static const uint64_t MOST_THROWS = 20000000;
 
 /* Points that are there, by cells as wide as they are apart. */
 typedef struct Thrown {
@@ -199,19 +124,21 @@ static void spread_cells(Thrown *t, JoxV2 low, JoxV2 high, double apart) {
         put(t, t->points[i]);
 }
 
-/* Throws until `whole` points are there, or `patience` throws in a row, times those there, found no
-   room. */
-static void throw_points(const JoxArea *area, Thrown *t, JoxV2 high, uint32_t whole,
-                         double patience, uint64_t seed, uint32_t stream, uint32_t round) {
+/* Throws until `whole` points are there, `patience` throws in a row, times those there, found no
+   room, or *left throws are made. */
+static void throw_points(const JoxAreaIndex *index, Thrown *t, JoxV2 high, uint32_t whole,
+                         double patience, uint64_t seed, uint32_t stream, uint32_t round,
+                         uint64_t *left) {
     double missed = 0;
-    for (uint64_t n = 0; t->count < whole && missed < patience * (t->count + 100.0); n++) {
-        const uint32_t draw = (uint32_t)(n >> 32) * 2 + round * 16;
-        const double u = jox_random_unit(seed, (uint32_t)n, stream, JOX_DRAW_FILL, draw);
-        const double v = jox_random_unit(seed, (uint32_t)n, stream, JOX_DRAW_FILL, draw + 1);
+    for (uint32_t n = 0; t->count < whole && missed < patience * (t->count + 100.0) && *left > 0;
+         n++, --*left) {
+        const uint32_t draw = round * 16;
+        const double u = jox_random_unit(seed, n, stream, JOX_DRAW_FILL, draw);
+        const double v = jox_random_unit(seed, n, stream, JOX_DRAW_FILL, draw + 1);
         const JoxV2 p = {(float)(t->low.x + ((double)high.x - t->low.x) * u),
                          (float)(t->low.y + ((double)high.y - t->low.y) * v)};
         missed++;
-        if (is_near(t, p) || !inside(area, p))
+        if (is_near(t, p) || !jox_area_contains(index, p))
             continue;
         put(t, p);
         missed = 0;
@@ -220,11 +147,11 @@ static void throw_points(const JoxArea *area, Thrown *t, JoxV2 high, uint32_t wh
 
 /* Random sequential placement. Where no spacing is asked for, points that find no room close up;
    those that stand already stay. */
-static uint32_t at_random(const JoxArea *area, uint32_t count, float spacing, uint64_t seed,
-                          uint32_t stream, JoxV2 **positions) {
+static uint32_t at_random(const JoxArea *area, const JoxAreaIndex *index, uint32_t count,
+                          float spacing, uint64_t seed, uint32_t stream, JoxV2 **positions) {
     JoxV2 low, high;
     *positions = jox_alloc(count + 1, sizeof **positions);
-    if (!extent(area, &low, &high) || count == 0)
+    if (!jox_area_extent(area, &low, &high) || count == 0)
         return 0;
     const double size = fmax(jox_area_size(area), 1e-6),
                  whole = ((double)high.x - low.x) * ((double)high.y - low.y);
@@ -237,9 +164,10 @@ static uint32_t at_random(const JoxArea *area, uint32_t count, float spacing, ui
         t.points[t.count++] = area->taken[i];
     }
     const uint32_t taken = t.count;
-    for (uint32_t round = 0; round < CLOSER && t.count < taken + count; round++) {
+    uint64_t left = MOST_THROWS;
+    for (uint32_t round = 0; round < CLOSER && t.count < taken + count && left > 0; round++) {
         spread_cells(&t, low, high, apart);
-        throw_points(area, &t, high, taken + count, patience, seed, stream, round);
+        throw_points(index, &t, high, taken + count, patience, seed, stream, round, &left);
         if (spacing > 0)
             break;
         apart *= 0.9;
@@ -256,26 +184,24 @@ static uint32_t at_random(const JoxArea *area, uint32_t count, float spacing, ui
 
 /* ---- lattices, and all ---- */
 
-uint32_t jox_fill(const JoxArea *area, JoxFillMode mode, uint32_t count, float spacing,
-                  uint64_t seed, uint32_t stream, JoxV2 **positions) {
-    if (mode == JOX_FILL_RANDOM)
-        return at_random(area, count, spacing, seed, stream, positions);
-    bool hex = mode != JOX_FILL_GRID;
+static uint32_t on_lattice(const JoxArea *area, const JoxAreaIndex *index, bool hex, uint32_t count,
+                           float spacing, uint64_t seed, uint32_t stream, JoxV2 **positions) {
     double step = spacing;
     if (!(step > 0) && count > 0)
         step = sqrt(jox_area_size(area) / count * (hex ? 1.1547005383792515 : 1.0));
     double apart = step;
-    uint32_t have = lattice(area, hex, apart, positions);
+    uint32_t have = lattice(area, index, hex, apart, positions);
     /* A border may cost a row, and few points may all miss a narrow area: close up until the count
        fits. A spacing that was asked for is kept, but by one agent, who has nobody to keep it from.
      */
     JoxV2 low, high;
-    bool closes = (!(spacing > 0) || (count == 1 && have == 0)) && extent(area, &low, &high);
-    double finest = closes ? sampling(low, high) : 0;
+    bool closes =
+        (!(spacing > 0) || (count == 1 && have == 0)) && jox_area_extent(area, &low, &high);
+    double finest = closes ? jox_area_sampling(low, high) : 0;
     for (int i = 0; have < count && closes && (i < 40 || apart > finest); i++) {
         jox_free(*positions);
         apart *= 0.985;
-        have = lattice(area, hex, apart, positions);
+        have = lattice(area, index, hex, apart, positions);
     }
     JoxV2 *p = *positions;
     JOX_ASSERT(have == 0 || p);
@@ -290,4 +216,15 @@ uint32_t jox_fill(const JoxArea *area, JoxFillMode mode, uint32_t count, float s
     }
     JOX_ASSERT(kept <= count && kept <= have);
     return kept;
+}
+
+uint32_t jox_fill(const JoxArea *area, JoxFillMode mode, uint32_t count, float spacing,
+                  uint64_t seed, uint32_t stream, JoxV2 **positions) {
+    JoxAreaIndex *index = jox_area_index(area);
+    uint32_t have = mode == JOX_FILL_RANDOM
+                        ? at_random(area, index, count, spacing, seed, stream, positions)
+                        : on_lattice(area, index, mode == JOX_FILL_HEX, count, spacing, seed,
+                                     stream, positions);
+    jox_area_index_free(index);
+    return have;
 }

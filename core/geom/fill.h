@@ -5,8 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "geom/place.h"
-#include "geom/walls.h"
+#include "geom/area.h"
 
 /* How the agents of a group stand at the start, with the words of scenes; JOX_FILL_AT: at given
    points. The first three spread over an area. */
@@ -23,20 +22,6 @@ typedef enum JoxFillMode {
         JOX_FILL_AT
 } JoxFillMode;
 
-/* An area: inside any of `in`, outside all of `out` (indices of places), `clear` m from walls.
-   Points at random keep away from those `taken`, and where ends of the area are joined, after
-   `period` m, from each other across them. */
-typedef struct JoxArea {
-    const JoxPlace *places;
-    const uint32_t *in, *out;
-    uint32_t in_count, out_count;
-    const JoxWalls *walls;
-    float clear;
-    JoxV2 period; /* 0: not joined */
-    const JoxV2 *taken;
-    uint32_t taken_count;
-} JoxArea;
-
 /* Writes `count` positions at least `spacing` metres apart (0: lattices as wide as the count
    allows, from the area; points at random 0.4 m, or less where they are many). `mode` is hex, grid
    or random. Of a lattice with more points, `count` are drawn by (seed, stream). Random points are
@@ -44,7 +29,5 @@ typedef struct JoxArea {
    the number that fit, `count` if all did; the array is allocated by jox_alloc. */
 uint32_t jox_fill(const JoxArea *area, JoxFillMode mode, uint32_t count, float spacing,
                   uint64_t seed, uint32_t stream, JoxV2 **positions);
-/* Square metres, by sampling a lattice of 0.1 m or coarser (at most a million samples). */
-double jox_area_size(const JoxArea *area);
 
 #endif

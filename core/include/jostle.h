@@ -69,10 +69,23 @@ typedef struct JoBody {
     uint32_t slot, generation;
 } JoBody;
 
+/* The instruction set that the kernels use. It never changes a result. */
+typedef enum JoIsa {
+    JO_ISA_WIDEST, /* the widest that the machine runs */
+    JO_ISA_SCALAR,
+    JO_ISA_SSE2,
+    JO_ISA_AVX2,
+    JO_ISA_AVX512
+} JoIsa;
+/* The one of a name, as "avx2". False, with an error that lists those that can be had, if there is
+   no such set or this machine does not run it. */
+JO_API bool jo_isa_find(const char *name, JoIsa *isa, JoError *error);
+
 typedef struct JoWorldDef {
     double dt;        /* s, 0.001 to 0.2; default 0.05 */
     uint64_t seed;    /* of all random numbers */
     uint32_t threads; /* 1 to 64; never changes a result */
+    JoIsa isa;        /* default: the widest */
     bool forces;      /* false: collision avoidance alone, no pushing, contact or inferred force */
     bool literal;     /* the paper's equations as printed, in place of the physical reading */
     double gravity;   /* m/s2 downwards, for bodies; default 9.81 */
@@ -182,6 +195,7 @@ typedef struct JoSceneDef {
     uint64_t seed;
     double dt; /* s */
     uint32_t threads;
+    JoIsa isa;
     const char *input_log; /* recorded input to play, or NULL */
     JoMessage *message;    /* NULL: to stderr */
     void *message_context;
@@ -192,6 +206,9 @@ typedef struct JoSceneDef {
     bool named_mods_only; /* mods that the user turned on (jo_mods_enable) are not taken for that,
                              but those of `mods` and those that the scene names */
     bool needed_mods_too; /* what these depend on is taken, too, without being named */
+    bool resumable;   /* keeps what it is loaded from for checkpoints, and puts bodies into Bullet
+                         anew at each 128th step, so that their state can be saved exactly there; the
+                         order of Bullet's contacts changes by that */
     bool no_density;  /* densities are not sampled, which takes time, until a report asks for them:
                          "density_max" of the summary is null */
     const char *text; /* of the scene, or NULL: it is read from `path`, which else only names it */
@@ -240,6 +257,24 @@ JO_API char *jo_scene_inspect(JoScene *scene, uint32_t slot);
 JO_API bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error);
 /* Writes trajectories to an SQLite file from here on (JuPedSim format, version 2). */
 JO_API bool jo_scene_record(JoScene *scene, const char *path, JoError *error);
+/* Of a scene that is `resumable`, before its first step: from here on writes a checkpoint into a
+   directory (made if it is missing) every so many simulated seconds, at the first step behind that
+   at which all can be saved exactly: latest.checkpoint, and before.checkpoint, the one before. Each
+   holds all that the future depends on, with the texts of all files, and `note`, a text of the
+   caller's. What was recorded and logged until then is on the disk before it is. A run whose
+   figures are collected by probes or for a report cannot be resumed with them. */
+JO_API bool jo_scene_checkpoint(JoScene *scene, const char *directory, double every,
+                                const char *note, JoError *error);
+/* The scene of a checkpoint, as it was then; a directory stands for the newest whole one in it.
+   Message, threads and instruction set are those of `def`. *note is the caller's text, to be freed
+   by jo_free. NULL with `error` where the file is damaged, of another version, or where what it was
+   made of cannot be had. */
+JO_API JoScene *jo_scene_resume(const JoSceneDef *def, const char *path, char **note,
+                                JoError *error);
+/* Of a resumed scene: go on writing what jo_scene_record and jo_scene_log_input wrote, behind the
+   checkpoint; what the earlier run wrote after it is taken out. */
+JO_API bool jo_scene_record_on(JoScene *scene, const char *path, JoError *error);
+JO_API bool jo_scene_log_on(JoScene *scene, const char *path, JoError *error);
 /* From here on files are watched: behaviours, what they require, patches of mods and the scene
    itself. A thread of its own loads what was edited; between two steps all of it is swapped, or
    nothing, and `message` says so. */

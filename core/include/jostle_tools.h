@@ -10,6 +10,10 @@
 extern "C" {
 #endif
 
+/* Writes a text to a file, which has its name only once it is whole. False with `error`, whose text
+   is the reason alone. */
+JO_API bool jo_write(const char *path, const char *text, JoError *error);
+
 /* ---- files of a run ---------------------------------------------------------------------- */
 
 /* Collects density and regional speeds from here on; jo_scene_finish draws them, and what the

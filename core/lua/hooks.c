@@ -192,15 +192,33 @@ bool jox_lua_call(void *context, const JoxMachine *machine, int32_t number, JoxH
 
 /* ---- what others read and write ---- */
 
+/* Where memory that was written is now: in a machine that the agent became meanwhile, memory of the
+   same name and kind goes along. -1: nowhere. */
+static int32_t slot_now(const JoxMachineRun *machines, uint32_t i, const JoxWrite *write) {
+    const uint16_t machine = machines->agents->machine[i];
+    if (machine == write->machine)
+        return (int32_t)write->slot;
+    const JoxMemorySlot *was = &machines->set->items[write->machine]->memory[write->slot];
+    const JoxMachine *now = machine == JOX_NO_MACHINE ? NULL : machines->set->items[machine];
+    for (uint32_t s = 0; now && s < now->memory_count; s++)
+        if (*was->name && strcmp(now->memory[s].name, was->name) == 0 &&
+            now->memory[s].kind == was->kind)
+            return (int32_t)s;
+    return -1;
+}
+
 void jox_lua_bracket(void *context, bool begins) {
     JoxLua *lua = context;
     JoxAgents *a = lua->machines->agents;
     if (begins) {
         JOX_RESERVE(lua->before_state, lua->before_capacity, a->count);
+        JOX_RESERVE(lua->before_machine, lua->before_machine_capacity, a->count);
         JOX_RESERVE(lua->before_memory, lua->before_memory_capacity,
                     (size_t)a->count * a->memory_stride);
         if (a->count)
             memcpy(lua->before_state, a->state, a->count * sizeof *a->state);
+        if (a->count)
+            memcpy(lua->before_machine, a->machine, a->count * sizeof *a->machine);
         if (a->count && a->memory_stride)
             memcpy(lua->before_memory, a->memory,
                    (size_t)a->count * a->memory_stride * sizeof *a->memory);
@@ -208,9 +226,10 @@ void jox_lua_bracket(void *context, bool begins) {
     }
     for (uint32_t w = 0; w < lua->write_count; w++) {
         const JoxWrite *write = &lua->writes[w];
-        uint32_t i = jox_agents_find(a, write->agent_id);
-        if (i != JOX_NO_INDEX)
-            a->memory[(size_t)i * a->memory_stride + write->slot] = write->value;
+        const uint32_t i = jox_agents_find(a, write->agent_id);
+        const int32_t slot = i == JOX_NO_INDEX ? -1 : slot_now(lua->machines, i, write);
+        if (slot >= 0)
+            a->memory[(size_t)i * a->memory_stride + (uint32_t)slot] = write->value;
     }
     lua->write_count = 0;
 }

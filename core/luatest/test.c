@@ -175,7 +175,7 @@ static const char *keep(void *context, const char *text, size_t length) {
     }
     snprintf(path, sizeof path, "%s/behaviours/inline-%zu.lua", tests->folder,
              tests->kept_count + 1);
-    FILE *file = jox_file_open(path, "w");
+    FILE *file = jox_file_replace(path);
     bool good = file && fwrite(text, 1, length, file) == length;
     if (!file || jox_file_close(file) != 0 || !good)
         return NULL;

@@ -4,18 +4,24 @@
 #include "base/assert.h"
 #include "machine/internal.h"
 
-static double now_of(const JoxMachineRun *run, uint32_t i, JoxNow what) {
+/* What can be measured of an agent, of `count` of them: one loop for each word. */
+static void measure(const JoxMachineRun *run, const uint32_t *agents, uint32_t count, JoxNow what,
+                    double *to) {
     const JoxAgents *a = run->agents;
     switch (what) {
 #define X(name, word, unit, meaning, value)                                                        \
     case JOX_NOW_##name:                                                                           \
-        return value;
+        for (uint32_t n = 0; n < count; n++) {                                                     \
+            const uint32_t i = agents[n];                                                          \
+            (void)i;                                                                               \
+            to[n] = (value);                                                                       \
+        }                                                                                          \
+        break;
         JOX_MEASURED(X)
 #undef X
     case JOX_NOW_COUNT:
         break;
     }
-    return 0.0;
 }
 
 static double people_in(const JoxMachineRun *run, int32_t place) {
@@ -90,9 +96,10 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
         spot = jox_target_find(run, i, in->target);
         return spot.object >= 0 && run->objects->rows[spot.object].grounded;
     case JOX_OP_KICKED:
-        spot = jox_target_find(run, i, in->target);
-        return spot.object >= 0 && run->agents->kicked[i] == spot.object;
-    case JOX_OP_HIT_BY:
+        return jox_target_means(run, i, in->target, run->agents->kicked[i]);
+    case JOX_OP_HIT_BY: /* who was hit may be far from what bounced off by now */
+        if (jox_target_means(run, i, in->target, run->agents->struck[i]))
+            return true;
         spot = jox_target_find(run, i, in->target);
         return jox_spot_gap(run, i, &spot) < 0.1f && spot.vx * spot.vx + spot.vy * spot.vy > 1.0f;
     case JOX_OP_INCOMING:
@@ -127,7 +134,8 @@ static void execute(const JoxMachineRun *run, const JoxMachine *machine, const J
     case JOX_OP_CONST:
         EACH(in->number);
     case JOX_OP_NOW:
-        EACH(now_of(run, agents[n], (JoxNow)in->arg));
+        measure(run, agents, count, (JoxNow)in->arg, to);
+        break;
     case JOX_OP_OWN:
         EACH(g->own[(size_t)agents[n] * g->own_stride + (uint32_t)in->arg]);
     case JOX_OP_MEMORY:

@@ -63,6 +63,8 @@ int32_t jox_target_place(const JoxMachineRun *run, uint32_t agent, int32_t index
 /* Gap between the agent's disc and a spot, m. */
 float jox_spot_gap(const JoxMachineRun *run, uint32_t agent, const JoxSpot *spot);
 /* Distance from the agent's centre to a target, INFINITY if absent. */
+/* Whether body `row` is the target, or bears its tag; false of -1. */
+bool jox_target_means(const JoxMachineRun *run, uint32_t agent, int32_t index, int32_t row);
 float jox_target_distance(const JoxMachineRun *run, uint32_t agent, int32_t index);
 /* Free distance ahead, m. */
 float jox_headway(const JoxMachineRun *run, uint32_t agent);

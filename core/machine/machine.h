@@ -63,11 +63,12 @@ typedef enum JoxNow {
    line `place` from its right to its left. FIRST_IN: the agent heads its queue. AFTER: time in
    state is at least a. LASTED: it has reached the drawn duration. STUCK: has not moved 0.25 m for a
    seconds. TOUCHES: the gap to target is below 0.05 m. GROUNDED: target, a body, touches the
-   ground. KICKED: the agent kicked target in the last step. HIT_BY: target, faster than 1 m/s,
-   touches the agent. INCOMING: target, as it moves, comes within a metres during the next 2 s.
-   SEES: target exists within perception. HAS: the agent holds target, a body. HEARD: another agent
-   within perception, and within a metres, gave the signal `name` in the last step. TAGGED:
-   neighbours of the kind arg (a tag's bit or JoxKin). IN_STATE: those of them in a state `name`. */
+   ground. KICKED: the agent kicked target, or what bears its tag, in the last step. HIT_BY: target,
+   faster than 1 m/s, touches the agent, or such a body hit it in the last step. INCOMING: target,
+   as it moves, comes within a metres during the next 2 s. SEES: target exists within perception.
+   HAS: the agent holds target, a body. HEARD: another agent within perception, and within a metres,
+   gave the signal `name` in the last step. TAGGED: neighbours of the kind arg (a tag's bit or
+   JoxKin). IN_STATE: those of them in a state `name`. */
 /* clang-format off */
 #define JOX_OPS(X)                                                              \
     X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \

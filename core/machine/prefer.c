@@ -4,6 +4,7 @@
 #include "base/assert.h"
 #include "machine/internal.h"
 
+enum { FETCH_AHEAD = 8 };          /* agents: memory answers while so many are done */
 static const float SLOWING = 0.5f; /* s: who arrives slows to stop within this time */
 /* Of the wanted speed: a term that asks for more, or for what is no number, is left out. Above what
    the words allow (drift). */
@@ -151,7 +152,7 @@ static JoxV2 way(const JoxMachineRun *run, uint32_t place, JoxRouteKind kind, Jo
 static void bind(const JoxMachineRun *run, uint32_t i, uint32_t place, JoxRouteKind kind, JoxV2 p) {
     JoxAgents *a = run->agents;
     const JoxField *field = run->fields[place * JOX_ROUTE_KINDS + kind];
-    if (!(a->param[JOX_PARAM_time_gap][i] > 0.0f) || !field)
+    if (!jox_walks(a, i) || !field)
         return;
     a->bound[i] = (int32_t)place;
     a->way[i] = jox_field_distance(field, p);
@@ -171,7 +172,7 @@ static JoxV2 field(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *ter
     JoxV2 direction = way(run, (uint32_t)place, kind, p, &none);
     if (none)
         direction = way(run, (uint32_t)place, kind = JOX_ROUTE_OPEN, p, &none);
-    else if (a->param[JOX_PARAM_time_gap][i] > 0.0f) {
+    else if (jox_walks(a, i)) {
         bool ignored;
         JoxV2 round = way(run, (uint32_t)place, JOX_ROUTE_CROWD, p, &ignored);
         if (jox_length2(round) > 0.0f)
@@ -300,7 +301,10 @@ static bool is_function(const JoxState *state) {
 static JoxV2 steering(const JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
                       uint32_t i) {
     JoxV2 sum = {0.0f, 0.0f}, ahead = sum;
-    for (int pass = 0; pass < 2; pass++) {
+    bool evades = false;
+    for (uint32_t t = 0; t < state->steer_count; t++)
+        evades |= state->steer[t].kind == JOX_STEER_EVADE;
+    for (int pass = 0; pass < 1 + evades; pass++) {
         for (uint32_t t = 0; t < state->steer_count; t++) {
             const JoxSteerTerm *term = &state->steer[t];
             if ((term->kind == JOX_STEER_EVADE) != (pass == 1))
@@ -314,9 +318,23 @@ static JoxV2 steering(const JoxMachineRun *run, const JoxMachine *machine, const
             JoxV2 way = bounded(pass ? evade(run, i, ahead) : term_direction(run, i, term));
             sum = jox_add(sum, jox_scale(way, by));
         }
-        ahead = jox_unit(sum);
+        ahead = evades ? jox_unit(sum) : sum;
     }
     return sum;
+}
+
+/* Fields are large and are looked up here and there: asks for what agent i will read, as far as
+   one can tell from where it was bound for last. */
+static void fetch_ways(const JoxMachineRun *run, uint32_t i) {
+    const JoxAgents *a = run->agents;
+    const JoxV2 p = {a->x[i], a->y[i]};
+    if (!run->fields || a->bound[i] < 0 || (uint32_t)a->bound[i] >= run->place_count)
+        return;
+    for (int kind = 0; kind < JOX_ROUTE_KINDS; kind++) {
+        const JoxField *field = run->fields[a->bound[i] * JOX_ROUTE_KINDS + kind];
+        if (field && kind != JOX_ROUTE_OPEN)
+            jox_field_prefetch(field, p);
+    }
 }
 
 static void prefer_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -329,6 +347,8 @@ static void prefer_range(void *context, uint32_t begin, uint32_t end, uint32_t w
         const JoxState *state = &machine->states[batch->state];
         for (uint32_t n = 0; n < batch->count; n++) {
             uint32_t i = run->scratch->grouped[batch->begin + n];
+            if (n + FETCH_AHEAD < batch->count)
+                fetch_ways(run, run->scratch->grouped[batch->begin + n + FETCH_AHEAD]);
             face(run, state, i);
             a->bound[i] = -1;
             if (is_function(state))

@@ -138,6 +138,15 @@ JoxSpot jox_target_find(const JoxMachineRun *run, uint32_t i, int32_t index) {
     return object >= 0 ? object_spot(&run->objects->rows[object], object) : none;
 }
 
+bool jox_target_means(const JoxMachineRun *run, uint32_t i, int32_t index, int32_t row) {
+    if (index < 0 || row < 0 || !run->objects || (uint32_t)row >= run->objects->count)
+        return false;
+    const JoxTarget *target = &jox_machine_of(run, i)->targets[index];
+    const JoxObject *object = &run->objects->rows[row];
+    return target->kind == JOX_TARGET_NEAREST && object->live &&
+           (object->tags >> target->arg & 1) != 0;
+}
+
 float jox_target_distance(const JoxMachineRun *run, uint32_t i, int32_t index) {
     JoxV2 p = {run->agents->x[i], run->agents->y[i]};
     int32_t place = jox_target_place(run, i, index);

@@ -4,12 +4,18 @@
 
 #include "geom/wall_grid.h"
 #include "nav/nav.h"
+#include "simd/isa.h"
 
 /* n . v >= offset, n a unit vector: the velocities that a constraint allows, m/s. */
 typedef struct JoxHalfPlane {
     JoxV2 normal;
     float offset;
 } JoxHalfPlane;
+
+/* Where an agent is and how it moves, m and m/s: one load fetches it. */
+typedef struct JoxRecord {
+    float x, y, vx, vy;
+} JoxRecord;
 
 struct JoxNav {
     /* Grid of agents: rows of `height` metres, sorted along x within each. */
@@ -26,12 +32,18 @@ struct JoxNav {
     float *chunk_drift; /* per chunk of move */
     JoxV2 *position[2]; /* for projection */
     uint32_t *chunk_relaxed;
+    JoxRecord *records; /* of solve */
     JoxWallGrid grid;
     bool literal;
-    JoxWalkLaw walk;
+    JoIsa isa;              /* of the kernels */
+    const JoxWalkLaw *walk; /* the model's */
 };
 
 void jox_nav_reserve(JoxNav *nav, uint32_t agents);
+/* Whether a wall, as far as the grid reaches, stands between a point and what is at `offset`. */
+static inline bool jox_nav_is_behind_wall(const JoxNav *nav, JoxV2 at, JoxV2 offset) {
+    return nav->grid.first && jox_wall_grid_separates(&nav->grid, at, jox_add(at, offset));
+}
 
 /* Grain of every loop over agents: fixed, so that chunks are the same for any number of threads. */
 enum { JOX_NAV_GRAIN = 256 };

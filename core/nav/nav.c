@@ -2,12 +2,14 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/assert.h"
 #include "base/mem.h"
 #include "nav/internal.h"
 
-JoxNav *jox_nav_create(void) {
+JoxNav *jox_nav_create(const JoxWalkLaw *walk) {
     JoxNav *nav = jox_alloc(1, sizeof *nav);
-    nav->walk = jox_walk_law();
+    nav->walk = walk;
+    nav->isa = jox_isa_resolve(JO_ISA_WIDEST);
     return nav;
 }
 
@@ -15,8 +17,9 @@ void jox_nav_set_literal(JoxNav *nav, bool literal) {
     nav->literal = literal;
 }
 
-void jox_nav_set_walk(JoxNav *nav, const JoxWalkLaw *law) {
-    nav->walk = *law;
+void jox_nav_set_isa(JoxNav *nav, JoIsa isa) {
+    JOX_ASSERT(jox_isa_runs(isa));
+    nav->isa = isa;
 }
 
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls) {
@@ -58,6 +61,7 @@ void jox_nav_free(JoxNav *nav) {
     jox_free(nav->sorted_x);
     jox_free(nav->chunk_drift);
     jox_free(nav->chunk_relaxed);
+    jox_free(nav->records);
     for (int i = 0; i < 2; i++) {
         jox_free(nav->keys[i]);
         jox_free(nav->order[i]);
@@ -73,6 +77,7 @@ void jox_nav_reserve(JoxNav *nav, uint32_t count) {
     nav->sorted_x = jox_realloc(nav->sorted_x, n, sizeof(float));
     nav->chunk_drift = jox_realloc(nav->chunk_drift, n / JOX_NAV_GRAIN + 1, sizeof(float));
     nav->chunk_relaxed = jox_realloc(nav->chunk_relaxed, n / JOX_NAV_GRAIN + 1, sizeof(uint32_t));
+    nav->records = jox_realloc(nav->records, n, sizeof(JoxRecord));
     for (int i = 0; i < 2; i++) {
         nav->keys[i] = jox_realloc(nav->keys[i], n, sizeof(uint64_t));
         nav->order[i] = jox_realloc(nav->order[i], n, sizeof(uint32_t));

@@ -9,16 +9,18 @@
 #include "geom/objects.h"
 #include "geom/wall_grid.h"
 #include "geom/walls.h"
+#include "jostle.h"
 #include "task/pool.h"
 
 typedef struct JoxNav JoxNav;
 
-JoxNav *jox_nav_create(void);
+/* `walk`: the constants of the walking law, not copied; NULL where nobody keeps a time gap. */
+JoxNav *jox_nav_create(const JoxWalkLaw *walk);
 void jox_nav_free(JoxNav *nav);
 /* Equations 3 and 4 as they are printed, and no projection of overlaps. */
 void jox_nav_set_literal(JoxNav *nav, bool literal);
-/* The constants of the walking law; until then they are its defaults. */
-void jox_nav_set_walk(JoxNav *nav, const JoxWalkLaw *law);
+/* The instruction set of the kernels, which changes no result; at first the widest that runs. */
+void jox_nav_set_isa(JoxNav *nav, JoIsa isa);
 /* The walls, not copied; call again when they change. NULL: none. */
 void jox_nav_set_walls(JoxNav *nav, const JoxWalls *walls);
 

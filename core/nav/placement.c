@@ -13,6 +13,8 @@ static const float DEEP = 0.25f;     /* share of the smaller diameter that may o
 static const float TOUCHING = 0.99f; /* radii from a wall */
 static const float STANDING = 0.7f;  /* the same of those whom the next step does not push out */
 static const float FARTHEST = 25.0f; /* m: how far a free spot is looked for */
+static const float NEARBY = 0.25f;   /* m: who is born so near to another searches where it ended */
+enum { SEARCHES = 1024, MOST_TRIES = 20000000 };
 
 /* A hash of cells to the agents that already have their spot. */
 typedef struct Occupied {
@@ -20,6 +22,14 @@ typedef struct Occupied {
     float cell;
     uint32_t mask;
     uint32_t *head, *next; /* by bucket; by agent index */
+    /* How far about a square of NEARBY searches have found everything taken. Spots only fill, so
+       that the next one need not begin at its own feet. */
+    struct Searched {
+        int32_t x, y;
+        float radius, reached; /* m */
+        bool beyond;           /* walls, too */
+    } * searched;
+    uint32_t tries; /* spots looked at: crowds that nowhere fit must end */
 } Occupied;
 
 static uint32_t bucket_of(const Occupied *t, int32_t x, int32_t y) {
@@ -78,22 +88,34 @@ static bool sees(const JoxWalls *walls, JoxV2 p, JoxV2 q, float near) {
     return true;
 }
 
+/* The searches about p for somebody as wide. */
+static struct Searched *searched_about(const Occupied *t, JoxV2 p, float radius, bool beyond) {
+    const int32_t x = (int32_t)floorf(p.x / NEARBY), y = (int32_t)floorf(p.y / NEARBY);
+    struct Searched *s =
+        &t->searched[((uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u ^ beyond) % SEARCHES];
+    if (s->x != x || s->y != y || s->beyond != beyond || s->radius > radius)
+        *s = (struct Searched){x, y, radius, 0.0f, beyond};
+    return s;
+}
+
 /* Spots on a spiral about p, half a radius apart, the first free one that is not beyond walls other
    than those nearer to p than `near`; INFINITY: it may lie beyond any. */
-static bool find_spot(const Occupied *t, const JoxWallGrid *grid, JoxV2 p, float radius, float near,
+static bool find_spot(Occupied *t, const JoxWallGrid *grid, JoxV2 p, float radius, float near,
                       JoxV2 *spot) {
-    float step = jox_maxf(radius * 0.5f, 0.05f);
-    float angle = 0.0f, distance = step;
-    while (distance < FARTHEST) {
+    struct Searched *s = searched_about(t, p, radius, near == INFINITY);
+    const float step = jox_maxf(radius * 0.5f, 0.05f);
+    float angle = 0.0f, distance = jox_maxf(step, s->reached - 2.0f * NEARBY);
+    for (; distance < FARTHEST && t->tries < MOST_TRIES; t->tries++) {
         *spot =
             (JoxV2){p.x + distance * (float)jox_cos(angle), p.y + distance * (float)jox_sin(angle)};
         if (is_free(t, grid, *spot, radius) &&
             (near == INFINITY || sees(grid->walls, p, *spot, near)))
-            return true;
+            break;
         angle += step / distance;
         distance += step * step / (6.2831853f * distance);
     }
-    return false;
+    s->reached = distance;
+    return distance < FARTHEST && t->tries < MOST_TRIES;
 }
 
 /* Looks for a free spot for an agent that has none where it is. Who has been born stays on that
@@ -132,6 +154,7 @@ JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *a, uint32_t first
         t.mask = t.mask * 2 + 1;
     t.head = jox_alloc((size_t)t.mask + 1, sizeof *t.head);
     t.next = jox_alloc((size_t)a->count + 1, sizeof *t.next);
+    t.searched = jox_alloc(SEARCHES, sizeof *t.searched);
     bool *moves = jox_alloc((size_t)a->count + 1, sizeof *moves);
     memset(t.head, 0xff, ((size_t)t.mask + 1) * sizeof *t.head);
     for (uint32_t i = 0; i < a->count; i++) { /* those who stay take their spots first */
@@ -156,6 +179,7 @@ JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *a, uint32_t first
     JOX_ASSERT(result.farthest <= FARTHEST * 1.001f);
     jox_free(t.head);
     jox_free(t.next);
+    jox_free(t.searched);
     jox_free(moves);
     return result;
 }

@@ -6,22 +6,18 @@
 #include "agents/agents.h"
 #include "nav/nav.h"
 
+#define JOX_SAME_WAY 0.5f /* cosine of 60 degrees: who heads so goes the same way */
+
 typedef enum JoxMinds {
     JOX_MINDS_NOT,
     JOX_MINDS_AHEAD,   /* one who goes the same way and goes first: is followed */
     JOX_MINDS_CROSSING /* one who crosses, comes the other way or stands: is passed */
 } JoxMinds;
 
-/* Whether an agent walks by the law: it keeps a time gap. */
-static inline bool jox_walks(const JoxAgents *a, uint32_t i) {
-    return a->param[JOX_PARAM_time_gap][i] > 0.0f;
-}
-
 /* How agent i minds j, who is at `offset` from it. Of those bound for the same place, who has less
    way left goes first, so that nobody waits for one who waits for them; ties go to the older.
    Others go first when they are ahead and head within 60 degrees of the same direction. */
 static inline JoxMinds jox_minds(const JoxAgents *a, uint32_t i, uint32_t j, JoxV2 offset) {
-    const float same = 0.5f; /* cosine of 60 degrees */
     JoxV2 own = {a->aim_x[i], a->aim_y[i]}, other = {a->aim_x[j], a->aim_y[j]};
     if (other.x == 0.0f && other.y == 0.0f)
         return JOX_MINDS_CROSSING;
@@ -29,7 +25,7 @@ static inline JoxMinds jox_minds(const JoxAgents *a, uint32_t i, uint32_t j, Jox
         bool first = a->way[j] != a->way[i] ? a->way[j] < a->way[i] : a->id[j] < a->id[i];
         return first ? JOX_MINDS_AHEAD : JOX_MINDS_NOT;
     }
-    if (jox_dot(own, other) > same)
+    if (jox_dot(own, other) > JOX_SAME_WAY)
         return jox_dot(offset, own) > 0.0f ? JOX_MINDS_AHEAD : JOX_MINDS_NOT;
     return JOX_MINDS_CROSSING;
 }

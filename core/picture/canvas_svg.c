@@ -18,7 +18,7 @@ typedef struct Svg {
 
 /* A number of pixels to a hundredth, without what says nothing. */
 static void number(JoxText *out, float value) {
-    char text[40];
+    char text[64]; /* 1e38 has 43 */
     int length = snprintf(text, sizeof text, "%.2f", value);
     while (length > 1 && text[length - 1] == '0')
         length--;
@@ -210,7 +210,7 @@ static bool write_svg(JoxCanvas *c, const char *path, JoxText *error) {
     if (!svg->ended)
         jox_text_add(&svg->out, "</svg>\n");
     svg->ended = true;
-    FILE *file = jox_file_open(path, "w");
+    FILE *file = jox_file_replace(path);
     bool good = file && fwrite(svg->out.data, 1, svg->out.length, file) == svg->out.length;
     if (file)
         good = jox_file_close(file) == 0 && good;

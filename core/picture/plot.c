@@ -20,8 +20,11 @@ bool jox_plot_folder(const char *folder, JoxText *error) {
         if (was && was != '/')
             continue;
         *c = 0;
-        if (mkdir(path, 0777) != 0 && errno != EEXIST) {
-            jox_text_printf(error, "cannot make the folder '%s': %s", path, strerror(errno));
+        struct stat info;
+        const bool made = mkdir(path, 0777) == 0, there = !made && errno == EEXIST;
+        if (!made && !(there && stat(path, &info) == 0 && S_ISDIR(info.st_mode))) {
+            jox_text_printf(error, "cannot make the folder '%s': %s", path,
+                            there ? "it is no folder" : strerror(errno));
             return false;
         }
         *c = was;
@@ -33,15 +36,14 @@ bool jox_plot_folder(const char *folder, JoxText *error) {
 FILE *jox_plot_open(const char *folder, const char *name, JoxText *error) {
     char path[1100];
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = jox_file_open(path, "w");
+    FILE *file = jox_file_replace(path);
     if (!file)
-        jox_text_printf(error, "cannot write '%s': %s", path, strerror(errno));
+        jox_text_printf(error, "cannot write '%s': %s", path, jox_file_why(errno));
     return file;
 }
 
 bool jox_plot_close(FILE *file, const char *what, JoxText *error) {
-    bool good = !ferror(file);
-    good = jox_file_close(file) == 0 && good;
+    const bool good = jox_file_close(file) == 0;
     if (!good)
         jox_text_printf(error, "cannot write %s: %s", what, strerror(errno));
     return good;

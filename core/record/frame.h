@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "base/vec.h"
+#include "geom/objects.h"
 #include "geom/walls.h"
 
 typedef struct JoxFrame {
@@ -28,6 +29,9 @@ typedef struct JoxFrame {
     const uint32_t *state;     /* row of the person's state in `states` */
     const char *const *states; /* their names, of all machines */
     uint32_t state_count;
+    const int32_t *kicked;         /* body that the person kicked or threw in this step, or -1 */
+    const int32_t *struck;         /* fast body that hit the person in this step, or -1 */
+    const JoxObjects *objects;     /* bodies as people saw them when this step began */
     const JoxWalls *walls;         /* as they stand now */
     const JoxWallLoad *wall_loads; /* by piece; NULL where they are not known */
     uint32_t wall_load_count;

@@ -1,5 +1,6 @@
 #include "record/recorder.h"
 
+#include <errno.h>
 #include <math.h>
 #include <pthread.h>
 #include <sqlite3.h>
@@ -9,12 +10,13 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/database.h"
+#include "base/file.h"
 #include "base/mem.h"
-#include "geom/polygon.h"
-#include "record/database.h"
 #include "task/thread.h"
 
 enum { FRAMES = 4 };
+static const double COMMITTED = 1.0; /* s, within which frames are committed */
 
 typedef struct Frame {
     uint32_t number;
@@ -25,6 +27,7 @@ typedef struct Frame {
 } Frame;
 
 struct JoxRecorder {
+    FILE *claimed; /* the same file, so that no other run writes it */
     sqlite3 *db;
     sqlite3_stmt *row, *agent, *body, *frame;
     pthread_t thread;
@@ -114,6 +117,11 @@ static bool write_rows(JoxRecorder *r, const Frame *f) {
     return true;
 }
 
+static bool commit(JoxRecorder *r) {
+    r->committed = now();
+    return write_bounds(r) && run(r, "COMMIT");
+}
+
 static bool write_frame(JoxRecorder *r, const Frame *f) {
     if (sqlite3_get_autocommit(r->db) && !run(r, "BEGIN"))
         return false;
@@ -131,18 +139,30 @@ static bool write_frame(JoxRecorder *r, const Frame *f) {
         if (!put(r, r->body))
             return false;
     }
-    if (now() - r->committed < 1.0)
-        return true;
-    r->committed = now();
-    return write_bounds(r) && run(r, "COMMIT");
+    return now() - r->committed < COMMITTED || commit(r);
+}
+
+/* Waits until there is something to write. What has been written is not left uncommitted for longer
+   than frames that follow each other are: a run may pause, or be killed while it does. */
+static void wait_for_frames(JoxRecorder *r) {
+    struct timespec until;
+    while (r->count == 0 && !r->ending) {
+        if (r->failed || sqlite3_get_autocommit(r->db)) {
+            pthread_cond_wait(&r->filled, &r->lock);
+            continue;
+        }
+        clock_gettime(CLOCK_REALTIME, &until);
+        until.tv_sec += (time_t)COMMITTED;
+        if (pthread_cond_timedwait(&r->filled, &r->lock, &until) == ETIMEDOUT && r->count == 0)
+            r->failed |= !commit(r);
+    }
 }
 
 static void *writer(void *argument) {
     JoxRecorder *r = argument;
     pthread_mutex_lock(&r->lock);
     for (;;) {
-        while (r->count == 0 && !r->ending)
-            pthread_cond_wait(&r->filled, &r->lock);
+        wait_for_frames(r);
         if (r->count == 0)
             break;
         const Frame *frame = &r->frames[r->first];
@@ -159,15 +179,15 @@ static void *writer(void *argument) {
     return NULL;
 }
 
-/* Whether an existing file is a recording, which may be replaced. */
+/* Whether an existing file is a recording of ours, which may be replaced: another program's is not.
+ */
 static bool is_recording(const char *path) {
     sqlite3 *db = NULL;
     sqlite3_stmt *statement = NULL;
-    bool found = sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK &&
-                 sqlite3_prepare_v2(db, "SELECT frame FROM trajectory_data LIMIT 1", -1, &statement,
+    bool found = jox_database_open(path, &db) &&
+                 sqlite3_prepare_v2(db, "SELECT frame FROM jostle_agent LIMIT 1", -1, &statement,
                                     NULL) == SQLITE_OK;
-    sqlite3_finalize(statement);
-    sqlite3_close(db);
+    jox_database_close(db); /* and its statement */
     return found;
 }
 
@@ -202,8 +222,35 @@ static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
         good = put(r, geometry);
     }
     sqlite3_finalize(geometry);
-    return good && run(r, "COMMIT") &&
-           prepare(r, &r->row, "INSERT INTO trajectory_data VALUES(?, ?, ?, ?, ?, ?)") &&
+    return good && run(r, "COMMIT");
+}
+
+/* Takes out what was written behind a frame. */
+static bool go_on(JoxRecorder *r, uint32_t last) {
+    static const char *const TABLES[] = {"trajectory_data", "jostle_agent", "jostle_body",
+                                         "jostle_part", "frame_data"};
+    static const char *const BOUNDS[] = {"MIN(pos_x)", "MAX(pos_x)", "MIN(pos_y)", "MAX(pos_y)"};
+    double *const to[] = {&r->low_x, &r->high_x, &r->low_y, &r->high_y};
+    char sql[160];
+    bool good = run(r, "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN");
+    for (size_t t = 0; good && t < sizeof TABLES / sizeof *TABLES; t++) {
+        snprintf(sql, sizeof sql, "DELETE FROM %s WHERE frame > %u", TABLES[t], last);
+        good = run(r, sql);
+    }
+    for (int k = 0; good && k < 4; k++) {
+        sqlite3_stmt *bound = NULL;
+        snprintf(sql, sizeof sql, "SELECT %s FROM trajectory_data", BOUNDS[k]);
+        good = prepare(r, &bound, sql);
+        if (good && sqlite3_step(bound) == SQLITE_ROW &&
+            sqlite3_column_type(bound, 0) != SQLITE_NULL)
+            *to[k] = sqlite3_column_double(bound, 0);
+        sqlite3_finalize(bound);
+    }
+    return good && run(r, "COMMIT");
+}
+
+static bool prepare_rows(JoxRecorder *r) {
+    return prepare(r, &r->row, "INSERT INTO trajectory_data VALUES(?, ?, ?, ?, ?, ?)") &&
            prepare(r, &r->agent, "INSERT INTO jostle_agent VALUES(?, ?, ?, ?, ?, ?, ?)") &&
            prepare(r, &r->body, "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
            prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
@@ -211,6 +258,8 @@ static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
 
 static void release(JoxRecorder *r) {
     jox_database_close(r->db); /* and its statements */
+    if (r->claimed)            /* after the database, which it would take the locks from */
+        jox_file_close(r->claimed);
     for (int i = 0; i < FRAMES; i++) {
         jox_free(r->frames[i].rows);
         jox_free(r->frames[i].bodies);
@@ -235,13 +284,17 @@ static void abandon(void *recorder) {
     release(recorder);
 }
 
-JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, JoxText *error) {
+/* A new, empty file for one run alone; NULL with an error. A recording of an earlier run makes room
+   for it. */
+static FILE *claim(const char *path, JoxText *error) {
     struct stat info;
-    if (lstat(path, &info) == 0) {
-        if (!S_ISREG(info.st_mode) || (info.st_size > 0 && !is_recording(path))) {
-            jox_text_printf(error, "'%s' is not a recording and is not replaced", path);
-            return NULL;
-        }
+    const bool there = lstat(path, &info) == 0;
+    if (there && (!S_ISREG(info.st_mode) || (info.st_size > 0 && !is_recording(path)))) {
+        jox_text_printf(error, "'%s' is not a recording of Jostle's and is not replaced", path);
+        return NULL;
+    }
+    FILE *file = jox_file_open(path, "a");
+    if (file && there) {
         for (int i = 0; i < 2; i++) { /* what a run that was killed left beside it */
             JoxText side = {0};
             jox_text_printf(&side, "%s-%s", path, i ? "shm" : "wal");
@@ -249,7 +302,18 @@ JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, Jo
             jox_text_free(&side);
         }
         unlink(path);
+        FILE *fresh = jox_file_open(path, "a");
+        jox_file_close(file);
+        file = fresh;
     }
+    if (!file)
+        jox_text_printf(error, "cannot record to '%s': %s", path, jox_file_why(errno));
+    return file;
+}
+
+/* Without a plan it goes on with the file, behind the last frame. */
+static JoxRecorder *begin(const char *path, FILE *file, double fps, const char *wkt, uint32_t last,
+                          JoxText *error) {
     JoxRecorder *r = jox_alloc(1, sizeof *r);
     pthread_mutex_init(&r->lock, NULL);
     pthread_cond_init(&r->filled, NULL);
@@ -258,10 +322,11 @@ JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, Jo
     r->high_x = r->high_y = -INFINITY;
     r->geometry = 1;
     r->committed = now();
+    r->claimed = file;
     bool good = sqlite3_open(path, &r->db) == SQLITE_OK;
     if (!good)
         snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
-    good = good && start_file(r, fps, wkt);
+    good = good && (wkt ? start_file(r, fps, wkt) : go_on(r, last)) && prepare_rows(r);
     if (good && !jox_thread_start(&r->thread, writer, r)) {
         good = false;
         snprintf(r->why, sizeof r->why, "no thread can be started");
@@ -270,6 +335,22 @@ JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, Jo
         return jox_hold(r, abandon);
     jox_text_printf(error, "cannot record to '%s': %s", path, r->why);
     release(r);
+    return NULL;
+}
+
+JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, JoxText *error) {
+    FILE *file = claim(path, error);
+    return file ? begin(path, file, fps, wkt, 0, error) : NULL;
+}
+
+JoxRecorder *jox_recorder_go_on(const char *path, uint32_t last, JoxText *error) {
+    struct stat info;
+    const bool ours = lstat(path, &info) == 0 && S_ISREG(info.st_mode) && is_recording(path);
+    FILE *file = ours ? jox_file_open(path, "a") : NULL;
+    if (file)
+        return begin(path, file, 0.0, NULL, last, error);
+    jox_text_printf(error, "cannot go on recording to '%s': %s", path,
+                    ours ? jox_file_why(errno) : "there is no recording of Jostle's");
     return NULL;
 }
 
@@ -384,70 +465,25 @@ bool jox_recorder_put(JoxRecorder *r, uint32_t frame, JoxText *error) {
     return good;
 }
 
+bool jox_recorder_settle(JoxRecorder *r, JoxText *error) {
+    wait_for_writer(r);
+    const bool good = !r->failed && (sqlite3_get_autocommit(r->db) || commit(r));
+    if (!good)
+        jox_text_printf(error, "recording failed: %s", r->why);
+    return good;
+}
+
 bool jox_recorder_close(JoxRecorder *r, JoxText *error) {
     jox_let_go(r);
     stop(r);
     bool good = !r->failed && write_bounds(r);
     if (good && !sqlite3_get_autocommit(r->db))
         good = run(r, "COMMIT");
-    good = good && run(r, "PRAGMA journal_mode=DELETE"); /* one file, nothing beside it */
+    /* One file, nothing beside it. OFF: a run that is killed now leaves no journal, which those who
+       only read could not roll back. */
+    good = good && run(r, "PRAGMA journal_mode=OFF");
     if (!good)
         jox_text_printf(error, "recording failed: %s", r->why);
     release(r);
     return good;
-}
-
-/* ---- the walkable area ---- */
-
-/* ", (x y, ...)" */
-static void add_ring(const JoxWalls *walls, uint32_t ring, bool first, JoxText *out) {
-    const struct JoxWallRing *r = &walls->rings[ring];
-    jox_text_add(out, first ? "(" : ", (");
-    for (uint32_t i = 0; i <= r->count; i++) {
-        JoxV2 p = walls->vertices[r->first + i % r->count].point;
-        jox_text_printf(out, "%s%.7g %.7g", i ? ", " : "", p.x, p.y);
-    }
-    jox_text_add(out, ")");
-}
-
-/* Whether all of a solid lies within an outline: a hole may not reach beyond it. */
-static bool is_hole(const JoxWalls *walls, uint32_t solid, const JoxV2 *outline, uint32_t count) {
-    const struct JoxWallRing *s = &walls->rings[solid];
-    bool within = s->solid;
-    for (uint32_t i = s->first; within && i < s->first + s->count; i++)
-        within = jox_polygon_contains(outline, count, walls->vertices[i].point);
-    return within;
-}
-
-static void add_outline(const JoxWalls *walls, uint32_t ring, JoxText *out) {
-    JoxV2 *outline = jox_walls_ring_points(walls, ring);
-    jox_text_add(out, "(");
-    add_ring(walls, ring, true, out);
-    for (uint32_t r = 0; r < walls->ring_count; r++)
-        if (is_hole(walls, r, outline, walls->rings[ring].count))
-            add_ring(walls, r, false, out);
-    jox_text_add(out, ")");
-    jox_free(outline);
-}
-
-void jox_wkt_outlines(const JoxWalls *walls, JoxText *out) {
-    uint32_t outlines = 0, put = 0;
-    for (uint32_t r = 0; r < walls->ring_count; r++)
-        outlines += walls->rings[r].outline;
-    jox_text_add(out, outlines > 1 ? "MULTIPOLYGON (" : "POLYGON ");
-    for (uint32_t r = 0; r < walls->ring_count; r++)
-        if (walls->rings[r].outline) {
-            jox_text_add(out, put++ ? ", " : "");
-            add_outline(walls, r, out);
-        }
-    jox_text_add(out, outlines > 1 ? ")" : "");
-}
-
-void jox_wkt(const JoxWalls *walls, JoxV2 low, JoxV2 high, JoxText *out) {
-    jox_text_printf(out, "POLYGON ((%g %g, %g %g, %g %g, %g %g, %g %g)", low.x, low.y, high.x,
-                    low.y, high.x, high.y, low.x, high.y, low.x, low.y);
-    for (uint32_t r = 0; r < walls->ring_count; r++)
-        if (walls->rings[r].solid)
-            add_ring(walls, r, false, out);
-    jox_text_add(out, ")");
 }

@@ -31,6 +31,11 @@ typedef struct JoxRecordBody {
 /* Replaces an earlier recording; refuses any other file. `wkt`: the walkable area. NULL with a
    sentence in `error`. */
 JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, JoxText *error);
+/* Goes on with a recording of ours behind a frame; later ones are taken out. NULL with a sentence
+   in `error`. */
+JoxRecorder *jox_recorder_go_on(const char *path, uint32_t last, JoxText *error);
+/* Has all frames given so far committed. False with a sentence in `error`. */
+bool jox_recorder_settle(JoxRecorder *recorder, JoxText *error);
 /* Names a state number; once per number, before frames that use it. */
 void jox_recorder_state(JoxRecorder *recorder, uint32_t number, const char *machine,
                         const char *state);

@@ -155,7 +155,7 @@ static bool read_text(JoxTrajectories *t, const char *path, const JoxTrajectoryO
     if (!text) {
         JoxPosition at = {path, 0, 0, 0};
         jox_diag_error(diagnostics, at, "unreadable-file", NULL, "cannot be read: %s",
-                       strerror(errno));
+                       jox_file_why(errno));
         return false;
     }
     bool good = jox_trajectories_text(t, path, text, length, options, diagnostics);

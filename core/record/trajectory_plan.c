@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/database.h"
 #include "base/mem.h"
-#include "record/database.h"
 #include "record/trajectories.h"
 
 enum { MOST_RING = 5000 };

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/database.h"
 #include "base/mem.h"
-#include "record/database.h"
 #include "record/trajectory_reader_parts.h"
 
 JoxTrajectoryReaderInfo jox_trajectory_reader_info(const JoxTrajectoryReader *r) {
@@ -72,6 +72,16 @@ static uint32_t state_row(const JoxTrajectoryReader *r, int64_t number) {
     return low < r->state_count && r->states[low].number == number ? low : JOX_NO_RECORDED_STATE;
 }
 
+/* Whether the row says who is where: SQLite takes texts and nothing for 0. */
+static bool is_placed(sqlite3_stmt *row) {
+    bool placed = sqlite3_column_type(row, 0) == SQLITE_INTEGER;
+    for (int c = 1; c <= 2; c++) {
+        const int type = sqlite3_column_type(row, c);
+        placed = placed && (type == SQLITE_FLOAT || type == SQLITE_INTEGER);
+    }
+    return placed;
+}
+
 static void take_row(JoxTrajectoryReader *r, uint32_t n) {
     widen(r, (size_t)n + 1);
     r->id[n] = sqlite3_column_int64(r->rows, 0);
@@ -102,6 +112,11 @@ bool jox_trajectory_reader_read_people(JoxTrajectoryReader *r, uint32_t frame,
     sqlite3_bind_int64(r->rows, 2, r->from[frame]);
     sqlite3_bind_int64(r->rows, 3, r->from[frame + 1]);
     while ((status = sqlite3_step(r->rows)) == SQLITE_ROW) {
+        if (!is_placed(r->rows)) {
+            jox_text_printf(why, "in frame %lld somebody's id or position is no number",
+                            (long long)r->number[frame]);
+            return false;
+        }
         take_row(r, n);
         if (!(fabsf(r->x[n]) < 1e6f && fabsf(r->y[n]) < 1e6f))
             return damaged(why, "%s is more than 1000 km from the origin", "somebody");

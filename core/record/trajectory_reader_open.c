@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/database.h"
 #include "base/file.h"
 #include "base/mem.h"
-#include "record/database.h"
 #include "record/trajectory_reader_parts.h"
 
 enum { MOST_FRAMES = 10000000, MOST_POINTS = 100000 };
@@ -57,13 +57,14 @@ static bool list_by_index(JoxTrajectoryReader *r) {
     if (!list)
         list = prepare(r->db, WITH_PEOPLE "ORDER BY 1");
 #undef WITH_PEOPLE
-    while (list && r->frames < MOST_FRAMES && sqlite3_step(list) == SQLITE_ROW) {
+    int status = list ? SQLITE_ROW : SQLITE_ERROR;
+    while (r->frames < MOST_FRAMES && (status = list ? sqlite3_step(list) : status) == SQLITE_ROW) {
         const int64_t number = sqlite3_column_int64(list, 0);
         if (r->frames == 0 || number > r->number[r->frames - 1])
             add_frame(r, number, 0);
     }
     sqlite3_finalize(list);
-    return r->frames > 0;
+    return r->frames > 0 && status == SQLITE_DONE;
 }
 
 /* Where each frame begins, in one pass; false where the rows are not in the order of frames. */
@@ -71,7 +72,8 @@ static bool list_by_row(JoxTrajectoryReader *r) {
     sqlite3_stmt *rows = prepare(r->db, "SELECT rowid, frame FROM trajectory_data ORDER BY rowid");
     bool ordered = rows != NULL;
     int64_t row = 0;
-    while (ordered && sqlite3_step(rows) == SQLITE_ROW) {
+    int status = SQLITE_DONE;
+    while (ordered && (status = sqlite3_step(rows)) == SQLITE_ROW) {
         int64_t frame = sqlite3_column_int64(rows, 1);
         row = sqlite3_column_int64(rows, 0);
         ordered = sqlite3_column_type(rows, 0) != SQLITE_NULL &&
@@ -79,6 +81,7 @@ static bool list_by_row(JoxTrajectoryReader *r) {
         if (ordered && (r->frames == 0 || frame > r->number[r->frames - 1]))
             add_frame(r, frame, row);
     }
+    ordered = ordered && status == SQLITE_DONE;
     sqlite3_finalize(rows);
     if (r->frames)
         r->from[r->frames] = row + 1;
@@ -224,12 +227,10 @@ static void read_bounds(JoxTrajectoryReader *r) {
 }
 
 /* False with an error. */
-static bool open_sqlite(JoxTrajectoryReader *r, const char *path,
-                        const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
+static bool describe(JoxTrajectoryReader *r, const char *path, const JoxTrajectoryOptions *options,
+                     JoxDiagnostics *diagnostics) {
     static const char *const HINT = "It must be of the JuPedSim format: a table trajectory_data";
     double found;
-    if (!jox_database_open(path, &r->db))
-        return wrong(diagnostics, path, NULL, sqlite3_errmsg(r->db));
     sqlite3_stmt *probe = prepare(r->db, "SELECT frame, id, pos_x, pos_y FROM trajectory_data "
                                          "LIMIT 1");
     const int status = probe ? sqlite3_step(probe) : SQLITE_ERROR;
@@ -267,6 +268,17 @@ static bool open_sqlite(JoxTrajectoryReader *r, const char *path,
     jox_trajectories_plan(&r->outlines, r->db);
     read_walls(r);
     return true;
+}
+
+static bool open_sqlite(JoxTrajectoryReader *r, const char *path,
+                        const JoxTrajectoryOptions *options, JoxDiagnostics *diagnostics) {
+    double left;
+    if (!jox_database_open(path, &r->db))
+        return wrong(diagnostics, path, NULL, sqlite3_errmsg(r->db));
+    jox_database_bound(r->db, &left);
+    const bool good = describe(r, path, options, diagnostics);
+    jox_database_bound(r->db, NULL);
+    return good;
 }
 
 static bool open_whole(JoxTrajectoryReader *r, const char *path,

@@ -67,7 +67,7 @@ static void put_worth(FILE *out, const JoxReport *r) {
 /* SHA-256 of the recording, which may be large; a dash if it cannot be mapped. */
 static void hash_file(const char *path, char out[65]) {
     struct stat info;
-    int file = open(path, O_RDONLY | O_CLOEXEC);
+    int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     void *data = MAP_FAILED;
     snprintf(out, 65, "-");
     if (file >= 0 && fstat(file, &info) == 0 && info.st_size > 0)

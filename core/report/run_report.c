@@ -1,8 +1,10 @@
 /* The files that a run leaves: CSV files of its probes and of danger, and their pictures. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 
 #include "base/assert.h"
+#include "base/file.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "jostle_tools.h"
@@ -16,6 +18,7 @@ static const double PACE = 0.1; /* s between points of paths, or a step where th
 
 typedef struct RunReport {
     char *folder;
+    FILE *claim;     /* of the folder */
     JoxPaths *paths; /* NULL: CSV files alone, no pictures */
 } RunReport;
 
@@ -24,6 +27,12 @@ static bool begin(void *self, JoScene *scene, const void *folder, JoError *error
     JoxText why = {0};
     if (!jox_plot_folder(folder, &why))
         return jox_run_failed(error, &why);
+    r->claim = jox_folder_claim(folder);
+    if (!r->claim) {
+        jox_text_printf(&why, "cannot write into '%s': %s", (const char *)folder,
+                        jox_file_why(errno));
+        return jox_run_failed(error, &why);
+    }
     r->folder = jox_strdup(folder);
     jox_run_collect_danger(scene);
     return true;
@@ -42,10 +51,9 @@ static bool sample_paths(void *self, JoScene *scene, JoError *error) {
     RunReport *r = self;
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
-    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(PACE / world->model.def.dt + 0.5));
     float time = (float)jo_world_time(world);
     (void)error;
-    if (world->state.tick % every != 0)
+    if (!jox_run_is_due(scene, PACE))
         return true;
     for (uint32_t rank = 0; rank < a->count; rank++) {
         uint32_t i = a->by_rank[rank];
@@ -129,6 +137,8 @@ static bool draw(void *self, JoScene *scene, JoError *error) {
 
 static void release(void *self) {
     RunReport *r = self;
+    if (r->claim)
+        jox_file_close(r->claim);
     jox_free(r->folder);
     jox_paths_free(r->paths);
 }

@@ -6,79 +6,78 @@
 #include "base/mem.h"
 #include "run/run.h"
 
-static const double SAMPLE = 2.0; /* s between samples of the regions' speeds */
-/* Whether the frame of now is a sample. */
-static bool is_sample(const JoScene *scene) {
+bool jox_run_is_due(const JoScene *scene, double interval) {
     const JoWorld *world = scene->world;
-    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(SAMPLE / world->model.def.dt + 0.5));
-    return world->state.tick % every == 0 &&
-           (double)world->state.tick * world->model.def.dt >= scene->spec->heatmap_from;
+    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(interval / world->model.def.dt + 0.5));
+    return world->state.tick % every == 0;
+}
+
+/* The listeners of regions, densities and danger each hold one thing that collects, by its address.
+ */
+static void *held(const JoScene *scene, const JoxListenerKind *kind) {
+    void **self = jox_run_listener(scene, kind);
+    return self ? *self : NULL;
+}
+
+static void collect(JoScene *scene, const JoxListenerKind *kind, const void *options) {
+    if (!jox_run_listener(scene, kind))
+        jox_run_listen(scene, kind, options, NULL);
 }
 
 /* ---- regions: in every scene that has some ---- */
 
-typedef struct RegionSpeeds {
-    JoxRegions *regions;
-} RegionSpeeds;
+static const double SAMPLE = 2.0; /* s between samples of the regions' speeds */
 
 static bool regions_begin(void *self, JoScene *scene, const void *options, JoError *error) {
-    RegionSpeeds *r = self;
+    JoxRegions *regions = *(JoxRegions **)self = jox_regions_create();
     (void)options, (void)error;
-    r->regions = jox_regions_create();
     for (uint32_t i = 0; i < scene->spec->region_count; i++)
-        jox_regions_add(r->regions, scene->spec->regions[i].name, scene->spec->regions[i].points,
+        jox_regions_add(regions, scene->spec->regions[i].name, scene->spec->regions[i].points,
                         scene->spec->regions[i].count);
     return true;
 }
 
 static bool regions_frame(void *self, JoScene *scene, JoError *error) {
-    RegionSpeeds *r = self;
     const JoxAgents *a = &scene->world->state.agents;
     (void)error;
-    if (is_sample(scene))
-        jox_regions_frame(r->regions, a->x, a->y, a->prev_x, a->prev_y, a->count,
+    if (jox_run_is_due(scene, SAMPLE) && jo_world_time(scene->world) >= scene->spec->heatmap_from)
+        jox_regions_frame(*(JoxRegions **)self, a->x, a->y, a->prev_x, a->prev_y, a->count,
                           scene->world->model.def.dt);
     return true;
 }
 
 static void regions_release(void *self) {
-    jox_regions_free(((RegionSpeeds *)self)->regions);
+    jox_regions_free(*(JoxRegions **)self);
 }
 
 static const JoxListenerKind REGIONS = {.name = "speeds of regions",
-                                        .size = sizeof(RegionSpeeds),
+                                        .size = sizeof(JoxRegions *),
                                         .begin = regions_begin,
                                         .frame = regions_frame,
                                         .release = regions_release};
 
 void jox_run_collect_regions(JoScene *scene) {
     if (scene->spec->region_count)
-        jox_run_listen(scene, &REGIONS, NULL, NULL);
+        collect(scene, &REGIONS, NULL);
 }
 
 const JoxRegions *jox_run_regions(const JoScene *scene) {
-    const RegionSpeeds *r = jox_run_listener(scene, &REGIONS);
-    return r ? r->regions : NULL;
+    return held(scene, &REGIONS);
 }
 
 /* ---- density: of every run, unless it is told to do without ---- */
 
-typedef struct LocalFigures {
-    JoxLocal *local;
-} LocalFigures;
-
 static bool local_begin(void *self, JoScene *scene, const void *options, JoError *error) {
-    LocalFigures *figures = self;
     JoxV2 low, high;
     (void)options, (void)error;
     jox_run_area(scene, &low, &high);
-    figures->local = jox_local_create(low, high);
-    figures->local->mean_from = scene->spec->heatmap_from;
+    JoxLocal *local = *(JoxLocal **)self = jox_local_create(low, high);
+    local->mean_from = scene->spec->heatmap_from;
     return true;
 }
 
 static bool local_frame(void *self, JoScene *scene, JoError *error) {
-    JoxLocal *local = ((LocalFigures *)self)->local;
+    JoxLocal *local = *(JoxLocal **)self;
     (void)error;
     if (jox_local_is_due(local, jo_world_time(scene->world)))
         jox_local_frame(local, jox_run_frame(scene), NULL);
@@ -86,37 +85,31 @@ static bool local_frame(void *self, JoScene *scene, JoError *error) {
 }
 
 static void local_release(void *self) {
-    jox_local_free(((LocalFigures *)self)->local);
+    jox_local_free(*(JoxLocal **)self);
 }
 
 static const JoxListenerKind LOCAL = {.name = "density",
-                                      .size = sizeof(LocalFigures),
+                                      .size = sizeof(JoxLocal *),
                                       .begin = local_begin,
                                       .frame = local_frame,
                                       .release = local_release};
 
 void jox_run_collect_local(JoScene *scene) {
-    if (!jox_run_listener(scene, &LOCAL))
-        jox_run_listen(scene, &LOCAL, NULL, NULL);
-}
-
-static JoxLocal *local_of(const JoScene *scene) {
-    LocalFigures *figures = jox_run_listener(scene, &LOCAL);
-    return figures ? figures->local : NULL;
+    collect(scene, &LOCAL, NULL);
 }
 
 const JoxLocal *jox_run_local(const JoScene *scene) {
-    return local_of(scene);
+    return held(scene, &LOCAL);
 }
 
 const JoxLocal *jox_run_want_pressure(JoScene *scene) {
     jox_run_collect_local(scene);
-    jox_local_want_pressure(local_of(scene));
-    return local_of(scene);
+    jox_local_want_pressure(held(scene, &LOCAL));
+    return jox_run_local(scene);
 }
 
 double jox_run_density_max(const JoScene *scene) {
-    const JoxLocal *local = local_of(scene);
+    const JoxLocal *local = jox_run_local(scene);
     const JoxAgents *a = &scene->world->state.agents;
     JoxV2 low, high;
     if (!local || local->samples > 0)
@@ -132,10 +125,6 @@ double jox_run_density_max(const JoScene *scene) {
 
 /* ---- danger ---- */
 
-typedef struct DangerFigures {
-    JoxDanger *danger;
-} DangerFigures;
-
 typedef struct DangerArea {
     JoxV2 low, high;
 } DangerArea;
@@ -144,49 +133,45 @@ typedef struct DangerArea {
 static bool danger_begin(void *self, JoScene *scene, const void *options, JoError *error) {
     const DangerArea *area = options;
     (void)error;
-    JoxDanger *danger =
-        area ? jox_danger_create(area->low, area->high) : jox_danger_create_on(local_of(scene));
+    JoxDanger *danger = *(JoxDanger **)self =
+        area ? jox_danger_create(area->low, area->high) : jox_danger_create_on(held(scene, &LOCAL));
     jox_danger_add_flows(danger, scene->spec->probes, scene->spec->probe_count);
-    ((DangerFigures *)self)->danger = danger;
     return true;
 }
 
 static bool danger_frame(void *self, JoScene *scene, JoError *error) {
     (void)error;
-    jox_danger_frame(((DangerFigures *)self)->danger, jox_run_frame(scene),
-                     &scene->world->state.exits);
+    jox_danger_frame(*(JoxDanger **)self, jox_run_frame(scene), &scene->world->state.exits);
     return true;
 }
 
 static void danger_release(void *self) {
-    jox_danger_free(((DangerFigures *)self)->danger);
+    jox_danger_free(*(JoxDanger **)self);
 }
 
 static const JoxListenerKind DANGER = {.name = "danger",
-                                       .size = sizeof(DangerFigures),
+                                       .size = sizeof(JoxDanger *),
                                        .begin = danger_begin,
                                        .frame = danger_frame,
                                        .release = danger_release};
 
 void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high) {
     DangerArea area = {low, high};
-    if (!jox_run_listener(scene, &DANGER))
-        jox_run_listen(scene, &DANGER, &area, NULL);
+    collect(scene, &DANGER, &area);
 }
 
 void jox_run_collect_danger(JoScene *scene) {
     jox_run_collect_local(scene);
-    if (!jox_run_listener(scene, &DANGER))
-        jox_run_listen(scene, &DANGER, NULL, NULL);
+    collect(scene, &DANGER, NULL);
 }
 
 const JoxDanger *jox_run_danger(const JoScene *scene) {
-    const DangerFigures *figures = jox_run_listener(scene, &DANGER);
-    return figures ? figures->danger : NULL;
+    return held(scene, &DANGER);
 }
 
-/* ---- who stood the longest though they wanted to get on: each is looked at once a second ---- */
+/* ---- who stood the longest though they wanted to get on ---- */
 
+static const double LOOK = 1.0;   /* s between looks at each person */
 static const float MOVED = 0.25f; /* m: who has come so far does not stand */
 
 typedef struct Stand {
@@ -240,9 +225,8 @@ static bool standing_begin(void *self, JoScene *scene, const void *options, JoEr
 
 static bool standing_frame(void *self, JoScene *scene, JoError *error) {
     const JoWorld *world = scene->world;
-    uint64_t every = (uint64_t)jox_maxf(1.0f, (float)(1.0 / world->model.def.dt + 0.5));
     (void)error;
-    if (world->state.tick % every == 0)
+    if (jox_run_is_due(scene, LOOK))
         for (uint32_t i = 0; i < world->state.agents.count; i++)
             look(self, world, i);
     return true;
@@ -259,7 +243,7 @@ static const JoxListenerKind STANDING = {.name = "who stood the longest",
                                          .release = standing_release};
 
 void jox_run_collect_standing(JoScene *scene) {
-    jox_run_listen(scene, &STANDING, NULL, NULL);
+    collect(scene, &STANDING, NULL);
 }
 
 const JoxStood *jox_run_stood_longest(const JoScene *scene) {

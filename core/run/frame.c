@@ -73,6 +73,9 @@ const JoxFrame *jox_run_frame(JoScene *scene) {
                           .state = f->state,
                           .states = f->states,
                           .state_count = f->state_count,
+                          .kicked = a->kicked,
+                          .struck = a->struck,
+                          .objects = &world->scratch.objects,
                           .walls = &world->scratch.walls};
     f->frame.wall_loads = jox_force_wall_loads(world->scratch.forces, &f->frame.wall_load_count);
     return &f->frame;

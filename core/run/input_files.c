@@ -2,6 +2,8 @@
    same step from those texts. */
 #include <errno.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/assert.h"
 #include "base/file.h"
@@ -38,6 +40,22 @@ void jox_run_log_origin(JoScene *scene) {
     jox_files_free(&told);
 }
 
+bool jo_scene_log_on(JoScene *scene, const char *path, JoError *error) {
+    JOX_REQUIRE(scene && path && !scene->log && !scene->finished, false);
+    JOX_GUARD (scene->heap, error)
+        return false;
+    struct stat info;
+    const bool there = stat(path, &info) == 0 && (uint64_t)info.st_size >= scene->log_length;
+    scene->log = there ? jox_file_open(path, "a") : NULL;
+    if (!scene->log || ftruncate(fileno(scene->log), (off_t)scene->log_length) != 0) {
+        jox_error(error, JO_FAILED, "cannot go on with the input log '%.200s': %s", path,
+                  there ? jox_file_why(errno) : "it is not there, or shorter than it was");
+        return false;
+    }
+    scene->log_path = jox_strdup(path);
+    return true;
+}
+
 bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
     JOX_REQUIRE(scene && path && !scene->log && !scene->finished, false);
     JOX_GUARD (scene->heap, error)
@@ -52,7 +70,7 @@ bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error) {
     scene->log = jox_file_open(path, "w");
     if (!scene->log) {
         jox_error(error, JO_FAILED, "cannot write the input log '%.200s': %s", path,
-                  strerror(errno));
+                  jox_file_why(errno));
         return false;
     }
     scene->log_path = jox_strdup(path);

@@ -1,6 +1,10 @@
 #include "run/listener.h"
 
+#include <string.h>
+
 #include "base/assert.h"
+#include "base/format/pieces.h"
+#include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
 
@@ -65,4 +69,29 @@ void jox_run_release_listeners(JoScene *scene) {
     jox_free(all->items);
     all->items = NULL;
     all->capacity = 0;
+}
+
+bool jox_run_take_up(const JoScene *scene, const JoxListenerKind *kind, void *self,
+                     JoError *error) {
+    char why[200];
+    JoxPiece piece;
+    if (!scene->resumed.length) {
+        jox_error(error, JO_USAGE, "the %s goes on in resumed scenes alone", kind->name);
+        return false;
+    }
+    for (size_t at = 0; jox_pieces_next(&scene->resumed, &at, &piece, why);) {
+        const size_t head = strlen(piece.data) + 1;
+        if (strcmp(piece.name, JOX_PIECE_LISTENER) != 0 || head > piece.length ||
+            strcmp(piece.data, kind->name) != 0)
+            continue;
+        JoxSections s = jox_sections_restore(piece.data + head, piece.length - head);
+        if (!s.failed)
+            kind->sections(self, &s);
+        if (jox_sections_end(&s))
+            return true;
+        jox_error(error, JO_INPUT, "the %s cannot be taken up: %s", kind->name, s.wrong);
+        return false;
+    }
+    jox_error(error, JO_INPUT, "the checkpoint has nothing of the %s", kind->name);
+    return false;
 }

@@ -4,6 +4,7 @@
 #ifndef JOX_RUN_LISTENER_H
 #define JOX_RUN_LISTENER_H
 
+#include "base/sections.h"
 #include "base/text.h"
 #include "jostle.h"
 
@@ -18,6 +19,13 @@ typedef struct JoxListenerKind {
     bool (*frame)(void *self, JoScene *scene, JoError *error);
     /* A reload has added a machine, or put a version with other states in its place. */
     void (*replaced)(void *self, JoScene *scene, uint32_t machine);
+    /* What its future depends on, as sections, where it goes on in a resumed run (NULL: it begins
+       anew); it is then all written that was collected. */
+    void (*sections)(void *self, JoxSections *sections);
+    /* Whether this step leaves nothing half collected; NULL: any does. */
+    bool (*is_whole)(const void *self, const JoScene *scene);
+    /* Has all on the disk that was written so far. False with `error`. */
+    bool (*settle)(void *self, JoError *error);
     /* The run has ended, once: what is left to write is written. False with `error` if that failed.
        What was collected can still be read. */
     bool (*end)(void *self, JoScene *scene, JoError *error);
@@ -47,5 +55,12 @@ bool jox_run_tell_frame(JoScene *scene, JoError *error);
 void jox_run_tell_replaced(JoScene *scene, uint32_t machine);
 bool jox_run_tell_end(JoScene *scene, JoError *error);
 void jox_run_release_listeners(JoScene *scene);
+
+/* Name of the piece (base/format/pieces.h) of a checkpoint that is the name of a kind of listener,
+   a zero, and its sections. */
+#define JOX_PIECE_LISTENER "listener"
+/* Gives a listener what one of its kind had, by the checkpoint that the scene was resumed from.
+   False with `error` where it has none such. */
+bool jox_run_take_up(const JoScene *scene, const JoxListenerKind *kind, void *self, JoError *error);
 
 #endif

@@ -1,11 +1,14 @@
 /* From a scene's file to a running world. */
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/file.h"
 #include "base/guard.h"
 #include "base/mem.h"
 #include "run/run.h"
+#include "simd/isa.h"
 
 enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 256 << 20 };
 
@@ -72,7 +75,7 @@ static void load_input(JoScene *scene, const char *path, JoxDiagnostics *diagnos
     char *text = path ? jox_read_file(path, LARGEST_INPUT, &length) : NULL;
     if (path && !text)
         jox_diag_error(diagnostics, ((JoxPosition){path, 0, 0, 0}), "unreadable-file", NULL,
-                       "cannot read the input log '%s'", path);
+                       "cannot read the input log '%s': %s", path, jox_file_why(errno));
     if (text)
         jox_input_parse(&scene->input, path, text, length, diagnostics);
     if (text) {
@@ -112,10 +115,12 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     world.dt = spec->step;
     world.seed = spec->seed;
     world.threads = def->threads;
+    world.isa = def->isa;
     world.gravity = spec->gravity;
     world.forces = spec->forces;
     world.literal = spec->literal;
     scene->world = jox_world_create(&world);
+    scene->world->model.reinserts_bodies = def->resumable;
     jox_world_set_walking(scene->world, &spec->walking);
     if (!def->input_log)
         load_input(scene, spec->input, diagnostics);
@@ -187,6 +192,17 @@ static void to_nobody(void *context, const char *text) {
     (void)text;
 }
 
+/* Reads through the scene's overlay from here on, which begins as that of whoever loads it. Returns
+   the latter, to be put back. */
+static const JoxOverlay *use_overlay(JoScene *scene, const JoSceneDef *def) {
+    const JoxOverlay *before = jox_overlay_use(&scene->overlay);
+    for (size_t f = 0; before && f < before->count; f++)
+        jox_overlay_put(&scene->overlay, before->files[f].path, before->files[f].text,
+                        before->files[f].length);
+    scene->overlay.tape = def->resumable ? &scene->tape : NULL;
+    return before;
+}
+
 /* Frees a scene that did not load: it has no end that anybody waits for. */
 static void discard(JoScene *scene) {
     if (scene)
@@ -203,15 +219,15 @@ static int32_t blame(const JoSceneDef *def, uint64_t without) {
         JoScene *scene = jox_alloc(1, sizeof *scene);
         scene->heap = jox_heap_used();
         scene->message = to_nobody;
+        const JoxOverlay *before = use_overlay(scene, def);
         scene->mods = jox_run_find_mods(def, without, &ignored);
         const uint32_t all = scene->mods->count;
         if (count < all) { /* with all of them it fails: that is known */
             scene->mods->count = count;
-            const JoxOverlay *before = jox_overlay_use(&scene->overlay);
             build(scene, def, count, &now);
-            jox_overlay_use(before);
             scene->mods->count = all;
         }
+        jox_overlay_use(before);
         bool fails = count >= all || now.errors > 0;
         int32_t culprit = fails && count > 0 ? (int32_t)scene->mods->number[count - 1] : -1;
         jox_diag_free(&ignored);
@@ -230,9 +246,9 @@ static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culpri
     scene->heap = jox_heap_used();
     scene->message = def->message ? def->message : jox_run_to_stderr;
     scene->message_context = def->message_context;
+    const JoxOverlay *before = use_overlay(scene, def);
     scene->mods = jox_run_find_mods(def, without, mod_problems);
     *culprit = -1;
-    const JoxOverlay *before = jox_overlay_use(&scene->overlay);
     build(scene, def, scene->mods->count, diagnostics);
     jox_overlay_use(before);
     for (uint32_t f = 0; scene->spec && f < scene->spec->file_count; f++)
@@ -305,6 +321,12 @@ JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
     if (def->threads < 1 || def->threads > 64) {
         jox_diag_error(diagnostics, ((JoxPosition){0}), "out-of-range", NULL,
                        "threads must be from 1 to 64");
+        return NULL;
+    }
+    if (def->isa != JO_ISA_WIDEST && !jox_isa_runs(def->isa)) {
+        jox_diag_error(diagnostics, ((JoxPosition){0}), "isa-not-run", NULL,
+                       "this machine does not run the instruction set '%s'",
+                       jox_isa_name(def->isa));
         return NULL;
     }
     JoxDiagnostics problems = {0}; /* of mods */
@@ -388,53 +410,6 @@ JoScene *jo_scene_load(const JoSceneDef *def, JoError *error) {
     return jox_run_load_told(def, NULL, NULL, error);
 }
 
-/* Whether both were made of the same files, byte by byte. */
-static bool same_files(const JoScene *a, const JoScene *b) {
-    bool same = a->spec->file_count == b->spec->file_count &&
-                a->world->model.machines.count == b->world->model.machines.count;
-    for (uint32_t f = 0; same && f < a->spec->file_count; f++)
-        same = strcmp(a->spec->files[f].sha256, b->spec->files[f].sha256) == 0;
-    for (uint32_t m = 0; same && m < a->world->model.machines.count; m++) {
-        uint32_t count, others;
-        const JoxLuaFile *files = jox_lua_files(a->lua, a->world->model.machines.items[m], &count);
-        const JoxLuaFile *other = jox_lua_files(b->lua, b->world->model.machines.items[m], &others);
-        same = count == others;
-        for (uint32_t f = 0; same && f < count; f++)
-            same = strcmp(files[f].sha256, other[f].sha256) == 0;
-    }
-    return same;
-}
-
-static bool begin_report(JoScene *scene, JoError *error) {
-    JOX_GUARD (scene->heap, error)
-        return false;
-    jox_run_collect_danger(scene);
-    return true;
-}
-
-JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError *error) {
-    JOX_REQUIRE(def && def->cookie == SCENE_COOKIE && scene, NULL);
-    if (scene->input_path || scene->acted_on) {
-        jox_error(error, JO_INPUT, "people acted on it in steps of its own length");
-        return NULL;
-    }
-    JoSceneDef half = *def;
-    half.has_dt = half.has_seed = true;
-    half.dt = scene->world->model.def.dt / 2;
-    half.seed = scene->world->model.def.seed;
-    half.message = to_nobody; /* all has been said once */
-    JoScene *other = scene->swap_seconds > 0.0 ? NULL : jo_scene_load(&half, error);
-    if (scene->swap_seconds > 0.0 || (other && !same_files(scene, other))) {
-        jox_error(error, JO_INPUT, "its files were edited meanwhile");
-        jo_scene_free(other);
-        return NULL;
-    }
-    if (!other || begin_report(other, error))
-        return other;
-    jo_scene_free(other);
-    return NULL;
-}
-
 static void free_scene(JoScene *scene) {
     jo_scene_finish(scene, NULL);
     jox_run_release_listeners(scene);
@@ -450,6 +425,8 @@ static void free_scene(JoScene *scene) {
     jox_input_free(&scene->input);
     jox_files_free(&scene->logged_files);
     jox_overlay_free(&scene->overlay);
+    jox_overlay_free(&scene->tape);
+    jox_text_free(&scene->resumed);
     jox_free(scene);
 }
 

@@ -25,6 +25,8 @@ typedef struct Recording {
     size_t borne_capacity;
 } Recording;
 
+static const JoxListenerKind RECORDING;
+
 /* Number of an agent's state in jostle_state. */
 static uint32_t state_number(const Recording *r, const JoxAgents *a, uint32_t i) {
     return a->machine[i] == JOX_NO_MACHINE ? UINT32_MAX : r->base[a->machine[i]] + a->state[i];
@@ -62,12 +64,26 @@ static void write_area(const JoScene *scene, JoxText *wkt) {
     jox_free(points);
 }
 
-static bool begin(void *self, JoScene *scene, const void *path, JoError *error) {
+/* Where a recording goes: a new one, or on with one that there is. */
+typedef struct Target {
+    const char *path;
+    bool goes_on;
+} Target;
+
+static bool begin(void *self, JoScene *scene, const void *options, JoError *error) {
     Recording *r = self;
+    const Target *target = options;
+    const char *path = target->path;
     JoxText wkt = {0}, why = {0};
-    write_area(scene, &wkt);
     double dt = scene->world->model.def.dt;
     r->every = dt >= FRAME ? 1 : (uint32_t)(FRAME / dt + 0.5);
+    if (target->goes_on) {
+        r->recorder =
+            jox_recorder_go_on(path, (uint32_t)(scene->world->state.tick / r->every), &why);
+        return r->recorder ? jox_run_take_up(scene, &RECORDING, self, error)
+                           : jox_run_failed(error, &why);
+    }
+    write_area(scene, &wkt);
     r->recorder = jox_recorder_open(path, 1.0 / (dt * r->every), wkt.data, &why);
     jox_text_free(&wkt);
     if (!r->recorder)
@@ -169,17 +185,47 @@ static void release(void *self) {
     jox_free(r->borne);
 }
 
+/* Who bears what since the last frame is nothing where there has just been one. */
+static bool is_whole(const void *self, const JoScene *scene) {
+    return scene->world->state.tick % ((const Recording *)self)->every == 0;
+}
+
+static bool settle(void *self, JoError *error) {
+    JoxText why = {0};
+    return jox_recorder_settle(((Recording *)self)->recorder, &why) || jox_run_failed(error, &why);
+}
+
+static void list_sections(void *self, JoxSections *s) {
+    Recording *r = self;
+    size_t shapes = r->shape_capacity;
+    JOX_SECTION(s, "base", r->base);
+    JOX_SECTION(s, "next", r->next);
+    JOX_SECTION_ARRAY(s, "shapes", r->shapes, shapes, r->shape_capacity);
+}
+
 static const JoxListenerKind RECORDING = {.name = "recording",
                                           .size = sizeof(Recording),
                                           .begin = begin,
                                           .frame = record_frame,
                                           .replaced = name_states,
+                                          .sections = list_sections,
+                                          .is_whole = is_whole,
+                                          .settle = settle,
                                           .end = end,
                                           .release = release};
 
-bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
-    JOX_REQUIRE(scene && path && !jox_run_listener(scene, &RECORDING), false);
+static bool record(JoScene *scene, const Target *target, JoError *error) {
     JOX_GUARD (scene->heap, error)
         return false;
-    return jox_run_listen(scene, &RECORDING, path, error) != NULL;
+    return jox_run_listen(scene, &RECORDING, target, error) != NULL;
+}
+
+bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
+    JOX_REQUIRE(scene && path && !jox_run_listener(scene, &RECORDING), false);
+    return record(scene, &(Target){path, false}, error);
+}
+
+bool jo_scene_record_on(JoScene *scene, const char *path, JoError *error) {
+    JOX_REQUIRE(scene && path && !jox_run_listener(scene, &RECORDING), false);
+    return record(scene, &(Target){path, true}, error);
 }

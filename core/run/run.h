@@ -51,11 +51,15 @@ struct JoScene {
     char input_sha256[65];
     FILE *log; /* input log that is written, or NULL */
     char *log_path;
+    uint64_t resumed_tick;
+    uint64_t log_length; /* bytes of it that a resumed run goes on behind */
     bool log_failed;
     bool acted_on;         /* by people, other than a log */
     JoxInputLog input;     /* as it was read, until there is a world */
     JoxFiles logged_files; /* whose texts stand in it */
-    JoxOverlay overlay;    /* texts of the log that is played */
+    JoxOverlay overlay;    /* texts of the log that is played, or of a checkpoint */
+    JoxText resumed; /* the checkpoint that it was resumed from, as its file has it; or empty */
+    JoxOverlay tape; /* all texts that it was loaded from, where it is resumable */
 };
 
 /* Sends formatted text to the scene's message function. */
@@ -157,7 +161,7 @@ void jox_run_give(JoScene *scene, int32_t machine, uint32_t group, const JoxGrou
 /* Takes over from a new specification of the scene what can change while it runs, and says what
    cannot. *spec is then the old one. */
 void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written);
-/* step.c: the area that pictures and recordings show. */
+/* area.c: the area that pictures and recordings show. */
 void jox_run_area(const JoScene *scene, JoxV2 *low, JoxV2 *high);
 /* Fills `error` with what could not be written, and frees the text. Returns false. */
 bool jox_run_failed(JoError *error, JoxText *why);
@@ -165,7 +169,10 @@ bool jox_run_failed(JoError *error, JoxText *why);
 typedef struct JoxRunFrame JoxRunFrame;
 const JoxFrame *jox_run_frame(JoScene *scene);
 void jox_run_free_frame(JoScene *scene);
-/* figures.c: attaches what collects figures, if it is not there yet, from here on; and what has
+/* figures.c: whether the step that was done is one of those that come every `interval` seconds, or
+   every step where that is longer. */
+bool jox_run_is_due(const JoScene *scene, double interval);
+/* Attaches what collects figures, if it is not there yet, from here on; and what has
    been collected so far, or NULL. Regions and probes: of scenes that have some. */
 void jox_run_collect_regions(JoScene *scene);
 void jox_run_collect_local(JoScene *scene);
@@ -179,12 +186,11 @@ const JoxLocal *jox_run_want_pressure(JoScene *scene);
 /* The greatest density of any place and sample, 1/m2: the figure density_max. */
 double jox_run_density_max(const JoScene *scene);
 const JoxDanger *jox_run_danger(const JoScene *scene);
-/* The same for who wanted to get on and yet came no farther than 0.25 m for the
-   longest; NULL while there was nobody. */
+/* The same for who wanted to get on and yet came no farther than 0.25 m for the longest. */
 typedef struct JoxStood {
     double seconds, until; /* s: how long, and when it ended or was last seen */
     JoxV2 at;              /* m */
-    uint32_t id;
+    uint32_t id;           /* JOX_NO_INDEX while there was nobody */
 } JoxStood;
 void jox_run_collect_standing(JoScene *scene);
 const JoxStood *jox_run_stood_longest(const JoScene *scene);

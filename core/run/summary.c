@@ -9,6 +9,7 @@
 #include "base/mem.h"
 #include "record/aggregate.h"
 #include "run/run.h"
+#include "simd/isa.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -271,6 +272,9 @@ static void add_run(JoxJson *json, const JoScene *scene, const JoStats *stats) {
     jox_json_number(json, "dt", stats->dt);
     jox_json_whole(json, "steps", stats->steps);
     jox_json_number(json, "simulated_s", stats->simulated_s);
+    if (scene->resumed.length) /* what probes and samples show is of the time since */
+        jox_json_number(json, "resumed_s",
+                        (double)scene->resumed_tick * scene->world->model.def.dt);
     jox_json_number(json, "wall_s", stats->wall_s);
     jox_json_number(json, "cpu_s", stats->cpu_s);
     jox_json_number(json, "steps_per_s",
@@ -316,7 +320,7 @@ char *jo_scene_summary(const JoScene *scene) {
     /* Without how often functions failed: what they did to the crowd, or did not. */
     jox_json_format(&json, "hash_without_hooks", "%016llx",
                     (unsigned long long)jox_world_hash_without(world, "hooks"));
-    jox_json_string(&json, "isa", "scalar");
+    jox_json_string(&json, "isa", jox_isa_name(world->model.def.isa));
     jox_json_whole(&json, "threads", jox_pool_threads(world->scratch.pool));
     add_inputs(&json, scene);
     jox_json_end(&json);

@@ -7,7 +7,8 @@
 #include "base/elementary.h"
 #include "scene/internal.h"
 
-enum { MOST_COPIES = 4096 }; /* of a body, and blocks of one */
+enum { MOST_COPIES = 4096 };        /* of a body, and blocks of one */
+static const double CLOSEST = 0.01; /* m between copies along an axis */
 static const double DEGREE = 3.14159265358979323846 / 180.0;
 
 void jox_key_turn(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
@@ -101,6 +102,18 @@ static void set_mass(const JoxReader *r, const JoxYaml *map, JoxLoadBody *load) 
     def->mass = each * def->shape.count[0] * def->shape.count[1] * def->shape.count[2];
 }
 
+/* Bodies in one place all touch each other: their contacts are as many as pairs, and have no sense.
+ */
+static bool is_lattice(const JoxReader *r, const JoxYaml *map, const JoxLoadBody *load) {
+    for (int i = 0; i < 3; i++)
+        if (load->copies[i] > 1 && fabs(load->distance[i]) < CLOSEST) {
+            jox_scene_error(r, jox_yaml_get(map, "repeat"), "bad-body", NULL,
+                            "copies of a body stand at least %g m apart along each axis", CLOSEST);
+            return false;
+        }
+    return true;
+}
+
 /* The body at each point of its lattice, x first. Copies of a named one are NAME-1, NAME-2, ... */
 static void add_copies(const JoxReader *r, const JoxLoadBody *load, uint32_t *room) {
     JoxSceneSpec *scene = r->load->scene;
@@ -143,6 +156,7 @@ void jox_key_bodies(const JoxReader *r, const JoxKey *key, const JoxYaml *list, 
         r->load->block_mass = NAN;
         if (jox_keys_fill(r, list->items[i], "body", &body))
             set_mass(r, list->items[i], &body);
-        add_copies(r, &body, &room);
+        if (is_lattice(r, list->items[i], &body))
+            add_copies(r, &body, &room);
     }
 }

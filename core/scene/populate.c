@@ -10,6 +10,8 @@
 #include "scene/internal.h"
 
 enum { MOST_AGENTS = 1000000 };
+static const float CLOSEST =
+    0.005f; /* m between those on a circle or a line, who are moved apart */
 
 /* The places that a group fills, or keeps out of: indices. */
 void jox_key_fills(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
@@ -28,6 +30,16 @@ void jox_key_fills(const JoxReader *r, const JoxKey *key, const JoxYaml *node, v
     *JOX_MEMBER(uint32_t, item, key->counter) = n;
 }
 
+/* Whether all of a group stand along a way of so many metres; else an error. */
+static bool fit_along(const JoxReader *r, const JoxYaml *map, const JoxGroup *group, float way) {
+    const bool fit = (float)(group->count - 1) * CLOSEST <= way;
+    if (!fit)
+        jox_scene_error(r, map, "too-many", "Lower count, or widen the place",
+                        "%u agents on %.3g m stand less than %g m apart", group->count, (double)way,
+                        (double)CLOSEST);
+    return fit;
+}
+
 static void circle(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
     const JoxPlace *place =
         r->load->fill.in_count == 1 ? &r->load->scene->places[r->load->fill.in[0]] : NULL;
@@ -36,6 +48,8 @@ static void circle(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
                         "a circle is filled about one point");
         return;
     }
+    if (!fit_along(r, map, group, 6.2831853f * place->radius))
+        return;
     group->centre = place->centre;
     group->positions = jox_arena_take(r->arena, group->count, sizeof *group->positions);
     for (uint32_t i = 0; i < group->count; i++) {
@@ -56,6 +70,8 @@ static void line(const JoxReader *r, const JoxYaml *map, JoxGroup *group) {
         return;
     }
     JoxV2 from = place->points[0], way = jox_sub(place->points[1], from);
+    if (!fit_along(r, map, group, jox_length(way)))
+        return;
     group->positions = jox_arena_take(r->arena, group->count, sizeof *group->positions);
     for (uint32_t i = 0; i < group->count; i++)
         group->positions[i] =

@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 
 #include "base/assert.h"
+#include "base/file.h"
+#include "base/format/path.h"
 #include "base/hash.h"
 #include "base/mem.h"
 #include "scene/internal.h"
@@ -33,6 +35,11 @@ static bool load_file(JoxLoad *l, const JoxLoadWall *wall) {
     options.origin_x = wall->origin[0], options.origin_y = wall->origin[1];
     size_t length = 0;
     bool allowed = is_allowed(l, name, path);
+    if (allowed && jox_path_is_foreign(name->position.file, path)) {
+        jox_scene_error(r, name, "unreadable-file", "Copy it beside the scene",
+                        "'%.200s' lies outside the folder of %.200s", path, name->position.file);
+        return false;
+    }
     char *data = allowed ? jox_read_file(path, LARGEST_FILE, &length) : NULL;
     if (!data || l->files->count == sizeof l->files->items / sizeof *l->files->items) {
         jox_scene_error(r, name, "unreadable-file",
@@ -42,7 +49,7 @@ static bool load_file(JoxLoad *l, const JoxLoadWall *wall) {
                         data             ? "too many files"
                         : !allowed       ? "a mod may not"
                         : errno == EFBIG ? "it is over 64 MB"
-                                         : strerror(errno));
+                                         : jox_file_why(errno));
         jox_free(data);
         return false;
     }

@@ -47,7 +47,8 @@ static char *read_beside(lua_State *L, const char *folder, const char *name, siz
     return text;
 }
 
-/* csv(name): { column = { values } } by the names before " [unit]", and their number in `n`. */
+/* csv(name): { column = { values } } by the names before " [unit]", and their number in `n`. Values
+   that are no numbers are texts. */
 static int word_csv(lua_State *L) {
     const char *folder = lua_tostring(L, lua_upvalueindex(1));
     char file[256];
@@ -77,11 +78,14 @@ static int word_csv(lua_State *L) {
         for (int c = 0; c < columns && (c == 0 || *at == ','); c++) {
             char *end = ++at; /* strtod would pass over an empty value into the next line */
             double value = strchr(",\n", *at) ? 0.0 : strtod(at, &end);
-            if (end != at) {
+            const size_t size = strcspn(at, ",\n");
+            if (size > 0 && end == at + size)
                 lua_pushnumber(L, value);
+            else if (size > 0)
+                lua_pushlstring(L, at, size);
+            if (size > 0)
                 lua_rawseti(L, table + 1 + c, row);
-            }
-            at += strcspn(at, ",\n");
+            at += size;
         }
         at += strcspn(at, "\n");
     }

@@ -154,7 +154,7 @@ static void end(JoxJob *job, int status) {
     job->process = 0;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
         char *path = path_in(job, "run.txt");
-        FILE *file = jox_file_open(path, "w");
+        FILE *file = jox_file_replace(path);
         if (file) {
             fputs(job->key, file);
             jox_file_close(file);

@@ -80,6 +80,7 @@ struct JoxView {
     JoxClient *connected[JOX_VIEW_CLIENTS];
     uint32_t next_id;
     char token[33];
+    char pass[33]; /* in the cookie: for the page's own files, and nothing else */
     int port;
     bool any_host; /* an address was given: requests may name it as they like */
     char page[4096], three[4096];

@@ -30,29 +30,33 @@ static bool header(struct lws *wsi, enum lws_token_indexes token, char *out, siz
     return n > 0 && (size_t)n < size && lws_hdr_copy(wsi, out, (int)size, token) == n;
 }
 
-/* Whether the request has the token: in its query, or (*remembered) in the page's cookie. */
-static bool has_token(const JoxView *view, struct lws *wsi, bool *remembered) {
+/* Whether the request has the token in its query or, for a file, the pass in the page's cookie
+   (*remembered). Browsers send cookies of 127.0.0.1 to whatever serves there, so that the cookie
+   opens no socket. */
+static bool has_token(const JoxView *view, struct lws *wsi, bool socket, bool *remembered) {
     char given[80], name[32], cookies[2048];
     *remembered = false;
     const char *asked = lws_get_urlarg_by_name(wsi, "token=", given, sizeof given);
     if (asked)
         return jox_access_same(asked, view->token);
+    if (socket)
+        return false;
     snprintf(name, sizeof name, "jostle_%d", view->port);
     *remembered = header(wsi, WSI_TOKEN_HTTP_COOKIE, cookies, sizeof cookies) &&
                   jox_access_cookie(cookies, name, given, sizeof given) &&
-                  jox_access_same(given, view->token);
+                  jox_access_same(given, view->pass);
     return *remembered;
 }
 
 /* Why a request is refused, or NULL. */
-static const char *find_fault(const JoxView *view, struct lws *wsi, char host[256],
+static const char *find_fault(const JoxView *view, struct lws *wsi, bool socket, char host[256],
                               bool *remembered) {
     if (!header(wsi, WSI_TOKEN_HOST, host, 256) || !jox_access_host_is_clean(host))
         return "This request does not say which host it asks.\n";
     if (!view->any_host && !jox_access_host(host, view->port))
         return "Jostle answers at 127.0.0.1 and localhost only; --view-address ADDRESS changes "
                "that.\n";
-    if (!has_token(view, wsi, remembered))
+    if (!has_token(view, wsi, socket, remembered))
         return "This is a live page of Jostle. Open the whole address that 'jostle run --view' "
                "printed, with its token.\n";
     return NULL;
@@ -63,7 +67,7 @@ int jox_http_upgrade(JoxView *view, struct lws *wsi, const char *to) {
     bool remembered;
     if (strcasecmp(to, "websocket") != 0)
         return -1;
-    const char *fault = find_fault(view, wsi, host, &remembered);
+    const char *fault = find_fault(view, wsi, true, host, &remembered);
     if (!fault &&
         (!header(wsi, WSI_TOKEN_ORIGIN, origin, sizeof origin) || !jox_access_origin(origin, host)))
         fault = "This socket is for the page of the same address.\n";
@@ -89,7 +93,7 @@ static int more_headers(const JoxView *view, const char *host, bool cookie, char
     if (cookie)
         n += snprintf(out + n, size - (size_t)n,
                       "set-cookie: jostle_%d=%s; Path=/; SameSite=Strict; HttpOnly\r\n", view->port,
-                      view->token);
+                      view->pass);
     return n;
 }
 
@@ -101,7 +105,7 @@ int jox_http_answer(JoxView *view, struct lws *wsi, const char *path) {
         refuse(wsi, NO_METHOD, "Only GET is answered.\n");
         return -1; /* with whatever else it sends */
     }
-    const char *fault = find_fault(view, wsi, host, &remembered);
+    const char *fault = find_fault(view, wsi, false, host, &remembered);
     const char *name = strcmp(path, "/") == 0 ? "/index.html" : path;
     bool three = strncmp(name, "/three/", 7) == 0;
     const char *type = jox_access_type(name);

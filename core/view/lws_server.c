@@ -274,7 +274,7 @@ JoxView *jox_view_open(const JoxViewOptions *options, JoxText *why) {
     view->any_host = options->address != NULL;
     snprintf(view->page, sizeof view->page, "%s", options->page);
     snprintf(view->three, sizeof view->three, "%s", options->three);
-    bool good = jox_access_token(view->token) && view->wake >= 0;
+    bool good = jox_access_token(view->token) && jox_access_token(view->pass) && view->wake >= 0;
     if (!good)
         jox_text_add(why, "the system has no random numbers or no file descriptors left");
     good = good && find_port(view, options, address, why);

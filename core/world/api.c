@@ -8,6 +8,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
+#include "simd/isa.h"
 #include "world/world.h"
 
 enum { WORLD_COOKIE = 0x4a4f5744, AGENT_COOKIE = 0x4a4f4147, BODY_COOKIE = 0x4a4f424f };
@@ -44,6 +45,23 @@ JoWorldDef jo_default_world_def(void) {
                         .cookie = WORLD_COOKIE};
 }
 
+static bool isa_runs(JoIsa isa, const char *name, JoError *error) {
+    char all[80];
+    if (isa == JO_ISA_WIDEST ? !name : jox_isa_runs(isa))
+        return true;
+    jox_isa_list(all, sizeof all);
+    jox_error(error, JO_INPUT, "%s '%.60s'; it runs %s",
+              isa == JO_ISA_WIDEST ? "there are no kernels for" : "this machine does not run",
+              name ? name : jox_isa_name(isa), all);
+    return false;
+}
+
+bool jo_isa_find(const char *name, JoIsa *isa, JoError *error) {
+    JOX_REQUIRE(name && isa, false);
+    *isa = jox_isa_named(name);
+    return isa_runs(*isa, name, error);
+}
+
 static JoWorld *create_in(JoxHeap *heap, const JoWorldDef *def, JoError *error) {
     JOX_GUARD (heap, error)
         return NULL;
@@ -54,7 +72,8 @@ JoWorld *jo_world_create(const JoWorldDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == WORLD_COOKIE, NULL);
     if (!within("dt", "s", def->dt, 0.001, 0.2, error) ||
         !within("threads", "threads", def->threads, 1, 64, error) ||
-        !within("gravity", "m/s2", def->gravity, -100, 100, error))
+        !within("gravity", "m/s2", def->gravity, -100, 100, error) ||
+        !isa_runs(def->isa, NULL, error))
         return NULL;
     JoxHeap *heap = jox_heap_create();
     if (!heap) {

@@ -106,6 +106,7 @@ void jox_world_agents_check(const JoWorld *w) {
         JOX_ASSERT(names_one(a->goal[i], w->model.place_count));
         JOX_ASSERT(names_one(a->queue_at[i], w->model.place_count));
         JOX_ASSERT(names_one(a->kicked[i], bodies) && names_one(a->approach[i], bodies));
+        JOX_ASSERT(names_one(a->struck[i], bodies));
         JOX_ASSERT(a->param[JOX_PARAM_radius][i] > 0.0f && a->param[JOX_PARAM_mass][i] > 0.0f);
         JOX_ASSERT(jox_is_unit(jox_v2(a->face_x[i], a->face_y[i])));
         check_machine(w, i);

@@ -34,7 +34,9 @@
     X(LANES, lanes, TABLE, "every", "order:   {lanes: {area: [[-2, -2], [4, 2]]}}",                 \
       "order parameter of lanes between opposite ways")                                             \
     X(VISIT, visit, STATES, "", "arrival: {visit: [Run, Arrived]}",                                 \
-      "two states: the time that people take from entering the first to entering the second, and whether they keep their order")
+      "two states: the time that people take from entering the first to entering the second, and whether they keep their order") \
+    X(LOG, log, FLAG, "", "actions: {log: true}",                                                    \
+      "true: each time that somebody enters a state, kicks or throws a body, or is hit by one, and how both stood when the step began")
 /* clang-format on */
 
 typedef enum JoxProbeKind {

@@ -6,18 +6,22 @@
 #include "base/assert.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "simd/isa.h"
 
 JoWorld *jox_world_create(const JoWorldDef *def) {
     JoWorld *world = jox_alloc(1, sizeof *world);
     world->model.def = *def;
+    world->model.def.isa = jox_isa_resolve(def->isa);
     world->model.walking = jox_walk_law();
     world->heap = jox_heap_used();
     world->scratch.pool = jox_pool_create(def->threads);
-    world->scratch.nav = jox_nav_create();
+    world->scratch.nav = jox_nav_create(&world->model.walking);
     jox_nav_set_literal(world->scratch.nav, def->literal);
+    jox_nav_set_isa(world->scratch.nav, world->model.def.isa);
     JoxForceOptions options = jox_force_default_options();
     options.literal = def->literal;
     world->scratch.forces = jox_forces_create(&options);
+    jox_forces_set_isa(world->scratch.forces, world->model.def.isa);
     JoxBodiesDef bodies = jox_bodies_def();
     bodies.gravity = def->gravity;
     world->state.bodies = jox_bodies_create(&bodies);
@@ -36,7 +40,6 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
 void jox_world_set_walking(JoWorld *world, const JoxWalkLaw *law) {
     JOX_ASSERT(world->state.tick == 0);
     world->model.walking = *law;
-    jox_nav_set_walk(world->scratch.nav, law);
 }
 
 static void free_places(JoWorld *world) {

@@ -23,8 +23,8 @@ local runs, quick, expect, measured = {}, {}, {}, {}
 for i = 1, #widths do
   local b, people = table.unpack(widths[i])
   runs[name(b)], quick[name(b)] = run(b, people), { seeds = 1 }
-  expect[i] = { name(b), unit = "1/s", what = string.format("people through %.1f m per second, the middle 60 %%", b),
-    source = string.format("%.2f", law(b)), band = measure.about(law(b), 0.15) }
+  expect[i] = measure.expected(name(b), "1/s", string.format("people through %.1f m per second, the middle 60 %%", b),
+    law(b), 0.15)
   measured[i] = { b, name(b) }
 end
 expect[#expect + 1] = { "rms", what = "relative deviation from the line, root of the mean square over the widths",

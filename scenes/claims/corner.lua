@@ -1,5 +1,4 @@
 local measure = require "measure"
-local about = measure.about
 
 -- Probe, what it is of, density there, 1/m2, and speed, m/s.
 local areas = {
@@ -9,15 +8,12 @@ local areas = {
 }
 
 local expect = {
-  { "flow", unit = "1/s", what = "people round the bend per second, the middle 60 %", source = "3.18",
-    band = about(3.18, 0.15) },
+  measure.expected("flow", "1/s", "people round the bend per second, the middle 60 %", 3.18, 0.15),
 }
 for i = 1, #areas do
   local probe, where, density, speed = table.unpack(areas[i])
-  expect[#expect + 1] = { "density " .. probe, unit = "1/m2", what = "density " .. where,
-    source = string.format("%.2f", density), band = about(density, 0.25) }
-  expect[#expect + 1] = { "speed " .. probe, unit = "m/s", what = "speed there", source = string.format("%.2f", speed),
-    band = about(speed, 0.25) }
+  expect[#expect + 1] = measure.expected("density " .. probe, "1/m2", "density " .. where, density, 0.25)
+  expect[#expect + 1] = measure.expected("speed " .. probe, "m/s", "speed there", speed, 0.25)
 end
 
 return claim {

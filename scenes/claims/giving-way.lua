@@ -17,6 +17,8 @@ return claim {
   source = "Kim et al. 2014, equations 3 and 4",
   text = "Twelve people walk towards objects that stand in their way, twelve towards others who come from ahead. "
     .. "How far each steps aside, as a share of how far one of the two must. A step of 0.1 s is cut into two.",
+  level = "normal",
+  held_out = "no constant was chosen on what this measures",
   runs = {
     way = { scene = "../giving-way.yaml", seeds = 1 }, fine = { scene = "../giving-way.yaml", dt = 0.01, seeds = 1 },
     coarse = { scene = "../giving-way.yaml", dt = 0.1, seeds = 1 },

@@ -14,8 +14,8 @@ for i = 1, #densities do
   runs[name] = { scene = "../rimea-04.yaml", seeds = "101-110",
     set = { ["groups.people.count"] = math.floor(d * area + 0.5) } }
   quick[name] = { seeds = 1 }
-  expect[i] = { name, unit = "m/s", what = string.format("mean speed at %g people per square metre", d),
-    source = string.format("%.2f", weidmann(d)), band = measure.about(weidmann(d), 0.35) }
+  expect[i] = measure.expected(name, "m/s", string.format("mean speed at %g people per square metre", d),
+    weidmann(d), 0.35)
   measured[i] = { d, name }
 end
 expect[#expect + 1] = { "rises", source = "0", band = { 0, 0 },

@@ -1,5 +1,4 @@
 local measure = require "measure"
-local about = measure.about
 
 -- Density in the ring, 1/m2, and mean speed there, m/s.
 local points = {
@@ -15,8 +14,8 @@ for i = 1, #points do
   runs[name] = { scene = "../ring.yaml", seeds = "101-110",
     set = { ["groups.people.count"] = math.floor(density * area + 0.5) } }
   quick[name] = { seeds = 1 }
-  expect[i] = { name, unit = "m/s", what = string.format("mean speed at %.2f people per square metre", density),
-    source = string.format("%.2f", speed), band = about(speed, 0.25) }
+  expect[i] = measure.expected(name, "m/s",
+    string.format("mean speed at %.2f people per square metre", density), speed, 0.25)
   measured[i] = { density, name }
 end
 

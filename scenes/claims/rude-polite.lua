@@ -9,6 +9,9 @@ return claim {
   text = "One walks through a crowd that stands loosely. Who looks a short way ahead and pushes hard is fast and "
     .. "moves others; who looks far and pushes little is slow and leaves them where they are. Five steps, from rude "
     .. "to polite; each has to go the same way.",
+  level = "normal",
+  held_out = "no constant of the engine or of a behaviour was chosen on it; the five steps of perception and push are "
+    .. "the claim's own",
   runs = {
     s1 = run(1, 240), s2 = run(2, 120), s3 = run(3, 60), s4 = run(4, 30), s5 = run(6, 15),
   },

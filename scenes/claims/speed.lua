@@ -3,15 +3,20 @@ local function frames(run) return run.summary.steps / run.summary.cpu_s end
 -- How much faster than the clock on the wall, stepping alone.
 local function pace(run) return run.summary.simulated_s / run.summary.cpu_s end
 
-local function run(scene, duration) return { scene = "../" .. scene .. ".yaml", duration = duration, seeds = 1 } end
+local function run(scene, duration, set)
+  return { scene = "../" .. scene .. ".yaml", duration = duration, set = set, seeds = 1 }
+end
 
 return claim {
   id = "13", title = "Faster than the paper, and than real time",
   source = "Kim et al. 2014, Table 2: frames a second on one core of a 3.4 GHz i7",
   text = "Steps a second on one core, and how much faster than real time. On a processor that is shared, with "
     .. "others at work, these are lower bounds.",
+  level = "normal",
+  held_out = "figures of speed: no constant was chosen on what people do here",
   runs = {
-    bottlenecks = run("two-bottlenecks", 30), wall = run("wall-breaking", 20), office = run("office", 20),
+    bottlenecks = run("two-bottlenecks", 30), wall = run("wall-breaking", 20),
+    office = run("office", 20, { ["groups.people.count"] = 1200 }),
     balls = run("dodgeball-500", 20), tawaf = run("tawaf", 20),
   },
   quick = { tawaf = { duration = 10 } },
@@ -25,7 +30,7 @@ return claim {
   expect = {
     { "bottlenecks", unit = "1/s", what = "two bottlenecks, 1000 agents", source = "829.7", band = { 829.7 } },
     { "wall", unit = "1/s", what = "wall breaking, 1200 agents, 200 blocks", source = "50.1", band = { 50.1 } },
-    { "office", unit = "1/s", what = "office, 1200 agents, 65 bodies", source = "69.0", band = { 69 } },
+    { "office", unit = "1/s", what = "office, 1200 agents at the start, 65 bodies", source = "69.0", band = { 69 } },
     { "balls", unit = "1/s", what = "dodge ball, 500 balls", source = "90.9", band = { 90.9 } },
     { "tawaf", unit = "1/s", what = "Tawaf, 35,000 agents", source = "5.7", band = { 5.7 } },
     { "slowest", what = "the slowest of them, times faster than real time", source = "-", band = { 1 } },

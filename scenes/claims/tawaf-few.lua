@@ -1,3 +1,5 @@
+local measure = require "measure"
+
 -- Turns of those who came in during the run and left before its end.
 local function turns_of(turns, seconds)
   local done, fewer, more, clockwise = 0, 0, 0, 0
@@ -17,6 +19,7 @@ return claim {
   source = "Kim et al. 2014, Fig. 11",
   text = "Two thousand pilgrims for half an hour. Whoever came in during the run and has left made seven circuits "
     .. "from the line on, and the way to it and out again; nobody went round clockwise.",
+  calibrated = measure.tawaf,
   runs = {
     few = { scene = "../tawaf-few.yaml", seeds = 1, first = true },
     tawaf = { scene = "../tawaf.yaml", seeds = 3, first = true,

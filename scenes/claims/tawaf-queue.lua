@@ -1,8 +1,11 @@
+local measure = require "measure"
+
 return claim {
   id = "9", title = "The queue to the Black Stone moves because it pushes",
   source = "Kim et al. 2014, Fig. 13",
   text = "Those who queue push those in their way, and are served in the order in which they came. Without forces "
     .. "the stream around the Kaaba sweeps the queue away and hardly anybody gets to the stone.",
+  calibrated = measure.tawaf,
   runs = {
     full = { scene = "../tawaf.yaml", seeds = 3, first = true,
       set = { ["heatmap.from"] = 300, ["probes.fields.from"] = 300 } },

@@ -1,8 +1,11 @@
+local measure = require "measure"
+
 return claim {
   id = "6-7-without", title = "The Tawaf without forces: the same trend",
   source = "Kim et al. 2014, section 5",
   text = "The same pilgrims, who only avoid each other. Speeds by region fall in the same way towards and past the "
     .. "start line.",
+  held_out = measure.tawaf,
   runs = { without = { scene = "../tawaf.yaml", seeds = 1, first = true,
     set = { ["forces.enabled"] = false, ["heatmap.from"] = 300, ["probes.fields.from"] = 300 } } },
   quick = false,

@@ -29,6 +29,7 @@ return claim {
   source = "Kim et al. 2014, Figs. 11, 12 and 14; regions after Koshak and Fouda 2008",
   text = "35,000 pilgrims circle the Kaaba for ten minutes; the last five are measured. The region past the start "
     .. "line is the slowest, the one before it the second.",
+  calibrated = measure.tawaf,
   runs = { tawaf = { scene = "../tawaf.yaml", seeds = 3, first = true,
     set = { ["heatmap.from"] = 300, ["probes.fields.from"] = 300 } } },
   quick = { tawaf = { seeds = 1, duration = 100, set = { ["heatmap.from"] = 60, ["probes.fields.from"] = 60 } } },

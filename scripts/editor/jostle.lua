@@ -160,7 +160,7 @@ lasted = nil
 ---@return jostle.Condition
 function stuck(a1) end
 
---- `hit_by(target)`: a target faster than 1 m/s touches the agent
+--- `hit_by(target)`: a target faster than 1 m/s touches the agent, or hit it in the last step
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Condition
 function hit_by(a1) end

@@ -63,6 +63,29 @@ test("who defends keeps away from the ball", function()
   truthy(red.x < -5.5, "red runs from the ball on the other side")
 end)
 
+test("who defends and is hit by a ball that flies has a point against it, and stands for a second", function()
+  local thrown = court({ 1, 0, 1.2 })
+  thrown.bodies[1].velocity = { 9, 0, 0 }
+  local s = scene(thrown)
+  s:reaches("Hit", { agents = "blue", within = 0.8 })
+  equal(s:agents("blue")[1].hits, 1)
+  for _ = 1, 9 do
+    s:run(0.1)
+    equal(s:agents("blue")[1].state, "Hit")
+  end
+  s:run(0.15)
+  truthy(s:agents("blue")[1].state ~= "Hit", "the game goes on")
+  equal(s:agents("blue")[1].hits, 1)
+  equal(s:agents("red")[1].hits, 0)
+end)
+
+test("a ball that touches slowly is no hit", function()
+  local rolled = court({ 3, 0.3, 0.11 })
+  rolled.bodies[1].velocity = { 0.9, 0, 0 }
+  rolled.groups.blue.set.speed = 0
+  scene(rolled):never("Hit", { agents = "blue", during = 3 })
+end)
+
 test("nobody is faster than max_speed, and nobody leaves the court", function()
   local s = scene(court({ -3, 1, 0.11 }))
   for _ = 1, 20 do

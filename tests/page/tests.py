@@ -57,7 +57,7 @@ def loads(browser):
     # A picture is drawn before its pixels are read, in one go: the browser keeps none.
     seen, total = browser.run(COLOURED, True)
     without, _ = browser.run(COLOURED, False)
-    expect(total > 100, f"only {total} people are in the picture")
+    expect(total > 50, f"only {total} people are in the picture")
     expect(seen > 0.8 * total, f"colour on the spot of {seen} of {total} people")
     expect(without < 0.25 * total, f"colour on the spot of {without} of {total} people who are hidden")
     browser.run("page.view.turnBy(0, -0.15, 2.6)")
@@ -121,6 +121,15 @@ def start_stopped(browser):
     expect(browser.run("return page.crowd.next.tick") == 0, "the time was not stopped at once")
 
 
+def settle(browser, tool):
+    """Chooses a tool and waits until the page, which it lays out anew, has the picture in its place."""
+    browser.button(tool).click()
+    spot = last = None
+    while spot is None or spot != last:
+        time.sleep(0.3)
+        spot, last = browser.run("return page.view.project(0, 0, 0)"), spot
+
+
 def draw(browser, tool, start, end, hold):
     """Presses at one place of the scene (x, y, z in m), draws to another, holds `hold` s, lets go."""
     browser.button(tool).click()
@@ -162,12 +171,14 @@ def throws(browser):
 @served("run", "scenes/office.yaml", "--view")
 def pulls(browser):
     """a desk is dragged along, a person is pushed by as many newtons as are drawn"""
+    settle(browser, "Drag")
     desk = browser.run("return page.crowd.bodyPosition(0)")
     for _ in draw(browser, "Drag", desk, (desk[0] + 4, desk[1] + 2.5, desk[2]), 4):
         pass
     now = browser.run("return page.crowd.bodyPosition(0)")
     gone = ((now[0] - desk[0]) ** 2 + (now[1] - desk[1]) ** 2) ** 0.5
     expect(gone > 1, f"the desk was dragged by {gone:.2f} m")
+    settle(browser, "Push")
     # Somebody at the far wall, where nobody is in front.
     slot, *at = browser.run("""
         let best = null;
@@ -403,7 +414,7 @@ def replays(browser):
         bar.send_keys(Keys.HOME)
         browser.run("page.replay.seek(8)")
         browser.wait("return Math.abs(page.crowd.next.time - 8) < 0.6", "no seek to 8 s")
-        expect(browser.run("return page.crowd.next.slots") >= 1000, "people are missing")
+        expect(browser.run("return page.crowd.next.slots") >= 240, "people are missing")
         browser.run("page.inspect([...Array(page.crowd.next.slots).keys()].find((s) => page.crowd.alive(s)))")
         browser.wait("return /state/.test(document.getElementById('page-agent').textContent)", "nothing is said of a person")
         browser.picture("replay")

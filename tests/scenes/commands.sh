@@ -50,8 +50,12 @@ expect "view: a scene is no recording" 3 "scenes/circle.yaml" "$JOSTLE" view sce
 expect "view: missing scene" 3 "no-such.yaml" "$JOSTLE" view no-such.sqlite --scene no-such.yaml
 expect "view: bad option" 2 "Did you mean --scene" "$JOSTLE" view x.sqlite --scen y
 expect "bench" 0 "running-through" "$JOSTLE" bench scenes/running-through.yaml --steps 10 --warm-up 5
+"$JOSTLE" bench scale-1k --isa scalar,sse2 --rounds 3 --steps 3 --warm-up 1 --json >"$work/bench.json" 2>/dev/null
+[ "$(grep -c '"agents": 1000,' "$work/bench.json")" = 2 ] && [ "$(grep -c '"rounds": 3,' "$work/bench.json")" = 2 ]; verdict "bench: a name, two instruction sets, three rounds" $?
+expect "bench: no such set" 2 "scalar" "$JOSTLE" bench circle --isa scalar,none
 "$JOSTLE" run scenes/running-through.yaml --quiet --seeds 3 --for 2 --summary "$work/seeds.json"
 (root=$PWD; cd "$work" && "$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$root/$JOSTLE" ;; esac)" run "$root/scenes/running-through.yaml" --quiet --for 2 --report some/where >/dev/null 2>&1)
+"$JOSTLE" run scenes/running-through.yaml --quiet --no-half-step --for 2 --report "$work/made/report" --summary "$work/made/summary.json" >/dev/null 2>&1 && [ -s "$work/made/summary.json" ]; verdict "a summary beside a report, in a folder that is new" $?
 [ -s "$work/some/where/density.png" ]; verdict "a report into a folder that is new and relative" $?
 grep -q '"runs": 3' "$work/seeds.json" && grep -q '"lp_failure_share": {"mean"' "$work/seeds.json"; verdict "several seeds" $?
 grep -q '^  "seed": \[1, 2, 3\],*$' "$work/seeds.json" && grep -q '^  "dt": 0.0[0-9]*,*$' "$work/seeds.json" && ! grep -q '"\(seed\|dt\|threads\)": {"mean"' "$work/seeds.json"; verdict "what is no figure is given, not averaged" $?

@@ -16,9 +16,9 @@ begin() { # ARGS...: runs $dir/scene.yaml until `end`; what it says goes to $sai
         sleep 0.05
     done
 }
-end() { # NAME: interrupts the run, which must end well
+end() { # NAME: interrupts the run, which must end well, with the status of that
     kill -INT $pid
-    wait $pid; verdict "$1" $?
+    wait $pid; [ $? = 130 ]; verdict "$1" $?
     pid=
 }
 trap '[ -z "$pid" ] || kill -KILL $pid; rm -rf "$work"' EXIT

@@ -218,4 +218,18 @@ verdict "nor when it is killed itself" $alive
 [ "$(grep -c '^[^ ]' "$work/out")" = "$(ls scenes/claims/*.lua | wc -l)" ]; verdict "and each is listed" $?
 [ -z "$(cut -d' ' -f1 "$work/out" | sort | uniq -d)" ]; verdict "under an id of its own" $?
 expect "claims that take a moment" 0 "4 of 4 claims in band" "$JOSTLE" reproduce R1 14 15 R7 --quick --out "$work/shipped" --quiet
+
+# ---- claim 5 judges the game, not the machine: who attacks balls of the other court, or is not hit by what hits it ----
+mkdir -p "$work/game/scenes/claims"
+cp -r behaviours "$work/game/"
+cp scenes/dodgeball* "$work/game/scenes/"
+sed -e 's/seeds = 1, duration = 30 }/seeds = 1, duration = 3 }/' -e 's/seeds = 3 }/seeds = 1, duration = 3 }/' scenes/claims/dodgeball.lua >"$work/game/scenes/claims/dodgeball.lua"
+game() { "$JOSTLE" reproduce 5 --claims "$work/game/scenes/claims" --out "$work/game/out" --seeds 101 --quiet; }
+foul() { # NAME FIGURE FROM TO: the behaviour with FROM made TO; the figure is then out of its band
+    sed "s/$3/$4/" behaviours/dodgeball.lua >"$work/game/behaviours/dodgeball.lua"
+    ! cmp -s behaviours/dodgeball.lua "$work/game/behaviours/dodgeball.lua" && game >"$work/out" 2>&1
+    grep -qE "^ +$2 .*: OUT" "$work/out"; verdict "$1" $?
+}
+foul "who attacks what lies in the other court breaks the rules" broken '& inside(ball, own.court)$' ''
+foul "who is hit without a point is missed" missed ' & after(0.3)' ' \& after(9)'
 exit 0

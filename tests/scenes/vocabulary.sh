@@ -3,7 +3,7 @@
 for file in tests/lua/*.lua; do
     case $file in *_test.lua) continue ;; esac # those are run by jostle test
     name=$(basename "$file" .lua)
-    cp "$file" "$work/"
+    cp -R "$file" tests/lua/parts "$work/"
     cat >"$work/scene.yaml" <<END
 jostle: 1
 places:

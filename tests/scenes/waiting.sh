@@ -36,7 +36,7 @@ walls:
 groups:
   one: {behaviour: pedestrian.lua, at: [[0, 0]], set: {goal: there, home: here}}
 END
-between "who stands in a blind alley is told of" "$(stood "$work/wall.yaml" 90)" 45 90
+between "who stands in a blind alley is told of" "$(stood "$work/wall.yaml" 90)" 12 90 # who turns about in it starts anew
 cat >"$work/held.yaml" <<'END'
 jostle: 1
 duration: 90

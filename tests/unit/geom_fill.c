@@ -10,6 +10,8 @@
 
 #include "base/mem.h"
 #include "geom/fill.h"
+#include "geom/polygon.h"
+#include "geom/wall_grid.h"
 
 static void counts_and_spacing_are_kept(void **state) {
     (void)state;
@@ -159,8 +161,47 @@ static void a_spacing_that_does_not_fit_leaves_some_out(void **state) {
     jox_free(p);
 }
 
+/* The edges at a point's height tell the same of it as all edges do. */
+static void a_point_is_in_an_area_as_all_its_edges_have_it(void **state) {
+    (void)state;
+    enum { CORNERS = 60 };
+    JoxV2 corners[CORNERS];
+    for (int k = 0; k < CORNERS; k++) { /* a star whose rays reach 4 and 10 m */
+        const double angle = 6.283185307179586 * k / CORNERS;
+        corners[k] = jox_scale(jox_v2((float)cos(angle), (float)sin(angle)), k % 2 ? 4 : 10);
+    }
+    JoxPlace star = {.kind = JOX_PLACE_POLYGON, .points = corners, .count = CORNERS, .start = -1};
+    JoxWalls walls = {0};
+    const JoxV2 pillar[] = {{1, 1}, {3, 1.5f}, {2, 4}}, line[] = {{-5, -5}, {0, 2}, {0, 7}};
+    jox_walls_add_solid(&walls, pillar, 3, INFINITY);
+    jox_walls_add_polyline(&walls, line, 3, false, INFINITY);
+    const uint32_t in = 0;
+    const JoxArea area = {
+        .places = &star, .in = &in, .in_count = 1, .walls = &walls, .clear = 0.3f};
+    JoxAreaIndex *index = jox_area_index(&area);
+    uint32_t inside = 0, outside = 0;
+    for (int y = -110; y <= 110; y++)
+        for (int x = -110; x <= 110; x++) {
+            const JoxV2 p = {0.1f * (float)x, 0.1f * (float)y};
+            bool is = jox_polygon_contains(corners, CORNERS, p) && !jox_walls_contain(&walls, p);
+            for (uint32_t v = 0; v < walls.count && is; v++) {
+                const JoxWallVertex *from = &walls.vertices[v];
+                const JoxV2 near =
+                    jox_segment_nearest(from->point, walls.vertices[from->next].point, p);
+                is = jox_length2(jox_sub(p, near)) >= 0.3f * 0.3f;
+            }
+            assert_int_equal(jox_area_contains(index, p), is);
+            inside += is;
+            outside += !is;
+        }
+    assert_true(inside > 5000 && outside > 5000);
+    jox_area_index_free(index);
+    jox_walls_free(&walls);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_point_is_in_an_area_as_all_its_edges_have_it),
         cmocka_unit_test(counts_and_spacing_are_kept),
         cmocka_unit_test(random_is_uniform_along_both_axes),
         cmocka_unit_test(random_keeps_from_others_and_across_joined_ends),

@@ -44,6 +44,7 @@ static inline const float *agent_column(const JoWorld *w, const char *name) {
 #define STATE(type, column) AGENT_COLUMN_##type(column)
 #define SCRATCH(type, column) AGENT_COLUMN_##type(column)
 #define INDEX(type, column)
+#define HINT(type, column) SCRATCH(type, column)
 #define AGENT_COLUMN_float(column)                                                                 \
     if (strcmp(name, #column) == 0)                                                                \
         return w->state.agents.column;
@@ -58,6 +59,7 @@ static inline const float *agent_column(const JoWorld *w, const char *name) {
 #undef STATE
 #undef SCRATCH
 #undef INDEX
+#undef HINT
     return NULL;
 }
 

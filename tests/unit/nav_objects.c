@@ -25,7 +25,7 @@ static void of_many_bodies_the_nearest_are_avoided(void **state) {
     JoxObjects objects = {.rows = rows, .count = PILLARS};
     jox_objects_lay(&objects);
     JoxAgents agents = {0};
-    JoxNav *nav = jox_nav_create();
+    JoxNav *nav = jox_nav_create(NULL);
     uint32_t i = jox_agents_add(&agents);
     agents.ignore[i] = 2;
     JoxHalfPlane planes[JOX_MOST_NEAREST];
@@ -62,7 +62,7 @@ static void what_is_approached_counts_though_its_kind_is_ignored(void **state) {
     JoxObjects objects = {.rows = rows, .count = 2};
     jox_objects_lay(&objects);
     JoxAgents agents = {0};
-    JoxNav *nav = jox_nav_create();
+    JoxNav *nav = jox_nav_create(NULL);
     uint32_t i = jox_agents_add(&agents);
     agents.ignore[i] = 2;
     agents.approach[i] = -1;

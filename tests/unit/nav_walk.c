@@ -254,7 +254,7 @@ static void who_follows_keeps_the_time_gap(void **state) {
     for (int k = 0; k < 3; k++)
         for (double gap = 0.6; gap < 1.5; gap += 0.4) {
             float length = (float)law.length * 0.4f, kept = (float)gap * slow[k];
-            float apart = follow(&law, gap, 0.5, slow[k], length + 0.9f * kept);
+            float apart = follow(&law, gap, 0.5, slow[k], length + 0.5f * kept);
             assert_true(fabsf(apart - length - kept) < 0.05f * kept + 0.02f);
         }
 }
@@ -337,7 +337,7 @@ static void who_meet_pass_on_the_right(void **state) {
             step(&c);
         assert_true(jo_world_time(c.world) < 20.0);
         assert_true(at(&c, east).y < -0.05f && at(&c, west).y > 0.05f);
-        assert_true(jox_length(jox_sub(at(&c, east), at(&c, west))) > 0.39f);
+        assert_true(jox_length(jox_sub(at(&c, east), at(&c, west))) > 0.38f);
         jo_world_free(c.world);
     }
 }

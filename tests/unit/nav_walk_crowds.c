@@ -38,6 +38,7 @@ typedef struct Crowd {
     JoxNeighbours neighbours;
     JoxWalls walls;
     JoxNav *nav;
+    Frame frame;
 } Crowd;
 
 static void end(Crowd *c) {
@@ -47,58 +48,62 @@ static void end(Crowd *c) {
     jox_neighbours_free(&c->neighbours);
 }
 
-/* People of several ways in a square with some walls. Half are bound for the same place. */
-static void add_people(Crowd *c, Frame f, float side) {
+/* The direction in which one of them heads and moves, unit. */
+static JoxV2 way_of(uint32_t k) {
+    double angle = floor(4.0 * (double)draw(k, 2)) * PI / 2 + 0.3 * (double)draw(k, 3);
+    return (JoxV2){(float)jox_cos(angle), (float)jox_sin(angle)};
+}
+
+/* Where people of several ways stand in a square, and how they move. */
+static void add_people(Crowd *c, float side) {
     JoxAgents *a = &c->agents;
     for (uint32_t k = 0; k < PEOPLE; k++) {
         uint32_t i = jox_agents_add(a);
-        JoxV2 at = put(f, (JoxV2){side * draw(k, 0), side * draw(k, 1)});
-        double angle = floor(4.0 * (double)draw(k, 2)) * PI / 2 + 0.3 * (double)draw(k, 3);
-        JoxV2 way = {(float)jox_cos(angle), (float)jox_sin(angle)};
-        JoxV2 pref = put(f, jox_scale(way, 0.3f + 1.4f * draw(k, 4)));
-        JoxV2 v = put(f, jox_scale(way, 1.3f * draw(k, 5)));
+        JoxV2 at = put(c->frame, (JoxV2){side * draw(k, 0), side * draw(k, 1)});
+        JoxV2 v = put(c->frame, jox_scale(way_of(k), 1.3f * draw(k, 5)));
         a->x[i] = a->prev_x[i] = at.x;
         a->y[i] = a->prev_y[i] = at.y;
-        a->pref_x[i] = draw(k, 6) < 0.1f ? 0.0f : pref.x;
-        a->pref_y[i] = draw(k, 6) < 0.1f ? 0.0f : pref.y;
         a->vx[i] = v.x;
         a->vy[i] = v.y;
         a->bound[i] = k % 2 ? 0 : -1;
-        a->way[i] = 20.0f * draw(k, 7);
-        a->speed_limit[i] = 3.0f;
-        a->breadth[i] = a->param[JOX_PARAM_radius][i];
         a->param[JOX_PARAM_time_gap][i] = 1.0f;
         a->param[JOX_PARAM_haste][i] = draw(k, 8);
     }
 }
 
+/* What they want in a step, which does not outlast the sorting of the next. Half are bound for the
+   same place. */
+static void want(Crowd *c) {
+    JoxAgents *a = &c->agents;
+    for (uint32_t i = 0; i < a->count; i++) {
+        const uint32_t k = a->id[i];
+        JoxV2 pref = put(c->frame, jox_scale(way_of(k), 0.3f + 1.4f * draw(k, 4)));
+        a->pref_x[i] = draw(k, 6) < 0.1f ? 0.0f : pref.x;
+        a->pref_y[i] = draw(k, 6) < 0.1f ? 0.0f : pref.y;
+        a->way[i] = 20.0f * draw(k, 7);
+        a->speed_limit[i] = 3.0f;
+        a->breadth[i] = a->param[JOX_PARAM_radius][i];
+    }
+}
+
 static void begin(Crowd *c, Frame f, const JoxWalkLaw *law, float side) {
-    *c = (Crowd){.nav = jox_nav_create()};
-    jox_nav_set_walk(c->nav, law);
+    *c = (Crowd){.nav = jox_nav_create(law), .frame = f};
     for (uint32_t k = 0; k < 12; k++) {
         JoxV2 from = {side * draw(k, 20), side * draw(k, 21)};
         JoxV2 to = {from.x + 4.0f * draw(k, 22) - 2.0f, from.y + 4.0f * draw(k, 23) - 2.0f};
         jox_walls_add_polyline(&c->walls, (JoxV2[]){put(f, from), put(f, to)}, 2, false, INFINITY);
     }
     jox_nav_set_walls(c->nav, &c->walls);
-    add_people(c, f, side);
+    add_people(c, side);
 }
 
 static void plan(Crowd *c, JoxPool *pool, bool walks) {
     jox_nav_sort(c->nav, &c->agents, 0);
+    want(c);
     jox_nav_perceive(c->nav, &c->agents, &c->neighbours, pool);
     if (walks)
         jox_nav_walk(c->nav, &c->agents, &c->neighbours, 3, 1.7, 0.05, true, pool);
     jox_nav_solve(c->nav, &c->agents, &c->neighbours, NULL, NULL, 0.05, true, pool);
-}
-
-/* Index of the agent with an id. */
-static uint32_t find(const JoxAgents *a, uint32_t id) {
-    for (uint32_t i = 0; i < a->count; i++)
-        if (a->id[i] == id)
-            return i;
-    fail();
-    return 0;
 }
 
 /* How many want another velocity in the frame than outside of it: rounding decides between
@@ -111,7 +116,7 @@ static uint32_t differing(Frame f, const JoxWalkLaw *law, float side) {
     plan(&plain, NULL, true);
     plan(&other, NULL, true);
     for (uint32_t id = 0; id < PEOPLE; id++) {
-        uint32_t i = find(&plain.agents, id), j = find(&other.agents, id);
+        uint32_t i = jox_agents_find(&plain.agents, id), j = jox_agents_find(&other.agents, id);
         JoxV2 v = put(f, (JoxV2){plain.agents.walk_x[i], plain.agents.walk_y[i]});
         JoxV2 u = {other.agents.walk_x[j], other.agents.walk_y[j]};
         differ += jox_length(jox_sub(u, v)) > 1e-3f;

@@ -30,6 +30,7 @@ typedef struct Packet {
     JoxNav *nav;
     uint32_t me;    /* index of the walker, with id 0 */
     uint32_t edges; /* how many walls there are */
+    bool on_edge; /* rounding decides whether somebody is in the way or minded, or a wall grazed */
 } Packet;
 
 static double draw(Packet *p, double from, double to) {
@@ -69,9 +70,9 @@ static void add(Packet *p, double x, double y) {
 }
 
 static void begin(Packet *p, uint32_t number) {
-    *p = (Packet){.number = number, .nav = jox_nav_create()};
+    *p = (Packet){.number = number};
     draw_law(p);
-    jox_nav_set_walk(p->nav, &p->law);
+    p->nav = jox_nav_create(&p->law);
     add(p, 0.0, 0.0);
     int others = 1 + (int)draw(p, 0.0, OTHERS);
     for (int k = 0; k < others; k++) {
@@ -114,27 +115,33 @@ static double radii(const Packet *p, uint32_t j) {
     return (double)radius[p->me] + (double)radius[j];
 }
 
-/* Behind one who goes first: the speed that keeps the time gap. */
-static void follow(const Packet *p, Way *w, uint32_t j) {
+/* Behind one who goes first: the speed that keeps the time gap, in the way or beside it,
+   which people come down to gradually. */
+static void follow(Packet *p, Way *w, uint32_t j, double wanted) {
     const JoxAgents *a = &p->agents;
     const JoxWalkLaw *law = &p->law;
     double eager = (double)a->eager[p->me], r = radii(p, j);
     double room = 1.0 - law->room_eager * eager, width = law->width * r * room;
     double along = (double)a->x[j] * w->x + (double)a->y[j] * w->y;
-    double q = fabs(w->x * (double)a->y[j] - w->y * (double)a->x[j]) / width;
-    if (q >= 1.0 || along <= 0.0)
+    double aside = fabs(w->x * (double)a->y[j] - w->y * (double)a->x[j]), q = aside / width;
+    p->on_edge |= fabs(q - 1.0) < 1e-5 || fabs(aside - sqrt(3.0) * along) < 1e-5;
+    if (along <= 0.0 || (q >= 1.0 && aside >= sqrt(3.0) * along))
         return;
-    double gap = (double)a->param[JOX_PARAM_time_gap][p->me] * (1.0 - law->gap_eager * eager) *
-                 (1.0 - law->gap_side * eager * q);
-    double free = along - law->length * r * room * sqrt(1.0 - q * q * q * q * q * q);
+    double gap = (double)a->param[JOX_PARAM_time_gap][p->me] * (1.0 - law->gap_eager * eager);
+    double free = along - law->length * r * room * sqrt(fmax(0.0, 1.0 - q * q * q * q * q * q));
+    if (q >= 1.0)
+        free = hypot(along, law->flank / (1.0 - law->flank_eager * eager) * aside) -
+               law->length * r * room;
     double ahead = fmax(0.0, (double)a->vx[j] * w->x + (double)a->vy[j] * w->y);
     double speed = (free + law->ahead_share * gap * ahead) / (gap + law->ahead_share * gap);
+    if (speed > 0.0)
+        speed /= pow(1.0 + pow(law->ease * speed / wanted, 4.0), 0.25);
     lower(&w->allowed, speed);
     lower(&w->worth, speed);
 }
 
 /* Past one who crosses: the free path, and when the two would meet. */
-static void cross(const Packet *p, Way *w, uint32_t j, double speed) {
+static void cross(Packet *p, Way *w, uint32_t j, double speed) {
     const JoxAgents *a = &p->agents;
     double x = (double)a->x[j], y = (double)a->y[j], width = p->law.width_cross * radii(p, j);
     double along = x * w->x + y * w->y, aside = w->x * y - w->y * x;
@@ -147,6 +154,7 @@ static void cross(const Packet *p, Way *w, uint32_t j, double speed) {
     double u2 = ux * ux + uy * uy, closing = x * ux + y * uy;
     double apart2 = fmax(0.0, x * x + y * y - width * width);
     double meets = closing * closing - u2 * apart2;
+    p->on_edge |= fabs(meets) < 1e-5 * closing * closing || fabs(fabs(aside) - width) < 1e-6;
     if (meets > 0.0 && closing > 0.0)
         lower(&w->worth, (closing - sqrt(meets)) / u2 * speed / p->law.contact_time);
 }
@@ -158,16 +166,18 @@ static double distance(const Packet *p, uint32_t edge, double x, double y) {
 }
 
 /* Going aside: how far somebody gets before they are `keep` from a wall. */
-static void mind_wall(const Packet *p, Way *w, uint32_t edge, double speed) {
+static void mind_wall(Packet *p, Way *w, uint32_t edge, double speed) {
     const double stride = 0.0005;
     double keep = p->law.wall_radius * (double)p->agents.param[JOX_PARAM_radius][p->me], path = 0.0;
     if (distance(p, edge, 0.0, 0.0) < keep) { /* so near, not towards it */
         JoxV2 off = jox_segment_nearest(p->ends[edge][0], p->ends[edge][1], (JoxV2){0, 0});
         path = (double)off.x * w->x + (double)off.y * w->y > 0.0 ? 0.0 : INFINITY;
     } else {
-        while (path < speed * p->law.wall_time &&
-               distance(p, edge, path * w->x, path * w->y) >= keep)
-            path += stride;
+        double far = INFINITY; /* a way that grazes may come too near between two strides */
+        for (; path < speed * p->law.wall_time && far >= keep; path += far >= keep ? stride : 0.0) {
+            far = distance(p, edge, path * w->x, path * w->y);
+            p->on_edge |= fabs(far - keep) < 2e-6;
+        }
     }
     lower(&w->allowed, path / p->law.wall_time);
     lower(&w->worth, path / p->law.wall_time);
@@ -181,7 +191,7 @@ static bool is_hidden(const Packet *p, uint32_t j) {
     return false;
 }
 
-static Way judge(const Packet *p, double degrees, double speed) {
+static Way judge(Packet *p, double degrees, double speed) {
     const JoxAgents *a = &p->agents;
     double angle = degrees / 180.0 * PI, c = jox_cos(angle), s = jox_sin(angle);
     double ax = (double)a->aim_x[p->me], ay = (double)a->aim_y[p->me];
@@ -192,7 +202,7 @@ static Way judge(const Packet *p, double degrees, double speed) {
             continue;
         JoxMinds minds = jox_minds(a, p->me, j, offset);
         if (minds == JOX_MINDS_AHEAD)
-            follow(p, &w, j);
+            follow(p, &w, j, speed);
         else if (minds == JOX_MINDS_CROSSING)
             cross(p, &w, j, speed);
     }
@@ -202,7 +212,7 @@ static Way judge(const Packet *p, double degrees, double speed) {
 }
 
 /* The direction that is worth most along the way; *lead: by how much more than the next best. */
-static Way choose(const Packet *p, double cx, double cy, double speed, double *lead) {
+static Way choose(Packet *p, double cx, double cy, double speed, double *lead) {
     double most = -INFINITY;
     Way best = judge(p, 0.0, speed);
     *lead = fabs(best.worth - 0.98 * speed);
@@ -239,8 +249,8 @@ static void approach(const Packet *p, const Way *w, double *x, double *y) {
 
 /* ---- both ---- */
 
-/* By how much the engine's velocity is off, m/s; NAN where two directions are as good, or nobody
-   wants to go anywhere. */
+/* By how much the engine's velocity is off, m/s; NAN where two directions are as good, somebody is
+   on an edge, or nobody wants to go anywhere. */
 static double off(uint32_t number, bool *aside) {
     Packet p;
     double x, y, lead, result = NAN;
@@ -254,7 +264,7 @@ static double off(uint32_t number, bool *aside) {
         Way w = choose(&p, cx, cy, speed, &lead);
         approach(&p, &w, &x, &y);
         *aside = w.x * px + w.y * py < 0.99 * speed;
-        if (lead > 0.004)
+        if (lead > 0.004 && !p.on_edge)
             result = hypot(x - (double)a->walk_x[p.me], y - (double)a->walk_y[p.me]);
     }
     end(&p);

@@ -23,7 +23,7 @@ typedef struct Fixture {
 } Fixture;
 
 static void begin(Fixture *f) {
-    *f = (Fixture){.nav = jox_nav_create()};
+    *f = (Fixture){.nav = jox_nav_create(NULL)};
 }
 
 static void end(Fixture *f) {

@@ -27,6 +27,8 @@ static struct {
     uint8_t failed[MOST];
     uint16_t group[MOST];
     uint32_t state[MOST];
+    const int32_t *kicked, *struck;
+    const JoxObjects *objects;
     JoxV2 period;
     JoxWalls walls;
 } crowd;
@@ -57,6 +59,9 @@ static inline void show(JoxProbe *probe, double t) {
                             .state = crowd.state,
                             .states = STATES,
                             .state_count = 3,
+                            .kicked = crowd.kicked,
+                            .struck = crowd.struck,
+                            .objects = crowd.objects,
                             .walls = &crowd.walls};
     jox_probe_frame(probe, &frame);
 }

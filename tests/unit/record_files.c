@@ -132,6 +132,42 @@ static void a_killed_writer_leaves_whole_frames(void **state) {
     unlink(path);
 }
 
+/* A run may pause behind a frame: it is there without the next one. Waits for it at most 20 s. */
+static void the_last_frame_is_committed_though_none_follows(void **state) {
+    (void)state;
+    JoxText error = {0};
+    JoxRecorder *r = jox_recorder_open(path, 20, WKT, &error);
+    assert_non_null(r);
+    assert_true(put_frame(r, 0, &error));
+    sqlite3 *db;
+    assert_int_equal(sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL), SQLITE_OK);
+    double frames = 0;
+    for (int wait = 0; wait < 200 && frames < 1; wait++) {
+        usleep(100000);
+        frames = ask(db, "SELECT count(*) FROM frame_data");
+    }
+    assert_true(frames == 1);
+    sqlite3_close(db);
+    assert_null(jox_recorder_open(path, 20, WKT, &error)); /* while another writes it */
+    assert_non_null(strstr(error.data, "another run writes it"));
+    jox_text_free(&error);
+    assert_true(jox_recorder_close(r, &error));
+    r = jox_recorder_go_on(path, 0, &error);
+    assert_non_null(r);
+    assert_true(put_frame(r, 1, &error) && jox_recorder_close(r, &error));
+    r = jox_recorder_go_on(path, 0, &error); /* takes the second out again */
+    assert_non_null(r);
+    assert_true(jox_recorder_close(r, &error));
+    assert_int_equal(sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL), SQLITE_OK);
+    assert_true(ask(db, "SELECT count(*) FROM frame_data") == 1);
+    assert_true(ask(db, "SELECT count(*) FROM trajectory_data") == 3);
+    sqlite3_close(db);
+    unlink(path);
+    assert_null(jox_recorder_go_on(path, 0, &error));
+    assert_non_null(strstr(error.data, "there is no recording"));
+    jox_text_free(&error);
+}
+
 static void refused(const char *where, const char *why) {
     JoxText error = {0};
     assert_null(jox_recorder_open(where, 20, WKT, &error));
@@ -396,15 +432,17 @@ static void speeds_per_region(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_recording_reads_back),
-                                       cmocka_unit_test(a_killed_writer_leaves_whole_frames),
-                                       cmocka_unit_test(what_is_no_recording_is_spared),
-                                       cmocka_unit_test(a_position_that_is_no_number_is_an_error),
-                                       cmocka_unit_test(density_is_that_of_the_people),
-                                       cmocka_unit_test(walkable_area_as_text),
-                                       cmocka_unit_test(walkable_area_of_a_plan),
-                                       cmocka_unit_test(figures_of_several_runs),
-                                       cmocka_unit_test(what_is_no_figure_is_listed),
-                                       cmocka_unit_test(speeds_per_region)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_recording_reads_back),
+        cmocka_unit_test(a_killed_writer_leaves_whole_frames),
+        cmocka_unit_test(the_last_frame_is_committed_though_none_follows),
+        cmocka_unit_test(what_is_no_recording_is_spared),
+        cmocka_unit_test(a_position_that_is_no_number_is_an_error),
+        cmocka_unit_test(density_is_that_of_the_people),
+        cmocka_unit_test(walkable_area_as_text),
+        cmocka_unit_test(walkable_area_of_a_plan),
+        cmocka_unit_test(figures_of_several_runs),
+        cmocka_unit_test(what_is_no_figure_is_listed),
+        cmocka_unit_test(speeds_per_region)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -85,6 +85,52 @@ static void a_summary_is_json(void **state) {
     jox_probe_free(p);
 }
 
+/* Two people and two bodies: the first enters a state beside the nearer of those that move, then
+   kicks the farther one; the second is hit. Rows tell how both stood before the step. */
+static void a_log_tells_each_action(void **state) {
+    (void)state;
+    static const JoxProbeDef DEF = {
+        .name = "probe", .kind = JOX_PROBE_LOG, .until = INFINITY, .every = 1};
+    JoxObject rows[3] = {{.id = 7, .live = true, .moves = true, .round = 0.1f, .grounded = true},
+                         {.id = 8, .live = true, .moves = true, .round = 0.1f},
+                         {.id = 9, .live = true}}; /* a static one, where the first person is */
+    rows[0].position = (JoxV3){2, 0, 0.1f};
+    rows[1].position = (JoxV3){0, 3, 0.5f};
+    rows[1].velocity = (JoxV3){0, -3, 4};
+    const JoxObjects objects = {.rows = rows, .count = 3};
+    int32_t kicked[2] = {-1, -1}, struck[2] = {-1, -1};
+    JoxProbe *p = jox_probe_create(&DEF);
+    nobody(2);
+    crowd.objects = &objects;
+    crowd.kicked = kicked;
+    crowd.struck = struck;
+    crowd.y[1] = 2;
+    show(p, 0.1);
+    crowd.state[0] = 1;
+    crowd.x[0] = 0.5f; /* after the step: rows have where it was before */
+    show(p, 0.2);
+    kicked[0] = 0;
+    struck[1] = 1;
+    show(p, 0.3);
+    assert_near(figure(p, "entered"), 1, 0);
+    assert_near(figure(p, "kicks"), 1, 0);
+    assert_near(figure(p, "hits"), 1, 0);
+    char text[1024] = "";
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    jox_probe_csv(p, file);
+    rewind(file);
+    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+    fclose(file);
+    assert_non_null(strstr(text, "\n0.2000,enters,0,,Walk,Wait,0.0000,0.0000,0.0000,"
+                                 "7,2.0000,0.0000,0.1000,0.0000,1.9000,1\n"));
+    assert_non_null(strstr(text, "\n0.3000,kicks,0,,Wait,Wait,0.5000,0.0000,0.0000,"
+                                 "7,2.0000,0.0000,0.1000,0.0000,1.4000,1\n"));
+    assert_non_null(strstr(text, "\n0.3000,hit,1,,Walk,Walk,0.0000,2.0000,0.0000,"
+                                 "8,0.0000,3.0000,0.5000,5.0000,0.9000,0\n"));
+    jox_probe_free(p);
+}
+
 /* A number within [0, 1) of a counter. */
 static double drawn(uint32_t n) {
     n = (n ^ 61u) ^ (n >> 16);
@@ -124,6 +170,7 @@ int main(void) {
         cmocka_unit_test(every_kind_writes),
         cmocka_unit_test(a_summary_is_json),
         cmocka_unit_test(steady_frames_allocate_nothing),
+        cmocka_unit_test(a_log_tells_each_action),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

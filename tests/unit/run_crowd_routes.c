@@ -97,14 +97,6 @@ static void threads_change_nothing(void **state) {
     }
 }
 
-static uint32_t find(const JoxAgents *a, uint32_t id) {
-    for (uint32_t i = 0; i < a->count; i++)
-        if (a->id[i] == id)
-            return i;
-    fail();
-    return 0;
-}
-
 static void a_restored_crowd_goes_on_to_the_bit(void **state) {
     (void)state;
     for (int before = 60; before <= 72; before += 3) { /* between renewals, and while one is made */
@@ -115,7 +107,7 @@ static void a_restored_crowd_goes_on_to_the_bit(void **state) {
         step(scene, before);
         assert_true(jox_world_snapshot(scene->world, &saved, &error));
         JoxAgents *a = &scene->world->state.agents;
-        uint32_t one = find(a, 7); /* the order of the columns is no state */
+        uint32_t one = jox_agents_find(a, 7); /* the order of the columns is no state */
         int32_t bound = a->bound[one];
         float eager = a->eager[one];
         JoxV2 course = {a->course_x[one], a->course_y[one]};
@@ -123,7 +115,7 @@ static void a_restored_crowd_goes_on_to_the_bit(void **state) {
         assert_true(eager > 0.0f && fabsf(jox_length(course) - 1.0f) < 1e-4f);
         hashes_of(scene, first);
         assert_true(jox_world_restore(scene->world, saved.data, saved.length, &error));
-        one = find(a, 7);
+        one = jox_agents_find(a, 7);
         assert_int_equal(a->bound[one], bound);
         assert_true(a->eager[one] == eager);
         assert_true(a->course_x[one] == course.x && a->course_y[one] == course.y);

@@ -131,7 +131,7 @@ static const struct Case {
     {SQUARE WITH("count: 3, in: box, fill: @hexx"), "bad-value", "Did you mean 'hex'?"},
     {SQUARE "groups:\n  g: @{behaviour: stander, count: 100, in: box, spacing: 1}\n", "too-many",
      "Lower count"},
-    {"places: {a: {point: [0, 0], radius: 900}}\ngroups:\n  a: &a {behaviour: stander, count: "
+    {"places: {a: {point: [0, 0], radius: 1000}}\ngroups:\n  a: &a {behaviour: stander, count: "
      "600000, fill: circle, in: a}\n  b: {<<: *a, count: @400001}\n",
      "too-many", NULL},
     {"bounds: [[0, 0], [5, 5]]\n" WITH("at: [[1, 1], @[9, 9]]"), "out-of-bounds", NULL},
@@ -206,6 +206,12 @@ static const struct Case {
     {"groups: {g: @{at: [[0, 0]]}}\n", "missing-key", "behaviour: walker.lua"},
     {"groups: {g: @{behaviour: stander}}\n", "missing-key", "count: 100"},
     {"groups: {g: @{behaviour: stander, count: 3}}\n", "missing-key", "in: NAME"},
+    {"places: {p: {point: [0, 0], radius: 0.01}}\n"
+     "groups: {g: @{behaviour: stander, count: 5000, fill: circle, in: p}}\n",
+     "too-many", NULL},
+    {"bodies:\n  - {shape: {sphere: {radius: 1}}, at: [0, 0, 1], repeat: @{count: [2, 1, 1], "
+     "step: [0, 1, 1]}}\n",
+     "bad-body", NULL},
     {SQUARE "groups: {g: @{behaviour: stander, count: 3, fill: circle, in: box}}\n", "bad-fill",
      "point and radius"},
     {SQUARE "groups: {g: @{behaviour: stander, count: 3, fill: line, in: box}}\n", "bad-fill",

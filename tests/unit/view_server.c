@@ -71,11 +71,33 @@ static void who_has_no_token_is_refused(void **state) {
     assert_null(strstr(answer, "the page"));
     snprintf(cookie, sizeof cookie, "Cookie: a=b; jostle_%d=%s\r\n", port, wrong);
     assert_int_equal(fetch_with("GET", "/parts/one.js", cookie), 403);
-    snprintf(cookie, sizeof cookie, "Cookie: a=b; jostle_%d=%s; c=d\r\n", port, token);
+    snprintf(cookie, sizeof cookie, "Cookie: jostle_%d=%s\r\n", port, token);
+    assert_int_equal(fetch_with("GET", "/parts/one.js", cookie), 403);
+}
+
+/* Other servers of 127.0.0.1 are sent the page's cookie: it is worth the page's files alone. */
+static void the_cookie_opens_files_and_no_socket(void **state) {
+    (void)state;
+    char path[256], cookie[512], pass[64] = "";
+    snprintf(path, sizeof path, "/?token=%s", token);
+    assert_int_equal(fetch_with("GET", path, ""), 200);
+    const char *set = strstr(answer, "set-cookie: ");
+    assert_non_null(set);
+    assert_int_equal(sscanf(strchr(set, '='), "=%32[0-9a-f]", pass), 1);
+    assert_string_not_equal(pass, token);
+    snprintf(cookie, sizeof cookie, "Cookie: a=b; jostle_%d=%s; c=d\r\n", port, pass);
     assert_int_equal(fetch_with("GET", "/parts/one.js", cookie), 200);
     assert_null(strstr(answer, "set-cookie")); /* it has it */
-    snprintf(cookie, sizeof cookie, "Cookie: jostle_%d=%s\r\n", port + 1, token);
+    snprintf(cookie, sizeof cookie, "Cookie: jostle_%d=%s\r\n", port + 1, pass);
     assert_int_equal(fetch_with("GET", "/parts/one.js", cookie), 403);
+    snprintf(cookie, sizeof cookie,
+             "Cookie: jostle_%d=%s\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+             "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n"
+             "Sec-WebSocket-Protocol: jostle\r\nOrigin: http://127.0.0.1:%d\r\n",
+             port, pass, port);
+    assert_int_equal(fetch_with("GET", "/socket", cookie), 403);
+    snprintf(path, sizeof path, "/socket?token=%s", pass);
+    assert_int_equal(fetch_with("GET", path, cookie), 403);
 }
 
 static void other_hosts_and_methods_are_refused(void **state) {
@@ -259,6 +281,7 @@ int main(void) {
         WITH_VIEW(the_page_is_served_with_its_headers),
         WITH_VIEW(other_files_are_not),
         WITH_VIEW(who_has_no_token_is_refused),
+        WITH_VIEW(the_cookie_opens_files_and_no_socket),
         WITH_VIEW(other_hosts_and_methods_are_refused),
         WITH_VIEW(sockets_of_other_pages_are_refused),
         WITH_VIEW(commands_arrive_and_garbage_is_dropped),

@@ -48,7 +48,7 @@ bool jox_path_find(const char *file, const char *name, const char *ending,
 char *jox_path_real_below(const char *path, const char *folder) {
     char *real = realpath(path, NULL), *root = realpath(folder, NULL); /* by the C library */
     const size_t n = root ? strlen(root) : 0;
-    const bool below = real && root && strncmp(real, root, n) == 0 && real[n] == '/';
+    const bool below = real && root && strncmp(real, root, n) == 0 && (real[n] == '/' || n == 1);
     free(root);
     if (!below)
         free(real);
@@ -61,8 +61,19 @@ bool jox_path_below(const char *path, const char *folder) {
     return real != NULL;
 }
 
+bool jox_path_is_foreign(const char *file, const char *path) {
+    char folder[JOX_LONGEST_PATH];
+    struct stat info;
+    if (jox_overlay_file(path) || lstat(path, &info) != 0)
+        return false;
+    snprintf(folder, sizeof folder, "%.*s.", (int)jox_path_folder(file), file);
+    return !jox_path_below(path, folder);
+}
+
 static bool same_file(const char *a, const char *b) {
     struct stat x, y;
+    if (jox_overlay_file(b))
+        return true;
     return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }
 

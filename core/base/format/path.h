@@ -32,4 +32,8 @@ bool jox_path_below(const char *path, const char *folder);
  */
 char *jox_path_real_below(const char *path, const char *folder);
 
+/* Whether a file that `file` names is there and yet lies neither beside `file` nor below its
+   folder, links followed: what a stranger's scene may not have shown. */
+bool jox_path_is_foreign(const char *file, const char *path);
+
 #endif

@@ -105,8 +105,8 @@ static int view_index(lua_State *L) {
     uint32_t i = check_view(L, script);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     const JoxAgents *a = lua->machines->agents;
-    if (a->machine[i] != JOX_NO_MACHINE) {
-        const JoxMachine *m = lua->machines->set->items[a->machine[i]];
+    if (lua->before_machine[i] != JOX_NO_MACHINE) {
+        const JoxMachine *m = lua->machines->set->items[lua->before_machine[i]];
         int32_t slot = memory_slot(m, name);
         uint16_t state = lua->before_state[i] < m->state_count ? lua->before_state[i] : m->start;
         if (strcmp(name, "state") == 0)
@@ -121,8 +121,8 @@ static int view_index(lua_State *L) {
     if (push_number(L, lua->machines, i, name))
         return 1;
     /* One without a machine, whom a program moves, or with another machine. */
-    bool lacks =
-        a->machine[i] == JOX_NO_MACHINE && (!strcmp(name, "state") || !strcmp(name, "machine"));
+    bool lacks = lua->before_machine[i] == JOX_NO_MACHINE &&
+                 (!strcmp(name, "state") || !strcmp(name, "machine"));
     if (lacks || memory_slot(script->machine, name) >= 0)
         return lua_pushnil(L), 1;
     return luaL_error(L, "a neighbour has no '%s'", name);
@@ -134,8 +134,8 @@ static int view_newindex(lua_State *L) {
     uint32_t i = check_view(L, script);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     const JoxAgents *a = lua->machines->agents;
-    const JoxMachine *m =
-        a->machine[i] == JOX_NO_MACHINE ? NULL : lua->machines->set->items[a->machine[i]];
+    const uint16_t machine = lua->before_machine[i];
+    const JoxMachine *m = machine == JOX_NO_MACHINE ? NULL : lua->machines->set->items[machine];
     int32_t slot = m ? memory_slot(m, name) : -1;
     if (slot < 0)
         return luaL_error(L, "only the memory of a neighbour can be set, and '%s' is not in it",
@@ -144,7 +144,7 @@ static int view_newindex(lua_State *L) {
         return luaL_error(L, "too much is written to neighbours in one step");
     double value = check_memory(L, &m->memory[slot], 3);
     JOX_RESERVE(lua->writes, lua->write_capacity, lua->write_count + 1);
-    lua->writes[lua->write_count++] = (JoxWrite){a->id[i], (uint32_t)slot, value};
+    lua->writes[lua->write_count++] = (JoxWrite){a->id[i], (uint32_t)slot, machine, value};
     return 0;
 }
 

@@ -58,6 +58,7 @@ void jox_lua_free(JoxLua *lua) {
         jox_script_free(lua->scripts[i]);
     jox_free(lua->scripts);
     jox_free(lua->before_state);
+    jox_free(lua->before_machine);
     jox_free(lua->before_memory);
     jox_free(lua->writes);
     jox_free(lua);

@@ -131,6 +131,7 @@ static_assert(offsetof(JoxScript, vm) == 0, "jox_script_of casts");
 /* What a hook wrote into another agent's memory. */
 typedef struct JoxWrite {
     uint32_t agent_id, slot;
+    uint16_t machine; /* whose slot it is: the agent may become another in the same step */
     double value;
 } JoxWrite;
 
@@ -142,9 +143,9 @@ struct JoxLua {
     JoxMachineRun *machines;
     uint64_t failures;
     /* Agents as they were before the step, for hooks that look at others. */
-    uint16_t *before_state;
+    uint16_t *before_state, *before_machine;
     double *before_memory;
-    size_t before_capacity, before_memory_capacity;
+    size_t before_capacity, before_machine_capacity, before_memory_capacity;
     JoxWrite *writes;
     uint32_t write_count;
     size_t write_capacity;

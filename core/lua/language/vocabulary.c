@@ -30,7 +30,7 @@ const JoxWord jox_words[] = {
     {"stuck", "n", CONDITION, JOX_OP_STUCK, 0, "stuck(seconds)", "",
      "has not moved by 0.25 m for so long", "stuck(3)"},
     {"hit_by", "t", CONDITION, JOX_OP_HIT_BY, 0, "hit_by(target)", "",
-     "a target faster than 1 m/s touches the agent", "hit_by(nearest \"ball\")"},
+     "a target faster than 1 m/s touches the agent, or hit it in the last step", "hit_by(nearest \"ball\")"},
     {"grounded", "t", CONDITION, JOX_OP_GROUNDED, 0, "grounded(target)", "",
      "the body touches the ground", "grounded(nearest \"ball\")"},
     {"incoming", "tn", CONDITION, JOX_OP_INCOMING, 0, "incoming(target, metres)", "",

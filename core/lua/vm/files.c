@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include "base/assert.h"
+#include "base/file.h"
 #include "base/hash.h"
 #include "base/mem.h"
 #include "base/overlay.h"
@@ -39,10 +40,8 @@ JoxSource *jox_vm_read(JoxVm *vm, const char *path, const char *given, size_t le
         text = jox_strndup(given, length);
     } else if (disk && lstat(path, &info) == 0 && S_ISLNK(info.st_mode)) {
         wrong = "symbolic links are not followed";
-    } else if (disk && stat(path, &info) == 0 && !S_ISREG(info.st_mode)) {
-        wrong = "it is no regular file"; /* opening a pipe would wait */
     } else if (!(text = jox_read_file(path, limit, &length))) {
-        wrong = errno == EFBIG ? large : strerror(errno);
+        wrong = errno == EFBIG ? large : jox_file_why(errno);
     }
     if (text && length > limit)
         wrong = large;

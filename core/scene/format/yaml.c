@@ -8,6 +8,7 @@
 #include <yaml.h>
 
 #include "base/assert.h"
+#include "base/file.h"
 #include "base/format/path.h"
 #include "base/hash.h"
 #include "base/mem.h"
@@ -407,6 +408,11 @@ static void include(JoxArena *arena, JoxYaml *root, const char *path, JoxYamlFil
                            "a mod cannot include '%.100s'", name->text);
             continue;
         }
+        if (jox_path_is_foreign(path, beside)) {
+            jox_diag_error(diagnostics, name->position, "bad-include", "Copy it beside the scene",
+                           "'%.200s' lies outside the folder of %.200s", name->text, path);
+            continue;
+        }
         bool again = false;
         for (uint32_t f = 0; f < files->count; f++)
             again |= strcmp(files->items[f].path, beside) == 0;
@@ -430,7 +436,7 @@ static JoxYaml *load(JoxArena *arena, const char *path, const char *text, size_t
     if (!text)
         text = own = jox_read_file(path, LARGEST, &length);
     if (!text)
-        wrong = errno == EFBIG ? "it is over 10 MB" : strerror(errno);
+        wrong = errno == EFBIG ? "it is over 10 MB" : jox_file_why(errno);
     else if (length > LARGEST)
         wrong = "it is over 10 MB";
     if (wrong) {

@@ -2,10 +2,10 @@
 
 #include <ctype.h>
 #include <math.h>
-#include <sqlite3.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/database.h"
 #include "base/mem.h"
 #include "geom/polygon.h"
 
@@ -260,21 +260,13 @@ bool jox_wall_file_read(const char *path, const char *text, size_t length,
         path, text, length, options, walls, diagnostics);
 }
 
-static void close_database(void *database) {
-    sqlite3_stmt *statement;
-    while ((statement = sqlite3_next_stmt(database, NULL)))
-        sqlite3_finalize(statement);
-    sqlite3_close(database);
-}
-
 char *jox_wall_file_recorded(const char *path, JoxDiagnostics *diagnostics) {
     sqlite3 *db = NULL;
     sqlite3_stmt *statement = NULL;
     char *text = NULL;
-    const bool open = sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK;
-    if (!db)
-        jox_out_of_memory(0);
-    jox_hold(db, close_database);
+    double left;
+    const bool open = jox_database_open(path, &db);
+    jox_database_bound(db, &left);
     if (open &&
         sqlite3_prepare_v2(db, "SELECT wkt FROM geometry LIMIT 1", -1, &statement, NULL) ==
             SQLITE_OK &&
@@ -285,7 +277,6 @@ char *jox_wall_file_recorded(const char *path, JoxDiagnostics *diagnostics) {
                        "A recording of JuPedSim or of `jostle run --record` has one",
                        "this database has no table 'geometry' with a plan: %.200s",
                        sqlite3_errmsg(db));
-    jox_let_go(db);
-    close_database(db);
+    jox_database_close(db);
     return text;
 }

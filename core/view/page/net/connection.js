@@ -2,6 +2,17 @@
 
 const WAITS = [0.3, 0.6, 1, 2, 4]; // s, between attempts
 
+// The token of the address is kept by this tab alone, and taken out of what the address bar shows.
+const KEY = "jostle-token";
+function token() {
+    const given = new URLSearchParams(location.search).get("token");
+    if (given) {
+        sessionStorage.setItem(KEY, given);
+        history.replaceState(null, "", location.pathname + location.hash);
+    }
+    return sessionStorage.getItem(KEY) ?? "";
+}
+
 /**
  * Opens the page's socket. `handlers`: {json(message), binary(buffer), state(text)}, where the state
  * is "connecting", "open", "lost" or "refused". The token of the page's address goes along.
@@ -9,6 +20,7 @@ const WAITS = [0.3, 0.6, 1, 2, 4]; // s, between attempts
 export class Connection {
     constructor(handlers) {
         this.handlers = handlers;
+        this.token = token();
         this.attempt = 0;
         this.bytes = 0; // received since the page was loaded
         this.frames = 0;
@@ -19,7 +31,7 @@ export class Connection {
     open() {
         const url = new URL("socket", location.href);
         url.protocol = location.protocol === "https:" ? "wss:" : "ws:";
-        url.search = location.search;
+        url.search = new URLSearchParams({ token: this.token });
         url.hash = "";
         this.handlers.state(this.attempt ? "lost" : "connecting");
         const socket = new WebSocket(url, "jostle");

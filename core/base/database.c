@@ -1,0 +1,66 @@
+#include "base/database.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+#include "base/file.h"
+#include "base/mem.h"
+
+enum {
+    LONGEST = 64 << 20,     /* bytes of a text */
+    LONGEST_SQL = 64 << 10, /* and of a statement of the schema */
+    OPERATIONS = 100000     /* of SQLite between two calls of `spend` */
+};
+/* How many such calls a bounded database has: in all, and for each MB of the file. A row takes some
+   10 operations and 40 bytes, so that a pass over all rows takes some 3 a MB. */
+static const double LEAST_CALLS = 1000, CALLS_PER_MB = 30;
+
+/* Whether a bounded database has done all that it may. */
+static int spend(void *left) {
+    return --*(double *)left < 0.0;
+}
+
+static void release(void *db) {
+    sqlite3_stmt *statement;
+    while ((statement = sqlite3_next_stmt(db, NULL)))
+        sqlite3_finalize(statement);
+    sqlite3_close(db);
+}
+
+bool jox_database_open(const char *path, sqlite3 **db) {
+    static const int OFF[] = {SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_ENABLE_TRIGGER,
+                              SQLITE_DBCONFIG_TRUSTED_SCHEMA};
+    FILE *file = jox_file_open(path, "rb"); /* SQLite would wait for a pipe */
+    const bool regular = file || errno != EINVAL;
+    if (file)
+        jox_file_close(file);
+    const bool good =
+        sqlite3_open_v2(regular ? path : "", db, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK;
+    if (!*db)
+        jox_out_of_memory(0);
+    jox_hold(*db, release);
+    for (size_t k = 0; k < sizeof OFF / sizeof *OFF; k++)
+        sqlite3_db_config(*db, OFF[k], 0, NULL);
+    sqlite3_db_config(*db, SQLITE_DBCONFIG_DEFENSIVE, 1, NULL);
+    sqlite3_limit(*db, SQLITE_LIMIT_LENGTH, LONGEST);
+    sqlite3_limit(*db, SQLITE_LIMIT_SQL_LENGTH, LONGEST_SQL);
+    return good && regular;
+}
+
+void jox_database_bound(sqlite3 *db, double *left) {
+    struct stat info;
+    const char *path = sqlite3_db_filename(db, "main");
+    if (left)
+        *left = LEAST_CALLS;
+    if (left && path && stat(path, &info) == 0)
+        *left += CALLS_PER_MB * (double)info.st_size / (1 << 20);
+    sqlite3_progress_handler(db, left ? OPERATIONS : 0, left ? spend : NULL, left);
+}
+
+void jox_database_close(sqlite3 *db) {
+    if (!db)
+        return;
+    jox_let_go(db);
+    release(db);
+}

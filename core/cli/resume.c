@@ -1,0 +1,114 @@
+/* jostle resume: a run goes on from its newest checkpoint, in the same files. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "cli/cli.h"
+
+typedef struct Resume {
+    JoSceneDef def;
+    const char *summary;
+    double seconds;
+    bool has_seconds, quiet;
+} Resume;
+
+static bool read_isa(void *options, const char *text, char why[160]) {
+    return cli_isa(&((Resume *)options)->def.isa, text, why);
+}
+
+static const CliOption OPTIONS[] = {
+    {"for", "S", "simulate until S seconds from the beginning of the run", "as that run was to",
+     CLI_TO(Resume, seconds), CLI_GIVEN(Resume, has_seconds), CLI_RANGE(0, 1e7)},
+    {"threads", "N", "threads; never changes a result", "1", CLI_TO(Resume, def.threads),
+     CLI_RANGE(1, 64)},
+    CLI_ISA_OPTION(read_isa),
+    {"summary", "FILE", "write the figures of the whole run as JSON; '-' is standard output",
+     CLI_TO(Resume, summary)},
+    {"quiet", NULL, "no progress", CLI_TO(Resume, quiet)},
+};
+
+/* The value of a line "key value" of the note, to be freed; NULL where there is none. */
+static char *take(const char *note, const char *key) {
+    const size_t n = strlen(key);
+    for (const char *line = note; line && *line;) {
+        const char *end = strchr(line, '\n');
+        if (strncmp(line, key, n) == 0 && line[n] == ' ' && end)
+            return jox_strndup(line + n + 1, (size_t)(end - line) - n - 1);
+        line = end ? end + 1 : NULL;
+    }
+    return NULL;
+}
+
+static int go_on(const Resume *resume, JoScene *scene, const char *note) {
+    JoError error = {0};
+    char *record = take(note, "record"), *log = take(note, "log"), *steps = take(note, "steps");
+    char *every = take(note, "every"), *folder = take(note, "folder");
+    const double dt = jo_scene_stats(scene).dt;
+    const uint64_t until = resume->has_seconds ? (uint64_t)(resume->seconds / dt + 0.5)
+                           : steps             ? strtoull(steps, NULL, 10)
+                                               : (uint64_t)(jo_scene_duration(scene) / dt + 0.5);
+    bool ok = (!record || jo_scene_record_on(scene, record, &error)) &&
+              (!log || jo_scene_log_on(scene, log, &error)) &&
+              (!folder || !every ||
+               jo_scene_checkpoint(scene, folder, strtod(every, NULL), note, &error));
+    cli_catch_signals(true);
+    if (!resume->quiet) {
+        fprintf(stderr, "resumed at %g s\n", jo_world_time(jo_scene_world(scene)));
+        jo_scene_show_progress(scene, (double)until * dt);
+    }
+    while (ok && jo_world_tick(jo_scene_world(scene)) < until && !cli_signal)
+        ok = jo_scene_step(scene, &error);
+    const int status = cli_end(&cli_resume, scene, ok, &error);
+    jox_free(record), jox_free(log), jox_free(steps), jox_free(every), jox_free(folder);
+    return status;
+}
+
+static int resume_file(Resume *resume, const char *path) {
+    JoError error = {0};
+    char *note = NULL;
+    if (resume->summary && cli_writable(&cli_resume, resume->summary) != JO_OK)
+        return JO_FAILED;
+    cli_catch_signals(false);
+    JoScene *scene = jo_scene_resume(&resume->def, path, &note, &error);
+    if (!scene)
+        return cli_failed(&cli_resume, &error, false);
+    int status = go_on(resume, scene, note);
+    char *summary = resume->summary ? jo_scene_summary(scene) : NULL;
+    if (summary) {
+        const int written = cli_write(&cli_resume, resume->summary, summary);
+        status = status ? status : written;
+    }
+    jo_free(summary);
+    jo_free(note);
+    jo_scene_free(scene);
+    return cli_interrupted(status);
+}
+
+static int run(int argc, char **argv) {
+    Resume resume = {.def = jo_default_scene_def()};
+    CliList plain = {0};
+    int status = cli_parse(&cli_resume, argc, argv, &resume, &plain);
+    if (status == CLI_GO_ON)
+        status = resume_file(&resume, plain.items[0]);
+    cli_free(&cli_resume, &resume, &plain);
+    return status;
+}
+
+const CliCommand cli_resume = {
+    .name = "resume",
+    .what = "go on with a run from its checkpoint",
+    .usage = "CHECKPOINT [options]",
+    .about = "CHECKPOINT is a file that `jostle run --checkpoint` wrote, or their folder, which "
+             "stands for the newest whole one. The run goes on to the bit, in the recording and "
+             "the input log that it wrote, and writes further checkpoints. Scene, behaviours, "
+             "mods and plans are those of the file, not those that lie on the disk by now; of a "
+             "mod the folder must still be there.",
+    .notes = "exit status: as of `jostle run`; 3: the checkpoint is damaged, or of another version",
+    .options = OPTIONS,
+    .option_count = sizeof OPTIONS / sizeof *OPTIONS,
+    .takes = "checkpoint",
+    .least = 1,
+    .most = 1,
+    .run = run,
+};

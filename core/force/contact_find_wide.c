@@ -1,0 +1,171 @@
+/* The kernel that finds contacts. A lane is an agent: of all lanes of a packet the nearest
+   neighbours are looked at, then the second nearest, and so on, until nobody's can touch. What was
+   found is written one by one, as it is little; so are contacts with walls, and contacts of those
+   whose neighbours may lack somebody who touches (contact_near.c). */
+#include "base/assert.h"
+#include "force/kernels.h"
+#include "geom/wall_grid_lanes.h"
+#include "simd/vectors.h"
+
+typedef struct Packet {
+    JoxForces *f;
+    uint32_t first;        /* agent of lane 0 */
+    uint32_t lanes, walls; /* bits of those that are there, and of those near walls */
+    uint32_t count[JOX_WIDTH];
+    JoxFoundPair found[JOX_WIDTH][JOX_MOST_NEIGHBOURS];
+} Packet;
+
+/* What does not change from neighbour to neighbour. */
+typedef struct Self {
+    JoxFloats x, y, vx, vy, breadth, radius;
+    JoxInts id;
+} Self;
+
+/* The same for one neighbour of each lane, less what the agent itself has. */
+typedef struct Meeting {
+    JoxFloats x, y; /* from the neighbour to the agent, m */
+    JoxFloats distance2, distance, gap, squeeze;
+} Meeting;
+
+/* Of `lanes`, those whose gap to their neighbour may close within the step: see `touches` in
+   contact_near.c. */
+static uint32_t meet(const JoxForces *f, const Self *self, JoxInts others, uint32_t lanes,
+                     Meeting *m) {
+    const JoxAgents *a = f->step.agents;
+    const float *records = &f->records[0].x;
+    const JoxFloats zero = jf_set(0.0f), least = jf_set(JOX_TOUCH_LEAST);
+    JoxFloats place[4], motion[4];
+    const JoxInts at = ji_shift_left(others, 1);
+    jf_records(records, at, place);
+    m->x = jf_wrap(jf_sub(self->x, place[0]), a->period.x);
+    m->y = jf_wrap(jf_sub(self->y, place[1]), a->period.y);
+    m->distance2 = jf_add(jf_mul(m->x, m->x), jf_mul(m->y, m->y));
+    const JoxFloats whole = jf_add(self->radius, place[3]);
+    const JoxFloats most = jf_add(jf_add(whole, least), jf_set(JOX_TOUCH_MOST));
+    lanes &= jm_bits(jf_lt(m->distance2, jf_mul(most, most)));
+    if (!lanes)
+        return 0;
+    jf_records(records, ji_add(at, ji_set(1)), motion);
+    lanes &= ~jm_bits(ji_less(jf_bits(motion[2]), self->id));
+    const JoxFloats sum = jf_add(self->breadth, place[2]), slack = jf_sub(whole, sum);
+    m->distance = jf_sqrt(m->distance2);
+    m->gap = jf_sub(m->distance, sum);
+    JoxFloats into = jf_sub(whole, m->distance);
+    into = jf_select(jf_lt(into, zero), zero, jf_select(jf_lt(slack, into), slack, into));
+    m->squeeze = jf_mul(jf_set(JOX_SQUEEZE), into);
+    const JoxFloats vx = jf_sub(motion[0], self->vx), vy = jf_sub(motion[1], self->vy);
+    JoxFloats closing = jf_sqrt(jf_add(jf_mul(vx, vx), jf_mul(vy, vy)));
+    closing = jf_mul(closing, jf_set((float)f->step.dt));
+    const JoxFloats reach = jf_add(least, jf_min(jf_set(JOX_TOUCH_MOST), closing));
+    const JoxMask apart = jm_and(jf_lt(least, m->gap), jf_lt(reach, m->gap));
+    return lanes & ~jm_bits(jm_without(apart, jf_lt(zero, m->squeeze)));
+}
+
+static void note(Packet *p, uint32_t lanes, JoxInts others, const Meeting *m) {
+    JoxForces *f = p->f;
+    const JoxAgents *a = f->step.agents;
+    const JoxFloats zero = jf_set(0.0f), by = jf_div(jf_set(1.0f), m->distance);
+    const JoxMask together = jf_le(m->distance, zero);
+    uint32_t other[JOX_WIDTH];
+    float x[JOX_WIDTH], y[JOX_WIDTH], nx[JOX_WIDTH], ny[JOX_WIDTH], gap[JOX_WIDTH];
+    float squeeze[JOX_WIDTH];
+    ji_store(other, others);
+    jf_store(x, m->x);
+    jf_store(y, m->y);
+    jf_store(nx, jf_select(together, zero, jf_mul(m->x, by)));
+    jf_store(ny, jf_select(together, zero, jf_mul(m->y, by)));
+    jf_store(gap, m->gap);
+    jf_store(squeeze, m->squeeze);
+    for (uint32_t lane = 0; lanes >> lane; lane++) {
+        const uint32_t i = p->first + lane;
+        if (!(lanes >> lane & 1))
+            continue;
+        JoxV2 at = {a->x[i], a->y[i]};
+        if ((p->walls >> lane & 1) &&
+            jox_wall_grid_separates(f->step.walls, at, jox_sub(at, jox_v2(x[lane], y[lane]))))
+            continue;
+        f->chunk[i / JOX_FORCE_GRAIN].overlaps += gap[lane] < 0.0f;
+        const JoxFoundPair pair =
+            jox_pair_found(f, i, other[lane], jox_v2(nx[lane], ny[lane]), gap[lane], squeeze[lane]);
+        jox_pair_insert(p->found[lane], p->count[lane]++, &pair);
+    }
+}
+
+/* Of some lanes, whose neighbours are all that they may touch. */
+static void find_seen(Packet *p, uint32_t lanes) {
+    const JoxForces *f = p->f;
+    const JoxAgents *a = f->step.agents;
+    const JoxNeighbours *near = f->step.neighbours;
+    const uint32_t i = p->first;
+    const Self self = {jf_load(a->x + i),       jf_load(a->y + i),
+                       jf_load(a->vx + i),      jf_load(a->vy + i),
+                       jf_load(a->breadth + i), jf_load(a->param[JOX_PARAM_radius] + i),
+                       ji_load(a->id + i)};
+    JoxFloats reach = jf_add(self.radius, jf_set(f->widest));
+    reach = jf_add(jf_add(reach, jf_set(JOX_TOUCH_LEAST)), jf_set(JOX_TOUCH_MOST));
+    uint32_t counts[JOX_WIDTH] = {0};
+    for (uint32_t lane = 0; lanes >> lane; lane++)
+        counts[lane] = lanes >> lane & 1 ? near->count[i + lane] : 0;
+    const JoxInts most = ji_load(counts);
+    for (uint32_t k = 0; k < near->stride; k++) {
+        const size_t at = jox_neighbour_at(near, i, k);
+        const JoxMask close = jf_lt(jf_load(near->distance2 + at), jf_mul(reach, reach));
+        const JoxMask there = jm_and(close, ji_less(ji_set((int32_t)k), most));
+        lanes &= jm_bits(there);
+        if (!lanes)
+            break; /* nearest first: no one further on can touch */
+        Meeting m;
+        const JoxInts others = ji_select(jm_of_bits(lanes), ji_load(near->index + at), ji_set(0));
+        const uint32_t meeting = meet(f, &self, others, lanes, &m);
+        if (meeting)
+            note(p, meeting, others, &m);
+    }
+}
+
+static void find_packet(Packet *p) {
+    JoxForces *f = p->f;
+    const JoxAgents *a = f->step.agents;
+    const JoxNeighbours *near = f->step.neighbours;
+    const uint32_t chunk = p->first / JOX_FORCE_GRAIN;
+    JoxFoundPair *found = (JoxFoundPair *)f->found.items + (size_t)chunk * f->found.room;
+    JoxFoundWall *walls = (JoxFoundWall *)f->found_walls.items;
+    walls += (size_t)chunk * f->found_walls.room;
+    uint32_t seen = f->cut ? 0 : p->lanes;
+    for (uint32_t lane = 0; near->touch_count && seen >> lane; lane++)
+        if (near->touch_count[p->first + lane] != JOX_TOUCH_IS_SEEN)
+            seen &= ~(1u << lane);
+    p->walls = 0;
+    if (f->step.walls)
+        p->walls = jm_bits(jox_wall_grid_near_lanes(f->step.walls, jf_load(a->x + p->first),
+                                                    jf_load(a->y + p->first)));
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+        p->count[lane] = 0;
+    if (seen)
+        find_seen(p, seen);
+    for (uint32_t lane = 0; p->lanes >> lane; lane++) {
+        const uint32_t i = p->first + lane;
+        const bool by_walls = p->walls >> lane & 1;
+        if (!(seen >> lane & 1))
+            p->count[lane] = jox_contacts_of(f, i, by_walls, p->found[lane]);
+        uint32_t *n = &f->found.counts[chunk], *w = &f->found_walls.counts[chunk];
+        JOX_ASSERT(*n + p->count[lane] <= f->found.room);
+        f->found_first[i] = chunk * f->found.room + *n;
+        f->found_number[i] = (uint8_t)p->count[lane];
+        for (uint32_t k = 0; k < p->count[lane]; k++)
+            found[(*n)++] = p->found[lane][k];
+        f->wall_first[i] = chunk * f->found_walls.room + *w;
+        f->wall_number[i] = by_walls ? (uint8_t)jox_contacts_walls_of(f, i, walls + *w) : 0;
+        *w += f->wall_number[i];
+    }
+}
+
+void JOX_WIDE(jox_find_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
+    Packet packet;
+    packet.f = f;
+    for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
+        const uint32_t count = end - i < JOX_WIDTH ? end - i : JOX_WIDTH;
+        packet.first = i;
+        packet.lanes = (uint32_t)(((uint64_t)1 << count) - 1);
+        find_packet(&packet);
+    }
+}

@@ -1,0 +1,24 @@
+/* The kernels of force, one function for each instruction set, and what they share with the plain C
+   about them. */
+#ifndef JOX_FORCE_KERNELS_H
+#define JOX_FORCE_KERNELS_H
+
+#include "force/equations.h"
+#include "force/internal.h"
+#include "simd/isa.h"
+
+/* What agents [begin, end), of one chunk, touch: people, of whom the one of lesser id finds the
+   contact, and walls. `begin` is a multiple of JOX_LANES. */
+typedef void JoxFindKernel(JoxForces *forces, uint32_t begin, uint32_t end);
+#define X(name, isa) JoxFindKernel jox_find_packets_##name;
+JOX_ISAS(X)
+#undef X
+/* Equations 10 to 12 of agents [begin, end), whole blocks of JOX_LANES, in physical mode. */
+typedef void JoxSumKernel(JoxForces *forces, uint32_t begin, uint32_t end);
+#define X(name, isa) JoxSumKernel jox_sum_packets_##name;
+JOX_ISAS(X)
+#undef X
+/* The same of one agent, in either mode. `decay`: that of who came before. */
+void jox_sum_one(JoxForces *forces, uint32_t agent, JoxDecay *decay);
+
+#endif

@@ -1,0 +1,96 @@
+/* The kernel of sum, the equations 10 to 12 of many: a lane is an agent. As sum.c says them of one,
+   to the bit. */
+#include "base/assert.h"
+#include "force/equations.h"
+#include "force/kernels.h"
+#include "simd/vectors.h"
+
+static inline JoxMask is_set(JoxVector a) {
+    return jf_lt(jf_set(0.0f), jf_max(jf_abs(a.x), jf_abs(a.y)));
+}
+
+/* (10) The net force. */
+static inline JoxVector sum_of_terms(const JoxAgents *a, uint32_t i) {
+    JoxVector sum = {jf_set(-0.0f), jf_set(-0.0f)}; /* changes nothing, not even a zero's sign */
+#define PLUS(X, keep, name, label) sum = jv_add(sum, jv_load(a->name##_x, a->name##_y, i));
+    JOX_FORCE_TERMS(PLUS, )
+#undef PLUS
+    return sum;
+}
+
+/* What people plan with: those who stand plan in each step. */
+typedef struct Planning {
+    JoxFloats interval, response, forced, decay;
+} Planning;
+
+static Planning planning(const JoxForceStep *step, uint32_t i, JoxMask stands, JoxDecay decays[2]) {
+    const JoxPlanning own[2] = {jox_planning(step, false), jox_planning(step, true)};
+    const float *damping = step->agents->param[JOX_PARAM_damping];
+    const uint32_t bits = jm_bits(stands);
+    float decay[JOX_WIDTH];
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
+        const uint32_t each = bits >> lane & 1;
+        decay[lane] = jox_decay(&decays[each], damping[i + lane], own[each].interval);
+    }
+    return (Planning){
+        jf_select(stands, jf_set(own[1].interval), jf_set(own[0].interval)),
+        jf_select(stands, jf_set(own[1].response), jf_set(own[0].response)),
+        jf_select(stands, jf_set(own[1].forced), jf_set(own[0].forced)),
+        jf_load(decay),
+    };
+}
+
+/* Force that moves agents, contacts apart: jox_moving_force. */
+static inline JoxVector moving_force(const JoxAgents *a, uint32_t i, JoxMask stands) {
+    const JoxFloats zero = jf_set(0.0f);
+    const JoxVector others =
+        jv_add(jv_load(a->push_x, a->push_y, i), jv_load(a->inferred_x, a->inferred_y, i));
+    const JoxFloats size = jf_sqrt(jv_dot(others, others));
+    const JoxFloats held = jf_select(stands, zero, jf_load(a->param[JOX_PARAM_brace] + i));
+    const JoxFloats share = jf_div(jf_sub(size, held), size);
+    return jv_add(jv_load(a->ext_x, a->ext_y, i),
+                  jv_scale(others, jf_select(jf_lt(held, size), share, zero)));
+}
+
+static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
+    JoxAgents *a = f->step.agents;
+    const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.dt);
+    const JoxFloats mass = jf_load(a->param[JOX_PARAM_mass] + i);
+    const JoxFloats most = jf_load(a->param[JOX_PARAM_max_speed] + i);
+    const JoxVector velocity = jv_load(a->vx, a->vy, i),
+                    contact = jv_load(a->contact_x, a->contact_y, i);
+    const JoxVector preferred = jv_load(a->pref_x, a->pref_y, i), force = sum_of_terms(a, i);
+    const JoxMask touched = is_set(contact);
+    const JoxMask stands =
+        jf_lt(jv_dot(preferred, preferred), jf_set((float)(JOX_STANDS * JOX_STANDS)));
+    const JoxVector moving = moving_force(a, i, stands), given = jv_add(moving, contact);
+    const JoxVector forced = {jf_add(velocity.x, jf_div(jf_mul(given.x, dt), mass)),
+                              jf_add(velocity.y, jf_div(jf_mul(given.y, dt), mass))};
+    jv_store(f->old_x, f->old_y, i, velocity);
+    jv_store(a->force_x, a->force_y, i, force);
+    jv_store(a->forced_x, a->forced_y, i, forced);
+    const JoxFloats size = jf_sqrt(jv_dot(force, force));
+    const JoxFloats least = jf_select(touched, jf_set(1e-6f), jf_set(f->options.least));
+    const JoxMask felt = jm_and(jf_le(jf_mul(least, mass), size), jf_lt(size, jf_set(INFINITY)));
+    const Planning plan = planning(&f->step, i, stands, decays);
+    const JoxVector normal = jv_scale(force, jf_div(jf_set(1.0f), size));
+    const JoxFloats along = jv_dot(velocity, normal),
+                    pressed = jf_div(jv_dot(contact, normal), mass);
+    const JoxFloats driven = jf_div(jv_dot(moving, normal), mass);
+    JoxFloats wanted = jf_select(jf_lt(zero, along), jf_mul(along, plan.decay), along);
+    wanted = jf_add(wanted, jf_div(jf_mul(size, plan.interval), mass));
+    wanted = jf_sub(wanted, jf_mul(pressed, jf_sub(plan.interval, dt)));
+    const JoxFloats moved = jf_add(jf_add(along, jf_mul(pressed, dt)), jf_mul(driven, plan.forced));
+    const JoxFloats offset = jf_add(moved, jf_div(jf_sub(wanted, moved), plan.response));
+    jv_store(a->half_plane_x, a->half_plane_y, i,
+             (JoxVector){jf_select(felt, normal.x, zero), jf_select(felt, normal.y, zero)});
+    jf_store(a->half_plane_offset + i, jf_select(felt, offset, zero));
+    jf_store(a->speed_limit + i,
+             jf_select(jm_and(felt, touched), jf_max(most, jf_sqrt(jv_dot(forced, forced))), most));
+}
+
+void JOX_WIDE(jox_sum_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
+    JoxDecay decays[2] = {{-1.0f, 0.0f, 0.0f}, {-1.0f, 0.0f, 0.0f}};
+    for (uint32_t i = begin; i < end; i += JOX_WIDTH)
+        sum_packet(f, i, decays);
+}

@@ -1,0 +1,245 @@
+/* Whether points lie in an area, and how large it is. */
+#include "geom/area.h"
+
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+
+enum {
+    MOST_STRIPS = 1024,
+    MOST_TIMES = 8
+}; /* strips; times that an edge stands in them, on average */
+
+static const float APART = 1e-3f; /* m: so much beyond `clear`, rounding does not matter */
+
+/* Edges by strips of equal height along y. An edge stands in each strip that its range of y
+   touches: as a point's strip is found by the same arithmetic as those of the range's ends, none
+   that matters to the point is missed. */
+typedef struct Strips {
+    float low, height; /* m */
+    uint32_t count;    /* 0: there are no edges */
+    uint32_t *first;   /* count + 1 */
+    uint32_t *edges;   /* strip by strip, ascending in each */
+} Strips;
+
+typedef struct Range {
+    float least, most;
+} Range;
+
+struct JoxAreaIndex {
+    const JoxArea *area;
+    Strips walls;
+    Strips *places; /* of `in`, then of `out`; empty for all but polygons */
+};
+
+/* ---- strips ---- */
+
+static uint32_t strip_of(const Strips *s, float y) {
+    const float strip = floorf((y - s->low) / s->height);
+    return strip <= 0.0f ? 0 : strip >= (float)s->count ? s->count - 1 : (uint32_t)strip;
+}
+
+/* How often edges stand in strips, in all. */
+static size_t entries(const Strips *s, const Range *ranges, uint32_t count) {
+    size_t sum = 0;
+    for (uint32_t e = 0; e < count; e++)
+        sum += strip_of(s, ranges[e].most) - strip_of(s, ranges[e].least) + 1;
+    return sum;
+}
+
+/* As many strips as edges, fewer where long edges would stand in too many. */
+static Strips make_strips(const Range *ranges, uint32_t count) {
+    Strips s = {.low = INFINITY};
+    float high = -INFINITY;
+    for (uint32_t e = 0; e < count; e++) {
+        s.low = jox_minf(s.low, ranges[e].least);
+        high = jox_maxf(high, ranges[e].most);
+    }
+    if (count == 0)
+        return s;
+    s.count = count < MOST_STRIPS ? count : MOST_STRIPS;
+    size_t all;
+    for (;; s.count = (s.count + 1) / 2) {
+        s.height = jox_maxf((high - s.low) / (float)s.count, 1e-3f);
+        all = entries(&s, ranges, count);
+        if (s.count == 1 || all <= (size_t)count * MOST_TIMES)
+            break;
+    }
+    s.first = jox_alloc(s.count + 1, sizeof *s.first);
+    s.edges = jox_alloc(all, sizeof *s.edges);
+    for (uint32_t e = 0; e < count; e++)
+        for (uint32_t k = strip_of(&s, ranges[e].least); k <= strip_of(&s, ranges[e].most); k++)
+            s.first[k]++;
+    uint32_t sum = 0;
+    for (uint32_t k = 0; k <= s.count; k++)
+        s.first[k] = sum += s.first[k];
+    JOX_ASSERT(sum == all);
+    for (uint32_t e = count; e-- > 0;)
+        for (uint32_t k = strip_of(&s, ranges[e].least); k <= strip_of(&s, ranges[e].most); k++)
+            s.edges[--s.first[k]] = e;
+    return s;
+}
+
+static void free_strips(Strips *s) {
+    jox_free(s->first);
+    jox_free(s->edges);
+}
+
+/* ---- an area's edges ---- */
+
+/* The edge that leads to point e of a polygon. */
+static void polygon_edge(const JoxPlace *place, uint32_t e, JoxV2 *from, JoxV2 *to) {
+    *from = place->points[e > 0 ? e - 1 : place->count - 1];
+    *to = place->points[e];
+}
+
+static Strips polygon_strips(const JoxPlace *place) {
+    if (place->kind != JOX_PLACE_POLYGON)
+        return (Strips){0};
+    Range *ranges = jox_alloc(place->count + 1, sizeof *ranges);
+    for (uint32_t e = 0; e < place->count; e++) {
+        JoxV2 a, b;
+        polygon_edge(place, e, &a, &b);
+        ranges[e] = (Range){jox_minf(a.y, b.y), jox_maxf(a.y, b.y)};
+    }
+    Strips s = make_strips(ranges, place->count);
+    jox_free(ranges);
+    return s;
+}
+
+/* An edge matters to points nearer than `clear`, and to those whose ray to the right it crosses. */
+static Strips wall_strips(const JoxWalls *walls, float clear) {
+    const float far = clear + APART;
+    Range *ranges = jox_alloc(walls->count + 1, sizeof *ranges);
+    for (uint32_t v = 0; v < walls->count; v++) {
+        JoxV2 a = walls->vertices[v].point, b = walls->vertices[walls->vertices[v].next].point;
+        ranges[v] = (Range){jox_minf(a.y, b.y) - far, jox_maxf(a.y, b.y) + far};
+    }
+    Strips s = make_strips(ranges, walls->count);
+    jox_free(ranges);
+    return s;
+}
+
+JoxAreaIndex *jox_area_index(const JoxArea *area) {
+    JoxAreaIndex *index = jox_alloc(1, sizeof *index);
+    const uint32_t places = area->in_count + area->out_count;
+    index->area = area;
+    index->places = jox_alloc(places + 1, sizeof *index->places);
+    for (uint32_t i = 0; i < places; i++)
+        index->places[i] = polygon_strips(
+            &area->places[i < area->in_count ? area->in[i] : area->out[i - area->in_count]]);
+    if (area->walls)
+        index->walls = wall_strips(area->walls, area->clear);
+    return index;
+}
+
+void jox_area_index_free(JoxAreaIndex *index) {
+    for (uint32_t i = 0; i < index->area->in_count + index->area->out_count; i++)
+        free_strips(&index->places[i]);
+    free_strips(&index->walls);
+    jox_free(index->places);
+    jox_free(index);
+}
+
+/* ---- points ---- */
+
+/* As jox_polygon_contains has it, of the edges at the point's height. */
+static bool in_place(const JoxAreaIndex *index, uint32_t number, uint32_t place, JoxV2 p) {
+    const Strips *s = &index->places[number];
+    if (s->count == 0)
+        return jox_place_contains(index->area->places, place, p);
+    const uint32_t strip = strip_of(s, p.y);
+    bool in = false;
+    for (uint32_t k = s->first[strip]; k < s->first[strip + 1]; k++) {
+        JoxV2 a, b;
+        polygon_edge(&index->area->places[place], s->edges[k], &b, &a);
+        if ((a.y > p.y) != (b.y > p.y) && p.x < (b.x - a.x) * (p.y - a.y) / (b.y - a.y) + a.x)
+            in = !in;
+    }
+    return in;
+}
+
+/* Neither within `clear` of an edge nor in a solid. Edges of a ring follow each other. */
+static bool is_clear(const JoxAreaIndex *index, JoxV2 p) {
+    const JoxWalls *walls = index->area->walls;
+    const float clear = index->area->clear;
+    const Strips *s = &index->walls;
+    if (s->count == 0)
+        return true;
+    const uint32_t strip = strip_of(s, p.y);
+    uint32_t ring = 0;
+    bool odd = false;
+    for (uint32_t k = s->first[strip]; k < s->first[strip + 1]; k++) {
+        const uint32_t v = s->edges[k];
+        JoxV2 a = walls->vertices[v].point, b = walls->vertices[walls->vertices[v].next].point;
+        JOX_ASSERT(ring < walls->ring_count);
+        for (; v >= walls->rings[ring].first + walls->rings[ring].count; ring++, odd = false)
+            if (odd && walls->rings[ring].solid)
+                return false;
+        if (p.x > jox_maxf(a.x, b.x) + clear + APART)
+            continue;
+        JoxV2 d = jox_sub(p, jox_segment_nearest(a, b, p));
+        if (jox_length2(d) < clear * clear)
+            return false;
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x))
+            odd = !odd;
+    }
+    return !(odd && walls->rings[ring].solid);
+}
+
+bool jox_area_contains(const JoxAreaIndex *index, JoxV2 p) {
+    const JoxArea *area = index->area;
+    bool in = false;
+    for (uint32_t i = 0; i < area->in_count && !in; i++)
+        in = in_place(index, i, area->in[i], p);
+    for (uint32_t i = 0; i < area->out_count && in; i++)
+        in = !in_place(index, area->in_count + i, area->out[i], p);
+    return in && is_clear(index, p);
+}
+
+/* ---- size ---- */
+
+static void widen(const JoxPlace *place, JoxV2 *low, JoxV2 *high) {
+    float r = jox_place_outline(place) == JOX_OUTLINE_CIRCLE ? place->radius : 0.5f;
+    for (uint32_t i = 0; i < place->count; i++) {
+        low->x = jox_minf(low->x, place->points[i].x - r);
+        low->y = jox_minf(low->y, place->points[i].y - r);
+        high->x = jox_maxf(high->x, place->points[i].x + r);
+        high->y = jox_maxf(high->y, place->points[i].y + r);
+    }
+}
+
+bool jox_area_extent(const JoxArea *area, JoxV2 *low, JoxV2 *high) {
+    *low = (JoxV2){INFINITY, INFINITY};
+    *high = (JoxV2){-INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < area->in_count; i++) {
+        const JoxPlace *place = &area->places[area->in[i]];
+        widen(place, low, high);
+        for (uint32_t m = 0; m < place->member_count; m++)
+            widen(&area->places[place->members[m]], low, high);
+    }
+    return low->x < high->x && low->y < high->y;
+}
+
+double jox_area_sampling(JoxV2 low, JoxV2 high) {
+    return fmax(0.1, sqrt(((double)high.x - low.x) * ((double)high.y - low.y) / 1e6));
+}
+
+double jox_area_size(const JoxArea *area) {
+    JoxV2 low, high;
+    if (!jox_area_extent(area, &low, &high))
+        return 0;
+    double w = (double)high.x - low.x, h = (double)high.y - low.y;
+    double step = jox_area_sampling(low, high);
+    double nx = floor(w / step) + 1, ny = floor(h / step) + 1, hits = 0;
+    if (!(nx * ny <= 4e6))
+        return 0; /* too thin or too large to sample */
+    JoxAreaIndex *index = jox_area_index(area);
+    for (double j = 0; j < ny; j++)
+        for (double i = 0; i < nx; i++)
+            hits += jox_area_contains(index, (JoxV2){(float)(low.x + (i + 0.5) * w / nx),
+                                                     (float)(low.y + (j + 0.5) * h / ny)});
+    jox_area_index_free(index);
+    return hits / (nx * ny) * w * h;
+}

@@ -1,0 +1,28 @@
+/* The grid of walls for kernels: part of those that include it. */
+#ifndef JOX_GEOM_WALL_GRID_LANES_H
+#define JOX_GEOM_WALL_GRID_LANES_H
+
+#include "geom/wall_grid.h"
+#include "simd/lanes.h"
+
+/* The lanes whose point (m) has edges within the grid's reach, as jox_wall_grid_at counts them. */
+static inline JoxMask jox_wall_grid_near_lanes(const JoxWallGrid *g, JoxFloats px, JoxFloats py) {
+    const JoxFloats zero = jf_set(0.0f), cell = jf_set(g->cell);
+    if (!g->first)
+        return jm_of_bits(0);
+    const JoxFloats columns = jf_set((float)g->columns), rows = jf_set((float)g->rows);
+    JoxFloats x = jf_div(jf_sub(px, jf_set(g->low.x)), cell);
+    JoxFloats y = jf_div(jf_sub(py, jf_set(g->low.y)), cell);
+    JoxMask within =
+        jm_and(jm_and(jf_le(zero, x), jf_lt(x, columns)), jm_and(jf_le(zero, y), jf_lt(y, rows)));
+    if (!jm_bits(within))
+        return within;
+    /* There are less cells than whole numbers that a float holds. */
+    JoxFloats row = jf_mul(ji_to_floats(jf_to_ints(y)), columns);
+    JoxInts at = jf_to_ints(jf_add(row, ji_to_floats(jf_to_ints(x))));
+    at = ji_select(within, at, ji_set(0));
+    JoxInts begin = ji_pick(g->first, at), end = ji_pick(g->first + 1, at);
+    return jm_and(within, ji_less(begin, end));
+}
+
+#endif

@@ -1,0 +1,120 @@
+/* The kernels of navigation, one function for each instruction set, and what they share with the
+   plain C about them. */
+#ifndef JOX_NAV_KERNELS_H
+#define JOX_NAV_KERNELS_H
+
+#include "nav/internal.h"
+#include "simd/isa.h"
+
+typedef struct JoxPerceive {
+    const JoxNav *nav;
+    JoxAgents *agents; /* search, density */
+    JoxNeighbours *out;
+    float sight; /* m: the farthest that anybody sees; INFINITY: as far as `perception` */
+} JoxPerceive;
+
+#define JOX_PI 3.14159265f
+#define JOX_SEARCH_SLACK 0.03f    /* m: growth of the last search radius that is tried first */
+#define JOX_SEARCH_GROWTH 1.5f    /* of a radius that held too few */
+#define JOX_SEARCH_LEAST 0.01f    /* m, remembered */
+#define JOX_DENSITY_LEAST 0.0025f /* m2: of the squared distance that density is computed from */
+
+/* Agents [begin, end): their neighbours, those who may touch them, `search` and `density`. `begin`
+   is a multiple of JOX_LANES. */
+typedef void JoxPerceiveKernel(const JoxPerceive *perceive, uint32_t begin, uint32_t end);
+#define X(name, isa) JoxPerceiveKernel jox_perceive_packets_##name;
+JOX_ISAS(X)
+#undef X
+/* The same of one agent, whoever is about, searching within `radius` first. */
+void jox_perceive_one(const JoxPerceive *perceive, uint32_t agent, float radius);
+/* Those within touching range. */
+void jox_perceive_touching(const JoxPerceive *perceive, uint32_t agent, float range);
+
+enum {
+    JOX_MOST_WALLS = 16,
+    JOX_MOST_OBJECTS = 24,
+    JOX_MOST_CONTACTS = JOX_MOST_TOUCHED + JOX_MOST_BODIES_TOUCHED
+};
+
+typedef struct JoxSolve {
+    JoxNav *nav;
+    JoxAgents *agents;
+    const JoxNeighbours *neighbours;
+    const JoxObjects *objects;       /* NULL: none */
+    const JoxContactPlanes *touched; /* NULL: contacts were not looked for */
+    float planning_time;             /* s */
+    bool plans; /* else those who want to get on go on with what they planned */
+} JoxSolve;
+
+/* How many half-planes of each kind an agent has, in their order, which is that of
+   JoxConstraintKind. */
+typedef struct JoxHalfPlaneCounts {
+    uint32_t walls, contacts, agents, objects, force;
+} JoxHalfPlaneCounts;
+
+/* Plans agents [begin, end): next_x, next_y, failed; counts those of whom a hard half-plane was
+   relaxed. `begin` is a multiple of JOX_LANES. */
+typedef uint32_t JoxSolveKernel(const JoxSolve *solve, uint32_t begin, uint32_t end);
+#define X(name, isa) JoxSolveKernel jox_solve_packets_##name;
+JOX_ISAS(X)
+#undef X
+
+/* In plain C, for one agent: its half-planes of walls, of what it touches, of those of its
+   neighbours that it does not pass over, by the walking law or by ORCA, of bodies and of force.
+   They return how many. */
+uint32_t jox_solve_walls(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *out);
+uint32_t jox_solve_contacts(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *out);
+uint32_t jox_solve_neighbours(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *out);
+uint32_t jox_solve_objects(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *out);
+uint32_t jox_solve_force(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *out);
+/* Whether an agent has no half-plane for a neighbour: it ignores or touches it, or a wall stands
+   between them. */
+bool jox_solve_passes_over(const JoxSolve *solve, uint32_t agent, uint32_t other);
+/* All of them. */
+JoxHalfPlaneCounts jox_solve_half_planes(const JoxSolve *solve, uint32_t agent, JoxHalfPlane *out);
+/* Whether it walks by the walking law. */
+static inline bool jox_solve_walks(const JoxSolve *solve, uint32_t agent) {
+    return !solve->nav->literal && jox_walks(solve->agents, agent);
+}
+/* Plans an agent of which these are the half-planes, and what it wants; they may be lowered.
+   Returns whether a hard one was relaxed. */
+bool jox_solve_one(const JoxSolve *solve, uint32_t agent, const JoxHalfPlaneCounts *made,
+                   JoxHalfPlane *half_planes, JoxV2 wanted);
+
+/* What the walking law needs of a step (core/walking.md). */
+typedef struct JoxWalk {
+    JoxNav *nav;
+    JoxAgents *agents;
+    const JoxNeighbours *neighbours;
+    const JoxWalkLaw *law;
+    uint64_t seed;
+    double time, interval;    /* s: now; since people planned last */
+    float rise, fall, course; /* shares of the way gone in `interval` */
+    float start, stop;        /* likewise, of a change of velocity */
+} JoxWalk;
+
+/* The directions that are judged: the way, and 15 to 75 degrees to its left and right. */
+enum { JOX_WALK_DIRECTIONS = 11 };
+extern const float jox_walk_cosine[JOX_WALK_DIRECTIONS];
+extern const float jox_walk_sine[JOX_WALK_DIRECTIONS]; /* left positive */
+
+/* The speed that each direction allows, and what it is worth, m/s, by lane. */
+typedef struct JoxWalkTable {
+    float allowed[JOX_WALK_DIRECTIONS][JOX_LANES], worth[JOX_WALK_DIRECTIONS][JOX_LANES];
+} JoxWalkTable;
+
+/* Agents [begin, end) that walk by the law: walk_x, walk_y, course_x, course_y, eager. `begin` is a
+   multiple of JOX_LANES. */
+typedef void JoxWalkKernel(const JoxWalk *walk, uint32_t begin, uint32_t end);
+#define X(name, isa) JoxWalkKernel jox_walk_packets_##name;
+JOX_ISAS(X)
+#undef X
+
+/* In plain C, for one agent. Its time gap at present, s, which differs between people, wanders in
+   time, and falls with eagerness; sets `eager`. */
+float jox_walk_temper(const JoxWalk *walk, uint32_t agent);
+/* Lowers what walls allow in its lane of the table. Straight on the way itself leads round walls.
+ */
+void jox_walk_mind_walls(const JoxWalk *walk, uint32_t agent, uint32_t lane, JoxWalkTable *table);
+
+#endif

@@ -1,0 +1,122 @@
+/* The nearest of one agent at a time, in plain C: for those whom packets of lanes leave over, and
+   for those within touching range where the neighbours may lack some. */
+#include <math.h>
+#include <string.h>
+
+#include "nav/kernels.h"
+#include "nav/rows.h"
+
+/* A candidate as one number that sorts by distance, then id: bits of the squared distance (which is
+   not negative) above the rank, in which agents have the order of their ids. */
+static inline uint64_t key_of(float d2, uint32_t rank) {
+    uint32_t bits;
+    memcpy(&bits, &d2, sizeof bits);
+    return (uint64_t)bits << 32 | rank;
+}
+
+static inline float distance2_of(uint64_t key) {
+    uint32_t bits = (uint32_t)(key >> 32);
+    float d2;
+    memcpy(&d2, &bits, sizeof d2);
+    return d2;
+}
+
+enum { BUFFER = 64 };
+
+/* The `most` nearest so far, ascending, the rest UINT64_MAX; and candidates not yet sorted in. */
+typedef struct Nearest {
+    uint64_t keys[JOX_MOST_NEIGHBOURS];
+    uint64_t waiting[BUFFER];
+    uint32_t count, most, waits;
+} Nearest;
+
+/* Sorts the waiting in. Without branches: each key sinks through all slots, the greater goes on. */
+static void sort_in(Nearest *n) {
+    JOX_ASSERT(n->waits <= BUFFER && n->most <= JOX_MOST_NEIGHBOURS);
+    for (uint32_t w = 0; w < n->waits; w++) {
+        uint64_t key = n->waiting[w];
+        for (uint32_t k = 0; k < n->most; k++) {
+            uint64_t here = n->keys[k];
+            n->keys[k] = key < here ? key : here;
+            key = key < here ? here : key;
+        }
+    }
+    n->count += n->waits;
+    n->waits = 0;
+}
+
+/* Adds the agents within `radius` of a point, but not agent i. */
+static void search_about(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV2 point,
+                         float radius, Nearest *found, uint32_t hints[JOX_ROW_HINTS]) {
+    const float x = point.x, y = point.y, r2 = radius * radius;
+    const float *ax = a->x, *ay = a->y;
+    const uint32_t *rank = a->rank;
+    float wide = radius + nav->drift;
+    uint32_t low = jox_row_of(nav, y - wide), high = jox_row_of(nav, y + wide);
+    JOX_ASSERT(low <= high && high < nav->rows);
+    for (uint32_t row = low; row <= high; row++) {
+        uint32_t end = nav->row_first[row + 1], *hint = &hints[row % JOX_ROW_HINTS];
+        uint32_t j = *hint = jox_row_from(nav, row, x - wide, *hint);
+        for (float stop = x + wide; j < end && nav->sorted_x[j] <= stop; j++) {
+            float dx = ax[j] - x, dy = ay[j] - y, d2 = dx * dx + dy * dy;
+            found->waiting[found->waits] = key_of(d2, rank[j]);
+            found->waits += (d2 <= r2) & (j != i); /* kept or written over, without a branch */
+            if (found->waits == BUFFER)
+                sort_in(found);
+        }
+    }
+}
+
+/* Finds the nearest agents within `radius` of agent i. */
+static void search(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radius, Nearest *found,
+                   uint32_t hints[JOX_ROW_HINTS]) {
+    JoxV2 point = {a->x[i], a->y[i]};
+    float wide = radius + nav->drift;
+    found->count = found->waits = 0;
+    for (uint32_t k = 0; k < found->most; k++)
+        found->keys[k] = UINT64_MAX;
+    for (int row = -1; row <= 1; row++)
+        for (int column = -1; column <= 1; column++)
+            if (jox_sees_image(point.x, a->origin.x, a->period.x, wide, column) &&
+                jox_sees_image(point.y, a->origin.y, a->period.y, wide, row))
+                search_about(
+                    nav, a, i,
+                    jox_add(point, (JoxV2){(float)column * a->period.x, (float)row * a->period.y}),
+                    radius, found, hints);
+    sort_in(found);
+    found->count = found->count < found->most ? found->count : found->most;
+}
+
+void jox_perceive_touching(const JoxPerceive *p, uint32_t i, float range) {
+    const JoxAgents *a = p->agents;
+    JoxNeighbours *out = p->out;
+    uint32_t hints[JOX_ROW_HINTS] = {0};
+    Nearest found = {.most = JOX_MOST_NEIGHBOURS};
+    search(p->nav, a, i, range, &found, hints);
+    out->touch_count[i] = (uint8_t)found.count;
+    for (uint32_t k = 0; k < found.count; k++)
+        out->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k] = a->by_rank[(uint32_t)found.keys[k]];
+}
+
+void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {
+    const JoxAgents *a = p->agents;
+    const float perception = jox_minf(a->param[JOX_PARAM_perception][i], p->sight);
+    uint32_t hints[JOX_ROW_HINTS] = {0};
+    Nearest found = {.most = (uint32_t)a->param[JOX_PARAM_neighbours][i]};
+    for (bool again = found.most > 0; again;) {
+        radius = jox_minf(radius, perception);
+        search(p->nav, a, i, radius, &found, hints);
+        again = found.count < found.most && radius < perception;
+        radius *= JOX_SEARCH_GROWTH;
+    }
+    bool full = found.most > 0 && found.count == found.most;
+    float reach = full ? sqrtf(distance2_of(found.keys[found.count - 1])) : perception;
+    a->search[i] = jox_maxf(reach, JOX_SEARCH_LEAST);
+    a->density[i] = (float)found.count / (JOX_PI * jox_maxf(reach * reach, JOX_DENSITY_LEAST));
+    p->out->count[i] = (uint8_t)found.count;
+    for (uint32_t k = 0; k < found.count; k++) {
+        size_t at = jox_neighbour_at(p->out, i, k);
+        p->out->index[at] = a->by_rank[(uint32_t)found.keys[k]];
+        p->out->distance2[at] = distance2_of(found.keys[k]);
+    }
+}

@@ -1,0 +1,40 @@
+/* The stage perceive: each agent's nearest neighbours, by the kernel of the run's instruction set.
+ */
+#include <math.h>
+
+#include "base/assert.h"
+#include "nav/kernels.h"
+
+#define X(name, isa) [isa] = jox_perceive_packets_##name,
+static JoxPerceiveKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+
+static void perceive_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const JoxPerceive *p = context;
+    KERNELS[p->nav->isa](p, begin, end);
+}
+
+static void reserve_neighbours(JoxNeighbours *out, const JoxAgents *a) {
+    uint32_t stride = 1;
+    out->widest = 0.0f;
+    for (uint32_t i = 0; i < a->count; i++) {
+        if ((uint32_t)a->param[JOX_PARAM_neighbours][i] > stride)
+            stride = (uint32_t)a->param[JOX_PARAM_neighbours][i];
+        out->widest = jox_maxf(out->widest, a->param[JOX_PARAM_radius][i]);
+    }
+    jox_neighbours_reserve(out, a->count, stride);
+}
+
+/* Less than half a period, so that nobody is seen from two sides; INFINITY without. */
+static float sight(const JoxAgents *a) {
+    float most = a->period.x > 0.0f ? 0.49f * a->period.x : INFINITY;
+    return a->period.y > 0.0f ? jox_minf(most, 0.49f * a->period.y) : most;
+}
+
+void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool) {
+    reserve_neighbours(out, agents);
+    JoxPerceive perceive = {nav, agents, out, sight(agents)};
+    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, perceive_range, &perceive);
+    JOX_CHECK(jox_neighbours_check(out, agents));
+}

@@ -1,0 +1,268 @@
+/* The rest of solve, in lanes: agents of whom the first program found no velocity, or whom what
+   they are pressed by would take far from what they want, gathered from many packets into full
+   ones. Each gets what jox_solve_one would give it, to the bit. For kernels: part of those that
+   include it. */
+#ifndef JOX_NAV_REST_LANES_H
+#define JOX_NAV_REST_LANES_H
+
+#include <string.h>
+
+#include "nav/kernels.h"
+#include "nav/program_lanes.h"
+
+/* A half-plane n . v >= offset (m/s) of each lane; zeros: none. */
+typedef struct JoxPlaneLanes {
+    JoxFloats x, y, offset;
+} JoxPlaneLanes;
+
+/* What agents want and are pressed by: the velocity that forces give, the half-plane of force, who
+   touches something, and who touches something or feels a force. m/s. */
+typedef struct JoxPressed {
+    JoxVector wanted, forced;
+    JoxPlaneLanes force;
+    JoxMask touching, pressed;
+} JoxPressed;
+
+/* Agents that wait for their velocity. Their half-planes stand one after the other, in their order.
+ */
+typedef struct JoxRest {
+    uint32_t count;
+    uint32_t agent[JOX_WIDTH], failed_at[JOX_WIDTH]; /* half-plane that could not be met */
+    bool failed[JOX_WIDTH];                          /* there is such a one */
+    JoxHalfPlaneCounts made[JOX_WIDTH];
+    float wanted_x[JOX_WIDTH], wanted_y[JOX_WIDTH], velocity_x[JOX_WIDTH], velocity_y[JOX_WIDTH];
+    JoxHalfPlane list[JOX_WIDTH][JOX_MOST_CONSTRAINTS];
+} JoxRest;
+
+static inline uint32_t jox_count_of(const JoxHalfPlaneCounts *made) {
+    return made->walls + made->contacts + made->agents + made->objects + made->force;
+}
+
+/* Square of how far those who are pressed may be taken from what they want, m2/s2: see
+   keep_within_reach in solve_one.c. */
+static inline JoxFloats jox_reach2_lanes(const JoxPressed *p) {
+    JoxFloats fx = jf_sub(p->forced.x, p->wanted.x), fy = jf_sub(p->forced.y, p->wanted.y);
+    JoxFloats reach2 = jf_add(jf_mul(fx, fx), jf_mul(fy, fy));
+    JoxFloats along = jv_dot((JoxVector){p->force.x, p->force.y}, p->wanted);
+    JoxFloats lacks = jf_max(jf_set(0.0f), jf_sub(p->force.offset, along));
+    return jf_max(reach2, jf_mul(lacks, lacks));
+}
+
+static inline JoxMask jox_out_of_reach_lanes(const JoxPressed *p, JoxVector velocity) {
+    JoxVector d = {jf_sub(velocity.x, p->wanted.x), jf_sub(velocity.y, p->wanted.y)};
+    return jm_without(p->pressed, jf_le(jv_dot(d, d), jox_reach2_lanes(p)));
+}
+
+/* Of those who touch something, who by their feet do nothing but for the program's rounding:
+   contact alone then keeps momentum. */
+static inline JoxVector jox_as_forced_lanes(const JoxPressed *p, JoxVector velocity) {
+    const JoxFloats rounding = jf_set(2e-5f); /* m/s */
+    JoxVector d = {jf_sub(velocity.x, p->forced.x), jf_sub(velocity.y, p->forced.y)};
+    JoxMask same = jm_and(p->touching, jf_lt(jv_dot(d, d), jf_mul(rounding, rounding)));
+    return jv_select(same, p->forced, velocity);
+}
+
+static inline void jox_keep_plan(const JoxSolve *s, uint32_t agent, float x, float y, bool failed) {
+    s->agents->next_x[agent] = x;
+    s->agents->next_y[agent] = y;
+    s->agents->failed[agent] |= failed;
+}
+
+/* ---- of those that were gathered ---- */
+
+/* What is known of each, in lanes. Lanes without an agent have those of the first. */
+typedef struct JoxRestLanes {
+    JoxMask all;
+    JoxFloats limit; /* m/s */
+    JoxInts walls, hard_count, failed_at;
+    uint32_t hard; /* row from which on their half-planes are soft */
+    JoxPressed pressed;
+    JoxVector velocity;
+    JoxRows rows;
+} JoxRestLanes;
+
+/* Rows of all: the hard half-planes of each from row 0, the soft ones from one row of all on. */
+static inline void jox_rest_rows(const JoxRest *r, JoxRestLanes *l) {
+    uint32_t hard[JOX_WIDTH] = {0}, walls[JOX_WIDTH] = {0}, failed_at[JOX_WIDTH] = {0};
+    uint32_t most = 0;
+    l->hard = l->rows.count = 0;
+    for (uint32_t k = 0; k < r->count; k++) {
+        walls[k] = r->made[k].walls;
+        hard[k] = walls[k] + r->made[k].contacts;
+        l->hard = hard[k] > l->hard ? hard[k] : l->hard;
+    }
+    for (uint32_t k = 0; k < r->count; k++) {
+        uint32_t end = l->hard - hard[k] + jox_count_of(&r->made[k]);
+        most = end > most ? end : most;
+        failed_at[k] = r->failed_at[k] + l->hard - hard[k];
+    }
+    jox_rows_open(&l->rows, most);
+    for (uint32_t k = 0; k < r->count; k++)
+        for (uint32_t n = 0; n < jox_count_of(&r->made[k]); n++) {
+            uint32_t row = n < hard[k] ? n : n - hard[k] + l->hard;
+            l->rows.x[row][k] = r->list[k][n].normal.x;
+            l->rows.y[row][k] = r->list[k][n].normal.y;
+            l->rows.offset[row][k] = r->list[k][n].offset;
+        }
+    l->walls = ji_load(walls);
+    l->hard_count = ji_load(hard);
+    l->failed_at = ji_load(failed_at);
+}
+
+static inline void jox_rest_load(const JoxSolve *s, JoxRest *r, JoxRestLanes *l) {
+    const JoxAgents *a = s->agents;
+    uint32_t touching = 0, pressed = 0;
+    for (uint32_t k = r->count; k < JOX_WIDTH; k++)
+        r->agent[k] = r->agent[0];
+    jox_rest_rows(r, l);
+    for (uint32_t k = 0; k < r->count; k++) {
+        touching |= (r->made[k].contacts > 0) << k;
+        pressed |= (r->made[k].contacts > 0 || r->made[k].force) << k;
+    }
+    const JoxInts at = ji_load(r->agent);
+    l->all = jm_of_bits((1u << r->count) - 1);
+    l->limit = jf_pick(a->speed_limit, at);
+    l->velocity = (JoxVector){jf_load(r->velocity_x), jf_load(r->velocity_y)};
+    l->pressed = (JoxPressed){{jf_load(r->wanted_x), jf_load(r->wanted_y)},
+                              {jf_pick(a->forced_x, at), jf_pick(a->forced_y, at)},
+                              {jf_pick(a->half_plane_x, at), jf_pick(a->half_plane_y, at),
+                               jf_pick(a->half_plane_offset, at)},
+                              jm_of_bits(touching),
+                              jm_of_bits(pressed)};
+}
+
+/* The program over the rows of some lanes. Returns those of whom a hard row cannot be met: their
+   result does not hold. */
+static inline JoxMask jox_best_lanes(const JoxRows *rows, uint32_t hard, JoxMask lanes,
+                                     JoxFloats limit, JoxVector wanted, JoxVector *result) {
+    JoxInts at;
+    JoxMask failed = jox_program_lanes(rows, rows->count, lanes, limit, wanted, NULL, result, &at);
+    JoxMask unmet = jm_and(failed, ji_less(at, ji_set((int32_t)hard)));
+    JoxMask soft = jm_without(failed, unmet);
+    if (jm_bits(soft))
+        jox_least_violation_lanes(rows, hard, soft, at, limit, wanted, result);
+    return unmet;
+}
+
+/* Lowers contacts and force to the best that there is within reach: see keep_within_reach. Returns
+   the lanes of which any was; *unmet are those of which a hard half-plane gives way, which are not
+   done here. */
+static inline JoxMask jox_lower_lanes(const JoxRest *r, JoxRestLanes *l, JoxMask *unmet) {
+    const JoxFloats slack = jf_set(1e-5f);
+    const JoxVector wanted = l->pressed.wanted, none = {jf_set(0.0f), jf_set(0.0f)};
+    const JoxPlaneLanes *force = &l->pressed.force;
+    JoxRows imposed;
+    imposed.count = l->hard + 1;
+    for (uint32_t row = 0; row <= l->hard; row++) {
+        const bool is_hard = row < l->hard;
+        JoxVector n = is_hard ? jox_row_normal(&l->rows, row) : (JoxVector){force->x, force->y};
+        JoxFloats offset = is_hard ? jf_load(l->rows.offset[row]) : force->offset;
+        jf_store(imposed.x[row], n.x);
+        jf_store(imposed.y[row], n.y);
+        jf_store(imposed.offset[row], jf_sub(offset, jv_dot(n, wanted)));
+    }
+    JoxVector change;
+    *unmet = jox_best_lanes(&imposed, l->hard, l->all, jf_sqrt(jox_reach2_lanes(&l->pressed)), none,
+                            &change);
+    const JoxVector best = {jf_add(wanted.x, change.x), jf_add(wanted.y, change.y)};
+    JoxMask lowered = jm_of_bits(0);
+    for (uint32_t row = 0; row < l->hard; row++) {
+        JoxMask contact = jm_without(ji_less(ji_set((int32_t)row), l->hard_count),
+                                     ji_less(ji_set((int32_t)row), l->walls));
+        JoxFloats least = jv_dot(jox_row_normal(&l->rows, row), best);
+        JoxFloats offset = jf_load(l->rows.offset[row]);
+        JoxMask lower = jm_without(contact, jf_le(offset, jf_add(least, slack)));
+        jf_store(l->rows.offset[row], jf_select(lower, jf_sub(least, slack), offset));
+        lowered = jm_or(lowered, lower);
+    }
+    JoxFloats least = jv_dot((JoxVector){force->x, force->y}, best);
+    uint32_t lower = jm_bits(jm_without(l->all, jf_le(force->offset, jf_add(least, slack))));
+    float offsets[JOX_WIDTH];
+    jf_store(offsets, jf_sub(least, slack));
+    for (uint32_t k = 0; k < r->count; k++) {
+        uint32_t last = l->hard - r->made[k].walls - r->made[k].contacts;
+        last += jox_count_of(&r->made[k]) - 1;
+        if (!r->made[k].force)
+            lower &= ~(1u << k);
+        else if (lower >> k & 1)
+            l->rows.offset[last][k] = offsets[k];
+    }
+    return jm_or(lowered, jm_of_bits(lower));
+}
+
+/* Plans those that were gathered, from the velocity that their own program gave them, once what
+   they are pressed by is within reach; they are gone then. Returns how many had a hard half-plane
+   relaxed. */
+static inline uint32_t jox_rest_pull_in(const JoxSolve *s, JoxRest *r) {
+    JoxRestLanes l;
+    JoxVector lowest;
+    JoxMask unmet, lowered;
+    uint32_t relaxed = 0;
+    float x[JOX_WIDTH], y[JOX_WIDTH];
+    if (!r->count)
+        return 0;
+    jox_rest_load(s, r, &l);
+    lowered = jox_lower_lanes(r, &l, &unmet);
+    lowered = jm_without(lowered, unmet);
+    if (jm_bits(lowered)) {
+        unmet = jm_or(unmet,
+                      jox_best_lanes(&l.rows, l.hard, lowered, l.limit, l.pressed.wanted, &lowest));
+        l.velocity = jv_select(lowered, lowest, l.velocity);
+    }
+    l.velocity = jox_as_forced_lanes(&l.pressed, l.velocity);
+    jf_store(x, l.velocity.x);
+    jf_store(y, l.velocity.y);
+    for (uint32_t k = 0; k < r->count; k++)
+        if (jm_bits(unmet) >> k & 1)
+            relaxed += jox_solve_one(s, r->agent[k], &r->made[k], r->list[k],
+                                     jox_v2(r->wanted_x[k], r->wanted_y[k]));
+        else
+            jox_keep_plan(s, r->agent[k], x[k], y[k], r->failed[k]);
+    r->count = 0;
+    return relaxed;
+}
+
+static inline void jox_rest_copy(const JoxRest *from, uint32_t k, JoxRest *to) {
+    const uint32_t at = to->count++;
+    to->agent[at] = from->agent[k];
+    to->failed[at] = from->failed[k];
+    to->failed_at[at] = from->failed_at[k];
+    to->made[at] = from->made[k];
+    to->wanted_x[at] = from->wanted_x[k];
+    to->wanted_y[at] = from->wanted_y[k];
+    to->velocity_x[at] = from->velocity_x[k];
+    to->velocity_y[at] = from->velocity_y[k];
+    memcpy(to->list[at], from->list[k], jox_count_of(&from->made[k]) * sizeof *from->list[k]);
+}
+
+/* Plans those that were gathered as their half-planes cannot all be met: the greatest violation is
+   as small as it can be. Who is then out of reach goes to `far`. Returns how many of those that
+   `far` had to let go had a hard half-plane relaxed. */
+static inline uint32_t jox_rest_violate_least(const JoxSolve *s, JoxRest *r, JoxRest *far) {
+    JoxRestLanes l;
+    uint32_t relaxed = 0;
+    float x[JOX_WIDTH], y[JOX_WIDTH];
+    if (!r->count)
+        return 0;
+    jox_rest_load(s, r, &l);
+    jox_least_violation_lanes(&l.rows, l.hard, l.all, l.failed_at, l.limit, l.pressed.wanted,
+                              &l.velocity);
+    const uint32_t out = jm_bits(jox_out_of_reach_lanes(&l.pressed, l.velocity));
+    const JoxVector planned = jox_as_forced_lanes(&l.pressed, l.velocity);
+    jf_store(r->velocity_x, l.velocity.x);
+    jf_store(r->velocity_y, l.velocity.y);
+    jf_store(x, planned.x);
+    jf_store(y, planned.y);
+    for (uint32_t k = 0; k < r->count; k++)
+        if (out >> k & 1) {
+            jox_rest_copy(r, k, far);
+            if (far->count == JOX_WIDTH)
+                relaxed += jox_rest_pull_in(s, far);
+        } else {
+            jox_keep_plan(s, r->agent[k], x[k], y[k], true);
+        }
+    r->count = 0;
+    return relaxed;
+}
+
+#endif

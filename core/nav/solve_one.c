@@ -1,0 +1,103 @@
+/* The velocity of one agent, in plain C: for those whom the kernel of solve leaves over, of whom a
+   hard half-plane has to give, or whom what they are pressed by would take far from what they want.
+ */
+#include <math.h>
+
+#include "nav/kernels.h"
+
+/* Who is carried towards a wall by others may come as near as they do: the wall itself stops them
+   in the contacts. With that the velocity that the forces give meets every hard half-plane. */
+static void give_way_at_walls(const JoxSolve *s, uint32_t i, JoxHalfPlane *walls, uint32_t count) {
+    JoxV2 carried = {s->agents->forced_x[i], s->agents->forced_y[i]};
+    for (uint32_t k = 0; k < count; k++)
+        walls[k].offset = jox_minf(walls[k].offset, jox_dot(walls[k].normal, carried));
+}
+
+/* The half-planes that an agent's surroundings and forces impose, those of avoidance apart. */
+static bool is_imposed(uint32_t k, const JoxHalfPlaneCounts *made) {
+    uint32_t hard = made->walls + made->contacts;
+    return k < hard || k >= hard + made->agents + made->objects;
+}
+
+/* What an agent is pressed by may leave only velocities far along a valley between half-planes that
+   are nearly opposite: then feet would throw people. Nobody's feet, avoidance apart, take them
+   farther from what they want than the forces do. Lowers what is imposed to the best that there is
+   as near as that, walls apart, which all allow to stand still; false where all that is imposed can
+   be met there. */
+static bool keep_within_reach(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
+                              JoxHalfPlane *half_planes, JoxV2 wanted, JoxV2 velocity) {
+    JoxV2 forced = {s->agents->forced_x[i], s->agents->forced_y[i]};
+    uint32_t hard = made->walls + made->contacts, n = 0;
+    uint32_t all = hard + made->agents + made->objects + made->force;
+    float reach2 = jox_length2(jox_sub(forced, wanted));
+    if (made->force) {
+        const JoxHalfPlane *force = &half_planes[all - 1];
+        float missing = jox_maxf(0.0f, force->offset - jox_dot(force->normal, wanted));
+        reach2 = jox_maxf(reach2, missing * missing);
+    }
+    if (jox_length2(jox_sub(velocity, wanted)) <= reach2)
+        return false;
+    JoxHalfPlane imposed[JOX_MOST_CONSTRAINTS] = {0};
+    for (uint32_t k = 0; k < all; k++)
+        if (is_imposed(k, made)) {
+            imposed[n] = half_planes[k];
+            imposed[n++].offset -= jox_dot(half_planes[k].normal, wanted);
+        }
+    JoxV2 change;
+    bool relaxed;
+    jox_linear_program_solve(imposed, n, hard, sqrtf(reach2), (JoxV2){0.0f, 0.0f}, &change,
+                             &relaxed);
+    JoxV2 best = jox_add(wanted, change);
+    bool lowered = false;
+    for (uint32_t k = made->walls; k < all; k++) {
+        float least = jox_dot(half_planes[k].normal, best);
+        if (!is_imposed(k, made) || half_planes[k].offset <= least + 1e-5f)
+            continue;
+        half_planes[k].offset = least - 1e-5f;
+        lowered = true;
+    }
+    return lowered;
+}
+
+/* Whether feet do nothing but for the program's rounding: contact alone then keeps momentum. */
+static bool is_as_forced(const JoxAgents *a, uint32_t i, JoxV2 velocity) {
+    const float rounding = 2e-5f; /* m/s */
+    JoxV2 by_feet = {velocity.x - a->forced_x[i], velocity.y - a->forced_y[i]};
+    return jox_length2(by_feet) < rounding * rounding;
+}
+
+static bool meets(const JoxHalfPlane *walls, uint32_t count, JoxV2 velocity) {
+    const float least = 1e-3f; /* m/s */
+    for (uint32_t k = 0; k < count; k++)
+        if (jox_dot(walls[k].normal, velocity) < walls[k].offset - least)
+            return false;
+    return true;
+}
+
+bool jox_solve_one(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
+                   JoxHalfPlane *half_planes, JoxV2 wanted) {
+    JoxAgents *a = s->agents;
+    const uint32_t hard = made->walls + made->contacts;
+    const uint32_t count = hard + made->agents + made->objects + made->force;
+    JoxV2 velocity;
+    bool relaxed;
+    bool met = jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted,
+                                        &velocity, &relaxed);
+    if (relaxed && made->contacts) {
+        give_way_at_walls(s, i, half_planes, made->walls);
+        jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
+                                 &relaxed);
+        relaxed = relaxed && !meets(half_planes, made->walls, velocity);
+    }
+    bool still; /* whether a wall gives is settled above: nothing asks more of one here */
+    if ((made->contacts || made->force) &&
+        keep_within_reach(s, i, made, half_planes, wanted, velocity))
+        jox_linear_program_solve(half_planes, count, hard, a->speed_limit[i], wanted, &velocity,
+                                 &still);
+    if (made->contacts && is_as_forced(a, i, velocity))
+        velocity = jox_v2(a->forced_x[i], a->forced_y[i]);
+    a->failed[i] |= !met;
+    a->next_x[i] = velocity.x;
+    a->next_y[i] = velocity.y;
+    return relaxed;
+}

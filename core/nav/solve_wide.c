@@ -1,0 +1,203 @@
+/* The kernel of solve. A lane is an agent, a packet is JOX_WIDTH of them; their half-planes are
+   made by packet_lanes.h, and the two programs (program_lanes.h) are done for all lanes in lock
+   step. Who is not done by the first program waits until a packet of such agents is full
+   (rest_lanes.h). One lane at a time is done, which is rare, what solve_one.c does. */
+#include "base/assert.h"
+#include "nav/packet_lanes.h"
+
+/* ---- what is wanted, and the velocity ---- */
+
+/* Of `lanes`, those that a half-plane of people keeps from what they want: any of them, or, of
+   those that get on, one straight against it. */
+static uint32_t kept_off(const JoxPacket *p, JoxVector wanted, JoxMask gets_on) {
+    const JoxFloats tie = jf_set(0.02f), zero = jf_set(0.0f); /* of the way ahead: more is no tie */
+    JoxMask kept = jm_of_bits(0);
+    for (uint32_t row = p->contacts; row < p->objects; row++) {
+        JoxFloats x = jf_load(p->rows.x[row]), y = jf_load(p->rows.y[row]);
+        JoxFloats along = jf_add(jf_mul(x, wanted.x), jf_mul(y, wanted.y));
+        JoxFloats against = jf_neg(along);
+        JoxFloats aside = jf_abs(jf_sub(jf_mul(x, wanted.y), jf_mul(y, wanted.x)));
+        JoxMask head_on = jm_and(jf_lt(zero, against), jf_lt(aside, jf_mul(tie, against)));
+        JoxMask violated = jf_lt(along, jf_load(p->rows.offset[row]));
+        kept = jm_or(kept, jm_without(violated, jm_without(gets_on, head_on)));
+    }
+    return jm_bits(kept);
+}
+
+/* What agents want. Who has come to a stand before others wants to go somewhat more to the right,
+   or two who meet head-on would stand for ever; and so does who pushes somebody straight ahead, or
+   would push them along for ever. Who walks by the law has chosen already. */
+static JoxVector wish(const JoxPacket *p) {
+    const JoxAgents *a = p->s->agents;
+    const uint32_t i = p->first;
+    const JoxFloats slow = jf_set(0.2f); /* of the wanted speed */
+    JoxVector w = {jf_load(a->pref_x + i), jf_load(a->pref_y + i)};
+    JoxFloats along = jf_add(jf_mul(jf_load(a->vx + i), w.x), jf_mul(jf_load(a->vy + i), w.y));
+    JoxFloats length2 = jf_add(jf_mul(w.x, w.x), jf_mul(w.y, w.y));
+    JoxMask gets_on = jf_lt(jf_mul(slow, length2), along);
+    JoxMask pushes = jf_lt(jf_set(0.0f), jf_load(a->param[JOX_PARAM_push] + i));
+    JoxMask stands = jf_lt(length2, jf_mul(jf_set(JOX_STANDS), jf_set(JOX_STANDS)));
+    uint32_t aside = p->lanes & ~jm_bits(jm_or(jm_without(gets_on, pushes), stands));
+    if (aside)
+        aside &= kept_off(p, w, gets_on);
+    const JoxFloats share = jf_set(JOX_RIGHT_SHARE);
+    const JoxMask turns = jm_of_bits(aside), walks = jm_of_bits(p->walkers);
+    JoxVector right = {jf_sub(w.x, jf_mul(jf_neg(w.y), share)), jf_sub(w.y, jf_mul(w.x, share))};
+    w = (JoxVector){jf_select(turns, right.x, w.x), jf_select(turns, right.y, w.y)};
+    return (JoxVector){jf_select(walks, jf_load(a->walk_x + i), w.x),
+                       jf_select(walks, jf_load(a->walk_y + i), w.y)};
+}
+
+/* The half-planes of a lane, one after the other. `place`: that of the one in row `failed`. */
+static JoxHalfPlaneCounts list_of(const JoxPacket *p, uint32_t lane, JoxHalfPlane *list,
+                                  uint32_t failed, uint32_t *place) {
+    JoxHalfPlaneCounts made = p->made[lane];
+    uint32_t n = 0;
+    made.agents = 0;
+    for (uint32_t row = 0; row < p->rows.count; row++) {
+        JoxV2 normal = {p->rows.x[row][lane], p->rows.y[row][lane]};
+        if (row == failed)
+            *place = n;
+        if (normal.x == 0.0f && normal.y == 0.0f)
+            continue;
+        list[n++] = (JoxHalfPlane){normal, p->rows.offset[row][lane]};
+        made.agents += row >= p->hard && row < p->objects;
+    }
+    return made;
+}
+
+/* For JOX_CHECK: half-planes of all lanes, and the velocities of those that meet them all. */
+static void check_lanes(JoxPacket *p, uint32_t met, JoxFloats limit, JoxVector velocity) {
+    float limits[JOX_WIDTH], x[JOX_WIDTH], y[JOX_WIDTH];
+    jf_store(limits, limit);
+    jf_store(x, velocity.x);
+    jf_store(y, velocity.y);
+    for (uint32_t lane = 0; p->lanes >> lane; lane++) {
+        if (!(p->lanes >> lane & 1))
+            continue;
+        uint32_t place;
+        JoxHalfPlaneCounts made = list_of(p, lane, p->list, 0, &place);
+        uint32_t count = jox_count_of(&made);
+        jox_half_planes_check(p->list, count);
+        if (met >> lane & 1)
+            jox_linear_program_check(p->list, count, limits[lane], (JoxV2){x[lane], y[lane]});
+    }
+}
+
+/* What the first program left of a packet. */
+typedef struct Plan {
+    float wanted_x[JOX_WIDTH], wanted_y[JOX_WIDTH];
+    float velocity_x[JOX_WIDTH], velocity_y[JOX_WIDTH];
+    uint32_t failed_at[JOX_WIDTH]; /* row, of those that failed */
+    uint32_t failed;               /* lanes */
+} Plan;
+
+static void wait_in(JoxRest *r, const JoxPacket *p, uint32_t lane, const Plan *plan) {
+    const uint32_t at = r->count++;
+    r->agent[at] = p->first + lane;
+    r->failed[at] = plan->failed >> lane & 1;
+    r->wanted_x[at] = plan->wanted_x[lane];
+    r->wanted_y[at] = plan->wanted_y[lane];
+    r->velocity_x[at] = plan->velocity_x[lane];
+    r->velocity_y[at] = plan->velocity_y[lane];
+    r->failed_at[at] = 0;
+    r->made[at] = list_of(p, lane, r->list[at], plan->failed_at[lane], &r->failed_at[at]);
+}
+
+/* Those of whom the first program was not the last. */
+static uint32_t leave_to_rest(JoxPacket *p, const Plan *plan, uint32_t soft, uint32_t hard,
+                              uint32_t far) {
+    uint32_t relaxed = 0;
+    for (uint32_t lane = 0; (soft | hard | far) >> lane; lane++) {
+        if (hard >> lane & 1) {
+            uint32_t place;
+            JoxHalfPlaneCounts made = list_of(p, lane, p->list, 0, &place);
+            relaxed += jox_solve_one(p->s, p->first + lane, &made, p->list,
+                                     jox_v2(plan->wanted_x[lane], plan->wanted_y[lane]));
+        } else if (soft >> lane & 1) {
+            wait_in(p->unmet, p, lane, plan);
+            if (p->unmet->count == JOX_WIDTH)
+                relaxed += jox_rest_violate_least(p->s, p->unmet, p->far);
+        } else if (far >> lane & 1) {
+            wait_in(p->far, p, lane, plan);
+            if (p->far->count == JOX_WIDTH)
+                relaxed += jox_rest_pull_in(p->s, p->far);
+        }
+    }
+    return relaxed;
+}
+
+static uint32_t solve_packet(JoxPacket *p) {
+    JoxAgents *a = p->s->agents;
+    const uint32_t i = p->first;
+    jox_put_half_planes(p);
+    const JoxPressed pressed = {
+        wish(p),
+        {jf_load(a->forced_x + i), jf_load(a->forced_y + i)},
+        {jf_load(a->half_plane_x + i), jf_load(a->half_plane_y + i),
+         jf_load(a->half_plane_offset + i)},
+        jm_of_bits(p->touching),
+        jm_of_bits(p->pressed),
+    };
+    const JoxFloats limit = jf_load(a->speed_limit + i);
+    JoxInts failed_at;
+    JoxVector velocity;
+    const JoxMask failed = jox_program_lanes(&p->rows, p->rows.count, jm_of_bits(p->lanes), limit,
+                                             pressed.wanted, NULL, &velocity, &failed_at);
+    JOX_CHECK(check_lanes(p, p->lanes & ~jm_bits(failed), limit, velocity));
+    const JoxMask hard = jm_and(failed, ji_less(failed_at, ji_set((int32_t)p->hard)));
+    const JoxMask far = jm_without(jox_out_of_reach_lanes(&pressed, velocity), failed);
+    const JoxVector planned = jox_as_forced_lanes(&pressed, velocity);
+    const uint32_t rest = p->lanes & jm_bits(jm_or(failed, far));
+    Plan plan = {.failed = jm_bits(failed)};
+    jf_store(plan.velocity_x, planned.x);
+    jf_store(plan.velocity_y, planned.y);
+    for (uint32_t lane = 0; p->lanes >> lane; lane++)
+        if ((p->lanes & ~rest) >> lane & 1)
+            jox_keep_plan(p->s, i + lane, plan.velocity_x[lane], plan.velocity_y[lane], false);
+    if (!rest)
+        return 0;
+    jf_store(plan.wanted_x, pressed.wanted.x);
+    jf_store(plan.wanted_y, pressed.wanted.y);
+    jf_store(plan.velocity_x, velocity.x);
+    jf_store(plan.velocity_y, velocity.y);
+    ji_store(plan.failed_at, failed_at);
+    return leave_to_rest(p, &plan, rest & jm_bits(jm_without(failed, hard)), rest & jm_bits(hard),
+                         rest & jm_bits(far));
+}
+
+/* Who plans in this step, and what is about them. */
+static void begin_packet(JoxPacket *p, uint32_t first, uint32_t end) {
+    const JoxSolve *s = p->s;
+    const JoxAgents *a = s->agents;
+    const JoxContactPlanes *t = s->touched;
+    const uint32_t there = end - first < JOX_WIDTH ? (1u << (end - first)) - 1
+                                                   : (uint32_t)(((uint64_t)1 << JOX_WIDTH) - 1);
+    const JoxMask walks = jf_lt(jf_set(0.0f), jf_load(a->param[JOX_PARAM_time_gap] + first));
+    p->first = first;
+    p->lanes = there;
+    for (uint32_t lane = 0; !s->plans && there >> lane; lane++)
+        if (jox_solve_walks(s, first + lane) || !jox_stands_pressed(a, first + lane))
+            p->lanes &= ~(1u << lane);
+    p->walkers = s->nav->literal ? 0 : p->lanes & jm_bits(walks);
+    p->near_walls = p->lanes & jm_bits(jox_wall_grid_near_lanes(
+                                   &s->nav->grid, jf_load(a->x + first), jf_load(a->y + first)));
+    p->touching = 0;
+    for (uint32_t lane = 0; t && p->lanes >> lane; lane++)
+        p->touching |= (uint32_t)(t->people[first + lane] + t->bodies[first + lane] > 0) << lane;
+    p->touching &= p->lanes;
+}
+
+uint32_t JOX_WIDE(jox_solve_packets)(const JoxSolve *s, uint32_t begin, uint32_t end) {
+    JoxRest unmet, far;
+    JoxPacket packet = {.s = s, .unmet = &unmet, .far = &far};
+    uint32_t relaxed = 0;
+    unmet.count = far.count = 0;
+    for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
+        begin_packet(&packet, i, end);
+        if (packet.lanes)
+            relaxed += solve_packet(&packet);
+    }
+    relaxed += jox_rest_violate_least(s, &unmet, &far);
+    return relaxed + jox_rest_pull_in(s, &far);
+}

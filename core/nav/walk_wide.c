@@ -1,0 +1,365 @@
+/* The kernel of the walking law (core/walking.md). A lane is an agent, a packet is JOX_WIDTH of
+   them: whom each minds stands in rows, one of each lane in a row, and the directions are judged
+   one after another, each for all lanes. One lane at a time are done people's tempers, whoever may
+   stand behind a wall, and walls (walk_one.c). */
+#include <math.h>
+
+#include "nav/kernels.h"
+#include "nav/walk_lanes.h"
+
+static const float AS_FREE = 0.98f;  /* of the wanted speed: who gets that far goes straight on */
+static const float WORST = -0.2f;    /* m/s: no direction is judged worse */
+static const float NO_LIMIT = 64.0f; /* wanted speeds: what nobody ahead allows */
+
+/* Whom each lane minds: one that goes first, or one that crosses, or nobody. */
+typedef struct Row {
+    JoxVector offset, velocity;  /* m; m/s */
+    JoxFloats per_width, length; /* of one ahead: 1/m, of the way; m, that they take up along it */
+    JoxFloats width2, apart2;    /* m2, of one who crosses: of the distance kept; left of it */
+    JoxMask ahead, crossing;
+} Row;
+
+typedef struct Packet {
+    const JoxWalk *w;
+    uint32_t first, lanes; /* agent of lane 0; bits of those who walk and want to get on */
+    uint32_t near_walls;   /* of those, who may be behind or before a wall */
+    uint32_t rows;
+    JoxVector aim;
+    JoxFloats speed, gap, eager, radius; /* m/s wanted; time gap, s */
+    JoxFloats per_cross, meeting; /* 1/s; m/s2: worth of a way for each s until they would meet */
+    Row row[JOX_MOST_NEIGHBOURS];
+} Packet;
+
+/* What a direction allows, and what it is worth, m/s. */
+typedef struct Judgement {
+    JoxFloats allowed, worth;
+} Judgement;
+
+static inline JoxFloats root(JoxFloats a) { /* 0 below 0 */
+    return jf_sqrt(jf_max(a, jf_set(0.0f)));
+}
+
+static inline JoxFloats squared(JoxFloats a) {
+    return jf_mul(a, a);
+}
+
+/* ---- whom one minds ---- */
+
+/* Of `lanes`, those that pass their neighbour over: they ignore it, or a wall hides it. */
+static uint32_t passed_over(const Packet *p, uint32_t lanes, JoxInts others, const Row *row) {
+    const JoxAgents *a = p->w->agents;
+    uint32_t index[JOX_WIDTH], passed = 0;
+    float x[JOX_WIDTH], y[JOX_WIDTH];
+    ji_store(index, others);
+    jf_store(x, row->offset.x);
+    jf_store(y, row->offset.y);
+    for (uint32_t lane = 0; lanes >> lane; lane++) {
+        const uint32_t i = p->first + lane;
+        if (!(lanes >> lane & 1))
+            continue;
+        if ((a->tags[index[lane]] & a->ignore[i]) ||
+            ((p->near_walls >> lane & 1) &&
+             jox_nav_is_behind_wall(p->w->nav, (JoxV2){a->x[i], a->y[i]},
+                                    (JoxV2){x[lane], y[lane]})))
+            passed |= 1u << lane;
+    }
+    return passed;
+}
+
+static inline __attribute__((always_inline)) void put_rows(Packet *p, const bool periodic) {
+    const JoxAgents *a = p->w->agents;
+    const JoxNeighbours *n = p->w->neighbours;
+    const JoxWalkLaw *law = p->w->law;
+    const uint32_t i = p->first;
+    const JoxFloats one = jf_set(1.0f), x = jf_load(a->x + i), y = jf_load(a->y + i);
+    const JoxFloats room = jf_sub(one, jf_mul(jf_set((float)law->room_eager), p->eager));
+    const JoxFloats width = jf_mul(jf_set((float)law->width), room);
+    const JoxFloats length = jf_mul(jf_set((float)law->length), room);
+    uint32_t counts[JOX_WIDTH], most = 0, picky = p->near_walls;
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
+        counts[lane] = p->lanes >> lane & 1 ? n->count[i + lane] : 0;
+        most = counts[lane] > most ? counts[lane] : most;
+        if ((p->lanes >> lane & 1) && a->ignore[i + lane])
+            picky |= 1u << lane;
+    }
+    p->rows = 0;
+    for (uint32_t k = 0; k < most; k++) {
+        const JoxMask there = ji_less(ji_set((int32_t)k), ji_load(counts));
+        const JoxInts others =
+            ji_select(there, ji_load(n->index + jox_neighbour_at(n, i, k)), ji_set(0));
+        Row *row = &p->row[p->rows];
+        row->offset =
+            (JoxVector){jf_sub(jf_pick(a->x, others), x), jf_sub(jf_pick(a->y, others), y)};
+        if (periodic) {
+            row->offset.x = jf_wrap(row->offset.x, a->period.x);
+            row->offset.y = jf_wrap(row->offset.y, a->period.y);
+        }
+        const JoxMindsLanes minded = jox_minds_lanes(a, i, others, row->offset);
+        uint32_t minds = jm_bits(there) & jm_bits(jm_or(minded.ahead, minded.crossing));
+        if (picky & minds)
+            minds &= ~passed_over(p, picky & minds, others, row);
+        if (!minds)
+            continue;
+        const JoxFloats radii = jf_add(p->radius, jf_pick(a->param[JOX_PARAM_radius], others));
+        row->velocity = (JoxVector){jf_pick(a->vx, others), jf_pick(a->vy, others)};
+        row->per_width = jf_div(one, jf_mul(width, radii));
+        row->length = jf_mul(length, radii);
+        row->width2 = squared(jf_mul(jf_set((float)law->width_cross), radii));
+        row->apart2 = jf_max(jf_sub(jv_dot(row->offset, row->offset), row->width2), jf_set(0.0f));
+        row->ahead = jm_and(minded.ahead, jm_of_bits(minds));
+        row->crossing = jm_and(minded.crossing, jm_of_bits(minds));
+        p->rows++;
+    }
+}
+
+static void put_rows_bounded(Packet *p) {
+    put_rows(p, false);
+}
+
+static void put_rows_periodic(Packet *p) {
+    put_rows(p, true);
+}
+
+/* ---- what a direction allows ---- */
+
+/* What of an agent counts for all of those ahead of it. */
+typedef struct Follow {
+    JoxFloats flank;    /* weight of the distance aside of those beside the way */
+    JoxFloats foreseen; /* s for which their motion is foreseen */
+    JoxFloats per_time; /* 1/s */
+} Follow;
+
+static Follow follow_of(const Packet *p) {
+    const JoxWalkLaw *law = p->w->law;
+    const JoxFloats one = jf_set(1.0f), foreseen = jf_mul(jf_set((float)law->ahead_share), p->gap);
+    const JoxFloats minded = jf_sub(one, jf_mul(jf_set((float)law->flank_eager), p->eager));
+    return (Follow){jf_div(jf_set((float)law->flank), minded), foreseen,
+                    jf_div(one, jf_add(p->gap, foreseen))};
+}
+
+/* Speed along `e` that keeps the time gap to those ahead. In the way they take up their length,
+   less towards their sides. Beside it, within 60 degrees ahead, the distance counts in which aside
+   weighs more. Their own speed along the direction is foreseen for a share of the time gap. */
+static inline JoxFloats follow(const Follow *f, const Row *row, JoxVector e) {
+    const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
+    const JoxFloats slope = jf_set(1.7320508f); /* tangent of 60 degrees */
+    const JoxFloats along = jv_dot(row->offset, e);
+    const JoxFloats aside = jf_abs(jf_sub(jf_mul(e.x, row->offset.y), jf_mul(e.y, row->offset.x)));
+    const JoxFloats q = jf_mul(aside, row->per_width), q2 = squared(q);
+    const JoxFloats round = root(jf_sub(one, jf_mul(squared(q2), q2)));
+    const JoxFloats beside = jf_sqrt(jf_add(squared(along), squared(jf_mul(f->flank, aside))));
+    const JoxMask in_way = jf_lt(q, one);
+    const JoxFloats gap =
+        jf_select(in_way, jf_sub(along, jf_mul(row->length, round)), jf_sub(beside, row->length));
+    const JoxFloats speed = jf_max(jv_dot(row->velocity, e), zero);
+    const JoxFloats allowed = jf_mul(jf_add(gap, jf_mul(f->foreseen, speed)), f->per_time);
+    JoxMask minded = jm_or(in_way, jf_lt(aside, jf_mul(slope, along)));
+    minded = jm_and(jm_and(minded, jf_lt(zero, along)), row->ahead);
+    return jf_select(minded, allowed, jf_set(INFINITY));
+}
+
+/* People come down gradually from the wanted speed to what those ahead allow. */
+static inline JoxFloats ease(const Packet *p, JoxFloats allowed) {
+    const JoxFloats one = jf_set(1.0f);
+    JoxFloats most = jf_min(allowed, jf_mul(jf_set(NO_LIMIT), p->speed));
+    JoxFloats share = jf_div(jf_mul(jf_set((float)p->w->law->ease), most), p->speed);
+    JoxFloats eased = jf_div(most, jf_sqrt(jf_sqrt(jf_add(one, squared(squared(share))))));
+    return jf_select(jf_lt(jf_set(0.0f), most), eased, most);
+}
+
+/* Who crosses leaves a free path, and a direction in which the two would meet soon is worth less.
+ */
+static inline void cross(const Packet *p, const Row *row, JoxVector e, Judgement *j) {
+    const JoxFloats zero = jf_set(0.0f), none = jf_set(INFINITY);
+    const JoxFloats along = jv_dot(row->offset, e);
+    const JoxFloats aside = jf_sub(jf_mul(e.x, row->offset.y), jf_mul(e.y, row->offset.x));
+    const JoxFloats rest = jf_sub(row->width2, squared(aside));
+    const JoxMask in_way = jm_and(jm_and(jf_lt(zero, rest), jf_lt(zero, along)), row->crossing);
+    const JoxFloats path = jf_mul(jf_sub(along, root(rest)), p->per_cross);
+    j->allowed = jf_min(j->allowed, jf_select(in_way, path, none));
+    /* When their discs meet, at the wanted speed and the other's present velocity. */
+    const JoxVector u = {jf_sub(jf_mul(p->speed, e.x), row->velocity.x),
+                         jf_sub(jf_mul(p->speed, e.y), row->velocity.y)};
+    const JoxFloats closing = jv_dot(row->offset, u), u2 = jv_dot(u, u);
+    const JoxFloats meets = jf_sub(squared(closing), jf_mul(u2, row->apart2));
+    const JoxFloats time = jf_div(jf_sub(closing, root(meets)), jf_max(u2, jf_set(1e-6f)));
+    const JoxMask soon = jm_and(jm_and(jf_lt(zero, meets), jf_lt(zero, closing)), row->crossing);
+    j->worth = jf_min(j->worth, jf_select(soon, jf_mul(p->meeting, time), none));
+}
+
+static Judgement judge(const Packet *p, const Follow *f, JoxVector e) {
+    Judgement j = {p->speed, p->speed};
+    JoxFloats followed = jf_set(INFINITY);
+    for (uint32_t k = 0; k < p->rows; k++) {
+        const Row *row = &p->row[k];
+        if (jm_bits(row->ahead))
+            followed = jf_min(followed, follow(f, row, e));
+        if (jm_bits(row->crossing))
+            cross(p, row, e, &j);
+    }
+    j.allowed = jf_min(j.allowed, ease(p, followed));
+    j.worth = jf_min(j.worth, j.allowed);
+    return j;
+}
+
+/* ---- the choice ---- */
+
+/* A direction and what it allows. */
+typedef struct Choice {
+    JoxVector e;
+    JoxFloats allowed;
+} Choice;
+
+static JoxVector turned(JoxVector aim, uint32_t k) {
+    const JoxFloats cosine = jf_set(jox_walk_cosine[k]), sine = jf_set(jox_walk_sine[k]);
+    return (JoxVector){jf_sub(jf_mul(cosine, aim.x), jf_mul(sine, aim.y)),
+                       jf_add(jf_mul(cosine, aim.y), jf_mul(sine, aim.x))};
+}
+
+/* Of directions, each allowed and worth so much, the one that gets on best: by what it is worth
+   along the way, less what turning from the course costs. */
+static Choice best_of(const Packet *p, const JoxWalkTable *table) {
+    const JoxWalkLaw *law = p->w->law;
+    const JoxAgents *a = p->w->agents;
+    const JoxVector course = {jf_load(a->course_x + p->first), jf_load(a->course_y + p->first)};
+    const JoxFloats turn = jf_mul(jf_set((float)law->turn_cost), p->speed);
+    const JoxFloats right = jf_mul(jf_set((float)law->right), p->speed);
+    JoxFloats most = jf_set(-INFINITY);
+    Choice best = {p->aim, p->speed};
+    for (uint32_t k = 0; k < JOX_WALK_DIRECTIONS; k++) {
+        const JoxVector e = turned(p->aim, k);
+        const JoxFloats turning = jf_sub(jf_set(1.0f), jv_dot(e, course));
+        JoxFloats worth = jf_max(jf_load(table->worth[k]), jf_set(WORST));
+        worth = jf_sub(jf_mul(worth, jf_set(jox_walk_cosine[k])), jf_mul(turn, turning));
+        if (jox_walk_sine[k] < 0.0f)
+            worth = jf_add(worth, right);
+        const JoxMask better = jf_lt(most, worth);
+        most = jf_select(better, worth, most);
+        best.e.x = jf_select(better, e.x, best.e.x);
+        best.e.y = jf_select(better, e.y, best.e.y);
+        best.allowed = jf_select(better, jf_load(table->allowed[k]), best.allowed);
+    }
+    return best;
+}
+
+/* Straight on where that is as good as free, else the best of all directions. */
+static Choice choose(const Packet *p) {
+    const Follow f = follow_of(p);
+    const Judgement ahead = judge(p, &f, p->aim);
+    const JoxMask straight = jf_le(jf_mul(jf_set(AS_FREE), p->speed), ahead.worth);
+    const uint32_t seek = p->lanes & ~jm_bits(straight);
+    if (!seek)
+        return (Choice){p->aim, ahead.allowed};
+    JoxWalkTable table;
+    // cppcheck-suppress uninitvar
+    jf_store(table.allowed[0], ahead.allowed);
+    jf_store(table.worth[0], ahead.worth);
+    for (uint32_t k = 1; k < JOX_WALK_DIRECTIONS; k++) {
+        const Judgement j = judge(p, &f, turned(p->aim, k));
+        jf_store(table.allowed[k], j.allowed);
+        jf_store(table.worth[k], j.worth);
+    }
+    for (uint32_t lane = 0; p->near_walls >> lane; lane++)
+        if (seek & p->near_walls & 1u << lane)
+            jox_walk_mind_walls(p->w, p->first + lane, lane, &table);
+    Choice best = best_of(p, &table);
+    best.e.x = jf_select(straight, p->aim.x, best.e.x);
+    best.e.y = jf_select(straight, p->aim.y, best.e.y);
+    best.allowed = jf_select(straight, ahead.allowed, best.allowed);
+    return best;
+}
+
+/* ---- the velocity ---- */
+
+/* People get up to a speed slowly, and slow down and turn fast; turning by up to 60 degrees costs
+   them no speed. */
+static JoxVector approach(const Packet *p, const Choice *to) {
+    const JoxAgents *a = p->w->agents;
+    const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
+    const JoxFloats stop = jf_set(p->w->stop), keeps = jf_sub(one, stop);
+    const JoxFloats speed = jf_max(to->allowed, zero);
+    const JoxVector v = {jf_load(a->vx + p->first), jf_load(a->vy + p->first)};
+    const JoxFloats now = jf_sqrt(jv_dot(v, v)), along = jv_dot(v, to->e);
+    const JoxVector aside = {jf_sub(v.x, jf_mul(to->e.x, along)),
+                             jf_sub(v.y, jf_mul(to->e.y, along))};
+    JoxFloats kept = jf_max(zero, jf_min(now, jf_add(along, along)));
+    const JoxFloats rate = jf_select(jf_lt(kept, speed), jf_set(p->w->start), stop);
+    kept = jf_add(kept, jf_mul(jf_sub(speed, kept), rate));
+    return (JoxVector){jf_add(jf_mul(to->e.x, kept), jf_mul(aside.x, keeps)),
+                       jf_add(jf_mul(to->e.y, kept), jf_mul(aside.y, keeps))};
+}
+
+/* The course follows the direction chosen; where they are opposite it becomes that. */
+static JoxVector turn_course(const Packet *p, JoxVector e) {
+    const JoxAgents *a = p->w->agents;
+    const JoxFloats share = jf_set(p->w->course), zero = jf_set(0.0f);
+    JoxVector course = {jf_load(a->course_x + p->first), jf_load(a->course_y + p->first)};
+    course.x = jf_add(course.x, jf_mul(jf_sub(e.x, course.x), share));
+    course.y = jf_add(course.y, jf_mul(jf_sub(e.y, course.y), share));
+    const JoxFloats length2 = jv_dot(course, course), by = jf_div(jf_set(1.0f), jf_sqrt(length2));
+    const JoxMask turns = jf_lt(zero, length2);
+    return (JoxVector){jf_select(turns, jf_mul(course.x, by), e.x),
+                       jf_select(turns, jf_mul(course.y, by), e.y)};
+}
+
+static void walk_packet(Packet *p) {
+    JoxAgents *a = p->w->agents;
+    const uint32_t i = p->first;
+    p->aim = (JoxVector){jf_load(a->aim_x + i), jf_load(a->aim_y + i)};
+    p->eager = jf_load(a->eager + i);
+    p->radius = jf_load(a->param[JOX_PARAM_radius] + i);
+    (a->period.x > 0.0f || a->period.y > 0.0f ? put_rows_periodic : put_rows_bounded)(p);
+    const Choice to = choose(p);
+    const JoxVector velocity = approach(p, &to), course = turn_course(p, to.e);
+    float out[4][JOX_WIDTH];
+    jf_store(out[0], velocity.x);
+    jf_store(out[1], velocity.y);
+    jf_store(out[2], course.x);
+    jf_store(out[3], course.y);
+    for (uint32_t lane = 0; p->lanes >> lane; lane++) {
+        if (!(p->lanes >> lane & 1))
+            continue;
+        a->walk_x[i + lane] = out[0][lane];
+        a->walk_y[i + lane] = out[1][lane];
+        a->course_x[i + lane] = out[2][lane];
+        a->course_y[i + lane] = out[3][lane];
+    }
+}
+
+/* Who of the packet walks and wants to get on, with what temper; who only stands wants nothing. */
+static void begin_packet(Packet *p, uint32_t first, uint32_t end) {
+    JoxAgents *a = p->w->agents;
+    float speed[JOX_WIDTH], gap[JOX_WIDTH];
+    p->first = first;
+    p->lanes = p->near_walls = 0;
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
+        const uint32_t i = first + lane;
+        uint32_t edges = 0;
+        speed[lane] = gap[lane] = 1.0f;
+        if (i >= end || !jox_walks(a, i))
+            continue;
+        a->walk_x[i] = a->walk_y[i] = 0.0f;
+        gap[lane] = jox_walk_temper(p->w, i);
+        speed[lane] = jox_length((JoxV2){a->pref_x[i], a->pref_y[i]});
+        if (speed[lane] == 0.0f)
+            continue;
+        p->lanes |= 1u << lane;
+        if (p->w->nav->grid.first)
+            jox_wall_grid_at(&p->w->nav->grid, (JoxV2){a->x[i], a->y[i]}, &edges);
+        if (edges)
+            p->near_walls |= 1u << lane;
+    }
+    p->speed = jf_load(speed);
+    p->gap = jf_load(gap);
+    p->per_cross = jf_set(1.0f / (float)p->w->law->cross_time);
+    p->meeting = jf_mul(p->speed, jf_set(1.0f / (float)p->w->law->contact_time));
+}
+
+void JOX_WIDE(jox_walk_packets)(const JoxWalk *w, uint32_t begin, uint32_t end) {
+    Packet packet = {.w = w};
+    for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
+        begin_packet(&packet, i, end);
+        if (packet.lanes)
+            walk_packet(&packet);
+    }
+}

@@ -1,0 +1,182 @@
+/* Log: what happened to people, one by one: somebody enters a state, kicks or throws a body, is hit
+   by a fast one. Each with where the person and the body were when the step of it began, as the
+   person's machine saw them: who enters a state, with the moving body nearest to it. */
+#include <math.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "record/probes/probe_parts.h"
+
+typedef enum { ENTERS, KICKS, HIT } What;
+static const char *const WHAT[] = {"enters", "kicks", "hit"};
+
+typedef struct Before { /* of a person, in the frame before */
+    float x, y, speed;
+    uint32_t state; /* in the log's names */
+    bool known;
+} Before;
+
+typedef struct Action {
+    double time; /* s: end of the step */
+    uint32_t person;
+    What what;
+    uint32_t group, state; /* in the log's names; the state after the step */
+    Before before;
+    int32_t body; /* id, or -1 */
+    JoxV3 at;
+    float speed, gap; /* of the body, m/s; between the two, m */
+    bool lies;
+} Action;
+
+typedef struct Log {
+    char **names; /* of states and groups: a reload may change and free those of the frame */
+    uint32_t name_count, name_capacity;
+    uint32_t *states; /* by row of the frame's states: in `names` */
+    uint32_t state_capacity;
+    Before *before; /* by key */
+    uint32_t before_capacity;
+    Action *actions;
+    uint32_t count, capacity;
+    uint32_t counts[3];
+} Log;
+
+static uint32_t name_of(Log *log, const char *text) {
+    uint32_t n = 0;
+    while (n < log->name_count && strcmp(log->names[n], text) != 0)
+        n++;
+    if (n == log->name_count) {
+        JOX_RESERVE(log->names, log->name_capacity, n + 1);
+        log->names[log->name_count++] = jox_strdup(text);
+    }
+    return n;
+}
+
+static float gap_to(const Before *person, const JoxObject *body, float radius) {
+    const float reach = body->footprint_count ? body->disc : body->round;
+    return jox_length(jox_v2(body->position.x - person->x, body->position.y - person->y)) - reach -
+           radius;
+}
+
+static int32_t nearest(const JoxFrame *frame, const Before *person) {
+    int32_t best = -1;
+    float least = INFINITY;
+    for (uint32_t o = 0; frame->objects && o < frame->objects->count; o++) {
+        const JoxObject *body = &frame->objects->rows[o];
+        const float d2 =
+            jox_length2(jox_v2(body->position.x - person->x, body->position.y - person->y));
+        if (body->live && body->moves && d2 < least) {
+            least = d2;
+            best = (int32_t)o;
+        }
+    }
+    return best;
+}
+
+static void add(Log *log, const JoxFrame *frame, uint32_t i, What what, int32_t row) {
+    const Before *before = &log->before[frame->key[i]];
+    JOX_RESERVE(log->actions, log->capacity, log->count + 1);
+    Action *action = &log->actions[log->count++];
+    *action = (Action){
+        .time = frame->time,
+        .person = frame->key[i],
+        .what = what,
+        .group = name_of(log, frame->group && frame->groups ? frame->groups[frame->group[i]] : ""),
+        .state = frame->state ? log->states[frame->state[i]] : 0,
+        .before = *before,
+        .body = -1,
+        .gap = NAN};
+    log->counts[what]++;
+    if (row < 0 || !frame->objects || (uint32_t)row >= frame->objects->count)
+        return;
+    const JoxObject *body = &frame->objects->rows[row];
+    action->body = (int32_t)body->id;
+    action->at = body->position;
+    action->speed = sqrtf(jox_length2(jox_v2(body->velocity.x, body->velocity.y)) +
+                          body->velocity.z * body->velocity.z);
+    action->gap = gap_to(before, body, frame->radius ? frame->radius[i] : 0.0f);
+    action->lies = body->grounded;
+}
+
+static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+    Log *log = state;
+    (void)def;
+    JOX_RESERVE_ZEROED(log->before, log->before_capacity, frame->keys);
+    name_of(log, ""); /* the first, of who is in no state or group */
+    JOX_RESERVE(log->states, log->state_capacity, frame->state_count + 1);
+    for (uint32_t s = 0; frame->state && s < frame->state_count; s++)
+        log->states[s] = name_of(log, frame->states[s]);
+    for (uint32_t i = 0; i < frame->count; i++) {
+        Before *before = &log->before[frame->key[i]];
+        const uint32_t now = frame->state ? log->states[frame->state[i]] : 0;
+        if (seen[i] && before->known) {
+            if (now != before->state)
+                add(log, frame, i, ENTERS, nearest(frame, before));
+            if (frame->kicked && frame->kicked[i] >= 0)
+                add(log, frame, i, KICKS, frame->kicked[i]);
+            if (frame->struck && frame->struck[i] >= 0)
+                add(log, frame, i, HIT, frame->struck[i]);
+        }
+        *before = (Before){frame->x[i], frame->y[i], jox_length(jox_v2(frame->vx[i], frame->vy[i])),
+                           now, true};
+    }
+}
+
+static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+    const Log *log = state;
+    (void)def;
+    jox_figure_add(out, "entered", "", log->counts[ENTERS]);
+    jox_figure_add(out, "kicks", "", log->counts[KICKS]);
+    jox_figure_add(out, "hits", "", log->counts[HIT]);
+}
+
+static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+    const Log *log = state;
+    (void)def;
+    fputs("time [s],what,person,group,from,state,x [m],y [m],speed [m/s],body,body_x [m],"
+          "body_y [m],body_z [m],body_speed [m/s],gap [m],lies\n",
+          out);
+    for (uint32_t n = 0; n < log->count; n++) {
+        const Action *d = &log->actions[n];
+        fprintf(out, "%.4f,%s,%u,%s,%s,%s,%.4f,%.4f,%.4f,", d->time, WHAT[d->what], d->person,
+                log->names[d->group], log->names[d->before.state], log->names[d->state],
+                (double)d->before.x, (double)d->before.y, (double)d->before.speed);
+        if (d->body < 0)
+            fputs(",,,,,,\n", out);
+        else
+            fprintf(out, "%d,%.4f,%.4f,%.4f,%.4f,%.4f,%d\n", d->body, (double)d->at.x,
+                    (double)d->at.y, (double)d->at.z, (double)d->speed, (double)d->gap, d->lies);
+    }
+}
+
+static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+    const Log *log = state;
+    (void)def, (void)walls;
+    if (log->count == 0) {
+        jox_plot_nothing(out, "nothing happened");
+        return;
+    }
+    jox_text_printf(out, "set xlabel 'time (s)'\nset ylabel 'person'\nset yrange [-0.5:*]\n"
+                         "set key outside\nplot ");
+    static const char *const COLOURS[] = {"#1f77b4", "#2ca02c", "#d62728"};
+    for (int w = 0; w < 3; w++)
+        jox_text_printf(out,
+                        "%scsv skip 1 using 1:(strcol(2) eq '%s' ? $3 : NaN) with points pt 7 "
+                        "ps %.1f lc '%s' title '%s'",
+                        w ? ", " : "", WHAT[w], 1.6 - 0.4 * w, COLOURS[w], WHAT[w]);
+    jox_text_printf(out, "\n");
+}
+
+static void release(void *state) {
+    Log *log = state;
+    for (uint32_t n = 0; n < log->name_count; n++)
+        jox_free(log->names[n]);
+}
+
+const JoxProbeCalls jox_probe_log = {
+    JOX_PROBE_KIND(Log, 1000, 600),
+    .frame = frame,
+    .pace = JOX_PACE_ALL,
+    .owned = {JOX_OWNED(Log, names), JOX_OWNED(Log, states), JOX_OWNED(Log, before),
+              JOX_OWNED(Log, actions)},
+    .release = release,
+};

@@ -1,0 +1,223 @@
+/* Checkpoints of a run: written between two steps, at those at which all that collects can be left
+   and taken up again. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/assert.h"
+#include "base/file.h"
+#include "base/guard.h"
+#include "base/mem.h"
+#include "run/resume/checkpoint.h"
+
+typedef struct Checkpoint {
+    char *folder, *note;
+    FILE *claim;    /* of the folder */
+    uint64_t every; /* ticks */
+    uint64_t due;   /* the tick from which on the next one is */
+} Checkpoint;
+
+/* ---- what is in it ---- */
+
+static void add_text(JoxText *out, const char *name, const char *text) {
+    if (text)
+        jox_pieces_add(out, name, text, strlen(text));
+}
+
+static void add_overlay(JoxOverlay *all, const JoxOverlay *some) {
+    for (size_t f = 0; f < some->count; f++)
+        jox_overlay_put(all, some->files[f].path, some->files[f].text, some->files[f].length);
+}
+
+/* The texts of all files: as they were read, or as they are live since. */
+static void add_files(JoxText *out, const JoScene *scene) {
+    JoxOverlay all = {0};
+    add_overlay(&all, &scene->overlay);
+    add_overlay(&all, &scene->tape);
+    for (uint32_t f = 0; f < scene->spec->file_count; f++)
+        jox_overlay_put(&all, scene->spec->files[f].path, scene->spec->files[f].text,
+                        scene->spec->files[f].length);
+    const JoxMachineSet *machines = &scene->world->model.machines;
+    for (uint32_t m = 0; m < machines->count; m++) {
+        uint32_t count;
+        const JoxLuaFile *files = jox_lua_files(scene->lua, machines->items[m], &count);
+        for (uint32_t f = 0; f < count; f++) {
+            size_t length;
+            const char *text = jox_lua_text(scene->lua, machines->items[m], f, &length);
+            jox_overlay_put(&all, files[f].path, text, length);
+        }
+    }
+    JoxText piece = {0};
+    for (size_t f = 0; f < all.count; f++) {
+        piece.length = 0;
+        jox_text_append(&piece, all.files[f].path, strlen(all.files[f].path) + 1);
+        jox_text_append(&piece, all.files[f].text, all.files[f].length);
+        jox_pieces_add(out, JOX_PIECE_FILE, piece.data, piece.length);
+    }
+    jox_text_free(&piece);
+    jox_overlay_free(&all);
+}
+
+static void add_listeners(JoxText *out, const JoScene *scene) {
+    JoxText piece = {0};
+    for (uint32_t l = 0; l < scene->listeners.count; l++) {
+        const JoxListener *listener = &scene->listeners.items[l];
+        if (!listener->kind->sections)
+            continue;
+        piece.length = 0;
+        jox_text_append(&piece, listener->kind->name, strlen(listener->kind->name) + 1);
+        JoxSections s = jox_sections_save(&piece);
+        listener->kind->sections(listener->self, &s);
+        jox_sections_end(&s);
+        jox_pieces_add(out, JOX_PIECE_LISTENER, piece.data, piece.length);
+    }
+    jox_text_free(&piece);
+}
+
+static void add_def(JoxText *out, const JoScene *scene) {
+    const JoSceneDef *def = &scene->def;
+    const JoxCheckpointNumbers numbers = {.tick = scene->world->state.tick,
+                                          .hash = jo_world_hash(scene->world),
+                                          .seed = def->seed,
+                                          .dt = def->dt,
+                                          .log_length =
+                                              scene->log ? (uint64_t)ftell(scene->log) : 0,
+                                          .has_seed = def->has_seed,
+                                          .has_dt = def->has_dt,
+                                          .no_density = def->no_density};
+    jox_pieces_add(out, JOX_PIECE_NUMBERS, &numbers, sizeof numbers);
+    add_text(out, JOX_PIECE_PATH, def->path);
+    add_text(out, JOX_PIECE_INPUT, def->input_log);
+    for (size_t o = 0; o < def->override_count; o++)
+        add_text(out, JOX_PIECE_SET, def->overrides[o]);
+    for (uint32_t m = 0; m < scene->mods->count; m++) {
+        const char *folder = scene->mods->items[m].folder;
+        JoxText path = {0}; /* a plain name would be looked for elsewhere */
+        jox_text_printf(&path, "%s%s", strchr(folder, '/') ? "" : "./", folder);
+        add_text(out, JOX_PIECE_MOD, path.data);
+        jox_text_free(&path);
+    }
+}
+
+/* ---- writing it ---- */
+
+/* The folder's own entries reach the disk. */
+static bool sync_folder(const Checkpoint *c) {
+    return fsync(fileno(c->claim)) == 0;
+}
+
+/* Whole under its name, and on the disk; the one before keeps another name. */
+static bool write_file(const Checkpoint *c, const JoxText *data, JoError *error) {
+    JoxText latest = {0}, before = {0};
+    jox_text_printf(&latest, "%s/%s", c->folder, JOX_CHECKPOINT_LATEST);
+    jox_text_printf(&before, "%s/%s", c->folder, JOX_CHECKPOINT_BEFORE);
+    FILE *file = jox_file_replace(latest.data);
+    bool good = file && fwrite(data->data, 1, data->length, file) == data->length &&
+                fflush(file) == 0 && fsync(fileno(file)) == 0 &&
+                (rename(latest.data, before.data) == 0 || errno == ENOENT);
+    if (file)
+        good = (good ? jox_file_close(file) : jox_file_drop(file)) == 0 && good;
+    good = good && sync_folder(c);
+    if (!good)
+        jox_error(error, JO_FAILED, "cannot write the checkpoint '%.300s': %s", latest.data,
+                  jox_file_why(errno));
+    jox_text_free(&latest);
+    jox_text_free(&before);
+    return good;
+}
+
+/* Whether everybody can be left between this step and the next. */
+static bool is_whole(const JoScene *scene) {
+    bool whole = jox_world_snapshot_is_exact(scene->world);
+    for (uint32_t l = 0; whole && l < scene->listeners.count; l++) {
+        const JoxListener *listener = &scene->listeners.items[l];
+        if (listener->kind->is_whole)
+            whole = listener->kind->is_whole(listener->self, scene);
+    }
+    return whole;
+}
+
+/* What lies in other files is there before the checkpoint that counts on it. */
+static bool settle(const JoScene *scene, JoError *error) {
+    for (uint32_t l = 0; l < scene->listeners.count; l++) {
+        const JoxListener *listener = &scene->listeners.items[l];
+        if (listener->kind->settle && !listener->kind->settle(listener->self, error))
+            return false;
+    }
+    if (!scene->log || (fflush(scene->log) == 0 && fsync(fileno(scene->log)) == 0))
+        return true;
+    jox_error(error, JO_FAILED, "cannot write the input log: %s", strerror(errno));
+    return false;
+}
+
+static bool frame(void *self, JoScene *scene, JoError *error) {
+    Checkpoint *c = self;
+    if (scene->world->state.tick < c->due || !is_whole(scene))
+        return true;
+    c->due = scene->world->state.tick + c->every;
+    JoxText state = {0}, out = {0};
+    bool good = settle(scene, error) && jox_world_snapshot(scene->world, &state, error);
+    if (good) {
+        jox_pieces_begin(&out);
+        add_def(&out, scene);
+        add_text(&out, JOX_PIECE_NOTE, c->note);
+        add_files(&out, scene);
+        jox_pieces_add(&out, JOX_PIECE_STATE, state.data, state.length);
+        add_listeners(&out, scene);
+        jox_pieces_end(&out);
+        good = write_file(c, &out, error);
+    }
+    jox_text_free(&state);
+    jox_text_free(&out);
+    return good;
+}
+
+/* ---- its listener ---- */
+
+static bool begin(void *self, JoScene *scene, const void *options, JoError *error) {
+    Checkpoint *c = self;
+    const JoxCheckpointDef *def = options;
+    if (!scene->def.resumable || !(def->every > 0.0)) {
+        jox_error(error, JO_USAGE,
+                  "checkpoints are of scenes that were loaded as resumable, every few seconds");
+        return false;
+    }
+    if (mkdir(def->folder, 0777) == 0 || errno == EEXIST)
+        c->claim = jox_folder_claim(def->folder);
+    if (!c->claim) {
+        jox_error(error, JO_FAILED, "cannot write checkpoints into '%.300s': %s", def->folder,
+                  errno == EEXIST ? "it is no folder" : jox_file_why(errno));
+        return false;
+    }
+    c->folder = jox_strdup(def->folder);
+    c->note = jox_strdup(def->note ? def->note : "");
+    c->every = (uint64_t)fmax(1.0, def->every / scene->world->model.def.dt + 0.5);
+    c->due = scene->world->state.tick + c->every;
+    return true;
+}
+
+static void release(void *self) {
+    Checkpoint *c = self;
+    if (c->claim)
+        jox_file_close(c->claim);
+    jox_free(c->folder);
+    jox_free(c->note);
+}
+
+static const JoxListenerKind CHECKPOINTS = {.name = "checkpoints",
+                                            .size = sizeof(Checkpoint),
+                                            .begin = begin,
+                                            .frame = frame,
+                                            .release = release};
+
+bool jo_scene_checkpoint(JoScene *scene, const char *directory, double every, const char *note,
+                         JoError *error) {
+    JOX_REQUIRE(scene && directory && !jox_run_listener(scene, &CHECKPOINTS), false);
+    JOX_GUARD (scene->heap, error)
+        return false;
+    return jox_run_listen(scene, &CHECKPOINTS, &(JoxCheckpointDef){directory, note, every},
+                          error) != NULL;
+}

@@ -1,0 +1,167 @@
+/* A run goes on from a checkpoint: the scene is loaded from the texts that the file holds, and
+   given the state. */
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/assert.h"
+#include "base/file.h"
+#include "base/guard.h"
+#include "base/mem.h"
+#include "run/resume/checkpoint.h"
+
+static const size_t LARGEST = (size_t)4 << 30; /* bytes of a checkpoint */
+
+/* A checkpoint that was read; its texts point into `file`. */
+typedef struct Read {
+    JoxText file;
+    JoxCheckpointNumbers numbers;
+    const char *path, *input, *note;
+    const char **sets, **mods;
+    size_t set_count, set_capacity, mod_count, mod_capacity;
+    JoxOverlay files;
+    JoxPiece state;
+} Read;
+
+/* ---- reading ---- */
+
+static void take_text(const char ***list, size_t *count, size_t *capacity, const char *text) {
+    JOX_RESERVE(*list, *capacity, *count + 1);
+    (*list)[(*count)++] = text;
+}
+
+static void take_piece(Read *r, const JoxPiece *piece) {
+    const char *name = piece->name, *data = piece->data;
+    const size_t head = strlen(data) + 1; /* a zero follows each piece */
+    if (strcmp(name, JOX_PIECE_NUMBERS) == 0 && piece->length == sizeof r->numbers)
+        memcpy(&r->numbers, data, sizeof r->numbers);
+    else if (strcmp(name, JOX_PIECE_PATH) == 0)
+        r->path = data;
+    else if (strcmp(name, JOX_PIECE_INPUT) == 0)
+        r->input = data;
+    else if (strcmp(name, JOX_PIECE_NOTE) == 0)
+        r->note = data;
+    else if (strcmp(name, JOX_PIECE_SET) == 0)
+        take_text(&r->sets, &r->set_count, &r->set_capacity, data);
+    else if (strcmp(name, JOX_PIECE_MOD) == 0)
+        take_text(&r->mods, &r->mod_count, &r->mod_capacity, data);
+    else if (strcmp(name, JOX_PIECE_STATE) == 0)
+        r->state = *piece;
+    else if (strcmp(name, JOX_PIECE_FILE) == 0 && head <= piece->length)
+        jox_overlay_put(&r->files, data, data + head, piece->length - head);
+}
+
+static void free_read(Read *r) {
+    jox_text_free(&r->file);
+    jox_free(r->sets);
+    jox_free(r->mods);
+    jox_overlay_free(&r->files);
+    *r = (Read){0};
+}
+
+/* All of a file is verified before anything of it is used. */
+static bool read_file(Read *r, const char *path, JoError *error) {
+    char why[200] = "";
+    r->file.data = jox_read_file(path, LARGEST, &r->file.length);
+    if (!r->file.data) {
+        jox_error(error, JO_INPUT, "cannot read the checkpoint '%.300s': %s", path,
+                  jox_file_why(errno));
+        return false;
+    }
+    JoxPiece piece;
+    for (size_t at = 0; jox_pieces_next(&r->file, &at, &piece, why);)
+        take_piece(r, &piece);
+    if (!*why && (!r->path || !r->state.data))
+        snprintf(why, sizeof why, "it lacks the scene or the state");
+    if (*why)
+        jox_error(error, JO_INPUT, "'%.250s' cannot be resumed: %s", path, why);
+    return !*why;
+}
+
+/* The file, or the newest whole one of a folder. */
+static bool find(Read *r, const JoSceneDef *def, const char *path, JoError *error) {
+    static const char *const NAMES[] = {JOX_CHECKPOINT_LATEST, JOX_CHECKPOINT_BEFORE};
+    struct stat info;
+    if (stat(path, &info) != 0 || !S_ISDIR(info.st_mode))
+        return read_file(r, path, error);
+    JoError first = {0};
+    for (int n = 0; n < 2; n++) {
+        JoxText full = {0};
+        JoError wrong = {0};
+        jox_text_printf(&full, "%s/%s", path, NAMES[n]);
+        const bool good = read_file(r, full.data, &wrong);
+        jox_text_free(&full);
+        if (good && first.code) {
+            JoxText said = {0};
+            jox_text_printf(&said, "%s; the one before it is taken\n", first.text);
+            jox_run_message(def->message, def->message_context, said.data);
+            jox_text_free(&said);
+        }
+        if (good)
+            return true;
+        free_read(r);
+        first = n ? first : wrong;
+    }
+    if (error)
+        *error = first;
+    return false;
+}
+
+/* ---- state ---- */
+
+static bool restore(JoScene *scene, const Read *r, JoError *error) {
+    JOX_GUARD (scene->heap, error)
+        return false;
+    if (!jox_world_restore(scene->world, r->state.data, r->state.length, error))
+        return false;
+    if (jo_world_hash(scene->world) != r->numbers.hash) {
+        JoxSections compared = jox_sections_compare(r->state.data, r->state.length);
+        jox_world_sections(scene->world, &compared);
+        jox_sections_end(&compared);
+        jox_error(error, JO_INPUT, "the state that was restored has another hash than it had: %s",
+                  *compared.wrong ? compared.wrong : "what was saved is as it was");
+        return false;
+    }
+    scene->resumed_tick = r->numbers.tick;
+    scene->log_length = r->numbers.log_length;
+    jox_text_append(&scene->resumed, r->file.data, r->file.length);
+    return true;
+}
+
+static JoScene *load(const JoSceneDef *def, const Read *r, JoError *error) {
+    JoSceneDef own = *def;
+    own.path = r->path;
+    own.overrides = r->sets;
+    own.override_count = r->set_count;
+    own.mods = r->mods;
+    own.mod_count = r->mod_count;
+    own.named_mods_only = own.needed_mods_too = own.resumable = true;
+    own.input_log = r->input;
+    own.has_seed = r->numbers.has_seed;
+    own.seed = r->numbers.seed;
+    own.has_dt = r->numbers.has_dt;
+    own.dt = r->numbers.dt;
+    own.no_density = r->numbers.no_density;
+    const JoxOverlay *before = jox_overlay_use(&r->files);
+    JoScene *scene = jo_scene_load(&own, error);
+    jox_overlay_use(before);
+    if (scene && !restore(scene, r, error)) {
+        jo_scene_free(scene);
+        scene = NULL;
+    }
+    if (scene)
+        jox_let_go(scene); /* the caller's from here on */
+    return scene;
+}
+
+JoScene *jo_scene_resume(const JoSceneDef *def, const char *path, char **note, JoError *error) {
+    JOX_REQUIRE(def && path && note, NULL);
+    JOX_GUARD (NULL, error)
+        return NULL;
+    Read read = {0};
+    JoScene *scene = find(&read, def, path, error) ? load(def, &read, error) : NULL;
+    *note = scene && read.note ? jox_disown(jox_strdup(read.note)) : NULL;
+    free_read(&read);
+    return scene;
+}

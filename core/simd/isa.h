@@ -1,0 +1,32 @@
+/* The instruction sets that kernels are compiled for, and which of them this machine can run. */
+#ifndef JOX_SIMD_ISA_H
+#define JOX_SIMD_ISA_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "jostle.h"
+
+/* X(name, public name): of this build, narrowest first. */
+#if defined __x86_64__
+#define JOX_ISAS(X)                                                                                \
+    X(scalar, JO_ISA_SCALAR)                                                                       \
+    X(sse2, JO_ISA_SSE2) X(avx2, JO_ISA_AVX2) X(avx512, JO_ISA_AVX512)
+#else
+#define JOX_ISAS(X) X(scalar, JO_ISA_SCALAR)
+#endif
+
+/* For a table with an entry for each public name; those that the build lacks stay NULL. */
+enum { JOX_ISA_ROOM = JO_ISA_AVX512 + 1 };
+
+/* Whether the build has kernels for it, and processor and system run them. */
+bool jox_isa_runs(JoIsa isa);
+/* The set itself; for JO_ISA_WIDEST the widest that runs. */
+JoIsa jox_isa_resolve(JoIsa isa);
+const char *jox_isa_name(JoIsa isa);
+/* JO_ISA_WIDEST where no instruction set has the name. */
+JoIsa jox_isa_named(const char *name);
+/* Writes the names of those that run, as "scalar, sse2". */
+void jox_isa_list(char *text, size_t size);
+
+#endif

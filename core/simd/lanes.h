@@ -1,0 +1,23 @@
+/* The lanes of the instruction set that a kernel is being compiled for. The build defines one of
+   JOX_ISA_scalar, JOX_ISA_sse2, ... for each of its objects (see README.md). */
+#ifndef JOX_SIMD_LANES_H
+#define JOX_SIMD_LANES_H
+
+#if defined JOX_ISA_avx512
+#include "simd/lanes_avx512.h"
+#elif defined JOX_ISA_avx2
+#include "simd/lanes_avx2.h"
+#elif defined JOX_ISA_sse2
+#include "simd/lanes_sse2.h"
+#else
+#include "simd/lanes_scalar.h"
+#endif
+
+/* Before a loop of few turns over an array of lanes: the array then lives in registers. */
+#if defined __clang__
+#define JOX_UNROLL _Pragma("unroll")
+#else
+#define JOX_UNROLL _Pragma("GCC unroll 32")
+#endif
+
+#endif

@@ -1,0 +1,150 @@
+/* Eight lanes: AVX2. See lanes_scalar.h. */
+#ifndef JOX_SIMD_LANES_AVX2_H
+#define JOX_SIMD_LANES_AVX2_H
+
+#include <immintrin.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { JOX_WIDTH = 8 };
+#define JOX_WIDE(name) name##_avx2
+
+typedef __m256 JoxFloats;
+typedef __m256i JoxInts;
+typedef __m256 JoxMask;
+
+static inline JoxFloats jf_set(float x) {
+    return _mm256_set1_ps(x);
+}
+static inline JoxFloats jf_load(const float *from) {
+    return _mm256_loadu_ps(from);
+}
+static inline void jf_store(float *to, JoxFloats a) {
+    _mm256_storeu_ps(to, a);
+}
+static inline JoxInts ji_set(int32_t x) {
+    return _mm256_set1_epi32(x);
+}
+static inline JoxInts ji_load(const uint32_t *from) {
+    return _mm256_loadu_si256((const __m256i *)from);
+}
+static inline void ji_store(uint32_t *to, JoxInts a) {
+    _mm256_storeu_si256((__m256i *)to, a);
+}
+static inline JoxInts ji_lane(void) {
+    return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+static inline JoxFloats jf_add(JoxFloats a, JoxFloats b) {
+    return _mm256_add_ps(a, b);
+}
+static inline JoxFloats jf_sub(JoxFloats a, JoxFloats b) {
+    return _mm256_sub_ps(a, b);
+}
+static inline JoxFloats jf_mul(JoxFloats a, JoxFloats b) {
+    return _mm256_mul_ps(a, b);
+}
+static inline JoxFloats jf_div(JoxFloats a, JoxFloats b) {
+    return _mm256_div_ps(a, b);
+}
+static inline JoxFloats jf_sqrt(JoxFloats a) {
+    return _mm256_sqrt_ps(a);
+}
+static inline JoxFloats jf_neg(JoxFloats a) {
+    return _mm256_xor_ps(a, _mm256_set1_ps(-0.0f));
+}
+static inline JoxFloats jf_abs(JoxFloats a) {
+    return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a);
+}
+static inline JoxFloats jf_min(JoxFloats a, JoxFloats b) {
+    return _mm256_min_ps(a, b);
+}
+static inline JoxFloats jf_max(JoxFloats a, JoxFloats b) {
+    return _mm256_max_ps(a, b);
+}
+static inline JoxFloats jf_select(JoxMask m, JoxFloats a, JoxFloats b) {
+    return _mm256_blendv_ps(b, a, m);
+}
+
+static inline JoxMask jf_lt(JoxFloats a, JoxFloats b) {
+    return _mm256_cmp_ps(a, b, _CMP_LT_OQ);
+}
+static inline JoxMask jf_le(JoxFloats a, JoxFloats b) {
+    return _mm256_cmp_ps(a, b, _CMP_LE_OQ);
+}
+
+static inline JoxInts ji_add(JoxInts a, JoxInts b) {
+    return _mm256_add_epi32(a, b);
+}
+static inline JoxInts ji_sub(JoxInts a, JoxInts b) {
+    return _mm256_sub_epi32(a, b);
+}
+static inline JoxInts ji_and(JoxInts a, JoxInts b) {
+    return _mm256_and_si256(a, b);
+}
+#define ji_shift_left(a, bits) _mm256_slli_epi32(a, bits)
+#define ji_shift_right(a, bits) _mm256_srli_epi32(a, bits)
+static inline JoxMask ji_equal(JoxInts a, JoxInts b) {
+    return _mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b));
+}
+static inline JoxMask ji_less(JoxInts a, JoxInts b) {
+    return _mm256_castsi256_ps(_mm256_cmpgt_epi32(b, a));
+}
+static inline JoxInts ji_select(JoxMask m, JoxInts a, JoxInts b) {
+    return _mm256_castps_si256(jf_select(m, _mm256_castsi256_ps(a), _mm256_castsi256_ps(b)));
+}
+
+static inline JoxInts jf_to_ints(JoxFloats a) {
+    return _mm256_cvttps_epi32(a);
+}
+static inline JoxFloats ji_to_floats(JoxInts a) {
+    return _mm256_cvtepi32_ps(a);
+}
+static inline JoxInts jf_bits(JoxFloats a) {
+    return _mm256_castps_si256(a);
+}
+static inline JoxFloats ji_as_floats(JoxInts a) {
+    return _mm256_castsi256_ps(a);
+}
+static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
+    return _mm256_i32gather_epi32((const int *)table, at, 4);
+}
+static inline JoxFloats jf_pick(const float *table, JoxInts at) {
+    return _mm256_i32gather_ps(table, at, 4);
+}
+
+/* Records l and l + 4 share a register; each of its halves is transposed by itself. */
+static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
+    uint32_t k[8];
+    __m256 r[4];
+    ji_store(k, at);
+    for (int lane = 0; lane < 4; lane++)
+        r[lane] = _mm256_insertf128_ps(
+            _mm256_castps128_ps256(_mm_loadu_ps(records + 4 * (size_t)k[lane])),
+            _mm_loadu_ps(records + 4 * (size_t)k[lane + 4]), 1);
+    __m256 xy01 = _mm256_unpacklo_ps(r[0], r[1]), zw01 = _mm256_unpackhi_ps(r[0], r[1]);
+    __m256 xy23 = _mm256_unpacklo_ps(r[2], r[3]), zw23 = _mm256_unpackhi_ps(r[2], r[3]);
+    out[0] = _mm256_shuffle_ps(xy01, xy23, 0x44);
+    out[1] = _mm256_shuffle_ps(xy01, xy23, 0xee);
+    out[2] = _mm256_shuffle_ps(zw01, zw23, 0x44);
+    out[3] = _mm256_shuffle_ps(zw01, zw23, 0xee);
+}
+
+static inline JoxMask jm_and(JoxMask a, JoxMask b) {
+    return _mm256_and_ps(a, b);
+}
+static inline JoxMask jm_or(JoxMask a, JoxMask b) {
+    return _mm256_or_ps(a, b);
+}
+static inline JoxMask jm_without(JoxMask a, JoxMask b) {
+    return _mm256_andnot_ps(b, a);
+}
+static inline uint32_t jm_bits(JoxMask m) {
+    return (uint32_t)_mm256_movemask_ps(m);
+}
+static inline JoxMask jm_of_bits(uint32_t bits) {
+    const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    return ji_equal(_mm256_and_si256(_mm256_set1_epi32((int32_t)bits), bit), bit);
+}
+
+#endif

@@ -1,0 +1,153 @@
+/* Sixteen lanes: AVX-512F. See lanes_scalar.h. */
+#ifndef JOX_SIMD_LANES_AVX512_H
+#define JOX_SIMD_LANES_AVX512_H
+
+#include <immintrin.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { JOX_WIDTH = 16 };
+#define JOX_WIDE(name) name##_avx512
+
+typedef __m512 JoxFloats;
+typedef __m512i JoxInts;
+typedef __mmask16 JoxMask;
+
+static inline JoxFloats jf_set(float x) {
+    return _mm512_set1_ps(x);
+}
+static inline JoxFloats jf_load(const float *from) {
+    return _mm512_loadu_ps(from);
+}
+static inline void jf_store(float *to, JoxFloats a) {
+    _mm512_storeu_ps(to, a);
+}
+static inline JoxInts ji_set(int32_t x) {
+    return _mm512_set1_epi32(x);
+}
+static inline JoxInts ji_load(const uint32_t *from) {
+    return _mm512_loadu_si512(from);
+}
+static inline void ji_store(uint32_t *to, JoxInts a) {
+    _mm512_storeu_si512(to, a);
+}
+static inline JoxInts ji_lane(void) {
+    return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+
+static inline JoxFloats jf_add(JoxFloats a, JoxFloats b) {
+    return _mm512_add_ps(a, b);
+}
+static inline JoxFloats jf_sub(JoxFloats a, JoxFloats b) {
+    return _mm512_sub_ps(a, b);
+}
+static inline JoxFloats jf_mul(JoxFloats a, JoxFloats b) {
+    return _mm512_mul_ps(a, b);
+}
+static inline JoxFloats jf_div(JoxFloats a, JoxFloats b) {
+    return _mm512_div_ps(a, b);
+}
+static inline JoxFloats jf_sqrt(JoxFloats a) {
+    return _mm512_sqrt_ps(a);
+}
+static inline JoxFloats jf_neg(JoxFloats a) {
+    return _mm512_castsi512_ps(
+        _mm512_xor_si512(_mm512_castps_si512(a), _mm512_set1_epi32(INT32_MIN)));
+}
+static inline JoxFloats jf_abs(JoxFloats a) {
+    return _mm512_castsi512_ps(
+        _mm512_and_si512(_mm512_castps_si512(a), _mm512_set1_epi32(INT32_MAX)));
+}
+static inline JoxFloats jf_min(JoxFloats a, JoxFloats b) {
+    return _mm512_min_ps(a, b);
+}
+static inline JoxFloats jf_max(JoxFloats a, JoxFloats b) {
+    return _mm512_max_ps(a, b);
+}
+static inline JoxFloats jf_select(JoxMask m, JoxFloats a, JoxFloats b) {
+    return _mm512_mask_blend_ps(m, b, a);
+}
+
+static inline JoxMask jf_lt(JoxFloats a, JoxFloats b) {
+    return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ);
+}
+static inline JoxMask jf_le(JoxFloats a, JoxFloats b) {
+    return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
+}
+
+static inline JoxInts ji_add(JoxInts a, JoxInts b) {
+    return _mm512_add_epi32(a, b);
+}
+static inline JoxInts ji_sub(JoxInts a, JoxInts b) {
+    return _mm512_sub_epi32(a, b);
+}
+static inline JoxInts ji_and(JoxInts a, JoxInts b) {
+    return _mm512_and_si512(a, b);
+}
+#define ji_shift_left(a, bits) _mm512_slli_epi32(a, bits)
+#define ji_shift_right(a, bits) _mm512_srli_epi32(a, bits)
+static inline JoxMask ji_equal(JoxInts a, JoxInts b) {
+    return _mm512_cmpeq_epi32_mask(a, b);
+}
+static inline JoxMask ji_less(JoxInts a, JoxInts b) {
+    return _mm512_cmpgt_epi32_mask(b, a);
+}
+static inline JoxInts ji_select(JoxMask m, JoxInts a, JoxInts b) {
+    return _mm512_mask_blend_epi32(m, b, a);
+}
+
+static inline JoxInts jf_to_ints(JoxFloats a) {
+    return _mm512_cvttps_epi32(a);
+}
+static inline JoxFloats ji_to_floats(JoxInts a) {
+    return _mm512_cvtepi32_ps(a);
+}
+static inline JoxInts jf_bits(JoxFloats a) {
+    return _mm512_castps_si512(a);
+}
+static inline JoxFloats ji_as_floats(JoxInts a) {
+    return _mm512_castsi512_ps(a);
+}
+static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
+    return _mm512_i32gather_epi32(at, table, 4);
+}
+static inline JoxFloats jf_pick(const float *table, JoxInts at) {
+    return _mm512_i32gather_ps(at, table, 4);
+}
+
+/* Records l, l + 4, l + 8 and l + 12 share a register; each of its quarters is transposed. */
+static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
+    uint32_t k[16];
+    __m512 r[4];
+    ji_store(k, at);
+    for (int lane = 0; lane < 4; lane++) {
+        r[lane] = _mm512_castps128_ps512(_mm_loadu_ps(records + 4 * (size_t)k[lane]));
+        r[lane] = _mm512_insertf32x4(r[lane], _mm_loadu_ps(records + 4 * (size_t)k[lane + 4]), 1);
+        r[lane] = _mm512_insertf32x4(r[lane], _mm_loadu_ps(records + 4 * (size_t)k[lane + 8]), 2);
+        r[lane] = _mm512_insertf32x4(r[lane], _mm_loadu_ps(records + 4 * (size_t)k[lane + 12]), 3);
+    }
+    __m512 xy01 = _mm512_unpacklo_ps(r[0], r[1]), zw01 = _mm512_unpackhi_ps(r[0], r[1]);
+    __m512 xy23 = _mm512_unpacklo_ps(r[2], r[3]), zw23 = _mm512_unpackhi_ps(r[2], r[3]);
+    out[0] = _mm512_shuffle_ps(xy01, xy23, 0x44);
+    out[1] = _mm512_shuffle_ps(xy01, xy23, 0xee);
+    out[2] = _mm512_shuffle_ps(zw01, zw23, 0x44);
+    out[3] = _mm512_shuffle_ps(zw01, zw23, 0xee);
+}
+
+static inline JoxMask jm_and(JoxMask a, JoxMask b) {
+    return a & b;
+}
+static inline JoxMask jm_or(JoxMask a, JoxMask b) {
+    return a | b;
+}
+static inline JoxMask jm_without(JoxMask a, JoxMask b) {
+    return a & (JoxMask)~b;
+}
+static inline uint32_t jm_bits(JoxMask m) {
+    return m;
+}
+static inline JoxMask jm_of_bits(uint32_t bits) {
+    return (JoxMask)bits;
+}
+
+#endif

@@ -1,0 +1,38 @@
+/* Plane vectors of lanes (base/vec.h has them of numbers). For kernels: part of those that include
+   it. */
+#ifndef JOX_SIMD_VECTORS_H
+#define JOX_SIMD_VECTORS_H
+
+#include "simd/lanes.h"
+
+typedef struct JoxVector {
+    JoxFloats x, y;
+} JoxVector;
+
+/* From and to two columns, of JOX_WIDTH from `i` on. */
+static inline JoxVector jv_load(const float *x, const float *y, size_t i) {
+    return (JoxVector){jf_load(x + i), jf_load(y + i)};
+}
+static inline void jv_store(float *x, float *y, size_t i, JoxVector v) {
+    jf_store(x + i, v.x);
+    jf_store(y + i, v.y);
+}
+static inline JoxVector jv_add(JoxVector a, JoxVector b) {
+    return (JoxVector){jf_add(a.x, b.x), jf_add(a.y, b.y)};
+}
+static inline JoxVector jv_scale(JoxVector a, JoxFloats by) {
+    return (JoxVector){jf_mul(a.x, by), jf_mul(a.y, by)};
+}
+static inline JoxFloats jv_dot(JoxVector a, JoxVector b) {
+    return jf_add(jf_mul(a.x, b.x), jf_mul(a.y, b.y));
+}
+static inline JoxVector jv_select(JoxMask m, JoxVector a, JoxVector b) {
+    return (JoxVector){jf_select(m, a.x, b.x), jf_select(m, a.y, b.y)};
+}
+/* The shortest way along one axis where edges are periodic: jox_wrap of agents/agents.h. */
+static inline JoxFloats jf_wrap(JoxFloats d, float period) {
+    JoxFloats shift = jf_select(jf_lt(jf_set(0.0f), d), jf_set(period), jf_set(-period));
+    return jf_select(jf_lt(jf_set(0.5f * period), jf_abs(d)), jf_sub(d, shift), d);
+}
+
+#endif

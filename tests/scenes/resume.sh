@@ -1,0 +1,101 @@
+# A run that goes on from a checkpoint is the run itself: in another process, with other threads and instructions, in the
+# same files, from the texts that the checkpoint holds; and one that was killed anywhere goes on from its newest one.
+. tests/scenes/lib.sh
+program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
+export MALLOC_PERTURB_=165 # memory that is read before it is written differs from run to run
+kills=${JOSTLE_KILLS:-6}
+hash() { figure hash <"$1"; }
+
+# ---- the same hash at every end ----
+# goes_on NAME SCENE EVERY "END..." ARGS...: from one checkpoint, to several ends
+goes_on() {
+    local name=$1 scene=$2 every=$3 ends=$4 end way=0; shift 4
+    for end in $ends; do
+        rm -rf "$work/ck" "$work/whole.json" "$work/rest.json"
+        "$program" run "$scene" --quiet --for "$end" --checkpoint "$every" --checkpoint-dir "$work/ck" --summary "$work/whole.json" "$@" 2>"$work/err"
+        way=$((way + 1))
+        "$program" resume "$work/ck/latest.checkpoint" --quiet --threads $((1 + way % 3)) --isa "$([ $way = 1 ] && echo scalar || echo sse2)" --summary "$work/rest.json" 2>>"$work/err"
+        same_hash "$name goes on to $end s" "$(hash "$work/whole.json")" "$(hash "$work/rest.json")"
+        [ "$(figure steps <"$work/rest.json")" = "$(figure steps <"$work/whole.json")" ] || echo "not ok $name: other steps"
+    done
+}
+goes_on "a crowd that pushes" scenes/running-through.yaml 3 "3.05 4 9"
+goes_on "bodies, thrown and kicked" scenes/dodgeball.yaml 7 "13 16 20"
+goes_on "a wall that breaks" scenes/wall-breaking.yaml 1 "6.5 8"
+goes_on "people who come and go" scenes/tawaf.yaml 2 "3.5" --set groups.pilgrims.count=1000
+goes_on "events and gates" scenes/gates.yaml 4 "9"
+goes_on "a mod" scenes/tawaf.yaml 1 "2.5" --set groups.pilgrims.count=300 --mod scenes/mods/rough
+
+# ---- from the texts that it holds, anywhere ----
+tree=$work/tree
+mkdir -p "$tree"
+cp scenes/running-through.yaml "$tree/scene.yaml"
+cp behaviours/*.lua "$tree/"
+rm -f "$work/whole.json" "$work/rest.json"
+(cd "$tree" && "$program" run scene.yaml --quiet --for 6 --checkpoint 3 --checkpoint-dir "$work/texts" --summary "$work/whole.json")
+echo 'nonsense: [' >"$tree/scene.yaml"; rm -f "$tree"/*.lua
+"$program" resume "$work/texts" --quiet --summary "$work/rest.json"
+same_hash "what was edited since does not matter, nor where it is resumed" "$(hash "$work/whole.json")" "$(hash "$work/rest.json")"
+
+# ---- behaviours that were reloaded, and input that was played, before and after ----
+mkdir -p "$work/live"
+cp behaviours/stander.lua "$work/live/live.lua"
+printf 'jostle: 1\nplaces: {yard: {polygon: [[0, 0], [9, 0], [9, 9], [0, 9]]}}\ngroups: {g: {behaviour: live.lua, count: 120, fill: random, in: yard}}\n' >"$work/live/scene.yaml"
+cat >"$work/live/played" <<'END'
+20 push 3 400 0
+45 set stander defaults perception 2.5
+90 push 4 0 300
+130 set stander defaults perception 1
+END
+(cd "$work/live" && "$program" run scene.yaml --quiet --steps 200 --input played --log-input log --checkpoint 5 --checkpoint-dir ck --summary whole.json && cp log whole.log &&
+    "$program" resume ck/before.checkpoint --quiet --summary rest.json) 2>"$work/err" || cat "$work/err"
+same_hash "input that is played goes on" "$(hash "$work/live/whole.json")" "$(hash "$work/live/rest.json")"
+cmp -s "$work/live/log" "$work/live/whole.log"; verdict "  and the log that is written is the same, byte by byte" $?
+(cd "$work/live" && exec "$program" run scene.yaml --quiet --steps 900000000 --watch --log-input log --checkpoint 5 --checkpoint-dir reloaded) 2>"$work/live/said" & pid=$!
+for _ in $(seq 100); do [ -s "$work/live/reloaded/before.checkpoint" ] && break; sleep 0.1; done
+sed -i 's/perception = 1.5/perception = 2.5/' "$work/live/live.lua"
+for _ in $(seq 100); do grep -q 'version 2 is live' "$work/live/said" && break; sleep 0.1; done
+sleep 0.5; kill -KILL $pid; wait $pid 2>/dev/null
+sed -i 's/perception = 2.5/perception = 0.5/' "$work/live/live.lua"
+cp "$work/live/log" "$work/live/until"; rm -f "$work/live/whole.json" "$work/live/rest.json"
+(cd "$work/live" && tick=$("$program" resume reloaded --for 0 2>&1 | sed -n 's/^resumed at \([0-9.]*\) s$/\1/p') &&
+    end=$(awk -v t="$tick" 'BEGIN {print t + 5}') && cp until log && "$program" resume reloaded --quiet --for "$end" --summary rest.json &&
+    "$program" run scene.yaml --quiet --for "$end" --input until --checkpoint 1e6 --checkpoint-dir none --summary whole.json) 2>"$work/err"
+same_hash "a behaviour that was reloaded goes on as it was then" "$(hash "$work/live/whole.json")" "$(hash "$work/live/rest.json")"
+
+# ---- recordings, and kills ----
+contents() { sqlite3 "$1" 'PRAGMA integrity_check; SELECT * FROM trajectory_data ORDER BY frame, id; SELECT * FROM jostle_agent ORDER BY frame, id; SELECT * FROM frame_data ORDER BY frame; SELECT * FROM jostle_body ORDER BY frame, id; SELECT * FROM metadata ORDER BY key' | sha256sum; }
+scene="$PWD/scenes/dodgeball.yaml"
+run() { exec "$program" run "$scene" --quiet --for 60 --record "$1/r.sqlite" --log-input "$1/log" --checkpoint 6.4 --checkpoint-dir "$1/ck"; }
+mkdir -p "$work/whole"
+(run "$work/whole") 2>/dev/null; whole=$(contents "$work/whole/r.sqlite")
+good=0 resumed=0 kept=0
+for k in $(seq "$kills"); do
+    rm -rf "$work/killed"; mkdir -p "$work/killed"
+    (run "$work/killed") 2>/dev/null & pid=$!
+    sleep "0.$((RANDOM % 9))$((RANDOM % 10))"
+    kill -KILL $pid 2>/dev/null; wait $pid 2>/dev/null
+    if [ -s "$work/killed/r.sqlite" ] && [ "$(sqlite3 "$work/killed/r.sqlite" 'PRAGMA integrity_check' 2>/dev/null)" = ok ]; then kept=$((kept + 1)); fi
+    if ! ls "$work/killed/ck/"*.checkpoint >/dev/null 2>&1; then good=$((good + 1)); continue; fi
+    resumed=$((resumed + 1))
+    "$program" resume "$work/killed/ck" --quiet >"$work/err" 2>&1 && [ "$(contents "$work/killed/r.sqlite")" = "$whole" ] && good=$((good + 1))
+done 2>/dev/null
+[ $good = "$kills" ] && [ $kept -gt 0 ]
+verdict "of $kills runs that were killed, $resumed went on from a checkpoint to the recording of the whole run ($good good, $kept recordings there)" $?
+
+# ---- what cannot be resumed ----
+refused() { # NAME TEXT FILE
+    "$program" resume "$3" --quiet >"$work/out" 2>&1
+    [ $? = 3 ] && grep -qF "$2" "$work/out"; verdict "$1" $?
+}
+file=$work/texts/latest.checkpoint size=$(stat -c %s "$work/texts/latest.checkpoint")
+refused "no checkpoint at all" "it is no checkpoint" scenes/circle.yaml
+refused "none there" "No such file" "$work/none.checkpoint"
+head -c $((size - 1)) "$file" >"$work/cut"; refused "one that is cut short by a byte" "cut short" "$work/cut"
+head -c 300 "$file" >"$work/cut"; refused "  or after the first piece" "cut short" "$work/cut"
+sed 's/jostle checkpoint 1/jostle checkpoint 9/' "$file" >"$work/other"; refused "another format" "of another format" "$work/other"
+cp "$file" "$work/bad"; printf 'X' | dd of="$work/bad" bs=1 seek=$((size - 5000)) conv=notrunc 2>/dev/null
+refused "a byte that is another" "is damaged: its checksum is another" "$work/bad"
+cp "$work/bad" "$work/texts/latest.checkpoint"
+"$program" resume "$work/texts" --quiet >"$work/out" 2>&1 && grep -q 'the one before it is taken' "$work/out"
+verdict "where the newest is damaged, the one before it is taken, which is said" $?

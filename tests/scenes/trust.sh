@@ -1,0 +1,79 @@
+# Files that would hang, tell or break a run, and runs that are ended, or cannot write: an error, and nothing lost.
+. tests/scenes/lib.sh
+program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
+scene=$PWD/scenes/running-through.yaml
+cd "$work" || exit 1
+says() { # NAME STATUS TEXT COMMAND...: what hangs is killed, as signals may not end it
+    local name=$1 status=$2 text=$3; shift 3
+    timeout -s KILL 20 "$@" >out 2>&1 </dev/null
+    local got=$?
+    if [ $got = "$status" ] && grep -qF -- "$text" out; then echo "ok $name"; else
+        echo "not ok $name: status $got, wanted $status and '$text'"; head -5 out; fi
+}
+group='groups: {g: {behaviour: stander.lua, at: [[0, 0]]}}'
+
+# ---- pipes in place of files ----
+mkfifo pipe.yaml pipe.wkt pipe.lua pipe.log pipe.sqlite
+says "a scene that is a pipe" 3 "it is no regular file" "$program" run pipe.yaml --quiet
+printf 'jostle: 1\ninclude: pipe.yaml\n%s\n' "$group" >s.yaml
+says "an included one" 3 "it is no regular file" "$program" run s.yaml --quiet
+printf 'jostle: 1\nwalls: [{file: pipe.wkt}]\n%s\n' "$group" >s.yaml
+says "walls" 3 "it is no regular file" "$program" run s.yaml --quiet
+says "an input log" 3 "it is no regular file" "$program" run "$scene" --quiet --input pipe.log
+says "an input log to write" 1 "a pipe that nobody reads" "$program" run "$scene" --quiet --log-input pipe.log
+says "a recording" 3 "it is no regular file" "$program" report pipe.sqlite --summary -
+says "a recording to write" 1 "not a recording" "$program" run "$scene" --quiet --record pipe.sqlite
+says "a summary to write" 1 "a pipe that nobody reads" "$program" run "$scene" --quiet --steps 2 --summary pipe.log
+
+# ---- files that a scene may not show ----
+mkdir -p secret own
+printf 'root: xyzzy\n' >secret/a.yaml
+ln -s ../secret/a.yaml own/link.yaml
+for name in "$work/secret/a.yaml" ../secret/a.yaml link.yaml; do
+    printf 'jostle: 1\ninclude: %s\n%s\n' "$name" "$group" >own/s.yaml
+    says "a scene includes nothing from outside its folder ($(basename "$(dirname "$name")")/$(basename "$name"))" 3 "lies outside the folder" "$program" check own/s.yaml
+    ! grep -q xyzzy out; verdict "  and shows nothing of it" $?
+    printf 'jostle: 1\nwalls: [{file: %s}]\n%s\n' "$name" "$group" >own/s.yaml
+    says "  nor are its walls from there" 3 "lies outside the folder" "$program" check own/s.yaml
+done
+
+# ---- recordings made to harm ----
+table='CREATE TABLE metadata(key TEXT, value TEXT); INSERT INTO metadata VALUES ("fps", "10"); CREATE TABLE'
+columns='(frame INTEGER, id INTEGER, pos_x REAL, pos_y REAL)'
+sqlite3 view.sqlite "CREATE VIEW trajectory_data AS WITH RECURSIVE c(frame) AS (SELECT 0 UNION ALL SELECT frame + 1 FROM c) SELECT frame, 1 AS id, 0.0 AS pos_x, 0.0 AS pos_y FROM c"
+says "a view is no table" 3 "no such table" "$program" report view.sqlite --summary -
+sqlite3 slow.sqlite "$table trajectory_data$columns; WITH RECURSIVE c(n) AS (SELECT 0 UNION ALL SELECT n + 1 FROM c WHERE n < 60000)
+    INSERT INTO trajectory_data SELECT n, 1, 0.0, 0.0 FROM c; CREATE INDEX i ON trajectory_data(frame) WHERE frame < 0"
+says "an index that makes each look-up a pass is given up" 3 "interrupted" "$program" report slow.sqlite --summary -
+for value in NULL "'here'" "x'00'"; do
+    rm -f bad.sqlite
+    sqlite3 bad.sqlite "$table trajectory_data(frame, id, pos_x, pos_y); INSERT INTO trajectory_data VALUES (0, 1, 1.0, 1.0), (1, 1, $value, 1.0)"
+    says "a position that is $value is nowhere" 3 "in frame 1 somebody's id or position is no number" "$program" report bad.sqlite --summary -
+done
+
+# ---- outputs ----
+says "a recording without a name" 2 "needs a value" "$program" run "$scene" --quiet --record ''
+says "a summary that is a folder is refused before the run" 1 "Is a directory" "$program" run "$scene" --quiet --for 1e6 --summary own
+says "so is a report that is a file" 1 "it is no folder" "$program" run "$scene" --quiet --for 1e6 --report s.yaml
+says "and a recording in a folder that is not there" 1 "cannot record" "$program" run "$scene" --quiet --for 1e6 --record none/r.sqlite
+says "standard output that is full" 1 "cannot write to standard output: No space" sh -c "'$program' run '$scene' --quiet --steps 2 --summary - >/dev/full"
+(sleep 0.3; "$program" run "$scene" --steps 2 --summary - --record closed.sqlite; echo $? >status) 2>closed.err | true
+grep -q '^1$' status && grep -q 'Broken pipe' closed.err && [ "$(sqlite3 closed.sqlite 'PRAGMA integrity_check')" = ok ]
+verdict "a pipe that was closed: status 1, and the recording is whole" $?
+sqlite3 foreign.sqlite "$table trajectory_data$columns"
+says "another program's recording is not replaced" 1 "is not a recording of Jostle's" "$program" run "$scene" --quiet --record foreign.sqlite
+(ulimit -f 1000; exec "$program" run "$scene" --quiet --for 1e6 --record full.sqlite) >out 2>&1
+[ $? = 1 ] && grep -q 'recording failed' out && [ "$(sqlite3 full.sqlite 'PRAGMA integrity_check')" = ok ]
+verdict "a disk that is full: status 1, and what there is of the recording is whole" $?
+
+# ---- two runs, and signals ----
+"$program" run "$scene" --quiet --for 1e6 --record two.sqlite --log-input two.log --data two --summary two.json 2>err & pid=$!
+for _ in $(seq 100); do [ -s two.log ] && [ -d two ] && break; sleep 0.1; done
+says "a second run on a recording" 1 "another run writes it" "$program" run "$scene" --quiet --steps 2 --record two.sqlite
+says "  on an input log" 1 "another run writes it" "$program" run "$scene" --quiet --steps 2 --log-input two.log
+says "  on a folder" 1 "another run writes it" "$program" run "$scene" --quiet --steps 2 --data two
+kill -TERM $pid; wait $pid
+[ $? = 143 ] && [ -s two/danger.csv ] && grep -q '"hash"' two.json && [ "$(sqlite3 two.sqlite 'PRAGMA integrity_check; PRAGMA journal_mode')" = "ok
+delete" ]
+verdict "SIGTERM: status 143; recording, figures and summary are whole" $?
+[ -z "$(find . -name '*.part')" ]; verdict "nothing is left half written" $?

@@ -1,0 +1,130 @@
+/* The kernel of the equations 10 to 12 against the plain path of one agent (jox_sum_one), by every
+   instruction set that the machine runs: over random columns and hard ones, without any force, with
+   faint, huge and infinite ones, of people who stand and who walk, touched or not. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/random.h"
+#include "force/kernels.h"
+
+enum { PEOPLE = 4 * JOX_LANES, CROWDS = 30 };
+
+typedef struct Draws {
+    uint32_t number, drawn;
+} Draws;
+
+static float draw(Draws *d, double from, double to) {
+    double unit = jox_random_unit(21, d->number, 0, JOX_DRAW_FILL, d->drawn++);
+    return (float)(from + (to - from) * unit);
+}
+
+/* A number of up to `most`, often 0, sometimes faint or huge. */
+static float some(Draws *d, float most) {
+    float kind = draw(d, 0.0, 1.0), size = draw(d, -most, most);
+    if (kind < 0.3f)
+        return kind < 0.1f ? -0.0f : 0.0f;
+    return kind < 0.4f ? 1e-7f * size : kind > 0.99f ? 1e37f * size : size;
+}
+
+static void fill(JoxAgents *a, Draws *d) {
+    for (uint32_t k = 0; k < PEOPLE; k++) {
+        uint32_t i = jox_agents_add(a);
+        a->vx[i] = some(d, 2.0f);
+        a->vy[i] = some(d, 2.0f);
+        a->pref_x[i] = draw(d, -0.3, 0.3); /* some stand */
+        a->pref_y[i] = draw(d, -0.1, 0.1);
+        a->ext_x[i] = some(d, 50.0f);
+        a->inferred_x[i] = some(d, 300.0f);
+        a->inferred_y[i] = some(d, 300.0f);
+        a->push_y[i] = some(d, 300.0f);
+        a->contact_x[i] = draw(d, 0.0, 1.0) < 0.5f ? 0.0f : some(d, 900.0f);
+        a->contact_y[i] = a->contact_x[i] == 0.0f ? 0.0f : some(d, 900.0f);
+        a->param[JOX_PARAM_mass][i] = draw(d, 40.0, 120.0);
+        a->param[JOX_PARAM_damping][i] = d->number % 2 ? draw(d, 1.0, 4.0) : 2.5f;
+        a->param[JOX_PARAM_brace][i] = draw(d, 0.0, 400.0);
+    }
+}
+
+static bool same(const float *a, const float *b) {
+    return memcmp(a, b, PEOPLE * sizeof *a) == 0;
+}
+
+/* What sum writes. */
+enum { COLUMNS = 10 };
+static void columns_of(JoxForces *f, float *out[COLUMNS]) {
+    JoxAgents *a = f->step.agents;
+    float *columns[COLUMNS] = {
+        a->force_x,      a->force_y,           a->forced_x,    a->forced_y, a->half_plane_x,
+        a->half_plane_y, a->half_plane_offset, a->speed_limit, f->old_x,    f->old_y};
+    memcpy(out, columns, sizeof columns);
+}
+
+/* How many agents feel a force. */
+static uint32_t compare_crowd(JoIsa isa, JoxSumKernel *kernel, uint32_t number) {
+    static float by_kernel[COLUMNS][PEOPLE];
+    Draws d = {.number = number};
+    JoxAgents a = {0};
+    fill(&a, &d);
+    JoxNeighbours none = {.agents = PEOPLE};
+    JoxForceStep step = {.agents = &a,
+                         .neighbours = &none,
+                         .dt = number % 3 ? 0.05 : 0.01,
+                         .planning_time = 0.05,
+                         .response = 0.6,
+                         .interval = 0.05,
+                         .interval_response = 0.7,
+                         .interval_forced = 0.04};
+    JoxForces *f = jox_forces_create(NULL);
+    float *columns[COLUMNS], saved[3][PEOPLE];
+    uint32_t felt = 0;
+    jox_forces_set_isa(f, isa);
+    /* begin clears the forces of the step */
+    memcpy(saved[0], a.push_y, sizeof saved[0]);
+    memcpy(saved[1], a.contact_x, sizeof saved[1]);
+    memcpy(saved[2], a.contact_y, sizeof saved[2]);
+    jox_force_begin(f, &step);
+    memcpy(a.push_y, saved[0], sizeof saved[0]);
+    memcpy(a.contact_x, saved[1], sizeof saved[1]);
+    memcpy(a.contact_y, saved[2], sizeof saved[2]);
+    columns_of(f, columns);
+    kernel(f, 0, PEOPLE);
+    for (uint32_t k = 0; k < COLUMNS; k++) {
+        memcpy(by_kernel[k], columns[k], sizeof by_kernel[k]);
+        memset(columns[k], 0xff, sizeof by_kernel[k]);
+    }
+    JoxDecay decay = {-1.0f, 0.0f, 0.0f};
+    for (uint32_t i = 0; i < PEOPLE; i++) {
+        jox_sum_one(f, i, &decay);
+        felt += a.half_plane_x[i] != 0.0f || a.half_plane_y[i] != 0.0f;
+    }
+    for (uint32_t k = 0; k < COLUMNS; k++)
+        assert_true(same(by_kernel[k], columns[k]));
+    jox_forces_free(f);
+    jox_agents_free(&a);
+    return felt;
+}
+
+static void test_sum(void **state) {
+#define X(name, isa) [isa] = jox_sum_packets_##name,
+    static JoxSumKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+    (void)state;
+    for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_AVX512; isa++) {
+        uint32_t felt = 0;
+        for (uint32_t number = 0; jox_isa_runs(isa) && number < CROWDS; number++)
+            felt += compare_crowd(isa, KERNELS[isa], number);
+        assert_true(!jox_isa_runs(isa) ||
+                    (felt > CROWDS * PEOPLE / 4 && felt < CROWDS * PEOPLE * 99 / 100));
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sum)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,195 @@
+/* The kernel of perceive against a plain reference, by every instruction set that the machine runs:
+   each agent's neighbours are found by looking at all others. Random crowds, and those that are
+   hard: coincident, on a lattice where distances tie, packed closer than a packet has room for, far
+   apart, across periodic edges, of mixed wishes, and moved since they were sorted. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/random.h"
+#include "nav/internal.h"
+
+enum { CROWDS = 30, MOST_PEOPLE = 700 };
+
+static double draw(uint32_t crowd, uint32_t *drawn, double from, double to) {
+    return from + (to - from) * jox_random_unit(4, crowd, 0, JOX_DRAW_FILL, (*drawn)++);
+}
+
+typedef enum Kind { RANDOM, LATTICE, COINCIDENT, PACKED, FAR, LINE, KINDS } Kind;
+
+static JoxV2 place(Kind kind, uint32_t i, uint32_t crowd, uint32_t *drawn) {
+    float size = kind == PACKED ? 2.0f : kind == FAR ? 4000.0f : 14.0f;
+    switch (kind) {
+    case LATTICE:
+        return (JoxV2){0.5f * (float)(i % 23), 0.5f * (float)(i / 23)};
+    case COINCIDENT:
+        return (JoxV2){0.25f * (float)(i % 9), 0.0f};
+    case LINE:
+        return (JoxV2){(float)draw(crowd, drawn, 0.0, 300.0), 1.0f};
+    default:
+        return (JoxV2){(float)draw(crowd, drawn, 0.0, (double)size),
+                       (float)draw(crowd, drawn, 0.0, (double)size)};
+    }
+}
+
+static void fill(JoxAgents *a, uint32_t crowd) {
+    uint32_t drawn = 0;
+    const Kind kind = (Kind)(crowd % KINDS);
+    const uint32_t people = 1 + (uint32_t)draw(crowd, &drawn, 0.0, MOST_PEOPLE - 1);
+    const bool mixed = crowd / KINDS % 2, periodic = crowd / KINDS % 3 == 1;
+    if (periodic)
+        a->period = (JoxV2){15.0f, crowd % 2 ? 15.0f : 0.0f};
+    for (uint32_t k = 0; k < people; k++) {
+        uint32_t i = jox_agents_add(a);
+        JoxV2 at = place(kind, k, crowd, &drawn);
+        a->x[i] = periodic ? fmodf(at.x, 15.0f) : at.x;
+        a->y[i] = periodic ? fmodf(at.y, 15.0f) : at.y;
+        a->param[JOX_PARAM_radius][i] = (float)draw(crowd, &drawn, 0.1, 0.3);
+        if (!mixed)
+            continue;
+        a->param[JOX_PARAM_neighbours][i] = floorf((float)draw(crowd, &drawn, 0.0, 16.999));
+        a->param[JOX_PARAM_perception][i] = (float)draw(crowd, &drawn, 0.0, 5.0);
+    }
+}
+
+/* Somewhat away from where they were when they were sorted, and known to be so. */
+static void stir(JoxNav *nav, JoxAgents *a, uint32_t crowd) {
+    uint32_t drawn = 100000;
+    for (uint32_t i = 0; i < a->count; i++) {
+        float x = a->x[i] + (float)draw(crowd, &drawn, -0.2, 0.2);
+        if (a->period.x > 0.0f && (x < 0.0f || x >= a->period.x))
+            continue;
+        a->x[i] = x;
+    }
+    nav->drift += 0.2001f;
+}
+
+typedef struct Other {
+    float d2;
+    uint32_t id, index;
+} Other;
+
+static int by_distance(const void *one, const void *two) {
+    const Other *a = one, *b = two;
+    if (a->d2 != b->d2)
+        return a->d2 < b->d2 ? -1 : 1;
+    return a->id < b->id ? -1 : 1;
+}
+
+/* All within a radius, nearest first, ties by id; whoever is seen from two sides is seen from the
+   nearer one. The distance is computed from the image of the one who looks. */
+static uint32_t reference(const JoxAgents *a, uint32_t i, float radius, Other *out) {
+    uint32_t count = 0;
+    for (uint32_t j = 0; j < a->count; j++) {
+        float least = INFINITY;
+        for (int row = -1; row <= 1 && j != i; row++)
+            for (int column = -1; column <= 1; column++) {
+                float x = a->x[i] + (float)column * a->period.x;
+                float y = a->y[i] + (float)row * a->period.y;
+                float dx = a->x[j] - x, dy = a->y[j] - y;
+                least = jox_minf(least, dx * dx + dy * dy);
+            }
+        if (least <= radius * radius)
+            out[count++] = (Other){least, a->id[j], j};
+    }
+    qsort(out, count, sizeof *out, by_distance);
+    return count;
+}
+
+static float sight_of(const JoxAgents *a, float reach) {
+    if (a->period.x > 0.0f)
+        reach = jox_minf(reach, 0.49f * a->period.x);
+    return a->period.y > 0.0f ? jox_minf(reach, 0.49f * a->period.y) : reach;
+}
+
+static void compare_touching(const JoxAgents *a, const JoxNeighbours *n, uint32_t i, float seen,
+                             Other *all) {
+    float range = sight_of(a, jox_touch_reach(n, a->param[JOX_PARAM_radius][i]));
+    assert_int_equal(n->touch_count[i] == JOX_TOUCH_IS_SEEN, seen >= range);
+    if (n->touch_count[i] == JOX_TOUCH_IS_SEEN)
+        return;
+    uint32_t count = reference(a, i, range, all);
+    count = count < JOX_MOST_NEIGHBOURS ? count : JOX_MOST_NEIGHBOURS;
+    assert_int_equal(n->touch_count[i], count);
+    for (uint32_t k = 0; k < count; k++)
+        assert_int_equal(n->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k], all[k].index);
+}
+
+static void compare(const JoxAgents *a, const JoxNeighbours *n) {
+    static Other all[MOST_PEOPLE];
+    for (uint32_t i = 0; i < a->count; i++) {
+        const uint32_t most = (uint32_t)a->param[JOX_PARAM_neighbours][i];
+        const float perception = sight_of(a, a->param[JOX_PARAM_perception][i]);
+        uint32_t count = reference(a, i, perception, all);
+        count = count < most ? count : most;
+        assert_int_equal(n->count[i], count);
+        for (uint32_t k = 0; k < count; k++) {
+            size_t at = jox_neighbour_at(n, i, k);
+            assert_int_equal(n->index[at], all[k].index);
+            assert_true(n->distance2[at] == all[k].d2);
+        }
+        float reach = most && count == most ? sqrtf(all[count - 1].d2) : perception;
+        float area = 3.14159265f * jox_maxf(reach * reach, 0.0025f);
+        assert_true(a->search[i] == jox_maxf(reach, 0.01f));
+        assert_true(a->density[i] == (float)count / area);
+        compare_touching(a, n, i, most ? reach : 0.0f, all);
+    }
+}
+
+static void compare_crowd(JoIsa isa, uint32_t crowd) {
+    JoxAgents agents = {0};
+    JoxNeighbours neighbours = {0};
+    JoxNav *nav = jox_nav_create(NULL);
+    jox_nav_set_isa(nav, isa);
+    fill(&agents, crowd);
+    jox_nav_sort(nav, &agents, 0);
+    for (int pass = 0; pass < 3; pass++) {
+        jox_nav_perceive(nav, &agents, &neighbours, NULL);
+        compare(&agents, &neighbours);
+        stir(nav, &agents, crowd);
+    }
+    jox_nav_free(nav);
+    jox_agents_free(&agents);
+    jox_neighbours_free(&neighbours);
+}
+
+static void test_neighbours(void **state) {
+    (void)state;
+    for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_AVX512; isa++)
+        for (uint32_t crowd = 0; jox_isa_runs(isa) && crowd < CROWDS; crowd++)
+            compare_crowd(isa, crowd);
+}
+
+/* Names, and what is said where a machine lacks one. */
+static void test_instruction_sets(void **state) {
+    (void)state;
+    JoIsa isa = JO_ISA_WIDEST;
+    JoError error = {0};
+    assert_true(jo_isa_find("scalar", &isa, &error));
+    assert_int_equal(isa, JO_ISA_SCALAR);
+    assert_false(jo_isa_find("mmx", &isa, &error));
+    assert_non_null(strstr(error.text, "scalar"));
+    for (JoIsa each = JO_ISA_SCALAR; each <= JO_ISA_AVX512; each++) {
+        JoWorldDef def = jo_default_world_def();
+        def.isa = each;
+        JoWorld *world = jo_world_create(&def, &error);
+        assert_int_equal(world != NULL, jox_isa_runs(each));
+        if (!world)
+            assert_non_null(strstr(error.text, jox_isa_name(each)));
+        jo_world_free(world);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_neighbours),
+        cmocka_unit_test(test_instruction_sets),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,219 @@
+/* The kernel of solve against the plain path, one agent at a time: the half-planes of
+   `half_planes.c`, what is wanted as it is said here, and the programs of `linear_program.c`. By
+   every instruction set that the machine runs, over random crowds and hard ones: packed,
+   coincident, far apart, on a lattice, among many walls, with contacts that leave no velocity,
+   pressed, with walkers between. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/mem.h"
+#include "base/random.h"
+#include "nav/kernels.h"
+
+enum { CROWDS = 48, MOST_PEOPLE = 300, MOST_PLANES = 4 };
+
+typedef enum Kind { RANDOM, PACKED, COINCIDENT, LATTICE, FAR, WALLED, KINDS } Kind;
+
+typedef struct Crowd {
+    uint32_t number, drawn;
+    Kind kind;
+    JoxAgents agents;
+    JoxNeighbours neighbours;
+    JoxWalls walls;
+    JoxWalkLaw law;
+    JoxNav *nav;
+    JoxContactPlanes touched;
+} Crowd;
+
+static float draw(Crowd *c, double from, double to) {
+    double unit = jox_random_unit(6, c->number, 0, JOX_DRAW_FILL, c->drawn++);
+    return (float)(from + (to - from) * unit);
+}
+
+static bool chance(Crowd *c, double share) {
+    return draw(c, 0.0, 1.0) < (float)share;
+}
+
+static JoxV2 direction(Crowd *c) {
+    JoxV2 d = {draw(c, -1.0, 1.0), draw(c, -1.0, 1.0)};
+    return jox_length2(d) > 1e-4f ? jox_unit(d) : (JoxV2){1.0f, 0.0f};
+}
+
+static JoxV2 place(Crowd *c, uint32_t k) {
+    double size = c->kind == PACKED ? 3.0 : c->kind == FAR ? 300.0 : 9.0;
+    if (c->kind == LATTICE)
+        return (JoxV2){0.45f * (float)(k % 17), 0.45f * (float)(k / 17)};
+    if (c->kind == COINCIDENT)
+        return (JoxV2){0.5f * (float)(k % 7), 0.25f * (float)(k % 3)};
+    return (JoxV2){draw(c, 0.0, size), draw(c, 0.0, size)};
+}
+
+/* `mixed`: some walk by the law, some ignore others, and perception and neighbours differ. */
+static void add(Crowd *c, uint32_t k, bool mixed) {
+    JoxAgents *a = &c->agents;
+    uint32_t i = jox_agents_add(a);
+    JoxV2 at = place(c, k), wants = jox_scale(direction(c), draw(c, 0.0, 1.6));
+    float stands = chance(c, 0.1) ? 0.0f : 1.0f, share = draw(c, -0.2, 1.2);
+    a->x[i] = at.x;
+    a->y[i] = at.y;
+    a->pref_x[i] = stands * wants.x;
+    a->pref_y[i] = stands * wants.y;
+    a->vx[i] = share * wants.x + draw(c, -0.3, 0.3);
+    a->vy[i] = share * wants.y + draw(c, -0.3, 0.3);
+    if (c->kind == COINCIDENT && chance(c, 0.5)) /* who moves alike: their ids alone part them */
+        a->vx[i] = a->vy[i] = 0.25f;
+    a->walk_x[i] = 0.7f * wants.x;
+    a->walk_y[i] = 0.7f * wants.y;
+    a->param[JOX_PARAM_radius][i] = draw(c, 0.15, 0.3);
+    a->param[JOX_PARAM_push][i] = chance(c, 0.5) ? 100.0f : 0.0f;
+    a->tags[i] = chance(c, 0.5);
+    if (!mixed)
+        return;
+    a->param[JOX_PARAM_neighbours][i] = floorf(draw(c, 0.0, 16.999));
+    a->param[JOX_PARAM_perception][i] = draw(c, 0.5, 4.0);
+    a->param[JOX_PARAM_time_gap][i] = chance(c, 0.3) ? 0.8f : 0.0f;
+    a->ignore[i] = chance(c, 0.2);
+}
+
+/* What forces leave behind: after the agents were sorted, as these columns are scratch. */
+static void press(Crowd *c, bool pressed) {
+    JoxAgents *a = &c->agents;
+    JoxContactPlanes *t = &c->touched;
+    t->starts = jox_alloc(a->count, sizeof *t->starts);
+    t->people = jox_alloc(a->count, sizeof *t->people);
+    t->bodies = jox_alloc(a->count, sizeof *t->bodies);
+    t->planes = jox_alloc((size_t)a->count * MOST_PLANES, sizeof *t->planes);
+    t->agents = pressed ? a->count : 0;
+    for (uint32_t i = 0; i < a->count; i++) {
+        a->breadth[i] = a->param[JOX_PARAM_radius][i];
+        a->speed_limit[i] = draw(c, 0.8, 2.5);
+        a->forced_x[i] = a->vx[i] + draw(c, -0.2, 0.2);
+        a->forced_y[i] = a->vy[i] + draw(c, -0.2, 0.2);
+        if (chance(c, 0.2)) { /* carried where they want to go, but for rounding */
+            a->forced_x[i] = a->pref_x[i] + 1e-5f;
+            a->forced_y[i] = a->pref_y[i];
+        }
+        t->starts[i] = i * MOST_PLANES;
+        if (!pressed)
+            continue;
+        JoxV2 push = direction(c);
+        if (chance(c, 0.4)) {
+            a->half_plane_x[i] = push.x;
+            a->half_plane_y[i] = push.y;
+            a->half_plane_offset[i] = draw(c, -1.0, 1.0);
+        }
+        uint32_t most = c->neighbours.count[i] < MOST_PLANES ? c->neighbours.count[i] : MOST_PLANES;
+        t->people[i] = (uint8_t)draw(c, 0.0, (double)most + 0.999);
+        for (uint32_t k = 0; k < t->people[i]; k++)
+            t->planes[t->starts[i] + k] = (JoxContactPlane){
+                direction(c), draw(c, -1.0, 0.6),
+                c->neighbours.index[jox_neighbour_at(&c->neighbours, i, k)], 0.3f};
+    }
+}
+
+static void begin(Crowd *c, JoIsa isa, uint32_t number) {
+    *c = (Crowd){.number = number, .kind = (Kind)(number % KINDS), .law = jox_walk_law()};
+    const bool mixed = number / KINDS % 2, pressed = number / KINDS / 2 % 2;
+    const uint32_t people = 1 + (uint32_t)draw(c, 0.0, MOST_PEOPLE - 1);
+    c->nav = jox_nav_create(&c->law);
+    jox_nav_set_isa(c->nav, isa);
+    jox_nav_set_literal(c->nav, number % 5 == 4);
+    if (number % 7 == 3)
+        c->agents.period = (JoxV2){9.0f, number % 2 ? 9.0f : 0.0f};
+    for (uint32_t k = 0; k < people; k++)
+        add(c, k, mixed);
+    for (uint32_t k = 0; k < (c->kind == WALLED ? 30 : 0); k++) {
+        JoxV2 ends[2] = {{draw(c, 0.0, 9.0), draw(c, 0.0, 9.0)}, {0.0f, 0.0f}};
+        ends[1] = jox_add(ends[0], jox_scale(direction(c), draw(c, 0.2, 3.0)));
+        jox_walls_add_polyline(&c->walls, ends, 2, false, INFINITY);
+    }
+    if (c->walls.count)
+        jox_nav_set_walls(c->nav, &c->walls);
+    jox_nav_sort(c->nav, &c->agents, 0);
+    jox_nav_perceive(c->nav, &c->agents, &c->neighbours, NULL);
+    press(c, pressed);
+}
+
+static void end(Crowd *c) {
+    jox_nav_free(c->nav);
+    jox_agents_free(&c->agents);
+    jox_neighbours_free(&c->neighbours);
+    jox_walls_free(&c->walls);
+    jox_free(c->touched.starts);
+    jox_free(c->touched.people);
+    jox_free(c->touched.bodies);
+    jox_free(c->touched.planes);
+}
+
+/* Somewhat to the right of what is preferred, for who has come to a stand before others or pushes
+   somebody straight ahead. */
+static JoxV2 wish(const JoxSolve *s, uint32_t i, const JoxHalfPlane *others, uint32_t count) {
+    const JoxAgents *a = s->agents;
+    JoxV2 wanted = {a->pref_x[i], a->pref_y[i]}, velocity = {a->vx[i], a->vy[i]};
+    if (jox_solve_walks(s, i))
+        return (JoxV2){a->walk_x[i], a->walk_y[i]};
+    bool gets_on = jox_dot(velocity, wanted) > 0.2f * jox_length2(wanted);
+    if (jox_stands(a, i) || (gets_on && !(a->param[JOX_PARAM_push][i] > 0.0f)))
+        return wanted;
+    for (uint32_t k = 0; k < count; k++) {
+        float against = -jox_dot(others[k].normal, wanted);
+        bool head_on = against > 0.0f && fabsf(jox_det(others[k].normal, wanted)) < 0.02f * against;
+        if (-against < others[k].offset && (!gets_on || head_on))
+            return jox_sub(wanted, jox_scale(jox_left(wanted), JOX_RIGHT_SHARE));
+    }
+    return wanted;
+}
+
+/* How many agents of a crowd the programs could not satisfy. */
+static uint32_t compare_crowd(JoIsa isa, uint32_t number, bool plans) {
+    static float next_x[MOST_PEOPLE], next_y[MOST_PEOPLE];
+    static uint8_t failed[MOST_PEOPLE];
+    Crowd c;
+    begin(&c, isa, number);
+    JoxAgents *a = &c.agents;
+    const JoxContactPlanes *touched = c.touched.agents ? &c.touched : NULL;
+    uint32_t relaxed = jox_nav_solve(c.nav, a, &c.neighbours, NULL, &c.touched, 0.05, plans, NULL);
+    memcpy(next_x, a->next_x, a->count * sizeof *next_x);
+    memcpy(next_y, a->next_y, a->count * sizeof *next_y);
+    memcpy(failed, a->failed, a->count);
+    memset(a->next_x, 0, a->count * sizeof *next_x);
+    memset(a->next_y, 0, a->count * sizeof *next_y);
+    memset(a->failed, 0, a->count);
+    const JoxSolve s = {c.nav, a, &c.neighbours, NULL, touched, 0.05f, plans};
+    uint32_t failures = 0;
+    for (uint32_t i = 0; i < a->count; i++) {
+        JoxHalfPlane list[JOX_MOST_CONSTRAINTS];
+        if (plans || (!jox_solve_walks(&s, i) && jox_stands_pressed(a, i))) {
+            JoxHalfPlaneCounts made = jox_solve_half_planes(&s, i, list);
+            JoxV2 wanted = wish(&s, i, list + made.walls, made.contacts + made.agents);
+            relaxed -= jox_solve_one(&s, i, &made, list, wanted);
+        }
+        assert_true(next_x[i] == a->next_x[i] && next_y[i] == a->next_y[i]);
+        assert_int_equal(failed[i], a->failed[i]);
+        failures += failed[i];
+    }
+    assert_int_equal(relaxed, 0);
+    end(&c);
+    return failures;
+}
+
+static void test_velocities(void **state) {
+    (void)state;
+    for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_AVX512; isa++) {
+        uint32_t failures = 0;
+        for (uint32_t number = 0; jox_isa_runs(isa) && number < CROWDS; number++)
+            failures += compare_crowd(isa, number, number % 4 != 1);
+        assert_true(failures > 100 || !jox_isa_runs(isa)); /* the program in three dimensions */
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_velocities)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
