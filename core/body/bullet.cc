@@ -206,6 +206,7 @@ void jox_row_create_body(JoxBodies *b, uint32_t row, const btTransform &frame,
     JoxRow *r = &b->rows[row];
     const JoxBodyShape &shape = r->shape;
     r->material = material;
+    r->shown = false;
     btRigidBody::btRigidBodyConstructionInfo info(shape.mass, nullptr, shape.collision,
                                                   shape.inertia);
     info.m_startWorldTransform = frame * shape.frame;

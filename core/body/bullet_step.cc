@@ -1,4 +1,6 @@
 /* A step in substeps, with the sweep of fast bodies against people; and what agents see. */
+#include <cstring>
+
 #include "body/bullet.h"
 
 bool jox_row_fast(const JoxRow *r, float dt) {
@@ -187,6 +189,35 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
     return report;
 }
 
+/* A sphere alone is round at any height: no ring of corners is made for it. */
+static void write_sphere(const JoxRow *r, JoxObject *o) {
+    const JoxConvexPart *sphere = &r->shape.parts[0];
+    btVector3 centre = r->body->getWorldTransform() * sphere->frame.getOrigin();
+    float away = jox_length(jox_v2(centre.x() - o->position.x, centre.y() - o->position.y));
+    float apart = (centre - r->body->getWorldTransform().getOrigin()).length();
+    o->disc = away + sphere->radius;
+    o->sphere = apart + sphere->radius;
+    o->low = jox_maxf(centre.z() - sphere->radius, JOX_BAND_LOW);
+    o->high = jox_minf(centre.z() + sphere->radius, JOX_BAND_HIGH);
+    o->round = jox_footprint_sphere(o->position.z, sphere->radius);
+    o->in_band = o->high > o->low && o->round > 0.0f;
+}
+
+/* Gathers a part's corners, and how far from the body's centre they reach, m2: in the plane, and in
+   space. */
+static void add_part(JoxBodies *b, const JoxConvexPart *part, const btTransform &at, JoxV3 centre,
+                     float *reach2, float *sphere2) {
+    jox_reserve(b->corners, b->corner_capacity, part->corner_count);
+    for (uint32_t i = 0; i < part->corner_count; i++) {
+        b->corners[i] = jox_v3(at * jox_bt(part->corners[i]));
+        JoxV2 away = jox_v2(b->corners[i].x - centre.x, b->corners[i].y - centre.y);
+        float above = b->corners[i].z - centre.z;
+        *reach2 = jox_maxf(*reach2, jox_length2(away));
+        *sphere2 = jox_maxf(*sphere2, jox_length2(away) + above * above);
+    }
+    jox_footprint_add(&b->footprint, b->corners, part->corner_count, part->edges, part->edge_count);
+}
+
 static void write_footprint(JoxBodies *b, const JoxRow *r, JoxObject *o) {
     const btTransform &at = r->body->getWorldTransform();
     const JoxConvexPart *first = &r->shape.parts[0];
@@ -194,59 +225,76 @@ static void write_footprint(JoxBodies *b, const JoxRow *r, JoxObject *o) {
     jox_footprint_begin(&b->footprint);
     for (uint32_t p = 0; p < r->shape.part_count; p++) {
         const JoxConvexPart *part = &r->shape.parts[p];
-        if (part->kind == JOX_SHAPE_SPHERE) {
-            btVector3 c = at * part->frame.getOrigin();
-            float away = jox_length(jox_v2(c.x() - o->position.x, c.y() - o->position.y));
-            reach2 = jox_maxf(reach2, (away + part->radius) * (away + part->radius));
-            float apart = (c - at.getOrigin()).length() + part->radius;
-            sphere2 = jox_maxf(sphere2, apart * apart);
-            jox_footprint_add_sphere(&b->footprint, jox_v3(c), part->radius);
+        if (part->kind != JOX_SHAPE_SPHERE) {
+            add_part(b, part, at, o->position, &reach2, &sphere2);
             continue;
         }
-        jox_reserve(b->corners, b->corner_capacity, part->corner_count);
-        for (uint32_t i = 0; i < part->corner_count; i++) {
-            b->corners[i] = jox_v3(at * jox_bt(part->corners[i]));
-            JoxV2 away = jox_v2(b->corners[i].x - o->position.x, b->corners[i].y - o->position.y);
-            float above = b->corners[i].z - o->position.z;
-            reach2 = jox_maxf(reach2, jox_length2(away));
-            sphere2 = jox_maxf(sphere2, jox_length2(away) + above * above);
-        }
-        jox_footprint_add(&b->footprint, b->corners, part->corner_count, part->edges,
-                          part->edge_count);
+        btVector3 c = at * part->frame.getOrigin();
+        float away = jox_length(jox_v2(c.x() - o->position.x, c.y() - o->position.y));
+        reach2 = jox_maxf(reach2, (away + part->radius) * (away + part->radius));
+        float apart = (c - at.getOrigin()).length() + part->radius;
+        sphere2 = jox_maxf(sphere2, apart * apart);
+        jox_footprint_add_sphere(&b->footprint, jox_v3(c), part->radius);
     }
     o->disc = sqrtf(reach2);
     o->sphere = sqrtf(sphere2);
     jox_footprint_end(&b->footprint, o);
-    bool upright = first->kind == JOX_SHAPE_CYLINDER &&
-                   fabsf((at.getBasis() * first->frame.getBasis())[2][2]) > 0.9999f;
     o->round = o->disc;
-    if (r->shape.part_count > 1 || (first->kind != JOX_SHAPE_SPHERE && !upright))
-        return;
-    o->footprint_count = 0;
-    o->round = upright ? first->radius : jox_footprint_sphere(o->position.z, first->radius);
+    if (r->shape.part_count == 1 && first->kind == JOX_SHAPE_CYLINDER &&
+        fabsf((at.getBasis() * first->frame.getBasis())[2][2]) > 0.9999f) { /* it stands upright */
+        o->footprint_count = 0;
+        o->round = first->radius;
+    }
 }
 
-static void write_object(JoxBodies *b, JoxRow *r, JoxObject *o) {
+/* Whether a body lies where it lay when its object was written last, to the bit. Bodies at rest
+   sleep, and many scenes are full of them. */
+static bool is_shown(JoxRow *r) {
+    const btTransform &at = r->body->getWorldTransform();
+    float now[12];
+    for (int i = 0; i < 3; i++) {
+        now[i] = at.getOrigin()[i];
+        for (int k = 0; k < 3; k++)
+            now[3 + 3 * i + k] = at.getBasis()[i][k];
+    }
+    bool same = r->shown && memcmp(now, r->shown_at, sizeof now) == 0;
+    memcpy(r->shown_at, now, sizeof now);
+    r->shown = true;
+    return same;
+}
+
+/* What follows from where the body lies. */
+static void write_shape(JoxBodies *b, const JoxRow *r, JoxObject *o) {
     *o = JoxObject();
     o->id = r->id;
     o->live = true;
     o->moves = r->shape.mass > 0;
-    o->grounded = r->grounded;
-    r->swept = jox_row_fast(r, b->last_dt);
-    o->swept = r->swept;
-    o->tags = r->tags;
     o->position = jox_v3(r->body->getWorldTransform().getOrigin());
-    o->velocity = jox_v3(r->body->getLinearVelocity());
-    o->spin = jox_v3(r->body->getAngularVelocity());
     o->inverse_mass = r->body->getInvMass();
     for (int i = 0; i < 9; i++)
         o->inverse_inertia[i] = r->body->getInvInertiaTensorWorld()[i / 3][i % 3];
     o->restitution = r->body->getRestitution();
     o->friction = r->body->getFriction();
-    write_footprint(b, r, o);
+    if (r->shape.part_count == 1 && r->shape.parts[0].kind == JOX_SHAPE_SPHERE)
+        write_sphere(r, o);
+    else
+        write_footprint(b, r, o);
+}
+
+static void write_object(JoxBodies *b, JoxRow *r, JoxObject *o) {
+    if (!is_shown(r)) {
+        write_shape(b, r, o);
+        r->shown_in_band = o->in_band;
+    }
+    o->grounded = r->grounded;
+    r->swept = jox_row_fast(r, b->last_dt);
+    o->swept = r->swept;
+    o->tags = r->tags;
+    o->velocity = jox_v3(r->body->getLinearVelocity());
+    o->spin = jox_v3(r->body->getAngularVelocity());
     o->held = r->held;
     o->holder = r->holder;
-    o->in_band = o->in_band && !r->held; /* who carries it is not pushed by it */
+    o->in_band = r->shown_in_band && !r->held; /* who carries it is not pushed by it */
 }
 
 void jox_bodies_objects(JoxBodies *b, JoxObjects *objects) {

@@ -50,17 +50,25 @@ float jox_footprint_sphere(float z, float radius) {
     return away < radius ? sqrtf(radius * radius - away * away) : 0.0f;
 }
 
+static void lay_circle(JoxFootprint *footprint) {
+    for (int i = 0; i < JOX_FOOTPRINT_POINTS; i++) {
+        double angle = i * (6.283185307179586 / JOX_FOOTPRINT_POINTS);
+        footprint->circle[i] = jox_v2((float)jox_cos(angle), (float)jox_sin(angle));
+    }
+    footprint->has_circle = true;
+}
+
 void jox_footprint_add_sphere(JoxFootprint *footprint, JoxV3 centre, float radius) {
     footprint->low = jox_minf(footprint->low, centre.z - radius);
     footprint->high = jox_maxf(footprint->high, centre.z + radius);
     float round = jox_footprint_sphere(centre.z, radius);
     if (round <= 0.0f)
         return;
-    for (int i = 0; i < JOX_FOOTPRINT_POINTS; i++) {
-        double angle = i * (6.283185307179586 / JOX_FOOTPRINT_POINTS);
-        put(footprint, centre.x + round * (float)jox_cos(angle),
-            centre.y + round * (float)jox_sin(angle));
-    }
+    if (!footprint->has_circle)
+        lay_circle(footprint);
+    for (int i = 0; i < JOX_FOOTPRINT_POINTS; i++)
+        put(footprint, centre.x + round * footprint->circle[i].x,
+            centre.y + round * footprint->circle[i].y);
 }
 
 static int by_x(const void *a, const void *b, const void *context) {
