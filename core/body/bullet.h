@@ -79,8 +79,8 @@ struct JoxRow {
     JoxBondGraph *bonds; /* of blocks that can come apart, or NULL; its frame is the shape's own */
     bool held;           /* by an agent */
     uint32_t holder;
-    /* Scratch: whether its object was written since it has this shape, where it lay then (origin, m,
-       and rows of its rotation), and whether people could reach it there. */
+    /* Scratch: whether its object was written since it has this shape, where it lay then (origin,
+       m, and rows of its rotation), and whether people could reach it there. */
     bool shown, shown_in_band;
     float shown_at[12];
 };

@@ -14,7 +14,8 @@ typedef struct JoxFootprint {
     uint32_t count, capacity;
     float low, high; /* of the whole body, not yet cut to the band */
     bool has_circle;
-    JoxV2 circle[JOX_FOOTPRINT_POINTS]; /* unit vectors to the corners of what stands for a circle */
+    JoxV2
+        circle[JOX_FOOTPRINT_POINTS]; /* unit vectors to the corners of what stands for a circle */
 } JoxFootprint;
 
 void jox_footprint_begin(JoxFootprint *footprint);

@@ -85,12 +85,20 @@ typedef struct JoxKeptImpulses {
     size_t count, capacity;
 } JoxKeptImpulses;
 
+/* One direction of a contact of two bodies: what each does along it, and what 1 N s along it, on
+   the first, does to each. All 0 of what is not solved for, but for the way in which it turns. */
+typedef struct JoxSupportAxis {
+    JoxV3 along;                /* unit */
+    JoxV3 lever[2], turning[2]; /* m: arm x along; change of spin by 1 N s, 1/(kg m) */
+    float lightness[2];         /* 1/kg */
+    float mass, impulse;        /* kg; on the first, N s */
+} JoxSupportAxis;
+
 /* A contact of a body with what holds it: solved along the normal and, for friction, across it. */
 typedef struct JoxSupport {
-    uint32_t first, second; /* rows; second may be JOX_NO_OBJECT, something static */
-    JoxV3 point, normal, across[2];
-    float mass, across_mass[2], target, friction; /* kg, m/s */
-    float impulse, across_impulse[2];             /* on the first, N s */
+    uint32_t rows[2];       /* of motions */
+    float target, friction; /* m/s */
+    JoxSupportAxis normal, across[2];
 } JoxSupport;
 
 /* Velocity and spin of a body while contacts are solved. */

@@ -40,19 +40,12 @@ void jox_body_give(JoxForces *f, uint32_t row, JoxV3 point, JoxV3 impulse) {
     m->spin = plus(m->spin, jox_turn3(body->inverse_inertia, turn), 1.0f);
 }
 
-/* Velocity along a unit vector that a body gains from 1 N s there. */
-static float gain(const JoxForces *f, uint32_t row, JoxV3 point, JoxV3 along) {
-    if (row == JOX_NO_OBJECT || !f->motions[row].solved)
-        return 0.0f;
-    const JoxObject *body = &f->step.objects->rows[row];
-    JoxV3 turn = jox_cross3(arm_of(body, point), along);
-    return body->inverse_mass + jox_dot3(turn, jox_turn3(body->inverse_inertia, turn));
-}
-
-/* All bodies as they are; those that are touched, and what they stand at, are solved for. */
+/* All bodies as they are, and behind them what is static, at rest; those that are touched, and what
+   they stand at, are solved for. */
 static void reset_motions(JoxForces *f) {
     const JoxObjects *objects = f->step.objects;
-    JOX_RESERVE(f->motions, f->motion_capacity, objects->count);
+    JOX_RESERVE(f->motions, f->motion_capacity, objects->count + 1);
+    f->motions[objects->count] = (JoxBodyMotion){0};
     for (uint32_t row = 0; row < objects->count; row++)
         f->motions[row] = (JoxBodyMotion){.velocity = objects->rows[row].velocity,
                                           .spin = objects->rows[row].spin};
@@ -92,31 +85,57 @@ static void square_to(JoxV3 n, JoxV3 across[2]) {
     across[1] = jox_cross3(n, across[0]);
 }
 
-static float mass_along(const JoxForces *f, const JoxObjectContact *c, JoxV3 along) {
-    return 1.0f / (gain(f, c->first, c->point, along) + gain(f, c->second, c->point, along));
+/* An axis of the contact of the bodies of two rows. */
+static JoxSupportAxis axis_of(const JoxForces *f, const uint32_t rows[2], JoxV3 point,
+                              JoxV3 along) {
+    JoxSupportAxis axis = {.along = along};
+    float gain = 0.0f; /* of velocity by 1 N s */
+    for (int side = 0; side < 2; side++) {
+        if (rows[side] == f->step.objects->count)
+            continue;
+        const JoxObject *body = &f->step.objects->rows[rows[side]];
+        axis.lever[side] = jox_cross3(arm_of(body, point), along);
+        if (!f->motions[rows[side]].solved)
+            continue;
+        axis.turning[side] = jox_turn3(body->inverse_inertia, axis.lever[side]);
+        axis.lightness[side] = body->inverse_mass;
+        gain += body->inverse_mass + jox_dot3(axis.lever[side], axis.turning[side]);
+    }
+    axis.mass = 1.0f / gain;
+    return axis;
 }
 
-static void give_both(JoxForces *f, const JoxSupport *s, JoxV3 along, float impulse) {
-    const JoxV3 zero = {0.0f, 0.0f, 0.0f};
-    jox_body_give(f, s->first, s->point, plus(zero, along, impulse));
-    jox_body_give(f, s->second, s->point, plus(zero, along, -impulse));
+/* Velocity of the first against the second, along an axis. */
+static inline float speed_along(const JoxForces *f, const JoxSupport *s,
+                                const JoxSupportAxis *axis) {
+    const JoxBodyMotion *first = &f->motions[s->rows[0]], *second = &f->motions[s->rows[1]];
+    return jox_dot3(axis->along, plus(first->velocity, second->velocity, -1.0f)) +
+           jox_dot3(axis->lever[0], first->spin) - jox_dot3(axis->lever[1], second->spin);
+}
+
+static inline void give(JoxForces *f, const JoxSupport *s, const JoxSupportAxis *axis,
+                        float impulse) {
+    JoxBodyMotion *first = &f->motions[s->rows[0]], *second = &f->motions[s->rows[1]];
+    first->velocity = plus(first->velocity, axis->along, axis->lightness[0] * impulse);
+    first->spin = plus(first->spin, axis->turning[0], impulse);
+    second->velocity = plus(second->velocity, axis->along, -(axis->lightness[1] * impulse));
+    second->spin = plus(second->spin, axis->turning[1], -impulse);
 }
 
 static void add_support(JoxForces *f, const JoxObjectContact *c) {
-    float dt = (float)f->step.dt;
+    const float dt = (float)f->step.dt;
+    const uint32_t second = c->second == JOX_NO_OBJECT ? f->step.objects->count : c->second;
+    JoxV3 across[2];
     JoxSupport *s = &f->support[f->support_count++];
-    *s = (JoxSupport){.first = c->first,
-                      .second = c->second,
-                      .point = c->point,
-                      .normal = c->normal,
+    *s = (JoxSupport){.rows = {c->first, second},
                       .friction = c->friction,
-                      .target = jox_contact_target(c->gap - JOX_BODY_SLACK, 0.0f, 0.0f, dt),
-                      .impulse = jox_maxf(0.0f, c->force * dt),
-                      .mass = mass_along(f, c, c->normal)};
-    square_to(s->normal, s->across);
+                      .target = jox_contact_target(c->gap - JOX_BODY_SLACK, 0.0f, 0.0f, dt)};
+    s->normal = axis_of(f, s->rows, c->point, c->normal);
+    s->normal.impulse = jox_maxf(0.0f, c->force * dt);
+    square_to(c->normal, across);
     for (int k = 0; k < 2; k++)
-        s->across_mass[k] = mass_along(f, c, s->across[k]);
-    JOX_ASSERT(isfinite(s->mass) && s->mass > 0.0f && isfinite(s->target));
+        s->across[k] = axis_of(f, s->rows, c->point, across[k]);
+    JOX_ASSERT(isfinite(s->normal.mass) && s->normal.mass > 0.0f && isfinite(s->target));
 }
 
 void jox_supports_begin(JoxForces *f) {
@@ -135,30 +154,25 @@ void jox_supports_begin(JoxForces *f) {
             add_support(f, c);
     }
     for (uint32_t k = 0; k < f->support_count; k++)
-        give_both(f, &f->support[k], f->support[k].normal, f->support[k].impulse);
+        give(f, &f->support[k], &f->support[k].normal, f->support[k].normal.impulse);
     uint32_t pushes; /* sorted by who pushes: the order in memory changes no bit */
     const JoxImpulse *push = jox_force_impulses(f, &pushes);
     for (uint32_t k = 0; k < pushes; k++)
         jox_body_give(f, push[k].object, push[k].point, push[k].impulse);
 }
 
-static JoxV3 slip(const JoxForces *f, const JoxSupport *s) {
-    return plus(jox_body_velocity(f, s->first, s->point), jox_body_velocity(f, s->second, s->point),
-                -1.0f);
-}
-
 /* Friction, at most `friction` times what presses there. */
 static void rub(JoxForces *f, JoxSupport *s) {
-    float wanted[2], most = s->friction * s->impulse;
-    JoxV3 speed = slip(f, s);
+    float wanted[2], most = s->friction * s->normal.impulse;
     for (int k = 0; k < 2; k++)
-        wanted[k] = s->across_impulse[k] - jox_dot3(speed, s->across[k]) * s->across_mass[k];
+        wanted[k] = s->across[k].impulse - speed_along(f, s, &s->across[k]) * s->across[k].mass;
     float size = jox_length((JoxV2){wanted[0], wanted[1]});
     float share = size > most ? most / size : 1.0f;
     for (int k = 0; k < 2; k++) {
-        float before = s->across_impulse[k];
-        s->across_impulse[k] = wanted[k] * share;
-        give_both(f, s, s->across[k], s->across_impulse[k] - before);
+        JoxSupportAxis *axis = &s->across[k];
+        float before = axis->impulse;
+        axis->impulse = wanted[k] * share;
+        give(f, s, axis, axis->impulse - before);
     }
 }
 
@@ -168,10 +182,10 @@ float jox_supports_pass(JoxForces *f) {
         most = 0.0f;
         for (uint32_t k = 0; k < f->support_count; k++) {
             JoxSupport *s = &f->support[k];
-            float before = s->impulse, speed = jox_dot3(slip(f, s), s->normal);
-            s->impulse = jox_maxf(0.0f, before + (s->target - speed) * s->mass);
-            most = jox_maxf(most, fabsf(s->impulse - before));
-            give_both(f, s, s->normal, s->impulse - before);
+            float before = s->normal.impulse, speed = speed_along(f, s, &s->normal);
+            s->normal.impulse = jox_maxf(0.0f, before + (s->target - speed) * s->normal.mass);
+            most = jox_maxf(most, fabsf(s->normal.impulse - before));
+            give(f, s, &s->normal, s->normal.impulse - before);
             rub(f, s);
         }
     }

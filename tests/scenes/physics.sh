@@ -50,7 +50,8 @@ between "after the front has stopped before it" "$(mean front_speed "$work/w.jso
 between "and rows press" "$(mean rows_pressing "$work/w.json")" 3 100
 "$JOSTLE" run scenes/wall-tight.yaml --for 60 --quiet --summary "$work/w.json"
 between "a tight wall holds" "$(bonds broken "$work/w.json")" 0 0
-between "and turns" "$(bonds turned "$work/w.json")" 3 90
+turned=$(bonds turned "$work/w.json")
+between "and turns, either way" "${turned#-}" 3 180
 "$JOSTLE" run scenes/wall-heavy.yaml --for 60 --quiet --summary "$work/w.json"
 between "a heavy wall stays" "$(bonds moved "$work/w.json")" 0 0.1
 "$JOSTLE" run scenes/office.yaml --for 20 --quiet --summary "$work/o.json"
