@@ -87,7 +87,7 @@ OBJ_CLI := $(call objects,$(SRC_CLI))
 UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 
-.PHONY: reference all run test unit tests-built check bench install uninstall clean test-all format
+.PHONY: reference all run test unit tests-built check bench bench-record bench-peers install uninstall clean test-all format
 all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so.$(VERSION)
 
 # The two commands of the README. Both first install what is missing.
@@ -110,6 +110,15 @@ bench:
 	@for b in $(BENCH); do echo "== $$b"; $$b; done
 	$(B)/jostle bench
 	@B=$(B) bash tests/bench/reload.sh
+# A line for each scene into the table of this machine's model of processor.
+bench-record: all
+	@B=$(B) bash tests/bench/record.sh
+# Other engines on the same crowds, in turn with ours.
+PEERS := $(patsubst tests/bench/peers/%.cc,$(B)/bench/peer-%,$(wildcard tests/bench/peers/*.cc))
+bench-peers:
+	@.ci/setup peers
+	@$(MAKE) --no-print-directory $(PEERS)
+	@for peer in $(PEERS); do $$peer || exit 1; done
 check:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory all
@@ -169,6 +178,10 @@ $(B)/bench/%: tests/bench/%.c $(B)/internal.a
 	$(call say,TEST,$<)
 	$(Q)$(CC) $(CPPFLAGS_ALL) $(PLACES) -DJOX_BULLET=$(BULLET) $(CFLAGS_ALL) -Itests -c $< -o $@.o
 	$(Q)$(LINK) $@.o $(B)/internal.a -o $@ $(LIBS)
+$(B)/bench/peer-%: tests/bench/peers/%.cc $(B)/libjostle.a
+	@mkdir -p $(@D)
+	$(call say,PEER,$<)
+	$(Q)$(CXX) -std=c++17 -O2 -Wall -Wextra -Icore/include -isystem /usr/include/recastnavigation $< $(B)/libjostle.a -o $@ -lDetourCrowd -lDetour $(LIBS)
 
 # Pages and files for editors, made of the tables of words and keys; `make check` compares them.
 reference: all
@@ -203,6 +216,6 @@ uninstall:
 clean:
 	rm -rf build
 format:
-	clang-format -i $$(git ls-files 'core/*.[ch]' 'core/*.cc' 'tests/*.[ch]')
+	clang-format -i $$(git ls-files 'core/*.[ch]' 'core/*.cc' 'tests/*.[ch]' 'tests/*.cc')
 
 -include $(shell find $(sort $(B) $(SHARED)) -name '*.d' 2>/dev/null)

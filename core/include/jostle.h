@@ -80,6 +80,8 @@ typedef enum JoIsa {
 /* The one of a name, as "avx2". False, with an error that lists those that can be had, if there is
    no such set or this machine does not run it. */
 JO_API bool jo_isa_find(const char *name, JoIsa *isa, JoError *error);
+/* "avx2"; of JO_ISA_WIDEST the one that this machine uses. */
+JO_API const char *jo_isa_name(JoIsa isa);
 
 typedef struct JoWorldDef {
     double dt;        /* s, 0.001 to 0.2; default 0.05 */

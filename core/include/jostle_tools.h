@@ -127,6 +127,19 @@ JO_API bool jo_render(const JoRenderDef *def, JoError *error);
 /* Whether this build makes images and videos; else SVG alone. */
 JO_API bool jo_render_has_images(void);
 
+/* What a step of a scene costs: what jo_plot_times draws. */
+typedef struct JoTiming {
+    const char *scene, *isa; /* names */
+    uint32_t agents;
+    bool in_series;      /* one of several sizes of the same crowd */
+    double ns, least_ns; /* processor time per agent and step, ns: median and least */
+    double stage_ns[JO_STAGE_COUNT];
+} JoTiming;
+/* Draws bench.svg into `directory` (made if it is missing), beside its script and data: scenes and
+   stages as bars, the series as a curve for each instruction set. Needs gnuplot. */
+JO_API bool jo_plot_times(const JoTiming *timings, size_t count, const char *directory,
+                          JoError *error);
+
 /* ---- checks, tests, claims, references --------------------------------------------------- */
 
 /* Checks scenes and behaviours (or folders of them) without running; everything wrong goes to

@@ -62,6 +62,10 @@ bool jo_isa_find(const char *name, JoIsa *isa, JoError *error) {
     return isa_runs(*isa, name, error);
 }
 
+const char *jo_isa_name(JoIsa isa) {
+    return jox_isa_name(jox_isa_resolve(isa));
+}
+
 static JoWorld *create_in(JoxHeap *heap, const JoWorldDef *def, JoError *error) {
     JOX_GUARD (heap, error)
         return NULL;

@@ -52,6 +52,12 @@ expect "view: bad option" 2 "Did you mean --scene" "$JOSTLE" view x.sqlite --sce
 expect "bench" 0 "running-through" "$JOSTLE" bench scenes/running-through.yaml --steps 10 --warm-up 5
 "$JOSTLE" bench scale-1k --isa scalar,sse2 --rounds 3 --steps 3 --warm-up 1 --json >"$work/bench.json" 2>/dev/null
 [ "$(grep -c '"agents": 1000,' "$work/bench.json")" = 2 ] && [ "$(grep -c '"rounds": 3,' "$work/bench.json")" = 2 ]; verdict "bench: a name, two instruction sets, three rounds" $?
+"$JOSTLE" bench scale-1k scenes/circle.yaml --steps 2 --warm-up 0 --csv "$work/bench.csv" --commit 'a "b", c' --plot "$work/plot" >/dev/null 2>&1
+"$JOSTLE" bench scale-1k --steps 2 --warm-up 0 --csv "$work/bench.csv" >/dev/null 2>&1
+[ "$(grep -c '^cpu,commit,' "$work/bench.csv")" = 1 ] && [ "$(wc -l <"$work/bench.csv")" = 4 ] &&
+    [ "$(grep -c ',"a ""b"", c",.*,scenes/circle.yaml,1000,' "$work/bench.csv")" = 1 ]; verdict "bench: lines are appended to a table" $?
+grep -q '</svg>' "$work/plot/bench.svg" && grep -q 'scenes/circle.yaml' "$work/plot/bench.svg"; verdict "bench: a picture" $?
+expect "bench: a table that cannot be written" 1 "cannot write" "$JOSTLE" bench scale-1k --steps 1 --warm-up 0 --csv "$work"
 expect "bench: no such set" 2 "scalar" "$JOSTLE" bench circle --isa scalar,none
 "$JOSTLE" run scenes/running-through.yaml --quiet --seeds 3 --for 2 --summary "$work/seeds.json"
 (root=$PWD; cd "$work" && "$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$root/$JOSTLE" ;; esac)" run "$root/scenes/running-through.yaml" --quiet --for 2 --report some/where >/dev/null 2>&1)

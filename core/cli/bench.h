@@ -1,0 +1,41 @@
+/* What `jostle bench` measured, and what it writes of it. */
+#ifndef JOX_CLI_BENCH_H
+#define JOX_CLI_BENCH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "jostle_tools.h"
+
+enum { BENCH_ROUNDS = 100 }; /* at most */
+
+/* What all cases were measured with. */
+typedef struct BenchGiven {
+    uint64_t steps, warm_up, rounds;
+    uint32_t threads;
+    const char *commit;
+} BenchGiven;
+
+/* A scene with an instruction set, and what was measured of it in each round. */
+typedef struct BenchCase {
+    const char *name; /* of the scene, or its path */
+    JoIsa isa;
+    JoStats last; /* of the last round: agents, bodies */
+    uint64_t measured;
+    double steps_per_s[BENCH_ROUNDS], times_real_time[BENCH_ROUNDS];
+    double ns[BENCH_ROUNDS];                     /* of processor time, per agent-step */
+    double stages[JO_STAGE_COUNT][BENCH_ROUNDS]; /* likewise, of time */
+} BenchCase;
+
+/* The table: its first lines, and the line of a case. */
+void bench_header(void);
+void bench_line(const BenchCase *c);
+/* One array of objects, to standard output. */
+void bench_json(const BenchGiven *given, const BenchCase *cases, size_t count);
+/* Appends a line for each case to a file, whose first line names the columns; false with errno. */
+bool bench_csv(const char *path, const BenchGiven *given, const BenchCase *cases, size_t count);
+/* Draws bench.svg into a folder, which is made. */
+bool bench_plot(const char *folder, const BenchCase *cases, size_t count, JoError *error);
+
+#endif

@@ -1,0 +1,156 @@
+/* What `jostle bench` writes: a table, JSON, lines of CSV, a picture. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/format/json_writer.h"
+#include "base/format/quote.h"
+#include "base/mem.h"
+#include "base/sort.h"
+#include "cli/bench.h"
+
+enum { CPU_LENGTH = 100 };
+#ifdef __clang__
+#define COMPILER "clang " __clang_version__
+#else
+#define COMPILER "gcc " __VERSION__
+#endif
+
+/* The name of the processor's model, or "unknown". */
+static void find_cpu(char cpu[CPU_LENGTH]) {
+    snprintf(cpu, CPU_LENGTH, "unknown");
+    FILE *file = jox_file_open("/proc/cpuinfo", "r");
+    char line[256], name[256];
+    while (file && fgets(line, sizeof line, file))
+        if (sscanf(line, "model name : %255[^\n]", name) == 1) {
+            snprintf(cpu, CPU_LENGTH, "%.*s", CPU_LENGTH - 1, name);
+            break;
+        }
+    if (file)
+        jox_file_close(file);
+}
+
+static double median(const double *values, uint64_t count) {
+    double sorted[BENCH_ROUNDS];
+    memcpy(sorted, values, count * sizeof *values);
+    jox_sort_doubles(sorted, count);
+    return 0.5 * (sorted[(count - 1) / 2] + sorted[count / 2]);
+}
+
+static double least(const double *values, uint64_t count) {
+    double result = values[0];
+    for (uint64_t i = 1; i < count; i++)
+        result = values[i] < result ? values[i] : result;
+    return result;
+}
+
+static void add_case(JoxJson *json, const BenchGiven *given, const BenchCase *c) {
+    char cpu[CPU_LENGTH];
+    find_cpu(cpu);
+    jox_json_object(json, NULL);
+    jox_json_string(json, "scene", c->name);
+    jox_json_string(json, "isa", jo_isa_name(c->isa));
+    jox_json_string(json, "cpu", cpu);
+    jox_json_string(json, "commit", given->commit);
+    jox_json_string(json, "compiler", COMPILER);
+    jox_json_whole(json, "threads", given->threads);
+    jox_json_whole(json, "warm_up", given->warm_up);
+    jox_json_whole(json, "steps", given->steps);
+    jox_json_digits(json, "dt", c->last.dt, 6);
+    jox_json_whole(json, "agents", c->last.agents);
+    jox_json_whole(json, "bodies", c->last.bodies);
+    jox_json_whole(json, "rounds", c->measured);
+    jox_json_digits(json, "steps_per_s", median(c->steps_per_s, c->measured), 6);
+    jox_json_digits(json, "times_real_time", median(c->times_real_time, c->measured), 6);
+    jox_json_digits(json, "cpu_ns_per_agent_step", median(c->ns, c->measured), 6);
+    jox_json_digits(json, "least_cpu_ns_per_agent_step", least(c->ns, c->measured), 6);
+    jox_json_object(json, "stage_ns");
+    for (int s = 0; s < JO_STAGE_COUNT; s++)
+        jox_json_digits(json, jo_stage_name(s), median(c->stages[s], c->measured), 4);
+    jox_json_end(json);
+    jox_json_end(json);
+}
+
+void bench_line(const BenchCase *c) {
+    printf("%-30s %-6s %7u %6u %10.1f %8.1f %8.0f %8.0f ", c->name, jo_isa_name(c->isa),
+           c->last.agents, c->last.bodies, median(c->steps_per_s, c->measured),
+           median(c->times_real_time, c->measured), median(c->ns, c->measured),
+           least(c->ns, c->measured));
+    for (int s = 0; s < JO_STAGE_COUNT; s++)
+        printf(" %8.1f", median(c->stages[s], c->measured));
+    puts("");
+    fflush(stdout);
+}
+
+void bench_header(void) {
+    puts("Medians of the rounds. Nanoseconds are per agent and step: cpu of processor time, stages "
+         "of time.");
+    printf("%-30s %-6s %7s %6s %10s %8s %8s %8s ", "scene", "isa", "agents", "bodies", "steps/s",
+           "x real", "cpu ns", "least");
+    for (int s = 0; s < JO_STAGE_COUNT; s++)
+        printf(" %8s", jo_stage_name(s));
+    puts("");
+}
+
+void bench_json(const BenchGiven *given, const BenchCase *cases, size_t count) {
+    JoxText text = {0};
+    JoxJson array = jox_json_begin(&text, 1);
+    jox_json_array(&array, NULL);
+    for (size_t k = 0; k < count; k++)
+        add_case(&array, given, &cases[k]);
+    jox_json_end(&array);
+    puts(text.data);
+    jox_text_free(&text);
+}
+
+bool bench_csv(const char *path, const BenchGiven *given, const BenchCase *cases, size_t count) {
+    FILE *file = jox_file_open(path, "a");
+    if (!file)
+        return false;
+    if (fseek(file, 0, SEEK_END) == 0 && ftell(file) == 0) {
+        fputs("cpu,commit,compiler,isa,threads,scene,agents,bodies,steps,rounds,"
+              "cpu_ns_per_agent_step,least,steps_per_s",
+              file);
+        for (int s = 0; s < JO_STAGE_COUNT; s++)
+            fprintf(file, ",%s_ns", jo_stage_name(s));
+        fputs("\n", file);
+    }
+    char cpu[CPU_LENGTH];
+    find_cpu(cpu);
+    for (size_t k = 0; k < count; k++) {
+        const BenchCase *c = &cases[k];
+        const char *const texts[] = {cpu, given->commit, COMPILER, jo_isa_name(c->isa)};
+        for (size_t t = 0; t < sizeof texts / sizeof *texts; t++) {
+            jox_quote_put(file, jox_quote_csv, texts[t]);
+            fputs(",", file);
+        }
+        fprintf(file, "%u,", given->threads);
+        jox_quote_put(file, jox_quote_csv, c->name);
+        fprintf(file, ",%u,%u,%llu,%llu,%.5g,%.5g,%.6g", c->last.agents, c->last.bodies,
+                (unsigned long long)given->steps, (unsigned long long)c->measured,
+                median(c->ns, c->measured), least(c->ns, c->measured),
+                median(c->steps_per_s, c->measured));
+        for (int s = 0; s < JO_STAGE_COUNT; s++)
+            fprintf(file, ",%.4g", median(c->stages[s], c->measured));
+        fputs("\n", file);
+    }
+    return jox_file_close(file) == 0;
+}
+
+bool bench_plot(const char *folder, const BenchCase *cases, size_t count, JoError *error) {
+    JoTiming *timings = jox_alloc(count, sizeof *timings);
+    for (size_t k = 0; k < count; k++) {
+        const BenchCase *c = &cases[k];
+        timings[k] = (JoTiming){.scene = c->name,
+                                .isa = jo_isa_name(c->isa),
+                                .agents = c->last.agents,
+                                .in_series = strncmp(c->name, "scale-", 6) == 0,
+                                .ns = median(c->ns, c->measured),
+                                .least_ns = least(c->ns, c->measured)};
+        for (int s = 0; s < JO_STAGE_COUNT; s++)
+            timings[k].stage_ns[s] = median(c->stages[s], c->measured);
+    }
+    const bool good = jo_plot_times(timings, count, folder, error);
+    jox_free(timings);
+    return good;
+}
