@@ -87,7 +87,7 @@ OBJ_CLI := $(call objects,$(SRC_CLI))
 UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 
-.PHONY: reference all run test unit tests-built check bench bench-record bench-peers install uninstall clean test-all format
+.PHONY: reference all run test unit tests-built check bench bench-record bench-peers bench-instructions install uninstall clean test-all format
 all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so.$(VERSION)
 
 # The two commands of the README. Both first install what is missing.
@@ -113,6 +113,9 @@ bench:
 # A line for each scene into the table of this machine's model of processor.
 bench-record: all
 	@B=$(B) bash tests/bench/record.sh
+# Replaces the instruction counts that tests/scenes/instructions.sh compares: after a deliberate change.
+bench-instructions: all
+	@B=$(B) JOSTLE=$(B)/jostle bash tests/scenes/instructions.sh --write
 # Other engines on the same crowds, in turn with ours.
 PEERS := $(patsubst tests/bench/peers/%.cc,$(B)/bench/peer-%,$(wildcard tests/bench/peers/*.cc))
 bench-peers:
