@@ -1,367 +1,149 @@
-/* The stage prefer: the velocity that the state's steering asks for, and where the agent looks. */
+/* The stage prefer: the velocity that the state's steering asks for, and where the agent looks. A
+   batch of one state is done term by term, in lanes where the word has a kernel. */
 #include <math.h>
+#include <string.h>
 
 #include "base/assert.h"
-#include "machine/internal.h"
+#include "machine/kernels.h"
 
-enum { FETCH_AHEAD = 8 };          /* agents: memory answers while so many are done */
-static const float SLOWING = 0.5f; /* s: who arrives slows to stop within this time */
-/* Of the wanted speed: a term that asks for more, or for what is no number, is left out. Above what
-   the words allow (drift). */
-static const float MOST_SHARE = 1e6f;
+enum { FETCH_AHEAD = 8 }; /* agents: memory answers while so many are done */
 
-/* Full speed towards a point, less when it is near. */
-static JoxV2 arrive(JoxV2 from, JoxV2 to, float speed) {
-    JoxV2 way = jox_sub(to, from);
-    float distance = jox_length(way);
-    if (distance < 1e-4f)
-        return (JoxV2){0.0f, 0.0f};
-    float share = speed > 0.0f ? jox_minf(1.0f, distance / (speed * SLOWING)) : 1.0f;
-    return jox_scale(way, share / distance);
-}
+#define X(name, isa)                                                                               \
+    [isa] = {jox_steer_orbit_##name, jox_steer_add_##name, jox_steer_finish_##name,                \
+             jox_steer_face_##name},
+static const struct Kernels {
+    JoxSteerKernel *orbit, *add, *finish, *face;
+} KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
 
-/* Where on a place an agent aims: across a line at a point of its own, else the nearest point. */
-static JoxV2 aim(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
-    const JoxPlace *place = &run->places[spot->place];
-    if (place->kind != JOX_PLACE_LINE)
-        return (JoxV2){spot->x, spot->y};
-    double u =
-        jox_random_unit(run->seed, run->agents->id[i], (uint64_t)spot->place, JOX_DRAW_AIM, 0);
-    float t = 0.1f + 0.8f * (float)u;
-    return jox_add(place->points[0], jox_scale(jox_sub(place->points[1], place->points[0]), t));
-}
+typedef struct Prefer {
+    JoxMachineRun *run;
+    const struct Kernels *kernels;
+} Prefer;
 
-static JoxV2 seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
-    const JoxAgents *a = run->agents;
-    JoxV2 from = {a->x[i], a->y[i]};
-    JoxSpot spot = jox_target_find(run, i, target);
-    if (!spot.found)
-        return (JoxV2){0.0f, 0.0f};
-    if (spot.place < 0) /* something that moves is run at, not arrived at */
-        return jox_unit(jox_sub((JoxV2){spot.x, spot.y}, from));
-    const JoxPlace *place = &run->places[spot.place];
-    JoxV2 to = aim(run, i, &spot);
-    if (place->kind == JOX_PLACE_LINE) /* lines are passed, not stopped at */
-        return jox_unit(jox_sub(to, from));
-    if (jox_place_contains(run->places, (uint32_t)spot.place, from))
-        return place->kind == JOX_PLACE_POINT
-                   ? arrive(from, place->centre, a->param[JOX_PARAM_speed][i])
-                   : (JoxV2){0.0f, 0.0f};
-    return place->kind == JOX_PLACE_POLYGON ? jox_unit(jox_sub(to, from))
-                                            : arrive(from, to, a->param[JOX_PARAM_speed][i]);
-}
-
-/* Round a solid, counter-clockwise: T - w N with N outward from the stadium about it. The inward
-   weight w makes the density follow a profile that falls from the wall outwards. */
-static JoxV2 orbit(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
-    const JoxAgents *a = run->agents;
-    int32_t index = jox_target_place(run, i, term->target);
-    if (index < 0)
-        return (JoxV2){0.0f, 0.0f};
-    const JoxPlace *place = &run->places[index];
-    JoxV2 p = {a->x[i], a->y[i]};
-    JoxV2 out = jox_sub(p, jox_segment_nearest(place->axis_a, place->axis_b, p));
-    float distance = jox_length(out) - place->axis_radius;
-    JoxV2 normal = jox_unit(out);
-    const double *o = term->args;
-    float share = jox_clampf(distance / (float)o[JOX_ORBIT_FAR], 0.0f, 1.0f);
-    float wanted = (float)(o[JOX_ORBIT_DENSITY_NEAR] +
-                           (o[JOX_ORBIT_DENSITY_FAR] - o[JOX_ORBIT_DENSITY_NEAR]) * share);
-    float inward = (float)o[JOX_ORBIT_INWARD] * jox_clampf(wanted - a->density[i], -0.1f, 1.0f);
-    if (distance > (float)o[JOX_ORBIT_RETURN])
-        inward = 0.6f;
-    return jox_unit(jox_sub(jox_left(normal), jox_scale(normal, inward)));
-}
-
-static JoxV2 queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
-    const JoxAgents *a = run->agents;
-    int32_t index = jox_target_place(run, i, term->target);
-    uint32_t rank = run->scratch->rank[i];
-    if (index < 0 || rank == UINT32_MAX || run->places[index].kind != JOX_PLACE_QUEUE)
-        return seek(run, i, term->target);
-    const JoxPlace *place = &run->places[index];
-    JoxV2 spot = jox_place_queue_point(place, (float)rank * place->spacing);
-    return arrive((JoxV2){a->x[i], a->y[i]}, spot, a->param[JOX_PARAM_speed][i]);
-}
-
-static JoxV2 along(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
-    int32_t index = jox_target_place(run, i, term->target);
-    if (index < 0 || run->places[index].count < 2)
-        return (JoxV2){0.0f, 0.0f};
-    const JoxPlace *place = &run->places[index];
-    JoxV2 p = {run->agents->x[i], run->agents->y[i]}, best = {0.0f, 0.0f};
-    float least = INFINITY;
-    for (uint32_t k = 0; k + 1 < place->count; k++) {
-        JoxV2 a = place->points[k], b = place->points[k + 1];
-        float d2 = jox_length2(jox_sub(p, jox_segment_nearest(a, b, p)));
-        if (d2 < least) {
-            least = d2;
-            best = jox_unit(place->kind == JOX_PLACE_QUEUE ? jox_sub(a, b) : jox_sub(b, a));
-        }
-    }
-    return best;
-}
-
-static JoxV2 spread(const JoxMachineRun *run, uint32_t i) {
-    const JoxAgents *a = run->agents;
-    JoxV2 sum = {0.0f, 0.0f};
-    uint32_t count = run->neighbours->count[i];
-    for (uint32_t k = 0; k < count; k++) {
-        uint32_t j = run->neighbours->index[jox_neighbour_at(run->neighbours, i, k)];
-        sum = jox_add(sum, jox_offset(a, j, i));
-    }
-    return jox_unit(sum);
-}
-
-/* People who meet pass each other on the right by custom (Moussaid et al. 2009 measured it), and
-   who comes on one's right is let pass there. Counts more the nearer they are; headings of the step
-   before, so that no order of agents matters. */
-static JoxV2 evade(const JoxMachineRun *run, uint32_t i, JoxV2 ahead) {
-    const JoxAgents *a = run->agents;
-    const JoxNeighbours *n = run->neighbours;
-    const JoxV2 *heading = run->scratch->heading;
-    const float *radius = a->param[JOX_PARAM_radius];
-    JoxV2 right = jox_scale(jox_left(ahead), -1.0f);
-    float sum = 0.0f, reach = a->param[JOX_PARAM_perception][i];
-    for (uint32_t k = 0; k < n->count[i]; k++) {
-        uint32_t j = n->index[jox_neighbour_at(n, i, k)];
-        JoxV2 d = jox_offset(a, i, j);
-        float along = jox_dot(d, ahead), aside = jox_dot(d, right), wide = radius[i] + radius[j];
-        if (along <= 0.0f || jox_dot(heading[j], ahead) >= 0.0f || fabsf(aside) > 2.0f * wide)
-            continue;
-        float nearness = jox_maxf(0.0f, 1.0f - along / reach);
-        sum += aside > 0.5f * wide ? -nearness : nearness;
-    }
-    return jox_scale(right, jox_clampf(sum, -1.0f, 1.0f));
-}
-
-/* The way's direction, (0, 0) where there is none, and *none says that none leads there; it is
-   asked for again and again, as only ways that are wanted are renewed. */
-static JoxV2 way(const JoxMachineRun *run, uint32_t place, JoxRouteKind kind, JoxV2 p, bool *none) {
-    const JoxField *field = run->fields[place * JOX_ROUTE_KINDS + kind];
-    uint8_t bit = (uint8_t)(1 << kind);
-    /* Whichever thread comes first: the result is the same. */
-    if (!(__atomic_load_n(&run->wanted[place], __ATOMIC_RELAXED) & bit))
-        __atomic_fetch_or(&run->wanted[place], bit, __ATOMIC_RELAXED);
-    JoxV2 direction = field ? jox_field_direction(field, p) : (JoxV2){0.0f, 0.0f};
-    *none = field && jox_length2(direction) == 0.0f && !(jox_field_distance(field, p) < INFINITY);
-    return direction;
-}
-
-/* Who walks by the law goes before those who have more way left to the same place. */
-static void bind(const JoxMachineRun *run, uint32_t i, uint32_t place, JoxRouteKind kind, JoxV2 p) {
+/* Where agents of a state look that is about something. */
+static void look(const JoxMachineRun *run, const JoxState *state, uint32_t i) {
     JoxAgents *a = run->agents;
-    const JoxField *field = run->fields[place * JOX_ROUTE_KINDS + kind];
-    if (!jox_walks(a, i) || !field)
-        return;
-    a->bound[i] = (int32_t)place;
-    a->way[i] = jox_field_distance(field, p);
-}
-
-/* Round walls and large bodies; where no way is known yet, or none leads there, straight on. */
-static JoxV2 field(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
-    const JoxAgents *a = run->agents;
-    int32_t place = jox_target_place(run, i, term->target);
-    bool none;
-    if (place < 0)
-        return (JoxV2){0.0f, 0.0f};
-    JoxV2 p = {a->x[i], a->y[i]};
-    if (!run->fields || jox_place_contains(run->places, (uint32_t)place, p))
-        return seek(run, i, term->target);
-    JoxRouteKind kind = JOX_ROUTE_NOW;
-    JoxV2 direction = way(run, (uint32_t)place, kind, p, &none);
-    if (none)
-        direction = way(run, (uint32_t)place, kind = JOX_ROUTE_OPEN, p, &none);
-    else if (jox_walks(a, i)) {
-        bool ignored;
-        JoxV2 round = way(run, (uint32_t)place, JOX_ROUTE_CROWD, p, &ignored);
-        if (jox_length2(round) > 0.0f)
-            direction = round;
-    }
-    bind(run, i, (uint32_t)place, kind, p);
-    return jox_length2(direction) > 0.0f ? direction : seek(run, i, term->target);
-}
-
-void jox_machines_ask_routes(JoxMachineRun *run) {
-    const JoxAgents *a = run->agents;
-    for (uint32_t i = 0; i < a->count; i++) {
-        if (a->machine[i] == JOX_NO_MACHINE)
-            continue;
-        const JoxState *state = &jox_machine_of(run, i)->states[a->state[i]];
-        for (uint32_t t = 0; t < state->steer_count; t++)
-            if (state->steer[t].kind == JOX_STEER_FIELD)
-                field(run, i, &state->steer[t]);
-    }
-}
-
-static JoxV2 together(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
-    const JoxAgents *a = run->agents;
-    const JoxNeighbours *n = run->neighbours;
-    JoxV2 sum = {0.0f, 0.0f};
-    uint32_t mates = 0;
-    for (uint32_t k = 0; a->team[i] && k < n->count[i]; k++) {
-        uint32_t j = n->index[jox_neighbour_at(n, i, k)];
-        if (a->team[j] != a->team[i])
-            continue;
-        sum = jox_add(sum, jox_offset(a, i, j));
-        mates++;
-    }
-    JoxV2 to = jox_scale(sum, mates ? 1.0f / (float)mates : 0.0f);
-    float distance = jox_length(to), ease = (float)term->args[0];
-    if (distance == 0.0f || distance <= ease)
-        return (JoxV2){0.0f, 0.0f};
-    return jox_scale(to, jox_minf(1.0f, distance - ease) / distance);
-}
-
-static JoxV2 follow(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
-    const JoxAgents *a = run->agents;
-    JoxSpot spot = jox_target_find(run, i, term->target);
-    JoxV2 from = {a->x[i], a->y[i]}, to = {spot.x, spot.y};
-    if (!spot.found)
-        return (JoxV2){0.0f, 0.0f};
-    JoxV2 behind = jox_scale(jox_unit(jox_sub(from, to)), (float)term->args[0]);
-    return arrive(from, jox_add(to, behind), a->param[JOX_PARAM_speed][i]);
-}
-
-static JoxV2 player(const JoxMachineRun *run, uint32_t i) {
-    float speed = jox_maxf(run->agents->param[JOX_PARAM_speed][i], 1e-3f);
-    for (uint32_t k = 0; k < run->input_count; k++)
-        if (run->inputs[k].agent_id == run->agents->id[i])
-            return jox_scale((JoxV2){run->inputs[k].vx, run->inputs[k].vy}, 1.0f / speed);
-    return (JoxV2){0.0f, 0.0f};
-}
-
-/* What one term asks for, as a share of the wanted speed: of length 1 at most, drift and player
-   aside. */
-static JoxV2 term_direction(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
-    const JoxAgents *a = run->agents;
-    switch (term->kind) {
-    case JOX_STEER_SEEK:
-        return seek(run, i, term->target);
-    case JOX_STEER_AWAY_FROM: {
-        JoxSpot spot = jox_target_find(run, i, term->target);
-        return spot.found ? jox_unit((JoxV2){a->x[i] - spot.x, a->y[i] - spot.y})
-                          : (JoxV2){0.0f, 0.0f};
-    }
-    case JOX_STEER_ORBIT:
-        return orbit(run, i, term);
-    case JOX_STEER_QUEUE:
-        return queue(run, i, term);
-    case JOX_STEER_FOLLOW:
-        return follow(run, i, term);
-    case JOX_STEER_DRIFT:
-        return (JoxV2){(float)term->args[0], (float)term->args[1]};
-    case JOX_STEER_SPREAD:
-        return spread(run, i);
-    case JOX_STEER_ALONG:
-        return along(run, i, term);
-    case JOX_STEER_FIELD:
-        return field(run, i, term);
-    case JOX_STEER_TOGETHER:
-        return together(run, i, term);
-    case JOX_STEER_PLAYER:
-        return player(run, i);
-    case JOX_STEER_HOLD:
-    case JOX_STEER_EVADE: /* by the sum of the others */
-    case JOX_STEER_FUNCTION:
-        break;
-    }
-    return (JoxV2){0.0f, 0.0f};
-}
-
-static void face(const JoxMachineRun *run, const JoxState *state, uint32_t i) {
-    JoxAgents *a = run->agents;
-    JoxV2 way = {a->vx[i], a->vy[i]};
-    bool turns = jox_length2(way) > 0.0025f;
-    if (state->face >= 0) {
-        JoxSpot spot = jox_target_find(run, i, state->face);
-        way = (JoxV2){spot.x - a->x[i], spot.y - a->y[i]};
-        turns = spot.found && jox_length2(way) > 0.0f;
-    }
-    if (!turns)
+    JoxSpot spot = jox_target_find(run, i, state->face);
+    JoxV2 way = {spot.x - a->x[i], spot.y - a->y[i]};
+    if (!spot.found || !(jox_length2(way) > 0.0f))
         return;
     way = jox_unit(way);
     a->face_x[i] = way.x;
     a->face_y[i] = way.y;
 }
 
-/* Keeps a term finite whatever its numbers are, so that no sum of terms overflows. */
-static JoxV2 bounded(JoxV2 way) {
-    if (jox_length2(way) <= MOST_SHARE * MOST_SHARE)
-        return way;
-    return (JoxV2){0.0f, 0.0f};
-}
-
 static bool is_function(const JoxState *state) {
     return state->steer_count == 1 && state->steer[0].kind == JOX_STEER_FUNCTION;
 }
 
-/* The weighted sum of a state's terms; those that evade come last, as they go by where the others
-   lead. */
-static JoxV2 steering(const JoxMachineRun *run, const JoxMachine *machine, const JoxState *state,
-                      uint32_t i) {
-    JoxV2 sum = {0.0f, 0.0f}, ahead = sum;
-    bool evades = false;
-    for (uint32_t t = 0; t < state->steer_count; t++)
-        evades |= state->steer[t].kind == JOX_STEER_EVADE;
-    for (int pass = 0; pass < 1 + evades; pass++) {
-        for (uint32_t t = 0; t < state->steer_count; t++) {
-            const JoxSteerTerm *term = &state->steer[t];
-            if ((term->kind == JOX_STEER_EVADE) != (pass == 1))
-                continue;
-            float by = term->weight.kind == JOX_VALUE_UNSET
-                           ? 1.0f
-                           : (float)jox_value(run, machine, &term->weight, i);
-            /* A weight may come from a target that is not there: infinitely far. */
-            if (by == 0.0f || !(fabsf(by) <= (float)JOX_MOST_WEIGHT))
-                continue;
-            JoxV2 way = bounded(pass ? evade(run, i, ahead) : term_direction(run, i, term));
-            sum = jox_add(sum, jox_scale(way, by));
-        }
-        ahead = evades ? jox_unit(sum) : sum;
-    }
-    return sum;
+/* Weights of a term, for all of a batch. */
+static void weigh(const JoxMachineRun *run, const JoxMachine *machine, const JoxValue *weight,
+                  JoxRegisters registers, JoxSteer *s) {
+    const bool computed = weight->kind == JOX_VALUE_EXPRESSION;
+    if (computed)
+        jox_eval(run, machine, &machine->expressions[weight->index], s->index, s->count, registers);
+    for (uint32_t n = 0; n < s->count; n++)
+        s->by[n] = weight->kind == JOX_VALUE_UNSET ? 1.0f
+                   : computed                      ? (float)registers[0][n]
+                              : (float)jox_value(run, machine, weight, s->index[n]);
 }
 
-/* Fields are large and are looked up here and there: asks for what agent i will read, as far as
-   one can tell from where it was bound for last. */
-static void fetch_ways(const JoxMachineRun *run, uint32_t i) {
-    const JoxAgents *a = run->agents;
-    const JoxV2 p = {a->x[i], a->y[i]};
-    if (!run->fields || a->bound[i] < 0 || (uint32_t)a->bound[i] >= run->place_count)
-        return;
-    for (int kind = 0; kind < JOX_ROUTE_KINDS; kind++) {
-        const JoxField *field = run->fields[a->bound[i] * JOX_ROUTE_KINDS + kind];
-        if (field && kind != JOX_ROUTE_OPEN)
-            jox_field_prefetch(field, p);
+/* Round a place: all of a batch at once where it is the same for all of them. */
+static void orbit(const Prefer *p, const JoxSteerTerm *term, JoxSteer *s) {
+    const JoxMachineRun *run = p->run;
+    const JoxMachine *machine = jox_machine_of(run, s->index[0]);
+    const bool same = term->target < 0 || machine->targets[term->target].kind == JOX_TARGET_PLACE;
+    const uint32_t step = same ? s->count : 1;
+    for (uint32_t n = 0; n < s->count; n += step) {
+        int32_t place = jox_target_place(run, s->index[n], term->target);
+        s->place = place < 0 ? NULL : &run->places[place];
+        s->begin = n;
+        s->end = n + step;
+        p->kernels->orbit(s);
     }
+}
+
+/* What a term asks of a batch, into its ways. Weights that are 0, or no numbers that count, as of a
+   target that is infinitely far, are not asked for. */
+static void ask(const Prefer *p, const JoxSteerTerm *term, JoxSteer *s) {
+    s->args = term->args;
+    if (term->kind == JOX_STEER_ORBIT) {
+        orbit(p, term, s);
+        return;
+    }
+    for (uint32_t n = 0; n < s->count; n++) {
+        const uint32_t i = s->index[n];
+        JoxV2 way = {0.0f, 0.0f};
+        if (term->kind == JOX_STEER_FIELD && n + FETCH_AHEAD < s->count)
+            jox_steer_fetch_ways(p->run, s->index[n + FETCH_AHEAD]);
+        if (jox_weight_counts(s->by[n]))
+            way = term->kind == JOX_STEER_EVADE
+                      ? jox_steer_evade(p->run, i, jox_unit(jox_v2(s->ahead_x[n], s->ahead_y[n])))
+                      : jox_steer_word(p->run, i, term);
+        s->way_x[n] = way.x;
+        s->way_y[n] = way.y;
+    }
+}
+
+/* The weighted sum of a state's terms; those that evade come last, as they go by where the others
+   lead. */
+static void sum_terms(const Prefer *p, const JoxMachine *machine, const JoxState *state,
+                      JoxRegisters registers, JoxSteer *s) {
+    memset(s->sum_x, 0, sizeof s->sum_x);
+    memset(s->sum_y, 0, sizeof s->sum_y);
+    for (int evades = 0; evades < 2; evades++)
+        for (uint32_t t = 0; t < state->steer_count; t++) {
+            const JoxSteerTerm *term = &state->steer[t];
+            if ((term->kind == JOX_STEER_EVADE) != evades)
+                continue;
+            if (evades && !s->leads) {
+                memcpy(s->ahead_x, s->sum_x, sizeof s->ahead_x);
+                memcpy(s->ahead_y, s->sum_y, sizeof s->ahead_y);
+                s->leads = true;
+            }
+            weigh(p->run, machine, &term->weight, registers, s);
+            ask(p, term, s);
+            p->kernels->add(s);
+        }
+}
+
+/* The agents of a batch, the last of them again up to a whole packet. */
+static void begin_batch(const JoxMachineRun *run, const JoxBatchRange *batch, JoxSteer *s) {
+    s->agents = run->agents;
+    s->count = batch->count;
+    s->leads = false;
+    for (uint32_t n = 0; n < JOX_BATCH; n++)
+        s->index[n] =
+            run->scratch->grouped[batch->begin + (n < batch->count ? n : batch->count - 1)];
+}
+
+static void prefer_batch(const Prefer *p, const JoxBatchRange *batch, JoxRegisters registers) {
+    const JoxMachineRun *run = p->run;
+    const JoxMachine *machine = run->set->items[batch->machine];
+    const JoxState *state = &machine->states[batch->state];
+    JoxAgents *a = run->agents;
+    JoxSteer s;
+    begin_batch(run, batch, &s);
+    if (state->face < 0)
+        p->kernels->face(&s);
+    for (uint32_t n = 0; n < s.count; n++) {
+        if (state->face >= 0)
+            look(run, state, s.index[n]);
+        a->bound[s.index[n]] = -1;
+    }
+    if (is_function(state))
+        return;
+    sum_terms(p, machine, state, registers, &s);
+    p->kernels->finish(&s);
 }
 
 static void prefer_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    (void)worker;
-    const JoxMachineRun *run = context;
-    JoxAgents *a = run->agents;
-    for (uint32_t b = begin; b < end; b++) {
-        const JoxBatchRange *batch = &run->scratch->batches[b];
-        const JoxMachine *machine = run->set->items[batch->machine];
-        const JoxState *state = &machine->states[batch->state];
-        for (uint32_t n = 0; n < batch->count; n++) {
-            uint32_t i = run->scratch->grouped[batch->begin + n];
-            if (n + FETCH_AHEAD < batch->count)
-                fetch_ways(run, run->scratch->grouped[batch->begin + n + FETCH_AHEAD]);
-            face(run, state, i);
-            a->bound[i] = -1;
-            if (is_function(state))
-                continue;
-            JoxV2 sum = steering(run, machine, state, i);
-            if (jox_length2(sum) > 1.0f)
-                sum = jox_unit(sum);
-            float speed = jox_minf(a->param[JOX_PARAM_speed][i], a->param[JOX_PARAM_max_speed][i]);
-            JOX_ASSERT(jox_length2(sum) < 1.001f && speed >= 0.0f);
-            a->pref_x[i] = sum.x * speed;
-            a->pref_y[i] = sum.y * speed;
-        }
-    }
+    const Prefer *p = context;
+    const JoxMachineScratch *scratch = p->run->scratch;
+    JOX_ASSERT(worker < scratch->workers);
+    for (uint32_t b = begin; b < end; b++)
+        prefer_batch(p, &scratch->batches[b], scratch->registers[worker]);
 }
 
 /* Steering by plain Lua functions, by id. */
@@ -393,7 +175,8 @@ void jox_machines_prefer(JoxMachineRun *run, JoxPool *pool) {
     if (run->set->count == 0)
         return;
     JOX_CHECK(jox_groups_check(run));
-    jox_parallel_for(pool, run->scratch->batch_count, 1, prefer_range, run);
+    Prefer prefer = {run, &KERNELS[jox_isa_resolve(run->isa)]};
+    jox_parallel_for(pool, run->scratch->batch_count, 1, prefer_range, &prefer);
     ask_functions(run);
     JOX_CHECK(jox_preferred_check(run));
     if (run->bracket)

@@ -8,6 +8,7 @@
 #include "geom/field.h"
 #include "geom/objects.h"
 #include "geom/place.h"
+#include "jostle.h"
 #include "machine/machine.h"
 #include "task/pool.h"
 
@@ -132,6 +133,7 @@ typedef struct JoxMachineRun {
     JoxMachineSet *set;
     JoxMachineState *state;
     JoxAgents *agents;
+    JoIsa isa; /* of the kernels */
     /* Given by the world before each stage. */
     const JoxNeighbours *neighbours;
     const JoxObjects *objects;

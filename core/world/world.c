@@ -31,6 +31,7 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     world->machines.seed = def->seed;
     world->machines.dt = def->dt;
     world->machines.gravity = def->gravity;
+    world->machines.isa = world->model.def.isa;
     world->state.routes = jox_routes_create();
     world->state.walls_set = true;
     world->state.settled = true;

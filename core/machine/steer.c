@@ -1,0 +1,253 @@
+/* The words of steering, of one agent each: what a term of a state asks for. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "machine/internal.h"
+
+static const float SLOWING = 0.5f; /* s: who arrives slows to stop within this time */
+
+/* Full speed towards a point, less when it is near. */
+static JoxV2 arrive(JoxV2 from, JoxV2 to, float speed) {
+    JoxV2 way = jox_sub(to, from);
+    float distance = jox_length(way);
+    if (distance < 1e-4f)
+        return (JoxV2){0.0f, 0.0f};
+    float share = speed > 0.0f ? jox_minf(1.0f, distance / (speed * SLOWING)) : 1.0f;
+    return jox_scale(way, share / distance);
+}
+
+/* Where on a place an agent aims: across a line at a point of its own, else the nearest point. */
+static JoxV2 aim(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
+    const JoxPlace *place = &run->places[spot->place];
+    if (place->kind != JOX_PLACE_LINE)
+        return (JoxV2){spot->x, spot->y};
+    double u =
+        jox_random_unit(run->seed, run->agents->id[i], (uint64_t)spot->place, JOX_DRAW_AIM, 0);
+    float t = 0.1f + 0.8f * (float)u;
+    return jox_add(place->points[0], jox_scale(jox_sub(place->points[1], place->points[0]), t));
+}
+
+static JoxV2 seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
+    const JoxAgents *a = run->agents;
+    JoxV2 from = {a->x[i], a->y[i]};
+    JoxSpot spot = jox_target_find(run, i, target);
+    if (!spot.found)
+        return (JoxV2){0.0f, 0.0f};
+    if (spot.place < 0) /* something that moves is run at, not arrived at */
+        return jox_unit(jox_sub((JoxV2){spot.x, spot.y}, from));
+    const JoxPlace *place = &run->places[spot.place];
+    JoxV2 to = aim(run, i, &spot);
+    if (place->kind == JOX_PLACE_LINE) /* lines are passed, not stopped at */
+        return jox_unit(jox_sub(to, from));
+    if (jox_place_contains(run->places, (uint32_t)spot.place, from))
+        return place->kind == JOX_PLACE_POINT
+                   ? arrive(from, place->centre, a->param[JOX_PARAM_speed][i])
+                   : (JoxV2){0.0f, 0.0f};
+    return place->kind == JOX_PLACE_POLYGON ? jox_unit(jox_sub(to, from))
+                                            : arrive(from, to, a->param[JOX_PARAM_speed][i]);
+}
+
+static JoxV2 queue(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = run->agents;
+    int32_t index = jox_target_place(run, i, term->target);
+    uint32_t rank = run->scratch->rank[i];
+    if (index < 0 || rank == UINT32_MAX || run->places[index].kind != JOX_PLACE_QUEUE)
+        return seek(run, i, term->target);
+    const JoxPlace *place = &run->places[index];
+    JoxV2 spot = jox_place_queue_point(place, (float)rank * place->spacing);
+    return arrive((JoxV2){a->x[i], a->y[i]}, spot, a->param[JOX_PARAM_speed][i]);
+}
+
+static JoxV2 along(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    int32_t index = jox_target_place(run, i, term->target);
+    if (index < 0 || run->places[index].count < 2)
+        return (JoxV2){0.0f, 0.0f};
+    const JoxPlace *place = &run->places[index];
+    JoxV2 p = {run->agents->x[i], run->agents->y[i]}, best = {0.0f, 0.0f};
+    float least = INFINITY;
+    for (uint32_t k = 0; k + 1 < place->count; k++) {
+        JoxV2 a = place->points[k], b = place->points[k + 1];
+        float d2 = jox_length2(jox_sub(p, jox_segment_nearest(a, b, p)));
+        if (d2 < least) {
+            least = d2;
+            best = jox_unit(place->kind == JOX_PLACE_QUEUE ? jox_sub(a, b) : jox_sub(b, a));
+        }
+    }
+    return best;
+}
+
+static JoxV2 spread(const JoxMachineRun *run, uint32_t i) {
+    const JoxAgents *a = run->agents;
+    JoxV2 sum = {0.0f, 0.0f};
+    uint32_t count = run->neighbours->count[i];
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t j = run->neighbours->index[jox_neighbour_at(run->neighbours, i, k)];
+        sum = jox_add(sum, jox_offset(a, j, i));
+    }
+    return jox_unit(sum);
+}
+
+/* People who meet pass each other on the right by custom (Moussaid et al. 2009 measured it), and
+   who comes on one's right is let pass there. Counts more the nearer they are; headings of the step
+   before, so that no order of agents matters. */
+JoxV2 jox_steer_evade(const JoxMachineRun *run, uint32_t i, JoxV2 ahead) {
+    const JoxAgents *a = run->agents;
+    const JoxNeighbours *n = run->neighbours;
+    const JoxV2 *heading = run->scratch->heading;
+    const float *radius = a->param[JOX_PARAM_radius];
+    JoxV2 right = jox_scale(jox_left(ahead), -1.0f);
+    float sum = 0.0f, reach = a->param[JOX_PARAM_perception][i];
+    for (uint32_t k = 0; k < n->count[i]; k++) {
+        uint32_t j = n->index[jox_neighbour_at(n, i, k)];
+        JoxV2 d = jox_offset(a, i, j);
+        float along = jox_dot(d, ahead), aside = jox_dot(d, right), wide = radius[i] + radius[j];
+        if (along <= 0.0f || jox_dot(heading[j], ahead) >= 0.0f || fabsf(aside) > 2.0f * wide)
+            continue;
+        float nearness = jox_maxf(0.0f, 1.0f - along / reach);
+        sum += aside > 0.5f * wide ? -nearness : nearness;
+    }
+    return jox_scale(right, jox_clampf(sum, -1.0f, 1.0f));
+}
+
+/* The way's direction, (0, 0) where there is none, and *none says that none leads there; it is
+   asked for again and again, as only ways that are wanted are renewed. */
+static JoxV2 way(const JoxMachineRun *run, uint32_t place, JoxRouteKind kind, JoxV2 p, bool *none) {
+    const JoxField *field = run->fields[place * JOX_ROUTE_KINDS + kind];
+    uint8_t bit = (uint8_t)(1 << kind);
+    /* Whichever thread comes first: the result is the same. */
+    if (!(__atomic_load_n(&run->wanted[place], __ATOMIC_RELAXED) & bit))
+        __atomic_fetch_or(&run->wanted[place], bit, __ATOMIC_RELAXED);
+    JoxV2 direction = field ? jox_field_direction(field, p) : (JoxV2){0.0f, 0.0f};
+    *none = field && jox_length2(direction) == 0.0f && !(jox_field_distance(field, p) < INFINITY);
+    return direction;
+}
+
+/* Who walks by the law goes before those who have more way left to the same place. */
+static void bind(const JoxMachineRun *run, uint32_t i, uint32_t place, JoxRouteKind kind, JoxV2 p) {
+    JoxAgents *a = run->agents;
+    const JoxField *field = run->fields[place * JOX_ROUTE_KINDS + kind];
+    if (!jox_walks(a, i) || !field)
+        return;
+    a->bound[i] = (int32_t)place;
+    a->way[i] = jox_field_distance(field, p);
+}
+
+/* Round walls and large bodies; where no way is known yet, or none leads there, straight on. */
+static JoxV2 field(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = run->agents;
+    int32_t place = jox_target_place(run, i, term->target);
+    bool none;
+    if (place < 0)
+        return (JoxV2){0.0f, 0.0f};
+    JoxV2 p = {a->x[i], a->y[i]};
+    if (!run->fields || jox_place_contains(run->places, (uint32_t)place, p))
+        return seek(run, i, term->target);
+    JoxRouteKind kind = JOX_ROUTE_NOW;
+    JoxV2 direction = way(run, (uint32_t)place, kind, p, &none);
+    if (none)
+        direction = way(run, (uint32_t)place, kind = JOX_ROUTE_OPEN, p, &none);
+    else if (jox_walks(a, i)) {
+        bool ignored;
+        JoxV2 round = way(run, (uint32_t)place, JOX_ROUTE_CROWD, p, &ignored);
+        if (jox_length2(round) > 0.0f)
+            direction = round;
+    }
+    bind(run, i, (uint32_t)place, kind, p);
+    return jox_length2(direction) > 0.0f ? direction : seek(run, i, term->target);
+}
+
+void jox_machines_ask_routes(JoxMachineRun *run) {
+    const JoxAgents *a = run->agents;
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (a->machine[i] == JOX_NO_MACHINE)
+            continue;
+        const JoxState *state = &jox_machine_of(run, i)->states[a->state[i]];
+        for (uint32_t t = 0; t < state->steer_count; t++)
+            if (state->steer[t].kind == JOX_STEER_FIELD)
+                field(run, i, &state->steer[t]);
+    }
+}
+
+static JoxV2 together(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = run->agents;
+    const JoxNeighbours *n = run->neighbours;
+    JoxV2 sum = {0.0f, 0.0f};
+    uint32_t mates = 0;
+    for (uint32_t k = 0; a->team[i] && k < n->count[i]; k++) {
+        uint32_t j = n->index[jox_neighbour_at(n, i, k)];
+        if (a->team[j] != a->team[i])
+            continue;
+        sum = jox_add(sum, jox_offset(a, i, j));
+        mates++;
+    }
+    JoxV2 to = jox_scale(sum, mates ? 1.0f / (float)mates : 0.0f);
+    float distance = jox_length(to), ease = (float)term->args[0];
+    if (distance == 0.0f || distance <= ease)
+        return (JoxV2){0.0f, 0.0f};
+    return jox_scale(to, jox_minf(1.0f, distance - ease) / distance);
+}
+
+static JoxV2 follow(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = run->agents;
+    JoxSpot spot = jox_target_find(run, i, term->target);
+    JoxV2 from = {a->x[i], a->y[i]}, to = {spot.x, spot.y};
+    if (!spot.found)
+        return (JoxV2){0.0f, 0.0f};
+    JoxV2 behind = jox_scale(jox_unit(jox_sub(from, to)), (float)term->args[0]);
+    return arrive(from, jox_add(to, behind), a->param[JOX_PARAM_speed][i]);
+}
+
+static JoxV2 player(const JoxMachineRun *run, uint32_t i) {
+    float speed = jox_maxf(run->agents->param[JOX_PARAM_speed][i], 1e-3f);
+    for (uint32_t k = 0; k < run->input_count; k++)
+        if (run->inputs[k].agent_id == run->agents->id[i])
+            return jox_scale((JoxV2){run->inputs[k].vx, run->inputs[k].vy}, 1.0f / speed);
+    return (JoxV2){0.0f, 0.0f};
+}
+
+JoxV2 jox_steer_word(const JoxMachineRun *run, uint32_t i, const JoxSteerTerm *term) {
+    const JoxAgents *a = run->agents;
+    switch (term->kind) {
+    case JOX_STEER_SEEK:
+        return seek(run, i, term->target);
+    case JOX_STEER_AWAY_FROM: {
+        JoxSpot spot = jox_target_find(run, i, term->target);
+        return spot.found ? jox_unit((JoxV2){a->x[i] - spot.x, a->y[i] - spot.y})
+                          : (JoxV2){0.0f, 0.0f};
+    }
+    case JOX_STEER_QUEUE:
+        return queue(run, i, term);
+    case JOX_STEER_FOLLOW:
+        return follow(run, i, term);
+    case JOX_STEER_DRIFT:
+        return (JoxV2){(float)term->args[0], (float)term->args[1]};
+    case JOX_STEER_SPREAD:
+        return spread(run, i);
+    case JOX_STEER_ALONG:
+        return along(run, i, term);
+    case JOX_STEER_FIELD:
+        return field(run, i, term);
+    case JOX_STEER_TOGETHER:
+        return together(run, i, term);
+    case JOX_STEER_PLAYER:
+        return player(run, i);
+    case JOX_STEER_HOLD:
+    case JOX_STEER_ORBIT: /* a kernel's */
+    case JOX_STEER_EVADE: /* by the sum of the others */
+    case JOX_STEER_FUNCTION:
+        break;
+    }
+    return (JoxV2){0.0f, 0.0f};
+}
+
+void jox_steer_fetch_ways(const JoxMachineRun *run, uint32_t i) {
+    const JoxAgents *a = run->agents;
+    const JoxV2 p = {a->x[i], a->y[i]};
+    if (!run->fields || a->bound[i] < 0 || (uint32_t)a->bound[i] >= run->place_count)
+        return;
+    for (int kind = 0; kind < JOX_ROUTE_KINDS; kind++) {
+        const JoxField *field = run->fields[a->bound[i] * JOX_ROUTE_KINDS + kind];
+        if (field && kind != JOX_ROUTE_OPEN)
+            jox_field_prefetch(field, p);
+    }
+}

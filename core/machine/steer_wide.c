@@ -1,0 +1,114 @@
+/* The kernel of prefer: a lane is an agent of a batch. */
+#include "base/assert.h"
+#include "machine/kernels.h"
+#include "simd/vectors.h"
+
+/* Of the wanted speed: a term that asks for more, or for what is no number, is left out. Above what
+   the words allow (drift). */
+#define MOST_SHARE 1e6f
+#define MOVES 0.0025f /* m2/s2: who is slower keeps looking where it looked */
+
+static inline JoxVector pick(const float *x, const float *y, JoxInts at) {
+    return (JoxVector){jf_pick(x, at), jf_pick(y, at)};
+}
+
+static inline JoxFloats length2(JoxVector a) {
+    return jv_dot(a, a);
+}
+
+/* jox_unit: zero stays zero. */
+static inline JoxVector unit(JoxVector a) {
+    const JoxFloats zero = jf_set(0.0f), length = jf_sqrt(length2(a));
+    return jv_select(jf_lt(zero, length), jv_scale(a, jf_div(jf_set(1.0f), length)),
+                     (JoxVector){zero, zero});
+}
+
+static inline JoxFloats clamp(JoxFloats x, float low, float high) {
+    return jf_min(jf_max(x, jf_set(low)), jf_set(high));
+}
+
+/* jox_segment_nearest */
+static inline JoxVector nearest_on_axis(const JoxPlace *place, JoxVector p) {
+    const JoxV2 a = place->axis_a, ab = jox_sub(place->axis_b, a);
+    const float l2 = jox_length2(ab);
+    const JoxVector start = {jf_set(a.x), jf_set(a.y)}, way = {jf_set(ab.x), jf_set(ab.y)};
+    if (!(l2 > 0.0f))
+        return start;
+    const JoxVector from = {jf_sub(p.x, start.x), jf_sub(p.y, start.y)};
+    return jv_add(start, jv_scale(way, clamp(jf_div(jv_dot(from, way), jf_set(l2)), 0.0f, 1.0f)));
+}
+
+/* Round a solid, counter-clockwise: T - w N with N outward from the stadium about it. The inward
+   weight w makes the density follow a profile that falls from the wall outwards. */
+static JoxVector orbit(const JoxSteer *s, JoxInts at) {
+    const JoxAgents *a = s->agents;
+    const double *o = s->args;
+    const float near = (float)o[JOX_ORBIT_DENSITY_NEAR], far = (float)o[JOX_ORBIT_DENSITY_FAR];
+    const JoxVector p = pick(a->x, a->y, at), axis = nearest_on_axis(s->place, p);
+    const JoxVector out = {jf_sub(p.x, axis.x), jf_sub(p.y, axis.y)};
+    const JoxFloats distance = jf_sub(jf_sqrt(length2(out)), jf_set(s->place->axis_radius));
+    const JoxVector normal = unit(out);
+    const JoxFloats share = clamp(jf_div(distance, jf_set((float)o[JOX_ORBIT_FAR])), 0.0f, 1.0f);
+    const JoxFloats wanted = jf_add(jf_set(near), jf_mul(jf_set(far - near), share));
+    const JoxFloats lacks = clamp(jf_sub(wanted, jf_pick(a->density, at)), -0.1f, 1.0f);
+    JoxFloats inward = jf_mul(jf_set((float)o[JOX_ORBIT_INWARD]), lacks);
+    inward = jf_select(jf_lt(jf_set((float)o[JOX_ORBIT_RETURN]), distance), jf_set(0.6f), inward);
+    const JoxVector inwards = jv_scale(normal, inward);
+    return unit((JoxVector){jf_sub(jf_neg(normal.y), inwards.x), jf_sub(normal.x, inwards.y)});
+}
+
+void JOX_WIDE(jox_steer_orbit)(JoxSteer *s) {
+    const JoxInts begin = ji_set((int32_t)s->begin), end = ji_set((int32_t)s->end);
+    for (uint32_t n = s->begin / JOX_WIDTH * JOX_WIDTH; n < s->end; n += JOX_WIDTH) {
+        const JoxInts number = ji_add(ji_set((int32_t)n), ji_lane());
+        const JoxMask asked = jm_without(ji_less(number, end), ji_less(number, begin));
+        JoxVector way = {jf_set(0.0f), jf_set(0.0f)};
+        if (s->place)
+            way = orbit(s, ji_load(s->index + n));
+        jv_store(s->way_x, s->way_y, n, jv_select(asked, way, jv_load(s->way_x, s->way_y, n)));
+    }
+}
+
+void JOX_WIDE(jox_steer_add)(JoxSteer *s) {
+    const JoxFloats zero = jf_set(0.0f), most = jf_set((float)JOX_MOST_WEIGHT);
+    for (uint32_t n = 0; n < s->count; n += JOX_WIDTH) {
+        const JoxFloats by = jf_load(s->by + n), size = jf_abs(by);
+        const JoxVector way = jv_load(s->way_x, s->way_y, n), sum = jv_load(s->sum_x, s->sum_y, n);
+        const JoxMask counts = jm_and(jf_lt(zero, size), jf_le(size, most));
+        const JoxMask bounded = jf_le(length2(way), jf_set(MOST_SHARE * MOST_SHARE));
+        const JoxVector term = jv_scale(jv_select(bounded, way, (JoxVector){zero, zero}), by);
+        jv_store(s->sum_x, s->sum_y, n, jv_select(counts, jv_add(sum, term), sum));
+    }
+}
+
+void JOX_WIDE(jox_steer_finish)(JoxSteer *s) {
+    JoxAgents *a = s->agents;
+    for (uint32_t n = 0; n < s->count; n += JOX_WIDTH) {
+        const JoxInts at = ji_load(s->index + n);
+        JoxVector sum = jv_load(s->sum_x, s->sum_y, n);
+        sum = jv_select(jf_lt(jf_set(1.0f), length2(sum)), unit(sum), sum);
+        const JoxFloats speed = jf_min(jf_pick(a->param[JOX_PARAM_speed], at),
+                                       jf_pick(a->param[JOX_PARAM_max_speed], at));
+        jv_store(s->way_x, s->way_y, n, jv_scale(sum, speed));
+    }
+    for (uint32_t n = 0; n < s->count; n++) {
+        a->pref_x[s->index[n]] = s->way_x[n];
+        a->pref_y[s->index[n]] = s->way_y[n];
+    }
+}
+
+void JOX_WIDE(jox_steer_face)(JoxSteer *s) {
+    JoxAgents *a = s->agents;
+    for (uint32_t n = 0; n < s->count; n += JOX_WIDTH) {
+        const JoxInts at = ji_load(s->index + n);
+        const JoxVector velocity = pick(a->vx, a->vy, at);
+        const uint32_t moves = jm_bits(jf_lt(jf_set(MOVES), length2(velocity)));
+        jv_store(s->way_x, s->way_y, n, unit(velocity));
+        for (uint32_t lane = 0; lane < JOX_WIDTH && n + lane < s->count; lane++) {
+            if (!(moves >> lane & 1))
+                continue;
+            a->face_x[s->index[n + lane]] = s->way_x[n + lane];
+            a->face_y[s->index[n + lane]] = s->way_y[n + lane];
+        }
+    }
+}
