@@ -3,18 +3,26 @@
 
 #include "cli/cli.h"
 
+typedef struct Reproduce {
+    JoReproduceDef def;
+    CliList sets;
+} Reproduce;
+
 static const CliOption OPTIONS[] = {
-    {"quick", NULL, "smaller runs with the same bands", CLI_TO(JoReproduceDef, quick)},
+    {"quick", NULL, "smaller runs with the same bands", CLI_TO(Reproduce, def.quick)},
     {"seeds", "A-B", "these seeds, or A alone, in place of those of each claim",
-     CLI_TO(JoReproduceDef, seeds)},
-    {"jobs", "N", "processes at once", "one for each processor", CLI_TO(JoReproduceDef, jobs),
+     CLI_TO(Reproduce, def.seeds)},
+    {"set", "PATH=VALUE",
+     "replace a value of every scene, as walking.width=1.3: how much of a claim hangs on it",
+     CLI_TO(Reproduce, sets)},
+    {"jobs", "N", "processes at once", "one for each processor", CLI_TO(Reproduce, def.jobs),
      CLI_RANGE(1, 256)},
     {"out", "DIR", "for runs, pictures and index.html", "build/out/reproduce",
-     CLI_TO(JoReproduceDef, out)},
-    {"claims", "DIR", "folder of claim files", "scenes/claims", CLI_TO(JoReproduceDef, folder)},
-    {"fresh", NULL, "do all runs anew", CLI_TO(JoReproduceDef, fresh)},
-    {"list", NULL, "name the claims, run nothing", CLI_TO(JoReproduceDef, list)},
-    {"quiet", NULL, "no progress", CLI_TO(JoReproduceDef, quiet)},
+     CLI_TO(Reproduce, def.out)},
+    {"claims", "DIR", "folder of claim files", "scenes/claims", CLI_TO(Reproduce, def.folder)},
+    {"fresh", NULL, "do all runs anew", CLI_TO(Reproduce, def.fresh)},
+    {"list", NULL, "name the claims, run nothing", CLI_TO(Reproduce, def.list)},
+    {"quiet", NULL, "no progress", CLI_TO(Reproduce, def.quiet)},
 };
 
 static int reproduce(JoReproduceDef *def) {
@@ -32,15 +40,17 @@ static int reproduce(JoReproduceDef *def) {
 }
 
 static int run(int argc, char **argv) {
-    JoReproduceDef def = jo_default_reproduce_def();
+    Reproduce run = {.def = jo_default_reproduce_def()};
     CliList claims = {0};
-    int status = cli_parse(&cli_reproduce, argc, argv, &def, &claims);
+    int status = cli_parse(&cli_reproduce, argc, argv, &run, &claims);
     if (status == CLI_GO_ON) {
-        def.claims = claims.items;
-        def.claim_count = claims.count;
-        status = reproduce(&def);
+        run.def.claims = claims.items;
+        run.def.claim_count = claims.count;
+        run.def.sets = run.sets.items;
+        run.def.set_count = run.sets.count;
+        status = reproduce(&run.def);
     }
-    cli_free(&cli_reproduce, &def, &claims);
+    cli_free(&cli_reproduce, &run, &claims);
     return status;
 }
 

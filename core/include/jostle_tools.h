@@ -159,6 +159,8 @@ typedef struct JoReproduceDef {
     const char *folder;        /* of claim files */
     const char *const *claims; /* ids, or names of files; none: all */
     size_t claim_count;
+    const char *const *sets; /* "PATH=VALUE": what every run has otherwise than its claim says */
+    size_t set_count;
     const char *out;          /* folder for runs, pictures and the page */
     const char *program;      /* path of the command `jostle`, which runs the scenes */
     uint32_t jobs;            /* processes at once */

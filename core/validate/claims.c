@@ -213,6 +213,15 @@ JoxClaim *jox_claim_load(const char *path, bool quick, JoxDiagnostics *diagnosti
     return NULL;
 }
 
+void jox_claim_set(JoxClaim *claim, const char *const *sets, size_t count) {
+    for (uint32_t r = 0; r < claim->run_count && count > 0; r++) {
+        JoxClaimRun *run = &claim->runs[r];
+        run->sets = jox_realloc(run->sets, run->set_count + count, sizeof *run->sets);
+        for (size_t s = 0; s < count; s++)
+            run->sets[run->set_count++] = jox_strdup(sets[s]);
+    }
+}
+
 void jox_claim_free(JoxClaim *claim) {
     if (!claim)
         return;

@@ -72,6 +72,8 @@ JoxClaim *jox_claim_load(const char *path, bool quick, JoxDiagnostics *diagnosti
    figure, NAN where it is not given. False with a sentence in `why`. */
 bool jox_claim_measure(const JoxClaim *claim, const char *const *folders, double *values,
                        JoxText *why);
+/* Has every run of the claim take values ("PATH=VALUE") besides its own. */
+void jox_claim_set(JoxClaim *claim, const char *const *sets, size_t count);
 void jox_claim_free(JoxClaim *claim);
 
 #endif

@@ -87,6 +87,7 @@ static void load_claims(JoxReproduction *all, JoxDiagnostics *diagnostics) {
             wanted = false;
         }
         if (wanted) {
+            jox_claim_set(claim, all->def->sets, all->def->set_count);
             JOX_RESERVE(all->outcomes, capacity, all->outcome_count + 1);
             all->outcomes[all->outcome_count++] = (JoxOutcome){.claim = claim};
         } else {

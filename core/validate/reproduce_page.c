@@ -75,6 +75,10 @@ static void circumstances(const JoxReproduction *all, char *out, size_t size) {
     snprintf(out, size, "%s, Jostle %s%s%s, %s, %s %s, %u runs in %.0f s%s", day, jo_version(),
              *commit ? ", commit " : "", commit, *cpu ? cpu : system.machine, system.sysname,
              system.machine, all->job_count, all->seconds, all->def->quick ? ", quick" : "");
+    for (size_t s = 0; s < all->def->set_count; s++) {
+        size_t used = strlen(out);
+        snprintf(out + used, size - used, "%s %s", s ? "," : ", with", all->def->sets[s]);
+    }
 }
 
 /* ---- the page ---- */

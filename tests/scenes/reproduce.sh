@@ -58,6 +58,9 @@ between "the mean over two seeds, from 101 on" "$(value seed)" 101.5 101.5
 says "with its bound, 12.7 times the error of the mean, and how many they are" "measured 101.5 +- 6.4 (101 to 102, 2 seeds)"
 grep -q '101.5  | +- 6.4 | 2 |' "$work/rep/table.md" && grep -q '"bound": 6.35' "$work/rep/results.json"; verdict "so do the table and the figures" $?
 between "speeds are set by the claim" "$(value slow)" 19.5 20.5
+"$JOSTLE" reproduce G --claims "$work/claims" --out "$work/set" --quiet --set groups.walker.set.speed=1.6 >"$work/set.out"
+grep -q "slow .*measured 6\.25" "$work/set.out" && grep -q "with groups.walker.set.speed=1.6" "$work/set/index.html"
+verdict "and by who runs it, over the claim, and the page says so" $?
 for file in index.html table.md results.json; do [ -s "$work/rep/$file" ]; verdict "it writes $file" $?; done
 grep -q 'src="runs/walk-[^"]*/paths.png"' "$work/rep/index.html"; verdict "the page shows the picture" $?
 [ "$(grep -c '^| ' "$work/rep/table.md")" = 7 ]; verdict "the table has a row for each figure" $?
