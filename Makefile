@@ -12,11 +12,20 @@ DATADIR ?= $(CURDIR)
 # Its live page, and the three.js that the page uses (Debian's libjs-three).
 PAGEDIR ?= $(CURDIR)/core/view/page
 THREEDIR ?= /usr/share/javascript/three
-WITHOUT := $(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(CAIRO)),-nocairo)$(if $(filter 0,$(VIEW)),-noview)
+# CROSS=aarch64-linux-gnu- builds for another machine, with its libraries as Debian lays them beside ours.
+CROSS   ?=
+ifneq ($(CROSS),)
+CC      := $(CROSS)gcc
+CXX     := $(CROSS)g++
+PKG     := PKG_CONFIG_LIBDIR=/usr/lib/$(CROSS:-=)/pkgconfig:/usr/share/pkgconfig pkg-config
+else
+PKG     := pkg-config
+endif
+WITHOUT := $(if $(filter 0,$(BULLET)),-nobullet)$(if $(filter 0,$(CAIRO)),-nocairo)$(if $(filter 0,$(VIEW)),-noview)$(if $(CROSS),-$(CROSS:-=))
 B       ?= build/$(MODE)$(WITHOUT)
 # Objects are shared by builds that differ in what they leave out or in where they are installed: the few
 # files that name a folder of the installation are compiled for each. A B that is given has its own.
-SHARED  := $(if $(filter file,$(origin B)),build/$(MODE),$(B))
+SHARED  := $(if $(filter file,$(origin B)),build/$(MODE)$(if $(CROSS),-$(CROSS:-=)),$(B))
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
@@ -25,7 +34,8 @@ SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))
 # Kernels: one source, compiled for each instruction set that core/simd has lanes for.
 SRC_WIDE := $(filter %_wide.c,$(SRC_C))
 SRC_C   := $(filter-out $(SRC_WIDE),$(SRC_C))
-ISAS    := scalar $(if $(findstring x86_64,$(shell $(CC) -dumpmachine)),sse2 avx2 avx512)
+MACHINE := $(shell $(CC) -dumpmachine)
+ISAS    := scalar $(if $(findstring x86_64,$(MACHINE)),sse2 avx2 avx512) $(if $(findstring aarch64,$(MACHINE)),neon)
 ISA.sse2   := -msse2
 ISA.avx2   := -mavx2
 ISA.avx512 := -mavx512f
@@ -66,8 +76,8 @@ UNIQUE  := $(shell echo | $(CXX) -fno-gnu-unique -x c++ -E - >/dev/null 2>&1 && 
 CFLAGS_ALL  = -std=c17 $(OPT) $(HARD) $(WARN) $(FP) -fPIC -fvisibility=hidden -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
 CXXFLAGS_ALL = -std=c++17 $(OPT) $(HARD) -Wall -Wextra $(FP) -fPIC -fvisibility=hidden -fno-exceptions -fno-rtti $(UNIQUE) \
            -pthread -MMD -MP $(PKG_CFLAGS) $(CFLAGS)
-PKG_CFLAGS := $(shell pkg-config --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isystem /g')
-PKG_LIBS   := $(shell pkg-config --libs $(PKGS) 2>/dev/null)
+PKG_CFLAGS := $(shell $(PKG) --cflags $(PKGS) 2>/dev/null | sed 's/-I/-isystem /g')
+PKG_LIBS   := $(shell $(PKG) --libs $(PKGS) 2>/dev/null)
 LIBS       := $(PKG_LIBS) -lm -pthread
 LINK       := $(if $(filter 0,$(BULLET)),$(CC),$(CXX)) $(OPT) -pthread -Wl,-z,relro,-z,now
 
@@ -87,7 +97,7 @@ OBJ_CLI := $(call objects,$(SRC_CLI))
 UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 
-.PHONY: reference all run test unit tests-built check bench bench-record bench-peers bench-instructions install uninstall clean test-all format
+.PHONY: reference all run test unit tests-built check bench bench-record bench-peers bench-instructions arm install uninstall clean test-all format
 all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so.$(VERSION)
 
 # The two commands of the README. Both first install what is missing.
@@ -104,6 +114,11 @@ test:
 test-all: test
 	JOSTLE_VIEW_CYCLES=10000 $(B)/unit/view_stream
 	@.ci/sanitizers
+# The same engine for AArch64, under an emulator (tests/arm).
+arm:
+	@.ci/setup arm
+	@$(MAKE) --no-print-directory $(B)/jostle
+	@B=$(B) .ci/suite arm
 bench:
 	@.ci/setup bench
 	@$(MAKE) --no-print-directory all $(BENCH)
@@ -154,7 +169,7 @@ $(B)/internal.a: $(OBJ)
 	@mkdir -p $(@D)
 	@rm -f $@
 	$(call say,AR,$@)
-	$(Q)ar rcs $@ $^
+	$(Q)$(CROSS)ar rcs $@ $^
 $(B)/jostle: $(OBJ_CLI) $(B)/internal.a
 	$(call say,LINK,$@)
 	$(Q)$(LINK) $^ -o $@ $(LIBS)
@@ -162,12 +177,12 @@ $(B)/jostle: $(OBJ_CLI) $(B)/internal.a
 $(B)/jostle.o: $(OBJ)
 	@mkdir -p $(@D)
 	$(call say,LD,$@)
-	$(Q)ld -r $^ -o $@
-	$(Q)objcopy --localize-hidden $@
+	$(Q)$(CROSS)ld -r $^ -o $@
+	$(Q)$(CROSS)objcopy --localize-hidden $@
 $(B)/libjostle.a: $(B)/jostle.o
 	@rm -f $@
 	$(call say,AR,$@)
-	$(Q)ar rcs $@ $^
+	$(Q)$(CROSS)ar rcs $@ $^
 $(B)/libjostle.so.$(VERSION): $(B)/jostle.o
 	$(call say,LINK,$@)
 	$(Q)$(LINK) -shared -Wl,-soname,libjostle.so.0 $^ -o $@ $(LIBS)

@@ -81,7 +81,8 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Bench, given.rounds), CLI_RANGE(1, BENCH_ROUNDS)},
     {"threads", "N", "threads", "1", CLI_TO(Bench, given.threads), CLI_RANGE(1, 64)},
     {"isa", "NAMES",
-     "instruction sets of the kernels, with commas between: scalar, sse2, avx2 or avx512; they "
+     "instruction sets of the kernels, with commas between: scalar, sse2, avx2, avx512 or neon; "
+     "they "
      "never change a result",
      "the widest that the machine runs", .kind = CLI_READ, .read = read_isas},
     {"json", NULL, "one array of objects instead of the table", CLI_TO(Bench, json)},

@@ -135,8 +135,8 @@ bool cli_isa(JoIsa *isa, const char *text, char why[160]);
 #define CLI_ISA_OPTION(function)                                                                   \
     {                                                                                              \
         "isa", "NAME",                                                                             \
-            "instruction set of the kernels: scalar, sse2, avx2 or avx512; never changes a "       \
-            "result",                                                                              \
+            "instruction set of the kernels: scalar, sse2, avx2, avx512 or neon; never changes "   \
+            "a result",                                                                            \
             "the widest that the machine runs", .kind = CLI_READ, .read = function                 \
     }
 

@@ -75,7 +75,8 @@ typedef enum JoIsa {
     JO_ISA_SCALAR,
     JO_ISA_SSE2,
     JO_ISA_AVX2,
-    JO_ISA_AVX512
+    JO_ISA_AVX512,
+    JO_ISA_NEON
 } JoIsa;
 /* The one of a name, as "avx2". False, with an error that lists those that can be had, if there is
    no such set or this machine does not run it. */

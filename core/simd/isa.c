@@ -9,7 +9,8 @@ static const struct {
 } ALL[] = {{JO_ISA_SCALAR, "scalar"},
            {JO_ISA_SSE2, "sse2"},
            {JO_ISA_AVX2, "avx2"},
-           {JO_ISA_AVX512, "avx512"}};
+           {JO_ISA_AVX512, "avx512"},
+           {JO_ISA_NEON, "neon"}};
 enum { COUNT = sizeof ALL / sizeof *ALL };
 
 bool jox_isa_runs(JoIsa isa) {
@@ -24,6 +25,9 @@ bool jox_isa_runs(JoIsa isa) {
         return __builtin_cpu_supports("avx2");
     case JO_ISA_AVX512:
         return __builtin_cpu_supports("avx512f");
+#elif defined __aarch64__
+    case JO_ISA_NEON:
+        return true;
 #endif
     default:
         return false;

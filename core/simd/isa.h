@@ -12,12 +12,14 @@
 #define JOX_ISAS(X)                                                                                \
     X(scalar, JO_ISA_SCALAR)                                                                       \
     X(sse2, JO_ISA_SSE2) X(avx2, JO_ISA_AVX2) X(avx512, JO_ISA_AVX512)
+#elif defined __aarch64__
+#define JOX_ISAS(X) X(scalar, JO_ISA_SCALAR) X(neon, JO_ISA_NEON)
 #else
 #define JOX_ISAS(X) X(scalar, JO_ISA_SCALAR)
 #endif
 
 /* For a table with an entry for each public name; those that the build lacks stay NULL. */
-enum { JOX_ISA_ROOM = JO_ISA_AVX512 + 1 };
+enum { JOX_ISA_ROOM = JO_ISA_NEON + 1 };
 
 /* Whether the build has kernels for it, and processor and system run them. */
 bool jox_isa_runs(JoIsa isa);

@@ -9,6 +9,8 @@
 #include "simd/lanes_avx2.h"
 #elif defined JOX_ISA_sse2
 #include "simd/lanes_sse2.h"
+#elif defined JOX_ISA_neon
+#include "simd/lanes_neon.h"
 #else
 #include "simd/lanes_scalar.h"
 #endif

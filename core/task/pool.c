@@ -1,12 +1,12 @@
 #include "task/pool.h"
 
-#include <immintrin.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "simd/pause.h"
 #include "task/thread.h"
 
 enum { MOST_THREADS = 64, SPINS = 2000 };
@@ -66,7 +66,7 @@ static void *worker_main(void *argument) {
     unsigned seen = 0;
     for (;;) {
         for (int i = 0; i < SPINS && atomic_load(&pool->round) == seen; i++)
-            _mm_pause();
+            jox_pause();
         pthread_mutex_lock(&pool->lock);
         while (atomic_load(&pool->round) == seen)
             pthread_cond_wait(&pool->wake, &pool->lock);
@@ -148,7 +148,7 @@ void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *ta
     start_round(pool);
     run_chunks(pool, 0);
     for (int i = 0; i < SPINS && atomic_load(&pool->busy) > 0; i++)
-        _mm_pause();
+        jox_pause();
     pthread_mutex_lock(&pool->lock);
     while (atomic_load(&pool->busy) > 0)
         pthread_cond_wait(&pool->done, &pool->lock);

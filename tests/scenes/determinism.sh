@@ -7,7 +7,7 @@ verdict "gcc -O0 builds without a warning" $?
 make -s -j2 CC=clang CXX=clang++ B=build/clang CFLAGS=-Werror build/clang/jostle
 verdict "clang builds without a warning" $?
 isas=
-for isa in scalar sse2 avx2 avx512; do
+for isa in scalar sse2 avx2 avx512 neon; do
     if "$JOSTLE" run scenes/circle.yaml --steps 1 --quiet --isa $isa 2>/dev/null; then isas="$isas $isa"; fi
 done
 by_isa() { # SCENE ARGS...: the hash by each instruction set, with two threads
