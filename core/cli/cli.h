@@ -154,7 +154,7 @@ bool cli_isa(JoIsa *isa, const char *text, char why[160]);
         {"threads",                                                                                \
          "N",                                                                                      \
          "threads; never changes a result",                                                        \
-         "1",                                                                                      \
+         "all processors",                                                                         \
          CLI_TO(type, def.threads),                                                                \
          CLI_GIVEN(type, of_scene),                                                                \
          CLI_RANGE(1, 64)},                                                                        \

@@ -20,8 +20,8 @@ static bool read_isa(void *options, const char *text, char why[160]) {
 static const CliOption OPTIONS[] = {
     {"for", "S", "simulate until S seconds from the beginning of the run", "as that run was to",
      CLI_TO(Resume, seconds), CLI_GIVEN(Resume, has_seconds), CLI_RANGE(0, 1e7)},
-    {"threads", "N", "threads; never changes a result", "1", CLI_TO(Resume, def.threads),
-     CLI_RANGE(1, 64)},
+    {"threads", "N", "threads; never changes a result", "all processors",
+     CLI_TO(Resume, def.threads), CLI_RANGE(1, 64)},
     CLI_ISA_OPTION(read_isa),
     {"summary", "FILE", "write the figures of the whole run as JSON; '-' is standard output",
      CLI_TO(Resume, summary)},

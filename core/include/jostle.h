@@ -87,7 +87,8 @@ JO_API const char *jo_isa_name(JoIsa isa);
 typedef struct JoWorldDef {
     double dt;        /* s, 0.001 to 0.2; default 0.05 */
     uint64_t seed;    /* of all random numbers */
-    uint32_t threads; /* 1 to 64; never changes a result */
+    uint32_t threads; /* 1 to 64, default 1; 0: all processors that the process may use. Never
+                         changes a result; they are started when a step has work for them */
     JoIsa isa;        /* default: the widest */
     bool forces;      /* false: collision avoidance alone, no pushing, contact or inferred force */
     bool literal;     /* the paper's equations as printed, in place of the physical reading */
@@ -196,8 +197,8 @@ typedef struct JoSceneDef {
     size_t override_count;
     bool has_seed, has_dt; /* whether the two below replace the scene's */
     uint64_t seed;
-    double dt; /* s */
-    uint32_t threads;
+    double dt;        /* s */
+    uint32_t threads; /* 1 to 64; default 0: all processors that the process may use */
     JoIsa isa;
     const char *input_log; /* recorded input to play, or NULL */
     JoMessage *message;    /* NULL: to stderr */
@@ -294,7 +295,7 @@ enum { JO_STAGE_COUNT = 9 };
 typedef struct JoStats {
     uint64_t steps, agent_steps;           /* since loading */
     uint32_t agents, bodies;               /* now */
-    double dt, simulated_s, wall_s, cpu_s; /* stepping alone; CPU of the stepping thread */
+    double dt, simulated_s, wall_s, cpu_s; /* stepping alone; CPU of all threads of the process */
     double stage_ns[JO_STAGE_COUNT];       /* wall time per agent-step, ns */
 } JoStats;
 JO_API JoStats jo_scene_stats(const JoScene *scene);

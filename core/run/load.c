@@ -13,7 +13,7 @@
 enum { SCENE_COOKIE = 0x4a4f5343, LARGEST_INPUT = 256 << 20 };
 
 JoSceneDef jo_default_scene_def(void) {
-    return (JoSceneDef){.threads = 1, .cookie = SCENE_COOKIE};
+    return (JoSceneDef){.cookie = SCENE_COOKIE};
 }
 
 static uint64_t tag_mask(JoWorld *world, char *const *tags, uint32_t count, JoxPosition position,
@@ -318,9 +318,9 @@ static bool takes_named_mods(const JoSceneDef *def, const JoxMods *mods,
 
 JoScene *jox_run_load(const JoSceneDef *def, JoxDiagnostics *diagnostics) {
     uint64_t without = 0;
-    if (def->threads < 1 || def->threads > 64) {
+    if (def->threads > 64) {
         jox_diag_error(diagnostics, ((JoxPosition){0}), "out-of-range", NULL,
-                       "threads must be from 1 to 64");
+                       "threads must be from 1 to 64, or 0 for all processors");
         return NULL;
     }
     if (def->isa != JO_ISA_WIDEST && !jox_isa_runs(def->isa)) {

@@ -10,11 +10,25 @@
 #include "task/thread.h"
 
 enum { MOST_THREADS = 64, SPINS = 2000 };
+static const unsigned OPEN = 1u << 31; /* of `gate` */
 
-/* One loop at a time. A worker sleeps on `wake` until `round` moves, then takes chunks until none
-   is left; the caller takes part and waits on `done`. Waits spin a bounded while, then sleep. */
+/* Beside busy neighbours several threads may take longer than one, as a loop waits for a thread
+   that the system has put aside. So the other way is tried for PROBE laps every so often: soon
+   after it was the better one, else less and less often. */
+enum { PROBE = 2, SOON = 8, SELDOM = 512 };
+static const double BETTER = 0.95; /* of the time of a lap, at most: what is taken over */
+typedef struct Pace {
+    bool alone, probing;
+    uint32_t left, interval; /* laps until the probe begins or ends; between probes */
+    double usual, probed;    /* s: a lap as it goes, smoothed; the sum of those probed */
+} Pace;
+
+/* One loop at a time. Whoever comes while the gate is open takes chunks until none is left; the
+   caller takes part, shuts the gate, and waits for those who are inside: never for a thread that
+   the system has not let run meanwhile. Waits spin a bounded while, then sleep. */
 struct JoxPool {
-    uint32_t threads;
+    uint32_t threads; /* at most, the caller included */
+    uint32_t running; /* 1 + those that were started: by the first loop that has work for them */
     pthread_t thread[MOST_THREADS];
     struct Worker {
         JoxPool *pool;
@@ -22,11 +36,14 @@ struct JoxPool {
     } worker[MOST_THREADS];
     pthread_mutex_t lock;
     pthread_cond_t wake, done;
-    atomic_uint round;
-    atomic_uint busy;    /* workers that have not finished this round */
+    atomic_uint round;   /* moves when a gate opens */
+    atomic_uint asleep;  /* workers that wait on `wake` */
+    atomic_uint gate;    /* OPEN, and how many workers are inside */
     atomic_uint next;    /* first chunk not taken */
     atomic_bool starved; /* memory ran out in a chunk of this round */
-    bool quit;
+    atomic_bool quit;
+    bool begun;
+    Pace pace;
     JoxHeap *heap; /* of the caller */
     uint32_t count, grain, chunks;
     JoxTask *task;
@@ -60,23 +77,43 @@ static void run_chunks(JoxPool *pool, uint32_t worker) {
     jox_heap_use(before);
 }
 
+/* Waits for a round that is not the last one seen. */
+static unsigned await_round(JoxPool *pool, unsigned seen) {
+    for (int i = 0; i < SPINS; i++) {
+        const unsigned round = atomic_load(&pool->round);
+        if (round != seen)
+            return round;
+        jox_pause();
+    }
+    pthread_mutex_lock(&pool->lock);
+    atomic_fetch_add(&pool->asleep, 1); /* before the look at the round: who opens looks here */
+    while (atomic_load(&pool->round) == seen)
+        pthread_cond_wait(&pool->wake, &pool->lock);
+    atomic_fetch_sub(&pool->asleep, 1);
+    pthread_mutex_unlock(&pool->lock);
+    return atomic_load(&pool->round);
+}
+
+static bool enter(JoxPool *pool) {
+    unsigned gate = atomic_load(&pool->gate);
+    while (gate & OPEN)
+        if (atomic_compare_exchange_weak(&pool->gate, &gate, gate + 1))
+            return true;
+    return false;
+}
+
 static void *worker_main(void *argument) {
     struct Worker *self = argument;
     JoxPool *pool = self->pool;
     unsigned seen = 0;
     for (;;) {
-        for (int i = 0; i < SPINS && atomic_load(&pool->round) == seen; i++)
-            jox_pause();
-        pthread_mutex_lock(&pool->lock);
-        while (atomic_load(&pool->round) == seen)
-            pthread_cond_wait(&pool->wake, &pool->lock);
-        seen = atomic_load(&pool->round);
-        bool quit = pool->quit;
-        pthread_mutex_unlock(&pool->lock);
-        if (quit)
+        seen = await_round(pool, seen);
+        if (atomic_load(&pool->quit))
             return NULL;
+        if (!enter(pool))
+            continue;
         run_chunks(pool, self->number);
-        if (atomic_fetch_sub(&pool->busy, 1) == 1) {
+        if (atomic_fetch_sub(&pool->gate, 1) == 1) { /* shut, and nobody else inside */
             pthread_mutex_lock(&pool->lock);
             pthread_cond_signal(&pool->done);
             pthread_mutex_unlock(&pool->lock);
@@ -93,22 +130,46 @@ JoxPool *jox_pool_create(uint32_t threads) {
     pthread_mutex_init(&pool->lock, NULL);
     pthread_cond_init(&pool->wake, NULL);
     pthread_cond_init(&pool->done, NULL);
-    pool->threads = 1;
-    threads = threads < 1 ? 1 : threads > MOST_THREADS ? MOST_THREADS : threads;
-    for (uint32_t i = 1; i < threads; i++) {
-        pool->worker[i] = (struct Worker){pool, i};
-        if (!jox_thread_start(&pool->thread[i], worker_main, &pool->worker[i]))
-            break; /* fewer threads give the same results */
-        pool->threads++;
-    }
+    pool->threads = threads < 1 ? 1 : threads > MOST_THREADS ? MOST_THREADS : threads;
+    pool->running = 1;
+    pool->pace = (Pace){.left = SOON, .interval = SOON};
     return jox_hold(pool, release_pool);
 }
 
-static void start_round(JoxPool *pool) {
-    pthread_mutex_lock(&pool->lock);
-    atomic_store(&pool->busy, pool->threads - 1);
+/* Fewer threads give the same results. */
+static void begin(JoxPool *pool) {
+    pool->begun = true;
+    for (uint32_t i = 1; i < pool->threads; i++) {
+        pool->worker[i] = (struct Worker){pool, i};
+        if (!jox_thread_start(&pool->thread[i], worker_main, &pool->worker[i]))
+            return;
+        pool->running++;
+    }
+}
+
+/* For so many workers; those that are awake need no call. */
+static void start_round(JoxPool *pool, uint32_t wanted) {
     atomic_fetch_add(&pool->round, 1);
-    pthread_cond_broadcast(&pool->wake);
+    if (atomic_load(&pool->asleep) == 0)
+        return;
+    pthread_mutex_lock(&pool->lock);
+    if (wanted >= pool->running - 1)
+        pthread_cond_broadcast(&pool->wake);
+    for (uint32_t n = 0; n < wanted && wanted < pool->running - 1; n++)
+        pthread_cond_signal(&pool->wake);
+    pthread_mutex_unlock(&pool->lock);
+}
+
+/* Nobody enters any more; returns when nobody is inside. */
+static void shut(JoxPool *pool) {
+    atomic_fetch_and(&pool->gate, ~OPEN);
+    for (int i = 0; i < SPINS && atomic_load(&pool->gate) > 0; i++)
+        jox_pause();
+    if (atomic_load(&pool->gate) == 0)
+        return;
+    pthread_mutex_lock(&pool->lock);
+    while (atomic_load(&pool->gate) > 0)
+        pthread_cond_wait(&pool->done, &pool->lock);
     pthread_mutex_unlock(&pool->lock);
 }
 
@@ -116,9 +177,9 @@ void jox_pool_free(JoxPool *pool) {
     if (!pool)
         return;
     jox_let_go(pool);
-    pool->quit = true;
-    start_round(pool);
-    for (uint32_t i = 1; i < pool->threads; i++)
+    atomic_store(&pool->quit, true);
+    start_round(pool, UINT32_MAX);
+    for (uint32_t i = 1; i < pool->running; i++)
         pthread_join(pool->thread[i], NULL);
     pthread_cond_destroy(&pool->done);
     pthread_cond_destroy(&pool->wake);
@@ -130,14 +191,40 @@ uint32_t jox_pool_threads(const JoxPool *pool) {
     return pool ? pool->threads : 1;
 }
 
+void jox_pool_lap(JoxPool *pool, double seconds) {
+    Pace *p = &pool->pace;
+    if (!pool->begun)
+        return;
+    if (p->probing)
+        p->probed += seconds / PROBE;
+    else
+        p->usual = p->usual > 0.0 ? 0.8 * p->usual + 0.2 * seconds : seconds;
+    if (--p->left > 0)
+        return;
+    if (p->probing && p->probed < BETTER * p->usual) {
+        p->usual = p->probed;
+        p->interval = SOON;
+    } else if (p->probing) {
+        p->alone = !p->alone;
+        p->interval = p->interval < SELDOM ? 2 * p->interval : SELDOM;
+    } else {
+        p->alone = !p->alone;
+        p->probed = 0.0;
+    }
+    p->probing = !p->probing;
+    p->left = p->probing ? PROBE : p->interval;
+}
+
 void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *task, void *context) {
     JOX_ASSERT(grain > 0);
-    if (!pool || pool->threads == 1 || count <= grain) {
+    if (!pool || pool->threads == 1 || count <= grain || pool->pace.alone) {
         for (uint32_t begin = 0; begin < count; begin += grain)
             task(context, begin, count - begin < grain ? count : begin + grain, 0);
         return;
     }
-    JOX_ASSERT(atomic_load(&pool->busy) == 0); /* one loop at a time */
+    if (!pool->begun)
+        begin(pool);
+    JOX_ASSERT(atomic_load(&pool->gate) == 0); /* one loop at a time */
     pool->count = count;
     pool->grain = grain;
     pool->chunks = (count + grain - 1) / grain;
@@ -145,14 +232,10 @@ void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *ta
     pool->context = context;
     pool->heap = jox_heap_used();
     atomic_store(&pool->next, 0);
-    start_round(pool);
+    atomic_store(&pool->gate, OPEN);
+    start_round(pool, pool->chunks - 1);
     run_chunks(pool, 0);
-    for (int i = 0; i < SPINS && atomic_load(&pool->busy) > 0; i++)
-        jox_pause();
-    pthread_mutex_lock(&pool->lock);
-    while (atomic_load(&pool->busy) > 0)
-        pthread_cond_wait(&pool->done, &pool->lock);
-    pthread_mutex_unlock(&pool->lock);
+    shut(pool);
     JOX_ASSERT(atomic_load(&pool->next) >= pool->chunks);
     if (atomic_exchange(&pool->starved, false))
         jox_out_of_memory(0);

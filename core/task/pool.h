@@ -6,7 +6,8 @@
 
 typedef struct JoxPool JoxPool;
 
-/* `threads` in all, the caller included, 1..64. Never NULL. */
+/* At most `threads`, the caller included, 1..64; they are started when a loop has work for them.
+   Never NULL. */
 JoxPool *jox_pool_create(uint32_t threads);
 void jox_pool_free(JoxPool *pool);
 uint32_t jox_pool_threads(const JoxPool *pool);
@@ -16,5 +17,8 @@ typedef void JoxTask(void *context, uint32_t begin, uint32_t end, uint32_t worke
 /* Splits [0, count) into chunks of `grain` (the last may be shorter), the same for any number of
    threads, runs them all and returns. `pool` NULL runs here. Not reentrant. */
 void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *task, void *context);
+/* Tells how long the caller's work with the pool took since the last call, s, where that is much
+   the same each time, as steps are: while one thread does it sooner, loops run on one. */
+void jox_pool_lap(JoxPool *pool, double seconds);
 
 #endif

@@ -75,7 +75,7 @@ static JoWorld *create_in(JoxHeap *heap, const JoWorldDef *def, JoError *error) 
 JoWorld *jo_world_create(const JoWorldDef *def, JoError *error) {
     JOX_REQUIRE(def && def->cookie == WORLD_COOKIE, NULL);
     if (!within("dt", "s", def->dt, 0.001, 0.2, error) ||
-        !within("threads", "threads", def->threads, 1, 64, error) ||
+        !within("threads", "threads", def->threads, 0, 64, error) ||
         !within("gravity", "m/s2", def->gravity, -100, 100, error) ||
         !isa_runs(def->isa, NULL, error))
         return NULL;

@@ -16,7 +16,7 @@ double jox_clock_wall(void) {
 }
 
 double jox_clock_cpu(void) {
-    return read_clock(CLOCK_THREAD_CPUTIME_ID);
+    return read_clock(CLOCK_PROCESS_CPUTIME_ID);
 }
 
 /* Bins every agent by how deep it overlaps the neighbour it overlaps most. */

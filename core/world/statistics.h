@@ -64,7 +64,7 @@ typedef struct JoxStatistics {
     JoxExchange exchange;
 } JoxStatistics;
 
-/* Wall clock and CPU clock of this thread, s. */
+/* Wall clock and CPU clock of the process, s. */
 double jox_clock_wall(void);
 double jox_clock_cpu(void);
 /* Counts this step's failures and, once a second, overlaps. `tick` counts from 0. */

@@ -214,6 +214,7 @@ bool jox_world_step(JoWorld *w) {
     }
     w->state.tick++;
     w->state.statistics.wall_s += last - begin;
+    jox_pool_lap(w->scratch.pool, last - begin);
     w->state.statistics.cpu_s += jox_clock_cpu() - cpu;
     if (!good)
         return false;

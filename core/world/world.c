@@ -7,6 +7,7 @@
 #include "base/guard.h"
 #include "base/mem.h"
 #include "simd/isa.h"
+#include "task/processors.h"
 
 JoWorld *jox_world_create(const JoWorldDef *def) {
     JoWorld *world = jox_alloc(1, sizeof *world);
@@ -14,7 +15,7 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     world->model.def.isa = jox_isa_resolve(def->isa);
     world->model.walking = jox_walk_law();
     world->heap = jox_heap_used();
-    world->scratch.pool = jox_pool_create(def->threads);
+    world->scratch.pool = jox_pool_create(def->threads ? def->threads : jox_processors());
     world->scratch.nav = jox_nav_create(&world->model.walking);
     jox_nav_set_literal(world->scratch.nav, def->literal);
     jox_nav_set_isa(world->scratch.nav, world->model.def.isa);

@@ -18,9 +18,11 @@
 
 static char folder[] = "/tmp/jostle-signals-XXXXXX";
 
-static const char SCENE[] = "jostle: 1\n"
-                            "duration: 1\n"
-                            "groups: {g: {behaviour: stander, at: [[0, 0], [1, 0]]}}\n";
+static const char SCENE[] =
+    "jostle: 1\n"
+    "duration: 1\n"
+    "places: {hall: {polygon: [[0, 0], [40, 0], [40, 40], [0, 40]]}}\n"
+    "groups: {g: {behaviour: stander, count: 1000, fill: grid, in: hall}}\n"; /* work for all */
 
 static const char *in_folder(const char *name) {
     static char paths[4][300];
