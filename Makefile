@@ -58,8 +58,16 @@ OPT.debug   := -O0 -g
 OPT.asan    := -O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT.ubsan   := -O1 -g1 -fsanitize=undefined -fno-sanitize-recover=all
 OPT.tsan    := -O1 -g1 -fsanitize=thread
+# For fuzzers (`make fuzz`): by clang, with counters of what was reached, and with assertions.
+OPT.fuzz    := -O1 -g1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT     := $(OPT.$(MODE))
-$(if $(OPT),,$(error MODE=$(MODE) is not one of release, debug, asan, ubsan, tsan))
+$(if $(OPT),,$(error MODE=$(MODE) is not one of release, debug, asan, ubsan, tsan, fuzz))
+ifeq ($(MODE),fuzz)
+ifneq ($(findstring clang,$(CC)),clang)
+override CC := clang
+override CXX := clang++
+endif
+endif
 WARN    := -Wall -Wextra -Wshadow -Wpointer-arith -Wstrict-prototypes -Wmissing-prototypes -Wvla
 # What an overrun of the stack, of a buffer or of the table of imports would need is not there; debug and
 # sanitised builds find more by themselves.
@@ -96,8 +104,9 @@ OBJ     := $(call objects,$(SRC_C) $(SRC_CC)) $(OBJ_WIDE)
 OBJ_CLI := $(call objects,$(SRC_CLI))
 UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
+FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.c)))
 
-.PHONY: reference all run test unit tests-built check bench bench-record bench-peers bench-instructions arm install uninstall clean test-all format
+.PHONY: reference all run test fuzz fuzzers unit tests-built check bench bench-record bench-peers bench-instructions arm install uninstall clean test-all format
 all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so.$(VERSION)
 
 # The two commands of the README. Both first install what is missing.
@@ -142,6 +151,13 @@ check:
 	@$(MAKE) --no-print-directory all
 	@B=$(B) SHARED=$(SHARED) .ci/suite check
 tests-built: $(UNIT)
+# Fuzzers: TIME seconds each, of all or of the one that FUZZ names; by libFuzzer, in a build of their own.
+TIME ?= 60
+fuzz:
+	@.ci/setup test
+	@$(MAKE) --no-print-directory MODE=fuzz fuzzers
+	@B=build/fuzz TIME=$(TIME) bash tests/fuzz/run.sh $(FUZZ)
+fuzzers: $(FUZZERS) $(B)/jostle
 
 define compile
 	@mkdir -p $(@D)
@@ -191,6 +207,13 @@ $(B)/unit/%: tests/unit/%.c $(B)/internal.a
 	$(call say,TEST,$<)
 	$(Q)$(CC) $(CPPFLAGS_ALL) $(PLACES) -DJOX_BULLET=$(BULLET) $(CFLAGS_ALL) -Itests -c $< -o $@.o
 	$(Q)$(LINK) $@.o $(B)/internal.a -o $@ -lcmocka $(LIBS)
+# In builds by libFuzzer its main drives a target, in others tests/fuzz/support/replay.c.
+OBJ_FUZZ := $(patsubst %.c,$(B)/%.o,$(filter-out $(if $(filter fuzz,$(MODE)),%/replay.c),$(wildcard tests/fuzz/support/*.c)))
+.SECONDARY: $(OBJ_FUZZ) $(FUZZERS:$(B)/fuzz/%=$(B)/tests/fuzz/%.o)
+$(B)/fuzz/%: $(B)/tests/fuzz/%.o $(OBJ_FUZZ) $(filter-out %/main.o,$(OBJ_CLI)) $(B)/internal.a
+	@mkdir -p $(@D)
+	$(call say,LINK,$@)
+	$(Q)$(LINK) $(if $(filter fuzz,$(MODE)),-fsanitize=fuzzer) $^ -o $@ $(LIBS)
 $(B)/bench/%: tests/bench/%.c $(B)/internal.a
 	@mkdir -p $(@D)
 	$(call say,TEST,$<)

@@ -234,7 +234,7 @@ void jox_section_rows(JoxSections *s, const char *name, double *rows, size_t str
     }
     static const double ZERO = 0.0;
     for (size_t k = 0; k < count && is_hashed(s); k++) {
-        const double *row = rows + stride * (order ? order[k] : k);
+        const double *row = stride ? rows + stride * (order ? order[k] : k) : rows;
         size_t used = stride;
         while (used && memcmp(&row[used - 1], &ZERO, sizeof ZERO) == 0)
             used--;

@@ -122,7 +122,7 @@ static int edit_distance(const char *a, const char *b) {
 const char *jox_suggest(const char *word, const char *const *names, size_t count) {
     const char *nearest = NULL;
     int limit = (int)strlen(word) / 3 + 1, best = limit < 3 ? limit + 1 : 4;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count && best > 1; i++) {
         int d = names[i] ? edit_distance(word, names[i]) : 99;
         if (d < best) {
             best = d;

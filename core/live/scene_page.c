@@ -110,7 +110,7 @@ static void client_left(void *self, uint32_t client) {
         s->inspector = 0;
 }
 
-static const JoxLiveSource SCENE = {
+const JoxLiveSource jox_scene_page_source = {
     .colour = first_colour,
     .field = first_field,
     .scene = describe,
@@ -154,7 +154,7 @@ static bool run(JoxScenePage *s, JoError *error) {
 
 static bool view(const JoViewDef *def, JoError *error) {
     JoxScenePage s = {.def = def, .scene_def = def->scene};
-    s.page.source = &SCENE;
+    s.page.source = &jox_scene_page_source;
     s.page.self = &s;
     if (!jox_live_page_open(&s.page, def->address, def->port, def->page, def->three, error))
         return false;

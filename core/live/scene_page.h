@@ -29,6 +29,8 @@ typedef struct JoxScenePage {
     size_t error_count, error_capacity;
 } JoxScenePage;
 
+/* scene_page.c: what the page asks of a scene; `self` is a JoxScenePage. */
+extern const JoxLiveSource jox_scene_page_source;
 /* scene_load.c: loads the scene, with everything that is written of it; false with `error`, and
    the scene that ran before goes on. */
 bool jox_scene_page_load(JoxScenePage *scene, JoError *error);

@@ -1,0 +1,50 @@
+/* Any bytes as a checkpoint, as they are and with the checksums that they would need: of what is
+   behind these, too, nothing is believed. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/format/pieces.h"
+#include "base/mem.h"
+#include "support/fuzz.h"
+
+static void ignore(void *context, const char *text) {
+    (void)context;
+    (void)text;
+}
+
+static void resume(const void *data, size_t size) {
+    JoSceneDef def = jo_default_scene_def();
+    JoError error = {0};
+    char *note = NULL;
+    def.message = ignore;
+    JoScene *scene = jo_scene_resume(&def, fuzz_write("f.checkpoint", data, size), &note, &error);
+    FUZZ_CHECK(scene || *error.text);
+    jo_free(note);
+    fuzz_run(scene, 3);
+}
+
+/* Piece by piece, each with the length and the name that it claims, into a file of good form. */
+static void mend(const uint8_t *data, size_t size, JoxText *out) {
+    enum { HEAD = 40, PIECE = 32, NAME = 16 }; /* bytes: of a file's head, of a piece's, a name */
+    jox_pieces_begin(out);
+    for (size_t at = HEAD; at + PIECE < size;) {
+        char name[NAME] = {0};
+        uint64_t length;
+        memcpy(name, data + at, NAME - 1);
+        memcpy(&length, data + at + NAME, sizeof length);
+        length = length < size - at - PIECE ? length : size - at - PIECE;
+        if (strcmp(name, "end") != 0)
+            jox_pieces_add(out, name, data + at + PIECE, length);
+        at += PIECE + length + 1;
+    }
+    jox_pieces_end(out);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    JoxText mended = {0};
+    resume(data, size);
+    mend(data, size, &mended);
+    resume(mended.data, mended.length);
+    jox_text_free(&mended);
+    return 0;
+}

@@ -1,0 +1,15 @@
+/* Any bytes as a scene: a description of it or errors, of which each has its place. */
+#include <string.h>
+
+#include "scene/scene.h"
+#include "support/fuzz.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    JoxDiagnostics diagnostics = {0};
+    JoxSceneSpec *scene =
+        jox_scene_load_text("tests/fuzz/fuzz.yaml", (const char *)data, size, NULL, &diagnostics);
+    FUZZ_CHECK((scene != NULL) == (diagnostics.errors == 0));
+    jox_scene_free(scene);
+    fuzz_end_diagnostics(&diagnostics);
+    return 0;
+}

@@ -1,0 +1,67 @@
+#include "recording.h"
+
+#include <math.h>
+
+#include "base/mem.h"
+#include "record/trajectory_reader.h"
+#include "scene/walls/wall_file.h"
+
+enum { MOST_FRAMES = 50 };
+static const JoxTrajectoryOptions OPTIONS = {.fps = 10, .unit = 1};
+
+static void by_frames(const char *path) {
+    JoxDiagnostics diagnostics = {0};
+    JoxTrajectoryReader *reader = jox_trajectory_reader_open(path, &OPTIONS, &diagnostics);
+    FUZZ_CHECK((reader != NULL) == (diagnostics.errors == 0));
+    fuzz_end_diagnostics(&diagnostics);
+    if (!reader)
+        return;
+    const JoxTrajectoryReaderInfo info = jox_trajectory_reader_info(reader);
+    JoxText why = {0};
+    JoxTrajectoryReaderFrame frame;
+    for (uint32_t f = 0; f < info.frames && f < MOST_FRAMES; f++) {
+        why.length = 0;
+        if (!jox_trajectory_reader_read(reader, f, &frame, &why)) {
+            FUZZ_CHECK(why.length > 0);
+            break;
+        }
+        for (uint32_t i = 0; i < frame.count; i++) {
+            FUZZ_CHECK(i == 0 || frame.id[i - 1] < frame.id[i]);
+            FUZZ_CHECK(isfinite(frame.x[i]) && isfinite(frame.y[i]));
+            FUZZ_CHECK(!frame.state || frame.state[i] == JOX_NO_RECORDED_STATE ||
+                       frame.state[i] < info.state_count);
+        }
+        JoxBodyLook look;
+        for (uint32_t b = 0; b < frame.body_count && b < 20; b++)
+            for (uint32_t p = 0; jox_trajectory_reader_part(reader, f, b, p, &look) && p < 20;)
+                p++;
+    }
+    jox_text_free(&why);
+    jox_trajectory_reader_close(reader);
+}
+
+static void whole(const char *path) {
+    JoxDiagnostics diagnostics = {0};
+    JoxTrajectories *t = jox_trajectories_read(path, &OPTIONS, &diagnostics);
+    FUZZ_CHECK((t != NULL) == (diagnostics.errors == 0));
+    fuzz_end_diagnostics(&diagnostics);
+    JoxFrame frame;
+    for (uint32_t f = 0; t && f < MOST_FRAMES && jox_trajectories_frame(t, f, &frame); f++)
+        for (uint32_t i = 0; i < frame.count; i++)
+            FUZZ_CHECK(isfinite(frame.x[i]) && isfinite(frame.vx[i]) && frame.key[i] < frame.keys);
+    jox_trajectories_free(t);
+}
+
+static void plan(const char *path) {
+    JoxDiagnostics diagnostics = {0};
+    char *text = jox_wall_file_recorded(path, &diagnostics);
+    FUZZ_CHECK((text != NULL) == (diagnostics.errors == 0));
+    jox_free(text);
+    fuzz_end_diagnostics(&diagnostics);
+}
+
+void fuzz_recording(const char *path) {
+    by_frames(path);
+    whole(path);
+    plan(path);
+}

@@ -1,0 +1,7 @@
+/* Any bytes as a text recording, whatever its columns. */
+#include "support/recording.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    fuzz_recording(fuzz_write("f.txt", data, size));
+    return 0;
+}
