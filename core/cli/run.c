@@ -11,7 +11,7 @@ typedef struct Run {
     CliList sets, mods;
     const char *record, *report, *data, *summary, *log;
     const char *folder; /* for checkpoints */
-    double seconds, every;
+    double seconds, every, record_every;
     uint64_t steps, seeds, trace;
     bool view, of_scene, has_seconds, has_steps, watch, no_watch, has_trace, quiet, profile;
     bool no_half;
@@ -36,6 +36,10 @@ static const CliOption OPTIONS[] = {
     CLI_ISA_OPTION(read_isa),
     {"log-input", "FILE", "write an input log (replaces FILE)", CLI_TO(Run, log)},
     {"record", "FILE", "write trajectories (SQLite, JuPedSim format 2)", CLI_TO(Run, record)},
+    {"record-every", "S",
+     "a frame of --record each S seconds, which are rounded to whole steps; what people bear is "
+     "its mean since the frame before",
+     "0.1", CLI_TO(Run, record_every), CLI_RANGE(0.001, 1e6)},
     {"checkpoint", "S",
      "every S simulated seconds, write all that the run's future depends on, with the text of each "
      "file, for `jostle resume`: to latest.checkpoint, and the one before to before.checkpoint. "
@@ -154,7 +158,7 @@ static int simulate(Run *run, char **summary) {
     double dt = jo_scene_stats(scene).dt;
     double seconds = run->has_seconds ? run->seconds : jo_scene_duration(scene);
     uint64_t steps = run->has_steps ? run->steps : (uint64_t)(seconds / dt + 0.5);
-    bool ok = (!run->record || jo_scene_record(scene, run->record, &error)) &&
+    bool ok = (!run->record || jo_scene_record(scene, run->record, run->record_every, &error)) &&
               (!run->report || jo_scene_report(scene, run->report, &error)) &&
               (!run->data || jo_scene_data(scene, run->data, &error)) &&
               (!run->log || jo_scene_log_input(scene, run->log, &error)) &&
@@ -199,6 +203,7 @@ static int show(Run *run, char **summary) {
     live->scene = run->def;
     live->watch = !run->no_watch;
     live->record = run->record;
+    live->record_every = run->record_every;
     live->log_input = run->log;
     live->stop = &cli_signal;
     live->opened = print_address;
@@ -250,6 +255,7 @@ static const char *misuse(const Run *run) {
            : run->seeds && (run->record || run->report || run->watch || run->log)
                ? "--seeds cannot be combined with --record, --report, --log-input or --watch"
            : (run->every > 0.0) != (run->folder != NULL) ? "--checkpoint goes with --checkpoint-dir"
+           : run->record_every > 0.0 && !run->record     ? "--record-every goes with --record"
            : run->folder && (run->seeds || run->view || run->report || run->data)
                ? "--checkpoint cannot be combined with --seeds, --view, --report or --data"
            : run->view && (run->seeds || run->report || run->data || run->has_trace || run->profile)

@@ -259,8 +259,9 @@ JO_API char *jo_scene_inspect(JoScene *scene, uint32_t slot);
 /* From here on writes what people do, and files that are reloaded, to a file (replaced if it is
    there), which JoSceneDef.input_log plays back to the same state. */
 JO_API bool jo_scene_log_input(JoScene *scene, const char *path, JoError *error);
-/* Writes trajectories to an SQLite file from here on (JuPedSim format, version 2). */
-JO_API bool jo_scene_record(JoScene *scene, const char *path, JoError *error);
+/* Writes trajectories to an SQLite file from here on (JuPedSim format, version 2): a frame each
+   `every` seconds, which are rounded to whole steps; 0: each 0.1 s. */
+JO_API bool jo_scene_record(JoScene *scene, const char *path, double every, JoError *error);
 /* Of a scene that is `resumable`, before its first step: from here on writes a checkpoint into a
    directory (made if it is missing) every so many simulated seconds, at the first step behind that
    at which all can be saved exactly: latest.checkpoint, and before.checkpoint, the one before. Each

@@ -41,6 +41,7 @@ typedef struct JoViewDef {
     bool watch;               /* files that are edited are reloaded; on by default */
     double seconds;           /* simulated, after which it pauses; 0: the scene's duration */
     const char *record;       /* file for trajectories, or NULL; a restart begins it anew */
+    double record_every;      /* s between its frames, as for jo_scene_record */
     const char *log_input;    /* file for what people do, or NULL; a restart begins it anew */
     const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
     JoMessage *opened;        /* NULL, or told the page's address once it can be opened */

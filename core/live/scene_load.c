@@ -28,7 +28,7 @@ bool jox_scene_page_end(JoxScenePage *s, JoError *error) {
 /* Everything of a run that is written, and the files that are watched. */
 static bool begin(JoxScenePage *s, JoError *error) {
     const JoViewDef *def = s->def;
-    return (!def->record || jo_scene_record(s->scene, def->record, error)) &&
+    return (!def->record || jo_scene_record(s->scene, def->record, def->record_every, error)) &&
            (!def->log_input || jo_scene_log_input(s->scene, def->log_input, error)) &&
            (!def->watch || jo_scene_watch(s->scene, error));
 }

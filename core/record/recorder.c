@@ -29,7 +29,7 @@ typedef struct Frame {
 struct JoxRecorder {
     FILE *claimed; /* the same file, so that no other run writes it */
     sqlite3 *db;
-    sqlite3_stmt *row, *agent, *body, *frame;
+    sqlite3_stmt *row, *body, *frame;
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t filled, emptied;
@@ -99,17 +99,13 @@ static bool write_rows(JoxRecorder *r, const Frame *f) {
         const JoxRecordRow *row = &f->rows[i];
         sqlite3_bind_int64(r->row, 1, f->number);
         sqlite3_bind_int64(r->row, 2, row->id);
-        const float numbers[] = {row->x, row->y, row->ori_x, row->ori_y};
-        for (int k = 0; k < 4; k++)
+        const float numbers[] = {row->x,     row->y,           row->ori_x, row->ori_y,
+                                 row->force, row->compression, row->load};
+        for (int k = 0; k < 7; k++)
             sqlite3_bind_double(r->row, 3 + k, numbers[k]);
-        sqlite3_bind_int64(r->agent, 1, f->number);
-        sqlite3_bind_int64(r->agent, 2, row->id);
-        sqlite3_bind_int64(r->agent, 3, row->state);
-        sqlite3_bind_double(r->agent, 4, row->force);
-        sqlite3_bind_double(r->agent, 5, row->compression);
-        sqlite3_bind_int64(r->agent, 6, row->group);
-        sqlite3_bind_double(r->agent, 7, row->load);
-        if (!put(r, r->row) || !put(r, r->agent))
+        sqlite3_bind_int64(r->row, 10, row->state);
+        sqlite3_bind_int64(r->row, 11, row->group);
+        if (!put(r, r->row))
             return false;
         r->low_x = fmin(r->low_x, row->x), r->high_x = fmax(r->high_x, row->x);
         r->low_y = fmin(r->low_y, row->y), r->high_y = fmax(r->high_y, row->y);
@@ -185,22 +181,23 @@ static bool is_recording(const char *path) {
     sqlite3 *db = NULL;
     sqlite3_stmt *statement = NULL;
     bool found = jox_database_open(path, &db) &&
-                 sqlite3_prepare_v2(db, "SELECT frame FROM jostle_agent LIMIT 1", -1, &statement,
+                 sqlite3_prepare_v2(db, "SELECT number FROM jostle_state LIMIT 1", -1, &statement,
                                     NULL) == SQLITE_OK;
     jox_database_close(db); /* and its statement */
     return found;
 }
 
+/* Columns of ours stand beside those of the format, whose readers name the ones that they take. The
+   key is the format's index: rows are found by it, and lie in its order. A whole number takes one
+   to four bytes, any other eight. */
 static const char SCHEMA[] =
     "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN;"
     "CREATE TABLE trajectory_data(frame INTEGER NOT NULL, id INTEGER NOT NULL, pos_x REAL NOT NULL,"
-    " pos_y REAL NOT NULL, ori_x REAL NOT NULL, ori_y REAL NOT NULL);"
+    " pos_y REAL NOT NULL, ori_x REAL NOT NULL, ori_y REAL NOT NULL, force REAL, compression REAL,"
+    " load REAL, state INTEGER, member INTEGER, PRIMARY KEY(frame, id)) WITHOUT ROWID;"
     "CREATE TABLE metadata(key TEXT NOT NULL UNIQUE PRIMARY KEY, value TEXT NOT NULL);"
     "CREATE TABLE geometry(hash INTEGER NOT NULL UNIQUE, wkt TEXT NOT NULL);"
     "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"
-    "CREATE INDEX frame_id_idx ON trajectory_data(frame, id);"
-    "CREATE TABLE jostle_agent(frame INTEGER, id INTEGER, state INTEGER, force REAL,"
-    " compression REAL, member INTEGER, load REAL);"
     "CREATE TABLE jostle_group(number INTEGER PRIMARY KEY, name TEXT);"
     "CREATE TABLE jostle_state(number INTEGER PRIMARY KEY, machine TEXT, state TEXT);"
     "CREATE TABLE jostle_body(frame INTEGER, id INTEGER, x REAL, y REAL, z REAL, qx REAL, qy REAL,"
@@ -227,8 +224,8 @@ static bool start_file(JoxRecorder *r, double fps, const char *wkt) {
 
 /* Takes out what was written behind a frame. */
 static bool go_on(JoxRecorder *r, uint32_t last) {
-    static const char *const TABLES[] = {"trajectory_data", "jostle_agent", "jostle_body",
-                                         "jostle_part", "frame_data"};
+    static const char *const TABLES[] = {"trajectory_data", "jostle_body", "jostle_part",
+                                         "frame_data"};
     static const char *const BOUNDS[] = {"MIN(pos_x)", "MAX(pos_x)", "MIN(pos_y)", "MAX(pos_y)"};
     double *const to[] = {&r->low_x, &r->high_x, &r->low_y, &r->high_y};
     char sql[160];
@@ -250,8 +247,7 @@ static bool go_on(JoxRecorder *r, uint32_t last) {
 }
 
 static bool prepare_rows(JoxRecorder *r) {
-    return prepare(r, &r->row, "INSERT INTO trajectory_data VALUES(?, ?, ?, ?, ?, ?)") &&
-           prepare(r, &r->agent, "INSERT INTO jostle_agent VALUES(?, ?, ?, ?, ?, ?, ?)") &&
+    return prepare(r, &r->row, "INSERT INTO trajectory_data VALUES(?,?,?,?,?,?,?,?,?,?,?)") &&
            prepare(r, &r->body, "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
            prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
 }

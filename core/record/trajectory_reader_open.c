@@ -123,28 +123,28 @@ static void read_states(JoxTrajectoryReader *r) {
     sqlite3_finalize(list);
 }
 
-/* The columns that there are: of ours, of ours before loads were recorded; of JuPedSim; of whoever
- * writes no more than places. */
+/* The columns that there are: of ours; of older ones of ours, which have a table more, and of those
+   before loads were recorded; of JuPedSim; of whoever writes no more than places. */
 static bool prepare_rows(JoxTrajectoryReader *r) {
     static const char *const WAYS[] = {"WHERE d.frame = ?1 ORDER BY d.id",
                                        "WHERE d.rowid >= ?2 AND d.rowid < ?3 ORDER BY d.id"};
-#define OURS                                                                                       \
-    "SELECT d.id, d.pos_x, d.pos_y, d.ori_x, d.ori_y, a.state, a.force, a.compression, a.member"
+#define PLACED "SELECT d.id, d.pos_x, d.pos_y, d.ori_x, d.ori_y"
+#define OURS PLACED ", a.state, a.force, a.compression, a.member"
 #define OF_AGENTS                                                                                  \
     " FROM trajectory_data d LEFT JOIN jostle_agent a ON a.rowid = d.%s AND a.id = d.id"           \
     " AND a.frame = d.frame"
     static const char *const COLUMNS[] = {
-        OURS ", a.load" OF_AGENTS, OURS OF_AGENTS,
-        "SELECT d.id, d.pos_x, d.pos_y, d.ori_x, d.ori_y FROM trajectory_data d",
+        PLACED ", d.state, d.force, d.compression, d.member, d.load FROM trajectory_data d",
+        OURS ", a.load" OF_AGENTS, OURS OF_AGENTS, PLACED " FROM trajectory_data d",
         "SELECT d.id, d.pos_x, d.pos_y FROM trajectory_data d"};
-    for (int c = 0; c < 4 && !r->rows; c++) {
+    for (int c = 0; c < 5 && !r->rows; c++) {
         JoxText sql = {0};
         jox_text_printf(&sql, COLUMNS[c], r->sorted ? "source" : "rowid");
         jox_text_printf(&sql, " %s", WAYS[r->way]);
         r->rows = prepare(r->db, sql.data);
-        r->loads = c == 0;
-        r->ours = c < 2;
-        r->facing = c < 3;
+        r->loads = c < 2;
+        r->ours = c < 3;
+        r->facing = c < 4;
         jox_text_free(&sql);
     }
     double last;

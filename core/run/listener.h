@@ -22,8 +22,6 @@ typedef struct JoxListenerKind {
     /* What its future depends on, as sections, where it goes on in a resumed run (NULL: it begins
        anew); it is then all written that was collected. */
     void (*sections)(void *self, JoxSections *sections);
-    /* Whether this step leaves nothing half collected; NULL: any does. */
-    bool (*is_whole)(const void *self, const JoScene *scene);
     /* Has all on the disk that was written so far. False with `error`. */
     bool (*settle)(void *self, JoError *error);
     /* The run has ended, once: what is left to write is written. False with `error` if that failed.

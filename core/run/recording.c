@@ -8,7 +8,7 @@
 #include "record/recorder.h"
 #include "run/run.h"
 
-static const double FRAME = 0.1; /* s between recorded frames, or a step where that is longer */
+static const double FRAME = 0.1; /* s between recorded frames where nothing else is asked for */
 
 typedef struct Recording {
     JoxRecorder *recorder;
@@ -67,6 +67,7 @@ static void write_area(const JoScene *scene, JoxText *wkt) {
 /* Where a recording goes: a new one, or on with one that there is. */
 typedef struct Target {
     const char *path;
+    double every; /* s; a step where that is longer */
     bool goes_on;
 } Target;
 
@@ -76,13 +77,14 @@ static bool begin(void *self, JoScene *scene, const void *options, JoError *erro
     const char *path = target->path;
     JoxText wkt = {0}, why = {0};
     double dt = scene->world->model.def.dt;
-    r->every = dt >= FRAME ? 1 : (uint32_t)(FRAME / dt + 0.5);
     if (target->goes_on) {
+        if (!jox_run_take_up(scene, &RECORDING, self, error))
+            return false;
         r->recorder =
             jox_recorder_go_on(path, (uint32_t)(scene->world->state.tick / r->every), &why);
-        return r->recorder ? jox_run_take_up(scene, &RECORDING, self, error)
-                           : jox_run_failed(error, &why);
+        return r->recorder || jox_run_failed(error, &why);
     }
+    r->every = dt >= target->every ? 1 : (uint32_t)(target->every / dt + 0.5);
     write_area(scene, &wkt);
     r->recorder = jox_recorder_open(path, 1.0 / (dt * r->every), wkt.data, &why);
     jox_text_free(&wkt);
@@ -185,11 +187,6 @@ static void release(void *self) {
     jox_free(r->borne);
 }
 
-/* Who bears what since the last frame is nothing where there has just been one. */
-static bool is_whole(const void *self, const JoScene *scene) {
-    return scene->world->state.tick % ((const Recording *)self)->every == 0;
-}
-
 static bool settle(void *self, JoError *error) {
     JoxText why = {0};
     return jox_recorder_settle(((Recording *)self)->recorder, &why) || jox_run_failed(error, &why);
@@ -197,10 +194,12 @@ static bool settle(void *self, JoError *error) {
 
 static void list_sections(void *self, JoxSections *s) {
     Recording *r = self;
-    size_t shapes = r->shape_capacity;
+    size_t shapes = r->shape_capacity, borne = r->borne_capacity;
+    JOX_SECTION(s, "every", r->every);
     JOX_SECTION(s, "base", r->base);
     JOX_SECTION(s, "next", r->next);
     JOX_SECTION_ARRAY(s, "shapes", r->shapes, shapes, r->shape_capacity);
+    JOX_SECTION_ARRAY(s, "borne", r->borne, borne, r->borne_capacity);
 }
 
 static const JoxListenerKind RECORDING = {.name = "recording",
@@ -209,7 +208,6 @@ static const JoxListenerKind RECORDING = {.name = "recording",
                                           .frame = record_frame,
                                           .replaced = name_states,
                                           .sections = list_sections,
-                                          .is_whole = is_whole,
                                           .settle = settle,
                                           .end = end,
                                           .release = release};
@@ -220,12 +218,14 @@ static bool record(JoScene *scene, const Target *target, JoError *error) {
     return jox_run_listen(scene, &RECORDING, target, error) != NULL;
 }
 
-bool jo_scene_record(JoScene *scene, const char *path, JoError *error) {
-    JOX_REQUIRE(scene && path && !jox_run_listener(scene, &RECORDING), false);
-    return record(scene, &(Target){path, false}, error);
+bool jo_scene_record(JoScene *scene, const char *path, double every, JoError *error) {
+    JOX_REQUIRE(scene && path && every >= 0.0 && every <= 1e6 &&
+                    !jox_run_listener(scene, &RECORDING),
+                false);
+    return record(scene, &(Target){path, every > 0.0 ? every : FRAME, false}, error);
 }
 
 bool jo_scene_record_on(JoScene *scene, const char *path, JoError *error) {
     JOX_REQUIRE(scene && path && !jox_run_listener(scene, &RECORDING), false);
-    return record(scene, &(Target){path, true}, error);
+    return record(scene, &(Target){path, 0.0, true}, error);
 }

@@ -24,6 +24,10 @@ between "overlaps are slight" "$(figure overlap_p99 <"$work/t.json")" 0 0.05
 between "frames" "$(sql "$work/t.sqlite" "SELECT count(DISTINCT frame) FROM trajectory_data")" 200 200
 [ "$(sql "$work/t.sqlite" "SELECT value FROM metadata WHERE key = 'version'")" = 2 ]; verdict "format version 2" $?
 
+"$JOSTLE" run scenes/evacuation.yaml --quiet --for 20 --record "$work/e.sqlite" --record-every 1 2>/dev/null
+[ "$(sql "$work/e.sqlite" "SELECT count(DISTINCT frame) || ' ' || max(frame) || ' ' || (SELECT value FROM metadata WHERE key = 'fps') FROM trajectory_data")" = "20 20 1" ]
+verdict "a frame a second" $?
+
 "$JOSTLE" run scenes/circle.yaml --quiet --record "$work/c.sqlite" --summary "$work/c.json"
 between "all thousand arrive" "$(grep -o '"Rest": [0-9]*' "$work/c.json" | grep -o '[0-9]*')" 900 1000
 

@@ -64,9 +64,9 @@ cp "$work/live/log" "$work/live/until"; rm -f "$work/live/whole.json" "$work/liv
 same_hash "a behaviour that was reloaded goes on as it was then" "$(hash "$work/live/whole.json")" "$(hash "$work/live/rest.json")"
 
 # ---- recordings, and kills ----
-contents() { sqlite3 "$1" 'PRAGMA integrity_check; SELECT * FROM trajectory_data ORDER BY frame, id; SELECT * FROM jostle_agent ORDER BY frame, id; SELECT * FROM frame_data ORDER BY frame; SELECT * FROM jostle_body ORDER BY frame, id; SELECT * FROM metadata ORDER BY key' | sha256sum; }
+contents() { sqlite3 "$1" 'PRAGMA integrity_check; SELECT * FROM trajectory_data ORDER BY frame, id; SELECT * FROM frame_data ORDER BY frame; SELECT * FROM jostle_body ORDER BY frame, id; SELECT * FROM metadata ORDER BY key' | sha256sum; }
 scene="$PWD/scenes/dodgeball.yaml"
-run() { exec "$program" run "$scene" --quiet --for 60 --record "$1/r.sqlite" --log-input "$1/log" --checkpoint 6.4 --checkpoint-dir "$1/ck"; }
+run() { exec "$program" run "$scene" --quiet --for 60 --record "$1/r.sqlite" --record-every 0.15 --log-input "$1/log" --checkpoint 6.4 --checkpoint-dir "$1/ck"; }
 mkdir -p "$work/whole"
 (run "$work/whole") 2>/dev/null; whole=$(contents "$work/whole/r.sqlite")
 good=0 resumed=0 kept=0

@@ -156,7 +156,7 @@ static bool recorded(JoError *error) {
     def.text_length = sizeof SCENE - 1;
     def.message = keep;
     JoScene *scene = jo_scene_load(&def, error);
-    bool good = scene && jo_scene_record(scene, recording, error) &&
+    bool good = scene && jo_scene_record(scene, recording, 0.0, error) &&
                 jo_scene_data(scene, folder, error) && use_scene(scene, error);
     jo_scene_free(scene);
     return good;

@@ -142,7 +142,7 @@ static void threads_of_a_scene(void **state) {
     JoSceneDef def = def_of_scene();
     JoScene *scene = jo_scene_load(&def, &error);
     assert_non_null(scene);
-    assert_true(jo_scene_record(scene, in_folder("run.sqlite"), &error));
+    assert_true(jo_scene_record(scene, in_folder("run.sqlite"), 0.0, &error));
     assert_true(jo_scene_watch(scene, &error));
     for (int i = 0; i < 5; i++)
         assert_true(jo_scene_step(scene, &error));

@@ -77,7 +77,7 @@ static inline void record(void) {
     JoError error = {0};
     recorded_count = 0;
     snprintf(path, sizeof path, "%s/room.sqlite", folder);
-    if (!jo_scene_record(scene, path, &error))
+    if (!jo_scene_record(scene, path, 0.0, &error))
         fail_msg("%s", error.text);
     for (int t = 0; t < 200; t++) {
         step(scene, 1);

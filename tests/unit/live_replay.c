@@ -209,7 +209,7 @@ static void densities_over_a_periodic_edge(void **state) {
     snprintf(file, sizeof file, "%s/other.sqlite", folder);
     snprintf(plan, sizeof plan, "%s/scene.yaml", folder);
     unlink(file);
-    assert_true(jo_scene_record(scene, file, &error));
+    assert_true(jo_scene_record(scene, file, 0.0, &error));
     step(scene, 4);
     jox_live_status(scene, &(JoxLiveSession){.speed = 1}, &text);
     parse(&text);
@@ -245,6 +245,11 @@ static void copy_file(const char *from, const char *to) {
     jox_free(text);
 }
 
+/* The same rows in a table without a key. */
+#define WITHOUT_KEY                                                                                \
+    "CREATE TABLE t AS SELECT * FROM trajectory_data ORDER BY frame, id;"                          \
+    "DROP TABLE trajectory_data; ALTER TABLE t RENAME TO trajectory_data;"
+
 /* Without the index, and without order either: the same frames. */
 static void recordings_of_others(void **state) {
     (void)state;
@@ -252,7 +257,7 @@ static void recordings_of_others(void **state) {
     char other[300];
     snprintf(other, sizeof other, "%s/other.sqlite", folder);
     copy_file(path, other);
-    run_sql(other, "DROP INDEX frame_id_idx; DROP TABLE frame_data");
+    run_sql(other, WITHOUT_KEY "DROP TABLE frame_data");
     JoxReplay *replay = open_replay(other, NULL, 0);
     assert_int_equal(jox_replay_frames(replay), recorded_count);
     check_frame(replay, 60, slots);
@@ -262,7 +267,7 @@ static void recordings_of_others(void **state) {
     run_sql(other,
             "CREATE TABLE t AS SELECT frame, id, pos_x, pos_y FROM trajectory_data ORDER BY id;"
             "DROP TABLE trajectory_data; ALTER TABLE t RENAME TO trajectory_data;"
-            "DROP TABLE jostle_agent; DROP TABLE jostle_state; DROP TABLE jostle_body; DROP TABLE "
+            "DROP TABLE jostle_state; DROP TABLE jostle_body; DROP TABLE "
             "jostle_part");
     replay = open_replay(other, NULL, 0);
     assert_int_equal(jox_replay_frames(replay), recorded_count);
@@ -345,7 +350,9 @@ static void damaged_recordings_give_errors(void **state) {
         const char *sql, *says;
     } CASES[] = {
         {"UPDATE trajectory_data SET pos_x = 1e30 WHERE frame = 20 AND id = 3", "1000 km"},
-        {"INSERT INTO trajectory_data SELECT * FROM trajectory_data WHERE frame = 9 AND id = 4",
+        {WITHOUT_KEY "CREATE INDEX i ON trajectory_data(frame, id);"
+                     "INSERT INTO trajectory_data SELECT * FROM trajectory_data WHERE frame = 9 "
+                     "AND id = 4",
          "twice"},
         {"DELETE FROM metadata", "how many frames"},
         {"UPDATE metadata SET value = '-3' WHERE key = 'fps'", "how many frames"},

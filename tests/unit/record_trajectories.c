@@ -356,7 +356,15 @@ static void our_recordings_keep_more(void **state) {
     sqlite3 *db;
     assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
     assert_int_equal(
-        sqlite3_exec(db, "ALTER TABLE jostle_agent DROP COLUMN load", NULL, NULL, NULL), SQLITE_OK);
+        sqlite3_exec(db,
+                     "CREATE TABLE jostle_agent AS SELECT frame, id, state, force, compression, "
+                     "member FROM trajectory_data ORDER BY frame, id;"
+                     "CREATE TABLE placed AS SELECT frame, id, pos_x, pos_y, ori_x, ori_y FROM "
+                     "trajectory_data ORDER BY frame, id; DROP TABLE trajectory_data;"
+                     "ALTER TABLE placed RENAME TO trajectory_data;"
+                     "CREATE INDEX frame_id_idx ON trajectory_data(frame, id)",
+                     NULL, NULL, NULL),
+        SQLITE_OK);
     sqlite3_close(db);
     t = read_file(0, 0, NULL);
     assert_non_null(t);

@@ -129,17 +129,6 @@ static bool write_file(const Checkpoint *c, const JoxText *data, JoError *error)
     return good;
 }
 
-/* Whether everybody can be left between this step and the next. */
-static bool is_whole(const JoScene *scene) {
-    bool whole = jox_world_snapshot_is_exact(scene->world);
-    for (uint32_t l = 0; whole && l < scene->listeners.count; l++) {
-        const JoxListener *listener = &scene->listeners.items[l];
-        if (listener->kind->is_whole)
-            whole = listener->kind->is_whole(listener->self, scene);
-    }
-    return whole;
-}
-
 /* What lies in other files is there before the checkpoint that counts on it. */
 static bool settle(const JoScene *scene, JoError *error) {
     for (uint32_t l = 0; l < scene->listeners.count; l++) {
@@ -155,7 +144,7 @@ static bool settle(const JoScene *scene, JoError *error) {
 
 static bool frame(void *self, JoScene *scene, JoError *error) {
     Checkpoint *c = self;
-    if (scene->world->state.tick < c->due || !is_whole(scene))
+    if (scene->world->state.tick < c->due || !jox_world_snapshot_is_exact(scene->world))
         return true;
     c->due = scene->world->state.tick + c->every;
     JoxText state = {0}, out = {0};
