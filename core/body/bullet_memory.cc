@@ -21,11 +21,15 @@ static size_t place_of(const void *memory) {
     return (reinterpret_cast<uintptr_t>(memory) >> 4) * 0x9e3779b97f4a7c15u >> 20;
 }
 
-static void put(Allocation *to, size_t size, Allocation allocation) {
+/* Takes the first place that is free or whose memory is gone: the same addresses come back again
+   and again. Returns whether it was free. */
+static bool put(Allocation *to, size_t size, Allocation allocation) {
     size_t at = place_of(allocation.memory) & (size - 1);
-    while (to[at].memory)
+    while (to[at].memory && to[at].memory != &gone)
         at = (at + 1) & (size - 1);
+    const bool was_free = !to[at].memory;
     to[at] = allocation;
+    return was_free;
 }
 
 /* Room for one more, without those that are gone. */
@@ -59,10 +63,8 @@ static void *allocate(size_t bytes) {
     if (memory && heap) {
         pthread_mutex_lock(&lock);
         bool room = grow();
-        if (room) {
-            put(table, capacity, {memory, heap});
-            used++;
-        }
+        if (room)
+            used += put(table, capacity, {memory, heap});
         pthread_mutex_unlock(&lock);
         if (!room) {
             free(memory);

@@ -18,6 +18,22 @@ static uint32_t ordered_bits(float x) {
     return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
 }
 
+/* For so few that counting digits would take longer. */
+enum { FEW = 32 };
+static void insertion_sort(uint64_t *keys, uint32_t *order, uint32_t count) {
+    for (uint32_t i = 1; i < count; i++) {
+        const uint64_t key = keys[i];
+        const uint32_t agent = order[i];
+        uint32_t at = i;
+        for (; at > 0 && keys[at - 1] > key; at--) {
+            keys[at] = keys[at - 1];
+            order[at] = order[at - 1];
+        }
+        keys[at] = key;
+        order[at] = agent;
+    }
+}
+
 /* Stable radix sort of keys[0] / order[0] by the low 48 bits; six passes end where they began. */
 static void radix_sort(JoxNav *nav, uint32_t count) {
     for (int pass = 0; pass < 6; pass++) {
@@ -80,7 +96,10 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
         uint32_t at = nav->order[0][i];
         nav->keys[0][i] = (uint64_t)jox_row_of(nav, a->y[at]) << 32 | ordered_bits(a->x[at]);
     }
-    radix_sort(nav, a->count);
+    if (a->count <= FEW)
+        insertion_sort(nav->keys[0], nav->order[0], a->count);
+    else
+        radix_sort(nav, a->count);
     uint32_t row = 0;
     for (uint32_t i = 0; i < a->count; i++)
         for (uint32_t here = (uint32_t)(nav->keys[0][i] >> 32); row <= here; row++)

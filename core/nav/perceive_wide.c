@@ -9,6 +9,7 @@
    packets with more candidates than numbers, are done again one by one (nearest.c), which orders
    exactly, and by id. So neighbours are exact, whatever the width. */
 #include <math.h>
+#include <string.h>
 
 #include "nav/kernels.h"
 #include "nav/rows.h"
@@ -304,7 +305,10 @@ static void perceive_packet(Packet *packet) {
 }
 
 void JOX_WIDE(jox_perceive_packets)(const JoxPerceive *p, uint32_t begin, uint32_t end) {
-    Packet packet = {.p = p};
+    Packet packet; /* large: what is written before it is read is left as it is */
+    packet.p = p;
+    packet.row = 0;
+    memset(packet.hints, 0, sizeof packet.hints);
     const float *most = p->agents->param[JOX_PARAM_neighbours];
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         uint32_t count = end - i < JOX_WIDTH ? end - i : JOX_WIDTH;

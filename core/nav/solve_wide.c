@@ -190,7 +190,10 @@ static void begin_packet(JoxPacket *p, uint32_t first, uint32_t end) {
 
 uint32_t JOX_WIDE(jox_solve_packets)(const JoxSolve *s, uint32_t begin, uint32_t end) {
     JoxRest unmet, far;
-    JoxPacket packet = {.s = s, .unmet = &unmet, .far = &far};
+    JoxPacket packet; /* large: each packet of agents begins its rows anew */
+    packet.s = s;
+    packet.unmet = &unmet;
+    packet.far = &far;
     uint32_t relaxed = 0;
     unmet.count = far.count = 0;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {

@@ -120,6 +120,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     world.forces = spec->forces;
     world.literal = spec->literal;
     scene->world = jox_world_create(&world);
+    scene->world->scratch.timed = true;
     scene->world->model.reinserts_bodies = def->resumable;
     jox_world_set_walking(scene->world, &spec->walking);
     if (!def->input_log)

@@ -47,7 +47,7 @@ typedef struct JoxBondStatistics {
 typedef struct JoxStatistics {
     uint64_t steps, agent_steps;
     double stage_s[JO_STAGE_COUNT]; /* wall time */
-    double wall_s, cpu_s;           /* of stepping; CPU time of the stepping thread */
+    double wall_s, cpu_s;           /* of stepping; CPU time of the process */
     uint64_t failures;              /* agent-steps whose 2-D program was infeasible */
     double failure_peak;            /* greatest share of a second's agent-steps */
     uint64_t second_failures, second_agent_steps;

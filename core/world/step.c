@@ -193,7 +193,9 @@ bool jox_world_step(JoWorld *w) {
     jox_world_starts(w);
     JOX_CHECK(jox_world_model_check(w));
     JOX_CHECK(jox_world_agents_check(w));
-    double begin = jox_clock_wall(), cpu = jox_clock_cpu(), last = begin;
+    const bool timed = w->scratch.timed || jox_pool_threads(w->scratch.pool) > 1;
+    double begin = timed ? jox_clock_wall() : 0.0, cpu = timed ? jox_clock_cpu() : 0.0;
+    double last = begin;
     jox_world_resolve_placement(w);
     if (w->model.reinserts_bodies &&
         w->state.tick % JOX_BODIES_REINSERT_STEPS == 0) /* a state saved now goes on alike */
@@ -206,7 +208,7 @@ bool jox_world_step(JoWorld *w) {
         const JoxSubstep substep = substep_of(w, number, substeps);
         for (int stage = 0; stage < JO_STAGE_COUNT; stage++) {
             STAGES[stage](w, &substep);
-            double now = jox_clock_wall();
+            double now = timed ? jox_clock_wall() : 0.0;
             w->state.statistics.stage_s[stage] += now - last;
             last = now;
         }
@@ -215,7 +217,7 @@ bool jox_world_step(JoWorld *w) {
     w->state.tick++;
     w->state.statistics.wall_s += last - begin;
     jox_pool_lap(w->scratch.pool, last - begin);
-    w->state.statistics.cpu_s += jox_clock_cpu() - cpu;
+    w->state.statistics.cpu_s += timed ? jox_clock_cpu() - cpu : 0.0;
     if (!good)
         return false;
     jox_world_exits(w);

@@ -80,6 +80,7 @@ typedef struct JoxWorldState {
    Between steps some of it says what the last step did. */
 typedef struct JoxWorldScratch {
     JoxPool *pool;
+    bool timed; /* somebody may ask for times: reading clocks costs small worlds much of a step */
     JoxNeighbours neighbours;
     JoxNav *nav;
     JoxForces *forces;
