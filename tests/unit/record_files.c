@@ -78,8 +78,9 @@ static void a_recording_reads_back(void **state) {
     assert_true(ask(db, "SELECT count(*) FROM frame_data") == 100);
     assert_true(ask(db, "SELECT count(*) FROM trajectory_data WHERE pos_x = frame + id / 4.0 AND "
                         "pos_y = -frame AND ori_x = 0 AND ori_y = 1") == 300);
-    assert_true(ask(db, "SELECT count(*) FROM trajectory_data WHERE state = id AND force = 10.5 AND "
-                        "compression = 2.25 AND load = 3.5") == 300);
+    assert_true(ask(db,
+                    "SELECT count(*) FROM trajectory_data WHERE state = id AND force = 10.5 AND "
+                    "compression = 2.25 AND load = 3.5") == 300);
     assert_true(ask(db, "SELECT count(*) FROM jostle_body WHERE id = 7 AND x = frame AND y = 2 AND "
                         "z = 3 AND qw = 1") == 100);
     assert_true(ask(db, "SELECT count(*) FROM jostle_state WHERE machine = 'machine' AND "
