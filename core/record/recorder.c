@@ -8,15 +8,15 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "base/database.h"
 #include "base/file.h"
 #include "base/mem.h"
+#include "record/recorder_file.h"
 #include "task/thread.h"
 
-enum { FRAMES = 4 };
-static const double COMMITTED = 1.0; /* s, within which frames are committed */
+enum { FRAMES = 4, COLUMNS = 11, BATCH = 50 }; /* rows that one statement writes */
+static const double COMMITTED = 1.0;           /* s, within which frames are committed */
 
 typedef struct Frame {
     uint32_t number;
@@ -29,7 +29,7 @@ typedef struct Frame {
 struct JoxRecorder {
     FILE *claimed; /* the same file, so that no other run writes it */
     sqlite3 *db;
-    sqlite3_stmt *row, *body, *frame;
+    sqlite3_stmt *row, *batch, *body, *frame;
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t filled, emptied;
@@ -94,21 +94,29 @@ static bool write_bounds(JoxRecorder *r) {
            set_number(r, "ymin", r->low_y) && set_number(r, "ymax", r->high_y);
 }
 
+static void bind_row(sqlite3_stmt *to, int first, uint32_t frame, const JoxRecordRow *row) {
+    const float numbers[] = {row->x,     row->y,           row->ori_x, row->ori_y,
+                             row->force, row->compression, row->load};
+    sqlite3_bind_int64(to, first, frame);
+    sqlite3_bind_int64(to, first + 1, row->id);
+    for (int k = 0; k < 7; k++)
+        sqlite3_bind_double(to, first + 2 + k, numbers[k]);
+    sqlite3_bind_int64(to, first + 9, row->state);
+    sqlite3_bind_int64(to, first + 10, row->group);
+}
+
 static bool write_rows(JoxRecorder *r, const Frame *f) {
-    for (uint32_t i = 0; i < f->row_count; i++) {
-        const JoxRecordRow *row = &f->rows[i];
-        sqlite3_bind_int64(r->row, 1, f->number);
-        sqlite3_bind_int64(r->row, 2, row->id);
-        const float numbers[] = {row->x,     row->y,           row->ori_x, row->ori_y,
-                                 row->force, row->compression, row->load};
-        for (int k = 0; k < 7; k++)
-            sqlite3_bind_double(r->row, 3 + k, numbers[k]);
-        sqlite3_bind_int64(r->row, 10, row->state);
-        sqlite3_bind_int64(r->row, 11, row->group);
-        if (!put(r, r->row))
+    for (uint32_t i = 0; i < f->row_count;) {
+        const uint32_t count = f->row_count - i >= BATCH ? BATCH : 1;
+        sqlite3_stmt *const to = count == BATCH ? r->batch : r->row;
+        for (uint32_t k = 0; k < count; k++, i++) {
+            const JoxRecordRow *row = &f->rows[i];
+            bind_row(to, 1 + (int)k * COLUMNS, f->number, row);
+            r->low_x = fmin(r->low_x, row->x), r->high_x = fmax(r->high_x, row->x);
+            r->low_y = fmin(r->low_y, row->y), r->high_y = fmax(r->high_y, row->y);
+        }
+        if (!put(r, to))
             return false;
-        r->low_x = fmin(r->low_x, row->x), r->high_x = fmax(r->high_x, row->x);
-        r->low_y = fmin(r->low_y, row->y), r->high_y = fmax(r->high_y, row->y);
     }
     return true;
 }
@@ -175,18 +183,6 @@ static void *writer(void *argument) {
     return NULL;
 }
 
-/* Whether an existing file is a recording of ours, which may be replaced: another program's is not.
- */
-static bool is_recording(const char *path) {
-    sqlite3 *db = NULL;
-    sqlite3_stmt *statement = NULL;
-    bool found = jox_database_open(path, &db) &&
-                 sqlite3_prepare_v2(db, "SELECT number FROM jostle_state LIMIT 1", -1, &statement,
-                                    NULL) == SQLITE_OK;
-    jox_database_close(db); /* and its statement */
-    return found;
-}
-
 /* Columns of ours stand beside those of the format, whose readers name the ones that they take. The
    key is the format's index: rows are found by it, and lie in its order. A whole number takes one
    to four bytes, any other eight. */
@@ -247,9 +243,17 @@ static bool go_on(JoxRecorder *r, uint32_t last) {
 }
 
 static bool prepare_rows(JoxRecorder *r) {
-    return prepare(r, &r->row, "INSERT INTO trajectory_data VALUES(?,?,?,?,?,?,?,?,?,?,?)") &&
-           prepare(r, &r->body, "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
-           prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
+    JoxText batch = {0};
+    jox_text_printf(&batch, "INSERT INTO trajectory_data VALUES");
+    for (int k = 0; k < BATCH; k++)
+        jox_text_printf(&batch, "%s(?,?,?,?,?,?,?,?,?,?,?)", k ? "," : "");
+    const bool good =
+        prepare(r, &r->batch, batch.data) &&
+        prepare(r, &r->row, "INSERT INTO trajectory_data VALUES(?,?,?,?,?,?,?,?,?,?,?)") &&
+        prepare(r, &r->body, "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
+        prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
+    jox_text_free(&batch);
+    return good;
 }
 
 static void release(JoxRecorder *r) {
@@ -280,33 +284,6 @@ static void abandon(void *recorder) {
     release(recorder);
 }
 
-/* A new, empty file for one run alone; NULL with an error. A recording of an earlier run makes room
-   for it. */
-static FILE *claim(const char *path, JoxText *error) {
-    struct stat info;
-    const bool there = lstat(path, &info) == 0;
-    if (there && (!S_ISREG(info.st_mode) || (info.st_size > 0 && !is_recording(path)))) {
-        jox_text_printf(error, "'%s' is not a recording of Jostle's and is not replaced", path);
-        return NULL;
-    }
-    FILE *file = jox_file_open(path, "a");
-    if (file && there) {
-        for (int i = 0; i < 2; i++) { /* what a run that was killed left beside it */
-            JoxText side = {0};
-            jox_text_printf(&side, "%s-%s", path, i ? "shm" : "wal");
-            unlink(side.data);
-            jox_text_free(&side);
-        }
-        unlink(path);
-        FILE *fresh = jox_file_open(path, "a");
-        jox_file_close(file);
-        file = fresh;
-    }
-    if (!file)
-        jox_text_printf(error, "cannot record to '%s': %s", path, jox_file_why(errno));
-    return file;
-}
-
 /* Without a plan it goes on with the file, behind the last frame. */
 static JoxRecorder *begin(const char *path, FILE *file, double fps, const char *wkt, uint32_t last,
                           JoxText *error) {
@@ -319,7 +296,9 @@ static JoxRecorder *begin(const char *path, FILE *file, double fps, const char *
     r->geometry = 1;
     r->committed = now();
     r->claimed = file;
-    bool good = sqlite3_open(path, &r->db) == SQLITE_OK;
+    /* One thread at a time uses it: the writer, and the others once that has nothing to write. */
+    const int how = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+    bool good = sqlite3_open_v2(path, &r->db, how, NULL) == SQLITE_OK;
     if (!good)
         snprintf(r->why, sizeof r->why, "%s", sqlite3_errmsg(r->db));
     good = good && (wkt ? start_file(r, fps, wkt) : go_on(r, last)) && prepare_rows(r);
@@ -335,13 +314,13 @@ static JoxRecorder *begin(const char *path, FILE *file, double fps, const char *
 }
 
 JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, JoxText *error) {
-    FILE *file = claim(path, error);
+    FILE *file = jox_claim_recording(path, error);
     return file ? begin(path, file, fps, wkt, 0, error) : NULL;
 }
 
 JoxRecorder *jox_recorder_go_on(const char *path, uint32_t last, JoxText *error) {
     struct stat info;
-    const bool ours = lstat(path, &info) == 0 && S_ISREG(info.st_mode) && is_recording(path);
+    const bool ours = lstat(path, &info) == 0 && S_ISREG(info.st_mode) && jox_is_recording(path);
     FILE *file = ours ? jox_file_open(path, "a") : NULL;
     if (file)
         return begin(path, file, 0.0, NULL, last, error);
@@ -358,27 +337,27 @@ static void wait_for_writer(JoxRecorder *r) {
     pthread_mutex_unlock(&r->lock);
 }
 
-void jox_recorder_state(JoxRecorder *r, uint32_t number, const char *machine, const char *state) {
+/* A number with one name or two. */
+static void put_names(JoxRecorder *r, const char *sql, uint32_t number, const char *first,
+                      const char *second) {
     sqlite3_stmt *statement;
     wait_for_writer(r);
-    if (prepare(r, &statement, "INSERT OR REPLACE INTO jostle_state VALUES(?, ?, ?)")) {
-        sqlite3_bind_int64(statement, 1, number);
-        sqlite3_bind_text(statement, 2, machine, -1, SQLITE_STATIC);
-        sqlite3_bind_text(statement, 3, state, -1, SQLITE_STATIC);
-        put(r, statement);
-        sqlite3_finalize(statement);
-    }
+    if (!prepare(r, &statement, sql))
+        return;
+    sqlite3_bind_int64(statement, 1, number);
+    sqlite3_bind_text(statement, 2, first, -1, SQLITE_STATIC);
+    if (second)
+        sqlite3_bind_text(statement, 3, second, -1, SQLITE_STATIC);
+    put(r, statement);
+    sqlite3_finalize(statement);
+}
+
+void jox_recorder_state(JoxRecorder *r, uint32_t number, const char *machine, const char *state) {
+    put_names(r, "INSERT OR REPLACE INTO jostle_state VALUES(?, ?, ?)", number, machine, state);
 }
 
 void jox_recorder_group(JoxRecorder *r, uint32_t number, const char *name) {
-    sqlite3_stmt *statement;
-    wait_for_writer(r);
-    if (prepare(r, &statement, "INSERT OR REPLACE INTO jostle_group VALUES(?, ?)")) {
-        sqlite3_bind_int64(statement, 1, number);
-        sqlite3_bind_text(statement, 2, name, -1, SQLITE_STATIC);
-        put(r, statement);
-        sqlite3_finalize(statement);
-    }
+    put_names(r, "INSERT OR REPLACE INTO jostle_group VALUES(?, ?)", number, name, NULL);
 }
 
 void jox_recorder_walls(JoxRecorder *r, const JoxWalls *walls) {

@@ -1,0 +1,17 @@
+/* The file that a recording is written to: a new one, or one of ours that is replaced. */
+#ifndef JOX_RECORD_RECORDER_FILE_H
+#define JOX_RECORD_RECORDER_FILE_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "base/text.h"
+
+/* Whether an existing file is a recording of ours, which may be replaced: another program's is not.
+ */
+bool jox_is_recording(const char *path);
+/* A new, empty file for one run alone; NULL with an error. A recording of an earlier run makes room
+   for it. */
+FILE *jox_claim_recording(const char *path, JoxText *error);
+
+#endif
