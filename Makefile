@@ -106,7 +106,7 @@ UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.c)))
 
-.PHONY: reference all run test fuzz fuzzers unit tests-built check bench bench-record bench-peers bench-instructions arm install uninstall clean test-all format
+.PHONY: reference all run test fuzz fuzzers faults unit tests-built check bench bench-record bench-peers bench-instructions arm install uninstall clean test-all format
 all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so.$(VERSION)
 
 # The two commands of the README. Both first install what is missing.
@@ -158,6 +158,12 @@ fuzz:
 	@$(MAKE) --no-print-directory MODE=fuzz fuzzers
 	@B=build/fuzz TIME=$(TIME) bash tests/fuzz/run.sh $(FUZZ)
 fuzzers: $(FUZZERS) $(B)/jostle
+# One thing fails, the n-th each time: FAULTS of them for each command and part, or all.
+FAULTS ?= all
+faults:
+	@.ci/setup test
+	@$(MAKE) --no-print-directory $(B)/jostle
+	@B=$(B) FAULTS=$(FAULTS) bash tests/faults/run.sh
 
 define compile
 	@mkdir -p $(@D)

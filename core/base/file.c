@@ -43,10 +43,10 @@ static int end_file(FILE *file, bool good) {
     good = good && fflush(file) == 0 && !ferror(file);
     if (part && good)
         good = rename(part->text, part->name) == 0;
-    else if (part)
+    const int number = errno;
+    if (part && !good)
         unlink(part->text);
     free(part);
-    const int number = errno;
     const bool closed = fclose(file) == 0;
     if (!good)
         errno = number;
@@ -82,11 +82,15 @@ static int open_to_write(const char *path, int flags) {
     const int file = open_now(path, O_WRONLY | O_CREAT | flags, &info);
     if (file < 0 || !S_ISREG(info.st_mode))
         return file;
-    if (flock(file, LOCK_EX | LOCK_NB) == 0 && stat(path, &named) == 0 &&
-        named.st_ino == info.st_ino && (flags == O_APPEND || ftruncate(file, 0) == 0))
+    const bool own = flock(file, LOCK_EX | LOCK_NB) == 0 && stat(path, &named) == 0 &&
+                     named.st_ino == info.st_ino;
+    if (own && (flags == O_APPEND || ftruncate(file, 0) == 0))
         return file;
+    const int number = own ? errno : EBUSY;
+    if (own && info.st_size == 0) /* it was made just now */
+        unlink(path);
     close(file);
-    errno = EBUSY;
+    errno = number;
     return -1;
 }
 

@@ -29,12 +29,16 @@ static int misused(const CliCommand *command, const CliOption *option, const cha
     return cli_misused(command, text);
 }
 
-static bool add(CliList *list, int room, const char *text) {
+/* CLI_GO_ON, or JO_FAILED with a message where memory is out. */
+static int add(const CliCommand *command, CliList *list, int room, const char *text) {
     if (!list->items)
         list->items = calloc((size_t)room, sizeof *list->items);
-    if (list->items)
-        list->items[list->count++] = text;
-    return list->items != NULL;
+    if (!list->items) {
+        fprintf(stderr, "jostle %s: out of memory\n", command->name);
+        return JO_FAILED;
+    }
+    list->items[list->count++] = text;
+    return CLI_GO_ON;
 }
 
 static const CliOption *find(const CliCommand *command, const char *name) {
@@ -112,7 +116,7 @@ static int store(const Reading *r, const CliOption *o, const char *text) {
         memcpy(r->options + o->at, &text, sizeof text);
         return CLI_GO_ON;
     case CLI_LIST:
-        return add((CliList *)(void *)(r->options + o->at), r->argc, text) ? CLI_GO_ON : JO_FAILED;
+        return add(r->command, (CliList *)(void *)(r->options + o->at), r->argc, text);
     case CLI_DOUBLE:
         return read_double(r, o, text);
     case CLI_READ:
@@ -153,7 +157,7 @@ static int read_plain(const Reading *r, CliList *plain, const char *text) {
     char why[200];
     const CliCommand *command = r->command;
     if (command->takes && (command->most == 0 || plain->count < command->most))
-        return add(plain, r->argc, text) ? CLI_GO_ON : JO_FAILED;
+        return add(command, plain, r->argc, text);
     if (command->takes && command->most == 1)
         snprintf(why, sizeof why, "one %s at a time; what is '%.60s'?", command->takes, text);
     else

@@ -1,10 +1,27 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/guard.h"
 #include "cli/cli.h"
+
+/* Whether the help lists it. */
+static bool is_page(const char *what) {
+    const size_t length = strlen(what);
+    for (const char *line = cli_reference.about; line; line = strchr(line, '\n')) {
+        line += strspn(line, " \n");
+        if (!strncmp(line, what, length) && line[length] == ' ')
+            return true;
+    }
+    return false;
+}
 
 static int print_reference(const char *what) {
     char *text = !strcmp(what, "manual") ? cli_manual() : jo_reference(what);
+    JoError error;
+    if (!text && is_page(what)) {
+        jox_memory_error(&error);
+        return cli_failed(&cli_reference, &error, false);
+    }
     if (!text) {
         char why[120];
         snprintf(why, sizeof why, "there is no '%.60s'", what);

@@ -365,7 +365,8 @@ static void free_scene(lua_State *L, Scene *t) {
 }
 
 static int scene_gc(lua_State *L) {
-    free_scene(L, luaL_checkudata(L, 1, SCENE));
+    if (jox_vm_of(L)) /* else memory ran out, and the scene goes with the heap */
+        free_scene(L, luaL_checkudata(L, 1, SCENE));
     return 0;
 }
 

@@ -55,7 +55,8 @@ static size_t read_table(const JoxSource *source, size_t at, const char *prefix,
                 break;
             depth += depth_change(&t[end]);
         }
-        add_path(outline, path, key, value, end);
+        if (key < end) /* else nothing stands between two commas, which Lua refuses */
+            add_path(outline, path, key, value, end);
         if (value < count && jox_token_is(&t[value], "{") && level < 6)
             read_table(source, value, path, level + 1);
         at = end < count && jox_token_is(&t[end], "}") ? end : end + 1;

@@ -195,7 +195,9 @@ JoxVm *jox_vm_of(lua_State *L) {
     return *(JoxVm **)lua_getextraspace(L);
 }
 
+/* Of a heap that has failed: what finalizers would end is half done, or gone. They see no VM. */
 static void release_state(void *state) {
+    *(JoxVm **)lua_getextraspace((lua_State *)state) = NULL;
     lua_close(state);
 }
 
