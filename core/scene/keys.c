@@ -341,7 +341,7 @@ static const JoxOwner OWNERS[] = {
      "some places (`in`), `at` given points, or coming in as a recording has them (`starts`).",
      .size = sizeof(JoxGroup), .name_at = AT(JoxGroup, name),
      .place_at = AT(JoxGroup, position), .finish = jox_finish_group},
-    {"source", "Sources", "Each source of the list `sources` brings agents in as time goes on.",
+    {"source", "Sources", "Each source of the list `sources` brings agents in as time goes on; those for whom its place has no room wait.",
      .size = sizeof(JoxAgentSource), .place_at = AT(JoxAgentSource, position),
      .finish = jox_finish_source},
     {"sink", "Sinks", "Each sink of the list `sinks` takes agents out.",

@@ -172,6 +172,52 @@ static JoxV2 draw_point(const JoWorld *world, uint32_t source, uint32_t n) {
     return place->centre;
 }
 
+/* What a source fills, and how much of it people cover. */
+typedef struct Room {
+    const JoxPlace *place;
+    bool round; /* a point, or a polygon as small as one: a circle about the centre */
+    float reach;
+    double area, covered; /* m2 */
+} Room;
+
+/* Lines are as wide as people who stand on them. */
+static const float BESIDE = 0.5f; /* m */
+static const double FULL = 0.75;  /* share of a place that people cover who leave no spots free */
+static const double PI = 3.141592653589793;
+
+static bool is_in_room(const Room *room, JoxV2 p) {
+    const JoxPlace *place = room->place;
+    if (room->round)
+        return jox_length2(jox_sub(p, place->centre)) < room->reach * room->reach;
+    if (place->kind == JOX_PLACE_POLYGON)
+        return jox_polygon_contains(place->points, place->count, p);
+    const JoxV2 nearest = jox_segment_nearest(place->points[0], place->points[1], p);
+    return jox_length2(jox_sub(p, nearest)) < room->reach * room->reach;
+}
+
+static void take_room(Room *room, const JoxAgents *a, uint32_t i) {
+    const double radius = a->param[JOX_PARAM_radius][i];
+    room->covered += PI * radius * radius;
+}
+
+/* The room at a place, with all who are there. */
+static Room room_at(const JoxPlace *place, const JoxAgents *a) {
+    Room room = {.place = place, .reach = BESIDE};
+    if (place->kind == JOX_PLACE_POINT)
+        room.reach = jox_maxf(place->radius, BESIDE);
+    else if (place->kind == JOX_PLACE_POLYGON)
+        room.area = fabs(jox_polygon_area(place->points, place->count));
+    else
+        room.area = 2.0 * BESIDE * jox_length(jox_sub(place->points[1], place->points[0]));
+    const double circle = PI * room.reach * room.reach;
+    room.round = room.area < circle;
+    room.area = room.round ? circle : room.area;
+    for (uint32_t i = 0; i < a->count; i++)
+        if (is_in_room(&room, jox_v2(a->x[i], a->y[i])))
+            take_room(&room, a, i);
+    return room;
+}
+
 /* How many agents a source is due to make now. A kept number is topped up once a second. */
 static uint32_t due_now(JoWorld *world, uint32_t s) {
     const JoxAgentSource *source = &world->model.sources[s];
@@ -193,13 +239,20 @@ void jox_world_sources(JoWorld *world) {
     for (uint32_t s = 0; s < world->model.source_count; s++) {
         const JoxAgentSource *source = &world->model.sources[s];
         const JoxGroup *group = &world->model.groups[source->like];
-        uint32_t count = due_now(world, s);
-        for (uint32_t n = 0; n < count; n++)
-            spawn(world, source->like, draw_point(world, s, n),
-                  source->memory_count ? source->memory : group->memory,
-                  source->memory_count ? source->memory_count : group->memory_count);
+        const uint32_t due = due_now(world, s);
+        if (due == 0)
+            continue;
+        const JoxAgents *a = &world->state.agents;
+        Room room = room_at(&world->model.places[source->place], a);
+        uint32_t n = 0;
+        for (; n < due && room.covered < FULL * room.area; n++) {
+            uint32_t i = spawn(world, source->like, draw_point(world, s, n),
+                               source->memory_count ? source->memory : group->memory,
+                               source->memory_count ? source->memory_count : group->memory_count);
+            take_room(&room, a, i);
+        }
         if (source->rate > 0)
-            world->state.population.made[s] += count;
+            world->state.population.made[s] += n;
     }
 }
 

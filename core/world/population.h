@@ -85,7 +85,8 @@ void jox_world_set_population(JoWorld *world, const JoxGroup *groups, uint32_t g
                               const JoxAgentSource *sources, uint32_t source_count, bool anew);
 /* Makes the agents of all groups that stand there at the start. */
 void jox_world_populate(JoWorld *world);
-/* Before a step: makes the agents that sources are due. */
+/* Before a step: makes the agents that sources are due. Where a place is full, they wait until
+   there is room. */
 void jox_world_sources(JoWorld *world);
 /* Before a step: brings in whose start has come. Who would stand in another waits until that one
    has gone on; those behind do not wait for it. */

@@ -161,7 +161,7 @@ static void each_of_three_hundred_sources_counts_for_itself(void **state) {
     JoxText text = {0};
     jox_text_add(&text, "jostle: 1\nplaces:\n");
     for (int s = 0; s < SOURCES; s++)
-        jox_text_printf(&text, "  p%d: {point: [%d, %d], radius: 0.2}\n", s, s % 20 * 5,
+        jox_text_printf(&text, "  p%d: {point: [%d, %d], radius: 1.5}\n", s, s % 20 * 5,
                         s / 20 * 5);
     jox_text_add(&text, "groups: {people: {behaviour: own.lua, count: 0}}\nsources:\n");
     for (int s = 0; s < SOURCES; s++)

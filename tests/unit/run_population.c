@@ -128,6 +128,41 @@ static void counts_of_sources_are_hashed(void **state) {
     jo_scene_free(scene);
 }
 
+/* ---- sources in full places ---- */
+
+#define FULL_YARD(shape)                                                                           \
+    "jostle: 1\n"                                                                                  \
+    "places: {yard: {" shape "}}\n"                                                                \
+    "groups: {people: {behaviour: own.lua, count: 0, in: yard}}\n"                                 \
+    "sources: [{at: yard, like: people, rate: 400}]\n"
+#define STANDER HEAD "\"Stand\", states = { Stand = { steer = hold } } }\n"
+
+/* Who has no room waits, and comes when those before have gone. */
+static void expect_waiting(const char *yaml, uint32_t most) {
+    JoScene *scene = load_own(yaml, STANDER);
+    JoWorld *world = jo_scene_world(scene);
+    JoxAgents *a = &world->state.agents;
+    step(scene, 40);
+    const uint32_t full = a->count;
+    assert_in_range(full, 3, most);
+    for (uint32_t i = 0; i < a->count; i++) {
+        assert_true(fabsf(a->x[i]) < 5.0f && fabsf(a->y[i]) < 5.0f);
+        a->removed[i] = true;
+    }
+    step(scene, 3);
+    assert_in_range(world->state.statistics.spawned, full + 3, 2 * most);
+    assert_in_range(a->count, 3, most);
+    jo_scene_free(scene);
+}
+
+static void sources_in_full_places_wait(void **state) {
+    (void)state;
+    expect_waiting(FULL_YARD("polygon: [[0, 0], [3, 0], [3, 3], [0, 3]]"), 110);
+    expect_waiting(FULL_YARD("polygon: [[0, 0], [0.1, 0], [0.1, 0.1], [0, 0.1]]"), 12);
+    expect_waiting(FULL_YARD("point: [0, 0], radius: 0.1"), 12);
+    expect_waiting(FULL_YARD("line: [[0, 0], [2, 0]]"), 30);
+}
+
 /* ---- starts ---- */
 
 #define STARTS(rows)                                                                               \
@@ -246,6 +281,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_program_steps_the_world_of_a_scene),
                                        cmocka_unit_test(a_saved_crowd_goes_on_to_the_bit),
                                        cmocka_unit_test(counts_of_sources_are_hashed),
+                                       cmocka_unit_test(sources_in_full_places_wait),
                                        cmocka_unit_test(each_comes_in_at_its_time_and_place),
                                        cmocka_unit_test(who_would_stand_in_another_waits),
                                        cmocka_unit_test(nobody_is_born_through_a_wall),
