@@ -44,6 +44,21 @@ float jox_parameter_store(JoxParameter parameter, double value) {
     return (float)value;
 }
 
+void jox_parameter_store_all(JoxParameter parameter, const double *values, const uint32_t *agents,
+                             uint32_t count, float *column) {
+    if (parameter == JOX_PARAM_push_angle || parameter == JOX_PARAM_brace_angle) {
+        for (uint32_t n = 0; n < count; n++)
+            column[agents[n]] = jox_parameter_store(parameter, values[n]);
+        return;
+    }
+    const JoxParameterInfo *info = &jox_parameters[parameter];
+    const double least = info->least, greatest = info->greatest, unset = info->value;
+    for (uint32_t n = 0; n < count; n++) {
+        const double value = values[n] != values[n] ? unset : values[n];
+        column[agents[n]] = (float)(value < least ? least : value > greatest ? greatest : value);
+    }
+}
+
 double jox_parameter_value(JoxParameter parameter, float stored) {
     if (parameter != JOX_PARAM_push_angle && parameter != JOX_PARAM_brace_angle)
         return stored;

@@ -3,6 +3,7 @@
 #define JOX_AGENTS_PARAMETERS_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 /* X(name, unit, least, greatest, default, meaning). Angles are given in degrees and stored as
    their cosine. Defaults are those of people in a dense crowd. */
@@ -51,6 +52,9 @@ bool jox_parameter_level(JoxParameter parameter, const char *word, double *value
 /* What the column holds for a value in the parameter's unit: the value, an angle's cosine. The
    value is first kept within [least, greatest]; NaN becomes the default. */
 float jox_parameter_store(JoxParameter parameter, double value);
+/* The same of `count` values, into the places of some agents in a column. */
+void jox_parameter_store_all(JoxParameter parameter, const double *values, const uint32_t *agents,
+                             uint32_t count, float *column);
 /* The value in the parameter's unit of what a column holds. */
 double jox_parameter_value(JoxParameter parameter, float stored);
 

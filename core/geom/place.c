@@ -84,7 +84,9 @@ static JoxV2 centroid(const JoxPlace *place) {
 
 static bool in_polygon(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
     (void)places;
-    return jox_polygon_contains(place->points, place->count, point);
+    JOX_ASSERT(place->low.x <= place->high.x); /* the place is finished */
+    return jox_is_within(point, place->low, place->high) &&
+           jox_polygon_contains(place->points, place->count, point);
 }
 
 static JoxV2 to_polygon(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
@@ -203,6 +205,7 @@ void jox_place_finish(JoxPlace *place) {
         return;
     JOX_ASSERT(place->count >= kind_of(place)->least_points);
     place->centre = kind_of(place)->centre(place);
+    jox_bounds(place->points, place->count, &place->low, &place->high);
     finish_axis(place);
 }
 
@@ -219,7 +222,9 @@ float jox_place_distance(const JoxPlace *places, uint32_t index, JoxV2 point) {
         return best;
     }
     if (place->kind == JOX_PLACE_POLYGON)
-        return jox_polygon_distance(place->points, place->count, point, true);
+        return in_polygon(places, place, point)
+                   ? 0.0f
+                   : jox_polygon_distance(place->points, place->count, point, false);
     return jox_length(jox_sub(point, jox_place_nearest(places, index, point)));
 }
 

@@ -23,7 +23,8 @@ typedef struct JoxPlace {
     int32_t start;    /* polygon: index of the line from which circuits count, or -1 */
     int32_t *members; /* set: indices of places */
     uint32_t member_count;
-    JoxV2 centre; /* centroid, midpoint or head */
+    JoxV2 centre;    /* centroid, midpoint or head */
+    JoxV2 low, high; /* corners of the box about the points */
     /* Orbits keep to the border of a stadium about a polygon: its axis, and its half width. */
     JoxV2 axis_a, axis_b;
     float axis_radius;
@@ -55,7 +56,7 @@ JoxPlaceOutline jox_place_outline(const JoxPlace *place);
 uint32_t jox_place_goal_points(const JoxPlace *place);
 /* Its radius in metres where it has one, else 0. */
 float jox_place_radius(const JoxPlace *place);
-/* Fills centre, axis_a, axis_b and axis_radius from kind and points. The axis is the polygon's
+/* Fills centre, low, high, axis_a, axis_b and axis_radius from kind and points. The axis is the polygon's
    principal direction through its centroid, shortened at both ends by half its width. */
 void jox_place_finish(JoxPlace *place);
 /* A place with memory of its own; `to` needs not be initialised. The name of a copy may be NULL. */

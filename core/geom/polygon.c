@@ -113,7 +113,7 @@ static bool is_left(JoxV2 a, JoxV2 b, JoxV2 p) {
            0.0;
 }
 
-int jox_segment_crossing(JoxV2 a, JoxV2 b, JoxV2 p, JoxV2 q) {
+int jox_segment_crosses(JoxV2 a, JoxV2 b, JoxV2 p, JoxV2 q) {
     bool p_left = is_left(a, b, p), q_left = is_left(a, b, q);
     if (p_left == q_left || is_left(p, q, a) == is_left(p, q, b))
         return 0;

@@ -18,10 +18,21 @@ bool jox_polygon_self_crosses(const JoxV2 *ring, uint32_t count, uint32_t *edge_
                               uint32_t *edge_b);
 JoxV2 jox_polygon_centroid(const JoxV2 *ring, uint32_t count);
 void jox_bounds(const JoxV2 *points, uint32_t count, JoxV2 *low, JoxV2 *high);
+/* Whether a point lies in the box between two corners, its border included. */
+static inline bool jox_is_within(JoxV2 point, JoxV2 low, JoxV2 high) {
+    return point.x >= low.x && point.x <= high.x && point.y >= low.y && point.y <= high.y;
+}
 
 JoxV2 jox_segment_nearest(JoxV2 a, JoxV2 b, JoxV2 point);
+/* Of segments whose boxes meet: see jox_segment_crossing. */
+int jox_segment_crosses(JoxV2 a, JoxV2 b, JoxV2 p, JoxV2 q);
 /* +1 if the way from p to q crosses a-b from its right to its left, -1 for left to right, else 0.
    Half-open, so that a way split at any point counts once. */
-int jox_segment_crossing(JoxV2 a, JoxV2 b, JoxV2 p, JoxV2 q);
+static inline int jox_segment_crossing(JoxV2 a, JoxV2 b, JoxV2 p, JoxV2 q) {
+    if (jox_maxf(p.x, q.x) < jox_minf(a.x, b.x) || jox_minf(p.x, q.x) > jox_maxf(a.x, b.x) ||
+        jox_maxf(p.y, q.y) < jox_minf(a.y, b.y) || jox_minf(p.y, q.y) > jox_maxf(a.y, b.y))
+        return 0;
+    return jox_segment_crosses(a, b, p, q);
+}
 
 #endif

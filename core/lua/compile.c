@@ -104,8 +104,11 @@ static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
     }
     const JoxNode *inputs[3] = {node->a, node->b, node->c};
     uint32_t used = 0;
-    for (; used < 3 && inputs[used] && !code->too_deep; used++)
+    size_t first_input = 0; /* where its result is written */
+    for (; used < 3 && inputs[used] && !code->too_deep; used++) {
         emit(code, inputs[used], to + used, depth + 1);
+        first_input = used == 0 ? code->count - 1 : first_input;
+    }
     JoxInstruction in = {.op = (uint8_t)(node->kind == JOX_NODE_OWN ? JOX_OP_OWN : node->op),
                          .to = (uint8_t)to,
                          .a = (uint8_t)to,
@@ -128,6 +131,8 @@ static void emit(Code *code, const JoxNode *node, uint32_t to, uint32_t depth) {
     if (node->place)
         in.place = jox_build_target(code->build, node->place);
     JOX_RESERVE(code->items, code->capacity, code->count + 1);
+    if (in.op == JOX_OP_AND && !code->too_deep)
+        code->items[first_input].skip = (uint16_t)(code->count - first_input);
     code->items[code->count++] = in;
 }
 

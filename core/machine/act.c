@@ -19,9 +19,8 @@ static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
             continue;
         jox_eval(run, machine, &machine->expressions[value->index], agents, batch->count,
                  registers);
-        for (uint32_t n = 0; n < batch->count; n++)
-            run->agents->param[p][agents[n]] =
-                jox_parameter_store((JoxParameter)p, registers[0][n]);
+        jox_parameter_store_all((JoxParameter)p, registers[0], agents, batch->count,
+                                run->agents->param[p]);
     }
 }
 
@@ -34,19 +33,21 @@ static void write_pushing(const JoxMachineRun *run, const JoxBatchRange *batch,
         jox_eval(run, machine, &machine->expressions[state->push_when], agents, batch->count,
                  registers);
     for (uint32_t n = 0; n < batch->count; n++) {
-        uint32_t i = agents[n];
+        const uint32_t i = agents[n];
         run->push_on[i] = state->push_when < 0 || registers[0][n] != 0.0;
         run->push_nearest[i] = state->push_nearest;
-        if (state->push_toward >= 0) {
-            JoxSpot spot = jox_target_find(run, i, state->push_toward);
-            JoxV2 way = {spot.x - run->agents->x[i], spot.y - run->agents->y[i]};
-            way = spot.found ? jox_unit(way) : (JoxV2){0.0f, 0.0f};
-            run->push_toward_x[i] = way.x;
-            run->push_toward_y[i] = way.y;
-        }
-        run->agents->approach[i] =
-            state->approach >= 0 ? jox_target_find(run, i, state->approach).object : -1;
+        run->agents->approach[i] = -1;
     }
+    for (uint32_t n = 0; state->push_toward >= 0 && n < batch->count; n++) {
+        const uint32_t i = agents[n];
+        JoxSpot spot = jox_target_find(run, i, state->push_toward);
+        JoxV2 way = {spot.x - run->agents->x[i], spot.y - run->agents->y[i]};
+        way = spot.found ? jox_unit(way) : (JoxV2){0.0f, 0.0f};
+        run->push_toward_x[i] = way.x;
+        run->push_toward_y[i] = way.y;
+    }
+    for (uint32_t n = 0; state->approach >= 0 && n < batch->count; n++)
+        run->agents->approach[agents[n]] = jox_target_find(run, agents[n], state->approach).object;
 }
 
 static void act_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {

@@ -42,6 +42,8 @@ static void check_expression(const JoxMachine *m, const JoxExpression *expressio
         const JoxInstruction *in = &expression->code[k];
         const uint8_t inputs[3] = {in->a, in->b, in->c};
         JOX_ASSERT(in->op < JOX_OP_COUNT && in->to < JOX_MOST_REGISTERS);
+        JOX_ASSERT(k + in->skip < expression->count);
+        JOX_ASSERT(!in->skip || expression->code[k + in->skip].to == in->to);
         for (uint32_t n = 0; n < inputs_of((JoxOp)in->op); n++)
             JOX_ASSERT(inputs[n] < JOX_MOST_REGISTERS && (written >> inputs[n] & 1));
         check_operands(m, in);

@@ -42,15 +42,27 @@ static bool is_inside(const JoxMachineRun *run, uint32_t i, const JoxInstruction
            jox_place_contains(run->places, (uint32_t)place, (JoxV2){spot.x, spot.y});
 }
 
-static bool crosses(const JoxMachineRun *run, uint32_t i, const JoxInstruction *in) {
+/* Whether some agents, of whom place `index` is the one that is asked about, crossed it. */
+static void cross(const JoxMachineRun *run, const uint32_t *agents, uint32_t count, int32_t index,
+                  double *to) {
     const JoxAgents *a = run->agents;
-    int32_t index = jox_target_place(run, i, in->place);
-    if (index < 0 || run->places[index].kind != JOX_PLACE_LINE)
-        return false;
-    const JoxPlace *line = &run->places[index];
-    return jox_segment_crossing(line->points[0], line->points[1],
-                                (JoxV2){a->prev_x[i], a->prev_y[i]},
-                                (JoxV2){a->x[i], a->y[i]}) == 1;
+    const JoxPlace *line = index < 0 ? NULL : &run->places[index];
+    const bool is_line = line && line->kind == JOX_PLACE_LINE;
+    const JoxV2 from = is_line ? line->points[0] : (JoxV2){0.0f, 0.0f};
+    const JoxV2 end = is_line ? line->points[1] : (JoxV2){0.0f, 0.0f};
+    for (uint32_t n = 0; n < count; n++) {
+        const uint32_t i = agents[n];
+        to[n] = is_line && jox_segment_crossing(from, end, (JoxV2){a->prev_x[i], a->prev_y[i]},
+                                                (JoxV2){a->x[i], a->y[i]}) == 1;
+    }
+}
+
+static void crosses(const JoxMachineRun *run, const JoxMachine *machine, const JoxInstruction *in,
+                    const uint32_t *agents, uint32_t count, double *to) {
+    const bool one = in->place >= 0 && machine->targets[in->place].kind == JOX_TARGET_PLACE;
+    const uint32_t step = one ? count : 1; /* as many as ask about one place */
+    for (uint32_t n = 0; n < count; n += step)
+        cross(run, agents + n, step, jox_target_place(run, agents[n], in->place), to + n);
 }
 
 /* Whether the spot, moving on evenly, comes within `reach` during the next 2 s. */
@@ -85,8 +97,6 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
         return is_inside(run, i, in);
     case JOX_OP_NEAR:
         return jox_target_distance(run, i, in->target) < a;
-    case JOX_OP_CROSSES:
-        return crosses(run, i, in);
     case JOX_OP_FIRST_IN:
         return run->scratch->rank[i] == 0;
     case JOX_OP_TOUCHES:
@@ -182,16 +192,30 @@ static void execute(const JoxMachineRun *run, const JoxMachine *machine, const J
         EACH(jox_time_in_state(run, agents[n]) >= g->lasts[agents[n]] - 1e-6);
     case JOX_OP_STUCK:
         EACH(g->still[agents[n]] >= a[n]);
+    case JOX_OP_CROSSES:
+        crosses(run, machine, in, agents, count, to);
+        break;
     default:
         EACH(sense(run, machine, agents[n], in, a[n]));
     }
 }
 
+bool jox_holds_for_nobody(const double *values, uint32_t count) {
+    uint32_t n = 0;
+    while (n < count && values[n] == 0.0)
+        n++;
+    return n == count;
+}
+
 void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxExpression *expression,
               const uint32_t *agents, uint32_t count, JoxRegisters registers) {
     JOX_ASSERT(count <= JOX_BATCH);
-    for (uint32_t i = 0; i < expression->count; i++)
-        execute(run, machine, &expression->code[i], agents, count, registers);
+    const JoxInstruction *code = expression->code;
+    for (uint32_t i = 0; i < expression->count; i++) {
+        execute(run, machine, &code[i], agents, count, registers);
+        while (code[i].skip && jox_holds_for_nobody(registers[code[i].to], count))
+            i += code[i].skip; /* an AND: its result stands where its left side's does */
+    }
 }
 
 double jox_value(const JoxMachineRun *run, const JoxMachine *machine, const JoxValue *value,

@@ -211,18 +211,28 @@ static void mark_asked(JoxMachineRun *run) {
     }
 }
 
+/* How many are in a polygon, or within a disc of 2 m about what has no area. */
+static uint32_t people_about(const JoxMachineRun *run, uint32_t p) {
+    const float REACH = 2.0f, HAIR = 0.01f; /* m; HAIR: more than distances are rounded by */
+    const JoxAgents *a = run->agents;
+    const JoxPlace *place = &run->places[p];
+    const bool area = place->kind == JOX_PLACE_POLYGON, boxed = place->kind != JOX_PLACE_SET;
+    const float wide = boxed ? REACH + HAIR : INFINITY;
+    const JoxV2 low = {place->low.x - wide, place->low.y - wide};
+    const JoxV2 high = {place->high.x + wide, place->high.y + wide};
+    uint32_t people = 0;
+    for (uint32_t i = 0; i < a->count; i++) {
+        const JoxV2 at = {a->x[i], a->y[i]};
+        if (jox_is_within(at, low, high))
+            people += area ? jox_place_contains(run->places, p, at)
+                           : jox_place_distance(run->places, p, at) <= REACH;
+    }
+    return people;
+}
+
 void jox_machines_count_places(JoxMachineRun *run) {
     mark_asked(run);
-    const JoxAgents *a = run->agents;
-    for (uint32_t p = 0; p < run->place_count; p++) {
-        uint32_t *people = &run->scratch->place_people[p];
-        const JoxPlace *place = &run->places[p];
-        for (uint32_t i = 0; *people != UINT32_MAX && i < a->count; i++) {
-            JoxV2 at = {a->x[i], a->y[i]};
-            if (place->kind == JOX_PLACE_POLYGON)
-                *people += jox_polygon_contains(place->points, place->count, at);
-            else
-                *people += jox_place_distance(run->places, p, at) <= 2.0f;
-        }
-    }
+    for (uint32_t p = 0; p < run->place_count; p++)
+        if (run->scratch->place_people[p] != UINT32_MAX)
+            run->scratch->place_people[p] = people_about(run, p);
 }

@@ -81,6 +81,8 @@ void jox_steer_fetch_ways(const JoxMachineRun *run, uint32_t agent);
 /* Runs an expression over `count` agents of one machine; results in registers[0]. */
 void jox_eval(const JoxMachineRun *run, const JoxMachine *machine, const JoxExpression *expression,
               const uint32_t *agents, uint32_t count, JoxRegisters registers);
+/* Whether all of `values` are 0: a condition. */
+bool jox_holds_for_nobody(const double *values, uint32_t count);
 /* One agent's value: a constant, its own, or an expression. */
 double jox_value(const JoxMachineRun *run, const JoxMachine *machine, const JoxValue *value,
                  uint32_t agent);

@@ -94,11 +94,13 @@ typedef struct JoxInstruction {
     uint8_t op, to, a, b, c;
     int16_t target, place; /* indices into the machine's targets; -1 none (or: the agent itself) */
     int16_t name;          /* index into the machine's names; -1 none */
+    uint16_t skip; /* this many of those that follow change nothing where `to` is 0 for all */
     int32_t arg;
     double number;
 } JoxInstruction;
 
-/* A compiled condition or number: straight-line code that leaves its result in register 0. */
+/* A compiled condition or number: straight-line code that leaves its result in register 0. Parts of
+   it may be skipped: the right side of an AND where its left side holds for nobody. */
 typedef struct JoxExpression {
     JoxInstruction *code;
     uint32_t count;

@@ -20,12 +20,10 @@ static double turned(JoxV2 a, JoxV2 b) {
     return t * (1.0 - t2 * (1.0 / 3 - t2 * (1.0 / 5 - t2 * (1.0 / 7 - t2 / 9))));
 }
 
-static void count_circuits(const JoxMachineRun *run, const JoxCounter *counter, uint32_t i) {
+static void count_circuits(const JoxMachineRun *run, const JoxCounter *counter, uint32_t i,
+                           int32_t index) {
     const JoxAgents *a = run->agents;
     double *memory = a->memory + (size_t)i * a->memory_stride;
-    int32_t index = jox_target_place(run, i, counter->target);
-    if (index < 0)
-        return;
     const JoxPlace *place = &run->places[index];
     JoxV2 from = {a->prev_x[i], a->prev_y[i]}, to = {a->x[i], a->y[i]};
     if (memory[counter->begun] == 0.0) {
@@ -56,6 +54,19 @@ typedef struct Think {
     JoxMachineRun *run;
 } Think;
 
+static void count_circuits_of(const JoxMachineRun *run, const JoxMachine *machine,
+                              const JoxCounter *counter, const uint32_t *agents, uint32_t count) {
+    const bool one =
+        counter->target >= 0 && machine->targets[counter->target].kind == JOX_TARGET_PLACE;
+    int32_t index = -1;
+    for (uint32_t n = 0; n < count; n++) {
+        if (n == 0 || !one)
+            index = jox_target_place(run, agents[n], counter->target);
+        if (index >= 0)
+            count_circuits(run, counter, agents[n], index);
+    }
+}
+
 /* Counters and compiled conditions of one batch; fills `fired`. */
 static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
                         JoxRegisters registers) {
@@ -65,11 +76,11 @@ static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
     const uint32_t *agents = run->scratch->grouped + batch->begin;
     for (uint32_t c = 0; c < machine->counter_count; c++)
         if (machine->counters[c].state < 0 || machine->counters[c].state == batch->state)
-            for (uint32_t n = 0; n < batch->count; n++)
-                count_circuits(run, &machine->counters[c], agents[n]);
+            count_circuits_of(run, machine, &machine->counters[c], agents, batch->count);
     for (uint32_t n = 0; n < batch->count; n++)
         run->scratch->fired[agents[n]] = -1;
-    int32_t known = -1; /* expression whose result is in register 0 */
+    int32_t known = -1;   /* expression whose result is in register 0 */
+    uint32_t nobodys = 0; /* bits of the conditions that hold for nobody */
     for (uint32_t k = 0; k < state->transition_count; k++) {
         const JoxTransition *t = &state->transitions[k];
         if (t->when_hook >= 0)
@@ -78,6 +89,10 @@ static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
             jox_eval(run, machine, &machine->expressions[t->when], agents, batch->count, registers);
         known = t->when >= 0 ? t->when : known;
         uint32_t bit = 1u << k;
+        if (t->when >= 0 && jox_holds_for_nobody(registers[0], batch->count)) {
+            nobodys |= bit;
+            continue;
+        }
         for (uint32_t n = 0; n < batch->count; n++) {
             uint32_t i = agents[n];
             bool holds = t->when < 0 || registers[0][n] != 0.0;
@@ -89,6 +104,8 @@ static void think_batch(const JoxMachineRun *run, const JoxBatchRange *batch,
             a->was_true[i] = holds ? a->was_true[i] | bit : a->was_true[i] & ~bit;
         }
     }
+    for (uint32_t n = 0; nobodys && n < batch->count; n++)
+        a->was_true[agents[n]] &= ~nobodys;
 }
 
 static void think_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {

@@ -30,6 +30,12 @@ typedef struct Nearest {
     uint32_t count, most, waits;
 } Nearest;
 
+static void clear(Nearest *n) {
+    n->count = n->waits = 0;
+    for (uint32_t k = 0; k < n->most; k++)
+        n->keys[k] = UINT64_MAX;
+}
+
 /* Sorts the waiting in. Without branches: each key sinks through all slots, the greater goes on. */
 static void sort_in(Nearest *n) {
     JOX_ASSERT(n->waits <= BUFFER && n->most <= JOX_MOST_NEIGHBOURS);
@@ -72,9 +78,7 @@ static void search(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radi
                    uint32_t hints[JOX_ROW_HINTS]) {
     JoxV2 point = {a->x[i], a->y[i]};
     float wide = radius + nav->drift;
-    found->count = found->waits = 0;
-    for (uint32_t k = 0; k < found->most; k++)
-        found->keys[k] = UINT64_MAX;
+    clear(found);
     for (int row = -1; row <= 1; row++)
         for (int column = -1; column <= 1; column++)
             if (jox_sees_image(point.x, a->origin.x, a->period.x, wide, column) &&
@@ -98,25 +102,55 @@ void jox_perceive_touching(const JoxPerceive *p, uint32_t i, float range) {
         out->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k] = a->by_rank[(uint32_t)found.keys[k]];
 }
 
+/* Writes what was found of agent i. */
+static void keep(const JoxPerceive *p, uint32_t i, float perception, const Nearest *found) {
+    const JoxAgents *a = p->agents;
+    bool full = found->most > 0 && found->count == found->most;
+    float reach = full ? sqrtf(distance2_of(found->keys[found->count - 1])) : perception;
+    a->search[i] = jox_maxf(reach, JOX_SEARCH_LEAST);
+    a->density[i] = (float)found->count / (JOX_PI * jox_maxf(reach * reach, JOX_DENSITY_LEAST));
+    p->out->count[i] = (uint8_t)found->count;
+    for (uint32_t k = 0; k < found->count; k++) {
+        size_t at = jox_neighbour_at(p->out, i, k);
+        p->out->index[at] = a->by_rank[(uint32_t)found->keys[k]];
+        p->out->distance2[at] = distance2_of(found->keys[k]);
+    }
+}
+
+static Nearest begin_nearest(const JoxPerceive *p, uint32_t i) {
+    Nearest found;
+    found.most = (uint32_t)p->agents->param[JOX_PARAM_neighbours][i];
+    clear(&found);
+    return found;
+}
+
 void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {
     const JoxAgents *a = p->agents;
     const float perception = jox_minf(a->param[JOX_PARAM_perception][i], p->sight);
     uint32_t hints[JOX_ROW_HINTS] = {0};
-    Nearest found = {.most = (uint32_t)a->param[JOX_PARAM_neighbours][i]};
+    Nearest found = begin_nearest(p, i);
     for (bool again = found.most > 0; again;) {
         radius = jox_minf(radius, perception);
         search(p->nav, a, i, radius, &found, hints);
         again = found.count < found.most && radius < perception;
         radius *= JOX_SEARCH_GROWTH;
     }
-    bool full = found.most > 0 && found.count == found.most;
-    float reach = full ? sqrtf(distance2_of(found.keys[found.count - 1])) : perception;
-    a->search[i] = jox_maxf(reach, JOX_SEARCH_LEAST);
-    a->density[i] = (float)found.count / (JOX_PI * jox_maxf(reach * reach, JOX_DENSITY_LEAST));
-    p->out->count[i] = (uint8_t)found.count;
-    for (uint32_t k = 0; k < found.count; k++) {
-        size_t at = jox_neighbour_at(p->out, i, k);
-        p->out->index[at] = a->by_rank[(uint32_t)found.keys[k]];
-        p->out->distance2[at] = distance2_of(found.keys[k]);
+    keep(p, i, perception, &found);
+}
+
+void jox_perceive_among(const JoxPerceive *p, uint32_t i, const JoxCandidates *among) {
+    const float perception = jox_minf(p->agents->param[JOX_PARAM_perception][i], p->sight);
+    const uint32_t *rank = p->agents->rank;
+    Nearest found = begin_nearest(p, i);
+    for (uint32_t n = 0; n < among->count; n++) {
+        const float d2 = among->distance2[(size_t)n * among->stride];
+        JOX_ASSERT(d2 >= 0.0f);
+        found.waiting[found.waits] = key_of(d2, rank[among->index[n]]);
+        found.waits += d2 < INFINITY;
+        if (found.waits == BUFFER)
+            sort_in(&found);
     }
+    sort_in(&found);
+    found.count = found.count < found.most ? found.count : found.most;
+    keep(p, i, perception, &found);
 }

@@ -5,9 +5,9 @@
 
    A key is a float that is never computed with: its bits are the squared distance as a fixed-point
    number of 23 bits (a share of the squared radius) above the number of the candidate, so that
-   min and max sort both at once. Lanes of which two keys have the same distance by these bits, and
-   packets with more candidates than numbers, are done again one by one (nearest.c), which orders
-   exactly, and by id. So neighbours are exact, whatever the width. */
+   min and max sort both at once. Lanes of which two keys have the same distance by these bits choose
+   anew among the candidates, and packets with more candidates than numbers search anew, one by one
+   (nearest.c), which orders exactly, and by id. So neighbours are exact, whatever the width. */
 #include <math.h>
 #include <string.h>
 
@@ -42,7 +42,7 @@ typedef struct Packet {
     float radius[JOX_LANES], at_x[JOX_LANES], at_y[JOX_LANES]; /* m */
     JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
     uint32_t index[MOST_CANDIDATES];
-    float distance2[MOST_CANDIDATES * JOX_WIDTH];
+    float distance2[MOST_CANDIDATES * JOX_WIDTH]; /* m2; INFINITY: none of the lane's */
 } Packet;
 
 /* Sinks agents [begin, end) into the keys of the lanes that take part. */
@@ -67,7 +67,7 @@ static inline __attribute__((always_inline)) void sink(Packet *packet, uint32_t 
             break;
         }
         packet->index[number] = j;
-        jf_store(packet->distance2 + (size_t)number * JOX_WIDTH, d2);
+        jf_store(packet->distance2 + (size_t)number * JOX_WIDTH, jf_select(near, d2, none));
         JoxInts share = jf_to_ints(jf_min(jf_mul(d2, packet->scale), farthest));
         JoxFloats key = ji_as_floats(
             ji_add(ji_shift_left(share, NUMBER_BITS), ji_set((int32_t)(NORMAL + number))));
@@ -273,6 +273,20 @@ static void find_touching(const Packet *packet, JoxMask sees) {
             p->out->touch_count[packet->first + lane] = JOX_TOUCH_IS_SEEN;
 }
 
+/* Of some lanes whose keys do not tell: one by one. */
+static void choose_anew(const Packet *packet, uint32_t lanes) {
+    for (uint32_t lane = 0; lanes >> lane; lane++) {
+        if (!(lanes >> lane & 1))
+            continue;
+        const JoxCandidates among = {packet->index, packet->distance2 + lane, packet->candidates,
+                                     JOX_WIDTH};
+        if (packet->overflow)
+            jox_perceive_one(packet->p, packet->first + lane, packet->radius[lane]);
+        else
+            jox_perceive_among(packet->p, packet->first + lane, &among);
+    }
+}
+
 static void perceive_packet(Packet *packet) {
     const JoxPerceive *p = packet->p;
     const JoxAgents *a = p->agents;
@@ -292,13 +306,11 @@ static void perceive_packet(Packet *packet) {
         search(packet, left);
         const Found f = read_keys(packet, most);
         const JoxMask short_of = jm_and(sees, jm_without(jf_lt(radius, perception), f.full));
-        uint32_t tied = packet->overflow ? left : left & jm_bits(f.tied);
-        uint32_t done = left & ~tied & ~jm_bits(short_of);
-        write(packet, &f, done, perception);
-        for (uint32_t lane = 0; tied >> lane; lane++)
-            if (tied >> lane & 1)
-                jox_perceive_one(p, i + lane, packet->radius[lane]);
-        left &= ~(tied | done);
+        const uint32_t done = packet->overflow ? left : left & ~jm_bits(short_of);
+        const uint32_t tied = packet->overflow ? left : done & jm_bits(f.tied);
+        write(packet, &f, done & ~tied, perception);
+        choose_anew(packet, tied);
+        left &= ~done;
         radius = jf_mul(radius, jf_set(JOX_SEARCH_GROWTH));
     }
     find_touching(packet, sees);
