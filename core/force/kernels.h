@@ -21,4 +21,28 @@ JOX_ISAS(X)
 /* The same of one agent, in either mode. `decay`: that of who came before. */
 void jox_sum_one(JoxForces *forces, uint32_t agent, JoxDecay *decay);
 
+#define JOX_SHORTFALL_LEAST 1e-6f /* m/s: less is not passed on */
+
+/* What someone passes on: what they hold against a force (9), or what they lose by slowing down
+   (8). */
+typedef enum JoxPassKind {
+    JOX_PASSES_NOTHING,
+    JOX_PASSES_RESISTANCE,
+    JOX_PASSES_DECELERATION
+} JoxPassKind;
+/* That of the agents of a chunk, and what they fall short by who pass resistance on, m/s. */
+typedef struct JoxPassing {
+    uint8_t kind[JOX_FORCE_GRAIN];
+    float shortfall[JOX_FORCE_GRAIN];
+} JoxPassing;
+/* Of agents [begin, end) of one chunk, whole blocks of JOX_LANES, in physical mode. */
+typedef void JoxInferKernel(const JoxForces *forces, uint32_t begin, uint32_t end,
+                            JoxPassing *passing);
+#define X(name, isa) JoxInferKernel jox_infer_packets_##name;
+JOX_ISAS(X)
+#undef X
+/* The same of one agent. */
+JoxPassKind jox_passes_on(const JoxForces *forces, uint32_t agent, JoxDecay *decay,
+                          float *shortfall);
+
 #endif

@@ -3,7 +3,7 @@
 #include "base/assert.h"
 #include "force/equations.h"
 #include "force/kernels.h"
-#include "simd/vectors.h"
+#include "force/pushes_lanes.h"
 
 static inline JoxMask is_set(JoxVector a) {
     return jf_lt(jf_set(0.0f), jf_max(jf_abs(a.x), jf_abs(a.y)));
@@ -40,18 +40,6 @@ static Planning planning(const JoxForceStep *step, uint32_t i, JoxMask stands, J
     };
 }
 
-/* Force that moves agents, contacts apart: jox_moving_force. */
-static inline JoxVector moving_force(const JoxAgents *a, uint32_t i, JoxMask stands) {
-    const JoxFloats zero = jf_set(0.0f);
-    const JoxVector others =
-        jv_add(jv_load(a->push_x, a->push_y, i), jv_load(a->inferred_x, a->inferred_y, i));
-    const JoxFloats size = jf_sqrt(jv_dot(others, others));
-    const JoxFloats held = jf_select(stands, zero, jf_load(a->param[JOX_PARAM_brace] + i));
-    const JoxFloats share = jf_div(jf_sub(size, held), size);
-    return jv_add(jv_load(a->ext_x, a->ext_y, i),
-                  jv_scale(others, jf_select(jf_lt(held, size), share, zero)));
-}
-
 static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
     JoxAgents *a = f->step.agents;
     const JoxFloats zero = jf_set(0.0f), dt = jf_set((float)f->step.dt);
@@ -59,11 +47,13 @@ static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
     const JoxFloats most = jf_load(a->param[JOX_PARAM_max_speed] + i);
     const JoxVector velocity = jv_load(a->vx, a->vy, i),
                     contact = jv_load(a->contact_x, a->contact_y, i);
-    const JoxVector preferred = jv_load(a->pref_x, a->pref_y, i), force = sum_of_terms(a, i);
+    const JoxVector force = sum_of_terms(a, i);
     const JoxMask touched = is_set(contact);
-    const JoxMask stands =
-        jf_lt(jv_dot(preferred, preferred), jf_set((float)(JOX_STANDS * JOX_STANDS)));
-    const JoxVector moving = moving_force(a, i, stands), given = jv_add(moving, contact);
+    const JoxMask stands = jox_stands_lanes(a, i);
+    const JoxVector moving =
+        jv_add(jv_load(a->ext_x, a->ext_y, i),
+               jox_unheld_lanes(a, i, jox_others_lanes(a, i), stands)); /* jox_moving_force */
+    const JoxVector given = jv_add(moving, contact);
     const JoxVector forced = {jf_add(velocity.x, jf_div(jf_mul(given.x, dt), mass)),
                               jf_add(velocity.y, jf_div(jf_mul(given.y, dt), mass))};
     jv_store(f->old_x, f->old_y, i, velocity);

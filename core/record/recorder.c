@@ -243,17 +243,17 @@ static bool go_on(JoxRecorder *r, uint32_t last) {
 }
 
 static bool prepare_rows(JoxRecorder *r) {
-    JoxText batch = {0};
-    jox_text_printf(&batch, "INSERT INTO trajectory_data VALUES");
+    static const char INSERT[] = "INSERT INTO trajectory_data VALUES";
+    static const char ROW[] = "(?,?,?,?,?,?,?,?,?,?,?),";
+    char one[sizeof INSERT + sizeof ROW], batch[sizeof INSERT + BATCH * sizeof ROW];
+    char *end = stpcpy(batch, INSERT); /* on the stack: nobody holds the database as yet */
     for (int k = 0; k < BATCH; k++)
-        jox_text_printf(&batch, "%s(?,?,?,?,?,?,?,?,?,?,?)", k ? "," : "");
-    const bool good =
-        prepare(r, &r->batch, batch.data) &&
-        prepare(r, &r->row, "INSERT INTO trajectory_data VALUES(?,?,?,?,?,?,?,?,?,?,?)") &&
-        prepare(r, &r->body, "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
-        prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
-    jox_text_free(&batch);
-    return good;
+        end = stpcpy(end, ROW);
+    end[-1] = '\0'; /* the last comma */
+    snprintf(one, sizeof one, "%s%.*s", INSERT, (int)sizeof ROW - 2, ROW);
+    return prepare(r, &r->batch, batch) && prepare(r, &r->row, one) &&
+           prepare(r, &r->body, "INSERT INTO jostle_body VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)") &&
+           prepare(r, &r->frame, "INSERT INTO frame_data VALUES(?, ?)");
 }
 
 static void release(JoxRecorder *r) {

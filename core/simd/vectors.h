@@ -20,6 +20,9 @@ static inline void jv_store(float *x, float *y, size_t i, JoxVector v) {
 static inline JoxVector jv_add(JoxVector a, JoxVector b) {
     return (JoxVector){jf_add(a.x, b.x), jf_add(a.y, b.y)};
 }
+static inline JoxVector jv_sub(JoxVector a, JoxVector b) {
+    return (JoxVector){jf_sub(a.x, b.x), jf_sub(a.y, b.y)};
+}
 static inline JoxVector jv_scale(JoxVector a, JoxFloats by) {
     return (JoxVector){jf_mul(a.x, by), jf_mul(a.y, by)};
 }

@@ -1,6 +1,7 @@
-/* The kernel of the equations 10 to 12 against the plain path of one agent (jox_sum_one), by every
-   instruction set that the machine runs: over random columns and hard ones, without any force, with
-   faint, huge and infinite ones, of people who stand and who walk, touched or not. */
+/* The kernels of the equations 10 to 12, and of who passes on what by 8 and 9, against the plain
+   paths of one agent (jox_sum_one, jox_passes_on), by every instruction set that the machine runs:
+   over random columns and hard ones, without any force, with faint, huge and infinite ones, of
+   people who stand and who walk, touched or not. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -65,8 +66,40 @@ static void columns_of(JoxForces *f, float *out[COLUMNS]) {
     memcpy(out, columns, sizeof columns);
 }
 
+/* What people do after a plan was made: some keep to it, some fall short, some stop. */
+static void move(JoxAgents *a, JoxForces *f, Draws *d) {
+    for (uint32_t i = 0; i < PEOPLE; i++) {
+        const float kept = draw(d, -0.2, 1.2);
+        a->next_x[i] = kept * a->forced_x[i];
+        a->next_y[i] = draw(d, 0.0, 1.0) < 0.2f ? some(d, 1.0f) : kept * a->forced_y[i];
+        a->vx[i] = draw(d, 0.0, 1.0) < 0.1f ? 0.0f : a->next_x[i];
+        a->vy[i] = a->next_y[i];
+        a->param[JOX_PARAM_absorb][i] = draw(d, 0.0, 1.0) < 0.1f ? 0.0f : draw(d, 0.1, 0.9);
+        a->param[JOX_PARAM_brace_angle][i] = draw(d, -0.2, 1.0);
+        if (draw(d, 0.0, 1.0) < 0.3f)
+            a->half_plane_x[i] = a->half_plane_y[i] = 0.0f;
+        if (draw(d, 0.0, 1.0) < 0.1f)
+            f->old_x[i] = f->old_y[i] = 0.0f;
+    }
+}
+
+static void compare_passing(JoxInferKernel *kernel, JoxForces *f, uint32_t counts[3]) {
+    JoxPassing passing;
+    JoxDecay decay = {-1.0f, 0.0f, 0.0f};
+    kernel(f, 0, PEOPLE, &passing);
+    for (uint32_t i = 0; i < PEOPLE; i++) {
+        float shortfall;
+        const JoxPassKind kind = jox_passes_on(f, i, &decay, &shortfall);
+        assert_int_equal(passing.kind[i], kind);
+        counts[kind]++;
+        if (kind == JOX_PASSES_RESISTANCE)
+            assert_memory_equal(&passing.shortfall[i], &shortfall, sizeof shortfall);
+    }
+}
+
 /* How many agents feel a force. */
-static uint32_t compare_crowd(JoIsa isa, JoxSumKernel *kernel, uint32_t number) {
+static uint32_t compare_crowd(JoIsa isa, JoxSumKernel *kernel, JoxInferKernel *infer, uint32_t number,
+                              uint32_t passed[3]) {
     static float by_kernel[COLUMNS][PEOPLE];
     Draws d = {.number = number};
     JoxAgents a = {0};
@@ -105,6 +138,8 @@ static uint32_t compare_crowd(JoIsa isa, JoxSumKernel *kernel, uint32_t number) 
     }
     for (uint32_t k = 0; k < COLUMNS; k++)
         assert_true(same(by_kernel[k], columns[k]));
+    move(&a, f, &d);
+    compare_passing(infer, f, passed);
     jox_forces_free(f);
     jox_agents_free(&a);
     return felt;
@@ -114,13 +149,18 @@ static void test_sum(void **state) {
 #define X(name, isa) [isa] = jox_sum_packets_##name,
     static JoxSumKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
+#define X(name, isa) [isa] = jox_infer_packets_##name,
+    static JoxInferKernel *const INFER[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
     (void)state;
     for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++) {
-        uint32_t felt = 0;
+        uint32_t felt = 0, passed[3] = {0};
         for (uint32_t number = 0; jox_isa_runs(isa) && number < CROWDS; number++)
-            felt += compare_crowd(isa, KERNELS[isa], number);
+            felt += compare_crowd(isa, KERNELS[isa], INFER[isa], number, passed);
         assert_true(!jox_isa_runs(isa) ||
                     (felt > CROWDS * PEOPLE / 4 && felt < CROWDS * PEOPLE * 99 / 100));
+        for (uint32_t kind = 0; jox_isa_runs(isa) && kind < 3; kind++)
+            assert_true(passed[kind] > CROWDS * PEOPLE / 50);
     }
 }
 

@@ -149,6 +149,7 @@ static void expect_waiting(const char *yaml, uint32_t most) {
         assert_true(fabsf(a->x[i]) < 5.0f && fabsf(a->y[i]) < 5.0f);
         a->removed[i] = true;
     }
+    jox_agents_compact(a);
     step(scene, 3);
     assert_in_range(world->state.statistics.spawned, full + 3, 2 * most);
     assert_in_range(a->count, 3, most);

@@ -1,0 +1,166 @@
+/* What braced and slowing people pass on: equations 8 and 9. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "force/equations.h"
+#include "force/kernels.h"
+
+#define X(name, isa) [isa] = jox_infer_packets_##name,
+static JoxInferKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+
+/* (9) By how much the feet keep agent i, in this step, below where the force along a unit vector
+   would take them, m/s: what they hold of others' pushes, and what they take of the velocity that
+   forces give, less what they wear down in any case. Counted step by step, it is the same at any
+   step and however long a plan is kept. */
+static float shortfall_of(const JoxForces *f, uint32_t i, JoxV2 unit, JoxDecay *decay) {
+    const JoxAgents *a = f->step.agents;
+    const float dt = (float)f->step.dt, response = (float)f->step.response;
+    float lightness = 1.0f / a->param[JOX_PARAM_mass][i];
+    float damping = a->param[JOX_PARAM_damping][i];
+    JoxV2 others = {a->push_x[i] + a->inferred_x[i], a->push_y[i] + a->inferred_y[i]};
+    JoxV2 held = jox_sub(others, jox_unheld_pushes(a, i));
+    JoxV2 taken = {a->forced_x[i] - a->next_x[i], a->forced_y[i] - a->next_y[i]};
+    float along = jox_maxf(0.0f, f->old_x[i] * unit.x + f->old_y[i] * unit.y);
+    float worn = along * (1.0f - jox_decay(decay, damping, dt));
+    return jox_dot(held, unit) * dt * lightness + jox_dot(taken, unit) * response - worn;
+}
+
+static bool is_under_force(const JoxAgents *a, uint32_t i) {
+    return a->half_plane_x[i] != 0.0f || a->half_plane_y[i] != 0.0f;
+}
+
+/* (8) Whether someone under no force slowed down so that others feel it. */
+static bool slows_down(const JoxForces *f, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    const float absorb = a->param[JOX_PARAM_absorb][i], dt = (float)f->step.dt;
+    /* What the feet took: contacts and other forces have their share already. */
+    JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
+    return (f->old_x[i] != 0.0f || f->old_y[i] != 0.0f) && absorb > 0.0f &&
+           jox_slows(before, after, a->param[JOX_PARAM_brace_angle][i]) &&
+           jox_length(jox_slowing(before, after)) * absorb >= f->options.least * dt;
+}
+
+JoxPassKind jox_passes_on(const JoxForces *f, uint32_t i, JoxDecay *decay, float *shortfall) {
+    const JoxAgents *a = f->step.agents;
+    *shortfall = 0.0f;
+    if (!is_under_force(a, i))
+        return slows_down(f, i) ? JOX_PASSES_DECELERATION : JOX_PASSES_NOTHING;
+    *shortfall = shortfall_of(f, i, (JoxV2){a->half_plane_x[i], a->half_plane_y[i]}, decay);
+    return *shortfall > JOX_SHORTFALL_LEAST && a->param[JOX_PARAM_absorb][i] > 0.0f
+               ? JOX_PASSES_RESISTANCE
+               : JOX_PASSES_NOTHING;
+}
+
+/* (9) Someone under force who falls short of where it would take them. */
+static void pass_resistance(JoxForces *f, uint32_t chunk, uint32_t i, float shortfall) {
+    const JoxAgents *a = f->step.agents;
+    JoxV2 unit = {a->half_plane_x[i], a->half_plane_y[i]};
+    uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_people_in_cone(f, i, unit, found);
+    for (uint32_t k = 0; k < n; k++)
+        jox_transfer_give(f, chunk, i, found[k],
+                          jox_resistance(unit, shortfall, a->param[JOX_PARAM_absorb][i],
+                                         a->param[JOX_PARAM_mass][i], n, (float)f->step.dt));
+}
+
+/* Share of a force that agent `to` takes of someone who slowed down and lost `energy` (J) by that:
+   who is faster already, or soon will be, is not driven by more than was lost. */
+static float share_taken(const JoxForces *f, uint32_t to, JoxV2 force, float energy) {
+    const JoxAgents *a = f->step.agents;
+    float size = jox_length(force), mass = a->param[JOX_PARAM_mass][to];
+    if (!(size > 0.0f))
+        return 0.0f;
+    JoxV2 direction = jox_scale(force, 1.0f / size);
+    JoxV2 coming =
+        jox_scale((JoxV2){a->inferred_x[to], a->inferred_y[to]}, f->options.filter / mass);
+    float speed = jox_dot((JoxV2){a->vx[to], a->vy[to]}, direction) +
+                  jox_maxf(0.0f, jox_dot(coming, direction));
+    return jox_share_within_energy(size * (float)f->step.dt, mass, speed, energy);
+}
+
+/* (8) Someone under no force who slowed down. */
+static void pass_deceleration(JoxForces *f, uint32_t chunk, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    float dt = (float)f->step.dt, mass = a->param[JOX_PARAM_mass][i];
+    float absorb = a->param[JOX_PARAM_absorb][i];
+    JoxV2 before = {a->forced_x[i], a->forced_y[i]}, after = {a->vx[i], a->vy[i]};
+    JoxV2 change = jox_slowing(before, after);
+    uint32_t found[JOX_MOST_NEIGHBOURS], n = jox_people_in_cone(f, i, jox_unit(before), found);
+    JoxV2 given = jox_deceleration(change, absorb, mass, n > 0 ? n : 1, dt);
+    float lost = 0.5f * mass * (jox_length2(before) - jox_length2(after));
+    for (uint32_t k = 0; k < n; k++) {
+        float share = share_taken(f, found[k], given, absorb * lost / (float)n);
+        jox_transfer_give(f, chunk, i, found[k], jox_scale(given, share));
+    }
+    if (n || jox_stands(a, i))
+        return; /* who wants to stand brakes as they plan: nothing carries them on */
+    jox_transfer_give(f, chunk, i, i,
+                      jox_keep_from_reversing(given, after, mass, (float)f->step.planning_time));
+}
+
+/* Whole packets are looked at by the kernel of the run's instruction set. */
+static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    const uint32_t chunk = begin / JOX_FORCE_GRAIN;
+    const uint32_t whole = f->options.literal ? begin : end - (end - begin) % JOX_LANES;
+    JoxDecay decay = {-1.0f, 0.0f, 0.0f};
+    JoxPassing passing;
+    if (whole > begin)
+        KERNELS[f->isa](f, begin, whole, &passing);
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t at = i - begin;
+        if (f->options.literal) {
+            jox_literal_pass_on(f, chunk, i);
+            continue;
+        }
+        if (i >= whole)
+            passing.kind[at] = (uint8_t)jox_passes_on(f, i, &decay, &passing.shortfall[at]);
+        if (passing.kind[at] == JOX_PASSES_RESISTANCE)
+            pass_resistance(f, chunk, i, passing.shortfall[at]);
+        else if (passing.kind[at] == JOX_PASSES_DECELERATION)
+            pass_deceleration(f, chunk, i);
+    }
+}
+
+static void fade_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    JoxAgents *a = f->step.agents;
+    float kept =
+        1.0f - (f->options.literal ? 1.0f : jox_filter_share(f->step.dt, f->options.filter));
+    for (uint32_t i = begin; i < end; i++) {
+        if (a->inferred_x[i] == 0.0f && a->inferred_y[i] == 0.0f)
+            continue;
+        a->inferred_x[i] *= kept;
+        a->inferred_y[i] *= kept;
+        /* What is left of a force after seconds is nothing, and slow to compute with. */
+        if (fabsf(a->inferred_x[i]) + fabsf(a->inferred_y[i]) < 1e-6f)
+            a->inferred_x[i] = a->inferred_y[i] = 0.0f;
+    }
+}
+
+static void scale_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    JoxForces *f = context;
+    float share = f->options.literal ? 1.0f : jox_filter_share(f->step.dt, f->options.filter);
+    JOX_ASSERT(share > 0.0f && share <= 1.0f);
+    JoxTransfer *sorted = f->sorted;
+    for (uint32_t i = f->starts[begin]; i < f->starts[end]; i++) {
+        sorted[i].x *= share;
+        sorted[i].y *= share;
+    }
+}
+
+void jox_force_infer(JoxForces *f) {
+    JoxAgents *a = f->step.agents;
+    uint32_t room = JOX_FORCE_GRAIN * (f->step.neighbours->stride + 1);
+    jox_chunks_begin(&f->transfers, f->chunks, room, sizeof(JoxTransfer));
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, infer_chunk, f);
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, fade_chunk, f);
+    f->totals.passed = jox_transfers_sort(f);
+    if (!f->totals.passed)
+        return;
+    jox_parallel_for(f->step.pool, a->count, JOX_FORCE_GRAIN, scale_chunk, f);
+    jox_transfers_sum(f, a->inferred_x, a->inferred_y);
+}

@@ -1,0 +1,80 @@
+/* The kernel of infer: who passes on what, equations 8 and 9; a lane is an agent. As infer.c says
+   it of one, to the bit. */
+#include "force/kernels.h"
+#include "force/pushes_lanes.h"
+
+static inline JoxMask is_set(JoxVector a) {
+    const JoxFloats zero = jf_set(0.0f);
+    const JoxMask none = jm_and(jf_le(jf_abs(a.x), zero), jf_le(jf_abs(a.y), zero));
+    return jm_without(jm_of_bits((uint32_t)(((uint64_t)1 << JOX_WIDTH) - 1)), none);
+}
+
+/* (9) shortfall_of */
+static JoxFloats shortfall(const JoxForces *f, uint32_t i, JoxVector unit, JoxDecay *decay) {
+    const JoxAgents *a = f->step.agents;
+    const float dt = (float)f->step.dt, *damping = a->param[JOX_PARAM_damping] + i;
+    const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
+    const JoxFloats lightness = jf_div(one, jf_load(a->param[JOX_PARAM_mass] + i));
+    const JoxVector others = jox_others_lanes(a, i);
+    const JoxVector held = jv_sub(others, jox_unheld_lanes(a, i, others, jox_stands_lanes(a, i)));
+    const JoxVector taken =
+        jv_sub(jv_load(a->forced_x, a->forced_y, i), jv_load(a->next_x, a->next_y, i));
+    const JoxFloats along = jf_max(zero, jv_dot(jv_load(f->old_x, f->old_y, i), unit));
+    float kept[JOX_WIDTH];
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+        kept[lane] = jox_decay(decay, damping[lane], dt);
+    const JoxFloats worn = jf_mul(along, jf_sub(one, jf_load(kept)));
+    const JoxFloats holds = jf_mul(jf_mul(jv_dot(held, unit), jf_set(dt)), lightness);
+    const JoxFloats takes = jf_mul(jv_dot(taken, unit), jf_set((float)f->step.response));
+    return jf_sub(jf_add(holds, takes), worn);
+}
+
+/* (8) slows_down */
+static JoxMask slows_down(const JoxForces *f, uint32_t i) {
+    const JoxAgents *a = f->step.agents;
+    const JoxFloats zero = jf_set(0.0f), one = jf_set(1.0f);
+    const JoxFloats least = jf_set(f->options.least * (float)f->step.dt);
+    const JoxFloats cosine = jf_load(a->param[JOX_PARAM_brace_angle] + i);
+    const JoxVector before = jv_load(a->forced_x, a->forced_y, i);
+    const JoxVector after = jv_load(a->vx, a->vy, i);
+    const JoxVector change = jv_sub(after, before), way = jv_add(after, before);
+    const JoxFloats against = jf_neg(jv_dot(change, way)), change2 = jv_dot(change, change);
+    const JoxFloats bound =
+        jf_mul(jf_mul(jf_mul(cosine, cosine), change2), jv_dot(way, way));
+    const JoxMask aligned = jm_or(jf_le(cosine, zero), jf_lt(bound, jf_mul(against, against)));
+    const JoxFloats size = jf_sqrt(change2), most = jf_sqrt(jv_dot(before, before));
+    const JoxMask cut = jf_lt(most, size);
+    const JoxVector slowing =
+        jv_scale(change, jf_select(cut, jf_div(most, size), one)); /* jox_slowing */
+    const JoxFloats absorb = jf_load(a->param[JOX_PARAM_absorb] + i);
+    const JoxFloats felt = jf_mul(jf_sqrt(jv_dot(slowing, slowing)), absorb);
+    return jm_and(jm_and(jf_lt(zero, against), aligned),
+                  jm_and(jm_and(is_set(jv_load(f->old_x, f->old_y, i)), jf_lt(zero, absorb)),
+                         jf_le(least, felt)));
+}
+
+void JOX_WIDE(jox_infer_packets)(const JoxForces *f, uint32_t begin, uint32_t end,
+                                 JoxPassing *passing) {
+    const JoxAgents *a = f->step.agents;
+    const JoxFloats least = jf_set(JOX_SHORTFALL_LEAST), zero = jf_set(0.0f);
+    JoxDecay decay = {-1.0f, 0.0f, 0.0f};
+    for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
+        const JoxVector unit = jv_load(a->half_plane_x, a->half_plane_y, i);
+        const uint32_t forced = jm_bits(is_set(unit));
+        JoxFloats lacks = zero;
+        uint32_t resists = 0;
+        if (forced) {
+            lacks = shortfall(f, i, unit, &decay);
+            resists = jm_bits(jm_and(jf_lt(least, lacks),
+                                     jf_lt(zero, jf_load(a->param[JOX_PARAM_absorb] + i))));
+        }
+        const uint32_t slows = jm_bits(slows_down(f, i)) & ~forced;
+        jf_store(passing->shortfall + (i - begin), lacks);
+        for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+            passing->kind[i - begin + lane] = (uint8_t)((resists & forced) >> lane & 1
+                                                            ? JOX_PASSES_RESISTANCE
+                                                        : slows >> lane & 1
+                                                            ? JOX_PASSES_DECELERATION
+                                                            : JOX_PASSES_NOTHING);
+    }
+}
