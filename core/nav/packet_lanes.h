@@ -26,10 +26,19 @@ typedef struct JoxPacket {
         walkers;                      /* of them; pressed: who touches or is forced */
     uint32_t contacts, hard, objects; /* rows from which on these stand; hard: neighbours */
     JoxHalfPlaneCounts made[JOX_LANES];
-    JoxRows rows;
+    uint32_t count; /* rows */
+    JoxRow rows[JOX_MOST_CONSTRAINTS];
     JoxHalfPlane list[JOX_MOST_CONSTRAINTS]; /* of one lane */
     JoxRest *unmet, *far; /* who waits: for the least violation, and to be kept within reach */
 } JoxPacket;
+
+/* Rows up to `count` are there; new ones are zeros. */
+static inline void jox_rows_open(JoxPacket *p, uint32_t count) {
+    if (count > p->count) {
+        memset(&p->rows[p->count], 0, (count - p->count) * sizeof *p->rows);
+        p->count = count;
+    }
+}
 
 /* ---- half-planes that are made for one lane at a time ---- */
 
@@ -44,11 +53,11 @@ static inline void jox_put_each(JoxPacket *p, uint32_t lanes, uint32_t row, JoxM
             continue;
         uint32_t count = make(p->s, p->first + lane, p->list);
         memcpy((char *)&p->made[lane] + at, &count, sizeof count);
-        jox_rows_open(&p->rows, row + count);
+        jox_rows_open(p, row + count);
         for (uint32_t k = 0; k < count; k++) {
-            p->rows.x[row + k][lane] = p->list[k].normal.x;
-            p->rows.y[row + k][lane] = p->list[k].normal.y;
-            p->rows.offset[row + k][lane] = p->list[k].offset;
+            p->rows[row + k].x[lane] = p->list[k].normal.x;
+            p->rows[row + k].y[lane] = p->list[k].normal.y;
+            p->rows[row + k].offset[lane] = p->list[k].offset;
         }
     }
 }
@@ -196,9 +205,9 @@ static inline __attribute__((always_inline)) uint32_t jox_put_rows(JoxPacket *p,
             minds = jm_without(minds, jm_without(walkers, has));
         }
         plane = jox_select_plane(minds, plane, none);
-        jf_store(p->rows.x[p->hard + k], plane.x);
-        jf_store(p->rows.y[p->hard + k], plane.y);
-        jf_store(p->rows.offset[p->hard + k], plane.offset);
+        jf_store(p->rows[p->hard + k].x, plane.x);
+        jf_store(p->rows[p->hard + k].y, plane.y);
+        jf_store(p->rows[p->hard + k].offset, plane.offset);
     }
     return coincide;
 }
@@ -218,12 +227,12 @@ static inline void jox_put_neighbours(JoxPacket *p) {
     for (uint32_t lane = 0; p->lanes >> lane; lane++)
         if ((p->lanes >> lane & 1) && counts[lane] > most)
             most = counts[lane];
-    jox_rows_open(&p->rows, p->hard + most);
+    jox_rows_open(p, p->hard + most);
     const bool periodic = a->period.x > 0.0f || a->period.y > 0.0f;
     const uint32_t alone = (periodic ? jox_put_rows_periodic : jox_put_rows_bounded)(p, most);
     for (uint32_t lane = 0; alone >> lane; lane++)
         for (uint32_t row = p->hard; (alone >> lane & 1) && row < p->hard + most; row++)
-            p->rows.x[row][lane] = p->rows.y[row][lane] = p->rows.offset[row][lane] = 0.0f;
+            p->rows[row].x[lane] = p->rows[row].y[lane] = p->rows[row].offset[lane] = 0.0f;
     if (alone)
         JOX_PUT_EACH(p, alone, p->hard, jox_solve_neighbours, agents);
 }
@@ -233,29 +242,29 @@ static inline void jox_put_force(JoxPacket *p) {
     const JoxFloats zero = jf_set(0.0f);
     JoxFloats x = jf_load(a->half_plane_x + p->first), y = jf_load(a->half_plane_y + p->first);
     JoxMask there = jm_and(jf_lt(zero, jf_max(jf_abs(x), jf_abs(y))), jm_of_bits(p->lanes));
-    const uint32_t row = p->rows.count, forced = jm_bits(there);
+    const uint32_t row = p->count, forced = jm_bits(there);
     p->pressed = p->touching | forced;
     if (!forced)
         return;
-    jox_rows_open(&p->rows, row + 1);
-    jf_store(p->rows.x[row], jf_select(there, x, zero));
-    jf_store(p->rows.y[row], jf_select(there, y, zero));
-    jf_store(p->rows.offset[row], jf_select(there, jf_load(a->half_plane_offset + p->first), zero));
+    jox_rows_open(p, row + 1);
+    jf_store(p->rows[row].x, jf_select(there, x, zero));
+    jf_store(p->rows[row].y, jf_select(there, y, zero));
+    jf_store(p->rows[row].offset, jf_select(there, jf_load(a->half_plane_offset + p->first), zero));
     for (uint32_t lane = 0; forced >> lane; lane++)
         p->made[lane].force = forced >> lane & 1;
 }
 
 static inline void jox_put_half_planes(JoxPacket *p) {
-    p->rows.count = 0;
+    p->count = 0;
     memset(p->made, 0, sizeof p->made);
     if (p->near_walls)
         JOX_PUT_EACH(p, p->near_walls, 0, jox_solve_walls, walls);
-    p->contacts = p->rows.count;
+    p->contacts = p->count;
     if (p->touching)
         JOX_PUT_EACH(p, p->touching, p->contacts, jox_solve_contacts, contacts);
-    p->hard = p->rows.count;
+    p->hard = p->count;
     jox_put_neighbours(p);
-    p->objects = p->rows.count;
+    p->objects = p->count;
     if (p->s->objects && p->s->objects->count)
         JOX_PUT_EACH(p, p->lanes, p->objects, jox_solve_objects, objects);
     jox_put_force(p);

@@ -8,25 +8,14 @@
 #include "nav/internal.h"
 #include "simd/vectors.h"
 
-/* Half-planes n . v >= offset, one of each lane in a row. A lane without one has zeros: any
-   velocity meets them, and they bound no other. */
-typedef struct JoxRows {
-    uint32_t count;
-    float x[JOX_MOST_CONSTRAINTS][JOX_WIDTH], y[JOX_MOST_CONSTRAINTS][JOX_WIDTH];
-    float offset[JOX_MOST_CONSTRAINTS][JOX_WIDTH]; /* m/s */
-} JoxRows;
+/* Half-planes n . v >= offset (m/s), one of each lane. A lane without one has zeros: any velocity
+   meets them, and they bound no other. */
+typedef struct JoxRow {
+    float x[JOX_WIDTH], y[JOX_WIDTH], offset[JOX_WIDTH];
+} JoxRow;
 
-/* Rows up to `count` are there; new ones are zeros. */
-static inline void jox_rows_open(JoxRows *rows, uint32_t count) {
-    for (; rows->count < count; rows->count++) {
-        memset(rows->x[rows->count], 0, sizeof rows->x[0]);
-        memset(rows->y[rows->count], 0, sizeof rows->y[0]);
-        memset(rows->offset[rows->count], 0, sizeof rows->offset[0]);
-    }
-}
-
-static inline JoxVector jox_row_normal(const JoxRows *rows, uint32_t row) {
-    return (JoxVector){jf_load(rows->x[row]), jf_load(rows->y[row])};
+static inline JoxVector jox_row_normal(const JoxRow *row) {
+    return (JoxVector){jf_load(row->x), jf_load(row->y)};
 }
 
 /* What remains of the border of a row within the speed limit and the rows before it: along
@@ -36,20 +25,20 @@ typedef struct JoxBorder {
     JoxFloats low, high;
 } JoxBorder;
 
-static inline JoxMask jox_border_lanes(const JoxRows *rows, uint32_t row, JoxFloats limit,
+static inline JoxMask jox_border_lanes(const JoxRow *rows, uint32_t row, JoxFloats limit,
                                        JoxBorder *b) {
     const JoxFloats epsilon = jf_set(1e-5f), zero = jf_set(0.0f);
-    const JoxVector normal = jox_row_normal(rows, row);
-    const JoxFloats offset = jf_load(rows->offset[row]);
+    const JoxVector normal = jox_row_normal(&rows[row]);
+    const JoxFloats offset = jf_load(rows[row].offset);
     JoxFloats half2 = jf_sub(jf_mul(limit, limit), jf_mul(offset, offset));
     JoxMask none = jf_lt(half2, zero);
     JoxFloats half = jf_sqrt(half2), low = jf_neg(half), high = half;
     b->direction = (JoxVector){normal.y, jf_neg(normal.x)};
     b->foot = (JoxVector){jf_mul(normal.x, offset), jf_mul(normal.y, offset)};
     for (uint32_t k = 0; k < row; k++) {
-        const JoxVector other = jox_row_normal(rows, k);
+        const JoxVector other = jox_row_normal(&rows[k]);
         JoxFloats across = jv_dot(other, b->direction);
-        JoxFloats missing = jf_sub(jf_load(rows->offset[k]), jv_dot(other, b->foot));
+        JoxFloats missing = jf_sub(jf_load(rows[k].offset), jv_dot(other, b->foot));
         JoxMask parallel = jf_le(jf_abs(across), epsilon);
         none = jm_or(none, jm_and(parallel, jf_lt(epsilon, missing)));
         JoxFloats t = jf_div(missing, across);
@@ -85,7 +74,7 @@ static inline JoxVector jox_along_border_lanes(const JoxBorder *b, JoxVector wan
 /* The program in two dimensions over the first `count` rows, for the lanes of `all`. Returns those
    in which not all can be met: *failed_at is the first row that cannot, and *result meets those
    before it. `towards`, or NULL: see jox_along_border_lanes. */
-static inline JoxMask jox_program_lanes(const JoxRows *rows, uint32_t count, JoxMask all,
+static inline JoxMask jox_program_lanes(const JoxRow *rows, uint32_t count, JoxMask all,
                                         JoxFloats limit, JoxVector wanted, const JoxVector *towards,
                                         JoxVector *result, JoxInts *failed_at) {
     JoxVector v = wanted;
@@ -100,8 +89,8 @@ static inline JoxMask jox_program_lanes(const JoxRows *rows, uint32_t count, Jox
     JoxMask failed = jm_of_bits(0), left = all;
     *failed_at = ji_set(0);
     for (uint32_t row = 0; row < count; row++) {
-        JoxFloats along = jv_dot(jox_row_normal(rows, row), v);
-        JoxMask violated = jm_and(left, jf_lt(along, jf_load(rows->offset[row])));
+        JoxFloats along = jv_dot(jox_row_normal(&rows[row]), v);
+        JoxMask violated = jm_and(left, jf_lt(along, jf_load(rows[row].offset)));
         if (!jm_bits(violated))
             continue;
         JoxBorder border;
@@ -118,48 +107,47 @@ static inline JoxMask jox_program_lanes(const JoxRows *rows, uint32_t count, Jox
 
 /* Rows that allow the velocities at which row `worst` is violated at least as much as those between
    `hard` and it; the hard ones stay as they are. */
-static inline void jox_project_lanes(const JoxRows *rows, uint32_t hard, uint32_t worst,
-                                     JoxRows *out) {
+static inline void jox_project_lanes(const JoxRow *rows, uint32_t hard, uint32_t worst,
+                                     JoxRow *out) {
     const JoxFloats epsilon = jf_set(1e-5f), zero = jf_set(0.0f), one = jf_set(1.0f);
-    const JoxVector normal = jox_row_normal(rows, worst);
-    const JoxFloats offset = jf_load(rows->offset[worst]);
+    const JoxVector normal = jox_row_normal(&rows[worst]);
+    const JoxFloats offset = jf_load(rows[worst].offset);
     for (uint32_t j = hard; j < worst; j++) {
-        const JoxVector other = jox_row_normal(rows, j);
+        const JoxVector other = jox_row_normal(&rows[j]);
         JoxVector d = {jf_sub(other.x, normal.x), jf_sub(other.y, normal.y)};
         JoxFloats length = jf_sqrt(jv_dot(d, d)), by = jf_div(one, length);
         JoxMask there = jf_lt(jf_set(0.5f), jv_dot(other, other));
         there = jm_and(there, jf_lt(epsilon, length));
-        JoxFloats moved = jf_div(jf_sub(jf_load(rows->offset[j]), offset), length);
-        jf_store(out->x[j], jf_select(there, jf_mul(d.x, by), zero));
-        jf_store(out->y[j], jf_select(there, jf_mul(d.y, by), zero));
-        jf_store(out->offset[j], jf_select(there, moved, zero));
+        JoxFloats moved = jf_div(jf_sub(jf_load(rows[j].offset), offset), length);
+        jf_store(out[j].x, jf_select(there, jf_mul(d.x, by), zero));
+        jf_store(out[j].y, jf_select(there, jf_mul(d.y, by), zero));
+        jf_store(out[j].offset, jf_select(there, moved, zero));
     }
 }
 
 /* The program in three dimensions, for the lanes of `failed`: minimises the greatest violation of
-   the rows from `hard` on, while the hard ones hold, from the row that failed. */
-static inline void jox_least_violation_lanes(const JoxRows *rows, uint32_t hard, JoxMask failed,
-                                             JoxInts failed_at, JoxFloats limit, JoxVector wanted,
-                                             JoxVector *result) {
-    JoxRows projected;
+   those of `count` rows that are not hard, while the `hard` first ones hold, from the row that
+   failed. */
+static inline void jox_least_violation_lanes(const JoxRow *rows, uint32_t count, uint32_t hard,
+                                             JoxMask failed, JoxInts failed_at, JoxFloats limit,
+                                             JoxVector wanted, JoxVector *result) {
+    JoxRow projected[JOX_MOST_CONSTRAINTS];
     JoxFloats violation = jf_set(0.0f);
-    memcpy(projected.x, rows->x, hard * sizeof rows->x[0]);
-    memcpy(projected.y, rows->y, hard * sizeof rows->y[0]);
-    memcpy(projected.offset, rows->offset, hard * sizeof rows->offset[0]);
-    for (uint32_t row = hard; row < rows->count; row++) {
-        const JoxVector normal = jox_row_normal(rows, row);
-        const JoxFloats offset = jf_load(rows->offset[row]);
+    memcpy(projected, rows, hard * sizeof *rows);
+    for (uint32_t row = hard; row < count; row++) {
+        const JoxVector normal = jox_row_normal(&rows[row]);
+        const JoxFloats offset = jf_load(rows[row].offset);
         JoxFloats over = jf_sub(offset, jv_dot(normal, *result));
         JoxMask there = jf_lt(jf_set(0.5f), jv_dot(normal, normal));
         JoxMask worse = jm_and(jm_and(failed, there), jf_lt(violation, over));
         worse = jm_without(worse, ji_less(ji_set((int32_t)row), failed_at));
         if (!jm_bits(worse))
             continue;
-        jox_project_lanes(rows, hard, row, &projected);
+        jox_project_lanes(rows, hard, row, projected);
         JoxVector best;
         JoxInts unmet_at; /* only by rounding: the present result already lies there */
         JoxMask unmet =
-            jox_program_lanes(&projected, row, worse, limit, wanted, &normal, &best, &unmet_at);
+            jox_program_lanes(projected, row, worse, limit, wanted, &normal, &best, &unmet_at);
         *result = jv_select(jm_without(worse, unmet), best, *result);
         over = jf_sub(offset, jv_dot(normal, *result));
         violation = jf_select(worse, over, violation);

@@ -23,16 +23,34 @@ typedef struct JoxPressed {
     JoxMask touching, pressed;
 } JoxPressed;
 
-/* Agents that wait for their velocity. Their half-planes stand one after the other, in their order.
- */
+/* Agents that wait for their velocity, one a lane. Their half-planes stand in rows, each lane's one
+   after the other: the hard ones end with row JOX_REST_HARD, where the soft ones begin. */
+enum { JOX_REST_HARD = JOX_MOST_WALLS + JOX_MOST_CONTACTS };
 typedef struct JoxRest {
     uint32_t count;
-    uint32_t agent[JOX_WIDTH], failed_at[JOX_WIDTH]; /* half-plane that could not be met */
+    uint32_t agent[JOX_WIDTH], failed_at[JOX_WIDTH]; /* row that could not be met */
     bool failed[JOX_WIDTH];                          /* there is such a one */
     JoxHalfPlaneCounts made[JOX_WIDTH];
     float wanted_x[JOX_WIDTH], wanted_y[JOX_WIDTH], velocity_x[JOX_WIDTH], velocity_y[JOX_WIDTH];
-    JoxHalfPlane list[JOX_WIDTH][JOX_MOST_CONSTRAINTS];
+    uint32_t hard, soft, zeroed; /* most rows of any lane; soft ones that were set to zeros */
+    JoxRow rows[JOX_MOST_CONSTRAINTS];
 } JoxRest;
+
+static inline void jox_rest_clear(JoxRest *r) {
+    r->count = r->hard = r->soft = r->zeroed = 0;
+}
+
+/* Room for so many hard and soft rows, which are zeros where they are new. */
+static inline void jox_rest_open(JoxRest *r, uint32_t hard, uint32_t soft) {
+    if (hard > r->hard) {
+        memset(&r->rows[JOX_REST_HARD - hard], 0, (hard - r->hard) * sizeof *r->rows);
+        r->hard = hard;
+    }
+    if (soft > r->zeroed) {
+        memset(&r->rows[JOX_REST_HARD + r->zeroed], 0, (soft - r->zeroed) * sizeof *r->rows);
+        r->zeroed = soft;
+    }
+}
 
 static inline uint32_t jox_count_of(const JoxHalfPlaneCounts *made) {
     return made->walls + made->contacts + made->agents + made->objects + made->force;
@@ -74,51 +92,32 @@ static inline void jox_keep_plan(const JoxSolve *s, uint32_t agent, float x, flo
 typedef struct JoxRestLanes {
     JoxMask all;
     JoxFloats limit; /* m/s */
-    JoxInts walls, hard_count, failed_at;
-    uint32_t hard; /* row from which on their half-planes are soft */
+    JoxInts contacts, failed_at; /* rows: the first of a contact; that could not be met */
+    uint32_t count, hard;        /* rows, and from which on their half-planes are soft */
+    JoxRow *rows;
+    float asked[JOX_REST_HARD + 1][JOX_WIDTH]; /* m/s: offsets of hard rows, and that of force,
+                                                  before any was lowered */
     JoxPressed pressed;
     JoxVector velocity;
-    JoxRows rows;
 } JoxRestLanes;
-
-/* Rows of all: the hard half-planes of each from row 0, the soft ones from one row of all on. */
-static inline void jox_rest_rows(const JoxRest *r, JoxRestLanes *l) {
-    uint32_t hard[JOX_WIDTH] = {0}, walls[JOX_WIDTH] = {0}, failed_at[JOX_WIDTH] = {0};
-    uint32_t most = 0;
-    l->hard = l->rows.count = 0;
-    for (uint32_t k = 0; k < r->count; k++) {
-        walls[k] = r->made[k].walls;
-        hard[k] = walls[k] + r->made[k].contacts;
-        l->hard = hard[k] > l->hard ? hard[k] : l->hard;
-    }
-    for (uint32_t k = 0; k < r->count; k++) {
-        uint32_t end = l->hard - hard[k] + jox_count_of(&r->made[k]);
-        most = end > most ? end : most;
-        failed_at[k] = r->failed_at[k] + l->hard - hard[k];
-    }
-    jox_rows_open(&l->rows, most);
-    for (uint32_t k = 0; k < r->count; k++)
-        for (uint32_t n = 0; n < jox_count_of(&r->made[k]); n++) {
-            uint32_t row = n < hard[k] ? n : n - hard[k] + l->hard;
-            l->rows.x[row][k] = r->list[k][n].normal.x;
-            l->rows.y[row][k] = r->list[k][n].normal.y;
-            l->rows.offset[row][k] = r->list[k][n].offset;
-        }
-    l->walls = ji_load(walls);
-    l->hard_count = ji_load(hard);
-    l->failed_at = ji_load(failed_at);
-}
 
 static inline void jox_rest_load(const JoxSolve *s, JoxRest *r, JoxRestLanes *l) {
     const JoxAgents *a = s->agents;
     uint32_t touching = 0, pressed = 0;
+    uint32_t contacts[JOX_WIDTH] = {0}, failed_at[JOX_WIDTH] = {0};
     for (uint32_t k = r->count; k < JOX_WIDTH; k++)
         r->agent[k] = r->agent[0];
-    jox_rest_rows(r, l);
+    l->hard = r->hard;
+    l->count = r->hard + r->soft;
+    l->rows = &r->rows[JOX_REST_HARD - r->hard];
     for (uint32_t k = 0; k < r->count; k++) {
+        contacts[k] = r->hard - r->made[k].contacts;
+        failed_at[k] = r->failed_at[k] - (JOX_REST_HARD - r->hard);
         touching |= (r->made[k].contacts > 0) << k;
         pressed |= (r->made[k].contacts > 0 || r->made[k].force) << k;
     }
+    l->contacts = ji_load(contacts);
+    l->failed_at = ji_load(failed_at);
     const JoxInts at = ji_load(r->agent);
     l->all = jm_of_bits((1u << r->count) - 1);
     l->limit = jf_pick(a->speed_limit, at);
@@ -131,16 +130,36 @@ static inline void jox_rest_load(const JoxSolve *s, JoxRest *r, JoxRestLanes *l)
                               jm_of_bits(pressed)};
 }
 
+/* One that only hard half-planes that give way allow to move, with its half-planes as they were
+   before any was lowered. Returns whether one was relaxed. */
+static inline bool jox_rest_one(const JoxSolve *s, const JoxRest *r, const JoxRestLanes *l,
+                                uint32_t k) {
+    JoxHalfPlane list[JOX_MOST_CONSTRAINTS];
+    const JoxHalfPlaneCounts *made = &r->made[k];
+    const uint32_t hard = made->walls + made->contacts, first = l->hard - hard;
+    const uint32_t count = jox_count_of(made);
+    for (uint32_t n = 0; n < count; n++) {
+        const JoxRow *row = &l->rows[first + n];
+        list[n] = (JoxHalfPlane){{row->x[k], row->y[k]}, row->offset[k]};
+        if (n < hard)
+            list[n].offset = l->asked[first + n][k];
+    }
+    if (made->force)
+        list[count - 1].offset = l->asked[l->hard][k];
+    return jox_solve_one(s, r->agent[k], made, list, jox_v2(r->wanted_x[k], r->wanted_y[k]));
+}
+
 /* The program over the rows of some lanes. Returns those of whom a hard row cannot be met: their
    result does not hold. */
-static inline JoxMask jox_best_lanes(const JoxRows *rows, uint32_t hard, JoxMask lanes,
-                                     JoxFloats limit, JoxVector wanted, JoxVector *result) {
+static inline JoxMask jox_best_lanes(const JoxRow *rows, uint32_t count, uint32_t hard,
+                                     JoxMask lanes, JoxFloats limit, JoxVector wanted,
+                                     JoxVector *result) {
     JoxInts at;
-    JoxMask failed = jox_program_lanes(rows, rows->count, lanes, limit, wanted, NULL, result, &at);
+    JoxMask failed = jox_program_lanes(rows, count, lanes, limit, wanted, NULL, result, &at);
     JoxMask unmet = jm_and(failed, ji_less(at, ji_set((int32_t)hard)));
     JoxMask soft = jm_without(failed, unmet);
     if (jm_bits(soft))
-        jox_least_violation_lanes(rows, hard, soft, at, limit, wanted, result);
+        jox_least_violation_lanes(rows, count, hard, soft, at, limit, wanted, result);
     return unmet;
 }
 
@@ -151,28 +170,27 @@ static inline JoxMask jox_lower_lanes(const JoxRest *r, JoxRestLanes *l, JoxMask
     const JoxFloats slack = jf_set(1e-5f);
     const JoxVector wanted = l->pressed.wanted, none = {jf_set(0.0f), jf_set(0.0f)};
     const JoxPlaneLanes *force = &l->pressed.force;
-    JoxRows imposed;
-    imposed.count = l->hard + 1;
+    JoxRow imposed[JOX_REST_HARD + 1];
     for (uint32_t row = 0; row <= l->hard; row++) {
         const bool is_hard = row < l->hard;
-        JoxVector n = is_hard ? jox_row_normal(&l->rows, row) : (JoxVector){force->x, force->y};
-        JoxFloats offset = is_hard ? jf_load(l->rows.offset[row]) : force->offset;
-        jf_store(imposed.x[row], n.x);
-        jf_store(imposed.y[row], n.y);
-        jf_store(imposed.offset[row], jf_sub(offset, jv_dot(n, wanted)));
+        JoxVector n = is_hard ? jox_row_normal(&l->rows[row]) : (JoxVector){force->x, force->y};
+        JoxFloats offset = is_hard ? jf_load(l->rows[row].offset) : force->offset;
+        jf_store(imposed[row].x, n.x);
+        jf_store(imposed[row].y, n.y);
+        jf_store(l->asked[row], offset);
+        jf_store(imposed[row].offset, jf_sub(offset, jv_dot(n, wanted)));
     }
     JoxVector change;
-    *unmet = jox_best_lanes(&imposed, l->hard, l->all, jf_sqrt(jox_reach2_lanes(&l->pressed)), none,
-                            &change);
+    *unmet = jox_best_lanes(imposed, l->hard + 1, l->hard, l->all,
+                            jf_sqrt(jox_reach2_lanes(&l->pressed)), none, &change);
     const JoxVector best = {jf_add(wanted.x, change.x), jf_add(wanted.y, change.y)};
     JoxMask lowered = jm_of_bits(0);
     for (uint32_t row = 0; row < l->hard; row++) {
-        JoxMask contact = jm_without(ji_less(ji_set((int32_t)row), l->hard_count),
-                                     ji_less(ji_set((int32_t)row), l->walls));
-        JoxFloats least = jv_dot(jox_row_normal(&l->rows, row), best);
-        JoxFloats offset = jf_load(l->rows.offset[row]);
+        JoxMask contact = jm_without(l->all, ji_less(ji_set((int32_t)row), l->contacts));
+        JoxFloats least = jv_dot(jox_row_normal(&l->rows[row]), best);
+        JoxFloats offset = jf_load(l->rows[row].offset);
         JoxMask lower = jm_without(contact, jf_le(offset, jf_add(least, slack)));
-        jf_store(l->rows.offset[row], jf_select(lower, jf_sub(least, slack), offset));
+        jf_store(l->rows[row].offset, jf_select(lower, jf_sub(least, slack), offset));
         lowered = jm_or(lowered, lower);
     }
     JoxFloats least = jv_dot((JoxVector){force->x, force->y}, best);
@@ -180,12 +198,11 @@ static inline JoxMask jox_lower_lanes(const JoxRest *r, JoxRestLanes *l, JoxMask
     float offsets[JOX_WIDTH];
     jf_store(offsets, jf_sub(least, slack));
     for (uint32_t k = 0; k < r->count; k++) {
-        uint32_t last = l->hard - r->made[k].walls - r->made[k].contacts;
-        last += jox_count_of(&r->made[k]) - 1;
+        const uint32_t last = l->hard + r->made[k].agents + r->made[k].objects;
         if (!r->made[k].force)
             lower &= ~(1u << k);
         else if (lower >> k & 1)
-            l->rows.offset[last][k] = offsets[k];
+            l->rows[last].offset[k] = offsets[k];
     }
     return jm_or(lowered, jm_of_bits(lower));
 }
@@ -205,8 +222,8 @@ static inline uint32_t jox_rest_pull_in(const JoxSolve *s, JoxRest *r) {
     lowered = jox_lower_lanes(r, &l, &unmet);
     lowered = jm_without(lowered, unmet);
     if (jm_bits(lowered)) {
-        unmet = jm_or(unmet,
-                      jox_best_lanes(&l.rows, l.hard, lowered, l.limit, l.pressed.wanted, &lowest));
+        unmet = jm_or(unmet, jox_best_lanes(l.rows, l.count, l.hard, lowered, l.limit,
+                                            l.pressed.wanted, &lowest));
         l.velocity = jv_select(lowered, lowest, l.velocity);
     }
     l.velocity = jox_as_forced_lanes(&l.pressed, l.velocity);
@@ -214,11 +231,10 @@ static inline uint32_t jox_rest_pull_in(const JoxSolve *s, JoxRest *r) {
     jf_store(y, l.velocity.y);
     for (uint32_t k = 0; k < r->count; k++)
         if (jm_bits(unmet) >> k & 1)
-            relaxed += jox_solve_one(s, r->agent[k], &r->made[k], r->list[k],
-                                     jox_v2(r->wanted_x[k], r->wanted_y[k]));
+            relaxed += jox_rest_one(s, r, &l, k);
         else
             jox_keep_plan(s, r->agent[k], x[k], y[k], r->failed[k]);
-    r->count = 0;
+    jox_rest_clear(r);
     return relaxed;
 }
 
@@ -232,7 +248,15 @@ static inline void jox_rest_copy(const JoxRest *from, uint32_t k, JoxRest *to) {
     to->wanted_y[at] = from->wanted_y[k];
     to->velocity_x[at] = from->velocity_x[k];
     to->velocity_y[at] = from->velocity_y[k];
-    memcpy(to->list[at], from->list[k], jox_count_of(&from->made[k]) * sizeof *from->list[k]);
+    const uint32_t hard = from->made[k].walls + from->made[k].contacts;
+    const uint32_t count = jox_count_of(&from->made[k]), first = JOX_REST_HARD - hard;
+    jox_rest_open(to, hard, count - hard);
+    to->soft = count - hard > to->soft ? count - hard : to->soft;
+    for (uint32_t row = first; row < first + count; row++) {
+        to->rows[row].x[at] = from->rows[row].x[k];
+        to->rows[row].y[at] = from->rows[row].y[k];
+        to->rows[row].offset[at] = from->rows[row].offset[k];
+    }
 }
 
 /* Plans those that were gathered as their half-planes cannot all be met: the greatest violation is
@@ -245,8 +269,8 @@ static inline uint32_t jox_rest_violate_least(const JoxSolve *s, JoxRest *r, Jox
     if (!r->count)
         return 0;
     jox_rest_load(s, r, &l);
-    jox_least_violation_lanes(&l.rows, l.hard, l.all, l.failed_at, l.limit, l.pressed.wanted,
-                              &l.velocity);
+    jox_least_violation_lanes(l.rows, l.count, l.hard, l.all, l.failed_at, l.limit,
+                              l.pressed.wanted, &l.velocity);
     const uint32_t out = jm_bits(jox_out_of_reach_lanes(&l.pressed, l.velocity));
     const JoxVector planned = jox_as_forced_lanes(&l.pressed, l.velocity);
     jf_store(r->velocity_x, l.velocity.x);
@@ -261,7 +285,7 @@ static inline uint32_t jox_rest_violate_least(const JoxSolve *s, JoxRest *r, Jox
         } else {
             jox_keep_plan(s, r->agent[k], x[k], y[k], true);
         }
-    r->count = 0;
+    jox_rest_clear(r);
     return relaxed;
 }
 

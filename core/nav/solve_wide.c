@@ -13,12 +13,12 @@ static uint32_t kept_off(const JoxPacket *p, JoxVector wanted, JoxMask gets_on) 
     const JoxFloats tie = jf_set(0.02f), zero = jf_set(0.0f); /* of the way ahead: more is no tie */
     JoxMask kept = jm_of_bits(0);
     for (uint32_t row = p->contacts; row < p->objects; row++) {
-        JoxFloats x = jf_load(p->rows.x[row]), y = jf_load(p->rows.y[row]);
+        JoxFloats x = jf_load(p->rows[row].x), y = jf_load(p->rows[row].y);
         JoxFloats along = jf_add(jf_mul(x, wanted.x), jf_mul(y, wanted.y));
         JoxFloats against = jf_neg(along);
         JoxFloats aside = jf_abs(jf_sub(jf_mul(x, wanted.y), jf_mul(y, wanted.x)));
         JoxMask head_on = jm_and(jf_lt(zero, against), jf_lt(aside, jf_mul(tie, against)));
-        JoxMask violated = jf_lt(along, jf_load(p->rows.offset[row]));
+        JoxMask violated = jf_lt(along, jf_load(p->rows[row].offset));
         kept = jm_or(kept, jm_without(violated, jm_without(gets_on, head_on)));
     }
     return jm_bits(kept);
@@ -48,19 +48,16 @@ static JoxVector wish(const JoxPacket *p) {
                        jf_select(walks, jf_load(a->walk_y + i), w.y)};
 }
 
-/* The half-planes of a lane, one after the other. `place`: that of the one in row `failed`. */
-static JoxHalfPlaneCounts list_of(const JoxPacket *p, uint32_t lane, JoxHalfPlane *list,
-                                  uint32_t failed, uint32_t *place) {
+/* The half-planes of a lane, one after the other. */
+static JoxHalfPlaneCounts list_of(const JoxPacket *p, uint32_t lane, JoxHalfPlane *list) {
     JoxHalfPlaneCounts made = p->made[lane];
     uint32_t n = 0;
     made.agents = 0;
-    for (uint32_t row = 0; row < p->rows.count; row++) {
-        JoxV2 normal = {p->rows.x[row][lane], p->rows.y[row][lane]};
-        if (row == failed)
-            *place = n;
+    for (uint32_t row = 0; row < p->count; row++) {
+        JoxV2 normal = {p->rows[row].x[lane], p->rows[row].y[lane]};
         if (normal.x == 0.0f && normal.y == 0.0f)
             continue;
-        list[n++] = (JoxHalfPlane){normal, p->rows.offset[row][lane]};
+        list[n++] = (JoxHalfPlane){normal, p->rows[row].offset[lane]};
         made.agents += row >= p->hard && row < p->objects;
     }
     return made;
@@ -75,8 +72,7 @@ static void check_lanes(JoxPacket *p, uint32_t met, JoxFloats limit, JoxVector v
     for (uint32_t lane = 0; p->lanes >> lane; lane++) {
         if (!(p->lanes >> lane & 1))
             continue;
-        uint32_t place;
-        JoxHalfPlaneCounts made = list_of(p, lane, p->list, 0, &place);
+        JoxHalfPlaneCounts made = list_of(p, lane, p->list);
         uint32_t count = jox_count_of(&made);
         jox_half_planes_check(p->list, count);
         if (met >> lane & 1)
@@ -93,15 +89,30 @@ typedef struct Plan {
 } Plan;
 
 static void wait_in(JoxRest *r, const JoxPacket *p, uint32_t lane, const Plan *plan) {
-    const uint32_t at = r->count++;
+    const uint32_t at = r->count++, failed = plan->failed_at[lane];
     r->agent[at] = p->first + lane;
     r->failed[at] = plan->failed >> lane & 1;
     r->wanted_x[at] = plan->wanted_x[lane];
     r->wanted_y[at] = plan->wanted_y[lane];
     r->velocity_x[at] = plan->velocity_x[lane];
     r->velocity_y[at] = plan->velocity_y[lane];
-    r->failed_at[at] = 0;
-    r->made[at] = list_of(p, lane, r->list[at], plan->failed_at[lane], &r->failed_at[at]);
+    r->made[at] = p->made[lane];
+    jox_rest_open(r, r->made[at].walls + r->made[at].contacts, p->count - p->hard);
+    uint32_t to = JOX_REST_HARD - r->made[at].walls - r->made[at].contacts, agents = 0;
+    r->failed_at[at] = to;
+    for (uint32_t row = 0; row < p->count; row++) {
+        const float x = p->rows[row].x[lane], y = p->rows[row].y[lane];
+        if (row == failed)
+            r->failed_at[at] = to;
+        if (x == 0.0f && y == 0.0f)
+            continue;
+        r->rows[to].x[at] = x;
+        r->rows[to].y[at] = y;
+        r->rows[to++].offset[at] = p->rows[row].offset[lane];
+        agents += row >= p->hard && row < p->objects;
+    }
+    r->made[at].agents = agents;
+    r->soft = to - JOX_REST_HARD > r->soft ? to - JOX_REST_HARD : r->soft;
 }
 
 /* Those of whom the first program was not the last. */
@@ -110,8 +121,7 @@ static uint32_t leave_to_rest(JoxPacket *p, const Plan *plan, uint32_t soft, uin
     uint32_t relaxed = 0;
     for (uint32_t lane = 0; (soft | hard | far) >> lane; lane++) {
         if (hard >> lane & 1) {
-            uint32_t place;
-            JoxHalfPlaneCounts made = list_of(p, lane, p->list, 0, &place);
+            JoxHalfPlaneCounts made = list_of(p, lane, p->list);
             relaxed += jox_solve_one(p->s, p->first + lane, &made, p->list,
                                      jox_v2(plan->wanted_x[lane], plan->wanted_y[lane]));
         } else if (soft >> lane & 1) {
@@ -142,7 +152,7 @@ static uint32_t solve_packet(JoxPacket *p) {
     const JoxFloats limit = jf_load(a->speed_limit + i);
     JoxInts failed_at;
     JoxVector velocity;
-    const JoxMask failed = jox_program_lanes(&p->rows, p->rows.count, jm_of_bits(p->lanes), limit,
+    const JoxMask failed = jox_program_lanes(p->rows, p->count, jm_of_bits(p->lanes), limit,
                                              pressed.wanted, NULL, &velocity, &failed_at);
     JOX_CHECK(check_lanes(p, p->lanes & ~jm_bits(failed), limit, velocity));
     const JoxMask hard = jm_and(failed, ji_less(failed_at, ji_set((int32_t)p->hard)));
@@ -195,7 +205,8 @@ uint32_t JOX_WIDE(jox_solve_packets)(const JoxSolve *s, uint32_t begin, uint32_t
     packet.unmet = &unmet;
     packet.far = &far;
     uint32_t relaxed = 0;
-    unmet.count = far.count = 0;
+    jox_rest_clear(&unmet);
+    jox_rest_clear(&far);
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         begin_packet(&packet, i, end);
         if (packet.lanes)
