@@ -23,21 +23,23 @@ typedef struct JoxPressed {
     JoxMask touching, pressed;
 } JoxPressed;
 
-/* Agents that wait for their velocity, one a lane. Their half-planes stand in rows, each lane's one
-   after the other: the hard ones end with row JOX_REST_HARD, where the soft ones begin. */
+/* Agents that wait for their velocity, one a lane, with their half-planes in the rows that they had
+   in their packets: the hard ones end with row JOX_REST_HARD, where the soft ones begin. */
 enum { JOX_REST_HARD = JOX_MOST_WALLS + JOX_MOST_CONTACTS };
 typedef struct JoxRest {
     uint32_t count;
-    uint32_t agent[JOX_WIDTH], failed_at[JOX_WIDTH]; /* row that could not be met */
-    bool failed[JOX_WIDTH];                          /* there is such a one */
-    JoxHalfPlaneCounts made[JOX_WIDTH];
+    uint32_t agent[JOX_WIDTH];
+    bool failed[JOX_WIDTH]; /* a row could not be met */
+    /* Rows: that one; the first of contacts; that of force. */
+    uint32_t failed_at[JOX_WIDTH], contacts[JOX_WIDTH], force[JOX_WIDTH];
+    JoxHalfPlaneCounts made[JOX_WIDTH]; /* neighbours aside */
     float wanted_x[JOX_WIDTH], wanted_y[JOX_WIDTH], velocity_x[JOX_WIDTH], velocity_y[JOX_WIDTH];
-    uint32_t hard, soft, zeroed; /* most rows of any lane; soft ones that were set to zeros */
+    uint32_t hard, soft; /* rows, of all */
     JoxRow rows[JOX_MOST_CONSTRAINTS];
 } JoxRest;
 
 static inline void jox_rest_clear(JoxRest *r) {
-    r->count = r->hard = r->soft = r->zeroed = 0;
+    r->count = r->hard = r->soft = 0;
 }
 
 /* Room for so many hard and soft rows, which are zeros where they are new. */
@@ -46,9 +48,9 @@ static inline void jox_rest_open(JoxRest *r, uint32_t hard, uint32_t soft) {
         memset(&r->rows[JOX_REST_HARD - hard], 0, (hard - r->hard) * sizeof *r->rows);
         r->hard = hard;
     }
-    if (soft > r->zeroed) {
-        memset(&r->rows[JOX_REST_HARD + r->zeroed], 0, (soft - r->zeroed) * sizeof *r->rows);
-        r->zeroed = soft;
+    if (soft > r->soft) {
+        memset(&r->rows[JOX_REST_HARD + r->soft], 0, (soft - r->soft) * sizeof *r->rows);
+        r->soft = soft;
     }
 }
 
@@ -105,14 +107,15 @@ static inline void jox_rest_load(const JoxSolve *s, JoxRest *r, JoxRestLanes *l)
     const JoxAgents *a = s->agents;
     uint32_t touching = 0, pressed = 0;
     uint32_t contacts[JOX_WIDTH] = {0}, failed_at[JOX_WIDTH] = {0};
+    const uint32_t first = JOX_REST_HARD - r->hard;
     for (uint32_t k = r->count; k < JOX_WIDTH; k++)
         r->agent[k] = r->agent[0];
     l->hard = r->hard;
     l->count = r->hard + r->soft;
-    l->rows = &r->rows[JOX_REST_HARD - r->hard];
+    l->rows = &r->rows[first];
     for (uint32_t k = 0; k < r->count; k++) {
-        contacts[k] = r->hard - r->made[k].contacts;
-        failed_at[k] = r->failed_at[k] - (JOX_REST_HARD - r->hard);
+        contacts[k] = r->contacts[k] - first;
+        failed_at[k] = r->failed_at[k] - first;
         touching |= (r->made[k].contacts > 0) << k;
         pressed |= (r->made[k].contacts > 0 || r->made[k].force) << k;
     }
@@ -135,18 +138,19 @@ static inline void jox_rest_load(const JoxSolve *s, JoxRest *r, JoxRestLanes *l)
 static inline bool jox_rest_one(const JoxSolve *s, const JoxRest *r, const JoxRestLanes *l,
                                 uint32_t k) {
     JoxHalfPlane list[JOX_MOST_CONSTRAINTS];
-    const JoxHalfPlaneCounts *made = &r->made[k];
-    const uint32_t hard = made->walls + made->contacts, first = l->hard - hard;
-    const uint32_t count = jox_count_of(made);
-    for (uint32_t n = 0; n < count; n++) {
-        const JoxRow *row = &l->rows[first + n];
-        list[n] = (JoxHalfPlane){{row->x[k], row->y[k]}, row->offset[k]};
-        if (n < hard)
-            list[n].offset = l->asked[first + n][k];
+    JoxHalfPlaneCounts made = r->made[k];
+    uint32_t count = 0;
+    for (uint32_t row = 0; row < l->count; row++) {
+        const JoxV2 normal = {l->rows[row].x[k], l->rows[row].y[k]};
+        if (normal.x == 0.0f && normal.y == 0.0f)
+            continue;
+        const float offset = row < l->hard ? l->asked[row][k] : l->rows[row].offset[k];
+        list[count++] = (JoxHalfPlane){normal, offset};
     }
-    if (made->force)
+    if (made.force)
         list[count - 1].offset = l->asked[l->hard][k];
-    return jox_solve_one(s, r->agent[k], made, list, jox_v2(r->wanted_x[k], r->wanted_y[k]));
+    made.agents = count - (made.walls + made.contacts + made.objects + made.force);
+    return jox_solve_one(s, r->agent[k], &made, list, jox_v2(r->wanted_x[k], r->wanted_y[k]));
 }
 
 /* The program over the rows of some lanes. Returns those of whom a hard row cannot be met: their
@@ -198,7 +202,7 @@ static inline JoxMask jox_lower_lanes(const JoxRest *r, JoxRestLanes *l, JoxMask
     float offsets[JOX_WIDTH];
     jf_store(offsets, jf_sub(least, slack));
     for (uint32_t k = 0; k < r->count; k++) {
-        const uint32_t last = l->hard + r->made[k].agents + r->made[k].objects;
+        const uint32_t last = r->force[k] - (JOX_REST_HARD - r->hard);
         if (!r->made[k].force)
             lower &= ~(1u << k);
         else if (lower >> k & 1)
@@ -248,11 +252,10 @@ static inline void jox_rest_copy(const JoxRest *from, uint32_t k, JoxRest *to) {
     to->wanted_y[at] = from->wanted_y[k];
     to->velocity_x[at] = from->velocity_x[k];
     to->velocity_y[at] = from->velocity_y[k];
-    const uint32_t hard = from->made[k].walls + from->made[k].contacts;
-    const uint32_t count = jox_count_of(&from->made[k]), first = JOX_REST_HARD - hard;
-    jox_rest_open(to, hard, count - hard);
-    to->soft = count - hard > to->soft ? count - hard : to->soft;
-    for (uint32_t row = first; row < first + count; row++) {
+    to->contacts[at] = from->contacts[k];
+    to->force[at] = from->force[k];
+    jox_rest_open(to, from->hard, from->soft);
+    for (uint32_t row = JOX_REST_HARD - from->hard; row < JOX_REST_HARD + from->soft; row++) {
         to->rows[row].x[at] = from->rows[row].x[k];
         to->rows[row].y[at] = from->rows[row].y[k];
         to->rows[row].offset[at] = from->rows[row].offset[k];

@@ -88,51 +88,67 @@ typedef struct Plan {
     uint32_t failed;               /* lanes */
 } Plan;
 
-static void wait_in(JoxRest *r, const JoxPacket *p, uint32_t lane, const Plan *plan) {
-    const uint32_t at = r->count++, failed = plan->failed_at[lane];
+/* What is known of a lane that waits as number `at`, its rows aside. */
+static void note_waiting(JoxRest *r, uint32_t at, const JoxPacket *p, uint32_t lane,
+                         const Plan *plan) {
+    const uint32_t first = JOX_REST_HARD - p->hard; /* row of the packet's first */
     r->agent[at] = p->first + lane;
     r->failed[at] = plan->failed >> lane & 1;
+    r->failed_at[at] = first + plan->failed_at[lane];
     r->wanted_x[at] = plan->wanted_x[lane];
     r->wanted_y[at] = plan->wanted_y[lane];
     r->velocity_x[at] = plan->velocity_x[lane];
     r->velocity_y[at] = plan->velocity_y[lane];
     r->made[at] = p->made[lane];
-    jox_rest_open(r, r->made[at].walls + r->made[at].contacts, p->count - p->hard);
-    uint32_t to = JOX_REST_HARD - r->made[at].walls - r->made[at].contacts, agents = 0;
-    r->failed_at[at] = to;
-    for (uint32_t row = 0; row < p->count; row++) {
-        const float x = p->rows[row].x[lane], y = p->rows[row].y[lane];
-        if (row == failed)
-            r->failed_at[at] = to;
-        if (x == 0.0f && y == 0.0f)
+    r->contacts[at] = first + p->contacts;
+    r->force[at] = first + p->count - 1;
+}
+
+/* Puts lanes (bits) of a packet behind those that wait. Returns those for whom there is no room. */
+static uint32_t wait_in(JoxRest *r, const JoxPacket *p, uint32_t lanes, const Plan *plan) {
+    const uint32_t waited = r->count;
+    uint32_t from[JOX_WIDTH] = {0};
+    for (uint32_t lane = 0; lanes >> lane && r->count < JOX_WIDTH; lane++) {
+        if (!(lanes >> lane & 1))
             continue;
-        r->rows[to].x[at] = x;
-        r->rows[to].y[at] = y;
-        r->rows[to++].offset[at] = p->rows[row].offset[lane];
-        agents += row >= p->hard && row < p->objects;
+        note_waiting(r, r->count, p, lane, plan);
+        from[r->count++] = lane;
+        lanes &= ~(1u << lane);
     }
-    r->made[at].agents = agents;
-    r->soft = to - JOX_REST_HARD > r->soft ? to - JOX_REST_HARD : r->soft;
+    jox_rest_open(r, p->hard, p->count - p->hard);
+    const JoxMask come = jm_of_bits((1u << r->count) - (1u << waited));
+    const JoxInts order = ji_load(from);
+    JoxRow *to = &r->rows[JOX_REST_HARD - p->hard];
+    for (uint32_t row = 0; row < p->count; row++, to++) {
+        const JoxRow *own = &p->rows[row];
+        jf_store(to->x, jf_select(come, jf_reorder(jf_load(own->x), order), jf_load(to->x)));
+        jf_store(to->y, jf_select(come, jf_reorder(jf_load(own->y), order), jf_load(to->y)));
+        jf_store(to->offset,
+                 jf_select(come, jf_reorder(jf_load(own->offset), order), jf_load(to->offset)));
+    }
+    return lanes;
 }
 
 /* Those of whom the first program was not the last. */
 static uint32_t leave_to_rest(JoxPacket *p, const Plan *plan, uint32_t soft, uint32_t hard,
                               uint32_t far) {
     uint32_t relaxed = 0;
-    for (uint32_t lane = 0; (soft | hard | far) >> lane; lane++) {
-        if (hard >> lane & 1) {
-            JoxHalfPlaneCounts made = list_of(p, lane, p->list);
-            relaxed += jox_solve_one(p->s, p->first + lane, &made, p->list,
-                                     jox_v2(plan->wanted_x[lane], plan->wanted_y[lane]));
-        } else if (soft >> lane & 1) {
-            wait_in(p->unmet, p, lane, plan);
-            if (p->unmet->count == JOX_WIDTH)
-                relaxed += jox_rest_violate_least(p->s, p->unmet, p->far);
-        } else if (far >> lane & 1) {
-            wait_in(p->far, p, lane, plan);
-            if (p->far->count == JOX_WIDTH)
-                relaxed += jox_rest_pull_in(p->s, p->far);
-        }
+    for (uint32_t lane = 0; hard >> lane; lane++) {
+        if (!(hard >> lane & 1))
+            continue;
+        JoxHalfPlaneCounts made = list_of(p, lane, p->list);
+        relaxed += jox_solve_one(p->s, p->first + lane, &made, p->list,
+                                 jox_v2(plan->wanted_x[lane], plan->wanted_y[lane]));
+    }
+    while (soft) {
+        soft = wait_in(p->unmet, p, soft, plan);
+        if (p->unmet->count == JOX_WIDTH)
+            relaxed += jox_rest_violate_least(p->s, p->unmet, p->far);
+    }
+    while (far) {
+        far = wait_in(p->far, p, far, plan);
+        if (p->far->count == JOX_WIDTH)
+            relaxed += jox_rest_pull_in(p->s, p->far);
     }
     return relaxed;
 }

@@ -112,6 +112,9 @@ static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
 static inline JoxFloats jf_pick(const float *table, JoxInts at) {
     return _mm256_i32gather_ps(table, at, 4);
 }
+static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
+    return _mm256_permutevar8x32_ps(a, at);
+}
 
 /* Records l and l + 4 share a register; each of its halves is transposed by itself. */
 static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {

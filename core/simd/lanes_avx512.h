@@ -114,6 +114,9 @@ static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
 static inline JoxFloats jf_pick(const float *table, JoxInts at) {
     return _mm512_i32gather_ps(at, table, 4);
 }
+static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
+    return _mm512_permutexvar_ps(at, a);
+}
 
 /* Records l, l + 4, l + 8 and l + 12 share a register; each of its quarters is transposed. */
 static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {

@@ -120,6 +120,11 @@ static inline JoxFloats jf_pick(const float *table, JoxInts at) {
     ji_store(k, at);
     return (JoxFloats){table[k[0]], table[k[1]], table[k[2]], table[k[3]]};
 }
+static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
+    float lanes[4];
+    jf_store(lanes, a);
+    return jf_pick(lanes, at);
+}
 
 static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
     uint32_t k[4];
