@@ -6,7 +6,7 @@
 
 double jox_random_unit(uint64_t seed, uint32_t agent, uint64_t tick, JoxDraw purpose,
                        uint32_t sub) {
-    return (double)(jox_random_bits(seed, agent, tick, purpose, sub) >> 11) * 0x1p-53;
+    return jox_random_share(jox_random_bits(seed, agent, tick, purpose, sub));
 }
 
 JoxDist jox_dist_constant(double value) {

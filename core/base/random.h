@@ -26,13 +26,26 @@ static inline uint64_t jox_random_mix(uint64_t z) {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
 }
-/* 64 independent bits. `sub` numbers the draws of one purpose. Inline, as what does not change from
-   agent to agent is then computed once. */
+/* What draws with one seed share, and what those at one time and for one purpose share: for who
+   draws for many agents. */
+static inline uint64_t jox_random_stream(uint64_t seed) {
+    return jox_random_mix(seed + 0x9e3779b97f4a7c15u);
+}
+static inline uint64_t jox_random_moment(uint64_t tick, JoxDraw purpose) {
+    return jox_random_mix(tick * 64 + (uint64_t)purpose);
+}
+static inline uint64_t jox_random_of(uint64_t stream, uint32_t agent, uint32_t sub,
+                                     uint64_t moment) {
+    return jox_random_mix(jox_random_mix(stream ^ ((uint64_t)agent << 32 | sub)) ^ moment);
+}
+/* 64 independent bits. `sub` numbers the draws of one purpose. */
 static inline uint64_t jox_random_bits(uint64_t seed, uint32_t agent, uint64_t tick,
                                        JoxDraw purpose, uint32_t sub) {
-    uint64_t key = jox_random_mix(seed + 0x9e3779b97f4a7c15u);
-    key = jox_random_mix(key ^ ((uint64_t)agent << 32 | sub));
-    return jox_random_mix(key ^ jox_random_mix(tick * 64 + (uint64_t)purpose));
+    return jox_random_of(jox_random_stream(seed), agent, sub, jox_random_moment(tick, purpose));
+}
+/* Uniform in [0, 1): 53 of the bits. */
+static inline double jox_random_share(uint64_t bits) {
+    return (double)(bits >> 11) * 0x1p-53;
 }
 /* Uniform in [0, 1), 53 bits. */
 double jox_random_unit(uint64_t seed, uint32_t agent, uint64_t tick, JoxDraw purpose, uint32_t sub);

@@ -112,6 +112,8 @@ static bool at_head(const JoxPlace *places, const JoxPlace *place, JoxV2 point) 
 }
 
 static bool in_member(const JoxPlace *places, const JoxPlace *place, JoxV2 point) {
+    if (place->boxed && !jox_is_within(point, place->low, place->high))
+        return false;
     for (uint32_t i = 0; i < place->member_count; i++)
         if (jox_place_contains(places, (uint32_t)place->members[i], point))
             return true;
@@ -207,6 +209,37 @@ void jox_place_finish(JoxPlace *place) {
     place->centre = kind_of(place)->centre(place);
     jox_bounds(place->points, place->count, &place->low, &place->high);
     finish_axis(place);
+}
+
+/* m: how far from its points somebody may be inside it. */
+static float reach_of(const JoxPlace *place) {
+    const float HAIR = 0.01f; /* m: more than distances are rounded by */
+    switch (place->kind) {
+    case JOX_PLACE_POINT:
+        return place->radius + HAIR;
+    case JOX_PLACE_LINE:
+        return LINE_REACH + HAIR;
+    case JOX_PLACE_QUEUE:
+        return place->spacing / 2.0f + HAIR;
+    default:
+        return 0.0f;
+    }
+}
+
+void jox_place_finish_set(const JoxPlace *places, JoxPlace *set) {
+    JOX_ASSERT(set->kind == JOX_PLACE_SET);
+    set->low = (JoxV2){INFINITY, INFINITY};
+    set->high = (JoxV2){-INFINITY, -INFINITY};
+    for (uint32_t i = 0; i < set->member_count; i++) {
+        const JoxPlace *member = &places[set->members[i]];
+        const float reach = reach_of(member);
+        JOX_ASSERT(member->kind != JOX_PLACE_SET);
+        set->low = (JoxV2){jox_minf(set->low.x, member->low.x - reach),
+                           jox_minf(set->low.y, member->low.y - reach)};
+        set->high = (JoxV2){jox_maxf(set->high.x, member->high.x + reach),
+                            jox_maxf(set->high.y, member->high.y + reach)};
+    }
+    set->boxed = true;
 }
 
 bool jox_place_contains(const JoxPlace *places, uint32_t index, JoxV2 point) {

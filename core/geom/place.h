@@ -24,7 +24,8 @@ typedef struct JoxPlace {
     int32_t *members; /* set: indices of places */
     uint32_t member_count;
     JoxV2 centre;    /* centroid, midpoint or head */
-    JoxV2 low, high; /* corners of the box about the points */
+    JoxV2 low, high; /* corners of the box about the points, or about all that a set holds */
+    bool boxed;      /* sets: the box is known */
     /* Orbits keep to the border of a stadium about a polygon: its axis, and its half width. */
     JoxV2 axis_a, axis_b;
     float axis_radius;
@@ -59,6 +60,8 @@ float jox_place_radius(const JoxPlace *place);
 /* Fills centre, low, high, axis_a, axis_b and axis_radius from kind and points. The axis is the polygon's
    principal direction through its centroid, shortened at both ends by half its width. */
 void jox_place_finish(JoxPlace *place);
+/* Fills low and high of a set, whose members are finished. */
+void jox_place_finish_set(const JoxPlace *places, JoxPlace *set);
 /* A place with memory of its own; `to` needs not be initialised. The name of a copy may be NULL. */
 void jox_place_copy(JoxPlace *to, const JoxPlace *from);
 void jox_place_free(JoxPlace *place);

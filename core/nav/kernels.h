@@ -96,8 +96,11 @@ typedef struct JoxWalk {
     JoxAgents *agents;
     const JoxNeighbours *neighbours;
     const JoxWalkLaw *law;
-    uint64_t seed;
-    double time, interval;    /* s: now; since people planned last */
+    double interval; /* s: since people planned last */
+    /* Of what time gaps wander by: the random stream, the draws of the knots before and after now,
+       and of what people have of their own, and the share of the way between the knots. */
+    uint64_t stream, knots[2], own;
+    double between;
     float rise, fall, course; /* shares of the way gone in `interval` */
     float start, stop;        /* likewise, of a change of velocity */
 } JoxWalk;

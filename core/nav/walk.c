@@ -7,9 +7,11 @@
 #include <math.h>
 
 #include "base/elementary.h"
+#include "base/random.h"
 #include "nav/kernels.h"
 
 static const float SIGHT = 1.5f; /* m: so near, walls hide people */
+static const double KNOTS = 2.0; /* s between the knots of what a time gap wanders by */
 
 #define X(name, isa) [isa] = jox_walk_packets_##name,
 static JoxWalkKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
@@ -50,13 +52,17 @@ void jox_nav_walk(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
         return;
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, reach);
+    const double knot = floor(time / KNOTS);
     JoxWalk walk = {.nav = nav,
                     .agents = agents,
                     .neighbours = neighbours,
                     .law = law,
-                    .seed = seed,
-                    .time = time,
                     .interval = interval,
+                    .stream = jox_random_stream(seed),
+                    .knots = {jox_random_moment((uint64_t)knot, JOX_DRAW_GAP),
+                              jox_random_moment((uint64_t)knot + 1, JOX_DRAW_GAP)},
+                    .own = jox_random_moment(0, JOX_DRAW_GAP),
+                    .between = time / KNOTS - knot,
                     .rise = share_of(interval, law->eager_rise),
                     .fall = share_of(interval, law->eager_fall),
                     .course = share_of(interval, law->course_time),

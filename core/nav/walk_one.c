@@ -9,7 +9,6 @@
 
 enum { EDGE_LANES = 12 }; /* directions, for whole vectors; the last repeats the one before */
 static const float PI = 3.14159265f;
-static const double KNOTS = 2.0;      /* s between the knots of what a time gap wanders by */
 static const uint32_t CROWD_RANK = 3; /* the neighbour whose distance tells how crowded it is */
 
 /* Of 0 and +-15 to +-75 degrees. */
@@ -42,17 +41,18 @@ static float eagerness_wanted(const JoxWalk *w, uint32_t i) {
     return jox_maxf(least, jox_minf(most, clamp01(density - (float)law->crowded)));
 }
 
-static double knot(const JoxWalk *w, uint32_t id, double number) {
-    return 2.0 * jox_random_unit(w->seed, id, (uint64_t)number, JOX_DRAW_GAP, 0) - 1.0;
+/* From -1 to 1. */
+static double drawn(const JoxWalk *w, uint32_t id, uint32_t sub, uint64_t moment) {
+    return 2.0 * jox_random_share(jox_random_of(w->stream, id, sub, moment)) - 1.0;
 }
 
 static float time_gap(const JoxWalk *w, uint32_t i) {
     const JoxAgents *a = w->agents;
     const JoxWalkLaw *law = w->law;
-    double number = floor(w->time / KNOTS), share = w->time / KNOTS - number;
-    double wander =
-        knot(w, a->id[i], number) * (1.0 - share) + knot(w, a->id[i], number + 1) * share;
-    double own = 2.0 * jox_random_unit(w->seed, a->id[i], 0, JOX_DRAW_GAP, 1) - 1.0;
+    const uint32_t id = a->id[i];
+    double wander = drawn(w, id, 0, w->knots[0]) * (1.0 - w->between) +
+                    drawn(w, id, 0, w->knots[1]) * w->between;
+    double own = drawn(w, id, 1, w->own);
     double gap =
         (double)a->param[JOX_PARAM_time_gap][i] * (1.0 - law->gap_eager * (double)a->eager[i]);
     return (float)(gap * (1.0 + law->gap_spread * own) * jox_exp(law->gap_noise * wander));
