@@ -114,18 +114,6 @@ void jox_wall_grid_fit(JoxWallGrid *g, float reach) {
         jox_wall_grid_reset(g, reach * 1.25f); /* room, so that it is not rebuilt each step */
 }
 
-const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point, uint32_t *count) {
-    *count = 0;
-    if (!g->first)
-        return NULL;
-    float x = (point.x - g->low.x) / g->cell, y = (point.y - g->low.y) / g->cell;
-    if (!(x >= 0.0f && y >= 0.0f && x < (float)g->columns && y < (float)g->rows))
-        return NULL;
-    size_t c = (size_t)(uint32_t)y * g->columns + (uint32_t)x;
-    *count = g->first[c + 1] - g->first[c];
-    return g->edges + g->first[c];
-}
-
 bool jox_walls_contain(const JoxWalls *walls, JoxV2 p) {
     bool inside = false;
     for (uint32_t r = 0; walls && r < walls->ring_count; r++) {

@@ -22,7 +22,18 @@ void jox_wall_grid_fit(JoxWallGrid *grid, float reach);
 /* Makes it anew for queries up to exactly `reach` metres; empty for 0. */
 void jox_wall_grid_reset(JoxWallGrid *grid, float reach);
 /* Edges that may be within the grid's reach of a point. */
-const uint32_t *jox_wall_grid_at(const JoxWallGrid *grid, JoxV2 point, uint32_t *count);
+static inline const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point,
+                                               uint32_t *count) {
+    *count = 0;
+    if (!g->first)
+        return NULL;
+    float x = (point.x - g->low.x) / g->cell, y = (point.y - g->low.y) / g->cell;
+    if (!(x >= 0.0f && y >= 0.0f && x < (float)g->columns && y < (float)g->rows))
+        return NULL;
+    size_t c = (size_t)(uint32_t)y * g->columns + (uint32_t)x;
+    *count = g->first[c + 1] - g->first[c];
+    return g->edges + g->first[c];
+}
 /* Whether an edge that is within the grid's reach of `from` separates it from `to`: no one touches
    another through a wall. Ends that lie on an edge are separated from those beyond it. */
 bool jox_wall_grid_separates(const JoxWallGrid *grid, JoxV2 from, JoxV2 to);

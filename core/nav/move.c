@@ -185,9 +185,8 @@ static void apply_positions(void *context, uint32_t begin, uint32_t end, uint32_
     float farthest2 = 0.0f;
     for (uint32_t i = begin; i < end; i++) {
         JoxV2 p = {a->prev_x[i], a->prev_y[i]}, q = m->nav->position[0][i];
-        uint32_t near = 0;
-        if (grid->first)
-            jox_wall_grid_at(grid, p, &near);
+        uint32_t near;
+        jox_wall_grid_at(grid, p, &near);
         if (near > 0) {
             JoxV2 clear = keep_clear(grid, stop_at_walls(grid, p, q), a->breadth[i]);
             q = stop_at_walls(grid, p, clear);
