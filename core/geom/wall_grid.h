@@ -3,6 +3,7 @@
 #define JOX_GEOM_WALL_GRID_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "geom/walls.h"
