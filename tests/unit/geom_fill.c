@@ -51,6 +51,7 @@ static void few_fit_wherever_there_is_room(void **state) {
     for (int c = 0; c < 3; c++) {
         JoxPlace place = {
             .kind = JOX_PLACE_POLYGON, .points = corridors[c], .count = 4, .start = -1};
+        jox_place_finish(&place);
         uint32_t in = 0;
         JoxArea area = {.places = &place, .in = &in, .in_count = 1, .clear = 0.2f};
         for (int spread = 0; spread <= JOX_FILL_RANDOM; spread++)
