@@ -117,18 +117,13 @@ static void keep(const JoxPerceive *p, uint32_t i, float perception, const Neare
     }
 }
 
-static Nearest begin_nearest(const JoxPerceive *p, uint32_t i) {
-    Nearest found;
-    found.most = (uint32_t)p->agents->param[JOX_PARAM_neighbours][i];
-    clear(&found);
-    return found;
-}
-
 void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {
     const JoxAgents *a = p->agents;
     const float perception = jox_minf(a->param[JOX_PARAM_perception][i], p->sight);
     uint32_t hints[JOX_ROW_HINTS] = {0};
-    Nearest found = begin_nearest(p, i);
+    Nearest found;
+    found.most = (uint32_t)a->param[JOX_PARAM_neighbours][i];
+    clear(&found);
     for (bool again = found.most > 0; again;) {
         radius = jox_minf(radius, perception);
         search(p->nav, a, i, radius, &found, hints);
@@ -141,16 +136,22 @@ void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {
 void jox_perceive_among(const JoxPerceive *p, uint32_t i, const JoxCandidates *among) {
     const float perception = jox_minf(p->agents->param[JOX_PARAM_perception][i], p->sight);
     const uint32_t *rank = p->agents->rank;
-    Nearest found = begin_nearest(p, i);
+    Nearest found;
+    found.most = (uint32_t)p->agents->param[JOX_PARAM_neighbours][i];
+    found.count = 0;
+    JOX_ASSERT(found.most > 0);
     for (uint32_t n = 0; n < among->count; n++) {
         const float d2 = among->distance2[(size_t)n * among->stride];
         JOX_ASSERT(d2 >= 0.0f);
-        found.waiting[found.waits] = key_of(d2, rank[among->index[n]]);
-        found.waits += d2 < INFINITY;
-        if (found.waits == BUFFER)
-            sort_in(&found);
+        if (!(d2 < INFINITY)) /* most: few are in reach of one lane */
+            continue;
+        const uint64_t key = key_of(d2, rank[among->index[n]]);
+        if (found.count == found.most && key > found.keys[found.count - 1])
+            continue;
+        uint32_t at = found.count < found.most ? found.count++ : found.count - 1;
+        for (; at > 0 && found.keys[at - 1] > key; at--)
+            found.keys[at] = found.keys[at - 1];
+        found.keys[at] = key;
     }
-    sort_in(&found);
-    found.count = found.count < found.most ? found.count : found.most;
     keep(p, i, perception, &found);
 }
