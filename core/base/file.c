@@ -10,8 +10,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/guard.h"
 #include "base/mem.h"
 #include "base/sort.h"
+#include "jostle_tools.h"
 
 /* ---- files that are being written under another name ---- */
 
@@ -167,6 +169,18 @@ const char *jox_file_why(int number) {
            : number == ENXIO                    ? "it is a pipe that nobody reads"
            : number == EBUSY                    ? "another run writes it"
                                                 : strerror(number);
+}
+
+bool jo_write(const char *path, const char *text, JoError *error) {
+    JOX_GUARD (NULL, error)
+        return false;
+    FILE *file = jox_file_replace(path);
+    bool good = file && fputs(text, file) >= 0;
+    if (file)
+        good = jox_file_close(file) == 0 && good;
+    if (!good)
+        jox_error(error, JO_FAILED, "%s", jox_file_why(errno));
+    return good;
 }
 
 /* ---- folders ---- */

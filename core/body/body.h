@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "geom/objects.h"
 #include "geom/walls.h"
+#include "jostle.h"
 
 #define JOX_NO_BODY UINT32_MAX
 
@@ -65,7 +66,8 @@ JoxBodyDef jox_body_def(void);
 typedef struct JoxBodiesDef {
     double gravity;         /* m/s2, downwards */
     bool ground;            /* a plane at z = 0 */
-    double kill_height;     /* m; a body whose centre is below is taken out */
+    double kill_height;     /* m; a body whose centre is below is lost */
+    JoLost lost;            /* what becomes of it; JO_LOST_END: it is taken out */
     double most_change;     /* m/s; an impulse is clamped to change a velocity by no more */
     double person_height;   /* m, of the discs of jox_bodies_step */
     double person_hardness; /* a body's restitution is multiplied by it when it hits a person */
@@ -153,10 +155,14 @@ typedef struct JoxDiscHit {
     JoxV2 impulse;
 } JoxDiscHit;
 
-typedef enum { JOX_BODY_FELL, JOX_BODY_NOT_FINITE } JoxBodyEnd;
+/* A body that is lost: below the ground, no numbers, 10 km from the origin, through a wall. */
+typedef enum { JOX_BODY_FELL, JOX_BODY_NOT_FINITE, JOX_BODY_LEFT, JOX_BODY_PASSED_WALL } JoxBodyEnd;
 typedef struct JoxBodyGone {
     uint32_t row, id;
     JoxBodyEnd why;
+    char name[64];
+    JoxV3 at, before, velocity; /* m, m before the substep, m/s */
+    JoxV3 force;                /* that people gave it, N */
 } JoxBodyGone;
 
 /* Bonds that broke in a step. The greatest piece goes on as the body that it was; the others are
@@ -171,7 +177,7 @@ typedef struct JoxBodyBreak {
 typedef struct JoxBodiesReport {
     const JoxDiscHit *hits; /* in order of time, then body id */
     uint32_t hit_count;
-    const JoxBodyGone *gone; /* bodies that were taken out */
+    const JoxBodyGone *gone; /* bodies that were lost: put back at rest, by the def, or taken out */
     uint32_t gone_count;
     const JoxBodyBreak *breaks; /* in order of id */
     uint32_t break_count;

@@ -82,6 +82,7 @@ void jox_bodies_drop_walls(JoxBodies *b) {
         delete shape;
     }
     b->wall_count = 0;
+    jox_wall_grid_free(&b->wall_grid);
 }
 
 /* Each edge is a box 4 cm thick about it; the way back along a thin wall adds no second one. */
@@ -90,6 +91,9 @@ void jox_bodies_set_walls(JoxBodies *b, const JoxWalls *walls, float height) {
         return;
     jox_bodies_ensure(b);
     jox_bodies_drop_walls(b);
+    jox_walls_standing(&b->standing, walls, true);
+    b->wall_grid.walls = &b->standing;
+    b->wall_height = height;
     for (uint32_t k = 0; k < b->live; k++) /* what leant on a wall that is gone falls */
         b->rows[b->order[k]].body->activate();
     for (uint32_t r = 0; r < walls->ring_count; r++) {
@@ -159,6 +163,7 @@ void jox_bodies_free(JoxBodies *b) {
                      b->contacts, b->breaks, b->kept,    b->object_contacts};
     for (void *memory : owned)
         jox_free(memory);
+    jox_walls_free(&b->standing);
     jox_disc_grid_free(&b->grid);
     jox_footprint_free(&b->footprint);
     jox_free(b);

@@ -20,6 +20,7 @@ extern "C" {
 #include "body/footprint.h"
 #include "body/image.h"
 #include "body/sweep.h"
+#include "geom/wall_grid.h"
 }
 
 static_assert(sizeof(btScalar) == sizeof(float), "Bullet of single precision");
@@ -77,6 +78,8 @@ struct JoxRow {
     bool grounded, swept;
     int activation;      /* scratch: Bullet's state of sleep */
     JoxBondGraph *bonds; /* of blocks that can come apart, or NULL; its frame is the shape's own */
+    JoxV3 pushed;        /* scratch: the force of the last substep, N */
+    float before[16];    /* scratch: where the substep began, a transform as OpenGL has it */
     bool held;           /* by an agent */
     uint32_t holder;
     /* Scratch: whether its object was written since it has this shape, where it lay then (origin,
@@ -109,6 +112,9 @@ struct JoxBodies {
     btRigidBody *ground;
     btRigidBody **walls;
     uint32_t wall_count, wall_capacity;
+    JoxWalls standing;     /* of which these are made */
+    JoxWallGrid wall_grid; /* over them, for the guard; empty until something moves */
+    float wall_height;     /* m: where none is given */
     JoxRow *rows;
     uint32_t count, capacity;
     uint32_t *order; /* live rows in order of id */
@@ -164,6 +170,10 @@ static inline bool jox_finite(const btVector3 &v) {
 /* Makes Bullet's world if it is not there yet. */
 void jox_bodies_ensure(JoxBodies *bodies);
 void jox_bodies_drop(JoxBodies *bodies, uint32_t row);
+/* bullet_guard.cc, before and after each substep: lists bodies that are lost, and takes them out or
+   puts them back. */
+void jox_bodies_guard_begin(JoxBodies *bodies);
+void jox_bodies_guard(JoxBodies *bodies);
 /* Takes `shape` over as a new body in a free row; the caller fills name, tags, and velocity. */
 uint32_t jox_row_add(JoxBodies *bodies, const JoxBodyShape *shape, const btTransform &frame,
                      const JoxMaterial &material);

@@ -80,7 +80,8 @@ void jox_bodies_report_check(const JoxBodies *b, uint32_t disc_count) {
     }
     for (uint32_t n = 0; n < b->gone_count; n++) {
         const JoxRow *r = &b->rows[b->gone[n].row]; /* a piece may have it since */
-        JOX_ASSERT(b->gone[n].id < b->next_id && !(r->live && r->id <= b->gone[n].id));
+        JOX_ASSERT(b->gone[n].id < b->next_id);
+        JOX_ASSERT(b->def.lost == JO_LOST_STOP || !(r->live && r->id <= b->gone[n].id));
     }
     for (uint32_t n = 0; n < b->break_count; n++) {
         JOX_ASSERT(b->breaks[n].bonds > 0 && b->breaks[n].pieces > 0);

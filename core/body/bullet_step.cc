@@ -108,26 +108,6 @@ static void mark_grounded(JoxBodies *b) {
     }
 }
 
-/* Takes out what fell or is no longer a number, before Bullet meets it again. */
-static void weed(JoxBodies *b) {
-    for (uint32_t k = 0; k < b->live;) {
-        uint32_t row = b->order[k];
-        JoxRow *r = &b->rows[row];
-        const btVector3 &at = r->body->getWorldTransform().getOrigin();
-        bool sound = jox_finite(at) && jox_finite(r->body->getLinearVelocity()) &&
-                     jox_finite(r->body->getAngularVelocity());
-        bool fell = sound && r->shape.mass > 0 && at.z() < b->def.kill_height;
-        if (sound && !fell) {
-            k++;
-            continue;
-        }
-        jox_reserve(b->gone, b->gone_capacity, b->gone_count + 1);
-        b->gone[b->gone_count++] =
-            JoxBodyGone{row, r->id, fell ? JOX_BODY_FELL : JOX_BODY_NOT_FINITE};
-        jox_bodies_drop(b, row);
-    }
-}
-
 /* Forces, and of the lasting impulses the share of one of n substeps. */
 static void push_on(JoxBodies *b, uint32_t n, bool last) {
     for (uint32_t k = 0; k < b->live; k++) {
@@ -142,6 +122,7 @@ static void push_on(JoxBodies *b, uint32_t n, bool last) {
             r->body->activate(true);
             r->body->applyCentralForce(jox_bt(r->force));
         }
+        r->pushed = r->force;
         if (last)
             r->force = JoxV3{0, 0, 0};
     }
@@ -164,13 +145,14 @@ JoxBodiesReport jox_bodies_step(JoxBodies *b, float dt, JoxDisc *discs, uint32_t
     uint32_t n = substeps(b, dt);
     float h = dt / float(n);
     for (uint32_t s = 0; s < n; s++) {
+        jox_bodies_guard_begin(b);
         if (people)
             sweep_all(b, discs, h * float(s), h, dt);
         push_on(b, n, s + 1 == n);
         b->world->stepSimulation(h, 0);
         if (b->bonded)
             jox_bodies_gather_contacts(b);
-        weed(b);
+        jox_bodies_guard(b);
         mark_grounded(b);
     }
     if (b->bonded)

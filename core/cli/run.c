@@ -15,7 +15,7 @@ typedef struct Run {
     uint64_t steps, seeds, trace;
     bool view, of_scene, has_seconds, has_steps, watch, no_watch, has_trace, quiet, profile;
     bool no_half;
-    bool suspended; /* functions of a behaviour failed so often that it did not run as written */
+    bool troubled; /* it went on to its end, but not as it was written */
 } Run;
 
 static const double LEAST_DT = 0.001; /* s, of --dt */
@@ -119,13 +119,20 @@ static int write_page(const Run *run, const JoScene *scene, uint64_t steps) {
     return ok ? JO_OK : complain(&written, false);
 }
 
-/* Whether functions of behaviours were suspended, which it says. */
-static bool tell_suspended(const JoScene *scene) {
-    char *which = jo_scene_suspended(scene);
+/* Whether functions of behaviours were suspended or people were lost, which it says. */
+static bool tell_troubles(const JoScene *scene) {
+    char *which = jo_scene_troubles(scene);
     if (which)
         fprintf(stderr, "jostle run: %s\n", which);
     jo_free(which);
     return which != NULL;
+}
+
+enum { LONGEST_NOTED = 4096 };
+
+/* Whether a checkpoint's note, of a line for each path, can hold it. */
+static bool is_noted(const char *path) {
+    return !path || (!strpbrk(path, "\n\r") && strlen(path) <= LONGEST_NOTED);
 }
 
 /* From here on. The note is what `jostle resume` needs besides the scene. */
@@ -133,12 +140,12 @@ static bool write_checkpoints(const Run *run, JoScene *scene, uint64_t steps, Jo
     const struct {
         const char *key, *value;
     } texts[] = {{"record", run->record}, {"log", run->log}, {"folder", run->folder}};
-    char note[16384];
+    char note[4 * LONGEST_NOTED];
     int used = snprintf(note, sizeof note, "steps %llu\nevery %.17g\n", (unsigned long long)steps,
                         run->every);
     for (size_t t = 0; t < sizeof texts / sizeof *texts; t++)
         if (texts[t].value)
-            used += snprintf(note + used, sizeof note - (size_t)used, "%s %.4096s\n", texts[t].key,
+            used += snprintf(note + used, sizeof note - (size_t)used, "%s %s\n", texts[t].key,
                              texts[t].value);
     return jo_scene_checkpoint(scene, run->folder, run->every, note, error);
 }
@@ -179,7 +186,7 @@ static int simulate(Run *run, char **summary) {
         status = write_page(run, scene, steps);
     if (run->summary || run->seeds)
         *summary = jo_scene_summary(scene);
-    run->suspended |= tell_suspended(scene);
+    run->troubled |= tell_troubles(scene);
     if (run->profile) {
         char *profile = jo_scene_lua_profile(scene);
         fputs(profile ? profile : "", stderr);
@@ -258,6 +265,10 @@ static const char *misuse(const Run *run) {
            : run->record_every > 0.0 && !run->record     ? "--record-every goes with --record"
            : run->folder && (run->seeds || run->view || run->report || run->data)
                ? "--checkpoint cannot be combined with --seeds, --view, --report or --data"
+           : run->folder && !(is_noted(run->record) && is_noted(run->log) && is_noted(run->folder))
+               ? "with --checkpoint, the paths of --record, --log-input and --checkpoint-dir have "
+                 "no "
+                 "line breaks, and 4096 bytes at most"
            : run->view && (run->seeds || run->report || run->data || run->has_trace || run->profile)
                ? "--view cannot be combined with --seeds, --report, --data, --trace or "
                  "--profile-lua"
@@ -281,7 +292,7 @@ static int begin(Run *run) {
         status = status ? status : written;
     }
     jo_free(summary);
-    status = status == JO_OK && run->suspended ? JO_FAILED : status;
+    status = status == JO_OK && run->troubled ? JO_FAILED : status;
     return run->view ? status : cli_interrupted(status);
 }
 
@@ -309,8 +320,9 @@ const CliCommand cli_run = {
     .what = "simulate a scene",
     .usage = "SCENE [options]",
     .notes =
-        "exit status: 0 done, 1 the run failed, or a behaviour was suspended by its own errors "
-        "and not mended and reloaded (the run goes on to its end), 2 wrong usage, 3 bad input: "
+        "exit status: 0 done, 1 the run failed, people were lost (`guard` of the scene), or a "
+        "behaviour was suspended by its own errors and not mended and reloaded (then the run goes "
+        "on to its end), 2 wrong usage, 3 bad input: "
         "also a mod that is asked for and is not there, or does not load; 130 and 143: SIGINT or "
         "SIGTERM ended it early, its files and figures being whole up to there. The second of them "
         "ends it at once",

@@ -131,8 +131,7 @@ bool jox_walls_contain(const JoxWalls *walls, JoxV2 p) {
     return inside;
 }
 
-/* Whether the ways p -> q and a -> b cross. */
-static bool cross(JoxV2 p, JoxV2 q, JoxV2 a, JoxV2 b) {
+bool jox_segments_cross(JoxV2 p, JoxV2 q, JoxV2 a, JoxV2 b) {
     JoxV2 way = jox_sub(q, p), edge = jox_sub(b, a);
     float p_side = jox_det(edge, jox_sub(p, a)), q_side = jox_det(edge, jox_sub(q, a));
     float a_side = jox_det(way, jox_sub(a, p)), b_side = jox_det(way, jox_sub(b, p));
@@ -143,7 +142,8 @@ bool jox_wall_grid_separates(const JoxWallGrid *g, JoxV2 from, JoxV2 to) {
     uint32_t count;
     const uint32_t *edges = jox_wall_grid_at(g, from, &count);
     for (uint32_t k = 0; k < count; k++)
-        if (cross(from, to, g->walls->vertices[edges[k]].point, end_of(g->walls, edges[k])->point))
+        if (jox_segments_cross(from, to, g->walls->vertices[edges[k]].point,
+                               end_of(g->walls, edges[k])->point))
             return true;
     return false;
 }

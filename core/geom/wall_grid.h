@@ -38,6 +38,8 @@ static inline const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point
 /* Whether an edge that is within the grid's reach of `from` separates it from `to`: no one touches
    another through a wall. Ends that lie on an edge are separated from those beyond it. */
 bool jox_wall_grid_separates(const JoxWallGrid *grid, JoxV2 from, JoxV2 to);
+/* Whether the ways p -> q and a -> b cross; where one ends on the other is on its right. */
+bool jox_segments_cross(JoxV2 p, JoxV2 q, JoxV2 a, JoxV2 b);
 void jox_wall_grid_free(JoxWallGrid *grid);
 /* Point inside a solid (crossing number over the solid rings). */
 bool jox_walls_contain(const JoxWalls *walls, JoxV2 point);

@@ -84,6 +84,14 @@ JO_API bool jo_isa_find(const char *name, JoIsa *isa, JoError *error);
 /* "avx2"; of JO_ISA_WIDEST the one that this machine uses. */
 JO_API const char *jo_isa_name(JoIsa isa);
 
+/* What becomes of a person or body that is lost: one of whose numbers is not finite, or that is
+   farther than 10 km from the origin, or a body that falls through the ground or passes a wall. */
+typedef enum JoLost {
+    JO_LOST_END,    /* the world ends: jo_world_failure says why */
+    JO_LOST_REMOVE, /* it is taken out, and the world goes on */
+    JO_LOST_STOP    /* it is put back to where it was, at rest, and the world goes on */
+} JoLost;
+
 typedef struct JoWorldDef {
     double dt;        /* s, 0.001 to 0.2; default 0.05 */
     uint64_t seed;    /* of all random numbers */
@@ -93,7 +101,8 @@ typedef struct JoWorldDef {
     bool forces;      /* false: collision avoidance alone, no pushing, contact or inferred force */
     bool literal;     /* the paper's equations as printed, in place of the physical reading */
     double gravity;   /* m/s2 downwards, for bodies; default 9.81 */
-    uint32_t cookie;  /* set by jo_default_world_def */
+    JoLost lost_people, lost_bodies; /* defaults: the world ends; the body is taken out */
+    uint32_t cookie;                 /* set by jo_default_world_def */
 } JoWorldDef;
 JO_API JoWorldDef jo_default_world_def(void);
 
@@ -324,9 +333,10 @@ JO_API bool jo_mods_enable(const JoSceneDef *def, const char *mod, bool on, JoEr
    the scene: every place in order, the last one wins. NULL with `error` where there is no such
    path. */
 JO_API char *jo_mods_why(const JoSceneDef *def, const char *path, JoError *error);
-/* A sentence on each function of a behaviour that is suspended, since it failed too often: the run
-   went on, but not as it was written. NULL where none is; free with jo_free. */
-JO_API char *jo_scene_suspended(const JoScene *scene);
+/* A sentence on each function of a behaviour that is suspended, since it failed too often, and on
+   people who were lost (JoLost): the run went on, but not as it was written. NULL where there is
+   nothing of the kind; free with jo_free. */
+JO_API char *jo_scene_troubles(const JoScene *scene);
 /* What plain Lua functions cost so far: a line for each, by behaviour; free with jo_free. */
 JO_API char *jo_scene_lua_profile(const JoScene *scene);
 

@@ -142,13 +142,13 @@ static bool run(JoxScenePage *s, JoError *error) {
     jox_live_page_run(&s->page, def->stop);
     if (def->summary)
         *def->summary = jo_scene_summary(s->scene);
-    char *suspended = jo_scene_suspended(s->scene);
+    char *troubles = jo_scene_troubles(s->scene);
     if (s->failed)
         jox_error(error, JO_FAILED, "%s", s->failure);
-    else if (suspended)
-        jox_error(error, JO_FAILED, "%s", suspended);
-    bool good = !s->failed && !suspended;
-    jo_free(suspended);
+    else if (troubles)
+        jox_error(error, JO_FAILED, "%s", troubles);
+    bool good = !s->failed && !troubles;
+    jo_free(troubles);
     return good;
 }
 

@@ -9,6 +9,7 @@ static const float STIFFNESS = 0.2f;    /* share of an overlap removed by one sw
 static const float STIFF_STEP = 0.05f;  /* s; less in proportion in shorter ones */
 static const float STILL_REACH = 0.25f; /* m: less than this counts as not having moved */
 static const float SKIN = 0.001f;       /* m: kept from a wall that was about to be passed */
+#define MOST_PIECES 1e5f                /* of a way; who goes farther is beyond the world's end */
 enum { SWEEPS = 2 };
 
 typedef struct Move {
@@ -137,6 +138,26 @@ static JoxV2 stop_at_walls(const JoxWallGrid *grid, JoxV2 p, JoxV2 q) {
     return p; /* a corner narrower than the step: stay */
 }
 
+/* A way that is longer than the grid tells walls for, in pieces that are not: where the piece
+   begins in which a wall ends it, or the last; *q is then that piece's end. */
+static JoxV2 piece_of_way(const JoxWallGrid *grid, JoxV2 p, JoxV2 *q) {
+    const JoxV2 way = jox_sub(*q, p);
+    const float length = jox_length(way), pieces = ceilf(length / grid->reach);
+    if (!(pieces > 1.0f && pieces < MOST_PIECES))
+        return p;
+    JoxV2 from = p, to = p;
+    for (float n = 1.0f; n <= pieces; n++) {
+        uint32_t edge;
+        float t;
+        from = to;
+        to = jox_add(p, jox_scale(way, n / pieces));
+        if (first_passed(grid, from, to, &edge, &t))
+            break;
+    }
+    *q = to;
+    return from;
+}
+
 /* Who left at a periodic edge comes in at the other side, with the step's start beyond the edge. */
 static bool wrap_position(JoxAgents *a, uint32_t i) {
     JoxV2 before = {a->x[i], a->y[i]};
@@ -151,6 +172,8 @@ static bool wrap_position(JoxAgents *a, uint32_t i) {
     JOX_ASSERT(!(a->period.x > 0.0f && fabsf(a->x[i] - a->origin.x) > 1.001f * a->period.x));
     JOX_ASSERT(!(a->period.y > 0.0f && fabsf(a->y[i] - a->origin.y) > 1.001f * a->period.y));
     JoxV2 shift = jox_sub((JoxV2){a->x[i], a->y[i]}, before);
+    if (!isfinite(shift.x + shift.y)) /* the guard will put it back to where it was */
+        return true;
     a->prev_x[i] += shift.x;
     a->prev_y[i] += shift.y;
     a->still_x[i] += shift.x;
@@ -184,12 +207,14 @@ static void apply_positions(void *context, uint32_t begin, uint32_t end, uint32_
     const JoxWallGrid *grid = &m->nav->grid;
     float farthest2 = 0.0f;
     for (uint32_t i = begin; i < end; i++) {
-        JoxV2 p = {a->prev_x[i], a->prev_y[i]}, q = m->nav->position[0][i];
+        JoxV2 p = {a->prev_x[i], a->prev_y[i]}, q = m->nav->position[0][i], from = p;
         uint32_t near;
-        jox_wall_grid_at(grid, p, &near);
+        if (grid->first && jox_length2(jox_sub(q, p)) > grid->reach * grid->reach)
+            from = piece_of_way(grid, p, &q);
+        jox_wall_grid_at(grid, from, &near);
         if (near > 0) {
-            JoxV2 clear = keep_clear(grid, stop_at_walls(grid, p, q), a->breadth[i]);
-            q = stop_at_walls(grid, p, clear);
+            JoxV2 clear = keep_clear(grid, stop_at_walls(grid, from, q), a->breadth[i]);
+            q = stop_at_walls(grid, from, clear);
         }
         a->x[i] = q.x;
         a->y[i] = q.y;

@@ -119,6 +119,8 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     world.gravity = spec->gravity;
     world.forces = spec->forces;
     world.literal = spec->literal;
+    world.lost_people = (JoLost)spec->lost_people;
+    world.lost_bodies = (JoLost)spec->lost_bodies;
     scene->world = jox_world_create(&world);
     scene->world->scratch.timed = true;
     scene->world->model.reinserts_bodies = def->resumable;

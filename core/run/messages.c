@@ -1,26 +1,11 @@
 /* What a run says to people, and the errors that it hands to its caller. */
-#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <unistd.h>
 
-#include "base/file.h"
 #include "base/guard.h"
 #include "base/mem.h"
-#include "jostle_tools.h"
 #include "run/run.h"
-
-bool jo_write(const char *path, const char *text, JoError *error) {
-    JOX_GUARD (NULL, error)
-        return false;
-    FILE *file = jox_file_replace(path);
-    bool good = file && fputs(text, file) >= 0;
-    if (file)
-        good = jox_file_close(file) == 0 && good;
-    if (!good)
-        jox_error(error, JO_FAILED, "%s", jox_file_why(errno));
-    return good;
-}
 
 void jox_run_to_stderr(void *context, const char *text) {
     (void)context;

@@ -11,7 +11,7 @@ bool jo_scene_step(JoScene *scene, JoError *error) {
     jox_run_inputs(scene);
     jox_run_reload(scene);
     const bool stepped = jox_world_step(scene->world);
-    JoxText *said = &scene->world->scratch.event_errors;
+    JoxText *said = &scene->world->scratch.news;
     if (said->length)
         jox_run_tell(scene, said->data);
     jox_text_free(said);
@@ -41,10 +41,16 @@ bool jo_scene_finish(JoScene *scene, JoError *error) {
     return jox_run_end_log(scene, good ? error : NULL) && good;
 }
 
-char *jo_scene_suspended(const JoScene *scene) {
+char *jo_scene_troubles(const JoScene *scene) {
     JOX_REQUIRE(scene, NULL);
     JoxText text = {0};
+    const JoxStatistics *s = &scene->world->state.statistics;
     jox_lua_suspended(scene->lua, &text);
+    if (s->people_lost)
+        jox_text_printf(&text, "%s%llu times the numbers of somebody went wrong, who was %s",
+                        text.length ? "; " : "", (unsigned long long)s->people_lost,
+                        scene->spec->lost_people == JO_LOST_REMOVE ? "removed"
+                                                                   : "put back, at rest");
     if (text.data)
         jox_text_clean(text.data);
     return text.data;

@@ -77,6 +77,7 @@ static void add_events(JoxJson *json, const JoScene *scene) {
                   {"spawned", s->spawned},
                   {"removed", s->removed},
                   {"moved_out", s->moved_out},
+                  {"people_lost", s->people_lost},
                   {"bodies_lost", s->bodies_lost},
                   {"walls_relaxed", s->walls_relaxed},
                   {"opened", s->opened},

@@ -29,6 +29,9 @@
 #define FILLS (&(JOX_FILLS(CHOICE))[1])
 #define TOOLS (&(JOX_TOOLS(CHOICE))[1])
 
+/* In the order of JoLost. */
+#define LOST "end|remove|stop"
+
 #define AT(Struct, member) (1 + offsetof(Struct, member))
 
 /* How the value of a kind of probe is written. */
@@ -70,6 +73,8 @@ static const JoxKey KEYS[] = {
      .meaning = "in a mod's patches: the scene whose place this one takes"},
     {"scene", "forces", TABLE, "", 0, 0, "", SAME_STRUCT, .of = "forces", LATER("the world is made with them"), .meaning = "how forces act"},
     {"scene", "walking", TABLE, "", 0, 0, "", TO(JoxSceneSpec, walking), .of = "walking", LATER("the world is made with them"), .meaning = "constants of the walking law"},
+    {"scene", "guard", TABLE, "", 0, 0, "", SAME_STRUCT, .of = "guard", .example = "guard: {people: remove, bodies: stop}",
+     LATER("the world is made with it"), .meaning = "what becomes of people and bodies whose numbers go wrong"},
     {"scene", "limits", TABLE, "", 0, 0, "", TO(JoxSceneSpec, limits), .of = "limits", LATER("behaviours are loaded under them"), .meaning = "what scripts may use"},
     {"scene", "heatmap", TABLE, "", 0, 0, "", SAME_STRUCT, .of = "heatmap",
      .meaning = "area and time of the density map"},
@@ -99,6 +104,10 @@ static const JoxKey KEYS[] = {
     {"walking", #name, NUMBER, unit, least, greatest, #value, TO(JoxWalkLaw, name), .meaning = meant},
     JOX_WALK_CONSTANTS(X)
 #undef X
+    {"guard", "people", TEXT, "", 0, 0, "end", TO(JoxSceneSpec, lost_people), .choices = LOST,
+     .meaning = "who has a number that is not finite, or is farther than 10 km from the origin"},
+    {"guard", "bodies", TEXT, "", 0, 0, "remove", TO(JoxSceneSpec, lost_bodies), .choices = LOST,
+     .meaning = "the same of a body; and one that falls through the ground, or passes a wall"},
     {"limits", "instructions", WHOLE, "", 1000, 1e9, "100000", TO(JoxSceneLimits, instructions),
      .meaning = "of one call of a Lua function"},
     {"limits", "step_instructions", WHOLE, "", 10000, 1e12, "20000000", TO(JoxSceneLimits, step_instructions),
@@ -307,6 +316,9 @@ static const JoxOwner OWNERS[] = {
     {"forces", "forces", "What pushes between agents do.", .size = 0},
     {"walking", "walking", "One set of constants serves all crowds, and is the default (core/walking.md says what each does); to try others is research. R is the sum of two people's radii.",
      .size = sizeof(JoxWalkLaw)},
+    {"guard", "guard", "A message names the first, with the step, its state and the forces on it. `end`: the run ends there; "
+     "`remove`: it is taken out; `stop`: it is put back to where it was, at rest. Where the run goes on, its exit status is 1 "
+     "if people were lost, and the summary counts `people_lost` and `bodies_lost`.", .size = 0},
     {"limits", "limits", "A script that needs more is stopped and named; the run goes on.",
      .size = sizeof(JoxSceneLimits)},
     {"heatmap", "heatmap", "What the density map of a report shows.", .size = 0},

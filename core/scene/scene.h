@@ -103,6 +103,7 @@ typedef struct JoxSceneSpec {
     int32_t player_group;  /* -1: none */
     uint32_t player_agent; /* index within that group */
     bool forces, literal;
+    uint32_t lost_people, lost_bodies; /* JoLost */
     JoxSceneCamera camera;
     JoxSceneView view;
     JoxSceneLimits limits;

@@ -42,6 +42,7 @@ JoWorldDef jo_default_world_def(void) {
                         .threads = 1,
                         .forces = true,
                         .gravity = 9.81,
+                        .lost_bodies = JO_LOST_REMOVE,
                         .cookie = WORLD_COOKIE};
 }
 

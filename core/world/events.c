@@ -107,8 +107,8 @@ static void happen(JoWorld *world, const JoxEvent *event) {
         break;
     }
     if (!good) /* a body that fell off the world, or that an edit brings at the next start */
-        jox_text_printf(&world->scratch.event_errors, "%s:%d:%d: t = %.2f s: %s\n",
-                        event->position.file, event->position.line, event->position.column,
+        jox_text_printf(&world->scratch.news, "%s:%d:%d: t = %.2f s: %s\n", event->position.file,
+                        event->position.line, event->position.column,
                         (double)world->state.tick * world->model.def.dt, why.data ? why.data : "");
     jox_text_free(&why);
 }

@@ -33,7 +33,7 @@ typedef struct JoxEvent {
 void jox_world_set_events(JoWorld *world, const JoxEvent *events, uint32_t count);
 /* Before a step: does what is due. It follows from the number of the step alone, so that an edited
    list goes on from there, and there is no state. What could not be done is added to
-   `scratch.event_errors`, a line each. */
+   `scratch.news`, a line each. */
 void jox_world_events(JoWorld *world);
 
 /* What events do, by names; m, m/s, rad/s. False, with a sentence in `why`, where there is no such

@@ -1,5 +1,5 @@
-/* Whether every number of the agents that the next step reads is finite, and checks of whole parts
-   of a world, which builds with assertions call before and after each step. */
+/* The guard: people and bodies whose numbers go wrong, before the next step reads them. It names
+   the first, and does with people what the world's definition says. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,194 +7,252 @@
 #include "base/assert.h"
 #include "world/world.h"
 
-/* Columns that are looked at, causes before effects: an agent whose preferred velocity is no number
-   spoils its neighbours' velocities in the same step. */
-enum { COLUMNS = 8 };
+static const float FARTHEST = 10000.0f; /* m: floats still resolve a millimetre there */
+enum { MOST_TOLD = 5 };
+
+/* X(what, column, rest): numbers of agents, and what they are where nothing is known. Causes before
+   effects: an agent whose preferred velocity is no number spoils its neighbours' velocities in the
+   same step. */
+#define COLUMNS(X)                                                                                 \
+    X("eagerness", eager, 0.0f)                                                                    \
+    X("course", course_x, 0.0f)                                                                    \
+    X("course", course_y, 0.0f)                                                                    \
+    X("direction", face_x, 1.0f)                                                                   \
+    X("direction", face_y, 0.0f)                                                                   \
+    X("preferred velocity", pref_x, 0.0f)                                                          \
+    X("preferred velocity", pref_y, 0.0f)                                                          \
+    X("net force", force_x, 0.0f)                                                                  \
+    X("net force", force_y, 0.0f)                                                                  \
+    X("planned velocity", next_x, 0.0f)                                                            \
+    X("planned velocity", next_y, 0.0f)                                                            \
+    X("inferred force", inferred_x, 0.0f)                                                          \
+    X("inferred force", inferred_y, 0.0f)                                                          \
+    X("velocity", vx, 0.0f)                                                                        \
+    X("velocity", vy, 0.0f)                                                                        \
+    X("position", x, 0.0f)                                                                         \
+    X("position", y, 0.0f)
+#define ONE(what, column, rest) +1
+enum { COLUMN_COUNT = COLUMNS(ONE) };
 
 typedef struct Column {
     const char *what;
-    const float *of;
+    float *of;
+    float rest;
+    float most; /* of either sign */
 } Column;
 
-static void list_columns(const JoxAgents *a, Column out[COLUMNS]) {
-    const Column columns[COLUMNS] = {{"preferred velocity", a->pref_x},
-                                     {"preferred velocity", a->pref_y},
-                                     {"inferred force", a->inferred_x},
-                                     {"inferred force", a->inferred_y},
-                                     {"velocity", a->vx},
-                                     {"velocity", a->vy},
-                                     {"position", a->x},
-                                     {"position", a->y}};
-    memcpy(out, columns, sizeof columns);
+static void list_columns(JoxAgents *a, Column out[COLUMN_COUNT]) {
+    Column *next = out;
+#define LIST(what, column, rest) *next++ = (Column){what, a->column, rest, INFINITY};
+    COLUMNS(LIST)
+    next[-2].most = next[-1].most = FARTHEST; /* of the position */
+    JOX_ASSERT(next == out + COLUMN_COUNT);
 }
 
-/* An exponent of all ones is that of an infinity or a NaN: one more, and it carries into the sign.
-   In blocks, of which compilers make vector instructions. */
-static bool is_finite(const float *column, uint32_t count) {
+static bool is_wrong(const Column *column, uint32_t i) {
+    return !isfinite(column->of[i]) || fabsf(column->of[i]) > column->most;
+}
+
+static bool any_wrong(const Column *column, uint32_t count) {
+    bool wrong = false;
+    for (uint32_t i = 0; i < count; i++)
+        wrong |= is_wrong(column, i);
+    return wrong;
+}
+
+static uint32_t bits_of(float number) {
+    uint32_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    return bits;
+}
+
+/* Whether somebody may have a wrong number: never false where there is one. A sum is finite if all
+   its parts are, unless they are huge; an exponent of all ones carries into the sign; and, without
+   its sign, what is farther is a greater whole number. In blocks, of which compilers make vector
+   instructions. */
+static bool may_be_wrong(const JoxAgents *a) {
     enum { BLOCK = 64 };
-    const uint32_t exponent = 0x7f800000u, one = 0x00800000u;
-    uint32_t carried = 0, i = 0;
-    for (; i + BLOCK <= count; i += BLOCK) {
-        uint32_t bits[BLOCK];
-        memcpy(bits, column + i, sizeof bits);
-        for (int k = 0; k < BLOCK; k++)
-            carried |= (bits[k] & exponent) + one;
+    const uint32_t exponent = 0x7f800000u, one = 0x00800000u, magnitude = 0x7fffffffu;
+    const uint32_t most = bits_of(FARTHEST);
+    uint32_t signs = 0;
+#define PLUS(what, column, rest) +a->column[i]
+#define LOOK(i)                                                                                    \
+    signs |= (bits_of(COLUMNS(PLUS)) & exponent) + one;                                            \
+    signs |= (most - (bits_of(a->x[i]) & magnitude)) | (most - (bits_of(a->y[i]) & magnitude));
+    uint32_t begin = 0;
+    for (; begin + BLOCK <= a->count; begin += BLOCK)
+        for (uint32_t i = begin; i < begin + BLOCK; i++) {
+            LOOK(i)
+        }
+    for (uint32_t i = begin; i < a->count; i++) {
+        LOOK(i)
     }
-    for (; i < count; i++)
-        carried |= isfinite(column[i]) ? 0 : ~exponent;
-    return !(carried >> 31);
+    return signs >> 31;
 }
 
-/* The agent of the least id whose number is not finite, and who it is. */
-static void blame(JoWorld *w, const Column *column) {
+/* ---- who it is ---- */
+
+static void add_when(const JoWorld *w, JoxText *out) {
+    jox_text_printf(out, "step %llu, t = %.2f s: ", (unsigned long long)w->state.tick,
+                    (double)w->state.tick * w->model.def.dt);
+}
+
+static void add_vector(JoxText *out, const char *label, JoxV3 v) {
+    jox_text_printf(out, "%s (%.6g, %.6g, %.6g)", label, (double)v.x, (double)v.y, (double)v.z);
+}
+
+static void add_who(const JoWorld *w, uint32_t i, JoxText *out) {
+    const uint16_t number = w->state.agents.machine[i];
+    const JoxMachine *machine = number == JOX_NO_MACHINE ? NULL : w->model.machines.items[number];
+    if (machine)
+        jox_text_printf(out, " (machine %.60s, state %.60s)", machine->name,
+                        machine->states[w->state.agents.state[i]].name);
+    else
+        jox_text_add(out, " (no machine)");
+}
+
+static void add_forces(const JoxAgents *a, uint32_t i, JoxText *out) {
+    jox_text_add(out, "; forces, N:");
+#define ADD(X, keep, name, label)                                                                  \
+    if (a->name##_x != a->ext_x) /* which is used up by now, and in the net force */               \
+        jox_text_printf(out, " " label " (%.6g, %.6g),", (double)a->name##_x[i],                   \
+                        (double)a->name##_y[i]);
+    JOX_FORCE_TERMS(ADD, )
+#undef ADD
+    jox_text_printf(out, " net (%.6g, %.6g)", (double)a->force_x[i], (double)a->force_y[i]);
+}
+
+/* Of those with a wrong number in a column: the one of the least id, and all that is known of it.
+ */
+static void blame(const JoWorld *w, const Column *column, JoxText *out) {
     const JoxAgents *a = &w->state.agents;
     uint32_t worst = JOX_NO_INDEX;
     for (uint32_t i = 0; i < a->count; i++)
-        if (!isfinite(column->of[i]) && (worst == JOX_NO_INDEX || a->id[i] < a->id[worst]))
+        if (is_wrong(column, i) && (worst == JOX_NO_INDEX || a->id[i] < a->id[worst]))
             worst = i;
-    JOX_ASSERT(worst != JOX_NO_INDEX); /* is_finite found one */
-    uint16_t number = a->machine[worst];
-    const JoxMachine *machine = number == JOX_NO_MACHINE ? NULL : w->model.machines.items[number];
-    snprintf(w->failure, sizeof w->failure,
-             "step %llu: the %s of agent %u is not finite (%s%.60s%s%.60s); the run cannot go on",
-             (unsigned long long)w->state.tick, column->what, a->id[worst],
-             machine ? "machine " : "no machine", machine ? machine->name : "",
-             machine ? ", state " : "", machine ? machine->states[a->state[worst]].name : "");
+    JOX_ASSERT(worst != JOX_NO_INDEX); /* any_wrong found one */
+    const bool left = isfinite(column->of[worst]);
+    add_when(w, out);
+    jox_text_printf(out, "the %s of agent %u is %s", column->what, a->id[worst],
+                    left ? "more than 10 km from the origin" : "not finite");
+    add_who(w, worst, out);
+    jox_text_printf(out, ", at (%.6g, %.6g) m, before at (%.6g, %.6g) m, with (%.6g, %.6g) m/s",
+                    (double)a->x[worst], (double)a->y[worst], (double)a->prev_x[worst],
+                    (double)a->prev_y[worst], (double)a->vx[worst], (double)a->vy[worst]);
+    add_forces(a, worst, out);
 }
 
-bool jox_world_is_finite(JoWorld *w) {
-    Column columns[COLUMNS];
-    list_columns(&w->state.agents, columns);
-    for (int c = 0; c < COLUMNS; c++)
-        if (!is_finite(columns[c].of, w->state.agents.count)) {
-            blame(w, &columns[c]);
-            return false;
+/* ---- what becomes of them ---- */
+
+/* Back to where it was before the substep, at rest. False where nobody knows where that was. */
+static bool put_to_rest(JoWorld *w, const Column *columns, uint32_t i) {
+    JoxAgents *a = &w->state.agents;
+    const bool known = fabsf(a->prev_x[i]) <= FARTHEST && fabsf(a->prev_y[i]) <= FARTHEST;
+    if (!known)
+        a->prev_x[i] = a->prev_y[i] = 0.0f;
+    for (int c = 0; c < COLUMN_COUNT; c++)
+        if (is_wrong(&columns[c], i))
+            columns[c].of[i] = columns[c].rest;
+    a->x[i] = a->still_x[i] = a->prev_x[i];
+    a->y[i] = a->still_y[i] = a->prev_y[i];
+    a->vx[i] = a->vy[i] = a->next_x[i] = a->next_y[i] = 0.0f;
+    if (!jox_is_unit(jox_v2(a->face_x[i], a->face_y[i]))) {
+        a->face_x[i] = 1.0f;
+        a->face_y[i] = 0.0f;
+    }
+    a->compression[i] = isfinite(a->compression[i]) ? a->compression[i] : 0.0f;
+    a->load[i] = isfinite(a->load[i]) ? a->load[i] : 0.0f;
+    if (w->scratch.walked_capacity > i)
+        w->scratch.walked[i] = jox_v2(0.0f, 0.0f);
+    return known;
+}
+
+/* Those who are wrong in the column that names the cause are lost; others who are wrong only since
+   those were near them go on from rest. */
+static void mend(JoWorld *w, const Column *columns, int cause) {
+    const JoxAgents *a = &w->state.agents;
+    for (uint32_t i = 0; i < a->count; i++) {
+        bool wrong = false;
+        for (int c = cause; c < COLUMN_COUNT && !wrong; c++)
+            wrong = is_wrong(&columns[c], i);
+        if (!wrong)
+            continue;
+        const bool lost = is_wrong(&columns[cause], i);
+        /* Its pair of numbers stands in two columns. */
+        const bool pair = cause + 1 < COLUMN_COUNT &&
+                          columns[cause + 1].what == columns[cause].what &&
+                          is_wrong(&columns[cause + 1], i);
+        const bool known = put_to_rest(w, columns, i);
+        if (!lost && !pair && known)
+            continue;
+        w->state.statistics.people_lost++;
+        if (w->model.def.lost_people == JO_LOST_REMOVE || !known) {
+            JOX_RESERVE(w->scratch.lost.ids, w->scratch.lost.capacity, w->scratch.lost.count + 1);
+            w->scratch.lost.ids[w->scratch.lost.count++] = a->id[i];
         }
+    }
+    jox_nav_forget(w->scratch.nav); /* some lie elsewhere than they were sorted */
+}
+
+/* Ends the world, or tells of what was lost and that it goes on. */
+static bool tell(JoWorld *w, JoLost lost, uint64_t before, JoxText *what) {
+    const char *const ends[] = {[JO_LOST_END] = "the run cannot go on",
+                                [JO_LOST_REMOVE] = "removed",
+                                [JO_LOST_STOP] = "put back, at rest"};
+    if (lost == JO_LOST_END)
+        snprintf(w->failure, sizeof w->failure, "%s; %s", what->data, ends[lost]);
+    else if (before <= MOST_TOLD)
+        jox_text_printf(&w->scratch.news, "%s; %s%s\n", what->data, ends[lost],
+                        before == MOST_TOLD ? "; from here on it is only counted" : "");
+    jox_text_free(what);
+    return lost != JO_LOST_END;
+}
+
+void jox_world_lose_body(JoWorld *w, const JoxBodyGone *gone) {
+    const char *const ends[] = {[JOX_BODY_FELL] = "fell through the ground",
+                                [JOX_BODY_NOT_FINITE] = "has a number that is not finite",
+                                [JOX_BODY_LEFT] = "is more than 10 km from the origin",
+                                [JOX_BODY_PASSED_WALL] = "passed a wall"};
+    JoxText what = {0};
+    add_when(w, &what);
+    jox_text_printf(&what, "body %u%s%s %s", gone->id, *gone->name ? ", " : "", gone->name,
+                    ends[gone->why]);
+    add_vector(&what, ", at", gone->at);
+    add_vector(&what, " m, before at", gone->before);
+    add_vector(&what, " m, with", gone->velocity);
+    add_vector(&what, " m/s; people gave it", gone->force);
+    jox_text_add(&what, " N");
+    tell(w, w->model.def.lost_bodies, w->state.statistics.bodies_lost, &what);
+}
+
+bool jox_world_guard(JoWorld *w) {
+    if (w->failure[0]) /* by a body */
+        return false;
+    if (!may_be_wrong(&w->state.agents))
+        return true;
+    Column columns[COLUMN_COUNT];
+    list_columns(&w->state.agents, columns);
+    for (int c = 0; c < COLUMN_COUNT; c++) {
+        if (!any_wrong(&columns[c], w->state.agents.count))
+            continue;
+        const uint64_t before = w->state.statistics.people_lost;
+        JoxText what = {0};
+        blame(w, &columns[c], &what);
+        if (w->model.def.lost_people != JO_LOST_END)
+            mend(w, columns, c);
+        return tell(w, w->model.def.lost_people, before, &what);
+    }
     return true;
 }
 
-/* ---- checks ---- */
-
-/* An index of something, or -1. */
-static bool names_one(int32_t index, uint32_t count) {
-    return index == -1 || (index >= 0 && (uint32_t)index < count);
-}
-
-static void check_machine(const JoWorld *w, uint32_t i) {
-    const JoxAgents *a = &w->state.agents;
-    if (a->machine[i] == JOX_NO_MACHINE)
-        return;
-    JOX_ASSERT(a->machine[i] < w->model.machines.count);
-    JOX_ASSERT(a->state[i] < w->model.machines.items[a->machine[i]]->state_count);
-    JOX_ASSERT(a->entered[i] <= w->state.tick && a->queued[i] <= w->state.tick);
-}
-
-void jox_world_agents_check(const JoWorld *w) {
-    const JoxAgents *a = &w->state.agents;
-    const uint32_t bodies = jox_bodies_rows(w->state.bodies);
-    JOX_ASSERT(a->count <= a->capacity && a->count <= a->next_id);
-    JOX_ASSERT(a->count + a->free_count == a->slot_count);
-    for (uint32_t r = 0; r < a->count; r++) {
-        const uint32_t i = a->by_rank[r];
-        JOX_ASSERT(i < a->count && a->rank[i] == r && a->rank_id[r] == a->id[i]);
-        JOX_ASSERT(a->id[i] < a->next_id);
-        JOX_ASSERT(r == 0 || a->rank_id[r - 1] < a->rank_id[r]);
-        JOX_ASSERT(a->slot[i] < a->slot_count && a->slot_index[a->slot[i]] == i);
-        JOX_ASSERT(a->slot_generation[a->slot[i]] > 0);
-        JOX_ASSERT(!a->removed[i]);
-        JOX_ASSERT(a->group[i] == 0 || a->group[i] < w->model.group_count);
-        JOX_ASSERT(names_one(a->goal[i], w->model.place_count));
-        JOX_ASSERT(names_one(a->queue_at[i], w->model.place_count));
-        JOX_ASSERT(names_one(a->kicked[i], bodies) && names_one(a->approach[i], bodies));
-        JOX_ASSERT(names_one(a->struck[i], bodies));
-        JOX_ASSERT(a->param[JOX_PARAM_radius][i] > 0.0f && a->param[JOX_PARAM_mass][i] > 0.0f);
-        JOX_ASSERT(jox_is_unit(jox_v2(a->face_x[i], a->face_y[i])));
-        check_machine(w, i);
+void jox_world_take_lost(JoWorld *w) {
+    JoxAgents *a = &w->state.agents;
+    for (uint32_t n = 0; n < w->scratch.lost.count; n++) {
+        const uint32_t i = jox_agents_find(a, w->scratch.lost.ids[n]);
+        if (i != JOX_NO_INDEX) /* who has not left meanwhile */
+            a->removed[i] = 1;
     }
-}
-
-static void check_walls(const JoxWalls *walls) {
-    uint32_t vertices = 0;
-    for (uint32_t r = 0; r < walls->ring_count; r++) {
-        const struct JoxWallRing *ring = &walls->rings[r];
-        JOX_ASSERT(ring->name || (!ring->open && !ring->set));
-        JOX_ASSERT(ring->first == vertices);
-        vertices += ring->count;
-    }
-    JOX_ASSERT(vertices == walls->count);
-}
-
-void jox_world_model_check(const JoWorld *w) {
-    const JoxWorldModel *m = &w->model;
-    JOX_ASSERT(m->scene_places <= m->place_count && m->place_count <= m->place_capacity);
-    for (uint32_t p = 0; p < m->place_count; p++)
-        for (uint32_t k = 0; k < m->places[p].member_count; k++)
-            JOX_ASSERT(m->places[p].members[k] >= 0 &&
-                       (uint32_t)m->places[p].members[k] < m->scene_places);
-    for (uint32_t s = 0; s < m->source_count; s++) {
-        JOX_ASSERT(m->sources[s].place < m->scene_places);
-        JOX_ASSERT(m->sources[s].like < m->group_count);
-        JOX_ASSERT(w->state.population.made[s] >= 0.0);
-    }
-    for (uint32_t g = 0; g < m->group_count; g++)
-        JOX_ASSERT(w->state.population.party_left[g] == 0 ||
-                   w->state.population.party_left[g] < m->groups[g].party);
-    for (uint32_t s = 0; s < m->sink_count; s++) {
-        JOX_ASSERT(m->sinks[s].place < m->scene_places);
-        JOX_ASSERT(m->sinks[s].group < (int64_t)m->group_count);
-    }
-    JOX_ASSERT(w->machines.set == &m->machines && w->machines.state == &w->state.machines);
-    check_walls(&m->all_walls);
-}
-
-static void check_input(const JoxInputLog *log) {
-    JOX_ASSERT(log->next <= log->count);
-    for (size_t e = log->next; e < log->count; e++)
-        JOX_ASSERT(e == 0 || log->entries[e - 1].tick <= log->entries[e].tick);
-    for (uint32_t p = 0; p < log->present_count; p++)
-        for (uint32_t q = 0; q < p; q++)
-            JOX_ASSERT(log->present[q].agent_id != log->present[p].agent_id);
-}
-
-/* Ids of bodies only grow: the boxes, the oldest first, ascend. */
-static void check_drags(const JoxDrags *drags, const JoxBodies *bodies) {
-    JOX_ASSERT(drags->box_count <= JOX_MOST_BOXES && drags->grab_count <= JOX_MOST_GRABS);
-    for (uint32_t b = 1; b < drags->box_count; b++)
-        JOX_ASSERT(drags->boxes[b - 1] < drags->boxes[b]);
-    for (uint32_t g = 0; g < drags->grab_count; g++) {
-        JOX_ASSERT(drags->grabs[g].row < jox_bodies_rows(bodies));
-        for (uint32_t k = 0; k < g; k++)
-            JOX_ASSERT(drags->grabs[k].id != drags->grabs[g].id);
-    }
-}
-
-static void check_inspection(const JoxInspection *all, const JoWorld *w) {
-    JOX_ASSERT(all->count <= JOX_MOST_INSPECTED && w->machines.watched_count == all->count);
-    for (uint32_t n = 0; n < all->count; n++) {
-        JOX_ASSERT(all->watched[n].agent_id == all->agents[n].id);
-        JOX_ASSERT(all->agents[n].slot < w->state.agents.slot_count);
-        JOX_ASSERT(all->agents[n].plane_count <= JOX_MOST_CONSTRAINTS);
-    }
-}
-
-static void check_figures(const JoWorld *w) {
-    const JoxStatistics *s = &w->state.statistics;
-    uint64_t samples = 0;
-    for (int bin = 0; bin < JOX_OVERLAP_BINS; bin++)
-        samples += s->overlap[bin];
-    JOX_ASSERT(samples == s->overlap_samples && samples <= s->agent_steps);
-    JOX_ASSERT(s->second_failures <= s->failures && s->failures <= s->agent_steps);
-    JOX_ASSERT(s->removed + w->state.agents.count <= s->spawned);
-    JOX_ASSERT(s->bonds.rows <= s->bonds.people);
-    uint64_t people = 0;
-    for (uint32_t e = 0; e < w->state.exits.count; e++)
-        people += w->state.exits.items[e].people;
-    JOX_ASSERT(people <= w->state.exits.left && w->state.exits.left <= s->removed);
-}
-
-void jox_world_lists_check(const JoWorld *w) {
-    check_input(&w->state.input);
-    check_drags(&w->state.drags, w->state.bodies);
-    check_inspection(&w->scratch.inspection, w);
-    check_figures(w);
+    if (w->scratch.lost.count)
+        jox_agents_compact(a);
+    w->scratch.lost.count = 0;
 }

@@ -111,6 +111,8 @@ void jox_stage_bodies(const JoxBodyStage *s) {
     JoxBodiesReport report = jox_bodies_advance(s);
     jox_bonds_note_breaks(s, &report);
     s->statistics->bodies_lost += report.gone_count;
+    if (report.gone_count)
+        *s->lost = report.gone[0];
 }
 
 void jox_stage_infer(const JoxInferStage *s) {

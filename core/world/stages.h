@@ -122,6 +122,7 @@ typedef struct JoxBodyStage {
     JoxBodies *bodies;
     JoxDrags *drags;
     JoxStatistics *statistics;
+    JoxBodyGone *lost; /* becomes the first that is lost in this substep, if any is */
 } JoxBodyStage;
 void jox_stage_bodies(const JoxBodyStage *stage);
 /* Its steps: bodies that are picked up, carried and thrown; forces on those that are dragged; who

@@ -108,6 +108,7 @@ static void move(JoWorld *w, const JoxSubstep *substep) {
 }
 
 static void bodies(JoWorld *w, const JoxSubstep *substep) {
+    JoxBodyGone lost = {.row = JOX_NO_BODY};
     jox_stage_bodies(&(JoxBodyStage){.substep = substep,
                                      .forces = w->model.def.forces,
                                      .gravity = w->model.def.gravity,
@@ -119,7 +120,10 @@ static void bodies(JoWorld *w, const JoxSubstep *substep) {
                                      .agents = &w->state.agents,
                                      .bodies = w->state.bodies,
                                      .drags = &w->state.drags,
-                                     .statistics = &w->state.statistics});
+                                     .statistics = &w->state.statistics,
+                                     .lost = &lost});
+    if (lost.row != JOX_NO_BODY)
+        jox_world_lose_body(w, &lost);
 }
 
 static void infer(JoWorld *w, const JoxSubstep *substep) {
@@ -207,12 +211,15 @@ bool jox_world_step(JoWorld *w) {
     for (uint32_t number = 0; number < substeps && good; number++) {
         const JoxSubstep substep = substep_of(w, number, substeps);
         for (int stage = 0; stage < JO_STAGE_COUNT; stage++) {
+            if (stage == JOX_STAGE_OBSERVE && !jox_world_guard(w)) {
+                good = false;
+                break;
+            }
             STAGES[stage](w, &substep);
             double now = timed ? jox_clock_wall() : 0.0;
             w->state.statistics.stage_s[stage] += now - last;
             last = now;
         }
-        good = jox_world_is_finite(w);
     }
     w->state.tick++;
     w->state.statistics.wall_s += last - begin;
@@ -220,6 +227,7 @@ bool jox_world_step(JoWorld *w) {
     w->state.statistics.cpu_s += timed ? jox_clock_cpu() - cpu : 0.0;
     if (!good)
         return false;
+    jox_world_take_lost(w);
     jox_world_exits(w);
     JOX_CHECK(jox_world_agents_check(w));
     JOX_CHECK(jox_world_lists_check(w));

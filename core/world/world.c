@@ -25,6 +25,7 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     jox_forces_set_isa(world->scratch.forces, world->model.def.isa);
     JoxBodiesDef bodies = jox_bodies_def();
     bodies.gravity = def->gravity;
+    bodies.lost = def->lost_bodies;
     world->state.bodies = jox_bodies_create(&bodies);
     world->machines.set = &world->model.machines;
     world->machines.state = &world->state.machines;
@@ -74,7 +75,8 @@ static void free_world(JoWorld *world) {
     jox_free(world->state.population.entered);
     jox_free(world->model.starts);
     jox_exits_free(&world->state.exits);
-    jox_text_free(&world->scratch.event_errors);
+    jox_text_free(&world->scratch.news);
+    jox_free(world->scratch.lost.ids);
     for (uint32_t i = 0; i < world->model.tag_count; i++)
         jox_free(world->model.tags[i]);
     jox_pool_free(world->scratch.pool);

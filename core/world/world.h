@@ -91,7 +91,12 @@ typedef struct JoxWorldScratch {
     uint32_t walked_capacity;
     JoxGone gone; /* who left in the last step */
     JoxDiscList discs;
-    JoxText event_errors; /* what events could not do, a line each; whoever reads it empties it */
+    struct {
+        uint32_t *ids;
+        uint32_t count, capacity;
+    } lost;       /* people whom the guard takes out at the end of the step */
+    JoxText news; /* what events could not do, and who was lost, a line each; whoever reads it
+                     empties it */
 } JoxWorldScratch;
 
 struct JoWorld {
@@ -101,7 +106,7 @@ struct JoWorld {
     JoxWorldState state;
     JoxWorldScratch scratch;
     JoxMachineRun machines; /* joins the machines' parts of all three */
-    char failure[256];      /* why no further step can be done; "" while none failed */
+    char failure[1024];     /* why no further step can be done; "" while none failed */
 };
 
 /* As jo_world_create, without checking the def. */
@@ -147,12 +152,17 @@ typedef enum JoxGrabbed {
 JoxGrabbed jox_world_grab(JoWorld *world, uint32_t row, const double to[3], bool anew);
 /* False where it is not pulled. */
 bool jox_world_release(JoWorld *world, uint32_t row);
-/* One step. False, with the reason in `failure`, where a number of an agent is not finite after it;
-   from then on nothing is done. */
+/* One step. False, with the reason in `failure`, where somebody or something is lost and the def
+   says that this ends the world; from then on nothing is done. */
 bool jox_world_step(JoWorld *world);
-/* Whether all numbers of agents that the next step reads are finite; else `failure` names the
-   agent, its machine and its state. */
-bool jox_world_is_finite(JoWorld *world);
+/* Looks for people with a number that is not finite, or beyond 10 km of the origin: false, with the
+   first in `failure`, where that ends the world. Else they are put back to where the substep began,
+   at rest, and listed to be taken out where the def says so. */
+bool jox_world_guard(JoWorld *world);
+/* The same of a body that the last stage found, and has dealt with. */
+void jox_world_lose_body(JoWorld *world, const JoxBodyGone *gone);
+/* Takes out those who are listed. */
+void jox_world_take_lost(JoWorld *world);
 /* For JOX_CHECK, between steps: ids, ranks, slots and indices of the agents agree with each other
    and with the model; places, groups, sources and sinks name things that there are; what people
    want, inspect and drag is listed once each, and figures add up. */

@@ -43,6 +43,17 @@ says "  with several seeds too" 1 "was suspended" "$program" run scene.yaml --fo
 behaviour 'function(me) if me.time < 0.1 then return nil, 0 end return 0, 0 end'
 says "one that failed a few times is not suspended" 0 "must return two numbers" "$program" run scene.yaml --for 2 --quiet
 
+# ---- people who are lost ----
+behaviour 'drift(1, 0)'
+scene 'groups: {walkers: {behaviour: odd.lua, at: [[9999.5, 0], [9990, 3], [9990, 6]]}}'
+says "who leaves the world ends the run" 1 "the position of agent 0 is more than 10 km from the origin (machine" \
+    "$program" run scene.yaml --for 4 --quiet --summary -
+says "  or is removed, and the status is 1" 1 "; removed" "$program" run scene.yaml --for 4 --quiet --set guard.people=remove --summary summary.json
+[ "$(figure agents <"$yard/summary.json") $(figure steps <"$yard/summary.json")" = "2 80" ]
+verdict "  after its last step, with the others" $?
+says "  or put back, which is counted" 1 " times the numbers of somebody went wrong, who was put back" \
+    "$program" run scene.yaml --for 4 --quiet --set guard.people=stop
+
 # ---- sources and counts ----
 behaviour 'seek(own.goal)'
 scene 'groups: {g: {behaviour: odd.lua, count: 3, fill: circle, in: ring, set: {goal: antipode}}}

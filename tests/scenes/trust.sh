@@ -55,6 +55,8 @@ done
 says "a recording without a name" 2 "needs a value" "$program" run "$scene" --quiet --record ''
 says "a summary that is a folder is refused before the run" 1 "Is a directory" "$program" run "$scene" --quiet --for 1e6 --summary own
 says "so is a report that is a file" 1 "it is no folder" "$program" run "$scene" --quiet --for 1e6 --report s.yaml
+says "so is a path that a checkpoint cannot note" 2 "no line breaks" "$program" run "$scene" --quiet --for 1e6 --checkpoint 1 --checkpoint-dir notes --record "a
+log b"
 says "and a recording in a folder that is not there" 1 "cannot record" "$program" run "$scene" --quiet --for 1e6 --record none/r.sqlite
 says "standard output that is full" 1 "cannot write to standard output: No space" sh -c "'$program' run '$scene' --quiet --steps 2 --summary - >/dev/full"
 (sleep 0.3; "$program" run "$scene" --steps 2 --summary - --record closed.sqlite; echo $? >status) 2>closed.err | true

@@ -1,0 +1,128 @@
+/* Checks of whole parts of a world, which builds with assertions call before and after each step.
+ */
+#include "base/assert.h"
+#include "world/world.h"
+
+/* An index of something, or -1. */
+static bool names_one(int32_t index, uint32_t count) {
+    return index == -1 || (index >= 0 && (uint32_t)index < count);
+}
+
+static void check_machine(const JoWorld *w, uint32_t i) {
+    const JoxAgents *a = &w->state.agents;
+    if (a->machine[i] == JOX_NO_MACHINE)
+        return;
+    JOX_ASSERT(a->machine[i] < w->model.machines.count);
+    JOX_ASSERT(a->state[i] < w->model.machines.items[a->machine[i]]->state_count);
+    JOX_ASSERT(a->entered[i] <= w->state.tick && a->queued[i] <= w->state.tick);
+}
+
+void jox_world_agents_check(const JoWorld *w) {
+    const JoxAgents *a = &w->state.agents;
+    const uint32_t bodies = jox_bodies_rows(w->state.bodies);
+    JOX_ASSERT(a->count <= a->capacity && a->count <= a->next_id);
+    JOX_ASSERT(a->count + a->free_count == a->slot_count);
+    for (uint32_t r = 0; r < a->count; r++) {
+        const uint32_t i = a->by_rank[r];
+        JOX_ASSERT(i < a->count && a->rank[i] == r && a->rank_id[r] == a->id[i]);
+        JOX_ASSERT(a->id[i] < a->next_id);
+        JOX_ASSERT(r == 0 || a->rank_id[r - 1] < a->rank_id[r]);
+        JOX_ASSERT(a->slot[i] < a->slot_count && a->slot_index[a->slot[i]] == i);
+        JOX_ASSERT(a->slot_generation[a->slot[i]] > 0);
+        JOX_ASSERT(!a->removed[i]);
+        JOX_ASSERT(a->group[i] == 0 || a->group[i] < w->model.group_count);
+        JOX_ASSERT(names_one(a->goal[i], w->model.place_count));
+        JOX_ASSERT(names_one(a->queue_at[i], w->model.place_count));
+        JOX_ASSERT(names_one(a->kicked[i], bodies) && names_one(a->approach[i], bodies));
+        JOX_ASSERT(names_one(a->struck[i], bodies));
+        JOX_ASSERT(a->param[JOX_PARAM_radius][i] > 0.0f && a->param[JOX_PARAM_mass][i] > 0.0f);
+        JOX_ASSERT(jox_is_unit(jox_v2(a->face_x[i], a->face_y[i])));
+        check_machine(w, i);
+    }
+}
+
+static void check_walls(const JoxWalls *walls) {
+    uint32_t vertices = 0;
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &walls->rings[r];
+        JOX_ASSERT(ring->name || (!ring->open && !ring->set));
+        JOX_ASSERT(ring->first == vertices);
+        vertices += ring->count;
+    }
+    JOX_ASSERT(vertices == walls->count);
+}
+
+void jox_world_model_check(const JoWorld *w) {
+    const JoxWorldModel *m = &w->model;
+    JOX_ASSERT(m->scene_places <= m->place_count && m->place_count <= m->place_capacity);
+    for (uint32_t p = 0; p < m->place_count; p++)
+        for (uint32_t k = 0; k < m->places[p].member_count; k++)
+            JOX_ASSERT(m->places[p].members[k] >= 0 &&
+                       (uint32_t)m->places[p].members[k] < m->scene_places);
+    for (uint32_t s = 0; s < m->source_count; s++) {
+        JOX_ASSERT(m->sources[s].place < m->scene_places);
+        JOX_ASSERT(m->sources[s].like < m->group_count);
+        JOX_ASSERT(w->state.population.made[s] >= 0.0);
+    }
+    for (uint32_t g = 0; g < m->group_count; g++)
+        JOX_ASSERT(w->state.population.party_left[g] == 0 ||
+                   w->state.population.party_left[g] < m->groups[g].party);
+    for (uint32_t s = 0; s < m->sink_count; s++) {
+        JOX_ASSERT(m->sinks[s].place < m->scene_places);
+        JOX_ASSERT(m->sinks[s].group < (int64_t)m->group_count);
+    }
+    JOX_ASSERT(w->machines.set == &m->machines && w->machines.state == &w->state.machines);
+    check_walls(&m->all_walls);
+}
+
+static void check_input(const JoxInputLog *log) {
+    JOX_ASSERT(log->next <= log->count);
+    for (size_t e = log->next; e < log->count; e++)
+        JOX_ASSERT(e == 0 || log->entries[e - 1].tick <= log->entries[e].tick);
+    for (uint32_t p = 0; p < log->present_count; p++)
+        for (uint32_t q = 0; q < p; q++)
+            JOX_ASSERT(log->present[q].agent_id != log->present[p].agent_id);
+}
+
+/* Ids of bodies only grow: the boxes, the oldest first, ascend. */
+static void check_drags(const JoxDrags *drags, const JoxBodies *bodies) {
+    JOX_ASSERT(drags->box_count <= JOX_MOST_BOXES && drags->grab_count <= JOX_MOST_GRABS);
+    for (uint32_t b = 1; b < drags->box_count; b++)
+        JOX_ASSERT(drags->boxes[b - 1] < drags->boxes[b]);
+    for (uint32_t g = 0; g < drags->grab_count; g++) {
+        JOX_ASSERT(drags->grabs[g].row < jox_bodies_rows(bodies));
+        for (uint32_t k = 0; k < g; k++)
+            JOX_ASSERT(drags->grabs[k].id != drags->grabs[g].id);
+    }
+}
+
+static void check_inspection(const JoxInspection *all, const JoWorld *w) {
+    JOX_ASSERT(all->count <= JOX_MOST_INSPECTED && w->machines.watched_count == all->count);
+    for (uint32_t n = 0; n < all->count; n++) {
+        JOX_ASSERT(all->watched[n].agent_id == all->agents[n].id);
+        JOX_ASSERT(all->agents[n].slot < w->state.agents.slot_count);
+        JOX_ASSERT(all->agents[n].plane_count <= JOX_MOST_CONSTRAINTS);
+    }
+}
+
+static void check_figures(const JoWorld *w) {
+    const JoxStatistics *s = &w->state.statistics;
+    uint64_t samples = 0;
+    for (int bin = 0; bin < JOX_OVERLAP_BINS; bin++)
+        samples += s->overlap[bin];
+    JOX_ASSERT(samples == s->overlap_samples && samples <= s->agent_steps);
+    JOX_ASSERT(s->second_failures <= s->failures && s->failures <= s->agent_steps);
+    JOX_ASSERT(s->removed + w->state.agents.count <= s->spawned);
+    JOX_ASSERT(s->bonds.rows <= s->bonds.people);
+    uint64_t people = 0;
+    for (uint32_t e = 0; e < w->state.exits.count; e++)
+        people += w->state.exits.items[e].people;
+    JOX_ASSERT(people <= w->state.exits.left && w->state.exits.left <= s->removed);
+}
+
+void jox_world_lists_check(const JoWorld *w) {
+    check_input(&w->state.input);
+    check_drags(&w->state.drags, w->state.bodies);
+    check_inspection(&w->scratch.inspection, w);
+    check_figures(w);
+}
