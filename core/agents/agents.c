@@ -189,7 +189,10 @@ void jox_agents_check(const JoxAgents *a) {
 
 void jox_agents_permute(JoxAgents *a, const uint32_t *order) {
     Gather gather = {a, order, a->count, a->count};
-    if (a->count)
+    uint32_t same = 0;
+    while (same < a->count && order[same] == same)
+        same++;
+    if (same < a->count)
         visit_columns(a, COLUMN_HINT, gather_column, &gather);
     reindex(a);
     JOX_CHECK(jox_agents_check(a)); /* fails if the order is no permutation */

@@ -101,6 +101,12 @@ void jox_contacts_lay_pairs(JoxForces *f) {
     uint32_t room = p->listed > 4 * a->count ? p->listed : 4 * a->count;
     reserve_pairs(p, room);
     JOX_RESERVE(f->ends, f->end_capacity, 2 * (size_t)room);
+    if (!p->listed) { /* nobody touches anybody */
+        p->colours = 0;
+        memset(p->starts, 0, sizeof p->starts);
+        memset(f->end_starts, 0, ((size_t)a->count + 1) * sizeof *f->end_starts);
+        return;
+    }
     colour_pairs(f);
     uint32_t fill[JOX_CONTACT_MOST_COLOURS], n = 0;
     memcpy(fill, p->starts, sizeof fill);

@@ -80,7 +80,7 @@ static void plane_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     (void)worker;
     JoxForces *f = context;
     JoxContactPlanes *planes = &f->planes;
-    JoxDecay decay = {-1.0f, 0.0f, 0.0f};
+    JoxDecay decay = f->decay;
     for (uint32_t i = begin; i < end; i++) {
         JoxContactPlane *own = planes->planes + planes->starts[i];
         planes->people[i] = (uint8_t)people_planes(f, i, own, &decay);

@@ -175,6 +175,8 @@ void jox_force_begin(JoxForces *f, const JoxForceStep *step) {
     }
     JOX_ASSERT(step->neighbours->agents >= n || n == 0);
     f->widest = widest_radius(a);
+    if (n)
+        jox_decay(&f->decay, a->param[JOX_PARAM_damping][0], (float)step->dt);
     jox_parallel_for(step->pool, n, JOX_FORCE_GRAIN, breadth_chunk, f);
     f->bodies = n && step->objects && step->objects->grid.columns;
 }

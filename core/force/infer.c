@@ -104,7 +104,7 @@ static void infer_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wo
     JoxForces *f = context;
     const uint32_t chunk = begin / JOX_FORCE_GRAIN;
     const uint32_t whole = f->options.literal ? begin : end - (end - begin) % JOX_LANES;
-    JoxDecay decay = {-1.0f, 0.0f, 0.0f};
+    JoxDecay decay = f->decay;
     JoxPassing passing;
     if (whole > begin)
         KERNELS[f->isa](f, begin, whole, &passing);

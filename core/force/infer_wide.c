@@ -57,7 +57,7 @@ void JOX_WIDE(jox_infer_packets)(const JoxForces *f, uint32_t begin, uint32_t en
                                  JoxPassing *passing) {
     const JoxAgents *a = f->step.agents;
     const JoxFloats least = jf_set(JOX_SHORTFALL_LEAST), zero = jf_set(0.0f);
-    JoxDecay decay = {-1.0f, 0.0f, 0.0f};
+    JoxDecay decay = f->decay;
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         const JoxVector unit = jv_load(a->half_plane_x, a->half_plane_y, i);
         const uint32_t forced = jm_bits(is_set(unit));

@@ -3,6 +3,7 @@
 #define JOX_FORCE_INTERNAL_H
 
 #include "force/contact.h"
+#include "force/equations.h"
 #include "force/force.h"
 
 enum {
@@ -37,6 +38,7 @@ struct JoxForces {
     JoxForceTotals totals;
     uint32_t chunks;
     JoIsa isa;                 /* of the kernels */
+    JoxDecay decay;            /* of the first agent in a step: most have its damping */
     JoxContactRecord *records; /* of all agents, as contacts are found */
     size_t record_capacity;
 

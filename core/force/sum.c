@@ -80,7 +80,7 @@ void jox_sum_one(JoxForces *f, uint32_t i, JoxDecay *decay) {
 static void sum_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     JoxForces *f = context;
-    JoxDecay decay = {-1.0f, 0.0f, 0.0f};
+    JoxDecay decay = f->decay;
     const uint32_t whole = f->options.literal ? begin : end - (end - begin) % JOX_LANES;
     if (whole > begin)
         KERNELS[f->isa](f, begin, whole);

@@ -80,7 +80,7 @@ static void sum_packet(JoxForces *f, uint32_t i, JoxDecay decays[2]) {
 }
 
 void JOX_WIDE(jox_sum_packets)(JoxForces *f, uint32_t begin, uint32_t end) {
-    JoxDecay decays[2] = {{-1.0f, 0.0f, 0.0f}, {-1.0f, 0.0f, 0.0f}};
+    JoxDecay decays[2] = {f->decay, f->decay};
     for (uint32_t i = begin; i < end; i += JOX_WIDTH)
         sum_packet(f, i, decays);
 }

@@ -215,7 +215,8 @@ void jox_pool_lap(JoxPool *pool, double seconds) {
     p->left = p->probing ? PROBE : p->interval;
 }
 
-void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *task, void *context) {
+void jox_parallel_for_many(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *task,
+                           void *context) {
     JOX_ASSERT(grain > 0);
     if (!pool || pool->threads == 1 || count <= grain || pool->pace.alone) {
         for (uint32_t begin = 0; begin < count; begin += grain)

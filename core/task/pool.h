@@ -14,9 +14,18 @@ uint32_t jox_pool_threads(const JoxPool *pool);
 
 /* Work on [begin, end); `worker` in [0, threads) names scratch space, never influences results. */
 typedef void JoxTask(void *context, uint32_t begin, uint32_t end, uint32_t worker);
+/* jox_parallel_for of more than one chunk. */
+void jox_parallel_for_many(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *task,
+                           void *context);
 /* Splits [0, count) into chunks of `grain` (the last may be shorter), the same for any number of
    threads, runs them all and returns. `pool` NULL runs here. Not reentrant. */
-void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *task, void *context);
+static inline void jox_parallel_for(JoxPool *pool, uint32_t count, uint32_t grain, JoxTask *task,
+                                    void *context) {
+    if (count > grain)
+        jox_parallel_for_many(pool, count, grain, task, context);
+    else if (count > 0)
+        task(context, 0, count, 0);
+}
 /* Tells how long the caller's work with the pool took since the last call, s, where that is much
    the same each time, as steps are: while one thread does it sooner, loops run on one. */
 void jox_pool_lap(JoxPool *pool, double seconds);

@@ -20,6 +20,7 @@ typedef struct JoxSubstep {
     double dt, planning_time; /* s: of the substep; how far ahead velocities are planned */
     double response;          /* share of the way to the planned velocity gone in dt */
     double on_the_way;        /* the mean of that share over dt */
+    uint32_t plan_every;      /* substeps, from plan to plan */
     bool plans;               /* people plan anew; else they go on with what they planned */
     double interval;          /* s, between plans */
     double interval_response; /* the share gone in that time */

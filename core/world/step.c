@@ -165,24 +165,34 @@ static double forced_time(double dt, uint32_t steps) {
     return time;
 }
 
-static JoxSubstep substep_of(const JoWorld *w, uint32_t number, uint32_t substeps) {
-    const JoWorldDef *def = &w->model.def;
-    double dt = def->dt / substeps, every = PLANNING_TIME / dt + 0.5;
-    double response = def->literal ? 1.0 : 1.0 - jox_exp(-dt / RESPONSE_TIME);
-    uint32_t plan_every = def->literal || every < 2.0 ? 1 : (uint32_t)every;
-    return (JoxSubstep){.first = number == 0,
-                        .last = number + 1 == substeps,
-                        .only = substeps == 1,
-                        .dt = dt,
+/* What all substeps of a world have in common. */
+static JoxSubstep substep_of_length(const JoWorldDef *def, double dt) {
+    const double every = PLANNING_TIME / dt + 0.5;
+    const double response = def->literal ? 1.0 : 1.0 - jox_exp(-dt / RESPONSE_TIME);
+    const uint32_t plan_every = def->literal || every < 2.0 ? 1 : (uint32_t)every;
+    return (JoxSubstep){.dt = dt,
                         .planning_time = def->literal ? def->dt : PLANNING_TIME,
                         .response = response,
                         .on_the_way = def->literal ? 1.0 : 1.0 - response * RESPONSE_TIME / dt,
-                        .plans = w->state.tick % plan_every == 0,
+                        .plan_every = plan_every,
                         .interval = dt * plan_every,
                         .interval_forced = forced_time(dt, plan_every),
                         .interval_response =
-                            def->literal ? 1.0 : 1.0 - jox_exp(-dt * plan_every / RESPONSE_TIME),
-                        .end = (double)w->state.tick * def->dt + (number + 1) * dt};
+                            def->literal ? 1.0 : 1.0 - jox_exp(-dt * plan_every / RESPONSE_TIME)};
+}
+
+static JoxSubstep substep_of(JoWorld *w, uint32_t number, uint32_t substeps) {
+    const JoWorldDef *def = &w->model.def;
+    const double dt = def->dt / substeps;
+    if (w->scratch.substep.dt != dt)
+        w->scratch.substep = substep_of_length(def, dt);
+    JoxSubstep s = w->scratch.substep;
+    s.first = number == 0;
+    s.last = number + 1 == substeps;
+    s.only = substeps == 1;
+    s.plans = w->state.tick % s.plan_every == 0;
+    s.end = (double)w->state.tick * def->dt + (number + 1) * dt;
+    return s;
 }
 
 bool jox_world_step(JoWorld *w) {
