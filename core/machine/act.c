@@ -9,7 +9,7 @@
 static const double KICK_PAUSE = 0.3; /* s between two kicks of one agent */
 
 static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
-                           JoxRegisters registers) {
+                           JoxRegisters registers, JoxOdd *odd) {
     const JoxMachine *machine = run->set->items[batch->machine];
     const JoxState *state = &machine->states[batch->state];
     const uint32_t *agents = run->scratch->grouped + batch->begin;
@@ -19,6 +19,7 @@ static void write_programs(const JoxMachineRun *run, const JoxBatchRange *batch,
             continue;
         jox_eval(run, machine, &machine->expressions[value->index], agents, batch->count,
                  registers);
+        jox_odd_look(run, agents, batch->count, p, registers[0], odd);
         jox_parameter_store_all((JoxParameter)p, registers[0], agents, batch->count,
                                 run->agents->param[p]);
     }
@@ -54,7 +55,8 @@ static void act_range(void *context, uint32_t begin, uint32_t end, uint32_t work
     const JoxMachineRun *run = context;
     JOX_ASSERT(worker < run->scratch->workers);
     for (uint32_t b = begin; b < end; b++) {
-        write_programs(run, &run->scratch->batches[b], run->scratch->registers[worker]);
+        write_programs(run, &run->scratch->batches[b], run->scratch->registers[worker],
+                       &run->scratch->odd[worker]);
         write_pushing(run, &run->scratch->batches[b], run->scratch->registers[worker]);
     }
 }
@@ -173,7 +175,9 @@ void jox_machines_act(JoxMachineRun *run, JoxPool *pool) {
     memset(run->push_toward_y, 0, a->count * sizeof(float));
     for (uint32_t i = 0; i < a->count; i++)
         a->kicked[i] = -1;
+    memset(run->scratch->odd, 0, run->scratch->workers * sizeof *run->scratch->odd);
     jox_parallel_for(pool, run->scratch->batch_count, 1, act_range, run);
+    jox_odd_tell(run, jox_odd_first(run->scratch->odd, run->scratch->workers));
     if (run->objects && run->objects->count)
         kick_all(run);
     JOX_CHECK(jox_acts_check(run));

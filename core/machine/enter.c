@@ -32,10 +32,6 @@ static void pick_goal(JoxMachineRun *run, const JoxMachine *machine, const JoxSt
     }
 }
 
-const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *state, int p) {
-    return state->param[p].kind != JOX_VALUE_UNSET ? &state->param[p] : &machine->defaults[p];
-}
-
 void jox_machines_write_parameters(JoxMachineRun *run, uint32_t i) {
     JoxAgents *a = run->agents;
     const JoxMachine *machine = jox_machine_of(run, i);
@@ -47,6 +43,8 @@ void jox_machines_write_parameters(JoxMachineRun *run, uint32_t i) {
         double number = value->kind == JOX_VALUE_UNSET ? jox_parameters[p].value
                                                        : jox_value(run, machine, value, i);
         a->param[p][i] = jox_parameter_store((JoxParameter)p, number);
+        if (jox_is_odd(p, number))
+            jox_odd_note(run, i, p, number);
     }
     a->ignore[i] = state->ignore;
     a->push_only[i] = state->push_only;

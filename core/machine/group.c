@@ -17,6 +17,7 @@ static void reserve(JoxMachineRun *run, JoxPool *pool) {
     uint32_t workers = jox_pool_threads(pool);
     if (workers > s->workers) {
         s->registers = jox_realloc(s->registers, workers, sizeof *s->registers);
+        s->odd = jox_realloc(s->odd, workers, sizeof *s->odd);
         s->workers = workers;
     }
     if (run->agents->count <= s->capacity)
@@ -54,6 +55,7 @@ void jox_machines_scratch_free(JoxMachineRun *run) {
     jox_free(s->place_people);
     jox_free(s->marks);
     jox_free(s->registers);
+    jox_free(s->odd);
     jox_free(s);
     run->scratch = NULL;
 }

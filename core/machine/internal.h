@@ -12,6 +12,16 @@ typedef struct JoxBatchRange {
     uint32_t begin, count; /* in grouped */
 } JoxBatchRange;
 
+/* A parameter that came out as no value for it (odd.c). */
+typedef struct JoxTold JoxTold;
+typedef struct JoxOdd {
+    bool found;
+    uint16_t machine, state;
+    uint32_t agent_id;
+    int32_t parameter, line;
+    double value;
+} JoxOdd;
+
 typedef double JoxRegisters[JOX_MOST_REGISTERS][JOX_BATCH];
 
 typedef struct JoxMachineScratch {
@@ -38,6 +48,7 @@ typedef struct JoxMachineScratch {
     uint32_t *place_people; /* per place; UINT32_MAX: nobody asked */
     uint32_t place_capacity;
     JoxRegisters *registers; /* one set per worker */
+    JoxOdd *odd;             /* the first that each worker met */
     uint32_t workers;
 } JoxMachineScratch;
 
@@ -149,6 +160,15 @@ void jox_counts_begin(JoxMachineCounts *counts, const JoxMachine *machine);
 void jox_counts_add_before(JoxMachineCounts *counts, const char *from, const char *to,
                            uint64_t taken);
 void jox_counts_free(JoxMachineCounts *counts);
+/* odd.c: whether a number is no value for a parameter; the first of a batch, of those that nobody
+   was told of, into `first`, unless that comes before it; tells of it. */
+bool jox_is_odd(int parameter, double value);
+void jox_odd_look(const JoxMachineRun *run, const uint32_t *agents, uint32_t count, int parameter,
+                  const double *values, JoxOdd *first);
+const JoxOdd *jox_odd_first(const JoxOdd *odd, uint32_t count);
+void jox_odd_tell(JoxMachineRun *run, const JoxOdd *odd);
+/* Tells of one agent's. */
+void jox_odd_note(JoxMachineRun *run, uint32_t agent, int parameter, double value);
 /* Applies to a machine what people set of it; the machine as built where they set nothing. */
 void jox_edits_apply(JoxMachineRun *run, uint32_t machine);
 /* Forgets what people set of a machine, and its copy. */

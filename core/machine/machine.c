@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "machine/internal.h"
 
 int jox_machine_state(const JoxMachine *machine, const char *name) {
     for (uint32_t s = 0; s < machine->state_count; s++)
@@ -44,6 +45,10 @@ static void free_state(JoxState *state) {
         jox_free(state->transitions[t].does.set);
     }
     jox_free(state->transitions);
+}
+
+const JoxValue *jox_state_parameter(const JoxMachine *machine, const JoxState *state, int p) {
+    return state->param[p].kind != JOX_VALUE_UNSET ? &state->param[p] : &machine->defaults[p];
 }
 
 void jox_machine_free(JoxMachine *m) {

@@ -180,6 +180,15 @@ typedef struct JoxMachineRun {
     JoxWatched *watched; /* given by the world */
     uint32_t watched_count;
 
+    /* Parameters that came out as no value for them, a line each; whoever reads them empties them.
+       Each place in a machine is told of once. */
+    JoxText notes;
+    struct JoxTold {
+        uint32_t machine, version;
+        int32_t line, parameter;
+    } * told;
+    uint32_t told_count, told_capacity;
+
     bool spawning;                     /* within jox_machines_spawn: nothing can be sensed */
     struct JoxMachineScratch *scratch; /* made on first use */
 } JoxMachineRun;

@@ -82,9 +82,10 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
                   double response, double on_the_way, JoxPool *pool);
 
 typedef struct JoxPlacement {
-    uint32_t moved; /* agents put elsewhere */
-    uint32_t stuck; /* agents for which no free spot was found within 25 m */
-    float farthest; /* m, the longest way an agent was moved */
+    uint32_t moved;       /* agents put elsewhere */
+    uint32_t stuck;       /* agents for which no free spot was found within 25 m */
+    uint32_t first_stuck; /* index of the first of them */
+    float farthest;       /* m, the longest way an agent was moved */
 } JoxPlacement;
 /* Moves agents with id >= first_id out of walls and out of agents that they overlap by more than a
    quarter of the smaller diameter, in ascending id, to the nearest free spot of a spiral. Where

@@ -126,7 +126,8 @@ static void relocate(Occupied *t, JoxNav *nav, JoxAgents *a, uint32_t i, bool bo
     float radius = a->param[JOX_PARAM_radius][i];
     if (!find_spot(t, &nav->grid, p, radius, born ? 0.0f : TOUCHING * radius, &spot) &&
         !find_spot(t, &nav->grid, p, radius, INFINITY, &spot)) {
-        result->stuck++;
+        if (result->stuck++ == 0)
+            result->first_stuck = i;
         return;
     }
     a->x[i] = spot.x;

@@ -151,6 +151,7 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     if (diagnostics->errors == 0) {
         jox_run_populate(scene, diagnostics);
         jox_run_check_names(scene, diagnostics);
+        jox_run_check_step(scene, diagnostics);
         jox_run_name_events(scene, diagnostics);
         jox_run_collect_regions(scene);
         if (!def->no_density)
@@ -371,13 +372,9 @@ static JoScene *load_and_tell(const JoSceneDef *def, JoxDiagnosed *diagnosed, vo
         jox_run_say(scene, "%s %s %s (%s)\n", m ? "     " : "mods:", scene->mods->items[m].name,
                     scene->mods->items[m].version, scene->mods->items[m].folder);
     jox_run_check_log(scene);
-    JoxPlacement settled = jox_world_resolve_placement(scene->world);
-    if (settled.moved || settled.stuck)
-        jox_run_say(scene,
-                    "%s: %u agents were born in a wall or in another and moved by up to "
-                    "%.2f m%s\n",
-                    def->path, settled.moved, settled.farthest,
-                    settled.stuck ? "; some found no free spot" : "");
+    JoxDiagnostics placed = {0};
+    jox_run_settle(scene, &placed);
+    jox_run_report(scene->message, scene->message_context, &placed, NULL);
     return scene;
 }
 

@@ -1,6 +1,8 @@
-/* The groups of a scene become the world's agents. */
+/* The groups of a scene become the world's agents; and what is unsound about how they begin. */
+#include <math.h>
 #include <string.h>
 
+#include "base/mem.h"
 #include "run/run.h"
 
 /* Names that a group sets must be known to every behaviour of its mix. */
@@ -59,4 +61,122 @@ bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics) {
     jox_run_set_schedule(scene, true);
     jox_world_populate(scene->world);
     return true;
+}
+
+/* ---- a step that is too long ---- */
+
+/* The greatest, or least, that a value is for those who run the machine; NAN where it is computed.
+ */
+static double extreme(const JoScene *scene, uint32_t number, const JoxState *state, int parameter,
+                      bool greatest, const JoxValue **value) {
+    const JoxMachine *machine = scene->world->machines.set->items[number];
+    const JoxAgents *a = &scene->world->state.agents;
+    *value = &state->param[parameter];
+    if ((*value)->kind == JOX_VALUE_UNSET)
+        *value = &machine->defaults[parameter];
+    if ((*value)->kind == JOX_VALUE_UNSET)
+        return jox_parameters[parameter].value;
+    if ((*value)->kind != JOX_VALUE_OWN)
+        return (*value)->kind == JOX_VALUE_CONST ? (*value)->number : NAN;
+    double most = NAN;
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (a->machine[i] != number)
+            continue;
+        const double own = a->own[(size_t)i * a->own_stride + (uint32_t)(*value)->index];
+        most = isnan(most) || (greatest ? own > most : own < most) ? own : most;
+    }
+    return most;
+}
+
+static JoxPosition position_of(const JoxMachine *machine, const JoxState *state,
+                               const JoxValue *value) {
+    return (JoxPosition){machine->path, value->line > 0 ? value->line : state->line, 0, 0};
+}
+
+/* Of one state: whether somebody goes past a person, or is pushed past one, within a step. */
+static bool check_state(const JoScene *scene, uint32_t number, const JoxState *state, double step,
+                        JoxDiagnostics *diagnostics) {
+    const JoxMachine *machine = scene->world->machines.set->items[number];
+    const JoxValue *at, *unused;
+    const double breadth = 2.0 * extreme(scene, number, state, JOX_PARAM_radius, false, &unused);
+    const double mass = extreme(scene, number, state, JOX_PARAM_mass, false, &unused);
+    const double speed = extreme(scene, number, state, JOX_PARAM_max_speed, true, &at);
+    char hint[80];
+    if (speed * step > breadth) {
+        snprintf(hint, sizeof hint, "step: %.2g", breadth / speed);
+        jox_diag_warn(
+            diagnostics, position_of(machine, state, at), "coarse-step", hint,
+            "in state %.60s of %.60s people may go at %g m/s, %.3g m in a step of %.3g s: "
+            "they pass others, who are %.3g m broad, without meeting them",
+            state->name, machine->name, speed, speed * step, step, breadth);
+        return true;
+    }
+    const double push = extreme(scene, number, state, JOX_PARAM_push, true, &at);
+    const double way = push / mass * step * step;
+    if (!(way > breadth))
+        return false;
+    snprintf(hint, sizeof hint, "step: %.2g", sqrt(breadth * mass / push));
+    jox_diag_warn(
+        diagnostics, position_of(machine, state, at), "coarse-step", hint,
+        "in state %.60s of %.60s people may push with %g N: that moves %g kg by %.3g m in "
+        "a step of %.3g s, through others, who are %.3g m broad",
+        state->name, machine->name, push, mass, way, step, breadth);
+    return true;
+}
+
+void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics) {
+    const JoxMachineSet *set = scene->world->machines.set;
+    const double step = jox_world_substep(scene->world);
+    for (uint32_t m = 0; m < set->count; m++)
+        for (uint32_t s = 0; s < set->items[m]->state_count; s++)
+            if (check_state(scene, m, &set->items[m]->states[s], step, diagnostics))
+                break; /* one of a machine is enough */
+}
+
+/* ---- people in walls and in each other ---- */
+
+static const double FAR = 0.5; /* m: who was moved by less stands about where the scene says */
+
+typedef struct Moved {
+    uint32_t people;
+    double farthest; /* m */
+} Moved;
+
+static void tell_moved(const JoxGroup *group, const Moved *moved, JoxDiagnostics *diagnostics) {
+    static const char HINT[] = "Widen the place, lower the count, or give other points";
+    jox_diag_add(diagnostics, moved->farthest > FAR ? JOX_SEVERITY_WARNING : JOX_SEVERITY_NOTE,
+                 group->position, "placed-in-others", moved->farthest > FAR ? HINT : NULL, NULL,
+                 NULL,
+                 "%u of the %u people of group '%.60s' were placed in a wall or deep in others; "
+                 "they begin up to %.2f m away",
+                 moved->people, group->count, group->name, moved->farthest);
+}
+
+void jox_run_settle(JoScene *scene, JoxDiagnostics *diagnostics) {
+    const JoxAgents *a = &scene->world->state.agents;
+    const JoxSceneSpec *spec = scene->spec;
+    JoxV2 *placed = jox_alloc((size_t)a->count + 1, sizeof *placed);
+    Moved *moved = jox_alloc((size_t)spec->group_count + 1, sizeof *moved);
+    for (uint32_t i = 0; i < a->count; i++)
+        placed[i] = jox_v2(a->x[i], a->y[i]);
+    const JoxPlacement settled = jox_world_resolve_placement(scene->world);
+    for (uint32_t i = 0; i < a->count && settled.moved && spec->group_count; i++) {
+        const double way = (double)jox_length(jox_sub(jox_v2(a->x[i], a->y[i]), placed[i]));
+        Moved *of = &moved[a->group[i]];
+        of->people += way > 0.0;
+        of->farthest = way > of->farthest ? way : of->farthest;
+    }
+    for (uint32_t g = 0; g < spec->group_count; g++)
+        if (moved[g].people)
+            tell_moved(&spec->groups[g], &moved[g], diagnostics);
+    if (settled.stuck && spec->group_count)
+        jox_diag_warn(
+            diagnostics, spec->groups[a->group[settled.first_stuck]].position, "placed-in-others",
+            "Widen the place, or lower the count",
+            "%u people stand in a wall or deep in others, as there is no free spot within "
+            "25 m: the first is agent %u at (%.2f, %.2f)",
+            settled.stuck, a->id[settled.first_stuck], (double)a->x[settled.first_stuck],
+            (double)a->y[settled.first_stuck]);
+    jox_free(placed);
+    jox_free(moved);
 }

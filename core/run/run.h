@@ -103,6 +103,11 @@ int32_t jox_run_machine(JoScene *scene, const char *path, JoxDiagnostics *diagno
 bool jox_run_link(JoScene *scene, JoxMachine *machine, JoxDiagnostics *diagnostics);
 /* populate.c: checks what groups set, and makes the agents that stand there at the start. */
 bool jox_run_populate(JoScene *scene, JoxDiagnostics *diagnostics);
+/* Warns of speeds and pushes for which the step is too long. */
+void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics);
+/* Moves people out of walls and of each other before the first step, and says how many of which
+   groups and how far. */
+void jox_run_settle(JoScene *scene, JoxDiagnostics *diagnostics);
 /* Gives the world the spec's groups, sources, sinks and events; `anew`: sources count from now. */
 void jox_run_set_schedule(JoScene *scene, bool anew);
 /* input.c: what the log that is played says of the step that begins. */

@@ -56,6 +56,10 @@ static void think(JoWorld *w, const JoxSubstep *substep) {
                                      .route = &route,
                                      .machines = machines,
                                      .statistics = &w->state.statistics});
+    if (machines->notes.length) {
+        jox_text_append(&w->scratch.news, machines->notes.data, machines->notes.length);
+        machines->notes.length = 0;
+    }
 }
 
 static void prefer(JoWorld *w, const JoxSubstep *substep) {
@@ -146,10 +150,19 @@ static void observe(JoWorld *w, const JoxSubstep *substep) {
 }
 
 /* Into how many substeps the step is cut. */
+static uint32_t count_substeps(const JoWorldDef *def) {
+    return def->literal || def->dt <= PLANNING_TIME
+               ? 1
+               : (uint32_t)ceil(def->dt / PLANNING_TIME - 1e-6);
+}
+
+double jox_world_substep(const JoWorld *w) {
+    return w->model.def.dt / count_substeps(&w->model.def);
+}
+
 static uint32_t divide(JoWorld *w) {
     double dt = w->model.def.dt;
-    uint32_t substeps =
-        w->model.def.literal || dt <= PLANNING_TIME ? 1 : (uint32_t)ceil(dt / PLANNING_TIME - 1e-6);
+    const uint32_t substeps = count_substeps(&w->model.def);
     if (substeps > 1)
         JOX_RESERVE(w->scratch.walked, w->scratch.walked_capacity, w->state.agents.count);
     JOX_ASSERT(substeps > 0 && (w->model.def.literal || dt / substeps <= PLANNING_TIME + 1e-6));

@@ -172,6 +172,8 @@ void jox_world_model_check(const JoWorld *world);
 void jox_world_lists_check(const JoWorld *world);
 /* Index of a live agent, or JOX_NO_INDEX. */
 uint32_t jox_world_find(const JoWorld *world, JoAgent agent);
+/* s: the length of a step, or of the parts in which it is done. */
+double jox_world_substep(const JoWorld *world);
 /* What routes are made of, in this world. */
 JoxRouteStage jox_world_route_stage(JoWorld *world);
 /* Lists the state, in one order for all modes. */

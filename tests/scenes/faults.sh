@@ -54,6 +54,32 @@ verdict "  after its last step, with the others" $?
 says "  or put back, which is counted" 1 " times the numbers of somebody went wrong, who was put back" \
     "$program" run scene.yaml --for 4 --quiet --set guard.people=stop
 
+# ---- starts and steps that are unsound ----
+for setting in 'max_speed = 12' 'push = 5000, mass = 5'; do
+    printf 'return machine { name = "odd", start = "A", states = {\n  A = { steer = hold,\n    %s } } }\n' "$setting" >"$yard/odd.lua"
+    scene 'groups: {g: {behaviour: odd.lua, at: [[0, 0]]}}'
+    for command in check "run --for 1 --quiet"; do
+        says "$setting is too much for the step, as the ${command%% *} says" 0 "odd.lua:3: warning: in state A of odd people may " "$program" $command scene.yaml
+        grep -qE '(0.6|2.5) m in a step of 0.05 s.*step: 0.0[0-9]+$' "$work/out"
+        verdict "  with the figure" $?
+    done
+    says "  and half the step is short enough" 0 '"steps": 100' "$program" run scene.yaml --for 1 --quiet --dt 0.01 --summary -
+    ! grep -q "in a step of" "$work/out"
+    verdict "  of which nothing is said" $?
+done
+behaviour hold
+scene 'walls: [{solid: [[0, 0], [20, 0], [20, 20], [0, 20]]}]
+groups:
+  fit: {behaviour: odd.lua, at: [[-3, 0]]}
+  walled: {behaviour: odd.lua, at: [[19, 10], [-5, 5], [18.5, 10]]}'
+for command in check "run --for 1 --quiet"; do
+    says "people in a wall are told of, as the ${command%% *} says" 0 "scene.yaml:9:3: warning: 2 of the 3 people of group 'walled' were placed in a wall" \
+        "$program" $command scene.yaml
+done
+scene 'walls: [{solid: [[-30, -30], [60, -30], [60, 60], [-30, 60]]}]
+groups: {g: {behaviour: odd.lua, at: [[10, 10]]}}'
+says "  and those who find no way out" 0 "1 people stand in a wall or deep in others" "$program" check scene.yaml
+
 # ---- sources and counts ----
 behaviour 'seek(own.goal)'
 scene 'groups: {g: {behaviour: odd.lua, count: 3, fill: circle, in: ring, set: {goal: antipode}}}

@@ -84,6 +84,33 @@ static void computed_numbers_keep_everybody_finite(void **state) {
     }
 }
 
+/* Said once for each place, of the first agent, with the line. */
+static void computed_parameters_that_are_no_values_are_told(void **state) {
+    (void)state;
+    const struct {
+        const char *sheet, *text;
+    } cases[] = {
+        {"radius =\n distance(nearest \"opponents\") * 0",
+         ": radius of agent 0 (machine m, state A) "},
+        {"mass =\n 5 - 10 * now.speed - 20", "came out as -15; 1 kg is taken."},
+        {"speed =\n distance(nearest \"opponents\")", "came out as inf; 20 m/s is taken."},
+        {"push =\n 5 - distance(nearest \"opponents\")", "came out as -inf; 0 N is taken."},
+        {"radius =\n normal(-1, 0.1)", "; 0.02 m is taken."}};
+    for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
+        char sheet[600];
+        snprintf(sheet, sizeof sheet, HEAD "\"A\", states = { A = {\n steer = hold, %s } } }\n",
+                 cases[n].sheet);
+        JoScene *scene = load_own(PEOPLE(4), sheet);
+        step(scene, 40);
+        const char *line = said.data ? strstr(said.data, "own.lua:3: t = 0.00 s: ") : NULL;
+        line = line ? line : said.data ? strstr(said.data, "own.lua:2: t = 0.00 s: ") : NULL;
+        if (!line || !strstr(line, cases[n].text) || strstr(line + 1, "own.lua:"))
+            fail_msg("%s: %s", cases[n].sheet, said.data ? said.data : "nothing was said");
+        assert_null(jo_world_failure(scene->world));
+        jo_scene_free(scene);
+    }
+}
+
 /* The engine's last line: a number that is not finite ends the run, and says whose it is. */
 static void a_number_that_is_not_finite_ends_the_run(void **state) {
     (void)state;
@@ -187,6 +214,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(words_refuse_numbers_out_of_range),
         cmocka_unit_test(computed_numbers_keep_everybody_finite),
+        cmocka_unit_test(computed_parameters_that_are_no_values_are_told),
         cmocka_unit_test(a_number_that_is_not_finite_ends_the_run),
         cmocka_unit_test(a_failed_world_names_agents_without_a_machine),
         cmocka_unit_test(lua_may_look_at_agents_without_a_machine),

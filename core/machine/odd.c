@@ -1,0 +1,99 @@
+/* Parameters that a machine computes, or draws, to what is no value for them: NaN, infinite, a
+   radius or mass of 0 or less. The nearest that is one is taken, and the first agent of each is
+   named. */
+#include <math.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "machine/internal.h"
+
+bool jox_is_odd(int parameter, double value) {
+    return !isfinite(value) ||
+           (value <= 0.0 && (parameter == JOX_PARAM_radius || parameter == JOX_PARAM_mass));
+}
+
+static bool comes_before(const JoxOdd *a, const JoxOdd *b) {
+    return a->machine != b->machine       ? a->machine < b->machine
+           : a->state != b->state         ? a->state < b->state
+           : a->parameter != b->parameter ? a->parameter < b->parameter
+                                          : a->agent_id < b->agent_id;
+}
+
+static bool was_told(const JoxMachineRun *run, const JoxOdd *odd) {
+    const uint32_t version = run->set->items[odd->machine]->version;
+    for (uint32_t n = 0; n < run->told_count; n++) {
+        const JoxTold *told = &run->told[n];
+        if (told->machine == odd->machine && told->version == version && told->line == odd->line &&
+            told->parameter == odd->parameter)
+            return true;
+    }
+    return false;
+}
+
+/* The line that says what a parameter is. */
+static int32_t line_of(const JoxMachine *machine, const JoxValue *value) {
+    return value->line <= 0 && value->kind == JOX_VALUE_OWN ? machine->own[value->index].line
+                                                            : value->line;
+}
+
+static JoxOdd odd_of(const JoxMachineRun *run, uint32_t i, int parameter, double value) {
+    const JoxAgents *a = run->agents;
+    const JoxMachine *machine = jox_machine_of(run, i);
+    const JoxState *state = &machine->states[a->state[i]];
+    return (JoxOdd){.found = true,
+                    .agent_id = a->id[i],
+                    .machine = a->machine[i],
+                    .state = a->state[i],
+                    .parameter = parameter,
+                    .line = line_of(machine, jox_state_parameter(machine, state, parameter)),
+                    .value = value};
+}
+
+void jox_odd_look(const JoxMachineRun *run, const uint32_t *agents, uint32_t count, int parameter,
+                  const double *values, JoxOdd *first) {
+    bool any = false;
+    for (uint32_t n = 0; n < count; n++)
+        any |= jox_is_odd(parameter, values[n]);
+    for (uint32_t n = 0; any && n < count; n++) {
+        if (!jox_is_odd(parameter, values[n]))
+            continue;
+        const JoxOdd odd = odd_of(run, agents[n], parameter, values[n]);
+        if (was_told(run, &odd))
+            return; /* so are the others of this state */
+        if (!first->found || comes_before(&odd, first))
+            *first = odd;
+    }
+}
+
+const JoxOdd *jox_odd_first(const JoxOdd *odd, uint32_t count) {
+    const JoxOdd *first = odd;
+    for (uint32_t n = 1; n < count; n++)
+        if (odd[n].found && (!first->found || comes_before(&odd[n], first)))
+            first = &odd[n];
+    return first;
+}
+
+void jox_odd_tell(JoxMachineRun *run, const JoxOdd *odd) {
+    if (!odd->found || was_told(run, odd))
+        return;
+    const JoxMachine *machine = run->set->items[odd->machine];
+    const JoxParameterInfo *info = &jox_parameters[odd->parameter];
+    const double taken =
+        jox_parameter_value((JoxParameter)odd->parameter,
+                            jox_parameter_store((JoxParameter)odd->parameter, odd->value));
+    jox_text_printf(
+        &run->notes,
+        "%s:%d: t = %.2f s: %s of agent %u (machine %.60s, state %.60s) came out as %g; "
+        "%g %s is taken. Keep it within bounds, as by clamp(x, %g, %g)\n",
+        machine->path, odd->line > 0 ? (int)odd->line : 1, run->tick * run->dt, info->name,
+        odd->agent_id, machine->name, machine->states[odd->state].name, odd->value, taken,
+        info->unit, info->least, info->greatest);
+    JOX_RESERVE(run->told, run->told_capacity, run->told_count + 1);
+    run->told[run->told_count++] =
+        (JoxTold){odd->machine, machine->version, odd->line, odd->parameter};
+}
+
+void jox_odd_note(JoxMachineRun *run, uint32_t i, int parameter, double value) {
+    const JoxOdd odd = odd_of(run, i, parameter, value);
+    jox_odd_tell(run, &odd);
+}
