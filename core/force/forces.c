@@ -3,9 +3,11 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "base/random.h"
-#include "force/internal.h"
-#include "simd/isa.h"
+#include "force/kernels.h"
+
+#define X(name, isa) [isa] = jox_breadth_packets_##name,
+static JoxBreadthKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
 
 JoxForceOptions jox_force_default_options(void) {
     return (JoxForceOptions){
@@ -110,34 +112,15 @@ static void zero_terms(JoxAgents *a) {
 #undef ZERO_STATE
 }
 
-/* Radius at which an agent touches. Who wants to get on among others turns a shoulder to them, now
-   more and now less: a share of `turn` that goes evenly from one random value to the next within
-   TURNING seconds, a pure function of id and time. Who stands does not. */
-static float breadth_of(const JoxForceStep *step, uint32_t i) {
-    const double TURNING = 1.0; /* s */
-    const JoxAgents *a = step->agents;
-    const float radius = a->param[JOX_PARAM_radius][i], turn = a->param[JOX_PARAM_turn][i];
-    if (!step->turning || jox_stands(a, i))
-        return radius;
-    double own = (double)a->id[i] * 0.6180339887498949; /* nobody turns in step with others */
-    double phase = step->time / TURNING + (own - (double)(int64_t)own);
-    int64_t knot = (int64_t)phase; /* neither is negative */
-    uint64_t from = jox_random_bits(step->seed, a->id[i], (uint64_t)knot, JOX_DRAW_TURN, 0);
-    uint64_t to = jox_random_bits(step->seed, a->id[i], (uint64_t)knot + 1, JOX_DRAW_TURN, 0);
-    float first = (float)(from >> 40) * 0x1p-24f, second = (float)(to >> 40) * 0x1p-24f;
-    return radius * (1.0f - turn * (first + (second - first) * (float)(phase - knot)));
-}
-
 static void breadth_chunk(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
     const JoxForces *f = context;
-    for (uint32_t i = begin; i < end; i++) {
-        JoxAgents *a = f->step.agents;
-        a->breadth[i] = breadth_of(&f->step, i);
+    JoxAgents *a = f->step.agents;
+    KERNELS[f->isa](f, begin, end);
+    for (uint32_t i = begin; i < end; i++)
         f->records[i] =
             (JoxContactRecord){a->x[i],  a->y[i],  a->breadth[i], a->param[JOX_PARAM_radius][i],
                                a->vx[i], a->vy[i], a->id[i],      0.0f};
-    }
 }
 
 void jox_force_begin(JoxForces *f, const JoxForceStep *step) {

@@ -7,6 +7,11 @@
 #include "force/internal.h"
 #include "simd/isa.h"
 
+/* The radius at which agents [begin, end), of one chunk, touch: `breadth`. */
+typedef void JoxBreadthKernel(const JoxForces *forces, uint32_t begin, uint32_t end);
+#define X(name, isa) JoxBreadthKernel jox_breadth_packets_##name;
+JOX_ISAS(X)
+#undef X
 /* What agents [begin, end), of one chunk, touch: people, of whom the one of lesser id finds the
    contact, and walls. `begin` is a multiple of JOX_LANES. */
 typedef void JoxFindKernel(JoxForces *forces, uint32_t begin, uint32_t end);
