@@ -30,6 +30,9 @@ static JoxV2 aim(const JoxMachineRun *run, uint32_t i, const JoxSpot *spot) {
 static JoxV2 seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
     const JoxAgents *a = run->agents;
     JoxV2 from = {a->x[i], a->y[i]};
+    const int32_t index = jox_target_place(run, i, target);
+    if (index >= 0 && run->places[index].kind == JOX_PLACE_POINT)
+        return arrive(from, run->places[index].centre, a->param[JOX_PARAM_speed][i]);
     JoxSpot spot = jox_target_find(run, i, target);
     if (!spot.found)
         return (JoxV2){0.0f, 0.0f};
@@ -40,9 +43,7 @@ static JoxV2 seek(const JoxMachineRun *run, uint32_t i, int32_t target) {
     if (place->kind == JOX_PLACE_LINE) /* lines are passed, not stopped at */
         return jox_unit(jox_sub(to, from));
     if (jox_place_contains(run->places, (uint32_t)spot.place, from))
-        return place->kind == JOX_PLACE_POINT
-                   ? arrive(from, place->centre, a->param[JOX_PARAM_speed][i])
-                   : (JoxV2){0.0f, 0.0f};
+        return (JoxV2){0.0f, 0.0f};
     return place->kind == JOX_PLACE_POLYGON ? jox_unit(jox_sub(to, from))
                                             : arrive(from, to, a->param[JOX_PARAM_speed][i]);
 }
