@@ -23,13 +23,16 @@ double jox_student_t(uint32_t degrees_of_freedom) {
 
 JoxVerdict jox_verdict(const double *values, uint32_t count, double low, double high) {
     JoxVerdict v = {.least = INFINITY, .most = -INFINITY, .bound = NAN, .seeds = count};
-    double squares = 0;
+    double sum = 0, squares = 0;
     JOX_ASSERT(count > 0);
     for (uint32_t s = 0; s < count; s++) {
-        v.mean += values[s] / count; /* NAN stays */
+        sum += values[s]; /* NAN stays */
         v.least = fmin(v.least, values[s]);
         v.most = fmax(v.most, values[s]);
     }
+    v.mean = sum / count;
+    if (v.least == v.most && !isnan(sum)) /* equal ones have their own value, without rounding */
+        v.mean = v.least;
     for (uint32_t s = 0; s < count; s++)
         squares += (values[s] - v.mean) * (values[s] - v.mean);
     if (count > 1)

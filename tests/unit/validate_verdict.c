@@ -62,6 +62,20 @@ static void an_edge_within_the_bound_is_thin(void **state) {
     }
 }
 
+/* A band of one value is met by any number of equal ones: no rounding comes in. */
+static void equal_values_have_their_own_mean(void **state) {
+    (void)state;
+    double values[30];
+    for (uint32_t count = 1; count <= 30; count++)
+        for (int k = 0; k < 3; k++) {
+            const double value = (const double[]){8, 0.1, 1e9 / 3}[k];
+            for (uint32_t s = 0; s < count; s++)
+                values[s] = value;
+            JoxVerdict v = jox_verdict(values, count, value, value);
+            assert_true(v.inside && v.mean == value);
+        }
+}
+
 static void one_seed_has_no_bound(void **state) {
     (void)state;
     JoxVerdict v = jox_verdict((const double[]){3}, 1, 2, 3);
@@ -99,6 +113,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(t_is_that_of_the_tables),
                                        cmocka_unit_test(a_mean_has_a_bound),
                                        cmocka_unit_test(an_edge_within_the_bound_is_thin),
+                                       cmocka_unit_test(equal_values_have_their_own_mean),
                                        cmocka_unit_test(one_seed_has_no_bound),
                                        cmocka_unit_test(what_was_not_measured_is_not_inside),
                                        cmocka_unit_test(seeds_are_one_or_a_range)};
