@@ -271,6 +271,11 @@ uint32_t jox_bodies_add(JoxBodies *b, const JoxBodyDef *def, JoxText *error) {
     JoxMaterial material = {float(def->friction), float(def->restitution), float(def->damping),
                             float(def->spin_damping)};
     uint32_t at = jox_row_add(b, &shape, btTransform(turn, vector(def->position)), material);
+    if (jox_bodies_are_heaped(b, error)) {
+        jox_bodies_drop(b, at);
+        jox_bonds_free(bonds);
+        return JOX_NO_BODY;
+    }
     JoxRow *r = &b->rows[at];
     r->name = def->name ? jox_strdup(def->name) : nullptr;
     r->tags = def->tags;

@@ -99,6 +99,10 @@ struct JoxContactLoad {
 void jox_bullet_use_memory();
 /* Frees what Bullet allocated while the heap was in use. */
 void jox_bullet_free_heap(const JoxHeap *heap);
+/* Whether bodies meet in so many pairs that they must begin in each other. A pair takes about 2 KB
+   as soon as they touch; those of what is stacked are some ten for each body.
+   `error` may be NULL. */
+bool jox_bodies_are_heaped(const JoxBodies *bodies, JoxText *error);
 
 struct JoxBodies {
     JoxHeap *heap; /* in use where it was made */

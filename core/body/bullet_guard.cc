@@ -7,7 +7,6 @@
 static const float FARTHEST = 10000.0f; /* m from the origin */
 static const float REACH = 2.5f; /* m in a substep: who goes farther is compared with all walls */
 
-/* What was still to be pushed by, and where the substep begins. */
 void jox_bodies_guard_begin(JoxBodies *b) {
     for (uint32_t k = 0; k < b->live; k++) {
         JoxRow *r = &b->rows[b->order[k]];

@@ -111,3 +111,16 @@ void jox_bullet_free_heap(const JoxHeap *heap) {
         }
     pthread_mutex_unlock(&lock);
 }
+
+bool jox_bodies_are_heaped(const JoxBodies *b, JoxText *error) {
+    const int pairs = b->broadphase->getOverlappingPairCache()->getNumOverlappingPairs();
+    if (pairs <= 50000 + 32 * int(b->live))
+        return false;
+    if (error)
+        jox_text_printf(
+            error,
+            "with this body, %d pairs of bodies lie in each other, which would take too "
+            "much memory: move them apart",
+            pairs);
+    return true;
+}

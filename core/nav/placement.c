@@ -14,7 +14,7 @@ static const float TOUCHING = 0.99f; /* radii from a wall */
 static const float STANDING = 0.7f;  /* the same of those whom the next step does not push out */
 static const float FARTHEST = 25.0f; /* m: how far a free spot is looked for */
 static const float NEARBY = 0.25f;   /* m: who is born so near to another searches where it ended */
-enum { SEARCHES = 1024, MOST_TRIES = 20000000 };
+enum { SEARCHES = 1024, MOST_WORK = 20000000 };
 
 /* A hash of cells to the agents that already have their spot. */
 typedef struct Occupied {
@@ -29,7 +29,7 @@ typedef struct Occupied {
         float radius, reached; /* m */
         bool beyond;           /* walls, too */
     } * searched;
-    uint32_t tries; /* spots looked at: crowds that nowhere fit must end */
+    uint32_t work, each; /* done, and of looking at one spot: crowds that nowhere fit must end */
 } Occupied;
 
 static uint32_t bucket_of(const Occupied *t, int32_t x, int32_t y) {
@@ -105,7 +105,7 @@ static bool find_spot(Occupied *t, const JoxWallGrid *grid, JoxV2 p, float radiu
     struct Searched *s = searched_about(t, p, radius, near == INFINITY);
     const float step = jox_maxf(radius * 0.5f, 0.05f);
     float angle = 0.0f, distance = jox_maxf(step, s->reached - 2.0f * NEARBY);
-    for (; distance < FARTHEST && t->tries < MOST_TRIES; t->tries++) {
+    for (; distance < FARTHEST && t->work < MOST_WORK; t->work += t->each) {
         *spot =
             (JoxV2){p.x + distance * (float)jox_cos(angle), p.y + distance * (float)jox_sin(angle)};
         if (is_free(t, grid, *spot, radius) &&
@@ -115,7 +115,7 @@ static bool find_spot(Occupied *t, const JoxWallGrid *grid, JoxV2 p, float radiu
         distance += step * step / (6.2831853f * distance);
     }
     s->reached = distance;
-    return distance < FARTHEST && t->tries < MOST_TRIES;
+    return distance < FARTHEST && t->work < MOST_WORK;
 }
 
 /* Looks for a free spot for an agent that has none where it is. Who has been born stays on that
@@ -150,7 +150,9 @@ JoxPlacement jox_nav_resolve_placement(JoxNav *nav, JoxAgents *a, uint32_t first
         widest = jox_maxf(widest, a->param[JOX_PARAM_radius][i]);
     if (nav->grid.walls)
         jox_wall_grid_fit(&nav->grid, jox_maxf(widest, 1.0f));
-    Occupied t = {.agents = a, .cell = 2.0f * jox_maxf(widest, 0.1f), .mask = 1023};
+    Occupied t = {.agents = a, .cell = 2.0f * jox_maxf(widest, 0.1f), .mask = 1023, .each = 4};
+    if (nav->grid.walls) /* whether a spot lies in one asks all of them */
+        t.each += nav->grid.walls->count / 32;
     while (t.mask < a->count)
         t.mask = t.mask * 2 + 1;
     t.head = jox_alloc((size_t)t.mask + 1, sizeof *t.head);

@@ -374,8 +374,11 @@ static JoScene *load_and_tell(const JoSceneDef *def, JoxDiagnosed *diagnosed, vo
     jox_run_check_log(scene);
     JoxDiagnostics placed = {0};
     jox_run_settle(scene, &placed);
-    jox_run_report(scene->message, scene->message_context, &placed, NULL);
-    return scene;
+    const bool fit = placed.errors == 0;
+    jox_run_report(scene->message, scene->message_context, &placed, fit ? NULL : error);
+    if (!fit)
+        discard(scene);
+    return fit ? scene : NULL;
 }
 
 static JoScene *load_guarded(const JoSceneDef *def, JoxDiagnosed *diagnosed, void *context,

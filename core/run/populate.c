@@ -137,6 +137,8 @@ void jox_run_check_step(const JoScene *scene, JoxDiagnostics *diagnostics) {
 
 static const double FAR = 0.5; /* m: who was moved by less stands about where the scene says */
 
+enum { MOST_STUCK = 100 };
+
 typedef struct Moved {
     uint32_t people;
     double farthest; /* m */
@@ -150,6 +152,20 @@ static void tell_moved(const JoxGroup *group, const Moved *moved, JoxDiagnostics
                  "%u of the %u people of group '%.60s' were placed in a wall or deep in others; "
                  "they begin up to %.2f m away",
                  moved->people, group->count, group->name, moved->farthest);
+}
+
+/* A few may begin in others; a crowd that nowhere fits costs what pairs of its people cost. */
+static void tell_stuck(const JoScene *scene, const JoxPlacement *settled,
+                       JoxDiagnostics *diagnostics) {
+    const JoxAgents *a = &scene->world->state.agents;
+    const uint32_t first = settled->first_stuck;
+    const bool many = settled->stuck > MOST_STUCK && settled->stuck > a->count / 10;
+    jox_diag_add(diagnostics, many ? JOX_SEVERITY_ERROR : JOX_SEVERITY_WARNING,
+                 scene->spec->groups[a->group[first]].position, "placed-in-others",
+                 "Widen the place, lower the count, or give people a smaller radius", NULL, NULL,
+                 "%u of %u people stand in a wall or deep in others, as no free spot was found for "
+                 "them: the first is agent %u at (%.2f, %.2f)",
+                 settled->stuck, a->count, a->id[first], (double)a->x[first], (double)a->y[first]);
 }
 
 void jox_run_settle(JoScene *scene, JoxDiagnostics *diagnostics) {
@@ -170,13 +186,7 @@ void jox_run_settle(JoScene *scene, JoxDiagnostics *diagnostics) {
         if (moved[g].people)
             tell_moved(&spec->groups[g], &moved[g], diagnostics);
     if (settled.stuck && spec->group_count)
-        jox_diag_warn(
-            diagnostics, spec->groups[a->group[settled.first_stuck]].position, "placed-in-others",
-            "Widen the place, or lower the count",
-            "%u people stand in a wall or deep in others, as there is no free spot within "
-            "25 m: the first is agent %u at (%.2f, %.2f)",
-            settled.stuck, a->id[settled.first_stuck], (double)a->x[settled.first_stuck],
-            (double)a->y[settled.first_stuck]);
+        tell_stuck(scene, &settled, diagnostics);
     jox_free(placed);
     jox_free(moved);
 }
