@@ -39,8 +39,7 @@ static JoxMask slows_down(const JoxForces *f, uint32_t i) {
     const JoxVector after = jv_load(a->vx, a->vy, i);
     const JoxVector change = jv_sub(after, before), way = jv_add(after, before);
     const JoxFloats against = jf_neg(jv_dot(change, way)), change2 = jv_dot(change, change);
-    const JoxFloats bound =
-        jf_mul(jf_mul(jf_mul(cosine, cosine), change2), jv_dot(way, way));
+    const JoxFloats bound = jf_mul(jf_mul(jf_mul(cosine, cosine), change2), jv_dot(way, way));
     const JoxMask aligned = jm_or(jf_le(cosine, zero), jf_lt(bound, jf_mul(against, against)));
     const JoxFloats size = jf_sqrt(change2), most = jf_sqrt(jv_dot(before, before));
     const JoxMask cut = jf_lt(most, size);
@@ -65,16 +64,15 @@ void JOX_WIDE(jox_infer_packets)(const JoxForces *f, uint32_t begin, uint32_t en
         uint32_t resists = 0;
         if (forced) {
             lacks = shortfall(f, i, unit, &decay);
-            resists = jm_bits(jm_and(jf_lt(least, lacks),
-                                     jf_lt(zero, jf_load(a->param[JOX_PARAM_absorb] + i))));
+            resists = jm_bits(
+                jm_and(jf_lt(least, lacks), jf_lt(zero, jf_load(a->param[JOX_PARAM_absorb] + i))));
         }
         const uint32_t slows = jm_bits(slows_down(f, i)) & ~forced;
         jf_store(passing->shortfall + (i - begin), lacks);
         for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-            passing->kind[i - begin + lane] = (uint8_t)((resists & forced) >> lane & 1
-                                                            ? JOX_PASSES_RESISTANCE
-                                                        : slows >> lane & 1
-                                                            ? JOX_PASSES_DECELERATION
-                                                            : JOX_PASSES_NOTHING);
+            passing->kind[i - begin + lane] =
+                (uint8_t)((resists & forced) >> lane & 1 ? JOX_PASSES_RESISTANCE
+                          : slows >> lane & 1            ? JOX_PASSES_DECELERATION
+                                                         : JOX_PASSES_NOTHING);
     }
 }

@@ -57,8 +57,8 @@ JoxPlaceOutline jox_place_outline(const JoxPlace *place);
 uint32_t jox_place_goal_points(const JoxPlace *place);
 /* Its radius in metres where it has one, else 0. */
 float jox_place_radius(const JoxPlace *place);
-/* Fills centre, low, high, axis_a, axis_b and axis_radius from kind and points. The axis is the polygon's
-   principal direction through its centroid, shortened at both ends by half its width. */
+/* Fills centre, low, high, axis_a, axis_b and axis_radius from kind and points. The axis is the
+   polygon's principal direction through its centroid, shortened at both ends by half its width. */
 void jox_place_finish(JoxPlace *place);
 /* Fills low and high of a set, whose members are finished. */
 void jox_place_finish_set(const JoxPlace *places, JoxPlace *set);

@@ -23,8 +23,7 @@ void jox_wall_grid_fit(JoxWallGrid *grid, float reach);
 /* Makes it anew for queries up to exactly `reach` metres; empty for 0. */
 void jox_wall_grid_reset(JoxWallGrid *grid, float reach);
 /* Edges that may be within the grid's reach of a point. */
-static inline const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point,
-                                               uint32_t *count) {
+static inline const uint32_t *jox_wall_grid_at(const JoxWallGrid *g, JoxV2 point, uint32_t *count) {
     *count = 0;
     if (!g->first)
         return NULL;

@@ -27,8 +27,8 @@ JOX_ISAS(X)
 #undef X
 /* The same of one agent, whoever is about, searching within `radius` first. */
 void jox_perceive_one(const JoxPerceive *perceive, uint32_t agent, float radius);
-/* Agents among whom the nearest of one are: their indices, and their squared distances, m2, of which
-   one stands at each `stride`; INFINITY: it is none of them. */
+/* Agents among whom the nearest of one are: their indices, and their squared distances, m2, of
+   which one stands at each `stride`; INFINITY: it is none of them. */
 typedef struct JoxCandidates {
     const uint32_t *index;
     const float *distance2;

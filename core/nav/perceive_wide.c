@@ -5,9 +5,10 @@
 
    A key is a float that is never computed with: its bits are the squared distance as a fixed-point
    number of 23 bits (a share of the squared radius) above the number of the candidate, so that
-   min and max sort both at once. Lanes of which two keys have the same distance by these bits choose
-   anew among the candidates, and packets with more candidates than numbers search anew, one by one
-   (nearest.c), which orders exactly, and by id. So neighbours are exact, whatever the width. */
+   min and max sort both at once. Lanes of which two keys have the same distance by these bits
+   choose anew among the candidates, and packets with more candidates than numbers search anew, one
+   by one (nearest.c), which orders exactly, and by id. So neighbours are exact, whatever the width.
+ */
 #include <math.h>
 #include <string.h>
 

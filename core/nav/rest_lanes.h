@@ -93,7 +93,7 @@ static inline void jox_keep_plan(const JoxSolve *s, uint32_t agent, float x, flo
 /* What is known of each, in lanes. Lanes without an agent have those of the first. */
 typedef struct JoxRestLanes {
     JoxMask all;
-    JoxFloats limit; /* m/s */
+    JoxFloats limit;             /* m/s */
     JoxInts contacts, failed_at; /* rows: the first of a contact; that could not be met */
     uint32_t count, hard;        /* rows, and from which on their half-planes are soft */
     JoxRow *rows;

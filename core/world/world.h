@@ -90,7 +90,7 @@ typedef struct JoxWorldScratch {
     JoxV2 *walked; /* per agent, m: during the substeps of the step so far; where it is divided */
     uint32_t walked_capacity;
     JoxSubstep substep; /* what all substeps have in common, of one of this length */
-    JoxGone gone; /* who left in the last step */
+    JoxGone gone;       /* who left in the last step */
     JoxDiscList discs;
     struct {
         uint32_t *ids;

@@ -98,8 +98,8 @@ static void compare_passing(JoxInferKernel *kernel, JoxForces *f, uint32_t count
 }
 
 /* How many agents feel a force. */
-static uint32_t compare_crowd(JoIsa isa, JoxSumKernel *kernel, JoxInferKernel *infer, uint32_t number,
-                              uint32_t passed[3]) {
+static uint32_t compare_crowd(JoIsa isa, JoxSumKernel *kernel, JoxInferKernel *infer,
+                              uint32_t number, uint32_t passed[3]) {
     static float by_kernel[COLUMNS][PEOPLE];
     Draws d = {.number = number};
     JoxAgents a = {0};
