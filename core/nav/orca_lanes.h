@@ -13,8 +13,8 @@ typedef struct JoxPair {
 
 /* Outward normal of the velocity obstacle at the leg that is nearer, of discs that are apart; w is
    the relative velocity less that which makes them meet at the horizon, m/s. */
-static inline JoxVector jox_leg_normal_lanes(const JoxPair *q, JoxFloats d2, JoxFloats r2,
-                                             JoxVector w) {
+static inline __attribute__((always_inline)) JoxVector
+jox_leg_normal_lanes(const JoxPair *q, JoxFloats d2, JoxFloats r2, JoxVector w) {
     JoxFloats leg = jf_sqrt(jf_sub(d2, r2)), by = jf_div(jf_set(1.0f), d2);
     JoxMask left = jf_lt(jf_set(0.0f), jf_sub(jf_mul(q->x, w.y), jf_mul(q->y, w.x)));
     JoxFloats along_x = jf_mul(q->x, leg), along_y = jf_mul(q->y, leg);
@@ -25,8 +25,8 @@ static inline JoxVector jox_leg_normal_lanes(const JoxPair *q, JoxFloats d2, Jox
 
 /* The half-plane for a neighbour: see jox_orca_half_plane. Where the centres coincide and move
    alike its normal is (1, 0). */
-static inline JoxPlaneLanes jox_orca_lanes(const JoxPair *q, JoxVector own, JoxFloats tau,
-                                           JoxFloats share, float dt) {
+static inline __attribute__((always_inline)) JoxPlaneLanes
+jox_orca_lanes(const JoxPair *q, JoxVector own, JoxFloats tau, JoxFloats share, float dt) {
     const JoxFloats one = jf_set(1.0f), zero = jf_set(0.0f);
     JoxFloats d2 = jf_add(jf_mul(q->x, q->x), jf_mul(q->y, q->y));
     JoxFloats r2 = jf_mul(q->radii, q->radii);
