@@ -90,6 +90,36 @@ static inline bool jox_solve_walks(const JoxSolve *solve, uint32_t agent) {
 bool jox_solve_one(const JoxSolve *solve, uint32_t agent, const JoxHalfPlaneCounts *made,
                    JoxHalfPlane *half_planes, JoxV2 wanted);
 
+typedef struct JoxMove {
+    JoxNav *nav;
+    JoxAgents *agents;
+    const JoxNeighbours *neighbours;
+    const JoxObjects *objects;
+    const JoxContactPlanes *touched; /* NULL: contacts were not looked for */
+    float dt;                        /* s */
+    float response, on_the_way;      /* share of the way to the planned velocity: by the end of the
+                                        step, and its mean over the step */
+    float stiffness;                 /* share of an overlap removed by one sweep */
+    int from;                        /* which position buffer a sweep reads */
+} JoxMove;
+
+#define JOX_STILL_REACH 0.25f /* m: less than this counts as not having moved */
+
+/* Agents [begin, end): their velocity, prev_x, prev_y, and position[0]. */
+typedef void JoxMoveKernel(const JoxMove *move, uint32_t begin, uint32_t end);
+/* Agents [begin, end): x, y from position[0], still, still_x, still_y. Returns the square of the
+   longest way, m2. `begin` is a multiple of JOX_LANES for both. */
+typedef float JoxSettleKernel(const JoxMove *move, uint32_t begin, uint32_t end);
+#define X(name, isa)                                                                               \
+    JoxMoveKernel jox_move_integrate_##name;                                                       \
+    JoxSettleKernel jox_move_settle_##name;
+JOX_ISAS(X)
+#undef X
+/* In plain C, for one agent. Where it ends that would go to a point and is near walls. */
+JoxV2 jox_move_by_walls(const JoxMove *move, uint32_t agent, JoxV2 to);
+/* Who may have left over a periodic edge; whether it did. */
+bool jox_move_over_edge(JoxAgents *agents, uint32_t agent);
+
 /* What the walking law needs of a step (core/walking.md). */
 typedef struct JoxWalk {
     JoxNav *nav;

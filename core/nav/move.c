@@ -3,46 +3,29 @@
 
 #include "base/assert.h"
 #include "geom/polygon.h"
-#include "nav/internal.h"
+#include "nav/kernels.h"
 
-static const float STIFFNESS = 0.2f;    /* share of an overlap removed by one sweep, in a step of */
-static const float STIFF_STEP = 0.05f;  /* s; less in proportion in shorter ones */
-static const float STILL_REACH = 0.25f; /* m: less than this counts as not having moved */
-static const float SKIN = 0.001f;       /* m: kept from a wall that was about to be passed */
-#define MOST_PIECES 1e5f                /* of a way; who goes farther is beyond the world's end */
+#define X(name, isa) [isa] = {jox_move_integrate_##name, jox_move_settle_##name},
+static const struct Kernels {
+    JoxMoveKernel *integrate;
+    JoxSettleKernel *settle;
+} KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+
+static const float STIFFNESS = 0.2f;   /* share of an overlap removed by one sweep, in a step of */
+static const float STIFF_STEP = 0.05f; /* s; less in proportion in shorter ones */
+static const float SKIN = 0.001f;      /* m: kept from a wall that was about to be passed */
+#define MOST_PIECES 1e5f               /* of a way; who goes farther is beyond the world's end */
 enum { SWEEPS = 2 };
-
-typedef struct Move {
-    JoxNav *nav;
-    JoxAgents *agents;
-    const JoxNeighbours *neighbours;
-    const JoxObjects *objects;
-    const JoxContactPlanes *touched; /* NULL: contacts were not looked for */
-    float dt;                        /* s */
-    float response, on_the_way;      /* share of the way to the planned velocity: by the end of the
-                                        step, and its mean over the step */
-    float stiffness;                 /* share of an overlap removed by one sweep */
-    int from;                        /* which position buffer a sweep reads */
-} Move;
 
 static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
-    Move *m = context;
-    JoxAgents *a = m->agents;
-    for (uint32_t i = begin; i < end; i++) {
-        a->prev_x[i] = a->x[i];
-        a->prev_y[i] = a->y[i];
-        JoxV2 forced = {a->forced_x[i], a->forced_y[i]};
-        JoxV2 rest = jox_sub((JoxV2){a->next_x[i], a->next_y[i]}, forced);
-        JoxV2 mean = jox_add(forced, jox_scale(rest, m->on_the_way));
-        a->vx[i] = forced.x + rest.x * m->response;
-        a->vy[i] = forced.y + rest.y * m->response;
-        m->nav->position[0][i] = (JoxV2){a->x[i] + mean.x * m->dt, a->y[i] + mean.y * m->dt};
-    }
+    const JoxMove *m = context;
+    KERNELS[m->nav->isa].integrate(m, begin, end);
 }
 
 /* Agent i's part of its overlap with j, by mass. */
-static inline JoxV2 part_from(const Move *m, const JoxV2 *from, uint32_t i, uint32_t j,
+static inline JoxV2 part_from(const JoxMove *m, const JoxV2 *from, uint32_t i, uint32_t j,
                               float apart) {
     const JoxAgents *a = m->agents;
     const float *mass = a->param[JOX_PARAM_mass];
@@ -60,7 +43,7 @@ static inline JoxV2 part_from(const Move *m, const JoxV2 *from, uint32_t i, uint
    positions, so that no order matters. */
 static void sweep_seen(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
-    Move *m = context;
+    JoxMove *m = context;
     const float *radius = m->agents->param[JOX_PARAM_radius];
     const JoxV2 *from = m->nav->position[m->from];
     JoxV2 *to = m->nav->position[!m->from];
@@ -78,7 +61,7 @@ static void sweep_seen(void *context, uint32_t begin, uint32_t end, uint32_t wor
    gives no energy. */
 static void sweep_touched(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
     (void)worker;
-    Move *m = context;
+    JoxMove *m = context;
     const JoxContactPlanes *t = m->touched;
     const JoxV2 *from = m->nav->position[m->from];
     JoxV2 *to = m->nav->position[!m->from];
@@ -158,8 +141,8 @@ static JoxV2 piece_of_way(const JoxWallGrid *grid, JoxV2 p, JoxV2 *q) {
     return from;
 }
 
-/* Who left at a periodic edge comes in at the other side, with the step's start beyond the edge. */
-static bool wrap_position(JoxAgents *a, uint32_t i) {
+/* They come in at the other side, with the step's start beyond the edge. */
+bool jox_move_over_edge(JoxAgents *a, uint32_t i) {
     JoxV2 before = {a->x[i], a->y[i]};
     if (a->period.x > 0.0f) {
         float turns = floorf((a->x[i] - a->origin.x) / a->period.x);
@@ -200,36 +183,24 @@ static JoxV2 keep_clear(const JoxWallGrid *grid, JoxV2 p, float radius) {
     return p;
 }
 
-static void apply_positions(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
-    (void)worker;
-    Move *m = context;
-    JoxAgents *a = m->agents;
+JoxV2 jox_move_by_walls(const JoxMove *m, uint32_t i, JoxV2 to) {
+    const JoxAgents *a = m->agents;
     const JoxWallGrid *grid = &m->nav->grid;
-    float farthest2 = 0.0f;
-    for (uint32_t i = begin; i < end; i++) {
-        JoxV2 p = {a->prev_x[i], a->prev_y[i]}, q = m->nav->position[0][i], from = p;
-        uint32_t near;
-        if (grid->first && jox_length2(jox_sub(q, p)) > grid->reach * grid->reach)
-            from = piece_of_way(grid, p, &q);
-        jox_wall_grid_at(grid, from, &near);
-        if (near > 0) {
-            JoxV2 clear = keep_clear(grid, stop_at_walls(grid, from, q), a->breadth[i]);
-            q = stop_at_walls(grid, from, clear);
-        }
-        a->x[i] = q.x;
-        a->y[i] = q.y;
-        farthest2 = jox_maxf(farthest2, jox_length2(jox_sub(q, p)));
-        if (wrap_position(a, i))
-            farthest2 = INFINITY; /* the order in memory no longer follows space */
-        JoxV2 rest = {a->x[i] - a->still_x[i], a->y[i] - a->still_y[i]};
-        a->still[i] += m->dt;
-        if (jox_length2(rest) > STILL_REACH * STILL_REACH) {
-            a->still[i] = 0.0f;
-            a->still_x[i] = a->x[i];
-            a->still_y[i] = a->y[i];
-        }
-    }
-    m->nav->chunk_drift[begin / JOX_NAV_GRAIN] = farthest2;
+    JoxV2 from = {a->prev_x[i], a->prev_y[i]};
+    uint32_t near;
+    if (jox_length2(jox_sub(to, from)) > grid->reach * grid->reach)
+        from = piece_of_way(grid, from, &to);
+    jox_wall_grid_at(grid, from, &near);
+    if (near == 0)
+        return to;
+    const JoxV2 clear = keep_clear(grid, stop_at_walls(grid, from, to), a->breadth[i]);
+    return stop_at_walls(grid, from, clear);
+}
+
+static void settle(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
+    (void)worker;
+    const JoxMove *m = context;
+    m->nav->chunk_drift[begin / JOX_NAV_GRAIN] = KERNELS[m->nav->isa].settle(m, begin, end);
 }
 
 void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbours,
@@ -237,14 +208,14 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
                   double response, double on_the_way, JoxPool *pool) {
     JOX_ASSERT(dt > 0.0 && response > 0.0 && response <= 1.0);
     JOX_ASSERT(on_the_way > 0.0 && on_the_way <= response);
-    Move move = {.nav = nav,
-                 .agents = agents,
-                 .neighbours = neighbours,
-                 .objects = objects,
-                 .touched = touched && touched->agents ? touched : NULL,
-                 .dt = (float)dt,
-                 .response = (float)response,
-                 .on_the_way = (float)on_the_way};
+    JoxMove move = {.nav = nav,
+                    .agents = agents,
+                    .neighbours = neighbours,
+                    .objects = objects,
+                    .touched = touched && touched->agents ? touched : NULL,
+                    .dt = (float)dt,
+                    .response = (float)response,
+                    .on_the_way = (float)on_the_way};
     move.stiffness = STIFFNESS * jox_minf(1.0f, (float)dt / STIFF_STEP);
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, integrate, &move);
     for (int i = 0; i < SWEEPS && !nav->literal; i++) {
@@ -252,7 +223,7 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
                          move.touched ? sweep_touched : sweep_seen, &move);
         move.from = !move.from;
     }
-    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, apply_positions, &move);
+    jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, settle, &move);
     float farthest2 = 0.0f;
     for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)
         farthest2 = jox_maxf(farthest2, nav->chunk_drift[chunk]);

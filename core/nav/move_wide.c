@@ -1,0 +1,95 @@
+/* The kernel of move: a lane is an agent. Where its velocity takes it, and, once overlaps are
+   resolved, where it then is: those near walls and those who leave over a periodic edge one by one
+   (move.c). */
+#include "geom/wall_grid_lanes.h"
+#include "nav/kernels.h"
+#include "simd/vectors.h"
+
+static inline uint32_t lanes_of(uint32_t first, uint32_t end) {
+    const uint32_t count = end - first < JOX_WIDTH ? end - first : JOX_WIDTH;
+    return (uint32_t)(((uint64_t)1 << count) - 1);
+}
+
+void JOX_WIDE(jox_move_integrate)(const JoxMove *m, uint32_t begin, uint32_t end) {
+    JoxAgents *a = m->agents;
+    const JoxFloats on_the_way = jf_set(m->on_the_way), response = jf_set(m->response);
+    const JoxFloats dt = jf_set(m->dt);
+    for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
+        const JoxVector at = jv_load(a->x, a->y, i);
+        const JoxVector forced = jv_load(a->forced_x, a->forced_y, i);
+        const JoxVector rest = jv_sub(jv_load(a->next_x, a->next_y, i), forced);
+        const JoxVector mean = jv_add(forced, jv_scale(rest, on_the_way));
+        const JoxVector to = jv_add(at, jv_scale(mean, dt));
+        float x[JOX_WIDTH], y[JOX_WIDTH];
+        jv_store(a->prev_x, a->prev_y, i, at);
+        jv_store(a->vx, a->vy, i, jv_add(forced, jv_scale(rest, response)));
+        jv_store(x, y, 0, to);
+        for (uint32_t lane = 0; lane < JOX_WIDTH && i + lane < end; lane++)
+            m->nav->position[0][i + lane] = (JoxV2){x[lane], y[lane]};
+    }
+}
+
+/* The clocks of those who stay where they are; anew for those who have moved. */
+static inline void keep_still(const JoxMove *m, uint32_t i, JoxVector at) {
+    JoxAgents *a = m->agents;
+    const JoxFloats zero = jf_set(0.0f), reach2 = jf_set(JOX_STILL_REACH * JOX_STILL_REACH);
+    const JoxVector still = jv_load(a->still_x, a->still_y, i), away = jv_sub(at, still);
+    const JoxMask moved = jf_lt(reach2, jv_dot(away, away));
+    const JoxFloats time = jf_add(jf_load(a->still + i), jf_set(m->dt));
+    jf_store(a->still + i, jf_select(moved, zero, time));
+    jv_store(a->still_x, a->still_y, i, jv_select(moved, at, still));
+}
+
+/* The lanes beyond an edge of a period, m; 0: none. */
+static inline JoxMask beyond(JoxFloats x, float origin, float period) {
+    const JoxFloats from = jf_sub(x, jf_set(origin)), zero = jf_set(0.0f);
+    const JoxMask within = jm_and(jf_le(zero, from), jf_lt(from, jf_set(period)));
+    return period > 0.0f
+               ? jm_without(jm_of_bits((uint32_t)(((uint64_t)1 << JOX_WIDTH) - 1)), within)
+               : jm_of_bits(0);
+}
+
+/* The lanes that walls may stop: those near some, and those who go farther than that is known. */
+static inline uint32_t near_walls(const JoxWallGrid *grid, JoxVector from, JoxVector way) {
+    if (!grid->first)
+        return 0;
+    const JoxMask far = jf_lt(jf_set(grid->reach * grid->reach), jv_dot(way, way));
+    return jm_bits(jm_or(far, jox_wall_grid_near_lanes(grid, from.x, from.y)));
+}
+
+float JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t end) {
+    JoxAgents *a = m->agents;
+    const JoxWallGrid *grid = &m->nav->grid;
+    float farthest2 = 0.0f, ways[JOX_WIDTH];
+    JoxFloats most = jf_set(0.0f);
+    for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
+        const JoxVector from = jv_load(a->prev_x, a->prev_y, i);
+        const uint32_t there = lanes_of(i, end);
+        float x[JOX_WIDTH] = {0.0f}, y[JOX_WIDTH] = {0.0f};
+        for (uint32_t lane = 0; there >> lane; lane++) {
+            x[lane] = m->nav->position[0][i + lane].x;
+            y[lane] = m->nav->position[0][i + lane].y;
+        }
+        const uint32_t walled = there & near_walls(grid, from, jv_sub(jv_load(x, y, 0), from));
+        for (uint32_t lane = 0; walled >> lane; lane++) {
+            if (!(walled >> lane & 1))
+                continue;
+            const JoxV2 at = jox_move_by_walls(m, i + lane, (JoxV2){x[lane], y[lane]});
+            x[lane] = at.x;
+            y[lane] = at.y;
+        }
+        const JoxVector at = jv_load(x, y, 0), way = jv_sub(at, from);
+        jv_store(a->x, a->y, i, at);
+        most = jf_select(jm_of_bits(there), jf_max(most, jv_dot(way, way)), most);
+        const uint32_t out = there & jm_bits(jm_or(beyond(at.x, a->origin.x, a->period.x),
+                                                   beyond(at.y, a->origin.y, a->period.y)));
+        for (uint32_t lane = 0; out >> lane; lane++)
+            if ((out >> lane & 1) && jox_move_over_edge(a, i + lane))
+                farthest2 = INFINITY; /* the order in memory no longer follows space */
+        keep_still(m, i, jv_load(a->x, a->y, i));
+    }
+    jf_store(ways, most);
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+        farthest2 = jox_maxf(farthest2, ways[lane]);
+    return farthest2;
+}
