@@ -1,0 +1,196 @@
+/* The kernels of move, and that of the radius at which people touch, against plain loops, by every
+   instruction set that the machine runs: people of random velocities and plans, in the open, about
+   walls, over periodic edges, and with numbers that are none. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/random.h"
+#include "force/kernels.h"
+#include "nav/kernels.h"
+
+enum { PEOPLE = 61, CROWDS = 12, COLUMNS = 9 }; /* not a whole number of packets */
+
+static float draw(uint32_t crowd, uint32_t *drawn, double from, double to) {
+    double unit = jox_random_unit(7, crowd, 0, JOX_DRAW_FILL, (*drawn)++);
+    return (float)(from + (to - from) * unit);
+}
+
+typedef struct Crowd {
+    JoxAgents agents;
+    JoxNav *nav;
+    JoxWalls walls;
+    JoxMove move;
+} Crowd;
+
+static void begin(Crowd *c, uint32_t number) {
+    static const JoxV2 bar[] = {{2.0f, -1.0f}, {4.0f, 6.0f}, {7.0f, 3.0f}};
+    JoxAgents *a = &c->agents;
+    uint32_t drawn = 0;
+    memset(c, 0, sizeof *c);
+    c->nav = jox_nav_create(NULL);
+    for (uint32_t k = 0; k < PEOPLE; k++) {
+        uint32_t i = jox_agents_add(a);
+        a->x[i] = draw(number, &drawn, 0.0, 10.0);
+        a->y[i] = draw(number, &drawn, 0.0, 7.0);
+    }
+    if (number % 3 == 1) {
+        jox_walls_add_polyline(&c->walls, bar, 3, false, INFINITY);
+        jox_nav_set_walls(c->nav, &c->walls);
+        jox_wall_grid_fit(&c->nav->grid, 0.8f);
+    } else if (number % 3 == 2) {
+        a->period = (JoxV2){10.0f, number % 2 ? 7.0f : 0.0f};
+        a->origin = (JoxV2){0.0f, -0.5f};
+    }
+    jox_nav_sort(c->nav, a, 0);
+    for (uint32_t i = 0; i < PEOPLE; i++) {
+        const float hurry = draw(number, &drawn, 0.0, 1.0) < 0.1f ? 40.0f : 2.0f;
+        a->forced_x[i] = draw(number, &drawn, -2.0, 2.0);
+        a->forced_y[i] = draw(number, &drawn, -2.0, 2.0);
+        a->next_x[i] = draw(number, &drawn, -1.0, 1.0) * hurry;
+        a->next_y[i] = number == 11 && i == 30 ? NAN : draw(number, &drawn, -1.0, 1.0) * hurry;
+        a->still_x[i] = a->x[i] + draw(number, &drawn, -0.3, 0.3);
+        a->still_y[i] = a->y[i];
+        a->still[i] = draw(number, &drawn, 0.0, 5.0);
+        a->breadth[i] = 0.2f;
+    }
+    c->move =
+        (JoxMove){.nav = c->nav, .agents = a, .dt = 0.05f, .response = 0.6f, .on_the_way = 0.35f};
+}
+
+static void end(Crowd *c) {
+    jox_nav_free(c->nav);
+    jox_agents_free(&c->agents);
+    jox_walls_free(&c->walls);
+}
+
+/* By plain loops. Returns the square of the longest way. */
+static float by_hand(Crowd *c) {
+    const JoxMove *m = &c->move;
+    JoxAgents *a = &c->agents;
+    float farthest2 = 0.0f;
+    for (uint32_t i = 0; i < PEOPLE; i++) {
+        const JoxV2 from = {a->x[i], a->y[i]}, forced = {a->forced_x[i], a->forced_y[i]};
+        const JoxV2 rest = jox_sub((JoxV2){a->next_x[i], a->next_y[i]}, forced);
+        JoxV2 to = jox_add(from, jox_scale(jox_add(forced, jox_scale(rest, m->on_the_way)), m->dt));
+        a->prev_x[i] = from.x;
+        a->prev_y[i] = from.y;
+        a->vx[i] = forced.x + rest.x * m->response;
+        a->vy[i] = forced.y + rest.y * m->response;
+        if (c->nav->grid.first)
+            to = jox_move_by_walls(m, i, to);
+        a->x[i] = to.x;
+        a->y[i] = to.y;
+        farthest2 = jox_maxf(farthest2, jox_length2(jox_sub(to, from)));
+        if (jox_move_over_edge(a, i))
+            farthest2 = INFINITY;
+        const JoxV2 rests = {a->x[i] - a->still_x[i], a->y[i] - a->still_y[i]};
+        a->still[i] += m->dt;
+        if (jox_length2(rests) > JOX_STILL_REACH * JOX_STILL_REACH) {
+            a->still[i] = 0.0f;
+            a->still_x[i] = a->x[i];
+            a->still_y[i] = a->y[i];
+        }
+    }
+    return farthest2;
+}
+
+static void columns_of(const JoxAgents *a, float *out[COLUMNS]) {
+    float *columns[COLUMNS] = {a->x,  a->y,     a->prev_x,  a->prev_y, a->vx,
+                               a->vy, a->still, a->still_x, a->still_y};
+    memcpy(out, columns, sizeof columns);
+}
+
+static void test_move(void **state) {
+#define X(name, isa) [isa] = jox_move_integrate_##name,
+    static JoxMoveKernel *const INTEGRATE[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+#define X(name, isa) [isa] = jox_move_settle_##name,
+    static JoxSettleKernel *const SETTLE[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+    (void)state;
+    uint32_t over = 0, moved = 0;
+    for (uint32_t number = 0; number < CROWDS; number++)
+        for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++) {
+            if (!jox_isa_runs(isa))
+                continue;
+            Crowd plain, wide;
+            float *expected[COLUMNS], *got[COLUMNS];
+            begin(&plain, number);
+            begin(&wide, number);
+            const float longest = by_hand(&plain);
+            INTEGRATE[isa](&wide.move, 0, PEOPLE);
+            const float way = SETTLE[isa](&wide.move, 0, PEOPLE);
+            assert_true(way == longest || number == 11);
+            columns_of(&plain.agents, expected);
+            columns_of(&wide.agents, got);
+            for (uint32_t k = 0; k < COLUMNS; k++)
+                assert_memory_equal(expected[k], got[k], PEOPLE * sizeof(float));
+            over += isinf(longest) != 0;
+            for (uint32_t i = 0; i < PEOPLE; i++)
+                moved += wide.agents.still[i] == 0.0f;
+            end(&plain);
+            end(&wide);
+        }
+    assert_true(over > 0 && moved > 0);
+}
+
+/* As it is said: a share of `turn` between two values that were drawn, evenly in time. */
+static float breadth_by_hand(const JoxForceStep *step, uint32_t i) {
+    const JoxAgents *a = step->agents;
+    const float radius = a->param[JOX_PARAM_radius][i], turn = a->param[JOX_PARAM_turn][i];
+    if (!step->turning || jox_stands(a, i))
+        return radius;
+    const double own = (double)a->id[i] * 0.6180339887498949;
+    const double phase = step->time + (own - floor(own));
+    const uint64_t knot = (uint64_t)phase;
+    const uint64_t from = jox_random_bits(step->seed, a->id[i], knot, JOX_DRAW_TURN, 0);
+    const uint64_t to = jox_random_bits(step->seed, a->id[i], knot + 1, JOX_DRAW_TURN, 0);
+    const float first = (float)(from >> 40) * 0x1p-24f, second = (float)(to >> 40) * 0x1p-24f;
+    return radius * (1.0f - turn * (first + (second - first) * (float)(phase - (double)knot)));
+}
+
+static void test_breadth(void **state) {
+#define X(name, isa) [isa] = jox_breadth_packets_##name,
+    static JoxBreadthKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+#undef X
+    (void)state;
+    for (JoIsa isa = JO_ISA_SCALAR; isa <= JO_ISA_NEON; isa++)
+        for (uint32_t number = 0; jox_isa_runs(isa) && number < CROWDS; number++) {
+            Crowd c;
+            uint32_t drawn = 0, turned = 0;
+            begin(&c, 0);
+            JoxAgents *a = &c.agents;
+            for (uint32_t i = 0; i < PEOPLE; i++) {
+                a->param[JOX_PARAM_radius][i] = draw(number, &drawn, 0.1, 0.4);
+                a->param[JOX_PARAM_turn][i] = draw(number, &drawn, 0.0, 0.5);
+                a->pref_x[i] = draw(number, &drawn, -0.1, 0.3);
+                a->id[i] = number % 2 ? UINT32_MAX - i : i * 7;
+            }
+            JoxForces *f = jox_forces_create(NULL);
+            f->step = (JoxForceStep){.agents = a,
+                                     .seed = number,
+                                     .turning = number != 5,
+                                     .dt = 0.05,
+                                     .time = number * number * 1234.567};
+            KERNELS[isa](f, 0, PEOPLE);
+            for (uint32_t i = 0; i < PEOPLE; i++) {
+                const float expected = breadth_by_hand(&f->step, i);
+                assert_memory_equal(&a->breadth[i], &expected, sizeof expected);
+                turned += expected < a->param[JOX_PARAM_radius][i];
+            }
+            assert_true(number == 5 ? turned == 0 : turned > PEOPLE / 4);
+            jox_forces_free(f);
+            end(&c);
+        }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_move), cmocka_unit_test(test_breadth)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
