@@ -106,7 +106,7 @@ UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.c)))
 
-.PHONY: reference all run test fuzz fuzzers faults unit tests-built check bench bench-record bench-peers bench-instructions arm install uninstall clean test-all format
+.PHONY: reference all run test fuzz fuzzers faults unit tests-built check bench bench-record bench-peers bench-instructions arm matrix soak install uninstall clean test-all format
 all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so.$(VERSION)
 
 # The two commands of the README. Both first install what is missing.
@@ -128,6 +128,18 @@ arm:
 	@.ci/setup arm
 	@$(MAKE) --no-print-directory $(B)/jostle
 	@B=$(B) .ci/suite arm
+# One hash for all that changes no result: of the scenes that SCENES names.
+SCENES ?= all
+matrix:
+	@.ci/setup test
+	@$(MAKE) --no-print-directory $(B)/jostle
+	@B=$(B) JOSTLE=$(B)/jostle JOSTLE_MATRIX="$(SCENES)" bash tests/scenes/determinism.sh
+# The Tawaf with all that goes on beside a run, for so many seconds; then 1,000 reloads and 10,000 page connects.
+SECONDS ?= 3600
+soak:
+	@.ci/setup test
+	@$(MAKE) --no-print-directory $(B)/jostle
+	@B=$(B) JOSTLE=$(B)/jostle JOSTLE_SOAK=$(SECONDS) bash tests/soak.sh
 bench:
 	@.ci/setup bench
 	@$(MAKE) --no-print-directory all $(BENCH)
