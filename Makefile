@@ -130,16 +130,17 @@ arm:
 	@B=$(B) .ci/suite arm
 # One hash for all that changes no result: of the scenes that SCENES names.
 SCENES ?= all
+JUDGE  := awk '{print; fflush()} /^not ok/ {bad = 1} END {exit bad}'
 matrix:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory $(B)/jostle
-	@B=$(B) JOSTLE=$(B)/jostle JOSTLE_MATRIX="$(SCENES)" bash tests/scenes/determinism.sh
+	@B=$(B) JOSTLE=$(B)/jostle JOSTLE_MATRIX="$(SCENES)" bash tests/scenes/determinism.sh | $(JUDGE)
 # The Tawaf with all that goes on beside a run, for so many seconds; then 1,000 reloads and 10,000 page connects.
 SECONDS ?= 3600
 soak:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory $(B)/jostle
-	@B=$(B) JOSTLE=$(B)/jostle JOSTLE_SOAK=$(SECONDS) bash tests/soak.sh
+	@B=$(B) JOSTLE=$(B)/jostle JOSTLE_SOAK=$(SECONDS) bash tests/soak.sh | $(JUDGE)
 bench:
 	@.ci/setup bench
 	@$(MAKE) --no-print-directory all $(BENCH)

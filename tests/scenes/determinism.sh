@@ -64,7 +64,7 @@ reloaded() { # SCENE ARGS...: the hash; its behaviours are replaced at each 20th
 checkpointed() { # SCENE ARGS...: of two runs from checkpoints somewhere
     local scene=$1 every n; shift
     for n in 1 2; do
-        every=$((1 + RANDOM % 3)).$((RANDOM % 100))
+        every=$((RANDOM % 2)).$((10 + RANDOM % 90))
         rm -rf "$work/ck"
         quietly "$work/whole.json" "$JOSTLE" run "$scene" --quiet "$@" --checkpoint $every --checkpoint-dir "$work/ck"
         quietly "$work/rest.json" "$JOSTLE" resume "$work/ck/latest.checkpoint" --quiet --threads $((1 + RANDOM % 8))
