@@ -109,6 +109,9 @@ int cli_interrupted(int status);
    exit status. */
 int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error);
 
+/* Whether functions of behaviours were suspended or people were lost, which it says. */
+bool cli_troubled(const CliCommand *command, const JoScene *scene);
+
 /* Prints "jostle COMMAND: why" and where help is found; returns JO_USAGE. */
 int cli_misused(const CliCommand *command, const char *why);
 /* Whether a file can be written, found out before an hour of simulation; JO_FAILED with a message.

@@ -246,6 +246,14 @@ int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error) 
     return ok && ended ? JO_OK : cli_failed(command, error, false);
 }
 
+bool cli_troubled(const CliCommand *command, const JoScene *scene) {
+    char *which = jo_scene_troubles(scene);
+    if (which)
+        fprintf(stderr, "jostle %s: %s\n", command->name, which);
+    jo_free(which);
+    return which != NULL;
+}
+
 void cli_print(void *context, const char *text) {
     fputs(text, context);
     fflush(context);

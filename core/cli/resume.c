@@ -59,7 +59,9 @@ static int go_on(const Resume *resume, JoScene *scene, const char *note) {
     }
     while (ok && jo_world_tick(jo_scene_world(scene)) < until && !cli_signal)
         ok = jo_scene_step(scene, &error);
-    const int status = cli_end(&cli_resume, scene, ok, &error);
+    int status = cli_end(&cli_resume, scene, ok, &error);
+    if (cli_troubled(&cli_resume, scene) && status == JO_OK)
+        status = JO_FAILED;
     jox_free(record), jox_free(log), jox_free(steps), jox_free(every), jox_free(folder);
     return status;
 }

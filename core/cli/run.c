@@ -119,15 +119,6 @@ static int write_page(const Run *run, const JoScene *scene, uint64_t steps) {
     return ok ? JO_OK : complain(&written, false);
 }
 
-/* Whether functions of behaviours were suspended or people were lost, which it says. */
-static bool tell_troubles(const JoScene *scene) {
-    char *which = jo_scene_troubles(scene);
-    if (which)
-        fprintf(stderr, "jostle run: %s\n", which);
-    jo_free(which);
-    return which != NULL;
-}
-
 enum { LONGEST_NOTED = 4096 };
 
 /* Whether a checkpoint's note, of a line for each path, can hold it. */
@@ -186,7 +177,7 @@ static int simulate(Run *run, char **summary) {
         status = write_page(run, scene, steps);
     if (run->summary || run->seeds)
         *summary = jo_scene_summary(scene);
-    run->troubled |= tell_troubles(scene);
+    run->troubled |= cli_troubled(&cli_run, scene);
     if (run->profile) {
         char *profile = jo_scene_lua_profile(scene);
         fputs(profile ? profile : "", stderr);

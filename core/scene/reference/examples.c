@@ -18,6 +18,7 @@ const JoxExample jox_scene_examples[] = {
      "input: dodgeball.input\n"
      "forces: {mode: physical}\n"
      "walking: {start_time: 0.5}\n"
+     "guard: {people: remove, bodies: stop}\n"
      "limits: {memory: 16 MB}\n"
      "heatmap: {from: 5}\n"
      "camera: {position: [0, -15, 12], target: [0, 0, 0]}\n"
@@ -39,6 +40,9 @@ const JoxExample jox_scene_examples[] = {
 #define X(name, unit, least, greatest, value, meaning) "  " #name ": " #value "\n"
      JOX_WALK_CONSTANTS(X)
 #undef X
+     STANDER},
+    {"guard", OPENING
+     "guard: {people: remove, bodies: stop}\n"
      STANDER},
     {"limits", OPENING
      "limits: {instructions: 50000, step_instructions: 5000000, load_instructions: 5000000,\n"
