@@ -52,8 +52,7 @@ void jox_bodies_ensure(JoxBodies *b) {
     b->dispatcher = make<btCollisionDispatcher>(b->configuration);
     b->broadphase = make<btDbvtBroadphase>();
     b->solver = new btSequentialImpulseConstraintSolver();
-    b->world =
-        new btDiscreteDynamicsWorld(b->dispatcher, b->broadphase, b->solver, b->configuration);
+    b->world = new JoxBulletWorld(b->dispatcher, b->broadphase, b->solver, b->configuration);
     b->world->getDispatchInfo().m_deterministicOverlappingPairs = true;
     /* What stands on the ground has all its contacts from the first step on, not one more in each,
        on which it would rock. */
@@ -71,7 +70,7 @@ void jox_bodies_ensure(JoxBodies *b) {
 }
 
 static void drop_static(JoxBodies *b, btRigidBody *body) {
-    b->world->removeRigidBody(body);
+    b->world->remove(body);
     delete body;
 }
 
@@ -119,7 +118,7 @@ void jox_bodies_set_walls(JoxBodies *b, const JoxWalls *walls, float height) {
 
 void jox_bodies_drop(JoxBodies *b, uint32_t row) {
     JoxRow *r = &b->rows[row];
-    b->world->removeRigidBody(r->body);
+    b->world->remove(r->body);
     delete r->body;
     jox_body_shape_free(&r->shape);
     jox_free(r->name);

@@ -104,6 +104,13 @@ void jox_bullet_free_heap(const JoxHeap *heap);
    `error` may be NULL. */
 bool jox_bodies_are_heaped(const JoxBodies *bodies, JoxText *error);
 
+/* Bullet's world. Contacts that it foresees of fast bodies are not those of its pairs: they stay
+   until the next step, and have to be taken out with what they are of. */
+struct JoxBulletWorld : btDiscreteDynamicsWorld {
+    using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
+    void remove(btRigidBody *body);
+};
+
 struct JoxBodies {
     JoxHeap *heap; /* in use where it was made */
     JoxBodiesDef def;
@@ -111,7 +118,7 @@ struct JoxBodies {
     btCollisionDispatcher *dispatcher;
     btDbvtBroadphase *broadphase;
     btSequentialImpulseConstraintSolver *solver;
-    btDiscreteDynamicsWorld *world; /* NULL until the first body or wall */
+    JoxBulletWorld *world; /* NULL until the first body or wall */
     btCollisionShape *ground_shape;
     btRigidBody *ground;
     btRigidBody **walls;

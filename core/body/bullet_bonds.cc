@@ -141,7 +141,7 @@ static void fall_apart(JoxBodies *b, uint32_t row, uint32_t pieces) {
     btVector3 momentum(0, 0, 0);
     uint32_t blocks = 0;
     float sum = 0;
-    b->world->removeRigidBody(r->body);
+    b->world->remove(r->body);
     delete r->body;
     jox_body_shape_free(&r->shape);
     r->bonds = nullptr;

@@ -75,7 +75,7 @@ static bool is_lost(JoxBodies *b, const JoxRow *r, JoxBodyEnd *why) {
 /* Where it was, at rest; taken out of Bullet's world and put back, as numbers that are no numbers
    have gone into its search tree. */
 static void put_back(JoxBodies *b, JoxRow *r) {
-    b->world->removeRigidBody(r->body);
+    b->world->remove(r->body);
     btTransform at;
     at.setFromOpenGLMatrix(r->before);
     r->body->setWorldTransform(at);

@@ -124,3 +124,14 @@ bool jox_bodies_are_heaped(const JoxBodies *b, JoxText *error) {
             pairs);
     return true;
 }
+
+void JoxBulletWorld::remove(btRigidBody *body) {
+    for (int m = m_predictiveManifolds.size() - 1; m >= 0; m--) {
+        btPersistentManifold *manifold = m_predictiveManifolds[m];
+        if (manifold->getBody0() != body && manifold->getBody1() != body)
+            continue;
+        m_predictiveManifolds.removeAtIndex(m);
+        getDispatcher()->releaseManifold(manifold);
+    }
+    removeRigidBody(body);
+}
