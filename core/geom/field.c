@@ -45,7 +45,8 @@ static void set_grid(JoxField *f, const JoxPlace *places, uint32_t place, JoxV2 
 }
 
 JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
-                           JoxV2 high, float cell, float clearance, const JoxFieldCrowd *crowd) {
+                           JoxV2 high, float cell, float clearance, const JoxFieldCrowd *crowd,
+                           JoxFieldMarks **marks) {
     JoxField *f = jox_alloc(1, sizeof *f);
     set_grid(f, places, place, low, high, cell);
     f->clearance = clearance > LEAST_CLEARANCE ? clearance : LEAST_CLEARANCE;
@@ -60,7 +61,7 @@ JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32
                          .node = jox_alloc(count, 1),
                          .links = jox_alloc(count, 1),
                          .corners = jox_alloc(count, 1)};
-    jox_field_mark(&work, walls);
+    jox_field_mark(&work, walls, marks);
     jox_field_crowd(&work, crowd);
     jox_field_march(&work, places, place);
     jox_field_patch(&work);
@@ -274,6 +275,14 @@ JoxV2 jox_field_direction(const JoxField *f, JoxV2 p) {
         return way;
     return jox_unit(jox_add(jox_scale(way, jox_maxf(0.0f, 1.0f - far / f->size)),
                             jox_scale(s.beyond, 1.0f / far)));
+}
+
+void jox_field_box(const JoxField *f, JoxV2 *low, JoxV2 *high, float *cell) {
+    *cell = f->size;
+    *low = f->low;
+    /* within the last cells, so that rounding adds none */
+    *high = (JoxV2){f->low.x + ((float)f->columns - 0.5f) * f->size,
+                    f->low.y + ((float)f->rows - 0.5f) * f->size};
 }
 
 uint32_t jox_field_cells(const JoxField *f) {

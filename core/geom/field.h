@@ -8,6 +8,7 @@
 #include "geom/walls.h"
 
 typedef struct JoxField JoxField;
+typedef struct JoxFieldMarks JoxFieldMarks;
 
 /* People who are on their way and how far each is held up: 0 not at all, 1 at a stand. */
 typedef struct JoxFieldCrowd {
@@ -23,9 +24,13 @@ typedef struct JoxFieldCrowd {
    is held up (NULL: there is none). `cell` is 0.1 to 2 m, and grows so that at most 4,000,000 cells
    are made. Gaps are judged by their true width, not by the grid: a gap wider than 2 clearances and
    0.6 cells is open, one narrower than 1.7 clearances is shut; what lies between depends on how the
-   grid falls. Never NULL. */
+   grid falls. `marks`, or NULL: what walls do to the field, of the one that was made before with
+   them, *marks NULL at first; the same walls over the same box are not looked at again, which
+   changes no result. Never NULL. */
 JoxField *jox_field_create(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 low,
-                           JoxV2 high, float cell, float clearance, const JoxFieldCrowd *crowd);
+                           JoxV2 high, float cell, float clearance, const JoxFieldCrowd *crowd,
+                           JoxFieldMarks **marks);
+void jox_field_marks_free(JoxFieldMarks *marks);
 /* Length of the way from a point, m: 0 inside a place that is a polygon; INFINITY where no way
    leads and inside solids. Outside the box: the straight way to it and on from there. */
 float jox_field_distance(const JoxField *field, JoxV2 point);
@@ -38,6 +43,9 @@ void jox_field_prefetch(const JoxField *field, JoxV2 point);
 /* Lists a field as it was made; restoring, makes one in place of *field. */
 void jox_field_sections(JoxField **field, JoxSections *sections);
 uint32_t jox_field_cells(const JoxField *field);
+/* The box of which its cells were made, m: one that is created for it has the same cells, of `cell`
+   metres. */
+void jox_field_box(const JoxField *field, JoxV2 *low, JoxV2 *high, float *cell);
 void jox_field_free(JoxField *field);
 
 #endif

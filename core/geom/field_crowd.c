@@ -13,34 +13,68 @@ typedef struct Span {
     int c0, c1, r0, r1;
 } Span;
 
-static float share_at(const JoxFieldWork *w, int cell, JoxV2 at) {
-    if (w->node[cell] == JOX_FIELD_BLOCKED)
-        return 0.0f;
-    float far2 = jox_length2(jox_sub(jox_field_node(w, cell), at));
-    return far2 < REACH * REACH ? 1.0f - sqrtf(far2) / REACH : 0.0f;
+/* Where the nodes are, m, and the cells that can be walked (1, else 0). */
+typedef struct Floor {
+    float *x, *y, *open;
+} Floor;
+
+static Floor floor_of(const JoxFieldWork *w) {
+    const size_t count = (size_t)w->count;
+    Floor all = {jox_alloc(count, sizeof(float)), jox_alloc(count, sizeof(float)),
+                 jox_alloc(count, sizeof(float))};
+    for (int i = 0; i < w->count; i++) {
+        if (w->node[i] == JOX_FIELD_BLOCKED)
+            continue;
+        const JoxV2 node = jox_field_node(w, i);
+        all.x[i] = node.x;
+        all.y[i] = node.y;
+        all.open[i] = 1.0f;
+    }
+    return all;
+}
+
+/* What `count` cells in a row have of a person: 1 where it stands, 0 from REACH on. */
+static void share_row(const float *restrict x, const float *restrict y, const float *restrict open,
+                      JoxV2 at, int count, float *restrict shares) {
+    for (int k = 0; k < count; k++) {
+        const float dx = x[k] - at.x, dy = y[k] - at.y;
+        const float share = 1.0f - sqrtf(dx * dx + dy * dy) / REACH;
+        shares[k] = share > 0.0f ? share * open[k] : 0.0f;
+    }
 }
 
 /* A person is spread as a cone over the floor that can be walked, and nothing into walls: else the
    floor along walls would seem free. `shares`: room for the span's cells. */
-static void spread(JoxFieldWork *w, const Span *s, JoxV2 at, float slowing, float *shares) {
+static void spread(JoxFieldWork *w, const Floor *all, const Span *s, JoxV2 at, float slowing,
+                   float *shares) {
     const JoxField *f = w->f;
+    const int columns = s->c1 - s->c0 + 1, cells = columns * (s->r1 - s->r0 + 1);
     float sum = 0.0f, area = f->size * f->size, *share = shares;
-    for (int r = s->r0; r <= s->r1; r++)
-        for (int c = s->c0; c <= s->c1; c++)
-            sum += *share++ = share_at(w, r * f->columns + c, at);
+    for (int r = s->r0; r <= s->r1; r++, share += columns) {
+        const int first = r * f->columns + s->c0;
+        share_row(all->x + first, all->y + first, all->open + first, at, columns, share);
+    }
+    for (int k = 0; k < cells; k++)
+        sum += shares[k];
     if (!(sum > 0.0f))
         return;
+    const float whole = sum * area;
     share = shares;
-    for (int r = s->r0; r <= s->r1; r++)
-        for (int c = s->c0; c <= s->c1; c++)
-            w->slowness[r * f->columns + c] += slowing * *share++ / (sum * area);
+    for (int r = s->r0; r <= s->r1; r++, share += columns) {
+        float *slowness = w->slowness + r * f->columns + s->c0;
+        for (int k = 0; k < columns; k++)
+            slowness[k] += slowing * share[k] / whole;
+    }
 }
 
 void jox_field_crowd(JoxFieldWork *w, const JoxFieldCrowd *crowd) {
     const JoxField *f = w->f;
     float *shares = NULL;
     size_t capacity = 0;
-    for (uint32_t n = 0; crowd && n < crowd->count; n++) {
+    if (!crowd || crowd->count == 0)
+        return;
+    const Floor all = floor_of(w);
+    for (uint32_t n = 0; n < crowd->count; n++) {
         JoxV2 at = crowd->at[n];
         Span s;
         JOX_ASSERT(crowd->held[n] >= 0.0f && crowd->held[n] <= 1.0f);
@@ -49,7 +83,10 @@ void jox_field_crowd(JoxFieldWork *w, const JoxFieldCrowd *crowd) {
         if (s.c0 > s.c1 || s.r0 > s.r1)
             continue;
         JOX_RESERVE(shares, capacity, (size_t)(s.c1 - s.c0 + 1) * (size_t)(s.r1 - s.r0 + 1));
-        spread(w, &s, at, crowd->slowing * crowd->held[n], shares);
+        spread(w, &all, &s, at, crowd->slowing * crowd->held[n], shares);
     }
     jox_free(shares);
+    jox_free(all.x);
+    jox_free(all.y);
+    jox_free(all.open);
 }

@@ -254,10 +254,12 @@ static void span_corners(JoxFieldWork *w, int cell) {
     }
 }
 
-void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls) {
+void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls, JoxFieldMarks **marks) {
     JoxField *f = w->f;
     float reach = jox_maxf(NEAR, f->clearance + 1.5f * f->size) + 0.5f * f->size;
     collect(f, walls);
+    if (marks && jox_field_recall(w, *marks))
+        return;
     sort_edges(w, reach);
     fill_solids(w, walls);
     for (int i = 0; i < w->count; i++)
@@ -266,4 +268,6 @@ void jox_field_mark(JoxFieldWork *w, const JoxWalls *walls) {
         link_cell(w, i);
     for (int i = 0; i < w->count; i++)
         span_corners(w, i);
+    if (marks)
+        jox_field_remember(w, marks);
 }

@@ -97,8 +97,12 @@ float jox_field_nearest(const JoxField *f, uint32_t first, uint32_t last, JoxV2 
    itself is close to nine tenths of that. With least = 0 it must cross none. */
 bool jox_field_sees(const JoxFieldWork *w, JoxV2 p, JoxV2 q, float least);
 
-/* Edges by cell, solids, nodes, links. */
-void jox_field_mark(JoxFieldWork *work, const JoxWalls *walls);
+/* Edges by cell, solids, nodes, links, and the slowness near walls. */
+void jox_field_mark(JoxFieldWork *work, const JoxWalls *walls, JoxFieldMarks **marks);
+/* field_marks.c: takes over what was marked of the same edges over the same grid; false if it was
+   not. Keeps it for the next time. */
+bool jox_field_recall(JoxFieldWork *work, const JoxFieldMarks *marks);
+void jox_field_remember(const JoxFieldWork *work, JoxFieldMarks **marks);
 /* Slowness where people are held up; NULL: nobody. */
 void jox_field_crowd(JoxFieldWork *work, const JoxFieldCrowd *crowd);
 /* Times, lengths and directions of all nodes. */

@@ -13,12 +13,14 @@ enum { MOST_FIELDS = 64 };
    doors of half a metre. */
 static const float CELLS[] = {0.125f, 0.18f, 0.25f, 0.3f};
 static const float MOST_CELLS = 400000.0f;
-static const float CLEARANCE = 0.15f;       /* m: half of a person who turns sideways */
-static const float MARGIN = 3.0f;           /* m about all walls and agents */
-static const double DELAY = 0.5;            /* s from asking to use */
-static const double PAUSE = 2.0;            /* s between renewals for bodies that move */
-static const double LOOK = 0.25;            /* s between looks at bodies and crowds */
-static const double CROWD_PAUSE = 1.0;      /* s between renewals for a crowd, */
+static const float CLEARANCE = 0.15f;  /* m: half of a person who turns sideways */
+static const float MOST_ROOM = 1.5f;   /* times the box that is needed */
+static const float SPARE = 3.0f;       /* m more, once people have gone beyond the box before */
+static const float MARGIN = 3.0f;      /* m about all walls and agents */
+static const double DELAY = 0.5;       /* s from asking to use */
+static const double PAUSE = 2.0;       /* s between renewals for bodies that move */
+static const double LOOK = 0.25;       /* s between looks at bodies and crowds */
+static const double CROWD_PAUSE = 1.0; /* s between renewals for a crowd, */
 static const float CROWD_CELLS = 150000.0f; /* and for so many cells 1 s at least */
 enum { HELD = 256, FEW_HELD = 5 * HELD };   /* one person held up; fewer make no crowd */
 
@@ -31,6 +33,8 @@ typedef struct Making {
     JoxV2 low, high;
     float cell; /* m */
     JoxFieldCrowd crowd;
+    bool keeps_marks;
+    JoxFieldMarks *marks; /* of the route's field before, then of this one; NULL: none */
     JoxField *field;
 } Making;
 
@@ -38,6 +42,7 @@ typedef struct Route {
     Making *making;            /* or NULL */
     uint64_t asked, due;       /* ticks: when the last making began, when its field is used */
     uint32_t walls, obstacles; /* versions of what it was made of */
+    JoxFieldMarks *marks;      /* of crowds: what its walls do, as it is made again and again */
 } Route;
 
 struct JoxRoutes {
@@ -86,13 +91,14 @@ static void free_making(Making *making) {
     jox_free(making->crowd.at);
     jox_free(making->crowd.held);
     jox_field_free(making->field);
+    jox_field_marks_free(making->marks);
     jox_free(making);
 }
 
 static void make(JoxWorkItem *item) {
     Making *m = (Making *)item;
-    m->field =
-        jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, CLEARANCE, &m->crowd);
+    m->field = jox_field_create(&m->walls, m->places, 0, m->low, m->high, m->cell, CLEARANCE,
+                                &m->crowd, m->keeps_marks ? &m->marks : NULL);
 }
 
 static void make_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -157,9 +163,21 @@ static double crowd_pause(const JoxField *field) {
     return cells > CROWD_CELLS ? CROWD_PAUSE * cells / (double)CROWD_CELLS : CROWD_PAUSE;
 }
 
-/* The box about all walls, open ones too, and agents. Its corner lies on the grid of cells, so that
-   fields that are made anew judge narrow gaps alike. */
-static void lay_out(const JoxRouteStage *w, Making *making) {
+/* Whether the field before serves for the box low..high too, and does not make many more cells. */
+static bool is_room(const JoxField *before, JoxV2 low, JoxV2 high, float cell) {
+    JoxV2 from, to;
+    float size;
+    if (!before)
+        return false;
+    jox_field_box(before, &from, &to, &size);
+    return size == cell && jox_is_within(low, from, to) && jox_is_within(high, from, to) &&
+           (to.x - from.x) * (to.y - from.y) < MOST_ROOM * (high.x - low.x) * (high.y - low.y);
+}
+
+/* The box about all walls, open ones too, and agents. Its corner lies on the grid of cells; where
+   it can be, it is that of the field before: so those that are made anew judge narrow gaps alike,
+   and what walls do to them needs no second look. */
+static void lay_out(const JoxRouteStage *w, const JoxField *before, Making *making) {
     const JoxWalls *walls = w->all_walls;
     JoxV2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
     for (uint32_t i = 0; i < walls->count + w->agents->count; i++) {
@@ -176,9 +194,15 @@ static void lay_out(const JoxRouteStage *w, Making *making) {
         c++;
     float cell = CELLS[c];
     JOX_ASSERT(low.x < high.x && low.y < high.y); /* there are walls or agents */
+    if (is_room(before, low, high, cell)) {
+        jox_field_box(before, &making->low, &making->high, &making->cell);
+        return;
+    }
+    const float spare = before ? SPARE : 0.0f;
+    low = jox_sub(low, (JoxV2){spare, spare});
     making->cell = cell;
     making->low = (JoxV2){floorf(low.x / cell) * cell, floorf(low.y / cell) * cell};
-    making->high = high;
+    making->high = jox_add(high, (JoxV2){spare, spare});
 }
 
 /* Begins to make a field from what stands where now. */
@@ -191,9 +215,12 @@ static Making *begin(const JoxRouteStage *w, uint32_t place, JoxRouteKind kind, 
     jox_walls_standing(&making->walls, w->all_walls, kind != JOX_ROUTE_OPEN);
     jox_obstacles_add(&routes->obstacles, kind != JOX_ROUTE_OPEN, &making->walls);
     copy_places(w, place, making);
-    lay_out(w, making);
-    if (kind == JOX_ROUTE_CROWD)
+    lay_out(w, routes->fields[place * JOX_ROUTE_KINDS + kind], making);
+    if (kind == JOX_ROUTE_CROWD) {
         copy_crowd(w, place, &making->crowd);
+        making->keeps_marks = true;
+        making->marks = route->marks;
+    }
     *route = (Route){.making = making,
                      .asked = w->tick,
                      .due = w->tick + (uint64_t)ceil(delay / w->dt - 1e-9),
@@ -208,7 +235,9 @@ static void take(JoxRoutes *routes, uint32_t at) {
     jox_field_free(routes->fields[at]);
     JOX_ASSERT(making->field);
     routes->fields[at] = making->field;
+    routes->items[at].marks = making->marks;
     making->field = NULL;
+    making->marks = NULL;
     free_making(making);
     routes->items[at].making = NULL;
 }
@@ -292,7 +321,9 @@ static void drop_idle(JoxRoutes *routes) {
         if (!routes->fields[at] || routes->items[at].making || routes->held[p] >= FEW_HELD)
             continue;
         jox_field_free(routes->fields[at]);
+        jox_field_marks_free(routes->items[at].marks);
         routes->fields[at] = NULL;
+        routes->items[at].marks = NULL;
         routes->count--;
     }
 }
@@ -359,6 +390,7 @@ static void clear(JoxRoutes *routes) {
         routes->fields[at] = NULL;
         if (routes->items[at].making)
             free_making(routes->items[at].making);
+        jox_field_marks_free(routes->items[at].marks);
         routes->items[at] = (Route){0};
     }
 }

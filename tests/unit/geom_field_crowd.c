@@ -33,8 +33,8 @@ static float door_taken(const JoxFieldCrowd *crowd, double angle, JoxV2 from) {
     JoxV2 goal = turned((JoxV2){0, 6}, angle), p = turned(from, angle);
     JoxPlace place = {.kind = JOX_PLACE_POINT, .points = &goal, .count = 1, .radius = 0.1f};
     jox_place_finish(&place);
-    JoxField *field =
-        jox_field_create(&walls, &place, 0, (JoxV2){-15, -15}, (JoxV2){15, 15}, 0.2f, 0.15f, crowd);
+    JoxField *field = jox_field_create(&walls, &place, 0, (JoxV2){-15, -15}, (JoxV2){15, 15}, 0.2f,
+                                       0.15f, crowd, NULL);
     float x = NAN;
     for (int k = 0; k < 4000 && isnan(x); k++) {
         JoxV2 q = jox_add(p, jox_scale(jox_field_direction(field, p), 0.02f));
@@ -90,7 +90,7 @@ static double spread_of(const JoxWalls *walls, JoxV2 at, float held) {
                       .node = node,
                       .links = links,
                       .corners = corners};
-    jox_field_mark(&w, walls);
+    jox_field_mark(&w, walls, NULL);
     memcpy(before, slowness, sizeof before);
     JoxFieldCrowd crowd = {.at = &at, .held = &held, .count = 1, .slowing = 0.7f};
     jox_field_crowd(&w, &crowd);
@@ -146,7 +146,7 @@ static void a_goal_along_a_wall_is_not_reached_through_it(void **state) {
                 .kind = JOX_PLACE_POLYGON, .points = corners, .count = 4, .start = -1};
             jox_place_finish(&place);
             JoxField *field = jox_field_create(&walls, &place, 0, (JoxV2){-9, -9}, (JoxV2){9, 9},
-                                               0.2f, 0.15f, NULL);
+                                               0.2f, 0.15f, NULL, NULL);
             for (int n = -4; n <= 4; n++) {
                 JoxV2 behind = turned((JoxV2){0.4f * (float)n, -0.5f}, angle);
                 JoxV2 before = turned((JoxV2){0.4f * (float)n, 3.0f}, angle);
@@ -159,11 +159,50 @@ static void a_goal_along_a_wall_is_not_reached_through_it(void **state) {
         }
 }
 
+static void expect_same(const JoxField *a, const JoxField *b) {
+    for (int k = 0; k < 4000; k++) {
+        const JoxV2 p = {-9.5f + 0.3f * (float)(k % 64), -9.5f + 0.3f * (float)(k / 64)};
+        const JoxV2 ways[2] = {jox_field_direction(a, p), jox_field_direction(b, p)};
+        const float lengths[2] = {jox_field_distance(a, p), jox_field_distance(b, p)};
+        assert_memory_equal(&ways[0], &ways[1], sizeof ways[0]);
+        assert_memory_equal(&lengths[0], &lengths[1], sizeof lengths[0]);
+    }
+}
+
+/* With what was marked before, and with marks of other walls or of another box, it comes out as
+   without. */
+static void marks_change_no_field(void **state) {
+    (void)state;
+    JoxV2 goal = {0, 6}, at[HELD];
+    float share[HELD];
+    JoxPlace place = {.kind = JOX_PLACE_POINT, .points = &goal, .count = 1, .radius = 0.1f};
+    JoxFieldMarks *marks = NULL;
+    jox_place_finish(&place);
+    for (int k = 0; k < 8; k++) {
+        const double angle = k < 4 ? 0.0 : 0.3;
+        const float wide = k % 4 == 3 ? 11.0f : 9.0f;
+        JoxFieldCrowd crowd = crowd_at((JoxV2){-1.5f, -1.5f}, angle, 0.2f * (float)k, at, share);
+        JoxWalls walls = two_doors(angle);
+        const JoxV2 low = {-wide, -wide}, high = {wide, wide};
+        JoxField *with =
+            jox_field_create(&walls, &place, 0, low, high, 0.2f, 0.15f, &crowd, &marks);
+        JoxField *without =
+            jox_field_create(&walls, &place, 0, low, high, 0.2f, 0.15f, &crowd, NULL);
+        assert_non_null(marks);
+        expect_same(with, without);
+        jox_field_free(with);
+        jox_field_free(without);
+        jox_walls_free(&walls);
+    }
+    jox_field_marks_free(marks);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_crowd_makes_the_way_lead_by_the_other_door),
         cmocka_unit_test(what_a_person_adds_does_not_get_lost_in_walls),
         cmocka_unit_test(a_goal_along_a_wall_is_not_reached_through_it),
+        cmocka_unit_test(marks_change_no_field),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,7 +128,7 @@ static void a_solid_is_left_by_its_nearest_side(void **state) {
 
 static float length_to(const JoxWalls *walls, const JoxPlace *places, uint32_t place, JoxV2 p) {
     JoxField *field = jox_field_create(walls, places, place, (JoxV2){-12, -12}, (JoxV2){12, 12},
-                                       0.25f, 0.2f, NULL);
+                                       0.25f, 0.2f, NULL, NULL);
     float length = jox_field_distance(field, p);
     jox_field_free(field);
     return length;
@@ -157,8 +157,8 @@ static void places_of_every_kind_are_goals(void **state) {
                         0.03f * true_length + 0.02f);
         }
     /* Inside a polygon one has arrived. */
-    JoxField *field =
-        jox_field_create(&walls, places, 0, (JoxV2){-12, -12}, (JoxV2){12, 12}, 0.25f, 0.2f, NULL);
+    JoxField *field = jox_field_create(&walls, places, 0, (JoxV2){-12, -12}, (JoxV2){12, 12}, 0.25f,
+                                       0.2f, NULL, NULL);
     assert_true(jox_field_distance(field, (JoxV2){-6.5f, 0}) == 0.0f);
     assert_true(jox_length(jox_field_direction(field, (JoxV2){-6.5f, 0})) == 0.0f);
     jox_field_free(field);

@@ -48,7 +48,7 @@ static inline JoxField *to_point(const JoxWalls *walls, JoxV2 goal, float half, 
     JoxPlace place = {.kind = JOX_PLACE_POINT, .points = &goal, .count = 1, .radius = 0.1f};
     jox_place_finish(&place);
     return jox_field_create(walls, &place, 0, (JoxV2){-half, -half}, (JoxV2){half, half}, cell,
-                            clearance, NULL);
+                            clearance, NULL, NULL);
 }
 
 static inline bool crosses(const JoxWalls *walls, JoxV2 p, JoxV2 q) {
