@@ -60,7 +60,7 @@ soak() { # NAME SECONDS: saves and samples until the time is over, then ends the
     judge "$1"
     local steps; steps=$(figure steps <"$work/$1/summary")
     same_hash "$1: after $steps steps and $(live "$1") reloads the state is that of a run with nothing beside it" \
-        "$(figure hash <"$work/$1/summary")" "$(hash_of "$program" scenes/tawaf.yaml $sets --steps "$steps")"
+        "$(figure hash <"$work/$1/summary")" "$(hash_of "$program" scenes/tawaf.yaml $sets --steps "$steps" --threads 1)"
     echo "# $1: $(sed -n 's/^  "\(spawned\|removed\|people_lost\)": \([0-9]*\),/\2 \1/p' "$work/$1/summary" | tr '\n' ' ')"
 }
 address() { # NAME: of its page

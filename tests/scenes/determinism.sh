@@ -36,7 +36,7 @@ quietly() { # HASH-FILE PROGRAM ARGS...: runs it; its summary goes to the file
 watched() { # SCENE ARGS...: the hash
     local scene=$1 pid address; shift
     rm -f "$work/page.json"
-    timeout 600 "$JOSTLE" run "$scene" --view "$@" --summary "$work/page.json" >"$work/said" 2>&1 </dev/null & pid=$!
+    timeout --foreground 600 "$JOSTLE" run "$scene" --view "$@" --summary "$work/page.json" >"$work/said" 2>&1 </dev/null & pid=$!
     for _ in $(seq 100); do
         address=$(grep -o 'http://[^ ]*' "$work/said" 2>/dev/null) && break
         sleep 0.05
@@ -46,10 +46,10 @@ watched() { # SCENE ARGS...: the hash
     kill -TERM $pid; wait
     figure hash <"$work/page.json"
 }
-reloaded() { # SCENE ARGS...: the hash; its behaviours are replaced at each 20th step by themselves and a comment
+reloaded() { # SCENE ARGS...: the hash; its behaviours are replaced at some steps by themselves and a comment
     local scene=$1 file tick; shift
     "$JOSTLE" run "$scene" --quiet --log-input "$work/made" "$@" 2>/dev/null
-    for tick in $(seq 3 20 63); do
+    for tick in $(seq 3 12 51); do
         for file in $(sed -n 's/^0 made \(.*\.lua\) .*/\1/p' "$work/made"); do
             { cat "$file"; echo "-- $tick"; } >"$work/file.lua"
             printf '%d files 1\n%s %d\n' "$tick" "$file" "$(wc -c <"$work/file.lua")"
