@@ -186,7 +186,9 @@ endef
 $(B)/%.o: %.c Makefile
 	$(call compile,CC,$(CC),$(CFLAGS_ALL))
 # Their loops over numbers become vector operations, of the same bits.
-$(SHARED)/core/nav/walk_one.o $(SHARED)/core/machine/eval.o $(SHARED)/core/geom/field_crowd.o $(ISAS:%=$(SHARED)/core/force/breadth_wide.%.o): OPT += $(if $(filter release,$(MODE)),-O3)
+VECTORISED := core/nav/walk_one core/machine/eval core/geom/field_crowd core/record/fields/density_spread \
+           $(ISAS:%=core/force/breadth_wide.%)
+$(VECTORISED:%=$(SHARED)/%.o): OPT += $(if $(filter release,$(MODE)),-O3)
 define wide
 $(SHARED)/%_wide.$(1).o: %_wide.c Makefile
 	$$(call compile,CC,$$(CC),$$(CFLAGS_ALL) $(ISA.$(1)) -DJOX_ISA_$(1))
