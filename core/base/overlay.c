@@ -41,13 +41,26 @@ const JoxOverlay *jox_overlay_use(const JoxOverlay *overlay) {
     return before;
 }
 
-void jox_overlay_keep(const char *path, const char *text, size_t length) {
-    if (used && used->tape)
+void jox_overlay_keep(const char *path, const char *text, size_t length, bool from_disk) {
+    if (used && used->tape && !jox_overlay_find(used, path))
         jox_overlay_put(used->tape, path, text, length);
+    for (const JoxOverlay *o = used; o && from_disk; o = o->under)
+        if (o->told)
+            o->told(o->context, path, text, length);
 }
 
 const JoxOverlayFile *jox_overlay_file(const char *path) {
-    return jox_overlay_find(used, path);
+    const JoxOverlayFile *file = NULL;
+    for (const JoxOverlay *o = used; o && !file; o = o->under)
+        file = jox_overlay_find(o, path);
+    return file;
+}
+
+bool jox_overlay_opens(void) {
+    const JoxOverlay *o = used;
+    while (o && !o->sealed)
+        o = o->under;
+    return !o;
 }
 
 bool jox_is_file(const char *path) {

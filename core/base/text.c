@@ -145,8 +145,16 @@ static char *read_overlay(const JoxOverlayFile *file, size_t limit, size_t *leng
 
 char *jox_read_file(const char *path, size_t limit, size_t *length) {
     const JoxOverlayFile *instead = jox_overlay_file(path);
-    if (instead)
-        return read_overlay(instead, limit, length);
+    if (instead) {
+        char *copy = read_overlay(instead, limit, length);
+        if (copy)
+            jox_overlay_keep(path, instead->text, instead->length, false);
+        return copy;
+    }
+    if (!jox_overlay_opens()) {
+        errno = ENOENT;
+        return NULL;
+    }
     FILE *file = jox_file_open(path, "rb");
     if (!file)
         return NULL;
@@ -163,7 +171,7 @@ char *jox_read_file(const char *path, size_t limit, size_t *length) {
         return NULL;
     }
     jox_text_append(&text, "", 0);
-    jox_overlay_keep(path, text.data, text.length);
+    jox_overlay_keep(path, text.data, text.length, true);
     if (length)
         *length = text.length;
     return text.data;

@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/overlay.h"
 #include "jostle_tools.h"
 
 /* In the order of `jostle --help`. */
@@ -123,6 +124,10 @@ int cli_write(const CliCommand *command, const char *path, const char *text);
 void cli_print(void *context, const char *text);
 /* Prints an error unless it was sent as a message before; returns the exit status. */
 int cli_failed(const CliCommand *command, const JoError *error, bool sent);
+
+/* Has a scene read by a child process that may do nothing else; `files` are then what it read, and
+   sealed: to be loaded from (jox_overlay_use). JO_OK, or the exit status, with a message. */
+int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files);
 
 /* The help of a command, and the manual page of all. Freed by jo_free. */
 char *cli_help(const CliCommand *command);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/confine.h"
 #include "cli/cli.h"
 
 static void print_help(FILE *out) {
@@ -39,7 +40,11 @@ int main(int argc, char **argv) {
         return end(JO_OK);
     }
     if (!strcmp(word, "--version")) {
+        const JoxConfining can = jox_confine_can();
         printf("jostle %s\n", jo_version());
+        printf("scenes are read by a process with %s and %s\n",
+               can.files ? "Landlock" : "no Landlock in this kernel",
+               can.calls ? "seccomp" : "no seccomp");
         return JO_OK;
     }
     for (size_t c = 0; c < cli_command_count; c++)

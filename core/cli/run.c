@@ -14,8 +14,9 @@ typedef struct Run {
     double seconds, every, record_every;
     uint64_t steps, seeds, trace;
     bool view, of_scene, has_seconds, has_steps, watch, no_watch, has_trace, quiet, profile;
-    bool no_half;
-    bool troubled; /* it went on to its end, but not as it was written */
+    bool no_half, trusted;
+    JoxOverlay files; /* what was vetted */
+    bool troubled;    /* it went on to its end, but not as it was written */
 } Run;
 
 static const double LEAST_DT = 0.001; /* s, of --dt */
@@ -65,6 +66,11 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Run, summary)},
     {"profile-lua", NULL, "list what each plain Lua function costs, by state",
      CLI_TO(Run, profile)},
+    {"trusted", NULL,
+     "the scene is one's own: it is read at once. Else a process that has no network, writes "
+     "nothing and reads the scene's folder, ../behaviours and mods alone reads it first, and it is "
+     "loaded from what that one read",
+     CLI_TO(Run, trusted)},
     {"watch", NULL, "reload behaviours and the scene when their files change",
      "where the output is a terminal", CLI_TO(Run, watch)},
     {"no-watch", NULL, "do not", CLI_TO(Run, no_watch)},
@@ -91,6 +97,16 @@ static int complain(const JoError *error, bool already) {
     return cli_failed(&cli_run, error, already);
 }
 
+/* As jo_scene_load, or of a scene's half step, from the files that were vetted. */
+static JoScene *load(const Run *run, const JoScene *half_of, JoError *error) {
+    const JoxOverlay *before = run->files.sealed ? jox_overlay_use(&run->files) : NULL;
+    JoScene *scene =
+        half_of ? jo_scene_half_step(&run->def, half_of, error) : jo_scene_load(&run->def, error);
+    if (run->files.sealed)
+        jox_overlay_use(before);
+    return scene;
+}
+
 /* The report's page, with the same run at half the step beside it. */
 static int write_page(const Run *run, const JoScene *scene, uint64_t steps) {
     JoError error = {0};
@@ -98,7 +114,7 @@ static int write_page(const Run *run, const JoScene *scene, uint64_t steps) {
                       : run->no_half                            ? "--no-half-step was given"
                       : jo_scene_stats(scene).dt / 2 < LEAST_DT ? "it would be below 0.001 s"
                                                                 : NULL;
-    JoScene *half = why ? NULL : jo_scene_half_step(&run->def, scene, &error);
+    JoScene *half = why ? NULL : load(run, scene, &error);
     if (!why && !half)
         why = error.text;
     if (half && !run->quiet) {
@@ -149,7 +165,7 @@ static bool can_summarize(const Run *run) {
 /* Loads and simulates once; *summary receives JSON when asked for. */
 static int simulate(Run *run, char **summary) {
     JoError error = {0};
-    JoScene *scene = jo_scene_load(&run->def, &error);
+    JoScene *scene = load(run, NULL, &error);
     if (!scene)
         return complain(&error, true);
     cli_catch_signals(true);
@@ -274,10 +290,14 @@ static int begin(Run *run) {
     char *summary = NULL;
     if (run->view && !can_summarize(run))
         return JO_FAILED;
+    cli_catch_signals(false);
+    int status = run->trusted ? JO_OK : cli_vet(&cli_run, &run->def, &run->files);
+    if (status != JO_OK)
+        return status;
     cli_catch_signals(run->view);
-    int status = run->view    ? show(run, &summary)
-                 : run->seeds ? simulate_seeds(run)
-                              : simulate(run, &summary);
+    status = run->view    ? show(run, &summary)
+             : run->seeds ? simulate_seeds(run)
+                          : simulate(run, &summary);
     if (summary && run->summary) {
         int written = cli_write(&cli_run, run->summary, summary);
         status = status ? status : written;
@@ -302,6 +322,7 @@ static int run_scene(int argc, char **argv) {
         run.def.no_density = !run.summary && !run.seeds && !run.view && !run.report && !run.data;
         status = why ? cli_misused(&cli_run, why) : begin(&run);
     }
+    jox_overlay_free(&run.files);
     cli_free(&cli_run, &run, &plain);
     return status;
 }

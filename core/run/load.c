@@ -148,7 +148,9 @@ static void build(JoScene *scene, const JoSceneDef *def, uint32_t count,
     machines->bracket = jox_lua_bracket;
     machines->hook_sections = jox_lua_sections;
     machines->call_context = scene->lua;
-    if (diagnostics->errors == 0) {
+    if (diagnostics->errors == 0 && def->dry) {
+        jox_run_check_names(scene, diagnostics);
+    } else if (diagnostics->errors == 0) {
         jox_run_populate(scene, diagnostics);
         jox_run_check_names(scene, diagnostics);
         jox_run_check_step(scene, diagnostics);
@@ -196,15 +198,22 @@ static void to_nobody(void *context, const char *text) {
     (void)text;
 }
 
-/* Reads through the scene's overlay from here on, which begins as that of whoever loads it. Returns
-   the latter, to be put back. */
+/* Reads through the scene's overlay from here on, which begins as that of whoever loads it, or lies
+   over that while it loads. Returns the latter, to be put back. */
 static const JoxOverlay *use_overlay(JoScene *scene, const JoSceneDef *def) {
     const JoxOverlay *before = jox_overlay_use(&scene->overlay);
-    for (size_t f = 0; before && f < before->count; f++)
+    const bool lies_over = before && (before->sealed || before->told);
+    scene->overlay.under = lies_over ? before : NULL;
+    for (size_t f = 0; before && !lies_over && f < before->count; f++)
         jox_overlay_put(&scene->overlay, before->files[f].path, before->files[f].text,
                         before->files[f].length);
     scene->overlay.tape = def->resumable ? &scene->tape : NULL;
     return before;
+}
+
+static void leave_overlay(JoScene *scene, const JoxOverlay *before) {
+    jox_overlay_use(before);
+    scene->overlay.under = NULL;
 }
 
 /* Frees a scene that did not load: it has no end that anybody waits for. */
@@ -231,7 +240,7 @@ static int32_t blame(const JoSceneDef *def, uint64_t without) {
             build(scene, def, count, &now);
             scene->mods->count = all;
         }
-        jox_overlay_use(before);
+        leave_overlay(scene, before);
         bool fails = count >= all || now.errors > 0;
         int32_t culprit = fails && count > 0 ? (int32_t)scene->mods->number[count - 1] : -1;
         jox_diag_free(&ignored);
@@ -254,7 +263,7 @@ static JoScene *attempt(const JoSceneDef *def, uint64_t without, int32_t *culpri
     scene->mods = jox_run_find_mods(def, without, mod_problems);
     *culprit = -1;
     build(scene, def, scene->mods->count, diagnostics);
-    jox_overlay_use(before);
+    leave_overlay(scene, before);
     for (uint32_t f = 0; scene->spec && f < scene->spec->file_count; f++)
         jox_diag_attach_source(diagnostics, scene->spec->files[f].path, scene->spec->files[f].text,
                                scene->spec->files[f].length);
@@ -371,6 +380,8 @@ static JoScene *load_and_tell(const JoSceneDef *def, JoxDiagnosed *diagnosed, vo
     for (uint32_t m = 0; m < scene->mods->count; m++)
         jox_run_say(scene, "%s %s %s (%s)\n", m ? "     " : "mods:", scene->mods->items[m].name,
                     scene->mods->items[m].version, scene->mods->items[m].folder);
+    if (def->dry)
+        return scene;
     jox_run_check_log(scene);
     JoxDiagnostics placed = {0};
     jox_run_settle(scene, &placed);

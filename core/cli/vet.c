@@ -1,0 +1,215 @@
+/* Scenes of others are read first by a child that could do no harm if they took it over, and are
+   loaded from what it read. */
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/confine.h"
+#include "base/format/path.h"
+#include "base/mem.h"
+#include "base/text.h"
+#include "cli/cli.h"
+
+enum { SECONDS = 20, MOST_FOLDERS = 64 };
+static const size_t MEMORY = (size_t)2 << 30, LARGEST = (size_t)512 << 20;
+
+/* What the child sends: a head, then so many bytes of a name and of a text. */
+typedef enum Kind { READ_FILE, MESSAGE, LOADED, REFUSED, OUT_OF_MEMORY } Kind;
+typedef struct Head {
+    uint32_t kind;
+    uint64_t name, text;
+} Head;
+
+/* ---- the child ---- */
+
+typedef struct Child {
+    int out;
+} Child;
+
+static void put(const Child *child, const void *bytes, size_t count) {
+    for (const char *at = bytes; count > 0;) {
+        const ssize_t done = write(child->out, at, count);
+        if (done < 0 && errno != EINTR)
+            _exit(JO_FAILED);
+        at += done > 0 ? done : 0;
+        count -= done > 0 ? (size_t)done : 0;
+    }
+}
+
+static void send_it(const Child *child, Kind kind, const char *name, const char *text,
+                    size_t length) {
+    const Head head = {.kind = kind, .name = strlen(name), .text = length};
+    put(child, &head, sizeof head);
+    put(child, name, head.name);
+    put(child, text, length);
+}
+
+static void send_file(void *context, const char *path, const char *text, size_t length) {
+    send_it(context, READ_FILE, path, text, length);
+}
+
+static void send_message(void *context, const char *text) {
+    send_it(context, MESSAGE, "", text, strlen(text));
+}
+
+/* The user's folder of mods, or the list of those that are on. */
+static const char *home_folder(const char *variable, const char *usual,
+                               char path[JOX_LONGEST_PATH]) {
+    const char *set = getenv(variable), *home = getenv("HOME");
+    if (set && *set)
+        snprintf(path, JOX_LONGEST_PATH, "%s/jostle", set);
+    else
+        snprintf(path, JOX_LONGEST_PATH, "%s/%s/jostle", home ? home : "", usual);
+    return path;
+}
+
+/* Where a scene's files lie: its folder and ../behaviours, mods, what is installed, its log. */
+static bool confine(const JoSceneDef *def) {
+    const char *folders[MOST_FOLDERS];
+    char own[JOX_LONGEST_PATH], behaviours[JOX_LONGEST_PATH + 16], data[JOX_LONGEST_PATH],
+        config[JOX_LONGEST_PATH];
+    const int length = (int)jox_path_folder(def->path);
+    size_t count = 0;
+    snprintf(own, sizeof own, "%.*s.", length, def->path);
+    snprintf(behaviours, sizeof behaviours, "%.*s../behaviours", length, def->path);
+    folders[count++] = own;
+    folders[count++] = behaviours;
+    folders[count++] = JOX_DATADIR;
+    folders[count++] = home_folder("XDG_DATA_HOME", ".local/share", data);
+    folders[count++] = home_folder("XDG_CONFIG_HOME", ".config", config);
+    if (def->input_log)
+        folders[count++] = def->input_log;
+    for (size_t m = 0; m < def->mod_count && count < MOST_FOLDERS; m++)
+        folders[count++] = def->mods[m];
+    return jox_confine(&(JoxConfines){folders, count, MEMORY, SECONDS});
+}
+
+/* Reads and compiles, and says what it read; does not return. */
+static void read_it(const JoSceneDef *given, int out) {
+    Child child = {out};
+    JoError error = {0};
+    JoSceneDef def = *given;
+    def.threads = 1;
+    def.dry = true;
+    def.message = send_message;
+    def.message_context = &child;
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    signal(SIGINT, SIG_DFL);
+    signal(SIGTERM, SIG_DFL);
+    if (!confine(&def)) {
+        send_message(&child, "this system cannot confine the process that reads scenes\n");
+        send_it(&child, REFUSED, "", "", 0);
+        _exit(JO_FAILED);
+    }
+    const JoxOverlay overlay = {.told = send_file, .context = &child};
+    jox_overlay_use(&overlay);
+    JoScene *scene = jo_scene_load(&def, &error);
+    const Kind end = scene ? LOADED : error.code == JO_FAILED ? OUT_OF_MEMORY : REFUSED;
+    send_it(&child, end, "", "", 0);
+    _exit(JO_OK); /* nothing of the program's that it shares with the child is ended twice */
+}
+
+/* ---- the parent ---- */
+
+typedef struct Parent {
+    const CliCommand *command;
+    const char *scene;
+    JoxOverlay *files;
+    JoxText said;
+    size_t taken; /* bytes */
+} Parent;
+
+static bool get(int from, void *bytes, size_t count) {
+    for (char *at = bytes; count > 0;) {
+        const ssize_t done = read(from, at, count);
+        if (done == 0 || (done < 0 && errno != EINTR))
+            return false;
+        at += done > 0 ? done : 0;
+        count -= done > 0 ? (size_t)done : 0;
+    }
+    return true;
+}
+
+/* Takes what the child sends up to its end, which is returned; -1 where it ends without. */
+static int receive(Parent *parent, int from) {
+    Head head;
+    while (get(from, &head, sizeof head)) {
+        if (head.kind > OUT_OF_MEMORY || head.name >= JOX_LONGEST_PATH || head.text > LARGEST ||
+            (parent->taken += head.name + head.text) > LARGEST)
+            return -1;
+        if (head.kind >= LOADED)
+            return (int)head.kind;
+        char *name = jox_alloc(head.name + 1, 1), *text = jox_alloc(head.text + 1, 1);
+        const bool whole = get(from, name, head.name) && get(from, text, head.text);
+        if (whole && head.kind == READ_FILE)
+            jox_overlay_put(parent->files, name, text, head.text);
+        else if (whole)
+            jox_text_append(&parent->said, text, head.text);
+        jox_free(name);
+        jox_free(text);
+        if (!whole)
+            return -1;
+    }
+    return -1;
+}
+
+/* Says at which file the child ended, and why. */
+static int ended(const Parent *parent, int end, int status) {
+    const JoxOverlay *files = parent->files;
+    const char *file = files->count ? files->files[files->count - 1].path : parent->scene;
+    const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    fprintf(stderr, "jostle %s: %s: error: reading this scene ", parent->command->name, file);
+    if (end == OUT_OF_MEMORY)
+        fprintf(stderr, "takes more than %zu MB of memory\n", MEMORY >> 20);
+    else if (number == SIGXCPU || number == SIGKILL)
+        fprintf(stderr, "takes more processor time than it may (%d s)\n", SECONDS);
+    else if (number == SIGSYS)
+        fputs("tried to start a program or to reach the network\n", stderr);
+    else if (number)
+        fprintf(stderr, "broke the process that read it (%s); please report it\n",
+                strsignal(number));
+    else
+        fprintf(stderr, "ended the process that read it; please report it\n");
+    return JO_INPUT;
+}
+
+static int wait_for(pid_t child) {
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+        continue;
+    return status;
+}
+
+int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files) {
+    int ends[2];
+    Parent parent = {.command = command, .scene = def->path, .files = files};
+    fflush(NULL);
+    if (pipe(ends) != 0) {
+        fprintf(stderr, "jostle %s: %s\n", command->name, strerror(errno));
+        return JO_FAILED;
+    }
+    const pid_t child = fork();
+    if (child == 0) {
+        close(ends[0]);
+        read_it(def, ends[1]);
+    }
+    close(ends[1]);
+    const int end = child > 0 ? receive(&parent, ends[0]) : -1;
+    close(ends[0]); /* a child that sends on ends by it */
+    const int status = child > 0 ? wait_for(child) : 0;
+    if (child < 0)
+        fprintf(stderr, "jostle %s: no process to read the scene in\n", command->name);
+    if (end == REFUSED && parent.said.data)
+        fputs(parent.said.data, stderr);
+    jox_text_free(&parent.said);
+    files->sealed = true;
+    return child < 0        ? JO_FAILED
+           : end == LOADED  ? JO_OK
+           : end == REFUSED ? JO_INPUT
+                            : ended(&parent, end, status);
+}

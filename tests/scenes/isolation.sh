@@ -1,0 +1,38 @@
+# Scenes of others: read by a process of their own, which reaches nothing beyond their folders and has its limits.
+. tests/scenes/lib.sh
+program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
+cd "$work" || exit 1
+mkdir -p scenes behaviours elsewhere
+says() { # NAME STATUS TEXT COMMAND...
+    local name=$1 status=$2 text=$3; shift 3
+    timeout -s KILL 60 "$@" >out 2>&1 </dev/null
+    local got=$?
+    if [ $got = "$status" ] && { [ -z "$text" ] || grep -qF -- "$text" out; }; then echo "ok $name"; else
+        echo "not ok $name: status $got, wanted $status and '$text'"; head -5 out; fi
+}
+rest='return machine { name = "m", start = "S", states = { S = { steer = hold } } }'
+echo "$rest" >elsewhere/away.lua
+echo "$rest" >behaviours/near.lua
+scene() { printf 'jostle: 1\n%sgroups: {g: {behaviour: %s, at: [[0, 0]]}}\n' "$2" "$1" >scenes/s.yaml; }
+
+scene near.lua
+says "a scene with its behaviour in ../behaviours" 0 "" "$program" run scenes/s.yaml --quiet --steps 2
+says "the version says what the kernel has" 0 "scenes are read by a process with" "$program" --version
+if ! grep -q "no Landlock" out; then
+    scene ../elsewhere/away.lua
+    says "a behaviour from elsewhere is not read" 3 "Permission denied" "$program" run scenes/s.yaml --quiet --steps 2
+    says "  but by one who trusts the scene" 0 "" "$program" run scenes/s.yaml --quiet --steps 2 --trusted
+fi
+
+# ---- a behaviour that is never read to its end, as its scene lifts the limits ----
+echo 'while true do end' >behaviours/endless.lua
+scene endless.lua 'limits: {load_instructions: 1e9}
+'
+says "reading that never ends, ends, and names the file" 3 "behaviours/endless.lua: error: reading this scene takes more" \
+    bash -c 'ulimit -t 1; exec "$0" run scenes/s.yaml --quiet --steps 2' "$program"
+
+# ---- what was vetted is what runs ----
+scene near.lua
+vetted=$("$program" run scenes/s.yaml --quiet --steps 20 --summary - | grep '"hash"')
+trusted=$("$program" run scenes/s.yaml --quiet --steps 20 --summary - --trusted | grep '"hash"')
+[ -n "$vetted" ] && [ "$vetted" = "$trusted" ]; verdict "one hash, vetted or trusted" $?

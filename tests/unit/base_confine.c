@@ -1,0 +1,235 @@
+/* A confined process reads its folder, and can do nothing else that reaches beyond itself. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/confine.h"
+#include "base/file.h"
+#include "base/mem.h"
+#include "base/overlay.h"
+#include "base/text.h"
+
+static char folder[] = "/tmp/jostle-confine-XXXXXX";
+
+static void path_of(const char *name, char path[256]) {
+    snprintf(path, 256, "%s/%s", folder, name);
+}
+
+static void write_file(const char *name) {
+    char path[256];
+    path_of(name, path);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(name, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* What becomes of a confined process that does this: its status, or minus the signal. */
+static int confined(int (*act)(void)) {
+    char own[256];
+    int status;
+    path_of("own", own);
+    const pid_t child = fork();
+    if (child == 0) {
+        const char *folders[] = {own, "/nowhere"};
+        const JoxConfines confines = {folders, 2, (size_t)64 << 20, 1};
+        _exit(jox_confine(&confines) ? act() : 99);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+static int reads(const char *name) {
+    char path[256];
+    path_of(name, path);
+    const int file = open(path, O_RDONLY);
+    return file >= 0 ? 0 : errno;
+}
+
+static int read_own(void) {
+    return reads("own/a");
+}
+
+static int read_other(void) {
+    return reads("other/a");
+}
+
+static int read_by_link(void) {
+    return reads("own/link");
+}
+
+static int makes(const char *name, int flags) {
+    char path[256];
+    path_of(name, path);
+    return open(path, flags, 0600) >= 0 ? 0 : errno;
+}
+
+static int make_file(void) {
+    return makes("own/new", O_WRONLY | O_CREAT);
+}
+
+static int change_file(void) {
+    return makes("own/a", O_RDWR);
+}
+
+static int remove_file(void) {
+    char path[256];
+    path_of("own/a", path);
+    return unlink(path) == 0 ? 0 : errno;
+}
+
+static int start_process(void) {
+    const pid_t child = fork();
+    if (child == 0)
+        _exit(0);
+    return child > 0 ? 0 : errno;
+}
+
+static int start_program(void) {
+    return execl("/bin/true", "true", (char *)NULL);
+}
+
+static int open_socket(void) {
+    return socket(AF_INET, SOCK_STREAM, 0) >= 0 ? 0 : errno;
+}
+
+static int take_memory(void) {
+    return malloc((size_t)256 << 20) ? 0 : errno;
+}
+
+static int spin(void) {
+    for (volatile unsigned i = 0; i + 1 > 0; i = 1)
+        continue;
+    return 0;
+}
+
+static void it_reads_its_folder_alone(void **state) {
+    (void)state;
+    if (!jox_confine_can().files)
+        skip();
+    assert_int_equal(confined(read_own), 0);
+    assert_int_equal(confined(read_other), EACCES);
+    assert_int_equal(confined(read_by_link), EACCES);
+}
+
+static void it_writes_nothing(void **state) {
+    (void)state;
+    if (!jox_confine_can().files && !jox_confine_can().calls)
+        skip();
+    assert_int_equal(confined(make_file), EACCES);
+    assert_int_equal(confined(change_file), EACCES);
+    const int removed = confined(remove_file);
+    assert_true(removed == EACCES || removed == EPERM);
+    assert_int_equal(reads("own/a"), 0);
+}
+
+static void it_starts_nothing_and_has_no_network(void **state) {
+    (void)state;
+    if (!jox_confine_can().calls)
+        skip();
+    assert_int_equal(confined(start_process), EPERM);
+    assert_int_equal(confined(start_program), -SIGSYS);
+    assert_int_equal(confined(open_socket), -SIGSYS);
+}
+
+static void its_memory_and_time_are_bounded(void **state) {
+    (void)state;
+    assert_int_equal(confined(take_memory), ENOMEM);
+    const int ended = confined(spin);
+    assert_true(ended == -SIGXCPU || ended == -SIGKILL);
+}
+
+/* ---- what it read stands for the files ---- */
+
+static char *read_through(const JoxOverlay *overlay, const char *name) {
+    char path[256];
+    path_of(name, path);
+    const JoxOverlay *before = jox_overlay_use(overlay);
+    char *text = jox_read_file(path, 1000, NULL);
+    const int number = errno;
+    jox_overlay_use(before);
+    errno = number;
+    return text;
+}
+
+static void keep(void *context, const char *path, const char *text, size_t length) {
+    jox_overlay_put(context, path, text, length);
+}
+
+static void what_was_vetted_is_what_is_read(void **state) {
+    (void)state;
+    JoxOverlay vetted = {0}, listening = {.told = keep, .context = &vetted}, over = {0}, tape = {0};
+    char *text = read_through(&listening, "own/a");
+    assert_string_equal(text, "own/a");
+    jox_free(text);
+    assert_int_equal(vetted.count, 1);
+    char path[256];
+    path_of("own/a", path);
+    FILE *file = fopen(path, "w"); /* somebody changes it after it was vetted */
+    assert_non_null(file);
+    fputs("changed", file);
+    assert_int_equal(fclose(file), 0);
+    vetted.sealed = true;
+    over.under = &vetted;
+    over.tape = &tape;
+    text = read_through(&over, "own/a");
+    assert_string_equal(text, "own/a");
+    jox_free(text);
+    assert_int_equal(tape.count, 1); /* as if it were from the disk */
+    assert_null(read_through(&over, "other/a"));
+    assert_int_equal(errno, ENOENT);
+    write_file("own/a");
+    jox_overlay_free(&vetted);
+    jox_overlay_free(&tape);
+}
+
+static int make_files(void **state) {
+    (void)state;
+    char own[256], other[256], link[256];
+    if (!mkdtemp(folder))
+        return -1;
+    path_of("own", own);
+    path_of("other", other);
+    path_of("own/link", link);
+    if (mkdir(own, 0700) || mkdir(other, 0700) || symlink("../other/a", link))
+        return -1;
+    write_file("own/a");
+    write_file("other/a");
+    return 0;
+}
+
+static int remove_files(void **state) {
+    static const char *const NAMES[] = {"own/a", "own/new", "own/link", "other/a", "own", "other"};
+    char path[256];
+    (void)state;
+    for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; n++) {
+        path_of(NAMES[n], path);
+        remove(path);
+    }
+    return rmdir(folder);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(it_reads_its_folder_alone),
+        cmocka_unit_test(it_writes_nothing),
+        cmocka_unit_test(it_starts_nothing_and_has_no_network),
+        cmocka_unit_test(its_memory_and_time_are_bounded),
+        cmocka_unit_test(what_was_vetted_is_what_is_read),
+    };
+    return cmocka_run_group_tests(tests, make_files, remove_files);
+}
