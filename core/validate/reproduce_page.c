@@ -205,8 +205,11 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
     jox_html_text(out, claim->text);
     fputs("<br><small>Source: ", out);
     jox_html_text(out, claim->source);
-    if (*claim->level)
-        fprintf(out, "<br>Haste: %s.", claim->level);
+    if (*claim->level) {
+        fputs("<br>Haste: ", out);
+        jox_html_text(out, claim->level);
+        fputc('.', out);
+    }
     if (*claim->calibrated || *claim->held_out) {
         fputs(*claim->calibrated ? "<br>Calibrated: " : "<br>Held out: ", out);
         jox_html_text(out, *claim->calibrated ? claim->calibrated : claim->held_out);
@@ -307,10 +310,12 @@ static bool write_table(const JoxReproduction *all, const char *when, JoxText *e
                                                : "");
             put_cell(out, *figure->what ? figure->what : figure->name);
             put_cell(out, figure->expected);
-            if (isfinite(v->mean))
-                fprintf(out, "%.4g %s | ", v->mean, figure->unit);
-            else
+            if (isfinite(v->mean)) {
+                fprintf(out, "%.4g ", v->mean);
+                put_cell(out, figure->unit);
+            } else {
                 fputs("not measured | ", out);
+            }
             if (isfinite(v->bound))
                 fprintf(out, "+- %.2g", v->bound);
             fprintf(out, " | %u | ", v->seeds);
@@ -321,9 +326,14 @@ static bool write_table(const JoxReproduction *all, const char *when, JoxText *e
         const JoxClaim *claim = all->outcomes[o].claim;
         if (all->outcomes[o].inside || claim->tried_count == 0)
             continue;
-        fprintf(out, "\n%s misses. What was tried:\n\n", claim->id);
-        for (uint32_t t = 0; t < claim->tried_count; t++)
-            fprintf(out, "- %s\n", claim->tried[t]);
+        fputc('\n', out);
+        jox_quote_put(out, jox_quote_markdown, claim->id);
+        fputs(" misses. What was tried:\n\n", out);
+        for (uint32_t t = 0; t < claim->tried_count; t++) {
+            fputs("- ", out);
+            jox_quote_put(out, jox_quote_markdown, claim->tried[t]);
+            fputc('\n', out);
+        }
     }
     return jox_plot_close(out, "table.md", error);
 }

@@ -115,6 +115,7 @@ expect "a claim out of band is exit status 1" 1 "1 of 2 claims in band; these mi
 says "its figure says OUT" "band 1 to 2: OUT"
 grep -q 'class=out>misses' "$work/rep/index.html"; verdict "the page says so" $?
 grep -qF '<li>Walking &lt;faster&gt;: 3 m/s, no better</li>' "$work/rep/index.html" && grep -qF -- '- Waiting' "$work/rep/table.md" && grep -qF 'BAD misses. What was tried:' "$work/rep/table.md" && ! grep -qF 'G misses' "$work/rep/table.md"; verdict "and what was tried" $?
+grep -qF "Walking &lt;faster>" "$work/rep/table.md" && ! grep -qF "<faster>" "$work/rep/table.md"; verdict "quoted in the table, too" $?
 expect "one claim by its id" 0 "1 of 1 claims in band" "${run[@]}" G
 expect "one claim by its file" 1 "0 of 1 claims in band; these miss: BAD" "${run[@]}" bad
 expect "no such claim" 3 "there is no claim 'X'" "${run[@]}" X
