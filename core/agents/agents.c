@@ -279,3 +279,25 @@ void jox_agents_free(JoxAgents *a) {
     jox_free(a->order);
     *a = (JoxAgents){0};
 }
+
+bool jox_agents_wrap(JoxAgents *a, uint32_t i) {
+    JoxV2 before = {a->x[i], a->y[i]};
+    if (a->period.x > 0.0f) {
+        float turns = floorf((a->x[i] - a->origin.x) / a->period.x);
+        a->x[i] -= turns * a->period.x;
+    }
+    if (a->period.y > 0.0f) {
+        float turns = floorf((a->y[i] - a->origin.y) / a->period.y);
+        a->y[i] -= turns * a->period.y;
+    }
+    JOX_ASSERT(!(a->period.x > 0.0f && fabsf(a->x[i] - a->origin.x) > 1.001f * a->period.x));
+    JOX_ASSERT(!(a->period.y > 0.0f && fabsf(a->y[i] - a->origin.y) > 1.001f * a->period.y));
+    JoxV2 shift = jox_sub((JoxV2){a->x[i], a->y[i]}, before);
+    if (!isfinite(shift.x + shift.y)) /* the guard will put it back to where it was */
+        return true;
+    a->prev_x[i] += shift.x;
+    a->prev_y[i] += shift.y;
+    a->still_x[i] += shift.x;
+    a->still_y[i] += shift.y;
+    return shift.x != 0.0f || shift.y != 0.0f;
+}

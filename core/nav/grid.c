@@ -5,7 +5,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "nav/rows.h"
+#include "nav/internal.h"
 
 /* m: somewhat more than people search in a crowd, so that three rows hold what one searches. */
 static const float ROW_HEIGHT = 1.2f;

@@ -115,10 +115,6 @@ typedef float JoxSettleKernel(const JoxMove *move, uint32_t begin, uint32_t end)
     JoxSettleKernel jox_move_settle_##name;
 JOX_ISAS(X)
 #undef X
-/* In plain C, for one agent. Where it ends that would go to a point and is near walls. */
-JoxV2 jox_move_by_walls(const JoxMove *move, uint32_t agent, JoxV2 to);
-/* Who may have left over a periodic edge; whether it did. */
-bool jox_move_over_edge(JoxAgents *agents, uint32_t agent);
 
 /* What the walking law needs of a step (core/walking.md). */
 typedef struct JoxWalk {

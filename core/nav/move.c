@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "geom/polygon.h"
 #include "nav/kernels.h"
 
 #define X(name, isa) [isa] = {jox_move_integrate_##name, jox_move_settle_##name},
@@ -14,8 +13,6 @@ static const struct Kernels {
 
 static const float STIFFNESS = 0.2f;   /* share of an overlap removed by one sweep, in a step of */
 static const float STIFF_STEP = 0.05f; /* s; less in proportion in shorter ones */
-static const float SKIN = 0.001f;      /* m: kept from a wall that was about to be passed */
-#define MOST_PIECES 1e5f               /* of a way; who goes farther is beyond the world's end */
 enum { SWEEPS = 2 };
 
 static void integrate(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -78,123 +75,6 @@ static void sweep_touched(void *context, uint32_t begin, uint32_t end, uint32_t 
         }
         to[i] = jox_add(from[i], shift);
     }
-}
-
-/* First edge that the way p -> q passes from its outer side; t in [0, 1] along the way. */
-static bool first_passed(const JoxWallGrid *grid, JoxV2 p, JoxV2 q, uint32_t *edge, float *t) {
-    uint32_t count;
-    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
-    float best = 2.0f;
-    JoxV2 way = jox_sub(q, p);
-    for (uint32_t i = 0; i < count; i++) {
-        const JoxWallVertex *v = &grid->walls->vertices[edges[i]];
-        JoxV2 a = v->point, b = grid->walls->vertices[v->next].point;
-        float before = jox_det(v->direction, jox_sub(p, a));
-        float after = jox_det(v->direction, jox_sub(q, a));
-        /* Outside is to the right: negative. Who stands on the line itself counts as outside. */
-        if (before > 0.0f || after < 0.0f || before == after)
-            continue;
-        float at = before / (before - after);
-        float along = jox_dot(jox_sub(jox_add(p, jox_scale(way, at)), a), v->direction);
-        if (along < -SKIN || along > jox_length(jox_sub(b, a)) + SKIN || at >= best)
-            continue;
-        best = at;
-        *edge = edges[i];
-        *t = at;
-    }
-    return best <= 1.0f;
-}
-
-/* Stops a way at the wall that it would pass and lets it slide along it. */
-static JoxV2 stop_at_walls(const JoxWallGrid *grid, JoxV2 p, JoxV2 q) {
-    for (int round = 0; round < 3; round++) {
-        uint32_t edge = 0;
-        float t;
-        if (!first_passed(grid, p, q, &edge, &t))
-            return q;
-        JOX_ASSERT(edge < grid->walls->count && t >= 0.0f && t <= 1.0f);
-        JoxV2 normal = jox_scale(jox_left(grid->walls->vertices[edge].direction), -1.0f);
-        JoxV2 a = grid->walls->vertices[edge].point;
-        float outside = jox_dot(jox_sub(q, a), normal);
-        q = jox_add(q, jox_scale(normal, SKIN - outside));
-    }
-    return p; /* a corner narrower than the step: stay */
-}
-
-/* A way that is longer than the grid tells walls for, in pieces that are not: where the piece
-   begins in which a wall ends it, or the last; *q is then that piece's end. */
-static JoxV2 piece_of_way(const JoxWallGrid *grid, JoxV2 p, JoxV2 *q) {
-    const JoxV2 way = jox_sub(*q, p);
-    const float length = jox_length(way), pieces = ceilf(length / grid->reach);
-    if (!(pieces > 1.0f && pieces < MOST_PIECES))
-        return p;
-    JoxV2 from = p, to = p;
-    for (float n = 1.0f; n <= pieces; n++) {
-        uint32_t edge;
-        float t;
-        from = to;
-        to = jox_add(p, jox_scale(way, n / pieces));
-        if (first_passed(grid, from, to, &edge, &t))
-            break;
-    }
-    *q = to;
-    return from;
-}
-
-/* They come in at the other side, with the step's start beyond the edge. */
-bool jox_move_over_edge(JoxAgents *a, uint32_t i) {
-    JoxV2 before = {a->x[i], a->y[i]};
-    if (a->period.x > 0.0f) {
-        float turns = floorf((a->x[i] - a->origin.x) / a->period.x);
-        a->x[i] -= turns * a->period.x;
-    }
-    if (a->period.y > 0.0f) {
-        float turns = floorf((a->y[i] - a->origin.y) / a->period.y);
-        a->y[i] -= turns * a->period.y;
-    }
-    JOX_ASSERT(!(a->period.x > 0.0f && fabsf(a->x[i] - a->origin.x) > 1.001f * a->period.x));
-    JOX_ASSERT(!(a->period.y > 0.0f && fabsf(a->y[i] - a->origin.y) > 1.001f * a->period.y));
-    JoxV2 shift = jox_sub((JoxV2){a->x[i], a->y[i]}, before);
-    if (!isfinite(shift.x + shift.y)) /* the guard will put it back to where it was */
-        return true;
-    a->prev_x[i] += shift.x;
-    a->prev_y[i] += shift.y;
-    a->still_x[i] += shift.x;
-    a->still_y[i] += shift.y;
-    return shift.x != 0.0f || shift.y != 0.0f;
-}
-
-/* Out of walls that are nearer than the radius. */
-static JoxV2 keep_clear(const JoxWallGrid *grid, JoxV2 p, float radius) {
-    uint32_t count;
-    const uint32_t *edges = jox_wall_grid_at(grid, p, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        const JoxWallVertex *v = &grid->walls->vertices[edges[i]];
-        JoxV2 a = v->point, b = grid->walls->vertices[v->next].point;
-        if (jox_det(v->direction, jox_sub(p, a)) >= 0.0f)
-            continue;
-        JoxV2 out = jox_sub(p, jox_segment_nearest(a, b, p));
-        float d2 = jox_length2(out);
-        if (d2 >= radius * radius || d2 == 0.0f)
-            continue;
-        float distance = sqrtf(d2);
-        p = jox_add(p, jox_scale(out, (radius - distance) / distance));
-    }
-    return p;
-}
-
-JoxV2 jox_move_by_walls(const JoxMove *m, uint32_t i, JoxV2 to) {
-    const JoxAgents *a = m->agents;
-    const JoxWallGrid *grid = &m->nav->grid;
-    JoxV2 from = {a->prev_x[i], a->prev_y[i]};
-    uint32_t near;
-    if (jox_length2(jox_sub(to, from)) > grid->reach * grid->reach)
-        from = piece_of_way(grid, from, &to);
-    jox_wall_grid_at(grid, from, &near);
-    if (near == 0)
-        return to;
-    const JoxV2 clear = keep_clear(grid, stop_at_walls(grid, from, to), a->breadth[i]);
-    return stop_at_walls(grid, from, clear);
 }
 
 static void settle(void *context, uint32_t begin, uint32_t end, uint32_t worker) {

@@ -1,7 +1,8 @@
 /* The kernel of move: a lane is an agent. Where its velocity takes it, and, once overlaps are
-   resolved, where it then is: those near walls and those who leave over a periodic edge one by one
-   (move.c). */
+   resolved, where it then is: those near walls and those who leave over a periodic edge one by one.
+ */
 #include "geom/wall_grid_lanes.h"
+#include "geom/wall_way.h"
 #include "nav/kernels.h"
 #include "simd/vectors.h"
 
@@ -74,7 +75,9 @@ float JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t end) 
         for (uint32_t lane = 0; walled >> lane; lane++) {
             if (!(walled >> lane & 1))
                 continue;
-            const JoxV2 at = jox_move_by_walls(m, i + lane, (JoxV2){x[lane], y[lane]});
+            const JoxV2 at =
+                jox_way_by_walls(grid, (JoxV2){a->prev_x[i + lane], a->prev_y[i + lane]},
+                                 (JoxV2){x[lane], y[lane]}, a->breadth[i + lane]);
             x[lane] = at.x;
             y[lane] = at.y;
         }
@@ -84,7 +87,7 @@ float JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t end) 
         const uint32_t out = there & jm_bits(jm_or(beyond(at.x, a->origin.x, a->period.x),
                                                    beyond(at.y, a->origin.y, a->period.y)));
         for (uint32_t lane = 0; out >> lane; lane++)
-            if ((out >> lane & 1) && jox_move_over_edge(a, i + lane))
+            if ((out >> lane & 1) && jox_agents_wrap(a, i + lane))
                 farthest2 = INFINITY; /* the order in memory no longer follows space */
         keep_still(m, i, jv_load(a->x, a->y, i));
     }

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "nav/kernels.h"
-#include "nav/rows.h"
 
 /* A candidate as one number that sorts by distance, then id: bits of the squared distance (which is
    not negative) above the rank, in which agents have the order of their ids. */

@@ -13,7 +13,6 @@
 #include <string.h>
 
 #include "nav/kernels.h"
-#include "nav/rows.h"
 #include "simd/lanes.h"
 
 enum {

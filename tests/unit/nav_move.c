@@ -12,6 +12,7 @@
 
 #include "base/random.h"
 #include "force/kernels.h"
+#include "geom/wall_way.h"
 #include "nav/kernels.h"
 
 enum { PEOPLE = 61, CROWDS = 12, COLUMNS = 9 }; /* not a whole number of packets */
@@ -83,11 +84,11 @@ static float by_hand(Crowd *c) {
         a->vx[i] = forced.x + rest.x * m->response;
         a->vy[i] = forced.y + rest.y * m->response;
         if (c->nav->grid.first)
-            to = jox_move_by_walls(m, i, to);
+            to = jox_way_by_walls(&c->nav->grid, from, to, a->breadth[i]);
         a->x[i] = to.x;
         a->y[i] = to.y;
         farthest2 = jox_maxf(farthest2, jox_length2(jox_sub(to, from)));
-        if (jox_move_over_edge(a, i))
+        if (jox_agents_wrap(a, i))
             farthest2 = INFINITY;
         const JoxV2 rests = {a->x[i] - a->still_x[i], a->y[i] - a->still_y[i]};
         a->still[i] += m->dt;
