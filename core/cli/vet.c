@@ -101,11 +101,8 @@ static void read_it(const JoSceneDef *given, int out) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGINT, SIG_DFL);
     signal(SIGTERM, SIG_DFL);
-    if (!confine(&def)) {
-        send_message(&child, "this system cannot confine the process that reads scenes\n");
-        send_it(&child, REFUSED, "", "", 0);
-        _exit(JO_FAILED);
-    }
+    if (!confine(&def)) /* as on systems that have neither Landlock nor seccomp */
+        fputs("jostle: this system does not confine the process that reads the scene\n", stderr);
     const JoxOverlay overlay = {.told = send_file, .context = &child};
     jox_overlay_use(&overlay);
     JoScene *scene = jo_scene_load(&def, &error);
@@ -178,6 +175,16 @@ static int ended(const Parent *parent, int end, int status) {
     return JO_INPUT;
 }
 
+/* What the child said; and how files are read that lie where it may not look. */
+static void tell_refused(const CliCommand *command, const JoxText *said) {
+    fputs(said->data, stderr);
+    if (strstr(said->data, strerror(EACCES)))
+        fprintf(stderr,
+                "jostle %s: of a scene, files in its folder, in ../behaviours and of mods are "
+                "read; with --trusted, files anywhere are\n",
+                command->name);
+}
+
 static int wait_for(pid_t child) {
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR)
@@ -205,7 +212,7 @@ int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files)
     if (child < 0)
         fprintf(stderr, "jostle %s: no process to read the scene in\n", command->name);
     if (end == REFUSED && parent.said.data)
-        fputs(parent.said.data, stderr);
+        tell_refused(command, &parent.said);
     jox_text_free(&parent.said);
     files->sealed = true;
     return child < 0        ? JO_FAILED

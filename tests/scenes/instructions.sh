@@ -25,7 +25,7 @@ count() { # ISA STEPS SCENE...: prints instructions per agent and step
     local isa=$1 steps=$2
     shift 2
     valgrind --tool=callgrind --callgrind-out-file=/dev/null --collect-atstart=no --toggle-collect=jox_world_step \
-        --toggle-collect=jox_routes_update "$JOSTLE" run "$@" --isa "$isa" --steps "$steps" --threads 1 --no-mods \
+        --toggle-collect=jox_routes_update "$JOSTLE" run "$@" --isa "$isa" --steps "$steps" --threads 1 --no-mods --trusted \
         --quiet --summary "$work/summary" 2>"$work/said" </dev/null || return 1
     awk -v steps="$steps" 'FNR == NR {if ($1 == "\"agents\":") agents = $2 + 0; next}
         / Collected : / {if (agents) printf "%.0f\n", $4 / steps / agents}' "$work/summary" "$work/said"

@@ -21,6 +21,7 @@ says "the version says what the kernel has" 0 "scenes are read by a process with
 if ! grep -q "no Landlock" out; then
     scene ../elsewhere/away.lua
     says "a behaviour from elsewhere is not read" 3 "Permission denied" "$program" run scenes/s.yaml --quiet --steps 2
+    says "  which says how it would be" 3 "with --trusted" "$program" run scenes/s.yaml --quiet --steps 2
     says "  but by one who trusts the scene" 0 "" "$program" run scenes/s.yaml --quiet --steps 2 --trusted
 fi
 
