@@ -108,7 +108,8 @@ static int open_socket(void) {
     return socket(AF_INET, SOCK_STREAM, 0) >= 0 ? 0 : errno;
 }
 
-/* From the system itself: malloc of a build with sanitizers ends the program where there is none. */
+/* From the system itself: malloc of a build with sanitizers ends the program where there is none.
+ */
 static int take_memory(void) {
     const int pages = PROT_READ | PROT_WRITE, own = MAP_PRIVATE | MAP_ANONYMOUS;
     return mmap(NULL, (size_t)256 << 20, pages, own, -1, 0) != MAP_FAILED ? 0 : errno;
