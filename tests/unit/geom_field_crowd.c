@@ -181,7 +181,7 @@ static void marks_change_no_field(void **state) {
     for (int k = 0; k < 8; k++) {
         const double angle = k < 4 ? 0.0 : 0.3;
         const float wide = k % 4 == 3 ? 11.0f : 9.0f;
-        JoxFieldCrowd crowd = crowd_at((JoxV2){-1.5f, -1.5f}, angle, 0.2f * (float)k, at, share);
+        JoxFieldCrowd crowd = crowd_at((JoxV2){-1.5f, -1.5f}, angle, 0.125f * (float)k, at, share);
         JoxWalls walls = two_doors(angle);
         const JoxV2 low = {-wide, -wide}, high = {wide, wide};
         JoxField *with =
