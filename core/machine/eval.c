@@ -1,28 +1,13 @@
-/* Programs over batches: one dispatch per instruction for up to 256 agents. */
+/* Programs over batches: one dispatch per instruction for up to 256 agents. What is arithmetic, or
+   lies in the agents' columns, is done by the kernel (eval_wide.c), the rest here. */
 #include <math.h>
 
 #include "base/assert.h"
-#include "machine/internal.h"
+#include "machine/kernels.h"
 
-/* What can be measured of an agent, of `count` of them: one loop for each word. */
-static void measure(const JoxMachineRun *run, const uint32_t *agents, uint32_t count, JoxNow what,
-                    double *to) {
-    const JoxAgents *a = run->agents;
-    switch (what) {
-#define X(name, word, unit, meaning, value)                                                        \
-    case JOX_NOW_##name:                                                                           \
-        for (uint32_t n = 0; n < count; n++) {                                                     \
-            const uint32_t i = agents[n];                                                          \
-            (void)i;                                                                               \
-            to[n] = (value);                                                                       \
-        }                                                                                          \
-        break;
-        JOX_MEASURED(X)
+#define X(name, isa) [isa] = jox_eval_numbers_##name,
+static JoxEvalKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 #undef X
-    case JOX_NOW_COUNT:
-        break;
-    }
-}
 
 static double people_in(const JoxMachineRun *run, int32_t place) {
     uint32_t people = run->scratch->place_people[place];
@@ -130,74 +115,14 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
     }
 }
 
-#define EACH(expression)                                                                           \
-    for (uint32_t n = 0; n < count; n++)                                                           \
-        to[n] = (expression);                                                                      \
-    break
-
 static void execute(const JoxMachineRun *run, const JoxMachine *machine, const JoxInstruction *in,
                     const uint32_t *agents, uint32_t count, JoxRegisters r) {
-    const JoxAgents *g = run->agents;
     double *to = r[in->to];
-    const double *a = r[in->a], *b = r[in->b], *c = r[in->c];
-    switch ((JoxOp)in->op) {
-    case JOX_OP_CONST:
-        EACH(in->number);
-    case JOX_OP_NOW:
-        measure(run, agents, count, (JoxNow)in->arg, to);
-        break;
-    case JOX_OP_OWN:
-        EACH(g->own[(size_t)agents[n] * g->own_stride + (uint32_t)in->arg]);
-    case JOX_OP_MEMORY:
-        EACH(g->memory[(size_t)agents[n] * g->memory_stride + (uint32_t)in->arg]);
-    case JOX_OP_ADD:
-        EACH(a[n] + b[n]);
-    case JOX_OP_SUB:
-        EACH(a[n] - b[n]);
-    case JOX_OP_MUL:
-        EACH(a[n] * b[n]);
-    case JOX_OP_DIV:
-        EACH(b[n] == 0.0 ? 0.0 : a[n] / b[n]);
-    case JOX_OP_MIN:
-        EACH(a[n] < b[n] ? a[n] : b[n]);
-    case JOX_OP_MAX:
-        EACH(a[n] > b[n] ? a[n] : b[n]);
-    case JOX_OP_NEG:
-        EACH(-a[n]);
-    case JOX_OP_ABS:
-        EACH(fabs(a[n]));
-    case JOX_OP_SQRT:
-        EACH(a[n] > 0.0 ? sqrt(a[n]) : 0.0);
-    case JOX_OP_CLAMP:
-        EACH(a[n] < b[n] ? b[n] : a[n] > c[n] ? c[n] : a[n]);
-    case JOX_OP_GT:
-        EACH(a[n] > b[n]);
-    case JOX_OP_GE:
-        EACH(a[n] >= b[n]);
-    case JOX_OP_LT:
-        EACH(a[n] < b[n]);
-    case JOX_OP_LE:
-        EACH(a[n] <= b[n]);
-    case JOX_OP_EQ:
-        EACH(a[n] == b[n]);
-    case JOX_OP_AND:
-        EACH(a[n] != 0.0 && b[n] != 0.0);
-    case JOX_OP_OR:
-        EACH(a[n] != 0.0 || b[n] != 0.0);
-    case JOX_OP_NOT:
-        EACH(a[n] == 0.0);
-    case JOX_OP_AFTER:
-        EACH(jox_time_in_state(run, agents[n]) >= a[n] - 1e-9);
-    case JOX_OP_LASTED:
-        EACH(jox_time_in_state(run, agents[n]) >= g->lasts[agents[n]] - 1e-6);
-    case JOX_OP_STUCK:
-        EACH(g->still[agents[n]] >= a[n]);
-    case JOX_OP_CROSSES:
+    if (in->op == JOX_OP_CROSSES)
         crosses(run, machine, in, agents, count, to);
-        break;
-    default:
-        EACH(sense(run, machine, agents[n], in, a[n]));
-    }
+    else if (!KERNELS[run->isa](run, in, agents, count, r))
+        for (uint32_t n = 0; n < count; n++)
+            to[n] = sense(run, machine, agents[n], in, r[in->a][n]);
 }
 
 bool jox_holds_for_nobody(const double *values, uint32_t count) {

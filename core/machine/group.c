@@ -16,7 +16,8 @@ static void reserve(JoxMachineRun *run, JoxPool *pool) {
     JoxMachineScratch *s = jox_machines_scratch(run);
     uint32_t workers = jox_pool_threads(pool);
     if (workers > s->workers) {
-        s->registers = jox_realloc(s->registers, workers, sizeof *s->registers);
+        jox_free(s->registers);
+        s->registers = jox_alloc(workers, sizeof *s->registers);
         s->odd = jox_realloc(s->odd, workers, sizeof *s->odd);
         s->workers = workers;
     }

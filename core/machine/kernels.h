@@ -1,5 +1,5 @@
-/* The kernels of prefer, one function for each instruction set, and what they share with the plain
-   C about them. */
+/* The kernels of programs and of prefer, one function for each instruction set, and what they share
+   with the plain C about them. */
 #ifndef JOX_MACHINE_KERNELS_H
 #define JOX_MACHINE_KERNELS_H
 
@@ -29,6 +29,14 @@ typedef void JoxSteerKernel(JoxSteer *steer);
 #define X(name, isa)                                                                               \
     JoxSteerKernel jox_steer_orbit_##name, jox_steer_add_##name, jox_steer_finish_##name,          \
         jox_steer_face_##name;
+JOX_ISAS(X)
+#undef X
+
+/* Runs one instruction over `count` agents of a batch, and says whether it is one that has a loop
+   here: arithmetic, or the agents' own figures. */
+typedef bool JoxEvalKernel(const JoxMachineRun *run, const JoxInstruction *in,
+                           const uint32_t *agents, uint32_t count, JoxRegisters registers);
+#define X(name, isa) JoxEvalKernel jox_eval_numbers_##name;
 JOX_ISAS(X)
 #undef X
 
