@@ -40,16 +40,13 @@ static void grow_column(void *context, void **column, size_t size) {
     *column = wider;
 }
 
-static size_t widest(const JoxAgents *a) {
-    size_t own = a->own_stride * sizeof(double), memory = a->memory_stride * sizeof(double);
-    size_t size = own > memory ? own : memory;
-    return size > sizeof(uint64_t) ? size : sizeof(uint64_t);
-}
-
+/* Columns of 4 and of 8 bytes change places with these; rows, which are wider, stay where they are:
+   one of them has room in `scratch`. */
 static void grow_scratch(JoxAgents *a) {
     jox_free(a->scratch);
     jox_free(a->spare);
-    a->scratch = jox_alloc_aligned((size_t)a->capacity + PADDING, widest(a));
+    const size_t row = a->own_stride > a->memory_stride ? a->own_stride : a->memory_stride;
+    a->scratch = jox_alloc_aligned((size_t)a->capacity + PADDING + row, sizeof(uint64_t));
     a->spare = jox_alloc_aligned((size_t)a->capacity + PADDING, sizeof(uint32_t));
 }
 
@@ -142,29 +139,70 @@ typedef struct Gather {
     uint32_t count, before; /* agents afterwards, and until now */
 } Gather;
 
+/* A column of 4 bytes an agent, and one of 8: into other memory, which becomes the column. */
+static void gather_words(const Gather *gather, void **column) {
+    uint32_t *to = gather->agents->spare;
+    const uint32_t *from = *column;
+    for (uint32_t i = 0; i < gather->count; i++)
+        to[i] = from[gather->order[i]];
+    gather->agents->spare = *column;
+    *column = to;
+}
+
+static void gather_long_words(const Gather *gather, void **column) {
+    uint64_t *to = gather->agents->scratch;
+    const uint64_t *from = *column;
+    for (uint32_t i = 0; i < gather->count; i++)
+        to[i] = from[gather->order[i]];
+    gather->agents->scratch = *column;
+    *column = to;
+}
+
+/* A narrow column, by way of the scratch. */
+static void gather_bytes(const Gather *gather, char *column, size_t size) {
+    char *to = gather->agents->scratch;
+    for (uint32_t i = 0; i < gather->count; i++)
+        memcpy(to + i * size, column + gather->order[i] * size, size);
+    memcpy(column, to, gather->count * size);
+}
+
+/* Rows in place, cycle by cycle of the permutation. `done`: a byte an agent. */
+static void permute_rows(const Gather *gather, char *rows, size_t size, uint8_t *done) {
+    const uint32_t *order = gather->order;
+    void *first = gather->agents->scratch;
+    memset(done, 0, gather->count);
+    for (uint32_t start = 0; start < gather->count; start++) {
+        if (done[start] || order[start] == start)
+            continue;
+        uint32_t i = start;
+        memcpy(first, rows + i * size, size);
+        for (; order[i] != start; i = order[i]) {
+            memcpy(rows + i * size, rows + order[i] * size, size);
+            done[i] = 1;
+        }
+        memcpy(rows + i * size, first, size);
+        done[i] = 1;
+    }
+}
+
 static void gather_column(void *context, void **column, size_t size) {
     const Gather *gather = context;
-    const char *from = *column;
-    const uint32_t *order = gather->order;
-    if (memcmp(from, from + size, (gather->before - 1) * size) == 0)
-        return;                     /* the same of all agents, as most parameters are */
-    if (size == sizeof(uint32_t)) { /* nearly all columns */
-        uint32_t *to = gather->agents->spare;
-        for (uint32_t i = 0; i < gather->count; i++)
-            to[i] = ((const uint32_t *)from)[order[i]];
-        gather->agents->spare = *column;
-        *column = to;
-    } else {
-        char *to = gather->agents->scratch;
-        for (uint32_t i = 0; i < gather->count; i++)
-            memcpy(to + i * size, from + order[i] * size, size);
-        if (size == widest(gather->agents)) {
-            gather->agents->scratch = *column;
-            *column = to;
-        } else {
-            memcpy(*column, to, gather->count * size);
+    char *rows = *column;
+    if (memcmp(rows, rows + size, (gather->before - 1) * size) == 0)
+        return;                   /* the same of all agents, as most parameters are */
+    if (size == sizeof(uint32_t)) /* nearly all columns */
+        gather_words(gather, column);
+    else if (size == sizeof(uint64_t))
+        gather_long_words(gather, column);
+    else if (size < sizeof(uint32_t))
+        gather_bytes(gather, rows, size);
+    else if (gather->count == gather->before)
+        permute_rows(gather, rows, size, gather->agents->spare);
+    else
+        for (uint32_t i = 0; i < gather->count; i++) { /* some are gone: all move up */
+            JOX_ASSERT(gather->order[i] >= i);
+            memmove(rows + i * size, rows + gather->order[i] * size, size);
         }
-    }
 }
 
 static void reindex(JoxAgents *a) {

@@ -119,7 +119,7 @@ typedef struct JoxAgents {
     /* Periodic edges: who leaves at one side comes in at the other. Lengths of the period, 0 along
        an axis without; positions are kept within [origin, origin + period). */
     JoxV2 origin, period;
-    void *scratch, *spare; /* for permuting: the widest column, and one of 4 bytes an agent */
+    void *scratch, *spare; /* for permuting: columns of 8 and of 4 bytes an agent */
     uint32_t *order;
 } JoxAgents;
 

@@ -1,11 +1,14 @@
 #include "base/mem.h"
 
 #include <stdatomic.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/assert.h"
+
+enum { ALIGNMENT = 64 };
 
 static atomic_uint_fast64_t allocations;
 static atomic_bool limited;           /* for tests: memory is out, */
@@ -116,11 +119,12 @@ void *jox_alloc(size_t count, size_t size) {
 }
 
 void *jox_alloc_aligned(size_t count, size_t size) {
-    size_t bytes = (total(count, size, 64) + 63) & ~(size_t)63;
-    char *start = count_allocation() ? aligned_alloc(64, bytes) : NULL;
-    if (start)
-        memset(start, 0, bytes);
-    return begin_block(start, 64, bytes);
+    /* Not aligned_alloc, as pages that calloc has from the system are zero without being touched.
+     */
+    const size_t bytes = total(count, size, ALIGNMENT + sizeof(JoxBlock));
+    char *start = count_allocation() ? calloc(1, bytes) : NULL;
+    const size_t past = ((uintptr_t)start + sizeof(JoxBlock)) % ALIGNMENT;
+    return begin_block(start, sizeof(JoxBlock) + (ALIGNMENT - past) % ALIGNMENT, bytes);
 }
 
 void *jox_realloc(void *memory, size_t count, size_t size) {
