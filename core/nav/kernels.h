@@ -27,9 +27,10 @@ JOX_ISAS(X)
 #undef X
 /* The same of one agent, whoever is about, searching within `radius` first. */
 void jox_perceive_one(const JoxPerceive *perceive, uint32_t agent, float radius);
-/* Agents among whom the nearest of one are: their indices, and their squared distances, m2, of
-   which one stands at each `stride`; INFINITY: it is none of them. */
+/* Agents among whom the nearest of one are, best nearly in their order: numbers of rows of indices
+   and of squared distances, m2, of which one stands at each `stride`. */
 typedef struct JoxCandidates {
+    const uint8_t *numbers;
     const uint32_t *index;
     const float *distance2;
     uint32_t count, stride;

@@ -23,7 +23,8 @@ enum {
                  : JOX_WIDTH == 4 ? 2
                                   : 0,
     FEW = 10, /* neighbours of which the keys fit into the registers of most instruction sets */
-    NORMAL = 0x8000 << NUMBER_BITS /* bits of the least float that is not denormal */
+    NORMAL = 0x8000 << NUMBER_BITS, /* bits of the least float that is not denormal */
+    NO_KEY = 0x7f800000             /* bits of INFINITY */
 };
 static const float FARTHEST_SHARE = 8.3e6f; /* of a squared radius: keys stay less than INFINITY */
 
@@ -273,13 +274,53 @@ static void find_touching(const Packet *packet, JoxMask sees) {
             p->out->touch_count[packet->first + lane] = JOX_TOUCH_IS_SEEN;
 }
 
+/* For each lane, numbers of candidates. */
+typedef struct Likely {
+    uint8_t numbers[JOX_WIDTH][MOST_CANDIDATES];
+    uint32_t count[JOX_WIDTH];
+} Likely;
+
+static inline void add_to(Likely *likely, uint32_t lanes, uint32_t number) {
+    for (; lanes; lanes &= lanes - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(lanes);
+        likely->numbers[lane][likely->count[lane]++] = (uint8_t)number;
+    }
+}
+
+/* Who may be among the nearest of some lanes: those of the keys, and who is as far as the last key
+   by its bits, but numbered higher, so that no key is left of them. */
+static void list_likely(const Packet *packet, uint32_t lanes, Likely *likely) {
+    const JoxFloats farthest = jf_set(FARTHEST_SHARE), last = packet->keys[packet->levels - 1];
+    const JoxInts last_share = ji_shift_right(jf_bits(last), NUMBER_BITS);
+    const JoxInts last_number = ji_and(jf_bits(last), ji_set(MOST_CANDIDATES - 1));
+    uint32_t bits[JOX_WIDTH];
+    memset(likely->count, 0, sizeof likely->count);
+    for (uint32_t k = 0; k < packet->levels; k++) {
+        ji_store(bits, jf_bits(packet->keys[k]));
+        for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+            if ((lanes >> lane & 1) && bits[lane] < NO_KEY)
+                add_to(likely, 1u << lane, bits[lane] & (MOST_CANDIDATES - 1));
+    }
+    for (uint32_t n = 0; n < packet->candidates; n++) {
+        const JoxFloats d2 = jf_load(packet->distance2 + (size_t)n * JOX_WIDTH);
+        const JoxInts share = jf_to_ints(jf_min(jf_mul(d2, packet->scale), farthest));
+        const JoxInts shifted = ji_add(share, ji_set(NORMAL >> NUMBER_BITS));
+        const JoxMask higher = ji_less(last_number, ji_set((int32_t)n));
+        const JoxMask there = jf_lt(d2, jf_set(INFINITY));
+        const JoxMask as_far = jm_and(jm_and(ji_equal(shifted, last_share), higher), there);
+        add_to(likely, jm_bits(as_far) & lanes, n);
+    }
+}
+
 /* Of some lanes whose keys do not tell: one by one. */
 static void choose_anew(const Packet *packet, uint32_t lanes) {
-    for (uint32_t lane = 0; lanes >> lane; lane++) {
-        if (!(lanes >> lane & 1))
-            continue;
-        const JoxCandidates among = {packet->index, packet->distance2 + lane, packet->candidates,
-                                     JOX_WIDTH};
+    Likely likely;
+    if (lanes && !packet->overflow)
+        list_likely(packet, lanes, &likely);
+    for (; lanes; lanes &= lanes - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(lanes);
+        const JoxCandidates among = {likely.numbers[lane], packet->index, packet->distance2 + lane,
+                                     likely.count[lane], JOX_WIDTH};
         if (packet->overflow)
             jox_perceive_one(packet->p, packet->first + lane, packet->radius[lane]);
         else
