@@ -198,9 +198,9 @@ static void search(Packet *packet, uint32_t lanes) {
 
 /* What the keys of a packet say, lane by lane. */
 typedef struct Found {
-    JoxMask full, tied;
-    JoxInts most, count; /* neighbours wanted, and found */
-    JoxFloats farthest2; /* where full: of the last wanted, m2 */
+    JoxMask full, tied, cut; /* cut: the last wanted and the next are tied */
+    JoxInts most, count;     /* neighbours wanted, and found */
+    JoxFloats farthest2;     /* where full: of the last wanted, m2 */
 } Found;
 
 static inline JoxFloats distance2_at(const Packet *packet, JoxInts numbers) {
@@ -210,7 +210,8 @@ static inline JoxFloats distance2_at(const Packet *packet, JoxInts numbers) {
 static Found read_keys(const Packet *packet, JoxInts most) {
     const JoxFloats none = jf_set(INFINITY);
     const JoxInts number_of = ji_set(MOST_CANDIDATES - 1);
-    Found f = {jf_lt(none, none), jf_lt(none, none), most, ji_set(0), none};
+    const JoxMask nobody = jf_lt(none, none);
+    Found f = {nobody, nobody, nobody, most, ji_set(0), none};
     JoxInts farthest = ji_set(0); /* number of the last wanted */
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
         const JoxFloats key = packet->keys[k], next = packet->keys[k + 1];
@@ -221,7 +222,9 @@ static Found read_keys(const Packet *packet, JoxInts most) {
         farthest = ji_select(last, ji_and(jf_bits(key), number_of), farthest);
         JoxMask same = ji_equal(ji_shift_right(jf_bits(key), NUMBER_BITS),
                                 ji_shift_right(jf_bits(next), NUMBER_BITS));
-        f.tied = jm_or(f.tied, jm_and(same, jm_and(wanted, jf_lt(next, none))));
+        const JoxMask tied = jm_and(same, jm_and(wanted, jf_lt(next, none)));
+        f.tied = jm_or(f.tied, tied);
+        f.cut = jm_or(f.cut, jm_and(tied, last));
     }
     if (jm_bits(f.full))
         f.farthest2 = jf_select(f.full, distance2_at(packet, farthest), none);
@@ -280,43 +283,41 @@ typedef struct Likely {
     uint32_t count[JOX_WIDTH];
 } Likely;
 
-static inline void add_to(Likely *likely, uint32_t lanes, uint32_t number) {
-    for (; lanes; lanes &= lanes - 1) {
-        const uint32_t lane = (uint32_t)__builtin_ctz(lanes);
-        likely->numbers[lane][likely->count[lane]++] = (uint8_t)number;
-    }
-}
-
-/* Who may be among the nearest of some lanes: those of the keys, and who is as far as the last key
-   by its bits, but numbered higher, so that no key is left of them. */
-static void list_likely(const Packet *packet, uint32_t lanes, Likely *likely) {
+/* Who may be among the nearest of some lanes: those of the keys; of lanes that are `cut`, also who
+   is as far as the last key by its bits, but numbered higher, so that no key is left of them. */
+static void list_likely(const Packet *packet, uint32_t lanes, uint32_t cut, Likely *likely) {
     const JoxFloats farthest = jf_set(FARTHEST_SHARE), last = packet->keys[packet->levels - 1];
     const JoxInts last_share = ji_shift_right(jf_bits(last), NUMBER_BITS);
     const JoxInts last_number = ji_and(jf_bits(last), ji_set(MOST_CANDIDATES - 1));
-    uint32_t bits[JOX_WIDTH];
-    memset(likely->count, 0, sizeof likely->count);
-    for (uint32_t k = 0; k < packet->levels; k++) {
-        ji_store(bits, jf_bits(packet->keys[k]));
-        for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
-            if ((lanes >> lane & 1) && bits[lane] < NO_KEY)
-                add_to(likely, 1u << lane, bits[lane] & (MOST_CANDIDATES - 1));
+    uint32_t bits[(JOX_MOST_NEIGHBOURS + 1) * JOX_WIDTH];
+    for (uint32_t k = 0; k < packet->levels; k++)
+        ji_store(bits + k * JOX_WIDTH, jf_bits(packet->keys[k]));
+    for (uint32_t left = lanes; left; left &= left - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(left), *key = bits + lane;
+        uint32_t n = 0;
+        for (; n < packet->levels && key[n * JOX_WIDTH] < NO_KEY; n++)
+            likely->numbers[lane][n] = (uint8_t)key[n * JOX_WIDTH];
+        likely->count[lane] = n;
     }
-    for (uint32_t n = 0; n < packet->candidates; n++) {
+    for (uint32_t n = 0; cut && n < packet->candidates; n++) {
         const JoxFloats d2 = jf_load(packet->distance2 + (size_t)n * JOX_WIDTH);
         const JoxInts share = jf_to_ints(jf_min(jf_mul(d2, packet->scale), farthest));
         const JoxInts shifted = ji_add(share, ji_set(NORMAL >> NUMBER_BITS));
         const JoxMask higher = ji_less(last_number, ji_set((int32_t)n));
-        const JoxMask there = jf_lt(d2, jf_set(INFINITY));
-        const JoxMask as_far = jm_and(jm_and(ji_equal(shifted, last_share), higher), there);
-        add_to(likely, jm_bits(as_far) & lanes, n);
+        uint32_t as_far = jm_bits(jm_and(ji_equal(shifted, last_share), higher)) & cut;
+        for (; as_far; as_far &= as_far - 1) {
+            const uint32_t lane = (uint32_t)__builtin_ctz(as_far);
+            if (packet->distance2[n * JOX_WIDTH + lane] < INFINITY)
+                likely->numbers[lane][likely->count[lane]++] = (uint8_t)n;
+        }
     }
 }
 
 /* Of some lanes whose keys do not tell: one by one. */
-static void choose_anew(const Packet *packet, uint32_t lanes) {
+static void choose_anew(const Packet *packet, uint32_t lanes, JoxMask cut) {
     Likely likely;
     if (lanes && !packet->overflow)
-        list_likely(packet, lanes, &likely);
+        list_likely(packet, lanes, jm_bits(cut) & lanes, &likely);
     for (; lanes; lanes &= lanes - 1) {
         const uint32_t lane = (uint32_t)__builtin_ctz(lanes);
         const JoxCandidates among = {likely.numbers[lane], packet->index, packet->distance2 + lane,
@@ -350,7 +351,7 @@ static void perceive_packet(Packet *packet) {
         const uint32_t done = packet->overflow ? left : left & ~jm_bits(short_of);
         const uint32_t tied = packet->overflow ? left : done & jm_bits(f.tied);
         write(packet, &f, done & ~tied, perception);
-        choose_anew(packet, tied);
+        choose_anew(packet, tied, f.cut);
         left &= ~done;
         radius = jf_mul(radius, jf_set(JOX_SEARCH_GROWTH));
     }
