@@ -50,21 +50,4 @@ static inline double jox_random_share(uint64_t bits) {
 /* Uniform in [0, 1), 53 bits. */
 double jox_random_unit(uint64_t seed, uint32_t agent, uint64_t tick, JoxDraw purpose, uint32_t sub);
 
-typedef enum { JOX_DIST_CONSTANT, JOX_DIST_UNIFORM, JOX_DIST_NORMAL, JOX_DIST_CHOOSE } JoxDistKind;
-enum { JOX_DIST_CHOICES = 8 };
-
-/* A distribution: constant a; uniform [a, b); normal mean a, deviation b, kept within [lo, hi] (by
-   redrawing, then clamping); choose among `choices` values with equal weight. */
-typedef struct JoxDist {
-    JoxDistKind kind;
-    double a, b, lo, hi;
-    double values[JOX_DIST_CHOICES];
-    int choices;
-} JoxDist;
-
-JoxDist jox_dist_constant(double value);
-/* Draws with the stream (seed, agent, tick, purpose, sub). */
-double jox_dist_draw(const JoxDist *dist, uint64_t seed, uint32_t agent, uint64_t tick,
-                     JoxDraw purpose, uint32_t sub);
-
 #endif

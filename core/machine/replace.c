@@ -68,17 +68,6 @@ static int32_t memory_before(const JoxMachine *old, const JoxMachine *next, uint
     BEFORE(old->memory, old->memory_count, next->memory, slot);
 }
 
-static bool same_dist(const JoxDist *a, const JoxDist *b) {
-    if (a->kind != b->kind || a->a != b->a)
-        return false;
-    if (a->kind == JOX_DIST_CONSTANT)
-        return true;
-    if (a->kind == JOX_DIST_CHOOSE)
-        return a->choices == b->choices &&
-               !memcmp(a->values, b->values, (size_t)a->choices * sizeof *a->values);
-    return a->b == b->b && (a->kind == JOX_DIST_UNIFORM || (a->lo == b->lo && a->hi == b->hi));
-}
-
 /* What a scene gave stays with the agents, though this version does not look at it: a line that is
    taken out and put back changes nothing. */
 static void keep_given(const JoxMachine *old, JoxMachine *next) {
@@ -104,7 +93,7 @@ static void map_slots(JoxReplacement *r, uint64_t seed) {
         r->own_moves |= r->own[s] != (int32_t)s;
         if (r->own[s] >= 0 && r->own[s] != (int32_t)s)
             r->moved[r->moved_count++] = s;
-        if (r->own[s] >= 0 && same_dist(&old->own[r->own[s]].dist, &next->own[s].dist))
+        if (r->own[s] >= 0 && jox_dist_same(&old->own[r->own[s]].dist, &next->own[s].dist))
             continue;
         r->is_redrawn[s] = true;
         r->redrawn[r->redrawn_count++] = s;

@@ -6,7 +6,8 @@
 #include "base/assert.h"
 #include "scene/internal.h"
 
-/* Whether all that a distribution gives lies in its parameter's range (a normal one: its mean). */
+/* Whether all that a distribution gives lies in its parameter's range; of one without bounds, its
+   middle. */
 static bool parameter_fits(const JoxReader *r, const JoxGroupValue *set, const JoxYaml *value) {
     int parameter = jox_parameter_find(set->name);
     const JoxDist *dist = &set->dist;
@@ -16,7 +17,9 @@ static bool parameter_fits(const JoxReader *r, const JoxGroupValue *set, const J
     bool choose = dist->kind == JOX_DIST_CHOOSE;
     int count = choose ? dist->choices : dist->kind == JOX_DIST_UNIFORM ? 2 : 1;
     for (int i = 0; i < count; i++) {
-        double v = choose ? dist->values[i] : i ? dist->b : dist->a;
+        double v = choose ? dist->values[i] : jox_dist_middle(dist);
+        if (dist->kind == JOX_DIST_UNIFORM)
+            v = i ? dist->b : dist->a;
         if (v >= info->least && v <= info->greatest)
             continue;
         jox_scene_error(r, value, "out-of-range", NULL, "%s must be from %g to %g %s, not %g",

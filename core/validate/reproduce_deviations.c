@@ -67,24 +67,6 @@ static void shorten(const char *path, char out[512]) {
     snprintf(out, 512, "%.500s", installed ? clean + n + 1 : clean);
 }
 
-static void print_dist(const JoxDist *dist, JoxText *out) {
-    switch (dist->kind) {
-    case JOX_DIST_CONSTANT:
-        jox_text_printf(out, "%g", dist->a);
-        break;
-    case JOX_DIST_UNIFORM:
-        jox_text_printf(out, "uniform(%g, %g)", dist->a, dist->b);
-        break;
-    case JOX_DIST_NORMAL:
-        jox_text_printf(out, "normal(%g, %g, %g, %g)", dist->a, dist->b, dist->lo, dist->hi);
-        break;
-    case JOX_DIST_CHOOSE:
-        for (int c = 0; c < dist->choices; c++)
-            jox_text_printf(out, "%s%g", c ? " or " : "", dist->values[c]);
-        break;
-    }
-}
-
 /* ---- behaviours ---- */
 
 /* The value of a path of the machine as it is written, in the last of the places that set it. */
@@ -161,7 +143,7 @@ static void look_at_group(Deviations *d, const char *scene, const JoxGroup *grou
         if (p < 0 || set->kind != JOX_SET_NUMBER ||
             (set->dist.kind == JOX_DIST_CONSTANT && set->dist.a == jox_parameters[p].value))
             continue;
-        print_dist(&set->dist, &text);
+        jox_dist_print(&set->dist, &text);
         add(d, p, where, text.data);
         jox_text_free(&text);
     }

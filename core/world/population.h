@@ -5,7 +5,7 @@
 #define JOX_WORLD_POPULATION_H
 
 #include "base/format/diag.h"
-#include "base/random.h"
+#include "base/distribution.h"
 #include "base/sections.h"
 #include "geom/fill.h"
 

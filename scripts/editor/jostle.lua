@@ -366,11 +366,23 @@ player = nil
 ---@return jostle.Drawn
 function normal(...) end
 
---- `uniform(least, greatest)`: even between two bounds
+--- `lognormal(mean, deviation [, least, greatest])`: a number whose logarithm has a normal distribution of this mean and deviation, drawn once per agent
+---@return jostle.Drawn
+function lognormal(...) end
+
+--- `gamma(shape, scale [, least, greatest])`: a gamma distribution, of mean shape times scale, drawn once per agent
+---@return jostle.Drawn
+function gamma(...) end
+
+--- `weibull(shape, scale [, least, greatest])`: a Weibull distribution, drawn once per agent
+---@return jostle.Drawn
+function weibull(...) end
+
+--- `uniform(least, greatest)`: even between two bounds, drawn once per agent
 ---@return jostle.Drawn
 function uniform(...) end
 
---- `choose(a, b, ...)`: one of up to 8 values, all alike
+--- `choose(a, b, ...)`: one of up to 8 values, all alike, drawn once per agent
 ---@return jostle.Drawn
 function choose(...) end
 

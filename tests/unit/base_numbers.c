@@ -4,13 +4,14 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
+#include "base/distribution.h"
 #include "base/elementary.h"
 #include "base/hash.h"
-#include "base/random.h"
 
 static void near_relative(double got, double want, double tolerance) {
     double scale = fabs(want) > 1.0 ? fabs(want) : 1.0;
@@ -79,6 +80,77 @@ static void distributions_have_their_moments(void **state) {
     near_relative((double)nines / n, 1.0 / 3, 0.02);
 }
 
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double normal_share(double x, const double *p) {
+    return 0.5 * erfc((p[0] - x) / (p[1] * sqrt(2.0)));
+}
+static double lognormal_share(double x, const double *p) {
+    return normal_share(log(x), p);
+}
+static double weibull_share(double x, const double *p) {
+    return 1.0 - exp(-pow(x / p[1], p[0]));
+}
+/* The series of the lower incomplete gamma function. */
+static double gamma_share(double x, const double *p) {
+    const double shape = p[0], at = x / p[1];
+    double term = 1.0 / shape, sum = term;
+    for (int n = 1; n < 1000; n++)
+        sum += term *= at / (shape + n);
+    return sum * exp(shape * log(at) - at - lgamma(shape));
+}
+
+/* Kolmogorov and Smirnov: the greatest distance of the shares, times the root of their number, is
+   above 1.63 in one of a hundred samples that are of the distribution. */
+static void draws_are_of_the_distribution(void **state) {
+    (void)state;
+    enum { DRAWS = 5000 };
+    static double draws[DRAWS];
+    static const struct {
+        JoxDistKind kind;
+        double arguments[2];
+        double (*share)(double, const double *);
+    } CASES[] = {{JOX_DIST_NORMAL, {1.34, 0.26}, normal_share},
+                 {JOX_DIST_LOGNORMAL, {4.586, 0.967}, lognormal_share},
+                 {JOX_DIST_GAMMA, {1.291, 103.901}, gamma_share},
+                 {JOX_DIST_GAMMA, {0.4, 2.0}, gamma_share},
+                 {JOX_DIST_GAMMA, {9.0, 0.5}, gamma_share},
+                 {JOX_DIST_WEIBULL, {1.195, 139.285}, weibull_share},
+                 {JOX_DIST_WEIBULL, {0.7, 1.0}, weibull_share}};
+    for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
+        JoxDist dist;
+        double farthest = 0.0;
+        assert_true(jox_dist_make(CASES[c].kind, CASES[c].arguments, 2, &dist));
+        for (uint32_t i = 0; i < DRAWS; i++)
+            draws[i] = jox_dist_draw(&dist, 7, i, 0, JOX_DRAW_OWN, (uint32_t)c);
+        qsort(draws, DRAWS, sizeof *draws, ascending);
+        for (uint32_t i = 0; i < DRAWS; i++) {
+            const double share = CASES[c].share(draws[i], CASES[c].arguments);
+            farthest = fmax(farthest, fmax(share - (double)i / DRAWS, (i + 1.0) / DRAWS - share));
+        }
+        assert_true(farthest * sqrt(DRAWS) < 1.63);
+    }
+}
+
+static void wrong_arguments_make_no_distribution(void **state) {
+    (void)state;
+    const double v[] = {1.0, -1.0, 5.0, 3.0};
+    const double zero[] = {0.0, 1.0};
+    JoxDist dist;
+    assert_false(jox_dist_make(JOX_DIST_NORMAL, v, 2, &dist));
+    assert_false(jox_dist_make(JOX_DIST_LOGNORMAL, v, 4, &dist));
+    assert_false(jox_dist_make(JOX_DIST_GAMMA, zero, 2, &dist));
+    assert_false(jox_dist_make(JOX_DIST_WEIBULL, zero, 2, &dist));
+    assert_false(jox_dist_make(JOX_DIST_UNIFORM, v, 2, &dist));
+    assert_false(jox_dist_make(JOX_DIST_CHOOSE, v, 0, &dist));
+    assert_true(jox_dist_make(JOX_DIST_UNIFORM, zero, 2, &dist));
+    assert_int_equal(jox_dist_named("gamma(1, 2)", 5), JOX_DIST_GAMMA);
+    assert_int_equal(jox_dist_named("norm", 4), JOX_DIST_KINDS);
+}
+
 static void sha256_of_the_standard_vectors(void **state) {
     (void)state;
     char out[65];
@@ -114,6 +186,8 @@ int main(void) {
         cmocka_unit_test(elementary_functions_at_the_edges),
         cmocka_unit_test(draws_depend_on_every_argument),
         cmocka_unit_test(distributions_have_their_moments),
+        cmocka_unit_test(draws_are_of_the_distribution),
+        cmocka_unit_test(wrong_arguments_make_no_distribution),
         cmocka_unit_test(sha256_of_the_standard_vectors),
         cmocka_unit_test(state_hash_sees_every_byte_and_the_order),
     };

@@ -45,7 +45,7 @@ static int make_orbit(lua_State *L) {
     return 1;
 }
 
-/* normal(mean, deviation [, least, greatest]), uniform(a, b), choose(a, b, ...) */
+/* normal(mean, deviation [, least, greatest]), uniform(a, b) and the like. */
 static int make_dist(lua_State *L) {
     const JoxWord *word = lua_touserdata(L, lua_upvalueindex(1));
     const JoxDistKind kind = (JoxDistKind)word->op;
@@ -58,25 +58,11 @@ static int make_dist(lua_State *L) {
                                   "argument %d of %s must be a plain number", i + 1, word->name);
         v[i] = lua_tonumber(L, i + 1);
     }
-    bool good = kind == JOX_DIST_NORMAL
-                    ? (count == 2 || count == 4) && v[1] >= 0 && (count < 4 || v[2] < v[3])
-                : kind == JOX_DIST_UNIFORM ? count == 2 && v[0] <= v[1]
-                                           : count >= 1 && count <= JOX_DIST_CHOICES;
-    if (!good)
-        return jox_word_error(L, word->name, "bad-argument",
-                              "normal(mean, deviation [, least, greatest]), uniform(least, "
-                              "greatest), choose(a, b, ...) with at most 8",
+    JoxDist dist;
+    if (!jox_dist_make(kind, v, count, &dist))
+        return jox_word_error(L, word->name, "bad-argument", jox_dist_usage,
                               "wrong arguments of %s", word->name);
-    JoxNode *node = jox_node_push(L, JOX_NODE_DIST);
-    node->dist = (JoxDist){.kind = kind, .lo = -INFINITY, .hi = INFINITY};
-    node->dist.a = v[0];
-    node->dist.b = count > 1 ? v[1] : 0.0;
-    if (kind == JOX_DIST_NORMAL && count == 4) {
-        node->dist.lo = v[2];
-        node->dist.hi = v[3];
-    }
-    node->dist.choices = count;
-    memcpy(node->dist.values, v, (size_t)count * sizeof *v);
+    jox_node_push(L, JOX_NODE_DIST)->dist = dist;
     return 1;
 }
 

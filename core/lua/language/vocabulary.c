@@ -113,12 +113,11 @@ const JoxWord jox_words[] = {
     {"player", NULL, STEER, JOX_STEER_PLAYER, 0, "player", "",
      "a person, or the input log, drives this agent", "player"},
     /* drawn values */
-    {"normal", "*", JOX_NODE_DIST, JOX_DIST_NORMAL, 0, "normal(mean, deviation [, least, greatest])",
-     "", "a normal distribution, drawn once per agent", "normal(1, 0.1, 0.5, 1.5)"},
-    {"uniform", "*", JOX_NODE_DIST, JOX_DIST_UNIFORM, 0, "uniform(least, greatest)", "",
-     "even between two bounds", "uniform(0.8, 1.2)"},
-    {"choose", "*", JOX_NODE_DIST, JOX_DIST_CHOOSE, 0, "choose(a, b, ...)", "",
-     "one of up to 8 values, all alike", "choose(0.8, 1, 1.2)"},
+#define X(kind, name, arguments, meaning, example)                                                 \
+    {#name, "*", JOX_NODE_DIST, JOX_DIST_##kind, 0, #name "(" arguments ")", "",                   \
+     meaning ", drawn once per agent", example},
+    JOX_DISTS(X)
+#undef X
     /* the machine's table */
     {"circuits", "p", JOX_NODE_CIRCUITS, 0, 0, "circuits(place)", "",
      "for `counts`: net counter-clockwise turns about a place since its start line was first "

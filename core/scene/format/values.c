@@ -118,7 +118,6 @@ uint32_t jox_read_names(const JoxReader *reader, const JoxYaml *node, const JoxY
 }
 
 bool jox_read_dist(const JoxReader *reader, const JoxYaml *node, JoxDist *out) {
-    static const char *const NAMES[] = {"normal", "uniform", "choose"};
     if (node->kind != JOX_YAML_SCALAR)
         return false;
     char *end;
@@ -127,41 +126,25 @@ bool jox_read_dist(const JoxReader *reader, const JoxYaml *node, JoxDist *out) {
         *out = jox_dist_constant(number);
         return true;
     }
-    for (int which = 0; which < 3; which++) {
-        size_t n = strlen(NAMES[which]);
-        if (strncmp(node->text, NAMES[which], n) != 0 || node->text[n] != '(')
-            continue;
-        double v[JOX_DIST_CHOICES];
-        int count = 0;
-        const char *at = node->text + n + 1;
-        while (count < JOX_DIST_CHOICES) {
-            v[count] = strtod(at, &end);
-            if (end == at || !isfinite(v[count]))
-                break;
-            count++;
-            at = end + strspn(end, " ,");
-        }
-        bool good =
-            *at == ')' && at[1] == 0 &&
-            (which == 0   ? (count == 2 || count == 4) && v[1] >= 0 && (count < 4 || v[2] < v[3])
-             : which == 1 ? count == 2 && v[0] <= v[1]
-                          : count >= 1);
-        if (!good)
-            jox_scene_error(
-                reader, node, "bad-distribution",
-                "normal(mean, deviation [, least, greatest]), uniform(least, greatest), "
-                "choose(a, b, ...) with at most 8",
-                "this distribution is malformed");
-        *out = (JoxDist){.kind = which == 0   ? JOX_DIST_NORMAL
-                                 : which == 1 ? JOX_DIST_UNIFORM
-                                              : JOX_DIST_CHOOSE,
-                         .a = good ? v[0] : 0,
-                         .b = good && count > 1 ? v[1] : 0,
-                         .lo = good && count == 4 ? v[2] : -INFINITY,
-                         .hi = good && count == 4 ? v[3] : INFINITY,
-                         .choices = good ? count : 1};
-        memcpy(out->values, v, (size_t)count * sizeof *v);
-        return true;
+    const char *open = strchr(node->text, '(');
+    const JoxDistKind kind =
+        open ? jox_dist_named(node->text, (size_t)(open - node->text)) : JOX_DIST_KINDS;
+    if (kind == JOX_DIST_KINDS)
+        return false;
+    double v[JOX_DIST_CHOICES];
+    int count = 0;
+    const char *at = open + 1;
+    while (count < JOX_DIST_CHOICES) {
+        v[count] = strtod(at, &end);
+        if (end == at || !isfinite(v[count]))
+            break;
+        count++;
+        at = end + strspn(end, " ,");
     }
-    return false;
+    if (*at == ')' && at[1] == 0 && jox_dist_make(kind, v, count, out))
+        return true;
+    jox_scene_error(reader, node, "bad-distribution", jox_dist_usage,
+                    "this distribution is malformed");
+    *out = jox_dist_constant(0.0);
+    return true;
 }

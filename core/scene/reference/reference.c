@@ -152,10 +152,12 @@ static void units(JoxText *out) {
         kind = jox_scene_units[u].kind;
         jox_text_printf(out, "%s `%s`", u == 0 ? "" : first ? ";" : ",", jox_scene_units[u].name);
     }
-    jox_text_add(out,
-                 ".\n\nWhere a distribution is possible, a number is drawn anew for each agent by\n"
-                 "`normal(mean, deviation)`, `normal(mean, deviation, least, greatest)`,\n"
-                 "`uniform(least, greatest)` or `choose(a, b, ...)` with up to 8 choices.\n");
+    jox_text_add(
+        out, ".\n\nWhere a distribution is possible, a number is drawn anew for each agent by\n");
+#define X(kind, name, arguments, meaning, example)                                                 \
+    jox_text_add(out, "- `" #name "(" arguments ")`: " meaning "\n");
+    JOX_DISTS(X)
+#undef X
 }
 
 void jox_scene_reference_markdown(JoxText *out) {
