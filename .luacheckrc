@@ -16,6 +16,7 @@ std = {
     "has",
     "sees",
     "heard",
+    "shut",
     "density",
     "count",
     "distance",

@@ -73,6 +73,68 @@ function measure.rms(list, expected)
   return math.sqrt(sum / #list)
 end
 
+-- Shares of distributions below a value: functions of x.
+function measure.uniform_share(least, greatest)
+  return function(x) return math.max(0, math.min(1, (x - least) / (greatest - least))) end
+end
+
+-- By the series of the error function, which converges for all x; beyond 6 deviations there is nothing.
+function measure.normal_share(mean, deviation)
+  return function(x)
+    local z = (x - mean) / deviation
+    if math.abs(z) > 6 then return z > 0 and 1 or 0 end
+    local term, sum, n = z, z, 1
+    while math.abs(term) > 1e-12 do
+      term, n = term * z * z / (2 * n + 1), n + 1
+      sum = sum + term
+    end
+    return 0.5 + sum * math.exp(-z * z / 2) / math.sqrt(2 * math.pi)
+  end
+end
+
+function measure.lognormal_share(mean, deviation)
+  local normal = measure.normal_share(mean, deviation)
+  return function(x) return normal(math.log(x)) end
+end
+
+function measure.weibull_share(shape, scale) return function(x) return 1 - math.exp(-(x / scale) ^ shape) end end
+
+-- The logarithm of the gamma function: Stirling's series, above 8, and what leads there.
+local function log_gamma(x)
+  local below = 0
+  while x < 8 do below, x = below + math.log(x), x + 1 end
+  return (x - 0.5) * math.log(x) - x + 0.5 * math.log(2 * math.pi) + 1 / (12 * x) - 1 / (360 * x ^ 3) + 1 / (1260 * x ^ 5) - below
+end
+
+function measure.gamma_share(shape, scale)
+  return function(x)
+    local at, n = x / scale, 0
+    local term = 1 / shape
+    local sum = term
+    while term > 1e-14 * sum do
+      n = n + 1
+      term = term * at / (shape + n)
+      sum = sum + term
+    end
+    return sum * math.exp(shape * math.log(at) - at - log_gamma(shape))
+  end
+end
+
+-- Chance that a list which is of the distribution differs from it so much, by the test of Kolmogorov and Smirnov (the
+-- series of its limit, with Stephens's correction for short lists).
+function measure.kolmogorov_smirnov(list, share)
+  local sorted, n, farthest = {}, #list, 0
+  for i = 1, n do sorted[i] = list[i] end
+  table.sort(sorted)
+  for i = 1, n do
+    local s = share(sorted[i])
+    farthest = math.max(farthest, s - (i - 1) / n, i / n - s)
+  end
+  local lambda, chance = (math.sqrt(n) + 0.12 + 0.11 / math.sqrt(n)) * farthest, 0
+  for k = 1, 100 do chance = chance + 2 * (-1) ^ (k - 1) * math.exp(-2 * (k * lambda) ^ 2) end
+  return lambda < 0.3 and 1 or math.max(0, math.min(1, chance))
+end
+
 -- How many of a list, from `first` on, are not less than the one before: 0 is a steady fall.
 function measure.rises(list, first)
   local count = 0

@@ -27,7 +27,8 @@ static void check_operands(const JoxMachine *m, const JoxInstruction *in) {
     JOX_ASSERT(op != JOX_OP_NOW || (in->arg >= 0 && in->arg < JOX_NOW_COUNT));
     JOX_ASSERT(op != JOX_OP_OWN || (uint32_t)in->arg < m->own_count);
     JOX_ASSERT(op != JOX_OP_MEMORY || (uint32_t)in->arg < m->memory_count);
-    JOX_ASSERT((op != JOX_OP_PLACE_DENSITY && op != JOX_OP_PLACE_COUNT) || in->place >= 0);
+    JOX_ASSERT((op != JOX_OP_PLACE_DENSITY && op != JOX_OP_PLACE_COUNT && op != JOX_OP_SHUT) ||
+               in->place >= 0);
     JOX_ASSERT((op != JOX_OP_HEARD && op != JOX_OP_IN_STATE) ||
                (in->name >= 0 && (uint32_t)in->name < m->name_count));
     JOX_ASSERT((op != JOX_OP_TAGGED && op != JOX_OP_IN_STATE) ||

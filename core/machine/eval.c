@@ -108,6 +108,8 @@ static double sense(const JoxMachineRun *run, const JoxMachine *machine, uint32_
         return jox_heard(run, i, machine->names[in->name].number, a);
     case JOX_OP_TAGGED:
         return jox_neighbours_of(run, i, in->arg, -1);
+    case JOX_OP_SHUT:
+        return jox_sees_shut(run, i, jox_target_place(run, i, in->place));
     case JOX_OP_IN_STATE:
         return jox_neighbours_of(run, i, in->arg, (int32_t)machine->names[in->name].number);
     default:

@@ -122,6 +122,9 @@ void jox_machines_listen(JoxMachineRun *run);
 bool jox_heard(const JoxMachineRun *run, uint32_t agent, uint32_t name, double reach);
 /* Neighbours of a kind (a tag's bit or JoxKin), and, with a name, in states of that name. */
 uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t agent, int32_t kind, int32_t name);
+/* Whether a gate at the place stands and the agent sees it: within perception, and no other wall
+   lies before it. */
+bool jox_sees_shut(const JoxMachineRun *run, uint32_t agent, int32_t place);
 /* Row of the body that the agent holds and the target means, or -1. */
 int32_t jox_holding(const JoxMachineRun *run, uint32_t agent, int32_t target);
 /* Memory that is set and signals that are given on entering or taking something. */

@@ -68,7 +68,8 @@ typedef enum JoxNow {
    as it moves, comes within a metres during the next 2 s. SEES: target exists within perception.
    HAS: the agent holds target, a body. HEARD: another agent within perception, and within a metres,
    gave the signal `name` in the last step. TAGGED: neighbours of the kind arg (a tag's bit or
-   JoxKin). IN_STATE: those of them in a state `name`. */
+   JoxKin). IN_STATE: those of them in a state `name`. SHUT: a gate at place stands, and the agent
+   sees it. */
 /* clang-format off */
 #define JOX_OPS(X)                                                              \
     X(CONST) X(NOW) X(OWN) X(MEMORY)                                            \
@@ -77,7 +78,7 @@ typedef enum JoxNow {
     X(DISTANCE) X(PLACE_DENSITY) X(PLACE_COUNT)                                 \
     X(INSIDE) X(NEAR) X(CROSSES) X(FIRST_IN) X(AFTER) X(LASTED) X(STUCK)        \
     X(TOUCHES) X(GROUNDED) X(KICKED) X(HIT_BY) X(INCOMING) X(SEES)              \
-    X(HAS) X(HEARD) X(TAGGED) X(IN_STATE)
+    X(HAS) X(HEARD) X(TAGGED) X(IN_STATE) X(SHUT)
 /* clang-format on */
 
 typedef enum JoxOp {

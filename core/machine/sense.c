@@ -4,6 +4,8 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
+#include "geom/polygon.h"
+#include "geom/walls.h"
 #include "machine/internal.h"
 
 static bool comes_before(const JoxSignal *a, const JoxSignal *b) {
@@ -79,6 +81,49 @@ uint32_t jox_neighbours_of(const JoxMachineRun *run, uint32_t i, int32_t kind, i
             name < 0 || jox_machine_of(run, j)->states[a->state[j]].name_number == (uint32_t)name;
     }
     return count;
+}
+
+static const float AT_PLACE = 0.5f; /* m: a gate nearer to a place than that belongs to it */
+
+/* Whether a wall of another ring than `but` lies between two points. */
+static bool is_hidden(const JoxWalls *walls, uint32_t but, JoxV2 from, JoxV2 to) {
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &walls->rings[r];
+        if (r == but || ring->open)
+            continue;
+        for (uint32_t v = ring->first; v < ring->first + ring->count; v++)
+            if (jox_segment_crossing(walls->vertices[v].point,
+                                     walls->vertices[walls->vertices[v].next].point, from, to))
+                return true;
+    }
+    return false;
+}
+
+/* Whether an agent sees one of the edges of a gate that belong to a place. */
+static bool sees_gate(const JoxMachineRun *run, uint32_t i, uint32_t place, uint32_t gate) {
+    const JoxWalls *walls = run->walls;
+    const struct JoxWallRing *ring = &walls->rings[gate];
+    const JoxV2 at = {run->agents->x[i], run->agents->y[i]};
+    const float perception = run->agents->param[JOX_PARAM_perception][i];
+    for (uint32_t v = ring->first; v < ring->first + ring->count; v++) {
+        const JoxV2 a = walls->vertices[v].point,
+                    b = walls->vertices[walls->vertices[v].next].point;
+        const JoxV2 middle = jox_scale(jox_add(a, b), 0.5f);
+        if (jox_length(jox_sub(jox_segment_nearest(a, b, at), at)) <= perception &&
+            jox_place_distance(run->places, place, middle) <= AT_PLACE &&
+            !is_hidden(walls, gate, at, middle))
+            return true;
+    }
+    return false;
+}
+
+bool jox_sees_shut(const JoxMachineRun *run, uint32_t i, int32_t place) {
+    for (uint32_t r = 0; place >= 0 && run->walls && r < run->walls->ring_count; r++) {
+        const struct JoxWallRing *ring = &run->walls->rings[r];
+        if (ring->name && !ring->open && sees_gate(run, i, (uint32_t)place, r))
+            return true;
+    }
+    return false;
 }
 
 int32_t jox_holding(const JoxMachineRun *run, uint32_t i, int32_t target) {

@@ -26,17 +26,25 @@ JoReproduceDef jo_default_reproduce_def(void) {
 
 /* ---- claims ---- */
 
-/* "paper" has claims with numbers, "rimea" those with an R, "real" the others. */
-static const char *group_of(const JoxClaim *claim) {
-    return isdigit((unsigned char)*claim->id) ? "paper" : *claim->id == 'R' ? "rimea" : "real";
+/* Groups of claims by the first letter of their ids; the paper's have numbers. */
+static const struct Group {
+    char letter;
+    const char *name;
+} STANDARDS[] = {{'R', "rimea"}, {'I', "imo"}, {'N', "nist"}};
+enum { STANDARD_COUNT = sizeof STANDARDS / sizeof *STANDARDS };
+
+static bool is_in_group(const JoxClaim *claim, const char *group) {
+    for (int s = 0; s < STANDARD_COUNT; s++)
+        if (*claim->id == STANDARDS[s].letter)
+            return strcmp(group, STANDARDS[s].name) == 0 || strcmp(group, "standards") == 0;
+    return strcmp(group, isdigit((unsigned char)*claim->id) ? "paper" : "real") == 0;
 }
 
 static bool is_wanted(const JoReproduceDef *def, const JoxClaim *claim) {
     for (size_t c = 0; c < def->claim_count; c++) {
         const char *file = jox_path_name(claim->path);
         size_t stem = jox_path_stem(file);
-        if (strcmp(def->claims[c], claim->id) == 0 ||
-            strcmp(def->claims[c], group_of(claim)) == 0 ||
+        if (strcmp(def->claims[c], claim->id) == 0 || is_in_group(claim, def->claims[c]) ||
             (strncmp(def->claims[c], file, stem) == 0 && def->claims[c][stem] == 0) ||
             strcmp(def->claims[c], claim->path) == 0)
             return true;
@@ -71,8 +79,13 @@ static int by_id(const void *left, const void *right, const void *context) {
         return isdigit((unsigned char)*a) ? -1 : 1;
     if (!isdigit((unsigned char)*a) && *a != *b)
         return *a < *b ? -1 : 1;
-    long x = strtol(isdigit((unsigned char)*a) ? a : a + 1, NULL, 10);
-    long y = strtol(isdigit((unsigned char)*b) ? b : b + 1, NULL, 10);
+    char *a_rest, *b_rest;
+    long x = strtol(isdigit((unsigned char)*a) ? a : a + 1, &a_rest, 10);
+    long y = strtol(isdigit((unsigned char)*b) ? b : b + 1, &b_rest, 10);
+    if (x == y && *a_rest == '.' && *b_rest == '.') { /* N2.10 comes after N2.9 */
+        x = strtol(a_rest + 1, NULL, 10);
+        y = strtol(b_rest + 1, NULL, 10);
+    }
     return x != y ? (x < y ? -1 : 1) : strcmp(a, b);
 }
 

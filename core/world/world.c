@@ -34,6 +34,7 @@ JoWorld *jox_world_create(const JoWorldDef *def) {
     world->machines.dt = def->dt;
     world->machines.gravity = def->gravity;
     world->machines.isa = world->model.def.isa;
+    world->machines.walls = &world->model.all_walls;
     world->state.routes = jox_routes_create();
     world->state.walls_set = true;
     world->state.settled = true;

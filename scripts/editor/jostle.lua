@@ -197,6 +197,11 @@ function sees(a1) end
 ---@return jostle.Condition
 function heard(a1, a2) end
 
+--- `shut(place)`: a gate at the place, or within half a metre of it, is closed, and the agent sees that: within perception, with no other wall before it
+---@param a1 string|jostle.Target|jostle.Number
+---@return jostle.Condition
+function shut(a1) end
+
 --- `density(place)` in 1/m2: people per square metre in a place; of a point, line or queue: within 2 m
 ---@param a1 string|jostle.Target|jostle.Number
 ---@return jostle.Number

@@ -45,6 +45,9 @@ const JoxWord jox_words[] = {
     {"heard", "s?n", CONDITION, JOX_OP_HEARD, 0, "heard(name [, metres])", "",
      "somebody within perception (and so many metres) gave the signal in the last step, or the scene now",
      "heard(\"alarm\", 10)"},
+    {"shut", "p", CONDITION, JOX_OP_SHUT, 0, "shut(place)", "",
+     "a gate at the place, or within half a metre of it, is closed, and the agent sees that: within "
+     "perception, with no other wall before it", "shut \"mid\""},
     /* numbers */
     {"density", "p", NUMBER, JOX_OP_PLACE_DENSITY, 0, "density(place)", "1/m2",
      "people per square metre in a place; of a point, line or queue: within 2 m", "density \"yard\""},

@@ -1,0 +1,26 @@
+local measure = require "measure"
+
+return claim {
+  id = "I4", title = "IMO 4: greatest flow through an exit",
+  source = "IMO MSC.1/Circ.1533, test 4, as implemented by the verification notebooks of JuPedSim",
+  text = "A hundred people leave a room of 8 x 5 m by an exit of 1 m. No more than 1.33 people pass it in a second. "
+    .. "Experiments with doors of a metre found 1.5 to 2.2; calm people and people in a hurry are shown as well.",
+  level = "normal", held_out = measure.walking_law,
+  runs = {
+    exit = { scene = "../room-exit.yaml", seeds = "101-110" },
+    calm = { scene = "../room-exit.yaml", seeds = "101-110", set = { ["groups.people.set.haste"] = "calm" } },
+    keen = { scene = "../room-exit.yaml", seeds = "101-110", set = { ["groups.people.set.haste"] = "keen" } },
+  },
+  quick = { exit = { seeds = 3 }, calm = { seeds = 3 }, keen = { seeds = 3 } },
+  measure = function(run)
+    local function flow(name) return run[name].summary.probes.exit.flow_all end
+    return { flow = flow("exit"), calm = flow("calm"), keen = flow("keen"), people = run.exit.summary.probes.exit.forward }
+  end,
+  expect = {
+    { "flow", unit = "1/s", what = "flow through the exit, normal people", source = "<= 1.33", band = { 0, 1.33 } },
+    { "calm", unit = "1/s", what = "the same, calm people", source = "<= 1.33", band = { 0, 1.33 } },
+    { "keen", unit = "1/s", what = "the same, people in a hurry", reported = true },
+    { "people", what = "people who leave", source = "100", band = { 100, 100 } },
+  },
+  pictures = { exit = { "exit.png", "density.png" } },
+}

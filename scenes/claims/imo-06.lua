@@ -1,0 +1,23 @@
+local measure = require "measure"
+
+return claim {
+  id = "I6", title = "IMO 6: round a corner",
+  source = "IMO MSC.1/Circ.1533, test 6, as implemented by the verification notebooks of JuPedSim",
+  text = "Twenty people turn left at the corner of a corridor of 2 m. All get round it, and none passes through a wall.",
+  level = "normal", held_out = measure.walking_law,
+  runs = { corner = { scene = "../rimea-06.yaml", seeds = "101-110" } },
+  quick = { corner = { seeds = 3 } },
+  measure = function(run)
+    local probes = run.corner.summary.probes
+    return {
+      round = probes.corner.forward,
+      walls = probes.outer_south.passages + probes.outer_east.passages + probes.inner_north.passages
+        + probes.inner_west.passages,
+    }
+  end,
+  expect = {
+    { "round", what = "people who get round the corner", source = "20", band = { 20, 20 } },
+    { "walls", what = "times that the middle of a person came within 0.1 m of a wall", source = "0", band = { 0, 0 } },
+  },
+  pictures = { corner = { "paths.png" } },
+}

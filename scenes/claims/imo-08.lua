@@ -1,0 +1,38 @@
+local measure = require "measure"
+
+-- The more come the other way, the longer it takes; a hundred at most, as they are.
+local function against(count)
+  local one = { scene = "../counter-rooms.yaml", seeds = "101-103" }
+  if count == 0 then one.set = { ["groups.westward.set.goal"] = "east" } -- they are where they go to, and leave at once
+  else one.set = { ["groups.westward.count"] = count } end
+  return one
+end
+
+return claim {
+  id = "I8", title = "IMO 8: two rooms and a corridor, both ways",
+  source = "IMO MSC.1/Circ.1533, test 8, as implemented by the verification notebooks of JuPedSim",
+  text = "A hundred people go from one room to another by a corridor of 10 x 2 m, against none, 10, 50 and 100. The time "
+    .. "until the last has arrived rises with the number of those who come, and nobody is stuck.",
+  level = "normal", held_out = measure.walking_law,
+  runs = { r0 = against(0), r10 = against(10), r50 = against(50), r100 = against(100) },
+  quick = { r0 = { seeds = 1 }, r10 = { seeds = 1 }, r50 = { seeds = 1 }, r100 = { seeds = 1 } },
+  measure = function(run)
+    local times, arrived = {}, {}
+    for _, n in ipairs { 0, 10, 50, 100 } do
+      local probe = run["r" .. n].summary.probes.eastward
+      times[n] = probe.last
+      arrived[#arrived + 1] = probe.forward - probe.back
+    end
+    return { t0 = times[0], t10 = times[10] - times[0], t50 = times[50] - times[10], t100 = times[100] - times[50],
+      arrived = measure.least(arrived) }
+  end,
+  expect = {
+    { "t0", unit = "s", what = "until the hundredth has passed, nobody against", reported = true },
+    { "t10", unit = "s", what = "how much longer against 10", source = "> 0", band = { 0.05, 1000 } },
+    { "t50", unit = "s", what = "how much longer against 50 than against 10", source = "> 0", band = { 0.05, 1000 } },
+    { "t100", unit = "s", what = "how much longer against 100 than against 50", source = "> 0", band = { 0.05, 1000 } },
+    { "arrived", what = "people of the hundred who got through within ten minutes, the fewest", source = "100",
+      band = { 100, 100 } },
+  },
+  pictures = { r50 = { "eastward.png", "density.png" } },
+}

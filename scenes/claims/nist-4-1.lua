@@ -1,0 +1,21 @@
+local measure = require "measure"
+
+return claim {
+  id = "N4.1", title = "NIST 4.1: an exit is lost",
+  source = "NIST TN 1822, test 4.1, as implemented by the verification notebooks of JuPedSim",
+  text = "The first exit is shut after a second. All leave by the second; who cannot see the first learns of it once it is "
+    .. "seen.",
+  level = "normal", held_out = measure.walking_law,
+  runs = { lost = { scene = "../exit-lost.yaml", seeds = "101-110" } },
+  quick = { lost = { seeds = 3 } },
+  measure = function(run)
+    local probes = run.lost.summary.probes
+    return { first = probes.west.forward, second = probes.east.forward, last = probes.east.last }
+  end,
+  expect = {
+    { "first", what = "people at the exit that is shut", source = "0", band = { 0, 0 } },
+    { "second", what = "people at the other one, of 20", source = "20", band = { 20, 20 } },
+    { "last", unit = "s", what = "until the last is out", reported = true },
+  },
+  pictures = { lost = { "paths.png" } },
+}
