@@ -9,6 +9,9 @@ typedef struct Reproduce {
 } Reproduce;
 
 static const CliOption OPTIONS[] = {
+    {"standards", NULL,
+     "the tests of RiMEA, IMO and NIST, and a page of them for authorities, standards.html",
+     CLI_TO(Reproduce, def.standards)},
     {"quick", NULL, "smaller runs with the same bands", CLI_TO(Reproduce, def.quick)},
     {"seeds", "A-B", "these seeds, or A alone, in place of those of each claim",
      CLI_TO(Reproduce, def.seeds)},

@@ -168,6 +168,7 @@ typedef struct JoReproduceDef {
     const char *seeds;        /* "101" or "101-110", in place of those of each claim; or NULL */
     bool quick;               /* the smaller runs of each claim */
     bool fresh;               /* runs that are there already are done again */
+    bool standards;           /* of all claims the tests of standards; and a page for authorities */
     bool list;                /* names the claims, runs nothing */
     bool quiet;               /* no progress on stderr */
     const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
@@ -176,8 +177,9 @@ typedef struct JoReproduceDef {
 } JoReproduceDef;
 JO_API JoReproduceDef jo_default_reproduce_def(void);
 /* Runs what claims need, measures, sends a table to `message` and writes index.html, table.md and
-   results.json into `out`. *missed counts the claims out of band. False with `error` if it could
-   not be done; what is wrong with claim files went to `message`. */
+   results.json into `out`, with `standards` also standards.html. *missed counts the claims out of
+   band. False with `error` if it could not be done; what is wrong with claim files went to
+   `message`. */
 JO_API bool jo_reproduce(const JoReproduceDef *def, size_t *missed, JoError *error);
 /* A generated page or file by name, as `jostle reference` lists them: "behaviours", "scenes",
    "lua-ls", "luacheck", "scene-schema", "mod-schema", "inputs". NULL if there is none; free with

@@ -26,17 +26,11 @@ JoReproduceDef jo_default_reproduce_def(void) {
 
 /* ---- claims ---- */
 
-/* Groups of claims by the first letter of their ids; the paper's have numbers. */
-static const struct Group {
-    char letter;
-    const char *name;
-} STANDARDS[] = {{'R', "rimea"}, {'I', "imo"}, {'N', "nist"}};
-enum { STANDARD_COUNT = sizeof STANDARDS / sizeof *STANDARDS };
-
+/* "paper" has claims with numbers, those of standards have names of their own, "real" the others.
+ */
 static bool is_in_group(const JoxClaim *claim, const char *group) {
-    for (int s = 0; s < STANDARD_COUNT; s++)
-        if (*claim->id == STANDARDS[s].letter)
-            return strcmp(group, STANDARDS[s].name) == 0 || strcmp(group, "standards") == 0;
+    if (jox_is_standard(claim))
+        return jox_standards_have(claim, group);
     return strcmp(group, isdigit((unsigned char)*claim->id) ? "paper" : "real") == 0;
 }
 
@@ -49,7 +43,7 @@ static bool is_wanted(const JoReproduceDef *def, const JoxClaim *claim) {
             strcmp(def->claims[c], claim->path) == 0)
             return true;
     }
-    return def->claim_count == 0;
+    return def->claim_count == 0 && (!def->standards || jox_is_standard(claim));
 }
 
 static char **list_files(const char *folder, size_t *count) {
@@ -319,6 +313,8 @@ static bool go(JoxReproduction *all, size_t *missed, JoError *error) {
     if (all->left_out.length)
         jox_text_printf(&out, "\nleft out with --quick: %s", all->left_out.data);
     jox_text_printf(&out, "\nreport: %s/index.html\n", all->def->out);
+    if (all->def->standards)
+        jox_text_printf(&out, "standards: %s/standards.html\n", all->def->out);
     say(all->def, out.data);
     jox_text_free(&why);
     jox_text_free(&out);

@@ -119,7 +119,7 @@ static void put_figures(FILE *out, const JoxOutcome *outcome) {
     fputs("</table></div>\n", out);
 }
 
-static void put_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
+void jox_reproduce_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
     const JoxClaim *claim = outcome->claim;
     for (uint32_t p = 0; !outcome->failure && p < claim->plot_count; p++) {
         char name[200], link[256];
@@ -222,7 +222,7 @@ static void put_claim(FILE *out, const JoxReproduction *all, const JoxOutcome *o
     }
     put_figures(out, outcome);
     put_tried(out, outcome);
-    put_pictures(out, all, outcome);
+    jox_reproduce_pictures(out, all, outcome);
     put_runs(out, all, outcome);
 }
 
@@ -375,5 +375,7 @@ bool jox_reproduce_write(const JoxReproduction *all, JoxText *error) {
     char when[512];
     circumstances(all, when, sizeof when);
     return jox_plot_folder(all->def->out, error) && jox_reproduce_plots(all, error) &&
-           write_page(all, when, error) && write_table(all, when, error) && write_json(all, error);
+           write_page(all, when, error) && write_table(all, when, error) &&
+           write_json(all, error) &&
+           (!all->def->standards || jox_reproduce_standards(all, when, error));
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/assert.h"
+#include "base/mem.h"
 
 enum { MOST_SEEDS = 1000 };
 
@@ -19,6 +20,30 @@ double jox_student_t(uint32_t degrees_of_freedom) {
     /* Fisher's expansion about the normal distribution's 1.96. */
     const double z = 1.959964, n = degrees_of_freedom;
     return z + (z * z * z + z) / (4 * n) + (5 * pow(z, 5) + 16 * z * z * z + 3 * z) / (96 * n * n);
+}
+
+static int ascending(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The value that a share of all lie below, linear between ranks; NAN where one is none. */
+static double quantile(const double *values, uint32_t count, double share) {
+    double *sorted = jox_alloc(count, sizeof *sorted);
+    double result = NAN;
+    bool all = true;
+    for (uint32_t s = 0; s < count; s++) {
+        sorted[s] = values[s];
+        all &= !isnan(values[s]);
+    }
+    if (all) {
+        qsort(sorted, count, sizeof *sorted, ascending);
+        const double at = share * (count - 1);
+        const uint32_t low = (uint32_t)at, high = low + 1 < count ? low + 1 : low;
+        result = sorted[low] + (at - low) * (sorted[high] - sorted[low]);
+    }
+    jox_free(sorted);
+    return result;
 }
 
 JoxVerdict jox_verdict(const double *values, uint32_t count, double low, double high) {
@@ -37,6 +62,7 @@ JoxVerdict jox_verdict(const double *values, uint32_t count, double low, double 
         squares += (values[s] - v.mean) * (values[s] - v.mean);
     if (count > 1)
         v.bound = jox_student_t(count - 1) * sqrt(squares / (count - 1) / count);
+    v.p95 = quantile(values, count, 0.95);
     v.inside = v.mean >= low && v.mean <= high;
     v.thin = (v.mean - v.bound < low && v.mean + v.bound > low) ||
              (v.mean - v.bound < high && v.mean + v.bound > high);

@@ -7,6 +7,7 @@
 
 typedef struct JoxVerdict {
     double mean, least, most; /* over seeds; NAN: not measured */
+    double p95;               /* 95 % of the values lie below it, linear between ranks */
     double bound;             /* the mean is so sure to 95 %, to either side; NAN of one seed */
     uint32_t seeds;
     bool inside; /* the mean lies in the band */

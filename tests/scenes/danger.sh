@@ -79,7 +79,7 @@ echo 'POLYGON ((0 0, 8 0, 8 6, 0 6))' >"$work/hall/plan.wkt"
 # turbulence, of a crush at a bottleneck it is turbulence.
 shaken() { "$JOSTLE" run "scenes/$1.yaml" --for "$2" --quiet --data "$work/shaken" --summary "$work/shaken.json" >/dev/null 2>&1; in_json pressure_max "$work/shaken.json"; }
 [ -z "$(shaken station 60)" ] && grep -q '"pressure_max": null' "$work/shaken.json" && grep -q '"pressure_002": {"people": null' "$work/shaken.json"; verdict "a boarding queue: not measured" $?
-between "1,000 people who leave by four doors, 1/s2" "$(shaken rimea-09 60)" 0.001 0.02
+between "1,000 people who leave by four doors, 1/s2" "$(shaken imo-09 60)" 0.001 0.02
 between "1,000 people who press through a bottleneck, 1/s2" "$(shaken two-bottlenecks 80)" 0.02 1
 
 # Each figure is one quantity: the same in the summary, in the tables and on the page.

@@ -49,9 +49,9 @@ between "RiMEA 9: a thousand leave" "$(event removed <"$work/s")" 1000 1000
 summary rimea-10 >"$work/s"
 between "RiMEA 10: nobody takes the wrong exit" "$(of main_wrong passages <"$work/s")$(of secondary_wrong passages <"$work/s")" 0 0
 between "RiMEA 10: all 23 leave" "$(event removed <"$work/s")" 23 23
-summary rimea-11 >"$work/s"
+summary rimea-11 --set groups.people.count=300 >"$work/s"
 between "RiMEA 11: both doors are taken, the nearer one by many" "$(of near forward <"$work/s")" 120 270
-between "RiMEA 11: all 300 leave" "$(event removed <"$work/s")" 300 300
+between "RiMEA 11, of 300 people: all leave" "$(event removed <"$work/s")" 300 300
 for scene in rimea-15 rimea-15-straight; do
     summary $scene >"$work/s"
     between "$scene: all 60 arrive" "$(event removed <"$work/s")" 60 60

@@ -1,0 +1,183 @@
+/* The page for an authority: each test of a standard with its source, its plan, its criterion, what
+   was measured, and the verdict. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/mem.h"
+#include "picture/html.h"
+#include "picture/plot.h"
+#include "validate/reproduce.h"
+
+enum { MOST_SETS = 60 };
+
+static const char PAGE[] = "standards.html";
+
+/* By the first letter of a claim's id. */
+static const struct Standard {
+    char letter;
+    const char *group, *name, *left_out;
+} STANDARDS[] = {
+    {'R', "rimea", "RiMEA 4.1.1", "2, 3 and 13 (stairs), 8 and 14 (storeys)"},
+    {'I', "imo", "IMO MSC.1/Circ.1533", "2, 3 and 11 (stairs), 7 (a table of men of 30 to 50)"},
+    {'N', "nist", "NIST TN 1822", "2.2 (stairs), 2.5 and 2.6 (smoke), 2.7 (lifts), 5.1"},
+};
+enum { STANDARD_COUNT = sizeof STANDARDS / sizeof *STANDARDS };
+
+static const struct Standard *standard_of(const JoxClaim *claim) {
+    for (int s = 0; s < STANDARD_COUNT; s++)
+        if (*claim->id == STANDARDS[s].letter)
+            return &STANDARDS[s];
+    return NULL;
+}
+
+bool jox_standards_have(const JoxClaim *claim, const char *group) {
+    const struct Standard *standard = standard_of(claim);
+    return standard && (strcmp(group, "standards") == 0 || strcmp(group, standard->group) == 0);
+}
+
+bool jox_is_standard(const JoxClaim *claim) {
+    return standard_of(claim) != NULL;
+}
+
+/* ---- plans ---- */
+
+/* The scene of a claim's first run at its beginning, as `jostle render` draws it. */
+static bool draw_plan(const JoxReproduction *all, const JoxOutcome *outcome, const char *path) {
+    const JoxClaimRun *run = &outcome->claim->runs[0];
+    const char *arguments[2 * MOST_SETS + 8] = {all->def->program, "render", run->scene,
+                                                "--quiet",         "--out",  path};
+    int n = 6, status = 0;
+    for (uint32_t s = 0; s < run->set_count && s < MOST_SETS; s++) {
+        arguments[n++] = "--set";
+        arguments[n++] = run->sets[s];
+    }
+    const pid_t child = fork();
+    if (child == 0) {
+        if (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr))
+            _exit(127);
+        execv(all->def->program, (char **)(uintptr_t)arguments);
+        _exit(127);
+    }
+    return child > 0 && waitpid(child, &status, 0) == child && status == 0;
+}
+
+static void put_plan(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
+    char name[100], path[1400];
+    snprintf(name, sizeof name, "plan-%.40s.png", outcome->claim->id);
+    snprintf(path, sizeof path, "%s/%s", all->def->out, name);
+    if (draw_plan(all, outcome, path))
+        jox_html_picture(out, name, NULL, "the set-up at the beginning");
+    else
+        fputs("<p class=out>The plan could not be drawn.</p>\n", out);
+}
+
+/* ---- the page ---- */
+
+static void put_summary(FILE *out, const JoxReproduction *all) {
+    jox_html_table(out, "standard|tests|pass|fail|not covered");
+    for (int s = 0; s < STANDARD_COUNT; s++) {
+        uint32_t tests = 0, passes = 0;
+        for (uint32_t o = 0; o < all->outcome_count; o++)
+            if (standard_of(all->outcomes[o].claim) == &STANDARDS[s]) {
+                tests++;
+                passes += all->outcomes[o].inside;
+            }
+        jox_html_row(out);
+        jox_html_cell(out, STANDARDS[s].name);
+        jox_html_cell_number(out, tests, "");
+        jox_html_cell_number(out, passes, "");
+        jox_html_cell_number(out, tests - passes, "");
+        jox_html_cell(out, STANDARDS[s].left_out);
+    }
+    jox_html_table_end(out);
+}
+
+static void put_verdict(FILE *out, bool inside, bool thin) {
+    fprintf(out, "<td class=%s>%s%s", inside ? "in" : "out", inside ? "passes" : "fails",
+            thin ? ", thin" : "");
+}
+
+static void put_overview(FILE *out, const JoxReproduction *all) {
+    jox_html_table(out, "test|what|verdict");
+    for (uint32_t o = 0; o < all->outcome_count; o++) {
+        const JoxOutcome *outcome = &all->outcomes[o];
+        if (!standard_of(outcome->claim))
+            continue;
+        jox_html_row(out);
+        fprintf(out, "<td><a href=\"#t%u\">", o);
+        jox_html_text(out, outcome->claim->id);
+        fputs("</a>", out);
+        jox_html_cell(out, outcome->claim->title);
+        put_verdict(out, outcome->inside, outcome->inside && outcome->thin);
+    }
+    jox_html_table_end(out);
+}
+
+static void put_figure(FILE *out, const JoxClaimFigure *figure, const JoxVerdict *v) {
+    char text[64] = "";
+    jox_html_row(out);
+    jox_html_cell(out, *figure->what ? figure->what : figure->name);
+    jox_html_cell(out, figure->expected);
+    jox_html_cell_number(out, v->mean, figure->unit);
+    if (isfinite(v->bound))
+        snprintf(text, sizeof text, "± %.2g", v->bound);
+    jox_html_cell(out, text);
+    jox_html_cell_number(out, v->p95, figure->unit);
+    jox_html_cell_number(out, v->most, figure->unit);
+    jox_html_cell_number(out, v->seeds, "");
+    if (figure->reported)
+        jox_html_cell(out, "reported");
+    else
+        put_verdict(out, v->inside, v->thin);
+}
+
+static void put_test(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome) {
+    const JoxClaim *claim = outcome->claim;
+    fprintf(out, "<h2 id=\"t%u\">", (unsigned)(outcome - all->outcomes));
+    jox_html_text(out, claim->title);
+    fprintf(out, " &ndash; <span class=%s>%s</span></h2>\n", outcome->inside ? "in" : "out",
+            outcome->inside ? "passes" : "fails");
+    jox_html_paragraph(out, claim->text);
+    fputs("<p><small>Source: ", out);
+    jox_html_text(out, claim->source);
+    fputs(".<br>Haste of its people: ", out);
+    jox_html_text(out, *claim->level ? claim->level : "as the scene says");
+    fputs(".</small></p>\n", out);
+    if (outcome->failure)
+        jox_html_paragraph(out, outcome->failure);
+    put_plan(out, all, outcome);
+    jox_html_table(out, "figure|criterion|mean|95 % bound|95 % of runs|most|runs|verdict");
+    for (uint32_t f = 0; f < claim->figure_count; f++)
+        put_figure(out, &claim->figures[f], &outcome->verdicts[f]);
+    jox_html_table_end(out);
+    jox_reproduce_pictures(out, all, outcome);
+}
+
+bool jox_reproduce_standards(const JoxReproduction *all, const char *when, JoxText *error) {
+    FILE *out = jox_plot_open(all->def->out, PAGE, error);
+    if (!out)
+        return false;
+    jox_html_begin(out, "Tests of standards");
+    jox_html_paragraph(out, when);
+    jox_html_paragraph(
+        out,
+        "All people walk by one law with one set of constants, which no test changes; what a "
+        "test says of speeds, sizes and times before people move is given to them. Each figure is "
+        "the mean over runs that differ by the seed of their random numbers alone, with its "
+        "95 % bound; thin is a verdict that other seeds might turn. Tests that fail are shown "
+        "as failing.");
+    jox_html_paragraph(
+        out, "Set-ups and criteria are those of open implementations of the tests, which are named "
+             "with each; the texts of the standards themselves were not consulted. A test says "
+             "that a model does what it was asked, not that a scenario is safe.");
+    put_summary(out, all);
+    put_overview(out, all);
+    for (uint32_t o = 0; o < all->outcome_count; o++)
+        if (standard_of(all->outcomes[o].claim))
+            put_test(out, all, &all->outcomes[o]);
+    jox_html_end(out);
+    return jox_plot_close(out, PAGE, error);
+}

@@ -1,0 +1,22 @@
+local measure = require "measure"
+
+return claim {
+  id = "R5", title = "RiMEA 5: each moves at its time",
+  source = "RiMEA 4.1.1, test 5, as implemented by the verification notebooks of JuPedSim",
+  text = "Ten people in a room of 8 x 5 m begin to move at times of their own, even between 10 and 100 s.",
+  level = "normal", held_out = measure.walking_law,
+  runs = { room = { scene = "../premovement.yaml", seeds = "101-110" } },
+  quick = { room = { seeds = 3 } },
+  measure = function(run)
+    local waiting = run.room.summary.probes.waiting
+    return { people = waiting.passages, least = waiting.least, greatest = waiting.greatest,
+      apart = measure.deviation(run.room.csv("waiting").transit) }
+  end,
+  expect = {
+    { "people", what = "people who began to move", source = "10", band = { 10, 10 } },
+    { "least", unit = "s", what = "the first of them", source = ">= 10", band = { 10, 55 } },
+    { "greatest", unit = "s", what = "the last of them", source = "<= 100", band = { 55, 100.1 } },
+    { "apart", unit = "s", what = "standard deviation of their times", source = "26.0", band = { 18, 34 } },
+  },
+  pictures = { room = { "waiting.png" } },
+}

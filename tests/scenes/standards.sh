@@ -1,0 +1,44 @@
+# The quick ones of the tests of standards hold, and their page says what it should; what behaviours see of gates.
+. tests/scenes/lib.sh
+says() { # NAME STATUS TEXT COMMAND...: the exit status, and a text in the output
+    local name=$1 status=$2 text=$3; shift 3
+    "$@" >"$work/out" 2>&1 </dev/null
+    [ $? = "$status" ] && grep -qF -- "$text" "$work/out"
+    verdict "$name" $?
+}
+
+quick="R5 R12b R12c I1 I5 I6 I10 N1.1 N2.4 N2.9 N2.10 N3.3 N4.1"
+says "the quick tests of standards pass" 0 "13 of 13 claims in band" "$JOSTLE" reproduce $quick --standards --quick --quiet --out "$work/rep"
+page="$work/rep/standards.html"
+grep -q 'plan-N4.1.png' "$page" && [ -s "$work/rep/plan-N4.1.png" ]; verdict "each test has its plan" $?
+grep -q '<td>IMO MSC.1/Circ.1533<td class=n>4<td class=n>4<td class=n>0' "$page"; verdict "the tests of a standard are counted" $?
+grep -q '2.2 (stairs)' "$page"; verdict "what is not covered is named" $?
+says "a group's claims" 0 "N2.10  NIST 2.10" "$JOSTLE" reproduce nist --list
+says "those of all standards alone" 0 "R16  RiMEA 16" "$JOSTLE" reproduce --standards --list
+"$JOSTLE" reproduce --standards --list 2>/dev/null | grep -q '^B1 '; verdict "and no others" $((1 - $?))
+
+# Who cannot see that a door is shut does not know it: a screen stands between the two in the west and their door.
+mkdir -p "$work/scenes"
+cp scenes/exit-lost.yaml scenes/two-exits.yaml "$work/scenes"
+cp -r behaviours "$work"; cp scripts/crowd.lua "$work/behaviours"
+cat >"$work/scenes/screen.yaml" <<'END'
+jostle: 1
+include: exit-lost.yaml
+duration: 4
+walls:
+  - {line: [[0, 5.5], [0, 0], [20, 0], [20, 5.5]]}
+  - {line: [[0, 6.5], [0, 12], [20, 12], [20, 6.5]]}
+  - {line: [[0, 5.5], [-5, 3], [-5, 9], [0, 6.5]]}
+  - {line: [[20, 5.5], [25, 3], [25, 9], [20, 6.5]]}
+  - {line: [[0, 5.5], [0, 6.5]], name: west, open: true}
+  - {line: [[20, 5.5], [20, 6.5]], name: east, open: true}
+  - {line: [[2, 3], [2, 9]]}
+groups:
+  people: {count: 6, spacing: 0.8, in: middle, set: {premovement: 0}}
+places:
+  middle: {polygon: [[8, 4], [12, 4], [12, 8], [8, 8]]}
+END
+seen() { "$JOSTLE" run "$1" --for "$2" --quiet --summary - 2>/dev/null | tr '\n' ' ' | sed -n 's/.*"leaver": {[^}]*"ToSecond": \([0-9]*\).*/\1/p'; }
+between "behind a screen nobody turns to the other exit" "$(seen "$work/scenes/screen.yaml" 3)" 0 0
+sed -i '/\[\[2, 3\], \[2, 9\]\]/d' "$work/scenes/screen.yaml"
+between "who sees the door does" "$(seen "$work/scenes/screen.yaml" 3)" 6 7
