@@ -40,14 +40,16 @@ static void grow_column(void *context, void **column, size_t size) {
     *column = wider;
 }
 
-/* Columns of 4 and of 8 bytes change places with these; rows, which are wider, stay where they are:
-   one of them has room in `scratch`. */
+/* Columns of 4 and of 8 bytes change places with the first two; rows, which are wider, stay where
+   they are. */
 static void grow_scratch(JoxAgents *a) {
     jox_free(a->scratch);
     jox_free(a->spare);
+    jox_free(a->row);
     const size_t row = a->own_stride > a->memory_stride ? a->own_stride : a->memory_stride;
-    a->scratch = jox_alloc_aligned((size_t)a->capacity + PADDING + row, sizeof(uint64_t));
+    a->scratch = jox_alloc_aligned((size_t)a->capacity + PADDING, sizeof(uint64_t));
     a->spare = jox_alloc_aligned((size_t)a->capacity + PADDING, sizeof(uint32_t));
+    a->row = jox_alloc(row + 1, sizeof(double));
 }
 
 void jox_agents_reserve(JoxAgents *a, uint32_t capacity) {
@@ -169,7 +171,7 @@ static void gather_bytes(const Gather *gather, char *column, size_t size) {
 /* Rows in place, cycle by cycle of the permutation. `done`: a byte an agent. */
 static void permute_rows(const Gather *gather, char *rows, size_t size, uint8_t *done) {
     const uint32_t *order = gather->order;
-    void *first = gather->agents->scratch;
+    void *first = gather->agents->row;
     memset(done, 0, gather->count);
     for (uint32_t start = 0; start < gather->count; start++) {
         if (done[start] || order[start] == start)
@@ -314,6 +316,7 @@ void jox_agents_free(JoxAgents *a) {
     jox_free(a->rank_id);
     jox_free(a->scratch);
     jox_free(a->spare);
+    jox_free(a->row);
     jox_free(a->order);
     *a = (JoxAgents){0};
 }

@@ -120,6 +120,7 @@ typedef struct JoxAgents {
        an axis without; positions are kept within [origin, origin + period). */
     JoxV2 origin, period;
     void *scratch, *spare; /* for permuting: columns of 8 and of 4 bytes an agent */
+    void *row;             /* and one wider entry */
     uint32_t *order;
 } JoxAgents;
 

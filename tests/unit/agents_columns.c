@@ -40,6 +40,28 @@ static void columns_follow_their_agent(void **state) {
     jox_agents_free(&a);
 }
 
+/* More numbers an agent than there are agents. */
+static void rows_may_be_wide(void **state) {
+    (void)state;
+    enum { WIDE = 4000 };
+    static const uint32_t ORDER[] = {1, 2, 0};
+    JoxAgents a = {0};
+    jox_agents_widen(&a, 1, WIDE);
+    for (uint32_t i = 0; i < 3; i++) {
+        const uint32_t at = jox_agents_add(&a);
+        a.tags[at] = 100 + i;
+        for (uint32_t m = 0; m < WIDE; m++)
+            a.memory[at * WIDE + m] = i * WIDE + m;
+    }
+    jox_agents_permute(&a, ORDER);
+    for (uint32_t i = 0; i < 3; i++) {
+        assert_int_equal(a.tags[i], 100 + ORDER[i]);
+        for (uint32_t m = 0; m < WIDE; m++)
+            assert_true(a.memory[i * WIDE + m] == ORDER[i] * WIDE + m);
+    }
+    jox_agents_free(&a);
+}
+
 static void removing_keeps_order_and_retires_handles(void **state) {
     (void)state;
     JoxAgents a = {0};
@@ -221,6 +243,7 @@ static void what_is_no_state_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(columns_follow_their_agent),
+        cmocka_unit_test(rows_may_be_wide),
         cmocka_unit_test(removing_keeps_order_and_retires_handles),
         cmocka_unit_test(turnover_takes_no_memory),
         cmocka_unit_test(a_new_agent_has_the_defaults),
