@@ -9,20 +9,28 @@
 typedef struct JoxConfines {
     const char *const *folders; /* with all below them, or files: may be read, if they are there */
     size_t folder_count;
-    size_t memory;    /* bytes that it may take besides what it has */
-    unsigned seconds; /* of processor time */
+    size_t memory;    /* bytes that it may take besides what it has; 0: any */
+    unsigned seconds; /* of processor time; 0: any */
+    /* Who works has threads, and calls that do not reach beyond itself and its files. Without, it
+       reads, and writes to what is open. */
+    bool works;
+    bool programs; /* who works starts programs of the system, which are confined as it is */
+    bool serves;   /* who works answers those who connect to it, and connects to nobody */
+    const char *const *outputs; /* of who works: folders, with all below them, or files */
+    size_t output_count;
 } JoxConfines;
 
 /* What this kernel can hold a process to. */
 typedef struct JoxConfining {
-    bool files; /* Landlock: only the folders are read */
-    bool calls; /* seccomp: no network, no other processes, nothing is written but open files */
+    bool files; /* Landlock: only the folders are read, and only the outputs written */
+    bool calls; /* seccomp: no network and no other processes but those that are granted */
 } JoxConfining;
 JoxConfining jox_confine_can(void);
 
 /* From here on the calling thread, which is to be the only one of its process, can do no more than
    that. False, and some of it may hold, where the kernel refuses what it has. A forbidden call
-   fails; starting a program or opening a socket ends the process by SIGSYS. */
+   fails; starting a program ends the process by SIGSYS, and so does a socket of who does not work.
+   What lies beneath an output may be made, changed and removed. */
 bool jox_confine(const JoxConfines *confines);
 
 #endif

@@ -3,18 +3,23 @@
 #include "cli/cli.h"
 
 typedef struct Check {
-    bool json, reference;
+    bool json, reference, trusted;
 } Check;
 
 static const CliOption OPTIONS[] = {
     {"json", NULL, "one array of {file, line, column, end, severity, code, message, hint}",
      CLI_TO(Check, json)},
     {"reference", NULL, "print the reference of the scene format", CLI_TO(Check, reference)},
+    CLI_TRUSTED_OPTION(Check),
 };
 
-static int check(const CliList *paths, bool json) {
+static int check(const CliList *paths, bool json, bool trusted) {
     if (paths->count == 0)
         return cli_misused(&cli_check, "no path given");
+    CliReach reach = {0};
+    for (size_t p = 0; p < paths->count; p++)
+        cli_reach_scene(&reach, paths->items[p]);
+    cli_confine_work(&reach, trusted);
     JoError error;
     size_t errors = jo_check(paths->items, paths->count, json, cli_print, stdout, &error);
     if (errors == SIZE_MAX)
@@ -33,7 +38,7 @@ static int run(int argc, char **argv) {
         status = text && fputs(text, stdout) >= 0 ? JO_OK : JO_FAILED;
         jo_free(text);
     } else if (status == CLI_GO_ON) {
-        status = check(&paths, options.json);
+        status = check(&paths, options.json, options.trusted);
     }
     cli_free(&cli_check, &options, &paths);
     return status;

@@ -129,6 +129,33 @@ int cli_failed(const CliCommand *command, const JoError *error, bool sent);
    sealed: to be loaded from (jox_overlay_use). JO_OK, or the exit status, with a message. */
 int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files);
 
+/* What a command may do once it reads files of others. Zero-initialise. */
+typedef struct CliPaths {
+    char **items;
+    size_t count, capacity;
+} CliPaths;
+typedef struct CliReach {
+    CliPaths reads, writes; /* besides what libraries of the system and mods need */
+    size_t memory;          /* bytes, and below seconds of processor time; 0: any */
+    unsigned seconds;
+    bool works, programs, serves; /* as of JoxConfines */
+} CliReach;
+
+/* A path may be read: a recording, with what SQLite keeps beside it; a folder or a file; a scene or
+   behaviour, or folder of them, with what lies in its folder and in ../behaviours; a scene with its
+   mods and input log. Of NULL, nothing. */
+void cli_reach_file(CliReach *reach, const char *path);
+void cli_reach_folder(CliReach *reach, const char *path);
+void cli_reach_scene(CliReach *reach, const char *path);
+void cli_reach_def(CliReach *reach, const JoSceneDef *def);
+/* A folder, or the folder of a file, may be written. Of NULL and "-", nothing. */
+void cli_reach_output(CliReach *reach, const char *path);
+/* From here on the process, which is to have one thread, can do no more; the paths are freed. Where
+   the system cannot hold it to that, that is said. */
+bool cli_confine(CliReach *reach);
+/* As cli_confine, of a whole command; nothing where the user trusts the files. */
+void cli_confine_work(CliReach *reach, bool trusted);
+
 /* The help of a command, and the manual page of all. Freed by jo_free. */
 char *cli_help(const CliCommand *command);
 char *cli_manual(void);
@@ -146,6 +173,16 @@ bool cli_isa(JoIsa *isa, const char *text, char why[160]);
             "instruction set of the kernels: scalar, sse2, avx2, avx512 or neon; never changes "   \
             "a result",                                                                            \
             "the widest that the machine runs", .kind = CLI_READ, .read = function                 \
+    }
+
+/* Of commands that cli_confine_work confines. */
+#define CLI_TRUSTED_OPTION(type)                                                                   \
+    {                                                                                              \
+        "trusted", NULL,                                                                           \
+            "the files are one's own: whatever they name is read. Else the command reads the "     \
+            "folders of what it is given, ../behaviours and mods alone, writes to its output's "   \
+            "folder alone and connects to nothing",                                                \
+            CLI_TO(type, trusted)                                                                  \
     }
 
 /* Of a scene: `def` is a member JoSceneDef; the options have CliLists `sets` and `mods`, and a bool

@@ -6,10 +6,10 @@
 typedef struct Mods {
     JoSceneDef def;
     CliList mods;
-    bool of_scene;
+    bool of_scene, trusted;
 } Mods;
 
-static const CliOption OPTIONS[] = {CLI_MOD_OPTIONS(Mods, def)};
+static const CliOption OPTIONS[] = {CLI_MOD_OPTIONS(Mods, def), CLI_TRUSTED_OPTION(Mods)};
 
 static int list(const JoSceneDef *def) {
     char *text = jo_mods_list(def);
@@ -60,6 +60,13 @@ static int run(int argc, char **argv) {
         options.def.mod_count = options.mods.count;
         const bool on = !strcmp(verb, "enable"), turns = on || !strcmp(verb, "disable");
         options.def.path = plain.count > (turns ? 2 : 1) ? plain.items[plain.count - 1] : NULL;
+        if (!turns) {
+            CliReach reach = {0};
+            cli_reach_def(&reach, &options.def);
+            for (size_t p = 1; p < plain.count && !strcmp(verb, "check"); p++)
+                cli_reach_scene(&reach, plain.items[p]);
+            cli_confine_work(&reach, options.trusted);
+        }
         if (!strcmp(verb, "list") && plain.count <= 2)
             status = list(&options.def);
         else if (!strcmp(verb, "why") && plain.count == 3)

@@ -13,7 +13,7 @@ typedef struct Wanted {
     CliList sets, mods;
     double area[4];
     const char *path;
-    bool quiet, from, until, fps, of_scene, of_recording; /* options that were given */
+    bool quiet, trusted, from, until, fps, of_scene, of_recording; /* options that were given */
 } Wanted;
 
 /* "1280x720" */
@@ -84,6 +84,7 @@ static const CliOption OPTIONS[] = {
     {"paths", NULL, "where people and bodies went until then (of many, 500)",
      CLI_TO(Wanted, def.paths)},
     {"quiet", NULL, "no progress", CLI_TO(Wanted, quiet)},
+    CLI_TRUSTED_OPTION(Wanted),
     {"of a scene, as of `jostle run`:", .kind = CLI_HEADING},
     CLI_SCENE_OPTIONS(Wanted, scene),
     {"of a recording:", .kind = CLI_HEADING},
@@ -125,6 +126,18 @@ static const char *misuse(const Wanted *w, bool scene) {
                : NULL;
 }
 
+/* Gives up all that is not needed to draw into the folder of the output. */
+static void confine(const Wanted *w, bool scene) {
+    CliReach reach = {.programs = true};
+    if (scene)
+        cli_reach_def(&reach, &w->scene);
+    else
+        cli_reach_file(&reach, w->path);
+    cli_reach_scene(&reach, w->def.plan);
+    cli_reach_output(&reach, w->def.out);
+    cli_confine_work(&reach, w->trusted);
+}
+
 static int draw(Wanted *w) {
     JoError error = {0};
     char out[512];
@@ -145,6 +158,7 @@ static int draw(Wanted *w) {
         w->def.scene = &w->scene;
     else
         w->def.recording = w->path;
+    confine(w, scene);
     if (jo_render(&w->def, &error))
         return JO_OK; /* an error with a file's name was sent as a message */
     return cli_failed(&cli_render, &error, *error.file != 0);

@@ -3,6 +3,7 @@
 typedef struct Wanted {
     JoReportDef def;
     const char *summary;
+    bool trusted;
 } Wanted;
 
 static bool read_unit(void *options, const char *text, char why[160]) {
@@ -24,12 +25,23 @@ static const CliOption OPTIONS[] = {
      CLI_RANGE(0.01, 10000)},
     {"unit", "m|cm", "unit of its lengths, where it does not say", .kind = CLI_READ,
      .read = read_unit},
+    CLI_TRUSTED_OPTION(Wanted),
 };
+
+static void confine(const Wanted *wanted) {
+    CliReach reach = {.programs = true};
+    cli_reach_file(&reach, wanted->def.recording);
+    cli_reach_scene(&reach, wanted->def.scene);
+    cli_reach_output(&reach, wanted->def.directory);
+    cli_reach_output(&reach, wanted->summary);
+    cli_confine_work(&reach, wanted->trusted);
+}
 
 static int measure(const Wanted *wanted) {
     JoError error = {0};
     if (!wanted->def.directory && !wanted->summary)
         return cli_misused(&cli_report, "nothing is asked for: give --out DIR, or --summary FILE");
+    confine(wanted);
     char *summary = jo_report(&wanted->def, &error);
     if (!summary) /* what is wrong with a file was sent as a message */
         return cli_failed(&cli_report, &error, error.code != JO_FAILED);

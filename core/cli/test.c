@@ -1,17 +1,19 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
+#include "base/format/path.h"
 #include "cli/cli.h"
 
 typedef struct Test {
     const char *only;
-    bool json;
+    bool json, trusted;
 } Test;
 
 static const CliOption OPTIONS[] = {
     {"only", "TEXT", "those whose name contains it", CLI_TO(Test, only)},
     {"json", NULL, "one array of {file, line, name, passed, simulated_s, message}",
      CLI_TO(Test, json)},
+    CLI_TRUSTED_OPTION(Test),
 };
 
 /* Where tests lie when no path is given: the first that there is, else this folder. */
@@ -24,12 +26,35 @@ static const char *usual_place(void) {
     return ".";
 }
 
+/* Tests lie beside the behaviours and scenes that they test, or in a folder of theirs. */
+static void confine(const char *const *paths, size_t count, bool trusted) {
+    static const char *const NEAR[] = {"../behaviours", "../scenes", "../../behaviours",
+                                       "../../scenes"};
+    CliReach reach = {0};
+    for (size_t p = 0; p < count; p++) {
+        struct stat info;
+        const bool folder = stat(paths[p], &info) == 0 && S_ISDIR(info.st_mode);
+        cli_reach_scene(&reach, paths[p]);
+        for (size_t n = 0; n < sizeof NEAR / sizeof *NEAR; n++) {
+            char path[2 * JOX_LONGEST_PATH];
+            if (folder)
+                snprintf(path, sizeof path, "%s/%s", paths[p], NEAR[n]);
+            else
+                snprintf(path, sizeof path, "%.*s%s", (int)jox_path_folder(paths[p]), paths[p],
+                         NEAR[n]);
+            cli_reach_folder(&reach, path);
+        }
+    }
+    cli_confine_work(&reach, trusted);
+}
+
 static int run(int argc, char **argv) {
     Test options = {0};
     CliList paths = {0};
     int status = cli_parse(&cli_test, argc, argv, &options, &paths);
     if (status == CLI_GO_ON) {
         const char *usual = usual_place();
+        confine(paths.count ? paths.items : &usual, paths.count ? paths.count : 1, options.trusted);
         size_t passed = 0, failed = 0;
         JoError error = {0};
         bool good =

@@ -9,13 +9,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/confine.h"
 #include "base/format/path.h"
 #include "base/mem.h"
 #include "base/text.h"
 #include "cli/cli.h"
 
-enum { SECONDS = 20, MOST_FOLDERS = 64 };
+enum { SECONDS = 20 };
 static const size_t MEMORY = (size_t)2 << 30, LARGEST = (size_t)512 << 20;
 
 /* What the child sends: a head, then so many bytes of a name and of a text. */
@@ -57,38 +56,6 @@ static void send_message(void *context, const char *text) {
     send_it(context, MESSAGE, "", text, strlen(text));
 }
 
-/* The user's folder of mods, or the list of those that are on. */
-static const char *home_folder(const char *variable, const char *usual,
-                               char path[JOX_LONGEST_PATH]) {
-    const char *set = getenv(variable), *home = getenv("HOME");
-    if (set && *set)
-        snprintf(path, JOX_LONGEST_PATH, "%s/jostle", set);
-    else
-        snprintf(path, JOX_LONGEST_PATH, "%s/%s/jostle", home ? home : "", usual);
-    return path;
-}
-
-/* Where a scene's files lie: its folder and ../behaviours, mods, what is installed, its log. */
-static bool confine(const JoSceneDef *def) {
-    const char *folders[MOST_FOLDERS];
-    char own[JOX_LONGEST_PATH], behaviours[JOX_LONGEST_PATH + 16], data[JOX_LONGEST_PATH],
-        config[JOX_LONGEST_PATH];
-    const int length = (int)jox_path_folder(def->path);
-    size_t count = 0;
-    snprintf(own, sizeof own, "%.*s.", length, def->path);
-    snprintf(behaviours, sizeof behaviours, "%.*s../behaviours", length, def->path);
-    folders[count++] = own;
-    folders[count++] = behaviours;
-    folders[count++] = JOX_DATADIR;
-    folders[count++] = home_folder("XDG_DATA_HOME", ".local/share", data);
-    folders[count++] = home_folder("XDG_CONFIG_HOME", ".config", config);
-    if (def->input_log)
-        folders[count++] = def->input_log;
-    for (size_t m = 0; m < def->mod_count && count < MOST_FOLDERS; m++)
-        folders[count++] = def->mods[m];
-    return jox_confine(&(JoxConfines){folders, count, MEMORY, SECONDS});
-}
-
 /* Reads and compiles, and says what it read; does not return. */
 static void read_it(const JoSceneDef *given, int out) {
     Child child = {out};
@@ -101,8 +68,9 @@ static void read_it(const JoSceneDef *given, int out) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGINT, SIG_DFL);
     signal(SIGTERM, SIG_DFL);
-    if (!confine(&def)) /* as on systems that have neither Landlock nor seccomp */
-        fputs("jostle: this system does not confine the process that reads the scene\n", stderr);
+    CliReach reach = {.memory = MEMORY, .seconds = SECONDS};
+    cli_reach_def(&reach, &def);
+    cli_confine(&reach);
     const JoxOverlay overlay = {.told = send_file, .context = &child};
     jox_overlay_use(&overlay);
     JoScene *scene = jo_scene_load(&def, &error);

@@ -2,6 +2,11 @@
 
 #include "cli/cli.h"
 
+typedef struct View {
+    JoViewRecordingDef def;
+    bool trusted;
+} View;
+
 static void print_address(void *context, const char *address) {
     (void)context;
     printf("%s\n", address);
@@ -10,40 +15,51 @@ static void print_address(void *context, const char *address) {
 }
 
 static bool read_unit(void *options, const char *text, char why[160]) {
-    return cli_unit(&((JoViewRecordingDef *)options)->unit, text, why);
+    return cli_unit(&((View *)options)->def.unit, text, why);
 }
 
 static const CliOption OPTIONS[] = {
     {"scene", "SCENE", "draw its walls, places and bodies", "the recording's walls",
-     CLI_TO(JoViewRecordingDef, scene)},
-    {"port", "N", "serve at this port", "8730, or the next that is free",
-     CLI_TO(JoViewRecordingDef, port), CLI_RANGE(1, 65535)},
+     CLI_TO(View, def.scene)},
+    {"port", "N", "serve at this port", "8730, or the next that is free", CLI_TO(View, def.port),
+     CLI_RANGE(1, 65535)},
     {"view-address", "A",
      "listen at this address, not at 127.0.0.1: others can then reach the page",
-     CLI_TO(JoViewRecordingDef, address)},
-    {"page", "DIR", "folder of the page's files", CLI_TO(JoViewRecordingDef, page)},
-    {"three", "DIR", "folder of three.js", CLI_TO(JoViewRecordingDef, three)},
-    {"fps", "N", "frames a second, where the recording does not say",
-     CLI_TO(JoViewRecordingDef, fps), CLI_RANGE(0.01, 10000)},
+     CLI_TO(View, def.address)},
+    {"page", "DIR", "folder of the page's files", CLI_TO(View, def.page)},
+    {"three", "DIR", "folder of three.js", CLI_TO(View, def.three)},
+    {"fps", "N", "frames a second, where the recording does not say", CLI_TO(View, def.fps),
+     CLI_RANGE(0.01, 10000)},
     {"unit", "m|cm", "unit of its lengths, where it does not say", .kind = CLI_READ,
      .read = read_unit},
+    CLI_TRUSTED_OPTION(View),
 };
 
+static void confine(const View *view) {
+    CliReach reach = {.serves = true};
+    cli_reach_file(&reach, view->def.recording);
+    cli_reach_scene(&reach, view->def.scene);
+    cli_reach_folder(&reach, view->def.page ? view->def.page : JOX_PAGEDIR);
+    cli_reach_folder(&reach, view->def.three ? view->def.three : JOX_THREEDIR);
+    cli_confine_work(&reach, view->trusted);
+}
+
 static int run(int argc, char **argv) {
-    JoViewRecordingDef def = jo_default_view_recording_def();
+    View view = {.def = jo_default_view_recording_def()};
     CliList plain = {0};
     JoError error = {0};
-    int status = cli_parse(&cli_view, argc, argv, &def, &plain);
+    int status = cli_parse(&cli_view, argc, argv, &view, &plain);
     if (status == CLI_GO_ON) {
         cli_catch_signals(true);
-        def.recording = plain.items[0];
-        def.stop = &cli_signal;
-        def.opened = print_address;
-        status = jo_view_recording(&def, &error)
+        view.def.recording = plain.items[0];
+        view.def.stop = &cli_signal;
+        view.def.opened = print_address;
+        confine(&view);
+        status = jo_view_recording(&view.def, &error)
                      ? JO_OK /* what is wrong with a file was sent as a message */
                      : cli_failed(&cli_view, &error, error.code != JO_FAILED);
     }
-    cli_free(&cli_view, &def, &plain);
+    cli_free(&cli_view, &view, &plain);
     return status;
 }
 

@@ -25,6 +25,32 @@ if ! grep -q "no Landlock" out; then
     says "  but by one who trusts the scene" 0 "" "$program" run scenes/s.yaml --quiet --steps 2 --trusted
 fi
 
+# ---- whole commands that read files of others ----
+says "a run is recorded" 0 "" "$program" run scenes/s.yaml --trusted --quiet --steps 40 --record r.sqlite
+if ! "$program" --version | grep -q "no Landlock"; then
+    says "check reads its folders alone" 3 "Permission denied" "$program" check scenes/s.yaml
+    says "  or what its user trusts" 0 "" "$program" check --trusted scenes/s.yaml
+    mkdir -p tests; echo 'test("away", function() scene { groups = { g = { behaviour = "../elsewhere/away.lua", at = { { 0, 0 } } } } } truthy(true) end)' >tests/a_test.lua
+    says "so do tests" 1 "Permission denied" "$program" test tests
+    says "  or what their user trusts" 0 "1 passed" "$program" test --trusted tests
+    mkdir -p pictures
+    says "a drawn scene reads its folder alone" 3 "Permission denied" "$program" render scenes/s.yaml --out pictures/o.svg --quiet
+    says "  or what its user trusts" 0 "" "$program" render scenes/s.yaml --out pictures/o.svg --quiet --trusted
+    printf '#!/bin/sh\ntouch "%s/elsewhere/taken"\n' "$PWD" >elsewhere/gnuplot; chmod +x elsewhere/gnuplot
+    PATH=$PWD/elsewhere:$PATH "$program" report r.sqlite --out pictures/report >out 2>&1
+    [ ! -e elsewhere/taken ] && [ -s pictures/report/index.html ]; verdict "programs are those of the system alone" $?
+    timeout 20 "$program" view r.sqlite --port 8790 >page 2>&1 & pages=$!
+    for _ in $(seq 100); do grep -q token page && break; sleep 0.1; done
+    grep -q 'Seccomp:[[:space:]]*2' "/proc/$(pgrep -P $pages)/status"; verdict "a page of a recording is served by a confined process" $?
+    kill $pages; wait $pages
+fi
+scene near.lua
+says "confined, a recording is measured, its pictures drawn by gnuplot" 0 "" "$program" report r.sqlite --scene scenes/s.yaml --out new/report
+[ -s new/report/index.html ] && ls new/report/*.png >out; verdict "  into a folder that was not there" $?
+says "a recording is drawn" 0 "" "$program" render r.sqlite --out new/one.svg --quiet
+says "a scene is drawn" 0 "" "$program" render scenes/s.yaml --at 1 --out two.svg --quiet
+says "a mod is listed" 0 "" "$program" mod list scenes/s.yaml
+
 # ---- a behaviour that is never read to its end, as its scene lifts the limits ----
 echo 'while true do end' >behaviours/endless.lua
 scene endless.lua 'limits: {load_instructions: 1e9}

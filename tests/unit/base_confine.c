@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <netinet/in.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,6 +16,7 @@
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -39,19 +41,38 @@ static void write_file(const char *name) {
     assert_int_equal(fclose(file), 0);
 }
 
-/* What becomes of a confined process that does this: its status, or minus the signal. */
-static int confined(int (*act)(void)) {
+/* What becomes of a process that does this under these confines, and reads `own`: its status, or
+   minus the signal. */
+static int confined_to(JoxConfines confines, int (*act)(void)) {
     char own[256];
     int status;
     path_of("own", own);
     const pid_t child = fork();
     if (child == 0) {
         const char *folders[] = {own, "/nowhere"};
-        const JoxConfines confines = {folders, 2, (size_t)64 << 20, 1};
+        confines.folders = folders;
+        confines.folder_count = 2;
         _exit(jox_confine(&confines) ? act() : 99);
     }
     assert_int_equal(waitpid(child, &status, 0), child);
     return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+static int confined(int (*act)(void)) {
+    return confined_to((JoxConfines){.memory = (size_t)64 << 20, .seconds = 1}, act);
+}
+
+/* Who works, and may write to `out`. */
+static int working(int (*act)(void), bool programs, bool serves) {
+    char out[256];
+    path_of("out", out);
+    const char *outputs[] = {out};
+    return confined_to((JoxConfines){.works = true,
+                                     .programs = programs,
+                                     .serves = serves,
+                                     .outputs = outputs,
+                                     .output_count = 1},
+                       act);
 }
 
 static int reads(const char *name) {
@@ -119,6 +140,101 @@ static int spin(void) {
     for (volatile unsigned i = 0; i + 1 > 0; i = 1)
         continue;
     return 0;
+}
+
+static int make_output(void) {
+    return makes("out/new", O_WRONLY | O_CREAT);
+}
+
+static int cut_file(void) {
+    return makes("own/a", O_RDONLY | O_TRUNC);
+}
+
+static int signal_parent(void) {
+    return kill(getppid(), 0) == 0 ? 0 : errno;
+}
+
+static int signal_parent_by_thread(void) {
+    return syscall(SYS_tgkill, getppid(), getppid(), 0) == 0 ? 0 : errno;
+}
+
+static int run_program(void) {
+    int status = 0;
+    const pid_t child = fork();
+    if (child == 0)
+        execl("/bin/sh", "sh", "-c", "cat \"$0/other/a\" 2>&-", folder, (char *)NULL);
+    return waitpid(child, &status, 0) == child && WIFEXITED(status) ? WEXITSTATUS(status) : 99;
+}
+
+static int listens(void) {
+    const struct sockaddr_in any = {.sin_family = AF_INET};
+    const int server = socket(AF_INET, SOCK_STREAM, 0);
+    return server >= 0 && bind(server, (const struct sockaddr *)&any, sizeof any) == 0 &&
+                   listen(server, 1) == 0
+               ? 0
+               : errno;
+}
+
+static int connects(void) {
+    const struct sockaddr_in some = {.sin_family = AF_INET, .sin_port = 1};
+    const int client = socket(AF_INET, SOCK_STREAM, 0);
+    return connect(client, (const struct sockaddr *)&some, sizeof some) == 0 ? 0 : errno;
+}
+
+static int sends_to(void) {
+    const struct sockaddr_in some = {.sin_family = AF_INET, .sin_port = 1};
+    const int client = socket(AF_INET, SOCK_STREAM, 0);
+    const ssize_t sent = sendto(client, "x", 1, MSG_FASTOPEN | MSG_NOSIGNAL,
+                                (const struct sockaddr *)&some, sizeof some);
+    return sent >= 0 ? 0 : errno;
+}
+
+static int sends_datagrams(void) {
+    return socket(AF_INET, SOCK_DGRAM, 0) >= 0 ? 0 : errno;
+}
+
+static void who_works_writes_its_outputs_alone(void **state) {
+    (void)state;
+    if (!jox_confine_can().files || !jox_confine_can().calls)
+        skip();
+    assert_int_equal(working(read_own, false, false), 0);
+    assert_int_equal(working(read_other, false, false), EACCES);
+    assert_int_equal(working(make_output, false, false), 0);
+    assert_int_equal(working(make_file, false, false), EACCES);
+    assert_int_equal(working(change_file, false, false), EACCES);
+    assert_int_equal(working(remove_file, false, false), EACCES);
+    assert_int_equal(working(cut_file, false, false), EPERM);
+    assert_int_equal(reads("own/a"), 0);
+}
+
+static void who_works_reaches_nobody(void **state) {
+    (void)state;
+    if (!jox_confine_can().calls)
+        skip();
+    assert_int_equal(working(start_process, false, false), 0);
+    assert_int_equal(working(start_program, false, false), -SIGSYS);
+    assert_int_equal(working(open_socket, false, false), EPERM);
+    assert_int_equal(working(signal_parent, false, false), EPERM);
+    assert_int_equal(working(signal_parent_by_thread, false, false), EPERM);
+}
+
+static void programs_are_confined_as_who_starts_them(void **state) {
+    (void)state;
+    if (!jox_confine_can().files || !jox_confine_can().calls)
+        skip();
+    assert_int_equal(working(start_program, true, false), 0);
+    assert_int_equal(working(run_program, true, false), 1); /* cat fails */
+    assert_int_equal(working(open_socket, true, false), EPERM);
+}
+
+static void who_serves_connects_to_nobody(void **state) {
+    (void)state;
+    if (!jox_confine_can().calls)
+        skip();
+    assert_int_equal(working(listens, false, true), 0);
+    assert_int_equal(working(connects, false, true), EPERM);
+    assert_int_equal(working(sends_to, false, true), EPERM);
+    assert_int_equal(working(sends_datagrams, false, true), EPERM);
 }
 
 static void it_reads_its_folder_alone(void **state) {
@@ -203,13 +319,14 @@ static void what_was_vetted_is_what_is_read(void **state) {
 
 static int make_files(void **state) {
     (void)state;
-    char own[256], other[256], link[256];
+    char own[256], other[256], out[256], link[256];
     if (!mkdtemp(folder))
         return -1;
     path_of("own", own);
     path_of("other", other);
+    path_of("out", out);
     path_of("own/link", link);
-    if (mkdir(own, 0700) || mkdir(other, 0700) || symlink("../other/a", link))
+    if (mkdir(own, 0700) || mkdir(out, 0700) || mkdir(other, 0700) || symlink("../other/a", link))
         return -1;
     write_file("own/a");
     write_file("other/a");
@@ -217,7 +334,8 @@ static int make_files(void **state) {
 }
 
 static int remove_files(void **state) {
-    static const char *const NAMES[] = {"own/a", "own/new", "own/link", "other/a", "own", "other"};
+    static const char *const NAMES[] = {"own/a",   "own/new", "own/link", "other/a",
+                                        "out/new", "own",     "out",      "other"};
     char path[256];
     (void)state;
     for (size_t n = 0; n < sizeof NAMES / sizeof *NAMES; n++) {
@@ -233,6 +351,10 @@ int main(void) {
         cmocka_unit_test(it_writes_nothing),
         cmocka_unit_test(it_starts_nothing_and_has_no_network),
         cmocka_unit_test(its_memory_and_time_are_bounded),
+        cmocka_unit_test(who_works_writes_its_outputs_alone),
+        cmocka_unit_test(who_works_reaches_nobody),
+        cmocka_unit_test(programs_are_confined_as_who_starts_them),
+        cmocka_unit_test(who_serves_connects_to_nobody),
         cmocka_unit_test(what_was_vetted_is_what_is_read),
     };
     return cmocka_run_group_tests(tests, make_files, remove_files);

@@ -1,0 +1,150 @@
+/* Commands on files of others give up what they do not need before they read one. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/confine.h"
+#include "base/format/path.h"
+#include "base/mem.h"
+#include "base/text.h"
+#include "cli/cli.h"
+
+/* What libraries read by themselves: fonts, time zones, processors. */
+static const char *const SYSTEM[] = {"/usr",
+                                     "/lib",
+                                     "/lib64",
+                                     "/etc/fonts",
+                                     "/etc/ld.so.cache",
+                                     "/etc/localtime",
+                                     "/etc/timezone",
+                                     "/dev/urandom",
+                                     "/var/cache/fontconfig",
+                                     JOX_DATADIR,
+                                     "/proc/self",
+                                     "/sys/devices/system"};
+static const char *const ALWAYS_WRITTEN[] = {"/dev/null", "/dev/stdout", "/dev/stderr"};
+
+static void put(CliPaths *paths, char *path) {
+    JOX_RESERVE(paths->items, paths->capacity, paths->count + 1);
+    paths->items[paths->count++] = path;
+}
+
+static void free_all(CliPaths *paths) {
+    for (size_t p = 0; p < paths->count; p++)
+        jox_free(paths->items[p]);
+    jox_free(paths->items);
+    *paths = (CliPaths){0};
+}
+
+/* What lies at `rest` as seen from the folder of a file. */
+static void put_beside(CliPaths *paths, const char *file, const char *rest) {
+    JoxText text = {0};
+    jox_text_printf(&text, "%.*s%s", (int)jox_path_folder(file), file, rest);
+    put(paths, text.data);
+}
+
+/* The user's folder of mods, or the list of those that are on. */
+static void put_home(CliPaths *paths, const char *variable, const char *usual) {
+    const char *set = getenv(variable), *home = getenv("HOME");
+    JoxText text = {0};
+    if (set && *set)
+        jox_text_printf(&text, "%s/jostle", set);
+    else
+        jox_text_printf(&text, "%s/%s/jostle", home ? home : "", usual);
+    put(paths, text.data);
+}
+
+static bool is_folder(const char *path) {
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+void cli_reach_file(CliReach *reach, const char *path) {
+    static const char *const OF_SQLITE[] = {"", "-journal", "-wal", "-shm"};
+    for (size_t e = 0; path && e < sizeof OF_SQLITE / sizeof *OF_SQLITE; e++) {
+        JoxText text = {0};
+        jox_text_printf(&text, "%s%s", path, OF_SQLITE[e]);
+        put(&reach->reads, text.data);
+    }
+}
+
+void cli_reach_folder(CliReach *reach, const char *path) {
+    if (path)
+        put(&reach->reads, jox_strdup(path));
+}
+
+void cli_reach_scene(CliReach *reach, const char *path) {
+    if (!path)
+        return;
+    if (is_folder(path)) {
+        JoxText text = {0};
+        jox_text_printf(&text, "%s/../behaviours", path);
+        put(&reach->reads, jox_strdup(path));
+        put(&reach->reads, text.data);
+    } else {
+        put_beside(&reach->reads, path, ".");
+        put_beside(&reach->reads, path, "../behaviours");
+    }
+}
+
+void cli_reach_def(CliReach *reach, const JoSceneDef *def) {
+    cli_reach_scene(reach, def->path);
+    cli_reach_folder(reach, def->input_log);
+    for (size_t m = 0; m < def->mod_count; m++)
+        cli_reach_folder(reach, def->mods[m]);
+}
+
+void cli_reach_output(CliReach *reach, const char *path) {
+    if (!path || !strcmp(path, "-"))
+        return;
+    put(&reach->writes, jox_strdup(path));
+    if (is_folder(path))
+        return;
+    char *folder = jox_strdup(path); /* where it is made, or its folder */
+    bool above;
+    do {
+        char *slash = strrchr(folder, '/');
+        above = slash != NULL;
+        if (above)
+            slash[slash == folder] = 0; /* "/" stays */
+    } while (above && !is_folder(folder));
+    put(&reach->writes, above ? folder : jox_strdup("."));
+    if (!above)
+        jox_free(folder);
+}
+
+bool cli_confine(CliReach *reach) {
+    put_home(&reach->reads, "XDG_DATA_HOME", ".local/share");
+    put_home(&reach->reads, "XDG_CONFIG_HOME", ".config");
+    for (size_t s = 0; s < sizeof SYSTEM / sizeof *SYSTEM; s++)
+        cli_reach_folder(reach, SYSTEM[s]);
+    for (size_t a = 0; a < sizeof ALWAYS_WRITTEN / sizeof *ALWAYS_WRITTEN; a++)
+        put(&reach->writes, jox_strdup(ALWAYS_WRITTEN[a]));
+    const bool good =
+        jox_confine(&(JoxConfines){.folders = (const char *const *)reach->reads.items,
+                                   .folder_count = reach->reads.count,
+                                   .outputs = (const char *const *)reach->writes.items,
+                                   .output_count = reach->writes.count,
+                                   .memory = reach->memory,
+                                   .seconds = reach->seconds,
+                                   .works = reach->works,
+                                   .programs = reach->programs,
+                                   .serves = reach->serves});
+    if (!good) /* as on systems that have neither Landlock nor seccomp */
+        fputs("jostle: this system does not confine the process that reads files of others\n",
+              stderr);
+    free_all(&reach->reads);
+    free_all(&reach->writes);
+    return good;
+}
+
+void cli_confine_work(CliReach *reach, bool trusted) {
+    reach->works = true;
+    if (trusted) {
+        free_all(&reach->reads);
+        free_all(&reach->writes);
+    } else {
+        cli_confine(reach);
+    }
+}
