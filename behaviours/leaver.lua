@@ -1,14 +1,14 @@
--- Waits for its own time, then leaves by one of two exits: a way is worth less the longer it is, and more the more people
--- who can be seen have chosen it; `used_to` is what being used to the first is worth. Who sees that its exit is shut
--- turns to the other one.
+-- Waits for its own time, then leaves by one of two exits: a way is worth less the longer it is, and more the more
+-- people who can be seen have chosen it; `used_to` is what being used to the first is worth. Who sees that its exit is
+-- shut turns to the other one.
 local crowd = require "crowd"
 local others = neighbours("anyone"):in_state("ToSecond") - neighbours("anyone"):in_state("ToFirst")
 local second_is_better = distance(own.first) - distance(own.second) + own.sway * others - own.used_to -- metres
 
 return machine {
   name = "leaver", version = 1, start = "Wait",
-  defaults = { speed = normal(1.34, 0.26, 0.6, 2.2), time_gap = crowd.time_gap, perception = 20, neighbours = 16, radius = 0.19,
-    push = crowd.nudge },
+  defaults = { speed = normal(1.34, 0.26, 0.6, 2.2), time_gap = crowd.time_gap, perception = 20, neighbours = 16,
+    radius = 0.19, push = crowd.nudge },
 
   states = {
     Wait = { steer = hold, -- pre-movement time: from the alarm to the first step, s

@@ -103,7 +103,8 @@ function measure.weibull_share(shape, scale) return function(x) return 1 - math.
 local function log_gamma(x)
   local below = 0
   while x < 8 do below, x = below + math.log(x), x + 1 end
-  return (x - 0.5) * math.log(x) - x + 0.5 * math.log(2 * math.pi) + 1 / (12 * x) - 1 / (360 * x ^ 3) + 1 / (1260 * x ^ 5) - below
+  local series = 1 / (12 * x) - 1 / (360 * x ^ 3) + 1 / (1260 * x ^ 5)
+  return (x - 0.5) * math.log(x) - x + 0.5 * math.log(2 * math.pi) + series - below
 end
 
 function measure.gamma_share(shape, scale)

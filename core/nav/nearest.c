@@ -147,7 +147,7 @@ void jox_perceive_among(const JoxPerceive *p, uint32_t i, const JoxCandidates *a
     const uint32_t *rank = p->agents->rank;
     Nearest found;
     found.most = (uint32_t)p->agents->param[JOX_PARAM_neighbours][i];
-    found.count = 0;
+    clear(&found);
     JOX_ASSERT(found.most > 0);
     for (uint32_t k = 0; k < among->count; k++) {
         const uint32_t n = among->numbers[k];

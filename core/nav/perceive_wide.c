@@ -315,17 +315,20 @@ static void list_likely(const Packet *packet, uint32_t lanes, uint32_t cut, Like
 
 /* Of some lanes whose keys do not tell: one by one. */
 static void choose_anew(const Packet *packet, uint32_t lanes, JoxMask cut) {
+    if (packet->overflow) {
+        for (; lanes; lanes &= lanes - 1) {
+            const uint32_t lane = (uint32_t)__builtin_ctz(lanes);
+            jox_perceive_one(packet->p, packet->first + lane, packet->radius[lane]);
+        }
+        return;
+    }
     Likely likely;
-    if (lanes && !packet->overflow)
-        list_likely(packet, lanes, jm_bits(cut) & lanes, &likely);
+    list_likely(packet, lanes, jm_bits(cut) & lanes, &likely);
     for (; lanes; lanes &= lanes - 1) {
         const uint32_t lane = (uint32_t)__builtin_ctz(lanes);
         const JoxCandidates among = {likely.numbers[lane], packet->index, packet->distance2 + lane,
                                      likely.count[lane], JOX_WIDTH};
-        if (packet->overflow)
-            jox_perceive_one(packet->p, packet->first + lane, packet->radius[lane]);
-        else
-            jox_perceive_among(packet->p, packet->first + lane, &among);
+        jox_perceive_among(packet->p, packet->first + lane, &among);
     }
 }
 
@@ -351,7 +354,8 @@ static void perceive_packet(Packet *packet) {
         const uint32_t done = packet->overflow ? left : left & ~jm_bits(short_of);
         const uint32_t tied = packet->overflow ? left : done & jm_bits(f.tied);
         write(packet, &f, done & ~tied, perception);
-        choose_anew(packet, tied, f.cut);
+        if (tied)
+            choose_anew(packet, tied, f.cut);
         left &= ~done;
         radius = jf_mul(radius, jf_set(JOX_SEARCH_GROWTH));
     }

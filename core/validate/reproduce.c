@@ -301,7 +301,8 @@ static bool go(JoxReproduction *all, size_t *missed, JoError *error) {
         *missed += !all->outcomes[o].inside;
     }
     JoxText why = {0}, out = {0};
-    bool good = jox_reproduce_write(all, &why);
+    const bool good = jox_reproduce_write(all, &why) &&
+                      (!all->def->standards || jox_reproduce_standards(all, &why));
     if (!good)
         jox_error(error, JO_FAILED, "%s", why.data);
     jox_text_printf(&out, "%u of %u claims in band", all->outcome_count - (uint32_t)*missed,

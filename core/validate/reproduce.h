@@ -64,9 +64,10 @@ void jox_reproduce_deviations(const JoxReproduction *all, FILE *out);
    "imo", "nist", or "standards", which are all of them. */
 bool jox_is_standard(const JoxClaim *claim);
 bool jox_standards_have(const JoxClaim *claim, const char *group);
-/* standards.html in the folder of results. `when`: what was run, when and where. */
-bool jox_reproduce_standards(const JoxReproduction *all, const char *when, JoxText *error);
-/* reproduce_page.c: the pictures of a claim. */
+/* standards.html in the folder of results. */
+bool jox_reproduce_standards(const JoxReproduction *all, JoxText *error);
+/* reproduce_page.c: what was run, when and where, in a line; the pictures of a claim. */
+void jox_reproduce_when(const JoxReproduction *all, char *out, size_t size);
 void jox_reproduce_pictures(FILE *out, const JoxReproduction *all, const JoxOutcome *outcome);
 /* reproduce_page.c: index.html, table.md and results.json in the folder of results. */
 bool jox_reproduce_write(const JoxReproduction *all, JoxText *error);

@@ -63,7 +63,7 @@ static void commit_of(char *out, size_t size) {
     snprintf(out, size, "%.12s", head);
 }
 
-static void circumstances(const JoxReproduction *all, char *out, size_t size) {
+void jox_reproduce_when(const JoxReproduction *all, char *out, size_t size) {
     char cpu[128], commit[32], day[32];
     struct utsname system;
     time_t now = time(NULL);
@@ -373,9 +373,7 @@ static bool write_json(const JoxReproduction *all, JoxText *error) {
 
 bool jox_reproduce_write(const JoxReproduction *all, JoxText *error) {
     char when[512];
-    circumstances(all, when, sizeof when);
+    jox_reproduce_when(all, when, sizeof when);
     return jox_plot_folder(all->def->out, error) && jox_reproduce_plots(all, error) &&
-           write_page(all, when, error) && write_table(all, when, error) &&
-           write_json(all, error) &&
-           (!all->def->standards || jox_reproduce_standards(all, when, error));
+           write_page(all, when, error) && write_table(all, when, error) && write_json(all, error);
 }

@@ -156,10 +156,12 @@ static void put_test(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
     jox_reproduce_pictures(out, all, outcome);
 }
 
-bool jox_reproduce_standards(const JoxReproduction *all, const char *when, JoxText *error) {
+bool jox_reproduce_standards(const JoxReproduction *all, JoxText *error) {
+    char when[512];
     FILE *out = jox_plot_open(all->def->out, PAGE, error);
     if (!out)
         return false;
+    jox_reproduce_when(all, when, sizeof when);
     jox_html_begin(out, "Tests of standards");
     jox_html_paragraph(out, when);
     jox_html_paragraph(
