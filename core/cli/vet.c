@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -123,16 +124,34 @@ static int receive(Parent *parent, int from) {
     return -1;
 }
 
-/* Says at which file the child ended, and why. */
-static int ended(const Parent *parent, int end, int status) {
+/* Seconds of processor time that the child has: this process may be held to fewer. */
+static double allowed(void) {
+    struct rlimit own;
+    const bool fewer = getrlimit(RLIMIT_CPU, &own) == 0 && own.rlim_max < SECONDS;
+    return fewer ? (double)own.rlim_max : SECONDS;
+}
+
+static double used(const struct rusage *usage) {
+    const struct timeval user = usage->ru_utime, system = usage->ru_stime;
+    return (double)(user.tv_sec + system.tv_sec) + 1e-6 * (double)(user.tv_usec + system.tv_usec);
+}
+
+/* Says at which file the child ended, and why. A process ends by SIGKILL at its last second, too,
+   which its times tell from a kill. */
+static int ended(const Parent *parent, int end, int status, const struct rusage *usage) {
     const JoxOverlay *files = parent->files;
     const char *file = files->count ? files->files[files->count - 1].path : parent->scene;
     const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    const bool late = used(usage) > 0.95 * allowed();
     fprintf(stderr, "jostle %s: %s: error: reading this scene ", parent->command->name, file);
     if (end == OUT_OF_MEMORY)
-        fprintf(stderr, "takes more than %zu MB of memory\n", MEMORY >> 20);
-    else if (number == SIGXCPU || number == SIGKILL)
-        fprintf(stderr, "takes more processor time than it may (%d s)\n", SECONDS);
+        fprintf(stderr, "takes more memory than there is for it (%zu MB at most)\n", MEMORY >> 20);
+    else if (number == SIGXCPU || (number == SIGKILL && late))
+        fprintf(stderr, "takes more processor time than it may (%g s)\n", allowed());
+    else if (number == SIGKILL)
+        fprintf(stderr,
+                "was ended from outside, as systems that run out of memory do (it had %ld MB)\n",
+                usage->ru_maxrss >> 10);
     else if (number == SIGSYS)
         fputs("tried to start a program or to reach the network\n", stderr);
     else if (number)
@@ -153,9 +172,9 @@ static void tell_refused(const CliCommand *command, const JoxText *said) {
                 command->name);
 }
 
-static int wait_for(pid_t child) {
+static int wait_for(pid_t child, struct rusage *usage) {
     int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+    while (wait4(child, &status, 0, usage) < 0 && errno == EINTR)
         continue;
     return status;
 }
@@ -176,7 +195,8 @@ int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files)
     close(ends[1]);
     const int end = child > 0 ? receive(&parent, ends[0]) : -1;
     close(ends[0]); /* a child that sends on ends by it */
-    const int status = child > 0 ? wait_for(child) : 0;
+    struct rusage usage = {0};
+    const int status = child > 0 ? wait_for(child, &usage) : 0;
     if (child < 0)
         fprintf(stderr, "jostle %s: no process to read the scene in\n", command->name);
     if (end == REFUSED && parent.said.data)
@@ -186,5 +206,5 @@ int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files)
     return child < 0        ? JO_FAILED
            : end == LOADED  ? JO_OK
            : end == REFUSED ? JO_INPUT
-                            : ended(&parent, end, status);
+                            : ended(&parent, end, status, &usage);
 }

@@ -62,6 +62,15 @@ static const char *find_fault(const JoxView *view, struct lws *wsi, bool socket,
     return NULL;
 }
 
+void jox_http_is_known(JoxView *view, const struct lws *wsi) {
+    JoxTransport *t = view->transport;
+    unsigned kept = 0;
+    for (unsigned u = 0; u < t->unknown_count; u++)
+        if (t->unknown[u] != wsi)
+            t->unknown[kept++] = t->unknown[u];
+    t->unknown_count = kept;
+}
+
 int jox_http_upgrade(JoxView *view, struct lws *wsi, const char *to) {
     char host[256], origin[256];
     bool remembered;
@@ -73,6 +82,7 @@ int jox_http_upgrade(JoxView *view, struct lws *wsi, const char *to) {
         fault = "This socket is for the page of the same address.\n";
     if (fault)
         return refuse(wsi, REFUSED, fault);
+    jox_http_is_known(view, wsi);
     if (atomic_load(&view->clients) >= JOX_VIEW_CLIENTS)
         return refuse(wsi, FULL, "Too many pages are connected.\n");
     return 0;
@@ -106,6 +116,8 @@ int jox_http_answer(JoxView *view, struct lws *wsi, const char *path) {
         return -1; /* with whatever else it sends */
     }
     const char *fault = find_fault(view, wsi, false, host, &remembered);
+    if (!fault)
+        jox_http_is_known(view, wsi);
     const char *name = strcmp(path, "/") == 0 ? "/index.html" : path;
     bool three = strncmp(name, "/three/", 7) == 0;
     const char *type = jox_access_type(name);

@@ -72,6 +72,17 @@ static int join(JoxView *view, struct lws *wsi, JoxSession *session) {
     return session->client ? 0 : -1;
 }
 
+/* Who connects is unknown until its request shows the token; where there are too many of them, who
+   has been longest makes room. */
+static void meet(JoxView *view, struct lws *wsi) {
+    JoxTransport *t = view->transport;
+    if (t->unknown_count == JOX_VIEW_UNKNOWN) {
+        lws_set_timeout(t->unknown[0], PENDING_TIMEOUT_USER_OK, LWS_TO_KILL_ASYNC);
+        jox_http_is_known(view, t->unknown[0]);
+    }
+    t->unknown[t->unknown_count++] = wsi;
+}
+
 static int answer(struct lws *wsi, enum lws_callback_reasons reason, void *user, void *in,
                   size_t length) {
     JoxSession *session = user;
@@ -80,6 +91,12 @@ static int answer(struct lws *wsi, enum lws_callback_reasons reason, void *user,
     switch (reason) {
     case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
         serve_news(view);
+        return 0;
+    case LWS_CALLBACK_SERVER_NEW_CLIENT_INSTANTIATED:
+        meet(view, wsi);
+        return 0;
+    case LWS_CALLBACK_WSI_DESTROY:
+        jox_http_is_known(view, wsi);
         return 0;
     case LWS_CALLBACK_HTTP:
         return jox_http_answer(view, wsi, in);

@@ -57,6 +57,23 @@ scene endless.lua 'limits: {load_instructions: 1e9}
 '
 says "reading that never ends, ends, and names the file" 3 "behaviours/endless.lua: error: reading this scene takes more" \
     bash -c 'ulimit -t 1; exec "$0" run scenes/s.yaml --quiet --steps 2' "$program"
+says "  and says how long it took" 3 "processor time than it may (1 s)" \
+    bash -c 'ulimit -t 1; exec "$0" run scenes/s.yaml --quiet --steps 2' "$program"
+ends() { # NAME SIGNAL TEXT: whoever reads the scene gets the signal
+    "$program" run scenes/s.yaml --quiet --steps 2 >out 2>&1 & run=$!
+    for _ in $(seq 100); do child=$(pgrep -P $run) && break; sleep 0.05; done
+    kill -s "$2" "$child"; wait $run
+    local got=$?
+    [ $got = 3 ] && grep -qF "behaviours/endless.lua: error: reading this scene $3" out; verdict "$1" $?
+}
+ends "who is killed is not said to be slow" KILL "was ended from outside"
+ends "nor is who makes a forbidden call" SYS "tried to start a program"
+ends "nor is who breaks" SEGV "broke the process that read it (Segmentation fault)"
+echo 'local t = {} for i = 1, 1e9 do t[i] = ("x"):rep(1e6) .. i end' >behaviours/greedy.lua
+scene greedy.lua 'limits: {load_instructions: 1e9, memory: 1024, block: 1024}
+'
+says "who takes more memory than there is, is told so" 3 "takes more memory than there is" \
+    bash -c 'ulimit -v 400000; exec "$0" run scenes/s.yaml --quiet --steps 2' "$program"
 
 # ---- what was vetted is what runs ----
 scene near.lua

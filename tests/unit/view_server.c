@@ -1,6 +1,8 @@
 /* The live page's server: who is served, and what is refused. */
 #include "unit/view_open.h"
 
+#include <sys/resource.h>
+
 static void the_page_is_served_with_its_headers(void **state) {
     (void)state;
     char expected[64];
@@ -233,6 +235,84 @@ static void a_huge_message_ends_the_connection(void **state) {
     assert_int_equal(fetch("/"), 200);
 }
 
+/* What no browser sends: first byte, second byte, and what follows the mask. */
+static void malformed_frames_end_the_connection(void **state) {
+    (void)state;
+    static const struct {
+        const char *what;
+        uint8_t bytes[24];
+        size_t length;
+    } CASES[] = {
+        {"an opcode that there is not", {0x83, 0x81, 0, 0, 0, 0, 'x'}, 7},
+        {"a control opcode that there is not", {0x8b, 0x80, 0, 0, 0, 0}, 6},
+        {"a reserved bit", {0xc1, 0x81, 0, 0, 0, 0, 'x'}, 7},
+        {"a ping that is too long", {0x89, 0xfe, 0, 200, 0, 0, 0, 0}, 8},
+        {"a ping in parts", {0x09, 0x81, 0, 0, 0, 0, 'x'}, 7},
+        {"the rest of nothing", {0x80, 0x81, 0, 0, 0, 0, 'x'}, 7},
+        {"a message within another",
+         {0x01, 0x81, 0, 0, 0, 0, 'x', 0x81, 0x81, 0, 0, 0, 0, 'y'},
+         14},
+        {"a length beyond all", {0x81, 0xff, 0xff, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 14},
+        {"text that is no UTF-8", {0x81, 0x82, 0, 0, 0, 0, 0xc3, 0x28}, 8},
+        {"text that ends within a character", {0x81, 0x81, 0, 0, 0, 0, 0xc3}, 7},
+    };
+    for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
+        uint32_t client;
+        char text[JOX_VIEW_MOST_COMMAND + 1];
+        int fd = join(&client), kind;
+        size_t length;
+        assert_true(put(fd, CASES[c].bytes, CASES[c].length));
+        char *said = get_message(fd, &kind, &length, 10.0), more;
+        if (said ? kind != FRAME_CLOSE : get(fd, &more, 1, 0.0) != 0)
+            fail_msg("%s does not end the connection", CASES[c].what);
+        free(said);
+        put_text(fd, "{\"do\": \"pause\"}"); /* nobody hears it */
+        close(fd);
+        assert_int_equal(take(&client, text), JOX_VIEW_LEFT);
+    }
+    assert_int_equal(fetch("/"), 200);
+}
+
+/* More than the server has room for, none of whom says who it is, for as long as it may. */
+static void who_says_nothing_delays_nobody(void **state) {
+    (void)state;
+    enum { COUNT = 600 };
+    int idle[COUNT];
+    struct rlimit files;
+    assert_int_equal(getrlimit(RLIMIT_NOFILE, &files), 0);
+    const rlim_t before = files.rlim_cur;
+    files.rlim_cur = files.rlim_max < 4096 ? files.rlim_max : 4096;
+    assert_int_equal(setrlimit(RLIMIT_NOFILE, &files), 0);
+    if (files.rlim_cur < 2048)
+        skip();
+    JoxView *first = view;
+    const int old = port;
+    char other[64], kept[64];
+    snprintf(kept, sizeof kept, "%s", token);
+    view = open_with(0, NULL, 600.0); /* a patience that the test has not */
+    assert_int_equal(
+        sscanf(jox_view_address(view), "http://127.0.0.1:%d/?token=%63s", &port, other), 2);
+    snprintf(token, sizeof token, "%s", other);
+    uint32_t client;
+    const int page = join(&client);
+    for (int i = 0; i < COUNT; i++)
+        assert_true((idle[i] = dial(port)) >= 0);
+    assert_int_equal(fetch("/"), 200);
+    leave(join(&client));
+    assert_true(put_text(page, "{\"do\": \"pause\"}")); /* and who was there is not sent away */
+    char text[JOX_VIEW_MOST_COMMAND + 1];
+    assert_int_equal(take(&client, text), JOX_VIEW_COMMAND);
+    leave(page);
+    for (int i = 0; i < COUNT; i++)
+        close(idle[i]);
+    jox_view_close(view);
+    view = first;
+    port = old;
+    snprintf(token, sizeof token, "%s", kept);
+    files.rlim_cur = before;
+    setrlimit(RLIMIT_NOFILE, &files);
+}
+
 static void ports_and_folders(void **state) {
     (void)state;
     JoxView *second = open_with(0, NULL, 0);
@@ -286,6 +366,8 @@ int main(void) {
         WITH_VIEW(sockets_of_other_pages_are_refused),
         WITH_VIEW(commands_arrive_and_garbage_is_dropped),
         WITH_VIEW(a_huge_message_ends_the_connection),
+        WITH_VIEW(malformed_frames_end_the_connection),
+        WITH_VIEW(who_says_nothing_delays_nobody),
         WITH_VIEW(ports_and_folders),
     };
     return cmocka_run_group_tests(tests, make_pages, remove_pages);
