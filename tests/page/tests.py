@@ -532,6 +532,29 @@ def reconnects(browser):
     browser.picture("lost")
 
 
+@served("run", "scenes/office.yaml", "--view", "--no-watch")
+def hides_its_token(browser):
+    """the token leaves the address bar; the page can be loaded again, and a second page opened"""
+    connected = "return window.page && page.connection.socket.readyState === 1 && page.crowd.next && page.crowd.next.slots > 0"
+    shown = browser.run("return location.href")
+    expect("token" not in shown, f"the address bar shows {shown}")
+    token = browser.run("return page.connection.token")
+    expect(len(token) == 32, f"a token {token!r}")
+    browser.driver.refresh()
+    browser.wait(connected, "no frame reaches the page that was loaded again")
+    expect(browser.run("return location.href") == shown, "the address bar is another")
+    first = browser.driver.current_window_handle
+    browser.driver.switch_to.new_window("tab")
+    try:
+        browser.driver.get(f"{shown}?token={token}")
+        browser.wait(connected, "no frame reaches the second page")
+        expect("token" not in browser.run("return location.href"), "the second page shows the token")
+    finally:
+        browser.driver.close()
+        browser.driver.switch_to.window(first)
+    browser.wait(connected, "the first page is no longer connected")
+
+
 @served("run", "scenes/tawaf.yaml", "--view")
 def crowd_of_35000(browser):
     """35,000 people take at most 8 ms of script and 25 draw calls a picture
@@ -551,7 +574,7 @@ def crowd_of_35000(browser):
     expect(0 < draws <= 25, f"{draws} draw calls")
 
 
-TESTS = [loads, pauses, throws, pulls, inspects, edits, gates, reloads, plays, replays, keyboard, enlarged, reconnects, crowd_of_35000]
+TESTS = [loads, pauses, throws, pulls, inspects, edits, gates, reloads, plays, replays, keyboard, enlarged, reconnects, hides_its_token, crowd_of_35000]
 
 if __name__ == "__main__":
     sys.exit(run_all(TESTS, sys.argv[1:]))
