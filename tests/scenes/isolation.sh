@@ -68,12 +68,14 @@ ends() { # NAME SIGNAL TEXT: whoever reads the scene gets the signal
 }
 ends "who is killed is not said to be slow" KILL "was ended from outside"
 ends "nor is who makes a forbidden call" SYS "tried to start a program"
-ends "nor is who breaks" SEGV "broke the process that read it (Segmentation fault)"
+ends "nor is who breaks" ABRT "broke the process that read it (Aborted)"
 echo 'local t = {} for i = 1, 1e9 do t[i] = ("x"):rep(1e6) .. i end' >behaviours/greedy.lua
 scene greedy.lua 'limits: {load_instructions: 1e9, memory: 1024, block: 1024}
 '
-says "who takes more memory than there is, is told so" 3 "takes more memory than there is" \
-    bash -c 'ulimit -v 400000; exec "$0" run scenes/s.yaml --quiet --steps 2' "$program"
+if (ulimit -v 400000; "$program" --version) >out 2>&1; then # a build that checks memory needs terabytes
+    says "who takes more memory than there is, is told so" 3 "takes more memory than there is" \
+        bash -c 'ulimit -v 400000; exec "$0" run scenes/s.yaml --quiet --steps 2' "$program"
+fi
 
 # ---- what was vetted is what runs ----
 scene near.lua
