@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/elementary.h"
+#include "base/number/elementary.h"
 
 static const double PI = 3.14159265358979323846;
 

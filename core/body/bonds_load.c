@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/elementary.h"
+#include "base/number/elementary.h"
 #include "body/bonds.h"
 
 static const double ACROSS = 0.4;     /* stiffness of a bond across it, along it is 1 */

@@ -7,7 +7,7 @@
 #include <LinearMath/btConvexHullComputer.h>
 
 extern "C" {
-#include "base/elementary.h"
+#include "base/number/elementary.h"
 }
 
 namespace {

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "base/assert.h"
-#include "base/elementary.h"
 #include "base/mem.h"
+#include "base/number/elementary.h"
 #include "base/sort.h"
 
 void jox_footprint_begin(JoxFootprint *footprint) {

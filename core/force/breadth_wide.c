@@ -2,7 +2,7 @@
    of numbers alone and without a branch, which the compiler makes vector operations of. */
 #include <string.h>
 
-#include "base/random.h"
+#include "base/number/random.h"
 #include "force/kernels.h"
 #include "simd/lanes.h"
 

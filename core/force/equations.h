@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "base/elementary.h"
+#include "base/number/elementary.h"
 #include "base/vec.h"
 #include "geom/objects.h"
 

@@ -5,7 +5,7 @@
 
 #include "base/assert.h"
 #include "base/mem.h"
-#include "base/random.h"
+#include "base/number/random.h"
 
 /* Points of a lattice inside the area, row by row; the caller frees them. */
 static uint32_t lattice(const JoxArea *area, const JoxAreaIndex *index, bool hex, double step,

@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 #include "agents/parameters.h"
-#include "base/distribution.h"
+#include "base/number/distribution.h"
 
 enum { JOX_MOST_TRANSITIONS = 32, JOX_MOST_REGISTERS = 32, JOX_MOST_TERMS = 8 };
 /* Greatest weight of a steering term, of either sign. */

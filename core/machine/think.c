@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/elementary.h"
 #include "base/mem.h"
+#include "base/number/elementary.h"
 #include "machine/internal.h"
 
 static const double TURN = 6.283185307179586;

@@ -2,7 +2,7 @@
    law; the kernel of solve makes those of its neighbours by ORCA. All of one agent's for who
    inspects it. */
 #include "base/assert.h"
-#include "base/random.h"
+#include "base/number/random.h"
 #include "nav/kernels.h"
 #include "nav/walk.h"
 

@@ -6,8 +6,8 @@
    directions the one that gets on best is taken. */
 #include <math.h>
 
-#include "base/elementary.h"
-#include "base/random.h"
+#include "base/number/elementary.h"
+#include "base/number/random.h"
 #include "nav/kernels.h"
 
 static const float SIGHT = 1.5f; /* m: so near, walls hide people */

@@ -2,8 +2,8 @@
    (walk_wide.c) does all else. */
 #include <math.h>
 
-#include "base/elementary.h"
-#include "base/random.h"
+#include "base/number/elementary.h"
+#include "base/number/random.h"
 #include "geom/polygon.h"
 #include "nav/kernels.h"
 

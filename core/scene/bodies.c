@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/elementary.h"
+#include "base/number/elementary.h"
 #include "scene/internal.h"
 
 enum { MOST_COPIES = 4096 };        /* of a body, and blocks of one */

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/elementary.h"
 #include "base/mem.h"
+#include "base/number/elementary.h"
 #include "geom/fill.h"
 #include "scene/internal.h"
 

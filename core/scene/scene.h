@@ -9,7 +9,7 @@
 #include "agents/walk_law.h"
 #include "base/format/diag.h"
 #include "base/format/patch.h"
-#include "base/random.h"
+#include "base/number/random.h"
 #include "body/body.h"
 #include "geom/place.h"
 #include "geom/walls.h"

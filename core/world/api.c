@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/elementary.h"
 #include "base/guard.h"
 #include "base/mem.h"
+#include "base/number/elementary.h"
 #include "geom/polygon.h"
 #include "simd/isa.h"
 #include "world/world.h"

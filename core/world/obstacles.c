@@ -3,8 +3,8 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "base/elementary.h"
 #include "base/mem.h"
+#include "base/number/elementary.h"
 #include "geom/polygon.h"
 
 static const float LONG = 1.0f;  /* m: what is shorter is walked round, or pushed aside */

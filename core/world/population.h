@@ -4,8 +4,8 @@
 #ifndef JOX_WORLD_POPULATION_H
 #define JOX_WORLD_POPULATION_H
 
-#include "base/distribution.h"
 #include "base/format/diag.h"
+#include "base/number/distribution.h"
 #include "base/sections.h"
 #include "geom/fill.h"
 

@@ -8,8 +8,8 @@
 #include <math.h>
 
 #include "base/assert.h"
-#include "base/elementary.h"
 #include "base/mem.h"
+#include "base/number/elementary.h"
 #include "world/world.h"
 
 static const double PLANNING_TIME = 0.05; /* s: between the plans of those who walk */

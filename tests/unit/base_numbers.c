@@ -9,9 +9,9 @@
 
 #include <cmocka.h>
 
-#include "base/distribution.h"
-#include "base/elementary.h"
 #include "base/hash.h"
+#include "base/number/distribution.h"
+#include "base/number/elementary.h"
 
 static void near_relative(double got, double want, double tolerance) {
     double scale = fabs(want) > 1.0 ? fabs(want) : 1.0;

@@ -14,7 +14,7 @@
 #include "agents/agents.h"
 #include "agents/neighbours.h"
 #include "base/mem.h"
-#include "base/random.h"
+#include "base/number/random.h"
 #include "force/equations.h"
 #include "force/force.h"
 

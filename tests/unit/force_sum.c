@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "base/random.h"
+#include "base/number/random.h"
 #include "force/kernels.h"
 
 enum { PEOPLE = 4 * JOX_LANES, CROWDS = 30 };

@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "base/random.h"
+#include "base/number/random.h"
 #include "geom/objects.h"
 
 enum { BODIES = 300 };

@@ -12,8 +12,8 @@
 
 #include <cmocka.h>
 
-#include "base/elementary.h"
-#include "base/random.h"
+#include "base/number/elementary.h"
+#include "base/number/random.h"
 #include "geom/field.h"
 
 static const double TURN = 6.283185307179586;

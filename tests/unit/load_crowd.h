@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/random.h"
+#include "base/number/random.h"
 #include "world/world.h"
 
 enum { CROWD_PEOPLE = 150, CROWD_SCENES = 3 };

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "base/random.h"
+#include "base/number/random.h"
 #include "world/world.h"
 
 enum { ENCOUNTERS = 10000, KINDS = 4, MOST_PEOPLE = 40 };

@@ -1,6 +1,6 @@
 /* Random piles in valleys: people of all sizes, each resting on two things (a wall, another
    person), each with a force of its own. Two contacts for each: equilibrium determines them all. */
-#include "base/random.h"
+#include "base/number/random.h"
 #include "unit/load_statics.h"
 
 enum { PILES = 60, MOST_TRIES = 400 };

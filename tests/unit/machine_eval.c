@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "agents/agents.h"
-#include "base/random.h"
+#include "base/number/random.h"
 #include "machine/kernels.h"
 
 #define X(name, isa) [isa] = jox_eval_numbers_##name,

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "base/random.h"
+#include "base/number/random.h"
 #include "machine/kernels.h"
 
 enum { PEOPLE = JOX_BATCH, CASES = 40 };

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "base/random.h"
+#include "base/number/random.h"
 #include "force/kernels.h"
 #include "geom/wall_way.h"
 #include "nav/kernels.h"

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-#include "base/random.h"
+#include "base/number/random.h"
 #include "nav/internal.h"
 
 enum { CROWDS = 30, MOST_PEOPLE = 700 };

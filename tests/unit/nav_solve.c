@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "base/random.h"
+#include "base/number/random.h"
 #include "nav/kernels.h"
 
 enum { CROWDS = 48, MOST_PEOPLE = 300, MOST_PLANES = 4 };

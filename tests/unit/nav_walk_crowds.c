@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "base/elementary.h"
-#include "base/random.h"
+#include "base/number/elementary.h"
+#include "base/number/random.h"
 #include "nav/internal.h"
 #include "nav/walk.h"
 #include "world/world.h"

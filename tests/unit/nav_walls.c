@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "base/random.h"
+#include "base/number/random.h"
 #include "geom/polygon.h"
 #include "nav/internal.h"
 

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "base/mem.h"
-#include "base/random.h"
+#include "base/number/random.h"
 #include "world/verbs/verbs.h"
 
 static const char ALL[] = "# a comment\n"

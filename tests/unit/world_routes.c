@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "base/elementary.h"
+#include "base/number/elementary.h"
 #include "world/obstacles.h"
 
 /* A box of 2 a by 2 b m about (x, y), turned. */

@@ -1,7 +1,7 @@
 /* math.*, for behaviours: the same bits everywhere, so functions of our own. */
 #include <math.h>
 
-#include "base/elementary.h"
+#include "base/number/elementary.h"
 #include "lua/vm/library.h"
 
 static int call_1(lua_State *L, double (*f)(double)) {

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/elementary.h"
 #include "base/mem.h"
+#include "base/number/elementary.h"
 #include "record/danger/danger_parts.h"
 
 static const double HOLD = 1.0; /* s: time constant of what a person bears */

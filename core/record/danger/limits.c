@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/elementary.h"
+#include "base/number/elementary.h"
 #include "record/danger/danger_parts.h"
 
 const char *const jox_danger_names[] = {"density", "pressure", "compression", "load", "dose"};

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/elementary.h"
 #include "base/mem.h"
+#include "base/number/elementary.h"
 #include "record/fields/density_parts.h"
 
 enum { MOST_TAPS = 512 };

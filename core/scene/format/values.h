@@ -2,7 +2,7 @@
 #ifndef JOX_SCENE_VALUES_H
 #define JOX_SCENE_VALUES_H
 
-#include "base/distribution.h"
+#include "base/number/distribution.h"
 #include "base/vec.h"
 #include "scene/format/reader.h"
 

@@ -1,4 +1,4 @@
-#include "base/random.h"
+#include "base/number/random.h"
 
 double jox_random_unit(uint64_t seed, uint32_t agent, uint64_t tick, JoxDraw purpose,
                        uint32_t sub) {

@@ -1,10 +1,10 @@
-#include "base/distribution.h"
+#include "base/number/distribution.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/assert.h"
-#include "base/elementary.h"
+#include "base/number/elementary.h"
 
 static const double TURN = 6.283185307179586;
 

@@ -1,4 +1,4 @@
-#include "base/elementary.h"
+#include "base/number/elementary.h"
 
 #include <math.h>
 #include <stdint.h>

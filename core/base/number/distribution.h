@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/random.h"
+#include "base/number/random.h"
 #include "base/text.h"
 
 enum { JOX_DIST_CHOICES = 8 };
