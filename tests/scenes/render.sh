@@ -84,11 +84,11 @@ if [ $images = yes ]; then
     mkdir "$work/bin" "$work/empty"
     printf '#!/bin/sh\necho "$@" >"%s/args"\n/usr/bin/wc -c >"%s/bytes"\nfor last; do :; done; /usr/bin/touch "${last#file:}"\n' "$work" "$work" >"$work/bin/ffmpeg"
     chmod +x "$work/bin/ffmpeg"
-    PATH=$work/bin render scenes/dodgeball.yaml --from 0 --until 1 --size 320x322 --out "$work/run.mp4" 2>/dev/null; verdict "a video" $?
+    PATH=$work/bin render scenes/dodgeball.yaml --trusted --from 0 --until 1 --size 320x322 --out "$work/run.mp4" 2>/dev/null; verdict "a video" $?
     same "every frame goes to ffmpeg" "$(tr -d ' ' <"$work/bytes")" $((21 * 320 * 322 * 4))
     grep -qF -- "-video_size 320x322 -framerate 20 -i pipe:0" "$work/args"; verdict "with size and frames a second" $?
     printf '#!/bin/sh\nexit 3\n' >"$work/bin/ffmpeg"
-    expect "ffmpeg that fails" 1 "run.mp4'" env PATH="$work/bin" "$JOSTLE" render scenes/dodgeball.yaml --until 2 --out "$work/run.mp4"
+    expect "ffmpeg that fails" 1 "run.mp4'" env PATH="$work/bin" "$JOSTLE" render scenes/dodgeball.yaml --trusted --until 2 --out "$work/run.mp4"
     expect "no ffmpeg" 1 "apt-get install ffmpeg" env PATH="$work/empty" "$JOSTLE" render scenes/dodgeball.yaml --until 0.5 --out "$work/none.mp4"
     same "then the frames stay" "$(find "$work/none-frames" -name 'frame-*.png' | wc -l)" 11
     if command -v ffmpeg >/dev/null; then
