@@ -1,5 +1,7 @@
 #include <stdio.h>
+#include <stdlib.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/format/path.h"
 #include "cli/cli.h"
@@ -26,6 +28,18 @@ static const char *usual_place(void) {
     return ".";
 }
 
+/* Behaviours that stand in a test become files for a while: below a folder of the user's alone,
+   which stays for the next run. NULL where there is none. */
+static const char *make_room(void) {
+    static char room[64];
+    struct stat info;
+    snprintf(room, sizeof room, "/tmp/jostle-tests-%u", (unsigned)geteuid());
+    (void)!mkdir(room, 0700);
+    const bool own = lstat(room, &info) == 0 && S_ISDIR(info.st_mode) && info.st_uid == geteuid() &&
+                     (info.st_mode & 077) == 0;
+    return own && setenv("TMPDIR", room, 1) == 0 ? room : NULL;
+}
+
 /* Tests lie beside the behaviours and scenes that they test, or in a folder of theirs. */
 static void confine(const char *const *paths, size_t count, bool trusted) {
     static const char *const NEAR[] = {"../behaviours", "../scenes", "../../behaviours",
@@ -45,6 +59,7 @@ static void confine(const char *const *paths, size_t count, bool trusted) {
             cli_reach_folder(&reach, path);
         }
     }
+    cli_reach_output(&reach, trusted ? NULL : make_room());
     cli_confine_work(&reach, trusted);
 }
 

@@ -24,7 +24,7 @@ typedef struct Tests {
     const char *only;
     size_t passed, failed;
     bool broken;
-    char folder[64]; /* for behaviours that stand in tests; "" while there are none */
+    char folder[96]; /* for behaviours that stand in tests; "" while there are none */
     char **kept;
     size_t kept_count, kept_capacity;
     JoxText said; /* by the scene that is loaded */
@@ -165,7 +165,9 @@ static const char *keep(void *context, const char *text, size_t length) {
     if (tests->kept_count >= MOST_KEPT || length > LARGEST_KEPT)
         return NULL;
     if (!*tests->folder) {
-        strcpy(tests->folder, "/tmp/jostle-test-XXXXXX");
+        const char *usual = getenv("TMPDIR");
+        snprintf(tests->folder, sizeof tests->folder, "%.60s/jostle-test-XXXXXX",
+                 usual && *usual == '/' && strlen(usual) <= 60 ? usual : "/tmp");
         bool made = mkdtemp(tests->folder) != NULL;
         snprintf(path, sizeof path, "%s/behaviours", tests->folder); /* nothing lies beside it */
         if (!made || mkdir(path, 0700) != 0) {
@@ -254,7 +256,7 @@ static void run_path(Tests *tests, const char *path) {
     }
     char **names = jox_folder_names(path, false);
     for (char **name = names; name && *name; name++) {
-        char inner[1024];
+        char inner[128];
         snprintf(inner, sizeof inner, "%s/%s", path, *name);
         if (is_test(*name))
             run_file(tests, inner);
@@ -284,7 +286,7 @@ static bool test_all(const char *const *paths, size_t count, const char *only, b
         jox_free(tests.kept[k]);
     }
     if (*tests.folder) {
-        char inner[96];
+        char inner[128];
         snprintf(inner, sizeof inner, "%s/behaviours", tests.folder);
         rmdir(inner);
         rmdir(tests.folder);
