@@ -256,7 +256,7 @@ static void run_path(Tests *tests, const char *path) {
     }
     char **names = jox_folder_names(path, false);
     for (char **name = names; name && *name; name++) {
-        char inner[128];
+        char inner[1024];
         snprintf(inner, sizeof inner, "%s/%s", path, *name);
         if (is_test(*name))
             run_file(tests, inner);
