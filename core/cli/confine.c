@@ -77,14 +77,16 @@ void cli_reach_folder(CliReach *reach, const char *path) {
 void cli_reach_scene(CliReach *reach, const char *path) {
     if (!path)
         return;
-    if (is_folder(path)) {
+    /* A project's behaviours and what these require lie beside its folder of scenes. */
+    static const char *const BESIDE[] = {".", "../behaviours", "../scripts"};
+    for (size_t b = 0; b < sizeof BESIDE / sizeof *BESIDE; b++) {
         JoxText text = {0};
-        jox_text_printf(&text, "%s/../behaviours", path);
-        put(&reach->reads, jox_strdup(path));
-        put(&reach->reads, text.data);
-    } else {
-        put_beside(&reach->reads, path, ".");
-        put_beside(&reach->reads, path, "../behaviours");
+        if (is_folder(path)) {
+            jox_text_printf(&text, "%s/%s", path, BESIDE[b]);
+            put(&reach->reads, text.data);
+        } else {
+            put_beside(&reach->reads, path, BESIDE[b]);
+        }
     }
 }
 

@@ -68,7 +68,8 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Run, profile)},
     {"trusted", NULL,
      "the scene is one's own: it is read at once. Else a process that has no network, writes "
-     "nothing and reads the scene's folder, ../behaviours and mods alone reads it first, and it is "
+     "nothing and reads the scene's folder, ../behaviours, ../scripts and mods alone reads it "
+     "first, and it is "
      "loaded from what that one read",
      CLI_TO(Run, trusted)},
     {"watch", NULL, "reload behaviours and the scene when their files change",

@@ -167,7 +167,8 @@ static void tell_refused(const CliCommand *command, const JoxText *said) {
     fputs(said->data, stderr);
     if (strstr(said->data, strerror(EACCES)))
         fprintf(stderr,
-                "jostle %s: of a scene, files in its folder, in ../behaviours and of mods are "
+                "jostle %s: of a scene, files in its folder, in ../behaviours, ../scripts and of "
+                "mods are "
                 "read; with --trusted, files anywhere are\n",
                 command->name);
 }

@@ -17,6 +17,11 @@ scene() { printf 'jostle: 1\n%sgroups: {g: {behaviour: %s, at: [[0, 0]]}}\n' "$2
 
 scene near.lua
 says "a scene with its behaviour in ../behaviours" 0 "" "$program" run scenes/s.yaml --quiet --steps 2
+mkdir -p scripts
+echo 'return { pace = 1 }' >scripts/manners.lua
+echo "local manners = require 'manners' assert(manners.pace == 1) $rest" >behaviours/kind.lua
+scene kind.lua
+says "  which requires a file of ../scripts" 0 "" "$program" run scenes/s.yaml --quiet --steps 2
 says "the version says what the kernel has" 0 "scenes are read by a process with" "$program" --version
 if ! grep -q "no Landlock" out; then
     scene ../elsewhere/away.lua
