@@ -5,8 +5,10 @@
 #include "base/assert.h"
 #include "machine/kernels.h"
 
+/* Where nobody chose an instruction set, the plain one. */
 #define X(name, isa) [isa] = jox_eval_numbers_##name,
-static JoxEvalKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
+static JoxEvalKernel *const KERNELS[JOX_ISA_ROOM] = {[JO_ISA_WIDEST] = jox_eval_numbers_scalar,
+                                                     JOX_ISAS(X)};
 #undef X
 
 static double people_in(const JoxMachineRun *run, int32_t place) {
