@@ -10,7 +10,7 @@ return claim {
   quick = { room = { seeds = 3 } },
   measure = function(run)
     local party = run.room.summary.probes.party
-    return { people = party.forward, apart = party.last - party.first, last = party.last }
+    return { people = party.forward - party.back, apart = party.last - party.first, last = party.last }
   end,
   expect = {
     { "people", what = "people of the party who get out", source = "5", band = { 5, 5 } },

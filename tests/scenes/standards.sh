@@ -9,6 +9,7 @@ says() { # NAME STATUS TEXT COMMAND...: the exit status, and a text in the outpu
 
 quick="R5 R12b R12c I1 I5 I6 I10 N1.1 N2.4 N2.9 N2.10 N3.3 N4.1"
 says "the quick tests of standards pass" 0 "13 of 13 claims in band" "$JOSTLE" reproduce $quick --standards --quick --quiet --out "$work/rep"
+[ "$(grep -c '^N4.1 ' "$work/out")" = 1 ]; verdict "each is told once" $?
 page="$work/rep/standards.html"
 grep -q 'plan-N4.1.png' "$page" && [ -s "$work/rep/plan-N4.1.png" ]; verdict "each test has its plan" $?
 grep -q '<td>IMO MSC.1/Circ.1533<td class=n>4<td class=n>4<td class=n>0' "$page"; verdict "the tests of a standard are counted" $?
