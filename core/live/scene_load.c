@@ -53,6 +53,7 @@ bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
     s->until = s->def->seconds > 0.0 ? s->def->seconds : jo_scene_duration(next);
     s->began = 0.0;
     s->inspector = 0;
+    s->push_count = 0;
     jox_live_page_begin(&s->page);
     return !s->failed;
 }

@@ -12,6 +12,15 @@ typedef struct JoxLiveFileErrors {
     JoxDiagnostics errors;
 } JoxLiveFileErrors;
 
+/* The push that an agent has been given by hand before the step that comes. */
+typedef struct JoxHandPush {
+    uint64_t tick;
+    uint32_t agent;
+    double x, y; /* N */
+} JoxHandPush;
+
+enum { JOX_HAND_PUSHES = 16 }; /* agents who are pushed at a time, at most */
+
 typedef struct JoxScenePage {
     JoxLivePage page;
     const JoViewDef *def;
@@ -25,6 +34,8 @@ typedef struct JoxScenePage {
     bool reported;      /* errors that pages were sent as data are being printed */
     uint32_t inspector; /* the client who inspects an agent; 0: nobody */
     uint32_t inspected; /* the slot of that agent */
+    JoxHandPush pushes[JOX_HAND_PUSHES];
+    uint32_t push_count; /* ever; they are kept in a ring */
     JoxLiveFileErrors *errors;
     size_t error_count, error_capacity;
 } JoxScenePage;

@@ -118,6 +118,42 @@ static void refuse_verb(const JoxLiveRequest *request) {
     jox_text_free(&why);
 }
 
+/* The push of an agent that was given by hand before the present step; NULL: none was. */
+static JoxHandPush *find_push(JoxScenePage *s, uint64_t tick, uint32_t agent) {
+    for (uint32_t p = 0; p < JOX_HAND_PUSHES && p < s->push_count; p++)
+        if (s->pushes[p].agent == agent && s->pushes[p].tick == tick)
+            return &s->pushes[p];
+    return NULL;
+}
+
+/* A page sends a push again and again while it lasts: several times before a step, if the run is
+   slow or stands still. Forces on an agent add up, so each is given as what it differs from the
+   one before it, and the last one counts. */
+static bool push(JoxScenePage *s, const JoxInputEntry *entry, JoError *error) {
+    const JoxHandPush now = {s->scene->world->state.tick, entry->number, entry->numbers[0],
+                             entry->numbers[1]};
+    JoxHandPush *before = find_push(s, now.tick, now.agent);
+    char line[128];
+    snprintf(line, sizeof line, "push %u %.17g %.17g", now.agent,
+             now.x - (before ? before->x : 0.0), now.y - (before ? before->y : 0.0));
+    if (!jo_scene_input(s->scene, line, error))
+        return false;
+    if (!before)
+        before = &s->pushes[s->push_count++ % JOX_HAND_PUSHES];
+    *before = now;
+    return true;
+}
+
+static bool perform(JoxScenePage *s, const char *line, JoError *error) {
+    JoxInputEntry entry;
+    JoxText wrong = {0};
+    const bool pushes = jox_input_read(line, &entry, &wrong) && entry.verb == JOX_INPUT_PUSH;
+    const bool good = pushes ? push(s, &entry, error) : jo_scene_input(s->scene, line, error);
+    jox_input_entry_free(&entry);
+    jox_text_free(&wrong);
+    return good;
+}
+
 void jox_scene_page_input(void *self, const JoxLiveRequest *request) {
     JoxScenePage *s = self;
     const char *line = jox_command_text(request->command, "line", "");
@@ -132,7 +168,7 @@ void jox_scene_page_input(void *self, const JoxLiveRequest *request) {
         jox_live_refuse(request, text);
     } else if (s->failed) {
         jox_live_refuse(request, "this run cannot go on; restart it");
-    } else if (!jo_scene_input(s->scene, line, &error)) {
+    } else if (!perform(s, line, &error)) {
         jox_live_refuse(request, error.text);
     } else {
         s->page.changed = true;

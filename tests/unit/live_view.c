@@ -337,6 +337,59 @@ static void a_scene_that_is_over_waits_and_is_restarted(void **state) {
     jo_free(session.summary);
 }
 
+/* Sum of the pushes of an agent in the log, N, at a tick. */
+static void logged_push(double tick, uint32_t agent, double sum[2]) {
+    FILE *file = fopen(in_folder("log.txt"), "r");
+    assert_non_null(file);
+    char line[2048];
+    sum[0] = sum[1] = 0.0;
+    while (fgets(line, sizeof line, file)) {
+        double at, x, y;
+        uint32_t whom;
+        if (sscanf(line, "%lf push %u %lf %lf", &at, &whom, &x, &y) == 4 && at == tick &&
+            whom == agent) {
+            sum[0] += x;
+            sum[1] += y;
+        }
+    }
+    fclose(file);
+}
+
+static void a_push_that_is_repeated_counts_once_a_step(void **state) {
+    (void)state;
+    JoxText scene = {0};
+    jox_text_printf(&scene, "%sview: {tools: [push]}\n", SCENE);
+    write_file("scene.yaml", scene.data);
+    jox_text_free(&scene);
+    begin(0);
+    join();
+    say("{\"do\": \"restart\"}");
+    say("{\"do\": \"pause\", \"on\": true}");
+    hear("\"status\"", "\"paused\": true");
+    const double tick = number_of(last, "tick");
+    for (int n = 0; n < 20; n++) {
+        say("{\"do\": \"input\", \"line\": \"push 1 %d -75.25\"}", 100 + n);
+        say("{\"do\": \"input\", \"line\": \"push 2 0 300\"}");
+    }
+    say("{\"do\": \"step\", \"n\": 1}");
+    while (number_of(hear("\"status\"", NULL), "tick") == tick)
+        ;
+    say("{\"do\": \"input\", \"line\": \"push 1 50 0\"}");
+    say("{\"do\": \"input\", \"line\": \"push 1 1 2 3\"}");
+    hear("\"refused\"", "push");
+    end();
+    assert_true(session.good);
+    jo_free(session.summary);
+    double sum[2];
+    logged_push(tick, 1, sum);
+    assert_true(sum[0] == 119.0 && sum[1] == -75.25);
+    logged_push(tick, 2, sum);
+    assert_true(sum[0] == 0.0 && sum[1] == 300.0);
+    logged_push(tick + 1, 1, sum);
+    assert_true(sum[0] == 50.0 && sum[1] == 0.0);
+    write_file("scene.yaml", SCENE);
+}
+
 static void what_people_do_replays_to_the_same_state(void **state) {
     (void)state;
     begin(0);
@@ -463,6 +516,7 @@ int main(void) {
         cmocka_unit_test(a_run_is_paused_stepped_and_hurried),
         cmocka_unit_test(colours_and_fields_are_as_asked),
         cmocka_unit_test(a_scene_that_is_over_waits_and_is_restarted),
+        cmocka_unit_test(a_push_that_is_repeated_counts_once_a_step),
         cmocka_unit_test(what_people_do_replays_to_the_same_state),
         cmocka_unit_test(one_page_at_a_time_inspects),
         cmocka_unit_test(mistakes_are_shown_until_they_are_mended),
