@@ -522,9 +522,9 @@ def reconnects(browser):
     session = Session("run", "scenes/office.yaml", "--view")
     try:
         browser.open(session)
-        browser.run("page.connection.socket.close()")
-        browser.wait("return page.connection.socket.readyState > 1", "the socket stays open")
-        browser.wait("return page.connection.socket.readyState === 1", "no new connection")
+        browser.run("window.first = page.connection.socket; window.first.close()")
+        browser.wait("return window.first.readyState === 3", "the socket stays open")
+        browser.wait("return page.connection.socket !== window.first && page.connection.socket.readyState === 1", "no new connection")
         tick = browser.run("return page.crowd.next.tick")
         browser.wait("return page.crowd.next.tick > arguments[0] + 3", "no frames after the new connection", tick)
         expect("connected" == browser.find("#link").text, "it does not say that it is connected")
