@@ -62,9 +62,9 @@ const CliCommand cli_reproduce = {
     .what = "run what papers and real crowds show, and compare",
     .usage = "[CLAIM...] [options]",
     .about = "Runs scenes, measures, and compares with what papers and real crowds say: all claims "
-             "of scenes/claims, or those named; `paper`, `real`, `rimea`, `imo` and `nist` name "
-             "several, `standards` the last three. Runs "
-             "that are there already are not done again.",
+             "of scenes/claims, or those named; `paper`, `real`, `rimea`, `imo`, `nist` "
+             "and `iso` name several, `standards` the last four. Runs that are there already are "
+             "not done again.",
     .notes = "exit status: 0 all in band, 1 a claim misses, 2 wrong usage, 3 a claim file is wrong",
     .options = OPTIONS,
     .option_count = sizeof OPTIONS / sizeof *OPTIONS,

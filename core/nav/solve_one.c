@@ -19,11 +19,23 @@ static bool is_imposed(uint32_t k, const JoxHalfPlaneCounts *made) {
     return k < hard || k >= hard + made->agents + made->objects;
 }
 
+/* How far walls alone take an agent from what it wants, m/s. */
+static float kept_off_by_walls(const JoxSolve *s, uint32_t i, const JoxHalfPlane *walls,
+                               uint32_t count, JoxV2 wanted) {
+    JoxV2 nearest;
+    bool relaxed;
+    if (count == 0)
+        return 0.0f;
+    jox_linear_program_solve(walls, count, count, s->agents->speed_limit[i], wanted, &nearest,
+                             &relaxed);
+    return jox_length(jox_sub(nearest, wanted)) * 1.001f + 1e-4f; /* rounding leaves a solution */
+}
+
 /* What an agent is pressed by may leave only velocities far along a valley between half-planes that
    are nearly opposite: then feet would throw people. Nobody's feet, avoidance apart, take them
-   farther from what they want than the forces do. Lowers what is imposed to the best that there is
-   as near as that, walls apart, which all allow to stand still; false where all that is imposed can
-   be met there. */
+   farther from what they want than the forces or walls do. Lowers what is imposed to the best that
+   there is as near as that, walls apart, which all allow to stand still; false where all that is
+   imposed can be met there. */
 static bool keep_within_reach(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
                               JoxHalfPlane *half_planes, JoxV2 wanted, JoxV2 velocity) {
     JoxV2 forced = {s->agents->forced_x[i], s->agents->forced_y[i]};
@@ -37,6 +49,8 @@ static bool keep_within_reach(const JoxSolve *s, uint32_t i, const JoxHalfPlaneC
     }
     if (jox_length2(jox_sub(velocity, wanted)) <= reach2)
         return false;
+    const float off = kept_off_by_walls(s, i, half_planes, made->walls, wanted);
+    reach2 = jox_maxf(reach2, off * off);
     JoxHalfPlane imposed[JOX_MOST_CONSTRAINTS] = {0};
     for (uint32_t k = 0; k < all; k++)
         if (is_imposed(k, made)) {

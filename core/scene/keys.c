@@ -252,7 +252,7 @@ static const JoxKey KEYS[] = {
     {"probe", "from", NUMBER, "s", 0, 1e9, "0", TO(JoxProbeDef, from), .meaning = "nothing is measured before"},
     {"probe", "until", NUMBER, "s", 0, 1e9, "1e9", TO(JoxProbeDef, until), .meaning = "nor from then on"},
     {"probe", "every", NUMBER, "s", 0.01, 1e6, "1", TO(JoxProbeDef, every),
-     .meaning = "of measure: length of an interval; of map and lanes: time between samples"},
+     .meaning = "of measure and oscillation: length of an interval; of map and lanes: time between samples"},
     {"probe", "cutoff", NUMBER, "m", 0.1, 100, "1", TO(JoxProbeDef, cutoff),
      .meaning = "of measure: how far a Voronoi cell reaches at most; walls end it before"},
     {"probe", "during", POINTS, "m", -FAR, FAR, "", .of = "xy[2]", READ_TO(jox_key_line, JoxProbeDef, during, during_count),
@@ -274,6 +274,11 @@ static const JoxKey KEYS[] = {
      .meaning = "two opposite corners"},
     {"lanes", "rows", NUMBER, "m", 0.05, 100, "0.4", TO(JoxProbeDef, rows), .meaning = "width of the rows"},
     {"lanes", "along", TEXT, "", 0, 0, "x", TO(JoxProbeDef, along_y), .choices = "x|y", .meaning = "axis that people walk along"},
+    {"oscillation", "area", POINTS, "m", -FAR, FAR, "!", READ_TO(jox_key_box, JoxProbeDef, low, high), .of = "xy[2]",
+     .meaning = "two opposite corners; cut into windows from the first on"},
+    {"oscillation", "window", NUMBER, "m", 0.1, 100, "1.5", TO(JoxProbeDef, window), .meaning = "width of the windows"},
+    {"oscillation", "span", NUMBER, "s", 1, 1e5, "120", TO(JoxProbeDef, span),
+     .meaning = "length of the stretches whose spectra are averaged; frequencies are 2 pi / span apart"},
     {"event", "at", NUMBER, "s", 0, 1e6, "!", TO(JoxEvent, at), .meaning = "when; it takes effect in the step that begins then"},
     {"event", "every", NUMBER, "s", 0.01, 1e6, "", TO(JoxEvent, every), .meaning = "again after each such time"},
     {"event", "until", NUMBER, "s", 0, 1e9, "1e9", TO(JoxEvent, until), .meaning = "of what is repeated: not after this"},
@@ -365,6 +370,10 @@ static const JoxOwner OWNERS[] = {
      .finish = jox_finish_probe},
     {"map", "map", "", .size = 0},
     {"lanes", "lanes", "The ways are two groups where the probe names two; else the sign of the velocity.", .size = 0},
+    {"oscillation", "oscillation", "The velocity of a window is the mean over the people in it and over `every`. Its figures: the `frequency` "
+     "of the greatest power of the directions and by what factor it `rises` above the least power of lower ones (1: it does not), "
+     "the same of the speeds, and of the stretches of windows the share that turn `anticlockwise` and how much more `one_way` than "
+     "the other.", .size = 0},
     {"event", "Events", "Each event of the list `events` does one thing at its time, once or again and again. Those of the "
      "same time are done in the order of the list.",
      .size = sizeof(JoxEvent), .kind = AT(JoxEvent, kind), .wrong_kind = "bad-event", .hint = "{at: 20, open: gate}",

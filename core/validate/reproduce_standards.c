@@ -24,6 +24,8 @@ static const struct Standard {
     {'R', "rimea", "RiMEA 4.1.1", "2, 3 and 13 (stairs), 8 and 14 (storeys)"},
     {'I', "imo", "IMO MSC.1/Circ.1533", "2, 3 and 11 (stairs), 7 (a table of men of 30 to 50)"},
     {'N', "nist", "NIST TN 1822", "2.2 (stairs), 2.5 and 2.6 (smoke), 2.7 (lifts), 5.1"},
+    {'O', "iso", "ISO 20414:2020, where it differs from the others",
+     "12 (stairs), 18 and 19 (smoke and dose); 14, 15 and 16 are 2.9, 3.2 and 3.3 of NIST"},
 };
 enum { STANDARD_COUNT = sizeof STANDARDS / sizeof *STANDARDS };
 

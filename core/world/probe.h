@@ -33,6 +33,8 @@
       "share of agent-steps whose 2-D program failed, in bins of this length")                      \
     X(LANES, lanes, TABLE, "every", "order:   {lanes: {area: [[-2, -2], [4, 2]]}}",                 \
       "order parameter of lanes between opposite ways")                                             \
+    X(OSCILLATION, oscillation, TABLE, "every", "swirl:   {oscillation: {area: [[-2, -2], [4, 2]], span: 4}, every: 0.1}", \
+      "whether a crowd turns round as a whole: spectra of the directions and speeds in its windows") \
     X(VISIT, visit, STATES, "", "arrival: {visit: [Run, Arrived]}",                                 \
       "two states: the time that people take from entering the first to entering the second, and whether they keep their order") \
     X(LOG, log, FLAG, "", "actions: {log: true}",                                                    \
@@ -60,15 +62,19 @@ typedef struct JoxProbeDef {
     uint32_t walkable_count;
     const JoxV2 *during;   /* measure: two ends of a line, or NULL */
     uint32_t during_count; /* 2, or 0 */
-    double every;          /* s: measure, lanes: interval; map: between samples; failures: bin */
-    double cutoff;         /* m: greatest reach of a Voronoi cell */
-    double rest;           /* s: displacement is from the mean place of this time */
-    double onset;          /* m: displacement from which a person counts as moved */
-    JoxV2 low, high;       /* map, lanes: the area; a map with low.x > high.x takes the scene's */
+    double
+        every; /* s: measure, lanes, oscillation: interval; map: between samples; failures: bin */
+    double cutoff; /* m: greatest reach of a Voronoi cell */
+    double rest;   /* s: displacement is from the mean place of this time */
+    double onset;  /* m: displacement from which a person counts as moved */
+    JoxV2 low,
+        high; /* map, lanes, oscillation: the area; a map with low.x > high.x takes the scene's */
     double cell, kernel;   /* m: width of a map's cells, standard deviation of its Gaussian */
     bool through_walls;    /* map: its Gaussian heeds no walls */
     double rows;           /* m: width of the rows that lanes are looked for in */
     bool along_y;          /* lanes run along y, not x */
+    double window;         /* m: width of the windows of an oscillation */
+    double span;           /* s: stretches whose spectra are averaged */
     const char *states[2]; /* visit: names of states, of whatever machine */
 } JoxProbeDef;
 

@@ -84,11 +84,34 @@ static void who_pushes_straight_on_gets_past(void **state) {
     }
 }
 
+/* Straight at a wall nobody is turned aside: what they are slowed down by presses them against the
+   wall, and may not throw them along it. */
+static void who_walks_at_a_wall_stays_there(void **state) {
+    (void)state;
+    static const double ends[] = {2, -20, 2, 20};
+    for (int k = 0; k < 4 * STEP_COUNT; k++) {
+        JoWorld *w = make(STEPS[k / 4], true);
+        assert_true(jo_world_add_line(w, ends, 2, NULL));
+        JoAgent one = add(w, 0, 0, 0);
+        if (k % 2)
+            jo_agent_set_parameter(w, one, "time_gap", 0.5);
+        jo_agent_set_preferred(w, one, k / 2 % 2 ? 1.3 : 0.3, 0);
+        for (int second = 0; second < 12; second++) {
+            run(w, 1.0);
+            JoAgentState at = jo_agent_state(w, one);
+            assert_true(at.x < 2.0 && fabs(at.y) < 0.02 && fabs(at.vy) < 0.02);
+        }
+        assert_true(jo_agent_state(w, one).x > 1.75);
+        jo_world_free(w);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_way_is_that_of_the_approach),
         cmocka_unit_test(who_stands_gives_way_alike),
         cmocka_unit_test(who_pushes_straight_on_gets_past),
+        cmocka_unit_test(who_walks_at_a_wall_stays_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

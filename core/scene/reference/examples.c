@@ -167,6 +167,9 @@ const JoxExample jox_scene_examples[] = {
     {"lanes", OPENING
      "include: running-through.yaml\n"
      "probes: {order: {lanes: {area: [[-2, -2], [6, 6]], rows: 40 cm, along: y}, group: [standing, runner]}}\n"},
+    {"oscillation", OPENING
+     "include: running-through.yaml\n"
+     "probes: {swirl: {oscillation: {area: [[-2, -2], [6, 6]], window: 2, span: 4}, every: 0.1}}\n"},
     {"event", OPENING
      "walls:\n"
      "  - {line: [[0, 0], [0, 2]], name: gate}\n"

@@ -1,0 +1,303 @@
+/* Oscillation: whether a crowd turns round as a whole, as dense ones do (Gu et al. 2025, doi
+   10.1038/s41586-024-08514-6). The area is cut into windows; the velocity of a window is the mean
+   over the people in it and over an interval. Of its direction n, a unit vector taken as a complex
+   number, the power spectrum is averaged over windows and over stretches that overlap by half,
+   each with its mean taken off and faded by Hann's window (Welch 1967, doi
+   10.1109/TAU.1967.1161901). Positive frequencies turn anti-clockwise, negative ones clockwise.
+   Directions that change by chance from interval to interval have the power 1 everywhere; a crowd
+   that turns has a peak, one that does not has most power at the least frequencies. */
+#include <math.h>
+
+#include "base/mem.h"
+#include "record/probes/probe_parts.h"
+
+enum { MOST_WINDOWS = 10000, MOST_CELLS = 1 << 24, LEAST_SAMPLES = 16, LEAST_BIN = 2 };
+static const double LEAST_SHARE = 0.8; /* of the intervals in which a window must have people */
+
+typedef struct Cell {
+    float vx, vy; /* m/s: sums while an interval lasts, then means */
+    float people; /* person-frames */
+} Cell;
+
+typedef struct Oscillation {
+    Cell *cells; /* of all intervals so far, windows of an interval side by side */
+    uint32_t count, capacity;
+    uint32_t columns, rows, intervals;
+    uint32_t *frames; /* in each interval */
+    uint32_t frame_count, frame_capacity;
+} Oscillation;
+
+/* Powers by frequency, of bins 0..bins-1; bin k has 2 pi k / span rad/s. */
+typedef struct Spectrum {
+    double *anticlockwise, *clockwise, *speed;
+    double *cosine, *sine, *fade; /* of the stretch's samples */
+    uint32_t bins, samples;       /* samples: of a stretch */
+    double step;                  /* rad/s between bins */
+    double stretches;             /* of all windows */
+} Spectrum;
+
+static uint32_t windows_of(const Oscillation *o) {
+    return o->columns * o->rows;
+}
+
+static void begin(const JoxProbeDef *def, void *state) {
+    Oscillation *o = state;
+    const double columns = floor((def->high.x - def->low.x) / def->window + 1e-6);
+    const double rows = floor((def->high.y - def->low.y) / def->window + 1e-6);
+    o->columns = (uint32_t)fmin(fmax(columns, 1.0), MOST_WINDOWS);
+    o->rows = (uint32_t)fmin(fmax(rows, 1.0), MOST_WINDOWS / o->columns);
+}
+
+static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen) {
+    Oscillation *o = state;
+    /* The frame at an interval's end belongs to it. */
+    const double at = (frame->time - def->from) / def->every - 1e-6;
+    const uint32_t windows = windows_of(o);
+    const uint32_t interval = at > 0.0 ? (uint32_t)fmin(at, MOST_CELLS) : 0;
+    if (interval + 1 > MOST_CELLS / windows)
+        return;
+    JOX_RESERVE(o->cells, o->capacity, (interval + 1) * windows);
+    JOX_RESERVE(o->frames, o->frame_capacity, interval + 1);
+    while (o->count < (interval + 1) * windows)
+        o->cells[o->count++] = (Cell){0};
+    while (o->frame_count <= interval)
+        o->frames[o->frame_count++] = 0;
+    o->intervals = o->frame_count;
+    o->frames[interval]++;
+    for (uint32_t i = 0; i < frame->count; i++) {
+        const double x = (frame->x[i] - def->low.x) / def->window;
+        const double y = (frame->y[i] - def->low.y) / def->window;
+        if (!seen[i] || !(x >= 0.0 && y >= 0.0 && x < o->columns && y < o->rows))
+            continue;
+        Cell *cell = &o->cells[interval * windows + (uint32_t)y * o->columns + (uint32_t)x];
+        cell->vx += frame->vx[i];
+        cell->vy += frame->vy[i];
+        cell->people += 1.0f;
+    }
+}
+
+static void spectrum_begin(Spectrum *s, const JoxProbeDef *def, uint32_t intervals) {
+    const double wanted = fmin(round(def->span / def->every), intervals);
+    s->samples = wanted < LEAST_SAMPLES ? 0 : (uint32_t)wanted;
+    s->bins = s->samples / 2;
+    s->step = s->samples ? 2.0 * M_PI / (s->samples * def->every) : 0.0;
+    double **const parts[] = {&s->anticlockwise, &s->clockwise, &s->speed};
+    for (int p = 0; p < 3; p++)
+        *parts[p] = jox_alloc(s->bins + 1, sizeof(double));
+    double **const tables[] = {&s->cosine, &s->sine, &s->fade};
+    for (int p = 0; p < 3; p++)
+        *tables[p] = jox_alloc(s->samples + 1, sizeof(double));
+    double power = 0.0;
+    for (uint32_t t = 0; t < s->samples; t++) {
+        const double angle = 2.0 * M_PI * t / s->samples;
+        s->cosine[t] = cos(angle);
+        s->sine[t] = sin(angle);
+        s->fade[t] = 0.5 - 0.5 * s->cosine[t];
+        power += s->fade[t] * s->fade[t];
+    }
+    for (uint32_t t = 0; t < s->samples; t++)
+        s->fade[t] /= sqrt(power);
+}
+
+static void spectrum_free(Spectrum *s) {
+    double *const all[] = {s->anticlockwise, s->clockwise, s->speed, s->cosine, s->sine, s->fade};
+    for (int p = 0; p < 6; p++)
+        jox_free(all[p]);
+}
+
+/* A stretch of one window: directions and speeds, faded, without their means. False where people
+   were too rarely there. */
+static bool stretch(const Oscillation *o, const Spectrum *s, uint32_t window, uint32_t first,
+                    double *nx, double *ny, double *speed) {
+    double mean[3] = {0.0, 0.0, 0.0}, spread = 0.0;
+    uint32_t there = 0;
+    for (uint32_t t = 0; t < s->samples; t++) {
+        const Cell *c = &o->cells[(first + t) * windows_of(o) + window];
+        const double v = hypot(c->vx, c->vy);
+        nx[t] = v > 0.0 ? c->vx / v : 0.0;
+        ny[t] = v > 0.0 ? c->vy / v : 0.0;
+        speed[t] = c->people > 0.0f ? v / c->people : 0.0;
+        there += c->people > 0.0f;
+        mean[0] += nx[t] / s->samples;
+        mean[1] += ny[t] / s->samples;
+        mean[2] += speed[t] / s->samples;
+    }
+    if (there < LEAST_SHARE * s->samples)
+        return false;
+    for (uint32_t t = 0; t < s->samples; t++)
+        spread += (speed[t] - mean[2]) * (speed[t] - mean[2]) / s->samples;
+    for (uint32_t t = 0; t < s->samples; t++) {
+        nx[t] = (nx[t] - mean[0]) * s->fade[t];
+        ny[t] = (ny[t] - mean[1]) * s->fade[t];
+        speed[t] = spread > 0.0 ? (speed[t] - mean[2]) / sqrt(spread) * s->fade[t] : 0.0;
+    }
+    return true;
+}
+
+/* Powers of the complex series x + iy at bins k and -k. */
+static void powers(const Spectrum *s, const double *x, const double *y, uint32_t k, double out[2]) {
+    double xc = 0.0, xs = 0.0, yc = 0.0, ys = 0.0;
+    for (uint32_t t = 0; t < s->samples; t++) {
+        const uint32_t at = (uint32_t)((uint64_t)t * k % s->samples);
+        xc += x[t] * s->cosine[at];
+        xs += x[t] * s->sine[at];
+        yc += y[t] * s->cosine[at];
+        ys += y[t] * s->sine[at];
+    }
+    out[0] = (xc + ys) * (xc + ys) + (yc - xs) * (yc - xs);
+    out[1] = (xc - ys) * (xc - ys) + (yc + xs) * (yc + xs);
+}
+
+/* Calls `of` with each stretch of each window. */
+typedef void (*StretchCall)(Spectrum *s, const double *nx, const double *ny, const double *speed,
+                            void *context);
+static void each_stretch(const Oscillation *o, Spectrum *s, StretchCall of, void *context) {
+    double *series = jox_alloc(3 * (size_t)s->samples + 1, sizeof *series);
+    double *nx = series, *ny = series + s->samples, *speed = ny + s->samples;
+    for (uint32_t first = 0; s->samples && first + s->samples <= o->intervals;
+         first += s->samples / 2)
+        for (uint32_t w = 0; w < windows_of(o); w++)
+            if (stretch(o, s, w, first, nx, ny, speed))
+                of(s, nx, ny, speed, context);
+    jox_free(series);
+}
+
+static void add_powers(Spectrum *s, const double *nx, const double *ny, const double *speed,
+                       void *context) {
+    (void)context;
+    s->stretches += 1.0;
+    for (uint32_t k = 0; k < s->bins; k++) {
+        double turning[2], alone[2];
+        powers(s, nx, ny, k, turning);
+        powers(s, speed, speed, k, alone); /* of (1 + i) speed: twice its power */
+        s->anticlockwise[k] += turning[0];
+        s->clockwise[k] += turning[1];
+        s->speed[k] += 0.5 * alone[0];
+    }
+}
+
+static Spectrum spectrum_of(const JoxProbeDef *def, const Oscillation *o) {
+    Spectrum s = {0};
+    spectrum_begin(&s, def, o->intervals);
+    each_stretch(o, &s, add_powers, NULL);
+    for (uint32_t k = 0; k < s.bins && s.stretches > 0.0; k++) {
+        s.anticlockwise[k] /= s.stretches;
+        s.clockwise[k] /= s.stretches;
+        s.speed[k] /= s.stretches;
+    }
+    return s;
+}
+
+/* The bin of the greatest power, and by what factor it rises above the least before it; 0 of no
+   spectrum. The first bins are lowered by the mean that was taken off. */
+static uint32_t peak_of(const Spectrum *s, const double *power, const double *more, double *rises) {
+    uint32_t peak = 0;
+    double least = INFINITY, greatest = 0.0;
+    *rises = NAN;
+    for (uint32_t k = LEAST_BIN; k < s->bins && s->stretches > 0.0; k++) {
+        const double p = power[k] + (more ? more[k] : 0.0);
+        if (p > greatest) {
+            greatest = p;
+            peak = k;
+        }
+    }
+    for (uint32_t k = LEAST_BIN; k <= peak; k++)
+        least = fmin(least, power[k] + (more ? more[k] : 0.0));
+    if (peak)
+        *rises = greatest / least;
+    return peak;
+}
+
+/* At the peak: which way each stretch turns, and how much more one way than the other. */
+typedef struct Turns {
+    uint32_t peak;
+    double anticlockwise, one_way, all;
+} Turns;
+
+static void add_turn(Spectrum *s, const double *nx, const double *ny, const double *speed,
+                     void *context) {
+    (void)speed;
+    Turns *turns = context;
+    double sum[2] = {0.0, 0.0};
+    for (uint32_t k = turns->peak - 1; k <= turns->peak + 1; k++) {
+        double of[2];
+        powers(s, nx, ny, k, of);
+        sum[0] += of[0];
+        sum[1] += of[1];
+    }
+    const double both = sum[0] + sum[1];
+    turns->all += 1.0;
+    turns->anticlockwise += sum[0] > sum[1];
+    turns->one_way += both > 0.0 ? fabs(sum[0] - sum[1]) / both : 0.0;
+}
+
+static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
+    const Oscillation *o = state;
+    Spectrum s = spectrum_of(def, o);
+    double people = 0.0, frames = 0.0, square = 0.0, filled = 0.0;
+    for (uint32_t t = 0; t < o->intervals; t++) {
+        frames += o->frames[t];
+        for (uint32_t w = 0; w < windows_of(o); w++) {
+            const Cell *c = &o->cells[t * windows_of(o) + w];
+            people += c->people;
+            if (c->people > 0.0f) {
+                const double v = hypot(c->vx, c->vy) / c->people;
+                square += v * v;
+                filled += 1.0;
+            }
+        }
+    }
+    double rises, speed_rises;
+    const uint32_t peak = peak_of(&s, s.anticlockwise, s.clockwise, &rises);
+    const uint32_t speed_peak = peak_of(&s, s.speed, NULL, &speed_rises);
+    Turns turns = {.peak = peak};
+    if (peak)
+        each_stretch(o, &s, add_turn, &turns);
+    const double area = windows_of(o) * def->window * def->window, none = peak ? 1.0 : NAN;
+    jox_figure_add(out, "intervals", "", o->intervals);
+    jox_figure_add(out, "windows", "", windows_of(o));
+    jox_figure_add(out, "density", "1/m2", frames > 0.0 ? people / frames / area : NAN);
+    jox_figure_add(out, "speed", "m/s", filled > 0.0 ? sqrt(square / filled) : NAN);
+    jox_figure_add(out, "frequency", "rad/s", none * peak * s.step);
+    jox_figure_add(out, "rises", "", rises);
+    jox_figure_add(out, "speed_frequency", "rad/s", none * speed_peak * s.step);
+    jox_figure_add(out, "speed_rises", "", speed_rises);
+    jox_figure_add(out, "anticlockwise", "", none * turns.anticlockwise / turns.all);
+    jox_figure_add(out, "one_way", "", none * turns.one_way / turns.all);
+    spectrum_free(&s);
+}
+
+static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
+    Spectrum s = spectrum_of(def, state);
+    fputs("frequency [rad/s],direction,anticlockwise,clockwise,speed\n", out);
+    for (uint32_t k = 1; k < s.bins && s.stretches > 0.0; k++)
+        fprintf(out, "%.5f,%.5g,%.5g,%.5g,%.5g\n", k * s.step,
+                0.5 * (s.anticlockwise[k] + s.clockwise[k]), s.anticlockwise[k], s.clockwise[k],
+                s.speed[k]);
+    spectrum_free(&s);
+}
+
+static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
+    const Oscillation *o = state;
+    (void)walls;
+    if (fmin(round(def->span / def->every), o->intervals) < LEAST_SAMPLES) {
+        jox_plot_nothing(out, "too few intervals for a spectrum");
+        return;
+    }
+    jox_text_printf(out,
+                    "set xlabel 'frequency (rad/s)'\nset ylabel 'power (1: by chance)'\n"
+                    "set xrange [0:3]\nset yrange [0:*]\nset key top right opaque\n"
+                    "plot csv skip 1 using 1:2 with lines lw 2 lc '#1f77b4' title 'direction', "
+                    "'' skip 1 using 1:3 with lines lw 1 dt 2 lc '#1f77b4' title "
+                    "'anti-clockwise', "
+                    "'' skip 1 using 1:4 with lines lw 1 dt 3 lc '#1f77b4' title 'clockwise', "
+                    "'' skip 1 using 1:5 with lines lw 1.5 lc '#999999' title 'speed'\n");
+}
+
+const JoxProbeCalls jox_probe_oscillation = {
+    JOX_PROBE_KIND(Oscillation, 1000, 600),
+    .frame = frame,
+    .pace = JOX_PACE_TENTH,
+    .begin = begin,
+    .owned = {JOX_OWNED(Oscillation, cells), JOX_OWNED(Oscillation, frames)},
+};
