@@ -1,16 +1,20 @@
 /* jostle resume: a run goes on from its newest checkpoint, in the same files. */
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include "base/format/path.h"
 #include "base/mem.h"
+#include "base/text.h"
 #include "cli/cli.h"
 
 typedef struct Resume {
     JoSceneDef def;
     const char *summary;
     double seconds;
-    bool has_seconds, quiet;
+    bool has_seconds, quiet, trusted;
 } Resume;
 
 static bool read_isa(void *options, const char *text, char why[160]) {
@@ -26,7 +30,30 @@ static const CliOption OPTIONS[] = {
     {"summary", "FILE", "write the figures of the whole run as JSON; '-' is standard output",
      CLI_TO(Resume, summary)},
     {"quiet", NULL, "no progress", CLI_TO(Resume, quiet)},
+    {"trusted", NULL,
+     "the checkpoint is one's own: whatever it names is read and written. Else the command reaches "
+     "what lies beside the checkpoint, its folder and the one above, and what lies below the "
+     "working folder, and connects to nothing",
+     CLI_TO(Resume, trusted)},
 };
+
+/* Recording, log and checkpoints lie where the checkpoint says: a stranger's may say anything. */
+static void confine(const Resume *resume, const char *path) {
+    CliReach reach = {0};
+    JoxText above = {0};
+    struct stat info;
+    const bool folder = stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+    const size_t length = folder ? strlen(path) : jox_path_folder(path);
+    if (length) {
+        jox_text_printf(&above, "%.*s/..", (int)length, path);
+        cli_reach_output(&reach, above.data);
+    }
+    cli_reach_output(&reach, path);
+    cli_reach_output(&reach, ".");
+    cli_reach_output(&reach, resume->summary);
+    cli_confine_work(&reach, resume->trusted);
+    jox_text_free(&above);
+}
 
 /* The value of a line "key value" of the note, to be freed; NULL where there is none. */
 static char *take(const char *note, const char *key) {
@@ -52,6 +79,7 @@ static int go_on(const Resume *resume, JoScene *scene, const char *note) {
               (!log || jo_scene_log_on(scene, log, &error)) &&
               (!folder || !every ||
                jo_scene_checkpoint(scene, folder, strtod(every, NULL), note, &error));
+    const bool begun = ok;
     cli_catch_signals(true);
     if (!resume->quiet) {
         fprintf(stderr, "resumed at %g s\n", jo_world_time(jo_scene_world(scene)));
@@ -60,6 +88,10 @@ static int go_on(const Resume *resume, JoScene *scene, const char *note) {
     while (ok && jo_world_tick(jo_scene_world(scene)) < until && !cli_signal)
         ok = jo_scene_step(scene, &error);
     int status = cli_end(&cli_resume, scene, ok, &error);
+    if (!begun && !resume->trusted)
+        fputs("jostle resume: if it was written neither beside its checkpoints nor below the "
+              "working folder, it goes on there with --trusted\n",
+              stderr);
     if (cli_troubled(&cli_resume, scene) && status == JO_OK)
         status = JO_FAILED;
     jox_free(record), jox_free(log), jox_free(steps), jox_free(every), jox_free(folder);
@@ -72,6 +104,7 @@ static int resume_file(Resume *resume, const char *path) {
     if (resume->summary && cli_writable(&cli_resume, resume->summary) != JO_OK)
         return JO_FAILED;
     cli_catch_signals(false);
+    confine(resume, path);
     JoScene *scene = jo_scene_resume(&resume->def, path, &note, &error);
     if (!scene)
         return cli_failed(&cli_resume, &error, false);

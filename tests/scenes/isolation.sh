@@ -50,6 +50,16 @@ if ! "$program" --version | grep -q "no Landlock"; then
     kill $pages; wait $pages
 fi
 scene near.lua
+mkdir -p inner/deep
+says "a run is kept, and recorded elsewhere" 0 "" \
+    "$program" run scenes/s.yaml --quiet --steps 40 --checkpoint 1 --checkpoint-dir "$PWD/inner/deep/kept" \
+    --record "$PWD/elsewhere/kept.sqlite"
+if ! "$program" --version | grep -q "no Landlock"; then
+    says "a checkpoint does not write where it likes" 1 "goes on there with --trusted" \
+        env -C inner "$program" resume deep/kept --quiet --for 3
+    says "  unless its user trusts it" 0 "" env -C inner "$program" resume deep/kept --quiet --for 3 --trusted
+fi
+says "it goes on below the working folder" 0 "" "$program" resume inner/deep/kept --quiet --for 4
 says "confined, a recording is measured, its pictures drawn by gnuplot" 0 "" "$program" report r.sqlite --scene scenes/s.yaml --out new/report
 [ -s new/report/index.html ] && ls new/report/*.png >out; verdict "  into a folder that was not there" $?
 says "a recording is drawn" 0 "" "$program" render r.sqlite --out new/one.svg --quiet

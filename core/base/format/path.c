@@ -39,9 +39,14 @@ bool jox_path_find(const char *file, const char *name, const char *ending,
                    const char *const *folders, char path[JOX_LONGEST_PATH]) {
     const size_t n = strlen(name), m = strlen(ending);
     const bool has_ending = n > m && strcmp(name + n - m, ending) == 0;
-    for (; *folders; folders++)
-        if (join(file, *folders, name, has_ending ? "" : ending, path) && jox_is_file(path))
+    for (; *folders; folders++) {
+        if (!join(file, *folders, name, has_ending ? "" : ending, path))
+            continue;
+        if (!jox_is_file(path)) /* overlays hold clean paths, of files that the disk may not have */
+            jox_path_clean(path);
+        if (jox_is_file(path))
             return true;
+    }
     return false;
 }
 
