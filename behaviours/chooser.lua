@@ -5,6 +5,9 @@ local crowd = require "crowd"
 -- Seconds to get out by a door: the way there, then those in front, of whom two a second get through.
 local function way_out(door, front) return distance(door) / own.speed + count(front) / 2 end
 
+-- Whoever comes through a door is out, also where the crowd carried them through the one that they had not chosen.
+local through = crosses(own.near) | crosses(own.far)
+
 local gain = way_out(own.near, own.near_front) - way_out(own.far, own.far_front)
 
 return machine {
@@ -14,12 +17,12 @@ return machine {
 
   states = {
     ToNear = { steer = field(own.near), push_when = crowd.held_up, lasts = uniform(2, 6),
-      { to = "Walk",   when = crosses(own.near) | near(own.near, 0.1) },
+      { to = "Walk",   when = through | near(own.near, 0.1) },
       { to = "ToFar",  when = lasted & gain:above(15) & ~near(own.near, 2.5) },
       { to = "ToNear", when = lasted, id = "again" } },
 
     ToFar = { steer = field(own.far), push_when = crowd.held_up, lasts = uniform(2, 6),
-      { to = "Walk",   when = crosses(own.far) | near(own.far, 0.1) },
+      { to = "Walk",   when = through | near(own.far, 0.1) },
       { to = "ToNear", when = lasted & gain:below(-15) & ~near(own.far, 2.5) },
       { to = "ToFar",  when = lasted, id = "again" } },
 

@@ -32,3 +32,19 @@ test("a few all take the nearer door, of a crowd some take the farther one", fun
   many:run(60)
   equal(many:count(), 0)
 end)
+
+test("who comes through a door is out, also through the one that it had not chosen", function()
+  local def = hall(1)
+  local people = def.groups.people
+  people.count, people["in"], people.at = nil, nil, { { -7.5, 10 } }
+  -- The far door lies outside, beyond the near one, which those who stand in a room of their own keep people from.
+  def.places.far = { line = { { 4, 10 }, { 5, 10 } } }
+  def.places.near_front = { polygon = { { -40, 0 }, { -30, 0 }, { -30, 10 }, { -40, 10 } } }
+  def.walls = { { line = { { 0, -2 }, { 0, -4 }, { -8, -4 }, { -8, 12 }, { 0, 12 }, { 0, -1 } } } }
+  def.groups.standing = { behaviour = "stander.lua", count = 80, ["in"] = "near_front" }
+  local s = scene(def)
+  s:reaches("ToFar", { agents = "people", within = 8 })
+  s:reaches("Walk", { agents = "people", within = 10 })
+  local a = s:agents("people")[1]
+  truthy(a.x < 0.5 and a.y < 0, "it was out before it reached the other door")
+end)
