@@ -48,6 +48,15 @@ end
 
 function measure.median(list) return measure.quantile(list, 0.5) end
 
+-- How often people crossed, either way, the lines of those flow probes whose names begin with a prefix.
+function measure.crossings(probes, prefix)
+  local sum = 0
+  for name, probe in pairs(probes) do
+    if name:sub(1, #prefix) == prefix then sum = sum + probe.forward + probe.back end
+  end
+  return sum
+end
+
 -- Least-squares slope of y over x.
 function measure.slope(x, y)
   local mx, my, sxx, sxy = measure.mean(x), measure.mean(y), 0, 0

@@ -13,7 +13,8 @@ static const char STYLE[] =
     "vertical-align:top}td.n{text-align:right;font-variant-numeric:tabular-nums;"
     "white-space:nowrap}.in{color:#00601f}.out{color:#a40000;font-weight:700}figure{display:"
     "inline-block;margin:.5rem 1rem .5rem 0;vertical-align:top}img{max-width:34rem;width:100%;"
-    "border:1px solid #ddd}figcaption,small{color:#555}details{margin:.5rem 0}pre{overflow:auto;"
+    "border:1px solid #ddd}.plan img{max-width:64rem;max-height:44rem;width:auto}"
+    "figcaption,small{color:#555}details{margin:.5rem 0}pre{overflow:auto;"
     "background:#f6f6f6;padding:.6rem;font-size:13px}.scroll{overflow-x:auto}code{font-size:.9em;"
     "overflow-wrap:anywhere}";
 

@@ -245,12 +245,12 @@ static void list_outcome(const JoReproduceDef *def, const JoxOutcome *outcome) {
     for (uint32_t f = 0; f < claim->figure_count && !def->list; f++) {
         const JoxClaimFigure *figure = &claim->figures[f];
         const JoxVerdict *v = &outcome->verdicts[f];
+        char bound[JOX_BOUND_SIZE];
         jox_text_printf(&out, "   %-24s source %-12s measured ", figure->name,
                         *figure->expected ? figure->expected : "-");
         say_number(&out, v->mean);
-        if (isfinite(v->bound))
-            jox_text_printf(&out, " +- %.2g", v->bound);
-        jox_text_add(&out, " (");
+        jox_bound_write(bound, v->bound);
+        jox_text_printf(&out, "%s%s (", *bound ? " " : "", bound);
         say_number(&out, v->least);
         jox_text_add(&out, " to ");
         say_number(&out, v->most);

@@ -27,6 +27,12 @@ static void put_band(FILE *out, const JoxClaimFigure *figure, const char *dash) 
         fprintf(out, "%.4g to %.4g", figure->low, figure->high);
 }
 
+static void put_bound(FILE *out, double bound) {
+    char text[JOX_BOUND_SIZE];
+    jox_bound_write(text, bound);
+    jox_html_text(out, text);
+}
+
 static const char *verdict_of(const JoxClaimFigure *figure, const JoxVerdict *verdict) {
     if (figure->reported)
         return "reported";
@@ -72,9 +78,17 @@ void jox_reproduce_when(const JoxReproduction *all, char *out, size_t size) {
     first_line("/proc/cpuinfo", "model name", cpu, sizeof cpu);
     commit_of(commit, sizeof commit);
     strftime(day, sizeof day, "%Y-%m-%d", gmtime_r(&now, &tm));
+    uint32_t reused = 0;
+    for (uint32_t j = 0; j < all->job_count; j++)
+        reused += all->jobs[j].reused;
     snprintf(out, size, "%s, Jostle %s%s%s, %s, %s %s, %u runs in %.0f s%s", day, jo_version(),
              *commit ? ", commit " : "", commit, *cpu ? cpu : system.machine, system.sysname,
-             system.machine, all->job_count, all->seconds, all->def->quick ? ", quick" : "");
+             system.machine, all->job_count - reused, all->seconds,
+             all->def->quick ? ", quick" : "");
+    if (reused > 0) {
+        const size_t used = strlen(out);
+        snprintf(out + used, size - used, ", %u done before", reused);
+    }
     for (size_t s = 0; s < all->def->set_count; s++) {
         size_t used = strlen(out);
         snprintf(out + used, size - used, "%s %s", s ? "," : ", with", all->def->sets[s]);
@@ -100,10 +114,7 @@ static void put_figures(FILE *out, const JoxOutcome *outcome) {
         fputc(' ', out);
         jox_html_text(out, figure->unit);
         fputs("<td class=n>", out);
-        if (isfinite(v->bound)) {
-            fputs("&plusmn;&nbsp;", out);
-            jox_html_number(out, v->bound);
-        }
+        put_bound(out, v->bound);
         fprintf(out, "<td class=n>%u<td class=n>", v->seeds);
         jox_html_number(out, v->least);
         fputs(" to ", out);
@@ -299,6 +310,7 @@ static bool write_table(const JoxReproduction *all, const char *when, JoxText *e
             const JoxClaim *claim = all->outcomes[o].claim;
             const JoxClaimFigure *figure = &claim->figures[f];
             const JoxVerdict *v = &all->outcomes[o].verdicts[f];
+            char bound[JOX_BOUND_SIZE];
             fputs("| ", out);
             jox_quote_put(out, jox_quote_markdown, f ? "" : claim->id);
             fputc(' ', out);
@@ -316,9 +328,8 @@ static bool write_table(const JoxReproduction *all, const char *when, JoxText *e
             } else {
                 fputs("not measured | ", out);
             }
-            if (isfinite(v->bound))
-                fprintf(out, "+- %.2g", v->bound);
-            fprintf(out, " | %u | ", v->seeds);
+            jox_bound_write(bound, v->bound);
+            fprintf(out, "%s | %u | ", bound, v->seeds);
             put_band(out, figure, "");
             fprintf(out, " | %s |\n", verdict_of(figure, v));
         }

@@ -74,10 +74,12 @@ static void put_plan(FILE *out, const JoxReproduction *all, const JoxOutcome *ou
     char name[100], path[1400];
     snprintf(name, sizeof name, "plan-%.40s.png", outcome->claim->id);
     snprintf(path, sizeof path, "%s/%s", all->def->out, name);
+    fputs("<div class=plan>\n", out); /* so wide that its names can be read */
     if (draw_plan(all, outcome, path))
         jox_html_picture(out, name, NULL, "the set-up at the beginning");
     else
         fputs("<p class=out>The plan could not be drawn.</p>\n", out);
+    fputs("</div>\n", out);
 }
 
 /* ---- the page ---- */
@@ -123,14 +125,13 @@ static void put_overview(FILE *out, const JoxReproduction *all) {
 }
 
 static void put_figure(FILE *out, const JoxClaimFigure *figure, const JoxVerdict *v) {
-    char text[64] = "";
+    char bound[JOX_BOUND_SIZE];
     jox_html_row(out);
     jox_html_cell(out, *figure->what ? figure->what : figure->name);
     jox_html_cell(out, figure->expected);
     jox_html_cell_number(out, v->mean, figure->unit);
-    if (isfinite(v->bound))
-        snprintf(text, sizeof text, "± %.2g", v->bound);
-    jox_html_cell(out, text);
+    jox_bound_write(bound, v->bound);
+    jox_html_cell(out, bound);
     jox_html_cell_number(out, v->p95, figure->unit);
     jox_html_cell_number(out, v->most, figure->unit);
     jox_html_cell_number(out, v->seeds, "");

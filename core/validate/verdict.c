@@ -2,6 +2,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/assert.h"
@@ -67,6 +68,12 @@ JoxVerdict jox_verdict(const double *values, uint32_t count, double low, double 
     v.thin = (v.mean - v.bound < low && v.mean + v.bound > low) ||
              (v.mean - v.bound < high && v.mean + v.bound > high);
     return v;
+}
+
+void jox_bound_write(char out[JOX_BOUND_SIZE], double bound) {
+    *out = 0;
+    if (isfinite(bound))
+        snprintf(out, JOX_BOUND_SIZE, bound < 99.5 ? "+- %.2g" : "+- %.0f", fmin(bound, 1e15));
 }
 
 bool jox_seeds_read(const char *text, uint64_t *first, uint32_t *count) {

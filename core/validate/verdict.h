@@ -17,6 +17,9 @@ typedef struct JoxVerdict {
 /* Student's t: |t| is below it with a probability of 95 %. */
 double jox_student_t(uint32_t degrees_of_freedom);
 JoxVerdict jox_verdict(const double *values, uint32_t count, double low, double high);
+enum { JOX_BOUND_SIZE = 24 };
+/* "+- 0.47": a bound in two digits, or whole where it is greater; "" of one that is not finite. */
+void jox_bound_write(char out[JOX_BOUND_SIZE], double bound);
 /* Of "101" or "101-110", which is ten of them; at most 1000. False of anything else. */
 bool jox_seeds_read(const char *text, uint64_t *first, uint32_t *count);
 

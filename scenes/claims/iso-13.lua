@@ -43,5 +43,5 @@ return claim {
     { name = "speed", title = "ISO 13: speed", x = "people placed per m²", y = "mean speed (m/s)", { "Jostle", figures = speeds } },
     { name = "flow", title = "ISO 13: flow", x = "people placed per m²", y = "specific flow (1/(m s))", { "Jostle", figures = flows } },
   },
-  pictures = { of_240 = { "paths.png" } },
+  pictures = { of_240 = { "density.png" } },
 }

@@ -11,8 +11,7 @@ return claim {
     local probes = run.corner.summary.probes
     return {
       round = probes.corner.forward,
-      walls = probes.outer_south.passages + probes.outer_east.passages + probes.inner_north.passages
-        + probes.inner_west.passages,
+      walls = measure.crossings(probes, "wall_"),
     }
   end,
   expect = {

@@ -55,5 +55,5 @@ return claim {
   expect = expect,
   plots = { { name = "diagram", title = "RiMEA 4: speed and density", x = "density (1/m²)", y = "mean speed (m/s)",
     { "Jostle", figures = measured }, { "Weidmann 1993", line = law } } },
-  pictures = { d200 = { "paths.png" } },
+  pictures = { d200 = { "density.png" } },
 }

@@ -12,9 +12,7 @@ return claim {
   },
   measure = function(run)
     local function walls(name)
-      local probes = run[name].summary.probes
-      return probes.outer_south.passages + probes.outer_east.passages + probes.inner_north.passages
-        + probes.inner_west.passages
+      return measure.crossings(run[name].summary.probes, "wall_")
     end
     local function round(name) return run[name].summary.probes.corner.forward end
     return {

@@ -22,6 +22,12 @@ test("quantiles lie between ranks, whatever the order, and leave the list as it 
   equal(list[4], 2)
 end)
 
+test("crossings count both ways, of the probes with the prefix alone", function()
+  local probes = { wall_a = { forward = 2, back = 1 }, wall_b = { forward = 0, back = 3 }, exit_wall_a = { forward = 9, back = 9 } }
+  equal(measure.crossings(probes, "wall_"), 6)
+  equal(measure.crossings(probes, "none"), 0)
+end)
+
 test("a slope is that of the line through points", function()
   equal(measure.slope({ 0, 1, 2 }, { 1, 3, 5 }), 2)
   equal(measure.slope({ 0, 1, 2 }, { 5, 5, 5 }), 0)

@@ -109,6 +109,20 @@ static void seeds_are_one_or_a_range(void **state) {
             fail_msg("'%s' is taken for seeds", WRONG[w]);
 }
 
+static void bounds_have_two_digits_and_no_exponents(void **state) {
+    (void)state;
+    static const struct {
+        double bound;
+        const char *text;
+    } CASES[] = {{0.4712, "+- 0.47"}, {12.4, "+- 12"}, {99.4, "+- 99"}, {99.6, "+- 100"},
+                 {881.2, "+- 881"},   {0.0, "+- 0"},   {NAN, ""},       {INFINITY, ""}};
+    for (size_t c = 0; c < sizeof CASES / sizeof *CASES; c++) {
+        char text[JOX_BOUND_SIZE];
+        jox_bound_write(text, CASES[c].bound);
+        assert_string_equal(text, CASES[c].text);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(t_is_that_of_the_tables),
                                        cmocka_unit_test(a_mean_has_a_bound),
@@ -116,6 +130,7 @@ int main(void) {
                                        cmocka_unit_test(equal_values_have_their_own_mean),
                                        cmocka_unit_test(one_seed_has_no_bound),
                                        cmocka_unit_test(what_was_not_measured_is_not_inside),
-                                       cmocka_unit_test(seeds_are_one_or_a_range)};
+                                       cmocka_unit_test(seeds_are_one_or_a_range),
+                                       cmocka_unit_test(bounds_have_two_digits_and_no_exponents)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

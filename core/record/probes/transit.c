@@ -8,6 +8,8 @@
 #include "base/mem.h"
 #include "record/probes/probe_parts.h"
 
+static const double COMMON_BEGINNING = 0.5; /* s: all who began within it began together */
+
 typedef struct Passage {
     uint32_t key;
     double from, until; /* s */
@@ -134,6 +136,14 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
     for (uint32_t p = 0; p < t->count; p++) {
         first = fmin(first, t->passages[p].from);
         last = fmax(last, t->passages[p].from);
+    }
+    if (last - first < COMMON_BEGINNING) {
+        jox_text_printf(out,
+                        "set xlabel 'time to the end (s)'\nset ylabel 'people who took no longer'\n"
+                        "set xrange [0:*]\nset yrange [0:*]\nset offsets 0, 0, 0.05, 0\nunset key\n"
+                        "plot csv skip 1 using 4:(1) smooth cumulative with steps lw 2 lc "
+                        "'#1f77b4'\n");
+        return;
     }
     jox_text_printf(out,
                     "set xlabel 'time of the beginning (s)'\nset ylabel 'time to the end (s)'\n"
