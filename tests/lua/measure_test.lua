@@ -23,7 +23,9 @@ test("quantiles lie between ranks, whatever the order, and leave the list as it 
 end)
 
 test("crossings count both ways, of the probes with the prefix alone", function()
-  local probes = { wall_a = { forward = 2, back = 1 }, wall_b = { forward = 0, back = 3 }, exit_wall_a = { forward = 9, back = 9 } }
+  local probes = {
+    wall_a = { forward = 2, back = 1 }, wall_b = { forward = 0, back = 3 }, exit_wall_a = { forward = 9, back = 9 },
+  }
   equal(measure.crossings(probes, "wall_"), 6)
   equal(measure.crossings(probes, "none"), 0)
 end)
