@@ -9,7 +9,7 @@
 
 /* m: somewhat more than people search in a crowd, so that three rows hold what one searches. */
 static const float ROW_HEIGHT = 1.2f;
-enum { SORT_EVERY = 4, MOST_ROWS = 1 << 15 };
+enum { SORT_EVERY = 8, MOST_ROWS = 1 << 15 };
 
 /* Bits of a float in an order that unsigned comparison understands. */
 static uint32_t ordered_bits(float x) {

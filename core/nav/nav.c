@@ -74,7 +74,8 @@ void jox_nav_reserve(JoxNav *nav, uint32_t count) {
     if (count <= nav->capacity)
         return;
     uint32_t n = nav->capacity = count + count / 4 + 64;
-    nav->sorted_x = jox_realloc(nav->sorted_x, n, sizeof(float));
+    nav->sorted_x = jox_realloc(nav->sorted_x, n + JOX_LANES, sizeof(float)); /* read by packets */
+    memset(nav->sorted_x + n, 0xff, JOX_LANES * sizeof *nav->sorted_x);
     nav->chunk_drift = jox_realloc(nav->chunk_drift, n / JOX_NAV_GRAIN + 1, sizeof(float));
     nav->chunk_relaxed = jox_realloc(nav->chunk_relaxed, n / JOX_NAV_GRAIN + 1, sizeof(uint32_t));
     nav->records = jox_realloc(nav->records, n, sizeof(JoxRecord));

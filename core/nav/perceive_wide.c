@@ -76,9 +76,9 @@ static inline __attribute__((always_inline)) void sink(Packet *packet, uint32_t 
         number++;
         JOX_UNROLL
         for (uint32_t k = 0; k < levels; k++) {
-            JoxFloats nearer = jf_min(keys[k], key);
-            key = jf_max(keys[k], key);
-            keys[k] = nearer;
+            JoxFloats farther = jf_max(keys[k], key);
+            keys[k] = jf_min(keys[k], key);
+            key = farther;
         }
     }
     JOX_UNROLL
@@ -101,6 +101,16 @@ typedef struct Stretch {
     float radius;
 } Stretch;
 
+/* Of agents [begin, end) of a row, the first that lies beyond x. */
+static uint32_t row_past(const JoxNav *nav, uint32_t begin, uint32_t end, float x) {
+    uint32_t past = begin, few = JOX_WIDTH;
+    for (; past < end && few == JOX_WIDTH; past += few) {
+        const uint32_t within = jm_bits(jf_le(jf_load(nav->sorted_x + past), jf_set(x)));
+        few = (uint32_t)__builtin_ctz(~within); /* ascending: those within come first */
+    }
+    return past < end ? past : end; /* beyond the end lies the next row */
+}
+
 /* Candidates of a stretch: row by row those within the greatest radius of where its lanes are. */
 static void sink_stretch(Packet *packet, const Stretch *s) {
     const JoxNav *nav = packet->p->nav;
@@ -114,10 +124,9 @@ static void sink_stretch(Packet *packet, const Stretch *s) {
         float half2 = jox_maxf(0.0f, s->radius * s->radius - across * across);
         float along = sqrtf(half2) + nav->drift;
         uint32_t *hint = &packet->hints[row % JOX_ROW_HINTS], end = nav->row_first[row + 1];
-        uint32_t begin = *hint = jox_row_from(nav, row, s->low.x - along, *hint), past = begin;
-        for (float stop = s->high.x + along; past < end && nav->sorted_x[past] <= stop;)
-            past++;
-        (packet->levels <= FEW + 1 ? sink_few : sink_many)(packet, begin, past);
+        uint32_t begin = *hint = jox_row_from(nav, row, s->low.x - along, *hint);
+        (packet->levels <= FEW + 1 ? sink_few : sink_many)(
+            packet, begin, row_past(nav, begin, end, s->high.x + along));
     }
 }
 
@@ -174,16 +183,30 @@ static uint32_t lanes_of_image(const Packet *packet, uint32_t lanes, int column,
     return bits;
 }
 
+/* Whether no lane, of some, sees over an edge. */
+static bool all_within(const Packet *packet, uint32_t lanes) {
+    const JoxAgents *a = packet->p->agents;
+    const JoxFloats wide = jf_add(jf_load(packet->radius), jf_set(packet->p->nav->drift));
+    const JoxFloats x = jf_load(packet->at_x), y = jf_load(packet->at_y);
+    JoxMask over = jf_lt(wide, jf_set(-INFINITY)); /* nobody */
+    if (a->period.x > 0.0f)
+        over = jm_or(jf_le(jf_sub(x, wide), jf_set(a->origin.x)),
+                     jf_le(jf_set(a->origin.x + a->period.x), jf_add(x, wide)));
+    if (a->period.y > 0.0f)
+        over = jm_or(over, jm_or(jf_le(jf_sub(y, wide), jf_set(a->origin.y)),
+                                 jf_le(jf_set(a->origin.y + a->period.y), jf_add(y, wide))));
+    return !(jm_bits(over) & lanes);
+}
+
 /* The keys of some lanes, anew. */
 static void search(Packet *packet, uint32_t lanes) {
-    const JoxAgents *a = packet->p->agents;
     const JoxFloats radius = jf_load(packet->radius);
     packet->scale = jf_div(jf_set(FARTHEST_SHARE), jf_max(jf_mul(radius, radius), jf_set(1e-12f)));
     packet->candidates = 0;
     packet->overflow = false;
     for (uint32_t k = 0; k <= JOX_MOST_NEIGHBOURS; k++)
         packet->keys[k] = jf_set(INFINITY);
-    if (!(a->period.x > 0.0f) && !(a->period.y > 0.0f)) {
+    if (all_within(packet, lanes)) {
         search_image(packet, lanes, (JoxV2){0.0f, 0.0f});
         return;
     }
