@@ -8,7 +8,8 @@
      compare   they are compared with such a buffer, up to the first cell that differs
      visit     a function is called for each cell (tests)
 
-   The cells of a section are plain bytes: numbers, or structs without pointers and without padding.
+   The cells of a section are plain bytes: numbers, or structs without pointers and, where they are
+   hashed or compared, without padding.
    The order of the sections, their names and the sizes of their cells are the format of the buffer:
    a buffer of another format, or a damaged one, is refused with a sentence that says why. Its bytes
    are those of this machine (byte order, floats); it is no format for other machines. */
@@ -103,6 +104,16 @@ void jox_section_model(JoxSections *sections, const char *name, uint64_t digest)
         if ((sections)->mode == JOX_SECTIONS_RESTORE) {                                            \
             JOX_RESERVE(array, capacity, jox_n);                                                   \
             (count) = jox_n;                                                                       \
+        }                                                                                          \
+        jox_section((sections), (name), (array), sizeof *(array), jox_n);                          \
+    } while (0)
+/* A heap array all of whose room is in use, such as one by key. */
+#define JOX_SECTION_ROOM(sections, name, array, capacity)                                          \
+    do {                                                                                           \
+        size_t jox_n = jox_section_count((sections), (name), (capacity), sizeof *(array));         \
+        if ((sections)->mode == JOX_SECTIONS_RESTORE) {                                            \
+            (array) = jox_realloc((array), jox_n, sizeof *(array));                                \
+            (capacity) = jox_n;                                                                    \
         }                                                                                          \
         jox_section((sections), (name), (array), sizeof *(array), jox_n);                          \
     } while (0)

@@ -110,6 +110,17 @@ int cli_interrupted(int status);
    exit status. */
 int cli_end(const CliCommand *command, JoScene *scene, bool ok, JoError *error);
 
+/* The page of a run that ended, in the folder of its report. */
+typedef struct CliReportPage {
+    const char *folder;
+    const JoSceneDef *def;
+    const JoxOverlay *files; /* that were vetted; NULL: those of the scene */
+    JoScene *scene;
+    uint64_t steps; /* in all */
+    bool no_half, quiet;
+} CliReportPage;
+int cli_report_page(const CliCommand *command, const CliReportPage *page);
+
 /* Whether functions of behaviours were suspended or people were lost, which it says. */
 bool cli_troubled(const CliCommand *command, const JoScene *scene);
 

@@ -39,7 +39,7 @@ static const CliOption OPTIONS[] = {
 
 /* Recording, log and checkpoints lie where the checkpoint says: a stranger's may say anything. */
 static void confine(const Resume *resume, const char *path) {
-    CliReach reach = {0};
+    CliReach reach = {.programs = true}; /* a report's pictures are drawn by gnuplot */
     JoxText above = {0};
     struct stat info;
     const bool folder = stat(path, &info) == 0 && S_ISDIR(info.st_mode);
@@ -71,11 +71,15 @@ static int go_on(const Resume *resume, JoScene *scene, const char *note) {
     JoError error = {0};
     char *record = take(note, "record"), *log = take(note, "log"), *steps = take(note, "steps");
     char *every = take(note, "every"), *folder = take(note, "folder");
+    char *report = take(note, "report"), *data = take(note, "data");
+    char *no_half = take(note, "no-half");
     const double dt = jo_scene_stats(scene).dt;
     const uint64_t until = resume->has_seconds ? (uint64_t)(resume->seconds / dt + 0.5)
                            : steps             ? strtoull(steps, NULL, 10)
                                                : (uint64_t)(jo_scene_duration(scene) / dt + 0.5);
     bool ok = (!record || jo_scene_record_on(scene, record, &error)) &&
+              (!report || jo_scene_report(scene, report, &error)) &&
+              (!data || jo_scene_data(scene, data, &error)) &&
               (!log || jo_scene_log_on(scene, log, &error)) &&
               (!folder || !every ||
                jo_scene_checkpoint(scene, folder, strtod(every, NULL), note, &error));
@@ -88,13 +92,22 @@ static int go_on(const Resume *resume, JoScene *scene, const char *note) {
     while (ok && jo_world_tick(jo_scene_world(scene)) < until && !cli_signal)
         ok = jo_scene_step(scene, &error);
     int status = cli_end(&cli_resume, scene, ok, &error);
+    if (status == JO_OK && report)
+        status = cli_report_page(&cli_resume, &(CliReportPage){.folder = report,
+                                                               .def = &resume->def,
+                                                               .scene = scene,
+                                                               .steps = until,
+                                                               .no_half = no_half != NULL,
+                                                               .quiet = resume->quiet});
     if (!begun && !resume->trusted)
         fputs("jostle resume: if it was written neither beside its checkpoints nor below the "
               "working folder, it goes on there with --trusted\n",
               stderr);
     if (cli_troubled(&cli_resume, scene) && status == JO_OK)
         status = JO_FAILED;
-    jox_free(record), jox_free(log), jox_free(steps), jox_free(every), jox_free(folder);
+    char *const taken[] = {record, log, steps, every, folder, report, data, no_half};
+    for (size_t t = 0; t < sizeof taken / sizeof *taken; t++)
+        jox_free(taken[t]);
     return status;
 }
 
@@ -135,8 +148,9 @@ const CliCommand cli_resume = {
     .what = "go on with a run from its checkpoint",
     .usage = "CHECKPOINT [options]",
     .about = "CHECKPOINT is a file that `jostle run --checkpoint` wrote, or their folder, which "
-             "stands for the newest whole one. The run goes on to the bit, in the recording and "
-             "the input log that it wrote, and writes further checkpoints. Scene, behaviours, "
+             "stands for the newest whole one. The run goes on to the bit, in the recording, "
+             "the input log, the report and the data that it wrote, and writes further "
+             "checkpoints. Scene, behaviours, "
              "mods and plans are those of the file, not those that lie on the disk by now; of a "
              "mod the folder must still be there.",
     .notes = "exit status: as of `jostle run`; 3: the checkpoint is damaged, or of another version",

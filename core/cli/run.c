@@ -19,7 +19,6 @@ typedef struct Run {
     bool troubled;    /* it went on to its end, but not as it was written */
 } Run;
 
-static const double LEAST_DT = 0.001; /* s, of --dt */
 static bool read_isa(void *options, const char *text, char why[160]) {
     return cli_isa(&((Run *)options)->def.isa, text, why);
 }
@@ -98,42 +97,13 @@ static int complain(const JoError *error, bool already) {
     return cli_failed(&cli_run, error, already);
 }
 
-/* As jo_scene_load, or of a scene's half step, from the files that were vetted. */
-static JoScene *load(const Run *run, const JoScene *half_of, JoError *error) {
+/* As jo_scene_load, from the files that were vetted. */
+static JoScene *load(const Run *run, JoError *error) {
     const JoxOverlay *before = run->files.sealed ? jox_overlay_use(&run->files) : NULL;
-    JoScene *scene =
-        half_of ? jo_scene_half_step(&run->def, half_of, error) : jo_scene_load(&run->def, error);
+    JoScene *scene = jo_scene_load(&run->def, error);
     if (run->files.sealed)
         jox_overlay_use(before);
     return scene;
-}
-
-/* The report's page, with the same run at half the step beside it. */
-static int write_page(const Run *run, const JoScene *scene, uint64_t steps) {
-    JoError error = {0};
-    const char *why = cli_signal                                ? "the run was interrupted"
-                      : run->no_half                            ? "--no-half-step was given"
-                      : jo_scene_stats(scene).dt / 2 < LEAST_DT ? "it would be below 0.001 s"
-                                                                : NULL;
-    JoScene *half = why ? NULL : load(run, scene, &error);
-    if (!why && !half)
-        why = error.text;
-    if (half && !run->quiet) {
-        fprintf(stderr, "once more at half the step, %g s:\n", jo_scene_stats(half).dt);
-        jo_scene_show_progress(half, (double)(2 * steps) * jo_scene_stats(half).dt);
-    }
-    bool ok = true;
-    for (uint64_t i = 0; half && ok && i < 2 * steps && !cli_signal; i++)
-        ok = jo_scene_step(half, &error);
-    if (half && (!ok || cli_signal || !jo_scene_finish(half, &error))) {
-        why = cli_signal ? "it was interrupted" : error.text;
-        jo_scene_free(half);
-        half = NULL;
-    }
-    JoError written = {0};
-    ok = jo_scene_page(scene, half, why, run->report, &written);
-    jo_scene_free(half);
-    return ok ? JO_OK : complain(&written, false);
 }
 
 enum { LONGEST_NOTED = 4096 };
@@ -147,10 +117,14 @@ static bool is_noted(const char *path) {
 static bool write_checkpoints(const Run *run, JoScene *scene, uint64_t steps, JoError *error) {
     const struct {
         const char *key, *value;
-    } texts[] = {{"record", run->record}, {"log", run->log}, {"folder", run->folder}};
-    char note[4 * LONGEST_NOTED];
-    int used = snprintf(note, sizeof note, "steps %llu\nevery %.17g\n", (unsigned long long)steps,
-                        run->every);
+    } texts[] = {{"record", run->record},
+                 {"log", run->log},
+                 {"folder", run->folder},
+                 {"report", run->report},
+                 {"data", run->data}};
+    char note[6 * LONGEST_NOTED];
+    int used = snprintf(note, sizeof note, "steps %llu\nevery %.17g\n%s", (unsigned long long)steps,
+                        run->every, run->no_half ? "no-half \n" : "");
     for (size_t t = 0; t < sizeof texts / sizeof *texts; t++)
         if (texts[t].value)
             used += snprintf(note + used, sizeof note - (size_t)used, "%s %s\n", texts[t].key,
@@ -166,7 +140,7 @@ static bool can_summarize(const Run *run) {
 /* Loads and simulates once; *summary receives JSON when asked for. */
 static int simulate(Run *run, char **summary) {
     JoError error = {0};
-    JoScene *scene = load(run, NULL, &error);
+    JoScene *scene = load(run, &error);
     if (!scene)
         return complain(&error, true);
     cli_catch_signals(true);
@@ -191,7 +165,13 @@ static int simulate(Run *run, char **summary) {
         ok = jo_scene_step(scene, &error);
     int status = cli_end(&cli_run, scene, ok, &error);
     if (status == JO_OK && run->report)
-        status = write_page(run, scene, steps);
+        status = cli_report_page(&cli_run, &(CliReportPage){.folder = run->report,
+                                                            .def = &run->def,
+                                                            .files = &run->files,
+                                                            .scene = scene,
+                                                            .steps = steps,
+                                                            .no_half = run->no_half,
+                                                            .quiet = run->quiet});
     if (run->summary || run->seeds)
         *summary = jo_scene_summary(scene);
     run->troubled |= cli_troubled(&cli_run, scene);
@@ -271,12 +251,12 @@ static const char *misuse(const Run *run) {
                ? "--seeds cannot be combined with --record, --report, --log-input or --watch"
            : (run->every > 0.0) != (run->folder != NULL) ? "--checkpoint goes with --checkpoint-dir"
            : run->record_every > 0.0 && !run->record     ? "--record-every goes with --record"
-           : run->folder && (run->seeds || run->view || run->report || run->data)
-               ? "--checkpoint cannot be combined with --seeds, --view, --report or --data"
-           : run->folder && !(is_noted(run->record) && is_noted(run->log) && is_noted(run->folder))
-               ? "with --checkpoint, the paths of --record, --log-input and --checkpoint-dir have "
-                 "no "
-                 "line breaks, and 4096 bytes at most"
+           : run->folder && (run->seeds || run->view)
+               ? "--checkpoint cannot be combined with --seeds or --view"
+           : run->folder && !(is_noted(run->record) && is_noted(run->log) &&
+                              is_noted(run->folder) && is_noted(run->report) && is_noted(run->data))
+               ? "with --checkpoint, the paths of --record, --log-input, --report, --data and "
+                 "--checkpoint-dir have no line breaks, and 4096 bytes at most"
            : run->view && (run->seeds || run->report || run->data || run->has_trace || run->profile)
                ? "--view cannot be combined with --seeds, --report, --data, --trace or "
                  "--profile-lua"

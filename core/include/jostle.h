@@ -276,8 +276,8 @@ JO_API bool jo_scene_record(JoScene *scene, const char *path, double every, JoEr
    directory (made if it is missing) every so many simulated seconds, at the first step behind that
    at which all can be saved exactly: latest.checkpoint, and before.checkpoint, the one before. Each
    holds all that the future depends on, with the texts of all files, and `note`, a text of the
-   caller's. What was recorded and logged until then is on the disk before it is. A run whose
-   figures are collected by probes or for a report cannot be resumed with them. */
+   caller's. What was recorded and logged until then is on the disk before it is; what probes,
+   reports and data files have collected is a part of it. */
 JO_API bool jo_scene_checkpoint(JoScene *scene, const char *directory, double every,
                                 const char *note, JoError *error);
 /* The scene of a checkpoint, as it was then; a directory stands for the newest whole one in it.

@@ -28,6 +28,24 @@ void jox_paths_add(JoxPaths *paths, uint32_t id, bool body, uint32_t series, flo
     path->points[path->count++] = (JoxPathPoint){t, x, y};
 }
 
+void jox_paths_sections(JoxPaths *paths, JoxSections *s) {
+    uint32_t count = (uint32_t)jox_section_count(s, "paths", paths->count, 1);
+    if (count > JOX_MOST_PATHS) {
+        jox_sections_fail(s, "paths", "there are too many");
+        return;
+    }
+    JOX_RESERVE(paths->items, paths->capacity, count);
+    for (; paths->count < count; paths->count++)
+        paths->items[paths->count] = (JoxWalkedPath){0};
+    for (uint32_t p = 0; p < count; p++) {
+        JoxWalkedPath *path = &paths->items[p];
+        JOX_SECTION(s, "id", path->id);
+        JOX_SECTION(s, "series", path->series);
+        JOX_SECTION(s, "body", path->body);
+        JOX_SECTION_ARRAY(s, "points", path->points, path->count, path->capacity);
+    }
+}
+
 void jox_paths_free(JoxPaths *paths) {
     for (uint32_t p = 0; paths && p < paths->count; p++)
         jox_free(paths->items[p].points);

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/sections.h"
 #include "base/text.h"
 #include "geom/walls.h"
 
@@ -32,6 +33,7 @@ JoxPaths *jox_paths_create(void);
 /* Adds a point to the path of an agent or body; beyond JOX_MOST_PATHS new ones are passed over. */
 void jox_paths_add(JoxPaths *paths, uint32_t id, bool body, uint32_t series, float t, float x,
                    float y);
+void jox_paths_sections(JoxPaths *paths, JoxSections *sections);
 /* paths.png: a line for each, a dot where it began, a circle where it ended. `names` of the series
    of agents, which come first. False with a sentence in `error`. */
 bool jox_plot_paths(const char *folder, const JoxPaths *paths, const char *const *names,

@@ -76,6 +76,19 @@ float jox_local_pressure(const JoxLocal *l, size_t cell) {
     return l->pressure ? jox_pressure_now(l->pressure)[cell] : NAN;
 }
 
+void jox_local_sections(JoxLocal *l, JoxSections *s) {
+    jox_density_sections(l->grid, s);
+    JOX_SECTION(s, "time", l->time);
+    JOX_SECTION(s, "samples", l->samples);
+    JOX_SECTION(s, "stretch", l->stretch);
+    if (jox_section_count(s, "pressure", l->pressure != NULL, 1) == 0)
+        return;
+    jox_local_want_pressure(l);
+    JOX_SECTION(s, "tracked_last", l->tracked);
+    jox_track_sections(&l->track, s);
+    jox_pressure_sections(l->pressure, s);
+}
+
 void jox_local_free(JoxLocal *l) {
     if (!l)
         return;

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "base/sections.h"
 #include "record/fields/density.h"
 #include "record/fields/pressure.h"
 #include "record/frame.h"
@@ -32,6 +33,7 @@ bool jox_local_is_due(const JoxLocal *local, double t);
 /* Frames in ascending time, of everyone or (not NULL) of those for whom `seen` is 1. True if this
    one is a sample: one in each half second is. */
 bool jox_local_frame(JoxLocal *local, const JoxFrame *frame, const uint8_t *seen);
+void jox_local_sections(JoxLocal *local, JoxSections *sections);
 /* Of a cell, 1/s2; NAN: not measured. */
 float jox_local_pressure(const JoxLocal *local, size_t cell);
 void jox_local_free(JoxLocal *local);

@@ -43,6 +43,14 @@ double jox_region_speed(const JoxRegion *region) {
     return region->frames ? region->speed_sum / (double)region->frames : 0.0;
 }
 
+void jox_regions_sections(JoxRegions *r, JoxSections *s) {
+    for (uint32_t k = 0; k < r->count; k++) {
+        JOX_SECTION(s, "speed_sum", r->items[k].speed_sum);
+        JOX_SECTION(s, "frames", r->items[k].frames);
+        JOX_SECTION(s, "people", r->items[k].people);
+    }
+}
+
 void jox_regions_free(JoxRegions *r) {
     for (uint32_t k = 0; r && k < r->count; k++) {
         jox_free(r->items[k].name);

@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "base/sections.h"
 #include "base/vec.h"
 
 typedef struct JoxRegion {
@@ -27,6 +28,7 @@ void jox_regions_frame(JoxRegions *regions, const float *x, const float *y, cons
                        const float *before_y, uint32_t count, double dt);
 /* m/s; 0 where nobody was. */
 double jox_region_speed(const JoxRegion *region);
+void jox_regions_sections(JoxRegions *regions, JoxSections *sections);
 void jox_regions_free(JoxRegions *regions);
 
 #endif

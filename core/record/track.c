@@ -9,6 +9,10 @@ void jox_track_reserve(JoxTrack *track, uint32_t keys) {
     JOX_RESERVE_ZEROED(track->items, track->capacity, keys);
 }
 
+void jox_track_sections(JoxTrack *track, JoxSections *s) {
+    JOX_SECTION_ROOM(s, "tracked", track->items, track->capacity);
+}
+
 static float shortest(float d, float period) {
     if (period > 0.0f && fabsf(d) > 0.5f * period)
         d -= d > 0.0f ? period : -period;

@@ -2,6 +2,7 @@
 #ifndef JOX_RECORD_TRACK_H
 #define JOX_RECORD_TRACK_H
 
+#include "base/sections.h"
 #include "record/frame.h"
 
 /* Where each person was in the frame before. */
@@ -24,6 +25,7 @@ typedef struct JoxStretch {
 /* Notes person i's place in the frame; false where it is the first. Call jox_track_reserve before
    the first of a frame. */
 void jox_track_reserve(JoxTrack *track, uint32_t keys);
+void jox_track_sections(JoxTrack *track, JoxSections *sections);
 bool jox_track_step(JoxTrack *track, const JoxFrame *frame, uint32_t i, JoxStretch *stretch);
 /* +1 or -1, and the time, if the stretch crosses a-b; else 0. */
 int jox_stretch_crosses(const JoxStretch *stretch, JoxV2 a, JoxV2 b, double *time);

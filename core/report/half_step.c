@@ -40,12 +40,18 @@ JoScene *jo_scene_half_step(const JoSceneDef *def, const JoScene *scene, JoError
         jox_error(error, JO_INPUT, "people acted on it in steps of its own length");
         return NULL;
     }
-    JoSceneDef half = *def;
+    /* Of a resumed scene the files are those that it was loaded from, whatever lies there by now.
+     */
+    const bool resumed = scene->resumed.length > 0;
+    JoSceneDef half = resumed ? scene->def : *def;
     half.has_dt = half.has_seed = true;
     half.dt = scene->world->model.def.dt / 2;
     half.seed = scene->world->model.def.seed;
     half.message = to_nobody; /* all has been said once */
+    const JoxOverlay *before = resumed ? jox_overlay_use(&scene->overlay) : NULL;
     JoScene *other = scene->swap_seconds > 0.0 ? NULL : jo_scene_load(&half, error);
+    if (resumed)
+        jox_overlay_use(before);
     if (scene->swap_seconds > 0.0 || (other && !same_files(scene, other))) {
         jox_error(error, JO_INPUT, "its files were edited meanwhile");
         jo_scene_free(other);

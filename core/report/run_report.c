@@ -17,6 +17,7 @@
 static const double PACE = 0.1; /* s between points of paths, or a step where that is longer */
 
 typedef struct RunReport {
+    JoScene *scene;
     char *folder;
     FILE *claim;     /* of the folder */
     JoxPaths *paths; /* NULL: CSV files alone, no pictures */
@@ -33,6 +34,7 @@ static bool begin(void *self, JoScene *scene, const void *folder, JoError *error
                         jox_file_why(errno));
         return jox_run_failed(error, &why);
     }
+    r->scene = scene;
     r->folder = jox_strdup(folder);
     jox_run_collect_danger(scene);
     return true;
@@ -135,6 +137,15 @@ static bool draw(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
+/* With what else the page says of the run so far. */
+static void sections(void *self, JoxSections *s) {
+    RunReport *r = self;
+    JOX_SECTION(s, "swap_seconds", r->scene->swap_seconds);
+    JOX_SECTION(s, "acted_on", r->scene->acted_on);
+    if (r->paths)
+        jox_paths_sections(r->paths, s);
+}
+
 static void release(void *self) {
     RunReport *r = self;
     if (r->claim)
@@ -147,11 +158,15 @@ static const JoxListenerKind REPORT = {.name = "report",
                                        .size = sizeof(RunReport),
                                        .begin = begin_with_pictures,
                                        .frame = sample_paths,
+                                       .sections = sections,
+                                       .goes_on = true,
                                        .end = draw,
                                        .release = release};
 static const JoxListenerKind DATA = {.name = "data files",
                                      .size = sizeof(RunReport),
                                      .begin = begin,
+                                     .sections = sections,
+                                     .goes_on = true,
                                      .end = write_data,
                                      .release = release};
 

@@ -46,6 +46,10 @@ static bool regions_frame(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
+static void regions_sections(void *self, JoxSections *s) {
+    jox_regions_sections(*(JoxRegions **)self, s);
+}
+
 static void regions_release(void *self) {
     jox_regions_free(*(JoxRegions **)self);
 }
@@ -54,6 +58,8 @@ static const JoxListenerKind REGIONS = {.name = "speeds of regions",
                                         .size = sizeof(JoxRegions *),
                                         .begin = regions_begin,
                                         .frame = regions_frame,
+                                        .sections = regions_sections,
+                                        .goes_on = true,
                                         .release = regions_release};
 
 void jox_run_collect_regions(JoScene *scene) {
@@ -84,6 +90,10 @@ static bool local_frame(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
+static void local_sections(void *self, JoxSections *s) {
+    jox_local_sections(*(JoxLocal **)self, s);
+}
+
 static void local_release(void *self) {
     jox_local_free(*(JoxLocal **)self);
 }
@@ -92,6 +102,8 @@ static const JoxListenerKind LOCAL = {.name = "density",
                                       .size = sizeof(JoxLocal *),
                                       .begin = local_begin,
                                       .frame = local_frame,
+                                      .sections = local_sections,
+                                      .goes_on = true,
                                       .release = local_release};
 
 void jox_run_collect_local(JoScene *scene) {
@@ -145,6 +157,10 @@ static bool danger_frame(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
+static void danger_sections(void *self, JoxSections *s) {
+    jox_danger_sections(*(JoxDanger **)self, s);
+}
+
 static void danger_release(void *self) {
     jox_danger_free(*(JoxDanger **)self);
 }
@@ -153,6 +169,8 @@ static const JoxListenerKind DANGER = {.name = "danger",
                                        .size = sizeof(JoxDanger *),
                                        .begin = danger_begin,
                                        .frame = danger_frame,
+                                       .sections = danger_sections,
+                                       .goes_on = true,
                                        .release = danger_release};
 
 void jox_run_collect_danger_in(JoScene *scene, JoxV2 low, JoxV2 high) {
@@ -232,6 +250,12 @@ static bool standing_frame(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
+static void standing_sections(void *self, JoxSections *s) {
+    Standing *standing = self;
+    JOX_SECTION_ARRAY(s, "people", standing->people, standing->seen, standing->capacity);
+    JOX_SECTION(s, "longest", standing->longest);
+}
+
 static void standing_release(void *self) {
     jox_free(((Standing *)self)->people);
 }
@@ -240,6 +264,8 @@ static const JoxListenerKind STANDING = {.name = "who stood the longest",
                                          .size = sizeof(Standing),
                                          .begin = standing_begin,
                                          .frame = standing_frame,
+                                         .sections = standing_sections,
+                                         .goes_on = true,
                                          .release = standing_release};
 
 void jox_run_collect_standing(JoScene *scene) {

@@ -8,21 +8,6 @@
 #include "base/mem.h"
 #include "run/run.h"
 
-void *jox_run_listen(JoScene *scene, const JoxListenerKind *kind, const void *options,
-                     JoError *error) {
-    JoxListeners *all = &scene->listeners;
-    void *self = jox_alloc(1, kind->size);
-    if (kind->begin && !kind->begin(self, scene, options, error)) {
-        if (kind->release)
-            kind->release(self);
-        jox_free(self);
-        return NULL;
-    }
-    JOX_RESERVE(all->items, all->capacity, all->count + 1);
-    all->items[all->count++] = (JoxListener){kind, self};
-    return self;
-}
-
 void *jox_run_listener(const JoScene *scene, const JoxListenerKind *kind) {
     for (uint32_t l = 0; l < scene->listeners.count; l++)
         if (scene->listeners.items[l].kind == kind)
@@ -71,27 +56,65 @@ void jox_run_release_listeners(JoScene *scene) {
     all->capacity = 0;
 }
 
-bool jox_run_take_up(const JoScene *scene, const JoxListenerKind *kind, void *self,
-                     JoError *error) {
+/* What a checkpoint has of a kind of listener; NULL data: nothing. */
+static JoxPiece piece_of(const JoScene *scene, const JoxListenerKind *kind) {
     char why[200];
     JoxPiece piece;
+    for (size_t at = 0; jox_pieces_next(&scene->resumed, &at, &piece, why);)
+        if (strcmp(piece.name, JOX_PIECE_LISTENER) == 0 && strlen(piece.data) < piece.length &&
+            strcmp(piece.data, kind->name) == 0)
+            return piece;
+    return (JoxPiece){0};
+}
+
+bool jox_run_take_up(const JoScene *scene, const JoxListenerKind *kind, void *self,
+                     JoError *error) {
     if (!scene->resumed.length) {
         jox_error(error, JO_USAGE, "the %s goes on in resumed scenes alone", kind->name);
         return false;
     }
-    for (size_t at = 0; jox_pieces_next(&scene->resumed, &at, &piece, why);) {
-        const size_t head = strlen(piece.data) + 1;
-        if (strcmp(piece.name, JOX_PIECE_LISTENER) != 0 || head > piece.length ||
-            strcmp(piece.data, kind->name) != 0)
-            continue;
-        JoxSections s = jox_sections_restore(piece.data + head, piece.length - head);
-        if (!s.failed)
-            kind->sections(self, &s);
-        if (jox_sections_end(&s))
-            return true;
-        jox_error(error, JO_INPUT, "the %s cannot be taken up: %s", kind->name, s.wrong);
+    const JoxPiece piece = piece_of(scene, kind);
+    if (!piece.data) {
+        jox_error(error, JO_INPUT, "the checkpoint has nothing of the %s", kind->name);
         return false;
     }
-    jox_error(error, JO_INPUT, "the checkpoint has nothing of the %s", kind->name);
+    const size_t head = strlen(piece.data) + 1;
+    JoxSections s = jox_sections_restore(piece.data + head, piece.length - head);
+    if (!s.failed)
+        kind->sections(self, &s);
+    if (jox_sections_end(&s))
+        return true;
+    jox_error(error, JO_INPUT, "the %s cannot be taken up: %s", kind->name, s.wrong);
     return false;
+}
+
+/* A kind that the run was told to collect only now begins now. */
+static bool goes_on(const JoScene *scene, const JoxListenerKind *kind) {
+    return kind->goes_on && scene->resumed.length && piece_of(scene, kind).data;
+}
+
+bool jox_run_take_up_all(JoScene *scene, JoError *error) {
+    for (uint32_t l = 0; l < scene->listeners.count; l++) {
+        const JoxListener *listener = &scene->listeners.items[l];
+        if (goes_on(scene, listener->kind) &&
+            !jox_run_take_up(scene, listener->kind, listener->self, error))
+            return false;
+    }
+    return true;
+}
+
+void *jox_run_listen(JoScene *scene, const JoxListenerKind *kind, const void *options,
+                     JoError *error) {
+    JoxListeners *all = &scene->listeners;
+    void *self = jox_alloc(1, kind->size);
+    if ((kind->begin && !kind->begin(self, scene, options, error)) ||
+        (goes_on(scene, kind) && !jox_run_take_up(scene, kind, self, error))) {
+        if (kind->release)
+            kind->release(self);
+        jox_free(self);
+        return NULL;
+    }
+    JOX_RESERVE(all->items, all->capacity, all->count + 1);
+    all->items[all->count++] = (JoxListener){kind, self};
+    return self;
 }

@@ -22,6 +22,9 @@ typedef struct JoxListenerKind {
     /* What its future depends on, as sections, where it goes on in a resumed run (NULL: it begins
        anew); it is then all written that was collected. */
     void (*sections)(void *self, JoxSections *sections);
+    /* In a resumed run it takes up by itself what the checkpoint has of it: after `begin`, or, if
+       it was attached while the scene was loaded, once the state is there. */
+    bool goes_on;
     /* Has all on the disk that was written so far. False with `error`. */
     bool (*settle)(void *self, JoError *error);
     /* The run has ended, once: what is left to write is written. False with `error` if that failed.
@@ -60,5 +63,7 @@ void jox_run_release_listeners(JoScene *scene);
 /* Gives a listener what one of its kind had, by the checkpoint that the scene was resumed from.
    False with `error` where it has none such. */
 bool jox_run_take_up(const JoScene *scene, const JoxListenerKind *kind, void *self, JoError *error);
+/* The same for all that are attached and go on. */
+bool jox_run_take_up_all(JoScene *scene, JoError *error);
 
 #endif

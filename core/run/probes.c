@@ -31,6 +31,16 @@ static bool frame(void *self, JoScene *scene, JoError *error) {
     return true;
 }
 
+static void sections(void *self, JoxSections *s) {
+    const Probes *p = self;
+    uint32_t count = p->count;
+    JOX_SECTION(s, "count", count);
+    if (count != p->count)
+        jox_sections_fail(s, "count", "the scene has other probes");
+    for (uint32_t n = 0; n < p->count && !s->failed; n++)
+        jox_probe_sections(p->items[n], s);
+}
+
 static void release(void *self) {
     Probes *p = self;
     for (uint32_t n = 0; n < p->count; n++)
@@ -38,8 +48,13 @@ static void release(void *self) {
     jox_free(p->items);
 }
 
-static const JoxListenerKind PROBES = {
-    .name = "probes", .size = sizeof(Probes), .begin = begin, .frame = frame, .release = release};
+static const JoxListenerKind PROBES = {.name = "probes",
+                                       .size = sizeof(Probes),
+                                       .begin = begin,
+                                       .frame = frame,
+                                       .sections = sections,
+                                       .goes_on = true,
+                                       .release = release};
 
 void jox_run_collect_probes(JoScene *scene) {
     if (scene->spec->probe_count)

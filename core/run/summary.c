@@ -273,7 +273,7 @@ static void add_run(JoxJson *json, const JoScene *scene, const JoStats *stats) {
     jox_json_number(json, "dt", stats->dt);
     jox_json_whole(json, "steps", stats->steps);
     jox_json_number(json, "simulated_s", stats->simulated_s);
-    if (scene->resumed.length) /* what probes and samples show is of the time since */
+    if (scene->resumed.length)
         jox_json_number(json, "resumed_s",
                         (double)scene->resumed_tick * scene->world->model.def.dt);
     jox_json_number(json, "wall_s", stats->wall_s);

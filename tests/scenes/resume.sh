@@ -83,6 +83,32 @@ done 2>/dev/null
 [ $good = "$kills" ] && [ $kept -gt 0 ]
 verdict "of $kills runs that were killed, $resumed went on from a checkpoint to the recording of the whole run ($good good, $kept recordings there)" $?
 
+# ---- reports and data, with all that probes, maps and figures have collected ----
+# same_files NAME OPTION SCENE UNTIL END ARGS...: a run to END, and one to UNTIL that goes on to END from its last checkpoint
+same_files() {
+    local name=$1 option=$2 scene=$3 until=$4 end=$5; shift 5
+    rm -rf "$work/whole" "$work/rest" "$work/ck"; mkdir -p "$work/whole" "$work/rest"
+    run() { (cd "$work/$1" && "$program" run "$tree/$scene" --quiet --for "$2" "$option" out --checkpoint 1 --checkpoint-dir ck --summary summary.json "${@:3}"); }
+    run whole "$end" "$@" >"$work/err" 2>&1 && run rest "$until" "$@" >"$work/err" 2>&1 &&
+        (cd "$work/rest" && rm -rf out summary.json && "$program" resume ck --quiet --for "$end" --summary summary.json --threads 2) >"$work/err" 2>&1
+    diff -r "$work/whole/out" "$work/rest/out" >"$work/differ" && [ "$(ls "$work/rest/out" | wc -l)" -gt 5 ] &&
+        diff <(grep -v 'wall_s\|cpu_s\|resumed_s\|steps_per_s\|_ns\|ns_per\|"[a-z]*": [0-9.e+]*,\?$' "$work/whole/summary.json") \
+            <(grep -v 'wall_s\|cpu_s\|resumed_s\|steps_per_s\|_ns\|ns_per\|"[a-z]*": [0-9.e+]*,\?$' "$work/rest/summary.json") >>"$work/differ"
+    verdict "$name, byte by byte" $? || head -5 "$work/err" "$work/differ"
+}
+tree=$work/probed
+mkdir -p "$tree"
+cp -r scenes behaviours "$tree/"
+sed -i 's/^probes:/probes:\n  swirl: {oscillation: {area: [[-2, -2], [4, 2]], span: 2}, every: 0.1}/' "$tree/scenes/running-through.yaml"
+same_files "a report of bodies, with a log of what was done to them, goes on" --report scenes/dodgeball.yaml 7 11
+same_files "a report with maps, areas and flows goes on" --report scenes/station.yaml 5 9
+same_files "data of displacements, failures, transits and oscillations go on" --data scenes/running-through.yaml 3 8
+same_files "data of winding ways go on" --data scenes/tawaf-few.yaml 4 9
+same_files "data of lanes go on" --data scenes/counter-rooms.yaml 4 9
+same_files "data of visits go on" --data scenes/premovement.yaml 15 30
+same_files "data of single file go on" --data scenes/ring.yaml 4 9
+same_files "data of regions, and of people who come and go, go on" --data scenes/tawaf.yaml 5 9 --set groups.pilgrims.count=600 --set sources.0.keep=600
+
 # ---- what cannot be resumed ----
 refused() { # NAME TEXT FILE
     "$program" resume "$3" --quiet >"$work/out" 2>&1

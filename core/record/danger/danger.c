@@ -229,6 +229,8 @@ void jox_danger_add_flows(JoxDanger *d, const JoxProbeDef *probes, uint32_t coun
 
 void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     JOX_RESERVE_ZEROED(d->people, d->people_capacity, frame->keys);
+    jox_density_walls(d->local->grid,
+                      frame->walls); /* of cells that people stand in between samples */
     press(d, frame);
     jox_danger_lines_cross(&d->lines, frame);
     if (d->owns_local)
@@ -243,6 +245,46 @@ const float *jox_danger_field(const JoxDanger *d, JoxDangerMeasure measure,
     *grid = d->local->grid;
     return measure == JOX_DANGER_PRESSURE ? jox_pressure_now(d->local->pressure)
                                           : d->local->grid->now;
+}
+
+static void exit_sections(JoxDanger *d, JoxSections *s) {
+    uint32_t count = (uint32_t)jox_section_count(s, "exits", d->exit_count, 1);
+    if (count > JOX_DANGER_EXITS) {
+        jox_sections_fail(s, "exits", "there are too many");
+        return;
+    }
+    for (d->exit_count = 0; d->exit_count < count; d->exit_count++) {
+        char **name = &d->exit_names[d->exit_count];
+        jox_section_string(s, "exit", name);
+        if (!*name)
+            *name = jox_strdup("");
+    }
+}
+
+void jox_danger_sections(JoxDanger *d, JoxSections *s) {
+    const size_t cells = (size_t)d->local->grid->columns * d->local->grid->rows;
+    if (d->owns_local)
+        jox_local_sections(d->local, s);
+    for (int m = 0; m < JOX_DANGER_MAPPED; m++) {
+        jox_section(s, "sum", d->sum[m], sizeof *d->sum[m], cells);
+        jox_section(s, "greatest", d->greatest[m], sizeof *d->greatest[m], cells);
+    }
+    jox_section(s, "measured", d->measured, sizeof *d->measured, cells);
+    jox_section(s, "stood", d->stood, sizeof *d->stood, cells);
+    JOX_SECTION(s, "samples", d->samples);
+    JOX_SECTION_ROOM(s, "people", d->people, d->people_capacity);
+    JOX_SECTION(s, "has_compression", d->has_compression);
+    JOX_SECTION(s, "has_load", d->has_load);
+    jox_danger_lines_sections(&d->lines, s);
+    jox_danger_walls_sections(&d->walls, s);
+    JOX_SECTION(s, "level_s", d->level_s);
+    JOX_SECTION(s, "begun", d->begun);
+    JOX_SECTION(s, "last_frame", d->last_frame);
+    JOX_SECTION(s, "last_sample", d->last_sample);
+    JOX_SECTION(s, "counts", d->counts);
+    JOX_SECTION(s, "most", d->most);
+    JOX_SECTION_ARRAY(s, "rows", d->rows, d->row_count, d->row_capacity);
+    exit_sections(d, s);
 }
 
 void jox_danger_free(JoxDanger *d) {

@@ -17,6 +17,7 @@
 #include <stdbool.h>
 
 #include "base/format/json_writer.h"
+#include "base/sections.h"
 #include "base/text.h"
 #include "geom/walls.h"
 #include "record/frame.h"
@@ -81,6 +82,8 @@ void jox_danger_add_line(JoxDanger *danger, const char *name, JoxV2 a, JoxV2 b);
 void jox_danger_add_flows(JoxDanger *danger, const JoxProbeDef *probes, uint32_t count);
 /* Frames in ascending time; `exits` as they are then, or NULL. */
 void jox_danger_frame(JoxDanger *danger, const JoxFrame *frame, const JoxExits *exits);
+/* All but the densities of one that takes them from someone else. */
+void jox_danger_sections(JoxDanger *danger, JoxSections *sections);
 /* The field of density or pressure at the last sample, and its grid. */
 const float *jox_danger_field(const JoxDanger *danger, JoxDangerMeasure measure,
                               const JoxDensity **grid);

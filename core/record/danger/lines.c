@@ -264,6 +264,43 @@ void jox_danger_lines_json(const JoxDangerLines *lines, double end, JoxJson *jso
     jox_json_end(json);
 }
 
+static bool are_rows(const JoxDangerLine *line) {
+    for (uint32_t r = 0; r < line->row_count; r++)
+        if (line->rows[r].side < 0 || line->rows[r].side > 1 || line->rows[r].level < -1 ||
+            line->rows[r].level >= JOX_LEVELS)
+            return false;
+    return line->worst >= -1 && line->worst < JOX_LEVELS;
+}
+
+static void line_sections(JoxDangerLine *line, JoxSections *s) {
+    JOX_SECTION(s, "from", line->a);
+    JOX_SECTION(s, "to", line->b);
+    JOX_SECTION(s, "width", line->width);
+    JOX_SECTION_ARRAY(s, "rows", line->rows, line->row_count, line->row_capacity);
+    JOX_SECTION(s, "flow_most", line->flow_most);
+    JOX_SECTION(s, "flow_most_time", line->flow_most_time);
+    JOX_SECTION(s, "level_s", line->level_s);
+    JOX_SECTION(s, "worst", line->worst);
+    JOX_SECTION(s, "stop_and_go", line->stop_and_go);
+    JOX_SECTION(s, "congestion", line->congestion);
+    JOX_SECTION_ARRAY(s, "crossings", line->crossings, line->crossing_count,
+                      line->crossing_capacity);
+    JOX_SECTION(s, "forward", line->forward);
+    JOX_SECTION(s, "back", line->back);
+    if (!s->failed && !are_rows(line))
+        jox_sections_fail(s, "rows", "there is no such side or level");
+    if (s->failed) {
+        line->row_count = 0;
+        line->worst = -1;
+    }
+}
+
+void jox_danger_lines_sections(JoxDangerLines *lines, JoxSections *s) {
+    jox_track_sections(&lines->track, s);
+    for (uint32_t l = 0; l < lines->count; l++)
+        line_sections(&lines->items[l], s);
+}
+
 void jox_danger_lines_free(JoxDangerLines *lines) {
     for (uint32_t l = 0; l < lines->count; l++) {
         jox_free(lines->items[l].name);

@@ -18,6 +18,7 @@
 #include <stdint.h>
 
 #include "base/format/json_writer.h"
+#include "base/sections.h"
 #include "base/vec.h"
 #include "record/danger/levels.h"
 #include "record/track.h"
@@ -80,6 +81,7 @@ void jox_danger_lines_sample(JoxDangerLines *lines, const JoxFrame *frame, const
                              double duration);
 /* Adds "lines": {...}; null without any. `end`: of what was measured, s. */
 void jox_danger_lines_json(const JoxDangerLines *lines, double end, JoxJson *json);
+void jox_danger_lines_sections(JoxDangerLines *lines, JoxSections *sections);
 void jox_danger_lines_free(JoxDangerLines *lines);
 
 #endif

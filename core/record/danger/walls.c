@@ -105,6 +105,22 @@ void jox_danger_walls_json(const JoxDangerWalls *walls, double end, JoxJson *jso
     jox_json_end(json);
 }
 
+void jox_danger_walls_sections(JoxDangerWalls *walls, JoxSections *s) {
+    JOX_SECTION_ARRAY(s, "pieces", walls->items, walls->count, walls->capacity);
+    JOX_SECTION_ROOM(s, "order", walls->order, walls->order_capacity);
+    JOX_SECTION(s, "known", walls->known);
+    JOX_SECTION(s, "over", walls->over);
+    JOX_SECTION(s, "piece_s", walls->piece_s);
+    JOX_SECTION(s, "longest", walls->longest);
+    JOX_SECTION(s, "first", walls->first);
+    JOX_SECTION(s, "greatest", walls->most);
+    const uint32_t least = walls->count ? walls->count : 1;
+    if (!s->failed && (walls->first >= least || walls->most >= least))
+        jox_sections_fail(s, "pieces", "one that is named is not there");
+    if (s->failed)
+        walls->first = walls->most = 0;
+}
+
 void jox_danger_walls_free(JoxDangerWalls *walls) {
     jox_free(walls->items);
     jox_free(walls->order);

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "base/format/json_writer.h"
+#include "base/sections.h"
 #include "record/frame.h"
 
 #define JOX_RAIL_LIMIT 4500.0 /* N */
@@ -39,6 +40,7 @@ double jox_danger_walls_now(const JoxDangerWalls *walls);
 double jox_danger_piece_line_load(const JoxDangerPiece *piece);
 /* Adds "walls": {...}; null where no loads of walls are known. `end`: of what was measured, s. */
 void jox_danger_walls_json(const JoxDangerWalls *walls, double end, JoxJson *json);
+void jox_danger_walls_sections(JoxDangerWalls *walls, JoxSections *sections);
 void jox_danger_walls_free(JoxDangerWalls *walls);
 
 #endif

@@ -133,6 +133,16 @@ double jox_density_mean(const JoxDensity *d, uint32_t column, uint32_t row) {
     return d->frames ? d->sum[(size_t)row * d->columns + column] / d->frames : 0.0;
 }
 
+void jox_density_sections(JoxDensity *d, JoxSections *s) {
+    const size_t cells = (size_t)d->columns * d->rows;
+    jox_section(s, "now", d->now, sizeof *d->now, cells);
+    jox_section(s, "sum", d->sum, sizeof *d->sum, cells);
+    JOX_SECTION(s, "frames", d->frames);
+    JOX_SECTION(s, "most", d->most);
+    JOX_SECTION(s, "most_at", d->most_at);
+    JOX_SECTION(s, "most_time", d->most_time);
+}
+
 void jox_density_free(JoxDensity *d) {
     if (!d)
         return;

@@ -15,6 +15,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/sections.h"
 #include "base/vec.h"
 #include "geom/walls.h"
 
@@ -67,6 +68,8 @@ JoxV2 jox_density_middle(const JoxDensity *density, size_t cell);
 float jox_density_area(const JoxDensity *density, size_t cell);
 /* Mean of all frames at a cell; 0 before the first. */
 double jox_density_mean(const JoxDensity *density, uint32_t column, uint32_t row);
+/* What was noted so far, of one over the same area. */
+void jox_density_sections(JoxDensity *density, JoxSections *sections);
 void jox_density_free(JoxDensity *density);
 
 #endif

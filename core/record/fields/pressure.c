@@ -162,6 +162,16 @@ const float *jox_pressure_now(const JoxPressure *p) {
     return p->now;
 }
 
+void jox_pressure_sections(JoxPressure *p, JoxSections *s) {
+    for (int q = 0; q < QUARTERS; q++)
+        jox_section(s, "quarter", p->quarters[q], sizeof(Sums), p->cells);
+    jox_section(s, "now", p->now, sizeof *p->now, p->cells);
+    JOX_SECTION(s, "samples", p->samples);
+    JOX_SECTION(s, "filled", p->filled);
+    JOX_SECTION(s, "begun", p->begun);
+    JOX_SECTION(s, "last", p->last);
+}
+
 void jox_pressure_free(JoxPressure *p) {
     if (!p)
         return;

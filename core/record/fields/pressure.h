@@ -28,6 +28,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/sections.h"
+
 #define JOX_PRESSURE_PACE 0.5     /* s between samples */
 #define JOX_PRESSURE_SPAN 20.0    /* s over which means are taken */
 #define JOX_PRESSURE_LEAST 5.0f   /* 1/m2 */
@@ -43,6 +45,7 @@ void jox_pressure_add(JoxPressure *pressure, double t, const float *density, con
                       const float *flow_y);
 /* Of each cell over the last whole span, 1/s2; NAN: not measured. Made anew every quarter of it. */
 const float *jox_pressure_now(const JoxPressure *pressure);
+void jox_pressure_sections(JoxPressure *pressure, JoxSections *sections);
 void jox_pressure_free(JoxPressure *pressure);
 
 #endif

@@ -117,6 +117,12 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_free(ends);
 }
 
+static void sections(void *state, JoxSections *s) {
+    Displacement *d = state;
+    jox_track_sections(&d->track, s);
+    JOX_SECTION_ROOM(s, "people", d->people, d->capacity);
+}
+
 static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     (void)def;
     const Displacement *d = state;

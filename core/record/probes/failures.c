@@ -50,6 +50,11 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "peak_time", "s", peak_time);
 }
 
+static void sections(void *state, JoxSections *s) {
+    Failures *f = state;
+    JOX_SECTION_ARRAY(s, "bins", f->bins, f->count, f->capacity);
+}
+
 static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     const Failures *f = state;
     fputs("time [s],agent_steps,failed,share\n", out);

@@ -87,6 +87,36 @@ void jox_flow_free(void *state) {
     jox_free(f);
 }
 
+/* Passages are numbered from 1; 0 is none. */
+static bool are_numbers(const Flow *f) {
+    for (uint32_t k = 0; k < f->latest_capacity; k++)
+        if (f->latest[k] > f->count)
+            return false;
+    for (uint32_t c = 0; c < f->count; c++)
+        if (f->crossings[c].previous > c)
+            return false;
+    return true;
+}
+
+void jox_flow_sections(void *state, JoxSections *s) {
+    Flow *f = state;
+    jox_track_sections(&f->track, s);
+    JOX_SECTION_ROOM(s, "latest", f->latest, f->latest_capacity);
+    JOX_SECTION_ARRAY(s, "crossings", f->crossings, f->count, f->capacity);
+    JOX_SECTION(s, "forward", f->forward);
+    JOX_SECTION(s, "back", f->back);
+    JOX_SECTION(s, "standing", f->standing);
+    JOX_SECTION(s, "width", f->width);
+    if (!s->failed && !are_numbers(f))
+        jox_sections_fail(s, "crossings", "a passage is not there");
+    if (s->failed)
+        f->count = f->latest_capacity = 0;
+}
+
+static void sections(void *state, JoxSections *s) {
+    jox_flow_sections(state, s);
+}
+
 uint32_t jox_flow_passages(const void *state) {
     return ((const Flow *)state)->standing;
 }

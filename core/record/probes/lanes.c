@@ -94,6 +94,11 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "speed", "m/s", speed / n);
 }
 
+static void sections(void *state, JoxSections *s) {
+    Lanes *l = state;
+    JOX_SECTION_ARRAY(s, "items", l->items, l->count, l->capacity);
+}
+
 static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     (void)def;
     const Lanes *l = state;

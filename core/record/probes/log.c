@@ -129,6 +129,40 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_figure_add(out, "hits", "", log->counts[HIT]);
 }
 
+static bool are_named(const Log *log) {
+    for (uint32_t k = 0; k < log->before_capacity; k++)
+        if (log->before[k].known && log->before[k].state >= log->name_count)
+            return false;
+    for (uint32_t n = 0; n < log->count; n++) {
+        const Action *action = &log->actions[n];
+        if (action->group >= log->name_count || action->state >= log->name_count ||
+            action->before.state >= log->name_count || (uint32_t)action->what >= 3)
+            return false;
+    }
+    return true;
+}
+
+static void sections(void *state, JoxSections *s) {
+    Log *log = state;
+    uint32_t names = (uint32_t)jox_section_count(s, "names", log->name_count, 1);
+    while (log->name_count < names) { /* restoring: filled in below */
+        JOX_RESERVE(log->names, log->name_capacity, log->name_count + 1);
+        log->names[log->name_count++] = NULL;
+    }
+    for (uint32_t n = 0; n < log->name_count; n++) {
+        jox_section_string(s, "name", &log->names[n]);
+        if (!log->names[n])
+            log->names[n] = jox_strdup("");
+    }
+    JOX_SECTION_ROOM(s, "before", log->before, log->before_capacity);
+    JOX_SECTION_ARRAY(s, "actions", log->actions, log->count, log->capacity);
+    JOX_SECTION(s, "counts", log->counts);
+    if (!s->failed && !are_named(log))
+        jox_sections_fail(s, "actions", "a state or group of one is not there");
+    if (s->failed)
+        log->count = log->before_capacity = 0;
+}
+
 static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     const Log *log = state;
     (void)def;

@@ -169,6 +169,30 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
                    m->has_compression ? m->compression_greatest : NAN);
 }
 
+static void sections(void *state, JoxSections *s) {
+    Map *m = state;
+    const size_t cells = cells_of(m->grid), local_cells = cells_of(m->local->grid);
+    jox_section(s, "density", m->density, sizeof *m->density, cells);
+    jox_section(s, "speed", m->speed, sizeof *m->speed, cells);
+    jox_section(s, "compression", m->compression, sizeof *m->compression, cells);
+    jox_section(s, "compression_most", m->compression_most, sizeof *m->compression_most, cells);
+    jox_section(s, "pressure", m->pressure, sizeof *m->pressure, local_cells);
+    jox_section(s, "measured", m->measured, sizeof *m->measured, local_cells);
+    JOX_SECTION(s, "density_greatest", m->density_most);
+    JOX_SECTION(s, "pressure_greatest", m->pressure_most);
+    JOX_SECTION(s, "density_time", m->density_time);
+    JOX_SECTION(s, "pressure_time", m->pressure_time);
+    JOX_SECTION(s, "density_at", m->density_at);
+    JOX_SECTION(s, "pressure_at", m->pressure_at);
+    JOX_SECTION(s, "speed_sum", m->speed_sum);
+    JOX_SECTION(s, "compression_greatest", m->compression_greatest);
+    JOX_SECTION(s, "people", m->people);
+    JOX_SECTION(s, "stretch", m->stretch);
+    JOX_SECTION(s, "samples", m->samples);
+    JOX_SECTION(s, "has_compression", m->has_compression);
+    jox_local_sections(m->local, s);
+}
+
 static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     (void)def;
     const Map *m = state;

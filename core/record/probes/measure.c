@@ -186,6 +186,13 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_free(densities);
 }
 
+static void sections(void *state, JoxSections *s) {
+    Measure *m = state;
+    JOX_SECTION_ARRAY(s, "intervals", m->rows, m->count, m->capacity);
+    if (m->line)
+        jox_flow_sections(m->line, s);
+}
+
 static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     const Measure *m = state;
     fputs("time [s],people,density_classical [1/m2],density [1/m2],speed [m/s],"

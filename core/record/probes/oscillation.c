@@ -267,6 +267,17 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     spectrum_free(&s);
 }
 
+static void sections(void *state, JoxSections *s) {
+    Oscillation *o = state;
+    JOX_SECTION_ARRAY(s, "cells", o->cells, o->count, o->capacity);
+    JOX_SECTION_ARRAY(s, "frames", o->frames, o->frame_count, o->frame_capacity);
+    if (s->failed || (uint64_t)o->frame_count * windows_of(o) != o->count) {
+        jox_sections_fail(s, "cells", "they are not those of its windows");
+        o->count = o->frame_count = 0;
+    }
+    o->intervals = o->frame_count;
+}
+
 static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     Spectrum s = spectrum_of(def, state);
     fputs("frequency [rad/s],direction,anticlockwise,clockwise,speed\n", out);

@@ -86,6 +86,17 @@ void jox_probe_frame(JoxProbe *p, const JoxFrame *frame) {
     p->calls->frame(&p->def, p->state, frame, p->seen);
 }
 
+void jox_probe_sections(JoxProbe *p, JoxSections *s) {
+    uint32_t kind = p->def.kind;
+    JOX_SECTION(s, "kind", kind);
+    if (kind != (uint32_t)p->def.kind) {
+        jox_sections_fail(s, "kind", "the probe is of another kind");
+        return;
+    }
+    JOX_SECTION(s, "last", p->last);
+    p->calls->sections(p->state, s);
+}
+
 JoxFigures jox_probe_figures(const JoxProbe *p) {
     JoxFigures figures = {.count = 0};
     p->calls->figures(&p->def, p->state, &figures);

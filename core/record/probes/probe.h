@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "base/format/json_writer.h"
+#include "base/sections.h"
 #include "base/text.h"
 #include "geom/walls.h"
 #include "record/frame.h"
@@ -30,6 +31,8 @@ JoxProbe *jox_probe_create(const JoxProbeDef *def);
 bool jox_probe_is_due(const JoxProbe *probe, double t);
 /* Frames in ascending time; those that are not due, or outside from..until, are passed over. */
 void jox_probe_frame(JoxProbe *probe, const JoxFrame *frame);
+/* All that it has seen, for one of the same def. */
+void jox_probe_sections(JoxProbe *probe, JoxSections *sections);
 /* The figures so far. */
 JoxFigures jox_probe_figures(const JoxProbe *probe);
 /* Passages of a flow that stand so far; 0 of other kinds. */

@@ -21,6 +21,8 @@ typedef struct JoxProbeCalls {
     /* `seen[i]` is 1 for the people who are measured. */
     void (*frame)(const JoxProbeDef *def, void *state, const JoxFrame *frame, const uint8_t *seen);
     void (*figures)(const JoxProbeDef *def, const void *state, JoxFigures *out);
+    /* What its future and its figures depend on; a restored one fails where it could not be. */
+    void (*sections)(void *state, JoxSections *sections);
     /* A first line with names and units in brackets, then rows. */
     void (*csv)(const JoxProbeDef *def, const void *state, FILE *out);
     /* gnuplot commands that draw the file `csv`; the terminal is set, commas separate. */
@@ -31,8 +33,8 @@ typedef struct JoxProbeCalls {
 } JoxProbeCalls;
 /* Of calls: what all kinds have, by the names that their files give it. */
 #define JOX_PROBE_KIND(State, wide, high)                                                          \
-    .size = sizeof(State), .figures = figures, .csv = csv, .plot = plot, .width = wide,            \
-    .height = high
+    .size = sizeof(State), .figures = figures, .sections = sections, .csv = csv, .plot = plot,     \
+    .width = wide, .height = high
 #define JOX_OWNED(State, member) (offsetof(State, member) + 1) /* 0: none */
 
 #define X(kind, name, form, options, example, meaning) extern const JoxProbeCalls jox_probe_##name;
@@ -46,6 +48,7 @@ bool jox_flow_middle(const void *state, double *from, double *to);
 /* A flow within another probe: its state, and a frame of it. */
 void *jox_flow_create(void);
 void jox_flow_frame(const JoxV2 line[2], void *state, const JoxFrame *frame, const uint8_t *seen);
+void jox_flow_sections(void *state, JoxSections *sections);
 void jox_flow_free(void *state);
 void jox_figure_add(JoxFigures *figures, const char *name, const char *unit, double value);
 /* Linear between ranks; q within 0..1. Sorts the values. NAN of none. */

@@ -115,6 +115,14 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_free(times);
 }
 
+static void sections(void *state, JoxSections *s) {
+    Transit *t = state;
+    jox_track_sections(&t->track, s);
+    JOX_SECTION_ROOM(s, "since", t->since, t->since_capacity);
+    JOX_SECTION_ROOM(s, "was", t->was, t->was_capacity);
+    JOX_SECTION_ARRAY(s, "passages", t->passages, t->count, t->capacity);
+}
+
 static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     (void)def;
     const Transit *t = state;

@@ -64,6 +64,11 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     jox_free(turns);
 }
 
+static void sections(void *state, JoxSections *s) {
+    Winding *w = state;
+    JOX_SECTION_ROOM(s, "people", w->people, w->capacity);
+}
+
 static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     (void)def;
     const Winding *w = state;

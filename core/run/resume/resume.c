@@ -126,7 +126,7 @@ static bool restore(JoScene *scene, const Read *r, JoError *error) {
     scene->resumed_tick = r->numbers.tick;
     scene->log_length = r->numbers.log_length;
     jox_text_append(&scene->resumed, r->file.data, r->file.length);
-    return true;
+    return jox_run_take_up_all(scene, error);
 }
 
 static JoScene *load(const JoSceneDef *def, const Read *r, JoError *error) {
