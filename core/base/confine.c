@@ -11,6 +11,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+enum { LAST_SECONDS = 5 }; /* of processor time, for who works to say why it ends */
+
 /* ---- files: Landlock, whose calls the C library does not have ---- */
 
 static const uint64_t READING = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
@@ -56,6 +58,8 @@ static bool confine_files(const JoxConfines *confines) {
         good = allow(rules, confines->outputs[f], WRITING);
     for (size_t p = 0; good && confines->programs && p < sizeof PROGRAMS / sizeof *PROGRAMS; p++)
         good = allow(rules, PROGRAMS[p], READING | LANDLOCK_ACCESS_FS_EXECUTE);
+    if (good && confines->program)
+        good = allow(rules, confines->program, READING | LANDLOCK_ACCESS_FS_EXECUTE);
     good = good && syscall(SYS_landlock_restrict_self, rules, 0) == 0;
     if (rules >= 0)
         close(rules);
@@ -79,20 +83,25 @@ static size_t size_now(void) {
     return (size_t)pages * (size_t)sysconf(_SC_PAGESIZE);
 }
 
-static bool limit(int what, rlim_t most) {
+/* `spare`: how far the limit that ends the process lies above the one that it is told of. */
+static bool limit(int what, rlim_t most, rlim_t spare) {
     struct rlimit old;
     if (getrlimit((__rlimit_resource_t)what, &old) != 0)
         return false;
-    most = most < old.rlim_max ? most : old.rlim_max;
-    return setrlimit((__rlimit_resource_t)what, &(struct rlimit){most, most}) == 0;
+    const rlim_t last = most + spare < old.rlim_max ? most + spare : old.rlim_max;
+    const rlim_t told = last > spare ? last - spare : last;
+    most = most < told ? most : told;
+    return setrlimit((__rlimit_resource_t)what, &(struct rlimit){most, last}) == 0;
 }
 
 bool jox_confine(const JoxConfines *confines) {
     const JoxConfining can = jox_confine_can();
-    const bool good =
-        limit(RLIMIT_CORE, 0) && (!confines->seconds || limit(RLIMIT_CPU, confines->seconds)) &&
-        (confines->works || limit(RLIMIT_NOFILE, 64)) &&
-        (!confines->memory || limit(RLIMIT_AS, size_now() + confines->memory)) &&
-        prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && (!can.files || confine_files(confines));
+    const bool good = limit(RLIMIT_CORE, 0, 0) &&
+                      (!confines->seconds ||
+                       limit(RLIMIT_CPU, confines->seconds, confines->works ? LAST_SECONDS : 0)) &&
+                      (confines->works || limit(RLIMIT_NOFILE, 64, 0)) &&
+                      (!confines->memory || limit(RLIMIT_AS, size_now() + confines->memory, 0)) &&
+                      prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+                      (!can.files || confine_files(confines));
     return good && (!can.calls || jox_confine_calls(confines));
 }

@@ -9,13 +9,16 @@
 typedef struct JoxConfines {
     const char *const *folders; /* with all below them, or files: may be read, if they are there */
     size_t folder_count;
-    size_t memory;    /* bytes that it may take besides what it has; 0: any */
-    unsigned seconds; /* of processor time; 0: any */
+    size_t memory; /* bytes that it may take besides what it has; 0: any */
+    /* Of processor time; 0: any. Then it is ended; who works is told by SIGXCPU, and ended a little
+       later. */
+    unsigned seconds;
     /* Who works has threads, and calls that do not reach beyond itself and its files. Without, it
        reads, and writes to what is open. */
     bool works;
-    bool programs; /* who works starts programs of the system, which are confined as it is */
-    bool serves;   /* who works answers those who connect to it, and connects to nobody */
+    bool programs;       /* who works starts programs of the system, which are confined as it is */
+    const char *program; /* one more that it starts, by its path, and may end; or NULL */
+    bool serves;         /* who works answers those who connect to it, and connects to nobody */
     const char *const *outputs; /* of who works: folders, with all below them, or files */
     size_t output_count;
 } JoxConfines;

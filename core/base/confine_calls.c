@@ -64,7 +64,7 @@ static const int FORBIDDEN[] = {
     SYS_ptrace,
 #endif
     /* other processes */
-    SYS_process_vm_readv, SYS_process_vm_writev, SYS_kill, SYS_tkill, SYS_rt_sigqueueinfo,
+    SYS_process_vm_readv, SYS_process_vm_writev, SYS_tkill, SYS_rt_sigqueueinfo,
     SYS_rt_tgsigqueueinfo, SYS_pidfd_open, SYS_pidfd_getfd, SYS_pidfd_send_signal, SYS_kcmp,
     SYS_shmget, SYS_shmat, SYS_msgget, SYS_semget,
     /* the network, and calls by another way */
@@ -121,6 +121,8 @@ static void fill(Filter *filter, const JoxConfines *confines) {
         ADD(filter, FAILS((unsigned)FORBIDDEN[f]));
     if (!confines->programs)
         ADD(filter, DIES(execve), DIES(execveat));
+    if (!confines->program) /* else it ends what it started */
+        ADD(filter, FAILS(SYS_kill));
     if (confines->serves) /* who connects to it is answered: streams, and to nobody by name */
         ADD(filter, FAILS_UNLESS(socket, 1, 0xf, SOCK_STREAM),
             BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_sendto, 0, 6), ARGUMENT(4),

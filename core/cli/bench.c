@@ -51,7 +51,7 @@ typedef struct Bench {
     BenchGiven given; /* first: what the results name */
     JoIsa isas[MOST_ISAS];
     size_t isa_count;
-    bool json;
+    bool json, trusted;
     const char *csv, *plot;
 } Bench;
 
@@ -92,6 +92,7 @@ static const CliOption OPTIONS[] = {
      CLI_TO(Bench, given.commit)},
     {"plot", "DIR", "draw DIR/bench.svg: the scenes as bars, those named scale-... as a curve",
      CLI_TO(Bench, plot)},
+    CLI_TRUSTED_OPTION(Bench),
 };
 
 /* ---- measuring ---- */
@@ -185,6 +186,17 @@ static int bench_all(Bench *bench, const char *const *names, size_t count) {
     return status;
 }
 
+static void confine(const Bench *bench, const char *const *names, size_t count) {
+    CliReach reach = {.programs = bench->plot != NULL}; /* gnuplot draws */
+    for (size_t n = 0; n < count; n++) {
+        const Named *named = find(names[n]);
+        cli_reach_scene(&reach, named ? named->path : names[n]);
+    }
+    cli_reach_output(&reach, bench->csv);
+    cli_reach_output(&reach, bench->plot);
+    cli_confine_work(&reach, bench->trusted);
+}
+
 static int run(int argc, char **argv) {
     Bench bench = {.given = {200, 100, 1, 1, jo_version()}};
     CliList names = {0};
@@ -196,9 +208,12 @@ static int run(int argc, char **argv) {
     bench.isas[0] = JO_ISA_WIDEST;
     bench.isa_count = 1;
     int status = cli_parse(&cli_bench, argc, argv, &bench, &names);
-    if (status == CLI_GO_ON)
-        status = names.count ? bench_all(&bench, names.items, names.count)
-                             : bench_all(&bench, marked, marked_count);
+    if (status == CLI_GO_ON) {
+        const char *const *asked = names.count ? names.items : marked;
+        const size_t count = names.count ? names.count : marked_count;
+        confine(&bench, asked, count);
+        status = bench_all(&bench, asked, count);
+    }
     cli_free(&cli_bench, &bench, &names);
     return status;
 }

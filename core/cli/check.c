@@ -16,7 +16,7 @@ static const CliOption OPTIONS[] = {
 static int check(const CliList *paths, bool json, bool trusted) {
     if (paths->count == 0)
         return cli_misused(&cli_check, "no path given");
-    CliReach reach = {0};
+    CliReach reach = {CLI_READING};
     for (size_t p = 0; p < paths->count; p++)
         cli_reach_scene(&reach, paths->items[p]);
     cli_confine_work(&reach, trusted);

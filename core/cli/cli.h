@@ -150,6 +150,7 @@ typedef struct CliReach {
     size_t memory;          /* bytes, and below seconds of processor time; 0: any */
     unsigned seconds;
     bool works, programs, serves; /* as of JoxConfines */
+    const char *program;          /* the same; or NULL */
 } CliReach;
 
 /* A path may be read: a recording, with what SQLite keeps beside it; a folder or a file; a scene or
@@ -161,9 +162,13 @@ void cli_reach_scene(CliReach *reach, const char *path);
 void cli_reach_def(CliReach *reach, const JoSceneDef *def);
 /* A folder, or the folder of a file, may be written. Of NULL and "-", nothing. */
 void cli_reach_output(CliReach *reach, const char *path);
+/* The list of mods that are on may be written. */
+void cli_reach_settings(CliReach *reach);
 /* From here on the process, which is to have one thread, can do no more; the paths are freed. Where
    the system cannot hold it to that, that is said. */
 bool cli_confine(CliReach *reach);
+/* Of commands that read and do not simulate for long: what they may take. */
+#define CLI_READING .memory = (size_t)4 << 30, .seconds = 300
 /* As cli_confine, of a whole command; nothing where the user trusts the files. */
 void cli_confine_work(CliReach *reach, bool trusted);
 

@@ -1,8 +1,10 @@
 /* Commands on files of others give up what they do not need before they read one. */
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/confine.h"
 #include "base/format/path.h"
@@ -116,6 +118,16 @@ void cli_reach_output(CliReach *reach, const char *path) {
         jox_free(folder);
 }
 
+void cli_reach_settings(CliReach *reach) {
+    CliPaths settings = {0};
+    put_home(&settings, "XDG_CONFIG_HOME", ".config");
+    JoxText file = {0}; /* some file in the folder, which may have to be made */
+    jox_text_printf(&file, "%s/mods", settings.items[0]);
+    cli_reach_output(reach, file.data);
+    jox_text_free(&file);
+    free_all(&settings);
+}
+
 bool cli_confine(CliReach *reach) {
     put_home(&reach->reads, "XDG_DATA_HOME", ".local/share");
     put_home(&reach->reads, "XDG_CONFIG_HOME", ".config");
@@ -132,6 +144,7 @@ bool cli_confine(CliReach *reach) {
                                    .seconds = reach->seconds,
                                    .works = reach->works,
                                    .programs = reach->programs,
+                                   .program = reach->program,
                                    .serves = reach->serves});
     if (!good) /* as on systems that have neither Landlock nor seccomp */
         fputs("jostle: this system does not confine the process that reads files of others\n",
@@ -141,8 +154,25 @@ bool cli_confine(CliReach *reach) {
     return good;
 }
 
+static char late[160]; /* what is said then */
+
+/* The processor time of the command is over. */
+static void tell_late(int number) {
+    (void)number;
+    const ssize_t written = write(2, late, strlen(late));
+    (void)written;
+    _exit(JO_FAILED);
+}
+
 void cli_confine_work(CliReach *reach, bool trusted) {
     reach->works = true;
+    if (!trusted && reach->seconds) {
+        snprintf(late, sizeof late,
+                 "jostle: the command took the processor time that it may, %u s or what the system "
+                 "left; with --trusted there is no limit\n",
+                 reach->seconds);
+        signal(SIGXCPU, tell_late);
+    }
     if (trusted) {
         free_all(&reach->reads);
         free_all(&reach->writes);

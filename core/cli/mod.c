@@ -60,13 +60,15 @@ static int run(int argc, char **argv) {
         options.def.mod_count = options.mods.count;
         const bool on = !strcmp(verb, "enable"), turns = on || !strcmp(verb, "disable");
         options.def.path = plain.count > (turns ? 2 : 1) ? plain.items[plain.count - 1] : NULL;
-        if (!turns) {
-            CliReach reach = {0};
-            cli_reach_def(&reach, &options.def);
-            for (size_t p = 1; p < plain.count && !strcmp(verb, "check"); p++)
-                cli_reach_scene(&reach, plain.items[p]);
-            cli_confine_work(&reach, options.trusted);
+        CliReach reach = {CLI_READING};
+        cli_reach_def(&reach, &options.def);
+        for (size_t p = 1; p < plain.count && !strcmp(verb, "check"); p++)
+            cli_reach_scene(&reach, plain.items[p]);
+        if (turns && plain.count > 1) {
+            cli_reach_folder(&reach, plain.items[1]);
+            cli_reach_settings(&reach);
         }
+        cli_confine_work(&reach, options.trusted);
         if (!strcmp(verb, "list") && plain.count <= 2)
             status = list(&options.def);
         else if (!strcmp(verb, "why") && plain.count == 3)

@@ -1,11 +1,13 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "base/text.h"
 #include "cli/cli.h"
 
 typedef struct Reproduce {
     JoReproduceDef def;
     CliList sets;
+    bool trusted;
 } Reproduce;
 
 static const CliOption OPTIONS[] = {
@@ -26,9 +28,28 @@ static const CliOption OPTIONS[] = {
     {"fresh", NULL, "do all runs anew", CLI_TO(Reproduce, def.fresh)},
     {"list", NULL, "name the claims, run nothing", CLI_TO(Reproduce, def.list)},
     {"quiet", NULL, "no progress", CLI_TO(Reproduce, def.quiet)},
+    {"trusted", NULL,
+     "the claims are one's own. Else the command reads their folder, the one above, ../behaviours "
+     "and ../scripts of that alone, writes to --out alone and connects to nothing",
+     CLI_TO(Reproduce, trusted)},
 };
 
-static int reproduce(JoReproduceDef *def) {
+/* Claims lie in a folder within that of the scenes. What is run reads its scene as any run does. */
+static void confine(const JoReproduceDef *def, bool trusted) {
+    static const char *const SAYS_WHERE[] = {".git", "/proc/cpuinfo", "/proc/stat"};
+    CliReach reach = {.programs = true, .program = def->program};
+    JoxText scenes = {0};
+    jox_text_printf(&scenes, "%s/..", def->folder);
+    cli_reach_scene(&reach, scenes.data);
+    cli_reach_folder(&reach, def->folder);
+    for (size_t s = 0; s < sizeof SAYS_WHERE / sizeof *SAYS_WHERE; s++)
+        cli_reach_folder(&reach, SAYS_WHERE[s]);
+    cli_reach_output(&reach, def->out);
+    cli_confine_work(&reach, trusted);
+    jox_text_free(&scenes);
+}
+
+static int reproduce(JoReproduceDef *def, bool trusted) {
     char program[1024];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     JoError error = {0};
@@ -37,6 +58,7 @@ static int reproduce(JoReproduceDef *def) {
     def->program = program;
     def->stop = &cli_signal;
     cli_catch_signals(true);
+    confine(def, trusted);
     if (!jo_reproduce(def, &missed, &error)) /* what is wrong with a file was sent as a message */
         return cli_failed(&cli_reproduce, &error, error.code == JO_INPUT);
     return missed ? JO_FAILED : JO_OK;
@@ -51,7 +73,7 @@ static int run(int argc, char **argv) {
         run.def.claim_count = claims.count;
         run.def.sets = run.sets.items;
         run.def.set_count = run.sets.count;
-        status = reproduce(&run.def);
+        status = reproduce(&run.def, run.trusted);
     }
     cli_free(&cli_reproduce, &run, &claims);
     return status;

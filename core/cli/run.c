@@ -204,7 +204,11 @@ static int show(Run *run, char **summary) {
     live->opened = print_address;
     live->summary = run->summary ? summary : NULL;
     live->seconds = run->has_seconds ? run->seconds : 0.0;
-    if (jo_view(live, &error))
+    const JoxOverlay *before = run->files.sealed ? jox_overlay_use(&run->files) : NULL;
+    const bool shown = jo_view(live, &error);
+    if (run->files.sealed)
+        jox_overlay_use(before);
+    if (shown)
         return JO_OK;
     return complain(&error, error.code == JO_INPUT);
 }

@@ -44,7 +44,7 @@ static const char *make_room(void) {
 static void confine(const char *const *paths, size_t count, bool trusted) {
     static const char *const NEAR[] = {"../behaviours", "../scenes", "../../behaviours",
                                        "../../scenes"};
-    CliReach reach = {0};
+    CliReach reach = {.memory = (size_t)4 << 30, .seconds = 3600};
     for (size_t p = 0; p < count; p++) {
         struct stat info;
         const bool folder = stat(paths[p], &info) == 0 && S_ISDIR(info.st_mode);

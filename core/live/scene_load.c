@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/overlay.h"
 #include "live/scene_page.h"
 
 /* What the scene says goes to the terminal, and to the pages unless they were sent it as data. */
@@ -37,6 +38,8 @@ bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
     s->scene_def.message = message;
     s->scene_def.message_context = s;
     JoScene *next = jox_run_load_told(&s->scene_def, jox_scene_page_diagnosed, s, error);
+    jox_overlay_use(
+        NULL); /* files may be there as they were vetted; once more they may have changed */
     if (!next)
         return false;
     JoError ending = {0};

@@ -38,6 +38,30 @@ if ! "$program" --version | grep -q "no Landlock"; then
     mkdir -p tests; echo 'test("away", function() scene { groups = { g = { behaviour = "../elsewhere/away.lua", at = { { 0, 0 } } } } } truthy(true) end)' >tests/a_test.lua
     says "so do tests" 1 "Permission denied" "$program" test tests
     says "  or what their user trusts" 0 "1 passed" "$program" test --trusted tests
+    says "what is timed reads its folders alone" 3 "Permission denied" "$program" bench scenes/s.yaml --steps 2 --warm-up 0
+    says "  or what its user trusts" 0 "" "$program" bench scenes/s.yaml --steps 2 --warm-up 0 --trusted
+    mkdir -p scenes/claims scenes/mods/away elsewhere/claims
+    cat >scenes/claims/c.lua <<'END'
+return claim { id = "C1", title = "t", source = "s", text = "t", runs = { a = { scene = "../s.yaml", duration = 0.1 } },
+  measure = function(run) return { agents = run.a.summary.agents } end,
+  expect = { { "agents", what = "w", source = "1", band = { 1, 1 } } } }
+END
+    says "runs of claims read their folders alone" 1 "Permission denied" "$program" reproduce --out out-claims --quiet
+    says "  nor leave their results where nobody asked for them" 0 "" test ! -e build
+    cp scenes/claims/c.lua elsewhere/claims/; ln -s "$PWD/elsewhere/claims/c.lua" scenes/claims/linked.lua
+    says "a claim that lies elsewhere is not read" 3 "symbolic links are not followed" "$program" reproduce --out out-claims --quiet
+    rm scenes/claims/linked.lua
+    printf 'name: away\nversion: 1.0.0\ntitle: t\n' >scenes/mods/away/mod.yaml
+    says "a mod is turned on by a process that writes its list alone" 0 "" env XDG_CONFIG_HOME="$PWD/cfg" "$program" mod enable scenes/mods/away
+    cat >tests/a_test.lua <<'END'
+test("long", function()
+  local s = scene { groups = { g = { behaviour = "near.lua", count = 400, fill = "grid", spacing = 1, ["in"] = "p" } },
+    places = { p = { polygon = { { 0, 0 }, { 30, 0 }, { 30, 30 }, { 0, 30 } } } } }
+  for _ = 1, 100 do s:run(1000) end
+end)
+END
+    says "a command that takes all its processor time says so" 1 "with --trusted there is no limit" \
+        prlimit --cpu=6 "$program" test tests
     mkdir -p pictures
     says "a drawn scene reads its folder alone" 3 "Permission denied" "$program" render scenes/s.yaml --out pictures/o.svg --quiet
     says "  or what its user trusts" 0 "" "$program" render scenes/s.yaml --out pictures/o.svg --quiet --trusted
