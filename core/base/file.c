@@ -130,9 +130,13 @@ FILE *jox_file_replace(const char *path) {
     const int number = open_to_write(part->text, 0);
     part->file = number >= 0 ? fdopen(number, "w") : NULL;
     if (!part->file) {
-        if (number >= 0)
+        const int why = errno;
+        if (number >= 0) {
+            unlink(part->text);
             close(number);
+        }
         free(part);
+        errno = why;
         return NULL;
     }
     FILE *file = part->file;

@@ -1,9 +1,11 @@
 #include <errno.h>
+#include <setjmp.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/confine.h"
+#include "base/mem.h"
 #include "cli/cli.h"
 
 static void print_help(FILE *out) {
@@ -23,6 +25,19 @@ static int end(int status) {
         return status;
     fprintf(stderr, "jostle: cannot write to standard output: %s\n", strerror(errno));
     return status == JO_OK ? JO_FAILED : status;
+}
+
+/* What the commands themselves have no memory for; calls of the library end by their own guards. */
+static int run(const CliCommand *command, int argc, char **argv) {
+    JoxRecovery recovery;
+    jox_recovery_push(&recovery);
+    if (setjmp(recovery.jump) != 0) {
+        fprintf(stderr, "jostle %s: out of memory\n", command->name);
+        return JO_FAILED;
+    }
+    const int status = command->run(argc, argv);
+    jox_recovery_pop(&recovery);
+    return status;
 }
 
 int main(int argc, char **argv) {
@@ -49,7 +64,7 @@ int main(int argc, char **argv) {
     }
     for (size_t c = 0; c < cli_command_count; c++)
         if (!strcmp(word, cli_commands[c]->name))
-            return end(cli_commands[c]->run(argc - 1, argv + 1));
+            return end(run(cli_commands[c], argc - 1, argv + 1));
     fprintf(stderr, "jostle: unknown command '%s'\n\n", word);
     print_help(stderr);
     return JO_USAGE;

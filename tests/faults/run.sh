@@ -3,7 +3,8 @@
 # allocation (anybody's: the engine's, Lua's, SQLite's, Bullet's), a write, a file brought to the disk, a new name, a
 # file opened, a thread. Each run ends with status 0 (it did without), 1 or 3, says why where it is not 0, and leaves
 # whole files alone: no half-written ones, no damaged recording. FAULTS is how many n are tried for each command and
-# part (of writes, the message itself may be what fails), spread over all that there are; "all": every one. Prints "ok ..." with what was counted.
+# part (of writes, the message itself may be what fails), spread over all that there are; "all": every one.
+# COMMANDS: their names, of a few alone. Prints "ok ..." with what was counted.
 set -u
 cd "$(dirname "$0")/../.."
 B=${B:-build/release} FAULTS=${FAULTS:-all}
@@ -15,12 +16,24 @@ ${CC:-gcc} -shared -fPIC -O1 -o "$alloc" tests/faults/alloc.c || exit 1
 scene=$PWD/scenes/running-through.yaml log=$PWD/tests/data/session.input
 "$program" run "$scene" --steps 4 --quiet --record "$work/a.sqlite" --checkpoint 0.05 --checkpoint-dir "$work/saved" || exit 1
 cp -r "$work/saved" "$work/saved.first"
+mkdir -p "$work/claims" # of one that runs a scene for two steps
+cp "$scene" "$work/scene.yaml"
+cp behaviours/*.lua "$work/"
+cat >"$work/claims/one.lua" <<'END'
+return claim { id = "C1", title = "t", source = "s", text = "t", runs = { a = { scene = "../scene.yaml", duration = 0.1 } },
+  measure = function(run) return { agents = run.a.summary.agents } end,
+  expect = { { "agents", what = "w", source = "26", band = { 26, 26 } } } }
+END
 
 # NAME COMMAND...; what it writes lies in the folder out. Resuming writes into the files of the run before.
 commands=(
     "run run $scene --steps 3 --quiet --summary out/s.json --record out/r.sqlite --log-input out/l.input"
     "threads run $scene --steps 3 --quiet --threads 2 --summary out/s.json"
     "data run $scene --steps 3 --quiet --data out/data"
+    "kept run $scene --steps 3 --quiet --data out/data --checkpoint 0.05 --checkpoint-dir out/saved --record out/r.sqlite"
+    "drawn run $scene --steps 2 --quiet --report out/report --no-half-step"
+    "bench bench $scene --steps 2 --warm-up 0 --csv out/b.csv"
+    "reproduce reproduce --claims $work/claims --seeds 1 --jobs 1 --out out/all --quiet"
     "report report $work/a.sqlite --summary out/s.json"
     "render render $work/a.sqlite --at 0.05 --out out/a.svg"
     "check check $scene $PWD/behaviours/walker.lua"
@@ -65,7 +78,7 @@ count() {
     local part=$1; shift
     rm -rf out; mkdir out
     case $part in
-    memory) { FAULT_COUNT=9 LD_PRELOAD="$alloc" "$program" "$@" >said 2>&1 </dev/null; } 9>"$work/count"; cat "$work/count" ;;
+    memory) { FAULT_COUNT=9 LD_PRELOAD="$alloc" "$program" "$@" >said 2>&1 </dev/null; } 9>"$work/count"; tail -n 1 "$work/count" ;; # who ends last is the command itself
     *) strace -qq -f -o "$work/trace" -e trace="$calls" "$program" "$@" >said 2>&1 </dev/null; grep -c "(" "$work/trace" ;;
     esac
 }
@@ -118,6 +131,7 @@ for part in ${*:-memory write page truncate sync rename open thread}; do
     fi
     for command in "${commands[@]}"; do
         set -- $command
+        [ -z "${COMMANDS-}" ] || [[ " $COMMANDS " == *" $1 "* ]] || continue
         sweep "$part" "$@"
     done
 done
