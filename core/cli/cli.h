@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "base/overlay.h"
 #include "jostle_tools.h"
@@ -139,6 +140,12 @@ int cli_failed(const CliCommand *command, const JoError *error, bool sent);
 /* Has a scene read by a child process that may do nothing else; `files` are then what it read, and
    sealed: to be loaded from (jox_overlay_use). JO_OK, or the exit status, with a message. */
 int cli_vet(const CliCommand *command, const JoSceneDef *def, JoxOverlay *files);
+
+/* The file of a scene: what is given, or, of a name alone such as "office", the first there is of
+   NAME.yaml, scenes/NAME.yaml and that of the scenes that came with Jostle. To be freed. */
+char *cli_scene(const char *given);
+/* Some of those that came with Jostle, a line each. */
+void cli_list_scenes(FILE *out);
 
 /* What a command may do once it reads files of others. Zero-initialise. */
 typedef struct CliPaths {

@@ -16,6 +16,7 @@ static void print_help(FILE *out) {
     for (size_t c = 0; c < cli_command_count; c++)
         fprintf(out, "  %-10s %s\n", cli_commands[c]->name, cli_commands[c]->what);
     fprintf(out, "\n'jostle COMMAND --help' lists a command's options.\n");
+    cli_list_scenes(out);
 }
 
 /* The status of a command, unless what it printed went nowhere. */

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mem.h"
 #include "cli/cli.h"
 
 #include "base/format/path.h"
@@ -169,8 +170,10 @@ static int run(int argc, char **argv) {
     CliList plain = {0};
     int status = cli_parse(&cli_render, argc, argv, &wanted, &plain);
     if (status == CLI_GO_ON) {
-        wanted.path = plain.items[0];
+        char *path = cli_scene(plain.items[0]);
+        wanted.path = path;
         status = draw(&wanted);
+        jox_free(path);
     }
     cli_free(&cli_render, &wanted, &plain);
     return status;

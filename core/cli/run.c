@@ -3,6 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/mem.h"
 #include "cli/cli.h"
 
 typedef struct Run {
@@ -295,10 +296,11 @@ static int begin(Run *run) {
 static int run_scene(int argc, char **argv) {
     Run run = {.def = jo_default_scene_def(), .live = jo_default_view_def()};
     CliList plain = {0};
+    char *path = NULL;
     int status = cli_parse(&cli_run, argc, argv, &run, &plain);
     if (status == CLI_GO_ON) {
         const char *why = misuse(&run);
-        run.def.path = plain.items[0];
+        run.def.path = path = cli_scene(plain.items[0]);
         run.def.overrides = run.sets.items;
         run.def.override_count = run.sets.count;
         run.def.mods = run.mods.items;
@@ -308,6 +310,7 @@ static int run_scene(int argc, char **argv) {
         status = why ? cli_misused(&cli_run, why) : begin(&run);
     }
     jox_overlay_free(&run.files);
+    jox_free(path);
     cli_free(&cli_run, &run, &plain);
     return status;
 }
@@ -316,6 +319,8 @@ const CliCommand cli_run = {
     .name = "run",
     .what = "simulate a scene",
     .usage = "SCENE [options]",
+    .about = "SCENE is a file, or the name alone of one that lies here, in scenes/, or came with "
+             "Jostle: `jostle` lists some.",
     .notes =
         "exit status: 0 done, 1 the run failed, people were lost (`guard` of the scene), or a "
         "behaviour was suspended by its own errors and not mended and reloaded (then the run goes "

@@ -16,6 +16,11 @@ expect "no scene" 2 "no scene given" "$JOSTLE" run
 expect "bad number" 2 "takes a number" "$JOSTLE" run scenes/circle.yaml --dt fast
 expect "zero step" 2 "0.001" "$JOSTLE" run scenes/circle.yaml --dt 0
 expect "missing scene" 3 "no-such.yaml" "$JOSTLE" run no-such.yaml
+for name in $("$JOSTLE" --help | sed -n 's/^  jostle run \([^ ]*\) .*/\1/p'); do
+    expect "a scene by its name from anywhere: $name" 0 "\"steps\": 1," env -C "$work" "$PWD/$JOSTLE" run "$name" --steps 1 --quiet --summary -
+done
+expect "a name that is no scene's" 3 "\`jostle\` lists some" env -C "$work" "$PWD/$JOSTLE" run offfice
+expect "a picture of a scene by its name" 0 "circle.svg" env -C "$work" "$PWD/$JOSTLE" render circle --out circle.svg
 expect "bad override" 3 "Did you mean 'crossing'" "$JOSTLE" run scenes/circle.yaml --set groups.crosing.count=3
 expect "negative mass" 3 "mass must be" "$JOSTLE" run scenes/running-through.yaml --set groups.runner.set.mass=-5
 expect "0 agents" 3 "0 agents" "$JOSTLE" run scenes/circle.yaml --set groups.crossing.count=0
