@@ -42,6 +42,7 @@ class Page {
         this.field = "none";
         this.makeParts();
         this.keys();
+        this.point();
         this.theme();
         this.resize();
         new ResizeObserver(() => this.resize()).observe(byId("stage"));
@@ -103,6 +104,17 @@ class Page {
             Enter: (event) => (event.target === this.view.canvas ? (this.tools.act(), true) : undefined),
             ...Object.fromEntries(Object.entries(TOOLS).map(([name, t]) => [t.key, () => (this.tool(name), true)])),
         }, this.player, typing);
+    }
+
+    /** Names show under the pointer, even where not all of them do. */
+    point() {
+        const canvas = byId("picture");
+        const take = (at) => this.overlay.point(at) && this.redraw();
+        canvas.addEventListener("pointermove", (event) => {
+            const box = canvas.getBoundingClientRect();
+            take([event.clientX - box.left, event.clientY - box.top]);
+        });
+        canvas.addEventListener("pointerleave", () => take(null));
     }
 
     /** Moves what is looked at, in directions of the picture. */

@@ -87,7 +87,6 @@ export class ToolBar {
         this.top = this.button("From above", "Look straight down (T)", () => page.top(), true);
         this.follow = this.button("Follow", "Follow the chosen person (F)", () => page.follow(), true);
         this.names = this.button("Names", "Names of places and gates (N)", () => page.names(), true);
-        this.names.setAttribute("aria-pressed", "true");
         const view = el("div", { className: "group", role: "group", "aria-label": "View" }, this.top, this.follow,
             this.button("Whole scene", "Everything in sight (H)", () => page.home()), this.names,
             this.button("Picture", "Save what is seen as a PNG (P)", () => page.picture()),

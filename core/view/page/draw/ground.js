@@ -2,65 +2,15 @@
 import * as THREE from "/three/build/three.module.js";
 import { table } from "./palette.js";
 import { FLOOR_FRAGMENT, FLOOR_VERTEX } from "./shaders.js";
+import { Prism } from "./walls.js";
 
-const THIN = 0.08; // m, drawn thickness of walls that have none
 const OPEN = 0.04; // m, drawn height of an open gate
 
 const THEMES = {
     light: { base: 0xf1f2f4, line: 0xd3d7dd, wall: 0x5b6573, edge: 0x2b333d, place: 0x0072b2, region: 0x8a94a3, sky: 0xe6e9ed },
     dark: { base: 0x20242a, line: 0x353b44, wall: 0x8b97a8, edge: 0xc4cdd8, place: 0x56b4e9, region: 0x5d6774, sky: 0x15181c },
 };
-const GATE = 0xd55e00;
-
-/** Corners of walls as triangles: {position, normal: number[]}. */
-class Prism {
-    constructor() {
-        this.position = [];
-        this.normal = [];
-        this.edges = [];
-    }
-
-    quad(a, b, low, high) {
-        const nx = b[1] - a[1], ny = a[0] - b[0], l = Math.hypot(nx, ny) || 1;
-        this.position.push(...a, low, ...b, low, ...b, high, ...a, low, ...b, high, ...a, high);
-        for (let i = 0; i < 6; i++) this.normal.push(nx / l, ny / l, 0);
-        this.edges.push(...a, high, ...b, high);
-    }
-
-    /** An upright block on a polygon, from the floor to `high` m. */
-    block(points, high) {
-        const shape = points.map((p) => new THREE.Vector2(p[0], p[1]));
-        const ring = THREE.ShapeUtils.isClockWise(shape) ? [...points].reverse() : points;
-        ring.forEach((p, i) => this.quad(p, ring[(i + 1) % ring.length], 0, high));
-        const corners = ring.map((p) => new THREE.Vector2(p[0], p[1]));
-        for (const face of THREE.ShapeUtils.triangulateShape(corners, [])) {
-            for (const i of face) {
-                this.position.push(...ring[i], high);
-                this.normal.push(0, 0, 1);
-            }
-        }
-    }
-
-    /** A wall as the scene has it: solid, or a line that gets a thickness to be seen. */
-    wall({ solid, points, closed }, high) {
-        if (solid && points.length > 2) return this.block(points, high);
-        const ends = points.length - (closed ? 0 : 1);
-        for (let i = 0; i < ends; i++) {
-            const a = points[i], b = points[(i + 1) % points.length];
-            const length = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1;
-            const ux = ((b[0] - a[0]) / length) * (THIN / 2), uy = ((b[1] - a[1]) / length) * (THIN / 2);
-            this.block([[a[0] - ux - uy, a[1] - uy + ux], [a[0] - ux + uy, a[1] - uy - ux],
-                [b[0] + ux + uy, b[1] + uy - ux], [b[0] + ux - uy, b[1] + uy + ux]], high);
-        }
-    }
-
-    geometry() {
-        const geometry = new THREE.BufferGeometry();
-        geometry.setAttribute("position", new THREE.Float32BufferAttribute(this.position, 3));
-        geometry.setAttribute("normal", new THREE.Float32BufferAttribute(this.normal, 3));
-        return geometry;
-    }
-}
+const GATE = 0xd55e00, GATE_EDGE = 0x7a3600;
 
 function circle([x, y], radius, sides = 40) {
     return Array.from({ length: sides }, (_, i) => {
@@ -94,6 +44,8 @@ export class Ground {
             field: { value: null }, ramp: { value: texture(table("heat"), 256, 1, THREE.RGBAFormat) },
             cover: { value: new THREE.Vector4() },
         };
+        // What the walls are seen from, and the box of the floor that they must not hide, m.
+        this.seen = { eye: { value: new THREE.Vector3() }, keep: { value: new THREE.Vector4() }, lowered: { value: 1 } };
         const material = new THREE.ShaderMaterial({
             uniforms: this.uniforms, vertexShader: FLOOR_VERTEX, fragmentShader: FLOOR_FRAGMENT,
             extensions: { derivatives: true }, depthWrite: false,
@@ -127,12 +79,23 @@ export class Ground {
         this.group.add(this.floor);
         const fixed = new Prism();
         for (const wall of this.walls) if (!wall.name) fixed.wall(wall, wall.height || 2);
-        this.addPrism(fixed, this.colours.wall, this.colours.edge, 0.55);
+        this.addPrism(fixed, this.colours.wall, this.colours.edge);
         const places = (scene.places ?? []).flatMap(placeLines);
         const regions = Object.values(scene.regions ?? {}).flatMap((points) => outline(points, true, 0.015));
         this.addLines(places, this.colours.place, 0.9);
         this.addLines(regions, this.colours.region, 0.6);
         this.gates();
+    }
+
+    /** Where the eye is; from above no wall hides anything. */
+    seenFrom(eye, top) {
+        this.seen.eye.value.copy(eye);
+        this.seen.lowered.value = top ? 0 : 1;
+    }
+
+    /** The box [[x0, y0], [x1, y1]] that walls must not hide, m. */
+    inside([[x0, y0], [x1, y1]]) {
+        this.seen.keep.value.set(x0, y0, x1, y1);
     }
 
     /** Named walls: closed ones stand, open ones are a strip on the floor. */
@@ -142,7 +105,7 @@ export class Ground {
         for (const wall of this.walls) {
             if (wall.name) gates.wall(wall, this.open[wall.name] ? OPEN : wall.height || 2);
         }
-        this.gateParts = this.addPrism(gates, GATE, GATE, 0.75);
+        this.gateParts = this.addPrism(gates, GATE, GATE_EDGE);
     }
 
     /** Takes which gates are open; true if that changed. */
@@ -156,21 +119,11 @@ export class Ground {
         return changed;
     }
 
-    addPrism(prism, colour, edge, opacity) {
-        if (prism.position.length === 0) return [];
-        const material = new THREE.ShaderMaterial({
-            uniforms: { colour: { value: new THREE.Color(colour) }, opacity: { value: opacity } },
-            vertexShader: `varying vec3 n; void main() { n = normal;
-                gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0); }`,
-            fragmentShader: `uniform vec3 colour; uniform float opacity; varying vec3 n; void main() {
-                gl_FragColor = vec4(colour * (0.75 + 0.25 * n.z + 0.1 * n.x), n.z > 0.5 ? 0.9 : opacity); }`,
-            transparent: true, side: THREE.DoubleSide, depthWrite: false,
-        });
-        const mesh = new THREE.Mesh(prism.geometry(), material);
-        mesh.renderOrder = 2;
-        mesh.frustumCulled = false;
-        this.group.add(mesh);
-        return [mesh, this.addLines(prism.edges, edge, 0.9)];
+    addPrism(prism, colour, edge) {
+        if (prism.empty()) return [];
+        const parts = prism.parts(this.seen, colour, edge);
+        this.group.add(...parts);
+        return parts;
     }
 
     addLines(positions, colour, opacity) {

@@ -7,6 +7,7 @@ export const FORCE_COLOURS = {
     external: "#f0e442", body: "#009e73",
 };
 const METRES_OF_NEWTON = 1 / 150; // an arrow of 1 m is 150 N
+const NEAR = 36; // CSS pixels from the pointer, within which a name is shown
 const FONT = "600 12px system-ui, sans-serif";
 
 export class Overlay {
@@ -16,7 +17,8 @@ export class Overlay {
         this.crowd = crowd;
         this.pen = canvas.getContext("2d");
         this.labels = [];
-        this.names = true;
+        this.names = false; // all of them; without, that under the pointer
+        this.pointer = null; // CSS pixels
         this.chosen = null; // slot
         this.forces = null; // of the chosen person
         this.players = []; // slots
@@ -53,11 +55,24 @@ export class Overlay {
         pen.font = FONT;
         pen.textAlign = "center";
         pen.textBaseline = "middle";
-        if (this.names) this.drawLabels();
+        if (this.names || this.pointer) this.drawLabels();
         for (const slot of this.players) if (slot !== this.chosen) this.drawRing(slot, share, this.dark ? "#ffffff" : "#0072b2", "player");
         if (this.chosen !== null) this.drawChosen(share);
         this.sketch?.(pen, (x, y, z) => this.view.project(x, y, z));
         if (this.cross) this.drawCross();
+    }
+
+    /** Takes where the pointer is, CSS pixels, or null; true if another name is due. */
+    point(at) {
+        this.pointer = at;
+        const near = this.names || !at ? -1 : this.labels.findIndex((label) => this.near(this.view.project(label.at[0], label.at[1], label.at[2] ?? 0)));
+        const changed = near !== this.pointed;
+        this.pointed = near;
+        return changed;
+    }
+
+    near(spot) {
+        return spot !== null && this.pointer !== null && Math.hypot(spot[0] - this.pointer[0], spot[1] - this.pointer[1]) < NEAR;
     }
 
     drawLabels() {
@@ -65,8 +80,9 @@ export class Overlay {
         for (const label of this.labels) {
             const spot = this.view.project(label.at[0], label.at[1], label.at[2] ?? 0);
             if (!spot || spot[0] < 0 || spot[1] < 0 || spot[0] > this.view.wide || spot[1] > this.view.high) continue;
-            const wide = this.pen.measureText(label.text).width / 2 + 6;
-            const box = [spot[0] - wide, spot[1] - 10, spot[0] + wide, spot[1] + 10];
+            if (!this.names && !this.near(spot)) continue;
+            const wide = this.pen.measureText(label.text).width / 2 + 8;
+            const box = [spot[0] - wide, spot[1] - 12, spot[0] + wide, spot[1] + 12];
             if (taken.some((b) => b[0] < box[2] && b[2] > box[0] && b[1] < box[3] && b[3] > box[1])) continue;
             taken.push(box);
             this.tag(label.text, spot, this.nameColour(label));

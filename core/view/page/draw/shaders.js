@@ -162,6 +162,38 @@ void main() {
     gl_FragColor = vec4(colour * light, 1.0);
 }`;
 
+/** Walls: those that stand between the eye and the box `keep` are lowered, but for landmarks. */
+export const WALL_VERTEX = `
+attribute vec2 middle, across; // of the wall's block; from its middle to beside it, m
+uniform vec3 eye;
+uniform vec4 keep;         // x0, y0, x1, y1
+uniform float lowered;
+varying vec3 facing;
+varying float high;
+const float LOW = 0.35, LANDMARK = 3.5; // m
+void main() {
+    vec2 behind = middle + (dot(across, middle - eye.xy) < 0.0 ? -across : across);
+    bool hides = all(greaterThan(behind, keep.xy + 0.4)) && all(lessThan(behind, keep.zw - 0.4));
+    vec3 at = position;
+    if (hides && lowered > 0.5 && at.z < LANDMARK) at.z = min(at.z, LOW);
+    facing = normal;
+    high = at.z;
+    gl_Position = projectionMatrix * viewMatrix * vec4(at, 1.0);
+}`;
+
+export const WALL_FRAGMENT = `
+uniform vec3 colour;
+varying vec3 facing;
+varying float high;
+void main() {
+    float light = 0.72 + 0.34 * facing.z + 0.14 * dot(facing.xy, vec2(0.55, -0.83));
+    gl_FragColor = vec4(colour * light * (0.86 + 0.14 * smoothstep(0.0, 1.2, high)), 1.0);
+}`;
+
+export const WALL_EDGE_FRAGMENT = `
+uniform vec3 colour;
+void main() { gl_FragColor = vec4(colour, 1.0); }`;
+
 /** The floor with lines every so many metres, and the field over it. */
 export const FLOOR_VERTEX = `
 varying vec2 ground;

@@ -2,11 +2,12 @@
 import { OrbitControls } from "/three/examples/jsm/controls/OrbitControls.js";
 import * as THREE from "/three/build/three.module.js";
 import { Bodies } from "./bodies.js";
+import { fitBox, sceneBox } from "./camera.js";
 import { Ground } from "./ground.js";
 import { table } from "./palette.js";
 import { People } from "./people.js";
 
-const FIELD_OF_VIEW = 40; // degrees
+const FIELD_OF_VIEW = 34; // degrees
 const SLOW = 60; // ms a picture: then fewer figures are drawn
 
 export class View {
@@ -83,28 +84,26 @@ export class View {
         const name = `${scene.file} ${scene.session}`;
         if (this.named !== name) {
             this.named = name;
-            this.area = boundsOf(scene);
+            this.shown = scene;
             this.home = scene.camera;
+            this.handled = this.peopled = false;
             this.goHome();
         }
         this.dirty = true;
     }
 
-    /** Where the scene's camera is, or from the south onto everything. */
+    /** Where the scene's camera is, or where everything fills the window. */
     goHome() {
-        if (!this.area) return;
-        const [[x0, y0], [x1, y1]] = this.area;
-        const middle = new THREE.Vector3((x0 + x1) / 2, (y0 + y1) / 2, 0);
-        const wide = x1 - x0, deep = y1 - y0, aspect = this.wide / this.high;
-        const size = Math.max(4, 1.1 * Math.max(wide, deep));
-        // Seen slantingly, depth is shortened; what is near is larger than what is at the middle.
-        const across = Math.max(4, wide / aspect + 0.25 * deep, 0.95 * deep);
-        const away = (0.55 * across) / Math.tan((FIELD_OF_VIEW / 2) * (Math.PI / 180));
-        this.orbit.target.copy(this.home ? new THREE.Vector3(...this.home.look) : middle);
-        this.perspective.position.copy(this.home ? new THREE.Vector3(...this.home.at)
-            : new THREE.Vector3(middle.x, middle.y - 0.75 * away, 0.66 * away));
-        this.orbit.maxDistance = this.slide.maxDistance = 8 * size;
-        this.lookDown(middle, Math.max(4, 1.1 * Math.max(wide / aspect, deep)));
+        if (!this.shown) return;
+        const box = sceneBox(this.shown, this.crowd.everybody());
+        const [[x0, y0], [x1, y1]] = box, wide = x1 - x0, deep = y1 - y0;
+        const fitted = this.home ? { at: new THREE.Vector3(...this.home.at), look: new THREE.Vector3(...this.home.look) }
+            : fitBox(box, FIELD_OF_VIEW, this.wide / this.high);
+        this.ground.inside(box);
+        this.orbit.target.copy(fitted.look);
+        this.perspective.position.copy(fitted.at);
+        this.orbit.maxDistance = this.slide.maxDistance = 8 * Math.max(4, wide, deep);
+        this.lookDown(new THREE.Vector3((x0 + x1) / 2, (y0 + y1) / 2, 0), Math.max(4, 1.1 * Math.max(wide / (this.wide / this.high), deep)));
         this.flat.zoom = 1;
         this.dirty = true;
         this.orbit.update();
@@ -203,6 +202,8 @@ export class View {
     takeFrame(kind) {
         this.people.upload(this.crowd, kind);
         this.bodies.upload(this.crowd);
+        if (!this.peopled && !this.handled && this.crowd.next.slots > 0) this.goHome(); // now that it is known where people are
+        this.peopled ||= this.crowd.next.slots > 0;
         this.dirty = true;
     }
 
@@ -221,6 +222,7 @@ export class View {
         this.people.uniforms.share.value = this.bodies.uniforms.share.value = share;
         const camera = this.camera;
         camera.updateMatrixWorld();
+        this.ground.seenFrom(camera.position, this.top);
         if (this.crowd.next) {
             const pixels = this.pixelsOfMetre();
             this.people.uniforms.pixels.value = pixels;
@@ -260,16 +262,6 @@ export class View {
         const t = (z - origin.z) / direction.z;
         return Number.isFinite(t) && t > 0 ? [origin.x + t * direction.x, origin.y + t * direction.y] : null;
     }
-}
-
-/** Two corners around walls, places and regions, m; the area of a scene that has none. */
-function boundsOf(scene) {
-    const points = [...(scene.walls ?? []), ...(scene.places ?? [])].flatMap((p) => p.points ?? [])
-        .concat(Object.values(scene.regions ?? {}).flat());
-    if (points.length < 2) return scene.area;
-    const x = points.map((p) => p[0]), y = points.map((p) => p[1]);
-    const box = [[Math.min(...x), Math.min(...y)], [Math.max(...x), Math.max(...y)]];
-    return Math.max(box[1][0] - box[0][0], box[1][1] - box[0][1]) < 2 ? scene.area : box;
 }
 
 /** Whether pictures are drawn by the processor: then edges are not smoothed, which would cost it much. */

@@ -101,6 +101,16 @@ export class Crowd {
         return [x, y];
     }
 
+    /** Where everybody is in the newest frame: [x, y] of each, m. */
+    everybody() {
+        const out = [];
+        for (let slot = 0; slot < (this.next?.slots ?? 0); slot++) {
+            const at = this.position(slot, 1);
+            if (at) out.push(at);
+        }
+        return out;
+    }
+
     /** m */
     radius(slot) {
         return 2 * slot < this.person.length ? this.person[2 * slot] / 100 : 0.2;

@@ -1,0 +1,106 @@
+// Where the eye stands so that a scene fills the window, and from which side.
+import * as THREE from "/three/build/three.module.js";
+
+const TURNS = [0, -15, 15, -30, 30, -45, 45, -60, 60]; // degrees from the south, eastwards
+const RISES = [36, 48]; // degrees above the floor
+const FILL = 0.94; // of the window
+const RELUCTANCE = 0.12; // share of the score that a turn of 90 degrees from the south costs
+const TALL = 1.8; // m, the height that has to be in sight
+
+/** The corners of a box [[x0, y0], [x1, y1]], on the floor and at the height of heads, m. */
+export function cornersOf([[x0, y0], [x1, y1]], high = TALL) {
+    return [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].flatMap(([x, y]) => [new THREE.Vector3(x, y, 0), new THREE.Vector3(x, y, high)]);
+}
+
+/** Right, up and forward of an eye that looks down by `rise` rad from `turn` rad east of the south. */
+function axesOf(turn, rise) {
+    const ahead = new THREE.Vector3(-Math.sin(turn) * Math.cos(rise), Math.cos(turn) * Math.cos(rise), -Math.sin(rise));
+    const right = new THREE.Vector3(Math.cos(turn), Math.sin(turn), 0);
+    return { right, up: new THREE.Vector3().crossVectors(right, ahead), ahead };
+}
+
+/**
+ * The nearest place of an eye with these axes that has all points in sight: the tangents bound
+ * x - tx z and -x - tx z of every point (z: its depth), which gives where the four planes of the
+ * window meet.
+ */
+function standOf(points, { right, up, ahead }, tangents) {
+    const sides = [right, up].map((axis, i) => {
+        let low = -Infinity, high = -Infinity;
+        for (const p of points) {
+            const along = p.dot(axis), depth = tangents[i] * p.dot(ahead);
+            high = Math.max(high, along - depth);
+            low = Math.max(low, -along - depth);
+        }
+        return { at: (high - low) / 2, back: -(high + low) / (2 * tangents[i]) };
+    });
+    const back = Math.min(sides[0].back, sides[1].back, ...points.map((p) => p.dot(ahead) - 1));
+    return new THREE.Vector3().addScaledVector(right, sides[0].at).addScaledVector(up, sides[1].at).addScaledVector(ahead, back);
+}
+
+/** The share of the window that the floor's corners span, and how much smaller what is far is. */
+function scoreOf(points, eye, { right, up, ahead }, tangents, turn) {
+    let area = 0, nearest = Infinity, farthest = 0;
+    const floor = points.filter((p) => p.z === 0).map((p) => {
+        const v = p.clone().sub(eye), depth = v.dot(ahead);
+        nearest = Math.min(nearest, depth);
+        farthest = Math.max(farthest, depth);
+        return [v.dot(right) / depth / tangents[0], v.dot(up) / depth / tangents[1]];
+    });
+    floor.forEach(([x, y], i) => {
+        const [nx, ny] = floor[(i + 1) % floor.length];
+        area += (x * ny - nx * y) / 8; // the window is 2 by 2
+    });
+    return Math.abs(area) * Math.sqrt(nearest / farthest) * (1 - (RELUCTANCE * Math.abs(turn)) / (Math.PI / 2));
+}
+
+/**
+ * An eye that has a box of the floor in sight, m, and shows most of it: {at, look}. `fieldOfView` is
+ * the window's height in degrees, `aspect` its width by its height.
+ */
+export function fitBox(box, fieldOfView, aspect) {
+    const high = FILL * Math.tan((fieldOfView / 2) * (Math.PI / 180)), tangents = [high * aspect, high];
+    const points = cornersOf(box);
+    let best = null;
+    for (const turn of TURNS.map((t) => (t * Math.PI) / 180)) {
+        for (const rise of RISES.map((r) => (r * Math.PI) / 180)) {
+            const axes = axesOf(turn, rise), at = standOf(points, axes, tangents);
+            const score = scoreOf(points, at, axes, tangents, turn);
+            if (!best || score > best.score) best = { score, at, ahead: axes.ahead };
+        }
+    }
+    const look = best.at.clone().addScaledVector(best.ahead, -best.at.z / best.ahead.z); // on the floor
+    return { at: best.at, look };
+}
+
+/** The box around points [x, y], m, grown where it is less than `least` m wide; null without points. */
+export function boxOf(points, least = 2) {
+    if (points.length === 0) return null;
+    const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    for (const p of points) {
+        for (let k = 0; k < 2; k++) {
+            low[k] = Math.min(low[k], p[k]);
+            high[k] = Math.max(high[k], p[k]);
+        }
+    }
+    for (let k = 0; k < 2; k++) {
+        const more = Math.max(0, least - (high[k] - low[k])) / 2;
+        low[k] -= more;
+        high[k] += more;
+    }
+    return [low, high];
+}
+
+/**
+ * The box that a picture of a scene has to show: walls and people, and of places those that lie
+ * near them; far ones (where people go once they are out) are left out. `people`: [x, y] of each.
+ */
+export function sceneBox(scene, people) {
+    const places = (scene.places ?? []).filter((p) => p.kind !== "set").map((p) => p.points ?? []);
+    const core = boxOf([...(scene.walls ?? []).flatMap((w) => w.points ?? []), ...people]);
+    if (!core) return boxOf([...places.flat(), ...Object.values(scene.regions ?? {}).flat()]) ?? scene.area;
+    const wide = core[1][0] - core[0][0], deep = core[1][1] - core[0][1], margin = 0.2 * Math.max(wide, deep, 10);
+    const near = places.filter((points) => points.length && points.every(([x, y]) => x > core[0][0] - margin && x < core[1][0] + margin
+        && y > core[0][1] - margin && y < core[1][1] + margin)).flat();
+    return boxOf([...core, ...near]);
+}

@@ -1,0 +1,91 @@
+// Walls: upright blocks whose vertices know where the block's middle is and how far across it reaches,
+// by which the shader lowers those that stand before the crowd.
+import * as THREE from "/three/build/three.module.js";
+import { WALL_EDGE_FRAGMENT, WALL_FRAGMENT, WALL_VERTEX } from "./shaders.js";
+
+const THIN = 0.12; // m, drawn thickness of walls that have none
+const BESIDE = 1.2; // m beside a wall: whether that is within the scene decides if it is lowered
+
+/** The direction across a block's longest edge, as long as it takes to be beside the block, m. */
+function acrossOf(points, [mx, my]) {
+    let longest = 0, x = 1, y = 0;
+    points.forEach((a, i) => {
+        const b = points[(i + 1) % points.length], length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+        if (length <= longest) return;
+        longest = length;
+        x = (b[1] - a[1]) / length;
+        y = (a[0] - b[0]) / length;
+    });
+    const reach = Math.max(...points.map((p) => Math.abs((p[0] - mx) * x + (p[1] - my) * y)));
+    return [x * (reach + BESIDE), y * (reach + BESIDE)];
+}
+
+/** Triangles and edges of blocks. */
+export class Prism {
+    constructor() {
+        this.faces = { position: [], normal: [], middle: [], across: [] };
+        this.edges = { position: [], normal: [], middle: [], across: [] };
+    }
+
+    add(part, points, normal) {
+        for (const p of points) {
+            part.position.push(...p);
+            part.normal.push(...normal);
+            part.middle.push(...this.middle);
+            part.across.push(...this.across);
+        }
+    }
+
+    /** An upright block on a polygon, from the floor to `high` m. */
+    block(points, high) {
+        const shape = points.map((p) => new THREE.Vector2(p[0], p[1]));
+        const ring = THREE.ShapeUtils.isClockWise(shape) ? [...points].reverse() : points;
+        this.middle = [0, 1].map((k) => ring.reduce((sum, p) => sum + p[k], 0) / ring.length);
+        this.across = acrossOf(ring, this.middle);
+        ring.forEach((p, i) => {
+            const q = ring[(i + 1) % ring.length], length = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1;
+            const a = [p[0], p[1]], b = [q[0], q[1]];
+            this.add(this.faces, [[...a, 0], [...b, 0], [...b, high], [...a, 0], [...b, high], [...a, high]],
+                [(b[1] - a[1]) / length, (a[0] - b[0]) / length, 0]);
+            this.add(this.edges, [[...a, high], [...b, high]], [0, 0, 1]);
+        });
+        const corners = ring.map((p) => new THREE.Vector2(p[0], p[1]));
+        for (const face of THREE.ShapeUtils.triangulateShape(corners, [])) {
+            this.add(this.faces, face.map((i) => [ring[i][0], ring[i][1], high]), [0, 0, 1]);
+        }
+    }
+
+    /** A wall as the scene has it: solid, or a line that gets a thickness to be seen. */
+    wall({ solid, points, closed }, high) {
+        if (solid && points.length > 2) return this.block(points, high);
+        const ends = points.length - (closed ? 0 : 1);
+        for (let i = 0; i < ends; i++) {
+            const a = points[i], b = points[(i + 1) % points.length];
+            const length = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1;
+            const ux = ((b[0] - a[0]) / length) * (THIN / 2), uy = ((b[1] - a[1]) / length) * (THIN / 2);
+            this.block([[a[0] - ux - uy, a[1] - uy + ux], [a[0] - ux + uy, a[1] - uy - ux],
+                [b[0] + ux + uy, b[1] + uy - ux], [b[0] + ux - uy, b[1] + uy + ux]], high);
+        }
+    }
+
+    empty() {
+        return this.faces.position.length === 0;
+    }
+
+    /** What is drawn: the faces and their edges. `seen`: uniforms of the shader that are shared. */
+    parts(seen, colour, edge) {
+        const made = [[this.faces, colour, WALL_FRAGMENT, THREE.Mesh], [this.edges, edge, WALL_EDGE_FRAGMENT, THREE.LineSegments]];
+        return made.map(([part, ink, fragmentShader, Kind]) => {
+            const geometry = new THREE.BufferGeometry();
+            for (const [name, size] of [["position", 3], ["normal", 3], ["middle", 2], ["across", 2]]) {
+                geometry.setAttribute(name, new THREE.Float32BufferAttribute(part[name], size));
+            }
+            const node = new Kind(geometry, new THREE.ShaderMaterial({
+                uniforms: { ...seen, colour: { value: new THREE.Color(ink) } },
+                vertexShader: WALL_VERTEX, fragmentShader, side: THREE.DoubleSide,
+            }));
+            node.frustumCulled = false;
+            return node;
+        });
+    }
+}
