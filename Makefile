@@ -106,7 +106,7 @@ UNIT    := $(TESTS:tests/unit/%.c=$(B)/unit/%)
 BENCH   := $(BENCHES:tests/bench/%.c=$(B)/bench/%)
 FUZZERS := $(patsubst tests/fuzz/%.c,$(B)/fuzz/%,$(sort $(wildcard tests/fuzz/*.c)))
 
-.PHONY: reference all run test fuzz fuzzers faults unit tests-built check bench bench-record bench-peers bench-instructions arm matrix soak install uninstall clean test-all format
+.PHONY: reference all run test gallery fuzz fuzzers faults unit tests-built check bench bench-record bench-peers bench-instructions arm matrix soak install uninstall clean test-all format
 all: $(B)/jostle $(B)/libjostle.a $(B)/libjostle.so.$(VERSION)
 
 # The two commands of the README. Both first install what is missing.
@@ -120,6 +120,11 @@ test:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory all tests-built
 	@B=$(B) SHARED=$(SHARED) .ci/suite check units scenes install page
+# Pictures and clips of shipped scenes, as the live page draws them: of those that SCENES names, or all.
+gallery:
+	@.ci/setup gallery
+	@$(MAKE) --no-print-directory $(B)/jostle
+	@B=$(B) JOSTLE=$(B)/jostle /usr/bin/python3 tests/page/gallery.py build/out/gallery $(filter-out all,$(SCENES))
 test-all: test
 	JOSTLE_VIEW_CYCLES=10000 $(B)/unit/view_stream
 	@.ci/sanitizers

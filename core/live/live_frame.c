@@ -188,6 +188,7 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
                   : colour == JOX_LIVE_COLOUR_compression ? a->compression
                   : colour == JOX_LIVE_COLOUR_load        ? a->load
                   : colour == JOX_LIVE_COLOUR_density     ? a->density
+                  : colour == JOX_LIVE_COLOUR_service     ? a->density
                                                           : NULL;
     const JoxLiveHead head = {.tick = (uint32_t)world->state.tick,
                               .time = jo_world_time(world),

@@ -59,7 +59,7 @@ double jox_live_speed(const JoScene *scene);
 
 /* live_scene.c. What a live scene and a recording begin with. */
 typedef struct JoxLiveSceneHead {
-    const char *session, *title, *file;
+    const char *session, *title, *about, *file;
     double dt, duration; /* s */
     uint64_t seed;
     JoxLiveArea area;

@@ -215,6 +215,7 @@ void jox_live_add_head(const JoxLiveSceneHead *head, JoxJson *json) {
     jox_json_whole(json, "protocol", JOX_LIVE_PROTOCOL);
     jox_json_string(json, "session", head->session);
     jox_json_string(json, "title", head->title);
+    jox_json_string(json, "about", head->about ? head->about : "");
     jox_json_string(json, "file", head->file);
     jox_json_number(json, "dt", head->dt);
     jox_json_number(json, "duration", head->duration);
@@ -254,6 +255,7 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     const JoWorld *world = scene->world;
     const JoxLiveSceneHead head = {.session = "live",
                                    .title = spec->title && *spec->title ? spec->title : spec->path,
+                                   .about = spec->about,
                                    .file = spec->path,
                                    .dt = world->model.def.dt,
                                    .duration = spec->duration,

@@ -239,6 +239,7 @@ void jox_replay_frame(JoxReplay *r, JoxLiveColour colour, JoxBytes *out) {
                   : colour == JOX_LIVE_COLOUR_compression ? r->frame.compression
                   : colour == JOX_LIVE_COLOUR_load        ? r->frame.load
                   : colour == JOX_LIVE_COLOUR_density     ? fill_densities(r)
+                  : colour == JOX_LIVE_COLOUR_service     ? fill_densities(r)
                                                           : NULL;
     const JoxLiveHead head = {.tick = r->shown == JOX_REPLAY_NOBODY ? 0 : r->shown,
                               .time = r->frame.time,

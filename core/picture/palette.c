@@ -8,20 +8,14 @@ static const JoxInk CLASSES[] = {
     {0xd5, 0x5e, 0x00, 1.0f}, {0x56, 0xb4, 0xe9, 1.0f}, {0xcc, 0x79, 0xa7, 1.0f},
     {0xf0, 0xe4, 0x42, 1.0f},
 };
-enum { CLASS_COUNT = sizeof CLASSES / sizeof *CLASSES, ANCHORS = 17 };
+enum { CLASS_COUNT = sizeof CLASSES / sizeof *CLASSES, ANCHORS = 9 };
 
-/* Every sixteenth of the 256 colours of viridis (N. Smith and S. van der Walt, matplotlib 1.5,
-   2015, CC0), and the last one; straight lines between them are within 1/128 of the others. */
-static const float VIRIDIS[ANCHORS][3] = {
-    {0.267004f, 0.004874f, 0.329415f}, {0.282327f, 0.094955f, 0.417331f},
-    {0.278826f, 0.175490f, 0.483397f}, {0.258965f, 0.251537f, 0.524736f},
-    {0.229739f, 0.322361f, 0.545706f}, {0.199430f, 0.387607f, 0.554642f},
-    {0.172719f, 0.448791f, 0.557885f}, {0.149039f, 0.508051f, 0.557250f},
-    {0.127568f, 0.566949f, 0.550556f}, {0.120638f, 0.625828f, 0.533488f},
-    {0.157851f, 0.683765f, 0.501686f}, {0.246070f, 0.738910f, 0.452024f},
-    {0.369214f, 0.788888f, 0.382914f}, {0.515992f, 0.831158f, 0.294279f},
-    {0.678489f, 0.863742f, 0.189503f}, {0.845561f, 0.887322f, 0.099702f},
-    {0.993248f, 0.906157f, 0.143936f},
+/* From pale yellow for nothing to dark purple for the most: lightness falls throughout, so that the
+   ramp can be read in grey and where it is printed. The live page has the same (palette.js). */
+static const uint8_t RAMP[ANCHORS][3] = {
+    {0xfb, 0xf6, 0xd3}, {0xfd, 0xe3, 0x9a}, {0xfc, 0xc5, 0x62}, {0xf8, 0xa1, 0x40},
+    {0xee, 0x76, 0x2f}, {0xd8, 0x4a, 0x2c}, {0xb3, 0x25, 0x36}, {0x82, 0x12, 0x3f},
+    {0x4d, 0x0b, 0x3b},
 };
 
 static uint8_t level(float share) {
@@ -47,12 +41,11 @@ JoxInk jox_palette_class(uint32_t n) {
 }
 
 JoxInk jox_palette_value(float share) {
-    float at = jox_clampf(share, 0.0f, 1.0f) * 255.0f;
-    int low = (int)(at / 16.0f);
-    low = low < ANCHORS - 2 ? low : ANCHORS - 2;
-    float wide = low == ANCHORS - 2 ? 15.0f : 16.0f; /* the last stretch ends at 255 */
-    float part = (at - 16.0f * (float)low) / wide;
-    const float *a = VIRIDIS[low], *b = VIRIDIS[low + 1];
-    return (JoxInk){level(a[0] + (b[0] - a[0]) * part), level(a[1] + (b[1] - a[1]) * part),
-                    level(a[2] + (b[2] - a[2]) * part), 1.0f};
+    const float at = jox_clampf(share, 0.0f, 1.0f) * (float)(ANCHORS - 1);
+    const int low = (int)at < ANCHORS - 2 ? (int)at : ANCHORS - 2;
+    const float part = at - (float)low;
+    uint8_t mixed[3];
+    for (int c = 0; c < 3; c++)
+        mixed[c] = (uint8_t)((float)RAMP[low][c] * (1.0f - part) + (float)RAMP[low + 1][c] * part + 0.5f);
+    return (JoxInk){mixed[0], mixed[1], mixed[2], 1.0f};
 }

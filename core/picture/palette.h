@@ -14,7 +14,7 @@ typedef struct JoxInk {
    "Color Universal Design" (2008), which people with any colour vision tell apart; behind the first
    seven come lighter and darker ones of them. */
 JoxInk jox_palette_class(uint32_t n);
-/* A value, 0 to 1, in viridis: dark blue to yellow, evenly perceived, in grey too. */
+/* A value, 0 to 1: pale yellow to dark purple; lightness falls throughout, in grey too. */
 JoxInk jox_palette_value(float share);
 
 #endif

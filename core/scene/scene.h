@@ -77,6 +77,7 @@ typedef struct JoxSceneLimits {
 /* A scene's file as it was read: everything that a world is built from, as plain data. */
 typedef struct JoxSceneSpec {
     char *path, *title;
+    char *about; /* what it shows; may be empty */
     char *input; /* path of the input log, or NULL */
     uint64_t seed;
     double step, duration, gravity; /* s, s, m/s2 */

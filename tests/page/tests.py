@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 
+import sight
 from harness import JOSTLE, Session, expect, read, run_all, temporary_copy, write
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
@@ -505,7 +506,7 @@ def enlarged(browser):
     for wide, high, ratio, dark, name in ((1280, 800, 1, True, "dark"), (640, 400, 2, False, "zoom-200"), (400, 640, 2, True, "narrow")):
         browser.size(wide, high, ratio)
         browser.dark(dark)
-        for tab in ("machine", "parameters", "charts", "act", "agent"):
+        for tab in ("scene", "machine", "parameters", "charts", "act", "engine"):
             browser.find(f"#tab-{tab}").click()
             time.sleep(0.2)
             wrong = browser.run(OVERLAPS, browser.run(USABLE))
@@ -576,7 +577,7 @@ def crowd_of_35000(browser):
     expect(0 < draws <= 25, f"{draws} draw calls")
 
 
-TESTS = [loads, pauses, throws, pulls, inspects, edits, gates, reloads, plays, replays, keyboard, enlarged, reconnects, hides_its_token, crowd_of_35000]
+TESTS = [*sight.TESTS, loads, pauses, throws, pulls, inspects, edits, gates, reloads, plays, replays, keyboard, enlarged, reconnects, hides_its_token, crowd_of_35000]
 
 if __name__ == "__main__":
     sys.exit(run_all(TESTS, sys.argv[1:]))

@@ -25,6 +25,7 @@ static const char SCENE[] =
     "  yard: {polygon: [[0, 0], [20, 0], [20, 20], [0, 20]]}\n"
     "walls:\n"
     "  - {line: [[0, 10], [20, 10]], name: gate}\n"
+    "view: {tools: [gates, parameters, signals]}\n"
     "groups: {people: {behaviour: walker.lua, count: 30, fill: grid, in: yard}}\n";
 static const char WALKER[] =
     "return machine { name = \"walker\", version = 1, start = \"Stand\",\n"

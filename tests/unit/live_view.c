@@ -148,7 +148,8 @@ static void logged_push(double tick, uint32_t agent, double sum[2]) {
 static void a_push_that_is_repeated_counts_once_a_step(void **state) {
     (void)state;
     JoxText scene = {0};
-    jox_text_printf(&scene, "%sview: {tools: [push]}\n", SCENE);
+    const char *view = strstr(SCENE, "view:"), *rest = strchr(view, '\n') + 1;
+    jox_text_printf(&scene, "%.*sview: {tools: [push]}\n%s", (int)(view - SCENE), SCENE, rest);
     write_file("scene.yaml", scene.data);
     jox_text_free(&scene);
     begin(0);

@@ -17,6 +17,7 @@ import { ParametersPage } from "./panels/parameters.js";
 import { savePicture } from "./draw/picture.js";
 import { Player } from "./controls/player.js";
 import { Replay } from "./controls/replay.js";
+import { ScenePage } from "./panels/scene.js";
 import { Tools, TOOLS } from "./controls/tools.js";
 import { View } from "./draw/view.js";
 
@@ -81,7 +82,8 @@ class Page {
             this.panel.show("parameters");
             this.panel.tabs.parameters.focus();
         });
-        this.charts = new ChartsPage(pages.charts);
+        this.charts = new ChartsPage(pages.charts, pages.engine);
+        this.scenePage = new ScenePage(pages.scene, { tool: (name) => this.tool(name), show: (tab) => this.panel.show(tab) });
         this.act = new ActPage(pages.act, { connection: this.connection, player: this.player, playing: (on) => this.playing(on) });
     }
 
@@ -176,9 +178,11 @@ class Page {
         this.scene = scene;
         say(byId("title"), scene.title || scene.file || "Jostle");
         document.title = `${scene.title || scene.file || "Jostle"} – Jostle`;
-        for (const part of [this.bar, this.replay, this.view, this.overlay, this.legend, this.machine, this.parameters, this.charts, this.toolBar]) part.set(scene);
+        for (const part of [this.bar, this.replay, this.view, this.overlay, this.legend, this.machine, this.parameters, this.charts, this.scenePage, this.toolBar]) part.set(scene);
+        this.panel.offer("agent", this.slot !== null);
         this.panel.offer("act", this.act.set(scene));
         const live = scene.session !== "replay";
+        this.panel.offer("engine", live);
         this.panel.offer("machine", (scene.machines ?? []).length > 0);
         this.panel.offer("parameters", live && (scene.machines ?? []).length > 0);
         if (first || !this.toolBar.tools[this.view.tool]) this.tool("select");
@@ -195,6 +199,8 @@ class Page {
         this.legend.take(status);
         this.machine.take(status);
         this.charts.take(status);
+        this.scenePage.take(status);
+        this.parameters.take(status);
         this.act.takeGates(status.walls);
         if (this.recorded()) this.seePerson();
         if (this.view.ground.setOpen(status.walls)) this.redraw();
@@ -211,6 +217,8 @@ class Page {
         this.agentPage.take(message);
         if (!agent) {
             this.slot = this.overlay.chosen = this.overlay.forces = this.person = null;
+            this.messages.say("The person that was chosen is gone.");
+            this.panel.offer("agent", false);
         } else {
             if (this.person?.id !== agent.id) announce(byId("described"), agent);
             this.person = agent;
@@ -234,8 +242,9 @@ class Page {
         } else if (kind === 3) {
             const field = readField(buffer);
             if (field.which !== ["density", "pressure"].indexOf(this.field)) return;
-            this.view.ground.setField(field);
-            this.legend.setMost(field.most, true);
+            const scale = FIELDS[this.field].most ?? field.most;
+            this.view.ground.setField(field, scale);
+            this.legend.setMost(scale, true);
             this.redraw();
         }
     }
@@ -256,6 +265,7 @@ class Page {
         this.person = this.overlay.forces = null;
         if (this.recorded()) this.seePerson();
         else this.connection.send({ do: "inspect", slot });
+        this.panel.offer("agent", slot !== null);
         if (slot === null) this.agentPage.none();
         else if (this.view.tool === "select") this.panel.show("agent");
         if (slot === null) this.follow(false);

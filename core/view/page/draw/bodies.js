@@ -1,9 +1,10 @@
-// Bodies: all parts of all bodies in one mesh and one draw call; their poses are a texture.
+// Bodies: all parts of all bodies in one mesh, their edges in another; their poses are a texture.
 import * as THREE from "/three/build/three.module.js";
 import { ConvexBufferGeometry } from "/three/examples/jsm/geometries/ConvexGeometry.js";
 import { readPoses } from "../net/crowd.js";
-import { BODY_FRAGMENT, BODY_VERTEX } from "./shaders.js";
+import { BODY_EDGE_FRAGMENT, BODY_FRAGMENT, BODY_VERTEX } from "./shaders.js";
 
+const EDGE = 30; // degrees between faces, from which their edge is drawn
 const ROW = 1024; // texels of the texture's rows: 256 bodies
 // Wood, cloth, metal and such, told apart by their lightness too.
 const TINTS = [0xb08a5b, 0x8fa3ad, 0xc9b79c, 0x7d8a6a, 0x9c6b5a, 0xd8cfc0];
@@ -40,6 +41,9 @@ export class Bodies {
         this.material = new THREE.RawShaderMaterial({
             uniforms: this.uniforms, vertexShader: BODY_VERTEX, fragmentShader: BODY_FRAGMENT, side: THREE.DoubleSide,
         });
+        this.edgeMaterial = new THREE.RawShaderMaterial({
+            uniforms: this.uniforms, vertexShader: BODY_VERTEX, fragmentShader: BODY_EDGE_FRAGMENT,
+        });
         this.group = new THREE.Group();
         this.radii = []; // m, of a sphere around each body
         this.names = [];
@@ -57,31 +61,34 @@ export class Bodies {
         if (list.length === 0) return;
         const parts = list.map((body) => body.parts.map(makePart));
         const kinds = [...new Set(list.map(kindOf))];
+        const tints = list.map((body) => new THREE.Color(TINTS[kinds.indexOf(kindOf(body)) % TINTS.length]));
+        this.radii = parts.map((geometries) => Math.max(0, ...geometries.map(reachOf)));
+        const edges = parts.map((geometries) => geometries.map((g) => new THREE.EdgesGeometry(g, EDGE)));
+        this.group.add(this.made(parts, tints, this.material, THREE.Mesh), this.made(edges, tints, this.edgeMaterial, THREE.LineSegments));
+        this.makeTexture(list.length);
+    }
+
+    /** One mesh of the parts of all bodies, whose geometries are let go. */
+    made(parts, tints, material, Kind) {
         const total = parts.flat().reduce((n, g) => n + g.attributes.position.count, 0);
         const position = new Float32Array(3 * total), normal = new Float32Array(3 * total), tint = new Float32Array(4 * total);
         let at = 0;
         parts.forEach((geometries, row) => {
-            const colour = new THREE.Color(TINTS[kinds.indexOf(kindOf(list[row])) % TINTS.length]);
-            let reach = 0;
+            const { r, g: green, b } = tints[row];
             for (const g of geometries) {
                 position.set(g.attributes.position.array, 3 * at);
-                normal.set(g.attributes.normal.array, 3 * at);
-                for (let i = 0; i < g.attributes.position.count; i++, at++) {
-                    tint.set([colour.r, colour.g, colour.b, row], 4 * at);
-                    reach = Math.max(reach, Math.hypot(...position.subarray(3 * at, 3 * at + 3)));
-                }
+                if (g.attributes.normal) normal.set(g.attributes.normal.array, 3 * at);
+                for (let i = 0; i < g.attributes.position.count; i++, at++) tint.set([r, green, b, row], 4 * at);
                 g.dispose?.();
             }
-            this.radii.push(reach);
         });
         const geometry = new THREE.BufferGeometry();
         geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
         geometry.setAttribute("normal", new THREE.BufferAttribute(normal, 3));
         geometry.setAttribute("tint", new THREE.BufferAttribute(tint, 4));
-        const mesh = new THREE.Mesh(geometry, this.material);
+        const mesh = new Kind(geometry, material);
         mesh.frustumCulled = false;
-        this.group.add(mesh);
-        this.makeTexture(list.length);
+        return mesh;
     }
 
     makeTexture(count) {
@@ -109,6 +116,14 @@ export class Bodies {
         }
         this.uniforms.poses.value.needsUpdate = true;
     }
+}
+
+/** How far a geometry reaches from its body's origin, m. */
+function reachOf(geometry) {
+    const p = geometry.attributes.position;
+    let most = 0;
+    for (let i = 0; i < p.count; i++) most = Math.max(most, Math.hypot(p.getX(i), p.getY(i), p.getZ(i)));
+    return most;
 }
 
 /** The kind of a body: "desk" of "desk-1"; bodies of one kind look alike. */

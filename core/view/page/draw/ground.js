@@ -41,8 +41,8 @@ export class Ground {
         this.group = new THREE.Group();
         this.uniforms = {
             base: { value: new THREE.Color() }, line: { value: new THREE.Color() }, spacing: { value: 1 },
-            field: { value: null }, ramp: { value: texture(table("heat"), 256, 1, THREE.RGBAFormat) },
-            cover: { value: new THREE.Vector4() },
+            field: { value: null }, ramp: { value: texture(table("value"), 256, 1, THREE.RGBAFormat) },
+            cover: { value: new THREE.Vector4() }, gain: { value: 1 },
         };
         // What the walls are seen from, and the box of the floor that they must not hide, m.
         this.seen = { eye: { value: new THREE.Vector3() }, keep: { value: new THREE.Vector4() }, lowered: { value: 1 } };
@@ -147,8 +147,8 @@ export class Ground {
         this.gateParts = null;
     }
 
-    /** Shows a field over the floor; null hides it. */
-    setField(field) {
+    /** Shows a field over the floor, `scale` at the end of the ramp; null hides it. */
+    setField(field, scale) {
         if (!field) return this.uniforms.cover.value.set(0, 0, 0, 0);
         const old = this.uniforms.field.value;
         if (old && old.image.width === field.columns && old.image.height === field.rows) {
@@ -158,6 +158,7 @@ export class Ground {
             old?.dispose();
             this.uniforms.field.value = texture(field.cells, field.columns, field.rows, THREE.LuminanceFormat);
         }
+        this.uniforms.gain.value = field.most / scale;
         this.uniforms.cover.value.set(field.x0, field.y0, field.columns * field.cell, field.rows * field.cell);
         return undefined;
     }

@@ -1,9 +1,16 @@
 // Colours. Classes: Okabe and Ito (2008), which people with any colour vision tell apart, then the
-// same lighter and darker: those of palette.c, so that a group looks alike in pictures. Values: a ramp like viridis, whose lightness grows throughout.
+// same lighter and darker: those of palette.c, so that a group looks alike in pictures. Values: pale
+// for nothing to dark for the most, as in palette.c, one ramp for people and floor.
 
 const CLASSES = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#56b4e9", "#cc79a7", "#f0e442"];
-const RAMP = ["#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c", "#28ae80", "#5ec962", "#addc30", "#fde725"];
-const HEAT = ["#1b1044", "#51127c", "#8c2981", "#b73779", "#de4968", "#f7705c", "#fe9f6d", "#fecf92", "#fcfdbf"];
+const RAMP = ["#fbf6d3", "#fde39a", "#fcc562", "#f8a140", "#ee762f", "#d84a2c", "#b32536", "#82123f", "#4d0b3b"];
+// Of what is no danger: the speed of people.
+const CALM = ["#f6f5dc", "#d3e8cf", "#a3d6cf", "#6bbdcf", "#3c9cc4", "#2577ad", "#1a528b", "#142f63"];
+// Ways that people go, from east by north: hues around the circle, whose lightness differs, too.
+const WAYS = ["#d55e00", "#f0b942", "#7fb842", "#1c9e77", "#37a6dd", "#2c5fb8", "#7b4aa8", "#c0508f"];
+
+/** Levels of service of walkways, people per m2 up to which each holds (Fruin 1971). */
+export const SERVICE = [["A", 0.31], ["B", 0.43], ["C", 0.72], ["D", 1.08], ["E", 2.17], ["F", Infinity]];
 
 function channels(hex) {
     return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
@@ -18,10 +25,24 @@ export function classColour(index) {
     return base.map((c) => Math.round(c + 0.45 * (towards - c)));
 }
 
-/** sRGB of a share of the most, 0 to 1. */
-export function valueColour(share, heat = false) {
-    const stops = heat ? HEAT : RAMP;
-    const at = Math.max(0, Math.min(1, share)) * (stops.length - 1);
+/** sRGB of a share of the most, 0 to 1; `calm`: of what is no danger. */
+export function valueColour(share, calm = false) {
+    const stops = calm ? CALM : RAMP;
+    return between(stops, Math.max(0, Math.min(1, share)) * (stops.length - 1));
+}
+
+/** sRGB of a way, in turns from the east, counter-clockwise. */
+export function wayColour(turn) {
+    return between([...WAYS, WAYS[0]], (turn - Math.floor(turn)) * WAYS.length);
+}
+
+/** sRGB of level of service `index` of SERVICE. */
+export function serviceColour(index) {
+    return valueColour([0, 0.15, 0.32, 0.5, 0.7, 0.92][index]);
+}
+
+/** sRGB at `at` of a list of colours: at 1.5, half of the second and half of the third. */
+function between(stops, at) {
     const i = Math.min(stops.length - 2, Math.floor(at));
     const a = channels(stops[i]), b = channels(stops[i + 1]);
     return a.map((c, k) => Math.round(c + (at - i) * (b[k] - c)));
@@ -31,13 +52,19 @@ export function css([r, g, b]) {
     return `rgb(${r} ${g} ${b})`;
 }
 
-/** 256 RGBA texels: of classes, or of values. */
-export function table(kind) {
+/** What the texel `i` of 256 of a table is: of classes, values, ways, or levels of service up to `most`. */
+const TEXELS = {
+    class: (i) => classColour(i),
+    value: (i) => valueColour(i / 255),
+    calm: (i) => valueColour(i / 255, true),
+    way: (i) => wayColour(i / 256),
+    service: (i, most) => serviceColour(SERVICE.findIndex(([, up]) => (i / 255) * most < up)),
+};
+
+/** 256 RGBA texels. */
+export function table(kind, most = 0) {
     const out = new Uint8Array(4 * 256);
-    for (let i = 0; i < 256; i++) {
-        const rgb = kind === "class" ? classColour(i) : valueColour(i / 255, kind === "heat");
-        out.set([...rgb, 255], 4 * i);
-    }
+    for (let i = 0; i < 256; i++) out.set([...TEXELS[kind](i, most), 255], 4 * i);
     return out;
 }
 
@@ -45,11 +72,14 @@ export function table(kind) {
 export const COLOURS = {
     state: { name: "state", classes: true },
     group: { name: "group", classes: true },
-    speed: { name: "speed", unit: "m/s" },
+    speed: { name: "speed", unit: "m/s", table: "calm" },
     force: { name: "net force", unit: "N" },
     compression: { name: "compression", unit: "N/m" },
     load: { name: "load from one side", unit: "N" },
     density: { name: "density", unit: "1/m²" },
+    service: { name: "level of service", unit: "1/m²", most: 8, table: "service", classes: true,
+        names: SERVICE.map(([level, up], i) => (up === Infinity ? `${level} over ${SERVICE[i - 1][1]}` : `${level} to ${up}`)) },
+    direction: { name: "way they go", table: "way", classes: true, names: ["east", "north", "west", "south"] },
     failed: { name: "solved programs", classes: true, names: ["solved", "no velocity satisfies all"], at: [4, 3] },
 };
 
@@ -60,6 +90,6 @@ export function unitText(unit) {
 
 export const FIELDS = {
     none: { name: "none" },
-    density: { name: "density", unit: "1/m²" },
+    density: { name: "density", unit: "1/m²", most: 8 },
     pressure: { name: "crowd pressure, where measured", unit: "1/s²" },
 };

@@ -1,23 +1,25 @@
-// People: everyone as a point, those near the eye as figures. Two draw calls for any number.
+// People: everyone as a point, those near the eye as figures, and the shade around their feet. Three
+// draw calls for any number.
 import * as THREE from "/three/build/three.module.js";
 import { NOBODY } from "../net/crowd.js";
 import { makeFigure } from "./figure.js";
-import { FIGURE_FRAGMENT, FIGURE_VERTEX, POINT_FRAGMENT, POINT_VERTEX } from "./shaders.js";
+import { FIGURE_FRAGMENT, FIGURE_VERTEX, POINT_FRAGMENT, POINT_VERTEX, SHADE_FRAGMENT, SHADE_VERTEX } from "./shaders.js";
 
 const FIGURES = 4608; // at most; a little more than are chosen, for the margin
 const MARGIN = 0.4; // m: who stands there is drawn as both, so that nobody is missing while they slide
 const RINGS = 128; // around the eye, of equal area
-const FIGURE_PIXELS = 16; // who is taller on the screen is worth a figure
+const FIGURE_PIXELS = 20; // who is taller on the screen is worth a figure
 
 export class People {
-    constructor() {
+    /** `most`: how many may be figures. */
+    constructor(most) {
         this.uniforms = {
             mapA: { value: new THREE.Vector4() }, mapB: { value: new THREE.Vector4() },
             share: { value: 1 }, swapped: { value: 0 }, classes: { value: 1 },
             colours: { value: null }, pixels: { value: 1 }, tall: { value: 0 },
-            nearer: { value: 0 }, eye: { value: new THREE.Vector3() },
+            nearer: { value: 0 }, eye: { value: new THREE.Vector3() }, passed: { value: 1 }, clock: { value: 0 },
         };
-        this.most = 4096; // fewer where drawing is slow
+        this.most = most; // fewer where drawing is slow
         this.capacity = 0;
         this.counts = new Uint32Array(RINGS);
         this.newest = 1; // of the two buffers
@@ -27,15 +29,15 @@ export class People {
         this.grow(1024);
     }
 
-    material(vertexShader, fragmentShader) {
-        return new THREE.RawShaderMaterial({ uniforms: this.uniforms, vertexShader, fragmentShader });
+    material(vertexShader, fragmentShader, more = {}) {
+        return new THREE.RawShaderMaterial({ uniforms: this.uniforms, vertexShader, fragmentShader, ...more });
     }
 
     /** Buffers for so many slots; what they held is written again by the next frame. */
     grow(slots) {
         while (this.capacity < slots) this.capacity = Math.max(1024, 2 * this.capacity);
         if (this.points) {
-            this.group.remove(this.points);
+            this.group.remove(this.points, this.shades);
             this.points.geometry.dispose();
         }
         const empty = () => new Uint8Array(8 * this.capacity).fill(NOBODY);
@@ -44,12 +46,19 @@ export class People {
         const geometry = new THREE.BufferGeometry();
         setRecords(geometry, this.buffers);
         geometry.setAttribute("person", this.persons);
+        this.looks = Uint8Array.from({ length: this.capacity }, (_, slot) => lookOf(slot));
+        geometry.setAttribute("look", new THREE.BufferAttribute(this.looks, 1));
         for (const buffer of this.buffers) buffer.setUsage(THREE.DynamicDrawUsage);
         this.points = new THREE.Points(geometry, this.pointMaterial ??= this.material(POINT_VERTEX, POINT_FRAGMENT));
         this.points.frustumCulled = false;
         this.created = false; // on the card; until then what comes is copied into arrays of full size
         this.points.onAfterRender = () => (this.created = true);
-        this.group.add(this.points);
+        this.shades = new THREE.Points(geometry, this.shadeMaterial ??= this.material(SHADE_VERTEX, SHADE_FRAGMENT, {
+            transparent: true, depthWrite: false,
+        }));
+        this.shades.frustumCulled = false;
+        this.shades.renderOrder = -0.5; // over the floor, under all that stands on it
+        this.group.add(this.shades, this.points);
         this.personVersion = -1;
     }
 
@@ -59,10 +68,13 @@ export class People {
         geometry.setIndex(new THREE.BufferAttribute(figure.index, 1));
         geometry.setAttribute("corner", new THREE.BufferAttribute(figure.corner, 3));
         geometry.setAttribute("normal", new THREE.BufferAttribute(figure.normal, 3));
+        geometry.setAttribute("swing", new THREE.BufferAttribute(figure.swing, 3));
         this.near = [0, 1].map(() => new THREE.InstancedInterleavedBuffer(new Uint8Array(8 * FIGURES), 8));
         this.nearPersons = new THREE.InstancedBufferAttribute(new Uint8Array(2 * FIGURES), 2);
         setRecords(geometry, this.near);
         geometry.setAttribute("person", this.nearPersons);
+        this.nearLooks = new THREE.InstancedBufferAttribute(new Uint8Array(FIGURES), 1);
+        geometry.setAttribute("look", this.nearLooks);
         for (const buffer of this.near) buffer.setUsage(THREE.DynamicDrawUsage);
         this.figures = new THREE.Mesh(geometry, this.material(FIGURE_VERTEX, FIGURE_FRAGMENT));
         this.figures.frustumCulled = false;
@@ -78,6 +90,7 @@ export class People {
         }
         if (kind === "new") this.newest = 1 - this.newest;
         this.write(this.newest, frame);
+        this.uniforms.passed.value = Math.max(1e-3, frame.time - crowd.previous.time);
         this.uniforms.swapped.value = this.newest === 0 ? 1 : 0;
         this.points.geometry.setDrawRange(0, frame.slots);
         this.uploadPersons(crowd);
@@ -108,8 +121,8 @@ export class People {
         this.figures.geometry.maxInstancedCount = count;
         this.figures.visible = count > 0 && frame !== null;
         u.nearer.value = count > 0 ? reach : 0;
-        for (const buffer of [...this.near, this.nearPersons]) {
-            buffer.updateRange.count = buffer === this.nearPersons ? 2 * count : 8 * count;
+        for (const [buffer, size] of [[this.near[0], 8], [this.near[1], 8], [this.nearPersons, 2], [this.nearLooks, 1]]) {
+            buffer.updateRange.count = size * count;
             if (count > 0) buffer.needsUpdate = true;
         }
     }
@@ -136,7 +149,7 @@ export class People {
         const b = crowd.next, a = crowd.previous, person = crowd.person;
         const { words, bytes, x0, y0, sx, sy } = b;
         const newer = this.near[this.newest].array, older = this.near[1 - this.newest].array;
-        const persons = this.nearPersons.array;
+        const persons = this.nearPersons.array, looks = this.nearLooks.array;
         const rise = eye.z - 0.85, flat = (reach + MARGIN) ** 2 - rise * rise;
         let count = 0;
         for (let slot = 0, w = 0; slot < b.slots && count < FIGURES; slot++, w += 4) {
@@ -149,10 +162,16 @@ export class People {
             }
             persons[2 * count] = person[2 * slot];
             persons[2 * count + 1] = person[2 * slot + 1];
+            looks[count] = this.looks[slot];
             count++;
         }
         return count;
     }
+}
+
+/** 0 to 255: how the person of a slot differs from others, the same in every picture. */
+function lookOf(slot) {
+    return (Math.imul(slot + 1, 0x9e3779b1) >>> 24) & 255;
 }
 
 function setRecords(geometry, [a, b]) {

@@ -9,13 +9,15 @@ attribute vec4 infoA;      // heading, state, value, flags
 attribute vec4 placeB;
 attribute vec4 infoB;
 attribute vec2 person;     // radius in cm, group
+attribute float look;      // 0 to 255: how this one differs from others
 uniform vec4 mapA, mapB;   // x0, y0, sx, sy, in m
 uniform float share, swapped;
-uniform float classes;     // 0: by value, 1: by state, 2: by group, 3: by whether the program failed
+uniform float passed;      // s between the frames
+uniform float classes;     // 0: by value, 1: by state, 2: by group, 3: whether the program failed, 4: by heading
 uniform mat4 viewMatrix, projectionMatrix;
 const float TURN = 6.28318530718;
 
-struct Person { vec2 at; vec2 ahead; float radius; float colour; float flags; bool here; };
+struct Person { vec2 at; vec2 ahead; float radius; float colour; float flags; float speed; bool here; };
 
 vec2 place(vec4 b, vec4 map) { return map.xy + map.zw * vec2(b.x + 256.0 * b.y, b.z + 256.0 * b.w); }
 
@@ -26,7 +28,8 @@ Person decode() {
     vec2 after = late ? place(position, mapA) : place(placeB, mapB);
     float t = share;
     // A slot that got another person, or was empty, does not slide.
-    if (oldInfo.y > 254.5 || mod(oldInfo.w, 2.0) != mod(info.w, 2.0)) t = 1.0;
+    bool another = oldInfo.y > 254.5 || mod(oldInfo.w, 2.0) != mod(info.w, 2.0);
+    if (another) t = 1.0;
     float from = oldInfo.x / 256.0, to = info.x / 256.0;
     float turn = (from + t * (mod(to - from + 1.5, 1.0) - 0.5)) * TURN;
     Person p;
@@ -35,11 +38,24 @@ Person decode() {
     p.radius = max(person.x, 5.0) / 100.0;
     float failed = mod(floor(info.w / 2.0), 2.0);
     p.colour = ((classes < 0.5 ? info.z : classes < 1.5 ? info.y : classes < 2.5 ? person.y
-        : 4.0 - failed) + 0.5) / 256.0;
+        : classes < 3.5 ? 4.0 - failed : floor(256.0 * fract(turn / TURN + 1.0))) + 0.5) / 256.0;
     p.flags = info.w;
+    p.speed = another ? 0.0 : min(length(after - before) / passed, 8.0);
     p.here = info.y < 254.5;
     return p;
 }
+`;
+
+/** How individuals differ: their clothes' lightness, where colours are classes, and their skin and hair. */
+const LOOKS = `
+vec3 clothes(vec3 colour, float look, float classes) {
+    return colour * (classes > 0.5 ? 0.84 + 0.3 * look : 0.96 + 0.08 * look);
+}
+vec3 skin(float look) {
+    float k = fract(look * 7.3);
+    return k < 0.5 ? mix(vec3(0.36, 0.23, 0.16), vec3(0.66, 0.46, 0.33), 2.0 * k) : mix(vec3(0.66, 0.46, 0.33), vec3(0.93, 0.76, 0.62), 2.0 * k - 1.0);
+}
+vec3 hair(float look) { return mix(vec3(0.07, 0.06, 0.06), vec3(0.34, 0.24, 0.17), pow(fract(look * 13.7), 2.0)); }
 `;
 
 /** Everyone as one point: a disc from above, an upright capsule from the side. */
@@ -49,7 +65,7 @@ uniform float tall;        // share of a height that is seen: cosine of the eye'
 uniform float nearer;      // m: figures stand for those who are nearer to the eye
 uniform vec3 eye;
 varying vec4 paint;        // radius and half of the spine in pixels, colour, flags
-varying vec2 nose;
+varying vec3 nose;         // where it looks on the screen, and its look
 const float HEIGHT = 1.7;
 void main() {
     Person p = decode();
@@ -60,7 +76,7 @@ void main() {
     float spine = max(0.0, 0.5 * HEIGHT * tall * metre - r);
     paint = vec4(r, spine, p.colour, p.flags);
     vec2 seen = (viewMatrix * vec4(p.ahead, 0.0, 0.0)).xy;
-    nose = vec2(seen.x, -seen.y);
+    nose = vec3(seen.x, -seen.y, look / 255.0);
     gl_PointSize = 2.0 * (r + spine);
     if (!p.here || distance(middle, eye) < nearer) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }`;
@@ -68,46 +84,87 @@ void main() {
 export const POINT_FRAGMENT = `
 precision highp float;
 uniform sampler2D colours;
-uniform float tall;
+uniform float tall, classes;
 varying vec4 paint;
-varying vec2 nose;
+varying vec3 nose;
+` + LOOKS + `
 void main() {
     float r = paint.x, spine = paint.y;
-    vec3 colour = texture2D(colours, vec2(paint.z, 0.5)).rgb;
+    vec3 colour = clothes(texture2D(colours, vec2(paint.z, 0.5)).rgb, nose.z, classes);
     if (r > 1.2) {
         // A body, and over it a head; from above the head is in the middle of the shoulders.
         vec2 at = (gl_PointCoord - 0.5) * 2.0 * (r + spine);
         float shoulder = max(0.0, spine - 0.8 * r);
         float body = length(vec2(at.x, at.y - clamp(at.y, -shoulder, spine))) / r;
-        vec2 middle = vec2(0.0, -(spine + 0.45 * r * tall));
-        float head = distance(at, middle) / (0.55 * r);
+        vec2 middle = vec2(0.0, -(spine + 0.4 * r * tall));
+        float head = distance(at, middle) / (0.5 * r);
         if (body > 1.0 && head > 1.0) discard;
-        float d = head < 1.0 ? head : body;
-        colour *= (head < 1.0 ? 1.05 : 0.95) - 0.3 * d * d;
+        vec3 top = hair(nose.z);
         bool seen = tall < 0.4 || nose.y > 0.0;
-        if (r > 4.0 && seen && distance(at, middle + nose * 0.3 * r) < 0.3 * r) colour *= 0.35;
+        if (seen && distance(at, middle + nose.xy * 0.3 * r) < 0.36 * r) top = skin(nose.z);
+        float d = min(head < 1.0 ? head : body, 1.0);
+        colour = head < 1.0 ? mix(colour, top, 0.85) : colour * (0.78 + 0.22 * smoothstep(spine, -shoulder, at.y));
+        colour *= 1.02 - 0.26 * d * d;
         if (mod(floor(paint.w / 4.0), 2.0) > 0.5 && head >= 1.0 && body > 0.75) colour = vec3(1.0);
     }
     gl_FragColor = vec4(colour, 1.0);
 }`;
 
-/** Those near the eye as figures that look where they go. */
+/** The shade that people cast around their feet. */
+export const SHADE_VERTEX = RECORDS + `
+uniform float pixels;
+varying float dark;
+void main() {
+    Person p = decode();
+    gl_Position = projectionMatrix * viewMatrix * vec4(p.at, 0.01, 1.0);
+    float r = 1.7 * p.radius * pixels / gl_Position.w;
+    gl_PointSize = 2.0 * r;
+    dark = 0.42 * smoothstep(1.5, 5.0, r);
+    if (!p.here || r < 1.5) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+}`;
+
+export const SHADE_FRAGMENT = `
+precision highp float;
+uniform float tall;        // as of points: sqrt(1 - tall^2) is how much a disc on the floor is flattened
+varying float dark;
+void main() {
+    vec2 at = (gl_PointCoord - 0.5) * 2.0;
+    float d = length(vec2(at.x, at.y / max(0.12, sqrt(1.0 - tall * tall))));
+    if (d > 1.0) discard;
+    gl_FragColor = vec4(0.05, 0.06, 0.09, dark * (1.0 - d) * (1.0 - 0.3 * d));
+}`;
+
+/** Those near the eye as figures that look where they go, and step the faster the faster they go. */
 export const FIGURE_VERTEX = RECORDS + `
 attribute vec3 corner;     // of a figure 1 m high and 1 m wide, looking along +x
 attribute vec3 normal;
+attribute vec3 swing;      // of a limb: which way, around which height; and which part it is
+uniform float clock;       // s
 varying vec3 facing, where;
-varying float shade, marks;
+varying float shade, marks, self, limb;
+const float CADENCE = 0.95; // strides of two steps a second
 void main() {
     Person p = decode();
-    float high = 1.7 * clamp(sqrt(p.radius / 0.2), 0.6, 1.15);
+    float own = look / 255.0;
+    float high = 1.7 * clamp(sqrt(p.radius / 0.2), 0.6, 1.15) * (0.95 + 0.1 * fract(own * 5.1));
     vec3 scale = vec3(2.0 * p.radius, 2.0 * p.radius, high);
     vec3 c = corner * scale, n = normal / scale;
+    float wide = min(0.5, 0.34 * p.speed) * smoothstep(0.05, 0.3, p.speed);
+    float turn = wide * swing.x * sin(TURN * (CADENCE * (0.9 + 0.2 * own) * clock * max(1.0, 0.75 * p.speed) + own));
+    if (swing.x != 0.0) {
+        float down = swing.y * high - c.z;
+        c.x += down * sin(turn);
+        c.z += down * (1.0 - cos(turn));
+    }
+    c.x += 0.05 * min(p.speed, 3.0) * c.z * c.z / high; // who runs leans forward
     vec2 ahead = p.ahead, left = vec2(-ahead.y, ahead.x);
     vec3 at = vec3(p.at + ahead * c.x + left * c.y, c.z);
     facing = normalize(vec3(ahead * n.x + left * n.y, n.z));
     where = corner;
     shade = p.colour;
     marks = p.flags;
+    self = own;
+    limb = swing.z;
     gl_Position = projectionMatrix * viewMatrix * vec4(at, 1.0);
     if (!p.here) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }`;
@@ -115,15 +172,20 @@ void main() {
 export const FIGURE_FRAGMENT = `
 precision highp float;
 uniform sampler2D colours;
+uniform float classes;
 varying vec3 facing, where;
-varying float shade, marks;
+varying float shade, marks, self, limb;
+` + LOOKS + `
 void main() {
-    vec3 colour = texture2D(colours, vec2(shade, 0.5)).rgb;
-    if (where.z > 0.88 && where.z < 0.96 && where.x > 0.14) colour *= 0.45; // the face
-    if (mod(floor(marks / 4.0), 2.0) > 0.5 && where.z < 0.12) colour = vec3(1.0);
+    vec3 own = clothes(texture2D(colours, vec2(shade, 0.5)).rgb, self, classes), colour = own;
+    bool head = limb > 2.5, leg = limb > 0.5 && limb < 1.5, arm = limb > 1.5 && limb < 2.5;
+    if (head) colour = where.z > 0.955 || where.x < -0.05 ? hair(self) : skin(self);
+    if (arm && where.z < 0.47) colour = skin(self);
+    if (leg) colour = where.z < 0.045 ? vec3(0.12) : mix(own * 0.62, vec3(0.2, 0.21, 0.25), 0.3);
+    if (mod(floor(marks / 4.0), 2.0) > 0.5 && leg) colour = vec3(1.0);
     vec3 n = normalize(facing);
-    float light = 0.62 + 0.22 * n.z + 0.3 * max(0.0, dot(n, vec3(0.45, -0.55, 0.7)));
-    gl_FragColor = vec4(colour * min(light, 1.12) * (0.8 + 0.2 * smoothstep(0.0, 0.5, where.z)), 1.0);
+    float light = 0.66 + 0.2 * n.z + 0.32 * max(0.0, dot(n, vec3(0.45, -0.55, 0.7)));
+    gl_FragColor = vec4(colour * min(light, 1.14) * (0.72 + 0.28 * smoothstep(0.0, 0.55, where.z)), 1.0);
 }`;
 
 /** Bodies: all parts of all of them in one mesh, whose vertices know the row of their body. */
@@ -152,6 +214,12 @@ void main() {
     colour = abs(tint.w - chosen) < 0.5 ? vec3(1.0, 0.85, 0.3) : tint.rgb;
     gl_Position = projectionMatrix * viewMatrix * vec4(p, 1.0);
 }`;
+
+/** The edges of bodies, by the same vertices. */
+export const BODY_EDGE_FRAGMENT = `
+precision highp float;
+varying vec3 facing, colour;
+void main() { gl_FragColor = vec4(colour * 0.45, 1.0); }`;
 
 export const BODY_FRAGMENT = `
 precision highp float;
@@ -207,6 +275,7 @@ uniform vec3 base, line;
 uniform float spacing;     // m between thin lines; every fifth is thicker
 uniform sampler2D field, ramp;
 uniform vec4 cover;        // x0, y0, width, height of the field, m; width 0: none
+uniform float gain;        // of the field's values, so that one scale serves people and floor
 varying vec2 ground;
 float lines(float every, float wide) {
     vec2 at = ground / every;
@@ -218,8 +287,8 @@ void main() {
     if (cover.z > 0.0) {
         vec2 at = (ground - cover.xy) / cover.zw;
         if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)))) {
-            float v = texture2D(field, at).r;
-            if (v > 0.004) colour = mix(colour, texture2D(ramp, vec2(v, 0.5)).rgb, min(1.0, 0.35 + 4.0 * v));
+            float v = gain * texture2D(field, at).r;
+            if (v > 0.004) colour = mix(colour, texture2D(ramp, vec2(v, 0.5)).rgb, min(1.0, 0.2 + 3.0 * v));
         }
     }
     gl_FragColor = vec4(colour, 1.0);

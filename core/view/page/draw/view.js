@@ -4,10 +4,11 @@ import * as THREE from "/three/build/three.module.js";
 import { Bodies } from "./bodies.js";
 import { fitBox, sceneBox } from "./camera.js";
 import { Ground } from "./ground.js";
-import { table } from "./palette.js";
+import { COLOURS, table } from "./palette.js";
 import { People } from "./people.js";
 
 const FIELD_OF_VIEW = 34; // degrees
+const LEAST_FIGURES = 500, MOST_FIGURES = 4096; // people drawn as figures
 const SLOW = 60; // ms a picture: then fewer figures are drawn
 
 export class View {
@@ -16,7 +17,7 @@ export class View {
         this.crowd = crowd;
         this.renderer = makeRenderer(canvas);
         this.scene = new THREE.Scene();
-        this.people = new People();
+        this.people = new People(this.renderer.slow ? LEAST_FIGURES : MOST_FIGURES);
         this.bodies = new Bodies();
         this.ground = new Ground();
         this.scene.add(this.ground.group, this.people.group, this.bodies.group);
@@ -30,8 +31,7 @@ export class View {
         this.slide.enableRotate = false;
         this.top = false;
         this.tool = "select";
-        this.classTable = smallTexture(table("class"));
-        this.valueTable = smallTexture(table("value"));
+        this.tables = {};
         this.colourBy("state");
         this.dirty = true;
         this.slow = 0;
@@ -167,9 +167,10 @@ export class View {
 
     /** By what people are coloured: one of palette.js. */
     colourBy(by) {
-        const u = this.people.uniforms;
-        u.classes.value = { state: 1, group: 2, failed: 3 }[by] ?? 0;
-        u.colours.value = u.classes.value ? this.classTable : this.valueTable;
+        const u = this.people.uniforms, colour = COLOURS[by];
+        u.classes.value = { state: 1, group: 2, failed: 3, direction: 4 }[by] ?? 0;
+        const kind = colour.table ?? (colour.classes ? "class" : "value");
+        u.colours.value = this.tables[kind] ??= smallTexture(table(kind, colour.most));
         this.dirty = true;
     }
 
@@ -224,7 +225,8 @@ export class View {
         camera.updateMatrixWorld();
         this.ground.seenFrom(camera.position, this.top);
         if (this.crowd.next) {
-            const pixels = this.pixelsOfMetre();
+            const pixels = this.pixelsOfMetre(), { previous, next } = this.crowd;
+            this.people.uniforms.clock.value = (next.time - (1 - share) * (next.time - previous.time)) % 1000;
             this.people.uniforms.pixels.value = pixels;
             const look = camera.getWorldDirection(new THREE.Vector3());
             this.people.uniforms.tall.value = Math.sqrt(Math.max(0, 1 - look.z * look.z));
@@ -240,8 +242,8 @@ export class View {
         const took = now - (drawn ?? now);
         if (took <= 0 || took > 500) return;
         this.slow += 0.1 * (took - this.slow);
-        if (this.slow > SLOW) this.people.most = Math.max(800, Math.floor(0.9 * this.people.most));
-        else if (this.slow < 25) this.people.most = Math.min(4096, Math.ceil(1.02 * this.people.most));
+        if (this.slow > SLOW) this.people.most = Math.max(LEAST_FIGURES, Math.floor(0.9 * this.people.most));
+        else if (this.slow < 25) this.people.most = Math.min(MOST_FIGURES, Math.ceil(1.02 * this.people.most));
     }
 
     /** CSS pixels of a point (m): [x, y, depth]; null behind the eye. */
@@ -274,10 +276,12 @@ function drawsSlowly() {
 }
 
 function makeRenderer(canvas) {
-    const wanted = { antialias: !drawsSlowly(), alpha: false, powerPreference: "high-performance" };
+    const slow = drawsSlowly();
+    const wanted = { antialias: !slow, alpha: false, powerPreference: "high-performance" };
     const context = canvas.getContext("webgl2", wanted) || canvas.getContext("webgl", wanted);
     if (!context) throw new Error("This browser shows no 3-D graphics (WebGL). Turn on hardware acceleration, or try another browser.");
     const renderer = new THREE.WebGLRenderer({ canvas, context });
+    renderer.slow = slow;
     context.getExtension("OES_texture_float");
     return renderer;
 }

@@ -51,8 +51,8 @@ export class AgentPage {
         ]));
         this.failed.hidden = !message.failed;
         fill(this.last, message.last ? [
-            el("p", {}, el("strong", {}, message.last.from ? `${message.last.from} → ${message.last.to}` : `began as ${message.last.to}`),
-                ` at ${clock(message.last.time)}`),
+            el("p", {}, el("strong", {}, message.last.from ? `${message.last.from} → ${message.last.to} at ${clock(message.last.time)}` : `In ${message.last.to} since ${clock(message.last.time)}`),
+                message.last.from ? null : ", which was before it was looked at"),
             message.last.why ? el("code", { className: "code" }, message.last.why) : null,
         ] : el("p", { className: "faint" }, "None since it is looked at."));
         drawVelocities(this.picture, message);

@@ -55,8 +55,10 @@ export class Series {
 }
 
 export class ChartsPage {
-    constructor(node) {
+    /** `engine`: the node of what only engineers ask for. */
+    constructor(node, engine) {
         this.node = node;
+        this.engine = engine;
         this.states = []; // of each machine
         this.speed = new Series();
         this.dense = new Series();
@@ -74,7 +76,10 @@ export class ChartsPage {
         };
         this.machine = el("select", { onchange: () => this.draw() });
         this.choice = el("label", {}, "Machine", this.machine);
-        fill(node, el("div", { className: "row" }, this.choice), Object.values(this.charts).map((c) => c.node));
+        const { failures, stages, ...crowd } = this.charts;
+        fill(node, el("div", { className: "row" }, this.choice), Object.values(crowd).map((c) => c.node));
+        fill(engine, el("p", { className: "faint" }, "What a step costs, and how many people's programs have no solution: theirs is the velocity that breaks them least."),
+            stages.node, failures.node);
     }
 
     set(scene) {
@@ -86,8 +91,7 @@ export class ChartsPage {
         }
         this.choice.hidden = names.length < 2;
         this.charts.flows.node.hidden = !(scene.charts?.length > 0);
-        const live = this.live = scene.session !== "replay";
-        this.charts.stages.node.hidden = this.charts.failures.node.hidden = !live;
+        this.live = scene.session !== "replay";
         this.charts.states.node.hidden = names.length === 0;
     }
 
@@ -117,19 +121,21 @@ export class ChartsPage {
     }
 
     draw() {
+        if (!this.engine.hidden) this.drawEngine();
         if (this.node.hidden || !this.node.isConnected) return;
         const m = Number(this.machine.value) || 0;
         const first = Math.max(0, (this.scene?.states ?? []).findIndex((s) => s.machine === m));
         const classes = (i) => css(classColour(i));
         const one = () => "#0072b2";
-        const stage = (i, name) => (name === "all" ? "#888888" : css(classColour(Math.max(0, STAGES.indexOf(name)))));
         const counts = this.states[m];
         if (counts) counts.draw(this.charts.states, (i) => classes(first + i));
         this.speed.draw(this.charts.speed, one);
         this.dense.draw(this.charts.dense, one);
         if (!this.charts.flows.node.hidden) this.flows.draw(this.charts.flows, classes);
-        if (this.charts.stages.node.hidden) return;
-        this.failures.draw(this.charts.failures, one);
-        this.stages.draw(this.charts.stages, stage);
+    }
+
+    drawEngine() {
+        this.failures.draw(this.charts.failures, () => "#0072b2");
+        this.stages.draw(this.charts.stages, (i, name) => (name === "all" ? "#888888" : css(classColour(Math.max(0, STAGES.indexOf(name))))));
     }
 }

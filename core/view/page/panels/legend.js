@@ -1,12 +1,12 @@
 // The legend: what the colours of people and of the floor mean, with units.
 import { byId, el, figure, fill, say } from "../dom.js";
-import { COLOURS, classColour, css, FIELDS, unitText, valueColour } from "../draw/palette.js";
+import { classColour, COLOURS, css, FIELDS, serviceColour, unitText, valueColour, wayColour } from "../draw/palette.js";
 
-function ramp(heat) {
+function ramp(calm = false) {
     const canvas = el("canvas", { width: 128, height: 1, "aria-hidden": "true" });
     const pen = canvas.getContext("2d");
     for (let i = 0; i < 128; i++) {
-        pen.fillStyle = css(valueColour(i / 127, heat));
+        pen.fillStyle = css(valueColour(i / 127, calm));
         pen.fillRect(i, 0, 1, 1);
     }
     return canvas;
@@ -49,22 +49,28 @@ export class Legend {
         const names = this.by === "group" ? this.scene?.groups ?? []
             : COLOURS[this.by].names ?? (this.scene?.states ?? []).map((s) => (several ? `${this.scene.machines[s.machine]?.name} ${s.name}` : s.name));
         this.counts = names.map(() => el("span", { className: "faint" }));
-        return el("ul", { "aria-label": `People by ${this.by}` }, names.map((name, i) => {
+        return el("ul", { "aria-label": `People by ${COLOURS[this.by].name}` }, names.map((name, i) => {
             const swatch = el("span", { className: "swatch" });
-            swatch.style.background = css(classColour(COLOURS[this.by].at?.[i] ?? i));
+            swatch.style.background = css(this.classColour(i));
             return el("li", {}, swatch, name, " ", this.counts[i]);
         }));
+    }
+
+    classColour(i) {
+        if (this.by === "service") return serviceColour(i);
+        if (this.by === "direction") return wayColour(i / 4);
+        return classColour(COLOURS[this.by].at?.[i] ?? i);
     }
 
     values() {
         const colour = COLOURS[this.by], unit = unitText(this.scene?.colours?.[this.by]?.unit ?? colour.unit);
         this.high = el("span");
-        return el("span", { className: "ramp" }, `People: ${colour.name}`, el("span", {}, "0"), ramp(false), this.high, unit);
+        return el("span", { className: "ramp" }, `People: ${colour.name}`, el("span", {}, "0"), ramp(colour.table === "calm"), this.high, unit);
     }
 
     floor() {
         this.fieldHigh = el("span");
-        return el("span", { className: "ramp" }, `Floor: ${FIELDS[this.of].name}`, el("span", {}, "0"), ramp(true), this.fieldHigh, FIELDS[this.of].unit);
+        return el("span", { className: "ramp" }, `Floor: ${FIELDS[this.of].name}`, el("span", {}, "0"), ramp(), this.fieldHigh, FIELDS[this.of].unit);
     }
 
     numbers() {

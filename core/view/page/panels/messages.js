@@ -1,6 +1,7 @@
 // What the server says: short words that go away, errors of a reload that stay until they are mended.
 import { byId, el, fill } from "../dom.js";
 
+const MOST = 8; // errors listed
 const SHOWN = { info: 4000, warning: 7000, error: 10000 }; // ms
 
 export class Messages {
@@ -38,7 +39,8 @@ export class Messages {
         if (errors.length === 0) return fill(this.errors);
         const plural = errors.length === 1 ? "An error" : `${errors.length} errors`;
         return fill(this.errors, el("h2", {}, `${plural} in what was saved. The version before keeps running.`),
-            el("ol", {}, errors.map(errorItem)));
+            el("ol", {}, errors.slice(0, MOST).map(errorItem)),
+            errors.length > MOST ? el("p", {}, `And ${errors.length - MOST} more, which the terminal lists.`) : null);
     }
 }
 

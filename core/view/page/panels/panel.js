@@ -1,7 +1,7 @@
 // The tabs of the panel, after the pattern of WAI-ARIA: one stop of the Tab key, arrows between them.
 import { byId, el, fill } from "../dom.js";
 
-const NAMES = { agent: "Person", machine: "Machine", parameters: "Parameters", charts: "Charts", act: "Act" };
+const NAMES = { scene: "Scene", agent: "Person", machine: "Machine", parameters: "Parameters", charts: "Charts", act: "Act", engine: "Engine" };
 
 export class Panel {
     /** `shown(name)` is called when a tab comes to the front. */
@@ -24,12 +24,12 @@ export class Panel {
         } }, "↔");
         byId("tabs").after(widen);
         fill(byId("pages"), Object.values(this.pages));
-        this.show("agent");
+        this.show("scene");
     }
 
     offer(name, on) {
         this.tabs[name].hidden = !on;
-        if (!on && this.front === name) this.show("agent");
+        if (!on && this.front === name) this.show("scene");
     }
 
     show(name) {

@@ -32,8 +32,21 @@ export class ParametersPage {
         this.build();
     }
 
+    /** Opens on the state with most people, until somebody chooses one. */
+    take(status) {
+        if (this.chosen || !this.machines?.length || !status.states?.length) return;
+        const counts = status.states.flatMap((states, m) => states.map((n, s) => [n, m, s]));
+        const [most, machine, state] = counts.reduce((a, b) => (b[0] > a[0] ? b : a));
+        if (most === 0) return;
+        this.chosen = true;
+        this.machine = machine;
+        this.state = state;
+        this.build();
+    }
+
     /** Shows a state, by indices. */
     show(machine, state) {
+        this.chosen = true;
         this.machine = machine;
         this.state = state;
         this.build();

@@ -1,0 +1,109 @@
+"""A picture and a short clip of shipped scenes, as the live page draws them, and a page of them.
+
+    gallery.py OUT [SCENE...]    scenes by name; without: all of the folder scenes
+
+Time is stepped by hand, so that a clip runs in real time however slowly it is drawn. Needs ffmpeg."""
+import base64
+import glob
+import html
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from harness import ROOT, Browser, Session
+
+WIDE, HIGH = 960, 600  # pixels
+FRAMES, RATE = 60, 10  # of a clip; a second
+# s before the picture, where the first one shows little
+BEFORE = {"tawaf": 30, "office": 6, "wall-breaking": 9, "circle": 14, "two-bottlenecks": 30, "evacuation": 16, "counterflow": 40,
+          "running-through": 3, "bottleneck": 15, "arena": 10, "station": 8, "san-fermin": 20}
+OTHERWISE = 8  # s
+
+PREPARE = """
+document.querySelectorAll('#bar, #tools, #panel, #legend, #replay, .messages, .hint').forEach((n) => n.hidden = true);
+document.body.style.display = 'block';
+document.querySelector('main').style.height = '100vh';
+page.resize();
+page.view.goHome();
+"""
+SHOOT = """
+page.crowd.snap = true;
+page.redraw();
+page.view.draw(performance.now());
+const c = document.createElement('canvas'), p = c.getContext('2d');
+[c.width, c.height] = [page.view.canvas.width, page.view.canvas.height];
+p.drawImage(page.view.canvas, 0, 0);
+return c.toDataURL('image/jpeg', 0.92).split(',')[1];
+"""
+
+
+class Shown:
+    """A scene whose time stands still between pictures."""
+
+    def __init__(self, browser, name):
+        self.browser = browser
+        self.session = Session("run", os.path.join("scenes", f"{name}.yaml"), "--view")
+        browser.open(self.session)
+        browser.run("page.connection.send({do: 'pause', on: true})")
+        browser.wait("return page.bar.paused", "no pause")
+        browser.run(PREPARE)
+        self.dt, self.title, self.about = browser.run("return [page.scene.dt, page.scene.title, page.scene.about]")
+
+    def advance(self, seconds):
+        steps = max(1, round(seconds / self.dt))
+        tick = self.browser.run("return page.crowd.next.tick")
+        self.browser.run("page.connection.send({do: 'step', n: arguments[0]})", steps)
+        self.browser.wait("return page.crowd.next.tick >= arguments[0]", "the steps were not made", tick + steps, patience=600)
+
+    def shoot(self, path):
+        with open(path, "wb") as file:
+            file.write(base64.b64decode(self.browser.run(SHOOT)))
+
+
+def show(browser, name, out):
+    """Makes OUT/NAME.jpg and OUT/NAME.webm; returns its title and what it shows."""
+    shown = Shown(browser, name)
+    try:
+        shown.advance(BEFORE.get(name, OTHERWISE))
+        with tempfile.TemporaryDirectory() as folder:
+            for frame in range(FRAMES):
+                shown.shoot(os.path.join(folder, f"{frame:03}.jpg"))
+                shown.advance(1 / RATE)
+            shutil.copy(os.path.join(folder, "000.jpg"), os.path.join(out, f"{name}.jpg"))
+            subprocess.run(["ffmpeg", "-v", "error", "-y", "-framerate", str(RATE), "-i", os.path.join(folder, "%03d.jpg"),
+                            "-c:v", "libvpx-vp9", "-crf", "36", "-b:v", "0", "-pix_fmt", "yuv420p", os.path.join(out, f"{name}.webm")], check=True)
+    finally:
+        shown.session.stop()
+    return shown.title, shown.about
+
+
+def write_page(out, shown):
+    items = "".join(f"<figure><video src='{name}.webm' poster='{name}.jpg' controls muted loop preload='none'></video>"
+                    f"<figcaption><b>{html.escape(title)}</b> {html.escape(about)} <code>jostle run {name} --view</code></figcaption></figure>"
+                    for name, (title, about) in shown.items())
+    with open(os.path.join(out, "index.html"), "w", encoding="utf-8") as file:
+        file.write("<!DOCTYPE html><html lang='en'><meta charset='utf-8'><title>Jostle: gallery</title><style>"
+                   "body{font:1rem/1.4 system-ui,sans-serif;margin:1.5rem;display:grid;gap:1.5rem;grid-template-columns:repeat(auto-fill,minmax(22rem,1fr))}"
+                   "h1{grid-column:1/-1;margin:0}figure{margin:0}video{width:100%;border-radius:.5rem}code{display:block;color:#5a6370}</style>"
+                   f"<h1>Jostle: gallery</h1>{items}</html>\n")
+
+
+def main():
+    out, names = os.path.abspath(sys.argv[1]), sys.argv[2:]
+    names = names or sorted(os.path.basename(path)[:-5] for path in glob.glob(os.path.join(ROOT, "scenes", "*.yaml")))
+    os.makedirs(out, exist_ok=True)
+    browser, shown = Browser(), {}
+    browser.size(WIDE, HIGH)
+    try:
+        for done, name in enumerate(names, 1):
+            shown[name] = show(browser, name, out)
+            print(f"{done} of {len(names)}: {name}", flush=True)
+    finally:
+        browser.close()
+    write_page(out, shown)
+    print(os.path.join(out, "index.html"))
+
+
+main()
