@@ -14,7 +14,7 @@ typedef struct Run {
     const char *folder; /* for checkpoints */
     double seconds, every, record_every;
     uint64_t steps, seeds, trace;
-    bool view, of_scene, has_seconds, has_steps, watch, no_watch, has_trace, quiet, profile;
+    bool view, of_scene, has_seconds, has_steps, has_wait, watch, no_watch, has_trace, quiet, profile;
     bool no_half, trusted;
     JoxOverlay files; /* what was vetted */
     bool troubled;    /* it went on to its end, but not as it was written */
@@ -85,6 +85,10 @@ static const CliOption OPTIONS[] = {
      "the address's token is refused",
      CLI_TO(Run, live.port), .only_equals = true, CLI_GIVEN(Run, view), CLI_RANGE(1, 65535)},
     {"fast", NULL, "with --view: as fast as it can go", CLI_TO(Run, live.fast)},
+    {"view-wait", "S",
+     "with --view: how long time stands still at most, until the first page is open (5); 0 begins "
+     "at once, as --fast does",
+     CLI_TO(Run, live.wait), CLI_GIVEN(Run, has_wait), CLI_RANGE(0, 3600)},
     {"view-address", "A",
      "listen at this address, not at 127.0.0.1: others can then reach the page, with its token, "
      "and act on the run; nothing is encrypted",
@@ -266,8 +270,9 @@ static const char *misuse(const Run *run) {
                ? "--view cannot be combined with --seeds, --report, --data, --trace or "
                  "--profile-lua"
            : run->view && run->has_steps ? "--view goes with --for S, not with --steps"
-           : !run->view && (live->address || live->page || live->three || live->fast)
-               ? "--fast, --view-address, --page and --three go with --view"
+           : !run->view &&
+                   (live->address || live->page || live->three || live->fast || run->has_wait)
+               ? "--fast, --view-wait, --view-address, --page and --three go with --view"
                : NULL;
 }
 
@@ -295,6 +300,7 @@ static int begin(Run *run) {
 
 static int run_scene(int argc, char **argv) {
     Run run = {.def = jo_default_scene_def(), .live = jo_default_view_def()};
+    run.live.wait = 5.0;
     CliList plain = {0};
     char *path = NULL;
     int status = cli_parse(&cli_run, argc, argv, &run, &plain);

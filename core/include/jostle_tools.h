@@ -38,6 +38,7 @@ typedef struct JoViewDef {
     const char *page;         /* folder of the page's files; NULL: where they were installed */
     const char *three;        /* folder of three.js; NULL: Debian's */
     bool fast;                /* as fast as it can go, not in real time */
+    double wait;              /* s that time stands still at most, until the first page is open */
     bool watch;               /* files that are edited are reloaded; on by default */
     double seconds;           /* simulated, after which it pauses; 0: the scene's duration */
     const char *record;       /* file for trajectories, or NULL; a restart begins it anew */

@@ -42,8 +42,20 @@ static void step(JoxScenePage *s) {
     s->page.changed = true;
 }
 
+/* s that time still waits for its first page: then it begins with somebody who watches. */
+static double waits(JoxScenePage *s, double now) {
+    if (s->opened == 0.0)
+        s->opened = now;
+    if (s->def->fast || jox_view_clients(s->page.server) > 0 || now - s->opened >= s->def->wait)
+        s->seen = true;
+    return s->seen ? 0.0 : s->def->wait - (now - s->opened);
+}
+
 static double advance(void *self, double now) {
     JoxScenePage *s = self;
+    const double waiting = waits(s, now);
+    if (waiting > 0.0)
+        return waiting;
     const JoxLiveSession *session = &s->page.session;
     const double due = s->began + s->scene->world->model.def.dt / session->speed;
     if (session->paused && s->steps == 0) {

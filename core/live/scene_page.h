@@ -29,6 +29,8 @@ typedef struct JoxScenePage {
     uint64_t steps; /* to be done while paused */
     double until;   /* s of simulated time, at which it pauses by itself */
     double began;   /* s of wall time at which the last step was due */
+    double opened;  /* s of wall time at which it could first be looked at */
+    bool seen;      /* time no longer waits for the first page */
     bool failed;    /* the run cannot go on, for this reason: */
     char failure[1024];
     bool reported;      /* errors that pages were sent as data are being printed */

@@ -15,7 +15,7 @@ request() { # PORT PATH: the answer of a plain request
     timeout 20 cat <&3
     exec 3<&- 3>&-
 }
-"$JOSTLE" run scenes/circle.yaml --view $page --summary "$work/summary" --log-input "$work/log" \
+"$JOSTLE" run scenes/circle.yaml --view $page --view-wait 0 --summary "$work/summary" --log-input "$work/log" \
     >"$work/said" 2>"$work/errors" </dev/null &
 pid=$!
 for _ in $(seq 200); do grep -q token "$work/said" && break; sleep 0.1; done
@@ -30,6 +30,8 @@ verdict "not without the token" $?
 "$JOSTLE" run scenes/circle.yaml --view="$port" $page >/dev/null 2>"$work/second"
 [ $? = 1 ] && grep -q "port $port: Address already in use" "$work/second"
 verdict "a port that is taken is said" $?
+"$JOSTLE" run scenes/circle.yaml --view $page --view-wait 3600 --summary "$work/waited" >/dev/null 2>&1 </dev/null &
+waiting=$!
 sleep 0.5
 kill -INT $pid
 wait $pid
@@ -39,6 +41,11 @@ verdict "with its figures" $?
 hash=$(figure hash <"$work/summary")
 same_hash "a run without a page gives the same state" "$hash" \
     "$(hash_of "$JOSTLE" scenes/circle.yaml --steps "$(figure steps <"$work/summary")" --input "$work/log")"
+
+kill -INT $waiting
+wait $waiting
+[ "$(figure steps <"$work/waited")" = 0 ]
+verdict "a run waits for its first page" $?
 
 refuses() { # NAME STATUS TEXT ARGS...
     local name=$1 status=$2 text=$3; shift 3
