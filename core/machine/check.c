@@ -9,8 +9,7 @@ static bool is_index(int64_t index, uint32_t count) {
     return index >= -1 && index < (int64_t)count;
 }
 
-/* How many of the registers a, b, c an operation reads. */
-static uint32_t inputs_of(JoxOp op) {
+uint32_t jox_op_inputs(JoxOp op) {
     if (op == JOX_OP_CLAMP)
         return 3;
     if (op == JOX_OP_NEG || op == JOX_OP_ABS || op == JOX_OP_SQRT || op == JOX_OP_NOT)
@@ -45,7 +44,7 @@ static void check_expression(const JoxMachine *m, const JoxExpression *expressio
         JOX_ASSERT(in->op < JOX_OP_COUNT && in->to < JOX_MOST_REGISTERS);
         JOX_ASSERT(k + in->skip < expression->count);
         JOX_ASSERT(!in->skip || expression->code[k + in->skip].to == in->to);
-        for (uint32_t n = 0; n < inputs_of((JoxOp)in->op); n++)
+        for (uint32_t n = 0; n < jox_op_inputs((JoxOp)in->op); n++)
             JOX_ASSERT(inputs[n] < JOX_MOST_REGISTERS && (written >> inputs[n] & 1));
         check_operands(m, in);
         written |= (uint64_t)1 << in->to;

@@ -1,4 +1,4 @@
-/* Why a transition was taken, in words. */
+/* Why a transition was taken: its condition as an expression, with the value of each of its words. */
 #include "machine/internal.h"
 
 static const char *const OPS[] = {
@@ -12,29 +12,122 @@ static const char *const NOWS[] = {
 #undef X
 };
 
-/* One line per instruction: what it is, of what, and its value for the agent at present. */
+/* How tightly what is written binds: what binds less than its surroundings stands in parentheses. */
+typedef enum { BINDS_OR, BINDS_AND, BINDS_COMPARED, BINDS_SUM, BINDS_PRODUCT, BINDS_ALL } Binding;
+
+/* What a register holds, as it is written. Zero-initialise; free the text. */
+typedef struct Written {
+    JoxText text;
+    Binding binding;
+} Written;
+
+static const struct {
+    JoxOp op;
+    const char *sign;
+    Binding binding;
+} SIGNS[] = {
+    {JOX_OP_ADD, "+", BINDS_SUM},      {JOX_OP_SUB, "-", BINDS_SUM},
+    {JOX_OP_MUL, "*", BINDS_PRODUCT},  {JOX_OP_DIV, "/", BINDS_PRODUCT},
+    {JOX_OP_GT, ">", BINDS_COMPARED},  {JOX_OP_GE, ">=", BINDS_COMPARED},
+    {JOX_OP_LT, "<", BINDS_COMPARED},  {JOX_OP_LE, "<=", BINDS_COMPARED},
+    {JOX_OP_EQ, "is", BINDS_COMPARED}, {JOX_OP_AND, "and", BINDS_AND},
+    {JOX_OP_OR, "or", BINDS_OR},
+};
+
+static void add_operand(const Written *of, Binding within, JoxText *out) {
+    const bool loose = of->binding < within;
+    jox_text_printf(out, loose ? "(%s)" : "%s", of->text.data ? of->text.data : "");
+}
+
+/* The operation as an infix sign between its inputs; false if it has none. */
+static bool print_infix(const JoxInstruction *in, const Written *registers, Written *to) {
+    for (size_t s = 0; s < sizeof SIGNS / sizeof *SIGNS; s++) {
+        if (SIGNS[s].op != (JoxOp)in->op)
+            continue;
+        to->binding = SIGNS[s].binding;
+        /* What is taken away or divided by binds more tightly: 1 - (2 - 3). */
+        const bool uneven = in->op == JOX_OP_SUB || in->op == JOX_OP_DIV;
+        add_operand(&registers[in->a], to->binding, &to->text);
+        jox_text_printf(&to->text, " %s ", SIGNS[s].sign);
+        add_operand(&registers[in->b], to->binding + (uneven ? 1 : 0), &to->text);
+        return true;
+    }
+    return false;
+}
+
+/* A word with what it is about: distance(stone), near(ball, 1.2), heard("go"). */
+static void print_word(const JoxMachine *machine, const JoxInstruction *in,
+                       const Written *registers, JoxText *out) {
+    const uint8_t inputs[] = {in->a, in->b, in->c};
+    const char *before = "(";
+    for (const char *c = OPS[in->op]; *c; c++)
+        jox_text_printf(out, "%c", *c >= 'A' && *c <= 'Z' ? *c - 'A' + 'a' : *c);
+    const int16_t targets[] = {in->target, in->place};
+    for (int k = 0; k < 2; k++)
+        if (targets[k] >= 0) {
+            jox_text_printf(out, "%s%s", before, machine->targets[targets[k]].name);
+            before = ", ";
+        }
+    if (in->name >= 0) {
+        jox_text_printf(out, "%s\"%s\"", before, machine->names[in->name].text);
+        before = ", ";
+    }
+    for (uint32_t k = 0; k < jox_op_inputs((JoxOp)in->op); k++) {
+        jox_text_printf(out, "%s%s", before, registers[inputs[k]].text.data);
+        before = ", ";
+    }
+    if (*before == ',')
+        jox_text_add(out, ")");
+}
+
+static bool is_condition(JoxOp op) {
+    return op >= JOX_OP_INSIDE && op != JOX_OP_TAGGED && op != JOX_OP_IN_STATE;
+}
+
+/* Writes what an instruction leaves in its register, which has `value` for the agent. */
+static void print_instruction(const JoxMachine *machine, const JoxInstruction *in,
+                              const Written *registers, double value, Written *to) {
+    const JoxOp op = (JoxOp)in->op;
+    to->binding = BINDS_ALL;
+    if (print_infix(in, registers, to))
+        return;
+    if (op == JOX_OP_CONST) {
+        jox_text_printf(&to->text, "%.6g", in->number);
+    } else if (op == JOX_OP_NOT || op == JOX_OP_NEG) {
+        jox_text_printf(&to->text, op == JOX_OP_NOT ? "not (%s)" : "-(%s)",
+                        registers[in->a].text.data);
+    } else {
+        if (op == JOX_OP_NOW)
+            jox_text_printf(&to->text, "now.%s", NOWS[in->arg]);
+        else if (op == JOX_OP_OWN)
+            jox_text_printf(&to->text, "own.%s", machine->own[in->arg].name);
+        else if (op == JOX_OP_MEMORY)
+            jox_text_printf(&to->text, "mine.%s", machine->memory[in->arg].name);
+        else
+            print_word(machine, in, registers, &to->text);
+        if (is_condition(op))
+            jox_text_add(&to->text, value != 0.0 ? " is true" : " is false");
+        else
+            jox_text_printf(&to->text, " %.4g", value);
+    }
+}
+
 static void print_expression(const JoxMachineRun *run, const JoxMachine *machine,
                              const JoxExpression *expression, uint32_t agent, JoxText *out) {
-    static _Thread_local JoxRegisters registers;
+    static _Thread_local JoxRegisters values;
+    Written registers[JOX_MOST_REGISTERS] = {0};
     for (uint32_t k = 0; k < expression->count; k++) {
         const JoxInstruction *in = &expression->code[k];
         JoxExpression one = {(JoxInstruction *)in, 1};
-        jox_eval(run, machine, &one, &agent, 1, registers);
-        jox_text_printf(out, "      r%u = %s", in->to, OPS[in->op]);
-        if (in->op == JOX_OP_NOW)
-            jox_text_printf(out, " %s", NOWS[in->arg]);
-        if (in->op == JOX_OP_OWN)
-            jox_text_printf(out, " %s", machine->own[in->arg].name);
-        if (in->op == JOX_OP_MEMORY)
-            jox_text_printf(out, " %s", machine->memory[in->arg].name);
-        if (in->target >= 0)
-            jox_text_printf(out, " %s", machine->targets[in->target].name);
-        if (in->place >= 0)
-            jox_text_printf(out, " in %s", machine->targets[in->place].name);
-        if (in->name >= 0)
-            jox_text_printf(out, " '%s'", machine->names[in->name].text);
-        jox_text_printf(out, " -> %.6g\n", registers[in->to][0]);
+        Written to = {0};
+        jox_eval(run, machine, &one, &agent, 1, values);
+        print_instruction(machine, in, registers, values[in->to][0], &to);
+        jox_text_free(&registers[in->to].text);
+        registers[in->to] = to;
     }
+    jox_text_printf(out, "    when %s\n", registers[0].text.data);
+    for (uint32_t r = 0; r < JOX_MOST_REGISTERS; r++)
+        jox_text_free(&registers[r].text);
 }
 
 void jox_machines_explain(const JoxMachineRun *run, const JoxTaken *taken, JoxText *out) {
@@ -47,6 +140,5 @@ void jox_machines_explain(const JoxMachineRun *run, const JoxTaken *taken, JoxTe
     uint32_t agent = jox_agents_find(run->agents, taken->agent_id);
     if (t->when < 0 || agent == JOX_NO_INDEX)
         return;
-    jox_text_add(out, "    its condition:\n");
     print_expression(run, machine, &machine->expressions[t->when], agent, out);
 }

@@ -179,4 +179,7 @@ void jox_edits_end(JoxMachineRun *run, uint32_t machine);
 /* Parameters that are expressions, pushing, approach and kicks, after the transitions. */
 void jox_machines_act(JoxMachineRun *run, JoxPool *pool);
 
+/* check.c: how many of the registers a, b, c an operation reads. */
+uint32_t jox_op_inputs(JoxOp op);
+
 #endif
