@@ -14,7 +14,8 @@ typedef struct Run {
     const char *folder; /* for checkpoints */
     double seconds, every, record_every;
     uint64_t steps, seeds, trace;
-    bool view, of_scene, has_seconds, has_steps, has_wait, watch, no_watch, has_trace, quiet, profile;
+    bool view, of_scene, has_seconds, has_steps, has_wait, watch, no_watch, has_trace, quiet,
+        profile;
     bool no_half, trusted;
     JoxOverlay files; /* what was vetted */
     bool troubled;    /* it went on to its end, but not as it was written */

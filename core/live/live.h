@@ -28,8 +28,8 @@ void jox_bytes_free(JoxBytes *bytes);
     X(compression, 1000, "N/m")                                                                    \
     X(load, 1112, "N") /* greatest push from any one direction */                                  \
     X(density, 8, "1/m2")                                                                          \
-    X(group, 255, "") /* value is the number of the group */                                       \
-    X(direction, 0, "") /* value is 0: the frame has the heading */                                \
+    X(group, 255, "")     /* value is the number of the group */                                   \
+    X(direction, 0, "")   /* value is 0: the frame has the heading */                              \
     X(service, 8, "1/m2") /* density, shown by levels of service */
 typedef enum JoxLiveColour {
 #define X(name, most, unit) JOX_LIVE_COLOUR_##name,

@@ -28,7 +28,9 @@ void jox_live_listen(JoxLivePage *page, const JoxLiveWatcher *watcher) {
 static void do_colour(JoxLiveWatcher *watcher, const JoxLiveRequest *request) {
     const int colour = jox_live_colour(jox_command_text(request->command, "by", ""));
     if (colour < 0) {
-        jox_live_refuse(request, "by is state, speed, force, compression, load, density, group, direction or service");
+        jox_live_refuse(
+            request,
+            "by is state, speed, force, compression, load, density, group, direction or service");
         return;
     }
     watcher->colour = (JoxLiveColour)colour;

@@ -1,4 +1,7 @@
-/* Why a transition was taken: its condition as an expression, with the value of each of its words. */
+/* Why a transition was taken: its condition as an expression, with the value of each of its words.
+ */
+#include <math.h>
+
 #include "machine/internal.h"
 
 static const char *const OPS[] = {
@@ -12,13 +15,15 @@ static const char *const NOWS[] = {
 #undef X
 };
 
-/* How tightly what is written binds: what binds less than its surroundings stands in parentheses. */
+/* How tightly what is written binds: what binds less than its surroundings stands in parentheses.
+ */
 typedef enum { BINDS_OR, BINDS_AND, BINDS_COMPARED, BINDS_SUM, BINDS_PRODUCT, BINDS_ALL } Binding;
 
 /* What a register holds, as it is written. Zero-initialise; free the text. */
 typedef struct Written {
     JoxText text;
     Binding binding;
+    bool boundless; /* an infinite constant */
 } Written;
 
 static const struct {
@@ -73,6 +78,8 @@ static void print_word(const JoxMachine *machine, const JoxInstruction *in,
         before = ", ";
     }
     for (uint32_t k = 0; k < jox_op_inputs((JoxOp)in->op); k++) {
+        if (registers[inputs[k]].boundless) /* a reach that was left out */
+            continue;
         jox_text_printf(out, "%s%s", before, registers[inputs[k]].text.data);
         before = ", ";
     }
@@ -93,6 +100,7 @@ static void print_instruction(const JoxMachine *machine, const JoxInstruction *i
         return;
     if (op == JOX_OP_CONST) {
         jox_text_printf(&to->text, "%.6g", in->number);
+        to->boundless = isinf(in->number);
     } else if (op == JOX_OP_NOT || op == JOX_OP_NEG) {
         jox_text_printf(&to->text, op == JOX_OP_NOT ? "not (%s)" : "-(%s)",
                         registers[in->a].text.data);

@@ -13,9 +13,9 @@ enum { CLASS_COUNT = sizeof CLASSES / sizeof *CLASSES, ANCHORS = 9 };
 /* From pale yellow for nothing to dark purple for the most: lightness falls throughout, so that the
    ramp can be read in grey and where it is printed. The live page has the same (palette.js). */
 static const uint8_t RAMP[ANCHORS][3] = {
-    {0xfb, 0xf6, 0xd3}, {0xfd, 0xe3, 0x9a}, {0xfc, 0xc5, 0x62}, {0xf8, 0xa1, 0x40},
-    {0xee, 0x76, 0x2f}, {0xd8, 0x4a, 0x2c}, {0xb3, 0x25, 0x36}, {0x82, 0x12, 0x3f},
-    {0x4d, 0x0b, 0x3b},
+    {0xfb, 0xf6, 0xd3}, {0xfd, 0xe3, 0x9a}, {0xfc, 0xc5, 0x62},
+    {0xf8, 0xa1, 0x40}, {0xee, 0x76, 0x2f}, {0xd8, 0x4a, 0x2c},
+    {0xb3, 0x25, 0x36}, {0x82, 0x12, 0x3f}, {0x4d, 0x0b, 0x3b},
 };
 
 static uint8_t level(float share) {
@@ -46,6 +46,7 @@ JoxInk jox_palette_value(float share) {
     const float part = at - (float)low;
     uint8_t mixed[3];
     for (int c = 0; c < 3; c++)
-        mixed[c] = (uint8_t)((float)RAMP[low][c] * (1.0f - part) + (float)RAMP[low + 1][c] * part + 0.5f);
+        mixed[c] =
+            (uint8_t)((float)RAMP[low][c] * (1.0f - part) + (float)RAMP[low + 1][c] * part + 0.5f);
     return (JoxInk){mixed[0], mixed[1], mixed[2], 1.0f};
 }

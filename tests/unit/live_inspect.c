@@ -79,7 +79,7 @@ static void an_inspection_says_why(void **state) {
     step(scene, 2);
     json = jo_scene_inspect(scene, 1);
     assert_non_null(strstr(json, "\"last\": {\"from\": \"Walk\", \"to\": \"Wait\", \"time\": 0"));
-    assert_non_null(strstr(json, "HEARD 'stop' -> 1"));
+    assert_non_null(strstr(json, "when heard(\\\"stop\\\") is true"));
     assert_non_null(strstr(
         json,
         "\"name\": \"max_speed\", \"value\": 0.7, \"unit\": \"m/s\", \"set\": \"live page\""));

@@ -336,7 +336,8 @@ static void values_darken_and_classes_differ(void **state) {
     JoxInk low = jox_palette_value(-1), high = jox_palette_value(2);
     assert_true(lightness(low) > 900 && lightness(high) < 150);
     for (int k = 1; k <= 64; k++)
-        assert_true(lightness(jox_palette_value((float)k / 64)) < lightness(jox_palette_value((float)(k - 1) / 64)));
+        assert_true(lightness(jox_palette_value((float)k / 64)) <
+                    lightness(jox_palette_value((float)(k - 1) / 64)));
     for (uint32_t a = 0; a < 21; a++) /* classes differ */
         for (uint32_t b = 0; b < a; b++) {
             JoxInk p = jox_palette_class(a), q = jox_palette_class(b);

@@ -8,6 +8,7 @@ const JoxExample jox_scene_examples[] = {
     {"scene", OPENING
      "include: running-through.yaml      # gives the groups `standing` and `runner`, and the place `goal`\n"
      "title: Running through, once more\n"
+     "about: A runner pushes through a standing crowd, and back again.\n"
      "seed: 7\n"
      "step: 50 ms\n"
      "duration: 1 min\n"
