@@ -32,7 +32,7 @@ def shown(browser, scene, test):
 
 def fits(browser):
     """a scene fills the window from the side that shows most, a long one diagonally"""
-    for scene, across, up in (("office", 0.85, 0.35), ("corridor", 0.75, 0.75), ("wall-breaking", 0.75, 0.75), ("dodgeball", 0.8, 0.35)):
+    for scene, across, up in (("office", 0.7, 0.3), ("corridor", 0.65, 0.65), ("wall-breaking", 0.65, 0.65), ("dodgeball", 0.7, 0.3)):
         def test():
             browser.wait("return page.view.peopled", "nobody is there")
             span = browser.run(SPAN)
