@@ -8,7 +8,7 @@
 #include "base/format/json.h"
 #include "base/format/json_writer.h"
 #include "base/mem.h"
-#include "base/sort.h"
+#include "base/number/statistics.h"
 
 /* What a number of a summary is, by its path; the first row that fits holds. Figures are statistics
    of a run, of which a mean makes sense. All else is listed: what the run was given, texts, and
@@ -78,13 +78,6 @@ static bool add_item(void *context, const JoxJsonItem *item) {
 
 /* ---- writing ---- */
 
-/* Between the ranks about share * (count - 1). */
-static double quantile(const double *values, size_t count, double share) {
-    double at = share * (double)(count - 1);
-    size_t low = (size_t)at, high = low + 1 < count ? low + 1 : low;
-    return values[low] + (at - (double)low) * (values[high] - values[low]);
-}
-
 /* Where all runs have a number. */
 static void put_figure(JoxJson *json, const Entry *entry, size_t count, double *numbers) {
     double sum = 0.0;
@@ -93,11 +86,10 @@ static void put_figure(JoxJson *json, const Entry *entry, size_t count, double *
             return;
         sum += numbers[k] = entry->values[k].number;
     }
-    jox_sort_doubles(numbers, count);
     jox_json_object(json, entry->path);
     jox_json_number(json, "mean", sum / (double)count);
-    jox_json_number(json, "p5", quantile(numbers, count, 0.05));
-    jox_json_number(json, "p95", quantile(numbers, count, 0.95));
+    jox_json_number(json, "p5", jox_quantile(numbers, count, 0.05));
+    jox_json_number(json, "p95", jox_quantile(numbers, count, 0.95));
     jox_json_end(json);
 }
 

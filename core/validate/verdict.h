@@ -14,8 +14,6 @@ typedef struct JoxVerdict {
     bool thin;   /* an edge of the band lies within the bound about the mean */
 } JoxVerdict;
 
-/* Student's t: |t| is below it with a probability of 95 %. */
-double jox_student_t(uint32_t degrees_of_freedom);
 JoxVerdict jox_verdict(const double *values, uint32_t count, double low, double high);
 enum { JOX_BOUND_SIZE = 24 };
 /* "+- 0.47": a bound in two digits, or whole where it is greater; "" of one that is not finite. */

@@ -14,21 +14,6 @@ static void near_to(double value, double wanted, double within) {
         fail_msg("%.9g is not %.9g", value, wanted);
 }
 
-/* Against printed tables of Student's distribution. */
-static void t_is_that_of_the_tables(void **state) {
-    (void)state;
-    near_to(jox_student_t(1), 12.706, 5e-4);
-    near_to(jox_student_t(2), 4.303, 5e-4);
-    near_to(jox_student_t(9), 2.262, 5e-4);
-    near_to(jox_student_t(30), 2.042, 5e-4);
-    near_to(jox_student_t(31), 2.040, 1e-3);
-    near_to(jox_student_t(60), 2.000, 5e-4);
-    near_to(jox_student_t(120), 1.980, 5e-4);
-    near_to(jox_student_t(100000), 1.960, 5e-4);
-    for (uint32_t n = 1; n < 999; n++)
-        assert_true(jox_student_t(n + 1) < jox_student_t(n));
-}
-
 /* 8 9 10 11 12: mean 10, deviation sqrt(2.5), error of the mean .7071, t(4) = 2.776. */
 static void a_mean_has_a_bound(void **state) {
     (void)state;
@@ -124,8 +109,7 @@ static void bounds_have_two_digits_and_no_exponents(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(t_is_that_of_the_tables),
-                                       cmocka_unit_test(a_mean_has_a_bound),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_mean_has_a_bound),
                                        cmocka_unit_test(an_edge_within_the_bound_is_thin),
                                        cmocka_unit_test(equal_values_have_their_own_mean),
                                        cmocka_unit_test(one_seed_has_no_bound),

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number/statistics.h"
 #include "record/probes/probe_parts.h"
 
 typedef struct Person {

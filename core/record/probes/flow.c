@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/mem.h"
+#include "base/number/statistics.h"
 #include "base/sort.h"
 #include "record/probes/probe_parts.h"
 

@@ -10,6 +10,7 @@
 #include <math.h>
 
 #include "base/mem.h"
+#include "base/number/statistics.h"
 #include "geom/polygon.h"
 #include "record/fields/voronoi.h"
 #include "record/probes/probe_parts.h"

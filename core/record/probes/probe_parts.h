@@ -51,8 +51,6 @@ void jox_flow_frame(const JoxV2 line[2], void *state, const JoxFrame *frame, con
 void jox_flow_sections(void *state, JoxSections *sections);
 void jox_flow_free(void *state);
 void jox_figure_add(JoxFigures *figures, const char *name, const char *unit, double value);
-/* Linear between ranks; q within 0..1. Sorts the values. NAN of none. */
-double jox_quantile(double *values, size_t count, double q);
 
 /* A plot that only says why there is nothing to draw. */
 void jox_plot_nothing(JoxText *out, const char *why);

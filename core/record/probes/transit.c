@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number/statistics.h"
 #include "record/probes/probe_parts.h"
 
 static const double COMMON_BEGINNING = 0.5; /* s: all who began within it began together */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mem.h"
+#include "base/number/statistics.h"
 #include "record/probes/probe_parts.h"
 
 static const double TURN = 6.283185307179586;
