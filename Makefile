@@ -29,7 +29,7 @@ SHARED  := $(if $(filter file,$(origin B)),build/$(MODE)$(if $(CROSS),-$(CROSS:-
 # ONLY="base geom ..." restricts the build to some folders of core/ and their unit tests.
 ONLY    ?=
 
-FOLDERS := $(if $(ONLY),$(ONLY),base base/number base/format simd task geom agents nav force body machine world/input world world/verbs scene/format scene/walls scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run run/resume live report render validate luatest)
+FOLDERS := $(if $(ONLY),$(ONLY),base base/number base/format simd task geom agents nav force body machine world/input world world/verbs scene/format scene/walls scene scene/reference lua/vm lua/language lua record/fields record record/probes record/danger view picture run/watch run run/resume live report render validate luatest sweep sweep/compare)
 SRC_C   := $(sort $(foreach d,$(FOLDERS),$(wildcard core/$(d)/*.c)))
 # Kernels: one source, compiled for each instruction set that core/simd has lanes for.
 SRC_WIDE := $(filter %_wide.c,$(SRC_C))

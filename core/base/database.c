@@ -28,24 +28,36 @@ static void release(void *db) {
     sqlite3_close(db);
 }
 
-bool jox_database_open(const char *path, sqlite3 **db) {
+/* Held, and restricted, from here on. */
+static void restrict_it(sqlite3 *db) {
     static const int OFF[] = {SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_ENABLE_TRIGGER,
                               SQLITE_DBCONFIG_TRUSTED_SCHEMA};
+    if (!db)
+        jox_out_of_memory(0);
+    jox_hold(db, release);
+    for (size_t k = 0; k < sizeof OFF / sizeof *OFF; k++)
+        sqlite3_db_config(db, OFF[k], 0, NULL);
+    sqlite3_db_config(db, SQLITE_DBCONFIG_DEFENSIVE, 1, NULL);
+    sqlite3_limit(db, SQLITE_LIMIT_LENGTH, LONGEST);
+    sqlite3_limit(db, SQLITE_LIMIT_SQL_LENGTH, LONGEST_SQL);
+}
+
+bool jox_database_open(const char *path, sqlite3 **db) {
     FILE *file = jox_file_open(path, "rb"); /* SQLite would wait for a pipe */
     const bool regular = file || errno != EINVAL;
     if (file)
         jox_file_close(file);
     const bool good =
         sqlite3_open_v2(regular ? path : "", db, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK;
-    if (!*db)
-        jox_out_of_memory(0);
-    jox_hold(*db, release);
-    for (size_t k = 0; k < sizeof OFF / sizeof *OFF; k++)
-        sqlite3_db_config(*db, OFF[k], 0, NULL);
-    sqlite3_db_config(*db, SQLITE_DBCONFIG_DEFENSIVE, 1, NULL);
-    sqlite3_limit(*db, SQLITE_LIMIT_LENGTH, LONGEST);
-    sqlite3_limit(*db, SQLITE_LIMIT_SQL_LENGTH, LONGEST_SQL);
+    restrict_it(*db);
     return good && regular;
+}
+
+bool jox_database_open_to_write(const char *path, sqlite3 **db) {
+    const int how = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+    const bool good = sqlite3_open_v2(path ? path : ":memory:", db, how, NULL) == SQLITE_OK;
+    restrict_it(*db);
+    return good;
 }
 
 void jox_database_bound(sqlite3 *db, double *left) {

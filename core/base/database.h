@@ -9,6 +9,9 @@
    schema are not run, and texts are limited. False where it cannot be opened; *db is to be closed
    then too, and says why. */
 bool jox_database_open(const char *path, sqlite3 **db);
+/* The same for reading and writing; made where there is no file. Statements wait for nobody:
+   another that writes the file makes them fail. NULL as the path is a database in memory. */
+bool jox_database_open_to_write(const char *path, sqlite3 **db);
 /* From here on, until it is called with NULL, all statements together do no more work than reading
    the whole file some times takes: behind that they fail as interrupted. `left` is the caller's,
    and holds what is left of it. */

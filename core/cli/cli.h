@@ -15,6 +15,7 @@
 #define CLI_COMMANDS(X)                                                                            \
     X(run)                                                                                         \
     X(resume)                                                                                      \
+    X(sweep)                                                                                       \
     X(report)                                                                                      \
     X(render)                                                                                      \
     X(view)                                                                                        \

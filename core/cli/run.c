@@ -31,7 +31,8 @@ static const CliOption OPTIONS[] = {
     {"steps", "N", "or N steps", CLI_TO(Run, steps), CLI_GIVEN(Run, has_steps), CLI_RANGE(0, 1e9)},
     CLI_SCENE_OPTIONS(Run, def),
     {"seeds", "N",
-     "run with N seeds; the summary gives mean and 5-95 % of each figure, and in \"given\", once "
+     "run with N seeds, at once as `jostle sweep` does it; the summary gives mean and 5-95 % of "
+     "each figure, and in \"given\", once "
      "or "
      "as a list, what is no statistic of a run: the seed, the step, coordinates",
      CLI_TO(Run, seeds), CLI_RANGE(1, 1000)},
@@ -178,7 +179,7 @@ static int simulate(Run *run, char **summary) {
                                                             .steps = steps,
                                                             .no_half = run->no_half,
                                                             .quiet = run->quiet});
-    if (run->summary || run->seeds)
+    if (run->summary)
         *summary = jo_scene_summary(scene);
     run->troubled |= cli_troubled(&cli_run, scene);
     if (run->profile) {
@@ -219,46 +220,38 @@ static int show(Run *run, char **summary) {
     return complain(&error, error.code == JO_INPUT);
 }
 
-static int simulate_seeds(Run *run) {
-    char **summaries = calloc(run->seeds, sizeof *summaries);
-    uint64_t first = run->def.has_seed ? run->def.seed : 1;
-    const char *data = run->data;
-    char folder[4096];
-    int status = JO_OK;
-    size_t done = 0;
-    for (uint64_t i = 0; i < run->seeds && status == JO_OK && !cli_signal; i++) {
-        run->def.seed = first + i;
-        run->def.has_seed = true;
-        if (data) { /* each seed its own files */
-            snprintf(folder, sizeof folder, "%.4000s/seed-%llu", data,
-                     (unsigned long long)run->def.seed);
-            run->data = folder;
-        }
-        if (!run->quiet)
-            fprintf(stderr, "seed %llu\n", (unsigned long long)run->def.seed);
-        status = simulate(run, &summaries[i]);
-        done += summaries[i] != NULL;
-    }
-    if (status == JO_OK) {
-        JoError error = {0};
-        char *all = jo_summaries_aggregate((const char *const *)summaries, done, &error);
-        status = all ? cli_write(&cli_run, run->summary ? run->summary : "-", all)
-                     : complain(&error, false);
-        jo_free(all);
-    }
-    run->data = data;
-    for (size_t i = 0; i < run->seeds; i++)
-        jo_free(summaries[i]);
-    free(summaries);
-    return status;
+/* As `jostle sweep` does it, of one variant, and kept in memory. */
+static int simulate_seeds(Run *run, char **summary) {
+    JoSweepDef def = jo_default_sweep_def();
+    JoSweepCounts counts;
+    JoError error = {0};
+    def.scene = run->def;
+    def.seeds = (uint32_t)run->seeds;
+    def.seconds = run->has_seconds ? run->seconds : def.seconds;
+    def.steps = run->has_steps ? run->steps : 0;
+    def.data = run->data;
+    def.quiet = run->quiet;
+    def.stop = &cli_signal;
+    cli_catch_signals(true);
+    const JoxOverlay *before = run->files.sealed ? jox_overlay_use(&run->files) : NULL;
+    const bool good = jo_sweep(&def, &counts, summary, &error);
+    if (run->files.sealed)
+        jox_overlay_use(before);
+    if (cli_signal)
+        return JO_OK; /* which says how it ended */
+    run->troubled |= counts.troubled > 0;
+    return !good ? complain(&error, false) : counts.failed ? JO_FAILED : JO_OK;
 }
 
 /* What of the options does not go together; NULL: nothing. */
 static const char *misuse(const Run *run) {
     const JoViewDef *live = &run->live;
     return run->has_seconds && run->has_steps ? "--for and --steps exclude each other"
-           : run->seeds && (run->record || run->report || run->watch || run->log)
-               ? "--seeds cannot be combined with --record, --report, --log-input or --watch"
+           : run->seeds && (run->record || run->report || run->watch || run->log ||
+                            run->has_trace || run->profile)
+               ? "--seeds cannot be combined with --record, --report, --log-input, --watch, "
+                 "--trace or --profile-lua"
+           : run->seeds && run->has_steps && run->steps == 0 ? "--seeds goes with a step at least"
            : (run->every > 0.0) != (run->folder != NULL) ? "--checkpoint goes with --checkpoint-dir"
            : run->record_every > 0.0 && !run->record     ? "--record-every goes with --record"
            : run->folder && (run->seeds || run->view)
@@ -288,10 +281,10 @@ static int begin(Run *run) {
         return status;
     cli_catch_signals(run->view);
     status = run->view    ? show(run, &summary)
-             : run->seeds ? simulate_seeds(run)
+             : run->seeds ? simulate_seeds(run, &summary)
                           : simulate(run, &summary);
-    if (summary && run->summary) {
-        int written = cli_write(&cli_run, run->summary, summary);
+    if (summary && (run->summary || run->seeds)) {
+        int written = cli_write(&cli_run, run->summary ? run->summary : "-", summary);
         status = status ? status : written;
     }
     jo_free(summary);

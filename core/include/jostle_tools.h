@@ -142,6 +142,55 @@ typedef struct JoTiming {
 JO_API bool jo_plot_times(const JoTiming *timings, size_t count, const char *directory,
                           JoError *error);
 
+/* ---- sweeps ------------------------------------------------------------------------------ */
+
+/* Every combination of the values that settings of a scene take, with several seeds each, as
+   processes of their own. */
+typedef struct JoSweepDef {
+    JoSceneDef scene; /* of every run; its overrides are not lists. Its seed is the first of the
+                         seeds (1 unless it has one); `threads` 0 is one a run */
+    const char *const *sets; /* "PATH=A,B,C"; a comma within brackets or quotes parts nothing */
+    size_t set_count;
+    uint32_t seeds;   /* of each combination; default 1 */
+    double seconds;   /* simulated; default NAN: as the scene says */
+    uint64_t steps;   /* 0: by seconds */
+    const char *out;  /* SQLite file, with which a sweep goes on if it is there; NULL: in memory */
+    const char *data; /* NULL, or a folder in which each seed has its CSV files, in seed-N */
+    uint32_t jobs;    /* processes at once; 0: one for each processor that this one may use */
+    uint32_t only;    /* the number of one run, from 1: all seeds of the first combination, then of
+                         the next; 0: all runs */
+    bool again;       /* runs that failed before are done once more */
+    bool quiet;       /* no progress on stderr */
+    /* NULL, or called with each combination before it is loaded; false refuses, having said why. */
+    bool (*vet)(void *context, const JoSceneDef *scene);
+    void *vet_context;
+    const volatile int *stop; /* it ends once a signal or another thread sets this; NULL: never */
+    JoMessage *message;       /* NULL: to stderr */
+    void *message_context;
+    uint32_t cookie;
+} JoSweepDef;
+JO_API JoSweepDef jo_default_sweep_def(void);
+typedef struct JoSweepCounts {
+    uint32_t runs, done; /* in all; with figures */
+    uint32_t kept;       /* of all, those from before */
+    uint32_t troubled;   /* of those done: see jo_scene_troubles */
+    uint32_t failed, missing;
+} JoSweepCounts;
+/* Runs what is not there yet. A run that fails is kept with its reason, and ends nothing. *summary,
+   unless NULL, is what jo_summaries_aggregate makes of all runs with figures; free with jo_free.
+   False with `error`: JO_USAGE if the def makes no sense, JO_INPUT if a combination does not load,
+   or the file is none of a sweep's or of other inputs (all that is wrong went to `message`),
+   JO_FAILED if it cannot be written, or it was stopped. What was done is kept then. */
+JO_API bool jo_sweep(const JoSweepDef *def, JoSweepCounts *counts, char **summary, JoError *error);
+/* How many runs there are, without running any; 0 with `error`. */
+JO_API uint32_t jo_sweep_runs(const JoSweepDef *def, JoError *error);
+/* Puts the runs of files of the same sweep, as those of `only`, into one: made, or gone on with.
+   False with `error` if one of them is no such file, or two say different things of a run. */
+JO_API bool jo_sweep_merge(const char *out, const char *const *parts, size_t count,
+                           JoSweepCounts *counts, JoError *error);
+/* Writes the runs of a sweep's file as CSV, a row each; "-" is standard output. */
+JO_API bool jo_sweep_csv(const char *sweep, const char *csv, JoError *error);
+
 /* ---- checks, tests, claims, references --------------------------------------------------- */
 
 /* Checks scenes and behaviours (or folders of them) without running; everything wrong goes to

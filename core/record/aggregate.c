@@ -10,33 +10,33 @@
 #include "base/mem.h"
 #include "base/number/statistics.h"
 
-/* What a number of a summary is, by its path; the first row that fits holds. Figures are statistics
-   of a run, of which a mean makes sense. All else is listed: what the run was given, texts, and
-   coordinates, whose mean would be a place where nothing was. `*` stands for any characters. */
+/* What a number of a summary is, by its path; the first row that fits holds. `*` stands for any
+   characters. */
 static const struct {
     const char *path;
-    bool is_figure;
+    JoxSummaryKind kind;
 } KINDS[] = {
-    {"danger.samples", false}, {"danger.limits.*.limit", false},
-    {"danger.*_x", false},     {"danger.*_y", false},
-    {"probes.*_x", false},     {"probes.*_y", false},
-    {"agents", true},          {"bodies", true},
-    {"wall_s", true},          {"cpu_s", true},
-    {"steps_per_s", true},     {"ns_per_agent_step", true},
-    {"stage_ns.*", true},      {"lp_failure_*", true},
-    {"density_max", true},     {"overlap_p99", true},
-    {"states.*", true},        {"transitions.*", true},
-    {"regions.*", true},       {"events.*", true},
-    {"bonds.*", true},         {"exchange.*", true},
-    {"danger.*", true},        {"lua.*", true},
-    {"probes.*", true},
+    {"danger.*_person", JOX_SUMMARY_GIVEN}, {"stood_longest.s", JOX_SUMMARY_FIGURE},
+    {"danger.samples", JOX_SUMMARY_GIVEN},  {"danger.limits.*.limit", JOX_SUMMARY_GIVEN},
+    {"danger.*_x", JOX_SUMMARY_GIVEN},      {"danger.*_y", JOX_SUMMARY_GIVEN},
+    {"probes.*_x", JOX_SUMMARY_GIVEN},      {"probes.*_y", JOX_SUMMARY_GIVEN},
+    {"wall_s", JOX_SUMMARY_COST},           {"cpu_s", JOX_SUMMARY_COST},
+    {"steps_per_s", JOX_SUMMARY_COST},      {"ns_per_agent_step", JOX_SUMMARY_COST},
+    {"stage_ns.*", JOX_SUMMARY_COST},       {"lua.*", JOX_SUMMARY_COST},
+    {"agents", JOX_SUMMARY_FIGURE},         {"bodies", JOX_SUMMARY_FIGURE},
+    {"lp_failure_*", JOX_SUMMARY_FIGURE},   {"density_max", JOX_SUMMARY_FIGURE},
+    {"overlap_p99", JOX_SUMMARY_FIGURE},    {"states.*", JOX_SUMMARY_FIGURE},
+    {"transitions.*", JOX_SUMMARY_FIGURE},  {"regions.*", JOX_SUMMARY_FIGURE},
+    {"events.*", JOX_SUMMARY_FIGURE},       {"bonds.*", JOX_SUMMARY_FIGURE},
+    {"exchange.*", JOX_SUMMARY_FIGURE},     {"danger.*", JOX_SUMMARY_FIGURE},
+    {"probes.*", JOX_SUMMARY_FIGURE},
 };
 
-static bool is_figure(const char *path) {
+JoxSummaryKind jox_summary_kind(const char *path) {
     for (size_t k = 0; k < sizeof KINDS / sizeof *KINDS; k++)
         if (fnmatch(KINDS[k].path, path, 0) == 0)
-            return KINDS[k].is_figure;
-    return false;
+            return KINDS[k].kind;
+    return JOX_SUMMARY_GIVEN;
 }
 
 typedef struct Value {
@@ -68,7 +68,7 @@ static bool add_item(void *context, const JoxJsonItem *item) {
     if (e == r->count) {
         JOX_RESERVE(r->entries, r->capacity, r->count + 1);
         r->entries[r->count++] = (Entry){jox_strdup(item->path), jox_alloc(r->texts, sizeof(Value)),
-                                         is_figure(item->path)};
+                                         jox_summary_kind(item->path) != JOX_SUMMARY_GIVEN};
     }
     Value *value = &r->entries[e].values[r->text];
     if (!value->known) /* else a key that is repeated */

@@ -166,6 +166,9 @@ void jox_run_give(JoScene *scene, int32_t machine, uint32_t group, const JoxGrou
 /* Takes over from a new specification of the scene what can change while it runs, and says what
    cannot. *spec is then the old one. */
 void jox_run_rescene(JoScene *scene, JoxSceneSpec **spec, double written);
+/* spec.c: adds the texts of all files of a scene: as they were read, where it is resumable, or as
+   they are live since. */
+void jox_run_texts(const JoScene *scene, JoxOverlay *out);
 /* area.c: the area that pictures and recordings show. */
 void jox_run_area(const JoScene *scene, JoxV2 *low, JoxV2 *high);
 /* Fills `error` with what could not be written, and frees the text. Returns false. */

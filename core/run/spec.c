@@ -1,4 +1,4 @@
-/* A scene's file, read with what the caller sets besides. */
+/* A scene's file, read with what the caller sets besides; and all that a scene was read from. */
 #include <stdio.h>
 
 #include "base/mem.h"
@@ -26,4 +26,27 @@ JoxSceneSpec *jox_run_load_spec(const JoSceneDef *def, const JoxMods *mods, uint
         jox_scene_load_text(def->path, def->text, def->text_length, &options, diagnostics);
     jox_free(sets);
     return spec;
+}
+
+static void add_overlay(JoxOverlay *all, const JoxOverlay *some) {
+    for (size_t f = 0; f < some->count; f++)
+        jox_overlay_put(all, some->files[f].path, some->files[f].text, some->files[f].length);
+}
+
+void jox_run_texts(const JoScene *scene, JoxOverlay *out) {
+    add_overlay(out, &scene->overlay);
+    add_overlay(out, &scene->tape);
+    for (uint32_t f = 0; f < scene->spec->file_count; f++)
+        jox_overlay_put(out, scene->spec->files[f].path, scene->spec->files[f].text,
+                        scene->spec->files[f].length);
+    const JoxMachineSet *machines = &scene->world->model.machines;
+    for (uint32_t m = 0; m < machines->count; m++) {
+        uint32_t count;
+        const JoxLuaFile *files = jox_lua_files(scene->lua, machines->items[m], &count);
+        for (uint32_t f = 0; f < count; f++) {
+            size_t length;
+            const char *text = jox_lua_text(scene->lua, machines->items[m], f, &length);
+            jox_overlay_put(out, files[f].path, text, length);
+        }
+    }
 }

@@ -32,6 +32,7 @@ commands=(
     "data run $scene --steps 3 --quiet --data out/data"
     "kept run $scene --steps 3 --quiet --data out/data --checkpoint 0.05 --checkpoint-dir out/saved --record out/r.sqlite"
     "drawn run $scene --steps 2 --quiet --report out/report --no-half-step"
+    "sweep sweep $scene --set groups.runner.set.mass=60,70 --steps 2 --jobs 1 --quiet --out out/runs.sqlite --csv out/runs.csv"
     "bench bench $scene --steps 2 --warm-up 0 --csv out/b.csv"
     "reproduce reproduce --claims $work/claims --seeds 1 --jobs 1 --out out/all --quiet"
     "report report $work/a.sqlite --summary out/s.json"

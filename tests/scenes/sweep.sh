@@ -1,2 +1,138 @@
-# Allocations, writes, names and threads that fail, a few of each for every command: `make faults` tries them all.
-FAULTS=2 bash tests/faults/run.sh
+# Sweeps: every combination and seed in one file, which goes on after any end, holds what its runs were made of, and
+# refuses others; the same by GNU parallel; `run --seeds` is the same mechanism.
+. tests/scenes/lib.sh
+program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
+expect() { # NAME STATUS TEXT COMMAND...
+    local name=$1 status=$2 text=$3; shift 3
+    timeout 300 "$@" >"$work/out" 2>&1 </dev/null
+    local got=$?
+    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
+        echo "not ok $name: status $got, wanted $status and '$text'"; head -5 "$work/out"; fi
+}
+mkdir -p "$work/project/scenes" "$work/project/behaviours"
+cp scenes/evacuation.yaml "$work/project/scenes/rooms.yaml"
+cp behaviours/*.lua "$work/project/behaviours/"
+cd "$work/project" || exit 1
+scene=scenes/rooms.yaml
+what=(--set groups.hall.count=20,30 --set groups.archive.count=5 --seeds 3 --for 4)
+# All that a sweep says of its runs, whenever and however they were done.
+table() { "$program" sweep "$scene" "${what[@]}" --out "$1" --quiet --csv - ; }
+
+# ---- a whole one ----
+expect "a sweep" 0 "6 runs with figures" "$program" sweep $scene "${what[@]}" --out whole.sqlite
+table whole.sqlite >whole.csv
+[ "$(wc -l <whole.csv)" = 7 ] && head -1 whole.csv | grep -q '^groups.hall.count,groups.archive.count,seed,state,reason,hash,steps,simulated_s,agents,.*,density_max,'; verdict "a table with a row for each run" $?
+[ "$(cut -d, -f1-4 whole.csv | tail -6 | tr '\n' ' ')" = "20,5,1,done 20,5,2,done 20,5,3,done 30,5,1,done 30,5,2,done 30,5,3,done " ]; verdict "every combination with every seed" $?
+for row in "20 2" "30 3"; do
+    set -- $row
+    same_hash "a run of a sweep is that of jostle run: $row" "$(hash_of "$program" $scene --set groups.hall.count="$1" --set groups.archive.count=5 --seed "$2" --for 4)" \
+        "$(grep "^$1,5,$2," whole.csv | cut -d, -f6)"
+done
+[ "$(sqlite3 whole.sqlite "select count(*) from input where path = 'scenes/rooms.yaml' or path = 'behaviours/evacuee.lua'")" = 2 ] &&
+    [ "$(sqlite3 whole.sqlite "select cast(text as text) from input where path = 'scenes/rooms.yaml'")" = "$(cat $scene)" ]; verdict "the file holds the texts that the runs were made of" $?
+[ "$(sqlite3 whole.sqlite "select cast(value as integer) from figure f join variant v on v.id = f.variant where v.settings like '%hall.count=30%' and seed = 2 and name = 'danger.inside'")" -gt 0 ] &&
+    [ "$(sqlite3 whole.sqlite "select count(distinct time) from curve_point natural join (select id as curve from curve_name where name = 'people inside') where variant = 1 and seed = 1")" = 41 ]; verdict "figures and curves can be asked for in SQL" $?
+expect "a run that is there is not done again" 0 "6 of 6 runs done (6 from before)" "$program" sweep $scene "${what[@]}" --out whole.sqlite
+what=(--set groups.hall.count=20,30,40 --set groups.archive.count=5 --seeds 4 --for 4)
+cp whole.sqlite more.sqlite
+expect "more seeds and values: only what is new is done" 0 "12 of 12 runs done (6 from before)" "$program" sweep $scene "${what[@]}" --out more.sqlite
+what=(--set groups.hall.count=20,30 --set groups.archive.count=5 --seeds 3 --for 4)
+
+# ---- interrupted and killed ----
+goes_on() { # NAME SIGNAL RUNS: after so many runs are kept
+    local n=0 pid
+    rm -f cut.sqlite*
+    "$program" sweep $scene "${what[@]}" --jobs 1 --out cut.sqlite --quiet 2>err &
+    pid=$!
+    while kill -0 $pid 2>/dev/null && [ "${n:-0}" -lt "$3" ]; do
+        sleep 0.05; n=$(sqlite3 -readonly cut.sqlite 'select count(*) from run' 2>/dev/null)
+    done
+    kill -"$2" $pid
+    wait $pid; echo "status $?" >>err
+    n=$(sqlite3 cut.sqlite 'select count(*) from run')
+    table cut.sqlite >cut.csv
+    [ "$n" -ge "$3" ] && [ "$n" -lt 6 ] && cmp -s cut.csv whole.csv; verdict "$1 after $n runs: the same command goes on to the same table" $?
+}
+goes_on "killed" KILL 2
+goes_on "interrupted" INT 1
+grep -q 'status 130' err && grep -q 'runs are kept in cut.sqlite, with which the same command goes on' err; verdict "  which says what is kept" $?
+[ -z "$(ps -eo ppid=,args= | awk '$1 == 1' | grep 'cut[.]sqlite')" ]; verdict "  no run is left behind" $?
+
+# ---- inputs ----
+echo '-- another text' >>behaviours/evacuee.lua
+cp whole.sqlite changed.sqlite
+expect "a file that has changed is named, and refused" 3 "behaviours/evacuee.lua has changed" "$program" sweep $scene "${what[@]}" --out changed.sqlite
+cmp -s whole.sqlite changed.sqlite; verdict "  and nothing is written" $?
+sed -i '$d' behaviours/evacuee.lua
+expect "another duration is named" 3 "duration: 4 s there, 9 s now" "$program" sweep $scene "${what[@]}" --for 9 --out whole.sqlite
+"$program" sweep $scene "${what[@]}" --jobs 1 --out edited.sqlite 2>err &
+pid=$!
+while kill -0 $pid 2>/dev/null && [ "$(sqlite3 -readonly edited.sqlite 'select count(*) from run' 2>/dev/null || echo 0)" -lt 1 ]; do sleep 0.05; done
+mv $scene $scene.away; wait $pid; mv $scene.away $scene
+table edited.sqlite | cmp -s - whole.csv; verdict "what is edited meanwhile changes no run" $?
+
+# ---- failures ----
+printf 'return machine { name = "odd", start = "A", states = { A = { steer = drift(1, 0) } } }\n' >behaviours/odd.lua
+printf 'jostle: 1\ngroups: {walkers: {behaviour: odd.lua, at: [[9999.5, 0], [9, 9]]}}\n' >scenes/fails.yaml
+fails=(--set guard.people=end,remove --seeds 2 --for 2)
+expect "runs that fail are kept with their reason, and end nothing" 1 "2 runs with figures, 2 of them not as it was written, 2 failed" "$program" sweep scenes/fails.yaml "${fails[@]}" --out fails.sqlite
+grep -qF 'people=end, seed 2 failed: step 8, t = 0.40 s: the position of agent 0 is more than 10 km from the origin' "$work/out"; verdict "  which the sweep says" $?
+[ "$(sqlite3 fails.sqlite "select count(*) from run where state = 'failed' and reason like '%the position of agent 0%'")" = 2 ]; verdict "  and the file" $?
+expect "  they are not tried again" 1 "4 of 4 runs done (4 from before, 2 failed)" "$program" sweep scenes/fails.yaml "${fails[@]}" --out fails.sqlite
+expect "  unless they are to be" 1 "4 of 4 runs done (2 from before, 2 failed)" "$program" sweep scenes/fails.yaml "${fails[@]}" --out fails.sqlite --again
+"$program" sweep $scene --seeds 1 --for 80 --out killed.sqlite >"$work/out" 2>&1 &
+pid=$!
+child=
+while kill -0 $pid && [ -z "$child" ]; do sleep 0.1; [ -s killed.sqlite ] && child=$(pgrep -P $pid); done
+kill -KILL $child; wait $pid
+grep -q 'seed 1 failed: its process was ended by signal 9' "$work/out"; verdict "a run whose process is killed is one that failed" $?
+
+# ---- errors ----
+expect "a path that is none" 3 "Did you mean 'count'?" "$program" sweep $scene --set groups.hall.cuont=1,2 --out x.sqlite
+expect "  of a variant that is named" 3 "the variant count=a lot does not load" "$program" sweep $scene --set 'groups.hall.count=30,a lot' --out x.sqlite
+[ ! -e x.sqlite ]; verdict "  no file is made" $?
+expect "an empty value" 2 "a value of the list is empty" "$program" sweep $scene --set groups.hall.count=1,,2 --out x.sqlite
+expect "a value twice" 2 "stands in the list twice" "$program" sweep $scene --set groups.hall.count=1,2,1 --out x.sqlite
+"$program" sweep $scene --set 'groups.hall.set.speed=normal(1.3, 0.1),1.2' --steps 1 --out drawn.sqlite --quiet && [ "$(sqlite3 drawn.sqlite 'select count(*) from variant')" = 2 ]; verdict "a comma within brackets parts nothing" $?
+expect "a bracket that is not closed" 2 "not closed" "$program" sweep $scene --set 'groups.hall.set.speed=normal(1,2' --out x.sqlite
+expect "a path twice" 2 "set twice" "$program" sweep $scene --set groups.hall.count=1 --set groups.hall.count=2 --out x.sqlite
+expect "too many runs" 2 "100000 runs are the most" "$program" sweep $scene --set groups.hall.count=1,2 --seeds 100000 --out x.sqlite
+expect "no file to keep them" 2 "--out FILE says" "$program" sweep $scene --seeds 2
+expect "a scene that is not there" 3 "gone.yaml" "$program" sweep gone.yaml --out x.sqlite
+printf 'not a database, and long enough to be looked at: %0100d' 7 >foreign.sqlite; cp foreign.sqlite kept
+expect "a file that is no database" 3 "no file of \`jostle sweep\`" "$program" sweep $scene "${what[@]}" --out foreign.sqlite
+sqlite3 other.sqlite 'create table t(a); insert into t values(1)'; cp other.sqlite kept.sqlite
+expect "another program's database" 3 "left as it is" "$program" sweep $scene "${what[@]}" --out other.sqlite
+cmp -s foreign.sqlite kept && cmp -s other.sqlite kept.sqlite; verdict "  both are left as they are" $?
+cp whole.sqlite damaged.sqlite; dd if=/dev/urandom of=damaged.sqlite bs=4096 seek=1 count=30 conv=notrunc 2>/dev/null
+expect "a damaged one" 3 "the file is damaged" "$program" sweep $scene "${what[@]}" --out damaged.sqlite
+expect "a folder" 1 "no regular file" "$program" sweep $scene "${what[@]}" --out scenes
+expect "a folder that is not there" 1 "cannot write 'nowhere/x.sqlite'" "$program" sweep $scene "${what[@]}" --out nowhere/x.sqlite
+"$program" sweep $scene --seeds 1 --for 80 --out two.sqlite --quiet &
+pid=$!
+while kill -0 $pid && [ ! -s two.sqlite ]; do sleep 0.02; done
+expect "two sweeps on one file" 1 "another sweep writes it" "$program" sweep $scene --seeds 1 --for 80 --out two.sqlite
+kill $pid; wait $pid 2>/dev/null
+(ulimit -f 400; "$program" sweep $scene "${what[@]}" --out full.sqlite >"$work/out" 2>&1; echo "status $?" >>"$work/out")
+grep -q 'status 1' "$work/out" && grep -q 'what was kept so far stays' "$work/out"; verdict "no room on the disk is said" $?
+[ "$(sqlite3 full.sqlite 'pragma integrity_check')" = ok ] && table full.sqlite | cmp -s - whole.csv; verdict "  and the sweep goes on once there is" $?
+
+# ---- many machines ----
+"$program" sweep $scene "${what[@]}" --out many.sqlite --list >jobs
+[ "$(wc -l <jobs)" = 6 ] && [ ! -e many.sqlite ]; verdict "a list has a command for each run" $?
+parallel --version >/dev/null && parallel -j 2 <jobs >"$work/out" 2>&1; verdict "GNU parallel does them" $?
+[ "$(ls many-parts | wc -l)" = 6 ] && [ "$(sqlite3 many-parts/run-000005.sqlite 'select count(*), min(seed) from run')" = "1|2" ]; verdict "  each into a file of its own" $?
+rm many-parts/run-000004.sqlite
+expect "the files are merged" 0 "5 runs with figures" "$program" sweep --merge many-parts/*.sqlite --out many.sqlite
+expect "  and what is missing is done by the sweep's own command" 0 "6 of 6 runs done (5 from before)" "$program" sweep $scene "${what[@]}" --out many.sqlite
+table many.sqlite | cmp -s - whole.csv; verdict "  to the table of one machine" $?
+[ "$(sqlite3 many.sqlite 'select count(*), sum(value) from curve_point')" = "$(sqlite3 whole.sqlite 'select count(*), sum(value) from curve_point')" ]; verdict "  curves and all" $?
+"$program" sweep $scene --set groups.hall.count=20,30 --set groups.archive.count=6 --seeds 3 --for 7 --only 1 --out another.sqlite --quiet
+expect "another sweep's file is not merged" 3 "is of another sweep" "$program" sweep --merge another.sqlite --out many.sqlite
+cp many-parts/run-000001.sqlite lies.sqlite; sqlite3 lies.sqlite "update run set hash = '0000000000000000'"
+expect "nor one that says another thing of a run" 3 "the programs that made them are not the same" "$program" sweep --merge lies.sqlite --out many.sqlite
+
+# ---- run --seeds ----
+"$program" run $scene --set groups.hall.count=20 --set groups.archive.count=5 --seeds 3 --for 4 --quiet --summary seeds.json --data each 2>err
+[ "$(grep -o '"hash": \[.*\]' seeds.json)" = "$(awk -F, '$1 == 20 {h = h (h ? ", " : "") "\"" $6 "\""} END {print "\"hash\": [" h "]"}' whole.csv)" ]; verdict "run --seeds has the runs of a sweep" $?
+[ -s each/seed-1/south.csv ] && [ -s each/seed-3/south.csv ] && ! cmp -s each/seed-1/danger.csv each/seed-3/danger.csv; verdict "  with files of each" $?

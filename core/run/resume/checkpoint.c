@@ -27,29 +27,10 @@ static void add_text(JoxText *out, const char *name, const char *text) {
         jox_pieces_add(out, name, text, strlen(text));
 }
 
-static void add_overlay(JoxOverlay *all, const JoxOverlay *some) {
-    for (size_t f = 0; f < some->count; f++)
-        jox_overlay_put(all, some->files[f].path, some->files[f].text, some->files[f].length);
-}
-
 /* The texts of all files: as they were read, or as they are live since. */
 static void add_files(JoxText *out, const JoScene *scene) {
     JoxOverlay all = {0};
-    add_overlay(&all, &scene->overlay);
-    add_overlay(&all, &scene->tape);
-    for (uint32_t f = 0; f < scene->spec->file_count; f++)
-        jox_overlay_put(&all, scene->spec->files[f].path, scene->spec->files[f].text,
-                        scene->spec->files[f].length);
-    const JoxMachineSet *machines = &scene->world->model.machines;
-    for (uint32_t m = 0; m < machines->count; m++) {
-        uint32_t count;
-        const JoxLuaFile *files = jox_lua_files(scene->lua, machines->items[m], &count);
-        for (uint32_t f = 0; f < count; f++) {
-            size_t length;
-            const char *text = jox_lua_text(scene->lua, machines->items[m], f, &length);
-            jox_overlay_put(&all, files[f].path, text, length);
-        }
-    }
+    jox_run_texts(scene, &all);
     JoxText piece = {0};
     for (size_t f = 0; f < all.count; f++) {
         piece.length = 0;

@@ -1,0 +1,184 @@
+/* Curves over time and fields over the floor of one run. */
+#include <math.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/mem.h"
+#include "run/run.h"
+#include "sweep/sweep.h"
+
+typedef struct Collected {
+    uint64_t every; /* steps between points */
+    JoxSweepCurve *curves;
+    uint32_t count;
+    size_t capacity;
+    double *times; /* s: of the points so far */
+    uint32_t samples;
+    size_t time_capacity;
+    float *most;    /* 1/m2: the greatest density of each cell */
+    float now;      /* 1/m2: the greatest of any cell since the last point; NAN: none */
+    double noted_s; /* of the last sample of densities */
+} Collected;
+
+/* Whole seconds, or a handsome part or multiple of one, of which about JOX_SWEEP_SAMPLES fit. */
+static double pace(double seconds) {
+    static const double STEPS[] = {0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1800};
+    const size_t count = sizeof STEPS / sizeof *STEPS;
+    for (size_t s = 0; s < count; s++)
+        if (seconds / STEPS[s] <= JOX_SWEEP_SAMPLES)
+            return STEPS[s];
+    return seconds / JOX_SWEEP_SAMPLES;
+}
+
+/* Adds a value of the present moment. A curve that begins later was 0 before. */
+static void add(Collected *c, const char *name, const char *unit, double value) {
+    uint32_t k = 0;
+    while (k < c->count && strcmp(c->curves[k].name, name) != 0)
+        k++;
+    if (k == c->count) {
+        JOX_RESERVE(c->curves, c->capacity, c->count + 1);
+        c->curves[c->count++] = (JoxSweepCurve){.name = jox_strdup(name), .unit = jox_strdup(unit)};
+    }
+    JoxSweepCurve *curve = &c->curves[k];
+    JOX_RESERVE(curve->points, curve->capacity, 2 * (size_t)c->samples);
+    while (curve->count < c->samples) {
+        curve->points[2 * curve->count] = c->times[curve->count];
+        curve->points[2 * curve->count + 1] = curve->count + 1 < c->samples ? 0 : value;
+        curve->count++;
+    }
+}
+
+static double mean_speed(const JoxFrame *frame) {
+    double sum = 0;
+    for (uint32_t i = 0; i < frame->count; i++)
+        sum += sqrt((double)frame->vx[i] * frame->vx[i] + (double)frame->vy[i] * frame->vy[i]);
+    return frame->count ? sum / frame->count : NAN;
+}
+
+static void sample(Collected *c, JoScene *scene) {
+    const JoxExits *exits = &scene->world->state.exits;
+    const JoxProbe *probe;
+    char name[200];
+    JOX_RESERVE(c->times, c->time_capacity, c->samples + 1);
+    c->times[c->samples++] = jo_world_time(scene->world);
+    add(c, "people inside", "", scene->world->state.agents.count);
+    add(c, "people who left", "", (double)exits->left);
+    for (uint32_t e = 0; e < exits->count; e++) {
+        snprintf(name, sizeof name, "left by %.150s", exits->items[e].name);
+        add(c, name, "", exits->items[e].people);
+    }
+    add(c, "greatest density", "1/m2", c->now);
+    add(c, "mean speed", "m/s", c->samples > 1 ? mean_speed(jox_run_frame(scene)) : NAN);
+    for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
+        if (jox_probe_def(probe)->kind == JOX_PROBE_FLOW) {
+            snprintf(name, sizeof name, "passed %.150s", jox_probe_def(probe)->name);
+            add(c, name, "", jox_probe_passages(probe));
+        }
+    c->now = NAN;
+}
+
+static bool begin(void *self, JoScene *scene, const void *seconds, JoError *error) {
+    Collected *c = self;
+    const double dt = scene->world->model.def.dt, of = pace(*(const double *)seconds);
+    const JoxDensity *grid = jox_run_local(scene)->grid;
+    (void)error;
+    *c = (Collected){.every = (uint64_t)fmax(1.0, of / dt + 0.5), .now = NAN, .noted_s = NAN};
+    c->most = jox_alloc((size_t)grid->columns * grid->rows, sizeof *c->most);
+    sample(c, scene);
+    return true;
+}
+
+static bool frame(void *self, JoScene *scene, JoError *error) {
+    Collected *c = self;
+    const JoxLocal *local = jox_run_local(scene);
+    (void)error;
+    if (local->time != c->noted_s && !isnan(local->time)) {
+        const size_t cells = (size_t)local->grid->columns * local->grid->rows;
+        c->noted_s = local->time;
+        for (size_t k = 0; k < cells; k++) {
+            c->most[k] = jox_maxf(c->most[k], local->grid->now[k]);
+            c->now = fmaxf(c->now, local->grid->now[k]);
+        }
+    }
+    if (scene->world->state.tick % c->every == 0)
+        sample(c, scene);
+    return true;
+}
+
+static bool end(void *self, JoScene *scene, JoError *error) {
+    Collected *c = self;
+    (void)error;
+    if (c->times[c->samples - 1] < jo_world_time(scene->world))
+        sample(c, scene);
+    return true;
+}
+
+static void release(void *self) {
+    Collected *c = self;
+    for (uint32_t k = 0; k < c->count; k++)
+        jox_sweep_free_curve(&c->curves[k]);
+    jox_free(c->curves);
+    jox_free(c->times);
+    jox_free(c->most);
+}
+
+static const JoxListenerKind CURVES = {.name = "curves and fields",
+                                       .size = sizeof(Collected),
+                                       .begin = begin,
+                                       .frame = frame,
+                                       .end = end,
+                                       .release = release};
+
+bool jox_sweep_collect(JoScene *scene, double seconds, JoError *error) {
+    jox_run_collect_danger(scene); /* and densities, before the curves are drawn of them */
+    return jox_run_listen(scene, &CURVES, &seconds, error) != NULL;
+}
+
+/* ---- fields ---- */
+
+/* Of a block of cells the greatest value, or the mean over its floor; NAN without floor. */
+static float of_block(const Collected *c, const JoxDensity *grid, uint32_t size, uint32_t column,
+                      uint32_t row, bool mean) {
+    double area = 0, sum = 0;
+    float most = 0;
+    for (uint32_t y = row * size; y < (row + 1) * size && y < grid->rows; y++)
+        for (uint32_t x = column * size; x < (column + 1) * size && x < grid->columns; x++) {
+            const size_t cell = (size_t)y * grid->columns + x;
+            const double floor_m2 = (double)jox_density_area(grid, cell);
+            if (!(floor_m2 > 0))
+                continue;
+            area += floor_m2;
+            sum += floor_m2 * jox_density_mean(grid, x, y);
+            most = jox_maxf(most, c->most[cell]);
+        }
+    return area > 0 ? (mean ? (float)(sum / area) : most) : NAN;
+}
+
+static void put_field(const Collected *c, const JoxDensity *grid, const char *name, bool mean,
+                      JoxText *pieces) {
+    const double cells = (double)grid->columns * grid->rows;
+    const uint32_t size = (uint32_t)ceil(sqrt(fmax(1.0, cells / JOX_SWEEP_CELLS)));
+    JoxSweepField field = {.name = jox_strdup(name),
+                           .unit = jox_strdup("1/m2"),
+                           .low_x = (double)grid->low.x,
+                           .low_y = (double)grid->low.y,
+                           .cell = (double)grid->cell * size,
+                           .columns = (grid->columns + size - 1) / size,
+                           .rows = (grid->rows + size - 1) / size};
+    field.values = jox_alloc((size_t)field.columns * field.rows, sizeof *field.values);
+    for (uint32_t row = 0; row < field.rows; row++)
+        for (uint32_t column = 0; column < field.columns; column++)
+            field.values[(size_t)row * field.columns + column] =
+                of_block(c, grid, size, column, row, mean);
+    jox_sweep_put_field(pieces, &field);
+    jox_sweep_free_field(&field);
+}
+
+void jox_sweep_put_collected(const JoScene *scene, JoxText *pieces) {
+    const Collected *c = jox_run_listener(scene, &CURVES);
+    JOX_ASSERT(c);
+    for (uint32_t k = 0; k < c->count; k++)
+        jox_sweep_put_curve(pieces, &c->curves[k]);
+    put_field(c, jox_run_local(scene)->grid, "greatest density", false, pieces);
+    put_field(c, jox_run_local(scene)->grid, "mean density", true, pieces);
+}

@@ -1,0 +1,109 @@
+#include "sweep/inputs.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/guard.h"
+#include "run/run.h"
+
+JoSceneDef jox_sweep_scene(const JoSweepDef *def, const JoxSweepVariant *variant, uint64_t seed) {
+    JoSceneDef scene = def->scene;
+    const char **sets = jox_alloc(scene.override_count + variant->set_count + 1, sizeof *sets);
+    for (size_t o = 0; o < scene.override_count; o++)
+        sets[o] = scene.overrides[o];
+    for (uint32_t k = 0; k < variant->set_count; k++)
+        sets[scene.override_count + k] = variant->sets[k];
+    scene.overrides = sets;
+    scene.override_count += variant->set_count;
+    scene.seed = seed;
+    scene.has_seed = true;
+    scene.threads = scene.threads ? scene.threads : 1;
+    return scene;
+}
+
+static bool is_vetted(const JoSweepDef *def, const JoSceneDef *scene) {
+    const JoxOutside outside = jox_guard_leave();
+    const bool good = !def->vet || def->vet(def->vet_context, scene);
+    jox_guard_return(outside);
+    return good;
+}
+
+static void hear(void *context, const char *text) {
+    jox_text_add(context, text);
+}
+
+/* Loads without placing anybody, and keeps what was read. */
+static bool load(const JoSweepDef *def, const JoSceneDef *vetted, const char *name,
+                 JoxOverlay *files, JoError *error) {
+    JoSceneDef dry = *vetted;
+    JoxText said = {0};
+    dry.dry = true;
+    dry.resumable = true; /* keeps all texts */
+    dry.message = hear;
+    dry.message_context = &said;
+    JoScene *scene = jo_scene_load(&dry, error);
+    const bool good = scene != NULL;
+    if (good)
+        jox_run_texts(scene, files);
+    jo_scene_free(scene);
+    if (!good && said.data)
+        jox_run_message(def->message, def->message_context, said.data);
+    if (!good)
+        jox_error(error, error->code, "%s%s does not load", *name ? "the variant " : "the scene",
+                  name);
+    jox_text_free(&said);
+    return good;
+}
+
+bool jox_sweep_load_inputs(const JoSweepDef *def, const JoxSweepPlan *plan,
+                           const char *const *names, JoxOverlay *files, JoError *error) {
+    for (uint32_t v = 0; v < plan->variant_count; v++) {
+        if (def->only && (def->only - 1) / plan->seeds != v)
+            continue;
+        JoSceneDef scene = jox_sweep_scene(def, &plan->variants[v], plan->first_seed);
+        const bool vetted = is_vetted(def, &scene);
+        if (!vetted)
+            jox_error(error, JO_INPUT, "%s%s does not load",
+                      *names[v] ? "the variant " : "the scene", names[v]);
+        const bool good = vetted && load(def, &scene, names[v], files, error);
+        jox_free((void *)(uintptr_t)scene.overrides);
+        if (!good)
+            return false;
+    }
+    files->sealed = true;
+    return true;
+}
+
+bool jox_sweep_note_inputs(const JoxSweepStore *store, const JoSweepDef *def,
+                           const JoxOverlay *files, JoxText *differences, JoError *error) {
+    char until[64] = "", step[48] = "";
+    JoxText sets = {0}, mods = {0};
+    if (def->steps)
+        snprintf(until, sizeof until, "%llu steps", (unsigned long long)def->steps);
+    else if (!isnan(def->seconds))
+        snprintf(until, sizeof until, "%.9g s", def->seconds);
+    if (def->scene.has_dt)
+        snprintf(step, sizeof step, "%.9g s", def->scene.dt);
+    for (size_t o = 0; o < def->scene.override_count; o++)
+        jox_text_printf(&sets, "%s%s", o ? " " : "", def->scene.overrides[o]);
+    for (size_t m = 0; m < def->scene.mod_count; m++)
+        jox_text_printf(&mods, "%s%s", m ? " " : "", def->scene.mods[m]);
+    const struct {
+        const char *key, *value;
+    } shared[] = {{"scene", def->scene.path},
+                  {"version", jo_version()},
+                  {"duration", until},
+                  {"step", step},
+                  {"settings of all", sets.data ? sets.data : ""},
+                  {"mods", mods.data ? mods.data : ""},
+                  {"input log", def->scene.input_log ? def->scene.input_log : ""}};
+    bool good = true;
+    for (size_t k = 0; good && k < sizeof shared / sizeof *shared; k++)
+        good = jox_sweep_note(store, shared[k].key, shared[k].value, differences, error);
+    for (size_t f = 0; good && f < files->count; f++)
+        good = jox_sweep_note_input(store, files->files[f].path, files->files[f].text,
+                                    files->files[f].length, differences, error);
+    jox_text_free(&sets);
+    jox_text_free(&mods);
+    return good;
+}

@@ -1,0 +1,159 @@
+/* The runs of several files of one sweep, in one. */
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/guard.h"
+#include "sweep/store.h"
+
+/* Of `part`, that is attached: runs that the file has not, or has only as failed; the numbers of
+   variants and curves are those of each file. */
+static const char CHOOSE[] =
+    "INSERT INTO main.variant(settings, plan) SELECT settings, plan FROM part.variant WHERE true"
+    " ON CONFLICT(settings) DO UPDATE SET plan = coalesce(plan, excluded.plan);"
+    "INSERT INTO main.curve_name(name, unit) SELECT name, unit FROM part.curve_name WHERE true"
+    " ON CONFLICT(name) DO NOTHING;"
+    "CREATE TEMP TABLE IF NOT EXISTS moved(was INTEGER, variant INTEGER, seed INTEGER,"
+    " PRIMARY KEY(was, seed));"
+    "DELETE FROM temp.moved;"
+    "INSERT INTO temp.moved SELECT p.variant, v.id, p.seed FROM part.run p"
+    " JOIN part.variant w ON w.id = p.variant JOIN main.variant v ON v.settings = w.settings"
+    " LEFT JOIN main.run r ON r.variant = v.id AND r.seed = p.seed"
+    " WHERE r.state IS NULL OR (r.state = 'failed' AND p.state != 'failed');"
+    "DELETE FROM main.run WHERE (variant, seed) IN (SELECT variant, seed FROM temp.moved);";
+static const char MOVE[] =
+    "INSERT INTO main.run SELECT m.variant, m.seed, p.state, p.reason, p.hash, p.steps,"
+    " p.simulated_s, p.cpu_s, p.wall_s, p.summary FROM temp.moved m"
+    " JOIN part.run p ON p.variant = m.was AND p.seed = m.seed;"
+    "INSERT INTO main.figure SELECT m.variant, m.seed, p.name, p.value FROM temp.moved m"
+    " JOIN part.figure p ON p.variant = m.was AND p.seed = m.seed;"
+    "INSERT INTO main.curve_point SELECT m.variant, m.seed, n.id, p.time, p.value FROM temp.moved m"
+    " JOIN part.curve_point p ON p.variant = m.was AND p.seed = m.seed"
+    " JOIN part.curve_name q ON q.id = p.curve JOIN main.curve_name n ON n.name = q.name;"
+    "INSERT INTO main.field SELECT m.variant, m.seed, p.name, p.unit, p.low_x, p.low_y, p.cell,"
+    " p.columns, p.rows, p.cells FROM temp.moved m"
+    " JOIN part.field p ON p.variant = m.was AND p.seed = m.seed;";
+
+/* A run that both have, with other results. */
+static const char CLASH[] =
+    "SELECT v.settings, p.seed, r.hash, p.hash FROM part.run p"
+    " JOIN part.variant w ON w.id = p.variant JOIN main.variant v ON v.settings = w.settings"
+    " JOIN main.run r ON r.variant = v.id AND r.seed = p.seed WHERE r.hash != p.hash LIMIT 1";
+
+static bool agrees(const JoxSweepStore *store, const char *part, JoError *error) {
+    sqlite3_stmt *s = jox_sweep_ask(store, CLASH, error);
+    if (!s)
+        return false;
+    const int code = sqlite3_step(s);
+    if (code == SQLITE_ROW) {
+        char settings[200];
+        snprintf(settings, sizeof settings, "%s", (const char *)sqlite3_column_text(s, 0));
+        for (char *c = settings; *c; c++)
+            *c = *c == '\n' ? ' ' : *c;
+        jox_error(error, JO_INPUT,
+                  "%.200s: the run %s%sseed %lld ended with the state %s there, and with %s in "
+                  "%.200s: the programs that made them are not the same",
+                  part, settings, *settings ? " " : "", (long long)sqlite3_column_int64(s, 1),
+                  (const char *)sqlite3_column_text(s, 3), (const char *)sqlite3_column_text(s, 2),
+                  store->path);
+    } else if (code != SQLITE_DONE) {
+        jox_sweep_broken(store, error);
+    }
+    sqlite3_finalize(s);
+    return code == SQLITE_DONE;
+}
+
+/* Notes what another file's runs share; differences are told. */
+static bool compare(const JoxSweepStore *store, const JoxSweepStore *part, JoxText *differences,
+                    JoError *error) {
+    sqlite3_stmt *s = jox_sweep_ask(part, "SELECT key, value FROM sweep", error);
+    int code = SQLITE_ERROR;
+    bool good = s != NULL;
+    while (good && (code = sqlite3_step(s)) == SQLITE_ROW)
+        good = jox_sweep_note(store, (const char *)sqlite3_column_text(s, 0),
+                              (const char *)sqlite3_column_text(s, 1), differences, error);
+    good = good && (code == SQLITE_DONE || jox_sweep_broken(part, error));
+    sqlite3_finalize(s);
+    if (!good || !(s = jox_sweep_ask(part, "SELECT path, text FROM input", error)))
+        return false;
+    while (good && (code = sqlite3_step(s)) == SQLITE_ROW) {
+        const char *path = (const char *)sqlite3_column_text(s, 0);
+        const void *text = sqlite3_column_blob(s, 1);
+        good = path && jox_sweep_note_input(store, path, text, (size_t)sqlite3_column_bytes(s, 1),
+                                            differences, error);
+    }
+    good = good && (code == SQLITE_DONE || jox_sweep_broken(part, error));
+    sqlite3_finalize(s);
+    return good;
+}
+
+static bool is_same_sweep(const JoxSweepStore *store, const char *path, JoError *error) {
+    JoxSweepStore part;
+    JoxText differences = {0};
+    bool good =
+        jox_sweep_open_to_read(&part, path, error) && compare(store, &part, &differences, error);
+    if (good && differences.length) {
+        jox_error(error, JO_INPUT, "%.200s is of another sweep than %.200s:\n%.500s", path,
+                  store->path, differences.data);
+        good = false;
+    }
+    jox_sweep_close(&part);
+    jox_text_free(&differences);
+    return good;
+}
+
+static bool attach(const JoxSweepStore *store, const char *path, JoError *error) {
+    sqlite3_stmt *s = jox_sweep_ask(store, "ATTACH ? AS part", error);
+    if (s)
+        sqlite3_bind_text(s, 1, path, -1, SQLITE_STATIC);
+    return jox_sweep_finish(store, s, error);
+}
+
+static bool merge(const JoxSweepStore *store, const char *path, JoError *error) {
+    JoError ignored;
+    bool good = jox_sweep_do_sql(store, "BEGIN IMMEDIATE", error) &&
+                is_same_sweep(store, path, error) && jox_sweep_do_sql(store, "COMMIT", error);
+    if (!good) {
+        jox_sweep_do_sql(store, "ROLLBACK", &ignored);
+        return false;
+    }
+    if (!attach(store, path, error))
+        return false;
+    good = jox_sweep_do_sql(store, "BEGIN IMMEDIATE", error) && agrees(store, path, error) &&
+           jox_sweep_do_sql(store, CHOOSE, error) && jox_sweep_do_sql(store, MOVE, error) &&
+           jox_sweep_do_sql(store, "COMMIT", error);
+    if (!good)
+        jox_sweep_do_sql(store, "ROLLBACK", &ignored);
+    jox_sweep_do_sql(store, "DETACH part", &ignored);
+    return good;
+}
+
+static bool count(const JoxSweepStore *store, JoxSweepState state, uint32_t *out, JoError *error) {
+    sqlite3_stmt *s = jox_sweep_ask(store, "SELECT count(*) FROM run WHERE state = ?", error);
+    if (!s)
+        return false;
+    sqlite3_bind_text(s, 1, jox_sweep_states[state], -1, SQLITE_STATIC);
+    const bool good = sqlite3_step(s) == SQLITE_ROW || jox_sweep_broken(store, error);
+    *out = good ? (uint32_t)sqlite3_column_int64(s, 0) : 0;
+    sqlite3_finalize(s);
+    return good;
+}
+
+bool jo_sweep_merge(const char *out, const char *const *parts, size_t part_count,
+                    JoSweepCounts *counts, JoError *error) {
+    JOX_REQUIRE(out && parts && part_count > 0 && counts, false);
+    JOX_GUARD (NULL, error)
+        return false;
+    JoxSweepStore store;
+    uint32_t done = 0;
+    *counts = (JoSweepCounts){0};
+    bool good = jox_sweep_open(&store, out, error);
+    for (size_t p = 0; good && p < part_count; p++)
+        good = merge(&store, parts[p], error);
+    good = good && count(&store, JOX_SWEEP_DONE, &done, error) &&
+           count(&store, JOX_SWEEP_TROUBLED, &counts->troubled, error) &&
+           count(&store, JOX_SWEEP_FAILED, &counts->failed, error);
+    counts->done = done + counts->troubled;
+    counts->runs = counts->done + counts->failed;
+    jox_sweep_close(&store);
+    return good;
+}

@@ -1,0 +1,209 @@
+/* Which runs a sweep has: every combination of the values that its settings take. */
+#include <ctype.h>
+#include <string.h>
+
+#include "base/guard.h"
+#include "base/mem.h"
+#include "base/text.h"
+#include "sweep/sweep.h"
+
+/* Where a list's value that begins at `text` ends: at a comma that stands in no bracket, brace or
+   quotes, or at the end. NULL where one of these is not closed. */
+static const char *end_of_value(const char *text) {
+    int depth = 0;
+    char quote = 0;
+    for (; *text; text++) {
+        if (quote)
+            quote = *text == quote ? 0 : quote;
+        else if (*text == '"' || *text == '\'')
+            quote = *text;
+        else if (strchr("[{(", *text))
+            depth++;
+        else if (strchr("]})", *text))
+            depth--;
+        else if (*text == ',' && depth == 0)
+            return text;
+    }
+    return quote || depth != 0 ? NULL : text;
+}
+
+static bool refuse(JoError *error, const char *set, const char *what) {
+    jox_error(error, JO_USAGE, "--set %.120s: %s", set, what);
+    return false;
+}
+
+static bool add_value(JoxSweepAxis *axis, const char *set, const char *from, const char *to,
+                      JoError *error) {
+    while (from < to && isspace((unsigned char)*from))
+        from++;
+    while (to > from && isspace((unsigned char)to[-1]))
+        to--;
+    if (from == to)
+        return refuse(error, set, "a value of the list is empty: PATH=A,B,C");
+    char *value = jox_strndup(from, (size_t)(to - from));
+    for (uint32_t v = 0; v < axis->count; v++)
+        if (strcmp(axis->values[v], value) == 0) {
+            jox_free(value);
+            return refuse(error, set, "a value stands in the list twice");
+        }
+    JOX_RESERVE(axis->values, axis->capacity, axis->count + 1);
+    axis->values[axis->count++] = value;
+    return true;
+}
+
+static bool read_axis(JoxSweepAxis *axis, const char *set, JoError *error) {
+    const char *equals = strchr(set, '=');
+    if (!equals || equals == set)
+        return refuse(error, set, "is written PATH=VALUE, or PATH=A,B,C for a variant of each");
+    axis->path = jox_strndup(set, (size_t)(equals - set));
+    for (const char *at = equals + 1, *end;; at = end + 1) {
+        end = end_of_value(at);
+        if (!end)
+            return refuse(error, set, "a bracket or quote is not closed");
+        if (!add_value(axis, set, at, end, error))
+            return false;
+        if (!*end)
+            return true;
+    }
+}
+
+static bool read_axes(JoxSweepPlan *plan, const char *const *sets, size_t count, JoError *error) {
+    plan->axes = jox_alloc(count + 1, sizeof *plan->axes);
+    for (size_t s = 0; s < count; s++) {
+        JoxSweepAxis *axis = &plan->axes[plan->axis_count++];
+        if (!read_axis(axis, sets[s], error))
+            return false;
+        for (uint32_t a = 0; a + 1 < plan->axis_count; a++)
+            if (strcmp(plan->axes[a].path, axis->path) == 0)
+                return refuse(error, sets[s],
+                              "this path is set twice; give all of its values in one list");
+    }
+    return true;
+}
+
+static void make_variant(const JoxSweepPlan *plan, uint32_t number, JoxSweepVariant *v) {
+    JoxText key = {0};
+    v->sets = jox_alloc(plan->axis_count + 1, sizeof *v->sets);
+    v->set_count = plan->axis_count;
+    for (uint32_t a = plan->axis_count; a-- > 0;) {
+        const JoxSweepAxis *axis = &plan->axes[a];
+        JoxText set = {0};
+        jox_text_printf(&set, "%s=%s", axis->path, axis->values[number % axis->count]);
+        v->sets[a] = set.data;
+        number /= axis->count;
+    }
+    for (uint32_t a = 0; a < plan->axis_count; a++)
+        jox_text_printf(&key, "%s%s", a ? "\n" : "", v->sets[a]);
+    v->key = key.data ? key.data : jox_strdup("");
+}
+
+bool jox_sweep_plan(JoxSweepPlan *plan, const char *const *sets, size_t count, uint64_t first_seed,
+                    uint32_t seeds, JoError *error) {
+    *plan = (JoxSweepPlan){.first_seed = first_seed, .seeds = seeds};
+    if (!read_axes(plan, sets, count, error))
+        return false;
+    double variants = 1;
+    for (uint32_t a = 0; a < plan->axis_count; a++)
+        variants *= plan->axes[a].count;
+    if (variants * seeds > JOX_SWEEP_RUNS) {
+        jox_error(error, JO_USAGE, "these are %.0f variants of %u seeds; %d runs are the most",
+                  variants, seeds, JOX_SWEEP_RUNS);
+        return false;
+    }
+    if (first_seed > (uint64_t)INT64_MAX - seeds) {
+        jox_error(error, JO_USAGE, "seeds of a sweep are below 2^63");
+        return false;
+    }
+    plan->variant_count = (uint32_t)variants;
+    plan->variants = jox_alloc(plan->variant_count, sizeof *plan->variants);
+    for (uint32_t v = 0; v < plan->variant_count; v++)
+        make_variant(plan, v, &plan->variants[v]);
+    return true;
+}
+
+void jox_sweep_plan_free(JoxSweepPlan *plan) {
+    for (uint32_t a = 0; plan->axes && a < plan->axis_count; a++) {
+        for (uint32_t v = 0; v < plan->axes[a].count; v++)
+            jox_free(plan->axes[a].values[v]);
+        jox_free(plan->axes[a].values);
+        jox_free(plan->axes[a].path);
+    }
+    for (uint32_t v = 0; plan->variants && v < plan->variant_count; v++) {
+        for (uint32_t s = 0; s < plan->variants[v].set_count; s++)
+            jox_free(plan->variants[v].sets[s]);
+        jox_free(plan->variants[v].sets);
+        jox_free(plan->variants[v].key);
+    }
+    jox_free(plan->axes);
+    jox_free(plan->variants);
+    *plan = (JoxSweepPlan){0};
+}
+
+/* ---- names ---- */
+
+/* The line of a key that sets a path, or NULL. */
+static const char *line_of(const char *key, const char *path, size_t length) {
+    for (const char *line = key; *line;) {
+        if (strncmp(line, path, length) == 0 && line[length] == '=')
+            return line;
+        line += strcspn(line, "\n");
+        line += *line == '\n';
+    }
+    return NULL;
+}
+
+static bool same_line(const char *a, const char *b) {
+    const size_t n = a ? strcspn(a, "\n") : 0, m = b ? strcspn(b, "\n") : 0;
+    return !a == !b && n == m && strncmp(a ? a : "", b ? b : "", n) == 0;
+}
+
+/* Whether the variants differ in what they set a path to. */
+static bool differs(const char *const *keys, uint32_t count, const char *path, size_t length) {
+    for (uint32_t k = 1; k < count; k++)
+        if (!same_line(line_of(keys[k], path, length), line_of(keys[0], path, length)))
+            return true;
+    return false;
+}
+
+/* The end of a path: what stands behind its last dot. */
+static const char *tail_of(const char *path, size_t length) {
+    const char *at = path + length;
+    while (at > path && at[-1] != '.')
+        at--;
+    return at;
+}
+
+/* Whether another path of the key that makes a difference has the same end. */
+static bool shares_tail(const char *const *keys, uint32_t count, const char *key, const char *path,
+                        size_t length) {
+    const char *tail = tail_of(path, length);
+    const size_t size = (size_t)(path + length - tail);
+    for (const char *line = key; *line;) {
+        const size_t n = strcspn(line, "=");
+        const char *other = tail_of(line, n);
+        if (line != path && (size_t)(line + n - other) == size && memcmp(other, tail, size) == 0 &&
+            differs(keys, count, line, n))
+            return true;
+        line += strcspn(line, "\n");
+        line += *line == '\n';
+    }
+    return false;
+}
+
+void jox_sweep_names(const char *const *keys, uint32_t count, char **names) {
+    for (uint32_t k = 0; k < count; k++) {
+        JoxText name = {0};
+        for (const char *line = keys[k]; *line;) {
+            const size_t n = strcspn(line, "="), all = strcspn(line, "\n");
+            if (differs(keys, count, line, n)) {
+                const char *from =
+                    shares_tail(keys, count, keys[k], line, n) ? line : tail_of(line, n);
+                jox_text_printf(&name, "%s%.*s", name.length ? ", " : "", (int)(line + all - from),
+                                from);
+            }
+            line += all;
+            line += *line == '\n';
+        }
+        names[k] = name.data ? name.data : jox_strdup("");
+    }
+}

@@ -1,0 +1,58 @@
+/* The plan of a scene, for pictures of runs whose scene is not at hand. */
+#include <math.h>
+
+#include "base/format/json_writer.h"
+#include "run/run.h"
+#include "sweep/sweep.h"
+
+static void put_points(JoxJson *json, const JoxV2 *points, uint32_t count) {
+    jox_json_array(json, "points");
+    for (uint32_t p = 0; p < count; p++) {
+        jox_json_digits(json, NULL, (double)points[p].x, 9);
+        jox_json_digits(json, NULL, (double)points[p].y, 9);
+    }
+    jox_json_end(json);
+}
+
+static void put_walls(JoxJson *json, const JoxWalls *walls) {
+    jox_json_array(json, "walls");
+    for (uint32_t r = 0; r < walls->ring_count; r++) {
+        bool closed, twin;
+        const uint32_t count = jox_walls_given(walls, r, &closed, &twin);
+        JoxV2 *points = jox_walls_ring_points(walls, r);
+        jox_json_object(json, NULL);
+        jox_json_string(json, "name", walls->rings[r].name ? walls->rings[r].name : "");
+        jox_json_bool(json, "solid", walls->rings[r].solid);
+        jox_json_bool(json, "closed", closed);
+        jox_json_bool(json, "open", walls->rings[r].open);
+        put_points(json, points, count);
+        jox_json_end(json);
+        jox_free(points);
+        r += twin;
+    }
+    jox_json_end(json);
+}
+
+void jox_sweep_write_plan(const JoScene *scene, JoxText *out) {
+    const JoxSceneSpec *spec = scene->spec;
+    JoxV2 low, high;
+    JoxJson json = jox_json_begin(out, 0);
+    jox_run_area(scene, &low, &high);
+    jox_json_object(&json, NULL);
+    jox_json_string(&json, "title", spec->title ? spec->title : "");
+    jox_json_numbers_of(
+        &json, "area",
+        (const double[]){(double)low.x, (double)low.y, (double)high.x, (double)high.y}, 4, 9);
+    put_walls(&json, &scene->world->model.all_walls);
+    jox_json_array(&json, "places");
+    for (uint32_t p = 0; p < spec->place_count; p++) {
+        jox_json_object(&json, NULL);
+        jox_json_string(&json, "name", spec->places[p].name);
+        jox_json_string(&json, "kind", jox_place_kinds[spec->places[p].kind].name);
+        jox_json_number(&json, "radius", (double)spec->places[p].radius);
+        put_points(&json, spec->places[p].points, spec->places[p].count);
+        jox_json_end(&json);
+    }
+    jox_json_end(&json);
+    jox_json_end(&json);
+}

@@ -1,0 +1,84 @@
+/* One run of a sweep, in a process of its own. */
+#include <math.h>
+#include <string.h>
+
+#include "base/format/pieces.h"
+#include "base/mem.h"
+#include "run/run.h"
+#include "sweep/sweep.h"
+
+const char *const jox_sweep_states[3] = {"done", "troubled", "failed"};
+
+static void add_text(JoxText *pieces, const char *name, const char *text) {
+    jox_pieces_add(pieces, name, text, strlen(text));
+}
+
+static void hear(void *context, const char *text) {
+    jox_text_add(context, text);
+}
+
+/* Loads, steps, and adds what is to be kept; false with `error`. */
+static bool simulate(const JoxSweepRun *run, const JoSceneDef *def, JoxText *pieces,
+                     char **troubles, JoError *error) {
+    JoScene *scene = jo_scene_load(def, error);
+    if (!scene)
+        return false;
+    const double dt = jo_scene_stats(scene).dt;
+    const double seconds = isnan(run->seconds) ? jo_scene_duration(scene) : run->seconds;
+    const uint64_t steps = run->steps ? run->steps : (uint64_t)(seconds / dt + 0.5);
+    JoxText plan = {0};
+    jox_sweep_write_plan(scene, &plan);
+    bool good = jox_sweep_collect(scene, (double)steps * dt, error) &&
+                (!run->data || jo_scene_data(scene, run->data, error));
+    for (uint64_t s = 0; good && s < steps; s++)
+        good = jo_scene_step(scene, error);
+    JoError ending = {0};
+    const bool ended = jo_scene_finish(scene, &ending);
+    if (good && !ended)
+        *error = ending;
+    good = good && ended;
+    char *summary = good ? jo_scene_summary(scene) : NULL;
+    if (summary) {
+        const JoStats stats = jo_scene_stats(scene);
+        const JoxSweepNumbers numbers = {jo_world_hash(scene->world), stats.steps,
+                                         stats.simulated_s, stats.cpu_s, stats.wall_s};
+        jox_pieces_add(pieces, "numbers", &numbers, sizeof numbers);
+        add_text(pieces, "summary", summary);
+        add_text(pieces, "plan", plan.data);
+        jox_sweep_put_collected(scene, pieces);
+        *troubles = jo_scene_troubles(scene);
+    } else if (good) {
+        jox_memory_error(error);
+        good = false;
+    }
+    jo_free(summary);
+    jox_text_free(&plan);
+    jo_scene_free(scene);
+    return good;
+}
+
+void jox_sweep_do(const JoxSweepRun *run, JoxText *pieces) {
+    JoSceneDef def = *run->def;
+    JoError error = {0};
+    JoxText said = {0};
+    char *troubles = NULL;
+    def.message = hear;
+    def.message_context = &said;
+    jox_pieces_begin(pieces);
+    const bool good = simulate(run, &def, pieces, &troubles, &error);
+    const uint32_t state = !good      ? JOX_SWEEP_FAILED
+                           : troubles ? JOX_SWEEP_TROUBLED
+                                      : JOX_SWEEP_DONE;
+    jox_pieces_add(pieces, "state", &state, sizeof state);
+    JoxText why = {0};
+    if (!good && *error.file)
+        jox_text_printf(&why, "%s:%d:%d: ", error.file, (int)error.line, (int)error.column);
+    jox_text_add(&why, good && troubles ? troubles : *error.text ? error.text : "it failed");
+    if (state != JOX_SWEEP_DONE)
+        add_text(pieces, "reason", why.data);
+    jox_text_free(&why);
+    add_text(pieces, "said", said.data ? said.data : "");
+    jox_pieces_end(pieces);
+    jo_free(troubles);
+    jox_text_free(&said);
+}

@@ -1,0 +1,233 @@
+#include "sweep/store.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/database.h"
+#include "base/file.h"
+#include "base/guard.h"
+#include "base/hash.h"
+
+/* In the head of the file: "JSwp", and the version of these tables. */
+#define APPLICATION "1246984048"
+#define FORMAT "1"
+
+static const char SCHEMA[] =
+    "BEGIN;"
+    "CREATE TABLE sweep(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE input(path TEXT PRIMARY KEY, sha256 TEXT NOT NULL, text BLOB NOT NULL);"
+    "CREATE TABLE variant(id INTEGER PRIMARY KEY, settings TEXT NOT NULL UNIQUE, plan TEXT);"
+    "CREATE TABLE run(variant INTEGER NOT NULL, seed INTEGER NOT NULL, state TEXT NOT NULL,"
+    " reason TEXT, hash TEXT, steps INTEGER, simulated_s REAL, cpu_s REAL, wall_s REAL,"
+    " summary TEXT, PRIMARY KEY(variant, seed));"
+    "CREATE TABLE figure(variant INTEGER NOT NULL, seed INTEGER NOT NULL, name TEXT NOT NULL,"
+    " value REAL, PRIMARY KEY(variant, seed, name)) WITHOUT ROWID;"
+    "CREATE TABLE curve_name(id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, unit TEXT);"
+    "CREATE TABLE curve_point(variant INTEGER NOT NULL, seed INTEGER NOT NULL, curve INTEGER NOT"
+    " NULL, time REAL NOT NULL, value REAL, PRIMARY KEY(variant, seed, curve, time)) WITHOUT ROWID;"
+    "CREATE TABLE field(variant INTEGER NOT NULL, seed INTEGER NOT NULL, name TEXT NOT NULL,"
+    " unit TEXT, low_x REAL, low_y REAL, cell REAL, columns INTEGER, rows INTEGER, cells BLOB,"
+    " PRIMARY KEY(variant, seed, name));"
+    "PRAGMA application_id=" APPLICATION ";PRAGMA user_version=" FORMAT ";"
+    "COMMIT";
+
+bool jox_sweep_broken(const JoxSweepStore *store, JoError *error) {
+    const int code = sqlite3_errcode(store->db) & 0xff;
+    const bool bad = code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR ||
+                     code == SQLITE_MISMATCH;
+    jox_error(error, bad ? JO_INPUT : JO_FAILED, "%.300s: %.150s%s", store->path,
+              sqlite3_errmsg(store->db),
+              code == SQLITE_FULL || code == SQLITE_IOERR
+                  ? "; what was kept so far stays, and the same command goes on with it"
+              : bad ? "; the file is damaged: move it away, and the sweep begins anew"
+                    : "");
+    return false;
+}
+
+sqlite3_stmt *jox_sweep_ask(const JoxSweepStore *store, const char *sql, JoError *error) {
+    sqlite3_stmt *statement = NULL;
+    if (sqlite3_prepare_v2(store->db, sql, -1, &statement, NULL) == SQLITE_OK)
+        return statement;
+    jox_sweep_broken(store, error);
+    return NULL;
+}
+
+bool jox_sweep_do_sql(const JoxSweepStore *store, const char *sql, JoError *error) {
+    return sqlite3_exec(store->db, sql, NULL, NULL, NULL) == SQLITE_OK ||
+           jox_sweep_broken(store, error);
+}
+
+bool jox_sweep_finish(const JoxSweepStore *store, sqlite3_stmt *statement, JoError *error) {
+    const bool good = statement && sqlite3_step(statement) == SQLITE_DONE;
+    if (statement && !good)
+        jox_sweep_broken(store, error);
+    sqlite3_finalize(statement);
+    return good;
+}
+
+/* ---- opening ---- */
+
+/* A whole number that a pragma tells; -1 where it tells none. */
+static int64_t tell(const JoxSweepStore *store, const char *pragma) {
+    sqlite3_stmt *s = NULL;
+    int64_t value = -1;
+    if (sqlite3_prepare_v2(store->db, pragma, -1, &s, NULL) == SQLITE_OK &&
+        sqlite3_step(s) == SQLITE_ROW)
+        value = sqlite3_column_int64(s, 0);
+    sqlite3_finalize(s);
+    return value;
+}
+
+static bool is_ours(const JoxSweepStore *store, JoError *error) {
+    char text[24];
+    snprintf(text, sizeof text, "%lld", (long long)tell(store, "PRAGMA application_id"));
+    if (strcmp(text, APPLICATION) != 0) {
+        const int code = sqlite3_errcode(store->db) & 0xff;
+        jox_error(error, JO_INPUT, "%.300s is no file of `jostle sweep`%s; it is left as it is",
+                  store->path, code == SQLITE_NOTADB ? ", nor any SQLite database" : "");
+        return false;
+    }
+    snprintf(text, sizeof text, "%lld", (long long)tell(store, "PRAGMA user_version"));
+    if (strcmp(text, FORMAT) == 0)
+        return true;
+    jox_error(error, JO_INPUT, "%.300s is a sweep's file of format %s, and this program has %s",
+              store->path, text, FORMAT);
+    return false;
+}
+
+/* Makes the tables of a file that is empty. */
+static bool begin(const JoxSweepStore *store, JoError *error) {
+    if (tell(store, "PRAGMA schema_version") == 0 && tell(store, "PRAGMA application_id") == 0)
+        return jox_sweep_do_sql(store, SCHEMA, error);
+    return is_ours(store, error);
+}
+
+bool jox_sweep_open(JoxSweepStore *store, const char *path, JoError *error) {
+    struct stat info;
+    *store = (JoxSweepStore){.path = jox_strdup(path ? path : "")};
+    if (path && lstat(path, &info) == 0 && !S_ISREG(info.st_mode)) {
+        jox_error(error, JO_FAILED, "cannot write '%.300s': it is no regular file", path);
+        return false;
+    }
+    if (path && !(store->claim = jox_file_open(path, "a"))) {
+        jox_error(error, JO_FAILED, "cannot write '%.300s': %s", path,
+                  errno == EBUSY ? "another sweep writes it" : jox_file_why(errno));
+        return false;
+    }
+    if (!jox_database_open_to_write(path, &store->db))
+        return jox_sweep_broken(store, error);
+    return begin(store, error);
+}
+
+bool jox_sweep_open_to_read(JoxSweepStore *store, const char *path, JoError *error) {
+    *store = (JoxSweepStore){.path = jox_strdup(path)};
+    if (!jox_database_open(path, &store->db)) {
+        jox_error(error, JO_INPUT, "cannot read '%.300s': %.150s", path, sqlite3_errmsg(store->db));
+        return false;
+    }
+    return is_ours(store, error);
+}
+
+void jox_sweep_close(JoxSweepStore *store) {
+    jox_database_close(store->db);
+    if (store->claim) /* after the database, which it would take the locks from */
+        jox_file_close(store->claim);
+    jox_free(store->path);
+    *store = (JoxSweepStore){0};
+}
+
+/* ---- what all runs share ---- */
+
+/* The text that a statement finds for a key, to be freed; NULL: none. False with `error`. */
+static bool find(const JoxSweepStore *store, const char *sql, const char *key, char **found,
+                 JoError *error) {
+    sqlite3_stmt *s = jox_sweep_ask(store, sql, error);
+    *found = NULL;
+    if (!s)
+        return false;
+    sqlite3_bind_text(s, 1, key, -1, SQLITE_STATIC);
+    const int code = sqlite3_step(s);
+    const char *text = code == SQLITE_ROW ? (const char *)sqlite3_column_text(s, 0) : NULL;
+    if (text)
+        *found = jox_strdup(text);
+    const bool good = code == SQLITE_ROW || code == SQLITE_DONE || jox_sweep_broken(store, error);
+    sqlite3_finalize(s);
+    return good;
+}
+
+bool jox_sweep_note(const JoxSweepStore *store, const char *key, const char *value,
+                    JoxText *differences, JoError *error) {
+    char *found;
+    if (!find(store, "SELECT value FROM sweep WHERE key = ?", key, &found, error))
+        return false;
+    if (found && strcmp(found, value) != 0)
+        jox_text_printf(differences, "  %s: %s there, %s now\n", key, *found ? found : "none",
+                        *value ? value : "none");
+    const bool there = found != NULL;
+    jox_free(found);
+    if (there)
+        return true;
+    sqlite3_stmt *s = jox_sweep_ask(store, "INSERT INTO sweep VALUES(?, ?)", error);
+    if (s) {
+        sqlite3_bind_text(s, 1, key, -1, SQLITE_STATIC);
+        sqlite3_bind_text(s, 2, value, -1, SQLITE_STATIC);
+    }
+    return jox_sweep_finish(store, s, error);
+}
+
+bool jox_sweep_note_input(const JoxSweepStore *store, const char *path, const char *text,
+                          size_t length, JoxText *differences, JoError *error) {
+    char *found, sha256[65];
+    jox_sha256_hex(text, length, sha256);
+    if (!find(store, "SELECT sha256 FROM input WHERE path = ?", path, &found, error))
+        return false;
+    if (found && strcmp(found, sha256) != 0)
+        jox_text_printf(differences, "  %s has changed: SHA-256 %.12s... there, %.12s... now\n",
+                        path, found, sha256);
+    const bool there = found != NULL;
+    jox_free(found);
+    if (there)
+        return true;
+    sqlite3_stmt *s = jox_sweep_ask(store, "INSERT INTO input VALUES(?, ?, ?)", error);
+    if (s) {
+        sqlite3_bind_text(s, 1, path, -1, SQLITE_STATIC);
+        sqlite3_bind_text(s, 2, sha256, -1, SQLITE_STATIC);
+        sqlite3_bind_blob(s, 3, text ? text : "", (int)length, SQLITE_STATIC);
+    }
+    return jox_sweep_finish(store, s, error);
+}
+
+bool jox_sweep_variant(const JoxSweepStore *store, const char *key, int64_t *id, JoError *error) {
+    sqlite3_stmt *s = jox_sweep_ask(
+        store, "INSERT INTO variant(settings) VALUES(?) ON CONFLICT DO NOTHING", error);
+    if (s)
+        sqlite3_bind_text(s, 1, key, -1, SQLITE_STATIC);
+    if (!jox_sweep_finish(store, s, error) ||
+        !(s = jox_sweep_ask(store, "SELECT id FROM variant WHERE settings = ?", error)))
+        return false;
+    sqlite3_bind_text(s, 1, key, -1, SQLITE_STATIC);
+    const bool good = sqlite3_step(s) == SQLITE_ROW || jox_sweep_broken(store, error);
+    *id = good ? sqlite3_column_int64(s, 0) : 0;
+    sqlite3_finalize(s);
+    return good;
+}
+
+bool jox_sweep_state(const JoxSweepStore *store, int64_t variant, uint64_t seed, int *state,
+                     JoError *error) {
+    sqlite3_stmt *s =
+        jox_sweep_ask(store, "SELECT state FROM run WHERE variant = ? AND seed = ?", error);
+    *state = -1;
+    if (!s)
+        return false;
+    sqlite3_bind_int64(s, 1, variant);
+    sqlite3_bind_int64(s, 2, (sqlite3_int64)seed);
+    const int code = sqlite3_step(s);
+    const char *text = code == SQLITE_ROW ? (const char *)sqlite3_column_text(s, 0) : NULL;
+    for (int k = 0; text && k < 3; k++)
+        if (strcmp(text, jox_sweep_states[k]) == 0)
+            *state = k;
+    const bool good = code == SQLITE_ROW || code == SQLITE_DONE || jox_sweep_broken(store, error);
+    sqlite3_finalize(s);
+    return good;
+}

@@ -1,0 +1,348 @@
+/* jo_sweep: which runs are to be done, and doing them. */
+#include "sweep/sweep.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/assert.h"
+#include "base/format/pieces.h"
+#include "base/guard.h"
+#include "run/run.h"
+#include "sweep/inputs.h"
+#include "sweep/store.h"
+#include "task/children.h"
+#include "task/processors.h"
+
+enum { SWEEP_COOKIE = 0x4a4f5357 };
+
+JoSweepDef jo_default_sweep_def(void) {
+    return (JoSweepDef){
+        .scene = jo_default_scene_def(), .seeds = 1, .seconds = NAN, .cookie = SWEEP_COOKIE};
+}
+
+typedef struct Job {
+    uint32_t variant;
+    int64_t id; /* of the variant in the file */
+    uint64_t seed;
+} Job;
+
+typedef struct Sweep {
+    const JoSweepDef *def;
+    JoxSweepPlan plan;
+    JoxSweepStore store;
+    JoxOverlay files; /* all that the runs read */
+    char **names;     /* of variants */
+    bool *heard;      /* of variants: what a run of it says was told */
+    Job *jobs;        /* to be done */
+    uint32_t count, next;
+    size_t capacity;
+    JoSweepCounts counts;
+    double begun, shown; /* s, wall time */
+    uint32_t tenth;
+} Sweep;
+
+static bool is_stopped(const Sweep *s) {
+    return s->def->stop && __atomic_load_n(s->def->stop, __ATOMIC_RELAXED);
+}
+
+static void say(const Sweep *s, const char *text) {
+    jox_run_message(s->def->message, s->def->message_context, text);
+}
+
+/* "scenes/a.yaml, count=100, seed 7" */
+static void name_run(const Sweep *s, uint32_t variant, uint64_t seed, JoxText *out) {
+    jox_text_printf(out, "%s, %s%sseed %llu", s->def->scene.path, s->names[variant],
+                    *s->names[variant] ? ", " : "", (unsigned long long)seed);
+}
+
+/* ---- in the child ---- */
+
+static void work(void *context, uint64_t number, JoxText *result) {
+    const Sweep *s = context;
+    const Job *job = &s->jobs[number];
+    char *folder = NULL;
+    JoSceneDef scene = jox_sweep_scene(s->def, &s->plan.variants[job->variant], job->seed);
+    if (s->def->data) {
+        JoxText text = {0};
+        jox_text_printf(&text, "%s/seed-%llu", s->def->data, (unsigned long long)job->seed);
+        folder = text.data;
+    }
+    jox_overlay_use(&s->files);
+    jox_sweep_do(&(JoxSweepRun){&scene, s->def->seconds, s->def->steps, folder}, result);
+}
+
+/* ---- what is to be done ---- */
+
+static bool add_job(Sweep *s, uint32_t variant, uint64_t seed, JoError *error) {
+    Job job = {.variant = variant, .seed = seed};
+    int state;
+    if (!jox_sweep_variant(&s->store, s->plan.variants[variant].key, &job.id, error) ||
+        !jox_sweep_state(&s->store, job.id, seed, &state, error))
+        return false;
+    s->counts.runs++;
+    if (state < 0 || (state == JOX_SWEEP_FAILED && s->def->again)) {
+        JOX_RESERVE(s->jobs, s->capacity, s->count + 1);
+        s->jobs[s->count++] = job;
+        return true;
+    }
+    s->counts.kept++;
+    s->counts.done += state != JOX_SWEEP_FAILED;
+    s->counts.troubled += state == JOX_SWEEP_TROUBLED;
+    s->counts.failed += state == JOX_SWEEP_FAILED;
+    return true;
+}
+
+/* One seed of every variant first, then the next: what is there early compares all of them. */
+static bool list_jobs(Sweep *s, JoError *error) {
+    const JoxSweepPlan *plan = &s->plan;
+    const uint32_t only = s->def->only;
+    for (uint32_t n = 0; n < plan->seeds; n++)
+        for (uint32_t v = 0; v < plan->variant_count; v++)
+            if ((!only || only == 1 + v * plan->seeds + n) &&
+                !add_job(s, v, plan->first_seed + n, error))
+                return false;
+    return true;
+}
+
+/* The file, with what all runs share and are made of. */
+static bool open_file(Sweep *s, JoError *error) {
+    JoxText differences = {0};
+    bool good = jox_sweep_open(&s->store, s->def->out, error) &&
+                jox_sweep_do_sql(&s->store, "BEGIN IMMEDIATE", error) &&
+                jox_sweep_note_inputs(&s->store, s->def, &s->files, &differences, error) &&
+                (differences.length || list_jobs(s, error));
+    if (good && differences.length) {
+        JoError ignored;
+        jox_sweep_do_sql(&s->store, "ROLLBACK", &ignored);
+        JoxText text = {0};
+        jox_text_printf(&text, "%s:\n%s", s->def->out, differences.data);
+        say(s, text.data);
+        jox_text_free(&text);
+        jox_error(
+            error, JO_INPUT,
+            "%s was begun with other inputs, so that its runs do not compare with these: give "
+            "another --out, or bring back what was",
+            s->def->out);
+        good = false;
+    }
+    jox_text_free(&differences);
+    return good && jox_sweep_do_sql(&s->store, "COMMIT", error);
+}
+
+/* ---- the runs ---- */
+
+static void show_progress(Sweep *s, uint32_t running, bool last) {
+    const uint32_t all = s->counts.runs, ended = s->counts.done + s->counts.failed;
+    const uint32_t own = ended - s->counts.kept, tenth = all ? 10 * ended / all : 10;
+    const bool terminal = isatty(2);
+    const double now = jox_clock_wall(), spent = now - s->begun;
+    if (s->def->quiet || (terminal ? now - s->shown < 0.2 && !last : tenth == s->tenth && !last) ||
+        (last && !terminal && s->tenth == tenth && ended > 0))
+        return;
+    s->shown = now;
+    s->tenth = tenth;
+    fprintf(stderr, "%s%u of %u %s done", terminal ? "\r\033[K" : "", ended, all,
+            all == 1 ? "run" : "runs");
+    if (s->counts.kept || s->counts.failed)
+        fputs(" (", stderr);
+    if (s->counts.kept)
+        fprintf(stderr, "%u from before%s", s->counts.kept, s->counts.failed ? ", " : "");
+    if (s->counts.failed)
+        fprintf(stderr, "%u failed", s->counts.failed);
+    if (s->counts.kept || s->counts.failed)
+        fputs(")", stderr);
+    fprintf(stderr, ", %u running, %.0f s", running, spent);
+    if (own > 0 && ended < all)
+        fprintf(stderr, ", about %.0f s left", spent / own * (all - ended));
+    if (!terminal || last)
+        fputs("\n", stderr);
+}
+
+/* What a run said: of the first of each variant, and wherever it went wrong. */
+static void tell_run(Sweep *s, const Job *job, JoxSweepState state, const char *reason,
+                     const char *said) {
+    JoxText text = {0};
+    if (said && *said && !s->heard[job->variant])
+        jox_text_add(&text, said);
+    s->heard[job->variant] |= said != NULL;
+    if (state != JOX_SWEEP_DONE) {
+        name_run(s, job->variant, job->seed, &text);
+        jox_text_printf(&text, "%s: %s\n", state == JOX_SWEEP_FAILED ? " failed" : "",
+                        reason ? reason : "it is not known why");
+    }
+    if (text.length)
+        say(s, text.data);
+    jox_text_free(&text);
+}
+
+static void count(Sweep *s, JoxSweepState state) {
+    s->counts.done += state != JOX_SWEEP_FAILED;
+    s->counts.troubled += state == JOX_SWEEP_TROUBLED;
+    s->counts.failed += state == JOX_SWEEP_FAILED;
+}
+
+static bool take_result(Sweep *s, const Job *job, const JoxText *pieces, JoError *error) {
+    const char *reason = NULL, *said = NULL;
+    uint32_t state = JOX_SWEEP_FAILED;
+    JoxPiece piece;
+    char why[200];
+    for (size_t at = 0; jox_pieces_next(pieces, &at, &piece, why);) {
+        if (!strcmp(piece.name, "state") && piece.length == sizeof state)
+            memcpy(&state, piece.data, sizeof state);
+        else if (!strcmp(piece.name, "reason"))
+            reason = piece.data;
+        else if (!strcmp(piece.name, "said"))
+            said = piece.data;
+    }
+    if (!jox_sweep_put_run(&s->store, job->id, job->seed, pieces, error))
+        return false;
+    count(s, (JoxSweepState)state);
+    tell_run(s, job, (JoxSweepState)state, reason, said);
+    return true;
+}
+
+static bool take_end(Sweep *s, const JoxChildEnd *end, JoError *error) {
+    const Job *job = &s->jobs[end->job];
+    if (end->good)
+        return take_result(s, job, &end->result, error);
+    if (!jox_sweep_put_failure(&s->store, job->id, job->seed, end->why, error))
+        return false;
+    count(s, JOX_SWEEP_FAILED);
+    tell_run(s, job, JOX_SWEEP_FAILED, end->why, NULL);
+    return true;
+}
+
+static bool run_all(Sweep *s, JoxChildren *children, JoError *error) {
+    while (!is_stopped(s) && (s->next < s->count || jox_children_count(children))) {
+        if (s->next < s->count && jox_children_has_room(children)) {
+            if (jox_children_start(children, s->next, work, s)) {
+                s->next++;
+                continue;
+            }
+            if (jox_children_count(children) == 0) {
+                jox_error(error, JO_FAILED, "no process can be started: %s", strerror(errno));
+                return false;
+            }
+        }
+        JoxChildEnd end;
+        show_progress(s, jox_children_count(children), false);
+        if (jox_children_wait(children, &end)) {
+            const bool good = take_end(s, &end, error);
+            jox_text_free(&end.result);
+            if (!good)
+                return false;
+        }
+    }
+    return true;
+}
+
+static char *aggregate(Sweep *s, JoError *error) {
+    sqlite3_stmt *ask = jox_sweep_ask(
+        &s->store, "SELECT summary FROM run WHERE summary NOT NULL ORDER BY variant, seed", error);
+    char **texts = NULL;
+    size_t texts_count = 0, capacity = 0;
+    int code = ask ? SQLITE_ROW : SQLITE_ERROR;
+    while (ask && (code = sqlite3_step(ask)) == SQLITE_ROW) {
+        JOX_RESERVE(texts, capacity, texts_count + 1);
+        texts[texts_count++] = jox_strdup((const char *)sqlite3_column_text(ask, 0));
+    }
+    char *all = NULL;
+    if (code == SQLITE_DONE)
+        all = jo_summaries_aggregate((const char *const *)texts, texts_count, error);
+    else if (ask)
+        jox_sweep_broken(&s->store, error);
+    sqlite3_finalize(ask);
+    for (size_t t = 0; t < texts_count; t++)
+        jox_free(texts[t]);
+    jox_free(texts);
+    return all;
+}
+
+static bool go(Sweep *s, char **summary, JoError *error) {
+    if (!jox_sweep_load_inputs(s->def, &s->plan, (const char *const *)s->names, &s->files, error) ||
+        !open_file(s, error))
+        return false;
+    const uint32_t threads = s->def->scene.threads ? s->def->scene.threads : 1;
+    const uint32_t each = jox_processors() / threads; /* processes that this makes */
+    const uint32_t jobs = s->def->jobs ? s->def->jobs : each ? each : 1;
+    s->heard = jox_alloc(s->plan.variant_count, sizeof *s->heard);
+    s->begun = jox_clock_wall();
+    JoxChildren *children = jox_children_create(jobs);
+    const bool good = run_all(s, children, error);
+    jox_children_free(children);
+    show_progress(s, 0, true);
+    s->counts.missing = s->counts.runs - s->counts.done - s->counts.failed;
+    if (good && is_stopped(s)) {
+        jox_error(error, JO_FAILED,
+                  s->def->out ? "interrupted; %u of %u runs are kept in %s, with which the same "
+                                "command goes on"
+                              : "interrupted",
+                  s->counts.done + s->counts.failed, s->counts.runs, s->def->out);
+        return false;
+    }
+    if (good && summary && !(*summary = aggregate(s, error)))
+        return false;
+    return good;
+}
+
+static void release(Sweep *s) {
+    jox_sweep_close(&s->store);
+    for (uint32_t v = 0; s->names && v < s->plan.variant_count; v++)
+        jox_free(s->names[v]);
+    jox_free(s->names);
+    jox_free(s->heard);
+    jox_free(s->jobs);
+    jox_overlay_free(&s->files);
+    jox_sweep_plan_free(&s->plan);
+}
+
+/* The plan of the def, and names for its variants. */
+static bool plan(Sweep *s, JoError *error) {
+    const JoSweepDef *def = s->def;
+    const uint64_t first = def->scene.has_seed ? def->scene.seed : 1;
+    if (!jox_sweep_plan(&s->plan, def->sets, def->set_count, first, def->seeds, error))
+        return false;
+    const uint32_t variants = s->plan.variant_count;
+    if (def->only > variants * def->seeds) {
+        jox_error(error, JO_USAGE, "there is no run %u: the sweep has %u", def->only,
+                  variants * def->seeds);
+        return false;
+    }
+    const char **keys = jox_alloc(variants, sizeof *keys);
+    s->names = jox_alloc(variants, sizeof *s->names);
+    for (uint32_t v = 0; v < variants; v++)
+        keys[v] = s->plan.variants[v].key;
+    jox_sweep_names(keys, variants, s->names);
+    jox_free(keys);
+    return true;
+}
+
+uint32_t jo_sweep_runs(const JoSweepDef *def, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == SWEEP_COOKIE && def->seeds > 0, 0);
+    JOX_GUARD (NULL, error)
+        return 0;
+    Sweep s = {.def = def};
+    const uint32_t runs = plan(&s, error) ? s.plan.variant_count * s.plan.seeds : 0;
+    release(&s);
+    return runs;
+}
+
+bool jo_sweep(const JoSweepDef *def, JoSweepCounts *counts, char **summary, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == SWEEP_COOKIE && def->scene.path && counts, false);
+    JOX_REQUIRE(def->seeds > 0 && !(def->seconds < 0), false);
+    JOX_GUARD (NULL, error) {
+        jox_run_message(def->message, def->message_context, "out of memory\n");
+        return false;
+    }
+    Sweep s = {.def = def};
+    *counts = (JoSweepCounts){0};
+    const bool good = plan(&s, error) && go(&s, summary, error);
+    *counts = s.counts;
+    if (good && summary)
+        jox_disown(*summary);
+    release(&s);
+    return good;
+}

@@ -1,0 +1,113 @@
+/* Which runs a sweep has, and what its variants are called; what runs hand over. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/format/pieces.h"
+#include "base/mem.h"
+#include "sweep/sweep.h"
+
+static void every_combination_is_a_variant(void **state) {
+    (void)state;
+    static const char *const SETS[] = {"groups.a.count=1, 2 ,3",
+                                       "groups.a.set.speed=normal(1, 2),4", "walls.0.name='x,y'"};
+    JoxSweepPlan plan;
+    JoError error;
+    assert_true(jox_sweep_plan(&plan, SETS, 3, 7, 5, &error));
+    assert_int_equal(plan.variant_count, 6);
+    assert_string_equal(plan.variants[0].key,
+                        "groups.a.count=1\ngroups.a.set.speed=normal(1, 2)\nwalls.0.name='x,y'");
+    assert_string_equal(plan.variants[3].sets[0], "groups.a.count=2");
+    assert_string_equal(plan.variants[3].sets[1], "groups.a.set.speed=4");
+    assert_int_equal(plan.first_seed, 7);
+    jox_sweep_plan_free(&plan);
+    assert_true(jox_sweep_plan(&plan, NULL, 0, 1, 1, &error));
+    assert_int_equal(plan.variant_count, 1);
+    assert_string_equal(plan.variants[0].key, "");
+    jox_sweep_plan_free(&plan);
+}
+
+static void lists_that_are_none_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *set, *why;
+    } BAD[] = {{"groups", "PATH=VALUE"}, {"=3", "PATH=VALUE"},     {"a=", "empty"},
+               {"a=1,,2", "empty"},      {"a=1,", "empty"},        {"a= ,1", "empty"},
+               {"a=1,2,1", "twice"},     {"a=[1,2", "not closed"}, {"a=1]", "not closed"},
+               {"a='1,2", "not closed"}, {"b=3", "is set twice"}};
+    for (size_t b = 0; b < sizeof BAD / sizeof *BAD; b++) {
+        const char *const sets[] = {"b=1", BAD[b].set};
+        JoxSweepPlan plan;
+        JoError error = {0};
+        if (jox_sweep_plan(&plan, sets, 2, 1, 1, &error) || !strstr(error.text, BAD[b].why))
+            fail_msg("'%s': %s", BAD[b].set, error.text);
+        assert_int_equal(error.code, JO_USAGE);
+        jox_sweep_plan_free(&plan);
+    }
+}
+
+static void check_names(const char *const *keys, const char *const *wanted, uint32_t count) {
+    char *names[8];
+    jox_sweep_names(keys, count, names);
+    for (uint32_t k = 0; k < count; k++) {
+        assert_string_equal(names[k], wanted[k]);
+        jox_free(names[k]);
+    }
+}
+
+static void names_say_what_differs(void **state) {
+    (void)state;
+    check_names((const char *const[]){"x.a=1\nx.b=2", "x.a=1\nx.b=3"},
+                (const char *const[]){"b=2", "b=3"}, 2);
+    check_names((const char *const[]){"x.n=1\ny.n=2", "x.n=2\ny.n=3"}, /* ends that are shared */
+                (const char *const[]){"x.n=1, y.n=2", "x.n=2, y.n=3"}, 2);
+    check_names((const char *const[]){"x.n=1\ny.n=2", "x.n=2\ny.n=2"}, /* but not varied */
+                (const char *const[]){"n=1", "n=2"}, 2);
+    check_names((const char *const[]){"a=1", "a=1\nb=2"}, (const char *const[]){"", "b=2"}, 2);
+    check_names((const char *const[]){"a=1"}, (const char *const[]){""}, 1);
+}
+
+static void curves_and_fields_come_back(void **state) {
+    (void)state;
+    char curve_name[] = "people inside", field_name[] = "density", unit[] = "1/m2", none[] = "";
+    double points[] = {0, 5, 1, NAN, 2, 3};
+    float values[] = {1, 2, 3, 4, 5, NAN};
+    JoxText pieces = {0};
+    JoxPiece piece;
+    char why[200];
+    size_t at = 0;
+    jox_pieces_begin(&pieces);
+    jox_sweep_put_curve(&pieces, &(JoxSweepCurve){curve_name, none, points, 3, 3});
+    jox_sweep_put_field(&pieces, &(JoxSweepField){field_name, unit, -1, 2, 0.5, 3, 2, values});
+    jox_pieces_end(&pieces);
+    JoxSweepCurve curve;
+    JoxSweepField field;
+    assert_true(jox_pieces_next(&pieces, &at, &piece, why));
+    assert_true(jox_sweep_get_curve(piece.data, piece.length, &curve));
+    assert_string_equal(curve.name, "people inside");
+    assert_true(curve.count == 3 && curve.points[4] == 2 && isnan(curve.points[3]));
+    jox_sweep_free_curve(&curve);
+    for (size_t cut = 0; cut < piece.length; cut++)
+        assert_false(jox_sweep_get_curve(piece.data, cut, &curve));
+    assert_true(jox_pieces_next(&pieces, &at, &piece, why));
+    assert_true(jox_sweep_get_field(piece.data, piece.length, &field));
+    assert_true(field.columns == 3 && field.rows == 2 && field.values[4] == 5 && field.cell == 0.5);
+    assert_string_equal(field.unit, "1/m2");
+    jox_sweep_free_field(&field);
+    for (size_t cut = 0; cut < piece.length; cut++)
+        assert_false(jox_sweep_get_field(piece.data, cut, &field));
+    jox_text_free(&pieces);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_combination_is_a_variant),
+                                       cmocka_unit_test(lists_that_are_none_are_refused),
+                                       cmocka_unit_test(names_say_what_differs),
+                                       cmocka_unit_test(curves_and_fields_come_back)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
