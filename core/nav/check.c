@@ -4,15 +4,17 @@
 #include "base/assert.h"
 #include "nav/internal.h"
 
-void jox_nav_rows_check(const JoxNav *nav, const JoxAgents *a) {
-    JOX_ASSERT(nav->rows > 0 && nav->height > 0.0f);
-    JOX_ASSERT(nav->row_first[0] == 0 && nav->row_first[nav->rows] == a->count);
-    for (uint32_t row = 0; row < nav->rows; row++) {
-        uint32_t first = nav->row_first[row], end = nav->row_first[row + 1];
+void jox_nav_cells_check(const JoxNav *nav, const JoxAgents *a) {
+    const uint32_t cells = nav->rows * nav->columns;
+    JOX_ASSERT(cells > 0 && nav->per_metre > 0.0f);
+    JOX_ASSERT(nav->cell_first[0] == 0 && nav->cell_first[cells] == a->count);
+    for (uint32_t cell = 0; cell < cells; cell++) {
+        uint32_t first = nav->cell_first[cell], end = nav->cell_first[cell + 1];
         JOX_ASSERT(first <= end);
-        for (uint32_t i = first; i + 1 < end; i++) {
-            JOX_ASSERT(!(nav->sorted_x[i] > nav->sorted_x[i + 1]));
-            JOX_ASSERT(nav->sorted_x[i] != nav->sorted_x[i + 1] || a->id[i] < a->id[i + 1]);
+        for (uint32_t i = first; i < end; i++) {
+            JOX_ASSERT(jox_row_of(nav, a->y[i]) == cell / nav->columns);
+            JOX_ASSERT(jox_column_of(nav, a->x[i]) == cell % nav->columns);
+            JOX_ASSERT(i == first || a->id[i - 1] < a->id[i]);
         }
     }
 }

@@ -1,5 +1,6 @@
-/* Sorted grid: rows of fixed height, agents sorted along x within a row, the rows one after the
-   other in memory. Between sorts agents drift, so ranges are widened by the greatest drift. */
+/* The grid of agents: square cells, row by row; agents are kept in the order of their cells, so
+   that those of several cells of a row stand one after the other. Between sorts agents drift, so
+   ranges are widened by the greatest drift. */
 #include <math.h>
 #include <string.h>
 
@@ -7,79 +8,75 @@
 #include "base/mem.h"
 #include "nav/internal.h"
 
-/* m: somewhat more than people search in a crowd, so that three rows hold what one searches. */
-static const float ROW_HEIGHT = 1.2f;
-enum { SORT_EVERY = 8, MOST_ROWS = 1 << 15 };
+/* Of the mean radius that people search: a row of cells within reach then fits in a packet. */
+static const float CELL_SHARE = 0.55f;
+static const float CELL_LEAST = 0.25f, CELL_MOST = 8.0f; /* m */
+/* Neighbours for whom room is made where nobody has searched yet, and cells for each agent. */
+static const float FIRST_NEIGHBOURS = 12.0f, CELLS_EACH = 8.0f;
+enum { SORT_EVERY = 8, CELLS_LEAST = 4096 };
 
-/* Bits of a float in an order that unsigned comparison understands. */
-static uint32_t ordered_bits(float x) {
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
-}
-
-/* For so few that counting digits would take longer. */
-enum { FEW = 32 };
-static void insertion_sort(uint64_t *keys, uint32_t *order, uint32_t count) {
-    for (uint32_t i = 1; i < count; i++) {
-        const uint64_t key = keys[i];
-        const uint32_t agent = order[i];
-        uint32_t at = i;
-        for (; at > 0 && keys[at - 1] > key; at--) {
-            keys[at] = keys[at - 1];
-            order[at] = order[at - 1];
-        }
-        keys[at] = key;
-        order[at] = agent;
+/* m: what people search on average; by the space for each where nobody has searched. */
+static float mean_search(const JoxAgents *a, JoxV2 extent) {
+    double sum = 0.0;
+    uint32_t searched = 0;
+    for (uint32_t i = 0; i < a->count; i++) {
+        sum += (double)a->search[i];
+        searched += a->search[i] > 0.0f;
     }
+    if (searched)
+        return (float)(sum / searched);
+    return sqrtf(FIRST_NEIGHBOURS * extent.x * extent.y / (3.14159265f * (float)a->count));
 }
 
-/* Stable radix sort of keys[0] / order[0] by the low 48 bits; six passes end where they began. */
-static void radix_sort(JoxNav *nav, uint32_t count) {
-    for (int pass = 0; pass < 6; pass++) {
-        uint64_t *from = nav->keys[pass & 1], *to = nav->keys[~pass & 1];
-        uint32_t *order = nav->order[pass & 1], *sorted = nav->order[~pass & 1];
-        uint32_t start[256] = {0};
-        for (uint32_t i = 0; i < count; i++)
-            start[from[i] >> (8 * pass) & 255]++;
-        for (uint32_t digit = 0, sum = 0; digit < 256; digit++) {
-            uint32_t here = start[digit];
-            start[digit] = sum;
-            sum += here;
-        }
-        for (uint32_t i = 0; i < count; i++) {
-            uint32_t at = start[from[i] >> (8 * pass) & 255]++;
-            to[at] = from[i];
-            sorted[at] = order[i];
-        }
-    }
+static uint32_t cells_along(float extent, float cell) {
+    return (uint32_t)(extent / cell) + 1;
 }
 
-static void fit_rows(JoxNav *nav, const JoxAgents *a) {
+/* Lays cells over where the agents are; returns how far that reaches, m. */
+static float fit_cells(JoxNav *nav, const JoxAgents *a) {
     JoxV2 high = {-INFINITY, -INFINITY};
     nav->low = (JoxV2){INFINITY, INFINITY};
     for (uint32_t i = 0; i < a->count; i++) {
         nav->low.x = jox_minf(nav->low.x, a->x[i]);
         nav->low.y = jox_minf(nav->low.y, a->y[i]);
+        high.x = jox_maxf(high.x, a->x[i]);
         high.y = jox_maxf(high.y, a->y[i]);
     }
-    nav->height = jox_maxf(ROW_HEIGHT, (high.y - nav->low.y) / (MOST_ROWS - 1));
-    nav->rows = (uint32_t)((high.y - nav->low.y) / nav->height) + 1;
-    if (nav->rows + 1 > nav->row_capacity) {
-        nav->row_capacity = nav->rows + nav->rows / 4 + 64;
-        nav->row_first = jox_realloc(nav->row_first, nav->row_capacity, sizeof(uint32_t));
+    const JoxV2 extent = jox_sub(high, nav->low);
+    nav->search = mean_search(a, extent);
+    float cell = jox_minf(CELL_MOST, jox_maxf(CELL_LEAST, CELL_SHARE * nav->search));
+    const float most = CELLS_LEAST + CELLS_EACH * (float)a->count;
+    while ((extent.x / cell + 1.0f) * (extent.y / cell + 1.0f) > most)
+        cell *= 1.5f;
+    nav->per_metre = 1.0f / cell;
+    nav->columns = cells_along(extent.x, cell) + 1; /* one more than rounding can fill */
+    nav->rows = cells_along(extent.y, cell) + 1;
+    const uint32_t cells = nav->columns * nav->rows;
+    if (cells + 1 > nav->cell_capacity) {
+        nav->cell_capacity = cells + cells / 4 + 64;
+        nav->cell_first = jox_realloc(nav->cell_first, nav->cell_capacity, sizeof(uint32_t));
     }
+    return jox_maxf(jox_maxf(fabsf(nav->low.x), fabsf(high.x)),
+                    jox_maxf(fabsf(nav->low.y), fabsf(high.y)));
 }
 
-/* m: more than what positions and what is computed from them are rounded by. Ranges are widened by
-   it, so that who lies within a radius by the squared distance that is computed is never missed. */
-static float rounding(const JoxNav *nav, const JoxAgents *a) {
-    float farthest = jox_maxf(fabsf(nav->low.y), fabsf(nav->low.y + nav->rows * nav->height));
-    farthest = jox_maxf(farthest, fabsf(nav->low.x));
-    for (uint32_t row = 0; row < nav->rows; row++)
-        if (nav->row_first[row] < nav->row_first[row + 1])
-            farthest = jox_maxf(farthest, fabsf(a->x[nav->row_first[row + 1] - 1]));
-    return 1e-6f * (1.0f + jox_maxf(farthest, a->period.x + a->period.y));
+/* Puts agents that are listed by id into the order of their cells, those of a cell by id. */
+static void sort_by_cell(JoxNav *nav, const JoxAgents *a, const uint32_t *by_id) {
+    const uint32_t cells = nav->columns * nav->rows;
+    uint32_t *first = nav->cell_first;
+    memset(first, 0, (cells + 1) * sizeof *first);
+    for (uint32_t i = 0; i < a->count; i++) {
+        nav->cell_of[i] = jox_row_of(nav, a->y[i]) * nav->columns + jox_column_of(nav, a->x[i]);
+        JOX_ASSERT(nav->cell_of[i] < cells);
+        first[nav->cell_of[i]]++;
+    }
+    uint32_t sum = 0;
+    for (uint32_t cell = 0; cell <= cells; cell++) { /* the ends of the cells */
+        sum += first[cell];
+        first[cell] = sum;
+    }
+    for (uint32_t k = a->count; k-- > 0;) /* from their ends back to their beginnings */
+        nav->order[--first[nav->cell_of[by_id[k]]]] = by_id[k];
 }
 
 void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
@@ -90,26 +87,34 @@ void jox_nav_sort(JoxNav *nav, JoxAgents *a, uint64_t tick) {
         return;
     }
     jox_nav_reserve(nav, a->count);
-    fit_rows(nav, a);
-    jox_agents_by_id(a, nav->order[0]); /* a stable sort from here breaks ties by id */
-    for (uint32_t i = 0; i < a->count; i++) {
-        uint32_t at = nav->order[0][i];
-        nav->keys[0][i] = (uint64_t)jox_row_of(nav, a->y[at]) << 32 | ordered_bits(a->x[at]);
-    }
-    if (a->count <= FEW)
-        insertion_sort(nav->keys[0], nav->order[0], a->count);
-    else
-        radix_sort(nav, a->count);
-    uint32_t row = 0;
-    for (uint32_t i = 0; i < a->count; i++)
-        for (uint32_t here = (uint32_t)(nav->keys[0][i] >> 32); row <= here; row++)
-            nav->row_first[row] = i;
-    for (; row <= nav->rows; row++)
-        nav->row_first[row] = a->count;
-    jox_agents_permute(a, nav->order[0]);
-    memcpy(nav->sorted_x, a->x, a->count * sizeof(float));
+    const float farthest = fit_cells(nav, a);
+    sort_by_cell(nav, a, a->by_rank);
+    jox_agents_permute(a, nav->order);
     nav->sorted_count = a->count;
     nav->sorted_next_id = a->next_id;
-    nav->drift = rounding(nav, a);
-    JOX_CHECK(jox_nav_rows_check(nav, a));
+    nav->stray_count = 0;
+    /* Somewhat more than positions and what is computed from them are rounded by: who lies within a
+       radius by the squared distance that is computed is never missed. */
+    nav->drift = 1e-6f * (1.0f + jox_maxf(farthest, a->period.x + a->period.y));
+    JOX_CHECK(jox_nav_cells_check(nav, a));
+}
+
+/* Whether somebody is listed twice: it may have come back to where its cell is. */
+static bool stray_twice(const JoxNav *nav) {
+    for (uint32_t k = 0; k < nav->stray_count; k++)
+        for (uint32_t other = 0; other < k; other++)
+            if (nav->strays[k] == nav->strays[other])
+                return true;
+    return false;
+}
+
+void jox_nav_place_strays(JoxNav *nav, const JoxAgents *a) {
+    if (nav->stray_count > JOX_MOST_STRAYS || stray_twice(nav)) {
+        nav->drift = INFINITY; /* sorted before anybody looks */
+        nav->stray_count = 0;
+    }
+    for (uint32_t k = 0; k < nav->stray_count; k++) {
+        nav->stray_x[k] = a->x[nav->strays[k]];
+        nav->stray_y[k] = a->y[nav->strays[k]];
+    }
 }

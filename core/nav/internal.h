@@ -18,17 +18,22 @@ typedef struct JoxRecord {
     float x, y, vx, vy;
 } JoxRecord;
 
+enum { JOX_MOST_STRAYS = 64 };
+
 struct JoxNav {
-    /* Grid of agents: rows of `height` metres, sorted along x within each. */
-    JoxV2 low;
-    float height;
-    uint32_t rows, row_capacity;
-    uint32_t *row_first; /* rows + 1 */
-    float *sorted_x;     /* x when last sorted */
+    /* Grid of agents: square cells, row by row, each with its agents one after the other. */
+    JoxV2 low;       /* m, corner of the first cell */
+    float per_metre; /* cells */
+    uint32_t rows, columns, cell_capacity;
+    uint32_t *cell_first; /* rows * columns + 1 */
     uint32_t sorted_count, sorted_next_id;
-    float drift; /* m, the farthest that any agent may have moved since */
-    uint64_t *keys[2];
-    uint32_t *order[2];
+    float drift;  /* m, the farthest that any agent may have moved since */
+    float search; /* m, what people searched on average when they were sorted */
+    /* Who went over a periodic edge since: far from where their cells are, and looked at by all who
+       see an edge. More than there is room for: the agents are sorted. */
+    uint32_t strays[JOX_MOST_STRAYS], stray_count;
+    float stray_x[JOX_MOST_STRAYS + JOX_LANES], stray_y[JOX_MOST_STRAYS + JOX_LANES]; /* m */
+    uint32_t *order, *cell_of;
     uint32_t capacity;
     float *chunk_drift; /* per chunk of move */
     JoxV2 *position[2]; /* for projection */
@@ -41,6 +46,8 @@ struct JoxNav {
 };
 
 void jox_nav_reserve(JoxNav *nav, uint32_t agents);
+/* Once all have moved: where those are who went over periodic edges since they were sorted. */
+void jox_nav_place_strays(JoxNav *nav, const JoxAgents *agents);
 /* Whether a wall, as far as the grid reaches, stands between a point and what is at `offset`. */
 static inline bool jox_nav_is_behind_wall(const JoxNav *nav, JoxV2 at, JoxV2 offset) {
     return nav->grid.first && jox_wall_grid_separates(&nav->grid, at, jox_add(at, offset));
@@ -74,45 +81,36 @@ uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
 bool jox_linear_program_solve(const JoxHalfPlane *half_planes, uint32_t count, uint32_t hard,
                               float speed_limit, JoxV2 wanted, JoxV2 *velocity, bool *relaxed);
 
-/* Assertions about the sorted rows, the neighbours (each agent's ascend by
+/* Assertions about the cells of the grid, the neighbours (each agent's ascend by
    distance, then id, are within its perception, and it is none of them), half-planes (normals are
    unit vectors), and a solution of the linear program. */
-void jox_nav_rows_check(const JoxNav *nav, const JoxAgents *agents);
+void jox_nav_cells_check(const JoxNav *nav, const JoxAgents *agents);
 void jox_neighbours_check(const JoxNeighbours *neighbours, const JoxAgents *agents);
 void jox_half_planes_check(const JoxHalfPlane *half_planes, uint32_t count);
 void jox_linear_program_check(const JoxHalfPlane *half_planes, uint32_t count, float speed_limit,
                               JoxV2 velocity);
 
-/* ---- rows of the grid, for those who search it ---- */
-
-static inline uint32_t jox_row_of(const JoxNav *nav, float y) {
-    float row = floorf((y - nav->low.y) / nav->height);
-    return row <= 0.0f ? 0 : row >= (float)(nav->rows - 1) ? nav->rows - 1 : (uint32_t)row;
+/* Notes that an agent went over a periodic edge; by any thread. */
+static inline void jox_nav_stray(JoxNav *nav, uint32_t agent) {
+    const uint32_t k = __atomic_fetch_add(&nav->stray_count, 1, __ATOMIC_RELAXED);
+    if (k < JOX_MOST_STRAYS)
+        nav->strays[k] = agent;
 }
 
-/* First agent of a row whose x when sorted is at least `x`. Walks from a hint: neighbours in memory
-   ask for nearly the same place, and the answer does not depend on the hint. */
-static inline uint32_t jox_row_from(const JoxNav *nav, uint32_t row, float x, uint32_t hint) {
-    JOX_ASSERT(row < nav->rows);
-    uint32_t first = nav->row_first[row], end = nav->row_first[row + 1];
-    const float *sx = nav->sorted_x;
-    if (hint < first || hint > end || (hint > first + 32 && sx[hint - 32] >= x) ||
-        (hint + 32 < end && sx[hint + 32] < x)) {
-        uint32_t low = first, high = end;
-        while (low < high) {
-            uint32_t middle = (low + high) / 2;
-            if (sx[middle] < x)
-                low = middle + 1;
-            else
-                high = middle;
-        }
-        return low;
-    }
-    while (hint > first && sx[hint - 1] >= x)
-        hint--;
-    while (hint < end && sx[hint] < x)
-        hint++;
-    return hint;
+/* ---- cells of the grid, for those who search it ---- */
+
+/* Rows and columns never fall as y and x grow. What lies outside counts to the nearest cell. */
+static inline uint32_t jox_cell_along(float from_low, float per_metre, uint32_t cells) {
+    float at = jox_minf(jox_maxf(0.0f, from_low * per_metre), (float)(cells - 1));
+    return (uint32_t)at;
+}
+
+static inline uint32_t jox_row_of(const JoxNav *nav, float y) {
+    return jox_cell_along(y - nav->low.y, nav->per_metre, nav->rows);
+}
+
+static inline uint32_t jox_column_of(const JoxNav *nav, float x) {
+    return jox_cell_along(x - nav->low.x, nav->per_metre, nav->columns);
 }
 
 /* Whether the image of a point that is shifted along one axis by `side` (-1, 0, 1) periods has to
@@ -122,8 +120,5 @@ static inline bool jox_sees_image(float at, float origin, float period, float wi
         return true;
     return period > 0.0f && (side > 0 ? at - wide < origin : at + wide >= origin + period);
 }
-
-/* Where jox_row_from begins, by row: all 0 to begin with. */
-enum { JOX_ROW_HINTS = 16 };
 
 #endif

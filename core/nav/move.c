@@ -108,4 +108,5 @@ void jox_nav_move(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neighbour
     for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)
         farthest2 = jox_maxf(farthest2, nav->chunk_drift[chunk]);
     nav->drift += sqrtf(farthest2) * 1.0001f;
+    jox_nav_place_strays(nav, agents);
 }

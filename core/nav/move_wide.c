@@ -1,6 +1,8 @@
 /* The kernel of move: a lane is an agent. Where its velocity takes it, and, once overlaps are
    resolved, where it then is: those near walls and those who leave over a periodic edge one by one.
  */
+#include <math.h>
+
 #include "geom/wall_grid_lanes.h"
 #include "geom/wall_way.h"
 #include "nav/kernels.h"
@@ -87,8 +89,12 @@ float JOX_WIDE(jox_move_settle)(const JoxMove *m, uint32_t begin, uint32_t end) 
         const uint32_t out = there & jm_bits(jm_or(beyond(at.x, a->origin.x, a->period.x),
                                                    beyond(at.y, a->origin.y, a->period.y)));
         for (uint32_t lane = 0; out >> lane; lane++)
-            if ((out >> lane & 1) && jox_agents_wrap(a, i + lane))
-                farthest2 = INFINITY; /* the order in memory no longer follows space */
+            if ((out >> lane & 1) && jox_agents_wrap(a, i + lane)) {
+                if (isfinite(a->x[i + lane]) && isfinite(a->y[i + lane]))
+                    jox_nav_stray(m->nav, i + lane);
+                else
+                    farthest2 = INFINITY; /* where it will be put is not known */
+            }
         keep_still(m, i, jv_load(a->x, a->y, i));
     }
     jf_store(ways, most);

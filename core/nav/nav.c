@@ -1,6 +1,5 @@
 /* What navigation keeps between steps, and room for it. */
 #include <math.h>
-#include <string.h>
 
 #include "base/assert.h"
 #include "base/mem.h"
@@ -49,24 +48,20 @@ void jox_nav_sections(JoxNav *nav, JoxSections *s) {
 
 void jox_nav_forget(JoxNav *nav) {
     nav->drift = INFINITY;
-    if (nav->capacity)
-        memset(nav->sorted_x, 0xff, nav->capacity * sizeof *nav->sorted_x);
 }
 
 void jox_nav_free(JoxNav *nav) {
     if (!nav)
         return;
     jox_wall_grid_free(&nav->grid);
-    jox_free(nav->row_first);
-    jox_free(nav->sorted_x);
+    jox_free(nav->cell_first);
+    jox_free(nav->cell_of);
+    jox_free(nav->order);
     jox_free(nav->chunk_drift);
     jox_free(nav->chunk_relaxed);
     jox_free(nav->records);
-    for (int i = 0; i < 2; i++) {
-        jox_free(nav->keys[i]);
-        jox_free(nav->order[i]);
+    for (int i = 0; i < 2; i++)
         jox_free(nav->position[i]);
-    }
     jox_free(nav);
 }
 
@@ -74,14 +69,11 @@ void jox_nav_reserve(JoxNav *nav, uint32_t count) {
     if (count <= nav->capacity)
         return;
     uint32_t n = nav->capacity = count + count / 4 + 64;
-    nav->sorted_x = jox_realloc(nav->sorted_x, n + JOX_LANES, sizeof(float)); /* read by packets */
-    memset(nav->sorted_x + n, 0xff, JOX_LANES * sizeof *nav->sorted_x);
+    nav->order = jox_realloc(nav->order, n, sizeof *nav->order);
+    nav->cell_of = jox_realloc(nav->cell_of, n, sizeof *nav->cell_of);
     nav->chunk_drift = jox_realloc(nav->chunk_drift, n / JOX_NAV_GRAIN + 1, sizeof(float));
     nav->chunk_relaxed = jox_realloc(nav->chunk_relaxed, n / JOX_NAV_GRAIN + 1, sizeof(uint32_t));
     nav->records = jox_realloc(nav->records, n, sizeof(JoxRecord));
-    for (int i = 0; i < 2; i++) {
-        nav->keys[i] = jox_realloc(nav->keys[i], n, sizeof(uint64_t));
-        nav->order[i] = jox_realloc(nav->order[i], n, sizeof(uint32_t));
+    for (int i = 0; i < 2; i++)
         nav->position[i] = jox_realloc(nav->position[i], n, sizeof(JoxV2));
-    }
 }

@@ -31,7 +31,7 @@ void jox_nav_sections(JoxNav *nav, JoxSections *sections);
  */
 void jox_nav_forget(JoxNav *nav);
 
-/* Every fourth tick, or when agents came or went: puts the agents in the order of the grid, which
+/* Every eighth tick, or when agents came or went: puts the agents in the order of the grid, which
    depends on positions and ids alone. All indices change. */
 void jox_nav_sort(JoxNav *nav, JoxAgents *agents, uint64_t tick);
 /* perceive: exactly the `neighbours` nearest within each agent's own `perception`, nearest first,

@@ -50,31 +50,36 @@ static void sort_in(Nearest *n) {
     n->waits = 0;
 }
 
+/* Adds agent j if it is within a radius of a point, and not agent i. */
+static inline void consider(const JoxAgents *a, uint32_t i, uint32_t j, JoxV2 point, float radius2,
+                            Nearest *found) {
+    const float dx = a->x[j] - point.x, dy = a->y[j] - point.y, d2 = dx * dx + dy * dy;
+    found->waiting[found->waits] = key_of(d2, a->rank[j]);
+    found->waits += (d2 <= radius2) & (j != i); /* kept or written over, without a branch */
+    if (found->waits == BUFFER)
+        sort_in(found);
+}
+
 /* Adds the agents within `radius` of a point, but not agent i. */
 static void search_about(const JoxNav *nav, const JoxAgents *a, uint32_t i, JoxV2 point,
-                         float radius, Nearest *found, uint32_t hints[JOX_ROW_HINTS]) {
+                         float radius, Nearest *found) {
     const float x = point.x, y = point.y, r2 = radius * radius;
-    const float *ax = a->x, *ay = a->y;
-    const uint32_t *rank = a->rank;
-    float wide = radius + nav->drift;
-    uint32_t low = jox_row_of(nav, y - wide), high = jox_row_of(nav, y + wide);
-    JOX_ASSERT(low <= high && high < nav->rows);
+    const float wide = radius + nav->drift;
+    const uint32_t left = jox_column_of(nav, x - wide), right = jox_column_of(nav, x + wide);
+    const uint32_t low = jox_row_of(nav, y - wide), high = jox_row_of(nav, y + wide);
+    JOX_ASSERT(low <= high && high < nav->rows && left <= right && right < nav->columns);
     for (uint32_t row = low; row <= high; row++) {
-        uint32_t end = nav->row_first[row + 1], *hint = &hints[row % JOX_ROW_HINTS];
-        uint32_t j = *hint = jox_row_from(nav, row, x - wide, *hint);
-        for (float stop = x + wide; j < end && nav->sorted_x[j] <= stop; j++) {
-            float dx = ax[j] - x, dy = ay[j] - y, d2 = dx * dx + dy * dy;
-            found->waiting[found->waits] = key_of(d2, rank[j]);
-            found->waits += (d2 <= r2) & (j != i); /* kept or written over, without a branch */
-            if (found->waits == BUFFER)
-                sort_in(found);
-        }
+        const uint32_t *first = nav->cell_first + (size_t)row * nav->columns;
+        for (uint32_t j = first[left]; j < first[right + 1]; j++)
+            consider(a, i, j, point, r2, found);
     }
+    for (uint32_t k = 0; k < nav->stray_count; k++) /* far from where their cells are */
+        consider(a, i, nav->strays[k], point, r2, found);
 }
 
 /* Finds the nearest agents within `radius` of agent i. */
-static void search(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radius, Nearest *found,
-                   uint32_t hints[JOX_ROW_HINTS]) {
+static void search(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radius,
+                   Nearest *found) {
     JoxV2 point = {a->x[i], a->y[i]};
     float wide = radius + nav->drift;
     clear(found);
@@ -85,7 +90,7 @@ static void search(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radi
                 search_about(
                     nav, a, i,
                     jox_add(point, (JoxV2){(float)column * a->period.x, (float)row * a->period.y}),
-                    radius, found, hints);
+                    radius, found);
     sort_in(found);
     found->count = found->count < found->most ? found->count : found->most;
 }
@@ -93,9 +98,8 @@ static void search(const JoxNav *nav, const JoxAgents *a, uint32_t i, float radi
 void jox_perceive_touching(const JoxPerceive *p, uint32_t i, float range) {
     const JoxAgents *a = p->agents;
     JoxNeighbours *out = p->out;
-    uint32_t hints[JOX_ROW_HINTS] = {0};
     Nearest found = {.most = JOX_MOST_NEIGHBOURS};
-    search(p->nav, a, i, range, &found, hints);
+    search(p->nav, a, i, range, &found);
     out->touch_count[i] = (uint8_t)found.count;
     for (uint32_t k = 0; k < found.count; k++)
         out->touch_index[(size_t)i * JOX_MOST_NEIGHBOURS + k] = a->by_rank[(uint32_t)found.keys[k]];
@@ -119,13 +123,12 @@ static void keep(const JoxPerceive *p, uint32_t i, float perception, const Neare
 void jox_perceive_one(const JoxPerceive *p, uint32_t i, float radius) {
     const JoxAgents *a = p->agents;
     const float perception = jox_minf(a->param[JOX_PARAM_perception][i], p->sight);
-    uint32_t hints[JOX_ROW_HINTS] = {0};
     Nearest found;
     found.most = (uint32_t)a->param[JOX_PARAM_neighbours][i];
     clear(&found);
     for (bool again = found.most > 0; again;) {
         radius = jox_minf(radius, perception);
-        search(p->nav, a, i, radius, &found, hints);
+        search(p->nav, a, i, radius, &found);
         again = found.count < found.most && radius < perception;
         radius *= JOX_SEARCH_GROWTH;
     }
@@ -150,10 +153,9 @@ void jox_perceive_among(const JoxPerceive *p, uint32_t i, const JoxCandidates *a
     clear(&found);
     JOX_ASSERT(found.most > 0);
     for (uint32_t k = 0; k < among->count; k++) {
-        const uint32_t n = among->numbers[k];
-        const float d2 = among->distance2[(size_t)n * among->stride];
+        const float d2 = among->distance2[k];
         JOX_ASSERT(d2 >= 0.0f && d2 < INFINITY);
-        sink(&found, key_of(d2, rank[among->index[n]]));
+        sink(&found, key_of(d2, rank[among->index[k]]));
     }
     keep(p, i, perception, &found);
 }

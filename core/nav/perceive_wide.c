@@ -1,169 +1,126 @@
 /* The kernel of perceive. A lane is an agent; a packet is JOX_WIDTH consecutive agents of the
-   sorted order. Packets are cut into stretches of neighbours in one row; whoever is near any agent
-   of a stretch is a candidate of all of its lanes, and sinks into the sorted keys of each without a
-   branch.
+   sorted order. Each lane has a list of those within its radius: the agents of the cells within
+   reach are looked at by packets, and those who are near are packed behind each other. Then the
+   lists of all lanes are put in order at once.
 
    A key is a float that is never computed with: its bits are the squared distance as a fixed-point
-   number of 23 bits (a share of the squared radius) above the number of the candidate, so that
-   min and max sort both at once. Lanes of which two keys have the same distance by these bits
-   choose anew among the candidates, and packets with more candidates than numbers search anew, one
-   by one (nearest.c), which orders exactly, and by id. So neighbours are exact, whatever the width.
- */
+   number of 26 bits (a share of the squared radius) above the place in the list, so that min and
+   max sort both at once. Lanes of which two keys have
+   the same distance by these bits choose anew from their lists, and those whose lists are full
+   search anew, one by one (nearest.c), which orders exactly, and by id. So neighbours are exact,
+   whatever the width. */
 #include <math.h>
 #include <string.h>
 
 #include "nav/kernels.h"
+#include "nav/order_lanes.h"
 #include "simd/lanes.h"
 
 enum {
-    NUMBER_BITS = 8,
-    MOST_CANDIDATES = 1 << NUMBER_BITS,
-    WIDTH_BITS = JOX_WIDTH == 16  ? 4
-                 : JOX_WIDTH == 8 ? 3
-                 : JOX_WIDTH == 4 ? 2
-                                  : 0,
+    PLACE_BITS = 5,
+    PLACES = 1 << PLACE_BITS,  /* of a list, that keys can tell */
+    LIST = PLACES + JOX_LANES, /* room: a packet may be written behind the last place */
+    RECORDS = LIST / 4,        /* four places are read at once */
+    ORDERED = 16,              /* places that are ordered by a network; more sink in */
     FEW = 10, /* neighbours of which the keys fit into the registers of most instruction sets */
-    NORMAL = 0x8000 << NUMBER_BITS, /* bits of the least float that is not denormal */
-    NO_KEY = 0x7f800000             /* bits of INFINITY */
+    NO_KEY = 0x7f800000, /* bits of INFINITY */
+    NORMAL = 0x00800000  /* bits of the least float that is not denormal */
 };
-static const float FARTHEST_SHARE = 8.3e6f; /* of a squared radius: keys stay less than INFINITY */
+static const float FARTHEST_SHARE = 6.6e7f; /* of a squared radius: keys stay less than INFINITY */
 
 typedef struct Packet {
     const JoxPerceive *p;
     uint32_t first;  /* agent of lane 0 */
     uint32_t lanes;  /* bits of those that are there */
-    uint32_t row;    /* of the first agent, and of the last one seen */
     uint32_t levels; /* keys that are kept: one more than the most neighbours of any lane */
-    uint32_t candidates;
-    bool overflow; /* more of them than there is room for */
-    uint32_t hints[JOX_ROW_HINTS];
-    JoxFloats x, y;    /* m, shifted to the image that is looked at */
-    JoxFloats within2; /* squared radius, m2; less than 0 for lanes that take no part */
-    JoxFloats scale;   /* from squared distances to fixed point, 1/m2 */
     float radius[JOX_LANES], at_x[JOX_LANES], at_y[JOX_LANES]; /* m */
+    uint32_t count[JOX_LANES];                                 /* within the radius */
+    uint32_t index[JOX_LANES * LIST];                          /* lists, lane after lane */
+    float distance2[JOX_LANES * LIST];                         /* m2 */
     JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
-    uint32_t index[MOST_CANDIDATES];
-    float distance2[MOST_CANDIDATES * JOX_WIDTH]; /* m2; INFINITY: none of the lane's */
 } Packet;
 
-/* Sinks agents [begin, end) into the keys of the lanes that take part. */
-static inline __attribute__((always_inline)) void sink(Packet *packet, uint32_t begin, uint32_t end,
-                                                       const uint32_t levels) {
-    const float *x = packet->p->agents->x, *y = packet->p->agents->y;
-    const JoxInts self = ji_add(ji_set((int32_t)packet->first), ji_lane());
-    const JoxFloats none = jf_set(INFINITY), farthest = jf_set(FARTHEST_SHARE);
-    JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
-    uint32_t number = packet->candidates;
-    JOX_UNROLL
-    for (uint32_t k = 0; k < levels; k++)
-        keys[k] = packet->keys[k];
-    for (uint32_t j = begin; j < end; j++) {
-        JoxFloats dx = jf_sub(jf_set(x[j]), packet->x), dy = jf_sub(jf_set(y[j]), packet->y);
-        JoxFloats d2 = jf_add(jf_mul(dx, dx), jf_mul(dy, dy));
-        JoxMask near = jm_without(jf_le(d2, packet->within2), ji_equal(self, ji_set((int32_t)j)));
-        if (!jm_bits(near))
-            continue;
-        if (number == MOST_CANDIDATES) {
-            packet->overflow = true;
-            break;
-        }
-        packet->index[number] = j;
-        jf_store(packet->distance2 + (size_t)number * JOX_WIDTH, jf_select(near, d2, none));
-        JoxInts share = jf_to_ints(jf_min(jf_mul(d2, packet->scale), farthest));
-        JoxFloats key = ji_as_floats(
-            ji_add(ji_shift_left(share, NUMBER_BITS), ji_set((int32_t)(NORMAL + number))));
-        key = jf_select(near, key, none);
-        number++;
-        JOX_UNROLL
-        for (uint32_t k = 0; k < levels; k++) {
-            JoxFloats farther = jf_max(keys[k], key);
-            keys[k] = jf_min(keys[k], key);
-            key = farther;
-        }
-    }
-    JOX_UNROLL
-    for (uint32_t k = 0; k < levels; k++)
-        packet->keys[k] = keys[k];
-    packet->candidates = number;
+/* Of the grid, the cells within reach of each lane. */
+typedef struct Reach {
+    float x[JOX_WIDTH], y[JOX_WIDTH], radius2[JOX_WIDTH]; /* m, at the image looked at, and m2 */
+    uint32_t left[JOX_WIDTH], right[JOX_WIDTH], low[JOX_WIDTH], high[JOX_WIDTH];
+} Reach;
+
+static inline JoxInts cells_along(JoxFloats at, float low, float per_metre, uint32_t cells) {
+    const JoxFloats from = jf_mul(jf_sub(at, jf_set(low)), jf_set(per_metre));
+    return jf_to_ints(jf_min(jf_max(jf_set(0.0f), from), jf_set((float)(cells - 1))));
 }
 
-static void sink_few(Packet *packet, uint32_t begin, uint32_t end) {
-    sink(packet, begin, end, FEW + 1);
-}
-
-static void sink_many(Packet *packet, uint32_t begin, uint32_t end) {
-    sink(packet, begin, end, JOX_MOST_NEIGHBOURS + 1);
-}
-
-/* Where the lanes of a stretch are, at the image that is looked at, and how far they search, m. */
-typedef struct Stretch {
-    JoxV2 low, high;
-    float radius;
-} Stretch;
-
-/* Of agents [begin, end) of a row, the first that lies beyond x. */
-static uint32_t row_past(const JoxNav *nav, uint32_t begin, uint32_t end, float x) {
-    uint32_t past = begin, few = JOX_WIDTH;
-    for (; past < end && few == JOX_WIDTH; past += few) {
-        const uint32_t within = jm_bits(jf_le(jf_load(nav->sorted_x + past), jf_set(x)));
-        few = (uint32_t)__builtin_ctz(~within); /* ascending: those within come first */
-    }
-    return past < end ? past : end; /* beyond the end lies the next row */
-}
-
-/* Candidates of a stretch: row by row those within the greatest radius of where its lanes are. */
-static void sink_stretch(Packet *packet, const Stretch *s) {
+static inline void find_reach(const Packet *packet, JoxV2 shift, Reach *reach) {
     const JoxNav *nav = packet->p->nav;
-    float wide = s->radius + nav->drift;
-    uint32_t low = jox_row_of(nav, s->low.y - wide), high = jox_row_of(nav, s->high.y + wide);
-    for (uint32_t row = low; row <= high; row++) {
-        float bottom = nav->low.y + (float)row * nav->height;
-        float below = s->low.y - (bottom + nav->height) - nav->drift;
-        float above = bottom - s->high.y - nav->drift;
-        float across = jox_maxf(0.0f, jox_maxf(below, above));
-        float half2 = jox_maxf(0.0f, s->radius * s->radius - across * across);
-        float along = sqrtf(half2) + nav->drift;
-        uint32_t *hint = &packet->hints[row % JOX_ROW_HINTS], end = nav->row_first[row + 1];
-        uint32_t begin = *hint = jox_row_from(nav, row, s->low.x - along, *hint);
-        (packet->levels <= FEW + 1 ? sink_few : sink_many)(
-            packet, begin, row_past(nav, begin, end, s->high.x + along));
-    }
+    const JoxFloats radius = jf_load(packet->radius), wide = jf_add(radius, jf_set(nav->drift));
+    const JoxFloats x = jf_add(jf_load(packet->at_x), jf_set(shift.x));
+    const JoxFloats y = jf_add(jf_load(packet->at_y), jf_set(shift.y));
+    jf_store(reach->x, x);
+    jf_store(reach->y, y);
+    jf_store(reach->radius2, jf_mul(radius, radius));
+    const float per_metre = nav->per_metre;
+    ji_store(reach->left, cells_along(jf_sub(x, wide), nav->low.x, per_metre, nav->columns));
+    ji_store(reach->right, cells_along(jf_add(x, wide), nav->low.x, per_metre, nav->columns));
+    ji_store(reach->low, cells_along(jf_sub(y, wide), nav->low.y, per_metre, nav->rows));
+    ji_store(reach->high, cells_along(jf_add(y, wide), nav->low.y, per_metre, nav->rows));
 }
 
-static void take_in(Stretch *s, JoxV2 at, float radius) {
-    s->low = (JoxV2){jox_minf(s->low.x, at.x), jox_minf(s->low.y, at.y)};
-    s->high = (JoxV2){jox_maxf(s->high.x, at.x), jox_maxf(s->high.y, at.y)};
-    s->radius = jox_maxf(s->radius, radius);
-}
-
-/* Searches for some lanes (bits), of which each has its own radius, at one image of theirs. */
-static void search_image(Packet *packet, uint32_t lanes, JoxV2 shift) {
+/* Lists those within the radius of one lane, until its list is full. */
+static inline void list_near(Packet *packet, const Reach *reach, uint32_t lane) {
     const JoxNav *nav = packet->p->nav;
-    const JoxFloats radius = jf_load(packet->radius), none = jf_set(-1.0f);
-    packet->x = jf_add(jf_load(packet->at_x), jf_set(shift.x));
-    packet->y = jf_add(jf_load(packet->at_y), jf_set(shift.y));
-    uint32_t row = packet->row;
-    for (uint32_t lane = 0; lane < JOX_WIDTH && lanes >> lane;) {
-        Stretch s = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 0.0f};
-        uint32_t bits = 0;
-        while (nav->row_first[row + 1] <= packet->first + lane)
-            row++;
-        uint32_t end = nav->row_first[row + 1] - packet->first;
-        for (; lane < JOX_WIDTH && lane < end; lane++) {
-            if (!(lanes >> lane & 1))
-                continue;
-            JoxV2 at = {packet->at_x[lane] + shift.x, packet->at_y[lane] + shift.y};
-            float reach = packet->radius[lane] + nav->drift;
-            if (bits && at.x - reach > s.high.x + s.radius + nav->drift)
-                break; /* their ranges do not meet: a stretch of its own */
-            take_in(&s, at, packet->radius[lane]);
-            bits |= 1u << lane;
+    const float *ax = packet->p->agents->x, *ay = packet->p->agents->y;
+    const JoxFloats x = jf_set(reach->x[lane]), y = jf_set(reach->y[lane]);
+    const JoxFloats radius2 = jf_set(reach->radius2[lane]);
+    const JoxInts self = ji_set((int32_t)(packet->first + lane));
+    uint32_t *index = packet->index + (size_t)lane * LIST;
+    float *distance2 = packet->distance2 + (size_t)lane * LIST;
+    const uint32_t *left = nav->cell_first + reach->left[lane];
+    const uint32_t *right = nav->cell_first + reach->right[lane] + 1;
+    uint32_t n = packet->count[lane];
+    for (uint32_t row = reach->low[lane]; row <= reach->high[lane]; row++) {
+        const size_t cells = (size_t)row * nav->columns;
+        const uint32_t end = right[cells];
+        for (uint32_t j = left[cells]; j < end && n <= PLACES; j += JOX_WIDTH) {
+            const JoxFloats dx = jf_sub(jf_load(ax + j), x), dy = jf_sub(jf_load(ay + j), y);
+            const JoxFloats d2 = jf_add(jf_mul(dx, dx), jf_mul(dy, dy));
+            const JoxInts other = ji_add(ji_set((int32_t)j), ji_lane());
+            const JoxMask there = ji_less(other, ji_set((int32_t)end));
+            const JoxMask near = jm_without(jf_le(d2, radius2), ji_equal(other, self));
+            const uint32_t bits = jm_bits(jm_and(near, there));
+            jf_store_packed(distance2 + n, d2, bits);
+            ji_store_packed(index + n, other, bits);
+            n += jm_count(bits);
         }
-        if (!bits)
-            continue;
-        packet->within2 = jf_select(jm_of_bits(bits), jf_mul(radius, radius), none);
-        sink_stretch(packet, &s);
     }
+    packet->count[lane] = n;
+}
+
+/* The same among those who went over a periodic edge since the agents were sorted: their cells are
+   not where they are, so that whoever looks there finds them far away. */
+static void list_strays(Packet *packet, const Reach *reach, uint32_t lane) {
+    const JoxNav *nav = packet->p->nav;
+    const float x = reach->x[lane], y = reach->y[lane];
+    uint32_t n = packet->count[lane];
+    for (uint32_t k = 0; k < nav->stray_count && n <= PLACES; k++) {
+        const float dx = nav->stray_x[k] - x, dy = nav->stray_y[k] - y;
+        packet->distance2[lane * LIST + n] = dx * dx + dy * dy;
+        packet->index[lane * LIST + n] = nav->strays[k];
+        n += dx * dx + dy * dy <= reach->radius2[lane] && nav->strays[k] != packet->first + lane;
+    }
+    packet->count[lane] = n;
+}
+
+/* Adds to the lists of some lanes (bits) those whom they see of one of their images. */
+static void list_image(Packet *packet, uint32_t lanes, JoxV2 shift, bool strays) {
+    Reach reach;
+    find_reach(packet, shift, &reach);
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++)
+        if (lanes >> lane & 1) {
+            list_near(packet, &reach, lane);
+            if (strays)
+                list_strays(packet, &reach, lane);
+        }
 }
 
 /* The lanes, of some, that see over the edges that one of the nine images lies beyond. */
@@ -198,16 +155,11 @@ static bool all_within(const Packet *packet, uint32_t lanes) {
     return !(jm_bits(over) & lanes);
 }
 
-/* The keys of some lanes, anew. */
-static void search(Packet *packet, uint32_t lanes) {
-    const JoxFloats radius = jf_load(packet->radius);
-    packet->scale = jf_div(jf_set(FARTHEST_SHARE), jf_max(jf_mul(radius, radius), jf_set(1e-12f)));
-    packet->candidates = 0;
-    packet->overflow = false;
-    for (uint32_t k = 0; k <= JOX_MOST_NEIGHBOURS; k++)
-        packet->keys[k] = jf_set(INFINITY);
+/* The lists of some lanes, anew; those of all others are empty. */
+static void list_lanes(Packet *packet, uint32_t lanes) {
+    memset(packet->count, 0, sizeof packet->count);
     if (all_within(packet, lanes)) {
-        search_image(packet, lanes, (JoxV2){0.0f, 0.0f});
+        list_image(packet, lanes, (JoxV2){0.0f, 0.0f}, false);
         return;
     }
     for (int row = -1; row <= 1; row++)
@@ -215,42 +167,112 @@ static void search(Packet *packet, uint32_t lanes) {
             JoxV2 shift;
             uint32_t seeing = lanes_of_image(packet, lanes, column, row, &shift);
             if (seeing)
-                search_image(packet, seeing, shift);
+                list_image(packet, seeing, shift, true);
         }
+}
+
+/* The lanes of which lists have no room, and the places that the longest list has otherwise. */
+static uint32_t full_lists(const Packet *packet, uint32_t *places) {
+    uint32_t full = 0;
+    *places = 0;
+    for (uint32_t lane = 0; lane < JOX_WIDTH; lane++) {
+        full |= (uint32_t)(packet->count[lane] > PLACES) << lane;
+        if (packet->count[lane] > *places)
+            *places = packet->count[lane];
+    }
+    *places = *places < PLACES ? *places : PLACES;
+    return full;
+}
+
+/* Where the list of each lane begins, in parts of which a list has so many. */
+static inline JoxInts list_of_lane(int32_t parts) {
+    return jf_to_ints(jf_mul(ji_to_floats(ji_lane()), jf_set((float)parts)));
+}
+
+/* Keys of four places of all lists, from a multiple of four on. */
+static inline void read_places(const Packet *packet, JoxInts count, JoxFloats scale, uint32_t from,
+                               JoxFloats keys[4]) {
+    JoxFloats distance2[4];
+    const JoxInts at = ji_add(list_of_lane(RECORDS), ji_set((int32_t)(from / 4)));
+    jf_records(packet->distance2, at, distance2);
+    JOX_UNROLL
+    for (uint32_t k = 0; k < 4; k++) {
+        const JoxInts share = jf_to_ints(jf_mul(distance2[k], scale));
+        const JoxFloats key = ji_as_floats(
+            ji_add(ji_shift_left(share, PLACE_BITS), ji_set(NORMAL + (int32_t)(from + k))));
+        keys[k] = jf_select(ji_less(ji_set((int32_t)(from + k)), count), key, jf_set(INFINITY));
+    }
+}
+
+/* The least keys of the lists, as many as there are levels. */
+static inline __attribute__((always_inline)) void order_lists(Packet *packet, uint32_t places,
+                                                              const uint32_t levels) {
+    const JoxInts count = ji_load(packet->count);
+    const JoxFloats radius = jf_load(packet->radius);
+    const JoxFloats scale = /* from squared distances to fixed point, 1/m2 */
+        jf_div(jf_set(FARTHEST_SHARE), jf_max(jf_mul(radius, radius), jf_set(1e-12f)));
+    JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
+    JOX_UNROLL
+    for (uint32_t from = 0; from < ORDERED; from += 4)
+        read_places(packet, count, scale, from, keys + from);
+    keys[ORDERED] = jf_set(INFINITY);
+    jox_order_16(keys);
+    for (uint32_t from = ORDERED; from < places; from += 4) {
+        JoxFloats more[4];
+        read_places(packet, count, scale, from, more);
+        for (uint32_t m = 0; m < 4; m++) {
+            JoxFloats key = more[m];
+            JOX_UNROLL
+            for (uint32_t k = 0; k < levels; k++) {
+                const JoxFloats farther = jf_max(keys[k], key);
+                keys[k] = jf_min(keys[k], key);
+                key = farther;
+            }
+        }
+    }
+    JOX_UNROLL
+    for (uint32_t k = 0; k < levels; k++)
+        packet->keys[k] = keys[k];
+}
+
+static void order_few(Packet *packet, uint32_t places) {
+    order_lists(packet, places, FEW + 1);
+}
+
+static void order_many(Packet *packet, uint32_t places) {
+    order_lists(packet, places, JOX_MOST_NEIGHBOURS + 1);
 }
 
 /* What the keys of a packet say, lane by lane. */
 typedef struct Found {
-    JoxMask full, tied, cut; /* cut: the last wanted and the next are tied */
-    JoxInts most, count;     /* neighbours wanted, and found */
-    JoxFloats farthest2;     /* where full: of the last wanted, m2 */
+    JoxMask full, tied;  /* as many as wanted; two of the same distance by the bits of their keys */
+    JoxInts most, count; /* neighbours wanted, and found */
+    JoxFloats farthest2; /* where full: of the last wanted, m2 */
 } Found;
 
-static inline JoxFloats distance2_at(const Packet *packet, JoxInts numbers) {
-    return jf_pick(packet->distance2, ji_add(ji_lane(), ji_shift_left(numbers, WIDTH_BITS)));
+/* Where in the lists the places stand that keys of all lanes name. */
+static inline JoxInts listed_at(JoxInts keys) {
+    return ji_add(ji_and(keys, ji_set(PLACES - 1)), list_of_lane(LIST));
 }
 
 static Found read_keys(const Packet *packet, JoxInts most) {
     const JoxFloats none = jf_set(INFINITY);
-    const JoxInts number_of = ji_set(MOST_CANDIDATES - 1);
     const JoxMask nobody = jf_lt(none, none);
-    Found f = {nobody, nobody, nobody, most, ji_set(0), none};
-    JoxInts farthest = ji_set(0); /* number of the last wanted */
+    Found f = {nobody, nobody, most, ji_set(0), none};
+    JoxInts farthest = ji_set(0); /* key of the last wanted */
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
         const JoxFloats key = packet->keys[k], next = packet->keys[k + 1];
         const JoxMask wanted = ji_less(ji_set((int32_t)k), most), there = jf_lt(key, none);
         f.count = ji_select(jm_and(wanted, there), ji_set((int32_t)k + 1), f.count);
         JoxMask last = jm_and(ji_equal(most, ji_set((int32_t)k + 1)), there);
         f.full = jm_or(f.full, last);
-        farthest = ji_select(last, ji_and(jf_bits(key), number_of), farthest);
-        JoxMask same = ji_equal(ji_shift_right(jf_bits(key), NUMBER_BITS),
-                                ji_shift_right(jf_bits(next), NUMBER_BITS));
-        const JoxMask tied = jm_and(same, jm_and(wanted, jf_lt(next, none)));
-        f.tied = jm_or(f.tied, tied);
-        f.cut = jm_or(f.cut, jm_and(tied, last));
+        farthest = ji_select(last, jf_bits(key), farthest);
+        JoxMask same = ji_equal(ji_shift_right(jf_bits(key), PLACE_BITS),
+                                ji_shift_right(jf_bits(next), PLACE_BITS));
+        f.tied = jm_or(f.tied, jm_and(same, jm_and(wanted, jf_lt(next, none))));
     }
     if (jm_bits(f.full))
-        f.farthest2 = jf_select(f.full, distance2_at(packet, farthest), none);
+        f.farthest2 = jf_select(f.full, jf_pick(packet->distance2, listed_at(farthest)), none);
     return f;
 }
 
@@ -262,7 +284,6 @@ static inline void store_floats(float *to, JoxMask m, JoxFloats a) {
 static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloats perception) {
     const JoxPerceive *p = packet->p;
     const JoxMask mask = jm_of_bits(lanes);
-    const JoxInts number_of = ji_set(MOST_CANDIDATES - 1);
     JoxFloats reach = jf_select(f->full, jf_sqrt(f->farthest2), perception);
     JoxFloats area = jf_max(jf_mul(reach, reach), jf_set(JOX_DENSITY_LEAST));
     store_floats(p->agents->search + packet->first, mask, jf_max(reach, jf_set(JOX_SEARCH_LEAST)));
@@ -276,10 +297,10 @@ static void write(const Packet *packet, const Found *f, uint32_t lanes, JoxFloat
     for (uint32_t k = 0; k + 1 < packet->levels; k++) {
         const JoxMask kept = jm_and(mask, ji_less(ji_set((int32_t)k), f->count));
         const size_t at = jox_neighbour_at(p->out, packet->first, k);
-        const JoxInts number = ji_and(jf_bits(packet->keys[k]), number_of);
-        store_floats(p->out->distance2 + at, kept, distance2_at(packet, number));
+        const JoxInts listed = listed_at(jf_bits(packet->keys[k]));
+        store_floats(p->out->distance2 + at, kept, jf_pick(packet->distance2, listed));
         ji_store(p->out->index + at,
-                 ji_select(kept, ji_pick(packet->index, number), ji_load(p->out->index + at)));
+                 ji_select(kept, ji_pick(packet->index, listed), ji_load(p->out->index + at)));
     }
 }
 
@@ -300,58 +321,56 @@ static void find_touching(const Packet *packet, JoxMask sees) {
             p->out->touch_count[packet->first + lane] = JOX_TOUCH_IS_SEEN;
 }
 
-/* For each lane, numbers of candidates. */
-typedef struct Likely {
-    uint8_t numbers[JOX_WIDTH][MOST_CANDIDATES];
-    uint32_t count[JOX_WIDTH];
-} Likely;
-
-/* Who may be among the nearest of some lanes: those of the keys; of lanes that are `cut`, also who
-   is as far as the last key by its bits, but numbered higher, so that no key is left of them. */
-static void list_likely(const Packet *packet, uint32_t lanes, uint32_t cut, Likely *likely) {
-    const JoxFloats farthest = jf_set(FARTHEST_SHARE), last = packet->keys[packet->levels - 1];
-    const JoxInts last_share = ji_shift_right(jf_bits(last), NUMBER_BITS);
-    const JoxInts last_number = ji_and(jf_bits(last), ji_set(MOST_CANDIDATES - 1));
-    uint32_t bits[(JOX_MOST_NEIGHBOURS + 1) * JOX_WIDTH];
-    for (uint32_t k = 0; k < packet->levels; k++)
-        ji_store(bits + k * JOX_WIDTH, jf_bits(packet->keys[k]));
-    for (uint32_t left = lanes; left; left &= left - 1) {
-        const uint32_t lane = (uint32_t)__builtin_ctz(left), *key = bits + lane;
-        uint32_t n = 0;
-        for (; n < packet->levels && key[n * JOX_WIDTH] < NO_KEY; n++)
-            likely->numbers[lane][n] = (uint8_t)key[n * JOX_WIDTH];
-        likely->count[lane] = n;
-    }
-    for (uint32_t n = 0; cut && n < packet->candidates; n++) {
-        const JoxFloats d2 = jf_load(packet->distance2 + (size_t)n * JOX_WIDTH);
-        const JoxInts share = jf_to_ints(jf_min(jf_mul(d2, packet->scale), farthest));
-        const JoxInts shifted = ji_add(share, ji_set(NORMAL >> NUMBER_BITS));
-        const JoxMask higher = ji_less(last_number, ji_set((int32_t)n));
-        uint32_t as_far = jm_bits(jm_and(ji_equal(shifted, last_share), higher)) & cut;
-        for (; as_far; as_far &= as_far - 1) {
-            const uint32_t lane = (uint32_t)__builtin_ctz(as_far);
-            if (packet->distance2[n * JOX_WIDTH + lane] < INFINITY)
-                likely->numbers[lane][likely->count[lane]++] = (uint8_t)n;
-        }
-    }
+/* Whether who stands at one place of a list comes before who stands at another. */
+static bool is_before(const Packet *packet, size_t one, size_t other) {
+    const uint32_t *rank = packet->p->agents->rank;
+    if (packet->distance2[one] != packet->distance2[other])
+        return packet->distance2[one] < packet->distance2[other];
+    return rank[packet->index[one]] < rank[packet->index[other]];
 }
 
-/* Of some lanes whose keys do not tell: one by one. */
-static void choose_anew(const Packet *packet, uint32_t lanes, JoxMask cut) {
-    if (packet->overflow) {
-        for (; lanes; lanes &= lanes - 1) {
-            const uint32_t lane = (uint32_t)__builtin_ctz(lanes);
-            jox_perceive_one(packet->p, packet->first + lane, packet->radius[lane]);
-        }
-        return;
+/* Puts those of one lane whose keys have the same distance in their exact order. Returns false
+   where the last key that is kept is among them: then others may come before it. */
+static bool settle_ties(const Packet *packet, uint32_t lane, uint32_t *keys) {
+    const size_t list = (size_t)lane * LIST, most = (size_t)(packet->levels - 1) * JOX_WIDTH;
+    for (size_t k = JOX_WIDTH; k <= most; k += JOX_WIDTH) {
+        const uint32_t key = keys[k];
+        size_t at = k;
+        for (; at > 0 && keys[at - JOX_WIDTH] >> PLACE_BITS == key >> PLACE_BITS &&
+               is_before(packet, list + key % PLACES, list + keys[at - JOX_WIDTH] % PLACES);
+             at -= JOX_WIDTH)
+            keys[at] = keys[at - JOX_WIDTH];
+        keys[at] = key;
     }
-    Likely likely;
-    list_likely(packet, lanes, jm_bits(cut) & lanes, &likely);
-    for (; lanes; lanes &= lanes - 1) {
-        const uint32_t lane = (uint32_t)__builtin_ctz(lanes);
-        const JoxCandidates among = {likely.numbers[lane], packet->index, packet->distance2 + lane,
-                                     likely.count[lane], JOX_WIDTH};
-        jox_perceive_among(packet->p, packet->first + lane, &among);
+    return most == 0 || keys[most] >= NO_KEY ||
+           keys[most] >> PLACE_BITS != keys[most - JOX_WIDTH] >> PLACE_BITS;
+}
+
+/* Settles the ties of some lanes; returns those who have to choose anew. */
+static uint32_t settle_lanes(Packet *packet, uint32_t lanes) {
+    uint32_t keys[(JOX_MOST_NEIGHBOURS + 1) * JOX_WIDTH], anew = 0;
+    for (uint32_t k = 0; k < packet->levels; k++)
+        ji_store(keys + k * JOX_WIDTH, jf_bits(packet->keys[k]));
+    for (uint32_t left = lanes; left; left &= left - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(left);
+        anew |= (uint32_t)!settle_ties(packet, lane, keys + lane) << lane;
+    }
+    for (uint32_t k = 0; k < packet->levels; k++)
+        packet->keys[k] = ji_as_floats(ji_load(keys + k * JOX_WIDTH));
+    return anew;
+}
+
+/* Some lanes in the exact order of their lists; those that are `full` search all others. */
+static void choose_anew(const Packet *packet, uint32_t lanes, uint32_t full) {
+    for (uint32_t left = lanes; left; left &= left - 1) {
+        const uint32_t lane = (uint32_t)__builtin_ctz(left);
+        const size_t list = (size_t)lane * LIST;
+        const JoxCandidates among = {packet->index + list, packet->distance2 + list,
+                                     packet->count[lane]};
+        if (full >> lane & 1)
+            jox_perceive_one(packet->p, packet->first + lane, packet->radius[lane]);
+        else
+            jox_perceive_among(packet->p, packet->first + lane, &among);
     }
 }
 
@@ -363,22 +382,26 @@ static void perceive_packet(Packet *packet) {
         jf_min(jf_load(a->param[JOX_PARAM_perception] + i), jf_set(p->sight));
     const JoxFloats last = jf_load(a->search + i), zero = jf_set(0.0f);
     const JoxInts most = jf_to_ints(jf_load(a->param[JOX_PARAM_neighbours] + i));
-    JoxFloats radius = jf_select(jf_lt(zero, last), jf_add(last, jf_set(JOX_SEARCH_SLACK)),
-                                 jf_mul(perception, jf_set(0.5f)));
+    const JoxFloats first = jf_set(jox_maxf(p->nav->search, JOX_SEARCH_LEAST));
+    JoxFloats radius = jf_select(jf_lt(zero, last), jf_add(last, jf_set(JOX_SEARCH_SLACK)), first);
     jf_store(packet->at_x, jf_load(a->x + i));
     jf_store(packet->at_y, jf_load(a->y + i));
     const JoxMask sees = ji_less(ji_set(0), most);
     for (uint32_t left = packet->lanes; left;) {
+        uint32_t places;
         radius = jf_min(radius, perception);
         jf_store(packet->radius, radius);
-        search(packet, left);
+        list_lanes(packet, left);
+        const uint32_t full = full_lists(packet, &places);
+        (packet->levels <= FEW + 1 ? order_few : order_many)(packet, places);
         const Found f = read_keys(packet, most);
         const JoxMask short_of = jm_and(sees, jm_without(jf_lt(radius, perception), f.full));
-        const uint32_t done = packet->overflow ? left : left & ~jm_bits(short_of);
-        const uint32_t tied = packet->overflow ? left : done & jm_bits(f.tied);
-        write(packet, &f, done & ~tied, perception);
-        if (tied)
-            choose_anew(packet, tied, f.cut);
+        const uint32_t done = full | (left & ~jm_bits(short_of));
+        const uint32_t tied = done & jm_bits(f.tied) & ~full;
+        const uint32_t anew = full | (tied ? settle_lanes(packet, tied) : 0);
+        write(packet, &f, done & ~anew, perception);
+        if (anew)
+            choose_anew(packet, anew, full);
         left &= ~done;
         radius = jf_mul(radius, jf_set(JOX_SEARCH_GROWTH));
     }
@@ -386,10 +409,9 @@ static void perceive_packet(Packet *packet) {
 }
 
 void JOX_WIDE(jox_perceive_packets)(const JoxPerceive *p, uint32_t begin, uint32_t end) {
-    Packet packet; /* large: what is written before it is read is left as it is */
+    Packet packet;
+    memset(&packet, 0, sizeof packet); /* lists are read by whole packets */
     packet.p = p;
-    packet.row = 0;
-    memset(packet.hints, 0, sizeof packet.hints);
     const float *most = p->agents->param[JOX_PARAM_neighbours];
     for (uint32_t i = begin; i < end; i += JOX_WIDTH) {
         uint32_t count = end - i < JOX_WIDTH ? end - i : JOX_WIDTH;
@@ -399,8 +421,6 @@ void JOX_WIDE(jox_perceive_packets)(const JoxPerceive *p, uint32_t begin, uint32
         for (uint32_t lane = 0; lane < count; lane++)
             if ((uint32_t)most[i + lane] + 1 > packet.levels)
                 packet.levels = (uint32_t)most[i + lane] + 1;
-        while (p->nav->row_first[packet.row + 1] <= i)
-            packet.row++;
         perceive_packet(&packet);
     }
 }

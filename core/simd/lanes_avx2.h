@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "simd/packed.h"
+
 enum { JOX_WIDTH = 8 };
 #define JOX_WIDE(name) name##_avx2
 
@@ -116,6 +118,16 @@ static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
     return _mm256_permutevar8x32_ps(a, at);
 }
 
+static inline __m256i ji_packed_order_(uint32_t bits) {
+    return _mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)&jox_packed_order[bits]));
+}
+static inline void jf_store_packed(float *to, JoxFloats a, uint32_t bits) {
+    _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(a, ji_packed_order_(bits)));
+}
+static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
+    _mm256_storeu_si256((__m256i *)to, _mm256_permutevar8x32_epi32(a, ji_packed_order_(bits)));
+}
+
 /* Records l and l + 4 share a register; each of its halves is transposed by itself. */
 static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
     uint32_t k[8];
@@ -148,6 +160,9 @@ static inline uint32_t jm_bits(JoxMask m) {
 static inline JoxMask jm_of_bits(uint32_t bits) {
     const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
     return ji_equal(_mm256_and_si256(_mm256_set1_epi32((int32_t)bits), bit), bit);
+}
+static inline uint32_t jm_count(uint32_t bits) {
+    return (uint32_t)__builtin_popcount(bits);
 }
 
 #endif

@@ -118,6 +118,13 @@ static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
     return _mm512_permutexvar_ps(at, a);
 }
 
+static inline void jf_store_packed(float *to, JoxFloats a, uint32_t bits) {
+    _mm512_storeu_ps(to, _mm512_maskz_compress_ps((__mmask16)bits, a));
+}
+static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, a));
+}
+
 /* Records l, l + 4, l + 8 and l + 12 share a register; each of its quarters is transposed. */
 static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
     uint32_t k[16];
@@ -151,6 +158,9 @@ static inline uint32_t jm_bits(JoxMask m) {
 }
 static inline JoxMask jm_of_bits(uint32_t bits) {
     return (JoxMask)bits;
+}
+static inline uint32_t jm_count(uint32_t bits) {
+    return (uint32_t)__builtin_popcount(bits);
 }
 
 #endif

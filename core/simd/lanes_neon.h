@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "simd/packed.h"
+
 enum { JOX_WIDTH = 4 };
 #define JOX_WIDE(name) name##_neon
 
@@ -126,6 +128,21 @@ static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
     return jf_pick(lanes, at);
 }
 
+static inline void jf_store_packed(float *to, JoxFloats a, uint32_t bits) {
+    const uint32_t order = (uint32_t)jox_packed_order[bits];
+    float lanes[4];
+    jf_store(lanes, a);
+    for (int k = 0; k < 4; k++)
+        to[k] = lanes[order >> 8 * k & 3];
+}
+static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
+    const uint32_t order = (uint32_t)jox_packed_order[bits];
+    uint32_t lanes[4];
+    ji_store(lanes, a);
+    for (int k = 0; k < 4; k++)
+        to[k] = lanes[order >> 8 * k & 3];
+}
+
 static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
     uint32_t k[4];
     JoxFloats r[4];
@@ -155,6 +172,9 @@ static inline uint32_t jm_bits(JoxMask m) {
 }
 static inline JoxMask jm_of_bits(uint32_t bits) {
     return vtstq_u32(vdupq_n_u32(bits), (JoxMask){1, 2, 4, 8});
+}
+static inline uint32_t jm_count(uint32_t bits) {
+    return jox_count_of_four(bits);
 }
 
 #endif

@@ -134,6 +134,17 @@ static inline JoxInts ji_pick(const uint32_t *table, JoxInts at) {
     return (int32_t)table[at];
 }
 
+/* Stores the lanes of which `bits` are set, one after the other; writes JOX_WIDTH numbers, of which
+   those after the last such lane are of no meaning. */
+static inline void jf_store_packed(float *to, JoxFloats a, uint32_t bits) {
+    (void)bits;
+    *to = a;
+}
+static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
+    (void)bits;
+    *to = (uint32_t)a;
+}
+
 /* Of records of four floats, those at the places of the lanes: out[c] is number c of each. */
 static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
     for (int c = 0; c < 4; c++)
@@ -155,6 +166,10 @@ static inline uint32_t jm_bits(JoxMask m) {
     return m;
 }
 static inline JoxMask jm_of_bits(uint32_t bits) {
+    return bits & 1;
+}
+/* How many of the bits of a mask are set. */
+static inline uint32_t jm_count(uint32_t bits) {
     return bits & 1;
 }
 

@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "simd/packed.h"
+
 enum { JOX_WIDTH = 4 };
 #define JOX_WIDE(name) name##_sse2
 
@@ -123,6 +125,21 @@ static inline JoxFloats jf_reorder(JoxFloats a, JoxInts at) {
     return jf_pick(lanes, at);
 }
 
+static inline void jf_store_packed(float *to, JoxFloats a, uint32_t bits) {
+    const uint32_t order = (uint32_t)jox_packed_order[bits];
+    float lanes[4];
+    jf_store(lanes, a);
+    for (int k = 0; k < 4; k++)
+        to[k] = lanes[order >> 8 * k & 3];
+}
+static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
+    const uint32_t order = (uint32_t)jox_packed_order[bits];
+    uint32_t lanes[4];
+    ji_store(lanes, a);
+    for (int k = 0; k < 4; k++)
+        to[k] = lanes[order >> 8 * k & 3];
+}
+
 static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
     uint32_t k[4];
     ji_store(k, at);
@@ -146,6 +163,9 @@ static inline uint32_t jm_bits(JoxMask m) {
 static inline JoxMask jm_of_bits(uint32_t bits) {
     const __m128i bit = _mm_setr_epi32(1, 2, 4, 8);
     return ji_equal(_mm_and_si128(_mm_set1_epi32((int32_t)bits), bit), bit);
+}
+static inline uint32_t jm_count(uint32_t bits) {
+    return jox_count_of_four(bits);
 }
 
 #endif

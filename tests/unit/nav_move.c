@@ -88,8 +88,12 @@ static float by_hand(Crowd *c) {
         a->x[i] = to.x;
         a->y[i] = to.y;
         farthest2 = jox_maxf(farthest2, jox_length2(jox_sub(to, from)));
-        if (jox_agents_wrap(a, i))
-            farthest2 = INFINITY;
+        if (jox_agents_wrap(a, i)) {
+            if (isfinite(a->x[i]) && isfinite(a->y[i]))
+                jox_nav_stray(c->nav, i);
+            else
+                farthest2 = INFINITY;
+        }
         const JoxV2 rests = {a->x[i] - a->still_x[i], a->y[i] - a->still_y[i]};
         a->still[i] += m->dt;
         if (jox_length2(rests) > JOX_STILL_REACH * JOX_STILL_REACH) {
@@ -132,7 +136,9 @@ static void test_move(void **state) {
             columns_of(&wide.agents, got);
             for (uint32_t k = 0; k < COLUMNS; k++)
                 assert_memory_equal(expected[k], got[k], PEOPLE * sizeof(float));
-            over += isinf(longest) != 0;
+            assert_int_equal(plain.nav->stray_count, wide.nav->stray_count);
+            assert_memory_equal(plain.nav->strays, wide.nav->strays, sizeof wide.nav->strays);
+            over += wide.nav->stray_count;
             for (uint32_t i = 0; i < PEOPLE; i++)
                 moved += wide.agents.still[i] == 0.0f;
             end(&plain);

@@ -70,6 +70,18 @@ static void stir(JoxNav *nav, JoxAgents *a, uint32_t crowd) {
     nav->drift += 0.2001f;
 }
 
+/* Somebody from each edge to the opposite one, and known to have gone there. */
+static void cross(JoxNav *nav, JoxAgents *a) {
+    for (uint32_t i = 0; i < a->count && nav->stray_count < JOX_MOST_STRAYS; i++) {
+        const float left = a->x[i] < 0.1f ? 15.0f : a->x[i] > 14.9f ? -15.0f : 0.0f;
+        if (a->period.x <= 0.0f || left == 0.0f)
+            continue;
+        a->x[i] = fminf(fmaxf(a->x[i] + left, 0.0f), 14.99f);
+        jox_nav_stray(nav, i);
+    }
+    jox_nav_place_strays(nav, a);
+}
+
 typedef struct Other {
     float d2;
     uint32_t id, index;
@@ -153,6 +165,9 @@ static void compare_crowd(JoIsa isa, uint32_t crowd) {
         jox_nav_perceive(nav, &agents, &neighbours, NULL);
         compare(&agents, &neighbours);
         stir(nav, &agents, crowd);
+        if (pass == 0)
+            cross(nav, &agents);
+        jox_nav_place_strays(nav, &agents);
     }
     jox_nav_free(nav);
     jox_agents_free(&agents);
