@@ -68,7 +68,8 @@ static inline void jox_put_each(JoxPacket *p, uint32_t lanes, uint32_t row, JoxM
 
 /* What does not change from neighbour to neighbour. */
 typedef struct JoxSelf {
-    JoxFloats x, y, vx, vy, radius, tau, share;
+    JoxFloats x, y, radius;
+    JoxOrcaSelf orca;
 } JoxSelf;
 
 /* Whom agents touch: a row has one of each lane, or itself. */
@@ -122,11 +123,11 @@ static inline JoxSelf jox_self_of(const JoxPacket *p) {
     return (JoxSelf){
         .x = jf_load(a->x + i),
         .y = jf_load(a->y + i),
-        .vx = jf_load(a->vx + i),
-        .vy = jf_load(a->vy + i),
         .radius = jf_load(a->param[JOX_PARAM_radius] + i),
-        .tau = jf_load(a->param[JOX_PARAM_horizon] + i),
-        .share = p->s->nav->literal ? jf_set(0.5f) : jf_load(a->param[JOX_PARAM_yield] + i),
+        .orca = {.velocity = jv_load(a->vx, a->vy, i),
+                 .inverse = jf_div(jf_set(1.0f), jf_load(a->param[JOX_PARAM_horizon] + i)),
+                 .share = p->s->nav->literal ? jf_set(0.5f)
+                                             : jf_load(a->param[JOX_PARAM_yield] + i)},
     };
 }
 
@@ -185,7 +186,7 @@ static inline __attribute__((always_inline)) uint32_t jox_put_rows(JoxPacket *p,
         JoxFloats record[4];
         jf_records(&s->nav->records[0].x, others, record);
         JoxPair q = {jf_sub(record[0], self.x), jf_sub(record[1], self.y),
-                     jf_sub(self.vx, record[2]), jf_sub(self.vy, record[3]),
+                     jf_sub(self.orca.velocity.x, record[2]), jf_sub(self.orca.velocity.y, record[3]),
                      jf_add(self.radius, jf_pick(a->param[JOX_PARAM_radius], others))};
         if (periodic) {
             q.x = jf_wrap(q.x, a->period.x);
@@ -195,8 +196,7 @@ static inline __attribute__((always_inline)) uint32_t jox_put_rows(JoxPacket *p,
         coincide |= jm_bits(jm_and(minds, jf_le(apart, none.x)));
         JoxPlaneLanes plane = none;
         if (p->lanes & ~p->walkers)
-            plane = jox_orca_lanes(&q, (JoxVector){self.vx, self.vy}, self.tau, self.share,
-                                   s->planning_time);
+            plane = jox_orca_lanes(&q, &self.orca, s->planning_time, minds);
         if (p->walkers) {
             JoxMask has;
             plane = jox_select_plane(

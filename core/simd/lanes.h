@@ -3,6 +3,13 @@
 #ifndef JOX_SIMD_LANES_H
 #define JOX_SIMD_LANES_H
 
+/* Before a loop of few turns over an array of lanes: the array then lives in registers. */
+#if defined __clang__
+#define JOX_UNROLL _Pragma("unroll")
+#else
+#define JOX_UNROLL _Pragma("GCC unroll 32")
+#endif
+
 #if defined JOX_ISA_avx512
 #include "simd/lanes_avx512.h"
 #elif defined JOX_ISA_avx2
@@ -13,13 +20,6 @@
 #include "simd/lanes_neon.h"
 #else
 #include "simd/lanes_scalar.h"
-#endif
-
-/* Before a loop of few turns over an array of lanes: the array then lives in registers. */
-#if defined __clang__
-#define JOX_UNROLL _Pragma("unroll")
-#else
-#define JOX_UNROLL _Pragma("GCC unroll 32")
 #endif
 
 #endif

@@ -133,6 +133,7 @@ static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]
     uint32_t k[8];
     __m256 r[4];
     ji_store(k, at);
+    JOX_UNROLL
     for (int lane = 0; lane < 4; lane++)
         r[lane] = _mm256_insertf128_ps(
             _mm256_castps128_ps256(_mm_loadu_ps(records + 4 * (size_t)k[lane])),

@@ -130,6 +130,7 @@ static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]
     uint32_t k[16];
     __m512 r[4];
     ji_store(k, at);
+    JOX_UNROLL
     for (int lane = 0; lane < 4; lane++) {
         r[lane] = _mm512_castps128_ps512(_mm_loadu_ps(records + 4 * (size_t)k[lane]));
         r[lane] = _mm512_insertf32x4(r[lane], _mm_loadu_ps(records + 4 * (size_t)k[lane + 4]), 1);

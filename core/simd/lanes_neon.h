@@ -147,6 +147,7 @@ static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]
     uint32_t k[4];
     JoxFloats r[4];
     ji_store(k, at);
+    JOX_UNROLL
     for (int lane = 0; lane < 4; lane++)
         r[lane] = vld1q_f32(records + 4 * (size_t)k[lane]);
     float32x4x2_t even = vuzpq_f32(r[0], r[1]), odd = vuzpq_f32(r[2], r[3]);

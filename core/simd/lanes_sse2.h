@@ -143,6 +143,7 @@ static inline void ji_store_packed(uint32_t *to, JoxInts a, uint32_t bits) {
 static inline void jf_records(const float *records, JoxInts at, JoxFloats out[4]) {
     uint32_t k[4];
     ji_store(k, at);
+    JOX_UNROLL
     for (int lane = 0; lane < 4; lane++)
         out[lane] = _mm_loadu_ps(records + 4 * (size_t)k[lane]);
     _MM_TRANSPOSE4_PS(out[0], out[1], out[2], out[3]);
