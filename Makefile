@@ -190,9 +190,9 @@ define compile
 endef
 $(B)/%.o: %.c Makefile
 	$(call compile,CC,$(CC),$(CFLAGS_ALL))
-# Their loops over numbers become vector operations, of the same bits.
+# Kernels, and what has loops over numbers that become vector operations, of the same bits.
 VECTORISED := core/nav/walk_one core/geom/field_crowd core/record/fields/density_spread \
-           $(foreach k,core/force/breadth_wide core/machine/eval_wide,$(ISAS:%=$k.%))
+           $(foreach k,$(SRC_WIDE:%.c=%),$(ISAS:%=$k.%))
 $(VECTORISED:%=$(SHARED)/%.o): OPT += $(if $(filter release,$(MODE)),-O3)
 define wide
 $(SHARED)/%_wide.$(1).o: %_wide.c Makefile
