@@ -21,9 +21,10 @@ void jox_contacts_check(const JoxForces *f) {
     const JoxPairs *p = &f->pairs;
     double x = 0.0, y = 0.0, size = 0.0, per_second = 1.0 / f->step.dt;
     for (uint32_t k = 0; k < p->count; k++) {
-        JOX_ASSERT(p->first[k] < a->count && p->second[k] < a->count);
-        JOX_ASSERT(!(p->impulse[k] < 0.0f));
-        size += (double)p->impulse[k] * per_second;
+        const JoxPair *pair = &p->items[k];
+        JOX_ASSERT(pair->first < a->count && pair->second < a->count);
+        JOX_ASSERT(!(pair->impulse < 0.0f));
+        size += (double)pair->impulse * per_second;
     }
     for (uint32_t i = 0; i < a->count; i++) {
         uint64_t colours = 0;

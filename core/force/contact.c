@@ -5,14 +5,14 @@
 
 /* Sum of the impulses that agent i received, N s; counts those that touch or press. */
 static JoxV2 received(const JoxForces *f, uint32_t i, uint32_t *contacts) {
-    const JoxPairs *p = &f->pairs;
+    const JoxPair *pairs = f->pairs.items;
     JoxV2 sum = {0.0f, 0.0f};
     for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1]; k++) {
-        uint32_t at = f->ends[k].pair;
-        float size = p->impulse[at] + p->squeeze[at] * (float)f->step.dt;
-        float impulse = p->first[at] == i ? size : -size;
-        sum = jox_add(sum, (JoxV2){p->nx[at] * impulse, p->ny[at] * impulse});
-        *contacts += size > 0.0f || p->target[at] >= 0.0f;
+        const JoxPair *p = &pairs[f->ends[k].pair];
+        float size = p->impulse + p->squeeze * (float)f->step.dt;
+        float impulse = p->first == i ? size : -size;
+        sum = jox_add(sum, (JoxV2){p->normal.x * impulse, p->normal.y * impulse});
+        *contacts += size > 0.0f || p->target >= 0.0f;
     }
     for (uint32_t k = 0; k < jox_touches_of(f, i); k++) {
         const JoxTouch *touch = &f->touch[f->touch_first[i] + k];

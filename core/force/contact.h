@@ -19,7 +19,7 @@ enum {
 typedef struct JoxFoundPair {
     uint32_t other, other_id;
     JoxV2 normal;
-    float squeeze, target, mass; /* as in JoxPairs */
+    float squeeze, target, mass; /* as in JoxPair */
 } JoxFoundPair;
 typedef struct JoxFoundWall {
     uint32_t edge;
@@ -35,22 +35,27 @@ typedef struct JoxContactRecord {
     float unused;
 } JoxContactRecord;
 
-/* Contacts between agents in columns, sorted by colour: no agent occurs twice in a colour, so that
-   the contacts of one colour may be solved in any order, at once. The normal points to the first,
-   which has found the contact. */
+/* A contact between two agents. The normal points to the first, which has found the contact. Half a
+   line of the cache: whoever looks at a contact takes all of it. */
+typedef struct JoxPair {
+    uint32_t first, second;
+    JoxV2 normal;
+    float target;  /* least normal velocity of the first relative to the second, m/s */
+    float mass;    /* reduced mass, kg */
+    float squeeze; /* N: of shoulders that are turned, within the radii; besides the impulse */
+    float impulse; /* accumulated, at least 0, N s */
+} JoxPair;
+
+/* Contacts between agents, sorted by colour: no agent occurs twice in a colour, so that the contacts
+   of one colour may be solved in any order, at once. */
 typedef struct JoxPairs {
     uint32_t count, colours;
     uint32_t listed;                               /* found: entries of `place` */
     uint32_t starts[JOX_CONTACT_MOST_COLOURS + 1]; /* of each colour */
-    uint32_t *first, *second;
-    float *nx, *ny;
-    float *target;   /* least normal velocity of the first relative to the second, m/s */
-    float *mass;     /* reduced mass, kg */
-    float *squeeze;  /* N: of shoulders that are turned, within the radii; besides the impulse */
-    float *impulse;  /* accumulated, at least 0, N s */
+    JoxPair *items;
     uint32_t *place; /* of the contacts in ascending ids of first, then second;
                         JOX_NO_INDEX: left out */
-    size_t capacities[9];
+    size_t capacity, place_capacity;
 } JoxPairs;
 
 /* An agent at the edge of a wall. */
@@ -70,7 +75,7 @@ typedef struct JoxTouch {
 
 /* An agent's end of a contact with another. */
 typedef struct JoxEnd {
-    uint32_t pair; /* index in the columns */
+    uint32_t pair; /* index */
     uint32_t other;
 } JoxEnd;
 

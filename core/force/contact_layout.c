@@ -17,19 +17,6 @@ float jox_kept_impulse(const JoxKeptImpulses *kept, size_t *at, uint32_t id, uin
     return found ? items[*at].impulse : 0.0f;
 }
 
-static void reserve_pairs(JoxPairs *p, uint32_t count) {
-    size_t *c = p->capacities;
-    JOX_RESERVE(p->first, c[0], count);
-    JOX_RESERVE(p->second, c[1], count);
-    JOX_RESERVE(p->nx, c[2], count);
-    JOX_RESERVE(p->ny, c[3], count);
-    JOX_RESERVE(p->target, c[4], count);
-    JOX_RESERVE(p->mass, c[5], count);
-    JOX_RESERVE(p->impulse, c[6], count);
-    JOX_RESERVE(p->place, c[7], count);
-    JOX_RESERVE(p->squeeze, c[8], count);
-}
-
 static inline const JoxFoundPair *found_of(const JoxForces *f, uint32_t i) {
     return (const JoxFoundPair *)f->found.items + f->found_first[i];
 }
@@ -79,16 +66,6 @@ static void colour_pairs(JoxForces *f) {
     }
 }
 
-static void fill_pair(JoxPairs *p, uint32_t i, const JoxFoundPair *found, uint32_t at) {
-    p->first[at] = i;
-    p->second[at] = found->other;
-    p->nx[at] = found->normal.x;
-    p->ny[at] = found->normal.y;
-    p->squeeze[at] = found->squeeze;
-    p->mass[at] = found->mass;
-    p->target[at] = found->target;
-}
-
 void jox_contacts_lay_pairs(JoxForces *f) {
     const JoxAgents *a = f->step.agents;
     JoxPairs *p = &f->pairs;
@@ -99,7 +76,8 @@ void jox_contacts_lay_pairs(JoxForces *f) {
     JOX_RESERVE(f->end_starts, f->end_start_capacity, (size_t)a->count + 1);
     /* Room for a dense crowd from the start, so that no steady step grows it. */
     uint32_t room = p->listed > 4 * a->count ? p->listed : 4 * a->count;
-    reserve_pairs(p, room);
+    JOX_RESERVE(p->items, p->capacity, room);
+    JOX_RESERVE(p->place, p->place_capacity, room);
     JOX_RESERVE(f->ends, f->end_capacity, 2 * (size_t)room);
     if (!p->listed) { /* nobody touches anybody */
         p->colours = 0;
@@ -119,9 +97,14 @@ void jox_contacts_lay_pairs(JoxForces *f) {
                 continue;
             uint32_t at = fill[p->place[n]]++, j = found[k].other;
             p->place[n] = at;
-            fill_pair(p, i, &found[k], at);
-            p->impulse[at] =
-                jox_kept_impulse(&f->kept_pairs, &kept, a->rank_id[r], found[k].other_id);
+            p->items[at] =
+                (JoxPair){i,
+                          j,
+                          found[k].normal,
+                          found[k].target,
+                          found[k].mass,
+                          found[k].squeeze,
+                          jox_kept_impulse(&f->kept_pairs, &kept, a->rank_id[r], found[k].other_id)};
             f->ends[f->end_starts[i]++] = (JoxEnd){at, j};
             f->ends[f->end_starts[j]++] = (JoxEnd){at, i};
         }
@@ -179,10 +162,11 @@ void jox_contacts_keep(JoxForces *f) {
     JOX_RESERVE(f->kept_pairs.items, f->kept_pairs.capacity, p->count);
     f->kept_pairs.count = 0;
     for (uint32_t n = 0; n < p->listed; n++) {
-        uint32_t at = p->place[n];
-        if (at != JOX_NO_INDEX)
-            f->kept_pairs.items[f->kept_pairs.count++] =
-                (JoxKeptImpulse){a->id[p->first[at]], a->id[p->second[at]], p->impulse[at]};
+        if (p->place[n] == JOX_NO_INDEX)
+            continue;
+        const JoxPair *pair = &p->items[p->place[n]];
+        f->kept_pairs.items[f->kept_pairs.count++] =
+            (JoxKeptImpulse){a->id[pair->first], a->id[pair->second], pair->impulse};
     }
     JOX_ASSERT(f->kept_pairs.count == p->count);
     JOX_RESERVE(f->kept_walls.items, f->kept_walls.capacity, f->wall_count);

@@ -37,18 +37,19 @@ static float bound_of(const JoxForceStep *step, uint32_t i, uint32_t j, JoxV2 no
 static uint32_t people_planes(const JoxForces *f, uint32_t i, JoxContactPlane *out,
                               JoxDecay *decay) {
     const JoxAgents *a = f->step.agents;
-    const JoxPairs *p = &f->pairs;
+    const JoxPair *pairs = f->pairs.items;
     const float time = (float)f->step.planning_time;
     uint32_t n = 0;
     for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1]; k++) {
-        uint32_t at = f->ends[k].pair, j = f->ends[k].other;
-        if (!(p->impulse[at] > 0.0f || p->target[at] >= 0.0f) || n == JOX_MOST_TOUCHED)
+        const JoxPair *p = &pairs[f->ends[k].pair];
+        const uint32_t j = f->ends[k].other;
+        if (!(p->impulse > 0.0f || p->target >= 0.0f) || n == JOX_MOST_TOUCHED)
             continue;
-        float sign = p->first[at] == i ? 1.0f : -1.0f;
-        JoxV2 normal = {sign * p->nx[at], sign * p->ny[at]};
+        float sign = p->first == i ? 1.0f : -1.0f;
+        JoxV2 normal = {sign * p->normal.x, sign * p->normal.y};
         JoxV2 mean = {0.5f * (a->forced_x[i] + a->forced_x[j]),
                       0.5f * (a->forced_y[i] + a->forced_y[j])};
-        float gap = p->target[at] < 0.0f ? -p->target[at] * (float)f->step.dt : 0.0f;
+        float gap = p->target < 0.0f ? -p->target * (float)f->step.dt : 0.0f;
         float own = jox_dot((JoxV2){a->forced_x[i], a->forced_y[i]}, normal);
         float both = jox_minf(jox_dot(mean, normal), own);
         float least = bound_of(&f->step, i, j, normal, both, decay) - SLACK;

@@ -36,9 +36,9 @@ static void start_velocities(void *context, uint32_t begin, uint32_t end, uint32
     }
 }
 
-static inline void move_by(JoxV2 *velocity, float nx, float ny, float change) {
-    velocity->x += nx * change;
-    velocity->y += ny * change;
+static inline void move_by(JoxV2 *velocity, JoxV2 normal, float change) {
+    velocity->x += normal.x * change;
+    velocity->y += normal.y * change;
 }
 
 /* The impulses that contacts begin with: velocities that fit them. */
@@ -46,14 +46,13 @@ static void warm_colour(void *context, uint32_t begin, uint32_t end, uint32_t wo
     (void)worker;
     const Pass *pass = context;
     JoxForces *f = pass->forces;
-    const JoxPairs *p = &f->pairs;
     for (uint32_t k = pass->first + begin; k < pass->first + end; k++) {
-        float impulse = p->impulse[k] + p->squeeze[k] * (float)f->step.dt;
+        const JoxPair *p = &f->pairs.items[k];
+        float impulse = p->impulse + p->squeeze * (float)f->step.dt;
         if (!(impulse > 0.0f))
             continue;
-        uint32_t i = p->first[k], j = p->second[k];
-        move_by(&f->work[i], p->nx[k], p->ny[k], impulse * f->lightness[i]);
-        move_by(&f->work[j], p->nx[k], p->ny[k], -impulse * f->lightness[j]);
+        move_by(&f->work[p->first], p->normal, impulse * f->lightness[p->first]);
+        move_by(&f->work[p->second], p->normal, -impulse * f->lightness[p->second]);
     }
 }
 
@@ -61,19 +60,18 @@ static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t w
     (void)worker;
     const Pass *pass = context;
     JoxForces *f = pass->forces;
-    JoxPairs *p = &f->pairs;
     float most = 0.0f;
     for (uint32_t k = pass->first + begin; k < pass->first + end; k++) {
-        uint32_t i = p->first[k], j = p->second[k];
-        JoxV2 *vi = &f->work[i], *vj = &f->work[j];
-        float speed = (vi->x - vj->x) * p->nx[k] + (vi->y - vj->y) * p->ny[k];
-        float before = p->impulse[k];
-        float after = jox_maxf(0.0f, before + (p->target[k] - speed) * p->mass[k]);
+        JoxPair *p = &f->pairs.items[k];
+        JoxV2 *vi = &f->work[p->first], *vj = &f->work[p->second];
+        float speed = (vi->x - vj->x) * p->normal.x + (vi->y - vj->y) * p->normal.y;
+        float before = p->impulse;
+        float after = jox_maxf(0.0f, before + (p->target - speed) * p->mass);
         float change = after - before;
-        p->impulse[k] = after;
+        p->impulse = after;
         most = jox_maxf(most, fabsf(change));
-        move_by(vi, p->nx[k], p->ny[k], change * f->lightness[i]);
-        move_by(vj, p->nx[k], p->ny[k], -change * f->lightness[j]);
+        move_by(vi, p->normal, change * f->lightness[p->first]);
+        move_by(vj, p->normal, -change * f->lightness[p->second]);
     }
     pass->residuals[pass->chunk + begin / PAIR_GRAIN] = most;
 }
@@ -81,7 +79,7 @@ static void solve_colour(void *context, uint32_t begin, uint32_t end, uint32_t w
 static void warm_walls(JoxForces *f) {
     for (uint32_t k = 0; k < f->wall_count; k++) {
         const JoxWallContact *w = &f->wall[k];
-        move_by(&f->work[w->agent], w->normal.x, w->normal.y, w->impulse * f->lightness[w->agent]);
+        move_by(&f->work[w->agent], w->normal, w->impulse * f->lightness[w->agent]);
     }
 }
 
@@ -98,7 +96,7 @@ static void solve_walls(void *context, uint32_t begin, uint32_t end, uint32_t wo
         w->impulse = jox_maxf(0.0f, before + (w->target - speed) * mass[w->agent]);
         float change = w->impulse - before;
         most = jox_maxf(most, fabsf(change));
-        move_by(&f->work[w->agent], w->normal.x, w->normal.y, change * f->lightness[w->agent]);
+        move_by(&f->work[w->agent], w->normal, change * f->lightness[w->agent]);
     }
     pass->residuals[pass->chunk + begin / WALL_GRAIN] = most;
 }

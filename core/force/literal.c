@@ -19,15 +19,15 @@ static void pair_chunk(void *context, uint32_t begin, uint32_t end, uint32_t wor
     const JoxAgents *a = f->step.agents;
     const float *mass = a->param[JOX_PARAM_mass], *e = a->param[JOX_PARAM_restitution];
     const float *radius = a->param[JOX_PARAM_radius];
-    JoxPairs *p = &f->pairs;
     for (uint32_t k = begin; k < end; k++) {
-        uint32_t i = p->first[k], j = p->second[k];
+        JoxPair *p = &f->pairs.items[k];
+        uint32_t i = p->first, j = p->second;
         float touch = radius[i] + radius[j];
-        p->impulse[k] = 0.0f;
+        p->impulse = 0.0f;
         if (!(jox_length2(jox_offset(a, i, j)) < touch * touch))
             continue;
-        float speed = (a->vx[i] - a->vx[j]) * p->nx[k] + (a->vy[i] - a->vy[j]) * p->ny[k];
-        p->impulse[k] =
+        float speed = (a->vx[i] - a->vx[j]) * p->normal.x + (a->vy[i] - a->vy[j]) * p->normal.y;
+        p->impulse =
             jox_contact_impulse(speed, jox_minf(e[i], e[j]), 1.0f / mass[i] + 1.0f / mass[j]);
     }
 }

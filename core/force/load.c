@@ -43,14 +43,14 @@ static float greatest_push(const JoxV2 *force, uint32_t count) {
 
 /* All that presses on agent i, N. */
 static uint32_t forces_on(const JoxForces *f, uint32_t i, JoxV2 *out, uint32_t most) {
-    const JoxPairs *p = &f->pairs;
+    const JoxPair *pairs = f->pairs.items;
     const float per_second = 1.0f / (float)f->step.dt;
     uint32_t n = 0;
     for (uint32_t k = f->end_starts[i]; k < f->end_starts[i + 1] && n < most; k++) {
-        uint32_t at = f->ends[k].pair;
-        float force = p->impulse[at] * per_second + p->squeeze[at];
+        const JoxPair *p = &pairs[f->ends[k].pair];
+        float force = p->impulse * per_second + p->squeeze;
         if (force > 0.0f)
-            out[n++] = jox_scale((JoxV2){p->nx[at], p->ny[at]}, p->first[at] == i ? force : -force);
+            out[n++] = jox_scale(p->normal, p->first == i ? force : -force);
     }
     for (uint32_t k = 0; k < jox_touches_of(f, i) && n < most; k++) {
         const JoxTouch *t = &f->touch[f->touch_first[i] + k];

@@ -9,7 +9,7 @@
 #include "nav/internal.h"
 
 /* Of the mean radius that people search: a row of cells within reach then fits in a packet. */
-static const float CELL_SHARE = 0.55f;
+static const float CELL_SHARE = 0.7f;
 static const float CELL_LEAST = 0.25f, CELL_MOST = 8.0f; /* m */
 /* Neighbours for whom room is made where nobody has searched yet, and cells for each agent. */
 static const float FIRST_NEIGHBOURS = 12.0f, CELLS_EACH = 8.0f;
