@@ -46,8 +46,8 @@ typedef struct JoxPair {
     float impulse; /* accumulated, at least 0, N s */
 } JoxPair;
 
-/* Contacts between agents, sorted by colour: no agent occurs twice in a colour, so that the contacts
-   of one colour may be solved in any order, at once. */
+/* Contacts between agents, sorted by colour: no agent occurs twice in a colour, so that the
+   contacts of one colour may be solved in any order, at once. */
 typedef struct JoxPairs {
     uint32_t count, colours;
     uint32_t listed;                               /* found: entries of `place` */

@@ -97,14 +97,14 @@ void jox_contacts_lay_pairs(JoxForces *f) {
                 continue;
             uint32_t at = fill[p->place[n]]++, j = found[k].other;
             p->place[n] = at;
-            p->items[at] =
-                (JoxPair){i,
-                          j,
-                          found[k].normal,
-                          found[k].target,
-                          found[k].mass,
-                          found[k].squeeze,
-                          jox_kept_impulse(&f->kept_pairs, &kept, a->rank_id[r], found[k].other_id)};
+            p->items[at] = (JoxPair){
+                i,
+                j,
+                found[k].normal,
+                found[k].target,
+                found[k].mass,
+                found[k].squeeze,
+                jox_kept_impulse(&f->kept_pairs, &kept, a->rank_id[r], found[k].other_id)};
             f->ends[f->end_starts[i]++] = (JoxEnd){at, j};
             f->ends[f->end_starts[j]++] = (JoxEnd){at, i};
         }

@@ -11,8 +11,8 @@ typedef struct JoxPair {
     JoxFloats x, y, vx, vy, radii;
 } JoxPair;
 
-/* What ORCA's half-planes of one agent have in common: its velocity, m/s, the inverse of its horizon,
-   1/s, and its share of the correction. */
+/* What ORCA's half-planes of one agent have in common: its velocity, m/s, the inverse of its
+   horizon, 1/s, and its share of the correction. */
 typedef struct JoxOrcaSelf {
     JoxVector velocity;
     JoxFloats inverse, share;
@@ -34,7 +34,8 @@ jox_orca_lanes(const JoxPair *q, const JoxOrcaSelf *self, float dt, JoxMask want
         round = jf_select(overlap, jf_div(q->radii, jf_set(dt)), round);
     }
     /* The relative velocity less that which makes them meet at the horizon. */
-    const JoxVector w = {jf_sub(q->vx, jf_mul(q->x, inverse)), jf_sub(q->vy, jf_mul(q->y, inverse))};
+    const JoxVector w = {jf_sub(q->vx, jf_mul(q->x, inverse)),
+                         jf_sub(q->vy, jf_mul(q->y, inverse))};
     const JoxFloats w2 = jv_dot(w, w), along = jf_add(jf_mul(w.x, q->x), jf_mul(w.y, q->y));
     const JoxMask before = jm_and(jf_lt(along, zero), jf_lt(jf_mul(r2, w2), jf_mul(along, along)));
     const JoxMask disc = jm_or(overlap, before);

@@ -126,8 +126,8 @@ static inline JoxSelf jox_self_of(const JoxPacket *p) {
         .radius = jf_load(a->param[JOX_PARAM_radius] + i),
         .orca = {.velocity = jv_load(a->vx, a->vy, i),
                  .inverse = jf_div(jf_set(1.0f), jf_load(a->param[JOX_PARAM_horizon] + i)),
-                 .share = p->s->nav->literal ? jf_set(0.5f)
-                                             : jf_load(a->param[JOX_PARAM_yield] + i)},
+                 .share =
+                     p->s->nav->literal ? jf_set(0.5f) : jf_load(a->param[JOX_PARAM_yield] + i)},
     };
 }
 
@@ -186,7 +186,8 @@ static inline __attribute__((always_inline)) uint32_t jox_put_rows(JoxPacket *p,
         JoxFloats record[4];
         jf_records(&s->nav->records[0].x, others, record);
         JoxPair q = {jf_sub(record[0], self.x), jf_sub(record[1], self.y),
-                     jf_sub(self.orca.velocity.x, record[2]), jf_sub(self.orca.velocity.y, record[3]),
+                     jf_sub(self.orca.velocity.x, record[2]),
+                     jf_sub(self.orca.velocity.y, record[3]),
                      jf_add(self.radius, jf_pick(a->param[JOX_PARAM_radius], others))};
         if (periodic) {
             q.x = jf_wrap(q.x, a->period.x);

@@ -13,8 +13,8 @@
 #include <string.h>
 
 #include "nav/kernels.h"
-#include "nav/order_lanes.h"
 #include "simd/lanes.h"
+#include "simd/order.h"
 
 enum {
     PLACE_BITS = 5,

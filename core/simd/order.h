@@ -1,12 +1,12 @@
 /* Sixteen numbers of each lane in ascending order. For kernels: part of those that include it. */
-#ifndef JOX_NAV_ORDER_LANES_H
-#define JOX_NAV_ORDER_LANES_H
+#ifndef JOX_SIMD_ORDER_H
+#define JOX_SIMD_ORDER_H
 
 #include "simd/lanes.h"
 
 /* The network of 60 comparisons found by Green (Knuth, The Art of Computer Programming, volume 3,
    section 5.3.4): it does the same whatever the numbers are. */
-static inline __attribute__((always_inline)) void jox_order_16(JoxFloats k[16]) {
+static inline __attribute__((always_inline)) void jox_order_16(JoxFloats *k) {
 #define ORDER(i, j)                                                                                \
     do {                                                                                           \
         const JoxFloats less = jf_min(k[i], k[j]);                                                 \
