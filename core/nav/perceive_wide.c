@@ -213,11 +213,9 @@ static inline __attribute__((always_inline)) void order_lists(Packet *packet, ui
         jf_div(jf_set(FARTHEST_SHARE), jf_max(jf_mul(radius, radius), jf_set(1e-12f)));
     JoxFloats keys[JOX_MOST_NEIGHBOURS + 1];
     JOX_UNROLL
-    for (uint32_t k = 0; k <= JOX_MOST_NEIGHBOURS; k++)
-        keys[k] = jf_set(INFINITY);
-    JOX_UNROLL
     for (uint32_t from = 0; from < ORDERED; from += 4)
         read_places(packet, count, scale, from, keys + from);
+    keys[ORDERED] = jf_set(INFINITY);
     jox_order_16(keys);
     for (uint32_t from = ORDERED; from < places; from += 4) {
         JoxFloats more[4];

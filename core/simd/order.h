@@ -13,6 +13,7 @@ static inline __attribute__((always_inline)) void jox_order_16(JoxFloats *k) {
         k[j] = jf_max(k[i], k[j]);                                                                 \
         k[i] = less;                                                                               \
     } while (0)
+    // cppcheck-suppress ctuArrayIndex
     ORDER(0, 1);
     ORDER(2, 3);
     ORDER(4, 5);
