@@ -126,7 +126,7 @@ gallery:
 	@$(MAKE) --no-print-directory $(B)/jostle
 	@B=$(B) JOSTLE=$(B)/jostle /usr/bin/python3 tests/page/gallery.py build/out/gallery $(filter-out all,$(SCENES))
 test-all: test
-	JOSTLE_VIEW_CYCLES=10000 $(B)/unit/view_stream
+	JOSTLE_VIEW_CYCLES=10000 $(B)/units view_stream
 	@.ci/sanitizers
 # The same engine for AArch64, under an emulator (tests/arm).
 arm:
@@ -168,7 +168,7 @@ check:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory all
 	@B=$(B) SHARED=$(SHARED) .ci/suite check
-tests-built: $(UNIT)
+tests-built: $(B)/units
 # Fuzzers: TIME seconds each, of all or of the one that FUZZ names; by libFuzzer, in a build of their own.
 TIME ?= 60
 fuzz:
@@ -228,11 +228,24 @@ $(B)/libjostle.a: $(B)/jostle.o
 $(B)/libjostle.so.$(VERSION): $(B)/jostle.o
 	$(call say,LINK,$@)
 	$(Q)$(LINK) -shared -Wl,-soname,libjostle.so.0 $^ -o $@ $(LIBS)
-$(B)/unit/%: tests/unit/%.c $(B)/internal.a
+# A unit test is a program of its own; $(B)/units is all of them in one, which is linked once: `units NAME...`
+# runs those, in the place of their main.
+$(B)/unit/%.o: tests/unit/%.c Makefile
 	@mkdir -p $(@D)
 	$(call say,TEST,$<)
-	$(Q)$(CC) $(CPPFLAGS_ALL) $(PLACES) -DJOX_BULLET=$(BULLET) $(CFLAGS_ALL) -Itests -c $< -o $@.o
-	$(Q)$(LINK) $@.o $(B)/internal.a -o $@ -lcmocka $(LIBS)
+	$(Q)$(CC) $(CPPFLAGS_ALL) $(PLACES) -DJOX_BULLET=$(BULLET) $(CFLAGS_ALL) -Itests -c $< -o $@
+$(B)/unit/%: $(B)/unit/%.o $(B)/internal.a
+	$(call say,LINK,$@)
+	$(Q)$(LINK) $^ -o $@ -lcmocka $(LIBS)
+$(B)/units: tests/unit/all/units.c $(UNIT:%=%.o) $(B)/internal.a
+	$(call say,LINK,$@)
+	@mkdir -p $@.parts && rm -f $@.parts/*
+	@printf 'UNIT(%s)\n' $(notdir $(UNIT)) >$@.parts/list.h
+	$(Q)$(CC) -std=c17 $(OPT) $(WARN) -fPIC -DUNITS='"$@.parts/list.h"' -I. -c $< -o $@.parts/units.o
+	$(Q)for unit in $(notdir $(UNIT)); do \
+	    $(CROSS)objcopy --redefine-sym main=unit_$$unit $(B)/unit/$$unit.o $@.parts/$$unit.o || exit 1; done
+	$(Q)$(LINK) $@.parts/*.o $(B)/internal.a -o $@ -lcmocka $(LIBS)
+	@rm -f $@.parts/*.o
 # In builds by libFuzzer its main drives a target, in others tests/fuzz/support/replay.c.
 OBJ_FUZZ := $(patsubst %.c,$(B)/%.o,$(filter-out $(if $(filter fuzz,$(MODE)),%/replay.c),$(wildcard tests/fuzz/support/*.c)))
 .SECONDARY: $(OBJ_FUZZ) $(FUZZERS:$(B)/fuzz/%=$(B)/tests/fuzz/%.o)
@@ -257,8 +270,8 @@ REFERENCE := behaviours:scripts/behaviour.md scenes:scripts/scene.md lua-ls:scri
            luacheck:scripts/editor/luacheckrc luacheck:.luacheckrc \
            scene-schema:scripts/scene.schema.json mod-schema:scripts/mod.schema.json inputs:scripts/input.md manual:core/cli/jostle.1
 # Unit tests alone: `make unit`, or `make unit ONLY="base geom"` for some folders.
-unit: $(UNIT)
-	@set -e; for t in $(UNIT); do echo "== $$t"; $$t; done
+unit: $(B)/units
+	@$(B)/units $(notdir $(UNIT))
 # Installed files know where the library's Lua lies, so that each PREFIX is built apart.
 INSTALL_B := build/install$(subst /,-,$(PREFIX))-$(MODE)$(WITHOUT)
 D          = $(DESTDIR)$(PREFIX)
