@@ -261,7 +261,7 @@ static void flip(void *context, const char *section, size_t index, void *cell, s
     snprintf(f->last, sizeof f->last, "%s", section);
     f->last_flipped = anew ? 0 : f->last_flipped + 1;
     /* Of large sections the first cells and then fewer and fewer. */
-    if (!hashed || (f->last_flipped > 8 && f->last_flipped % 997 != 0))
+    if (!hashed || (f->last_flipped > 2 && f->last_flipped % 997 != 0))
         return;
     for (size_t byte = 0; byte<size; byte += size> 64 ? 61 : 1) {
         ((unsigned char *)cell)[byte] ^= 1;
@@ -285,14 +285,14 @@ static void each_cell_is_hashed(void **state) {
     (void)state;
     JoScene *scene = town();
     begin_all(scene, BEFORE, true);
-    flip_all(scene, 2000);
+    flip_all(scene, 700);
     if (!jox_bodies_available())
         return;
     scene = load_own(YARD, YARDFOLK);
     step(scene, JOX_BODIES_REINSERT_STEPS);
     does(scene, "box 12 4 2 -6 0 0 0.4 10");
     does(scene, "grab 2 9 5 1");
-    flip_all(scene, 4000);
+    flip_all(scene, 1400);
 }
 
 /* Scratch that held something from step to step would show. */
