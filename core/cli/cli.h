@@ -16,6 +16,7 @@
     X(run)                                                                                         \
     X(resume)                                                                                      \
     X(sweep)                                                                                       \
+    X(compare)                                                                                     \
     X(report)                                                                                      \
     X(render)                                                                                      \
     X(view)                                                                                        \

@@ -191,6 +191,33 @@ JO_API bool jo_sweep_merge(const char *out, const char *const *parts, size_t cou
 /* Writes the runs of a sweep's file as CSV, a row each; "-" is standard output. */
 JO_API bool jo_sweep_csv(const char *sweep, const char *csv, JoError *error);
 
+/* ---- comparisons ------------------------------------------------------------------------- */
+
+/* Variants of sweeps, and recordings, held against one of them. */
+typedef struct JoCompareDef {
+    const char *const *sides; /* files of sweeps, each variant of which is a side, or recordings */
+    size_t side_count;
+    /* NULL, or for each of `sides` NULL or, of a recording, what jo_report says of it. */
+    const char *const *summaries;
+    double fps, unit;  /* of recordings, as for jo_report; 0: as they say */
+    const char *base;  /* what the others are compared with: a side's number from 1, its name or its
+                          file; NULL: the first */
+    const char *out;   /* folder for a page, index.html, made if it is missing; NULL: none */
+    double share;      /* of intervals; default 0.95 */
+    double percentile; /* 0, or the per cent of which the value above so many, the worst case and a
+                          bound are told */
+    uint32_t resamples; /* intervals by so many bootstrap samples; 0: by Student's t */
+    bool all;           /* the text tells all figures, not only those that one asks for first */
+    JoMessage *message; /* NULL: to stderr */
+    void *message_context;
+    uint32_t cookie;
+} JoCompareDef;
+JO_API JoCompareDef jo_default_compare_def(void);
+/* The comparison as text; *json, unless NULL, as JSON. Free both with jo_free. NULL with `error`:
+   JO_INPUT if a file is none of a sweep's or a recording, JO_FAILED if the page cannot be written.
+ */
+JO_API char *jo_compare(const JoCompareDef *def, char **json, JoError *error);
+
 /* ---- checks, tests, claims, references --------------------------------------------------- */
 
 /* Checks scenes and behaviours (or folders of them) without running; everything wrong goes to

@@ -165,12 +165,20 @@ static bool differs(const char *const *keys, uint32_t count, const char *path, s
     return false;
 }
 
-/* The end of a path: what stands behind its last dot. */
+/* Where the last name of a path that ends at `end` begins. */
+static const char *last_of(const char *path, const char *end) {
+    while (end > path && end[-1] != '.')
+        end--;
+    return end;
+}
+
+/* The end of a path: what stands behind its last dot; where that is a value of the n-th of a list,
+   with the list and the number: "walls.3.open". */
 static const char *tail_of(const char *path, size_t length) {
-    const char *at = path + length;
-    while (at > path && at[-1] != '.')
-        at--;
-    return at;
+    const char *at = last_of(path, path + length);
+    const char *before = at > path ? last_of(path, at - 1) : at;
+    const bool in_list = before < at && strspn(before, "0123456789") == (size_t)(at - 1 - before);
+    return !in_list ? at : before > path ? last_of(path, before - 1) : before;
 }
 
 /* Whether another path of the key that makes a difference has the same end. */

@@ -14,7 +14,7 @@ static void put_points(JoxJson *json, const JoxV2 *points, uint32_t count) {
     jox_json_end(json);
 }
 
-static void put_walls(JoxJson *json, const JoxWalls *walls) {
+void jox_sweep_put_walls(JoxJson *json, const JoxWalls *walls) {
     jox_json_array(json, "walls");
     for (uint32_t r = 0; r < walls->ring_count; r++) {
         bool closed, twin;
@@ -43,7 +43,7 @@ void jox_sweep_write_plan(const JoScene *scene, JoxText *out) {
     jox_json_numbers_of(
         &json, "area",
         (const double[]){(double)low.x, (double)low.y, (double)high.x, (double)high.y}, 4, 9);
-    put_walls(&json, &scene->world->model.all_walls);
+    jox_sweep_put_walls(&json, &scene->world->model.all_walls);
     jox_json_array(&json, "places");
     for (uint32_t p = 0; p < spec->place_count; p++) {
         jox_json_object(&json, NULL);

@@ -5,8 +5,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/format/json_writer.h"
 #include "base/overlay.h"
 #include "base/text.h"
+#include "geom/walls.h"
 #include "jostle_tools.h"
 
 /* ---- the plan ---- */
@@ -105,5 +107,7 @@ bool jox_sweep_collect(JoScene *scene, double seconds, JoError *error);
 void jox_sweep_put_collected(const JoScene *scene, JoxText *pieces);
 /* plan_json.c: walls, places and probes of a scene as they are at its beginning. */
 void jox_sweep_write_plan(const JoScene *scene, JoxText *out);
+/* Of these, the walls: a member "walls". */
+void jox_sweep_put_walls(JoxJson *json, const JoxWalls *walls);
 
 #endif

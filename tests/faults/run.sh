@@ -16,6 +16,7 @@ ${CC:-gcc} -shared -fPIC -O1 -o "$alloc" tests/faults/alloc.c || exit 1
 scene=$PWD/scenes/running-through.yaml log=$PWD/tests/data/session.input
 "$program" run "$scene" --steps 4 --quiet --record "$work/a.sqlite" --checkpoint 0.05 --checkpoint-dir "$work/saved" || exit 1
 cp -r "$work/saved" "$work/saved.first"
+"$program" sweep "$scene" --set groups.runner.set.mass=60,70 --seeds 2 --steps 2 --quiet --out "$work/runs.sqlite" || exit 1
 mkdir -p "$work/claims" # of one that runs a scene for two steps
 cp "$scene" "$work/scene.yaml"
 cp behaviours/*.lua "$work/"
@@ -33,6 +34,7 @@ commands=(
     "kept run $scene --steps 3 --quiet --data out/data --checkpoint 0.05 --checkpoint-dir out/saved --record out/r.sqlite"
     "drawn run $scene --steps 2 --quiet --report out/report --no-half-step"
     "sweep sweep $scene --set groups.runner.set.mass=60,70 --steps 2 --jobs 1 --quiet --out out/runs.sqlite --csv out/runs.csv"
+    "compare compare $work/runs.sqlite --json out/c.json"
     "bench bench $scene --steps 2 --warm-up 0 --csv out/b.csv"
     "reproduce reproduce --claims $work/claims --seeds 1 --jobs 1 --out out/all --quiet"
     "report report $work/a.sqlite --summary out/s.json"

@@ -68,6 +68,10 @@ static void names_say_what_differs(void **state) {
                 (const char *const[]){"x.n=1, y.n=2", "x.n=2, y.n=3"}, 2);
     check_names((const char *const[]){"x.n=1\ny.n=2", "x.n=2\ny.n=2"}, /* but not varied */
                 (const char *const[]){"n=1", "n=2"}, 2);
+    check_names((const char *const[]){"walls.3.open=true", "walls.3.open=false"},
+                (const char *const[]){"walls.3.open=true", "walls.3.open=false"}, 2);
+    check_names((const char *const[]){"3.open=1", "3.open=2"},
+                (const char *const[]){"3.open=1", "3.open=2"}, 2);
     check_names((const char *const[]){"a=1", "a=1\nb=2"}, (const char *const[]){"", "b=2"}, 2);
     check_names((const char *const[]){"a=1"}, (const char *const[]){""}, 1);
 }

@@ -1,0 +1,262 @@
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/format/path.h"
+#include "base/mem.h"
+#include "base/text.h"
+#include "cli/cli.h"
+
+typedef struct Compare {
+    JoCompareDef def;
+    const char *json, *scene; /* the scene's probes measure recordings */
+    double confidence, seconds;
+    uint64_t seeds, resamples;
+    uint32_t jobs;
+    JoxOverlay files; /* of the scene that is run */
+    bool has_seconds, quiet, trusted;
+    char **sides; /* files, of scenes those that keep their runs */
+    char **summaries;
+    size_t count;
+} Compare;
+
+static bool read_unit(void *options, const char *text, char why[160]) {
+    return cli_unit(&((Compare *)options)->def.unit, text, why);
+}
+
+static const CliOption OPTIONS[] = {
+    {"out", "DIR",
+     "a page, index.html, with curves, plans and all figures; and files that keep the runs of "
+     "scenes",
+     CLI_TO(Compare, def.out)},
+    {"json", "FILE",
+     "write every figure of every side as JSON; '-' is standard output, in place "
+     "of the table",
+     CLI_TO(Compare, json)},
+    {"base", "SIDE", "what the others are compared with: a number from 1, a name or a file",
+     "the first", CLI_TO(Compare, def.base)},
+    {"percentile", "P",
+     "also the value above P % of all runs, as MSC.1/Circ.1533 takes the 95 % value, the worst "
+     "case, and a bound of the true one",
+     CLI_TO(Compare, def.percentile), CLI_RANGE(1, 99.9)},
+    {"confidence", "P", "of intervals, %", "95", CLI_TO(Compare, confidence), CLI_RANGE(50, 99.99)},
+    {"bootstrap", "N", "intervals by N bootstrap samples, in place of Student's t",
+     CLI_TO(Compare, resamples), CLI_RANGE(100, 1000000)},
+    {"all", NULL, "all figures in the table, not only those that one asks for first",
+     CLI_TO(Compare, def.all)},
+    {"seeds", "N", "of scenes: seeds of each", "10", CLI_TO(Compare, seeds), CLI_RANGE(1, 10000)},
+    {"for", "S", "of scenes: simulate S seconds", "the scene's duration", CLI_TO(Compare, seconds),
+     CLI_GIVEN(Compare, has_seconds), CLI_RANGE(0, 1e7)},
+    {"jobs", "N", "of scenes: processes at once", "one for each processor", CLI_TO(Compare, jobs),
+     CLI_RANGE(1, 1000)},
+    {"scene", "SCENE", "of recordings: its `probes` measure", CLI_TO(Compare, scene)},
+    {"fps", "N", "of recordings: frames a second, where they do not say", CLI_TO(Compare, def.fps),
+     CLI_RANGE(0.01, 10000)},
+    {"unit", "m|cm", "of recordings: unit of lengths, where they do not say", .kind = CLI_READ,
+     .read = read_unit},
+    CLI_TRUSTED_OPTION(Compare),
+    {"quiet", NULL, "no progress", CLI_TO(Compare, quiet)},
+};
+
+/* ---- what a side is ---- */
+
+typedef enum Kind { SCENE, SWEEP, RECORDING } Kind;
+
+static Kind kind_of(const char *path) {
+    enum { AT = 68 }; /* of the number of who wrote an SQLite file */
+    unsigned char head[AT + 4] = {0};
+    FILE *file = fopen(path, "rb");
+    const size_t got = file ? fread(head, 1, sizeof head, file) : 0;
+    const char *dot = strrchr(path, '.');
+    if (file)
+        fclose(file);
+    if (!file || (dot && (!strcmp(dot, ".yaml") || !strcmp(dot, ".yml"))))
+        return SCENE;
+    return got == sizeof head && !memcmp(head, "SQLite format 3", 16) &&
+                   !memcmp(head + AT, "JSwp", 4)
+               ? SWEEP
+               : RECORDING;
+}
+
+static bool vet(void *context, const JoSceneDef *scene) {
+    Compare *compare = context;
+    return cli_vet(&cli_compare, scene, &compare->files) == JO_OK;
+}
+
+/* Makes a folder, and those above it; false with a message. */
+static bool make_folder(const char *path) {
+    char *folder = jox_strdup(path);
+    bool good = true;
+    for (char *at = folder + 1; good && *folder; at++) {
+        const char was = *at;
+        if (was && was != '/')
+            continue;
+        *at = 0;
+        good = mkdir(folder, 0777) == 0 || errno == EEXIST;
+        if (!good)
+            fprintf(stderr, "jostle compare: cannot make the folder '%s': %s\n", folder,
+                    strerror(errno));
+        *at = was;
+        if (!was)
+            break;
+    }
+    jox_free(folder);
+    return good;
+}
+
+/* Runs what of a scene is not there yet, in a file of the folder, whose path is returned. */
+static int run_scene(Compare *compare, const char *given, char **out) {
+    JoSweepDef sweep = jo_default_sweep_def();
+    JoSweepCounts counts;
+    JoError error = {0};
+    char *path = cli_scene(given);
+    const char *file = jox_path_name(path);
+    JoxText keeps = {0};
+    jox_text_printf(&keeps, "%s/%.*s.sqlite", compare->def.out, (int)jox_path_stem(file), file);
+    sweep.scene.path = path;
+    sweep.seeds = (uint32_t)compare->seeds;
+    sweep.jobs = compare->jobs;
+    sweep.out = keeps.data;
+    sweep.quiet = compare->quiet;
+    sweep.stop = &cli_signal;
+    sweep.vet = compare->trusted ? NULL : vet;
+    sweep.vet_context = compare;
+    if (compare->has_seconds)
+        sweep.seconds = compare->seconds;
+    if (!compare->quiet)
+        fprintf(stderr, "%s:\n", path);
+    const JoxOverlay *before = compare->trusted ? NULL : jox_overlay_use(&compare->files);
+    const bool good = jo_sweep(&sweep, &counts, NULL, &error);
+    if (!compare->trusted)
+        jox_overlay_use(before);
+    jox_overlay_free(&compare->files);
+    *out = keeps.data;
+    jox_free(path);
+    return good ? JO_OK : cli_failed(&cli_compare, &error, false);
+}
+
+/* Scenes are run first, each in files that keep its runs. */
+static int run_scenes(Compare *compare, const CliList *plain, Kind *kinds) {
+    int status = JO_OK;
+    compare->count = plain->count;
+    compare->sides = jox_alloc(plain->count, sizeof *compare->sides);
+    for (size_t s = 0; s < plain->count && status == JO_OK && !cli_signal; s++) {
+        kinds[s] = kind_of(plain->items[s]);
+        if (kinds[s] != SCENE)
+            compare->sides[s] = jox_strdup(plain->items[s]);
+        else if (!compare->def.out)
+            status = cli_misused(&cli_compare, "--out DIR says where the runs of scenes are kept");
+        else if (!make_folder(compare->def.out))
+            status = JO_FAILED;
+        else
+            status = run_scene(compare, plain->items[s], &compare->sides[s]);
+    }
+    return status;
+}
+
+/* ---- the comparison ---- */
+
+static void confine(const Compare *compare) {
+    CliReach reach = {.programs = true}; /* pictures are drawn by gnuplot */
+    for (size_t s = 0; s < compare->count; s++)
+        cli_reach_file(&reach, compare->sides[s]);
+    cli_reach_scene(&reach, compare->scene);
+    cli_reach_output(&reach, compare->def.out);
+    cli_reach_output(&reach, compare->json);
+    cli_confine_work(&reach, compare->trusted);
+}
+
+static int measure_recordings(Compare *compare, const Kind *kinds) {
+    compare->summaries = jox_alloc(compare->count, sizeof *compare->summaries);
+    for (size_t s = 0; s < compare->count; s++) {
+        JoReportDef report = jo_default_report_def();
+        JoError error = {0};
+        if (kinds[s] != RECORDING)
+            continue;
+        report.recording = compare->sides[s];
+        report.scene = compare->scene;
+        report.fps = compare->def.fps;
+        report.unit = compare->def.unit;
+        compare->summaries[s] = jo_report(&report, &error);
+        if (!compare->summaries[s])
+            return cli_failed(&cli_compare, &error, error.code != JO_FAILED);
+    }
+    return JO_OK;
+}
+
+static int compare_sides(Compare *compare) {
+    JoError error = {0};
+    char *json = NULL;
+    compare->def.sides = (const char *const *)compare->sides;
+    compare->def.side_count = compare->count;
+    compare->def.summaries = (const char *const *)compare->summaries;
+    char *text = jo_compare(&compare->def, compare->json ? &json : NULL, &error);
+    if (!text)
+        return cli_failed(&cli_compare, &error, false);
+    int status = compare->json ? cli_write(&cli_compare, compare->json, json) : JO_OK;
+    if (!compare->json || strcmp(compare->json, "-") != 0) {
+        fputs(text, stdout);
+        if (compare->def.out)
+            printf("\npage: %s/index.html\n", compare->def.out);
+    }
+    jo_free(text);
+    jo_free(json);
+    return status;
+}
+
+static int compare(Compare *c, const CliList *plain) {
+    Kind *kinds = jox_alloc(plain->count, sizeof *kinds);
+    cli_catch_signals(true);
+    int status = run_scenes(c, plain, kinds);
+    cli_catch_signals(false);
+    if (status == JO_OK && !cli_signal) {
+        confine(c);
+        status = measure_recordings(c, kinds);
+        if (status == JO_OK)
+            status = compare_sides(c);
+    }
+    jox_free(kinds);
+    return cli_signal ? cli_interrupted(JO_OK) : status;
+}
+
+static int run(int argc, char **argv) {
+    Compare c = {.def = jo_default_compare_def(), .confidence = 95, .seeds = 10};
+    CliList plain = {0};
+    int status = cli_parse(&cli_compare, argc, argv, &c, &plain);
+    if (status == CLI_GO_ON) {
+        c.def.share = c.confidence / 100;
+        c.def.resamples = (uint32_t)c.resamples;
+        status = compare(&c, &plain);
+    }
+    for (size_t s = 0; s < c.count; s++) {
+        jox_free(c.sides[s]);
+        jo_free(c.summaries ? c.summaries[s] : NULL);
+    }
+    jox_free(c.sides);
+    jox_free(c.summaries);
+    cli_free(&cli_compare, &c, &plain);
+    return status;
+}
+
+const CliCommand cli_compare = {
+    .name = "compare",
+    .what = "compare variants of scenes, sweeps or recordings",
+    .usage = "SIDE SIDE... [options]",
+    .about =
+        "A side is a file of `jostle sweep`, of which each variant is one, a scene, which is run "
+        "with --seeds first, or a recording. Each figure of each side is compared with that of the "
+        "first: the difference of the means, and an interval that holds the true one with a "
+        "probability of 95 %. Runs of the same seed are compared in pairs. Where the runs do not "
+        "tell two sides apart, that is said, and about how many seeds would.\n"
+        "\n"
+        "A recording is one run: a difference from it has no interval.",
+    .notes = "exit status: 0 done, 1 writing failed, 2 wrong usage, 3 bad input; 130 and 143: "
+             "SIGINT or SIGTERM ended it, and the same command goes on with the runs of scenes",
+    .options = OPTIONS,
+    .option_count = sizeof OPTIONS / sizeof *OPTIONS,
+    .takes = "side",
+    .least = 1,
+    .run = run,
+};

@@ -1,0 +1,154 @@
+/* jo_compare. */
+#include "sweep/compare/compare.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/assert.h"
+#include "base/format/path.h"
+#include "base/guard.h"
+#include "picture/plot.h"
+
+enum { COMPARE_COOKIE = 0x4a4f4350 };
+
+JoCompareDef jo_default_compare_def(void) {
+    return (JoCompareDef){.share = 0.95, .cookie = COMPARE_COOKIE};
+}
+
+/* ---- names ---- */
+
+static const char *file_of(const JoxSide *side, size_t *length) {
+    const char *file = jox_path_name(side->source);
+    *length = jox_path_stem(file);
+    return file;
+}
+
+/* Whether sides come of several files, and whether two of these have one name. */
+static void look_at_files(const JoxSides *sides, bool *several, bool *alike) {
+    *several = *alike = false;
+    for (uint32_t s = 1; s < sides->count; s++)
+        for (uint32_t t = 0; t < s; t++) {
+            size_t n, m;
+            const char *a = file_of(&sides->items[s], &n), *b = file_of(&sides->items[t], &m);
+            if (strcmp(sides->items[s].source, sides->items[t].source) == 0)
+                continue;
+            *several = true;
+            *alike |= n == m && strncmp(a, b, n) == 0;
+        }
+}
+
+/* What tells a side from the others: its file, its settings, or both. */
+static void name_sides(JoxSides *sides) {
+    bool several, alike;
+    look_at_files(sides, &several, &alike);
+    for (uint32_t s = 0, end; s < sides->count; s = end) {
+        for (end = s + 1;
+             end < sides->count && strcmp(sides->items[end].source, sides->items[s].source) == 0;)
+            end++;
+        const char **keys = jox_alloc(end - s, sizeof *keys);
+        char **names = jox_alloc(end - s, sizeof *names);
+        for (uint32_t k = s; k < end; k++)
+            keys[k - s] = sides->items[k].settings ? sides->items[k].settings : "";
+        jox_sweep_names(keys, end - s, names);
+        for (uint32_t k = s; k < end; k++) {
+            JoxSide *side = &sides->items[k];
+            JoxText name = {0};
+            size_t n;
+            const char *file = file_of(side, &n);
+            if (alike)
+                jox_text_add(&name, side->source);
+            else if (several || !*names[k - s])
+                jox_text_append(&name, file, n);
+            if (*names[k - s])
+                jox_text_printf(&name, "%s%s", name.length ? ": " : "", names[k - s]);
+            side->name = name.data;
+            jox_free(names[k - s]);
+        }
+        jox_free(names);
+        jox_free(keys);
+    }
+}
+
+/* The side that is named by its number, its name, or its file; false with JO_USAGE. */
+static bool find_base(JoxComparison *c, JoError *error) {
+    const char *base = c->def->base;
+    char *end;
+    if (!base)
+        return true;
+    const unsigned long number = strtoul(base, &end, 10);
+    if (*base && !*end && number >= 1 && number <= c->sides.count) {
+        c->base = (uint32_t)number - 1;
+        return true;
+    }
+    for (uint32_t s = 0; s < c->sides.count; s++)
+        if (strcmp(c->sides.items[s].name, base) == 0 ||
+            strcmp(c->sides.items[s].source, base) == 0) {
+            c->base = s;
+            return true;
+        }
+    JoxText names = {0};
+    for (uint32_t s = 0; s < c->sides.count; s++)
+        jox_text_printf(&names, "%s'%s'", s ? ", " : "", c->sides.items[s].name);
+    jox_error(error, JO_USAGE, "there is no side '%.100s'; there are %.600s", base, names.data);
+    jox_text_free(&names);
+    return false;
+}
+
+/* ---- the whole ---- */
+
+static bool load(JoxComparison *c, JoError *error) {
+    const JoCompareDef *def = c->def;
+    for (size_t s = 0; s < def->side_count; s++) {
+        const char *summary = def->summaries ? def->summaries[s] : NULL;
+        if (!(summary ? jox_sides_add_recording(&c->sides, def->sides[s], summary, def, error)
+                      : jox_sides_add_sweep(&c->sides, def->sides[s], error)))
+            return false;
+    }
+    uint32_t runs = 0;
+    for (uint32_t s = 0; s < c->sides.count; s++)
+        runs += c->sides.items[s].runs;
+    if (!runs)
+        jox_error(error, JO_INPUT, "there is no run with figures as yet");
+    name_sides(&c->sides);
+    return runs > 0 && find_base(c, error);
+}
+
+static bool write_page(const JoxComparison *c, JoError *error) {
+    JoxText why = {0};
+    const bool good = jox_plot_folder(c->def->out, &why) && jox_compare_plots(c, &why) &&
+                      jox_compare_plans(c, &why) && jox_compare_page(c, &why);
+    if (!good)
+        jox_error(error, JO_FAILED, "%s", why.data ? why.data : "writing failed");
+    jox_text_free(&why);
+    return good;
+}
+
+static char *compare(const JoCompareDef *def, char **json, JoError *error) {
+    JoxComparison c = {.def = def};
+    JoxText text = {0}, document = {0};
+    bool good = load(&c, error);
+    if (good) {
+        jox_compare_effects(&c);
+        jox_compare_text(&c, &text);
+    }
+    if (good && json)
+        jox_compare_json(&c, &document);
+    good = good && (!def->out || write_page(&c, error));
+    for (uint32_t f = 0; f < c.count; f++)
+        jox_free(c.figures[f].sides);
+    jox_free(c.figures);
+    jox_sides_free(&c.sides);
+    if (json)
+        *json = good ? jox_disown(document.data) : NULL;
+    return good ? jox_disown(text.data) : NULL;
+}
+
+char *jo_compare(const JoCompareDef *def, char **json, JoError *error) {
+    JOX_REQUIRE(def && def->cookie == COMPARE_COOKIE && def->sides && def->side_count > 0, NULL);
+    JOX_REQUIRE(def->share >= 0.5 && def->share < 1, NULL);
+    JOX_REQUIRE(def->percentile >= 0 && def->percentile < 100, NULL);
+    JOX_GUARD (NULL, error)
+        return NULL;
+    return compare(def, json, error);
+}

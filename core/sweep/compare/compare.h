@@ -1,0 +1,131 @@
+/* Several sides held against one of them: variants of sweeps, and recordings. */
+#ifndef JOX_SWEEP_COMPARE_COMPARE_H
+#define JOX_SWEEP_COMPARE_COMPARE_H
+
+#include "base/number/statistics.h"
+#include "picture/draw.h"
+#include "sweep/sweep.h"
+
+/* ---- a side ---- */
+
+typedef struct JoxSideFigure {
+    char *name;
+    double *values; /* by run; NAN where the run has none */
+} JoxSideFigure;
+
+/* A curve over the runs of a side. */
+typedef struct JoxSideCurve {
+    char *name, *unit;
+    struct JoxSidePoint {
+        double time, mean, low, high; /* s; low and high: 5 and 95 % of the runs */
+    } * points;
+    size_t count, capacity;
+} JoxSideCurve;
+
+typedef struct JoxSide {
+    char *name, *source; /* what it is called; its file */
+    char *settings;      /* of a variant: "PATH=VALUE" a line; "" */
+    uint64_t *seeds;     /* of its runs, ascending */
+    uint32_t runs;       /* with figures, that went as they were written */
+    uint32_t left_out;   /* that failed, or did not go as they were written */
+    bool recorded;       /* one recording: no seeds */
+    size_t run_capacity;
+    JoxSideFigure *figures;
+    uint32_t figure_count;
+    size_t figure_capacity;
+    JoxSideCurve *curves;
+    uint32_t curve_count;
+    size_t curve_capacity;
+    JoxSweepField field; /* the greatest density of each place, mean over runs; values NULL: none */
+    char *plan;          /* JSON (plan_json.c), or NULL */
+    char *title;         /* of its scene, or NULL */
+} JoxSide;
+
+typedef struct JoxSides {
+    JoxSide *items;
+    uint32_t count;
+    size_t capacity;
+} JoxSides;
+
+/* side.c: adds each variant of a sweep's file. False with `error`. */
+bool jox_sides_add_sweep(JoxSides *sides, const char *path, JoError *error);
+/* recording.c: adds a recording, of which `summary` is what jo_report says. */
+bool jox_sides_add_recording(JoxSides *sides, const char *path, const char *summary,
+                             const JoCompareDef *def, JoError *error);
+JoxSide *jox_sides_add(JoxSides *sides, const char *source);
+void jox_sides_free(JoxSides *sides);
+/* The figure of a name, added where there is none, with NAN for every run. */
+JoxSideFigure *jox_side_figure(JoxSide *side, const char *name);
+/* The same that is NULL where there is none. */
+const JoxSideFigure *jox_side_find(const JoxSide *side, const char *name);
+
+/* ---- figures in words ---- */
+
+typedef struct JoxFigureWords {
+    char text[200];
+    const char *unit;
+    bool is_key;       /* of those that one asks for first */
+    bool low_is_worse; /* as of flows and speeds; not of times, densities and loads */
+} JoxFigureWords;
+/* Of a figure by its path in summaries. */
+JoxFigureWords jox_figure_words(const char *path);
+/* A unit as people read it: "per s" of "1/s". */
+const char *jox_figure_unit(const char *unit);
+/* Whether `a` is to be told before `b`: below 0. */
+int jox_figure_order(const char *a, const char *b);
+
+/* ---- what is compared ---- */
+
+/* A figure of one side against that of the base. */
+typedef struct JoxDifference {
+    JoxEffect effect;
+    JoxMoments base, other;
+    bool adjusted; /* differs after Holm's correction for the number of figures, too */
+    size_t base_known, other_known; /* runs that have the figure */
+    size_t runs; /* of each side that would tell a difference of this size; 0: not known */
+} JoxDifference;
+
+typedef struct JoxCompared {
+    const char *figure;
+    JoxFigureWords words;
+    JoxDifference *sides; /* by side; of the base nothing is compared */
+    bool varies;          /* is not the same number in all runs of all sides */
+} JoxCompared;
+
+typedef struct JoxComparison {
+    const JoCompareDef *def;
+    JoxSides sides;
+    uint32_t base;
+    JoxCompared *figures;
+    uint32_t count;
+    uint32_t tested; /* figures that a difference could be found in */
+} JoxComparison;
+
+/* effects.c: fills figures. */
+void jox_compare_effects(JoxComparison *c);
+/* What an interval says: "differs", "not told apart", ...; never NULL. */
+const char *jox_compare_verdict(const JoxDifference *d);
+/* "Student's t of the differences of 20 seeds", ...: how the intervals of a side were made. */
+void jox_compare_method(const JoxComparison *c, const JoxDifference *d, char *out, size_t size);
+/* Whether a side has so few runs that their spread is hardly known. */
+bool jox_compare_is_thin(const JoxComparison *c);
+/* The values of a figure that are known, ascending, to be freed; how many. */
+double *jox_side_values(const JoxSide *side, const char *figure, size_t *count);
+
+/* table.c, compare_json.c: as text, and as JSON. */
+void jox_compare_text(const JoxComparison *c, JoxText *out);
+void jox_compare_json(const JoxComparison *c, JoxText *out);
+/* plots.c: curve-N.svg and effects.svg; plans.c: plan-N.svg, and PNG; page.c: index.html, of which
+   these are parts. False with a sentence in `why`. */
+bool jox_compare_plots(const JoxComparison *c, JoxText *why);
+bool jox_compare_plans(const JoxComparison *c, JoxText *why);
+bool jox_compare_page(const JoxComparison *c, JoxText *why);
+enum { JOX_COMPARE_CURVES = 24 }; /* that are drawn, at most */
+/* The n-th curve by its name, of the first side that has one; NULL behind the last. */
+const JoxSideCurve *jox_compare_curve(const JoxComparison *c, uint32_t n);
+/* Figures that the effects are drawn of: keys with a base that is not 0 and an interval; and how
+   many there are. */
+bool jox_compare_is_drawn(const JoxComparison *c, uint32_t figure, uint32_t side);
+uint32_t jox_compare_rows(const JoxComparison *c);
+
+#endif

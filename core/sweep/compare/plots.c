@@ -1,0 +1,221 @@
+/* Curves with bands, and effects with their intervals, drawn by gnuplot. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/format/quote.h"
+#include "picture/plot.h"
+#include "sweep/compare/compare.h"
+
+/* Colours that the colour-blind and printers tell apart: M. Okabe and K. Ito, 2008. */
+static const char *const COLOURS[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                      "#e69f00", "#56b4e9", "#555555", "#000000"};
+enum { COLOUR_COUNT = sizeof COLOURS / sizeof *COLOURS };
+
+static void put(FILE *out, double value) {
+    if (isfinite(value))
+        fprintf(out, " %.9g", value);
+    else
+        fputs(" NaN", out);
+}
+
+static const JoxSideCurve *curve_of(const JoxSide *side, const char *name) {
+    for (uint32_t k = 0; k < side->curve_count; k++)
+        if (strcmp(side->curves[k].name, name) == 0)
+            return &side->curves[k];
+    return NULL;
+}
+
+static bool is_drawn(const JoxSideCurve *curve) {
+    return curve && curve->count > 1;
+}
+
+const JoxSideCurve *jox_compare_curve(const JoxComparison *c, uint32_t n) {
+    for (uint32_t s = 0; s < c->sides.count; s++)
+        for (uint32_t k = 0; k < c->sides.items[s].curve_count; k++) {
+            const JoxSideCurve *curve = &c->sides.items[s].curves[k];
+            bool before = false;
+            for (uint32_t t = 0; t < s && !before; t++)
+                before = is_drawn(curve_of(&c->sides.items[t], curve->name));
+            if (!before && is_drawn(curve) && n-- == 0)
+                return curve;
+        }
+    return NULL;
+}
+
+static bool write_data(const JoxComparison *c, uint32_t n, JoxText *why) {
+    char name[40];
+    snprintf(name, sizeof name, "curve-%u.dat", n + 1);
+    FILE *out = jox_plot_open(c->def->out, name, why);
+    if (!out)
+        return false;
+    for (uint32_t s = 0; s < c->sides.count; s++) {
+        const JoxSideCurve *curve = curve_of(&c->sides.items[s], jox_compare_curve(c, n)->name);
+        for (size_t p = 0; curve && p < curve->count; p++) {
+            put(out, curve->points[p].time);
+            put(out, curve->points[p].mean);
+            put(out, curve->points[p].low);
+            put(out, curve->points[p].high);
+            fputc('\n', out);
+        }
+        if (!curve || curve->count == 0)
+            fputs("0 NaN NaN NaN\n", out);
+        fputs("\n\n", out);
+    }
+    return jox_plot_close(out, name, why);
+}
+
+static void part(FILE *script, bool *first, uint32_t n, uint32_t s, const char *how) {
+    fprintf(script, "%s 'curve-%u.dat' index %u %s", *first ? "plot" : ", \\\n ", n + 1, s, how);
+    *first = false;
+}
+
+static void draw_curve(const JoxComparison *c, uint32_t n, FILE *script) {
+    const JoxSideCurve *curve = jox_compare_curve(c, n);
+    char stem[40], how[160];
+    bool first = true;
+    JoxText label = {0};
+    snprintf(stem, sizeof stem, "curve-%u", n + 1);
+    jox_plot_begin(script, stem, true, 760, 460);
+    jox_text_printf(&label, "%s%s%s%s", curve->name, *curve->unit ? " (" : "", curve->unit,
+                    *curve->unit ? ")" : "");
+    fputs("set xlabel 'time (s)'\nset ylabel ", script);
+    jox_quote_put(script, jox_quote_gnuplot, label.data);
+    fputs(" noenhanced\nset yrange [0:*]\nset key outside top center horizontal noenhanced\n"
+          "set grid lc '#dddddd'\nset border 3\nset tics nomirror\n",
+          script);
+    jox_text_free(&label);
+    for (uint32_t s = 0; s < c->sides.count; s++)
+        if (c->sides.items[s].runs > 1) {
+            snprintf(how, sizeof how,
+                     "using 1:3:4 with filledcurves fc rgb '%s' fs transparent solid 0.16 noborder",
+                     COLOURS[s % COLOUR_COUNT]);
+            part(script, &first, n, s, how);
+        }
+    for (uint32_t s = 0; s < c->sides.count; s++) {
+        snprintf(how, sizeof how, "using 1:2 with lines lw 2.2 dt %u lc '%s' title ",
+                 1 + s / COLOUR_COUNT, COLOURS[s % COLOUR_COUNT]);
+        part(script, &first, n, s, how);
+        jox_quote_put(script, jox_quote_gnuplot, c->sides.items[s].name);
+    }
+    fputs("\n", script);
+}
+
+/* ---- effects ---- */
+
+bool jox_compare_is_drawn(const JoxComparison *c, uint32_t f, uint32_t s) {
+    const JoxCompared *figure = &c->figures[f];
+    const JoxDifference *d = &figure->sides[s];
+    return s != c->base && figure->words.is_key && figure->varies && isfinite(d->effect.low) &&
+           fabs(d->base.mean) > 0;
+}
+
+static bool is_row(const JoxComparison *c, uint32_t f) {
+    for (uint32_t s = 0; s < c->sides.count; s++)
+        if (jox_compare_is_drawn(c, f, s))
+            return true;
+    return false;
+}
+
+uint32_t jox_compare_rows(const JoxComparison *c) {
+    uint32_t rows = 0;
+    for (uint32_t f = 0; f < c->count; f++)
+        rows += is_row(c, f);
+    return rows;
+}
+
+/* Change in per cent of the base's mean, with its interval; rows from above. */
+static bool write_effects(const JoxComparison *c, JoxText *why) {
+    const uint32_t rows = jox_compare_rows(c), others = c->sides.count - 1;
+    FILE *out = jox_plot_open(c->def->out, "effects.dat", why);
+    if (!out)
+        return false;
+    for (uint32_t s = 0, place = 0; s < c->sides.count; s++) {
+        if (s == c->base)
+            continue;
+        uint32_t row = 0;
+        for (uint32_t f = 0; f < c->count; f++) {
+            if (!is_row(c, f))
+                continue;
+            row++;
+            if (!jox_compare_is_drawn(c, f, s))
+                continue;
+            const JoxDifference *d = &c->figures[f].sides[s];
+            const double part = 100 / fabs(d->base.mean);
+            put(out, rows - row + 0.3 - 0.6 * (place + 0.5) / others);
+            put(out, part * d->effect.difference);
+            put(out, part * d->effect.low);
+            put(out, part * d->effect.high);
+            fputc('\n', out);
+        }
+        place++;
+        fputs("0 NaN NaN NaN\n\n\n", out);
+    }
+    return jox_plot_close(out, "effects.dat", why);
+}
+
+/* Half of the range of the plot, %: what is a good part beyond the greatest change is cut. */
+static double reach(const JoxComparison *c) {
+    double most = 0;
+    for (uint32_t f = 0; f < c->count; f++)
+        for (uint32_t s = 0; s < c->sides.count; s++)
+            if (jox_compare_is_drawn(c, f, s)) {
+                const JoxDifference *d = &c->figures[f].sides[s];
+                most = fmax(most, 100 * fabs(d->effect.difference / d->base.mean));
+            }
+    return fmax(10, 1.4 * most);
+}
+
+static void draw_effects(const JoxComparison *c, FILE *script) {
+    const uint32_t rows = jox_compare_rows(c);
+    const uint32_t each = 22 + 9 * (c->sides.count - 2);
+    jox_plot_begin(script, "effects", true, 1100, (int)(110 + rows * (each < 120 ? each : 120)));
+    fputs("set xlabel ", script);
+    JoxText label = {0};
+    jox_text_printf(&label, "change against %s, %%", c->sides.items[c->base].name);
+    jox_quote_put(script, jox_quote_gnuplot, label.data);
+    jox_text_free(&label);
+    fprintf(script,
+            " noenhanced\nset xrange [%.4g:%.4g]\nset yrange [-0.7:%u.7]\nset key outside top "
+            "center horizontal "
+            "noenhanced\nset grid xtics lc '#dddddd'\nset border 1\nset tics nomirror\n"
+            "set ytics scale 0 noenhanced (",
+            -reach(c), reach(c), rows - 1);
+    for (uint32_t f = 0, row = 0; f < c->count; f++)
+        if (is_row(c, f)) {
+            row++;
+            fputs(row > 1 ? ", " : "", script);
+            jox_quote_put(script, jox_quote_gnuplot, c->figures[f].words.text);
+            fprintf(script, " %u", rows - row);
+        }
+    fputs(")\nset arrow from 0, graph 0 to 0, graph 1 nohead lc '#333333' lw 1 back\n", script);
+    for (uint32_t s = 0, place = 0; s < c->sides.count; s++) {
+        if (s == c->base)
+            continue;
+        fprintf(script,
+                "%s 'effects.dat' index %u using 2:1:3:4 with xerrorbars pt 7 ps 0.7 lw 2 lc '%s' "
+                "title ",
+                place ? ", \\\n " : "plot", place, COLOURS[s % COLOUR_COUNT]);
+        jox_quote_put(script, jox_quote_gnuplot, c->sides.items[s].name);
+        place++;
+    }
+    fputs("\n", script);
+}
+
+bool jox_compare_plots(const JoxComparison *c, JoxText *why) {
+    uint32_t n = 0;
+    bool good = true;
+    for (; good && n < JOX_COMPARE_CURVES && jox_compare_curve(c, n); n++)
+        good = write_data(c, n, why);
+    const bool effects = jox_compare_rows(c) > 0;
+    good = good && (!effects || write_effects(c, why));
+    FILE *script = good && (n || effects) ? jox_plot_open(c->def->out, "compare.plt", why) : NULL;
+    if (!script)
+        return good && !n && !effects;
+    for (uint32_t k = 0; k < n; k++)
+        draw_curve(c, k, script);
+    if (effects)
+        draw_effects(c, script);
+    return jox_plot_close(script, "compare.plt", why) &&
+           jox_plot_draw(c->def->out, "compare.plt", why);
+}

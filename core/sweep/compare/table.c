@@ -1,0 +1,176 @@
+/* The comparison as text for a terminal. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/mem.h"
+#include "sweep/compare/compare.h"
+
+enum { WORDS = 46, NUMBER = 11 };
+
+static void put_number(JoxText *out, double value, int width, bool sign) {
+    char text[40];
+    if (!isfinite(value))
+        snprintf(text, sizeof text, "-");
+    else if ((value == floor(value) || fabs(value) >= 1000) && fabs(value) < 1e9)
+        snprintf(text, sizeof text, sign ? "%+.0f" : "%.0f", value);
+    else
+        snprintf(text, sizeof text, sign ? "%+.4g" : "%.4g", value);
+    jox_text_printf(out, "%*s", width, text);
+}
+
+static void put_sides(const JoxComparison *c, JoxText *out) {
+    for (uint32_t s = 0; s < c->sides.count; s++) {
+        const JoxSide *side = &c->sides.items[s];
+        jox_text_printf(out, "%2u  %s: ", s + 1, side->name);
+        if (side->recorded)
+            jox_text_add(out, "one recording");
+        else
+            jox_text_printf(out, "%u run%s", side->runs, side->runs == 1 ? "" : "s");
+        if (side->runs && !side->recorded)
+            jox_text_printf(out, ", seeds %llu to %llu", (unsigned long long)side->seeds[0],
+                            (unsigned long long)side->seeds[side->runs - 1]);
+        if (side->left_out)
+            jox_text_printf(out, "; %u that failed or went wrong left out", side->left_out);
+        jox_text_add(out, s == c->base ? "  (what the others are compared with)\n" : "\n");
+    }
+}
+
+/* "30 more seeds would tell", where it is not told. */
+static void put_advice(const JoxDifference *d, JoxText *out) {
+    const JoxEffect *e = &d->effect;
+    const size_t have = e->a < e->b ? e->a : e->b;
+    if (!isfinite(e->low) || e->low > 0 || e->high < 0 || (e->low == 0 && e->high == 0))
+        return;
+    if (d->runs > have)
+        jox_text_printf(out, "; about %zu seeds would tell a difference of this size", d->runs);
+    else if (e->difference != 0 && d->runs == 0)
+        jox_text_add(out, "; more than a million seeds would have to tell it");
+}
+
+static bool is_told(const JoxComparison *c, const JoxCompared *f) {
+    return f->varies && (c->def->all || f->words.is_key);
+}
+
+static void put_side(const JoxComparison *c, uint32_t s, JoxText *out) {
+    uint32_t differ = 0, told = 0, thin = 0;
+    jox_text_printf(out, "\n%s, less %s:\n%-*s%*s%*s%*s  %.0f %% interval\n",
+                    c->sides.items[s].name, c->sides.items[c->base].name, WORDS, "mean of the runs",
+                    NUMBER, "base", NUMBER, "this", NUMBER, "difference", 100 * c->def->share);
+    for (uint32_t f = 0; f < c->count; f++) {
+        const JoxCompared *figure = &c->figures[f];
+        const JoxDifference *d = &figure->sides[s];
+        if (!is_told(c, figure) || (!d->base.count && !d->other.count))
+            continue;
+        char words[240];
+        snprintf(words, sizeof words, "%s%s%s", figure->words.text, *figure->words.unit ? ", " : "",
+                 figure->words.unit);
+        jox_text_printf(out, "%-*s", WORDS, words);
+        if (strlen(words) >= WORDS)
+            jox_text_printf(out, "\n%*s", WORDS, "");
+        put_number(out, d->base.mean, NUMBER, false);
+        put_number(out, d->other.mean, NUMBER, false);
+        put_number(out, d->effect.difference, NUMBER, true);
+        if (isfinite(d->effect.low)) {
+            jox_text_add(out, "  ");
+            put_number(out, d->effect.low, 0, true);
+            jox_text_add(out, " to ");
+            put_number(out, d->effect.high, 0, true);
+        }
+        jox_text_printf(out, "  %s%s", jox_compare_verdict(d), d->adjusted ? " *" : "");
+        put_advice(d, out);
+        if (d->base_known < c->sides.items[c->base].runs || d->other_known < c->sides.items[s].runs)
+            jox_text_printf(out, " (%zu of %u and %zu of %u runs have one)", d->base_known,
+                            c->sides.items[c->base].runs, d->other_known, c->sides.items[s].runs);
+        jox_text_add(out, "\n");
+        const bool differs = strcmp(jox_compare_verdict(d), "differs") == 0;
+        told++;
+        differ += differs;
+        thin += isfinite(d->effect.low) && !differs && d->effect.difference != 0;
+    }
+    if (told == 0)
+        jox_text_add(out, "  no figure differs in any run\n");
+    jox_text_printf(out, "%u of %u figures differ", differ, told);
+    if (thin)
+        jox_text_printf(out, "; of %u the seeds are too few to say so or not", thin);
+    jox_text_add(out, "\n");
+}
+
+static void put_methods(const JoxComparison *c, JoxText *out) {
+    char method[200];
+    for (uint32_t s = 0; s < c->sides.count; s++) {
+        if (s == c->base || c->count == 0)
+            continue;
+        uint32_t most = 0; /* the figure that most runs have */
+        for (uint32_t f = 0; f < c->count; f++)
+            if (c->figures[f].sides[s].effect.b > c->figures[most].sides[s].effect.b)
+                most = f;
+        jox_compare_method(c, &c->figures[most].sides[s], method, sizeof method);
+        jox_text_printf(out, "Intervals of %s: %s.\n", c->sides.items[s].name, method);
+    }
+    jox_text_printf(out,
+                    "* stays so with Holm's correction for %u figures; of those without, one in "
+                    "%.0f seems to differ by chance.\n",
+                    c->tested, 1 / (1 - c->def->share));
+    if (jox_compare_is_thin(c))
+        jox_text_add(out,
+                     "Of fewer than five runs the spread itself is hardly known, and so is the "
+                     "number of seeds that it takes.\n");
+}
+
+/* ---- percentiles ---- */
+
+static void put_percentile(const JoxComparison *c, const JoxCompared *figure, uint32_t s,
+                           JoxText *out) {
+    const double q = c->def->percentile / 100;
+    size_t count;
+    double *values = jox_side_values(&c->sides.items[s], figure->figure, &count);
+    const size_t above = jox_rank_above(count, q), bound = jox_rank_bound(count, q, c->def->share);
+    if (count) {
+        jox_text_printf(out, "  %-28s", c->sides.items[s].name);
+        put_number(out, above ? values[above - 1] : NAN, NUMBER, false);
+        put_number(out, values[count - 1], NUMBER, false);
+        put_number(out, bound ? values[bound - 1] : NAN, NUMBER, false);
+        jox_text_printf(out, "  of %zu run%s", count, count == 1 ? "" : "s");
+        if (count < c->sides.items[s].runs)
+            jox_text_printf(out, ", %zu have none", c->sides.items[s].runs - count);
+        jox_text_add(out, "\n");
+    }
+    jox_free(values);
+}
+
+static void put_percentiles(const JoxComparison *c, JoxText *out) {
+    const double q = c->def->percentile / 100;
+    jox_text_printf(out, "\n%-30s%*.4g %%%*s%*s\n", "The value above so many of all", NUMBER - 2,
+                    c->def->percentile, NUMBER, "worst", NUMBER, "bound");
+    for (uint32_t f = 0; f < c->count; f++) {
+        const JoxCompared *figure = &c->figures[f];
+        if (!is_told(c, figure) || figure->words.low_is_worse)
+            continue;
+        jox_text_printf(out, "%s%s%s\n", figure->words.text, *figure->words.unit ? ", " : "",
+                        figure->words.unit);
+        for (uint32_t s = 0; s < c->sides.count; s++)
+            put_percentile(c, figure, s, out);
+    }
+    jox_text_printf(
+        out,
+        "The first is that of MSC.1/Circ.1533: ranked from the lowest, the one of which "
+        "%.4g %% of all are lower; it takes %zu runs at least. The bound lies above the "
+        "true %.4g %% value with a probability of %.0f %%, whatever the distribution "
+        "(Wilks 1941); it takes %zu runs. That circular wants 50 runs or more of each "
+        "case. Of flows and of people who left, of which less is worse, nothing is told "
+        "here.\n",
+        c->def->percentile, (size_t)floor(1 / (1 - q) + 1e-9), c->def->percentile,
+        100 * c->def->share, jox_rank_runs(q, c->def->share));
+}
+
+void jox_compare_text(const JoxComparison *c, JoxText *out) {
+    put_sides(c, out);
+    for (uint32_t s = 0; s < c->sides.count; s++)
+        if (s != c->base)
+            put_side(c, s, out);
+    if (c->sides.count > 1)
+        put_methods(c, out);
+    if (c->def->percentile > 0)
+        put_percentiles(c, out);
+}

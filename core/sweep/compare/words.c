@@ -1,0 +1,174 @@
+/* Figures of summaries in words. */
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "record/danger/danger.h"
+#include "sweep/compare/compare.h"
+
+/* The first row that fits holds; `*` stands for any characters but dots, and its n-th is %s. Keys
+   come first, in this order. */
+static const struct {
+    const char *path, *words, *unit;
+    bool is_key;
+} ROWS[] = {
+    {"danger.clearance_s", "time until everybody had left", "s", true},
+    {"danger.left", "people who left", "", true},
+    {"danger.inside", "people still inside at the end", "", true},
+    {"danger.last_left_s", "time at which the last of those who left did", "s", true},
+    {"danger.exits.*.people", "people who left by %s", "", true},
+    {"danger.exits.*.last_s", "time at which the last left by %s", "s", true},
+    {"density_max", "greatest density of any place and time", "1/m2", true},
+    {"danger.level_person_s.F", "time spent at level of service F, all people", "s", true},
+    {"danger.load_max", "greatest load on anybody", "N", true},
+    {"danger.pressure_max", "greatest crowd pressure", "1/s2", true},
+    {"danger.dose_max", "greatest dose of load", "", true},
+    {"stood_longest.s", "longest that anybody stood who wanted to get on", "s", true},
+    {"probes.*.flow", "flow through %s", "1/s", true},
+    {"probes.*.mean", "mean of %s", "", true},
+    {"probes.*.median", "median of %s", "", true},
+    {"probes.*.p95", "95 % value of %s", "", true},
+    {"danger.lines.*.congestion.seconds", "time of congestion at %s", "s", true},
+    {"danger.lines.*.stop_and_go.seconds", "time of stop-and-go at %s", "s", true},
+    {"regions.*", "mean speed in %s", "m/s", true},
+    {"agents", "people at the end", "", false},
+    {"danger.density_max", "greatest density that was sampled", "1/m2", false},
+    {"danger.compression_max", "greatest compression of anybody", "N/m", false},
+    {"danger.walls.load_max", "greatest load of a wall", "N/m", false},
+    {"danger.level_person_s.*", "time spent at level of service %s, all people", "s", false},
+    {"danger.lines.*.flow_max", "greatest flow at %s", "1/s", false},
+    {"danger.lines.*.width", "width of %s", "m", false},
+    {"danger.lines.*.forward", "passages of %s", "", false},
+    {"danger.lines.*.back", "passages back of %s", "", false},
+    {"danger.lines.*.level_s.*", "", "s", false},
+    {"probes.*.specific_flow", "flow per metre through %s", "1/(m s)", false},
+    {"probes.*.passages", "passages of %s", "", false},
+    {"probes.*.speed", "mean speed at %s", "m/s", false},
+    {"probes.*.density", "density at %s", "1/m2", false},
+    {"states.*.*", "", "", false},
+    {"bodies", "bodies at the end", "", false},
+    {"lp_failure_share", "share of agent-steps whose 2-D program failed", "", false},
+    {"overlap_p99", "overlap that 99 % stay below, share of a diameter", "", false},
+};
+enum { ROW_COUNT = sizeof ROWS / sizeof *ROWS };
+
+/* Of these, less is worse. */
+static const char *const LOW[] = {"danger.left",   "danger.exits.*.people",
+                                  "probes.*.flow", "probes.*.specific_flow",
+                                  "regions.*",     "danger.lines.*.flow_max"};
+
+const char *jox_figure_unit(const char *unit) {
+    static const char *const UNITS[][2] = {{"1/m2", "per m\xc2\xb2"},
+                                           {"1/s2", "per s\xc2\xb2"},
+                                           {"1/s", "per s"},
+                                           {"1/(m s)", "per m and s"}};
+    for (size_t u = 0; u < sizeof UNITS / sizeof *UNITS; u++)
+        if (strcmp(UNITS[u][0], unit) == 0)
+            return UNITS[u][1];
+    return unit;
+}
+
+/* Whether a path fits, and what the first `*` stands for. */
+static bool fits(const char *row, const char *path, char first[100]) {
+    bool any = false;
+    for (; *row; row++) {
+        if (*row != '*') {
+            if (*row != *path++)
+                return false;
+            continue;
+        }
+        const size_t n = strcspn(path, ".");
+        if (!any)
+            snprintf(first, 100, "%.*s", (int)n, path);
+        any = true;
+        path += n;
+    }
+    return *path == 0;
+}
+
+static int row_of(const char *path, char first[100]) {
+    *first = 0;
+    for (int r = 0; r < ROW_COUNT; r++)
+        if (fits(ROWS[r].path, path, first))
+            return r;
+    return ROW_COUNT;
+}
+
+/* "danger.limits.density_5.person_s": of published limits. */
+static bool limit_words(const char *path, JoxFigureWords *out) {
+    static const char PREFIX[] = "danger.limits.";
+    static const struct {
+        const char *end, *words;
+    } ENDS[] = {{"person_s", "time over %s, all people"},
+                {"people", "people who were ever over %s"},
+                {"longest_s", "longest that anybody was over %s"},
+                {"first_s", "time at which anybody first was over %s"}};
+    if (strncmp(path, PREFIX, sizeof PREFIX - 1) != 0)
+        return false;
+    const char *key = path + sizeof PREFIX - 1, *end = strchr(key, '.');
+    for (int l = 0; end && l < JOX_DANGER_LIMITS; l++) {
+        const JoxDangerLimit *limit = &jox_danger_limits[l];
+        if (strlen(limit->key) != (size_t)(end - key) ||
+            strncmp(limit->key, key, (size_t)(end - key)) != 0)
+            continue;
+        for (size_t e = 0; e < sizeof ENDS / sizeof *ENDS; e++) {
+            char name[100];
+            if (strcmp(end + 1, ENDS[e].end) != 0)
+                continue;
+            const char *unit = jox_danger_units[limit->measure];
+            const bool is_part = strncmp(unit, "1/", 2) == 0; /* "per m2" */
+            snprintf(name, sizeof name, "a %s of %g %s%s", jox_danger_names[limit->measure],
+                     limit->value, is_part ? "per " : "", unit + 2 * is_part);
+            const char *at = strstr(ENDS[e].words, "%s");
+            snprintf(out->text, sizeof out->text, "%.*s%s%s", (int)(at - ENDS[e].words),
+                     ENDS[e].words, name, at + 2);
+            out->unit = strstr(ENDS[e].end, "_s") ? "s" : "";
+            out->is_key = e < 2;
+            return true;
+        }
+    }
+    return false;
+}
+
+JoxFigureWords jox_figure_words(const char *path) {
+    JoxFigureWords out = {.unit = ""};
+    char first[100];
+    for (size_t l = 0; l < sizeof LOW / sizeof *LOW; l++)
+        out.low_is_worse |= fits(LOW[l], path, first);
+    const int r = row_of(path, first);
+    if (limit_words(path, &out))
+        return out;
+    if (r == ROW_COUNT) { /* as it is called, but for its last part: its unit */
+        const size_t n = strlen(path);
+        out.unit = n > 2 && !strcmp(path + n - 2, "_s") ? "s" : "";
+        snprintf(out.text, sizeof out.text, "%.180s", path);
+        return out;
+    }
+    const char *words = ROWS[r].words, *at = strstr(words, "%s"), *last = strrchr(path, '.');
+    const bool of_level = strstr(path, ".level_s.") != NULL;
+    if (of_level) /* two names */
+        snprintf(out.text, sizeof out.text, "time at level of service %.8s of %s", last + 1, first);
+    else if (!strncmp(path, "states.", 7))
+        snprintf(out.text, sizeof out.text, "people of %s at the end in the state %.60s", first,
+                 last + 1);
+    else if (at)
+        snprintf(out.text, sizeof out.text, "%.*s%s%s", (int)(at - words), words, first, at + 2);
+    else
+        snprintf(out.text, sizeof out.text, "%s", words);
+    out.unit = ROWS[r].unit;
+    out.is_key = ROWS[r].is_key;
+    return out;
+}
+
+int jox_figure_order(const char *a, const char *b) {
+    static const char LIMITS[] = "danger.limits.";
+    char first[100];
+    const JoxFigureWords x = jox_figure_words(a), y = jox_figure_words(b);
+    int r = row_of(a, first), s = row_of(b, first);
+    /* Limits stand behind the density. */
+    r = strncmp(a, LIMITS, sizeof LIMITS - 1) == 0 ? 7 : r;
+    s = strncmp(b, LIMITS, sizeof LIMITS - 1) == 0 ? 7 : s;
+    if (x.is_key != y.is_key)
+        return x.is_key ? -1 : 1;
+    return r != s ? r - s : strcmp(a, b);
+}

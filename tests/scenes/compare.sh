@@ -1,0 +1,74 @@
+# Comparisons: effects with intervals, paired by seed; what is not told apart and how many seeds would; percentiles;
+# pages of sweeps, scenes and recordings; and what is no side.
+. tests/scenes/lib.sh
+root=$PWD
+program=$(case $JOSTLE in /*) echo "$JOSTLE" ;; *) echo "$PWD/$JOSTLE" ;; esac)
+expect() { # NAME STATUS TEXT COMMAND...
+    local name=$1 status=$2 text=$3; shift 3
+    timeout 300 "$@" >"$work/out" 2>&1 </dev/null
+    local got=$?
+    if [ $got = "$status" ] && grep -qF -- "$text" "$work/out"; then echo "ok $name"; else
+        echo "not ok $name: status $got, wanted $status and '$text'"; head -5 "$work/out"; fi
+}
+# json NAME EXPRESSION...: what Python makes of the JSON, as d
+json() { python3 -c "import json, sys, math; d = json.load(open('$1')); print($2)"; }
+cd "$work" || exit 1
+scene=$root/scenes/evacuation.yaml
+"$program" sweep "$scene" --set groups.hall.count=30,90 --set groups.archive.count=2 --set groups.office.count=20 --seeds 4 --for 12 --out halls.sqlite --csv halls.csv --quiet
+
+# ---- against other arithmetic, of the table ----
+expect "a comparison" 0 "Student's t of the differences of 4 seeds" "$program" compare halls.sqlite --out page --json c.json --percentile 75
+python3 - >check 2>&1 <<'END'
+import csv, json, math
+rows = list(csv.DictReader(open("halls.csv")))
+d = json.load(open("c.json"))
+a, b = ([float(r["density_max"]) for r in rows if r["groups.hall.count"] == n] for n in ("30", "90"))
+diff = [y - x for x, y in zip(a, b)]
+mean = sum(diff) / 4
+half = 3.18245 * math.sqrt(sum((x - mean) ** 2 for x in diff) / 3 / 4) # t of 3 degrees, 95 %
+side = d["figures"]["density_max"]["sides"][1]
+assert abs(side["difference"] - mean) < 1e-6 and abs(side["low"] - (mean - half)) < 1e-4 and abs(side["high"] - (mean + half)) < 1e-4, (side, mean, half)
+assert side["pairs"] == 4 and side["method"].startswith("Student's t of the differences of 4 seeds")
+assert side["worst"] == max(b) and side["percentile"] == max(b) and side["percentile_bound"] is None, side
+assert d["sides"][0]["seeds"] == [1, 2, 3, 4] and d["sides"][1]["name"] == "count=90"
+assert d["figures"]["agents"]["sides"][1]["verdict"] == "differs"
+assert not any(n.endswith("_person") or n.startswith("stage_ns") or n == "cpu_s" for n in d["figures"])
+END
+[ ! -s check ]; verdict "the interval is that of the table" $?
+cat check
+grep -q '^count=90, less count=30:' "$work/out"; verdict "variants are called by what differs" $?
+grep -q 'seeds would tell a difference of this size' "$work/out"; verdict "few seeds are said to be few, and how many it takes" $?
+grep -q 'takes 11 runs' "$work/out"; verdict "a bound of a percentile says how many runs it takes" $?
+expect "by bootstrap" 0 "bootstrap of the differences of 4 seeds, 2000 resamples" "$program" compare halls.sqlite --bootstrap 2000
+"$program" sweep "$scene" --set groups.hall.count=90 --set groups.archive.count=2 --set groups.office.count=20 --seeds 3 --seed 50 --for 12 --out others.sqlite --quiet
+expect "seeds that are not shared are not paired" 0 "Welch's t of 4 and 3 runs" "$program" compare halls.sqlite others.sqlite --base 1
+grep -q '^ 3  others: 3 runs, seeds 50 to 52' "$work/out"; verdict "  files are called by their names" $?
+expect "another base" 0 "less halls: count=90:" "$program" compare halls.sqlite others.sqlite --base "halls: count=90"
+
+# ---- the page ----
+for file in index.html compare.plt effects.svg curve-1.svg plan-1.svg plan-2.svg; do [ -s "page/$file" ]; verdict "  the page's $file" $?; done
+grep -q '<div class=summary>' page/index.html && grep -q 'greatest density of any place and time' page/index.html; verdict "figures are told in words" $?
+grep -q 'the seeds are too few\|The seeds are too few' page/index.html; verdict "  what the seeds do not tell too" $?
+for id in walls field; do grep -q "id=\"$id\"" page/plan-2.svg; verdict "  a plan has $id" $?; done
+
+# ---- scenes and recordings ----
+expect "scenes are run with seeds" 0 "less evacuation:" "$program" compare "$scene" "$root/scenes/two-exits.yaml" --seeds 2 --for 3 --out scenes --quiet
+[ "$(sqlite3 scenes/two-exits.sqlite 'select count(*) from run')" = 2 ]; verdict "  which are kept" $?
+expect "  and their folder has to be named" 2 "where the runs of scenes are kept" "$program" compare "$scene"
+for n in 1 2; do "$program" run "$scene" --quiet --seed $n --for 4 --record "r$n.sqlite"; done
+expect "recordings have no interval" 0 "one run: not known how sure" "$program" compare r1.sqlite r2.sqlite --scene "$scene" --out recordings
+[ -s recordings/curve-1.svg ] && [ -s recordings/plan-2.svg ]; verdict "  but curves and plans" $?
+"$program" sweep "$scene" --seeds 1 --for 4 --out one.sqlite --quiet
+expect "one run has none either" 0 "one run: not known how sure" "$program" compare one.sqlite r2.sqlite --scene "$scene"
+
+# ---- errors ----
+expect "no side" 2 "no side given" "$program" compare
+expect "a side that is no file" 3 "gone.yaml" "$program" compare halls.sqlite gone.yaml --out x
+echo "nothing of the kind" >text.txt
+expect "a text that is no recording" 3 "text.txt" "$program" compare text.txt
+expect "a base that is no side" 2 "there are 'count=30', 'count=90'" "$program" compare halls.sqlite --base 7
+cp halls.sqlite damaged.sqlite; dd if=/dev/urandom of=damaged.sqlite bs=4096 seek=2 count=60 conv=notrunc 2>/dev/null
+expect "a damaged sweep" 3 "damaged.sqlite" "$program" compare damaged.sqlite
+expect "a page where none can be written" 1 "cannot make the folder '/proc/x'" "$program" compare halls.sqlite --out /proc/x
+sqlite3 halls.sqlite "update field set columns = 99999999, rows = 99999999; update figure set value = 'text' where seed = 2; update variant set plan = '{\"area\": [0, 0, 1e300, 2]}'; update run set summary = NULL"
+expect "numbers that make no sense are left out" 0 "density" "$program" compare halls.sqlite --out hostile
