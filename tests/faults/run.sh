@@ -8,7 +8,7 @@
 set -u
 cd "$(dirname "$0")/../.."
 B=${B:-build/release} FAULTS=${FAULTS:-all}
-program=$PWD/$B/jostle
+program=${JOSTLE:-$PWD/$B/jostle}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 alloc=$work/alloc.so
@@ -45,6 +45,7 @@ commands=(
     "mods mod list $scene"
     "reference reference scenes"
     "resume resume $work/saved --for 0.4 --quiet"
+    "view view $work/a.sqlite --page $PWD/core/view/page"
 )
 status=0
 
@@ -67,22 +68,44 @@ fresh() {
     new) rm -rf mine* ;;
     esac
 }
+# PROGRAM ARGS...: runs it; who serves a page is told to end once its page was asked for.
+run() {
+    local pid child address
+    if [[ " $* " != *" $program view "* ]]; then
+        timeout -s KILL 60 "$@" >said 2>&1 </dev/null
+        return
+    fi
+    : >said
+    timeout -s KILL 60 "$@" >said 2>&1 </dev/null & pid=$!
+    until address=$(grep -o 'http://[^ ]*' said) || ! kill -0 $pid 2>/dev/null; do sleep 0.05; done
+    if [[ $address =~ ^http://([0-9.]+):([0-9]+)(/.*)$ ]]; then
+        (
+            exec 3<>"/dev/tcp/${BASH_REMATCH[1]}/${BASH_REMATCH[2]}" || exit
+            printf 'GET %s HTTP/1.1\r\nHost: %s:%s\r\nConnection: close\r\n\r\n' "${BASH_REMATCH[3]}" "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}" >&3
+            timeout 5 cat <&3
+        ) >page 2>&1
+        child=$(pgrep -P $pid)
+        [ "$1" != strace ] || child=$(pgrep -P "$child")
+        [ -z "$child" ] || kill -INT $child
+    fi
+    wait $pid
+}
 # PART N COMMAND...
 once() {
     local part=$1 n=$2; shift 2
     rm -rf out; mkdir out
     case $part in
-    memory) timeout -s KILL 60 env FAULT_AT="$n" LD_PRELOAD="$alloc" "$program" "$@" ;;
-    *) timeout -s KILL 60 strace -qq -f -o "$work/trace" -e trace="$calls" -e inject="$calls:error=$error:when=$n" "$program" "$@" ;;
-    esac >said 2>&1 </dev/null
+    memory) run env FAULT_AT="$n" LD_PRELOAD="$alloc" "$program" "$@" ;;
+    *) run strace -qq -f -o "$work/trace" -e trace="$calls" -e inject="$calls:error=$error:when=$n" "$program" "$@" ;;
+    esac
 }
 # How often a part happens in a command.
 count() {
     local part=$1; shift
     rm -rf out; mkdir out
     case $part in
-    memory) { FAULT_COUNT=9 LD_PRELOAD="$alloc" "$program" "$@" >said 2>&1 </dev/null; } 9>"$work/count"; tail -n 1 "$work/count" ;; # who ends last is the command itself
-    *) strace -qq -f -o "$work/trace" -e trace="$calls" "$program" "$@" >said 2>&1 </dev/null; grep -c "(" "$work/trace" ;;
+    memory) run env FAULT_COUNT=9 LD_PRELOAD="$alloc" "$program" "$@" 9>"$work/count"; tail -n 1 "$work/count" ;; # who ends last is the command itself
+    *) run strace -qq -f -o "$work/trace" -e trace="$calls" "$program" "$@"; grep -c "(" "$work/trace" ;;
     esac
 }
 sweep() { # PART NAME COMMAND...
