@@ -69,6 +69,7 @@
     /* Greatest push borne from any one direction, N: over directions d, the sum of the positive   \
        parts of f.d over the contacts. */                                                          \
     X(STATE, float, load)                                                                          \
+    X(SCRATCH, uint32_t, index_in_step) /* its index when velocities were chosen */                \
     X(SCRATCH, float, forced_x) /* velocity that the force gives by the end of the step, m/s */    \
     X(SCRATCH, float, forced_y)                                                                    \
     X(SCRATCH, float, breadth)      /* radius at which it touches, m */                            \

@@ -103,7 +103,8 @@ const JoxWallLoad *jox_force_wall_loads(const JoxForces *forces, uint32_t *count
 /* Equations 8 and 9, once vx, vy hold the new velocities: inferred_x, inferred_y. */
 void jox_force_infer(JoxForces *forces);
 
-/* Of the agent at an index: the contact force of bodies, N, between contact and the next begin. */
+/* Of the agent that had an index in the step: the contact force of bodies, N, between contact and
+ * the next begin. */
 JoxV2 jox_force_of_bodies(const JoxForces *forces, uint32_t agent);
 /* And what infer has just added to its inferred force for the slowing of others (equation 8; the
    rest is equation 9), N; *kept: the share that it has kept of what was there before. */

@@ -11,7 +11,7 @@
 #include "jostle_tools.h"
 
 /* Of the messages: a page of another number asks to be loaded anew. */
-enum { JOX_LIVE_PROTOCOL = 2 };
+enum { JOX_LIVE_PROTOCOL = 3 };
 
 /* Growing bytes; zero-initialise, `length = 0` to use again, free by jox_bytes_free. */
 typedef struct JoxBytes {
@@ -81,7 +81,11 @@ void jox_live_field(JoScene *scene, JoxLiveField field, JoxBytes *out);
 enum { JOX_LIVE_HEAD = 48, JOX_LIVE_SLOT = 8, JOX_LIVE_BODY = 20, JOX_LIVE_NOBODY = 255 };
 /* State of those who are none of the scene message's list names. */
 enum { JOX_LIVE_OTHER_STATE = 254 };
+/* Flags. Above them stands how somebody leans under pushes: 0, or 1 + the way (eighths of a turn
+   from the east) + 8 times the step, of which each begins with so many N. */
 enum { JOX_LIVE_PARITY = 1, JOX_LIVE_FAILED = 2, JOX_LIVE_PLAYER = 4 };
+enum { JOX_LIVE_LEAN_SHIFT = 3, JOX_LIVE_LEANS = 3 };
+extern const float jox_live_leans[JOX_LIVE_LEANS];
 
 /* The area that positions are counted over; it only grows. */
 typedef struct JoxLiveArea {

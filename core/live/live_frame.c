@@ -7,6 +7,10 @@
 #include "live/live_parts.h"
 
 static const float MARGIN = 2.0f; /* m about everything that a scene names */
+static const double LEAN_TIME =
+    0.3; /* s over which the pushes that people lean under are averaged */
+
+const float jox_live_leans[JOX_LIVE_LEANS] = {60.0f, 150.0f, 300.0f};
 
 static void cover_points(JoxLiveArea *area, const JoxV2 *points, uint32_t count, float more) {
     JoxV2 edge = {more, more};
@@ -65,7 +69,7 @@ static void release(void *self) {
     jox_free(live->taken);
     jox_free(live->fired);
     jox_free(live->people);
-    jox_free(live->rounds);
+    jox_free(live->seen);
     jox_free(live->state);
     jox_free(live->flags);
     jox_free(live->force);
@@ -103,27 +107,54 @@ static void put_bodies(const JoScene *scene, uint32_t slots, JoxBytes *out) {
     }
 }
 
-static void note_edges(JoxLive *live, const JoWorld *world) {
+/* A change of parity where somebody came round a periodic edge, so that nobody is seen to fly
+   across. */
+static void note_edge(struct JoxLiveSeen *seen, JoxV2 now, JoxV2 period) {
+    const JoxV2 way = jox_sub(now, seen->at);
+    if ((period.x > 0.0f && fabsf(way.x) > 0.5f * period.x) ||
+        (period.y > 0.0f && fabsf(way.y) > 0.5f * period.y))
+        seen->flips ^= JOX_LIVE_PARITY;
+}
+
+/* Everybody as of this frame: where they are, and the pushes that they have borne of late. */
+static void note_people(JoxLive *live, const JoWorld *world) {
     const JoxAgents *a = &world->state.agents;
-    const size_t had = live->round_capacity;
-    if ((a->period.x <= 0.0f && a->period.y <= 0.0f) || live->came_round == world->state.tick + 1)
+    const double passed = jo_world_time(world) - live->seen_time;
+    const float kept = passed >= 0.0 ? expf((float)(-passed / LEAN_TIME)) : 0.0f;
+    if (live->seen_tick == world->state.tick + 1)
         return;
-    live->came_round = world->state.tick + 1;
-    JOX_RESERVE(live->rounds, live->round_capacity, a->slot_count);
-    if (live->round_capacity > had)
-        memset(live->rounds + had, 0, (live->round_capacity - had) * sizeof *live->rounds);
+    live->seen_tick = world->state.tick + 1;
+    live->seen_time = jo_world_time(world);
+    JOX_RESERVE_ZEROED(live->seen, live->seen_capacity, a->slot_count);
     for (uint32_t i = 0; i < a->count; i++) {
-        struct JoxLiveRound *r = &live->rounds[a->slot[i]];
+        struct JoxLiveSeen *seen = &live->seen[a->slot[i]];
         const uint32_t generation = a->slot_generation[a->slot[i]];
-        const JoxV2 now = {a->x[i], a->y[i]}, way = jox_sub(now, r->at);
+        const JoxV2 now = {a->x[i], a->y[i]};
+        const JoxV2 pushed = {a->push_x[i] + a->contact_x[i], a->push_y[i] + a->contact_y[i]};
+        const float old = seen->generation == generation ? kept : 0.0f;
         JOX_ASSERT(a->slot[i] < a->slot_count && isfinite(now.x) && isfinite(now.y));
-        const bool far = (a->period.x > 0.0f && fabsf(way.x) > 0.5f * a->period.x) ||
-                         (a->period.y > 0.0f && fabsf(way.y) > 0.5f * a->period.y);
-        if (far && r->generation == generation)
-            r->flips ^= JOX_LIVE_PARITY;
-        r->at = now;
-        r->generation = generation;
+        if (seen->generation == generation)
+            note_edge(seen, now, a->period);
+        seen->pushed = jox_add(jox_scale(seen->pushed, old), jox_scale(pushed, 1.0f - old));
+        seen->at = now;
+        seen->generation = generation;
     }
+}
+
+/* How somebody who is pushed leans, for the flags: which of eight ways, counted from the east, and
+   which of three steps; 0: not. */
+static uint32_t lean_of(JoxV2 pushed) {
+    static const uint8_t WAYS[3][3] = {{5, 6, 7}, {4, 0, 0}, {3, 2, 1}}; /* [y + 1][x + 1] */
+    static const float DIAGONAL = 0.41421356f; /* the tangent of 22.5 degrees */
+    const float force = jox_length(pushed), across = fabsf(pushed.x), up = fabsf(pushed.y);
+    uint32_t step = 0;
+    while (step < JOX_LIVE_LEANS && force >= jox_live_leans[step])
+        step++;
+    if (step == 0)
+        return 0;
+    const int x = across < DIAGONAL * up ? 0 : pushed.x < 0.0f ? -1 : 1;
+    const int y = up < DIAGONAL * across ? 0 : pushed.y < 0.0f ? -1 : 1;
+    return (1 + WAYS[y + 1][x + 1] + 8 * (step - 1)) << JOX_LIVE_LEAN_SHIFT;
 }
 
 /* Numbers of states in the scene message, and flags. */
@@ -140,11 +171,11 @@ static void fill_states(JoxLive *live, const JoScene *scene) {
         const uint32_t slot = a->slot[i];
         const uint32_t state = a->machine[i] == JOX_NO_MACHINE ? JOX_LIVE_OTHER_STATE
                                                                : first[a->machine[i]] + a->state[i];
-        const uint32_t flips = slot < live->round_capacity ? live->rounds[slot].flips : 0;
+        const struct JoxLiveSeen *seen = &live->seen[slot];
         JOX_ASSERT(a->slot_index[slot] == i);
         live->state[i] = (uint8_t)(state < JOX_LIVE_OTHER_STATE ? state : JOX_LIVE_OTHER_STATE);
-        live->flags[i] = (uint8_t)(((a->slot_generation[slot] ^ flips) & JOX_LIVE_PARITY) |
-                                   (a->failed[i] ? JOX_LIVE_FAILED : 0u) |
+        live->flags[i] = (uint8_t)(((a->slot_generation[slot] ^ seen->flips) & JOX_LIVE_PARITY) |
+                                   lean_of(seen->pushed) | (a->failed[i] ? JOX_LIVE_FAILED : 0u) |
                                    (a->id[i] == player ? JOX_LIVE_PLAYER : 0u));
     }
 }
@@ -180,7 +211,7 @@ void jox_live_frame(JoScene *scene, JoxLiveColour colour, JoxBytes *out) {
     const JoxAgents *a = &world->state.agents;
     JoxLiveCrowd crowd = crowd_of(scene);
     jox_live_cover_crowd(&live->area, &crowd);
-    note_edges(live, world);
+    note_people(live, world);
     fill_states(live, scene);
     crowd.state = live->state;
     crowd.flags = live->flags;

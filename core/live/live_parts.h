@@ -27,15 +27,16 @@ struct JoxLive {
     /* As of the last status. */
     double wall, time, stage_s[JO_STAGE_COUNT];
     uint64_t failures, agent_steps;
-    /* Where edges are periodic, by slot: where its person was in the last frame, and the parity
-       that changes whenever they came round an edge, so that nobody is seen to fly across. */
-    struct JoxLiveRound {
-        JoxV2 at;
+    /* People as of the last frame, by slot: where they were, the mean push that they bore of late
+       (N), and a parity that changes whenever they came round a periodic edge. */
+    struct JoxLiveSeen {
+        JoxV2 at, pushed;
         uint32_t generation;
         uint8_t flips;
-    } * rounds;
-    size_t round_capacity;
-    uint64_t came_round; /* tick of that frame, plus 1 */
+    } * seen;
+    size_t seen_capacity;
+    uint64_t seen_tick; /* of that frame, plus 1 */
+    double seen_time;   /* s */
     /* Scratch: people by state; states, flags and forces of a frame's people. */
     uint32_t *people;
     uint8_t *state, *flags;
@@ -71,10 +72,17 @@ void jox_live_add_regions(const JoxSceneRegion *regions, uint32_t count, JoxJson
 /* NULL: none. */
 void jox_live_add_camera(const JoxSceneSpec *spec, JoxJson *json);
 void jox_live_add_view(JoxLiveColour colour, JoxLiveField field, JoxJson *json);
-/* Each adds an object to an open array: a state of a machine, by the machine's number; one part of
-   a body; one body, {"name": ..., "mass": ..., "parts": [...]}, without parts where there is none
-   in the row. */
-void jox_live_add_state(uint32_t machine, const char *name, JoxJson *json);
+/* A group, or a state of a machine. */
+typedef struct JoxLiveNamed {
+    const char *name;
+    JoxColour given;  /* 0: none */
+    uint32_t machine; /* of a state; JOX_NO_INDEX: of a group */
+} JoxLiveNamed;
+/* An array of {"name": ..., "colour": "#rrggbb"}, of states with their machine's number: the
+   colours that they were given, else such as pictures take. */
+void jox_live_add_named(const char *key, const JoxLiveNamed *items, uint32_t count, JoxJson *json);
+/* Each adds an object to an open array: one part of a body; one body, {"name": ..., "mass": ...,
+   "parts": [...]}, without parts where there is none in the row. */
 void jox_live_add_part(const JoxBodyLook *look, JoxJson *json);
 void jox_live_add_body(const JoxBodies *bodies, uint32_t row, JoxJson *json);
 /* live_status.c: the state of the session. */

@@ -3,8 +3,10 @@
 #include <string.h>
 
 #include "base/hash.h"
+#include "base/mem.h"
 #include "live/inspect.h"
 #include "live/live_parts.h"
+#include "picture/palette.h"
 
 enum { DIGITS = 7 }; /* of positions and sizes, which are floats */
 
@@ -125,25 +127,48 @@ static void add_bodies(JoxJson *json, const JoxBodies *bodies) {
 
 /* ---- people ---- */
 
-void jox_live_add_state(uint32_t machine, const char *name, JoxJson *json) {
-    jox_json_object(json, NULL);
-    jox_json_whole(json, "machine", machine);
-    jox_json_string(json, "name", name);
+void jox_live_add_named(const char *key, const JoxLiveNamed *items, uint32_t count, JoxJson *json) {
+    JoxColour *given = jox_alloc(count + 1, sizeof *given);
+    JoxInk *inks = jox_alloc(count + 1, sizeof *inks);
+    for (uint32_t n = 0; n < count; n++)
+        given[n] = items[n].given;
+    jox_palette_classes(given, count, inks);
+    jox_json_array(json, key);
+    for (uint32_t n = 0; n < count; n++) {
+        char colour[8];
+        jox_colour_write(jox_palette_colour(inks[n]), colour);
+        jox_json_object(json, NULL);
+        if (items[n].machine != JOX_NO_INDEX)
+            jox_json_whole(json, "machine", items[n].machine);
+        jox_json_string(json, "name", items[n].name);
+        jox_json_string(json, "colour", colour);
+        jox_json_end(json);
+    }
     jox_json_end(json);
+    jox_free(inks);
+    jox_free(given);
 }
 
-static void add_groups(JoxJson *json, const JoScene *scene) {
-    const JoxSceneSpec *spec = scene->spec;
-    const JoxMachineRun *machines = &scene->world->machines;
-    jox_json_array(json, "groups");
+static void add_groups(JoxJson *json, const JoxSceneSpec *spec) {
+    JoxLiveNamed *named = jox_alloc(spec->group_count + 1, sizeof *named);
     for (uint32_t g = 0; g < spec->group_count; g++)
-        jox_json_string(json, NULL, spec->groups[g].name);
-    jox_json_end(json);
-    jox_json_array(json, "states");
+        named[g] = (JoxLiveNamed){spec->groups[g].name, spec->groups[g].colour, JOX_NO_INDEX};
+    jox_live_add_named("groups", named, spec->group_count, json);
+    jox_free(named);
+}
+
+static void add_states(JoxJson *json, const JoxMachineRun *machines) {
+    JoxLiveNamed *named = NULL;
+    size_t capacity = 0;
+    uint32_t count = 0;
     for (uint32_t m = 0; m < machines->set->count; m++)
-        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++)
-            jox_live_add_state(m, machines->set->items[m]->states[s].name, json);
-    jox_json_end(json);
+        for (uint32_t s = 0; s < machines->set->items[m]->state_count; s++) {
+            const JoxState *state = &machines->set->items[m]->states[s];
+            JOX_RESERVE(named, capacity, count + 1);
+            named[count++] = (JoxLiveNamed){state->name, state->colour, m};
+        }
+    jox_live_add_named("states", named, count, json);
+    jox_free(named);
 }
 
 void jox_live_add_colours(JoxJson *json) {
@@ -267,7 +292,8 @@ void jox_live_scene(JoScene *scene, JoxText *out) {
     jox_live_add_walls(&world->model.all_walls, JOX_WALL_HEIGHT, &json);
     jox_live_add_places(world->model.places, scene->world->model.scene_places, &json);
     jox_live_add_regions(spec->regions, spec->region_count, &json);
-    add_groups(&json, scene);
+    add_groups(&json, spec);
+    add_states(&json, &world->machines);
     jox_live_graph(scene, &json, "machines");
     add_bodies(&json, world->state.bodies);
     add_tools(&json, scene);
@@ -283,6 +309,8 @@ uint64_t jox_live_version(const JoScene *scene) {
     const JoxWalls *walls = &world->model.all_walls;
     JoxHash hash = jox_hash_begin();
     jox_hash_add(&hash, &scene->spec->view, sizeof scene->spec->view);
+    for (uint32_t g = 0; g < scene->spec->group_count; g++)
+        jox_hash_add(&hash, &scene->spec->groups[g].colour, sizeof(JoxColour));
     jox_hash_add(&hash, scene->spec->camera.position, sizeof scene->spec->camera.position);
     jox_hash_add(&hash, scene->spec->camera.target, sizeof scene->spec->camera.target);
     for (uint32_t m = 0; m < world->model.machines.count; m++)

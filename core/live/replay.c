@@ -33,10 +33,10 @@ static void number_names(JoxReplayNames *n, const JoxTrajectoryReaderInfo *info)
                                       strcmp(n->states[s].name, info->states[row].name) != 0))
             s++;
         if (s == n->state_count) {
-            n->states[s].machine = machine;
-            n->states[s].name = info->states[row].name;
+            n->states[s] = (JoxLiveNamed){.name = info->states[row].name, .machine = machine};
             n->state_count++;
         }
+        n->states[s].given = info->states[row].colour; /* the newest */
         n->state_of[row] = s;
     }
 }

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/mem.h"
 #include "live/replay_parts.h"
 
 #include "base/format/path.h"
@@ -37,14 +38,14 @@ static void add_machine(JoxJson *json, const JoxReplayNames *n, uint32_t machine
 
 static void add_names(JoxJson *json, const JoxReplay *r) {
     const JoxReplayNames *n = &r->names;
-    jox_json_array(json, "groups");
-    for (uint32_t g = 0; g < r->info.group_count; g++)
-        jox_json_string(json, NULL, r->info.groups[g]);
-    jox_json_end(json);
-    jox_json_array(json, "states");
-    for (uint32_t s = 0; s < n->state_count; s++)
-        jox_live_add_state(n->states[s].machine, n->states[s].name, json);
-    jox_json_end(json);
+    JoxLiveNamed *groups = jox_alloc(r->info.group_count + 1, sizeof *groups);
+    for (uint32_t g = 0; g < r->info.group_count; g++) {
+        const JoxColour given = r->info.group_colours ? r->info.group_colours[g] : 0;
+        groups[g] = (JoxLiveNamed){r->info.groups[g], given, JOX_NO_INDEX};
+    }
+    jox_live_add_named("groups", groups, r->info.group_count, json);
+    jox_free(groups);
+    jox_live_add_named("states", n->states, n->state_count, json);
     jox_json_array(json, "machines");
     for (uint32_t m = 0; m < n->machine_count; m++)
         add_machine(json, n, m);

@@ -12,10 +12,7 @@
    more in the file. */
 typedef struct JoxReplayNames {
     const char **machines;
-    struct {
-        uint32_t machine;
-        const char *name;
-    } * states;
+    JoxLiveNamed *states;
     uint32_t *state_of; /* by row of the reader's states */
     uint32_t machine_count, state_count;
 } JoxReplayNames;

@@ -55,7 +55,7 @@ bool jox_scene_page_load(JoxScenePage *s, JoError *error) {
     s->steps = 0;
     s->until = s->def->seconds > 0.0 ? s->def->seconds : jo_scene_duration(next);
     s->began = 0.0;
-    s->inspector = 0;
+    memset(s->inspectors, 0, sizeof s->inspectors);
     s->push_count = 0;
     jox_live_page_begin(&s->page);
     return !s->failed;

@@ -116,12 +116,6 @@ static void pack_field(void *self, JoxLiveField field, JoxBytes *out) {
     jox_live_field(s->scene, field, out);
 }
 
-static void client_left(void *self, uint32_t client) {
-    JoxScenePage *s = self;
-    if (s->inspector == client)
-        s->inspector = 0;
-}
-
 const JoxLiveSource jox_scene_page_source = {
     .colour = first_colour,
     .field = first_field,
@@ -133,7 +127,7 @@ const JoxLiveSource jox_scene_page_source = {
     .pack_field = pack_field,
     .greet = jox_scene_page_send_errors,
     .report = jox_scene_page_send_inspected,
-    .left = client_left,
+    .left = jox_scene_page_left,
     .advance = advance,
     .verbs = {[JOX_LIVE_VERB_pause] = jox_scene_page_pause,
               [JOX_LIVE_VERB_step] = jox_scene_page_step,

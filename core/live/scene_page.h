@@ -12,6 +12,12 @@ typedef struct JoxLiveFileErrors {
     JoxDiagnostics errors;
 } JoxLiveFileErrors;
 
+/* A page that inspects an agent. */
+typedef struct JoxLiveInspector {
+    uint32_t client; /* 0: this row is free */
+    uint32_t slot, id;
+} JoxLiveInspector;
+
 /* The push that an agent has been given by hand before the step that comes. */
 typedef struct JoxHandPush {
     uint64_t tick;
@@ -33,9 +39,8 @@ typedef struct JoxScenePage {
     bool seen;      /* time no longer waits for the first page */
     bool failed;    /* the run cannot go on, for this reason: */
     char failure[1024];
-    bool reported;      /* errors that pages were sent as data are being printed */
-    uint32_t inspector; /* the client who inspects an agent; 0: nobody */
-    uint32_t inspected; /* the slot of that agent */
+    bool reported; /* errors that pages were sent as data are being printed */
+    JoxLiveInspector inspectors[JOX_VIEW_CLIENTS];
     JoxHandPush pushes[JOX_HAND_PUSHES];
     uint32_t push_count; /* ever; they are kept in a ring */
     JoxLiveFileErrors *errors;
@@ -54,14 +59,16 @@ void jox_scene_page_diagnosed(void *scene, const bool *parts, const JoxDiagnosti
 /* Sends a client, or all, what is wrong with files. */
 void jox_scene_page_send_errors(void *scene, uint32_t client);
 void jox_scene_page_forget_errors(JoxScenePage *scene);
-/* scene_verbs.c: what people do, by verb; and the agent that a page inspects, told with each
-   status. */
+/* scene_verbs.c: what people do, by verb. */
 void jox_scene_page_pause(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_step(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_restart(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_input(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_lua(void *scene, const JoxLiveRequest *request);
+/* scene_inspectors.c: each page inspects an agent of its own, and is told of it with each status.
+ */
 void jox_scene_page_inspect(void *scene, const JoxLiveRequest *request);
 void jox_scene_page_send_inspected(void *scene);
+void jox_scene_page_left(void *scene, uint32_t client);
 
 #endif

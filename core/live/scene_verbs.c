@@ -57,42 +57,6 @@ void jox_scene_page_restart(void *self, const JoxLiveRequest *request) {
     }
 }
 
-void jox_scene_page_send_inspected(void *self) {
-    JoxScenePage *s = self;
-    if (!s->inspector)
-        return;
-    s->page.text.length = 0;
-    JoxJson json = jox_json_begin(&s->page.text, 0);
-    jox_json_object(&json, NULL);
-    jox_json_string(&json, "type", "inspect");
-    const bool there = jox_live_inspect(s->scene, s->inspected, &json);
-    jox_json_end(&json);
-    jox_view_send(s->page.server, s->inspector, s->page.text.data);
-    if (!there)
-        s->inspector = 0;
-}
-
-/* One page at a time: what an agent met is kept of one alone. */
-void jox_scene_page_inspect(void *self, const JoxLiveRequest *request) {
-    static const char NOBODY[] = "{\"type\": \"inspect\", \"agent\": null}";
-    JoxScenePage *s = self;
-    double slot = jox_command_number(request->command, "slot", -1.0);
-    uint32_t me = request->client, other = s->inspector != me ? s->inspector : 0;
-    if (!(slot >= 0.0)) {
-        s->inspector = other;
-        jox_view_send(s->page.server, me, NOBODY);
-        return;
-    }
-    if (other) {
-        jox_view_send(s->page.server, other, NOBODY);
-        jox_live_say(&s->page, other, "info", "another page inspects somebody now");
-    }
-    JOX_ASSERT(me != JOX_VIEW_ALL);
-    s->inspector = me;
-    s->inspected = slot < 4294967295.0 ? (uint32_t)slot : UINT32_MAX;
-    jox_scene_page_send_inspected(s);
-}
-
 /* The tool that the first word of a line needs, or -1: it is no verb that people have. */
 static int find_tool(const char *line) {
     line += strspn(line, " \t");

@@ -102,6 +102,26 @@ static void read_flags(JoxBuild *b, int index, const char *path, JoxState *state
     lua_pop(L, 1);
 }
 
+static void read_colour(JoxBuild *b, int index, const char *path, JoxState *state) {
+    lua_State *L = b->script->vm.L;
+    char full[256];
+    const int type = jox_read_field(L, index, "colour");
+    const char *text = type == LUA_TSTRING ? lua_tostring(L, -1) : "";
+    jox_read_join(full, path, "colour");
+    if (type != LUA_TNIL && !jox_colour_read(text, &state->colour)) {
+        JoxText hint = {0};
+        jox_colour_hint(text, &hint);
+        if (type == LUA_TSTRING)
+            jox_build_error(b, jox_read_at(b, full), "bad-value", hint.data, "'%.40s' is no colour",
+                            text);
+        else
+            jox_build_error(b, jox_read_at(b, full), "bad-value", hint.data,
+                            "colour must be a text, not %s", lua_typename(L, type));
+        jox_text_free(&hint);
+    }
+    lua_pop(L, 1);
+}
+
 void jox_read_id(lua_State *L, int index, int nth, char id[128]) {
     if (jox_read_field(L, index, "id") != LUA_TSTRING) {
         lua_pop(L, 1);
@@ -228,6 +248,7 @@ void jox_read_state(JoxBuild *b, int index, JoxState *state, int32_t number) {
     read_steer(b, index, path, state);
     read_lasts(b, index, path, state);
     read_flags(b, index, path, state);
+    read_colour(b, index, path, state);
     jox_read_body_actions(b, index, path, state);
     jox_read_actions(b, index, path, &state->enters, &state->signal_every);
     jox_read_counts(b, index, path, number);

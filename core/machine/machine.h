@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "agents/parameters.h"
+#include "base/format/colour.h"
 #include "base/number/distribution.h"
 
 enum { JOX_MOST_TRANSITIONS = 32, JOX_MOST_REGISTERS = 32, JOX_MOST_TERMS = 8 };
@@ -196,6 +197,7 @@ typedef struct JoxTransition {
 
 typedef struct JoxState {
     char *name;
+    JoxColour colour;          /* of who is in it, in pictures */
     uint32_t name_number;      /* of the names that machines share; set when it is added to a set */
     uint32_t first_transition; /* number of its first among all transitions; likewise */
     JoxValue param[JOX_PARAM_COUNT]; /* UNSET: inherits the machine's default, then the engine's */

@@ -71,6 +71,10 @@ uint32_t jox_orca_objects(const JoxNav *nav, const JoxAgents *a, uint32_t i,
                           const JoxObjects *objects, const JoxContactPlanes *touched,
                           float planning_time, JoxHalfPlane *out, uint32_t most);
 
+/* perceive.c: how far anybody sees at most, m: less than half a period, so that nobody is seen from
+   two sides; INFINITY without. */
+float jox_nav_sight(const JoxAgents *agents);
+
 /* Share of the wanted speed by which ties go to the right. */
 #define JOX_RIGHT_SHARE 0.25f
 

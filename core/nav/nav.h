@@ -73,6 +73,19 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
                              const JoxNeighbours *neighbours, const JoxObjects *objects,
                              const JoxContactPlanes *touched, double planning_time, uint32_t agent,
                              JoxConstraint out[JOX_MOST_CONSTRAINTS]);
+/* What an agent would choose as everything stands between two steps. */
+typedef struct JoxPlan {
+    JoxConstraint planes[JOX_MOST_CONSTRAINTS]; /* in the order of solving */
+    uint32_t count;
+    JoxV2 chosen; /* m/s */
+    bool failed;  /* no velocity meets all of them */
+} JoxPlan;
+/* Looks for the agent's neighbours anew, and solves for it alone, from what it prefers; what it
+   touches and is pressed by are those of the last step, after which this may be called until the
+   next one. Changes nothing. */
+void jox_nav_plan(const JoxNav *nav, const JoxAgents *agents, const JoxObjects *objects,
+                  const JoxContactPlanes *touched, double planning_time, uint32_t agent,
+                  JoxPlan *out);
 /* move: velocity = forced + (next - forced) * response, the position goes by the mean of that
    approach over the step, forced + (next - forced) * on_the_way, weak projection of overlaps (of
    what is touched, where `touched` has it, else of neighbours), never through a wall; prev_x,

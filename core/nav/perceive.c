@@ -26,15 +26,14 @@ static void reserve_neighbours(JoxNeighbours *out, const JoxAgents *a) {
     jox_neighbours_reserve(out, a->count, stride);
 }
 
-/* Less than half a period, so that nobody is seen from two sides; INFINITY without. */
-static float sight(const JoxAgents *a) {
+float jox_nav_sight(const JoxAgents *a) {
     float most = a->period.x > 0.0f ? 0.49f * a->period.x : INFINITY;
     return a->period.y > 0.0f ? jox_minf(most, 0.49f * a->period.y) : most;
 }
 
 void jox_nav_perceive(JoxNav *nav, JoxAgents *agents, JoxNeighbours *out, JoxPool *pool) {
     reserve_neighbours(out, agents);
-    JoxPerceive perceive = {nav, agents, out, sight(agents)};
+    JoxPerceive perceive = {nav, agents, out, jox_nav_sight(agents)};
     jox_parallel_for(pool, agents->count, JOX_NAV_GRAIN, perceive_range, &perceive);
     JOX_CHECK(jox_neighbours_check(out, agents));
 }

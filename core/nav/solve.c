@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/assert.h"
+#include "base/mem.h"
 #include "nav/kernels.h"
 
 #define X(name, isa) [isa] = jox_solve_packets_##name,
@@ -12,6 +13,22 @@ static JoxSolveKernel *const KERNELS[JOX_ISA_ROOM] = {JOX_ISAS(X)};
 
 static const JoxContactPlanes *in_force(const JoxContactPlanes *touched) {
     return touched && touched->agents ? touched : NULL;
+}
+
+/* Half-planes by their kinds. */
+static uint32_t sort_out(const JoxHalfPlane *half_planes, const JoxHalfPlaneCounts *made,
+                         JoxConstraint out[JOX_MOST_CONSTRAINTS]) {
+    const uint32_t hard = made->walls + made->contacts;
+    const uint32_t ends[] = {made->walls, hard, hard + made->agents,
+                             hard + made->agents + made->objects, UINT32_MAX};
+    uint32_t count = ends[3] + made->force, kind = 0;
+    for (uint32_t p = 0; p < count; p++) {
+        while (p >= ends[kind])
+            kind++;
+        out[p] =
+            (JoxConstraint){(JoxConstraintKind)kind, half_planes[p].normal, half_planes[p].offset};
+    }
+    return count;
 }
 
 uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
@@ -25,18 +42,8 @@ uint32_t jox_nav_constraints(const JoxNav *nav, const JoxAgents *agents,
     const JoxSolve solve = {(JoxNav *)nav,     (JoxAgents *)agents,  neighbours, objects,
                             in_force(touched), (float)planning_time, true};
     JoxHalfPlane half_planes[JOX_MOST_CONSTRAINTS];
-    JoxHalfPlaneCounts made = jox_solve_half_planes(&solve, agent, half_planes);
-    const uint32_t hard = made.walls + made.contacts;
-    const uint32_t ends[] = {made.walls, hard, hard + made.agents,
-                             hard + made.agents + made.objects, UINT32_MAX};
-    uint32_t count = ends[3] + made.force, kind = 0;
-    for (uint32_t p = 0; p < count; p++) {
-        while (p >= ends[kind])
-            kind++;
-        out[p] =
-            (JoxConstraint){(JoxConstraintKind)kind, half_planes[p].normal, half_planes[p].offset};
-    }
-    return count;
+    const JoxHalfPlaneCounts made = jox_solve_half_planes(&solve, agent, half_planes);
+    return sort_out(half_planes, &made, out);
 }
 
 static void solve_range(void *context, uint32_t begin, uint32_t end, uint32_t worker) {
@@ -80,4 +87,107 @@ uint32_t jox_nav_solve(JoxNav *nav, JoxAgents *agents, const JoxNeighbours *neig
     for (uint32_t chunk = 0; chunk * JOX_NAV_GRAIN < agents->count; chunk++)
         relaxed += nav->chunk_relaxed[chunk];
     return relaxed;
+}
+
+/* ---- one agent, between two steps ---- */
+
+/* As perceive does: the nearest within the agent's perception, nearest first, ties by id. */
+static void find_neighbours(const JoxAgents *a, uint32_t i, JoxNeighbours *out) {
+    const uint32_t most = (uint32_t)a->param[JOX_PARAM_neighbours][i];
+    const float reach = jox_minf(a->param[JOX_PARAM_perception][i], jox_nav_sight(a));
+    jox_neighbours_reserve(out, i + 1, most > 0 ? most : 1);
+    out->count[i] = 0;
+    for (uint32_t j = 0; j < a->count; j++) {
+        const float d2 = jox_length2(jox_offset(a, i, j));
+        out->widest = jox_maxf(out->widest, a->param[JOX_PARAM_radius][j]);
+        uint32_t k = out->count[i];
+        if (j == i || most == 0 || !(d2 < reach * reach))
+            continue;
+        for (; k > 0; k--) {
+            const size_t before = jox_neighbour_at(out, i, k - 1), at = jox_neighbour_at(out, i, k);
+            const float other = out->distance2[before];
+            if (other < d2 || (other == d2 && a->id[out->index[before]] < a->id[j]))
+                break;
+            if (k == most)
+                continue;
+            out->index[at] = out->index[before];
+            out->distance2[at] = other;
+        }
+        if (k == most)
+            continue;
+        out->index[jox_neighbour_at(out, i, k)] = j;
+        out->distance2[jox_neighbour_at(out, i, k)] = d2;
+        out->count[i] += out->count[i] < most;
+    }
+}
+
+/* The planes of what one agent touches, under the indices that people have now. */
+typedef struct Touched {
+    JoxContactPlanes all;
+    JoxContactPlane planes[JOX_MOST_CONTACTS];
+} Touched;
+
+static void find_touched(const JoxAgents *a, uint32_t i, const JoxNeighbours *n,
+                         const JoxContactPlanes *in_step, Touched *out) {
+    const uint32_t was = a->index_in_step[i];
+    *out = (Touched){.all = {.planes = out->planes, .agents = i + 1}};
+    JOX_RESERVE_ZEROED(out->all.starts, out->all.starts_capacity, i + 1);
+    JOX_RESERVE_ZEROED(out->all.people, out->all.people_capacity, i + 1);
+    JOX_RESERVE_ZEROED(out->all.bodies, out->all.bodies_capacity, i + 1);
+    if (was >= in_step->agents)
+        return;
+    out->all.people[i] = in_step->people[was];
+    out->all.bodies[i] = in_step->bodies[was];
+    for (uint32_t k = 0; k < (uint32_t)in_step->people[was] + in_step->bodies[was]; k++) {
+        out->planes[k] = in_step->planes[in_step->starts[was] + k];
+        const uint32_t other = out->planes[k].other;
+        if (k >= in_step->people[was])
+            continue;
+        out->planes[k].other = UINT32_MAX; /* unless they are still there */
+        for (uint32_t m = 0; m < n->count[i]; m++) {
+            const uint32_t j = n->index[jox_neighbour_at(n, i, m)];
+            if (a->index_in_step[j] == other)
+                out->planes[k].other = j;
+        }
+    }
+}
+
+/* Solves for one agent, whose columns stay as they are. */
+static void solve_alone(const JoxSolve *s, uint32_t i, JoxPlan *out) {
+    JoxAgents *a = s->agents;
+    const float x = a->next_x[i], y = a->next_y[i];
+    const uint8_t failed = a->failed[i];
+    const bool walks = jox_solve_walks(s, i);
+    JoxHalfPlane half_planes[JOX_MOST_CONSTRAINTS];
+    const JoxHalfPlaneCounts made = jox_solve_half_planes(s, i, half_planes);
+    out->count = sort_out(half_planes, &made, out->planes);
+    a->failed[i] = 0;
+    jox_solve_one(s, i, &made, half_planes,
+                  walks ? jox_v2(a->walk_x[i], a->walk_y[i]) : jox_v2(a->pref_x[i], a->pref_y[i]));
+    out->chosen = jox_v2(a->next_x[i], a->next_y[i]);
+    out->failed = a->failed[i];
+    a->next_x[i] = x;
+    a->next_y[i] = y;
+    a->failed[i] = failed;
+}
+
+void jox_nav_plan(const JoxNav *nav, const JoxAgents *agents, const JoxObjects *objects,
+                  const JoxContactPlanes *touched, double planning_time, uint32_t agent,
+                  JoxPlan *out) {
+    JoxNeighbours neighbours = {0};
+    Touched *own = in_force(touched) ? jox_alloc(1, sizeof *own) : NULL;
+    JOX_ASSERT(agent < agents->count);
+    find_neighbours(agents, agent, &neighbours);
+    if (own)
+        find_touched(agents, agent, &neighbours, touched, own);
+    const JoxSolve solve = {(JoxNav *)nav,          (JoxAgents *)agents,  &neighbours, objects,
+                            own ? &own->all : NULL, (float)planning_time, true};
+    solve_alone(&solve, agent, out);
+    jox_neighbours_free(&neighbours);
+    if (own) {
+        jox_free(own->all.starts);
+        jox_free(own->all.people);
+        jox_free(own->all.bodies);
+        jox_free(own);
+    }
 }

@@ -184,7 +184,10 @@ static void draw_trails(JoxDrawing *d) {
         const JoxTrail *trail = &p->trails[t];
         JoxStyle style = {.line = jox_ink_path, .width = 1.2f * u};
         if (p->colour == JOX_SHOW_GROUP && !trail->body)
-            style.line = jox_ink_with(jox_palette_class(trail->group), 0.7f);
+            style.line =
+                jox_ink_with(d->inks[trail->group < p->frame->group_count ? trail->group
+                                                                          : p->frame->group_count],
+                             0.7f);
         if (trail->body)
             style = (JoxStyle){.line = jox_ink_body_line, .width = 1.2f * u, .dash = 4 * u};
         jox_canvas_open(d->canvas, NULL, trail->body ? "body" : "person", style);
@@ -318,6 +321,7 @@ void jox_draw(JoxCanvas *canvas, const JoxPicture *picture) {
     d->picture = picture;
     jox_canvas_begin(canvas, picture->title);
     lay_out(d);
+    jox_draw_classes(d);
     draw_head(d);
     draw_frame(d, "floor", (JoxStyle){.fill = FLOOR});
     jox_canvas_clip(canvas, d->low, d->high);
@@ -333,5 +337,6 @@ void jox_draw(JoxCanvas *canvas, const JoxPicture *picture) {
     draw_frame(d, "frame", (JoxStyle){.line = jox_ink_with(jox_ink_faint, 0.5f), .width = d->unit});
     jox_draw_legend(d);
     jox_free(d->people);
+    jox_free(d->inks);
     jox_free(d);
 }

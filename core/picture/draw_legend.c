@@ -89,7 +89,7 @@ static void classes(Legend *l) {
     for (uint32_t k = 0; k < d->classes; k++) {
         const char *name;
         char count[32];
-        JoxInk ink = jox_draw_class(p, k, &name);
+        JoxInk ink = jox_draw_class(d, k, &name);
         bool none = k == (p->colour == JOX_SHOW_STATE ? 0 : p->frame->group_count);
         if (d->people[k] == 0 && (!all || none))
             continue;

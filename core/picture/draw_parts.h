@@ -13,6 +13,7 @@ typedef struct JoxDrawing {
     float scale;      /* px/m */
     JoxV2 low, high;  /* px: of the map, upper left and lower right */
     float panel;      /* px: where the legend begins */
+    JoxInk *inks;     /* by class; NULL where people are not coloured by classes */
     uint32_t *people; /* by class, or bin of the value */
     uint32_t classes;
     struct {
@@ -38,7 +39,9 @@ float jox_draw_width(const char *text, float size, bool bold);
 /* Copies text, cut with an ellipsis where it would be wider than so many px. */
 void jox_draw_fit(char *out, size_t capacity, const char *text, float size, bool bold, float wide);
 /* Colour and name of the n-th class. */
-JoxInk jox_draw_class(const JoxPicture *picture, uint32_t n, const char **name);
+JoxInk jox_draw_class(const JoxDrawing *drawing, uint32_t n, const char **name);
+/* Sets `classes` and `inks`. */
+void jox_draw_classes(JoxDrawing *drawing);
 bool jox_draw_is_class(JoxShow show);
 /* Colour of the n-th of JOX_DRAW_BINS steps on the floor: greys where people's colours are of a
    value as well. */

@@ -22,17 +22,16 @@ JoxInk jox_draw_floor_ink(const JoxPicture *p, uint32_t n) {
                : (JoxInk){grey, grey, grey, 1.0f};
 }
 
-JoxInk jox_draw_class(const JoxPicture *p, uint32_t n, const char **name) {
+JoxInk jox_draw_class(const JoxDrawing *d, uint32_t n, const char **name) {
+    const JoxPicture *p = d->picture;
     const JoxFrame *frame = p->frame;
     if (p->colour == JOX_SHOW_GROUP && n >= frame->group_count)
         *name = ""; /* of a recording that does not name it */
     else
         *name = p->colour == JOX_SHOW_STATE ? frame->states[n] : frame->groups[n];
-    if (**name)
-        /* States begin with that of those without a machine, who are grey. */
-        return jox_palette_class(p->colour == JOX_SHOW_STATE ? n - 1 : n);
-    *name = "none";
-    return (JoxInk){0x77, 0x77, 0x77, 1};
+    if (!**name)
+        *name = "none";
+    return d->inks[n];
 }
 
 /* Share of the bar's length, 0 to 1, at which a person's value is. */
@@ -80,6 +79,28 @@ static uint32_t class_count(const JoxPicture *p) {
                                          : JOX_DRAW_BINS;
 }
 
+/* Who has no state, or no group that is named, is grey: states begin with those, groups end with
+   them. */
+void jox_draw_classes(JoxDrawing *d) {
+    static const JoxInk NONE = {0x77, 0x77, 0x77, 1.0f};
+    const JoxPicture *p = d->picture;
+    const JoxFrame *frame = p->frame;
+    d->classes = class_count(p);
+    if (!jox_draw_is_class(p->colour))
+        return;
+    d->inks = jox_alloc(d->classes + 1, sizeof *d->inks);
+    if (p->colour == JOX_SHOW_GROUP) {
+        jox_palette_classes(frame->group_colours, frame->group_count, d->inks);
+        d->inks[frame->group_count] = NONE;
+        return;
+    }
+    for (uint32_t s = 0; s < frame->state_count; s++)
+        d->inks[s] = NONE;
+    if (frame->state_count > 1)
+        jox_palette_classes(frame->state_colours ? frame->state_colours + 1 : NULL,
+                            frame->state_count - 1, d->inks + 1);
+}
+
 static float radius_of(const JoxDrawing *d, uint32_t i) {
     const JoxPicture *p = d->picture;
     float radius = p->frame->radius ? p->frame->radius[i] : p->radius;
@@ -90,7 +111,6 @@ static float radius_of(const JoxDrawing *d, uint32_t i) {
 static uint32_t *sort(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     uint32_t count = p->frame->count;
-    d->classes = class_count(p);
     d->people = jox_alloc(d->classes + 1, sizeof *d->people);
     uint32_t *order = jox_alloc(count + 1, sizeof *order);
     uint32_t *next = jox_alloc(d->classes + 1, sizeof *next);
@@ -117,7 +137,7 @@ static JoxStyle style_of(const JoxDrawing *d, uint32_t k, float radius, char kin
         style.width = small ? 0.4f * d->unit : 0.8f * d->unit;
         snprintf(kind, 96, "person");
     } else if (jox_draw_is_class(p->colour)) {
-        style.fill = jox_draw_class(p, k, &name);
+        style.fill = jox_draw_class(d, k, &name);
         snprintf(kind, 96, "%s-%.80s", jox_shown[p->colour].name, name);
         for (char *c = kind; (c = strchr(c, ' ')) != NULL;) /* else it were two classes */
             *c = '-';

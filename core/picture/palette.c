@@ -2,13 +2,12 @@
 
 #include "base/vec.h"
 
-/* Without black, which walls and writing have; yellow, the palest, comes last. */
 static const JoxInk CLASSES[] = {
-    {0x00, 0x72, 0xb2, 1.0f}, {0xe6, 0x9f, 0x00, 1.0f}, {0x00, 0x9e, 0x73, 1.0f},
-    {0xd5, 0x5e, 0x00, 1.0f}, {0x56, 0xb4, 0xe9, 1.0f}, {0xcc, 0x79, 0xa7, 1.0f},
-    {0xf0, 0xe4, 0x42, 1.0f},
+#define X(name, rgb) {(rgb) >> 16 & 255, (rgb) >> 8 & 255, (rgb)&255, 1.0f},
+    JOX_CLASS_COLOURS(X)
+#undef X
 };
-enum { CLASS_COUNT = sizeof CLASSES / sizeof *CLASSES, ANCHORS = 9 };
+enum { CLASS_COUNT = sizeof CLASSES / sizeof *CLASSES, SHADES = 3, ANCHORS = 9 };
 
 /* From pale yellow for nothing to dark purple for the most: lightness falls throughout, so that the
    ramp can be read in grey and where it is printed. The live page has the same (palette.js). */
@@ -30,13 +29,43 @@ static JoxInk towards(JoxInk ink, float white, float share) {
 
 JoxInk jox_palette_class(uint32_t n) {
     JoxInk ink = CLASSES[n % CLASS_COUNT];
-    switch (n / CLASS_COUNT % 3) {
+    switch (n / CLASS_COUNT % SHADES) {
     case 1:
         return towards(ink, 1.0f, 0.45f);
     case 2:
         return towards(ink, 0.0f, 0.45f);
     default:
         return ink;
+    }
+}
+
+JoxColour jox_palette_colour(JoxInk ink) {
+    return (JoxColour)(JOX_COLOUR_GIVEN | ink.r << 16 | ink.g << 8 | ink.b);
+}
+
+/* The next class, from `n` on, whose colour is none of those given; `n` itself where all are. */
+static uint32_t next_free(const JoxColour *given, uint32_t count, uint32_t n) {
+    for (uint32_t k = n; k < n + SHADES * CLASS_COUNT; k++) {
+        const JoxColour colour = jox_palette_colour(jox_palette_class(k));
+        uint32_t g = 0;
+        while (given && g < count && given[g] != colour)
+            g++;
+        if (!given || g == count)
+            return k;
+    }
+    return n;
+}
+
+void jox_palette_classes(const JoxColour *given, uint32_t count, JoxInk *out) {
+    uint32_t n = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        const JoxColour colour = given ? given[k] : 0;
+        if (colour) {
+            out[k] = (JoxInk){colour >> 16 & 255, colour >> 8 & 255, colour & 255, 1.0f};
+            continue;
+        }
+        n = next_free(given, count, n);
+        out[k] = jox_palette_class(n++);
     }
 }
 

@@ -2,7 +2,7 @@
 #ifndef JOX_PICTURE_PALETTE_H
 #define JOX_PICTURE_PALETTE_H
 
-#include <stdint.h>
+#include "base/format/colour.h"
 
 /* sRGB; a: opacity, 0 draws nothing. */
 typedef struct JoxInk {
@@ -10,10 +10,13 @@ typedef struct JoxInk {
     float a;
 } JoxInk;
 
-/* The n-th of classes that are told apart, as states or groups: the colours of M. Okabe and K. Ito,
-   "Color Universal Design" (2008), which people with any colour vision tell apart; behind the first
-   seven come lighter and darker ones of them. */
+/* The n-th of classes that are told apart, as states or groups: those of JOX_CLASS_COLOURS; behind
+   the first seven come lighter and darker ones of them. */
 JoxInk jox_palette_class(uint32_t n);
+/* Colours of so many classes: those that were given (NULL: none), and for the others, in their
+   order, those of the classes that nobody was given. */
+void jox_palette_classes(const JoxColour *given, uint32_t count, JoxInk *out);
+JoxColour jox_palette_colour(JoxInk ink);
 /* A value, 0 to 1: pale yellow to dark purple; lightness falls throughout, in grey too. */
 JoxInk jox_palette_value(float share);
 

@@ -92,32 +92,34 @@ static void add_series(JoxText *plot, uint32_t set, const char *colour, const ch
 
 /* Groups have the colours that they have in pictures and on the live page. */
 static void write_all(FILE *data, JoxText *plot, const JoxPaths *paths, const char *const *names,
-                      uint32_t name_count) {
+                      const JoxColour *colours, uint32_t name_count) {
     uint32_t set = 0;
+    JoxInk *inks = jox_alloc(name_count + 1, sizeof *inks);
+    jox_palette_classes(colours, name_count, inks);
     fputs("# id,t_s,x_m,y_m\n", data);
     for (uint32_t s = 0; s <= name_count; s++) { /* the last one: bodies */
         bool body = s == name_count;
-        JoxInk ink = jox_palette_class(s);
         char colour[8];
         if (!has_series(paths, body ? 0 : s, body))
             continue;
         for (int what = 0; what < 3; what++)
             write_series(data, paths, body ? 0 : s, body, what);
-        snprintf(colour, sizeof colour, "#%02x%02x%02x", ink.r, ink.g, ink.b);
+        jox_colour_write(jox_palette_colour(inks[s]), colour);
         add_series(plot, set, body ? "#606060" : colour, body ? "1.2 dt 2" : "1.6",
                    body ? "bodies" : names[s]);
         set += 3;
     }
+    jox_free(inks);
 }
 
 bool jox_plot_paths(const char *folder, const JoxPaths *paths, const char *const *names,
-                    uint32_t name_count, const JoxWalls *walls, JoxV2 low, JoxV2 high,
-                    const char *title, JoxText *error) {
+                    const JoxColour *colours, uint32_t name_count, const JoxWalls *walls, JoxV2 low,
+                    JoxV2 high, const char *title, JoxText *error) {
     FILE *data = jox_plot_open(folder, "paths.csv", error), *script;
     JoxText plot = {0};
     if (!data)
         return false;
-    write_all(data, &plot, paths, names, name_count);
+    write_all(data, &plot, paths, names, colours, name_count);
     bool written = jox_plot_close(data, "paths.csv", error) && jox_plot_walls(folder, walls, error);
     script = written ? jox_plot_open(folder, "paths.plt", error) : NULL;
     if (script) {

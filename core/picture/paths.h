@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/format/colour.h"
 #include "base/sections.h"
 #include "base/text.h"
 #include "geom/walls.h"
@@ -35,10 +36,11 @@ void jox_paths_add(JoxPaths *paths, uint32_t id, bool body, uint32_t series, flo
                    float y);
 void jox_paths_sections(JoxPaths *paths, JoxSections *sections);
 /* paths.png: a line for each, a dot where it began, a circle where it ended. `names` of the series
-   of agents, which come first. False with a sentence in `error`. */
+   of agents, which come first, and the colours that these were given (NULL: none). False with a
+   sentence in `error`. */
 bool jox_plot_paths(const char *folder, const JoxPaths *paths, const char *const *names,
-                    uint32_t name_count, const JoxWalls *walls, JoxV2 low, JoxV2 high,
-                    const char *title, JoxText *error);
+                    const JoxColour *colours, uint32_t name_count, const JoxWalls *walls, JoxV2 low,
+                    JoxV2 high, const char *title, JoxText *error);
 void jox_paths_free(JoxPaths *paths);
 
 #endif

@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "base/format/colour.h"
 #include "base/vec.h"
 #include "geom/objects.h"
 #include "geom/walls.h"
@@ -26,14 +27,16 @@ typedef struct JoxFrame {
     const uint16_t *group;     /* index of the scene's group */
     const char *const *groups; /* their names */
     uint32_t group_count;
-    const uint32_t *state;     /* row of the person's state in `states` */
-    const char *const *states; /* their names, of all machines */
+    const JoxColour *group_colours; /* that they were given; NULL: none was */
+    const uint32_t *state;          /* row of the person's state in `states` */
+    const char *const *states;      /* their names, of all machines */
     uint32_t state_count;
-    const int32_t *kicked;         /* body that the person kicked or threw in this step, or -1 */
-    const int32_t *struck;         /* fast body that hit the person in this step, or -1 */
-    const JoxObjects *objects;     /* bodies as people saw them when this step began */
-    const JoxWalls *walls;         /* as they stand now */
-    const JoxWallLoad *wall_loads; /* by piece; NULL where they are not known */
+    const JoxColour *state_colours; /* that they were given; NULL: none was */
+    const int32_t *kicked;          /* body that the person kicked or threw in this step, or -1 */
+    const int32_t *struck;          /* fast body that hit the person in this step, or -1 */
+    const JoxObjects *objects;      /* bodies as people saw them when this step began */
+    const JoxWalls *walls;          /* as they stand now */
+    const JoxWallLoad *wall_loads;  /* by piece; NULL where they are not known */
     uint32_t wall_load_count;
 } JoxFrame;
 

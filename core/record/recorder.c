@@ -194,8 +194,8 @@ static const char SCHEMA[] =
     "CREATE TABLE metadata(key TEXT NOT NULL UNIQUE PRIMARY KEY, value TEXT NOT NULL);"
     "CREATE TABLE geometry(hash INTEGER NOT NULL UNIQUE, wkt TEXT NOT NULL);"
     "CREATE TABLE frame_data(frame INTEGER NOT NULL, geometry_hash INTEGER NOT NULL);"
-    "CREATE TABLE jostle_group(number INTEGER PRIMARY KEY, name TEXT);"
-    "CREATE TABLE jostle_state(number INTEGER PRIMARY KEY, machine TEXT, state TEXT);"
+    "CREATE TABLE jostle_group(number INTEGER PRIMARY KEY, name TEXT, colour TEXT);"
+    "CREATE TABLE jostle_state(number INTEGER PRIMARY KEY, machine TEXT, state TEXT, colour TEXT);"
     "CREATE TABLE jostle_body(frame INTEGER, id INTEGER, x REAL, y REAL, z REAL, qx REAL, qy REAL,"
     " qz REAL, qw REAL);"
     "CREATE TABLE jostle_part(frame INTEGER, id INTEGER, part INTEGER, kind INTEGER, size_x REAL,"
@@ -337,27 +337,34 @@ static void wait_for_writer(JoxRecorder *r) {
     pthread_mutex_unlock(&r->lock);
 }
 
-/* A number with one name or two. */
+/* A number with one name or two (?4), and the colour that was given (?3). */
 static void put_names(JoxRecorder *r, const char *sql, uint32_t number, const char *first,
-                      const char *second) {
+                      const char *second, JoxColour colour) {
     sqlite3_stmt *statement;
+    char text[8];
+    jox_colour_write(colour, text);
     wait_for_writer(r);
     if (!prepare(r, &statement, sql))
         return;
     sqlite3_bind_int64(statement, 1, number);
     sqlite3_bind_text(statement, 2, first, -1, SQLITE_STATIC);
+    if (colour)
+        sqlite3_bind_text(statement, 3, text, -1, SQLITE_STATIC);
     if (second)
-        sqlite3_bind_text(statement, 3, second, -1, SQLITE_STATIC);
+        sqlite3_bind_text(statement, 4, second, -1, SQLITE_STATIC);
     put(r, statement);
     sqlite3_finalize(statement);
 }
 
-void jox_recorder_state(JoxRecorder *r, uint32_t number, const char *machine, const char *state) {
-    put_names(r, "INSERT OR REPLACE INTO jostle_state VALUES(?, ?, ?)", number, machine, state);
+void jox_recorder_state(JoxRecorder *r, uint32_t number, const char *machine, const char *state,
+                        JoxColour colour) {
+    put_names(r, "INSERT OR REPLACE INTO jostle_state VALUES(?1, ?2, ?4, ?3)", number, machine,
+              state, colour);
 }
 
-void jox_recorder_group(JoxRecorder *r, uint32_t number, const char *name) {
-    put_names(r, "INSERT OR REPLACE INTO jostle_group VALUES(?, ?)", number, name, NULL);
+void jox_recorder_group(JoxRecorder *r, uint32_t number, const char *name, JoxColour colour) {
+    put_names(r, "INSERT OR REPLACE INTO jostle_group VALUES(?1, ?2, ?3)", number, name, NULL,
+              colour);
 }
 
 void jox_recorder_walls(JoxRecorder *r, const JoxWalls *walls) {

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/format/colour.h"
 #include "base/text.h"
 #include "body/body.h"
 #include "geom/walls.h"
@@ -36,11 +37,11 @@ JoxRecorder *jox_recorder_open(const char *path, double fps, const char *wkt, Jo
 JoxRecorder *jox_recorder_go_on(const char *path, uint32_t last, JoxText *error);
 /* Has all frames given so far committed. False with a sentence in `error`. */
 bool jox_recorder_settle(JoxRecorder *recorder, JoxText *error);
-/* Names a state number; once per number, before frames that use it. */
+/* Names a state number; once per number, before frames that use it. `colour`: 0, or given to it. */
 void jox_recorder_state(JoxRecorder *recorder, uint32_t number, const char *machine,
-                        const char *state);
+                        const char *state, JoxColour colour);
 /* Names a group of agents; before the first frame. */
-void jox_recorder_group(JoxRecorder *recorder, uint32_t number, const char *name);
+void jox_recorder_group(JoxRecorder *recorder, uint32_t number, const char *name, JoxColour colour);
 /* Walls with their names and heights, which the walkable area cannot tell; before the first frame.
  */
 void jox_recorder_walls(JoxRecorder *recorder, const JoxWalls *walls);

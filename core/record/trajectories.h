@@ -27,9 +27,11 @@ typedef struct JoxTrajectories {
     float *force, *compression, *load; /* NULL unless recorded */
     uint16_t *group;                   /* NULL unless recorded */
     char **groups;                     /* names */
+    JoxColour *group_colours;          /* 0 where none was given */
     uint32_t group_count;
-    uint32_t *state; /* rows of `states`; NULL unless recorded */
-    char **states;   /* names; the first, "", is of who has no machine */
+    uint32_t *state;          /* rows of `states`; NULL unless recorded */
+    char **states;            /* names; the first, "", is of who has no machine */
+    JoxColour *state_colours; /* 0 where none was given */
     uint32_t state_count;
     float *face_x, *face_y; /* unit vectors along which people look; NULL unless recorded */
     int64_t *id;            /* as in the file; freed, with `line`, once it is read */
@@ -63,6 +65,9 @@ bool jox_trajectories_text(JoxTrajectories *t, const char *path, const char *tex
 /* trajectory_plan.c: walls and groups alone, of an open file. */
 struct sqlite3;
 void jox_trajectories_plan(JoxTrajectories *t, struct sqlite3 *db);
+/* The colour in a column of a row, 0 for none. */
+struct sqlite3_stmt;
+JoxColour jox_trajectory_colour(struct sqlite3_stmt *row, int column);
 /* Whether a file begins as SQLite files do. */
 bool jox_is_sqlite(const char *path);
 /* Room for one more row; its number, by which the columns are filled. */

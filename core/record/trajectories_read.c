@@ -20,6 +20,7 @@ static void name_states(JoxTrajectories *t, const JoxTrajectoryReader *r) {
     if (r->state_count == 0)
         return;
     t->states = jox_alloc(r->state_count + 1, sizeof *t->states);
+    t->state_colours = jox_alloc(r->state_count + 1, sizeof *t->state_colours);
     t->states[t->state_count++] = jox_strdup("");
     for (uint32_t s = 1; s < r->state_count; s++)
         several |= strcmp(r->states[s].machine, r->states[0].machine) != 0;
@@ -28,6 +29,7 @@ static void name_states(JoxTrajectories *t, const JoxTrajectoryReader *r) {
         if (several)
             jox_text_printf(&name, "%s: ", r->states[s].machine);
         jox_text_add(&name, r->states[s].name);
+        t->state_colours[t->state_count] = r->states[s].colour;
         t->states[t->state_count++] = name.data ? name.data : jox_strdup("");
     }
 }

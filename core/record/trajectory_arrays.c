@@ -40,18 +40,21 @@ bool jox_trajectories_frame(const JoxTrajectories *t, uint32_t f, JoxFrame *out)
                       .group = t->group ? t->group + first : NULL,
                       .groups = (const char *const *)t->groups,
                       .group_count = t->group_count,
+                      .group_colours = t->group_colours,
                       .state = t->state ? t->state + first : NULL,
                       .states = (const char *const *)t->states,
-                      .state_count = t->state_count};
+                      .state_count = t->state_count,
+                      .state_colours = t->state_colours};
     return true;
 }
 
 void jox_trajectories_free(JoxTrajectories *t) {
     if (!t)
         return;
-    void *columns[] = {t->number, t->id,    t->line,   t->key,         t->x,    t->y,
-                       t->vx,     t->vy,    t->force,  t->compression, t->load, t->group,
-                       t->first,  t->state, t->face_x, t->face_y};
+    void *columns[] = {
+        t->number, t->id,     t->line,          t->key,          t->x,     t->y,     t->vx,
+        t->vy,     t->force,  t->compression,   t->load,         t->group, t->first, t->state,
+        t->face_x, t->face_y, t->group_colours, t->state_colours};
     for (size_t c = 0; c < sizeof columns / sizeof *columns; c++)
         jox_free(columns[c]);
     for (uint32_t g = 0; g < t->group_count; g++)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/database.h"
+#include "base/format/colour.h"
 #include "base/mem.h"
 #include "record/trajectories.h"
 
@@ -50,12 +51,22 @@ static void read_geometry(JoxTrajectories *t, sqlite3 *db) {
     sqlite3_finalize(statement);
 }
 
+JoxColour jox_trajectory_colour(sqlite3_stmt *row, int column) {
+    const char *text = (const char *)sqlite3_column_text(row, column);
+    JoxColour colour = 0;
+    return text && jox_colour_read(text, &colour) ? colour : 0;
+}
+
 static void read_groups(JoxTrajectories *t, sqlite3 *db) {
-    sqlite3_stmt *statement = ask(db, "SELECT name FROM jostle_group ORDER BY number");
-    uint32_t capacity = 0;
+    sqlite3_stmt *statement = ask(db, "SELECT name, colour FROM jostle_group ORDER BY number");
+    size_t capacity = 0, colour_capacity = 0;
+    if (!statement) /* an older one */
+        statement = ask(db, "SELECT name, NULL FROM jostle_group ORDER BY number");
     while (statement && t->group_count < UINT16_MAX && sqlite3_step(statement) == SQLITE_ROW) {
         const char *name = (const char *)sqlite3_column_text(statement, 0);
         JOX_RESERVE(t->groups, capacity, t->group_count + 1);
+        JOX_RESERVE(t->group_colours, colour_capacity, t->group_count + 1);
+        t->group_colours[t->group_count] = jox_trajectory_colour(statement, 1);
         t->groups[t->group_count++] = jox_strdup(name ? name : "");
     }
     sqlite3_finalize(statement);

@@ -17,6 +17,7 @@ JoxTrajectoryReaderInfo jox_trajectory_reader_info(const JoxTrajectoryReader *r)
                                      .walls = &t->walls,
                                      .groups = (const char *const *)t->groups,
                                      .group_count = t->group_count,
+                                     .group_colours = t->group_colours,
                                      .states = r->states,
                                      .state_count = r->state_count,
                                      .whole = r->all != NULL,
@@ -288,6 +289,7 @@ void jox_trajectory_reader_close(JoxTrajectoryReader *r) {
     for (uint32_t g = 0; g < r->outlines.group_count; g++)
         jox_free(r->outlines.groups[g]);
     jox_free(r->outlines.groups);
+    jox_free(r->outlines.group_colours);
     jox_walls_free(&r->outlines.walls);
     for (uint32_t s = 0; s < r->state_count; s++) {
         jox_free(r->states[s].machine);

@@ -33,9 +33,11 @@ typedef struct JoxTrajectoryReaderInfo {
     const JoxWalls *walls;
     const char *const *groups;
     uint32_t group_count;
+    const JoxColour *group_colours;
     const struct JoxTrajectoryReaderState {
         char *machine, *name;
         int64_t number; /* in the file */
+        JoxColour colour;
     } * states;
     uint32_t state_count;
     bool whole; /* it was read into memory */

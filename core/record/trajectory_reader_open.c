@@ -110,15 +110,18 @@ static bool sort_rows(JoxTrajectoryReader *r) {
 
 static void read_states(JoxTrajectoryReader *r) {
     sqlite3_stmt *list =
-        prepare(r->db, "SELECT number, machine, state FROM jostle_state ORDER BY number");
+        prepare(r->db, "SELECT number, machine, state, colour FROM jostle_state ORDER BY number");
     size_t capacity = 0;
+    if (!list) /* an older one */
+        list = prepare(r->db, "SELECT number, machine, state, NULL FROM jostle_state "
+                              "ORDER BY number");
     while (list && r->state_count < UINT16_MAX && sqlite3_step(list) == SQLITE_ROW) {
         const char *machine = (const char *)sqlite3_column_text(list, 1);
         const char *name = (const char *)sqlite3_column_text(list, 2);
         JOX_RESERVE(r->states, capacity, r->state_count + 1);
         r->states[r->state_count++] = (struct JoxTrajectoryReaderState){
             jox_strdup(machine ? machine : ""), jox_strdup(name ? name : ""),
-            sqlite3_column_int64(list, 0)};
+            sqlite3_column_int64(list, 0), jox_trajectory_colour(list, 3)};
     }
     sqlite3_finalize(list);
 }

@@ -74,10 +74,13 @@ static bool sample_paths(void *self, JoScene *scene, JoError *error) {
 
 static bool draw_paths(const RunReport *r, const JoScene *scene, const char *title, JoxText *why) {
     const char *names[256];
+    JoxColour colours[256];
     uint32_t count = scene->spec->group_count < 256 ? scene->spec->group_count : 256;
     JoxV2 low, high;
-    for (uint32_t g = 0; g < count; g++)
+    for (uint32_t g = 0; g < count; g++) {
         names[g] = scene->spec->groups[g].name;
+        colours[g] = scene->spec->groups[g].colour;
+    }
     jox_run_area(scene, &low, &high);
     for (uint32_t p = 0; p < r->paths->count; p++) /* nobody's path is cut off */
         for (uint32_t i = 0; i < r->paths->items[p].count; i++) {
@@ -85,8 +88,8 @@ static bool draw_paths(const RunReport *r, const JoScene *scene, const char *tit
             low = (JoxV2){jox_minf(low.x, point->x - 1), jox_minf(low.y, point->y - 1)};
             high = (JoxV2){jox_maxf(high.x, point->x + 1), jox_maxf(high.y, point->y + 1)};
         }
-    return jox_plot_paths(r->folder, r->paths, names, count, &scene->world->model.all_walls, low,
-                          high, title, why);
+    return jox_plot_paths(r->folder, r->paths, names, colours, count,
+                          &scene->world->model.all_walls, low, high, title, why);
 }
 
 /* The files of probes and of danger; with a title, their pictures too. */

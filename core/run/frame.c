@@ -8,7 +8,9 @@ struct JoxRunFrame {
     float *vx, *vy, *force;
     size_t vx_capacity, vy_capacity, force_capacity;
     const char **names, **states;
-    size_t name_capacity, states_capacity, state_capacity;
+    JoxColour *group_colours, *state_colours;
+    size_t name_capacity, states_capacity, state_capacity, group_colour_capacity;
+    size_t state_colour_capacity;
     uint32_t *state, state_count;
     uint64_t made; /* the tick of the frame, plus 1 */
 };
@@ -23,10 +25,14 @@ static void list_states(JoxRunFrame *f, const JoWorld *world) {
     f->state_count = first[machines->set->count];
     JOX_RESERVE(f->states, f->states_capacity, f->state_count);
     JOX_RESERVE(f->state, f->state_capacity, a->count + 1);
+    JOX_RESERVE(f->state_colours, f->state_colour_capacity, f->state_count);
     f->states[0] = ""; /* of those without a machine */
+    f->state_colours[0] = 0;
     for (uint32_t k = 0; k < machines->set->count; k++)
-        for (uint32_t s = 0; s < machines->set->items[k]->state_count; s++)
+        for (uint32_t s = 0; s < machines->set->items[k]->state_count; s++) {
             f->states[first[k] + s] = machines->set->items[k]->states[s].name;
+            f->state_colours[first[k] + s] = machines->set->items[k]->states[s].colour;
+        }
     for (uint32_t i = 0; i < a->count; i++)
         f->state[i] = a->machine[i] == JOX_NO_MACHINE ? 0 : first[a->machine[i]] + a->state[i];
 }
@@ -44,8 +50,11 @@ const JoxFrame *jox_run_frame(JoScene *scene) {
     JOX_RESERVE(f->vy, f->vy_capacity, a->count + 1);
     JOX_RESERVE(f->force, f->force_capacity, a->count + 1);
     JOX_RESERVE(f->names, f->name_capacity, scene->spec->group_count + 1);
-    for (uint32_t g = 0; g < scene->spec->group_count; g++)
+    JOX_RESERVE(f->group_colours, f->group_colour_capacity, scene->spec->group_count + 1);
+    for (uint32_t g = 0; g < scene->spec->group_count; g++) {
         f->names[g] = scene->spec->groups[g].name;
+        f->group_colours[g] = scene->spec->groups[g].colour;
+    }
     float rate = (float)(1.0 / world->model.def.dt);
     for (uint32_t i = 0; i < a->count; i++) {
         f->vx[i] = (a->x[i] - a->prev_x[i]) * rate;
@@ -70,9 +79,11 @@ const JoxFrame *jox_run_frame(JoScene *scene) {
                           .group = a->group,
                           .groups = f->names,
                           .group_count = scene->spec->group_count,
+                          .group_colours = f->group_colours,
                           .state = f->state,
                           .states = f->states,
                           .state_count = f->state_count,
+                          .state_colours = f->state_colours,
                           .kicked = a->kicked,
                           .struck = a->struck,
                           .objects = &world->scratch.objects,
@@ -89,6 +100,8 @@ void jox_run_free_frame(JoScene *scene) {
     jox_free(f->vy);
     jox_free(f->force);
     jox_free(f->names);
+    jox_free(f->group_colours);
+    jox_free(f->state_colours);
     jox_free(f->states);
     jox_free(f->state);
     jox_free(f);

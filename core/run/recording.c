@@ -39,7 +39,8 @@ static void name_states(void *self, JoScene *scene, uint32_t index) {
     r->base[index] = r->next;
     r->next += 1000;
     for (uint32_t s = 0; s < machine->state_count; s++)
-        jox_recorder_state(r->recorder, r->base[index] + s, machine->name, machine->states[s].name);
+        jox_recorder_state(r->recorder, r->base[index] + s, machine->name, machine->states[s].name,
+                           machine->states[s].colour);
 }
 
 /* The walkable area: that of the plan from which the scene has its walls, where all people are in
@@ -95,7 +96,8 @@ static bool begin(void *self, JoScene *scene, const void *options, JoError *erro
     for (uint32_t m = 0; m < machines->set->count; m++)
         name_states(r, scene, m);
     for (uint32_t g = 0; g < scene->spec->group_count; g++)
-        jox_recorder_group(r->recorder, g, scene->spec->groups[g].name);
+        jox_recorder_group(r->recorder, g, scene->spec->groups[g].name,
+                           scene->spec->groups[g].colour);
     return true;
 }
 

@@ -117,6 +117,7 @@ static bool same_starts(const JoxGroup *a, const JoxGroup *b) {
 /* False where the groups are others. */
 static bool take_groups(Rescene *r) {
     bool names = r->old->group_count == r->new->group_count, set_any = false, counts = false;
+    bool colours = false;
     for (uint32_t g = 0; names && g < r->old->group_count; g++)
         names = !strcmp(r->old->groups[g].name, r->new->groups[g].name);
     if (!names) {
@@ -125,6 +126,7 @@ static bool take_groups(Rescene *r) {
     }
     for (uint32_t g = 0; g < r->new->group_count; g++) {
         const JoxGroup *was = &r->old->groups[g], *is = &r->new->groups[g];
+        colours |= was->colour != is->colour;
         counts |= was->count != is->count || was->mix_count != is->mix_count ||
                   !same_points(was->positions, was->positions ? was->count : 0, is->positions,
                                is->positions ? is->count : 0) ||
@@ -146,6 +148,8 @@ static bool take_groups(Rescene *r) {
     }
     if (set_any)
         note(&r->done, "values that groups set");
+    if (colours)
+        note(&r->done, "colours of groups");
     if (counts)
         note(&r->later, "counts, positions and behaviours of groups");
     return true;

@@ -50,9 +50,9 @@ typedef struct JoxLoadBody {
 /* names.c. Index by name, or -1 with an error that suggests one. */
 int32_t jox_load_place(const JoxReader *reader, const JoxYaml *name);
 int32_t jox_load_group(const JoxReader *reader, const JoxYaml *name);
-/* An index in an int32_t, -1 where the key is missing or wrong; a text that must be a name; tags.
- */
-JoxKeyRead jox_key_place, jox_key_group, jox_key_name, jox_key_tags;
+/* An index in an int32_t, -1 where the key is missing or wrong; a text that must be a name; tags; a
+   colour, 0 where the key is missing or wrong. */
+JoxKeyRead jox_key_place, jox_key_group, jox_key_name, jox_key_tags, jox_key_colour;
 
 /* outlines.c. A polygon's corners, counter-clockwise; NULL, and no points, with an error. */
 JoxV2 *jox_load_ring(const JoxReader *reader, const JoxYaml *node, uint32_t *count);

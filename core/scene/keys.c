@@ -227,6 +227,8 @@ static const JoxKey KEYS[] = {
      .meaning = "agents in a row that keep together: each party is a team of its own"},
     {"group", "team", TEXT, "", 0, 0, "", READ_TO(jox_key_name, JoxGroup, team, team), .meaning = "agents of other teams are opponents"},
     {"group", "tags", NAMES, "", 0, 0, "", READ_TO(jox_key_tags, JoxGroup, tags, tag_count), .meaning = "what behaviours know them by"},
+    {"group", "colour", TEXT, "", 0, 0, "", READ_TO(jox_key_colour, JoxGroup, colour, colour),
+     .meaning = "of its people where people are coloured by group; else one is taken: " JOX_COLOUR_RULE},
     {"group", "set", VALUES, "", 0, 0, "", READ_TO(jox_key_values, JoxGroup, set, set_count), .of = "value*",
      .meaning = "values for names in the behaviour's `defaults`; `antipode`: the point opposite on a circle"},
     {"group", "memory", VALUES, "", 0, 0, "", READ_TO(jox_key_values, JoxGroup, memory, memory_count), .of = "draw*",

@@ -71,3 +71,16 @@ void jox_key_tags(const JoxReader *r, const JoxKey *key, const JoxYaml *node, vo
     *JOX_MEMBER(char **, item, key->offset) = tags;
     *JOX_MEMBER(uint32_t, item, key->counter) = count;
 }
+
+void jox_key_colour(const JoxReader *r, const JoxKey *key, const JoxYaml *node, void *item) {
+    const char *text = node && node->kind == JOX_YAML_SCALAR ? node->text : "";
+    JoxText hint = {0};
+    if (!node || jox_colour_read(text, JOX_MEMBER(JoxColour, item, key->offset)))
+        return;
+    jox_colour_hint(text, &hint);
+    if (*text)
+        jox_scene_error(r, node, "bad-value", hint.data, "'%.40s' is no colour", text);
+    else /* YAML takes '#' behind a blank for the beginning of a comment */
+        jox_scene_error(r, node, "bad-value", hint.data, "%s needs a name of a colour", key->name);
+    jox_text_free(&hint);
+}

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/mem.h"
 #include "world/world.h"
 
 const char *const jox_force_part_names[JOX_FORCE_PARTS] = {[JOX_FORCE_PART_body] = "body",
@@ -23,6 +24,40 @@ static void end(JoWorld *w, uint32_t n) {
     memmove(&all->agents[n], &all->agents[n + 1], (all->count - n) * sizeof *all->agents);
     memmove(&all->watched[n], &all->watched[n + 1], (all->count - n) * sizeof *all->watched);
     w->machines.watched_count = all->count;
+}
+
+/* The forces of the last step, but for those that were given from outside for it alone. */
+static void take_forces(const JoWorld *w, uint32_t i, JoxInspected *seen) {
+    const JoxAgents *a = &w->state.agents;
+    const JoxV2 body = jox_force_of_bodies(w->scratch.forces, a->index_in_step[i]);
+#define PART(X, keep, name, label)                                                                 \
+    seen->forces[JOX_FORCE_PART_##name] = (JoxV2){a->name##_x[i], a->name##_y[i]};
+    JOX_FORCE_TERMS(PART, )
+#undef PART
+    seen->forces[JOX_FORCE_PART_contact] = jox_sub(seen->forces[JOX_FORCE_PART_contact], body);
+    seen->forces[JOX_FORCE_PART_body] = body;
+}
+
+/* What the agent would choose as everything stands: before the first step nobody knows. */
+static void look_now(JoWorld *w, uint32_t i, JoxInspected *seen) {
+    const JoxAgents *a = &w->state.agents;
+    if (w->scratch.substep.dt == 0.0)
+        return;
+    JoxPlan *plan = jox_alloc(1, sizeof *plan);
+    jox_bodies_objects(w->state.bodies, &w->scratch.objects);
+    jox_objects_lay(&w->scratch.objects);
+    jox_nav_plan(w->scratch.nav, a, &w->scratch.objects,
+                 jox_force_contact_planes(w->scratch.forces), w->scratch.substep.planning_time, i,
+                 plan);
+    memcpy(seen->planes, plan->planes, plan->count * sizeof *plan->planes);
+    seen->plane_count = plan->count;
+    seen->chosen = plan->chosen;
+    seen->failed = plan->failed;
+    seen->preferred = (JoxV2){a->pref_x[i], a->pref_y[i]};
+    seen->speed_limit = a->speed_limit[i];
+    seen->seen = true;
+    take_forces(w, i, seen);
+    jox_free(plan);
 }
 
 static JoxInspected *begin(JoWorld *w, uint32_t slot, uint32_t id) {
@@ -56,8 +91,10 @@ JoxInspected *jox_world_inspect(JoWorld *w, uint32_t slot, const JoxWatched **wa
         }
         found = &all->agents[n];
     }
-    if (!found && i != JOX_NO_INDEX)
+    if (!found && i != JOX_NO_INDEX) {
         found = begin(w, slot, w->state.agents.id[i]);
+        look_now(w, i, found);
+    }
     if (!found)
         return NULL;
     found->asked = (uint32_t)w->state.tick;

@@ -7,7 +7,7 @@
 #include "machine/run.h"
 #include "nav/nav.h"
 
-enum { JOX_MOST_INSPECTED = 8 };
+enum { JOX_MOST_INSPECTED = 16 };
 
 /* What is shown of a net force, N: a part for each of its terms, and parts that are told apart
    within a term, so that all parts add up to the net force. */
@@ -23,7 +23,7 @@ extern const char *const jox_force_part_names[JOX_FORCE_PARTS];
 typedef struct JoxInspected {
     uint32_t slot, id;
     uint32_t asked; /* tick at which somebody looked last */
-    bool seen;      /* a step was done since it is looked at */
+    bool seen;      /* what follows is known: of the last step, or as it stands since */
     JoxConstraint planes[JOX_MOST_CONSTRAINTS];
     uint32_t plane_count;
     JoxV2 forces[JOX_FORCE_PARTS];
@@ -43,8 +43,9 @@ typedef struct JoxInspection {
 
 struct JoWorld;
 /* The inspection of the agent that is in a slot; begun where there is none, in place of the one
-   that was asked for longest ago. NULL where nobody is in the slot, or who was inspected there is
-   gone: that inspection then ends. */
+   that was asked for longest ago: then it says what the agent would choose as everything stands.
+   NULL where nobody is in the slot, or who was inspected there is gone: that inspection then ends.
+ */
 JoxInspected *jox_world_inspect(struct JoWorld *world, uint32_t slot, const JoxWatched **watched);
 /* In a step, behind the stages push, solve and infer. */
 void jox_inspect_pushed(JoxInspection *inspection, const JoxAgents *agents,

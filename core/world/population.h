@@ -4,6 +4,7 @@
 #ifndef JOX_WORLD_POPULATION_H
 #define JOX_WORLD_POPULATION_H
 
+#include "base/format/colour.h"
 #include "base/format/diag.h"
 #include "base/number/distribution.h"
 #include "base/sections.h"
@@ -37,6 +38,7 @@ typedef struct JoxStart {
 typedef struct JoxGroup {
     char *name;
     JoxPosition position;
+    JoxColour colour; /* in pictures */
     JoxGroupMix *mix;
     uint32_t mix_count;
     JoxFillMode fill;

@@ -127,6 +127,7 @@ void jox_world_forget(JoWorld *w) {
     jox_agents_forget(&w->state.agents);
     jox_machines_forget(&w->machines);
     jox_nav_forget(w->scratch.nav);
+    w->scratch.substep = (JoxSubstep){0}; /* no step has been done from here */
     jox_bodies_objects(w->state.bodies, &w->scratch.objects);
 }
 

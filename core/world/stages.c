@@ -79,6 +79,8 @@ void jox_stage_push(const JoxPushStage *s) {
 
 void jox_stage_solve(const JoxSolveStage *s) {
     JoxForceTotals totals = jox_force_totals(s->forces_of);
+    for (uint32_t i = 0; i < s->agents->count; i++)
+        s->agents->index_in_step[i] = i;
     s->statistics->contact_passes += totals.passes;
     if (totals.residual > s->statistics->contact_residual)
         s->statistics->contact_residual = (double)totals.residual;

@@ -64,6 +64,7 @@ function Number:in_state(state) end
 ---@field kick? table kicks a body that it touches
 ---@field take? string|jostle.Target|jostle.Number picks up a body within 0.6 m that is slower than 8 m/s
 ---@field throw? table throws the body that it carries
+---@field colour? string of who is in it where people are coloured by state; else one is taken: blue, orange, green, vermilion, sky, purple, yellow or grey, which all eyes tell apart, or "#rrggbb" in quotes
 ---@field signal? string|table calls out on entering, and every so often with { name, every = seconds }
 ---@field set? table on entering, memory = number, condition or true/false
 ---@field counts? table memory that counts while in this state

@@ -45,8 +45,8 @@ class Shown:
     def __init__(self, browser, name):
         self.browser = browser
         self.session = Session("run", os.path.join("scenes", f"{name}.yaml"), "--view")
+        self.session.pause()
         browser.open(self.session)
-        browser.run("page.connection.send({do: 'pause', on: true})")
         browser.wait("return page.bar.paused", "no pause")
         browser.run(PREPARE)
         self.dt, self.title, self.about = browser.run("return [page.scene.dt, page.scene.title, page.scene.about]")

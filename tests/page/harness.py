@@ -1,4 +1,5 @@
 """What the tests of the page share: a browser, a served session, and waiting for things."""
+import functools
 import os
 import shutil
 import signal
@@ -15,6 +16,8 @@ from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+
+import look
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 JOSTLE = os.path.abspath(os.environ.get("JOSTLE", "build/release/jostle"))
@@ -57,6 +60,12 @@ class Session:
     def read(self):
         for line in self.process.stdout:
             self.said.append(line.strip())
+
+    def pause(self):
+        """Stops the time before any browser is there, which would come late on a busy machine."""
+        there = look.join(*look.parts(self.address))
+        look.say(there, '{"do": "pause", "on": true}')
+        look.leave(there)
 
     def stop(self):
         if self.process.poll() is None:
@@ -137,6 +146,23 @@ class Browser:
 
     def close(self):
         self.driver.quit()
+
+
+def served(*arguments):
+    """A test with a session of its own, which has to end well."""
+    def decorate(test):
+        @functools.wraps(test)
+        def run(browser):
+            session = Session(*arguments)
+            try:
+                browser.open(session)
+                test(browser)
+                expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
+            finally:
+                status = session.stop()
+            expect(status == 0, f"the program ended with status {status}: {session.said[-3:]}")
+        return run
+    return decorate
 
 
 def temporary_copy(files):

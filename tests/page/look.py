@@ -10,6 +10,17 @@ REQUEST = ("GET /socket?token={token} HTTP/1.1\r\nHost: {host}:{port}\r\nUpgrade
            "Sec-WebSocket-Protocol: jostle\r\nOrigin: http://{host}:{port}\r\n\r\n")
 
 
+def parts(address):
+    """Host, port and token of the address that the program prints."""
+    return re.match(r"http://([^:/]+):(\d+)/\?token=(\S+)", address).groups()
+
+
+def say(there, command):
+    """A command as text, of at most 125 bytes, under a mask of zeros."""
+    text = command.encode()
+    there.sendall(bytes((0x81, 0x80 | len(text))) + bytes(4) + text)
+
+
 def join(host, port, token):
     """A socket that has been sent the head of an answer and something more."""
     there = socket.create_connection((host, int(port)), timeout=20)
@@ -32,7 +43,7 @@ def leave(there):
 
 
 def main():
-    host, port, token = re.match(r"http://([^:/]+):(\d+)/\?token=(\S+)", sys.argv[1]).groups()
+    host, port, token = parts(sys.argv[1])
     seen = 0
     if len(sys.argv) > 2:
         for _ in range(int(sys.argv[2])):
@@ -49,4 +60,5 @@ def main():
     os._exit(0 if seen else 1)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -6,28 +6,12 @@ import subprocess
 import sys
 import time
 
+import reach
 import sight
-from harness import JOSTLE, Session, expect, read, run_all, temporary_copy, write
+from harness import JOSTLE, Session, expect, read, run_all, served, temporary_copy, write
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
-
-
-def served(*arguments):
-    """A test with a session of its own, which has to end well."""
-    def decorate(test):
-        @functools.wraps(test)
-        def run(browser):
-            session = Session(*arguments)
-            try:
-                browser.open(session)
-                test(browser)
-                expect(not (complaints := browser.complaints()), f"the console says {complaints[:2]}")
-            finally:
-                status = session.stop()
-            expect(status == 0, f"the program ended with status {status}: {session.said[-3:]}")
-        return run
-    return decorate
 
 
 # The share of people on whose spot of the picture there is colour; the floor and walls are grey.
@@ -66,6 +50,12 @@ def loads(browser):
     browser.picture("office")
     draws = browser.run("return page.view.renderer.info.render.calls")
     expect(0 < draws <= 25, f"{draws} draw calls")
+    dark = browser.run("""const u = page.view.ground.uniforms, [x0, y0, w, h] = u.shaded.value.toArray(), c = u.shade.value.image;
+        const data = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+        const alpha = (x, y) => data[4 * (Math.floor(c.height * (1 - (y - y0) / h)) * c.width + Math.floor(c.width * (x - x0) / w)) + 3];
+        const [a, b] = page.scene.walls[0].points, l = Math.hypot(b[0] - a[0], b[1] - a[1]), n = [(b[1] - a[1]) / l, (a[0] - b[0]) / l];
+        return [0.2, 2.5].map((d) => Math.max(...[d, -d].map((s) => alpha((a[0] + b[0]) / 2 + s * n[0], (a[1] + b[1]) / 2 + s * n[1]))));""")
+    expect(dark[0] > 40 > 10 > dark[1], f"the floor's shade beside a wall and away from it is {dark}")
     browser.run("""
         HTMLAnchorElement.prototype.click = function () { window.saved = this.download; };
         URL.createObjectURL = (blob) => { blob.arrayBuffer().then((b) => (window.data = new Uint8Array(b))); return '#'; };""")
@@ -222,6 +212,10 @@ def inspects(browser):
     expect("tawaf.lua" in panel, "the panel does not say where parameters were set")
     expect(browser.run("return document.querySelectorAll('.velocity circle').length") >= 2, "no velocities")
     expect("laps" in panel, "no memory")
+    # The time stands still since before the click: half-planes and velocities are those of this moment.
+    expect(browser.run("return page.bar.paused"), "the time goes on")
+    planes = browser.run("return [document.querySelectorAll('.velocity polygon').length, page.agentPage.unseen.hidden]")
+    expect(planes[0] > 0 and planes[1], f"{planes[0]} half-planes are drawn of somebody who was clicked in a pause")
     browser.find("body").send_keys("f")
     browser.run("page.bar.toggle()")
     before = browser.run("return page.view.controls.target.toArray()")
@@ -318,6 +312,21 @@ def edits(browser, _):
 
 
 @with_walkers
+def given_colours(browser, folder):
+    """states and groups have the colours that files give them, in picture and legend, as soon as they are saved"""
+    shown = """const i = page.scene[arguments[0]].findIndex((n) => n.name === arguments[1]), by = arguments[0].slice(0, -1);
+        page.colourBy(by);
+        return [[...page.view.people.uniforms.colours.value.image.data.slice(4 * i, 4 * i + 3)].join(),
+            getComputedStyle(document.querySelectorAll('#legend .swatch')[i]).backgroundColor.replace(/[^0-9,]/g, '')];"""
+    write(folder, "walk.lua", WALKERS["walk.lua"].replace("Walk = {", 'Walk = { colour = "#10a0c0",'))
+    browser.wait("return page.scene.states.some((s) => s.colour === '#10a0c0')", "the colour of a state does not come")
+    expect(browser.run(shown, "states", "Walk") == ["16,160,192"] * 2, f"the state is {browser.run(shown, 'states', 'Walk')}")
+    write(folder, "scene.yaml", WALKERS["scene.yaml"].replace("count: 60,", "count: 60, colour: vermilion,"))
+    browser.wait("return page.scene.groups[0].colour === '#d55e00'", "the colour of a group does not come")
+    expect(browser.run(shown, "groups", "walkers") == ["213,94,0"] * 2, f"the group is {browser.run(shown, 'groups', 'walkers')}")
+
+
+@with_walkers
 def gates(browser, _):
     """a gate opens and a signal is heard by buttons"""
     expect(browser.find("h1").text == "Walkers <b>60</b>", "a title is not shown as it is")
@@ -343,6 +352,20 @@ def reloads(browser, folder):
     browser.wait("return page.crowd.next.tick > arguments[0]", "the run stands still", tick + 5)
     write(folder, "walk.lua", WALKERS["walk.lua"].replace("speed = 1.2", "speed = 0.4"))
     browser.wait("return document.getElementById('errors').hidden", "the error stays")
+    # Three errors, one after the other and each in sight, leave most of the picture free, on a small window too.
+    wrong = WALKERS["walk.lua"].replace('seek "goals"', 'seeek "goals"').replace("steer = hold", "steer = hald").replace('heard "rest"', 'herd "rest"')
+    write(folder, "walk.lua", wrong)
+    browser.wait("return document.querySelectorAll('#errors li').length === 3", "no three errors are shown")
+    for wide, high in ((1280, 800), (1024, 640), (390, 844)):
+        browser.size(wide, high)
+        time.sleep(0.3)
+        covered = browser.run("const box = (id) => document.getElementById(id).getBoundingClientRect().height; return box('errors') / box('stage')")
+        expect(0 < covered < 0.5, f"at {wide} x {high} the errors cover {100 * covered:.0f} % of the picture")
+        expect(browser.run("const e = document.getElementById('errors'); e.scrollTop = 1e6; const last = e.querySelector('li:last-of-type').getBoundingClientRect(); return last.bottom <= e.getBoundingClientRect().bottom + 1"), "the last error is not reached")
+    browser.picture("three-errors")
+    browser.size(1280, 800)
+    write(folder, "walk.lua", WALKERS["walk.lua"].replace("speed = 1.2", "speed = 0.4"))
+    browser.wait("return document.getElementById('errors').hidden", "the errors stay")
     browser.wait("return page.charts.speed.values.get('').slice(-1)[0] < 0.6", "the mended file has no effect")
 
 
@@ -444,140 +467,7 @@ def replays(browser):
         shutil.rmtree(folder)
 
 
-# What can be used: visible, enabled, in the bars and the panel.
-USABLE = """
-return [...document.querySelectorAll('button, select, input, canvas[tabindex], [role=tabpanel], .graph [tabindex]')]
-    .filter((n) => n.checkVisibility() && !n.disabled && n.tabIndex >= 0);
-"""
-
-
-@served("run", "scenes/office.yaml", "--view")
-def keyboard(browser):
-    """everything is reached by the Tab key, in sight, with a name"""
-    browser.find("body").send_keys(" ")
-    for tab in ("machine", "parameters", "act"):
-        browser.find(f"#tab-{tab}").click()
-        wanted = browser.run(USABLE)
-        expect(len(wanted) > 15, f"only {len(wanted)} controls")
-        nameless = browser.run("""return arguments[0].filter((n) => !(n.getAttribute('aria-label') || n.textContent.trim()
-            || n.labels?.length || n.title || n.getAttribute('aria-labelledby'))).map((n) => n.outerHTML.slice(0, 80))""", wanted)
-        expect(not nameless, f"without a name: {nameless[:2]}")
-        browser.run("document.activeElement.blur(); window.reached = new Set(); window.unseen = []; window.scrollTo(0, 0)")
-        for _ in range(len(wanted) + 8):
-            ActionChains(browser.driver, duration=0).send_keys(Keys.TAB).perform()
-            browser.run("""const n = document.activeElement; window.reached.add(n);
-                const s = getComputedStyle(n);
-                if (n !== document.body && (s.outlineStyle === 'none' || parseFloat(s.outlineWidth) < 2)) window.unseen.push(n.outerHTML.slice(0, 80));""")
-        missed = browser.run("return arguments[0].filter((n) => !window.reached.has(n)).map((n) => n.outerHTML.slice(0, 80))", wanted)
-        expect(not missed, f"not reached: {missed[:2]}")
-        unseen = browser.run("return window.unseen")
-        expect(not unseen, f"the focus is not seen on {unseen[:2]}")
-    # The crowd without a pointer: Enter at the middle of the picture chooses a person.
-    browser.run("""const at = page.crowd.position([...Array(page.crowd.next.slots).keys()].find((s) => page.crowd.alive(s)), 1);
-        const t = page.view.orbit.target; page.view.moveBy(at[0] - t.x, at[1] - t.y);
-        const c = document.getElementById('picture'); c.focus({focusVisible: true});""")
-    time.sleep(0.3)
-    browser.press(Keys.ENTER)
-    browser.wait("return page.person", "Enter chooses nobody")
-    browser.picture("keyboard")
-
-
-OVERLAPS = """
-const nodes = arguments[0].filter((n) => !n.closest('.graph') && n.tagName !== 'CANVAS' && n.getAttribute('role') !== 'tabpanel');
-const boxes = nodes.map((n) => n.getBoundingClientRect()), out = [];
-nodes.forEach((a, i) => nodes.forEach((b, j) => {
-    if (j <= i || a.contains(b) || b.contains(a)) return;
-    const p = boxes[i], q = boxes[j];
-    if (p.left < q.right - 1 && q.left < p.right - 1 && p.top < q.bottom - 1 && q.top < p.bottom - 1) out.push(a.outerHTML.slice(0, 60) + ' on ' + b.outerHTML.slice(0, 60));
-}));
-nodes.forEach((n, i) => {
-    if (boxes[i].left < -1 || boxes[i].right > innerWidth + 1) out.push(n.outerHTML.slice(0, 60) + ' leaves the window');
-    if (n.tagName === 'BUTTON' && n.scrollWidth > n.clientWidth + 1) out.push(n.outerHTML.slice(0, 60) + ' is cut');
-});
-if (document.documentElement.scrollWidth > innerWidth + 1) out.push('the page is wider than the window');
-return out;
-"""
-
-
-@served("run", "scenes/office.yaml", "--view")
-def enlarged(browser):
-    """enlarged to 200 % nothing overlaps or is cut, in light and in dark"""
-    browser.find("body").send_keys(" ")  # that the browser has time for layouts
-    for wide, high, ratio, dark, name in ((1280, 800, 1, True, "dark"), (640, 400, 2, False, "zoom-200"), (400, 640, 2, True, "narrow")):
-        browser.size(wide, high, ratio)
-        browser.dark(dark)
-        for tab in ("scene", "machine", "parameters", "charts", "act", "engine"):
-            browser.find(f"#tab-{tab}").click()
-            time.sleep(0.2)
-            wrong = browser.run(OVERLAPS, browser.run(USABLE))
-            expect(not wrong, f"at {wide} x {high}, {tab}: {wrong[:2]}")
-        high_enough = browser.run("return document.getElementById('stage').clientHeight")
-        expect(high_enough >= 200, f"the picture is only {high_enough} pixels high")
-        browser.run("window.scrollTo(0, 0)")
-        time.sleep(0.5)
-        browser.picture(name)
-
-
-def reconnects(browser):
-    """a lost connection comes back by itself; an ended program is said"""
-    session = Session("run", "scenes/office.yaml", "--view")
-    try:
-        browser.open(session)
-        browser.run("window.first = page.connection.socket; window.first.close()")
-        browser.wait("return window.first.readyState === 3", "the socket stays open")
-        browser.wait("return page.connection.socket !== window.first && page.connection.socket.readyState === 1", "no new connection")
-        tick = browser.run("return page.crowd.next.tick")
-        browser.wait("return page.crowd.next.tick > arguments[0] + 3", "no frames after the new connection", tick)
-        expect("connected" == browser.find("#link").text, "it does not say that it is connected")
-    finally:
-        session.stop()
-    browser.wait("return /lost/.test(document.getElementById('messages').textContent)", "the page does not say that the program is gone")
-    browser.picture("lost")
-
-
-@served("run", "scenes/office.yaml", "--view", "--no-watch")
-def hides_its_token(browser):
-    """the token leaves the address bar; the page can be loaded again, and a second page opened"""
-    connected = "return window.page && page.connection.socket.readyState === 1 && page.crowd.next && page.crowd.next.slots > 0"
-    shown = browser.run("return location.href")
-    expect("token" not in shown, f"the address bar shows {shown}")
-    token = browser.run("return page.connection.token")
-    expect(len(token) == 32, f"a token {token!r}")
-    browser.driver.refresh()
-    browser.wait(connected, "no frame reaches the page that was loaded again")
-    expect(browser.run("return location.href") == shown, "the address bar is another")
-    first = browser.driver.current_window_handle
-    browser.driver.switch_to.new_window("tab")
-    try:
-        browser.driver.get(f"{shown}?token={token}")
-        browser.wait(connected, "no frame reaches the second page")
-        expect("token" not in browser.run("return location.href"), "the second page shows the token")
-    finally:
-        browser.driver.close()
-        browser.driver.switch_to.window(first)
-    browser.wait(connected, "the first page is no longer connected")
-
-
-@served("run", "scenes/tawaf.yaml", "--view")
-def crowd_of_35000(browser):
-    """35,000 people take at most 8 ms of script and 25 draw calls a picture
-
-    The quickest of the pictures counts: what else runs on the machine only adds to a time.
-    """
-    browser.size(800, 500)  # software draws slowly, the script does not mind
-    browser.wait("return page.meter.pictures >= 5", "too few pictures", patience=40)
-    browser.run("page.meter.spent.length = 0")
-    browser.wait("return page.meter.spent.length >= 20", "too few pictures", patience=40)
-    least = browser.run("return Math.min(...page.meter.spent)")
-    draws = browser.run("return page.view.renderer.info.render.calls")
-    people = browser.run("return page.machine.status.agents")
-    browser.picture("tawaf")
-    expect(people >= 34000, f"{people} people")
-    expect(0 < least <= 8, f"{least:.1f} ms of script")
-    expect(0 < draws <= 25, f"{draws} draw calls")
-
-
-TESTS = [*sight.TESTS, loads, pauses, throws, pulls, inspects, edits, gates, reloads, plays, replays, keyboard, enlarged, reconnects, hides_its_token, crowd_of_35000]
+TESTS = [*sight.TESTS, loads, pauses, throws, pulls, inspects, edits, given_colours, gates, reloads, plays, replays, *reach.TESTS]
 
 if __name__ == "__main__":
     sys.exit(run_all(TESTS, sys.argv[1:]))

@@ -109,6 +109,45 @@ static void the_area_grows(void **state) {
     jo_scene_free(scene);
 }
 
+/* Who is pushed leans: by the way, and the harder the more; pushes of a moment hardly count. */
+static void pushes_make_people_lean(void **state) {
+    (void)state;
+    JoScene *scene = load_own(PEOPLE(32), HEAD "\"A\", states = { A = { steer = hold } } }\n");
+    JoxAgents *a = &scene->world->state.agents;
+    static const float FORCE[] = {50, 100, 200, 400};
+    JoxBytes frame = {0};
+    step(scene, 1);
+    for (uint32_t i = 0; i < a->count; i++) { /* 3 degrees from a way: from an eighth of a turn */
+        const float turn = ((float)(a->id[i] % 8) * 45.0f + 3.0f) * 0.0174532925f;
+        const float force = FORCE[a->id[i] / 8];
+        a->push_x[i] = 0.25f * force * cosf(turn);
+        a->push_y[i] = 0.25f * force * sinf(turn);
+        a->contact_x[i] = 0.75f * force * cosf(turn);
+        a->contact_y[i] = 0.75f * force * sinf(turn);
+    }
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    Seen seen = decode(&frame, scene->world);
+    for (uint32_t i = 0; i < a->count; i++) {
+        const uint32_t lean = seen.slot[8 * (size_t)a->slot[i] + 7] >> JOX_LIVE_LEAN_SHIFT;
+        const uint32_t hard = a->id[i] / 8;
+        assert_int_equal(lean, hard ? 1 + a->id[i] % 8 + 8 * (hard - 1) : 0);
+    }
+    step(scene, 1); /* in which nobody is pushed */
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    seen = decode(&frame, scene->world);
+    uint32_t leaning = 0;
+    for (uint32_t i = 0; i < a->count; i++)
+        leaning += seen.slot[8 * (size_t)a->slot[i] + 7] >> JOX_LIVE_LEAN_SHIFT > 0;
+    assert_true(leaning >= 24); /* not yet upright again */
+    step(scene, 100);
+    jox_live_frame(scene, JOX_LIVE_COLOUR_state, &frame);
+    seen = decode(&frame, scene->world);
+    for (uint32_t i = 0; i < a->count; i++)
+        assert_int_equal(seen.slot[8 * (size_t)a->slot[i] + 7] >> JOX_LIVE_LEAN_SHIFT, 0);
+    jox_bytes_free(&frame);
+    jo_scene_free(scene);
+}
+
 /* Values of each colour against the columns. */
 static void colours_measure(void **state) {
     (void)state;
@@ -309,6 +348,7 @@ int main(void) {
         cmocka_unit_test(slots_stay_with_their_people),
         cmocka_unit_test(nobody_flies_across),
         cmocka_unit_test(the_area_grows),
+        cmocka_unit_test(pushes_make_people_lean),
         cmocka_unit_test(colours_measure),
         cmocka_unit_test(people_are_told_once),
         cmocka_unit_test(fields_add_up_to_the_people),

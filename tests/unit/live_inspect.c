@@ -63,6 +63,83 @@ static void an_inspection_adds_up(void **state) {
     jo_scene_free(plain);
 }
 
+#define LEAVING                                                                                    \
+    "jostle: 1\nseed: 4\n"                                                                         \
+    "places:\n"                                                                                    \
+    "  yard: {polygon: [[0, 0], [8, 0], [8, 8], [0, 8]]}\n"                                        \
+    "  out: {point: [11, 4], radius: 1.5}\n"                                                       \
+    "walls:\n"                                                                                     \
+    "  - {line: [[9, 5], [0, 9]]}\n"                                                               \
+    "bodies: [{shape: {box: {size: [1, 1, 1]}}, mass: 500, at: [9.6, 4.4, 0.5]}]\n"                \
+    "sinks: [{at: out}]\n"                                                                         \
+    "groups: {people: {behaviour: own.lua, count: 40, fill: grid, in: yard}}\n"
+
+/* Half-planes of people, walls and bodies: what is touched and forces are those of the step. */
+static uint32_t seen_planes(const JoxInspected *seen, JoxConstraint *out) {
+    uint32_t count = 0;
+    for (uint32_t p = 0; p < seen->plane_count; p++)
+        if (seen->planes[p].kind == JOX_CONSTRAINT_AGENT ||
+            seen->planes[p].kind == JOX_CONSTRAINT_WALL ||
+            seen->planes[p].kind == JOX_CONSTRAINT_BODY)
+            out[count++] = seen->planes[p];
+    return count;
+}
+
+/* To the bit; how broad somebody is who stands at a wall changes with the shoulders that are turned
+   in a step. */
+static void check_same(const JoxConstraint *now, const JoxConstraint *in_step) {
+    const float wide = now->kind == JOX_CONSTRAINT_WALL ? 0.02f : 0.0f;
+    assert_true(now->kind == in_step->kind && now->normal.x == in_step->normal.x &&
+                now->normal.y == in_step->normal.y && fabsf(now->offset - in_step->offset) <= wide);
+}
+
+/* Between two steps, as in a pause: what is told of somebody who is looked at for the first time is
+   what the next step goes by, though people have left in the last one. */
+static void a_look_between_steps_tells_of_the_next(void **state) {
+    (void)state;
+    const char *behaviour = HEAD "\"A\", states = { A = { steer = seek \"out\" } } }\n";
+    JoScene *scene = load_own(LEAVING, behaviour), *plain = load_own(LEAVING, behaviour);
+    JoxAgents *a = &scene->world->state.agents;
+    const JoxWatched *watched;
+    uint32_t looked = 0, planes = 0, left = 0;
+    assert_false(jox_world_inspect(scene->world, 3, &watched)->seen); /* no step was done yet */
+    for (int n = 0; n < 400 && a->count > 4; n++) {
+        JoxConstraint before[JOX_MOST_CONSTRAINTS], after[JOX_MOST_CONSTRAINTS];
+        const uint32_t people = a->count;
+        step(scene, 1);
+        step(plain, 1);
+        if (a->count == people && n % 8)
+            continue;
+        left += a->count < people;
+        const uint32_t i = (uint32_t)n * 7 % a->count, slot = a->slot[i];
+        for (uint32_t k = scene->world->scratch.inspection.count; k-- > 0;)
+            scene->world->scratch.inspection.agents[k].asked = UINT32_MAX; /* long ago */
+        jox_inspect_expire(scene->world);
+        assert_int_equal(scene->world->scratch.inspection.count, 0);
+        const JoxInspected *seen = jox_world_inspect(scene->world, slot, &watched);
+        assert_true(seen && seen->seen);
+        const JoxV2 chosen = seen->chosen;
+        const uint32_t count = seen_planes(seen, before);
+        const bool touches = a->contacts[i] > 0;
+        step(scene, 1);
+        step(plain, 1);
+        n++;
+        seen = jox_world_inspect(scene->world, slot, &watched);
+        if (!seen || touches)
+            continue;
+        assert_int_equal(seen_planes(seen, after), count);
+        for (uint32_t p = 0; p < count; p++)
+            check_same(&before[p], &after[p]);
+        assert_true(jox_length(jox_sub(chosen, seen->chosen)) < 0.2f);
+        looked++;
+        planes += count;
+    }
+    assert_true(looked > 10 && planes > 5 * looked && left > 5);
+    assert_true(jo_world_hash(scene->world) == jo_world_hash(plain->world));
+    jo_scene_free(scene);
+    jo_scene_free(plain);
+}
+
 static void an_inspection_says_why(void **state) {
     (void)state;
     JoScene *scene = begin();
@@ -115,10 +192,10 @@ static void looking_ends_by_itself(void **state) {
     step(scene, 60);
     assert_int_equal(all->count, 1);
     assert_int_equal(all->agents[0].slot, 2);
-    for (int n = 0; n < 8; n++)
+    for (int n = 0; n < 14; n++)
         jox_machines_spawn(&scene->world->machines,
-                           jox_world_add_agent(scene->world, 9.0f, (float)n), 0, NULL, NULL);
-    for (uint32_t slot = 3; slot < 12; slot++) /* one too many: the oldest goes */
+                           jox_world_add_agent(scene->world, 9.0f, 0.7f * (float)n), 0, NULL, NULL);
+    for (uint32_t slot = 3; slot < 18; slot++) /* one too many: the oldest goes */
         jo_free(jo_scene_inspect(scene, slot));
     assert_int_equal(all->count, JOX_MOST_INSPECTED);
     step(scene, 1);
@@ -128,6 +205,7 @@ static void looking_ends_by_itself(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_inspection_adds_up),
+        cmocka_unit_test(a_look_between_steps_tells_of_the_next),
         cmocka_unit_test(an_inspection_says_why),
         cmocka_unit_test(looking_ends_by_itself),
     };

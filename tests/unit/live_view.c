@@ -14,7 +14,7 @@ static void pages_are_greeted_and_shown_the_run(void **state) {
     assert_non_null(message);
     assert_int_equal(kind, FRAME_TEXT); /* before anything else */
     assert_non_null(
-        strstr(message, "{\"type\": \"scene\", \"protocol\": 2, \"session\": \"live\""));
+        strstr(message, "{\"type\": \"scene\", \"protocol\": 3, \"session\": \"live\""));
     free(message);
     hear("\"type\": \"errors\"", "\"errors\": []");
     uint32_t first = see();
@@ -226,7 +226,7 @@ static void what_people_do_replays_to_the_same_state(void **state) {
     jo_scene_free(scene);
 }
 
-static void one_page_at_a_time_inspects(void **state) {
+static void each_page_inspects_somebody(void **state) {
     (void)state;
     begin(0);
     join();
@@ -235,16 +235,21 @@ static void one_page_at_a_time_inspects(void **state) {
     hear("\"inspect\"", "\"seen\": true"); /* by then a step was looked at */
     int first = session.fd;
     join();
-    say("{\"do\": \"inspect\", \"slot\": null}"); /* that is not the other's */
-    hear("\"inspect\"", "\"agent\": null");
     say("{\"do\": \"inspect\", \"slot\": 7}");
     hear("\"inspect\"", "\"agent\": {\"id\": 7, \"slot\": 7");
     int second = session.fd;
-    session.fd = first;
+    session.fd = first; /* which goes on with its own, and lets it go alone */
+    hear("\"inspect\"", "\"agent\": {\"id\": 4, \"slot\": 4");
+    hear("\"inspect\"", "\"agent\": {\"id\": 4, \"slot\": 4");
+    say("{\"do\": \"inspect\", \"slot\": null}");
     hear("\"inspect\"", "\"agent\": null");
-    hear("\"say\"", "another page");
     session.fd = second;
+    hear("\"inspect\"", "\"agent\": {\"id\": 7, \"slot\": 7");
     close(first);
+    say("{\"do\": \"pause\", \"on\": true}");
+    hear("\"status\"", "\"paused\": true");
+    say("{\"do\": \"inspect\", \"slot\": 9}"); /* told at once, though no step is done */
+    hear("\"inspect\"", "\"seen\": true");
     say("{\"do\": \"inspect\", \"slot\": 1000000}");
     hear("\"inspect\"", "\"agent\": null");
     end();
@@ -309,7 +314,7 @@ int main(void) {
         cmocka_unit_test(a_scene_that_is_over_waits_and_is_restarted),
         cmocka_unit_test(a_push_that_is_repeated_counts_once_a_step),
         cmocka_unit_test(what_people_do_replays_to_the_same_state),
-        cmocka_unit_test(one_page_at_a_time_inspects),
+        cmocka_unit_test(each_page_inspects_somebody),
         cmocka_unit_test(mistakes_are_shown_until_they_are_mended),
         cmocka_unit_test(what_cannot_begin_says_why),
     };

@@ -68,6 +68,8 @@ static const Mistake MISTAKES[] = {
      "steering"},
     {HEAD "A = { steer = follow(goal, after(1)) } } }", ERROR, 2, 15, 21, "bad-argument", "plain"},
     {HEAD "A = { lasts = \"long\" } } }", ERROR, 2, 7, 12, "bad-value", "number"},
+    {HEAD "A = { colour = \"gren\" } } }", ERROR, 2, 7, 13, "bad-value", "'gren' is no colour"},
+    {HEAD "A = { colour = 7 } } }", ERROR, 2, 7, 13, "bad-value", "colour must be a text"},
     {HEAD "A = { push_weight = \"most\" } } }", ERROR, 2, 7, 18, "bad-value", "nearest"},
     {HEAD "A = { { to = \"A\", chance = 2 } } } }", ERROR, 2, 19, 25, "out-of-range",
      "transition 1 (to A)"},

@@ -129,6 +129,13 @@ static void things_are_where_they_are(void **state) {
     JoxV2 at = pixel(5.3f, 5); /* the first looks to the right, along its heading */
     const uint8_t *mark = pixels + 4 * ((size_t)at.y * WIDTH + (size_t)at.x);
     assert_true(mark[0] < 0x60 && mark[1] < 0x60 && mark[2] < 0x60);
+    /* A colour that a state was given is its own, and no other's. */
+    const JoxColour given[3] = {0, 0, JOX_COLOUR_GIVEN | 0x0072b2};
+    h.frame.state_colours = given;
+    jox_draw(canvas, &h.picture);
+    expect(jox_canvas_pixels(canvas), 4.8f, 5, (JoxInk){0xe6, 0x9f, 0x00, 1});
+    expect(jox_canvas_pixels(canvas), 5, 7.8f, (JoxInk){0x00, 0x72, 0xb2, 1});
+    h.frame.state_colours = NULL;
     /* An open gate lets the floor through: its line is broken. */
     h.walls.rings[1].open = true;
     jox_draw(canvas, &h.picture);

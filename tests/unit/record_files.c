@@ -66,7 +66,7 @@ static void a_recording_reads_back(void **state) {
         JoxRecorder *r = jox_recorder_open(path, 20, WKT, &error);
         assert_non_null(r);
         for (uint32_t k = 0; k < 3; k++)
-            jox_recorder_state(r, k, "machine", k ? "Go" : "Wait");
+            jox_recorder_state(r, k, "machine", k ? "Go" : "Wait", 0);
         for (uint32_t f = 0; f < 100; f++)
             assert_true(put_frame(r, f, &error));
         assert_true(jox_recorder_close(r, &error));

@@ -322,8 +322,8 @@ static void our_recordings_keep_more(void **state) {
     unlink(path);
     JoxRecorder *r = jox_recorder_open(path, 10, "POLYGON ((0 0, 1 0, 1 1, 0 0))", &error);
     assert_non_null(r);
-    jox_recorder_group(r, 0, "red");
-    jox_recorder_group(r, 1, "blue");
+    jox_recorder_group(r, 0, "red", 0);
+    jox_recorder_group(r, 1, "blue", JOX_COLOUR_GIVEN | 0x123456);
     for (uint32_t f = 0; f < 3; f++) {
         JoxRecordBody *bodies;
         JoxRecordRow *rows = jox_recorder_take(r, 2, 0, &bodies);
@@ -341,6 +341,8 @@ static void our_recordings_keep_more(void **state) {
     JoxFrame frame;
     assert_non_null(t);
     assert_int_equal(t->group_count, 2);
+    assert_int_equal(t->group_colours[0], 0);
+    assert_int_equal(t->group_colours[1], JOX_COLOUR_GIVEN | 0x123456);
     assert_true(jox_trajectories_frame(t, 2, &frame));
     assert_int_equal(frame.key[0], 3);
     assert_string_equal(frame.groups[frame.group[0]], "blue");

@@ -149,8 +149,8 @@ static void paths(void **state) {
         for (uint32_t i = 0; i < PEOPLE; i++)
             for (int f = 0; f < 2; f++)
                 jox_paths_add(all, i, false, i % 2, (float)f, X[f][i], Y[i]);
-        worked(jox_plot_paths(folder, all, names, 2, &walls, jox_v2(0, 0), jox_v2(8, 4), HOSTILE[h],
-                              &error),
+        worked(jox_plot_paths(folder, all, names, NULL, 2, &walls, jox_v2(0, 0), jox_v2(8, 4),
+                              HOSTILE[h], &error),
                &error);
         look_and_empty(1);
         jox_paths_free(all);

@@ -189,6 +189,8 @@ const JoxTableKey jox_table_keys[] = {
     {"state", "kick", "table", "", "kicks a body that it touches", "kick = { nearest \"ball\", at = \"post\", impulse = 4 }", 0, 0},
     {"state", "take", "target", "", "picks up a body within 0.6 m that is slower than 8 m/s", "take = nearest \"ball\"", 0, 0},
     {"state", "throw", "table", "", "throws the body that it carries", "throw = { nearest \"ball\", at = \"post\", speed = 6 }", 0, 0},
+    {"state", "colour", "text", "", "of who is in it where people are coloured by state; else one is taken: " JOX_COLOUR_RULE,
+     "colour = \"vermilion\"", 0, 0},
     {"state", "signal", "name, or table", "", "calls out on entering, and every so often with { name, every = seconds }",
      "signal = { \"alarm\", every = 1 }", 0, 0},
     {"state", "set", "table", "", "on entering, memory = number, condition or true/false", "set = { laps = mine.laps + 1 }", 0, 0},

@@ -138,7 +138,7 @@ const JoxExample jox_scene_examples[] = {
      "groups:\n"
      "  audience: {mix: {walker.lua: 3, runner.lua: 1}, density: 1, in: hall, outside: [stage],\n"
      "             party: 4, tags: [guest], set: {goal: exit, speed: 'normal(1.3, 0.2, 0.5, 2)'}}\n"
-     "  staff: {behaviour: stander.lua, count: 12, fill: grid, in: stage, spacing: 60 cm, facing: 90 deg, team: house}\n"
+     "  staff: {behaviour: stander.lua, count: 12, fill: grid, in: stage, spacing: 60 cm, facing: 90 deg, team: house, colour: purple}\n"
      "  guards: {behaviour: stander.lua, at: [[23, 5], [24, 5]]}\n"
      "  press: {behaviour: stander.lua, count: 10, fill: line, in: rope}\n"
      "  guests: {behaviour: walker.lua, starts: [[0, 4, 2], [1.5, 0.5, 3, 1.3, 0]], set: {goal: exit}}\n"},

@@ -24,7 +24,7 @@ import { View } from "./draw/view.js";
 const LINKS = { connecting: "connecting", open: "connected", lost: "not connected, trying again" };
 const LOST = ["The connection is lost. The page tries again by itself.",
     "The connection is lost. If the program was started anew, open the address that it prints."];
-const PROTOCOL = 2; // of the messages, as the program counts it
+const PROTOCOL = 3; // of the messages, as the program counts it
 const NEAR = 14; // m, from which a person is followed
 const MOVE = 0.08; // of the distance to what is looked at, for one press of an arrow key
 
@@ -285,7 +285,7 @@ class Page {
         this.agentPage.takeSeen({
             slot, x: at[0], y: at[1], radius: crowd.radius(slot),
             speed: passed > 0 ? Math.hypot(at[0] - from[0], at[1] - from[1]) / passed : NaN,
-            state: this.scene.states?.[crowd.next.bytes[8 * slot + 5]]?.name, group: this.scene.groups?.[crowd.person[2 * slot + 1]],
+            state: this.scene.states?.[crowd.next.bytes[8 * slot + 5]]?.name, group: this.scene.groups?.[crowd.person[2 * slot + 1]]?.name,
         });
     }
 

@@ -2,7 +2,7 @@
 import * as THREE from "/three/build/three.module.js";
 import { ConvexBufferGeometry } from "/three/examples/jsm/geometries/ConvexGeometry.js";
 import { readPoses } from "../net/crowd.js";
-import { BODY_EDGE_FRAGMENT, BODY_FRAGMENT, BODY_VERTEX } from "./shaders.js";
+import { BODY_EDGE_FRAGMENT, BODY_FRAGMENT, BODY_SHADE_FRAGMENT, BODY_SHADE_VERTEX, BODY_VERTEX } from "./shaders.js";
 
 const EDGE = 30; // degrees between faces, from which their edge is drawn
 const ROW = 1024; // texels of the texture's rows: 256 bodies
@@ -44,6 +44,10 @@ export class Bodies {
         this.edgeMaterial = new THREE.RawShaderMaterial({
             uniforms: this.uniforms, vertexShader: BODY_VERTEX, fragmentShader: BODY_EDGE_FRAGMENT,
         });
+        this.shadeMaterial = new THREE.RawShaderMaterial({
+            uniforms: this.uniforms, vertexShader: BODY_SHADE_VERTEX, fragmentShader: BODY_SHADE_FRAGMENT,
+            transparent: true, depthWrite: false, side: THREE.DoubleSide,
+        });
         this.group = new THREE.Group();
         this.radii = []; // m, of a sphere around each body
         this.names = [];
@@ -63,9 +67,35 @@ export class Bodies {
         const kinds = [...new Set(list.map(kindOf))];
         const tints = list.map((body) => new THREE.Color(TINTS[kinds.indexOf(kindOf(body)) % TINTS.length]));
         this.radii = parts.map((geometries) => Math.max(0, ...geometries.map(reachOf)));
+        this.group.add(this.shades(parts));
         const edges = parts.map((geometries) => geometries.map((g) => new THREE.EdgesGeometry(g, EDGE)));
         this.group.add(this.made(parts, tints, this.material, THREE.Mesh), this.made(edges, tints, this.edgeMaterial, THREE.LineSegments));
         this.makeTexture(list.length);
+    }
+
+    /** A rectangle on the floor for the shade of each body. */
+    shades(parts) {
+        const corners = [[-1, -1], [1, -1], [1, 1], [-1, -1], [1, 1], [-1, 1]];
+        const position = [], half = [], centre = [];
+        parts.forEach((geometries, row) => {
+            const box = new THREE.Box3();
+            for (const g of geometries) box.union(new THREE.Box3().setFromBufferAttribute(g.attributes.position));
+            if (box.isEmpty()) return;
+            const size = box.getSize(new THREE.Vector3()), middle = box.getCenter(new THREE.Vector3());
+            for (const corner of corners) {
+                position.push(...corner, row);
+                half.push(size.x / 2, size.y / 2, size.z / 2);
+                centre.push(middle.x, middle.y, middle.z);
+            }
+        });
+        const geometry = new THREE.BufferGeometry();
+        for (const [name, list] of [["position", position], ["half_size", half], ["centre", centre]]) {
+            geometry.setAttribute(name, new THREE.Float32BufferAttribute(list, 3));
+        }
+        const mesh = new THREE.Mesh(geometry, this.shadeMaterial);
+        mesh.frustumCulled = false;
+        mesh.renderOrder = -0.6; // over the floor, under all that stands on it
+        return mesh;
     }
 
     /** One mesh of the parts of all bodies, whose geometries are let go. */

@@ -1,6 +1,7 @@
 // What stands still: the floor with its field, walls, gates, places and regions.
 import * as THREE from "/three/build/three.module.js";
 import { table } from "./palette.js";
+import { bakeShade } from "./shade.js";
 import { FLOOR_FRAGMENT, FLOOR_VERTEX } from "./shaders.js";
 import { Prism } from "./walls.js";
 
@@ -43,6 +44,7 @@ export class Ground {
             base: { value: new THREE.Color() }, line: { value: new THREE.Color() }, spacing: { value: 1 },
             field: { value: null }, ramp: { value: texture(table("value"), 256, 1, THREE.RGBAFormat) },
             cover: { value: new THREE.Vector4() }, gain: { value: 1 },
+            shade: { value: null }, shaded: { value: new THREE.Vector4() },
         };
         // What the walls are seen from, and the box of the floor that they must not hide, m.
         this.seen = { eye: { value: new THREE.Vector3() }, keep: { value: new THREE.Vector4() }, lowered: { value: 1 } };
@@ -80,6 +82,7 @@ export class Ground {
         const fixed = new Prism();
         for (const wall of this.walls) if (!wall.name) fixed.wall(wall, wall.height || 2);
         this.addPrism(fixed, this.colours.wall, this.colours.edge);
+        this.rings = fixed.rings;
         const places = (scene.places ?? []).flatMap(placeLines);
         const regions = Object.values(scene.regions ?? {}).flatMap((points) => outline(points, true, 0.015));
         this.addLines(places, this.colours.place, 0.9);
@@ -106,6 +109,20 @@ export class Ground {
             if (wall.name) gates.wall(wall, this.open[wall.name] ? OPEN : wall.height || 2);
         }
         this.gateParts = this.addPrism(gates, GATE, GATE_EDGE);
+        this.shade();
+    }
+
+    /** The shade about walls and closed gates, made anew where they are others. */
+    shade() {
+        const closed = new Prism();
+        for (const wall of this.walls) if (wall.name && !this.open[wall.name]) closed.wall(wall, 1);
+        const rings = [...this.rings, ...closed.rings], same = JSON.stringify(rings);
+        if (same === this.shadeOf) return;
+        this.shadeOf = same;
+        this.uniforms.shade.value?.dispose();
+        const baked = bakeShade(rings);
+        this.uniforms.shade.value = baked?.texture ?? null;
+        this.uniforms.shaded.value.set(...(baked?.cover ?? [0, 0, 0, 0]));
     }
 
     /** Takes which gates are open; true if that changed. */

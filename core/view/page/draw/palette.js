@@ -52,6 +52,13 @@ export function css([r, g, b]) {
     return `rgb(${r} ${g} ${b})`;
 }
 
+const NOBODYS = [0x77, 0x77, 0x77]; // of who is in no class
+
+/** sRGB of a state or group as the scene message lists it: what it was given, else what pictures take. */
+export function namedColour(named) {
+    return named?.colour ? channels(named.colour) : NOBODYS;
+}
+
 /** What the texel `i` of 256 of a table is: of classes, values, ways, or levels of service up to `most`. */
 const TEXELS = {
     class: (i) => classColour(i),
@@ -61,10 +68,10 @@ const TEXELS = {
     service: (i, most) => serviceColour(SERVICE.findIndex(([, up]) => (i / 255) * most < up)),
 };
 
-/** 256 RGBA texels. */
-export function table(kind, most = 0) {
+/** 256 RGBA texels; `named`: the states or groups whose colours they are, in place of a kind. */
+export function table(kind, most = 0, named = null) {
     const out = new Uint8Array(4 * 256);
-    for (let i = 0; i < 256; i++) out.set([...TEXELS[kind](i, most), 255], 4 * i);
+    for (let i = 0; i < 256; i++) out.set([...(named ? namedColour(named[i]) : TEXELS[kind](i, most)), 255], 4 * i);
     return out;
 }
 

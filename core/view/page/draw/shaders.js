@@ -17,9 +17,15 @@ uniform float classes;     // 0: by value, 1: by state, 2: by group, 3: whether 
 uniform mat4 viewMatrix, projectionMatrix;
 const float TURN = 6.28318530718;
 
-struct Person { vec2 at; vec2 ahead; float radius; float colour; float flags; float speed; bool here; };
+struct Person { vec2 at; vec2 ahead; vec2 lean; float radius; float colour; float flags; float speed; bool here; };
 
 vec2 place(vec4 b, vec4 map) { return map.xy + map.zw * vec2(b.x + 256.0 * b.y, b.z + 256.0 * b.w); }
+
+// How somebody leans under pushes: rad, towards where they are pushed.
+vec2 leanOf(float flags) {
+    float code = floor(flags / 8.0), way = mod(code - 1.0, 8.0) * TURN / 8.0;
+    return code < 0.5 ? vec2(0.0) : (0.1 + 0.12 * floor((code - 1.0) / 8.0)) * vec2(cos(way), sin(way));
+}
 
 Person decode() {
     bool late = swapped > 0.5;
@@ -40,6 +46,7 @@ Person decode() {
     p.colour = ((classes < 0.5 ? info.z : classes < 1.5 ? info.y : classes < 2.5 ? person.y
         : classes < 3.5 ? 4.0 - failed : floor(256.0 * fract(turn / TURN + 1.0))) + 0.5) / 256.0;
     p.flags = info.w;
+    p.lean = mix(leanOf(oldInfo.w), leanOf(info.w), t);
     p.speed = another ? 0.0 : min(length(after - before) / passed, 8.0);
     p.here = info.y < 254.5;
     return p;
@@ -158,7 +165,7 @@ void main() {
     }
     c.x += 0.05 * min(p.speed, 3.0) * c.z * c.z / high; // who runs leans forward
     vec2 ahead = p.ahead, left = vec2(-ahead.y, ahead.x);
-    vec3 at = vec3(p.at + ahead * c.x + left * c.y, c.z);
+    vec3 at = vec3(p.at + ahead * c.x + left * c.y + p.lean * c.z, c.z * (1.0 - 0.5 * dot(p.lean, p.lean)));
     facing = normalize(vec3(ahead * n.x + left * n.y, n.z));
     where = corner;
     shade = p.colour;
@@ -199,6 +206,7 @@ uniform vec2 size;         // of the texture
 uniform float share, chosen;
 uniform mat4 viewMatrix, projectionMatrix;
 varying vec3 facing, colour;
+varying float high;
 vec4 texel(float index) {
     float row = floor((index + 0.5) / size.x);
     return texture2D(poses, vec2(index - row * size.x + 0.5, row + 0.5) / size);
@@ -211,8 +219,57 @@ void main() {
     q = dot(q, q) < 1e-6 ? vec4(0.0, 0.0, 0.0, 1.0) : normalize(q);
     vec3 p = mix(texel(at).xyz, texel(at + 2.0).xyz, share) + turned(position, q);
     facing = turned(normal, q);
+    high = p.z;
     colour = abs(tint.w - chosen) < 0.5 ? vec3(1.0, 0.85, 0.3) : tint.rgb;
     gl_Position = projectionMatrix * viewMatrix * vec4(p, 1.0);
+}`;
+
+/** The shade under bodies: a rectangle a body, on the floor under its two axes that lie flattest. */
+export const BODY_SHADE_VERTEX = `
+precision highp float;
+attribute vec3 position;   // a corner: which way along the one axis, and the other; and the body's row
+attribute vec3 half_size;  // m, of the box about the body
+attribute vec3 centre;     // m, of that box, in the body's frame
+uniform sampler2D poses;
+uniform vec2 size;
+uniform float share;
+uniform mat4 viewMatrix, projectionMatrix;
+varying vec2 at, reach;
+varying float dark;
+const float SOFT = 0.35;   // m
+vec4 texel(float index) {
+    float row = floor((index + 0.5) / size.x);
+    return texture2D(poses, vec2(index - row * size.x + 0.5, row + 0.5) / size);
+}
+vec3 turned(vec3 v, vec4 q) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+void main() {
+    float first = 4.0 * position.z;
+    vec4 q0 = texel(first + 1.0), q1 = texel(first + 3.0);
+    vec4 q = mix(dot(q0, q1) < 0.0 ? -q0 : q0, q1, share);
+    q = dot(q, q) < 1e-6 ? vec4(0.0, 0.0, 0.0, 1.0) : normalize(q);
+    vec3 x = turned(vec3(1.0, 0.0, 0.0), q), y = turned(vec3(0.0, 1.0, 0.0), q), z = turned(vec3(0.0, 0.0, 1.0), q);
+    vec3 p = mix(texel(first).xyz, texel(first + 2.0).xyz, share) + turned(centre, q);
+    vec3 one = x * half_size.x, other = y * half_size.y;
+    if (abs(x.z) > abs(y.z) && abs(x.z) > abs(z.z)) one = z * half_size.z;
+    else if (abs(y.z) > abs(z.z)) other = z * half_size.z;
+    reach = vec2(length(one.xy), length(other.xy));
+    vec2 a = reach.x > 0.01 ? one.xy / reach.x : vec2(1.0, 0.0), b = reach.y > 0.01 ? other.xy / reach.y : vec2(-a.y, a.x);
+    at = position.xy * (reach + SOFT);
+    float low = p.z - abs(x.z) * half_size.x - abs(y.z) * half_size.y - abs(z.z) * half_size.z;
+    dark = 0.42 * (1.0 - smoothstep(0.0, 1.2, low));
+    gl_Position = projectionMatrix * viewMatrix * vec4(p.xy + a * at.x + b * at.y, 0.008, 1.0);
+    if (dark < 0.01 || p.z < -10.0) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+}`;
+
+export const BODY_SHADE_FRAGMENT = `
+precision highp float;
+varying vec2 at, reach;
+varying float dark;
+const float SOFT = 0.35;
+void main() {
+    vec2 inside = max(reach - 0.15, vec2(0.0));
+    float d = min(1.0, length(max(abs(at) - inside, 0.0)) / (SOFT + 0.15));
+    gl_FragColor = vec4(0.05, 0.06, 0.09, dark * (1.0 - d) * (1.0 - d));
 }`;
 
 /** The edges of bodies, by the same vertices. */
@@ -224,10 +281,11 @@ void main() { gl_FragColor = vec4(colour * 0.45, 1.0); }`;
 export const BODY_FRAGMENT = `
 precision highp float;
 varying vec3 facing, colour;
+varying float high;
 void main() {
     vec3 n = normalize(facing);
     float light = 0.6 + 0.2 * n.z + 0.35 * max(0.0, dot(n, vec3(0.45, -0.55, 0.7)));
-    gl_FragColor = vec4(colour * light, 1.0);
+    gl_FragColor = vec4(colour * light * (0.8 + 0.2 * smoothstep(0.0, 0.5, high)), 1.0);
 }`;
 
 /** Walls: those that stand between the eye and the box `keep` are lowered, but for landmarks. */
@@ -275,6 +333,8 @@ uniform vec3 base, line;
 uniform float spacing;     // m between thin lines; every fifth is thicker
 uniform sampler2D field, ramp;
 uniform vec4 cover;        // x0, y0, width, height of the field, m; width 0: none
+uniform sampler2D shade;   // of walls
+uniform vec4 shaded;       // where it lies; width 0: nowhere
 uniform float gain;        // of the field's values, so that one scale serves people and floor
 varying vec2 ground;
 float lines(float every, float wide) {
@@ -290,6 +350,12 @@ void main() {
             float v = gain * texture2D(field, at).r;
             if (v > 0.004) colour = mix(colour, texture2D(ramp, vec2(v, 0.5)).rgb, min(1.0, 0.2 + 3.0 * v));
         }
+    }
+    if (shaded.z > 0.0) {
+        vec2 at = (ground - shaded.xy) / shaded.zw;
+        // Weak where the colours of a field are to be read.
+        if (all(greaterThan(at, vec2(0.0))) && all(lessThan(at, vec2(1.0))))
+            colour *= 1.0 - (cover.z > 0.0 ? 0.25 : 0.6) * texture2D(shade, at).a;
     }
     gl_FragColor = vec4(colour, 1.0);
 }`;

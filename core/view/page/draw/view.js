@@ -81,9 +81,15 @@ export class View {
         this.ground.set(scene);
         this.bodies.set(scene.bodies ?? []);
         if (this.crowd.next) this.bodies.upload(this.crowd);
+        this.named = { state: scene.states ?? [], group: scene.groups ?? [] };
+        for (const by of ["state", "group"]) {
+            this.tables[by]?.dispose();
+            this.tables[by] = null;
+        }
+        this.colourBy(this.by);
         const name = `${scene.file} ${scene.session}`;
-        if (this.named !== name) {
-            this.named = name;
+        if (this.known !== name) {
+            this.known = name;
             this.shown = scene;
             this.home = scene.camera;
             this.handled = this.peopled = false;
@@ -169,8 +175,9 @@ export class View {
     colourBy(by) {
         const u = this.people.uniforms, colour = COLOURS[by];
         u.classes.value = { state: 1, group: 2, failed: 3, direction: 4 }[by] ?? 0;
-        const kind = colour.table ?? (colour.classes ? "class" : "value");
-        u.colours.value = this.tables[kind] ??= smallTexture(table(kind, colour.most));
+        const named = this.named?.[by], kind = named ? by : colour.table ?? (colour.classes ? "class" : "value");
+        this.by = by;
+        u.colours.value = this.tables[kind] ??= smallTexture(table(kind, colour.most, named));
         this.dirty = true;
     }
 

@@ -25,6 +25,7 @@ export class Prism {
     constructor() {
         this.faces = { position: [], normal: [], middle: [], across: [] };
         this.edges = { position: [], normal: [], middle: [], across: [] };
+        this.rings = []; // on which the blocks stand, counter-clockwise
     }
 
     add(part, points, normal) {
@@ -42,6 +43,7 @@ export class Prism {
         const ring = THREE.ShapeUtils.isClockWise(shape) ? [...points].reverse() : points;
         this.middle = [0, 1].map((k) => ring.reduce((sum, p) => sum + p[k], 0) / ring.length);
         this.across = acrossOf(ring, this.middle);
+        this.rings.push(ring);
         ring.forEach((p, i) => {
             const q = ring[(i + 1) % ring.length], length = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1;
             const a = [p[0], p[1]], b = [q[0], q[1]];

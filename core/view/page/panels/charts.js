@@ -1,7 +1,7 @@
 // Charts of what the server reports four times a second, kept by the page since the start.
 import { Chart } from "./chart.js";
 import { el, fill } from "../dom.js";
-import { classColour, css } from "../draw/palette.js";
+import { classColour, css, namedColour } from "../draw/palette.js";
 
 const KEPT = 2400; // points a series; then every second one goes
 const STAGES = ["perceive", "think", "prefer", "push", "solve", "move", "bodies", "infer", "observe"];
@@ -128,7 +128,7 @@ export class ChartsPage {
         const classes = (i) => css(classColour(i));
         const one = () => "#0072b2";
         const counts = this.states[m];
-        if (counts) counts.draw(this.charts.states, (i) => classes(first + i));
+        if (counts) counts.draw(this.charts.states, (i) => css(namedColour(this.scene?.states?.[first + i])));
         this.speed.draw(this.charts.speed, one);
         this.dense.draw(this.charts.dense, one);
         if (!this.charts.flows.node.hidden) this.flows.draw(this.charts.flows, classes);

@@ -1,6 +1,6 @@
 // The legend: what the colours of people and of the floor mean, with units.
 import { byId, el, figure, fill, say } from "../dom.js";
-import { classColour, COLOURS, css, FIELDS, serviceColour, unitText, valueColour, wayColour } from "../draw/palette.js";
+import { classColour, COLOURS, css, FIELDS, namedColour, serviceColour, unitText, valueColour, wayColour } from "../draw/palette.js";
 
 function ramp(calm = false) {
     const canvas = el("canvas", { width: 128, height: 1, "aria-hidden": "true" });
@@ -46,7 +46,7 @@ export class Legend {
 
     classes() {
         const several = (this.scene?.machines?.length ?? 0) > 1;
-        const names = this.by === "group" ? this.scene?.groups ?? []
+        const names = this.by === "group" ? (this.scene?.groups ?? []).map((g) => g.name)
             : COLOURS[this.by].names ?? (this.scene?.states ?? []).map((s) => (several ? `${this.scene.machines[s.machine]?.name} ${s.name}` : s.name));
         this.counts = names.map(() => el("span", { className: "faint" }));
         return el("ul", { "aria-label": `People by ${COLOURS[this.by].name}` }, names.map((name, i) => {
@@ -59,7 +59,8 @@ export class Legend {
     classColour(i) {
         if (this.by === "service") return serviceColour(i);
         if (this.by === "direction") return wayColour(i / 4);
-        return classColour(COLOURS[this.by].at?.[i] ?? i);
+        if (COLOURS[this.by].at) return classColour(COLOURS[this.by].at[i]);
+        return namedColour(this.scene?.[this.by === "group" ? "groups" : "states"]?.[i]);
     }
 
     values() {

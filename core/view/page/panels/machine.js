@@ -1,7 +1,7 @@
 // The machine as a graph: how many are in each state, how many took each transition in a second.
 import { el, figure, fill, say, svg } from "../dom.js";
 import { BOX, layOut } from "./layout.js";
-import { classColour, css } from "../draw/palette.js";
+import { css, namedColour } from "../draw/palette.js";
 
 export class MachinePage {
     /** `chosen(machine, state)` is called with the indices of a state that was clicked. */
@@ -15,7 +15,7 @@ export class MachinePage {
     set(scene) {
         const machines = scene.machines ?? [];
         // A scene message comes whenever anything changed: what did not is not built again.
-        const same = JSON.stringify(machines.map((m) => [m.name, m.start, m.states.map((s) => s.name), m.transitions]));
+        const same = JSON.stringify([scene.states, machines.map((m) => [m.name, m.start, m.states.map((s) => s.name), m.transitions])]);
         this.scene = scene;
         this.machines = machines;
         if (same === this.shown) return;
@@ -60,7 +60,7 @@ export class MachinePage {
         this.nodes = machine.states.map((state, i) => {
             const { x, y } = plan.nodes[i];
             const dot = svg("circle", { cx: -BOX.wide / 2 + 11, cy: -9, r: 5 });
-            dot.style.fill = css(classColour(Math.max(0, first) + i));
+            dot.style.fill = css(namedColour(this.scene.states?.[Math.max(0, first) + i]));
             const node = svg("g", {
                 class: `node${state.name === machine.start ? " start" : ""}`, transform: `translate(${x} ${y})`,
                 tabindex: 0, role: "button", "aria-label": `State ${state.name}: its parameters`,

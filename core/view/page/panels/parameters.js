@@ -32,13 +32,14 @@ export class ParametersPage {
         this.build();
     }
 
-    /** Opens on the state with most people, until somebody chooses one. */
+    /** Opens on the state with most people, unless somebody chose one; what is looked at stays. */
     take(status) {
-        if (this.chosen || !this.machines?.length || !status.states?.length) return;
+        if (this.chosen || (this.opened && !this.node.hidden) || !this.machines?.length || !status.states?.length) return;
         const counts = status.states.flatMap((states, m) => states.map((n, s) => [n, m, s]));
         const [most, machine, state] = counts.reduce((a, b) => (b[0] > a[0] ? b : a));
         if (most === 0) return;
-        this.chosen = true;
+        if (this.opened && machine === this.machine && state === this.state) return;
+        this.opened = true;
         this.machine = machine;
         this.state = state;
         this.build();
@@ -95,7 +96,7 @@ export class ParametersPage {
         }
         if (rest.length === 0) return own;
         const name = `${rest.length} more, as the engine has them`;
-        return [own, el("details", { open: own.length === 0 || this.opened, ontoggle: (event) => (this.opened = event.target.open) },
+        return [own, el("details", { open: own.length === 0 || this.unfolded, ontoggle: (event) => (this.unfolded = event.target.open) },
             el("summary", {}, name), rest)];
     }
 

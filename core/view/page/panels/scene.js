@@ -24,7 +24,7 @@ export class ScenePage {
 
     set(scene) {
         say(this.title, scene.title || scene.file || "Jostle");
-        const groups = scene.groups ?? [], bodies = (scene.bodies ?? []).length;
+        const groups = (scene.groups ?? []).map((g) => g.name), bodies = (scene.bodies ?? []).length;
         const names = groups.slice(0, 6).join(", ") + (groups.length > 6 ? ", and others" : "");
         say(this.about, scene.about || `${groups.length === 1 ? "One group" : `${groups.length} groups`} of people: ${names}${bodies ? `; ${bodies} bodies` : ""}.`);
         const live = scene.session !== "replay";

@@ -1,0 +1,147 @@
+"""Tests of whom the page reaches: by keyboard, enlarged, in small windows, over a connection that breaks, with many people."""
+import time
+
+from harness import Session, expect, served
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
+
+# What can be used: visible, enabled, in the bars and the panel.
+USABLE = """
+return [...document.querySelectorAll('button, select, input, canvas[tabindex], [role=tabpanel], .graph [tabindex]')]
+    .filter((n) => n.checkVisibility() && !n.disabled && n.tabIndex >= 0);
+"""
+
+
+@served("run", "scenes/office.yaml", "--view")
+def keyboard(browser):
+    """everything is reached by the Tab key, in sight, with a name"""
+    browser.find("body").send_keys(" ")
+    for tab in ("machine", "parameters", "act"):
+        browser.find(f"#tab-{tab}").click()
+        wanted = browser.run(USABLE)
+        expect(len(wanted) > 15, f"only {len(wanted)} controls")
+        nameless = browser.run("""return arguments[0].filter((n) => !(n.getAttribute('aria-label') || n.textContent.trim()
+            || n.labels?.length || n.title || n.getAttribute('aria-labelledby'))).map((n) => n.outerHTML.slice(0, 80))""", wanted)
+        expect(not nameless, f"without a name: {nameless[:2]}")
+        browser.run("document.activeElement.blur(); window.reached = new Set(); window.unseen = []; window.scrollTo(0, 0)")
+        for _ in range(len(wanted) + 8):
+            ActionChains(browser.driver, duration=0).send_keys(Keys.TAB).perform()
+            browser.run("""const n = document.activeElement; window.reached.add(n);
+                const s = getComputedStyle(n);
+                if (n !== document.body && (s.outlineStyle === 'none' || parseFloat(s.outlineWidth) < 2)) window.unseen.push(n.outerHTML.slice(0, 80));""")
+        missed = browser.run("return arguments[0].filter((n) => !window.reached.has(n)).map((n) => n.outerHTML.slice(0, 80))", wanted)
+        expect(not missed, f"not reached: {missed[:2]}")
+        unseen = browser.run("return window.unseen")
+        expect(not unseen, f"the focus is not seen on {unseen[:2]}")
+    # The crowd without a pointer: Enter at the middle of the picture chooses a person.
+    browser.run("""const at = page.crowd.position([...Array(page.crowd.next.slots).keys()].find((s) => page.crowd.alive(s)), 1);
+        const t = page.view.orbit.target; page.view.moveBy(at[0] - t.x, at[1] - t.y);
+        const c = document.getElementById('picture'); c.focus({focusVisible: true});""")
+    time.sleep(0.3)
+    browser.press(Keys.ENTER)
+    browser.wait("return page.person", "Enter chooses nobody")
+    browser.picture("keyboard")
+
+
+OVERLAPS = """
+const nodes = arguments[0].filter((n) => !n.closest('.graph') && n.tagName !== 'CANVAS' && n.getAttribute('role') !== 'tabpanel');
+const boxes = nodes.map((n) => n.getBoundingClientRect()), out = [];
+nodes.forEach((a, i) => nodes.forEach((b, j) => {
+    if (j <= i || a.contains(b) || b.contains(a)) return;
+    const p = boxes[i], q = boxes[j];
+    if (p.left < q.right - 1 && q.left < p.right - 1 && p.top < q.bottom - 1 && q.top < p.bottom - 1) out.push(a.outerHTML.slice(0, 60) + ' on ' + b.outerHTML.slice(0, 60));
+}));
+nodes.forEach((n, i) => {
+    if (boxes[i].left < -1 || boxes[i].right > innerWidth + 1) out.push(n.outerHTML.slice(0, 60) + ' leaves the window');
+    if (n.tagName === 'BUTTON' && n.scrollWidth > n.clientWidth + 1) out.push(n.outerHTML.slice(0, 60) + ' is cut');
+});
+if (document.documentElement.scrollWidth > innerWidth + 1) out.push('the page is wider than the window');
+return out;
+"""
+
+
+@served("run", "scenes/office.yaml", "--view")
+def enlarged(browser):
+    """enlarged to 200 % nothing overlaps or is cut, in light and in dark"""
+    browser.find("body").send_keys(" ")  # that the browser has time for layouts
+    for wide, high, ratio, dark, name in ((1280, 800, 1, True, "dark"), (1024, 640, 1, False, "small"), (640, 400, 2, False, "zoom-200"), (400, 640, 2, True, "narrow")):
+        browser.size(wide, high, ratio)
+        browser.dark(dark)
+        for tab in ("scene", "machine", "parameters", "charts", "act", "engine"):
+            browser.find(f"#tab-{tab}").click()
+            time.sleep(0.2)
+            wrong = browser.run(OVERLAPS, browser.run(USABLE))
+            expect(not wrong, f"at {wide} x {high}, {tab}: {wrong[:2]}")
+        high_enough = browser.run("return document.getElementById('stage').clientHeight")
+        expect(high_enough >= 200, f"the picture is only {high_enough} pixels high")
+        browser.run("window.scrollTo(0, 0)")
+        time.sleep(0.5)
+        browser.picture(name)
+
+
+def reconnects(browser):
+    """a lost connection comes back by itself; an ended program is said"""
+    session = Session("run", "scenes/office.yaml", "--view")
+    try:
+        browser.open(session)
+        browser.run("window.first = page.connection.socket; window.first.close()")
+        browser.wait("return window.first.readyState === 3", "the socket stays open")
+        browser.wait("return page.connection.socket !== window.first && page.connection.socket.readyState === 1", "no new connection")
+        tick = browser.run("return page.crowd.next.tick")
+        browser.wait("return page.crowd.next.tick > arguments[0] + 3", "no frames after the new connection", tick)
+        expect("connected" == browser.find("#link").text, "it does not say that it is connected")
+    finally:
+        session.stop()
+    browser.wait("return /lost/.test(document.getElementById('messages').textContent)", "the page does not say that the program is gone")
+    browser.picture("lost")
+
+
+@served("run", "scenes/office.yaml", "--view", "--no-watch")
+def hides_its_token(browser):
+    """the token leaves the address bar; the page can be loaded again, and a second page opened"""
+    connected = "return window.page && page.connection.socket.readyState === 1 && page.crowd.next && page.crowd.next.slots > 0"
+    shown = browser.run("return location.href")
+    expect("token" not in shown, f"the address bar shows {shown}")
+    token = browser.run("return page.connection.token")
+    expect(len(token) == 32, f"a token {token!r}")
+    browser.driver.refresh()
+    browser.wait(connected, "no frame reaches the page that was loaded again")
+    expect(browser.run("return location.href") == shown, "the address bar is another")
+    browser.run("page.inspect(1)")
+    browser.wait("return page.person?.slot === 1", "the first page is told of nobody")
+    first = browser.driver.current_window_handle
+    browser.driver.switch_to.new_window("tab")
+    try:
+        browser.driver.get(f"{shown}?token={token}")
+        browser.wait(connected, "no frame reaches the second page")
+        expect("token" not in browser.run("return location.href"), "the second page shows the token")
+        browser.run("page.inspect(2)")
+        browser.wait("return page.person?.slot === 2", "the second page is told of nobody")
+    finally:
+        browser.driver.close()
+        browser.driver.switch_to.window(first)
+    browser.wait(connected, "the first page is no longer connected")
+    browser.run("window.seen = 0; const take = page.takePerson.bind(page); page.takePerson = (m) => { window.seen += m.agent?.slot === 1; take(m); }")
+    browser.wait("return window.seen > 1 && page.person?.slot === 1", "another page took away the person of the first")
+
+
+@served("run", "scenes/tawaf.yaml", "--view")
+def crowd_of_35000(browser):
+    """35,000 people take at most 8 ms of script and 25 draw calls a picture
+
+    The quickest of the pictures counts: what else runs on the machine only adds to a time.
+    """
+    browser.size(800, 500)  # software draws slowly, the script does not mind
+    browser.wait("return page.meter.pictures >= 5", "too few pictures", patience=40)
+    browser.run("page.meter.spent.length = 0")
+    browser.wait("return page.meter.spent.length >= 20", "too few pictures", patience=40)
+    least = browser.run("return Math.min(...page.meter.spent)")
+    draws = browser.run("return page.view.renderer.info.render.calls")
+    people = browser.run("return page.machine.status.agents")
+    browser.picture("tawaf")
+    expect(people >= 34000, f"{people} people")
+    expect(0 < least <= 8, f"{least:.1f} ms of script")
+    expect(0 < draws <= 25, f"{draws} draw calls")
+
+
+TESTS = [keyboard, enlarged, reconnects, hides_its_token, crowd_of_35000]
