@@ -1,5 +1,6 @@
 // What stands still: the floor with its field, walls, gates, places and regions.
 import * as THREE from "/three/build/three.module.js";
+import { boxOf } from "./camera.js";
 import { table } from "./palette.js";
 import { bakeShade } from "./shade.js";
 import { FLOOR_FRAGMENT, FLOOR_VERTEX } from "./shaders.js";
@@ -47,7 +48,7 @@ export class Ground {
             shade: { value: null }, shaded: { value: new THREE.Vector4() },
         };
         // What the walls are seen from, and the box of the floor that they must not hide, m.
-        this.seen = { eye: { value: new THREE.Vector3() }, keep: { value: new THREE.Vector4() }, lowered: { value: 1 } };
+        this.seen = { eye: { value: new THREE.Vector3() }, keep: { value: new THREE.Vector4() }, lowered: { value: 1 }, edge: { value: 0.4 } };
         const material = new THREE.ShaderMaterial({
             uniforms: this.uniforms, vertexShader: FLOOR_VERTEX, fragmentShader: FLOOR_FRAGMENT,
             extensions: { derivatives: true }, depthWrite: false,
@@ -79,7 +80,10 @@ export class Ground {
         this.floor.geometry.translate((x0 + x1) / 2, (y0 + y1) / 2, 0);
         this.uniforms.spacing.value = Math.max(x1 - x0, y1 - y0) > 80 ? 10 : 1;
         this.group.add(this.floor);
-        const fixed = new Prism();
+        const box = boxOf(this.walls.flatMap((w) => w.points ?? []));
+        this.beside = box ? Math.min(1.2, 0.15 * Math.min(box[1][0] - box[0][0], box[1][1] - box[0][1])) : 1.2;
+        this.seen.edge.value = this.beside / 3;
+        const fixed = new Prism(this.beside);
         for (const wall of this.walls) if (!wall.name) fixed.wall(wall, wall.height || 2);
         this.addPrism(fixed, this.colours.wall, this.colours.edge);
         this.rings = fixed.rings;
@@ -104,7 +108,7 @@ export class Ground {
     /** Named walls: closed ones stand, open ones are a strip on the floor. */
     gates() {
         this.gateParts?.forEach((part) => this.drop(part));
-        const gates = new Prism();
+        const gates = new Prism(this.beside);
         for (const wall of this.walls) {
             if (wall.name) gates.wall(wall, this.open[wall.name] ? OPEN : wall.height || 2);
         }

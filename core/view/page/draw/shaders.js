@@ -288,20 +288,20 @@ void main() {
     gl_FragColor = vec4(colour * light * (0.8 + 0.2 * smoothstep(0.0, 0.5, high)), 1.0);
 }`;
 
-/** Walls: those that stand between the eye and the box `keep` are lowered, but for landmarks. */
+/** Walls: those that stand between the eye and the box `keep` are lowered. */
 export const WALL_VERTEX = `
 attribute vec2 middle, across; // of the wall's block; from its middle to beside it, m
 uniform vec3 eye;
 uniform vec4 keep;         // x0, y0, x1, y1
-uniform float lowered;
+uniform float lowered, edge; // edge: m within that box
 varying vec3 facing;
 varying float high;
-const float LOW = 0.35, LANDMARK = 3.5; // m
+const float LOW = 0.35; // m
 void main() {
     vec2 behind = middle + (dot(across, middle - eye.xy) < 0.0 ? -across : across);
-    bool hides = all(greaterThan(behind, keep.xy + 0.4)) && all(lessThan(behind, keep.zw - 0.4));
+    bool hides = all(greaterThan(behind, keep.xy + edge)) && all(lessThan(behind, keep.zw - edge));
     vec3 at = position;
-    if (hides && lowered > 0.5 && at.z < LANDMARK) at.z = min(at.z, LOW);
+    if (hides && lowered > 0.5) at.z = min(at.z, LOW);
     facing = normal;
     high = at.z;
     gl_Position = projectionMatrix * viewMatrix * vec4(at, 1.0);

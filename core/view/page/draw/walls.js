@@ -4,10 +4,11 @@ import * as THREE from "/three/build/three.module.js";
 import { WALL_EDGE_FRAGMENT, WALL_FRAGMENT, WALL_VERTEX } from "./shaders.js";
 
 const THIN = 0.12; // m, drawn thickness of walls that have none
-const BESIDE = 1.2; // m beside a wall: whether that is within the scene decides if it is lowered
+const LANDMARK = 3.5; // m: a solid block as high is what the scene is about, and is never lowered
+const FAR = 1e6; // m: beside such a block nothing is hidden
 
-/** The direction across a block's longest edge, as long as it takes to be beside the block, m. */
-function acrossOf(points, [mx, my]) {
+/** The direction across a block's longest edge, as long as it takes to be `beside` m beside the block, m. */
+function acrossOf(points, [mx, my], beside) {
     let longest = 0, x = 1, y = 0;
     points.forEach((a, i) => {
         const b = points[(i + 1) % points.length], length = Math.hypot(b[0] - a[0], b[1] - a[1]);
@@ -17,12 +18,13 @@ function acrossOf(points, [mx, my]) {
         y = (a[0] - b[0]) / length;
     });
     const reach = Math.max(...points.map((p) => Math.abs((p[0] - mx) * x + (p[1] - my) * y)));
-    return [x * (reach + BESIDE), y * (reach + BESIDE)];
+    return [x * (reach + beside), y * (reach + beside)];
 }
 
-/** Triangles and edges of blocks. */
+/** Triangles and edges of blocks. `beside`: m from a wall; whether the spot there is within the scene decides if it is lowered. */
 export class Prism {
-    constructor() {
+    constructor(beside = 1.2) {
+        this.beside = beside;
         this.faces = { position: [], normal: [], middle: [], across: [] };
         this.edges = { position: [], normal: [], middle: [], across: [] };
         this.rings = []; // on which the blocks stand, counter-clockwise
@@ -38,11 +40,11 @@ export class Prism {
     }
 
     /** An upright block on a polygon, from the floor to `high` m. */
-    block(points, high) {
+    block(points, high, landmark = false) {
         const shape = points.map((p) => new THREE.Vector2(p[0], p[1]));
         const ring = THREE.ShapeUtils.isClockWise(shape) ? [...points].reverse() : points;
         this.middle = [0, 1].map((k) => ring.reduce((sum, p) => sum + p[k], 0) / ring.length);
-        this.across = acrossOf(ring, this.middle);
+        this.across = landmark ? [FAR, FAR] : acrossOf(ring, this.middle, this.beside);
         this.rings.push(ring);
         ring.forEach((p, i) => {
             const q = ring[(i + 1) % ring.length], length = Math.hypot(q[0] - p[0], q[1] - p[1]) || 1;
@@ -59,7 +61,7 @@ export class Prism {
 
     /** A wall as the scene has it: solid, or a line that gets a thickness to be seen. */
     wall({ solid, points, closed }, high) {
-        if (solid && points.length > 2) return this.block(points, high);
+        if (solid && points.length > 2) return this.block(points, high, high >= LANDMARK);
         const ends = points.length - (closed ? 0 : 1);
         for (let i = 0; i < ends; i++) {
             const a = points[i], b = points[(i + 1) % points.length];
