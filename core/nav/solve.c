@@ -152,18 +152,37 @@ static void find_touched(const JoxAgents *a, uint32_t i, const JoxNeighbours *n,
     }
 }
 
+/* What one agent wants, as the kernel has it (wish in solve_wide.c). */
+static JoxV2 wish_alone(const JoxSolve *s, uint32_t i, const JoxHalfPlaneCounts *made,
+                        const JoxHalfPlane *planes) {
+    const JoxAgents *a = s->agents;
+    const JoxV2 w = {a->pref_x[i], a->pref_y[i]};
+    const float length2 = jox_length2(w), tie = 0.02f, slow = 0.2f;
+    const bool gets_on = slow * length2 < jox_dot(jox_v2(a->vx[i], a->vy[i]), w);
+    bool kept_off = false;
+    if (jox_solve_walks(s, i))
+        return jox_v2(a->walk_x[i], a->walk_y[i]);
+    if (length2 < JOX_STANDS * JOX_STANDS || (gets_on && !(a->param[JOX_PARAM_push][i] > 0.0f)))
+        return w;
+    for (uint32_t k = made->walls; k < made->walls + made->contacts + made->agents; k++) {
+        const JoxV2 n = planes[k].normal;
+        const float along = jox_dot(n, w), aside = fabsf(n.x * w.y - n.y * w.x);
+        const bool head_on = along < 0.0f && aside < -tie * along;
+        kept_off |= along < planes[k].offset && (!gets_on || head_on);
+    }
+    return kept_off ? jox_v2(w.x + JOX_RIGHT_SHARE * w.y, w.y - JOX_RIGHT_SHARE * w.x) : w;
+}
+
 /* Solves for one agent, whose columns stay as they are. */
 static void solve_alone(const JoxSolve *s, uint32_t i, JoxPlan *out) {
     JoxAgents *a = s->agents;
     const float x = a->next_x[i], y = a->next_y[i];
     const uint8_t failed = a->failed[i];
-    const bool walks = jox_solve_walks(s, i);
     JoxHalfPlane half_planes[JOX_MOST_CONSTRAINTS];
     const JoxHalfPlaneCounts made = jox_solve_half_planes(s, i, half_planes);
     out->count = sort_out(half_planes, &made, out->planes);
     a->failed[i] = 0;
-    jox_solve_one(s, i, &made, half_planes,
-                  walks ? jox_v2(a->walk_x[i], a->walk_y[i]) : jox_v2(a->pref_x[i], a->pref_y[i]));
+    jox_solve_one(s, i, &made, half_planes, wish_alone(s, i, &made, half_planes));
     out->chosen = jox_v2(a->next_x[i], a->next_y[i]);
     out->failed = a->failed[i];
     a->next_x[i] = x;
