@@ -12,7 +12,7 @@
 static const float HEAD = 46, PANEL = 206, EDGE = 16;
 static const float WIDE = 1280, LOW = 480;
 
-static const JoxInk WHITE = {0xff, 0xff, 0xff, 1}, FLOOR = {0xf8, 0xf8, 0xf6, 1};
+static const JoxInk FLOOR = {0xf8, 0xf8, 0xf6, 1};
 
 void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
     float wide = WIDE - PANEL - 2 * EDGE;
@@ -26,6 +26,23 @@ void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
     *height = (uint32_t)(tall + HEAD + EDGE + 1.0f) / 2 * 2;
 }
 
+/* px: what is one in a panel; a wide one is shown smaller. */
+static float panel_unit(float wide) {
+    return wide > 1500 ? 2.2f : 1.5f;
+}
+
+bool jox_draw_panel_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height) {
+    static const float HALF = 1140, FLAT = 0.4f, HIGH = 1.25f; /* px; heights by widths */
+    const float aspect = (high.y - low.y) / (high.x - low.x);
+    const bool whole = aspect < FLAT;
+    const float u = panel_unit(whole ? 2 * HALF : HALF);
+    const float wide = whole ? 2 * HALF : HALF;
+    const float map = (wide - 2 * EDGE * u) * jox_clampf(aspect, 0.05f, HIGH);
+    *width = (uint32_t)wide;
+    *height = (uint32_t)(map + (HEAD + JOX_DRAW_STRIP) * u + 1.0f) / 2 * 2;
+    return whole;
+}
+
 /* ---- the map ---- */
 
 static void lay_out(JoxDrawing *d) {
@@ -34,9 +51,12 @@ static void lay_out(JoxDrawing *d) {
     d->unit = jox_clampf(jox_minf(wide / WIDE, tall / LOW), 0.75f, 6.0f);
     if (wide < WIDE) /* a narrow picture of a high area */
         d->unit = jox_clampf(tall / 800.0f, 0.75f, jox_maxf(0.75f, wide / 640.0f));
+    if (p->panel)
+        d->unit = panel_unit(wide);
     float u = d->unit;
-    d->panel = wide - (PANEL + EDGE) * u + EDGE * u;
-    JoxV2 low = {EDGE * u, HEAD * u}, high = {d->panel - EDGE * u, tall - EDGE * u};
+    d->panel = wide - (p->panel ? 0 : PANEL * u);
+    JoxV2 low = {EDGE * u, HEAD * u};
+    JoxV2 high = {d->panel - EDGE * u, tall - (p->panel ? JOX_DRAW_STRIP : EDGE) * u};
     JoxV2 size = jox_sub(p->high, p->low);
     d->scale = jox_minf((high.x - low.x) / size.x, (high.y - low.y) / size.y);
     JoxV2 spare = jox_scale(jox_sub(jox_sub(high, low), jox_scale(size, d->scale)), 0.5f);
@@ -52,8 +72,8 @@ static JoxV2 *project(const JoxDrawing *d, const JoxV2 *points, uint32_t count) 
     return out;
 }
 
-static void plan_line(const JoxDrawing *d, const JoxV2 *points, uint32_t count, bool closed,
-                      const char *name) {
+void jox_draw_plan_line(const JoxDrawing *d, const JoxV2 *points, uint32_t count, bool closed,
+                        const char *name) {
     JoxV2 *at = project(d, points, count);
     jox_canvas_line(d->canvas, at, count, closed, name);
     jox_free(at);
@@ -64,9 +84,12 @@ static void draw_places(JoxDrawing *d) {
     JoxCanvas *c = d->canvas;
     float u = d->unit;
     JoxStyle line = {.line = jox_ink_with(jox_ink_place, 0.8f), .width = 1.2f * u, .dash = 5 * u};
-    JoxStyle area = {.fill = jox_ink_with(jox_ink_place, 0.08f),
+    JoxStyle area = {.fill = jox_ink_with(jox_ink_place, p->grid ? 0.0f : 0.08f), /* fields stay */
                      .line = jox_ink_with(jox_ink_place, 0.6f),
                      .width = 0.8f * u};
+    JoxStyle exit = {
+        .fill = jox_ink_with(jox_ink_exit, 0.14f), .line = jox_ink_exit, .width = 1.6f * u};
+    JoxStyle exit_line = {.line = jox_ink_exit, .width = 2.0f * u, .dash = 5 * u};
     jox_canvas_open(c, "places", NULL, area);
     for (uint32_t i = 0; i < p->place_count; i++) {
         const JoxPlace *place = &p->places[i];
@@ -74,14 +97,16 @@ static void draw_places(JoxDrawing *d) {
         bool open = outline == JOX_OUTLINE_OPEN;
         if (place->count == 0 || outline == JOX_OUTLINE_NONE)
             continue;
-        if (open)
+        if (jox_draw_is_exit(p, place->name))
+            jox_canvas_open(c, NULL, "exit", open ? exit_line : exit);
+        else if (open)
             jox_canvas_open(c, NULL, "line", line);
         if (outline == JOX_OUTLINE_CIRCLE)
             jox_canvas_disc(c, jox_draw_at(d, place->points[0]),
                             jox_maxf(place->radius * d->scale, 3 * u), NULL);
         else
-            plan_line(d, place->points, place->count, !open, place->name);
-        if (open)
+            jox_draw_plan_line(d, place->points, place->count, !open, place->name);
+        if (open || jox_draw_is_exit(p, place->name))
             jox_canvas_close(c);
     }
     jox_canvas_close(c);
@@ -92,9 +117,8 @@ static bool same(JoxV2 a, JoxV2 b) {
 }
 
 /* Thin walls have two sides: an open line's vertices go there and back, so that half of them draw
-   it; a closed line is two rings, of which one does. The number of points that draw ring r, 0 for a
-   second side, and whether they are to be closed. */
-static uint32_t points_of(const JoxWalls *walls, uint32_t r, bool *closed) {
+   it; a closed line is two rings, of which one does. */
+uint32_t jox_draw_ring_points(const JoxWalls *walls, uint32_t r, bool *closed) {
     const struct JoxWallRing *ring = &walls->rings[r];
     const JoxWallVertex *v = &walls->vertices[ring->first];
     uint32_t i = 1, half = ring->count / 2 + 1;
@@ -119,12 +143,12 @@ static void draw_ring(const JoxDrawing *d, uint32_t r) {
     const JoxWalls *walls = d->picture->walls;
     const struct JoxWallRing *ring = &walls->rings[r];
     bool closed;
-    uint32_t count = points_of(walls, r, &closed);
+    uint32_t count = jox_draw_ring_points(walls, r, &closed);
     JoxV2 *points = jox_alloc(count + 1, sizeof *points);
     for (uint32_t i = 0; i < count; i++)
         points[i] = walls->vertices[ring->first + i].point;
     if (count)
-        plan_line(d, points, count, closed, ring->name);
+        jox_draw_plan_line(d, points, count, closed, ring->name);
     jox_free(points);
 }
 
@@ -155,6 +179,21 @@ static void draw_walls(JoxDrawing *d) {
     jox_canvas_close(d->canvas);
 }
 
+/* By bins of the load, as the floor has it; a piece that bears nothing stays a wall. */
+static void draw_loads(JoxDrawing *d) {
+    const JoxPicture *p = d->picture;
+    for (uint32_t k = 1; k < JOX_DRAW_BINS && p->wall_load_count; k++) {
+        JoxStyle style = {.line = jox_draw_floor_ink(p, k), .width = 5 * d->unit};
+        jox_canvas_open(d->canvas, NULL, "load", style);
+        for (uint32_t i = 0; i < p->wall_load_count; i++) {
+            const float share = p->wall_loads[i].value / p->floor_most;
+            if ((uint32_t)jox_minf(share * JOX_DRAW_BINS, JOX_DRAW_BINS - 1) == k)
+                jox_draw_plan_line(d, p->wall_loads[i].ends, 2, false, NULL);
+        }
+        jox_canvas_close(d->canvas);
+    }
+}
+
 static void draw_bodies(JoxDrawing *d, bool high) {
     const JoxPicture *p = d->picture;
     float u = d->unit;
@@ -168,7 +207,7 @@ static void draw_bodies(JoxDrawing *d, bool high) {
         if (body->high != high)
             continue;
         if (body->count)
-            plan_line(d, body->ring, body->count, true, body->name);
+            jox_draw_plan_line(d, body->ring, body->count, true, body->name);
         else
             jox_canvas_disc(d->canvas, jox_draw_at(d, body->at),
                             jox_maxf(body->radius * d->scale, 2 * u), NULL);
@@ -195,101 +234,10 @@ static void draw_trails(JoxDrawing *d) {
             for (to = from; to < trail->count && isfinite(trail->points[to].x);)
                 to++;
             if (to - from > 1)
-                plan_line(d, trail->points + from, to - from, false, NULL);
+                jox_draw_plan_line(d, trail->points + from, to - from, false, NULL);
         }
         jox_canvas_close(d->canvas);
     }
-    jox_canvas_close(d->canvas);
-}
-
-/* ---- names ---- */
-
-/* Whether a box is on the map and clear of all names so far; then it is taken. */
-static bool take(JoxDrawing *d, JoxV2 low, JoxV2 high) {
-    if (low.x < d->low.x || low.y < d->low.y || high.x > d->high.x || high.y > d->high.y ||
-        d->label_count == JOX_DRAW_LABELS)
-        return false;
-    for (uint32_t i = 0; i < d->label_count; i++)
-        if (low.x < d->labels[i].high.x && d->labels[i].low.x < high.x &&
-            low.y < d->labels[i].high.y && d->labels[i].low.y < high.y)
-            return false;
-    d->labels[d->label_count].low = low;
-    d->labels[d->label_count++].high = high;
-    return true;
-}
-
-/* Writes a name at a point of the plan, or beside it where another is; where all is taken, it is
-   left out. */
-static void name(JoxDrawing *d, JoxV2 at, const char *text) {
-    static const JoxV2 tries[] = {{0, 0}, {0, -1.3f}, {0, 1.3f}, {0, -2.6f}, {0, 2.6f}};
-    float size = 12 * d->unit;
-    char fit[128];
-    jox_draw_fit(fit, sizeof fit, text, size, false, 240 * d->unit);
-    float half = 0.5f * jox_draw_width(fit, size, false) + 2 * d->unit;
-    JoxV2 on = jox_draw_at(d, at);
-    if (on.x < d->low.x || on.x > d->high.x || on.y < d->low.y || on.y > d->high.y)
-        return;
-    /* Names at an edge move inwards. */
-    on.x = jox_clampf(on.x, jox_minf(d->low.x + half, d->high.x - half), d->high.x - half);
-    on.y = jox_clampf(on.y, d->low.y + size, d->high.y - size);
-    for (size_t t = 0; t < sizeof tries / sizeof *tries; t++) {
-        JoxV2 here = {on.x, on.y + tries[t].y * size};
-        if (!take(d, jox_v2(here.x - half, here.y - 0.6f * size),
-                  jox_v2(here.x + half, here.y + 0.6f * size)))
-            continue;
-        jox_canvas_text(d->canvas, jox_v2(here.x, here.y + 0.35f * size), size, JOX_ANCHOR_MIDDLE,
-                        false, fit);
-        return;
-    }
-}
-
-/* Where a place's name stands: within an area at its upper edge, so that it hides few. */
-static JoxV2 name_at(const JoxDrawing *d, const JoxPlace *place) {
-    JoxV2 low, high;
-    float line = 10 * d->unit / d->scale; /* m: to the middle of a line at an edge */
-    if (jox_place_outline(place) != JOX_OUTLINE_RING)
-        return place->centre;
-    jox_bounds(place->points, place->count, &low, &high);
-    JoxV2 at = {place->centre.x, high.y - line};
-    bool roomy = high.y - low.y > 4 * line && jox_polygon_contains(place->points, place->count, at);
-    return roomy ? at : place->centre;
-}
-
-/* Where a gate's name stands: beside it, on the side away from the middle of the map. */
-static JoxV2 gate_name_at(const JoxDrawing *d, const struct JoxWallRing *ring) {
-    const JoxPicture *p = d->picture;
-    const JoxWallVertex *first = &p->walls->vertices[ring->first];
-    JoxV2 sum = {0, 0};
-    for (uint32_t i = 0; i < ring->count; i++)
-        sum = jox_add(sum, first[i].point);
-    JoxV2 middle = jox_scale(sum, 1.0f / (float)ring->count);
-    JoxV2 out = jox_sub(middle, jox_scale(jox_add(p->low, p->high), 0.5f));
-    JoxV2 normal = jox_left(first->direction);
-    normal = jox_dot(normal, out) < 0.0f ? jox_scale(normal, -1.0f) : normal;
-    float size = 12 * d->unit, half = 0.5f * jox_draw_width(ring->name, size, false);
-    float away = (fabsf(normal.x) * half + fabsf(normal.y) * 0.6f * size + 5 * d->unit) / d->scale;
-    return jox_add(middle, jox_scale(normal, away));
-}
-
-static void draw_names(JoxDrawing *d) {
-    const JoxPicture *p = d->picture;
-    JoxStyle style = {
-        .fill = jox_ink_gate, .line = jox_ink_with(WHITE, 0.9f), .width = 3 * d->unit};
-    jox_canvas_open(d->canvas, "names", NULL, style);
-    jox_canvas_open(d->canvas, NULL, "gates", style);
-    bool closed;
-    for (uint32_t r = 0; p->walls && r < p->walls->ring_count; r++)
-        if (p->walls->rings[r].name && points_of(p->walls, r, &closed))
-            name(d, gate_name_at(d, &p->walls->rings[r]), p->walls->rings[r].name);
-    jox_canvas_close(d->canvas);
-    style.fill = (JoxInk){0x24, 0x45, 0x69, 1};
-    jox_canvas_open(d->canvas, NULL, "places", style);
-    for (uint32_t i = 0; i < p->place_count; i++) {
-        const JoxPlace *place = &p->places[i];
-        if (place->count && place->name)
-            name(d, name_at(d, place), place->name);
-    }
-    jox_canvas_close(d->canvas);
     jox_canvas_close(d->canvas);
 }
 
@@ -297,7 +245,10 @@ static void draw_head(const JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     char fit[256], time[64];
     float u = d->unit, wide = (float)d->canvas->width;
-    snprintf(time, sizeof time, "t = %.2f s", p->frame->time);
+    if (p->when)
+        snprintf(time, sizeof time, "%s", p->when);
+    else
+        snprintf(time, sizeof time, "t = %.2f s", p->frame->time);
     float room = wide - 3 * EDGE * u - jox_draw_width(time, 17 * u, true);
     jox_draw_fit(fit, sizeof fit, p->title, 19 * u, true, room);
     jox_canvas_open(d->canvas, "head", NULL, (JoxStyle){.fill = jox_ink_text});
@@ -329,10 +280,12 @@ void jox_draw(JoxCanvas *canvas, const JoxPicture *picture) {
     draw_places(d);
     draw_trails(d);
     draw_walls(d);
+    draw_loads(d);
+    jox_draw_probes(d);
     draw_bodies(d, false);
     jox_draw_people(d);
     draw_bodies(d, true);
-    draw_names(d);
+    jox_draw_names(d);
     jox_canvas_close(canvas);
     draw_frame(d, "frame", (JoxStyle){.line = jox_ink_with(jox_ink_faint, 0.5f), .width = d->unit});
     jox_draw_legend(d);

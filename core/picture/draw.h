@@ -58,14 +58,35 @@ typedef struct JoxTrail {
     uint32_t count, capacity;
 } JoxTrail;
 
+/* What a probe measures in: a line, lines or an area. */
+typedef struct JoxDrawnProbe {
+    const char *name;
+    const JoxV2 *points;
+    uint32_t count;
+    bool closed;
+} JoxDrawnProbe;
+
+/* A piece of a wall and what it bears, in the colours of the field on the floor. */
+typedef struct JoxDrawnLoad {
+    JoxV2 ends[2];
+    float value;
+} JoxDrawnLoad;
+
 typedef struct JoxPicture {
     const char *title;
+    const char *when; /* beside the title; NULL: the frame's time */
     const JoxFrame *frame;
     const float *face_x, *face_y; /* unit vectors; NULL: along the velocities */
     const float *density;         /* 1/m2, of each person; NULL: not known */
     const JoxWalls *walls;        /* all of them, open gates too */
     const JoxPlace *places;
     uint32_t place_count;
+    const char *const *exits; /* names of places where people leave */
+    uint32_t exit_count;
+    const JoxDrawnProbe *probes;
+    uint32_t probe_count;
+    const JoxDrawnLoad *wall_loads;
+    uint32_t wall_load_count;
     const JoxDrawnBody *bodies;
     uint32_t body_count;
     const JoxTrail *trails;
@@ -74,12 +95,16 @@ typedef struct JoxPicture {
     const float *field;
     JoxShow colour, floor;
     float colour_most, floor_most; /* at the bars' upper ends */
+    const char *field_legend;      /* what the field is; NULL: by `floor` */
+    bool panel;                    /* one of several: the legend is a strip below the map */
     float radius;                  /* m, of everyone, where the frame does not say */
     JoxV2 low, high;               /* what is shown */
 } JoxPicture;
 
-/* The size in pixels that suits an area, both even. */
+/* The size in pixels that suits an area, both even; of a panel, and whether it takes a whole line
+   of a page rather than half of one. */
 void jox_draw_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height);
+bool jox_draw_panel_size(JoxV2 low, JoxV2 high, uint32_t *width, uint32_t *height);
 void jox_draw(JoxCanvas *canvas, const JoxPicture *picture);
 
 #endif

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/format/noun.h"
 #include "picture/draw_parts.h"
 #include "record/danger/levels.h"
 
@@ -12,17 +13,8 @@ enum { MOST_SHOWN = 10 }; /* classes: of more, only those that somebody is in */
 typedef struct Legend {
     JoxDrawing *d;
     float x, y, right, end; /* px; y: of the next row's upper edge */
+    float bar;              /* units: length of bars */
 } Legend;
-
-/* A number of people as 35,000. */
-static void people(char out[32], uint32_t count) {
-    if (count >= 1000000)
-        snprintf(out, 32, "%u,%03u,%03u", count / 1000000, count / 1000 % 1000, count % 1000);
-    else if (count >= 1000)
-        snprintf(out, 32, "%u,%03u", count / 1000, count % 1000);
-    else
-        snprintf(out, 32, "%u", count);
-}
 
 static void write(const Legend *l, float x, JoxAnchor anchor, bool bold, const char *text) {
     float u = l->d->unit;
@@ -88,7 +80,7 @@ static void classes(Legend *l) {
     float room = l->end - l->y - ROW * d->unit;
     for (uint32_t k = 0; k < d->classes; k++) {
         const char *name;
-        char count[32];
+        char count[JOX_NOUN];
         JoxInk ink = jox_draw_class(d, k, &name);
         bool none = k == (p->colour == JOX_SHOW_STATE ? 0 : p->frame->group_count);
         if (d->people[k] == 0 && (!all || none))
@@ -99,14 +91,14 @@ static void classes(Legend *l) {
             continue;
         }
         left++;
-        people(count, d->people[k]);
+        jox_number_text(count, d->people[k]);
         disc_sign(l, (JoxStyle){.fill = ink, .line = {0x20, 0x20, 0x20, 0.55f}});
         row(l, name, count);
     }
     if (hidden) {
-        char text[64], count[32];
+        char text[64], count[JOX_NOUN];
         snprintf(text, sizeof text, "and %u more", hidden);
-        people(count, rest);
+        jox_number_text(count, rest);
         row(l, text, count);
     }
 }
@@ -114,7 +106,8 @@ static void classes(Legend *l) {
 /* A bar of all colours with its ends and middle. */
 static void bar(Legend *l, float most, bool floor) {
     const JoxDrawing *d = l->d;
-    float u = d->unit, size = BAR * u / JOX_DRAW_BINS;
+    const uint32_t thick = d->picture->panel ? 1 : 3; /* cells */
+    float u = d->unit, size = l->bar * u / JOX_DRAW_BINS;
     uint8_t levels[3 * JOX_DRAW_BINS];
     JoxInk ink[JOX_DRAW_BINS + 1] = {{0, 0, 0, 0}};
     char text[32];
@@ -123,15 +116,15 @@ static void bar(Legend *l, float most, bool floor) {
                            : jox_palette_value(((float)k + 0.5f) / JOX_DRAW_BINS);
         levels[k] = levels[JOX_DRAW_BINS + k] = levels[2 * JOX_DRAW_BINS + k] = (uint8_t)(k + 1);
     }
-    JoxCells cells = {{l->x, l->y}, size, JOX_DRAW_BINS, 3, levels, ink, JOX_DRAW_BINS + 1};
+    JoxCells cells = {{l->x, l->y}, size, JOX_DRAW_BINS, thick, levels, ink, JOX_DRAW_BINS + 1};
     jox_canvas_open(d->canvas, NULL, "bar", (JoxStyle){.fill = jox_ink_text});
     jox_canvas_cells(d->canvas, &cells);
-    l->y += 3 * size + 2 * u;
+    l->y += (float)thick * size + 2 * u;
     write(l, l->x, JOX_ANCHOR_START, false, "0");
     snprintf(text, sizeof text, "%.4g", (double)most / 2);
-    write(l, l->x + 0.5f * BAR * u, JOX_ANCHOR_MIDDLE, false, text);
+    write(l, l->x + 0.5f * l->bar * u, JOX_ANCHOR_MIDDLE, false, text);
     snprintf(text, sizeof text, "\xe2\x89\xa5 %.4g", (double)most);
-    write(l, l->x + BAR * u, JOX_ANCHOR_END, false, text);
+    write(l, l->x + l->bar * u, JOX_ANCHOR_END, false, text);
     jox_canvas_close(d->canvas);
     l->y += ROW * u;
 }
@@ -141,15 +134,28 @@ static void levels(Legend *l, float most) {
     const float u = l->d->unit, apart = 12 * u;
     jox_canvas_open(l->d->canvas, NULL, "levels", (JoxStyle){.fill = jox_ink_text});
     for (int k = 0; k < JOX_LEVELS; k++) {
-        const float from = k ? BAR * u / (float)jox_levels[k - 1].queue_area / most : 0.0f;
-        const float next = BAR * u / (float)jox_levels[k].queue_area / most;
-        if (from <= BAR * u && (k == JOX_LEVELS - 1 || next - from >= apart))
+        const float from = k ? l->bar * u / (float)jox_levels[k - 1].queue_area / most : 0.0f;
+        const float next = l->bar * u / (float)jox_levels[k].queue_area / most;
+        if (from <= l->bar * u && (k == JOX_LEVELS - 1 || next - from >= apart))
             write(l, l->x + from, JOX_ANCHOR_START, false, jox_levels[k].name);
     }
     jox_canvas_close(l->d->canvas);
+    const bool panel = l->d->picture->panel;
+    l->y += panel ? 0 : ROW * u;
+    write(l, l->x + (panel ? (l->bar + 14) * u : 0), JOX_ANCHOR_START, false,
+          "Fruin's levels for queues");
     l->y += ROW * u;
-    write(l, l->x, JOX_ANCHOR_START, false, "Fruin's levels for queues");
-    l->y += ROW * u;
+}
+
+/* What a field on the floor is, and how much. */
+static void field(Legend *l) {
+    const JoxPicture *p = l->d->picture;
+    heading(l, p->field_legend                ? p->field_legend
+               : p->floor == JOX_SHOW_DENSITY ? "Floor: density, 1/m\xc2\xb2"
+                                              : "Floor: pressure, 1/s\xc2\xb2");
+    bar(l, p->floor_most, true);
+    if (p->floor == JOX_SHOW_DENSITY)
+        levels(l, p->floor_most);
 }
 
 /* What lines and boxes mean; only of what is in the picture. */
@@ -200,6 +206,14 @@ static void signs(Legend *l) {
                                jox_ink_with(jox_ink_place, 0.6f), 0.8f * u, 0});
         row(l, "place", "");
     }
+    if (p->exit_count) {
+        box_sign(l, (JoxStyle){jox_ink_with(jox_ink_exit, 0.14f), jox_ink_exit, 1.6f * u, 0});
+        row(l, "exit", "");
+    }
+    if (p->probe_count) {
+        line_sign(l, (JoxStyle){.line = jox_ink_probe, .width = 1.8f * u, .dash = 4 * u});
+        row(l, "measured here", "");
+    }
     if (lying) {
         box_sign(l, (JoxStyle){jox_ink_body, jox_ink_body_line, 1.2f * u, 0});
         row(l, "body", "");
@@ -210,8 +224,8 @@ static void signs(Legend *l) {
         row(l, "body out of reach", "");
     }
     if (p->trail_count) {
-        char text[64], count[32];
-        people(count, p->trail_people);
+        char text[JOX_NOUN + 16], count[JOX_NOUN];
+        jox_number_text(count, p->trail_people);
         snprintf(text, sizeof text, "paths of %s", count);
         line_sign(l, (JoxStyle){.line = jox_ink_path, .width = 1.2f * u});
         row(l, text, "");
@@ -233,22 +247,52 @@ static void scale_bar(const Legend *l) {
     jox_canvas_text(d->canvas, jox_v2(x, y - 9 * u), TEXT * u, JOX_ANCHOR_START, false, text);
 }
 
+/* How many people there are; nothing where it is a picture of no moment. */
+static void in_all(Legend *l) {
+    const JoxPicture *p = l->d->picture;
+    char text[JOX_NOUN + 16];
+    if (p->when && p->frame->count == 0)
+        return;
+    jox_noun(text, p->frame->count, "person|people");
+    if (l->d->outside)
+        strcat(text, " in all");
+    write(l, l->x, JOX_ANCHOR_START, true, text);
+    l->y += ROW * l->d->unit;
+}
+
+/* Below the map: people and scale on the left, then what the field is. */
+static void strip(JoxDrawing *d) {
+    const JoxPicture *p = d->picture;
+    const float u = d->unit, top = (float)d->canvas->height - (JOX_DRAW_STRIP - 6) * u;
+    Legend l = {.d = d, .bar = 2 * BAR, .x = 16 * u, .y = top};
+    l.right = (float)d->canvas->width - 16 * u;
+    jox_canvas_open(d->canvas, "legend", NULL, (JoxStyle){.fill = jox_ink_text});
+    in_all(&l);
+    scale_bar(&l);
+    l.x = 200 * u;
+    l.y = top - 8 * u; /* the heading's own blank */
+    if (p->grid)
+        field(&l);
+    jox_canvas_close(d->canvas);
+}
+
 void jox_draw_legend(JoxDrawing *d) {
     const JoxPicture *p = d->picture;
     float u = d->unit;
+    if (p->panel) {
+        strip(d);
+        return;
+    }
     Legend l = {.d = d,
+                .bar = BAR,
                 .x = d->panel,
                 .y = 46 * u,
                 .right = (float)d->canvas->width - 16 * u,
                 .end = (float)d->canvas->height - 180 * u};
-    char count[32], text[64];
-    people(count, p->frame->count);
-    snprintf(text, sizeof text, "%s %s%s", count, p->frame->count == 1 ? "person" : "people",
-             d->outside ? " in all" : "");
+    char text[64];
     jox_canvas_open(d->canvas, "legend", NULL, (JoxStyle){.fill = jox_ink_text});
-    write(&l, l.x, JOX_ANCHOR_START, true, text);
-    l.y += ROW * u;
-    if (!p->frame->radius) {
+    in_all(&l);
+    if (!p->frame->radius && p->frame->count) {
         snprintf(text, sizeof text, "drawn %.2g m in radius", (double)p->radius);
         write(&l, l.x, JOX_ANCHOR_START, false, text);
         l.y += ROW * u;
@@ -262,13 +306,8 @@ void jox_draw_legend(JoxDrawing *d) {
         if (p->colour == JOX_SHOW_DENSITY)
             levels(&l, p->colour_most);
     }
-    if (p->grid) {
-        heading(&l, p->floor == JOX_SHOW_DENSITY ? "Floor: density, 1/m\xc2\xb2"
-                                                 : "Floor: pressure, 1/s\xc2\xb2");
-        bar(&l, p->floor_most, true);
-        if (p->floor == JOX_SHOW_DENSITY)
-            levels(&l, p->floor_most);
-    }
+    if (p->grid)
+        field(&l);
     signs(&l);
     scale_bar(&l);
     jox_canvas_close(d->canvas);

@@ -5,6 +5,7 @@
 #include "picture/draw.h"
 
 enum { JOX_DRAW_BINS = 32, JOX_DRAW_LABELS = 256 };
+#define JOX_DRAW_STRIP 92.0f /* units: height of the legend below a panel's map */
 
 typedef struct JoxDrawing {
     JoxCanvas *canvas;
@@ -24,7 +25,7 @@ typedef struct JoxDrawing {
 } JoxDrawing;
 
 extern const JoxInk jox_ink_text, jox_ink_faint, jox_ink_wall, jox_ink_solid, jox_ink_gate,
-    jox_ink_place, jox_ink_body, jox_ink_body_line, jox_ink_path;
+    jox_ink_place, jox_ink_body, jox_ink_body_line, jox_ink_path, jox_ink_probe, jox_ink_exit;
 static inline JoxInk jox_ink_with(JoxInk ink, float a) {
     ink.a = a;
     return ink;
@@ -47,8 +48,19 @@ bool jox_draw_is_class(JoxShow show);
    value as well. */
 JoxInk jox_draw_floor_ink(const JoxPicture *picture, uint32_t n);
 
+/* The number of points that draw ring r of the walls, 0 for the second side of a thin one, and
+   whether they are to be closed. */
+uint32_t jox_draw_ring_points(const JoxWalls *walls, uint32_t r, bool *closed);
+/* A line of the plan. */
+void jox_draw_plan_line(const JoxDrawing *drawing, const JoxV2 *points, uint32_t count, bool closed,
+                        const char *name);
+/* Whether people leave at a place of this name. */
+bool jox_draw_is_exit(const JoxPicture *picture, const char *name);
+
 void jox_draw_field(JoxDrawing *drawing);
 void jox_draw_people(JoxDrawing *drawing);
+void jox_draw_probes(JoxDrawing *drawing);
+void jox_draw_names(JoxDrawing *drawing);
 void jox_draw_legend(JoxDrawing *drawing);
 
 #endif

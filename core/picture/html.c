@@ -2,21 +2,34 @@
 
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/format/quote.h"
 
 static const char STYLE[] =
     "body{font:16px/1.5 system-ui,sans-serif;max-width:72rem;margin:2rem auto;padding:0 1rem;"
     "color:#1a1a1a;background:#fff}h1{font-size:1.7rem}h2{font-size:1.25rem;margin-top:2.5rem;"
-    "border-top:1px solid #ccc;padding-top:1rem}table{border-collapse:collapse;margin:1rem 0}"
+    "border-top:1px solid #ccc;padding-top:1rem}h3{font-size:1.05rem;margin:1.6rem 0 .4rem}"
+    "table{border-collapse:collapse;margin:1rem 0}"
     "th,td{text-align:left;padding:.25rem .8rem .25rem 0;border-bottom:1px solid #ddd;"
-    "vertical-align:top}td.n{text-align:right;font-variant-numeric:tabular-nums;"
+    "vertical-align:top}td.n,th.n{text-align:right}td.n{font-variant-numeric:tabular-nums;"
     "white-space:nowrap}.in{color:#00601f}.out{color:#a40000;font-weight:700}figure{display:"
     "inline-block;margin:.5rem 1rem .5rem 0;vertical-align:top}img{max-width:34rem;width:100%;"
     "border:1px solid #ddd}.plan img{max-width:64rem;max-height:44rem;width:auto}"
+    ".panels{display:grid;grid-template-columns:1fr 1fr;gap:1rem;margin:1rem 0}"
+    ".panels.whole{grid-template-columns:1fr}.panels figure,figure.wide{display:block;margin:0}"
+    ".panels img,figure.wide img{max-width:100%}.summary{background:#f6f6f2;border-left:.3rem solid"
+    " #82123f;padding:.4rem 1.2rem;margin:1rem 0}"
     "figcaption,small{color:#555}details{margin:.5rem 0}pre{overflow:auto;"
     "background:#f6f6f6;padding:.6rem;font-size:13px}.scroll{overflow-x:auto}code{font-size:.9em;"
-    "overflow-wrap:anywhere}";
+    "overflow-wrap:anywhere}"
+    /* On paper: no picture, row or heading is parted, nothing is cut off at the right. */
+    "@page{size:A4;margin:15mm}@media print{body{font-size:10pt;max-width:none;margin:0;"
+    "padding:0}h1{font-size:16pt}h2{font-size:13pt;margin-top:1.4rem}h2,h3{break-after:avoid}"
+    "figure,tr,.summary p{break-inside:avoid}.scroll{overflow:visible}table{font-size:8.5pt;"
+    "width:100%}th,td{padding-right:.5rem}td.n{white-space:normal}figure.wide img{max-height:"
+    "230mm;width:auto}.summary{-webkit-print-color-adjust:exact;print-color-adjust:exact}"
+    "a{color:inherit;text-decoration:none}}";
 
 void jox_html_text(FILE *out, const char *text) {
     jox_quote_put(out, jox_quote_xml, text);
@@ -64,20 +77,34 @@ void jox_html_heading(FILE *out, const char *text) {
     element(out, "h2", text);
 }
 
+void jox_html_subheading(FILE *out, const char *text) {
+    element(out, "h3", text);
+}
+
 void jox_html_paragraph(FILE *out, const char *text) {
     element(out, "p", text);
 }
 
+void jox_html_statement(FILE *out, const char *lead, const char *text) {
+    fputs("<p><b>", out);
+    jox_html_text(out, lead);
+    fputs("</b> ", out);
+    jox_html_text(out, text);
+    fputs("</p>\n", out);
+}
+
 void jox_html_table(FILE *out, const char *heads) {
-    fputs("<div class=scroll><table><tr>", out);
+    fputs("<div class=scroll><table><thead><tr>", out);
     while (*heads) {
         size_t length = strcspn(heads, "|");
         char head[128];
         snprintf(head, sizeof head, "%.*s", (int)length, heads);
-        fputs("<th>", out);
-        jox_html_text(out, head);
+        const bool right = *head == '>';
+        fputs(right ? "<th class=n>" : "<th>", out);
+        jox_html_text(out, head + right);
         heads += length + (heads[length] == '|');
     }
+    fputs("</thead>", out);
 }
 
 void jox_html_row(FILE *out) {
@@ -89,12 +116,24 @@ void jox_html_cell(FILE *out, const char *text) {
     jox_html_text(out, text);
 }
 
+/* Units of tables and files, as people read them. */
+static const char *unit_text(const char *unit) {
+    static const char *const TEXTS[][2] = {
+        {"1/m2", "per m\xc2\xb2"},  {"1/s2", "per s\xc2\xb2"},      {"1/s", "per s"},
+        {"1/(m s)", "per m and s"}, {"1/(m min)", "per m and min"}, {"m2", "m\xc2\xb2"},
+    };
+    for (size_t t = 0; t < sizeof TEXTS / sizeof *TEXTS; t++)
+        if (strcmp(TEXTS[t][0], unit) == 0)
+            return TEXTS[t][1];
+    return unit;
+}
+
 void jox_html_cell_number(FILE *out, double value, const char *unit) {
     fputs("<td class=n>", out);
     jox_html_number(out, value);
     if (*unit && isfinite(value)) {
         fputs("&nbsp;", out);
-        jox_html_text(out, unit);
+        jox_html_text(out, unit_text(unit));
     }
 }
 
@@ -102,14 +141,45 @@ void jox_html_table_end(FILE *out) {
     fputs("\n</table></div>\n", out);
 }
 
-void jox_html_picture(FILE *out, const char *file, const char *link, const char *caption) {
-    fputs("<figure><a href=\"", out);
+void jox_html_panels(FILE *out, bool whole) {
+    fputs(whole ? "<div class=\"panels whole\">\n" : "<div class=panels>\n", out);
+}
+
+void jox_html_panels_end(FILE *out) {
+    fputs("</div>\n", out);
+}
+
+static bool is_there(const char *folder, const char *file) {
+    JoxText path = {0};
+    jox_text_printf(&path, "%s/%s", folder, file);
+    const bool there = access(path.data, R_OK) == 0;
+    jox_text_free(&path);
+    return there;
+}
+
+static void put_picture(FILE *out, const char *file, const char *link, const char *caption,
+                        bool wide) {
+    fputs(wide ? "<figure class=wide><a href=\"" : "<figure><a href=\"", out);
     jox_html_link(out, link ? link : file);
-    fputs("\"><img loading=lazy src=\"", out);
+    fputs("\"><img src=\"", out);
     jox_html_link(out, file);
     fputs("\" alt=\"", out);
     jox_html_text(out, caption);
     fputs("\"></a><figcaption>", out);
     jox_html_text(out, caption);
     fputs("</figcaption></figure>\n", out);
+}
+
+void jox_html_figure(FILE *out, const char *folder, const char *name, const char *caption,
+                     bool wide) {
+    char png[160], svg[160];
+    snprintf(png, sizeof png, "%.150s.png", name);
+    snprintf(svg, sizeof svg, "%.150s.svg", name);
+    const bool image = is_there(folder, png), drawing = is_there(folder, svg);
+    if (image || drawing)
+        put_picture(out, image ? png : svg, drawing ? svg : NULL, caption, wide);
+}
+
+void jox_html_picture(FILE *out, const char *file, const char *link, const char *caption) {
+    put_picture(out, file, link, caption, false);
 }

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 
 #include "base/format/quote.h"
+#include "picture/palette.h"
 
 extern char **environ;
 
@@ -90,7 +91,15 @@ void jox_plot_begin(FILE *script, const char *stem, bool svg, int width, int hei
     fprintf(script, "reset\nset terminal %s size %d,%d font 'sans,%d'\nset output ",
             svg ? "svg background '#ffffff'" : "pngcairo", width, height, svg ? 13 : 12);
     jox_plot_file(script, stem, svg ? "svg" : "png");
-    fputs("\nset key noautotitle\n", script); /* names of files are no titles */
+    /* Names of files are no titles. Values go from white and pale to dark, as in all pictures. */
+    fputs("\nset encoding utf8\nset key noautotitle\nset palette defined (0 '#ffffff'", script);
+    enum { ANCHORS = 9 };
+    for (int a = 0; a < ANCHORS; a++) {
+        const JoxInk ink = jox_palette_value((float)a / (ANCHORS - 1));
+        fprintf(script, ", %.3f '#%02x%02x%02x'", a ? (double)a / (ANCHORS - 1) : 0.02, ink.r,
+                ink.g, ink.b);
+    }
+    fputs(")\n", script);
 }
 
 void jox_plot_title(FILE *script, const char *title) {
@@ -139,49 +148,6 @@ void jox_plot_wall_lines(FILE *script, const JoxWalls *walls, const char *width)
     fputs("\n", script);
 }
 
-bool jox_plot_density(const char *folder, const JoxDensity *d, const JoxWalls *walls,
-                      const char *title, JoxText *error) {
-    FILE *data = jox_plot_open(folder, "density.csv", error);
-    if (!data)
-        return false;
-    uint32_t skip = d->columns * d->rows > 250000 ? 2 : 1; /* enough for the picture's pixels */
-    double most = 0.0;
-    fputs("x_m,y_m,mean_density_per_m2\n", data);
-    for (uint32_t row = 0; row < d->rows; row += skip) {
-        for (uint32_t column = 0; column < d->columns; column += skip) {
-            double mean = jox_density_mean(d, column, row);
-            most = mean > most ? mean : most;
-            fprintf(data, "%.2f,%.2f,%.4g\n", d->low.x + ((float)column + 0.5f) * d->cell,
-                    d->low.y + ((float)row + 0.5f) * d->cell, mean);
-        }
-        fputs("\n", data);
-    }
-    if (!jox_plot_close(data, "density.csv", error) || !jox_plot_walls(folder, walls, error) ||
-        !(data = jox_plot_open(folder, "density.plt", error)))
-        return false;
-    float width = d->cell * (float)d->columns, height = d->cell * (float)d->rows;
-    int tall = (int)(1000.0f * jox_clampf(height / width, 0.3f, 2.0f)) + 120;
-    jox_plot_begin(data, "density", false, 1200, tall);
-    jox_plot_title(data, title);
-    fprintf(
-        data,
-        "set datafile separator comma\nset view map\nset size ratio -1\n"
-        "set xlabel 'x (m)'\nset ylabel 'y (m)'\nset cblabel 'people per m^2 (mean)'\n"
-        "set palette defined (0 '#ffffff', 0.02 '#440154', 0.27 '#3b528b', 0.52 '#21918c', "
-        "0.77 '#5ec962', 1 '#fde725')\nset cbrange [0:%g]\nset xrange [%g:%g]\n"
-        "set yrange [%g:%g]\nunset key\nset clip two\n"
-        "set label 1 sprintf('greatest at any time: %%.1f per m^2 at (%%.0f, %%.0f) m, t = %%.0f "
-        "s',"
-        " %g, %g, %g, %g) at graph 0, 0 offset 1, 0.8 front tc "
-        "'#c00000'\n"
-        "plot 'density.csv' skip 1 using 1:2:3 with image",
-        most > 0.0 ? most : 1.0, d->low.x, d->low.x + width, d->low.y, d->low.y + height, d->most,
-        d->most_at.x, d->most_at.y, d->most_time);
-    jox_plot_wall_lines(data, walls, "1.5");
-    return jox_plot_close(data, "density.plt", error) &&
-           jox_plot_draw(folder, "density.plt", error);
-}
-
 bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char *title,
                       JoxText *error) {
     FILE *data = jox_plot_open(folder, "regions.csv", error);
@@ -201,7 +167,7 @@ bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char 
     fputs("set datafile separator comma\nset style fill solid 0.9\nset boxwidth 0.6\nunset key\n"
           "set yrange [0:*]\nset offsets 0.5, 0.5, 0.05, 0\nset grid ytics\n"
           "set xtics noenhanced\nset xlabel 'region'\nset ylabel 'mean speed (m/s)'\n"
-          "plot 'regions.csv' skip 1 using 0:2:xtic(1) with boxes lc '#21918c', "
+          "plot 'regions.csv' skip 1 using 0:2:xtic(1) with boxes lc '#0072b2', "
           "'' skip 1 using 0:2:(sprintf('%.2f', $2)) with labels offset 0,0.7\n",
           data);
     return jox_plot_close(data, "regions.plt", error) &&

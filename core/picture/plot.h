@@ -7,14 +7,10 @@
 
 #include "base/text.h"
 #include "geom/walls.h"
-#include "record/fields/density.h"
 #include "record/regions.h"
 
 /* Makes the folder, and those above it. False with a sentence in `error`. */
 bool jox_plot_folder(const char *folder, JoxText *error);
-/* density.png: mean density over the frames, walls drawn, the greatest value of any named. */
-bool jox_plot_density(const char *folder, const JoxDensity *density, const JoxWalls *walls,
-                      const char *title, JoxText *error);
 /* regions.png: mean speed of each region as bars. */
 bool jox_plot_regions(const char *folder, const JoxRegions *regions, const char *title,
                       JoxText *error);
@@ -25,8 +21,8 @@ FILE *jox_plot_open(const char *folder, const char *name, JoxText *error);
 bool jox_plot_close(FILE *file, const char *what, JoxText *error);
 /* Without a shell, and without the user's own settings of gnuplot. */
 bool jox_plot_draw(const char *folder, const char *script, JoxText *error);
-/* The terminal (PNG, or SVG on white) of so many pixels, its font, and the file STEM.png or
-   STEM.svg that it writes. */
+/* The terminal (PNG, or SVG on white) of so many pixels, its font, the colours of values, and the
+   file STEM.png or STEM.svg that it writes. */
 void jox_plot_begin(FILE *script, const char *stem, bool svg, int width, int height);
 void jox_plot_title(FILE *script, const char *title);
 /* STEM.ENDING as a quoted name of a file. */

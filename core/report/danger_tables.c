@@ -227,9 +227,27 @@ static bool write_walls(const JoxDanger *d, const char *folder, JoxText *error) 
     return jox_plot_close(out, "danger-walls.csv", error);
 }
 
+static bool write_areas(const JoxDanger *d, const char *folder, JoxText *error) {
+    FILE *out = jox_plot_open(folder, "danger-areas.csv", error);
+    if (!out)
+        return false;
+    jox_danger_areas_csv(&d->areas, out);
+    return jox_plot_close(out, "danger-areas.csv", error);
+}
+
+static bool write_leaving(const JoxDanger *d, const char *folder, JoxText *error) {
+    FILE *out = jox_plot_open(folder, "danger-leaving.csv", error);
+    if (!out)
+        return false;
+    jox_leaving_csv(&d->leaving, d->exit_names, d->exit_count, out);
+    return jox_plot_close(out, "danger-leaving.csv", error);
+}
+
 bool jox_danger_write_tables(const JoxDanger *d, const char *folder, JoxText *error) {
     return write_times(d, folder, error) && write_map(d, folder, error) &&
            write_limits(d, folder, error) && write_levels(d, folder, error) &&
+           (d->areas.count == 0 || write_areas(d, folder, error)) &&
+           (d->leaving.count == 0 || write_leaving(d, folder, error)) &&
            (d->lines.count == 0 || write_lines(d, folder, error)) &&
            (!d->walls.known || write_walls(d, folder, error)) &&
            (!d->has_load || write_people(d, folder, error));

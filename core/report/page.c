@@ -5,33 +5,38 @@
 #include <string.h>
 
 #include "base/assert.h"
+#include "base/format/noun.h"
 #include "base/guard.h"
 #include "jostle_tools.h"
 #include "picture/html.h"
 #include "picture/paths.h"
 #include "picture/plot.h"
 #include "report/page_parts.h"
+#include "report/run_subject.h"
 #include "run/run.h"
 
-/* The summary's figures, in an order that two runs of a scene share. */
+enum { MOST_GROUPS = 12 }; /* that the summary names */
+
+/* The figures, in an order that two runs of a scene share. */
 static JoxPageFigures collect(const JoScene *scene) {
     const JoxStatistics *s = &scene->world->state.statistics;
     JoxPageFigures f = {0};
-    jox_page_add(&f, "", scene->world->state.agents.count, "people at the end");
+    jox_page_add_exits(&f, &scene->world->state.exits, scene->world->state.agents.count);
+    jox_page_add_danger(&f, jox_run_danger(scene));
     const JoxRegions *regions = jox_run_regions(scene);
+    f.group = "Regions";
+    for (uint32_t r = 0; regions && r < regions->count; r++)
+        jox_page_add(&f, "m/s",
+                     regions->items[r].people ? jox_region_speed(&regions->items[r]) : NAN,
+                     "mean speed in %.60s", regions->items[r].name);
+    const JoxProbe *probe;
+    for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
+        jox_page_add_probe(&f, probe);
+    f.group = "The simulation itself";
     jox_page_add(&f, "", jox_statistics_overlap_p99(s),
                  "overlap that 99 %% stay below, share of a diameter");
     jox_page_add(&f, "", s->agent_steps ? (double)s->failures / (double)s->agent_steps : NAN,
                  "share of agent-steps whose 2-D program failed");
-    jox_page_add_exits(&f, &scene->world->state.exits, scene->world->state.agents.count);
-    jox_page_add_danger(&f, jox_run_danger(scene));
-    for (uint32_t r = 0; regions && r < regions->count; r++)
-        jox_page_add(&f, "m/s",
-                     regions->items[r].people ? jox_region_speed(&regions->items[r]) : NAN,
-                     "mean speed in region %.60s", regions->items[r].name);
-    const JoxProbe *probe;
-    for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
-        jox_page_add_probe(&f, probe);
     return f;
 }
 
@@ -48,10 +53,25 @@ static void put_change(FILE *out, double whole, double half) {
         fputs("&ndash;", out);
 }
 
+/* The same figure of the other run, by group and name: one run may have left somebody elsewhere. */
+static void put_half(FILE *out, const JoxPageFigure *a, void *context) {
+    const JoxPageFigures *other = context;
+    const JoxPageFigure *b = NULL;
+    for (uint32_t k = 0; k < other->count && !b; k++)
+        if (strcmp(other->items[k].name, a->name) == 0 &&
+            strcmp(other->items[k].group, a->group) == 0)
+            b = &other->items[k];
+    if (b)
+        jox_page_value(out, b);
+    else
+        jox_html_cell_number(out, NAN, a->unit);
+    put_change(out, a->value, b ? b->value : NAN);
+}
+
 static void put_figures(FILE *out, const JoScene *scene, const JoScene *half, const char *why) {
     JoxPageFigures whole = collect(scene), other = {0};
     char heads[128], text[512];
-    jox_html_heading(out, "Figures");
+    jox_html_heading(out, "All figures");
     if (half) {
         other = collect(half);
         snprintf(text, sizeof text,
@@ -59,47 +79,79 @@ static void put_figures(FILE *out, const JoScene *scene, const JoScene *half, co
                  "worth no more digits than the two agree on; at another step chance falls "
                  "otherwise, too, so that single runs differ as two seeds do.",
                  half->world->model.def.dt);
-        snprintf(heads, sizeof heads, "figure|step %g s|step %g s|difference",
+        snprintf(heads, sizeof heads, "figure|>step %g s|>step %g s|>difference",
                  scene->world->model.def.dt, half->world->model.def.dt);
     } else {
         snprintf(text, sizeof text, "The run was not repeated at half the step: %s.",
                  why ? why : "nobody asked for it");
-        snprintf(heads, sizeof heads, "figure|step %g s", scene->world->model.def.dt);
+        snprintf(heads, sizeof heads, "figure|>step %g s", scene->world->model.def.dt);
     }
     jox_html_paragraph(out, text);
-    jox_html_table(out, heads);
-    for (uint32_t i = 0; i < whole.count; i++) {
-        const JoxPageFigure *a = &whole.items[i];
-        jox_html_row(out);
-        jox_html_cell(out, a->name);
-        jox_page_value(out, a);
-        if (!half)
-            continue;
-        /* by name: one run may have left somebody elsewhere, the other not */
-        const JoxPageFigure *b = NULL;
-        for (uint32_t k = 0; k < other.count && !b; k++)
-            b = strcmp(other.items[k].name, a->name) == 0 ? &other.items[k] : NULL;
-        if (b)
-            jox_page_value(out, b);
-        else
-            jox_html_cell_number(out, NAN, a->unit);
-        put_change(out, a->value, b ? b->value : NAN);
-    }
-    jox_html_table_end(out);
+    jox_page_figures(out, &whole, heads, half ? put_half : NULL, &other);
     jox_page_release(&whole);
     jox_page_release(&other);
 }
 
+/* ---- the summary ---- */
+
+/* What was run: the scene, its people by group, for how long, with what. */
+static void put_run(FILE *out, const JoScene *scene, const JoxSubject *subject) {
+    const JoxSceneSpec *spec = scene->spec;
+    const JoWorld *world = scene->world;
+    JoxText text = {0};
+    jox_text_printf(&text, "The scene %s (%s): ", subject->title, spec->path);
+    jox_text_noun(&text, world->state.agents.next_id, "person|people");
+    for (uint32_t g = 0; g < spec->group_count && spec->group_count > 1 && g < MOST_GROUPS; g++) {
+        char count[JOX_NOUN];
+        jox_text_printf(&text, "%s%.60s %s",
+                        g ? ", " : " (groups at the start: ", spec->groups[g].name,
+                        jox_number_text(count, spec->groups[g].count));
+    }
+    if (spec->group_count > 1)
+        jox_text_add(&text, spec->group_count > MOST_GROUPS ? ", and others)" : ")");
+    if (spec->source_count) {
+        jox_text_add(&text, ", also from ");
+        jox_text_noun(&text, spec->source_count, "source");
+    }
+    jox_text_printf(&text,
+                    ", simulated once for %.1f s in steps of %g s with seed %llu by Jostle %s.",
+                    subject->until, world->model.def.dt, (unsigned long long)world->model.def.seed,
+                    jo_version());
+    if (spec->about && *spec->about) /* its first sentence: others speak of the live page */
+        jox_text_printf(&text, " %.*s", (int)(strcspn(spec->about, ".") + 1), spec->about);
+    jox_html_statement(out, "What was run.", text.data);
+    jox_text_free(&text);
+}
+
+/* What a reader can rely on; what went wrong. */
+static void put_caveats(FILE *out, const JoScene *scene) {
+    char *troubles = jo_scene_troubles(scene);
+    if (troubles)
+        jox_html_statement(out, "What went wrong.", troubles);
+    jo_free(troubles);
+    jox_html_statement(
+        out, "What is validated, and what is not.",
+        "The engine is compared with published measurements and standard tests (jostle "
+        "reproduce). This scenario is not: its plan, numbers of people, behaviours and parameters "
+        "are its author's, and nothing here was compared with a crowd that did this here. It is "
+        "one run with one seed: others give other times; --seeds 20 shows how far they differ.");
+}
+
+static void put_summary(FILE *out, const JoScene *scene, const JoxSubject *subject) {
+    jox_html_heading(out, "Summary");
+    fputs("<div class=summary>\n", out);
+    put_run(out, scene, subject);
+    jox_summary_crowd(out, subject);
+    put_caveats(out, scene);
+    fputs("</div>\n", out);
+}
+
+/* Pictures that runs alone have. */
 static void put_pictures(FILE *out, const JoScene *scene, const char *directory) {
-    const JoxProbe *probe;
-    jox_html_heading(out, "Pictures");
-    jox_page_danger_pictures(out, directory);
-    jox_page_picture(out, directory, "density", "Mean density");
-    jox_page_picture(out, directory, "regions", "Mean speed of the regions");
+    if (jox_run_regions(scene))
+        jox_html_figure(out, directory, "regions", "Mean speed of the regions", false);
     if (scene->world->state.agents.next_id <= JOX_MOST_PATHS)
-        jox_page_picture(out, directory, "paths", "Paths");
-    for (uint32_t p = 0; (probe = jox_run_probe(scene, p)); p++)
-        jox_page_probe(out, directory, probe);
+        jox_html_figure(out, directory, "paths", "Where everybody went", false);
 }
 
 /* Whether the flows on the page are of people who walk by the walking law. */
@@ -164,18 +216,16 @@ bool jo_scene_page(const JoScene *scene, const JoScene *half, const char *why,
         return false;
     JoxText text = {0};
     FILE *out = jox_plot_open(directory, "index.html", &text);
-    const JoWorld *world = scene->world;
     if (out) {
-        char line[512];
-        jox_html_begin(out, scene->spec->title ? scene->spec->title : scene->spec->path);
-        snprintf(line, sizeof line,
-                 "%.200s, %.1f s, seed %llu, step %g s, %u people at the end; Jostle %s.",
-                 scene->spec->path, jo_world_time(world), (unsigned long long)world->model.def.seed,
-                 world->model.def.dt, world->state.agents.count, jo_version());
-        jox_html_paragraph(out, line);
+        JoxSubject subject = jox_run_subject(scene, directory);
+        jox_html_begin(out, subject.title);
+        put_summary(out, scene, &subject);
+        jox_page_crowd(out, &subject);
         put_pictures(out, scene, directory);
-        jox_page_danger(out, jox_run_danger(scene));
         put_figures(out, scene, half, why);
+        jox_html_heading(out, "How danger is measured");
+        jox_page_definitions(out, subject.danger);
+        jox_run_subject_free(&subject);
         jox_page_validation(out);
         jox_html_paragraph(
             out,

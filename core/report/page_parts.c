@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/mem.h"
 #include "picture/html.h"
@@ -19,7 +18,8 @@ void jox_page_add(JoxPageFigures *f, const char *unit, double value, const char 
     vsnprintf(name, sizeof name, format, arguments);
     va_end(arguments);
     JOX_RESERVE(f->items, f->capacity, f->count + 1);
-    f->items[f->count++] = (JoxPageFigure){jox_strdup(name), unit, value, NULL};
+    f->items[f->count++] =
+        (JoxPageFigure){jox_strdup(f->group ? f->group : ""), jox_strdup(name), unit, value, NULL};
 }
 
 void jox_page_value(FILE *out, const JoxPageFigure *figure) {
@@ -31,6 +31,7 @@ void jox_page_value(FILE *out, const JoxPageFigure *figure) {
 
 void jox_page_add_exits(JoxPageFigures *f, const JoxExits *exits, uint32_t inside) {
     uint64_t known = 0;
+    f->group = "Who left";
     jox_page_add(f, "", (double)exits->left, "people who left");
     jox_page_add(f, "", inside, "people still inside at the end");
     jox_page_add(f, "s", exits->left ? exits->last : NAN, "when the last of those who left did so");
@@ -50,43 +51,64 @@ void jox_page_add_exits(JoxPageFigures *f, const JoxExits *exits, uint32_t insid
 
 void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe) {
     JoxFigures figures = jox_probe_figures(probe);
+    char group[96];
+    snprintf(group, sizeof group, "Probe %.60s", jox_probe_def(probe)->name);
+    f->group = group;
     for (uint32_t i = 0; i < figures.count; i++)
-        jox_page_add(f, figures.items[i].unit, figures.items[i].value, "%.60s: %.60s",
-                     jox_probe_def(probe)->name, figures.items[i].name);
+        jox_page_add(f, figures.items[i].unit, figures.items[i].value, "%s",
+                     figures.items[i].title);
+    f->group = NULL;
+}
+
+void jox_page_figures(FILE *out, const JoxPageFigures *f, const char *heads,
+                      void (*beside)(FILE *out, const JoxPageFigure *figure, void *context),
+                      void *context) {
+    const char *group = "";
+    jox_html_table(out, heads);
+    for (uint32_t i = 0; i < f->count; i++) {
+        if (strcmp(group, f->items[i].group) != 0) {
+            group = f->items[i].group;
+            jox_html_row(out);
+            fputs("<th colspan=9>", out);
+            jox_html_text(out, group);
+        }
+        jox_html_row(out);
+        jox_html_cell(out, f->items[i].name);
+        jox_page_value(out, &f->items[i]);
+        if (beside)
+            beside(out, &f->items[i], context);
+    }
+    jox_html_table_end(out);
 }
 
 void jox_page_release(JoxPageFigures *f) {
-    for (uint32_t i = 0; i < f->count; i++)
+    for (uint32_t i = 0; i < f->count; i++) {
+        jox_free(f->items[i].group);
         jox_free(f->items[i].name);
+    }
     jox_free(f->items);
 }
 
 /* ---- parts of the page ---- */
 
-static bool is_there(const char *directory, const char *file) {
-    char path[1200];
-    snprintf(path, sizeof path, "%s/%s", directory, file);
-    return access(path, R_OK) == 0;
-}
-
-void jox_page_picture(FILE *out, const char *directory, const char *name, const char *caption) {
-    char png[140], svg[140];
-    snprintf(png, sizeof png, "%s.png", name);
-    snprintf(svg, sizeof svg, "%s.svg", name);
-    if (is_there(directory, png))
-        jox_html_picture(out, png, is_there(directory, svg) ? svg : NULL, caption);
-}
-
-void jox_page_danger_pictures(FILE *out, const char *directory) {
-    jox_page_picture(out, directory, "danger-map", "Where people are squeezed: mean and greatest");
-    jox_page_picture(out, directory, "danger", "Danger over time, with the limits dashed");
-}
-
-void jox_page_probe(FILE *out, const char *directory, const JoxProbe *probe) {
+static void put_probe(FILE *out, const char *folder, const JoxProbe *probe) {
     char caption[128], stem[JOX_PROBE_STEM];
-    snprintf(caption, sizeof caption, "Probe %.60s", jox_probe_def(probe)->name);
+    snprintf(caption, sizeof caption, "Probe %.60s: %.40s", jox_probe_def(probe)->name,
+             jox_probe_kind_name(probe));
     jox_probe_stem(probe, stem);
-    jox_page_picture(out, directory, stem, caption);
+    jox_html_figure(out, folder, stem, caption, false);
+}
+
+void jox_page_crowd(FILE *out, const JoxSubject *s) {
+    jox_html_heading(out, "Plan");
+    jox_maps_plan(out, s);
+    jox_page_leaving(out, s);
+    jox_page_danger(out, s);
+    jox_page_levels(out, s);
+    if (s->probe_count)
+        jox_html_heading(out, "What probes measured");
+    for (uint32_t p = 0; p < s->probe_count; p++)
+        put_probe(out, s->folder, s->probes[p]);
 }
 
 void jox_page_validation(FILE *out) {

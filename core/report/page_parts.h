@@ -5,12 +5,11 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "record/danger/danger.h"
-#include "record/probes/probe.h"
+#include "report/subject.h"
 
-/* Figures in order, by name. */
+/* Figures in order, by group and name. */
 typedef struct JoxPageFigure {
-    char *name;
+    char *group, *name; /* groups follow each other */
     const char *unit;
     double value;
     const char *none; /* said where there is no value; NULL: a dash */
@@ -18,6 +17,7 @@ typedef struct JoxPageFigure {
 typedef struct JoxPageFigures {
     JoxPageFigure *items;
     uint32_t count, capacity;
+    const char *group; /* of those that are added next */
 } JoxPageFigures;
 
 void jox_page_add(JoxPageFigures *f, const char *unit, double value, const char *format, ...)
@@ -30,12 +30,24 @@ void jox_page_add_probe(JoxPageFigures *f, const JoxProbe *probe);
 void jox_page_value(FILE *out, const JoxPageFigure *figure);
 void jox_page_release(JoxPageFigures *f);
 
-/* The section on danger: how it is measured, limits, greatest values. */
-void jox_page_danger(FILE *out, const JoxDanger *danger);
-/* NAME.png of the directory, if it is there, with NAME.svg behind it. */
-void jox_page_picture(FILE *out, const char *directory, const char *name, const char *caption);
-void jox_page_danger_pictures(FILE *out, const char *directory);
-void jox_page_probe(FILE *out, const char *directory, const JoxProbe *probe);
+/* Sections that pages of runs and of recordings share: the plan; who left; danger, with maps and
+   moments; levels of service; lines; walls; what probes measured. */
+void jox_page_crowd(FILE *out, const JoxSubject *subject);
+void jox_page_leaving(FILE *out, const JoxSubject *subject);
+void jox_page_danger(FILE *out, const JoxSubject *subject);
+void jox_page_levels(FILE *out, const JoxSubject *subject);
+enum { JOX_PAGE_SHOWN = 10 }; /* of people and of pieces of walls: those that bore most */
+/* Of `count` numbers those of the greatest values over 0, descending; returns how many. */
+uint32_t jox_page_most_of(const JoxDanger *danger, uint32_t count,
+                          double (*value)(const JoxDanger *danger, uint32_t k),
+                          uint32_t order[JOX_PAGE_SHOWN]);
+/* A table of them, with a row of each group's name; `heads` as of jox_html_table. `beside`, or
+   NULL: what stands behind each value. */
+void jox_page_figures(FILE *out, const JoxPageFigures *figures, const char *heads,
+                      void (*beside)(FILE *out, const JoxPageFigure *figure, void *context),
+                      void *context);
+/* How the measures of danger are defined. */
+void jox_page_definitions(FILE *out, const JoxDanger *danger);
 /* The heading and first paragraph of what a page is worth. */
 void jox_page_validation(FILE *out);
 

@@ -112,14 +112,36 @@ static bool load(JoxReport *r) {
     return good;
 }
 
+JoxSubject jox_report_subject(const JoxReport *r) {
+    const JoxTrajectories *t = r->crowd;
+    JoxFrame first = {0};
+    jox_trajectories_frame(t, 0, &first);
+    return (JoxSubject){.title = jox_report_title(r),
+                        .folder = r->def->directory,
+                        .danger = r->danger,
+                        .grid = jox_danger_local(r->danger)->grid,
+                        .mean_from = first.time,
+                        .exits = &r->exits,
+                        .story = &r->story,
+                        .walls = jox_report_walls(r),
+                        .places = r->spec ? r->spec->places : NULL,
+                        .place_count = r->spec ? r->spec->place_count : 0,
+                        .probes = (const JoxProbe *const *)r->probes,
+                        .probe_count = r->count,
+                        .inside = (uint32_t)(t->people - r->exits.left),
+                        .from = first.time,
+                        .until = (double)t->last / t->fps};
+}
+
 static bool write(const JoxReport *r, JoError *error) {
     const char *folder = r->def->directory, *title = jox_report_title(r);
     JoxText why = {0};
     bool good = jox_plot_folder(folder, &why);
     for (uint32_t p = 0; good && p < r->count; p++)
         good = jox_probe_write(r->probes[p], folder, jox_report_walls(r), title, &why);
-    good = good && jox_danger_write(r->danger, folder, jox_report_walls(r), title, &why) &&
-           jox_report_page(r, &why);
+    good = good && jox_danger_write(r->danger, folder, title, &why);
+    const JoxSubject subject = jox_report_subject(r);
+    good = good && jox_maps_write(&subject, &why) && jox_report_page(r, &why);
     if (!good)
         jox_error(error, JO_FAILED, "%s", why.data ? why.data : "writing failed");
     jox_text_free(&why);
@@ -170,13 +192,17 @@ static void measure(JoxReport *r) {
     JoxFrame frame;
     r->danger = begin_danger(r);
     if (r->spec)
-        jox_danger_add_flows(r->danger, r->spec->probes, r->spec->probe_count);
+        jox_danger_add_plan(r->danger, r->spec->places, r->spec->place_count, r->spec->probes,
+                            r->spec->probe_count);
     for (uint32_t f = 0; jox_trajectories_frame(t, f, &frame); f++) {
         frame.walls = jox_report_walls(r);
         leave(r, left[f], frame.time);
         for (uint32_t p = 0; p < r->count; p++)
             jox_probe_frame(r->probes[p], &frame);
         jox_danger_frame(r->danger, &frame, &r->exits);
+        if (jox_danger_local(r->danger)->time == frame.time)
+            jox_story_sample(&r->story, &frame, jox_danger_local(r->danger)->grid,
+                             jox_report_walls(r), r->exits.left);
     }
     int64_t end = t->number[t->count - 1];
     if (t->last > end) { /* it goes on, empty */
@@ -233,6 +259,7 @@ static char *report(const JoReportDef *def, JoError *error) {
     jox_free(r.probes);
     jox_danger_free(r.danger);
     jox_exits_free(&r.exits);
+    jox_story_free(&r.story);
     jox_trajectories_free(r.crowd);
     jox_scene_free(r.spec);
     return text;

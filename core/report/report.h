@@ -4,6 +4,7 @@
 
 #include "jostle_tools.h"
 #include "record/trajectories.h"
+#include "report/subject.h"
 #include "run/run.h"
 
 typedef struct JoxReport {
@@ -15,11 +16,14 @@ typedef struct JoxReport {
     uint32_t count;
     JoxDanger *danger;
     JoxExits exits; /* who is in no later frame; none has a name */
+    JoxStory story;
 } JoxReport;
 
 /* Of the scene, else of the recording. */
 const JoxWalls *jox_report_walls(const JoxReport *report);
 const char *jox_report_title(const JoxReport *report);
+/* What the report is about; it holds as long as the report. */
+JoxSubject jox_report_subject(const JoxReport *report);
 /* index.html of the report's folder; false with a sentence in `error`. */
 bool jox_report_page(const JoxReport *report, JoxText *error);
 

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/format/noun.h"
 #include "base/format/path.h"
 #include "base/hash.h"
 #include "picture/html.h"
@@ -20,6 +21,7 @@ static JoxPageFigures collect(const JoxReport *r) {
     JoxFrame first = {0}, last = {0};
     jox_trajectories_frame(t, 0, &first);
     jox_trajectories_frame(t, t->frame_count - 1, &last);
+    f.group = "The recording";
     jox_page_add(&f, "", t->people, "people");
     jox_page_add(&f, "", t->frame_count, "frames with people");
     jox_page_add(&f, "s", first.time, "first of them");
@@ -33,17 +35,11 @@ static JoxPageFigures collect(const JoxReport *r) {
 
 static void put_figures(FILE *out, const JoxReport *r) {
     JoxPageFigures f = collect(r);
-    jox_html_heading(out, "Figures");
+    jox_html_heading(out, "All figures");
     jox_html_paragraph(out, "Somebody has left from the first frame on in which they are missing, "
                             "and in none behind which they come again; where a recording shows a "
                             "part of a place, to leave is to leave the picture.");
-    jox_html_table(out, "figure|value");
-    for (uint32_t i = 0; i < f.count; i++) {
-        jox_html_row(out);
-        jox_html_cell(out, f.items[i].name);
-        jox_page_value(out, &f.items[i]);
-    }
-    jox_html_table_end(out);
+    jox_page_figures(out, &f, "figure|>value", NULL, NULL);
     jox_page_release(&f);
 }
 
@@ -107,23 +103,38 @@ static void put_inputs(FILE *out, const JoxReport *r) {
     jox_html_table_end(out);
 }
 
+static void put_summary(FILE *out, const JoxReport *r, const JoxSubject *subject) {
+    JoxText text = {0};
+    jox_html_heading(out, "Summary");
+    fputs("<div class=summary>\n", out);
+    jox_text_printf(&text, "The recording %s: ", r->def->recording);
+    jox_text_noun(&text, r->crowd->people, "person|people");
+    jox_text_printf(&text, ", %.1f to %.1f s, ", subject->from, subject->until);
+    jox_text_noun(&text, r->crowd->frame_count, "frame");
+    jox_text_printf(&text, ", %g a second; measured by Jostle %s.", r->crowd->fps, jo_version());
+    jox_html_statement(out, "What was measured.", text.data);
+    jox_text_free(&text);
+    jox_summary_crowd(out, subject);
+    jox_html_statement(out, "What this is worth.",
+                       jox_danger_reads(r->danger, JOX_DANGER_LOAD)
+                           ? "It is a simulated crowd: the engine is compared with published "
+                             "measurements (jostle reproduce), this scenario is not."
+                           : "All of it follows from positions alone, and is as good as these are; "
+                             "what people bore is not known.");
+    fputs("</div>\n", out);
+}
+
 bool jox_report_page(const JoxReport *r, JoxText *error) {
     FILE *out = jox_plot_open(r->def->directory, "index.html", error);
-    char line[512];
     if (!out)
         return false;
-    jox_html_begin(out, jox_report_title(r));
-    snprintf(line, sizeof line,
-             "The recording %.200s: %u people, %u frames, %g a second; measured by Jostle %s.",
-             r->def->recording, r->crowd->people, r->crowd->frame_count, r->crowd->fps,
-             jo_version());
-    jox_html_paragraph(out, line);
-    jox_html_heading(out, "Pictures");
-    jox_page_danger_pictures(out, r->def->directory);
-    for (uint32_t p = 0; p < r->count; p++)
-        jox_page_probe(out, r->def->directory, r->probes[p]);
-    jox_page_danger(out, r->danger);
+    const JoxSubject subject = jox_report_subject(r);
+    jox_html_begin(out, subject.title);
+    put_summary(out, r, &subject);
+    jox_page_crowd(out, &subject);
     put_figures(out, r);
+    jox_html_heading(out, "How danger is measured");
+    jox_page_definitions(out, subject.danger);
     put_worth(out, r);
     put_inputs(out, r);
     jox_html_end(out);

@@ -12,6 +12,7 @@
 #include "picture/plot.h"
 #include "picture/probe_files.h"
 #include "report/danger_files.h"
+#include "report/run_subject.h"
 #include "run/run.h"
 
 static const double PACE = 0.1; /* s between points of paths, or a step where that is longer */
@@ -21,7 +22,10 @@ typedef struct RunReport {
     char *folder;
     FILE *claim;     /* of the folder */
     JoxPaths *paths; /* NULL: CSV files alone, no pictures */
+    JoxStory story;
 } RunReport;
+
+static const JoxListenerKind REPORT;
 
 static bool begin(void *self, JoScene *scene, const void *folder, JoError *error) {
     RunReport *r = self;
@@ -48,13 +52,23 @@ static bool begin_with_pictures(void *self, JoScene *scene, const void *folder, 
     return true;
 }
 
+/* The story goes on with each sample of the density. */
+static void sample_story(RunReport *r, JoScene *scene) {
+    const JoxLocal *local = jox_run_local(scene);
+    const JoxFrame *frame = jox_run_frame(scene);
+    if (local->time == frame->time)
+        jox_story_sample(&r->story, frame, local->grid, &scene->world->model.all_walls,
+                         scene->world->state.exits.left);
+}
+
 /* Points of the paths of those who came first, and of what moves. */
-static bool sample_paths(void *self, JoScene *scene, JoError *error) {
+static bool sample(void *self, JoScene *scene, JoError *error) {
     RunReport *r = self;
     const JoWorld *world = scene->world;
     const JoxAgents *a = &world->state.agents;
     float time = (float)jo_world_time(world);
     (void)error;
+    sample_story(r, scene);
     if (!jox_run_is_due(scene, PACE))
         return true;
     for (uint32_t rank = 0; rank < a->count; rank++) {
@@ -94,12 +108,11 @@ static bool draw_paths(const RunReport *r, const JoScene *scene, const char *tit
 
 /* The files of probes and of danger; with a title, their pictures too. */
 static bool write_files(const RunReport *r, const JoScene *scene, const char *title, JoxText *why) {
-    const JoxWalls *walls = title ? &scene->world->model.all_walls : NULL;
     const JoxProbe *probe;
     bool good = true;
     for (uint32_t p = 0; good && (probe = jox_run_probe(scene, p)); p++)
         good = jox_probe_write(probe, r->folder, &scene->world->model.all_walls, title, why);
-    return good && jox_danger_write(jox_run_danger(scene), r->folder, walls, title, why);
+    return good && jox_danger_write(jox_run_danger(scene), r->folder, title, why);
 }
 
 static bool write_data(void *self, JoScene *scene, JoError *error) {
@@ -115,10 +128,9 @@ static bool draw(void *self, JoScene *scene, JoError *error) {
     const double until = jo_world_time(scene->world);
     const JoxRegions *regions = jox_run_regions(scene);
     const bool paths = scene->world->state.agents.next_id <= JOX_MOST_PATHS && r->paths->count;
-    snprintf(title, sizeof title, "%.120s: density, t = %.0f to %.0f s, %u agents", name,
-             scene->spec->heatmap_from, until, scene->world->state.agents.count);
-    bool good = jox_plot_density(r->folder, jox_run_local(scene)->grid,
-                                 &scene->world->model.all_walls, title, &why);
+    JoxSubject subject = jox_run_subject(scene, r->folder);
+    bool good = jox_maps_write(&subject, &why);
+    jox_run_subject_free(&subject);
     if (good && regions) {
         snprintf(title, sizeof title, "%.120s: mean speed per region, t = %.0f to %.0f s", name,
                  scene->spec->heatmap_from, until);
@@ -131,12 +143,6 @@ static bool draw(void *self, JoScene *scene, JoError *error) {
     }
     if (!good || !write_files(r, scene, name, &why))
         return jox_run_failed(error, &why);
-    jox_run_say(scene, "pictures: %s%s%s/density.png%s%s%s\n", paths ? r->folder : "",
-                paths ? "/paths.png, " : "", r->folder, regions ? " and " : "",
-                regions ? r->folder : "", regions ? "/regions.png" : "");
-    if (scene->spec->probe_count)
-        jox_run_say(scene, "probes: %u in %s/NAME.csv, NAME.png and NAME.svg\n",
-                    scene->spec->probe_count, r->folder);
     return true;
 }
 
@@ -147,6 +153,8 @@ static void sections(void *self, JoxSections *s) {
     JOX_SECTION(s, "acted_on", r->scene->acted_on);
     if (r->paths)
         jox_paths_sections(r->paths, s);
+    if (r->paths)
+        jox_story_sections(&r->story, s);
 }
 
 static void release(void *self) {
@@ -155,12 +163,13 @@ static void release(void *self) {
         jox_file_close(r->claim);
     jox_free(r->folder);
     jox_paths_free(r->paths);
+    jox_story_free(&r->story);
 }
 
 static const JoxListenerKind REPORT = {.name = "report",
                                        .size = sizeof(RunReport),
                                        .begin = begin_with_pictures,
-                                       .frame = sample_paths,
+                                       .frame = sample,
                                        .sections = sections,
                                        .goes_on = true,
                                        .end = draw,
@@ -172,6 +181,36 @@ static const JoxListenerKind DATA = {.name = "data files",
                                      .goes_on = true,
                                      .end = write_data,
                                      .release = release};
+
+JoxSubject jox_run_subject(const JoScene *scene, const char *folder) {
+    const RunReport *report = jox_run_listener(scene, &REPORT);
+    static const JoxStory none;
+    const JoxLocal *local = jox_run_local(scene);
+    const JoxSceneSpec *spec = scene->spec;
+    const JoxProbe **probes = jox_alloc(spec->probe_count + 1, sizeof *probes);
+    for (uint32_t p = 0; p < spec->probe_count; p++)
+        probes[p] = jox_run_probe(scene, p);
+    return (JoxSubject){.title = spec->title ? spec->title : spec->path,
+                        .folder = folder,
+                        .danger = jox_run_danger(scene),
+                        .grid = local->grid,
+                        .mean_from = spec->heatmap_from,
+                        .exits = &scene->world->state.exits,
+                        .story = report ? &report->story : &none,
+                        .walls = &scene->world->model.all_walls,
+                        .places = spec->places,
+                        .place_count = spec->place_count,
+                        .probes = probes,
+                        .probe_count = spec->probe_count,
+                        .inside = scene->world->state.agents.count,
+                        .until = jo_world_time(scene->world),
+                        .simulated = true};
+}
+
+void jox_run_subject_free(JoxSubject *s) {
+    jox_free((void *)(uintptr_t)s->probes);
+    s->probes = NULL;
+}
 
 bool jo_scene_report(JoScene *scene, const char *directory, JoError *error) {
     JOX_REQUIRE(scene && directory && !jox_run_listener(scene, &REPORT), false);

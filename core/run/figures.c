@@ -147,7 +147,8 @@ static bool danger_begin(void *self, JoScene *scene, const void *options, JoErro
     (void)error;
     JoxDanger *danger = *(JoxDanger **)self =
         area ? jox_danger_create(area->low, area->high) : jox_danger_create_on(held(scene, &LOCAL));
-    jox_danger_add_flows(danger, scene->spec->probes, scene->spec->probe_count);
+    jox_danger_add_plan(danger, scene->spec->places, scene->spec->place_count, scene->spec->probes,
+                        scene->spec->probe_count);
     return true;
 }
 

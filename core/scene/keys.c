@@ -29,6 +29,13 @@
 #define FILLS (&(JOX_FILLS(CHOICE))[1])
 #define TOOLS (&(JOX_TOOLS(CHOICE))[1])
 
+/* Names of files of a report, which no probe may take. */
+#define REPORT_FILES                                                                               \
+    "plan|density|density-greatest|load-greatest|pressure-greatest|snapshot-1|snapshot-2|"         \
+    "snapshot-3|snapshot-4|leaving|levels|paths|regions|walls|spread|seeds|danger|danger-map|"     \
+    "danger-limits|danger-people|danger-levels|danger-areas|danger-leaving|danger-lines|"          \
+    "danger-walls"
+
 /* In the order of JoLost. */
 #define LOST "end|remove|stop"
 
@@ -369,7 +376,7 @@ static const JoxOwner OWNERS[] = {
     {"probe", "Probes", "`probes` maps names to probes; one key of each says what it measures. Their figures stand in the summary under `probes`; `--report DIR` adds DIR/NAME.csv, NAME.png and "
      "NAME.svg. `jostle report` measures recordings by them, those of real crowds too.",
      .size = sizeof(JoxProbeDef), .kind = AT(JoxProbeDef, kind), .wrong_kind = "bad-probe", .name_at = AT(JoxProbeDef, name),
-     .hint = "{flow: [[0, 0], [1, 0]]}", .taken = "density|paths|regions|walls|danger|danger-map|danger-limits|danger-people|danger-levels|danger-lines|danger-walls", /* of reports */
+     .hint = "{flow: [[0, 0], [1, 0]]}", .taken = REPORT_FILES,
      .finish = jox_finish_probe},
     {"map", "map", "", .size = 0},
     {"lanes", "lanes", "The ways are two groups where the probe names two; else the sign of the velocity.", .size = 0},

@@ -8,7 +8,7 @@ in_json() { sed -n "s/.*\"$1\": \([-0-9.e]*\).*/\1/p" "$2" | head -1; }
 verdict "a run with a report" $?
 grep -q "once more at half the step, 0.025 s" "$work/err"; verdict "the run is repeated at half the step, and says so" $?
 [ "$(grep -c '60.0 of 60.0 s simulated' "$work/err")" = 2 ]; verdict "both runs show their progress" $?
-for file in danger.csv danger.png danger.svg danger-map.csv danger-map.png danger-map.svg index.html; do
+for file in danger.csv danger.png danger.svg danger-map.csv danger-areas.csv danger-leaving.csv leaving.png levels.svg plan.svg density.png density-greatest.png load-greatest.svg snapshot-1.png snapshot-4.png index.html; do
     [ -s "$out/$file" ]; verdict "the report has $file" $?
 done
 head -1 "$out/danger.csv" | grep -q '^time \[s\],people,density_max \[1/m2\],.*,left,left_south_exit,left_east_exit$\|left_east_exit,left_south_exit$'; verdict "danger.csv names its columns, with the exits" $?
@@ -18,10 +18,12 @@ for link in $(grep -o '\(src\|href\)="[^"]*"' "$out/index.html" | cut -d'"' -f2)
     [ -s "$out/$link" ] || { echo "missing: $link"; missing=1; }
 done
 verdict "pictures of the page lie beside it" $missing
-for text in "<h2>Figures</h2>" "step 0.05 s<th>step 0.025 s<th>difference" "person-seconds over density_5" "jostle reproduce" "None of that validates this scenario" "SHA-256"; do
+for text in "<h2>Summary</h2>" "<b>Cleared?</b> Yes, at " "All 140 people left: the first at " "step 0.05 s<th class=n>step 0.025 s<th class=n>difference" "person-seconds over a density of 5 per m²" "jostle reproduce" "None of that validates this scenario" "SHA-256"; do
     grep -qF "$text" "$out/index.html"; verdict "the page has: $text" $?
 done
 grep -qF "$(sha256sum scenes/evacuation.yaml | cut -c1-64)" "$out/index.html"; verdict "the page names its inputs by their hashes" $?
+
+outlined "the page and its plots have their sections, titles and axes" "$out" run --no-ranges
 
 # Whoever left did so by an exit; the file over time ends with the summary's count.
 left=$(in_json left "$work/run.json")
@@ -36,7 +38,7 @@ inside=$(sed -n 's/.*"inside": \([0-9]*\).*/\1/p' "$work/early.json")
 [ "$(in_json agents "$work/early.json")" = "$inside" ] && [ "$inside" -gt 0 ] && [ "$(in_json left "$work/early.json")" -gt 0 ]; verdict "who is still inside is counted ($inside)" $?
 grep -q '"clearance_s": null' "$work/early.json"; verdict "not cleared: there is no such time" $?
 between "the last who left is dated" "$(in_json last_left_s "$work/early.json")" 10 20
-grep -q "clearance time.*<td class=n>not cleared" "$work/early/index.html"; verdict "the page says: not cleared" $?
+grep -q "clearance time.*<td class=n>not cleared" "$work/early/index.html" && grep -q "<b>Cleared?</b> No. $inside people were still inside at 20.0 s" "$work/early/index.html"; verdict "the page says: not cleared" $?
 
 # The greatest density is one figure, with a report or without.
 "$JOSTLE" run scenes/evacuation.yaml --for 60 --quiet --summary "$work/bare.json" 2>/dev/null
@@ -46,7 +48,7 @@ between "the density of a run that ended empty" "$(figure density_max <"$work/ba
 # What a report adds changes nothing, and can be left out.
 same_hash "a report changes nothing" "$(figure hash <"$work/run.json")" "$(hash_of "$JOSTLE" scenes/evacuation.yaml --for 60)"
 "$JOSTLE" run scenes/evacuation.yaml --for 5 --report "$work/once" --no-half-step >/dev/null 2>"$work/err"
-! grep -q "half the step" "$work/err" && grep -q "not repeated at half the step: --no-half-step was given" "$work/once/index.html" && ! grep -q "<th>difference" "$work/once/index.html"; verdict "--no-half-step leaves it out, and the page says so" $?
+! grep -q "half the step" "$work/err" && grep -q "not repeated at half the step: --no-half-step was given" "$work/once/index.html" && ! grep -q "difference<" "$work/once/index.html"; verdict "--no-half-step leaves it out, and the page says so" $?
 "$JOSTLE" run scenes/circle.yaml --for 1 --dt 0.0015 --quiet --report "$work/fine" >/dev/null 2>&1
 grep -q "not repeated at half the step: it would be below 0.001 s" "$work/fine/index.html"; verdict "a step that cannot be halved is said" $?
 for threads in 1 3; do "$JOSTLE" run scenes/evacuation.yaml --for 30 --quiet --threads $threads --data "$work/data$threads" --summary - 2>/dev/null | sed -n '/"danger"/,/^ }/p' >"$work/danger.$threads"; done
@@ -98,16 +100,17 @@ alike() { # NAME A B WITHIN: A = B but for the share WITHIN, or both are empty
 for table in danger.csv danger-map.csv; do
     alike "a crush: crowd pressure of $table is that of the summary" "$(in_json pressure_max "$work/shaken.json")" "$(greatest 'pressure_max [1/s2]' "$work/shaken/$table")" 1e-6
 done
-for measure in density:1/m2 pressure:1/s2 compression:N/m load:N; do
-    IFS=: read -r name unit <<<"$measure"
+for measure in density:1/m2:density pressure:1/s2:"crowd pressure" compression:N/m:compression load:N:"load from one side"; do
+    IFS=: read -r name unit title <<<"$measure"
     said=$(in_json "${name}_max" "$work/door.danger")
     alike "the greatest $name over time is that of the summary" "$said" "$(greatest "${name}_max [$unit]" "$work/door/danger.csv")" 1e-6
     alike "and that of the map" "$said" "$(greatest "${name}_max [$unit]" "$work/door/danger-map.csv")" 1e-3
-    alike "and that of the page" "$said" "$(cells "$name" | sed -n '1s/ .*//p')" 6e-4
+    alike "and that of the page" "$said" "$(cells "$title" | sed -n '1s/ .*//p')" 6e-4
 done
 alike "the greatest density of the summary and of its danger" "$(figure density_max <"$work/door.json")" "$(in_json density_max "$work/door.danger")" 1e-6
 alike "the greatest dose" "$(in_json dose_max "$work/door.danger")" "$(greatest 'dose_max []' "$work/door/danger.csv")" 1e-6
-for limit in density_5 density_7 pressure_002 load_623 load_1112 load_6227 dose_1; do
+for limit in density_5:"density of 5 per m²" density_7:"density of 7 per m²" pressure_002:"crowd pressure of 0.02 per s²" load_623:"load of 623 N" load_1112:"load of 1112 N" load_6227:"load of 6227 N" dose_1:"dose of load of 1"; do
+    IFS=: read -r limit title <<<"$limit"
     object=$(grep -o "\"$limit\": {[^}]*}" "$work/door.danger")
     line=$(grep "^$limit," "$work/door/danger-limits.csv")
     n=5
@@ -116,11 +119,11 @@ for limit in density_5 density_7 pressure_002 load_623 load_1112 load_6227 dose_
         alike "$limit: $key" "$want" "$(cut -d, -f$n <<<"$line")" 1e-6
         n=$((n + 1))
     done
-    page=$(cells "$limit")
-    alike "$limit on the page: people" "$(cut -d, -f5 <<<"$line")" "$(sed -n '2s/^-$//; 2p' <<<"$page")" 6e-4
-    alike "$limit on the page: person-seconds" "$(cut -d, -f6 <<<"$line")" "$(sed -n '3s/ .*//p' <<<"$page")" 6e-4
-    alike "$limit on the page: longest" "$(cut -d, -f7 <<<"$line")" "$(sed -n '4s/ .*//p' <<<"$page")" 6e-4
-    alike "$limit on the page: minutes since" "$(cut -d, -f11 <<<"$line")" "$(sed -n '6s/ .*//p' <<<"$page" | sed 's/^-$//')" 6e-4
+    page=$(cells "$title")
+    alike "$limit on the page: people" "$(cut -d, -f5 <<<"$line")" "$(sed -n '1s/^-$//; 1p' <<<"$page")" 6e-4
+    alike "$limit on the page: person-seconds" "$(cut -d, -f6 <<<"$line")" "$(sed -n '2s/ .*//p' <<<"$page")" 6e-4
+    alike "$limit on the page: longest" "$(cut -d, -f7 <<<"$line")" "$(sed -n '3s/ .*//p' <<<"$page")" 6e-4
+    alike "$limit on the page: minutes since" "$(cut -d, -f11 <<<"$line")" "$(sed -n '5s/ .*//p' <<<"$page" | sed 's/^-$//')" 6e-4
 done
 total=0
 for level in A B C D E F; do

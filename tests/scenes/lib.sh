@@ -28,3 +28,13 @@ between() {
     awk -v v="$2" -v a="$3" -v b="$4" 'BEGIN {exit !(v != "" && v >= a && v <= b)}'
     if [ $? = 0 ]; then echo "ok $1 ($2)"; else echo "not ok $1: $2 is not within $3 to $4"; fi
 }
+# outlined NAME FOLDER FILE [--no-ranges]: what a report says of itself (outline.py) is what tests/data/outlines has; where
+# that is to change, look at the page and its pictures, and run the test with OUTLINES=write
+outlined() {
+    python3 tests/scenes/outline.py "$2" ${4-} >"$work/outline"
+    [ "${OUTLINES-}" = write ] && cp "$work/outline" "tests/data/outlines/$3.txt"
+    diff "tests/data/outlines/$3.txt" "$work/outline" >"$work/differences"
+    local differs=$?
+    [ $differs = 0 ] || head -20 "$work/differences"
+    verdict "$1" $differs
+}

@@ -86,7 +86,7 @@ for key in load_max dose_max; do # of the mean since the frame before, held over
     awk -v a="$a" -v b="$b" 'BEGIN {exit !(a != "" && b != "" && a - b <= 0.04 * a && b - a <= 0.04 * a)}'
     verdict "danger: $key is that of the run ($a, $b)" $?
 done
-for file in index.html danger.csv danger.png danger-map.svg; do [ -s "$work/evac-page/$file" ]; verdict "the report has $file" $?; done
+for file in index.html danger.csv danger.png levels.png plan.svg snapshot-2.png; do [ -s "$work/evac-page/$file" ]; verdict "the report has $file" $?; done
 tail -1 "$work/evac-page/danger.csv" | awk -F, '{exit !($2 == 0 && $NF == 140)}'; verdict "danger.csv ends with nobody there and 140 who left" $?
 missing=0
 for link in $(grep -o '\(src\|href\)="[^"]*"' "$work/evac-page/index.html" | cut -d'"' -f2); do [ -s "$work/evac-page/$link" ] || missing=1; done
@@ -117,3 +117,20 @@ sed "s/^step:/title: '\`touch pwned\` \$(touch pwned) \"; system(\"touch pwned\"
 expect "a title that is one" 0 "report:" "$JOSTLE" run "$work/titled.yaml" --report "$work/titled"
 [ -z "$(find "$work" . -maxdepth 2 \( -name pwned -o -name x \) -newer "$work/named.yaml" 2>/dev/null)" ] && [ ! -e "$work/titled/pwned" ]; verdict "nothing of it is done" $?
 [ -s "$work/titled/paths.png" ] && ! grep -q "<script" "$work/titled/index.html"; verdict "and the pictures are drawn" $?
+# A recording that is made here, so that its page has the same ranges for ever: a queue of 40 goes through a door, one a second.
+cat >"$work/made.yaml" <<'SCENE'
+jostle: 1
+title: A queue at a door
+places:
+  hall: {polygon: [[0, 0], [8, 0], [8, 4], [0, 4]]}
+  street: {polygon: [[9, 1], [11, 1], [11, 3], [9, 3]]}
+walls: [{line: [[8, 1.5], [8, 0], [0, 0], [0, 4], [8, 4], [8, 2.5]]}]
+probes:
+  door: {flow: [[8, 2.5], [8, 1.5]]}
+  before: {measure: [[6, 1], [8, 1], [8, 3], [6, 3]], every: 0.5}
+SCENE
+awk 'BEGIN {print "# framerate: 5 fps"; for (f = 0; f < 250; f++) for (i = 0; i < 40; i++) {x = 7.8 - 0.4 * int(i / 2) + (f / 5 - i) * (f / 5 > i) * 1.2; if (x < 10) print i, f, x, 1.8 + 0.4 * (i % 2), 0}}' >"$work/made.txt"
+"$JOSTLE" report "$work/made.txt" --unit m --scene "$work/made.yaml" --out "$work/made" >/dev/null 2>&1
+verdict "a report on a recording that is made" $?
+outlined "its page, its plots and their ranges are as they were looked at" "$work/made" recording
+grep -q "39 of 40 people left: the first at [0-9.]* s, half of them by 2[0-9.]* s" "$work/made/index.html" && grep -q "Not cleared\|No. 1 person was still inside" "$work/made/index.html" && grep -q "at 0.0 s at (0.2, 2.0) m, in hall" "$work/made/index.html"; verdict "its summary says who left, and where it was dense" $?

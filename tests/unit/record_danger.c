@@ -244,7 +244,7 @@ static void pages_escape_what_they_show(void **state) {
     assert_non_null(strstr(data, "<h1>&lt;b&gt;&amp;&quot;&#39;?</h1>"));
     assert_non_null(strstr(data, "<th>a<th>&lt;i&gt;"));
     assert_non_null(
-        strstr(data, "<td>&lt;/table&gt;<td class=n>&ndash;<td class=n>1.25&nbsp;1/m2"));
+        strstr(data, "<td>&lt;/table&gt;<td class=n>&ndash;<td class=n>1.25&nbsp;per m\xc2\xb2"));
     assert_non_null(strstr(data, "src=\"a%20b%22%3C%23.png\""));
     assert_null(strstr(data, "<script"));
     free(data);

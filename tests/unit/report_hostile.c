@@ -121,20 +121,16 @@ static const float X[2][PEOPLE] = {{0.5f, 1.5f, 2.5f, 3.5f, 4.5f, 5.5f},
                                    {2.6f, 3.6f, 4.6f, 5.6f, 6.6f, 7.6f}};
 static const float Y[PEOPLE] = {1, 1.5f, 2, 2.5f, 3, 3.5f};
 
-static void densities_and_regions(void **state) {
+static void regions_of(void **state) {
     (void)state;
     static const JoxV2 square[] = {{0, 0}, {8, 0}, {8, 4}, {0, 4}};
     for (int h = 0; h < HOSTILE_COUNT; h++) {
         JoxText error = {0};
-        JoxDensity *density = jox_density_create(jox_v2(0, 0), jox_v2(8, 4), 0.5f, 1.5f);
         JoxRegions *regions = jox_regions_create();
-        jox_density_add(density, (JoxV2){0, 0}, X[0], Y, PEOPLE, 1.0);
         jox_regions_add(regions, HOSTILE[h], square, 4);
         jox_regions_frame(regions, X[1], Y, X[0], Y, PEOPLE, 1.0);
-        worked(jox_plot_density(folder, density, &walls, HOSTILE[h], &error), &error);
         worked(jox_plot_regions(folder, regions, HOSTILE[h], &error), &error);
-        look_and_empty(2);
-        jox_density_free(density);
+        look_and_empty(1);
         jox_regions_free(regions);
         jox_text_free(&error);
     }
@@ -220,8 +216,8 @@ static void danger(void **state) {
             JoxFrame frame = frame_of(f);
             jox_danger_frame(measured, &frame, &exits);
         }
-        worked(jox_danger_write(measured, folder, &walls, HOSTILE[h], &error), &error);
-        look_and_empty(4);
+        worked(jox_danger_write(measured, folder, HOSTILE[h], &error), &error);
+        look_and_empty(6);
         jox_danger_free(measured);
         jox_exits_free(&exits);
         jox_text_free(&error);
@@ -340,7 +336,7 @@ static int end(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_target_has_its_own_quotes),
-        cmocka_unit_test(densities_and_regions),
+        cmocka_unit_test(regions_of),
         cmocka_unit_test(paths),
         cmocka_unit_test(probes),
         cmocka_unit_test(danger),

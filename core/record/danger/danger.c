@@ -214,6 +214,7 @@ static void sample(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
     chart(d, frame);
     note(d, frame, exits);
     jox_danger_lines_sample(&d->lines, frame, d->here, duration);
+    jox_danger_areas_sample(&d->areas, frame, d->here, duration);
 }
 
 void jox_danger_add_line(JoxDanger *d, const char *name, JoxV2 a, JoxV2 b) {
@@ -221,10 +222,13 @@ void jox_danger_add_line(JoxDanger *d, const char *name, JoxV2 a, JoxV2 b) {
     jox_danger_lines_add(&d->lines, name, a, b);
 }
 
-void jox_danger_add_flows(JoxDanger *d, const JoxProbeDef *probes, uint32_t count) {
-    for (uint32_t p = 0; p < count; p++)
+void jox_danger_add_plan(JoxDanger *d, const JoxPlace *places, uint32_t place_count,
+                         const JoxProbeDef *probes, uint32_t probe_count) {
+    JOX_ASSERT(isnan(d->last_frame));
+    for (uint32_t p = 0; p < probe_count; p++)
         if (probes[p].kind == JOX_PROBE_FLOW)
             jox_danger_add_line(d, probes[p].name, probes[p].points[0], probes[p].points[1]);
+    jox_danger_areas_add(&d->areas, places, place_count, probes, probe_count);
 }
 
 void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits) {
@@ -233,11 +237,17 @@ void jox_danger_frame(JoxDanger *d, const JoxFrame *frame, const JoxExits *exits
                       frame->walls); /* of cells that people stand in between samples */
     press(d, frame);
     jox_danger_lines_cross(&d->lines, frame);
+    if (exits)
+        jox_leaving_note(&d->leaving, exits, frame->time);
     if (d->owns_local)
         jox_local_frame(d->local, frame, NULL);
     if (d->local->time == frame->time && d->last_sample != frame->time)
         sample(d, frame, exits);
     keep_most(d, frame);
+}
+
+const JoxLocal *jox_danger_local(const JoxDanger *d) {
+    return d->local;
 }
 
 const float *jox_danger_field(const JoxDanger *d, JoxDangerMeasure measure,
@@ -276,6 +286,8 @@ void jox_danger_sections(JoxDanger *d, JoxSections *s) {
     JOX_SECTION(s, "has_compression", d->has_compression);
     JOX_SECTION(s, "has_load", d->has_load);
     jox_danger_lines_sections(&d->lines, s);
+    jox_danger_areas_sections(&d->areas, s);
+    jox_leaving_sections(&d->leaving, s);
     jox_danger_walls_sections(&d->walls, s);
     JOX_SECTION(s, "level_s", d->level_s);
     JOX_SECTION(s, "begun", d->begun);
@@ -302,6 +314,8 @@ void jox_danger_free(JoxDanger *d) {
     for (uint32_t e = 0; e < d->exit_count; e++)
         jox_free(d->exit_names[e]);
     jox_danger_lines_free(&d->lines);
+    jox_danger_areas_free(&d->areas);
+    jox_leaving_free(&d->leaving);
     jox_danger_walls_free(&d->walls);
     jox_free(d);
 }

@@ -19,6 +19,7 @@
 #include "base/format/json_writer.h"
 #include "base/sections.h"
 #include "base/text.h"
+#include "geom/place.h"
 #include "geom/walls.h"
 #include "record/frame.h"
 #include "record/local.h"
@@ -34,12 +35,14 @@ typedef enum JoxDangerMeasure {
     JOX_DANGER_DOSE = JOX_DANGER_MAPPED,
     JOX_DANGER_MEASURES
 } JoxDangerMeasure;
-extern const char *const jox_danger_names[JOX_DANGER_MEASURES]; /* "density", ... */
-extern const char *const jox_danger_units[JOX_DANGER_MEASURES]; /* "1/m2", ... */
+extern const char *const jox_danger_names[JOX_DANGER_MEASURES];  /* "density", ... */
+extern const char *const jox_danger_units[JOX_DANGER_MEASURES];  /* "1/m2", ... */
+extern const char *const jox_danger_titles[JOX_DANGER_MEASURES]; /* in words, for people */
 
 /* A published limit. */
 typedef struct JoxDangerLimit {
-    const char *key; /* in summaries */
+    const char *key;   /* in summaries */
+    const char *title; /* in words, for people */
     JoxDangerMeasure measure;
     double value;       /* in the measure's unit */
     const char *what;   /* what is known of it */
@@ -78,12 +81,16 @@ JoxDanger *jox_danger_create_on(JoxLocal *local);
 /* A line that people pass, for flow, levels of service, stop-and-go and congestion; before the
    first frame. */
 void jox_danger_add_line(JoxDanger *danger, const char *name, JoxV2 a, JoxV2 b);
-/* Those of probes that measure flow. */
-void jox_danger_add_flows(JoxDanger *danger, const JoxProbeDef *probes, uint32_t count);
+/* Those of probes that measure flow; and areas, for levels of service: polygons among the places,
+   and those of probes that measure in one. */
+void jox_danger_add_plan(JoxDanger *danger, const JoxPlace *places, uint32_t place_count,
+                         const JoxProbeDef *probes, uint32_t probe_count);
 /* Frames in ascending time; `exits` as they are then, or NULL. */
 void jox_danger_frame(JoxDanger *danger, const JoxFrame *frame, const JoxExits *exits);
 /* All but the densities of one that takes them from someone else. */
 void jox_danger_sections(JoxDanger *danger, JoxSections *sections);
+/* The densities that it is measured on. */
+const JoxLocal *jox_danger_local(const JoxDanger *danger);
 /* The field of density or pressure at the last sample, and its grid. */
 const float *jox_danger_field(const JoxDanger *danger, JoxDangerMeasure measure,
                               const JoxDensity **grid);
@@ -94,8 +101,8 @@ JoxDangerMost jox_danger_most(const JoxDanger *danger, JoxDangerMeasure measure)
 /* Whether there was anything to read it from: compression and load are in our own recordings alone,
    crowd pressure takes ten seconds. What is over its limits is not known otherwise. */
 bool jox_danger_reads(const JoxDanger *danger, JoxDangerMeasure measure);
-/* Adds "density_max": ..., "limits": {...}, "levels": {...}, "lines": {...}, "walls": {...}; null
-   where it was not read. */
+/* Adds "density_max": ..., "limits": {...}, "levels": {...}, "areas": {...}, "lines": {...},
+   "walls": {...}, "leaving_s": {...}; null where it was not read. */
 void jox_danger_json(const JoxDanger *danger, JoxJson *json);
 void jox_danger_free(JoxDanger *danger);
 

@@ -2,13 +2,15 @@
 #ifndef JOX_RECORD_DANGER_PARTS_H
 #define JOX_RECORD_DANGER_PARTS_H
 
+#include "record/danger/areas.h"
 #include "record/danger/danger.h"
+#include "record/danger/leaving.h"
 #include "record/danger/lines.h"
 #include "record/danger/walls.h"
 #include "record/local.h"
 
 enum {
-    JOX_DANGER_EXITS = 16,                          /* that have a column of their own over time */
+    JOX_DANGER_EXITS = JOX_LEAVING_EXITS,           /* that have a column of their own over time */
     JOX_DANGER_FIRST_BORNE = JOX_DANGER_COMPRESSION /* from here on: of each person, every frame */
 };
 /* N: loads after which death is estimated within 300 s and 15 s. */
@@ -54,6 +56,8 @@ struct JoxDanger {
     bool has_compression, has_load;
 
     JoxDangerLines lines;
+    JoxDangerAreas areas;
+    JoxLeaving leaving;
     JoxDangerWalls walls;
     double level_s[JOX_LEVELS]; /* person-seconds at each level of service */
     float *here;                /* by person of a sample: density; NAN outside of the area */

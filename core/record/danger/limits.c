@@ -6,27 +6,32 @@
 #include "record/danger/danger_parts.h"
 
 const char *const jox_danger_names[] = {"density", "pressure", "compression", "load", "dose"};
+const char *const jox_danger_titles[] = {"density", "crowd pressure", "compression",
+                                         "load from one side", "dose of load"};
 const char *const jox_danger_units[] = {"1/m2", "1/s2", "N/m", "N", ""};
 
 const JoxDangerLimit jox_danger_limits[JOX_DANGER_LIMITS] = {
-    {"density_5", JOX_DANGER_DENSITY, 5.0,
+    {"density_5", "density of 5 per m\xc2\xb2", JOX_DANGER_DENSITY, 5.0,
      "anything more crowded can become dangerous; dangerous crowd forces begin at 5.55",
      "G. K. Still, in the press, 30 October 2022; Fruin, in Wirz et al., EPJ Data Science 2, 5, "
      "2013"},
-    {"density_7", JOX_DANGER_DENSITY, 7.0,
+    {"density_7", "density of 7 per m\xc2\xb2", JOX_DANGER_DENSITY, 7.0,
      "the crowd becomes almost a fluid mass; shock waves run through it",
      "J. J. Fruin, The causes and prevention of crowd disasters, 1993"},
-    {"pressure_002", JOX_DANGER_PRESSURE, 0.02, "crowd turbulence sets in",
-     "Helbing, Johansson, Al-Abideen, Phys. Rev. E 75, 046109, 2007"},
+    {"pressure_002", "crowd pressure of 0.02 per s\xc2\xb2", JOX_DANGER_PRESSURE, 0.02,
+     "crowd turbulence sets in", "Helbing, Johansson, Al-Abideen, Phys. Rev. E 75, 046109, 2007"},
     /* Men pushed against a flat bar 100 mm wide; 800 N where they could brace themselves. */
-    {"load_623", JOX_DANGER_LOAD, 623.0,
+    {"load_623", "load of 623 N", JOX_DANGER_LOAD, 623.0,
      "the most that men bore for a short time against a bar 100 mm wide; women bore less",
      "Evans and Hayden 1971, in Lee and Hughes, Accid. Anal. Prev. 38, 2006, 712-722"},
-    {"load_1112", JOX_DANGER_LOAD, JOX_DOSE_LOW, "death estimated within 4 to 6 minutes",
+    {"load_1112", "load of 1112 N", JOX_DANGER_LOAD, JOX_DOSE_LOW,
+     "death estimated within 4 to 6 minutes",
      "Hopkins et al. 1993, in Lee and Hughes, Accid. Anal. Prev. 38, 2006, 712-722"},
-    {"load_6227", JOX_DANGER_LOAD, JOX_DOSE_HIGH, "death estimated within 15 seconds",
+    {"load_6227", "load of 6227 N", JOX_DANGER_LOAD, JOX_DOSE_HIGH,
+     "death estimated within 15 seconds",
      "Hopkins et al. 1993, in Lee and Hughes, Accid. Anal. Prev. 38, 2006, 712-722"},
-    {"dose_1", JOX_DANGER_DOSE, 1.0, "the load was borne until death is estimated",
+    {"dose_1", "dose of load of 1", JOX_DANGER_DOSE, 1.0,
+     "the load was borne until death is estimated",
      "our interpolation between the two estimates of Hopkins et al. 1993"},
 };
 
@@ -121,6 +126,8 @@ void jox_danger_json(const JoxDanger *d, JoxJson *json) {
     for (int k = 0; k < JOX_LEVELS; k++)
         jox_json_number(json, jox_levels[k].name, d->level_s[k]);
     jox_json_end(json);
+    jox_leaving_json(&d->leaving, json);
+    jox_danger_areas_json(&d->areas, json);
     jox_danger_lines_json(&d->lines, d->last_frame, json);
     jox_danger_walls_json(&d->walls, d->last_frame, json);
 }

@@ -107,14 +107,18 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
         peak = isnan(peak) || p->most > peak ? p->most : peak;
         moved += isfinite(p->onset) != 0;
     }
-    jox_figure_add(out, "people", "", count);
-    jox_figure_add(out, "moved", "", moved);
-    jox_figure_add(out, "mean", "m", count ? sum / count : NAN);
-    jox_figure_add(out, "median", "m", jox_quantile(ends, count, 0.5));
-    jox_figure_add(out, "greatest", "m", jox_quantile(ends, count, 1.0));
-    jox_figure_add(out, "peak_mean", "m", count ? peaks / count : NAN);
-    jox_figure_add(out, "peak", "m", peak);
-    jox_figure_add(out, "front_speed", "m/s", front_speed(def, d));
+    jox_figure_add(out, "people", "people", "", count);
+    jox_figure_add(out, "moved", "people who were moved", "", moved);
+    jox_figure_add(out, "mean", "mean displacement at the end", "m", count ? sum / count : NAN);
+    jox_figure_add(out, "median", "median displacement at the end", "m",
+                   jox_quantile(ends, count, 0.5));
+    jox_figure_add(out, "greatest", "greatest displacement at the end", "m",
+                   jox_quantile(ends, count, 1.0));
+    jox_figure_add(out, "peak_mean", "mean of the greatest displacements", "m",
+                   count ? peaks / count : NAN);
+    jox_figure_add(out, "peak", "greatest displacement at any time", "m", peak);
+    jox_figure_add(out, "front_speed", "speed at which the push travels", "m/s",
+                   front_speed(def, d));
     jox_free(ends);
 }
 
@@ -163,7 +167,6 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
     jox_text_printf(out,
                     "set size ratio -1\nset xlabel 'x (m)'\nset ylabel 'y (m)'\nunset key\n"
                     "set cblabel 'distance from where first seen (m)'\nset cbrange [0:%g]\n"
-                    "set palette defined (0 '#3b528b', 0.5 '#21918c', 1 '#fde725')\n"
                     "set xrange [%g:%g]\nset yrange [%g:%g]\nplot ",
                     most > 0.0 ? most : 1.0, low.x - margin, high.x + margin, low.y - margin,
                     high.y + margin);

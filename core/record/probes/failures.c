@@ -44,10 +44,10 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
             peak_time = def->from + (b + 0.5) * def->every;
         }
     }
-    jox_figure_add(out, "agent_steps", "", (double)sum.all);
-    jox_figure_add(out, "share", "", share(sum));
-    jox_figure_add(out, "peak", "", peak);
-    jox_figure_add(out, "peak_time", "s", peak_time);
+    jox_figure_add(out, "agent_steps", "steps of people that were looked at", "", (double)sum.all);
+    jox_figure_add(out, "share", "share whose 2-D program failed", "", share(sum));
+    jox_figure_add(out, "peak", "greatest share of an interval", "", peak);
+    jox_figure_add(out, "peak_time", "when that was", "s", peak_time);
 }
 
 static void sections(void *state, JoxSections *s) {

@@ -86,12 +86,13 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
         density += l->items[i].density;
         speed += l->items[i].speed;
     }
-    jox_figure_add(out, "samples", "", l->count);
-    jox_figure_add(out, "order", "", order / n);
-    jox_figure_add(out, "order_last", "", l->count ? l->items[l->count - 1].order : NAN);
-    jox_figure_add(out, "random", "", random / n);
-    jox_figure_add(out, "density", "1/m2", density / n);
-    jox_figure_add(out, "speed", "m/s", speed / n);
+    jox_figure_add(out, "samples", "samples", "", l->count);
+    jox_figure_add(out, "order", "order of the lanes, mean (1: all in lanes)", "", order / n);
+    jox_figure_add(out, "order_last", "order of the lanes at the end", "",
+                   l->count ? l->items[l->count - 1].order : NAN);
+    jox_figure_add(out, "random", "order that chance alone would give", "", random / n);
+    jox_figure_add(out, "density", "density, mean", "1/m2", density / n);
+    jox_figure_add(out, "speed", "speed, mean", "m/s", speed / n);
 }
 
 static void sections(void *state, JoxSections *s) {

@@ -124,9 +124,9 @@ static void frame(const JoxProbeDef *def, void *state, const JoxFrame *frame, co
 static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) {
     const Log *log = state;
     (void)def;
-    jox_figure_add(out, "entered", "", log->counts[ENTERS]);
-    jox_figure_add(out, "kicks", "", log->counts[KICKS]);
-    jox_figure_add(out, "hits", "", log->counts[HIT]);
+    jox_figure_add(out, "entered", "times that somebody entered a state", "", log->counts[ENTERS]);
+    jox_figure_add(out, "kicks", "kicks and throws of bodies", "", log->counts[KICKS]);
+    jox_figure_add(out, "hits", "times that a body hit somebody", "", log->counts[HIT]);
 }
 
 static bool are_named(const Log *log) {

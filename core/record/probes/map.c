@@ -153,19 +153,29 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
         density = fmax(density, m->density[c]);
     for (size_t c = 0; c < cells_of(m->local->grid); c++)
         pressure = fmax(pressure, m->measured[c] ? m->pressure[c] / m->measured[c] : NAN);
-    jox_figure_add(out, "samples", "", m->samples);
-    jox_figure_add(out, "density_max", "1/m2", m->samples ? m->density_most : NAN);
-    jox_figure_add(out, "density_max_x", "m", m->samples ? m->density_at.x : NAN);
-    jox_figure_add(out, "density_max_y", "m", m->samples ? m->density_at.y : NAN);
-    jox_figure_add(out, "density_max_time", "s", m->samples ? m->density_time : NAN);
-    jox_figure_add(out, "density_mean_max", "1/m2", density / n);
-    jox_figure_add(out, "speed", "m/s", m->people ? m->speed_sum / (double)m->people : NAN);
-    jox_figure_add(out, "pressure_max", "1/s2", m->pressure_most);
-    jox_figure_add(out, "pressure_max_x", "m", pressed ? m->pressure_at.x : NAN);
-    jox_figure_add(out, "pressure_max_y", "m", pressed ? m->pressure_at.y : NAN);
-    jox_figure_add(out, "pressure_max_time", "s", pressed ? m->pressure_time : NAN);
-    jox_figure_add(out, "pressure_mean_max", "1/s2", pressure);
-    jox_figure_add(out, "compression_max", "N/m",
+    jox_figure_add(out, "samples", "samples", "", m->samples);
+    jox_figure_add(out, "density_max", "greatest density", "1/m2",
+                   m->samples ? m->density_most : NAN);
+    jox_figure_add(out, "density_max_x", "where that was, x", "m",
+                   m->samples ? m->density_at.x : NAN);
+    jox_figure_add(out, "density_max_y", "where that was, y", "m",
+                   m->samples ? m->density_at.y : NAN);
+    jox_figure_add(out, "density_max_time", "when that was", "s",
+                   m->samples ? m->density_time : NAN);
+    jox_figure_add(out, "density_mean_max", "greatest mean density of a place", "1/m2",
+                   density / n);
+    jox_figure_add(out, "speed", "speed, mean", "m/s",
+                   m->people ? m->speed_sum / (double)m->people : NAN);
+    jox_figure_add(out, "pressure_max", "greatest crowd pressure", "1/s2", m->pressure_most);
+    jox_figure_add(out, "pressure_max_x", "where the pressure was, x", "m",
+                   pressed ? m->pressure_at.x : NAN);
+    jox_figure_add(out, "pressure_max_y", "where the pressure was, y", "m",
+                   pressed ? m->pressure_at.y : NAN);
+    jox_figure_add(out, "pressure_max_time", "when the pressure was", "s",
+                   pressed ? m->pressure_time : NAN);
+    jox_figure_add(out, "pressure_mean_max", "greatest mean crowd pressure of a place", "1/s2",
+                   pressure);
+    jox_figure_add(out, "compression_max", "greatest compression", "N/m",
                    m->has_compression ? m->compression_greatest : NAN);
 }
 
@@ -222,16 +232,14 @@ static void csv(const JoxProbeDef *def, const void *state, FILE *out) {
     }
 }
 
-/* One field; the range of colours is given: gnuplot would warn where all is 0. */
+/* One field, in the colours of values that plots have; their range is given: gnuplot would warn
+   where all is 0. */
 static void panel(bool walls, int column, const char *what, double most, JoxText *out) {
     jox_text_printf(out,
                     "set title '%s'\nset cbrange [0:%g]\n"
-                    "set palette defined (%s0.02 '#440154', 0.27 '#3b528b', 0.52 '#21918c', "
-                    "0.77 '#5ec962', 1 '#fde725')\n"
                     "plot csv skip 1 using 1:2:%d with image%s\n",
-                    what, most > 0.0 ? most : 1.0,
-                    column == 4 ? "" : "0 '#ffffff', ", /* where all is still, too, one sees it */
-                    column, walls ? ", 'walls.dat' using 1:2 with lines lw 1.5 lc 'black'" : "");
+                    what, most > 0.0 ? most : 1.0, column,
+                    walls ? ", 'walls.dat' using 1:2 with lines lw 1.5 lc 'black'" : "");
 }
 
 static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText *out) {
@@ -256,18 +264,19 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
         g->low.x, g->low.x + (float)g->columns * g->cell, g->low.y,
         g->low.y + (float)g->rows * g->cell);
     char what[96];
-    snprintf(what, sizeof what, "density (1/m^2), Gaussian, R = %.3g m%s", def->kernel * sqrt(2.0),
-             def->through_walls ? ", through walls" : "");
+    snprintf(what, sizeof what, "density (1/m\xc2\xb2), Gaussian, R = %.3g m%s",
+             def->kernel * sqrt(2.0), def->through_walls ? ", through walls" : "");
     panel(walls, 3, what, density, out);
     panel(walls, 4, "speed (m/s)", speed, out);
     if (isnan(m->pressure_most))
-        jox_text_printf(out,
-                        "set title 'crowd pressure was measured nowhere:\\nless than %g per m^2, "
-                        "or no steady flow for %g s'\nunset colorbox\nplot NaN notitle\n"
-                        "set colorbox\n",
-                        (double)JOX_PRESSURE_LEAST, JOX_PRESSURE_SPAN);
+        jox_text_printf(
+            out,
+            "set title 'crowd pressure was measured nowhere:\\nless than %g per m\xc2\xb2, "
+            "or no steady flow for %g s'\nunset colorbox\nplot NaN notitle\n"
+            "set colorbox\n",
+            (double)JOX_PRESSURE_LEAST, JOX_PRESSURE_SPAN);
     else
-        panel(walls, 5, "crowd pressure (1/s^2), where it was measured", pressure, out);
+        panel(walls, 5, "crowd pressure (1/s\xc2\xb2), where it was measured", pressure, out);
     if (m->has_compression)
         panel(walls, 7, "greatest compression (N/m)", m->compression_greatest, out);
 }

@@ -172,18 +172,23 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
         standing += row->standing;
     }
     const double middle = all > 0 ? speeds / all : NAN;
-    jox_figure_add(out, "intervals", "", n);
-    jox_figure_add(out, "people", "", mean(people, n));
-    jox_figure_add(out, "density_classical", "1/m2", mean(classical, n));
-    jox_figure_add(out, "density", "1/m2", mean(voronoi, n));
-    jox_figure_add(out, "density_median", "1/m2", jox_quantile(densities, n, 0.5));
-    jox_figure_add(out, "density_p90", "1/m2", jox_quantile(densities, n, 0.9));
-    jox_figure_add(out, "density_max", "1/m2", jox_quantile(densities, n, 1.0));
-    jox_figure_add(out, "speed", "m/s", mean(speed, n));
-    jox_figure_add(out, "specific_flow", "1/(m s)", mean(flow, n));
-    jox_figure_add(out, "speed_deviation", "m/s",
+    jox_figure_add(out, "intervals", "intervals measured", "", n);
+    jox_figure_add(out, "people", "people there, mean", "", mean(people, n));
+    jox_figure_add(out, "density_classical", "density by counting, mean", "1/m2",
+                   mean(classical, n));
+    jox_figure_add(out, "density", "density by Voronoi cells, mean", "1/m2", mean(voronoi, n));
+    jox_figure_add(out, "density_median", "density by Voronoi cells, median", "1/m2",
+                   jox_quantile(densities, n, 0.5));
+    jox_figure_add(out, "density_p90", "density that a tenth of the intervals exceed", "1/m2",
+                   jox_quantile(densities, n, 0.9));
+    jox_figure_add(out, "density_max", "density by Voronoi cells, greatest", "1/m2",
+                   jox_quantile(densities, n, 1.0));
+    jox_figure_add(out, "speed", "speed, mean", "m/s", mean(speed, n));
+    jox_figure_add(out, "specific_flow", "specific flow, mean", "1/(m s)", mean(flow, n));
+    jox_figure_add(out, "speed_deviation", "standard deviation of the speeds", "m/s",
                    all > 0 ? sqrt(fmax(squares / all - middle * middle, 0.0)) : NAN);
-    jox_figure_add(out, "standing", "", all > 0 ? standing / all : NAN);
+    jox_figure_add(out, "standing", "share of the people who stand", "",
+                   all > 0 ? standing / all : NAN);
     jox_free(densities);
 }
 
@@ -225,12 +230,12 @@ static void plot(const JoxProbeDef *def, const void *state, bool walls, JoxText 
     jox_text_printf(out,
                     "unset title\nset multiplot layout 2,2 title heading font ',14' "
                     "noenhanced\nset key top right opaque\nset yrange [0:*]\n"
-                    "set xlabel 'time (s)'\nset ylabel 'density (1/m^2)'\n"
+                    "set xlabel 'time (s)'\nset ylabel 'density (1/m\xc2\xb2)'\n"
                     "plot csv skip 1 using 1:4 with lines lw 2 lc '#1f77b4' title 'Voronoi', "
                     "'' skip 1 using 1:3 with lines lw 1 lc '#999999' title 'classical'\n"
                     "set ylabel 'mean speed (m/s)'\n"
                     "plot csv skip 1 using 1:5 with lines lw 2 lc '#d62728' notitle\n"
-                    "set xrange [0:*]\nset xlabel 'Voronoi density (1/m^2)'\n"
+                    "set xrange [0:*]\nset xlabel 'Voronoi density (1/m\xc2\xb2)'\n"
                     "plot csv skip 1 using 4:5 with points pt 7 ps 0.7 lc '#1f77b4' notitle\n"
                     "set ylabel 'specific flow (1/(m s))'\n"
                     "plot csv skip 1 using 4:6 with points pt 7 ps 0.7 lc '#1f77b4' notitle\n");

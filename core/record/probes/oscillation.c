@@ -254,16 +254,22 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
     if (peak)
         each_stretch(o, &s, add_turn, &turns);
     const double area = windows_of(o) * def->window * def->window, none = peak ? 1.0 : NAN;
-    jox_figure_add(out, "intervals", "", o->intervals);
-    jox_figure_add(out, "windows", "", windows_of(o));
-    jox_figure_add(out, "density", "1/m2", frames > 0.0 ? people / frames / area : NAN);
-    jox_figure_add(out, "speed", "m/s", filled > 0.0 ? sqrt(square / filled) : NAN);
-    jox_figure_add(out, "frequency", "rad/s", none * peak * s.step);
-    jox_figure_add(out, "rises", "", rises);
-    jox_figure_add(out, "speed_frequency", "rad/s", none * speed_peak * s.step);
-    jox_figure_add(out, "speed_rises", "", speed_rises);
-    jox_figure_add(out, "anticlockwise", "", none * turns.anticlockwise / turns.all);
-    jox_figure_add(out, "one_way", "", none * turns.one_way / turns.all);
+    jox_figure_add(out, "intervals", "intervals measured", "", o->intervals);
+    jox_figure_add(out, "windows", "windows", "", windows_of(o));
+    jox_figure_add(out, "density", "density, mean", "1/m2",
+                   frames > 0.0 ? people / frames / area : NAN);
+    jox_figure_add(out, "speed", "speed, root mean square", "m/s",
+                   filled > 0.0 ? sqrt(square / filled) : NAN);
+    jox_figure_add(out, "frequency", "frequency of the orientation", "rad/s", none * peak * s.step);
+    jox_figure_add(out, "rises", "its peak, over the spectrum about it", "", rises);
+    jox_figure_add(out, "speed_frequency", "frequency of the speed", "rad/s",
+                   none * speed_peak * s.step);
+    jox_figure_add(out, "speed_rises", "the peak of that, over the spectrum about it", "",
+                   speed_rises);
+    jox_figure_add(out, "anticlockwise", "share that turns anti-clockwise", "",
+                   none * turns.anticlockwise / turns.all);
+    jox_figure_add(out, "one_way", "share that turns one way for long", "",
+                   none * turns.one_way / turns.all);
     spectrum_free(&s);
 }
 

@@ -55,6 +55,15 @@ JoxProbe *jox_probe_create(const JoxProbeDef *def) {
     return p;
 }
 
+const char *jox_probe_kind_name(const JoxProbe *p) {
+    static const char *const NAMES[] = {
+#define X(kind, name, form, options, example, meaning) #name,
+        JOX_PROBES(X)
+#undef X
+    };
+    return NAMES[p->def.kind];
+}
+
 const JoxProbeDef *jox_probe_def(const JoxProbe *p) {
     return &p->def;
 }

@@ -19,7 +19,7 @@ enum { JOX_MOST_FIGURES = 16 };
 /* Figures by name, in SI units; NAN where nothing was seen that could give one. */
 typedef struct JoxFigures {
     struct JoxFigure {
-        const char *name, *unit; /* "" without a unit */
+        const char *name, *title, *unit; /* key, the same in words, and "" without a unit */
         double value;
     } items[JOX_MOST_FIGURES];
     uint32_t count;
@@ -45,6 +45,8 @@ void jox_probe_csv(const JoxProbe *probe, FILE *out);
    `walls`, walls.dat is drawn too. */
 void jox_probe_plot(const JoxProbe *probe, bool walls, JoxText *commands, int *width, int *height);
 const JoxProbeDef *jox_probe_def(const JoxProbe *probe);
+/* "flow", "measure", ... */
+const char *jox_probe_kind_name(const JoxProbe *probe);
 void jox_probe_free(JoxProbe *probe);
 
 #endif

@@ -1,9 +1,10 @@
 /* What the kinds of probes share. */
 #include "record/probes/probe_parts.h"
 
-void jox_figure_add(JoxFigures *figures, const char *name, const char *unit, double value) {
+void jox_figure_add(JoxFigures *figures, const char *name, const char *title, const char *unit,
+                    double value) {
     if (figures->count < JOX_MOST_FIGURES)
-        figures->items[figures->count++] = (struct JoxFigure){name, unit, value};
+        figures->items[figures->count++] = (struct JoxFigure){name, title, unit, value};
 }
 
 void jox_plot_nothing(JoxText *out, const char *why) {

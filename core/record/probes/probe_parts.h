@@ -50,7 +50,9 @@ void *jox_flow_create(void);
 void jox_flow_frame(const JoxV2 line[2], void *state, const JoxFrame *frame, const uint8_t *seen);
 void jox_flow_sections(void *state, JoxSections *sections);
 void jox_flow_free(void *state);
-void jox_figure_add(JoxFigures *figures, const char *name, const char *unit, double value);
+/* `title`: what it is, in words. */
+void jox_figure_add(JoxFigures *figures, const char *name, const char *title, const char *unit,
+                    double value);
 
 /* A plot that only says why there is nothing to draw. */
 void jox_plot_nothing(JoxText *out, const char *why);

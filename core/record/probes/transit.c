@@ -104,15 +104,17 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
         sum += times[p] = t->passages[p].until - t->passages[p].from;
     for (uint32_t k = 0; k < t->since_capacity; k++)
         under_way += isfinite(t->since[k]) != 0;
-    jox_figure_add(out, "passages", "", t->count);
-    jox_figure_add(out, "under_way", "", under_way);
-    jox_figure_add(out, "mean", "s", t->count ? sum / t->count : NAN);
-    jox_figure_add(out, "median", "s", jox_quantile(times, t->count, 0.5));
-    jox_figure_add(out, "p95", "s", jox_quantile(times, t->count, 0.95));
-    jox_figure_add(out, "least", "s", jox_quantile(times, t->count, 0.0));
-    jox_figure_add(out, "greatest", "s", jox_quantile(times, t->count, 1.0));
+    jox_figure_add(out, "passages", "people who made the way", "", t->count);
+    jox_figure_add(out, "under_way", "people who are under way at the end", "", under_way);
+    jox_figure_add(out, "mean", "time taken, mean", "s", t->count ? sum / t->count : NAN);
+    jox_figure_add(out, "median", "time taken, median", "s", jox_quantile(times, t->count, 0.5));
+    jox_figure_add(out, "p95", "time that 95 % stayed within", "s",
+                   jox_quantile(times, t->count, 0.95));
+    jox_figure_add(out, "least", "time taken, least", "s", jox_quantile(times, t->count, 0.0));
+    jox_figure_add(out, "greatest", "time taken, greatest", "s",
+                   jox_quantile(times, t->count, 1.0));
     if (def->kind == JOX_PROBE_VISIT)
-        jox_figure_add(out, "inversions", "", inversions(t));
+        jox_figure_add(out, "inversions", "pairs that changed their order", "", inversions(t));
     jox_free(times);
 }
 

@@ -55,13 +55,13 @@ static void figures(const JoxProbeDef *def, const void *state, JoxFigures *out) 
         clockwise += p->least <= -1.0;
         lowest = p->least < lowest || isnan(lowest) ? p->least : lowest;
     }
-    jox_figure_add(out, "people", "", count);
-    jox_figure_add(out, "mean", "turns", count ? sum / count : NAN);
-    jox_figure_add(out, "median", "turns", jox_quantile(turns, count, 0.5));
-    jox_figure_add(out, "least", "turns", jox_quantile(turns, count, 0.0));
-    jox_figure_add(out, "greatest", "turns", jox_quantile(turns, count, 1.0));
-    jox_figure_add(out, "least_running", "turns", lowest);
-    jox_figure_add(out, "clockwise_laps", "", clockwise);
+    jox_figure_add(out, "people", "people", "", count);
+    jox_figure_add(out, "mean", "turns, mean", "turns", count ? sum / count : NAN);
+    jox_figure_add(out, "median", "turns, median", "turns", jox_quantile(turns, count, 0.5));
+    jox_figure_add(out, "least", "turns, least", "turns", jox_quantile(turns, count, 0.0));
+    jox_figure_add(out, "greatest", "turns, greatest", "turns", jox_quantile(turns, count, 1.0));
+    jox_figure_add(out, "least_running", "least turns of anybody at any time", "turns", lowest);
+    jox_figure_add(out, "clockwise_laps", "laps clockwise", "", clockwise);
     jox_free(turns);
 }
 

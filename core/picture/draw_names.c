@@ -1,0 +1,143 @@
+/* Probes, and the names of what is on the map. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "picture/draw_parts.h"
+
+static const JoxInk WHITE = {0xff, 0xff, 0xff, 1};
+
+bool jox_draw_is_exit(const JoxPicture *p, const char *name) {
+    for (uint32_t e = 0; name && e < p->exit_count; e++)
+        if (strcmp(p->exits[e], name) == 0)
+            return true;
+    return false;
+}
+
+/* Whether a box is on the map and clear of all names so far; then it is taken. */
+static bool take(JoxDrawing *d, JoxV2 low, JoxV2 high) {
+    if (low.x < d->low.x || low.y < d->low.y || high.x > d->high.x || high.y > d->high.y ||
+        d->label_count == JOX_DRAW_LABELS)
+        return false;
+    for (uint32_t i = 0; i < d->label_count; i++)
+        if (low.x < d->labels[i].high.x && d->labels[i].low.x < high.x &&
+            low.y < d->labels[i].high.y && d->labels[i].low.y < high.y)
+            return false;
+    d->labels[d->label_count].low = low;
+    d->labels[d->label_count++].high = high;
+    return true;
+}
+
+/* Writes a name at a point of the plan, or beside it where another is; where all is taken, it is
+   left out. */
+static void name(JoxDrawing *d, JoxV2 at, const char *text, bool bold) {
+    static const JoxV2 tries[] = {{0, 0}, {0, -1.3f}, {0, 1.3f}, {0, -2.6f}, {0, 2.6f}};
+    float size = 12 * d->unit;
+    char fit[128];
+    jox_draw_fit(fit, sizeof fit, text, size, bold, 240 * d->unit);
+    float half = 0.5f * jox_draw_width(fit, size, bold) + 2 * d->unit;
+    JoxV2 on = jox_draw_at(d, at);
+    if (on.x < d->low.x || on.x > d->high.x || on.y < d->low.y || on.y > d->high.y)
+        return;
+    /* Names at an edge move inwards. */
+    on.x = jox_clampf(on.x, jox_minf(d->low.x + half, d->high.x - half), d->high.x - half);
+    on.y = jox_clampf(on.y, d->low.y + size, d->high.y - size);
+    for (size_t t = 0; t < sizeof tries / sizeof *tries; t++) {
+        JoxV2 here = {on.x, on.y + tries[t].y * size};
+        if (!take(d, jox_v2(here.x - half, here.y - 0.6f * size),
+                  jox_v2(here.x + half, here.y + 0.6f * size)))
+            continue;
+        jox_canvas_text(d->canvas, jox_v2(here.x, here.y + 0.35f * size), size, JOX_ANCHOR_MIDDLE,
+                        bold, fit);
+        return;
+    }
+}
+
+/* Where a place's name stands: within an area at its upper edge, so that it hides few. */
+static JoxV2 name_at(const JoxDrawing *d, const JoxPlace *place) {
+    JoxV2 low, high;
+    float line = 10 * d->unit / d->scale; /* m: to the middle of a line at an edge */
+    if (jox_place_outline(place) != JOX_OUTLINE_RING)
+        return place->centre;
+    jox_bounds(place->points, place->count, &low, &high);
+    JoxV2 at = {place->centre.x, high.y - line};
+    bool roomy = high.y - low.y > 4 * line && jox_polygon_contains(place->points, place->count, at);
+    return roomy ? at : place->centre;
+}
+
+/* Where a gate's name stands: beside it, on the side away from the middle of the map. */
+static JoxV2 gate_name_at(const JoxDrawing *d, const struct JoxWallRing *ring) {
+    const JoxPicture *p = d->picture;
+    const JoxWallVertex *first = &p->walls->vertices[ring->first];
+    JoxV2 sum = {0, 0};
+    for (uint32_t i = 0; i < ring->count; i++)
+        sum = jox_add(sum, first[i].point);
+    JoxV2 middle = jox_scale(sum, 1.0f / (float)ring->count);
+    JoxV2 out = jox_sub(middle, jox_scale(jox_add(p->low, p->high), 0.5f));
+    JoxV2 normal = jox_left(first->direction);
+    normal = jox_dot(normal, out) < 0.0f ? jox_scale(normal, -1.0f) : normal;
+    float size = 12 * d->unit, half = 0.5f * jox_draw_width(ring->name, size, false);
+    float away = (fabsf(normal.x) * half + fabsf(normal.y) * 0.6f * size + 5 * d->unit) / d->scale;
+    return jox_add(middle, jox_scale(normal, away));
+}
+
+/* Where a probe's name stands: beside the middle of a line, within an area at its lower edge. */
+static JoxV2 probe_name_at(const JoxDrawing *d, const JoxDrawnProbe *probe) {
+    JoxV2 low, high;
+    float line = 10 * d->unit / d->scale;
+    jox_bounds(probe->points, probe->count, &low, &high);
+    if (probe->closed)
+        return jox_v2(0.5f * (low.x + high.x), high.y - low.y > 4 * line ? low.y + line : low.y);
+    JoxV2 a = probe->points[0], b = probe->points[1], along = jox_unit(jox_sub(b, a));
+    JoxV2 middle = jox_scale(jox_add(a, b), 0.5f), normal = jox_left(along);
+    float size = 12 * d->unit, half = 0.5f * jox_draw_width(probe->name, size, false);
+    float away = (fabsf(normal.x) * half + fabsf(normal.y) * 0.6f * size + 6 * d->unit) / d->scale;
+    return jox_add(middle, jox_scale(normal, away));
+}
+
+/* Lines and areas in which something is measured. */
+void jox_draw_probes(JoxDrawing *d) {
+    const JoxPicture *p = d->picture;
+    if (p->probe_count == 0)
+        return;
+    JoxStyle style = {.line = jox_ink_probe, .width = 1.8f * d->unit, .dash = 4 * d->unit};
+    jox_canvas_open(d->canvas, "probes", NULL, style);
+    for (uint32_t i = 0; i < p->probe_count; i++) {
+        const JoxDrawnProbe *probe = &p->probes[i];
+        const bool two = !probe->closed && probe->count == 4; /* lines of two points each */
+        for (uint32_t at = 0; at < probe->count; at += two ? 2 : probe->count)
+            jox_draw_plan_line(d, probe->points + at, two ? 2 : probe->count, probe->closed,
+                               probe->name);
+    }
+    jox_canvas_close(d->canvas);
+}
+
+void jox_draw_names(JoxDrawing *d) {
+    const JoxPicture *p = d->picture;
+    JoxStyle style = {
+        .fill = jox_ink_gate, .line = jox_ink_with(WHITE, 0.9f), .width = 3 * d->unit};
+    jox_canvas_open(d->canvas, "names", NULL, style);
+    jox_canvas_open(d->canvas, NULL, "gates", style);
+    bool closed;
+    for (uint32_t r = 0; p->walls && r < p->walls->ring_count; r++)
+        if (p->walls->rings[r].name && jox_draw_ring_points(p->walls, r, &closed))
+            name(d, gate_name_at(d, &p->walls->rings[r]), p->walls->rings[r].name, false);
+    jox_canvas_close(d->canvas);
+    for (int exits = 1; exits >= 0; exits--) { /* of what is near another, exits keep theirs */
+        style.fill = exits ? jox_ink_exit : (JoxInk){0x24, 0x45, 0x69, 1};
+        jox_canvas_open(d->canvas, NULL, exits ? "exits" : "places", style);
+        for (uint32_t i = 0; i < p->place_count; i++) {
+            const JoxPlace *place = &p->places[i];
+            if (place->count && place->name && jox_draw_is_exit(p, place->name) == exits)
+                name(d, name_at(d, place), place->name, exits);
+        }
+        jox_canvas_close(d->canvas);
+    }
+    style.fill = jox_ink_probe;
+    jox_canvas_open(d->canvas, NULL, "probes", style);
+    for (uint32_t i = 0; i < p->probe_count; i++)
+        if (p->probes[i].count)
+            name(d, probe_name_at(d, &p->probes[i]), p->probes[i].name, false);
+    jox_canvas_close(d->canvas);
+    jox_canvas_close(d->canvas);
+}

@@ -1,0 +1,343 @@
+/* The plan, maps over time and snapshots of a report: one drawing, all panels of one size. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/format/noun.h"
+#include "base/mem.h"
+#include "picture/draw.h"
+#include "picture/html.h"
+#include "record/danger/danger_parts.h"
+#include "report/danger_files_parts.h"
+#include "report/subject.h"
+
+enum { MOST_AS_SVG = 5000 /* people: of more there are images alone */ };
+static const float MARGIN = 1.0f; /* m about what the plan shows */
+
+/* ---- what all of them show ---- */
+
+/* An upper end of a scale: 1, 2, 3, 4, 5, 6, 8 or 10 times a power of ten. */
+static float scale_end(double most) {
+    static const float ENDS[] = {1, 2, 3, 4, 5, 6, 8, 10};
+    if (!(most > 0.0))
+        return 1.0f;
+    const float power = powf(10.0f, floorf(log10f((float)most)));
+    size_t e = 0;
+    while (e < sizeof ENDS / sizeof *ENDS - 1 && (double)(ENDS[e] * power) < most * 0.999)
+        e++;
+    return ENDS[e] * power;
+}
+
+static JoxPicture begin(const JoxSubject *s, const JoxFrame *frame) {
+    const JoxDensity *g = s->grid;
+    return (JoxPicture){
+        .title = s->title,
+        .frame = frame,
+        .when = "",
+        .walls = s->walls,
+        .places = s->places,
+        .place_count = s->place_count,
+        .radius = 0.2f,
+        .low = g->low,
+        .high = {g->low.x + (float)g->columns * g->cell, g->low.y + (float)g->rows * g->cell}};
+}
+
+/* Names of exits, of the length of those that are told; freed by the caller. */
+static const char **exit_names(const JoxSubject *s) {
+    const char **names = jox_alloc(s->exits->count + 1, sizeof *names);
+    for (uint32_t e = 0; e < s->exits->count; e++)
+        names[e] = s->exits->items[e].name;
+    return names;
+}
+
+/* As NAME.png, where this build makes images, and, unless there are too many people in it, as
+   NAME.svg. */
+static bool put(const JoxSubject *s, const JoxPicture *picture, const char *name, JoxText *error) {
+    const bool images = jox_canvas_has_images();
+    uint32_t width, height;
+    bool good = true;
+    if (picture->panel)
+        jox_draw_panel_size(picture->low, picture->high, &width, &height);
+    else
+        jox_draw_size(picture->low, picture->high, &width, &height);
+    for (int image = 0; good && image < 2; image++) {
+        if (image ? !images : images && picture->frame->count > MOST_AS_SVG)
+            continue;
+        JoxText path = {0};
+        JoxCanvas *canvas = image ? jox_canvas_image(width, height) : jox_canvas_svg(width, height);
+        jox_text_printf(&path, "%s/%s.%s", s->folder, name, image ? "png" : "svg");
+        jox_draw(canvas, picture);
+        good = jox_canvas_write(canvas, path.data, error);
+        jox_canvas_free(canvas);
+        jox_text_free(&path);
+    }
+    return good;
+}
+
+/* ---- the plan ---- */
+
+static void widen(JoxPicture *p, JoxV2 low, JoxV2 high) {
+    p->low = (JoxV2){jox_minf(p->low.x, low.x - MARGIN), jox_minf(p->low.y, low.y - MARGIN)};
+    p->high = (JoxV2){jox_maxf(p->high.x, high.x + MARGIN), jox_maxf(p->high.y, high.y + MARGIN)};
+}
+
+/* What probes measure in, of those that do so somewhere; freed by the caller. */
+static JoxDrawnProbe *probes_of(const JoxSubject *s, uint32_t *count) {
+    JoxDrawnProbe *probes = jox_alloc(s->probe_count + 1, sizeof *probes);
+    *count = 0;
+    for (uint32_t p = 0; p < s->probe_count; p++) {
+        const JoxProbeDef *def = jox_probe_def(s->probes[p]);
+        const bool area = def->kind == JOX_PROBE_MEASURE;
+        if (area || def->kind == JOX_PROBE_FLOW || def->kind == JOX_PROBE_TRANSIT)
+            probes[(*count)++] = (JoxDrawnProbe){def->name, def->points, def->count, area};
+    }
+    return probes;
+}
+
+/* Every place, probe and exit, with their names; what lies far outside of what is measured is left
+   out. */
+static bool draw_plan(const JoxSubject *s, JoxText *error) {
+    const JoxFrame nobody = {.time = s->until};
+    JoxPicture p = begin(s, &nobody);
+    const JoxV2 size = jox_sub(p.high, p.low);
+    const JoxV2 least = jox_sub(p.low, size), most = jox_add(p.high, size);
+    const char **exits = exit_names(s);
+    uint32_t probe_count;
+    JoxDrawnProbe *probes = probes_of(s, &probe_count);
+    for (uint32_t i = 0; i < s->place_count; i++) {
+        JoxV2 low, high;
+        if (s->places[i].kind == JOX_PLACE_SET || s->places[i].count == 0)
+            continue;
+        jox_bounds(s->places[i].points, s->places[i].count, &low, &high);
+        if (jox_is_within(low, least, most) && jox_is_within(high, least, most))
+            widen(&p, low, high);
+    }
+    for (uint32_t i = 0; i < probe_count; i++) {
+        JoxV2 low, high;
+        jox_bounds(probes[i].points, probes[i].count, &low, &high);
+        if (jox_is_within(low, least, most) && jox_is_within(high, least, most))
+            widen(&p, low, high);
+    }
+    p.when = "plan";
+    p.exits = exits;
+    p.exit_count = s->exits->count;
+    p.probes = probes;
+    p.probe_count = probe_count;
+    const bool good = put(s, &p, "plan", error);
+    jox_free(exits);
+    jox_free(probes);
+    return good;
+}
+
+void jox_maps_plan(FILE *out, const JoxSubject *s) {
+    jox_html_figure(out, s->folder, "plan",
+                    "The plan, in metres. Green: exits by which people left; blue: places; violet "
+                    "and broken: lines and areas in which something is measured.",
+                    true);
+}
+
+/* ---- maps over time ---- */
+
+static const struct Map {
+    const char *file;
+    JoxDangerMeasure measure;
+    bool greatest;
+    const char *title, *legend;
+} MAPS[] = {
+    {"density", JOX_DANGER_DENSITY, false, "Mean density", "people per m\xc2\xb2, mean over time"},
+    {"density-greatest", JOX_DANGER_DENSITY, true, "Greatest density",
+     "people per m\xc2\xb2, greatest of all times"},
+    {"load-greatest", JOX_DANGER_LOAD, true, "Greatest load of people and walls",
+     "load from one side, N, held for 1 s"},
+    {"pressure-greatest", JOX_DANGER_PRESSURE, true, "Greatest crowd pressure",
+     "crowd pressure, 1/s\xc2\xb2, greatest of all times"},
+};
+enum { MAP_COUNT = sizeof MAPS / sizeof *MAPS };
+
+static float value_of(const JoxSubject *s, const struct Map *map, size_t cell) {
+    const uint32_t columns = s->grid->columns;
+    return map->greatest ? (float)jox_danger_greatest(s->danger, (int)map->measure, cell)
+                         : (float)jox_density_mean(s->grid, (uint32_t)(cell % columns),
+                                                   (uint32_t)(cell / columns));
+}
+
+/* Loads of walls, for the map of loads; freed by the caller. */
+static JoxDrawnLoad *wall_loads(const JoxSubject *s, double *most, uint32_t *count) {
+    const JoxDangerWalls *walls = &s->danger->walls;
+    JoxDrawnLoad *loads = jox_alloc(walls->count + 1, sizeof *loads);
+    *count = walls->known ? walls->count : 0;
+    for (uint32_t p = 0; p < *count; p++) {
+        const JoxDangerPiece *piece = &walls->items[p];
+        loads[p] = (JoxDrawnLoad){{piece->from, piece->to}, piece->most};
+        *most = fmax(*most, (double)piece->most);
+    }
+    return loads;
+}
+
+/* Both maps of density have one scale. */
+static bool draw_map(const JoxSubject *s, const struct Map *map, JoxText *error) {
+    const size_t cells = (size_t)s->grid->columns * s->grid->rows;
+    const JoxFrame nobody = {.time = s->until};
+    float *field = jox_alloc(cells + 1, sizeof *field);
+    double most = map->measure == JOX_DANGER_DENSITY ? (double)s->grid->most : 0.0;
+    JoxPicture p = begin(s, &nobody);
+    JoxDrawnLoad *loads = NULL;
+    char when[64];
+    for (size_t c = 0; c < cells; c++) {
+        field[c] = value_of(s, map, c);
+        most = fmax(most, isnan(field[c]) ? 0.0 : (double)field[c]);
+    }
+    if (map->measure == JOX_DANGER_LOAD)
+        p.wall_loads = loads = wall_loads(s, &most, &p.wall_load_count);
+    snprintf(when, sizeof when, "%.4g to %.4g s",
+             map->greatest ? s->from : fmax(s->from, s->mean_from), s->until);
+    p.title = map->title;
+    p.when = when;
+    p.panel = true;
+    p.grid = s->grid;
+    p.field = field;
+    p.field_legend = map->legend;
+    p.floor = map->measure == JOX_DANGER_DENSITY    ? JOX_SHOW_DENSITY
+              : map->measure == JOX_DANGER_PRESSURE ? JOX_SHOW_PRESSURE
+                                                    : JOX_SHOW_LOAD;
+    p.floor_most = scale_end(most);
+    const bool good = put(s, &p, map->file, error);
+    jox_free(field);
+    jox_free(loads);
+    return good;
+}
+
+/* Of loads and crowd pressure only where there were any. */
+static bool is_drawn(const JoxSubject *s, const struct Map *map) {
+    return map->measure == JOX_DANGER_DENSITY ||
+           jox_danger_most(s->danger, map->measure).value > 0.0;
+}
+
+void jox_maps_fields(FILE *out, const JoxSubject *s) {
+    uint32_t width, height;
+    const JoxPicture p = begin(s, NULL);
+    jox_html_panels(out, jox_draw_panel_size(p.low, p.high, &width, &height));
+    for (size_t m = 0; m < MAP_COUNT; m++)
+        if (is_drawn(s, &MAPS[m]))
+            jox_html_figure(out, s->folder, MAPS[m].file, MAPS[m].title, false);
+    jox_html_panels_end(out);
+}
+
+/* ---- snapshots ---- */
+
+static bool same_time(const JoxSubject *s, int a, int b) {
+    const JoxMoment *m = s->story->moments;
+    return m[a].taken && m[b].taken && m[a].time == m[b].time;
+}
+
+static void name_moment(const JoxSubject *s, int kind, char title[128], char when[64]) {
+    const JoxMoment *m = &s->story->moments[kind];
+    char people[JOX_NOUN];
+    snprintf(when, 64, "%.1f s", m->time);
+    if (kind == JOX_MOMENT_START)
+        snprintf(title, 128, "At the start%s",
+                 same_time(s, JOX_MOMENT_DENSEST, kind) ? ": densest" : "");
+    else if (kind == JOX_MOMENT_DENSEST)
+        snprintf(title, 128, "Greatest density");
+    else if (kind == JOX_MOMENT_HALF)
+        snprintf(title, 128, "Half have left");
+    else if (s->inside == 0)
+        snprintf(title, 128, "The last %s inside", jox_noun(people, m->count, "person|people"));
+    else
+        snprintf(title, 128, "At the end: %s inside", jox_noun(people, m->count, "person|people"));
+}
+
+/* A frame of the moment; its columns are freed by free_frame. */
+static JoxFrame frame_of(const JoxMoment *m) {
+    uint32_t *key = jox_alloc(m->count + 1, sizeof *key);
+    float *x = jox_alloc(4 * m->count + 1, sizeof *x);
+    const bool radii = m->count && m->people[0].radius > 0.0f;
+    for (size_t i = 0; i < m->count; i++) {
+        const JoxMomentPerson *person = &m->people[i];
+        key[i] = person->key;
+        x[i] = person->x;
+        x[m->count + i] = person->y;
+        x[2 * m->count + i] = person->radius;
+    }
+    float *still = x + 3 * m->count; /* nobody's heading is drawn */
+    return (JoxFrame){.time = m->time,
+                      .count = (uint32_t)m->count,
+                      .key = key,
+                      .x = x,
+                      .y = x + m->count,
+                      .vx = still,
+                      .vy = still,
+                      .radius = radii ? x + 2 * m->count : NULL};
+}
+
+static void free_frame(JoxFrame *frame) {
+    jox_free((void *)(uintptr_t)frame->key);
+    jox_free((void *)(uintptr_t)frame->x);
+}
+
+/* The walls with their gates as they were then; `rings` is freed by the caller. */
+static JoxWalls walls_of(const JoxSubject *s, const JoxMoment *m) {
+    JoxWalls walls = *s->walls;
+    walls.rings = jox_alloc(walls.ring_count + 1, sizeof *walls.rings);
+    for (uint32_t r = 0; r < walls.ring_count; r++) {
+        walls.rings[r] = s->walls->rings[r];
+        walls.rings[r].open = r < m->rings ? m->open[r] : walls.rings[r].open;
+    }
+    return walls;
+}
+
+static bool draw_moment(const JoxSubject *s, int kind, JoxText *error) {
+    const JoxMoment *m = &s->story->moments[kind];
+    char file[32], title[128], when[64];
+    JoxFrame frame = frame_of(m);
+    JoxWalls walls = walls_of(s, m);
+    JoxPicture p = begin(s, &frame);
+    name_moment(s, kind, title, when);
+    snprintf(file, sizeof file, "snapshot-%d", kind + 1);
+    p.title = title;
+    p.when = when;
+    p.panel = true;
+    p.walls = &walls;
+    p.grid = s->grid;
+    p.field = m->field;
+    p.floor = JOX_SHOW_DENSITY;
+    p.field_legend = "people per m\xc2\xb2";
+    p.floor_most = scale_end((double)s->grid->most); /* one scale for all of them */
+    const bool good = put(s, &p, file, error);
+    jox_free(walls.rings);
+    free_frame(&frame);
+    return good;
+}
+
+/* One picture a moment. */
+static bool is_shown(const JoxSubject *s, int kind) {
+    const JoxMoment *m = &s->story->moments[kind];
+    return m->taken && m->cells == (size_t)s->grid->columns * s->grid->rows &&
+           (kind == JOX_MOMENT_LAST || !same_time(s, kind, JOX_MOMENT_LAST)) &&
+           (kind != JOX_MOMENT_DENSEST || !same_time(s, kind, JOX_MOMENT_START));
+}
+
+void jox_maps_moments(FILE *out, const JoxSubject *s) {
+    uint32_t width, height;
+    const JoxPicture p = begin(s, NULL);
+    jox_html_panels(out, jox_draw_panel_size(p.low, p.high, &width, &height));
+    for (int kind = 0; kind < JOX_MOMENTS; kind++) {
+        char file[32], title[128], when[64], caption[200];
+        if (!is_shown(s, kind))
+            continue;
+        name_moment(s, kind, title, when);
+        snprintf(file, sizeof file, "snapshot-%d", kind + 1);
+        snprintf(caption, sizeof caption, "%s, %s", title, when);
+        jox_html_figure(out, s->folder, file, caption, false);
+    }
+    jox_html_panels_end(out);
+}
+
+bool jox_maps_write(const JoxSubject *s, JoxText *error) {
+    bool good = draw_plan(s, error);
+    for (size_t m = 0; good && m < MAP_COUNT; m++)
+        good = !is_drawn(s, &MAPS[m]) || draw_map(s, &MAPS[m], error);
+    for (int kind = 0; good && kind < JOX_MOMENTS; kind++)
+        good = !is_shown(s, kind) || draw_moment(s, kind, error);
+    return good;
+}

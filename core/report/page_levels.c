@@ -1,0 +1,183 @@
+/* Sections of a page: levels of service, lines that people pass, what walls bore. */
+#include <math.h>
+
+#include "picture/html.h"
+#include "record/danger/danger_parts.h"
+#include "report/page_parts.h"
+
+/* Fruin's levels: of everybody; by area and time; of lines by flow and area. */
+static void put_queues(FILE *out, const JoxDanger *danger) {
+    double all = 0.0;
+    for (int k = 0; k < JOX_LEVELS; k++)
+        all += danger->level_s[k];
+    jox_html_table(out, "level|>each has, from|>person-seconds|>share|people in such a queue");
+    for (int k = 0; k < JOX_LEVELS; k++) {
+        jox_html_row(out);
+        jox_html_cell(out, jox_levels[k].name);
+        jox_html_cell_number(out, jox_levels[k].queue_area, "m2");
+        jox_html_cell_number(out, danger->level_s[k], "s");
+        jox_html_cell_number(out, all > 0.0 ? 100.0 * danger->level_s[k] / all : NAN, "%");
+        jox_html_cell(out, jox_levels[k].what);
+    }
+    jox_html_table_end(out);
+}
+
+static void put_areas(FILE *out, const JoxDanger *danger) {
+    if (danger->areas.count == 0)
+        return;
+    jox_html_table(out, "area|>size|>most people|>densest, mean of its people|>when|>seconds at "
+                        "A|>B|>C|>D|>E|>F");
+    for (uint32_t a = 0; a < danger->areas.count; a++) {
+        const JoxDangerArea *area = &danger->areas.items[a];
+        jox_html_row(out);
+        jox_html_cell(out, area->name);
+        jox_html_cell_number(out, area->surface, "m2");
+        fprintf(out, "<td class=n>%u", area->most_people);
+        jox_html_cell_number(out, (double)area->most, "1/m2");
+        jox_html_cell_number(out, area->most_time, "s");
+        for (int k = 0; k < JOX_LEVELS; k++)
+            jox_html_cell_number(out, area->level_s[k], "");
+    }
+    jox_html_table_end(out);
+}
+
+static void put_levels(FILE *out, const JoxSubject *s) {
+    jox_html_heading(out, "Levels of service by area and time");
+    jox_html_paragraph(
+        out, "Of queues: by the area that each person has, 1 / density where they stand. An area "
+             "is at the level of the mean density about the people in it; the maps of density have "
+             "the same levels on their scales.");
+    jox_html_figure(out, s->folder, "levels",
+                    "Above: how many people were at each level. Below: the level of each area.",
+                    true);
+    put_areas(out, s->danger);
+    put_queues(out, s->danger);
+    jox_html_paragraph(out, jox_levels_source);
+}
+
+static void put_spell(FILE *out, const JoxDanger *danger, const JoxDangerSpell *spell, bool known) {
+    if (!known) {
+        jox_html_cell(out, "not measured");
+        jox_html_cell(out, "not measured");
+        return;
+    }
+    jox_html_cell_number(out, spell->seconds, "s");
+    if (isfinite(spell->first))
+        fprintf(out, "<td>%.1f&nbsp;s, %.1f&nbsp;min ago", spell->first,
+                jox_danger_since(danger, spell->first));
+    else
+        jox_html_cell(out, "never");
+}
+
+static void put_lines(FILE *out, const JoxSubject *s) {
+    const JoxDanger *danger = s->danger;
+    const JoxDangerLines *lines = &danger->lines;
+    jox_html_heading(out, "Doors and other lines");
+    if (lines->count == 0) {
+        jox_html_paragraph(out, "Not measured: the scene has no probe `flow`, and a line is needed "
+                                "over which people pass.");
+        return;
+    }
+    jox_html_paragraph(
+        out,
+        "What lies of a line between walls about its middle is measured. Of the ten seconds "
+        "before each moment; nothing is known of the first ten. Density is "
+        "that of the people within 2 m of the line on the side that most come from; those "
+        "who wait are the people in sight of its middle within 10 m there. Levels are "
+        "Fruin's for walkways, by flow, but E or F where the area before the line is that of E "
+        "or F, since a small flow may mean that nobody can move; the seconds are those at A / "
+        "B / C / D / E / F.");
+    jox_html_table(out, "line|>clear width|>passed, back|>greatest flow|worst level|>seconds at "
+                        "levels|>stop-and-go|first|>congestion|first");
+    for (uint32_t l = 0; l < lines->count; l++) {
+        const JoxDangerLine *line = &lines->items[l];
+        const bool known = line->worst >= 0;
+        jox_html_row(out);
+        jox_html_cell(out, line->name);
+        jox_html_cell_number(out, line->width, "m");
+        fprintf(out, "<td class=n>%u, %u", line->forward, line->back);
+        jox_html_cell_number(out, line->flow_most, "1/(m s)");
+        jox_html_cell(out, known ? jox_levels[line->worst].name : "not measured");
+        fputs("<td class=n>", out);
+        for (int k = 0; k < JOX_LEVELS && known; k++)
+            fprintf(out, "%s%.4g", k ? " / " : "", line->level_s[k]);
+        put_spell(out, danger, &line->stop_and_go, known);
+        put_spell(out, danger, &line->congestion, known);
+    }
+    jox_html_table_end(out);
+    jox_html_paragraph(out, jox_stop_and_go_source);
+    jox_html_paragraph(out, jox_congestion_source);
+}
+
+static double most_of_piece(const JoxDanger *danger, uint32_t k) {
+    return (double)danger->walls.items[k].most;
+}
+
+/* The pieces of walls that bore most. */
+static void put_walls(FILE *out, const JoxSubject *s) {
+    const JoxDanger *danger = s->danger;
+    const JoxDangerWalls *walls = &danger->walls;
+    jox_html_heading(out, "What walls bore");
+    if (!walls->known) {
+        jox_html_paragraph(out, "Not measured: loads on walls are not known here.");
+        return;
+    }
+    char text[400];
+    snprintf(text, sizeof text,
+             "Forces of people across each piece of a side of a wall, at most 1 m long, held on "
+             "average for a "
+             "second. The limit is %g N on a rail: %s (%s). %u of %u pieces were ever over it.",
+             JOX_RAIL_LIMIT, jox_rail_what, jox_rail_source, walls->over, walls->count);
+    jox_html_paragraph(out, text);
+    jox_html_table(out, "from|to|>now|>greatest|>greatest, per metre|>when|>over 4500 N|>first");
+    uint32_t order[JOX_PAGE_SHOWN],
+        shown = jox_page_most_of(danger, walls->count, most_of_piece, order);
+    for (uint32_t k = 0; k < shown; k++) {
+        const JoxDangerPiece *piece = &walls->items[order[k]];
+        jox_html_row(out);
+        fprintf(out, "<td>(%.2f,&nbsp;%.2f)<td>(%.2f,&nbsp;%.2f)", (double)piece->from.x,
+                (double)piece->from.y, (double)piece->to.x, (double)piece->to.y);
+        jox_html_cell_number(out, (double)piece->load, "N");
+        jox_html_cell_number(out, (double)piece->most, "N");
+        jox_html_cell_number(out, jox_danger_piece_line_load(piece), "N/m");
+        jox_html_cell_number(out, piece->most_time, "s");
+        jox_html_cell_number(out, piece->seconds, "s");
+        jox_html_cell_number(out, piece->first, "s");
+    }
+    jox_html_table_end(out);
+}
+
+/* ---- who left ---- */
+
+static void put_quantiles(FILE *out, const JoxLeaving *leaving, int32_t exit, const char *name) {
+    static const double SHARES[] = {0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0};
+    jox_html_row(out);
+    jox_html_cell(out, name);
+    fprintf(out, "<td class=n>%llu", (unsigned long long)jox_leaving_count(leaving, exit));
+    for (size_t k = 0; k < sizeof SHARES / sizeof *SHARES; k++)
+        jox_html_cell_number(out, jox_leaving_quantile(leaving, exit, SHARES[k]), "s");
+}
+
+void jox_page_leaving(FILE *out, const JoxSubject *s) {
+    const JoxLeaving *leaving = &s->danger->leaving;
+    jox_html_heading(out, "Who left when, and by where");
+    if (leaving->count == 0) {
+        jox_html_paragraph(out, "Nobody left.");
+        return;
+    }
+    jox_html_paragraph(out, "Times by which so many of those had left who left there at all.");
+    jox_html_table(out, "exit|>people|>first|>5 %|>25 %|>half|>75 %|>95 %|>last");
+    put_quantiles(out, leaving, JOX_LEFT_ANYWHERE, "all");
+    for (uint32_t e = 0; e < s->danger->exit_count; e++)
+        put_quantiles(out, leaving, (int32_t)e, s->danger->exit_names[e]);
+    if (s->danger->exit_count && jox_leaving_count(leaving, JOX_LEFT_ELSEWHERE))
+        put_quantiles(out, leaving, JOX_LEFT_ELSEWHERE, "elsewhere");
+    jox_html_table_end(out);
+    jox_html_figure(out, s->folder, "leaving", "People who have left over time", true);
+}
+
+void jox_page_levels(FILE *out, const JoxSubject *s) {
+    put_levels(out, s);
+    put_lines(out, s);
+    put_walls(out, s);
+}

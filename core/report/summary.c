@@ -1,0 +1,214 @@
+/* The first section of a report: what happened, in sentences. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/format/noun.h"
+#include "picture/html.h"
+#include "record/danger/danger_parts.h"
+#include "report/subject.h"
+
+static void put(FILE *out, const char *lead, JoxText *text) {
+    jox_html_statement(out, lead, text->data ? text->data : "");
+    jox_text_free(text);
+}
+
+/* ---- who left ---- */
+
+static void say_exits(const JoxSubject *s, JoxText *out) {
+    const JoxExits *exits = s->exits;
+    uint64_t known = 0;
+    for (uint32_t e = 0; e < exits->count; e++) {
+        jox_text_printf(out, "%s%.60s ", e ? "; " : " By exits: ", exits->items[e].name);
+        jox_text_noun(out, exits->items[e].people, "person|people");
+        if (exits->items[e].people)
+            jox_text_printf(out, ", the last at %.1f s", exits->items[e].last);
+        known += exits->items[e].people;
+    }
+    if (exits->count && exits->left > known) {
+        jox_text_add(out, "; elsewhere ");
+        jox_text_noun(out, exits->left - known, "person|people");
+    }
+    if (exits->count)
+        jox_text_add(out, ".");
+}
+
+static void put_leaving(FILE *out, const JoxSubject *s) {
+    const JoxLeaving *leaving = &s->danger->leaving;
+    const uint64_t left = s->exits->left;
+    JoxText text = {0};
+    char people[JOX_NOUN];
+    if (left == 0) {
+        jox_text_printf(&text, "Nobody left; %s there at %.1f s, the end of what was measured.",
+                        s->inside == 1
+                            ? "1 person was"
+                            : (jox_noun(people, s->inside, "person|people were"), people),
+                        s->until);
+        put(out, "Who got out when.", &text);
+        return;
+    }
+    if (s->inside)
+        jox_text_printf(&text, "%s of ", jox_number_text(people, left));
+    jox_text_printf(&text,
+                    "%s%s left: the first at %.1f s, half of them by %.1f s, 95 %% by %.1f s, "
+                    "the last at %.1f s.",
+                    s->inside ? "" : "All ", jox_noun(people, left + s->inside, "person|people"),
+                    jox_leaving_quantile(leaving, JOX_LEFT_ANYWHERE, 0.0),
+                    jox_leaving_quantile(leaving, JOX_LEFT_ANYWHERE, 0.5),
+                    jox_leaving_quantile(leaving, JOX_LEFT_ANYWHERE, 0.95), s->exits->last);
+    say_exits(s, &text);
+    put(out, "Who got out when.", &text);
+    if (s->inside)
+        jox_text_printf(&text, "No. %s still inside at %.1f s, the end of what was measured.",
+                        s->inside == 1 ? "1 person was"
+                                       : jox_noun(people, s->inside, "person|people were"),
+                        s->until);
+    else
+        jox_text_printf(&text, "Yes, at %.1f s: from then on nobody is inside.", s->exits->last);
+    put(out, "Cleared?", &text);
+}
+
+/* ---- where it was dangerous ---- */
+
+/* Over all samples in which anybody was over a limit, s. */
+static double seconds_over(const JoxDanger *d, int limit) {
+    double seconds = 0.0;
+    for (uint32_t r = 1; r < d->row_count; r++)
+        if (d->rows[r].over[limit] > 0)
+            seconds += d->rows[r].time - d->rows[r - 1].time;
+    return seconds;
+}
+
+/* What people did with a measure: "stood in a density of 5 per m2 or more". */
+static const char *verb_of(JoxDangerMeasure measure) {
+    return (int)measure < (int)JOX_DANGER_FIRST_BORNE ? "stood in a" : "bore a";
+}
+
+static void say_limit(const JoxSubject *s, int l, JoxText *out) {
+    const JoxDangerLimit *limit = &jox_danger_limits[l];
+    const JoxDangerCount count = jox_danger_count(s->danger, l);
+    const double seconds = seconds_over(s->danger, l);
+    jox_text_add(out, " ");
+    jox_text_noun(out, count.people, "person|people");
+    jox_text_printf(out, " %s %s or more (%s), first at %.1f s at ", verb_of(limit->measure),
+                    limit->title, limit->what, count.first);
+    jox_where(s, count.first_at, out);
+    if (seconds > 0.0)
+        jox_text_printf(out, "; for %.1f s in all there was somebody over it", seconds);
+    jox_text_printf(out, "; one person was for %.1f s.", count.longest);
+}
+
+/* The greatest of a measure, and its limits up to the first that nobody passed. */
+static void put_measure(FILE *out, const JoxSubject *s, JoxDangerMeasure measure,
+                        const char *lead) {
+    const JoxDangerMost most = jox_danger_most(s->danger, measure);
+    JoxText text = {0};
+    char value[32];
+    snprintf(value, sizeof value, measure == JOX_DANGER_LOAD ? "%.0f N" : "%.3g per m\xc2\xb2",
+             most.value);
+    jox_text_printf(&text, "The greatest %s was %s", jox_danger_titles[measure], value);
+    if (isfinite(most.time)) {
+        jox_text_printf(&text, ", at %.1f s at ", most.time);
+        jox_where(s, most.at, &text);
+    }
+    jox_text_add(&text, ".");
+    for (int l = 0; l < JOX_DANGER_LIMITS; l++) {
+        if (jox_danger_limits[l].measure != measure)
+            continue;
+        if (jox_danger_count(s->danger, l).people == 0) {
+            jox_text_printf(&text, " Nobody %s %s or more.", verb_of(measure),
+                            jox_danger_limits[l].title);
+            break;
+        }
+        say_limit(s, l, &text);
+    }
+    put(out, lead, &text);
+}
+
+static void put_pressure(FILE *out, const JoxSubject *s) {
+    const JoxDangerMost most = jox_danger_most(s->danger, JOX_DANGER_PRESSURE);
+    JoxText text = {0};
+    int l = 0;
+    while (jox_danger_limits[l].measure != JOX_DANGER_PRESSURE)
+        l++;
+    if (!jox_danger_reads(s->danger, JOX_DANGER_PRESSURE)) {
+        jox_text_add(&text, "Not measured: the crowd was nowhere dense enough for long enough (5 "
+                            "per m\xc2\xb2 or more on 12 m\xc2\xb2 for 20 s).");
+    } else {
+        jox_text_printf(&text, "The greatest crowd pressure was %.2g per s\xc2\xb2.", most.value);
+        if (jox_danger_count(s->danger, l).people)
+            say_limit(s, l, &text);
+        else
+            jox_text_printf(&text, " Nobody stood in a %s or more, where turbulence sets in.",
+                            jox_danger_limits[l].title);
+    }
+    put(out, "Crowd turbulence.", &text);
+}
+
+/* Lines at which people stopped and went, or that were congested. */
+static void put_lines(FILE *out, const JoxSubject *s) {
+    const JoxDangerLines *lines = &s->danger->lines;
+    JoxText text = {0};
+    if (lines->count == 0)
+        return;
+    for (uint32_t l = 0; l < lines->count; l++) {
+        const JoxDangerLine *line = &lines->items[l];
+        if (line->worst < 0)
+            continue;
+        const double given = (double)jox_length(jox_sub(line->given[1], line->given[0]));
+        jox_text_printf(&text, "%s%.60s (%.2f m wide", text.length ? " " : "", line->name,
+                        line->width);
+        if (line->width < 0.9 * given) /* a line of gates is measured at its middle alone */
+            jox_text_printf(&text, ": what walls leave of its %.2f m about the middle", given);
+        jox_text_add(&text, "): ");
+        jox_text_noun(&text, (uint64_t)line->forward + line->back, "passage");
+        jox_text_printf(&text, ", at most %.2f per m and s", line->flow_most);
+        if (line->stop_and_go.seconds > 0.0)
+            jox_text_printf(&text, ", stop-and-go for %.1f s from %.1f s on",
+                            line->stop_and_go.seconds, line->stop_and_go.first);
+        if (line->congestion.seconds > 0.0)
+            jox_text_printf(&text, ", congestion for %.1f s from %.1f s on",
+                            line->congestion.seconds, line->congestion.first);
+        jox_text_add(&text, line->stop_and_go.seconds > 0.0 || line->congestion.seconds > 0.0
+                                ? "."
+                                : ", neither stop-and-go nor congestion.");
+    }
+    if (text.length)
+        put(out, "Doors and other lines.", &text);
+}
+
+/* ---- levels of service ---- */
+
+static void put_levels(FILE *out, const JoxSubject *s) {
+    const JoxDanger *d = s->danger;
+    double all = 0.0, crowded = 0.0;
+    JoxText text = {0};
+    for (int k = 0; k < JOX_LEVELS; k++)
+        all += d->level_s[k];
+    if (!(all > 0.0))
+        return;
+    crowded = d->level_s[JOX_LEVELS - 2] + d->level_s[JOX_LEVELS - 1];
+    jox_text_printf(&text,
+                    "Of all the time that people spent here, %.1f %% was at Fruin's levels E "
+                    "and F for queues (more than %.1f people per m\xc2\xb2).",
+                    100.0 * crowded / all, 1.0 / jox_levels[JOX_LEVELS - 3].queue_area);
+    for (uint32_t a = 0; a < d->areas.count; a++) {
+        const JoxDangerArea *area = &d->areas.items[a];
+        const double seconds = area->level_s[JOX_LEVELS - 2] + area->level_s[JOX_LEVELS - 1];
+        if (seconds > 0.0)
+            jox_text_printf(&text,
+                            " %.60s was at E or F for %.1f s, with at most %.2g per m\xc2\xb2 "
+                            "about each of its people, at %.1f s.",
+                            area->name, seconds, (double)area->most, area->most_time);
+    }
+    put(out, "Levels of service.", &text);
+}
+
+void jox_summary_crowd(FILE *out, const JoxSubject *s) {
+    put_leaving(out, s);
+    put_measure(out, s, JOX_DANGER_DENSITY, "Where it was dense.");
+    if (jox_danger_reads(s->danger, JOX_DANGER_LOAD))
+        put_measure(out, s, JOX_DANGER_LOAD, "What people bore.");
+    put_pressure(out, s);
+    put_lines(out, s);
+    put_levels(out, s);
+}
